@@ -7,6 +7,9 @@ endif()
 set(TARTAN_MAINTAINER "${maintainer}" CACHE STRING "Maintainer that the Debian package names")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tartan)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL tartan)
+set(CPACK_DEBIAN_TARTAN_PACKAGE_NAME tartan)
 set(CPACK_PACKAGE_CONTACT "${TARTAN_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -14,13 +17,24 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_SECTION devel)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Rules that say what makes a plan good are compiled, checked against plans,
+set(CPACK_COMPONENT_TARTAN_DESCRIPTION "A rule-authoring language toolchain for rule-based design
+Rules that say what makes a plan good are compiled, checked against plans,
 and turned into every plan that they allow: counted exactly, ranked, sampled,
 listed and drawn. With the libraries and headers to do so in C.")
 # What the binary and the libraries need, by the libraries that they are linked to; and ldconfig once they are there.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 # Programs that are linked to the archives, or by pkg-config --static, need more.
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "bash-completion, libcairo2-dev, libgmp-dev, libjansson-dev, libsqlite3-dev, libxxhash-dev, libzstd-dev, pkg-config")
+set(CPACK_DEBIAN_TARTAN_PACKAGE_SUGGESTS "bash-completion, libcairo2-dev, libgmp-dev, libjansson-dev, libsqlite3-dev, libxxhash-dev, libzstd-dev, pkg-config")
+# tartan-mpi, where it was built (mpi/): it runs with the standard library and the pages of the other.
+if(TARGET tartan-mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+  set(CPACK_DEBIAN_MPI_PACKAGE_NAME tartan-mpi)
+  set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "tartan (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_MPI_PACKAGE_GENERATE_SHLIBS OFF)
+  set(CPACK_COMPONENT_MPI_DESCRIPTION "Tartan on many machines, by MPI
+Writes the shards of a plan library and breeds runs of evolution by many
+processes, on one machine or on many, with the same bytes as tartan alone.")
+endif()
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian.cmake)
 include(CPack)

@@ -24,6 +24,7 @@ static tn_watch waiting;
 static last_words words[2];
 static atomic_int current;
 static bool as_json;
+static atomic_bool asked, stops_within; /* by a signal that leaves time */
 
 static void note(int signal_number)
 {
@@ -48,6 +49,26 @@ void tn_interrupt_end(const char *text, size_t size, int exit_code)
     if (!as_json)
         (void)!write(STDERR_FILENO, last->text, last->size);
     _exit(exit_code);
+}
+
+static void note_gently(int signal_number)
+{
+    (void)signal_number;
+    asked = true;
+    if (stops_within)
+        waiting.stop = true;
+}
+
+const atomic_bool *tn_interrupt_gently(bool terminate, bool within)
+{
+    struct sigaction action = {.sa_handler = note_gently, .sa_flags = SA_RESTART};
+    sigemptyset(&action.sa_mask);
+    stops_within = within;
+    sigaction(SIGUSR1, &action, NULL);
+    action.sa_flags = (int)(SA_RESETHAND | SA_RESTART);
+    if (terminate)
+        sigaction(SIGTERM, &action, NULL);
+    return &asked;
 }
 
 static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};

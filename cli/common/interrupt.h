@@ -15,6 +15,12 @@ void tn_interrupt_watch(bool json);
 
 bool tn_interrupted(void);
 
+/* Signals that only ask for an end in good order, as batch systems send them before time is up: from now on SIGUSR1 is
+ * answered so, and SIGTERM too where `terminate` says it. They set the flag that is returned, which loops look at where
+ * a piece of work is done; or, `within`, they stop the work itself as an interrupt does, but without a clock. A second
+ * SIGTERM ends the program. */
+const atomic_bool *tn_interrupt_gently(bool terminate, bool within);
+
 /* The same as a status: TN_OK or TN_STOPPED. */
 tn_status tn_interrupt_check(tn_error *error);
 

@@ -9,6 +9,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/memory_guard.h"
 #include "runtime/base/picture.h"
+#include "runtime/ranks/ranks.h"
 
 int tn_exit_code(tn_status status)
 {
@@ -154,10 +155,30 @@ static bool wants_colour(void)
     return isatty(STDERR_FILENO) && !(no_colour && *no_colour) && !(terminal && strcmp(terminal, "dumb") == 0);
 }
 
+/* With several ranks, what each has to say is kept for the end: then the first says what it has not said itself. */
+static void keep_words(tn_job *job, tn_diagnostics *list, const tn_show_options *options)
+{
+    char *words = NULL, *both = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&words, &size);
+    if (out) {
+        tn_diagnostics_show(list, options, out);
+        fclose(out);
+    }
+    if (words && tn_ranks_lead(job->settings->ranks))
+        fputs(words, stderr);
+    if (words && asprintf(&both, "%s%s", job->words ? job->words : "", words) >= 0) {
+        free(job->words);
+        job->words = both;
+    }
+    free(words);
+}
+
 static void show(tn_job *job)
 {
     tn_diagnostics *list = tn_job_diagnostics(job);
-    tn_show_options options = {.json = job->settings->diagnostics == 1, .colour = wants_colour()};
+    tn_show_options options = {.json = job->settings->diagnostics == 1,
+                               .colour = wants_colour() && !tn_ranks_several(job->settings->ranks)};
     tn_diagnostics_sort(list);
     job->errors += list->error_count;
     job->warnings += list->warning_count;
@@ -165,7 +186,8 @@ static void show(tn_job *job)
     if (job->listener)
         job->listener->listen(job->listener, list);
     if (list->count || list->failed || options.json)
-        tn_diagnostics_show(list, &options, stderr);
+        tn_ranks_several(job->settings->ranks) ? keep_words(job, list, &options)
+                                               : tn_diagnostics_show(list, &options, stderr);
     if (list->failed)
         worsen(job, TN_EXIT_LIMIT);
     tn_diagnostics_clear(list);
@@ -199,6 +221,51 @@ bool tn_job_reopen(tn_job *job, const char *path)
     return tn_job_open(job, path);
 }
 
+/* ---- several ranks */
+
+bool tn_job_agree(const tn_job *job, bool well)
+{
+    return !tn_ranks_any(job->settings->ranks, !well);
+}
+
+/* Was it said by a rank before? */
+static bool is_said(const tn_gathered *all, unsigned rank)
+{
+    const char *text = (const char *)all->bytes + all->begins[rank];
+    for (unsigned r = 0; r < rank; r++)
+        if (strcmp(text + sizeof(int), (const char *)all->bytes + all->begins[r] + sizeof(int)) == 0)
+            return true;
+    return text[sizeof(int)] == '\0';
+}
+
+/* Each rank tells its exit code and what it has to say; the gravest code is that of all. */
+static void end_together(tn_job *job, const char *words)
+{
+    const tn_ranks *ranks = job->settings->ranks;
+    tn_gathered all;
+    char *mine = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&mine, &size);
+    if (out) {
+        fwrite(&job->exit_code, sizeof job->exit_code, 1, out);
+        fputs(words, out);
+        fputc('\0', out);
+        fclose(out);
+    }
+    ranks->gather(ranks->context, mine, size, &all);
+    for (unsigned r = 0; r < ranks->count; r++) {
+        int code = TN_EXIT_LIMIT; /* of one without memory to say it */
+        bool told = all.begins[r + 1] - all.begins[r] > sizeof code;
+        if (told)
+            memcpy(&code, all.bytes + all.begins[r], sizeof code);
+        worsen(job, code);
+        if (ranks->rank == 0 && r > 0 && told && !is_said(&all, r))
+            fprintf(stderr, "rank %u:\n%s", r, (const char *)all.bytes + all.begins[r] + sizeof code);
+    }
+    tn_gathered_clear(&all);
+    free(mine);
+}
+
 int tn_job_end(tn_job *job)
 {
     say_what_is_missing(job);
@@ -206,6 +273,9 @@ int tn_job_end(tn_job *job)
     close_file(job);
     if (job->errors || (job->warnings && job->settings->werror))
         worsen(job, TN_EXIT_INVALID);
+    if (tn_ranks_several(job->settings->ranks))
+        end_together(job, job->words ? job->words : "");
+    free(job->words);
     return job->exit_code;
 }
 

@@ -38,6 +38,7 @@ typedef struct tn_job {
     bool stopped;            /* by an interrupt, and not all was done */
     bool said;               /* what is missing, of that */
     size_t errors, warnings; /* shown so far */
+    char *words;             /* shown so far, with several ranks; owned */
 } tn_job;
 
 void tn_job_begin(tn_job *job, const tn_settings *settings);
@@ -78,7 +79,11 @@ void tn_job_note(tn_job *job, const char *format, ...) __attribute__((format(pri
 /* Shows what has been collected so far (as text; JSON is one array at the end). Before long work. */
 void tn_job_show(tn_job *job);
 
-/* Shows the rest, frees everything and returns the exit code. */
+/* Where several ranks do the command together, all call it: is it well with all of them? Without ranks: `well`. */
+bool tn_job_agree(const tn_job *job, bool well);
+
+/* Shows the rest, frees everything and returns the exit code. With several ranks together: rank 0 shows what each had
+ * to say, the same only once, and all have the gravest exit code. */
 int tn_job_end(tn_job *job);
 
 /* The exit code for a status. */

@@ -66,6 +66,7 @@ typedef struct tn_settings {
     int diagnostics; /* 0 text, 1 json */
     bool werror;
     tn_option_number memory_limit; /* megabytes */
+    const struct tn_ranks *ranks;  /* the processes that do the command together; NULL: this one alone */
 } tn_settings;
 
 typedef struct tn_command {

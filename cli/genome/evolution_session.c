@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/common/interrupt.h"
+#include "runtime/ranks/ranks.h"
 
 /* study.study -> study.run, in the folder that the command is given in. */
 static char *default_dir(const char *study)
@@ -38,16 +39,39 @@ static void report(tn_evolution_session *e, const tn_evolution_study *study, con
     diagnostic->span = (tn_span){value->file, value->begin, value->end};
 }
 
-static bool begin(tn_evolution_session *e, const tn_evolution_study *study, const char *dir, tn_error *error)
+/* Makes the job of the study. */
+static bool make_job(tn_evolution_session *e, const tn_evolution_study *study, tn_error *error)
 {
     const tn_session_settings *settings = e->settings;
     const char *path = settings->common.operands.items[0];
-    const tn_module *module = e->command->opened.module;
-    tn_evolution_job_options options = {.threads = (unsigned)settings->threads.value,
+    const tn_ranks *ranks = settings->common.ranks;
+    uint64_t threads = ranks && !settings->threads.given ? 1 : settings->threads.value;
+    tn_evolution_job_options options = {.threads = (unsigned)threads,
                                         .watch = tn_interrupt_waiting(),
+                                        .ranks = ranks,
                                         .says_seed = settings->seed.given,
                                         .seed = settings->seed.value,
                                         .remembers = e->remembers};
+    e->generations =
+        (uint32_t)(settings->generations.given ? settings->generations.value : study->of[TN_SET_GENERATIONS].first);
+    if (tn_evolution_job_make(study, path, e->command->opened.module, &options, &e->job, error) != TN_OK) {
+        report(e, study, error);
+        return false;
+    }
+    if (e->remembers || !e->job.settings.kind || e->job.scored) /* with `breed`, a person chooses */
+        return true;
+    tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "the study does not say what to evolve towards");
+    tn_error_help(error, "add a goal, as `fitness volume target 200`; or choose parents yourself: tartan breed %s",
+                  path);
+    tn_job_fail(e->command, error);
+    return false;
+}
+
+/* With several ranks, together. */
+static bool begin(tn_evolution_session *e, const tn_evolution_study *study, const char *dir, tn_error *error)
+{
+    const tn_session_settings *settings = e->settings;
+    const tn_module *module = e->command->opened.module;
     tn_run_options run_options = {
         .resume = settings->resume, .durable = settings->durable, .rescore = settings->rescore};
     bool codons = tn_evolution_study_use(study) == TN_USE_CODONS; /* forms have no grammar */
@@ -55,19 +79,6 @@ static bool begin(tn_evolution_session *e, const tn_evolution_study *study, cons
                            *text = &module->SOURCE_records[codons ? study->of[TN_SET_GRAMMAR].file : 0];
     tn_run_texts texts = {tn_text(module, text->path), tn_text(module, text->text),
                           grammar ? tn_text(module, grammar->path) : "", grammar ? tn_text(module, grammar->text) : ""};
-    e->generations =
-        (uint32_t)(settings->generations.given ? settings->generations.value : study->of[TN_SET_GENERATIONS].first);
-    if (tn_evolution_job_make(study, path, module, &options, &e->job, error) != TN_OK) {
-        report(e, study, error);
-        return false;
-    }
-    if (!e->remembers && e->job.settings.kind && !e->job.scored) { /* a person chooses with `breed` */
-        tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "the study does not say what to evolve towards");
-        tn_error_help(error, "add a goal, as `fitness volume target 200`; or choose parents yourself: tartan breed %s",
-                      path);
-        tn_job_fail(e->command, error);
-        return false;
-    }
     bool begun = tn_run_begin(&e->job, dir, &run_options, &texts, &e->run, error) == TN_OK;
     for (size_t i = 0; begun && i < settings->changes.count; i++)
         begun = tn_run_set(&e->run, settings->changes.items[i], error) == TN_OK;
@@ -76,12 +87,8 @@ static bool begin(tn_evolution_session *e, const tn_evolution_study *study, cons
     return begun;
 }
 
-static bool open_session(tn_job *command, const tn_session_settings *settings, bool remembers, tn_evolution_session *e)
+static bool wants_what_can_be(tn_job *command, const tn_session_settings *settings)
 {
-    const char *path = settings->common.operands.items[0];
-    tn_error error = {0};
-    tn_evolution_study study;
-    *e = (tn_evolution_session){.command = command, .settings = settings, .remembers = remembers};
     if (settings->changes.count && !settings->resume) {
         tn_job_usage(command, "--set changes a run that has begun: say --resume too, or change the study itself");
         return false;
@@ -90,24 +97,39 @@ static bool open_session(tn_job *command, const tn_session_settings *settings, b
         tn_job_usage(command, "--rescore is about a run that has begun: say --resume too");
         return false;
     }
+    return true;
+}
+
+static bool open_study(tn_job *command, const char *path, tn_evolution_study *study, tn_error *error)
+{
     if (!tn_job_open(command, path))
         return false;
-    if (!tn_evolution_study_of(command->opened.module, &study)) {
-        tn_fail(&error, TN_INVALID, E_EVOLUTION_SYNTAX, "%.200s has no block `evolution { ... }`", path);
-        tn_error_help(
-            &error, "%s",
-            tn_opened_help(&command->opened, "a study to be evolved is a .study file with a block `evolution { ... }`")
-                .text);
-        tn_job_fail(command, &error);
-        return false;
-    }
+    if (tn_evolution_study_of(command->opened.module, study))
+        return true;
+    tn_fail(error, TN_INVALID, E_EVOLUTION_SYNTAX, "%.200s has no block `evolution { ... }`", path);
+    tn_error_help(
+        error, "%s",
+        tn_opened_help(&command->opened, "a study to be evolved is a .study file with a block `evolution { ... }`")
+            .text);
+    tn_job_fail(command, error);
+    return false;
+}
+
+static bool open_session(tn_job *command, const tn_session_settings *settings, bool remembers, tn_evolution_session *e)
+{
+    const char *path = settings->common.operands.items[0];
+    tn_error error = {0};
+    tn_evolution_study study;
+    *e = (tn_evolution_session){.command = command, .settings = settings, .remembers = remembers};
     char *own = settings->output ? NULL : default_dir(path);
     const char *dir = settings->output ? settings->output : own;
-    bool begun = dir && begin(e, &study, dir, &error);
     if (!dir) {
         tn_fail_memory(&error);
         tn_job_fail(command, &error);
     }
+    bool ready = dir && wants_what_can_be(command, settings) && open_study(command, path, &study, &error) &&
+                 make_job(e, &study, &error);
+    bool begun = tn_job_agree(command, ready) && begin(e, &study, dir, &error);
     free(own);
     return begun;
 }

@@ -27,33 +27,57 @@ static void describe(const tn_evolution_session *e, uint64_t evaluated_before, d
              seconds > 0 ? (double)(s.evaluations - evaluated_before) / seconds : 0);
 }
 
-static void evolve(tn_evolution_session *e)
+/* Is there another generation to breed? With several ranks, together. */
+static bool goes_on(const tn_evolution_session *e)
+{
+    bool wanted = e->run.generations <= e->generations && !tn_run_reached(&e->run);
+    return wanted && !tn_ranks_any(e->job.settings.ranks, tn_interrupted());
+}
+
+static tn_status breed_all(tn_evolution_session *e, tn_error *error)
 {
     tn_progress progress;
-    tn_error error;
     char text[200] = "generations";
     double start = now();
+    bool lead = tn_ranks_lead(e->job.settings.ranks);
     uint64_t before = e->run.generations ? tn_evolution_stats(e->run.evolution).evaluations : 0;
     tn_progress_begin(&progress, text, e->run.generations, (double)e->generations + 1);
+    progress.shows &= lead;
     tn_status status = TN_OK;
-    while (status == TN_OK && e->run.generations <= e->generations && !tn_run_reached(&e->run) && !tn_interrupted()) {
-        tn_interrupt_last_words("interrupted after %u generations; --resume goes on from there", e->run.generations);
-        status = tn_run_step(&e->run, NULL, 0, &error);
+    while (status == TN_OK && goes_on(e)) {
+        if (lead)
+            tn_interrupt_last_words("interrupted after %u generations; --resume goes on from there",
+                                    e->run.generations);
+        status = tn_run_step(&e->run, NULL, 0, error);
         if (status == TN_OK && progress.shows)
             describe(e, before, start, text, sizeof text);
         tn_progress_update(&progress, e->run.generations);
     }
     tn_progress_end(&progress);
+    return status;
+}
+
+static void evolve(tn_evolution_session *e)
+{
+    tn_error error;
+    const tn_ranks *ranks = e->job.settings.ranks;
+    if (ranks)
+        tn_interrupt_gently(true, true);
+    tn_status status = breed_all(e, &error);
+    bool interrupted = tn_ranks_any(ranks, tn_interrupted() || status == TN_STOPPED);
     if (status == TN_STOPPED)
         status = TN_OK; /* within a generation, which is not kept */
-    if (status == TN_OK && e->run.generations && !tn_interrupted())
+    if (status == TN_OK && e->run.generations && !interrupted && tn_ranks_lead(ranks))
         status = tn_run_results(&e->run, &error);
+    e->command->said = !tn_ranks_lead(ranks); /* what is missing: the first says it */
     if (status != TN_OK) {
         tn_job_fail(e->command, &error);
+    } else if (!tn_ranks_lead(ranks)) {
+        return;
     } else if (e->run.new_changes) {
         tn_job_note(e->command, "what --set changed is kept with the next generation: --generations %u breeds one",
                     e->run.generations);
-    } else if (tn_interrupted()) {
+    } else if (interrupted) {
         tn_job_interrupted(e->command, "interrupted after %u generations; --resume goes on from there",
                            e->run.generations);
     }
@@ -90,7 +114,7 @@ static void evolve_and_tell(tn_evolution_session *e)
 {
     tn_output output;
     evolve(e);
-    if (tn_job_output(e->command, NULL, &output)) {
+    if (tn_ranks_lead(e->job.settings.ranks) && tn_job_output(e->command, NULL, &output)) {
         summarise(e, output.stream);
         tn_job_commit(e->command, &output);
     }

@@ -10,6 +10,12 @@
 
 #define STALE_DEFAULT 600.0
 
+unsigned tn_shards_threads(const tn_job *job)
+{
+    const tn_plan_settings *plans = &tn_shards_settings_of(job)->plans;
+    return job->settings->ranks && !plans->threads.given ? 1 : tn_job_threads(plans);
+}
+
 bool tn_shards_read(tn_job *job, tn_shards_open *open)
 {
     tn_error error;
@@ -23,7 +29,7 @@ static bool make_ready(tn_job *job, tn_shards_open *open)
 {
     tn_library_options options = open->set.options;
     tn_progress progress;
-    options.threads = tn_job_threads(&tn_shards_settings_of(job)->plans);
+    options.threads = tn_shards_threads(job);
     tn_progress_watch(&progress, "clauses combined", tn_interrupt_waiting());
     tn_status status = tn_library_ready(&job->opened, open->set.library, &options, &open->ready);
     tn_progress_unwatch(&progress, tn_interrupt_waiting());

@@ -83,7 +83,8 @@ static int run(const tn_command *command, const tn_settings *settings)
     const shards_part *part = find_part(&job);
     if (part && takes_operands(&job, part) && takes_options(&job, part)) {
         bool reads = strcmp(part->name, "new") != 0;
-        if (!reads || (part->opens ? tn_shards_open_set(&job, &open) : tn_shards_read(&job, &open)))
+        bool well = !reads || (part->opens ? tn_shards_open_set(&job, &open) : tn_shards_read(&job, &open));
+        if (tn_job_agree(&job, well))
             part->run(&job, &open);
     }
     tn_shards_close_library(&open);

@@ -39,6 +39,10 @@ void tn_shards_clear(tn_shards_open *open);         /* after it */
 /* Reads a time: 90, 90s, 55m, 2h or 1d, in seconds. False where the text is none. */
 bool tn_time_read(const char *text, double *seconds);
 
+/* How many threads the options ask for: by default as many as there are processors, and one on each of several ranks.
+ */
+unsigned tn_shards_threads(const tn_job *job);
+
 /* The seconds after which a claim is stale; false where the option is no time, which is recorded. */
 bool tn_shards_stale(tn_job *job, double *seconds);
 

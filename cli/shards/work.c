@@ -56,34 +56,59 @@ static bool choose_time(tn_job *job, tn_shards_job *work)
 static void tell(tn_job *job, const tn_shards_done *done)
 {
     const char *plural = done->written == 1 ? "" : "s";
+    job->said = true; /* also on ranks that leave it to the first */
+    if (!tn_ranks_lead(job->settings->ranks))
+        return;
     if (job->stopped)
         tn_job_interrupted(job, "interrupted; %u shard%s written, %u to go: `tartan shards run` goes on with them",
                            done->written, plural, done->left);
     else if (done->left > 0)
         tn_job_note(job, "%u shard%s written, %u to go%s", done->written, plural, done->left,
-                    done->out_of_time ? ": time is up" : "");
+                    done->ended         ? ": a signal asked for the end; `tartan shards run` goes on with them"
+                    : done->out_of_time ? ": time is up"
+                                        : "");
     else if (done->written == 0)
         tn_job_note(job, "all shards are there already");
     else
         tn_job_note(job, "%u shard%s written; all are there", done->written, plural);
 }
 
+/* Do all ranks work on the same set? */
+static bool same_set(tn_job *job, const tn_shard_set *set)
+{
+    char hash[33];
+    tn_error error;
+    tn_status status = tn_shard_set_hash(set, hash, &error);
+    status = tn_ranks_agree(job->settings->ranks, status, &error);
+    if (status == TN_OK)
+        status = tn_ranks_same(job->settings->ranks, "the shard set", hash, &error);
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    return status == TN_OK;
+}
+
 void tn_shards_run_set(tn_job *job, tn_shards_open *open)
 {
+    const tn_ranks *ranks = job->settings->ranks;
     tn_shards_job work = {.set = &open->set,
                           .opened = &job->opened,
                           .ready = &open->ready,
-                          .threads = tn_job_threads(&tn_shards_settings_of(job)->plans),
-                          .watch = tn_interrupt_waiting()};
+                          .threads = tn_shards_threads(job),
+                          .watch = tn_interrupt_waiting(),
+                          .last = tn_interrupt_gently(ranks != NULL, false),
+                          .ranks = ranks};
     tn_progress progress;
     tn_shards_done done;
     tn_error error;
-    if (!choose_shards(job, &work) || !choose_time(job, &work))
+    if (!choose_shards(job, &work) || !choose_time(job, &work) || !same_set(job, &open->set))
         return;
     tn_interrupt_last_words("interrupted; shards are there whole or not at all: `tartan shards run` goes on");
-    tn_progress_watch(&progress, "shards", work.watch);
+    tn_progress_begin(&progress, "shards", 0, 0);
+    if (tn_ranks_lead(ranks))
+        tn_progress_watch(&progress, "shards", work.watch);
     tn_status status = tn_shards_run(&work, &done, &error);
-    tn_progress_unwatch(&progress, work.watch);
+    if (tn_ranks_lead(ranks))
+        tn_progress_unwatch(&progress, work.watch);
     if (status == TN_STOPPED)
         tn_interrupt_answered();
     if (status != TN_OK)

@@ -60,8 +60,9 @@ typedef struct tn_evolution_job {
 } tn_evolution_job;
 
 typedef struct tn_evolution_job_options {
-    unsigned threads; /* 0: as many as there are */
-    tn_watch *watch;  /* borrowed, or NULL: breeding gives up (TN_STOPPED) once this says so */
+    unsigned threads;      /* 0: as many as there are */
+    tn_watch *watch;       /* borrowed, or NULL: breeding gives up (TN_STOPPED) once this says so */
+    const tn_ranks *ranks; /* borrowed, or NULL: those that make the same run together */
     bool says_seed;
     uint64_t seed;
     bool only_replay;         /* no evaluating: scores will be recalled */
@@ -87,7 +88,7 @@ typedef struct tn_run_options {
 typedef struct tn_run {
     tn_evolution_job *job; /* borrowed */
     char *dir;
-    tn_run_store *store;
+    tn_run_store *store; /* NULL on ranks but the first, which alone writes */
     tn_evolution *evolution;
     uint32_t generations; /* done */
     tn_run_event *
@@ -102,7 +103,9 @@ typedef struct tn_run_texts {
     const char *study_path, *study_text, *grammar_path, *grammar_text;
 } tn_run_texts;
 
-/* Starts a run in the folder `dir`, which is made, or goes on with the one that is there: then all its generations are
+/* With several ranks, these are called together, and fail for all of them alike: tn_run_begin, tn_run_step, tn_run_set.
+ *
+ * Starts a run in the folder `dir`, which is made, or goes on with the one that is there: then all its generations are
  * made again, without evaluating. */
 tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_options *options, const tn_run_texts *texts,
                        tn_run *run, tn_error *error);
@@ -118,7 +121,7 @@ tn_status tn_run_set(tn_run *run, const char *change, tn_error *error);
 /* Is the best score as good as `stop` asks for? */
 bool tn_run_reached(const tn_run *run);
 
-/* Writes best/, stats.csv and fitness.svg. */
+/* Writes best/, stats.csv and fitness.svg: where several ranks made the run, by the first. */
 tn_status tn_run_results(tn_run *run, tn_error *error);
 void tn_run_clear(tn_run *run);
 

@@ -84,6 +84,7 @@ static void translate(const tn_evolution_study *s, const tn_grammar *grammar, co
     out->mapping.max_steps = (uint64_t)s->of[TN_SET_MAX_STEPS].first;
     out->threads = options->threads ? options->threads : tn_crew_default();
     out->watch = options->watch;
+    out->ranks = options->ranks;
     out->remembers = options->remembers;
 }
 

@@ -10,6 +10,7 @@
 #include "compiler/evolution/evolution.h"
 #include "driver/breed/choice.h"
 #include "driver/breed/evolve.h"
+#include "driver/breed/evolve_history.h"
 #include "driver/breed/inputs.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
@@ -145,12 +146,6 @@ static tn_status remember_change(tn_run *run, uint32_t generation, const char *k
     return event->kind && event->text ? TN_OK : tn_fail_memory(error);
 }
 
-static int compare_rescored(const void *left, const void *right)
-{
-    const tn_rescored *a = left, *b = right;
-    return a->id < b->id ? -1 : a->id > b->id;
-}
-
 static tn_status keep_rescored(tn_run *run, tn_error *error)
 {
     size_t count;
@@ -160,18 +155,21 @@ static tn_status keep_rescored(tn_run *run, tn_error *error)
         return tn_fail_memory(error);
     for (size_t i = 0; i < count; i++)
         kept[i] = (tn_rescored){members[i]->id, members[i]->score};
-    qsort(kept, count, sizeof *kept, compare_rescored);
+    tn_rescored_sort(kept, count);
     free(run->rescored);
     run->rescored = kept;
     run->rescored_count = count;
     return TN_OK;
 }
 
+/* Together. */
 static tn_status rescore(tn_run *run, tn_error *error)
 {
     run->new_changes++;
     tn_status status = tn_evolution_rescore(run->evolution, error);
-    return status == TN_OK ? keep_rescored(run, error) : status;
+    if (status == TN_OK)
+        status = keep_rescored(run, error);
+    return tn_ranks_agree(run->job->settings.ranks, status, error);
 }
 
 tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
@@ -189,44 +187,23 @@ tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
     tn_status status = evaluator->adjust(evaluator->context, change, error);
     if (status == TN_OK)
         status = remember_change(run, run->generations, "set", change, error);
+    status = tn_ranks_agree(run->job->settings.ranks, status, error);
     return status == TN_OK ? rescore(run, error) : status;
 }
 
-typedef struct rescored_list {
-    const tn_rescored *items;
-    size_t count;
-} rescored_list;
-
-static bool recall_rescored(void *context, uint64_t id, tn_score *score)
-{
-    const rescored_list *list = context;
-    tn_rescored key = {.id = id};
-    const tn_rescored *found = bsearch(&key, list->items, list->count, sizeof key, compare_rescored);
-    if (found)
-        *score = found->score;
-    return found != NULL;
-}
-
 /* One stored change, made again; the members' scores only after the last of a generation, when they were stored. */
-static tn_status repeat_change(tn_run *run, const tn_run_event *event, tn_error *error)
+static tn_status repeat_change(tn_run *run, const tn_run_event *event, tn_rescored_list *list, tn_error *error)
 {
     const tn_evaluator *evaluator = &run->job->evaluator;
-    rescored_list list = {0};
-    tn_rescored *items = NULL;
     bool adjusts = evaluator->adjust && strcmp(event->kind, "set") == 0;
     tn_status status = adjusts ? evaluator->adjust(evaluator->context, event->text, error) : TN_OK;
     if (status == TN_OK)
         status = remember_change(run, event->generation, event->kind, event->text, error);
-    if (status == TN_OK)
-        status =
-            tn_run_store_rescored(run->store, event->generation, evaluator->objectives, &items, &list.count, error);
-    list.items = items;
-    if (status == TN_OK) {
-        tn_evolution_recall(run->evolution, recall_rescored, &list);
-        status = tn_evolution_rescore(run->evolution, error);
-    }
-    free(items);
-    return status;
+    status = tn_ranks_agree(run->job->settings.ranks, status, error);
+    if (status != TN_OK)
+        return status;
+    tn_evolution_recall(run->evolution, tn_rescored_recall, list);
+    return tn_evolution_rescore(run->evolution, error);
 }
 
 static tn_status repeat_choice(tn_run *run, const tn_run_event *event, tn_error *error)
@@ -237,40 +214,44 @@ static tn_status repeat_choice(tn_run *run, const tn_run_event *event, tn_error 
     if (status == TN_OK)
         status = tn_evolution_choose(run->evolution, choices.items, choices.count, error);
     tn_choices_clear(&choices);
-    return status;
+    return tn_ranks_agree(run->job->settings.ranks, status, error);
 }
 
-/* Makes the stored generations again, without evaluating; up to the one that `until` is born in, or all. */
+/* Together: one stored generation, made again and compared with what is stored. */
+static tn_status repeat_step(tn_run *run, const tn_run_history *history, size_t *at, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (; status == TN_OK && *at < history->event_count && history->events[*at].generation == run->generations;
+         ++*at) {
+        const tn_run_event *event = &history->events[*at];
+        status = strcmp(event->kind, "choose") == 0 ? repeat_choice(run, event, error)
+                                                    : repeat_change(run, event, &history->rescored[*at], error);
+    }
+    tn_run_scores scores = history->scores;
+    tn_evolution_recall(run->evolution, tn_run_scores_recall, &scores);
+    if (status == TN_OK)
+        status = tn_evolution_step(run->evolution, error);
+    if (status == TN_OK && run->store)
+        status = tn_run_store_check(run->store, run->evolution, error);
+    tn_evolution_recall(run->evolution, NULL, NULL);
+    return tn_ranks_agree(run->job->settings.ranks, status, error);
+}
+
+/* Together: makes the stored generations again, without evaluating; up to the one that `until` is born in, or all. */
 static tn_status repeat(tn_run *run, uint64_t until, tn_error *error)
 {
-    uint32_t count;
-    tn_run_scores scores = {0};
-    tn_run_event *events = NULL;
-    size_t event_count = 0;
-    tn_status status = tn_run_store_generations(run->store, &count, error);
-    if (status == TN_OK)
-        status = tn_run_store_scores(run->store, run->job->evaluator.objectives, &scores, error);
-    if (status == TN_OK)
-        status = tn_run_store_events(run->store, &events, &event_count, error);
-    for (size_t i = 0; i < event_count; i++)
-        if (strcmp(events[i].kind, "choose") == 0 && tn_choices_have_ids(events[i].text))
+    tn_run_history history;
+    tn_status status =
+        tn_run_history_read(run->store, run->job->evaluator.objectives, run->job->settings.ranks, &history, error);
+    for (size_t i = 0; status == TN_OK && i < history.event_count; i++)
+        if (strcmp(history.events[i].kind, "choose") == 0 && tn_choices_have_ids(history.events[i].text))
             tn_evolution_remember(run->evolution);
-    tn_evolution_recall(run->evolution, tn_run_scores_recall, &scores);
-    for (size_t at = 0; status == TN_OK && run->generations < count; run->generations++) {
+    for (size_t at = 0; status == TN_OK && run->generations < history.generations; run->generations++) {
         if (until != UINT64_MAX && until / run->job->settings.population < run->generations)
             break;
-        for (; status == TN_OK && at < event_count && events[at].generation == run->generations; at++)
-            status = strcmp(events[at].kind, "choose") == 0 ? repeat_choice(run, &events[at], error)
-                                                            : repeat_change(run, &events[at], error);
-        tn_evolution_recall(run->evolution, tn_run_scores_recall, &scores);
-        if (status == TN_OK)
-            status = tn_evolution_step(run->evolution, error);
-        if (status == TN_OK)
-            status = tn_run_store_check(run->store, run->evolution, error);
+        status = repeat_step(run, &history, &at, error);
     }
-    tn_evolution_recall(run->evolution, NULL, NULL);
-    tn_run_scores_clear(&scores);
-    tn_run_events_free(events, event_count);
+    tn_run_history_clear(&history);
     return status;
 }
 
@@ -288,26 +269,36 @@ static tn_status stored_inputs(tn_run *run, char **inputs, tn_error *error)
     return tn_run_store_get_meta(run->store, "inputs", inputs, error);
 }
 
-/* Scores of different inputs are never mixed: all members are scored again, where that is wished, or the run is not
- * gone on with. */
-static tn_status same_inputs(tn_run *run, bool may_rescore, tn_error *error)
+/* Which of the inputs has another content than the stored scores are of: its name, or "". */
+static tn_status changed_input(tn_run *run, char *name, size_t size, tn_error *error)
 {
-    char *before = NULL, name[200] = "";
-    const char *now = run->job->inputs ? run->job->inputs : "";
+    char *before = NULL;
     tn_status status = stored_inputs(run, &before, error);
     if (status == TN_OK && before)
-        tn_inputs_difference(before, now, name, sizeof name);
+        tn_inputs_difference(before, run->job->inputs ? run->job->inputs : "", name, size);
     free(before);
-    if (status != TN_OK || !name[0])
-        return status;
-    if (may_rescore && run->generations > 0) {
-        status = remember_change(run, run->generations, "inputs", now, error);
-        return status == TN_OK ? rescore(run, error) : status;
+    return status;
+}
+
+/* Together: scores of different inputs are never mixed. All members are scored again, where that is wished, or the run
+ * is not gone on with. */
+static tn_status same_inputs(tn_run *run, bool may_rescore, tn_error *error)
+{
+    const tn_ranks *ranks = run->job->settings.ranks;
+    char name[200] = "";
+    tn_status status = run->store ? changed_input(run, name, sizeof name, error) : TN_OK;
+    bool rescores = may_rescore && run->generations > 0;
+    if (status == TN_OK && name[0] && !rescores) {
+        status = tn_fail(error, TN_INVALID, E_RUN_DIFFERS,
+                         "the scores in %.100s are of another file: `%.160s` has changed since", run->dir, name);
+        tn_error_help(error, "-o DIR starts another run; --resume --rescore scores all members again and goes on");
     }
-    tn_fail(error, TN_INVALID, E_RUN_DIFFERS, "the scores in %.100s are of another file: `%.160s` has changed since",
-            run->dir, name);
-    tn_error_help(error, "-o DIR starts another run; --resume --rescore scores all members again and goes on");
-    return TN_INVALID;
+    status = tn_ranks_agree(ranks, status, error);
+    if (status != TN_OK || !tn_ranks_any(ranks, name[0] != '\0'))
+        return status;
+    status = remember_change(run, run->generations, "inputs", run->job->inputs ? run->job->inputs : "", error);
+    status = tn_ranks_agree(ranks, status, error);
+    return status == TN_OK ? rescore(run, error) : status;
 }
 
 static tn_status begin_new(tn_run *run, const char *path, const tn_run_options *options, const tn_run_texts *texts,
@@ -317,11 +308,12 @@ static tn_status begin_new(tn_run *run, const char *path, const tn_run_options *
     return status == TN_OK ? put_meta(run, texts, error) : status;
 }
 
-/* What was killed while it began begins again. */
+/* What was killed while it began begins again: then *goes_on is false. */
 static tn_status open_or_begin(tn_run *run, const char *path, const tn_run_options *options, const tn_run_texts *texts,
-                               tn_error *error)
+                               bool *goes_on, tn_error *error)
 {
     bool begun;
+    *goes_on = false;
     if (!options->resume || access(path, F_OK) != 0)
         return begin_new(run, path, options, texts, error);
     tn_status status = tn_run_store_begun(path, &begun, error);
@@ -331,54 +323,90 @@ static tn_status open_or_begin(tn_run *run, const char *path, const tn_run_optio
         return tn_fail(error, TN_IO, E_CANNOT_WRITE, "cannot begin %.200s again: %s", path, strerror(errno));
     if (!begun)
         return begin_new(run, path, options, texts, error);
+    *goes_on = true;
     status = tn_run_store_open(path, options->durable, false, &run->store, error);
     if (status == TN_OK)
         status = same_arithmetic(run, error);
     if (status == TN_OK)
         status = same_study(run, error);
+    return status == TN_OK ? same_grammar(run, texts->grammar_text, error) : status;
+}
+
+/* Rank 0's part: the folder and its database. */
+static tn_status begin_store(tn_run *run, const char *dir, const tn_run_options *options, const tn_run_texts *texts,
+                             bool *goes_on, tn_error *error)
+{
+    char *path = tn_run_database(dir);
+    tn_status status = path ? tn_folder_make(dir, error) : tn_fail_memory(error);
     if (status == TN_OK)
-        status = same_grammar(run, texts->grammar_text, error);
+        status = open_or_begin(run, path, options, texts, goes_on, error);
+    free(path);
+    return status;
+}
+
+/* Together: do all ranks breed the same? */
+static tn_status same_everywhere(const tn_run *run, const tn_run_texts *texts, tn_error *error)
+{
+    const tn_evolution_job *job = run->job;
+    tn_status status = tn_ranks_same(job->settings.ranks, "the study", job->identity, error);
     if (status == TN_OK)
-        status = repeat(run, UINT64_MAX, error);
-    return status == TN_OK ? same_inputs(run, options->rescore, error) : status;
+        status = tn_ranks_same(job->settings.ranks, "the grammar", texts->grammar_text, error);
+    return status == TN_OK
+               ? tn_ranks_same(job->settings.ranks, "what scores depend on", job->inputs ? job->inputs : "", error)
+               : status;
 }
 
 tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_options *options, const tn_run_texts *texts,
                        tn_run *run, tn_error *error)
 {
+    const tn_ranks *ranks = job->settings.ranks;
+    bool goes_on = false;
     *run = (tn_run){.job = job, .dir = strdup(dir)};
-    char *path = tn_run_database(dir);
-    tn_status status = run->dir && path ? tn_folder_make(dir, error) : tn_fail_memory(error);
+    tn_status status = tn_ranks_agree(ranks, run->dir ? TN_OK : tn_fail_memory(error), error);
+    if (status == TN_OK)
+        status = same_everywhere(run, texts, error);
     if (status == TN_OK)
         status = tn_evolution_new(job->grammar, &job->settings, &job->evaluator, &run->evolution, error);
-    if (status == TN_OK)
-        status = open_or_begin(run, path, options, texts, error);
-    free(path);
-    return status;
+    if (status == TN_OK && tn_ranks_lead(ranks))
+        status = begin_store(run, dir, options, texts, &goes_on, error);
+    status = tn_ranks_agree(ranks, status, error);
+    if (status != TN_OK || !tn_ranks_any(ranks, goes_on))
+        return status;
+    status = repeat(run, UINT64_MAX, error);
+    return status == TN_OK ? same_inputs(run, options->rescore, error) : status;
 }
 
 /* ---- going on */
 
+/* What is stored with the next generation: changes that are not stored yet, and the choice, whose texts are borrowed.
+ */
+static tn_run_event *events_to_store(const tn_run *run, char *kind, char *choice, size_t *count)
+{
+    *count = run->new_changes;
+    tn_run_event *events = calloc(*count + 1, sizeof *events);
+    for (size_t i = 0; events && i < *count; i++)
+        events[i] = run->changes[run->change_count - *count + i];
+    if (events && choice)
+        events[(*count)++] = (tn_run_event){0, kind, choice};
+    return events;
+}
+
 tn_status tn_run_step(tn_run *run, const tn_chosen *chosen, size_t chosen_count, tn_error *error)
 {
+    const tn_ranks *ranks = run->job->settings.ranks;
     char kind[] = "choose", *text = chosen ? tn_choices_text(chosen, chosen_count) : NULL;
-    size_t count = run->new_changes;
-    tn_run_event *events = calloc(count + 1, sizeof *events);
-    if (!events || (chosen && !text)) {
-        free(events);
-        free(text);
-        return tn_fail_memory(error);
-    }
-    for (size_t i = 0; i < count; i++)
-        events[i] = run->changes[run->change_count - count + i];
-    if (chosen)
-        events[count++] = (tn_run_event){0, kind, text};
-    tn_status status = chosen ? tn_evolution_choose(run->evolution, chosen, chosen_count, error) : TN_OK;
+    size_t count;
+    tn_run_event *events = events_to_store(run, kind, text, &count);
+    tn_status status = events && (text || !chosen) ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK && chosen)
+        status = tn_evolution_choose(run->evolution, chosen, chosen_count, error);
+    status = tn_ranks_agree(ranks, status, error);
     if (status == TN_OK)
         status = tn_evolution_step(run->evolution, error);
-    if (status == TN_OK)
+    if (status == TN_OK && run->store)
         status = tn_run_store_put(run->store, run->evolution, run->job->evaluator.objectives, events, count,
                                   run->rescored, run->new_changes ? run->rescored_count : 0, error);
+    status = tn_ranks_agree(ranks, status, error);
     if (status == TN_OK) {
         run->generations++;
         run->new_changes = 0;

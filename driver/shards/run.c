@@ -22,11 +22,11 @@ typedef struct running {
     mpz_t ranks; /* how many the library has */
     double start;
     bool *done;       /* [shards]: known to be there; each is written by the thread that has the shard */
-    atomic_uint next; /* the first shard that no thread has looked at in this pass */
+    atomic_uint next; /* the first shard that no thread has looked at in this pass, where there is one rank */
     atomic_uint written;
     atomic_uint held;   /* by others, in this pass */
-    atomic_bool failed; /* no further shard is begun */
-    atomic_bool out_of_time;
+    atomic_bool failed; /* no further shard is begun here */
+    atomic_bool out_of_time, ended;
     _Atomic double longest; /* seconds that a shard took */
 } running;
 
@@ -136,12 +136,21 @@ static tn_status do_shard(running *run, uint32_t shard, tn_error *error)
 /* ---- all of them */
 
 /* May another shard be begun? It is not where it would likely end too late. */
-static bool has_time(running *run)
+static bool goes_on(running *run)
 {
     double used = tn_seconds() - run->start, allowed = run->job->seconds;
     if (allowed > 0 && used + run->longest > allowed)
         run->out_of_time = true;
-    return !run->out_of_time;
+    if (run->job->last && atomic_load(run->job->last))
+        run->ended = true;
+    return !run->failed && !run->out_of_time && !run->ended;
+}
+
+/* The next shard that nobody has taken in this pass, counted from the first that is asked for. */
+static uint64_t take(running *run)
+{
+    const tn_ranks *ranks = run->job->ranks;
+    return tn_ranks_several(ranks) ? ranks->take(ranks->context, 1) : run->next++;
 }
 
 /* One thread's part of a pass over the shards. */
@@ -149,16 +158,19 @@ static tn_status work(void *context, unsigned thread, size_t item, tn_error *err
 {
     (void)thread, (void)item;
     running *run = context;
+    uint32_t count = run->job->end - run->job->begin;
     tn_status status = TN_OK;
-    while (status == TN_OK && !run->failed && has_time(run)) {
-        uint32_t shard = run->next++;
-        if (shard >= run->job->end)
+    while (status == TN_OK && goes_on(run)) {
+        uint64_t taken = take(run);
+        if (taken >= count)
             break;
         status = tn_watch_check(run->job->watch, error);
         if (status == TN_OK)
-            status = do_shard(run, shard, error);
-        tn_watch_tell(run->job->watch, shard - run->job->begin + 1, run->job->end - run->job->begin);
+            status = do_shard(run, run->job->begin + (uint32_t)taken, error);
+        tn_watch_tell(run->job->watch, (double)taken + 1, count);
     }
+    if (run->ended && tn_ranks_several(run->job->ranks))
+        run->job->ranks->take(run->job->ranks->context, count); /* the others begin none either */
     if (status != TN_OK)
         run->failed = true;
     return status;
@@ -176,40 +188,104 @@ static tn_status wait_a_little(const running *run, double *seconds, tn_error *er
     return status;
 }
 
-static tn_status pass(running *run, tn_crew *crew, tn_error *error)
+/* What ranks tell each other behind a pass. */
+typedef struct passed {
+    uint32_t held, written;
+    bool failed, out_of_time, ended;
+} passed;
+
+/* Together: how the pass went for all of them. Where a rank came to its end by `last` or its time, all do. */
+static passed all_passed(const running *run)
 {
-    run->next = run->job->begin;
-    run->held = 0;
-    return tn_crew_run(crew, tn_crew_threads(crew), 1, work, run, error);
+    const tn_ranks *ranks = run->job->ranks;
+    passed sum = {run->held, run->written, run->failed, run->out_of_time, run->ended}, one;
+    if (!tn_ranks_several(ranks))
+        return sum;
+    tn_gathered all;
+    ranks->gather(ranks->context, &sum, sizeof sum, &all);
+    sum = (passed){0};
+    for (unsigned r = 0; r < ranks->count; r++) {
+        memcpy(&one, all.bytes + all.begins[r], sizeof one);
+        sum.held += one.held;
+        sum.written += one.written;
+        sum.failed |= one.failed;
+        sum.out_of_time |= one.out_of_time;
+        sum.ended |= one.ended;
+    }
+    tn_gathered_clear(&all);
+    return sum;
 }
 
-static tn_status run_all(running *run, tn_crew *crew, tn_error *error)
+static tn_status pass(running *run, tn_crew *crew, passed *now, tn_error *error)
+{
+    const tn_ranks *ranks = run->job->ranks;
+    run->next = 0;
+    run->held = 0;
+    if (tn_ranks_several(ranks))
+        ranks->restart(ranks->context);
+    tn_status status = tn_crew_run(crew, tn_crew_threads(crew), 1, work, run, error);
+    *now = all_passed(run);
+    return status;
+}
+
+/* Passes until no shard is held by others, together. */
+static tn_status run_all(running *run, tn_crew *crew, passed *now, tn_error *error)
 {
     double seconds = WAIT_FIRST;
-    tn_status status = pass(run, crew, error);
-    while (status == TN_OK && run->held > 0 && has_time(run)) {
+    tn_status status = pass(run, crew, now, error);
+    while (now->held > 0 && !now->failed && !now->out_of_time && !now->ended) {
         status = wait_a_little(run, &seconds, error);
-        if (status == TN_OK)
-            status = pass(run, crew, error);
+        run->failed |= status != TN_OK;
+        tn_error later;
+        tn_status again = pass(run, crew, now, &later);
+        if (status == TN_OK && again != TN_OK)
+            *error = later;
+        status = status == TN_OK ? again : status;
     }
-    return status;
+    return tn_ranks_agree(run->job->ranks, status, error);
+}
+
+static uint32_t count_left(const running *run)
+{
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < run->job->end - run->job->begin; i++)
+        left += !run->done[i] && !tn_shard_done(run->job->set, run->job->begin + i);
+    return left;
+}
+
+/* Does rank 0 see what the others wrote? They come to an end without failure only where all shards are there. */
+static tn_status see_all(const running *run, const passed *now, uint32_t left, tn_error *error)
+{
+    const tn_shards_job *job = run->job;
+    if (!tn_ranks_several(job->ranks) || left == 0 || now->out_of_time || now->ended)
+        return TN_OK;
+    tn_fail(error, TN_IO, E_RANKS_APART, "rank 0 on %.60s does not see %u shards of %.200s that other ranks wrote",
+            job->ranks->host, left, job->set->folder);
+    tn_error_help(error, "keep the set in a folder that all machines share");
+    return TN_IO;
 }
 
 tn_status tn_shards_run(const tn_shards_job *job, tn_shards_done *done, tn_error *error)
 {
     uint32_t count = job->end - job->begin;
+    passed now = {0};
     tn_made made;
     tn_made_describe(job->opened, job->ready, job->set->rules_path, NULL, &made);
     running run = {.job = job, .made = &made, .start = tn_seconds(), .done = calloc(count + 1, sizeof *run.done)};
     mpz_init(run.ranks);
     tn_library_kept(job->ready->library, TN_ALL_LENGTHS, run.ranks);
     tn_crew *crew = tn_crew_new(job->threads, NULL);
-    tn_status status = run.done && crew ? run_all(&run, crew, error) : tn_fail_memory(error);
-    *done = (tn_shards_done){.written = run.written, .out_of_time = run.out_of_time};
-    for (uint32_t i = 0; i < count; i++)
-        done->left += !(run.done && run.done[i]) && !tn_shard_done(job->set, job->begin + i);
+    tn_status status = tn_ranks_agree(job->ranks, run.done && crew ? TN_OK : tn_fail_memory(error), error);
+    if (status == TN_OK)
+        status = run_all(&run, crew, &now, error);
+    *done = (tn_shards_done){.written = now.written, .out_of_time = now.out_of_time, .ended = now.ended};
+    if (run.done && tn_ranks_lead(job->ranks)) {
+        done->left = count_left(&run);
+        if (status == TN_OK)
+            status = see_all(&run, &now, done->left, error);
+    }
     tn_crew_free(crew);
     mpz_clear(run.ranks);
     free(run.done);
-    return status;
+    return tn_ranks_agree(job->ranks, status, error);
 }

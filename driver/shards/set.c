@@ -220,6 +220,16 @@ tn_status tn_shard_set_create(tn_shard_set *set, const uint8_t *module, size_t m
     return status;
 }
 
+tn_status tn_shard_set_hash(const tn_shard_set *set, char hex[33], tn_error *error)
+{
+    tn_buffer text = {0};
+    bool written = tn_manifest_write(set, &text);
+    if (written)
+        tn_hash_bytes(text.data, text.size, hex);
+    free(text.data);
+    return written ? TN_OK : tn_fail_memory(error);
+}
+
 /* ---- reading */
 
 tn_status tn_shard_set_read(const char *folder, tn_shard_set *set, tn_error *error)

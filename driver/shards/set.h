@@ -56,6 +56,9 @@ tn_status tn_shard_set_module_same(const tn_shard_set *set, tn_error *error);
  * (E1703, E1704). */
 tn_status tn_shard_set_agrees(const tn_shard_set *set, const tn_ready_library *ready, tn_error *error);
 
+/* A hash of all that the manifest says: two sets with the same one are copies. TN_MEMORY. */
+tn_status tn_shard_set_hash(const tn_shard_set *set, char hex[33], tn_error *error);
+
 /* "FOLDER/NAME", and the path of a shard with an ending behind it ("": none). The caller frees them; NULL where out of
  * memory. */
 char *tn_shard_set_path(const tn_shard_set *set, const char *name);

@@ -157,6 +157,7 @@ static tn_status replace_chosen(tn_evolution *e, tn_error *error)
 {
     size_t stay;
     tn_status status = tn_evolution_bring_back(e, &stay, error);
+    status = tn_ranks_agree(e->settings.ranks, status, error);
     if (status == TN_OK)
         status = tn_evolution_score(e, e->pool, stay, error);
     if (status != TN_OK)

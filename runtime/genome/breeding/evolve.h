@@ -4,6 +4,10 @@
  * Every draw is keyed by what it is for, so that a run depends on its settings and seed alone and never on the number
  * of threads. A run is replayed by running it again with the evaluations recalled instead of done; that is also how it
  * is resumed. What is evaluated, and how, the caller's tn_evaluator says: this engine knows sentences and numbers.
+ *
+ * Several processes (settings.ranks) breed one run together: each breeds all of it, evaluates some of the sentences,
+ * and hears from the others what theirs scored. They call what moves the run on in the same order, and it fails for all
+ * of them alike.
  */
 #ifndef TARTAN_GENOME_BREEDING_EVOLVE_H
 #define TARTAN_GENOME_BREEDING_EVOLVE_H
@@ -11,6 +15,7 @@
 #include "runtime/base/watch.h"
 #include "runtime/genome/breeding/select.h"
 #include "runtime/genome/breeding/vary.h"
+#include "runtime/ranks/ranks.h"
 
 /* What became of an evaluation. All but TN_SCORED have infinity for every objective. */
 typedef enum tn_score_state {
@@ -76,6 +81,7 @@ typedef struct tn_evolution_settings {
     bool remembers;             /* every genome that was ever born can be chosen as a parent, by its id */
     unsigned threads;           /* 0: as many as there are */
     tn_watch *watch;            /* borrowed, or NULL: a step gives up (TN_STOPPED) once this says so */
+    const tn_ranks *ranks;      /* borrowed, or NULL: those that breed the same run, and share its evaluations */
 } tn_evolution_settings;
 
 #define TN_POPULATION_MAX 1000000u

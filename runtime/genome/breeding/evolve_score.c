@@ -69,25 +69,10 @@ static tn_status list_unknown(tn_evolution *e, tn_individual **individuals, size
     return TN_OK;
 }
 
-typedef struct scoring {
-    tn_evolution *evolution;
-    tn_individual **individuals;
-    size_t todo;
-} scoring;
-
-static tn_status score_item(void *context, unsigned thread, size_t item, tn_error *error)
+/* Many at once, by an evaluator that can. */
+static tn_status evaluate_batch(const tn_scoring *s, unsigned thread, size_t begin, size_t count, tn_error *error)
 {
-    const scoring *s = context;
-    return evaluate(s->evolution, thread, s->individuals[s->evolution->todo[item]], error);
-}
-
-/* One of the batches that those to do are cut into. */
-static tn_status score_batch(void *context, unsigned thread, size_t item, tn_error *error)
-{
-    const scoring *s = context;
     const tn_evaluator *evaluator = &s->evolution->evaluator;
-    size_t begin = item * evaluator->batch, left = s->todo - begin;
-    size_t count = left < evaluator->batch ? left : evaluator->batch;
     tn_individual **batch = calloc(count + 1, sizeof *batch);
     if (!batch)
         return tn_fail_memory(error);
@@ -102,12 +87,21 @@ static tn_status score_batch(void *context, unsigned thread, size_t item, tn_err
     return status;
 }
 
+tn_status tn_scoring_item(void *scoring, unsigned thread, size_t item, tn_error *error)
+{
+    const tn_scoring *s = scoring;
+    size_t begin = item * s->batch, left = s->todo - begin;
+    if (!s->evolution->evaluator.evaluate_many)
+        return evaluate(s->evolution, thread, s->individuals[s->evolution->todo[begin]], error);
+    return evaluate_batch(s, thread, begin, left < s->batch ? left : s->batch, error);
+}
+
 static tn_status evaluate_all(tn_evolution *e, tn_individual **individuals, size_t todo, tn_error *error)
 {
-    scoring s = {e, individuals, todo};
-    size_t batch = e->evaluator.evaluate_many ? e->evaluator.batch : 1;
-    tn_crew_work *work = e->evaluator.evaluate_many ? score_batch : score_item;
-    return tn_crew_run(e->crew, (todo + batch - 1) / batch, 1, work, &s, error);
+    tn_scoring s = {e, individuals, todo, e->evaluator.evaluate_many ? e->evaluator.batch : 1};
+    if (tn_ranks_several(e->settings.ranks))
+        return todo ? tn_scoring_share(&s, error) : TN_OK;
+    return tn_crew_run(e->crew, (todo + s.batch - 1) / s.batch, 1, tn_scoring_item, &s, error);
 }
 
 static tn_status score_new(tn_evolution *e, tn_individual **individuals, size_t todo, tn_error *error)
@@ -127,6 +121,7 @@ tn_status tn_evolution_score(tn_evolution *e, tn_individual **individuals, size_
 {
     size_t todo;
     tn_status status = list_unknown(e, individuals, count, &todo, error);
+    status = tn_ranks_agree(e->settings.ranks, status, error);
     if (status == TN_OK)
         status = score_new(e, individuals, todo, error);
     if (status != TN_OK)

@@ -4,6 +4,7 @@
  * evolve_choice.c takes parents that a person chose, and remembers genomes for that
  * evolve_birth.c  makes genomes and their sentences
  * evolve_score.c  gives them their scores
+ * evolve_share.c  shares that among several processes
  * evolve_stats.c  looks at it
  */
 #ifndef TARTAN_GENOME_BREEDING_EVOLVE_STATE_H
@@ -67,6 +68,19 @@ tn_status tn_evolution_bring_back(tn_evolution *evolution, size_t *count, tn_err
 
 /* Makes the children of one pair, with their sentences. */
 tn_status tn_evolution_make_pair(tn_evolution *evolution, size_t pair, tn_error *error);
+
+/* The individuals that wait for their scores, in batches for the evaluator. */
+typedef struct tn_scoring {
+    tn_evolution *evolution;
+    tn_individual **individuals;
+    size_t todo, batch; /* places in evolution->todo; how many of them are evaluated at once */
+} tn_scoring;
+
+/* Evaluates one batch: those to do from item * batch on. */
+tn_status tn_scoring_item(void *scoring, unsigned thread, size_t item, tn_error *error);
+
+/* Evaluates all batches together with the other ranks of the settings. */
+tn_status tn_scoring_share(tn_scoring *scoring, tn_error *error);
 
 /* Gives scores to individuals that have a sentence. */
 tn_status tn_evolution_score(tn_evolution *evolution, tn_individual **individuals, size_t count, tn_error *error);

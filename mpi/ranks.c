@@ -1,0 +1,211 @@
+/* The counter is a number in rank 0's memory, which the others add to by one-sided operations; all else is gathered.
+ *
+ * MPI is called by one thread at a time. Waiting sleeps: where there are more ranks than processors, those that wait
+ * leave them to those that work. */
+#include "mpi/ranks.h"
+
+#include <limits.h>
+#include <mpi.h>
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define COUNTERS 3         /* that of this restart, of the one before, and of the next, which is set to 0 meanwhile */
+#define EAGER 100u         /* times that is looked for an answer before sleeping */
+#define SLEEP_FIRST 20000L /* nanoseconds */
+#define SLEEP_MOST 1000000L
+#define ATTEND_EVERY 2000000L
+
+typedef struct joined {
+    tn_ranks ranks;
+    char host[MPI_MAX_PROCESSOR_NAME + 1];
+    MPI_Win window;
+    uint64_t restarts;
+    int *sizes, *begins; /* [ranks] */
+    pthread_mutex_t lock;
+    pthread_t attendant;
+    bool attended;
+    atomic_bool leaving;
+} joined;
+
+static void sleep_for(long nanoseconds)
+{
+    nanosleep(&(struct timespec){.tv_nsec = nanoseconds}, NULL);
+}
+
+/* ---- the counter */
+
+static uint64_t take(void *context, uint64_t amount)
+{
+    joined *j = context;
+    uint64_t from = 0;
+    pthread_mutex_lock(&j->lock);
+    MPI_Fetch_and_op(&amount, &from, MPI_UINT64_T, 0, (MPI_Aint)(j->restarts % COUNTERS), MPI_SUM, j->window);
+    MPI_Win_flush(0, j->window);
+    pthread_mutex_unlock(&j->lock);
+    return from;
+}
+
+/* The next counter is another one, which nobody uses yet: whoever is behind is at most one restart behind, since all
+ * gather between two of them. */
+static void restart(void *context)
+{
+    joined *j = context;
+    const uint64_t zero = 0;
+    j->restarts++;
+    if (j->ranks.rank != 0)
+        return;
+    pthread_mutex_lock(&j->lock);
+    MPI_Accumulate(&zero, 1, MPI_UINT64_T, 0, (MPI_Aint)((j->restarts + 1) % COUNTERS), 1, MPI_UINT64_T, MPI_REPLACE,
+                   j->window);
+    MPI_Win_flush(0, j->window);
+    pthread_mutex_unlock(&j->lock);
+}
+
+/* Rank 0 at work answers the others: some networks need the target of a one-sided operation to call MPI. */
+static void *attend(void *context)
+{
+    joined *j = context;
+    while (!j->leaving) {
+        int there;
+        pthread_mutex_lock(&j->lock);
+        MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
+        pthread_mutex_unlock(&j->lock);
+        sleep_for(ATTEND_EVERY);
+    }
+    return NULL;
+}
+
+/* ---- gathering */
+
+static void wait_for(joined *j, MPI_Request *request)
+{
+    long pause = SLEEP_FIRST;
+    for (unsigned looks = 0;; looks++) {
+        int done;
+        pthread_mutex_lock(&j->lock);
+        MPI_Test(request, &done, MPI_STATUS_IGNORE);
+        pthread_mutex_unlock(&j->lock);
+        if (done)
+            return;
+        if (looks < EAGER) {
+            sched_yield();
+            continue;
+        }
+        sleep_for(pause);
+        pause = pause * 2 < SLEEP_MOST ? pause * 2 : SLEEP_MOST;
+    }
+}
+
+/* A rank that cannot take part ends all. */
+static _Noreturn void give_up(const joined *j, const char *why)
+{
+    fprintf(stderr, "error: rank %u on %s: %s; begin the job again to go on\n", j->ranks.rank, j->host, why);
+    MPI_Abort(MPI_COMM_WORLD, 4);
+    abort();
+}
+
+static void gather_sizes(joined *j, size_t size, tn_gathered *all)
+{
+    MPI_Request request;
+    int mine = size > INT_MAX ? -1 : (int)size;
+    pthread_mutex_lock(&j->lock);
+    MPI_Iallgather(&mine, 1, MPI_INT, j->sizes, 1, MPI_INT, MPI_COMM_WORLD, &request);
+    pthread_mutex_unlock(&j->lock);
+    wait_for(j, &request);
+    size_t sum = 0;
+    for (unsigned r = 0; r < j->ranks.count; r++) {
+        all->begins[r] = sum;
+        if (j->sizes[r] < 0 || sum + (size_t)j->sizes[r] > INT_MAX)
+            give_up(j, "ranks tell each other more than 2 GB at once");
+        j->begins[r] = (int)sum;
+        sum += (size_t)j->sizes[r];
+    }
+    all->begins[j->ranks.count] = sum;
+}
+
+static void gather(void *context, const void *bytes, size_t size, tn_gathered *all)
+{
+    joined *j = context;
+    MPI_Request request;
+    all->begins = calloc((size_t)j->ranks.count + 1, sizeof *all->begins);
+    if (!all->begins)
+        give_up(j, "out of memory");
+    gather_sizes(j, size, all);
+    all->bytes = malloc(all->begins[j->ranks.count] + 1);
+    if (!all->bytes)
+        give_up(j, "out of memory");
+    pthread_mutex_lock(&j->lock);
+    MPI_Iallgatherv(bytes, (int)size, MPI_BYTE, all->bytes, j->sizes, j->begins, MPI_BYTE, MPI_COMM_WORLD, &request);
+    pthread_mutex_unlock(&j->lock);
+    wait_for(j, &request);
+}
+
+/* ---- joining and leaving */
+
+static void make_counters(joined *j)
+{
+    uint64_t *counters;
+    MPI_Aint room = j->ranks.rank == 0 ? COUNTERS * sizeof *counters : 0;
+    MPI_Win_allocate(room, sizeof *counters, MPI_INFO_NULL, MPI_COMM_WORLD, &counters, &j->window);
+    if (j->ranks.rank == 0) {
+        MPI_Win_lock(MPI_LOCK_EXCLUSIVE, 0, 0, j->window);
+        memset(counters, 0, COUNTERS * sizeof *counters);
+        MPI_Win_unlock(0, j->window);
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    MPI_Win_lock_all(0, j->window);
+}
+
+const tn_ranks *tn_mpi_join(void)
+{
+    int level, rank, count, length;
+    if (MPI_Init_thread(NULL, NULL, MPI_THREAD_SERIALIZED, &level) != MPI_SUCCESS)
+        return NULL;
+    joined *j = calloc(1, sizeof *j);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &count);
+    if (j) {
+        j->sizes = calloc((size_t)count, sizeof *j->sizes);
+        j->begins = calloc((size_t)count, sizeof *j->begins);
+    }
+    if (level < MPI_THREAD_SERIALIZED || !j || !j->sizes || !j->begins) {
+        fprintf(stderr, "error: rank %d: %s\n", rank,
+                level < MPI_THREAD_SERIALIZED ? "this MPI does not let several threads call it" : "out of memory");
+        MPI_Abort(MPI_COMM_WORLD, 4);
+        return NULL;
+    }
+    MPI_Get_processor_name(j->host, &length);
+    j->ranks = (tn_ranks){.context = j,
+                          .rank = (unsigned)rank,
+                          .count = (unsigned)count,
+                          .host = j->host,
+                          .take = take,
+                          .restart = restart,
+                          .gather = gather};
+    pthread_mutex_init(&j->lock, NULL);
+    make_counters(j);
+    j->attended = rank == 0 && count > 1 && pthread_create(&j->attendant, NULL, attend, j) == 0;
+    return &j->ranks;
+}
+
+void tn_mpi_leave(const tn_ranks *ranks)
+{
+    if (!ranks)
+        return;
+    joined *j = ranks->context;
+    j->leaving = true;
+    if (j->attended)
+        pthread_join(j->attendant, NULL);
+    MPI_Win_unlock_all(j->window);
+    MPI_Win_free(&j->window);
+    MPI_Finalize();
+    pthread_mutex_destroy(&j->lock);
+    free(j->sizes);
+    free(j->begins);
+    free(j);
+}
