@@ -125,7 +125,8 @@ const tn_command tn_command_shards = {
         "A shard set is a folder. new makes it: manifest.json says which ranks of the library are in which shard, and "
         "rules.tnb is the compiled rule file. run writes the shards that are not there yet, until none is left. Start "
         "it as often as you like, at the same time, on any machines that share the folder. Each shard appears whole or "
-        "not at all, so a worker may be killed at any moment, and run again.\n\n"
+        "not at all, so a worker may be killed at any moment, and run again. SIGUSR1 ends it after the shards that it "
+        "has begun.\n\n"
         "status says how many shards are there, and who writes which. check reads all of them, and compares them with "
         "the manifest. cat writes the bytes that one `tartan enumerate` would write. merge makes one database of all "
         "shards.",

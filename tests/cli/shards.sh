@@ -146,19 +146,29 @@ golden folder_gone "tartan shards run $scratch/set --threads 1"
 
 # ---- interrupted: what is done stays, and it goes on
 "$TARTAN" shards new lahave-houses -o "$scratch/long" --plans 2000000 --format bin --to 40000000 2>/dev/null
-python3 - "$TARTAN" "$scratch/long" "$scratch/said" <<'PYTHON'
+cat >"$scratch/signalled.py" <<'PYTHON'
 import glob, os, signal, subprocess, sys, time
+number, code = getattr(signal, sys.argv[4]), int(sys.argv[5])
 signal.signal(signal.SIGINT, signal.SIG_DFL)
 with open(sys.argv[3], "w") as said:
     run = subprocess.Popen([sys.argv[1], "shards", "run", sys.argv[2], "--threads", "1"], stderr=said)
     while run.poll() is None and not glob.glob(sys.argv[2] + "/shards/000/*.claim"):
         time.sleep(0.01)
-    run.send_signal(signal.SIGINT)
-    sys.exit(run.wait() != 130)
+    run.send_signal(number)
+    sys.exit(run.wait() != code)
 PYTHON
-[ $? = 0 ] || fail "an interrupt: $(cat "$scratch/said")"
+signalled() { # SET SIGNAL CODE: a worker is sent the signal while it writes, and ends with that code
+    python3 "$scratch/signalled.py" "$TARTAN" "$scratch/$1" "$scratch/said" "$2" "$3" || fail "$2: $(cat "$scratch/said")"
+}
+signalled long SIGINT 130
 grep -q 'interrupted; .* to go' "$scratch/said" || fail "an interrupt says: $(cat "$scratch/said")"
 is 'an interrupt leaves nothing behind' "$(find "$scratch/long/shards" -name '*.claim' -o -name '.*' | wc -l)" 0
+
+# ---- SIGUSR1: the shard that was begun is finished, and no other is begun
+"$TARTAN" shards new lahave-houses -o "$scratch/asked" --plans 2000000 --format bin --to 40000000 2>/dev/null
+signalled asked SIGUSR1 0
+grep -qE '^note: 1 shard written, 19 to go: a signal asked for the end' "$scratch/said" || fail "SIGUSR1 says: $(cat "$scratch/said")"
+is 'SIGUSR1 leaves whole shards' "$(find "$scratch/asked/shards" -type f | sort | xargs -n1 basename | xargs)" '000000.bin 000000.bin.record'
 
 # ---- wrong sets
 new right --shards 3
