@@ -119,6 +119,8 @@ part_name
 
 statement
     : UNIT length X length X length         { $$ = sized(parse, TN_KIT_UNIT, @$, $2, $4, $6); }
+    | UNIT length X length X length TURNS NUMBER
+                                            { $$ = sized(parse, TN_KIT_UNIT, @$, $2, $4, $6); if ($$) $$->count[0] = $8; }
     | LENGTH NAME EQUALS length             { $$ = sized(parse, TN_KIT_LENGTH, @$, $4, $4, $4); if ($$) $$->name = $2; }
     | connector
     | SPACE NAME EQUALS space               { $$ = node(parse, TN_KIT_SPACE, @$, $2, tn_kit_nodes_add(no_nodes, $4)); }
@@ -227,7 +229,8 @@ several
 placed
     : part_name                             { $$ = node(parse, TN_KIT_PLACED, @$, $1, no_nodes); }
     | placed IN NUMBER                      { $$ = $1; if ($$) { $$->count[0] = $3; $$->span = @$; } }
-    | placed WITH NAME                      { $$ = $1; if ($$) { $$->other = $3; $$->span = @$; } }
+    | placed WITH NAME                      { $$ = $1;
+                                              if ($$) { $$->outer = tn_kit_nodes_add($$->outer, node(parse, TN_KIT_NAMED, @3, $3, no_nodes)); $$->span = @$; } }
     | placed STOP                           { $$ = $1; if ($$) { $$->stops = true; $$->span = @$; } }
     | placed AT vector                      { $$ = $1; if ($$) { $$->at = $3; $$->span = @$; } }
     | placed TURN NUMBER                    { $$ = $1; if ($$) { $$->count[1] = $3; $$->span = @$; } }
@@ -243,6 +246,9 @@ line
     : INSIDE space                          { $$ = node(parse, TN_KIT_INSIDE, @$, no_text, tn_kit_nodes_add(no_nodes, $2)); }
     | START NAME axis AT vector BY NAME     { $$ = node(parse, TN_KIT_START, @$, $2, no_nodes);
                                               if ($$) { $$->doc = $3; $$->at = $5; $$->other = $7; } }
+    | START NAME axis AT vector TURN NUMBER BY NAME
+                                            { $$ = node(parse, TN_KIT_START, @$, $2, no_nodes);
+                                              if ($$) { $$->doc = $3; $$->at = $5; $$->count[0] = $7; $$->other = $9; } }
     | START STRING BY NAME                  { $$ = node(parse, TN_KIT_STANDS, @$, no_text, no_nodes);
                                               if ($$) { $$->doc = $2; $$->other = $4; } }
     | COLOUR NUMBER                         { $$ = counted(parse, TN_KIT_COLOUR, @$, no_text, $2); }

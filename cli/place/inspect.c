@@ -114,7 +114,7 @@ static void note_unknown(inspection *n)
 
 static void say(inspection *n)
 {
-    note_left_out(n, n->ldraw.tilted, n->ldraw.first_tilted, "it is not turned about the vertical alone");
+    note_left_out(n, n->ldraw.tilted, n->ldraw.first_tilted, "it is turned in a way in which the kit turns no part");
     note_left_out(n, n->ldraw.beside, n->ldraw.first_beside, "it lies beside the kit's cells");
     if (n->ldraw.snapped)
         tn_job_note(n->job, "%zu part%s lay a little beside the cells, or were turned a little: this was set right",
@@ -134,7 +134,7 @@ static tn_status read_model(inspection *n, tn_error *error)
     if (status != TN_OK)
         return status;
     tn_place_unit(n->module, unit);
-    status = tn_ldraw_read((const char *)bytes, size, unit, &n->ldraw, error);
+    status = tn_ldraw_read((const char *)bytes, size, unit, tn_place_turns(n->module), &n->ldraw, error);
     free(bytes);
     if (status == TN_INVALID) {
         tn_error found = *error;

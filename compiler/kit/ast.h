@@ -30,7 +30,7 @@ typedef struct tn_kit_vector {
 
 typedef enum tn_kit_kind {
     /* of a file */
-    TN_KIT_UNIT,      /* size */
+    TN_KIT_UNIT,      /* size, count[0]: turns */
     TN_KIT_LENGTH,    /* name, size[0] */
     TN_KIT_CONNECTOR, /* name, other: what it joins, count[0]: turns, size[0]: distance in a grid */
     TN_KIT_PART,      /* name, doc, inner: FILL, HAS, MASS, PRICE */
@@ -56,10 +56,10 @@ typedef enum tn_kit_kind {
     /* of a rule */
     TN_KIT_DRAWN,  /* inner: PLACES with weights */
     TN_KIT_PLACES, /* inner: PLACED, perhaps none; count[0]: weight */
-    TN_KIT_PLACED, /* name: of a part; count[0]: colour; other: the rule to go on with; stops; at; count[1]: turns */
+    TN_KIT_PLACED, /* name: of a part; count[0]: colour; outer: NAMED rules to go on with; stops; at; count[1]: turns */
     /* of a model */
     TN_KIT_INSIDE,    /* inner: one of a space */
-    TN_KIT_START,     /* name: of a connector, doc: its axis, at, other: a rule */
+    TN_KIT_START,     /* name: of a connector, doc: its axis, at, count[0]: turns, other: a rule */
     TN_KIT_STANDS,    /* doc: a file, other: a rule */
     TN_KIT_COLOUR,    /* count[0] */
     TN_KIT_REQUIRES,  /* inner: CONDITION */

@@ -29,6 +29,23 @@ static bool define(tn_kit *kit, tn_names *names, const tn_kit_node *node, const 
     return false;
 }
 
+/* All turns take a cell to a cell only where it is a cube. */
+static void take_turns(tn_kit *kit, const tn_kit_node *node)
+{
+    int64_t turns = TN_UPRIGHT_TURNS;
+    if (tn_kit_given(&node->count[0]) && !tn_kit_whole(kit, &node->count[0], 4, 24, "a number of turns", &turns))
+        return;
+    bool cube = kit->unit[0] == kit->unit[1] && kit->unit[0] == kit->unit[2];
+    if (turns == TN_UPRIGHT_TURNS || (turns == TN_TURNS && cube)) {
+        kit->turns = (uint32_t)turns;
+        return;
+    }
+    tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_TURNS, node->count[0].span, "%s",
+                                 turns == TN_TURNS ? "all turns need a cell that is a cube" : "turns are 4 or 24");
+    tn_help(kit->diagnostics, d, "4 about the vertical, or 24 where a cell is a cube: `unit 2 x 2 x 2 turns 24;`");
+    kit->damaged = true;
+}
+
 /* A wrong unit is said once: no length can be laid on cells that nobody knows. */
 static void take_unit(tn_kit *kit, const tn_kit_node *node)
 {
@@ -49,6 +66,7 @@ static void take_unit(tn_kit *kit, const tn_kit_node *node)
         return;
     memcpy(kit->unit, unit, sizeof unit);
     kit->unit_node = node;
+    take_turns(kit, node);
     if (kit->unit[0] == kit->unit[2])
         return;
     tn_diagnostic *d =

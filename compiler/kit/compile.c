@@ -43,7 +43,8 @@ static tn_status emit(tn_compilation *c, const tn_imports *imports, tn_kit *kit,
 /* Conditions alone, about parts that are named. */
 static tn_status compile_conditions(tn_compilation *c, const tn_questions *questions, tn_error *error)
 {
-    tn_kit kit = {.arena = c->arena, .diagnostics = &c->diagnostics, .parts.arena = c->arena};
+    tn_kit kit = {
+        .arena = c->arena, .diagnostics = &c->diagnostics, .parts.arena = c->arena, .turns = TN_UPRIGHT_TURNS};
     tn_kit_file *file = tn_parse_kit_conditions(c->arena, &c->diagnostics, 0);
     tn_unit unit = {.file = 0, .recorded = c->sources.files[0].path, .tree = file}, *units[] = {&unit};
     const tn_imports imports = {units, 1};
@@ -65,7 +66,8 @@ static tn_status compile(tn_compilation *c, const tn_compile_options *options, t
 {
     tn_imports imports;
     tn_diagnostics *diagnostics = &c->diagnostics;
-    tn_kit kit = {.arena = c->arena, .diagnostics = diagnostics, .attachments = &options->attachments};
+    tn_kit kit = {
+        .arena = c->arena, .diagnostics = diagnostics, .attachments = &options->attachments, .turns = TN_UPRIGHT_TURNS};
     if (options->questions && options->questions->parts)
         return compile_conditions(c, options->questions, error);
     tn_status status = tn_import_all(c, options, kit_files, parse_unit, &imports);

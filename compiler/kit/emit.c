@@ -57,8 +57,8 @@ static void move(emitting *e, tn_span span, const int32_t at[3], uint32_t turns)
 {
     if (at[0] || at[1] || at[2])
         step(e, span, TN_OP_MOVE, vector(e, at), 0);
-    if (turns % 4)
-        step(e, span, TN_OP_HEADING, turns % 4, 0);
+    if (turns)
+        step(e, span, TN_OP_HEADING, turns, 0);
 }
 
 /* ---- symbols */
@@ -91,13 +91,13 @@ static uint32_t want(emitting *e, symbol wanted)
 
 static tn_string name_of(emitting *e, const symbol *s)
 {
-    static const char *const sides[] = {"up", "down", "aside"};
+    static const char *const sides[] = {" up", " down", " aside"};
     char text[400];
     if (s->model)
         snprintf(text, sizeof text, "%.200s", s->model->node->name.text);
     else if (s->type)
-        snprintf(text, sizeof text, "%.100s at %.100s %s", s->rule->node->name.text, s->type->node->name.text,
-                 sides[s->side]);
+        snprintf(text, sizeof text, "%.100s at %.100s%s", s->rule->node->name.text, s->type->node->name.text,
+                 e->kit->turns == TN_TURNS ? "" : sides[s->side]);
     else
         snprintf(text, sizeof text, "%.100s: %.100s%s", s->rule->node->name.text, s->places->inner.first->name.text,
                  s->places->inner.first->next ? " ..." : "");
@@ -111,12 +111,20 @@ static const tn_kit_part *part_of(const emitting *e, const tn_kit_node *placed)
     return tn_names_get(&e->kit->parts, placed->name.text);
 }
 
-/* The rule that goes on at a part's connectors; NULL: none. */
-static const tn_kit_rule *next_rule(const emitting *e, const tn_kit_rule *rule, const tn_kit_node *placed)
+/* The rule that goes on at a connector of a part, the first that takes it; NULL: none. */
+static const tn_kit_rule *next_rule(const emitting *e, const tn_kit_rule *rule, const tn_kit_node *placed,
+                                    const tn_kit_type *type)
 {
     if (placed->stops)
         return NULL;
-    return placed->other.text ? tn_names_get(&e->kit->rules, placed->other.text) : rule;
+    if (!placed->outer.first)
+        return tn_kit_rule_takes(rule, type) ? rule : NULL;
+    for (const tn_kit_node *named = placed->outer.first; named; named = named->next) {
+        const tn_kit_rule *next = tn_names_get(&e->kit->rules, named->name.text);
+        if (tn_kit_rule_takes(next, type))
+            return next;
+    }
+    return NULL;
 }
 
 /* What is done of each part of an alternative: room is taken for all before the first is placed. */
@@ -148,25 +156,18 @@ static void put_part(emitting *e, const tn_kit_rule *rule, const tn_kit_node *pl
     step(e, placed->span, TN_OP_POP, 0, 0);
 }
 
-/* At a connector aside the head turns so that it points along x. */
-static uint32_t bearing(tn_axis axis)
-{
-    static const uint32_t bearings[TN_AXIS_COUNT] = {
-        [TN_AXIS_RIGHT] = 0, [TN_AXIS_BACK] = 1, [TN_AXIS_LEFT] = 2, [TN_AXIS_FRONT] = 3};
-    return bearings[axis];
-}
-
 static void put_joints(emitting *e, const tn_kit_rule *rule, const tn_kit_node *placed)
 {
     const tn_kit_part *part = part_of(e, placed);
-    const tn_kit_rule *next = next_rule(e, rule, placed);
-    for (uint32_t i = 0; next && i < part->joint_count; i++) {
+    for (uint32_t i = 0; i < part->joint_count; i++) {
         const tn_kit_joint *joint = &part->joints[i];
-        if (!tn_kit_rule_takes(next, joint->type))
+        const tn_kit_rule *next = next_rule(e, rule, placed, joint->type);
+        if (!next)
             continue;
-        uint32_t index = want(e, (symbol){.rule = next, .type = joint->type, .side = tn_kit_side_of(joint->axis)});
+        uint32_t index =
+            want(e, (symbol){.rule = next, .type = joint->type, .side = tn_kit_side_of(e->kit, joint->axis)});
         step(e, placed->span, TN_OP_PUSH, 0, 0);
-        move(e, placed->span, joint->at, bearing(joint->axis));
+        move(e, placed->span, joint->at, tn_kit_bearing(e->kit, joint->axis));
         step(e, placed->span, TN_OP_DERIVE, index, 0);
         step(e, placed->span, TN_OP_POP, 0, 0);
     }
@@ -284,6 +285,7 @@ static void emit_start(emitting *e, const tn_kit_model *model)
     for (const tn_kit_node *node = model->node->inner.first; node; node = node->next) {
         tn_axis axis = TN_AXIS_UP;
         int32_t at[3];
+        uint32_t turns;
         if (node->kind == TN_KIT_STANDS)
             emit_standing(e, node);
         if (node->kind != TN_KIT_START)
@@ -297,9 +299,10 @@ static void emit_start(emitting *e, const tn_kit_model *model)
         }
         uint32_t index = want(e, (symbol){.rule = tn_names_get(&e->kit->rules, node->other.text),
                                           .type = tn_names_get(&e->kit->types, node->name.text),
-                                          .side = tn_kit_side_of(axis)});
+                                          .side = tn_kit_side_of(e->kit, axis)});
         step(e, node->span, TN_OP_PUSH, 0, 0);
-        move(e, node->span, at, bearing(axis));
+        tn_kit_start_turn(e->kit, node, &turns);
+        move(e, node->span, at, tn_turn_after(tn_kit_bearing(e->kit, axis), turns));
         step(e, node->span, TN_OP_DERIVE, index, 0);
         step(e, node->span, TN_OP_POP, 0, 0);
     }
@@ -511,6 +514,7 @@ tn_status tn_emit_kit(tn_builder *builder, tn_kit *kit, const tn_kit_file *file,
                             .unit_x = kit->unit_node ? kit->unit[0] : 1,
                             .unit_y = kit->unit_node ? kit->unit[1] : 1,
                             .unit_z = kit->unit_node ? kit->unit[2] : 1,
+                            .turns = kit->turns,
                             .file = at.file,
                             .begin = at.begin,
                             .end = at.end};
@@ -536,6 +540,7 @@ tn_status tn_emit_kit_conditions(tn_builder *builder, tn_kit *kit, const tn_kit_
                                      .unit_x = 1,
                                      .unit_y = 1,
                                      .unit_z = 1,
+                                     .turns = TN_UPRIGHT_TURNS,
                                      .file = at.file,
                                      .begin = at.begin,
                                      .end = at.end});

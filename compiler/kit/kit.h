@@ -132,6 +132,7 @@ typedef struct tn_kit {
     const tn_attachments *attachments;
     const tn_kit_node *unit_node;
     int64_t unit[3];
+    uint32_t turns; /* that parts have: 4 or 24 */
     uint32_t part_count;
     const char *counted[TN_KIT_COUNTED_MAX];
     size_t mask_words;
@@ -177,6 +178,7 @@ void tn_kit_file_failed(tn_kit *kit, const tn_kit_node *node, tn_status status, 
 tn_request tn_kit_request(const tn_kit *kit, const tn_kit_node *node);
 void tn_kit_check_rule(tn_kit *kit, const tn_kit_rule *rule);
 void tn_kit_check_model(tn_kit *kit, tn_kit_model *model);
+bool tn_kit_start_turn(tn_kit *kit, const tn_kit_node *start, uint32_t *turns);
 void tn_kit_check_conditions(tn_kit *kit, const tn_kit_node *node);
 void tn_kit_check_search(tn_kit *kit, tn_kit_model *model, const tn_kit_node *node);
 void tn_kit_check_searches(tn_kit *kit, const tn_kit_model *model);
@@ -185,9 +187,22 @@ extern const tn_expression_scope tn_kit_scope;
 
 /* ---- placements */
 
-static inline tn_kit_side tn_kit_side_of(tn_axis axis)
+/* How a connector is looked at. Where parts stay upright, one that points aside is turned so that it points right;
+ * where they have all turns, any is turned so that it points up. */
+static inline tn_kit_side tn_kit_side_of(const tn_kit *kit, tn_axis axis)
 {
-    return axis == TN_AXIS_UP ? TN_KIT_UPWARD : axis == TN_AXIS_DOWN ? TN_KIT_DOWNWARD : TN_KIT_ASIDE;
+    return kit->turns == TN_TURNS ? TN_KIT_UPWARD
+           : axis == TN_AXIS_UP   ? TN_KIT_UPWARD
+           : axis == TN_AXIS_DOWN ? TN_KIT_DOWNWARD
+                                  : TN_KIT_ASIDE;
+}
+
+/* The turn that leads to a connector: the other way round it is looked at as tn_kit_side_of says. */
+static inline uint32_t tn_kit_bearing(const tn_kit *kit, tn_axis axis)
+{
+    static const uint32_t bearings[TN_AXIS_COUNT] = {
+        [TN_AXIS_RIGHT] = 0, [TN_AXIS_BACK] = 1, [TN_AXIS_LEFT] = 2, [TN_AXIS_FRONT] = 3};
+    return kit->turns == TN_TURNS ? tn_turn_to(axis) : bearings[axis];
 }
 
 /* How an alternative's first part is put at a connector: from the head's place and heading there. */

@@ -126,6 +126,20 @@ static void check_stands(tn_kit *kit, const tn_kit_model *model, const tn_kit_no
     tn_help(kit->diagnostics, d, "leave out `symmetry`, or start at connectors");
 }
 
+/* How far the place of a start is turned about its connector's axis. */
+bool tn_kit_start_turn(tn_kit *kit, const tn_kit_node *start, uint32_t *turns)
+{
+    int64_t count = 0;
+    tn_axis axis = TN_AXIS_UP;
+    *turns = 0;
+    if (!tn_kit_given(&start->count[0]) || !tn_kit_whole(kit, &start->count[0], 0, 3, "a turn", &count))
+        return true;
+    *turns = (uint32_t)count;
+    if (!start->doc.text || !tn_kit_axis(kit, &start->doc, &axis))
+        return true;
+    return kit->turns == TN_TURNS || axis <= TN_AXIS_DOWN || count == 0;
+}
+
 static void check_start(tn_kit *kit, const tn_kit_node *node)
 {
     tn_kit_type *type = tn_names_get(&kit->types, node->name.text);
@@ -133,14 +147,21 @@ static void check_start(tn_kit *kit, const tn_kit_node *node)
     tn_axis axis;
     int64_t at;
     int32_t cells;
+    uint32_t turns;
     if (!type) {
         tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_UNKNOWN, node->name.span, "there is no connector `%.100s`",
                                      node->name.text);
         tn_kit_suggest(kit, d, &kit->types, node->name.text,
                        "a model starts at a connector that is thought to be there: `start stud at (0, 0, 0) by wall;`");
     }
-    if (node->doc.text)
-        tn_kit_axis(kit, &node->doc, &axis);
+    if (node->doc.text && tn_kit_axis(kit, &node->doc, &axis) && !tn_kit_start_turn(kit, node, &turns)) {
+        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_TURNS, node->count[0].span,
+                                     "parts stay upright, and cannot be turned about an axis that lies");
+        tn_note(kit->diagnostics, d, kit->unit_node ? &kit->unit_node->span : NULL, "the unit says so");
+        tn_help(kit->diagnostics, d, "leave out `turn`, or write `unit 2 x 2 x 2 turns 24;`");
+    } else if (!node->doc.text) {
+        tn_kit_start_turn(kit, node, &turns);
+    }
     for (int k = 0; k < 3; k++)
         if (tn_kit_measure(kit, &node->at.at[k], &at))
             tn_kit_cells(kit, node->at.at[k].span, at, k, 1, "the model starts at", &cells);

@@ -64,10 +64,9 @@ static void add_box(tn_kit *kit, tn_kit_part *part, const tn_kit_node *node)
 /* Which way along x and z the rows of a grid go: across the connector's axis. */
 static void grid_axes(tn_axis axis, int across[2])
 {
-    tn_kit_side side = tn_kit_side_of(axis);
-    bool along_x = axis == TN_AXIS_LEFT || axis == TN_AXIS_RIGHT;
-    across[0] = side == TN_KIT_ASIDE && along_x ? 2 : 0;
-    across[1] = side == TN_KIT_ASIDE ? 1 : 2;
+    bool aside = axis > TN_AXIS_DOWN, along_x = axis == TN_AXIS_LEFT || axis == TN_AXIS_RIGHT;
+    across[0] = along_x ? 2 : 0;
+    across[1] = aside ? 1 : 2;
 }
 
 static void add_joint(tn_kit *kit, tn_kit_part *part, const tn_kit_node *node, tn_kit_type *type, tn_axis axis,

@@ -5,20 +5,6 @@
 #include "compiler/kit/kit.h"
 #include "runtime/place/model/frame.h"
 
-static void turn(uint32_t turns, const int32_t at[3], int32_t to[3])
-{
-    tn_heading_turn(turns % 4, at[0], at[2], &to[0], &to[2]);
-    to[1] = at[1];
-}
-
-/* Quarter turns from right (+x) to an axis that lies aside. */
-static uint32_t bearing(tn_axis axis)
-{
-    static const uint32_t bearings[TN_AXIS_COUNT] = {
-        [TN_AXIS_RIGHT] = 0, [TN_AXIS_BACK] = 1, [TN_AXIS_LEFT] = 2, [TN_AXIS_FRONT] = 3};
-    return bearings[axis];
-}
-
 /* ---- what is alike when it is turned */
 
 /* A box, or a connector, of an alternative that was turned. */
@@ -84,19 +70,22 @@ static void add_feature(const tn_kit *kit, feature *to, const tn_kit_box *box, c
                         uint32_t turns, const int32_t by[3])
 {
     int32_t a[3], b[3];
-    turn(turns, box ? box->low : joint->at, a);
-    turn(turns, box ? box->high : joint->at, b);
+    tn_turn_place(turns, box ? box->low : joint->at, a);
+    tn_turn_place(turns, box ? box->high : joint->at, b);
     for (int k = 0; k < 3; k++) {
         to->v[1 + k] = by[k] + (a[k] < b[k] ? a[k] : b[k]);
         to->v[4 + k] = by[k] + (a[k] < b[k] ? b[k] : a[k]);
     }
     to->v[0] = -1;
-    if (joint) {
-        bool aside = tn_kit_side_of(joint->axis) == TN_KIT_ASIDE;
-        uint32_t axis = aside ? 2 + (bearing(joint->axis) + turns) % 4 : (uint32_t)joint->axis;
-        uint32_t about = aside ? 0 : turns % (4 / turns_alike(kit, joint->type));
-        to->v[0] = (int32_t)((joint->type->index * TN_AXIS_COUNT + axis) * 4 + about);
-    }
+    if (!joint)
+        return;
+    /* what is beside the axis tells how far it is turned about it: alike are all, opposite ones, or none */
+    uint32_t axis = tn_axis_turn(joint->axis, turns), beside = tn_axis_turn(tn_axis_beside(joint->axis), turns),
+             alike = turns_alike(kit, joint->type),
+             about = alike == 4   ? 0
+                     : alike == 2 ? beside / 2
+                                  : beside;
+    to->v[0] = (int32_t)((joint->type->index * TN_AXIS_COUNT + axis) * TN_AXIS_COUNT + about);
 }
 
 /* All features of the alternative, turned, moved so that the lowest coordinates are 0 (which were `low`), and sorted.
@@ -110,11 +99,11 @@ static void list_features(tn_kit *kit, const tn_kit_node *places, uint32_t turns
         int32_t at[3], by[3];
         uint32_t own;
         tn_kit_offset(kit, placed, at, &own);
-        turn(turns, at, by);
+        tn_turn_place(turns, at, by);
         for (uint32_t i = 0; i < part->box_count; i++)
-            add_feature(kit, next++, &part->boxes[i], NULL, turns + own, by);
+            add_feature(kit, next++, &part->boxes[i], NULL, tn_turn_after(turns, own), by);
         for (uint32_t i = 0; i < part->joint_count; i++)
-            add_feature(kit, next++, NULL, &part->joints[i], turns + own, by);
+            add_feature(kit, next++, NULL, &part->joints[i], tn_turn_after(turns, own), by);
     }
     for (int k = 0; k < 3; k++) {
         low[k] = INT32_MAX;
@@ -130,8 +119,8 @@ static void list_features(tn_kit *kit, const tn_kit_node *places, uint32_t turns
 
 /* Turned so often, the alternative is what it was, moved by this. */
 typedef struct symmetry {
-    bool alike[4];
-    int32_t by[4][3];
+    bool alike[TN_TURNS];
+    int32_t by[TN_TURNS][3];
 } symmetry;
 
 static symmetry find_symmetry(tn_kit *kit, const tn_kit_node *places)
@@ -144,7 +133,7 @@ static symmetry find_symmetry(tn_kit *kit, const tn_kit_node *places)
     if (!plain || !turned)
         return found;
     list_features(kit, places, 0, plain, count, low);
-    for (uint32_t t = 1; t < 4; t++) {
+    for (uint32_t t = 1; t < kit->turns; t++) {
         list_features(kit, places, t, turned, count, lows);
         found.alike[t] = memcmp(plain, turned, count * sizeof *plain) == 0;
         for (int k = 0; k < 3; k++)
@@ -153,33 +142,32 @@ static symmetry find_symmetry(tn_kit *kit, const tn_kit_node *places)
     return found;
 }
 
-/* The same placement with the fewest turns. */
+/* The same placement in the first of the turns that look alike: a turn that is alike is undone before it. */
 static tn_kit_placement simplest(const symmetry *like, tn_kit_placement p)
 {
-    for (uint32_t t = p.turns; t > 0; t--) {
-        if (!like->alike[t])
-            continue;
+    tn_kit_placement best = p;
+    for (uint32_t t = 1; t < TN_TURNS; t++) {
+        uint32_t before = like->alike[t] ? tn_turn_after(p.turns, tn_turn_back(t)) : best.turns;
         int32_t by[3];
-        turn(p.turns - t, like->by[t], by);
+        if (before >= best.turns)
+            continue;
+        tn_turn_place(before, like->by[t], by);
+        best.turns = before;
         for (int k = 0; k < 3; k++)
-            p.move[k] += by[k];
-        p.turns -= t;
-        return p;
+            best.move[k] = p.move[k] + by[k];
     }
-    return p;
+    return best;
 }
 
 /* ---- placements */
 
-/* Does a connector of a part, turned so often, face a connector of this side? (Of one aside the head has turned so that
- * it points along x.) */
+/* Does a connector of a part, turned so, face a connector of this side, which is looked at as tn_kit_side_of says? */
 static bool faces(const tn_kit_joint *joint, const tn_kit_type *type, tn_kit_side side, uint32_t turns)
 {
-    tn_kit_side own = tn_kit_side_of(joint->axis);
-    if (side == TN_KIT_ASIDE)
-        return own == TN_KIT_ASIDE && (bearing(joint->axis) + turns) % 4 == 2;
+    static const tn_axis axes[TN_KIT_SIDE_COUNT] = {TN_AXIS_UP, TN_AXIS_DOWN, TN_AXIS_RIGHT};
     uint32_t alike = joint->type->turns < type->turns ? joint->type->turns : type->turns;
-    return own != TN_KIT_ASIDE && own != side && turns % (4 / alike) == 0;
+    return tn_axis_turn(joint->axis, turns) == tn_axis_opposite(axes[side]) &&
+           tn_turns_fit(tn_axis_turn(tn_axis_beside(joint->axis), turns), tn_axis_beside(axes[side]), alike);
 }
 
 static bool is_new(const tn_kit_placement *seen, uint32_t count, const tn_kit_placement *one)
@@ -195,7 +183,7 @@ tn_kit_placement *tn_kit_placements(tn_kit *kit, const tn_kit_node *places, cons
 {
     const tn_kit_part *part = part_of(kit, places->inner.first);
     symmetry like = find_symmetry(kit, places);
-    size_t most = 4 * (size_t)part->joint_count + 1;
+    size_t most = kit->turns * (size_t)part->joint_count + 1;
     tn_kit_placement *all = TN_NEW_ARRAY(kit->arena, tn_kit_placement, most);
     tn_kit_placement *seen = TN_NEW_ARRAY(kit->arena, tn_kit_placement, most);
     *count = 0;
@@ -203,11 +191,11 @@ tn_kit_placement *tn_kit_placements(tn_kit *kit, const tn_kit_node *places, cons
         return NULL;
     for (uint32_t j = 0; j < part->joint_count; j++) {
         const tn_kit_joint *joint = &part->joints[j];
-        for (uint32_t t = 0; t < 4; t++) {
+        for (uint32_t t = 0; t < kit->turns; t++) {
             if (!joins(joint->type, type) || !faces(joint, type, side, t))
                 continue;
             tn_kit_placement p = {.turns = t};
-            turn(t, joint->at, p.move);
+            tn_turn_place(t, joint->at, p.move);
             for (int k = 0; k < 3; k++)
                 p.move[k] = -p.move[k];
             tn_kit_placement simple = simplest(&like, p);
@@ -242,15 +230,17 @@ static bool check_placed(tn_kit *kit, const tn_kit_node *placed, bool first)
         tn_kit_suggest(kit, d, &kit->parts, placed->name.text,
                        "parts are told by `part 3005 { ... }`, or in a file that is used: `use \"bricks\";`");
     }
-    if (placed->other.text && !tn_names_get(&kit->rules, placed->other.text)) {
-        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_UNKNOWN, placed->other.span, "there is no rule `%.100s`",
-                                     placed->other.text);
-        tn_kit_suggest(kit, d, &kit->rules, placed->other.text,
+    for (const tn_kit_node *next = placed->outer.first; next; next = next->next) {
+        if (tn_names_get(&kit->rules, next->name.text))
+            continue;
+        tn_diagnostic *d =
+            tn_report(kit->diagnostics, E_KIT_UNKNOWN, next->name.span, "there is no rule `%.100s`", next->name.text);
+        tn_kit_suggest(kit, d, &kit->rules, next->name.text,
                        "`with` names the rule that goes on at the part's connectors");
     }
-    if (placed->other.text && placed->stops) {
+    if (placed->outer.first && placed->stops) {
         tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_RULE, placed->span, "this stops, and goes on with a rule");
-        tn_help(kit->diagnostics, d, "leave out `stop`, or `with %.60s`", placed->other.text);
+        tn_help(kit->diagnostics, d, "leave out `stop`, or `with %.60s`", placed->outer.first->name.text);
     }
     if (tn_kit_given(&placed->count[0]))
         tn_kit_whole(kit, &placed->count[0], 0, TN_PLACE_COLOUR_MAX, "a colour", &colour);

@@ -109,7 +109,7 @@ static void read_parts(tn_kit *kit, const tn_kit_node *node, tn_kit_parts *parts
         unit[k] = (double)kit->unit[k] / 1e6;
     tn_status status = kit->attachments->bytes(kit->attachments->context, &request, &bytes, &size, &error);
     if (status == TN_OK)
-        status = tn_ldraw_read((const char *)bytes, size, unit, &ldraw, &error);
+        status = tn_ldraw_read((const char *)bytes, size, unit, kit->turns, &ldraw, &error);
     free(bytes);
     if (status == TN_OK && ldraw.model.count + ldraw.tilted + ldraw.beside == 0)
         status = tn_fail(&error, TN_INVALID, TN_CODE_NONE, "it has no parts");

@@ -33,6 +33,9 @@ static tn_status check_step(const tn_step *step, const char *symbol, tn_error *e
 static tn_status check_rules(const tn_place_rules *rules, tn_error *error)
 {
     tn_status status = TN_OK;
+    if (tn_place_turns(rules->module) > TN_UPRIGHT_TURNS)
+        return refuse(error, "connection grammars turn parts about the vertical only",
+                      tn_text(rules->module, rules->space->name), "leave `turns 24` out of the kit's unit");
     if (tn_place_needs_search(rules))
         return refuse(
             error, "connection grammars have no search, images or stock", tn_text(rules->module, rules->space->name),

@@ -25,6 +25,7 @@ typedef struct drawing {
     double unit[3]; /* LDU */
     size_t shown;   /* the first so many parts are drawn */
     tn_sight sight;
+    bool *studs;     /* [connector type]: owned */
     uint32_t corner; /* next */
 } drawing;
 
@@ -89,55 +90,89 @@ static void add_box(drawing *d, const tn_cell_box *box, uint32_t group)
     }
 }
 
-static void add_stud(drawing *d, double x, double y, double z, uint32_t group)
+/* A place in LDU, y downwards: so far across, along and up where a part is turned so. */
+static void put_turned(drawing *d, const double at[3], uint32_t turn, double across, double along, double up)
+{
+    static const int8_t steps[TN_AXIS_COUNT][3] = {{0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}, {0, 0, -1}, {0, 0, 1}};
+    const int8_t *x = steps[tn_axis_turn(TN_AXIS_RIGHT, turn)], *z = steps[tn_axis_turn(TN_AXIS_BACK, turn)],
+                 *y = steps[tn_axis_turn(TN_AXIS_UP, turn)];
+    double p[3];
+    for (int k = 0; k < 3; k++)
+        p[k] = at[k] + across * x[k] + along * z[k] + up * y[k];
+    put_corner(d, p[0], p[1], p[2]);
+}
+
+/* A stud that points up where a part is turned so. */
+static void add_stud(drawing *d, const double at[3], uint32_t turn, uint32_t group)
 {
     for (int i = 0; i < STUD_SIDES; i++) {
         const double *a = octagon[i], *b = octagon[(i + 1) % STUD_SIDES];
-        put_corner(d, x + stud_radius * a[0], y, z + stud_radius * a[1]);
-        put_corner(d, x + stud_radius * b[0], y, z + stud_radius * b[1]);
-        put_corner(d, x + stud_radius * b[0], y - stud_height, z + stud_radius * b[1]);
-        put_corner(d, x + stud_radius * a[0], y - stud_height, z + stud_radius * a[1]);
+        put_turned(d, at, turn, stud_radius * a[0], stud_radius * a[1], 0);
+        put_turned(d, at, turn, stud_radius * b[0], stud_radius * b[1], 0);
+        put_turned(d, at, turn, stud_radius * b[0], stud_radius * b[1], stud_height);
+        put_turned(d, at, turn, stud_radius * a[0], stud_radius * a[1], stud_height);
         end_face(d, group);
     }
     for (int i = 0; i < STUD_SIDES; i++)
-        put_corner(d, x + stud_radius * octagon[i][0], y - stud_height, z + stud_radius * octagon[i][1]);
+        put_turned(d, at, turn, stud_radius * octagon[i][0], stud_radius * octagon[i][1], stud_height);
     end_face(d, group);
 }
 
 /* ---- studs that nothing stands on */
 
-static bool is_stud(const tn_part_connector_record *connector)
+/* A connector is drawn as a stud where its kind points up in some part of the kit, and down in none. */
+static tn_status find_studs(drawing *d, tn_error *error)
 {
-    return connector->axis == TN_AXIS_UP;
+    const tn_module *module = d->module;
+    d->studs = calloc((size_t)module->CONNECTOR_TYPE_count + 1, sizeof *d->studs);
+    if (!d->studs)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < module->PART_CONNECTOR_count; i++)
+        d->studs[module->PART_CONNECTOR_records[i].type] |= module->PART_CONNECTOR_records[i].axis == TN_AXIS_UP;
+    for (uint32_t i = 0; i < module->PART_CONNECTOR_count; i++)
+        if (module->PART_CONNECTOR_records[i].axis == TN_AXIS_DOWN)
+            d->studs[module->PART_CONNECTOR_records[i].type] = false;
+    return TN_OK;
 }
 
 static size_t count_studs(const drawing *d, const tn_kit_part_record *kind)
 {
     size_t count = 0;
     for (uint32_t c = 0; kind && c < kind->connector_count; c++)
-        count += is_stud(&d->module->PART_CONNECTOR_records[kind->connector_first + c]);
+        count += d->studs[d->module->PART_CONNECTOR_records[kind->connector_first + c].type];
     return count;
 }
 
-/* Is the cell above the stud filled? */
-static bool is_covered(tn_cells *cells, const int32_t at[3])
+/* Is a cell in front of the stud filled? */
+static bool is_covered(tn_cells *cells, const int32_t at[3], uint32_t turn)
 {
-    tn_cell_box above = {{at[0] - 1, at[1] - 1, at[2] - 1}, {at[0] + 1, at[1], at[2] + 1}};
-    return tn_cells_any(cells, &above);
+    static const tn_cell_box above = {{-1, -1, -1}, {1, 0, 1}};
+    tn_cell_box box = tn_cell_box_turn(&above, turn);
+    for (int k = 0; k < 3; k++) {
+        box.low[k] += at[k];
+        box.high[k] += at[k];
+    }
+    return tn_cells_any(cells, &box);
 }
 
 static void add_studs(drawing *d, tn_cells *cells, const tn_kit_part_record *kind, const tn_frame *frame,
                       uint32_t group)
 {
     for (uint32_t c = 0; c < kind->connector_count; c++) {
-        const tn_part_connector_record *connector = &d->module->PART_CONNECTOR_records[kind->connector_first + c];
-        int32_t x, z;
-        if (!is_stud(connector))
+        const tn_part_connector_record *from = &d->module->PART_CONNECTOR_records[kind->connector_first + c];
+        const int32_t own[3] = {(int32_t)from->x, (int32_t)from->y, (int32_t)from->z};
+        int32_t at[3];
+        double place[3];
+        if (!d->studs[from->type])
             continue;
-        tn_heading_turn(frame->heading, (int32_t)connector->x, (int32_t)connector->z, &x, &z);
-        int32_t at[3] = {frame->at[0] + x, frame->at[1] + (int32_t)connector->y, frame->at[2] + z};
-        if (!is_covered(cells, at))
-            add_stud(d, d->unit[0] * at[0], d->unit[1] * at[1], d->unit[2] * at[2], group);
+        uint32_t turn = tn_turn_to(tn_axis_turn((tn_axis)from->axis, frame->heading));
+        tn_turn_place(frame->heading, own, at);
+        for (int k = 0; k < 3; k++) {
+            at[k] += frame->at[k];
+            place[k] = d->unit[k] * at[k];
+        }
+        if (!is_covered(cells, at, turn))
+            add_stud(d, place, turn, group);
     }
 }
 
@@ -222,6 +257,8 @@ tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, 
     tn_view *view = NULL;
     tn_place_unit(module, d.unit);
     tn_status status = find_groups(model, &list, &groups, error);
+    if (status == TN_OK)
+        status = find_studs(&d, error);
     for (size_t i = 0; i < model->count && marked && status == TN_OK; i++)
         groups[i] = marked[i];
     if (status == TN_OK)
@@ -234,6 +271,7 @@ tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, 
     }
     tn_view_free(view);
     tn_sight_clear(&d.sight);
+    free(d.studs);
     free(palette);
     free(groups);
     free(list.items);
@@ -279,6 +317,8 @@ tn_status tn_placed_draw_steps(const tn_module *module, const tn_placed_model *m
     tn_place_unit(module, d.unit);
     tn_status status = find_groups(model, &list, &groups, error);
     if (status == TN_OK)
+        status = find_studs(&d, error);
+    if (status == TN_OK)
         status = make_palette(&list, false, &palette, error);
     if (status == TN_OK)
         status = take_steps(&d, &measures->joints, steps, groups, views, error);
@@ -289,6 +329,7 @@ tn_status tn_placed_draw_steps(const tn_module *module, const tn_placed_model *m
     for (size_t i = 0; i < steps->count; i++)
         tn_view_free(views[i]);
     tn_sight_clear(&d.sight);
+    free(d.studs);
     free(palette);
     free(groups);
     free(list.items);

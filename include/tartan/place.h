@@ -21,7 +21,9 @@ TARTAN_SIZED(tartan_place_options)
 
 typedef struct tartan_placed_part {
     int32_t at[3];    /* x and z in half studs (10 LDU), y in plates (8 LDU), downwards */
-    uint32_t heading; /* quarter turns, 0 to 3: 1 takes (x, z) to (-z, x) */
+    uint32_t heading; /* quarter turns, 0 to 3: 1 takes (x, z) to (-z, x). Kits with all turns: up to 23, 4 a + h: h of
+                         these, then up goes to axis a, and right goes right where a is up or down, else up; axes are
+                         up, down, left, right, front, back */
     int32_t colour;
     const char *name; /* the placement's */
 } tartan_placed_part;

@@ -9,7 +9,7 @@
 /* A connector of a placed part. */
 typedef struct socket {
     int32_t at[3];
-    uint32_t axis, type, part, heading;
+    uint32_t axis, beside, type, part; /* beside: where what is beside its axis points */
 } socket;
 
 /* ---- parts */
@@ -46,11 +46,6 @@ static void find_kinds(const tn_module *module, const tn_placed_model *model, tn
 
 /* ---- connectors */
 
-static uint32_t opposite(uint32_t axis)
-{
-    return axis ^ 1u; /* up and down, left and right, front and back follow one another */
-}
-
 static void list_sockets(const tn_module *module, const tn_placed_model *model, const tn_placed_joints *joints,
                          socket *sockets)
 {
@@ -60,13 +55,14 @@ static void list_sockets(const tn_module *module, const tn_placed_model *model, 
         for (uint32_t c = 0; kind && c < kind->connector_count; c++) {
             const tn_part_connector_record *from = &module->PART_CONNECTOR_records[kind->connector_first + c];
             socket *to = sockets++;
-            int32_t x, z;
-            tn_heading_turn(frame->heading, (int32_t)from->x, (int32_t)from->z, &x, &z);
-            *to = (socket){{frame->at[0] + x, frame->at[1] + (int32_t)from->y, frame->at[2] + z},
-                           tn_axis_turn((tn_axis)from->axis, frame->heading),
-                           from->type,
-                           (uint32_t)i,
-                           frame->heading};
+            const int32_t at[3] = {(int32_t)from->x, (int32_t)from->y, (int32_t)from->z};
+            *to = (socket){.axis = tn_axis_turn((tn_axis)from->axis, frame->heading),
+                           .beside = tn_axis_turn(tn_axis_beside((tn_axis)from->axis), frame->heading),
+                           .type = from->type,
+                           .part = (uint32_t)i};
+            tn_turn_place(frame->heading, at, to->at);
+            for (int k = 0; k < 3; k++)
+                to->at[k] += frame->at[k];
         }
     }
 }
@@ -81,11 +77,10 @@ static int by_place(const void *a, const void *b)
                                     : (one->axis > other->axis) - (one->axis < other->axis);
 }
 
-bool tn_connectors_turn(const tn_module *module, uint32_t a, uint32_t b, tn_axis axis, uint32_t turns)
+bool tn_connectors_turn(const tn_module *module, uint32_t a, uint32_t b, tn_axis beside_a, tn_axis beside_b)
 {
     const tn_connector_type_record *types = module->CONNECTOR_TYPE_records;
-    uint32_t alike = types[a].turns < types[b].turns ? types[a].turns : types[b].turns;
-    return axis > TN_AXIS_DOWN || turns % (4 / alike) == 0;
+    return tn_turns_fit(beside_a, beside_b, types[a].turns < types[b].turns ? types[a].turns : types[b].turns);
 }
 
 uint32_t tn_connector_turns(const tn_module *module, uint32_t type)
@@ -101,9 +96,9 @@ uint32_t tn_connector_turns(const tn_module *module, uint32_t type)
 static bool joins(const tn_module *module, const socket *a, const socket *b)
 {
     const tn_connector_type_record *types = module->CONNECTOR_TYPE_records;
-    return a->part != b->part && a->axis == opposite(b->axis) &&
+    return a->part != b->part && a->axis == tn_axis_opposite((tn_axis)b->axis) &&
            (types[a->type].joins == b->type || types[b->type].joins == a->type) &&
-           tn_connectors_turn(module, a->type, b->type, (tn_axis)a->axis, a->heading + 4 - b->heading);
+           tn_connectors_turn(module, a->type, b->type, (tn_axis)a->beside, (tn_axis)b->beside);
 }
 
 static tn_status add_link(tn_placed_joints *joints, size_t *capacity, const socket *a, const socket *b, tn_error *error)

@@ -32,9 +32,9 @@ void tn_placed_joints_clear(tn_placed_joints *joints);
 /* The part of a kit by its name; NULL where it has none. */
 const tn_kit_part_record *tn_kit_part_named(const tn_module *module, const char *name);
 
-/* Do connectors of two types join where their parts are so many quarter turns apart? About an axis aside the parts stay
- * upright, and do. */
-bool tn_connectors_turn(const tn_module *module, uint32_t a, uint32_t b, tn_axis axis, uint32_t turns);
+/* Do connectors of two types join that are turned about their axis so that what is beside it (tn_axis_beside) points
+ * there? */
+bool tn_connectors_turn(const tn_module *module, uint32_t a, uint32_t b, tn_axis beside_a, tn_axis beside_b);
 
 /* How many of the four turns about its axis a connector of a type does not tell apart, whatever it joins. */
 uint32_t tn_connector_turns(const tn_module *module, uint32_t type);

@@ -101,7 +101,7 @@ static bool trace_fits(derivation *d, const tn_trace *trace, const tn_frame *fra
 {
     for (uint32_t i = 0; i < trace->count; i++) {
         const tn_trace_test *test = &d->traces.tests[trace->first + i];
-        tn_cell_box box = box_at(&test->box[frame->heading], frame);
+        tn_cell_box turned = tn_cell_box_of(test->box, frame->heading), box = box_at(&turned, frame);
         if (tn_cells_any(d->cells, &box) != test->filled)
             return false;
     }
@@ -115,7 +115,7 @@ bool tn_nothing_fits(derivation *d, const tn_place_symbol *symbol)
     if (!common->known || d->options.interpret || d->options.report || tn_world_is_empty(d) || d->frames.count == 0)
         return false;
     const tn_frame *frame = &d->frames.items[d->frames.count - 1];
-    tn_cell_box box = box_at(&common->box[frame->heading], frame);
+    tn_cell_box turned = tn_cell_box_of(common->box, frame->heading), box = box_at(&turned, frame);
     return tn_cells_any(d->cells, &box);
 }
 

@@ -28,6 +28,7 @@ typedef struct subfile {
 typedef struct reader {
     tn_ldraw *ldraw;
     const double *unit;
+    uint32_t turns; /* that parts may have */
     reference *references;
     size_t reference_count, reference_capacity;
     subfile *files;
@@ -123,22 +124,32 @@ static tn_status read_lines(reader *r, char *text)
 
 /* ---- placing */
 
-/* Rotations about the vertical, by heading: a, c, g and i of the matrix. */
-static const double turns[4][4] = {{1, 0, 0, 1}, {0, -1, 1, 0}, {-1, 0, 0, -1}, {0, 1, -1, 0}};
 static const double near_turn = 0.01, near_cell = 0.1;
 
-static int heading_of(const double m[9], bool *exact)
+/* How far a matrix is from a turn: the largest difference of two numbers. */
+static double off_turn(const double m[9], uint32_t turn)
 {
-    const double upright[5] = {m[1], m[3], m[4] - 1, m[5], m[7]}, level[4] = {m[0], m[2], m[6], m[8]};
-    for (int h = 0; h < 4; h++) {
-        double off = 0;
-        for (int i = 0; i < 5; i++)
-            off = fmax(off, fabs(upright[i]));
-        for (int i = 0; i < 4; i++)
-            off = fmax(off, fabs(level[i] - turns[h][i]));
-        *exact &= off == 0 || off > near_turn;
-        if (off <= near_turn)
-            return h;
+    static const tn_axis columns[3] = {TN_AXIS_RIGHT, TN_AXIS_DOWN, TN_AXIS_BACK};
+    double off = 0;
+    for (int column = 0; column < 3; column++) {
+        tn_axis to = tn_axis_turn(columns[column], turn);
+        for (int row = 0; row < 3; row++) {
+            double value = to == columns[row] ? 1 : to == tn_axis_opposite(columns[row]) ? -1 : 0;
+            off = fmax(off, fabs(m[3 * row + column] - value));
+        }
+    }
+    return off;
+}
+
+/* The turn that a matrix is, or nearly is; -1: it is none of the first so many. */
+static int heading_of(const double m[9], uint32_t turns, bool *exact)
+{
+    for (uint32_t turn = 0; turn < turns; turn++) {
+        double off = off_turn(m, turn);
+        if (off > near_turn)
+            continue;
+        *exact &= off == 0;
+        return (int)turn;
     }
     return -1;
 }
@@ -160,7 +171,7 @@ static tn_status add_part(reader *r, const reference *from, const double at[NUMB
     tn_placed_model *model = &r->ldraw->model;
     tn_placed_part part = {.frame.colour = colour, .name = from->name};
     bool exact = true;
-    int heading = heading_of(at + 3, &exact);
+    int heading = heading_of(at + 3, r->turns, &exact);
     if (heading < 0) {
         r->ldraw->tilted++;
         r->ldraw->first_tilted = r->ldraw->first_tilted ? r->ldraw->first_tilted : from->name;
@@ -260,10 +271,11 @@ static tn_status share_names(reader *r)
     return TN_OK;
 }
 
-tn_status tn_ldraw_read(const char *text, size_t size, const double unit[3], tn_ldraw *ldraw, tn_error *error)
+tn_status tn_ldraw_read(const char *text, size_t size, const double unit[3], uint32_t turns, tn_ldraw *ldraw,
+                        tn_error *error)
 {
     static const double here[NUMBERS] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-    reader r = {.ldraw = ldraw, .unit = unit, .error = error};
+    reader r = {.ldraw = ldraw, .unit = unit, .turns = turns, .error = error};
     *ldraw = (tn_ldraw){.text = malloc(size + 1)};
     if (!ldraw->text)
         return tn_fail_memory(error);

@@ -7,8 +7,16 @@
 
 #include "runtime/base/random.h"
 
-static const char *const rotations[] = {"1 0 0 0 1 0 0 0 1", "0 0 -1 0 1 0 1 0 0", "-1 0 0 0 1 0 0 0 -1",
-                                        "0 0 1 0 1 0 -1 0 0"};
+/* The matrix of a turn, row by row: its columns are where right, down and back point. */
+static void write_turn(uint32_t turn, FILE *out)
+{
+    static const tn_axis columns[3] = {TN_AXIS_RIGHT, TN_AXIS_DOWN, TN_AXIS_BACK};
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++) {
+            tn_axis to = tn_axis_turn(columns[column], turn);
+            fprintf(out, "%d ", to == columns[row] ? 1 : to == tn_axis_opposite(columns[row]) ? -1 : 0);
+        }
+}
 
 /* A cell's sides in millionths of an LDU. */
 static void unit_of(const tn_module *module, int64_t unit[3])

@@ -19,8 +19,9 @@ static tn_status find_anchor(const tn_place_rules *rules, const bool *wanted, in
             if (choice->part_count == 0 || (wanted && !wanted[part->kind]))
                 continue;
             tn_frame frame = tn_frame_from(&c.sites[s].frame, &part->frame);
+            tn_cell_box all = tn_kind_all(&c.kinds[part->kind], frame.heading);
             for (int k = 0; k < 3; k++)
-                anchor[k] = frame.at[k] + c.kinds[part->kind].all[frame.heading].low[k];
+                anchor[k] = frame.at[k] + all.low[k];
             found = true;
         }
     }
@@ -39,10 +40,11 @@ static bool is_inside(const tn_lattice *l, size_t slot, const int32_t anchor[3],
     int32_t corner[3];
     const tn_look *look = &l->looks[tn_slot_look(l, slot, corner)];
     const tn_kind_of_part *kind = &l->kinds.kinds[look->kind];
+    tn_cell_box all = tn_kind_all(kind, look->heading);
     for (int k = 0; k < 3; k++)
-        corner[k] += anchor[k] - kind->all[look->heading].low[k];
+        corner[k] += anchor[k] - all.low[k];
     for (uint32_t b = 0; b < kind->record->box_count; b++) {
-        tn_cell_box box = tn_box_from(&kind->boxes[look->heading][b], corner);
+        tn_cell_box turned = tn_kind_box(kind, look->heading, b), box = tn_box_from(&turned, corner);
         if (tn_cells_any(cells, &box))
             return false;
     }

@@ -15,7 +15,7 @@ enum { PAIRS_MAX = 1 << 21 };
 /* A connector of a look: its place is from the lowest corner. */
 typedef struct socket {
     int32_t at[3];
-    tn_axis axis;
+    tn_axis axis, beside;
     uint32_t type;
 } socket;
 
@@ -24,25 +24,29 @@ static socket socket_of(const tn_lattice *l, const tn_look *look, uint32_t index
     const tn_kind_of_part *kind = &l->kinds.kinds[look->kind];
     const tn_part_connector_record *c =
         &l->kinds.rules->module->PART_CONNECTOR_records[kind->record->connector_first + index];
-    socket s = {.axis = tn_axis_turn((tn_axis)c->axis, look->heading), .type = c->type};
-    tn_heading_turn(look->heading, (int32_t)c->x, (int32_t)c->z, &s.at[0], &s.at[2]);
-    s.at[1] = (int32_t)c->y;
+    socket s = {.axis = tn_axis_turn((tn_axis)c->axis, look->heading),
+                .beside = tn_axis_turn(tn_axis_beside((tn_axis)c->axis), look->heading),
+                .type = c->type};
+    const int32_t at[3] = {(int32_t)c->x, (int32_t)c->y, (int32_t)c->z};
+    const tn_cell_box all = tn_kind_all(kind, look->heading);
+    tn_turn_place(look->heading, at, s.at);
     for (int k = 0; k < 3; k++)
-        s.at[k] -= kind->all[look->heading].low[k];
+        s.at[k] -= all.low[k];
     return s;
 }
 
 static bool overlap(const tn_lattice *l, const tn_look *a, const tn_look *b, const int32_t by[3])
 {
     const tn_kind_of_part *one = &l->kinds.kinds[a->kind], *two = &l->kinds.kinds[b->kind];
+    const tn_cell_box ours = tn_kind_all(one, a->heading), theirs = tn_kind_all(two, b->heading);
     for (uint32_t i = 0; i < one->record->box_count; i++) {
-        const tn_cell_box *p = &one->boxes[a->heading][i];
+        const tn_cell_box p = tn_kind_box(one, a->heading, i);
         for (uint32_t j = 0; j < two->record->box_count; j++) {
-            const tn_cell_box *q = &two->boxes[b->heading][j];
+            const tn_cell_box q = tn_kind_box(two, b->heading, j);
             bool apart = false;
             for (int k = 0; k < 3; k++) {
-                int32_t moved = by[k] + one->all[a->heading].low[k] - two->all[b->heading].low[k];
-                apart |= p->low[k] >= q->high[k] + moved || q->low[k] + moved >= p->high[k];
+                int32_t moved = by[k] + ours.low[k] - theirs.low[k];
+                apart |= p.low[k] >= q.high[k] + moved || q.low[k] + moved >= p.high[k];
             }
             if (!apart)
                 return true;
@@ -103,11 +107,10 @@ static tn_status join(tn_lattice *l, const tn_look *a, uint32_t other, tn_error 
         for (uint32_t j = 0; j < theirs && status == TN_OK; j++) {
             socket q = socket_of(l, b, j);
             int32_t by[3] = {p.at[0] - q.at[0], p.at[1] - q.at[1], p.at[2] - q.at[2]};
-            bool joined =
-                ((uint32_t)p.axis ^ 1u) == (uint32_t)q.axis &&
-                (types[p.type].joins == q.type || types[q.type].joins == p.type) &&
-                tn_connectors_turn(l->kinds.rules->module, p.type, q.type, p.axis, a->heading + 4 - b->heading) &&
-                !overlap(l, a, b, by);
+            bool joined = tn_axis_opposite(p.axis) == q.axis &&
+                          (types[p.type].joins == q.type || types[q.type].joins == p.type) &&
+                          tn_connectors_turn(l->kinds.rules->module, p.type, q.type, p.beside, q.beside) &&
+                          !overlap(l, a, b, by);
             if (joined)
                 status = add_pair(l, other, by, error);
         }
@@ -160,13 +163,14 @@ static tn_status overlap_boxes(tn_lattice *l, const tn_look *look, uint32_t box,
 {
     const tn_look *b = &l->looks[other];
     const tn_kind_of_part *one = &l->kinds.kinds[look->kind], *two = &l->kinds.kinds[b->kind];
-    const tn_cell_box *p = &one->boxes[look->heading][box], *q = &two->boxes[b->heading][other_box];
+    const tn_cell_box p = tn_kind_box(one, look->heading, box), q = tn_kind_box(two, b->heading, other_box);
+    const tn_cell_box ours = tn_kind_all(one, look->heading), theirs = tn_kind_all(two, b->heading);
     int32_t low[3], high[3], by[3];
     tn_status status = TN_OK;
     for (int k = 0; k < 3; k++) {
-        int32_t moved = two->all[b->heading].low[k] - one->all[look->heading].low[k];
-        low[k] = above(p->low[k] - q->high[k] + moved, l->step[k]);
-        high[k] = p->high[k] - q->low[k] + moved;
+        int32_t moved = theirs.low[k] - ours.low[k];
+        low[k] = above(p.low[k] - q.high[k] + moved, l->step[k]);
+        high[k] = p.high[k] - q.low[k] + moved;
     }
     for (by[1] = low[1]; by[1] < high[1]; by[1] += l->step[1])
         for (by[2] = low[2]; by[2] < high[2]; by[2] += l->step[2])
@@ -189,18 +193,20 @@ static tn_status find_overlapping(tn_lattice *l, tn_look *look, tn_error *error)
 
 static tn_status find_looks(tn_lattice *l, const bool *wanted, tn_error *error)
 {
-    l->looks = calloc(4 * (size_t)l->kinds.kind_count + 1, sizeof *l->looks);
+    uint32_t turns = tn_place_turns(l->kinds.rules->module);
+    l->looks = calloc(turns * (size_t)l->kinds.kind_count + 1, sizeof *l->looks);
     if (!l->looks)
         return tn_fail_memory(error);
     for (uint32_t k = 0; k < l->kinds.kind_count; k++) {
-        for (uint32_t h = 0; h < 4; h++) {
+        for (uint32_t h = 0; h < turns; h++) {
             const tn_kind_of_part *kind = &l->kinds.kinds[k];
             if ((wanted && !wanted[k]) || kind->shape[h] != h || kind->record->box_count == 0)
                 continue;
             tn_look *look = &l->looks[l->look_count++];
             *look = (tn_look){.kind = k, .heading = h};
+            const tn_cell_box all = tn_kind_all(kind, h);
             for (int axis = 0; axis < 3; axis++)
-                look->size[axis] = kind->all[h].high[axis] - kind->all[h].low[axis];
+                look->size[axis] = all.high[axis] - all.low[axis];
         }
     }
     return TN_OK;

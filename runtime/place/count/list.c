@@ -46,7 +46,7 @@ static void settle(lying *set, uint32_t count)
             set[i].corner[k] -= first.corner[k];
 }
 
-/* A quarter turn: (x, z) to (-z, x), as in tn_heading_turn. */
+/* A quarter turn: (x, z) to (-z, x), as in tn_turn_place. */
 static void turn(const tn_lattice *l, lying *set, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -54,7 +54,7 @@ static void turn(const tn_lattice *l, lying *set, uint32_t count)
         int32_t x = -set[i].corner[2] - look->size[2];
         set[i].corner[2] = set[i].corner[0];
         set[i].corner[0] = x;
-        set[i].look = tn_look_of(l, look->kind, (look->heading + 1) % 4);
+        set[i].look = tn_look_of(l, look->kind, tn_turn_after(1, look->heading));
     }
     settle(set, count);
 }
@@ -86,8 +86,9 @@ static void stand(listing *n)
         tn_placed_part *part = &n->parts[i];
         part->name = tn_text(n->list->rules->module, kind->record->name);
         part->frame = (tn_frame){.heading = look->heading, .colour = COLOUR};
+        const tn_cell_box all = tn_kind_all(kind, look->heading);
         for (int k = 0; k < 3; k++)
-            part->frame.at[k] = from->corner[k] - kind->all[look->heading].low[k];
+            part->frame.at[k] = from->corner[k] - all.low[k];
     }
     const tn_frame first = n->parts[0].frame;
     for (uint32_t i = 0; i < count && n->list->kind != TN_BUILDINGS_INSIDE; i++)

@@ -42,7 +42,7 @@ static size_t turn_slot(const turning *t, size_t slot)
         to[2] = (t->axis[1] - t->axis[0]) / 2 + corner[0];
     }
     to[1] = corner[1];
-    return tn_slot_at(t->l, tn_look_of(t->l, look->kind, (look->heading + t->turns) % 4), to);
+    return tn_slot_at(t->l, tn_look_of(t->l, look->kind, tn_turn_after(t->turns, look->heading)), to);
 }
 
 static bool related(const tn_lattice *l, size_t a, size_t b, bool joining)

@@ -34,7 +34,7 @@ static tn_status check_amount(const tn_checker *checker, const tn_instruction *i
     switch (instruction->opcode) {
     case TN_OP_HEADING:
         low = 0;
-        high = 3;
+        high = checker->module->KIT_count > 0 ? (int64_t)checker->module->KIT_records[0].turns - 1 : 3;
         break;
     case TN_OP_COLOUR:
         low = -(int64_t)TN_PLACE_COLOUR_MAX;
@@ -165,6 +165,9 @@ static tn_status verify(const tn_checker *checker)
     const tn_module *module = checker->module;
     if (module->KIT_count > 1)
         return tn_refuse(checker, "there are %zu kits", (size_t)module->KIT_count);
+    const tn_kit_record *kit = module->KIT_count > 0 ? &module->KIT_records[0] : NULL;
+    if (kit && kit->turns != 4 && (kit->turns != 24 || kit->unit_x != kit->unit_y || kit->unit_x != kit->unit_z))
+        return tn_refuse(checker, "%u turns of a cell", (unsigned)kit->turns);
     if (module->KIT_MASK_count > TN_KIT_MASKS_MAX)
         return tn_refuse(checker, "there are %zu masks", (size_t)module->KIT_MASK_count);
     tn_status status = TN_OK;

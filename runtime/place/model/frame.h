@@ -3,6 +3,7 @@
 #define TARTAN_PLACE_MODEL_FRAME_H
 
 #include "runtime/place/model/rules.h"
+#include "runtime/place/model/turns.h"
 
 /* A box of cells: low[k] <= coordinate < high[k]. Empty where a low is not below its high. */
 typedef struct tn_cell_box {
@@ -28,19 +29,16 @@ static inline void tn_cell_box_widen(tn_cell_box *all, const tn_cell_box *box)
 
 typedef struct tn_frame {
     int32_t at[3];
-    uint32_t heading; /* quarter turns, 0 to 3 */
+    uint32_t heading; /* a turn (turns.h); in connection grammars, and where parts stay upright, 0 to 3 */
     int32_t colour;
 } tn_frame;
 
-/* Turns a step of (x, z) by a heading: 1 takes (x, z) to (-z, x). */
-static inline void tn_heading_turn(uint32_t heading, int32_t x, int32_t z, int32_t *to_x, int32_t *to_z)
+/* A box about the origin, turned; how it lies for each of the upright turns is mostly worked out beforehand. */
+tn_cell_box tn_cell_box_turn(const tn_cell_box *box, uint32_t turn);
+static inline tn_cell_box tn_cell_box_of(const tn_cell_box upright[TN_UPRIGHT_TURNS], uint32_t turn)
 {
-    *to_x = heading == 0 ? x : heading == 1 ? -z : heading == 2 ? -x : z;
-    *to_z = heading == 0 ? z : heading == 1 ? x : heading == 2 ? -z : -x;
+    return turn < TN_UPRIGHT_TURNS ? upright[turn] : tn_cell_box_turn(&upright[0], turn);
 }
-
-/* Where a connector that points along an axis points after so many turns. */
-tn_axis tn_axis_turn(tn_axis axis, uint32_t heading);
 
 /* Moves, turns or colours the frame. False where it would go farther than TN_PLACE_FAR. */
 bool tn_frame_step(tn_frame *frame, const tn_step *step);

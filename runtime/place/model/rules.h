@@ -12,7 +12,7 @@ typedef enum tn_step_kind {
     TN_STEP_PUSH,       /* ( : copies the frame */
     TN_STEP_POP,        /* ) : drops it */
     TN_STEP_MOVE,       /* by a[0..2], turned by the heading */
-    TN_STEP_TURN,       /* by a[0] quarter turns, 0 to 3 */
+    TN_STEP_TURN,       /* by the turn a[0] (turns.h) */
     TN_STEP_COLOUR,     /* a[0] */
     TN_STEP_PART,       /* records the part `text`; fills nothing */
     TN_STEP_FILL,       /* a box of a[0] x a[1] x a[2], which must be free */
@@ -66,6 +66,12 @@ tn_status tn_place_rules_of_model(const tn_module *module, uint32_t index, tn_pl
 
 /* A cell's sides in LDU. */
 void tn_place_unit(const tn_module *module, double unit[3]);
+
+/* How many turns parts may have: 4 or 24. */
+static inline uint32_t tn_place_turns(const tn_module *module)
+{
+    return module->KIT_count > 0 ? module->KIT_records[0].turns : 4;
+}
 
 /* Does a module hold a connection grammar? */
 static inline bool tn_module_has_places(const tn_module *module)

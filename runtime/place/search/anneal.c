@@ -37,7 +37,8 @@ static uint64_t draw(chain *c, const tn_world *world, uint64_t below)
 
 static tn_cell_box box_of(const tn_site_choices *choices, const tn_put *put)
 {
-    return tn_box_from(&choices->choices[put->choice].around[put->at.heading], put->at.at);
+    tn_cell_box turned = tn_cell_box_of(choices->choices[put->choice].around, put->at.heading);
+    return tn_box_from(&turned, put->at.at);
 }
 
 static bool meet(const tn_cell_box *a, const tn_cell_box *b)
@@ -54,7 +55,8 @@ static tn_cell_box standing_box(chain *c, const tn_world *world)
     const tn_site_choices *all = world->choices;
     const tn_site_choice *choice = &all->choices[all->standing];
     const tn_chosen_part *part = &all->parts[choice->part_first + draw(c, world, choice->part_count)];
-    return tn_box_from(&all->kinds[part->kind].all[part->frame.heading], part->frame.at);
+    tn_cell_box turned = tn_kind_all(&all->kinds[part->kind], part->frame.heading);
+    return tn_box_from(&turned, part->frame.at);
 }
 
 /* A box about a random part: its own cells, and those beside it as far as a random number says. Now and then also those

@@ -14,12 +14,10 @@ enum { DEPTH_MAX = 64, ITEMS_MAX = 1 << 22 };
 
 tn_frame tn_frame_from(const tn_frame *base, const tn_frame *relative)
 {
-    tn_frame frame = {.heading = (base->heading + relative->heading) % 4, .colour = relative->colour};
-    int32_t x, z;
-    tn_heading_turn(base->heading, relative->at[0], relative->at[2], &x, &z);
-    frame.at[0] = base->at[0] + x;
-    frame.at[1] = base->at[1] + relative->at[1];
-    frame.at[2] = base->at[2] + z;
+    tn_frame frame = {.heading = tn_turn_after(base->heading, relative->heading), .colour = relative->colour};
+    tn_turn_place(base->heading, relative->at, frame.at);
+    for (int k = 0; k < 3; k++)
+        frame.at[k] += base->at[k];
     return frame;
 }
 
@@ -156,7 +154,8 @@ static void set_around(tn_site_choices *c, tn_site_choice *choice)
         for (uint32_t i = 0; i < choice->part_count; i++) {
             const tn_chosen_part *part = &c->parts[choice->part_first + i];
             tn_frame frame = tn_frame_from(&base, &part->frame);
-            tn_cell_box box = tn_box_from(&c->kinds[part->kind].all[frame.heading], frame.at);
+            tn_cell_box all_of = tn_kind_all(&c->kinds[part->kind], frame.heading);
+            tn_cell_box box = tn_box_from(&all_of, frame.at);
             tn_cell_box_widen(&all, &box);
         }
         choice->around[h] = all;
@@ -243,17 +242,17 @@ uint64_t tn_choice_key(const tn_site_choices *choices, const tn_site_choice *cho
         const tn_chosen_part *part = &choices->parts[choice->part_first + i];
         const tn_kind_of_part *kind = &choices->kinds[part->kind];
         tn_frame frame = tn_frame_from(at, &part->frame);
-        const int32_t *low = kind->all[frame.heading].low;
+        const tn_cell_box all = tn_kind_all(kind, frame.heading);
         for (int k = 0; k < 3; k++)
-            key = tn_mix64(key ^ (uint32_t)(frame.at[k] + low[k] - from[k]));
-        key = tn_mix64(key ^ ((uint64_t)part->kind << 2 | kind->shape[frame.heading]));
+            key = tn_mix64(key ^ (uint32_t)(frame.at[k] + all.low[k] - from[k]));
+        key = tn_mix64(key ^ ((uint64_t)part->kind << 5 | kind->shape[frame.heading]));
     }
     return key;
 }
 
 static uint64_t at_site(const tn_open_site *site, uint64_t key)
 {
-    key = tn_mix64(key ^ ((uint64_t)site->symbol << 2 | site->frame.heading));
+    key = tn_mix64(key ^ ((uint64_t)site->symbol << 5 | site->frame.heading));
     return key ? key : 1;
 }
 
@@ -267,15 +266,16 @@ static size_t slot_of(const tn_site_choices *choices, uint64_t key)
 
 static tn_status know_all(tn_site_choices *c, tn_error *error)
 {
+    uint32_t turns = tn_place_turns(c->rules->module);
     c->known_size = 64;
-    while (c->known_size < 8 * c->choice_count)
+    while (c->known_size < 2 * (size_t)turns * c->choice_count)
         c->known_size *= 2;
     c->known = calloc(c->known_size, sizeof *c->known);
     if (!c->known)
         return tn_fail_memory(error);
     for (uint32_t s = 0; s < c->symbol_count; s++) {
         for (uint32_t i = 0; i < c->symbols[s].count; i++) {
-            for (uint32_t h = 0; h < 4; h++) {
+            for (uint32_t h = 0; h < turns; h++) {
                 const tn_open_site site = {s, {.heading = h}};
                 uint64_t key = tn_choice_key(c, &c->choices[c->symbols[s].first + i], &site.frame, site.frame.at);
                 key = at_site(&site, key);

@@ -11,10 +11,10 @@
 /* A part of the kit. shape: [heading] the lowest heading in which the part looks the same, apart from its place. */
 typedef struct tn_kind_of_part {
     const tn_kit_part_record *record;
-    tn_cell_box *boxes[4]; /* [heading]: record->box_count boxes from the part's place */
+    tn_cell_box *boxes[4]; /* [upright heading]: record->box_count boxes from the part's place */
     tn_cell_box all[4];    /* around them */
-    uint32_t shape[4];
-    uint32_t mirrored[2]; /* its image at x = 0 (at z = 0) has so many turns less its heading; 4: is no such part */
+    uint32_t shape[TN_TURNS];
+    uint32_t mirrored[2]; /* its image at x = 0 (at z = 0) where it is not turned; TN_TURNS: is no such part */
     uint64_t most;        /* that the stock has; UINT64_MAX: any number */
 } tn_kind_of_part;
 
@@ -36,7 +36,7 @@ typedef struct tn_site_choice {
     uint32_t body;   /* choices of one body are one alternative in several positions */
     uint32_t member; /* of a draw among those that fit, or 0 */
     double weight;
-    tn_cell_box around[4]; /* [heading]: all of its cells, from the connector */
+    tn_cell_box around[4]; /* [upright heading]: all of its cells, from the connector */
 } tn_site_choice;
 
 typedef struct tn_choice_symbol {
@@ -80,6 +80,17 @@ uint64_t tn_choice_key(const tn_site_choices *choices, const tn_site_choice *cho
 /* Is what the choice puts at a frame one of those things that may come to the site? */
 bool tn_choice_may_stand(const tn_site_choices *choices, const tn_open_site *site, const tn_site_choice *choice,
                          const tn_frame *at);
+
+/* A box of a part, and the box around all of them, in any heading. */
+static inline tn_cell_box tn_kind_box(const tn_kind_of_part *kind, uint32_t heading, uint32_t box)
+{
+    return heading < TN_UPRIGHT_TURNS ? kind->boxes[heading][box] : tn_cell_box_turn(&kind->boxes[0][box], heading);
+}
+
+static inline tn_cell_box tn_kind_all(const tn_kind_of_part *kind, uint32_t heading)
+{
+    return tn_cell_box_of(kind->all, heading);
+}
 
 static inline tn_cell_box tn_box_from(const tn_cell_box *box, const int32_t at[3])
 {

@@ -118,7 +118,8 @@ static tn_status open_near(tn_hang *h, const tn_site_choices *c, tn_standing *pl
     plan->open_count = 0;
     for (size_t i = 0; i < h->site_count; i++) {
         const tn_open_site *site = &h->sites[i];
-        tn_cell_box around = tn_box_from(&c->symbols[site->symbol].around[site->frame.heading], site->frame.at);
+        tn_cell_box turned = tn_cell_box_of(c->symbols[site->symbol].around, site->frame.heading);
+        tn_cell_box around = tn_box_from(&turned, site->frame.at);
         bool near = c->symbols[site->symbol].count > 0;
         for (int k = 0; k < 3 && near && !anywhere; k++)
             near = around.low[k] < region->high[k] && region->low[k] < around.high[k];
@@ -141,8 +142,8 @@ tn_status tn_hang_keep(tn_hang *h, const tn_site_choices *c, tn_standing *plan, 
     if (status != TN_OK)
         return status;
     for (size_t i = 0; i < old; i++) {
-        tn_cell_box box =
-            tn_box_from(&c->choices[plan->puts[i].choice].around[plan->puts[i].at.heading], plan->puts[i].at.at);
+        tn_cell_box turned = tn_cell_box_of(c->choices[plan->puts[i].choice].around, plan->puts[i].at.heading);
+        tn_cell_box box = tn_box_from(&turned, plan->puts[i].at.at);
         if (!h->held[i])
             tn_cell_box_widen(region, &box);
     }

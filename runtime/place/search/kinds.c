@@ -53,14 +53,17 @@ static size_t list_features(const tn_module *module, const tn_kind_of_part *kind
     }
     for (uint32_t i = 0; i < record->connector_count; i++) {
         const tn_part_connector_record *c = &module->PART_CONNECTOR_records[record->connector_first + i];
-        int32_t x = (int32_t)(mirror == 0 ? -c->x : c->x), z = (int32_t)(mirror == 1 ? -c->z : c->z);
         tn_axis axis = mirror >= 0 ? mirror_axis((tn_axis)c->axis, mirror) : (tn_axis)c->axis;
         feature *f = &to[count++];
         *f = (feature){.what = 1, .type = (int32_t)c->type, .axis = (int32_t)tn_axis_turn(axis, heading)};
-        if (axis <= TN_AXIS_DOWN) /* at x = 0 what points along x is turned by half a turn */
-            f->turn = (int32_t)((heading + (mirror == 0 ? 2 : 0)) % (4 / tn_connector_turns(module, c->type)));
-        tn_heading_turn(heading, x, z, &f->low[0], &f->low[2]);
-        f->low[1] = (int32_t)c->y;
+        /* what is beside the axis tells how far it is turned about it: alike are all, opposite ones, or none */
+        tn_axis beside = tn_axis_beside((tn_axis)c->axis);
+        beside = tn_axis_turn(mirror >= 0 ? mirror_axis(beside, mirror) : beside, heading);
+        uint32_t alike = tn_connector_turns(module, c->type);
+        f->turn = alike == 4 ? 0 : alike == 2 ? (int32_t)(beside / 2) : (int32_t)beside;
+        const int32_t at[3] = {(int32_t)(mirror == 0 ? -c->x : c->x), (int32_t)c->y,
+                               (int32_t)(mirror == 1 ? -c->z : c->z)};
+        tn_turn_place(heading, at, f->low);
         memcpy(f->high, f->low, sizeof f->low);
     }
     for (size_t i = 0; i < count && record->box_count > 0; i++)
@@ -90,7 +93,8 @@ static tn_status set_shapes(const tn_module *module, tn_kind_of_part *kind, tn_e
     size_t most = (size_t)kind->record->box_count + kind->record->connector_count;
     feature *plain = calloc(most + 1, sizeof *plain), *other = calloc(most + 1, sizeof *other);
     tn_status status = plain && other ? TN_OK : tn_fail_memory(error);
-    for (uint32_t h = 0; status == TN_OK && h < 4; h++) {
+    uint32_t turns = tn_place_turns(module);
+    for (uint32_t h = 0; status == TN_OK && h < turns; h++) {
         size_t count = list_features(module, kind, h, -1, plain);
         for (kind->shape[h] = 0; kind->shape[h] < h; kind->shape[h]++) {
             list_features(module, kind, kind->shape[h], -1, other);
@@ -100,11 +104,13 @@ static tn_status set_shapes(const tn_module *module, tn_kind_of_part *kind, tn_e
     }
     for (int axis = 0; status == TN_OK && axis < 2; axis++) {
         size_t count = list_features(module, kind, 0, axis, plain);
-        for (kind->mirrored[axis] = 0; kind->mirrored[axis] < 4; kind->mirrored[axis]++) {
+        for (kind->mirrored[axis] = 0; kind->mirrored[axis] < turns; kind->mirrored[axis]++) {
             list_features(module, kind, kind->mirrored[axis], -1, other);
             if (memcmp(plain, other, count * sizeof *plain) == 0)
                 break;
         }
+        if (kind->mirrored[axis] == turns)
+            kind->mirrored[axis] = TN_TURNS;
     }
     free(plain);
     free(other);
@@ -136,17 +142,29 @@ tn_status tn_kinds_make(tn_site_choices *choices, tn_error *error)
     return status;
 }
 
+/* Mirrored, turned and mirrored again is a turn too; the mirrored part is one that is turned. */
+static uint32_t mirror_turn(uint32_t turn, int axis)
+{
+    uint32_t found = 0;
+    tn_axis up = mirror_axis(tn_axis_turn(TN_AXIS_UP, turn), axis);
+    tn_axis right = mirror_axis(tn_axis_turn(mirror_axis(TN_AXIS_RIGHT, axis), turn), axis);
+    while (tn_axis_turn(TN_AXIS_UP, found) != up || tn_axis_turn(TN_AXIS_RIGHT, found) != right)
+        found++;
+    return found;
+}
+
 tn_frame tn_kind_mirror(const tn_kind_of_part *kind, const tn_frame *frame, int axis)
 {
     tn_frame image = *frame;
-    tn_cell_box all = kind->all[frame->heading];
-    image.heading = (kind->mirrored[axis] + 4 - frame->heading) % 4;
+    tn_cell_box all = tn_kind_all(kind, frame->heading);
+    image.heading = tn_turn_after(mirror_turn(frame->heading, axis), kind->mirrored[axis]);
+    tn_cell_box turned = tn_kind_all(kind, image.heading);
     for (int k = 0; k < 3; k++) {
         all.low[k] += frame->at[k];
         all.high[k] += frame->at[k];
     }
     mirror_box(&all, axis);
     for (int k = 0; k < 3; k++)
-        image.at[k] = all.low[k] - kind->all[image.heading].low[k];
+        image.at[k] = all.low[k] - turned.low[k];
     return image;
 }

@@ -82,7 +82,7 @@ static tn_status check_images(const tn_site_choices *choices, tn_error *error)
     uint32_t symmetry = choices->rules->space->symmetry;
     for (size_t i = 0; i < choices->part_count && symmetry >= TN_SYMMETRY_MIRROR_X; i++) {
         const tn_kind_of_part *kind = &choices->kinds[choices->parts[i].kind];
-        if (kind->mirrored[symmetry == TN_SYMMETRY_MIRROR_Z] < 4)
+        if (kind->mirrored[symmetry == TN_SYMMETRY_MIRROR_Z] < TN_TURNS)
             continue;
         tn_fail(error, TN_INVALID, E_KIT_SEARCH, "part %.100s is not its own mirror image, however it is turned",
                 tn_text(choices->rules->module, kind->record->name));

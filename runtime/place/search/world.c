@@ -43,8 +43,9 @@ static tn_frame turned(const tn_frame *frame, uint32_t turns)
 
 static bool looks_the_same(const tn_kind_of_part *kind, const tn_frame *a, const tn_frame *b)
 {
+    const tn_cell_box one = tn_kind_all(kind, a->heading), other = tn_kind_all(kind, b->heading);
     for (int k = 0; k < 3; k++)
-        if (a->at[k] + kind->all[a->heading].low[k] != b->at[k] + kind->all[b->heading].low[k])
+        if (a->at[k] + one.low[k] != b->at[k] + other.low[k])
             return false;
     return kind->shape[a->heading] == kind->shape[b->heading];
 }
@@ -77,7 +78,7 @@ size_t tn_part_images(const tn_site_choices *choices, uint32_t kind, const tn_fr
 static bool boxes_free(tn_world *world, const tn_kind_of_part *kind, const tn_frame *frame)
 {
     for (uint32_t b = 0; b < kind->record->box_count; b++) {
-        tn_cell_box box = tn_box_from(&kind->boxes[frame->heading][b], frame->at);
+        tn_cell_box turned = tn_kind_box(kind, frame->heading, b), box = tn_box_from(&turned, frame->at);
         if (tn_cells_any(world->cells, &box))
             return false;
     }
@@ -88,9 +89,9 @@ static bool boxes_free(tn_world *world, const tn_kind_of_part *kind, const tn_fr
 static bool overlap(const tn_kind_of_part *kind, const tn_frame *a, const tn_kind_of_part *other, const tn_frame *b)
 {
     for (uint32_t i = 0; i < kind->record->box_count; i++) {
-        tn_cell_box one = tn_box_from(&kind->boxes[a->heading][i], a->at);
+        tn_cell_box turned = tn_kind_box(kind, a->heading, i), one = tn_box_from(&turned, a->at);
         for (uint32_t j = 0; j < other->record->box_count; j++) {
-            tn_cell_box two = tn_box_from(&other->boxes[b->heading][j], b->at);
+            tn_cell_box second = tn_kind_box(other, b->heading, j), two = tn_box_from(&second, b->at);
             bool apart = false;
             for (int k = 0; k < 3; k++)
                 apart |= one.low[k] >= two.high[k] || two.low[k] >= one.high[k];
@@ -191,7 +192,8 @@ size_t tn_world_choices(tn_world *world, const tn_open_site *site, bool all, uin
 {
     const tn_choice_symbol *symbol = &world->choices->symbols[site->symbol];
     const tn_site_choice *choices = world->choices->choices;
-    tn_cell_box common = tn_box_from(&symbol->common[site->frame.heading], site->frame.at);
+    tn_cell_box turned = tn_cell_box_of(symbol->common, site->frame.heading);
+    tn_cell_box common = tn_box_from(&turned, site->frame.at);
     size_t count = 0, end = symbol->first + (size_t)symbol->count;
     if (tn_cells_any(world->cells, &common))
         return 0;
@@ -241,7 +243,8 @@ static tn_status change_cells(tn_world *world, const tn_put *put, bool fill, tn_
         world->used[part->kind] += fill ? count : -count;
         for (size_t k = 0; k < count * kind->record->box_count && status == TN_OK; k++) {
             const tn_frame *image = &images[k / kind->record->box_count];
-            tn_cell_box box = tn_box_from(&kind->boxes[image->heading][k % kind->record->box_count], image->at);
+            tn_cell_box turned = tn_kind_box(kind, image->heading, (uint32_t)(k % kind->record->box_count));
+            tn_cell_box box = tn_box_from(&turned, image->at);
             if (fill)
                 status = tn_cells_fill(world->cells, &box, error);
             else
