@@ -14,7 +14,7 @@ static void write_turn(uint32_t turn, FILE *out)
     for (int row = 0; row < 3; row++)
         for (int column = 0; column < 3; column++) {
             tn_axis to = tn_axis_turn(columns[column], turn);
-            fprintf(out, "%d ", to == columns[row] ? 1 : to == tn_axis_opposite(columns[row]) ? -1 : 0);
+            fputs(to == columns[row] ? "1 " : to == tn_axis_opposite(columns[row]) ? "-1 " : "0 ", out);
         }
 }
 
@@ -68,7 +68,8 @@ static void write_part(const tn_placed_part *part, const int64_t unit[3], bool k
     const tn_frame *f = &part->frame;
     fprintf(out, "1 %d ", f->colour);
     write_at(f, unit, " ", out);
-    fprintf(out, " %s ", rotations[f->heading]);
+    putc(' ', out);
+    write_turn(f->heading, out);
     for (const char *c = part->name; *c; c++)
         if (kit || *c != 'r')
             putc(*c, out);
@@ -98,7 +99,7 @@ void tn_place_write_mpd(const tn_module *module, const tn_placed_model *model, c
     size_t part = 0;
     unit_of(module, unit);
     for (size_t i = 0; i < steps->count && !ferror(out); i++)
-        fprintf(out, "1 16 0 0 0 %s %s-%zu.ldr\n0 STEP\n", rotations[0], name, i + 1);
+        fprintf(out, "1 16 0 0 0 1 0 0 0 1 0 0 0 1 %s-%zu.ldr\n0 STEP\n", name, i + 1);
     for (size_t i = 0; i < steps->count && !ferror(out); i++) {
         fprintf(out, "0 FILE %s-%zu.ldr\n0 %s, step %zu of %zu\n", name, i + 1, name, i + 1, steps->count);
         for (; part < steps->ends[i]; part++)

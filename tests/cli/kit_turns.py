@@ -78,8 +78,8 @@ def parts_of(kit, seed):
 
 def world(choice, m, by, upright):
     """A kit with random parts, whose world is turned by m and moved by `by`."""
-    low, high = (-60, -40, -50), (70, 80, 60)
-    hole = [(-20, 0, -10), (0, 30, 20)]
+    low, high, hole = (-60, -40, -50), (70, 80, 60), [(30, 20, -30), (60, 60, 10)]
+    
     name, turns = start_of(m)
     at = apply(m, (0, 0, 0))
     turn = f" turn {turns}" if turns else ""
@@ -92,7 +92,7 @@ part long {{ fill 20 x 10 x 40; plug up at (0, 0, 10); hole down at (0, -10, -10
 part odd {{ fill 20 x 10 x 20; fill 10 x 10 x 20 at (5, -10, 0); plug up; hole {choice.choice(("down at (0, -20, 0)", "left at (-10, -10, 0)"))}; side left at (-10, 0, 10); }}
 rule any at plug, hole, side = {choice.choice(("long | odd", "odd | long", "(long [0.5] | odd [0.5]) | odd"))};
 model it {{ inside {turned_box(m, by, low, high)} and not {turned_box(m, by, *hole)};
-  start plug {name} at ({at[0] + by[0]}, {at[1] + by[1]}, {at[2] + by[2]}){turn} by any; {choice.choice(("", "order breadth;", "search anneal 20; minimize open;"))} }}
+  start plug {name} at ({at[0] + by[0]}, {at[1] + by[1]}, {at[2] + by[2]}){turn} by any; {choice.choice(("", "order breadth;", "search beam 3; minimize open;"))} }}
 """
 
 

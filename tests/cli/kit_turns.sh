@@ -10,7 +10,7 @@ connector hole joins plug turns 4;
 part elbow "elbow" { fill 20 x 20 x 20; plug up; hole left at (-10, -10, 0); mass 1; }
 rule any at plug, hole = elbow;
 model one { inside box(100, 60, 100); start plug up at (0, 0, 0) turn 1 by any; require overlaps = 0, components = 1; }
-model searched { inside box(40, 60, 40); start plug up at (0, 0, 0) by any; maximize elements; search beam 5; }
+model searched { inside box(80, 80, 80); start plug up at (0, 0, 0) by any; maximize elements; search beam 5; }
 K
 golden placed "tartan place $scratch/one.kit --model one -o $scratch/one.ldr && tartan inspect $scratch/one.ldr --kit $scratch/one.kit"
 golden searched "tartan place $scratch/one.kit --model searched --stats"

@@ -5,6 +5,8 @@
 #ifndef TARTAN_PLACE_MODEL_TURNS_H
 #define TARTAN_PLACE_MODEL_TURNS_H
 
+#include <stdbool.h>
+
 #include "runtime/module/values.h"
 
 enum { TN_UPRIGHT_TURNS = 4, TN_TURNS = 24 };
