@@ -1,10 +1,21 @@
 // Reads NAME.parquet by DuckDB and by hyparquet, and holds both against NAME.tsv: rank, length, total and plan line of each plan.
 // Then DuckDB writes the plans to NAME.again.parquet.
+// With --page PAGE instead, asks what stands in blocks of SQL there, and holds the answers against the blocks of text behind them.
 import { readFileSync } from 'node:fs'
 import assert from 'node:assert/strict'
 import { DuckDBInstance } from '@duckdb/node-api'
 import { asyncBufferFromFile, parquetReadObjects } from 'hyparquet'
 import { compressors } from 'hyparquet-compressors'
+
+const db = await (await DuckDBInstance.create(':memory:')).connect()
+const ask = async sql => (await db.runAndReadAll(sql)).getRowObjectsJson()
+if (process.argv[2] === '--page') {
+  const asked = [...readFileSync(process.argv[3], 'utf8').matchAll(/```sql\n([^]*?)```\n\n```text\n([^]*?)```/g)]
+  assert.ok(asked.length >= 3)
+  for (const [, sql, answer] of asked)
+    assert.equal((await ask(sql)).map(row => Object.values(row).join(' | ') + '\n').join(''), answer)
+  process.exit(0)
+}
 
 const name = process.argv[2]
 const own = new Set(['rank', 'length', 'total', 'plan'])
@@ -31,8 +42,6 @@ const compare = (reader, rows, exact) => {
 const file = await asyncBufferFromFile(name + '.parquet')
 compare('hyparquet', await parquetReadObjects({ file, compressors }), false) // decimal numbers become doubles there
 
-const db = await (await DuckDBInstance.create(':memory:')).connect()
-const ask = async sql => (await db.runAndReadAll(sql)).getRowObjectsJson()
 const plans = `'${name}.parquet'`
 compare('DuckDB', await ask(`SELECT * FROM ${plans} ORDER BY rank`), wanted.every(([rank]) => rank.length < 38))
 const middle = wanted[wanted.length >> 1] ?? ['0', '0', '0']

@@ -199,7 +199,7 @@ const tn_command tn_command_match = {
     .summary = "print which rules match each plan",
     .usage = "RULES [PLANS] [--rule NAME]... [--format names|json|bits]",
     .description =
-        "Reads plans (plan lines, JSON lines, CSV, packed or SQLite; from standard input if no file or - is "
+        "Reads plans (plan lines, JSON lines, CSV, packed, SQLite or Parquet; from standard input if no file or - is "
         "given). For each plan it writes a line with the rules that match, of those that the file itself holds, "
         "in their order. The exit code is 0 whether or not a rule matches.\n\n"
         "If the file has rules about houses, or --rule names one, house lines are read instead (docs/houses.md). "

@@ -60,10 +60,6 @@ uint32_t tn_runs_packed(tn_runs *runs)
 {
     uint64_t bit = runs->bit;
     runs->bit += runs->width;
-    if (runs->width == 8)
-        return runs->bytes[bit / 8];
-    if (runs->width == 1)
-        return runs->bytes[bit / 8] >> bit % 8 & 1;
     return (uint32_t)bits_at(runs->bytes, bit, runs->width);
 }
 

@@ -43,7 +43,14 @@ static inline bool tn_runs_next(tn_runs *runs, uint32_t *value)
     if (runs->left == 0 && !tn_runs_refill(runs))
         return false;
     runs->left--;
-    *value = runs->packed ? tn_runs_packed(runs) : runs->value;
+    if (!runs->packed)
+        *value = runs->value;
+    else if (runs->width == 8) /* these two widths are by far the most frequent */
+        *value = runs->bytes[runs->bit / 8], runs->bit += 8;
+    else if (runs->width == 1)
+        *value = runs->bytes[runs->bit / 8] >> runs->bit % 8 & 1, runs->bit++;
+    else
+        *value = tn_runs_packed(runs);
     return true;
 }
 

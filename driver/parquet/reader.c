@@ -385,9 +385,9 @@ tn_status tn_parquet_reader_next(tn_plan_reader *reader, bool *found, tn_error *
 {
     tn_parquet_reading *r = tn_reading_of(reader);
     tn_status status = next_group(reader, found, error);
+    reader->line += status != TN_OK || *found; /* what is wrong between two groups is said of the plan behind */
     if (status != TN_OK || !*found)
         return status;
-    reader->line++;
     r->rows_left--;
     if (tn_rank_column(r)->leaf.known)
         status = read_rank(reader, tn_rank_column(r), error);
