@@ -28,14 +28,29 @@ static bool read_choice(const char *line, size_t members, tn_choices *choices)
     return status == TN_OK;
 }
 
-/* Asks until there is an answer; false at its end. */
-static bool ask(size_t members, tn_choices *c)
+typedef enum answer { PARENTS, CHANGED, NOTHING_MORE } answer;
+
+/* "set gravity 0 0 -0.2": a change of the run, made at once. False where it is none that can be. */
+static bool change(tn_evolution_session *e, char *line)
+{
+    tn_error error;
+    line[strcspn(line, "\r\n")] = '\0';
+    if (tn_run_set(&e->run, line + strspn(line, " "), &error) == TN_OK)
+        return true;
+    puts(error.message);
+    if (error.help[0])
+        puts(error.help);
+    return false;
+}
+
+/* Asks until there is an answer. */
+static answer ask(tn_evolution_session *e, size_t members, tn_choices *c)
 {
     char *line = NULL;
     size_t capacity = 0;
-    bool answered = false;
-    while (!answered) {
-        printf("parents? (numbers; an empty line ends) ");
+    answer given = NOTHING_MORE;
+    for (bool answered = false; !answered;) {
+        printf("parents? (numbers; set NAME VALUE; an empty line ends) ");
         fflush(stdout);
         tn_interrupt_asking(true);
         bool read = !tn_interrupted() && getline(&line, &capacity, stdin) >= 0;
@@ -44,10 +59,12 @@ static bool ask(size_t members, tn_choices *c)
             putchar('\n');
             break;
         }
-        answered = read_choice(line, members, c);
+        bool changes = strncmp(line, "set ", 4) == 0;
+        answered = changes ? change(e, line + 4) : read_choice(line, members, c);
+        given = changes ? CHANGED : c->count > 0 ? PARENTS : NOTHING_MORE;
     }
     free(line);
-    return answered && c->count > 0;
+    return given;
 }
 
 static void breed(tn_evolution_session *e)
@@ -63,8 +80,11 @@ static void breed(tn_evolution_session *e)
         if (status != TN_OK)
             break;
         printf("generation %u: %s\n", e->run.generations - 1, sheet);
-        if (e->run.generations > e->generations || !ask(members, &c))
+        answer given = e->run.generations > e->generations ? NOTHING_MORE : ask(e, members, &c);
+        if (given == NOTHING_MORE)
             break;
+        if (given == CHANGED) /* the same members, as they are now, on the sheet again */
+            continue;
         status = tn_run_step(&e->run, c.items, c.count, &error);
         if (status == TN_INVALID && error.code == E_NO_INDIVIDUAL) { /* an id that nobody has: asked again */
             puts(error.message);
@@ -100,7 +120,8 @@ const tn_command tn_command_breed = {
     .description =
         "Like evolve, but you choose the parents of each generation: a sheet shows every individual with its "
         "number, and you type the numbers of those that are to have children. 3*2 counts twice as much as 3, and #41 "
-        "is the individual with the id 41, of any generation. Fields and designs can be weighed: 3@0.4 gives the "
+        "is the individual with the id 41, of any generation. `set gravity 0 0 -0.2` or `set mutation codons 0.05` "
+        "changes the run from here on, as --set does. Fields and designs can be weighed: 3@0.4 gives the "
         "children less "
         "of 3. Your "
         "choices are stored with the run, so it can be replayed and continued. A population of 12 to 24 suits a "

@@ -14,7 +14,8 @@
              "with --resume, where files that scores depend on have changed: score all members again"),                \
         NUMBER("generations", 'g', "N", generations, 0, 1000000, generations_help),                                    \
         LIST("set", 0, "\"NAME VALUE\"", changes,                                                                      \
-             "with --resume: from here on another target or weight, as \"length-weight 0.01\"; may be repeated"),      \
+             "with --resume: from here on another target, weight, rate or surroundings, as \"length-weight 0.01\", "           \
+             "\"mutation codons 0.05\" or \"gravity 0 0 -0.2\"; may be repeated"),      \
         NUMBER("seed", 's', "S", seed, 0, 0, "another seed than the study's"), OPTION_THREADS(threads),                \
         FLAG("durable", 0, durable, "sync every generation to the disk, against loss of power")
 

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "compiler/evolution/evolution.h"
+#include "driver/breed/change.h"
 #include "driver/breed/choice.h"
 #include "driver/breed/evolve.h"
 #include "driver/breed/evolve_history.h"
@@ -119,18 +120,12 @@ static tn_status same_grammar(tn_run *run, const char *now, tn_error *error)
 
 /* ---- changes of targets and weights */
 
-/* The word that a change is about, with its length. */
-static size_t subject_of(const char *change)
-{
-    return strcspn(change, " ");
-}
-
 /* Is this what the last change of the same subject said? */
 static bool holds_already(const tn_run *run, const char *change)
 {
-    size_t length = subject_of(change);
+    size_t length = tn_change_subject(change);
     for (size_t i = run->change_count; i-- > 0;)
-        if (strcmp(run->changes[i].kind, "set") == 0 && subject_of(run->changes[i].text) == length &&
+        if (strcmp(run->changes[i].kind, "set") == 0 && tn_change_subject(run->changes[i].text) == length &&
             strncmp(run->changes[i].text, change, length) == 0)
             return strcmp(run->changes[i].text, change) == 0;
     return false;
@@ -172,10 +167,28 @@ static tn_status rescore(tn_run *run, tn_error *error)
     return tn_ranks_agree(run->job->settings.ranks, status, error);
 }
 
+/* Genomes vary otherwise from here on; scores stay. */
+static tn_status vary(tn_run *run, const char *change, tn_error *error)
+{
+    const tn_vary_options *now = tn_evolution_varies(run->evolution);
+    if (!now) {
+        tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.100s` is about genomes of codons, and this run has others",
+                change);
+        tn_error_help(error, "start another run with other numbers in its study");
+        return TN_INVALID;
+    }
+    tn_vary_options next = *now;
+    tn_status status = tn_change_variation(change, &next, error);
+    if (status == TN_OK)
+        tn_evolution_vary(run->evolution, &next);
+    return status;
+}
+
 tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
 {
     const tn_evaluator *evaluator = &run->job->evaluator;
-    if (run->generations == 0 || !evaluator->adjust) {
+    bool varies = tn_change_varies(change);
+    if (run->generations == 0 || (!evaluator->adjust && !varies)) {
         tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE,
                 run->generations ? "there is nothing to be changed in this run" : "the run has not begun yet");
         tn_error_help(error, run->generations ? "targets and weights are for growing, building and learning"
@@ -184,23 +197,28 @@ tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
     }
     if (holds_already(run, change))
         return TN_OK;
-    tn_status status = evaluator->adjust(evaluator->context, change, error);
+    tn_status status = varies ? vary(run, change, error) : evaluator->adjust(evaluator->context, change, error);
     if (status == TN_OK)
         status = remember_change(run, run->generations, "set", change, error);
     status = tn_ranks_agree(run->job->settings.ranks, status, error);
-    return status == TN_OK ? rescore(run, error) : status;
+    if (status == TN_OK && varies)
+        run->new_changes++;
+    return status == TN_OK && !varies ? rescore(run, error) : status;
 }
 
 /* One stored change, made again; the members' scores only after the last of a generation, when they were stored. */
 static tn_status repeat_change(tn_run *run, const tn_run_event *event, tn_rescored_list *list, tn_error *error)
 {
     const tn_evaluator *evaluator = &run->job->evaluator;
-    bool adjusts = evaluator->adjust && strcmp(event->kind, "set") == 0;
-    tn_status status = adjusts ? evaluator->adjust(evaluator->context, event->text, error) : TN_OK;
+    bool set = strcmp(event->kind, "set") == 0, varies = set && tn_change_varies(event->text);
+    bool adjusts = evaluator->adjust && set;
+    tn_status status = varies    ? vary(run, event->text, error)
+                       : adjusts ? evaluator->adjust(evaluator->context, event->text, error)
+                                 : TN_OK;
     if (status == TN_OK)
         status = remember_change(run, event->generation, event->kind, event->text, error);
     status = tn_ranks_agree(run->job->settings.ranks, status, error);
-    if (status != TN_OK)
+    if (status != TN_OK || varies)
         return status;
     tn_evolution_recall(run->evolution, tn_rescored_recall, list);
     return tn_evolution_rescore(run->evolution, error);

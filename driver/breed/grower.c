@@ -7,6 +7,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "driver/breed/change.h"
 #include "driver/breed/inputs.h"
 #include "runtime/growth/picture/draw.h"
 #include "runtime/growth/soundness.h"
@@ -14,6 +15,7 @@
 #include "runtime/mesh/openmesh.h"
 
 struct tn_grower {
+    char *path;       /* of the study */
     tn_opened opened; /* of the study */
     tn_study study;
     bool separately;
@@ -30,6 +32,7 @@ void tn_grower_free(tn_grower *g)
     for (unsigned t = 0; g->growths && t < g->threads; t++)
         tn_growth_free(g->growths[t]);
     free(g->growths);
+    free(g->path);
     tn_study_clear(&g->study);
     tn_close(&g->opened);
     free(g);
@@ -70,7 +73,8 @@ tn_status tn_grower_new(const char *study, bool separately, unsigned threads, tn
     g->separately = separately;
     g->threads = threads;
     g->growths = calloc(threads, sizeof(tn_growth *));
-    tn_status status = g->growths ? open_study(g, study, error) : tn_fail_memory(error);
+    g->path = strdup(study);
+    tn_status status = g->growths && g->path ? open_study(g, study, error) : tn_fail_memory(error);
     if (status != TN_OK) {
         tn_grower_free(g);
         *grower = NULL;
@@ -208,6 +212,8 @@ bool tn_wish_read(const char *text, double *target, double *weight)
 static tn_status adjust(void *context, const char *change, tn_error *error)
 {
     tn_grower *g = context;
+    if (tn_change_surrounds(change))
+        return tn_change_surroundings(change, g->path, g->opened.module, &g->study, error);
     char name[TN_NAME_MAX + 1];
     size_t length = strcspn(change, " ");
     uint32_t goal = 0;

@@ -114,6 +114,12 @@ tn_status tn_codon_kind_new(const tn_grammar *grammar, const tn_evolution_settin
     return tn_analyse(grammar, &of->analysis, error);
 }
 
+void tn_codon_kind_vary(tn_genome_kind *kind, const tn_vary_options *vary)
+{
+    codons *of = kind->context;
+    of->settings.vary = *vary;
+}
+
 void tn_codon_kind_free(tn_genome_kind *kind)
 {
     codons *of = kind->context;

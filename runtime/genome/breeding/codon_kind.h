@@ -9,4 +9,7 @@ tn_status tn_codon_kind_new(const tn_grammar *grammar, const tn_evolution_settin
                             tn_error *error);
 void tn_codon_kind_free(tn_genome_kind *kind);
 
+/* From here on children vary so. */
+void tn_codon_kind_vary(tn_genome_kind *kind, const tn_vary_options *vary);
+
 #endif

@@ -242,6 +242,19 @@ tn_status tn_evolution_step(tn_evolution *e, tn_error *error)
     return status;
 }
 
+const tn_vary_options *tn_evolution_varies(const tn_evolution *e)
+{
+    return e->kind == &e->own ? &e->settings.vary : NULL;
+}
+
+void tn_evolution_vary(tn_evolution *e, const tn_vary_options *vary)
+{
+    if (e->kind != &e->own)
+        return;
+    e->settings.vary = *vary;
+    tn_codon_kind_vary(&e->own, vary);
+}
+
 tn_status tn_evolution_rescore(tn_evolution *e, tn_error *error)
 {
     tn_score_cache_clear(&e->cache);

@@ -151,6 +151,11 @@ tn_status tn_evolution_step(tn_evolution *evolution, tn_error *error);
 /* Scores all members again, after the evaluator's targets have changed. */
 tn_status tn_evolution_rescore(tn_evolution *evolution, tn_error *error);
 
+/* How genomes of codons vary; another way, from the next generation on. Genomes of another kind have none: NULL, and
+ * nothing changes. */
+const tn_vary_options *tn_evolution_varies(const tn_evolution *evolution);
+void tn_evolution_vary(tn_evolution *evolution, const tn_vary_options *vary);
+
 /* The members, the best first; and those born in the last step, in order of their ids. Valid until the next step. */
 const tn_individual *const *tn_evolution_members(const tn_evolution *evolution, size_t *count);
 const tn_individual *const *tn_evolution_born(const tn_evolution *evolution, size_t *count);
