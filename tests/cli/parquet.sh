@@ -40,7 +40,7 @@ is 'match reads it' "$("$TARTAN" match "$sheds" "$scratch/some.parquet" --rule d
 for file in zstd v2 lines; do
     back "$files/parquet/duckdb-$file.parquet" | cmp - <(enumerate --trays 0..4 --from 3 --limit 40) || fail "duckdb-$file"
 done
-for file in snappy wrong less kind; do
+for file in snappy encoding wrong less kind; do
     golden "theirs_$file" "tartan prune sheds.plan -l any-sheds parquet/duckdb-$file.parquet"
 done
 
