@@ -82,7 +82,8 @@ static tn_problem *vladislavleva_4(unsigned threads)
     }
     for (size_t k = 0; k <= VARIABLES; k++)
         pointers[k] = columns[k];
-    if (tn_problem_fit(names, pointers, VARIABLES, POINTS, threads, &problem, NULL) != TN_OK)
+    if (tn_problem_fit(names, pointers, VARIABLES, POINTS, &(tn_fit_options){.threads = threads}, &problem, NULL) !=
+        TN_OK)
         stop("out of memory");
     return problem;
 }

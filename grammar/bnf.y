@@ -107,6 +107,7 @@ static int yyreport_syntax_error(const yypcontext_t *context, struct tn_bnf_read
 void tn_bnf_read(tn_bnf_reader *reader, char *text, size_t size)
 {
     void *scanner;
+    tn_bnf_guess_dialect(reader, text, size);
     if (tn_bnf_lex_init_extra(reader, &scanner) != 0) {
         reader->failed = true;
         return;

@@ -1,6 +1,7 @@
 /* Opens a study and the run that it is to make, for `evolve` and `breed`. */
 #include "cli/genome/evolution_session.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,6 +40,47 @@ static void report(tn_evolution_session *e, const tn_evolution_study *study, con
     diagnostic->span = (tn_span){value->file, value->begin, value->end};
 }
 
+/* The grammar's text, with the numbers of the data that the study's compiler found above it: a run is made again from
+ * that alone. The caller frees it. */
+static char *grammar_text(const tn_evolution_study *study, const char *text)
+{
+    static const struct {
+        tn_setting setting;
+        const char *directive;
+    } numbers[] = {{TN_SET_DATASET_VARS, "%dataset-vars"},
+                   {TN_SET_DATASET_INPUTS, "%dataset-inputs"},
+                   {TN_SET_DATASET_OUTPUTS, "%dataset-outputs"}};
+    char *whole = NULL;
+    size_t size;
+    FILE *out = open_memstream(&whole, &size);
+    if (!out)
+        return NULL;
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (study->of[numbers[i].setting].written)
+            fprintf(out, "%s %.0f\n", numbers[i].directive, study->of[numbers[i].setting].first);
+    fputs(text, out);
+    bool written = !ferror(out);
+    if (fclose(out) == 0 && written)
+        return whole;
+    free(whole);
+    return NULL;
+}
+
+static bool begin_run(tn_evolution_session *e, const tn_evolution_study *study, const char *dir,
+                      const tn_run_options *options, tn_error *error)
+{
+    const tn_module *module = e->command->opened.module;
+    bool codons = tn_evolution_study_use(study) == TN_USE_CODONS; /* forms have no grammar */
+    const tn_source_record *grammar = codons ? &module->SOURCE_records[module->GRAMMAR_records[0].file] : NULL,
+                           *text = &module->SOURCE_records[codons ? study->of[TN_SET_GRAMMAR].file : 0];
+    char *whole = grammar_text(study, grammar ? tn_text(module, grammar->text) : "");
+    tn_run_texts texts = {tn_text(module, text->path), tn_text(module, text->text),
+                          grammar ? tn_text(module, grammar->path) : "", whole};
+    tn_status status = whole ? tn_run_begin(&e->job, dir, options, &texts, &e->run, error) : tn_fail_memory(error);
+    free(whole);
+    return status == TN_OK;
+}
+
 /* Makes the job of the study. */
 static bool make_job(tn_evolution_session *e, const tn_evolution_study *study, tn_error *error)
 {
@@ -71,15 +113,9 @@ static bool make_job(tn_evolution_session *e, const tn_evolution_study *study, t
 static bool begin(tn_evolution_session *e, const tn_evolution_study *study, const char *dir, tn_error *error)
 {
     const tn_session_settings *settings = e->settings;
-    const tn_module *module = e->command->opened.module;
     tn_run_options run_options = {
         .resume = settings->resume, .durable = settings->durable, .rescore = settings->rescore};
-    bool codons = tn_evolution_study_use(study) == TN_USE_CODONS; /* forms have no grammar */
-    const tn_source_record *grammar = codons ? &module->SOURCE_records[module->GRAMMAR_records[0].file] : NULL,
-                           *text = &module->SOURCE_records[codons ? study->of[TN_SET_GRAMMAR].file : 0];
-    tn_run_texts texts = {tn_text(module, text->path), tn_text(module, text->text),
-                          grammar ? tn_text(module, grammar->path) : "", grammar ? tn_text(module, grammar->text) : ""};
-    bool begun = tn_run_begin(&e->job, dir, &run_options, &texts, &e->run, error) == TN_OK;
+    bool begun = begin_run(e, study, dir, &run_options, error);
     for (size_t i = 0; begun && i < settings->changes.count; i++)
         begun = tn_run_set(&e->run, settings->changes.items[i], error) == TN_OK;
     if (!begun)
@@ -91,6 +127,11 @@ static bool wants_what_can_be(tn_job *command, const tn_session_settings *settin
 {
     if (settings->changes.count && !settings->resume) {
         tn_job_usage(command, "--set changes a run that has begun: say --resume too, or change the study itself");
+        return false;
+    }
+    if (settings->output && strcmp(settings->output, "-") == 0) {
+        tn_job_usage(command,
+                     "a run is a folder, which cannot be written to standard output: name one, as -o hello.run");
         return false;
     }
     if (settings->rescore && !settings->resume) {

@@ -1,12 +1,14 @@
 /* tartan evolve: breeds sentences of a grammar towards what a study wants. */
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
 #include "cli/genome/evolution_session.h"
+#include "driver/breed/reasons.h"
 #include "runtime/base/utf8.h"
 
 static double now(void)
@@ -22,9 +24,28 @@ static void describe(const tn_evolution_session *e, uint64_t evaluated_before, d
     tn_generation_stats s = tn_evolution_stats(e->run.evolution);
     uint32_t invalid = s.no_sentence + s.failed + s.limited, members = invalid + s.scored;
     double seconds = now() - start;
-    snprintf(text, size, "generations; best %.5g, mean %.5g, %.0f %% without score, %u distinct, %.0f evaluations/s",
-             s.best[0], s.mean, members ? 100.0 * invalid / members : 0, s.distinct,
+    snprintf(text, size, "generations; best %.5g, median %.5g, %.0f %% without score, %u distinct, %.0f evaluations/s",
+             s.best[0], s.quartiles[1], members ? 100.0 * invalid / members : 0, s.distinct,
              seconds > 0 ? (double)(s.evaluations - evaluated_before) / seconds : 0);
+}
+
+/* A grammar whose sentences mostly cannot be scored is rarely meant: said once, before breeding begins. */
+static void warn_of_failures(tn_evolution_session *e)
+{
+    tn_error error;
+    tn_generation_stats s = tn_evolution_stats(e->run.evolution);
+    tn_reasons reasons;
+    if (e->run.generations != 1 || s.failed + s.limited <= s.scored)
+        return;
+    if (tn_run_reasons(&e->run, &reasons, &error) != TN_OK || reasons.count == 0)
+        return;
+    tn_diagnostics *list = tn_job_diagnostics(e->command);
+    tn_diagnostic *diagnostic = tn_report_bare(
+        list, TN_WARNING, W_SENTENCES_FAIL, "of %u sentences of the first generation, %u have no score: %s",
+        s.scored + s.failed + s.limited, s.failed + s.limited, reasons.items[0].text);
+    tn_help(list, diagnostic, "that is why %u of them have none; the grammar may be for another program or other data",
+            reasons.items[0].count);
+    tn_job_show(e->command);
 }
 
 /* Is there another generation to breed? With several ranks, together. */
@@ -49,6 +70,8 @@ static tn_status breed_all(tn_evolution_session *e, tn_error *error)
             tn_interrupt_last_words("interrupted after %u generations; --resume goes on from there",
                                     e->run.generations);
         status = tn_run_step(&e->run, NULL, 0, error);
+        if (status == TN_OK && lead)
+            warn_of_failures(e);
         if (status == TN_OK && progress.shows)
             describe(e, before, start, text, sizeof text);
         tn_progress_update(&progress, e->run.generations);
@@ -88,6 +111,47 @@ static const char *why_no_score(const tn_individual *individual)
     return individual->reason != TN_MAPPING_VALID ? tn_mapping_reason_text(individual->reason) : individual->message;
 }
 
+/* What the first generation was like, from which all others come. */
+static void tell_first(const tn_evolution_session *e, FILE *out)
+{
+    tn_generation_stats *stats = NULL;
+    size_t count = 0;
+    tn_error error;
+    if (tn_run_store_stats(e->run.store, &stats, &count, &error) == TN_OK && count) {
+        const tn_generation_stats *s = &stats[0];
+        fprintf(out, "first generation: %u distinct, %u without sentence, mean depth %.3g", s->distinct, s->no_sentence,
+                s->mean_depth);
+        fprintf(out, e->job.grammar ? ", %.4g codons on the mean\n" : "\n", s->mean_codons);
+    }
+    free(stats);
+}
+
+static void tell_reasons(const tn_evolution_session *e, FILE *out)
+{
+    tn_reasons reasons;
+    tn_error error;
+    if (tn_run_reasons(&e->run, &reasons, &error) != TN_OK)
+        return;
+    for (size_t i = 0; i < reasons.count; i++)
+        fprintf(out, "  %u %s: %s\n", reasons.items[i].count,
+                reasons.items[i].state == TN_SCORE_LIMIT ? "past a limit" : "failed",
+                reasons.items[i].text[0] ? reasons.items[i].text : "no reason was given");
+}
+
+/* What the best is worth where nobody has looked yet. */
+static void tell_test(const tn_evolution_session *e, const tn_individual *best, FILE *out)
+{
+    tn_fit_report report;
+    tn_error error;
+    if (!e->job.problem || !e->job.study.of[TN_SET_FIT].written ||
+        tn_problem_examine(e->job.problem, best->sentence, best->sentence_size, &report, &error) != TN_OK)
+        return;
+    if (e->job.study.of[TN_SET_SCALING].choice)
+        fprintf(out, "scaled: %.10g + %.10g times this\n", report.line[0], report.line[1]);
+    if (tn_problem_holds(e->job.problem))
+        fprintf(out, "with the test data: %.6g\n", report.test);
+}
+
 static void summarise(const tn_evolution_session *e, FILE *out)
 {
     size_t count;
@@ -98,15 +162,19 @@ static void summarise(const tn_evolution_session *e, FILE *out)
     fprintf(out, "%u generation%s, %" PRIu64 " evaluations, %" PRIu64 " births\n", s.generation,
             s.generation == 1 ? "" : "s", s.evaluations, s.births);
     if (s.scored)
-        fprintf(out, "last generation: best %.6g, mean %.6g, %u distinct", s.best[0], s.mean, s.distinct);
+        fprintf(out, "last generation: best %.6g, median %.6g, mean %.6g, %u distinct", s.best[0], s.quartiles[1],
+                s.mean, s.distinct);
     else
         fprintf(out, "last generation: no individual has a score (%s)", count ? why_no_score(members[0]) : "");
     fprintf(out, ", %u without sentence, %u failed, %u past a limit\n", s.no_sentence, s.failed, s.limited);
+    tell_reasons(e, out);
     if (count && members[0]->score.state == TN_SCORED) {
         fprintf(out, "best: individual %" PRIu64 "\n", members[0]->id);
         tn_write_shown(out, members[0]->sentence, strlen(members[0]->sentence));
         fputc('\n', out);
+        tell_test(e, members[0], out);
     }
+    tell_first(e, out);
     fprintf(out, "results are in %s\n", e->run.dir);
 }
 

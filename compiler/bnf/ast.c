@@ -248,8 +248,19 @@ static void bad_value(tn_bnf_reader *reader, tn_span span, const char *directive
     tn_help(reader->diagnostics, diagnostic, "write %s %s", directive, expected);
 }
 
-enum { DIRECTIVES = 5 };
-static const char *const directives[DIRECTIVES] = {"%dialect", "%single-choice", "%repair", "%max-depth", "%wraps"};
+enum { DIRECTIVES = 8, DATA_FIRST = 5 };
+static const char *const directives[DIRECTIVES] = {"%dialect", "%single-choice", "%repair",         "%max-depth",
+                                                   "%wraps",   "%dataset-vars",  "%dataset-inputs", "%dataset-outputs"};
+const char *const tn_bnf_data_directives[TN_BNF_DATA] = {"%dataset-vars", "%dataset-inputs", "%dataset-outputs"};
+
+static void note_data(tn_bnf_reader *reader, tn_span span, int which, tn_bnf_text value)
+{
+    uint32_t said;
+    if (!number(value, &said) || said == 0)
+        bad_value(reader, span, directives[which], "a whole number above 0");
+    else
+        reader->ast.data[which - DATA_FIRST] = said;
+}
 
 bool tn_bnf_names_directive(tn_bnf_text line)
 {
@@ -304,6 +315,11 @@ void tn_bnf_directive(tn_bnf_reader *reader, tn_span span, tn_bnf_text line)
             bad_value(reader, span, directives[4], "a whole number");
         ast->says_wraps = true;
         break;
+    case DATA_FIRST:
+    case DATA_FIRST + 1:
+    case DATA_FIRST + 2:
+        note_data(reader, span, choice(said.items[0], directives, DIRECTIVES), value);
+        break;
     default: {
         tn_diagnostic *diagnostic =
             tn_report(reader->diagnostics, E_GRAMMAR_DIRECTIVE, span, "there is no such directive");
@@ -313,7 +329,8 @@ void tn_bnf_directive(tn_bnf_reader *reader, tn_span span, tn_bnf_text line)
             tn_help(reader->diagnostics, diagnostic, "did you mean %s?", near);
         else
             tn_help(reader->diagnostics, diagnostic,
-                    "there are %%dialect, %%single-choice, %%repair, %%max-depth and %%wraps");
+                    "there are %%dialect, %%single-choice, %%repair, %%max-depth, %%wraps, %%dataset-vars, "
+                    "%%dataset-inputs and %%dataset-outputs");
         break;
     }
     }

@@ -66,6 +66,11 @@ typedef struct tn_bnf_rule {
     struct tn_bnf_rule *next;
 } tn_bnf_rule;
 
+#define TN_BNF_DATA 3u /* numbers of a data set that GE_RANGE can name */
+
+/* The directives that say them, in the same order. */
+extern const char *const tn_bnf_data_directives[TN_BNF_DATA];
+
 typedef struct tn_bnf_file {
     tn_dialect dialect;
     bool says_dialect;
@@ -75,6 +80,7 @@ typedef struct tn_bnf_file {
     bool skip_single;
     bool says_max_depth, says_wraps;
     uint32_t max_depth, wraps;
+    uint32_t data[TN_BNF_DATA]; /* 0: not known */
     tn_bnf_rule *first, *last;
     size_t rule_count;
 } tn_bnf_file;
@@ -95,6 +101,10 @@ typedef struct tn_bnf_reader {
 /* Parses a text, `size` bytes followed by two zero bytes, which the lexer writes to while it works but leaves as they
  * were. What is wrong is in the diagnostics. */
 void tn_bnf_read(tn_bnf_reader *reader, char *text, size_t size);
+
+/* Where the text does not say its dialect but has braces or brackets that stand alone: takes the dialect that these are
+ * probably of, and reports which. Before it is read. */
+void tn_bnf_guess_dialect(tn_bnf_reader *reader, const char *text, size_t size);
 
 /* Does the text start with the name of a directive? */
 bool tn_bnf_names_directive(tn_bnf_text line);

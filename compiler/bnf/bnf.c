@@ -137,13 +137,21 @@ static void emit(const tn_bnf_grammar *g, const tn_source *source, tn_builder *b
     tn_builder_add_GRAMMAR(builder, &record);
 }
 
-tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, tn_diagnostics *diagnostics, tn_arena *arena,
-                         tn_builder *builder, tn_error *error)
+bool tn_bnf_asks_data(const char *text, size_t size)
+{
+    static const char word[] = "GE_RANGE:dataset_n_";
+    return memmem(text, size, word, sizeof word - 1) != NULL;
+}
+
+tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, const uint32_t *data, tn_diagnostics *diagnostics,
+                         tn_arena *arena, tn_builder *builder, tn_error *error)
 {
     tn_source *source = &sources->files[file];
     size_t errors_before = diagnostics->error_count;
     tn_bnf_reader reader = {.arena = arena, .diagnostics = diagnostics, .file = file};
     tn_bnf_grammar g = {.reader = &reader};
+    if (data)
+        memcpy(reader.ast.data, data, sizeof reader.ast.data);
     const char *zero = memchr(source->text, '\0', source->size);
     if (zero) {
         uint32_t at = (uint32_t)(zero - source->text);

@@ -12,7 +12,7 @@
 static tn_status build(tn_compilation *c, uint32_t file, tn_builder *builder, tn_error *error)
 {
     const tn_source *source = &c->sources.files[file];
-    tn_status status = tn_bnf_compile(&c->sources, file, &c->diagnostics, c->arena, builder, error);
+    tn_status status = tn_bnf_compile(&c->sources, file, NULL, &c->diagnostics, c->arena, builder, error);
     if (status != TN_OK)
         return status;
     tn_builder_add_SOURCE(builder,

@@ -188,30 +188,6 @@ static void merge_pieces(tn_bnf_reader *reader, tn_bnf_item *first)
     first->next = end;
 }
 
-/* `{ } [ ]` set off by blanks, in a file that does not say its dialect, are almost certainly meant as groups. */
-static bool holds_lone_brace(tn_bnf_text text)
-{
-    for (size_t i = 0; i < text.length; i++) {
-        bool before = i == 0 || is_space(text.text[i - 1]);
-        bool after = i + 1 == text.length || is_space(text.text[i + 1]);
-        if (before && after && strchr("{}[]", text.text[i]) && text.text[i])
-            return true;
-    }
-    return false;
-}
-
-static void check_braces(tn_bnf_reader *reader, const tn_bnf_item *item, bool *reported)
-{
-    if (*reported || reader->ast.says_dialect || item->kind != TN_BNF_PLAIN || !holds_lone_brace(item->text))
-        return;
-    *reported = true;
-    tn_diagnostic *diagnostic = tn_report(reader->diagnostics, E_GRAMMAR_DIALECT, item->span,
-                                          "braces or brackets stand alone, and the file does not say what they mean");
-    tn_help(reader->diagnostics, diagnostic,
-            "begin the file with `%%dialect genr8` if they repeat and make optional, or with `%%dialect ge` if they "
-            "are text");
-}
-
 static tn_bnf_item *range_item(tn_bnf_reader *reader, tn_span span, uint32_t value)
 {
     char digits[12];
@@ -221,6 +197,47 @@ static tn_bnf_item *range_item(tn_bnf_reader *reader, tn_span span, uint32_t val
     while (value /= 10);
     char *copy = tn_arena_copy(reader->arena, digits + 11 - length, (size_t)length);
     return copy ? tn_bnf_item_new(reader, TN_BNF_TERMINAL, span, (tn_bnf_text){copy, (size_t)length}) : NULL;
+}
+
+/* What PonyGE2 calls the numbers of a data set: how many columns are given, and how many different values there are in
+ * those and in the column wanted. */
+static const char *const data_words[TN_BNF_DATA] = {"dataset_n_vars", "dataset_n_is", "dataset_n_os"};
+
+/* The number behind GE_RANGE:, and how many bytes say it; 0 bytes where none is known. */
+static uint32_t read_range(const tn_bnf_reader *reader, const char *text, size_t left, size_t *count)
+{
+    for (size_t i = 0; i < TN_BNF_DATA; i++) {
+        *count = strlen(data_words[i]);
+        if (reader->ast.data[i] && left >= *count && memcmp(text, data_words[i], *count) == 0)
+            return reader->ast.data[i];
+    }
+    return read_digits(text, left, 9, 10, count);
+}
+
+static void bad_range(tn_bnf_reader *reader, const tn_bnf_item *item, size_t length)
+{
+    const char *text = item->text.text + length;
+    size_t left = item->text.length - length, size = 0;
+    tn_span span = {item->span.file, item->span.begin, item->span.begin + (uint32_t)item->text.length};
+    while (size < left && !is_space(text[size]))
+        size++;
+    for (size_t i = 0; i < TN_BNF_DATA; i++) {
+        if (strlen(data_words[i]) != size || memcmp(text, data_words[i], size) != 0)
+            continue;
+        tn_diagnostic *diagnostic =
+            tn_report(reader->diagnostics, E_GRAMMAR_RANGE, span,
+                      "%s is a number of a data set, and there are no data here", data_words[i]);
+        tn_help(reader->diagnostics, diagnostic,
+                "evolve a study with this grammar and a line `fit \"DATA.csv\"`, or write the number above the first "
+                "rule: `%s 5`",
+                tn_bnf_data_directives[i]);
+        return;
+    }
+    tn_diagnostic *diagnostic =
+        tn_report(reader->diagnostics, E_GRAMMAR_RANGE, span, "GE_RANGE takes a whole number of up to nine digits");
+    tn_help(reader->diagnostics, diagnostic,
+            "GE_RANGE:3 stands for 0 | 1 | 2; numbers of a data set are dataset_n_vars, dataset_n_is and "
+            "dataset_n_os");
 }
 
 /* `GE_RANGE:n` at the start of an alternative stands for the alternatives 0 to n-1. Returns false where this is none.
@@ -234,14 +251,11 @@ static bool expand_range(tn_bnf_reader *reader, tn_bnf_rule *rule, const tn_bnf_
     if (!item || item->kind != TN_BNF_PLAIN || item->text.length < length || memcmp(item->text.text, word, length) != 0)
         return false;
     tn_span span = {item->span.file, item->span.begin, item->span.begin + (uint32_t)item->text.length};
-    uint32_t top = read_digits(item->text.text + length, item->text.length - length, 9, 10, &count);
+    uint32_t top = read_range(reader, item->text.text + length, item->text.length - length, &count);
     bool word_goes_on = length + count < item->text.length && !is_space(item->text.text[length + count]);
     rule->broken |= count == 0 || word_goes_on || top > TN_BNF_PRODUCTIONS_MAX;
     if (count == 0 || word_goes_on) {
-        tn_diagnostic *diagnostic =
-            tn_report(reader->diagnostics, E_GRAMMAR_RANGE, span, "GE_RANGE takes a whole number of up to nine digits");
-        tn_help(reader->diagnostics, diagnostic,
-                "GE_RANGE:3 stands for 0 | 1 | 2; numbers of a data set are not known here");
+        bad_range(reader, item, length);
         return true;
     }
     if (top > TN_BNF_PRODUCTIONS_MAX) {
@@ -277,16 +291,14 @@ static void warn_of_text(tn_bnf_reader *reader, const tn_bnf_item *item, bool be
                 : "directives stand above the first rule; quote what is to be text");
 }
 
-static void make_ge(tn_bnf_reader *reader, tn_bnf_alternative *alternative, bool *reported)
+static void make_ge(tn_bnf_reader *reader, tn_bnf_alternative *alternative)
 {
     const tn_bnf_item *before = NULL;
     for (tn_bnf_item *item = alternative->items.first; item; before = item, item = item->next)
         warn_of_text(reader, item, before && before->kind == TN_BNF_NEWLINE);
-    for (tn_bnf_item *item = alternative->items.first; item; item = item->next) {
-        check_braces(reader, item, reported);
+    for (tn_bnf_item *item = alternative->items.first; item; item = item->next)
         if (is_piece(item))
             merge_pieces(reader, item);
-    }
 }
 
 /* ---- genr8: tokens to terminals */
@@ -335,7 +347,7 @@ static void make_genr8(tn_bnf_reader *reader, tn_bnf_items items)
 
 /* ---- all */
 
-static void make_rule(tn_bnf_reader *reader, tn_bnf_rule *rule, bool *reported)
+static void make_rule(tn_bnf_reader *reader, tn_bnf_rule *rule)
 {
     bool genr8 = reader->ast.dialect == TN_DIALECT_GENR8;
     tn_bnf_alternatives kept = {0};
@@ -360,7 +372,7 @@ static void make_rule(tn_bnf_reader *reader, tn_bnf_rule *rule, bool *reported)
         if (genr8)
             make_genr8(reader, a->items);
         else
-            make_ge(reader, a, reported);
+            make_ge(reader, a);
         kept = tn_bnf_next(kept, a, false);
     }
     rule->alternatives = kept;
@@ -376,9 +388,8 @@ static void make_rule(tn_bnf_reader *reader, tn_bnf_rule *rule, bool *reported)
 
 void tn_bnf_make_terminals(tn_bnf_grammar *grammar)
 {
-    bool reported = false;
     for (size_t r = 0; r < grammar->rule_count; r++) {
-        make_rule(grammar->reader, grammar->rules[r], &reported);
+        make_rule(grammar->reader, grammar->rules[r]);
         grammar->production_count += grammar->rules[r]->alternatives.count;
     }
 }

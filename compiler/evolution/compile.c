@@ -4,6 +4,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "compiler/bnf/ast.h"
 #include "compiler/bnf/bnf.h"
 #include "compiler/common/emit_sources.h"
 #include "compiler/common/import.h"
@@ -11,6 +12,10 @@
 #include "compiler/common/notation.h"
 #include "compiler/evolution/evolution.h"
 #include "compiler/study/study.h"
+#include "runtime/base/file.h"
+#include "runtime/number/data.h"
+
+#define DATA_BYTES_MAX ((size_t)256 << 20)
 
 static const char grammar_files[] = ".bnf";
 
@@ -73,12 +78,65 @@ static tn_status emit_forms(tn_compilation *c, const tn_imports *imports, const 
     return tn_compilation_finish(c, builder, TN_OK, error);
 }
 
-static tn_status emit(tn_compilation *c, const tn_imports *imports, uint32_t grammar, const tn_evolution_study *study,
+/* ---- numbers of the data that a grammar asks for */
+
+static const tn_setting data_settings[TN_BNF_DATA] = {TN_SET_DATASET_VARS, TN_SET_DATASET_INPUTS,
+                                                      TN_SET_DATASET_OUTPUTS};
+
+static tn_status count_data(const char *text, size_t size, size_t counts[TN_BNF_DATA], tn_error *error)
+{
+    tn_data *table = calloc(1, sizeof *table);
+    if (!table)
+        return tn_fail_memory(error);
+    tn_status status = tn_data_read(text, size, table, error);
+    if (status == TN_OK) {
+        counts[0] = table->width - 1;
+        status = tn_data_distinct(table, 0, counts[0], &counts[1], error);
+    }
+    if (status == TN_OK)
+        status = tn_data_distinct(table, counts[0], table->width, &counts[2], error);
+    tn_data_clear(table);
+    free(table);
+    return status;
+}
+
+/* Settings that the study does not write are written by the data that it fits; with those that it does, they are a part
+ * of the run from here on. Data that cannot be read are reported where they are read to be fitted. */
+static tn_status note_data(tn_compilation *c, const tn_source *grammar, tn_evolution_study *study, tn_error *error)
+{
+    const tn_setting_value *fit = &study->of[TN_SET_FIT];
+    const tn_source *own = &c->sources.files[study->of[TN_SET_GRAMMAR].file];
+    size_t counts[TN_BNF_DATA] = {0}, size;
+    uint8_t *bytes;
+    tn_error why = {0};
+    if (!fit->written || !fit->text || !tn_bnf_asks_data(grammar->text, grammar->size))
+        return TN_OK;
+    char *path = tn_file_beside(own->path, fit->text);
+    tn_status status = path ? tn_file_read(path, DATA_BYTES_MAX, &bytes, &size, &why) : TN_MEMORY;
+    free(path);
+    if (status == TN_OK) {
+        status = count_data((const char *)bytes, size, counts, &why);
+        free(bytes);
+    }
+    for (size_t i = 0; i < TN_BNF_DATA; i++) {
+        tn_setting_value value = {
+            .written = 1, .first = (double)counts[i], .file = fit->file, .begin = fit->begin, .end = fit->end};
+        if (!study->of[data_settings[i]].written && tn_setting_fits(data_settings[i], &value))
+            study->of[data_settings[i]] = value;
+    }
+    return status == TN_MEMORY ? tn_fail_memory(error) : TN_OK;
+}
+
+static tn_status emit(tn_compilation *c, const tn_imports *imports, uint32_t grammar, tn_evolution_study *study,
                       tn_error *error)
 {
+    uint32_t data[TN_BNF_DATA];
     tn_builder *builder = tn_builder_new();
-    tn_status status = builder ? tn_bnf_compile(&c->sources, grammar, &c->diagnostics, c->arena, builder, error)
-                               : tn_fail_memory(error);
+    tn_status status = builder ? note_data(c, &c->sources.files[grammar], study, error) : tn_fail_memory(error);
+    for (size_t i = 0; i < TN_BNF_DATA; i++)
+        data[i] = study->of[data_settings[i]].written ? (uint32_t)study->of[data_settings[i]].first : 0;
+    if (status == TN_OK)
+        status = tn_bnf_compile(&c->sources, grammar, data, &c->diagnostics, c->arena, builder, error);
     if (status == TN_OK && c->diagnostics.error_count == 0) {
         tn_emit_sources(builder, imports, &c->sources);
         emit_settings(builder, study);
@@ -101,7 +159,11 @@ static tn_status compile(tn_compilation *c, const tn_compile_options *options, t
         const tn_setting_value *v = &study.of[TN_SET_GRAMMAR];
         tn_diagnostic *d = tn_report(&c->diagnostics, E_EVOLUTION_VALUE, (tn_span){v->file, v->begin, v->end},
                                      "`grammar` names a .bnf file");
-        tn_help(&c->diagnostics, d, "rule files such as .plan and .hemls are what a grammar's sentences become");
+        bool python = strcmp(grammar->extension, ".pybnf") == 0;
+        tn_help(&c->diagnostics, d,
+                python ? "a .pybnf file writes Python programs, whose blocks `{:` and `:}` are not "
+                         "supported"
+                       : "rule files such as .plan and .hemls are what a grammar's sentences become");
     } else if (grammar && !((const tn_evolution_reader *)grammar->tree)->failed) {
         status = emit(c, &imports, grammar->file, &study, error);
     } else if (!grammar && c->diagnostics.error_count == 0) {

@@ -1,22 +1,10 @@
-/* Finds files beside a study, and reads boxes. */
+/* Reads boxes. */
 #include "driver/breed/beside.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "runtime/module/values.h"
-
-char *tn_study_beside(const char *study, const char *path)
-{
-    const char *slash = path[0] == '/' ? NULL : strrchr(study, '/');
-    size_t folder = slash ? (size_t)(slash - study) + 1 : 0, size = folder + strlen(path) + 1;
-    char *joined = malloc(size);
-    if (joined)
-        snprintf(joined, size, "%.*s%s", (int)folder, study, path);
-    return joined;
-}
 
 bool tn_study_box(const char *text, double low[3], double high[3])
 {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "driver/breed/beside.h"
+#include "runtime/base/file.h"
 
 static tn_tree_variation tree_variation(const tn_evolution_study *s)
 {
@@ -94,7 +94,7 @@ static tn_status take_skeleton(tn_evolution_job *job, const char *path, const ch
 static tn_status make_boxes(tn_evolution_job *job, const char *path, tn_error *error)
 {
     bool separately = job->settings.select.selection == TN_SELECT_NSGA2;
-    char *design = tn_study_beside(path, job->study.of[TN_SET_DESIGN].text);
+    char *design = tn_file_beside(path, job->study.of[TN_SET_DESIGN].text);
     tn_status status =
         design ? tn_design_scorer_new(design, separately, true, &job->designs, error) : tn_fail_memory(error);
     free(design);

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "driver/breed/beside.h"
 #include "driver/breed/evolve.h"
 #include "driver/breed/evolve_forms.h"
 #include "driver/breed/inputs.h"
@@ -102,8 +101,10 @@ static char *identity_of(const tn_evolution_job *job)
         if (!(tn_setting_rows[i].use & tn_evolution_study_use(&job->study)) ||
             tn_setting_rows[i].kind == TN_SETTING_EACH)
             continue;
-        bool follows = i == TN_SET_MAX_DEPTH || i == TN_SET_WRAPS || i == TN_SET_TREE_DEPTH || i == TN_SET_MAX_STEPS ||
-                       tn_setting_rows[i].kind == TN_SETTING_TEXT; /* from the grammar, or nothing, where not written */
+        bool follows =
+            i == TN_SET_MAX_DEPTH || i == TN_SET_WRAPS || i == TN_SET_TREE_DEPTH || i == TN_SET_MAX_STEPS ||
+            tn_setting_rows[i].kind == TN_SETTING_TEXT || /* from the grammar, or nothing, where not written */
+            i >= TN_SET_TEST; /* newer than runs that lack them, where they say what always held */
         if (i == TN_SET_GENERATIONS || i == TN_SET_STOP || (follows && value.written == 0))
             continue;
         if (i == TN_SET_CROSSOVER)
@@ -132,7 +133,7 @@ static tn_status find_data(tn_evolution_job *job, tn_setting setting, const char
 {
     free(job->blamed_path);
     job->blamed = setting;
-    job->blamed_path = tn_study_beside(study, job->study.of[setting].text);
+    job->blamed_path = tn_file_beside(study, job->study.of[setting].text);
     return job->blamed_path ? TN_OK : tn_fail_memory(error);
 }
 
@@ -143,6 +144,19 @@ static tn_status read_data(tn_evolution_job *job, tn_setting setting, const char
     return status == TN_OK ? tn_file_read(job->blamed_path, DATA_BYTES_MAX, bytes, size, error) : status;
 }
 
+/* Nothing is scored by these, so that they are no input of the run. */
+static tn_status hold_data(tn_evolution_job *job, const char *path, tn_error *error)
+{
+    uint8_t *bytes;
+    size_t size;
+    tn_status status = read_data(job, TN_SET_TEST, path, &bytes, &size, error);
+    if (status != TN_OK)
+        return status;
+    status = tn_problem_hold_csv(job->problem, (const char *)bytes, size, error);
+    free(bytes);
+    return status;
+}
+
 static tn_status make_fit(tn_evolution_job *job, const char *path, tn_error *error)
 {
     uint8_t *bytes;
@@ -150,11 +164,14 @@ static tn_status make_fit(tn_evolution_job *job, const char *path, tn_error *err
     tn_status status = read_data(job, TN_SET_FIT, path, &bytes, &size, error);
     if (status != TN_OK)
         return status;
+    tn_fit_options options = {.error = (tn_fit_error)job->study.of[TN_SET_ERROR].choice,
+                              .scaled = job->study.of[TN_SET_SCALING].choice == 1,
+                              .threads = job->settings.threads};
     status = tn_inputs_add(&job->inputs, "fit", job->blamed_path, bytes, size, error);
     if (status == TN_OK)
-        status = tn_problem_fit_csv((const char *)bytes, size, job->settings.threads, &job->problem, error);
+        status = tn_problem_fit_csv((const char *)bytes, size, &options, &job->problem, error);
     free(bytes);
-    return status;
+    return status == TN_OK && job->study.of[TN_SET_TEST].written ? hold_data(job, path, error) : status;
 }
 
 static bool weighs_separately(const tn_evolution_job *job)
@@ -206,6 +223,13 @@ tn_status tn_never_evaluate(void *context, unsigned thread, const char *sentence
     return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a score is missing in the run's database");
 }
 
+static tn_status never_evaluate_cases(void *context, unsigned thread, const char *sentence, size_t size, double *errors,
+                                      tn_error *error)
+{
+    (void)context, (void)thread, (void)sentence, (void)size, (void)errors;
+    return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a parent is missing in the run's database");
+}
+
 static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_evolution_job_options *options,
                               tn_error *error)
 {
@@ -214,7 +238,10 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_
     bool learns = s->of[TN_SET_KEEP].written, grows = s->of[TN_SET_GROW].written, builds = s->of[TN_SET_BUILD].written;
     job->extension = learns ? "plan" : grows ? "hemls" : builds ? "solid" : "txt";
     if (options->only_replay) {
-        job->evaluator = (tn_evaluator){.objectives = options->objectives, .evaluate = tn_never_evaluate};
+        job->evaluator = (tn_evaluator){.objectives = options->objectives,
+                                        .evaluate = tn_never_evaluate,
+                                        .cases = 1,
+                                        .evaluate_cases = never_evaluate_cases};
         return TN_OK;
     }
     if (learns)
@@ -258,7 +285,11 @@ static tn_status read_seeds(tn_evolution_job *job, const char *text, size_t size
     }
     job->settings.seeds = job->seeds;
     job->settings.seed_count = job->seed_count;
-    return TN_OK;
+    if (job->seed_count)
+        return TN_OK;
+    tn_fail(error, TN_INVALID, E_GENOME_SYNTAX, "there are no genomes in this file");
+    tn_error_help(error, "write a genome on each line, as `12 7 104 3`, or leave `seeds` out");
+    return TN_INVALID;
 }
 
 static tn_status take_seeds(tn_evolution_job *job, const char *path, const char *stored, tn_error *error)

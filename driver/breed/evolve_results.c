@@ -172,15 +172,38 @@ static void list_head(const tn_run *run, FILE *out)
     fputs("file,individual", out);
     for (size_t i = 0; i < run->job->evaluator.objectives; i++)
         fprintf(out, ",%s", objective_name(run, i));
+    if (run->job->study.of[TN_SET_TEST].written)
+        fputs(",test", out);
+    if (run->job->study.of[TN_SET_SCALING].choice)
+        fputs(",intercept,slope", out);
     fputc('\n', out);
 }
 
-static void list_individual(const tn_run *run, size_t number, const tn_individual *individual, FILE *out)
+/* Its error with the test data, and the line that scales its values. */
+static tn_status list_report(const tn_run *run, const tn_individual *individual, FILE *out, tn_error *error)
+{
+    tn_fit_report report;
+    bool tests = run->job->study.of[TN_SET_TEST].written, scales = run->job->study.of[TN_SET_SCALING].choice;
+    if (!tests && !scales)
+        return TN_OK;
+    tn_status status =
+        tn_problem_examine(run->job->problem, individual->sentence, individual->sentence_size, &report, error);
+    if (status == TN_OK && tests)
+        fprintf(out, ",%.17g", report.test);
+    if (status == TN_OK && scales)
+        fprintf(out, ",%.17g,%.17g", report.line[0], report.line[1]);
+    return status;
+}
+
+static tn_status list_individual(const tn_run *run, size_t number, const tn_individual *individual, FILE *out,
+                                 tn_error *error)
 {
     fprintf(out, "%zu.%s,%" PRIu64, number, run->job->extension, individual->id);
     for (size_t i = 0; i < run->job->evaluator.objectives; i++)
         fprintf(out, ",%.17g", individual->score.objectives[i]);
+    tn_status status = list_report(run, individual, out, error);
     fputc('\n', out);
+    return status;
 }
 
 /* The best of one objective, or the first front of several. */
@@ -197,7 +220,8 @@ static tn_status write_members(tn_run *run, const char *dir, FILE *list, tn_erro
         if (members[i]->score.state != TN_SCORED || seen_before(members, i))
             continue;
         status = write_individual(run, dir, ++written, members[i], error);
-        list_individual(run, written, members[i], list);
+        if (status == TN_OK)
+            status = list_individual(run, written, members[i], list, error);
     }
     return status;
 }
@@ -237,14 +261,16 @@ static tn_status write_stats(tn_run *run, const tn_generation_stats *stats, size
         return tn_fail_memory(error);
     tn_status status = tn_output_open(path, &output, error);
     if (status == TN_OK) {
-        fputs(
-            "generation,best,mean,scored,no_sentence,failed,limit,distinct,evaluations,births,mean_codons,mean_depth\n",
-            output.stream);
+        fputs("generation,best,mean,scored,no_sentence,failed,limit,distinct,evaluations,births,mean_codons,mean_depth,"
+              "lower_quartile,median,upper_quartile\n",
+              output.stream);
         for (size_t i = 0; i < count; i++)
-            fprintf(output.stream, "%u,%.17g,%.17g,%u,%u,%u,%u,%u,%" PRIu64 ",%" PRIu64 ",%.6g,%.6g\n",
+            fprintf(output.stream,
+                    "%u,%.17g,%.17g,%u,%u,%u,%u,%u,%" PRIu64 ",%" PRIu64 ",%.6g,%.6g,%.17g,%.17g,%.17g\n",
                     stats[i].generation, stats[i].best[0], stats[i].mean, stats[i].scored, stats[i].no_sentence,
                     stats[i].failed, stats[i].limited, stats[i].distinct, stats[i].evaluations, stats[i].births,
-                    stats[i].mean_codons, stats[i].mean_depth);
+                    stats[i].mean_codons, stats[i].mean_depth, stats[i].quartiles[0], stats[i].quartiles[1],
+                    stats[i].quartiles[2]);
         status = tn_output_commit(&output, error);
     }
     free(path);

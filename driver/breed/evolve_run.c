@@ -247,11 +247,13 @@ static tn_status repeat_step(tn_run *run, const tn_run_history *history, size_t 
     }
     tn_run_scores scores = history->scores;
     tn_evolution_recall(run->evolution, tn_run_scores_recall, &scores);
+    tn_evolution_recall_parents(run->evolution, tn_run_scores_recall_parents);
     if (status == TN_OK)
         status = tn_evolution_step(run->evolution, error);
     if (status == TN_OK && run->store)
         status = tn_run_store_check(run->store, run->evolution, error);
     tn_evolution_recall(run->evolution, NULL, NULL);
+    tn_evolution_recall_parents(run->evolution, NULL);
     return tn_ranks_agree(run->job->settings.ranks, status, error);
 }
 

@@ -12,6 +12,7 @@
 #include "driver/breed/inputs.h"
 #include "driver/open/open.h"
 #include "runtime/base/array.h"
+#include "runtime/base/file.h"
 #include "runtime/base/number_text.h"
 
 /* ---- from files to text */
@@ -37,7 +38,7 @@ static tn_status name_parent(const char *study, const char *text, named *n, tn_e
 {
     *n = (named){0};
     n->primitive = !strchr(text, '.') && !strchr(text, '/');
-    n->path = n->primitive ? strdup("primitives") : tn_study_beside(study, text);
+    n->path = n->primitive ? strdup("primitives") : tn_file_beside(study, text);
     if (!n->path)
         return tn_fail_memory(error);
     char *colon = n->primitive ? NULL : strrchr(n->path, ':');

@@ -6,12 +6,12 @@
 #include <string.h>
 #include <strings.h>
 
-#include "driver/breed/beside.h"
 #include "driver/breed/goals.h"
 #include "driver/breed/inputs.h"
 #include "driver/breed/target.h"
 #include "driver/open/open.h"
 #include "runtime/base/crew.h"
+#include "runtime/base/file.h"
 #include "runtime/field/contour.h"
 #include "runtime/field/normals.h"
 #include "runtime/geometry/measure.h"
@@ -70,7 +70,7 @@ static tn_status read_targets(tn_field_scorer *s, const tn_evolution_study *stud
         if (s->target_count == TN_OBJECTIVES_MAX)
             return tn_fail(error, TN_INVALID, E_FIELD_GOAL, "a study has at most %u lines `likeness`",
                            TN_OBJECTIVES_MAX);
-        char *mesh = tn_study_beside(path, study->each[i].value.text);
+        char *mesh = tn_file_beside(path, study->each[i].value.text);
         status = mesh ? tn_target_read(mesh, &s->targets[s->target_count], error) : tn_fail_memory(error);
         if (status == TN_OK)
             s->weights[s->target_count++] = study->each[i].value.second;

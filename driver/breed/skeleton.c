@@ -11,6 +11,7 @@
 #include "driver/breed/inputs.h"
 #include "driver/solid/solid.h"
 #include "runtime/base/bytes.h"
+#include "runtime/base/file.h"
 #include "runtime/base/number_text.h"
 #include "runtime/numeric/numeric.h"
 
@@ -181,7 +182,7 @@ static tn_status write_text(const tn_opened *opened, uint32_t solid, char **text
 tn_status tn_skeleton_read(const tn_evolution_study *study, const char *path, char **text, char **inputs,
                            tn_error *error)
 {
-    char *design = tn_study_beside(path, study->of[TN_SET_DESIGN].text);
+    char *design = tn_file_beside(path, study->of[TN_SET_DESIGN].text);
     tn_opened opened;
     uint32_t solid;
     *text = NULL;

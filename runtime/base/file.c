@@ -299,3 +299,13 @@ void tn_output_discard(tn_output *output)
         unlink(output->temporary);
     forget(output);
 }
+
+char *tn_file_beside(const char *file, const char *path)
+{
+    const char *slash = path[0] == '/' ? NULL : strrchr(file, '/');
+    size_t folder = slash ? (size_t)(slash - file) + 1 : 0, size = folder + strlen(path) + 1;
+    char *joined = malloc(size);
+    if (joined)
+        snprintf(joined, size, "%.*s%s", (int)folder, file, path);
+    return joined;
+}

@@ -71,4 +71,7 @@ static inline tn_status tn_file_state_same(const tn_file_state *before, int file
     return TN_IO;
 }
 
+/* A path that a file names lies relative to that file. The caller frees it; NULL where out of memory. */
+char *tn_file_beside(const char *file, const char *path);
+
 #endif

@@ -240,6 +240,30 @@ static void find_problem(findings *f)
              "a rule is learned from plans of both kinds", "write both `keep \"PLANS\"` and `drop \"PLANS\"`");
 }
 
+/* What is about data that are fitted, and how errors are measured. */
+static void find_fitting(findings *f)
+{
+    static const tn_setting fitting[] = {TN_SET_TEST, TN_SET_ERROR, TN_SET_SCALING};
+    bool fits = is_written(f, TN_SET_FIT);
+    bool lexicase = chose(f, TN_SET_SELECTION, "lexicase") || chose(f, TN_SET_SELECTION, "epsilon-lexicase");
+    bool classes =
+        chose(f, TN_SET_ERROR, "log-loss") || chose(f, TN_SET_ERROR, "accuracy") || chose(f, TN_SET_ERROR, "f1");
+    for (size_t i = 0; i < sizeof fitting / sizeof *fitting; i++)
+        if (is_written(f, fitting[i]) && !fits)
+            find(f, fitting[i], TN_SETTING_COUNT, "this is about data that are fitted",
+                 "name the data, as `fit \"DATA.csv\"`, or leave it out");
+    if (classes && chose(f, TN_SET_SCALING, "linear"))
+        find(f, TN_SET_SCALING, TN_SET_ERROR, "values that mean classes are not scaled", "leave `scaling` out");
+    if (lexicase && !fits)
+        find(f, TN_SET_SELECTION, TN_SETTING_COUNT, "this selection looks at the errors of data, line by line",
+             "name the data, as `fit \"DATA.csv\"`, or write `selection tournament 3`");
+    if (lexicase && chose(f, TN_SET_REPLACEMENT, "steady-state"))
+        find(f, TN_SET_REPLACEMENT, TN_SET_SELECTION, "this selection looks at a whole generation",
+             "leave `replacement` out");
+    if (lexicase && f->study->of[TN_SET_SELECTION].written == 2)
+        find(f, TN_SET_SELECTION, TN_SETTING_COUNT, "this selection takes no number", "leave the number out");
+}
+
 /* What is about other genomes than those that the study breeds: codons are the case where nothing else is said. */
 static void find_strangers(findings *f)
 {
@@ -296,6 +320,7 @@ size_t tn_evolution_study_faults(const tn_evolution_study *study, tn_setting_fau
              "add a line such as `grammar \"words\"`");
     find_problem(&f);
     find_selection(&f);
+    find_fitting(&f);
     if (of[TN_SET_ELITES].first >= of[TN_SET_POPULATION].first) {
         tn_setting blamed = is_written(&f, TN_SET_ELITES) ? TN_SET_ELITES : TN_SET_POPULATION;
         find(&f, blamed,

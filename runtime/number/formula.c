@@ -2,6 +2,7 @@
 #include "runtime/number/formula.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
@@ -114,6 +115,22 @@ void tn_formula_operation(tn_formula *formula, tn_opcode opcode, uint32_t arity)
         return;
     formula->numbers = 0;
     formula->height -= arity - 1;
+}
+
+bool tn_formula_repeat(tn_formula *formula, size_t begin, size_t end, size_t most)
+{
+    if (end - begin > most - formula->size)
+        return false;
+    formula->failed =
+        formula->failed || !tn_array_reserve(&formula->code, &formula->capacity, formula->size, end - begin, 1);
+    if (formula->failed)
+        return true;
+    memcpy(formula->code + formula->size, formula->code + begin, end - begin);
+    formula->size += end - begin;
+    formula->depth += formula->height; /* as deep as what is repeated was, above what is there: at most this */
+    formula->numbers = 0;
+    push(formula);
+    return true;
 }
 
 tn_status tn_formula_end(tn_formula *formula, tn_error *error)

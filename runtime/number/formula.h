@@ -37,6 +37,10 @@ void tn_formula_keep(tn_formula *formula, uint32_t local);
 void tn_formula_kept(tn_formula *formula, uint32_t local);
 void tn_formula_mesh_distance(tn_formula *formula, uint32_t mesh);
 
+/* Appends once more what stands from `begin` to `end`, the whole code of one number. False where the code would be
+ * longer than `most`. */
+bool tn_formula_repeat(tn_formula *formula, size_t begin, size_t end, size_t most);
+
 /* Ends the code: TN_OK, or TN_MEMORY where something before this failed. */
 tn_status tn_formula_end(tn_formula *formula, tn_error *error);
 

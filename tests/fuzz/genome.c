@@ -13,7 +13,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     tn_error error;
     if (tn_genome_read(text, size, &genome, &error) == TN_INVALID && error.column == 0)
         abort();
-    if (tn_problem_fit_csv(text, size, 1, &problem, &error) == TN_OK)
+    if (tn_problem_fit_csv(text, size, &(tn_fit_options){.threads = 1}, &problem, &error) == TN_OK)
         tn_problem_free(problem);
     tn_genome_clear(&genome);
     return 0;

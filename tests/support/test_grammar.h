@@ -33,7 +33,7 @@ static inline uint8_t *test_compile_grammar(const char *text, size_t *size, char
     assert_int_equal(tn_sources_add(&sources, "test.bnf", text, strlen(text), &file, &error), TN_OK);
     tn_builder_add_SOURCE(builder, &(tn_source_record){.path = tn_builder_string(builder, "test.bnf"),
                                                        .text = tn_builder_string(builder, text)});
-    tn_status status = tn_bnf_compile(&sources, file, &diagnostics, arena, builder, &error);
+    tn_status status = tn_bnf_compile(&sources, file, NULL, &diagnostics, arena, builder, &error);
     tn_diagnostics_sort(&diagnostics);
     if (codes)
         codes[0] = '\0';

@@ -39,10 +39,11 @@ static bool allocate(tn_evolution *e)
     e->scratch = calloc(6 * n, sizeof *e->scratch);
     e->todo = calloc(n, sizeof *e->todo);
     e->hashes = calloc(n, sizeof *e->hashes);
+    e->scores = calloc(n, sizeof *e->scores);
     e->workplaces = calloc(e->threads, sizeof *e->workplaces);
     e->crew = tn_crew_new(e->threads, e->settings.watch);
     if (!e->all || !e->members || !e->born || !e->pool || !e->merits || !e->scratch || !e->todo || !e->hashes ||
-        !e->workplaces || !e->crew)
+        !e->scores || !e->workplaces || !e->crew)
         return false;
     for (unsigned t = 0; t < e->threads; t++)
         if (!(e->workplaces[t] = e->kind->workplace_new(e->kind->context)))
@@ -60,6 +61,13 @@ tn_status tn_evolution_new(const tn_grammar *grammar, const tn_evolution_setting
     if (evaluator->objectives < 1 || evaluator->objectives > TN_OBJECTIVES_MAX)
         return tn_fail(error, TN_INVALID, E_POPULATION, "there are 1 to %u objectives, not %zu", TN_OBJECTIVES_MAX,
                        evaluator->objectives);
+    bool by_cases =
+        settings->select.selection == TN_SELECT_LEXICASE || settings->select.selection == TN_SELECT_EPSILON_LEXICASE;
+    if (by_cases && (!evaluator->evaluate_cases || settings->replacement == TN_REPLACE_STEADY))
+        return tn_fail(error, TN_INVALID, E_POPULATION,
+                       evaluator->evaluate_cases
+                           ? "lexicase selection looks at a whole generation, and this run has none"
+                           : "lexicase selection needs errors in single cases, which are not given");
     tn_evolution *e = calloc(1, sizeof *e);
     if (!e)
         return tn_fail_memory(error);
@@ -95,6 +103,7 @@ void tn_evolution_free(tn_evolution *e)
     tn_crew_free(e->crew);
     tn_codon_kind_free(&e->own);
     tn_score_cache_clear(&e->cache);
+    tn_lexicase_clear(&e->lexicase);
     free(e->all);
     free(e->members);
     free(e->born);
@@ -103,6 +112,7 @@ void tn_evolution_free(tn_evolution *e)
     free(e->scratch);
     free(e->todo);
     free(e->hashes);
+    free(e->scores);
     free(e->workplaces);
     free(e->chosen);
     free(e->album);
@@ -113,6 +123,11 @@ void tn_evolution_recall(tn_evolution *e, tn_recall *recall, void *context)
 {
     e->recall = recall;
     e->recall_context = context;
+}
+
+void tn_evolution_recall_parents(tn_evolution *e, tn_recall_parents *recall)
+{
+    e->recall_parents = recall;
 }
 
 /* ---- the order of merit */
@@ -181,7 +196,9 @@ static tn_status replace_generation(tn_evolution *e, tn_error *error)
     bool survivors = e->settings.select.selection == TN_SELECT_NSGA2; /* parents compete with their children */
     size_t elites = survivors ? 0 : e->settings.elites;
     tn_evolution_take_places(e, n - elites);
-    tn_status status = tn_evolution_make(e, false, error);
+    tn_status status = tn_evolution_find_cases(e, error);
+    if (status == TN_OK)
+        status = tn_evolution_make(e, false, error);
     if (status == TN_OK)
         status = tn_evolution_score(e, e->born, e->born_count, error);
     if (status != TN_OK)

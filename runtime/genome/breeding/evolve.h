@@ -48,6 +48,9 @@ typedef struct tn_evaluator {
     tn_status (*evaluate_many)(void *context, unsigned thread, struct tn_individual *const *individuals, size_t count,
                                tn_error *error); /* or NULL */
     size_t batch;
+    size_t cases; /* that a sentence is scored by, or 0; then evaluate_cases gives its error in each */
+    tn_status (*evaluate_cases)(void *context, unsigned thread, const char *sentence, size_t size, double *errors,
+                                tn_error *error);
 } tn_evaluator;
 
 /* What a failed evaluation returns: running out of memory ends the run; anything else is the sentence's own fault,
@@ -111,6 +114,7 @@ typedef struct tn_generation_stats {
     uint32_t generation;
     double best[TN_OBJECTIVES_MAX];                /* the best of each objective */
     double mean;                                   /* of objective 0, of those scored; 0 where there is none */
+    double quartiles[3];                           /* likewise: the lower, the median and the upper */
     uint32_t scored, no_sentence, failed, limited; /* of the members */
     uint32_t distinct;                             /* sentences among the members */
     uint64_t evaluations;                          /* of the run so far */
@@ -130,6 +134,11 @@ void tn_evolution_free(tn_evolution *evolution);
  * by one thread. */
 typedef bool tn_recall(void *context, uint64_t id, tn_score *score);
 void tn_evolution_recall(tn_evolution *evolution, tn_recall *recall, void *context);
+
+/* Where, besides, the parents of children come from that were selected by single cases, which are not stored: the ids
+ * of both, or false. With the context of tn_evolution_recall, by several threads at once. */
+typedef bool tn_recall_parents(void *context, uint64_t id, uint64_t parents[2]);
+void tn_evolution_recall_parents(tn_evolution *evolution, tn_recall_parents *recall);
 
 /* A parent that a person chose. */
 typedef struct tn_chosen {

@@ -73,13 +73,31 @@ static tn_status first_genome(tn_evolution *e, unsigned thread, size_t i, tn_ind
     return status;
 }
 
-static tn_chosen_parent draw_parent(const tn_evolution *e, tn_chance *chance)
+/* Where parents are recalled, `known` is the id of one. */
+static size_t place_of_parent(const tn_evolution *e, unsigned thread, tn_chance *chance, uint64_t known)
+{
+    if (e->chosen)
+        return (size_t)tn_chance_below(chance, e->member_count);
+    for (size_t i = 0; known != TN_NO_PARENT && i < e->member_count; i++)
+        if (e->members[i]->id == known)
+            return i;
+    if (e->lexicase.members)
+        return tn_lexicase_select(&e->lexicase, thread, chance);
+    return e->merits[tn_select(&e->settings.select, chance, e->merits, e->member_count)].index;
+}
+
+static tn_chosen_parent draw_parent(const tn_evolution *e, unsigned thread, tn_chance *chance, uint64_t known)
 {
     if (e->chosen && e->chosen_count)
         return e->chosen[tn_chance_below(chance, e->chosen_count)];
-    size_t place = e->chosen ? (size_t)tn_chance_below(chance, e->member_count)
-                             : e->merits[tn_select(&e->settings.select, chance, e->merits, e->member_count)].index;
+    size_t place = place_of_parent(e, thread, chance, known);
     return (tn_chosen_parent){e->members[place]->id, 1, e->members[place]};
+}
+
+static bool selects_by_cases(const tn_evolution *e)
+{
+    return e->settings.select.selection == TN_SELECT_LEXICASE ||
+           e->settings.select.selection == TN_SELECT_EPSILON_LEXICASE;
 }
 
 /* The children of one pair of parents; the last child of an odd number goes without its sibling. */
@@ -87,10 +105,13 @@ static tn_status breed_pair(tn_evolution *e, unsigned thread, size_t pair, tn_er
 {
     tn_chance selecting = tn_chance_for(e->settings.seed, TN_PURPOSE_SELECT, e->generation, pair);
     tn_chance breeding = tn_chance_for(e->settings.seed, TN_PURPOSE_BIRTH, e->generation, pair);
+    uint64_t known[2] = {TN_NO_PARENT, TN_NO_PARENT};
     tn_chosen_parent from[2];
     tn_parent parents[2];
+    if (selects_by_cases(e) && e->recall_parents)
+        e->recall_parents(e->recall_context, e->born[2 * pair]->id, known);
     for (int i = 0; i < 2; i++) {
-        from[i] = draw_parent(e, &selecting);
+        from[i] = draw_parent(e, thread, &selecting, known[i]);
         parents[i] = (tn_parent){tn_evolution_chosen_genome(e, &from[i]), from[i].member ? from[i].member->used : 0,
                                  from[i].weight};
     }

@@ -4,6 +4,7 @@
  * evolve_choice.c takes parents that a person chose, and remembers genomes for that
  * evolve_birth.c  makes genomes and their sentences
  * evolve_score.c  gives them their scores
+ * evolve_cases.c  gives them their errors in single cases
  * evolve_share.c  shares that among several processes
  * evolve_stats.c  looks at it
  */
@@ -12,6 +13,7 @@
 
 #include "runtime/base/crew.h"
 #include "runtime/genome/breeding/codon_kind.h"
+#include "runtime/genome/breeding/lexicase.h"
 #include "runtime/genome/breeding/score_cache.h"
 
 /* A parent that a person chose. */
@@ -41,10 +43,13 @@ struct tn_evolution {
     size_t chosen_count;
     tn_genome *album; /* by id, where genomes are remembered */
     size_t album_count;
+    tn_lexicase lexicase; /* of the members, where parents are selected so */
     tn_recall *recall;
+    tn_recall_parents *recall_parents;
     void *recall_context;
     uint64_t evaluations, births;
     uint64_t *hashes; /* of the members' sentences, while distinct ones are counted */
+    double *scores;   /* of the members, while their quartiles are found */
 };
 
 /* Takes places for the next `count` to be born. */
@@ -81,6 +86,9 @@ tn_status tn_scoring_item(void *scoring, unsigned thread, size_t item, tn_error 
 
 /* Evaluates all batches together with the other ranks of the settings. */
 tn_status tn_scoring_share(tn_scoring *scoring, tn_error *error);
+
+/* Where parents are selected by single cases: the members' errors in them, unless the parents are recalled. */
+tn_status tn_evolution_find_cases(tn_evolution *evolution, tn_error *error);
 
 /* Gives scores to individuals that have a sentence. */
 tn_status tn_evolution_score(tn_evolution *evolution, tn_individual **individuals, size_t count, tn_error *error);

@@ -49,6 +49,30 @@ static uint32_t count_distinct(const tn_evolution *e)
     return distinct;
 }
 
+static int compare_scores(const void *left, const void *right)
+{
+    const double *a = left, *b = right;
+    return *a < *b ? -1 : *a > *b;
+}
+
+/* Each is the score at its share of the order, between two neighbours where it falls between them. */
+static void find_quartiles(const tn_evolution *e, tn_generation_stats *s)
+{
+    double *scores = e->scores;
+    size_t count = 0;
+    for (size_t i = 0; i < e->member_count; i++)
+        if (e->members[i]->score.state == TN_SCORED)
+            scores[count++] = e->members[i]->score.objectives[0];
+    qsort(scores, count, sizeof *scores, compare_scores);
+    for (size_t q = 0; q < 3 && count; q++) {
+        double place = (double)(count - 1) * (double)(q + 1) / 4, low = floor(place);
+        double below = scores[(size_t)low], share = place - low;
+        s->quartiles[q] = share > 0 ? below + share * (scores[(size_t)low + 1] - below) : below;
+        if (s->quartiles[q] != s->quartiles[q])
+            s->quartiles[q] = below; /* between infinite ones */
+    }
+}
+
 tn_generation_stats tn_evolution_stats(const tn_evolution *e)
 {
     tn_generation_stats s = {.generation = e->generation, .evaluations = e->evaluations, .births = e->births};
@@ -72,6 +96,7 @@ tn_generation_stats tn_evolution_stats(const tn_evolution *e)
             if (m->score.objectives[o] < s.best[o])
                 s.best[o] = m->score.objectives[o];
     }
+    find_quartiles(e, &s);
     uint32_t sentences = (uint32_t)e->member_count - s.no_sentence;
     s.mean = s.scored ? sum / s.scored : 0;
     s.mean_codons = sentences ? codons / sentences : 0;

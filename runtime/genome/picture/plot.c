@@ -1,4 +1,4 @@
-/* The best and the mean score over the generations, drawn. */
+/* The best score, the median and the quartiles over the generations, drawn. */
 #include "runtime/genome/picture/plot.h"
 
 #include <math.h>
@@ -8,6 +8,7 @@
 #include "runtime/draw/axis.h"
 #include "runtime/draw/canvas.h"
 #include "runtime/draw/type.h"
+#include "runtime/numeric/numeric.h"
 
 /* In points. */
 #define WIDTH 640.0
@@ -20,15 +21,26 @@
 
 #define TICKS_Y 6.0
 #define TICKS_X 10.0
-#define MEANS_SHOWN                                                                                                    \
-    3.0 /* a mean above so many times its median goes out of the picture, which the best would else be flat in */
+#define TIMES_SHOWN                                                                                                    \
+    3.0 /* a score above so many times the median of the medians goes out of the picture, where the best would         \
+          else be a flat line */
+#define DECADES_FROM 100.0 /* from this range on, the axis has powers of ten */
 
 typedef struct chart {
     cairo_t *context;
     const tn_generation_stats *stats;
     size_t count;
-    double low, high, step;
+    double low, high, step; /* with powers of ten: their exponents */
+    bool decades;
 } chart;
+
+static double decimal_logarithm(double value)
+{
+    return tn_log(value) / tn_log(10);
+}
+
+/* What is drawn of a generation. */
+typedef enum figure { BEST, MEDIAN, LOWER, UPPER } figure;
 
 static double x_of(const chart *c, size_t i)
 {
@@ -36,15 +48,19 @@ static double x_of(const chart *c, size_t i)
     return LEFT + (WIDTH - LEFT - RIGHT) * (double)i / steps;
 }
 
+/* Out of the picture at most by its height. */
 static double y_of(const chart *c, double value)
 {
-    return HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * (value - c->low) / (c->high - c->low);
+    double at = c->decades ? decimal_logarithm(fmax(value, 1e-300)) : value;
+    double y = HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * (at - c->low) / (c->high - c->low);
+    return fmin(fmax(y, TOP - HEIGHT), 2 * HEIGHT);
 }
 
-static bool value_of(const chart *c, size_t i, bool mean, double *value)
+static bool value_of(const chart *c, size_t i, figure which, double *value)
 {
-    *value = mean ? c->stats[i].mean : c->stats[i].best[0];
-    return c->stats[i].scored > 0 && isfinite(*value);
+    static const size_t quartile[] = {[MEDIAN] = 1, [LOWER] = 0, [UPPER] = 2};
+    *value = which == BEST ? c->stats[i].best[0] : c->stats[i].quartiles[quartile[which]];
+    return c->stats[i].scored > 0 && (isfinite(*value) || which == UPPER) && *value == *value;
 }
 
 static int compare_numbers(const void *a, const void *b)
@@ -53,27 +69,42 @@ static int compare_numbers(const void *a, const void *b)
     return *x < *y ? -1 : *x > *y;
 }
 
-static double median_mean(const chart *c, double *scratch)
+static double median_of_medians(const chart *c, double *scratch)
 {
     size_t known = 0;
     for (size_t i = 0; i < c->count; i++)
-        known += value_of(c, i, true, &scratch[known]);
+        known += value_of(c, i, MEDIAN, &scratch[known]);
     qsort(scratch, known, sizeof *scratch, compare_numbers);
-    return known ? scratch[known / 2] : 0;
+    return known ? scratch[known / 2] : HUGE_VAL;
 }
 
-static void find_range(chart *c, double *scratch)
+/* The range of the best and the medians; above `most`, medians do not count. */
+static void widen(chart *c, double most)
 {
     bool any = false;
-    double value, most = MEANS_SHOWN * median_mean(c, scratch);
+    double value;
     for (size_t i = 0; i < c->count; i++)
-        for (int mean = 0; mean < 2; mean++) {
-            if (!value_of(c, i, mean, &value) || (mean && value > most))
+        for (figure which = BEST; which <= MEDIAN; which++) {
+            if (!value_of(c, i, which, &value) || (which == MEDIAN && value > most))
                 continue;
             c->low = !any || value < c->low ? value : c->low;
             c->high = !any || value > c->high ? value : c->high;
             any = true;
         }
+}
+
+static void find_range(chart *c, double *scratch)
+{
+    widen(c, HUGE_VAL);
+    c->decades = c->low > 0 && c->high > DECADES_FROM * c->low;
+    if (c->decades) {
+        c->low = floor(decimal_logarithm(c->low) + 1e-9); /* a power of ten itself may come out a little lower */
+        c->high = ceil(decimal_logarithm(c->high) - 1e-9);
+        c->step = fmax(1, tn_axis_step(c->high - c->low, TICKS_Y));
+        c->high = c->low + c->step * ceil((c->high - c->low) / c->step);
+        return;
+    }
+    widen(c, TIMES_SHOWN * median_of_medians(c, scratch));
     if (c->low >= 0 && c->low < 0.5 * c->high)
         c->low = 0; /* what is aimed at */
     if (!(c->high > c->low))
@@ -90,14 +121,14 @@ static void draw_axes(const chart *c)
     tn_type_face(t, 9, false);
     int lines = (int)floor((c->high - c->low) / c->step + 0.5);
     for (int i = 0; i <= lines; i++) {
-        double value = c->low + c->step * i, y = y_of(c, value);
+        double at = c->low + c->step * i, value = c->decades ? tn_pow(10, at) : at, y = y_of(c, value);
         cairo_set_source_rgb(t, 0.85, 0.85, 0.85);
         cairo_set_line_width(t, 0.5);
         cairo_move_to(t, LEFT, y);
         cairo_line_to(t, WIDTH - RIGHT, y);
         cairo_stroke(t);
         cairo_set_source_rgb(t, 0.2, 0.2, 0.2);
-        snprintf(text, sizeof text, "%.6g", fabs(value) < c->step / 1000 ? 0 : value);
+        snprintf(text, sizeof text, "%.6g", !c->decades && fabs(value) < c->step / 1000 ? 0 : value);
         tn_type_line(t, LEFT - 6, y + 3, TN_ALIGN_RIGHT, text);
     }
     double apart = c->count > 1 ? fmax(1, tn_axis_step((double)(c->count - 1), TICKS_X)) : 1;
@@ -108,35 +139,61 @@ static void draw_axes(const chart *c)
     tn_type_line(t, (LEFT + WIDTH - RIGHT) / 2, HEIGHT - BOTTOM + 30, TN_ALIGN_CENTRE, "generation");
 }
 
-static void set_colour(cairo_t *t, bool mean)
+static void set_colour(cairo_t *t, figure which)
 {
-    cairo_set_source_rgb(t, mean ? 0.45 : 0.75, mean ? 0.45 : 0.1, mean ? 0.45 : 0.1);
+    bool best = which == BEST;
+    cairo_set_source_rgb(t, best ? 0.75 : 0.45, best ? 0.1 : 0.45, best ? 0.1 : 0.45);
 }
 
-static void draw_curve(const chart *c, bool mean)
+static void clip_to_axes(cairo_t *t)
 {
-    cairo_t *t = c->context;
-    bool open = false;
     cairo_save(t);
     cairo_rectangle(t, 0, TOP - 1, WIDTH, HEIGHT - TOP - BOTTOM + 2);
     cairo_clip(t);
-    set_colour(t, mean);
-    cairo_set_line_width(t, mean ? 1 : 1.6);
+}
+
+/* Between the quartiles, from a generation to the next. */
+static void draw_band(const chart *c)
+{
+    cairo_t *t = c->context;
+    clip_to_axes(t);
+    cairo_set_source_rgb(t, 0.9, 0.9, 0.9);
+    for (size_t i = 0; i + 1 < c->count; i++) {
+        double low[2], high[2];
+        if (!value_of(c, i, LOWER, &low[0]) || !value_of(c, i + 1, LOWER, &low[1]) ||
+            !value_of(c, i, UPPER, &high[0]) || !value_of(c, i + 1, UPPER, &high[1]))
+            continue;
+        cairo_move_to(t, x_of(c, i), y_of(c, low[0]));
+        cairo_line_to(t, x_of(c, i + 1), y_of(c, low[1]));
+        cairo_line_to(t, x_of(c, i + 1), y_of(c, high[1]));
+        cairo_line_to(t, x_of(c, i), y_of(c, high[0]));
+        cairo_close_path(t);
+    }
+    cairo_fill(t);
+    cairo_restore(t);
+}
+
+static void draw_curve(const chart *c, figure which)
+{
+    cairo_t *t = c->context;
+    bool open = false;
+    clip_to_axes(t);
+    set_colour(t, which);
+    cairo_set_line_width(t, which == BEST ? 1.6 : 1);
     for (size_t i = 0; i < c->count; i++) {
         double value;
-        if (!value_of(c, i, mean, &value)) {
+        if (!value_of(c, i, which, &value)) {
             open = false;
             continue;
         }
-        double y = fmax(y_of(c, value), TOP - HEIGHT); /* what is far out stays out */
         if (open)
-            cairo_line_to(t, x_of(c, i), y);
+            cairo_line_to(t, x_of(c, i), y_of(c, value));
         else
-            cairo_move_to(t, x_of(c, i), y);
+            cairo_move_to(t, x_of(c, i), y_of(c, value));
         open = true;
     }
     if (c->count == 1 && open)
-        cairo_line_to(t, x_of(c, 0) + 3, y_of(c, mean ? c->stats[0].mean : c->stats[0].best[0]));
+        cairo_rel_line_to(t, 3, 0);
     cairo_stroke(t);
     cairo_restore(t);
 }
@@ -146,19 +203,19 @@ static void draw_names(const chart *c)
 {
     double value[2], y[2];
     char text[64];
-    for (int mean = 0; mean < 2; mean++) {
-        if (c->count == 0 || !value_of(c, c->count - 1, mean, &value[mean]))
+    for (figure which = BEST; which <= MEDIAN; which++) {
+        if (c->count == 0 || !value_of(c, c->count - 1, which, &value[which]))
             return;
-        y[mean] = fmax(TOP, y_of(c, value[mean]));
+        y[which] = fmin(fmax(TOP, y_of(c, value[which])), HEIGHT - BOTTOM);
     }
-    double apart = LABEL_APART - (y[0] - y[1]); /* the best lies below the mean */
+    double apart = LABEL_APART - (y[0] - y[1]); /* the best lies below the median */
     if (apart > 0)
         y[1] -= apart;
     tn_type_face(c->context, 9, false);
-    for (int mean = 0; mean < 2; mean++) {
-        set_colour(c->context, mean);
-        snprintf(text, sizeof text, "%s %.5g", mean ? "mean" : "best", value[mean]);
-        tn_type_line(c->context, WIDTH - RIGHT + 8, y[mean] + 3, TN_ALIGN_LEFT, text);
+    for (figure which = BEST; which <= MEDIAN; which++) {
+        set_colour(c->context, which);
+        snprintf(text, sizeof text, "%s %.5g", which == BEST ? "best" : "median", value[which]);
+        tn_type_line(c->context, WIDTH - RIGHT + 8, y[which] + 3, TN_ALIGN_LEFT, text);
     }
 }
 
@@ -169,7 +226,7 @@ static void draw_title(cairo_t *t, const char *title)
     tn_type_fit(t, LEFT, 24, TN_ALIGN_LEFT, WIDTH - LEFT - 20, title);
     cairo_set_source_rgb(t, 0.45, 0.45, 0.45);
     tn_type_face(t, 9, false);
-    tn_type_line(t, LEFT, 38, TN_ALIGN_LEFT, "score: lower is better");
+    tn_type_line(t, LEFT, 38, TN_ALIGN_LEFT, "score: lower is better; the band holds the middle half of the members");
 }
 
 tn_status tn_stats_plot(const tn_generation_stats *stats, size_t count, const char *title, const char *path,
@@ -186,9 +243,10 @@ tn_status tn_stats_plot(const tn_generation_stats *stats, size_t count, const ch
         chart c = {.context = tn_canvas_context(canvas), .stats = stats, .count = count};
         find_range(&c, scratch);
         draw_title(c.context, title);
+        draw_band(&c);
         draw_axes(&c);
-        draw_curve(&c, true);
-        draw_curve(&c, false);
+        draw_curve(&c, MEDIAN);
+        draw_curve(&c, BEST);
         draw_names(&c);
         status = tn_canvas_commit(canvas, error);
     }

@@ -104,6 +104,12 @@ bool tn_run_scores_recall(void *scores, uint64_t id, tn_score *score)
     return false;
 }
 
+bool tn_run_scores_recall_parents(void *scores, uint64_t id, uint64_t parents[2])
+{
+    (void)scores, (void)id, (void)parents;
+    return false;
+}
+
 tn_status tn_run_store_check(tn_run_store *store, const tn_evolution *evolution, tn_error *error)
 {
     (void)store, (void)evolution;

@@ -14,7 +14,7 @@ static const char schema[] = "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT
                              "INTEGER, no_sentence INTEGER, failed INTEGER,"
                              " limited INTEGER, distinct_sentences INTEGER, evaluations INTEGER, births INTEGER, "
                              "mean_codons REAL, mean_depth REAL,"
-                             " members BLOB);"
+                             " members BLOB, lower_quartile REAL, median REAL, upper_quartile REAL);"
                              "CREATE TABLE birth(id INTEGER PRIMARY KEY, kind INTEGER, parent INTEGER, other INTEGER, "
                              "state INTEGER, fitness REAL,"
                              " more BLOB, message TEXT);"
@@ -63,8 +63,8 @@ static tn_status prepare_writing(tn_run_store *store, tn_error *error)
 {
     tn_status status = prepare(store, "INSERT INTO birth VALUES(?,?,?,?,?,?,?,?)", &store->put_birth, error);
     if (status == TN_OK)
-        status =
-            prepare(store, "INSERT INTO generation VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?)", &store->put_generation, error);
+        status = prepare(store, "INSERT INTO generation VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+                         &store->put_generation, error);
     if (status == TN_OK)
         status = prepare(store, "INSERT INTO event VALUES(?,?,?,?)", &store->put_event, error);
     if (status == TN_OK)
@@ -105,6 +105,23 @@ tn_status tn_run_store_create(const char *path, bool durable, tn_run_store **sto
     return done(store, status);
 }
 
+/* Runs of before there were quartiles get the columns, empty, before they are gone on with. */
+static tn_status add_columns(tn_run_store *store, tn_error *error)
+{
+    int64_t there = 0;
+    tn_status status =
+        query_number(store, "SELECT count(*) FROM pragma_table_info('generation') WHERE name='median'", &there, error);
+    if (status != TN_OK || there)
+        return status;
+    return run(store,
+               "BEGIN IMMEDIATE;"
+               "ALTER TABLE generation ADD COLUMN lower_quartile REAL;"
+               "ALTER TABLE generation ADD COLUMN median REAL;"
+               "ALTER TABLE generation ADD COLUMN upper_quartile REAL;"
+               "COMMIT",
+               error);
+}
+
 tn_status tn_run_store_open(const char *path, bool durable, bool read_only, tn_run_store **store, tn_error *error)
 {
     int64_t id = 0;
@@ -113,6 +130,8 @@ tn_status tn_run_store_open(const char *path, bool durable, bool read_only, tn_r
         status = query_number(*store, "PRAGMA application_id", &id, error);
     if (status == TN_OK && id != APPLICATION_ID)
         status = tn_fail(error, TN_INVALID, E_RUN_DATABASE, "%.200s is not the database of a run", path);
+    if (status == TN_OK && !read_only)
+        status = add_columns(*store, error);
     if (status == TN_OK && !read_only)
         status = prepare_writing(*store, error);
     return done(store, status);
@@ -258,6 +277,8 @@ static tn_status put_generation(tn_run_store *store, const tn_evolution *evoluti
     sqlite3_bind_double(s, 11, t.mean_codons);
     sqlite3_bind_double(s, 12, t.mean_depth);
     sqlite3_bind_blob(s, 13, ids, (int)(8 * count), free);
+    for (int i = 0; i < 3; i++)
+        sqlite3_bind_double(s, 14 + i, t.quartiles[i]);
     return finish_step(store, s, error);
 }
 

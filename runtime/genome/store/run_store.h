@@ -2,10 +2,11 @@
  *
  *   meta        key, value           what the run was started from: study text, grammar text, seed, compiler's version,
  * hashes generation  number, best, mean, scored, no_sentence, failed, limited, distinct_sentences, evaluations, births,
- * mean_codons, mean_depth, members: 8 bytes an id, little-endian, the best first birth       id, kind, parent, other,
- * state, fitness, more, message: `more` holds the further objectives, 8 bytes each event       generation, number,
- * kind, text: before that generation is bred; kind choose (places, from 1) or set (a target or weight) rescore
- * generation, id, state, fitness, more: the members' scores after a set
+ * mean_codons, mean_depth, members: 8 bytes an id, little-endian, the best first, lower_quartile, median,
+ * upper_quartile birth       id, kind, parent, other, state, fitness, more, message: `more` holds the further
+ * objectives, 8 bytes each event       generation, number, kind, text: before that generation is bred; kind choose
+ * (places, from 1) or set (a target or weight) rescore generation, id, state, fitness, more: the members' scores after
+ * a set
  *
  * Genomes are not stored: births are functions of parents, settings and seed, and replaying is exact. Nothing stored
  * depends on the clock, the machine, or an interruption: a generation is one transaction, so that a run that was killed
@@ -65,7 +66,8 @@ void tn_run_events_free(tn_run_event *events, size_t count);
 
 /* All scores, for tn_evolution_recall. */
 typedef struct tn_run_scores {
-    tn_score *scores; /* by id; owned */
+    tn_score *scores;       /* by id; owned */
+    uint64_t (*parents)[2]; /* owned; TN_NO_PARENT where there is none; NULL: not known here */
     uint8_t *known;
     size_t count;
 } tn_run_scores;
@@ -73,6 +75,7 @@ typedef struct tn_run_scores {
 tn_status tn_run_store_scores(tn_run_store *store, size_t objectives, tn_run_scores *scores, tn_error *error);
 void tn_run_scores_clear(tn_run_scores *scores);
 bool tn_run_scores_recall(void *scores, uint64_t id, tn_score *score);
+bool tn_run_scores_recall_parents(void *scores, uint64_t id, uint64_t parents[2]);
 
 /* Are these the members that the stored generation has, in this order? TN_INVALID (E1252) where not: then the database
  * is of another study, grammar or version. */

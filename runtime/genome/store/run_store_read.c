@@ -1,4 +1,5 @@
 /* Reads a run's database: events, scores and statistics. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,6 +42,7 @@ tn_status tn_run_store_events(tn_run_store *store, tn_run_event **events, size_t
 void tn_run_scores_clear(tn_run_scores *scores)
 {
     free(scores->scores);
+    free(scores->parents);
     free(scores->known);
     *scores = (tn_run_scores){0};
 }
@@ -52,6 +54,21 @@ bool tn_run_scores_recall(void *context, uint64_t id, tn_score *score)
         return false;
     *score = scores->scores[id];
     return true;
+}
+
+bool tn_run_scores_recall_parents(void *context, uint64_t id, uint64_t parents[2])
+{
+    const tn_run_scores *scores = context;
+    if (!scores->parents || id >= scores->count || !scores->known[id])
+        return false;
+    memcpy(parents, scores->parents[id], sizeof scores->parents[id]);
+    return true;
+}
+
+static uint64_t read_parent(sqlite3_stmt *statement, int column)
+{
+    return sqlite3_column_type(statement, column) == SQLITE_NULL ? TN_NO_PARENT
+                                                                 : (uint64_t)sqlite3_column_int64(statement, column);
 }
 
 static void read_score(sqlite3_stmt *statement, size_t objectives, tn_score *score)
@@ -79,15 +96,18 @@ tn_status tn_run_store_scores(tn_run_store *store, size_t objectives, tn_run_sco
         return tn_fail(error, TN_LIMIT, E_RUN_DATABASE, "the run has more than 2^32 births, the limit of resuming");
     scores->count = (size_t)(most + 1);
     scores->scores = calloc(scores->count + 1, sizeof *scores->scores);
+    scores->parents = calloc(scores->count + 1, sizeof *scores->parents);
     scores->known = calloc(scores->count + 1, 1);
-    if (!scores->scores || !scores->known)
+    if (!scores->scores || !scores->parents || !scores->known)
         return tn_fail_memory(error);
-    status = prepare(store, "SELECT id, state, fitness, more FROM birth", &statement, error);
+    status = prepare(store, "SELECT id, state, fitness, more, parent, other FROM birth", &statement, error);
     while (status == TN_OK && sqlite3_step(statement) == SQLITE_ROW) {
         int64_t id = sqlite3_column_int64(statement, 0);
         if (id < 0)
             continue;
         read_score(statement, objectives, &scores->scores[id]);
+        for (int i = 0; i < 2; i++)
+            scores->parents[id][i] = read_parent(statement, 4 + i);
         scores->known[id] = 1;
     }
     sqlite3_finalize(statement);
@@ -168,6 +188,10 @@ tn_status tn_run_store_stats(tn_run_store *store, tn_generation_stats **stats, s
         s->births = (uint64_t)sqlite3_column_int64(statement, 9);
         s->mean_codons = sqlite3_column_double(statement, 10);
         s->mean_depth = sqlite3_column_double(statement, 11);
+        for (int i = 0; i < 3; i++)
+            s->quartiles[i] = sqlite3_column_type(statement, 13 + i) == SQLITE_FLOAT
+                                  ? sqlite3_column_double(statement, 13 + i)
+                                  : NAN; /* a run of before they were stored */
     }
     sqlite3_finalize(statement);
     return status;

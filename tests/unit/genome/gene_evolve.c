@@ -25,6 +25,16 @@ static tn_status match_and_length(void *context, unsigned thread, const char *se
     return inner.evaluate(context, thread, sentence, size, score, message, error);
 }
 
+/* How far the first letters are from those wanted. */
+static tn_status letters(void *context, unsigned thread, const char *sentence, size_t size, double *errors,
+                         tn_error *error)
+{
+    (void)context, (void)thread, (void)error;
+    for (size_t i = 0; i < 11; i++)
+        errors[i] = i < size ? abs(sentence[i] - "hello world"[i]) : 99;
+    return TN_OK;
+}
+
 static setup prepare(int variant)
 {
     setup s = {.grammar = test_grammar_file(STDLIB "words.bnf"), .settings = tn_evolution_settings_default()};
@@ -37,6 +47,11 @@ static setup prepare(int variant)
     s.settings.vary.mutation = (tn_mutation)(variant % TN_MUTATE_COUNT);
     s.settings.select.selection = (tn_selection)(variant % TN_SELECT_COUNT);
     s.settings.replacement = variant % 5 == 4 ? TN_REPLACE_STEADY : TN_REPLACE_GENERATION;
+    if (s.settings.select.selection >= TN_SELECT_LEXICASE) {
+        s.evaluator.cases = 11;
+        s.evaluator.evaluate_cases = letters;
+        s.settings.replacement = TN_REPLACE_GENERATION;
+    }
     if (s.settings.select.selection == TN_SELECT_NSGA2) {
         s.evaluator.objectives = 2;
         s.evaluator.evaluate = match_and_length;
@@ -237,15 +252,17 @@ static void test_csv(void **state)
     } wrong[] = {
         {"", 0, 0},       {"x,y\n", 0, 0},  {"x,y\n1\n", 2, 2},    {"x,y\n1,2,3\n", 2, 5}, {"x,y\n1,two\n", 2, 3},
         {"x,,y\n", 1, 3}, {"y\n1\n", 0, 0}, {"x,y\n1,inf\n", 2, 3}};
+    static const tn_fit_options options = {.threads = 1};
     tn_problem *problem;
     tn_error error;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        assert_int_equal(tn_problem_fit_csv(wrong[i].text, strlen(wrong[i].text), 1, &problem, &error), TN_INVALID);
+        assert_int_equal(tn_problem_fit_csv(wrong[i].text, strlen(wrong[i].text), &options, &problem, &error),
+                         TN_INVALID);
         assert_int_equal(error.line, wrong[i].line);
         assert_int_equal(error.column, wrong[i].column);
     }
     const char *good = "a, b, sum\r\n1, 2, 3\r\n-1.5, 2.5e0, 1\r\n";
-    assert_int_equal(tn_problem_fit_csv(good, strlen(good), 1, &problem, &error), TN_OK);
+    assert_int_equal(tn_problem_fit_csv(good, strlen(good), &options, &problem, &error), TN_OK);
     tn_evaluator evaluator = tn_problem_evaluator(problem);
     tn_score score = {0};
     char message[200];

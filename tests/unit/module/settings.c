@@ -2,6 +2,7 @@
  * study could say is refused. */
 #include "runtime/genome/settings.h"
 #include "runtime/genome/breeding/evolve.h"
+#include "runtime/genome/breeding/fit_error.h"
 #include "runtime/load.h"
 #include "tests/support/test_grammar.h"
 
@@ -26,6 +27,15 @@ static void test_choices_are_the_engines(void **state)
     is_choice(TN_SET_SELECTION, "truncation", TN_SELECT_TRUNCATION, TN_SELECT_COUNT);
     is_choice(TN_SET_SELECTION, "roulette", TN_SELECT_ROULETTE, TN_SELECT_COUNT);
     is_choice(TN_SET_SELECTION, "nsga2", TN_SELECT_NSGA2, TN_SELECT_COUNT);
+    is_choice(TN_SET_SELECTION, "lexicase", TN_SELECT_LEXICASE, TN_SELECT_COUNT);
+    is_choice(TN_SET_SELECTION, "epsilon-lexicase", TN_SELECT_EPSILON_LEXICASE, TN_SELECT_COUNT);
+    is_choice(TN_SET_ERROR, "rmse", TN_FIT_RMSE, TN_FIT_ERROR_COUNT);
+    is_choice(TN_SET_ERROR, "mse", TN_FIT_MSE, TN_FIT_ERROR_COUNT);
+    is_choice(TN_SET_ERROR, "mae", TN_FIT_MAE, TN_FIT_ERROR_COUNT);
+    is_choice(TN_SET_ERROR, "r2", TN_FIT_R2, TN_FIT_ERROR_COUNT);
+    is_choice(TN_SET_ERROR, "log-loss", TN_FIT_LOG_LOSS, TN_FIT_ERROR_COUNT);
+    is_choice(TN_SET_ERROR, "accuracy", TN_FIT_ACCURACY, TN_FIT_ERROR_COUNT);
+    is_choice(TN_SET_ERROR, "f1", TN_FIT_F1, TN_FIT_ERROR_COUNT);
     is_choice(TN_SET_CROSSOVER, "one-point", TN_CROSS_ONE_POINT, TN_CROSS_COUNT);
     is_choice(TN_SET_CROSSOVER, "fixed-one-point", TN_CROSS_FIXED_ONE_POINT, TN_CROSS_COUNT);
     is_choice(TN_SET_CROSSOVER, "two-point", TN_CROSS_TWO_POINT, TN_CROSS_COUNT);
@@ -80,7 +90,7 @@ static void expect(const tn_setting_record *settings, size_t count, bool with_gr
     tn_builder_add_SOURCE(
         builder, &(tn_source_record){tn_builder_string(builder, "a.bnf"), tn_builder_string(builder, grammar)});
     if (with_grammar)
-        assert_int_equal(tn_bnf_compile(&sources, file, &diagnostics, arena, builder, &error), TN_OK);
+        assert_int_equal(tn_bnf_compile(&sources, file, NULL, &diagnostics, arena, builder, &error), TN_OK);
     for (size_t i = 0; i < count; i++) {
         tn_setting_record record = settings[i];
         record.text = record.text ? tn_builder_string(builder, "text") : 0;
@@ -127,7 +137,7 @@ static void test_wrong_modules_are_refused(void **state)
     REFUSED(2, written = 0, range);
     REFUSED(2, written = 2, range);
     REFUSED(3, second = 1, range);
-    REFUSED(4, choice = 4, range);
+    REFUSED(4, choice = TN_SELECT_COUNT, range);
     REFUSED(4, second = -1, range);
     REFUSED(4, second = 3, "takes the share of the best");
     REFUSED(4, choice = TN_SELECT_NSGA2, "weighs several objectives");

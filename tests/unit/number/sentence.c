@@ -8,9 +8,9 @@
 
 #include <cmocka.h>
 
-#include "runtime/numeric/numeric.h"
 #include "runtime/number/run.h"
 #include "runtime/number/sentence.h"
+#include "runtime/numeric/numeric.h"
 #include "tests/support/test_expression.h"
 
 static const char *const names[TEST_TERMS] = {"x", "y", "x0", "x1", "long_name", "a-b", "X", "z9", "_"};
@@ -45,6 +45,30 @@ static void test_values(void **state)
     assert_true(value_of("123456.789") == 123456.789);
 }
 
+/* What Python programs write. */
+static void test_python(void **state)
+{
+    (void)state;
+    assert_true(value_of("x[:, 0] + x.iloc[:, 1] + x[0]") == 6);
+    assert_true(value_of("np.sin(x)+np.exp(y)-np.tanh(y)") == tn_sin(3) + 1);
+    assert_true(value_of("plog(-x)") == tn_log(4));
+    assert_true(value_of("rlog(-x)") == tn_log(3));
+    assert_true(value_of("pdiv(x, y) + psqrt(-4)") == 3);
+    assert_true(value_of("aq(x, y)") == 3);
+    assert_true(value_of("aq(y, x) + aq(10, x)") == 10 / sqrt(10));
+    assert_true(value_of("np.maximum(x, 5) + np.minimum(x, 5)") == 8);
+    assert_true(value_of("-x**2") == -9);
+    assert_true(value_of("2**-1") == 0.5);
+    assert_true(value_of("2**3**2") == 512);
+    assert_true(value_of("x-y") == 3); /* no name has this minus */
+    assert_true(value_of("x-sin(y)") == 3);
+    assert_true(value_of("(x > 2) & ~(y == 1) | (x != 3)") == 1);
+    assert_true(value_of("x <= 2") == 0);
+    assert_true(value_of("np.where(x > 2, 7, 8) + np.where(x == 2, 7, 8)") == 15);
+    assert_true(value_of("np.where(x > 2, np.where(y > 0, 1, 2), 3)") == 2);
+    assert_true(value_of("np.log(y)") == -HUGE_VAL); /* not protected */
+}
+
 static void refused(const char *text, uint32_t column)
 {
     tn_formula formula = {0};
@@ -65,11 +89,18 @@ static void test_refused(void **state)
     refused("(x", 3);
     refused("z", 1);
     refused("tan(x)", 5);
+    refused("np.sinh(x)", 9);
+    refused("x[:, 1]", 6);
+    refused("x[:, y]", 6);
+    refused("x[0", 4);
+    refused("c[0]", 1);
+    refused("np.where(x, 1)", 14);
+    refused("x = 3", 3);
     refused("min(x)", 6);
     refused("min(x, x, x)", 9);
     refused("sqrt()", 6);
     refused("1.5.2", 4);
-    refused("x < 3", 3);
+    refused("x <> 3", 4);
     refused("1234567890123456", 16);
     refused("0.1234567890123456", 18);
 }
@@ -80,7 +111,7 @@ static void test_functions_are_told(void **state)
     tn_formula formula = {0};
     tn_error error;
     assert_int_equal(tn_sentence_read("tan(x)", 6, names, 1, &formula, &error), TN_INVALID);
-    assert_string_equal(error.message, "there is no such function: there are abs, square, exp, sin, cos, tanh, sqrt, "
+    assert_string_equal(error.message, "there is no function `tan`: there are abs, square, exp, sin, cos, tanh, sqrt, "
                                        "log, min and max");
     tn_formula_clear(&formula);
 }
@@ -260,6 +291,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values),
+        cmocka_unit_test(test_python),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_functions_are_told),
         cmocka_unit_test(test_deep_and_long),

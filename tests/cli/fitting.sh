@@ -1,0 +1,112 @@
+#!/usr/bin/env bash
+# Fitting: data to test with, measures of errors, classes, scaling, lexicase selection, why sentences fail.
+# Needs the parts: draw store
+set -u
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+failed=0
+fail() { echo "fitting: $*" >&2; failed=1; }
+
+awk 'BEGIN { print "x,y,wanted"; for (i = 0; i < 50; i++) { x = i / 10; y = (i * 7 % 11) / 3; print x "," y "," 3 * x * y + 2 } }' > data.csv
+awk 'BEGIN { print "x,y,wanted"; for (i = 0; i < 30; i++) { x = 5 + i / 10; y = (i * 5 % 13) / 2; print x "," y "," 3 * x * y + 2 } }' > test.csv
+cat > sums.bnf <<'X'
+<e> ::= (<e> + <e>) | (<e> * <e>) | (<e> - <e>) | x | y | x | y | <d>
+<d> ::= GE_RANGE:4
+X
+study() {
+  printf 'evolution {\n  grammar "sums.bnf"\n  fit "data.csv"\n  population 80\n  generations 10\n  depth 2..5\n  seed 3\n'
+  printf '  %s\n' "$@"
+  printf '}\n'
+}
+
+# ---- every measure, with both numbers of threads, resumed; the cost of a right sentence is 0
+for measure in rmse mse mae r2; do
+  study "error $measure" 'test "test.csv"' > "$measure.study"
+  "$TARTAN" evolve "$measure.study" -o "$measure.one" --threads 1 > "$measure.txt" || fail "error $measure does not run"
+  "$TARTAN" evolve "$measure.study" -o "$measure.two" --threads 2 -g 4 > /dev/null
+  "$TARTAN" evolve "$measure.study" -o "$measure.two" --threads 2 --resume > /dev/null || fail "error $measure cannot be resumed"
+  cmp -s "$measure.one/run.sqlite" "$measure.two/run.sqlite" || fail "error $measure: other bytes with two threads"
+  grep -q '^with the test data: ' "$measure.txt" || fail "error $measure: no score with the test data"
+  head -n 1 "$measure.one/best/scores.csv" | grep -qx 'file,individual,score,test' || fail "error $measure: scores.csv has no test"
+done
+python3 - <<'X' || fail "scores are not what the measures say"
+import csv, math
+def read(name): return [[float(v) for v in row] for row in list(csv.reader(open(name)))[1:]]
+data, test = read("data.csv"), read("test.csv")
+def errors(sentence, rows):
+    code = compile(sentence.strip(), "s", "eval")
+    return [eval(code, {"x": r[0], "y": r[1]}) - r[2] for r in rows]
+def cost(measure, rows, e):
+    if measure == "mae": return sum(map(abs, e)) / len(e)
+    square = sum(v * v for v in e)
+    mean = sum(r[2] for r in rows) / len(rows)
+    return {"mse": square / len(e), "rmse": math.sqrt(square / len(e)), "r2": square / sum((r[2] - mean) ** 2 for r in rows)}[measure]
+for measure in ("rmse", "mse", "mae", "r2"):
+    for row in list(csv.reader(open(measure + ".one/best/scores.csv")))[1:]:
+        s = open(f"{measure}.one/best/{row[0]}").read()
+        for said, rows in ((row[2], data), (row[3], test)):
+            real = cost(measure, rows, errors(s, rows))
+            assert abs(float(said) - real) <= 1e-9 * max(1, abs(real)), (measure, s, said, real)
+X
+
+# ---- scaling: with it, a product alone is right
+study 'scaling linear' > scaled.study
+"$TARTAN" evolve scaled.study > scaled.txt || fail "does not scale"
+awk '/^last generation/ { sub(/,/, "", $4); exit !($4 + 0 < 1e-3) }' scaled.txt && grep -qE '^scaled: -?[0-9.]+ \+ -?[0-9.]+ times this$' scaled.txt ||
+  fail "scaling does not find the line: $(cat scaled.txt)"
+head -n 1 scaled.run/best/scores.csv | grep -q 'intercept,slope' || fail "scores.csv has no line"
+
+# ---- lexicase and epsilon-lexicase: with any number of threads, resumed, and replayed without the data
+for selection in lexicase epsilon-lexicase; do
+  study "selection $selection" > "$selection.study"
+  "$TARTAN" evolve "$selection.study" -o "$selection.one" --threads 1 > "$selection.txt" || fail "$selection does not run"
+  "$TARTAN" evolve "$selection.study" -o "$selection.two" --threads 2 -g 4 > /dev/null
+  "$TARTAN" evolve "$selection.study" -o "$selection.two" --threads 2 --resume > /dev/null || fail "$selection cannot be resumed"
+  cmp -s "$selection.one/run.sqlite" "$selection.two/run.sqlite" || fail "$selection: other bytes with two threads"
+  mv data.csv away.csv
+  "$TARTAN" runs replay "$selection.one" "$(sed -n 's/^best: individual //p' "$selection.txt")" | tail -n 1 | cmp -s - "$selection.one/best/1.txt" ||
+    fail "$selection: the best is not replayed"
+  mv away.csv data.csv
+done
+printf 'evolution {\n grammar "words"\n match "abc"\n selection lexicase\n}\n' > letters.study
+"$TARTAN" check letters.study 2> err.txt && fail "selects by cases where there are none"
+grep -q 'E1232.*errors of data' err.txt || fail "does not say what lexicase looks at"
+
+# ---- classes
+awk 'BEGIN { print "x,y,kind"; for (i = 0; i < 60; i++) { x = i % 10; y = int(i / 10); print x "," y "," (x > 2 * y ? 1 : 0) } }' > kinds.csv
+for measure in log-loss accuracy f1; do
+  study "error $measure" | sed 's/data.csv/kinds.csv/; s/population 80/population 400/' > "$measure.study"
+  "$TARTAN" evolve "$measure.study" > "$measure.txt" || fail "error $measure does not run"
+done
+grep -q '^last generation: best 0,' accuracy.txt || fail "does not tell two kinds apart: $(cat accuracy.txt)"
+study 'error log-loss' > numbers.study
+"$TARTAN" evolve numbers.study > /dev/null 2> err.txt && fail "takes 50 values for two classes"
+grep -q 'E1243.*different values' err.txt || fail "does not say that these are no classes"
+study 'error f1' 'scaling linear' > both.study
+"$TARTAN" check both.study > /dev/null 2>&1 && fail "scales classes"
+
+# ---- test data of other columns
+sed 's/x,y/y,x/' test.csv > turned.csv
+study 'test "turned.csv"' > turned.study
+"$TARTAN" evolve turned.study > /dev/null 2> err.txt && fail "tests with other columns"
+grep -q 'E1243.*columns' err.txt || fail "does not say that the columns differ"
+
+# ---- why sentences fail: counted by reason, and said before the run where most do
+cat > odd.bnf <<'X'
+<e> ::= sinh(<v>) | sinh(<v>) | logg(<v>) | <v> + <v>
+<v> ::= x | y
+X
+study | sed 's/sums.bnf/odd.bnf/' > odd.study
+"$TARTAN" evolve odd.study -g 0 > odd.txt 2> err.txt || fail "a run of which most sentences fail does not run"
+grep -q '^warning\[W158\]: of 80 sentences of the first generation, .* have no score: there is no function `sinh`' err.txt || fail "does not warn of failures: $(cat err.txt)"
+failing=$(sed -n 's/.*sentence, \([0-9]*\) failed.*/\1/p' odd.txt | tail -n 1)
+counted=$(sed -n 's/^  \([0-9]*\) failed: there is no function `\(sinh\|logg\)`.*/\1/p' odd.txt | awk '{ s += $1 } END { print s }')
+[ -n "$failing" ] && [ "$failing" = "$counted" ] || fail "reasons do not add up: $failing, $counted"
+
+# ---- medians and quartiles
+head -n 1 rmse.one/stats.csv | grep -q 'lower_quartile,median,upper_quartile$' || fail "no quartiles in stats.csv"
+tail -n 1 rmse.one/stats.csv | awk -F, '{ exit !($2 <= $13 && $13 <= $14 && $14 <= $15) }' || fail "quartiles are not in order"
+sqlite3 rmse.one/run.sqlite 'SELECT count(*) FROM generation WHERE median BETWEEN best AND upper_quartile' 2> /dev/null | grep -qx 11 || [ ! -x "$(command -v sqlite3)" ] ||
+  fail "medians are not in the database"
+exit "$failed"

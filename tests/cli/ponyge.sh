@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# Grammars, data and parameters as they are written for PonyGE2. A folder of its grammars is taken from $TARTAN_PONYGE2, where that is set
+# (cmake -DTARTAN_PONYGE2=DIR): each of them is read, or what is not supported is said in one line.
+# Needs the parts: draw store
+set -u
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+failed=0
+fail() { echo "ponyge: $*" >&2; failed=1; }
+
+# ---- brackets beside non-terminals are text; alone they are, too, and it is said
+cat > index.bnf <<'X'
+<e> ::= (<e> <op> <e>) | x[:, <i>] | x.iloc[:, <i>] | [<i>]
+<op> ::= + | *
+<i> ::= GE_RANGE:2
+X
+"$TARTAN" check index.bnf > out.txt 2>&1 || fail "brackets beside non-terminals are not read"
+[ -s out.txt ] && grep -v W155 out.txt | grep -q 'W157' && fail "brackets beside non-terminals are no question of dialect"
+[ "$("$TARTAN" map index.bnf --genome '1 1' | tail -n 1)" = 'x[:, 1]' ] || fail "a column is mapped to something else"
+printf '<a> ::= { <b> } | [ <b> ]\n<b> ::= x\n' > alone.bnf
+"$TARTAN" check alone.bnf 2> err.txt || fail "braces that stand alone are not read"
+grep -q 'W157.*read as ge' err.txt || fail "does not say that the dialect ge was taken"
+[ "$("$TARTAN" map alone.bnf --genome '0 0' | tail -n 1)" = '{ x }' ] || fail "braces are not text in ge"
+printf '<a> ::= Edge { + Edge } ;\n' > edges.bnf
+"$TARTAN" check edges.bnf 2> err.txt; grep -q 'W157.*read as genr8' err.txt || fail "does not say that the dialect genr8 was taken"
+"$TARTAN" fmt edges.bnf > /dev/null 2>&1 || fail "a grammar of a guessed dialect is not laid out"
+grep -q '^<a> ::= Edge { + Edge } ;$' edges.bnf || fail "a guessed dialect is laid out otherwise: $(cat edges.bnf)"
+
+# ---- grammars of Python programs are refused with the reason, as themselves and in a study
+printf '<p> ::= def f():{:<s>:}\n<s> ::= return 1\n' > program.pybnf
+"$TARTAN" check program.pybnf 2> err.txt && fail "takes a grammar of Python programs"
+[ "$(grep -c 'error\[' err.txt)" = 1 ] && grep -q 'E1263' err.txt || fail "does not say why a .pybnf is refused: $(cat err.txt)"
+
+# ---- numbers of the data: from the data, from a directive, and otherwise an error
+cat > numbers.bnf <<'X'
+<e> ::= np.where(x[:, <v>] == <is>, <os>, <os>)
+<v> ::= GE_RANGE:dataset_n_vars
+<is> ::= GE_RANGE:dataset_n_is
+<os> ::= GE_RANGE:dataset_n_os
+X
+"$TARTAN" check numbers.bnf 2> err.txt && fail "knows numbers of data that are not there"
+[ "$(grep -c 'E1213.*dataset_n_' err.txt)" = 3 ] || fail "does not name the numbers that are not known"
+(printf '%%dataset-vars 3\n%%dataset-inputs 4\n%%dataset-outputs 2\n'; cat numbers.bnf) > told.bnf
+[ "$("$TARTAN" map told.bnf --genome '0 2 3 1 0' | tail -n 1)" = 'np.where(x[:, 2] == 3, 1, 0)' ] || fail "a directive does not say the numbers"
+printf '%%dataset-vars 0\n<a> ::= b\n' > none.bnf
+"$TARTAN" check none.bnf 2> err.txt && fail "takes no columns"
+awk 'BEGIN { print "# a\tb\tc\tclass"; for (i = 0; i < 64; i++) { a = i % 4; b = int(i / 4) % 4; c = int(i / 16); print a "\t" b "\t" c "\t" (b == 3 ? 1 : 0) } }' > classes.txt
+cat > classes.study <<'X'
+evolution {
+  grammar "numbers.bnf"
+  fit "classes.txt"
+  error accuracy
+  population 60
+  generations 12
+  codons 12
+  initialise random
+  seed 5
+}
+X
+"$TARTAN" evolve classes.study -o one --threads 1 > one.txt || fail "does not evolve with numbers of the data"
+grep -qF 'np.where(x[:, 1] == 3, 1, 0)' one.txt || fail "does not find the class: $(cat one.txt)"
+"$TARTAN" evolve classes.study -o two --threads 2 -g 5 > /dev/null && "$TARTAN" evolve classes.study -o two --threads 2 --resume > /dev/null
+cmp -s one/run.sqlite two/run.sqlite || fail "a resumed run with numbers of the data has other bytes"
+cp classes.txt kept.txt; rm classes.txt
+"$TARTAN" runs replay one "$(sed -n 's/^best: individual //p' one.txt)" | tail -n 1 | cmp -s - one/best/1.txt || fail "a run is not replayed without its data"
+awk -v OFS='\t' 'NR == 1 { print "# a", "b", "c", "d", "class"; next } { print $1, $2, $3, 0, $4 }' kept.txt > classes.txt
+"$TARTAN" evolve classes.study -o one --resume > /dev/null 2> err.txt && fail "goes on with data of more columns"
+grep -q 'E1252.*dataset-vars' err.txt || fail "does not say that the number of columns differs: $(cat err.txt)"
+
+# ---- all grammars of a folder
+if [ -n "${TARTAN_PONYGE2:-}" ]; then
+  count=0
+  while IFS= read -r grammar; do
+    count=$((count + 1))
+    "$TARTAN" check "$grammar" > /dev/null 2> err.txt
+    status=$?
+    [ "$status" -le 1 ] || fail "$grammar: exit status $status"
+    [ "$status" = 0 ] || grep -q 'error\[E\(1213\|1263\|1207\|0002\|1209\)\]' err.txt || fail "$grammar: $(head -n 1 err.txt)"
+  done < <(find "$TARTAN_PONYGE2" -name '*.bnf' -o -name '*.pybnf')
+  echo "$count grammars of $TARTAN_PONYGE2"
+fi
+exit "$failed"
