@@ -6,6 +6,10 @@
 #include <string.h>
 
 #include "cli/common/interrupt.h"
+#include "driver/ponyge/ponyge.h"
+#include "runtime/base/file.h"
+
+#define PARAMETERS_BYTES_MAX ((size_t)1 << 20)
 #include "runtime/ranks/ranks.h"
 
 /* study.study -> study.run, in the folder that the command is given in. */
@@ -141,9 +145,44 @@ static bool wants_what_can_be(tn_job *command, const tn_session_settings *settin
     return true;
 }
 
-static bool open_study(tn_job *command, const char *path, tn_evolution_study *study, tn_error *error)
+/* Parameters of PonyGE2 become a study, which is compiled as if it lay beside them. */
+static bool open_parameters(tn_evolution_session *e, const char *path)
 {
-    if (!tn_job_open(command, path))
+    tn_job *command = e->command;
+    char *study = NULL, *ignored = NULL;
+    uint8_t *bytes;
+    size_t size;
+    tn_error error = {0};
+    tn_status status = tn_file_read(path, PARAMETERS_BYTES_MAX, &bytes, &size, &error);
+    if (status == TN_OK) {
+        status = tn_ponyge_study(path, (const char *)bytes, size, &study, &ignored, &error);
+        free(bytes);
+    }
+    if (status != TN_OK) {
+        tn_job_status(command, status);
+        tn_report_error(tn_job_diagnostics(command), &error, path, NULL, 0);
+        return false;
+    }
+    if (asprintf(&e->parameters_study, "%s.study", path) < 0)
+        e->parameters_study = NULL;
+    status = e->parameters_study ? tn_open_bytes(e->parameters_study, (const uint8_t *)study, strlen(study),
+                                                 command->settings->werror, &command->opened)
+                                 : TN_MEMORY;
+    tn_job_status(command, status);
+    if (command->opened.module)
+        command->opened.module->watch = tn_interrupt_waiting();
+    if (ignored[0])
+        tn_report_bare(tn_job_diagnostics(command), TN_NOTE, TN_CODE_NONE,
+                       "these parameters of PonyGE2 do not apply: %s", ignored);
+    free(study);
+    free(ignored);
+    return command->opened.module != NULL;
+}
+
+static bool open_study(tn_evolution_session *e, const char *path, tn_evolution_study *study, tn_error *error)
+{
+    tn_job *command = e->command;
+    if (e->settings->ponyge ? !open_parameters(e, path) : !tn_job_open(command, path))
         return false;
     if (tn_evolution_study_of(command->opened.module, study))
         return true;
@@ -168,7 +207,7 @@ static bool open_session(tn_job *command, const tn_session_settings *settings, b
         tn_fail_memory(&error);
         tn_job_fail(command, &error);
     }
-    bool ready = dir && wants_what_can_be(command, settings) && open_study(command, path, &study, &error) &&
+    bool ready = dir && wants_what_can_be(command, settings) && open_study(e, path, &study, &error) &&
                  make_job(e, &study, &error);
     bool begun = tn_job_agree(command, ready) && begin(e, &study, dir, &error);
     free(own);
@@ -179,7 +218,7 @@ int tn_evolution_session_run(const tn_session_settings *settings, bool remembers
                              void (*work)(tn_evolution_session *evolution))
 {
     tn_job command;
-    tn_evolution_session evolution;
+    tn_evolution_session evolution = {0};
     tn_job_begin(&command, &settings->common);
     if (open_session(&command, settings, remembers, &evolution)) {
         tn_job_show(&command);
@@ -187,5 +226,7 @@ int tn_evolution_session_run(const tn_session_settings *settings, bool remembers
     }
     tn_run_clear(&evolution.run); /* before the job ends, which owns the study's texts */
     tn_evolution_job_clear(&evolution.job);
-    return tn_job_end(&command);
+    int code = tn_job_end(&command);
+    free(evolution.parameters_study);
+    return code;
 }

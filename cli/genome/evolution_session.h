@@ -9,20 +9,21 @@
 /* The options of all of them; what the number of generations means is told by each. */
 #define OPTIONS_RUN(generations_help)                                                                                  \
     TEXT("output", 'o', "DIR", output, "the run's folder (default: the study's name with .run instead of .study)"),    \
-        FLAG("resume", 0, resume, "continue the run in the folder, if there is one"),                                \
+        FLAG("resume", 0, resume, "continue the run in the folder, if there is one"),                                  \
         FLAG("rescore", 0, rescore,                                                                                    \
              "with --resume, where files that scores depend on have changed: score all members again"),                \
         NUMBER("generations", 'g', "N", generations, 0, 1000000, generations_help),                                    \
         LIST("set", 0, "\"NAME VALUE\"", changes,                                                                      \
-             "with --resume: from here on another target, weight, rate or surroundings, as \"length-weight 0.01\", "           \
-             "\"mutation codons 0.05\" or \"gravity 0 0 -0.2\"; may be repeated"),      \
+             "with --resume: from here on another target, weight, rate or surroundings, as \"length-weight 0.01\", "   \
+             "\"mutation codons 0.05\" or \"gravity 0 0 -0.2\"; may be repeated"),                                     \
         NUMBER("seed", 's', "S", seed, 0, 0, "another seed than the study's"), OPTION_THREADS(threads),                \
+        FLAG("ponyge", 0, ponyge, "the file has parameters of PonyGE2, `POPULATION_SIZE: 500` a line"),                \
         FLAG("durable", 0, durable, "sync every generation to the disk, against loss of power")
 
 typedef struct tn_session_settings {
     tn_settings common;
     const char *output; /* the run's folder */
-    bool resume, durable, rescore;
+    bool resume, durable, rescore, ponyge;
     tn_option_number generations, seed, threads;
     tn_option_list changes;
 } tn_session_settings;
@@ -34,6 +35,7 @@ typedef struct tn_evolution_session {
     tn_run run;
     uint32_t generations; /* to be bred, after the first */
     bool remembers;
+    char *parameters_study; /* owned: the name of the study that parameters became, or NULL */
 } tn_evolution_session;
 
 /* Opens the study that the first operand names, begins or resumes its run, and has it worked on, interruptible. The

@@ -68,6 +68,48 @@ awk -v OFS='\t' 'NR == 1 { print "# a", "b", "c", "d", "class"; next } { print $
 "$TARTAN" evolve classes.study -o one --resume > /dev/null 2> err.txt && fail "goes on with data of more columns"
 grep -q 'E1252.*dataset-vars' err.txt || fail "does not say that the number of columns differs: $(cat err.txt)"
 
+# ---- parameter files: a study is made of them, and what does not apply is listed
+mkdir -p tool/parameters tool/grammars tool/datasets/Plane
+cp numbers.bnf tool/grammars/classes.bnf
+cp kept.txt tool/datasets/Plane/Train.txt
+cat > tool/parameters/plane.txt <<'X'
+CACHE:                  True      # of no use here
+CODON_SIZE:             1000
+CROSSOVER:              operators.crossover.variable_twopoint
+CROSSOVER_PROBABILITY:  0.8
+DATASET_TRAIN:          Plane/Train.txt
+ERROR_METRIC:           mae
+FITNESS_FUNCTION:       supervised_learning.regression
+GENERATIONS:            8
+GRAMMAR_FILE:           classes.bnf
+INITIALISATION:         operators.initialisation.PI_grow
+MAX_INIT_TREE_DEPTH:    6
+MUTATION:               int_flip_per_ind
+MUTATION_EVENTS:        2
+POPULATION_SIZE:        40
+RANDOM_SEED:            12
+SELECTION:              tournament
+TOURNAMENT_SIZE:        3
+VERBOSE:                False
+X
+"$TARTAN" evolve --ponyge tool/parameters/plane.txt -o plane > plane.txt 2> err.txt || fail "does not read parameters: $(cat err.txt)"
+grep -q 'do not apply: CACHE, VERBOSE$' err.txt || fail "does not list what does not apply: $(cat err.txt)"
+sqlite3 plane/run.sqlite "SELECT value FROM meta WHERE key='identity'" > identity.txt 2> /dev/null
+for line in 'population 40' 'crossover two-point 0.8' 'mutation genome 2' 'selection tournament 3' 'initialise pi-grow' 'depth 2..6' 'codon-limit 1000' 'error mae' 'seed 12'; do
+  [ ! -s identity.txt ] || grep -qx "$line" identity.txt || fail "the parameters do not say $line: $(cat identity.txt)"
+done
+"$TARTAN" evolve --ponyge tool/parameters/plane.txt -o short -g 3 > /dev/null 2>&1 && "$TARTAN" evolve --ponyge tool/parameters/plane.txt -o short --resume > /dev/null 2>&1
+cmp -s plane/run.sqlite short/run.sqlite || fail "a run of parameters is not resumed"
+"$TARTAN" runs replay plane 41 > /dev/null || fail "a run of parameters is not replayed"
+printf 'POPULATION_SIZE: 40\nFITNESS_FUNCTION: pymax\n' > pymax.txt
+"$TARTAN" evolve --ponyge pymax.txt > /dev/null 2> err.txt && fail "runs a Python program"
+grep -q '^pymax.txt:2:1: error\[E1232\].*Python program' err.txt || fail "does not say that a fitness function is not run: $(cat err.txt)"
+printf 'TARGET: abc\nCROSSOVER: mine.own\n' > own.txt
+"$TARTAN" evolve --ponyge own.txt > /dev/null 2> err.txt && fail "takes an operator that is not there"
+grep -q '^own.txt:2:1: error\[E1232\].*mine.own' err.txt || fail "does not name the operator: $(cat err.txt)"
+"$TARTAN" evolve --ponyge classes.study > /dev/null 2> err.txt && fail "takes a study for parameters"
+grep -q 'E1231' err.txt || fail "does not say that a study is no parameter file"
+
 # ---- all grammars of a folder
 if [ -n "${TARTAN_PONYGE2:-}" ]; then
   count=0

@@ -148,23 +148,51 @@ static bool has_values(const double *values, size_t count)
     return !none;
 }
 
+/* Not a number where a value is none. */
+static double sum_of_squares(const double *values, const double *wanted, size_t count)
+{
+    double sums[8] = {0};
+    size_t whole = count - count % 8;
+    for (size_t i = 0; i < whole; i += 8)
+        for (size_t k = 0; k < 8; k++) {
+            double difference = values[i + k] - wanted[i + k];
+            sums[k] += difference * difference;
+        }
+    for (size_t i = whole; i < count; i++) {
+        double difference = values[i] - wanted[i];
+        sums[i - whole] += difference * difference;
+    }
+    for (size_t step = 4; step; step /= 2)
+        for (size_t k = 0; k < step; k++)
+            sums[k] += sums[k + step];
+    return sums[0];
+}
+
+static double mean_of_cases(const tn_fit_wanted *w, const double *values, double *scratch)
+{
+    for (size_t i = 0; i < w->count; i++)
+        scratch[i] = w->error == TN_FIT_MAE ? fabs(values[i] - w->values[i]) : loss(w, values, i);
+    return sum_of(scratch, w->count) / (double)w->count;
+}
+
 double tn_fit_cost(const tn_fit_wanted *w, const double *values, double *scratch)
 {
-    if (!has_values(values, w->count))
+    if (tn_fit_has_classes(w->error) && !has_values(values, w->count))
         return NAN;
-    if (w->error == TN_FIT_ACCURACY)
+    switch (w->error) {
+    case TN_FIT_ACCURACY:
         return error_share(w, values);
-    if (w->error == TN_FIT_F1)
+    case TN_FIT_F1:
         return 1 - f1(w, values);
-    for (size_t i = 0; i < w->count; i++) {
-        double difference = values[i] - w->values[i];
-        scratch[i] = w->error == TN_FIT_LOG_LOSS ? loss(w, values, i)
-                     : w->error == TN_FIT_MAE    ? fabs(difference)
-                                                 : difference * difference;
+    case TN_FIT_MAE:
+    case TN_FIT_LOG_LOSS:
+        return mean_of_cases(w, values, scratch);
+    default:
+        break;
     }
-    double sum = sum_of(scratch, w->count);
+    double sum = sum_of_squares(values, w->values, w->count);
     if (w->error == TN_FIT_R2)
-        return w->variance > 0 ? sum / w->variance : sum > 0 ? HUGE_VAL : 0;
+        return w->variance > 0 || sum != sum ? sum / w->variance : sum > 0 ? HUGE_VAL : 0;
     double mean = sum / (double)w->count;
     return w->error == TN_FIT_RMSE ? sqrt(mean) : mean;
 }

@@ -11,7 +11,7 @@
 #include "runtime/number/sentence.h"
 #include "runtime/number/shared.h"
 
-#define BATCH_MAX 128u                 /* sentences evaluated together, which share what they have in common */
+#define BATCH_MAX 32u                  /* sentences evaluated together, which share what they have in common */
 #define BATCH_VALUES ((size_t)4 << 20) /* numbers that their values may be, where that is less */
 
 /* What a thread evaluates sentences with. */
