@@ -16,6 +16,8 @@
 #define IDLE_STEPS 100u           /* on end without a new face: then no number of faces is waited for any more */
 
 /* A growth under way. */
+enum { OVERLAY_MAX = 32 };
+
 typedef struct run_state {
     tn_job *job;
     const tn_grow_settings *settings;
@@ -31,12 +33,16 @@ typedef struct run_state {
     tn_faults faults;                 /* of the last step that had any, each kind by itself */
     uint32_t crossed[2], inverted[2]; /* the first and the last step with such faces; 0: none */
     double faces_before;
-    bool forecast; /* was made */
-    uint32_t idle; /* steps on end that made no face */
+    bool forecast;                                /* was made */
+    uint32_t idle;                                /* steps on end that made no face */
+    uint32_t overlay[OVERLAY_MAX], overlay_count; /* steps to be drawn over one another */
+    uint32_t overlaid_count;
+    tn_sight overlaid;
 } run_state;
 
 static void clear(run_state *run)
 {
+    tn_sight_clear(&run->overlaid);
     for (size_t i = 0; i < run->stats_count; i++)
         tn_stats_clear(&run->stats[i]);
     for (size_t i = 0; i < run->view_count; i++)
@@ -124,6 +130,15 @@ static tn_status note_stats(run_state *run, tn_error *error)
                            : status;
 }
 
+/* Is the step one of --overlay? */
+static bool overlays(const run_state *run, uint32_t step)
+{
+    for (uint32_t i = 0; i < run->overlay_count; i++)
+        if (run->overlay[i] == step)
+            return true;
+    return false;
+}
+
 /* What there is to do with each step. */
 static tn_status note_step(run_state *run, tn_error *error)
 {
@@ -134,6 +149,12 @@ static tn_status note_step(run_state *run, tn_error *error)
         tn_status status = note_stats(run, error);
         if (status != TN_OK)
             return status;
+    }
+    if (overlays(run, tn_growth_steps(run->growth))) {
+        tn_status status = tn_growth_sight_add(run->growth, &run->overlaid, error);
+        if (status != TN_OK)
+            return status;
+        run->overlaid_count++;
     }
     if (settings->sheet) {
         tn_camera camera = tn_grow_camera(settings);
@@ -254,12 +275,25 @@ static tn_status grow(run_state *run, tn_error *error)
     return status;
 }
 
+static void draw_overlay(run_state *run)
+{
+    uint32_t last = tn_growth_steps(run->growth);
+    if (run->overlaid_count < run->overlay_count)
+        tn_job_note(run->job, "the surface has %u steps: later ones of --overlay are not drawn", last);
+    if (run->overlaid_count)
+        tn_grow_overlay(run->job, run->growth, &run->study, &run->overlaid, run->format);
+    else
+        tn_job_usage(run->job, "none of the steps of --overlay is there: the last is %u", last);
+}
+
 static void finish(run_state *run)
 {
     const tn_grow_settings *settings = run->settings;
     warn_of_faults(run);
     if (settings->sheet)
         tn_grow_sheet(run->job, run->growth, &run->study, run->views, run->view_count, run->format);
+    else if (settings->overlay)
+        draw_overlay(run);
     else if (settings->output && !settings->each_step)
         tn_grow_write(run->job, run->growth, &run->study, run->format, settings->output);
     if (settings->stats || !settings->output)
@@ -291,6 +325,28 @@ static bool read_until(run_state *run)
     return false;
 }
 
+/* --overlay 1,3,5 */
+static bool read_overlay(run_state *run)
+{
+    const char *text = run->settings->overlay;
+    while (text && *text) {
+        char word[12];
+        uint64_t step;
+        size_t size = strcspn(text, ",");
+        snprintf(word, sizeof word, "%.*s", (int)(size < sizeof word ? size : 0), text);
+        if (run->overlay_count == OVERLAY_MAX || !tn_number_read(word, &step) || step > TN_STEPS_MAX) {
+            tn_diagnostic *d = tn_job_usage(run->job, "--overlay takes up to %d steps, not `%.60s`", OVERLAY_MAX,
+                                            run->settings->overlay);
+            tn_help(tn_job_diagnostics(run->job), d, "for example --overlay 1,3,5");
+            return false;
+        }
+        if (!overlays(run, (uint32_t)step))
+            run->overlay[run->overlay_count++] = (uint32_t)step;
+        text += size + (text[size] == ',');
+    }
+    return true;
+}
+
 static tn_status prepare(run_state *run, tn_error *error)
 {
     const tn_opened *opened = &run->job->opened;
@@ -320,7 +376,7 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_error error;
     tn_job_begin(&job, common);
     run_state state = {.job = &job, .settings = tn_grow_settings_of(&job)};
-    if (tn_grow_format_of(&job, &state.format) && read_until(&state) && tn_grow_open(&job)) {
+    if (tn_grow_format_of(&job, &state.format) && read_until(&state) && read_overlay(&state) && tn_grow_open(&job)) {
         tn_status status = prepare(&state, &error);
         if (status == TN_OK)
             status = grow(&state, &error);
@@ -346,6 +402,7 @@ static const tn_option options[] = {
           "write counts, labels, ages and fitness of every step to standard output"),
     FLAG("explain", 0, explain, "say for every step why branches did not join"),
     FLAG("each-step", 0, each_step, "write every step, to NAME-000.obj, NAME-001.obj and so on"),
+    TEXT("overlay", 0, "N,N,...", overlay, "draw these steps over one another, in one picture"),
     FLAG("sheet", 0, sheet, "draw all steps side by side on one picture"),
     FLAG("triangulate", 't', triangulate, "cut faces into triangles"),
     FLAG("groups", 'g', groups,

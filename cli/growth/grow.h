@@ -24,7 +24,7 @@ typedef struct tn_grow_statements {
 typedef struct tn_grow_settings {
     tn_settings common;
     tn_grow_statements said;
-    const char *output, *until, *title;
+    const char *output, *until, *title, *overlay;
     int format; /* a tn_out_format */
     int engine; /* a tn_grow_engine */
     int stats;  /* 0 not asked for, 1 table, 2 json */
@@ -54,6 +54,9 @@ void tn_grow_write(tn_job *job, const tn_growth *growth, const tn_study *study, 
 /* Draws all views on one sheet. */
 void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, tn_view *const *views, size_t count,
                    tn_out_format format);
+/* Draws what was gathered of several steps. */
+void tn_grow_overlay(tn_job *job, const tn_growth *growth, const tn_study *study, tn_sight *sight,
+                     tn_out_format format);
 tn_camera tn_grow_camera(const tn_grow_settings *settings);
 
 /* Writes the statistics of all steps to standard output. */

@@ -48,6 +48,7 @@ static bool check_use(tn_job *job, tn_out_format format)
         {s->dpi.given, PICTURE, "dpi", "write a picture: .png"},
         {s->title != NULL, PICTURE, "title", "write a picture: .svg, .png or .pdf"},
         {s->sheet, PICTURE, "sheet", "write a picture: .svg, .png or .pdf"},
+        {s->overlay != NULL, PICTURE, "overlay", "write a picture: .svg, .png or .pdf"},
         {s->each_step, PICTURE | MESH, "each-step", "name one with -o"},
         {s->format != 0, PICTURE | MESH, "format", "name one with -o"},
     };
@@ -88,6 +89,10 @@ bool tn_grow_format_of(tn_job *job, tn_out_format *format)
         return false;
     if (strcmp(path, "-") == 0 && (settings->each_step || settings->stats)) {
         tn_job_usage(job, "standard output takes one thing only: name a file with -o");
+        return false;
+    }
+    if (settings->overlay && (settings->sheet || settings->each_step)) {
+        tn_job_usage(job, "--overlay draws one picture: leave --sheet and --each-step out");
         return false;
     }
     if (settings->sheet && settings->each_step) {
@@ -177,6 +182,7 @@ void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, 
     tn_view_options options = {.title = settings->title ? settings->title : study->title,
                                .caption = caption,
                                .columns = (uint32_t)settings->columns.value,
+                               .scaled = true,
                                .dpi = (uint32_t)settings->dpi.value,
                                .legend = tn_growth_legend(tn_growth_rules(growth))};
     tn_picture to = picture_to(settings->output, format);
@@ -184,21 +190,22 @@ void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, 
         tn_job_fail(job, &error);
 }
 
-static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *study, tn_out_format format,
-                          const char *path)
+static void write_sight(tn_job *job, const tn_growth *growth, const tn_study *study, tn_sight *sight,
+                        tn_out_format format, const char *path)
 {
     tn_camera camera = tn_grow_camera(tn_grow_settings_of(job));
-    tn_view *view;
+    tn_view *view = NULL;
     tn_error error;
     char caption[240];
     describe(job, growth, caption, sizeof caption);
     tn_view_options options = {.title =
                                    tn_grow_settings_of(job)->title ? tn_grow_settings_of(job)->title : study->title,
                                .caption = caption,
+                               .scaled = true,
                                .dpi = (uint32_t)tn_grow_settings_of(job)->dpi.value,
                                .legend = tn_growth_legend(tn_growth_rules(growth))};
     tn_picture to = picture_to(path, format);
-    tn_status status = tn_growth_view(growth, &camera, &view, &error);
+    tn_status status = tn_view_take(sight, &camera, &view, &error);
     if (status == TN_OK)
         note_depth(job, view);
     if (status == TN_OK)
@@ -206,6 +213,23 @@ static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *
     if (status != TN_OK)
         tn_job_fail(job, &error);
     tn_view_free(view);
+}
+
+void tn_grow_overlay(tn_job *job, const tn_growth *growth, const tn_study *study, tn_sight *sight, tn_out_format format)
+{
+    write_sight(job, growth, study, sight, format, tn_grow_settings_of(job)->output);
+}
+
+static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *study, tn_out_format format,
+                          const char *path)
+{
+    tn_sight sight = {0};
+    tn_error error;
+    if (tn_growth_sight_add(growth, &sight, &error) == TN_OK)
+        write_sight(job, growth, study, &sight, format, path);
+    else
+        tn_job_fail(job, &error);
+    tn_sight_clear(&sight);
 }
 
 void tn_grow_write(tn_job *job, const tn_growth *growth, const tn_study *study, tn_out_format format, const char *path)

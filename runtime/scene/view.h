@@ -62,6 +62,8 @@ typedef struct tn_view_options {
     uint32_t columns;          /* of a sheet; 0: about as many as rows */
     const char *const *labels; /* below each view; NULL: its step, if there are several */
     uint32_t dpi;
+    bool scaled; /* each view fills its cell, and a bar below it says how long a length of the model is there; lines
+                    fade where faces are small */
     tn_legend legend;           /* count 0: none */
     const double (*palette)[3]; /* colours of groups, in sRGB; NULL: those of tn_group_colour */
 } tn_view_options;
@@ -72,12 +74,13 @@ typedef struct tn_view_place {
     double x, y, scale, line;
     double ambient; /* 0 to 1: this share of the light comes from all around */
     const double (*palette)[3];
+    double fade; /* 0 to 1: how far colours of edges are from their own towards that of paper */
 } tn_view_place;
 
 struct tn_canvas;
 void tn_view_paint(const struct tn_canvas *canvas, const tn_view *view, const tn_view_place *place);
 
-/* Draws views side by side, all to one scale. */
+/* Draws views side by side, all to one scale unless they are `scaled`. */
 tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, tn_picture *to,
                         tn_error *error);
 

@@ -16,6 +16,8 @@
 #define LEGEND_LINE 11.0
 #define LEGEND_ROWS_MAX 40u /* more labels than these tell nobody anything */
 #define HAIRLINE 0.5
+#define PAPER 0.88      /* the grey that lines fade towards */
+#define LARGE_FACE 14.0 /* points across: lines of smaller faces fade */
 
 static const double given_ambient = 0.5; /* of views in colours that are given: dark sides keep theirs */
 
@@ -28,6 +30,7 @@ typedef struct sheet {
     size_t columns, rows;
     double size[2];
     const double (*palette)[3]; /* or NULL */
+    bool scaled;
 } sheet;
 
 static void mark_seen(const tn_view *view, const tn_legend *legend, bool *seen)
@@ -70,7 +73,7 @@ static bool lay_out_legend(tn_view *const *views, size_t count, const tn_legend 
 
 static sheet lay_out(tn_view *const *views, size_t count, const tn_view_options *options)
 {
-    sheet s = {.columns = options->columns, .palette = options->palette};
+    sheet s = {.columns = options->columns, .palette = options->palette, .scaled = options->scaled};
     double extent[2] = {1e-9, 1e-9};
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 2; k++)
@@ -83,7 +86,7 @@ static sheet lay_out(tn_view *const *views, size_t count, const tn_view_options 
     double width = views[0]->width / (count > 1 ? 2 : 1);
     s.scale = (width - 2 * MARGIN) / fmax(extent[0], extent[1]);
     s.cell[0] = extent[0] * s.scale + 2 * MARGIN;
-    s.cell[1] = extent[1] * s.scale + 2 * MARGIN + (count > 1 ? LABEL_HEIGHT : 0);
+    s.cell[1] = extent[1] * s.scale + 2 * MARGIN + (count > 1 || options->scaled ? LABEL_HEIGHT : 0);
     s.size[0] = fmax(s.cell[0] * (double)s.columns, 300);
     s.size[1] = s.cell[1] * (double)s.rows + FOOT_HEIGHT + (options->title && options->title[0] ? TITLE_HEIGHT : 0);
     return s;
@@ -96,12 +99,14 @@ static void set_colour(cairo_t *cr, uint32_t number, double light)
     cairo_set_source_rgb(cr, light * rgb[0] / 255.0, light * rgb[1] / 255.0, light * rgb[2] / 255.0);
 }
 
-static void set_edge_colour(cairo_t *cr, uint16_t edge)
+static void set_edge_colour(cairo_t *cr, uint16_t edge, double fade)
 {
-    if (edge == TN_EDGE_DARK)
-        cairo_set_source_rgb(cr, 0.13, 0.13, 0.15);
-    else
-        set_colour(cr, edge, 1);
+    unsigned char rgb[3] = {33, 33, 38};
+    if (edge != TN_EDGE_DARK)
+        tn_group_colour(edge, rgb);
+    cairo_set_source_rgb(cr, rgb[0] / 255.0 + fade * (PAPER - rgb[0] / 255.0),
+                         rgb[1] / 255.0 + fade * (PAPER - rgb[1] / 255.0),
+                         rgb[2] / 255.0 + fade * (PAPER - rgb[2] / 255.0));
 }
 
 /* Faces of groups are paler than lines of their colour, so that edges stand out. */
@@ -157,7 +162,7 @@ static void draw_seams(cairo_t *cr, const tn_view *view, const tn_seen_face *fac
         i = view->edges[face->first + i] == TN_EDGE_NONE ? stroke_run(cr, view, face, i) : i + 1;
 }
 
-static void draw_edges(cairo_t *cr, const tn_view *view, const tn_seen_face *face)
+static void draw_edges(cairo_t *cr, const tn_view *view, const tn_seen_face *face, double fade)
 {
     for (uint32_t i = 0; i < face->size;) {
         uint16_t edge = view->edges[face->first + i];
@@ -165,7 +170,7 @@ static void draw_edges(cairo_t *cr, const tn_view *view, const tn_seen_face *fac
             i++;
             continue;
         }
-        set_edge_colour(cr, edge);
+        set_edge_colour(cr, edge, fade);
         i = stroke_run(cr, view, face, i);
     }
 }
@@ -188,7 +193,7 @@ static void paint_faces(cairo_t *cr, const tn_view *view, const tn_seen_face *fa
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_width(cr, place->line / place->scale);
     for (size_t f = 0; f < count; f++)
-        draw_edges(cr, view, &faces[f]);
+        draw_edges(cr, view, &faces[f], place->fade);
 }
 
 /* As wide as a seam can be seen: a pixel at least where there are pixels. */
@@ -219,23 +224,66 @@ void tn_view_paint(const tn_canvas *canvas, const tn_view *view, const tn_view_p
     cairo_restore(cr);
 }
 
+/* The longest of 1, 2, 5, 10 and so on, and of their tenths, that is no longer. */
+static double round_length(double most)
+{
+    double unit = 1;
+    for (; unit > most && unit > 1e-12; unit /= 10)
+        ;
+    for (; unit * 10 <= most && unit < 1e12; unit *= 10)
+        ;
+    return unit * 5 <= most ? unit * 5 : unit * 2 <= most ? unit * 2 : unit;
+}
+
+/* A bar of a round length of the model, its number before it; (right, y) is its right end. */
+static void draw_scale(cairo_t *cr, double scale, double most, double right, double y)
+{
+    char text[40];
+    double length = round_length(most / scale), left = right - length * scale;
+    snprintf(text, sizeof text, "%.6g", length);
+    cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
+    cairo_set_line_width(cr, 0.8);
+    cairo_move_to(cr, left, y - 5);
+    cairo_line_to(cr, left, y);
+    cairo_line_to(cr, right, y);
+    cairo_line_to(cr, right, y - 5);
+    cairo_stroke(cr);
+    tn_type_face(cr, 8, false);
+    tn_type_line(cr, left - 4 - tn_type_width(cr, text), y, TN_ALIGN_LEFT, text);
+}
+
+/* How far lines fade where faces are so small on the mean. */
+static double fade_of(const tn_view *view, double wide, double high)
+{
+    double across = sqrt(wide * high / fmax(1, (double)view->face_count));
+    return across >= LARGE_FACE ? 0 : 0.9 * (1 - across / LARGE_FACE);
+}
+
 /* `label` is written below the view; NULL for none. */
 static void paint_view(const tn_canvas *canvas, const tn_view *view, const sheet *s, double x, double y,
                        const char *label)
 {
     cairo_t *cr = tn_canvas_context(canvas);
-    double wide = (view->high[0] - view->low[0]) * s->scale, high = (view->high[1] - view->low[1]) * s->scale;
-    double left = x + (s->cell[0] - wide) / 2, top = y + (s->cell[1] - (label ? LABEL_HEIGHT : 0) - high) / 2;
+    double extent[2] = {view->high[0] - view->low[0], view->high[1] - view->low[1]}, scale = s->scale;
+    double foot = label || s->scaled ? LABEL_HEIGHT : 0;
+    if (s->scaled)
+        scale = fmin((s->cell[0] - 2 * MARGIN) / fmax(extent[0], 1e-9),
+                     (s->cell[1] - 2 * MARGIN - foot) / fmax(extent[1], 1e-9));
+    double wide = extent[0] * scale, high = extent[1] * scale;
+    double left = x + (s->cell[0] - wide) / 2, top = y + (s->cell[1] - foot - high) / 2;
     double line = 0.8;
     if (view->face_count > 300)
         line = fmax(0.12, 0.8 * sqrt(300.0 / (double)view->face_count));
-    tn_view_place place = {left - view->low[0] * s->scale,
-                           top + high + view->low[1] * s->scale,
-                           s->scale,
-                           line,
-                           s->palette ? given_ambient : 0,
-                           s->palette};
+    tn_view_place place = {.x = left - view->low[0] * scale,
+                           .y = top + high + view->low[1] * scale,
+                           .scale = scale,
+                           .line = line,
+                           .fade = s->scaled ? fade_of(view, wide, high) : 0,
+                           .ambient = s->palette ? given_ambient : 0,
+                           .palette = s->palette};
     tn_view_paint(canvas, view, &place);
+    if (s->scaled)
+        draw_scale(cr, scale, (s->cell[0] - 2 * MARGIN) / 4, x + s->cell[0] - MARGIN, y + s->cell[1] - 5);
     if (label) {
         cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
         tn_type_face(cr, 9, false);

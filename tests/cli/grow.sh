@@ -164,6 +164,22 @@ code=0
 "$TARTAN" grow moved/fall.study 2>stderr || code=$?
 [ "$code" = 3 ] && grep -q 'cannot read a mesh from moved/ground.ply' stderr || fail 'a broken mesh is not explained'
 
+# Steps over one another: each adds its faces to the picture; a step that is not reached is said.
+for steps in 2 1,2 0,1,2; do
+    run grow draped.study -n 2 --overlay "$steps" -o over.svg
+    cp over.svg "over-$steps.svg"
+    run grow draped.study -n 2 --overlay "$steps" -o over.svg
+    cmp over.svg "over-$steps.svg" || fail 'an overlay is not the same twice'
+done
+[ "$(grep -c '<path' over-0,1,2.svg)" -gt "$(grep -c '<path' over-1,2.svg)" ] && [ "$(grep -c '<path' over-1,2.svg)" -gt "$(grep -c '<path' over-2.svg)" ] ||
+    fail 'an overlay does not have the faces of its steps'
+"$TARTAN" grow draped.study -n 2 --overlay 1,9 -o over.svg 2>stderr || fail 'a step too many ends an overlay'
+grep -q 'later ones of --overlay are not drawn' stderr || fail 'a step that is not there is not said'
+for words in '--overlay 9 -o x.svg' '--overlay x -o x.svg' '--overlay 1, -o x.obj' '--overlay 1 --sheet -o x.svg' '--overlay 1'; do
+    if "$TARTAN" grow draped.study -n 2 $words 2>stderr >/dev/null; then fail "accepted: $words"; fi
+    grep -q 'E0904' stderr || fail "not said what is wrong: $words"
+done
+
 # Each step, and a sheet of all; the same bytes twice.
 run grow square.hemls -n 2 --each-step -o step.obj
 [ -e step-000.obj ] && [ -e step-001.obj ] && [ -e step-002.obj ] && [ ! -e step.obj ] || fail 'not every step is there'
@@ -232,13 +248,13 @@ done
 "$TARTAN" disasm square.hemls >listing
 grep -q '^  ; square.hemls:[0-9]*: A -> A ' listing && grep -q '^ *[0-9]*  TURN        -90$' listing || fail 'the listing has no turtle moves beside the source'
 
-# Nineteen labels have nineteen colours, in the picture and its legend, which takes more than one row.
+# Nineteen labels have nineteen colours, in the picture and its legend, which takes more than one row; the bar of the scale has one more.
 printf 'A' >labels.hemls
 for letter in B C D E F G H I J K L M N O P Q R S; do printf ' + %s' "$letter" >>labels.hemls; done
 printf '; Angle 90\n' >>labels.hemls
 run grow labels.hemls -n 0 -o labels.svg
-[ "$(grep -o 'stroke[:=]"*rgb([^)]*)' labels.svg | sort -u | wc -l)" = 19 ] || fail 'labels share colours'
-[ "$(grep -o 'stroke[:=]"*rgb([^)]*)' labels.svg | sort | uniq -c | awk '$1 < 2' | wc -l)" = 0 ] || fail 'the legend leaves labels out'
+[ "$(grep -o 'stroke[:=]"*rgb([^)]*)' labels.svg | sort -u | wc -l)" = 20 ] || fail 'labels share colours'
+[ "$(grep -o 'stroke[:=]"*rgb([^)]*)' labels.svg | sort | uniq -c | awk '$1 < 2' | wc -l)" = 1 ] || fail 'the legend leaves labels out'
 
 # Wrong usage.
 for words in '--smooth 3' '--sheet' '--smooth 3 -o x.png' '--subdivide 1 --lines -o x.ply' '--title T -o x.ply' '--normals -o x.stl' '--up y -o x.glb' \

@@ -14,3 +14,9 @@ tn_legend tn_growth_legend(const tn_growth_system *system)
     (void)system;
     return (tn_legend){0};
 }
+
+tn_status tn_growth_sight_add(const tn_growth *growth, tn_sight *sight, tn_error *error)
+{
+    (void)growth, (void)sight;
+    return tn_part_absent(TN_WITH_DRAW, "drawing a surface", error);
+}

@@ -1,6 +1,8 @@
 /* Lists the faces of a growing surface for a picture, with the labels of their edges. */
 #include "runtime/growth/picture/draw.h"
 
+#include <string.h>
+
 static void add_face(const tn_map *map, uint32_t face, tn_sight *sight, uint32_t *corner)
 {
     uint32_t first = map->face_first[face], size = tn_face_size(map, face);
@@ -12,23 +14,51 @@ static void add_face(const tn_map *map, uint32_t face, tn_sight *sight, uint32_t
     }
 }
 
-tn_status tn_growth_view(const tn_growth *growth, const tn_camera *camera, tn_view **view, tn_error *error)
+/* Room for more faces behind those that are there. */
+static tn_status make_room(tn_sight *sight, size_t faces, size_t corners, tn_error *error)
+{
+    uint32_t old_faces = sight->face_count, old_corners = old_faces ? sight->first[old_faces] : 0;
+    tn_sight larger;
+    tn_status status = tn_sight_new(old_faces + faces, old_corners + corners, false, &larger, error);
+    if (status == TN_OK && old_faces) {
+        memcpy(larger.points, sight->points, old_corners * sizeof *larger.points);
+        memcpy(larger.edges, sight->edges, old_corners * sizeof *larger.edges);
+        memcpy(larger.first, sight->first, (old_faces + 1u) * sizeof *larger.first);
+    }
+    if (status != TN_OK) {
+        tn_sight_clear(&larger);
+        return status;
+    }
+    larger.face_count = old_faces;
+    tn_sight_clear(sight);
+    *sight = larger;
+    return TN_OK;
+}
+
+tn_status tn_growth_sight_add(const tn_growth *growth, tn_sight *sight, tn_error *error)
 {
     const tn_map *map = tn_growth_map(growth);
-    tn_sight sight;
-    uint32_t corner = 0;
-    *view = NULL;
     size_t corners = 2 * (size_t)map->edge_count - tn_face_size(map, TN_OUTER_FACE);
-    tn_status status = tn_sight_new(map->face_count - 1, corners, false, &sight, error);
-    if (status == TN_OK) {
-        for (uint32_t f = TN_OUTER_FACE + 1; f < map->face_count; f++)
-            add_face(map, f, &sight, &corner);
-        sight.first[sight.face_count] = corner;
-        sight.step = tn_growth_steps(growth);
-        sight.threads = tn_growth_settings(growth)->threads;
-        sight.watch = tn_growth_settings(growth)->watch;
+    uint32_t corner = sight->face_count ? sight->first[sight->face_count] : 0;
+    tn_status status = make_room(sight, map->face_count - 1, corners, error);
+    if (status != TN_OK)
+        return status;
+    for (uint32_t f = TN_OUTER_FACE + 1; f < map->face_count; f++)
+        add_face(map, f, sight, &corner);
+    sight->first[sight->face_count] = corner;
+    sight->step = tn_growth_steps(growth);
+    sight->threads = tn_growth_settings(growth)->threads;
+    sight->watch = tn_growth_settings(growth)->watch;
+    return TN_OK;
+}
+
+tn_status tn_growth_view(const tn_growth *growth, const tn_camera *camera, tn_view **view, tn_error *error)
+{
+    tn_sight sight = {0};
+    *view = NULL;
+    tn_status status = tn_growth_sight_add(growth, &sight, error);
+    if (status == TN_OK)
         status = tn_view_take(&sight, camera, view, error);
-    }
     tn_sight_clear(&sight);
     return status;
 }

@@ -156,7 +156,7 @@ void tn_draw_prospect(const tn_canvas *canvas, const tn_house_drawn *drawn, doub
     tn_drawing_frame f = {tn_canvas_context(canvas), drawn->x - drawn->low[0] * points_per_nm,
                           drawn->y + drawn->low[1] * points_per_nm, points_per_nm};
     make_palette(p->aspect.kind, palette);
-    tn_view_place place = {f.x, f.y, f.scale, 0.35, AMBIENT, (const double(*)[3])palette};
+    tn_view_place place = {f.x, f.y, f.scale, 0.35, AMBIENT, (const double(*)[3])palette, 0};
     tn_view_paint(canvas, drawn->view, &place);
     if (p->aspect.kind != TN_ASPECT_AXONOMETRIC)
         paint_cuts(&f, p);
