@@ -705,6 +705,7 @@ argument
     : NAME                                      { $$ = tn_ast_argument_new(parse, @$, $1, NULL); }
     | LENGTH                                    { $$ = tn_ast_argument_new(parse, @$, $1, NULL); }
     | NUMBER COLON NUMBER                       { $$ = tn_ast_argument_new(parse, @$, $1, $3); }
+    | NAME LENGTH                               { $$ = tn_ast_argument_new(parse, @$, $1, $2); }
     ;
 
 kinds

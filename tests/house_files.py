@@ -117,6 +117,18 @@ def volume_of(made, product):
     return total
 
 
+def length_of_roof(r):
+    low, high = r["x"] if "x" in r else r["y"]
+    return high - low
+
+
+def volume_of_roof(r):
+    """Down to its base, or, of a slab, as thick as that is upright."""
+    line = [(F(y), F(z)) for y, z in r["profile"]]
+    heights = [F(r["slab"]) if "slab" in r else (a[1] + b[1]) / 2 - r["base"] for a, b in zip(line, line[1:])]
+    return length_of_roof(r) * sum((b[0] - a[0]) * high for a, b, high in zip(line, line[1:], heights))
+
+
 def compare(made, house):
     of = lambda name: [n for n, (entity, _) in made.items() if entity == name]
     box = lambda s: F((s["box"][1] - s["box"][0]) * (s["box"][3] - s["box"][2]) * (s["box"][5] - s["box"][4]), 10**18)
@@ -136,10 +148,7 @@ def compare(made, house):
     check("walls less openings", solid == sum(box(s) for s in house["solids"] if s["kind"] in ("outside", "party", "partition")))
     rest = sum(volume_of(made, n) for name in ("IFCCOLUMN", "IFCSLAB", "IFCFURNITURE") for n in of(name))
     check("other boxes", rest == sum(box(s) for s in house["solids"] if s["kind"] not in ("outside", "party", "partition")))
-    roofs = F(0)
-    for r in house["roofs"]:
-        line = [(F(y), F(z) - r["base"]) for y, z in r["profile"]]
-        roofs += (r["x"][1] - r["x"][0]) * sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(line, line[1:]))
+    roofs = sum(map(volume_of_roof, house["roofs"]))
     check("roofs", abs(sum(volume_of(made, n) for n in of("IFCROOF")) - roofs / 10**18) < 1)  # mm3: points are rounded to 1e-6 nm
 
 
@@ -190,11 +199,11 @@ def check_parts(path, house):
             number[part] += 1
         volume[part] += x * y * z
     for r in house["roofs"]:
-        line, wide = [(F(y), F(z)) for y, z in r["profile"]], r["x"][1] - r["x"][0]
+        line, wide = [(F(y), F(z)) for y, z in r["profile"]], length_of_roof(r)
         number["roof"] += 1
         for a, b in zip(line, line[1:]):
             area["roof"] += square_root(((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2) * wide**2)
-            volume["roof"] += (b[0] - a[0]) * ((a[1] + b[1]) / 2 - r["base"]) * wide
+        volume["roof"] += volume_of_roof(r)
     for f in house["faces"]:
         number[f["kind"]] += f["kind"] not in ("wall", "party", "open", "floor", "stair")
     unit = {"each": 1, "sf": 304800000**2, "m2": 10**18, "cf": 304800000**3, "m3": 10**27}

@@ -40,7 +40,7 @@ static tn_profile profile_of(const tn_shape_record *shape, int64_t y0, int64_t y
     }
 }
 
-/* The line's height at a place between its ends. `y` is in the profile's fractions. */
+/* The line's height at a place; beyond its ends it goes straight on. `y` is in the profile's fractions. */
 static tn_fraction height_at(const tn_profile *profile, tn_int128 y, int64_t base)
 {
     size_t i = 0;
@@ -71,22 +71,32 @@ static tn_status add_prism(tn_solids *solids, tn_prism prism, tn_error *error)
     return TN_OK;
 }
 
-/* The roof of a cell over one of its rectangles. */
-static tn_status put_prism(const tn_house *house, uint32_t index, tn_rectangle r, tn_solids *solids, tn_error *error)
+tn_status tn_roof_put(const tn_house *house, uint32_t index, tn_rectangle r, bool slab, int64_t base, tn_solids *solids,
+                      tn_error *error)
 {
     const tn_cell *cell = &house->cells[index];
+    const tn_shape_record *shape = tn_house_shape(house, cell->zone, TN_CHOICE_ROOF);
     tn_rectangle grown = tn_cell_grown(house, cell);
-    tn_profile profile = profile_of(tn_house_shape(house, cell->zone, TN_CHOICE_ROOF), grown.y0, grown.y1);
-    int64_t base = house->form->level[cell->storey + 1], slab = base + house->form->record->roof;
-    tn_prism prism = {.of = index, .x0 = r.x0, .x1 = r.x1, .base = base, .point_first = solids->point_count};
-    tn_int128 first = (tn_int128)r.y0 * profile.y_bottom, last = (tn_int128)r.y1 * profile.y_bottom;
+    bool across = shape && shape->flags & TN_ROOF_ACROSS;
+    tn_profile profile =
+        across ? profile_of(shape, grown.x0, grown.x1) : profile_of(shape, grown.y0, grown.y1);
+    int64_t eaves = house->form->level[cell->storey + 1] + house->form->record->roof;
+    tn_prism prism = {.of = index,
+                      .across = across,
+                      .from = across ? r.y0 : r.x0,
+                      .to = across ? r.y1 : r.x1,
+                      .base = base,
+                      .slab = slab ? house->form->record->roof : 0,
+                      .point_first = solids->point_count};
+    tn_int128 first = (tn_int128)(across ? r.x0 : r.y0) * profile.y_bottom,
+              last = (tn_int128)(across ? r.x1 : r.y1) * profile.y_bottom;
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < profile.count + 2; i++) {
         tn_int128 y = i == 0 ? first : i == profile.count + 1 ? last : profile.y[i - 1];
         bool between = y > first && y < last;
         if (i == 0 || i == profile.count + 1 || between)
             status = add_point(
-                solids, (tn_roof_point){tn_fraction_new(y, profile.y_bottom), height_at(&profile, y, slab)}, error);
+                solids, (tn_roof_point){tn_fraction_new(y, profile.y_bottom), height_at(&profile, y, eaves)}, error);
     }
     prism.point_count = solids->point_count - prism.point_first;
     return status == TN_OK ? add_prism(solids, prism, error) : status;
@@ -115,12 +125,6 @@ static size_t step_of(const tn_cell *cell, int64_t g, int step, tn_rectangle out
     }
     return 4;
 }
-
-/* A highest cell of a stack, and what it covers. */
-typedef struct tn_parcel {
-    uint32_t cell;
-    tn_rectangles own;
-} tn_parcel;
 
 static tn_status take(const tn_cell *cell, int64_t g, int step, tn_rectangles *taken, tn_rectangles *own,
                       tn_error *error)
@@ -181,27 +185,70 @@ static tn_status above_of(const tn_house *house, uint32_t storey, tn_rectangles 
     return status;
 }
 
-static tn_status put_parcels(const tn_house *house, const tn_parcel *decked, const tn_parcel *land, size_t count,
-                             tn_solids *solids, tn_error *error)
+static tn_status put_deck(const tn_house *house, uint32_t cell, const tn_rectangles *of, tn_solids *solids,
+                          tn_error *error)
 {
+    int64_t level = house->form->level[house->cells[cell].storey + 1];
     tn_status status = TN_OK;
-    for (size_t c = 0; status == TN_OK && c < count; c++) {
-        uint32_t cell = land[c].cell;
-        int64_t level = house->form->level[house->cells[cell].storey + 1];
-        for (size_t i = 0; status == TN_OK && i < decked[c].own.count; i++) {
-            tn_rectangle r = decked[c].own.items[i];
-            tn_box at = {r.x0, r.x1, r.y0, r.y1, level - house->form->record->deck, level};
-            status = tn_solids_add(solids, (tn_solid){.kind = TN_SOLID_ROOFDECK, .of = cell, .at = at}, error);
-        }
-        for (size_t i = 0; status == TN_OK && i < land[c].own.count; i++)
-            status = put_prism(house, cell, land[c].own.items[i], solids, error);
+    for (size_t i = 0; status == TN_OK && i < of->count; i++) {
+        tn_rectangle r = of->items[i];
+        tn_box at = {r.x0, r.x1, r.y0, r.y1, level - house->form->record->deck, level};
+        status = tn_solids_add(solids, (tn_solid){.kind = TN_SOLID_ROOFDECK, .of = cell, .at = at}, error);
     }
     return status;
 }
 
+static tn_status put_roof(const tn_house *house, uint32_t cell, const tn_rectangles *over, bool slab, int64_t base,
+                          tn_solids *solids, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < over->count; i++)
+        status = tn_roof_put(house, cell, over->items[i], slab, base, solids, error);
+    return status;
+}
+
+/* A room that is open to its roof has a slab above, without a deck. Over walls and beside other roofs it is solid. */
+static tn_status put_open(const tn_house *house, const tn_parcel *decked, const tn_parcel *land,
+                          const tn_rectangles *foot, tn_solids *solids, tn_error *error)
+{
+    int64_t level = house->form->level[house->cells[land->cell].storey + 1];
+    tn_rectangles inside = {0}, solid = {0}, slab = {0}, deck = {0};
+    tn_status status = tn_roof_inside(house, land->cell, foot, &inside, error);
+    if (status == TN_OK)
+        status = tn_region_cut(&decked->own, &land->own, &deck, error);
+    if (status == TN_OK)
+        status = tn_region_cut(&land->own, &inside, &solid, error);
+    if (status == TN_OK)
+        status = tn_region_cut(&land->own, &solid, &slab, error);
+    if (status == TN_OK)
+        status = put_deck(house, land->cell, &deck, solids, error);
+    if (status == TN_OK)
+        status = put_roof(house, land->cell, &solid, false, level - house->form->record->deck, solids, error);
+    if (status == TN_OK)
+        status = put_roof(house, land->cell, &slab, true, level, solids, error);
+    free(inside.items);
+    free(solid.items);
+    free(slab.items);
+    free(deck.items);
+    return status;
+}
+
+static tn_status put_parcel(const tn_house *house, const tn_parcel *decked, const tn_parcel *land,
+                            const tn_rectangles *foot, tn_solids *solids, tn_error *error)
+{
+    const tn_cell *cell = &house->cells[land->cell];
+    const tn_shape_record *shape = tn_house_shape(house, cell->zone, TN_CHOICE_ROOF);
+    if (shape && shape->flags & TN_ROOF_OPEN)
+        return put_open(house, decked, land, foot, solids, error);
+    tn_status status = put_deck(house, land->cell, &decked->own, solids, error);
+    return status == TN_OK ? put_roof(house, land->cell, &land->own, false, house->form->level[cell->storey + 1],
+                                      solids, error)
+                           : status;
+}
+
 /* The roofs over the cells of a storey that end their stacks. */
-static tn_status put_level(const tn_house *house, uint32_t storey, const tn_rectangles *deck, tn_solids *solids,
-                           tn_error *error)
+static tn_status put_level(const tn_house *house, uint32_t storey, const tn_rectangles *deck,
+                           const tn_rectangles *foot, tn_solids *solids, tn_error *error)
 {
     tn_parcel *land = calloc(2 * house->cell_count + 1, sizeof *land), *decked = land ? land + house->cell_count : NULL;
     tn_rectangles above = {0};
@@ -218,8 +265,10 @@ static tn_status put_level(const tn_house *house, uint32_t storey, const tn_rect
         status = parcel(house, decked, count, deck, error);
     if (status == TN_OK)
         status = parcel(house, land, count, &above, error);
+    for (size_t c = 0; status == TN_OK && c < count; c++)
+        status = put_parcel(house, &decked[c], &land[c], foot, solids, error);
     if (status == TN_OK)
-        status = put_parcels(house, decked, land, count, solids, error);
+        status = tn_roof_eaves(house, land, count, &above, solids, error);
     for (size_t i = 0; i < count; i++) {
         free(land[i].own.items);
         free(decked[i].own.items);
@@ -229,10 +278,11 @@ static tn_status put_level(const tn_house *house, uint32_t storey, const tn_rect
     return status;
 }
 
-tn_status tn_house_roofs(const tn_house *house, const tn_rectangles *decks, tn_solids *solids, tn_error *error)
+tn_status tn_house_roofs(const tn_house *house, const tn_rectangles *decks, const tn_rectangles *foot,
+                         tn_solids *solids, tn_error *error)
 {
     tn_status status = TN_OK;
     for (uint32_t k = 0; status == TN_OK && k < house->form->record->storey_count; k++)
-        status = put_level(house, k, &decks[k + 1], solids, error);
+        status = put_level(house, k, &decks[k + 1], &foot[k], solids, error);
     return status;
 }

@@ -204,7 +204,7 @@ tn_status tn_house_solids(const tn_house *house, tn_solids *solids, tn_error *er
     for (uint32_t k = 0; status == TN_OK && k <= storeys; k++)
         status = put_deck(house, k, &foot[k], &decks[k], solids, error);
     if (status == TN_OK)
-        status = tn_house_roofs(house, decks, solids, error);
+        status = tn_house_roofs(house, decks, foot, solids, error);
     for (uint32_t i = 0; status == TN_OK && i < house->cell_count; i++)
         status = put_items(house, i, solids, error);
     for (uint32_t k = 0; k <= storeys; k++) {

@@ -40,14 +40,18 @@ typedef struct tn_solid {
     tn_box at;
 } tn_solid;
 
-/* A roof over [x0, x1): from `base` up to the line through its points, which go from the back to the front. */
+/* y: across the ridge; x where that goes across the row. */
 typedef struct tn_roof_point {
     tn_fraction y, z;
 } tn_roof_point;
 
+/* A roof from `from` to `to` along its ridge, which runs in x, or in y where it goes `across`: below the line through
+ * its points, which go from the back to the front or from the left to the right. It is solid down to `base`, or, where
+ * `slab` is not 0, so thick upright. */
 typedef struct tn_prism {
     uint32_t of; /* a cell */
-    int64_t x0, x1, base;
+    bool across;
+    int64_t from, to, base, slab;
     size_t point_first, point_count;
 } tn_prism;
 
@@ -76,8 +80,30 @@ tn_status tn_rectangles_add(tn_rectangles *list, tn_rectangle rectangle, tn_erro
  * with the same whole list of stretches joined. */
 tn_status tn_region_cut(const tn_rectangles *of, const tn_rectangles *less, tn_rectangles *cut, tn_error *error);
 
-/* ---- roof.c */
-tn_status tn_house_roofs(const tn_house *house, const tn_rectangles *decks, tn_solids *solids, tn_error *error);
+/* ---- roof.c: decks, foot: [storey] the rectangles of decks, and those on which walls stand */
+tn_status tn_house_roofs(const tn_house *house, const tn_rectangles *decks, const tn_rectangles *foot,
+                         tn_solids *solids, tn_error *error);
+
+/* A roof of a cell over a rectangle. slab: without what is below its slab. base: how far down it is solid otherwise. */
+tn_status tn_roof_put(const tn_house *house, uint32_t cell, tn_rectangle r, bool slab, int64_t base, tn_solids *solids,
+                      tn_error *error);
+
+/* ---- eaves.c */
+
+/* A highest cell of a stack, and what it covers. */
+typedef struct tn_parcel {
+    uint32_t cell;
+    tn_rectangles own;
+} tn_parcel;
+
+/* Puts the eaves of a level's roofs: where nothing else is, and no lower roof reaches up to them. `taken`: what the
+ * roofs of the level and the cells above cover; eaves are added to it. */
+tn_status tn_roof_eaves(const tn_house *house, const tn_parcel *land, size_t count, tn_rectangles *taken,
+                        tn_solids *solids, tn_error *error);
+
+/* What of a cell's rectangle has nothing below the slab of its roof: not where walls stand, nor beside other roofs. */
+tn_status tn_roof_inside(const tn_house *house, uint32_t cell, const tn_rectangles *foot, tn_rectangles *inside,
+                         tn_error *error);
 tn_status tn_solids_add(tn_solids *solids, tn_solid solid, tn_error *error);
 
 /* What a cell covers: its rectangle, grown by half a wall. */

@@ -156,6 +156,9 @@ typedef enum tn_roof_kind {
     TN_ROOF_KIND_COUNT
 } tn_roof_kind;
 
+/* open: no deck below it; across: its ridge goes across the row. */
+enum { TN_ROOF_OPEN = 1, TN_ROOF_ACROSS = 2 };
+
 typedef enum tn_cell_rule_kind {
     TN_CELL_FUNCTION,
     TN_CELL_VOID,
@@ -173,6 +176,9 @@ typedef enum tn_face_kind {
     TN_FACE_STAIR,
     TN_FACE_KIND_COUNT
 } tn_face_kind;
+
+/* How a flight of stairs goes: straight on, or with a landing where it turns. */
+typedef enum tn_turn { TN_TURN_NONE, TN_TURN_STRAIGHT, TN_TURN_QUARTER, TN_TURN_HALF, TN_TURN_COUNT } tn_turn;
 
 /* Which faces a line is about: of neighbouring trays or one tray, one of the two, one over another, or the outside. */
 typedef enum tn_face_relation {

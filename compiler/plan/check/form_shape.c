@@ -4,6 +4,7 @@
 #include <strings.h>
 
 #include "compiler/plan/check/form.h"
+#include "runtime/base/int128.h"
 
 static bool bad_shape(tn_check *check, tn_span span, const char *message, const char *help)
 {
@@ -24,7 +25,7 @@ static const tn_ast_argument *argument(const tn_ast_shape *shape, size_t index)
 
 static bool read_slope(tn_check *check, const tn_ast_argument *slope, tn_shape_record *record)
 {
-    if (!slope || !slope->run)
+    if (!slope || !slope->run || slope->word->kind != TN_WORD_NUMBER)
         return false;
     if (slope->word->value < 1 || slope->word->value > TN_SLOPE_MAX || slope->run->value < 1 ||
         slope->run->value > TN_SLOPE_MAX) {
@@ -37,30 +38,83 @@ static bool read_slope(tn_check *check, const tn_ast_argument *slope, tn_shape_r
     return true;
 }
 
-static bool read_roof(tn_check *check, const tn_ast_shape *shape, tn_shape_record *record)
+/* How far the eaves hang down below the foot of the roof, at most. */
+static tn_int128 eaves_drop(const tn_shape_record *roof)
+{
+    bool slope = roof->roof >= TN_ROOF_SHED_BACK && roof->roof <= TN_ROOF_GABLE && roof->run > 0;
+    return slope ? (tn_int128)roof->eaves * roof->rise / roof->run : 0;
+}
+
+static void check_eaves(tn_check *check, const tn_checked_form *form, const tn_ast_shape *shape,
+                        const tn_shape_record *record)
+{
+    for (uint32_t i = 0; i < form->storey_count; i++)
+        if (eaves_drop(record) >= form->storeys[i].height - form->thickness[2]) {
+            bad_shape(check, shape->node.span, "these eaves hang down to the floor",
+                      "narrow eaves hang less low, and those of a gentle slope");
+            return;
+        }
+}
+
+/* `eaves LENGTH`, `open`, `across`, in any order, each once. */
+static bool read_extra(tn_check *check, const tn_ast_argument *argument, tn_shape_record *record)
+{
+    if (tn_word_is(argument->word, "eaves") && argument->run && record->eaves == 0) {
+        int64_t wide = tn_form_length(check, argument->run);
+        if (wide == 0)
+            bad_shape(check, argument->node.span, "these eaves have no width", "leave out `eaves`");
+        record->eaves = wide > 0 ? wide : 1;
+        return true;
+    }
+    uint32_t flag = tn_word_is(argument->word, "open")     ? TN_ROOF_OPEN
+                    : tn_word_is(argument->word, "across") ? TN_ROOF_ACROSS
+                                                           : 0;
+    if (!flag || argument->run || record->flags & flag)
+        return false;
+    record->flags |= flag;
+    return true;
+}
+
+static bool read_kind(tn_check *check, const tn_ast_shape *shape, size_t *used, tn_shape_record *record)
 {
     const tn_ast_argument *first = argument(shape, 0), *second = argument(shape, 1);
-    size_t count = shape->arguments.count;
-    if (tn_word_is(shape->word, "flat") && count == 0) {
+    *used = 1;
+    if (tn_word_is(shape->word, "flat")) {
+        *used = 0;
         record->roof = TN_ROOF_FLAT;
         return true;
     }
-    if (tn_word_is(shape->word, "gable") && count == 1) {
+    if (tn_word_is(shape->word, "gable")) {
         record->roof = TN_ROOF_GABLE;
         return read_slope(check, first, record);
     }
     bool sides = first && (tn_word_is(first->word, "back") || tn_word_is(first->word, "front"));
-    if (tn_word_is(shape->word, "shed") && count == 2 && sides) {
+    if (tn_word_is(shape->word, "shed") && sides) {
+        *used = 2;
         record->roof = tn_word_is(first->word, "back") ? TN_ROOF_SHED_BACK : TN_ROOF_SHED_FRONT;
         return read_slope(check, second, record);
     }
-    if (tn_word_is(shape->word, "vault") && count == 1 && first->word->kind == TN_WORD_LENGTH) {
+    if (tn_word_is(shape->word, "vault") && first && first->word->kind == TN_WORD_LENGTH) {
         record->roof = TN_ROOF_VAULT;
         int64_t height = tn_form_length(check, first->word);
         record->height = height > 0 ? height : 1;
         return height != 0;
     }
     return false;
+}
+
+static bool read_roof(tn_check *check, const tn_checked_form *form, const tn_ast_shape *shape, tn_shape_record *record)
+{
+    size_t used = 0;
+    if (!read_kind(check, shape, &used, record))
+        return false;
+    for (size_t i = used; i < shape->arguments.count; i++)
+        if (!read_extra(check, argument(shape, i), record))
+            return false;
+    if (record->flags & TN_ROOF_ACROSS && record->roof != TN_ROOF_GABLE && record->roof != TN_ROOF_VAULT)
+        return false;
+    check_eaves(check, form, shape, record);
+    return true;
 }
 
 /* ---- values */
@@ -75,9 +129,10 @@ static const char *spell(tn_check *check, const tn_ast_shape *shape)
     for (size_t i = 0; spelling && spelling[i]; i++) {
         bool digit_before = used > 0 && spelling[used - 1] >= '0' && spelling[used - 1] <= '9';
         size_t next = i + strspn(spelling + i, " \t\r\n");
-        bool fraction = next > i && digit_before && spelling[next] >= '0' && spelling[next] <= '9';
+        bool letter_before = used > 0 && spelling[used - 1] >= 'a' && spelling[used - 1] <= 'z';
+        bool fraction = next > i && (digit_before || letter_before) && spelling[next] >= '0' && spelling[next] <= '9';
         if (fraction)
-            spelling[used++] = '-'; /* 6 1/2" */
+            spelling[used++] = '-'; /* 6 1/2", eaves 2' */
         i = next;
         if (!spelling[i])
             break;
@@ -114,9 +169,10 @@ static void read_shape(tn_check *check, const tn_checked_form *form, const tn_ch
         bad_shape(check, ast->node.span, "this value is too long", "values have at most 255 bytes");
     else if (choice->kind == TN_CHOICE_STOREYS)
         read_storeys(check, form, ast, &shape->record);
-    else if (choice->kind == TN_CHOICE_ROOF && !read_roof(check, ast, &shape->record))
+    else if (choice->kind == TN_CHOICE_ROOF && !read_roof(check, form, ast, &shape->record))
         bad_shape(check, ast->node.span, "this is no roof",
-                  "write `flat`, `shed(back, 4:12)`, `shed(front, 4:12)`, `gable(12:12)` or `vault(4')`");
+                  "write `flat`, `shed(back, 4:12)`, `shed(front, 4:12)`, `gable(12:12)` or `vault(4')`; these may end "
+                  "with `eaves 1'` and `open`, gables and vaults with `across`");
     else if (choice->kind == TN_CHOICE_PLAIN && ast->arguments.count > 0)
         bad_shape(check, ast->node.span, "this choice has names only", "leave out what is in the parentheses");
 }

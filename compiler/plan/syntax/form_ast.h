@@ -31,10 +31,10 @@ typedef struct tn_ast_shape {
     tn_ast_list arguments; /* tn_ast_argument */
 } tn_ast_shape;
 
-/* A name, a length, or a slope `rise:run`. */
+/* A name, a length, a slope `rise:run`, or a name and a length. */
 typedef struct tn_ast_argument {
     tn_ast_node node;
-    const tn_ast_word *word, *run; /* run: NULL unless a slope */
+    const tn_ast_word *word, *run; /* run: NULL where there is one word */
 } tn_ast_argument;
 
 /* `sill LENGTH`, `clear LENGTH`, `passage` or `glazed` of an opening. */

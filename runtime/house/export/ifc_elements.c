@@ -167,23 +167,29 @@ static void put_box(tn_ifc *ifc, const tn_solid *s, unsigned number, tn_stepfile
 
 /* ---- roofs and stairs */
 
-/* The end of a roof, extruded along x. The profile's axes are y and z of the house. */
+static unsigned put_point(tn_stepfile *step, tn_fraction across, double height)
+{
+    return tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s))", tn_stepfile_mm(tn_fraction_value(across)).text,
+                           tn_stepfile_mm(height).text);
+}
+
+/* The end of a roof: below along its underside, and back along its line. Its axes are across the ridge and upwards. */
 static unsigned put_profile(tn_ifc *ifc, const tn_prism *p, double floor)
 {
     tn_stepfile *step = &ifc->step;
     const tn_roof_point *points = ifc->solids->points + p->point_first;
     tn_stepfile_list line = {0};
-    double base = (double)p->base - floor;
-    unsigned first = tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s))",
-                                     tn_stepfile_mm(tn_fraction_value(points[0].y)).text, tn_stepfile_mm(base).text);
-    tn_stepfile_list_add(&line, first);
-    tn_stepfile_list_add(&line, tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s))",
-                                                tn_stepfile_mm(tn_fraction_value(points[p->point_count - 1].y)).text,
-                                                tn_stepfile_mm(base).text));
+    unsigned first = 0;
+    for (size_t i = 0; i < p->point_count; i++) {
+        if (!p->slab && i > 0 && i + 1 < p->point_count)
+            continue;
+        double under = p->slab ? tn_fraction_value(points[i].z) - (double)p->slab : (double)p->base;
+        unsigned point = put_point(step, points[i].y, under - floor);
+        tn_stepfile_list_add(&line, point);
+        first = first ? first : point;
+    }
     for (size_t i = p->point_count; i-- > 0;)
-        tn_stepfile_list_add(&line, tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s))",
-                                                    tn_stepfile_mm(tn_fraction_value(points[i].y)).text,
-                                                    tn_stepfile_mm(tn_fraction_value(points[i].z) - floor).text));
+        tn_stepfile_list_add(&line, put_point(step, points[i].y, tn_fraction_value(points[i].z) - floor));
     tn_stepfile_list_add(&line, first);
     const char *list = tn_stepfile_list_text(&line);
     unsigned curve = tn_stepfile_add(step, "IFCPOLYLINE(%s)", list ? list : "()");
@@ -192,19 +198,22 @@ static unsigned put_profile(tn_ifc *ifc, const tn_prism *p, double floor)
     return tn_stepfile_add(step, "IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#%u)", curve);
 }
 
+/* A roof along x is extruded to the right, from its left end; one across the row to the back, from its front end. */
 static void put_roof(tn_ifc *ifc, unsigned number, tn_stepfile_list *list)
 {
     tn_stepfile *step = &ifc->step;
     const tn_prism *p = &ifc->solids->prisms[number];
     unsigned profile = put_profile(ifc, p, (double)ifc->house->form->level[ifc->storey]);
-    unsigned y = tn_stepfile_add(step, "IFCDIRECTION((0.,1.,0.))");
-    unsigned axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,#%u,#%u)", step->origin, step->x, y);
+    unsigned y = tn_stepfile_add(step, "IFCDIRECTION((0.,%s,0.))", p->across ? "-1." : "1.");
+    unsigned axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,#%u,#%u)", step->origin, p->across ? y : step->x,
+                                    p->across ? step->x : y);
     char solid[16];
     snprintf(solid, sizeof solid, "(#%u)",
              tn_stepfile_add(step, "IFCEXTRUDEDAREASOLID(#%u,#%u,#%u,%s)", profile, axes, step->z,
-                             tn_stepfile_mm((double)(p->x1 - p->x0)).text));
+                             tn_stepfile_mm((double)(p->to - p->from)).text));
     unsigned body = tn_stepfile_shape(step, solid),
-             where = tn_stepfile_placement(step, ifc->placement, (double)p->x0, 0, 0);
+             where = tn_stepfile_placement(step, ifc->placement, p->across ? 0 : (double)p->from,
+                                           p->across ? (double)p->to : 0, 0);
     unsigned roof = tn_stepfile_add(step, "IFCROOF('%s',$,'roof',$,$,#%u,#%u,$,.NOTDEFINED.)",
                                     tn_stepfile_guid(step, "roof", number).text, where, body);
     keep(ifc, TN_SOLID_ROOF, roof, list);

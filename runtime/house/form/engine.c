@@ -37,6 +37,8 @@ static tn_status check_choice(const tn_checker *checker, const tn_form_record *f
         if (choice->kind == TN_CHOICE_ROOF &&
             (shape->roof == TN_ROOF_NONE || (slope && (shape->rise == 0 || shape->run == 0))))
             return tn_refuse(checker, "choice %u has a roof without a shape", index);
+        if (shape->flags & TN_ROOF_ACROSS && shape->roof != TN_ROOF_GABLE && shape->roof != TN_ROOF_VAULT)
+            return tn_refuse(checker, "choice %u has a roof across that has no ridge", index);
     }
     return TN_OK;
 }

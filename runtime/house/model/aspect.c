@@ -104,9 +104,12 @@ static void drop_above(const tn_house *house, tn_blocks *blocks, uint32_t storey
 {
     double level = (double)(house->form->level[storeys] - house->form->record->deck);
     size_t kept = 0;
-    for (size_t i = 0; i < blocks->count; i++)
-        if (blocks->items[i].low[2] < level)
-            blocks->items[kept++] = blocks->items[i];
+    for (size_t i = 0; i < blocks->count; i++) {
+        const tn_house_block *block = &blocks->items[i];
+        bool shown = block->kind == TN_SOLID_ROOF ? house->cells[block->of].storey + 1 < storeys : block->low[2] < level;
+        if (shown)
+            blocks->items[kept++] = *block;
+    }
     blocks->count = kept;
 }
 

@@ -7,15 +7,22 @@
 /* The corners of each side in order, as in cut_box.c: bit 0 of a corner is high x, bit 1 y, bit 2 z. */
 static const uint8_t sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 
+/* Which end of the block's slope a corner is at. */
+static int end_of(const tn_house_block *block, int corner)
+{
+    return corner >> block->axis & 1;
+}
+
 /* A side without the corners that fall on the one before: where the top comes down to the bottom. */
 static void add_side(tn_cut_box *cell, const tn_house_block *block, int side)
 {
     tn_cut_box_face face = {.side = (uint8_t)side};
-    if (side == 5 && block->top[0] != block->top[1])
+    if ((side == 5 && block->top[0] != block->top[1]) || (side == 4 && block->bottom[0] != block->bottom[1]))
         face.side = TN_CUT_BOX_CAP;
     for (int i = 0; i < 4; i++) {
         uint8_t corner = sides[side][i];
-        if (corner & 4 && block->top[corner >> 1 & 1] <= block->low[2])
+        int end = end_of(block, corner);
+        if (corner & 4 && block->top[end] <= block->bottom[end])
             corner &= 3;
         bool new = face.count == 0 || (face.corner[face.count - 1] != corner && face.corner[0] != corner);
         if (new)
@@ -35,7 +42,7 @@ static void make_cell(const tn_house_block *block, tn_cut_box *cell)
     for (int i = 0; i < 8; i++) {
         cell->at[i][0] = i & 1 ? block->high[0] : block->low[0];
         cell->at[i][1] = i & 2 ? block->high[1] : block->low[1];
-        cell->at[i][2] = i & 4 ? block->top[i >> 1 & 1] : block->low[2];
+        cell->at[i][2] = (i & 4 ? block->top : block->bottom)[end_of(block, i)];
     }
     for (int side = 0; side < 6; side++)
         add_side(cell, block, side);

@@ -1,6 +1,7 @@
 /* A house as blocks, which can be cut by planes across the axes and become one mesh.
  *
- * A block is a box whose top may slope in y: a wall, a deck, or the stretch of a roof between two points of its line.
+ * A block is a box whose top and bottom may slope in x or in y: a wall, a deck, or the stretch of a roof between two
+ * points of its line.
  * Blocks do not overlap. Coordinates are nanometres as doubles: whole numbers, but for the lines of roofs and where
  * these are cut. A tn_blocks owns its arrays; free them with tn_blocks_clear.
  */
@@ -14,8 +15,9 @@
 typedef struct tn_house_block {
     tn_solid_kind kind;
     uint32_t of, item, group;
-    double low[3], high[3]; /* high[2] is the higher of the two tops */
-    double top[2];          /* at low[1] and at high[1] */
+    int axis;                 /* in which it may slope: 0 or 1 */
+    double low[3], high[3];   /* low[2] is the lower of the two bottoms, high[2] the higher of the two tops */
+    double bottom[2], top[2]; /* at low[axis] and at high[axis] */
 } tn_house_block;
 
 /* A polygon in the plane of a cut, counter-clockwise for whoever sees the cut. Coordinates are the two other axes. */

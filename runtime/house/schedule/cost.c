@@ -142,7 +142,7 @@ static void set_fraction(mpq_t to, tn_fraction fraction)
     set_wide(mpq_denref(to), fraction.bottom);
 }
 
-/* The stretch of a roof between two points of its line: an upright strip as wide as the prism. */
+/* The stretch of a roof between two points of its line: an upright strip as wide as the prism, or a slab. */
 static void add_slope(const tn_prism *prism, const tn_roof_point *points, tn_cost_line *line)
 {
     mpq_t y, z, middle, wide;
@@ -155,11 +155,13 @@ static void add_slope(const tn_prism *prism, const tn_roof_point *points, tn_cos
     mpq_add(middle, y, z);
     mpq_div_2exp(middle, middle, 1);
     mpq_sub(middle, middle, wide); /* how high in the middle */
+    if (prism->slab)
+        mpq_set_si(middle, prism->slab, 1);
     mpq_sub(z, z, y);              /* how far it rises */
     set_fraction(y, points[0].y);
     set_fraction(wide, points[1].y);
     mpq_sub(y, wide, y); /* how deep */
-    mpq_set_si(wide, prism->x1 - prism->x0, 1);
+    mpq_set_si(wide, prism->to - prism->from, 1);
     mpq_mul(middle, middle, y);
     mpq_mul(middle, middle, wide);
     mpq_add(line->volume, line->volume, middle);

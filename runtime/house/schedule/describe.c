@@ -169,8 +169,11 @@ static void put_roofs(const tn_solids *solids, tn_buffer *out)
     for (size_t i = 0; i < solids->prism_count; i++) {
         const tn_prism *p = &solids->prisms[i];
         next_line(out, &any);
-        tn_buffer_printf(out, "{\"of\": %u, \"x\": [%" PRId64 ", %" PRId64 "], \"base\": %" PRId64 ", \"profile\": [",
-                         p->of, p->x0, p->x1, p->base);
+        tn_buffer_printf(out, "{\"of\": %u, \"%s\": [%" PRId64 ", %" PRId64 "], \"base\": %" PRId64 ", ", p->of,
+                         p->across ? "y" : "x", p->from, p->to, p->base);
+        if (p->slab)
+            tn_buffer_printf(out, "\"slab\": %" PRId64 ", ", p->slab);
+        tn_buffer_printf(out, "\"profile\": [");
         for (size_t k = 0; k < p->point_count; k++) {
             const tn_roof_point *point = &solids->points[p->point_first + k];
             tn_buffer_printf(out, "%s[", k ? ", " : "");
