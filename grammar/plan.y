@@ -73,6 +73,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
 %token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
 %token OPENING "`opening`" WIDE "`wide`" HIGH "`high`" SILL "`sill`" CLEAR "`clear`" PASSAGE "`passage`"
+%token FLIGHT "`flight`" RISE "`rise`" GOING "`going`" TURN "`turn`"
 %token GLAZED "`glazed`" MATERIAL "`material`" PRICE "`price`" PER "`per`"
 %token FACE "`face`" BESIDE "`beside`" ALONG "`along`" ACROSS "`across`" UNDER "`under`" OUTSIDE "`outside`"
 %token TILE "`tile`" FOR "`for`" AGAINST "`against`" DEEP "`deep`" ITEM "`item`"
@@ -101,7 +102,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <box_side> side_word
 %type <node> form_clause shape argument opening_part tile_part reach section_alternative section_item
 %type <list> form_clauses shapes arguments opening_parts tile_parts kinds or_names reaches section_items section_alternatives
-%type <word> size outside_side number
+%type <word> size outside_side number turn
 %type <expr> material_where
 %type <expr> cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
 %type <expr> expression implied disjunction ors and ands not compared comparable additive term signed primary pattern_tray head_number
@@ -623,6 +624,8 @@ form_clause
     | function NAME doc AT cells                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FUNCTION, .name = $2, .doc = $3, .first = $5}); }
     | opening NAME doc WIDE size HIGH size opening_parts
                                                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_OPENING, .name = $2, .doc = $3, .length = $5, .high = $7, .parts = $8}); }
+    | flight NAME doc WIDE size RISE size DOTS size GOING size turn
+                                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FLIGHT, .name = $2, .doc = $3, .length = $5, .low = $7, .high = $9, .going = $11, .detail = $12}); }
     | face cells relation cells EQUAL kinds     { $3.first = $2; $3.second = $4; $3.list = $6; $$ = tn_ast_form_clause_new(parse, @$, $3); }
     | face cells OUTSIDE outside_side EQUAL kinds
                                                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FACE, .relation = TN_FACE_OUTSIDE, .first = $2, .detail = $4, .list = $6}); }
@@ -639,9 +642,15 @@ void: VOID                                      { yyerrok; };
 no: NO                                          { yyerrok; };
 function: FUNCTION                              { yyerrok; };
 opening: OPENING                                { yyerrok; };
+flight: FLIGHT                                  { yyerrok; };
 face: FACE                                      { yyerrok; };
 tile: TILE                                      { yyerrok; };
 material: MATERIAL                              { yyerrok; };
+
+turn
+    : %empty                                    { $$ = NULL; }
+    | TURN NAME                                 { $$ = $2; }
+    ;
 
 price
     : %empty                                    { $$ = (tn_ast_form_clause){.part = TN_PART_MATERIAL}; }

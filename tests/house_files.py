@@ -101,6 +101,8 @@ def check_ifc(made):
 def volume_of(made, product):
     """Cubic millimetres, of all solids of its shape."""
     total = F(0)
+    if made[product][1][6] == "$":
+        return total
     shape = made[references(made[product][1][6])[0]]
     for representation in references(shape[1][2]):
         for solid in references(made[representation][1][3]):
@@ -135,19 +137,24 @@ def compare(made, house):
     kinds = Counter(s["kind"] for s in house["solids"])
     walls = {(s["kind"], s["of"]) for s in house["solids"] if s["kind"] in ("outside", "party", "partition")}
     plain = {"wall", "party", "open", "floor", "stair"}
-    openings = [f for f in house["faces"] if f["kind"] not in plain]
+    flights = {s["of"] for s in house["solids"] if s["kind"] == "flight"}
+    openings = [f for i, f in enumerate(house["faces"]) if f["kind"] not in plain and i not in flights]
     check("as many walls", len(of("IFCWALL")) == len(walls))
     check("as many posts", len(of("IFCCOLUMN")) == kinds["post"])
     check("as many slabs", len(of("IFCSLAB")) == kinds["deck"] + kinds["roofdeck"])
     check("as many things", len(of("IFCFURNITURE")) == kinds["item"])
     check("as many roofs", len(of("IFCROOF")) == len(house["roofs"]))
     check("as many doors and windows", len(of("IFCDOOR")) + len(of("IFCWINDOW")) == len(of("IFCOPENINGELEMENT")) == len(openings))
-    check("as many stairs", len(of("IFCSTAIR")) == sum(f["kind"] == "stair" for f in house["faces"]))
+    check("as many stairs", len(of("IFCSTAIR")) == sum(f["kind"] == "stair" for f in house["faces"]) + len(flights))
     check("as many rooms", len(of("IFCSPACE")) == len(house["rooms"]))
     solid = sum(volume_of(made, n) for n in of("IFCWALL")) - sum(volume_of(made, n) for n in of("IFCOPENINGELEMENT"))
     check("walls less openings", solid == sum(box(s) for s in house["solids"] if s["kind"] in ("outside", "party", "partition")))
-    rest = sum(volume_of(made, n) for name in ("IFCCOLUMN", "IFCSLAB", "IFCFURNITURE") for n in of(name))
+    rest = sum(volume_of(made, n) for name in ("IFCCOLUMN", "IFCSLAB", "IFCFURNITURE", "IFCSTAIR") for n in of(name))
     check("other boxes", rest == sum(box(s) for s in house["solids"] if s["kind"] not in ("outside", "party", "partition")))
+    materials = [made[n][1][0].strip("'") for n in of("IFCMATERIAL")]
+    check("each material once", len(materials) == len(set(materials)))
+    wanted = {p["material"] for p in house["parts"] if p.get("material") and int(p["number"])}
+    check(f"materials {wanted - set(materials)}", wanted <= set(materials))
     roofs = sum(map(volume_of_roof, house["roofs"]))
     check("roofs", abs(sum(volume_of(made, n) for n in of("IFCROOF")) - roofs / 10**18) < 1)  # mm3: points are rounded to 1e-6 nm
 
@@ -187,7 +194,7 @@ def check_parts(path, house):
     area, volume, number = Counter(), Counter(), Counter()
     walls = set()
     for s in house["solids"]:
-        part = kind_of.get(s["kind"]) or s["name"]
+        part = house["faces"][s["of"]]["kind"] if s["kind"] == "flight" else kind_of.get(s["kind"]) or s["name"]
         x, y, z = (s["box"][i + 1] - s["box"][i] for i in (0, 2, 4))
         if part in ("wall", "party", "partition"):
             at = house["faces"][s["of"]]["at"]
@@ -195,8 +202,8 @@ def check_parts(path, house):
             number[part] += s["of"] not in walls
             walls.add(s["of"])
         else:
-            area[part] += x * y if s["kind"] in ("deck", "roofdeck", "item") else max(x, y) * z
-            number[part] += 1
+            area[part] += x * y if s["kind"] in ("deck", "roofdeck", "item", "flight") else max(x, y) * z
+            number[part] += s["kind"] != "flight"
         volume[part] += x * y * z
     for r in house["roofs"]:
         line, wide = [(F(y), F(z)) for y, z in r["profile"]], length_of_roof(r)

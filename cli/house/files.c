@@ -75,10 +75,10 @@ bool tn_house_files_known(tn_job *job, const tn_house_outputs *outputs)
 
 /* Colours of parts in models, in the order of tn_solid_kind. */
 static const unsigned char part_colours[TN_SOLID_COUNT][3] = {
-    [TN_SOLID_OUTSIDE] = {240, 238, 232}, [TN_SOLID_PARTY] = {240, 238, 232}, [TN_SOLID_PARTITION] = {250, 249, 246},
-    [TN_SOLID_POST] = {240, 238, 232},    [TN_SOLID_DECK] = {222, 210, 190},  [TN_SOLID_ROOFDECK] = {222, 210, 190},
-    [TN_SOLID_ITEM] = {205, 170, 125},    [TN_SOLID_ROOF] = {110, 120, 132},  [TN_SOLID_PANE] = {170, 208, 232},
-    [TN_SOLID_LEAF] = {176, 92, 60},
+    [TN_SOLID_OUTSIDE] = {240, 238, 232}, [TN_SOLID_PARTY] = {240, 238, 232},  [TN_SOLID_PARTITION] = {250, 249, 246},
+    [TN_SOLID_POST] = {240, 238, 232},    [TN_SOLID_DECK] = {222, 210, 190},   [TN_SOLID_ROOFDECK] = {222, 210, 190},
+    [TN_SOLID_ITEM] = {205, 170, 125},    [TN_SOLID_ROOF] = {110, 120, 132},   [TN_SOLID_PANE] = {170, 208, 232},
+    [TN_SOLID_LEAF] = {176, 92, 60},      [TN_SOLID_FLIGHT] = {205, 186, 150},
 };
 
 /* The groups of models: a kind of part, or what it is made of. */

@@ -82,8 +82,9 @@ static bool starts_clause(const tn_format *format, size_t i)
 /* A line of a form; `section(` is a part of one. */
 static bool starts_part(const tn_format *format, size_t i)
 {
-    static const char *const words[] = {"storey", "spine", "wall",     "partition", "deck", "roof", "section", "forbid",
-                                        "void",   "no",    "function", "opening",   "face", "tile",    "material", NULL};
+    static const char *const words[] = {"storey",  "spine",  "wall", "partition", "deck",     "roof",
+                                        "section", "forbid", "void", "no",        "function", "opening",
+                                        "flight",  "face",   "tile", "material",  NULL};
     return format->tokens[i].kind == TN_TOKEN_WORD && tn_format_is_any(format, i, words) &&
            !(tn_format_is(format, i, "section") && tn_format_is(format, i + 1, "("));
 }

@@ -125,7 +125,9 @@ bool tn_cell_may(const tn_house *house, const tn_cell *cell, uint32_t function)
 /* Does the kind fit into the face? An opening leaves half a wall at either side, and a deck above. */
 static bool fits(const tn_house *house, const tn_face *face, uint32_t kind)
 {
-    const tn_opening_record *opening = tn_form_opening(house->form, kind);
+    const tn_opening_record *opening = tn_form_opening(house->form, kind), *flight = tn_form_flight(house->form, kind);
+    if (flight)
+        return tn_flight_fits(house, face, flight);
     if (!opening)
         return kind != TN_FACE_OPEN || face->relation != TN_FACE_OUTSIDE;
     int64_t x = face->at.x1 - face->at.x0, y = face->at.y1 - face->at.y0, wide = x > y ? x : y;

@@ -205,6 +205,28 @@ static inline int64_t tn_opening_from(int64_t ends, int64_t wide)
     return twice >= 0 || twice % 2 == 0 ? twice / 2 : twice / 2 - 1;
 }
 
+/* ---- flight.c */
+
+#define TN_FLIGHT_STEPS_MAX 1000u
+
+/* A flight of stairs as it stands, from one floor to the next. holes: what it takes of the floor above. treads: by
+ * height, with landings among them. path: how one walks up it. The caller frees treads. */
+typedef struct tn_flight {
+    tn_rectangle holes[2];
+    size_t hole_count;
+    tn_box *treads; /* z from the lower floor */
+    size_t tread_count;
+    int64_t path[4][2];
+    size_t path_count;
+} tn_flight;
+
+/* Does a flight fit between the two cells of a face? Their functions have no tiles, there is room for its steps, for
+ * landings and, at either end, for standing before it, and the storey is a whole number of steps. */
+bool tn_flight_fits(const tn_house *house, const tn_face *face, const tn_opening_record *flight);
+
+/* Stands up the flight in a face, where it has one. It begins at a side from which one can come, if it fits so. */
+tn_status tn_flight_stand(const tn_house *house, const tn_face *face, tn_flight *flight, tn_error *error);
+
 /* ---- rooms.c */
 
 /* The room of each cell, as the lowest cell of it: cells of one function joined by open faces, and the voids above. The

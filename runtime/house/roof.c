@@ -78,8 +78,7 @@ tn_status tn_roof_put(const tn_house *house, uint32_t index, tn_rectangle r, boo
     const tn_shape_record *shape = tn_house_shape(house, cell->zone, TN_CHOICE_ROOF);
     tn_rectangle grown = tn_cell_grown(house, cell);
     bool across = shape && shape->flags & TN_ROOF_ACROSS;
-    tn_profile profile =
-        across ? profile_of(shape, grown.x0, grown.x1) : profile_of(shape, grown.y0, grown.y1);
+    tn_profile profile = across ? profile_of(shape, grown.x0, grown.x1) : profile_of(shape, grown.y0, grown.y1);
     int64_t eaves = house->form->level[cell->storey + 1] + house->form->record->roof;
     tn_prism prism = {.of = index,
                       .across = across,
@@ -241,14 +240,14 @@ static tn_status put_parcel(const tn_house *house, const tn_parcel *decked, cons
     if (shape && shape->flags & TN_ROOF_OPEN)
         return put_open(house, decked, land, foot, solids, error);
     tn_status status = put_deck(house, land->cell, &decked->own, solids, error);
-    return status == TN_OK ? put_roof(house, land->cell, &land->own, false, house->form->level[cell->storey + 1],
-                                      solids, error)
-                           : status;
+    return status == TN_OK
+               ? put_roof(house, land->cell, &land->own, false, house->form->level[cell->storey + 1], solids, error)
+               : status;
 }
 
 /* The roofs over the cells of a storey that end their stacks. */
-static tn_status put_level(const tn_house *house, uint32_t storey, const tn_rectangles *deck,
-                           const tn_rectangles *foot, tn_solids *solids, tn_error *error)
+static tn_status put_level(const tn_house *house, uint32_t storey, const tn_rectangles *deck, const tn_rectangles *foot,
+                           tn_solids *solids, tn_error *error)
 {
     tn_parcel *land = calloc(2 * house->cell_count + 1, sizeof *land), *decked = land ? land + house->cell_count : NULL;
     tn_rectangles above = {0};

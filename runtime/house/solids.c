@@ -29,8 +29,8 @@ double tn_fraction_value(tn_fraction fraction)
 
 const char *tn_solid_kind_text(tn_solid_kind kind)
 {
-    static const char *const words[] = {"outside",  "party", "partition", "post", "deck",
-                                        "roofdeck", "item",  "roof",      "pane", "leaf"};
+    static const char *const words[] = {"outside", "party", "partition", "post", "deck",  "roofdeck",
+                                        "item",    "roof",  "pane",      "leaf", "flight"};
     return words[kind];
 }
 
@@ -153,23 +153,61 @@ static bool has_hole(const tn_house *house, uint32_t cell)
     return false;
 }
 
+/* Flights below a storey leave holes in its floor. */
+static tn_status find_holes(const tn_house *house, uint32_t storey, tn_rectangles *holes, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        if (face->relation != TN_FACE_UNDER || face->storey + 1 != storey || !tn_form_flight(house->form, face->kind))
+            continue;
+        tn_flight flight;
+        status = tn_flight_stand(house, face, &flight, error);
+        for (size_t h = 0; status == TN_OK && h < flight.hole_count; h++)
+            status = tn_rectangles_add(holes, flight.holes[h], error);
+        free(flight.treads);
+    }
+    return status;
+}
+
+static tn_status put_flights(const tn_house *house, tn_solids *solids, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < house->face_count; i++) {
+        if (house->faces[i].relation != TN_FACE_UNDER || !tn_form_flight(house->form, house->faces[i].kind))
+            continue;
+        tn_flight flight;
+        status = tn_flight_stand(house, &house->faces[i], &flight, error);
+        int64_t floor = house->form->level[house->faces[i].storey];
+        for (size_t t = 0; status == TN_OK && t < flight.tread_count; t++) {
+            tn_solid solid = {.kind = TN_SOLID_FLIGHT, .of = i, .at = flight.treads[t]};
+            solid.at.z0 += floor;
+            solid.at.z1 += floor;
+            status = tn_solids_add(solids, solid, error);
+        }
+        free(flight.treads);
+    }
+    return status;
+}
+
 /* The deck below a storey's floor; its rectangles are kept for the roof decks. */
 static tn_status put_deck(const tn_house *house, uint32_t storey, const tn_rectangles *foot, tn_rectangles *deck,
                           tn_solids *solids, tn_error *error)
 {
-    tn_rectangles floors = {0}, nothing = {0};
-    tn_status status = TN_OK;
+    tn_rectangles floors = {0}, holes = {0};
+    tn_status status = find_holes(house, storey, &holes, error);
     for (uint32_t i = 0; status == TN_OK && i < house->cell_count; i++)
         if (house->cells[i].storey == storey && !has_hole(house, i))
             status = tn_rectangles_add(&floors, tn_cell_grown(house, &house->cells[i]), error);
     for (size_t i = 0; status == TN_OK && storey > 0 && i < foot->count; i++)
         status = tn_rectangles_add(&floors, foot->items[i], error);
     if (status == TN_OK)
-        status = tn_region_cut(&floors, &nothing, deck, error);
+        status = tn_region_cut(&floors, &holes, deck, error);
     int64_t z1 = house->form->level[storey];
     for (size_t i = 0; status == TN_OK && i < deck->count; i++)
         status = put(solids, TN_SOLID_DECK, storey, deck->items[i], z1 - house->form->record->deck, z1, error);
     free(floors.items);
+    free(holes.items);
     return status;
 }
 
@@ -207,6 +245,8 @@ tn_status tn_house_solids(const tn_house *house, tn_solids *solids, tn_error *er
         status = tn_house_roofs(house, decks, foot, solids, error);
     for (uint32_t i = 0; status == TN_OK && i < house->cell_count; i++)
         status = put_items(house, i, solids, error);
+    if (status == TN_OK)
+        status = put_flights(house, solids, error);
     for (uint32_t k = 0; k <= storeys; k++) {
         free(foot[k].items);
         free(decks[k].items);

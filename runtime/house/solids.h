@@ -26,14 +26,16 @@ typedef enum tn_solid_kind {
     TN_SOLID_ROOFDECK,
     TN_SOLID_ITEM,
     TN_SOLID_ROOF,
-    TN_SOLID_PANE, /* of windows: runtime/house/model/model.h adds them and leaves */
-    TN_SOLID_LEAF, /* of doors */
+    TN_SOLID_PANE,   /* of windows: runtime/house/model/model.h adds them and leaves */
+    TN_SOLID_LEAF,   /* of doors */
+    TN_SOLID_FLIGHT, /* a step or landing */
     TN_SOLID_COUNT
 } tn_solid_kind;
 
 const char *tn_solid_kind_text(tn_solid_kind kind);
 
-/* of: the face of a wall, the cell of a roof deck or an item, the storey of a deck or post. item: a TILE_BOX record. */
+/* of: the face of a wall or flight, the cell of a roof deck or an item, the storey of a deck or post. item: a TILE_BOX
+ * record. */
 typedef struct tn_solid {
     tn_solid_kind kind;
     uint32_t of, item;

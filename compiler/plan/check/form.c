@@ -179,6 +179,8 @@ static void each(tn_check *check, tn_checked_form *form, tn_form_part part)
                                               : TN_CELL_FORBID);
         else if (part == TN_PART_OPENING)
             tn_check_opening(check, form, clause);
+        else if (part == TN_PART_FLIGHT)
+            tn_check_flight(check, form, clause);
         else if (part == TN_PART_FACE)
             tn_check_face(check, form, clause);
         else if (part == TN_PART_TILE)
@@ -302,6 +304,7 @@ static void check_form(tn_check *check, tn_checked_form *form)
     check_walls(check, form);
     check_rules(check, form);
     each(check, form, TN_PART_OPENING);
+    each(check, form, TN_PART_FLIGHT);
     each(check, form, TN_PART_FACE);
     each(check, form, TN_PART_TILE);
     each(check, form, TN_PART_MATERIAL);

@@ -54,6 +54,8 @@ typedef struct tn_checked_cell_rule {
 typedef struct tn_checked_opening {
     const tn_ast_form_clause *ast;
     int64_t wide, high, sill, clear;
+    int64_t rise_least, rise_most, going; /* of a flight */
+    tn_turn turn;
     bool passage, glazed;
 } tn_checked_opening;
 
@@ -151,6 +153,7 @@ typedef struct tn_checked_ask {
 
 /* ---- form_face.c, form_tile.c */
 void tn_check_opening(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
+void tn_check_flight(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
 void tn_check_face(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
 uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, const tn_ast_word *word); /* TN_NONE: reported */
 void tn_check_tile(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);

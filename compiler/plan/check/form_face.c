@@ -63,6 +63,60 @@ void tn_check_opening(tn_check *check, tn_checked_form *form, const tn_ast_form_
     form->openings[form->opening_count++] = opening;
 }
 
+/* ---- flights of stairs */
+
+static void bad_flight(tn_check *check, const tn_ast_form_clause *ast, const char *what, const char *help)
+{
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_BAD_FLIGHT, ast->node.span, "flight `%s` %s", ast->name->text, what);
+    tn_help(check->diagnostics, d, "%s", help);
+}
+
+static bool read_turn(tn_check *check, const tn_ast_form_clause *ast, tn_turn *turn)
+{
+    *turn = !ast->detail                         ? TN_TURN_STRAIGHT
+            : tn_word_is(ast->detail, "quarter") ? TN_TURN_QUARTER
+            : tn_word_is(ast->detail, "half")    ? TN_TURN_HALF
+                                                 : TN_TURN_NONE;
+    if (*turn != TN_TURN_NONE)
+        return true;
+    bad_flight(check, ast, "turns in no known way", "write `turn quarter` or `turn half`, or leave `turn` out");
+    return false;
+}
+
+/* Does a whole number of equal steps lead up a storey? Four or more: there is one on either side of a landing. */
+static bool climbs(const tn_checked_opening *flight, int64_t height)
+{
+    int64_t risers = (height + flight->rise_most - 1) / flight->rise_most;
+    return risers >= 4 && risers * flight->rise_least <= height;
+}
+
+void tn_check_flight(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    tn_checked_opening flight = {.ast = ast, .passage = true};
+    if (!opening_is_new(check, form, ast->name) || !tn_check_room(check, form->opening_count, TN_OPENINGS_MAX,
+                                                                  "opening", ast->node.span, "leave some of them out"))
+        return;
+    flight.wide = tn_form_length(check, ast->length);
+    flight.rise_least = tn_form_length(check, ast->low);
+    flight.rise_most = tn_form_length(check, ast->high);
+    flight.going = tn_form_length(check, ast->going);
+    flight.high = 1;
+    bool known = flight.wide >= 0 && flight.rise_least >= 0 && flight.rise_most >= 0 && flight.going >= 0;
+    bool sized = flight.wide > 0 && flight.rise_least > 0 && flight.rise_most > 0 && flight.going > 0, fits = false;
+    bool turns = read_turn(check, ast, &flight.turn);
+    for (uint32_t i = 0; sized && i < form->storey_count; i++)
+        fits |= climbs(&flight, form->storeys[i].height);
+    if (known && !sized)
+        bad_flight(check, ast, "has no size", "write lengths above 0");
+    else if (sized && flight.rise_least > flight.rise_most)
+        bad_flight(check, ast, "has its least rise after its most", "write them as `rise 6\"..7 3/4\"`");
+    else if (sized && turns && !fits && form->storey_count > 0)
+        bad_flight(check, ast, "climbs no storey in equal steps of such a rise",
+                   "a storey is a whole number of steps, four or more: allow more kinds of `rise`");
+    form->openings[form->opening_count++] = flight;
+}
+
 /* ---- faces */
 
 uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, const tn_ast_word *word)
@@ -80,9 +134,11 @@ uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, const tn_ast
     return TN_NONE;
 }
 
-/* Can a kind be in a face of this relation? floor, stair and open are of cells one over another. */
-static bool kind_belongs(tn_face_relation relation, uint32_t kind)
+/* Can a kind be in a face of this relation? floor, stair, flights and open are of cells one over another. */
+static bool kind_belongs(const tn_checked_form *form, tn_face_relation relation, uint32_t kind)
 {
+    if (kind >= TN_FACE_KIND_COUNT)
+        return (form->openings[kind - TN_FACE_KIND_COUNT].turn != TN_TURN_NONE) == (relation == TN_FACE_UNDER);
     if (relation == TN_FACE_UNDER)
         return kind == TN_FACE_FLOOR || kind == TN_FACE_STAIR || kind == TN_FACE_OPEN;
     return kind != TN_FACE_FLOOR && kind != TN_FACE_STAIR && !(relation == TN_FACE_OUTSIDE && kind == TN_FACE_OPEN);
@@ -100,11 +156,11 @@ static void add_kind(tn_check *check, const tn_checked_form *form, tn_checked_fa
             tn_help(check->diagnostics, d, "leave one of the two out");
             return;
         }
-    if (!kind_belongs(face->ast->relation, kind)) {
+    if (!kind_belongs(form, face->ast->relation, kind)) {
         tn_diagnostic *d =
             tn_report(check->diagnostics, E_UNKNOWN_PART, word->node.span, "`%s` cannot be in such a face", word->text);
         tn_help(check->diagnostics, d,
-                face->ast->relation == TN_FACE_UNDER ? "between storeys there is `floor`, `stair` or `open`"
+                face->ast->relation == TN_FACE_UNDER ? "between storeys there is `floor`, `stair`, `open` or a flight"
                 : face->ast->relation == TN_FACE_OUTSIDE
                     ? "outside there is `wall`, `party` or an opening"
                     : "between rooms there is `wall`, `party`, `open` or an opening");

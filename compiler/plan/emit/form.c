@@ -115,6 +115,10 @@ static void emit_openings(tn_emit *emit, const tn_checked_form *form)
                                                                    .high = opening->high,
                                                                    .sill = opening->sill,
                                                                    .clear = opening->clear,
+                                                                   .rise_least = opening->rise_least,
+                                                                   .rise_most = opening->rise_most,
+                                                                   .going = opening->going,
+                                                                   .turn = opening->turn,
                                                                    .flags = (opening->passage ? TN_PASSAGE : 0) |
                                                                             (opening->glazed ? TN_GLAZED : 0),
                                                                    PLACE(opening->ast->node.span)});

@@ -19,6 +19,7 @@ typedef enum tn_form_part {
     TN_PART_NO,
     TN_PART_FUNCTION,
     TN_PART_OPENING,
+    TN_PART_FLIGHT,
     TN_PART_FACE,
     TN_PART_TILE,
     TN_PART_MATERIAL
@@ -70,10 +71,12 @@ typedef struct tn_ast_tile_part {
 typedef struct tn_ast_form_clause {
     tn_ast_node node;
     tn_form_part part;
-    const tn_ast_word *name, *doc; /* of a material, the doc is its colour */
-    const tn_ast_word *detail; /* section: the word after the zone; outside: the side, or NULL; material: per what */
-    const tn_ast_word *length; /* storey, thickness, an opening's width; a material's price, or NULL */
-    const tn_ast_word *high;   /* opening */
+    const tn_ast_word *name, *doc;  /* of a material, the doc is its colour */
+    const tn_ast_word *detail;      /* section: the word after the zone; outside: the side, or NULL; material: per what;
+                                       flight: how it turns, or NULL */
+    const tn_ast_word *length;      /* storey, thickness, an opening's width; a material's price, or NULL */
+    const tn_ast_word *high;        /* opening; the most that a flight's steps rise */
+    const tn_ast_word *low, *going; /* flight: the least that its steps rise, and how deep they are */
     tn_face_relation relation;
     tn_ast_expr *first, *second; /* material: where it is used, or NULL */
     tn_ast_list list;            /* section: tn_ast_shape; face: kinds; tile: functions; material: parts */

@@ -119,7 +119,8 @@ tn_status tn_house_write_ifc(const tn_house *house, const tn_solids *solids, con
     tn_status status = tn_house_rooms(house, &ifc.rooms, error);
     ifc.walls = calloc(house->face_count + 1, sizeof *ifc.walls);
     ifc.spaces = calloc(house->cell_count + 1, sizeof *ifc.spaces);
-    if (status == TN_OK && (!ifc.walls || !ifc.spaces))
+    ifc.made = calloc(TN_SOLID_COUNT + house->form->record->material_count, sizeof *ifc.made);
+    if (status == TN_OK && (!ifc.walls || !ifc.spaces || !ifc.made))
         status = tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_house_write(house, &line, error);

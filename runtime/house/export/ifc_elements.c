@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "runtime/house/export/ifc_parts.h"
+#include "runtime/house/schedule/cost.h"
 
 /* The storey at hand is where a part stands: that of its face, its cell, or its own. */
 static uint32_t storey_of(const tn_ifc *ifc, const tn_solid *s)
@@ -16,6 +17,7 @@ static uint32_t storey_of(const tn_ifc *ifc, const tn_solid *s)
     case TN_SOLID_PARTITION:
     case TN_SOLID_PANE:
     case TN_SOLID_LEAF:
+    case TN_SOLID_FLIGHT:
         return ifc->house->faces[s->of].storey;
     case TN_SOLID_ITEM:
     case TN_SOLID_ROOFDECK:
@@ -53,10 +55,15 @@ static void put_volume(tn_ifc *ifc, unsigned part, const char *set, double volum
                     tn_stepfile_guid(step, "volume of part", part).text, part, quantities);
 }
 
-static void keep(tn_ifc *ifc, tn_solid_kind kind, unsigned part, tn_stepfile_list *list)
+/* Keeps a part for its storey, and for what it is made of. */
+static void keep(tn_ifc *ifc, const tn_solid *s, unsigned part, tn_stepfile_list *list)
 {
+    uint32_t material = tn_part_material(ifc->house, tn_solid_made_part(ifc->house, s->kind, s->of, s->item));
     tn_stepfile_list_add(list, part);
-    tn_stepfile_list_add(&ifc->made[kind], part);
+    tn_stepfile_list_add(
+        &ifc->made[material == TN_NO_RECORD ? s->kind
+                                            : TN_SOLID_COUNT + material - ifc->house->form->record->material_first],
+        part);
 }
 
 /* ---- walls */
@@ -97,7 +104,7 @@ static void fill(tn_ifc *ifc, uint32_t face, unsigned opening, const tn_box *hol
                                     door ? "DOOR" : "WINDOW", door ? ".SINGLE_SWING_LEFT." : ".SINGLE_PANEL.");
     tn_stepfile_add(step, "IFCRELFILLSELEMENT('%s',$,$,$,#%u,#%u)", tn_stepfile_guid(step, "fills", face).text, opening,
                     part);
-    keep(ifc, door ? TN_SOLID_LEAF : TN_SOLID_PANE, part, list);
+    keep(ifc, &(tn_solid){.kind = door ? TN_SOLID_LEAF : TN_SOLID_PANE, .of = face}, part, list);
 }
 
 /* The wall of a face as one box, and the opening that is cut out of it. `first` is the first of its boxes. */
@@ -122,7 +129,7 @@ static void put_wall(tn_ifc *ifc, size_t first, tn_stepfile_list *list)
                                     tn_stepfile_guid(step, "wall", s->of).text, tn_solid_kind_text(s->kind), where,
                                     body, s->kind == TN_SOLID_PARTITION ? "PARTITIONING" : "SOLIDWALL");
     ifc->walls[s->of] = wall;
-    keep(ifc, s->kind, wall, list);
+    keep(ifc, s, wall, list);
     put_volume(ifc, wall, "Qto_WallBaseQuantities", volume);
     if (!open)
         return;
@@ -162,7 +169,7 @@ static void put_box(tn_ifc *ifc, const tn_solid *s, unsigned number, tn_stepfile
                                                             : "FLOOR");
         put_volume(ifc, part, "Qto_SlabBaseQuantities", volume_of(&s->at));
     }
-    keep(ifc, s->kind, part, list);
+    keep(ifc, s, part, list);
 }
 
 /* ---- roofs and stairs */
@@ -216,19 +223,67 @@ static void put_roof(tn_ifc *ifc, unsigned number, tn_stepfile_list *list)
                                            p->across ? (double)p->to : 0, 0);
     unsigned roof = tn_stepfile_add(step, "IFCROOF('%s',$,'roof',$,$,#%u,#%u,$,.NOTDEFINED.)",
                                     tn_stepfile_guid(step, "roof", number).text, where, body);
-    keep(ifc, TN_SOLID_ROOF, roof, list);
+    keep(ifc, &(tn_solid){.kind = TN_SOLID_ROOF, .of = p->of}, roof, list);
+}
+
+/* The steps and landings of a flight, as one shape; 0 where a stair has none. */
+static unsigned put_steps(tn_ifc *ifc, uint32_t face)
+{
+    tn_stepfile *step = &ifc->step;
+    tn_stepfile_list steps = {0};
+    const tn_rectangle *from = &ifc->house->faces[face].at;
+    double floor = (double)ifc->house->form->level[ifc->storey];
+    for (size_t i = 0; i < ifc->solids->box_count; i++) {
+        const tn_solid *s = &ifc->solids->boxes[i];
+        if (s->kind != TN_SOLID_FLIGHT || s->of != face)
+            continue;
+        double low[3] = {(double)(s->at.x0 - from->x0), (double)(s->at.y0 - from->y0), (double)s->at.z0 - floor},
+               high[3] = {(double)(s->at.x1 - from->x0), (double)(s->at.y1 - from->y0), (double)s->at.z1 - floor};
+        tn_stepfile_list_add(&steps, tn_stepfile_solid(step, low, high));
+    }
+    const char *list = tn_stepfile_list_text(&steps);
+    unsigned body = list ? tn_stepfile_shape(step, list) : 0;
+    ifc->failed |= steps.text.failed;
+    tn_stepfile_list_clear(&steps);
+    return body;
+}
+
+static const char *stair_type(const tn_opening_record *flight)
+{
+    switch (flight ? (tn_turn)flight->turn : TN_TURN_NONE) {
+    case TN_TURN_STRAIGHT:
+        return "STRAIGHT_RUN_STAIR";
+    case TN_TURN_QUARTER:
+        return "QUARTER_TURN_STAIR";
+    case TN_TURN_HALF:
+        return "HALF_TURN_STAIR";
+    default:
+        return "NOTDEFINED";
+    }
 }
 
 static void put_stairs(tn_ifc *ifc, tn_stepfile_list *list)
 {
+    const tn_house_form *form = ifc->house->form;
     for (uint32_t i = 0; i < ifc->house->face_count; i++) {
         const tn_face *face = &ifc->house->faces[i];
-        if (face->relation != TN_FACE_UNDER || face->kind != TN_FACE_STAIR ||
+        const tn_opening_record *flight = tn_form_flight(form, face->kind);
+        if (face->relation != TN_FACE_UNDER || (face->kind != TN_FACE_STAIR && !flight) ||
             ifc->house->cells[face->first].storey != ifc->storey)
             continue;
+        char body[16] = "$";
+        unsigned steps = put_steps(ifc, i);
+        if (steps)
+            snprintf(body, sizeof body, "#%u", steps);
         unsigned where = tn_stepfile_placement(&ifc->step, ifc->placement, (double)face->at.x0, (double)face->at.y0, 0);
-        tn_stepfile_list_add(list, tn_stepfile_add(&ifc->step, "IFCSTAIR('%s',$,'stair',$,$,#%u,$,$,.NOTDEFINED.)",
-                                                   tn_stepfile_guid(&ifc->step, "stair", i).text, where));
+        unsigned stair = tn_stepfile_add(&ifc->step, "IFCSTAIR('%s',$,'%s',$,$,#%u,%s,$,.%s.)",
+                                         tn_stepfile_guid(&ifc->step, "stair", i).text,
+                                         tn_stepfile_text(flight ? tn_text(form->module, flight->name) : "stair").text,
+                                         where, body, stair_type(flight));
+        if (steps)
+            keep(ifc, &(tn_solid){.kind = TN_SOLID_FLIGHT, .of = i}, stair, list);
+        else
+            tn_stepfile_list_add(list, stair);
     }
 }
 
@@ -236,7 +291,7 @@ void tn_ifc_elements(tn_ifc *ifc, tn_stepfile_list *list)
 {
     for (size_t i = 0; i < ifc->solids->box_count; i++) {
         const tn_solid *s = &ifc->solids->boxes[i];
-        if (storey_of(ifc, s) != ifc->storey)
+        if (storey_of(ifc, s) != ifc->storey || s->kind == TN_SOLID_FLIGHT)
             continue;
         if (!is_wall(s->kind))
             put_box(ifc, s, (unsigned)i, list);

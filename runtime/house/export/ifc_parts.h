@@ -13,8 +13,9 @@ typedef struct tn_ifc {
     unsigned *spaces;   /* [cell] the space of the room that begins there; owned */
     unsigned placement; /* of the storey at hand */
     uint32_t storey;
-    tn_stepfile_list made[TN_SOLID_COUNT]; /* parts of each kind, for their materials */
-    bool failed;                           /* out of memory */
+    tn_stepfile_list
+        *made;   /* parts of each kind that the form has no material for, then those of each material; owned */
+    bool failed; /* out of memory */
 } tn_ifc;
 
 void tn_ifc_clear(tn_ifc *ifc);

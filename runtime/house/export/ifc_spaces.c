@@ -10,8 +10,9 @@ void tn_ifc_clear(tn_ifc *ifc)
     free(ifc->rooms);
     free(ifc->walls);
     free(ifc->spaces);
-    for (int i = 0; i < TN_SOLID_COUNT; i++)
+    for (uint32_t i = 0; ifc->made && i < TN_SOLID_COUNT + ifc->house->form->record->material_count; i++)
         tn_stepfile_list_clear(&ifc->made[i]);
+    free(ifc->made);
 }
 
 /* Square metres. */
@@ -95,14 +96,17 @@ static void put_boundaries(tn_ifc *ifc)
 
 void tn_ifc_materials(tn_ifc *ifc)
 {
-    for (unsigned i = 0; i < TN_SOLID_COUNT; i++) {
+    const tn_house_form *form = ifc->house->form;
+    for (uint32_t i = 0; i < TN_SOLID_COUNT + form->record->material_count; i++) {
         const char *list = tn_stepfile_list_text(&ifc->made[i]);
         if (!list) {
             ifc->failed |= ifc->made[i].text.failed;
             continue;
         }
-        const char *name = tn_solid_kind_text((tn_solid_kind)i);
-        unsigned material = tn_stepfile_add(&ifc->step, "IFCMATERIAL('%s',$,$)", name);
+        uint32_t record = form->record->material_first + i - TN_SOLID_COUNT;
+        const char *name = i < TN_SOLID_COUNT ? tn_solid_kind_text((tn_solid_kind)i)
+                                              : tn_text(form->module, form->module->MATERIAL_records[record].name);
+        unsigned material = tn_stepfile_add(&ifc->step, "IFCMATERIAL('%s',$,$)", tn_stepfile_text(name).text);
         tn_stepfile_add(&ifc->step, "IFCRELASSOCIATESMATERIAL('%s',$,$,$,%s,#%u)",
                         tn_stepfile_guid(&ifc->step, "material", i).text, list, material);
     }

@@ -65,6 +65,23 @@ static tn_status check_items(const tn_checker *checker, uint32_t first, uint32_t
     return TN_OK;
 }
 
+static bool is_flight(const tn_checker *checker, const tn_form_record *form, uint32_t kind)
+{
+    return kind >= TN_FACE_KIND_COUNT && kind - TN_FACE_KIND_COUNT < form->opening_count &&
+           checker->module->OPENING_records[form->opening_first + kind - TN_FACE_KIND_COUNT].turn != TN_TURN_NONE;
+}
+
+/* Steps of a flight rise and go somewhere. */
+static tn_status check_flights(const tn_checker *checker, const tn_form_record *form)
+{
+    for (uint32_t i = 0; i < form->opening_count; i++) {
+        const tn_opening_record *flight = &checker->module->OPENING_records[form->opening_first + i];
+        if (flight->turn != TN_TURN_NONE && (flight->rise_least < 1 || flight->rise_most < 1 || flight->going < 1))
+            return tn_refuse(checker, "flight %u has steps without a rise or a going", form->opening_first + i);
+    }
+    return TN_OK;
+}
+
 static tn_status check_face(const tn_checker *checker, const tn_form_record *form, uint32_t index)
 {
     const tn_face_line_record *face = &checker->module->FACE_LINE_records[index];
@@ -74,7 +91,7 @@ static tn_status check_face(const tn_checker *checker, const tn_form_record *for
         return tn_refuse(checker, "line %u of faces names a function of another kind or schema", index);
     for (uint32_t i = 0; i < face->kind_count; i++) {
         uint32_t kind = checker->module->HOUSE_ITEM_records[face->kind_first + i].number;
-        bool vertical = kind == TN_FACE_FLOOR || kind == TN_FACE_STAIR;
+        bool vertical = kind == TN_FACE_FLOOR || kind == TN_FACE_STAIR || is_flight(checker, form, kind);
         if (kind != TN_FACE_OPEN && vertical != (face->relation == TN_FACE_UNDER))
             return tn_refuse(checker, "line %u of faces has a kind that cannot be there", index);
     }
@@ -162,6 +179,8 @@ static tn_status check_form(const tn_checker *checker, uint32_t index)
         status = check_choice(checker, form, form->choice_first + i);
     if (status == TN_OK)
         status = check_rules(checker, form);
+    if (status == TN_OK)
+        status = check_flights(checker, form);
     for (uint32_t i = 0; status == TN_OK && i < form->face_count; i++)
         status = check_face(checker, form, form->face_first + i);
     for (uint32_t i = 0; status == TN_OK && i < form->tile_count; i++)

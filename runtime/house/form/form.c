@@ -25,6 +25,6 @@ void tn_form_ready(const tn_module *module, uint32_t index, const tn_schema *sch
 const char *tn_form_kind_text(const tn_house_form *form, uint32_t kind)
 {
     static const char *const words[] = {"wall", "party", "open", "floor", "stair"};
-    const tn_opening_record *opening = tn_form_opening(form, kind);
-    return opening ? tn_text(form->module, opening->name) : words[kind];
+    const tn_opening_record *declared = tn_form_declared(form, kind);
+    return declared ? tn_text(form->module, declared->name) : words[kind];
 }

@@ -51,12 +51,26 @@ static inline bool tn_form_next_section(const tn_house_form *form, uint32_t *sha
     return false;
 }
 
-/* The opening that a kind of face is; NULL where it is none. */
-static inline const tn_opening_record *tn_form_opening(const tn_house_form *form, uint32_t kind)
+/* The record of a kind of face that the form declares, an opening or a flight; NULL where it is none. */
+static inline const tn_opening_record *tn_form_declared(const tn_house_form *form, uint32_t kind)
 {
     return kind < TN_FACE_KIND_COUNT
                ? NULL
                : &form->module->OPENING_records[form->record->opening_first + kind - TN_FACE_KIND_COUNT];
+}
+
+/* The opening that a kind of face is; NULL where it is none. */
+static inline const tn_opening_record *tn_form_opening(const tn_house_form *form, uint32_t kind)
+{
+    const tn_opening_record *declared = tn_form_declared(form, kind);
+    return declared && declared->turn == TN_TURN_NONE ? declared : NULL;
+}
+
+/* The flight of stairs that a kind of face is; NULL where it is none. */
+static inline const tn_opening_record *tn_form_flight(const tn_house_form *form, uint32_t kind)
+{
+    const tn_opening_record *declared = tn_form_declared(form, kind);
+    return declared && declared->turn != TN_TURN_NONE ? declared : NULL;
 }
 
 /* The height of a storey's rooms: from its floor to the deck above. */

@@ -10,10 +10,10 @@
 #define PLAN_CUT_NM INT64_C(1219200000) /* 4' */
 
 const uint32_t tn_solid_groups[TN_SOLID_COUNT] = {
-    [TN_SOLID_OUTSIDE] = TN_GROUP_WALL, [TN_SOLID_PARTY] = TN_GROUP_WALL, [TN_SOLID_PARTITION] = TN_GROUP_WALL,
-    [TN_SOLID_POST] = TN_GROUP_WALL,    [TN_SOLID_DECK] = TN_GROUP_FLOOR, [TN_SOLID_ROOFDECK] = TN_GROUP_ROOF,
-    [TN_SOLID_ITEM] = TN_GROUP_ITEM,    [TN_SOLID_ROOF] = TN_GROUP_ROOF,  [TN_SOLID_PANE] = TN_GROUP_PANE,
-    [TN_SOLID_LEAF] = TN_GROUP_LEAF,
+    [TN_SOLID_OUTSIDE] = TN_GROUP_WALL, [TN_SOLID_PARTY] = TN_GROUP_WALL,   [TN_SOLID_PARTITION] = TN_GROUP_WALL,
+    [TN_SOLID_POST] = TN_GROUP_WALL,    [TN_SOLID_DECK] = TN_GROUP_FLOOR,   [TN_SOLID_ROOFDECK] = TN_GROUP_ROOF,
+    [TN_SOLID_ITEM] = TN_GROUP_ITEM,    [TN_SOLID_ROOF] = TN_GROUP_ROOF,    [TN_SOLID_PANE] = TN_GROUP_PANE,
+    [TN_SOLID_LEAF] = TN_GROUP_LEAF,    [TN_SOLID_FLIGHT] = TN_GROUP_FLOOR,
 };
 
 void tn_prospect_clear(tn_prospect *prospect)
@@ -106,7 +106,8 @@ static void drop_above(const tn_house *house, tn_blocks *blocks, uint32_t storey
     size_t kept = 0;
     for (size_t i = 0; i < blocks->count; i++) {
         const tn_house_block *block = &blocks->items[i];
-        bool shown = block->kind == TN_SOLID_ROOF ? house->cells[block->of].storey + 1 < storeys : block->low[2] < level;
+        bool shown =
+            block->kind == TN_SOLID_ROOF ? house->cells[block->of].storey + 1 < storeys : block->low[2] < level;
         if (shown)
             blocks->items[kept++] = *block;
     }
@@ -119,12 +120,12 @@ static int64_t plan_level(const tn_house_form *form, uint32_t storey)
     return form->level[storey] + (clear > PLAN_CUT_NM ? PLAN_CUT_NM : clear / 2);
 }
 
-/* Furniture that is cut is drawn like the rest of it, not hatched. */
-static void drop_item_cuts(tn_blocks *blocks)
+/* Furniture and stairs that are cut are drawn like the rest of them, not hatched. */
+static void drop_item_cuts(tn_blocks *blocks, bool plan)
 {
     size_t kept = 0;
     for (size_t i = 0; i < blocks->cut_count; i++)
-        if (blocks->cuts[i].kind != TN_SOLID_ITEM)
+        if (blocks->cuts[i].kind != TN_SOLID_ITEM && (!plan || blocks->cuts[i].kind != TN_SOLID_FLIGHT))
             blocks->cuts[kept++] = blocks->cuts[i];
     blocks->cut_count = kept;
 }
@@ -237,7 +238,7 @@ tn_status tn_prospect_take(const tn_house *house, const tn_solids *solids, const
             blocks.items[i].group = tn_solid_groups[blocks.items[i].kind];
         status = tn_blocks_mesh(&blocks, TN_GROUP_COUNT, &prospect->mesh, error);
     }
-    drop_item_cuts(&blocks);
+    drop_item_cuts(&blocks, aspect->kind == TN_ASPECT_PLAN);
     if (status == TN_OK) {
         prospect->cuts = blocks.cuts;
         prospect->cut_count = blocks.cut_count;

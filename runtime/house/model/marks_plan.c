@@ -63,6 +63,28 @@ static void put_stair(tn_rectangle r, tn_marks *marks)
                       along_x ? my + side * tip / 2 : y1 - tip, along_x ? x1 : mx, along_x ? my : y1);
 }
 
+/* The way up a flight, and a point at its upper end. */
+static tn_status put_flight(const tn_house *house, const tn_face *face, tn_marks *marks, tn_error *error)
+{
+    tn_flight flight;
+    tn_status status = tn_flight_stand(house, face, &flight, error);
+    free(flight.treads);
+    double u0 = 0, v0 = 0, tip = TREAD_NM * 0.6;
+    for (size_t i = 0; i < flight.path_count; i++) {
+        double u = (double)flight.path[i][0], v = (double)flight.path[i][1], along = fabs(u - u0) + fabs(v - v0);
+        if (i > 0)
+            tn_marks_line(marks, TN_MARK_STAIR, u0, v0, u, v);
+        if (i > 0 && i + 1 == flight.path_count) {
+            double du = (u - u0) / along * tip, dv = (v - v0) / along * tip;
+            tn_marks_line(marks, TN_MARK_STAIR, u - du - dv / 2, v - dv + du / 2, u, v);
+            tn_marks_line(marks, TN_MARK_STAIR, u - du + dv / 2, v - dv - du / 2, u, v);
+        }
+        u0 = u;
+        v0 = v;
+    }
+    return status;
+}
+
 static void put_void(tn_rectangle r, tn_marks *marks)
 {
     double x0 = (double)r.x0, x1 = (double)r.x1, y0 = (double)r.y0, y1 = (double)r.y1;
@@ -70,14 +92,18 @@ static void put_void(tn_rectangle r, tn_marks *marks)
     tn_marks_line(marks, TN_MARK_VOID, x0, y1, x1, y0);
 }
 
-static void put_symbols(const tn_house *house, uint32_t storey, tn_marks *marks)
+static tn_status put_symbols(const tn_house *house, uint32_t storey, tn_marks *marks, tn_error *error)
 {
+    tn_status status = TN_OK;
     for (uint32_t i = 0; i < house->face_count; i++) {
         const tn_face *face = &house->faces[i];
         if (face->relation == TN_FACE_UNDER && face->kind == TN_FACE_STAIR) {
             uint32_t cell = face->storey == storey ? face->first : face->second;
             if (house->cells[cell].storey == storey)
                 put_stair(tn_cell_clear(house, cell), marks);
+        } else if (face->relation == TN_FACE_UNDER && tn_form_flight(house->form, face->kind)) {
+            if (status == TN_OK && face->storey == storey)
+                status = put_flight(house, face, marks, error);
         } else if (face->storey == storey && face->relation != TN_FACE_UNDER) {
             put_door(house, face, marks);
         }
@@ -85,6 +111,7 @@ static void put_symbols(const tn_house *house, uint32_t storey, tn_marks *marks)
     for (uint32_t i = 0; i < house->cell_count; i++)
         if (house->cells[i].storey == storey && house->cells[i].open)
             put_void(tn_cell_clear(house, i), marks);
+    return status;
 }
 
 /* ---- dimensions */
@@ -139,7 +166,9 @@ static bool put_dimensions(const tn_house *house, uint32_t storey, double letter
 
 tn_status tn_marks_plan(const tn_house *house, uint32_t storey, double lettering, tn_marks *marks, tn_error *error)
 {
-    put_symbols(house, storey, marks);
+    tn_status status = put_symbols(house, storey, marks, error);
+    if (status != TN_OK)
+        return status;
     if (!put_dimensions(house, storey, lettering, marks) || marks->failed)
         return tn_fail_memory(error);
     return tn_marks_names(house, storey, lettering, marks, error);

@@ -66,7 +66,7 @@ bool tn_house_is_step(const tn_house *house, const tn_meeting_record *walk, cons
         !has_kind(house->form->module, walk, face->kind))
         return false;
     if (face->relation == TN_FACE_UNDER)
-        return face->kind == TN_FACE_STAIR;
+        return face->kind == TN_FACE_STAIR || tn_form_flight(house->form, face->kind);
     const tn_opening_record *opening = tn_form_opening(house->form, face->kind);
     return face->kind == TN_FACE_OPEN || (opening && opening->flags & TN_PASSAGE);
 }

@@ -48,6 +48,7 @@ uint32_t tn_solid_made_part(const tn_house *house, tn_solid_kind kind, uint32_t 
         return TN_OF_DECK;
     case TN_SOLID_PANE:
     case TN_SOLID_LEAF:
+    case TN_SOLID_FLIGHT:
         return TN_OF_COUNT + house->faces[of].kind - TN_FACE_KIND_COUNT;
     case TN_SOLID_ITEM:
         return TN_OF_COUNT + house->form->record->opening_count + named_first(house->form, item) -
@@ -99,7 +100,8 @@ static void set_wide(mpz_t to, tn_int128 number)
 static tn_int128 face_of(const tn_solid *s)
 {
     tn_int128 x = s->at.x1 - s->at.x0, y = s->at.y1 - s->at.y0, z = s->at.z1 - s->at.z0;
-    bool lies = s->kind == TN_SOLID_DECK || s->kind == TN_SOLID_ROOFDECK || s->kind == TN_SOLID_ITEM;
+    bool lies = s->kind == TN_SOLID_DECK || s->kind == TN_SOLID_ROOFDECK || s->kind == TN_SOLID_ITEM ||
+                s->kind == TN_SOLID_FLIGHT;
     return lies ? x * y : (x > y ? x : y) * z;
 }
 
@@ -157,7 +159,7 @@ static void add_slope(const tn_prism *prism, const tn_roof_point *points, tn_cos
     mpq_sub(middle, middle, wide); /* how high in the middle */
     if (prism->slab)
         mpq_set_si(middle, prism->slab, 1);
-    mpq_sub(z, z, y);              /* how far it rises */
+    mpq_sub(z, z, y); /* how far it rises */
     set_fraction(y, points[0].y);
     set_fraction(wide, points[1].y);
     mpq_sub(y, wide, y); /* how deep */
@@ -248,11 +250,12 @@ tn_status tn_house_costs(const tn_house *house, const tn_solids *solids, tn_cost
     tn_status status = make_lines(house, costs, error);
     if (status == TN_OK)
         status = tn_house_leaves(house, &leaves, error);
-    uint32_t wall = TN_NO_CELL; /* pieces of one wall follow one another */
+    uint32_t wall = TN_NO_CELL; /* pieces of one wall or flight follow one another */
     for (size_t i = 0; status == TN_OK && i < solids->box_count; i++) {
         const tn_solid *s = &solids->boxes[i];
-        add_box(house, s, !is_wall(s->kind) || s->of != wall, costs);
-        wall = is_wall(s->kind) ? s->of : TN_NO_CELL;
+        bool pieces = is_wall(s->kind) || s->kind == TN_SOLID_FLIGHT;
+        add_box(house, s, !pieces || s->of != wall, costs);
+        wall = pieces ? s->of : TN_NO_CELL;
     }
     for (size_t i = 0; status == TN_OK && i < leaves.box_count; i++)
         add_box(house, &leaves.boxes[i], true, costs);

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Needs the parts: mesh
+# Roofs with eaves, open to their ridge, with ridges across the row; flights of stairs. Their solids are apart, without gaps, and their meshes
+# closed; other programs read these with the same volume and area.
+# Slow under sanitizers.
+name=house_solids
+. "$(dirname "$0")/golden.bash"
+python=python3
+/usr/bin/python3 -c 'import ezdxf' 2>/dev/null && python=/usr/bin/python3
+
+# looked FILE HOUSE WHAT
+looked() {
+    rm -rf "$scratch/made"
+    mkdir "$scratch/made"
+    "$TARTAN" house "$1" "$2" -o "$scratch/made/house.json" -o "$scratch/made/house.ifc" -o "$scratch/made/house.dxf" -o "$scratch/made/house.parts.csv" \
+        -o "$scratch/made/house.obj" -o "$scratch/made/house.glb"
+    is "$3: solids" "$($python "$here/../house_solids.py" "$scratch/made")" fine
+    is "$3: files" "$($python "$here/../house_files.py" "$scratch/made")" fine
+}
+
+plan="14' room:14' none | 10' hall:18' porch:6' | 10' hall:18' porch:6' | 14' room:14' porch:6'"
+low='living | living porch-deck | living porch-deck | living porch-deck'
+high='living living | living void porch-deck | living void porch-deck | living living porch-deck'
+porches=("flat(eaves-1')" "shed(front,12:12,open)" "flat(eaves-1')")
+at=0
+for roof in "gable(9:12,eaves-1'6\",open)" 'gable(12:12,across)' "gable(12:12,open,across,eaves-1')" "vault(4',eaves-6\",open)" \
+    "vault(4',across)" "shed(back,4:12,eaves-2',open)" "shed(front,6:12,eaves-1')"; do
+    looked "$files/roofs.plan" "$plan ; 1 $roof 1 ${porches[at % 2]} ; $low" "$roof, one storey"
+    looked "$files/roofs.plan" "$plan ; 2 $roof 1 ${porches[at % 2 + 1]} ; $high" "$roof, two storeys"
+    at=$((at + 1))
+done
+for flights in 'dogleg dogleg winding winding' 'winding winding run run' 'run dogleg dogleg winding'; do
+    looked "$files/stairs.plan" "22' rooms:14' well:7'6\" | 22' rooms:14' deep:12' ; gable(9:12,eaves-1',across) flat ; living living living climb climb climb | living living living climb climb climb ; $flights" "$flights"
+done
+
+# Flights are climbed by walks, and fit only where there is room for them.
+golden count "tartan count stairs.plan --library towers"
+golden no_way "tartan explain stairs.plan \"10' rooms:14' well:7'6\\\" ; gable(9:12,eaves-1',across) flat ; living living living climb climb climb\""
+is 'each house that is counted is listed' "$("$TARTAN" enumerate "$files/stairs.plan" --library towers | wc -l)" 552
+is 'and counted on its plan' "$("$TARTAN" count "$files/stairs.plan" --library towers --plan "22' rooms:14' well:7'6\" | 14' rooms:14' deep:12'" --json | sed 's/.*"houses":"\([0-9]*\)".*/\1/')" \
+    "$("$TARTAN" enumerate "$files/stairs.plan" --library towers --plan "22' rooms:14' well:7'6\" | 14' rooms:14' deep:12'" | wc -l)"
+finish
