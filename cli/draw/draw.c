@@ -3,8 +3,12 @@
 #include "cli/common/option_rows.h"
 #include "cli/common/subject.h"
 #include "cli/mesh/draw_surface.h"
+#include "cli/plan/library_job.h"
 #include "cli/solid/solid.h"
+#include "driver/house/judge.h"
 #include "runtime/plan/picture/draw.h"
+
+enum { TN_HOUSES_DRAWN_MAX = 200 };
 
 static const tn_draw_settings *settings_of(const tn_job *job)
 {
@@ -64,6 +68,13 @@ static bool check_options(tn_job *job)
 
 /* ---- forms */
 
+/* Is the library that is named one of houses? */
+static bool of_houses(const tn_job *job)
+{
+    const char *name = settings_of(job)->plans.library;
+    return name && tn_house_library_find(job->opened.module, name) != TN_NO_RECORD;
+}
+
 /* Options that say something about one or two of the subjects only. */
 static bool check_use(tn_job *job)
 {
@@ -83,8 +94,8 @@ static bool check_use(tn_job *job)
         {s->before, TN_OF_SOLIDS, "before"},
         {s->exploded, TN_OF_SOLIDS, "exploded"},
         {s->max_boxes.given, TN_OF_SOLIDS, "max-boxes"},
-        {s->azimuth.given, TN_OF_SOLIDS | TN_OF_FIELDS, "azimuth"},
-        {s->elevation.given, TN_OF_SOLIDS | TN_OF_FIELDS, "elevation"},
+        {s->azimuth.given && !of_houses(job), TN_OF_SOLIDS | TN_OF_FIELDS, "azimuth"},
+        {s->elevation.given && !of_houses(job), TN_OF_SOLIDS | TN_OF_FIELDS, "elevation"},
         {s->width.given, TN_OF_SOLIDS | TN_OF_FIELDS, "width"},
         {s->surface != NULL, TN_OF_FIELDS, "surface"},
         {s->grid.given, TN_OF_FIELDS, "grid"},
@@ -99,9 +110,8 @@ static bool check_use(tn_job *job)
     return true;
 }
 
-static tn_camera camera_of(const tn_draw_settings *settings)
+static tn_camera camera_of(const tn_draw_settings *settings, tn_camera camera)
 {
-    tn_camera camera = tn_camera_default();
     if (settings->azimuth.given)
         camera.azimuth = settings->azimuth.value;
     if (settings->elevation.given)
@@ -118,7 +128,7 @@ static void draw_solid(tn_job *job)
                                          : s->before   ? TN_SOLID_BEFORE
                                          : s->exploded ? TN_SOLID_EXPLODED
                                                        : TN_SOLID_VIEW,
-                                .camera = camera_of(s),
+                                .camera = camera_of(s, tn_camera_default()),
                                 .title = s->title,
                                 .columns = (uint32_t)s->columns.value,
                                 .dpi = (uint32_t)s->dpi.value,
@@ -129,7 +139,7 @@ static void draw_solid(tn_job *job)
 static void draw_field(tn_job *job)
 {
     const tn_draw_settings *s = settings_of(job);
-    tn_mesh_picture picture = {.camera = camera_of(s),
+    tn_mesh_picture picture = {.camera = camera_of(s, tn_camera_default()),
                                .title = s->title,
                                .dpi = (uint32_t)s->dpi.value,
                                .threads = (int)s->plans.threads.value};
@@ -137,8 +147,36 @@ static void draw_field(tn_job *job)
     tn_job_draw_surface(job, &surface, &picture, s->output);
 }
 
+/* What says how plans are put on paper says nothing of houses. */
+static void draw_houses(tn_job *job)
+{
+    const tn_draw_settings *s = settings_of(job);
+    const tn_house_settings houses = tn_job_houses(&s->plans);
+    tn_house_sheet sheet = {.wanted = (size_t)s->sample.value,
+                            .columns = (size_t)s->columns.value,
+                            .seed = s->sampled.seed.value,
+                            .camera = camera_of(s, (tn_camera){60, 30, 480}), /* from the front, as houses are */
+                            .title = s->title,
+                            .output = s->output,
+                            .dpi = (uint32_t)s->dpi.value};
+    bool other = s->best.given || s->rules.count || s->common.operands.count > 1 || s->sampled.length.given ||
+                 s->sampled.per_length.given || s->sampled.diverse || s->paper || s->scale.given;
+    if (other || !s->sample.given)
+        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "of a library of houses, a sample of all of them is drawn"),
+                "write --sample N, with --seed, --columns and --title; `tartan house` draws one house");
+    else if (sheet.wanted > TN_HOUSES_DRAWN_MAX)
+        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "a picture shows at most %u houses", TN_HOUSES_DRAWN_MAX),
+                "ask for fewer");
+    else
+        tn_job_draw_houses(job, &houses, &sheet);
+}
+
 static void draw_plans(tn_job *job)
 {
+    if (of_houses(job)) {
+        draw_houses(job);
+        return;
+    }
     const char *path = from_library(settings_of(job)) ? NULL : tn_job_plans_path(job);
     if (settings_of(job)->rules.count)
         tn_job_draw_rules(job);
@@ -193,7 +231,8 @@ static const tn_option options[] = {
     FLAG("sheet", 0, sheet, "of a design of boxes: plan, elevations and a view on one sheet"),
     FLAG("before", 0, before, "of a design of boxes: as it is written beside what is built, so that squashing is seen"),
     FLAG("exploded", 0, exploded, "of a design of boxes: its boxes moved apart"),
-    REAL("azimuth", 0, "DEGREES", azimuth, "where a form is seen from, about the vertical (default -60)"),
+    REAL("azimuth", 0, "DEGREES", azimuth,
+         "where a form or house is seen from, about the vertical (default -60; of houses 60)"),
     REAL("elevation", 0, "DEGREES", elevation, "how high from: 90 is straight above (default 30)"),
     NUMBER("width", 0, "POINTS", width, 50, 5000, "width of a picture of a form (default 480)"),
     OPTION_MAX_BOXES(max_boxes),
@@ -215,6 +254,8 @@ const tn_command tn_command_draw = {
         "drawn to scale, with the zones, marks and dimensions that the roles in the schema ask for, its rank or "
         "line below it, and a legend. A schema whose fields have no roles is drawn as tables. A PDF has as many "
         "pages as it needs; SVG and PNG are one sheet.\n\n"
+        "With --library HOUSES --sample N, houses are drawn instead: N of them in space, each with its rank, its floor "
+        "area and what it costs.\n\n"
         "With --rule, rules are drawn instead, in the manner of the LaHave paper: each part is a box with its "
         "sign, the parts of `and` side by side, those of `or` one above the other, and trays with the symbols of "
         "their zones.\n\n"
@@ -222,6 +263,7 @@ const tn_command tn_command_draw = {
         "Of a field (.field), a surface is meshed and drawn, shaded: as a PNG of any number of triangles, as an SVG or "
         "a PDF of at most 300,000.",
     .example = "$ tartan draw lahave-houses --sample 24 --seed 7 -o sheet.svg\n"
+               "$ tartan draw lahave-complete --library lahave-complete --sample 12 -o houses.png\n"
                "$ tartan enumerate terrace --limit 50 | tartan draw terrace - -o rows.pdf\n"
                "$ tartan draw primitives --surface klein --grid 150 -o klein.png",
     .options = options,

@@ -3,6 +3,7 @@
 #define TARTAN_CLI_HOUSE_NUMBERED_H
 
 #include "cli/common/job.h"
+#include "runtime/geometry/camera.h"
 #include "runtime/house/house.h"
 #include "runtime/plan/library/library.h"
 
@@ -26,6 +27,17 @@ void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const t
  * drawn with the same probability. */
 void tn_job_sample_houses(tn_job *job, const tn_house_settings *settings, const char *plan, size_t wanted,
                           uint64_t seed, const char *output);
+
+/* Small pictures of so many houses of the library, drawn at random; their ranks, areas and costs below. */
+typedef struct tn_house_sheet {
+    size_t wanted, columns; /* columns: 0 for as many as look well */
+    uint64_t seed;
+    tn_camera camera;
+    const char *title; /* NULL: what the form says of itself */
+    const char *output;
+    uint32_t dpi;
+} tn_house_sheet;
+void tn_job_draw_houses(tn_job *job, const tn_house_settings *settings, const tn_house_sheet *sheet);
 
 /* The houses [from, to) by rank, at most `limit` where `limited`. */
 typedef struct tn_house_range {

@@ -2,14 +2,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/house/numbered_parts.h"
+#include "cli/house/sampled.h"
 
 /* The ranks that are drawn, ascending, and how far the plans have come. */
 typedef struct tn_house_sample {
     mpz_t *ranks;
     size_t room, count, next;
     mpz_t before; /* houses on the plans before */
-    FILE *out;
+    tn_sampled_house *use;
+    void *context;
 } tn_house_sample;
 
 static void sample_clear(tn_house_sample *s)
@@ -38,26 +39,20 @@ static tn_status add_plan(tn_numbered *n, void *context, const tn_tray *trays, u
     return tn_house_variants_count(n->variants, trays, length, context, error);
 }
 
-static tn_status write_house(tn_numbered *n, tn_house_sample *s, const tn_tray *trays, uint32_t length,
-                             const mpz_t variant, tn_error *error)
+static tn_status use_house(tn_numbered *n, tn_house_sample *s, const tn_tray *trays, uint32_t length,
+                           const mpz_t variant, const mpz_t rank, tn_error *error)
 {
     tn_house house;
-    tn_buffer line = {0};
     tn_status status = tn_house_variants_at(n->variants, trays, length, variant, &house, error);
     if (status == TN_OK)
-        status = tn_house_write(&house, &line, error);
-    if (status == TN_OK && !tn_buffer_append(&line, "\n", 1))
-        status = tn_fail_memory(error);
-    if (status == TN_OK)
-        fwrite(line.data, 1, line.size, s->out);
+        status = s->use(s->context, &house, rank, error);
     tn_house_clear(&house);
-    free(line.data);
     return status;
 }
 
-/* Writes the houses on a plan that are drawn. */
-static tn_status write_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
-                            tn_error *error)
+/* Uses the houses on a plan that are drawn. */
+static tn_status use_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
+                          tn_error *error)
 {
     tn_house_sample *s = context;
     tn_house_counts counts;
@@ -67,8 +62,9 @@ static tn_status write_plan(tn_numbered *n, void *context, const tn_tray *trays,
     tn_status status = tn_house_variants_count(n->variants, trays, length, &counts, error);
     mpz_add(counts.houses, counts.houses, s->before);
     while (status == TN_OK && s->next < s->count && mpz_cmp(s->ranks[s->next], counts.houses) < 0) {
-        mpz_sub(variant, s->ranks[s->next++], s->before);
-        status = write_house(n, s, trays, length, variant, error);
+        mpz_sub(variant, s->ranks[s->next], s->before);
+        status = use_house(n, s, trays, length, variant, s->ranks[s->next], error);
+        s->next++;
     }
     mpz_set(s->before, counts.houses);
     *stop = s->next == s->count;
@@ -86,9 +82,10 @@ static tn_status visit_plans(tn_numbered *n, const tn_plan *plan, tn_plan_visit 
 }
 
 /* Draws among all houses, and finds the plan of each. */
-static tn_status sample_together(tn_numbered *n, size_t wanted, uint64_t seed, FILE *out, tn_error *error)
+static tn_status sample_together(tn_numbered *n, size_t wanted, uint64_t seed, tn_sampled_house *use, void *context,
+                                 tn_error *error)
 {
-    tn_house_sample s = {.out = out};
+    tn_house_sample s = {.use = use, .context = context};
     uint32_t length = 0;
     tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(n->plans) + 1));
     mpz_t rank;
@@ -99,7 +96,7 @@ static tn_status sample_together(tn_numbered *n, size_t wanted, uint64_t seed, F
         mpz_set(rank, s.ranks[i]);
         status = tn_houses_find(n->all, rank, trays, &length, error);
         if (status == TN_OK)
-            status = write_house(n, &s, trays, length, rank, error);
+            status = use_house(n, &s, trays, length, rank, s.ranks[i], error);
     }
     mpz_clear(rank);
     sample_clear(&s);
@@ -107,17 +104,17 @@ static tn_status sample_together(tn_numbered *n, size_t wanted, uint64_t seed, F
     return status;
 }
 
-static tn_status sample_houses(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, FILE *out,
-                               tn_error *error)
+tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, tn_sampled_house *use,
+                             void *context, tn_error *error)
 {
     if (!plan && !tn_numbered_few(n)) {
         tn_status together = tn_numbered_all(n, error);
         if (together == TN_OK)
-            return sample_together(n, wanted, seed, out, error);
+            return sample_together(n, wanted, seed, use, context, error);
         if (together != TN_LIMIT || !tn_numbered_countable(n))
             return together;
     }
-    tn_house_sample s = {.out = out};
+    tn_house_sample s = {.use = use, .context = context};
     tn_house_counts all;
     mpz_init(s.before);
     tn_house_counts_init(&all);
@@ -125,9 +122,22 @@ static tn_status sample_houses(tn_numbered *n, const tn_plan *plan, size_t wante
     if (status == TN_OK)
         status = sample_draw(&s, seed, all.houses, wanted, error);
     if (status == TN_OK && s.count > 0)
-        status = visit_plans(n, plan, write_plan, &s, error);
+        status = visit_plans(n, plan, use_plan, &s, error);
     tn_house_counts_clear(&all);
     sample_clear(&s);
+    return status;
+}
+
+static tn_status write_line(void *context, tn_house *house, const mpz_t rank, tn_error *error)
+{
+    (void)rank;
+    tn_buffer line = {0};
+    tn_status status = tn_house_write(house, &line, error);
+    if (status == TN_OK && !tn_buffer_append(&line, "\n", 1))
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        fwrite(line.data, 1, line.size, context);
+    free(line.data);
     return status;
 }
 
@@ -143,7 +153,7 @@ void tn_job_sample_houses(tn_job *job, const tn_house_settings *settings, const 
         if (status != TN_OK) {
             tn_numbered_bad_text(job, &error, "PLAN", plan);
         } else if (tn_job_output(job, output, &out)) {
-            status = sample_houses(&n, plan ? &on : NULL, wanted, seed, out.stream, &error);
+            status = tn_numbered_sample(&n, plan ? &on : NULL, wanted, seed, write_line, out.stream, &error);
             if (status != TN_OK)
                 tn_job_fail(job, &error);
             tn_job_close(job, &out, status == TN_OK);

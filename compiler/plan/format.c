@@ -84,7 +84,7 @@ static bool starts_part(const tn_format *format, size_t i)
 {
     static const char *const words[] = {"storey",  "spine",  "wall", "partition", "deck",     "roof",
                                         "section", "forbid", "void", "no",        "function", "opening",
-                                        "flight",  "face",   "tile", "material",  NULL};
+                                        "flight",  "face",   "tile", "material",  "allow",    NULL};
     return format->tokens[i].kind == TN_TOKEN_WORD && tn_format_is_any(format, i, words) &&
            !(tn_format_is(format, i, "section") && tn_format_is(format, i + 1, "("));
 }

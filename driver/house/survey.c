@@ -153,7 +153,7 @@ static void warn_functions(const tn_survey *s)
 {
     for (uint32_t f = 0; f < tn_form_functions(&s->form); f++) {
         const tn_cell_rule_record *rule = tn_form_rule(&s->form, f);
-        if (s->functions[f])
+        if (s->functions[f] || tn_survey_allows(s, W_FUNCTION_NEVER, SPAN(rule)))
             continue;
         tn_diagnostic *d = tn_report(list_of(s), W_FUNCTION_NEVER, SPAN(rule), "no cell may have the function `%s`",
                                      tn_text(s->form.module, rule->name));
@@ -165,7 +165,7 @@ static tn_status warn_bare(const tn_survey *s, tn_error *error)
 {
     const tn_form_record *form = s->form.record;
     tn_buffer line = {0};
-    if (!s->bare || tn_form_functions(&s->form) == 0)
+    if (!s->bare || tn_form_functions(&s->form) == 0 || tn_survey_allows(s, W_NO_FUNCTION, SPAN(form)))
         return TN_OK;
     bool ok = tn_plan_write_line(s->schema, &s->bare_tray, 1, &line);
     tn_diagnostic *d = tn_report(
@@ -182,7 +182,7 @@ static void warn_tiles(const tn_survey *s)
 {
     for (uint32_t i = 0; i < s->form.record->tile_count; i++) {
         const tn_tile_record *tile = &s->form.module->TILE_records[s->form.record->tile_first + i];
-        if (s->tiles[i])
+        if (s->tiles[i] || tn_survey_allows(s, W_TILE_NEVER, SPAN(tile)))
             continue;
         tn_diagnostic *d = tn_report(list_of(s), W_TILE_NEVER, SPAN(tile), "tile `%s` fits into no cell",
                                      tn_text(s->form.module, tile->name));
@@ -210,7 +210,8 @@ static void warn_openings(const tn_survey *s)
         const tn_opening_record *opening = &s->form.module->OPENING_records[s->form.record->opening_first + i];
         const char *name = tn_text(s->form.module, opening->name);
         bool named = is_named(s, TN_FACE_KIND_COUNT + i);
-        if (named && opening->wide + s->form.record->wall <= s->widest)
+        if ((named && opening->wide + s->form.record->wall <= s->widest) ||
+            tn_survey_allows(s, W_OPENING_NEVER, SPAN(opening)))
             continue;
         tn_diagnostic *d =
             tn_report(list_of(s), W_OPENING_NEVER, SPAN(opening),
@@ -254,7 +255,7 @@ static tn_status warn_sections(tn_survey *s, tn_error *error)
         for (uint32_t k = 0; k < tn_form_choice(&s->form, i)->shape_count; k++) {
             const tn_choice_record *choice = tn_form_choice(&s->form, i);
             const tn_shape_record *shape = &module->SHAPE_records[choice->shape_first + k];
-            if (stands[choice->shape_first + k])
+            if (stands[choice->shape_first + k] || tn_survey_allows(s, W_SHAPE_NEVER, SPAN(shape)))
                 continue;
             tn_diagnostic *d = tn_report(list_of(s), W_SHAPE_NEVER, SPAN(shape), "no section has this value of `%s`",
                                          tn_text(module, choice->name));

@@ -76,6 +76,8 @@ static void warn(const tn_survey *s, uint32_t line, const line_use *use)
     tn_diagnostics *list = &s->opened->compilation.diagnostics;
     const tn_face_line_record *records = s->form.module->FACE_LINE_records + s->form.record->face_first;
     tn_span span = {records[line].file, records[line].begin, records[line].end};
+    if (tn_survey_allows(s, W_FACE_LINE_IDLE, span))
+        return;
     tn_diagnostic *d =
         tn_report(list, W_FACE_LINE_IDLE, span,
                   use->applies ? "this line decides no face: others before it do" : "no face is between such cells");

@@ -2,6 +2,7 @@
 #ifndef TARTAN_DRIVER_HOUSE_SURVEY_PARTS_H
 #define TARTAN_DRIVER_HOUSE_SURVEY_PARTS_H
 
+#include "compiler/plan/syntax/program.h"
 #include "driver/house/survey.h"
 #include "runtime/house/house.h"
 
@@ -27,6 +28,12 @@ typedef struct tn_survey {
     tn_cell_class *classes;
     size_t class_count, class_room;
 } tn_survey;
+
+/* Does the form `allow` the warning? */
+static inline bool tn_survey_allows(const tn_survey *survey, tn_code code, tn_span at)
+{
+    return tn_program_allows(survey->opened->compilation.program, code, at);
+}
 
 /* ---- survey_faces.c: lines of faces that never apply, or are hidden by those before them */
 tn_status tn_survey_faces(tn_survey *survey, tn_error *error);

@@ -74,6 +74,43 @@ plan="10' room:14' none | 14' room:14' none"
 is 'all houses on a plan, each once' "$("$TARTAN" sample "$files/huts.plan" 100000 --library huts --plan "$plan" | sort -u | wc -l)" \
     "$("$TARTAN" count "$files/huts.plan" --library huts --plan "$plan" --json | sed 's/.*"houses":"\([0-9]*\)".*/\1/')"
 
+# How much there may be: forms of many storeys and functions, ranks past the end, files that cannot be written.
+# many STOREYS FUNCTIONS
+many() {
+    printf 'schema s { width = 8'"'"'\n zone body = open(8'"'"') }\nform f of s {\n'
+    for ((i = 0; i < $1; i++)); do printf '  storey s%s 9'"'"'\n' "$i"; done
+    printf "  wall 6\" partition 4\" deck 1' roof 10\"\n"
+    for ((i = 0; i < $2; i++)); do printf '  function f%s at cell(body)\n' "$i"; done
+    printf '}\nlibrary rows using s { trays 1..1 }\nlibrary tall from rows in f { }\n'
+}
+many 65 1 >"$scratch/tower.plan"
+many 1 1001 >"$scratch/busy.plan"
+many 40 1 >"$scratch/forty.plan"
+many 2 200 >"$scratch/offices.plan"
+many 40 200 >"$scratch/city.plan"
+golden storeys_past "tartan check $scratch/tower.plan"
+golden functions_past "tartan check $scratch/busy.plan"
+golden forty_storeys "tartan count $scratch/forty.plan --library tall"
+golden many_functions "tartan count $scratch/offices.plan --library tall"
+golden too_many_steps "tartan count $scratch/city.plan --library tall"
+golden unrank_past "tartan unrank cottage -l cottages 99999999999"
+golden variant_past "tartan unrank cottage '#10:99999999'"
+golden plan_past "tartan house cottage '#99999999:0'"
+golden no_folder "tartan house cottage '#10:77' -o $scratch/none/house.ifc"
+golden not_a_folder "tartan house cottage '#10:77' -o $scratch/city.plan/"
+
+# A sheet of small pictures.
+golden sheet_no_sample "tartan draw cottage --library cottages -o $scratch/h.svg"
+golden sheet_diverse "tartan draw cottage --library cottages --sample 3 --diverse -o $scratch/h.svg"
+golden sheet_too_many "tartan draw cottage --library cottages --sample 201 -o $scratch/h.svg"
+if grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; then
+    "$TARTAN" draw cottage --library cottages --sample 3 --seed 4 -o "$scratch/one.svg"
+    "$TARTAN" draw cottage --library cottages --sample 3 --seed 4 -o "$scratch/two.svg"
+    cmp "$scratch/one.svg" "$scratch/two.svg" || fail 'two sheets of the same houses differ'
+    "$TARTAN" draw cottage --library cottages --sample 3 --seed 5 --columns 1 -o "$scratch/two.svg"
+    ! cmp -s "$scratch/one.svg" "$scratch/two.svg" || fail 'sheets of other houses are the same'
+fi
+
 # What else a house could be.
 golden vary "tartan vary cottage '#10:77'"
 golden vary_cell "tartan vary cottage '#10:77' --at 3.body.ground --json"

@@ -193,7 +193,7 @@ static void each(tn_check *check, tn_checked_form *form, tn_form_part part)
 /* Said at most once: the spine and the thicknesses; what a form cannot be without. */
 static void check_once(tn_check *check, tn_checked_form *form)
 {
-    const tn_ast_form_clause *first[TN_PART_MATERIAL + 1] = {NULL};
+    const tn_ast_form_clause *first[TN_PART_ALLOW + 1] = {NULL};
     for (TN_EACH(const tn_ast_form_clause, clause, form->ast->clauses)) {
         if (first[clause->part] && clause->part >= TN_PART_SPINE && clause->part <= TN_PART_ROOF) {
             tn_diagnostic *d = tn_report(check->diagnostics, E_PART_TWICE, clause->node.span, "`%s` is there twice",
@@ -286,13 +286,32 @@ static bool make_room(tn_check *check, tn_checked_form *form)
     return !tn_arena_failed(check->arena);
 }
 
+/* The warnings that the form's lines `allow`. */
+static void gather_allowed(tn_check *check, tn_checked_form *form)
+{
+    for (TN_EACH(const tn_ast_form_clause, clause, form->ast->clauses)) {
+        if (clause->part != TN_PART_ALLOW)
+            continue;
+        tn_check_allow(check, clause->list);
+        for (TN_EACH(const tn_ast_word, word, clause->list)) {
+            tn_ast_word *copy = TN_NEW(check->arena, tn_ast_word);
+            if (!copy)
+                return;
+            *copy = *word; /* a node is in one list */
+            copy->node.next = NULL;
+            form->allow = tn_ast_append(form->allow, copy);
+        }
+    }
+    check->allow = form->allow;
+}
+
 static void check_form(tn_check *check, tn_checked_form *form)
 {
     static const tn_form_part before[] = {TN_PART_STOREY, TN_PART_SPINE,  TN_PART_WALL,     TN_PART_PARTITION,
                                           TN_PART_DECK,   TN_PART_ROOF,   TN_PART_FUNCTION, TN_PART_VOID,
                                           TN_PART_NO,     TN_PART_FORBID, TN_PART_SECTION};
     check->unit = form->unit;
-    check->allow = tn_ast_empty();
+    gather_allowed(check, form);
     form->schema = tn_check_schema_for(check, form->unit, form->ast->schema, form->ast->schema->node.span);
     check->schema = form->schema;
     if (!form->schema || !make_room(check, form) || !schema_stands(check, form))

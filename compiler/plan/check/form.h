@@ -102,6 +102,7 @@ typedef struct tn_checked_form {
     tn_checked_tile *tiles;
     tn_checked_material *materials;
     uint32_t index, storey_first, rule_first, shape_first; /* emitted: of its records */
+    tn_ast_list allow;                                     /* tn_ast_word: warnings that it does not want */
     uint32_t storey_count, choice_count, rule_count, function_count, opening_count, face_count, tile_count;
     uint32_t material_count;
 } tn_checked_form;

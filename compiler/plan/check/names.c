@@ -4,7 +4,7 @@
 #include <strings.h>
 
 #include "compiler/common/limits.h"
-#include "compiler/plan/check/check.h"
+#include "compiler/plan/check/form.h"
 #include "compiler/plan/syntax/slip.h"
 #include "runtime/base/nearest.h"
 
@@ -477,6 +477,8 @@ void tn_check_allowances(tn_check *check)
         count += result->rules[i]->ast->allow.count;
     for (size_t i = 0; i < result->library_count; i++)
         count += result->libraries[i]->allow.count;
+    for (size_t i = 0; i < result->form_count; i++)
+        count += result->forms[i]->allow.count;
     tn_allowance *allowances = TN_NEW_ARRAY(check->arena, tn_allowance, count);
     if (!allowances)
         return;
@@ -489,4 +491,8 @@ void tn_check_allowances(tn_check *check)
         for (TN_EACH(const tn_ast_word, word, result->libraries[i]->allow))
             allowances[result->program->allowance_count++] =
                 (tn_allowance){result->libraries[i]->ast->top.node.span, (uint32_t)word->value};
+    for (size_t i = 0; i < result->form_count; i++)
+        for (TN_EACH(const tn_ast_word, word, result->forms[i]->allow))
+            allowances[result->program->allowance_count++] =
+                (tn_allowance){result->forms[i]->ast->top.node.span, (uint32_t)word->value};
 }

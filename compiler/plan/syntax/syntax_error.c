@@ -41,7 +41,7 @@ static const struct {
       "an open plan", "the end of the file"}},
     {"a line of a form (`storey`, `section`, `function`, `face`, `tile` ...)",
      {"`storey`", "`spine`", "`wall`", "`partition`", "`deck`", "`roof`", "`section`", "`forbid`", "`void`", "`no`",
-      "`function`", "`opening`", "`flight`", "`face`", "`tile`", "`material`"}},
+      "`function`", "`opening`", "`flight`", "`face`", "`tile`", "`material`", "`allow`"}},
     {"a length or 0", {"a length", "a number"}},
     {"`trays`, `total`, `require`, `prune` or `allow`", {"`trays`", "`prune`", "`total`", "`require`", "`allow`"}},
     {"`match`, `reject`, `keep`, `drop` or `todo`", {"`todo`", "`match`", "`keep`", "`reject`", "`drop`", "`value`"}},

@@ -18,6 +18,7 @@ static const struct {
     {"no", "no cell(body, loft)"},
     {"function", "function kitchen at cell(body, ground)"},
     {"opening", "opening door wide 2'8\" high 6'8\" passage"},
+    {"allow", "allow W204"},
     {"flight", "flight stairs wide 3' rise 6\"..7 3/4\" going 10\""},
     {"face", "face cell(kitchen) beside cell(hall) = open | door"},
     {"tile", "tile bed for bedroom { against wall  item bed left 2'..7', back 0..6'8\" }"},

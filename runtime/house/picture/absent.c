@@ -8,3 +8,9 @@ tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn
     (void)house, (void)solids, (void)drawing, (void)to;
     return tn_part_absent(TN_WITH_DRAW, "drawing a house", error);
 }
+
+tn_status tn_house_gallery_draw(const tn_house_gallery *gallery, tn_picture *to, tn_error *error)
+{
+    (void)gallery, (void)to;
+    return tn_part_absent(TN_WITH_DRAW, "drawing houses", error);
+}

@@ -16,6 +16,11 @@ typedef struct tn_house_drawn {
     double x, y;            /* of its lower left corner, points */
 } tn_house_drawn;
 
+/* Takes a view of a house, without marks. Clear *drawn in any case. */
+tn_status tn_house_view_take(const tn_solids *solids, const tn_aspect *aspect, const tn_house *house,
+                             tn_house_drawn *drawn, tn_watch *watch, tn_error *error);
+void tn_house_drawn_clear(tn_house_drawn *drawn);
+
 /* Paints a drawing where it stands, points_per_nm its scale. */
 void tn_draw_prospect(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm);
 

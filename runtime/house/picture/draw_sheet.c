@@ -36,8 +36,8 @@ static tn_length_style style_of(const tn_house *house)
     return tn_length_style_of(tn_text(schema->module, schema->values[schema->value_start[house->form->width]].name));
 }
 
-static tn_status take_view(const tn_solids *solids, const tn_aspect *aspect, const tn_house *house,
-                           tn_house_drawn *drawn, tn_watch *watch, tn_error *error)
+tn_status tn_house_view_take(const tn_solids *solids, const tn_aspect *aspect, const tn_house *house,
+                             tn_house_drawn *drawn, tn_watch *watch, tn_error *error)
 {
     tn_sight sight = {0};
     tn_status status = tn_prospect_take(house, solids, aspect, &drawn->prospect, error);
@@ -52,12 +52,16 @@ static tn_status take_view(const tn_solids *solids, const tn_aspect *aspect, con
     return status;
 }
 
+void tn_house_drawn_clear(tn_house_drawn *drawn)
+{
+    tn_view_free(drawn->view);
+    tn_prospect_clear(&drawn->prospect);
+}
+
 static void clear(sheet *s)
 {
-    for (size_t i = 0; s->drawn && i < s->drawing->count; i++) {
-        tn_view_free(s->drawn[i].view);
-        tn_prospect_clear(&s->drawn[i].prospect);
-    }
+    for (size_t i = 0; s->drawn && i < s->drawing->count; i++)
+        tn_house_drawn_clear(&s->drawn[i]);
     free(s->drawn);
 }
 
@@ -249,7 +253,7 @@ tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn
     tn_canvas *canvas = NULL;
     tn_status status = s.drawn ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < drawing->count; i++)
-        status = take_view(solids, &drawing->aspects[i], house, &s.drawn[i], to->watch, error);
+        status = tn_house_view_take(solids, &drawing->aspects[i], house, &s.drawn[i], to->watch, error);
     if (status == TN_OK)
         status = drawing->count == 1 ? choose_page(&s, error) : choose_paper(&s, error);
     if (status == TN_OK)
