@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Reads a house's files with programs of its own, and holds them to each other: house_files.py FOLDER (as `tartan house -o FOLDER/` writes it).
+"""Reads a house's files with programs of its own, and holds them to each other: house_files.py FOLDER [READER] (FOLDER as `tartan house -o
+FOLDER/` writes it). READER is ifc_read.cc, made: it has to find the same products with the same volumes in the IFC.
 
 The IFC is parsed as STEP; each instance has to have as many attributes as IFC4 gives its entity (ISO 16739-1:2018, inherited ones
 included), each reference has to lead to an instance of an entity that may stand there, and identifiers are unique. Volumes and numbers
@@ -8,6 +9,7 @@ import csv
 import json
 import math
 import re
+import subprocess
 import sys
 from collections import Counter
 from fractions import Fraction as F
@@ -159,6 +161,18 @@ def compare(made, house):
     check("roofs", abs(sum(volume_of(made, n) for n in of("IFCROOF")) - roofs / 10**18) < 1)  # mm3: points are rounded to 1e-6 nm
 
 
+def read_again(reader, path, made):
+    """By another program: as many products of each kind, and the same volumes to a millionth."""
+    lines = subprocess.run([reader, path], capture_output=True, text=True, check=True).stdout.splitlines()
+    read = {kind.upper(): (int(number), F(volume)) for kind, number, volume in map(str.split, lines)}
+    for name in PRODUCTS:
+        own = [n for n, (entity, _) in made.items() if entity == name]
+        number, volume = read.get(name, (0, F(0)))
+        check(f"{reader}: {number} {name}, not {len(own)}", number == len(own))
+        wanted = F(0) if name in ("IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY") else sum(volume_of(made, n) for n in own)
+        check(f"{reader}: {name} hold {float(volume)}, not {float(wanted)}", abs(volume - wanted) <= wanted / 10**6 + F(1, 10**3))
+
+
 def check_dxf(path):
     lines = open(path, encoding="ascii").read().split("\n")
     groups = list(zip(lines[0:-1:2], lines[1::2]))
@@ -240,4 +254,6 @@ house = json.load(open(folder + "/house.json"))
 compare(made, house)
 check_parts(folder + "/house.parts.csv", house)
 check_dxf(folder + "/house.dxf")
+if len(sys.argv) > 2:
+    read_again(sys.argv[2], folder + "/house.ifc", made)
 print("\n".join(failures[:20]) or "fine")

@@ -263,7 +263,7 @@ const tn_command tn_command_draw = {
         "Of a field (.field), a surface is meshed and drawn, shaded: as a PNG of any number of triangles, as an SVG or "
         "a PDF of at most 300,000.",
     .example = "$ tartan draw lahave-houses --sample 24 --seed 7 -o sheet.svg\n"
-               "$ tartan draw lahave-complete --library lahave-complete --sample 12 -o houses.png\n"
+               "$ tartan draw cottage --library cottages --sample 12 -o houses.png\n"
                "$ tartan enumerate terrace --limit 50 | tartan draw terrace - -o rows.pdf\n"
                "$ tartan draw primitives --surface klein --grid 150 -o klein.png",
     .options = options,
