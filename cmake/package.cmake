@@ -17,8 +17,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_SECTION devel)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-set(CPACK_COMPONENT_TARTAN_DESCRIPTION "A rule-authoring language toolchain for rule-based design
-Rules that say what makes a plan good are compiled, checked against plans,
+set(CPACK_COMPONENT_TARTAN_DESCRIPTION "Rules that say what makes a plan good are compiled, checked against plans,
 and turned into every plan that they allow: counted exactly, ranked, sampled,
 listed and drawn. With the libraries and headers to do so in C.")
 # What the binary and the libraries need, by the libraries that they are linked to; and ldconfig once they are there.
@@ -32,8 +31,7 @@ if(TARGET tartan-mpi)
   set(CPACK_DEBIAN_MPI_PACKAGE_NAME tartan-mpi)
   set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "tartan (= ${PROJECT_VERSION})")
   set(CPACK_DEBIAN_MPI_PACKAGE_GENERATE_SHLIBS OFF)
-  set(CPACK_COMPONENT_MPI_DESCRIPTION "Tartan on many machines, by MPI
-Writes the shards of a plan library and breeds runs of evolution by many
+  set(CPACK_COMPONENT_MPI_DESCRIPTION "tartan-mpi does commands of Tartan by MPI: it writes the shards of a plan library and breeds runs of evolution by many
 processes, on one machine or on many, with the same bytes as tartan alone.")
 endif()
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian.cmake)

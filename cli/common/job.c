@@ -228,12 +228,12 @@ bool tn_job_agree(const tn_job *job, bool well)
     return !tn_ranks_any(job->settings->ranks, !well);
 }
 
-/* Was it said by a rank before? */
+/* Was it said by a rank before, perhaps with more behind it? */
 static bool is_said(const tn_gathered *all, unsigned rank)
 {
     const char *text = (const char *)all->bytes + all->begins[rank];
     for (unsigned r = 0; r < rank; r++)
-        if (strcmp(text + sizeof(int), (const char *)all->bytes + all->begins[r] + sizeof(int)) == 0)
+        if (strstr((const char *)all->bytes + all->begins[r] + sizeof(int), text + sizeof(int)))
             return true;
     return text[sizeof(int)] == '\0';
 }

@@ -104,6 +104,13 @@ static bool make_job(tn_evolution_session *e, const tn_evolution_study *study, t
         report(e, study, error);
         return false;
     }
+    if (e->remembers && study->of[TN_SET_ISLANDS].first > 1) {
+        tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "a person chooses parents from one population, not from islands");
+        tn_error_help(error, "leave `islands` and `migrate` out, or have it bred: tartan evolve %.200s", path);
+        e->job.blamed = TN_SET_ISLANDS;
+        report(e, study, error);
+        return false;
+    }
     if (e->remembers || !e->job.settings.kind || e->job.scored) /* with `breed`, a person chooses */
         return true;
     tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "the study does not say what to evolve towards");

@@ -95,6 +95,10 @@ static void bad_value(check *c, tn_setting setting, const tn_evolution_value *va
         tn_help(list, diagnostic, "write a number from %.7g to %.7g, or a range of them, as 0.5..4", row->low,
                 row->high);
         break;
+    case TN_SETTING_EVERY:
+        tn_help(list, diagnostic, "write two whole numbers from %.0f to %.0f, as `%s 2 every 10`", row->low, row->high,
+                row->name);
+        break;
     case TN_SETTING_EACH:
         help_each(list, diagnostic, setting);
         break;
@@ -182,6 +186,7 @@ static bool read_first(tn_setting setting, const tn_evolution_value *value, tn_s
     const tn_setting_row *row = &tn_setting_rows[setting];
     switch (row->kind) {
     case TN_SETTING_WHOLE:
+    case TN_SETTING_EVERY:
     case TN_SETTING_REAL:
         if (value->kind != TN_EVOLUTION_NUMBER)
             return false;
@@ -202,6 +207,17 @@ static bool read_first(tn_setting setting, const tn_evolution_value *value, tn_s
         return read_choice(row, value, out);
     }
     return false;
+}
+
+/* `every G` behind a number. */
+static bool read_every(const tn_evolution_value *word, tn_setting_value *out)
+{
+    const tn_evolution_value *number = word->next;
+    if (word->kind != TN_EVOLUTION_WORD || strcasecmp(word->text, "every") != 0 || !number ||
+        number->kind != TN_EVOLUTION_NUMBER)
+        return false;
+    out->second = tn_decimal_value(number->text, strlen(number->text));
+    return true;
 }
 
 /* `target X` and `weight Y`, in any order, behind the text of a setting that may be there more than once. */
@@ -272,7 +288,12 @@ static void take(check *c, tn_setting setting, const tn_evolution_setting *item)
         bad_number(c, setting, second->span);
         return;
     }
-    const tn_evolution_value *extra = numbered ? second->next : second;
+    bool repeated = row->kind == TN_SETTING_EVERY && second;
+    if (repeated && (!read_every(second, &read) || !tn_setting_fits(setting, &read))) {
+        bad_value(c, setting, second, second->span);
+        return;
+    }
+    const tn_evolution_value *extra = numbered ? second->next : repeated ? second->next->next : second;
     if (extra) {
         extra_value(c, setting, extra);
         return;

@@ -73,6 +73,9 @@ static void translate(const tn_evolution_study *s, const tn_grammar *grammar, co
     out->tail = s->of[TN_SET_TAIL].first;
     translate_operators(s, out);
     out->elites = whole(s, TN_SET_ELITES);
+    out->islands = whole(s, TN_SET_ISLANDS);
+    out->migrants = whole(s, TN_SET_MIGRATE);
+    out->every = (uint32_t)s->of[TN_SET_MIGRATE].second;
     out->replacement = (tn_replacement)s->of[TN_SET_REPLACEMENT].choice;
     if (grammar)
         out->mapping = tn_mapping_options_of(grammar);

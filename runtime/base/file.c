@@ -198,12 +198,13 @@ tn_status tn_output_open(const char *path, tn_output *output, tn_error *error)
         return TN_OK;
     }
     /* A link is followed, so that the file it names is replaced and not the link. */
-    output->target = realpath(path, NULL);
+    struct stat known;
+    bool link = lstat(path, &known) == 0 && S_ISLNK(known.st_mode);
+    output->target = link ? realpath(path, NULL) : NULL;
     if (!output->target)
         output->target = strdup(path);
     if (!output->target)
         return tn_fail_memory(error);
-    struct stat known;
     bool exists = stat(output->target, &known) == 0;
     int file;
     output->replaces = !exists || S_ISREG(known.st_mode);

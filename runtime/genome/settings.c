@@ -131,6 +131,11 @@ void tn_setting_write(FILE *out, tn_setting setting, const tn_setting_value *val
         fputs("..", out);
         write_number(out, value->second);
         return;
+    case TN_SETTING_EVERY:
+        write_number(out, value->first);
+        fputs(" every ", out);
+        write_number(out, value->second);
+        return;
     case TN_SETTING_TEXT:
         write_quoted(out, value->text ? value->text : "");
         return;
@@ -179,6 +184,8 @@ bool tn_setting_fits(tn_setting setting, const tn_setting_value *value)
     case TN_SETTING_PAIR:
         return one && whole_within(row, value->first) && whole_within(row, value->second) &&
                value->first <= value->second;
+    case TN_SETTING_EVERY:
+        return one && whole_within(row, value->first) && whole_within(row, value->second);
     case TN_SETTING_SPAN:
         return one && within(row, value->first) && within(row, value->second) && value->first <= value->second;
     case TN_SETTING_TEXT:
@@ -310,6 +317,34 @@ static void find_selection(findings *f)
              "write a whole number of at least 1, as 3");
 }
 
+static void find_islands(findings *f)
+{
+    const tn_setting_value *of = f->study->of;
+    double islands = of[TN_SET_ISLANDS].first, population = of[TN_SET_POPULATION].first;
+    tn_setting other = is_written(f, TN_SET_POPULATION) ? TN_SET_POPULATION : TN_SETTING_COUNT;
+    if (islands == 1) {
+        if (is_written(f, TN_SET_MIGRATE))
+            find(f, TN_SET_MIGRATE, TN_SETTING_COUNT, "there are no islands to move between",
+                 "add a line such as `islands 4`");
+        return;
+    }
+    if (chose(f, TN_SET_SELECTION, "lexicase") || chose(f, TN_SET_SELECTION, "epsilon-lexicase"))
+        find(f, TN_SET_ISLANDS, TN_SET_SELECTION, "lexicase selection chooses among the whole population",
+             "leave `islands` out, or write `selection tournament 3`");
+    double size = floor(population / islands);
+    if (size * islands != population || size < 2) {
+        find(f, TN_SET_ISLANDS, other, "the population does not make equal islands of at least two individuals",
+             "make the population a multiple of the islands");
+        return;
+    }
+    if (of[TN_SET_ELITES].first >= size)
+        find(f, is_written(f, TN_SET_ELITES) ? TN_SET_ELITES : TN_SET_ISLANDS, TN_SETTING_COUNT,
+             "there are as many elites as individuals on an island", "an elite or two are usual");
+    if (of[TN_SET_MIGRATE].first >= size)
+        find(f, is_written(f, TN_SET_MIGRATE) ? TN_SET_MIGRATE : TN_SET_ISLANDS, TN_SETTING_COUNT,
+             "as many individuals move as live on an island", "one or two in every ten generations are usual");
+}
+
 size_t tn_evolution_study_faults(const tn_evolution_study *study, tn_setting_fault faults[TN_SETTING_FAULTS_MAX])
 {
     findings f = {study, faults, 0};
@@ -321,6 +356,7 @@ size_t tn_evolution_study_faults(const tn_evolution_study *study, tn_setting_fau
     find_problem(&f);
     find_selection(&f);
     find_fitting(&f);
+    find_islands(&f);
     if (of[TN_SET_ELITES].first >= of[TN_SET_POPULATION].first) {
         tn_setting blamed = is_written(&f, TN_SET_ELITES) ? TN_SET_ELITES : TN_SET_POPULATION;
         find(&f, blamed,

@@ -23,7 +23,8 @@ typedef enum tn_setting_kind {
     TN_SETTING_CHOICE,
     TN_SETTING_CHOICE_REAL,
     TN_SETTING_SPAN,
-    TN_SETTING_EACH
+    TN_SETTING_EACH,
+    TN_SETTING_EVERY
 } tn_setting_kind;
 
 /* Which genomes a setting is about; and, of a study, which it breeds: one of the first three. */

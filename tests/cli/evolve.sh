@@ -35,6 +35,20 @@ mkdir elsewhere
 cmp -s one/run.sqlite elsewhere/hello.run/run.sqlite || fail "a run depends on the folder that it is called from"
 "$TARTAN" disasm hello.tnb | grep -q '^  crossover subtree 0.8' || fail "disasm does not list the settings"
 
+# ---- islands: a part of the study, the same with any number of threads, gone on with, and replayed
+sed 's/population 60/population 60; islands 5; migrate 2 every 3/' hello.study > islands.study
+"$TARTAN" evolve islands.study -o islands --threads 1 > islands.txt || fail "islands do not run"
+"$TARTAN" evolve islands.study -o islands4 --threads 4 -g 10 > /dev/null || fail "islands do not run with four threads"
+"$TARTAN" evolve islands.study -o islands4 --threads 2 --resume > /dev/null || fail "islands cannot be gone on with"
+diff -r islands islands4 > /dev/null || fail "islands depend on the threads or on an interruption"
+! cmp -s one/stats.csv islands/stats.csv || fail "islands change nothing"
+grep -q '^evolution' <("$TARTAN" build islands.study -o islands.tnb && "$TARTAN" disasm islands.tnb) || fail "islands are not in the module"
+"$TARTAN" disasm islands.tnb | grep -q '^  migrate 2 every 3' || fail "disasm does not list what migrates"
+"$TARTAN" evolve islands.tnb -o islands5 > /dev/null && cmp -s islands/run.sqlite islands5/run.sqlite || fail "a module with islands makes another run"
+best=$(sed -n 's/^best: individual //p' islands.txt)
+"$TARTAN" breed islands.study -o chosen < /dev/null > /dev/null 2> err && fail "islands are bred by hand"
+grep -q 'islands.study.*E1232.*a person chooses parents from one population' err || fail "breed says of islands: $(cat err)"
+
 # ---- first genomes from a file are part of the run: it is replayed where the file is gone
 sed 's/seed 7/seeds "first.genomes"/' hello.study > seeded.study
 printf '# two\n0 7 1 4 0 11\n1 2 3 4 5 6 7 8\n' > first.genomes

@@ -43,7 +43,7 @@ static bool allocate(tn_evolution *e)
     e->workplaces = calloc(e->threads, sizeof *e->workplaces);
     e->crew = tn_crew_new(e->threads, e->settings.watch);
     if (!e->all || !e->members || !e->born || !e->pool || !e->merits || !e->scratch || !e->todo || !e->hashes ||
-        !e->scores || !e->workplaces || !e->crew)
+        !e->scores || !e->workplaces || !e->crew || !tn_islands_make(e))
         return false;
     for (unsigned t = 0; t < e->threads; t++)
         if (!(e->workplaces[t] = e->kind->workplace_new(e->kind->context)))
@@ -58,6 +58,13 @@ tn_status tn_evolution_new(const tn_grammar *grammar, const tn_evolution_setting
     if (settings->population < 2 || settings->population > TN_POPULATION_MAX)
         return tn_fail(error, TN_INVALID, E_POPULATION, "a population has 2 to %u individuals, not %u",
                        TN_POPULATION_MAX, settings->population);
+    uint32_t islands = settings->islands ? settings->islands : 1;
+    if (settings->population % islands != 0 || settings->population / islands < 2 ||
+        (settings->every && settings->migrants >= settings->population / islands))
+        return tn_fail(
+            error, TN_INVALID, E_POPULATION,
+            "a population of %u individuals does not make %u equal islands of at least two, of which %u move",
+            settings->population, islands, settings->migrants);
     if (evaluator->objectives < 1 || evaluator->objectives > TN_OBJECTIVES_MAX)
         return tn_fail(error, TN_INVALID, E_POPULATION, "there are 1 to %u objectives, not %zu", TN_OBJECTIVES_MAX,
                        evaluator->objectives);
@@ -68,14 +75,17 @@ tn_status tn_evolution_new(const tn_grammar *grammar, const tn_evolution_setting
                        evaluator->evaluate_cases
                            ? "lexicase selection looks at a whole generation, and this run has none"
                            : "lexicase selection needs errors in single cases, which are not given");
+    if (by_cases && islands > 1)
+        return tn_fail(error, TN_INVALID, E_POPULATION,
+                       "lexicase selection chooses among the whole population, and this run has islands");
     tn_evolution *e = calloc(1, sizeof *e);
     if (!e)
         return tn_fail_memory(error);
     e->settings = *settings;
     e->evaluator = *evaluator;
     e->threads = settings->threads ? settings->threads : tn_crew_default();
-    if (e->settings.elites > settings->population)
-        e->settings.elites = settings->population;
+    if (e->settings.elites > settings->population / islands)
+        e->settings.elites = settings->population / islands;
     e->kind = settings->kind ? settings->kind : &e->own;
     tn_status status = settings->kind ? TN_OK : tn_codon_kind_new(grammar, settings, &e->own, error);
     if (status == TN_OK && !allocate(e))
@@ -104,6 +114,7 @@ void tn_evolution_free(tn_evolution *e)
     tn_codon_kind_free(&e->own);
     tn_score_cache_clear(&e->cache);
     tn_lexicase_clear(&e->lexicase);
+    tn_islands_free(e);
     free(e->all);
     free(e->members);
     free(e->born);
@@ -130,41 +141,6 @@ void tn_evolution_recall_parents(tn_evolution *e, tn_recall_parents *recall)
     e->recall_parents = recall;
 }
 
-/* ---- the order of merit */
-
-static void rank(tn_evolution *e, tn_individual **individuals, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        e->merits[i] = (tn_merit){.objectives = individuals[i]->score.objectives,
-                                  .violation = individuals[i]->score.violation,
-                                  .index = (uint32_t)i};
-    if (e->evaluator.objectives > 1)
-        tn_nsga2(e->merits, count, e->evaluator.objectives, e->scratch);
-    tn_merit_sort(e->merits, count);
-}
-
-/* The best `keep` of `count` individuals become the members, the best first. `from` is not the members' own array. */
-static void keep_best(tn_evolution *e, tn_individual **from, size_t count, size_t keep)
-{
-    rank(e, from, count);
-    for (size_t i = 0; i < count; i++)
-        from[i]->member = false;
-    for (size_t i = 0; i < keep; i++) {
-        e->members[i] = from[e->merits[i].index];
-        e->members[i]->member = true;
-        e->merits[i].index = (uint32_t)i;
-    }
-    e->member_count = keep;
-    if (e->evaluator.objectives == 1)
-        return; /* the order holds without the others, and e->merits starts with it */
-    rank(e, e->members, keep);
-    memcpy(e->pool, e->members, keep * sizeof *e->pool);
-    for (size_t i = 0; i < keep; i++) {
-        e->members[i] = e->pool[e->merits[i].index];
-        e->merits[i].index = (uint32_t)i;
-    }
-}
-
 /* ---- generations */
 
 /* The chosen parents stay, and their children take all other places. */
@@ -186,8 +162,25 @@ static tn_status replace_chosen(tn_evolution *e, tn_error *error)
     for (size_t i = 0; i < e->member_count; i++)
         e->members[i]->member = false;
     memcpy(e->pool + stay, e->born, e->born_count * sizeof *e->pool);
-    keep_best(e, e->pool, stay + e->born_count, stay + e->born_count);
+    tn_island_keep_best(e, e->islands, e->pool, stay + e->born_count, stay + e->born_count);
     return TN_OK;
+}
+
+/* Those born on an island, and of its members the elites or all, compete for its places. */
+static void replace_on_island(tn_evolution *e, size_t number, bool survivors)
+{
+    tn_island *island = &e->islands[number];
+    size_t count = 0, size = island->count;
+    for (size_t i = 0; i < size; i++) {
+        tn_individual *member = island->members[island->merits[i].index];
+        if (survivors || i < e->settings.elites)
+            e->pool[count++] = member;
+        else
+            member->member = false;
+    }
+    for (size_t i = 0; i < e->births_each; i++)
+        e->pool[count++] = e->born[number * e->births_each + i];
+    tn_island_keep_best(e, island, e->pool, count, size);
 }
 
 static tn_status replace_generation(tn_evolution *e, tn_error *error)
@@ -195,68 +188,69 @@ static tn_status replace_generation(tn_evolution *e, tn_error *error)
     size_t n = e->settings.population;
     bool survivors = e->settings.select.selection == TN_SELECT_NSGA2; /* parents compete with their children */
     size_t elites = survivors ? 0 : e->settings.elites;
-    tn_evolution_take_places(e, n - elites);
-    tn_status status = tn_evolution_find_cases(e, error);
+    tn_evolution_take_places(e, n - elites * e->island_count);
+    tn_status status = tn_ranks_agree(e->settings.ranks, tn_evolution_find_cases(e, error), error);
     if (status == TN_OK)
         status = tn_evolution_make(e, false, error);
     if (status == TN_OK)
         status = tn_evolution_score(e, e->born, e->born_count, error);
-    if (status != TN_OK)
-        return status;
-    size_t count = 0;
-    for (size_t i = 0; i < e->member_count; i++) {
-        if (survivors || i < elites)
-            e->pool[count++] = e->members[e->merits[i].index];
-        else
-            e->members[e->merits[i].index]->member = false;
-    }
-    for (size_t i = 0; i < e->born_count; i++)
-        e->pool[count++] = e->born[i];
-    keep_best(e, e->pool, count, n);
-    return TN_OK;
+    for (size_t i = 0; status == TN_OK && i < e->island_count; i++)
+        replace_on_island(e, i, survivors);
+    return status;
 }
 
 /* Each child takes the place of the worst member, if it is better. */
 static tn_status replace_steady(tn_evolution *e, tn_error *error)
 {
-    size_t n = e->settings.population;
-    tn_evolution_take_places(e, n);
-    for (size_t pair = 0; pair < (n + 1) / 2; pair++) {
-        size_t count = 2 * pair + 1 < n ? 2 : 1;
-        tn_status status = tn_evolution_make_pair(e, pair, error);
+    tn_evolution_take_places(e, e->settings.population);
+    for (size_t number = 0; number < tn_evolution_pairs(e); number++) {
+        const tn_brood pair = tn_evolution_pair(e, number);
+        tn_island *island = &e->islands[pair.island];
+        tn_status status = tn_evolution_make_pair(e, number, error);
         if (status == TN_OK)
-            status = tn_evolution_score(e, e->born + 2 * pair, count, error);
+            status = tn_evolution_score(e, e->born + pair.first, pair.count, error);
         if (status != TN_OK)
             return status;
-        memcpy(e->pool, e->members, n * sizeof *e->pool);
-        for (size_t i = 0; i < count; i++)
-            e->pool[n + i] = e->born[2 * pair + i];
-        keep_best(e, e->pool, n + count, n);
+        memcpy(e->pool, island->members, island->count * sizeof *e->pool);
+        memcpy(e->pool + island->count, e->born + pair.first, pair.count * sizeof *e->pool);
+        tn_island_keep_best(e, island, e->pool, island->count + pair.count, island->count);
     }
-    e->births += n;
+    e->births += e->settings.population;
     return tn_evolution_keep_born(e, error);
+}
+
+static tn_status first_generation(tn_evolution *e, tn_error *error)
+{
+    tn_evolution_take_places(e, e->settings.population);
+    tn_status status = tn_evolution_make(e, true, error);
+    if (status == TN_OK)
+        status = tn_evolution_score(e, e->born, e->born_count, error);
+    for (size_t i = 0; status == TN_OK && i < e->island_count; i++) {
+        memcpy(e->pool, e->born + i * e->births_each, e->births_each * sizeof *e->pool);
+        tn_island_keep_best(e, &e->islands[i], e->pool, e->births_each, e->births_each);
+    }
+    if (status == TN_OK)
+        tn_islands_order(e);
+    return status;
 }
 
 tn_status tn_evolution_step(tn_evolution *e, tn_error *error)
 {
-    tn_status status;
-    if (e->member_count == 0) {
-        tn_evolution_take_places(e, e->settings.population);
-        status = tn_evolution_make(e, true, error);
-        if (status == TN_OK)
-            status = tn_evolution_score(e, e->born, e->born_count, error);
-        if (status == TN_OK) {
-            memcpy(e->pool, e->born, e->born_count * sizeof *e->pool);
-            keep_best(e, e->pool, e->born_count, e->born_count);
-        }
-        return status;
-    }
+    if (e->member_count == 0)
+        return first_generation(e, error);
     e->generation++;
     bool steady = e->settings.replacement == TN_REPLACE_STEADY && !e->chosen, stay = e->chosen && e->kind->parents_stay;
-    status = stay ? replace_chosen(e, error) : steady ? replace_steady(e, error) : replace_generation(e, error);
+    tn_status status = stay     ? replace_chosen(e, error)
+                       : steady ? replace_steady(e, error)
+                                : replace_generation(e, error);
     free(e->chosen);
     e->chosen = NULL;
-    return status;
+    if (status != TN_OK)
+        return status;
+    if (e->island_count > 1 && e->settings.every && e->generation % e->settings.every == 0)
+        tn_islands_migrate(e);
+    tn_islands_order(e);
+    return TN_OK;
 }
 
 const tn_vary_options *tn_evolution_varies(const tn_evolution *e)
@@ -278,7 +272,11 @@ tn_status tn_evolution_rescore(tn_evolution *e, tn_error *error)
     tn_status status = tn_evolution_score(e, e->members, e->member_count, error);
     if (status != TN_OK)
         return status;
-    memcpy(e->pool, e->members, e->member_count * sizeof *e->pool);
-    keep_best(e, e->pool, e->member_count, e->member_count);
+    for (size_t i = 0; i < e->island_count; i++) {
+        tn_island *island = &e->islands[i];
+        memcpy(e->pool, island->members, island->count * sizeof *e->pool);
+        tn_island_keep_best(e, island, e->pool, island->count, island->count);
+    }
+    tn_islands_order(e);
     return TN_OK;
 }

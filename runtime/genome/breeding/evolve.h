@@ -77,9 +77,12 @@ typedef struct tn_evolution_settings {
     size_t seed_count;
     tn_select_options select;
     tn_vary_options vary;
-    uint32_t elites; /* with generational replacement */
+    uint32_t elites; /* with generational replacement; of each island */
     tn_replacement replacement;
     tn_mapping_options mapping;
+    uint32_t islands; /* equal parts of the population, which breed by themselves; 0 or 1: it is one */
+    uint32_t migrants,
+        every; /* how many of each island's best move to the next one, every so many generations (0: never) */
     const tn_genome_kind *kind; /* of other genomes than codons, or NULL; borrowed */
     bool remembers;             /* every genome that was ever born can be chosen as a parent, by its id */
     unsigned threads;           /* 0: as many as there are */
@@ -124,7 +127,9 @@ typedef struct tn_generation_stats {
 
 typedef struct tn_evolution tn_evolution;
 
-/* Borrows grammar and settings' seeds, copies the rest. Where the settings have a kind of genome, the grammar is NULL.
+/* The population is a multiple of the islands, with at least two individuals on each, and fewer migrants than an island
+ * has. Borrows grammar and settings' seeds, copies the rest. Where the settings have a kind of genome, the grammar is
+ * NULL.
  */
 tn_status tn_evolution_new(const tn_grammar *grammar, const tn_evolution_settings *settings,
                            const tn_evaluator *evaluator, tn_evolution **evolution, tn_error *error);
@@ -148,7 +153,7 @@ typedef struct tn_chosen {
 } tn_chosen;
 
 /* The parents of the next generation, chosen by a person, each as often as it shall have children. They are used for
- * the next step only. */
+ * the next step only. TN_INVALID (E1232) where there are islands. */
 tn_status tn_evolution_choose(tn_evolution *evolution, const tn_chosen *chosen, size_t count, tn_error *error);
 
 /* From here on genomes are remembered. Before the first step. */

@@ -13,10 +13,27 @@ void tn_evolution_take_places(tn_evolution *e, size_t count)
         if (!e->all[i].member)
             e->born[taken++] = &e->all[i];
     e->born_count = count;
+    e->births_each = count / e->island_count;
     for (size_t i = 0; i < count; i++) {
         e->born[i]->id = (uint64_t)e->generation * e->settings.population + i;
         e->born[i]->stayed = false;
     }
+}
+
+static size_t pairs_each(const tn_evolution *e)
+{
+    return (e->births_each + 1) / 2;
+}
+
+size_t tn_evolution_pairs(const tn_evolution *e)
+{
+    return e->island_count * pairs_each(e);
+}
+
+tn_brood tn_evolution_pair(const tn_evolution *e, size_t pair)
+{
+    size_t island = pair / pairs_each(e), child = 2 * (pair % pairs_each(e));
+    return (tn_brood){island, island * e->births_each + child, child + 1 == e->births_each ? 1 : 2};
 }
 
 /* ---- sentences */
@@ -74,24 +91,26 @@ static tn_status first_genome(tn_evolution *e, unsigned thread, size_t i, tn_ind
 }
 
 /* Where parents are recalled, `known` is the id of one. */
-static size_t place_of_parent(const tn_evolution *e, unsigned thread, tn_chance *chance, uint64_t known)
+static size_t place_of_parent(const tn_evolution *e, const tn_island *island, unsigned thread, tn_chance *chance,
+                              uint64_t known)
 {
     if (e->chosen)
-        return (size_t)tn_chance_below(chance, e->member_count);
-    for (size_t i = 0; known != TN_NO_PARENT && i < e->member_count; i++)
-        if (e->members[i]->id == known)
+        return (size_t)tn_chance_below(chance, island->count);
+    for (size_t i = 0; known != TN_NO_PARENT && i < island->count; i++)
+        if (island->members[i]->id == known)
             return i;
     if (e->lexicase.members)
-        return tn_lexicase_select(&e->lexicase, thread, chance);
-    return e->merits[tn_select(&e->settings.select, chance, e->merits, e->member_count)].index;
+        return tn_lexicase_select(&e->lexicase, thread, chance); /* then there is one island */
+    return island->merits[tn_select(&e->settings.select, chance, island->merits, island->count)].index;
 }
 
-static tn_chosen_parent draw_parent(const tn_evolution *e, unsigned thread, tn_chance *chance, uint64_t known)
+static tn_chosen_parent draw_parent(const tn_evolution *e, const tn_island *island, unsigned thread, tn_chance *chance,
+                                    uint64_t known)
 {
     if (e->chosen && e->chosen_count)
         return e->chosen[tn_chance_below(chance, e->chosen_count)];
-    size_t place = place_of_parent(e, thread, chance, known);
-    return (tn_chosen_parent){e->members[place]->id, 1, e->members[place]};
+    size_t place = place_of_parent(e, island, thread, chance, known);
+    return (tn_chosen_parent){island->members[place]->id, 1, island->members[place]};
 }
 
 static bool selects_by_cases(const tn_evolution *e)
@@ -103,28 +122,28 @@ static bool selects_by_cases(const tn_evolution *e)
 /* The children of one pair of parents; the last child of an odd number goes without its sibling. */
 static tn_status breed_pair(tn_evolution *e, unsigned thread, size_t pair, tn_error *error)
 {
+    const tn_brood place = tn_evolution_pair(e, pair);
     tn_chance selecting = tn_chance_for(e->settings.seed, TN_PURPOSE_SELECT, e->generation, pair);
     tn_chance breeding = tn_chance_for(e->settings.seed, TN_PURPOSE_BIRTH, e->generation, pair);
     uint64_t known[2] = {TN_NO_PARENT, TN_NO_PARENT};
     tn_chosen_parent from[2];
     tn_parent parents[2];
     if (selects_by_cases(e) && e->recall_parents)
-        e->recall_parents(e->recall_context, e->born[2 * pair]->id, known);
+        e->recall_parents(e->recall_context, e->born[place.first]->id, known);
     for (int i = 0; i < 2; i++) {
-        from[i] = draw_parent(e, thread, &selecting, known[i]);
+        from[i] = draw_parent(e, &e->islands[place.island], thread, &selecting, known[i]);
         parents[i] = (tn_parent){tn_evolution_chosen_genome(e, &from[i]), from[i].member ? from[i].member->used : 0,
                                  from[i].weight};
     }
     tn_genome spare = {0};
-    bool alone = 2 * pair + 1 == e->born_count;
-    tn_genome *children[2] = {&e->born[2 * pair]->genome, alone ? &spare : &e->born[2 * pair + 1]->genome};
+    tn_individual **born = e->born + place.first;
+    tn_genome *children[2] = {&born[0]->genome, place.count == 1 ? &spare : &born[1]->genome};
     uint8_t kinds[2];
     tn_status status = e->kind->breed(e->workplaces[thread], &breeding, parents, children, kinds, error);
-    for (int i = 0; i < (alone ? 1 : 2); i++) {
-        tn_individual *child = e->born[2 * pair + (size_t)i];
-        child->kind = kinds[i];
-        child->parents[0] = from[i].id;
-        child->parents[1] = from[1 - i].id;
+    for (size_t i = 0; i < place.count; i++) {
+        born[i]->kind = kinds[i];
+        born[i]->parents[0] = from[i].id;
+        born[i]->parents[1] = from[1 - i].id;
     }
     tn_genome_clear(&spare);
     return status;
@@ -132,8 +151,9 @@ static tn_status breed_pair(tn_evolution *e, unsigned thread, size_t pair, tn_er
 
 static tn_status make(tn_evolution *e, unsigned thread, bool first, size_t pair, tn_error *error)
 {
+    const tn_brood place = tn_evolution_pair(e, pair);
     tn_status status = first ? TN_OK : breed_pair(e, thread, pair, error);
-    for (size_t i = 2 * pair; i < 2 * pair + 2 && i < e->born_count && status == TN_OK; i++) {
+    for (size_t i = place.first; i < place.first + place.count && status == TN_OK; i++) {
         if (first)
             status = first_genome(e, thread, i, e->born[i], error);
         if (status == TN_OK)
@@ -155,7 +175,7 @@ static tn_status next_item(void *context, unsigned thread, size_t item, tn_error
 tn_status tn_evolution_make(tn_evolution *e, bool first, tn_error *error)
 {
     e->births += e->born_count;
-    tn_status status = tn_crew_run(e->crew, (e->born_count + 1) / 2, 8, first ? first_item : next_item, e, error);
+    tn_status status = tn_crew_run(e->crew, tn_evolution_pairs(e), 8, first ? first_item : next_item, e, error);
     if (status == TN_OK)
         status = tn_evolution_keep_born(e, error);
     return tn_ranks_agree(e->settings.ranks, status, error);

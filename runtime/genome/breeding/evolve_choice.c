@@ -68,6 +68,9 @@ static tn_status find_chosen(const tn_evolution *e, const tn_chosen *chosen, tn_
 
 tn_status tn_evolution_choose(tn_evolution *e, const tn_chosen *chosen, size_t count, tn_error *error)
 {
+    if (e->island_count > 1)
+        return tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE,
+                       "a person chooses parents from one population, not from islands");
     tn_chosen_parent *parents = malloc((count ? count : 1) * sizeof *parents);
     tn_status status = parents ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; i < count && status == TN_OK; i++)

@@ -2,6 +2,7 @@
  *
  * evolve.c        moves it on, generation by generation
  * evolve_choice.c takes parents that a person chose, and remembers genomes for that
+ * evolve_island.c keeps its islands
  * evolve_birth.c  makes genomes and their sentences
  * evolve_score.c  gives them their scores
  * evolve_cases.c  gives them their errors in single cases
@@ -23,6 +24,13 @@ typedef struct tn_chosen_parent {
     tn_individual *member; /* or NULL: it is remembered */
 } tn_chosen_parent;
 
+/* A part of the population that breeds by itself. Where there are no islands, one is all of it. */
+typedef struct tn_island {
+    tn_individual **members; /* the best first */
+    tn_merit *merits;        /* of the members, in that order */
+    size_t count;
+} tn_island;
+
 struct tn_evolution {
     tn_genome_kind own; /* of codons, where the settings have no kind */
     const tn_genome_kind *kind;
@@ -34,6 +42,10 @@ struct tn_evolution {
     tn_individual *all; /* twice the population */
     tn_individual **members, **born, **pool;
     size_t member_count, born_count;
+    tn_island *islands;
+    size_t island_count, births_each; /* births_each: of those to be born, on each island */
+    tn_individual **residents;        /* of all islands, and their merits; those of all where there is one island */
+    tn_merit *resident_merits;
     tn_merit *merits; /* of pool, or of members */
     uint32_t *scratch;
     uint32_t *todo; /* places in born that wait for their score */
@@ -52,8 +64,33 @@ struct tn_evolution {
     double *scores;   /* of the members, while their quartiles are found */
 };
 
-/* Takes places for the next `count` to be born. */
+/* ---- islands */
+
+/* NULL: out of memory. Frees with tn_islands_free. */
+bool tn_islands_make(tn_evolution *evolution);
+void tn_islands_free(tn_evolution *evolution);
+
+/* The best `keep` of `count` individuals become the island's members, the best first. `from` is not its own array. */
+void tn_island_keep_best(tn_evolution *evolution, tn_island *island, tn_individual **from, size_t count, size_t keep);
+
+/* The best of each island move to the next one, and those of the last to the first. */
+void tn_islands_migrate(tn_evolution *evolution);
+
+/* Puts the members of all islands in one order, after the islands' own have changed. */
+void tn_islands_order(tn_evolution *evolution);
+
+/* ---- births */
+
+/* Takes places for the next `count` to be born, as many on each island. */
 void tn_evolution_take_places(tn_evolution *evolution, size_t count);
+
+/* The children of one pair of parents: places in born. */
+typedef struct tn_brood {
+    size_t island, first, count; /* one child or two */
+} tn_brood;
+
+size_t tn_evolution_pairs(const tn_evolution *evolution);
+tn_brood tn_evolution_pair(const tn_evolution *evolution, size_t pair);
 
 /* Makes all to be born, with their sentences, in pairs, by all threads. */
 tn_status tn_evolution_make(tn_evolution *evolution, bool first, tn_error *error);

@@ -1,0 +1,97 @@
+/* The small files of shard sets from any bytes: manifests, with the hash that they have and with the right one, records
+ * and claims. A manifest that is read is written as one that reads the same. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "driver/shards/claim.h"
+#include "driver/shards/manifest.h"
+#include "driver/shards/record.h"
+#include "tests/fuzz/fuzz.h"
+
+static tn_status read_manifest(const char *text, size_t size, tn_shard_set *set)
+{
+    tn_error error;
+    *set = (tn_shard_set){.folder = strdup("set")};
+    return set->folder ? tn_manifest_read(text, size, set, &error) : TN_MEMORY;
+}
+
+static void same_again(const tn_shard_set *set)
+{
+    tn_buffer text = {0};
+    tn_shard_set again;
+    if (!tn_manifest_write(set, &text) || read_manifest(text.data, text.size, &again) != TN_OK)
+        abort();
+    if (again.count != set->count || again.format != set->format || again.compressed != set->compressed ||
+        strcmp(again.command, set->command) != 0)
+        abort();
+    for (uint32_t i = 0; i <= set->count; i++)
+        if (mpz_cmp(again.bounds[i], set->bounds[i]) != 0)
+            abort();
+    tn_shard_set_clear(&again);
+    free(text.data);
+}
+
+static void manifest(const char *text, size_t size)
+{
+    tn_shard_set set;
+    if (read_manifest(text, size, &set) == TN_OK)
+        same_again(&set);
+    tn_shard_set_clear(&set);
+}
+
+/* What the bytes say, with the hash that they would have. */
+static void sealed(const char *text, size_t size)
+{
+    tn_buffer whole = {0};
+    if (tn_buffer_append(&whole, text, size) && tn_manifest_seal(&whole))
+        manifest(whole.data, whole.size);
+    free(whole.data);
+}
+
+static void write_file(const char *path, const char *text, size_t size)
+{
+    FILE *out = path ? fopen(path, "wb") : NULL;
+    if (!out || fwrite(text, 1, size, out) != size || fclose(out) != 0)
+        abort();
+}
+
+/* The bytes as each of the small files beside a shard, in a folder of this process's own. */
+static void small_files(const char *text, size_t size)
+{
+    char folder[40], shards[60], inner[80];
+    snprintf(folder, sizeof folder, "/tmp/tartan-fuzz-%ld", (long)getpid());
+    snprintf(shards, sizeof shards, "%s/shards", folder);
+    snprintf(inner, sizeof inner, "%s/000", shards);
+    mkdir(folder, 0700);
+    mkdir(shards, 0700);
+    mkdir(inner, 0700);
+    tn_shard_set set = {.folder = folder, .count = 1, .format = TN_FORMAT_BIN};
+    tn_shard_record record;
+    tn_claimant claimant;
+    tn_error error;
+    char *beside = tn_shard_path(&set, 0, TN_SHARD_RECORD), *claim = tn_shard_path(&set, 0, TN_SHARD_CLAIM);
+    write_file(beside, text, size);
+    write_file(claim, text, size);
+    if (tn_shard_record_read(&set, 0, &record, &error) == TN_OK && strlen(record.hash) != 32)
+        abort();
+    if (!tn_claim_read(claim, &claimant))
+        abort();
+    unlink(beside);
+    unlink(claim);
+    free(beside);
+    free(claim);
+    rmdir(inner);
+    rmdir(shards);
+    rmdir(folder);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    manifest((const char *)data, size);
+    sealed((const char *)data, size);
+    small_files((const char *)data, size);
+    return 0;
+}
