@@ -43,7 +43,10 @@ static void test_diagnostics(void **state)
     says("<a> ::= GE_RANGE:3 and more\n", "W153 ");
     says("<a> ::= GE_RANGE:0\n", "E1206 ");
     says("<a> ::= GE_RANGE:2000000\n", "E1214 ");
-    says("<a> ::= { x }\n", "E1203 ");
+    says("<a> ::= { x }\n", "W157 ");
+    says("%repair off\n<a> ::= Edge { x }\n", "W157 ");
+    says("<a> ::= \"{\" x # { y\n", "");
+    says("<b> ::= [<a>]\n<a> ::= x[:, <c>]\n<c> ::= 1\n", "");
     says("%dialect ge\n<a> ::= { x }\n", "");
     says("%dialect ge\n<a> ::= x[:, 1] {: y :}\n", "");
     says("<a> ::= x[:, 1] {: y :}\n", "");
