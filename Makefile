@@ -6,7 +6,7 @@ JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 600
 TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(JOBS)
 
-.PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale lint package check-package bench bench-scale fuzz install uninstall clean
+.PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale lint package check-package bench bench-place bench-scale fuzz install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
@@ -20,6 +20,7 @@ help:
 	@echo 'make check-scale  write a library by MPI, GNU parallel and Slurm, where these are installed'
 	@echo 'make lint        look over the sources with clang-tidy'
 	@echo 'make bench       print how fast it is here'
+	@echo 'make bench-place print how fast parts are placed, counted and drawn here'
 	@echo 'make bench-scale print how fast shard sets are here (an idle machine with two processors or more)'
 	@echo 'make fuzz        run each fuzz target for FUZZ_SECONDS (600)'
 	@echo 'make install     install below PREFIX (/usr/local), staged into DESTDIR where that is set'
@@ -67,6 +68,9 @@ lint: build
 
 bench: build
 	@bench/run build
+
+bench-place: build
+	@bench/place build
 
 bench-scale: build
 	@bench/scale build/tartan

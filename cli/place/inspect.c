@@ -7,8 +7,8 @@
 #include "cli/common/option_rows.h"
 #include "cli/place/place.h"
 #include "driver/place/asked.h"
+#include "driver/place/drawn.h"
 #include "driver/place/shape.h"
-#include "runtime/place/read.h"
 
 typedef struct inspect_settings {
     tn_settings common;
@@ -124,31 +124,6 @@ static void say(inspection *n)
 
 /* ---- the run */
 
-static tn_status read_model(inspection *n, tn_error *error)
-{
-    const char *path = n->settings->common.operands.items[0];
-    uint8_t *bytes;
-    size_t size;
-    double unit[3];
-    tn_status status = tn_file_read(path, (size_t)256 << 20, &bytes, &size, error);
-    if (status != TN_OK)
-        return status;
-    tn_place_unit(n->module, unit);
-    status = tn_ldraw_read((const char *)bytes, size, unit, tn_place_turns(n->module), &n->ldraw, error);
-    free(bytes);
-    if (status == TN_INVALID) {
-        tn_error found = *error;
-        tn_fail(error, status, E_LDRAW_LINE, "%.200s, %s", path, found.message);
-        tn_error_help(error, "a part is written `1 COLOUR X Y Z A B C D E F G H I NAME.dat`");
-    }
-    if (status == TN_OK && n->ldraw.model.count == 0 && n->ldraw.tilted + n->ldraw.beside == 0) {
-        tn_fail(error, TN_INVALID, E_PLACE_NOTHING, "%.200s has no parts", path);
-        tn_error_help(error, "a model is an LDraw file, .ldr or .mpd");
-        return TN_INVALID;
-    }
-    return status;
-}
-
 /* Reads --require before the model is read. */
 static bool ask(inspection *n)
 {
@@ -189,7 +164,7 @@ static void inspect(inspection *n)
     }
     if (n->settings->require && !ask(n))
         return;
-    tn_status status = read_model(n, &error);
+    tn_status status = tn_drawn_read(n->settings->common.operands.items[0], n->module, &n->ldraw, &error);
     if (status == TN_OK)
         status = tn_placed_measure(n->module, space, &n->ldraw.model, tn_interrupt_waiting(), &n->measures, &error);
     if (status != TN_OK) {

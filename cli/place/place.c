@@ -114,13 +114,23 @@ static tn_status make_rules(placing *p, tn_error *error)
     return tn_place_rules_make(module, &p->rules, error);
 }
 
+/* Measuring takes as long as placing: it is left out where nothing asks for it. */
+static bool requires_something(const tn_place_rules *rules)
+{
+    const tn_kit_model_record *model = rules->space;
+    for (uint32_t i = 0; model && i < model->condition_count; i++)
+        if (!(rules->module->KIT_CONDITION_records[model->condition_first + i].flags & TN_CONDITION_TEST))
+            return true;
+    return false;
+}
+
 /* Does what was placed meet what its model requires? */
 static tn_status check_conditions(placing *p)
 {
     tn_placed_measures measured;
     tn_error error;
     tn_kit_tally tally = {0};
-    if (!p->rules.space)
+    if (!requires_something(&p->rules))
         return TN_OK;
     tn_status status = tn_placed_measure(p->rules.module, p->rules.space, &p->model, p->watch, &measured, &error);
     if (status == TN_OK)

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
+#include "cli/place/export_drawn.h"
 #include "cli/plan/library_job.h"
 #include "driver/place/export.h"
 #include "driver/place/kit.h"
@@ -16,7 +17,7 @@ typedef struct export_settings {
     tn_plan_settings plans;
     bool prolog, regex, pcfg;
     tn_option_list rules;
-    const char *output, *model;
+    const char *output, *model, *kit, *init;
 } export_settings;
 
 static const export_settings *settings_of(const tn_job *job)
@@ -157,24 +158,58 @@ static void export_kit(tn_job *job)
     free(text.data);
 }
 
+/* Is what is asked of a model that was drawn in order? Otherwise that is told. */
+static bool check_drawn(tn_job *job)
+{
+    const export_settings *s = settings_of(job);
+    const char *path = s->common.operands.items[0];
+    bool drawn = tn_path_is_drawn(path);
+    if (!drawn && (s->kit || s->init))
+        tn_job_usage(job, "--%s is about an LDraw file, .ldr or .mpd, and %.200s is none", s->kit ? "kit" : "init",
+                     path);
+    else if (drawn && (s->prolog || s->regex || s->model || !s->pcfg == !s->kit))
+        tn_job_usage(job, "a model that was drawn is written as a connection grammar, --pcfg, or as a kit, --kit KIT");
+    else if (s->init && !s->pcfg)
+        tn_job_usage(job, "--init is how a connection grammar begins: it goes with --pcfg");
+    else if (s->init && strpbrk(s->init, "\r\n"))
+        tn_job_usage(job, "--init is of one line");
+    else
+        return true;
+    return false;
+}
+
+static bool check_rules(tn_job *job)
+{
+    const export_settings *settings = settings_of(job);
+    int kinds = settings->prolog + settings->regex + settings->pcfg;
+    if (kinds != 1)
+        tn_job_usage(job, kinds ? "--prolog, --regex and --pcfg are one or the other: leave one out"
+                                : "say what to write: --prolog, --regex or --pcfg");
+    else if (settings->model && !settings->pcfg)
+        tn_job_usage(job, "--model is for --pcfg");
+    else if (settings->regex && settings->rules.count != 1)
+        tn_job_usage(job, "a pattern is of one rule: --rule NAME");
+    else if (settings->prolog && settings->rules.count)
+        tn_job_usage(job, "--prolog writes all rules; --rule is for --regex");
+    else
+        return true;
+    return false;
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
     const export_settings *settings = (const export_settings *)common;
+    const char *path = common->operands.items[0];
+    const tn_export_drawn_options drawn = {settings->kit, settings->init, settings->output};
     tn_job job;
     tn_job_begin(&job, common);
-    int kinds = settings->prolog + settings->regex + settings->pcfg;
-    if (kinds != 1)
-        tn_job_usage(&job, kinds ? "--prolog, --regex and --pcfg are one or the other: leave one out"
-                                 : "say what to write: --prolog, --regex or --pcfg");
-    else if (settings->model && !settings->pcfg)
-        tn_job_usage(&job, "--model is for --pcfg");
-    else if (settings->regex && settings->rules.count != 1)
-        tn_job_usage(&job, "a pattern is of one rule: --rule NAME");
-    else if (settings->prolog && settings->rules.count)
-        tn_job_usage(&job, "--prolog writes all rules; --rule is for --regex");
-    else if (settings->pcfg ? tn_job_open(&job, common->operands.items[0])
-                            : tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
+    if (!check_drawn(&job))
+        return tn_job_end(&job);
+    if (tn_path_is_drawn(path))
+        tn_job_export_drawn(&job, &drawn, path);
+    else if (check_rules(&job) &&
+             (settings->pcfg ? tn_job_open(&job, path) : tn_job_open_plans(&job, path, &settings->plans)))
         (settings->pcfg ? export_kit : export)(&job);
     return tn_job_end(&job);
 }
@@ -183,7 +218,11 @@ static int run(const tn_command *command, const tn_settings *common)
 static const tn_option options[] = {
     FLAG("prolog", 0, prolog, "write a Prolog program: a predicate for each rule, and keep_plan and prune_plan"),
     FLAG("regex", 0, regex, "write a POSIX extended regular expression over one letter for each class of trays"),
-    FLAG("pcfg", 0, pcfg, "write a model of a kit as a connection grammar, which places the same parts"),
+    FLAG("pcfg", 0, pcfg,
+         "write a model of a kit, or one that was drawn, as a connection grammar, which places the same parts"),
+    TEXT("kit", 'k', "KIT", kit, "write a model that was drawn as a kit, whose parts are those of KIT"),
+    TEXT("init", 0, "TEXT", init,
+         "with --pcfg, for a grammar that has rules of its own: what the model's rule begins with, such as bounds"),
     LIST("rule", 'r', "NAME", rules, "the rule of --regex"),
     TEXT("model", 'm', "NAME", model, "the model of --pcfg; may be left out where the kit has only one"),
     OPTIONS_LIBRARY,
@@ -194,14 +233,19 @@ static const tn_option options[] = {
 const tn_command tn_command_export = {
     .name = "export",
     .summary = "write rules in other notations",
-    .usage = "FILE --prolog [-o RULES.pl]\nFILE --regex --rule NAME\nKIT --pcfg [--model NAME] [-o MODEL.pcfg]",
+    .usage = "FILE --prolog [-o RULES.pl]\nFILE --regex --rule NAME\nKIT --pcfg [--model NAME] [-o MODEL.pcfg]\n"
+             "MODEL.ldr --pcfg [--init TEXT] [-o MODEL.pcfg]\nMODEL.ldr --kit KIT [-o MODEL.kit]",
     .description =
         "Writes rules for other programs. --prolog writes a complete program in ISO Prolog, in which a plan is a "
         "list of terms tray(V1, ..., Vn) with the values of a plan line. --regex writes a regular expression with "
         "a letter for each tray, which matches exactly the plans that the rule matches; a legend says which "
         "letter is which. It is made from the minimal automaton, and refused if it would need more than 2,000 "
         "characters or 62 letters. --pcfg writes the rules of a kit with its space, for programs that read connection "
-        "grammars; draws among parts that fit cannot be said there.",
+        "grammars; draws among parts that fit cannot be said there.\n\n"
+        "Of an LDraw file (.ldr, .mpd), --pcfg writes a connection grammar and --kit a kit that places its parts "
+        "again, "
+        "for rules to go on from. With --init the grammar is as the published program writes it, to be joined with one "
+        "that has rules for the bricks B1x1NoCheck and B1x2NoCheck; without, it stands alone.",
     .example =
         "$ tartan export lahave.plan --regex --rule narrow-pair\n$ tartan export lahave.plan --prolog -o lahave.pl",
     .options = options,

@@ -16,6 +16,7 @@
 #include "driver/breed/learn.h"
 #include "driver/breed/skeleton.h"
 #include "driver/open/open.h"
+#include "driver/place/placer.h"
 #include "runtime/genome/breeding/problem.h"
 #include "runtime/genome/settings.h"
 #include "runtime/genome/store/run_store.h"
@@ -24,7 +25,7 @@
  * tn_grower_objective. */
 typedef struct tn_bred_forms {
     const void *context; /* NULL: it has none */
-    const char *what;    /* "surface" or "form" */
+    const char *what;    /* "surface", "form" or "model" */
     const char *picture; /* what files of pictures end in: ".svg" or ".png" */
     tn_status (*draw)(const void *context, const char *const *sentences, const char *const *labels, size_t count,
                       const char *title, const char *path, tn_error *error);
@@ -49,6 +50,7 @@ typedef struct tn_evolution_job {
     tn_learner *learner;
     tn_grower *grower;
     tn_design_scorer *designs;
+    tn_placer *placer;
     tn_bred_forms forms;
     bool scored; /* there are goals; without them, forms with a surface score 0 */
     tn_genome *seeds;

@@ -4,9 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compiler/kit/with_rules.h"
 #include "driver/breed/evolve.h"
 #include "driver/breed/evolve_forms.h"
 #include "driver/breed/inputs.h"
+#include "driver/open/missing.h"
 #include "runtime/base/array.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/file.h"
@@ -19,6 +21,7 @@ void tn_evolution_job_clear(tn_evolution_job *job)
     tn_learner_free(job->learner);
     tn_grower_free(job->grower);
     tn_design_scorer_free(job->designs);
+    tn_placer_free(job->placer);
     tn_field_scorer_free(job->fields);
     tn_field_parents_free(job->parents);
     tn_skeleton_free(job->skeleton);
@@ -219,6 +222,41 @@ static tn_status make_designs(tn_evolution_job *job, const char *path, tn_error 
     return status == TN_OK ? tn_design_scorer_inputs(job->designs, &job->inputs, error) : status;
 }
 
+typedef struct kit_inputs {
+    const char *kit; /* that names the files */
+    char **inputs;
+} kit_inputs;
+
+static tn_status add_file(void *context, const char *path, tn_error *error)
+{
+    const kit_inputs *to = context;
+    char *whole = tn_path_beside(to->kit, path, "");
+    tn_status status = whole ? tn_inputs_add_file(to->inputs, "place", whole, error) : tn_fail_memory(error);
+    free(whole);
+    return status;
+}
+
+/* The kit, all that it uses, and what these name. */
+static tn_status add_kit(const tn_module *module, char **inputs, tn_error *error)
+{
+    tn_status status = tn_inputs_add_sources(inputs, "place", module, UINT32_MAX, error);
+    for (uint32_t i = 0; i < module->SOURCE_count && status == TN_OK; i++) {
+        const tn_source_record *source = &module->SOURCE_records[i];
+        kit_inputs to = {tn_text(module, source->path), inputs};
+        status = tn_kit_attached(tn_text(module, source->text), add_file, &to, error);
+    }
+    return status;
+}
+
+static tn_status make_placer(tn_evolution_job *job, const char *path, tn_error *error)
+{
+    tn_status status = find_data(job, TN_SET_PLACE, path, error);
+    if (status == TN_OK)
+        status = tn_placer_new(job->blamed_path, weighs_separately(job), &job->placer, error);
+    job->forms = (tn_bred_forms){job->placer, "model", ".svg", tn_placer_draw, tn_placer_objective};
+    return status == TN_OK ? add_kit(tn_placer_kit(job->placer), &job->inputs, error) : status;
+}
+
 tn_status tn_never_evaluate(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
                             char message[200], tn_error *error)
 {
@@ -238,8 +276,9 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_
 {
     const tn_evolution_study *s = &job->study;
     tn_status status = TN_OK;
-    bool learns = s->of[TN_SET_KEEP].written, grows = s->of[TN_SET_GROW].written, builds = s->of[TN_SET_BUILD].written;
-    job->extension = learns ? "plan" : grows ? "hemls" : builds ? "solid" : "txt";
+    bool learns = s->of[TN_SET_KEEP].written, grows = s->of[TN_SET_GROW].written, builds = s->of[TN_SET_BUILD].written,
+         places = s->of[TN_SET_PLACE].written;
+    job->extension = learns ? "plan" : grows ? "hemls" : builds ? "solid" : places ? "kit" : "txt";
     if (options->only_replay) {
         job->evaluator = (tn_evaluator){.objectives = options->objectives,
                                         .evaluate = tn_never_evaluate,
@@ -253,6 +292,8 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_
         status = make_grower(job, path, error);
     else if (builds)
         status = make_designs(job, path, error);
+    else if (places)
+        status = make_placer(job, path, error);
     else if (s->of[TN_SET_FIT].written)
         status = make_fit(job, path, error);
     else
@@ -260,6 +301,7 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_
     if (status == TN_OK)
         job->evaluator = job->grower    ? tn_grower_evaluator(job->grower)
                          : job->designs ? tn_design_scorer_evaluator(job->designs)
+                         : job->placer  ? tn_placer_evaluator(job->placer)
                          : job->learner ? tn_learner_evaluator(job->learner)
                                         : tn_problem_evaluator(job->problem);
     return status;

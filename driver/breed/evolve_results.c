@@ -85,23 +85,37 @@ static tn_status write_form(const tn_run *run, const char *path, const tn_indivi
     return status;
 }
 
+/* What the file of a sentence that a grammar made holds: the sentence, or the kit that it is put into. */
+static tn_status write_text(const tn_run *run, const char *sentence, size_t size, FILE *out, tn_error *error)
+{
+    char *text = NULL;
+    if (run->job->placer) {
+        tn_status status = tn_placer_text(run->job->placer, sentence, &text, error);
+        if (status != TN_OK)
+            return status;
+        sentence = text;
+        size = strlen(text);
+    }
+    fwrite(sentence, 1, size, out);
+    if (size == 0 || sentence[size - 1] != '\n')
+        fputc('\n', out);
+    free(text);
+    return TN_OK;
+}
+
 static tn_status write_sentence(const tn_run *run, const char *path, const tn_individual *individual, tn_error *error)
 {
     tn_output output;
     tn_status status = tn_output_open(path, &output, error);
     if (status != TN_OK)
         return status;
-    if (run->job->settings.kind) {
-        status = write_form(run, path, individual, output.stream, error);
-        if (status == TN_OK)
-            return tn_output_commit(&output, error);
-        tn_output_discard(&output);
-        return status;
-    }
-    fwrite(individual->sentence, 1, individual->sentence_size, output.stream);
-    if (!individual->sentence_size || individual->sentence[individual->sentence_size - 1] != '\n')
-        fputc('\n', output.stream);
-    return tn_output_commit(&output, error);
+    status = run->job->settings.kind
+                 ? write_form(run, path, individual, output.stream, error)
+                 : write_text(run, individual->sentence, individual->sentence_size, output.stream, error);
+    if (status == TN_OK)
+        return tn_output_commit(&output, error);
+    tn_output_discard(&output);
+    return status;
 }
 
 /* The derivation as a picture; one that is too large to draw is left out. */

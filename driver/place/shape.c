@@ -24,6 +24,7 @@ typedef struct drawing {
     const tn_placed_model *model;
     double unit[3]; /* LDU */
     size_t shown;   /* the first so many parts are drawn */
+    double width;   /* of its picture; 0: that of one alone */
     tn_sight sight;
     bool *studs;     /* [connector type]: owned */
     uint32_t corner; /* next */
@@ -46,9 +47,9 @@ static bool group_of(colour_list *list, int32_t colour, uint32_t *group)
     return true;
 }
 
+/* Adds the model's colours to the list, which the caller frees in any case. */
 static tn_status find_groups(const tn_placed_model *model, colour_list *list, uint32_t **groups, tn_error *error)
 {
-    *list = (colour_list){0};
     *groups = malloc((model->count + 1) * sizeof **groups);
     for (size_t i = 0; *groups && i < model->count; i++)
         if (!group_of(list, model->parts[i].frame.colour, &(*groups)[i]))
@@ -228,7 +229,7 @@ static tn_status take_view(drawing *d, const tn_placed_joints *joints, const uin
     d->sight.face_count = 0;
     d->sight.first[0] = 0;
     status = list_faces(d, joints, groups, error);
-    const tn_camera camera = {.azimuth = -60, .elevation = 30, .width = 480};
+    const tn_camera camera = {.azimuth = -60, .elevation = 30, .width = d->width > 0 ? d->width : 480};
     return status == TN_OK ? tn_view_take(&d->sight, &camera, view, error) : status;
 }
 
@@ -251,7 +252,7 @@ tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, 
                          const bool *marked, const char *title, tn_picture *to, tn_error *error)
 {
     drawing d = {.module = module, .model = model, .shown = model->count};
-    colour_list list;
+    colour_list list = {0};
     uint32_t *groups;
     double(*palette)[3] = NULL;
     tn_view *view = NULL;
@@ -278,6 +279,52 @@ tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, 
     return status;
 }
 
+/* The view of one of several models. */
+static tn_status take_shape(const tn_placed_shape *shape, double width, colour_list *list, tn_view **view,
+                            tn_error *error)
+{
+    drawing d = {.module = shape->module, .model = shape->model, .shown = shape->model->count, .width = width};
+    tn_placed_joints joints;
+    uint32_t *groups;
+    tn_place_unit(shape->module, d.unit);
+    tn_status status = find_groups(shape->model, list, &groups, error);
+    tn_status found = tn_placed_joints_find(shape->module, shape->model, NULL, &joints, error);
+    status = status == TN_OK ? found : status;
+    if (status == TN_OK)
+        status = find_studs(&d, error);
+    if (status == TN_OK)
+        status = take_view(&d, &joints, groups, view, error);
+    tn_sight_clear(&d.sight);
+    tn_placed_joints_clear(&joints);
+    free(d.studs);
+    free(groups);
+    return status;
+}
+
+tn_status tn_placed_draw_many(const tn_placed_shape *shapes, const char *const *labels, size_t count, const char *title,
+                              tn_picture *to, tn_error *error)
+{
+    enum { SMALL = 200 };
+    tn_view **views = calloc(count + 1, sizeof *views);
+    colour_list list = {0};
+    double(*palette)[3] = NULL;
+    tn_status status = views ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; i < count && status == TN_OK; i++)
+        status = take_shape(&shapes[i], count > 1 ? SMALL : 0, &list, &views[i], error);
+    if (status == TN_OK)
+        status = make_palette(&list, false, &palette, error);
+    if (status == TN_OK) {
+        const tn_view_options options = {.title = title, .labels = labels, .palette = (const double(*)[3])palette};
+        status = tn_views_draw(views, count, &options, to, error);
+    }
+    for (size_t i = 0; views && i < count; i++)
+        tn_view_free(views[i]);
+    free(views);
+    free(palette);
+    free(list.items);
+    return status;
+}
+
 /* A view after each step. */
 static tn_status take_steps(drawing *d, const tn_placed_joints *joints, const tn_placed_steps *steps,
                             const uint32_t *groups, tn_view **views, tn_error *error)
@@ -298,7 +345,7 @@ tn_status tn_placed_draw_steps(const tn_module *module, const tn_placed_model *m
 {
     enum { STEPS_MAX = 200, LABEL = 24 };
     drawing d = {.module = module, .model = model};
-    colour_list list;
+    colour_list list = {0};
     uint32_t *groups;
     double(*palette)[3] = NULL;
     tn_view *views[STEPS_MAX] = {NULL};
@@ -392,7 +439,7 @@ tn_status tn_placed_mesh(const tn_module *module, const tn_placed_model *model, 
 {
     drawing d = {.module = module, .model = model};
     tn_placed_joints joints;
-    colour_list list;
+    colour_list list = {0};
     uint32_t *groups, *cell_groups = NULL;
     tn_cut_box *cells = NULL;
     tn_union u = {0};

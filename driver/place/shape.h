@@ -12,6 +12,15 @@
 tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, const tn_placed_measures *measures,
                          const bool *marked, const char *title, tn_picture *to, tn_error *error);
 
+/* Models side by side, each of its own kit and over its label (labels: or NULL). As above. */
+typedef struct tn_placed_shape {
+    const tn_module *module;
+    const tn_placed_model *model;
+} tn_placed_shape;
+
+tn_status tn_placed_draw_many(const tn_placed_shape *shapes, const char *const *labels, size_t count, const char *title,
+                              tn_picture *to, tn_error *error);
+
 /* A sheet with a picture for each step, of all that stands then. The measures are those of the model as it was divided.
  * TN_LIMIT (E1336) for more than 200 steps. */
 tn_status tn_placed_draw_steps(const tn_module *module, const tn_placed_model *model,

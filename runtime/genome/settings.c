@@ -224,10 +224,11 @@ static bool is_written(const findings *f, tn_setting setting)
     return f->study->of[setting].written > 0;
 }
 
-/* One of match, fit, grow, build, and keep with drop. */
+/* One of match, fit, grow, build, place, and keep with drop. */
 static void find_problem(findings *f)
 {
-    static const tn_setting starts[] = {TN_SET_MATCH, TN_SET_FIT, TN_SET_GROW, TN_SET_BUILD, TN_SET_KEEP, TN_SET_DROP};
+    static const tn_setting starts[] = {TN_SET_MATCH, TN_SET_FIT,  TN_SET_GROW, TN_SET_BUILD,
+                                        TN_SET_PLACE, TN_SET_KEEP, TN_SET_DROP};
     tn_setting first = TN_SETTING_COUNT;
     for (size_t i = 0; i < sizeof starts / sizeof *starts; i++) {
         if (!is_written(f, starts[i]))
@@ -239,9 +240,8 @@ static void find_problem(findings *f)
     }
     if (first == TN_SETTING_COUNT && tn_evolution_study_use(f->study) == TN_USE_CODONS)
         find(f, TN_SETTING_COUNT, TN_SETTING_COUNT, "the study does not say what to evolve towards",
-             "write one of `match \"TEXT\"`, `fit \"DATA.csv\"`, `grow \"GROWTH.study\"`, `build \"GOALS.solid\"`, or "
-             "`keep \"PLANS\"` with "
-             "`drop \"PLANS\"`");
+             "write one of `match \"TEXT\"`, `fit \"DATA.csv\"`, `grow \"GROWTH.study\"`, `build \"GOALS.solid\"`, "
+             "`place \"KIT.kit\"`, or `keep \"PLANS\"` with `drop \"PLANS\"`");
     if (is_written(f, TN_SET_KEEP) != is_written(f, TN_SET_DROP))
         find(f, is_written(f, TN_SET_KEEP) ? TN_SET_KEEP : TN_SET_DROP, TN_SETTING_COUNT,
              "a rule is learned from plans of both kinds", "write both `keep \"PLANS\"` and `drop \"PLANS\"`");

@@ -137,17 +137,28 @@ const tn_cell_space *tn_space_cells(const tn_space *space)
     return &space->cells;
 }
 
+/* The bits of a row from one on and before another. */
+static uint64_t bits_between(int32_t first, int32_t end)
+{
+    first = first < 0 ? 0 : first;
+    if (first >= TN_CHUNK_WIDTH || end <= first)
+        return 0;
+    uint64_t below_end = end < TN_CHUNK_WIDTH ? (UINT64_C(1) << end) - 1 : UINT64_MAX;
+    return below_end & ~((UINT64_C(1) << first) - 1);
+}
+
 /* The cells of a chunk that are inside of the space and of its box. */
 static uint64_t count_chunk(const tn_space *space, const int32_t at[3], uint64_t outside[TN_CHUNK_ROWS][TN_CHUNK_ROWS])
 {
     const tn_cell_box *box = &space->cells.box;
+    uint64_t within = bits_between(box->low[0] - at[0] * TN_CHUNK_WIDTH, box->high[0] - at[0] * TN_CHUNK_WIDTH);
     uint64_t count = 0;
     for (int32_t y = 0; y < TN_CHUNK_ROWS; y++) {
-        for (int32_t z = 0; z < TN_CHUNK_ROWS; z++) {
-            for (int32_t x = 0; x < TN_CHUNK_WIDTH; x++) {
-                int32_t cell[3] = {at[0] * TN_CHUNK_WIDTH + x, at[1] * TN_CHUNK_ROWS + y, at[2] * TN_CHUNK_ROWS + z};
-                count += tn_cell_box_holds(box, cell) && !(outside[y][z] >> x & 1);
-            }
+        int32_t height = at[1] * TN_CHUNK_ROWS + y;
+        for (int32_t z = 0; z < TN_CHUNK_ROWS && height >= box->low[1] && height < box->high[1]; z++) {
+            int32_t depth = at[2] * TN_CHUNK_ROWS + z;
+            if (depth >= box->low[2] && depth < box->high[2])
+                count += (uint64_t)__builtin_popcountll(within & ~outside[y][z]);
         }
     }
     return count;

@@ -32,6 +32,13 @@ study goals '  grammar "boxes"; build "plain.solid"'
 printf 'solid plain { box all from (0, 0, 0) to (1, 1, 1); }\n' >plain.solid
 study designs '  grammar "boxes"; build "designs.solid"'
 printf 'solid one { box all from (0, 0, 0) to (1, 1, 1); }\nsolid two { box all from (0, 0, 0) to (1, 1, 1); }\n' >designs.solid
+study kit '  grammar "kit-rules"; place "none.kit"'
+study nokit '  grammar "kit-rules"; place "plain.solid"'
+study models '  grammar "kit-rules"; place "bricks"'
+study modelwants '  grammar "kit-rules"; place "room.kit"'
+printf 'use "bricks";\nrule bred at stud, tube = 3005;\nmodel room { inside box(2 studs, 1 brick, 2 studs); start stud at (10, 0, 10) by bred; }\n' >room.kit
+study wrongkit '  grammar "kit-rules"; place "wrong.kit"'
+printf 'use "bricks";\nrule bred at stud, tube = 3006;\n' >wrong.kit
 study stranger '  parent "sphere"; crossover subtree 0.5'
 study parent '  parent "spere"'
 study weight '  parent "sphere" weight 2'
@@ -56,7 +63,7 @@ printf 'solid top { box top from (0, 7, 0) to (9, 8, 9) rigid; box leg from (0, 
 for wrong in nodesign region narrow boxes sizes both stranger parent weight distance surface measure wish like box goalless many; do
     golden "$wrong" "cd $scratch && tartan evolve $wrong.study"
 done
-for wrong in seeds codon keep drop empty tray schema fit data grow wants wrong growth nothing build goals designs; do
+for wrong in seeds codon keep drop empty tray schema fit data grow wants wrong growth nothing build goals designs kit nokit models modelwants wrongkit; do
     golden "$wrong" "cd $scratch && tartan evolve $wrong.study"
 done
 golden no_study "tartan evolve"

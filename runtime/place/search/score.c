@@ -114,6 +114,13 @@ static bool tells_value(const tn_module *module, const tn_kit_model_record *mode
     return model->objective == TN_NO_RECORD || reads_plain_terms(module, model->objective);
 }
 
+tn_model_score tn_score_terms(const tn_module *module, const tn_kit_model_record *model, const double *terms)
+{
+    bool all;
+    double violation = sum_violations(module, model, terms, false, &all);
+    return (tn_model_score){violation, value_of(module, model, terms)};
+}
+
 tn_status tn_score_world(tn_scorer *s, const tn_world *world, const tn_model_score *bar, tn_model_score *score,
                          tn_error *error)
 {
@@ -134,10 +141,8 @@ tn_status tn_score_world(tn_scorer *s, const tn_world *world, const tn_model_sco
     if (status != TN_OK)
         return status;
     status = tn_placed_measure_inside(module, s->inside, &s->model, s->watch, &measures, error);
-    if (status == TN_OK) {
-        score->violation = sum_violations(module, model, measures.terms, false, &all);
-        score->value = value_of(module, model, measures.terms);
-    }
+    if (status == TN_OK)
+        *score = tn_score_terms(module, model, measures.terms);
     tn_placed_measures_clear(&measures);
     return status;
 }

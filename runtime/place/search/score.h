@@ -32,6 +32,9 @@ void tn_scorer_clear(tn_scorer *scorer);
 tn_status tn_score_world(tn_scorer *scorer, const tn_world *world, const tn_model_score *bar, tn_model_score *score,
                          tn_error *error);
 
+/* The score of a model of which all terms were measured. */
+tn_model_score tn_score_terms(const tn_module *module, const tn_kit_model_record *model, const double *terms);
+
 /* The value of the objective, as far as the numbers of parts tell it; only where it rises. */
 double tn_score_value(tn_scorer *scorer, const tn_world *world);
 

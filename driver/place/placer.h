@@ -1,0 +1,36 @@
+/* Scoring rules of kits: a sentence is statements of a .kit file; they are put into a kit in the place of rules of the
+ * same names, and what its model then becomes is held to the model's requirements and objective. */
+#ifndef TARTAN_DRIVER_PLACE_PLACER_H
+#define TARTAN_DRIVER_PLACE_PLACER_H
+
+#include "runtime/genome/breeding/evolve.h"
+#include "runtime/module/module.h"
+
+typedef struct tn_placer tn_placer;
+
+#define TN_PLACER_PARTS 50000u     /* of one model */
+#define TN_PLACER_VIOLATION 1000.0 /* what a requirement that is missed by 1 adds to a score */
+
+/* `kit` is the path of a .kit with one model that requires something or has an objective. With `separately`, the
+ * model's objective and the length of the rules are two objectives, and requirements come first; else the score is the
+ * objective (negated where it is to be large) and TN_PLACER_VIOLATION times how far the requirements are from holding.
+ * TN_INVALID (E1360) where it cannot be used. */
+tn_status tn_placer_new(const char *kit, bool separately, tn_placer **placer, tn_error *error);
+void tn_placer_free(tn_placer *placer);
+
+tn_evaluator tn_placer_evaluator(tn_placer *placer);
+
+/* What objective `i` is, where there are two. */
+const char *tn_placer_objective(const void *placer, size_t i);
+
+/* Places sentences that could be scored, and draws their models side by side, as tn_grower_draw does. */
+tn_status tn_placer_draw(const void *placer, const char *const *sentences, const char *const *labels, size_t count,
+                         const char *title, const char *path, tn_error *error);
+
+/* The whole kit with the rules of a sentence, for a file that lies elsewhere. The caller frees it. */
+tn_status tn_placer_text(const tn_placer *placer, const char *sentence, char **text, tn_error *error);
+
+/* The module of the kit as it is; the placer's. */
+const tn_module *tn_placer_kit(const tn_placer *placer);
+
+#endif
