@@ -30,6 +30,8 @@ static tn_kit_node *node(tn_growth_parse *parse, tn_kit_kind kind, tn_span span,
 static tn_kit_node *sized(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_length a, tn_kit_length b, tn_kit_length c);
 static tn_kit_node *counted(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_text name, tn_kit_length count);
 static tn_kit_node *filed(tn_growth_parse *parse, tn_span span, tn_kit_text name, tn_kit_text file, tn_kit_text up, tn_kit_nodes sizes);
+static tn_kit_node *part_from(tn_growth_parse *parse, tn_span span, tn_kit_text name, tn_kit_text doc, tn_kit_text from, tn_kit_text what,
+                              tn_kit_text file);
 static tn_kit_text text_of(tn_growth_parse *parse, tn_kit_length number);
 static tn_expression *number_of(tn_growth_parse *parse, tn_kit_length number);
 static tn_expression *count_of(tn_growth_parse *parse, tn_span span, tn_kit_text part);
@@ -90,6 +92,12 @@ statements
     | statements PART part_name doc OPEN_BRACE features CLOSE_BRACE
                                             { tn_kit_node *n = node(parse, TN_KIT_PART, tn_span_join(@2, @7), $3, $6);
                                               if (n) n->doc = $4;
+                                              tn_kit_add(parse, n); yyerrok; }
+    | statements PART part_name doc NAME NAME STRING END
+                                            { tn_kit_add(parse, part_from(parse, tn_span_join(@2, @7), $3, $4, $5, $6, $7)); }
+    | statements PART part_name doc NAME NAME STRING OPEN_BRACE features CLOSE_BRACE
+                                            { tn_kit_node *n = part_from(parse, tn_span_join(@2, @10), $3, $4, $5, $6, $7);
+                                              if (n) n->inner = $9;
                                               tn_kit_add(parse, n); yyerrok; }
     | statements MODEL NAME doc OPEN_BRACE lines CLOSE_BRACE
                                             { tn_kit_node *n = node(parse, TN_KIT_MODEL, tn_span_join(@2, @7), $3, $6);
@@ -357,6 +365,20 @@ static tn_kit_node *filed(tn_growth_parse *parse, tn_span span, tn_kit_text name
     if (made) {
         made->doc = file;
         made->other = up;
+    }
+    return made;
+}
+
+/* `from ldraw "3001.dat"`: the two words are checked later. */
+static tn_kit_node *part_from(tn_growth_parse *parse, tn_span span, tn_kit_text name, tn_kit_text doc, tn_kit_text from, tn_kit_text what,
+                              tn_kit_text file)
+{
+    tn_kit_node *made = node(parse, TN_KIT_PART, span, name, no_nodes);
+    if (made) {
+        made->doc = doc;
+        made->other = file;
+        made->outer = tn_kit_nodes_add(made->outer, node(parse, TN_KIT_NAMED, from.span, from, no_nodes));
+        made->outer = tn_kit_nodes_add(made->outer, node(parse, TN_KIT_NAMED, what.span, what, no_nodes));
     }
     return made;
 }

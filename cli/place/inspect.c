@@ -99,17 +99,50 @@ static void note_left_out(inspection *n, size_t count, const char *first, const 
                     why);
 }
 
-/* Each name once. */
+/* A part that the kit lacks. */
+typedef struct unknown_part {
+    const char *name;
+    size_t index;
+} unknown_part;
+
+static int by_name(const void *a, const void *b)
+{
+    const unknown_part *one = a, *other = b;
+    int order = strcmp(one->name, other->name);
+    return order != 0 ? order : (one->index > other->index) - (one->index < other->index);
+}
+
+static int by_index(const void *a, const void *b)
+{
+    const unknown_part *one = a, *other = b;
+    return (one->index > other->index) - (one->index < other->index);
+}
+
+/* Each name once, in the order in which they come; not more than anybody reads. */
 static void note_unknown(inspection *n)
 {
-    for (size_t i = 0; i < n->ldraw.model.count; i++) {
-        const char *name = n->ldraw.model.parts[i].name;
-        size_t j = 0;
-        while (!n->measures.joints.kinds[i] && j < i && strcmp(n->ldraw.model.parts[j].name, name) != 0)
-            j++;
-        if (!n->measures.joints.kinds[i] && j == i)
-            tn_job_note(n->job, "the kit has no part %.60s: it joins nothing and fills nothing here", name);
+    enum { NOTED_MAX = 20 };
+    size_t count = 0, kept = 0;
+    unknown_part *all = malloc((n->measures.joints.unknown + 1) * sizeof *all);
+    tn_error error;
+    if (!all) {
+        tn_fail_memory(&error);
+        tn_job_fail(n->job, &error);
+        return;
     }
+    for (size_t i = 0; i < n->ldraw.model.count; i++)
+        if (!n->measures.joints.kinds[i])
+            all[count++] = (unknown_part){n->ldraw.model.parts[i].name, i};
+    qsort(all, count, sizeof *all, by_name);
+    for (size_t i = 0; i < count; i++)
+        if (i == 0 || strcmp(all[i].name, all[kept - 1].name) != 0)
+            all[kept++] = all[i];
+    qsort(all, kept, sizeof *all, by_index);
+    for (size_t i = 0; i < kept && i < NOTED_MAX; i++)
+        tn_job_note(n->job, "the kit has no part %.60s: it joins nothing and fills nothing here", all[i].name);
+    if (kept > NOTED_MAX)
+        tn_job_note(n->job, "and %zu more parts that the kit does not have", kept - NOTED_MAX);
+    free(all);
 }
 
 static void say(inspection *n)

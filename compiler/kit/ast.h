@@ -33,7 +33,7 @@ typedef enum tn_kit_kind {
     TN_KIT_UNIT,      /* size, count[0]: turns */
     TN_KIT_LENGTH,    /* name, size[0] */
     TN_KIT_CONNECTOR, /* name, other: what it joins, count[0]: turns, size[0]: distance in a grid */
-    TN_KIT_PART,      /* name, doc, inner: FILL, HAS, MASS, PRICE */
+    TN_KIT_PART,      /* name, doc, inner: FILL, HAS, MASS, PRICE; outer: `from ldraw`, other: a file, or none */
     TN_KIT_SPACE,     /* name, inner: one of a space */
     TN_KIT_RULE,      /* name, outer: NAMED connectors, inner: PLACES and DRAWN */
     TN_KIT_MODEL,     /* name, doc, inner: INSIDE, START, COLOUR, REQUIRES and what follows these */

@@ -10,6 +10,7 @@
 #include "compiler/kit/ast.h"
 #include "runtime/place/model/frame.h"
 #include "runtime/place/model/terms.h"
+#include "runtime/place/part_file.h"
 
 enum { TN_KIT_PARTS_MAX = 10000, TN_KIT_GRID_MAX = 32, TN_KIT_ALTERNATIVES_MAX = 100000 };
 
@@ -161,6 +162,10 @@ bool tn_kit_whole(tn_kit *kit, const tn_kit_length *number, int64_t low, int64_t
 void tn_kit_suggest(tn_kit *kit, tn_diagnostic *d, const tn_names *names, const char *wrong, const char *otherwise);
 
 /* ---- parts (part.c), spaces (space.c), rules (rule.c), models (model.c, search.c) */
+/* Parts of an LDraw library (part_file.c): reads the file that a part names, and takes its studs, tubes and, where
+ * `body`, its size. */
+void tn_kit_read_part(tn_kit *kit, const tn_kit_node *node, tn_part_file *file);
+void tn_kit_take_part_file(tn_kit *kit, tn_kit_part *part, const tn_part_file *file, bool body);
 void tn_kit_check_part(tn_kit *kit, tn_kit_part *part);
 bool tn_kit_axis(tn_kit *kit, const tn_kit_text *word, tn_axis *axis);
 tn_kit_region tn_kit_check_space(tn_kit *kit, const tn_kit_node *node);

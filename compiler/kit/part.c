@@ -195,11 +195,17 @@ static double read_amount(tn_kit *kit, const tn_kit_node *node)
 
 void tn_kit_check_part(tn_kit *kit, tn_kit_part *part)
 {
+    tn_part_file from = {.stud_count = 0};
     size_t boxes = 0, errors = kit->diagnostics->error_count;
+    if (part->node->other.text)
+        tn_kit_read_part(kit, part->node, &from);
     for (const tn_kit_node *node = part->node->inner.first; node; node = node->next)
         boxes += node->kind == TN_KIT_FILL;
     part->boxes = TN_NEW_ARRAY(kit->arena, tn_kit_box, boxes + 1);
-    part->joints = TN_NEW_ARRAY(kit->arena, tn_kit_joint, most_joints(kit, part) + 1);
+    part->joints = TN_NEW_ARRAY(kit->arena, tn_kit_joint, most_joints(kit, part) + 4 * from.stud_count + 2);
+    if (part->boxes && part->joints && part->node->other.text && kit->diagnostics->error_count == errors)
+        tn_kit_take_part_file(kit, part, &from, boxes == 0);
+    tn_part_file_clear(&from);
     if (!part->boxes || !part->joints)
         return;
     for (const tn_kit_node *node = part->node->inner.first; node; node = node->next) {

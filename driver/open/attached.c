@@ -1,8 +1,11 @@
 /* Reads what lies beside a rule file. */
 #include "driver/open/attached.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "compiler/common/ldraw_library.h"
 #include "driver/open/missing.h"
 #include "driver/open/suggest_file.h"
 #include "runtime/base/file.h"
@@ -24,10 +27,48 @@ static tn_status find(const tn_request *request, char **path, tn_error *error)
     return TN_IO;
 }
 
+/* ---- the LDraw library */
+
+/* Reads FOLDER/INNER/NAME; TN_OK with *there false where there is no such file. */
+static tn_status read_there(const char *folder, const char *inner, const char *name, uint8_t **bytes, size_t *size,
+                            bool *there, tn_error *error)
+{
+    char *path;
+    *there = false;
+    if (asprintf(&path, "%s/%s/%s", folder, inner, name) < 0)
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    if (tn_path_exists(path)) {
+        *there = true;
+        status = tn_file_read(path, BYTES_MAX, bytes, size, error);
+    }
+    free(path);
+    return status;
+}
+
+static tn_status read_part(const char *name, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    static const char *const inner[] = {"parts", "p", "PARTS", "P"};
+    const char *own = getenv("LDRAWDIR"), *folder = own && *own ? own : "/usr/share/ldraw";
+    tn_status status = TN_OK;
+    bool there = false;
+    for (size_t i = 0; i < sizeof inner / sizeof *inner && status == TN_OK && !there; i++)
+        status = read_there(folder, inner[i], name, bytes, size, &there, error);
+    if (status != TN_OK || there)
+        return status;
+    tn_fail(error, TN_IO, E_CANNOT_READ, "there is no %.120s in the LDraw library %.200s", name, folder);
+    tn_error_help(error, "set LDRAWDIR to the folder of the library, which has the folders parts and p");
+    return TN_IO;
+}
+
+/* ---- what a kit names */
+
 static tn_status read_bytes(void *context, const tn_request *request, uint8_t **bytes, size_t *size, tn_error *error)
 {
     char *path;
     (void)context;
+    if (strcmp(request->extension, TN_LDRAW_LIBRARY) == 0)
+        return read_part(request->path, bytes, size, error);
     tn_status status = find(request, &path, error);
     if (status == TN_OK)
         status = tn_file_read(path, BYTES_MAX, bytes, size, error);

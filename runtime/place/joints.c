@@ -30,18 +30,56 @@ tn_cell_box tn_part_box_at(const tn_part_box_record *box, const tn_frame *frame)
     return tn_frame_box(frame, &step);
 }
 
-/* Parts of one kind mostly follow one another, or have one text for their name. */
-static void find_kinds(const tn_module *module, const tn_placed_model *model, tn_placed_joints *joints)
+static const char *name_of(const tn_module *module, const tn_kit_part_record *record)
 {
+    return tn_text(module, record->name);
+}
+
+/* A part of the kit by its name, as it is sorted: of equal names the first. */
+typedef struct named_part {
+    const char *name;
+    const tn_kit_part_record *record;
+} named_part;
+
+static int by_name(const void *a, const void *b)
+{
+    const named_part *one = a, *other = b;
+    int order = strcmp(one->name, other->name);
+    return order != 0 ? order : (one->record > other->record) - (one->record < other->record);
+}
+
+static const tn_kit_part_record *find_name(const named_part *sorted, size_t count, const char *name)
+{
+    size_t low = 0, high = count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (strcmp(sorted[middle].name, name) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < count && strcmp(sorted[low].name, name) == 0 ? sorted[low].record : NULL;
+}
+
+/* Parts of one kind mostly follow one another, and have one text for their name. */
+static tn_status find_kinds(const tn_module *module, const tn_placed_model *model, tn_placed_joints *joints,
+                            tn_error *error)
+{
+    size_t count = module->KIT_PART_count;
+    named_part *sorted = malloc((count + 1) * sizeof *sorted);
+    if (!sorted)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < count; i++)
+        sorted[i] = (named_part){name_of(module, &module->KIT_PART_records[i]), &module->KIT_PART_records[i]};
+    qsort(sorted, count, sizeof *sorted, by_name);
     for (size_t i = 0; i < model->count; i++) {
         const char *name = model->parts[i].name;
-        size_t back = i;
-        while (back > 0 && i - back < 8 && model->parts[back - 1].name != name)
-            back--;
-        bool known = back > 0 && i - back < 8;
-        joints->kinds[i] = known ? joints->kinds[back - 1] : tn_kit_part_named(module, name);
+        bool known = i > 0 && model->parts[i - 1].name == name;
+        joints->kinds[i] = known ? joints->kinds[i - 1] : find_name(sorted, count, name);
         joints->unknown += !joints->kinds[i];
     }
+    free(sorted);
+    return TN_OK;
 }
 
 /* ---- connectors */
@@ -290,8 +328,9 @@ tn_status tn_placed_joints_find(const tn_module *module, const tn_placed_model *
     joints->cut = calloc(model->count + 1, sizeof *joints->cut);
     if (!joints->kinds || !joints->component || !joints->cut)
         return tn_fail_memory(error);
-    find_kinds(module, model, joints);
-    tn_status status = tn_watch_check(watch, error);
+    tn_status status = find_kinds(module, model, joints, error);
+    if (status == TN_OK)
+        status = tn_watch_check(watch, error);
     if (status == TN_OK)
         status = find_links(module, model, joints, error);
     if (status != TN_OK)

@@ -17,6 +17,7 @@ typedef struct reference {
     int32_t colour;
     double at[NUMBERS]; /* place, then the rows of the matrix */
     char *name;         /* of our own text */
+    uint32_t file;      /* the sub-file of this name; 0, which is the model: none, a part */
 } reference;
 
 typedef struct subfile {
@@ -204,14 +205,6 @@ static void compose(const double outer[NUMBERS], const double inner[NUMBERS], do
     }
 }
 
-static subfile *find_file(const reader *r, const char *name)
-{
-    for (size_t i = 1; i < r->file_count; i++)
-        if (r->files[i].name && strcmp(r->files[i].name, name) == 0)
-            return &r->files[i];
-    return NULL;
-}
-
 /* Recursion is as deep as sub-files nest, at most DEPTH_MAX. */
 static tn_status place_file(reader *r, subfile *file, const double at[NUMBERS], int32_t colour, int depth)
 {
@@ -220,7 +213,7 @@ static tn_status place_file(reader *r, subfile *file, const double at[NUMBERS], 
     file->open = true;
     for (size_t i = 0; i < file->count && status == TN_OK; i++) {
         const reference *from = &r->references[file->first + i];
-        subfile *sub = find_file(r, from->name);
+        subfile *sub = from->file ? &r->files[from->file] : NULL;
         double placed[NUMBERS];
         int32_t own = from->colour == OUTER_COLOUR ? colour : from->colour;
         if (++r->visited > VISITS_MAX)
@@ -271,6 +264,44 @@ static tn_status share_names(reader *r)
     return TN_OK;
 }
 
+/* Of files of one name the first counts. */
+static int by_file_name(const void *a, const void *b)
+{
+    const subfile *const *one = a, *const *other = b;
+    int order = strcmp((*one)->name, (*other)->name);
+    return order != 0 ? order : (*one > *other) - (*one < *other);
+}
+
+/* The first of sorted files with a name; 0: there is none. */
+static uint32_t find_file(const reader *r, subfile *const *sorted, size_t count, const char *name)
+{
+    size_t low = 0, high = count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (strcmp(sorted[middle]->name, name) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < count && strcmp(sorted[low]->name, name) == 0 ? (uint32_t)(sorted[low] - r->files) : 0;
+}
+
+/* Which sub-file each reference names. The model itself cannot be one. */
+static tn_status find_files(reader *r)
+{
+    subfile **sorted = malloc(r->file_count * sizeof *sorted);
+    size_t count = 0;
+    if (!sorted)
+        return tn_fail_memory(r->error);
+    for (size_t i = 1; i < r->file_count; i++)
+        sorted[count++] = &r->files[i];
+    qsort(sorted, count, sizeof *sorted, by_file_name);
+    for (size_t i = 0; i < r->reference_count; i++)
+        r->references[i].file = find_file(r, sorted, count, r->references[i].name);
+    free(sorted);
+    return TN_OK;
+}
+
 tn_status tn_ldraw_read(const char *text, size_t size, const double unit[3], uint32_t turns, tn_ldraw *ldraw,
                         tn_error *error)
 {
@@ -284,6 +315,8 @@ tn_status tn_ldraw_read(const char *text, size_t size, const double unit[3], uin
     tn_status status = read_lines(&r, ldraw->text);
     if (status == TN_OK)
         status = share_names(&r);
+    if (status == TN_OK)
+        status = find_files(&r);
     if (status == TN_OK)
         status = place_file(&r, &r.files[0], here, 1, 0);
     free(r.references);

@@ -116,11 +116,35 @@ static tn_status run(void)
 
 /* ---- files that a kit names */
 
+/* A part of two studs, and the primitives of a stud and a tube. */
+static tn_status give_part(const char *name, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    static const char *const files[][2] = {
+        {"one.dat", "0 Part\n1 16 -10 0 0 1 0 0 0 1 0 0 0 1 stud.dat\n1 16 10 0 0 1 0 0 0 1 0 0 0 1 stud.dat\n"
+                    "1 16 0 4 0 1 0 0 0 -5 0 0 0 1 stud3.dat\n1 16 0 0 0 20 0 0 0 24 0 0 0 10 box.dat\n"},
+        {"box.dat", "4 16 -1 0 -1 1 0 -1 1 0 1 -1 0 1\n3 16 -1 1 -1 1 1 -1 1 1 1\n"},
+        {"stud.dat", "0 Stud\n"},
+        {"stud3.dat", "0 Stud Tube Solid\n"}};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        if (strcmp(files[i][0], name) != 0)
+            continue;
+        *size = strlen(files[i][1]);
+        *bytes = malloc(*size);
+        if (!*bytes)
+            return tn_fail_memory(error);
+        memcpy(*bytes, files[i][1], *size);
+        return TN_OK;
+    }
+    return tn_fail(error, TN_IO, E_CANNOT_READ, "there is no %.60s", name);
+}
+
 static tn_status give_bytes(void *context, const tn_request *request, uint8_t **bytes, size_t *size, tn_error *error)
 {
     static const char hill[] = "P5 2 1 9\n\003\011", parts[] = "1 4 0 0 0 1 0 0 0 1 0 0 0 1 two.dat\n";
     bool is_hill = strcmp(request->path, "hill.pgm") == 0;
     (void)context;
+    if (strstr(request->path, ".dat"))
+        return give_part(request->path, bytes, size, error);
     *size = is_hill ? sizeof hill - 1 : sizeof parts - 1;
     *bytes = malloc(*size);
     if (!*bytes)
@@ -150,7 +174,8 @@ static tn_status run_files(void)
     static const char text[] =
         "unit 10 x 8 x 10;\nconnector stud joins tube every 20;\nconnector tube joins stud every 20;\n"
         "part two { fill 40 x 24 x 20; studs up 2 x 1; tubes down 2 x 1 at (0, -24, 0); }\n"
-        "rule wall at stud, tube = two;\n"
+        "part one from ldraw \"one.dat\" { mass 1; }\n"
+        "rule wall at stud, tube = two | one;\n"
         "model first { inside heightmap(\"hill.pgm\", 80, 72, 60) or mesh(\"m.obj\", 96) or model(\"two.ldr\") turn "
         "2;\n"
         "  start \"two.ldr\" by wall; }\n"
