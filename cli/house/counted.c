@@ -15,6 +15,7 @@ typedef struct house_tally {
     uint32_t low, high;
     mpz_t *values;   /* houses that have each value of each choice, choice by choice */
     mpz_t *kept_out; /* by each clause, of the houses that no clause is asked about; NULL: not counted */
+    mpz_t *alone;    /* by each clause, of those that all others keep */
 } house_tally;
 
 static size_t value_count(const tn_numbered *n)
@@ -40,6 +41,7 @@ static void tally_free(const tn_numbered *n, house_tally *tally)
     tn_integers_free(tally->lengths, (size_t)tally->high - tally->low + 1);
     tn_integers_free(tally->values, value_count(n));
     tn_integers_free(tally->kept_out, n->record->clause_count);
+    tn_integers_free(tally->alone, n->record->clause_count);
     mpz_clears(tally->plans, tally->faced, tally->houses, NULL);
 }
 
@@ -106,85 +108,164 @@ static tn_status tally_next(tn_numbered *n, void *context, const tn_tray *trays,
 
 /* ---- all together */
 
-static void tally_together(tn_numbered *n, house_tally *tally)
+static void tally_together(const tn_numbered *n, const tn_houses *all, house_tally *tally)
 {
     uint32_t shapes[TN_CHOICES_MAX] = {0};
     mpz_t houses;
     mpz_init(houses);
-    tn_library_kept(n->plans, TN_ALL_LENGTHS, tally->plans);
-    tn_houses_faced(n->all, tally->faced);
-    tn_houses_count(n->all, TN_ALL_LENGTHS, tally->houses);
-    tally->states = tn_houses_states(n->all);
-    for (uint32_t k = tally->low; k <= tally->high; k++)
-        tn_houses_count(n->all, k, tally->lengths[k - tally->low]);
+    tally->each = false;
+    tn_houses_faced(all, tally->faced);
+    tn_houses_count(all, TN_ALL_LENGTHS, tally->houses);
+    tally->states = tn_houses_states(all);
+    for (uint32_t k = tally->low; k <= tally->high; k++) {
+        tn_houses_count(all, k, houses);
+        mpz_set(tally->lengths[k - tally->low], houses);
+    }
     for (bool more = true; more; more = next_section(n, shapes)) {
-        tn_houses_of_section(n->all, shapes, houses);
+        tn_houses_of_section(all, shapes, houses);
         add_section(n, tally, shapes, houses);
     }
     mpz_clear(houses);
 }
 
-static tn_status tally_all(tn_numbered *n, house_tally *tally, tn_error *error)
+/* Plan by plan, each in so many steps (0: the usual limit). */
+static tn_status tally_each(tn_numbered *n, const tn_plan *plan, uint64_t work, house_tally *tally, tn_error *error)
 {
-    if (!tn_numbered_few(n)) {
-        tn_status status = tn_numbered_all(n, error);
-        if (status == TN_OK)
-            tally_together(n, tally);
-        if (status != TN_LIMIT || !tn_numbered_countable(n))
-            return status;
-    }
+    tn_house_variants *variants = n->variants;
+    tn_status status =
+        work > 0 ? tn_house_variants_new(&n->form, n->record, work, &n->variants, error) : TN_OK;
     tally->each = true;
-    return tn_numbered_plans(n, tally_next, tally, error);
+    if (status == TN_OK && plan)
+        status = tally_plan(n, plan->trays, (uint32_t)plan->length, tally, error);
+    else if (status == TN_OK)
+        status = tn_numbered_plans(n, tally_next, tally, error);
+    if (n->variants != variants)
+        tn_house_variants_free(n->variants);
+    n->variants = variants;
+    return status;
+}
+
+static tn_status count_together(tn_numbered *n, const tn_plan *plan, house_tally *tally, tn_error *error)
+{
+    tn_houses *houses = NULL;
+    if (!plan) {
+        tn_status status = tn_numbered_all(n, error);
+        tn_library_kept(n->plans, TN_ALL_LENGTHS, tally->plans);
+        if (status == TN_OK)
+            tally_together(n, n->all, tally);
+        return status;
+    }
+    const tn_houses_what what = {.only = plan->trays, .length = (uint32_t)plan->length};
+    tn_status status = tn_houses_of(&n->form, n->record, n->plans, &what, n->max_states, &houses, error);
+    mpz_set_ui(tally->plans, 1);
+    if (status == TN_OK)
+        tally_together(n, houses, tally);
+    tn_houses_free(houses);
+    return status;
+}
+
+static tn_status tally_afresh(const tn_numbered *n, house_tally *tally, tn_error *error)
+{
+    tally_free(n, tally);
+    return tally_new(n, tally) ? TN_OK : tn_fail_memory(error);
+}
+
+/* Few plans are gone through, unless one of them takes long; else all are counted together, if that can be done. */
+static tn_status tally_all(tn_numbered *n, const tn_plan *plan, house_tally *tally, tn_error *error)
+{
+    enum { QUICK = 50000 };
+    tn_status status = TN_LIMIT;
+    if (plan || tn_numbered_few(n))
+        status = tally_each(n, plan, QUICK, tally, error);
+    if (status != TN_LIMIT)
+        return status;
+    status = tally_afresh(n, tally, error);
+    if (status == TN_OK)
+        status = count_together(n, plan, tally, error);
+    if (status != TN_LIMIT || (!plan && !tn_numbered_countable(n)))
+        return status;
+    status = tally_afresh(n, tally, error);
+    return status == TN_OK ? tally_each(n, plan, 0, tally, error) : status;
 }
 
 /* ---- what clauses keep out */
 
-/* The houses on the plan, or on all plans, that some of the clauses keep. */
-static tn_status count_by(const tn_numbered *n, const tn_house_library_record *clauses, const tn_plan *plan,
-                          mpz_t houses, tn_error *error)
+/* The houses on the plan, or on all plans, that some of the clauses keep: those of another module's record. */
+static tn_status count_by(const tn_numbered *n, const tn_module *module, const tn_house_library_record *clauses,
+                          const tn_plan *plan, mpz_t houses, tn_error *error)
 {
-    tn_house_variants *variants = NULL;
-    tn_houses *all = NULL;
-    tn_house_counts counts;
-    tn_status status;
-    if (!plan) {
-        status = tn_houses_new(&n->form, clauses, n->plans, n->max_states, &all, error);
-        if (status == TN_OK)
-            tn_houses_count(all, TN_ALL_LENGTHS, houses);
-        tn_houses_free(all);
-        return status;
-    }
-    tn_house_counts_init(&counts);
-    status = tn_house_variants_new(&n->form, clauses, 0, &variants, error);
+    tn_numbered some = *n;
+    house_tally tally;
+    some.form.module = module;
+    some.record = clauses;
+    some.variants = NULL;
+    some.all = NULL;
+    tn_status status = tally_new(&some, &tally) ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK)
-        status = tn_house_variants_count(variants, plan->trays, plan->length, &counts, error);
-    mpz_set(houses, counts.houses);
-    tn_house_variants_free(variants);
-    tn_house_counts_clear(&counts);
+        status = tn_house_variants_new(&some.form, clauses, 0, &some.variants, error);
+    if (status == TN_OK)
+        status = tally_all(&some, plan, &tally, error);
+    mpz_set(houses, tally.houses);
+    tn_house_variants_free(some.variants);
+    tn_houses_free(some.all);
+    tally_free(&some, &tally);
     return status;
 }
 
-static tn_status tally_clauses(const tn_numbered *n, const tn_plan *plan, house_tally *tally, tn_error *error)
+/* What each clause keeps out of the houses that the form allows. */
+static tn_status tally_kept_out(const tn_numbered *n, const tn_plan *plan, house_tally *tally, tn_error *error)
 {
     tn_house_library_record some = *n->record;
     mpz_t all;
     mpz_init(all);
-    tally->kept_out = tn_integers_new(n->record->clause_count);
     some.clause_count = 0;
-    tn_status status = tally->kept_out ? count_by(n, &some, plan, all, error) : tn_fail_memory(error);
+    tn_status status = count_by(n, n->form.module, &some, plan, all, error);
     some.clause_count = 1;
     for (uint32_t i = 0; status == TN_OK && i < n->record->clause_count; i++) {
         some.clause_first = n->record->clause_first + i;
-        status = count_by(n, &some, plan, tally->kept_out[i], error);
+        status = count_by(n, n->form.module, &some, plan, tally->kept_out[i], error);
         mpz_sub(tally->kept_out[i], all, tally->kept_out[i]);
     }
     mpz_clear(all);
     return status;
 }
 
+/* What each keeps out that no other does: what there would be without it, less what there is. */
+static tn_status tally_alone(const tn_numbered *n, const tn_plan *plan, house_tally *tally, tn_error *error)
+{
+    uint32_t count = n->record->clause_count;
+    const tn_house_clause_record *clauses = n->form.module->HOUSE_CLAUSE_records + n->record->clause_first;
+    tn_house_clause_record *others = malloc(((size_t)count + 1) * sizeof *others);
+    tn_module module = *n->form.module; /* but for the clauses it is the same */
+    tn_house_library_record some = *n->record;
+    tn_status status = others ? TN_OK : tn_fail_memory(error);
+    module.HOUSE_CLAUSE_records = others;
+    module.HOUSE_CLAUSE_count = count;
+    some.clause_first = 0;
+    some.clause_count = count - (count > 0);
+    for (uint32_t i = 0; status == TN_OK && i < count; i++) {
+        for (uint32_t k = 0; k < count; k++)
+            if (k != i)
+                others[k - (k > i)] = clauses[k];
+        status = count_by(n, &module, &some, plan, tally->alone[i], error);
+        mpz_sub(tally->alone[i], tally->alone[i], tally->houses);
+    }
+    free(others);
+    return status;
+}
+
+static tn_status tally_clauses(const tn_numbered *n, const tn_plan *plan, house_tally *tally, tn_error *error)
+{
+    tally->kept_out = tn_integers_new(n->record->clause_count);
+    tally->alone = tn_integers_new(n->record->clause_count);
+    tn_status status =
+        tally->kept_out && tally->alone ? tally_kept_out(n, plan, tally, error) : tn_fail_memory(error);
+    return status == TN_OK ? tally_alone(n, plan, tally, error) : status;
+}
+
 /* ---- writing */
 
-enum { LABEL_WIDTH = 24 };
+enum { LABEL_WIDTH = 24, COUNT_WIDTH = 24 };
 
 static void write_lengths(const house_tally *tally, bool json, FILE *out)
 {
@@ -240,15 +321,19 @@ static void write_sections(const tn_numbered *n, const house_tally *tally, bool 
 static void write_clauses(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
 {
     const tn_module *module = n->form.module;
-    fputs(json ? ",\"kept_out\":{" : "keeps out\n", out);
-    for (uint32_t i = 0; i < n->record->clause_count; i++) {
-        const tn_house_clause_record *clause = &module->HOUSE_CLAUSE_records[n->record->clause_first + i];
-        if (json)
-            write_json_count(tn_text(module, clause->name), i == 0, tally->kept_out[i], out);
-        else
-            gmp_fprintf(out, "  %-*s %Zd\n", LABEL_WIDTH - 3, tn_text(module, clause->name), tally->kept_out[i]);
+    const tn_house_clause_record *clauses = module->HOUSE_CLAUSE_records + n->record->clause_first;
+    if (!json)
+        fprintf(out, "%-*s%-*s%s\n", LABEL_WIDTH, "clause", COUNT_WIDTH, "keeps out", "only by it");
+    for (uint32_t i = 0; !json && i < n->record->clause_count; i++)
+        gmp_fprintf(out, "  %-*s %-*Zd%Zd\n", LABEL_WIDTH - 3, tn_text(module, clauses[i].name), COUNT_WIDTH,
+                    tally->kept_out[i], tally->alone[i]);
+    for (int alone = 0; json && alone < 2; alone++) {
+        fputs(alone ? ",\"only\":{" : ",\"kept_out\":{", out);
+        for (uint32_t i = 0; i < n->record->clause_count; i++)
+            write_json_count(tn_text(module, clauses[i].name), i == 0, (alone ? tally->alone : tally->kept_out)[i],
+                             out);
+        fputs("}", out);
     }
-    fputs(json ? "}" : "", out);
 }
 
 static void write_json(const tn_numbered *n, const house_tally *tally, FILE *out)
@@ -293,9 +378,8 @@ static tn_status count_houses(tn_numbered *n, const char *text, bool clauses, si
 {
     tn_plan plan = {0};
     tn_status status = text ? tn_numbered_plan(n, text, max_length, &plan, error) : TN_OK;
-    tally->each = text != NULL;
     if (status == TN_OK)
-        status = text ? tally_plan(n, plan.trays, (uint32_t)plan.length, tally, error) : tally_all(n, tally, error);
+        status = tally_all(n, text ? &plan : NULL, tally, error);
     if (status == TN_OK && clauses)
         status = tally_clauses(n, text ? &plan : NULL, tally, error);
     free(plan.trays);
@@ -309,6 +393,11 @@ void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const t
     tn_error error = {0};
     tn_output out;
     if (!tn_numbered_open(&n, job, settings)) {
+        tn_numbered_close(&n);
+        return;
+    }
+    if (counting->by) {
+        tn_numbered_count_by(&n, settings, counting);
         tn_numbered_close(&n);
         return;
     }

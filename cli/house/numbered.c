@@ -304,8 +304,6 @@ static tn_status find_house(tn_numbered *n, const mpz_t rank, tn_house *house, t
 /* The house that `rank` others come before. */
 static tn_status house_of_rank(tn_numbered *n, const mpz_t rank, tn_house *house, tn_error *error)
 {
-    if (tn_numbered_few(n))
-        return search_plans(n, rank, house, error);
     tn_status status = tn_numbered_all(n, error);
     if (status == TN_OK)
         return find_house(n, rank, house, error);

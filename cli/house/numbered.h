@@ -18,6 +18,9 @@ typedef struct tn_house_settings {
 typedef struct tn_house_counting {
     const char *plan;
     bool clauses; /* and what each clause keeps out */
+    const char *by; /* a measure that they are counted by, or NULL */
+    const char *step;          /* of bins, with `by` */
+    tn_option_number bins;
     bool json;
     const char *output;
 } tn_house_counting;

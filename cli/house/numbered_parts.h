@@ -47,6 +47,9 @@ tn_status tn_numbered_plans_until(tn_numbered *n, tn_plan_visit *visit, void *co
 /* The house of #P:V or #R. Clear *house in any case. */
 tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house, tn_error *error);
 
+/* Counts the houses by a measure, and shows that. */
+void tn_numbered_count_by(tn_numbered *n, const tn_house_settings *settings, const tn_house_counting *counting);
+
 /* Records an error about a text of the command line. */
 void tn_numbered_bad_text(tn_job *job, tn_error *error, const char *name, const char *text);
 

@@ -107,7 +107,7 @@ static tn_status sample_together(tn_numbered *n, size_t wanted, uint64_t seed, t
 tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, tn_sampled_house *use,
                              void *context, tn_error *error)
 {
-    if (!plan && !tn_numbered_few(n)) {
+    if (!plan) {
         tn_status together = tn_numbered_all(n, error);
         if (together == TN_OK)
             return sample_together(n, wanted, seed, use, context, error);

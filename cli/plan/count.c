@@ -390,8 +390,15 @@ static int count_once(const tn_settings *common, tn_files_read *read)
         tn_job_count_kit(&job, &kit, settings->output);
     } else if (open && counts_houses(&job, settings)) {
         const tn_house_settings houses = tn_job_houses(&settings->plans);
-        const tn_house_counting counting = {settings->plan, settings->clauses, settings->count.json, settings->output};
-        tn_job_count_houses(&job, &houses, &counting);
+        const tn_house_counting counting = {.plan = settings->plan,
+                                            .clauses = settings->clauses,
+                                            .by = settings->by,
+                                            .step = settings->step,
+                                            .bins = settings->bins,
+                                            .json = settings->count.json,
+                                            .output = settings->output};
+        if (settings->by || may_draw(&job, settings))
+            tn_job_count_houses(&job, &houses, &counting);
     } else if (open && tn_job_opened_library(&job, &settings->plans, &ready)) {
         answer(&job, &ready, settings);
     }
@@ -430,7 +437,7 @@ const tn_command tn_command_count = {
     .summary = "count the plans of a library, exactly",
     .usage = "FILE [--library NAME] [--json] [--mirror] [--no-effects]\nFILE --by MEASURE [--step S | --bins N] "
              "[--json | -o HISTOGRAM.svg]\n"
-             "FILE --library HOUSES [--plan PLAN] [--clauses] [--json]\n"
+             "FILE --library HOUSES [--plan PLAN] [--clauses | --by MEASURE] [--json]\n"
              "FILE.kit --parts N [--part NAME]... [--fixed | --inside MODEL] [--json]",
     .description =
         "Counts the plans that the library generates, prunes and keeps, for each number of trays and in all. For "
@@ -446,7 +453,8 @@ const tn_command tn_command_count = {
         "For a library of houses (docs/houses.md) it counts the plans, the houses, and what they are without their "
         "tiles; the houses by length, and by each value of each choice of the section. For one plan (--plan) and for "
         "up to 1,000 plans it also counts the plans that have a house, and the choices of section and functions. "
-        "--clauses counts how many of the houses that the form allows each clause keeps out.\n\n"
+        "--clauses counts how many of the houses that the form allows each clause keeps out, and how many only it "
+        "keeps out. --by counts the houses by a measure of houses or of plans.\n\n"
         "For a kit (docs/kit-language.md) it counts buildings: sets of N parts that hang together by their connectors. "
         "Two that differ by where they stand, or by a turn about the vertical, are one; --fixed tells turns apart. "
         "--inside counts those in the space of a model of the kit, each where it stands.",

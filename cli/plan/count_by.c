@@ -54,6 +54,11 @@ static void set_plans(json_t *object, const char *key, const mpz_t plans)
     free(text);
 }
 
+static const char *things(const tn_spread *p)
+{
+    return strcmp(p->of, "plan") == 0 ? "plans" : "houses";
+}
+
 static json_t *rows_json(const tn_spread *p)
 {
     json_t *list = json_array();
@@ -64,7 +69,7 @@ static json_t *rows_json(const tn_spread *p)
         set_exact(item, p->bins.binned ? "from" : "value", r.from);
         if (p->bins.binned)
             set_exact(item, "to", r.to);
-        set_plans(item, "plans", r.plans);
+        set_plans(item, things(p), r.plans);
         json_array_append_new(list, item);
     }
     tn_bin_row_clear(&r);
@@ -109,10 +114,10 @@ static void set_statistics(const tn_spread *p, json_t *root)
 static void write_json(const tn_spread *p, FILE *out)
 {
     json_t *root = json_object();
-    json_object_set_new(root, "measure", json_string(tn_text(p->ready->schema->module, p->measure->name)));
+    json_object_set_new(root, "measure", json_string(p->name));
     json_object_set_new(root, "dimension", json_integer(p->bins.unit.power));
     json_object_set_new(root, "unit", json_string(tn_amount_unit_name(p->bins.unit)));
-    set_plans(root, "plans", p->d.all);
+    set_plans(root, things(p), p->d.all);
     json_object_set_new(root, "distribution", rows_json(p));
     set_statistics(p, root);
     json_dumpf(root, out, JSON_INDENT(2));
@@ -149,7 +154,7 @@ static void write_rows(const tn_spread *p, FILE *out)
                 unit);
     }
     free(heading.data);
-    fprintf(out, "%24s  %24s  %7s  %7s\n", p->bins.binned ? "from, to below" : "value", "plans", "share", "so far");
+    fprintf(out, "%24s  %24s  %7s  %7s\n", p->bins.binned ? "from, to below" : "value", things(p), "share", "so far");
     while (tn_bin_row_next(&p->bins, &r)) {
         tn_buffer text = {0};
         put_bound(p, r.from, &text);
@@ -170,11 +175,10 @@ static void write_rows(const tn_spread *p, FILE *out)
 
 static void write_text(const tn_spread *p, FILE *out)
 {
-    const tn_module *module = p->ready->schema->module;
-    const char *doc = tn_text(module, p->measure->doc), *unit = tn_amount_unit_name(p->bins.unit);
+    const char *doc = p->doc, *unit = tn_amount_unit_name(p->bins.unit);
     char *all = tn_digits(p->d.all, true);
-    fprintf(out, "%s%s%s%s%s%s of %s plans of %s\n\n", tn_text(module, p->measure->name), *doc ? " " : "", doc,
-            *unit ? " (" : "", unit, *unit ? ")" : "", all ? all : "", tn_text(module, p->ready->record->name));
+    fprintf(out, "%s%s%s%s%s%s of %s %s of %s\n\n", p->name, *doc ? " " : "", doc, *unit ? " (" : "", unit,
+            *unit ? ")" : "", all ? all : "", things(p), p->library);
     free(all);
     if (p->d.count == 0)
         return;
@@ -214,7 +218,13 @@ void tn_count_by(tn_job *job, const tn_ready_library *ready, const char *measure
     tn_progress_unwatch(&progress, tn_interrupt_waiting());
     if (status != TN_OK)
         tn_job_fail(job, &error);
-    else if (choose_bins(job, options, &spread.bins))
-        write_spread(job, &spread, options->json, path);
+    else
+        tn_show_spread(job, &spread, options, path);
     tn_spread_clear(&spread);
+}
+
+void tn_show_spread(tn_job *job, tn_spread *spread, const tn_count_by_options *options, const char *path)
+{
+    if (choose_bins(job, options, &spread->bins))
+        write_spread(job, spread, options->json, path);
 }

@@ -55,16 +55,31 @@ static bool put_facts(tn_spread *s)
     return ok && put_moments(s);
 }
 
+void tn_spread_begin(tn_spread *s, const tn_schema *schema, uint32_t power)
+{
+    *s = (tn_spread){0};
+    tn_distribution_init(&s->d);
+    tn_bins_init(&s->bins, &s->d, tn_amount_unit_of(schema, power));
+}
+
+tn_status tn_spread_finish(tn_spread *s, tn_error *error)
+{
+    return put_facts(s) ? TN_OK : tn_fail_memory(error);
+}
+
 tn_status tn_spread_make(tn_spread *s, const tn_ready_library *ready, uint32_t measure, tn_error *error)
 {
     const tn_module *module = ready->schema->module;
-    *s = (tn_spread){.ready = ready, .measure = &module->MEASURE_records[measure]};
-    tn_distribution_init(&s->d);
-    tn_bins_init(&s->bins, &s->d, tn_amount_unit_of(ready->schema, module->SUM_records[s->measure->sum].power));
+    const tn_measure_record *record = &module->MEASURE_records[measure];
+    tn_spread_begin(s, ready->schema, module->SUM_records[record->sum].power);
+    s->library = tn_text(module, ready->record->name);
+    s->name = tn_text(module, record->name);
+    s->doc = tn_text(module, record->doc);
+    s->of = "plan";
     tn_status status = tn_weighed_new(ready->library, &measure, 1, &s->weighed, error);
     if (status == TN_OK)
         status = tn_distribution_make(&s->d, s->weighed, error);
-    return status == TN_OK && !put_facts(s) ? tn_fail_memory(error) : status;
+    return status == TN_OK ? tn_spread_finish(s, error) : status;
 }
 
 void tn_spread_clear(tn_spread *s)
@@ -74,16 +89,6 @@ void tn_spread_clear(tn_spread *s)
     tn_bins_clear(&s->bins);
     tn_distribution_clear(&s->d);
     tn_weighed_free(s->weighed);
-}
-
-const char *tn_spread_name(const tn_spread *s)
-{
-    return tn_text(s->ready->schema->module, s->measure->name);
-}
-
-const char *tn_spread_doc(const tn_spread *s)
-{
-    return tn_text(s->ready->schema->module, s->measure->doc);
 }
 
 /* ---- the picture */
@@ -130,8 +135,8 @@ static bool write_about(const tn_spread *s, tn_buffer *text)
 {
     char *all = tn_digits(s->d.all, true);
     const char *unit = tn_amount_unit_name(s->bins.unit);
-    bool ok = all && tn_buffer_printf(text, "%s plan%s of %s, %zu value%s", all, mpz_cmp_ui(s->d.all, 1) ? "s" : "",
-                                      tn_text(s->ready->schema->module, s->ready->record->name), s->d.count,
+    bool ok = all && tn_buffer_printf(text, "%s %s%s of %s, %zu value%s", all, s->of, mpz_cmp_ui(s->d.all, 1) ? "s" : "",
+                                      s->library, s->d.count,
                                       s->d.count == 1 ? "" : "s");
     if (ok && s->bins.binned)
         ok = tn_buffer_printf(text, ", in bins of ") &&
@@ -158,7 +163,7 @@ tn_status tn_spread_draw(const tn_spread *s, tn_picture *to, tn_error *error)
 {
     tn_chart_bar *bars = NULL;
     tn_buffer about = {0};
-    tn_histogram h = {.title = tn_spread_name(s), .doc = tn_spread_doc(s), .unit = tn_amount_unit_name(s->bins.unit)};
+    tn_histogram h = {.title = s->name, .doc = s->doc, .unit = tn_amount_unit_name(s->bins.unit)};
     bool ok = (s->d.count == 0 || find_bars(s, &bars, &h.count)) && write_about(s, &about);
     tn_status status = ok ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK) {

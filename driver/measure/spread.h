@@ -11,9 +11,9 @@
 #define TN_SPREAD_FACTS 7u
 
 typedef struct tn_spread {
-    const tn_ready_library *ready;
-    const tn_measure_record *measure;
-    tn_weighed *weighed;
+    const char *library, *name, *doc; /* of the measure the last two */
+    const char *of;                   /* what is counted: "plan" or "house" */
+    tn_weighed *weighed;              /* NULL: of houses */
     tn_distribution d;
     tn_bins bins;                       /* values one by one, until told otherwise */
     const char *names[TN_SPREAD_FACTS]; /* "least" */
@@ -24,8 +24,9 @@ typedef struct tn_spread {
 tn_status tn_spread_make(tn_spread *spread, const tn_ready_library *ready, uint32_t measure, tn_error *error);
 void tn_spread_clear(tn_spread *spread);
 
-const char *tn_spread_name(const tn_spread *spread);
-const char *tn_spread_doc(const tn_spread *spread);
+/* A spread whose distribution is empty, and then filled; units are those of the schema. Clear in any case. */
+void tn_spread_begin(tn_spread *spread, const tn_schema *schema, uint32_t power);
+tn_status tn_spread_finish(tn_spread *spread, tn_error *error); /* says it in words */
 
 /* The histogram, of the rows that the bins are set to. */
 tn_status tn_spread_draw(const tn_spread *spread, tn_picture *to, tn_error *error);

@@ -178,6 +178,27 @@ tn_status tn_measure_choose(tn_opened *opened, const char *name, uint32_t schema
     return status;
 }
 
+tn_status tn_house_measure_choose(tn_opened *opened, const char *name, uint32_t form, uint32_t *index)
+{
+    const tn_module *module = opened->module;
+    names all;
+    tn_status status;
+    if (names_new((size_t)module->HOUSE_MEASURE_count + module->MEASURE_count, &all)) {
+        for (uint32_t i = 0; i < module->HOUSE_MEASURE_count; i++)
+            if (module->HOUSE_MEASURE_records[i].form == form)
+                names_add(&all, tn_text(module, module->HOUSE_MEASURE_records[i].name), i);
+        for (uint32_t i = 0; i < module->MEASURE_count; i++)
+            if (module->MEASURE_records[i].schema == module->FORM_records[form].schema)
+                names_add(&all, tn_text(module, module->MEASURE_records[i].name),
+                          (uint32_t)module->HOUSE_MEASURE_count + i);
+        status = pick(opened, &all, "measure", name, index);
+    } else {
+        status = no_memory(opened);
+    }
+    names_free(&all);
+    return status;
+}
+
 tn_status tn_library_ready(tn_opened *opened, const char *name, const tn_library_options *options,
                            tn_ready_library *ready)
 {

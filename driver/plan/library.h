@@ -18,6 +18,9 @@ tn_status tn_rule_choose(tn_opened *opened, const char *name, uint32_t *index);
 /* The MEASURE record named so, of the schema; or TN_INVALID (E0905). */
 tn_status tn_measure_choose(tn_opened *opened, const char *name, uint32_t schema, uint32_t *index);
 
+/* A measure that the houses of a form have, by its name: as tn_house_measured_of numbers them. */
+tn_status tn_house_measure_choose(tn_opened *opened, const char *name, uint32_t form, uint32_t *index);
+
 /* A library made ready. Close it before the file it is from. */
 typedef struct tn_ready_library {
     uint32_t index; /* of the LIBRARY record */

@@ -234,6 +234,7 @@ tn_status tn_flight_stand(const tn_house *house, const tn_face *face, tn_flight 
 tn_status tn_house_rooms(const tn_house *house, uint32_t **rooms, tn_error *error);
 
 /* The area of the glazed openings to the outside of a room (its lowest cell), in square nanometres. */
+tn_int128 tn_face_glazing(const tn_house *house, const tn_face *face); /* of one face */
 tn_int128 tn_room_glazing(const tn_house *house, const uint32_t *rooms, uint32_t room);
 
 #endif

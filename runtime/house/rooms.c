@@ -44,14 +44,18 @@ tn_status tn_house_rooms(const tn_house *house, uint32_t **rooms, tn_error *erro
     return TN_OK;
 }
 
+tn_int128 tn_face_glazing(const tn_house *house, const tn_face *face)
+{
+    const tn_opening_record *opening = tn_form_opening(house->form, face->kind);
+    bool glazed = face->relation == TN_FACE_OUTSIDE && opening && opening->flags & TN_GLAZED;
+    return glazed ? (tn_int128)opening->wide * opening->high : 0;
+}
+
 tn_int128 tn_room_glazing(const tn_house *house, const uint32_t *rooms, uint32_t room)
 {
     tn_int128 glazed = 0;
-    for (size_t i = 0; i < house->face_count; i++) {
-        const tn_face *face = &house->faces[i];
-        const tn_opening_record *opening = tn_form_opening(house->form, face->kind);
-        if (face->relation == TN_FACE_OUTSIDE && opening && opening->flags & TN_GLAZED && rooms[face->first] == room)
-            glazed += (tn_int128)opening->wide * opening->high;
-    }
+    for (size_t i = 0; i < house->face_count; i++)
+        if (rooms[house->faces[i].first] == room)
+            glazed += tn_face_glazing(house, &house->faces[i]);
     return glazed;
 }

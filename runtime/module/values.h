@@ -221,6 +221,15 @@ typedef enum tn_material_part {
     TN_OF_COUNT
 } tn_material_part;
 
+/* What a term of a measure of houses adds up: cells, their areas, rooms, the cost. */
+typedef enum tn_house_term_kind {
+    TN_HOUSE_CELLS,
+    TN_HOUSE_AREAS,
+    TN_HOUSE_ROOMS,
+    TN_HOUSE_COST,
+    TN_HOUSE_TERM_COUNT
+} tn_house_term_kind;
+
 /* What a price is for: each part, or so much of its face or of its volume. */
 typedef enum tn_price_unit {
     TN_PER_EACH,

@@ -176,3 +176,9 @@ exits 0 "$TARTAN" report cottage -o "$scratch/report"
 [ -s "$scratch/report/index.html" ] || fail 'no report of plans that houses are built on'
 
 finish
+golden count_by "tartan count house-measures.plan --library cottages --by rooms-value"
+golden count_by_plan "tartan count house-measures.plan --library cottages --by doubled --plan '#3' --json"
+golden count_by_of_plans "tartan count house-measures.plan --library cottages --by bedrooms --step 5"
+golden count_by_cost "tartan count house-measures.plan --library cottages --by price"
+golden count_by_unknown "tartan count house-measures.plan --library cottages --by bedroom"
+golden count_long_plan "tartan count row-houses --library row-houses --plan '#1' && tartan sample row-houses 1 --library row-houses --seed 5"

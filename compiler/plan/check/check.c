@@ -86,11 +86,6 @@ static void check_meaning(tn_check *check, tn_checked_rule *rule)
     tn_check_meaning(check, body);
     if (rule->is_measure)
         tn_check_plan_measure(check, rule);
-    if (rule->is_measure && rule->form) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_HOUSE_CLAUSE, body->node.span,
-                                     "a measure is about plans, and this asks for cells of houses");
-        tn_help(check->diagnostics, d, "write a rule with a condition, such as `quantity(cell(...), n > 1)`");
-    }
     rule->about_plan = tn_check_whole(check, body) && !rule->is_measure;
     tn_check_warnings(check, body);
     note_call(check, rule, errors);

@@ -93,6 +93,10 @@ typedef enum tn_term_kind {
     TN_TERM_SINGLES = TN_SUM_SINGLES, /* trays that the part fits, each with what its figure says (1 without one) */
     TN_TERM_STARTS = TN_SUM_STARTS,   /* places where the part starts */
     TN_TERM_MATCHES = TN_SUM_MATCHES, /* 1 where the plan as a whole is matched */
+    TN_TERM_CELLS,                    /* what is added up over a house: the part asks for it */
+    TN_TERM_AREAS,
+    TN_TERM_ROOMS,
+    TN_TERM_COST,
 } tn_term_kind;
 
 typedef struct tn_checked_term {
@@ -111,6 +115,7 @@ typedef struct tn_checked_sum {
     int power;
     bool any;   /* 0: of any dimension */
     bool whole; /* has `matches` */
+    bool houses; /* has terms about houses */
     tn_span span;
     uint32_t index; /* emitted: of its SUM record */
 } tn_checked_sum;
@@ -370,6 +375,12 @@ void tn_check_warnings(tn_check *check, const tn_ast_expr *expr);
 void tn_check_ask(tn_check *check, tn_ast_expr *expr);
 bool tn_sums_areas(const tn_ast_expr *sum); /* is it `sum(area of cell(...), ...)`? */
 void tn_check_areas(tn_check *check, tn_ast_expr *sum);
+
+/* What a measure of houses adds up: the CELL or ROOM that a quantity counts, through a name; else NULL. */
+tn_ast_expr *tn_counts_house(const tn_ast_expr *quantity);
+bool tn_sums_cost(const tn_check *check, const tn_ast_expr *sum); /* is it `sum(cost)`? */
+void tn_check_cost(tn_check *check, tn_ast_expr *sum);
+void tn_check_house_measure(tn_check *check, const tn_checked_rule *measure); /* what else it counts is of plans */
 /* A rule that is named: is it about houses of the same form as what names it? */
 void tn_check_same_form(tn_check *check, const tn_ast_expr *name);
 /* The form called so, where it is in scope; NULL: there is none. */

@@ -174,10 +174,65 @@ bool tn_sums_areas(const tn_ast_expr *sum)
 void tn_check_areas(tn_check *check, tn_ast_expr *sum)
 {
     tn_checked_ask *ask = new_ask(check, sum);
-    sum->condition_checked = tn_check_condition(check, sum->condition, TN_AREAS);
+    if (sum->condition)
+        sum->condition_checked = tn_check_condition(check, sum->condition, TN_AREAS);
     if (ask)
         tn_form_cell(check, ask->form, (const tn_ast_expr *)sum->parts.first, true, &ask->first);
     sum->ask = ask;
+}
+
+/* ---- what measures of houses add up */
+
+tn_ast_expr *tn_counts_house(const tn_ast_expr *quantity)
+{
+    tn_ast_expr *part = (tn_ast_expr *)quantity->parts.first;
+    if (part->kind == TN_EXPR_NAME)
+        part = part->rule && !part->rule->is_measure ? part->rule->meaning : NULL;
+    return part && (part->kind == TN_EXPR_CELL || part->kind == TN_EXPR_ROOM) ? part : NULL;
+}
+
+/* A field or a number of that name goes first. */
+bool tn_sums_cost(const tn_check *check, const tn_ast_expr *sum)
+{
+    if (sum->parts.first || !sum->name || sum->detail || !tn_word_is(sum->name, "cost") || !check->schema ||
+        tn_field_find(check->schema, "cost") != TN_NONE)
+        return false;
+    for (uint32_t n = 0; n < check->schema->number_count; n++)
+        if (strcmp(check->schema->numbers[n].name, "cost") == 0)
+            return false;
+    return true;
+}
+
+void tn_check_cost(tn_check *check, tn_ast_expr *sum)
+{
+    sum->ask = new_ask(check, sum);
+}
+
+/* Does it ask for cells, rooms, sections or walks, itself or by a rule that it names? */
+static bool asks_house(const tn_ast_expr *expr)
+{
+    bool asks = expr->ask || (expr->kind == TN_EXPR_NAME && expr->rule && expr->rule->form);
+    for (TN_EACH(const tn_ast_expr, part, expr->parts))
+        asks |= asks_house(part);
+    for (TN_EACH(const tn_ast_expr, test, expr->tests))
+        asks |= asks_house(test);
+    return asks;
+}
+
+void tn_check_house_measure(tn_check *check, const tn_checked_rule *measure)
+{
+    for (size_t i = 0; i < measure->sum->count; i++) {
+        const tn_checked_term *term = &measure->sum->terms[i];
+        bool plan = term->kind < TN_TERM_CELLS;
+        const tn_ast_expr *part = term->part ? term->part : measure->ast->body;
+        if (!plan || !(term->rule ? term->rule->form != NULL : asks_house(term->part)))
+            continue;
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_HOUSE_CLAUSE, part->node.span,
+                      "a measure counts trays and places of plans, and cells and rooms of houses, not both at once");
+        tn_help(check->diagnostics, d,
+                "of houses write `quantity(cell(...))`, `quantity(room(...))`, `sum(area of cell(...))` or `sum(cost)`");
+    }
 }
 
 /* ---- records */
@@ -189,6 +244,12 @@ void tn_check_number_records(tn_check *check)
     for (size_t i = 0; i < result->rule_count; i++) {
         tn_checked_rule *rule = result->rules[i];
         if (!rule->is_measure && !rule->hidden)
+            rule->index = rule->form ? of_houses++ : of_plans++;
+    }
+    of_plans = of_houses = 0;
+    for (size_t i = 0; i < result->rule_count; i++) {
+        tn_checked_rule *rule = result->rules[i];
+        if (rule->is_measure && (!rule->hidden || rule->listed))
             rule->index = rule->form ? of_houses++ : of_plans++;
     }
     of_plans = of_houses = 0;

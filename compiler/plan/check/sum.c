@@ -44,17 +44,17 @@ static void report_rule(tn_check *check, const tn_ast_expr *expr)
             "`quantity(...)` counts trays, `occurrences(...)` places, and `matches(...)` is 1 or 0");
 }
 
-/* Cells and rooms are counted with a condition alone; without one trays would be. */
-static void refuse_cells(tn_check *check, const tn_ast_expr *quantity)
+static void check_sum_expr(tn_check *check, tn_ast_expr *sum)
 {
-    const tn_ast_expr *part = (const tn_ast_expr *)quantity->parts.first;
-    if (part->kind == TN_EXPR_NAME && part->rule && !part->rule->is_measure)
-        part = part->rule->ast->body;
-    if (part->kind != TN_EXPR_CELL && part->kind != TN_EXPR_ROOM)
+    bool areas = tn_sums_areas(sum), cost = tn_sums_cost(check, sum);
+    if (areas || cost) {
+        (cost ? tn_check_cost : tn_check_areas)(check, sum);
         return;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_HOUSE_CLAUSE, quantity->node.span,
-                                 "cells and rooms are counted with a condition");
-    tn_help(check->diagnostics, d, "write `quantity(%s(...), n > 1)`", part->kind == TN_EXPR_CELL ? "cell" : "room");
+    }
+    if (sum->parts.first)
+        tn_check_expr(check, (tn_ast_expr *)sum->parts.first);
+    if (check->schema)
+        sum->figure_good = tn_check_figure(check, check->schema, sum->figure, &sum->figure_amount);
 }
 
 void tn_check_sum_expr(tn_check *check, tn_ast_expr *expr)
@@ -71,14 +71,9 @@ void tn_check_sum_expr(tn_check *check, tn_ast_expr *expr)
     case TN_EXPR_OCCURRENCES:
     case TN_EXPR_MATCHES:
         tn_check_expr(check, (tn_ast_expr *)expr->parts.first);
-        if (expr->kind == TN_EXPR_QUANTITY)
-            refuse_cells(check, expr);
         break;
     case TN_EXPR_SUM:
-        if (expr->parts.first)
-            tn_check_expr(check, (tn_ast_expr *)expr->parts.first);
-        if (check->schema)
-            expr->figure_good = tn_check_figure(check, check->schema, expr->figure, &expr->figure_amount);
+        check_sum_expr(check, expr);
         break;
     case TN_EXPR_PLUS:
     case TN_EXPR_MINUS:
@@ -138,6 +133,33 @@ static bool one_term(tn_check *check, tn_term_kind kind, tn_ast_expr *expr, int 
         term.part = NULL; /* the rule says all */
     *out = (sum){.constant = {.value = "0", .power = power}};
     return add_term(check, out, term);
+}
+
+/* What is added up over a house. `of` asks for it. */
+static bool house_term(tn_check *check, tn_term_kind kind, tn_ast_expr *of, int power, sum *out)
+{
+    *out = (sum){.constant = {.value = "0", .power = power}};
+    return of->ask && add_term(check, out, (tn_checked_term){.kind = kind, .factor = "1", .part = of});
+}
+
+static bool eval_quantity(tn_check *check, tn_ast_expr *quantity, sum *out)
+{
+    tn_ast_expr *of = tn_counts_house(quantity);
+    if (quantity->condition)
+        return false;
+    return of ? house_term(check, of->kind == TN_EXPR_CELL ? TN_TERM_CELLS : TN_TERM_ROOMS, of, 0, out)
+              : one_term(check, TN_TERM_SINGLES, quantity, 0, out);
+}
+
+static bool eval_sum(tn_check *check, tn_ast_expr *expr, sum *out)
+{
+    if (expr->condition)
+        return false;
+    if (tn_sums_areas(expr))
+        return house_term(check, TN_TERM_AREAS, expr, 2, out);
+    if (tn_sums_cost(check, expr))
+        return house_term(check, TN_TERM_COST, expr, 0, out);
+    return expr->figure_good && one_term(check, TN_TERM_SINGLES, expr, expr->figure_amount.power, out);
 }
 
 static bool scale(tn_check *check, sum *s, tn_expr_kind kind, tn_sum_amount by)
@@ -252,14 +274,13 @@ static bool eval(tn_check *check, tn_ast_expr *expr, sum *out)
     case TN_EXPR_TRAYS:
         return one_term(check, TN_TERM_SINGLES, expr, 0, out);
     case TN_EXPR_QUANTITY:
-        return !expr->condition && one_term(check, TN_TERM_SINGLES, expr, 0, out);
+        return eval_quantity(check, expr, out);
     case TN_EXPR_OCCURRENCES:
         return !expr->condition && one_term(check, TN_TERM_STARTS, expr, 0, out);
     case TN_EXPR_MATCHES:
         return one_term(check, TN_TERM_MATCHES, expr, 0, out);
     case TN_EXPR_SUM:
-        return !expr->condition && expr->figure_good &&
-               one_term(check, TN_TERM_SINGLES, expr, expr->figure_amount.power, out);
+        return eval_sum(check, expr, out);
     case TN_EXPR_NAME:
         return expr->rule && expr->rule->is_measure && eval_measure(check, expr->rule, out);
     case TN_EXPR_NEGATIVE:
@@ -289,8 +310,10 @@ static tn_checked_sum *finish(tn_check *check, const sum *s, tn_span span)
                              .any = s->constant.any,
                              .span = span,
                              .index = TN_NONE};
-    for (size_t i = 0; i < s->count; i++)
+    for (size_t i = 0; i < s->count; i++) {
         made->whole |= s->terms[i].kind == TN_TERM_MATCHES;
+        made->houses |= s->terms[i].kind >= TN_TERM_CELLS;
+    }
     return made;
 }
 
@@ -327,6 +350,22 @@ static bool few_matches(tn_check *check, const tn_ast_expr *expr, const sum *sid
     return false;
 }
 
+/* A measure of houses is counted by and optimised, not compared. */
+static bool of_plans(tn_check *check, const tn_ast_expr *expr, const sum *sides, size_t count)
+{
+    bool houses = false;
+    for (size_t i = 0; i < count; i++)
+        for (size_t t = 0; t < sides[i].count; t++)
+            houses |= sides[i].terms[t].kind >= TN_TERM_CELLS;
+    if (!houses)
+        return true;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_HOUSE_CLAUSE, expr->node.span,
+                                 "measures of houses cannot be compared in a rule");
+    tn_help(check->diagnostics, d,
+            "write the condition itself, such as `quantity(cell(...), n > 1)` or `sum(area of cell(...), a > 90sf)`");
+    return false;
+}
+
 void tn_check_comparison(tn_check *check, tn_ast_expr *expr)
 {
     const tn_ast_expr *left = (const tn_ast_expr *)expr->parts.first, *middle = (const tn_ast_expr *)left->node.next,
@@ -338,7 +377,7 @@ void tn_check_comparison(tn_check *check, tn_ast_expr *expr)
         good &= eval(check, part, &sides[count++]);
     if (!good)
         return;
-    if (!few_matches(check, expr, sides, count))
+    if (!few_matches(check, expr, sides, count) || !of_plans(check, expr, sides, count))
         return;
     if (expr->kind == TN_EXPR_COMPARE) {
         expr->sum = difference(check, expr, left, right, &sides[0], &sides[1]);
@@ -353,6 +392,8 @@ void tn_check_comparison(tn_check *check, tn_ast_expr *expr)
 void tn_check_plan_measure(tn_check *check, tn_checked_rule *measure)
 {
     measure->sum = tn_check_sum(check, measure->ast->body);
+    if (measure->sum && measure->form)
+        tn_check_house_measure(check, measure);
     if (!measure->sum || (measure->sum->power >= 0 && measure->sum->power <= MEASURE_POWER_MAX))
         return;
     tn_diagnostic *d = tn_report(check->diagnostics, E_DIMENSIONS, measure->ast->body->node.span,

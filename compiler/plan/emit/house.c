@@ -77,6 +77,44 @@ void tn_emit_house_rule(tn_emit *emit, const tn_checked_rule *rule)
                                                       PLACE(rule->ast->top.node.span)});
 }
 
+void tn_emit_house_terms_need(tn_emit *emit, const tn_checked_sum *sum)
+{
+    for (size_t i = 0; i < sum->count; i++)
+        if (sum->terms[i].kind >= TN_TERM_CELLS && sum->terms[i].kind != TN_TERM_COST)
+            tn_emit_ask_needs(emit, sum->terms[i].part);
+}
+
+void tn_emit_house_measure(tn_emit *emit, const tn_checked_rule *measure)
+{
+    static const uint32_t kinds[] = {[TN_TERM_CELLS] = TN_HOUSE_CELLS,
+                                     [TN_TERM_AREAS] = TN_HOUSE_AREAS,
+                                     [TN_TERM_ROOMS] = TN_HOUSE_ROOMS,
+                                     [TN_TERM_COST] = TN_HOUSE_COST};
+    const tn_ast_word *doc = measure->ast->doc;
+    uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_HOUSE_TERM), count = 0;
+    for (size_t i = 0; i < measure->sum->count; i++) {
+        const tn_checked_term *term = &measure->sum->terms[i];
+        if (term->kind < TN_TERM_CELLS)
+            continue;
+        tn_builder_add_HOUSE_TERM(
+            emit->builder,
+            &(tn_house_term_record){.kind = kinds[term->kind],
+                                    .factor = tn_builder_string(emit->builder, term->factor),
+                                    .part = term->kind == TN_TERM_COST ? TN_NO_RECORD : term->part->ask->function - 1});
+        count++;
+    }
+    tn_builder_add_HOUSE_MEASURE(
+        emit->builder,
+        &(tn_house_measure_record){.name = tn_builder_string(emit->builder, measure->name),
+                                   .doc = tn_builder_string(emit->builder, doc ? doc->text : NULL),
+                                   .form = measure->form->index,
+                                   .sum = measure->sum->index,
+                                   .term_first = first,
+                                   .term_count = count,
+                                   .flags = measure->unit + 1 < emit->imports->count ? TN_IMPORTED : 0,
+                                   PLACE(measure->ast->top.node.span)});
+}
+
 void tn_emit_house_library(tn_emit *emit, const tn_checked_library *library)
 {
     uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_HOUSE_CLAUSE);

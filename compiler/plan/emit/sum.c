@@ -90,6 +90,8 @@ static uint32_t part_of(tn_emit *emit, const tn_checked_term *term, const char *
 void tn_emit_sum_needs(tn_emit *emit, tn_checked_sum *sum, const char *name)
 {
     for (size_t i = 0; sum && i < sum->count; i++) {
+        if (sum->terms[i].kind >= TN_TERM_CELLS)
+            continue;
         part_of(emit, &sum->terms[i], name);
         tally_of(emit, sum->terms[i].figure, name);
     }
@@ -101,7 +103,7 @@ static uint32_t emit_sum(tn_emit *emit, const tn_checked_sum *sum, const char *c
     uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_TERM), count = 0;
     for (size_t i = 0; i < sum->count; i++) {
         const tn_checked_term *term = &sum->terms[i];
-        if (term->kind == TN_TERM_MATCHES && !matches)
+        if (term->kind >= TN_TERM_CELLS || (term->kind == TN_TERM_MATCHES && !matches))
             continue;
         count++;
         tn_builder_add_TERM(emit->builder, &(tn_term_record){
@@ -168,6 +170,7 @@ void tn_emit_plan_measure(tn_emit *emit, tn_checked_rule *measure)
 {
     emit->schema = measure->schema->index;
     tn_emit_sum_needs(emit, measure->sum, measure->name);
+    tn_emit_house_terms_need(emit, measure->sum);
     measure->sum->index = emit_sum(emit, measure->sum, measure->sum->constant, true);
 }
 
@@ -178,6 +181,10 @@ void tn_emit_measures(tn_emit *emit)
         const tn_checked_rule *measure = checked->rules[i];
         if (!measure->is_measure || (measure->hidden && !measure->listed))
             continue;
+        if (measure->form) {
+            tn_emit_house_measure(emit, measure);
+            continue;
+        }
         tn_span span = measure->ast->top.node.span;
         const tn_ast_word *doc = measure->ast->doc;
         tn_builder_add_MEASURE(emit->builder, &(tn_measure_record){

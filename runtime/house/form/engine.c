@@ -4,6 +4,7 @@
 #include "runtime/house/form/form.h"
 #include "runtime/module/code.h"
 #include "runtime/module/engine.h"
+#include "runtime/number/rational.h"
 
 static const tn_function_record *function_of(const tn_checker *checker, uint32_t index)
 {
@@ -154,6 +155,48 @@ static tn_status check_libraries_of_houses(const tn_checker *checker)
                               module->HOUSE_LIBRARY_count, "two libraries of houses have the same name");
 }
 
+/* ---- measures of houses */
+
+static bool is_factor(const tn_module *module, tn_string text)
+{
+    mpq_t number;
+    mpq_init(number);
+    bool good = tn_rational_read(tn_text(module, text), number) && mpq_sgn(number) != 0;
+    mpq_clear(number);
+    return good;
+}
+
+static tn_status check_house_term(const tn_checker *checker, uint32_t schema, uint32_t index)
+{
+    const tn_house_term_record *term = &checker->module->HOUSE_TERM_records[index];
+    tn_function_kind kind = term->kind == TN_HOUSE_ROOMS ? TN_FUNCTION_ROOM : TN_FUNCTION_CELL;
+    if (!is_factor(checker->module, term->factor))
+        return tn_refuse(checker, "term %u of houses has no factor, or 0", index);
+    if ((term->kind == TN_HOUSE_COST) != (term->part == TN_NO_RECORD))
+        return tn_refuse(checker, "term %u of houses does not say what it adds up", index);
+    if (term->part != TN_NO_RECORD && !decides(checker, term->part, kind, schema))
+        return tn_refuse(checker, "term %u of houses names a function of another kind or schema", index);
+    return TN_OK;
+}
+
+static tn_status check_measures_of_houses(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    for (uint32_t i = 0; i < module->HOUSE_MEASURE_count; i++) {
+        const tn_house_measure_record *measure = &module->HOUSE_MEASURE_records[i];
+        uint32_t schema = module->FORM_records[measure->form].schema;
+        if (module->SUM_records[measure->sum].schema != schema)
+            return tn_refuse(checker, "measure %u of houses has a sum of another schema than its form's", i);
+        for (uint32_t t = 0; t < measure->term_count; t++) {
+            tn_status status = check_house_term(checker, schema, measure->term_first + t);
+            if (status != TN_OK)
+                return status;
+        }
+    }
+    return tn_check_different(checker, &module->HOUSE_MEASURE_records->name, sizeof *module->HOUSE_MEASURE_records,
+                              module->HOUSE_MEASURE_count, "two measures of houses have the same name");
+}
+
 static bool has_length(const tn_checker *checker, uint32_t schema)
 {
     const tn_schema_record *record = &checker->module->SCHEMA_records[schema];
@@ -201,6 +244,8 @@ static tn_status verify(const tn_checker *checker)
     tn_status status = check_rules_of_houses(checker);
     if (status == TN_OK)
         status = check_libraries_of_houses(checker);
+    if (status == TN_OK)
+        status = check_measures_of_houses(checker);
     return status == TN_OK ? tn_check_different(checker, &module->FORM_records->name, sizeof *module->FORM_records,
                                                 module->FORM_count, "two forms have the same name")
                            : status;
@@ -318,6 +363,9 @@ static tn_status verify_after(const tn_checker *checker)
     for (uint32_t i = 0; status == TN_OK && i < module->MEASURE_count; i++)
         if (sum_asks(module, &module->SUM_records[module->MEASURE_records[i].sum], asking))
             status = tn_refuse(checker, "measure %u is about plans and asks for houses", i);
+    for (uint32_t i = 0; status == TN_OK && i < module->HOUSE_MEASURE_count; i++)
+        if (sum_asks(module, &module->SUM_records[module->HOUSE_MEASURE_records[i].sum], asking))
+            status = tn_refuse(checker, "the plan's part of measure %u of houses asks for houses", i);
     free(asking);
     return status;
 }
@@ -326,7 +374,8 @@ static const tn_section sections[] = {
     TN_SECTION_FORM,         TN_SECTION_STOREY,     TN_SECTION_CHOICE,     TN_SECTION_SHAPE,
     TN_SECTION_CELL_RULE,    TN_SECTION_OPENING,    TN_SECTION_FACE_LINE,  TN_SECTION_TILE,
     TN_SECTION_TILE_BOX,     TN_SECTION_HOUSE_ITEM, TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
-    TN_SECTION_HOUSE_CLAUSE, TN_SECTION_MEETING,    TN_SECTION_MATERIAL,   TN_SECTION_STRINGS};
+    TN_SECTION_HOUSE_CLAUSE, TN_SECTION_MEETING,    TN_SECTION_MATERIAL,   TN_SECTION_HOUSE_MEASURE,
+    TN_SECTION_HOUSE_TERM,  TN_SECTION_STRINGS};
 
 static const tn_operand_rules operands[] = {{TN_OPERANDS_AREA, check_area, list_area},
                                             {TN_OPERANDS_RATIO, check_ratio, list_ratio},

@@ -6,6 +6,7 @@
 #define TARTAN_HOUSE_RULE_ASKED_H
 
 #include "runtime/house/house.h"
+#include "runtime/house/measure/measure.h"
 
 typedef struct tn_house_rules tn_house_rules;
 
@@ -24,6 +25,11 @@ bool tn_house_is_step(const tn_house *house, const tn_meeting_record *walk, cons
 
 /* H on the whole house, for a function of kind HOLDS. */
 tn_status tn_house_rules_hold(tn_house_rules *rules, uint32_t function, bool *holds, tn_error *error);
+
+/* The value of a measure on the house, in nanometres to its power, without what it adds up of costs. cost: what it has
+ * of these, in parts of the house's cost. Both are initialised. */
+tn_status tn_house_rules_measure(tn_house_rules *rules, tn_house_measured measure, mpq_t value, mpq_t cost,
+                                 tn_error *error);
 
 /* Does clause `clause` (of the library) keep the house out? */
 tn_status tn_house_rules_drop(tn_house_rules *rules, const tn_house_library_record *library, uint32_t clause,

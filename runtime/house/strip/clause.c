@@ -51,13 +51,10 @@ static uint32_t count_cells(const tn_house *house, uint32_t function)
 static uint32_t sum_areas(tn_strip *strip, const tn_house *house, uint32_t function)
 {
     tn_int128 area = 0;
-    uint32_t words[4];
     for (size_t i = 0; i < house->cell_count; i++)
         if (!house->cells[i].open && tn_house_decide(house, function, &house->cells[i]))
             area += tn_cell_area(&house->cells[i]);
-    for (size_t i = 0; i < 4; i++)
-        words[i] = (uint32_t)(area >> 32 * i);
-    return tn_intern(&strip->areas, words, 4);
+    return tn_strip_number_area(strip, area);
 }
 
 static bool meets_inside(const tn_strip *strip, const tn_house *house, uint32_t meeting)

@@ -104,12 +104,16 @@ static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
 static tn_status find_trays(const tn_houses *h, bool *trays, tn_error *error)
 {
     tn_numbering layer = {0}, next = {0};
+    tn_status status = TN_OK;
     bool ok = tn_number(&layer, 0) != UINT32_MAX;
     for (uint32_t k = 0; ok && k < h->high; k++) {
         for (uint32_t i = 0; ok && i < layer.count; i++)
             for (tn_tray t = 0; ok && t < h->form->schema->tray_count; t++) {
-                uint32_t plan = tn_library_next(h->plans, (uint32_t)layer.keys[i], t);
-                if (!tn_houses_plan_lives(h, k + 1, plan))
+                uint32_t plan;
+                int64_t gain;
+                status = tn_houses_plan_next(h, k, (uint32_t)layer.keys[i], t, &plan, &gain, error);
+                ok = status == TN_OK;
+                if (!ok || !tn_houses_plan_lives(h, k + 1, plan))
                     continue;
                 trays[t] = true;
                 ok = tn_number(&next, plan) != UINT32_MAX;
@@ -119,7 +123,7 @@ static tn_status find_trays(const tn_houses *h, bool *trays, tn_error *error)
         next = (tn_numbering){0};
     }
     tn_numbering_clear(&layer);
-    return ok ? TN_OK : tn_fail_memory(error);
+    return ok ? TN_OK : status != TN_OK ? status : tn_fail_memory(error);
 }
 
 static tn_houses_kind *kind_of(const tn_houses *h, const tn_house *section)
@@ -143,8 +147,10 @@ static tn_status add_kind(tn_houses *h, const tn_house *section, const bool *tra
     kind = &h->kinds[h->kind_count++];
     *kind = (tn_houses_kind){.key = tn_sections_key(&h->sections, section), .sections = 1};
     mpz_init(kind->faced);
-    tn_status status = tn_strip_new(h->form, h->library, section->shapes, trays, h->high, &kind->strip, error);
-    return status == TN_OK ? count_kind(h, kind, error) : status;
+    tn_status status = tn_strip_new(h->form, h->library, section->shapes, trays, h->high, h->weights, &kind->strip, error);
+    if (status != TN_OK)
+        return status;
+    return h->weights ? tn_houses_spread_kind(h, kind, error) : count_kind(h, kind, error);
 }
 
 static tn_status count_sections(tn_houses *h, const bool *trays, tn_error *error)
@@ -159,8 +165,22 @@ static tn_status count_sections(tn_houses *h, const bool *trays, tn_error *error
 
 /* ---- the whole */
 
+/* The plans of a measure are those of a library that knows what its trays add. */
+static tn_status weigh_plans(tn_houses *h, tn_error *error)
+{
+    const tn_house_measured *measure = &h->weights->of;
+    return tn_weighed_of_sums(h->plans, &measure->sum, &measure->name, 1, &h->weighed, error);
+}
+
 tn_status tn_houses_new(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
                         uint32_t max_states, tn_houses **out, tn_error *error)
+{
+    const tn_houses_what all = {0};
+    return tn_houses_of(form, library, plans, &all, max_states, out, error);
+}
+
+tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
+                       const tn_houses_what *what, uint32_t max_states, tn_houses **out, tn_error *error)
 {
     tn_houses *h = *out = calloc(1, sizeof *h);
     if (!h)
@@ -169,11 +189,15 @@ tn_status tn_houses_new(const tn_house_form *form, const tn_house_library_record
                      .library = library,
                      .plans = plans,
                      .max_states = max_states > 0 ? max_states : TN_HOUSES_STATES_DEFAULT,
-                     .low = tn_library_min(plans),
-                     .high = tn_library_max(plans)};
+                     .low = what->only ? what->length : tn_library_min(plans),
+                     .high = what->only ? what->length : tn_library_max(plans),
+                     .only = what->only,
+                     .weights = what->weights};
     h->high = h->high < h->low ? h->low : h->high;
     bool *trays = calloc((size_t)form->schema->tray_count + 1, sizeof *trays);
     tn_status status = trays ? tn_sections_begin(form, &h->sections, error) : tn_fail_memory(error);
+    if (status == TN_OK && h->weights)
+        status = weigh_plans(h, error);
     if (status == TN_OK)
         status = find_trays(h, trays, error);
     if (status == TN_OK)
@@ -197,11 +221,14 @@ void tn_houses_free(tn_houses *h)
             tn_numbering_clear(&kind->layers[k].nodes);
         }
         free(kind->layers);
-        tn_integers_free(kind->houses, tn_houses_lengths(h));
+        if (kind->houses)
+            tn_integers_free(kind->houses, tn_houses_lengths(h));
         mpz_clear(kind->faced);
+        tn_value_counts_clear(&kind->spread);
         tn_strip_free(kind->strip);
     }
     tn_sections_free(&h->sections);
+    tn_weighed_free(h->weighed);
     free(h->kinds);
     free(h);
 }

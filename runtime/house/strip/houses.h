@@ -14,7 +14,9 @@
 #include <gmp.h>
 
 #include "runtime/house/house.h"
+#include "runtime/house/measure/measure.h"
 #include "runtime/plan/library/library.h"
+#include "runtime/plan/measure/distribution.h"
 
 #define TN_HOUSES_STATES_DEFAULT 3000000u
 
@@ -23,7 +25,20 @@ typedef struct tn_houses tn_houses;
 /* max_states: of a section, with plans; 0 is the default. */
 tn_status tn_houses_new(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
                         uint32_t max_states, tn_houses **houses, tn_error *error);
+
+/* The houses on one plan of the library (only, of that length; NULL: on all), and the measure that they are counted by
+ * (NULL: none). Both are borrowed. With a measure only tn_houses_spread may be asked. */
+typedef struct tn_houses_what {
+    const tn_tray *only;
+    uint32_t length;
+    const tn_house_weights *weights;
+} tn_houses_what;
+tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
+                       const tn_houses_what *what, uint32_t max_states, tn_houses **houses, tn_error *error);
 void tn_houses_free(tn_houses *houses);
+
+/* How the houses are spread over the values of the measure; `distribution` is initialised. */
+tn_status tn_houses_spread(const tn_houses *houses, tn_distribution *distribution, tn_error *error);
 
 /* How many there are on plans of a length, or (TN_ALL_LENGTHS) in all; faced: without tiles, of those with any. */
 void tn_houses_count(const tn_houses *houses, uint32_t length, mpz_t count);

@@ -170,13 +170,14 @@ typedef struct tn_summing_up {
     mpz_t one;
 } tn_summing_up;
 
-static tn_status sum_up(void *context, uint32_t state, uint64_t times, uint64_t faced, tn_error *error)
+static tn_status sum_up(void *context, uint32_t state, uint64_t times, uint64_t faced, int64_t gain, tn_error *error)
 {
     tn_summing_up *s = context;
     const tn_houses *h = s->walk->houses;
     const tn_houses_layer *layer = &s->kind->layers[s->walk->layer + 1];
     uint32_t node = tn_number_find(&layer->nodes, (uint64_t)s->plan << 32 | state);
     (void)faced;
+    (void)gain;
     (void)error;
     if (node == UINT32_MAX)
         return TN_OK;
@@ -244,10 +245,11 @@ typedef struct tn_going_on {
     mpz_t one;
 } tn_going_on;
 
-static tn_status go_to(void *context, uint32_t state, uint64_t times, uint64_t faced, tn_error *error)
+static tn_status go_to(void *context, uint32_t state, uint64_t times, uint64_t faced, int64_t gain, tn_error *error)
 {
     tn_going_on *g = context;
     (void)faced;
+    (void)gain;
     mpz_mul_ui(g->one, g->count, times);
     return add_state(g->next, state, g->one, g->times, error);
 }

@@ -12,6 +12,8 @@
 
 #include "runtime/base/int128.h"
 #include "runtime/house/house.h"
+#include "runtime/house/measure/measure.h"
+#include "runtime/house/variant/relevant.h"
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/uses.h"
@@ -21,6 +23,7 @@
 #define TN_STRIP_MEETINGS_MAX 30u      /* that clauses walk by */
 #define TN_STRIP_QUESTIONS_MAX 32u     /* about rooms */
 #define TN_STRIP_KINDS_MAX 64u         /* that these ask for */
+#define TN_STRIP_RATIOS_MAX 4u         /* of glass to floor, that these ask for */
 #define TN_STRIP_LETTERS_MAX 65536u    /* of a clause */
 #define TN_STRIP_CHOICES_MAX 4000000u  /* of a tray's functions and faces, or of a plane's */
 #define TN_STRIP_OBJECTS_MAX 20000000u /* slices, planes, states */
@@ -31,6 +34,7 @@ typedef struct tn_strip_room {
     uint32_t function;   /* of kind ROOM */
     uint64_t all, kinds; /* which of the ALL_CELLS functions and the kinds below it asks for */
     bool area, cells;
+    uint32_t ratios; /* a bit for each of the ratios below */
 } tn_strip_room;
 
 typedef struct tn_strip_questions {
@@ -46,6 +50,8 @@ typedef struct tn_strip_questions {
     uint32_t all_count;
     uint32_t kinds[TN_STRIP_KINDS_MAX];
     uint32_t kind_count;
+    int64_t ratios[TN_STRIP_RATIOS_MAX]; /* as in the code: of << 32 | to */
+    uint32_t ratio_count;
     tn_int128 area_most; /* more than this is not told apart */
     uint32_t cells_most;
 } tn_strip_questions;
@@ -104,14 +110,14 @@ typedef struct tn_strip_list {
 } tn_strip_list;
 
 /* Words of a slice's key: EDGE, then CELL_WORDS for each cell, then the number of its steps and STEP_WORDS for each,
- * then the base of each clause. */
+ * then the base of each clause; then two words of what its cells add to the measure. */
 enum { SLICE_EDGE, SLICE_CELLS };
-enum { CELL_TILE, CELL_AREA, CELL_MARKS, CELL_MARKS_HIGH, CELL_ROOM, CELL_WORDS };
+enum { CELL_TILE, CELL_AREA, CELL_GLASS, CELL_MARKS, CELL_MARKS_HIGH, CELL_ROOM, CELL_WORDS };
 enum { STEP_FROM, STEP_TO, STEP_HOW, STEP_WORDS }; /* HOW: bit 0: one room; bit w + 1: a step of walk w */
 
 /* Words of an outcome's key: the meetings across the plane (two words), the number of steps and STEP_WORDS for each,
  * then SIDE_WORDS for each cell of the left and of the right edge. */
-enum { SIDE_MARKS, SIDE_MARKS_HIGH, SIDE_FIT, SIDE_WORDS };
+enum { SIDE_MARKS, SIDE_MARKS_HIGH, SIDE_FIT, SIDE_GLASS, SIDE_WORDS };
 
 /* Planes that were crossed by rooms or a walk, and what came of it. */
 typedef struct tn_strip_crossings {
@@ -126,9 +132,12 @@ typedef struct tn_strip {
     uint32_t shapes[TN_CHOICES_MAX];
     uint32_t trays_most;
     tn_watch *watch;
+    const tn_house_weights *weights; /* of a measure, or NULL */
+    uint32_t *weighed_rooms;         /* [terms of the weights]: of the questions about rooms */
     tn_strip_questions questions;
     size_t answer_words;
-    bool *tiled; /* [functions] */
+    tn_room_questions glass; /* functions about rooms that ask for faces: see tn_strip_sees_glass */
+    bool *tiled;             /* [functions] */
     tn_strip_clause *clauses;
     uint32_t clause_count;
     tn_strip_list *of_tray; /* [trays of the schema] */
@@ -148,9 +157,10 @@ typedef struct tn_strip {
 
 /* ---- strip.c */
 
-/* The houses of the section, on trays of these and up to so many. Free with tn_strip_free, also after a failure. */
+/* The houses of the section, on trays of these and up to so many. weights: NULL, or borrowed. Free with tn_strip_free, also after a failure. */
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
-                       const bool *trays, uint32_t trays_most, tn_strip **strip, tn_error *error);
+                       const bool *trays, uint32_t trays_most, const tn_house_weights *weights, tn_strip **strip,
+                       tn_error *error);
 void tn_strip_free(tn_strip *strip);
 
 /* What of the strip has the most states, as the name of the clause that is about it; NULL where there is none. */
@@ -198,6 +208,10 @@ tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error);
 tn_status tn_strip_plane(tn_strip *strip, uint32_t left, uint32_t right, const tn_strip_list **plane, tn_error *error);
 uint64_t tn_strip_marks(const tn_strip *strip, uint32_t kind); /* the bit of a kind that rooms ask for */
 
+/* Can a question about rooms depend on how much glass this cell has, or on its floor as a part of that? */
+bool tn_strip_sees_glass(const tn_strip *strip, const tn_house *house, uint32_t cell);
+uint32_t tn_strip_number_area(tn_strip *strip, tn_int128 area); /* UINT32_MAX: out of memory */
+
 /* May one step through this face on walk w? */
 bool tn_strip_steps(const tn_strip *strip, const tn_house *house, const tn_face *face, uint32_t walk);
 bool tn_strip_meets(const tn_strip *strip, const tn_house *house, const tn_face *face, uint32_t meeting);
@@ -244,8 +258,10 @@ tn_status tn_strip_lower(tn_strip *strip, tn_error *error);
 /* ---- step.c */
 
 /* Calls `seen` for each state after another slice (TN_STRIP_NONE: the end, and the state 0), with the number of choices
- * that lead there, and that of those that differ in more than tiles. state: TN_STRIP_NONE before the first slice. */
-typedef tn_status tn_strip_seen(void *context, uint32_t state, uint64_t times, uint64_t faced, tn_error *error);
+ * that lead there, that of those that differ in more than tiles, and what the step adds to the measure. state:
+ * TN_STRIP_NONE before the first slice. */
+typedef tn_status tn_strip_seen(void *context, uint32_t state, uint64_t times, uint64_t faced, int64_t gain,
+                                tn_error *error);
 tn_status tn_strip_step(tn_strip *strip, uint32_t state, uint32_t slice, tn_strip_seen *seen, void *context,
                         tn_error *error);
 

@@ -119,6 +119,17 @@ static bool push_meetings_and_steps(tn_crossing_house *c, tn_key *key)
     return ok;
 }
 
+/* What of the cell's glass is in the plane, if any question depends on that. */
+static tn_int128 plane_glass(const tn_crossing_house *c, uint32_t cell)
+{
+    tn_int128 glass = 0;
+    bool asked = tn_strip_sees_glass(c->strip, &c->house, cell);
+    for (size_t k = 0; asked && k < c->count; k++)
+        if (c->house.faces[c->faces[k]].first == cell)
+            glass += tn_face_glazing(&c->house, &c->house.faces[c->faces[k]]);
+    return glass;
+}
+
 static tn_status push_sides(tn_crossing_house *c, tn_key *key, tn_error *error)
 {
     tn_strip *s = c->strip;
@@ -142,7 +153,9 @@ static tn_status push_sides(tn_crossing_house *c, tn_key *key, tn_error *error)
         if (status == TN_OK && tiled)
             status = tn_strip_fit_side(s, &c->house, i, i < c->left_cells ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, c->x,
                                        &posts, &fit, error);
-        if (status == TN_OK && (!tn_push_long(key, marks) || !tn_key_push(key, fit)))
+        uint32_t glass = tn_strip_number_area(s, plane_glass(c, i));
+        if (status == TN_OK && (glass == UINT32_MAX || !tn_push_long(key, marks) || !tn_key_push(key, fit) ||
+                                !tn_key_push(key, glass)))
             status = tn_fail_memory(error);
     }
     free(posts.items);

@@ -89,6 +89,20 @@ static tn_status find_or_add(const tn_asking *a, uint32_t *items, uint32_t *coun
     return TN_OK;
 }
 
+static tn_status add_ratio(const tn_asking *a, int64_t ratio, tn_strip_room *room, tn_error *error)
+{
+    tn_strip_questions *q = &a->strip->questions;
+    uint32_t at = 0;
+    while (at < q->ratio_count && q->ratios[at] != ratio)
+        at++;
+    if (at == TN_STRIP_RATIOS_MAX)
+        return tn_strip_limit(a->strip, a->name, "asks for more ratios of glass than can be told apart at once", error);
+    q->ratios[at] = ratio;
+    q->ratio_count += at == q->ratio_count;
+    room->ratios |= 1u << at;
+    return TN_OK;
+}
+
 /* One instruction about a room. */
 static tn_status add_room_part(const tn_asking *a, const tn_instruction *op, tn_strip_room *room, tn_error *error)
 {
@@ -113,6 +127,8 @@ static tn_status add_room_part(const tn_asking *a, const tn_instruction *op, tn_
         room->cells = true;
         q->cells_most = op->second + 1 > q->cells_most ? (uint32_t)(op->second + 1) : q->cells_most;
         return TN_OK;
+    case TN_OP_ROOM_GLAZING:
+        return add_ratio(a, op->second, room, error);
     case TN_OP_EVERY:
     case TN_OP_ALL_OF:
     case TN_OP_ONE_OF:
@@ -192,6 +208,18 @@ static tn_status see(void *context, const tn_instruction *op, tn_relation_use us
     return status == TN_OK ? add_atom(a, op, of, radix, error) : status;
 }
 
+/* The rooms that the measure counts. */
+static tn_status ask_weights(tn_strip *strip, tn_error *error)
+{
+    const tn_house_weights *w = strip->weights;
+    tn_asking asking = {strip, NULL, tn_text(strip->form->module, w->of.name)};
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < w->count; i++)
+        if (w->terms[i].kind == TN_HOUSE_ROOMS)
+            status = add_room(&asking, w->terms[i].part, &strip->weighed_rooms[i], error);
+    return status;
+}
+
 tn_status tn_strip_ask(tn_strip *strip, tn_error *error)
 {
     const tn_module *module = strip->form->module;
@@ -202,6 +230,8 @@ tn_status tn_strip_ask(tn_strip *strip, tn_error *error)
         tn_asking asking = {strip, clause, tn_text(module, record->name)};
         status = tn_rule_uses(module, clause->holds, see, &asking, error);
     }
+    if (status == TN_OK && strip->weights)
+        status = ask_weights(strip, error);
     strip->answer_words = strip->questions.decision_count / 64 + 1;
     return status;
 }

@@ -11,6 +11,7 @@
 typedef struct tn_known_room {
     uint64_t known, truth, fails, kinds;
     tn_int128 area;
+    tn_int128 balance[TN_STRIP_RATIOS_MAX]; /* glass times the one number of a ratio, less floor times the other */
     uint32_t cells;
 } tn_known_room;
 
@@ -46,6 +47,8 @@ static void join(tn_joining *j, uint32_t a, uint32_t b)
     to->kinds |= from->kinds;
     to->area += from->area;
     to->cells += from->cells;
+    for (uint32_t r = 0; r < j->strip->questions.ratio_count; r++)
+        to->balance[r] += from->balance[r];
 }
 
 /* ---- questions */
@@ -75,6 +78,16 @@ static tn_outcome compare(tn_int128 number, const tn_instruction *op, bool whole
                                                   : TN_OUTCOME_OPEN;
 }
 
+static tn_outcome glazing(const tn_asked_known *a, const tn_instruction *op)
+{
+    uint32_t r = 0;
+    while (a->questions->ratios[r] != op->second)
+        r++;
+    return !a->whole                                                   ? TN_OUTCOME_OPEN
+           : tn_area_compares(a->room->balance[r], op->first, 0) ? TN_OUTCOME_TRUE
+                                                                       : TN_OUTCOME_FALSE;
+}
+
 static tn_outcome ask(const void *context, const tn_instruction *op)
 {
     enum { SQUARE_MICROMETRE = 1000000 };
@@ -91,6 +104,8 @@ static tn_outcome ask(const void *context, const tn_instruction *op)
         return a->room->kinds & bit_of(q->kinds, q->kind_count, (uint32_t)op->first) ? TN_OUTCOME_TRUE
                : a->whole                                                            ? TN_OUTCOME_FALSE
                                                                                      : TN_OUTCOME_OPEN;
+    case TN_OP_ROOM_GLAZING:
+        return glazing(a, op);
     case TN_OP_ROOM_AREA:
         return compare(a->room->area, op, a->whole);
     case TN_OP_ROOM_CELLS:
@@ -106,6 +121,7 @@ static void settle(const tn_strip *strip, tn_known_room *room, bool whole)
     const tn_strip_questions *q = &strip->questions;
     tn_asked_known asked = {q, room, whole};
     uint64_t all = 0, kinds = 0;
+    uint32_t ratios = 0;
     bool area = false, cells = false;
     for (uint32_t i = 0; i < q->room_count; i++) {
         if (room->known >> i & 1)
@@ -117,11 +133,14 @@ static void settle(const tn_strip *strip, tn_known_room *room, bool whole)
             continue;
         all |= q->rooms[i].all;
         kinds |= q->rooms[i].kinds;
+        ratios |= q->rooms[i].ratios;
         area |= q->rooms[i].area;
         cells |= q->rooms[i].cells;
     }
     room->fails &= all;
     room->kinds &= kinds;
+    for (uint32_t r = 0; r < q->ratio_count; r++)
+        room->balance[r] = ratios >> r & 1 ? room->balance[r] : 0;
     room->area = !area ? 0 : room->area > q->area_most ? q->area_most : room->area;
     room->cells = !cells ? 0 : room->cells > q->cells_most ? q->cells_most : room->cells;
 }
@@ -138,7 +157,30 @@ tn_int128 tn_strip_area(const tn_strip *strip, uint32_t number)
     return area;
 }
 
-static void begin_cell(tn_joining *j, const tn_strip_crossing *c, uint32_t cell, uint64_t marks)
+/* Glass, less the floor that it is held against. */
+static void add_balance(const tn_strip *strip, tn_known_room *room, tn_int128 glass, tn_int128 floor)
+{
+    for (uint32_t r = 0; r < strip->questions.ratio_count; r++) {
+        int64_t ratio = strip->questions.ratios[r];
+        room->balance[r] += glass * (ratio & UINT32_MAX) - floor * (ratio >> 32);
+    }
+}
+
+uint32_t tn_strip_number_area(tn_strip *strip, tn_int128 area)
+{
+    uint32_t words[4];
+    for (size_t i = 0; i < 4; i++)
+        words[i] = (uint32_t)(area >> 32 * i);
+    return tn_intern(&strip->areas, words, 4);
+}
+
+bool tn_strip_sees_glass(const tn_strip *strip, const tn_house *house, uint32_t cell)
+{
+    const tn_face outside = {.first = cell, .second = TN_NO_CELL, .relation = TN_FACE_OUTSIDE};
+    return strip->questions.ratio_count > 0 && tn_face_relevant(house, &strip->glass, &outside);
+}
+
+static void begin_cell(tn_joining *j, const tn_strip_crossing *c, uint32_t cell, const uint32_t *side)
 {
     const uint32_t *words = c->slice + SLICE_CELLS + CELL_WORDS * cell;
     const tn_strip_questions *q = &j->strip->questions;
@@ -146,11 +188,14 @@ static void begin_cell(tn_joining *j, const tn_strip_crossing *c, uint32_t cell,
     tn_known_room *known = &j->rooms[room];
     memset(known, 0, sizeof *known); /* padding too: rooms are compared as words */
     j->parent[room] = room;
-    known->kinds = marks | tn_both(words + CELL_MARKS);
+    known->kinds = tn_both(side + SIDE_MARKS) | tn_both(words + CELL_MARKS);
+    tn_int128 area = tn_strip_area(j->strip, words[CELL_AREA]);
+    add_balance(j->strip, known,
+                tn_strip_area(j->strip, words[CELL_GLASS]) + tn_strip_area(j->strip, side[SIDE_GLASS]), area);
     if (c->right->cells[cell].open)
         return;
     known->cells = 1;
-    known->area = tn_strip_area(j->strip, words[CELL_AREA]);
+    known->area = area;
     for (uint32_t i = 0; i < q->all_count; i++)
         known->fails |= (uint64_t)!tn_edge_answers(j->strip, c->right, cell, tn_strip_decision(j->strip, q->all[i]))
                         << i;
@@ -165,8 +210,10 @@ static void begin_left(tn_joining *j, const tn_strip_crossing *c, const uint32_t
         j->parent[r] = r;
         memcpy(&j->rooms[r], state + cells + 1 + (size_t)r * ROOM_WORDS, sizeof j->rooms[r]);
     }
-    for (uint32_t i = 0; i < cells; i++)
+    for (uint32_t i = 0; i < cells; i++) {
         j->rooms[state[i]].kinds |= tn_both(sides + SIDE_WORDS * i + SIDE_MARKS);
+        add_balance(j->strip, &j->rooms[state[i]], tn_strip_area(j->strip, sides[SIDE_WORDS * i + SIDE_GLASS]), 0);
+    }
 }
 
 static tn_status leave(tn_strip *strip, tn_joining *j, uint32_t cells, uint32_t *after, tn_error *error)
@@ -222,7 +269,7 @@ tn_status tn_strip_rooms_cross(tn_strip *strip, uint32_t before, const tn_strip_
     begin_left(&j, c, c->left ? tn_interned(&strip->rooms, before, &size) : NULL, sides);
     const uint32_t *state = c->left ? tn_interned(&strip->rooms, before, &size) : NULL;
     for (uint32_t i = 0; i < right; i++)
-        begin_cell(&j, c, i, tn_both(sides + SIDE_WORDS * (left + i) + SIDE_MARKS));
+        begin_cell(&j, c, i, sides + SIDE_WORDS * (left + i));
     for (uint32_t i = 0; i < right; i++)
         join(&j, j.before + i, j.before + c->slice[SLICE_CELLS + CELL_WORDS * i + CELL_ROOM]);
     for (uint32_t i = 0; i < c->outcome[2]; i++, steps += STEP_WORDS)

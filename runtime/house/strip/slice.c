@@ -115,13 +115,22 @@ static uint64_t inner_marks(const tn_cutting *c, uint32_t cell)
     return marks;
 }
 
-static uint32_t area_of(tn_cutting *c, const tn_cell *cell)
+static uint32_t area_of(tn_cutting *c, uint32_t i)
 {
-    uint32_t words[4];
-    tn_int128 area = c->strip->questions.area_most > 0 && !cell->open ? tn_cell_area(cell) : 0;
-    for (size_t i = 0; i < 4; i++)
-        words[i] = (uint32_t)(area >> 32 * i);
-    return tn_intern(&c->strip->areas, words, 4);
+    const tn_cell *cell = &c->house.cells[i];
+    bool asked = c->strip->questions.area_most > 0 || tn_strip_sees_glass(c->strip, &c->house, i);
+    return tn_strip_number_area(c->strip, asked && !cell->open ? tn_cell_area(cell) : 0);
+}
+
+/* What is glazed in its outside faces at the back and the front, if any question depends on that. */
+static uint32_t inner_glass(tn_cutting *c, uint32_t cell)
+{
+    tn_int128 glass = 0;
+    bool asked = tn_strip_sees_glass(c->strip, &c->house, cell);
+    for (size_t i = 0; asked && i < c->house.face_count; i++)
+        if (is_inner(&c->house.faces[i]) && c->house.faces[i].first == cell)
+            glass += tn_face_glazing(&c->house, &c->house.faces[i]);
+    return tn_strip_number_area(c->strip, glass);
 }
 
 static tn_status push_inner_cells(tn_cutting *c, tn_key *key, tn_error *error)
@@ -132,9 +141,9 @@ static tn_status push_inner_cells(tn_cutting *c, tn_key *key, tn_error *error)
         uint32_t base = 0;
         if (!c->house.cells[i].open && c->strip->tiled[c->house.cells[i].function])
             status = tn_strip_fit_base(c->strip, &c->house, i, &base, error);
-        uint32_t area = area_of(c, &c->house.cells[i]);
-        if (status == TN_OK && (area == UINT32_MAX || !tn_key_push(key, base) || !tn_key_push(key, area) ||
-                                !tn_push_long(key, inner_marks(c, i)) || !tn_key_push(key, rooms[i])))
+        uint32_t area = area_of(c, i), glass = inner_glass(c, i);
+        if (status == TN_OK && (area == UINT32_MAX || glass == UINT32_MAX || !tn_key_push(key, base) ||
+                                !tn_key_push(key, area) || !tn_key_push(key, glass) || !tn_push_long(key, inner_marks(c, i)) || !tn_key_push(key, rooms[i])))
             status = tn_fail_memory(error);
     }
     free(rooms);
@@ -177,6 +186,8 @@ static tn_status add_slice(tn_cutting *c, tn_error *error)
         if (status == TN_OK && !tn_key_push(key, base))
             status = tn_fail_memory(error);
     }
+    if (status == TN_OK && s->weights && !tn_push_long(key, (uint64_t)tn_house_weights_cells(s->weights, &c->house)))
+        status = tn_fail_memory(error);
     if (status != TN_OK)
         return status;
     uint32_t slice = tn_intern(&s->slice_keys, key->data, key->size);

@@ -20,20 +20,28 @@ static tn_status begin(tn_strip *strip, tn_error *error)
     strip->of_tray = calloc((size_t)form->schema->tray_count + 1, sizeof *strip->of_tray);
     strip->tiled = calloc((size_t)tn_form_functions(form) + 1, sizeof *strip->tiled);
     strip->scratch = calloc((size_t)strip->library->clause_count + 1, sizeof *strip->scratch);
-    if (!strip->of_tray || !strip->tiled || !strip->scratch)
+    strip->weighed_rooms = calloc((size_t)(strip->weights ? strip->weights->count : 0) + 1, sizeof(uint32_t));
+    if (!strip->of_tray || !strip->tiled || !strip->scratch || !strip->weighed_rooms)
         return tn_fail_memory(error);
     find_tiled(strip);
     tn_status status = tn_strip_clauses_new(strip, error);
+    if (status == TN_OK)
+        status = tn_room_questions_find(form->module, &strip->glass, error);
     return status == TN_OK ? tn_strip_ask(strip, error) : status;
 }
 
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
-                       const bool *trays, uint32_t trays_most, tn_strip **out, tn_error *error)
+                       const bool *trays, uint32_t trays_most, const tn_house_weights *weights, tn_strip **out,
+                       tn_error *error)
 {
     tn_strip *strip = *out = calloc(1, sizeof *strip);
     if (!strip)
         return tn_fail_memory(error);
-    *strip = (tn_strip){.form = form, .library = library, .trays_most = trays_most, .watch = form->module->watch};
+    *strip = (tn_strip){.form = form,
+                        .library = library,
+                        .trays_most = trays_most,
+                        .watch = form->module->watch,
+                        .weights = weights};
     memcpy(strip->shapes, shapes, form->record->choice_count * sizeof *shapes);
     tn_status status = begin(strip, error);
     for (tn_tray t = 0; status == TN_OK && t < form->schema->tray_count; t++)
@@ -83,6 +91,8 @@ void tn_strip_free(tn_strip *strip)
     free(strip->edges);
     free(strip->tiled);
     free(strip->scratch);
+    free(strip->weighed_rooms);
+    tn_room_questions_clear(&strip->glass);
     free(strip->fits);
     free(strip->key.data);
     free(strip->joined.data);

@@ -21,7 +21,7 @@ typedef struct memory {
 /* A measure: its sum's machine, and the automata of what `matches` counts. A memory's key: the states of its `matches`,
  * then the words of its machine. */
 typedef struct weight {
-    const tn_measure_record *record;
+    tn_string name;
     tn_sum *sum;
     tn_dfa **parts; /* [sum->count]: of places that single trays do not decide, and of `matches` */
     tn_summing summing;
@@ -88,14 +88,9 @@ static tn_status make_summing(tn_weighed *w, weight *m, tn_error *error)
     return status;
 }
 
-static tn_status make_weights(tn_weighed *w, const uint32_t *measures, tn_error *error)
+static tn_status make_weights(tn_weighed *w, const uint32_t *sums, tn_error *error)
 {
     const tn_schema *schema = w->library->schema;
-    uint32_t sums[TN_WEIGHED_MAX];
-    for (uint32_t k = 0; k < w->count; k++) {
-        w->weights[k].record = &schema->module->MEASURE_records[measures[k]];
-        sums[k] = w->weights[k].record->sum;
-    }
     tn_status status = tn_classes_with_sums(schema, NULL, 0, sums, w->count, &w->classes, error);
     if (status == TN_OK)
         status = tn_lowering_new(w->classes, w->library->max_states, &w->lowering, error);
@@ -286,13 +281,28 @@ static tn_status make_start(tn_weighed *w, tn_error *error)
 tn_status tn_weighed_new(const tn_library *library, const uint32_t *measures, uint32_t count, tn_weighed **out,
                          tn_error *error)
 {
+    const tn_module *module = library->schema->module;
+    uint32_t sums[TN_WEIGHED_MAX];
+    tn_string names[TN_WEIGHED_MAX];
+    for (uint32_t k = 0; k < count; k++) {
+        sums[k] = module->MEASURE_records[measures[k]].sum;
+        names[k] = module->MEASURE_records[measures[k]].name;
+    }
+    return tn_weighed_of_sums(library, sums, names, count, out, error);
+}
+
+tn_status tn_weighed_of_sums(const tn_library *library, const uint32_t *sums, const tn_string *names, uint32_t count,
+                             tn_weighed **out, tn_error *error)
+{
     tn_weighed *w = calloc(1, sizeof *w);
     if (!w)
         return tn_fail_memory(error);
     w->library = library;
     w->count = count;
+    for (uint32_t k = 0; k < count; k++)
+        w->weights[k].name = names[k];
     w->live = calloc((size_t)library->kept->states + 1, 1);
-    tn_status status = w->live ? make_weights(w, measures, error) : tn_fail_memory(error);
+    tn_status status = w->live ? make_weights(w, sums, error) : tn_fail_memory(error);
     if (status == TN_OK)
         status = make_letters(w, error);
     if (status == TN_OK)
@@ -354,7 +364,7 @@ uint32_t tn_weighed_count(const tn_weighed *w)
 
 const char *tn_weighed_name(const tn_weighed *w, uint32_t measure)
 {
-    return tn_text(w->library->schema->module, w->weights[measure].record->name);
+    return tn_text(w->library->schema->module, w->weights[measure].name);
 }
 
 mpq_srcptr tn_weighed_unit(const tn_weighed *w, uint32_t measure)

@@ -25,6 +25,10 @@ typedef struct tn_weighed tn_weighed;
  * numbers are too fine. */
 tn_status tn_weighed_new(const tn_library *library, const uint32_t *measures, uint32_t count, tn_weighed **weighed,
                          tn_error *error);
+
+/* The same for SUM records of the library's schema that have these names. */
+tn_status tn_weighed_of_sums(const tn_library *library, const uint32_t *sums, const tn_string *names, uint32_t count,
+                             tn_weighed **weighed, tn_error *error);
 void tn_weighed_free(tn_weighed *weighed);
 
 const tn_library *tn_weighed_library(const tn_weighed *weighed);

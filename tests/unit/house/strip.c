@@ -97,6 +97,106 @@ static void check_plans(check *c, uint32_t rank_every)
     tn_cursor_free(cursor);
 }
 
+/* ---- measures: the distribution against house by house */
+
+typedef struct tally {
+    const test_house *made;
+    tn_house_rules *rules;
+    tn_house_measured measure;
+    mpq_t values[2000];
+    uint64_t counts[2000];
+    size_t count;
+    uint64_t houses;
+} tally;
+
+static tn_status tally_house(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    tally *t = context;
+    mpq_t value, cost;
+    mpq_inits(value, cost, NULL);
+    assert_int_equal(tn_house_rules_start(t->rules, house, error), TN_OK);
+    assert_int_equal(tn_house_rules_measure(t->rules, t->measure, value, cost, error), TN_OK);
+    assert_int_equal(mpq_sgn(cost), 0);
+    size_t i = 0;
+    while (i < t->count && !mpq_equal(t->values[i], value))
+        i++;
+    if (i == t->count) {
+        assert_true(t->count < 2000);
+        mpq_init(t->values[t->count++]);
+        mpq_set(t->values[i], value);
+        t->counts[i] = 0;
+    }
+    t->counts[i]++;
+    *stop = ++t->houses == UINT64_MAX;
+    mpq_clears(value, cost, NULL);
+    return TN_OK;
+}
+
+static void compare_spread(const tally *t, const tn_distribution *d)
+{
+    mpq_t value;
+    mpq_init(value);
+    assert_int_equal(d->count, t->count);
+    assert_int_equal(mpz_cmp_ui(d->all, t->houses), 0);
+    for (size_t k = 0; k < d->count; k++) {
+        size_t i = 0;
+        tn_distribution_value(d, k, value);
+        while (i < t->count && !mpq_equal(t->values[i], value))
+            i++;
+        assert_true(i < t->count);
+        assert_int_equal(mpz_cmp_ui(d->plans[k], t->counts[i]), 0);
+        assert_true(k == 0 || d->value[k - 1] < d->value[k]);
+    }
+    mpq_clear(value);
+}
+
+/* only: on one plan. */
+static void check_measure(check *c, uint32_t measure, const tn_tray *only, uint32_t only_length)
+{
+    tally t = {.made = c->made, .measure = tn_house_measured_of(c->made->form.module, measure)};
+    tn_house_weights *weights;
+    tn_houses *houses;
+    tn_distribution d;
+    tn_cursor *cursor;
+    tn_error error = {0};
+    const tn_tray *trays;
+    uint32_t length;
+    mpz_t from;
+    mpz_init(from);
+    assert_int_equal(tn_house_rules_new(&c->made->form, 0, &t.rules, &error), TN_OK);
+    tn_library_kept(c->plans, TN_ALL_LENGTHS, c->rank);
+    assert_int_equal(tn_cursor_new(c->plans, from, c->rank, &cursor, &error), TN_OK);
+    while (tn_cursor_next(cursor, &trays, &length))
+        if (!only || (length == only_length && memcmp(trays, only, length * sizeof *trays) == 0))
+            assert_int_equal(
+                tn_house_variants_each(c->variants, trays, length, from, tally_house, &t, &error), TN_OK);
+    tn_cursor_free(cursor);
+    assert_int_equal(tn_house_weights_new(&c->made->form, t.measure, &weights, &error), TN_OK);
+    tn_houses_what what = {only, only_length, weights};
+    assert_int_equal(tn_houses_of(&c->made->form, c->record, c->plans, &what, 0, &houses, &error), TN_OK);
+    tn_distribution_init(&d);
+    assert_int_equal(tn_houses_spread(houses, &d, &error), TN_OK);
+    compare_spread(&t, &d);
+    tn_distribution_clear(&d);
+    tn_houses_free(houses);
+    tn_house_weights_free(weights);
+    tn_house_rules_free(t.rules);
+    while (t.count > 0)
+        mpq_clear(t.values[--t.count]);
+    mpz_clear(from);
+}
+
+static void check_measures(check *c)
+{
+    const tn_module *module = c->made->form.module;
+    const tn_tray plan[2] = {0, 1};
+    uint32_t measures = (uint32_t)module->HOUSE_MEASURE_count + (uint32_t)module->MEASURE_count;
+    for (uint32_t i = 0; i < measures && mpz_cmp_ui(c->all, 20000) < 0; i++) {
+        check_measure(c, i, NULL, 0);
+        check_measure(c, i, plan, 2);
+    }
+}
+
 /* Returns how many houses there are. */
 static uint64_t check_library(const test_house *made, const tn_house_library_record *record, uint32_t rank_every)
 {
@@ -112,6 +212,7 @@ static uint64_t check_library(const test_house *made, const tn_house_library_rec
     assert_int_equal(status, TN_OK);
     check_plans(&c, rank_every);
     check_numbers(&c);
+    check_measures(&c);
     mpz_set(c.rank, c.all);
     assert_int_equal(tn_houses_find(c.houses, c.rank, NULL, &(uint32_t){0}, &error), TN_INVALID);
     assert_int_equal(error.code, E_NO_VARIANT);
@@ -172,7 +273,7 @@ static void put_room(draws *d)
     put(d, "room(");
     ONE_OF(d, "bed", "living", "any", "not stair", "body", "seat");
     if (draw(d, 2))
-        ONE_OF(d, ", not by window", ", by window", ", by door", ", not by open", ", by wall", ", by floor");
+        ONE_OF(d, ", glazing < 1:9", ", glazing >= 1:11", ", not by window", ", by window", ", by door", ", not by open", ", by wall", ", by floor");
     if (draw(d, 2))
         ONE_OF(d, ", area < 100sf", ", area >= 160sf", ", cells > 1", ", cells = 2", ", cells <= 1");
     put(d, ")");
@@ -296,7 +397,7 @@ static void put_form(draws *d)
     put(d, "  function living at cell(body, ground)\n  function bed at cell(body)\n");
     ONE_OF(d, "  function stair at cell(body)\n", "  function stair at cell(body, 8')\n");
     put(d, "  function seat at cell(bay)\n  opening door wide 2'8\" high 6'8\" clear 2' passage\n"
-           "  opening window wide 3' high 4' sill 2'8\"\n");
+           "  opening window wide 3' high 4' sill 2'8\" glazed\n");
     ONE_OF(d, "", "  face cell(bed) along cell(bed) = open | wall\n",
            "  face cell(living) along cell(any) = party | door\n");
     ONE_OF(d, "  face cell(stair) under cell(stair) = stair\n", "  face cell(any) under cell(stair) = stair | floor\n",
@@ -316,6 +417,20 @@ static void put_form(draws *d)
     put(d, "}\n");
 }
 
+static void put_measures(draws *d)
+{
+    put(d, "measure first using huts = 3 * quantity(");
+    put_cell(d);
+    put(d, ") - 1/2 * quantity(");
+    put_room(d);
+    put(d, ") + 7\nmeasure second using huts = sum(area of ");
+    put_cell(d);
+    ONE_OF(d, ") + sum(width) * 1'", ") - 2 * sum(area of cell(bed))", ")");
+    put(d, "\nmeasure third using huts = 10 * second / 1sf - first + 5 * quantity(tray(10')) + matches(");
+    ONE_OF(d, "neighbour(tray(8'), tray(10'))", "tray(bay open)");
+    put(d, ")\nmeasure fourth using hut = sum(width) + occurrences(tray(8')) * 1'\n");
+}
+
 static void write_random(draws *d)
 {
     d->size = 0;
@@ -330,6 +445,7 @@ static void write_random(draws *d)
         put(d, "\n");
     }
     put(d, "}\n");
+    put_measures(d);
 }
 
 static void test_drawn(void **state)

@@ -1,0 +1,48 @@
+/* Measures of houses made ready: what a tray's cells, and rooms, add to each, in whole steps of its unit.
+ *
+ * The cost of a house is known of a whole house alone; a measure that asks for it has no weights. A tn_house_weights is
+ * immutable; it borrows the form.
+ */
+#ifndef TARTAN_HOUSE_MEASURE_H
+#define TARTAN_HOUSE_MEASURE_H
+
+#include <gmp.h>
+
+#include "runtime/house/house.h"
+#include "runtime/plan/measure/weighed.h"
+
+typedef struct tn_house_weight_term {
+    tn_house_term_kind kind;
+    uint32_t part;
+    int64_t each; /* steps of each cell or room, or of each `area` */
+    mpz_t area;   /* square nanometres, of which areas are multiples */
+} tn_house_weight_term;
+
+/* A measure that houses have: one about houses of their form, or one about their plans (without terms). */
+typedef struct tn_house_measured {
+    tn_string name, doc;
+    uint32_t sum, term_first, term_count;
+} tn_house_measured;
+
+/* measure: below the module's HOUSE_MEASUREs one of them, then its MEASUREs. */
+tn_house_measured tn_house_measured_of(const tn_module *module, uint32_t measure);
+
+typedef struct tn_house_weights {
+    const tn_house_form *form;
+    tn_house_measured of;
+    uint32_t count;
+    tn_house_weight_term *terms;
+    int64_t plan; /* steps of a step of the plan's part */
+    mpq_t unit;   /* a step, in nanometres to the measure's power; above 0 */
+} tn_house_weights;
+
+/* E0424 (TN_LIMIT) where the numbers have no common step that is coarse enough, E1685 where the measure asks for costs.
+ */
+tn_status tn_house_weights_new(const tn_house_form *form, tn_house_measured measure, tn_house_weights **weights,
+                               tn_error *error);
+void tn_house_weights_free(tn_house_weights *weights);
+
+/* Steps that the cells of a house add: of a house of one tray what that tray adds. */
+int64_t tn_house_weights_cells(const tn_house_weights *weights, const tn_house *house);
+
+#endif
