@@ -132,8 +132,7 @@ static void tally_together(const tn_numbered *n, const tn_houses *all, house_tal
 static tn_status tally_each(tn_numbered *n, const tn_plan *plan, uint64_t work, house_tally *tally, tn_error *error)
 {
     tn_house_variants *variants = n->variants;
-    tn_status status =
-        work > 0 ? tn_house_variants_new(&n->form, n->record, work, &n->variants, error) : TN_OK;
+    tn_status status = work > 0 ? tn_house_variants_new(&n->form, n->record, work, &n->variants, error) : TN_OK;
     tally->each = true;
     if (status == TN_OK && plan)
         status = tally_plan(n, plan->trays, (uint32_t)plan->length, tally, error);
@@ -258,8 +257,7 @@ static tn_status tally_clauses(const tn_numbered *n, const tn_plan *plan, house_
 {
     tally->kept_out = tn_integers_new(n->record->clause_count);
     tally->alone = tn_integers_new(n->record->clause_count);
-    tn_status status =
-        tally->kept_out && tally->alone ? tally_kept_out(n, plan, tally, error) : tn_fail_memory(error);
+    tn_status status = tally->kept_out && tally->alone ? tally_kept_out(n, plan, tally, error) : tn_fail_memory(error);
     return status == TN_OK ? tally_alone(n, plan, tally, error) : status;
 }
 

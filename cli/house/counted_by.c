@@ -5,7 +5,6 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
 #include "cli/house/numbered_parts.h"
-#include "cli/plan/count_by.h"
 #include "driver/plan/library.h"
 
 static tn_status make_spread(const tn_numbered *n, const tn_plan *plan, tn_house_measured measure, tn_spread *spread,
@@ -38,7 +37,6 @@ static void show(tn_job *job, const tn_numbered *n, const tn_plan *plan, const t
     tn_spread spread;
     tn_error error = {0};
     tn_progress progress;
-    const tn_count_by_options shown = {counting->json, counting->step, counting->bins};
     tn_spread_begin(&spread, n->schema, module->SUM_records[of.sum].power);
     spread.library = tn_text(module, n->record->name);
     spread.name = tn_text(module, of.name);
@@ -50,7 +48,7 @@ static void show(tn_job *job, const tn_numbered *n, const tn_plan *plan, const t
     if (status != TN_OK)
         tn_job_fail(job, &error);
     else
-        tn_show_spread(job, &spread, &shown, counting->output);
+        counting->show(job, &spread, counting->context);
     tn_spread_clear(&spread);
 }
 

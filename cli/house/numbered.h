@@ -3,6 +3,7 @@
 #define TARTAN_CLI_HOUSE_NUMBERED_H
 
 #include "cli/common/job.h"
+#include "driver/measure/spread.h"
 #include "runtime/geometry/camera.h"
 #include "runtime/house/house.h"
 #include "runtime/plan/library/library.h"
@@ -17,10 +18,10 @@ typedef struct tn_house_settings {
 /* What is counted: the houses of the library, or those on one plan (a plan line or #P; NULL: all plans). */
 typedef struct tn_house_counting {
     const char *plan;
-    bool clauses; /* and what each clause keeps out */
-    const char *by; /* a measure that they are counted by, or NULL */
-    const char *step;          /* of bins, with `by` */
-    tn_option_number bins;
+    bool clauses;                                                      /* and what each clause keeps out */
+    const char *by;                                                    /* a measure that they are counted by, or NULL */
+    void (*show)(tn_job *job, tn_spread *spread, const void *context); /* what is made of that */
+    const void *context;
     bool json;
     const char *output;
 } tn_house_counting;

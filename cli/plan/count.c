@@ -370,6 +370,13 @@ static bool asks_library(tn_job *job, const count_settings *s)
     return option != NULL;
 }
 
+/* With --by, of houses. */
+static void show_houses(tn_job *job, tn_spread *spread, const void *context)
+{
+    const count_settings *s = context;
+    tn_show_spread(job, spread, &(tn_count_by_options){s->count.json, s->step, s->bins}, s->output);
+}
+
 static int count_once(const tn_settings *common, tn_files_read *read)
 {
     const count_settings *settings = (const count_settings *)common;
@@ -393,8 +400,8 @@ static int count_once(const tn_settings *common, tn_files_read *read)
         const tn_house_counting counting = {.plan = settings->plan,
                                             .clauses = settings->clauses,
                                             .by = settings->by,
-                                            .step = settings->step,
-                                            .bins = settings->bins,
+                                            .show = show_houses,
+                                            .context = settings,
                                             .json = settings->count.json,
                                             .output = settings->output};
         if (settings->by || may_draw(&job, settings))

@@ -135,9 +135,9 @@ static bool write_about(const tn_spread *s, tn_buffer *text)
 {
     char *all = tn_digits(s->d.all, true);
     const char *unit = tn_amount_unit_name(s->bins.unit);
-    bool ok = all && tn_buffer_printf(text, "%s %s%s of %s, %zu value%s", all, s->of, mpz_cmp_ui(s->d.all, 1) ? "s" : "",
-                                      s->library, s->d.count,
-                                      s->d.count == 1 ? "" : "s");
+    bool ok =
+        all && tn_buffer_printf(text, "%s %s%s of %s, %zu value%s", all, s->of, mpz_cmp_ui(s->d.all, 1) ? "s" : "",
+                                s->library, s->d.count, s->d.count == 1 ? "" : "s");
     if (ok && s->bins.binned)
         ok = tn_buffer_printf(text, ", in bins of ") &&
              tn_amount_write((tn_amount_unit){s->bins.unit.feet, 0}, s->bins.step, text) &&

@@ -113,8 +113,8 @@ typedef struct tn_checked_sum {
     size_t count;
     const char *constant;
     int power;
-    bool any;   /* 0: of any dimension */
-    bool whole; /* has `matches` */
+    bool any;    /* 0: of any dimension */
+    bool whole;  /* has `matches` */
     bool houses; /* has terms about houses */
     tn_span span;
     uint32_t index; /* emitted: of its SUM record */

@@ -230,8 +230,9 @@ void tn_check_house_measure(tn_check *check, const tn_checked_rule *measure)
         tn_diagnostic *d =
             tn_report(check->diagnostics, E_HOUSE_CLAUSE, part->node.span,
                       "a measure counts trays and places of plans, and cells and rooms of houses, not both at once");
-        tn_help(check->diagnostics, d,
-                "of houses write `quantity(cell(...))`, `quantity(room(...))`, `sum(area of cell(...))` or `sum(cost)`");
+        tn_help(
+            check->diagnostics, d,
+            "of houses write `quantity(cell(...))`, `quantity(room(...))`, `sum(area of cell(...))` or `sum(cost)`");
     }
 }
 

@@ -104,15 +104,14 @@ void tn_emit_house_measure(tn_emit *emit, const tn_checked_rule *measure)
         count++;
     }
     tn_builder_add_HOUSE_MEASURE(
-        emit->builder,
-        &(tn_house_measure_record){.name = tn_builder_string(emit->builder, measure->name),
-                                   .doc = tn_builder_string(emit->builder, doc ? doc->text : NULL),
-                                   .form = measure->form->index,
-                                   .sum = measure->sum->index,
-                                   .term_first = first,
-                                   .term_count = count,
-                                   .flags = measure->unit + 1 < emit->imports->count ? TN_IMPORTED : 0,
-                                   PLACE(measure->ast->top.node.span)});
+        emit->builder, &(tn_house_measure_record){.name = tn_builder_string(emit->builder, measure->name),
+                                                  .doc = tn_builder_string(emit->builder, doc ? doc->text : NULL),
+                                                  .form = measure->form->index,
+                                                  .sum = measure->sum->index,
+                                                  .term_first = first,
+                                                  .term_count = count,
+                                                  .flags = measure->unit + 1 < emit->imports->count ? TN_IMPORTED : 0,
+                                                  PLACE(measure->ast->top.node.span)});
 }
 
 void tn_emit_house_library(tn_emit *emit, const tn_checked_library *library)

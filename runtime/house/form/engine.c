@@ -370,12 +370,12 @@ static tn_status verify_after(const tn_checker *checker)
     return status;
 }
 
-static const tn_section sections[] = {
-    TN_SECTION_FORM,         TN_SECTION_STOREY,     TN_SECTION_CHOICE,     TN_SECTION_SHAPE,
-    TN_SECTION_CELL_RULE,    TN_SECTION_OPENING,    TN_SECTION_FACE_LINE,  TN_SECTION_TILE,
-    TN_SECTION_TILE_BOX,     TN_SECTION_HOUSE_ITEM, TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
-    TN_SECTION_HOUSE_CLAUSE, TN_SECTION_MEETING,    TN_SECTION_MATERIAL,   TN_SECTION_HOUSE_MEASURE,
-    TN_SECTION_HOUSE_TERM,  TN_SECTION_STRINGS};
+static const tn_section sections[] = {TN_SECTION_FORM,          TN_SECTION_STOREY,     TN_SECTION_CHOICE,
+                                      TN_SECTION_SHAPE,         TN_SECTION_CELL_RULE,  TN_SECTION_OPENING,
+                                      TN_SECTION_FACE_LINE,     TN_SECTION_TILE,       TN_SECTION_TILE_BOX,
+                                      TN_SECTION_HOUSE_ITEM,    TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
+                                      TN_SECTION_HOUSE_CLAUSE,  TN_SECTION_MEETING,    TN_SECTION_MATERIAL,
+                                      TN_SECTION_HOUSE_MEASURE, TN_SECTION_HOUSE_TERM, TN_SECTION_STRINGS};
 
 static const tn_operand_rules operands[] = {{TN_OPERANDS_AREA, check_area, list_area},
                                             {TN_OPERANDS_RATIO, check_ratio, list_ratio},

@@ -67,7 +67,8 @@ static void find_common(mpq_t unit, const mpq_t other)
 
 static tn_status too_fine(tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, E_TOO_FINE, "the numbers of the measure have no step in common that they are few times of");
+    tn_fail(error, TN_LIMIT, E_TOO_FINE,
+            "the numbers of the measure have no step in common that they are few times of");
     tn_error_help(error, "use rounder numbers: prices in steps of 10 or 50, lengths in whole units");
     return TN_LIMIT;
 }
@@ -135,16 +136,17 @@ static tn_status take_terms(tn_house_weights *w, tn_error *error)
             mpz_set(term->area, common);
         if (term->kind != TN_HOUSE_COST)
             continue;
-        status = tn_fail(error, TN_LIMIT, E_COST_OF_ALL,
-                         "`%.60s` adds up costs, which are known of one house at a time",
-                         tn_text(w->form->module, w->of.name));
+        status =
+            tn_fail(error, TN_LIMIT, E_COST_OF_ALL, "`%.60s` adds up costs, which are known of one house at a time",
+                    tn_text(w->form->module, w->of.name));
         tn_error_help(error, "leave `sum(cost)` out; or ask about one plan, with --plan");
     }
     mpz_clear(common);
     return status;
 }
 
-tn_status tn_house_weights_new(const tn_house_form *form, tn_house_measured measure, tn_house_weights **out, tn_error *error)
+tn_status tn_house_weights_new(const tn_house_form *form, tn_house_measured measure, tn_house_weights **out,
+                               tn_error *error)
 {
     tn_house_weights *w = *out = calloc(1, sizeof *w);
     mpq_t number;

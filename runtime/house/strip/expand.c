@@ -79,7 +79,7 @@ tn_status tn_houses_plan_next(const tn_houses *h, uint32_t layer, uint32_t plan,
 static int compare_ways(const void *a, const void *b)
 {
     const tn_houses_way *p = a, *q = b;
-    return p->slice != q->slice  ? (p->slice > q->slice) - (p->slice < q->slice)
+    return p->slice != q->slice ? (p->slice > q->slice) - (p->slice < q->slice)
            : p->plan != q->plan ? (p->plan > q->plan) - (p->plan < q->plan)
                                 : (p->gain > q->gain) - (p->gain < q->gain);
 }

@@ -51,8 +51,8 @@ struct tn_houses {
     tn_sections sections;
     tn_houses_kind *kinds;
     size_t kind_count, kind_room;
-    bool ranked;         /* what is ahead of each node is known */
-    const tn_tray *only; /* [high]: the one plan that is looked at, or NULL */
+    bool ranked;                     /* what is ahead of each node is known */
+    const tn_tray *only;             /* [high]: the one plan that is looked at, or NULL */
     const tn_house_weights *weights; /* of a measure, or NULL; then plans are those of `weighed` */
     tn_weighed *weighed;
 };

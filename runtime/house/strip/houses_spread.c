@@ -1,4 +1,5 @@
-/* Counts the houses of a library by the values of a measure: for each node, how many choices lead there with each value.
+/* Counts the houses of a library by the values of a measure: for each node, how many choices lead there with each
+ * value.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +16,8 @@ void tn_value_counts_clear(tn_value_counts *counts)
     *counts = (tn_value_counts){0};
 }
 
-/* counts += times, at the value; NULL where out of memory. Values come nearly in order: they are sought from the end. */
+/* counts += times, at the value; NULL where out of memory. Values come nearly in order: they are sought from the end.
+ */
 static bool add_value(tn_value_counts *counts, int64_t value, const mpz_t times)
 {
     size_t low = 0, high = counts->count;

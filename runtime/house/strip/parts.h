@@ -157,7 +157,8 @@ typedef struct tn_strip {
 
 /* ---- strip.c */
 
-/* The houses of the section, on trays of these and up to so many. weights: NULL, or borrowed. Free with tn_strip_free, also after a failure. */
+/* The houses of the section, on trays of these and up to so many. weights: NULL, or borrowed. Free with tn_strip_free,
+ * also after a failure. */
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
                        const bool *trays, uint32_t trays_most, const tn_house_weights *weights, tn_strip **strip,
                        tn_error *error);

@@ -154,8 +154,8 @@ static tn_status push_sides(tn_crossing_house *c, tn_key *key, tn_error *error)
             status = tn_strip_fit_side(s, &c->house, i, i < c->left_cells ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, c->x,
                                        &posts, &fit, error);
         uint32_t glass = tn_strip_number_area(s, plane_glass(c, i));
-        if (status == TN_OK && (glass == UINT32_MAX || !tn_push_long(key, marks) || !tn_key_push(key, fit) ||
-                                !tn_key_push(key, glass)))
+        if (status == TN_OK &&
+            (glass == UINT32_MAX || !tn_push_long(key, marks) || !tn_key_push(key, fit) || !tn_key_push(key, glass)))
             status = tn_fail_memory(error);
     }
     free(posts.items);

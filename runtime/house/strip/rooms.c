@@ -83,9 +83,9 @@ static tn_outcome glazing(const tn_asked_known *a, const tn_instruction *op)
     uint32_t r = 0;
     while (a->questions->ratios[r] != op->second)
         r++;
-    return !a->whole                                                   ? TN_OUTCOME_OPEN
+    return !a->whole                                             ? TN_OUTCOME_OPEN
            : tn_area_compares(a->room->balance[r], op->first, 0) ? TN_OUTCOME_TRUE
-                                                                       : TN_OUTCOME_FALSE;
+                                                                 : TN_OUTCOME_FALSE;
 }
 
 static tn_outcome ask(const void *context, const tn_instruction *op)
@@ -190,8 +190,8 @@ static void begin_cell(tn_joining *j, const tn_strip_crossing *c, uint32_t cell,
     j->parent[room] = room;
     known->kinds = tn_both(side + SIDE_MARKS) | tn_both(words + CELL_MARKS);
     tn_int128 area = tn_strip_area(j->strip, words[CELL_AREA]);
-    add_balance(j->strip, known,
-                tn_strip_area(j->strip, words[CELL_GLASS]) + tn_strip_area(j->strip, side[SIDE_GLASS]), area);
+    add_balance(j->strip, known, tn_strip_area(j->strip, words[CELL_GLASS]) + tn_strip_area(j->strip, side[SIDE_GLASS]),
+                area);
     if (c->right->cells[cell].open)
         return;
     known->cells = 1;

@@ -142,8 +142,9 @@ static tn_status push_inner_cells(tn_cutting *c, tn_key *key, tn_error *error)
         if (!c->house.cells[i].open && c->strip->tiled[c->house.cells[i].function])
             status = tn_strip_fit_base(c->strip, &c->house, i, &base, error);
         uint32_t area = area_of(c, i), glass = inner_glass(c, i);
-        if (status == TN_OK && (area == UINT32_MAX || glass == UINT32_MAX || !tn_key_push(key, base) ||
-                                !tn_key_push(key, area) || !tn_key_push(key, glass) || !tn_push_long(key, inner_marks(c, i)) || !tn_key_push(key, rooms[i])))
+        if (status == TN_OK &&
+            (area == UINT32_MAX || glass == UINT32_MAX || !tn_key_push(key, base) || !tn_key_push(key, area) ||
+             !tn_key_push(key, glass) || !tn_push_long(key, inner_marks(c, i)) || !tn_key_push(key, rooms[i])))
             status = tn_fail_memory(error);
     }
     free(rooms);

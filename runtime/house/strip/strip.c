@@ -37,11 +37,8 @@ tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record 
     tn_strip *strip = *out = calloc(1, sizeof *strip);
     if (!strip)
         return tn_fail_memory(error);
-    *strip = (tn_strip){.form = form,
-                        .library = library,
-                        .trays_most = trays_most,
-                        .watch = form->module->watch,
-                        .weights = weights};
+    *strip = (tn_strip){
+        .form = form, .library = library, .trays_most = trays_most, .watch = form->module->watch, .weights = weights};
     memcpy(strip->shapes, shapes, form->record->choice_count * sizeof *shapes);
     tn_status status = begin(strip, error);
     for (tn_tray t = 0; status == TN_OK && t < form->schema->tray_count; t++)

@@ -168,8 +168,7 @@ static void check_measure(check *c, uint32_t measure, const tn_tray *only, uint3
     assert_int_equal(tn_cursor_new(c->plans, from, c->rank, &cursor, &error), TN_OK);
     while (tn_cursor_next(cursor, &trays, &length))
         if (!only || (length == only_length && memcmp(trays, only, length * sizeof *trays) == 0))
-            assert_int_equal(
-                tn_house_variants_each(c->variants, trays, length, from, tally_house, &t, &error), TN_OK);
+            assert_int_equal(tn_house_variants_each(c->variants, trays, length, from, tally_house, &t, &error), TN_OK);
     tn_cursor_free(cursor);
     assert_int_equal(tn_house_weights_new(&c->made->form, t.measure, &weights, &error), TN_OK);
     tn_houses_what what = {only, only_length, weights};
@@ -273,7 +272,8 @@ static void put_room(draws *d)
     put(d, "room(");
     ONE_OF(d, "bed", "living", "any", "not stair", "body", "seat");
     if (draw(d, 2))
-        ONE_OF(d, ", glazing < 1:9", ", glazing >= 1:11", ", not by window", ", by window", ", by door", ", not by open", ", by wall", ", by floor");
+        ONE_OF(d, ", glazing < 1:9", ", glazing >= 1:11", ", not by window", ", by window", ", by door",
+               ", not by open", ", by wall", ", by floor");
     if (draw(d, 2))
         ONE_OF(d, ", area < 100sf", ", area >= 160sf", ", cells > 1", ", cells = 2", ", cells <= 1");
     put(d, ")");
