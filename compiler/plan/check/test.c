@@ -188,6 +188,13 @@ static void check_subject(tn_check *check, const tn_ast_test *ast, const tn_ast_
         tn_help(check->diagnostics, d, "give a call of it a name, as a rule, and test that");
         return;
     }
+    if (block->is_measure && block->of_houses) {
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_WRONG_KIND, word->node.span, "`%s` cannot be tested", word->text);
+        tn_note(check->diagnostics, d, &subject->span, "the measure `%s` is about houses", word->text);
+        tn_help(check->diagnostics, d, "test a rule with a condition, such as `quantity(cell(...), n = 3)`");
+        return;
+    }
     for (TN_EACH(const tn_ast_case, c, ast->cases))
         block->case_count += check_case(check, c, column, subject, &cases[block->case_count]);
 }

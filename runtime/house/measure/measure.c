@@ -139,7 +139,9 @@ static tn_status take_terms(tn_house_weights *w, tn_error *error)
         status =
             tn_fail(error, TN_LIMIT, E_COST_OF_ALL, "`%.60s` adds up costs, which are known of one house at a time",
                     tn_text(w->form->module, w->of.name));
-        tn_error_help(error, "leave `sum(cost)` out; or ask about one plan, with --plan");
+        tn_error_help(
+            error,
+            "count by a measure without `sum(cost)`; `tartan house HOUSE -o NAME.parts.csv` says what one costs");
     }
     mpz_clear(common);
     return status;
