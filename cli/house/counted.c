@@ -172,10 +172,15 @@ static tn_status tally_afresh(const tn_numbered *n, house_tally *tally, tn_error
 /* Few plans are gone through, unless one of them takes long; else all are counted together, if that can be done. */
 static tn_status tally_all(tn_numbered *n, const tn_plan *plan, house_tally *tally, tn_error *error)
 {
-    enum { QUICK = 50000 };
+    enum { QUICK = 50000, QUICK_ALONE = 300000 };
+    mpz_t plans;
+    mpz_init(plans);
+    tn_library_kept(n->plans, TN_ALL_LENGTHS, plans);
+    uint64_t work = plan || mpz_cmp_ui(plans, 1) <= 0 ? QUICK_ALONE : QUICK;
+    mpz_clear(plans);
     tn_status status = TN_LIMIT;
     if (plan || tn_numbered_few(n))
-        status = tally_each(n, plan, QUICK, tally, error);
+        status = tally_each(n, plan, work, tally, error);
     if (status != TN_LIMIT)
         return status;
     status = tally_afresh(n, tally, error);

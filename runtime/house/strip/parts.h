@@ -18,15 +18,16 @@
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/uses.h"
 
-#define TN_STRIP_NONE UINT32_MAX       /* no edge: the house begins or ends */
-#define TN_STRIP_CELLS_MAX 60u         /* of a tray: sets of cells are words */
-#define TN_STRIP_MEETINGS_MAX 30u      /* that clauses walk by */
-#define TN_STRIP_QUESTIONS_MAX 32u     /* about rooms */
-#define TN_STRIP_KINDS_MAX 64u         /* that these ask for */
-#define TN_STRIP_RATIOS_MAX 4u         /* of glass to floor, that these ask for */
-#define TN_STRIP_LETTERS_MAX 65536u    /* of a clause */
-#define TN_STRIP_CHOICES_MAX 4000000u  /* of a tray's functions and faces, or of a plane's */
-#define TN_STRIP_OBJECTS_MAX 20000000u /* slices, planes, states */
+#define TN_STRIP_NONE UINT32_MAX        /* no edge: the house begins or ends */
+#define TN_STRIP_CELLS_MAX 60u          /* of a tray: sets of cells are words */
+#define TN_STRIP_MEETINGS_MAX 30u       /* that clauses walk by */
+#define TN_STRIP_QUESTIONS_MAX 32u      /* about rooms */
+#define TN_STRIP_KINDS_MAX 64u          /* that these ask for */
+#define TN_STRIP_RATIOS_MAX 4u          /* of glass to floor, that these ask for */
+#define TN_STRIP_LETTERS_MAX 65536u     /* of a clause */
+#define TN_STRIP_FUNCTIONS_MAX 1000000u /* ways to give a tray's cells their functions */
+#define TN_STRIP_CHOICES_MAX 4000000u   /* of a tray's functions and faces, or of a plane's */
+#define TN_STRIP_OBJECTS_MAX 20000000u  /* slices, planes, states */
 
 /* ---- questions.c: what clauses and face lines ask */
 

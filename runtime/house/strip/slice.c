@@ -243,6 +243,7 @@ static tn_status cut_functions(tn_cutting *c, tn_error *error)
     const tn_house_form *form = c->strip->form;
     tn_options *options = malloc((c->house.cell_count + 1) * sizeof *options);
     size_t count = 0;
+    uint64_t ways = 1;
     bool possible = true;
     if (!options)
         return tn_fail_memory(error);
@@ -254,9 +255,13 @@ static tn_status cut_functions(tn_cutting *c, tn_error *error)
             if (tn_cell_may(&c->house, &c->house.cells[i], f))
                 options[count].items[options[count].count++] = f;
         possible = possible && options[count].count > 0;
+        ways = ways > TN_STRIP_FUNCTIONS_MAX ? ways : ways * options[count].count;
         count++;
     }
     tn_status status = TN_OK;
+    if (ways > TN_STRIP_FUNCTIONS_MAX)
+        status =
+            tn_strip_limit(c->strip, NULL, "the cells of a tray have more than 1,000,000 choices of functions", error);
     while (possible && status == TN_OK) {
         for (size_t i = 0; i < count; i++)
             c->house.cells[options[i].of].function = options[i].items[options[i].at];
