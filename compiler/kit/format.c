@@ -35,27 +35,31 @@ static size_t gap_before(const tn_format *format, size_t i)
     return tight ? 0 : 1;
 }
 
-/* Is token i inside of brackets that begin in its statement? */
-static bool is_inside(const tn_format *format, size_t i)
+/* The bracket that begins in the statement of token i and holds it, or i where there is none. */
+static size_t bracket_around(const tn_format *format, size_t i)
 {
     int depth = 0;
-    while (i > 0 && !tn_format_is(format, i - 1, ";") && depth <= 0) {
-        i--;
-        bool block = tn_format_is(format, i, "{") && is_block(format, i);
-        depth += !block && (tn_format_is(format, i, "(") || tn_format_is(format, i, "{"));
-        depth -= tn_format_is(format, i, ")") || tn_format_is(format, i, "}");
-        if (block)
-            return false;
+    for (size_t k = i; k > 0 && !tn_format_is(format, k - 1, ";"); k--) {
+        bool opens = tn_format_is(format, k - 1, "(") || tn_format_is(format, k - 1, "{");
+        if (tn_format_is(format, k - 1, "{") && is_block(format, k - 1))
+            return i;
+        depth += opens;
+        depth -= tn_format_is(format, k - 1, ")") || tn_format_is(format, k - 1, "}");
+        if (depth > 0)
+            return k - 1;
     }
-    return depth > 0;
+    return i;
 }
 
 /* Where a statement that is too long goes on in the next line. */
 static bool at_part(const tn_format *format, size_t i)
 {
     static const char *const words[] = {"|", "and", "or", "by", NULL};
-    bool part = tn_format_is_any(format, i, words) || (i > 0 && tn_format_is(format, i - 1, ","));
-    return part && !is_inside(format, i);
+    bool behind_comma = i > 0 && tn_format_is(format, i - 1, ",");
+    size_t around = bracket_around(format, i);
+    if (around != i)
+        return behind_comma && tn_format_is(format, around, "{"); /* a list of parts */
+    return behind_comma || tn_format_is_any(format, i, words);
 }
 
 static bool ends_statement(const tn_format *format, size_t i)

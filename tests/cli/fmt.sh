@@ -42,7 +42,7 @@ exits 0 "$TARTAN" fmt "$scratch/wild.plan"
 is 'a formatted file' "$(stat -c %y "$scratch/wild.plan" | cut -c 1-4)" 2001
 cd "$here/../.."
 # What ships is laid out so, in every notation.
-exits 0 "$TARTAN" fmt --check stdlib/*.{plan,hemls,bnf} examples/*/*.{plan,study} bench/*.plan
+exits 0 "$TARTAN" fmt --check stdlib/*.{plan,hemls,bnf,kit} examples/*/*.{plan,study,kit} bench/*.plan
 # What --diff says, patch can do.
 if command -v patch >/dev/null; then
     cp tests/cli/files/sheds.plan "$scratch/a.plan"
