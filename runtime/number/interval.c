@@ -235,6 +235,40 @@ static tn_interval bounds_noise(tn_interval a, tn_interval b, tn_interval c)
     return (tn_interval){-1.1, 1.1, a.fails || b.fails || c.fails || !within};
 }
 
+/* ---- conditions: 1 and 0 */
+
+static tn_interval judged(bool always, bool never, bool fails)
+{
+    return (tn_interval){always ? 1 : 0, never ? 0 : 1, fails};
+}
+
+static tn_interval bounds_below(tn_interval a, tn_interval b)
+{
+    return judged(a.high < b.low, a.low >= b.high, a.fails || b.fails);
+}
+
+static tn_interval bounds_at_most(tn_interval a, tn_interval b)
+{
+    return judged(a.high <= b.low, a.low > b.high, a.fails || b.fails);
+}
+
+static tn_interval bounds_equal(tn_interval a, tn_interval b)
+{
+    bool one = a.low == a.high && b.low == b.high && a.low == b.low;
+    return judged(one, a.high < b.low || b.high < a.low, a.fails || b.fails);
+}
+
+static tn_interval bounds_both(tn_interval a, tn_interval b)
+{
+    bool never = (a.low == 0 && a.high == 0) || (b.low == 0 && b.high == 0);
+    return judged(!has_zero(a) && !has_zero(b), never, a.fails || b.fails);
+}
+
+static tn_interval bounds_not(tn_interval a)
+{
+    return judged(a.low == 0 && a.high == 0, !has_zero(a), a.fails);
+}
+
 /* ---- all of them */
 
 #define UNBOUNDED unbounded

@@ -69,6 +69,28 @@ double tn_number_run(const uint8_t *code, uint32_t offset, const double *terms)
     return run(code, offset, &(scope){.terms = terms});
 }
 
+tn_interval tn_number_bounds(const uint8_t *code, uint32_t offset, const tn_interval *terms)
+{
+    tn_interval stack[TN_MEASURE_STACK_MAX];
+    size_t height = 0;
+    for (;;) {
+        tn_instruction i = tn_code_read(code, offset);
+        offset += i.length;
+        if (i.opcode == TN_OP_VALUE)
+            return stack[0];
+        if (i.opcode == TN_OP_NUMBER) {
+            stack[height++] = tn_interval_of(tn_double_of((uint64_t)i.first));
+        } else if (i.opcode == TN_OP_TERM) {
+            stack[height++] = terms[i.first];
+        } else {
+            height -= tn_code_effect((uint8_t)i.opcode).pops;
+            const tn_interval *operands[] = {stack + height, stack + height + 1, stack + height + 2};
+            stack[height] = tn_operation_bounds(i.opcode, operands);
+            height++;
+        }
+    }
+}
+
 double tn_number_run_at(const uint8_t *code, uint32_t offset, const double point[3], const tn_distances *distances,
                         double *kept)
 {

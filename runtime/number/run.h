@@ -6,12 +6,16 @@
 
 #include "runtime/base/error.h"
 #include "runtime/module/module.h"
+#include "runtime/number/interval.h"
 
 #define TN_MEASURE_STACK_MAX 256u /* numbers that the code of a module's function holds at once */
 
 /* The value of the verified code that begins at `offset`, where the stack is at most TN_MEASURE_STACK_MAX deep; terms:
  * what stands under each number of TERM. */
 double tn_number_run(const uint8_t *code, uint32_t offset, const double *terms);
+
+/* An interval that holds the code's values wherever each term lies in its interval; likewise. */
+tn_interval tn_number_bounds(const uint8_t *code, uint32_t offset, const tn_interval *terms);
 
 /* Which terms, below 64, the verified code of a function of the module takes: a bit for each. */
 uint64_t tn_number_asked(const tn_module *module, uint32_t function);

@@ -1,6 +1,8 @@
-/* Finds which cells of a chunk are inside of a model's space: the space's function is run at the middle of each. */
+/* Finds which cells of a chunk are inside of a model's space: where intervals do not prove it for a whole block, the
+ * space's function is run at the middle of each cell. */
 #include "runtime/place/space.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,7 +10,8 @@
 #include "runtime/number/run.h"
 #include "runtime/place/model/terms.h"
 
-enum { POINTS = 2 * TN_CHUNK_WIDTH }; /* of one run: two rows of a chunk */
+/* A block whose cells are looked at one by one, in one run. */
+enum { BLOCK_WIDTH = 8, BLOCK_ROWS = 4, POINTS = BLOCK_WIDTH * BLOCK_ROWS * BLOCK_ROWS };
 
 struct tn_space {
     tn_cell_space cells;
@@ -33,50 +36,99 @@ static bool mask_holds(const tn_module *module, const tn_kit_mask_record *mask, 
     return module->MASK_WORD_records[mask->word_first + bit / 64].bits >> bit % 64 & 1;
 }
 
-/* What the masks say of rows z and z + 1, from x on. */
-static void look_at_masks(tn_space *space, int64_t x, int64_t y, int64_t z)
+/* A block of the cells of a chunk. */
+typedef struct block {
+    int32_t low[3], size[3]; /* low: within the chunk */
+} block;
+
+/* Where the middle of a cell is; heights are upwards, cells downwards. */
+static double middle_of(const tn_space *space, int axis, int64_t cell)
 {
-    for (size_t m = 0; space->mask_rows && m < TN_KIT_MASKS_MAX; m++) {
-        for (int i = 0; space->masks[m] && i < POINTS; i++) {
-            const int64_t cell[3] = {x + i % TN_CHUNK_WIDTH, y, z + i / TN_CHUNK_WIDTH};
-            space->mask_rows[m * POINTS + (size_t)i] = mask_holds(space->module, space->masks[m], cell);
-        }
-    }
+    double middle = ((double)cell + 0.5) * space->unit[axis];
+    return axis == 1 ? -middle : middle;
 }
 
-/* Which cells of rows z and z + 1 are outside. */
-static tn_status look_at_rows(tn_space *space, int32_t z, uint64_t outside[2], tn_error *error)
+/* What holds of all cells of the block: 1 inside, 0 outside; -1 where this cannot be told. */
+static int judge(const tn_space *space, const int64_t low[3], const int32_t size[3])
 {
-    for (int i = 0; i < POINTS; i++)
-        space->z[i] = (z + i / TN_CHUNK_WIDTH + 0.5) * space->unit[2];
+    tn_interval terms[TN_PLACED_TERM_COUNT];
+    for (size_t i = 0; i < TN_PLACED_TERM_COUNT; i++)
+        terms[i] = i < TN_PLACED_MASK ? tn_interval_of(0) : (tn_interval){0, 1, false};
+    static const int placed[3] = {TN_PLACED_X, TN_PLACED_Y, TN_PLACED_Z};
+    for (int k = 0; k < 3; k++) {
+        double first = middle_of(space, k, low[k]), last = middle_of(space, k, low[k] + size[k] - 1);
+        terms[placed[k]] = (tn_interval){fmin(first, last), fmax(first, last), false};
+    }
+    tn_interval value = tn_number_bounds(space->code, space->function->code_begin, terms);
+    if (tn_interval_is_none(value) || value.high <= 0)
+        return 0;
+    return value.low > 0 && !value.fails ? 1 : -1;
+}
+
+/* Looks at each cell of a block of POINTS cells. */
+static tn_status look_at_cells(tn_space *space, const block *b, const int64_t low[3],
+                               uint64_t row[TN_CHUNK_ROWS][TN_CHUNK_ROWS], tn_error *error)
+{
+    for (int i = 0; i < POINTS; i++) {
+        const int64_t cell[3] = {low[0] + i % BLOCK_WIDTH, low[1] + i / BLOCK_WIDTH % BLOCK_ROWS,
+                                 low[2] + i / (BLOCK_WIDTH * BLOCK_ROWS)};
+        space->x[i] = middle_of(space, 0, cell[0]);
+        space->y[i] = middle_of(space, 1, cell[1]);
+        space->z[i] = middle_of(space, 2, cell[2]);
+        for (size_t m = 0; space->mask_rows && m < TN_KIT_MASKS_MAX; m++)
+            if (space->masks[m])
+                space->mask_rows[m * POINTS + (size_t)i] = mask_holds(space->module, space->masks[m], cell);
+    }
     tn_status status = tn_number_run_rows(&space->rows, space->code, space->function->code_begin,
                                           space->function->stack_max, space->columns, POINTS, space->values, error);
-    if (status != TN_OK)
-        return status;
-    outside[0] = outside[1] = 0;
-    for (int i = 0; i < POINTS; i++)
+    for (int i = 0; i < POINTS && status == TN_OK; i++) {
+        int32_t y = b->low[1] + i / BLOCK_WIDTH % BLOCK_ROWS, z = b->low[2] + i / (BLOCK_WIDTH * BLOCK_ROWS);
         if (!(space->values[i] > 0))
-            outside[i / TN_CHUNK_WIDTH] |= UINT64_C(1) << i % TN_CHUNK_WIDTH;
-    return TN_OK;
+            row[y][z] |= UINT64_C(1) << (b->low[0] + i % BLOCK_WIDTH);
+    }
+    return status;
+}
+
+static void mark_outside(const block *b, uint64_t row[TN_CHUNK_ROWS][TN_CHUNK_ROWS])
+{
+    uint64_t bits = (b->size[0] < TN_CHUNK_WIDTH ? (UINT64_C(1) << b->size[0]) - 1 : UINT64_MAX) << b->low[0];
+    for (int32_t y = 0; y < b->size[1]; y++)
+        for (int32_t z = 0; z < b->size[2]; z++)
+            row[b->low[1] + y][b->low[2] + z] |= bits;
+}
+
+/* Blocks of which intervals prove that they are inside or outside are not looked at cell by cell; others are halved. */
+static tn_status look_at_block(tn_space *space, const block *b, const int32_t at[3],
+                               uint64_t row[TN_CHUNK_ROWS][TN_CHUNK_ROWS], tn_error *error)
+{
+    static const int32_t chunk[3] = {TN_CHUNK_WIDTH, TN_CHUNK_ROWS, TN_CHUNK_ROWS};
+    static const int32_t least[3] = {BLOCK_WIDTH, BLOCK_ROWS, BLOCK_ROWS};
+    int64_t low[3];
+    for (int k = 0; k < 3; k++)
+        low[k] = (int64_t)at[k] * chunk[k] + b->low[k];
+    int all = judge(space, low, b->size), axis = 0;
+    if (all == 0)
+        mark_outside(b, row);
+    if (all >= 0)
+        return TN_OK;
+    for (int k = 1; k < 3; k++)
+        if (b->size[k] / least[k] > b->size[axis] / least[axis])
+            axis = k;
+    if (b->size[axis] == least[axis])
+        return look_at_cells(space, b, low, row, error);
+    block half = *b;
+    half.size[axis] /= 2;
+    tn_status status = look_at_block(space, &half, at, row, error);
+    half.low[axis] += half.size[axis];
+    return status == TN_OK ? look_at_block(space, &half, at, row, error) : status;
 }
 
 static tn_status find_outside(void *context, const int32_t at[3], uint64_t row[TN_CHUNK_ROWS][TN_CHUNK_ROWS],
                               tn_error *error)
 {
-    tn_space *space = context;
-    tn_status status = TN_OK;
-    for (int i = 0; i < POINTS; i++)
-        space->x[i] = ((double)at[0] * TN_CHUNK_WIDTH + i % TN_CHUNK_WIDTH + 0.5) * space->unit[0];
-    for (int y = 0; y < TN_CHUNK_ROWS && status == TN_OK; y++) {
-        for (int i = 0; i < POINTS; i++) /* heights are upwards, cells downwards */
-            space->y[i] = -((double)at[1] * TN_CHUNK_ROWS + y + 0.5) * space->unit[1];
-        for (int z = 0; z < TN_CHUNK_ROWS && status == TN_OK; z += 2) {
-            look_at_masks(space, (int64_t)at[0] * TN_CHUNK_WIDTH, (int64_t)at[1] * TN_CHUNK_ROWS + y,
-                          (int64_t)at[2] * TN_CHUNK_ROWS + z);
-            status = look_at_rows(space, at[2] * TN_CHUNK_ROWS + z, &row[y][z], error);
-        }
-    }
-    return status;
+    const block whole = {.size = {TN_CHUNK_WIDTH, TN_CHUNK_ROWS, TN_CHUNK_ROWS}};
+    memset(row, 0, TN_CHUNK_ROWS * sizeof *row);
+    return look_at_block(context, &whole, at, row, error);
 }
 
 /* Which masks the space's function asks for. */

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "runtime/base/file.h"
+#include "runtime/number/interval.h"
 #include "runtime/number/operation.h"
 #include "tests/support/test_expression.h"
 
@@ -46,6 +47,40 @@ static void test_rows_are_points(void **state)
                 double operands[] = {columns[0][k], columns[1][k], columns[2][k]};
                 same(operation, operands, out[k], tn_operation_apply(operation->opcode, operands));
             }
+        }
+    }
+}
+
+/* From -4 to 4, and often whole, so that bounds are met. */
+static double small_number(test_random *random)
+{
+    double number = (double)test_draw(random, 8001) / 1000 - 4;
+    return test_draw(random, 2) ? rint(number) : number;
+}
+
+/* Every value of an operation lies in the interval that is said to hold all of them. */
+static void test_bounds_hold_values(void **state)
+{
+    (void)state;
+    test_random random = {.seed = 3};
+    for (size_t round = 0; round < 20000; round++) {
+        const tn_operation *operation = &tn_operations[round % TN_OPERATION_COUNT];
+        tn_interval boxes[3];
+        for (int j = 0; j < 3; j++) {
+            double a = small_number(&random), b = test_draw(&random, 3) ? small_number(&random) : a;
+            boxes[j] = (tn_interval){fmin(a, b), fmax(a, b), false};
+        }
+        tn_interval bounds =
+            tn_operation_bounds(operation->opcode, (const tn_interval *[]){&boxes[0], &boxes[1], &boxes[2]});
+        for (int i = 0; i < 8; i++) {
+            double operands[3];
+            for (int j = 0; j < 3; j++)
+                operands[j] = i >> j & 1 ? boxes[j].high : boxes[j].low;
+            double value = tn_operation_apply(operation->opcode, operands);
+            if (value != value ? !bounds.fails : !(value >= bounds.low && value <= bounds.high))
+                fail_msg("%s of %a, %a, %a is %a, not in %a to %a",
+                         tn_opcode_describe((uint8_t)operation->opcode)->name, operands[0], operands[1], operands[2],
+                         value, bounds.low, bounds.high);
         }
     }
 }
@@ -168,9 +203,13 @@ static void test_words_are_documented(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rows_are_points),      cmocka_unit_test(test_random_rows_are_points),
-        cmocka_unit_test(test_no_value_stays_none),  cmocka_unit_test(test_protected),
-        cmocka_unit_test(test_violations),           cmocka_unit_test(test_functions_have_names),
+        cmocka_unit_test(test_rows_are_points),
+        cmocka_unit_test(test_bounds_hold_values),
+        cmocka_unit_test(test_random_rows_are_points),
+        cmocka_unit_test(test_no_value_stays_none),
+        cmocka_unit_test(test_protected),
+        cmocka_unit_test(test_violations),
+        cmocka_unit_test(test_functions_have_names),
         cmocka_unit_test(test_words_are_documented),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
