@@ -23,6 +23,7 @@ os.execv(sys.argv[1], sys.argv[1:])' "$@"
 }
 
 watched() { # COMMAND: begins to watch
+    : >"$scratch/said" # there before the command begins
     hearing "$TARTAN" "$1" --watch "$scratch/own.plan" >"$scratch/said" 2>&1 &
     pid=$!
     says 1 'waiting for a change of 2 files'
