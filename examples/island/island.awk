@@ -1,4 +1,4 @@
-# The height map of an island as a PGM picture: a mountain, a lower one, and a hill before them. Black is the sea.
+# The height map of an island as a PGM picture: a mountain, a lower one, and two hills before them. Black is the sea.
 function hill(x, y, wide, high,   from) {
   from = (x * x + y * y) / (wide * wide)
   return from < 1 ? high * (1 - from) * (1 - from) : 0
