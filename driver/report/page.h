@@ -3,8 +3,8 @@
 #define TARTAN_DRIVER_REPORT_PAGE_H
 
 #include "driver/open/open.h"
-#include "runtime/plan/text/text.h"
 #include "runtime/base/picture.h"
+#include "runtime/plan/text/text.h"
 
 typedef struct tn_page {
     tn_buffer *text;
