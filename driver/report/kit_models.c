@@ -137,10 +137,10 @@ static void place(tn_kit_reporting *r, placed *p)
     p->found = r->opened->compilation.diagnostics;
     r->opened->compilation.diagnostics = own;
     tn_diagnostics_sort(&p->found);
-    if (p->found.failed)
+    if (p->found.failed || p->status == TN_MEMORY)
         p->status = tn_fail_memory(r->page.error);
     if (p->found.stopped || p->status == TN_STOPPED)
-        p->status = tn_fail(r->page.error, TN_STOPPED, TN_CODE_NONE, "interrupted");
+        p->status = tn_fail_stopped(r->options.watch, r->page.error);
 }
 
 static bool is_small(const tn_kit_model_record *m)

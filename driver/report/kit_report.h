@@ -8,9 +8,9 @@
 #include "runtime/plan/text/text.h"
 
 #define TN_KIT_REPORT_PICTURES 500
-#define TN_KIT_REPORT_PARTS 2000
+#define TN_KIT_REPORT_PARTS 1000
 #define TN_KIT_REPORT_STEPS 20000000
-#define TN_KIT_REPORT_SEARCH 20000
+#define TN_KIT_REPORT_SEARCH 5000
 
 /* How much work a page may be; 0: as above. What passes a limit is said on the page. */
 typedef struct tn_kit_report_options {
