@@ -25,8 +25,10 @@ typedef struct drawing {
     double unit[3]; /* LDU */
     size_t shown;   /* the first so many parts are drawn */
     double width;   /* of its picture; 0: that of one alone */
+    bool below;     /* seen from below */
     tn_sight sight;
     bool *studs;     /* [connector type]: owned */
+    double grown;    /* so many times as large as those of bricks studs are, less 1 */
     uint32_t corner; /* next */
 } drawing;
 
@@ -106,16 +108,17 @@ static void put_turned(drawing *d, const double at[3], uint32_t turn, double acr
 /* A stud that points up where a part is turned so. */
 static void add_stud(drawing *d, const double at[3], uint32_t turn, uint32_t group)
 {
+    const double radius = stud_radius * (1 + d->grown), height = stud_height * (1 + d->grown);
     for (int i = 0; i < STUD_SIDES; i++) {
         const double *a = octagon[i], *b = octagon[(i + 1) % STUD_SIDES];
-        put_turned(d, at, turn, stud_radius * a[0], stud_radius * a[1], 0);
-        put_turned(d, at, turn, stud_radius * b[0], stud_radius * b[1], 0);
-        put_turned(d, at, turn, stud_radius * b[0], stud_radius * b[1], stud_height);
-        put_turned(d, at, turn, stud_radius * a[0], stud_radius * a[1], stud_height);
+        put_turned(d, at, turn, radius * a[0], radius * a[1], 0);
+        put_turned(d, at, turn, radius * b[0], radius * b[1], 0);
+        put_turned(d, at, turn, radius * b[0], radius * b[1], height);
+        put_turned(d, at, turn, radius * a[0], radius * a[1], height);
         end_face(d, group);
     }
     for (int i = 0; i < STUD_SIDES; i++)
-        put_turned(d, at, turn, stud_radius * octagon[i][0], stud_radius * octagon[i][1], stud_height);
+        put_turned(d, at, turn, radius * octagon[i][0], radius * octagon[i][1], height);
     end_face(d, group);
 }
 
@@ -380,6 +383,94 @@ tn_status tn_placed_draw_steps(const tn_module *module, const tn_placed_model *m
     free(palette);
     free(groups);
     free(list.items);
+    return status;
+}
+
+/* ---- a part alone */
+
+/* Studs of a part that is much larger or smaller than bricks grow or shrink with it. */
+static double growth_of(const drawing *d, const tn_kit_part_record *part)
+{
+    enum { LEAST = 20, MOST = 400 }; /* LDU */
+    double extent = 0;
+    for (uint32_t b = 0; b < part->box_count; b++) {
+        const tn_part_box_record *box = &d->module->PART_BOX_records[part->box_first + b];
+        const double sides[3] = {d->unit[0] * (double)(box->high_x - box->low_x),
+                                 d->unit[1] * (double)(box->high_y - box->low_y),
+                                 d->unit[2] * (double)(box->high_z - box->low_z)};
+        for (int k = 0; k < 3; k++)
+            extent = sides[k] > extent ? sides[k] : extent;
+    }
+    if (extent > MOST)
+        return extent / MOST - 1;
+    return extent > 0 && extent < LEAST ? extent / LEAST - 1 : 0;
+}
+
+/* Group 0 is the part, and group 1 + t what shows its connectors of type t. */
+static tn_status take_part(drawing *d, const tn_kit_part_record *part, tn_view **view, tn_error *error)
+{
+    static const tn_frame origin = {.at = {0, 0, 0}};
+    const size_t boxes = part->box_count, studs = part->connector_count;
+    tn_status status = tn_sight_new(BOX_FACES * boxes + (STUD_SIDES + 1) * studs,
+                                    4 * BOX_FACES * boxes + 5 * STUD_SIDES * studs, true, &d->sight, error);
+    if (status != TN_OK)
+        return status;
+    d->sight.closed = true;
+    d->sight.face_count = 0;
+    d->sight.first[0] = 0;
+    d->corner = 0;
+    for (uint32_t b = 0; b < part->box_count; b++) {
+        tn_cell_box box = tn_part_box_at(&d->module->PART_BOX_records[part->box_first + b], &origin);
+        add_box(d, &box, 0);
+    }
+    for (uint32_t c = 0; c < part->connector_count; c++) {
+        const tn_part_connector_record *from = &d->module->PART_CONNECTOR_records[part->connector_first + c];
+        const double at[3] = {d->unit[0] * (double)from->x, d->unit[1] * (double)from->y, d->unit[2] * (double)from->z};
+        add_stud(d, at, tn_turn_to((tn_axis)from->axis), 1 + from->type);
+    }
+    const tn_camera camera = {.azimuth = -60, .elevation = d->below ? -30 : 30, .width = d->width};
+    return tn_view_take(&d->sight, &camera, view, error);
+}
+
+static tn_status make_type_palette(const tn_module *module, double (**palette)[3], tn_error *error)
+{
+    *palette = calloc((size_t)module->CONNECTOR_TYPE_count + 1, sizeof **palette);
+    if (!*palette)
+        return tn_fail_memory(error);
+    for (int k = 0; k < 3; k++)
+        (*palette)[0][k] = 0.9;
+    for (uint32_t t = 0; t < module->CONNECTOR_TYPE_count; t++) {
+        unsigned char rgb[3];
+        tn_group_colour(t, rgb);
+        for (int k = 0; k < 3; k++)
+            (*palette)[1 + t][k] = rgb[k] / 255.0;
+    }
+    return TN_OK;
+}
+
+tn_status tn_kit_part_draw(const tn_module *module, uint32_t part, tn_picture *to, tn_error *error)
+{
+    enum { BOTH = 320 };
+    static const char *const labels[] = {"from above", "from below"};
+    const tn_kit_part_record *record = &module->KIT_PART_records[part];
+    double(*palette)[3] = NULL;
+    tn_view *views[2] = {NULL, NULL};
+    drawing d = {.module = module, .width = BOTH};
+    tn_place_unit(module, d.unit);
+    d.grown = growth_of(&d, record);
+    tn_status status = record->box_count ? make_type_palette(module, &palette, error) : no_shape(error);
+    for (int v = 0; v < 2 && status == TN_OK; v++) {
+        d.below = v == 1;
+        status = take_part(&d, record, &views[v], error);
+        tn_sight_clear(&d.sight);
+    }
+    if (status == TN_OK) {
+        const tn_view_options options = {.labels = labels, .palette = (const double(*)[3])palette};
+        status = tn_views_draw(views, 2, &options, to, error);
+    }
+    for (int v = 0; v < 2; v++)
+        tn_view_free(views[v]);
+    free(palette);
     return status;
 }
 

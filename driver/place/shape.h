@@ -27,6 +27,11 @@ tn_status tn_placed_draw_steps(const tn_module *module, const tn_placed_model *m
                                const tn_placed_measures *measures, const tn_placed_steps *steps, tn_picture *to,
                                tn_error *error);
 
+/* Draws part number `part` of a kit alone, seen from above and from below. A stud stands at each of its connectors, in
+ * the direction in which that points and in the colour of its kind (tn_group_colour). E1318 for a part that fills
+ * nothing. */
+tn_status tn_kit_part_draw(const tn_module *module, uint32_t part, tn_picture *to, tn_error *error);
+
 /* The closed surface of a model, a group for each colour; *palette: the groups' colours, which the caller frees. The
  * model's parts do not overlap. */
 tn_status tn_placed_mesh(const tn_module *module, const tn_placed_model *model, tn_mesh *mesh,

@@ -16,8 +16,8 @@ static bool is_shown(const tn_reporting *r, uint32_t measure)
 static bool put_title(const tn_reporting *r, uint32_t measure)
 {
     const char *name = tn_text(r->module, r->module->MEASURE_records[measure].name);
-    return tn_report_html(r, "<section class=\"card measure\" id=\"measure-") && tn_report_text(r, name) &&
-           tn_report_html(r, "\"><h3>") && tn_report_text(r, name) && tn_report_html(r, "</h3>\n");
+    return tn_page_html(&r->page, "<section class=\"card measure\" id=\"measure-") && tn_page_text(&r->page, name) &&
+           tn_page_html(&r->page, "\"><h3>") && tn_page_text(&r->page, name) && tn_page_html(&r->page, "</h3>\n");
 }
 
 /* ---- the plans with the least or the most */
@@ -29,9 +29,9 @@ static bool put_value(const tn_reporting *r, const tn_spread *spread, int64_t st
     mpq_init(value);
     mpq_set_si(value, steps, 1);
     mpq_mul(value, value, tn_weighed_unit(spread->weighed, 0));
-    bool good = tn_amount_write(spread->bins.unit, value, &text) && tn_report_html(r, "<div><p><b>") &&
-                tn_report_text(r, text.data) && tn_report_html(r, "</b>, rank ") && tn_report_number(r, rank) &&
-                tn_report_html(r, "</p>\n");
+    bool good = tn_amount_write(spread->bins.unit, value, &text) && tn_page_html(&r->page, "<div><p><b>") &&
+                tn_page_text(&r->page, text.data) && tn_page_html(&r->page, "</b>, rank ") &&
+                tn_report_number(r, rank) && tn_page_html(&r->page, "</p>\n");
     mpq_clear(value);
     free(text.data);
     return good;
@@ -43,25 +43,25 @@ static tn_status put_plan(tn_reporting *r, const tn_spread *spread, const tn_tra
     mpz_t rank;
     mpz_init(rank);
     tn_library_rank(r->ready->library, trays, length, rank);
-    tn_status status = tn_report_written(r, put_value(r, spread, steps, rank));
+    tn_status status = tn_page_written(&r->page, put_value(r, spread, steps, rank));
     mpz_clear(rank);
     if (status == TN_OK)
         status = tn_report_put_plan(r, trays, length, "one of the best plans by a measure");
     if (status != TN_OK)
         return status;
-    return tn_report_written(r, tn_report_html(r, "<p class=\"line\">") && tn_report_plan(r, trays, length) &&
-                                    tn_report_html(r, "</p></div>\n"));
+    return tn_page_written(&r->page, tn_page_html(&r->page, "<p class=\"line\">") && tn_report_plan(r, trays, length) &&
+                                         tn_page_html(&r->page, "</p></div>\n"));
 }
 
 static tn_status put_plans(tn_reporting *r, const tn_spread *spread, tn_best *best)
 {
     tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(r->ready->library) + 1));
-    tn_status status = trays ? TN_OK : tn_fail_memory(r->error);
+    tn_status status = trays ? TN_OK : tn_fail_memory(r->page.error);
     bool found = true;
     for (int i = 0; status == TN_OK && found && i < SHOWN; i++) {
         int64_t values[TN_WEIGHED_MAX];
         uint32_t length;
-        status = tn_best_next(best, trays, &length, values, &found, r->error);
+        status = tn_best_next(best, trays, &length, values, &found, r->page.error);
         if (status == TN_OK && found)
             status = put_plan(r, spread, trays, length, values[0]);
     }
@@ -72,26 +72,27 @@ static tn_status put_plans(tn_reporting *r, const tn_spread *spread, tn_best *be
 static tn_status put_best(tn_reporting *r, const tn_spread *spread, bool most)
 {
     tn_best *best = NULL;
-    tn_status status = tn_best_new(spread->weighed, &most, &best, r->error);
+    tn_status status = tn_best_new(spread->weighed, &most, &best, r->page.error);
     if (status == TN_OK)
-        status = tn_report_written(r, tn_report_html(r, most ? "<details><summary>the plans with the most"
-                                                             : "<details><summary>the plans with the least") &&
-                                          tn_report_html(r, "</summary>\n<div class=\"best\">\n"));
+        status =
+            tn_page_written(&r->page, tn_page_html(&r->page, most ? "<details><summary>the plans with the most"
+                                                                  : "<details><summary>the plans with the least") &&
+                                          tn_page_html(&r->page, "</summary>\n<div class=\"best\">\n"));
     if (status == TN_OK)
         status = put_plans(r, spread, best);
     tn_best_free(best);
-    return status == TN_OK ? tn_report_written(r, tn_report_html(r, "</div></details>\n")) : status;
+    return status == TN_OK ? tn_page_written(&r->page, tn_page_html(&r->page, "</div></details>\n")) : status;
 }
 
 /* ---- one measure */
 
 static tn_status put_spread(tn_reporting *r, tn_spread *spread)
 {
-    tn_picture picture = tn_report_next_picture(r);
+    tn_picture picture = tn_page_next_picture(&r->page);
     if (spread->d.count > TN_VALUES_LISTED)
         tn_bins_few(&spread->bins, TN_BINS_DEFAULT);
-    tn_status status = tn_spread_draw(spread, &picture, r->error);
-    status = tn_report_put_picture(r, &picture, "how the plans are spread over the measure", status);
+    tn_status status = tn_spread_draw(spread, &picture, r->page.error);
+    status = tn_page_put_picture(&r->page, &picture, "how the plans are spread over the measure", status);
     if (status == TN_OK && spread->d.count > 0)
         status = put_best(r, spread, false);
     if (status == TN_OK && spread->d.count > 0)
@@ -103,26 +104,26 @@ static tn_status put_spread(tn_reporting *r, tn_spread *spread)
 static tn_status put_measure(tn_reporting *r, uint32_t measure)
 {
     tn_spread spread;
-    size_t before = r->page->size;
-    tn_status status = tn_report_written(r, put_title(r, measure));
+    size_t before = r->page.text->size;
+    tn_status status = tn_page_written(&r->page, put_title(r, measure));
     if (status != TN_OK)
         return status;
-    status = tn_spread_make(&spread, r->ready, measure, r->error);
+    status = tn_spread_make(&spread, r->ready, measure, r->page.error);
     if (status == TN_OK)
         status = put_spread(r, &spread);
     tn_spread_clear(&spread);
     if (status == TN_LIMIT) {
-        r->page->size = before;
-        status =
-            tn_report_written(r, put_title(r, measure) && tn_report_html(r, "<p class=\"quiet\">not worked out: ") &&
-                                     tn_report_prose(r, r->error->message) && tn_report_html(r, "</p>\n"));
+        r->page.text->size = before;
+        status = tn_page_written(
+            &r->page, put_title(r, measure) && tn_page_html(&r->page, "<p class=\"quiet\">not worked out: ") &&
+                          tn_page_prose(&r->page, r->page.error->message) && tn_page_html(&r->page, "</p>\n"));
     }
-    return status == TN_OK ? tn_report_written(r, tn_report_html(r, "</section>\n")) : status;
+    return status == TN_OK ? tn_page_written(&r->page, tn_page_html(&r->page, "</section>\n")) : status;
 }
 
 tn_status tn_report_measures(tn_reporting *r)
 {
-    tn_status status = tn_report_written(r, tn_report_html(r, "<h2 id=\"measures\">Measures</h2>\n"));
+    tn_status status = tn_page_written(&r->page, tn_page_html(&r->page, "<h2 id=\"measures\">Measures</h2>\n"));
     bool any = false;
     for (uint32_t i = 0; status == TN_OK && i < r->module->MEASURE_count; i++) {
         if (!is_shown(r, i))
@@ -131,6 +132,7 @@ tn_status tn_report_measures(tn_reporting *r)
         any = true;
     }
     if (status == TN_OK && !any)
-        status = tn_report_written(r, tn_report_html(r, "<p class=\"quiet\">The file has no measures.</p>\n"));
+        status =
+            tn_page_written(&r->page, tn_page_html(&r->page, "<p class=\"quiet\">The file has no measures.</p>\n"));
     return status;
 }

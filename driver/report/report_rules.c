@@ -64,24 +64,25 @@ static bool put_id(const tn_reporting *r, const card *c)
     uint32_t before = 0;
     for (uint32_t i = 0; i < c->index; i++)
         before += strcmp(tn_text(r->module, clause_record(r, i)->name), c->name) == 0;
-    return tn_report_text(r, c->name) && (!before || tn_buffer_printf(r->page, ".%u", before + 1));
+    return tn_page_text(&r->page, c->name) && (!before || tn_buffer_printf(r->page.text, ".%u", before + 1));
 }
 
 static bool put_title(const tn_reporting *r, const card *c)
 {
-    return tn_report_html(r, "<section class=\"card\" id=\"rule-") && put_id(r, c) && tn_report_html(r, "\"><h3>") &&
-           tn_report_text(r, c->name) && tn_report_html(r, " <small>") && tn_report_html(r, c->kind) &&
-           tn_report_html(r, "</small></h3>\n<p>") && tn_report_text(r, c->doc) && tn_report_html(r, "</p>\n");
+    return tn_page_html(&r->page, "<section class=\"card\" id=\"rule-") && put_id(r, c) &&
+           tn_page_html(&r->page, "\"><h3>") && tn_page_text(&r->page, c->name) && tn_page_html(&r->page, " <small>") &&
+           tn_page_html(&r->page, c->kind) && tn_page_html(&r->page, "</small></h3>\n<p>") &&
+           tn_page_text(&r->page, c->doc) && tn_page_html(&r->page, "</p>\n");
 }
 
 /* A count, and what share of `whole` it is; or that there is none. */
 static bool put_count(const tn_reporting *r, const char *what, const mpz_t count, const mpz_t whole, const char *of)
 {
     if (mpz_sgn(count) < 0)
-        return tn_report_html(r, what) && tn_report_html(r, " <b>not counted</b>: past the limit of states");
-    return tn_report_html(r, what) && tn_report_html(r, " <b>") && tn_report_number(r, count) &&
-           tn_report_html(r, "</b>") &&
-           (!of || (tn_report_html(r, " (") && tn_report_share(r, count, whole) && tn_report_html(r, of)));
+        return tn_page_html(&r->page, what) && tn_page_html(&r->page, " <b>not counted</b>: past the limit of states");
+    return tn_page_html(&r->page, what) && tn_page_html(&r->page, " <b>") && tn_report_number(r, count) &&
+           tn_page_html(&r->page, "</b>") &&
+           (!of || (tn_page_html(&r->page, " (") && tn_report_share(r, count, whole) && tn_page_html(&r->page, of)));
 }
 
 /* How many plans there are of the library's lengths, whatever the clauses say. */
@@ -104,22 +105,22 @@ static tn_status put_counts(const tn_reporting *r, const card *c)
     uint32_t states;
     mpz_t out, only, whole;
     mpz_inits(out, only, whole, NULL);
-    tn_status status = tn_library_effect(r->ready->library, c->index, out, only, &states, r->error);
+    tn_status status = tn_library_effect(r->ready->library, c->index, out, only, &states, r->page.error);
     if (status == TN_LIMIT) {
-        tn_finding_uncounted(r->opened, c->name, r->error);
+        tn_finding_uncounted(r->opened, c->name, r->page.error);
         status = TN_OK;
     }
     if (!c->prunes)
         count_all(r, whole);
     else if (status == TN_OK)
-        status = tn_library_generated(r->ready->library, TN_ALL_LENGTHS, whole, r->error);
+        status = tn_library_generated(r->ready->library, TN_ALL_LENGTHS, whole, r->page.error);
     if (status == TN_OK)
-        status = tn_report_written(
-            r, tn_report_html(r, "<p class=\"counts\">") &&
-                   put_count(r, c->prunes ? "prunes" : "keeps out", out, whole,
-                             c->prunes ? " of what is generated)" : " of all plans of these lengths)") &&
-                   tn_report_html(r, "<br>") && put_count(r, "kept out by this alone", only, whole, NULL) &&
-                   tn_report_html(r, "</p>\n"));
+        status = tn_page_written(
+            &r->page, tn_page_html(&r->page, "<p class=\"counts\">") &&
+                          put_count(r, c->prunes ? "prunes" : "keeps out", out, whole,
+                                    c->prunes ? " of what is generated)" : " of all plans of these lengths)") &&
+                          tn_page_html(&r->page, "<br>") && put_count(r, "kept out by this alone", only, whole, NULL) &&
+                          tn_page_html(&r->page, "</p>\n"));
     mpz_clears(out, only, whole, NULL);
     return status;
 }
@@ -127,18 +128,18 @@ static tn_status put_counts(const tn_reporting *r, const card *c)
 static tn_status put_picture(tn_reporting *r, const card *c)
 {
     tn_drawn_rule drawn = {"", "", c->function};
-    tn_picture picture = tn_report_next_picture(r);
+    tn_picture picture = tn_page_next_picture(&r->page);
     if (c->rule != UINT32_MAX)
         drawn.function = r->module->RULE_records[c->rule].whole;
-    tn_status status = tn_rules_draw(r->ready->schema, &drawn, 1, &picture, r->error);
-    return tn_report_put_picture(r, &picture, c->name, status);
+    tn_status status = tn_rules_draw(r->ready->schema, &drawn, 1, &picture, r->page.error);
+    return tn_page_put_picture(&r->page, &picture, c->name, status);
 }
 
 static bool put_source(const tn_reporting *r, const card *c)
 {
     const char *text = tn_text(r->module, r->module->SOURCE_records[c->file].text);
-    return tn_report_html(r, "<pre>") && tn_report_text_part(r, text + c->begin, c->end - c->begin) &&
-           tn_report_html(r, "</pre>\n");
+    return tn_page_html(&r->page, "<pre>") && tn_page_text_part(&r->page, text + c->begin, c->end - c->begin) &&
+           tn_page_html(&r->page, "</pre>\n");
 }
 
 /* ---- relations */
@@ -151,9 +152,9 @@ static const char *rule_name(const tn_reporting *r, uint32_t rule)
 /* A plan that shows a relation: "only x: ..." */
 static bool put_witness(const tn_reporting *r, const char *who, const char *name, const tn_shown_plan *plan)
 {
-    return !plan->shown || (tn_report_html(r, "<br>") && tn_report_html(r, who) && tn_report_text(r, name) &&
-                            tn_report_html(r, ": <span class=\"line\">") &&
-                            tn_report_plan(r, plan->trays, plan->length) && tn_report_html(r, "</span>"));
+    return !plan->shown || (tn_page_html(&r->page, "<br>") && tn_page_html(&r->page, who) &&
+                            tn_page_text(&r->page, name) && tn_page_html(&r->page, ": <span class=\"line\">") &&
+                            tn_report_plan(r, plan->trays, plan->length) && tn_page_html(&r->page, "</span>"));
 }
 
 static tn_status put_relation(const tn_reporting *r, const tn_plan_analysis *analysis, size_t i, size_t j,
@@ -162,13 +163,14 @@ static tn_status put_relation(const tn_reporting *r, const tn_plan_analysis *ana
     tn_shown_plan examples[3];
     const char *own = rule_name(r, tn_plan_analysis_rule(analysis, i));
     const char *other = rule_name(r, tn_plan_analysis_rule(analysis, j));
-    tn_status status = tn_plan_analysis_examples(analysis, i, j, examples, r->error);
+    tn_status status = tn_plan_analysis_examples(analysis, i, j, examples, r->page.error);
     if (status == TN_OK)
-        status = tn_report_written(r, tn_report_html(r, "<p class=\"quiet\">") && tn_report_html(r, word) &&
-                                          tn_report_html(r, " <b>") && tn_report_text(r, other) &&
-                                          tn_report_html(r, "</b>") && put_witness(r, "both", "", &examples[0]) &&
-                                          put_witness(r, "only ", own, &examples[1]) &&
-                                          put_witness(r, "only ", other, &examples[2]) && tn_report_html(r, "</p>\n"));
+        status = tn_page_written(&r->page,
+                                 tn_page_html(&r->page, "<p class=\"quiet\">") && tn_page_html(&r->page, word) &&
+                                     tn_page_html(&r->page, " <b>") && tn_page_text(&r->page, other) &&
+                                     tn_page_html(&r->page, "</b>") && put_witness(r, "both", "", &examples[0]) &&
+                                     put_witness(r, "only ", own, &examples[1]) &&
+                                     put_witness(r, "only ", other, &examples[2]) && tn_page_html(&r->page, "</p>\n"));
     for (int e = 0; e < 3; e++)
         tn_shown_plan_clear(&examples[e]);
     return status == TN_LIMIT ? TN_OK : status;
@@ -195,10 +197,11 @@ static tn_status put_relations_of(const tn_reporting *r, const tn_plan_analysis 
     }
     if (status != TN_OK || !unknown)
         return status;
-    return tn_report_written(r, tn_buffer_printf(r->page,
-                                                 "<p class=\"quiet\">not compared with %zu rules: past the limit of "
-                                                 "states</p>\n",
-                                                 unknown));
+    return tn_page_written(&r->page,
+                           tn_buffer_printf(r->page.text,
+                                            "<p class=\"quiet\">not compared with %zu rules: past the limit of "
+                                            "states</p>\n",
+                                            unknown));
 }
 
 static tn_status put_relations(const tn_reporting *r, const card *c)
@@ -219,16 +222,17 @@ static tn_status put_alone(tn_reporting *r, const card *c, const tn_shown_plan *
 {
     tn_explained explained;
     tn_status status = tn_explained_make(&explained, r->opened, r->ready->schema, r->ready->record, NULL, 0,
-                                         plan->trays, plan->length, plan->length + 1, r->error);
+                                         plan->trays, plan->length, plan->length + 1, r->page.error);
     if (status == TN_OK)
-        status = tn_report_written(
-            r, tn_report_html(r, "<details><summary>the shortest plan that only this keeps out</summary>\n"));
+        status = tn_page_written(
+            &r->page,
+            tn_page_html(&r->page, "<details><summary>the shortest plan that only this keeps out</summary>\n"));
     if (status == TN_OK)
         status = tn_report_put_explained(r, &explained, c->name);
     if (status == TN_OK)
-        status = tn_report_written(r, tn_report_html(r, "<p class=\"line\">") &&
-                                          tn_report_plan(r, plan->trays, plan->length) &&
-                                          tn_report_html(r, "</p></details>\n"));
+        status = tn_page_written(&r->page, tn_page_html(&r->page, "<p class=\"line\">") &&
+                                               tn_report_plan(r, plan->trays, plan->length) &&
+                                               tn_page_html(&r->page, "</p></details>\n"));
     tn_explained_clear(&explained);
     return status;
 }
@@ -240,13 +244,14 @@ static tn_status put_witness_alone(tn_reporting *r, const card *c)
         tn_shown_plan plan;
         if (r->analyses->schemas[a]->record != r->ready->schema->record || (r->ready->record->flags & TN_IMPORTED))
             continue;
-        status = tn_plan_analysis_alone(r->analyses->items[a], r->ready->library, c->index, &plan, r->error);
+        status = tn_plan_analysis_alone(r->analyses->items[a], r->ready->library, c->index, &plan, r->page.error);
         if (status == TN_OK && plan.shown)
             status = put_alone(r, c, &plan);
         else if (status == TN_LIMIT)
-            status = tn_report_written(
-                r, tn_report_html(r, "<p class=\"quiet\">Whether it alone keeps a plan out is not analysed: past the "
-                                     "limit of states.</p>\n"));
+            status = tn_page_written(
+                &r->page,
+                tn_page_html(&r->page, "<p class=\"quiet\">Whether it alone keeps a plan out is not analysed: past the "
+                                       "limit of states.</p>\n"));
         tn_shown_plan_clear(&plan);
     }
     return status;
@@ -256,9 +261,11 @@ static tn_status put_witness_alone(tn_reporting *r, const card *c)
 
 static bool put_part(const tn_reporting *r, const tn_covered_part *part)
 {
-    return tn_buffer_printf(r->page, "<tr><td style=\"padding-left:%uem\">", part->depth < 12 ? part->depth : 12) &&
-           tn_report_text(r, part->text) && tn_report_html(r, "</td><td>") && tn_report_number(r, part->flips) &&
-           tn_buffer_printf(r->page, "</td><td>%s</td></tr>\n", part->noticed ? "yes" : "<b>no</b>");
+    return tn_buffer_printf(r->page.text, "<tr><td style=\"padding-left:%uem\">",
+                            part->depth < 12 ? part->depth : 12) &&
+           tn_page_text(&r->page, part->text) && tn_page_html(&r->page, "</td><td>") &&
+           tn_report_number(r, part->flips) &&
+           tn_buffer_printf(r->page.text, "</td><td>%s</td></tr>\n", part->noticed ? "yes" : "<b>no</b>");
 }
 
 static bool put_coverage(const tn_reporting *r, const card *c)
@@ -271,7 +278,7 @@ static bool put_coverage(const tn_reporting *r, const card *c)
         }
     if (parts == 0)
         return true;
-    bool good = tn_buffer_printf(r->page,
+    bool good = tn_buffer_printf(r->page.text,
                                  "<details><summary>coverage: tests notice %zu of %zu parts</summary>\n<table "
                                  "class=\"parts\"><tr><th>if this part never matched</th><th>plans decided "
                                  "otherwise</th><th>a test notices</th></tr>\n",
@@ -279,7 +286,7 @@ static bool put_coverage(const tn_reporting *r, const card *c)
     for (size_t i = 0; good && i < r->covered->count; i++)
         if (r->covered->parts[i].function == c->function)
             good = put_part(r, &r->covered->parts[i]);
-    return good && tn_report_html(r, "</table></details>\n");
+    return good && tn_page_html(&r->page, "</table></details>\n");
 }
 
 /* ---- all */
@@ -289,20 +296,21 @@ static tn_status put_body(tn_reporting *r, const card *c)
 {
     tn_status status = put_picture(r, c);
     if (status == TN_OK)
-        status = tn_report_written(r, put_source(r, c));
+        status = tn_page_written(&r->page, put_source(r, c));
     if (status == TN_OK)
         status = put_relations(r, c);
     if (status == TN_OK && c->index < clause_count(r))
         status = put_witness_alone(r, c);
-    return status == TN_OK ? tn_report_written(r, put_coverage(r, c) && tn_report_html(r, "</section>\n")) : status;
+    return status == TN_OK ? tn_page_written(&r->page, put_coverage(r, c) && tn_page_html(&r->page, "</section>\n"))
+                           : status;
 }
 
 static tn_status put_clauses(tn_reporting *r)
 {
-    tn_status status = tn_report_written(r, tn_report_html(r, "<h2 id=\"rules\">Rules</h2>\n"));
+    tn_status status = tn_page_written(&r->page, tn_page_html(&r->page, "<h2 id=\"rules\">Rules</h2>\n"));
     for (uint32_t i = 0; status == TN_OK && i < clause_count(r); i++) {
         card c = card_of(r, i);
-        status = tn_report_written(r, put_title(r, &c));
+        status = tn_page_written(&r->page, put_title(r, &c));
         if (status == TN_OK)
             status = put_counts(r, &c);
         if (status == TN_OK)
@@ -326,10 +334,11 @@ static tn_status put_other(tn_reporting *r, uint32_t rule, const mpz_t *matched,
                            const mpz_t kept)
 {
     card c = card_of_rule(r, rule);
-    tn_status status = tn_report_written(
-        r, put_title(r, &c) && tn_report_html(r, "<p class=\"counts\">") &&
-               put_count(r, "matches", matched[0], generated, " of what is generated)") && tn_report_html(r, "<br>") &&
-               put_count(r, "of the plans kept", matched[1], kept, ")") && tn_report_html(r, "</p>\n"));
+    tn_status status = tn_page_written(
+        &r->page, put_title(r, &c) && tn_page_html(&r->page, "<p class=\"counts\">") &&
+                      put_count(r, "matches", matched[0], generated, " of what is generated)") &&
+                      tn_page_html(&r->page, "<br>") && put_count(r, "of the plans kept", matched[1], kept, ")") &&
+                      tn_page_html(&r->page, "</p>\n"));
     return status == TN_OK ? put_body(r, &c) : status;
 }
 
@@ -338,16 +347,16 @@ static tn_status put_others(tn_reporting *r, const uint32_t *rules, size_t count
 {
     uint32_t *functions = malloc((count + 1) * sizeof *functions);
     if (!functions)
-        return tn_fail_memory(r->error);
+        return tn_fail_memory(r->page.error);
     for (size_t i = 0; i < count; i++)
         functions[i] = r->module->RULE_records[rules[i]].holds;
-    tn_status status = tn_library_matches(r->ready->library, functions, count, matched, r->error);
+    tn_status status = tn_library_matches(r->ready->library, functions, count, matched, r->page.error);
     free(functions);
     if (status == TN_OK)
-        status = tn_library_generated(r->ready->library, TN_ALL_LENGTHS, generated, r->error);
+        status = tn_library_generated(r->ready->library, TN_ALL_LENGTHS, generated, r->page.error);
     tn_library_kept(r->ready->library, TN_ALL_LENGTHS, kept);
     if (status == TN_OK)
-        status = tn_report_written(r, tn_report_html(r, "<h2 id=\"others\">Other rules of the file</h2>\n"));
+        status = tn_page_written(&r->page, tn_page_html(&r->page, "<h2 id=\"others\">Other rules of the file</h2>\n"));
     for (size_t i = 0; status == TN_OK && i < count; i++)
         status = put_other(r, rules[i], (const mpz_t *)matched + 2 * i, generated, kept);
     return status;
@@ -358,12 +367,12 @@ static tn_status find_others(tn_reporting *r)
     uint32_t *rules = malloc((r->module->RULE_count + 1) * sizeof *rules);
     size_t count = 0;
     if (!rules)
-        return tn_fail_memory(r->error);
+        return tn_fail_memory(r->page.error);
     for (uint32_t i = 0; i < r->module->RULE_count; i++)
         if (is_other(r, i))
             rules[count++] = i;
     mpz_t *matched = malloc((2 * count + 2) * sizeof *matched);
-    tn_status status = matched ? TN_OK : tn_fail_memory(r->error);
+    tn_status status = matched ? TN_OK : tn_fail_memory(r->page.error);
     for (size_t i = 0; matched && i < 2 * count + 2; i++)
         mpz_init(matched[i]);
     if (status == TN_OK && count)
