@@ -105,7 +105,10 @@ static tn_status open_kit(tn_placer *p, const char *kit, tn_error *error)
     p->resolver = tn_files_resolver(&p->files);
     if (status != TN_OK)
         return status;
-    if (tn_open(p->path, false, &p->opened) != TN_OK)
+    status = tn_open(p->path, false, &p->opened);
+    if (status == TN_MEMORY)
+        return tn_open_error(&p->opened, status, error);
+    if (status != TN_OK)
         return refuse(error, kit, tn_first_error(&p->opened), NULL);
     status = check_kit(p, error);
     if (status != TN_OK)
