@@ -20,7 +20,8 @@ bool tn_buffer_append(tn_buffer *buffer, const char *text, size_t length)
 {
     if (!tn_buffer_reserve(buffer, length))
         return false;
-    memcpy(buffer->data + buffer->size, text, length);
+    if (length > 0)
+        memcpy(buffer->data + buffer->size, text, length);
     buffer->size += length;
     buffer->data[buffer->size] = '\0';
     return true;
