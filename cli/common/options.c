@@ -228,15 +228,26 @@ static tn_status set_real(parse *p, const tn_option *option, const char *text)
     return TN_OK;
 }
 
+static tn_status given_twice(parse *p, const tn_option *option, const char *first, const char *second)
+{
+    tn_status status =
+        tn_fail(p->error, TN_INVALID, E_USAGE, "--%s is given twice: `%.60s` and `%.60s`", option->name, first, second);
+    tn_error_help(p->error, "`tartan %s` takes one; run it once for each", p->command->name);
+    return status;
+}
+
 /* A file's name, and any other text but that: empty ones are what a variable of a script without a value gives. */
 static tn_status set_text(parse *p, const tn_option *option, const char *text)
 {
+    const char **place = place_of(p->settings, option);
     static const char *const names[] = {"FILE", "FOLDER", "DIR", "NAME", "HOW"};
     for (size_t i = 0; i < OPTION_COUNT(names) && !*text; i++)
         if (strcmp(option->argument, names[i]) == 0)
             return tn_fail(p->error, TN_INVALID, E_USAGE, "--%s needs its argument %s, which is empty here",
                            option->name, option->argument);
-    *(const char **)place_of(p->settings, option) = text;
+    if (*place && strcmp(*place, text) != 0)
+        return given_twice(p, option, *place, text);
+    *place = text;
     return TN_OK;
 }
 

@@ -62,8 +62,8 @@ static void write_table(FILE *out, const tn_mesh_stats *s)
     if (s->proven)
         fprintf(out, "proven     %.12g to %.12g%s%s%s\n", s->proven[0], s->proven[1], space, s->unit, cube);
     if (s->thickness)
-        fprintf(out, "thickness  %.6g at least, %.6g but for a hundredth%s%s\n", s->thickness[0], s->thickness[1],
-                *s->unit ? ", in " : "", s->unit);
+        fprintf(out, "thickness  at least %.6g%s%s; 99 %% of the wall at least %.6g%s%s\n", s->thickness[0], space,
+                s->unit, s->thickness[1], space, s->unit);
     fprintf(out, "area       %.12g%s%s%s\n", m->area, space, s->unit, square);
     if (s->closed) {
         write_triple(out, "centroid  ", m->centroid, largest(m->low, largest(m->high, 0)));

@@ -98,6 +98,15 @@ static void suggest(const tn_request *request, const char *near, char *meant, tn
         meant[0] = '\0';
 }
 
+/* Is there a folder of the standard library at all? A program that was copied away from its own has none. */
+static bool any_folder(const tn_stdlib_dirs *dirs)
+{
+    for (size_t i = 0; i < dirs->count; i++)
+        if (tn_path_exists(dirs->dirs[i]))
+            return true;
+    return false;
+}
+
 tn_status tn_missing(const tn_stdlib_dirs *dirs, const tn_request *request, char *meant, tn_error *error)
 {
     bool bare = tn_path_is_bare(request->path);
@@ -112,6 +121,9 @@ tn_status tn_missing(const tn_stdlib_dirs *dirs, const tn_request *request, char
         tn_error_help(error, "for the file beside this one write `use \"%.200s%s\"`", path, extension);
     else if (near)
         suggest(request, near, meant, error);
+    else if (bare && dirs->count && !any_folder(dirs))
+        tn_error_help(error, "there is no folder %.300s: set TARTAN_PATH to the folder of the standard library",
+                      dirs->dirs[dirs->count - 1]);
     else if (bare)
         tn_error_help(error, "for a file of yours write its extension too: `use \"%.200s%s\"`", path, extension);
     else
