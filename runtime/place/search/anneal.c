@@ -60,19 +60,23 @@ static tn_cell_box standing_box(chain *c, const tn_world *world)
 }
 
 /* A box about a random part: its own cells, and those beside it as far as a random number says. Now and then also those
- * above and below. */
+ * above and below. What is beside and what is above is seen from the first connector of the start, so that a world that
+ * is turned gives the same model turned. */
 static tn_cell_box choose_region(chain *c, const tn_world *world)
 {
     const tn_put *put = &c->kept.puts[draw(c, world, c->kept.put_count)];
     tn_cell_box region = put->choice == world->choices->standing ? standing_box(c, world) : box_of(world->choices, put);
-    int32_t wide = (int32_t)(1 + draw(c, world, 6)), deep = (int32_t)(1 + draw(c, world, 6));
-    int32_t high = draw(c, world, 4) == 0;
-    region.low[0] -= wide;
-    region.high[0] += wide;
-    region.low[1] -= high;
-    region.high[1] += high;
-    region.low[2] -= deep;
-    region.high[2] += deep;
+    const tn_site_choices *all = world->choices;
+    const uint32_t seen_from = all->start_first < all->site_count ? all->sites[all->start_first].frame.heading : 0;
+    int32_t beyond[3];
+    beyond[0] = (int32_t)(1 + draw(c, world, 6));
+    beyond[2] = (int32_t)(1 + draw(c, world, 6));
+    beyond[1] = draw(c, world, 4) == 0;
+    tn_turn_place(seen_from, beyond, beyond);
+    for (int k = 0; k < 3; k++) {
+        region.low[k] -= abs(beyond[k]);
+        region.high[k] += abs(beyond[k]);
+    }
     return region;
 }
 

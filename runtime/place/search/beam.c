@@ -36,7 +36,7 @@ static tn_status list_branches(beam *b, uint32_t plan)
     uint32_t fitting[FITTING_MAX];
     tn_status status = tn_world_load(world, &b->plans[plan], run->error);
     while (status == TN_OK && world->plan.open_count > 0) {
-        tn_open_site site = world->plan.open[--world->plan.open_count];
+        tn_open_site site = tn_world_next(world);
         size_t count = tn_world_choices(world, &site, false, fitting, b->width == 1 ? 1 : FITTING_MAX);
         if (count == 0)
             continue;

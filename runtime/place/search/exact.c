@@ -38,7 +38,7 @@ static tn_status keep_open(exact *e, decision *d)
     d->open_first = e->open_count;
     d->open_count = plan->open_count;
     if (plan->open_count)
-        memcpy(&e->open[e->open_count], plan->open, plan->open_count * sizeof *e->open);
+        memcpy(&e->open[e->open_count], plan->open + plan->open_first, plan->open_count * sizeof *e->open);
     e->open_count += plan->open_count;
     return TN_OK;
 }
@@ -50,7 +50,7 @@ static tn_status next_decision(exact *e, bool *none)
     uint32_t fitting[FITTING_MAX];
     *none = true;
     while (world->plan.open_count > 0) {
-        tn_open_site site = world->plan.open[--world->plan.open_count];
+        tn_open_site site = tn_world_next(world);
         size_t count = tn_world_choices(world, &site, true, fitting, FITTING_MAX);
         if (count == 0)
             continue;
@@ -126,6 +126,7 @@ static void go_back(exact *e, const decision *d)
         tn_world_take_last(world);
     if (d->open_count)
         memcpy(world->plan.open, &e->open[d->open_first], d->open_count * sizeof *e->open);
+    world->plan.open_first = 0;
     world->plan.open_count = d->open_count;
     e->left_count = d->left;
 }

@@ -211,19 +211,42 @@ size_t tn_world_choices(tn_world *world, const tn_open_site *site, bool all, uin
 
 /* ---- putting and taking away */
 
+static bool in_breadth(const tn_world *world)
+{
+    return world->choices->rules->space->flags & TN_KIT_BREADTH;
+}
+
+tn_open_site tn_world_next(tn_world *world)
+{
+    tn_standing *plan = &world->plan;
+    plan->open_count--;
+    return in_breadth(world) ? plan->open[plan->open_first++] : plan->open[plan->open_count];
+}
+
+/* Room for more open connectors behind those there are. Those of a queue go to the front once the room there is as long
+ * as they: each is moved for one that was taken. */
+static bool make_room(tn_standing *plan, size_t more)
+{
+    if (plan->open_first > plan->open_count) {
+        memmove(plan->open, plan->open + plan->open_first, plan->open_count * sizeof *plan->open);
+        plan->open_first = 0;
+    }
+    return tn_array_reserve(&plan->open, &plan->open_capacity, plan->open_first + plan->open_count, more,
+                            sizeof *plan->open);
+}
+
+/* The first of them comes first: in breadth behind all that are open, else before them. */
 static tn_status open_sites(tn_world *world, const tn_open_site *sites, size_t count, const tn_frame *base,
                             tn_error *error)
 {
     tn_standing *plan = &world->plan;
-    if (!tn_array_reserve(&plan->open, &plan->open_capacity, plan->open_count, count, sizeof *plan->open))
+    if (!make_room(plan, count))
         return tn_fail_memory(error);
-    tn_open_site *to = &plan->open[plan->open_count];
-    if (world->choices->rules->space->flags & TN_KIT_BREADTH && plan->open_count > 0) { /* behind all that are open */
-        memmove(plan->open + count, plan->open, plan->open_count * sizeof *plan->open);
-        to = plan->open;
+    tn_open_site *to = &plan->open[plan->open_first + plan->open_count];
+    for (size_t i = 0; i < count; i++) {
+        const tn_open_site *from = &sites[in_breadth(world) ? i : count - 1 - i];
+        to[i] = (tn_open_site){from->symbol, tn_frame_from(base, &from->frame)};
     }
-    for (size_t i = count; i-- > 0; to++)
-        *to = (tn_open_site){sites[i].symbol, tn_frame_from(base, &sites[i].frame)};
     plan->open_count += count;
     return TN_OK;
 }
@@ -311,6 +334,17 @@ static bool same_put(const tn_put *a, const tn_put *b)
     return a->choice == b->choice && memcmp(&a->at, &b->at, sizeof a->at) == 0;
 }
 
+static tn_status copy_open(tn_standing *to, const tn_standing *from, tn_error *error)
+{
+    to->open_first = to->open_count = 0;
+    if (!tn_array_reserve(&to->open, &to->open_capacity, 0, from->open_count, sizeof *to->open))
+        return tn_fail_memory(error);
+    if (from->open_count)
+        memcpy(to->open, from->open + from->open_first, from->open_count * sizeof *to->open);
+    to->open_count = from->open_count;
+    return TN_OK;
+}
+
 /* What both begin with stays. */
 tn_status tn_world_load(tn_world *world, const tn_standing *plan, tn_error *error)
 {
@@ -325,14 +359,8 @@ tn_status tn_world_load(tn_world *world, const tn_standing *plan, tn_error *erro
         status = stand(world, &plan->puts[i], error);
     if (status != TN_OK)
         return status;
-    own->open_count = 0;
     own->draws = plan->draws;
-    if (!tn_array_reserve(&own->open, &own->open_capacity, 0, plan->open_count, sizeof *own->open))
-        return tn_fail_memory(error);
-    if (plan->open_count)
-        memcpy(own->open, plan->open, plan->open_count * sizeof *own->open);
-    own->open_count = plan->open_count;
-    return TN_OK;
+    return copy_open(own, plan, error);
 }
 
 tn_status tn_world_grow(tn_world *world, tn_error *error)
@@ -340,7 +368,7 @@ tn_status tn_world_grow(tn_world *world, tn_error *error)
     tn_standing *plan = &world->plan;
     tn_status status = TN_OK;
     while (plan->open_count > 0 && status == TN_OK) {
-        tn_open_site site = plan->open[--plan->open_count];
+        tn_open_site site = tn_world_next(world);
         uint32_t chosen;
         if (tn_world_choices(world, &site, false, &chosen, 1) > 0)
             status = tn_world_put(world, chosen, &site.frame, error);
@@ -352,17 +380,13 @@ tn_status tn_world_grow(tn_world *world, tn_error *error)
 
 tn_status tn_standing_copy(tn_standing *to, const tn_standing *from, tn_error *error)
 {
-    if (!tn_array_reserve(&to->puts, &to->put_capacity, 0, from->put_count, sizeof *to->puts) ||
-        !tn_array_reserve(&to->open, &to->open_capacity, 0, from->open_count, sizeof *to->open))
+    if (!tn_array_reserve(&to->puts, &to->put_capacity, 0, from->put_count, sizeof *to->puts))
         return tn_fail_memory(error);
     if (from->put_count)
         memcpy(to->puts, from->puts, from->put_count * sizeof *to->puts);
-    if (from->open_count)
-        memcpy(to->open, from->open, from->open_count * sizeof *to->open);
     to->put_count = from->put_count;
-    to->open_count = from->open_count;
     to->draws = from->draws;
-    return TN_OK;
+    return copy_open(to, from, error);
 }
 
 void tn_standing_clear(tn_standing *plan)

@@ -16,12 +16,13 @@ typedef struct tn_put {
     tn_frame at;
 } tn_put;
 
-/* What stands, in an order in which each hangs on something before it, and the open connectors, of which the last comes
- * next. draws: how many random choices were made. */
+/* What stands, in an order in which each hangs on something before it, and the open connectors: `open_count` of them
+ * from `open_first`, of which the last comes next, or in breadth the first. open_first: 0 unless connectors were taken
+ * in breadth by tn_world_next. draws: how many random choices were made. */
 typedef struct tn_standing {
     tn_put *puts;
     tn_open_site *open;
-    size_t put_count, put_capacity, open_count, open_capacity;
+    size_t put_count, put_capacity, open_first, open_count, open_capacity;
     uint64_t draws;
 } tn_standing;
 
@@ -39,8 +40,7 @@ tn_status tn_world_make(const tn_site_choices *choices, const tn_place_options *
                         tn_error *error);
 void tn_world_clear(tn_world *world);
 
-/* Opens the connectors at which the model starts, the first of them last. (In breadth, what is opened comes after all
- * that is open: it lies before them in the list.) */
+/* Opens the connectors at which the model starts; the first of them comes next. */
 tn_status tn_world_start(tn_world *world, tn_error *error);
 
 /* Has the choice room at a frame, with its images, and has the stock its parts? */
@@ -50,7 +50,10 @@ bool tn_world_fits(tn_world *world, uint32_t choice, const tn_frame *at);
  * `most`, for which there is room; returns how many. */
 size_t tn_world_choices(tn_world *world, const tn_open_site *site, bool all, uint32_t *fitting, size_t most);
 
-/* Puts a choice that fits, and opens its connectors, the first of them last. */
+/* Takes the open connector that comes next, of which there is one, from the list. */
+tn_open_site tn_world_next(tn_world *world);
+
+/* Puts a choice that fits, and opens its connectors, the first of them before the others. */
 tn_status tn_world_put(tn_world *world, uint32_t choice, const tn_frame *at, tn_error *error);
 
 /* Takes away what was put last; open connectors stay as they are. */
