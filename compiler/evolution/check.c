@@ -78,8 +78,8 @@ static void bad_value(check *c, tn_setting setting, const tn_evolution_value *va
 {
     tn_diagnostics *list = c->reader->diagnostics;
     const tn_setting_row *row = &tn_setting_rows[setting];
-    tn_diagnostic *diagnostic =
-        tn_report(list, E_EVOLUTION_VALUE, span, value ? "`%s` wants another value" : "`%s` wants a value", row->name);
+    tn_diagnostic *diagnostic = tn_report(list, E_EVOLUTION_VALUE, span,
+                                          value ? "`%s` cannot have this value" : "`%s` needs a value", row->name);
     switch (row->kind) {
     case TN_SETTING_WHOLE:
         tn_help(list, diagnostic, "write a whole number from %.0f to %.0f", row->low, row->high);
@@ -118,7 +118,7 @@ static void bad_number(check *c, tn_setting setting, tn_span span)
 {
     tn_diagnostics *list = c->reader->diagnostics;
     const tn_setting_row *row = &tn_setting_rows[setting];
-    tn_diagnostic *diagnostic = tn_report(list, E_EVOLUTION_VALUE, span, "`%s` wants another number", row->name);
+    tn_diagnostic *diagnostic = tn_report(list, E_EVOLUTION_VALUE, span, "`%s` cannot have this number", row->name);
     tn_help(list, diagnostic, "write a number from %.0f to %.0f, or none", row->low, row->high);
 }
 

@@ -22,7 +22,7 @@ void tn_kit_file_failed(tn_kit *kit, const tn_kit_node *node, tn_status status, 
         kit->out_of_memory = true;
         return;
     }
-    tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_FILE, node->doc.span, "`%.200s` is of no use here: %.300s",
+    tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_FILE, node->doc.span, "`%.200s` cannot be used: %.300s",
                                  node->doc.text, error->message);
     tn_help(kit->diagnostics, d, "%s",
             error->help[0] ? error->help : "a mesh is OBJ, PLY, STL or OFF, a height map PGM, a model LDraw");

@@ -89,10 +89,11 @@ static bool read_grid(tn_kit *kit, const tn_kit_node *node, const tn_kit_type *t
             return false;
     if (count[0] * count[1] == 1 || type->every > 0)
         return true;
-    tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_PART, node->span, "how far apart are these?");
-    tn_note(kit->diagnostics, d, &type->node->span, "this does not say so");
-    tn_help(kit->diagnostics, d, "write it there: `connector %s joins %s every 20;`", type->node->name.text,
-            type->node->other.text);
+    tn_diagnostic *d =
+        tn_report(kit->diagnostics, E_KIT_PART, node->span, "it is not said how far apart these connectors are");
+    tn_note(kit->diagnostics, d, &type->node->span, "the connector is declared here");
+    tn_help(kit->diagnostics, d, "add `every` to the connector: `connector %s joins %s every 20;`",
+            type->node->name.text, type->node->other.text);
     return false;
 }
 

@@ -239,7 +239,8 @@ static bool check_placed(tn_kit *kit, const tn_kit_node *placed, bool first)
                        "`with` names the rule that goes on at the part's connectors");
     }
     if (placed->outer.first && placed->stops) {
-        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_RULE, placed->span, "this stops, and goes on with a rule");
+        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_RULE, placed->span,
+                                     "`stop` ends a branch here, and `with` continues it by a rule");
         tn_help(kit->diagnostics, d, "leave out `stop`, or `with %.60s`", placed->outer.first->name.text);
     }
     if (tn_kit_given(&placed->count[0]))
@@ -247,7 +248,8 @@ static bool check_placed(tn_kit *kit, const tn_kit_node *placed, bool first)
     if (first && (placed->at.given || tn_kit_given(&placed->count[1]))) {
         tn_diagnostic *d =
             tn_report(kit->diagnostics, E_KIT_RULE, placed->span, "where this part goes is found by its connectors");
-        tn_help(kit->diagnostics, d, "leave out `at` and `turn`; only parts that follow it in braces have them");
+        tn_help(kit->diagnostics, d,
+                "leave out `at` and `turn`: only the second and later parts of an alternative in braces have them");
     }
     tn_kit_offset(kit, placed, at, &turns);
     return kit->diagnostics->error_count == errors;

@@ -157,7 +157,7 @@ static void warn_functions(const tn_survey *s)
             continue;
         tn_diagnostic *d = tn_report(list_of(s), W_FUNCTION_NEVER, SPAN(rule), "no cell may have the function `%s`",
                                      tn_text(s->form.module, rule->name));
-        tn_help(list_of(s), d, "all items of its `at` have to hold for one cell, and no `void` or `no` takes it");
+        tn_help(list_of(s), d, "no one cell meets all items after `at` and is kept by every `void` and `no`");
     }
 }
 
@@ -186,9 +186,9 @@ static void warn_tiles(const tn_survey *s)
             continue;
         tn_diagnostic *d = tn_report(list_of(s), W_TILE_NEVER, SPAN(tile), "tile `%s` fits into no cell",
                                      tn_text(s->form.module, tile->name));
-        tn_help(
-            list_of(s), d,
-            "its boxes, or its `wide` and `deep`, are too large for every room between walls, or in each other's way");
+        tn_help(list_of(s), d,
+                "make its boxes, or its `wide` and `deep`, smaller: they must fit between the walls of a room, beside "
+                "each other");
     }
 }
 
@@ -217,7 +217,7 @@ static void warn_openings(const tn_survey *s)
             tn_report(list_of(s), W_OPENING_NEVER, SPAN(opening),
                       named ? "opening `%s` is wider than every face" : "no face has the opening `%s`", name);
         if (named)
-            tn_help(list_of(s), d, "an opening and a `wall` together fit into a face");
+            tn_help(list_of(s), d, "a face has to be as wide as the opening and a `wall` added");
         else
             tn_help(list_of(s), d, "name it in a line such as `face cell(any) outside = %s`", name);
     }

@@ -82,7 +82,7 @@ static void warn(const tn_survey *s, uint32_t line, const line_use *use)
         tn_report(list, W_FACE_LINE_IDLE, span,
                   use->applies ? "this line decides no face: others before it do" : "no face is between such cells");
     if (!use->applies) {
-        tn_help(list, d, "a storey, a zone or a function is perhaps another one than is meant");
+        tn_help(list, d, "check the storey, the zone and the function that it names");
         return;
     }
     const tn_face_line_record *before = &records[use->hidden_by];

@@ -19,7 +19,7 @@ tn_status tn_field_meshes_read(const tn_module *module, const tn_mesh_reader *re
                 error->code = E_FIELD_MESH;
             if (status == TN_INVALID)
                 tn_error_help(error,
-                              "`distance` wants a mesh of triangles or other faces: .obj, .ply, .stl, .off or .om");
+                              "`distance` takes a mesh file: .obj, .ply, .stl, .off or .om");
             return status;
         }
         meshes->count++;

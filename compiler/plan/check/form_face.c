@@ -58,7 +58,8 @@ void tn_check_opening(tn_check *check, tn_checked_form *form, const tn_ast_form_
     if (good && !fits && form->storey_count > 0) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_OPENING, ast->high->node.span,
                                      "opening `%s` is higher than every storey", ast->name->text);
-        tn_help(check->diagnostics, d, "`sill` and `high` together fit between the floor and the deck above it");
+        tn_help(check->diagnostics, d,
+                "`sill` and `high` added must be less than the height between a floor and the deck above it");
     }
     form->openings[form->opening_count++] = opening;
 }
@@ -80,7 +81,8 @@ static bool read_turn(tn_check *check, const tn_ast_form_clause *ast, tn_turn *t
                                                  : TN_TURN_NONE;
     if (*turn != TN_TURN_NONE)
         return true;
-    bad_flight(check, ast, "turns in no known way", "write `turn quarter` or `turn half`, or leave `turn` out");
+    bad_flight(check, ast, "has a `turn` that the language does not know",
+               "write `turn quarter` or `turn half`, or leave `turn` out");
     return false;
 }
 

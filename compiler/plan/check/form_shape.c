@@ -51,7 +51,7 @@ static void check_eaves(tn_check *check, const tn_checked_form *form, const tn_a
     for (uint32_t i = 0; i < form->storey_count; i++)
         if (eaves_drop(record) >= form->storeys[i].height - form->thickness[2]) {
             bad_shape(check, shape->node.span, "these eaves hang down to the floor",
-                      "narrow eaves hang less low, and those of a gentle slope");
+                      "make the eaves narrower, or the slope gentler");
             return;
         }
 }
