@@ -243,8 +243,8 @@ static int choice(tn_bnf_text text, const char *const *choices, int count)
 
 static void bad_value(tn_bnf_reader *reader, tn_span span, const char *directive, const char *expected)
 {
-    tn_diagnostic *diagnostic = tn_report(reader->diagnostics, E_GRAMMAR_DIRECTIVE, span,
-                                          "%s cannot have this value", directive);
+    tn_diagnostic *diagnostic =
+        tn_report(reader->diagnostics, E_GRAMMAR_DIRECTIVE, span, "%s cannot have this value", directive);
     tn_help(reader->diagnostics, diagnostic, "write %s %s", directive, expected);
 }
 

@@ -18,8 +18,7 @@ tn_status tn_field_meshes_read(const tn_module *module, const tn_mesh_reader *re
             if (status != TN_MEMORY && error)
                 error->code = E_FIELD_MESH;
             if (status == TN_INVALID)
-                tn_error_help(error,
-                              "`distance` takes a mesh file: .obj, .ply, .stl, .off or .om");
+                tn_error_help(error, "`distance` takes a mesh file: .obj, .ply, .stl, .off or .om");
             return status;
         }
         meshes->count++;
