@@ -64,8 +64,9 @@ static tn_status describe(pictured *p, const mpz_t rank, tn_error *error)
     return say_cost(p, (size_t)used, error);
 }
 
-static tn_status collect(void *context, tn_house *house, const mpz_t rank, tn_error *error)
+static tn_status collect(void *context, tn_house *house, const mpz_t rank, const mpz_t variant, tn_error *error)
 {
+    (void)variant;
     collection *c = context;
     pictured *p = &c->items[c->count++];
     p->house = *house;

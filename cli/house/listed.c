@@ -5,17 +5,18 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
-#include "cli/house/numbered_parts.h"
+#include "cli/house/house_output.h"
+#include "driver/plan/made.h"
 
 typedef struct house_list {
     const tn_house_range *range;
-    mpz_t next;   /* the rank of the next house to be written */
-    mpz_t to;     /* one past the last, where `bounded` */
-    mpz_t before; /* houses on the plans before */
+    mpz_t next;    /* the rank of the next house to be written */
+    mpz_t to;      /* one past the last, where `bounded` */
+    mpz_t before;  /* houses on the plans before */
+    mpz_t variant; /* of the next house on the plan in hand */
     bool bounded;
-    uint64_t written;
-    FILE *out;
-    tn_buffer line;
+    uint64_t written; /* houses in the file, those resumed included */
+    tn_house_rows out;
     tn_progress progress;
 } house_list;
 
@@ -28,14 +29,11 @@ static bool is_done(const house_list *list)
 static tn_status write_house(void *context, const tn_house *house, bool *stop, tn_error *error)
 {
     house_list *list = context;
-    list->line.size = 0;
-    tn_status status = tn_house_write(house, &list->line, error);
-    if (status == TN_OK && !tn_buffer_append(&list->line, "\n", 1))
-        status = tn_fail_memory(error);
+    tn_status status = tn_house_rows_write(&list->out, house, list->next, list->variant, error);
     if (status != TN_OK)
         return status;
-    fwrite(list->line.data, 1, list->line.size, list->out);
     mpz_add_ui(list->next, list->next, 1);
+    mpz_add_ui(list->variant, list->variant, 1);
     tn_progress_update(&list->progress, (double)++list->written);
     *stop = is_done(list);
     return TN_OK;
@@ -47,26 +45,27 @@ static tn_status list_plan(tn_numbered *n, void *context, const tn_tray *trays, 
 {
     house_list *list = context;
     tn_house_counts counts;
-    mpz_t variant;
-    mpz_init(variant);
+    mpz_t from;
+    mpz_init(from);
     tn_house_counts_init(&counts);
     tn_status status = tn_house_variants_count(n->variants, trays, length, &counts, error);
     mpz_add(counts.houses, counts.houses, list->before); /* those up to the end of this plan */
     if (status == TN_OK && !is_done(list) && mpz_cmp(list->next, counts.houses) < 0) {
-        mpz_sub(variant, list->next, list->before);
-        status = tn_house_variants_each(n->variants, trays, length, variant, write_house, list, error);
+        mpz_sub(from, list->next, list->before);
+        mpz_set(list->variant, from);
+        status = tn_house_variants_each(n->variants, trays, length, from, write_house, list, error);
     }
     mpz_set(list->before, counts.houses);
     *stop = is_done(list);
     tn_house_counts_clear(&counts);
-    mpz_clear(variant);
+    mpz_clear(from);
     return status;
 }
 
 static bool begin(tn_job *job, house_list *list, const tn_house_range *range)
 {
     *list = (house_list){.range = range, .bounded = range->to != NULL};
-    mpz_inits(list->next, list->to, list->before, NULL);
+    mpz_inits(list->next, list->to, list->before, list->variant, NULL);
     if (range->from)
         mpz_set_str(list->next, range->from, 10);
     if (range->to)
@@ -79,57 +78,132 @@ static bool begin(tn_job *job, house_list *list, const tn_house_range *range)
 }
 
 /* What was written stays, and how to go on is said. */
-static void end(tn_job *job, const house_list *list)
+static void interrupted(tn_job *job, house_list *list)
 {
-    char *rank = mpz_get_str(NULL, 10, list->next);
-    if (tn_interrupted()) {
-        tn_interrupt_answered();
-        tn_job_interrupted(job, "interrupted; %" PRIu64 " houses are written, and --from %s goes on after them",
-                           list->written, rank ? rank : "?");
-    } else if (list->written == 0 && mpz_cmp(list->next, list->before) >= 0 && !list->bounded &&
-               !(list->range->limited && list->range->limit == 0)) {
-        char *houses = mpz_get_str(NULL, 10, list->before);
-        tn_job_note(job, "there are %.400s houses, none of them from rank %.40s on", houses ? houses : "?",
-                    rank ? rank : "?");
-        free(houses);
+    tn_interrupt_answered();
+    if (tn_plan_writer_resumes(list->out.writer)) {
+        tn_job_interrupted(job, "interrupted; a database keeps its whole batches, and --resume goes on after them");
+        return;
     }
+    tn_house_rows_close(&list->out);
+    char *rank = mpz_get_str(NULL, 10, list->next);
+    tn_job_interrupted(job, "interrupted; %" PRIu64 " houses are written, and --from %s goes on after them",
+                       list->written, rank ? rank : "?");
     free(rank);
 }
 
-static tn_status list_all(tn_numbered *n, const tn_plan *plan, house_list *list, tn_error *error)
+static void say_none(tn_job *job, const house_list *list)
 {
-    bool stop = false;
-    tn_progress_begin(&list->progress, "houses", 0, list->range->limited ? (double)list->range->limit : 0);
-    tn_status status = plan ? list_plan(n, list, plan->trays, (uint32_t)plan->length, &stop, error)
-                            : tn_numbered_plans_until(n, list_plan, list, error);
-    tn_progress_end(&list->progress);
+    bool past = list->written == 0 && mpz_cmp(list->next, list->before) >= 0;
+    if (!past || list->bounded || (list->range->limited && list->range->limit == 0))
+        return;
+    char *rank = mpz_get_str(NULL, 10, list->next), *houses = mpz_get_str(NULL, 10, list->before);
+    tn_job_note(job, "there are %.400s houses, none of them from rank %.40s on", houses ? houses : "?",
+                rank ? rank : "?");
+    free(houses);
+    free(rank);
+}
+
+/* Finds the rank of the plan to begin with, and the houses before it: at once where all can be counted together; else
+ * the plans before it are gone through. */
+static tn_status find_plan(tn_numbered *n, house_list *list, mpz_t plan, tn_error *error)
+{
+    mpz_set_ui(plan, 0);
+    if (mpz_sgn(list->next) == 0)
+        return TN_OK;
+    tn_status status = tn_numbered_all(n, error);
+    if (status != TN_OK)
+        return status == TN_LIMIT ? TN_OK : status;
+    return tn_numbered_locate(n, list->next, plan, list->before, error);
+}
+
+static tn_status list_from(tn_numbered *n, house_list *list, tn_error *error)
+{
+    mpz_t plan;
+    mpz_init(plan);
+    tn_status status = find_plan(n, list, plan, error);
+    if (status == TN_OK)
+        status = tn_numbered_plans_from(n, plan, list_plan, list, error);
+    mpz_clear(plan);
     return status;
 }
 
+static void resume(tn_job *job, house_list *list)
+{
+    mpz_t last;
+    mpz_init(last);
+    list->written = tn_plan_writer_resumed(list->out.writer, last);
+    if (list->written > 0) {
+        mpz_add_ui(list->next, last, 1);
+        tn_job_note(job, "%" PRIu64 " houses are there already; going on after them", list->written);
+        tn_job_show(job);
+    }
+    mpz_clear(last);
+}
+
+static void list_all(tn_numbered *n, const tn_plan *plan, house_list *list)
+{
+    tn_job *job = n->job;
+    bool stop = false;
+    tn_error error;
+    tn_progress_begin(&list->progress, "houses", (double)list->written,
+                      list->range->limited ? (double)list->range->limit : 0);
+    tn_status status =
+        plan ? list_plan(n, list, plan->trays, (uint32_t)plan->length, &stop, &error) : list_from(n, list, &error);
+    tn_progress_end(&list->progress);
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    else if (tn_interrupted())
+        interrupted(job, list);
+    else
+        say_none(job, list);
+}
+
+/* The command, as files of houses say how they were made. The limit is left out: a library can be resumed to go on past
+ * it. */
+static char *describe(const tn_house_settings *settings, const tn_house_range *range, const char *plan)
+{
+    const tn_enumerated asked = {.from = range->from,
+                                 .to = range->to,
+                                 .trays_given = settings->plans.override_trays,
+                                 .trays_min = settings->plans.trays_min,
+                                 .trays_max = settings->plans.trays_max,
+                                 .plan = plan,
+                                 .wheres = settings->wheres,
+                                 .where_count = settings->where_count};
+    return tn_enumerated_words(&asked);
+}
+
+static void write_list(tn_numbered *n, const tn_plan *plan, house_list *list, const tn_written_settings *written,
+                       char *made)
+{
+    tn_error error;
+    if (!made) {
+        tn_fail_memory(&error);
+        tn_job_fail(n->job, &error);
+    } else if (tn_house_rows_open(&list->out, n, written, made)) {
+        resume(n->job, list);
+        list_all(n, plan, list);
+    }
+    tn_house_rows_close(&list->out);
+}
+
 void tn_job_list_houses(tn_job *job, const tn_house_settings *settings, const char *plan, const tn_house_range *range,
-                        const char *output)
+                        const tn_written_settings *written)
 {
     tn_numbered n = {0};
     house_list list;
     tn_error error = {0};
-    tn_output out;
     tn_plan on = {0};
-    if (begin(job, &list, range) && tn_job_takes_houses(job, output) && tn_numbered_open(&n, job, settings)) {
-        tn_status status = plan ? tn_numbered_plan(&n, plan, settings->max_length, &on, &error) : TN_OK;
-        if (status != TN_OK) {
+    if (begin(job, &list, range) && tn_numbered_open(&n, job, settings)) {
+        char *made = describe(settings, range, plan);
+        if (plan && tn_numbered_plan(&n, plan, settings->max_length, &on, &error) != TN_OK)
             tn_numbered_bad_text(job, &error, "PLAN", plan);
-        } else if (tn_job_output(job, output, &out)) {
-            list.out = out.stream;
-            status = list_all(&n, plan ? &on : NULL, &list, &error);
-            if (status != TN_OK)
-                tn_job_fail(job, &error);
-            tn_job_close(job, &out, status == TN_OK);
-            if (status == TN_OK)
-                end(job, &list);
-        }
+        else
+            write_list(&n, plan ? &on : NULL, &list, written, made);
+        free(made);
     }
     free(on.trays);
     tn_numbered_close(&n);
-    mpz_clears(list.next, list.to, list.before, NULL);
-    free(list.line.data);
+    mpz_clears(list.next, list.to, list.before, list.variant, NULL);
 }

@@ -49,16 +49,6 @@ void tn_numbered_close(tn_numbered *n)
     tn_schema_free(n->schema);
 }
 
-bool tn_job_takes_houses(tn_job *job, const char *output)
-{
-    const char *ending = output ? strrchr(output, '.') : NULL;
-    if (!ending || (strcmp(ending, ".sqlite") != 0 && strcmp(ending, ".sqlite3") != 0 && strcmp(ending, ".db") != 0))
-        return true;
-    tn_diagnostic *d = tn_job_usage(job, "houses are written as lines, not into a database");
-    tn_help(tn_job_diagnostics(job), d, "give the file another ending, such as .txt");
-    return false;
-}
-
 void tn_numbered_bad_text(tn_job *job, tn_error *error, const char *name, const char *text)
 {
     if (error->status != TN_INVALID) {
@@ -153,20 +143,30 @@ tn_status tn_numbered_plans(tn_numbered *n, tn_plan_visit *visit, void *context,
     return status;
 }
 
-tn_status tn_numbered_plans_until(tn_numbered *n, tn_plan_visit *visit, void *context, tn_error *error)
+tn_status tn_numbered_plans_from(tn_numbered *n, const mpz_t first, tn_plan_visit *visit, void *context,
+                                 tn_error *error)
 {
     tn_cursor *cursor = NULL;
     const tn_tray *trays;
     uint32_t length;
     bool stop = false;
-    mpz_t from, to;
-    mpz_inits(from, to, NULL);
+    mpz_t to;
+    mpz_init(to);
     tn_library_kept(n->plans, TN_ALL_LENGTHS, to);
-    tn_status status = tn_cursor_new(n->plans, from, to, &cursor, error);
+    tn_status status = tn_cursor_new(n->plans, first, to, &cursor, error);
     while (status == TN_OK && !stop && tn_cursor_next(cursor, &trays, &length))
         status = visit(n, context, trays, length, &stop, error);
     tn_cursor_free(cursor);
-    mpz_clears(from, to, NULL);
+    mpz_clear(to);
+    return status;
+}
+
+tn_status tn_numbered_plans_until(tn_numbered *n, tn_plan_visit *visit, void *context, tn_error *error)
+{
+    mpz_t first;
+    mpz_init(first);
+    tn_status status = tn_numbered_plans_from(n, first, visit, context, error);
+    mpz_clear(first);
     return status;
 }
 
@@ -175,6 +175,35 @@ tn_status tn_numbered_plans_until(tn_numbered *n, tn_plan_visit *visit, void *co
 tn_status tn_numbered_all(tn_numbered *n, tn_error *error)
 {
     return n->all ? TN_OK : tn_houses_new(&n->form, n->record, n->plans, n->max_states, &n->all, error);
+}
+
+/* rest: the rank, of which the houses before its plan are taken. */
+static tn_status locate(tn_numbered *n, mpz_t rest, mpz_t plan, tn_error *error)
+{
+    uint32_t length = 0;
+    tn_tray *trays = tray_room(n, error);
+    if (!trays)
+        return TN_MEMORY;
+    tn_status status = tn_houses_find(n->all, rest, trays, &length, error);
+    if (status == TN_OK && !tn_library_rank(n->plans, trays, length, plan))
+        status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a house stands on a plan that is not in the library");
+    free(trays);
+    return status;
+}
+
+tn_status tn_numbered_locate(tn_numbered *n, const mpz_t rank, mpz_t plan, mpz_t before, tn_error *error)
+{
+    tn_status status = TN_OK;
+    tn_houses_count(n->all, TN_ALL_LENGTHS, before);
+    tn_library_kept(n->plans, TN_ALL_LENGTHS, plan);
+    if (mpz_cmp(rank, before) < 0) {
+        mpz_t rest;
+        mpz_init_set(rest, rank);
+        status = locate(n, rest, plan, error);
+        mpz_sub(before, rank, rest);
+        mpz_clear(rest);
+    }
+    return status;
 }
 
 static bool at_most(const tn_numbered *n, unsigned long plans)
@@ -366,24 +395,50 @@ void tn_job_use_house(tn_job *job, const tn_house_settings *settings, const char
     tn_numbered_close(&n);
 }
 
-static void write_line(tn_job *job, const tn_house *house)
+static tn_status append_json(const tn_house *house, tn_buffer *out, tn_error *error)
 {
     tn_buffer line = {0};
+    tn_status status = tn_house_write(house, &line, error);
+    if (status == TN_OK) {
+        tn_buffer_printf(out, "{\"house\":");
+        tn_buffer_append_json(out, line.data);
+        tn_buffer_printf(out, ",\"trays\":");
+        tn_plan_write_trays(house->form->schema, house->trays, house->length, out);
+        status = tn_house_write_members(house, out, error);
+        tn_buffer_append(out, "}", 1);
+    }
+    free(line.data);
+    return status;
+}
+
+static void write_house(tn_job *job, const tn_house *house, bool json)
+{
+    tn_buffer text = {0};
     tn_error error = {0};
     tn_output out;
-    tn_status status = tn_house_write(house, &line, &error);
-    if (status == TN_OK && !tn_buffer_append(&line, "\n", 1))
+    tn_status status = json ? append_json(house, &text, &error) : tn_house_write(house, &text, &error);
+    if (status == TN_OK && !tn_buffer_append(&text, "\n", 1))
         status = tn_fail_memory(&error);
     if (status != TN_OK) {
         tn_job_fail(job, &error);
     } else if (tn_job_output(job, NULL, &out)) {
-        fwrite(line.data, 1, line.size, out.stream);
+        fwrite(text.data, 1, text.size, out.stream);
         tn_job_commit(job, &out);
     }
-    free(line.data);
+    free(text.data);
 }
 
-void tn_job_unrank_house(tn_job *job, const tn_house_settings *settings, const char *number)
+static void write_line(tn_job *job, const tn_house *house)
 {
-    tn_job_use_house(job, settings, number, write_line);
+    write_house(job, house, false);
+}
+
+static void write_json(tn_job *job, const tn_house *house)
+{
+    write_house(job, house, true);
+}
+
+void tn_job_unrank_house(tn_job *job, const tn_house_settings *settings, const char *number, bool json)
+{
+    tn_job_use_house(job, settings, number, json ? write_json : write_line);
 }

@@ -13,7 +13,11 @@ typedef struct tn_house_settings {
     const char *library; /* NULL: the only one */
     size_t max_length;
     tn_library_options plans;
+    const char *const *wheres; /* the further requirements with which the file was opened */
+    size_t where_count;
 } tn_house_settings;
+
+struct tn_written_settings;
 
 /* What is counted: the houses of the library, or those on one plan (a plan line or #P; NULL: all plans). */
 typedef struct tn_house_counting {
@@ -27,10 +31,10 @@ typedef struct tn_house_counting {
 } tn_house_counting;
 void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const tn_house_counting *counting);
 
-/* Writes the lines of different houses of the library, or of those on one plan, in the order of their ranks: each is
- * drawn with the same probability. */
+/* Writes different houses of the library, or of those on one plan, in the order of their ranks: each is drawn with the
+ * same probability. */
 void tn_job_sample_houses(tn_job *job, const tn_house_settings *settings, const char *plan, size_t wanted,
-                          uint64_t seed, const char *output);
+                          uint64_t seed, const struct tn_written_settings *written);
 
 /* Small pictures of so many houses of the library, drawn at random; their ranks, areas and costs below. */
 typedef struct tn_house_sheet {
@@ -50,12 +54,9 @@ typedef struct tn_house_range {
     bool limited;
 } tn_house_range;
 
-/* Writes the lines of the houses of the library, or of those on one plan, in the order of their ranks. */
+/* Writes the houses of the library, or of those on one plan, in the order of their ranks. */
 void tn_job_list_houses(tn_job *job, const tn_house_settings *settings, const char *plan, const tn_house_range *range,
-                        const char *output);
-
-/* Houses are lines of text: reports an output that is named as a database. */
-bool tn_job_takes_houses(tn_job *job, const char *output);
+                        const struct tn_written_settings *written);
 
 /* Writes the name #P:V of a house; of_all: #R, its rank among all houses of the library. */
 void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const char *line, bool of_all);
@@ -67,7 +68,7 @@ bool tn_is_house_number(const char *text);
 typedef void tn_house_use(tn_job *job, const tn_house *house);
 void tn_job_use_house(tn_job *job, const tn_house_settings *settings, const char *number, tn_house_use *use);
 
-/* Writes the line of such a house. */
-void tn_job_unrank_house(tn_job *job, const tn_house_settings *settings, const char *number);
+/* Writes such a house: its line, or a JSON object. */
+void tn_job_unrank_house(tn_job *job, const tn_house_settings *settings, const char *number, bool json);
 
 #endif

@@ -44,6 +44,14 @@ tn_status tn_numbered_plans(tn_numbered *n, tn_plan_visit *visit, void *context,
 /* However many there are: for what stops, or shows what it has. */
 tn_status tn_numbered_plans_until(tn_numbered *n, tn_plan_visit *visit, void *context, tn_error *error);
 
+/* The same from the plan of that rank on. */
+tn_status tn_numbered_plans_from(tn_numbered *n, const mpz_t first, tn_plan_visit *visit, void *context,
+                                 tn_error *error);
+
+/* The rank of the plan on which the house of that rank is, and how many houses are on plans before it; past the last
+ * house, the number of plans and that of all houses. After tn_numbered_all. */
+tn_status tn_numbered_locate(tn_numbered *n, const mpz_t rank, mpz_t plan, mpz_t before, tn_error *error);
+
 /* The house of #P:V or #R. Clear *house in any case. */
 tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house, tn_error *error);
 

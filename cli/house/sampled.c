@@ -1,7 +1,9 @@
 /* Draws houses of a library at random: ranks, and then the houses of these, plan by plan. */
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/house/house_output.h"
 #include "cli/house/sampled.h"
 
 /* The ranks that are drawn, ascending, and how far the plans have come. */
@@ -45,7 +47,7 @@ static tn_status use_house(tn_numbered *n, tn_house_sample *s, const tn_tray *tr
     tn_house house;
     tn_status status = tn_house_variants_at(n->variants, trays, length, variant, &house, error);
     if (status == TN_OK)
-        status = s->use(s->context, &house, rank, error);
+        status = s->use(s->context, &house, rank, variant, error);
     tn_house_clear(&house);
     return status;
 }
@@ -128,36 +130,35 @@ tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted,
     return status;
 }
 
-static tn_status write_line(void *context, tn_house *house, const mpz_t rank, tn_error *error)
+static tn_status write_house(void *context, tn_house *house, const mpz_t rank, const mpz_t variant, tn_error *error)
 {
-    (void)rank;
-    tn_buffer line = {0};
-    tn_status status = tn_house_write(house, &line, error);
-    if (status == TN_OK && !tn_buffer_append(&line, "\n", 1))
-        status = tn_fail_memory(error);
-    if (status == TN_OK)
-        fwrite(line.data, 1, line.size, context);
-    free(line.data);
-    return status;
+    return tn_house_rows_write(context, house, rank, variant, error);
+}
+
+static void write_sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed,
+                         const tn_written_settings *written)
+{
+    tn_house_rows out;
+    tn_error error;
+    char made[80];
+    snprintf(made, sizeof made, "sample %zu --seed %" PRIu64, wanted, seed);
+    if (tn_house_rows_open(&out, n, written, made) &&
+        tn_numbered_sample(n, plan, wanted, seed, write_house, &out, &error) != TN_OK)
+        tn_job_fail(n->job, &error);
+    tn_house_rows_close(&out);
 }
 
 void tn_job_sample_houses(tn_job *job, const tn_house_settings *settings, const char *plan, size_t wanted,
-                          uint64_t seed, const char *output)
+                          uint64_t seed, const tn_written_settings *written)
 {
     tn_numbered n = {0};
     tn_error error = {0};
-    tn_output out;
     tn_plan on = {0};
-    if (tn_job_takes_houses(job, output) && tn_numbered_open(&n, job, settings)) {
-        tn_status status = plan ? tn_numbered_plan(&n, plan, settings->max_length, &on, &error) : TN_OK;
-        if (status != TN_OK) {
+    if (tn_numbered_open(&n, job, settings)) {
+        if (plan && tn_numbered_plan(&n, plan, settings->max_length, &on, &error) != TN_OK)
             tn_numbered_bad_text(job, &error, "PLAN", plan);
-        } else if (tn_job_output(job, output, &out)) {
-            status = tn_numbered_sample(&n, plan ? &on : NULL, wanted, seed, write_line, out.stream, &error);
-            if (status != TN_OK)
-                tn_job_fail(job, &error);
-            tn_job_close(job, &out, status == TN_OK);
-        }
+        else
+            write_sample(&n, plan ? &on : NULL, wanted, seed, written);
     }
     free(on.trays);
     tn_numbered_close(&n);

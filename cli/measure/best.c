@@ -135,7 +135,7 @@ static void write_best(sink *s, tn_best_search *search, uint64_t wanted)
 {
     tn_best_search_give(search, wanted, settings_of(s->job)->mirror, put_plan, s);
     if (s->writer)
-        tn_job_plan_close(s->job, s->writer);
+        tn_job_rows_close(s->job, s->writer);
     else
         tn_job_commit(s->job, &s->output);
     free(s->text.data);

@@ -53,12 +53,12 @@ static bool find_range(enumeration *e)
 /* What decides the result. The limit is left out: a library can be resumed to go on past it. */
 static char *describe(const enumerate_settings *settings)
 {
-    const tn_enumerated asked = {settings->from,
-                                 settings->to,
-                                 settings->mirror,
-                                 settings->plans.trays.given,
-                                 settings->plans.trays.low,
-                                 settings->plans.trays.high};
+    const tn_enumerated asked = {.from = settings->from,
+                                 .to = settings->to,
+                                 .mirror = settings->mirror,
+                                 .trays_given = settings->plans.trays.given,
+                                 .trays_min = settings->plans.trays.low,
+                                 .trays_max = settings->plans.trays.high};
     return tn_enumerated_words(&asked);
 }
 
@@ -87,7 +87,7 @@ static void interrupt(enumeration *e)
     if (tn_plan_writer_resumes(e->writer)) {
         tn_job_interrupted(e->job, "interrupted; a database keeps its whole batches, and --resume goes on after them");
     } else {
-        tn_job_plan_close(e->job, e->writer);
+        tn_job_rows_close(e->job, e->writer);
         e->writer = NULL;
         char *rank = mpz_get_str(NULL, 10, e->rank);
         if (rank)
@@ -165,7 +165,7 @@ static void enumerate(enumeration *e)
     else if (tn_interrupted())
         interrupt(e);
     if (e->writer)
-        tn_job_plan_close(e->job, e->writer);
+        tn_job_rows_close(e->job, e->writer);
 }
 
 static bool check_options(tn_job *job)
@@ -202,15 +202,10 @@ static void enumerate_houses(tn_job *job)
     const enumerate_settings *s = settings_of(job);
     const tn_house_settings houses = tn_job_houses(&s->plans);
     const tn_house_range range = {s->from, s->to, s->limit.value, s->limit.given};
-    bool lines = s->written.format == TN_FORMAT_AUTO || s->written.format == TN_FORMAT_LINES;
-    if (!lines || s->mirror || s->written.columns || s->written.csv_safe || s->written.resume ||
-        s->written.plan_lines || s->written.row_group.given) {
-        tn_diagnostic *d = tn_job_usage(job, "houses are written as lines, all of them");
-        tn_help(tn_job_diagnostics(job), d,
-                "leave out --format, --columns, --csv-safe, --plan-lines, --row-group, --mirror and --resume");
-        return;
-    }
-    tn_job_list_houses(job, &houses, s->plan, &range, s->written.output);
+    if (s->mirror)
+        tn_job_usage(job, "--mirror is about plans: of houses all are written");
+    else
+        tn_job_list_houses(job, &houses, s->plan, &range, &s->written);
 }
 
 /* What only libraries of plans are asked. */
@@ -273,7 +268,7 @@ static const tn_option options[] = {
     OPTIONS_LIBRARY,
     RANK("from", 0, "RANK", from, "the first rank (default 0)"),
     RANK("to", 0, "RANK", to, "one past the last rank (default: all)"),
-    NUMBER("limit", 'n', "N", limit, 0, 0, "at most N plans"),
+    NUMBER("limit", 'n', "N", limit, 0, 0, "at most N plans or houses"),
     TEXT("plan", 0, "PLAN", plan, "the houses on one plan: a plan line, or # and its rank"),
     OPTIONS_KIT("list"),
     FLAG("mirror", 0, mirror,
@@ -299,8 +294,8 @@ const tn_command tn_command_enumerate = {
         "--from and --to choose a part; ranks may have any number of digits. A database (-o FILE.sqlite) is "
         "written in batches that survive a crash, and --resume continues it. If any other output is interrupted, "
         "the plans written so far are kept, and a note says from which rank to continue.\n\n"
-        "With --library HOUSES, or --plan, houses are written as house lines, plan by plan. Ranks are then among all "
-        "houses of the library, or among those on the plan.\n\n"
+        "With --library HOUSES, or --plan, houses are written, plan by plan: as house lines, JSON, CSV, or into a "
+        "database. Ranks are then among all houses of the library, or among those on the plan.\n\n"
         "Of a kit (docs/kit-language.md) it lists the buildings that `tartan count` counts, a line for each: its parts "
         "from the lowest up, each with its name, its place in LDU as LDraw has it (y points down) and its quarter "
         "turns. -o FILE.mpd writes an LDraw file with a sub-file for each. Ranks are counted on the way, so that a "

@@ -104,8 +104,11 @@ static tn_library_options options_of(const tn_plan_settings *plans)
 
 tn_house_settings tn_job_houses(const tn_plan_settings *plans)
 {
-    return (tn_house_settings){
-        .library = plans->library, .max_length = tn_job_max_length(plans), .plans = options_of(plans)};
+    return (tn_house_settings){.library = plans->library,
+                               .max_length = tn_job_max_length(plans),
+                               .plans = options_of(plans),
+                               .wheres = plans->wheres.items,
+                               .where_count = plans->wheres.count};
 }
 
 bool tn_job_opened_library(tn_job *job, const tn_plan_settings *plans, tn_ready_library *ready)

@@ -1,46 +1,13 @@
-/* Writing ranked plans as the options say: plan lines, JSON, CSV, packed, a SQLite library, or Parquet. */
+/* Writing ranked plans as the options say. */
 #ifndef TARTAN_CLI_PLAN_PLAN_OUTPUT_H
 #define TARTAN_CLI_PLAN_PLAN_OUTPUT_H
 
+#include "cli/common/row_output.h"
 #include "cli/plan/library_job.h"
-#include "runtime/plan/text/stream.h"
-
-/* How ranked plans are written. Commands embed it as `written`. */
-typedef struct tn_written_settings {
-    const char *output;
-    int format; /* a tn_plan_format */
-    bool columns;
-    bool csv_safe;
-    bool resume;
-    bool plan_lines;
-    tn_option_number row_group;
-} tn_written_settings;
-
-#define OPTION_PLAN_FORMAT                                                                                             \
-    CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite|parquet",                          \
-           "what to write: lines, json, csv, bin, sqlite or parquet (default: sqlite for .sqlite and .db, parquet "    \
-           "for .parquet, otherwise lines)")
-#define OPTION_COLUMNS                                                                                                 \
-    FLAG("columns", 0, written.columns,                                                                                \
-         "in CSV a row for each tray, with a column for each field; in a database such rows in a second table")
-#define OPTION_CSV_SAFE                                                                                                \
-    FLAG("csv-safe", 0, written.csv_safe,                                                                              \
-         "in CSV, put ' before a plan that begins with = + - or @, so that no spreadsheet computes it")
-#define OPTION_ROW_GROUP                                                                                               \
-    NUMBER("row-group", 0, "N", written.row_group, 1, UINT32_MAX, "in Parquet, plans of a row group (default 1000000)")
-#define OPTION_PLAN_LINES FLAG("plan-lines", 0, written.plan_lines, "in Parquet, add a column of plan lines")
-#define OPTION_PLAN_OUTPUT                                                                                             \
-    TEXT("output", 'o', "FILE", written.output,                                                                        \
-         "write to FILE instead of standard output; .sqlite and .db make a database, and .parquet "                    \
-         "makes Parquet")
 
 /* Opens the output that --output and --format ask for. `made` says what was asked for, in words of the command line
  * that decide the result. False where that failed. */
 bool tn_job_plan_writer(tn_job *job, const tn_ready_library *ready, const tn_written_settings *settings,
                         const char *made, tn_plan_writer **writer);
-
-/* Finishes the file, unless the job has failed: then it is given up (a database keeps its whole batches). Frees the
- * writer. */
-void tn_job_plan_close(tn_job *job, tn_plan_writer *writer);
 
 #endif

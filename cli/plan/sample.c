@@ -75,7 +75,7 @@ static void sample(tn_job *job, const tn_ready_library *ready, size_t wanted)
             write_plans(job, ready, &sampled, writer);
             if (job->stopped && tn_plan_writer_resumes(writer))
                 tn_job_interrupted(job, PART, settings_of(job)->written.output);
-            tn_job_plan_close(job, writer);
+            tn_job_rows_close(job, writer);
         }
     }
     tn_sampled_clear(&sampled);
@@ -117,15 +117,12 @@ static void sample_houses(tn_job *job, size_t wanted)
 {
     const sample_settings *s = settings_of(job);
     const tn_house_settings houses = tn_job_houses(&s->plans);
-    if (s->sampled.length.given || s->sampled.per_length.given || s->sampled.diverse || s->written.format ||
-        s->written.plan_lines || s->written.row_group.given) {
-        tn_diagnostic *d = tn_job_usage(job, "houses are drawn among all, and written as lines");
-        tn_help(tn_job_diagnostics(job), d,
-                "leave out --length, --per-length, --diverse, --format, --plan-lines and --row-group; --plan takes one "
-                "plan");
+    if (s->sampled.length.given || s->sampled.per_length.given || s->sampled.diverse) {
+        tn_diagnostic *d = tn_job_usage(job, "houses are drawn among all");
+        tn_help(tn_job_diagnostics(job), d, "leave out --length, --per-length and --diverse; --plan takes one plan");
         return;
     }
-    tn_job_sample_houses(job, &houses, s->plan, wanted, s->sampled.seed.value, s->written.output);
+    tn_job_sample_houses(job, &houses, s->plan, wanted, s->sampled.seed.value, &s->written);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
@@ -173,7 +170,7 @@ const tn_command tn_command_sample = {
         "order of their ranks. Nearly all plans of a library have the greatest number of trays, so nearly all "
         "samples do too; --length and --per-length draw plans of other lengths. --diverse draws one plan; each next "
         "plan is the one of 1,000 fresh draws that is "
-        "farthest from those before. With --library HOUSES, or --plan, houses are drawn and written as house lines. A "
+        "farthest from those before. With --library HOUSES, or --plan, houses are drawn. A "
         "changed field counts 1, a tray more or less counts as many as it has fields. "
         "The same file, seed and options "
         "give the same plans on every machine.",

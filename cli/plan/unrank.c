@@ -70,7 +70,7 @@ static int run(const tn_command *command, const tn_settings *common)
         tn_help(tn_job_diagnostics(&job), d, "the file comes first: tartan unrank FILE RANK");
     } else if (tn_job_open_plans(&job, common->operands.items[0], &settings->plans)) {
         if (!digits || (houses.library && tn_house_library_find(job.opened.module, houses.library) != TN_NO_RECORD))
-            tn_job_unrank_house(&job, &houses, text);
+            tn_job_unrank_house(&job, &houses, text, settings->json);
         else if (tn_job_opened_library(&job, &settings->plans, &ready))
             unrank(&job, &ready, text);
     }
@@ -81,7 +81,7 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS unrank_settings
 static const tn_option options[] = {
     OPTIONS_LIBRARY,
-    FLAG("json", 0, json, "write the plan as a JSON object"),
+    FLAG("json", 0, json, "write the plan or house as a JSON object"),
     OPTIONS_LIBRARY_LIMITS,
 };
 

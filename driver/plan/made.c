@@ -4,22 +4,37 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-void tn_made_describe(const tn_opened *opened, const tn_ready_library *ready, const char *rules_path,
-                      const char *command, tn_made *made)
+static void describe(const tn_opened *opened, const tn_library *library, const char *name, const char *rules_path,
+                     const char *command, tn_made *made)
 {
     const tn_module *module = opened->module;
     const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
     *made = (tn_made){0};
-    tn_library_hash(ready->library, made->library_hash);
+    tn_library_hash(library, made->library_hash);
     if (producer)
         snprintf(made->rules_hash, sizeof made->rules_hash, "%016" PRIx64, (uint64_t)producer->sources_hash);
-    made->metadata = (tn_plan_metadata){.library = tn_text(module, ready->record->name),
+    made->metadata = (tn_plan_metadata){.library = name,
                                         .library_hash = made->library_hash,
                                         .rules_hash = made->rules_hash,
                                         .rules_path = rules_path,
                                         .version = producer ? tn_text(module, producer->version) : NULL,
                                         .command = command};
+}
+
+void tn_made_describe(const tn_opened *opened, const tn_ready_library *ready, const char *rules_path,
+                      const char *command, tn_made *made)
+{
+    describe(opened, ready->library, tn_text(opened->module, ready->record->name), rules_path, command, made);
+}
+
+void tn_made_describe_houses(const tn_opened *opened, const tn_library *plans, const char *name, const char *rules_path,
+                             const char *command, tn_made *made)
+{
+    describe(opened, plans, name, rules_path, command, made);
+    size_t used = strlen(made->library_hash);
+    snprintf(made->library_hash + used, sizeof made->library_hash - used, "-%s", made->rules_hash);
 }
 
 char *tn_enumerated_words(const tn_enumerated *asked)
@@ -32,6 +47,10 @@ char *tn_enumerated_words(const tn_enumerated *asked)
         done = tn_buffer_printf(&words, " --mirror");
     if (done && asked->trays_given)
         done = tn_buffer_printf(&words, " --trays %" PRIu64 "..%" PRIu64, asked->trays_min, asked->trays_max);
+    if (done && asked->plan)
+        done = tn_buffer_printf(&words, " --plan %s", asked->plan);
+    for (size_t i = 0; done && i < asked->where_count; i++)
+        done = tn_buffer_printf(&words, " --where %s", asked->wheres[i]);
     if (done)
         return words.data;
     free(words.data);

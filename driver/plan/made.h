@@ -9,7 +9,7 @@
 #include "runtime/plan/text/stream.h"
 
 typedef struct tn_made {
-    char library_hash[33], rules_hash[20];
+    char library_hash[56], rules_hash[20];
     tn_plan_metadata metadata; /* points into this: never copy it */
 } tn_made;
 
@@ -17,12 +17,19 @@ typedef struct tn_made {
 void tn_made_describe(const tn_opened *opened, const tn_ready_library *ready, const char *rules_path,
                       const char *command, tn_made *made);
 
+/* The same of a library of houses on the plans of another one. Its hash is of these plans, and of the rule files. */
+void tn_made_describe_houses(const tn_opened *opened, const tn_library *plans, const char *name, const char *rules_path,
+                             const char *command, tn_made *made);
+
 /* What decides the result of `tartan enumerate`. */
 typedef struct tn_enumerated {
     const char *from, *to; /* ranks; NULL where they were not given */
     bool mirror;
     bool trays_given;
     uint64_t trays_min, trays_max;
+    const char *plan;          /* whose houses they are, or NULL */
+    const char *const *wheres; /* further requirements of houses: the hash of a library does not show them */
+    size_t where_count;
 } tn_enumerated;
 
 /* The command in words: "enumerate --from 0 --to 10". The caller frees it; NULL where out of memory. */

@@ -110,6 +110,10 @@ tn_status tn_house_read_open(const tn_house_form *form, const char *line, size_t
 /* Appends the house's line. TN_MEMORY. */
 tn_status tn_house_write(const tn_house *house, tn_buffer *out, tn_error *error);
 
+/* Appends the same choices as members of a JSON object, each with a comma before it: ,"section":{CHOICE: VALUE, ...},
+ * "functions":[[FUNCTION, ...] of each tray, ...], "faces":[KIND, ...],"tiles":[TILE, ...]. TN_MEMORY. */
+tn_status tn_house_write_members(const tn_house *house, tn_buffer *out, tn_error *error);
+
 /* ---- tiles.c */
 
 /* A tile as it stands in a cell. item_first: of its items in tn_variants. */

@@ -156,13 +156,41 @@ golden listed 'tartan enumerate cottage -l cottages --limit 2'
 golden listed_on_plan "tartan enumerate cottage --plan '#10' --from 3 --to 5"
 golden listed_past 'tartan enumerate cottage -l cottages --trays 3..3 --from 300000'
 golden listed_backwards 'tartan enumerate cottage -l cottages --from 5 --to 3'
-golden listed_json 'tartan enumerate cottage -l cottages --format json'
+golden listed_json 'tartan enumerate cottage -l cottages --format json --from 4999999 --limit 1'
+golden listed_csv "tartan enumerate cottage --plan '#10' --format csv --limit 3"
+golden listed_packed "tartan enumerate cottage -l cottages --limit 1 --format bin -o $scratch/houses.bin"
+golden listed_tray_by_tray "tartan enumerate cottage -l cottages --limit 1 --format csv --columns"
+golden listed_mirrored "tartan enumerate cottage -l cottages --limit 1 --mirror"
+golden listed_resumed "tartan enumerate cottage -l cottages --limit 1 --resume -o $scratch/houses.txt"
+golden sample_json "tartan sample cottage 1 --library cottages --seed 3 --format json"
+golden unrank_json "tartan unrank cottage '#10:77' --json"
 golden count_trays 'tartan count cottage -l cottages --trays 3..3'
 is 'houses on a plan' "$("$TARTAN" enumerate cottage --plan '#10' | sort -u | wc -l)" \
     "$("$TARTAN" count cottage --plan '#10' --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["houses"])')"
 is 'a house by its rank' "$("$TARTAN" enumerate cottage -l cottages --from 4999999 --limit 1)" \
     "$("$TARTAN" unrank cottage -l cottages 4999999)"
-golden listed_nowhere "tartan enumerate cottage -l cottages --limit 1 -o $scratch/houses.sqlite"
+if grep -q '^TARTAN_WITH_STORE:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; then
+    golden listed_database "tartan enumerate cottage --plan '#10' --to 40 -o $scratch/houses.sqlite && tartan prune cottage $scratch/houses.sqlite"
+    is 'the same houses in a database and as lines' "$(python3 - "$scratch/houses.sqlite" <<'PY'
+import sqlite3, sys
+for rank, variant, house in sqlite3.connect(sys.argv[1]).execute('select rank, variant, house from houses order by number'):
+    assert rank == variant
+    print(house)
+PY
+)" "$("$TARTAN" enumerate cottage --plan '#10' --to 40)"
+fi
+# What says which house it is names it: its rank, and its plan with its variant.
+"$TARTAN" sample cottage 20 -l cottages --seed 9 --format json >"$scratch/sample.json"
+python3 - "$scratch/sample.json" >"$scratch/names" <<'PY'
+import json, sys
+for house in map(json.loads, open(sys.argv[1])):
+    print(house['rank'], f"#{house['plan_rank']}:{house['variant']}", house['house'], sep='\t')
+PY
+while IFS=$'\t' read -r rank number line; do
+    is "house $rank by its rank" "$("$TARTAN" unrank cottage -l cottages "$rank")" "$line"
+    is "house $rank by its plan" "$("$TARTAN" unrank cottage -l cottages "$number")" "$line"
+done <"$scratch/names"
+is 'houses sampled' "$(wc -l <"$scratch/names")" 20
 
 # Questions about plans leave what a file says of houses alone, or say that it is about houses.
 golden library_of_houses 'tartan complete cottage -l cottages "?"'

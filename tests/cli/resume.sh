@@ -35,6 +35,22 @@ for attempt in 'KILL 0.05' 'KILL 0.2' 'TERM 0.1' 'KILL 0.4'; do
 done
 [ "$broken" -gt 0 ] || echo 'note: every run ended before it was killed'
 
+# Houses, too: also where the limit ended it, and not with another requirement.
+houses=("$TARTAN" enumerate cottage -l cottages --trays 2..3 --from 1000 --to 260000)
+"${houses[@]}" -o "$scratch/whole.sqlite"
+contents "$scratch/whole.sqlite" >"$scratch/whole"
+rm -f "$scratch/part.sqlite"*
+"${houses[@]}" -o "$scratch/part.sqlite" 2>/dev/null &
+pid=$!
+sleep 0.7
+kill -KILL "$pid" 2>/dev/null || true
+wait "$pid" 2>/dev/null || true
+"${houses[@]}" -o "$scratch/part.sqlite" --limit 150000 --resume 2>/dev/null || fail 'cannot resume houses'
+"${houses[@]}" -o "$scratch/part.sqlite" --resume 2>/dev/null || fail 'cannot go on with houses'
+contents "$scratch/part.sqlite" | cmp -s - "$scratch/whole" || fail 'other houses after a kill'
+is 'houses in the database' "$(grep -c '^(' "$scratch/whole")" $((259000 + 10))
+exits 1 "${houses[@]}" --where 'cell(kitchen)' -o "$scratch/part.sqlite" --resume
+
 # Nothing is left of a file whose writer was killed, where the system has files without a name.
 if python3 -c 'import os, sys; os.close(os.open(sys.argv[1], os.O_TMPFILE | os.O_WRONLY))' "$scratch" 2>/dev/null; then
     mkdir "$scratch/folder"

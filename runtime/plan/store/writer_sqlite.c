@@ -58,23 +58,29 @@ tn_status tn_writer_sqlite_run(tn_plan_writer *writer, char *sql, tn_error *erro
 
 /* ---- a new library */
 
+/* What the rows are in: plans, or what the options name. */
+static const char *table_of(const tn_plan_writer *writer)
+{
+    return writer->rows ? writer->rows->table : "plans";
+}
+
 static tn_status create_tables(tn_plan_writer *writer, tn_error *error)
 {
     const tn_schema *schema = writer->schema;
-    char *total = NULL;
-    if (writer->length_field != UINT32_MAX) {
-        const char *name = tn_text(schema->module, schema->fields[writer->length_field].name);
-        total = sqlite3_mprintf("\"%w_total\" INTEGER NOT NULL, ", name);
-        if (!total)
-            return tn_fail_memory(error);
-    }
-    char *sql = sqlite3_mprintf("PRAGMA application_id = %d;"
-                                "CREATE TABLE metadata (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
-                                "CREATE TABLE plans (number INTEGER PRIMARY KEY, rank TEXT NOT NULL,"
-                                " length INTEGER NOT NULL, %splan TEXT NOT NULL, packed BLOB NOT NULL);",
-                                TN_LIBRARY_APPLICATION_ID, total ? total : "");
-    sqlite3_free(total);
-    tn_status status = tn_writer_sqlite_run(writer, sql, error);
+    sqlite3_str *sql = sqlite3_str_new(writer->database);
+    sqlite3_str_appendf(sql,
+                        "PRAGMA application_id = %d;"
+                        "CREATE TABLE metadata (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
+                        "CREATE TABLE %s (number INTEGER PRIMARY KEY, rank TEXT NOT NULL, length INTEGER NOT NULL, ",
+                        TN_LIBRARY_APPLICATION_ID, table_of(writer));
+    if (writer->length_field != UINT32_MAX)
+        sqlite3_str_appendf(sql, "\"%w_total\" INTEGER NOT NULL, ",
+                            tn_text(schema->module, schema->fields[writer->length_field].name));
+    sqlite3_str_appendall(sql, "plan TEXT NOT NULL, packed BLOB NOT NULL");
+    for (size_t i = 0; i < tn_writer_texts(writer); i++)
+        sqlite3_str_appendf(sql, ", %s TEXT NOT NULL", writer->rows->names[i]);
+    sqlite3_str_appendall(sql, ");");
+    tn_status status = tn_writer_sqlite_run(writer, sqlite3_str_finish(sql), error);
     return status == TN_OK && writer->columns ? tn_trays_create(writer, error) : status;
 }
 
@@ -93,7 +99,7 @@ static tn_status create(tn_plan_writer *writer, const tn_plan_metadata *metadata
     tn_writer_metadata(writer, metadata, &room, items);
     tn_status status = run(writer,
                            "BEGIN IMMEDIATE; DROP TABLE IF EXISTS trays; DROP TABLE IF EXISTS plans; "
-                           "DROP TABLE IF EXISTS metadata",
+                           "DROP TABLE IF EXISTS houses; DROP TABLE IF EXISTS metadata",
                            error);
     if (status == TN_OK)
         status = create_tables(writer, error);
@@ -152,8 +158,10 @@ static tn_status check_item(tn_plan_writer *writer, const tn_metadata_item *item
     if (status == TN_OK && !same) {
         status = tn_fail(error, TN_INVALID, E_PLAN_RESUME, "%s: its %s is %.100s, and now it would be %.100s",
                          writer->path, item->key, found ? found : "not known", item->value ? item->value : "none");
-        tn_error_help(error, "an interrupted library is continued with the same rules and the same command; leave out --resume to start "
-                             "anew");
+        tn_error_help(
+            error,
+            "an interrupted library is continued with the same rules and the same command; leave out --resume to start "
+            "anew");
     }
     free(found);
     return status;
@@ -179,7 +187,8 @@ static tn_status check_metadata(tn_plan_writer *writer, const tn_plan_metadata *
 static tn_status find_last(tn_plan_writer *writer, tn_error *error)
 {
     sqlite3_stmt *row = NULL;
-    const char *sql = "SELECT number, rank FROM plans ORDER BY number DESC LIMIT 1";
+    char sql[96];
+    sqlite3_snprintf(sizeof sql, sql, "SELECT number, rank FROM %s ORDER BY number DESC LIMIT 1", table_of(writer));
     int code = sqlite3_prepare_v2(writer->database, sql, -1, &row, NULL);
     tn_status status = TN_OK;
     if (code == SQLITE_OK && (code = sqlite3_step(row)) == SQLITE_ROW) {
@@ -218,12 +227,15 @@ static tn_status open_database(tn_plan_writer *writer, tn_error *error)
 /* A statement that inserts so many plans. */
 static tn_status prepare_insert(tn_plan_writer *writer, size_t plans, sqlite3_stmt **insert, tn_error *error)
 {
-    const char *row = writer->length_field != UINT32_MAX ? ",(?,?,?,?,?,?)" : ",(?,?,?,?,?)";
+    size_t columns = (writer->length_field != UINT32_MAX ? 6 : 5) + tn_writer_texts(writer);
     sqlite3_str *sql = sqlite3_str_new(writer->database);
-    sqlite3_str_appendall(sql, "INSERT INTO plans VALUES ");
-    sqlite3_str_appendall(sql, row + 1);
-    for (size_t i = 1; i < plans; i++)
-        sqlite3_str_appendall(sql, row);
+    sqlite3_str_appendf(sql, "INSERT INTO %s VALUES ", table_of(writer));
+    for (size_t i = 0; i < plans; i++) {
+        sqlite3_str_appendall(sql, i ? ",(?" : "(?");
+        for (size_t k = 1; k < columns; k++)
+            sqlite3_str_appendall(sql, ",?");
+        sqlite3_str_appendall(sql, ")");
+    }
     char *text = sqlite3_str_finish(sql);
     if (!text)
         return tn_fail_memory(error);
@@ -263,14 +275,20 @@ tn_status tn_writer_sqlite_open(tn_plan_writer *writer, const tn_writer_options 
  * A statement has a price of its own, whatever it inserts: plans wait for one another and go in so many a statement. */
 
 /* Adds the plan to those that wait. */
-static bool make_plan(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length)
+static bool make_plan(tn_plan_writer *writer, const char *rank, const tn_plan_row *row)
 {
+    const tn_tray *trays = row->trays;
+    size_t length = row->length;
     tn_waiting_plan *plan = &writer->waiting[writer->waiting_count++];
     plan->rank = writer->text.size;
     bool done = tn_buffer_append(&writer->text, rank, strlen(rank));
     plan->text = writer->text.size;
     done = done && tn_writer_line(writer, trays, length, &writer->text);
     plan->text_end = writer->text.size;
+    for (size_t i = 0; done && i < tn_writer_texts(writer); i++) {
+        done = tn_buffer_append(&writer->text, row->texts[i], strlen(row->texts[i]));
+        plan->row_end[i] = writer->text.size;
+    }
     plan->packed = writer->packed.size;
     done = done && tn_buffer_append(&writer->packed, "", 0); /* no bytes, and not NULL: the plan without trays */
     done = done && tn_pack_trays(writer->schema, trays, length, &writer->packed);
@@ -291,6 +309,9 @@ static void bind_plan(const tn_plan_writer *writer, sqlite3_stmt *insert, const 
         sqlite3_bind_int64(insert, ++*column, plan->total);
     sqlite3_bind_text(insert, ++*column, text + plan->text, (int)(plan->text_end - plan->text), SQLITE_STATIC);
     sqlite3_bind_blob(insert, ++*column, packed + plan->packed, (int)(plan->packed_end - plan->packed), SQLITE_STATIC);
+    size_t begin = plan->text_end;
+    for (size_t i = 0; i < tn_writer_texts(writer); begin = plan->row_end[i++])
+        sqlite3_bind_text(insert, ++*column, text + begin, (int)(plan->row_end[i] - begin), SQLITE_STATIC);
 }
 
 /* Inserts the plans that wait. */
@@ -313,15 +334,14 @@ static tn_status flush(tn_plan_writer *writer, tn_error *error)
     return TN_OK;
 }
 
-tn_status tn_writer_sqlite_write(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length,
-                                 tn_error *error)
+tn_status tn_writer_sqlite_write(tn_plan_writer *writer, const char *rank, const tn_plan_row *row, tn_error *error)
 {
     tn_status status = writer->in_batch == 0 ? run(writer, "BEGIN IMMEDIATE", error) : TN_OK;
     if (status != TN_OK)
         return status;
-    if (!make_plan(writer, rank, trays, length))
+    if (!make_plan(writer, rank, row))
         return tn_fail_memory(error);
-    if (writer->columns && !tn_trays_insert(writer, trays, length))
+    if (writer->columns && !tn_trays_insert(writer, row->trays, row->length))
         return tn_writer_sqlite_failed(writer, error);
     bool batch_ends = ++writer->in_batch == writer->batch;
     if (batch_ends || writer->waiting_count == TN_WAITING_MAX)
@@ -345,7 +365,10 @@ tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error)
     tn_status status = writer->in_batch > 0 ? flush(writer, error) : run(writer, "BEGIN IMMEDIATE", error);
     writer->in_batch = 0;
     if (status == TN_OK)
-        status = run(writer, "CREATE UNIQUE INDEX IF NOT EXISTS plans_rank ON plans (rank)", error);
+        status = tn_writer_sqlite_run(writer,
+                                      sqlite3_mprintf("CREATE UNIQUE INDEX IF NOT EXISTS %s_rank ON %s (rank)",
+                                                      table_of(writer), table_of(writer)),
+                                      error);
     if (status == TN_OK && writer->columns)
         status = tn_trays_index(writer, error);
     if (status == TN_OK)

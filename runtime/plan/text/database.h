@@ -14,7 +14,7 @@ struct tn_plan_database {
 
     /* The same for a writer. */
     tn_status (*open_writer)(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error);
-    tn_status (*write)(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length, tn_error *error);
+    tn_status (*write)(tn_plan_writer *writer, const char *rank, const tn_plan_row *row, tn_error *error);
     tn_status (*close_writer)(tn_plan_writer *writer, tn_error *error);
     void (*free_writer)(tn_plan_writer *writer);
 };

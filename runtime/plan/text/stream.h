@@ -108,8 +108,19 @@ typedef struct tn_plan_metadata {
     const char *command; /* what was asked for: "enumerate --from 10", "sample 100 --seed 3" */
 } tn_plan_metadata;
 
+/* What a row says besides its plan, where it is more than a plan (a house): texts, in columns after those of the plan.
+ * The last is the line that stands in files of lines. Packed files and Parquet do not hold such rows, nor do columns.
+ */
+#define TN_ROW_TEXTS_MAX 4
+typedef struct tn_row_columns {
+    const char *table; /* of a database, in place of `plans` */
+    const char *names[TN_ROW_TEXTS_MAX];
+    size_t count;
+} tn_row_columns;
+
 typedef struct tn_writer_options {
     tn_plan_format format;
+    const tn_row_columns *rows; /* NULL: rows are plans */
     tn_plan_metadata metadata;
     bool columns;   /* CSV: a row a tray, and a column a field; SQLite: also a table `trays` of such rows */
     bool csv_safe;  /* a plan in CSV that begins with = + - or @ gets a ' before it: spreadsheets compute such cells */
@@ -142,6 +153,16 @@ bool tn_plan_writer_resumes(const tn_plan_writer *writer);
 /* Appends a plan. Ranks must ascend. */
 tn_status tn_plan_writer_write(tn_plan_writer *writer, const mpz_t rank, const tn_tray *trays, size_t length,
                                tn_error *error);
+
+/* Appends a row: a plan, and a text for each of the options' columns. members: what JSON has besides, as text, with a
+ * comma before each; or NULL. */
+typedef struct tn_plan_row {
+    const tn_tray *trays;
+    size_t length;
+    const char *texts[TN_ROW_TEXTS_MAX];
+    const char *members;
+} tn_plan_row;
+tn_status tn_plan_writer_write_row(tn_plan_writer *writer, const mpz_t rank, const tn_plan_row *row, tn_error *error);
 
 /* Appends the plans of another file that was written in the same format, with the same schema and options, byte by
  * byte; what such a file begins with is left out. Not for SQLite and Parquet, nor from or to compressed files.

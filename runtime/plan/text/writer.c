@@ -82,26 +82,22 @@ static bool append_text(tn_buffer *out, const char *text)
     return tn_buffer_append(out, text, strlen(text));
 }
 
-/* A CSV field: in quotes where it holds a comma, a quote or a line break (RFC 4180). A zero byte follows the text. */
-static bool append_field(tn_buffer *out, const char *text, size_t size)
+/* A CSV field: in quotes where it holds a comma, a quote or a line break (RFC 4180); safe: with a mark before what a
+ * spreadsheet would compute. A zero byte follows the text. */
+static bool append_field(tn_buffer *out, const char *text, size_t size, bool safe)
 {
+    const char *mark = safe && size > 0 && strchr("=+-@", text[0]) ? "'" : "";
     if (strcspn(text, ",\"\r\n") == size)
-        return tn_buffer_append(out, text, size);
-    bool done = append_text(out, "\"");
+        return append_text(out, mark) && tn_buffer_append(out, text, size);
+    bool done = append_text(out, "\"") && append_text(out, mark);
     for (size_t i = 0; done && i < size; i++)
         done = (text[i] != '"' || append_text(out, "\"")) && tn_buffer_append(out, &text[i], 1);
     return done && append_text(out, "\"");
 }
 
-/* A field, with a mark before what a spreadsheet would compute. */
 static bool append_cell(const tn_plan_writer *writer, tn_buffer *out, const char *text)
 {
-    char marked[TN_SPELLING_MAX + 2];
-    if (writer->csv_safe && text[0] && strchr("=+-@", text[0])) {
-        snprintf(marked, sizeof marked, "'%s", text);
-        text = marked;
-    }
-    return append_text(out, ",") && append_field(out, text, strlen(text));
+    return append_text(out, ",") && append_field(out, text, strlen(text), writer->csv_safe);
 }
 
 static bool columns_header(tn_plan_writer *writer)
@@ -114,9 +110,11 @@ static bool columns_header(tn_plan_writer *writer)
 }
 
 /* A row a tray; for the plan without trays one that says so. */
-static bool append_columns(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length)
+static bool append_columns(tn_plan_writer *writer, const char *rank, const tn_plan_row *row)
 {
     const tn_schema *schema = writer->schema;
+    const tn_tray *trays = row->trays;
+    size_t length = row->length;
     tn_buffer *out = &writer->text;
     bool done = length > 0 || tn_buffer_printf(out, "%s,0", rank);
     for (uint32_t f = 0; done && length == 0 && f < schema->field_count; f++)
@@ -134,8 +132,11 @@ static bool csv_header(tn_plan_writer *writer)
 {
     if (writer->columns)
         return columns_header(writer);
-    const char *header = writer->length_field == UINT32_MAX ? "rank,length,plan\n" : "rank,length,total,plan\n";
-    return tn_buffer_append(&writer->text, header, strlen(header));
+    bool done =
+        append_text(&writer->text, writer->length_field == UINT32_MAX ? "rank,length,plan" : "rank,length,total,plan");
+    for (size_t i = 0; done && i < tn_writer_texts(writer); i++)
+        done = append_cell(writer, &writer->text, writer->rows->names[i]);
+    return done && append_text(&writer->text, "\n");
 }
 
 /* The header of packed plans, and the metadata as lines `key=value`. */
@@ -215,6 +216,12 @@ static tn_status open_writer(tn_plan_writer *writer, const char *path, const tn_
         tn_error_help(error, "--format csv, or write to a file that ends in .sqlite");
         return TN_INVALID;
     }
+    if (writer->rows && (writer->columns || writer->format == TN_FORMAT_BIN || writer->format == TN_FORMAT_PARQUET)) {
+        tn_fail(error, TN_INVALID, E_USAGE, "%s are not written packed, in Parquet, or tray by tray",
+                writer->rows->table);
+        tn_error_help(error, "--format lines, json, csv or sqlite, without --columns");
+        return TN_INVALID;
+    }
     if (writer->format == TN_FORMAT_PARQUET && !writer->parquet)
         return tn_fail(error, TN_INVALID, E_USAGE, "this program does not write Parquet");
     if (!make_tray_texts(writer))
@@ -234,6 +241,7 @@ tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const t
         return tn_fail_memory(error);
     writer->schema = schema;
     writer->format = options->format;
+    writer->rows = options->rows;
     writer->compression = options->compression;
     writer->columns = options->columns;
     writer->csv_safe = options->csv_safe;
@@ -255,25 +263,24 @@ tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const t
 
 /* ---- plans */
 
-static bool append_csv(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length)
+static bool append_csv(tn_plan_writer *writer, const char *rank, const tn_plan_row *row)
 {
     tn_buffer *out = &writer->text, *line = &writer->packed;
     line->size = 0;
-    if (!tn_buffer_printf(out, "%s,%zu,", rank, length))
+    if (!tn_buffer_printf(out, "%s,%zu,", rank, row->length))
         return false;
     if (writer->length_field != UINT32_MAX) {
         char total[48];
-        tn_length_write_style(tn_writer_total(writer, trays, length), writer->total_style, total, sizeof total);
-        if (!append_field(out, total, strlen(total)) || !append_text(out, ","))
+        tn_length_write_style(tn_writer_total(writer, row->trays, row->length), writer->total_style, total,
+                              sizeof total);
+        if (!append_field(out, total, strlen(total), false) || !append_text(out, ","))
             return false;
     }
-    if (writer->csv_safe && !append_text(line, "'"))
-        return false;
-    if (!tn_writer_line(writer, trays, length, line))
-        return false;
-    bool marked = writer->csv_safe && line->size > 1 && strchr("=+-@", line->data[1]);
-    size_t skipped = writer->csv_safe && !marked; /* the mark was put there before it was known whether it is needed */
-    return (line->size == 0 || append_field(out, line->data + skipped, line->size - skipped)) && append_text(out, "\n");
+    bool done = tn_writer_line(writer, row->trays, row->length, line) &&
+                (line->size == 0 || append_field(out, line->data, line->size, writer->csv_safe));
+    for (size_t i = 0; done && i < tn_writer_texts(writer); i++)
+        done = append_cell(writer, out, row->texts[i]);
+    return done && append_text(out, "\n");
 }
 
 static bool append_packed(tn_plan_writer *writer, const tn_tray *trays, size_t length)
@@ -288,49 +295,65 @@ static bool append_packed(tn_plan_writer *writer, const tn_tray *trays, size_t l
     return tn_pack_trays(writer->schema, trays, length, &writer->text);
 }
 
-static bool append_json(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length)
+static bool append_json(tn_plan_writer *writer, const char *rank, const tn_plan_row *row)
 {
     tn_buffer *out = &writer->text;
-    return tn_buffer_printf(out, "{\"rank\":\"%s\",\"trays\":", rank) &&
-           tn_plan_write_trays(writer->schema, trays, length, out) && append_text(out, "}\n");
+    bool done = tn_buffer_printf(out, "{\"rank\":\"%s\"", rank);
+    for (size_t i = 0; done && i < tn_writer_texts(writer); i++)
+        done = tn_buffer_printf(out, ",\"%s\":", writer->rows->names[i]) && tn_buffer_append_json(out, row->texts[i]);
+    return done && append_text(out, ",\"trays\":") &&
+           tn_plan_write_trays(writer->schema, row->trays, row->length, out) &&
+           append_text(out, row->members ? row->members : "") && append_text(out, "}\n");
 }
 
-static bool append_plan(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length)
+static bool append_line(tn_plan_writer *writer, const tn_plan_row *row)
+{
+    size_t texts = tn_writer_texts(writer);
+    return (texts ? append_text(&writer->text, row->texts[texts - 1])
+                  : tn_writer_line(writer, row->trays, row->length, &writer->text)) &&
+           append_text(&writer->text, "\n");
+}
+
+static bool append_row(tn_plan_writer *writer, const char *rank, const tn_plan_row *row)
 {
     switch (writer->format) {
     case TN_FORMAT_CSV:
-        return writer->columns ? append_columns(writer, rank, trays, length) : append_csv(writer, rank, trays, length);
+        return writer->columns ? append_columns(writer, rank, row) : append_csv(writer, rank, row);
     case TN_FORMAT_JSON:
-        return append_json(writer, rank, trays, length);
+        return append_json(writer, rank, row);
     case TN_FORMAT_BIN:
-        return append_packed(writer, trays, length);
+        return append_packed(writer, row->trays, row->length);
     default:
-        return tn_writer_line(writer, trays, length, &writer->text) && append_text(&writer->text, "\n");
+        return append_line(writer, row);
     }
 }
 
-static tn_status write_ranked(tn_plan_writer *writer, const char *rank, const tn_tray *trays, size_t length,
-                              tn_error *error)
+static tn_status write_ranked(tn_plan_writer *writer, const char *rank, const tn_plan_row *row, tn_error *error)
 {
     if (writer->format == TN_FORMAT_SQLITE)
-        return writer->sqlite->write(writer, rank, trays, length, error);
-    return append_plan(writer, rank, trays, length) ? flush_text(writer, error) : tn_fail_memory(error);
+        return writer->sqlite->write(writer, rank, row, error);
+    return append_row(writer, rank, row) ? flush_text(writer, error) : tn_fail_memory(error);
+}
+
+tn_status tn_plan_writer_write_row(tn_plan_writer *writer, const mpz_t rank, const tn_plan_row *row, tn_error *error)
+{
+    char room[128];
+    if (writer->format == TN_FORMAT_LINES || writer->format == TN_FORMAT_BIN)
+        return write_ranked(writer, NULL, row, error); /* they say no ranks */
+    if (writer->format == TN_FORMAT_PARQUET)
+        return writer->parquet->write(writer, rank, row->trays, row->length, error);
+    if (mpz_sizeinbase(rank, 10) + 2 <= sizeof room)
+        return write_ranked(writer, mpz_get_str(room, 10, rank), row, error);
+    char *digits = mpz_get_str(NULL, 10, rank);
+    tn_status status = digits ? write_ranked(writer, digits, row, error) : tn_fail_memory(error);
+    free(digits);
+    return status;
 }
 
 tn_status tn_plan_writer_write(tn_plan_writer *writer, const mpz_t rank, const tn_tray *trays, size_t length,
                                tn_error *error)
 {
-    char room[128];
-    if (writer->format == TN_FORMAT_LINES || writer->format == TN_FORMAT_BIN)
-        return write_ranked(writer, NULL, trays, length, error); /* they say no ranks */
-    if (writer->format == TN_FORMAT_PARQUET)
-        return writer->parquet->write(writer, rank, trays, length, error);
-    if (mpz_sizeinbase(rank, 10) + 2 <= sizeof room)
-        return write_ranked(writer, mpz_get_str(room, 10, rank), trays, length, error);
-    char *digits = mpz_get_str(NULL, 10, rank);
-    tn_status status = digits ? write_ranked(writer, digits, trays, length, error) : tn_fail_memory(error);
-    free(digits);
-    return status;
+    return tn_plan_writer_write_row(writer, rank, &(tn_plan_row){.trays = trays, .length = length}, error);
 }
 
 bool tn_plan_writer_resumes(const tn_plan_writer *writer)

@@ -28,6 +28,7 @@ typedef struct tn_waiting_plan {
     size_t length; /* trays */
     int64_t total; /* nanometres */
     size_t rank, text, text_end;
+    size_t row_end[TN_ROW_TEXTS_MAX]; /* the row's texts follow, each to its end */
     size_t packed, packed_end;
 } tn_waiting_plan;
 
@@ -41,9 +42,10 @@ struct tn_plan_writer {
     uint32_t length_field; /* the one that `total` adds, or UINT32_MAX */
     tn_length_style total_style;
     bool columns, csv_safe;
-    tn_buffer text;        /* of the plan in hand; SQLite: of those that wait */
-    tn_buffer tray_texts;  /* " | " and the tray, tray after tray; empty where trays are too many to keep */
-    size_t *tray_text_end; /* [trays]: where in tray_texts each ends */
+    const tn_row_columns *rows; /* NULL: rows are plans */
+    tn_buffer text;             /* of the plan in hand; SQLite: of those that wait */
+    tn_buffer tray_texts;       /* " | " and the tray, tray after tray; empty where trays are too many to keep */
+    size_t *tray_text_end;      /* [trays]: where in tray_texts each ends */
     tn_buffer packed;
 
     const tn_plan_parquet *parquet; /* where it is Parquet that is written */
@@ -67,6 +69,12 @@ typedef struct tn_metadata_room {
 } tn_metadata_room;
 void tn_writer_metadata(const tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_metadata_room *room,
                         tn_metadata_item items[TN_METADATA_ITEMS]);
+
+/* How many texts a row has besides its plan. */
+static inline size_t tn_writer_texts(const tn_plan_writer *writer)
+{
+    return writer->rows ? writer->rows->count : 0;
+}
 
 /* Appends the plan line; false where out of memory. The same as tn_plan_write_line, from the trays' texts. */
 bool tn_writer_line(const tn_plan_writer *writer, const tn_tray *trays, size_t length, tn_buffer *out);

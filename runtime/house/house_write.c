@@ -1,0 +1,120 @@
+/* Writes the choices of a house: as a house line, and as members of a JSON object. */
+#include <string.h>
+
+#include "runtime/house/house.h"
+
+/* A word of a part: after a blank, or as JSON after a comma, where it is not the first. */
+static void put(tn_buffer *out, bool json, bool *any, const char *text)
+{
+    if (*any)
+        tn_buffer_append(out, json ? "," : " ", 1);
+    if (json)
+        tn_buffer_append_json(out, text);
+    else
+        tn_buffer_append(out, text, strlen(text));
+    *any = true;
+}
+
+static const char *value_of(const tn_house *house, uint32_t choice)
+{
+    const tn_module *module = house->form->module;
+    return tn_text(
+        module,
+        module->SHAPE_records[tn_form_choice(house->form, choice)->shape_first + house->shapes[choice]].spelling);
+}
+
+/* The functions of a tray's cells; are there any? */
+static bool put_tray(const tn_house *house, size_t tray, bool json, tn_buffer *out)
+{
+    bool any = false;
+    for (uint32_t i = house->tray_first[tray]; i < house->tray_first[tray + 1]; i++) {
+        const tn_cell *cell = &house->cells[i];
+        put(out, json, &any,
+            cell->open ? "void" : tn_text(house->form->module, tn_form_rule(house->form, cell->function)->name));
+    }
+    return any;
+}
+
+/* What is in the faces that leave a choice; are there any? */
+static bool put_faces(const tn_house *house, bool json, tn_buffer *out)
+{
+    uint32_t kinds[TN_FACE_KINDS_MAX];
+    bool any = false;
+    for (size_t i = 0; i < house->face_count; i++)
+        if (tn_face_options(house, &house->faces[i], kinds) > 1)
+            put(out, json, &any, tn_form_kind_text(house->form, house->faces[i].kind));
+    return any;
+}
+
+static tn_status put_tiles(const tn_house *house, bool json, tn_buffer *out, bool *any, tn_error *error)
+{
+    tn_status status = TN_OK;
+    *any = false;
+    for (uint32_t i = 0; status == TN_OK && i < house->cell_count; i++) {
+        tn_variants v;
+        char text[TN_VARIANT_TEXT];
+        status = tn_tile_variants(house, i, &v, error);
+        if (status == TN_OK && v.count > 0) {
+            tn_variant_text(house->form, &v.variants[house->cells[i].variant], text);
+            put(out, json, any, text);
+        }
+        tn_variants_clear(&v);
+    }
+    return status;
+}
+
+/* ---- the line */
+
+static void end_part(tn_buffer *out, bool any)
+{
+    tn_buffer_printf(out, "%s ; ", any ? "" : "-");
+}
+
+tn_status tn_house_write(const tn_house *house, tn_buffer *out, tn_error *error)
+{
+    const tn_house_form *form = house->form;
+    bool any = false;
+    tn_plan_write_line(form->schema, house->trays, house->length, out);
+    end_part(out, house->length > 0);
+    for (uint32_t i = 0; i < form->record->choice_count; i++)
+        put(out, false, &any, value_of(house, i));
+    end_part(out, any);
+    for (size_t t = 0; t < house->length; t++) {
+        tn_buffer_printf(out, "%s", t ? " | " : "");
+        if (!put_tray(house, t, false, out))
+            tn_buffer_append(out, "-", 1);
+    }
+    end_part(out, house->length > 0);
+    end_part(out, put_faces(house, false, out));
+    tn_status status = put_tiles(house, false, out, &any, error);
+    if (!any)
+        tn_buffer_append(out, "-", 1);
+    return status == TN_OK && out->failed ? tn_fail_memory(error) : status;
+}
+
+/* ---- JSON */
+
+tn_status tn_house_write_members(const tn_house *house, tn_buffer *out, tn_error *error)
+{
+    const tn_house_form *form = house->form;
+    bool any;
+    tn_buffer_printf(out, ",\"section\":{");
+    for (uint32_t i = 0; i < form->record->choice_count; i++) {
+        tn_buffer_printf(out, "%s", i ? "," : "");
+        tn_buffer_append_json(out, tn_text(form->module, tn_form_choice(form, i)->name));
+        tn_buffer_append(out, ":", 1);
+        tn_buffer_append_json(out, value_of(house, i));
+    }
+    tn_buffer_printf(out, "},\"functions\":[");
+    for (size_t t = 0; t < house->length; t++) {
+        tn_buffer_printf(out, "%s[", t ? "," : "");
+        put_tray(house, t, true, out);
+        tn_buffer_append(out, "]", 1);
+    }
+    tn_buffer_printf(out, "],\"faces\":[");
+    put_faces(house, true, out);
+    tn_buffer_printf(out, "],\"tiles\":[");
+    tn_status status = put_tiles(house, true, out, &any, error);
+    tn_buffer_append(out, "]", 1);
+    return status == TN_OK && out->failed ? tn_fail_memory(error) : status;
+}
