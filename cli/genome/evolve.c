@@ -111,6 +111,20 @@ static const char *why_no_score(const tn_individual *individual)
     return individual->reason != TN_MAPPING_VALID ? tn_mapping_reason_text(individual->reason) : individual->message;
 }
 
+/* How its genomes were made: even numbers full and odd ones grown, where they are of both kinds. */
+static void tell_first_made(const tn_evolution_session *e, FILE *out)
+{
+    const tn_evolution_settings *s = &e->job.settings;
+    size_t given = s->seed_count < s->population ? s->seed_count : s->population, left = s->population - given;
+    size_t full = (s->population + 1) / 2 - (given + 1) / 2;
+    if (given)
+        fprintf(out, "%zu given, ", given);
+    if (s->initialisation == TN_INITIALISE_RAMPED)
+        fprintf(out, "%zu full and %zu grown, ", full, left - full);
+    else
+        fprintf(out, "%zu %s, ", left, s->initialisation == TN_INITIALISE_RANDOM ? "random" : "grown");
+}
+
 /* What the first generation was like, from which all others come. */
 static void tell_first(const tn_evolution_session *e, FILE *out)
 {
@@ -119,8 +133,10 @@ static void tell_first(const tn_evolution_session *e, FILE *out)
     tn_error error;
     if (tn_run_store_stats(e->run.store, &stats, &count, &error) == TN_OK && count) {
         const tn_generation_stats *s = &stats[0];
-        fprintf(out, "first generation: %u distinct, %u without sentence, mean depth %.3g", s->distinct, s->no_sentence,
-                s->mean_depth);
+        fputs("first generation: ", out);
+        if (e->job.grammar)
+            tell_first_made(e, out);
+        fprintf(out, "%u distinct, %u without sentence, mean depth %.3g", s->distinct, s->no_sentence, s->mean_depth);
         fprintf(out, e->job.grammar ? ", %.4g codons on the mean\n" : "\n", s->mean_codons);
     }
     free(stats);

@@ -22,7 +22,7 @@ typedef struct map_settings {
     const char *genome, *genomes, *invert, *tree, *output;
     tn_option_number random, seed, codons;
     tn_option_number wraps, max_depth, max_steps, max_items;
-    int format;
+    int format, mapping;
     bool trace;
 } map_settings;
 
@@ -224,7 +224,9 @@ static void invert(mapping_run *run)
 {
     const map_settings *settings = settings_of(run->job);
     const char *sentence = settings->invert;
-    tn_invert_options options = {.max_depth = run->options.max_depth, .max_items = (size_t)settings->max_items.value};
+    tn_invert_options options = {.max_depth = run->options.max_depth,
+                                 .position_independent = run->options.position_independent,
+                                 .max_items = (size_t)settings->max_items.value};
     tn_error error;
     tn_status status = tn_invert(run->grammar, sentence, strlen(sentence), &options, &run->genome, &error);
     if (status != TN_OK) {
@@ -284,6 +286,20 @@ static bool check_options(tn_job *job)
     return formats_agree(job);
 }
 
+static bool mapping_fits(mapping_run *run)
+{
+    tn_error error;
+    if (!run->options.position_independent || tn_grammar_takes_places(run->grammar))
+        return true;
+    bool genr8 = run->grammar->dialect == TN_DIALECT_GENR8;
+    tn_fail(&error, TN_INVALID, E_MAPPING_ORDER,
+            genr8 ? "position-independent mapping is for the dialect ge, and this grammar is in genr8"
+                  : "position-independent mapping reads two codons for every non-terminal, also for a single choice");
+    tn_error_help(&error, genr8 ? "leave out --mapping" : "leave out `%%single-choice skip` of the grammar");
+    fail(run, &error);
+    return false;
+}
+
 static bool prepare(mapping_run *run)
 {
     tn_job *job = run->job;
@@ -314,9 +330,11 @@ static bool prepare(mapping_run *run)
     if (settings->max_depth.given)
         run->options.max_depth = (uint32_t)settings->max_depth.value;
     run->options.max_steps = settings->max_steps.value;
+    if (settings->mapping)
+        run->options.position_independent = settings->mapping == 2;
     run->options.record = settings->tree || settings->trace;
     run->json = settings->format == 1;
-    return true;
+    return mapping_fits(run);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
@@ -360,6 +378,9 @@ static const tn_option options[] = {
            "how often a genome may be read once more (default: what the grammar says)"),
     NUMBER("max-depth", 0, "N", max_depth, 0, UINT32_MAX,
            "limit of depth, 0 for none (default: what the grammar says)"),
+    CHOICE("mapping", 0, "HOW", mapping, "grammar|leftmost|position-independent",
+           "which non-terminal is replaced next: what the grammar says (the default), the leftmost, or, with codons in "
+           "pairs, the one that the first codon of a pair says"),
     NUMBER("max-steps", 0, "N", max_steps, 1, UINT64_MAX,
            "most symbols of a sentence; a long terminal counts as one more for each 16 bytes (default 1000000)"),
     NUMBER("max-items", 0, "N", max_items, 1, UINT32_MAX - 1, "most parser states of --invert (default 2000000)"),

@@ -248,9 +248,10 @@ static void bad_value(tn_bnf_reader *reader, tn_span span, const char *directive
     tn_help(reader->diagnostics, diagnostic, "write %s %s", directive, expected);
 }
 
-enum { DIRECTIVES = 8, DATA_FIRST = 5 };
+enum { DIRECTIVES = 9, DATA_FIRST = 5, MAPPING = 8 };
 static const char *const directives[DIRECTIVES] = {"%dialect", "%single-choice", "%repair",         "%max-depth",
-                                                   "%wraps",   "%dataset-vars",  "%dataset-inputs", "%dataset-outputs"};
+                                                   "%wraps",   "%dataset-vars",  "%dataset-inputs", "%dataset-outputs",
+                                                   "%mapping"};
 const char *const tn_bnf_data_directives[TN_BNF_DATA] = {"%dataset-vars", "%dataset-inputs", "%dataset-outputs"};
 
 static void note_data(tn_bnf_reader *reader, tn_span span, int which, tn_bnf_text value)
@@ -260,6 +261,15 @@ static void note_data(tn_bnf_reader *reader, tn_span span, int which, tn_bnf_tex
         bad_value(reader, span, directives[which], "a whole number above 0");
     else
         reader->ast.data[which - DATA_FIRST] = said;
+}
+
+static void note_mapping(tn_bnf_reader *reader, tn_span span, tn_bnf_text value)
+{
+    int chosen = choice(value, (const char *const[]){"leftmost", "position-independent"}, 2);
+    if (chosen < 0)
+        bad_value(reader, span, directives[MAPPING], "leftmost or position-independent");
+    reader->ast.position_independent = chosen == 1;
+    reader->ast.mapping_span = span;
 }
 
 bool tn_bnf_names_directive(tn_bnf_text line)
@@ -320,6 +330,9 @@ void tn_bnf_directive(tn_bnf_reader *reader, tn_span span, tn_bnf_text line)
     case DATA_FIRST + 2:
         note_data(reader, span, choice(said.items[0], directives, DIRECTIVES), value);
         break;
+    case MAPPING:
+        note_mapping(reader, span, value);
+        break;
     default: {
         tn_diagnostic *diagnostic =
             tn_report(reader->diagnostics, E_GRAMMAR_DIRECTIVE, span, "there is no such directive");
@@ -329,7 +342,7 @@ void tn_bnf_directive(tn_bnf_reader *reader, tn_span span, tn_bnf_text line)
             tn_help(reader->diagnostics, diagnostic, "did you mean %s?", near);
         else
             tn_help(reader->diagnostics, diagnostic,
-                    "there are %%dialect, %%single-choice, %%repair, %%max-depth, %%wraps, %%dataset-vars, "
+                    "there are %%dialect, %%mapping, %%single-choice, %%repair, %%max-depth, %%wraps, %%dataset-vars, "
                     "%%dataset-inputs and %%dataset-outputs");
         break;
     }

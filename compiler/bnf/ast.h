@@ -78,6 +78,8 @@ typedef struct tn_bnf_file {
     tn_span repair_span;
     bool says_repair;
     bool skip_single;
+    bool position_independent;
+    tn_span mapping_span; /* what says it */
     bool says_max_depth, says_wraps;
     uint32_t max_depth, wraps;
     uint32_t data[TN_BNF_DATA]; /* 0: not known */

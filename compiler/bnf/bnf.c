@@ -117,7 +117,7 @@ static void emit(const tn_bnf_grammar *g, const tn_source *source, tn_builder *b
     tn_grammar_record record = {
         .name = tn_builder_string_n(builder, name, length),
         .dialect = ast->dialect,
-        .flags = ast->skip_single ? TN_SKIP_SINGLE : 0,
+        .flags = (ast->skip_single ? TN_SKIP_SINGLE : 0) | (ast->position_independent ? TN_POSITION_INDEPENDENT : 0),
         .repair = genr8 ? ast->repair : TN_REPAIR_OFF,
         .max_depth = ast->says_max_depth ? ast->max_depth
                      : genr8             ? GENR8_MAX_DEPTH
@@ -143,15 +143,15 @@ bool tn_bnf_asks_data(const char *text, size_t size)
     return memmem(text, size, word, sizeof word - 1) != NULL;
 }
 
-tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, const uint32_t *data, tn_diagnostics *diagnostics,
+tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, const tn_bnf_study *study, tn_diagnostics *diagnostics,
                          tn_arena *arena, tn_builder *builder, tn_error *error)
 {
     tn_source *source = &sources->files[file];
     size_t errors_before = diagnostics->error_count;
     tn_bnf_reader reader = {.arena = arena, .diagnostics = diagnostics, .file = file};
     tn_bnf_grammar g = {.reader = &reader};
-    if (data)
-        memcpy(reader.ast.data, data, sizeof reader.ast.data);
+    if (study)
+        memcpy(reader.ast.data, study->data, sizeof reader.ast.data);
     const char *zero = memchr(source->text, '\0', source->size);
     if (zero) {
         uint32_t at = (uint32_t)(zero - source->text);
@@ -159,6 +159,10 @@ tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, const uint32_t *dat
         return tn_fail(error, TN_INVALID, E_STRAY_CHARACTER, "the grammar has errors");
     }
     tn_bnf_read(&reader, source->text, source->size);
+    if (study && study->says_mapping) {
+        reader.ast.position_independent = study->position_independent;
+        reader.ast.mapping_span = study->mapping_span;
+    }
     if (!tn_bnf_collect_rules(&g))
         return tn_fail_memory(error);
     if (g.rule_count == 0 && !reader.failed) {

@@ -4,13 +4,21 @@
 #ifndef TARTAN_COMPILER_BNF_BNF_H
 #define TARTAN_COMPILER_BNF_BNF_H
 
+#include "compiler/bnf/ast.h"
 #include "compiler/common/arena.h"
 #include "compiler/common/compilation.h"
 #include "runtime/module/builder.h"
 
-/* data: the numbers of a data set that GE_RANGE can name, as far as the file does not say them (TN_BNF_DATA of ast.h;
- * 0: not known), or NULL. TN_OK, TN_INVALID where there are errors, TN_MEMORY. */
-tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, const uint32_t *data, tn_diagnostics *diagnostics,
+/* What a study says about the grammar that it names. */
+typedef struct tn_bnf_study {
+    uint32_t data[TN_BNF_DATA]; /* numbers of a data set that GE_RANGE can name, where the file does not say them; 0: not
+                                   known */
+    bool says_mapping, position_independent; /* in place of what the file says */
+    tn_span mapping_span;
+} tn_bnf_study;
+
+/* study: or NULL. TN_OK, TN_INVALID where there are errors, TN_MEMORY. */
+tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, const tn_bnf_study *study, tn_diagnostics *diagnostics,
                          tn_arena *arena, tn_builder *builder, tn_error *error);
 
 /* Does the grammar's text ask for numbers of a data set? */

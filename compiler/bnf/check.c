@@ -231,6 +231,22 @@ static void check_repair(tn_bnf_grammar *g)
     }
 }
 
+/* Position-independent mapping reads two codons for each non-terminal, and none within a production. */
+static void check_mapping(tn_bnf_grammar *g)
+{
+    const tn_bnf_file *ast = &g->reader->ast;
+    bool genr8 = ast->dialect == TN_DIALECT_GENR8;
+    if (!ast->position_independent || (!genr8 && !ast->skip_single))
+        return;
+    tn_diagnostic *diagnostic =
+        tn_report(g->reader->diagnostics, E_MAPPING_ORDER, ast->mapping_span,
+                  genr8 ? "position-independent mapping is for the dialect ge, and this grammar is in genr8"
+                        : "position-independent mapping reads two codons for every non-terminal, also for a single "
+                          "choice");
+    tn_help(g->reader->diagnostics, diagnostic,
+            genr8 ? "leave it out: genomes are then mapped leftmost" : "leave out `%%single-choice skip` of the grammar");
+}
+
 void tn_bnf_check(tn_bnf_grammar *g)
 {
     enter_names(g);
@@ -246,4 +262,5 @@ void tn_bnf_check(tn_bnf_grammar *g)
         check_ends(g);
     check_reached(g);
     check_repair(g);
+    check_mapping(g);
 }

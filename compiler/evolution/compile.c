@@ -130,13 +130,16 @@ static tn_status note_data(tn_compilation *c, const tn_source *grammar, tn_evolu
 static tn_status emit(tn_compilation *c, const tn_imports *imports, uint32_t grammar, tn_evolution_study *study,
                       tn_error *error)
 {
-    uint32_t data[TN_BNF_DATA];
+    const tn_setting_value *mapping = &study->of[TN_SET_MAPPING];
+    tn_bnf_study said = {.says_mapping = mapping->written,
+                         .position_independent = mapping->choice == 1,
+                         .mapping_span = {mapping->file, mapping->begin, mapping->end}};
     tn_builder *builder = tn_builder_new();
     tn_status status = builder ? note_data(c, &c->sources.files[grammar], study, error) : tn_fail_memory(error);
     for (size_t i = 0; i < TN_BNF_DATA; i++)
-        data[i] = study->of[data_settings[i]].written ? (uint32_t)study->of[data_settings[i]].first : 0;
+        said.data[i] = study->of[data_settings[i]].written ? (uint32_t)study->of[data_settings[i]].first : 0;
     if (status == TN_OK)
-        status = tn_bnf_compile(&c->sources, grammar, data, &c->diagnostics, c->arena, builder, error);
+        status = tn_bnf_compile(&c->sources, grammar, &said, &c->diagnostics, c->arena, builder, error);
     if (status == TN_OK && c->diagnostics.error_count == 0) {
         tn_emit_sources(builder, imports, &c->sources);
         emit_settings(builder, study);

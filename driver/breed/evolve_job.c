@@ -86,6 +86,8 @@ static void translate(const tn_evolution_study *s, const tn_grammar *grammar, co
         out->mapping.max_depth = whole(s, TN_SET_MAX_DEPTH);
     if (s->of[TN_SET_WRAPS].written)
         out->mapping.wraps = whole(s, TN_SET_WRAPS);
+    if (s->of[TN_SET_MAPPING].written)
+        out->mapping.position_independent = s->of[TN_SET_MAPPING].choice == 1;
     out->mapping.max_steps = (uint64_t)s->of[TN_SET_MAX_STEPS].first;
     out->threads = options->threads ? options->threads : tn_crew_default();
     out->watch = options->watch;

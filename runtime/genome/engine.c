@@ -43,6 +43,10 @@ static tn_status verify(const tn_checker *checker)
         return tn_refuse(checker, "an evolution needs one grammar, not %zu", module->GRAMMAR_count);
     if (module->GRAMMAR_records[0].dialect == TN_DIALECT_PLACE)
         return tn_refuse(checker, "an evolution needs a grammar that genomes are mapped through");
+    const tn_setting_value *mapping = &study.of[TN_SET_MAPPING];
+    bool independent = module->GRAMMAR_records[0].flags & TN_POSITION_INDEPENDENT;
+    if (mapping->written && independent != (mapping->choice == 1))
+        return tn_refuse(checker, "an evolution maps genomes otherwise than its grammar");
     return TN_OK;
 }
 

@@ -33,6 +33,8 @@ static tn_status verify(const tn_checker *checker)
             return tn_refuse(checker, "a connection grammar with settings of another, or not alone");
         if (grammar->dialect == TN_DIALECT_GE ? grammar->repair != TN_REPAIR_OFF : grammar->flags != 0)
             return tn_refuse(checker, "grammar %zu has a repair or flags that are not of its dialect", i);
+        if (grammar->flags == TN_GRAMMAR_FLAGS)
+            return tn_refuse(checker, "grammar %zu reads codons in pairs, and none for single choices", i);
         if (!is_special(grammar, grammar->rewrite_rule) || !is_special(grammar, grammar->predecessor) ||
             !is_special(grammar, grammar->successor))
             return tn_refuse(checker, "grammar %zu has a repair that names non-terminals that are not its own", i);
@@ -176,8 +178,9 @@ static void list_nonterminal(tn_lister *lister, uint32_t index, bool places)
 static void list_settings(tn_lister *lister, const tn_grammar_record *grammar)
 {
     static const char *const repairs[] = {"genome", "identity", "off"};
-    fprintf(lister->out, ", depth %u, wraps %u, repair %s%s", grammar->max_depth, grammar->wraps,
-            repairs[grammar->repair], grammar->flags & TN_SKIP_SINGLE ? ", single choices read nothing" : "");
+    fprintf(lister->out, ", depth %u, wraps %u, repair %s%s%s", grammar->max_depth, grammar->wraps,
+            repairs[grammar->repair], grammar->flags & TN_SKIP_SINGLE ? ", single choices read nothing" : "",
+            grammar->flags & TN_POSITION_INDEPENDENT ? ", position-independent" : "");
 }
 
 static void list_grammar(tn_lister *lister, size_t index)

@@ -182,6 +182,7 @@ tn_status tn_grammar_new(const tn_module *module, size_t index, tn_grammar **gra
         g->dialect = (tn_dialect)d.record->dialect;
         g->repair = (tn_repair)d.record->repair;
         g->skip_single = d.record->flags & TN_SKIP_SINGLE;
+        g->position_independent = d.record->flags & TN_POSITION_INDEPENDENT;
         g->max_depth = d.record->max_depth;
         g->wraps = d.record->wraps;
         g->hash = module->hash;

@@ -58,6 +58,7 @@ typedef struct tn_grammar {
     tn_dialect dialect;
     tn_repair repair;
     bool skip_single;
+    bool position_independent; /* codons say which non-terminal is replaced next */
     uint32_t max_depth; /* 0: no limit */
     uint32_t wraps;
     uint32_t rewrite_rule, predecessor, successor; /* rules, or TN_NO_RECORD */
@@ -80,6 +81,13 @@ typedef struct tn_grammar {
  * none; TN_LIMIT where it has more than TN_WORD_MAX words, rules or terminals. */
 tn_status tn_grammar_new(const tn_module *module, size_t index, tn_grammar **grammar, tn_error *error);
 void tn_grammar_free(tn_grammar *grammar);
+
+/* Can its genomes be mapped independently of position? Groups and edge variables read codons within a production, and
+ * a rule that reads none has no pair of them. */
+static inline bool tn_grammar_takes_places(const tn_grammar *grammar)
+{
+    return grammar->dialect == TN_DIALECT_GE && !grammar->skip_single;
+}
 
 static inline const char *tn_rule_name(const tn_grammar *grammar, uint32_t rule)
 {

@@ -341,7 +341,9 @@ typedef enum tn_solid_model {
 } tn_solid_model;
 
 /* Flags of grammars. */
-#define TN_SKIP_SINGLE 1u /* a rule with one alternative reads no codon */
+#define TN_SKIP_SINGLE 1u          /* a rule with one alternative reads no codon */
+#define TN_POSITION_INDEPENDENT 2u /* codons say which non-terminal is replaced next; not together with the other */
+#define TN_GRAMMAR_FLAGS 3u
 
 /* ---- fields */
 

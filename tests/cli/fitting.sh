@@ -73,6 +73,23 @@ printf 'evolution {\n grammar "words"\n match "abc"\n selection lexicase\n}\n' >
 "$TARTAN" check letters.study 2> err.txt && fail "selects by cases where there are none"
 grep -q 'E1232.*errors of data' err.txt || fail "does not say what lexicase looks at"
 
+# ---- position-independent mapping: with any number of threads, resumed, replayed, and from a module
+for way in "initialise random" "initialise pi-grow" "crossover subtree 0.9" "mutation subtree 0.5"; do
+  study "mapping position-independent" "$way" > places.study
+  rm -rf places.one places.two places.three
+  "$TARTAN" evolve places.study -o places.one --threads 1 > places.txt || fail "mapping position-independent, $way: does not run"
+  "$TARTAN" evolve places.study -o places.two --threads 2 -g 4 > /dev/null
+  "$TARTAN" evolve places.study -o places.two --threads 2 --resume > /dev/null || fail "mapping position-independent, $way: cannot be resumed"
+  cmp -s places.one/run.sqlite places.two/run.sqlite || fail "mapping position-independent, $way: other bytes with two threads"
+  "$TARTAN" runs replay places.one "$(sed -n 's/^best: individual //p' places.txt)" > replayed.txt || fail "mapping position-independent, $way: not replayed"
+  tail -n 1 replayed.txt | cmp -s - places.one/best/1.txt || fail "mapping position-independent, $way: the best is not replayed"
+  { echo '%mapping position-independent'; cat sums.bnf; } > pairs.bnf
+  "$TARTAN" map pairs.bnf --genome "$(sed -n 's,^# genome: ,,p' replayed.txt)" | sed 1d | cmp -s - places.one/best/1.txt ||
+    fail "mapping position-independent, $way: the genome is not mapped to the sentence"
+done
+"$TARTAN" build places.study -o places.tnb && "$TARTAN" evolve places.tnb -o places.three > /dev/null && cmp -s places.one/stats.csv places.three/stats.csv ||
+  fail "mapping position-independent: another run from a module"
+
 # ---- classes
 awk 'BEGIN { print "x,y,kind"; for (i = 0; i < 60; i++) { x = i % 10; y = int(i / 10); print x "," y "," (x > 2 * y ? 1 : 0) } }' > kinds.csv
 for measure in log-loss accuracy f1; do

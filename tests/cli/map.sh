@@ -8,6 +8,7 @@ cat >"$scratch/e.bnf" <<'X'
 <e> ::= <e>+<e> | (<e>) | <v> | <v>
 <v> ::= x | y
 X
+printf '%%single-choice skip\n<e> ::= x | <e>y\n' >"$scratch/single.bnf"
 golden text "tartan map $scratch/e.bnf --genome '0 2 0 3 1'"
 golden json "tartan map $scratch/e.bnf --genome '0 2 0 3 1' --format json"
 golden invalid "tartan map $scratch/e.bnf --genome '0 2 0' --format json"
@@ -32,6 +33,19 @@ golden picture_as_text "tartan map $scratch/e.bnf --random 1 -o $scratch/x.png"
 golden tree_without_how "tartan map $scratch/e.bnf --random 1 --tree -o $scratch/x.png"
 golden trace_json "tartan map $scratch/e.bnf --genome '0 2 0 3 1' --trace --format json"
 golden invert_tree "tartan map $scratch/e.bnf --invert '(x+y)' --tree text"
+# position-independent mapping
+golden places "tartan map $scratch/e.bnf --genome '0 0 1 3 0 2 0 1 1 0 0 1' --mapping position-independent --trace"
+golden places_tree "tartan map $scratch/e.bnf --genome '0 0 1 3 0 2 0 1 1 0 0 1' --mapping position-independent --tree text"
+golden places_invalid "tartan map $scratch/e.bnf --genome '0 0 1 3 0' --mapping position-independent --trace --tree text"
+golden places_invert "tartan map $scratch/e.bnf --invert '(x+y)' --mapping position-independent"
+golden places_genr8 "tartan map ../../../stdlib/genr8-example.bnf --random 1 --mapping position-independent"
+{ echo '%mapping position-independent'; cat "$scratch/e.bnf"; } >"$scratch/pairs.bnf"
+golden places_disasm "tartan build $scratch/pairs.bnf -o $scratch/pairs.tnb && tartan disasm $scratch/pairs.tnb | grep '^grammar'"
+golden places_skip "tartan map $scratch/single.bnf --random 1 --mapping position-independent"
+cmp <("$TARTAN" map "$scratch/pairs.bnf" --random 50) <("$TARTAN" map "$scratch/e.bnf" --random 50 --mapping position-independent) ||
+    fail "the grammar's %mapping is not that of --mapping"
+cmp <("$TARTAN" map "$scratch/pairs.bnf" --random 50 --mapping leftmost) <("$TARTAN" map "$scratch/e.bnf" --random 50) ||
+    fail "--mapping leftmost does not stand in place of %mapping"
 golden random "tartan map $scratch/e.bnf --random 3 --seed 4 --codons 12"
 golden figures "tartan check $scratch/e.bnf --figures"
 printf '<e> ::= <e><e> | x\n' >"$scratch/even.bnf"

@@ -58,6 +58,7 @@ static tn_status first_tree(const codons *of, uint64_t number, tn_chance *chance
         .depth = ramped ? s->depth_low + (uint32_t)(number / 2 % steps) : s->depth_high,
         .max_depth = s->mapping.max_depth,
         .codon_limit = s->vary.codon_limit,
+        .places = s->mapping.position_independent ? TN_PLACES_RANDOM : TN_PLACES_NONE,
         .tail = s->tail,
         .max_codons = s->vary.max_codons,
     };

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/genome/mapping/pending.h"
 #include "runtime/genome/mapping/span.h"
 
 #define NODES_MAX 100000u /* of one tree: loops and wide productions can make more than a depth limit bounds */
@@ -240,11 +241,29 @@ static bool write_codons(planter *p, tn_genome *genome)
         }
         const step *s = &p->steps[cursor[top]++];
         if (!s->is_child)
-            well = put(genome, s->value);
+            well = (p->options->places == TN_PLACES_NONE || put(genome, 0)) && put(genome, s->value);
         else if ((well = room(p, &p->pending, &p->pending_capacity, p->pending_count, sizeof *p->pending)))
             p->pending[p->pending_count++] = (uint32_t)s->value;
     }
     free(cursor);
+    return well;
+}
+
+/* The order in which the tree is expanded is what the codons of places say: they are drawn, and followed. A node's steps
+ * are its choice and its children. */
+static bool write_pairs(planter *p, tn_genome *genome)
+{
+    tn_pending pending = {0};
+    genome->count = 0;
+    bool well = tn_pending_put(&pending, 0);
+    while (well && pending.count && genome->count + 2 <= p->options->max_codons) {
+        uint64_t place = codon(p);
+        const node *n = &p->nodes[tn_pending_take(&pending, (size_t)(place % pending.count))];
+        well = put(genome, place) && put(genome, p->steps[n->steps].value);
+        for (size_t i = n->steps + 1; well && i < n->steps_end; i++)
+            well = tn_pending_put(&pending, (uint32_t)p->steps[i].value);
+    }
+    tn_pending_clear(&pending);
     return well;
 }
 
@@ -272,7 +291,8 @@ tn_status tn_random_tree(const tn_grammar *grammar, const tn_analysis *analysis,
     add_child(&p, rule, at_depth);
     while (p.pending_count && p.node_count < NODES_MAX * 2 && !p.failed)
         expand(&p, take_pending(&p));
-    bool well = !p.failed && write_codons(&p, genome) && add_tail(&p, genome);
+    bool random = own.places == TN_PLACES_RANDOM;
+    bool well = !p.failed && (random ? write_pairs(&p, genome) : write_codons(&p, genome)) && add_tail(&p, genome);
     free(p.nodes);
     free(p.steps);
     free(p.pending);

@@ -17,6 +17,13 @@ typedef enum tn_tree_method {
                         2016) */
 } tn_tree_method;
 
+/* Which codons are written before each choice, for position-independent mapping. */
+typedef enum tn_tree_places {
+    TN_PLACES_NONE,     /* none: it is not mapped so */
+    TN_PLACES_LEFTMOST, /* the leftmost non-terminal's, so that subtrees lie side by side */
+    TN_PLACES_RANDOM,   /* any: the tree is expanded in random order */
+} tn_tree_places;
+
 typedef struct tn_tree_options {
     tn_tree_method method;
     uint32_t depth;       /* levels, at least as many as the grammar needs: fewer count as that */
@@ -24,6 +31,7 @@ typedef struct tn_tree_options {
     uint64_t codon_limit; /* codons are below it */
     double tail;          /* random codons behind the tree's, as a share of them */
     size_t max_codons;    /* a tree that needs more is cut there, and does not lead to itself */
+    tn_tree_places places;
 } tn_tree_options;
 
 void tn_random_codons(tn_chance *chance, uint64_t codon_limit, uint64_t *codons, size_t count);

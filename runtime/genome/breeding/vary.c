@@ -93,10 +93,10 @@ static size_t part_of(const tn_parent *parent, bool within_used)
     return within_used && parent->used && parent->used < count ? (size_t)parent->used : count;
 }
 
-static void two_points(tn_chance *chance, size_t length, size_t points[2])
+static void two_points(tn_chance *chance, size_t length, size_t unit, size_t points[2])
 {
-    points[0] = (size_t)tn_chance_below(chance, length + 1);
-    points[1] = (size_t)tn_chance_below(chance, length + 1);
+    points[0] = unit * (size_t)tn_chance_below(chance, length / unit + 1);
+    points[1] = unit * (size_t)tn_chance_below(chance, length / unit + 1);
     if (points[0] > points[1]) {
         size_t swap = points[0];
         points[0] = points[1];
@@ -104,7 +104,8 @@ static void two_points(tn_chance *chance, size_t length, size_t points[2])
     }
 }
 
-static bool cross_linear(const tn_vary_options *o, tn_chance *chance, const tn_parent parents[2],
+/* Genomes are cut between `unit` codons, which are read together. */
+static bool cross_linear(const tn_vary_options *o, size_t unit, tn_chance *chance, const tn_parent parents[2],
                          tn_genome *children[2])
 {
     const tn_genome *a = parents[0].genome, *b = parents[1].genome;
@@ -113,16 +114,16 @@ static bool cross_linear(const tn_vary_options *o, tn_chance *chance, const tn_p
     if (fixed)
         la = lb = la < lb ? la : lb;
     if (o->crossover == TN_CROSS_ONE_POINT || o->crossover == TN_CROSS_FIXED_ONE_POINT) {
-        pa[0] = (size_t)tn_chance_below(chance, la + 1);
-        pb[0] = fixed ? pa[0] : (size_t)tn_chance_below(chance, lb + 1);
+        pa[0] = unit * (size_t)tn_chance_below(chance, la / unit + 1);
+        pb[0] = fixed ? pa[0] : unit * (size_t)tn_chance_below(chance, lb / unit + 1);
         pa[1] = a->count;
         pb[1] = b->count;
     } else {
-        two_points(chance, la, pa);
+        two_points(chance, la, unit, pa);
         if (fixed)
             memcpy(pb, pa, sizeof pa);
         else
-            two_points(chance, lb, pb);
+            two_points(chance, lb, unit, pb);
     }
     return splice(children[0], a, pa[0], pa[1], b, pb[0], pb[1], o->max_codons) &&
            splice(children[1], b, pb[0], pb[1], a, pa[0], pa[1], o->max_codons);
@@ -146,10 +147,13 @@ static tn_status find_subtrees(tn_breeder *b, int which, const tn_genome *genome
     if (!tn_array_reserve(&b->events[which], &b->event_capacity[which], 0, mapping.event_count, sizeof *mapping.events))
         return tn_fail_memory(error);
     memcpy(b->events[which], mapping.events, mapping.event_count * sizeof *mapping.events);
-    if (!tn_spans_find(&mapping, &b->spans[which]) ||
-        !tn_genome_straighten(genome->codons, genome->count, &mapping, &b->straight[which]))
-        return tn_fail_memory(error);
-    return TN_OK;
+    mapping.events = b->events[which];
+    tn_genome *straight = &b->straight[which];
+    bool well = options.position_independent
+                    ? tn_events_straighten(b->events[which], mapping.event_count, genome->codons, genome->count,
+                                           mapping.used, straight)
+                    : tn_genome_straighten(genome->codons, genome->count, &mapping, straight);
+    return well && tn_spans_find(&mapping, &b->spans[which]) ? TN_OK : tn_fail_memory(error);
 }
 
 /* The codons of a subtree, changed so that they make the same choices at another depth; false where they cannot. */
@@ -289,6 +293,7 @@ static tn_status mutate_subtree(tn_breeder *b, const tn_vary_options *o, tn_chan
                             .depth = o->tree_depth,
                             .max_depth = b->mapping.max_depth,
                             .codon_limit = o->codon_limit,
+                            .places = b->mapping.position_independent ? TN_PLACES_LEFTMOST : TN_PLACES_NONE,
                             .max_codons = o->max_codons};
     for (int attempt = 0; attempt < ATTEMPTS && !*mutated; attempt++) {
         const tn_span_of *at = &b->spans[0].items[tn_chance_below(chance, b->spans[0].count)];
@@ -330,7 +335,7 @@ tn_status tn_breed(tn_breeder *b, const tn_vary_options *o, tn_chance *chance, c
     if (tn_chance_is(chance, o->crossover_rate)) {
         if (o->crossover == TN_CROSS_SUBTREE)
             status = cross_subtrees(b, o, chance, parents, children, &crossed, error);
-        else if (!(crossed = cross_linear(o, chance, parents, children)))
+        else if (!(crossed = cross_linear(o, b->mapping.position_independent ? 2 : 1, chance, parents, children)))
             status = tn_fail_memory(error);
     }
     for (int i = 0; i < 2 && status == TN_OK; i++) {

@@ -164,6 +164,8 @@ static void put_choice(writer *w, uint32_t production, uint32_t depth)
 {
     const tn_grammar *g = w->chart->grammar;
     const tn_rule *rule = &g->rules[g->productions[production].rule];
+    if (w->options->position_independent)
+        put_codon(w, 0);
     if (g->dialect == TN_DIALECT_GE) {
         if (rule->count > 1 || !g->skip_single)
             put_codon(w, production - rule->first);

@@ -7,7 +7,8 @@
 
 tn_mapping_options tn_mapping_options_of(const tn_grammar *grammar)
 {
-    return (tn_mapping_options){.wraps = grammar->wraps, .max_depth = grammar->max_depth, .repair = grammar->repair};
+    return (tn_mapping_options){.wraps = grammar->wraps, .max_depth = grammar->max_depth, .repair = grammar->repair,
+                                .position_independent = grammar->position_independent};
 }
 
 const char *tn_mapping_reason_text(tn_mapping_reason reason)
@@ -40,6 +41,8 @@ void tn_mapper_free(tn_mapper *mapper)
     free(mapper->repaired_ids);
     free(mapper->waiting);
     free(mapper->predecessor);
+    free(mapper->nodes_of);
+    tn_pending_clear(&mapper->pending);
     free(mapper);
 }
 
@@ -100,7 +103,8 @@ tn_status tn_mapper_derive(tn_mapper *m, const uint64_t *codons, size_t count, c
     bool genr8 = m->grammar->dialect == TN_DIALECT_GENR8, repairing = false;
     memset(mapping, 0, sizeof *mapping);
     start(m, codons, count, options);
-    tn_expansion result = tn_mapper_expand(m, 0, 1, options->record);
+    tn_expansion result = options->position_independent ? tn_mapper_expand_places(m, options->record)
+                                                        : tn_mapper_expand(m, 0, 1, options->record);
     if (result == TN_EXPANDED && !tn_array_reserve(&m->text.data, &m->text.capacity, m->text.size, 1, 1))
         result = TN_EXPAND_NO_MEMORY;
     if (result == TN_EXPANDED) {

@@ -1,7 +1,8 @@
 /* Mapping: a genome chooses, codon by codon, the sentence of a grammar (Genr8 paper, 5.1 and 5.2).
  *
  * Depth-first, leftmost, the start symbol at depth 1. A genome of n codons with W wraps is read as if written W + 1
- * times. The mapping is total: any codons, also none, give a sentence or a reason why there is none.
+ * times. Position-independent mapping reads two codons at a time, of which the first says which non-terminal is replaced
+ * next. The mapping is total: any codons, also none, give a sentence or a reason why there is none.
  *
  * A tn_mapper holds the scratch memory of one thread; make one for each. What a tn_mapping points to lives in the
  * mapper and is valid until its next use.
@@ -17,6 +18,7 @@ typedef struct tn_mapping_options {
                            non-terminals are chosen */
     uint64_t max_steps; /* symbols and codons handled, a bound on time and memory; 0: TN_MAPPING_STEPS */
     tn_repair repair;   /* genr8 only */
+    bool position_independent; /* where tn_grammar_takes_places says so only */
     bool record;        /* keep the derivation (tn_mapping.events) */
 } tn_mapping_options;
 
@@ -49,11 +51,12 @@ typedef enum tn_event_kind {
     TN_EVENT_TAKE,   /* an option is taken, its body follows */
     TN_EVENT_SKIP,   /* or not */
     TN_EVENT_REPAIR, /* value: the edge type that gets a rule, whose successor follows */
+    TN_EVENT_PLACE,  /* value: which of the modulus non-terminals is replaced, by the EXPAND that follows */
 } tn_event_kind;
 
 #define TN_NO_READ UINT64_MAX
 
-/* One step of a derivation, in order. */
+/* One step of a derivation, in the order of the text. */
 typedef struct tn_event {
     uint8_t kind;   /* tn_event_kind */
     char letter;    /* EDGE: 'X', 'Y' or 'Z' for a variable, else 0 */

@@ -4,6 +4,7 @@
  * mapper.c     one mapping from begin to end
  * expand.c     the machine for both dialects, with and without recording
  * expand_ge.c  the same for what is derived most: the ge dialect, nothing recorded
+ * expand_places.c  position-independent mapping, where codons say which non-terminal comes next
  * repair.c     rules for edge types that have none
  */
 #ifndef TARTAN_GENOME_MAPPING_MAPPER_STATE_H
@@ -13,6 +14,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/genome/mapping/mapper.h"
+#include "runtime/genome/mapping/pending.h"
 
 #define TN_NO_EDGE_ID UINT32_MAX
 #define TN_COPY 16u      /* short terminals are copied by this many bytes at once */
@@ -26,6 +28,14 @@ typedef struct tn_mapping_frame {
     uint32_t ids[TN_EDGE_LETTERS];
     uint32_t mark; /* tn_rule_mark of the rule that ends when this frame is popped */
 } tn_mapping_frame;
+
+/* Position-independent mapping: a non-terminal of the derivation. Its children stand side by side, in order. */
+typedef struct tn_mapping_node {
+    uint32_t rule, production, first_child, depth;
+    uint32_t open;          /* how many non-terminals it was one of when it was replaced */
+    uint64_t read;          /* codons before its pair; UINT64_MAX while it is not replaced */
+    uint64_t place, choice; /* its pair */
+} tn_mapping_node;
 
 typedef struct tn_mapping_text {
     char *data;
@@ -52,6 +62,10 @@ struct tn_mapper {
     size_t predecessor_count, predecessor_capacity;
     bool in_predecessor, has_less, has_greater;
     size_t rule_end; /* where in the text the last rewrite rule ends */
+    /* position-independent mapping: the derivation, and its non-terminals that are not replaced yet */
+    tn_mapping_node *nodes_of;
+    size_t node_count, node_capacity;
+    tn_pending pending;
     /* the genome, and how it is read */
     const uint64_t *codons;
     size_t count, position;
@@ -114,6 +128,10 @@ tn_expansion tn_mapper_expand(tn_mapper *mapper, uint32_t rule, uint32_t depth, 
 
 /* What tn_mapper_expand(mapper, 0, 1, false) does of a ge grammar, faster. */
 tn_expansion tn_mapper_expand_ge(tn_mapper *mapper);
+
+/* The whole of a position-independent mapping. Where it is not valid and recorded, the events are those of what was
+ * derived. */
+tn_expansion tn_mapper_expand_places(tn_mapper *mapper, bool recorded);
 
 /* While repairing: an edge type occurs for the first time. */
 bool tn_repair_waits(tn_mapper *mapper, uint32_t id);

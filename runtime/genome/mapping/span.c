@@ -32,6 +32,8 @@ bool tn_spans_find(const tn_mapping *mapping, tn_spans *spans)
             spans->items[spans->open[--open]].end = read;
             continue;
         }
+        if (event->kind == TN_EVENT_PLACE) /* a subtree begins with its pair, which the next event reads the rest of */
+            continue;
         uint64_t before = read;
         if (event->read != TN_NO_READ)
             read = event->read + 1;
@@ -53,6 +55,25 @@ bool tn_genome_straighten(const uint64_t *codons, size_t count, const tn_mapping
     for (size_t i = 0; i < length; i++)
         straight->codons[i] = codons[i % count];
     straight->count = length;
+    return true;
+}
+
+bool tn_events_straighten(tn_event *events, size_t count, const uint64_t *codons, size_t codon_count, uint64_t used,
+                          tn_genome *straight)
+{
+    size_t tail = used < codon_count ? codon_count - (size_t)used : 0;
+    if (!tn_genome_reserve(straight, (size_t)used + tail))
+        return false;
+    straight->count = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (events[i].read == TN_NO_READ)
+            continue;
+        events[i].read = straight->count;
+        straight->codons[straight->count++] = events[i].kind == TN_EVENT_PLACE ? 0 : events[i].codon;
+    }
+    if (tail)
+        memcpy(straight->codons + straight->count, codons + used, tail * sizeof *codons);
+    straight->count += tail;
     return true;
 }
 

@@ -28,6 +28,8 @@ tn_status tn_tree_make(const tn_event *events, size_t count, tn_tree *tree, tn_e
     uint32_t open = TN_TREE_NONE;
     last_child[count] = TN_TREE_NONE;
     for (size_t i = 0; i < count; i++) {
+        if (events[i].kind == TN_EVENT_PLACE)
+            continue;
         if (events[i].kind == TN_EVENT_END) {
             tree->nodes[open].event_end = (uint32_t)i;
             open = tree->nodes[open].parent;
@@ -127,6 +129,10 @@ static void write_choice(const tn_grammar *g, const tn_event *event, FILE *out)
         fprintf(out, "%s ::= ", tn_rule_name(g, event->symbol));
         tn_production_write(g, event->production, out);
         break;
+    case TN_EVENT_PLACE:
+        fprintf(out, "non-terminal %" PRIu64 " of %" PRIu64 ", %s", event->value + 1, event->modulus,
+                tn_rule_name(g, event->symbol));
+        break;
     case TN_EVENT_EDGE:
         if (event->letter)
             fprintf(out, "Edge%c is Edge%" PRIu64, event->letter, event->value);
@@ -152,21 +158,49 @@ static void write_choice(const tn_grammar *g, const tn_event *event, FILE *out)
     }
 }
 
+static void write_traced(const tn_grammar *grammar, const tn_event *event, FILE *out)
+{
+    if (event->kind == TN_EVENT_REPAIR)
+        fprintf(out, "repair: Edge%" PRIu64 " has no rule\n", event->value);
+    if (event->read == TN_NO_READ)
+        return;
+    char remainder[48];
+    snprintf(remainder, sizeof remainder, "%" PRIu64 " = %" PRIu64, event->modulus, event->value);
+    fprintf(out, "%6" PRIu64 "  %20" PRIu64 "  %14s  ", event->read + 1, event->codon, remainder);
+    write_choice(grammar, event, out);
+    fputc('\n', out);
+}
+
+static int by_read(const void *one, const void *other)
+{
+    const tn_event *a = *(const tn_event *const *)one, *b = *(const tn_event *const *)other;
+    return (a->read > b->read) - (a->read < b->read);
+}
+
+/* Events that read, in the order in which they did: that of the text only where the leftmost is replaced each time. */
+static bool write_by_read(const tn_grammar *grammar, const tn_event *events, size_t count, FILE *out)
+{
+    const tn_event **reading = malloc((count + 1) * sizeof *reading);
+    size_t found = 0;
+    if (!reading)
+        return false;
+    for (size_t i = 0; i < count; i++)
+        if (events[i].read != TN_NO_READ)
+            reading[found++] = &events[i];
+    qsort(reading, found, sizeof *reading, by_read);
+    for (size_t i = 0; i < found && !ferror(out); i++)
+        write_traced(grammar, reading[i], out);
+    free(reading);
+    return true;
+}
+
 bool tn_trace_write(const tn_grammar *grammar, const tn_event *events, size_t count, FILE *out)
 {
     fprintf(out, "%6s  %20s  %14s  %s\n", "gene", "value", "mod", "chooses");
-    for (size_t i = 0; i < count && !ferror(out); i++) {
-        const tn_event *event = &events[i];
-        if (event->kind == TN_EVENT_REPAIR)
-            fprintf(out, "repair: Edge%" PRIu64 " has no rule\n", event->value);
-        if (event->read == TN_NO_READ)
-            continue;
-        char remainder[48];
-        snprintf(remainder, sizeof remainder, "%" PRIu64 " = %" PRIu64, event->modulus, event->value);
-        fprintf(out, "%6" PRIu64 "  %20" PRIu64 "  %14s  ", event->read + 1, event->codon, remainder);
-        write_choice(grammar, event, out);
-        fputc('\n', out);
-    }
+    if (count && events[0].kind == TN_EVENT_PLACE)
+        return write_by_read(grammar, events, count, out) && !ferror(out);
+    for (size_t i = 0; i < count && !ferror(out); i++)
+        write_traced(grammar, &events[i], out);
     return !ferror(out);
 }
 

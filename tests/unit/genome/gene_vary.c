@@ -22,6 +22,14 @@ static fixture prepare(const char *path)
     return f;
 }
 
+/* The same, mapped independently of position; false where the grammar cannot be. */
+static bool prepare_places(const char *path, fixture *f)
+{
+    *f = prepare(path);
+    f->mapping.position_independent = tn_grammar_takes_places(f->grammar);
+    return f->mapping.position_independent;
+}
+
 static void finish(fixture *f)
 {
     tn_mapper_free(f->mapper);
@@ -33,33 +41,43 @@ static const char *const grammars[] = {STDLIB "arithmetic.bnf",      STDLIB "wor
                                        STDLIB "plan-rules.bnf",      STDLIB "genr8.bnf",
                                        STDLIB "genr8-symmetric.bnf", STDLIB "genr8-probabilistic.bnf"};
 
+static void plant(const fixture *f, size_t g, tn_tree_places places)
+{
+    uint32_t least = f->analysis.rule_depth[0], reached = 0;
+    for (uint64_t i = 0; i < 300; i++) {
+        tn_genome genome = {0};
+        tn_chance chance = tn_chance_for(3, TN_PURPOSE_INITIALISE, g, i);
+        tn_tree_options options = {.method = (tn_tree_method)(i % 3),
+                                   .depth = least + (uint32_t)(i % 7),
+                                   .max_depth = f->mapping.max_depth,
+                                   .codon_limit = 100000,
+                                   .max_codons = 100000,
+                                   .places = places};
+        assert_int_equal(tn_random_tree(f->grammar, &f->analysis, 0, 1, &options, &chance, &genome, NULL), TN_OK);
+        tn_mapping mapping;
+        assert_int_equal(tn_mapper_derive(f->mapper, genome.codons, genome.count, &f->mapping, &mapping, NULL), TN_OK);
+        assert_true(mapping.valid);
+        assert_int_equal(mapping.used, genome.count); /* reads the tree's codons, each once */
+        assert_true(mapping.depth <= options.depth);
+        reached = mapping.depth > reached ? mapping.depth : reached;
+        if (options.method == TN_TREE_FULL && g == 0)
+            assert_int_equal(mapping.depth, options.depth);
+        tn_genome_clear(&genome);
+    }
+    assert_true(reached >= least + (g == 4 ? 0 : 5));
+}
+
 static void test_trees(void **state)
 {
     (void)state;
     for (size_t g = 0; g < sizeof grammars / sizeof *grammars; g++) {
         fixture f = prepare(grammars[g]);
-        uint32_t least = f.analysis.rule_depth[0], reached = 0;
-        for (uint64_t i = 0; i < 300; i++) {
-            tn_genome genome = {0};
-            tn_chance chance = tn_chance_for(3, TN_PURPOSE_INITIALISE, g, i);
-            tn_tree_options options = {.method = (tn_tree_method)(i % 3),
-                                       .depth = least + (uint32_t)(i % 7),
-                                       .max_depth = f.mapping.max_depth,
-                                       .codon_limit = 100000,
-                                       .max_codons = 100000};
-            assert_int_equal(tn_random_tree(f.grammar, &f.analysis, 0, 1, &options, &chance, &genome, NULL), TN_OK);
-            tn_mapping mapping;
-            assert_int_equal(tn_mapper_derive(f.mapper, genome.codons, genome.count, &f.mapping, &mapping, NULL),
-                             TN_OK);
-            assert_true(mapping.valid);
-            assert_int_equal(mapping.used, genome.count); /* reads the tree's codons, each once */
-            assert_true(mapping.depth <= options.depth);
-            reached = mapping.depth > reached ? mapping.depth : reached;
-            if (options.method == TN_TREE_FULL && g == 0)
-                assert_int_equal(mapping.depth, options.depth);
-            tn_genome_clear(&genome);
+        plant(&f, g, TN_PLACES_NONE);
+        finish(&f);
+        if (prepare_places(grammars[g], &f)) {
+            plant(&f, g, TN_PLACES_LEFTMOST);
+            plant(&f, g, TN_PLACES_RANDOM);
         }
-        assert_true(reached >= least + (g == 4 ? 0 : 5));
         finish(&f);
     }
 }
@@ -73,7 +91,8 @@ static void vary_all(fixture *f, tn_crossover crossover, tn_mutation mutation, b
                             .max_depth = f->mapping.max_depth,
                             .codon_limit = 1000,
                             .tail = 0.5,
-                            .max_codons = 5000};
+                            .max_codons = 5000,
+                            .places = f->mapping.position_independent ? TN_PLACES_RANDOM : TN_PLACES_NONE};
     tn_vary_options options = {.crossover = crossover,
                                .crossover_rate = 0.9,
                                .mutation = mutation,
@@ -134,6 +153,12 @@ static void test_operators(void **state)
         for (int c = 0; c < TN_CROSS_COUNT; c++)
             vary_all(&f, (tn_crossover)c, (tn_mutation)(c % 2), false);
         vary_all(&f, TN_CROSS_SUBTREE, TN_MUTATE_SUBTREE, true);
+        finish(&f);
+        if (prepare_places(grammars[g], &f)) {
+            for (int c = 0; c < TN_CROSS_COUNT; c++)
+                vary_all(&f, (tn_crossover)c, (tn_mutation)(c % 2), false);
+            vary_all(&f, TN_CROSS_SUBTREE, TN_MUTATE_SUBTREE, true);
+        }
         finish(&f);
     }
 }

@@ -12,7 +12,7 @@
 typedef struct trial {
     tn_grammar *grammar;
     uint64_t codons[CODONS];
-    bool record;
+    bool record, position_independent;
     tn_mapper *mapper; /* what the last mapping was made with */
 } trial;
 
@@ -63,6 +63,7 @@ static bool map_again(trial *t)
     tn_mapping mapping;
     tn_error error = {0};
     options.record = t->record;
+    options.position_independent = t->position_independent;
     if (!said(tn_mapper_derive(t->mapper, t->codons, CODONS, &options, &mapping, &error), &error))
         return false;
     size_t size;
@@ -80,9 +81,10 @@ static bool map_first(trial *t)
     return t->mapper && map_again(t);
 }
 
-static void expect_mapping_robust(const char *path)
+static void expect_mapping_robust(const char *path, bool position_independent)
 {
     trial t = trial_of(path);
+    t.position_independent = position_independent;
     for (int record = 0; record < 2; record++) {
         t.record = record;
         expect_robust(map_first, map_again, &t);
@@ -94,10 +96,12 @@ static void expect_mapping_robust(const char *path)
 static void test_mapping(void **state)
 {
     (void)state;
-    expect_mapping_robust(STDLIB "genr8.bnf"); /* with repair */
-    expect_mapping_robust(STDLIB "genr8-symmetric.bnf");
-    expect_mapping_robust(STDLIB "words.bnf");
-    expect_mapping_robust(STDLIB "plan-rules.bnf");
+    expect_mapping_robust(STDLIB "genr8.bnf", false); /* with repair */
+    expect_mapping_robust(STDLIB "genr8-symmetric.bnf", false);
+    expect_mapping_robust(STDLIB "words.bnf", false);
+    expect_mapping_robust(STDLIB "plan-rules.bnf", false);
+    expect_mapping_robust(STDLIB "words.bnf", true);
+    expect_mapping_robust(STDLIB "plan-rules.bnf", true);
 }
 
 /* ---- backwards */

@@ -116,7 +116,8 @@ static void test_wrong_modules_are_refused(void **state)
                                 {.setting = TN_SET_MATCH, .written = 1, .text = 1},
                                 {.setting = TN_SET_POPULATION, .written = 1, .first = 20},
                                 {.setting = TN_SET_DEPTH, .written = 1, .first = 2, .second = 5},
-                                {.setting = TN_SET_SELECTION, .written = 2, .choice = 1, .second = 0.5}};
+                                {.setting = TN_SET_SELECTION, .written = 2, .choice = 1, .second = 0.5},
+                                {.setting = TN_SET_MAPPING, .written = 1}};
     enum { COUNT = sizeof good / sizeof *good };
     tn_setting_record bad[COUNT];
     expect(good, COUNT, true, NULL);
@@ -141,6 +142,8 @@ static void test_wrong_modules_are_refused(void **state)
     REFUSED(4, second = -1, range);
     REFUSED(4, second = 3, "takes the share of the best");
     REFUSED(4, choice = TN_SELECT_NSGA2, "weighs several objectives");
+    REFUSED(5, choice = 1, "maps genomes otherwise than its grammar");
+    REFUSED(5, choice = 2, range);
     REFUSED(2, begin = 3, "names a place outside its source");
 #undef REFUSED
 }

@@ -146,10 +146,10 @@ static void test_as_the_compiler(void **state)
 }
 
 /* A non-terminal whose one production leads to `expands`, beside one that ends. */
-static void expect_grammar(uint32_t expands, const char *reason)
+static void expect_grammar(uint32_t expands, uint32_t flags, const char *reason)
 {
     tn_builder *builder = sample_builder();
-    tn_grammar_record grammar = {.name = tn_builder_string(builder, "g"), .rule_count = 2, .repair = TN_REPAIR_OFF};
+    tn_grammar_record grammar = {.name = tn_builder_string(builder, "g"), .flags = flags, .rule_count = 2, .repair = TN_REPAIR_OFF};
     grammar.rewrite_rule = grammar.predecessor = grammar.successor = TN_NO_RECORD;
     for (uint32_t i = 0; i < 2; i++) {
         uint32_t begin = tn_builder_offset(builder);
@@ -168,8 +168,17 @@ static void expect_grammar(uint32_t expands, const char *reason)
 static void test_grammars_end(void **state)
 {
     (void)state;
-    expect_grammar(1, NULL);
-    expect_grammar(0, "non-terminal 0 can never end");
+    expect_grammar(1, 0, NULL);
+    expect_grammar(0, 0, "non-terminal 0 can never end");
+}
+
+static void test_flags_of_grammars(void **state)
+{
+    (void)state;
+    expect_grammar(1, TN_SKIP_SINGLE, NULL);
+    expect_grammar(1, TN_POSITION_INDEPENDENT, NULL);
+    expect_grammar(1, TN_SKIP_SINGLE | TN_POSITION_INDEPENDENT, "reads codons in pairs, and none for single choices");
+    expect_grammar(1, TN_GRAMMAR_FLAGS + 1, "flags");
 }
 
 static void test_second_schema(void **state)
@@ -408,6 +417,7 @@ int main(void)
         cmocka_unit_test(test_schemas),
         cmocka_unit_test(test_as_the_compiler),
         cmocka_unit_test(test_grammars_end),
+        cmocka_unit_test(test_flags_of_grammars),
         cmocka_unit_test(test_second_schema),
         cmocka_unit_test(test_schema_made_from_another),
         cmocka_unit_test(test_specifiers),

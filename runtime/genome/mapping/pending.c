@@ -1,0 +1,84 @@
+/* Keeps non-terminals in their order while they are replaced anywhere. */
+#include "runtime/genome/mapping/pending.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+
+void tn_pending_clear(tn_pending *p)
+{
+    for (size_t i = 0; i < p->block_made; i++)
+        free(p->blocks[i]);
+    free(p->blocks);
+    *p = (tn_pending){0};
+}
+
+void tn_pending_reset(tn_pending *p)
+{
+    p->block_count = p->count = p->block = p->place = 0;
+}
+
+/* A spare block comes into use, empty, as number `at`. */
+static bool add_block(tn_pending *p, size_t at)
+{
+    if (p->block_count == p->block_made) {
+        if (!tn_array_reserve(&p->blocks, &p->block_capacity, p->block_made, 1, sizeof(tn_pending_block *)))
+            return false;
+        p->blocks[p->block_made] = malloc(sizeof(tn_pending_block));
+        if (!p->blocks[p->block_made])
+            return false;
+        p->block_made++;
+    }
+    tn_pending_block *block = p->blocks[p->block_count];
+    memmove(&p->blocks[at + 1], &p->blocks[at], (p->block_count - at) * sizeof(tn_pending_block *));
+    p->blocks[at] = block;
+    block->count = 0;
+    p->block_count++;
+    return true;
+}
+
+uint32_t tn_pending_take(tn_pending *p, size_t place)
+{
+    size_t b = 0;
+    while (place >= p->blocks[b]->count)
+        place -= p->blocks[b++]->count;
+    tn_pending_block *block = p->blocks[b];
+    uint32_t item = block->items[place];
+    memmove(&block->items[place], &block->items[place + 1], (--block->count - place) * sizeof item);
+    p->count--;
+    p->block = b;
+    p->place = place;
+    return item;
+}
+
+/* The later half of a full block goes to one of its own behind it. */
+static bool split(tn_pending *p)
+{
+    const size_t half = TN_PENDING_BLOCK / 2;
+    if (!add_block(p, p->block + 1))
+        return false;
+    tn_pending_block *from = p->blocks[p->block], *to = p->blocks[p->block + 1];
+    to->count = from->count - half;
+    memcpy(to->items, &from->items[half], to->count * sizeof *to->items);
+    from->count = half;
+    if (p->place > half) {
+        p->place -= half;
+        p->block++;
+    }
+    return true;
+}
+
+bool tn_pending_put(tn_pending *p, uint32_t item)
+{
+    bool well = p->block_count == 0            ? add_block(p, 0)
+                : p->blocks[p->block]->count == TN_PENDING_BLOCK ? split(p)
+                                               : true;
+    if (!well)
+        return false;
+    tn_pending_block *block = p->blocks[p->block];
+    memmove(&block->items[p->place + 1], &block->items[p->place], (block->count++ - p->place) * sizeof item);
+    block->items[p->place++] = item;
+    p->count++;
+    return true;
+}
