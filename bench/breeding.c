@@ -106,7 +106,12 @@ static tn_genome *find_seeds(const bench *b, const tn_grammar *grammar)
     tn_genome *seeds = calloc(POPULATION, sizeof *seeds);
     tn_mapper *mapper = tn_mapper_new(grammar);
     tn_mapping_options options = tn_mapping_options_of(grammar);
-    tn_tree_options tree = {.method = TN_TREE_GROW, .depth = 6, .max_depth = options.max_depth, .codon_limit = 100000, .tail = 2, .max_codons = 2000};
+    tn_tree_options tree = {.method = TN_TREE_GROW,
+                            .depth = 6,
+                            .max_depth = options.max_depth,
+                            .codon_limit = 100000,
+                            .tail = 2,
+                            .max_codons = 2000};
     tn_analysis analysis;
     tn_error error;
     if (!seeds || !mapper || tn_analyse(grammar, &analysis, &error) != TN_OK)

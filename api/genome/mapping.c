@@ -84,9 +84,10 @@ tartan_status tn_api_map_options(const tn_grammar *grammar, const tartan_map_opt
     if (own.repair != TARTAN_REPAIR_OFF && grammar->dialect != TN_DIALECT_GENR8)
         return tn_api_refuse(error, TARTAN_INVALID, "only what grammars of the genr8 dialect make is repaired");
     if (own.position_independent && !tn_grammar_takes_places(grammar))
-        return tn_api_refuse(error, TARTAN_INVALID,
-                             "position-independent mapping is for grammars of the dialect ge that read a codon for every "
-                             "choice");
+        return tn_api_refuse(
+            error, TARTAN_INVALID,
+            "position-independent mapping is for grammars of the dialect ge that read a codon for every "
+            "choice");
     options->position_independent = own.position_independent;
     options->wraps = own.wraps;
     options->max_depth = own.max_depth;
@@ -238,9 +239,8 @@ tartan_status tartan_invert(const tartan_grammar *grammar, const char *sentence,
     tn_genome genome = {0};
     tn_error found;
     tn_watch watch;
-    const tn_invert_options options = {.max_depth = max_depth,
-                                       .position_independent = tn_api_grammar(grammar)->position_independent,
-                                       .watch = &watch};
+    const tn_invert_options options = {
+        .max_depth = max_depth, .position_independent = tn_api_grammar(grammar)->position_independent, .watch = &watch};
     if (!grammar || (size && !sentence))
         return tn_api_missing(error, grammar ? "sentence" : "grammar");
     tartan_status watched = tn_api_watch(given, &watch, error);

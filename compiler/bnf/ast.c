@@ -249,9 +249,9 @@ static void bad_value(tn_bnf_reader *reader, tn_span span, const char *directive
 }
 
 enum { DIRECTIVES = 9, DATA_FIRST = 5, MAPPING = 8 };
-static const char *const directives[DIRECTIVES] = {"%dialect", "%single-choice", "%repair",         "%max-depth",
-                                                   "%wraps",   "%dataset-vars",  "%dataset-inputs", "%dataset-outputs",
-                                                   "%mapping"};
+static const char *const directives[DIRECTIVES] = {"%dialect",        "%single-choice",   "%repair",
+                                                   "%max-depth",      "%wraps",           "%dataset-vars",
+                                                   "%dataset-inputs", "%dataset-outputs", "%mapping"};
 const char *const tn_bnf_data_directives[TN_BNF_DATA] = {"%dataset-vars", "%dataset-inputs", "%dataset-outputs"};
 
 static void note_data(tn_bnf_reader *reader, tn_span span, int which, tn_bnf_text value)

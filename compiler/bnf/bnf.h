@@ -11,8 +11,8 @@
 
 /* What a study says about the grammar that it names. */
 typedef struct tn_bnf_study {
-    uint32_t data[TN_BNF_DATA]; /* numbers of a data set that GE_RANGE can name, where the file does not say them; 0: not
-                                   known */
+    uint32_t data[TN_BNF_DATA]; /* numbers of a data set that GE_RANGE can name, where the file does not say them; 0:
+                                   not known */
     bool says_mapping, position_independent; /* in place of what the file says */
     tn_span mapping_span;
 } tn_bnf_study;

@@ -244,7 +244,8 @@ static void check_mapping(tn_bnf_grammar *g)
                         : "position-independent mapping reads two codons for every non-terminal, also for a single "
                           "choice");
     tn_help(g->reader->diagnostics, diagnostic,
-            genr8 ? "leave it out: genomes are then mapped leftmost" : "leave out `%%single-choice skip` of the grammar");
+            genr8 ? "leave it out: genomes are then mapped leftmost"
+                  : "leave out `%%single-choice skip` of the grammar");
 }
 
 void tn_bnf_check(tn_bnf_grammar *g)

@@ -33,7 +33,7 @@ typedef struct tartan_map_options {
     uint32_t max_depth; /* of a derivation; 0: no limit */
     uint64_t max_steps; /* symbols and codons handled; 0: 1,000,000 */
     tartan_repair repair;
-    bool derivation; /* keep the derivation, for tartan_mapper_nodes */
+    bool derivation;           /* keep the derivation, for tartan_mapper_nodes */
     bool position_independent; /* codons in pairs: which non-terminal is replaced next, and by what */
 } tartan_map_options;
 TARTAN_SIZED(tartan_map_options)
@@ -105,9 +105,10 @@ typedef struct tartan_node {
 TARTAN_API tartan_status tartan_mapper_nodes(tartan_mapper *mapper, const tartan_node **nodes, size_t *count,
                                              tartan_error *error);
 
-/* A genome that is mapped to the sentence (before repair) as the grammar says, within max_depth (0: no limit). TARTAN_INVALID, with
- * error->column, where the grammar has no such sentence; TARTAN_LIMIT where finding out takes too much. Free the codons
- * with tartan_bytes_free. `watch` may be NULL; it is told how much of the sentence has been read. */
+/* A genome that is mapped to the sentence (before repair) as the grammar says, within max_depth (0: no limit).
+ * TARTAN_INVALID, with error->column, where the grammar has no such sentence; TARTAN_LIMIT where finding out takes too
+ * much. Free the codons with tartan_bytes_free. `watch` may be NULL; it is told how much of the sentence has been read.
+ */
 TARTAN_API tartan_status tartan_invert(const tartan_grammar *grammar, const char *sentence, size_t size,
                                        uint32_t max_depth, const tartan_watch *watch, uint64_t **codons, size_t *count,
                                        tartan_error *error);

@@ -59,7 +59,7 @@ typedef struct tn_grammar {
     tn_repair repair;
     bool skip_single;
     bool position_independent; /* codons say which non-terminal is replaced next */
-    uint32_t max_depth; /* 0: no limit */
+    uint32_t max_depth;        /* 0: no limit */
     uint32_t wraps;
     uint32_t rewrite_rule, predecessor, successor; /* rules, or TN_NO_RECORD */
     tn_rule *rules;                                /* the first is the start symbol */

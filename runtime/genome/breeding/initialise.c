@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/genome/mapping/pending.h"
+#include "runtime/genome/mapping/sentential.h"
 #include "runtime/genome/mapping/span.h"
 
 #define NODES_MAX 100000u /* of one tree: loops and wide productions can make more than a depth limit bounds */
@@ -249,21 +249,21 @@ static bool write_codons(planter *p, tn_genome *genome)
     return well;
 }
 
-/* The order in which the tree is expanded is what the codons of places say: they are drawn, and followed. A node's steps
- * are its choice and its children. */
+/* The order in which the tree is expanded is what the codons of places say: they are drawn, and followed. A node's
+ * steps are its choice and its children. */
 static bool write_pairs(planter *p, tn_genome *genome)
 {
-    tn_pending pending = {0};
+    tn_sentential pending = {0};
     genome->count = 0;
-    bool well = tn_pending_put(&pending, 0);
+    bool well = tn_sentential_put(&pending, 0);
     while (well && pending.count && genome->count + 2 <= p->options->max_codons) {
         uint64_t place = codon(p);
-        const node *n = &p->nodes[tn_pending_take(&pending, (size_t)(place % pending.count))];
+        const node *n = &p->nodes[tn_sentential_take(&pending, (size_t)(place % pending.count))];
         well = put(genome, place) && put(genome, p->steps[n->steps].value);
         for (size_t i = n->steps + 1; well && i < n->steps_end; i++)
-            well = tn_pending_put(&pending, (uint32_t)p->steps[i].value);
+            well = tn_sentential_put(&pending, (uint32_t)p->steps[i].value);
     }
-    tn_pending_clear(&pending);
+    tn_sentential_clear(&pending);
     return well;
 }
 

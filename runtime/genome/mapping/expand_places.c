@@ -10,7 +10,7 @@
 static bool add_node(tn_mapper *m, uint32_t rule, uint32_t depth)
 {
     if (!tn_array_reserve(&m->nodes_of, &m->node_capacity, m->node_count, 1, sizeof *m->nodes_of) ||
-        !tn_pending_put(&m->pending, (uint32_t)m->node_count))
+        !tn_sentential_put(&m->pending, (uint32_t)m->node_count))
         return false;
     m->nodes_of[m->node_count++] = (tn_mapping_node){.rule = rule, .depth = depth, .read = NOT_READ};
     return true;
@@ -40,7 +40,7 @@ static tn_expansion replace_one(tn_mapper *m)
     uint32_t open = (uint32_t)m->pending.count;
     if (!tn_mapper_read(m, &place) || !tn_mapper_read(m, &choice))
         return TN_EXPAND_NO_CODON;
-    tn_mapping_node *node = &m->nodes_of[tn_pending_take(&m->pending, (size_t)(place % open))];
+    tn_mapping_node *node = &m->nodes_of[tn_sentential_take(&m->pending, (size_t)(place % open))];
     const tn_rule *rule = &m->grammar->rules[node->rule];
     const uint32_t production = rule->first + tn_codon_modulo(choice, rule->count, rule->reciprocal);
     const tn_production *p = &m->grammar->productions[production];
@@ -137,7 +137,7 @@ static bool write_derivation(tn_mapper *m, bool recorded)
 
 tn_expansion tn_mapper_expand_places(tn_mapper *m, bool recorded)
 {
-    tn_pending_reset(&m->pending);
+    tn_sentential_reset(&m->pending);
     m->node_count = 0;
     if (m->steps_left-- == 0)
         return TN_EXPAND_TOO_LONG;

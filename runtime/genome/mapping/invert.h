@@ -12,10 +12,10 @@
 #include "runtime/grammar/grammar.h"
 
 typedef struct tn_invert_options {
-    uint32_t max_depth; /* as in tn_mapping_options */
+    uint32_t max_depth;        /* as in tn_mapping_options */
     bool position_independent; /* likewise; the genome replaces the leftmost non-terminal each time */
-    size_t max_items;   /* parser states, a bound on time and memory; 0: TN_INVERT_ITEMS */
-    tn_watch *watch;    /* or NULL: parsing is given up (TN_STOPPED) once this says so; it is told bytes or tokens */
+    size_t max_items;          /* parser states, a bound on time and memory; 0: TN_INVERT_ITEMS */
+    tn_watch *watch; /* or NULL: parsing is given up (TN_STOPPED) once this says so; it is told bytes or tokens */
 } tn_invert_options;
 
 #define TN_INVERT_ITEMS 2000000u

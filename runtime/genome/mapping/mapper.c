@@ -7,7 +7,9 @@
 
 tn_mapping_options tn_mapping_options_of(const tn_grammar *grammar)
 {
-    return (tn_mapping_options){.wraps = grammar->wraps, .max_depth = grammar->max_depth, .repair = grammar->repair,
+    return (tn_mapping_options){.wraps = grammar->wraps,
+                                .max_depth = grammar->max_depth,
+                                .repair = grammar->repair,
                                 .position_independent = grammar->position_independent};
 }
 
@@ -42,7 +44,7 @@ void tn_mapper_free(tn_mapper *mapper)
     free(mapper->waiting);
     free(mapper->predecessor);
     free(mapper->nodes_of);
-    tn_pending_clear(&mapper->pending);
+    tn_sentential_clear(&mapper->pending);
     free(mapper);
 }
 

@@ -1,8 +1,8 @@
 /* Mapping: a genome chooses, codon by codon, the sentence of a grammar (Genr8 paper, 5.1 and 5.2).
  *
  * Depth-first, leftmost, the start symbol at depth 1. A genome of n codons with W wraps is read as if written W + 1
- * times. Position-independent mapping reads two codons at a time, of which the first says which non-terminal is replaced
- * next. The mapping is total: any codons, also none, give a sentence or a reason why there is none.
+ * times. Position-independent mapping reads two codons at a time, of which the first says which non-terminal is
+ * replaced next. The mapping is total: any codons, also none, give a sentence or a reason why there is none.
  *
  * A tn_mapper holds the scratch memory of one thread; make one for each. What a tn_mapping points to lives in the
  * mapper and is valid until its next use.
@@ -19,7 +19,7 @@ typedef struct tn_mapping_options {
     uint64_t max_steps; /* symbols and codons handled, a bound on time and memory; 0: TN_MAPPING_STEPS */
     tn_repair repair;   /* genr8 only */
     bool position_independent; /* where tn_grammar_takes_places says so only */
-    bool record;        /* keep the derivation (tn_mapping.events) */
+    bool record;               /* keep the derivation (tn_mapping.events) */
 } tn_mapping_options;
 
 #define TN_MAPPING_STEPS 1000000u

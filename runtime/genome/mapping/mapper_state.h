@@ -14,7 +14,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/genome/mapping/mapper.h"
-#include "runtime/genome/mapping/pending.h"
+#include "runtime/genome/mapping/sentential.h"
 
 #define TN_NO_EDGE_ID UINT32_MAX
 #define TN_COPY 16u      /* short terminals are copied by this many bytes at once */
@@ -65,7 +65,7 @@ struct tn_mapper {
     /* position-independent mapping: the derivation, and its non-terminals that are not replaced yet */
     tn_mapping_node *nodes_of;
     size_t node_count, node_capacity;
-    tn_pending pending;
+    tn_sentential pending;
     /* the genome, and how it is read */
     const uint64_t *codons;
     size_t count, position;

@@ -27,8 +27,8 @@ void tn_spans_clear(tn_spans *spans);
 /* Puts the codons that a mapping read, wraps written out, and the unread rest into `straight`. */
 bool tn_genome_straighten(const uint64_t *codons, size_t count, const tn_mapping *mapping, tn_genome *straight);
 
-/* The same of a position-independent mapping that is valid: the genome that replaces the leftmost non-terminal each time
- * and derives the same, so that a subtree's codons lie side by side. The events are made those of that genome. */
+/* The same of a position-independent mapping that is valid: the genome that replaces the leftmost non-terminal each
+ * time and derives the same, so that a subtree's codons lie side by side. The events are made those of that genome. */
 bool tn_events_straighten(tn_event *events, size_t count, const uint64_t *codons, size_t codon_count, uint64_t used,
                           tn_genome *straight);
 

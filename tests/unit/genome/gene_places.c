@@ -1,5 +1,5 @@
-/* Position-independent mapping against a derivation that is a plain list of symbols, rewritten in place; and what is told
- * of it. */
+/* Position-independent mapping against a derivation that is a plain list of symbols, rewritten in place; and what is
+ * told of it. */
 #include "runtime/base/random.h"
 #include "runtime/genome/mapping/invert.h"
 #include "runtime/genome/mapping/span.h"
@@ -23,7 +23,8 @@ static const plain grammars[] = {
 };
 
 /* The sentence in `form`, or false: out of codons, or no longer a form of this size. */
-static bool rewrite(const plain *g, const uint64_t *codons, size_t count, uint32_t wraps, char form[FORM], uint64_t *used)
+static bool rewrite(const plain *g, const uint64_t *codons, size_t count, uint32_t wraps, char form[FORM],
+                    uint64_t *used)
 {
     strcpy(form, "a");
     for (*used = 0;; *used += 2) {
@@ -242,8 +243,10 @@ static void test_large(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_against_rewriting), cmocka_unit_test(test_leftmost_pairs),
-        cmocka_unit_test(test_straightening),     cmocka_unit_test(test_inverting),
+        cmocka_unit_test(test_against_rewriting),
+        cmocka_unit_test(test_leftmost_pairs),
+        cmocka_unit_test(test_straightening),
+        cmocka_unit_test(test_inverting),
         cmocka_unit_test(test_large),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

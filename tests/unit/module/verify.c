@@ -149,7 +149,8 @@ static void test_as_the_compiler(void **state)
 static void expect_grammar(uint32_t expands, uint32_t flags, const char *reason)
 {
     tn_builder *builder = sample_builder();
-    tn_grammar_record grammar = {.name = tn_builder_string(builder, "g"), .flags = flags, .rule_count = 2, .repair = TN_REPAIR_OFF};
+    tn_grammar_record grammar = {
+        .name = tn_builder_string(builder, "g"), .flags = flags, .rule_count = 2, .repair = TN_REPAIR_OFF};
     grammar.rewrite_rule = grammar.predecessor = grammar.successor = TN_NO_RECORD;
     for (uint32_t i = 0; i < 2; i++) {
         uint32_t begin = tn_builder_offset(builder);
