@@ -35,26 +35,26 @@ static void read_boot(char *boot, size_t size)
         close(file);
 }
 
-static tn_claimant myself(void)
+tn_claimant tn_claimant_self(void)
 {
     tn_claimant me = {.process = getpid()};
-    time_t now = time(NULL);
-    struct tm parts;
     if (gethostname(me.host, sizeof me.host - 1) != 0)
         me.host[0] = '\0';
     read_boot(me.boot, sizeof me.boot);
     ssize_t got = readlink("/proc/self/ns/pid", me.space, sizeof me.space - 1);
     me.space[got > 0 ? got : 0] = '\0';
-    if (gmtime_r(&now, &parts))
-        strftime(me.since, sizeof me.since, "%Y-%m-%dT%H:%M:%SZ", &parts);
     return me;
 }
 
-static bool write_claimant(int file)
+static bool write_claimant(int file, const tn_claimant *self)
 {
-    const tn_claimant me = myself();
-    json_t *json = json_pack("{s:s, s:s, s:s, s:I, s:s}", "host", me.host, "boot", me.boot, "space", me.space,
-                             "process", (json_int_t)me.process, "since", me.since);
+    char since[sizeof self->since] = "";
+    time_t now = time(NULL);
+    struct tm parts;
+    if (gmtime_r(&now, &parts))
+        strftime(since, sizeof since, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    json_t *json = json_pack("{s:s, s:s, s:s, s:I, s:s}", "host", self->host, "boot", self->boot, "space", self->space,
+                             "process", (json_int_t)self->process, "since", since);
     char *text = json ? json_dumps(json, 0) : NULL;
     size_t size = text ? strlen(text) : 0;
     bool done = text && write(file, text, size) == (ssize_t)size;
@@ -71,7 +71,8 @@ static void copy_text(const json_t *json, const char *key, char *text, size_t si
     snprintf(text, size, "%s", value ? value : "");
 }
 
-/* A new file in a folder, of which nothing is left when it is closed: without a name, where the file system has that. */
+/* A new file in a folder, of which nothing is left when it is closed: without a name, where the file system has that.
+ */
 static int open_passing(const char *folder)
 {
     char path[4096];
@@ -126,25 +127,24 @@ bool tn_claim_read(const char *path, tn_claimant *claimant)
 
 /* Has its process ended? Only known of processes that this one can see. A claim of this very process is left from an
  * earlier one with its number: it does each shard once at a time. */
-static bool is_gone(const tn_claimant *claimant)
+static bool is_gone(const tn_claimant *claimant, const tn_claimant *self)
 {
-    const tn_claimant me = myself();
-    bool visible = claimant->process > 0 && claimant->boot[0] && strcmp(claimant->boot, me.boot) == 0 &&
-                   strcmp(claimant->space, me.space) == 0;
+    bool visible = claimant->process > 0 && claimant->boot[0] && strcmp(claimant->boot, self->boot) == 0 &&
+                   strcmp(claimant->space, self->space) == 0;
     if (!visible)
         return false;
-    return claimant->process == me.process || (kill((pid_t)claimant->process, 0) != 0 && errno == ESRCH);
+    return claimant->process == self->process || (kill((pid_t)claimant->process, 0) != 0 && errno == ESRCH);
 }
 
 /* ---- taking and giving up */
 
 /* Makes the claim's file. False where that cannot be; errno says why. */
-static bool make(const char *path, tn_claim *claim)
+static bool make(const char *path, const tn_claimant *self, tn_claim *claim)
 {
     int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0)
         return false;
-    bool written = write_claimant(file);
+    bool written = write_claimant(file, self);
     int reason = errno;
     close(file);
     claim->path = written ? strdup(path) : NULL;
@@ -156,19 +156,20 @@ static bool make(const char *path, tn_claim *claim)
     return false;
 }
 
-tn_status tn_claim_take(const char *path, double stale, tn_claim *claim, bool *taken, tn_error *error)
+tn_status tn_claim_take(const char *path, const tn_claimant *self, double stale, tn_claim *claim, bool *taken,
+                        tn_error *error)
 {
     tn_claimant other;
     *claim = (tn_claim){0};
-    *taken = make(path, claim);
+    *taken = make(path, self, claim);
     if (*taken)
         return TN_OK;
     if (errno != EEXIST)
         return tn_cannot_write(path, errno, error);
-    if (!tn_claim_read(path, &other) || !(is_gone(&other) || fabs(other.age) > stale))
+    if (!tn_claim_read(path, &other) || !(is_gone(&other, self) || fabs(other.age) > stale))
         return TN_OK; /* given up just now, or held */
     unlink(path);
-    *taken = make(path, claim);
+    *taken = make(path, self, claim);
     return *taken || errno == EEXIST ? TN_OK : tn_cannot_write(path, errno, error);
 }
 

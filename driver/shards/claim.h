@@ -14,7 +14,7 @@
 typedef struct tn_claimant {
     char host[80], boot[40], space[40]; /* the machine, its start, and which processes see each other there */
     int64_t process;
-    char since[24]; /* by its own clock, for people */
+    char since[24]; /* by its own clock, for people; set where it claims */
     double age;     /* seconds since it was touched, negative where it was touched in the future */
 } tn_claimant;
 
@@ -23,9 +23,13 @@ typedef struct tn_claim {
     double touched;
 } tn_claim;
 
-/* Claims the path: *taken is false where another worker has, and is not known to be gone. `stale`: seconds. TN_IO where
- * the folder cannot be written to. */
-tn_status tn_claim_take(const char *path, double stale, tn_claim *claim, bool *taken, tn_error *error);
+/* This process. */
+tn_claimant tn_claimant_self(void);
+
+/* Claims the path for this process, `self`: *taken is false where another worker has, and is not known to be gone.
+ * `stale`: seconds. TN_IO where the folder cannot be written to. */
+tn_status tn_claim_take(const char *path, const tn_claimant *self, double stale, tn_claim *claim, bool *taken,
+                        tn_error *error);
 
 /* Says that the worker is still there, where it was last said long enough ago. */
 void tn_claim_touch(tn_claim *claim, double stale);

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #define XXH_INLINE_ALL
@@ -15,6 +16,52 @@ void tn_hash_bytes(const void *bytes, size_t size, char hex[33])
 {
     tn_hash_text(XXH3_128bits(bytes, size), hex);
 }
+
+/* ---- of a file while it is written */
+
+struct tn_hashing {
+    XXH3_state_t *state;
+    uint64_t size;
+};
+
+tn_hashing *tn_hashing_new(void)
+{
+    tn_hashing *hashing = calloc(1, sizeof *hashing);
+    if (hashing && !(hashing->state = XXH3_createState())) {
+        free(hashing);
+        return NULL;
+    }
+    if (hashing)
+        XXH3_128bits_reset(hashing->state);
+    return hashing;
+}
+
+void tn_hashing_free(tn_hashing *hashing)
+{
+    if (hashing)
+        XXH3_freeState(hashing->state);
+    free(hashing);
+}
+
+static void see(void *context, const void *bytes, size_t size)
+{
+    tn_hashing *hashing = context;
+    XXH3_128bits_update(hashing->state, bytes, size);
+    hashing->size += size;
+}
+
+tn_seen_bytes tn_hashing_seen(tn_hashing *hashing)
+{
+    return (tn_seen_bytes){see, hashing};
+}
+
+void tn_hashing_end(const tn_hashing *hashing, char hex[33], uint64_t *size)
+{
+    tn_hash_text(XXH3_128bits_digest(hashing->state), hex);
+    *size = hashing->size;
+}
+
+/* ---- of a file that is there */
 
 tn_status tn_hash_file(const char *path, char hex[33], uint64_t *size, tn_error *error)
 {

@@ -49,21 +49,26 @@ tn_status tn_shard_wrong(const tn_shard_set *set, uint32_t shard, tn_error *erro
 
 /* ---- records */
 
+tn_status tn_shard_record_write(const tn_shard_set *set, uint32_t shard, const tn_shard_record *record, tn_error *error)
+{
+    tn_output output;
+    char *beside = tn_shard_path(set, shard, TN_SHARD_RECORD);
+    tn_status status = beside ? tn_output_open(beside, &output, error) : tn_fail_memory(error);
+    if (status == TN_OK) {
+        fprintf(output.stream, "{\"bytes\": %" PRIu64 ", \"hash\": \"%s\"}\n", record->bytes, record->hash);
+        status = tn_output_commit(&output, error);
+    }
+    free(beside);
+    return status;
+}
+
 tn_status tn_shard_record_make(const tn_shard_set *set, uint32_t shard, tn_error *error)
 {
     tn_shard_record record;
-    tn_output output;
-    char *path = tn_shard_path(set, shard, ""), *beside = tn_shard_path(set, shard, TN_SHARD_RECORD);
-    tn_status status = path && beside ? tn_hash_file(path, record.hash, &record.bytes, error) : tn_fail_memory(error);
-    if (status == TN_OK)
-        status = tn_output_open(beside, &output, error);
-    if (status == TN_OK) {
-        fprintf(output.stream, "{\"bytes\": %" PRIu64 ", \"hash\": \"%s\"}\n", record.bytes, record.hash);
-        status = tn_output_commit(&output, error);
-    }
+    char *path = tn_shard_path(set, shard, "");
+    tn_status status = path ? tn_hash_file(path, record.hash, &record.bytes, error) : tn_fail_memory(error);
     free(path);
-    free(beside);
-    return status;
+    return status == TN_OK ? tn_shard_record_write(set, shard, &record, error) : status;
 }
 
 static bool parse_record(const char *text, size_t size, tn_shard_record *record)

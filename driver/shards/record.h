@@ -19,7 +19,11 @@ bool tn_shard_done(const tn_shard_set *set, uint32_t shard);
 /* Is the shard's own file there? */
 bool tn_shard_exists(const tn_shard_set *set, uint32_t shard);
 
-/* Hashes the shard and writes its record. */
+/* Writes the record of a shard. TN_IO (E0902). */
+tn_status tn_shard_record_write(const tn_shard_set *set, uint32_t shard, const tn_shard_record *record,
+                                tn_error *error);
+
+/* Hashes a shard that is there, and writes its record. */
 tn_status tn_shard_record_make(const tn_shard_set *set, uint32_t shard, tn_error *error);
 
 /* Reads the record: TN_INVALID (E1706) where it is none. */

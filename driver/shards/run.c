@@ -9,6 +9,7 @@
 
 #include "driver/plan/made.h"
 #include "driver/shards/claim.h"
+#include "driver/shards/hash.h"
 #include "driver/shards/record.h"
 #include "runtime/base/crew.h"
 
@@ -19,7 +20,8 @@
 typedef struct running {
     const tn_shards_job *job;
     const tn_made *made;
-    mpz_t ranks; /* how many the library has */
+    mpz_t ranks;      /* how many the library has */
+    tn_claimant self; /* this process */
     double start;
     bool *done;       /* [shards]: known to be there; each is written by the thread that has the shard */
     atomic_uint next; /* the first shard that no thread has looked at in this pass, where there is one rank */
@@ -73,13 +75,16 @@ static tn_status write_plans(const running *run, uint32_t shard, tn_claim *claim
     return status;
 }
 
-static tn_status write_shard(const running *run, uint32_t shard, tn_claim *claim, tn_error *error)
+/* The file of a shard, whose bytes `written` sees. */
+static tn_status write_file(const running *run, uint32_t shard, tn_claim *claim, const tn_seen_bytes *written,
+                            tn_error *error)
 {
     const tn_shard_set *set = run->job->set;
     char *path = tn_shard_path(set, shard, ""), *words = words_of(set, shard);
     tn_plan_writer *writer = NULL;
     tn_writer_options options = tn_shard_writing(set, &run->made->metadata, run->ranks);
     options.metadata.command = words;
+    options.written = written;
     tn_status status = path && words ? tn_plan_writer_open(run->job->ready->schema, path, &options, &writer, error)
                                      : tn_fail_memory(error);
     if (status == TN_OK)
@@ -92,18 +97,36 @@ static tn_status write_shard(const running *run, uint32_t shard, tn_claim *claim
     return status;
 }
 
+/* A shard, and its record. It is hashed while it is written, so that it need not be read again. */
+static tn_status write_shard(const running *run, uint32_t shard, tn_claim *claim, tn_error *error)
+{
+    tn_hashing *hashing = tn_hashing_new();
+    if (!hashing)
+        return tn_fail_memory(error);
+    tn_shard_record record;
+    const tn_seen_bytes written = tn_hashing_seen(hashing);
+    tn_status status = write_file(run, shard, claim, &written, error);
+    tn_hashing_end(hashing, record.hash, &record.bytes);
+    tn_hashing_free(hashing);
+    return status == TN_OK ? tn_shard_record_write(run->job->set, shard, &record, error) : status;
+}
+
+/* A shard that is there without its record: whoever wrote it was killed between the two. */
+static tn_status record_shard(const tn_shards_job *job, uint32_t shard, tn_error *error)
+{
+    tn_status status = tn_shard_read_through(job->set, job->ready, shard, job->watch, error);
+    return status == TN_OK ? tn_shard_record_make(job->set, shard, error) : status;
+}
+
 /* What lacks of a claimed shard: the shard, or only its record. */
 static tn_status finish_shard(running *run, uint32_t shard, tn_claim *claim, tn_error *error)
 {
     const tn_shards_job *job = run->job;
     double begun = tn_seconds();
-    if (tn_shard_done(job->set, shard)) /* by another, while it was being claimed */
-        return TN_OK;
     bool exists = tn_shard_exists(job->set, shard);
-    tn_status status = exists ? tn_shard_read_through(job->set, job->ready, shard, job->watch, error)
-                              : write_shard(run, shard, claim, error);
-    if (status == TN_OK)
-        status = tn_shard_record_make(job->set, shard, error);
+    if (exists && tn_shard_done(job->set, shard)) /* by another, while it was being claimed */
+        return TN_OK;
+    tn_status status = exists ? record_shard(job, shard, error) : write_shard(run, shard, claim, error);
     if (status == TN_OK && !exists) {
         run->written++;
         run->longest = fmax(run->longest, tn_seconds() - begun);
@@ -123,7 +146,7 @@ static tn_status do_shard(running *run, uint32_t shard, tn_error *error)
     if (path && done)
         unlink(path); /* left by a worker that was killed behind its last step */
     else if (path)
-        status = tn_claim_take(path, job->stale, &claim, &taken, error);
+        status = tn_claim_take(path, &run->self, job->stale, &claim, &taken, error);
     if (status == TN_OK && taken && !done)
         status = finish_shard(run, shard, &claim, error);
     run->done[shard - job->begin] = status == TN_OK && taken;
@@ -271,7 +294,11 @@ tn_status tn_shards_run(const tn_shards_job *job, tn_shards_done *done, tn_error
     passed now = {0};
     tn_made made;
     tn_made_describe(job->opened, job->ready, job->set->rules_path, NULL, &made);
-    running run = {.job = job, .made = &made, .start = tn_seconds(), .done = calloc(count + 1, sizeof *run.done)};
+    running run = {.job = job,
+                   .made = &made,
+                   .self = tn_claimant_self(),
+                   .start = tn_seconds(),
+                   .done = calloc(count + 1, sizeof *run.done)};
     mpz_init(run.ranks);
     tn_library_kept(job->ready->library, TN_ALL_LENGTHS, run.ranks);
     tn_crew *crew = tn_crew_new(job->threads, NULL);

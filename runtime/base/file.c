@@ -190,22 +190,74 @@ static void forget(tn_output *output)
     *output = (tn_output){.path = output->path};
 }
 
+/* A file whose bytes are seen. */
+typedef struct seen_file {
+    int file;
+    tn_seen_bytes written;
+} seen_file;
+
+static ssize_t write_seen(void *cookie, const char *bytes, size_t size)
+{
+    const seen_file *seen = cookie;
+    size_t done = 0;
+    while (done < size) {
+        ssize_t got = write(seen->file, bytes + done, size - done);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            return 0;
+        seen->written.see(seen->written.context, bytes + done, (size_t)got);
+        done += (size_t)got;
+    }
+    return (ssize_t)done;
+}
+
+static int close_seen(void *cookie)
+{
+    seen_file *seen = cookie;
+    int result = close(seen->file);
+    free(seen);
+    return result;
+}
+
+/* The stream of an open file; NULL and errno where that cannot be, and then the file is left open. */
+static FILE *stream_of(int file, const tn_seen_bytes *written)
+{
+    if (!written)
+        return fdopen(file, "wb");
+    const cookie_io_functions_t functions = {.write = write_seen, .close = close_seen};
+    seen_file *seen = malloc(sizeof *seen);
+    FILE *stream = seen ? fopencookie(seen, "wb", functions) : NULL;
+    if (stream) {
+        *seen = (seen_file){file, *written};
+        return stream;
+    }
+    free(seen);
+    errno = ENOMEM;
+    return NULL;
+}
+
 tn_status tn_output_open(const char *path, tn_output *output, tn_error *error)
 {
-    *output = (tn_output){.path = path};
+    return tn_output_open_seen(path, NULL, output, error);
+}
+
+tn_status tn_output_open_seen(const char *path, const tn_seen_bytes *written, tn_output *output, tn_error *error)
+{
+    *output = (tn_output){.path = path, .file = STDOUT_FILENO};
     if (strcmp(path, "-") == 0) {
         output->stream = stdout;
         return TN_OK;
     }
     /* A link is followed, so that the file it names is replaced and not the link. */
     struct stat known;
-    bool link = lstat(path, &known) == 0 && S_ISLNK(known.st_mode);
+    bool exists = lstat(path, &known) == 0, link = exists && S_ISLNK(known.st_mode);
     output->target = link ? realpath(path, NULL) : NULL;
     if (!output->target)
         output->target = strdup(path);
     if (!output->target)
         return tn_fail_memory(error);
-    bool exists = stat(output->target, &known) == 0;
+    exists = link ? stat(output->target, &known) == 0 : exists;
     int file;
     output->replaces = !exists || S_ISREG(known.st_mode);
     if (!output->replaces) /* a device or a pipe */
@@ -214,7 +266,8 @@ tn_status tn_output_open(const char *path, tn_output *output, tn_error *error)
         file = -1; /* renaming would get round the protection of a file that may not be written */
     else
         file = open_beside(output, exists ? known.st_mode & 0777 : 0);
-    output->stream = file < 0 ? NULL : fdopen(file, "wb");
+    output->file = file;
+    output->stream = file < 0 ? NULL : stream_of(file, written);
     if (output->stream)
         return TN_OK;
     int reason = errno;
@@ -248,11 +301,11 @@ static int probe(int file)
 static int flush(tn_output *output)
 {
     if (ferror(output->stream))
-        return probe(output->stream == stdout ? STDOUT_FILENO : fileno(output->stream));
+        return probe(output->file);
     errno = 0;
     if (fflush(output->stream) != 0)
         return errno ? errno : EIO;
-    if (output->replaces && fsync(fileno(output->stream)) != 0)
+    if (output->replaces && fsync(output->file) != 0)
         return errno;
     return 0;
 }
@@ -264,9 +317,9 @@ static int name_file(tn_output *output)
     file_link link;
     if (!output->replaces || output->temporary)
         return 0;
-    if (linkat(AT_FDCWD, link_of(fileno(output->stream), &link), AT_FDCWD, output->target, AT_SYMLINK_FOLLOW) == 0)
+    if (linkat(AT_FDCWD, link_of(output->file, &link), AT_FDCWD, output->target, AT_SYMLINK_FOLLOW) == 0)
         return 0;
-    return errno == EEXIST && take_name(output, fileno(output->stream)) >= 0 ? 0 : errno;
+    return errno == EEXIST && take_name(output, output->file) >= 0 ? 0 : errno;
 }
 
 tn_status tn_output_commit(tn_output *output, tn_error *error)

@@ -22,9 +22,16 @@ tn_status tn_file_read(const char *path, size_t limit, uint8_t **bytes, size_t *
 /* Makes a folder, where it is not there already. E0902 (TN_IO). */
 tn_status tn_folder_make(const char *path, tn_error *error);
 
+/* Sees all bytes that are written to a file, once they are, in their order. */
+typedef struct tn_seen_bytes {
+    void (*see)(void *context, const void *bytes, size_t size);
+    void *context;
+} tn_seen_bytes;
+
 /* An output file under construction. */
 typedef struct tn_output {
     FILE *stream;     /* write here */
+    int file;         /* which the stream writes to */
     const char *path; /* the target, borrowed: must outlive the output; "-" is standard output */
     bool replaces;    /* a file, put in the target's place by the commit; others are written to directly */
     char *target;     /* owned; what `path` names, links followed; NULL for standard output */
@@ -34,6 +41,9 @@ typedef struct tn_output {
 /* Opens a temporary file in the folder of `path`: one without a name, where the system has that, so that nothing is
  * left of it when the program is killed. E0902 where that cannot be written. */
 tn_status tn_output_open(const char *path, tn_output *output, tn_error *error);
+
+/* The same; `written`, or NULL, sees what is written. It is copied, and its context outlives the output. */
+tn_status tn_output_open_seen(const char *path, const tn_seen_bytes *written, tn_output *output, tn_error *error);
 
 /* Flushes, syncs and renames it over its target. On failure the temporary file is removed and the target
  * stays as it was. A closed pipe on standard output is TN_IO with code 903. */

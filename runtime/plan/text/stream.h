@@ -132,6 +132,7 @@ typedef struct tn_writer_options {
     const tn_plan_database *sqlite;
     const tn_plan_parquet *parquet;
     const tn_plan_compression *compression; /* of what is written; not for SQLite or Parquet. NULL: none */
+    const struct tn_seen_bytes *written;    /* sees what is written; not for SQLite. Or NULL */
 } tn_writer_options;
 
 /* Has the file stayed as it was since it was opened? Otherwise TN_IO (E0901): what was read may be a mix. Readers ask

@@ -12,6 +12,7 @@
 
 #define BATCH_DEFAULT 100000u
 #define COPIED ((size_t)1 << 18) /* bytes at a time */
+#define HELD ((size_t)1 << 16)   /* bytes of plans that are written to a file at once */
 
 void tn_writer_metadata(const tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_metadata_room *room,
                         tn_metadata_item items[TN_METADATA_ITEMS])
@@ -173,6 +174,12 @@ static tn_status flush_text(tn_plan_writer *writer, tn_error *error)
     return tn_cannot_write(shown, errno, error);
 }
 
+/* A file gets plans many at a time; others, such as a pipe, each at once. */
+static tn_status flush_much(tn_plan_writer *writer, tn_error *error)
+{
+    return writer->output.replaces && writer->text.size < HELD ? TN_OK : flush_text(writer, error);
+}
+
 static tn_status open_file(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error)
 {
     if (options->resume) {
@@ -180,11 +187,13 @@ static tn_status open_file(tn_plan_writer *writer, const tn_writer_options *opti
         tn_error_help(error, "write to a file that ends in .sqlite");
         return TN_INVALID;
     }
-    tn_status status = tn_output_open(writer->path, &writer->output, error);
+    tn_status status = tn_output_open_seen(writer->path, options->written, &writer->output, error);
     if (status == TN_OK && options->compression && writer->format != TN_FORMAT_PARQUET)
         status = options->compression->begin_writing(&writer->compressing, error);
     if (status != TN_OK)
         return status;
+    if (writer->output.replaces)
+        setvbuf(writer->output.stream, NULL, _IONBF, 0); /* much is written at once: see flush_much */
     bool done = true;
     if (writer->format == TN_FORMAT_CSV)
         done = csv_header(writer);
@@ -192,7 +201,7 @@ static tn_status open_file(tn_plan_writer *writer, const tn_writer_options *opti
         done = bin_header(writer, &options->metadata);
     if (writer->format == TN_FORMAT_PARQUET)
         return writer->parquet->open_writer(writer, options, error);
-    return done ? flush_text(writer, error) : tn_fail_memory(error);
+    return done ? flush_much(writer, error) : tn_fail_memory(error);
 }
 
 static bool ends_in(const char *path, const char *ending)
@@ -332,7 +341,7 @@ static tn_status write_ranked(tn_plan_writer *writer, const char *rank, const tn
 {
     if (writer->format == TN_FORMAT_SQLITE)
         return writer->sqlite->write(writer, rank, row, error);
-    return append_row(writer, rank, row) ? flush_text(writer, error) : tn_fail_memory(error);
+    return append_row(writer, rank, row) ? flush_much(writer, error) : tn_fail_memory(error);
 }
 
 tn_status tn_plan_writer_write_row(tn_plan_writer *writer, const mpz_t rank, const tn_plan_row *row, tn_error *error)
@@ -388,9 +397,9 @@ static tn_status copy_file(tn_plan_writer *writer, FILE *file, const char *path,
     if (!skip_beginning(writer, file))
         return tn_fail(error, TN_INVALID, E_PLAN_FILE, "%.300s does not begin as such a file does", path);
     tn_buffer *text = &writer->text;
-    if (!tn_buffer_reserve(text, COPIED))
-        return tn_fail_memory(error);
-    tn_status status = TN_OK;
+    tn_status status = flush_text(writer, error);
+    if (status == TN_OK && !tn_buffer_reserve(text, COPIED))
+        status = tn_fail_memory(error);
     while (status == TN_OK && (text->size = fread(text->data, 1, COPIED, file)) > 0)
         status = flush_text(writer, error);
     return status == TN_OK && ferror(file) ? tn_cannot_read(path, errno, error) : status;
@@ -412,14 +421,12 @@ tn_status tn_plan_writer_close(tn_plan_writer *writer, tn_error *error)
 {
     if (writer->format == TN_FORMAT_SQLITE)
         return writer->sqlite->close_writer(writer, error);
-    if (writer->format == TN_FORMAT_PARQUET) {
-        tn_status status = writer->parquet->close_writer(writer, error);
-        if (status != TN_OK)
-            return status;
-    }
-    if (writer->compressing && !writer->compression->write(writer->compressing, NULL, 0, true, writer->output.stream))
-        return tn_cannot_write(writer->path, errno, error);
-    return tn_output_commit(&writer->output, error);
+    tn_status status =
+        writer->format == TN_FORMAT_PARQUET ? writer->parquet->close_writer(writer, error) : flush_text(writer, error);
+    if (status == TN_OK && writer->compressing &&
+        !writer->compression->write(writer->compressing, NULL, 0, true, writer->output.stream))
+        status = tn_cannot_write(writer->path, errno, error);
+    return status == TN_OK ? tn_output_commit(&writer->output, error) : status;
 }
 
 void tn_plan_writer_free(tn_plan_writer *writer)

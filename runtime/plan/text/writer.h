@@ -43,7 +43,7 @@ struct tn_plan_writer {
     tn_length_style total_style;
     bool columns, csv_safe;
     const tn_row_columns *rows; /* NULL: rows are plans */
-    tn_buffer text;             /* of the plan in hand; SQLite: of those that wait */
+    tn_buffer text;             /* of the plans that are not written yet */
     tn_buffer tray_texts;       /* " | " and the tray, tray after tray; empty where trays are too many to keep */
     size_t *tray_text_end;      /* [trays]: where in tray_texts each ends */
     tn_buffer packed;

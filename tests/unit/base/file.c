@@ -260,18 +260,68 @@ static void test_large_files(void **state)
     }
 }
 
+/* ---- what is written is seen */
+
+static void collect(void *context, const void *bytes, size_t size)
+{
+    fwrite(bytes, 1, size, context);
+}
+
+static void test_seen_while_written(void **state)
+{
+    const folder *f = *state;
+    char *seen = NULL;
+    uint8_t *read = NULL;
+    size_t seen_size = 0, read_size = 0;
+    tn_error error;
+    tn_output output;
+    FILE *copy = open_memstream(&seen, &seen_size);
+    const tn_seen_bytes what = {collect, copy};
+    assert_int_equal(tn_output_open_seen(f->file, &what, &output, &error), TN_OK);
+    for (unsigned i = 0; i < 30000; i++)
+        fprintf(output.stream, "line %u\n", i);
+    assert_int_equal(tn_output_commit(&output, &error), TN_OK);
+    fclose(copy);
+    assert_int_equal(tn_file_read(f->file, 1 << 20, &read, &read_size, &error), TN_OK);
+    assert_int_equal(read_size, seen_size);
+    assert_memory_equal(read, seen, seen_size);
+    free(seen);
+    free(read);
+    assert_int_equal(entries(f), 1);
+}
+
+/* What was not written was not seen: here the disk is full. */
+static void test_not_seen_where_not_written(void **state)
+{
+    (void)state;
+    size_t count = 0;
+    char *seen = NULL;
+    tn_error error;
+    tn_output output;
+    FILE *copy = open_memstream(&seen, &count);
+    const tn_seen_bytes what = {collect, copy};
+    assert_int_equal(tn_output_open_seen("/dev/full", &what, &output, &error), TN_OK);
+    fputs("text", output.stream);
+    assert_int_equal(tn_output_commit(&output, &error), TN_IO);
+    assert_string_equal(error.message, "cannot write /dev/full: the disk is full");
+    fclose(copy);
+    assert_int_equal(count, 0);
+    free(seen);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, make_folder, remove_folder)
 
 int main(void)
 {
     signal(SIGPIPE, SIG_IGN);
     const struct CMUnitTest tests[] = {
-        TEST(test_write_and_read), TEST(test_target_stays_until_commit),
-        TEST(test_two_at_once),    TEST(test_modes_and_links_are_kept),
-        TEST(test_full_disk),      TEST(test_devices_are_written_to),
-        TEST(test_closed_pipe),    TEST(test_unwritable),
-        TEST(test_unreadable),     TEST(test_limit),
-        TEST(test_longest_name),   TEST(test_large_files),
+        TEST(test_write_and_read),     TEST(test_target_stays_until_commit),
+        TEST(test_two_at_once),        TEST(test_modes_and_links_are_kept),
+        TEST(test_full_disk),          TEST(test_devices_are_written_to),
+        TEST(test_closed_pipe),        TEST(test_unwritable),
+        TEST(test_unreadable),         TEST(test_limit),
+        TEST(test_longest_name),       TEST(test_large_files),
+        TEST(test_seen_while_written), TEST(test_not_seen_where_not_written),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

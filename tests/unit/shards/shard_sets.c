@@ -185,10 +185,11 @@ static void test_claims(void **state)
     char *path = in_folder(state, "claim");
     tn_claim claim, second;
     tn_claimant who;
+    const tn_claimant self = tn_claimant_self();
     tn_error error;
     bool taken;
     assert_false(tn_claim_read(path, &who));
-    assert_int_equal(tn_claim_take(path, 60, &claim, &taken, &error), TN_OK);
+    assert_int_equal(tn_claim_take(path, &self, 60, &claim, &taken, &error), TN_OK);
     assert_true(taken);
     assert_true(tn_claim_read(path, &who));
     assert_int_equal(who.process, getpid());
@@ -197,17 +198,17 @@ static void test_claims(void **state)
     FILE *out = fopen(path, "w"); /* of another machine */
     fputs("{\"host\": \"elsewhere\", \"boot\": \"b\", \"space\": \"s\", \"process\": 17}", out);
     fclose(out);
-    assert_int_equal(tn_claim_take(path, 60, &second, &taken, &error), TN_OK);
+    assert_int_equal(tn_claim_take(path, &self, 60, &second, &taken, &error), TN_OK);
     assert_false(taken);
     struct timespec hour_ago[2];
     clock_gettime(CLOCK_REALTIME, &hour_ago[0]);
     hour_ago[0].tv_sec -= 3600;
     hour_ago[1] = hour_ago[0];
     utimensat(AT_FDCWD, path, hour_ago, 0);
-    assert_int_equal(tn_claim_take(path, 60, &second, &taken, &error), TN_OK); /* stale */
+    assert_int_equal(tn_claim_take(path, &self, 60, &second, &taken, &error), TN_OK); /* stale */
     assert_true(taken);
     tn_claim_release(&second);
-    assert_int_equal(tn_claim_take("/nowhere/claim", 60, &second, &taken, &error), TN_IO);
+    assert_int_equal(tn_claim_take("/nowhere/claim", &self, 60, &second, &taken, &error), TN_IO);
     assert_false(taken);
     free(path);
 }
