@@ -155,7 +155,7 @@ tartan_status tartan_growth_draw(tartan_growth *growth, tartan_picture_format fo
                                      .dpi = drawing.dpi,
                                      .legend = tn_growth_legend(growth->system)};
     tn_growth_watch(growth->growth, &watch);
-    tn_status drawn = tn_growth_view(growth->growth, &camera, &view, &found);
+    tn_status drawn = tn_growth_view(growth->growth, &camera, false, &view, &found);
     tn_growth_watch(growth->growth, NULL);
     if (drawn == TN_OK) {
         drawn = tn_views_draw(&view, 1, &options, &to, &found);

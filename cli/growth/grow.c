@@ -158,7 +158,8 @@ static tn_status note_step(run_state *run, tn_error *error)
     }
     if (settings->sheet) {
         tn_camera camera = tn_grow_camera(settings);
-        tn_status status = tn_growth_view(run->growth, &camera, &run->views[run->view_count], error);
+        tn_status status = tn_growth_view(run->growth, &camera, tn_grow_surrounded(settings, &run->study),
+                                          &run->views[run->view_count], error);
         if (status != TN_OK)
             return status;
         run->view_count++;
@@ -292,6 +293,8 @@ static void finish(run_state *run)
     warn_of_faults(run);
     if (settings->sheet)
         tn_grow_sheet(run->job, run->growth, &run->study, run->views, run->view_count, run->format);
+    else if (settings->turn.given)
+        tn_grow_turn(run->job, run->growth, &run->study, run->format);
     else if (settings->overlay)
         draw_overlay(run);
     else if (settings->output && !settings->each_step)
@@ -404,6 +407,8 @@ static const tn_option options[] = {
     FLAG("each-step", 0, each_step, "write every step, to NAME-000.obj, NAME-001.obj and so on"),
     TEXT("overlay", 0, "N,N,...", overlay, "draw these steps over one another, in one picture"),
     FLAG("sheet", 0, sheet, "draw all steps side by side on one picture"),
+    NUMBER("turn", 0, "N", turn, 2, 720,
+           "draw N pictures from all around: into the folder that -o names, or as one PNG that moves (-o FILE.png)"),
     FLAG("triangulate", 't', triangulate, "cut faces into triangles"),
     FLAG("groups", 'g', groups,
          "group or colour faces and lines by their edges' label and age (DXF: layers by both, not by label alone)"),
@@ -438,6 +443,9 @@ static const tn_option options[] = {
          "add a fitness term, in the words of a study: \"size target 10 weight 2\""),
     REAL("azimuth", 0, "DEGREES", azimuth, "where a picture is seen from, about z (default -60)"),
     REAL("elevation", 0, "DEGREES", elevation, "how high from: 90 is straight above (default 30)"),
+    CHOICE("surroundings", 0, "WHETHER", surroundings, "auto|yes|no",
+           "draw what the surface grows in: attractors, repellers, gravity, boundaries and the ground (default: where "
+           "there are forces or boundaries)"),
     NUMBER("width", 0, "POINTS", width, 50, 5000, "width of a picture (default 480)"),
     NUMBER("columns", 0, "N", columns, 1, 1000, "steps in a row of a sheet"),
     NUMBER("dpi", 0, "N", dpi, 10, 2400, "pixels an inch of a PNG (default 150)"),

@@ -29,10 +29,11 @@ typedef struct tn_grow_settings {
     int engine; /* a tn_grow_engine */
     int stats;  /* 0 not asked for, 1 table, 2 json */
     int up;     /* 0 z, 1 y */
+    int surroundings; /* of a picture: 0 where there are any, 1 yes, 2 no */
     bool explain, each_step, sheet, triangulate, groups, lines, normals;
     tn_option_number subdivide, smooth, decimate, threads;
     tn_option_real azimuth, elevation;
-    tn_option_number width, columns, dpi; /* of a picture */
+    tn_option_number width, columns, dpi, turn; /* of a picture */
 } tn_grow_settings;
 
 /* Those of the job, which is one of `tartan grow`. */
@@ -57,7 +58,12 @@ void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, 
 /* Draws what was gathered of several steps. */
 void tn_grow_overlay(tn_job *job, const tn_growth *growth, const tn_study *study, tn_sight *sight,
                      tn_out_format format);
+/* Draws the surface from all around: into a folder, or (TN_OUT_PNG) as one picture that moves. */
+void tn_grow_turn(tn_job *job, const tn_growth *growth, const tn_study *study, tn_out_format format);
 tn_camera tn_grow_camera(const tn_grow_settings *settings);
+
+/* Are surroundings drawn? Where it is not said: if there are any. */
+bool tn_grow_surrounded(const tn_grow_settings *settings, const tn_study *study);
 
 /* Writes the statistics of all steps to standard output. */
 void tn_grow_stats(tn_job *job, const tn_growth_system *system, const tn_study *study, const tn_stats *stats,

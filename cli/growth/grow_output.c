@@ -46,6 +46,8 @@ static bool check_use(tn_job *job, tn_out_format format)
         {s->width.given, PICTURE, "width", "write a picture: .svg, .png or .pdf"},
         {s->columns.given, PICTURE, "columns", "write a --sheet: .svg, .png or .pdf"},
         {s->dpi.given, PICTURE, "dpi", "write a picture: .png"},
+        {s->surroundings != 0, PICTURE, "surroundings", "write a picture: .svg, .png or .pdf"},
+        {s->turn.given, PICTURE, "turn", "name a folder, as -o turn, or one moving picture, as -o turn.png"},
         {s->title != NULL, PICTURE, "title", "write a picture: .svg, .png or .pdf"},
         {s->sheet, PICTURE, "sheet", "write a picture: .svg, .png or .pdf"},
         {s->overlay != NULL, PICTURE, "overlay", "write a picture: .svg, .png or .pdf"},
@@ -70,6 +72,22 @@ static bool check_use(tn_job *job, tn_out_format format)
     return true;
 }
 
+/* A turn is one picture from each side, as PNG. */
+static bool check_turn(tn_job *job, tn_out_format format)
+{
+    const tn_grow_settings *s = tn_grow_settings_of(job);
+    if (format != TN_OUT_PNG) {
+        tn_diagnostic *d = tn_job_usage(job, "--turn writes PNG pictures, and %s is none", s->output);
+        tn_help(tn_job_diagnostics(job), d, "name a folder, as -o turn, or one moving picture, as -o turn.png");
+        return false;
+    }
+    if (s->sheet || s->overlay || s->each_step) {
+        tn_job_usage(job, "--turn shows the last step: leave --sheet, --overlay and --each-step out");
+        return false;
+    }
+    return check_use(job, format);
+}
+
 bool tn_grow_format_of(tn_job *job, tn_out_format *format)
 {
     const tn_grow_settings *settings = tn_grow_settings_of(job);
@@ -79,13 +97,15 @@ bool tn_grow_format_of(tn_job *job, tn_out_format *format)
         return check_use(job, TN_OUT_NONE);
     if (*format == TN_OUT_NONE)
         *format = tn_out_format_of(path);
+    if (settings->turn.given && *format == TN_OUT_NONE && strcmp(path, "-") != 0)
+        return check_turn(job, TN_OUT_PNG);
     if (*format == TN_OUT_NONE || *format > TN_OUT_PDF) {
         tn_diagnostic *d = tn_job_usage(job, "%s does not say what is to be written", path);
         tn_help(tn_job_diagnostics(job), d,
                 "end its name in .obj, .ply, .stl, .off, .om, .glb, .dxf, .svg, .png or .pdf, or say --format");
         return false;
     }
-    if (!check_use(job, *format))
+    if (!check_use(job, *format) || (settings->turn.given && !check_turn(job, *format)))
         return false;
     if (strcmp(path, "-") == 0 && (settings->each_step || settings->stats)) {
         tn_job_usage(job, "standard output takes one thing only: name a file with -o");
@@ -112,6 +132,13 @@ tn_camera tn_grow_camera(const tn_grow_settings *settings)
     if (settings->width.given)
         camera.width = (double)settings->width.value;
     return camera;
+}
+
+bool tn_grow_surrounded(const tn_grow_settings *settings, const tn_study *study)
+{
+    enum { AUTO, YES };
+    bool any = study->environment.force_count > 0 || study->environment.boundary_count > 0;
+    return settings->surroundings == YES || (settings->surroundings == AUTO && any);
 }
 
 /* One line on how it was made, the same wherever it is made. */
@@ -205,7 +232,11 @@ static void write_sight(tn_job *job, const tn_growth *growth, const tn_study *st
                                .dpi = (uint32_t)tn_grow_settings_of(job)->dpi.value,
                                .legend = tn_growth_legend(tn_growth_rules(growth))};
     tn_picture to = picture_to(path, format);
-    tn_status status = tn_view_take(sight, &camera, &view, &error);
+    tn_status status = tn_grow_surrounded(tn_grow_settings_of(job), study)
+                           ? tn_growth_sight_surround(growth, sight, &error)
+                           : TN_OK;
+    if (status == TN_OK)
+        status = tn_view_take(sight, &camera, &view, &error);
     if (status == TN_OK)
         note_depth(job, view);
     if (status == TN_OK)

@@ -263,6 +263,7 @@ tn_status tn_grower_draw(const void *grower, const char *const *sentences, const
     tn_camera camera = tn_camera_default();
     tn_growth *growth = NULL;
     size_t drawn = 0;
+    bool surrounded = g->study.environment.force_count > 0 || g->study.environment.boundary_count > 0;
     if (count > 1)
         camera.width = 200;
     tn_status status = views ? tn_canvas_format_of(path, &format, error) : tn_fail_memory(error);
@@ -270,7 +271,7 @@ tn_status tn_grower_draw(const void *grower, const char *const *sentences, const
         rules compiled;
         status = grow(g, sentences[i], strlen(sentences[i]), &compiled, &growth, error);
         if (status == TN_OK)
-            status = tn_growth_view(growth, &camera, &views[drawn++], error);
+            status = tn_growth_view(growth, &camera, surrounded, &views[drawn++], error);
         rules_clear(&compiled);
     }
     tn_view_options options = {.title = title, .labels = labels};

@@ -436,6 +436,12 @@ bool tn_boundary_mesh_hit(const tn_boundary_mesh *mesh, bool inside, tn_vector x
     return found;
 }
 
+const tn_vector *tn_boundary_mesh_corners(const tn_boundary_mesh *mesh, size_t *count)
+{
+    *count = mesh->count;
+    return mesh->corner;
+}
+
 uint64_t tn_boundary_mesh_hash(const tn_boundary_mesh *mesh, uint64_t seed)
 {
     return XXH3_64bits_withSeed(mesh->corner, 3 * (size_t)mesh->count * sizeof *mesh->corner, seed);

@@ -43,6 +43,9 @@ double tn_boundary_mesh_distance(const tn_boundary_mesh *mesh, tn_vector x, tn_v
  * touch the mesh? False where that is not known without looking closer. */
 bool tn_boundary_mesh_clear(const tn_boundary_mesh *mesh, tn_vector x, double reach, int *sign);
 
+/* The corners of its triangles, three of each; *count: triangles. Borrowed. */
+const tn_vector *tn_boundary_mesh_corners(const tn_boundary_mesh *mesh, size_t *count);
+
 /* Of its shape, from `seed` on: two of the same triangles have the same. */
 uint64_t tn_boundary_mesh_hash(const tn_boundary_mesh *mesh, uint64_t seed);
 

@@ -1,5 +1,6 @@
 /* Pictures of faces in space in a build without the part `draw`: there are none. */
 #include "runtime/base/part.h"
+#include "runtime/scene/apng.h"
 #include "runtime/scene/draw_mesh.h"
 #include "runtime/scene/draw_meshes.h"
 
@@ -57,4 +58,10 @@ tn_status tn_meshes_draw(const tn_mesh *const *meshes, size_t count, const tn_me
 {
     (void)meshes, (void)count, (void)picture, (void)to;
     return tn_part_absent(TN_WITH_DRAW, "drawing a mesh", error);
+}
+
+tn_status tn_apng_write(const tn_picture *frames, size_t count, unsigned delay, FILE *out, tn_error *error)
+{
+    (void)frames, (void)count, (void)delay, (void)out;
+    return tn_part_absent(TN_WITH_DRAW, "drawing a surface", error);
 }

@@ -16,6 +16,7 @@ void tn_view_free(tn_view *view)
     free(view->faces);
     free(view->points);
     free(view->edges);
+    tn_guides_clear(&view->guides);
     free(view);
 }
 
@@ -44,6 +45,7 @@ void tn_sight_clear(tn_sight *sight)
     free(sight->first);
     free(sight->edges);
     free(sight->groups);
+    tn_guides_clear(&sight->guides);
     *sight = (tn_sight){0};
 }
 
@@ -200,6 +202,60 @@ static tn_status keep(tn_view *view, const prospect *seen, const tn_painting *pa
     return TN_OK;
 }
 
+/* ---- views from all around */
+
+/* What shows a form at every azimuth, about the upright axis through its middle. */
+typedef struct round_frame {
+    double low[3], high[3]; /* of the form */
+    double radius;          /* about the axis */
+} round_frame;
+
+static round_frame frame_of(const tn_sight *sight)
+{
+    round_frame f = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
+    for (uint32_t c = 0; c < sight->first[sight->face_count]; c++)
+        for (int k = 0; k < 3; k++) {
+            f.low[k] = fmin(f.low[k], sight->points[c][k]);
+            f.high[k] = fmax(f.high[k], sight->points[c][k]);
+        }
+    return f;
+}
+
+/* Puts the axis at the origin. */
+static void centre_points(round_frame *f, double (*points)[3], size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        for (int k = 0; k < 2; k++)
+            points[i][k] -= (f->low[k] + f->high[k]) / 2;
+        f->radius = fmax(f->radius, hypot(points[i][0], points[i][1]));
+        f->low[2] = fmin(f->low[2], points[i][2]);
+        f->high[2] = fmax(f->high[2], points[i][2]);
+    }
+}
+
+/* Guides may make the frame twice as large. */
+static round_frame centre(tn_sight *sight)
+{
+    round_frame f = frame_of(sight), around;
+    centre_points(&f, sight->points, sight->first[sight->face_count]);
+    around = f;
+    centre_points(&around, sight->guides.points, sight->guides.point_count);
+    double size = fmax(2 * f.radius, f.high[2] - f.low[2]);
+    f.radius = fmin(around.radius, f.radius + size / 2);
+    f.low[2] = fmax(around.low[2], f.low[2] - size / 2);
+    f.high[2] = fmin(around.high[2], f.high[2] + size / 2);
+    return f;
+}
+
+static void set_frame(tn_view *view, const round_frame *f, const tn_eye *eye)
+{
+    double tilt = fabs(eye->towards.z) * f->radius;
+    view->low[0] = -f->radius;
+    view->high[0] = f->radius;
+    view->low[1] = f->low[2] * eye->up.z - tilt;
+    view->high[1] = f->high[2] * eye->up.z + tilt;
+}
+
 tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **result, tn_error *error)
 {
     tn_view *view = calloc(1, sizeof *view);
@@ -211,6 +267,9 @@ tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **resul
     tn_eye eye = tn_camera_eye(camera);
     prospect seen;
     tn_painting painting = {0};
+    round_frame frame = {0};
+    if (sight->turns && sight->face_count)
+        frame = centre(sight);
     tn_status status = look(sight, &eye, &seen, error);
     if (status == TN_OK)
         status = tn_painting_make(&seen.scene, &painting, error);
@@ -218,6 +277,10 @@ tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **resul
         status = keep(view, &seen, &painting, error);
     if (status == TN_OK)
         status = tn_view_join(view, error);
+    if (status == TN_OK)
+        status = tn_view_take_guides(view, &sight->guides, &eye, error);
+    if (status == TN_OK && frame.radius > 0)
+        set_frame(view, &frame, &eye);
     tn_painting_clear(&painting);
     free(seen.light);
     free(seen.plane);

@@ -8,6 +8,7 @@
 #include "runtime/base/picture.h"
 #include "runtime/base/watch.h"
 #include "runtime/geometry/camera.h"
+#include "runtime/geometry/guide/guide.h"
 #include "runtime/geometry/mesh.h"
 
 #define TN_DRAWN_FACES_MAX 2000000u
@@ -28,6 +29,8 @@ typedef struct tn_sight {
     uint32_t step;          /* written below each of several views where they have no labels */
     int threads;            /* 0: as many as there are processors */
     struct tn_watch *watch; /* or NULL */
+    tn_guides guides;       /* drawn with it; owned */
+    bool turns; /* views from all around, at one elevation, shall have one scale and one middle */
 } tn_sight;
 
 /* Room for so many; TN_MEMORY. Clear it in any case. E0820 for more than TN_DRAWN_FACES_MAX faces. */

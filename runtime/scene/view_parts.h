@@ -2,6 +2,8 @@
 #ifndef TARTAN_SCENE_VIEW_PARTS_H
 #define TARTAN_SCENE_VIEW_PARTS_H
 
+#include <cairo.h>
+
 #include "runtime/scene/view.h"
 
 #define TN_NO_GROUP UINT32_MAX
@@ -27,7 +29,15 @@ struct tn_view {
     double width;
     uint32_t step;
     uint32_t by_depth;
+    tn_guides guides; /* as the eye sees them: to the right, up, towards it */
 };
+
+/* Takes guides into the view, which grows to show them. */
+tn_status tn_view_take_guides(tn_view *view, const tn_guides *guides, const tn_eye *eye, tn_error *error);
+
+/* Paint them: what is filled, below the form; lines, marks and texts over it. `brief`: values without their names. */
+void tn_view_paint_areas(cairo_t *cr, const tn_view *view, const tn_view_place *place);
+void tn_view_paint_marks(cairo_t *cr, const tn_view *view, const tn_view_place *place, bool brief);
 
 /* Joins faces that can be filled together; changes their order. */
 tn_status tn_view_join(tn_view *view, tn_error *error);

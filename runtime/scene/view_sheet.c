@@ -281,7 +281,17 @@ static void paint_view(const tn_canvas *canvas, const tn_view *view, const sheet
                            .fade = s->scaled ? fade_of(view, wide, high) : 0,
                            .ambient = s->palette ? given_ambient : 0,
                            .palette = s->palette};
+    bool guided = view->guides.count > 0; /* they may reach beyond the cell */
+    if (guided) {
+        cairo_save(cr);
+        cairo_rectangle(cr, x, y, s->cell[0], s->cell[1] - foot);
+        cairo_clip(cr);
+    }
+    tn_view_paint_areas(cr, view, &place);
     tn_view_paint(canvas, view, &place);
+    tn_view_paint_marks(cr, view, &place, s->columns > 1 || s->rows > 1);
+    if (guided)
+        cairo_restore(cr);
     if (s->scaled)
         draw_scale(cr, scale, (s->cell[0] - 2 * MARGIN) / 4, x + s->cell[0] - MARGIN, y + s->cell[1] - 5);
     if (label) {

@@ -180,6 +180,58 @@ for words in '--overlay 9 -o x.svg' '--overlay x -o x.svg' '--overlay 1, -o x.ob
     grep -q 'E0904' stderr || fail "not said what is wrong: $words"
 done
 
+# What a surface grows in is drawn where there is any, or where it is asked for.
+filled() { grep -c "fill-opacity[:=]\"*$2[;\"]" "$1"; } # cairo's versions write it as a style or an attribute
+run grow square.hemls -n 2 -o plain.svg
+run grow square.hemls -n 2 --surroundings no -o none.svg
+cmp plain.svg none.svg || fail 'a surface in no surroundings is drawn with some'
+run grow square.hemls -n 2 --surroundings yes -o ground.svg
+[ "$(filled ground.svg 0.1)" = 1 ] && [ "$(filled plain.svg 0.1)" = 0 ] || fail 'the ground is not drawn'
+run grow square.hemls -n 2 --boundary 'sphere at 0 0 -1 radius 1' --attractor 'at 2 0 1 strength 0.2' --repeller 'at 90 0 0' --gravity '0 0 -0.1' -o said.svg
+[ "$(filled said.svg 0.14)" = 1 ] || fail 'a sphere is not one shape'
+[ "$(filled said.svg 0.95)" = 1 ] || fail 'an attractor is not one mark'
+[ "$(filled said.svg 0.9)" = 2 ] || fail 'gravity and the far repeller are not two arrows'
+run grow square.hemls -n 2 --boundary 'sphere at 0 0 -1 radius 1' --surroundings no -o bare.svg
+if grep -q 'fill-opacity[:=]"*0' bare.svg; then fail 'surroundings are drawn all the same'; fi
+
+# From all around: files of one size, or one picture that moves. The same bytes at any number of threads.
+run grow square.hemls -n 3 --gravity '0 0 -0.1' --turn 5 --width 120 -o around
+[ "$(ls around | tr '\n' ' ')" = 'turn-000.png turn-001.png turn-002.png turn-003.png turn-004.png ' ] || fail 'not every side is drawn'
+for threads in 1 2; do run grow square.hemls -n 3 --gravity '0 0 -0.1' --turn 5 --width 120 --threads $threads -o "turn$threads.png"; done
+cmp turn1.png turn2.png
+python3 - <<'EOF' || fail 'the moving picture is not what its frames are'
+import struct, zlib
+def chunks(path):
+    data, at = open(path, 'rb').read(), 8
+    while at < len(data):
+        size, = struct.unpack('>I', data[at:at + 4])
+        name, body = data[at + 4:at + 8], data[at + 8:at + 8 + size]
+        assert zlib.crc32(name + body) == struct.unpack('>I', data[at + 8 + size:at + 12 + size])[0]
+        yield name, body
+        at += 12 + size
+frames, sizes, number = [], [], 0
+for name, body in chunks('turn1.png'):
+    if name == b'acTL':
+        assert struct.unpack('>II', body) == (5, 0)
+    if name in (b'fcTL', b'fdAT'):
+        assert struct.unpack('>I', body[:4])[0] == number
+        number += 1
+    if name == b'fcTL':
+        frames.append(b'')
+        sizes.append(body[4:12])
+    if name == b'IDAT' or name == b'fdAT':
+        frames[-1] += body if name == b'IDAT' else body[4:]
+for i in range(5):
+    single = list(chunks('around/turn-%03d.png' % i))
+    assert single[0][1][:8] == sizes[i]
+    assert b''.join(body for name, body in single if name == b'IDAT') == frames[i]
+assert len(set(frames)) == 5
+EOF
+for words in '--turn 5' '--turn 5 -o x.svg' '--turn 1 -o x' '--turn 5 --sheet -o x' '--turn 5 -o x.obj' '--surroundings yes' '--surroundings yes -o x.obj'; do
+    if "$TARTAN" grow square.hemls -n 2 $words 2>stderr >/dev/null; then fail "accepted: $words"; fi
+    grep -q 'E0904' stderr || fail "not said what is wrong: $words"
+done
+
 # Each step, and a sheet of all; the same bytes twice.
 run grow square.hemls -n 2 --each-step -o step.obj
 [ -e step-000.obj ] && [ -e step-001.obj ] && [ -e step-002.obj ] && [ ! -e step.obj ] || fail 'not every step is there'

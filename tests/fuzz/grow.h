@@ -52,7 +52,7 @@ static inline void draw_view(const tn_growth *growth)
     tn_view *view;
     tn_view_options options = {.title = "fuzz"};
     tn_picture picture = {.format = TN_CANVAS_SVG};
-    if (tn_growth_view(growth, &camera, &view, &error) == TN_OK)
+    if (tn_growth_view(growth, &camera, true, &view, &error) == TN_OK)
         tn_views_draw(&view, 1, &options, &picture, &error);
     else if (error.code != E_PART_ABSENT)
         abort();

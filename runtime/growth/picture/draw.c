@@ -1,7 +1,10 @@
 /* Lists the faces of a growing surface for a picture, with the labels of their edges. */
 #include "runtime/growth/picture/draw.h"
 
+#include <math.h>
 #include <string.h>
+
+#include "runtime/growth/environment/surroundings.h"
 
 static void add_face(const tn_map *map, uint32_t face, tn_sight *sight, uint32_t *corner)
 {
@@ -52,11 +55,27 @@ tn_status tn_growth_sight_add(const tn_growth *growth, tn_sight *sight, tn_error
     return TN_OK;
 }
 
-tn_status tn_growth_view(const tn_growth *growth, const tn_camera *camera, tn_view **view, tn_error *error)
+tn_status tn_growth_sight_surround(const tn_growth *growth, tn_sight *sight, tn_error *error)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t c = 0; c < sight->first[sight->face_count]; c++)
+        for (int k = 0; k < 3; k++) {
+            low[k] = tn_smaller(low[k], sight->points[c][k]);
+            high[k] = tn_larger(high[k], sight->points[c][k]);
+        }
+    if (sight->face_count == 0)
+        return TN_OK;
+    return tn_surroundings_guides(tn_growth_surroundings(growth), low, high, &sight->guides, error);
+}
+
+tn_status tn_growth_view(const tn_growth *growth, const tn_camera *camera, bool surrounded, tn_view **view,
+                         tn_error *error)
 {
     tn_sight sight = {0};
     *view = NULL;
     tn_status status = tn_growth_sight_add(growth, &sight, error);
+    if (status == TN_OK && surrounded)
+        status = tn_growth_sight_surround(growth, &sight, error);
     if (status == TN_OK)
         status = tn_view_take(&sight, camera, view, error);
     tn_sight_clear(&sight);
