@@ -192,27 +192,36 @@ static tn_status tally_all(tn_numbered *n, const tn_plan *plan, house_tally *tal
     return status == TN_OK ? tally_each(n, plan, 0, tally, error) : status;
 }
 
+tn_status tn_numbered_lengths(tn_numbered *n, uint32_t low, uint32_t high, mpz_t *lengths, tn_error *error)
+{
+    house_tally tally;
+    tn_status status = tally_new(n, &tally) ? tally_all(n, NULL, &tally, error) : tn_fail_memory(error);
+    for (uint32_t k = low; status == TN_OK && k <= high; k++) {
+        bool there = k >= tally.low && k <= tally.high;
+        mpz_set_ui(lengths[k - low], 0);
+        if (there)
+            mpz_set(lengths[k - low], tally.lengths[k - tally.low]);
+    }
+    tally_free(n, &tally);
+    return status;
+}
+
 /* ---- what clauses keep out */
 
 /* The houses on the plan, or on all plans, that some of the clauses keep: those of another module's record. */
 static tn_status count_by(const tn_numbered *n, const tn_module *module, const tn_house_library_record *clauses,
                           const tn_plan *plan, mpz_t houses, tn_error *error)
 {
-    tn_numbered some = *n;
+    tn_numbered some;
     house_tally tally;
-    some.form.module = module;
-    some.record = clauses;
-    some.variants = NULL;
-    some.all = NULL;
-    tn_status status = tally_new(&some, &tally) ? TN_OK : tn_fail_memory(error);
-    if (status == TN_OK)
-        status = tn_house_variants_new(&some.form, clauses, 0, &some.variants, error);
+    tn_status status = tn_numbered_other(n, module, clauses, n->plans, &some, error);
+    if (!tally_new(&some, &tally) && status == TN_OK)
+        status = tn_fail_memory(error);
     if (status == TN_OK)
         status = tally_all(&some, plan, &tally, error);
     mpz_set(houses, tally.houses);
-    tn_house_variants_free(some.variants);
-    tn_houses_free(some.all);
     tally_free(&some, &tally);
+    tn_numbered_other_close(&some);
     return status;
 }
 

@@ -35,7 +35,8 @@ bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *sett
         status = tn_house_variants_new(&n->form, n->record, 0, &n->variants, &error);
     }
     if (status == TN_OK)
-        status = tn_library_new(n->schema, n->record->plans, &settings->plans, &n->plans, &error);
+        status = tn_library_new(n->schema, n->record->plans, &settings->plans, &n->opened, &error);
+    n->plans = n->opened;
     if (status != TN_OK)
         tn_job_fail(job, &error);
     return status == TN_OK;
@@ -45,8 +46,28 @@ void tn_numbered_close(tn_numbered *n)
 {
     tn_houses_free(n->all);
     tn_house_variants_free(n->variants);
-    tn_library_free(n->plans);
+    tn_library_free(n->opened);
     tn_schema_free(n->schema);
+}
+
+tn_status tn_numbered_other(const tn_numbered *n, const tn_module *module, const tn_house_library_record *record,
+                            const tn_library *plans, tn_numbered *other, tn_error *error)
+{
+    *other = *n;
+    other->form.module = module;
+    other->record = record;
+    other->plans = plans;
+    other->opened = NULL;
+    other->variants = NULL;
+    other->all = NULL;
+    return tn_house_variants_new(&other->form, record, 0, &other->variants, error);
+}
+
+void tn_numbered_other_close(tn_numbered *other)
+{
+    tn_houses_free(other->all);
+    tn_house_variants_free(other->variants);
+    *other = (tn_numbered){0};
 }
 
 void tn_numbered_bad_text(tn_job *job, tn_error *error, const char *name, const char *text)

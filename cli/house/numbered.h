@@ -58,6 +58,18 @@ typedef struct tn_house_range {
 void tn_job_list_houses(tn_job *job, const tn_house_settings *settings, const char *plan, const tn_house_range *range,
                         const struct tn_written_settings *written);
 
+/* How two libraries of houses are compared: so many houses of each kind are shown, drawn with the seed; so many are
+ * compared one by one (0: the default). */
+typedef struct tn_house_comparing {
+    size_t shown;
+    uint64_t seed, one_by_one;
+    bool json;
+} tn_house_comparing;
+
+/* Writes what `tartan diff` says of a library of houses in two files that are open. */
+void tn_jobs_compare_houses(tn_job jobs[2], const char *const *paths, const tn_house_settings *settings,
+                            const tn_house_comparing *comparing);
+
 /* Writes the name #P:V of a house; of_all: #R, its rank among all houses of the library. */
 void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const char *line, bool of_all);
 

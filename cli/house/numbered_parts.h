@@ -13,7 +13,8 @@ typedef struct tn_numbered {
     const tn_house_library_record *record;
     tn_schema *schema;
     tn_house_form form;
-    tn_library *plans;
+    const tn_library *plans;
+    tn_library *opened; /* the same where tn_numbered_open made it */
     tn_house_variants *variants;
     tn_houses *all; /* or NULL: not asked for */
     uint32_t max_states;
@@ -22,6 +23,15 @@ typedef struct tn_numbered {
 /* Close it in any case. False: what was wrong is recorded. */
 bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *settings);
 void tn_numbered_close(tn_numbered *n);
+
+/* The same form with other clauses, in another copy of its module, or on other plans with the same trays; all are
+ * borrowed. Close it in any case. */
+tn_status tn_numbered_other(const tn_numbered *n, const tn_module *module, const tn_house_library_record *record,
+                            const tn_library *plans, tn_numbered *other, tn_error *error);
+void tn_numbered_other_close(tn_numbered *other);
+
+/* How many houses are on plans of each length from low to high. */
+tn_status tn_numbered_lengths(tn_numbered *n, uint32_t low, uint32_t high, mpz_t *lengths, tn_error *error);
 
 /* All houses together, in n->all: counted now or before. TN_LIMIT (E1640) where that takes too much. */
 tn_status tn_numbered_all(tn_numbered *n, tn_error *error);

@@ -7,6 +7,7 @@
 #include "cli/plan/answers.h"
 #include "cli/plan/diff_report.h"
 #include "cli/plan/sheet.h"
+#include "driver/house/judge.h"
 #include "driver/open/digits.h"
 #include "runtime/base/picture.h"
 
@@ -14,6 +15,7 @@ typedef struct diff_settings {
     tn_settings common;
     tn_plan_settings plans;
     tn_compare_options compare;
+    tn_option_number max_houses;
 } diff_settings;
 
 static const diff_settings *settings_of(const tn_job *job)
@@ -150,6 +152,43 @@ static bool check_options(tn_job *job)
     return false;
 }
 
+/* Is the library that is named one of houses, in either file? */
+static bool is_about_houses(const tn_job jobs[2], const char *name)
+{
+    return name && (tn_house_library_find(jobs[0].opened.module, name) != TN_NO_RECORD ||
+                    tn_house_library_find(jobs[1].opened.module, name) != TN_NO_RECORD);
+}
+
+static void compare_houses(tn_job jobs[2])
+{
+    const diff_settings *settings = settings_of(&jobs[0]);
+    const tn_house_settings houses = tn_job_houses(&settings->plans);
+    const tn_house_comparing comparing = {
+        .shown = settings->compare.sample.given ? (size_t)settings->compare.sample.value : SHOWN,
+        .seed = settings->compare.seed.value,
+        .one_by_one = settings->max_houses.value,
+        .json = settings->compare.json};
+    if (settings->compare.output)
+        tn_help(tn_job_diagnostics(&jobs[0]), tn_job_usage(&jobs[0], "houses that are compared are not drawn"),
+                "leave out -o; `tartan house` draws a house by its line");
+    else
+        tn_jobs_compare_houses(jobs, settings->common.operands.items, &houses, &comparing);
+}
+
+static void compare_plans(tn_job jobs[2])
+{
+    const diff_settings *settings = settings_of(&jobs[0]);
+    const char *const *paths = settings->common.operands.items;
+    tn_ready_library before = {0}, after = {0};
+    if (tn_job_opened_library(&jobs[0], &settings->plans, &before) &&
+        tn_job_opened_library(&jobs[1], &settings->plans, &after))
+        tn_job_compare(
+            &jobs[1], &(tn_compared){{paths[0], paths[1]}, &before, &after, (uint32_t)settings->plans.max_states.value},
+            &settings->compare);
+    tn_library_close(&before);
+    tn_library_close(&after);
+}
+
 /* Two files are open at once, each with diagnostics of its own. */
 static int run(const tn_command *command, const tn_settings *common)
 {
@@ -157,16 +196,15 @@ static int run(const tn_command *command, const tn_settings *common)
     const diff_settings *settings = (const diff_settings *)common;
     const char *const *paths = common->operands.items;
     tn_job jobs[2];
-    tn_ready_library before = {0}, after = {0};
     tn_job_begin(&jobs[0], common);
     tn_job_begin(&jobs[1], common);
-    if (check_options(&jobs[0]) && tn_job_library(&jobs[0], paths[0], &settings->plans, &before) &&
-        tn_job_library(&jobs[1], paths[1], &settings->plans, &after))
-        tn_job_compare(
-            &jobs[1], &(tn_compared){{paths[0], paths[1]}, &before, &after, (uint32_t)settings->plans.max_states.value},
-            &settings->compare);
-    tn_library_close(&before);
-    tn_library_close(&after);
+    if (check_options(&jobs[0]) && tn_job_open_plans(&jobs[0], paths[0], &settings->plans) &&
+        tn_job_open_plans(&jobs[1], paths[1], &settings->plans)) {
+        if (is_about_houses(jobs, settings->plans.library))
+            compare_houses(jobs);
+        else
+            compare_plans(jobs);
+    }
     int first = tn_job_end(&jobs[0]), second = tn_job_end(&jobs[1]);
     return first > second ? first : second;
 }
@@ -181,13 +219,14 @@ static const tn_option options[] = {
     TEXT("output", 'o', "FILE", compare.output,
          "also draw the plans shown, removed, added and kept: .svg, .png or .pdf"),
     TEXT("title", 0, "TEXT", compare.title, "the picture's title"),
+    NUMBER("max-houses", 0, "N", max_houses, 1, 0, "the most houses that are compared one by one (default 1000000)"),
     OPTIONS_LIBRARY_LIMITS,
 };
 
 const tn_command tn_command_diff = {
     .name = "diff",
     .summary = "compare a library before and after an edit",
-    .usage = "OLD NEW [--library NAME] [--json] [-o SHEET.svg]",
+    .usage = "OLD NEW [--library NAME] [--json] [-o SHEET.svg]\nOLD NEW --library HOUSES [--json] [--max-houses N]",
     .description =
         "Compares the plans of a library before and after an edit. It counts exactly how many plans the edit "
         "removes, adds and keeps, for each number of trays and in all. It shows the first plans of each kind and "
@@ -195,7 +234,12 @@ const tn_command tn_command_diff = {
         "clause that is not the same, `removes` counts the removed plans that it keeps out now, and `adds` counts "
         "the added plans that it kept out before. Several clauses may keep out the same plan. Both libraries must "
         "have the same trays.\n\n"
-        "Of each measure that both files have, it shows the least, the mean and the most before and after.",
+        "Of each measure that both files have, it shows the least, the mean and the most before and after.\n\n"
+        "With --library HOUSES it compares libraries of houses. A house is the same where its line is. Houses that "
+        "only "
+        "one library has are counted and shown by the clauses that keep them out of the other, or by `plans` or `form` "
+        "where these differ. If the form is the same and one library has all clauses of the other, all houses are "
+        "counted together. Otherwise the houses on plans of both are compared one by one, up to --max-houses.",
     .example = "$ tartan diff before.plan after.plan\n$ tartan diff before.plan after.plan --sample 12 -o edit.pdf",
     .options = options,
     .option_count = OPTION_COUNT(options),
