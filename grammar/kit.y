@@ -71,7 +71,7 @@ static const tn_kit_nodes no_nodes = {0};
 %left STAR SLASH
 %precedence SIGN
 
-%type <node> statement feature space alternative placed drawn_one line condition connector has
+%type <node> statement feature fill space alternative placed drawn_one line condition connector has
 %type <nodes> features names alternatives drawn several lines conditions lengths stocks
 %type <text> doc part_name axis axis_word upright
 %type <length> length
@@ -149,12 +149,16 @@ features
     ;
 
 feature
-    : FILL length X length X length         { $$ = sized(parse, TN_KIT_FILL, @$, $2, $4, $6); }
-    | FILL length X length X length AT vector
-                                            { $$ = sized(parse, TN_KIT_FILL, @$, $2, $4, $6); if ($$) $$->at = $8; }
+    : fill
     | has
     | MASS NUMBER                           { $$ = counted(parse, TN_KIT_MASS, @$, no_text, $2); }
     | PRICE NUMBER                          { $$ = counted(parse, TN_KIT_PRICE, @$, no_text, $2); }
+    ;
+
+fill
+    : FILL length X length X length         { $$ = sized(parse, TN_KIT_FILL, @$, $2, $4, $6); }
+    | fill AT vector                        { $$ = $1; if ($$) { $$->at = $3; $$->span = @$; } }
+    | fill NAME NAME NAME                   { $$ = $1; if ($$) { $$->doc = $2; $$->name = $3; $$->other = $4; $$->span = @$; } }
     ;
 
 has

@@ -436,6 +436,8 @@ static void emit_part(emitting *e, const tn_kit_part *part)
                                  .box_count = part->box_count,
                                  .connector_first = (uint32_t)tn_builder_count(b, TN_SECTION_PART_CONNECTOR),
                                  .connector_count = part->joint_count,
+                                 .slope_first = (uint32_t)tn_builder_count(b, TN_SECTION_PART_SLOPE),
+                                 .slope_count = part->slope_count,
                                  .file = node->span.file,
                                  .begin = node->span.begin,
                                  .end = node->span.end};
@@ -443,6 +445,14 @@ static void emit_part(emitting *e, const tn_kit_part *part)
         const tn_kit_box *box = &part->boxes[i];
         tn_builder_add_PART_BOX(
             b, &(tn_part_box_record){box->low[0], box->low[1], box->low[2], box->high[0], box->high[1], box->high[2]});
+    }
+    for (uint32_t i = 0; i < part->slope_count; i++) {
+        const tn_kit_slope *slope = &part->slopes[i];
+        const tn_kit_box *box = &slope->whole;
+        tn_builder_add_PART_SLOPE(
+            b, &(tn_part_slope_record){box->low[0], box->low[1], box->low[2], box->high[0], box->high[1], box->high[2],
+                                       slope->sides[0], slope->sides[1], record.box_first + slope->first,
+                                       slope->count});
     }
     for (uint32_t i = 0; i < part->joint_count; i++) {
         const tn_kit_joint *joint = &part->joints[i];

@@ -12,7 +12,7 @@
 #include "runtime/place/model/terms.h"
 #include "runtime/place/part_file.h"
 
-enum { TN_KIT_PARTS_MAX = 10000, TN_KIT_GRID_MAX = 32, TN_KIT_ALTERNATIVES_MAX = 100000 };
+enum { TN_KIT_PARTS_MAX = 10000, TN_KIT_GRID_MAX = 32, TN_KIT_ALTERNATIVES_MAX = 100000, TN_KIT_SLOPE_STEPS_MAX = 256 };
 
 /* A connector of a part: 'up', 'down' or aside. */
 typedef enum tn_kit_side { TN_KIT_UPWARD, TN_KIT_DOWNWARD, TN_KIT_ASIDE, TN_KIT_SIDE_COUNT } tn_kit_side;
@@ -27,7 +27,16 @@ typedef struct tn_kit_type {
 
 typedef struct tn_kit_box {
     int32_t low[3], high[3];
+    uint32_t fill; /* the number of its `fill` in the part, from 1 */
 } tn_kit_box;
+
+/* A box of which a corner is cut off, between two sides that meet; boxes `first` and following of its part are what is
+ * left of its cells. */
+typedef struct tn_kit_slope {
+    tn_kit_box whole;
+    tn_axis sides[2];
+    uint32_t first, count;
+} tn_kit_slope;
 
 typedef struct tn_kit_joint {
     tn_kit_type *type;
@@ -40,7 +49,8 @@ typedef struct tn_kit_part {
     double mass, price;
     tn_kit_box *boxes;
     tn_kit_joint *joints;
-    uint32_t box_count, joint_count, index;
+    tn_kit_slope *slopes;
+    uint32_t box_count, joint_count, slope_count, index;
     struct tn_kit_part *next;
 } tn_kit_part;
 
@@ -167,6 +177,9 @@ void tn_kit_suggest(tn_kit *kit, tn_diagnostic *d, const tn_names *names, const 
 void tn_kit_read_part(tn_kit *kit, const tn_kit_node *node, tn_part_file *file);
 void tn_kit_take_part_file(tn_kit *kit, tn_kit_part *part, const tn_part_file *file, bool body);
 void tn_kit_check_part(tn_kit *kit, tn_kit_part *part);
+/* Adds what is left of a box of which its `fill` cuts a corner off, and the slope; or says why not (E1343). */
+void tn_kit_add_slope(tn_kit *kit, tn_kit_part *part, const tn_kit_node *node, const tn_kit_box *whole);
+
 bool tn_kit_axis(tn_kit *kit, const tn_kit_text *word, tn_axis *axis);
 tn_kit_region tn_kit_check_space(tn_kit *kit, const tn_kit_node *node);
 

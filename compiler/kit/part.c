@@ -39,10 +39,9 @@ static bool place_of(tn_kit *kit, const tn_kit_vector *at, int64_t place[3])
 }
 
 /* A box is centred across, and hangs down from its place. */
-static void add_box(tn_kit *kit, tn_kit_part *part, const tn_kit_node *node)
+static bool read_box(tn_kit *kit, const tn_kit_node *node, tn_kit_box *box)
 {
     int64_t at[3], size[3];
-    tn_kit_box *box = &part->boxes[part->box_count];
     bool right = place_of(kit, &node->at, at);
     for (int k = 0; k < 3; k++)
         right &= tn_kit_measure(kit, &node->size[k], &size[k]);
@@ -58,7 +57,18 @@ static void add_box(tn_kit *kit, tn_kit_part *part, const tn_kit_node *node)
                     tn_kit_cells(kit, span, low + 2 * size[k], k, 2, "a face of the box lies at", &box->high[k]);
         }
     }
-    part->box_count += right;
+    return right;
+}
+
+static void add_box(tn_kit *kit, tn_kit_part *part, const tn_kit_node *node, uint32_t fill)
+{
+    tn_kit_box box = {.fill = fill};
+    if (!read_box(kit, node, &box))
+        return;
+    if (node->name.text)
+        tn_kit_add_slope(kit, part, node, &box);
+    else
+        part->boxes[part->box_count++] = box;
 }
 
 /* Which way along x and z the rows of a grid go: across the connector's axis. */
@@ -175,7 +185,8 @@ static void check_boxes(tn_kit *kit, const tn_kit_part *part)
             if (!overlap(&part->boxes[i], &part->boxes[j]))
                 continue;
             tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_PART, part->node->name.span,
-                                         "boxes %u and %u of part %.100s overlap", j + 1, i + 1, name);
+                                         "boxes %u and %u of part %.100s overlap", part->boxes[j].fill,
+                                         part->boxes[i].fill, name);
             tn_help(kit->diagnostics, d, "boxes of a part lie side by side");
             return;
         }
@@ -197,21 +208,25 @@ static double read_amount(tn_kit *kit, const tn_kit_node *node)
 void tn_kit_check_part(tn_kit *kit, tn_kit_part *part)
 {
     tn_part_file from = {.stud_count = 0};
-    size_t boxes = 0, errors = kit->diagnostics->error_count;
+    size_t boxes = 0, slopes = 0, errors = kit->diagnostics->error_count;
+    uint32_t fill = 0;
     if (part->node->other.text)
         tn_kit_read_part(kit, part->node, &from);
-    for (const tn_kit_node *node = part->node->inner.first; node; node = node->next)
+    for (const tn_kit_node *node = part->node->inner.first; node; node = node->next) {
         boxes += node->kind == TN_KIT_FILL;
-    part->boxes = TN_NEW_ARRAY(kit->arena, tn_kit_box, boxes + 1);
+        slopes += node->kind == TN_KIT_FILL && node->name.text;
+    }
+    part->boxes = TN_NEW_ARRAY(kit->arena, tn_kit_box, boxes + slopes * TN_KIT_SLOPE_STEPS_MAX + 1);
+    part->slopes = TN_NEW_ARRAY(kit->arena, tn_kit_slope, slopes + 1);
     part->joints = TN_NEW_ARRAY(kit->arena, tn_kit_joint, most_joints(kit, part) + 4 * from.stud_count + 2);
-    if (part->boxes && part->joints && part->node->other.text && kit->diagnostics->error_count == errors)
+    if (part->boxes && part->joints && part->slopes && part->node->other.text && kit->diagnostics->error_count == errors)
         tn_kit_take_part_file(kit, part, &from, boxes == 0);
     tn_part_file_clear(&from);
-    if (!part->boxes || !part->joints)
+    if (!part->boxes || !part->joints || !part->slopes)
         return;
     for (const tn_kit_node *node = part->node->inner.first; node; node = node->next) {
         if (node->kind == TN_KIT_FILL)
-            add_box(kit, part, node);
+            add_box(kit, part, node, ++fill);
         else if (node->kind == TN_KIT_HAS)
             add_joints(kit, part, node);
         else

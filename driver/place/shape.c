@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/array.h"
-#include "runtime/geometry/union/union.h"
+#include "driver/place/bodies.h"
+#include "driver/place/groups.h"
 #include "runtime/place/colours.h"
 
 enum { STUD_SIDES = 8, BOX_FACES = 6 };
@@ -32,33 +32,6 @@ typedef struct drawing {
     uint32_t corner; /* next */
 } drawing;
 
-/* Colours of a model, each once; a group for each. */
-typedef struct colour_list {
-    int32_t *items;
-    size_t count, capacity;
-} colour_list;
-
-static bool group_of(colour_list *list, int32_t colour, uint32_t *group)
-{
-    for (*group = 0; *group < list->count; ++*group)
-        if (list->items[*group] == colour)
-            return true;
-    if (!tn_array_reserve(&list->items, &list->capacity, list->count, 1, sizeof *list->items))
-        return false;
-    list->items[list->count++] = colour;
-    return true;
-}
-
-/* Adds the model's colours to the list, which the caller frees in any case. */
-static tn_status find_groups(const tn_placed_model *model, colour_list *list, uint32_t **groups, tn_error *error)
-{
-    *groups = malloc((model->count + 1) * sizeof **groups);
-    for (size_t i = 0; *groups && i < model->count; i++)
-        if (!group_of(list, model->parts[i].frame.colour, &(*groups)[i]))
-            return tn_fail_memory(error);
-    return *groups ? TN_OK : tn_fail_memory(error);
-}
-
 /* ---- faces */
 
 /* A place in LDU, y downwards, as a place of the picture. */
@@ -77,19 +50,27 @@ static void end_face(drawing *d, uint32_t group)
     d->sight.first[d->sight.face_count] = d->corner;
 }
 
-static void add_box(drawing *d, const tn_cell_box *box, uint32_t group)
+/* The bodies of one part. Edges over which its surface goes on flat are not drawn. */
+static void add_part(drawing *d, const tn_bodies *bodies, size_t first, size_t count, uint32_t group)
 {
-    /* corners by bits: 1 high x, 2 high z, 4 upper; counter-clockwise seen from outside, z up */
-    static const uint8_t faces[BOX_FACES][4] = {{4, 5, 7, 6}, {0, 2, 3, 1}, {0, 1, 5, 4},
-                                                {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
-    for (int f = 0; f < BOX_FACES; f++) {
-        for (int c = 0; c < 4; c++) {
-            uint8_t at = faces[f][c];
-            put_corner(d, d->unit[0] * (at & 1 ? box->high[0] : box->low[0]),
-                       d->unit[1] * (at & 4 ? box->low[1] : box->high[1]),
-                       d->unit[2] * (at & 2 ? box->high[2] : box->low[2]));
+    enum { SHAPES_MAX = 32 }; /* edges of what has more are drawn */
+    tn_cut_box shapes[SHAPES_MAX];
+    for (size_t b = 0; b < count; b++)
+        if (b < SHAPES_MAX)
+            tn_body_shape(d->module, d->model, &bodies->items[first + b], &shapes[b]);
+    for (size_t b = 0; b < count; b++) {
+        tn_cut_box one, *shape = b < SHAPES_MAX ? &shapes[b] : &one;
+        if (shape == &one)
+            tn_body_shape(d->module, d->model, &bodies->items[first + b], &one);
+        for (uint32_t f = 0; f < shape->face_count; f++) {
+            const tn_cut_box_face *face = &shape->faces[f];
+            for (uint32_t c = 0; c < face->count; c++) {
+                bool flat = count > 1 && count <= SHAPES_MAX && tn_body_goes_on(shapes, count, b, face, c);
+                memcpy(d->sight.points[d->corner], shape->at[face->corner[c]], sizeof *d->sight.points);
+                d->sight.edges[d->corner++] = flat ? TN_EDGE_NONE : TN_EDGE_DARK;
+            }
+            end_face(d, group);
         }
-        end_face(d, group);
     }
 }
 
@@ -182,36 +163,37 @@ static void add_studs(drawing *d, tn_cells *cells, const tn_kit_part_record *kin
 
 /* ---- pictures */
 
-static tn_cell_box box_of(const drawing *d, const tn_placed_joints *joints, size_t part, uint32_t box)
+/* The next part's bodies: where they end. */
+static size_t bodies_end(const tn_bodies *bodies, size_t first)
 {
-    return tn_part_box_at(&d->module->PART_BOX_records[joints->kinds[part]->box_first + box],
-                          &d->model->parts[part].frame);
+    size_t end = first;
+    while (end < bodies->count && bodies->items[end].part == bodies->items[first].part)
+        end++;
+    return end;
 }
 
-static tn_status list_faces(drawing *d, const tn_placed_joints *joints, const uint32_t *groups, tn_error *error)
+static tn_status list_faces(drawing *d, const tn_placed_joints *joints, const tn_bodies *bodies, const uint32_t *groups,
+                            tn_error *error)
 {
     tn_cells *cells = tn_cells_new(NULL);
     tn_status status = cells ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; i < d->shown && status == TN_OK; i++) {
         const tn_kit_part_record *kind = joints->kinds[i];
         for (uint32_t b = 0; kind && b < kind->box_count && status == TN_OK; b++) {
-            tn_cell_box box = box_of(d, joints, i, b);
-            add_box(d, &box, groups[i]);
+            tn_cell_box box =
+                tn_part_box_at(&d->module->PART_BOX_records[kind->box_first + b], &d->model->parts[i].frame);
             status = tn_cells_fill(cells, &box, error);
         }
+    }
+    for (size_t b = 0, end; b < bodies->count && bodies->items[b].part < d->shown && status == TN_OK; b = end) {
+        end = bodies_end(bodies, b);
+        add_part(d, bodies, b, end - b, groups[bodies->items[b].part]);
     }
     for (size_t i = 0; i < d->shown && status == TN_OK; i++)
         if (joints->kinds[i])
             add_studs(d, cells, joints->kinds[i], &d->model->parts[i].frame, groups[i]);
     tn_cells_free(cells);
     return status;
-}
-
-static tn_status no_shape(tn_error *error)
-{
-    tn_fail(error, TN_INVALID, E_PLACE_NO_SHAPE, "none of the model's parts has a shape that is known");
-    tn_error_help(error, "shapes are those of a kit: `tartan inspect MODEL.ldr --kit bricks -o wall.svg`");
-    return TN_INVALID;
 }
 
 static tn_status take_view(drawing *d, const tn_placed_joints *joints, const uint32_t *groups, tn_view **view,
@@ -223,7 +205,7 @@ static tn_status take_view(drawing *d, const tn_placed_joints *joints, const uin
         studs += count_studs(d, joints->kinds[i]);
     }
     if (boxes == 0)
-        return no_shape(error);
+        return tn_no_bodies(error);
     tn_status status = tn_sight_new(BOX_FACES * boxes + (STUD_SIDES + 1) * studs,
                                     4 * BOX_FACES * boxes + 5 * STUD_SIDES * studs, true, &d->sight, error);
     if (status != TN_OK)
@@ -231,13 +213,17 @@ static tn_status take_view(drawing *d, const tn_placed_joints *joints, const uin
     d->sight.closed = true;
     d->sight.face_count = 0;
     d->sight.first[0] = 0;
-    status = list_faces(d, joints, groups, error);
+    tn_bodies bodies = {0};
+    status = tn_bodies_list(d->module, d->model, joints, &bodies, error);
+    if (status == TN_OK)
+        status = list_faces(d, joints, &bodies, groups, error);
+    tn_bodies_clear(&bodies);
     const tn_camera camera = {.azimuth = -60, .elevation = 30, .width = d->width > 0 ? d->width : 480};
     return status == TN_OK ? tn_view_take(&d->sight, &camera, view, error) : status;
 }
 
 /* With marks, groups are plain and marked; otherwise colours. */
-static tn_status make_palette(const colour_list *list, bool marks, double (**palette)[3], tn_error *error)
+static tn_status make_palette(const tn_colour_groups *list, bool marks, double (**palette)[3], tn_error *error)
 {
     *palette = calloc(list->count + 2, sizeof **palette);
     if (!*palette)
@@ -255,12 +241,12 @@ tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, 
                          const bool *marked, const char *title, tn_picture *to, tn_error *error)
 {
     drawing d = {.module = module, .model = model, .shown = model->count};
-    colour_list list = {0};
+    tn_colour_groups list = {0};
     uint32_t *groups;
     double(*palette)[3] = NULL;
     tn_view *view = NULL;
     tn_place_unit(module, d.unit);
-    tn_status status = find_groups(model, &list, &groups, error);
+    tn_status status = tn_colour_groups_add(&list, model, &groups, error);
     if (status == TN_OK)
         status = find_studs(&d, error);
     for (size_t i = 0; i < model->count && marked && status == TN_OK; i++)
@@ -283,14 +269,14 @@ tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, 
 }
 
 /* The view of one of several models. */
-static tn_status take_shape(const tn_placed_shape *shape, double width, colour_list *list, tn_view **view,
+static tn_status take_shape(const tn_placed_shape *shape, double width, tn_colour_groups *list, tn_view **view,
                             tn_error *error)
 {
     drawing d = {.module = shape->module, .model = shape->model, .shown = shape->model->count, .width = width};
     tn_placed_joints joints;
     uint32_t *groups;
     tn_place_unit(shape->module, d.unit);
-    tn_status status = find_groups(shape->model, list, &groups, error);
+    tn_status status = tn_colour_groups_add(list, shape->model, &groups, error);
     tn_status found = tn_placed_joints_find(shape->module, shape->model, NULL, &joints, error);
     status = status == TN_OK ? found : status;
     if (status == TN_OK)
@@ -309,7 +295,7 @@ tn_status tn_placed_draw_many(const tn_placed_shape *shapes, const char *const *
 {
     enum { SMALL = 200 };
     tn_view **views = calloc(count + 1, sizeof *views);
-    colour_list list = {0};
+    tn_colour_groups list = {0};
     double(*palette)[3] = NULL;
     tn_status status = views ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; i < count && status == TN_OK; i++)
@@ -348,7 +334,7 @@ tn_status tn_placed_draw_steps(const tn_module *module, const tn_placed_model *m
 {
     enum { STEPS_MAX = 200, LABEL = 24 };
     drawing d = {.module = module, .model = model};
-    colour_list list = {0};
+    tn_colour_groups list = {0};
     uint32_t *groups;
     double(*palette)[3] = NULL;
     tn_view *views[STEPS_MAX] = {NULL};
@@ -365,7 +351,7 @@ tn_status tn_placed_draw_steps(const tn_module *module, const tn_placed_model *m
         labels[i] = texts[i];
     }
     tn_place_unit(module, d.unit);
-    tn_status status = find_groups(model, &list, &groups, error);
+    tn_status status = tn_colour_groups_add(&list, model, &groups, error);
     if (status == TN_OK)
         status = find_studs(&d, error);
     if (status == TN_OK)
@@ -409,7 +395,10 @@ static double growth_of(const drawing *d, const tn_kit_part_record *part)
 /* Group 0 is the part, and group 1 + t what shows its connectors of type t. */
 static tn_status take_part(drawing *d, const tn_kit_part_record *part, tn_view **view, tn_error *error)
 {
-    static const tn_frame origin = {.at = {0, 0, 0}};
+    tn_placed_part alone = {.name = tn_text(d->module, part->name)};
+    const tn_placed_model model = {.parts = &alone, .count = 1};
+    const tn_placed_joints joints = {.kinds = &part, .count = 1};
+    tn_bodies bodies;
     const size_t boxes = part->box_count, studs = part->connector_count;
     tn_status status = tn_sight_new(BOX_FACES * boxes + (STUD_SIDES + 1) * studs,
                                     4 * BOX_FACES * boxes + 5 * STUD_SIDES * studs, true, &d->sight, error);
@@ -419,10 +408,13 @@ static tn_status take_part(drawing *d, const tn_kit_part_record *part, tn_view *
     d->sight.face_count = 0;
     d->sight.first[0] = 0;
     d->corner = 0;
-    for (uint32_t b = 0; b < part->box_count; b++) {
-        tn_cell_box box = tn_part_box_at(&d->module->PART_BOX_records[part->box_first + b], &origin);
-        add_box(d, &box, 0);
-    }
+    d->model = &model;
+    status = tn_bodies_list(d->module, &model, &joints, &bodies, error);
+    if (status == TN_OK)
+        add_part(d, &bodies, 0, bodies.count, 0);
+    tn_bodies_clear(&bodies);
+    if (status != TN_OK)
+        return status;
     for (uint32_t c = 0; c < part->connector_count; c++) {
         const tn_part_connector_record *from = &d->module->PART_CONNECTOR_records[part->connector_first + c];
         const double at[3] = {d->unit[0] * (double)from->x, d->unit[1] * (double)from->y, d->unit[2] * (double)from->z};
@@ -458,7 +450,7 @@ tn_status tn_kit_part_draw(const tn_module *module, uint32_t part, tn_picture *t
     drawing d = {.module = module, .width = BOTH};
     tn_place_unit(module, d.unit);
     d.grown = growth_of(&d, record);
-    tn_status status = record->box_count ? make_type_palette(module, &palette, error) : no_shape(error);
+    tn_status status = record->box_count ? make_type_palette(module, &palette, error) : tn_no_bodies(error);
     for (int v = 0; v < 2 && status == TN_OK; v++) {
         d.below = v == 1;
         status = take_part(&d, record, &views[v], error);
@@ -471,87 +463,5 @@ tn_status tn_kit_part_draw(const tn_module *module, uint32_t part, tn_picture *t
     for (int v = 0; v < 2; v++)
         tn_view_free(views[v]);
     free(palette);
-    return status;
-}
-
-/* ---- meshes */
-
-static tn_status list_cells(const drawing *d, const tn_placed_joints *joints, const uint32_t *groups,
-                            tn_cut_box **cells, uint32_t **cell_groups, size_t *count, tn_error *error)
-{
-    size_t boxes = 0;
-    for (size_t i = 0; i < joints->count; i++)
-        boxes += joints->kinds[i] ? joints->kinds[i]->box_count : 0;
-    *cells = malloc((boxes + 1) * sizeof **cells);
-    *cell_groups = malloc((boxes + 1) * sizeof **cell_groups);
-    *count = 0;
-    if (!*cells || !*cell_groups)
-        return tn_fail_memory(error);
-    for (size_t i = 0; i < joints->count; i++) {
-        for (uint32_t b = 0; joints->kinds[i] && b < joints->kinds[i]->box_count; b++) {
-            tn_cell_box box = box_of(d, joints, i, b);
-            double low[3] = {ldu * d->unit[0] * box.low[0], ldu * d->unit[2] * box.low[2],
-                             -ldu * d->unit[1] * box.high[1]};
-            double high[3] = {ldu * d->unit[0] * box.high[0], ldu * d->unit[2] * box.high[2],
-                              -ldu * d->unit[1] * box.low[1]};
-            tn_cut_box_clip(low, high, NULL, 0, &(*cells)[*count]);
-            (*cell_groups)[(*count)++] = groups[i];
-        }
-    }
-    return boxes ? TN_OK : no_shape(error);
-}
-
-/* The union's groups are cells: they become colours. */
-static tn_status take_mesh(tn_union *u, const uint32_t *cell_groups, const colour_list *list, tn_mesh *mesh,
-                           unsigned char (**palette)[3], tn_error *error)
-{
-    *mesh = u->mesh;
-    u->mesh = (tn_mesh){0};
-    free(mesh->group_names);
-    mesh->group_names = calloc(list->count + 1, sizeof *mesh->group_names);
-    *palette = calloc(list->count + 1, sizeof **palette);
-    if (!mesh->group_names || !*palette)
-        return tn_fail_memory(error);
-    for (size_t f = 0; f < mesh->face_count; f++)
-        mesh->face_group[f] = cell_groups[mesh->face_group[f]];
-    mesh->group_count = (uint32_t)list->count;
-    for (size_t i = 0; i < list->count; i++) {
-        double rgb[3];
-        tn_ldraw_colour(list->items[i], rgb);
-        snprintf(mesh->group_names[i], sizeof *mesh->group_names, "colour-%d", list->items[i]);
-        for (int k = 0; k < 3; k++)
-            (*palette)[i][k] = (unsigned char)(255 * rgb[k] + 0.5);
-    }
-    return TN_OK;
-}
-
-tn_status tn_placed_mesh(const tn_module *module, const tn_placed_model *model, tn_mesh *mesh,
-                         unsigned char (**palette)[3], tn_error *error)
-{
-    drawing d = {.module = module, .model = model};
-    tn_placed_joints joints;
-    colour_list list = {0};
-    uint32_t *groups, *cell_groups = NULL;
-    tn_cut_box *cells = NULL;
-    tn_union u = {0};
-    size_t count;
-    *mesh = (tn_mesh){0};
-    *palette = NULL;
-    tn_place_unit(module, d.unit);
-    tn_status status = find_groups(model, &list, &groups, error);
-    tn_status found = tn_placed_joints_find(module, model, NULL, &joints, error);
-    status = status == TN_OK ? found : status;
-    if (status == TN_OK)
-        status = list_cells(&d, &joints, groups, &cells, &cell_groups, &count, error);
-    if (status == TN_OK)
-        status = tn_union_make(cells, count, &u, error);
-    if (status == TN_OK)
-        status = take_mesh(&u, cell_groups, &list, mesh, palette, error);
-    tn_union_clear(&u);
-    tn_placed_joints_clear(&joints);
-    free(cells);
-    free(cell_groups);
-    free(groups);
-    free(list.items);
     return status;
 }

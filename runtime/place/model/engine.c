@@ -5,6 +5,7 @@
 #include "runtime/module/code.h"
 #include "runtime/module/engine.h"
 #include "runtime/place/model/terms.h"
+#include "runtime/place/model/turns.h"
 
 static bool is_small(const tn_checker *checker, int64_t index)
 {
@@ -144,6 +145,31 @@ static tn_status check_space(const tn_checker *checker, uint32_t function)
     return TN_OK;
 }
 
+/* A slope has a corner between its sides; its steps are boxes of its part that no slope before it has. */
+static tn_status check_slope(const tn_checker *checker, const tn_kit_part_record *part, uint32_t index,
+                             uint64_t *next_box)
+{
+    const tn_part_slope_record *slope = &checker->module->PART_SLOPE_records[index];
+    const uint64_t end = (uint64_t)slope->step_first + slope->step_count;
+    if (tn_axis_coordinate((tn_axis)slope->side) == tn_axis_coordinate((tn_axis)slope->other))
+        return tn_refuse(checker, "a slope between sides that do not meet");
+    if (slope->low_x >= slope->high_x || slope->low_y >= slope->high_y || slope->low_z >= slope->high_z)
+        return tn_refuse(checker, "a slope without extent");
+    if (slope->step_count == 0 || slope->step_first < *next_box || end > (uint64_t)part->box_first + part->box_count)
+        return tn_refuse(checker, "a slope whose steps are not those of its part");
+    *next_box = end;
+    return TN_OK;
+}
+
+static tn_status check_slopes(const tn_checker *checker, const tn_kit_part_record *part)
+{
+    uint64_t next_box = part->box_first;
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; i < part->slope_count && status == TN_OK; i++)
+        status = check_slope(checker, part, part->slope_first + i, &next_box);
+    return status;
+}
+
 static tn_status check_model(const tn_checker *checker, const tn_kit_model_record *model)
 {
     const tn_module *module = checker->module;
@@ -173,6 +199,8 @@ static tn_status verify(const tn_checker *checker)
     tn_status status = TN_OK;
     for (uint32_t i = 0; i < module->KIT_MASK_count && status == TN_OK; i++)
         status = check_mask(checker, &module->KIT_MASK_records[i]);
+    for (uint32_t i = 0; i < module->KIT_PART_count && status == TN_OK; i++)
+        status = check_slopes(checker, &module->KIT_PART_records[i]);
     for (uint32_t i = 0; i < module->KIT_MODEL_count && status == TN_OK; i++)
         status = check_model(checker, &module->KIT_MODEL_records[i]);
     for (uint32_t i = 0; i < module->KIT_CONDITION_count && status == TN_OK; i++) {
@@ -188,7 +216,7 @@ static const tn_section sections[] = {TN_SECTION_VECTOR,    TN_SECTION_KIT,     
                                       TN_SECTION_KIT_PART,  TN_SECTION_PART_BOX,      TN_SECTION_PART_CONNECTOR,
                                       TN_SECTION_KIT_MODEL, TN_SECTION_KIT_CONDITION, TN_SECTION_COUNTED,
                                       TN_SECTION_KIT_STOCK, TN_SECTION_KIT_MASK,      TN_SECTION_MASK_WORD,
-                                      TN_SECTION_STRINGS};
+                                      TN_SECTION_PART_SLOPE, TN_SECTION_STRINGS};
 
 /* The vectors are shown where they are used; the words of masks are not. */
 static void list(tn_lister *lister)
@@ -200,6 +228,7 @@ static void list(tn_lister *lister)
     LIST(CONNECTOR_TYPE);
     LIST(KIT_PART);
     LIST(PART_BOX);
+    LIST(PART_SLOPE);
     LIST(PART_CONNECTOR);
     LIST(KIT_MODEL);
     LIST(KIT_CONDITION);

@@ -26,6 +26,18 @@ static inline tn_axis tn_axis_opposite(tn_axis axis)
     return axis ^ 1u; /* up and down, left and right, front and back follow one another */
 }
 
+/* The coordinate along an axis: 0 x, 1 y, 2 z. */
+static inline int tn_axis_coordinate(tn_axis axis)
+{
+    return axis <= TN_AXIS_DOWN ? 1 : axis <= TN_AXIS_RIGHT ? 0 : 2;
+}
+
+/* Does the coordinate fall where the axis points? (y is downwards.) */
+static inline bool tn_axis_falls(tn_axis axis)
+{
+    return axis == TN_AXIS_UP || axis == TN_AXIS_LEFT || axis == TN_AXIS_FRONT;
+}
+
 /* The turn that takes up to an axis, and right to what is beside that. */
 static inline uint32_t tn_turn_to(tn_axis axis)
 {
