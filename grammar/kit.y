@@ -157,8 +157,10 @@ feature
 
 fill
     : FILL length X length X length         { $$ = sized(parse, TN_KIT_FILL, @$, $2, $4, $6); }
+    | NAME NAME NAME length X length X length
+                                            { $$ = sized(parse, TN_KIT_FILL, @$, $4, $6, $8);
+                                              if ($$) { $$->doc = $1; $$->name = $2; $$->other = $3; } }
     | fill AT vector                        { $$ = $1; if ($$) { $$->at = $3; $$->span = @$; } }
-    | fill NAME NAME NAME                   { $$ = $1; if ($$) { $$->doc = $2; $$->name = $3; $$->other = $4; $$->span = @$; } }
     ;
 
 has

@@ -39,7 +39,7 @@ typedef enum tn_kit_kind {
     TN_KIT_MODEL,     /* name, doc, inner: INSIDE, START, COLOUR, REQUIRES and what follows these */
     TN_KIT_TEST,      /* name: of a model, inner: CONDITION */
     /* of a part */
-    TN_KIT_FILL,  /* size, at; doc: `cut`, name, other: the sides between which a corner is cut off, or none */
+    TN_KIT_FILL,  /* size, at; of a slope doc: the word, name, other: the sides between which it is */
     TN_KIT_HAS,   /* name: of a connector, other: its axis, count: of a grid, at */
     TN_KIT_MASS,  /* count[0] */
     TN_KIT_PRICE, /* count[0] */

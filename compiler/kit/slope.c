@@ -54,7 +54,7 @@ static bool check(tn_kit *kit, const tn_kit_node *node, const tn_kit_slope *slop
     if (tn_axis_coordinate(slope->sides[0]) == tn_axis_coordinate(slope->sides[1])) {
         d = tn_report(kit->diagnostics, E_KIT_SLOPE, node->other.span, "`%s` and `%s` have no corner between them",
                       node->name.text, node->other.text);
-        tn_help(kit->diagnostics, d, "a corner lies between sides that meet: `cut up front`");
+        tn_help(kit->diagnostics, d, "a slope lies between sides that meet: `slope up front`");
         return false;
     }
     if (rows > TN_KIT_SLOPE_STEPS_MAX) {
@@ -65,25 +65,25 @@ static bool check(tn_kit *kit, const tn_kit_node *node, const tn_kit_slope *slop
     }
     if (along == 1 && rows == 1) {
         d = tn_report(kit->diagnostics, E_KIT_SLOPE, node->span, "this slope fills no cell");
-        tn_help(kit->diagnostics, d, "of a single cell only half is left: use a kit with smaller cells, or leave `cut` out");
+        tn_help(kit->diagnostics, d, "of a single cell only half is left: use a kit with smaller cells, or `fill`");
         return false;
     }
     return true;
 }
 
-static bool is_cut(tn_kit *kit, const tn_kit_text *word)
+static bool is_slope(tn_kit *kit, const tn_kit_text *word)
 {
-    if (strcasecmp(word->text, "cut") == 0)
+    if (strcasecmp(word->text, "slope") == 0)
         return true;
     tn_diagnostic *d =
-        tn_report(kit->diagnostics, E_KIT_SLOPE, word->span, "`%.100s` is nothing that a box can have", word->text);
-    tn_help(kit->diagnostics, d, "a slope is `fill 2 studs x 1 brick x 1 stud cut up front;`");
+        tn_report(kit->diagnostics, E_KIT_SLOPE, word->span, "`%.100s` is nothing that a part has", word->text);
+    tn_help(kit->diagnostics, d, "boxes are `fill 20 x 24 x 20;` and slopes `slope up front 20 x 24 x 20;`");
     return false;
 }
 
 void tn_kit_add_slope(tn_kit *kit, tn_kit_part *part, const tn_kit_node *node, const tn_kit_box *whole)
 {
-    if (!is_cut(kit, &node->doc))
+    if (!is_slope(kit, &node->doc))
         return;
     tn_kit_slope slope = {.whole = *whole, .first = part->box_count};
     bool right = tn_kit_axis(kit, &node->name, &slope.sides[0]) && tn_kit_axis(kit, &node->other, &slope.sides[1]);

@@ -7,7 +7,7 @@ import itertools, random, re, subprocess, sys, tempfile, os
 tartan, bricks = sys.argv[1:3]
 PARTS = {}
 for name, body in re.findall(r'^part (\S+) .*?\{(.*?)^\}', open(bricks).read(), re.M | re.S):
-    if body.count("fill") > 1:
+    if "slope" in body:
         continue  # slopes: this knows plain boxes
     length, high, unit, wide = re.search(r"fill (\d+) studs? x (\d+) (\w+) x (\d+) stud", body).groups()
     PARTS[name] = (int(length), {"brick": 3, "plate": 1}[unit], int(wide), "studs up" in body)

@@ -39,7 +39,7 @@ def check_cells(rng):
         one, other = rng.sample(sorted(AXES), 2)
     size = [2 * rng.randint(1, 6) for _ in range(3)]
     with open(f"{folder}/cells.kit", "w", encoding="ascii") as out:
-        out.write(f"unit 10 x 8 x 10;\n{HEAD}part it {{ fill {10 * size[0]} x {8 * size[1]} x {10 * size[2]} cut {one} {other}; plug up; }}\n")
+        out.write(f"unit 10 x 8 x 10;\n{HEAD}part it {{ slope {one} {other} {10 * size[0]} x {8 * size[1]} x {10 * size[2]}; plug up; }}\n")
     found = set()
     for line in run("disasm", f"{folder}/cells.kit").splitlines():
         if line.startswith("  part box"):
@@ -84,7 +84,7 @@ def closed_volume(path):
 KIT = """unit 10 x 10 x 10 turns 24;
 connector plug joins hole turns 4;
 connector hole joins plug turns 4;
-part wedge { fill 30 x 10 x 20 at (5, 0, 0); fill 30 x 30 x 30 at (5, -10, 5) cut %s %s; plug up; hole down at (0, -40, 0); hole left at (-10, -20, 0); }
+part wedge { fill 30 x 10 x 20 at (5, 0, 0); slope %s %s 30 x 30 x 30 at (5, -10, 5); plug up; hole down at (0, -40, 0); hole left at (-10, -20, 0); }
 part block { fill 20 x 20 x 20; plug up; hole down at (0, -20, 0); plug left at (-10, -10, 0); plug back at (0, -10, 10); }
 rule any at plug, hole = (wedge [0.6] | block [0.4]) | block;
 model it { inside box(100, 90, 80); start plug up at (0, 0, 0) by any; %s }
