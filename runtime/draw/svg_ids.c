@@ -86,6 +86,8 @@ static bool append(renumbering *r, const char *text, size_t size)
 static size_t prefix_at(const char *at, size_t left)
 {
     for (size_t i = 0; i < sizeof before_id / sizeof *before_id; i++) {
+        if (*at != *before_id[i])
+            continue;
         size_t length = strlen(before_id[i]);
         if (left > length && memcmp(at, before_id[i], length) == 0)
             return length;

@@ -35,14 +35,19 @@ static void apply(reader *r, tn_opcode opcode, uint32_t arity)
         tn_formula_operation(r->out, opcode, arity);
 }
 
-static bool take(reader *r, char c)
+/* The next character that is no blank; 0 at the end. */
+static inline char peek(reader *r)
 {
     while (r->at < r->size && (r->text[r->at] == ' ' || r->text[r->at] == '\n' || r->text[r->at] == '\t'))
         r->at++;
-    if (r->at == r->size || r->text[r->at] != c)
-        return false;
-    r->at++;
-    return true;
+    return r->at < r->size ? r->text[r->at] : '\0';
+}
+
+static inline bool take(reader *r, char c)
+{
+    bool taken = peek(r) == c; /* which is never 0 */
+    r->at += taken;
+    return taken;
 }
 
 static bool is_digit(char c)
@@ -123,7 +128,10 @@ static const struct {
 
 static bool same_word(const char *word, const char *name, size_t length)
 {
-    return strlen(word) == length && memcmp(word, name, length) == 0;
+    size_t same = 0;
+    while (same < length && word[same] && word[same] == name[same])
+        same++;
+    return same == length && !word[same];
 }
 
 static void refuse_function(reader *r, const char *name, size_t length)
@@ -385,6 +393,8 @@ static tn_opcode take_comparison(reader *r)
         tn_opcode opcode;
     } signs[] = {{'<', '=', TN_OP_IS_AT_MOST}, {'>', '=', TN_OP_IS_AT_LEAST}, {'=', '=', TN_OP_IS_EQUAL},
                  {'!', '=', TN_OP_IS_UNEQUAL}, {'<', '\0', TN_OP_IS_BELOW},   {'>', '\0', TN_OP_IS_ABOVE}};
+    if (!memchr("<>=!", peek(r), 4)) /* as nearly always */
+        return TN_OP_VALUE;
     for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
         if (signs[i].second ? take_both(r, signs[i].first, signs[i].second) : take(r, signs[i].first))
             return signs[i].opcode;

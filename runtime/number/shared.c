@@ -57,7 +57,10 @@ static uint64_t hash_of(const node *n)
 
 static bool same(const node *a, const node *b)
 {
-    return a->opcode == b->opcode && a->number == b->number && memcmp(a->in, b->in, sizeof a->in) == 0;
+    bool alike = a->opcode == b->opcode && a->number == b->number;
+    for (size_t i = 0; i < TN_ARITY_MAX; i++)
+        alike &= a->in[i] == b->in[i];
+    return alike;
 }
 
 static size_t place_of(const tn_shared *s, const node *n)
