@@ -8,6 +8,18 @@
 #include "runtime/base/integers.h"
 #include "runtime/house/strip/houses_data.h"
 
+static tn_status too_many(const tn_houses *h, const tn_houses_kind *kind, tn_error *error)
+{
+    const char *name = tn_strip_dearest(kind->strip);
+    tn_fail(error, TN_LIMIT, E_STRIP, "counting these houses takes more than %u states", h->max_states);
+    if (name)
+        tn_error_help(error, "`%.60s` keeps most apart. Ask about one plan (--plan), or allow more (--max-states N)",
+                      name);
+    else
+        tn_error_help(error, "ask about one plan (--plan), or allow more (--max-states N)");
+    return TN_LIMIT;
+}
+
 /* ---- counting forwards */
 
 /* counts: two numbers a node, houses and those without their tiles. */
@@ -21,18 +33,6 @@ typedef struct tn_forward {
     mpz_t one;
 } tn_forward;
 
-static tn_status too_many(const tn_forward *f, tn_error *error)
-{
-    const char *name = tn_strip_dearest(f->kind->strip);
-    tn_fail(error, TN_LIMIT, E_STRIP, "counting these houses takes more than %u states", f->houses->max_states);
-    if (name)
-        tn_error_help(error, "`%.60s` keeps most apart. Ask about one plan (--plan), or allow more (--max-states N)",
-                      name);
-    else
-        tn_error_help(error, "ask about one plan (--plan), or allow more (--max-states N)");
-    return TN_LIMIT;
-}
-
 static tn_status lead_on(void *context, const tn_houses_edge *edge, tn_error *error)
 {
     tn_forward *f = context;
@@ -42,7 +42,7 @@ static tn_status lead_on(void *context, const tn_houses_edge *edge, tn_error *er
     for (; f->next_count < 2 * ((size_t)to + 1); f->next_count++)
         mpz_init(f->next[f->next_count]);
     if (f->nodes + to > f->houses->max_states || f->kind->strip->states.count > f->houses->max_states)
-        return too_many(f, error);
+        return too_many(f->houses, f->kind, error);
     const uint64_t times[2] = {edge->times, edge->faced};
     for (size_t i = 0; i < 2; i++) {
         mpz_mul_ui(f->one, f->counts[2 * (size_t)edge->from + i], edge->ways);
@@ -98,6 +98,62 @@ static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
     return status;
 }
 
+/* ---- scouting */
+
+typedef struct tn_scout {
+    const tn_houses *houses;
+    tn_houses_kind *kind;
+    uint32_t layer;
+} tn_scout;
+
+static tn_status come_by(void *context, const tn_houses_edge *edge, tn_error *error)
+{
+    const tn_scout *s = context;
+    uint32_t to = tn_number(&s->kind->layers[s->layer + 1].nodes, (uint64_t)edge->plan << 32 | edge->state);
+    return to == UINT32_MAX             ? tn_fail_memory(error)
+           : to > s->houses->max_states ? too_many(s->houses, s->kind, error)
+                                        : TN_OK;
+}
+
+static tn_status pass_end(void *context, const tn_houses_edge *edge, tn_error *error)
+{
+    (void)context;
+    (void)edge;
+    (void)error;
+    return TN_OK;
+}
+
+static void clear_layers(const tn_houses *h, tn_houses_kind *kind)
+{
+    for (uint32_t k = 0; kind->layers && k <= h->high; k++) {
+        tn_integers_free(kind->layers[k].ahead, (size_t)kind->layers[k].nodes.count * tn_houses_lengths(h));
+        tn_numbering_clear(&kind->layers[k].nodes);
+    }
+    free(kind->layers);
+    kind->layers = NULL;
+}
+
+/* Goes through all states without their tiles, so that what nothing can tell apart is merged (merge.c). */
+static tn_status scout(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
+{
+    tn_scout s = {.houses = h, .kind = kind};
+    tn_status status = TN_OK;
+    if (!kind->strip->any_tiled)
+        return TN_OK;
+    kind->strip->scouting = true;
+    kind->layers = calloc((size_t)h->high + 1, sizeof *kind->layers);
+    if (!kind->layers || tn_number(&kind->layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX)
+        return tn_fail_memory(error);
+    for (; status == TN_OK && s.layer <= h->high; s.layer++) {
+        if (s.layer >= h->low)
+            status = tn_houses_expand(h, kind, s.layer, true, pass_end, &s, error);
+        if (status == TN_OK && s.layer < h->high)
+            status = tn_houses_expand(h, kind, s.layer, false, come_by, &s, error);
+    }
+    clear_layers(h, kind);
+    return status == TN_OK ? tn_strip_merge(kind->strip, error) : status;
+}
+
 /* ---- sections */
 
 /* The trays that stand in some plan of the library. */
@@ -149,6 +205,8 @@ static tn_status add_kind(tn_houses *h, const tn_house *section, const bool *tra
     mpz_init(kind->faced);
     tn_status status =
         tn_strip_new(h->form, h->library, section->shapes, trays, h->high, h->weights, &kind->strip, error);
+    if (status == TN_OK)
+        status = scout(h, kind, error);
     if (status != TN_OK)
         return status;
     return h->weights ? tn_houses_spread_kind(h, kind, error) : count_kind(h, kind, error);
@@ -217,11 +275,7 @@ void tn_houses_free(tn_houses *h)
         return;
     for (size_t i = 0; i < h->kind_count; i++) {
         tn_houses_kind *kind = &h->kinds[i];
-        for (uint32_t k = 0; kind->layers && k <= h->high; k++) {
-            tn_integers_free(kind->layers[k].ahead, (size_t)kind->layers[k].nodes.count * tn_houses_lengths(h));
-            tn_numbering_clear(&kind->layers[k].nodes);
-        }
-        free(kind->layers);
+        clear_layers(h, kind);
         if (kind->houses)
             tn_integers_free(kind->houses, tn_houses_lengths(h));
         mpz_clear(kind->faced);

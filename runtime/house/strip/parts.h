@@ -127,6 +127,18 @@ typedef struct tn_strip_crossings {
     size_t room;
 } tn_strip_crossings;
 
+/* What nothing that follows can tell apart (merge.c). */
+typedef struct tn_strip_merged {
+    uint32_t *edges;    /* [edges]: the first that meets all neighbours as this one does; NULL: each is by itself */
+    size_t *first;      /* [bases + 1]: its part of sides */
+    uint32_t *sides;    /* what can stand at the right of a cell of the base */
+    tn_numbering pairs; /* base << 32 | what stands at its left */
+    uint32_t *classes;  /* [pairs]: of the tiles that fit whatever stands at the right; TN_STRIP_NONE: none ever do */
+    tn_interner tiles;  /* of classes: {what stands at the right, how many fit} */
+    uint64_t *one;      /* [classes]: one of its pairs */
+    size_t class_room, one_room;
+} tn_strip_merged;
+
 typedef struct tn_strip {
     const tn_house_form *form;
     const tn_house_library_record *library;
@@ -138,7 +150,9 @@ typedef struct tn_strip {
     tn_strip_questions questions;
     size_t answer_words;
     tn_room_questions glass; /* functions about rooms that ask for faces: see tn_strip_sees_glass */
-    bool *tiled;             /* [functions] */
+    bool *tiled, any_tiled;  /* [functions] */
+    bool scouting;           /* tiles are left aside: see merge.c */
+    tn_strip_merged merged;
     tn_strip_clause *clauses;
     uint32_t clause_count;
     tn_strip_list *of_tray; /* [trays of the schema] */
@@ -228,6 +242,15 @@ tn_status tn_strip_fit_side(tn_strip *strip, const tn_house *house, uint32_t cel
 
 /* How many tiles fit. */
 tn_status tn_strip_fit(tn_strip *strip, uint32_t base, uint32_t left, uint32_t right, uint32_t *tiles, tn_error *error);
+
+/* ---- merge.c */
+
+/* Ends scouting: all planes of the library's houses are made. States are numbered anew. */
+tn_status tn_strip_merge(tn_strip *strip, tn_error *error);
+void tn_strip_merged_clear(tn_strip_merged *merged);
+
+/* The class of a cell's tiles, by what stands at its left; TN_STRIP_NONE: none fits, whatever stands at the right. */
+tn_status tn_strip_waits(tn_strip *strip, uint32_t base, uint32_t left, uint32_t *class, tn_error *error);
 
 /* ---- rooms.c, walks.c: what is known before and after a plane */
 

@@ -30,7 +30,7 @@ static tn_status count_tiles(const tn_stepping *s, uint64_t *tiles, tn_error *er
     size_t size;
     tn_status status = TN_OK;
     *tiles = 1;
-    if (!s->state)
+    if (!s->state || s->strip->scouting)
         return TN_OK;
     const tn_strip_edge *left = s->crossing.left;
     const uint32_t *sides = s->crossing.outcome + 3 + (size_t)STEP_WORDS * s->crossing.outcome[2];
@@ -39,8 +39,8 @@ static tn_status count_tiles(const tn_stepping *s, uint64_t *tiles, tn_error *er
         uint32_t fit = 0;
         if (!left->cells[i].tiled)
             continue;
-        status = tn_strip_fit(s->strip, waiting[0], waiting[1], sides[SIDE_WORDS * i + SIDE_FIT], &fit, error);
-        waiting += 2;
+        uint64_t pair = s->strip->merged.one[*waiting++];
+        status = tn_strip_fit(s->strip, tn_high(pair), tn_low(pair), sides[SIDE_WORDS * i + SIDE_FIT], &fit, error);
         if (status == TN_OK && __builtin_mul_overflow(*tiles, (uint64_t)fit, tiles))
             status = tn_strip_limit(s->strip, NULL, "a tray has more than 2^64 arrangements of tiles", error);
     }
@@ -166,32 +166,48 @@ static bool read_left(const tn_stepping *s, uint32_t *states)
     return true;
 }
 
-/* The cells of the right slice that have tiles, and what they are at their left sides. */
-static bool push_waiting(const tn_stepping *s, uint32_t *waiting)
+/* The cells of the right slice that have tiles, by which of them fit; TN_STRIP_NONE: a cell has none, whatever stands
+ * at its right. */
+static tn_status find_waiting(const tn_stepping *s, uint32_t *waiting, tn_error *error)
 {
-    tn_key *key = &s->strip->key;
+    tn_strip *strip = s->strip;
+    tn_key *key = &strip->joined;
     const tn_strip_edge *right = s->crossing.right;
     const uint32_t *sides = s->crossing.outcome + 3 + (size_t)STEP_WORDS * s->crossing.outcome[2] +
                             (size_t)SIDE_WORDS * (s->crossing.left ? s->crossing.left->count : 0);
-    bool ok = true;
+    tn_status status = TN_OK;
     key->size = 0;
-    for (uint32_t i = 0; ok && i < right->count; i++)
-        if (right->cells[i].tiled)
-            ok = tn_key_push(key, s->slice[SLICE_CELLS + CELL_WORDS * i + CELL_TILE]) &&
-                 tn_key_push(key, sides[SIDE_WORDS * i + SIDE_FIT]);
-    *waiting = ok ? tn_intern(&s->strip->waiting, key->data, key->size) : UINT32_MAX;
-    return *waiting != UINT32_MAX;
+    *waiting = 0;
+    for (uint32_t i = 0; status == TN_OK && !strip->scouting && *waiting == 0 && i < right->count; i++) {
+        uint32_t class;
+        if (!right->cells[i].tiled)
+            continue;
+        status = tn_strip_waits(strip, s->slice[SLICE_CELLS + CELL_WORDS * i + CELL_TILE],
+                                sides[SIDE_WORDS * i + SIDE_FIT], &class, error);
+        if (status == TN_OK && class == TN_STRIP_NONE)
+            *waiting = TN_STRIP_NONE;
+        else if (status == TN_OK && !tn_key_push(key, class))
+            status = tn_fail_memory(error);
+    }
+    if (status != TN_OK || *waiting == TN_STRIP_NONE)
+        return status;
+    *waiting = tn_intern(&strip->waiting, key->data, key->size);
+    return *waiting != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
+/* *after: TN_STRIP_NONE where no house goes on from there. */
 static tn_status make_state(const tn_stepping *s, const uint32_t *states, uint32_t *after, tn_error *error)
 {
     tn_strip *strip = s->strip;
     tn_key *key = &strip->joined;
-    uint32_t waiting;
-    if (!push_waiting(s, &waiting))
-        return tn_fail_memory(error);
+    uint32_t waiting = 0, edge = s->slice[SLICE_EDGE];
+    tn_status status = find_waiting(s, &waiting, error);
+    *after = TN_STRIP_NONE;
+    if (status != TN_OK || waiting == TN_STRIP_NONE)
+        return status;
     key->size = 0;
-    bool ok = tn_key_push(key, s->slice[SLICE_EDGE]) && tn_key_push(key, waiting) && tn_key_push(key, s->rooms);
+    bool ok = tn_key_push(key, strip->merged.edges ? strip->merged.edges[edge] : edge) && tn_key_push(key, waiting) &&
+              tn_key_push(key, s->rooms);
     for (uint32_t w = 0; ok && w < strip->questions.walk_count; w++)
         ok = tn_key_push(key, s->walks[w]);
     for (uint32_t i = 0; ok && i < strip->clause_count; i++)
@@ -236,7 +252,7 @@ static tn_status try_outcome(tn_stepping *s, const tn_strip_choice *choice, tn_s
     int64_t gain = gain_of(s);
     if (s->slice)
         status = make_state(s, strip->scratch, &after, error);
-    return status == TN_OK ? seen(context, after, times, faced, gain, error) : status;
+    return status == TN_OK && after != TN_STRIP_NONE ? seen(context, after, times, faced, gain, error) : status;
 }
 
 static bool keeps_no_trays(const tn_strip *strip)

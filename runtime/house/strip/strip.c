@@ -10,7 +10,7 @@ static void find_tiled(tn_strip *strip)
     for (uint32_t t = 0; t < form->record->tile_count; t++) {
         const tn_tile_record *tile = &form->module->TILE_records[form->record->tile_first + t];
         for (uint32_t i = 0; i < tile->purpose_count; i++)
-            strip->tiled[form->module->HOUSE_ITEM_records[tile->purpose_first + i].number] = true;
+            strip->tiled[form->module->HOUSE_ITEM_records[tile->purpose_first + i].number] = strip->any_tiled = true;
     }
 }
 
@@ -84,6 +84,7 @@ void tn_strip_free(tn_strip *strip)
     for (uint32_t w = 0; w < TN_STRIP_MEETINGS_MAX; w++)
         clear_crossings(&strip->crossed_walks[w]);
     tn_strip_clauses_free(strip);
+    tn_strip_merged_clear(&strip->merged);
     free(strip->questions.decisions);
     free(strip->edges);
     free(strip->tiled);
