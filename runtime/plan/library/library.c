@@ -1,4 +1,4 @@
-/* Makes the automaton of a plan library, and counts its plans. */
+/* Opens a plan library. */
 #include "runtime/plan/library/library_data.h"
 
 #include <stdio.h>
@@ -9,15 +9,9 @@
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/rules.h"
 
-#define TRANSITIONS_PER_STATE 64u /* that an automaton may have on average, before states are not its size any more */
-#define WORK_PER_STATE 300u
-#define FEW_TRAYS 32u      /* of plans: so many automata of one length each are about as large as one of any length */
-#define TRIAL_STATES 2000u /* of a generator that trying each clause on is cheap for */
-
 /* ---- clauses */
 
-/* Says in which clause it was that lowering passed a limit. */
-static tn_status name_clause(const tn_library *library, size_t i, tn_error *error)
+tn_status tn_library_name_clause(const tn_library *library, size_t i, tn_error *error)
 {
     if (!error)
         return TN_LIMIT;
@@ -53,195 +47,11 @@ static tn_status lower_clauses(tn_library *library, bool all_generated, tn_error
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         status = tn_lower(lowering, functions[i], &library->clauses[i], error);
         if (status == TN_LIMIT)
-            status = name_clause(library, i, error);
+            status = tn_library_name_clause(library, i, error);
     }
     tn_lowering_free(lowering);
     free(functions);
     return status;
-}
-
-tn_bounds tn_library_bounds(const tn_library *library)
-{
-    uint64_t states = library->max_joint;
-    if (states < TN_LIBRARY_STATES_DEFAULT)
-        states = TN_LIBRARY_STATES_DEFAULT;
-    return (tn_bounds){.max_states = library->max_joint,
-                       .max_transitions = TRANSITIONS_PER_STATE * states,
-                       .max_words = TRANSITIONS_PER_STATE * states,
-                       .max_work = WORK_PER_STATE * states,
-                       .watch = library->schema->module->watch};
-}
-
-tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_dfa_operation operation,
-                           tn_bounds *bounds, tn_sparse **sparse, tn_error *error)
-{
-    const char *what = library->within ? "library, of its lengths alone," : "library";
-    return tn_sparse_apply(sparse, clause, operation, what, bounds, error);
-}
-
-/* Which clauses of an automaton that passed a limit to leave out: `worst` and the two that multiplied it most. */
-static void blame(const tn_library *library, size_t worst, tn_error *error)
-{
-    size_t most[2] = {worst, worst};
-    if (!error)
-        return;
-    for (size_t i = 0; i < library->record->clause_count; i++) {
-        uint64_t growth = i == worst ? 0 : library->growth[i];
-        if (growth > 1000 && (most[0] == worst || growth > library->growth[most[0]])) {
-            most[1] = most[0];
-            most[0] = i;
-        } else if (growth > 1000 && (most[1] == worst || growth > library->growth[most[1]])) {
-            most[1] = i;
-        }
-    }
-    const tn_module *module = library->schema->module;
-    char others[200] = "";
-    if (most[1] != worst)
-        snprintf(others, sizeof others, ", `%.60s` or `%.60s`, which multiply the states most",
-                 tn_text(module, tn_library_clause(library, most[0])->name),
-                 tn_text(module, tn_library_clause(library, most[1])->name));
-    tn_error_help(error, "leave out `%.60s`%s, give fewer trays with --trays, or raise the limit with --max-states",
-                  tn_text(module, tn_library_clause(library, worst)->name), others);
-}
-
-static tn_status apply_clause(tn_library *library, size_t i, tn_sparse **sparse, tn_error *error)
-{
-    const tn_clause_record *record = tn_library_clause(library, i);
-    uint64_t before = (*sparse)->states;
-    tn_status status =
-        tn_library_apply(library, library->clauses[i], tn_library_keeping(library, i), &library->bounds, sparse, error);
-    if (status == TN_OK)
-        library->growth[i] = (*sparse)->states * UINT64_C(1000) / (before + 1);
-    if (status != TN_LIMIT)
-        return status;
-    if (error)
-        error->code_offset = library->schema->module->FUNCTION_records[record->holds].code_begin;
-    name_clause(library, i, error);
-    blame(library, i, error);
-    return TN_LIMIT;
-}
-
-tn_status tn_library_everything(const tn_library *library, bool within, tn_sparse **out, tn_error *error)
-{
-    if (within)
-        return tn_sparse_words(library->classes->count, library->min, library->max, out, error);
-    tn_dfa *all = NULL;
-    tn_status status = tn_dfa_constant(library->classes->count, true, &all, error);
-    if (status == TN_OK)
-        status = tn_sparse_make(all, 0, out, error);
-    tn_dfa_free(all);
-    return status;
-}
-
-/* Inserts what has this size into an order that is ascending by size. */
-static void insert(size_t *order, uint32_t *sizes, size_t count, size_t what, uint32_t size)
-{
-    size_t i = count;
-    for (; i > 0 && sizes[i - 1] > size; i--) {
-        order[i] = order[i - 1];
-        sizes[i] = sizes[i - 1];
-    }
-    order[i] = what;
-    sizes[i] = size;
-}
-
-/* How large an automaton is with one clause applied: some clauses multiply states, others hardly add any. One too large
- * for so many trials: the clause's own size. */
-static tn_status try_clause(const tn_library *library, const tn_sparse *base, size_t clause, uint32_t *size,
-                            tn_error *error)
-{
-    *size = library->clauses[clause]->states;
-    if (!base || base->states > TRIAL_STATES)
-        return TN_OK;
-    tn_bounds bounds = tn_library_bounds(library);
-    tn_sparse *trial = NULL;
-    tn_status status = tn_sparse_copy(base, &trial, error);
-    if (status == TN_OK)
-        status = tn_library_apply(library, library->clauses[clause], tn_library_keeping(library, clause), &bounds,
-                                  &trial, error);
-    if (status == TN_OK)
-        *size = trial->states;
-    tn_sparse_free(trial);
-    return status == TN_LIMIT ? TN_OK : status;
-}
-
-tn_status tn_library_order(const tn_library *library, const tn_sparse *base, size_t *clauses, size_t count,
-                           tn_error *error)
-{
-    uint32_t *sizes = malloc((count + 1) * sizeof *sizes);
-    tn_status status = sizes ? TN_OK : tn_fail_memory(error);
-    for (size_t i = 0; status == TN_OK && i < count; i++) {
-        uint32_t size;
-        status = try_clause(library, base, clauses[i], &size, error);
-        if (status == TN_OK)
-            insert(clauses, sizes, i, clauses[i], size);
-    }
-    free(sizes);
-    return status;
-}
-
-/* The requirements, or the prunes, to be applied, in file order. */
-static void list_clauses(tn_library *library, bool prunes)
-{
-    size_t next = prunes ? library->required_count : 0, end = prunes ? library->applied_count : library->required_count;
-    for (size_t i = 0; next < end; i++)
-        if (tn_library_prunes(library, i) == prunes)
-            library->applied[next++] = i;
-}
-
-static void forget_combined(tn_library *library)
-{
-    tn_sparse_free(library->generator);
-    tn_sparse_free(library->live);
-    library->generator = library->live = NULL;
-}
-
-/* Combines the clauses, within the library's lengths or not, in at most `work` steps. */
-static tn_status try_combine(tn_library *library, bool within, uint64_t work, tn_error *error)
-{
-    forget_combined(library);
-    library->within = within;
-    library->bounds = tn_library_bounds(library);
-    if (work < library->bounds.max_work)
-        library->bounds.max_work = work;
-    memset(library->growth, 0, library->record->clause_count * sizeof *library->growth);
-    size_t required = library->required_count;
-    list_clauses(library, false);
-    list_clauses(library, true);
-    tn_status status = tn_library_everything(library, within, &library->generator, error);
-    if (status == TN_OK)
-        status = tn_library_order(library, NULL, library->applied, required, error);
-    for (size_t i = 0; status == TN_OK && i < required; i++)
-        status = apply_clause(library, library->applied[i], &library->generator, error);
-    if (status == TN_OK)
-        status = tn_library_order(library, library->generator, library->applied + required,
-                                  library->applied_count - required, error);
-    if (status == TN_OK)
-        status = tn_sparse_copy(library->generator, &library->live, error);
-    for (size_t i = required; status == TN_OK && i < library->applied_count; i++) {
-        tn_watch_tell(library->schema->module->watch, (double)i, (double)library->applied_count);
-        status = apply_clause(library, library->applied[i], &library->live, error);
-    }
-    tn_watch_tell(library->schema->module->watch, 0, 0);
-    return status;
-}
-
-/* Plans of any length make the smallest automaton where rules remember little, and the largest where they remember
- * much. Which way is taken depends on counted work, so it is the same everywhere. */
-static tn_status combine(tn_library *library, tn_error *error)
-{
-    tn_error ignored;
-    library->growth = calloc((size_t)library->record->clause_count + 1, sizeof *library->growth);
-    if (!library->growth)
-        return tn_fail_memory(error);
-    tn_status status = try_combine(library, false, library->max_eager, error);
-    if (status == TN_LIMIT)
-        status = try_combine(library, true, UINT64_MAX, error);
-    if (status == TN_LIMIT && library->max > FEW_TRAYS && try_combine(library, false, UINT64_MAX, &ignored) == TN_OK)
-        status = TN_OK;
-    if (status != TN_OK)
-        return status;
-    return tn_sparse_fill(library->live, &library->kept, error);
 }
 
 /* ---- opening */
@@ -296,7 +106,7 @@ tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_libra
     if (status == TN_OK)
         status = lower_clauses(library, options->all_generated, error);
     if (status == TN_OK)
-        status = combine(library, error);
+        status = tn_library_combine(library, error);
     if (status == TN_OK)
         status = tn_library_tables(library, error);
     if (status != TN_OK) {
@@ -364,7 +174,8 @@ void tn_library_free(tn_library *library)
         tn_dfa_free(library->clauses[i]);
     for (size_t left = 0; library->rows && left <= library->max; left++)
         tn_count_row_clear(&library->rows[left]);
-    forget_combined(library);
+    tn_sparse_free(library->generator);
+    tn_sparse_free(library->live);
     tn_dfa_free(library->kept);
     tn_classes_free(library->classes);
     tn_integers_free(library->generated, (size_t)library->max + 1);

@@ -119,6 +119,13 @@ static inline tn_dfa_operation tn_library_keeping(const tn_library *library, siz
     return tn_library_prunes(library, i) ? TN_DFA_MINUS : TN_DFA_AND;
 }
 
+/* Says in which clause it was that making automata passed a limit; returns the error's status. */
+tn_status tn_library_name_clause(const tn_library *library, size_t i, tn_error *error);
+
+/* Makes `generator`, `live` and `kept` of the clauses' automata (combine.c), the same for any number of threads.
+ * TN_LIMIT (E0802) names a clause. */
+tn_status tn_library_combine(tn_library *library, tn_error *error);
+
 /* What combining automata may cost: in proportion to the states that they may have. */
 tn_bounds tn_library_bounds(const tn_library *library);
 

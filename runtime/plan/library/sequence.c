@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #define SAVED_EDGES (UINT64_C(1) << 24) /* of the automata kept for starting from: 128 MB */
-#define RUN_STATES 40u                  /* of what a run of clauses keeps: more states save no more work (measured) */
+#define RUN_STATES 100u                 /* of what a run of clauses keeps: more states save no more work (measured) */
 #define RUN_CELLS (UINT64_C(1) << 23)   /* of all runs' tables: 32 MB */
 
 tn_status tn_sequence_make(tn_sequence *sequence, size_t count, tn_sparse *all, const char *what, tn_error *error)
