@@ -72,6 +72,19 @@ static tn_status evaluate_many(void *context, unsigned thread, tn_individual *co
     return status;
 }
 
+static tn_status evaluate_cases(void *context, unsigned thread, const char *sentence, size_t size, double *errors,
+                                tn_error *error)
+{
+    tartan_evolution *e = context;
+    tartan_error said = {0};
+    if (tn_watch_check(e->watch, error) != TN_OK)
+        return TN_STOPPED;
+    tartan_status status = e->evaluate_cases(e->context, thread, &(tartan_sentence){sentence, size}, errors, &said);
+    for (size_t i = 0; i < e->evaluator.cases && status == TARTAN_OK; i++)
+        errors[i] = isnan(errors[i]) ? HUGE_VAL : errors[i];
+    return status == TARTAN_OK ? TN_OK : callback_failed(status, &said, error);
+}
+
 /* ---- making and freeing */
 
 static tartan_status make(const tartan_module *module, const tartan_evolution_options *given,
@@ -90,7 +103,9 @@ static tartan_status make(const tartan_module *module, const tartan_evolution_op
     evolution->evaluator = (tn_evaluator){.context = evolution,
                                           .objectives = options.objectives ? options.objectives : 1,
                                           .evaluate_many = evaluate_many,
-                                          .batch = options.batch ? options.batch : BATCH};
+                                          .batch = options.batch ? options.batch : BATCH,
+                                          .cases = options.cases,
+                                          .evaluate_cases = options.evaluate_cases ? evaluate_cases : NULL};
     return status;
 }
 
@@ -135,7 +150,7 @@ void tartan_evolution_free(tartan_evolution *evolution)
         free(evolution->choices[i].places);
     free(evolution->seeds);
     free(evolution->choices);
-    free(evolution->scores);
+    free(evolution->births);
     free(evolution);
 }
 
@@ -143,7 +158,7 @@ void tartan_evolution_free(tartan_evolution *evolution)
 
 bool tn_api_evolution_reserve(tartan_evolution *e, size_t generations)
 {
-    return tn_array_reserve_from(&e->scores, &e->room, 8, 0, generations, e->settings.population * sizeof *e->scores);
+    return tn_array_reserve_from(&e->births, &e->room, 8, 0, generations, e->settings.population * sizeof *e->births);
 }
 
 bool tn_api_evolution_add_choice(tartan_evolution *e, uint32_t generation, uint32_t *places, size_t count)
@@ -156,14 +171,14 @@ bool tn_api_evolution_add_choice(tartan_evolution *e, uint32_t generation, uint3
     return true;
 }
 
-static void keep_scores(tartan_evolution *e)
+static void keep_births(tartan_evolution *e)
 {
     size_t count;
     const tn_individual *const *born = tn_evolution_born(e->engine, &count);
-    tn_score *of = e->scores + (size_t)e->done * e->settings.population;
+    tn_api_birth *of = e->births + (size_t)e->done * e->settings.population;
     memset(of, 0, e->settings.population * sizeof *of);
     for (size_t i = 0; i < count; i++)
-        of[i] = born[i]->score;
+        of[i] = (tn_api_birth){born[i]->score, {born[i]->parents[0], born[i]->parents[1]}};
 }
 
 typedef struct recalling {
@@ -175,7 +190,16 @@ static bool recall(void *context, uint64_t id, tn_score *score)
 {
     recalling *r = context;
     r->missing |= id >= (uint64_t)r->evolution->done * r->evolution->settings.population;
-    *score = r->missing ? (tn_score){0} : r->evolution->scores[id];
+    *score = r->missing ? (tn_score){0} : r->evolution->births[id].score;
+    return true;
+}
+
+static bool recall_parents(void *context, uint64_t id, uint64_t parents[2])
+{
+    const recalling *r = context;
+    if (id >= (uint64_t)r->evolution->done * r->evolution->settings.population)
+        return false;
+    memcpy(parents, r->evolution->births[id].parents, sizeof r->evolution->births[id].parents);
     return true;
 }
 
@@ -196,6 +220,7 @@ static tn_status replay(tartan_evolution *e, tn_error *error)
     if (status != TN_OK)
         return status;
     tn_evolution_recall(e->engine, recall, &r);
+    tn_evolution_recall_parents(e->engine, recall_parents);
     for (uint32_t g = 0, at = 0; g < e->done && status == TN_OK; g++) {
         for (; at < e->choice_count && e->choices[at].generation == g && status == TN_OK; at++)
             status = choose(e->engine, e->choices[at].places, e->choices[at].count, error);
@@ -203,6 +228,7 @@ static tn_status replay(tartan_evolution *e, tn_error *error)
             status = tn_evolution_step(e->engine, error);
     }
     tn_evolution_recall(e->engine, NULL, NULL);
+    tn_evolution_recall_parents(e->engine, NULL);
     if (status == TN_OK && r.missing)
         status = tn_fail(error, TN_INVALID, TN_CODE_NONE, "the scores are those of another run");
     if (status == TN_OK && e->chosen)
@@ -255,7 +281,7 @@ tartan_status tartan_evolution_step(tartan_evolution *e, const tartan_watch *giv
     if (e->failed)
         found = e->failure; /* rather than that other batches were not asked any more */
     if (stepped == TN_OK) {
-        keep_scores(e);
+        keep_births(e);
         e->done++;
         e->chosen = false;
         return TARTAN_OK;

@@ -1,7 +1,7 @@
 /* What the files of the C interface to evolution share.
  *
- * A tartan_evolution keeps the scores of all births and what a person chose, so that its generations can be made again:
- * for a saved state, and where a step failed. */
+ * A tartan_evolution keeps the scores and parents of all births and what a person chose, so that its generations can be
+ * made again: for a saved state, and where a step failed. */
 #ifndef TARTAN_API_GENOME_EVOLUTION_H
 #define TARTAN_API_GENOME_EVOLUTION_H
 
@@ -15,16 +15,23 @@ typedef struct tn_api_choice {
     size_t count;
 } tn_api_choice;
 
+/* What is kept of a birth: with it, it is made again without asking the caller. */
+typedef struct tn_api_birth {
+    tn_score score;
+    uint64_t parents[2]; /* ids; selection by cases does not know them otherwise */
+} tn_api_birth;
+
 struct tartan_evolution {
     tn_grammar *grammar;
     tn_evolution_settings settings;
     tn_genome *seeds; /* over the caller's codons */
     tn_evaluator evaluator;
     tartan_evaluate *evaluate;
+    tartan_evaluate_cases *evaluate_cases;
     void *context;
     tn_evolution *engine; /* NULL: broken */
     uint32_t done;        /* generations */
-    tn_score *scores;     /* by id, of all generations done */
+    tn_api_birth *births; /* by id, of all generations done */
     size_t room;          /* generations that they have room for */
     tn_api_choice *choices;
     size_t choice_count;
@@ -51,7 +58,7 @@ tartan_status tn_api_evolution_make(const tartan_module *module, const tartan_ev
  * cannot be made so: the scores are another run's. */
 tartan_status tn_api_evolution_replay(tartan_evolution *evolution, tartan_error *error);
 
-/* Room for the scores of so many generations. */
+/* Room for the births of so many generations. */
 bool tn_api_evolution_reserve(tartan_evolution *evolution, size_t generations);
 
 /* Adds a choice for the generation to come, which takes over `places` in any case; false where out of memory. */

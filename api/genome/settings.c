@@ -7,6 +7,7 @@
 
 _Static_assert((int)TARTAN_INITIALISE_PI_GROW == (int)TN_INITIALISE_PI_GROW + 1 &&
                    (int)TARTAN_SELECT_NSGA2 == (int)TN_SELECT_NSGA2 + 1 &&
+                   (int)TARTAN_SELECT_EPSILON_LEXICASE == (int)TN_SELECT_EPSILON_LEXICASE + 1 &&
                    (int)TARTAN_CROSS_SUBTREE == (int)TN_CROSS_SUBTREE + 1 &&
                    (int)TARTAN_MUTATE_SUBTREE == (int)TN_MUTATE_SUBTREE + 1,
                "choices are the engine's numbers, and one more for the default");
@@ -76,10 +77,25 @@ tartan_status tartan_evolution_options_of(const tartan_module *module, tartan_ev
 
 /* ---- of a caller */
 
+static tartan_status check_cases(const tartan_evolution_options *o, tartan_error *error)
+{
+    bool by_cases = o->selection == TARTAN_SELECT_LEXICASE || o->selection == TARTAN_SELECT_EPSILON_LEXICASE;
+    if (by_cases && !o->evaluate_cases)
+        return tn_api_missing(error, "function that gives errors in single cases");
+    if (by_cases && o->cases == 0)
+        return tn_api_refuse(error, TARTAN_INVALID, "there is no case to select by");
+    if (by_cases && o->steady_state)
+        return tn_api_refuse(error, TARTAN_INVALID, "lexicase selection looks at a whole generation: no steady state");
+    if (!by_cases && (o->evaluate_cases || o->cases))
+        return tn_api_refuse(error, TARTAN_INVALID, "only lexicase selection looks at single cases");
+    return TARTAN_OK;
+}
+
 static tartan_status check_choices(const tartan_evolution_options *o, tartan_error *error)
 {
-    if ((unsigned)o->initialisation > TARTAN_INITIALISE_PI_GROW || (unsigned)o->selection > TARTAN_SELECT_NSGA2 ||
-        (unsigned)o->crossover > TARTAN_CROSS_SUBTREE || (unsigned)o->mutation > TARTAN_MUTATE_SUBTREE)
+    if ((unsigned)o->initialisation > TARTAN_INITIALISE_PI_GROW ||
+        (unsigned)o->selection > TARTAN_SELECT_EPSILON_LEXICASE || (unsigned)o->crossover > TARTAN_CROSS_SUBTREE ||
+        (unsigned)o->mutation > TARTAN_MUTATE_SUBTREE)
         return tn_api_refuse(error, TARTAN_INVALID, "an option's choice is not a value of its enumeration");
     if (!(o->truncation >= 0 && o->truncation <= 1) || !(o->crossover_rate <= 1) || !(o->tail <= 100) ||
         !(o->mutation_rate <= 1000000))
@@ -91,7 +107,7 @@ static tartan_status check_choices(const tartan_evolution_options *o, tartan_err
         return tn_api_refuse(error, TARTAN_INVALID, "several objectives are weighed by TARTAN_SELECT_NSGA2 only");
     if (o->seed_count && !o->seeds)
         return tn_api_missing(error, "array of first genomes");
-    return TARTAN_OK;
+    return check_cases(o, error);
 }
 
 static void set(uint32_t given, uint32_t *setting)
@@ -178,6 +194,7 @@ tartan_status tn_api_evolution_settings(const tartan_evolution_options *o, tarta
         return status;
     translate(o, &evolution->settings);
     evolution->evaluate = o->evaluate;
+    evolution->evaluate_cases = o->evaluate_cases;
     evolution->context = o->context;
     status = tn_api_map_options(evolution->grammar, o->mapping, &evolution->settings.mapping, error);
     evolution->settings.mapping.record = false;

@@ -1,10 +1,9 @@
-/* A run of evolution as bytes: what it was started with, the scores of all births, and what a person chose.
+/* A run of evolution as bytes: what it was started with, the scores and parents of all births, and what a person chose.
  *
  *   "TARTANEV", then little-endian numbers of 64 bits: format, grammar's hash, settings' hash, members' hash,
  *   population, objectives, generations, choices, whether the last one is yet to be used
- *   a birth: its state, then its objectives as IEEE 754 bits (of a birth that did not take place: zeros)
- *   a choice: generation, number of places, places
- *   the XXH3 hash of all before it
+ *   a birth: its state, its parents' ids, then its objectives as IEEE 754 bits (of a birth that did not take place:
+ * zeros) a choice: generation, number of places, places the XXH3 hash of all before it
  */
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +13,7 @@
 #include "runtime/base/bytes.h"
 
 #define MAGIC "TARTANEV"
-enum { FORMAT = 1, HEADER = 9, WORD = 8 };
+enum { FORMAT = 2, HEADER = 9, BIRTH = 3, WORD = 8 };
 
 /* The settings that decide what a run does. */
 static uint64_t settings_hash(const tartan_evolution *e)
@@ -44,6 +43,8 @@ static uint64_t settings_hash(const tartan_evolution *e)
                                 s->mapping.max_depth,
                                 s->mapping.max_steps,
                                 s->mapping.repair,
+                                s->mapping.position_independent,
+                                e->evaluator.cases,
                                 s->seed_count};
     unsigned char bytes[sizeof numbers];
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
@@ -85,9 +86,10 @@ static unsigned char *put(unsigned char *at, uint64_t number)
 static unsigned char *put_births(const tartan_evolution *e, unsigned char *at)
 {
     for (size_t i = 0; i < births(e); i++) {
-        at = put(at, e->scores[i].state);
+        const tn_api_birth *birth = &e->births[i];
+        at = put(put(put(at, birth->score.state), birth->parents[0]), birth->parents[1]);
         for (size_t k = 0; k < e->evaluator.objectives; k++)
-            at = put(at, tn_bits_of(e->scores[i].objectives[k]));
+            at = put(at, tn_bits_of(birth->score.objectives[k]));
     }
     return at;
 }
@@ -98,7 +100,7 @@ tartan_status tartan_evolution_save(const tartan_evolution *e, void **bytes, siz
         return tn_api_missing(error, e ? "room for the state" : "evolution");
     if (!e->engine)
         return tn_api_refuse(error, TARTAN_INVALID, "the evolution broke when memory ran out");
-    size_t words = HEADER + births(e) * (1 + e->evaluator.objectives) + 1;
+    size_t words = HEADER + births(e) * (BIRTH + e->evaluator.objectives) + 1;
     for (size_t i = 0; i < e->choice_count; i++)
         words += 2 + e->choices[i].count;
     unsigned char *made = malloc(sizeof MAGIC - 1 + words * WORD), *at = made;
@@ -146,15 +148,18 @@ static uint64_t get(reader *r)
 
 static bool read_births(reader *r, tartan_evolution *e)
 {
-    if (births(e) > r->left / (1 + e->evaluator.objectives))
+    if (births(e) > r->left / (BIRTH + e->evaluator.objectives))
         return false;
     if (!tn_api_evolution_reserve(e, e->done))
         return false;
     for (size_t i = 0; i < births(e); i++) {
         uint64_t state = get(r);
-        e->scores[i] = (tn_score){.state = state < TN_SCORE_STATE_COUNT ? (tn_score_state)state : TN_SCORE_FAILED};
+        tn_api_birth *birth = &e->births[i];
+        *birth = (tn_api_birth){.score.state = state < TN_SCORE_STATE_COUNT ? (tn_score_state)state : TN_SCORE_FAILED};
+        birth->parents[0] = get(r);
+        birth->parents[1] = get(r);
         for (size_t k = 0; k < e->evaluator.objectives; k++)
-            e->scores[i].objectives[k] = tn_double_of(get(r));
+            birth->score.objectives[k] = tn_double_of(get(r));
     }
     return true;
 }

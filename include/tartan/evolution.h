@@ -39,6 +39,12 @@ typedef struct tartan_score {
 typedef tartan_status tartan_evaluate(void *context, unsigned thread, const tartan_sentence *sentences, size_t count,
                                       tartan_score *scores, tartan_error *error);
 
+/* Gives the errors of one sentence that was SCORED in all `cases`; lower is better, and what is not a number counts as
+ * infinite. For lexicase selection: of every member of a generation before it has children, also where it was asked
+ * before. Threads, errors and what may be used are as for tartan_evaluate. */
+typedef tartan_status tartan_evaluate_cases(void *context, unsigned thread, const tartan_sentence *sentence,
+                                            double *errors, tartan_error *error);
+
 typedef enum tartan_initialisation {
     TARTAN_INITIALISE_DEFAULT, /* RAMPED */
     TARTAN_INITIALISE_RANDOM,
@@ -53,6 +59,8 @@ typedef enum tartan_selection {
     TARTAN_SELECT_TRUNCATION,
     TARTAN_SELECT_ROULETTE,
     TARTAN_SELECT_NSGA2,
+    TARTAN_SELECT_LEXICASE, /* this and the next: by errors in single cases, which `evaluate_cases` gives */
+    TARTAN_SELECT_EPSILON_LEXICASE,
 } tartan_selection;
 
 typedef enum tartan_crossover {
@@ -105,8 +113,10 @@ typedef struct tartan_evolution_options {
     uint32_t tree_depth;  /* of trees that subtree mutation makes (depth_high) */
     uint32_t elites;      /* the best that stay as they are (1) */
     bool no_elites;
-    bool steady_state;                 /* each child takes the worst one's place, if it is better */
-    const tartan_map_options *mapping; /* (the grammar's own); copied */
+    bool steady_state;                     /* each child takes the worst one's place, if it is better */
+    const tartan_map_options *mapping;     /* (the grammar's own); copied */
+    tartan_evaluate_cases *evaluate_cases; /* must be there for selection by cases, and only then */
+    size_t cases;                          /* how many there are, at least 1 then; members * cases up to 2^27 */
 } tartan_evolution_options;
 TARTAN_SIZED(tartan_evolution_options)
 
@@ -183,8 +193,8 @@ TARTAN_API tartan_status tartan_evolution_save(const tartan_evolution *evolution
                                                tartan_error *error);
 
 /* Goes on with such a run: its generations are made again, without evaluating. The module's grammar and the options
- * must be those that it was started with, but for evaluate, context, batch and threads; otherwise, or where the bytes
- * are damaged, TARTAN_INVALID. */
+ * must be those that it was started with, but for evaluate, evaluate_cases, context, batch and threads; otherwise, or
+ * where the bytes are damaged, TARTAN_INVALID. */
 TARTAN_API tartan_status tartan_evolution_restore(const tartan_module *module, const tartan_evolution_options *options,
                                                   const void *bytes, size_t size, tartan_evolution **evolution,
                                                   tartan_error *error);

@@ -6,6 +6,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -77,7 +78,7 @@ static void maps_and_inverts(void **state)
 /* ---- a fitness */
 
 typedef struct judge {
-    atomic_size_t asked, calls;
+    atomic_size_t asked, calls, cases_asked;
     size_t most_at_once, fail_after; /* 0: never */
     tartan_status status;
     unsigned threads;
@@ -109,6 +110,24 @@ static tartan_status score(void *context, unsigned thread, const tartan_sentence
         else if (j->worst && size % 3 == 0)
             scores[i].objectives[0] = NAN;
     }
+    return TARTAN_OK;
+}
+
+/* In each place: is the letter another one? */
+static tartan_status score_places(void *context, unsigned thread, const tartan_sentence *sentence, double *errors,
+                                  tartan_error *error)
+{
+    static const char wanted[] = "3210321032";
+    judge *j = context;
+    size_t asked = ++j->cases_asked;
+    if (thread >= j->threads)
+        return TARTAN_INTERNAL;
+    if (j->fail_after && asked > j->fail_after) {
+        strcpy(error->message, "the judge of places is tired");
+        return j->status;
+    }
+    for (size_t k = 0; k < strlen(wanted); k++)
+        errors[k] = k >= sentence->size ? NAN : sentence->text[k] == wanted[k] ? 0 : 1;
     return TARTAN_OK;
 }
 
@@ -312,6 +331,120 @@ static void takes_a_study(void **state)
     tartan_module_free(module);
 }
 
+static void selects_by_cases(void **state)
+{
+    (void)state;
+    tartan_module *module = compile();
+    static const tartan_selection selections[] = {TARTAN_SELECT_TOURNAMENT, TARTAN_SELECT_LEXICASE,
+                                                  TARTAN_SELECT_EPSILON_LEXICASE};
+    char sentences[3][64];
+    for (size_t s = 0; s < 3; s++) {
+        judge alone = {0}, crowd = {.threads = 4}, after = {0};
+        tartan_evolution_options options = options_for(&alone), many = options_for(&crowd), again = options_for(&after);
+        tartan_evolution_options *all[] = {&options, &many, &again};
+        for (size_t i = 0; i < 3 && s > 0; i++) {
+            all[i]->evaluate_cases = score_places;
+            all[i]->cases = 10;
+        }
+        for (size_t i = 0; i < 3; i++)
+            all[i]->selection = selections[s];
+        tartan_evolution *one = begin(module, &options), *four = begin(module, &many), *restored = NULL;
+        breed(one, 6);
+        breed(four, 12);
+        assert_true((alone.cases_asked > 0) == (s > 0));
+        void *bytes;
+        size_t size;
+        assert_int_equal(tartan_evolution_save(one, &bytes, &size, NULL), TARTAN_OK);
+        assert_int_equal(tartan_evolution_restore(module, &again, bytes, size, &restored, NULL), TARTAN_OK);
+        assert_int_equal(after.asked, 0);
+        assert_int_equal(after.cases_asked, 0); /* who the parents were is known */
+        assert_same(one, restored);
+        breed(one, 12);
+        breed(restored, 12);
+        assert_same(one, four);
+        assert_same(restored, four);
+        /* a failing callback leaves no trace */
+        after.fail_after = after.cases_asked + 5;
+        after.asked = 0;
+        after.status = TARTAN_INVALID;
+        tartan_error error = {0};
+        if (s > 0) {
+            assert_int_equal(tartan_evolution_step(restored, NULL, &error), TARTAN_INVALID);
+            assert_string_equal(error.message, "the judge of places is tired");
+        }
+        after.fail_after = 0;
+        breed(restored, 13);
+        breed(four, 13);
+        assert_same(restored, four);
+        tartan_individual best = tartan_individual_init();
+        assert_int_equal(tartan_evolution_member(one, 5, &best, NULL), TARTAN_OK);
+        snprintf(sentences[s], sizeof sentences[s], "%s", best.sentence);
+        tartan_bytes_free(bytes);
+        tartan_evolution_free(one);
+        tartan_evolution_free(four);
+        tartan_evolution_free(restored);
+    }
+    assert_true(strcmp(sentences[0], sentences[1]) != 0 || strcmp(sentences[0], sentences[2]) != 0);
+
+    /* what does not go together */
+    judge j = {0};
+    tartan_evolution *none = NULL;
+    tartan_evolution_options wrong = options_for(&j);
+    wrong.selection = TARTAN_SELECT_LEXICASE;
+    assert_int_equal(tartan_evolution_new(module, &wrong, &none, NULL), TARTAN_INVALID); /* no errors in cases */
+    wrong.evaluate_cases = score_places;
+    assert_int_equal(tartan_evolution_new(module, &wrong, &none, NULL), TARTAN_INVALID); /* no cases */
+    wrong.cases = 10;
+    wrong.steady_state = true;
+    assert_int_equal(tartan_evolution_new(module, &wrong, &none, NULL), TARTAN_INVALID);
+    wrong.steady_state = false;
+    wrong.selection = TARTAN_SELECT_TOURNAMENT;
+    assert_int_equal(tartan_evolution_new(module, &wrong, &none, NULL), TARTAN_INVALID); /* nobody looks at cases */
+    tartan_module_free(module);
+}
+
+static void maps_in_pairs(void **state)
+{
+    (void)state;
+    tartan_module *module = compile();
+    tartan_grammar *grammar = NULL;
+    tartan_mapper *mapper = NULL;
+    assert_int_equal(tartan_grammar_new(module, &grammar, NULL), TARTAN_OK);
+    assert_int_equal(tartan_mapper_new(grammar, &mapper, NULL), TARTAN_OK);
+    tartan_map_options options = tartan_map_options_init();
+    tartan_mapping mapping = tartan_mapping_init();
+    assert_int_equal(tartan_map_options_of(grammar, &options, NULL), TARTAN_OK);
+    assert_false(options.position_independent);
+    options.position_independent = true;
+    static const uint64_t codons[] = {0, 1, 1, 0, 1, 3, 0, 2}; /* <d><s>, then the <s>, its <d>, and the first <d> */
+    assert_int_equal(tartan_map(mapper, codons, 8, &options, &mapping, NULL), TARTAN_OK);
+    assert_true(mapping.valid && mapping.used == 8);
+    assert_string_equal(mapping.sentence, "23");
+
+    judge one = {0}, four = {.threads = 4};
+    tartan_evolution_options alone = options_for(&one), many = options_for(&four);
+    alone.mapping = many.mapping = &options;
+    tartan_evolution *first = begin(module, &alone), *second = begin(module, &many), *restored = NULL;
+    breed(first, 8);
+    breed(second, 8);
+    assert_same(first, second);
+    void *bytes;
+    size_t size;
+    assert_int_equal(tartan_evolution_save(first, &bytes, &size, NULL), TARTAN_OK);
+    assert_int_equal(tartan_evolution_restore(module, &alone, bytes, size, &restored, NULL), TARTAN_OK);
+    assert_same(first, restored);
+    alone.mapping = NULL;
+    tartan_evolution *other = NULL;
+    assert_int_equal(tartan_evolution_restore(module, &alone, bytes, size, &other, NULL), TARTAN_INVALID);
+    tartan_bytes_free(bytes);
+    tartan_evolution_free(first);
+    tartan_evolution_free(second);
+    tartan_evolution_free(restored);
+    tartan_mapper_free(mapper);
+    tartan_grammar_free(grammar);
+    tartan_module_free(module);
+}
+
 static void refuses_misuse(void **state)
 {
     (void)state;
@@ -362,6 +495,7 @@ int main(void)
         cmocka_unit_test(maps_and_inverts),      cmocka_unit_test(breeds_the_same_however_it_is_done),
         cmocka_unit_test(refuses_other_states),  cmocka_unit_test(steps_fail_without_a_trace),
         cmocka_unit_test(bears_with_bad_scores), cmocka_unit_test(takes_a_study),
+        cmocka_unit_test(selects_by_cases),      cmocka_unit_test(maps_in_pairs),
         cmocka_unit_test(refuses_misuse),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
