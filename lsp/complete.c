@@ -27,6 +27,7 @@ typedef struct cursor {
     size_t count; /* tokens before the cursor; not the word that it is in or just behind */
     size_t item;  /* the word that starts the item; `count` where there is none */
     bool in_braces;
+    size_t braces;              /* how many are open */
     size_t clause;              /* the last word at the level of the braces that starts a clause, field or case */
     size_t brackets[DEPTH_MAX]; /* open ones */
     size_t depth;
@@ -158,6 +159,115 @@ static void complete_tray(cursor *c, bool literal)
     offer_words(c, literal ? literal_words : words);
 }
 
+/* ---- codes of warnings */
+
+static void complete_codes(cursor *c)
+{
+    static const struct {
+        int code;
+        const char *summary;
+    } warnings[] = {
+#define ERROR(NUMBER, NAME, SUMMARY)
+#define WARNING(NUMBER, NAME, SUMMARY) {NUMBER, SUMMARY},
+#include "runtime/base/codes.def"
+#undef ERROR
+#undef WARNING
+    };
+    for (size_t i = 0; i < sizeof warnings / sizeof *warnings; i++) {
+        char code[16];
+        snprintf(code, sizeof code, "W%03d", warnings[i].code);
+        offer(c, code, KIND_VALUE, warnings[i].summary, "1");
+    }
+}
+
+/* ---- houses */
+
+/* The form that the item is, or is about; else the last one there is. */
+static const tn_symbol *form_here(const cursor *c)
+{
+    const tn_index *index = &c->analysis->index;
+    char *name = c->item + 1 < c->count ? word_at(c, c->item + 1) : NULL;
+    const tn_symbol *symbol = !name                    ? NULL
+                              : is(c, c->item, "form") ? tn_names_get(&index->forms, name)
+                                                       : tn_names_get(&index->names, name);
+    free(name);
+    if (symbol && symbol->kind != TN_SYMBOL_FORM)
+        symbol = symbol->form;
+    return symbol ? symbol : index->last_form;
+}
+
+static void offer_parts(cursor *c, tn_symbol_kind kind, int shown)
+{
+    const tn_symbol *form = form_here(c);
+    for (const tn_symbol *s = form ? form->next : NULL; s && s->parent == form; s = s->next)
+        if (s->kind == kind)
+            offer(c, s->name, shown, s->doc, "1");
+}
+
+static void complete_cell(cursor *c, bool room)
+{
+    static const char *const words[] = {"any", "void", "area", "not", "or", NULL};
+    static const char *const room_words[] = {"cells", "by", "glazing", NULL};
+    const tn_symbol *form = form_here(c), *field = form ? field_here(c, form->schema) : NULL;
+    offer_parts(c, TN_SYMBOL_STOREY, KIND_VALUE);
+    offer_parts(c, TN_SYMBOL_FUNCTION, KIND_FUNCTION);
+    for (const tn_symbol *s = form ? form->schema : NULL; s; s = s->schema)
+        offer_declared(c, s, field);
+    offer_words(c, words);
+    if (room) {
+        offer_parts(c, TN_SYMBOL_OPENING, KIND_VALUE);
+        offer_words(c, room_words);
+    }
+}
+
+static void complete_kinds(cursor *c)
+{
+    static const char *const kinds[] = {"wall", "party", "open", "floor", "stair", NULL};
+    offer_parts(c, TN_SYMBOL_OPENING, KIND_VALUE);
+    offer_words(c, kinds);
+}
+
+/* In the braces of a form, outside of parentheses. */
+static void complete_form(cursor *c)
+{
+    static const char *const clauses[] = {"storey",  "spine",  "wall", "partition", "deck",     "roof",
+                                          "section", "forbid", "void", "no",        "function", "opening",
+                                          "flight",  "face",   "tile", "material",  "allow",    NULL};
+    static const char *const faces[] = {"cell", "beside", "along", "across", "under", "outside",
+                                        "back", "front",  "left",  "right",  NULL};
+    static const char *const tiles[] = {"for",  "against", "or",   "wide",  "deep", "item", "keep",
+                                        "left", "right",   "back", "front", "up",   NULL};
+    static const char *const openings[] = {"wide", "high", "sill", "clear", "passage", "glazed", NULL};
+    static const char *const flights[] = {"wide", "rise", "going", "turn", "half", "quarter", NULL};
+    static const char *const sections[] = {"storeys", "roof",  "flat", "shed",   "gable",
+                                           "vault",   "eaves", "open", "across", NULL};
+    static const char *const materials[] = {"price", "per", "each", "sf", "m2", "cf", "m3", "for", "where", NULL};
+    static const char *const at[] = {"at", "cell", NULL};
+    if (c->braces > 1 || is(c, c->clause, "tile")) {
+        offer_parts(c, TN_SYMBOL_FUNCTION, KIND_FUNCTION);
+        complete_kinds(c);
+        offer_words(c, tiles);
+    } else if (is(c, c->clause, "face")) {
+        complete_kinds(c);
+        offer_words(c, faces);
+    } else if (is(c, c->clause, "material")) {
+        offer_parts(c, TN_SYMBOL_OPENING, KIND_VALUE);
+        offer_words(c, materials);
+    } else if (is(c, c->clause, "allow")) {
+        complete_codes(c);
+    } else if (is(c, c->clause, "opening")) {
+        offer_words(c, openings);
+    } else if (is(c, c->clause, "flight")) {
+        offer_words(c, flights);
+    } else if (is(c, c->clause, "section")) {
+        offer_words(c, sections);
+    } else if (is(c, c->clause, "function")) {
+        offer_words(c, at);
+    }
+    if (c->braces == 1)
+        offer_words(c, clauses);
+}
+
 /* ---- elsewhere */
 
 static void offer_fields(cursor *c, const char *group)
@@ -201,25 +311,6 @@ static void complete_in_call(cursor *c, size_t bracket)
     if (bracket > 0 && is(c, bracket - 1, "distance"))
         offer_words(c, distance);
     complete_expression(c);
-}
-
-static void complete_codes(cursor *c)
-{
-    static const struct {
-        int code;
-        const char *summary;
-    } warnings[] = {
-#define ERROR(NUMBER, NAME, SUMMARY)
-#define WARNING(NUMBER, NAME, SUMMARY) {NUMBER, SUMMARY},
-#include "runtime/base/codes.def"
-#undef ERROR
-#undef WARNING
-    };
-    for (size_t i = 0; i < sizeof warnings / sizeof *warnings; i++) {
-        char code[16];
-        snprintf(code, sizeof code, "W%03d", warnings[i].code);
-        offer(c, code, KIND_VALUE, warnings[i].summary, "1");
-    }
 }
 
 static void complete_clause_names(cursor *c)
@@ -271,10 +362,14 @@ static void complete_test(cursor *c)
 
 static void complete_top(cursor *c)
 {
-    static const char *const items[] = {"use", "schema", "rule", "measure", "let", "library", "test", NULL};
-    static const char *const head[] = {"using", "from", "allow", NULL};
+    static const char *const items[] = {"use", "schema", "rule", "measure", "let", "library", "form", "test", NULL};
+    static const char *const head[] = {"using", "from", "in", "of", "allow", NULL};
     size_t last = c->count - 1;
     if (c->count > 0 && is(c, last, "using")) {
+        offer_symbols(c, TN_SYMBOL_SCHEMA, KIND_STRUCT);
+    } else if (c->count > 0 && is(c, last, "in") && is(c, c->item, "library")) {
+        offer_symbols(c, TN_SYMBOL_FORM, KIND_STRUCT);
+    } else if (c->count > 0 && is(c, last, "of") && is(c, c->item, "form")) {
         offer_symbols(c, TN_SYMBOL_SCHEMA, KIND_STRUCT);
     } else if (c->count > 0 && is(c, last, "from")) {
         offer_symbols(c, TN_SYMBOL_LIBRARY, KIND_MODULE);
@@ -339,9 +434,11 @@ static bool find_tokens(cursor *c, size_t offset, bool *quoted)
 
 static void find_context(cursor *c)
 {
-    static const char *const items[] = {"use", "schema", "rule", "measure", "let", "library", "test", NULL};
+    static const char *const items[] = {"use", "schema", "rule", "measure", "let", "library", "form", "test", NULL};
     static const char *const clauses[] = {"trays",  "total", "require", "prune", "allow",  "match",
                                           "reject", "keep",  "drop",    "zone",  "forbid", NULL};
+    static const char *const of_form[] = {"storey", "spine",    "section", "function", "opening", "flight",
+                                          "face",   "material", "allow",   "forbid",   "tile",    NULL};
     c->item = c->clause = c->count;
     for (size_t i = 0; i < c->count; i++) {
         if (c->tokens[i].kind == TN_TOKEN_WORD && is_any(c, i, items)) {
@@ -349,9 +446,16 @@ static void find_context(cursor *c)
             c->clause = c->count;
             c->depth = 0;
             c->in_braces = false;
+            c->braces = 0;
         } else if (is(c, i, "{")) {
             c->in_braces = true;
+            c->braces++;
+        } else if (is(c, i, "}") && c->braces > 1) {
+            c->braces--;
+            c->clause = c->count;
+            c->depth = 0;
         } else if (is(c, i, "}")) {
+            c->braces = 0;
             c->in_braces = false;
             c->item = c->clause = c->count;
             c->depth = 0;
@@ -359,7 +463,8 @@ static void find_context(cursor *c)
             c->brackets[c->depth++] = i;
         } else if ((is(c, i, ")") || is(c, i, "]")) && c->depth > 0) {
             c->depth--;
-        } else if (c->in_braces && c->tokens[i].kind == TN_TOKEN_WORD && is_any(c, i, clauses)) {
+        } else if (c->in_braces && c->tokens[i].kind == TN_TOKEN_WORD &&
+                   is_any(c, i, is(c, c->item, "form") ? of_form : clauses)) {
             c->clause = i;
             c->depth = 0;
         }
@@ -372,8 +477,11 @@ static void complete(cursor *c)
     size_t outer = c->depth;
     while (outer > 0 && !(c->brackets[outer - 1] > 0 && is(c, c->brackets[outer - 1] - 1, "tray")))
         outer--;
+    bool of_room = c->depth && bracket > 0 && is(c, bracket - 1, "room");
     if (c->depth && is(c, bracket, "["))
         complete_tray(c, true);
+    else if (of_room || (c->depth && bracket > 0 && is(c, bracket - 1, "cell")))
+        complete_cell(c, of_room);
     else if (outer > 0)
         complete_tray(c, false);
     else if (c->depth && !is(c, c->item, "schema"))
@@ -382,6 +490,8 @@ static void complete(cursor *c)
         complete_library(c);
     else if (c->in_braces && is(c, c->item, "schema"))
         complete_schema(c);
+    else if (c->in_braces && is(c, c->item, "form"))
+        complete_form(c);
     else if (c->in_braces && is(c, c->item, "test"))
         complete_test(c);
     else

@@ -111,21 +111,22 @@ static json_t *replacement_action(tn_document *document, tn_file_analysis *analy
                      edit_at(document, analysis, item->span, item->replacement));
 }
 
-/* The rule or library in which a place of the document is. */
+/* The rule, library or form in which a place of the document is. */
 static const tn_symbol *owner_of(const tn_file_analysis *analysis, tn_span span)
 {
     for (const tn_symbol *s = analysis->index.first; s; s = s->next)
-        if ((s->kind == TN_SYMBOL_RULE || s->kind == TN_SYMBOL_LIBRARY) && s->span.file == span.file &&
-            s->span.begin <= span.begin && span.end <= s->span.end)
+        if ((s->kind == TN_SYMBOL_RULE || s->kind == TN_SYMBOL_LIBRARY || s->kind == TN_SYMBOL_FORM) &&
+            s->span.file == span.file && s->span.begin <= span.begin && span.end <= s->span.end)
             return s;
     return NULL;
 }
 
-/* Where `allow W012` goes: in a rule before its `=`, in a library before its `}`; or after codes allowed already. */
+/* Where `allow W012` goes: in a rule before its `=`, in a library or form before its `}`; or after codes allowed
+ * already. */
 static bool allowance(const tn_file_analysis *analysis, const tn_symbol *owner, const char *code, tn_span *place,
                       char *text, size_t size)
 {
-    if (owner->kind == TN_SYMBOL_LIBRARY) {
+    if (owner->kind == TN_SYMBOL_LIBRARY || owner->kind == TN_SYMBOL_FORM) {
         *place = (tn_span){0, owner->span.end - 1, owner->span.end - 1};
         snprintf(text, size, "  allow %s\n", code);
         return true;

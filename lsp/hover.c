@@ -12,9 +12,10 @@ enum { SHOWN_MAX = 4096 }; /* bytes of a definition that are shown */
 static const char *kind_name(const tn_symbol *symbol)
 {
     static const char *const names[] = {
-        [TN_SYMBOL_SCHEMA] = "schema",  [TN_SYMBOL_FIELD] = "field",     [TN_SYMBOL_VALUE] = "value",
-        [TN_SYMBOL_RULE] = "rule",      [TN_SYMBOL_LIBRARY] = "library", [TN_SYMBOL_CLAUSE] = "clause",
-        [TN_SYMBOL_MEASURE] = "measure"};
+        [TN_SYMBOL_SCHEMA] = "schema",     [TN_SYMBOL_FIELD] = "field",     [TN_SYMBOL_VALUE] = "value",
+        [TN_SYMBOL_RULE] = "rule",         [TN_SYMBOL_LIBRARY] = "library", [TN_SYMBOL_CLAUSE] = "clause",
+        [TN_SYMBOL_MEASURE] = "measure",   [TN_SYMBOL_FORM] = "form",       [TN_SYMBOL_STOREY] = "storey",
+        [TN_SYMBOL_FUNCTION] = "function", [TN_SYMBOL_OPENING] = "opening", [TN_SYMBOL_TILE] = "tile"};
     return names[symbol->kind];
 }
 

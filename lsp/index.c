@@ -1,7 +1,9 @@
 /* Finds what the names in a .plan file stand for. */
-#include "lsp/index.h"
+#include "lsp/index_parts.h"
 
 #include <string.h>
+
+#include "compiler/plan/check/form.h"
 
 /* ---- symbols and occurrences */
 
@@ -26,7 +28,7 @@ static tn_symbol *add_symbol(tn_index *index, tn_symbol_kind kind, const tn_ast_
     return symbol;
 }
 
-static void occur(tn_index *index, tn_span span, const tn_symbol *symbol)
+void tn_index_occur(tn_index *index, tn_span span, const tn_symbol *symbol)
 {
     if (!symbol)
         return;
@@ -43,11 +45,11 @@ static void occur(tn_index *index, tn_span span, const tn_symbol *symbol)
     index->occurrences[index->count++] = (tn_occurrence){span, symbol};
 }
 
-static tn_symbol *define(tn_index *index, tn_symbol_kind kind, const tn_ast_word *name, const tn_ast_word *doc,
-                         const tn_ast_node *ast, const tn_symbol *parent)
+tn_symbol *tn_index_define(tn_index *index, tn_symbol_kind kind, const tn_ast_word *name, const tn_ast_word *doc,
+                           const tn_ast_node *ast, const tn_symbol *parent)
 {
     tn_symbol *symbol = add_symbol(index, kind, name, doc, ast, parent);
-    occur(index, name->node.span, symbol);
+    tn_index_occur(index, name->node.span, symbol);
     return symbol;
 }
 
@@ -87,24 +89,25 @@ const tn_symbol *tn_index_schema(const tn_index *index, const char *owner)
 
 static void define_schema(tn_index *index, const tn_ast_schema *ast)
 {
-    const tn_symbol *schema = define(index, TN_SYMBOL_SCHEMA, ast->name, ast->doc, &ast->top.node, NULL);
+    const tn_symbol *schema = tn_index_define(index, TN_SYMBOL_SCHEMA, ast->name, ast->doc, &ast->top.node, NULL);
     if (!schema)
         return;
     index->last_schema = schema;
     if (!tn_names_get(&index->schemas, schema->name))
         tn_names_put(&index->schemas, schema->name, (void *)(uintptr_t)schema);
     for (TN_EACH(const tn_ast_field, field, ast->body.fields)) {
-        const tn_symbol *symbol = define(index, TN_SYMBOL_FIELD, field->name, field->doc, &field->node, schema);
+        const tn_symbol *symbol =
+            tn_index_define(index, TN_SYMBOL_FIELD, field->name, field->doc, &field->node, schema);
         for (TN_EACH(const tn_ast_value, value, field->values))
             if (value->word->kind == TN_WORD_NAME && symbol)
-                define(index, TN_SYMBOL_VALUE, value->word, value->doc, &value->node, symbol);
+                tn_index_define(index, TN_SYMBOL_VALUE, value->word, value->doc, &value->node, symbol);
     }
 }
 
 static void define_named(tn_index *index, tn_symbol_kind kind, const tn_ast_word *name, const tn_ast_word *doc,
                          const tn_ast_node *ast)
 {
-    tn_symbol *symbol = define(index, kind, name, doc, ast, NULL);
+    tn_symbol *symbol = tn_index_define(index, kind, name, doc, ast, NULL);
     if (symbol && !tn_names_get(&index->names, symbol->name))
         tn_names_put(&index->names, symbol->name, symbol);
 }
@@ -119,6 +122,8 @@ static void define_items(tn_index *index, const tn_ast_file *file)
             define_named(index, item->kind == TN_ITEM_RULE ? TN_SYMBOL_RULE : TN_SYMBOL_MEASURE, rule->name, rule->doc,
                          &item->node);
         }
+        if (item->kind == TN_ITEM_FORM)
+            tn_index_define_form(index, (const tn_ast_form *)item);
         if (item->kind == TN_ITEM_LIBRARY) {
             const tn_ast_library *library = (const tn_ast_library *)item;
             define_named(index, TN_SYMBOL_LIBRARY, library->name, library->doc, &item->node);
@@ -128,69 +133,80 @@ static void define_items(tn_index *index, const tn_ast_file *file)
 
 /* ---- uses */
 
-static const tn_symbol *use_name(tn_index *index, const tn_names *names, const tn_ast_word *word)
+const tn_symbol *tn_index_use(tn_index *index, const tn_names *names, const tn_ast_word *word)
 {
     const tn_symbol *symbol = word && word->text ? tn_names_get(names, word->text) : NULL;
     if (symbol)
-        occur(index, word->node.span, symbol);
+        tn_index_occur(index, word->node.span, symbol);
     return symbol;
 }
 
-/* The words of one alternative of a specifier, or of one tray of a plan: fields, and values after their field or alone.
- */
-static const tn_symbol *use_words(tn_index *index, const tn_symbol *schema, const tn_symbol *field,
+/* The words of one alternative of a specifier, or of one tray of a plan: fields, and values after their field or alone;
+ * of cells also what their form declares. */
+static const tn_symbol *use_words(tn_index *index, const tn_index_about *about, const tn_symbol *field,
                                   const tn_ast_list *words)
 {
+    const tn_symbol *schema = about->schema;
     for (TN_EACH(const tn_ast_word, word, *words)) {
         if (word->kind != TN_WORD_NAME || !word->text)
             continue;
+        const tn_symbol *part = tn_index_part(about->form, word->text);
+        if (part) {
+            tn_index_occur(index, word->node.span, part);
+            continue;
+        }
         const tn_symbol *value = field ? tn_index_value(schema, field, word->text) : NULL;
         const tn_symbol *named = value ? NULL : tn_index_field(schema, word->text);
         if (!value && !named)
             value = tn_index_value(schema, NULL, word->text);
-        occur(index, word->node.span, named ? named : value);
+        tn_index_occur(index, word->node.span, named ? named : value);
         field = named ? named : value ? value->parent : field;
     }
     return field;
 }
 
-static void use_specifier(tn_index *index, const tn_symbol *schema, const tn_ast_expr *tray)
+static void use_specifier(tn_index *index, const tn_index_about *about, const tn_ast_expr *tray)
 {
+    bool of_cells = tray->kind == TN_EXPR_CELL || tray->kind == TN_EXPR_ROOM;
+    const tn_index_about here = {about->schema, of_cells ? about->form : NULL};
     for (TN_EACH(const tn_ast_item, item, tn_ast_tray_items(tray))) {
         const tn_symbol *field = NULL;
         for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives))
-            field = use_words(index, schema, field, &alternative->words);
+            field = use_words(index, &here, field, &alternative->words);
     }
 }
 
 static void use_field(tn_index *index, const tn_symbol *schema, const tn_ast_word *word)
 {
     if (word && word->text)
-        occur(index, word->node.span, tn_index_field(schema, word->text));
+        tn_index_occur(index, word->node.span, tn_index_field(schema, word->text));
 }
 
 /* As deep as expressions nest, at most TN_NESTING_MAX. */
-static void use_expression(tn_index *index, const tn_symbol *schema, const tn_ast_expr *expr)
+void tn_index_expression(tn_index *index, const tn_index_about *about, const tn_ast_expr *expr)
 {
     if (!expr)
         return;
     if (expr->kind == TN_EXPR_NAME)
-        use_name(index, &index->names, expr->name);
+        tn_index_use(index, &index->names, expr->name);
     else if (expr->kind == TN_EXPR_SUM)
-        use_field(index, schema, expr->name);
-    use_specifier(index, schema, expr);
+        use_field(index, about->schema, expr->name);
+    use_specifier(index, about, expr);
+    tn_index_kinds(index, about->form, expr->kinds);
     for (TN_EACH(const tn_ast_expr, part, expr->parts))
-        use_expression(index, schema, part);
+        tn_index_expression(index, about, part);
 }
 
 static void use_library(tn_index *index, tn_symbol *library, const tn_ast_library *ast)
 {
+    const tn_index_about about = {library->schema, library->form};
     for (TN_EACH(const tn_ast_clause, clause, ast->clauses)) {
         use_field(index, library->schema, clause->field);
-        use_expression(index, library->schema, clause->expr);
+        tn_index_expression(index, &about, clause->expr);
         if (clause->form != TN_FORM_PRUNE || !clause->name)
             continue;
-        const tn_symbol *symbol = define(index, TN_SYMBOL_CLAUSE, clause->name, clause->doc, &clause->node, library);
+        const tn_symbol *symbol =
+            tn_index_define(index, TN_SYMBOL_CLAUSE, clause->name, clause->doc, &clause->node, library);
         if (symbol && !tn_names_get(&index->clauses, symbol->name))
             tn_names_put(&index->clauses, symbol->name, (void *)(uintptr_t)symbol);
     }
@@ -200,16 +216,17 @@ static void use_test(tn_index *index, const tn_ast_test *test)
 {
     const tn_symbol *subject = NULL;
     for (TN_EACH(const tn_ast_word, name, test->subjects)) {
-        const tn_symbol *named = use_name(index, &index->names, name);
+        const tn_symbol *named = tn_index_use(index, &index->names, name);
         subject = subject ? subject : named;
     }
-    const tn_symbol *schema = tn_index_schema(index, subject ? subject->name : NULL);
+    const tn_index_about about = {tn_index_schema(index, subject ? subject->name : NULL), NULL};
     for (TN_EACH(const tn_ast_case, test_case, test->cases)) {
         for (TN_EACH(const tn_ast_tray, tray, test_case->literal.trays))
-            use_words(index, schema, NULL, &tray->words);
+            use_words(index, &about, NULL, &tray->words);
+        tn_index_house(index, subject ? subject->form : NULL, test_case->literal.house);
         for (TN_EACH(const tn_ast_word, name, test_case->by))
-            if (!use_name(index, &index->clauses, name))
-                use_name(index, &index->names, name);
+            if (!tn_index_use(index, &index->clauses, name))
+                tn_index_use(index, &index->names, name);
     }
 }
 
@@ -226,13 +243,18 @@ static void use_item(tn_index *index, const tn_ast_top *item)
 {
     if (item->kind == TN_ITEM_SCHEMA) {
         const tn_ast_schema *schema = (const tn_ast_schema *)item;
-        use_name(index, &index->schemas, schema->from);
+        const tn_index_about about = {own_symbol(index, &item->node), NULL};
+        tn_index_use(index, &index->schemas, schema->from);
         for (TN_EACH(const tn_ast_forbid, forbid, schema->body.forbids))
-            use_specifier(index, own_symbol(index, &item->node), forbid->tray);
+            use_specifier(index, &about, forbid->tray);
     } else if (item->kind == TN_ITEM_RULE || item->kind == TN_ITEM_MEASURE) {
         const tn_ast_rule *rule = (const tn_ast_rule *)item;
-        use_name(index, &index->schemas, rule->using);
-        use_expression(index, tn_index_schema(index, rule->name->text), rule->body);
+        tn_index_use(index, &index->schemas, rule->using);
+        const tn_symbol *symbol = own_symbol(index, &item->node);
+        const tn_index_about about = {tn_index_schema(index, rule->name->text), symbol ? symbol->form : NULL};
+        tn_index_expression(index, &about, rule->body);
+    } else if (item->kind == TN_ITEM_FORM) {
+        tn_index_use_form(index, own_symbol(index, &item->node), (const tn_ast_form *)item);
     } else if (item->kind == TN_ITEM_TEST) {
         use_test(index, (const tn_ast_test *)item);
     }
@@ -252,12 +274,16 @@ static void set_schemas(tn_index *index, const tn_checked *checked)
         tn_symbol *symbol = rule->hidden ? NULL : tn_names_get(&index->names, rule->name);
         if (symbol && rule->schema)
             symbol->schema = tn_names_get(&index->schemas, rule->schema->name);
+        if (symbol && rule->form)
+            symbol->form = tn_names_get(&index->forms, rule->form->name);
     }
     for (size_t i = 0; checked && i < checked->library_count; i++) {
         const tn_checked_library *library = checked->libraries[i];
         tn_symbol *symbol = tn_names_get(&index->names, library->name);
         if (symbol && library->schema)
             symbol->schema = tn_names_get(&index->schemas, library->schema->name);
+        if (symbol && library->form)
+            symbol->form = tn_names_get(&index->forms, library->form->name);
     }
 }
 
@@ -268,8 +294,9 @@ static void use_libraries(tn_index *index, const tn_ast_file *file)
         if (item->kind != TN_ITEM_LIBRARY)
             continue;
         tn_symbol *symbol = tn_names_get(&index->names, library->name->text);
-        use_name(index, &index->schemas, library->using);
-        use_name(index, &index->names, library->from);
+        tn_index_use(index, &index->schemas, library->using);
+        tn_index_use(index, &index->names, library->from);
+        tn_index_use(index, &index->forms, library->in);
         if (symbol)
             use_library(index, symbol, library);
     }
@@ -279,7 +306,7 @@ bool tn_index_build(tn_index *index, const tn_compilation *compilation)
 {
     const tn_imports *imports = compilation->imports;
     *index = (tn_index){.arena = compilation->arena};
-    index->schemas.arena = index->names.arena = index->clauses.arena = compilation->arena;
+    index->schemas.arena = index->forms.arena = index->names.arena = index->clauses.arena = compilation->arena;
     for (size_t i = 0; imports && i < imports->count; i++)
         define_items(index, imports->units[i]->tree);
     set_schemas(index, compilation->checked);

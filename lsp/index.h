@@ -14,6 +14,11 @@ typedef enum tn_symbol_kind {
     TN_SYMBOL_LIBRARY,
     TN_SYMBOL_CLAUSE, /* `prune ... as NAME` */
     TN_SYMBOL_MEASURE,
+    TN_SYMBOL_FORM,
+    TN_SYMBOL_STOREY,
+    TN_SYMBOL_FUNCTION,
+    TN_SYMBOL_OPENING, /* a flight of stairs, too */
+    TN_SYMBOL_TILE,
 } tn_symbol_kind;
 
 typedef struct tn_symbol {
@@ -21,9 +26,11 @@ typedef struct tn_symbol {
     tn_symbol_kind kind;
     const char *name, *doc; /* doc may be NULL */
     tn_span name_span, span;
-    const struct tn_symbol *parent; /* of a field its schema, of a value its field, of a clause its library */
-    const struct tn_symbol
-        *schema; /* of a rule, measure or library, or what a schema is made from; NULL: none, or not known */
+    const struct tn_symbol *parent; /* of a field its schema, of a value its field, of a clause its library, of a
+                                       storey, function, opening or tile its form */
+    const struct tn_symbol *schema; /* of a rule, measure, library or form, or what a schema is made from; NULL: none,
+                                       or not known */
+    const struct tn_symbol *form;   /* of a rule, measure or library about houses; NULL: none, or not known */
     const tn_ast_node *ast;
 } tn_symbol;
 
@@ -38,7 +45,8 @@ typedef struct tn_index {
     const tn_symbol *last_schema; /* of those, or NULL */
     tn_occurrence *occurrences;
     size_t count, capacity;
-    tn_names schemas, names, clauses; /* names: rules, measures and libraries */
+    const tn_symbol *last_form;
+    tn_names schemas, forms, names, clauses; /* names: rules, measures and libraries */
 } tn_index;
 
 /* Does nothing where there is nothing to index. False where out of memory. */
@@ -51,6 +59,9 @@ const tn_occurrence *tn_index_at(const tn_index *index, uint32_t file, size_t of
  * one field that has it. */
 const tn_symbol *tn_index_field(const tn_symbol *schema, const char *name);
 const tn_symbol *tn_index_value(const tn_symbol *schema, const tn_symbol *field, const char *name);
+
+/* A storey, function, opening or tile of a form; NULL where it has none of that name. */
+const tn_symbol *tn_index_part(const tn_symbol *form, const char *name);
 
 /* The schema that a specifier in a rule or library of that name is about; else the last schema there is; or NULL. */
 const tn_symbol *tn_index_schema(const tn_index *index, const char *owner);

@@ -664,6 +664,90 @@ static const char related[] =
     "library l using lahave { trays 1..3 require first total <= 36' prune one, wide }\n"
     "measure long \"of all\" = sum(width)\nmeasure twice = 2 * long\n";
 
+static const char housed[] = "schema s { w role length = 8' | 12'  zone z role band = room(9') role void }\n"
+                             "form f of s {\n"
+                             "  storey low 9'  spine z  wall 8\"  partition 4\"  deck 10\"  roof 8\"\n"
+                             "  function sleep \"one rests\" at cell(z, low)\n"
+                             "  opening door wide 2'8\" high 6'8\" passage\n"
+                             "  face cell(sleep) outside = door | wall\n"
+                             "  tile bed for sleep { against wall or door  item bed left 0..3', back 0..6' }\n"
+                             "}\n"
+                             "library rows using s { trays 1..2 }\n"
+                             "library huts from rows in f { require room(sleep, by door) }\n"
+                             "test huts { keep [8' room:9' ; 1 flat ; sleep ; door wall wall wall ; bed.back] }\n";
+
+static json_t *ask_at(live *l, const char *method, const char *uri, const char *before, size_t further)
+{
+    return hear_answer(l,
+                       ask(&l->session, method, at(uri, housed, (size_t)(strstr(housed, before) - housed) + further)));
+}
+
+/* How many places a rename changes; the new name is free. */
+static size_t renamed(live *l, const char *uri, const char *before, size_t further)
+{
+    json_t *params = at(uri, housed, (size_t)(strstr(housed, before) - housed) + further);
+    json_object_set_new(params, "newName", json_string("another"));
+    json_t *edit = hear_answer(l, ask(&l->session, "textDocument/rename", params));
+    size_t count = json_array_size(json_object_get(json_object_get(json_object_get(edit, "result"), "changes"), uri));
+    if (!count)
+        count = json_array_size(json_object_get(json_object_get(edit, "changes"), uri));
+    json_decref(edit);
+    return count;
+}
+
+/* What a form declares is known wherever it is named, in the lines of houses too. */
+static void test_forms(void **state)
+{
+    static const char uri[] = "file:///nowhere/huts.plan";
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, uri, housed);
+    json_t *answer = ask_at(&l, "textDocument/hover", uri, "room(sleep", 6);
+    assert_true(mentions(answer, " at cell(z, low)"));
+    assert_true(mentions(answer, "function `sleep` of form `f`"));
+    json_decref(answer);
+    answer = ask_at(&l, "textDocument/hover", uri, "bed.back", 1);
+    assert_true(mentions(answer, "against wall or door") && mentions(answer, "tile `bed` of form `f`"));
+    json_decref(answer);
+    answer = ask_at(&l, "textDocument/completion", uri, "cell(sleep)", 5);
+    assert_true(mentions(answer, "sleep") && mentions(answer, "low") && mentions(answer, "void"));
+    json_decref(answer);
+    answer = ask_at(&l, "textDocument/completion", uri, "= door | wall", 2);
+    assert_true(mentions(answer, "door") && mentions(answer, "party"));
+    json_decref(answer);
+    answer = ask_at(&l, "textDocument/completion", uri, "in f {", 3);
+    assert_true(mentions(answer, "\"f\""));
+    json_decref(answer);
+    answer = hear_answer(&l, ask(&l.session, "textDocument/documentSymbol", everything(uri)));
+    assert_true(mentions(answer, "one rests") && mentions(answer, "\"bed\"") && mentions(answer, "\"low\""));
+    json_decref(answer);
+    assert_int_equal(renamed(&l, uri, "function sleep", 10), 5);
+    assert_int_equal(renamed(&l, uri, "opening door", 9), 5);
+    assert_int_equal(renamed(&l, uri, "tile bed", 6), 2);
+    assert_int_equal(renamed(&l, uri, "storey low", 8), 2);
+    finish_live(&l);
+}
+
+/* What a form says for nothing is warned of, and can be allowed there. */
+static void test_form_allows(void **state)
+{
+    static const char uri[] = "file:///nowhere/never.plan";
+    char text[sizeof housed + 100];
+    const char *rest = strstr(housed, "  opening door");
+    (void)state;
+    live l;
+    start_live(&l);
+    snprintf(text, sizeof text, "%.*s  function never at cell(z, low, 8', 12')\n%s", (int)(rest - housed), housed,
+             rest);
+    open_document(&l.session, uri, text);
+    await_diagnostics(&l, 1, "W202");
+    json_t *actions = hear_answer(&l, ask(&l.session, "textDocument/codeAction", everything(uri)));
+    assert_true(mentions(actions, "Allow W202 in f") && mentions(actions, "  allow W202\\n"));
+    json_decref(actions);
+    finish_live(&l);
+}
+
 static void test_meaning(void **state)
 {
     static const char uri[] = "file:///nowhere/a.plan";
@@ -806,6 +890,8 @@ int main(void)
         cmocka_unit_test(test_wrong_headers),
         cmocka_unit_test(test_wrong_messages),
         cmocka_unit_test(test_meaning),
+        cmocka_unit_test(test_forms),
+        cmocka_unit_test(test_form_allows),
         cmocka_unit_test(test_meaning_given_up),
         cmocka_unit_test(test_meaning_of_grammar),
         cmocka_unit_test(test_outlines),
