@@ -223,7 +223,7 @@ int main(int count, char **words)
     tn_study study;
     tn_grower *grower;
     if (tn_grammar_new(module, 0, &grammar, &error) != TN_OK ||
-        tn_grower_new(words[2], false, THREADS, &grower, &error) != TN_OK)
+        tn_grower_new(words[2], false, false, THREADS, &grower, &error) != TN_OK)
         stop(error.message);
     if (tn_open(words[2], false, &opened) != TN_OK ||
         tn_study_read(opened.module, words[2], &tn_openmesh_reader, &study, &error) != TN_OK)

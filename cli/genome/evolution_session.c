@@ -97,6 +97,7 @@ static bool make_job(tn_evolution_session *e, const tn_evolution_study *study, t
                                         .ranks = ranks,
                                         .says_seed = settings->seed.given,
                                         .seed = settings->seed.value,
+                                        .run_programs = settings->run_programs,
                                         .remembers = e->remembers};
     e->generations =
         (uint32_t)(settings->generations.given ? settings->generations.value : study->of[TN_SET_GENERATIONS].first);

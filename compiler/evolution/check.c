@@ -65,6 +65,9 @@ static void help_each(tn_diagnostics *list, tn_diagnostic *diagnostic, tn_settin
         tn_help(list, diagnostic,
                 "write a measure, what it shall be and how much that counts: "
                 "`fitness volume target 200 weight 1`");
+    else if (setting == TN_SET_PROGRAM)
+        tn_help(list, diagnostic,
+                "write the program's file in quotes, and perhaps a weight: `fitness program \"./score.sh\" weight 2`");
     else if (setting == TN_SET_LIKENESS)
         tn_help(list, diagnostic, "write the mesh that forms shall be like: `likeness \"target.obj\" weight 1`");
     else
@@ -313,8 +316,27 @@ static void unknown(check *c, const tn_evolution_setting *item)
         tn_help(list, diagnostic, "docs/evolution.md lists all settings");
 }
 
+/* `fitness program ...` is a setting of two words; *program is it. */
+static bool names_program(const tn_evolution_setting *item, tn_evolution_setting *program)
+{
+    tn_evolution_value *word = item->values;
+    if (strcasecmp(item->name, tn_setting_rows[TN_SET_FITNESS].name) != 0 || !word ||
+        word->kind != TN_EVOLUTION_WORD || strcasecmp(word->text, "program") != 0)
+        return false;
+    *program = *item;
+    program->name = tn_setting_rows[TN_SET_PROGRAM].name;
+    program->span = tn_span_join(item->span, word->span);
+    program->values = word->next;
+    if (word->next)
+        word->next->last = word->last;
+    return true;
+}
+
 static void check_setting(check *c, const tn_evolution_setting *item)
 {
+    tn_evolution_setting program;
+    if (names_program(item, &program))
+        item = &program;
     tn_setting setting = tn_setting_named(item->name, strlen(item->name));
     if (setting == TN_SETTING_COUNT) {
         unknown(c, item);

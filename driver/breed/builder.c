@@ -10,6 +10,7 @@
 #include "driver/breed/inputs.h"
 #include "driver/solid/solid.h"
 #include "runtime/number/run.h"
+#include "runtime/geometry/union/union.h"
 #include "runtime/solid/genes.h"
 
 #define BATCH 32u /* designs that a thread scores at once */
@@ -28,6 +29,7 @@ struct tn_design_scorer {
     tn_goals more;  /* of the study */
     uint64_t asked; /* measures that goals and requirements speak of */
     bool separately, may_want_nothing;
+    tn_form_listener listener;
     const tn_box_breeding *breeding; /* of genomes that are lists of boxes, or NULL */
     tn_design skeleton;              /* the rigid boxes, then */
 };
@@ -132,6 +134,11 @@ tn_status tn_design_scorer_take_genes(tn_design_scorer *s, const tn_box_breeding
     return status;
 }
 
+void tn_design_scorer_tell(tn_design_scorer *scorer, tn_form_listener listener)
+{
+    scorer->listener = listener;
+}
+
 bool tn_design_scorer_wants(const tn_design_scorer *s)
 {
     return s->wish_count || s->more.count || s->record->requirement_count;
@@ -202,20 +209,47 @@ static void score_goals(const tn_design_scorer *s, const double *values, tn_scor
     snprintf(message, 200, "a goal or requirement has no value for this design");
 }
 
+/* z is up in meshes. */
+static tn_status tell(const tn_design_scorer *s, unsigned thread, const tn_built *built, double *values,
+                      tn_error *error)
+{
+    tn_mesh mesh = {0};
+    if (!s->listener.hear)
+        return TN_OK;
+    for (unsigned i = 0; i < TN_SOLID_MEASURED_COUNT; i++)
+        values[i] = s->asked >> i & 1 ? values[i] : NAN;
+    tn_status status = tn_union_cells(built->cells, built->cell_count, &mesh, error);
+    if (status == TN_OK) {
+        tn_solid_turn_up(&mesh);
+        status = tn_form_listener_tell(&s->listener, thread,
+                                  &(tn_form_facts){&mesh, tn_solid_measured_names, values, TN_SOLID_MEASURED_COUNT},
+                                  error);
+    }
+    tn_mesh_clear(&mesh);
+    return status;
+}
+
+/* Measures what is built, and scores it. */
+static tn_status score_built(const tn_design_scorer *s, unsigned thread, const tn_built *built, tn_score *score,
+                             char message[200], tn_error *error)
+{
+    double values[TN_SOLID_MEASURED_COUNT] = {0};
+    tn_status status = tn_built_measure(built, s->asked, values, error);
+    if (status == TN_OK)
+        score_goals(s, values, score, message);
+    return status == TN_OK && score->state == TN_SCORED ? tell(s, thread, built, values, error) : status;
+}
+
 static tn_status score_design(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
                               char message[200], tn_error *error)
 {
-    (void)thread;
     const tn_design_scorer *s = context;
-    double values[TN_SOLID_MEASURED_COUNT] = {0};
     tn_error own = {0};
     tn_opened opened = {0};
     tn_built built;
     tn_status status = build(sentence, size, &opened, &built, &own);
     if (status == TN_OK)
-        status = tn_built_measure(&built, s->asked, values, &own);
-    if (status == TN_OK)
-        score_goals(s, values, score, message);
+        status = score_built(s, thread, &built, score, message, &own);
     tn_built_clear(&built);
     tn_close(&opened);
     return status == TN_OK ? TN_OK : tn_score_refuse(status, &own, score, message, error);
@@ -245,17 +279,14 @@ static tn_status build_genes(const tn_design_scorer *s, const tn_genome *genome,
     return tn_built_make_of(written, built, error);
 }
 
-static tn_status score_genes(const tn_design_scorer *s, tn_individual *individual, tn_error *error)
+static tn_status score_genes(const tn_design_scorer *s, unsigned thread, tn_individual *individual, tn_error *error)
 {
-    double values[TN_SOLID_MEASURED_COUNT] = {0};
     tn_design written = {0};
     tn_built built = {0};
     tn_error own = {0};
     tn_status status = build_genes(s, &individual->genome, &written, &built, &own);
     if (status == TN_OK)
-        status = tn_built_measure(&built, s->asked, values, &own);
-    if (status == TN_OK)
-        score_goals(s, values, &individual->score, individual->message);
+        status = score_built(s, thread, &built, &individual->score, individual->message, &own);
     tn_built_clear(&built);
     tn_design_clear(&written);
     return status == TN_OK ? TN_OK : tn_score_refuse(status, &own, &individual->score, individual->message, error);
@@ -264,10 +295,9 @@ static tn_status score_genes(const tn_design_scorer *s, tn_individual *individua
 static tn_status score_many(void *context, unsigned thread, struct tn_individual *const *individuals, size_t count,
                             tn_error *error)
 {
-    (void)thread;
     tn_status status = TN_OK;
     for (size_t i = 0; i < count && status == TN_OK; i++)
-        status = score_genes(context, individuals[i], error);
+        status = score_genes(context, thread, individuals[i], error);
     return status;
 }
 

@@ -2,6 +2,7 @@
 #ifndef TARTAN_DRIVER_BREED_BUILDER_H
 #define TARTAN_DRIVER_BREED_BUILDER_H
 
+#include "driver/breed/form_listener.h"
 #include "runtime/genome/boxes/box_kind.h"
 #include "runtime/genome/breeding/evolve.h"
 #include "runtime/genome/settings.h"
@@ -26,6 +27,9 @@ tn_status tn_design_scorer_add(tn_design_scorer *scorer, const tn_evolution_stud
 /* From here on genomes are lists of boxes around the rigid boxes of the design, and are built without compiling their
  * sentences. The breeding is borrowed. */
 tn_status tn_design_scorer_take_genes(tn_design_scorer *scorer, const tn_box_breeding *breeding, tn_error *error);
+
+/* Who is told of the designs that are scored, with the measures that goals speak of. */
+void tn_design_scorer_tell(tn_design_scorer *scorer, tn_form_listener listener);
 
 /* Is anything wanted of a design? */
 bool tn_design_scorer_wants(const tn_design_scorer *scorer);

@@ -14,6 +14,7 @@
 #include "driver/breed/field_scorer.h"
 #include "driver/breed/grower.h"
 #include "driver/breed/learn.h"
+#include "driver/breed/program_scorer.h"
 #include "driver/breed/skeleton.h"
 #include "driver/open/open.h"
 #include "driver/place/placer.h"
@@ -51,6 +52,7 @@ typedef struct tn_evolution_job {
     tn_grower *grower;
     tn_design_scorer *designs;
     tn_placer *placer;
+    tn_program_scorer *program; /* that scores too, or NULL */
     tn_bred_forms forms;
     bool scored; /* there are goals; without them, forms with a surface score 0 */
     tn_genome *seeds;
@@ -70,6 +72,7 @@ typedef struct tn_evolution_job_options {
     bool only_replay;         /* no evaluating: scores will be recalled */
     uint64_t objectives;      /* then: how many the run has */
     const char *stored_seeds; /* the text of the seeds' file, where it is known already; or NULL */
+    bool run_programs;        /* the study's program may be run */
     bool remembers;           /* whoever was born can be chosen as a parent later */
 } tn_evolution_job_options;
 

@@ -64,7 +64,8 @@ static tn_status make_fields(tn_evolution_job *job, const char *path, tn_error *
         return status;
     job->forms = (tn_bred_forms){job->fields, "surface", ".png", tn_field_scorer_draw, tn_field_scorer_objective};
     job->evaluator = tn_field_scorer_evaluator(job->fields);
-    job->scored = job->study.of[TN_SET_FITNESS].written || job->study.of[TN_SET_LIKENESS].written;
+    job->scored = job->study.of[TN_SET_FITNESS].written || job->study.of[TN_SET_LIKENESS].written ||
+                  job->study.of[TN_SET_PROGRAM].written;
     return TN_OK;
 }
 
@@ -108,7 +109,7 @@ static tn_status make_boxes(tn_evolution_job *job, const char *path, tn_error *e
         return status;
     job->forms = (tn_bred_forms){job->designs, "form", ".svg", tn_design_scorer_draw, tn_design_scorer_objective};
     job->evaluator = tn_design_scorer_evaluator(job->designs);
-    job->scored = tn_design_scorer_wants(job->designs);
+    job->scored = tn_design_scorer_wants(job->designs) || job->study.of[TN_SET_PROGRAM].written;
     return TN_OK;
 }
 

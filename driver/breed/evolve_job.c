@@ -7,6 +7,7 @@
 #include "compiler/kit/with_rules.h"
 #include "driver/breed/evolve.h"
 #include "driver/breed/evolve_forms.h"
+#include "driver/breed/evolve_program.h"
 #include "driver/breed/inputs.h"
 #include "driver/open/missing.h"
 #include "runtime/base/array.h"
@@ -17,6 +18,7 @@
 
 void tn_evolution_job_clear(tn_evolution_job *job)
 {
+    tn_program_scorer_free(job->program);
     tn_problem_free(job->problem);
     tn_learner_free(job->learner);
     tn_grower_free(job->grower);
@@ -113,7 +115,7 @@ static char *identity_of(const tn_evolution_job *job)
             i == TN_SET_MAX_DEPTH || i == TN_SET_WRAPS || i == TN_SET_TREE_DEPTH || i == TN_SET_MAX_STEPS ||
             tn_setting_rows[i].kind == TN_SETTING_TEXT || /* from the grammar, or nothing, where not written */
             i >= TN_SET_TEST; /* newer than runs that lack them, where they say what always held */
-        if (i == TN_SET_GENERATIONS || i == TN_SET_STOP || (follows && value.written == 0))
+        if (i == TN_SET_GENERATIONS || i == TN_SET_STOP || i == TN_SET_PROGRAM_TIMEOUT || (follows && value.written == 0))
             continue;
         if (i == TN_SET_CROSSOVER)
             value.written = 2; /* its default number is said too */
@@ -187,6 +189,12 @@ static bool weighs_separately(const tn_evolution_job *job)
     return job->settings.select.selection == TN_SELECT_NSGA2;
 }
 
+/* Does a program score too? */
+static bool is_asked(const tn_evolution_job *job)
+{
+    return job->study.of[TN_SET_PROGRAM].written > 0;
+}
+
 static tn_status make_learner(tn_evolution_job *job, const char *path, tn_error *error)
 {
     const char *schema = job->study.of[TN_SET_SCHEMA].text;
@@ -210,7 +218,8 @@ static tn_status make_grower(tn_evolution_job *job, const char *path, tn_error *
 {
     tn_status status = find_data(job, TN_SET_GROW, path, error);
     if (status == TN_OK)
-        status = tn_grower_new(job->blamed_path, weighs_separately(job), job->settings.threads, &job->grower, error);
+        status = tn_grower_new(job->blamed_path, weighs_separately(job), is_asked(job), job->settings.threads,
+                               &job->grower, error);
     job->forms = (tn_bred_forms){job->grower, "surface", ".svg", tn_grower_draw, tn_grower_objective};
     return status == TN_OK ? tn_grower_inputs(job->grower, &job->inputs, error) : status;
 }
@@ -219,7 +228,7 @@ static tn_status make_designs(tn_evolution_job *job, const char *path, tn_error 
 {
     tn_status status = find_data(job, TN_SET_BUILD, path, error);
     if (status == TN_OK)
-        status = tn_design_scorer_new(job->blamed_path, weighs_separately(job), false, &job->designs, error);
+        status = tn_design_scorer_new(job->blamed_path, weighs_separately(job), is_asked(job), &job->designs, error);
     job->forms = (tn_bred_forms){job->designs, "form", ".svg", tn_design_scorer_draw, tn_design_scorer_objective};
     return status == TN_OK ? tn_design_scorer_inputs(job->designs, &job->inputs, error) : status;
 }
@@ -254,7 +263,7 @@ static tn_status make_placer(tn_evolution_job *job, const char *path, tn_error *
 {
     tn_status status = find_data(job, TN_SET_PLACE, path, error);
     if (status == TN_OK)
-        status = tn_placer_new(job->blamed_path, weighs_separately(job), &job->placer, error);
+        status = tn_placer_new(job->blamed_path, weighs_separately(job), is_asked(job), &job->placer, error);
     job->forms = (tn_bred_forms){job->placer, "model", ".svg", tn_placer_draw, tn_placer_objective};
     return status == TN_OK ? add_kit(tn_placer_kit(job->placer), &job->inputs, error) : status;
 }
@@ -298,8 +307,10 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_
         status = make_placer(job, path, error);
     else if (s->of[TN_SET_FIT].written)
         status = make_fit(job, path, error);
-    else
+    else if (s->of[TN_SET_MATCH].written)
         status = tn_problem_match(s->of[TN_SET_MATCH].text, &job->problem, error);
+    else
+        return TN_OK; /* the program alone scores */
     if (status == TN_OK)
         job->evaluator = job->grower    ? tn_grower_evaluator(job->grower)
                          : job->designs ? tn_design_scorer_evaluator(job->designs)
@@ -377,6 +388,8 @@ tn_status tn_evolution_job_make(const tn_evolution_study *study, const char *pat
     if (status == TN_OK)
         status =
             codons ? make_codons(job, path, module, options, error) : tn_evolution_forms(job, path, options, error);
+    if (status == TN_OK && is_asked(job) && !options->only_replay)
+        status = tn_evolution_job_ask(job, path, options, error);
     if (status != TN_OK)
         return status;
     job->blamed = TN_SETTING_COUNT;

@@ -175,6 +175,11 @@ static const char *objective_name(const tn_run *run, size_t i)
 {
     if (run->job->evaluator.objectives == 1)
         return "score";
+    static const char *const numbers[TN_OBJECTIVES_MAX] = {"program",   "program 2", "program 3", "program 4",
+                                                           "program 5", "program 6", "program 7", "program 8"};
+    size_t number = run->job->program ? tn_program_scorer_number(run->job->program, i) : SIZE_MAX;
+    if (number != SIZE_MAX)
+        return numbers[number];
     if (run->job->learner)
         return i ? "length" : "errors";
     return run->job->forms.objective(run->job->forms.context, i);

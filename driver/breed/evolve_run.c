@@ -63,7 +63,7 @@ static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *erro
 
 static void start_anew(tn_error *error)
 {
-    tn_error_help(error, "only `generations` and `stop` may change in between; -o DIR starts another run");
+    tn_error_help(error, "only `generations`, `stop` and `program-timeout` may change in between; -o DIR starts another run");
 }
 
 /* Scores, and what is grown again of a genome, hang on the last digits of elementary functions. Runs from before these
@@ -411,6 +411,20 @@ static tn_run_event *events_to_store(const tn_run *run, char *kind, char *choice
     return events;
 }
 
+/* Together: a program that gives nobody of the first generation a score is not gone on with. */
+static tn_status check_program(const tn_run *run, tn_error *error)
+{
+    size_t count;
+    const tn_individual *const *born = tn_evolution_born(run->evolution, &count);
+    if (!run->job->program || run->generations || tn_evolution_stats(run->evolution).scored)
+        return TN_OK;
+    for (size_t i = 0; i < count; i++)
+        if (strncmp(born[i]->message, TN_PROGRAM_SAYS, strlen(TN_PROGRAM_SAYS)) == 0)
+            return tn_program_useless(tn_program_scorer_program(run->job->program), born[i]->id,
+                                      born[i]->message + strlen(TN_PROGRAM_SAYS), error);
+    return TN_OK;
+}
+
 tn_status tn_run_step(tn_run *run, const tn_chosen *chosen, size_t chosen_count, tn_error *error)
 {
     const tn_ranks *ranks = run->job->settings.ranks;
@@ -423,6 +437,8 @@ tn_status tn_run_step(tn_run *run, const tn_chosen *chosen, size_t chosen_count,
     status = tn_ranks_agree(ranks, status, error);
     if (status == TN_OK)
         status = tn_evolution_step(run->evolution, error);
+    if (status == TN_OK)
+        status = check_program(run, error);
     if (status == TN_OK && run->store)
         status = tn_run_store_put(run->store, run->evolution, run->job->evaluator.objectives, events, count,
                                   run->rescored, run->new_changes ? run->rescored_count : 0, error);

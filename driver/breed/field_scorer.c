@@ -45,6 +45,7 @@ struct tn_field_scorer {
     double weights[TN_OBJECTIVES_MAX];
     size_t target_count;
     bool separately;
+    tn_form_listener listener;
 };
 
 void tn_field_scorer_free(tn_field_scorer *s)
@@ -103,6 +104,16 @@ tn_status tn_field_scorer_new(const tn_evolution_study *study, const char *path,
     tn_field_scorer_free(s);
     *scorer = NULL;
     return status;
+}
+
+void tn_field_scorer_tell(tn_field_scorer *scorer, tn_form_listener listener)
+{
+    scorer->listener = listener;
+}
+
+bool tn_field_scorer_wants(const tn_field_scorer *scorer)
+{
+    return scorer->goals.count + scorer->target_count > 0;
 }
 
 /* ---- one surface */
@@ -173,8 +184,8 @@ static void add_part(const tn_field_scorer *s, size_t i, double part, tn_score *
     score->objectives[s->separately ? i : 0] += part;
 }
 
-static tn_status score_form(const tn_field_scorer *s, const form *f, tn_score *score, char message[200],
-                            tn_error *error)
+static tn_status score_form(const tn_field_scorer *s, unsigned thread, const form *f, tn_score *score,
+                            char message[200], tn_error *error)
 {
     tn_mesh_measures measures;
     double values[MEASURE_COUNT], total = 0;
@@ -196,20 +207,22 @@ static tn_status score_form(const tn_field_scorer *s, const form *f, tn_score *s
         score->state = TN_SCORE_FAILED;
         snprintf(message, 200, "a goal has no value for this surface");
     }
+    if (status == TN_OK && score->state == TN_SCORED)
+        status = tn_form_listener_tell(&s->listener, thread,
+                                  &(tn_form_facts){&f->contour.mesh, measure_names, values, MEASURE_COUNT}, error);
     return status;
 }
 
 static tn_status score(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
                        char message[200], tn_error *error)
 {
-    (void)thread;
     const tn_field_scorer *s = context;
-    bool survey = s->goals.count + s->target_count == 0; /* bred by hand: without a surface it is not shown */
+    bool survey = !tn_field_scorer_wants(s) && !s->listener.hear; /* bred by hand: without a surface it is not shown */
     form f;
     tn_error own = {0};
     tn_status status = make_form(sentence, size, survey ? TO_LOOK : TO_SCORE, &f, &own);
     if (status == TN_OK && !survey)
-        status = score_form(s, &f, score, message, &own);
+        status = score_form(s, thread, &f, score, message, &own);
     form_clear(&f);
     return status == TN_OK ? TN_OK : tn_score_refuse(status, &own, score, message, error);
 }

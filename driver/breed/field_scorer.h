@@ -2,6 +2,7 @@
 #ifndef TARTAN_DRIVER_BREED_FIELD_SCORER_H
 #define TARTAN_DRIVER_BREED_FIELD_SCORER_H
 
+#include "driver/breed/form_listener.h"
 #include "runtime/genome/breeding/evolve.h"
 #include "runtime/genome/settings.h"
 
@@ -15,6 +16,13 @@ typedef struct tn_field_scorer tn_field_scorer;
 tn_status tn_field_scorer_new(const tn_evolution_study *study, const char *path, bool separately,
                               tn_field_scorer **scorer, char **inputs, uint32_t *blamed, tn_error *error);
 void tn_field_scorer_free(tn_field_scorer *scorer);
+
+/* Who is told of the surfaces that are scored, with their measures. From here on what has a surface is meshed, whether
+ * there are goals or not. */
+void tn_field_scorer_tell(tn_field_scorer *scorer, tn_form_listener listener);
+
+/* Is anything wanted of a surface? */
+bool tn_field_scorer_wants(const tn_field_scorer *scorer);
 
 tn_evaluator tn_field_scorer_evaluator(tn_field_scorer *scorer);
 

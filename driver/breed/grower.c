@@ -12,13 +12,15 @@
 #include "runtime/growth/picture/draw.h"
 #include "runtime/growth/soundness.h"
 #include "runtime/growth/study.h"
+#include "runtime/growth/surface.h"
 #include "runtime/mesh/openmesh.h"
 
 struct tn_grower {
     char *path;       /* of the study */
     tn_opened opened; /* of the study */
     tn_study study;
-    bool separately;
+    bool separately, may_want_nothing;
+    tn_form_listener listener;
     uint32_t goals[TN_FITNESS_TERM_COUNT + TN_EXPRESSIONS_MAX]; /* that are wanted: terms, then named expressions */
     size_t goal_count;
     tn_growth **growths; /* by thread: each grows one surface after another in the same memory; NULL before the first */
@@ -54,7 +56,7 @@ static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
                          g->goal_count, TN_OBJECTIVES_MAX);
         tn_error_help(error, "put some together in one expression, or choose by the sum: `selection tournament 3`");
     }
-    if (status == TN_OK && g->goal_count == 0) {
+    if (status == TN_OK && g->goal_count == 0 && !g->may_want_nothing) {
         status = tn_fail(error, TN_INVALID, E_GROWTH_STUDY, "the growth study %.200s has no goals for a surface", path);
         tn_error_help(error, "add lines such as `fitness undulation target 2 weight 1`");
     }
@@ -64,13 +66,15 @@ static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
     return status;
 }
 
-tn_status tn_grower_new(const char *study, bool separately, unsigned threads, tn_grower **grower, tn_error *error)
+tn_status tn_grower_new(const char *study, bool separately, bool may_want_nothing, unsigned threads,
+                        tn_grower **grower, tn_error *error)
 {
     tn_grower *g = calloc(1, sizeof *g);
     *grower = g;
     if (!g)
         return tn_fail_memory(error);
     g->separately = separately;
+    g->may_want_nothing = may_want_nothing;
     g->threads = threads;
     g->growths = calloc(threads, sizeof(tn_growth *));
     g->path = strdup(study);
@@ -80,6 +84,16 @@ tn_status tn_grower_new(const char *study, bool separately, unsigned threads, tn
         *grower = NULL;
     }
     return status;
+}
+
+void tn_grower_tell(tn_grower *grower, tn_form_listener listener)
+{
+    grower->listener = listener;
+}
+
+bool tn_grower_wants(const tn_grower *grower)
+{
+    return grower->goal_count || grower->study.goal.required_count;
 }
 
 tn_status tn_grower_inputs(const tn_grower *g, char **inputs, tn_error *error)
@@ -162,6 +176,24 @@ static void score_goals(const tn_grower *g, const tn_fitness *fitness, tn_score 
         score->objectives[0] = total;
 }
 
+static tn_status tell(const tn_grower *g, unsigned thread, const tn_fitness *fitness, tn_error *error)
+{
+    double values[TN_MEASURED_COUNT] = {fitness->size,         fitness->smoothness, fitness->soft_boundary_nodes,
+                                        fitness->subdivisions, fitness->symmetry,   fitness->undulation,
+                                        fitness->vertices,     fitness->edges,      fitness->faces};
+    tn_mesh mesh = {0};
+    if (!g->listener.hear)
+        return TN_OK;
+    for (unsigned i = TN_MEASURED_WIDTH; i < TN_MEASURED_COUNT; i++)
+        values[i] = g->study.goal.asked >> i & 1 ? fitness->further[i - TN_MEASURED_WIDTH] : NAN;
+    tn_status status = tn_surface_mesh(g->growths[thread], &(tn_surface_options){0}, &mesh, error);
+    if (status == TN_OK)
+        status = tn_form_listener_tell(&g->listener, thread,
+                                  &(tn_form_facts){&mesh, tn_measured_names, values, TN_MEASURED_COUNT}, error);
+    tn_mesh_clear(&mesh);
+    return status;
+}
+
 static tn_status score_growth(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
                               char message[200], tn_error *error)
 {
@@ -174,6 +206,8 @@ static tn_status score_growth(void *context, unsigned thread, const char *senten
         status = tn_soundness_measure(g->growths[thread], &g->study.measuring, g->study.goal.asked, &fitness, &own);
         if (status == TN_OK)
             score_goals(g, &fitness, score, message);
+        if (status == TN_OK && score->state == TN_SCORED)
+            status = tell(g, thread, &fitness, &own);
     }
     rules_clear(&compiled);
     return status == TN_OK ? TN_OK : tn_score_refuse(status, &own, score, message, error);
@@ -227,6 +261,11 @@ static tn_status adjust(void *context, const char *change, tn_error *error)
            weight = !found    ? 0
                     : is_term ? wants->weight[goal]
                               : named->weight;
+    if (g->goal_count == 0) {
+        tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.100s` changes nothing that this run has", change);
+        tn_error_help(error, "the growth study has no goals; what surfaces grow in can be changed");
+        return TN_INVALID;
+    }
     if (!found || !change[length] || !tn_wish_read(change + length, &target, &weight)) {
         tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.100s` changes nothing that this run has", change);
         tn_error_help(error, "name a term that is a goal of the growth study, as \"%.60s target 3 weight 2\"",
@@ -241,7 +280,7 @@ static tn_status adjust(void *context, const char *change, tn_error *error)
 tn_evaluator tn_grower_evaluator(tn_grower *grower)
 {
     return (tn_evaluator){.context = grower,
-                          .objectives = grower->separately ? grower->goal_count : 1,
+                          .objectives = grower->separately && grower->goal_count ? grower->goal_count : 1,
                           .evaluate = score_growth,
                           .adjust = adjust};
 }

@@ -3,6 +3,7 @@
 #ifndef TARTAN_DRIVER_BREED_GROWER_H
 #define TARTAN_DRIVER_BREED_GROWER_H
 
+#include "driver/breed/form_listener.h"
 #include "runtime/genome/breeding/evolve.h"
 
 typedef struct tn_grower tn_grower;
@@ -11,9 +12,16 @@ typedef struct tn_grower tn_grower;
 
 /* `study` is the path of a .study with the surroundings, the steps and the fitness terms; the rules that it names are
  * not grown. With `separately`, each term is an objective; else their sum is the one. Sentences are scored by up to
- * `threads` threads. TN_INVALID (E1245) where it cannot be used. */
-tn_status tn_grower_new(const char *study, bool separately, unsigned threads, tn_grower **grower, tn_error *error);
+ * `threads` threads. It has goals, or it `may_want_nothing`. TN_INVALID (E1245) where it cannot be used. */
+tn_status tn_grower_new(const char *study, bool separately, bool may_want_nothing, unsigned threads,
+                        tn_grower **grower, tn_error *error);
 void tn_grower_free(tn_grower *grower);
+
+/* Who is told of the surfaces that are scored, with their measures. */
+void tn_grower_tell(tn_grower *grower, tn_form_listener listener);
+
+/* Is anything wanted of a surface? */
+bool tn_grower_wants(const tn_grower *grower);
 
 tn_evaluator tn_grower_evaluator(tn_grower *grower);
 

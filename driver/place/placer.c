@@ -20,7 +20,9 @@ struct tn_placer {
     tn_resolver resolver; /* of the files; threads share it */
     char *path, *folder;  /* of the kit; the folder's whole path */
     const char *text;
-    bool separately;
+    bool separately, may_want_nothing;
+    tn_placer_hear *hear; /* or NULL */
+    void *hearing;
 };
 
 /* What a sentence becomes. */
@@ -80,7 +82,7 @@ static tn_status check_kit(const tn_placer *p, tn_error *error)
     if (module->KIT_MODEL_count != 1)
         return refuse(error, p->path, "it has no model, or more than one",
                       "write a file with one model, whose rules are bred");
-    if (!wants_something(module))
+    if (!p->may_want_nothing && !wants_something(module))
         return refuse(error, p->path, "its model wants nothing",
                       "write what the model shall be: `require fill > 0.95;`, `minimize elements;`");
     return TN_OK;
@@ -117,19 +119,31 @@ static tn_status open_kit(tn_placer *p, const char *kit, tn_error *error)
     return find_folder(p, error);
 }
 
-tn_status tn_placer_new(const char *kit, bool separately, tn_placer **placer, tn_error *error)
+tn_status tn_placer_new(const char *kit, bool separately, bool may_want_nothing, tn_placer **placer, tn_error *error)
 {
     tn_placer *p = calloc(1, sizeof *p);
     *placer = NULL;
     if (!p)
         return tn_fail_memory(error);
     p->separately = separately;
+    p->may_want_nothing = may_want_nothing;
     tn_status status = open_kit(p, kit, error);
     if (status == TN_OK)
         *placer = p;
     else
         tn_placer_free(p);
     return status;
+}
+
+void tn_placer_tell(tn_placer *placer, tn_placer_hear *hear, void *context)
+{
+    placer->hear = hear;
+    placer->hearing = context;
+}
+
+bool tn_placer_wants(const tn_placer *placer)
+{
+    return wants_something(placer->opened.module);
 }
 
 const tn_module *tn_placer_kit(const tn_placer *placer)
@@ -190,17 +204,20 @@ static tn_status score_rules(void *context, unsigned thread, const char *sentenc
     tn_error own = {0};
     tn_model_score found;
     placed made;
-    (void)thread;
     tn_status status = make(p, sentence, size, &made, &own);
     if (status == TN_OK)
         status = measure(&made, &found, &own);
+    bool valued = status == TN_OK && isfinite(found.value) && isfinite(found.violation);
+    if (valued && p->hear)
+        status = p->hear(p->hearing, thread,
+                         &(tn_placed_facts){made.opened.module, &made.model, made.measures.terms}, &own);
     clear_placed(&made);
     if (status != TN_OK)
         return tn_score_refuse(status, &own, score, message, error);
     score->objectives[0] = found.value + (p->separately ? 0 : TN_PLACER_VIOLATION * found.violation);
     score->objectives[1] = (double)size;
     score->violation = p->separately ? found.violation : 0;
-    if (isfinite(found.value) && isfinite(found.violation))
+    if (valued)
         return TN_OK;
     score->state = TN_SCORE_FAILED;
     snprintf(message, 200, "the objective or a requirement has no value for this model");

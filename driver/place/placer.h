@@ -5,18 +5,32 @@
 
 #include "runtime/genome/breeding/evolve.h"
 #include "runtime/module/module.h"
+#include "runtime/place/steps.h"
 
 typedef struct tn_placer tn_placer;
 
 #define TN_PLACER_PARTS 50000u     /* of one model */
 #define TN_PLACER_VIOLATION 1000.0 /* what a requirement that is missed by 1 adds to a score */
 
-/* `kit` is the path of a .kit with one model that requires something or has an objective. With `separately`, the
+/* `kit` is the path of a .kit with one model that requires something or has an objective, or `may_want_nothing`. With `separately`, the
  * model's objective and the length of the rules are two objectives, and requirements come first; else the score is the
  * objective (negated where it is to be large) and TN_PLACER_VIOLATION times how far the requirements are from holding.
  * TN_INVALID (E1360) where it cannot be used. */
-tn_status tn_placer_new(const char *kit, bool separately, tn_placer **placer, tn_error *error);
+tn_status tn_placer_new(const char *kit, bool separately, bool may_want_nothing, tn_placer **placer, tn_error *error);
 void tn_placer_free(tn_placer *placer);
+
+/* What somebody is told of a model that was scored. */
+typedef struct tn_placed_facts {
+    const tn_module *module;
+    const tn_placed_model *model;
+    const double *terms; /* [TN_PLACED_TERM_COUNT], named by tn_placed_terms */
+} tn_placed_facts;
+
+typedef tn_status tn_placer_hear(void *context, unsigned thread, const tn_placed_facts *facts, tn_error *error);
+void tn_placer_tell(tn_placer *placer, tn_placer_hear *hear, void *context);
+
+/* Is anything wanted of the model? */
+bool tn_placer_wants(const tn_placer *placer);
 
 tn_evaluator tn_placer_evaluator(tn_placer *placer);
 

@@ -224,6 +224,25 @@ static bool is_written(const findings *f, tn_setting setting)
     return f->study->of[setting].written > 0;
 }
 
+/* A program scores what has no other problem, or forms, whose own goals stand beside it. */
+static void find_program(findings *f, tn_setting problem)
+{
+    static const tn_setting own[] = {TN_SET_PROGRAM_TIMEOUT, TN_SET_PROGRAM_VALUES};
+    bool alone = problem == TN_SET_MATCH || problem == TN_SET_FIT || problem == TN_SET_KEEP || problem == TN_SET_DROP;
+    uint32_t programs = 0;
+    for (uint32_t i = 0; i < f->study->each_count; i++)
+        programs += f->study->each[i].setting == TN_SET_PROGRAM;
+    if (programs > 1)
+        find(f, TN_SET_PROGRAM, TN_SETTING_COUNT, "a study has one program that scores",
+             "have one of them call the other, and answer with several numbers: `program-values 2`");
+    if (programs && alone)
+        find(f, TN_SET_PROGRAM, problem, "a study has one problem, and this is another", "leave one of them out");
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        if (is_written(f, own[i]) && !programs)
+            find(f, own[i], TN_SETTING_COUNT, "this is about a program that scores",
+                 "name it, as `fitness program \"./score.sh\"`, or leave this out");
+}
+
 /* One of match, fit, grow, build, place, and keep with drop. */
 static void find_problem(findings *f)
 {
@@ -238,10 +257,12 @@ static void find_problem(findings *f)
             find(f, starts[i], first, "a study has one problem, and this is another", "leave one of them out");
         first = first == TN_SETTING_COUNT ? starts[i] : first;
     }
-    if (first == TN_SETTING_COUNT && tn_evolution_study_use(f->study) == TN_USE_CODONS)
+    find_program(f, first);
+    if (first == TN_SETTING_COUNT && tn_evolution_study_use(f->study) == TN_USE_CODONS &&
+        !is_written(f, TN_SET_PROGRAM))
         find(f, TN_SETTING_COUNT, TN_SETTING_COUNT, "the study does not say what to evolve towards",
              "write one of `match \"TEXT\"`, `fit \"DATA.csv\"`, `grow \"GROWTH.study\"`, `build \"GOALS.solid\"`, "
-             "`place \"KIT.kit\"`, or `keep \"PLANS\"` with `drop \"PLANS\"`");
+             "`place \"KIT.kit\"`, `fitness program \"./PROGRAM\"`, or `keep \"PLANS\"` with `drop \"PLANS\"`");
     if (is_written(f, TN_SET_KEEP) != is_written(f, TN_SET_DROP))
         find(f, is_written(f, TN_SET_KEEP) ? TN_SET_KEEP : TN_SET_DROP, TN_SETTING_COUNT,
              "a rule is learned from plans of both kinds", "write both `keep \"PLANS\"` and `drop \"PLANS\"`");
@@ -297,6 +318,12 @@ static void find_selection(findings *f)
 {
     const tn_setting_value *selection = &f->study->of[TN_SET_SELECTION];
     bool nsga2 = chose(f, TN_SET_SELECTION, "nsga2");
+    if (nsga2 && is_written(f, TN_SET_PROGRAM) && tn_evolution_study_use(f->study) == TN_USE_CODONS &&
+        !is_written(f, TN_SET_GROW) && !is_written(f, TN_SET_BUILD) && !is_written(f, TN_SET_PLACE) &&
+        f->study->of[TN_SET_PROGRAM_VALUES].first == 1)
+        find(f, TN_SET_SELECTION, TN_SET_PROGRAM,
+             "`selection nsga2` weighs several objectives, and the program answers with one number",
+             "write `selection tournament 3`, or how many numbers it answers with, as `program-values 2`");
     for (tn_setting one = TN_SET_MATCH; nsga2 && one <= TN_SET_FIT; one++)
         if (is_written(f, one))
             find(f, TN_SET_SELECTION, one, "`selection nsga2` weighs several objectives, and this problem has one",

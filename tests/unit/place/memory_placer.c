@@ -44,7 +44,7 @@ static tn_status score(void)
     tn_error error;
     char message[200] = "", *text = NULL;
     tn_score found = {.state = TN_SCORED};
-    tn_status status = tn_placer_new(path, false, &placer, &error);
+    tn_status status = tn_placer_new(path, false, false, &placer, &error);
     if (status == TN_OK) {
         tn_evaluator evaluator = tn_placer_evaluator(placer);
         status = evaluator.evaluate(evaluator.context, 0, sentence, sizeof sentence - 1, &found, message, &error);
