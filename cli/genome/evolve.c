@@ -148,10 +148,15 @@ static void tell_reasons(const tn_evolution_session *e, FILE *out)
     tn_error error;
     if (tn_run_reasons(&e->run, &reasons, &error) != TN_OK)
         return;
-    for (size_t i = 0; i < reasons.count; i++)
-        fprintf(out, "  %u %s: %s\n", reasons.items[i].count,
-                reasons.items[i].state == TN_SCORE_LIMIT ? "past a limit" : "failed",
-                reasons.items[i].text[0] ? reasons.items[i].text : "no reason was given");
+    for (size_t i = 0; i < reasons.count; i++) {
+        const tn_reason *reason = &reasons.items[i];
+        fprintf(out, "  %u %s: %s", reason->count, reason->state == TN_SCORE_LIMIT ? "past a limit" : "failed",
+                reason->text[0] ? reason->text : "no reason was given");
+        if (e->job.program)
+            fprintf(out, reason->count > 1 ? " (individual %" PRIu64 " and others)" : " (individual %" PRIu64 ")",
+                    reason->first);
+        fputc('\n', out);
+    }
 }
 
 /* What the best is worth where nobody has looked yet. */

@@ -14,7 +14,7 @@
 #include "driver/breed/field_scorer.h"
 #include "driver/breed/grower.h"
 #include "driver/breed/learn.h"
-#include "driver/breed/program_scorer.h"
+#include "driver/program/program_scorer.h"
 #include "driver/breed/skeleton.h"
 #include "driver/open/open.h"
 #include "driver/place/placer.h"

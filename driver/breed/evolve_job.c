@@ -1,4 +1,5 @@
 /* Puts a run together from a study: grammar, settings, problem and first genomes. */
+#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,12 +8,12 @@
 #include "compiler/kit/with_rules.h"
 #include "driver/breed/evolve.h"
 #include "driver/breed/evolve_forms.h"
-#include "driver/breed/evolve_program.h"
 #include "driver/breed/inputs.h"
 #include "driver/open/missing.h"
 #include "runtime/base/array.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/file.h"
+#include "runtime/base/file_error.h"
 
 #define DATA_BYTES_MAX ((size_t)256 << 20)
 
@@ -320,6 +321,91 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_
     return status;
 }
 
+/* ---- a program that scores too */
+
+/* The program's whole path. The caller frees it. */
+static tn_status find_program(const tn_evolution_job *job, const char *path, char **whole, tn_error *error)
+{
+    char *beside = tn_file_beside(path, job->study.of[TN_SET_PROGRAM].text);
+    *whole = beside ? realpath(beside, NULL) : NULL;
+    int reason = errno;
+    tn_status status = *whole ? TN_OK : beside ? tn_cannot_read(beside, reason, error) : tn_fail_memory(error);
+    free(beside);
+    return status;
+}
+
+static tn_status refuse_program(const char *program, tn_error *error)
+{
+    tn_fail(error, TN_INVALID, E_PROGRAM_REFUSED, "this study runs the program %.350s for its scores", program);
+    tn_error_help(error, "read the program first; if you trust it, say --run-programs");
+    return TN_INVALID;
+}
+
+/* Does the problem want anything of its own? */
+static bool wants(const tn_evolution_job *job)
+{
+    return job->grower    ? tn_grower_wants(job->grower)
+           : job->designs ? tn_design_scorer_wants(job->designs)
+           : job->placer  ? tn_placer_wants(job->placer)
+           : job->fields  ? tn_field_scorer_wants(job->fields)
+                          : false;
+}
+
+static void listen(tn_evolution_job *job)
+{
+    tn_form_listener listener = tn_program_scorer_listener(job->program);
+    if (job->grower)
+        tn_grower_tell(job->grower, listener);
+    if (job->designs)
+        tn_design_scorer_tell(job->designs, listener);
+    if (job->fields)
+        tn_field_scorer_tell(job->fields, listener);
+    if (job->placer)
+        tn_placer_tell(job->placer, tn_program_scorer_hear_model, job->program);
+}
+
+static tn_status take_program(tn_evolution_job *job, const char *program, tn_error *error)
+{
+    const tn_evolution_study *s = &job->study;
+    const tn_program_scoring scoring = {
+        .program = {.path = program,
+                    .threads = job->settings.threads,
+                    .seconds = (unsigned)s->of[TN_SET_PROGRAM_TIMEOUT].first,
+                    .values = (size_t)s->of[TN_SET_PROGRAM_VALUES].first,
+                    .watch = job->settings.watch},
+        .weight = s->of[TN_SET_PROGRAM].second,
+        .separately = job->settings.select.selection == TN_SELECT_NSGA2,
+        .population = job->settings.population,
+    };
+    tn_status status = tn_inputs_add_file(&job->inputs, "fitness program", program, error);
+    if (status == TN_OK)
+        status = tn_program_scorer_new(&scoring, &job->program, error);
+    if (status == TN_OK)
+        status = tn_program_scorer_follow(job->program, &job->evaluator, wants(job), error);
+    if (status != TN_OK)
+        return status;
+    listen(job);
+    job->evaluator = tn_program_scorer_evaluator(job->program);
+    return TN_OK;
+}
+
+/* After the problem is made: from here on the evaluator asks the program too. */
+static tn_status add_program(tn_evolution_job *job, const char *path, const tn_evolution_job_options *options,
+                             tn_error *error)
+{
+    char *program = NULL;
+    job->blamed = TN_SET_PROGRAM;
+    for (job->blamed_each = 0; job->study.each[job->blamed_each].setting != TN_SET_PROGRAM;)
+        job->blamed_each++;
+    tn_status status = find_program(job, path, &program, error);
+    if (status == TN_OK)
+        status = options->run_programs ? take_program(job, program, error) : refuse_program(program, error);
+    free(program);
+    return status;
+}
+
+/* ---- first genomes */
+
 /* First genomes, one a line. */
 static tn_status read_seeds(tn_evolution_job *job, const char *text, size_t size, tn_error *error)
 {
@@ -389,7 +475,7 @@ tn_status tn_evolution_job_make(const tn_evolution_study *study, const char *pat
         status =
             codons ? make_codons(job, path, module, options, error) : tn_evolution_forms(job, path, options, error);
     if (status == TN_OK && is_asked(job) && !options->only_replay)
-        status = tn_evolution_job_ask(job, path, options, error);
+        status = add_program(job, path, options, error);
     if (status != TN_OK)
         return status;
     job->blamed = TN_SETTING_COUNT;

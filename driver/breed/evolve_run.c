@@ -420,7 +420,7 @@ static tn_status check_program(const tn_run *run, tn_error *error)
         return TN_OK;
     for (size_t i = 0; i < count; i++)
         if (strncmp(born[i]->message, TN_PROGRAM_SAYS, strlen(TN_PROGRAM_SAYS)) == 0)
-            return tn_program_useless(tn_program_scorer_program(run->job->program), born[i]->id,
+            return tn_external_useless(tn_program_scorer_program(run->job->program), born[i]->id,
                                       born[i]->message + strlen(TN_PROGRAM_SAYS), error);
     return TN_OK;
 }

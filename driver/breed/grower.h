@@ -3,7 +3,7 @@
 #ifndef TARTAN_DRIVER_BREED_GROWER_H
 #define TARTAN_DRIVER_BREED_GROWER_H
 
-#include "driver/breed/form_listener.h"
+#include "driver/program/form_listener.h"
 #include "runtime/genome/breeding/evolve.h"
 
 typedef struct tn_grower tn_grower;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void count_reason(tn_reasons *r, tn_score_state state, const char *text)
+static void count_reason(tn_reasons *r, tn_score_state state, const char *text, uint64_t id)
 {
     size_t at = 0;
     while (at < r->count && (r->items[at].state != state || strcmp(r->items[at].text, text) != 0))
@@ -13,10 +13,12 @@ static void count_reason(tn_reasons *r, tn_score_state state, const char *text)
     if (at == TN_REASONS_MAX)
         at--;
     if (at == r->count) {
-        r->items[r->count++] = (tn_reason){.state = state};
+        r->items[r->count++] = (tn_reason){.state = state, .first = id};
         snprintf(r->items[at].text, sizeof r->items[at].text, "%s", text);
     }
     r->items[at].count++;
+    if (id < r->items[at].first)
+        r->items[at].first = id;
 }
 
 static int compare_reasons(const void *left, const void *right)
@@ -40,6 +42,9 @@ static tn_status reason_of(const tn_run *run, const tn_individual *member, char 
 {
     const tn_evaluator *evaluator = &run->job->evaluator;
     tn_score score = {0};
+    tn_status status = run->store ? tn_run_store_message(run->store, member->id, message, error) : TN_OK;
+    if (status != TN_OK || (run->store && message[0]))
+        return status;
     message[0] = '\0';
     return evaluator->evaluate(evaluator->context, 0, member->sentence, member->sentence_size, &score, message, error);
 }
@@ -58,7 +63,7 @@ tn_status tn_run_reasons(const tn_run *run, tn_reasons *reasons, tn_error *error
         const char *known = known_message(members, count, members[i]);
         if (!known)
             status = reason_of(run, members[i], message, error);
-        count_reason(reasons, state, known ? known : message);
+        count_reason(reasons, state, known ? known : message, members[i]->id);
     }
     qsort(reasons->items, reasons->count, sizeof *reasons->items, compare_reasons);
     return status;

@@ -10,6 +10,7 @@ typedef struct tn_reason {
     char text[200];
     tn_score_state state;
     uint32_t count;
+    uint64_t first; /* the lowest id of them */
 } tn_reason;
 
 /* The most frequent first. */
@@ -19,7 +20,7 @@ typedef struct tn_reasons {
 } tn_reasons;
 
 /* Of the members that failed or passed a limit. Messages are not stored with scores that are known already: such a
- * sentence is evaluated once more. TN_MEMORY, or TN_OK. */
+ * sentence is evaluated once more, if the database does not say why either. TN_OK, or what went wrong. */
 tn_status tn_run_reasons(const tn_run *run, tn_reasons *reasons, tn_error *error);
 
 #endif

@@ -81,7 +81,7 @@ void tn_answer_read(const char *line, size_t size, size_t count, tn_answer *answ
     bool valued = json && !said && take_values(score, count, answer->values);
     answer->understood = said || valued;
     if (!json) {
-        refuse(answer, line, size, "which is no JSON");
+        refuse(answer, line, size, "which is not JSON");
     } else if (said) {
         char shown[TN_REFUSAL_SIZE - 40];
         tn_clean_copy(shown, sizeof shown, said, strlen(said));

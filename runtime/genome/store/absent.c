@@ -48,6 +48,13 @@ tn_status tn_run_store_get_meta(tn_run_store *store, const char *key, char **val
     return absent(error);
 }
 
+tn_status tn_run_store_message(tn_run_store *store, uint64_t id, char message[200], tn_error *error)
+{
+    (void)store, (void)id;
+    message[0] = '\0';
+    return absent(error);
+}
+
 tn_status tn_run_store_generations(tn_run_store *store, uint32_t *count, tn_error *error)
 {
     (void)store;

@@ -38,6 +38,9 @@ tn_status tn_run_store_put_meta(tn_run_store *store, const char *const *keys, co
 /* The caller frees *value; NULL where there is none. */
 tn_status tn_run_store_get_meta(tn_run_store *store, const char *key, char **value, tn_error *error);
 
+/* Why an individual that was evaluated had no score; empty where nothing is known of that. */
+tn_status tn_run_store_message(tn_run_store *store, uint64_t id, char message[200], tn_error *error);
+
 /* How many generations are stored, from 0 on. */
 tn_status tn_run_store_generations(tn_run_store *store, uint32_t *count, tn_error *error);
 

@@ -1,5 +1,6 @@
 /* Reads a run's database: events, scores and statistics. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -161,6 +162,20 @@ tn_status tn_run_store_check(tn_run_store *store, const tn_evolution *evolution,
             generation);
     tn_error_help(error, "resume it with the files and the version of tartan that it was started with");
     return TN_INVALID;
+}
+
+tn_status tn_run_store_message(tn_run_store *store, uint64_t id, char message[200], tn_error *error)
+{
+    sqlite3_stmt *statement = NULL;
+    message[0] = '\0';
+    tn_status status = prepare(store, "SELECT message FROM birth WHERE id = ?", &statement, error);
+    if (status != TN_OK)
+        return status;
+    sqlite3_bind_int64(statement, 1, (sqlite3_int64)id);
+    if (sqlite3_step(statement) == SQLITE_ROW && sqlite3_column_type(statement, 0) == SQLITE_TEXT)
+        snprintf(message, 200, "%s", (const char *)sqlite3_column_text(statement, 0));
+    sqlite3_finalize(statement);
+    return TN_OK;
 }
 
 tn_status tn_run_store_stats(tn_run_store *store, tn_generation_stats **stats, size_t *count, tn_error *error)

@@ -1,5 +1,5 @@
 /* Asks a program about what is bred: writes the lines and meshes, and adds its numbers to the scores. */
-#include "driver/breed/program_scorer.h"
+#include "driver/program/program_scorer.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -9,7 +9,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "driver/breed/inputs.h"
 #include "driver/place/shape.h"
 #include "driver/program/keeper.h"
 #include "runtime/base/file.h"
@@ -29,7 +28,7 @@ typedef struct writing {
 } writing;
 
 struct tn_program_scorer {
-    tn_program *program;
+    tn_external *program;
     tn_program_scoring options;
     tn_evaluator problem; /* evaluate is NULL: there is none */
     size_t first;         /* of the run's objectives that is the program's */
@@ -50,7 +49,7 @@ tn_status tn_program_scorer_new(const tn_program_scoring *options, tn_program_sc
     s->options = *options;
     s->writings = calloc(options->program.threads, sizeof *s->writings);
     tn_status status =
-        s->writings ? tn_program_new(&options->program, &s->program, error) : tn_fail_memory(error);
+        s->writings ? tn_external_new(&options->program, &s->program, error) : tn_fail_memory(error);
     if (status == TN_OK)
         *scorer = s;
     else
@@ -62,12 +61,12 @@ void tn_program_scorer_free(tn_program_scorer *s)
 {
     if (!s)
         return;
-    tn_program_free(s->program);
+    tn_external_free(s->program);
     free(s->writings);
     free(s);
 }
 
-const tn_program *tn_program_scorer_program(const tn_program_scorer *scorer)
+const tn_external *tn_program_scorer_program(const tn_program_scorer *scorer)
 {
     return scorer->program;
 }
@@ -123,7 +122,7 @@ static tn_status write_mesh(const tn_mesh *mesh, const char *path, tn_error *err
 static char *folder_of(const tn_program_scorer *s, uint64_t id)
 {
     char *folder = NULL;
-    return asprintf(&folder, "%s/%" PRIu64, tn_program_folder(s->program), id) < 0 ? NULL : folder;
+    return asprintf(&folder, "%s/%" PRIu64, tn_external_folder(s->program), id) < 0 ? NULL : folder;
 }
 
 static tn_status hear(void *context, unsigned thread, const tn_form_facts *facts, tn_error *error)
@@ -249,7 +248,7 @@ static tn_status evaluate_many(void *context, unsigned thread, struct tn_individ
         wanted += individuals[i]->score.state == TN_SCORED;
     }
     if (status == TN_OK && wanted)
-        status = tn_program_ask(s->program, thread, questions, wanted, error);
+        status = tn_external_ask(s->program, thread, questions, wanted, error);
     for (size_t i = 0; i < wanted && status == TN_OK; i++)
         take_answer(s, &questions[i].answer, individuals[places[i]]);
     for (size_t i = 0; i < count; i++)
@@ -274,13 +273,14 @@ static tn_status say_again(void *context, unsigned thread, const char *sentence,
 /* "program weight 2" is ours; everything else is about the problem. */
 static tn_status adjust(void *context, const char *change, tn_error *error)
 {
-    static const char word[] = "program";
+    static const char words[] = "program weight ";
     tn_program_scorer *s = context;
-    double target = 0, weight = s->options.weight;
-    bool ours = strncasecmp(change, word, sizeof word - 1) == 0 && change[sizeof word - 1] == ' ';
+    bool ours = strncasecmp(change, "program ", 8) == 0, weighs = strncasecmp(change, words, sizeof words - 1) == 0;
     if (!ours && s->problem.adjust)
         return s->problem.adjust(s->problem.context, change, error);
-    if (ours && tn_wish_read(change + sizeof word - 1, &target, &weight) && target == 0) {
+    char *end = NULL;
+    double weight = weighs ? strtod(change + sizeof words - 1, &end) : 0;
+    if (end && end > change + sizeof words - 1 && !*end && weight >= 0 && weight <= 1e6) {
         s->options.weight = weight;
         return TN_OK;
     }

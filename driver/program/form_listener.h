@@ -1,6 +1,6 @@
 /* Told of forms while they are there: what scores sentences builds a form, measures it and forgets it. */
-#ifndef TARTAN_DRIVER_BREED_FORM_LISTENER_H
-#define TARTAN_DRIVER_BREED_FORM_LISTENER_H
+#ifndef TARTAN_DRIVER_PROGRAM_FORM_LISTENER_H
+#define TARTAN_DRIVER_PROGRAM_FORM_LISTENER_H
 
 #include "runtime/geometry/mesh.h"
 

@@ -1,11 +1,11 @@
 /* Scores from outside: what is bred is scored by its problem, if it has one, and then by a program (docs/evolution.md
  * says what it reads and writes). */
-#ifndef TARTAN_DRIVER_BREED_PROGRAM_SCORER_H
-#define TARTAN_DRIVER_BREED_PROGRAM_SCORER_H
+#ifndef TARTAN_DRIVER_PROGRAM_PROGRAM_SCORER_H
+#define TARTAN_DRIVER_PROGRAM_PROGRAM_SCORER_H
 
-#include "driver/breed/form_listener.h"
+#include "driver/program/form_listener.h"
 #include "driver/place/placer.h"
-#include "driver/program/program.h"
+#include "driver/program/external.h"
 #include "runtime/genome/breeding/evolve.h"
 
 typedef struct tn_program_scorer tn_program_scorer;
@@ -14,7 +14,7 @@ typedef struct tn_program_scorer tn_program_scorer;
 #define TN_PROGRAM_SAYS "the program "
 
 typedef struct tn_program_scoring {
-    tn_program_options program;
+    tn_external_options program;
     double weight;
     bool separately;        /* each number is an objective behind those of the problem; else their sum is added to its
                                score */
@@ -40,6 +40,6 @@ tn_evaluator tn_program_scorer_evaluator(tn_program_scorer *scorer);
 /* Which of its objectives, from 0 on, is this objective of the run? SIZE_MAX: one of the problem's. */
 size_t tn_program_scorer_number(const tn_program_scorer *scorer, size_t objective);
 
-const tn_program *tn_program_scorer_program(const tn_program_scorer *scorer);
+const tn_external *tn_program_scorer_program(const tn_program_scorer *scorer);
 
 #endif

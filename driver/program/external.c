@@ -1,5 +1,5 @@
 /* Asks processes of a program, and has them started, timed and ended. */
-#include "driver/program/program.h"
+#include "driver/program/external.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -14,6 +14,7 @@
 
 #include "driver/program/keeper.h"
 #include "driver/program/process.h"
+#include "runtime/base/array.h"
 #include "runtime/base/file_error.h"
 
 #define TICK_MS 50 /* how often a watch is looked at */
@@ -23,8 +24,8 @@ typedef struct asked {
     bool repeats_ids; /* so that several lines can be on their way */
 } asked;
 
-struct tn_program {
-    tn_program_options options;
+struct tn_external {
+    tn_external_options options;
     char *path, *folder; /* owned */
     asked *of;           /* [threads] */
     tn_keeper keeper;
@@ -34,7 +35,7 @@ struct tn_program {
 
 /* ---- making and freeing */
 
-static tn_status make_folder(tn_program *p, tn_error *error)
+static tn_status make_folder(tn_external *p, tn_error *error)
 {
     const char *under = getenv("TMPDIR");
     if (asprintf(&p->folder, "%s/tartan-XXXXXX", under && *under ? under : "/tmp") < 0) {
@@ -60,9 +61,9 @@ static tn_status check_file(const char *path, tn_error *error)
     return TN_IO;
 }
 
-tn_status tn_program_new(const tn_program_options *options, tn_program **program, tn_error *error)
+tn_status tn_external_new(const tn_external_options *options, tn_external **program, tn_error *error)
 {
-    tn_program *p = calloc(1, sizeof *p);
+    tn_external *p = calloc(1, sizeof *p);
     *program = NULL;
     if (!p)
         return tn_fail_memory(error);
@@ -77,11 +78,11 @@ tn_status tn_program_new(const tn_program_options *options, tn_program **program
     if (status == TN_OK)
         *program = p;
     else
-        tn_program_free(p);
+        tn_external_free(p);
     return status;
 }
 
-static void end_process(tn_program *p, unsigned thread, bool polite, int *status)
+static void end_process(tn_external *p, unsigned thread, bool polite, int *status)
 {
     int ended = tn_process_end(&p->of[thread].process, polite);
     tn_keeper_tell(&p->keeper, thread, 0);
@@ -89,7 +90,7 @@ static void end_process(tn_program *p, unsigned thread, bool polite, int *status
         *status = ended;
 }
 
-void tn_program_free(tn_program *p)
+void tn_external_free(tn_external *p)
 {
     if (!p)
         return;
@@ -105,20 +106,26 @@ void tn_program_free(tn_program *p)
     free(p);
 }
 
-const char *tn_program_folder(const tn_program *program)
+const char *tn_external_folder(const tn_external *program)
 {
     return program->folder;
 }
 
-const char *tn_program_path(const tn_program *program)
+const char *tn_external_path(const tn_external *program)
 {
     return program->path;
 }
 
-tn_status tn_program_useless(const tn_program *p, uint64_t id, const char *refusal, tn_error *error)
+tn_status tn_external_useless(const tn_external *p, uint64_t id, const char *refusal, tn_error *error)
 {
-    tn_fail(error, TN_INVALID, E_PROGRAM_ANSWERS, "the program %.200s scores nothing; of individual %" PRIu64 " it %.180s",
-            p->path, id, refusal);
+    if (id == UINT64_MAX)
+        tn_fail(error, TN_INVALID, E_PROGRAM_ANSWERS,
+                "the program %.200s scores nothing: asked about %u individuals, it %.180s", p->path,
+                TN_EXTERNAL_PATIENCE, refusal);
+    else
+        tn_fail(error, TN_INVALID, E_PROGRAM_ANSWERS,
+                "the program %.200s scores nothing: asked about individual %" PRIu64 ", it %.180s", p->path, id,
+                refusal);
     tn_error_help(error, "try it by hand: it reads a line of JSON and writes a number, and must write it at once");
     return TN_INVALID;
 }
@@ -126,7 +133,7 @@ tn_status tn_program_useless(const tn_program *p, uint64_t id, const char *refus
 /* ---- asking */
 
 typedef struct asking {
-    tn_program *program;
+    tn_external *program;
     unsigned thread;
     asked *of;
     tn_question *questions;
@@ -184,13 +191,8 @@ static tn_status start(asking *a, tn_error *error)
 
 static tn_status send(asking *a, tn_question *q, tn_error *error)
 {
-    if (a->outgoing_size + q->size > a->outgoing_room) {
-        char *larger = realloc(a->outgoing, a->outgoing_size + q->size);
-        if (!larger)
-            return tn_fail_memory(error);
-        a->outgoing = larger;
-        a->outgoing_room = a->outgoing_size + q->size;
-    }
+    if (!tn_array_reserve_from(&a->outgoing, &a->outgoing_room, 1024, a->outgoing_size, q->size, 1))
+        return tn_fail_memory(error);
     memcpy(a->outgoing + a->outgoing_size, q->line, q->size);
     a->outgoing_size += q->size;
     q->sent = true;
@@ -319,16 +321,16 @@ static tn_status turn(asking *a, tn_error *error)
 /* A program that does not work at all is not asked about everybody. */
 static tn_status lose_patience(const asking *a, tn_error *error)
 {
-    const tn_program *p = a->program;
+    const tn_external *p = a->program;
     const tn_question *last = NULL;
-    if (p->answers || p->failures < TN_PROGRAM_PATIENCE)
+    if (p->answers || p->failures < TN_EXTERNAL_PATIENCE)
         return TN_OK;
     for (size_t i = 0; i < a->count; i++)
         if (a->questions[i].done && !a->questions[i].answer.understood)
             last = &a->questions[i];
     if (!last)
         return TN_OK;
-    return tn_program_useless(p, last->id, last->answer.refusal, error);
+    return tn_external_useless(p, UINT64_MAX, last->answer.refusal, error);
 }
 
 /* Lines that nobody asked for show that answers are not those of their questions. */
@@ -345,7 +347,7 @@ static tn_status look_for_unasked(asking *a, tn_error *error)
     return TN_OK;
 }
 
-tn_status tn_program_ask(tn_program *program, unsigned thread, tn_question *questions, size_t count, tn_error *error)
+tn_status tn_external_ask(tn_external *program, unsigned thread, tn_question *questions, size_t count, tn_error *error)
 {
     asking a = {.program = program, .thread = thread, .of = &program->of[thread], .questions = questions, .count = count};
     tn_status status = look_for_unasked(&a, error);

@@ -1,0 +1,3 @@
+#!/bin/sh
+# Writes without reading.
+while echo 1; do :; done

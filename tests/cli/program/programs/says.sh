@@ -1,0 +1,2 @@
+#!/bin/sh
+while IFS= read -r line; do echo '{"error": "it would fall over"}'; done

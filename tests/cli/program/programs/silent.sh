@@ -1,0 +1,4 @@
+#!/bin/sh
+# Reads, and closes its output.
+exec >&-
+while IFS= read -r line; do :; done
