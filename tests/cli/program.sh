@@ -31,10 +31,11 @@ golden one "cd $scratch && tartan check one.study"
 
 # ---- hostile programs: the same is said with one thread and with two
 for hostile in at_once deaf dies garbage hangs huge_number killed list long no_interpreter not_a_number other overflow says silent twice; do
-    population=40 generations=4
+    population=40 generations=4 more=
     if [ $hostile = hangs ]; then population=3; fi
     if [ $hostile = dies ]; then generations=0; fi
-    study $hostile.sh '' $population $generations >$hostile.study
+    if [ $hostile = overflow ]; then more='  program-values 2'; fi
+    study $hostile.sh "$more" $population $generations >$hostile.study
     for threads in 2 1; do
         rm -rf $hostile.run
         golden $hostile "cd $scratch && tartan evolve $hostile.study --run-programs --threads \$threads"

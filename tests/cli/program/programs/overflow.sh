@@ -1,2 +1,2 @@
 #!/bin/sh
-while IFS= read -r line; do echo 1e308; done
+while IFS= read -r line; do echo '[1e308, 1e308]'; done
