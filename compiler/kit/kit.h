@@ -188,6 +188,9 @@ tn_kit_region tn_kit_check_space(tn_kit *kit, const tn_kit_node *node);
 tn_kit_region tn_kit_region_of_file(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *spot);
 const tn_kit_parts *tn_kit_parts_of_file(tn_kit *kit, const tn_kit_node *node);
 
+/* As many sizes in LDU as a shape takes; or says what is wrong (E1326), with an example of the shape. */
+bool tn_kit_sizes(tn_kit *kit, const tn_kit_node *node, uint32_t wanted, double size[3], const char *example);
+
 /* A box of a part that stands, in cells. */
 tn_cell_box tn_kit_box_of(const tn_kit_stands *one, uint32_t index);
 

@@ -7,7 +7,7 @@
 
 #include "compiler/kit/kit.h"
 #include "runtime/geometry/winding.h"
-#include "runtime/place/heights.h"
+#include "runtime/place/picture/heights_png.h"
 
 static const double mm = 2.5; /* LDU */
 
@@ -25,7 +25,7 @@ void tn_kit_file_failed(tn_kit *kit, const tn_kit_node *node, tn_status status, 
     tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_FILE, node->doc.span, "`%.200s` cannot be used: %.300s",
                                  node->doc.text, error->message);
     tn_help(kit->diagnostics, d, "%s",
-            error->help[0] ? error->help : "a mesh is OBJ, PLY, STL or OFF, a height map PGM, a model LDraw");
+            error->help[0] ? error->help : "a mesh is OBJ, PLY, STL or OFF, a height map PNG or PGM, a model LDraw");
 }
 
 /* ---- cells */
@@ -112,32 +112,6 @@ static void box_at(const tn_kit_spot *spot, const double from[3], const double t
         low[k] = spot->at[k] + (k == 1 ? from[1] : a[k / 2]);
         high[k] = spot->at[k] + (k == 1 ? to[1] : b[k / 2]);
     }
-}
-
-/* Sizes in LDU, none or all of them. */
-static bool read_sizes(tn_kit *kit, const tn_kit_node *node, uint32_t wanted, double size[3], const char *example)
-{
-    uint32_t count = 0;
-    for (const tn_kit_node *length = node->inner.first; length; length = length->next, count++) {
-        int64_t value;
-        if (count >= wanted)
-            continue;
-        if (!tn_kit_measure(kit, &length->size[0], &value))
-            return false;
-        size[count] = (double)value / 1e6;
-        if (value > 0)
-            continue;
-        tn_diagnostic *d =
-            tn_report(kit->diagnostics, E_KIT_SPACE, length->span, "a shape without extent holds nothing");
-        tn_help(kit->diagnostics, d, "sizes are above 0");
-        return false;
-    }
-    if (count == wanted)
-        return true;
-    tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_SPACE, node->span, "`%s` takes a file and %u length%s, not %u",
-                                 node->name.text, wanted, wanted == 1 ? "" : "s", count);
-    tn_help(kit->diagnostics, d, "as %s", example);
-    return false;
 }
 
 /* ---- meshes */
@@ -257,7 +231,7 @@ static bool make_mesh(tn_kit *kit, tn_kit_mask *mask)
     bool y_up;
     tn_mesh mesh = {0};
     tn_error error = {0};
-    if ((node->inner.first && !read_sizes(kit, node, 1, size, "mesh(\"statue.stl\", 20 bricks): how high it is")) ||
+    if ((node->inner.first && !tn_kit_sizes(kit, node, 1, size, "mesh(\"statue.stl\", 20 bricks): how high it is")) ||
         !read_upright(kit, node, &y_up))
         return false;
     const tn_request request = tn_kit_request(kit, node);
@@ -298,7 +272,7 @@ static bool make_hill(tn_kit *kit, tn_kit_mask *mask)
     size_t count = 0;
     tn_heights heights = {0};
     tn_error error = {0};
-    if (!read_sizes(
+    if (!tn_kit_sizes(
             kit, node, 3, size,
             "heightmap(\"hill.pgm\", 32 studs, 10 bricks, 32 studs): width, height of what is white, and depth"))
         return false;
@@ -306,7 +280,7 @@ static bool make_hill(tn_kit *kit, tn_kit_mask *mask)
     const tn_request request = tn_kit_request(kit, node);
     tn_status status = kit->attachments->bytes(kit->attachments->context, &request, &bytes, &count, &error);
     if (status == TN_OK)
-        status = tn_heights_read(bytes, count, &heights, &error);
+        status = (tn_is_png(bytes, count) ? tn_heights_read_png : tn_heights_read)(bytes, count, &heights, &error);
     free(bytes);
     box_at(&mask->spot, from, to, low, high);
     bool made = status == TN_OK && make_room(kit, mask, low, high);

@@ -81,13 +81,12 @@ static int find_shape(tn_kit *kit, const tn_kit_node *node)
     return SHAPE_COUNT;
 }
 
-/* Sizes in LDU. */
-static bool read_sizes(tn_kit *kit, const tn_kit_node *node, int shape, double size[3])
+bool tn_kit_sizes(tn_kit *kit, const tn_kit_node *node, uint32_t wanted, double size[3], const char *example)
 {
     uint32_t count = 0;
-    int64_t value;
     for (const tn_kit_node *length = node->inner.first; length; length = length->next, count++) {
-        if (count >= shapes[shape].sizes)
+        int64_t value;
+        if (count >= wanted)
             continue;
         if (!tn_kit_measure(kit, &length->size[0], &value))
             return false;
@@ -99,11 +98,12 @@ static bool read_sizes(tn_kit *kit, const tn_kit_node *node, int shape, double s
         tn_help(kit->diagnostics, d, "sizes are above 0");
         return false;
     }
-    if (count == shapes[shape].sizes)
+    if (count == wanted)
         return true;
-    tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_SPACE, node->span, "`%s` takes %u length%s, not %u",
-                                 shapes[shape].name, shapes[shape].sizes, shapes[shape].sizes == 1 ? "" : "s", count);
-    tn_help(kit->diagnostics, d, "as %s", shapes[shape].example);
+    tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_SPACE, node->span, "`%s` takes %s%u length%s, not %u",
+                                 node->name.text, node->kind == TN_KIT_FILED ? "a file and " : "", wanted,
+                                 wanted == 1 ? "" : "s", count);
+    tn_help(kit->diagnostics, d, "as %s", example);
     return false;
 }
 
@@ -112,7 +112,7 @@ static tn_kit_region region_of_shape(tn_kit *kit, const tn_kit_node *node, const
     double size[3] = {0};
     tn_kit_region region = {.inside = NULL};
     int shape = find_shape(kit, node);
-    if (shape == SHAPE_COUNT || !read_sizes(kit, node, shape, size))
+    if (shape == SHAPE_COUNT || !tn_kit_sizes(kit, node, shapes[shape].sizes, size, shapes[shape].example))
         return region;
     bool across = at->turns % 2;
     double wide = shape == BOX ? size[across ? 2 : 0] / 2 : size[0],

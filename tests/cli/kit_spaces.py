@@ -1,6 +1,8 @@
 """Writes the files of kit_spaces.sh: meshes, height maps and a model whose shapes are known."""
 import math
+import struct
 import sys
+import zlib
 
 folder = sys.argv[1]
 
@@ -46,3 +48,32 @@ write("flat.pgm", "P2\n# half as high\n3 2\n10\n" + "5 " * 6 + "\n")
 steps = [[500] * 200 + [1000] * 200]
 write("steps.pgm", "P2 400 1 1000 " + " ".join(map(str, steps[0])) + "\n")
 write("two.ldr", "0 two\n1 4 0 -24 0 1 0 0 0 1 0 0 0 1 3003.dat\n0 STEP\n1 14 0 -48 0 1 0 0 0 1 0 0 0 1 3001.dat\n")
+
+
+def png(name, width, rows, kind, depth, palette=b"", cut=None):
+    """A PNG picture; rows are bytes of samples."""
+    def chunk(what, data):
+        return struct.pack(">I", len(data)) + what + data + struct.pack(">I", zlib.crc32(what + data))
+
+    text = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, len(rows), depth, kind, 0, 0, 0))
+    text += (chunk(b"PLTE", palette) if palette else b"") + chunk(b"IDAT", zlib.compress(b"".join(b"\0" + r for r in rows))) + chunk(b"IEND", b"")
+    with open(f"{folder}/{name}", "wb") as out:
+        out.write(text[:cut])
+
+
+HILL = [[0, 40, 90, 200, 255, 13], [7, 99, 180, 230, 120, 60], [255, 254, 128, 127, 3, 0], [30, 60, 90, 120, 150, 180]]
+write("grey.pgm", "P2 6 4 255\n" + "\n".join(" ".join(map(str, row)) for row in HILL) + "\n")
+png("grey.png", 6, [bytes(row) for row in HILL], 0, 8)
+png("rgb.png", 6, [bytes(v for v in row for _ in range(3)) for row in HILL], 2, 8)
+png("deep.png", 6, [bytes(v for v in row for _ in range(2)) for row in HILL], 0, 16)
+png("deep_rgb.png", 6, [bytes(v for v in row for _ in range(6)) for row in HILL], 2, 16)
+png("clear.png", 6, [bytes(b for v in row for b in (255, 255, 255, v)) for row in HILL], 6, 8)
+levels = sorted({v for row in HILL for v in row})
+png("palette.png", 6, [bytes(levels.index(v) for v in row) for row in HILL], 3, 8, bytes(v for v in levels for _ in range(3)))
+png("green.png", 2, [bytes((0, 255, 0, 255, 0, 0))] * 2, 2, 8)
+write("luminance.pgm", "P2 2 2 10000\n7152 2126\n7152 2126\n")
+png("short.png", 6, [bytes(row) for row in HILL], 0, 8, cut=-30)
+png("bare.png", 6, [bytes(row) for row in HILL], 0, 8, cut=20)
+png("vast.png", 30000, [b""] * 30000, 0, 8)
+png("long.png", 70000, [b""], 0, 8)
+png("wrong.png", 6, [bytes(3)] * 4, 0, 8)

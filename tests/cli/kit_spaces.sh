@@ -37,6 +37,10 @@ same ball 'mesh("ball.obj", 161)' 'sphere(80.5) at (0, 80.5, 0)'
 same flat 'heightmap("flat.pgm", 160, 4 bricks, 120)' 'box(160, 2 bricks, 120)'
 same steep 'heightmap("steps.pgm", 160, 4 bricks, 80)' 'box(80, 2 bricks, 80) at (-40, 0, 0) or box(80, 4 bricks, 80) at (40, 0, 0)'
 same turned_hill 'heightmap("steps.pgm", 160, 4 bricks, 80) turn 1' 'box(80, 2 bricks, 80) at (0, 0, -40) or box(80, 4 bricks, 80) at (0, 0, 40)'
+for picture in grey rgb deep deep_rgb clear palette; do
+    same $picture "heightmap(\"$picture.png\", 120, 4 bricks, 80)" 'heightmap("grey.pgm", 120, 4 bricks, 80)'
+done
+same luminance 'heightmap("green.png", 160, 10 bricks, 120)' 'heightmap("luminance.pgm", 160, 10 bricks, 120)'
 same model 'model("two.ldr")' 'box(2 studs, 1 brick, 2 studs) or box(4 studs, 1 brick, 2 studs) at (0, 1 brick, 0)'
 same model_turned 'model("two.ldr") turn 3' 'box(2 studs, 1 brick, 2 studs) or box(2 studs, 1 brick, 4 studs) at (0, 1 brick, 0)'
 
@@ -54,6 +58,12 @@ golden searched "tartan place $scratch/on.kit --model searched -o $scratch/on.ld
 golden outside "tartan place $scratch/on.kit --model above"
 golden outside_searched "tartan place $scratch/on.kit --model above_searched"
 golden no_stock "tartan place $scratch/on.kit --model many"
+
+# Pictures that are none.
+for picture in short bare vast long wrong; do
+    sed "s/two.ldr\" by any; colour 4/two.ldr\" by any/; s/or model(\"two.ldr\")/and heightmap(\"$picture.png\", 120, 4 bricks, 80)/" "$scratch/on.kit" >"$scratch/$picture.kit"
+    golden png_$picture "tartan check $scratch/$picture.kit"
+done
 
 # A module has the cells in it.
 cat >"$scratch/hill.kit" <<'K'
