@@ -63,6 +63,9 @@
     }
 
 #define OPTION_WERROR FLAG("werror", 0, common.werror, "treat warnings as errors")
+#define OPTION_LDRAW                                                                                                   \
+    TEXT("ldraw", 0, "DIR", common.ldraw,                                                                              \
+         "the LDraw library of which kits take parts (default: the folder that LDRAWDIR names, or /usr/share/ldraw)")
 #define OPTION_OUTPUT                                                                                                  \
     TEXT("output", 'o', "FILE", output, "write to FILE (beside it, then renamed over it); - is standard output")
 #define OPTION_OUTPUT_OR_PICTURE                                                                                       \

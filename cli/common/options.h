@@ -65,6 +65,7 @@ typedef struct tn_settings {
     bool help;
     int diagnostics; /* 0 text, 1 json */
     bool werror;
+    const char *ldraw;             /* a folder; NULL: the usual one */
     tn_option_number memory_limit; /* megabytes */
     const struct tn_ranks *ranks;  /* the processes that do the command together; NULL: this one alone */
 } tn_settings;

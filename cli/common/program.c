@@ -4,7 +4,9 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli/common/help.h"
@@ -47,6 +49,20 @@ static void watch(const tn_command *command, const tn_settings *settings)
         tn_interrupt_last_words("interrupted before the end");
 }
 
+/* The library is asked for by its variable, wherever a kit is read. */
+static tn_status use_library(const tn_settings *settings, tn_error *error)
+{
+    struct stat found;
+    if (!settings->ldraw)
+        return TN_OK;
+    if (stat(settings->ldraw, &found) != 0 || !S_ISDIR(found.st_mode)) {
+        tn_fail(error, TN_IO, E_CANNOT_READ, "there is no folder %.300s", settings->ldraw);
+        tn_error_help(error, "--ldraw is the folder of an LDraw library, which has the folders parts and p");
+        return TN_IO;
+    }
+    return setenv("LDRAWDIR", settings->ldraw, true) == 0 ? TN_OK : tn_fail_memory(error);
+}
+
 int tn_program_run(const tn_command *command, int count, char **words, const tn_ranks *ranks)
 {
     tn_settings *settings = tn_settings_new(command);
@@ -62,6 +78,8 @@ int tn_program_run(const tn_command *command, int count, char **words, const tn_
         if (tn_ranks_lead(ranks))
             tn_help_command(command, stdout);
         exit_code = tn_program_printed();
+    } else if (use_library(settings, &error) != TN_OK) {
+        exit_code = tn_program_refuse(settings, &error);
     } else {
         watch(command, settings);
         tn_pipes_announce(settings);

@@ -216,7 +216,8 @@ static int run(const tn_command *command, const tn_settings *settings)
 }
 
 #define SETTINGS tn_session_settings
-static const tn_option options[] = {OPTIONS_RUN("how many generations to breed, instead of the study's number")};
+static const tn_option options[] = {OPTIONS_RUN("how many generations to breed, instead of the study's number"),
+                                    OPTION_LDRAW};
 
 const tn_command tn_command_evolve = {
     .name = "evolve",

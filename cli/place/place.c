@@ -246,6 +246,7 @@ static const tn_option options[] = {
     NUMBER("search-limit", 0, "N", search_limit, 1, UINT64_MAX,
            "the most models that a search looks at or gives up (default 10000000)"),
     OPTION_THREADS(threads),
+    OPTION_LDRAW,
     OPTION_WERROR,
 };
 

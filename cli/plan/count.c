@@ -436,6 +436,7 @@ static const tn_option options[] = {
     OPTIONS_KIT("count"),
     FLAG("watch", 0, watch, "count again whenever the file, or one that it uses, changes; Ctrl-C ends"),
     OPTION_OUTPUT_OR_PICTURE,
+    OPTION_LDRAW,
     OPTIONS_LIBRARY_LIMITS,
 };
 

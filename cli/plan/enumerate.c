@@ -280,6 +280,7 @@ static const tn_option options[] = {
     OPTION_ROW_GROUP,
     OPTION_PLAN_OUTPUT,
     FLAG("resume", 0, written.resume, "continue a database that was interrupted; no plan is left out or written twice"),
+    OPTION_LDRAW,
     OPTIONS_LIBRARY_LIMITS,
 };
 

@@ -226,6 +226,7 @@ static const tn_option options[] = {
     LIST("rule", 'r', "NAME", rules, "the rule of --regex"),
     TEXT("model", 'm', "NAME", model, "the model of --pcfg; may be left out where the kit has only one"),
     OPTIONS_LIBRARY,
+    OPTION_LDRAW,
     OPTION_OUTPUT,
     OPTION_MAX_STATES,
 };

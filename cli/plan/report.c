@@ -231,6 +231,7 @@ static const tn_option options[] = {
     OPTIONS_LIBRARY,
     OPTION_MAX_STATES,
     OPTION_THREADS(plans.threads),
+    OPTION_LDRAW,
     OPTION_WERROR,
 };
 

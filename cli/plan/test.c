@@ -160,6 +160,7 @@ static const tn_option options[] = {
     OPTION_LIBRARY,
     OPTION_MAX_STATES,
     OPTION_MAX_BOXES(max_boxes),
+    OPTION_LDRAW,
     OPTION_WERROR,
 };
 

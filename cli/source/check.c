@@ -319,6 +319,7 @@ static const tn_option options[] = {
     TEXT("sarif", 0, "LOG", sarif,
          "also write what is found to LOG in SARIF 2.1.0, for code hosts; - is standard output"),
     OPTION_LIBRARY,
+    OPTION_LDRAW,
     OPTION_WERROR,
     OPTION_MAX_STATES,
     OPTION_MAX_BOXES(max_boxes),

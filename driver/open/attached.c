@@ -57,7 +57,7 @@ static tn_status read_part(const char *name, uint8_t **bytes, size_t *size, tn_e
     if (status != TN_OK || there)
         return status;
     tn_fail(error, TN_IO, E_CANNOT_READ, "there is no %.120s in the LDraw library %.200s", name, folder);
-    tn_error_help(error, "set LDRAWDIR to the folder of the library, which has the folders parts and p");
+    tn_error_help(error, "name the folder of the library, which has the folders parts and p, by --ldraw or by the variable LDRAWDIR");
     return TN_IO;
 }
 

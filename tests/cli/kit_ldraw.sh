@@ -44,6 +44,16 @@ export LDRAWDIR=$library
 golden measured "tartan place $scratch/own.kit -o $scratch/own.ldr && tartan inspect $scratch/own.ldr --kit bricks && tartan count $scratch/own.kit --parts 3 --part 3001"
 "$TARTAN" build "$scratch/own.kit" -o "$scratch/own.tnb"
 export LDRAWDIR=$scratch/none
+# The option goes before the variable, in every command that reads a kit.
+for words in "place --ldraw $library $scratch/own.kit" "check --ldraw $library $scratch/own.kit" "disasm --ldraw $library $scratch/own.kit" \
+    "build --ldraw $library $scratch/own.kit -o $scratch/optioned.tarm" "count --ldraw $library $scratch/own.kit --parts 1" \
+    "enumerate --ldraw $library $scratch/own.kit --parts 1 -o -" "export --ldraw $library $scratch/own.kit --pcfg -o -" \
+    "inspect --ldraw $library $scratch/own.ldr --kit $scratch/own.kit" \
+    "report --ldraw $library $scratch/own.kit -o $scratch/page.html" "test --ldraw $library $scratch/own.kit"; do
+    $TARTAN $words >"$scratch/said" 2>&1
+    grep -qE "LDRAWDIR|no option" "$scratch/said" && fail "tartan $words does not look in the library: $(cat "$scratch/said")"
+done
+golden no_folder "tartan place --ldraw $scratch/nowhere $scratch/own.kit"
 "$TARTAN" place "$scratch/own.tnb" -o "$scratch/module.ldr"
 cmp "$scratch/own.ldr" "$scratch/module.ldr" || fail 'the module places other parts'
 golden no_library "tartan check $scratch/own.kit"
