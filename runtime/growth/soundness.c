@@ -63,11 +63,12 @@ static void add_face(const tn_map *map, uint32_t face, double ground, face_sums 
     for (uint32_t i = 0; i < size; i++) {
         tn_vector at = corner(map, first + i), next = corner(map, first + (i + 1) % size),
                   before = corner(map, first + (i + size - 1) % size);
-        normal = tn_add(normal, tn_cross(tn_sub(at, middle), tn_sub(next, middle)));
+        tn_vector part = tn_cross(tn_sub(at, middle), tn_sub(next, middle));
+        normal = tn_add(normal, part);
+        sums->volume += 0.5 * part.z * ((at.z + next.z + middle.z) / 3 - ground);
         sums->smallest_angle = tn_smaller(sums->smallest_angle, angle_between(tn_sub(next, at), tn_sub(before, at)));
     }
     sums->area += 0.5 * tn_norm(normal);
-    sums->volume += 0.5 * normal.z * (middle.z - ground);
     tn_vector unit = tn_normalised(normal);
     double off = 0, reach = 0;
     for (uint32_t i = 0; i < size; i++) {

@@ -13,9 +13,10 @@ typedef struct tn_measuring {
 /* Fills in what the bits of `asked` (1 << tn_measured) name beyond the fitness terms:
  *   width, depth, height   extent in x, y and z, in model units
  *   area                   of all faces, each half of its Newell's normal long
- *   volume                 between the surface and the level of its lowest vertex
+ *   volume                 between the surface, cut into triangles about the middles of its faces, and the level of its
+ *                          lowest vertex
  *   planarity              mean over faces of the largest distance of a corner from the face's plane, over the face's
- *                          diameter; 0 where all are plane
+ *                          size, twice the largest distance of a corner from the middle; 0 where all are plane
  *   worst-planarity        the largest of these
  *   edge-spread            standard deviation of the lengths of edges, over their mean
  *   smallest-angle         between two sides of a face at their corner, in degrees

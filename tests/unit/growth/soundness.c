@@ -145,9 +145,17 @@ static void slow_sizes(const tn_mesh *mesh, double *least, double *most, double 
         uint32_t size = mesh->face_first[f + 1] - mesh->face_first[f];
         double n[3];
         tn_mesh_face_normal(mesh, mesh->corners + mesh->face_first[f], size, n);
-        double own = 0, middle = 0;
+        double own = 0, middle[3] = {0};
         for (uint32_t i = 0; i < size; i++)
-            middle += mesh->positions[3 * (size_t)mesh->corners[mesh->face_first[f] + i] + 2] / size;
+            for (uint32_t k = 0; k < 3; k++)
+                middle[k] += mesh->positions[3 * (size_t)mesh->corners[mesh->face_first[f] + i] + k] / size;
+        for (uint32_t i = 0; i < size; i++) { /* a prism with a sloping top under each side's triangle */
+            const double *a = &mesh->positions[3 * (size_t)mesh->corners[mesh->face_first[f] + i]],
+                         *b = &mesh->positions[3 * (size_t)mesh->corners[mesh->face_first[f] + (i + 1) % size]];
+            double plan = 0.5 * (a[0] * b[1] - b[0] * a[1] + b[0] * middle[1] - middle[0] * b[1] + middle[0] * a[1] -
+                                 a[0] * middle[1]);
+            *volume += plan * ((a[2] + b[2] + middle[2]) / 3 - low);
+        }
         for (uint32_t i = 1; i + 1 < size; i++) {
             uint32_t triangle[3] = {mesh->corners[mesh->face_first[f]], mesh->corners[mesh->face_first[f] + i],
                                     mesh->corners[mesh->face_first[f] + i + 1]};
@@ -157,7 +165,6 @@ static void slow_sizes(const tn_mesh *mesh, double *least, double *most, double 
         }
         *most += own;
         *least += 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        *volume += 0.5 * n[2] * (middle - low);
     }
     *volume = fabs(*volume);
 }
