@@ -84,6 +84,7 @@ static _Noreturn void keep(int told, pid_t *groups, unsigned slots, const char *
         nanosleep(&(struct timespec){.tv_nsec = 50000000}, NULL);
         tn_folder_remove(folder);
     }
+    free(groups);
     _exit(0);
 }
 
