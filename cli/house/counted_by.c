@@ -13,7 +13,8 @@ static tn_status make_spread(const tn_numbered *n, const tn_plan *plan, tn_house
     tn_house_weights *weights = NULL;
     tn_houses *houses = NULL;
     tn_status status = tn_house_weights_new(&n->form, measure, &weights, error);
-    tn_houses_what what = {.weights = weights};
+    tn_house_measures measures = {.count = 1, .of = {weights}};
+    tn_houses_what what = {.measures = &measures};
     if (plan) {
         what.only = plan->trays;
         what.length = (uint32_t)plan->length;

@@ -1,5 +1,6 @@
 /* tartan best: the best plans of a library by measures, in order. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/common/option_rows.h"
 #include "cli/measure/best_search.h"
@@ -13,6 +14,7 @@ typedef struct best_settings {
     tn_written_settings written;
     tn_option_list wanted; /* wishes */
     bool mirror;
+    const char *plan;
 } best_settings;
 
 static const best_settings *settings_of(const tn_job *job)
@@ -155,6 +157,43 @@ static void find_best(tn_job *job, const tn_ready_library *ready, uint64_t wante
     tn_best_search_close(&search);
 }
 
+static bool names_rows(const char *path)
+{
+    static const char *const endings[] = {".sqlite", ".sqlite3", ".db", ".parquet"};
+    const char *ending = path ? strrchr(path, '.') : NULL;
+    for (size_t i = 0; ending && i < sizeof endings / sizeof *endings; i++)
+        if (strcmp(ending, endings[i]) == 0)
+            return true;
+    return false;
+}
+
+/* Houses are written as lines, or JSON; what else plans may be told is wrong usage. */
+static void find_houses(tn_job *job, uint64_t wanted)
+{
+    const best_settings *settings = settings_of(job);
+    tn_plan_format format = (tn_plan_format)settings->written.format;
+    tn_wishes wishes;
+    bool lines = format == TN_FORMAT_AUTO || format == TN_FORMAT_JSON || format == TN_FORMAT_LINES;
+    if (settings->mirror) {
+        tn_job_usage(job, "--mirror is about plans, not about houses");
+        return;
+    }
+    if (!lines || tn_job_draws(settings->written.output) || names_rows(settings->written.output)) {
+        tn_diagnostic *d = tn_job_usage(job, "the best houses are written as lines or JSON");
+        tn_help(tn_job_diagnostics(job), d, "`tartan house` draws one of them, named by its line");
+        return;
+    }
+    if (!tn_wishes_names(job, &settings->wanted, 1, &wishes))
+        return;
+    const tn_house_settings houses = tn_job_houses(&settings->plans);
+    tn_house_wishes of = tn_wishes_of_houses(&wishes);
+    of.plan = settings->plan;
+    of.wanted = wanted;
+    of.json = format == TN_FORMAT_JSON;
+    of.output = settings->written.output;
+    tn_job_best_houses(job, &houses, &of);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
@@ -167,8 +206,11 @@ static int run(const tn_command *command, const tn_settings *common)
         tn_diagnostic *d = tn_job_usage(&job, "the number of plans is a number from 0 to %d, not `%.60s`", BEST_MAX,
                                         common->operands.items[1]);
         tn_help(tn_job_diagnostics(&job), d, "the file comes first: tartan best FILE N --least MEASURE");
-    } else if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready)) {
-        find_best(&job, &ready, wanted);
+    } else if (tn_job_open_plans(&job, common->operands.items[0], &settings->plans)) {
+        if (settings->plan || tn_job_of_houses(&job, &settings->plans))
+            find_houses(&job, wanted);
+        else if (tn_job_opened_library(&job, &settings->plans, &ready))
+            find_best(&job, &ready, wanted);
     }
     tn_library_close(&ready);
     return tn_job_end(&job);
@@ -182,6 +224,7 @@ static const tn_option options[] = {
     WISH("then-least", wanted, "of equal ones those with the least of this measure; may be repeated"),
     WISH("then-most", wanted, "of equal ones those with the most of this measure; may be repeated"),
     FLAG("mirror", 0, mirror, "leave out a plan whose mirror image is kept and of lower rank"),
+    TEXT("plan", 0, "PLAN", plan, "the best houses on one plan: a plan line, or # and its rank"),
     OPTION_PLAN_FORMAT,
     TEXT("output", 'o', "FILE", written.output,
          "write to FILE instead of standard output; .sqlite and .db make a database, .svg, .png and .pdf a picture"),
@@ -192,7 +235,7 @@ const tn_command tn_command_best = {
     .name = "best",
     .summary = "write the best plans of a library by a measure",
     .usage = "FILE [N] --least MEASURE\nFILE [N] --most MEASURE [--then-least MEASURE]\nFILE [N] --least MEASURE -o "
-             "SHEET.svg",
+             "SHEET.svg\nFILE [N] --library HOUSES [--plan PLAN] --least MEASURE",
     .description =
         "Writes the N (10) plans of the library with the least or most of a measure, in order: by the measure, then by "
         "the measures named after it, then by rank. They are found from the library's automaton; no other plan is "
@@ -200,7 +243,9 @@ const tn_command tn_command_best = {
         "at. In lines, a comment before each plan has its values and its rank; in JSON, \"value\" or \"values\" has "
         "them exactly, in feet or metres. With -o and the name of a picture (.svg, .png or .pdf) the plans are drawn, "
         "each "
-        "with its place and its values.",
+        "with its place and its values.\n\n"
+        "With --library HOUSES, or --plan, the best houses are written, as house lines or JSON lines; --least and "
+        "--most name measures of houses or of plans (docs/houses.md).",
     .example = "$ tartan best lahave-houses 12 --least cost --then-most daylight",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -24,17 +24,34 @@ static const complete_settings *settings_of(const tn_job *job)
     return (const complete_settings *)job->settings;
 }
 
+/* What was found, of plans or of houses. library: of the plans; NULL: of houses. */
 typedef struct paper {
-    const tn_ready_library *ready;
     const tn_schema *schema;
+    const tn_library *library;
+    const char *title, *doc, *what;
     const tn_open_plan *open;
-    const tn_wishes *wishes; /* none or one */
     const tn_completions *found;
+    const char *measure; /* NULL: none */
+    bool most;
+    mpq_srcptr step; /* of the measure, in nanometres to its power */
+    tn_amount_unit unit;
 } paper;
 
 static mpz_t *count_at(const paper *p, uint32_t tray, uint32_t field, uint32_t value)
 {
     return &p->found->counts[(size_t)tray * p->found->values + p->schema->value_start[field] + value];
+}
+
+static bool write_amount(const paper *p, int64_t steps, bool write(tn_amount_unit, const mpq_t, tn_buffer *),
+                         tn_buffer *text)
+{
+    mpq_t value;
+    mpq_init(value);
+    mpq_set_si(value, steps, 1);
+    mpq_mul(value, value, p->step);
+    bool ok = write(p->unit, value, text);
+    mpq_clear(value);
+    return ok;
 }
 
 /* The best that the measure can still be with the value, for people; nothing where none is asked for, or the value
@@ -44,15 +61,13 @@ static bool write_best(const paper *p, uint32_t tray, uint32_t field, uint32_t v
     size_t at = (size_t)tray * p->found->values + p->schema->value_start[field] + value;
     if (!p->found->best || mpz_sgn(p->found->counts[at]) == 0)
         return true;
-    return tn_wishes_text(p->wishes, p->open->weighed, 0, p->found->best[at], text);
+    return write_amount(p, p->found->best[at], tn_amount_write, text);
 }
 
 /* "least cost" */
 static void name_best(const paper *p, char *text, size_t size)
 {
-    const tn_module *module = p->schema->module;
-    snprintf(text, size, "%s %.200s", p->wishes->most[0] ? "most" : "least",
-             tn_text(module, module->MEASURE_records[p->wishes->measures[0]].name));
+    snprintf(text, size, "%s %.200s", p->most ? "most" : "least", p->measure);
 }
 
 static const char *spelling(const paper *p, uint32_t field, uint32_t value)
@@ -71,9 +86,8 @@ static json_t *choice_json(const paper *p, uint32_t tray, uint32_t field, uint32
     json_t *choice = json_object();
     tn_buffer exact = {0};
     size_t at = (size_t)tray * p->found->values + p->schema->value_start[field] + value;
-    bool any = mpz_sgn(p->found->counts[at]) > 0 &&
-               tn_wishes_exact(p->wishes, p->open->weighed, 0, p->found->best[at], &exact);
-    json_object_set_new(choice, "plans", count);
+    bool any = mpz_sgn(p->found->counts[at]) > 0 && write_amount(p, p->found->best[at], tn_amount_write_exact, &exact);
+    json_object_set_new(choice, p->what, count);
     json_object_set_new(choice, "best", any ? json_string(exact.data) : json_null());
     free(exact.data);
     return choice;
@@ -83,7 +97,7 @@ static void write_json(const paper *p, FILE *out)
 {
     json_t *root = json_object(), *trays = json_array();
     char *plans = tn_digits(p->found->plans, false);
-    json_object_set_new(root, "plans", json_string(plans ? plans : ""));
+    json_object_set_new(root, p->what, json_string(plans ? plans : ""));
     free(plans);
     for (uint32_t t = 0; t < p->found->trays; t++) {
         json_t *tray = json_object();
@@ -126,7 +140,7 @@ static void write_text(const paper *p, FILE *out)
 {
     char *plans = tn_digits(p->found->plans, true);
     char best[256];
-    fprintf(out, "%s plans complete it", plans ? plans : "");
+    fprintf(out, "%s %s complete it", plans ? plans : "", p->what);
     if (p->found->best) {
         name_best(p, best, sizeof best);
         fprintf(out, "; in brackets the %s that is left", best);
@@ -161,19 +175,18 @@ static bool take_choices(const paper *p, tn_drawn_choice *choices)
 
 static tn_status draw_choices(const paper *p, const tn_drawn_choice *choices, tn_picture *to, tn_error *error)
 {
-    const tn_module *module = p->schema->module;
     char about[512], best[256] = "";
     char *plans = tn_digits(p->found->plans, true);
     if (!plans)
         return tn_fail_memory(error);
     if (p->found->best)
         name_best(p, best, sizeof best);
-    snprintf(about, sizeof about, "%.200s plans complete the open plan%s%s%s", plans,
+    snprintf(about, sizeof about, "%.200s %s complete the open plan%s%s%s", plans, p->what,
              p->found->best ? "; beside each count the " : "", p->found->best ? best : "",
              p->found->best ? " that is left" : "");
     free(plans);
-    const tn_drawn_open open = {.title = tn_text(module, p->ready->record->name),
-                                .doc = tn_text(module, p->ready->record->doc),
+    const tn_drawn_open open = {.title = p->title,
+                                .doc = p->doc,
                                 .about = about,
                                 .best_name = p->found->best ? best : NULL,
                                 .functions = p->open->functions,
@@ -211,11 +224,68 @@ static void show(tn_job *job, const paper *p)
     } else if (tn_job_output(job, settings->output, &output)) {
         (settings->json ? write_json : write_text)(p, output.stream);
         tn_error error;
-        if (!settings->json && mpz_sgn(p->found->plans) == 0 &&
-            tn_complete_why(p->ready->library, p->open, output.stream, &error) != TN_OK)
+        if (!settings->json && p->library && mpz_sgn(p->found->plans) == 0 &&
+            tn_complete_why(p->library, p->open, output.stream, &error) != TN_OK)
             tn_job_fail(job, &error);
         tn_job_commit(job, &output);
     }
+}
+
+static void show_plans(tn_job *job, const tn_ready_library *ready, const tn_open_plan *open, const tn_wishes *wishes,
+                       const tn_completions *found)
+{
+    const tn_module *module = ready->schema->module;
+    paper p = {.schema = ready->schema,
+               .library = ready->library,
+               .title = tn_text(module, ready->record->name),
+               .doc = tn_text(module, ready->record->doc),
+               .what = "plans",
+               .open = open,
+               .found = found};
+    if (wishes->count) {
+        p.measure = tn_weighed_name(open->weighed, 0);
+        p.most = wishes->most[0];
+        p.step = tn_weighed_unit(open->weighed, 0);
+        p.unit = wishes->unit[0];
+    }
+    show(job, &p);
+}
+
+static void show_houses(tn_job *job, const tn_house_completed *completed)
+{
+    const tn_module *module = completed->schema->module;
+    show(job, &(paper){.schema = completed->schema,
+                       .title = tn_text(module, completed->library->name),
+                       .doc = tn_text(module, completed->library->doc),
+                       .what = "houses",
+                       .open = completed->open,
+                       .found = completed->found,
+                       .measure = completed->measure,
+                       .most = completed->most,
+                       .step = completed->step,
+                       .unit = completed->unit});
+}
+
+static bool takes_one(tn_job *job, const tn_wishes *wishes)
+{
+    if (wishes->count > 1)
+        tn_job_usage(job, "complete looks at one measure: give one --least or --most");
+    return wishes->count <= 1;
+}
+
+static void complete_houses(tn_job *job)
+{
+    const complete_settings *settings = settings_of(job);
+    const tn_program *program = job->opened.compilation.program;
+    const tn_open_plan open = {.functions = program->pattern, .count = program->pattern_count};
+    const tn_house_settings houses = tn_job_houses(&settings->plans);
+    tn_wishes wishes = {0};
+    if ((settings->json && !tn_job_takes_text(job, settings->output)) ||
+        (settings->wanted.count > 0 && !tn_wishes_names(job, &settings->wanted, 1, &wishes)) ||
+        !takes_one(job, &wishes))
+        return;
+    const tn_house_wishes of = tn_wishes_of_houses(&wishes);
+    tn_job_complete_houses(job, &houses, &of, &open, show_houses);
 }
 
 static void complete(tn_job *job, const tn_ready_library *ready)
@@ -229,10 +299,8 @@ static void complete(tn_job *job, const tn_ready_library *ready)
     if ((settings->json && !tn_job_takes_text(job, settings->output)) ||
         (settings->wanted.count > 0 && !tn_wishes_read(job, ready, &settings->wanted, 1, &wishes)))
         return;
-    if (wishes.count > 1) {
-        tn_job_usage(job, "complete looks at one measure: give one --least or --most");
+    if (!takes_one(job, &wishes))
         return;
-    }
     tn_status status = wishes.count ? tn_weighed_new(ready->library, wishes.measures, 1, &open.weighed, &error) : TN_OK;
     open.most = wishes.most[0];
     if (status != TN_OK) {
@@ -243,7 +311,7 @@ static void complete(tn_job *job, const tn_ready_library *ready)
     if (status != TN_OK)
         tn_job_fail(job, &error);
     else
-        show(job, &(paper){ready, ready->schema, &open, &wishes, &found});
+        show_plans(job, ready, &open, &wishes, &found);
     tn_completions_clear(&found);
     tn_weighed_free(open.weighed);
 }
@@ -255,8 +323,12 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_job job;
     tn_ready_library ready = {0};
     tn_job_begin(&job, common);
-    if (tn_job_library_open_plan(&job, common->operands.items[0], &settings->plans, common->operands.items[1], &ready))
-        complete(&job, &ready);
+    if (tn_job_open_plan(&job, common->operands.items[0], &settings->plans, common->operands.items[1])) {
+        if (tn_job_of_houses(&job, &settings->plans))
+            complete_houses(&job);
+        else if (tn_job_opened_library(&job, &settings->plans, &ready))
+            complete(&job, &ready);
+    }
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
@@ -274,7 +346,9 @@ static const tn_option options[] = {
 const tn_command tn_command_complete = {
     .name = "complete",
     .summary = "count the plans that complete an open plan",
-    .usage = "FILE PATTERN [--library NAME] [--least MEASURE | --most MEASURE] [--json]\nFILE PATTERN -o OPEN.svg",
+    .usage = "FILE PATTERN [--library NAME] [--least MEASURE | --most MEASURE] [--json]\nFILE PATTERN -o "
+             "OPEN.svg\nFILE PATTERN --library "
+             "HOUSES [--least MEASURE]",
     .description =
         "An open plan is trays between bars: what is written of a tray in the words of `tray(...)`, `?` for "
         "any tray, `...` "
@@ -286,7 +360,8 @@ const tn_command tn_command_complete = {
         "choice "
         "still leaves is said too.\n\n"
         "With -o and the name of a picture (.svg, .png or .pdf) the open plan is drawn, and below each written tray "
-        "its choices.",
+        "its choices.\n\n"
+        "With --library HOUSES it counts the houses whose plans complete it (docs/houses.md).",
     .example = "$ tartan complete lahave-houses \"8' public | ? | great | ...\"",
     .options = options,
     .option_count = OPTION_COUNT(options),

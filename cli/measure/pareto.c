@@ -16,6 +16,7 @@ typedef struct pareto_settings {
     tn_option_list wanted; /* wishes */
     bool json;
     const char *output;
+    const char *plan;
 } pareto_settings;
 
 static const pareto_settings *settings_of(const tn_job *job)
@@ -151,6 +152,25 @@ static void find_front(tn_job *job, const tn_ready_library *ready)
     tn_weighed_free(weighed);
 }
 
+static void find_houses(tn_job *job)
+{
+    const pareto_settings *settings = settings_of(job);
+    tn_wishes wishes;
+    if (tn_job_draws(settings->output)) {
+        tn_diagnostic *d = tn_job_usage(job, "a front of houses is written as text or JSON, not drawn");
+        tn_help(tn_job_diagnostics(job), d, "leave out -o, or give the file another ending");
+        return;
+    }
+    if (!tn_wishes_names(job, &settings->wanted, 2, &wishes))
+        return;
+    const tn_house_settings houses = tn_job_houses(&settings->plans);
+    tn_house_wishes of = tn_wishes_of_houses(&wishes);
+    of.plan = settings->plan;
+    of.json = settings->json;
+    of.output = settings->output;
+    tn_job_front_of_houses(job, &houses, &of);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
@@ -158,8 +178,12 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_job job;
     tn_ready_library ready = {0};
     tn_job_begin(&job, common);
-    if (tn_job_library(&job, common->operands.items[0], &settings->plans, &ready))
-        find_front(&job, &ready);
+    if (tn_job_open_plans(&job, common->operands.items[0], &settings->plans)) {
+        if (settings->plan || tn_job_of_houses(&job, &settings->plans))
+            find_houses(&job);
+        else if (tn_job_opened_library(&job, &settings->plans, &ready))
+            find_front(&job, &ready);
+    }
     tn_library_close(&ready);
     return tn_job_end(&job);
 }
@@ -170,6 +194,7 @@ static const tn_option options[] = {
     WISH("least", wanted, "prefer plans with less of MEASURE"),
     WISH("most", wanted, "prefer plans with more of MEASURE"),
     FLAG("json", 0, json, "write JSON, every value exactly and every count as a string of digits"),
+    TEXT("plan", 0, "PLAN", plan, "the front of the houses on one plan: a plan line, or # and its rank"),
     OPTION_OUTPUT_OR_PICTURE,
     OPTIONS_LIBRARY_LIMITS,
 };
@@ -185,7 +210,9 @@ const tn_command tn_command_pareto = {
         "found from the library's automaton, exactly; no plan is listed.\n\n"
         "With -o and the name of a picture (.svg, .png or .pdf) the front is drawn over the distribution of the "
         "measures: "
-        "exact along the edges, of a sample inside. Of three measures, each two have a panel.",
+        "exact along the edges, of a sample inside. Of three measures, each two have a panel.\n\n"
+        "With --library HOUSES, or --plan, it is the front of the houses, by measures of houses or of plans "
+        "(docs/houses.md), without a picture.",
     .example = "$ tartan pareto lahave-houses --least cost --most area",
     .options = options,
     .option_count = OPTION_COUNT(options),

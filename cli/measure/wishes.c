@@ -3,10 +3,8 @@
 
 #include <string.h>
 
-bool tn_wishes_read(tn_job *job, const tn_ready_library *ready, const tn_option_list *list, uint32_t least,
-                    tn_wishes *wishes)
+bool tn_wishes_names(tn_job *job, const tn_option_list *list, uint32_t least, tn_wishes *wishes)
 {
-    const tn_module *module = job->opened.module;
     *wishes = (tn_wishes){0};
     if (list->count / 2 < least || list->count / 2 > TN_WEIGHED_MAX) {
         tn_diagnostic *d = tn_job_usage(job, "%s measures to go by: %u to %d are needed",
@@ -23,17 +21,39 @@ bool tn_wishes_read(tn_job *job, const tn_ready_library *ready, const tn_option_
                     "the first measure is told by --least or --most, the next by --then-least or --then-most");
             return false;
         }
-        tn_status status =
-            tn_measure_choose(&job->opened, list->items[i + 1], ready->record->schema, &wishes->measures[k]);
-        tn_job_status(job, status);
-        if (status != TN_OK)
-            return false;
+        wishes->names[k] = list->items[i + 1];
         wishes->most[k] = strstr(list->items[i], "most") != NULL;
-        wishes->unit[k] = tn_amount_unit_of(
-            ready->schema, module->SUM_records[module->MEASURE_records[wishes->measures[k]].sum].power);
         wishes->count++;
     }
     return true;
+}
+
+bool tn_wishes_read(tn_job *job, const tn_ready_library *ready, const tn_option_list *list, uint32_t least,
+                    tn_wishes *wishes)
+{
+    const tn_module *module = job->opened.module;
+    if (!tn_wishes_names(job, list, least, wishes))
+        return false;
+    for (uint32_t k = 0; k < wishes->count; k++) {
+        tn_status status =
+            tn_measure_choose(&job->opened, wishes->names[k], ready->record->schema, &wishes->measures[k]);
+        tn_job_status(job, status);
+        if (status != TN_OK)
+            return false;
+        wishes->unit[k] = tn_amount_unit_of(
+            ready->schema, module->SUM_records[module->MEASURE_records[wishes->measures[k]].sum].power);
+    }
+    return true;
+}
+
+tn_house_wishes tn_wishes_of_houses(const tn_wishes *wishes)
+{
+    tn_house_wishes of = {.count = wishes->count};
+    for (uint32_t k = 0; k < wishes->count; k++) {
+        of.names[k] = wishes->names[k];
+        of.most[k] = wishes->most[k];
+    }
+    return of;
 }
 
 static void value_of(const tn_weighed *weighed, uint32_t k, int64_t steps, mpq_t value)

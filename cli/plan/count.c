@@ -9,7 +9,6 @@
 #include "cli/place/count_kit.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/count_by.h"
-#include "driver/house/judge.h"
 #include "driver/open/digits.h"
 #include "driver/open/findings.h"
 #include "runtime/base/utf8.h"
@@ -346,9 +345,7 @@ static void answer(tn_job *job, const tn_ready_library *ready, const count_setti
 /* With --plan or --clauses, or where --library names a library of houses. */
 static bool counts_houses(const tn_job *job, const count_settings *settings)
 {
-    const char *library = settings->plans.library;
-    return settings->plan || settings->clauses ||
-           (library && tn_house_library_find(job->opened.module, library) != TN_NO_RECORD);
+    return settings->plan || settings->clauses || tn_job_of_houses(job, &settings->plans);
 }
 
 /* What only libraries of plans are asked. */

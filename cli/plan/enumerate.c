@@ -9,7 +9,6 @@
 #include "cli/common/progress.h"
 #include "cli/place/enumerate_kit.h"
 #include "cli/plan/plan_output.h"
-#include "driver/house/judge.h"
 #include "driver/plan/made.h"
 
 typedef struct enumerate_settings {
@@ -193,8 +192,7 @@ static void enumerate_plans(tn_job *job, const tn_ready_library *ready)
 static bool is_about_houses(const tn_job *job)
 {
     const enumerate_settings *settings = settings_of(job);
-    const char *name = settings->plans.library;
-    return settings->plan || (name && tn_house_library_find(job->opened.module, name) != TN_NO_RECORD);
+    return settings->plan || tn_job_of_houses(job, &settings->plans);
 }
 
 static void enumerate_houses(tn_job *job)

@@ -5,6 +5,7 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
+#include "driver/house/judge.h"
 #include "driver/open/digits.h"
 #include "runtime/base/crew.h"
 #include "runtime/plan/match/vm.h"
@@ -58,7 +59,7 @@ bool tn_job_range(tn_job *job, const tn_library *library, const char *from, cons
     return !backwards;
 }
 
-static bool open_asking(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern)
+bool tn_job_open_plan(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern)
 {
     const tn_questions questions = {.library = plans->library,
                                     .wheres = plans->wheres.items,
@@ -70,15 +71,12 @@ static bool open_asking(tn_job *job, const char *path, const tn_plan_settings *p
 
 bool tn_job_open_plans(tn_job *job, const char *path, const tn_plan_settings *plans)
 {
-    return open_asking(job, path, plans, NULL);
+    return tn_job_open_plan(job, path, plans, NULL);
 }
 
-static bool ready_library(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern,
-                          const tn_library_options *options, tn_ready_library *ready)
+static bool ready_library(tn_job *job, const tn_plan_settings *plans, const tn_library_options *options,
+                          tn_ready_library *ready)
 {
-    *ready = (tn_ready_library){0};
-    if (!open_asking(job, path, plans, pattern))
-        return false;
     tn_progress progress;
     tn_progress_watch(&progress, "clauses combined", tn_interrupt_waiting());
     tn_status status = tn_library_ready(&job->opened, plans->library, options, ready);
@@ -89,7 +87,8 @@ static bool ready_library(tn_job *job, const char *path, const tn_plan_settings 
 
 bool tn_job_library(tn_job *job, const char *path, const tn_plan_settings *plans, tn_ready_library *ready)
 {
-    return tn_job_library_open_plan(job, path, plans, NULL, ready);
+    *ready = (tn_ready_library){0};
+    return tn_job_open_plans(job, path, plans) && tn_job_opened_library(job, plans, ready);
 }
 
 static tn_library_options options_of(const tn_plan_settings *plans)
@@ -100,6 +99,11 @@ static tn_library_options options_of(const tn_plan_settings *plans)
                                 .trays_max = (uint32_t)plans->trays.high,
                                 .max_length = (uint32_t)plans->max_length.value,
                                 .threads = tn_job_threads(plans)};
+}
+
+bool tn_job_of_houses(const tn_job *job, const tn_plan_settings *plans)
+{
+    return plans->library && tn_house_library_find(job->opened.module, plans->library) != TN_NO_RECORD;
 }
 
 tn_house_settings tn_job_houses(const tn_plan_settings *plans)
@@ -114,21 +118,13 @@ tn_house_settings tn_job_houses(const tn_plan_settings *plans)
 bool tn_job_opened_library(tn_job *job, const tn_plan_settings *plans, tn_ready_library *ready)
 {
     const tn_library_options options = options_of(plans);
-    tn_status status = tn_library_ready(&job->opened, plans->library, &options, ready);
-    tn_job_status(job, status);
-    return status == TN_OK;
-}
-
-bool tn_job_library_open_plan(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern,
-                              tn_ready_library *ready)
-{
-    const tn_library_options options = options_of(plans);
-    return ready_library(job, path, plans, pattern, &options, ready);
+    return ready_library(job, plans, &options, ready);
 }
 
 bool tn_job_library_schema(tn_job *job, const char *path, const tn_plan_settings *plans, tn_ready_library *ready)
 {
-    return ready_library(job, path, plans, NULL, NULL, ready);
+    *ready = (tn_ready_library){0};
+    return tn_job_open_plans(job, path, plans) && ready_library(job, plans, NULL, ready);
 }
 
 void tn_job_no_rank(tn_job *job, const tn_library *library, const tn_library_record *record, const char *rank)

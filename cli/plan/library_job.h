@@ -42,18 +42,20 @@ typedef struct tn_plan_settings {
 /* Opens the file with the further requirements of --where; false where that failed (then end the job). */
 bool tn_job_open_plans(tn_job *job, const char *path, const tn_plan_settings *plans);
 
+/* The same, with an open plan whose trays become functions of the module. */
+bool tn_job_open_plan(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern);
+
 /* Opens the file and makes the chosen library ready; false where that failed (then end the job). */
 bool tn_job_library(tn_job *job, const char *path, const tn_plan_settings *plans, tn_ready_library *ready);
 
 /* The same of a file that tn_job_open_plans has opened. */
 bool tn_job_opened_library(tn_job *job, const tn_plan_settings *plans, tn_ready_library *ready);
 
+/* Is the library that --library names one of houses? */
+bool tn_job_of_houses(const tn_job *job, const tn_plan_settings *plans);
+
 /* What the options say, for libraries of houses. */
 tn_house_settings tn_job_houses(const tn_plan_settings *plans);
-
-/* The same, with an open plan whose trays become functions of the module. */
-bool tn_job_library_open_plan(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern,
-                              tn_ready_library *ready);
 
 /* The same, but only the schema: for commands that match plans against the clauses. */
 bool tn_job_library_schema(tn_job *job, const char *path, const tn_plan_settings *plans, tn_ready_library *ready);

@@ -7,7 +7,6 @@
 #include "cli/house/numbered.h"
 #include "cli/plan/plan_output.h"
 #include "cli/plan/sampled.h"
-#include "driver/house/judge.h"
 
 #define PART "interrupted; %.400s holds only the first plans of the sample"
 
@@ -108,8 +107,7 @@ static bool read_wanted(tn_job *job, size_t *wanted)
 /* Is the library that is named one of houses, or a plan given whose houses are wanted? */
 static bool samples_houses(const tn_job *job, const sample_settings *settings)
 {
-    const char *name = settings->plans.library;
-    return settings->plan || (name && tn_house_library_find(job->opened.module, name) != TN_NO_RECORD);
+    return settings->plan || tn_job_of_houses(job, &settings->plans);
 }
 
 /* Of the options, those about the length of plans and about formats are for plans alone. */

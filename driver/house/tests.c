@@ -5,18 +5,73 @@
 #include <string.h>
 
 #include "driver/house/judge.h"
+#include "runtime/house/schedule/cost.h"
+#include "runtime/plan/measure/amount.h"
 
 /* What came out of one case. */
 typedef struct outcome {
     bool matched, dropped;
     tn_house_clause *clauses; /* of a library */
     size_t count;
+    mpq_t value, wanted; /* of a measure, where it is one */
 } outcome;
 
-static tn_status judge_case(tn_house_judge *judge, const tn_test_block *block, const tn_house *house, outcome *out,
-                            tn_error *error)
+/* The house's cost, unrounded. */
+static tn_status find_cost(const tn_house *house, mpq_t cost, tn_error *error)
+{
+    tn_solids solids = {0};
+    tn_costs costs = {0};
+    tn_status status = tn_house_solids(house, &solids, error);
+    if (status == TN_OK)
+        status = tn_house_costs(house, &solids, &costs, error);
+    if (status == TN_OK)
+        mpq_set(cost, costs.exact);
+    tn_costs_clear(&costs);
+    tn_solids_clear(&solids);
+    return status;
+}
+
+/* Half up to the hundredth, as bills are written. */
+static void round_to_cent(mpq_t value)
+{
+    mpz_t cents;
+    mpz_init(cents);
+    mpz_mul_ui(cents, mpq_numref(value), 200);
+    mpz_add(cents, cents, mpq_denref(value));
+    mpz_fdiv_q(cents, cents, mpq_denref(value));
+    mpz_fdiv_q_2exp(mpq_numref(value), cents, 1);
+    mpz_set_ui(mpq_denref(value), 100);
+    mpq_canonicalize(value);
+    mpz_clear(cents);
+}
+
+/* What adds up costs is compared to the cent. */
+static tn_status measure_case(tn_house_judge *judge, const tn_test_block *block, const tn_test_case *test,
+                              const tn_house *house, outcome *out, tn_error *error)
+{
+    tn_house_measured measure = tn_house_measured_of(judge->module, block->index);
+    mpq_t parts, cost;
+    mpq_inits(parts, cost, NULL);
+    mpq_set_str(out->wanted, test->value, 10);
+    tn_status status = tn_house_rules_start(judge->rules, house, error);
+    if (status == TN_OK)
+        status = tn_house_rules_measure(judge->rules, measure, out->value, parts, error);
+    if (status == TN_OK && mpq_sgn(parts) != 0)
+        status = find_cost(house, cost, error);
+    mpq_mul(cost, cost, parts);
+    mpq_add(out->value, out->value, cost);
+    if (mpq_sgn(parts) != 0)
+        round_to_cent(out->value);
+    mpq_clears(parts, cost, NULL);
+    return status;
+}
+
+static tn_status judge_case(tn_house_judge *judge, const tn_test_block *block, const tn_test_case *test,
+                            const tn_house *house, outcome *out, tn_error *error)
 {
     const tn_module *module = judge->module;
+    if (block->is_measure)
+        return measure_case(judge, block, test, house, out, error);
     if (block->is_library) {
         tn_status status = tn_house_judge_clauses(judge, &module->HOUSE_LIBRARY_records[block->index], house,
                                                   &out->clauses, &out->count, error);
@@ -40,6 +95,8 @@ static bool is_reason(const outcome *out, const char *name)
 
 static bool comes_out(const tn_test_case *test, const outcome *out)
 {
+    if (test->expectation == TN_EXPECT_VALUE)
+        return mpq_equal(out->value, out->wanted);
     if (test->expectation == TN_EXPECT_MATCH || test->expectation == TN_EXPECT_REJECT)
         return out->matched == (test->expectation == TN_EXPECT_MATCH);
     bool good = out->dropped == (test->expectation == TN_EXPECT_DROP);
@@ -58,10 +115,29 @@ static const char *verb(const tn_test_block *block, const tn_test_case *test, co
     return out->dropped ? "drops this house, but by other clauses" : "should drop this house, and keeps it";
 }
 
-static void report(tn_opened *opened, const tn_test_block *block, const tn_test_case *test, const outcome *out)
+static tn_diagnostic *report_value(tn_opened *opened, const tn_house_judge *judge, const tn_test_block *block,
+                                   const tn_test_case *test, const outcome *out)
+{
+    tn_house_measured measure = tn_house_measured_of(judge->module, block->index);
+    tn_amount_unit unit = tn_amount_unit_of(judge->schema, judge->module->SUM_records[measure.sum].power);
+    tn_buffer is = {0}, should = {0};
+    tn_amount_write(unit, out->value, &is);
+    tn_amount_write(unit, out->wanted, &should);
+    tn_diagnostic *d =
+        tn_report(&opened->compilation.diagnostics, E_TEST_FAILED, test->span, "`%s` is %s for this house, not %s",
+                  block->subject, is.data ? is.data : "?", should.data ? should.data : "?");
+    free(is.data);
+    free(should.data);
+    return d;
+}
+
+static void report(tn_opened *opened, const tn_house_judge *judge, const tn_test_block *block, const tn_test_case *test,
+                   const outcome *out)
 {
     tn_diagnostics *list = &opened->compilation.diagnostics;
-    tn_diagnostic *d = tn_report(list, E_TEST_FAILED, test->span, "`%s` %s", block->subject, verb(block, test, out));
+    tn_diagnostic *d = block->is_measure ? report_value(opened, judge, block, test, out)
+                                         : tn_report(list, E_TEST_FAILED, test->span, "`%s` %s", block->subject,
+                                                     verb(block, test, out));
     if (test->doc)
         tn_note(list, d, NULL, "expected because: %s", test->doc);
     for (size_t i = 0; i < out->count; i++) {
@@ -101,18 +177,20 @@ static tn_status run_case(tn_opened *opened, tn_house_judge *judge, const tn_tes
         tn_house_clear(&house);
         return TN_OK;
     }
+    mpq_inits(out.value, out.wanted, NULL);
     if (status == TN_OK)
-        status = judge_case(judge, block, &house, &out, error);
+        status = judge_case(judge, block, test, &house, &out, error);
     if (status == TN_OK) {
         *good = comes_out(test, &out);
         if (!*good && !test->todo)
-            report(opened, block, test, &out);
+            report(opened, judge, block, test, &out);
         if (*good && test->todo) {
             tn_diagnostic *d = tn_report(&opened->compilation.diagnostics, E_TEST_FAILED, test->span,
                                          "this test of `%s` is marked `todo` and passes", block->subject);
             tn_help(&opened->compilation.diagnostics, d, "take `todo` away: it is done");
         }
     }
+    mpq_clears(out.value, out.wanted, NULL);
     free(out.clauses);
     tn_house_clear(&house);
     return status;
@@ -122,8 +200,9 @@ tn_status tn_house_tests_run(tn_opened *opened, const tn_test_block *block, size
                              size_t *todo, tn_error *error)
 {
     const tn_module *module = opened->module;
-    uint32_t form = block->is_library ? module->HOUSE_LIBRARY_records[block->index].form
-                                      : module->HOUSE_RULE_records[block->index].form;
+    uint32_t form = block->is_library   ? module->HOUSE_LIBRARY_records[block->index].form
+                    : block->is_measure ? module->HOUSE_MEASURE_records[block->index].form
+                                        : module->HOUSE_RULE_records[block->index].form;
     tn_house_judge judge;
     tn_status status = tn_house_judge_open(module, form, 0, &judge, error);
     for (size_t i = 0; status == TN_OK && i < block->case_count; i++) {

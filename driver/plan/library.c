@@ -64,7 +64,7 @@ static bool report_of_houses(tn_opened *opened, const char *what, const char *na
                        "`%.80s` is a %s about houses, and a %s about plans is needed here", name, what, what);
     if (is_library)
         tn_help(diagnostics, d,
-                "its plans are those of `%.80s`; `tartan count`, `sample`, `unrank`, `house` and `vary` take "
+                "its plans are those of `%.80s`; `tartan count`, `sample`, `best`, `unrank`, `house` and `vary` take "
                 "`--library %.80s`",
                 tn_text(module, module->LIBRARY_records[module->HOUSE_LIBRARY_records[found].plans].name), name);
     else

@@ -193,7 +193,7 @@ done <"$scratch/names"
 is 'houses sampled' "$(wc -l <"$scratch/names")" 20
 
 # Questions about plans leave what a file says of houses alone, or say that it is about houses.
-golden library_of_houses 'tartan complete cottage -l cottages "?"'
+golden library_of_houses 'tartan prune cottage -l cottages </dev/null'
 golden rule_of_houses 'tartan export cottage --regex --rule far-bed'
 golden where_of_houses 'tartan count cottage --where "cell(kitchen)"'
 golden where_of_plans 'tartan count cottage --where "quantity(any) = 2" | tail -n 8'

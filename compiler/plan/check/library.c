@@ -462,5 +462,6 @@ void tn_check_asked(tn_check *check)
     check->allow = library->allow;
     for (size_t i = 0; i < asked->where_count; i++)
         add_where(check, library, asked->wheres[i], i + 1);
+    check->form = NULL; /* an open plan is about trays */
     check_pattern(check);
 }

@@ -20,9 +20,10 @@ static bool expectation_fits(tn_check *check, const tn_ast_word *word, const tn_
                 subject->library ? "library"
                 : measure        ? "measure"
                                  : "rule");
-        tn_help(check->diagnostics, wrong,
-                measure ? "write `value [PLAN] = NUMBER`" : "write what is expected of it: %s",
-                subject->library ? "`keep` or `drop`" : "`match` or `reject`");
+        tn_help(check->diagnostics, wrong, measure ? "write `value [%s] = NUMBER`" : "write what is expected of it: %s",
+                measure            ? (subject->rule->form ? "HOUSE" : "PLAN")
+                : subject->library ? "`keep` or `drop`"
+                                   : "`match` or `reject`");
         return false;
     }
     bool for_library = expectation == TN_EXPECT_KEEP || expectation == TN_EXPECT_DROP;
@@ -156,12 +157,13 @@ static bool check_case(tn_check *check, const tn_ast_case *ast, size_t column, c
     if (of_houses) {
         result->house = ast->literal.house->text;
         result->house_place = ast->literal.house->node.span;
-        return result->by;
+    } else {
+        result->values =
+            check->schema ? tn_check_plan(check, check->schema, ast->literal.trays, &result->length) : NULL;
     }
-    result->values = check->schema ? tn_check_plan(check, check->schema, ast->literal.trays, &result->length) : NULL;
     if (ast->value && !check_value(check, ast, subject->rule, result))
         return false;
-    return result->by && result->values;
+    return result->by && (of_houses || result->values);
 }
 
 /* One subject of a test with all cases. */
@@ -186,13 +188,6 @@ static void check_subject(tn_check *check, const tn_ast_test *ast, const tn_ast_
             tn_report(check->diagnostics, E_WRONG_KIND, word->node.span, "`%s` cannot be tested", word->text);
         tn_note(check->diagnostics, d, &subject->span, "`%s` is here", word->text);
         tn_help(check->diagnostics, d, "give a call of it a name, as a rule, and test that");
-        return;
-    }
-    if (block->is_measure && block->of_houses) {
-        tn_diagnostic *d =
-            tn_report(check->diagnostics, E_WRONG_KIND, word->node.span, "`%s` cannot be tested", word->text);
-        tn_note(check->diagnostics, d, &subject->span, "the measure `%s` is about houses", word->text);
-        tn_help(check->diagnostics, d, "test a rule with a condition, such as `quantity(cell(...), n = 3)`");
         return;
     }
     for (TN_EACH(const tn_ast_case, c, ast->cases))

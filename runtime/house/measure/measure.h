@@ -45,4 +45,16 @@ void tn_house_weights_free(tn_house_weights *weights);
 /* Steps that the cells of a house add: of a house of one tray what that tray adds. */
 int64_t tn_house_weights_cells(const tn_house_weights *weights, const tn_house *house);
 
+/* Up to so many measures at a time: what each comes to, in its steps. */
+typedef struct tn_house_gain {
+    int64_t by[TN_WEIGHED_MAX];
+} tn_house_gain;
+
+/* The measures that houses are counted by, or put in order. Borrowed by whoever is given them. */
+typedef struct tn_house_measures {
+    uint32_t count;
+    const tn_house_weights *of[TN_WEIGHED_MAX];
+    bool most[TN_WEIGHED_MAX]; /* more of it is better: its values are those below 0 that it would be with less */
+} tn_house_measures;
+
 #endif

@@ -8,7 +8,7 @@
 typedef struct tn_reached {
     uint32_t state;
     uint64_t times, faced;
-    int64_t gain;
+    tn_house_gain gain;
 } tn_reached;
 
 /* From one state: what it reaches by each slice that was asked for. */
@@ -52,25 +52,46 @@ bool tn_houses_plan_alive(const tn_houses *h, uint32_t left, uint32_t plan)
            (h->weighed ? tn_weighed_alive(h->weighed, left, plan) : tn_library_lives(h->plans, left, plan));
 }
 
-int64_t tn_houses_plan_rest(const tn_houses *h, uint32_t plan)
+/* Steps of the plan's part of each measure, as steps of the measure. */
+static tn_house_gain gain_of_plan(const tn_houses *h, const int64_t *steps)
 {
-    return h->weighed ? tn_weighed_rest(h->weighed, plan, 0) * h->weights->plan : 0;
+    tn_house_gain gain = {{0}};
+    for (uint32_t k = 0; k < h->measures->count; k++)
+        gain.by[k] = steps[k] * h->measures->of[k]->plan * (h->measures->most[k] ? -1 : 1);
+    return gain;
+}
+
+tn_house_gain tn_houses_plan_start(const tn_houses *h)
+{
+    int64_t steps[TN_WEIGHED_MAX] = {0};
+    for (uint32_t k = 0; k < h->measures->count; k++)
+        steps[k] = tn_weighed_start(h->weighed, k);
+    return gain_of_plan(h, steps);
+}
+
+tn_house_gain tn_houses_plan_rest(const tn_houses *h, uint32_t plan)
+{
+    int64_t steps[TN_WEIGHED_MAX] = {0};
+    for (uint32_t k = 0; h->measures && k < h->measures->count; k++)
+        steps[k] = tn_weighed_rest(h->weighed, plan, k);
+    return h->measures ? gain_of_plan(h, steps) : (tn_house_gain){{0}};
 }
 
 tn_status tn_houses_plan_next(const tn_houses *h, uint32_t layer, uint32_t plan, tn_tray tray, uint32_t *next,
-                              int64_t *gain, tn_error *error)
+                              tn_house_gain *gain, tn_error *error)
 {
     int64_t gains[TN_WEIGHED_MAX] = {0};
     tn_status status = TN_OK;
     *next = TN_STRIP_NONE;
-    *gain = 0;
+    *gain = (tn_house_gain){{0}};
     if (h->only && h->only[layer] != tray)
         return TN_OK;
     if (h->weighed)
         status = tn_weighed_step(h->weighed, plan, tn_weighed_letter(h->weighed, tray), next, gains, error);
     else
         *next = tn_library_next(h->plans, plan, tray);
-    *gain = h->weighed ? gains[0] * h->weights->plan : 0;
+    if (h->weighed)
+        *gain = gain_of_plan(h, gains);
     return status;
 }
 
@@ -81,7 +102,8 @@ static int compare_ways(const void *a, const void *b)
     const tn_houses_way *p = a, *q = b;
     return p->slice != q->slice ? (p->slice > q->slice) - (p->slice < q->slice)
            : p->plan != q->plan ? (p->plan > q->plan) - (p->plan < q->plan)
-                                : (p->gain > q->gain) - (p->gain < q->gain);
+           : p->tray != q->tray ? (p->tray > q->tray) - (p->tray < q->tray)
+                                : tn_house_gain_compare(&p->gain, &q->gain);
 }
 
 static void merge_ways(tn_ways *ways)
@@ -102,7 +124,7 @@ static tn_status find_ways(tn_houses_expansion *e, uint32_t plan, tn_ways *ways,
     const tn_houses *h = e->houses;
     for (tn_tray t = 0; e->layer < h->high && t < h->form->schema->tray_count; t++) {
         uint32_t next;
-        int64_t gain;
+        tn_house_gain gain;
         const tn_strip_list *list = &e->kind->strip->of_tray[t];
         tn_status status = tn_houses_plan_next(h, e->layer, plan, t, &next, &gain, error);
         if (status != TN_OK)
@@ -112,7 +134,8 @@ static tn_status find_ways(tn_houses_expansion *e, uint32_t plan, tn_ways *ways,
         if (!tn_array_reserve(&ways->items, &ways->room, ways->count, list->count, sizeof *ways->items))
             return tn_fail_memory(error);
         for (size_t i = 0; i < list->count; i++)
-            ways->items[ways->count++] = (tn_houses_way){list->items[i].slice, next, list->items[i].times, gain};
+            ways->items[ways->count++] =
+                (tn_houses_way){list->items[i].slice, next, list->items[i].times, gain, h->trays_matter ? t : 0};
     }
     if (ways->count > 0)
         merge_ways(ways);
@@ -134,12 +157,13 @@ static tn_status find_all_ways(tn_houses_expansion *e, tn_error *error)
 
 /* ---- steps of states */
 
-static tn_status reach(void *context, uint32_t state, uint64_t times, uint64_t faced, int64_t gain, tn_error *error)
+static tn_status reach(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
+                       tn_error *error)
 {
     tn_fan *fan = context;
     if (!tn_array_reserve(&fan->reached, &fan->room, fan->used, 1, sizeof *fan->reached))
         return tn_fail_memory(error);
-    fan->reached[fan->used++] = (tn_reached){state, times, faced, gain};
+    fan->reached[fan->used++] = (tn_reached){state, times, faced, *gain};
     return TN_OK;
 }
 
@@ -156,13 +180,13 @@ static tn_status ask(tn_houses_expansion *e, uint32_t group, uint32_t state, uin
     return status;
 }
 
-static tn_status show(const tn_houses_expansion *e, uint32_t from, uint32_t plan, uint64_t ways, int64_t gain,
-                      size_t at, tn_error *error)
+static tn_status show(const tn_houses_expansion *e, uint32_t from, const tn_houses_way *way, size_t at, tn_error *error)
 {
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < e->fan.count[at]; i++) {
         tn_reached r = e->fan.reached[e->fan.first[at] + i];
-        tn_houses_edge edge = {from, plan, r.state, ways, r.times, r.faced, gain + r.gain};
+        tn_houses_edge edge = {
+            from, way->plan, r.state, way->times, r.times, r.faced, tn_house_gain_sum(&way->gain, &r.gain), way->tray};
         status = e->seen(e->context, &edge, error);
     }
     return status;
@@ -175,14 +199,14 @@ static tn_status expand_node(tn_houses_expansion *e, uint32_t group, uint32_t no
     const tn_ways *ways = end ? NULL : &e->ways[tn_number_find(&e->plans, plan)];
     tn_status status = TN_OK;
     if (end && e->layer >= e->houses->low && tn_houses_plan_alive(e->houses, 0, plan)) {
+        const tn_houses_way way = {.plan = plan, .times = 1, .gain = tn_houses_plan_rest(e->houses, plan)};
         status = ask(e, group, state, TN_STRIP_NONE, 0, error);
-        return status == TN_OK ? show(e, node, plan, 1, tn_houses_plan_rest(e->houses, plan), 0, error) : status;
+        return status == TN_OK ? show(e, node, &way, 0, error) : status;
     }
     for (size_t i = 0; ways && status == TN_OK && i < ways->count; i++) {
         status = ask(e, group, state, ways->items[i].slice, ways->items[i].slice, error);
         if (status == TN_OK)
-            status = show(e, node, ways->items[i].plan, ways->items[i].times, ways->items[i].gain, ways->items[i].slice,
-                          error);
+            status = show(e, node, &ways->items[i], ways->items[i].slice, error);
     }
     return status;
 }

@@ -126,7 +126,11 @@ static tn_status pass_end(void *context, const tn_houses_edge *edge, tn_error *e
 static void clear_layers(const tn_houses *h, tn_houses_kind *kind)
 {
     for (uint32_t k = 0; kind->layers && k <= h->high; k++) {
-        tn_integers_free(kind->layers[k].ahead, (size_t)kind->layers[k].nodes.count * tn_houses_lengths(h));
+        size_t lists = (size_t)kind->layers[k].nodes.count * tn_houses_lengths(h);
+        tn_integers_free(kind->layers[k].ahead, lists);
+        for (size_t n = 0; kind->layers[k].best && n < lists; n++)
+            tn_value_counts_clear(&kind->layers[k].best[n]);
+        free(kind->layers[k].best);
         tn_numbering_clear(&kind->layers[k].nodes);
     }
     free(kind->layers);
@@ -166,7 +170,7 @@ static tn_status find_trays(const tn_houses *h, bool *trays, tn_error *error)
         for (uint32_t i = 0; ok && i < layer.count; i++)
             for (tn_tray t = 0; ok && t < h->form->schema->tray_count; t++) {
                 uint32_t plan;
-                int64_t gain;
+                tn_house_gain gain;
                 status = tn_houses_plan_next(h, k, (uint32_t)layer.keys[i], t, &plan, &gain, error);
                 ok = status == TN_OK;
                 if (!ok || !tn_houses_plan_lives(h, k + 1, plan))
@@ -182,7 +186,7 @@ static tn_status find_trays(const tn_houses *h, bool *trays, tn_error *error)
     return ok ? TN_OK : status != TN_OK ? status : tn_fail_memory(error);
 }
 
-static tn_houses_kind *kind_of(const tn_houses *h, const tn_house *section)
+tn_houses_kind *tn_houses_kind_of(const tn_houses *h, const tn_house *section)
 {
     tn_section_key key = tn_sections_key(&h->sections, section);
     for (size_t i = 0; i < h->kind_count; i++)
@@ -193,7 +197,7 @@ static tn_houses_kind *kind_of(const tn_houses *h, const tn_house *section)
 
 static tn_status add_kind(tn_houses *h, const tn_house *section, const bool *trays, tn_error *error)
 {
-    tn_houses_kind *kind = kind_of(h, section);
+    tn_houses_kind *kind = tn_houses_kind_of(h, section);
     if (kind) {
         kind->sections++;
         return TN_OK;
@@ -204,12 +208,17 @@ static tn_status add_kind(tn_houses *h, const tn_house *section, const bool *tra
     *kind = (tn_houses_kind){.key = tn_sections_key(&h->sections, section), .sections = 1};
     mpz_init(kind->faced);
     tn_status status =
-        tn_strip_new(h->form, h->library, section->shapes, trays, h->high, h->weights, &kind->strip, error);
+        tn_strip_new(h->form, h->library, section->shapes, trays, h->high, h->measures, &kind->strip, error);
     if (status == TN_OK)
         status = scout(h, kind, error);
     if (status != TN_OK)
         return status;
-    return h->weights ? tn_houses_spread_kind(h, kind, error) : count_kind(h, kind, error);
+    if (h->measures && h->aim == TN_HOUSES_SPREAD)
+        return tn_houses_spread_kind(h, kind, error);
+    status = count_kind(h, kind, error);
+    return status == TN_OK && (h->aim == TN_HOUSES_LEAST || h->aim == TN_HOUSES_FRONT)
+               ? tn_houses_aim_kind(h, kind, error)
+               : status;
 }
 
 static tn_status count_sections(tn_houses *h, const bool *trays, tn_error *error)
@@ -224,11 +233,16 @@ static tn_status count_sections(tn_houses *h, const bool *trays, tn_error *error
 
 /* ---- the whole */
 
-/* The plans of a measure are those of a library that knows what its trays add. */
+/* The plans of measures are those of a library that knows what its trays add. */
 static tn_status weigh_plans(tn_houses *h, tn_error *error)
 {
-    const tn_house_measured *measure = &h->weights->of;
-    return tn_weighed_of_sums(h->plans, &measure->sum, &measure->name, 1, &h->weighed, error);
+    uint32_t sums[TN_WEIGHED_MAX];
+    tn_string names[TN_WEIGHED_MAX];
+    for (uint32_t k = 0; k < h->measures->count; k++) {
+        sums[k] = h->measures->of[k]->of.sum;
+        names[k] = h->measures->of[k]->of.name;
+    }
+    return tn_weighed_of_sums(h->plans, sums, names, h->measures->count, &h->weighed, error);
 }
 
 tn_status tn_houses_new(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
@@ -251,16 +265,21 @@ tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record 
                      .low = what->only ? what->length : tn_library_min(plans),
                      .high = what->only ? what->length : tn_library_max(plans),
                      .only = what->only,
-                     .weights = what->weights};
+                     .measures = what->measures,
+                     .trays_matter = what->aim == TN_HOUSES_COMPLETE,
+                     .aim = what->aim,
+                     .wanted = what->wanted};
     h->high = h->high < h->low ? h->low : h->high;
     bool *trays = calloc((size_t)form->schema->tray_count + 1, sizeof *trays);
     tn_status status = trays ? tn_sections_begin(form, &h->sections, error) : tn_fail_memory(error);
-    if (status == TN_OK && h->weights)
+    if (status == TN_OK && h->measures)
         status = weigh_plans(h, error);
     if (status == TN_OK)
         status = find_trays(h, trays, error);
     if (status == TN_OK)
         status = count_sections(h, trays, error);
+    if (status == TN_OK && (h->aim == TN_HOUSES_LEAST || h->aim == TN_HOUSES_FRONT))
+        status = tn_houses_aim_all(h, error);
     free(trays);
     if (status != TN_OK) {
         tn_houses_free(h);
@@ -284,6 +303,7 @@ void tn_houses_free(tn_houses *h)
     }
     tn_sections_free(&h->sections);
     tn_weighed_free(h->weighed);
+    tn_value_counts_clear(&h->best);
     free(h->kinds);
     free(h);
 }
@@ -313,7 +333,7 @@ void tn_houses_of_section(const tn_houses *h, const uint32_t *shapes, mpz_t coun
     mpz_set_ui(count, 0);
     if (!tn_house_section_stands(&section))
         return;
-    const tn_houses_kind *kind = kind_of(h, &section);
+    const tn_houses_kind *kind = tn_houses_kind_of(h, &section);
     for (uint32_t k = h->low; k <= h->high; k++)
         mpz_add(count, count, kind->houses[k - h->low]);
 }

@@ -16,6 +16,7 @@
 #include "runtime/house/house.h"
 #include "runtime/house/measure/measure.h"
 #include "runtime/plan/library/library.h"
+#include "runtime/plan/measure/complete.h"
 #include "runtime/plan/measure/distribution.h"
 
 #define TN_HOUSES_STATES_DEFAULT 3000000u
@@ -26,19 +27,31 @@ typedef struct tn_houses tn_houses;
 tn_status tn_houses_new(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
                         uint32_t max_states, tn_houses **houses, tn_error *error);
 
-/* The houses on one plan of the library (only, of that length; NULL: on all), and the measure that they are counted by
- * (NULL: none). Both are borrowed. With a measure only tn_houses_spread may be asked. */
+/* What is found out by measures: how the houses are spread over the values of the first, the least values of so many
+ * houses (measure by measure in their order), or the values that no house betters in one measure without losing in
+ * another; or what completes an open plan, and the best that the first measure, if there is one, still can be. */
+typedef enum tn_houses_aim { TN_HOUSES_SPREAD, TN_HOUSES_LEAST, TN_HOUSES_FRONT, TN_HOUSES_COMPLETE } tn_houses_aim;
+
+/* The houses on one plan of the library (only, of that length; NULL: on all), and the measures that they are counted
+ * by (NULL: none). Both are borrowed. With measures only what they are for may be asked: tn_houses_spread, or best.h.
+ */
 typedef struct tn_houses_what {
     const tn_tray *only;
     uint32_t length;
-    const tn_house_weights *weights;
+    const tn_house_measures *measures;
+    tn_houses_aim aim;
+    uint64_t wanted; /* houses, by TN_HOUSES_LEAST */
 } tn_houses_what;
 tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
                        const tn_houses_what *what, uint32_t max_states, tn_houses **houses, tn_error *error);
 void tn_houses_free(tn_houses *houses);
 
-/* How the houses are spread over the values of the measure; `distribution` is initialised. */
+/* How the houses are spread over the values of the first measure; `distribution` is initialised. */
 tn_status tn_houses_spread(const tn_houses *houses, tn_distribution *distribution, tn_error *error);
+
+/* What the houses on plans that complete an open one have in its written trays, made with TN_HOUSES_COMPLETE: `plans`
+ * and counts are of houses; `best` in steps of the first measure. Clear with tn_completions_clear in any case. */
+tn_status tn_houses_complete(tn_houses *houses, const tn_open_plan *open, tn_completions *completions, tn_error *error);
 
 /* How many there are on plans of a length, or (TN_ALL_LENGTHS) in all; faced: without tiles, of those with any. */
 void tn_houses_count(const tn_houses *houses, uint32_t length, mpz_t count);

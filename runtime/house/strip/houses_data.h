@@ -6,22 +6,9 @@
 #include "runtime/house/strip/parts.h"
 #include "runtime/house/variant/section.h"
 
-/* The nodes after so many trays: {state of the library of plans, state of the strip}. */
-typedef struct tn_houses_layer {
-    tn_numbering nodes; /* plan state << 32 | state */
-    mpz_t *ahead; /* [nodes][lengths]: houses on plans of each length that go on from there; NULL: not asked for */
-} tn_houses_layer;
-
-/* A way on from a plan state: a slice, the plan state behind it, how many choices of trays and of their insides. */
-typedef struct tn_houses_way {
-    uint32_t slice, plan;
-    uint64_t times;
-    int64_t gain; /* what the tray adds to the plan's part of the measure */
-} tn_houses_way;
-
-/* How many there are of each value, in steps: ascending. */
+/* How many there are of each value, in steps of each measure, by the first measure, then the next: ascending. */
 typedef struct tn_value_count {
-    int64_t value;
+    tn_house_gain value;
     mpz_t count;
 } tn_value_count;
 
@@ -32,6 +19,32 @@ typedef struct tn_value_counts {
 
 void tn_value_counts_clear(tn_value_counts *counts);
 
+/* counts += times, at the value. False where out of memory. */
+bool tn_value_counts_add(tn_value_counts *counts, const tn_house_gain *value, const mpz_t times);
+bool tn_value_counts_has(const tn_value_counts *counts, const tn_house_gain *value);
+
+/* Drops what is not among the least values that so many houses have; what another value betters in one measure, and
+ * none in another. */
+void tn_value_counts_keep_least(tn_value_counts *counts, uint64_t wanted);
+void tn_value_counts_keep_front(tn_value_counts *counts);
+int tn_house_gain_compare(const tn_house_gain *a, const tn_house_gain *b);
+tn_house_gain tn_house_gain_sum(const tn_house_gain *a, const tn_house_gain *b);
+
+/* The nodes after so many trays: {state of the library of plans, state of the strip}. */
+typedef struct tn_houses_layer {
+    tn_numbering nodes; /* plan state << 32 | state */
+    mpz_t *ahead; /* [nodes][lengths]: houses on plans of each length that go on from there; NULL: not asked for */
+    tn_value_counts *best; /* [nodes][lengths]: the values that these add, as far as they are looked for; or NULL */
+} tn_houses_layer;
+
+/* A way on from a plan state: a slice, the plan state behind it, how many choices of trays and of their insides. */
+typedef struct tn_houses_way {
+    uint32_t slice, plan;
+    uint64_t times;
+    tn_house_gain gain; /* what the tray adds to the plan's part of the measures */
+    tn_tray tray;       /* 0 where it does not matter which one it is */
+} tn_houses_way;
+
 /* The sections that nothing tells apart. */
 typedef struct tn_houses_kind {
     tn_section_key key;
@@ -40,7 +53,7 @@ typedef struct tn_houses_kind {
     tn_houses_layer *layers; /* [max + 1] */
     mpz_t *houses;           /* [lengths], of one section */
     mpz_t faced;
-    tn_value_counts spread; /* houses of one section, by the measure */
+    tn_value_counts spread; /* houses of one section, by the measures */
 } tn_houses_kind;
 
 struct tn_houses {
@@ -51,17 +64,25 @@ struct tn_houses {
     tn_sections sections;
     tn_houses_kind *kinds;
     size_t kind_count, kind_room;
-    bool ranked;                     /* what is ahead of each node is known */
-    const tn_tray *only;             /* [high]: the one plan that is looked at, or NULL */
-    const tn_house_weights *weights; /* of a measure, or NULL; then plans are those of `weighed` */
+    bool ranked;                       /* what is ahead of each node is known */
+    const tn_tray *only;               /* [high]: the one plan that is looked at, or NULL */
+    const tn_house_measures *measures; /* or NULL; else plans are those of `weighed` */
     tn_weighed *weighed;
+    bool trays_matter; /* to whom steps are shown */
+    tn_houses_aim aim;
+    uint64_t wanted;      /* houses, of the least values */
+    tn_value_counts best; /* of all houses, as far as they are aimed at */
 };
+
+/* The kind that a section is of, NULL where no such is known. */
+tn_houses_kind *tn_houses_kind_of(const tn_houses *houses, const tn_house *section);
 
 /* A step from a node: `from` among those of the layer. */
 typedef struct tn_houses_edge {
     uint32_t from, plan, state;
     uint64_t ways, times, faced; /* ways: of trays and slices; times: of what is at the plane, and tiles */
-    int64_t gain;                /* what it adds to the measure */
+    tn_house_gain gain;          /* what it adds to the measures */
+    tn_tray tray;                /* 0 where it does not matter */
 } tn_houses_edge;
 typedef tn_status tn_houses_edge_seen(void *context, const tn_houses_edge *edge, tn_error *error);
 
@@ -71,12 +92,20 @@ tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32
 
 /* The plans that are looked at: where a tray leads, and what it adds; TN_STRIP_NONE: to none of them. */
 tn_status tn_houses_plan_next(const tn_houses *houses, uint32_t layer, uint32_t plan, tn_tray tray, uint32_t *next,
-                              int64_t *gain, tn_error *error);
+                              tn_house_gain *gain, tn_error *error);
 bool tn_houses_plan_alive(const tn_houses *houses, uint32_t left, uint32_t plan);
-int64_t tn_houses_plan_rest(const tn_houses *houses, uint32_t plan); /* what the end of the plan adds */
+tn_house_gain tn_houses_plan_start(const tn_houses *houses);
+tn_house_gain tn_houses_plan_rest(const tn_houses *houses, uint32_t plan); /* what the end of the plan adds */
 
 /* Counts the houses of one section by the values of the measure. */
 tn_status tn_houses_spread_kind(const tn_houses *houses, tn_houses_kind *kind, tn_error *error);
+
+/* Finds the values that are aimed at, from the nodes that counting has met (houses_best.c). */
+tn_status tn_houses_aim_kind(const tn_houses *houses, tn_houses_kind *kind, tn_error *error);
+tn_status tn_houses_aim_all(tn_houses *houses, tn_error *error);
+
+/* Reports that there are too many values. */
+tn_status tn_houses_too_many_values(const tn_houses *houses, tn_error *error);
 
 /* May a plan state after so many trays lead to a plan of the library? */
 bool tn_houses_plan_lives(const tn_houses *houses, uint32_t layer, uint32_t plan);

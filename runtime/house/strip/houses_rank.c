@@ -170,7 +170,8 @@ typedef struct tn_summing_up {
     mpz_t one;
 } tn_summing_up;
 
-static tn_status sum_up(void *context, uint32_t state, uint64_t times, uint64_t faced, int64_t gain, tn_error *error)
+static tn_status sum_up(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
+                        tn_error *error)
 {
     tn_summing_up *s = context;
     const tn_houses *h = s->walk->houses;
@@ -245,7 +246,8 @@ typedef struct tn_going_on {
     mpz_t one;
 } tn_going_on;
 
-static tn_status go_to(void *context, uint32_t state, uint64_t times, uint64_t faced, int64_t gain, tn_error *error)
+static tn_status go_to(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
+                       tn_error *error)
 {
     tn_going_on *g = context;
     (void)faced;

@@ -8,38 +8,6 @@
 #include "runtime/base/integers.h"
 #include "runtime/house/strip/houses_data.h"
 
-void tn_value_counts_clear(tn_value_counts *counts)
-{
-    for (size_t i = 0; i < counts->count; i++)
-        mpz_clear(counts->items[i].count);
-    free(counts->items);
-    *counts = (tn_value_counts){0};
-}
-
-/* counts += times, at the value; NULL where out of memory. Values come nearly in order: they are sought from the end.
- */
-static bool add_value(tn_value_counts *counts, int64_t value, const mpz_t times)
-{
-    size_t low = 0, high = counts->count;
-    while (low < high) {
-        size_t middle = (low + high) / 2;
-        if (counts->items[middle].value < value)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    if (low == counts->count || counts->items[low].value != value) {
-        if (!tn_array_reserve_from(&counts->items, &counts->room, 2, counts->count, 1, sizeof *counts->items))
-            return false;
-        memmove(counts->items + low + 1, counts->items + low, (counts->count - low) * sizeof *counts->items);
-        counts->count++;
-        counts->items[low].value = value;
-        mpz_init(counts->items[low].count);
-    }
-    mpz_add(counts->items[low].count, counts->items[low].count, times);
-    return true;
-}
-
 /* ---- layers */
 
 typedef struct tn_spreading {
@@ -52,14 +20,6 @@ typedef struct tn_spreading {
     mpz_t times, one;
 } tn_spreading;
 
-static tn_status too_many(const tn_spreading *s, tn_error *error)
-{
-    tn_fail(error, TN_LIMIT, E_STRIP, "counting houses by `%.60s` takes more than %u states",
-            tn_text(s->houses->form->module, s->houses->weights->of.name), s->houses->max_states);
-    tn_error_help(error, "ask about one plan (--plan), use rounder numbers, or allow more (--max-states N)");
-    return TN_LIMIT;
-}
-
 static tn_status pour(tn_spreading *s, tn_value_counts *to, const tn_houses_edge *edge, tn_error *error)
 {
     const tn_value_counts *from = &s->here[edge->from];
@@ -68,11 +28,12 @@ static tn_status pour(tn_spreading *s, tn_value_counts *to, const tn_houses_edge
     mpz_mul_ui(s->times, s->times, edge->times);
     for (size_t i = 0; i < from->count; i++) {
         mpz_mul(s->one, from->items[i].count, s->times);
-        if (!add_value(to, from->items[i].value + edge->gain, s->one))
+        tn_house_gain value = tn_house_gain_sum(&from->items[i].value, &edge->gain);
+        if (!tn_value_counts_add(to, &value, s->one))
             return tn_fail_memory(error);
     }
     s->pairs += to->count - before;
-    return s->pairs > s->houses->max_states ? too_many(s, error) : TN_OK;
+    return s->pairs > s->houses->max_states ? tn_houses_too_many_values(s->houses, error) : TN_OK;
 }
 
 static tn_status lead_on(void *context, const tn_houses_edge *edge, tn_error *error)
@@ -84,7 +45,7 @@ static tn_status lead_on(void *context, const tn_houses_edge *edge, tn_error *er
     for (; s->next_count <= to; s->next_count++)
         s->next[s->next_count] = (tn_value_counts){0};
     if (s->kind->strip->states.count > s->houses->max_states)
-        return too_many(s, error);
+        return tn_houses_too_many_values(s->houses, error);
     return pour(s, &s->next[to], edge, error);
 }
 
@@ -127,9 +88,9 @@ tn_status tn_houses_spread_kind(const tn_houses *h, tn_houses_kind *kind, tn_err
     mpz_set_ui(s.one, 1);
     kind->layers = calloc((size_t)h->high + 1, sizeof *kind->layers);
     s.here = calloc(1, sizeof *s.here);
-    int64_t start = tn_weighed_start(h->weighed, 0) * h->weights->plan;
+    tn_house_gain start = tn_houses_plan_start(h);
     if (!kind->layers || !s.here || tn_number(&kind->layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX ||
-        !add_value(s.here, start, s.one))
+        !tn_value_counts_add(s.here, &start, s.one))
         status = tn_fail_memory(error);
     for (; status == TN_OK && s.layer <= h->high; s.layer++)
         status = spread_layer(&s, error);
@@ -148,7 +109,7 @@ static bool join_kinds(const tn_houses *h, tn_value_counts *all)
     for (size_t k = 0; ok && k < h->kind_count; k++)
         for (size_t i = 0; ok && i < h->kinds[k].spread.count; i++) {
             mpz_mul_ui(times, h->kinds[k].spread.items[i].count, h->kinds[k].sections);
-            ok = add_value(all, h->kinds[k].spread.items[i].value, times);
+            ok = tn_value_counts_add(all, &h->kinds[k].spread.items[i].value, times);
         }
     mpz_clear(times);
     return ok;
@@ -158,12 +119,12 @@ tn_status tn_houses_spread(const tn_houses *h, tn_distribution *d, tn_error *err
 {
     tn_value_counts all = {0};
     bool ok = join_kinds(h, &all);
-    mpq_set(d->unit, h->weights->unit);
+    mpq_set(d->unit, h->measures->of[0]->unit);
     d->value = ok ? malloc((all.count + 1) * sizeof *d->value) : NULL;
     d->plans = d->value ? tn_integers_new(all.count) : NULL;
     d->count = d->plans ? all.count : 0;
     for (size_t i = 0; i < d->count; i++) {
-        d->value[i] = all.items[i].value;
+        d->value[i] = all.items[i].value.by[0];
         mpz_set(d->plans[i], all.items[i].count);
         mpz_add(d->all, d->all, d->plans[i]);
     }

@@ -111,7 +111,7 @@ typedef struct tn_strip_list {
 } tn_strip_list;
 
 /* Words of a slice's key: EDGE, then CELL_WORDS for each cell, then the number of its steps and STEP_WORDS for each,
- * then the base of each clause; then two words of what its cells add to the measure. */
+ * then the base of each clause; then two words for each measure of what its cells add to it. */
 enum { SLICE_EDGE, SLICE_CELLS };
 enum { CELL_TILE, CELL_AREA, CELL_GLASS, CELL_MARKS, CELL_MARKS_HIGH, CELL_ROOM, CELL_WORDS };
 enum { STEP_FROM, STEP_TO, STEP_HOW, STEP_WORDS }; /* HOW: bit 0: one room; bit w + 1: a step of walk w */
@@ -145,8 +145,8 @@ typedef struct tn_strip {
     uint32_t shapes[TN_CHOICES_MAX];
     uint32_t trays_most;
     tn_watch *watch;
-    const tn_house_weights *weights; /* of a measure, or NULL */
-    uint32_t *weighed_rooms;         /* [terms of the weights]: of the questions about rooms */
+    const tn_house_measures *measures;       /* or NULL */
+    uint32_t *weighed_rooms[TN_WEIGHED_MAX]; /* [terms of the measure]: of the questions about rooms */
     tn_strip_questions questions;
     size_t answer_words;
     tn_room_questions glass; /* functions about rooms that ask for faces: see tn_strip_sees_glass */
@@ -172,10 +172,10 @@ typedef struct tn_strip {
 
 /* ---- strip.c */
 
-/* The houses of the section, on trays of these and up to so many. weights: NULL, or borrowed. Free with tn_strip_free,
+/* The houses of the section, on trays of these and up to so many. measures: NULL, or borrowed. Free with tn_strip_free,
  * also after a failure. */
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
-                       const bool *trays, uint32_t trays_most, const tn_house_weights *weights, tn_strip **strip,
+                       const bool *trays, uint32_t trays_most, const tn_house_measures *measures, tn_strip **strip,
                        tn_error *error);
 void tn_strip_free(tn_strip *strip);
 
@@ -283,10 +283,10 @@ tn_status tn_strip_lower(tn_strip *strip, tn_error *error);
 /* ---- step.c */
 
 /* Calls `seen` for each state after another slice (TN_STRIP_NONE: the end, and the state 0), with the number of choices
- * that lead there, that of those that differ in more than tiles, and what the step adds to the measure. state:
+ * that lead there, that of those that differ in more than tiles, and what the step adds to the measures. state:
  * TN_STRIP_NONE before the first slice. */
-typedef tn_status tn_strip_seen(void *context, uint32_t state, uint64_t times, uint64_t faced, int64_t gain,
-                                tn_error *error);
+typedef tn_status tn_strip_seen(void *context, uint32_t state, uint64_t times, uint64_t faced,
+                                const tn_house_gain *gain, tn_error *error);
 tn_status tn_strip_step(tn_strip *strip, uint32_t state, uint32_t slice, tn_strip_seen *seen, void *context,
                         tn_error *error);
 

@@ -208,15 +208,15 @@ static tn_status see(void *context, const tn_instruction *op, tn_relation_use us
     return status == TN_OK ? add_atom(a, op, of, radix, error) : status;
 }
 
-/* The rooms that the measure counts. */
-static tn_status ask_weights(tn_strip *strip, tn_error *error)
+/* The rooms that a measure counts. */
+static tn_status ask_weights(tn_strip *strip, uint32_t measure, tn_error *error)
 {
-    const tn_house_weights *w = strip->weights;
+    const tn_house_weights *w = strip->measures->of[measure];
     tn_asking asking = {strip, NULL, tn_text(strip->form->module, w->of.name)};
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < w->count; i++)
         if (w->terms[i].kind == TN_HOUSE_ROOMS)
-            status = add_room(&asking, w->terms[i].part, &strip->weighed_rooms[i], error);
+            status = add_room(&asking, w->terms[i].part, &strip->weighed_rooms[measure][i], error);
     return status;
 }
 
@@ -230,8 +230,8 @@ tn_status tn_strip_ask(tn_strip *strip, tn_error *error)
         tn_asking asking = {strip, clause, tn_text(module, record->name)};
         status = tn_rule_uses(module, clause->holds, see, &asking, error);
     }
-    if (status == TN_OK && strip->weights)
-        status = ask_weights(strip, error);
+    for (uint32_t k = 0; status == TN_OK && strip->measures && k < strip->measures->count; k++)
+        status = ask_weights(strip, k, error);
     strip->answer_words = strip->questions.decision_count / 64 + 1;
     return status;
 }

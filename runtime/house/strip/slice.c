@@ -187,8 +187,9 @@ static tn_status add_slice(tn_cutting *c, tn_error *error)
         if (status == TN_OK && !tn_key_push(key, base))
             status = tn_fail_memory(error);
     }
-    if (status == TN_OK && s->weights && !tn_push_long(key, (uint64_t)tn_house_weights_cells(s->weights, &c->house)))
-        status = tn_fail_memory(error);
+    for (uint32_t k = 0; status == TN_OK && s->measures && k < s->measures->count; k++)
+        if (!tn_push_long(key, (uint64_t)tn_house_weights_cells(s->measures->of[k], &c->house)))
+            status = tn_fail_memory(error);
     if (status != TN_OK)
         return status;
     uint32_t slice = tn_intern(&s->slice_keys, key->data, key->size);

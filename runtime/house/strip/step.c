@@ -218,14 +218,22 @@ static tn_status make_state(const tn_stepping *s, const uint32_t *states, uint32
     return *after != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-/* What the step adds to the measure: the right slice's cells, and the rooms that end at the plane. */
-static int64_t gain_of(const tn_stepping *s)
+/* What the step adds to a measure: the right slice's cells, and the rooms that end at the plane. */
+static int64_t gain_by(const tn_stepping *s, uint32_t measure)
 {
-    const tn_house_weights *w = s->strip->weights;
-    int64_t gain = w && s->slice ? (int64_t)tn_both(bases_of(s) + s->strip->clause_count) : 0;
-    for (uint32_t i = 0; w && i < w->count; i++)
+    const tn_house_weights *w = s->strip->measures->of[measure];
+    int64_t gain = s->slice ? (int64_t)tn_both(bases_of(s) + s->strip->clause_count + 2 * (size_t)measure) : 0;
+    for (uint32_t i = 0; i < w->count; i++)
         if (w->terms[i].kind == TN_HOUSE_ROOMS)
-            gain += (int64_t)s->closed[s->strip->weighed_rooms[i]] * w->terms[i].each;
+            gain += (int64_t)s->closed[s->strip->weighed_rooms[measure][i]] * w->terms[i].each;
+    return s->strip->measures->most[measure] ? -gain : gain;
+}
+
+static tn_house_gain gain_of(const tn_stepping *s)
+{
+    tn_house_gain gain = {{0}};
+    for (uint32_t k = 0; s->strip->measures && k < s->strip->measures->count; k++)
+        gain.by[k] = gain_by(s, k);
     return gain;
 }
 
@@ -249,10 +257,10 @@ static tn_status try_outcome(tn_stepping *s, const tn_strip_choice *choice, tn_s
         return status;
     if (!read_left(s, strip->scratch))
         return TN_OK;
-    int64_t gain = gain_of(s);
+    tn_house_gain gain = gain_of(s);
     if (s->slice)
         status = make_state(s, strip->scratch, &after, error);
-    return status == TN_OK && after != TN_STRIP_NONE ? seen(context, after, times, faced, gain, error) : status;
+    return status == TN_OK && after != TN_STRIP_NONE ? seen(context, after, times, faced, &gain, error) : status;
 }
 
 static bool keeps_no_trays(const tn_strip *strip)
@@ -281,7 +289,7 @@ tn_status tn_strip_step(tn_strip *strip, uint32_t state, uint32_t slice, tn_stri
     const tn_strip_list *plane;
     tn_stepping s = {.strip = strip};
     if (state == TN_STRIP_NONE && slice == TN_STRIP_NONE) /* a row without trays */
-        return keeps_no_trays(strip) ? seen(context, 0, 1, 1, 0, error) : TN_OK;
+        return keeps_no_trays(strip) ? seen(context, 0, 1, 1, &(tn_house_gain){{0}}, error) : TN_OK;
     look(&s, state, slice);
     if (!read_right(&s, strip->scratch))
         return TN_OK;

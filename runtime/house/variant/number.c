@@ -75,6 +75,17 @@ tn_status tn_house_variants_each(tn_house_variants *v, const tn_tray *trays, siz
     return status;
 }
 
+tn_status tn_house_variants_like(tn_house_variants *v, const tn_house *like, tn_house_each *each, void *context,
+                                 tn_error *error)
+{
+    listing list = {.each = each, .context = context};
+    mpz_inits(list.left, list.here, NULL);
+    tn_status status =
+        tn_variants_go_through_faces(v, like, &(tn_house_visitor){.visit = give_tiles, .context = &list}, error);
+    mpz_clears(list.left, list.here, NULL);
+    return status;
+}
+
 static tn_status stop_at_once(void *context, const tn_house *house, bool *stop, tn_error *error)
 {
     (void)house;

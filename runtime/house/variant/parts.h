@@ -77,6 +77,10 @@ typedef struct tn_house_visitor {
     void *context;
 } tn_house_visitor;
 
+/* Shows the houses that are like this one in plan, section and functions. */
+tn_status tn_variants_go_through_faces(tn_house_variants *variants, const tn_house *like,
+                                       const tn_house_visitor *visitor, tn_error *error);
+
 /* Shows the houses on a plan in the order of their numbers. */
 tn_status tn_variants_go_through(tn_house_variants *variants, const tn_tray *trays, size_t length,
                                  const tn_house_visitor *visitor, tn_error *error);

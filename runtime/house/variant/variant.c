@@ -212,6 +212,41 @@ static tn_status go_through_functions(tn_house_variants *v, const tn_house_visit
     return status;
 }
 
+/* A wheel of one function for each cell. */
+static tn_status take_functions(tn_house_variants *v, const tn_house *like, tn_error *error)
+{
+    tn_status status = TN_OK;
+    tn_wheels_clear(&v->functions);
+    for (uint32_t i = 0; status == TN_OK && i < v->house.cell_count; i++) {
+        v->house.cells[i].function = like->cells[i].function;
+        if (!like->cells[i].open)
+            status = tn_wheels_add(&v->functions, i, &like->cells[i].function, 1, error);
+    }
+    return status;
+}
+
+static void begin_work(tn_house_variants *v)
+{
+    v->work = v->work_limit;
+    memset(v->runs, 0, v->library->clause_count * sizeof *v->runs);
+}
+
+tn_status tn_variants_go_through_faces(tn_house_variants *v, const tn_house *like, const tn_house_visitor *seen_by,
+                                       tn_error *error)
+{
+    bool stop = false;
+    begin_work(v);
+    tn_house_clear(&v->house);
+    tn_status status = tn_house_stand(v->form, like->trays, like->length, like->shapes, &v->house, error);
+    if (status == TN_OK && !tn_array_resize(&v->tiles, v->house.cell_count + 1, sizeof *v->tiles))
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = take_functions(v, like, error);
+    if (status == TN_OK)
+        status = tn_memos_make(v, error);
+    return status == TN_OK ? go_through_faces(v, seen_by, &stop, error) : status;
+}
+
 static void add_counts(tn_house_variants *v, void *context, tn_house_part part, const tn_house_counts *counts,
                        bool *taken)
 {
@@ -272,8 +307,7 @@ tn_status tn_variants_go_through(tn_house_variants *v, const tn_tray *trays, siz
     uint32_t shapes[TN_CHOICES_MAX] = {0};
     bool stop = false;
     tn_status status;
-    v->work = v->work_limit;
-    memset(v->runs, 0, v->library->clause_count * sizeof *v->runs);
+    begin_work(v);
     status = begin_plan(v, trays, length, error);
     for (bool more = true; status == TN_OK && !stop && more; more = tn_form_next_section(v->form, shapes)) {
         tn_house_clear(&v->house);

@@ -1,9 +1,5 @@
 /* Open plans: forward and backward counts over the library's automaton joined with a machine that places the written
- * trays.
- *
- * The machine guesses where a run of written trays after a gap starts, and remembers the runs that started earlier:
- * none of them may come to its end, so that the guess is the leftmost. Each plan is then read in one way only.
- */
+ * trays (complete_machine.c). */
 #include "runtime/plan/measure/complete_data.h"
 
 #include <stdlib.h>
@@ -12,81 +8,21 @@
 #define WORST INT64_MAX
 
 typedef tn_completer completer;
-typedef tn_open_segment segment;
-
-/* Where the machine is: so many trays placed; in the gap before the next run; runs that started earlier, bit k: k + 1
- * of their trays have been met. */
-typedef struct machine {
-    uint32_t placed;
-    bool gap;
-    uint64_t earlier;
-} machine;
-
-/* One way on: the machine after it, and whether the tray read is a written one. */
-typedef struct way {
-    machine to;
-    bool places;
-} way;
-
-/* ---- the machine */
-
-/* The runs that started earlier, after a tray; false where one comes to its end. */
-static bool advance(const segment *s, uint64_t fits, uint64_t earlier, uint64_t *after)
-{
-    *after = 0;
-    for (uint32_t k = 0; k < s->count; k++) {
-        if (!(earlier >> k & 1) || !(fits >> (s->first + k + 1) & 1))
-            continue;
-        if (k + 2 == s->count)
-            return false;
-        *after |= UINT64_C(1) << (k + 1);
-    }
-    return true;
-}
-
-static machine next_item(const completer *c, uint32_t placed, uint64_t earlier)
-{
-    bool last = placed == c->items, ends = last || c->segment_of[placed] != c->segment_of[placed - 1];
-    return (machine){placed, last ? c->gap_last : tn_completer_gap_before(c, placed), ends ? 0 : earlier};
-}
-
-/* The ways on with a tray that fits so: at most two. */
-static size_t ways_on(const completer *c, machine m, uint64_t fits, way ways[2])
-{
-    size_t count = 0;
-    if (m.placed == c->items) {
-        ways[0] = (way){m, false};
-        return m.gap;
-    }
-    const segment *s = &c->segments[c->segment_of[m.placed]];
-    bool meets = fits >> m.placed & 1, starts = s->first == m.placed;
-    uint64_t after = 0;
-    if (s->floats && !advance(s, fits, m.earlier, &after))
-        return 0;
-    if (meets)
-        ways[count++] = (way){next_item(c, m.placed + 1, after), true};
-    if (!m.gap || !starts || (s->floats && meets && s->count == 1))
-        return count;
-    if (s->floats && meets)
-        after |= 1;
-    ways[count++] = (way){{m.placed, true, after}, false};
-    return count;
-}
 
 /* ---- levels */
 
-static uint32_t intern(completer *c, uint32_t state, machine m)
+static uint32_t intern(completer *c, uint32_t state, tn_machine m)
 {
     uint32_t key[] = {state, m.placed, m.gap, (uint32_t)m.earlier, (uint32_t)(m.earlier >> 32)};
     return tn_intern(&c->states, key, sizeof key / sizeof *key);
 }
 
-static machine machine_of(const completer *c, uint32_t joint, uint32_t *state)
+static tn_machine machine_of(const completer *c, uint32_t joint, uint32_t *state)
 {
     size_t size;
     const uint32_t *key = tn_interned(&c->states, joint, &size);
     *state = key[0];
-    return (machine){key[1], key[2], (uint64_t)key[4] << 32 | key[3]};
+    return (tn_machine){key[1], key[2], (uint64_t)key[4] << 32 | key[3]};
 }
 
 static bool is_alive(const completer *c, uint32_t left, uint32_t state)
@@ -106,7 +42,7 @@ static bool leads_on(const completer *c, uint32_t n, uint32_t state)
 static bool accepts(const completer *c, uint32_t n, uint32_t joint)
 {
     uint32_t state;
-    machine m = machine_of(c, joint, &state);
+    tn_machine m = machine_of(c, joint, &state);
     return n >= c->library->min && m.placed == c->items && is_alive(c, 0, state);
 }
 
@@ -119,7 +55,7 @@ static int compare_numbers(const void *left, const void *right)
 /* One step: a tray of the letter, from a state of level n to a joint state, and what the measure gains. */
 typedef struct step {
     uint32_t n, from, to, letter;
-    machine m; /* before it */
+    tn_machine m; /* before it */
     bool places;
     int64_t gain; /* with the sign that makes less better */
 } step;
@@ -146,11 +82,11 @@ static bool each_step(completer *c, uint32_t n, take_step *take, void *context)
 {
     for (uint32_t i = 0; i < c->level_size[n]; i++) {
         uint32_t state, to;
-        machine m = machine_of(c, c->level[n][i], &state);
+        tn_machine m = machine_of(c, c->level[n][i], &state);
         for (uint32_t l = 0; l < c->letters; l++) {
-            way ways[2];
+            tn_machine_way ways[2];
             int64_t gain;
-            size_t count = follow(c, n, state, l, &to, &gain) ? ways_on(c, m, c->fits[c->first[l]], ways) : 0;
+            size_t count = follow(c, n, state, l, &to, &gain) ? tn_machine_ways(c, m, c->fits[c->first[l]], ways) : 0;
             if (c->failed != TN_OK)
                 return false;
             for (size_t w = 0; w < count; w++) {
@@ -253,7 +189,7 @@ static void end_plans(completer *c, uint32_t n)
 static tn_status walk(completer *c, tn_error *error)
 {
     uint32_t max = c->library->max;
-    machine start = {0, c->items == 0 ? c->gap_last : c->gap_first, 0};
+    tn_machine start = tn_machine_start(c);
     uint64_t first = intern(c, 0, start);
     bool ok = first != UINT32_MAX && make_level(c, 0, &first, 1);
     if (ok)
@@ -309,10 +245,7 @@ static void clear(completer *c)
     free(c->backward);
     tn_integers_free(c->placed, (size_t)c->items * c->letters);
     tn_interner_clear(&c->states);
-    free(c->fits);
-    free(c->letter_of);
-    free(c->first);
-    free(c->size);
+    tn_completer_clear_pattern(c);
 }
 
 static tn_status make_room(completer *c, tn_completions *out, tn_error *error)

@@ -42,4 +42,25 @@ tn_status tn_completer_read(tn_completer *c, const tn_open_plan *open, tn_error 
 /* Is there a gap before the written tray? */
 bool tn_completer_gap_before(const tn_completer *c, uint32_t item);
 
+/* Where the machine that places written trays is: so many placed; in the gap before the next run; runs that started
+ * earlier, bit k: k + 1 of their trays have been met. */
+typedef struct tn_machine {
+    uint32_t placed;
+    bool gap;
+    uint64_t earlier;
+} tn_machine;
+
+/* One way on: the machine after it, and whether the tray read is a written one. */
+typedef struct tn_machine_way {
+    tn_machine to;
+    bool places;
+} tn_machine_way;
+
+tn_machine tn_machine_start(const tn_completer *c);
+
+/* The ways on with a tray that fits so: at most two. */
+size_t tn_machine_ways(const tn_completer *c, tn_machine m, uint64_t fits, tn_machine_way ways[2]);
+
+void tn_completer_clear_pattern(tn_completer *c);
+
 #endif

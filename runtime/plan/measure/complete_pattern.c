@@ -116,6 +116,14 @@ static tn_status make_letters(tn_completer *c, tn_error *error)
     return TN_OK;
 }
 
+void tn_completer_clear_pattern(tn_completer *c)
+{
+    free(c->fits);
+    free(c->letter_of);
+    free(c->first);
+    free(c->size);
+}
+
 tn_status tn_completer_read(tn_completer *c, const tn_open_plan *open, tn_error *error)
 {
     tn_status status = read_pattern(c, open, error);

@@ -13,6 +13,7 @@
 
 #include "runtime/house/strip/houses.h"
 #include "runtime/house/variant/variant.h"
+#include "tests/support/drawn_house.h"
 #include "tests/support/test_house.h"
 
 enum { LENGTH_MAX = 3 };
@@ -171,7 +172,8 @@ static void check_measure(check *c, uint32_t measure, const tn_tray *only, uint3
             assert_int_equal(tn_house_variants_each(c->variants, trays, length, from, tally_house, &t, &error), TN_OK);
     tn_cursor_free(cursor);
     assert_int_equal(tn_house_weights_new(&c->made->form, t.measure, &weights, &error), TN_OK);
-    tn_houses_what what = {only, only_length, weights};
+    tn_house_measures measures = {.count = 1, .of = {weights}};
+    tn_houses_what what = {.only = only, .length = only_length, .measures = &measures};
     assert_int_equal(tn_houses_of(&c->made->form, c->record, c->plans, &what, 0, &houses, &error), TN_OK);
     tn_distribution_init(&d);
     assert_int_equal(tn_houses_spread(houses, &d, &error), TN_OK);
@@ -237,225 +239,14 @@ static void test_written(void **state)
 
 /* ---- forms and clauses that are drawn */
 
-typedef struct draws {
-    uint64_t state;
-    char text[8192];
-    size_t size;
-} draws;
-
-static uint32_t draw(draws *d, uint32_t below)
-{
-    d->state = d->state * UINT64_C(6364136223846793005) + 1442695040888963407u;
-    return (uint32_t)(d->state >> 33) % below;
-}
-
-static void put(draws *d, const char *piece)
-{
-    size_t size = strlen(piece);
-    assert_true(d->size + size < sizeof d->text);
-    memcpy(d->text + d->size, piece, size + 1);
-    d->size += size;
-}
-
-#define ONE_OF(D, ...) ONE_OF_LIST(D, ((const char *const[]){__VA_ARGS__}))
-#define ONE_OF_LIST(D, LIST) put(D, (LIST)[draw(D, sizeof(LIST) / sizeof *(LIST))])
-
-static void put_cell(draws *d)
-{
-    ONE_OF(d, "cell(living)", "cell(bed)", "cell(stair)", "cell(seat)", "cell(void)", "cell(any)",
-           "cell(bed or living)", "cell(body, loft)", "cell(not bed, ground)", "cell(area < 90sf)", "cell(8')",
-           "cell(bed, 10')", "cell(bay)");
-}
-
-static void put_room(draws *d)
-{
-    put(d, "room(");
-    ONE_OF(d, "bed", "living", "any", "not stair", "body", "seat");
-    if (draw(d, 2))
-        ONE_OF(d, ", glazing < 1:9", ", glazing >= 1:11", ", not by window", ", by window", ", by door",
-               ", not by open", ", by wall", ", by floor");
-    if (draw(d, 2))
-        ONE_OF(d, ", area < 100sf", ", area >= 160sf", ", cells > 1", ", cells = 2", ", cells <= 1");
-    put(d, ")");
-}
-
-static void put_by(draws *d)
-{
-    ONE_OF(d, "", "", " by open", " by door", " by stair", " by wall or door", " by floor");
-    put(d, ")");
-}
-
-static void put_expression(draws *d, int depth);
-
-static void put_simple(draws *d)
-{
-    switch (draw(d, 10)) {
-    case 0:
-        put_cell(d);
-        return;
-    case 1:
-        put_room(d);
-        return;
-    case 2:
-        put(d, "touch(");
-        put_cell(d);
-        put(d, ", ");
-        put_cell(d);
-        put_by(d);
-        return;
-    case 3:
-    case 4:
-        put(d, "apart(");
-        put_cell(d);
-        put(d, ", from ");
-        put_cell(d);
-        if (draw(d, 2)) {
-            put(d, ", through ");
-            put_cell(d);
-        }
-        put(d, ")");
-        return;
-    case 5:
-        put(d, "quantity(");
-        put_cell(d);
-        ONE_OF(d, ", n > 1)", ", n = 1)", ", n in 1..3)", ", n mod 2 = 0)");
-        return;
-    case 6:
-        put(d, "quantity(");
-        put_room(d);
-        ONE_OF(d, ", n > 1)", ", n = 1)", ", n < 2)", ", n = 0)");
-        return;
-    case 7:
-        put(d, "sum(area of ");
-        put_cell(d);
-        ONE_OF(d, ", a < 200sf)", ", a >= 150sf)", ", a > 300sf)");
-        return;
-    case 8:
-        ONE_OF(d, "section(body storeys 1)", "section(cladding board)", "section(body roof gable)");
-        return;
-    default:
-        ONE_OF(d, "tray(8')", "tray(bay open)", "neighbour(tray(8'), tray(10'))", "neighbour(beginning, tray(10'))");
-        return;
-    }
-}
-
-static void put_row(draws *d)
-{
-    put(d, draw(d, 3) ? "neighbour(" : "symmetric neighbour(");
-    put_cell(d);
-    put(d, ", ");
-    switch (draw(d, 4)) {
-    case 0:
-        put(d, "many(");
-        put_cell(d);
-        put(d, ")");
-        break;
-    case 1:
-        put(d, "end");
-        break;
-    case 2:
-        put(d, "touch(");
-        put_cell(d);
-        put(d, ", ");
-        put_cell(d);
-        put_by(d);
-        break;
-    default:
-        put_cell(d);
-    }
-    put(d, ")");
-}
-
-static void put_expression(draws *d, int depth)
-{
-    uint32_t kind = depth > 0 ? draw(d, 7) : 6;
-    if (kind == 0)
-        put(d, "not (");
-    if (kind < 3) {
-        put(d, kind == 0 ? "" : "(");
-        put_expression(d, depth - 1);
-        if (kind > 0) {
-            put(d, kind == 1 ? " and " : " or ");
-            put_expression(d, depth - 1);
-        }
-        put(d, ")");
-    } else if (kind == 3) {
-        put_row(d);
-    } else {
-        put_simple(d);
-    }
-}
-
-static void put_form(draws *d)
-{
-    put(d, "form huts of hut {\n  storey ground 9'\n  storey loft 8'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof "
-           "8\"\n");
-    ONE_OF(d, "  section body storeys = 1 | 2\n", "  section body storeys = 2 | 1\n",
-           "  section bay storeys = 1\n  section body storeys = 1 | 2\n");
-    put(d, "  section body roof = gable(9:12) | vault(3')\n  section cladding = shingle | board\n");
-    ONE_OF(d, "", "  void cell(loft, 10')\n", "  void cell(body 12', loft)\n", "  no cell(bay, loft)\n");
-    put(d, "  function living at cell(body, ground)\n  function bed at cell(body)\n");
-    ONE_OF(d, "  function stair at cell(body)\n", "  function stair at cell(body, 8')\n");
-    put(d, "  function seat at cell(bay)\n  opening door wide 2'8\" high 6'8\" clear 2' passage\n"
-           "  opening window wide 3' high 4' sill 2'8\" glazed\n");
-    ONE_OF(d, "", "  face cell(bed) along cell(bed) = open | wall\n",
-           "  face cell(living) along cell(any) = party | door\n");
-    ONE_OF(d, "  face cell(stair) under cell(stair) = stair\n", "  face cell(any) under cell(stair) = stair | floor\n",
-           "");
-    put(d, "  face cell(living) beside cell(living) = open | door\n");
-    ONE_OF(d, "  face cell(seat) across cell(any) = open\n", "  face cell(seat) beside cell(any) = open | wall\n", "");
-    put(d, "  face cell(any) beside cell(any) = door\n");
-    ONE_OF(d, "  face cell(bed) outside = window | wall\n", "  face cell(bed) outside front = window | wall\n",
-           "  face cell(any) outside left = wall | window\n");
-    ONE_OF(d, "  face cell(seat) outside front = window | wall\n", "");
-    ONE_OF(
-        d,
-        "  tile cot for bed { against wall or window wide 7'..12' item cot left 1'..right 1', back 0..6', up 0..2' }\n",
-        "  tile rug for bed, living { item rug left 2'..right 2', back 1'..4' keep edge left 0..1' }\n"
-        "  tile cot for bed { against wall item cot right 3'..right 0, back 0..6'6\", up 0..2' }\n",
-        "");
-    put(d, "}\n");
-}
-
-static void put_measures(draws *d)
-{
-    put(d, "measure first using huts = 3 * quantity(");
-    put_cell(d);
-    put(d, ") - 1/2 * quantity(");
-    put_room(d);
-    put(d, ") + 7\nmeasure second using huts = sum(area of ");
-    put_cell(d);
-    ONE_OF(d, ") + sum(width) * 1'", ") - 2 * sum(area of cell(bed))", ")");
-    put(d, "\nmeasure third using huts = 10 * second / 1sf - first + 5 * quantity(tray(10')) + matches(");
-    ONE_OF(d, "neighbour(tray(8'), tray(10'))", "tray(bay open)");
-    put(d, ")\nmeasure fourth using hut = sum(width) + occurrences(tray(8')) * 1'\n");
-}
-
-static void write_random(draws *d)
-{
-    d->size = 0;
-    put(d, "schema hut {\n  width role length = 8' | 10'\n  zone body role band = room(10', 12')\n"
-           "  zone bay role band = empty role absent | open(4')\n}\n");
-    put_form(d);
-    put(d,
-        "library rows using hut { trays 1..2 }\nlibrary all from rows in huts { }\nlibrary some from rows in huts {\n");
-    for (uint32_t i = 1 + draw(d, 3); i > 0; i--) {
-        put(d, draw(d, 2) ? "  require " : "  prune ");
-        put_expression(d, 2);
-        put(d, "\n");
-    }
-    put(d, "}\n");
-    put_measures(d);
-}
-
 static void test_drawn(void **state)
 {
     (void)state;
-    draws d = {.state = 7};
+    drawn_house d = {.state = 7};
     uint32_t with_houses = 0;
     for (int i = 0; i < 40; i++) {
         test_house made;
-        write_random(&d);
+        drawn_house_write(&d);
         test_house_compile(&made, d.text);
         uint64_t all = check_library(&made, made.all, 50), some = check_library(&made, made.some, 50);
         assert_true(some <= all);

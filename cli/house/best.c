@@ -1,0 +1,265 @@
+/* best, pareto and complete of houses: values, the houses that have them, and what open plans leave. */
+#include "cli/house/best.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/common/interrupt.h"
+#include "cli/common/progress.h"
+#include "cli/house/numbered_parts.h"
+#include "driver/open/digits.h"
+#include "driver/plan/library.h"
+#include "runtime/house/strip/best.h"
+#include "runtime/plan/measure/amount.h"
+
+/* A search: the measures made ready, and what was found. */
+typedef struct search {
+    tn_numbered n;
+    const tn_house_wishes *wishes;
+    tn_plan plan; /* where one is given */
+    tn_house_weights *weights[TN_WEIGHED_MAX];
+    tn_amount_unit units[TN_WEIGHED_MAX];
+    tn_house_measures measures;
+    tn_houses *houses;
+    int64_t values[TN_WEIGHED_MAX]; /* of the point at hand */
+    mpz_t count;                    /* houses there */
+    uint64_t given;
+    FILE *out;
+} search;
+
+static const char *measure_name(const search *s, uint32_t k)
+{
+    return tn_text(s->n.form.module, s->weights[k]->of.name);
+}
+
+static tn_status find_measures(search *s, tn_error *error)
+{
+    const tn_module *module = s->n.form.module;
+    tn_status status = TN_OK;
+    for (uint32_t k = 0; status == TN_OK && k < s->wishes->count; k++) {
+        uint32_t measure;
+        status = tn_house_measure_choose(&s->n.job->opened, s->wishes->names[k], s->n.record->form, &measure);
+        tn_job_status(s->n.job, status);
+        if (status != TN_OK)
+            return status;
+        tn_house_measured of = tn_house_measured_of(module, measure);
+        status = tn_house_weights_new(&s->n.form, of, &s->weights[k], error);
+        if (status != TN_OK)
+            tn_job_fail(s->n.job, error);
+        s->units[k] = tn_amount_unit_of(s->n.schema, module->SUM_records[of.sum].power);
+        s->measures.of[k] = s->weights[k];
+        s->measures.most[k] = s->wishes->most[k];
+    }
+    s->measures.count = s->wishes->count;
+    return status;
+}
+
+static tn_status find_values(search *s, tn_houses_aim aim, tn_error *error)
+{
+    const tn_house_wishes *wishes = s->wishes;
+    tn_houses_what what = {.measures = wishes->count ? &s->measures : NULL, .aim = aim, .wanted = wishes->wanted};
+    tn_progress progress;
+    if (wishes->plan) {
+        what.only = s->plan.trays;
+        what.length = (uint32_t)s->plan.length;
+    }
+    tn_progress_watch(&progress, "looking for the best", tn_interrupt_waiting());
+    tn_status status = tn_houses_of(&s->n.form, s->n.record, s->n.plans, &what, s->n.max_states, &s->houses, error);
+    tn_progress_unwatch(&progress, tn_interrupt_waiting());
+    return status;
+}
+
+/* Opens the library and finds the values. False: what was wrong is recorded. */
+static bool begin(search *s, tn_job *job, const tn_house_settings *settings, const tn_house_wishes *wishes,
+                  tn_houses_aim aim)
+{
+    tn_error error = {0};
+    *s = (search){.wishes = wishes};
+    mpz_init(s->count);
+    if (!tn_numbered_open(&s->n, job, settings))
+        return false;
+    tn_status status =
+        wishes->plan ? tn_numbered_plan(&s->n, wishes->plan, settings->max_length, &s->plan, &error) : TN_OK;
+    if (status != TN_OK) {
+        tn_numbered_bad_text(job, &error, "PLAN", wishes->plan);
+        return false;
+    }
+    if (find_measures(s, &error) != TN_OK)
+        return false;
+    status = find_values(s, aim, &error);
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    return status == TN_OK;
+}
+
+static void end(search *s)
+{
+    tn_houses_free(s->houses);
+    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+        tn_house_weights_free(s->weights[k]);
+    free(s->plan.trays);
+    tn_numbered_close(&s->n);
+    mpz_clear(s->count);
+}
+
+/* ---- values */
+
+static bool write_value(const search *s, uint32_t k, bool exact, tn_buffer *text)
+{
+    mpq_t value;
+    mpq_init(value);
+    mpq_set_si(value, s->values[k], 1);
+    mpq_mul(value, value, s->weights[k]->unit);
+    bool ok = (exact ? tn_amount_write_exact : tn_amount_write)(s->units[k], value, text);
+    mpq_clear(value);
+    return ok;
+}
+
+/* "value":"3/2" or "values":["3/2","4"] */
+static bool write_json_values(const search *s, bool list, tn_buffer *text)
+{
+    bool ok = tn_buffer_printf(text, list ? "\"values\":[" : "\"value\":");
+    for (uint32_t k = 0; ok && k < s->wishes->count; k++)
+        ok = tn_buffer_printf(text, k ? ",\"" : "\"") && write_value(s, k, true, text) && tn_buffer_printf(text, "\"");
+    return ok && (!list || tn_buffer_printf(text, "]"));
+}
+
+static tn_status put(const search *s, tn_buffer *text, bool ok, tn_error *error)
+{
+    if (ok)
+        fwrite(text->data, 1, text->size, s->out); /* a failure is said when the output is closed */
+    free(text->data);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+/* ---- best */
+
+static tn_status write_best(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    search *s = context;
+    bool json = s->wishes->json;
+    tn_buffer text = {0}, line = {0};
+    tn_status status = tn_house_write(house, &line, error);
+    bool ok =
+        tn_buffer_printf(&text, json ? "{" : "# ") && (!json || write_json_values(s, s->wishes->count > 1, &text));
+    for (uint32_t k = 0; ok && !json && k < s->wishes->count; k++)
+        ok = tn_buffer_printf(&text, k ? "  " : "") && write_value(s, k, false, &text);
+    ok = ok && tn_buffer_printf(&text, json ? ",\"house\":\"%s\"}\n" : "\n%s\n", line.data ? line.data : "");
+    free(line.data);
+    *stop = ++s->given == s->wishes->wanted;
+    tn_status written = put(s, &text, ok, error);
+    return status == TN_OK ? written : status;
+}
+
+static tn_status write_houses(search *s, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && s->given < s->wishes->wanted && i < tn_houses_points(s->houses); i++) {
+        tn_houses_point(s->houses, i, s->values, s->count);
+        status = tn_houses_point_each(s->houses, i, s->n.variants, write_best, s, error);
+    }
+    return status;
+}
+
+static void write_found(search *s, tn_status write(search *s, tn_error *error))
+{
+    tn_error error = {0};
+    tn_output out;
+    if (!tn_job_output(s->n.job, s->wishes->output, &out))
+        return;
+    s->out = out.stream;
+    tn_status status = write(s, &error);
+    if (status != TN_OK)
+        tn_job_fail(s->n.job, &error);
+    tn_job_close(s->n.job, &out, status == TN_OK);
+}
+
+void tn_job_best_houses(tn_job *job, const tn_house_settings *settings, const tn_house_wishes *wishes)
+{
+    search s;
+    if (begin(&s, job, settings, wishes, TN_HOUSES_LEAST))
+        write_found(&s, write_houses);
+    end(&s);
+}
+
+/* ---- the front */
+
+static tn_status take_line(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    *stop = true;
+    return tn_house_write(house, context, error);
+}
+
+static tn_status write_point(search *s, size_t point, tn_error *error)
+{
+    tn_buffer text = {0}, line = {0}, value = {0};
+    bool json = s->wishes->json, ok = true;
+    tn_houses_point(s->houses, point, s->values, s->count);
+    tn_status status = tn_houses_point_each(s->houses, point, s->n.variants, take_line, &line, error);
+    char *count = tn_digits(s->count, !json);
+    if (json)
+        ok = tn_buffer_printf(&text, point ? ",\n    {" : "\n    {") && write_json_values(s, true, &text);
+    for (uint32_t k = 0; ok && !json && k < s->wishes->count; k++) {
+        value.size = 0;
+        ok = write_value(s, k, false, &value) && tn_buffer_printf(&text, "%18s", value.data);
+    }
+    ok = ok && count && line.data &&
+         (json ? tn_buffer_printf(&text, ",\"houses\":\"%s\",\"house\":\"%s\"}", count, line.data)
+               : tn_buffer_printf(&text, "  %20s  %s\n", count, line.data));
+    free(count);
+    free(line.data);
+    free(value.data);
+    tn_status written = put(s, &text, ok, error);
+    return status == TN_OK ? written : status;
+}
+
+static tn_status write_front(search *s, tn_error *error)
+{
+    tn_status status = TN_OK;
+    bool json = s->wishes->json;
+    fputs(json ? "{\n  \"measures\": [" : "", s->out);
+    for (uint32_t k = 0; k < s->wishes->count; k++)
+        fprintf(s->out, json ? "%s\"%s\"" : "%s%18s", json && k ? ", " : "", measure_name(s, k));
+    if (json)
+        fputs("],\n  \"points\": [", s->out);
+    else
+        fprintf(s->out, "  %20s  %s\n", "houses", "the first of them");
+    for (size_t i = 0; status == TN_OK && i < tn_houses_points(s->houses); i++)
+        status = write_point(s, i, error);
+    fputs(json ? "\n  ]\n}\n" : "", s->out);
+    return status;
+}
+
+void tn_job_front_of_houses(tn_job *job, const tn_house_settings *settings, const tn_house_wishes *wishes)
+{
+    search s;
+    if (begin(&s, job, settings, wishes, TN_HOUSES_FRONT))
+        write_found(&s, write_front);
+    end(&s);
+}
+
+/* ---- open plans */
+
+void tn_job_complete_houses(tn_job *job, const tn_house_settings *settings, const tn_house_wishes *wishes,
+                            const tn_open_plan *open, void show(tn_job *job, const tn_house_completed *completed))
+{
+    search s;
+    tn_completions found = {0};
+    tn_error error = {0};
+    bool begun = begin(&s, job, settings, wishes, TN_HOUSES_COMPLETE);
+    tn_status status = begun ? tn_houses_complete(s.houses, open, &found, &error) : TN_OK;
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    tn_house_completed completed = {.schema = s.n.schema, .library = s.n.record, .open = open, .found = &found};
+    if (wishes->count && s.weights[0]) {
+        completed.measure = measure_name(&s, 0);
+        completed.most = wishes->most[0];
+        completed.step = s.weights[0]->unit;
+        completed.unit = s.units[0];
+    }
+    if (begun && status == TN_OK)
+        show(job, &completed);
+    if (begun)
+        tn_completions_clear(&found);
+    end(&s);
+}

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# The best houses by measures, the best trade-offs, and what open plans leave.
+name=house_best
+. "$(dirname "$0")/golden.bash"
+
+golden best 'tartan best house-measures.plan 3 -l cottages --least floor-area --then-most rooms-value'
+golden best_json 'tartan best house-measures.plan 2 -l cottages --most bedrooms --then-least floor-area --format json'
+golden best_on_plan "tartan best house-measures.plan 2 --plan '#3' --least rooms-value"
+golden best_where 'tartan best house-measures.plan 1 -l cottages --least floor-area --where "quantity(cell(bedroom), n >= 2)"'
+golden best_none 'tartan best house-measures.plan 1 -l cottages --least floor-area --where "quantity(cell(bedroom), n > 90)"'
+golden best_of_plans 'tartan best house-measures.plan 1 -l cottages --least bedroom'
+golden best_picture 'tartan best house-measures.plan 1 -l cottages --least bedrooms -o best.png'
+golden best_database 'tartan best house-measures.plan 1 -l cottages --least bedrooms -o best.sqlite'
+golden best_mirror 'tartan best house-measures.plan 1 -l cottages --least bedrooms --mirror'
+golden best_limit 'tartan best house-measures.plan 1 -l cottages --least bedrooms --max-states 10'
+golden best_bad_plan "tartan best house-measures.plan 1 --plan '#99' --least bedrooms"
+golden best_house_cost 'tartan best house-measures.plan 1 -l cottages --least price'
+golden front 'tartan pareto house-measures.plan -l cottages --least floor-area --most bedrooms'
+golden front_json "tartan pareto house-measures.plan --plan '#3' --least floor-area --most rooms-value --json"
+golden front_one 'tartan pareto house-measures.plan -l cottages --least floor-area'
+golden front_picture 'tartan pareto house-measures.plan -l cottages --least floor-area --most bedrooms -o front.svg'
+golden open_plan "tartan complete house-measures.plan -l cottages \"14' | ? | ...\" --least floor-area"
+golden open_plan_json "tartan complete house-measures.plan -l cottages \"10'\" --json"
+golden open_plan_cells 'tartan complete house-measures.plan -l cottages "cell(bedroom) | ..."'
+
+golden values 'tartan test house-values.plan'
+
+# What completes the plan is what is counted with the pattern as a requirement.
+is 'houses that complete a plan' \
+    "$("$TARTAN" complete cottage -l cottages "14' porch | ... | none" --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["houses"])')" \
+    "$("$TARTAN" count cottage -l cottages --where "plan [14' porch | ... | none]" --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["houses"])')"
+
+finish

@@ -1,0 +1,18 @@
+/* Forms, clauses and measures that are drawn at random, as text: for tests. Asserts with cmocka. */
+#ifndef TARTAN_TEST_DRAWN_HOUSE_H
+#define TARTAN_TEST_DRAWN_HOUSE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* state: where the drawing stands; to begin with any number. */
+typedef struct drawn_house {
+    uint64_t state;
+    char text[8192];
+    size_t size;
+} drawn_house;
+
+/* text := the next file: a schema, a form `huts`, a library `all` without clauses and one with some, and measures. */
+void drawn_house_write(drawn_house *drawn);
+
+#endif

@@ -1,0 +1,378 @@
+/* The best houses by measures, their fronts, and those that complete open plans, against all houses listed. Of forms,
+ * clauses and measures that are drawn. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "runtime/house/strip/best.h"
+#include "tests/support/drawn_house.h"
+#include "tests/support/test_house.h"
+
+enum { HOUSES_MAX = 20000, MEASURES = 2, WANTED = 7, LENGTH_MAX = 2, PLACES = 3 };
+
+typedef struct listed {
+    mpq_t values[MEASURES]; /* with the sign that makes less better */
+    char *line;
+    tn_tray trays[LENGTH_MAX];
+    size_t length;
+} listed;
+
+typedef struct check {
+    const test_house *made;
+    const tn_house_library_record *record;
+    tn_library *plans;
+    tn_house_variants *variants;
+    tn_house_rules *rules;
+    tn_house_weights *weights[MEASURES];
+    tn_house_measures measures;
+    listed houses[HOUSES_MAX], *order[HOUSES_MAX];
+    size_t count, given;
+} check;
+
+static char *line_of(const tn_house *house)
+{
+    tn_buffer line = {0};
+    tn_error error = {0};
+    assert_int_equal(tn_house_write(house, &line, &error), TN_OK);
+    return line.data;
+}
+
+static tn_status list_house(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    check *c = context;
+    if (c->count == HOUSES_MAX) {
+        *stop = true;
+        return TN_OK;
+    }
+    listed *one = &c->houses[c->count++];
+    mpq_t cost;
+    mpq_init(cost);
+    one->line = line_of(house);
+    one->length = house->length;
+    memcpy(one->trays, house->trays, house->length * sizeof *house->trays);
+    assert_int_equal(tn_house_rules_start(c->rules, house, error), TN_OK);
+    for (uint32_t k = 0; k < MEASURES; k++) {
+        mpq_init(one->values[k]);
+        assert_int_equal(tn_house_rules_measure(c->rules, c->measures.of[k]->of, one->values[k], cost, error), TN_OK);
+        if (c->measures.most[k])
+            mpq_neg(one->values[k], one->values[k]);
+    }
+    mpq_clear(cost);
+    return TN_OK;
+}
+
+static void list_houses(check *c)
+{
+    tn_cursor *cursor;
+    tn_error error = {0};
+    const tn_tray *trays;
+    uint32_t length;
+    mpz_t from, to;
+    mpz_inits(from, to, NULL);
+    tn_library_kept(c->plans, TN_ALL_LENGTHS, to);
+    assert_int_equal(tn_cursor_new(c->plans, from, to, &cursor, &error), TN_OK);
+    while (c->count < HOUSES_MAX && tn_cursor_next(cursor, &trays, &length))
+        assert_int_equal(tn_house_variants_each(c->variants, trays, length, from, list_house, c, &error), TN_OK);
+    tn_cursor_free(cursor);
+    mpz_clears(from, to, NULL);
+}
+
+static int compare_values(const listed *a, const listed *b)
+{
+    int order = mpq_cmp(a->values[0], b->values[0]);
+    return order != 0 ? order : mpq_cmp(a->values[1], b->values[1]);
+}
+
+static int compare_listed(const void *left, const void *right)
+{
+    const listed *a = *(listed *const *)left, *b = *(listed *const *)right;
+    int order = compare_values(a, b);
+    return order != 0 ? order : (a > b) - (a < b);
+}
+
+static bool is_bettered(const check *c, const listed *one)
+{
+    for (size_t i = 0; i < c->count; i++) {
+        int first = mpq_cmp(c->houses[i].values[0], one->values[0]);
+        int second = mpq_cmp(c->houses[i].values[1], one->values[1]);
+        if (first <= 0 && second <= 0 && (first < 0 || second < 0))
+            return true;
+    }
+    return false;
+}
+
+/* The next houses of the order are given, one by one. */
+static tn_status expect_next(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    check *c = context;
+    char *line = line_of(house);
+    (void)error;
+    assert_true(c->given < c->count);
+    assert_string_equal(line, c->order[c->given]->line);
+    free(line);
+    *stop = ++c->given == WANTED;
+    return TN_OK;
+}
+
+static size_t same_from(const check *c, size_t at)
+{
+    size_t end = at;
+    while (end < c->count && compare_values(c->order[at], c->order[end]) == 0)
+        end++;
+    return end - at;
+}
+
+static void check_least(check *c, tn_houses *houses)
+{
+    tn_error error = {0};
+    size_t at = 0;
+    int64_t values[TN_WEIGHED_MAX];
+    mpz_t count;
+    mpz_init(count);
+    for (size_t i = 0; i < tn_houses_points(houses); i++) {
+        tn_houses_point(houses, i, values, count);
+        assert_true(at < c->count && at < WANTED);
+        assert_int_equal(mpz_cmp_ui(count, same_from(c, at)), 0);
+        at += same_from(c, at);
+        if (c->given < WANTED)
+            assert_int_equal(tn_houses_point_each(houses, i, c->variants, expect_next, c, &error), TN_OK);
+    }
+    assert_int_equal(c->given, c->count < WANTED ? c->count : WANTED);
+    mpz_clear(count);
+}
+
+/* The first house of a point. */
+static tn_status expect_first(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    (void)error;
+    *stop = true;
+    char *line = line_of(house);
+    assert_string_equal(line, *(char *const *)context);
+    free(line);
+    return TN_OK;
+}
+
+static void check_front(check *c, tn_houses *houses)
+{
+    tn_error error = {0};
+    int64_t values[TN_WEIGHED_MAX];
+    size_t point = 0;
+    mpz_t count;
+    mpz_init(count);
+    for (size_t i = 0; i < c->count; i += same_from(c, i)) {
+        if (is_bettered(c, c->order[i]))
+            continue;
+        assert_true(point < tn_houses_points(houses));
+        tn_houses_point(houses, point, values, count);
+        assert_int_equal(mpz_cmp_ui(count, same_from(c, i)), 0);
+        assert_int_equal(tn_houses_point_each(houses, point, c->variants, expect_first, &c->order[i]->line, &error),
+                         TN_OK);
+        point++;
+    }
+    assert_int_equal(point, tn_houses_points(houses));
+    mpz_clear(count);
+}
+
+static void check_aim(check *c, tn_houses_aim aim)
+{
+    tn_houses *houses;
+    tn_error error = {0};
+    const tn_houses_what what = {.measures = &c->measures, .aim = aim, .wanted = WANTED};
+    assert_int_equal(tn_houses_of(&c->made->form, c->record, c->plans, &what, 0, &houses, &error), TN_OK);
+    c->given = 0;
+    (aim == TN_HOUSES_LEAST ? check_least : check_front)(c, houses);
+    tn_houses_free(houses);
+}
+
+/* ---- open plans */
+
+typedef struct open_pattern {
+    tn_open_tray places[PLACES];
+    bool fits[PLACES][64]; /* of each place, the trays of the schema */
+    size_t count;
+} open_pattern;
+
+/* Some trays, any tray, or a gap. */
+static void draw_pattern(open_pattern *p, uint32_t trays, uint64_t *state)
+{
+    assert_true(trays <= 64);
+    *p = (open_pattern){0};
+    *state = *state * UINT64_C(6364136223846793005) + 1442695040888963407u;
+    uint64_t bits = *state >> 20;
+    p->count = 1 + bits % PLACES;
+    for (size_t i = 0; i < p->count; i++) {
+        uint64_t kind = bits >> (4 + 2 * i) & 3;
+        p->places[i].gap = kind == 0;
+        for (uint32_t t = 0; t < trays; t++)
+            p->fits[i][t] = bits >> (12 + (t + 3 * i) % 24) & 1;
+        p->places[i].fits = kind == 1 ? NULL : p->fits[i];
+    }
+}
+
+/* The leftmost places of the written trays, from place `at` and tray `from` on; false where the plan does not fit. */
+static bool put_places(const open_pattern *p, size_t at, const listed *one, size_t from, size_t *where)
+{
+    if (at == p->count)
+        return from == one->length;
+    if (p->places[at].gap) {
+        for (size_t next = from; next <= one->length; next++)
+            if (put_places(p, at + 1, one, next, where))
+                return true;
+        return false;
+    }
+    where[at] = from;
+    return from < one->length && (!p->places[at].fits || p->places[at].fits[one->trays[from]]) &&
+           put_places(p, at + 1, one, from + 1, where);
+}
+
+typedef struct completed {
+    size_t houses;
+    mpq_t best; /* of the first measure */
+} completed;
+
+static void add_house(const listed *one, completed *to)
+{
+    if (to->houses == 0 || mpq_cmp(one->values[0], to->best) < 0)
+        mpq_set(to->best, one->values[0]);
+    to->houses++;
+}
+
+/* A value of a field at a written tray. */
+static completed list_completed(const check *c, const open_pattern *p, size_t place, uint32_t field, uint32_t value)
+{
+    completed sum = {0};
+    size_t where[PLACES];
+    mpq_init(sum.best);
+    for (size_t i = 0; i < c->count; i++)
+        if (put_places(p, 0, &c->houses[i], 0, where) &&
+            tn_tray_value(c->made->schema, c->houses[i].trays[where[place]], field) == value)
+            add_house(&c->houses[i], &sum);
+    return sum;
+}
+
+static void compare_completed(const check *c, const tn_completions *found, size_t at, const completed *sum)
+{
+    mpq_t best;
+    mpq_init(best);
+    assert_int_equal(mpz_cmp_ui(found->counts[at], sum->houses), 0);
+    mpq_set_si(best, c->measures.most[0] ? -found->best[at] : found->best[at], 1);
+    mpq_mul(best, best, c->weights[0]->unit);
+    if (sum->houses > 0)
+        assert_true(mpq_equal(best, sum->best));
+    mpq_clear(best);
+}
+
+static void check_pattern(const check *c, tn_houses *houses, const open_pattern *p)
+{
+    const tn_schema *schema = c->made->schema;
+    const tn_open_plan open = {.trays = p->places, .count = p->count};
+    tn_completions found;
+    tn_error error = {0};
+    size_t place = 0, where[PLACES], all = 0;
+    assert_int_equal(tn_houses_complete(houses, &open, &found, &error), TN_OK);
+    for (size_t i = 0; i < c->count; i++)
+        all += put_places(p, 0, &c->houses[i], 0, where);
+    assert_int_equal(mpz_cmp_ui(found.plans, all), 0);
+    for (size_t i = 0; i < p->count; i++) {
+        for (uint32_t f = 0; !p->places[i].gap && f < schema->field_count; f++)
+            for (uint32_t v = 0; v < schema->fields[f].value_count; v++) {
+                completed sum = list_completed(c, p, i, f, v);
+                compare_completed(c, &found, place * found.values + schema->value_start[f] + v, &sum);
+                mpq_clear(sum.best);
+            }
+        place += !p->places[i].gap;
+    }
+    assert_int_equal(found.trays, place);
+    tn_completions_clear(&found);
+}
+
+static void check_open_plans(check *c)
+{
+    tn_houses *houses;
+    tn_error error = {0};
+    uint64_t state = c->count;
+    const tn_houses_what what = {.measures = &c->measures, .aim = TN_HOUSES_COMPLETE};
+    assert_int_equal(tn_houses_of(&c->made->form, c->record, c->plans, &what, 0, &houses, &error), TN_OK);
+    for (int i = 0; i < 12; i++) {
+        open_pattern p;
+        draw_pattern(&p, c->made->schema->tray_count, &state);
+        check_pattern(c, houses, &p);
+    }
+    tn_houses_free(houses);
+}
+
+static void check_houses(check *c)
+{
+    for (size_t i = 0; i < c->count; i++)
+        c->order[i] = &c->houses[i];
+    qsort(c->order, c->count, sizeof *c->order, compare_listed);
+    check_aim(c, TN_HOUSES_LEAST);
+    check_aim(c, TN_HOUSES_FRONT);
+    check_open_plans(c);
+}
+
+/* most: a bit for each measure. Returns how many houses there are, 0 where they are too many to be listed. */
+static size_t check_library(const test_house *made, const tn_house_library_record *record, const uint32_t *measures,
+                            uint32_t most)
+{
+    check *c = calloc(1, sizeof *c);
+    tn_error error = {0};
+    const tn_library_options options = {0};
+    assert_non_null(c);
+    c->made = made;
+    c->record = record;
+    c->measures.count = MEASURES;
+    assert_int_equal(tn_library_new(made->schema, record->plans, &options, &c->plans, &error), TN_OK);
+    assert_int_equal(tn_house_variants_new(&made->form, record, 0, &c->variants, &error), TN_OK);
+    assert_int_equal(tn_house_rules_new(&made->form, 0, &c->rules, &error), TN_OK);
+    for (uint32_t k = 0; k < MEASURES; k++) {
+        tn_house_measured measure = tn_house_measured_of(made->form.module, measures[k]);
+        assert_int_equal(tn_house_weights_new(&made->form, measure, &c->weights[k], &error), TN_OK);
+        c->measures.of[k] = c->weights[k];
+        c->measures.most[k] = most >> k & 1;
+    }
+    list_houses(c);
+    size_t count = c->count < HOUSES_MAX ? c->count : 0;
+    if (count > 0)
+        check_houses(c);
+    for (size_t i = 0; i < c->count; i++) {
+        for (uint32_t k = 0; k < MEASURES; k++)
+            mpq_clear(c->houses[i].values[k]);
+        free(c->houses[i].line);
+    }
+    for (uint32_t k = 0; k < MEASURES; k++)
+        tn_house_weights_free(c->weights[k]);
+    tn_house_rules_free(c->rules);
+    tn_house_variants_free(c->variants);
+    tn_library_free(c->plans);
+    free(c);
+    return count;
+}
+
+static void test_drawn(void **state)
+{
+    (void)state;
+    drawn_house d = {.state = 11};
+    uint32_t libraries = 0;
+    for (uint32_t i = 0; i < 60; i++) {
+        test_house made;
+        drawn_house_write(&d);
+        test_house_compile(&made, d.text);
+        uint32_t measures = (uint32_t)made.module->HOUSE_MEASURE_count + (uint32_t)made.module->MEASURE_count;
+        const uint32_t two[MEASURES] = {i % measures, (i + 1 + i / measures % (measures - 1)) % measures};
+        libraries += check_library(&made, made.some, two, i % 4) > 0;
+        test_house_clear(&made);
+    }
+    assert_true(libraries > 7);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_drawn)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
