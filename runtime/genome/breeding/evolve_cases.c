@@ -2,6 +2,7 @@
  * parents were, and finds the errors only of the members that it goes on with. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/genome/breeding/evolve_state.h"
 
@@ -24,6 +25,49 @@ static tn_status find_errors(void *context, unsigned thread, size_t item, tn_err
     return status;
 }
 
+/* ---- with other ranks: of each member its number, then its errors */
+
+static size_t errors_size(const void *context, size_t item)
+{
+    const tn_evolution *e = context;
+    (void)item;
+    return sizeof item + e->evaluator.cases * sizeof(double);
+}
+
+static uint8_t *write_errors(const void *context, size_t item, uint8_t *end)
+{
+    const tn_lexicase *lexicase = &((const tn_evolution *)context)->lexicase;
+    memcpy(end, &item, sizeof item);
+    end += sizeof item;
+    for (size_t i = 0; i < lexicase->cases; i++, end += sizeof(double))
+        memcpy(end, &lexicase->errors[i * lexicase->members + item], sizeof(double));
+    return end;
+}
+
+static const uint8_t *read_errors(void *context, const uint8_t *bytes)
+{
+    tn_lexicase *lexicase = &((tn_evolution *)context)->lexicase;
+    size_t item;
+    memcpy(&item, bytes, sizeof item);
+    bytes += sizeof item;
+    for (size_t i = 0; i < lexicase->cases; i++, bytes += sizeof(double))
+        memcpy(&lexicase->errors[i * lexicase->members + item], bytes, sizeof(double));
+    return bytes;
+}
+
+static tn_status find_all(tn_evolution *e, tn_error *error)
+{
+    const tn_shared_work work = {.context = e,
+                                 .items = e->member_count,
+                                 .work = find_errors,
+                                 .size = errors_size,
+                                 .write = write_errors,
+                                 .read = read_errors};
+    if (tn_ranks_several(e->settings.ranks))
+        return tn_evolution_share(e, &work, error);
+    return tn_crew_run(e->crew, e->member_count, 8, find_errors, e, error);
+}
+
 tn_status tn_evolution_find_cases(tn_evolution *e, tn_error *error)
 {
     uint64_t parents[2];
@@ -35,7 +79,7 @@ tn_status tn_evolution_find_cases(tn_evolution *e, tn_error *error)
         return TN_OK;
     tn_status status = tn_lexicase_new(e->member_count, e->evaluator.cases, e->threads, &e->lexicase, error);
     if (status == TN_OK)
-        status = tn_crew_run(e->crew, e->member_count, 8, find_errors, e, error);
+        status = find_all(e, error);
     if (status == TN_OK && selection == TN_SELECT_EPSILON_LEXICASE)
         status = tn_lexicase_find_epsilons(&e->lexicase, error);
     return status;

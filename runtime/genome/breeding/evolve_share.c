@@ -1,32 +1,33 @@
-/* Scores that several processes find together: each takes sentences from a counter that all share, and tells the others
- * what they scored. All have the same sentences to do, in the same order. */
+/* Work that several processes do together: each takes items from a counter that all share, and tells the others what it
+ * found. All have the same items, in the same order. Scores of sentences are found so. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/genome/breeding/evolve_state.h"
 
-#define TAKES 16 /* times that a thread goes to the counter, where sentences take equally long */
+#define TAKES 16 /* times that a thread goes to the counter, where items take equally long */
 
 typedef struct sharing {
-    tn_scoring *scoring;
+    tn_evolution *evolution;
+    const tn_shared_work *work;
     const tn_ranks *ranks;
-    size_t items, amount; /* batches, and how many are taken at once */
-    bool *mine;           /* [items]: evaluated here */
+    size_t amount; /* of items that are taken at once */
+    bool *mine;    /* [items]: done here */
 } sharing;
 
 /* Nobody begins any more: one that failed makes the others wait for nothing. */
 static void take_the_rest(const sharing *s)
 {
-    s->ranks->take(s->ranks->context, s->items);
+    s->ranks->take(s->ranks->context, s->work->items);
 }
 
 static tn_status do_items(sharing *s, unsigned thread, uint64_t from, uint64_t to, tn_error *error)
 {
     tn_status status = TN_OK;
     for (uint64_t item = from; status == TN_OK && item < to; item++) {
-        status = tn_watch_check(s->scoring->evolution->settings.watch, error);
+        status = tn_watch_check(s->evolution->settings.watch, error);
         if (status == TN_OK)
-            status = tn_scoring_item(s->scoring, thread, (size_t)item, error);
+            status = s->work->work(s->work->context, thread, (size_t)item, error);
         s->mine[item] = status == TN_OK;
     }
     return status;
@@ -37,73 +38,39 @@ static tn_status take_part(void *context, unsigned thread, size_t place, tn_erro
 {
     (void)place;
     sharing *s = context;
+    size_t items = s->work->items;
     tn_status status = TN_OK;
     while (status == TN_OK) {
         uint64_t from = s->ranks->take(s->ranks->context, s->amount);
-        if (from >= s->items)
+        if (from >= items)
             return TN_OK;
-        status = do_items(s, thread, from, from + s->amount < s->items ? from + s->amount : s->items, error);
+        status = do_items(s, thread, from, from + s->amount < items ? from + s->amount : items, error);
     }
     take_the_rest(s);
     return status;
 }
 
-/* ---- what ranks tell each other: an item's number, then score and message of each individual of it */
+/* ---- what ranks tell each other */
 
-typedef struct entry {
-    uint32_t place; /* among those to do */
-    uint32_t message_size;
-    tn_score score;
-} entry;
-
-static size_t items_size(const sharing *s, size_t item, size_t *begin)
-{
-    *begin = item * s->scoring->batch;
-    size_t left = s->scoring->todo - *begin;
-    return left < s->scoring->batch ? left : s->scoring->batch;
-}
-
-static tn_individual *individual_at(const sharing *s, size_t place)
-{
-    return s->scoring->individuals[s->scoring->evolution->todo[place]];
-}
-
-/* What was scored here. NULL: out of memory. */
+/* What was found here. NULL: out of memory. */
 static uint8_t *write_mine(const sharing *s, size_t *size)
 {
-    size_t begin, room = 1;
-    for (size_t item = 0; item < s->items; item++)
-        room += s->mine[item] ? items_size(s, item, &begin) * (sizeof(entry) + sizeof individual_at(s, 0)->message) : 0;
+    const tn_shared_work *work = s->work;
+    size_t room = 1;
+    for (size_t item = 0; item < work->items; item++)
+        room += s->mine[item] ? work->size(work->context, item) : 0;
     uint8_t *bytes = malloc(room), *end = bytes;
-    for (size_t item = 0; bytes && item < s->items; item++) {
-        size_t count = s->mine[item] ? items_size(s, item, &begin) : 0;
-        for (size_t i = 0; i < count; i++) {
-            const tn_individual *individual = individual_at(s, begin + i);
-            entry e;
-            memset(&e, 0, sizeof e);
-            e.place = (uint32_t)(begin + i);
-            e.message_size = (uint32_t)strlen(individual->message);
-            e.score = individual->score;
-            memcpy(end, &e, sizeof e);
-            memcpy(end + sizeof e, individual->message, e.message_size);
-            end += sizeof e + e.message_size;
-        }
-    }
+    for (size_t item = 0; bytes && item < work->items; item++)
+        if (s->mine[item])
+            end = work->write(work->context, item, end);
     *size = bytes ? (size_t)(end - bytes) : 0;
     return bytes;
 }
 
 static void read_theirs(const sharing *s, const uint8_t *bytes, const uint8_t *end)
 {
-    while (bytes < end) {
-        entry e;
-        memcpy(&e, bytes, sizeof e);
-        tn_individual *individual = individual_at(s, e.place);
-        individual->score = e.score;
-        memcpy(individual->message, bytes + sizeof e, e.message_size);
-        individual->message[e.message_size] = '\0';
-        bytes += sizeof e + e.message_size;
-    }
+    while (bytes < end)
+        bytes = s->work->read(s->work->context, bytes);
 }
 
 static tn_status exchange(const sharing *s, tn_status status, tn_error *error)
@@ -125,13 +92,14 @@ static tn_status exchange(const sharing *s, tn_status status, tn_error *error)
     return status;
 }
 
-tn_status tn_scoring_share(tn_scoring *scoring, tn_error *error)
+tn_status tn_evolution_share(tn_evolution *e, const tn_shared_work *work, tn_error *error)
 {
-    tn_evolution *e = scoring->evolution;
     const tn_ranks *ranks = e->settings.ranks;
-    sharing s = {.scoring = scoring, .ranks = ranks, .items = (scoring->todo + scoring->batch - 1) / scoring->batch};
-    s.amount = s.items / ((size_t)ranks->count * e->threads * TAKES) + 1;
-    s.mine = calloc(s.items + 1, sizeof *s.mine);
+    sharing s = {.evolution = e,
+                 .work = work,
+                 .ranks = ranks,
+                 .amount = work->items / ((size_t)ranks->count * e->threads * TAKES) + 1,
+                 .mine = calloc(work->items + 1, sizeof *s.mine)};
     ranks->restart(ranks->context);
     tn_status status = s.mine ? tn_crew_run(e->crew, e->threads, 1, take_part, &s, error) : tn_fail_memory(error);
     if (status != TN_OK)
@@ -139,4 +107,70 @@ tn_status tn_scoring_share(tn_scoring *scoring, tn_error *error)
     status = exchange(&s, status, error);
     free(s.mine);
     return status;
+}
+
+/* ---- scores: of each individual its place, score and message */
+
+typedef struct entry {
+    uint32_t place; /* among those to do */
+    uint32_t message_size;
+    tn_score score;
+} entry;
+
+static tn_individual *individual_at(const tn_scoring *scoring, size_t place)
+{
+    return scoring->individuals[scoring->evolution->todo[place]];
+}
+
+static size_t batch_of(const tn_scoring *scoring, size_t item)
+{
+    size_t left = scoring->todo - item * scoring->batch;
+    return left < scoring->batch ? left : scoring->batch;
+}
+
+static size_t scores_size(const void *context, size_t item)
+{
+    const tn_scoring *scoring = context;
+    return batch_of(scoring, item) * (sizeof(entry) + sizeof individual_at(scoring, 0)->message);
+}
+
+static uint8_t *write_scores(const void *context, size_t item, uint8_t *end)
+{
+    const tn_scoring *scoring = context;
+    for (size_t i = 0; i < batch_of(scoring, item); i++) {
+        size_t place = item * scoring->batch + i;
+        const tn_individual *individual = individual_at(scoring, place);
+        entry e;
+        memset(&e, 0, sizeof e);
+        e.place = (uint32_t)place;
+        e.message_size = (uint32_t)strlen(individual->message);
+        e.score = individual->score;
+        memcpy(end, &e, sizeof e);
+        memcpy(end + sizeof e, individual->message, e.message_size);
+        end += sizeof e + e.message_size;
+    }
+    return end;
+}
+
+static const uint8_t *read_score(void *context, const uint8_t *bytes)
+{
+    const tn_scoring *scoring = context;
+    entry e;
+    memcpy(&e, bytes, sizeof e);
+    tn_individual *individual = individual_at(scoring, e.place);
+    individual->score = e.score;
+    memcpy(individual->message, bytes + sizeof e, e.message_size);
+    individual->message[e.message_size] = '\0';
+    return bytes + sizeof e + e.message_size;
+}
+
+tn_status tn_scoring_share(tn_scoring *scoring, tn_error *error)
+{
+    const tn_shared_work work = {.context = scoring,
+                                 .items = (scoring->todo + scoring->batch - 1) / scoring->batch,
+                                 .work = tn_scoring_item,
+                                 .size = scores_size,
+                                 .write = write_scores,
+                                 .read = read_score};
+    return tn_evolution_share(scoring->evolution, &work, error);
 }

@@ -121,6 +121,19 @@ typedef struct tn_scoring {
 /* Evaluates one batch: those to do from item * batch on. */
 tn_status tn_scoring_item(void *scoring, unsigned thread, size_t item, tn_error *error);
 
+/* Items that ranks share, and how one tells the others what it found. */
+typedef struct tn_shared_work {
+    void *context;
+    size_t items;
+    tn_crew_work *work;                                                /* one item */
+    size_t (*size)(const void *context, size_t item);                  /* bytes that its results take, at most */
+    uint8_t *(*write)(const void *context, size_t item, uint8_t *end); /* where they end */
+    const uint8_t *(*read)(void *context, const uint8_t *bytes);       /* one result; where the next begins */
+} tn_shared_work;
+
+/* Together: does the items with the other ranks of the settings, each once; then all know the results. */
+tn_status tn_evolution_share(tn_evolution *evolution, const tn_shared_work *work, tn_error *error);
+
 /* Evaluates all batches together with the other ranks of the settings. */
 tn_status tn_scoring_share(tn_scoring *scoring, tn_error *error);
 

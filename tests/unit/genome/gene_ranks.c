@@ -10,12 +10,13 @@
 #define STDLIB TARTAN_SOURCE_DIR "/stdlib/"
 #define RANKS 4u
 #define STEPS 8
+#define CASES 11u
 
 typedef struct trial {
     int variant;
     tn_problem *problem;
     tn_grammar *grammar;
-    atomic_ullong evaluated;
+    atomic_ullong evaluated, errors_found;
     unsigned long long fails_at; /* the evaluation that fails; 0: none */
     tn_evolution *evolutions[RANKS];
     tn_status status[RANKS];
@@ -51,6 +52,18 @@ static tn_status evaluate_many(void *context, unsigned thread, struct tn_individ
     return status;
 }
 
+/* How far letters are from those of a text. */
+static tn_status evaluate_cases(void *context, unsigned thread, const char *sentence, size_t size, double *errors,
+                                tn_error *error)
+{
+    trial *t = context;
+    (void)thread, (void)error;
+    t->errors_found++;
+    for (size_t i = 0; i < CASES; i++)
+        errors[i] = i < size ? fabs((double)sentence[i] - "hello world"[i]) : HUGE_VAL;
+    return TN_OK;
+}
+
 static tn_evolution *evolution_of(trial *t, const tn_ranks *ranks)
 {
     tn_evolution_settings settings = tn_evolution_settings_default();
@@ -62,7 +75,11 @@ static tn_evolution *evolution_of(trial *t, const tn_ranks *ranks)
     settings.ranks = ranks;
     settings.select.selection = t->variant % 2 ? TN_SELECT_NSGA2 : TN_SELECT_TOURNAMENT;
     settings.replacement = t->variant == 2 ? TN_REPLACE_STEADY : TN_REPLACE_GENERATION;
-    if (t->variant >= 3) {
+    if (t->variant >= 5) {
+        evaluator.cases = CASES;
+        evaluator.evaluate_cases = evaluate_cases;
+        settings.select.selection = t->variant == 5 ? TN_SELECT_LEXICASE : TN_SELECT_EPSILON_LEXICASE;
+    } else if (t->variant >= 3) {
         evaluator.evaluate_many = evaluate_many;
         evaluator.batch = 5;
     }
@@ -110,13 +127,15 @@ static void clear(trial *t)
 static void test_same_run(void **state)
 {
     (void)state;
-    for (int variant = 0; variant < 5; variant++) {
+    for (int variant = 0; variant < 7; variant++) {
         trial t = trial_of(variant);
         tn_evolution *alone = evolution_of(&t, NULL);
         for (int g = 0; g < STEPS; g++)
             assert_int_equal(tn_evolution_step(alone, NULL), TN_OK);
+        unsigned long long errors_found = t.errors_found;
         for (unsigned ranks = 2; ranks <= RANKS; ranks++) {
             t.evaluated = 0;
+            t.errors_found = 0;
             test_ranks_run(ranks, breed, &t);
             for (unsigned r = 0; r < ranks; r++) {
                 assert_int_equal(t.status[r], TN_OK);
@@ -125,6 +144,7 @@ static void test_same_run(void **state)
                 t.evolutions[r] = NULL;
             }
             assert_int_equal(t.evaluated, tn_evolution_stats(alone).evaluations); /* each sentence once */
+            assert_int_equal(t.errors_found, errors_found);
         }
         tn_evolution_free(alone);
         clear(&t);
