@@ -38,10 +38,15 @@ struct tn_external {
 static tn_status make_folder(tn_external *p, tn_error *error)
 {
     const char *under = getenv("TMPDIR");
-    if (asprintf(&p->folder, "%s/tartan-XXXXXX", under && *under ? under : "/tmp") < 0) {
+    under = under && *under ? under : "/tmp";
+    char *whole = realpath(under, NULL); /* programs run in other folders */
+    if (!whole)
+        return tn_cannot_make(under, errno, error);
+    if (asprintf(&p->folder, "%s/tartan-XXXXXX", whole) < 0)
         p->folder = NULL;
+    free(whole);
+    if (!p->folder)
         return tn_fail_memory(error);
-    }
     if (mkdtemp(p->folder))
         return TN_OK;
     int reason = errno;

@@ -128,6 +128,7 @@ form wants '  grammar "genr8-dividing"; grow "wants.growth.study"' '  selection 
 form design '  design "top.solid"'
 form field '  parent "sphere"; parent "torus"; grid 12' '  selection nsga2'
 form kit '  grammar "kit-rules"; place "room.kit"'
+export TMPDIR=tmp # from here on by another name; programs run in a folder of their own
 for kind in bare wants design field kit; do
     for threads in 1 2; do
         "$TARTAN" evolve $kind.study -o $threads.run --run-programs --threads $threads >said 2>&1 || fail "$kind: $(cat said)"
@@ -138,6 +139,14 @@ for kind in bare wants design field kit; do
     nothing_left $kind
 done
 is 'the objectives' "$(paste -sd' ' heads)" 'file,individual,score file,individual,undulation,program,program 2 file,individual,score file,individual,program,program 2 file,individual,score'
+
+TMPDIR=none exits 3 "$TARTAN" evolve bare.study -o none.run --run-programs
+
+# ---- a module that was built of a study, beside it
+"$TARTAN" build good.study -o good.tnb
+"$TARTAN" evolve good.tnb -o built --run-programs -g 2 >/dev/null || fail 'no run of a module'
+"$TARTAN" evolve good.study -o plain --run-programs -g 2 >/dev/null
+cmp built/stats.csv plain/stats.csv || fail 'a module makes another run than its study'
 
 # ---- a surface's score is that of its goals and, weighed, that of the program
 printf '#!/bin/sh\nwhile read -r line; do echo 0; done\n' >programs/nothing.sh
