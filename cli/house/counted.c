@@ -275,6 +275,20 @@ static tn_status tally_clauses(const tn_numbered *n, const tn_plan *plan, house_
     return status == TN_OK ? tally_alone(n, plan, tally, error) : status;
 }
 
+tn_status tn_numbered_clauses(tn_numbered *n, mpz_t *kept_out, mpz_t *alone, tn_error *error)
+{
+    house_tally tally;
+    tn_status status = tally_new(n, &tally) ? tally_all(n, NULL, &tally, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tally_clauses(n, NULL, &tally, error);
+    for (uint32_t i = 0; status == TN_OK && i < n->record->clause_count; i++) {
+        mpz_set(kept_out[i], tally.kept_out[i]);
+        mpz_set(alone[i], tally.alone[i]);
+    }
+    tally_free(n, &tally);
+    return status;
+}
+
 /* ---- writing */
 
 enum { LABEL_WIDTH = 24, COUNT_WIDTH = 24 };

@@ -58,6 +58,10 @@ typedef struct tn_house_range {
 void tn_job_list_houses(tn_job *job, const tn_house_settings *settings, const char *plan, const tn_house_range *range,
                         const struct tn_written_settings *written);
 
+/* Appends a page about a library of houses, with so many of them drawn with the seed. False where that failed. */
+bool tn_job_report_houses(tn_job *job, const tn_house_settings *settings, size_t wanted, uint64_t seed,
+                          tn_buffer *page);
+
 /* How two libraries of houses are compared: so many houses of each kind are shown, drawn with the seed; so many are
  * compared one by one (0: the default). */
 typedef struct tn_house_comparing {

@@ -33,6 +33,10 @@ void tn_numbered_other_close(tn_numbered *other);
 /* How many houses are on plans of each length from low to high. */
 tn_status tn_numbered_lengths(tn_numbered *n, uint32_t low, uint32_t high, mpz_t *lengths, tn_error *error);
 
+/* How many of the houses that the form allows each clause keeps out, and how many only it; arrays of a number for each
+ * clause. */
+tn_status tn_numbered_clauses(tn_numbered *n, mpz_t *kept_out, mpz_t *alone, tn_error *error);
+
 /* All houses together, in n->all: counted now or before. TN_LIMIT (E1640) where that takes too much. */
 tn_status tn_numbered_all(tn_numbered *n, tn_error *error);
 

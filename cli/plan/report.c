@@ -8,6 +8,7 @@
 #include "cli/common/option_rows.h"
 #include "cli/common/progress.h"
 #include "cli/plan/library_job.h"
+#include "driver/house/judge.h"
 #include "driver/open/findings.h"
 #include "driver/report/kit_report.h"
 #include "driver/report/report.h"
@@ -28,6 +29,7 @@ static const report_settings *settings_of(const tn_job *job)
 
 #define SAMPLES_DEFAULT 24
 #define SAMPLES_MAX 2000
+#define HOUSES_DEFAULT 6
 
 /* ---- where the page goes */
 
@@ -112,6 +114,38 @@ static void report(tn_job *job, const tn_ready_library *ready, const char *path)
     free(page.data);
 }
 
+/* Is the library that is named one of houses; or, where none is, is all that the file itself has one of these? */
+static bool is_about_houses(const tn_job *job)
+{
+    const tn_module *module = job->opened.module;
+    const char *name = settings_of(job)->plans.library;
+    bool plans = false;
+    for (uint32_t i = 0; i < module->LIBRARY_count; i++)
+        plans = plans || !(module->LIBRARY_records[i].flags & TN_IMPORTED);
+    return (name || !plans) && tn_house_library_find(module, name) != TN_NO_RECORD;
+}
+
+static void report_houses(tn_job *job)
+{
+    const report_settings *settings = settings_of(job);
+    const tn_house_settings houses = tn_job_houses(&settings->plans);
+    const tn_plan_analysis_options analysis = {.max_states = (uint32_t)settings->plans.max_states.value,
+                                               .threads = tn_job_threads(&settings->plans)};
+    tn_plan_analyses analyses = {0};
+    page_path path;
+    tn_buffer page = {0};
+    if (take_path(job, &path) && make_folder(job)) {
+        tn_status status = tn_plan_analyse(&job->opened, &analysis, &analyses); /* its warnings are on the page */
+        tn_job_status(job, status);
+        if (status == TN_OK &&
+            tn_job_report_houses(job, &houses, settings->sample.given ? settings->sample.value : HOUSES_DEFAULT,
+                                 settings->seed.value, &page))
+            write_page(job, path.text, &page);
+    }
+    tn_plan_analyses_free(&analyses);
+    free(page.data);
+}
+
 static void report_library(tn_job *job)
 {
     const report_settings *settings = settings_of(job);
@@ -119,6 +153,8 @@ static void report_library(tn_job *job)
     page_path path;
     if (!settings->output || strcmp(settings->output, "-") == 0)
         tn_job_usage(job, "report needs -o FOLDER, a folder to write into");
+    else if (is_about_houses(job))
+        report_houses(job);
     else if (take_path(job, &path) && tn_job_opened_library(job, &settings->plans, &ready) && make_folder(job))
         report(job, &ready, path.text);
     tn_library_close(&ready);
@@ -220,7 +256,8 @@ static const tn_option options[] = {
          "kit, "
          "- or nothing is standard output"),
     NUMBER("sample", 0, "N", sample, 1, SAMPLES_MAX,
-           "show N plans that are kept, and of N that are generated those that are dropped (default 24)"),
+           "show N plans that are kept, and of N that are generated those that are dropped (default 24); or N houses "
+           "(default 6)"),
     NUMBER("seed", 's', "S", seed, 0, 0, "which sample; of a kit, the seed of its models (default 0)"),
     NUMBER("pictures", 0, "N", pictures, 1, SIZE_MAX, "of a kit: draw its first N parts (default 500)"),
     NUMBER("part-limit", 0, "N", part_limit, 1, UINT32_MAX, "of a kit: the most parts of a model (default 1000)"),
@@ -238,12 +275,15 @@ static const tn_option options[] = {
 const tn_command tn_command_report = {
     .name = "report",
     .summary = "write a library, or a kit, as an HTML page",
-    .usage = "FILE -o FOLDER\nFILE.kit [-o PAGE.html]",
+    .usage = "FILE -o FOLDER\nFILE --library HOUSES -o FOLDER\nFILE.kit [-o PAGE.html]",
     .description =
         "Writes one page that needs no server and no network. It shows the library's counts by length as a chart; "
         "every rule with its picture, its text, its counts, how it relates to the other rules, the plans that "
         "prove it, and which of its parts the tests notice; the warnings of checking; and a sample of plans, kept "
         "and dropped, with the reasons. The sample can be filtered.\n\n"
+        "Of a library of houses, the page shows how many houses there are and what each clause keeps out; some of the "
+        "houses, drawn; and the form: its storeys, its functions and where they may be, its openings, and its tiles, "
+        "drawn with their boxes.\n\n"
         "Of a kit, the page shows its models, each placed with the seed, drawn, measured and held to what it requires; "
         "which connectors join; which rule places which parts; and every part with a picture of its connectors. Limits "
         "keep this short: what could not be placed within them is said on the page, and the exit code is 0.",

@@ -8,6 +8,9 @@ golden bad_face "tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat
 golden short "tartan house cottage \"10' room:14' porch:5' | 14' room:14' none ; 2 shed(back,4:12) 1 flat ; living bedroom porch-deck | kitchen bedroom ; wall wall open window wall window wall window wall window window wall wall window ; bed.back counter.back bed.back.m\""
 golden rooms "tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; counter.back\" -o $scratch/rooms.csv && cat $scratch/rooms.csv"
 golden no_plan "tartan house cottage ''"
+golden elsewhere_function "tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; porch-deck ; wall window wall wall\""
+golden unknown_kind "tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall gate\""
+golden other_tile "tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; bed.back\""
 golden bad_value "tartan house cottage \"13' room:14' none\""
 golden no_section "tartan house cottage \"14' room:14' none\""
 golden bad_function "tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; study\""
@@ -191,6 +194,40 @@ while IFS=$'\t' read -r rank number line; do
     is "house $rank by its plan" "$("$TARTAN" unrank cottage -l cottages "$number")" "$line"
 done <"$scratch/names"
 is 'houses sampled' "$(wc -l <"$scratch/names")" 20
+
+# A page about a library of houses: all of the form is on it, the counts are those of `count`, and it is the same again.
+if grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; then
+    "$TARTAN" report "$files/huts.plan" -l huts --seed 2 --sample 3 -o "$scratch/page"
+    "$TARTAN" report "$files/huts.plan" -l huts --seed 2 --sample 3 -o "$scratch/again.html"
+    cmp "$scratch/page/index.html" "$scratch/again.html" || fail 'another page'
+    "$TARTAN" count "$files/huts.plan" -l huts --clauses --json >"$scratch/counts.json"
+    python3 - "$scratch/again.html" "$scratch/counts.json" <<'PY' || fail 'the page of houses'
+import json, re, sys
+from html.parser import HTMLParser
+page, counts = open(sys.argv[1]).read(), json.load(open(sys.argv[2]))
+assert f"<b>{int(counts['houses']):,}</b> houses" in page
+for which in ('kept_out', 'only'):
+    for clause, number in counts[which].items():
+        assert f'<td class="number">{int(number):,}</td>' in page, clause
+for word in ('ground', 'loft', 'living', 'porch-deck', 'a sash', 'cell(body, ground, 14'):
+    assert word in page, word
+assert page.count('<div class="card">') == 2 and page.count('kept free</title>') == 2  # tiles, and what they keep free
+assert page.count('<p class="line">#') == 3
+open_tags, void = [], {'meta', 'br', 'input', 'img', 'path', 'rect', 'use'}
+class Check(HTMLParser):
+    def handle_starttag(self, tag, attrs):
+        if tag not in void:
+            open_tags.append(tag)
+    def handle_startendtag(self, tag, attrs):
+        pass
+    def handle_endtag(self, tag):
+        if tag not in void:
+            assert tag in open_tags, tag
+Check().feed(page)
+assert not re.search(r'(src|href)="https?:', page)
+PY
+    golden report_nowhere "tartan report cottage -l cottage -o $scratch/page"
+fi
 
 # Questions about plans leave what a file says of houses alone, or say that it is about houses.
 golden library_of_houses 'tartan prune cottage -l cottages </dev/null'

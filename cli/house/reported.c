@@ -1,0 +1,110 @@
+/* Answers `tartan report` about libraries of houses: counts, draws a sample, and hands both to the page. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/house/sampled.h"
+#include "driver/report/house_report.h"
+#include "runtime/base/integers.h"
+
+/* What is counted and drawn for the page. */
+typedef struct tn_reported_houses {
+    tn_house_report page;
+    tn_reported_house *houses;
+    size_t room;
+    tn_error limit;
+} tn_reported_houses;
+
+static size_t length_count(const tn_house_report *page)
+{
+    return (size_t)page->high - page->low + 1;
+}
+
+/* A count that takes too much is left out, and the page says why. */
+static tn_status count(tn_numbered *n, tn_reported_houses *r, tn_error *error)
+{
+    tn_house_report *page = &r->page;
+    uint32_t clauses = n->record->clause_count;
+    page->low = tn_library_min(n->plans);
+    page->high = tn_library_max(n->plans) < page->low ? page->low : tn_library_max(n->plans);
+    page->lengths = tn_integers_new(length_count(page));
+    page->kept_out = tn_integers_new(clauses);
+    page->alone = tn_integers_new(clauses);
+    if (!page->lengths || !page->kept_out || !page->alone)
+        return tn_fail_memory(error);
+    tn_status status = tn_numbered_lengths(n, page->low, page->high, page->lengths, error);
+    bool counted = status == TN_OK;
+    if (counted)
+        status = tn_numbered_clauses(n, page->kept_out, page->alone, error);
+    if (status != TN_LIMIT)
+        return status;
+    r->limit = *error;
+    page->limit = r->limit.message;
+    tn_integers_free(page->kept_out, clauses);
+    tn_integers_free(page->alone, clauses);
+    page->kept_out = page->alone = NULL;
+    if (!counted) {
+        tn_integers_free(page->lengths, length_count(page));
+        page->lengths = NULL;
+    }
+    return TN_OK;
+}
+
+static tn_status collect(void *context, tn_house *house, const mpz_t rank, const mpz_t variant, tn_error *error)
+{
+    tn_reported_houses *r = context;
+    tn_reported_house *reported = &r->houses[r->page.house_count++];
+    (void)variant;
+    reported->house = *house;
+    *house = (tn_house){0};
+    if (gmp_asprintf(&reported->name, "#%Zd", rank) < 0) {
+        reported->name = NULL;
+        return tn_fail_memory(error);
+    }
+    return tn_house_solids(&reported->house, &reported->solids, error);
+}
+
+/* Where all houses cannot be numbered, none is drawn. */
+static tn_status sample(tn_numbered *n, tn_reported_houses *r, size_t wanted, tn_error *error)
+{
+    r->houses = calloc(wanted + 1, sizeof *r->houses);
+    r->page.houses = r->houses;
+    if (!r->houses)
+        return tn_fail_memory(error);
+    return r->page.lengths ? tn_numbered_sample(n, NULL, wanted, r->page.seed, collect, r, error) : TN_OK;
+}
+
+static void clear(const tn_numbered *n, tn_reported_houses *r)
+{
+    for (size_t i = 0; i < r->page.house_count; i++) {
+        tn_solids_clear(&r->houses[i].solids);
+        tn_house_clear(&r->houses[i].house);
+        free(r->houses[i].name);
+    }
+    free(r->houses);
+    tn_integers_free(r->page.lengths, length_count(&r->page));
+    tn_integers_free(r->page.kept_out, n->record ? n->record->clause_count : 0);
+    tn_integers_free(r->page.alone, n->record ? n->record->clause_count : 0);
+}
+
+bool tn_job_report_houses(tn_job *job, const tn_house_settings *settings, size_t wanted, uint64_t seed, tn_buffer *page)
+{
+    tn_numbered n = {0};
+    tn_error error;
+    tn_reported_houses r = {.page = {.opened = &job->opened, .seed = seed}};
+    bool good = false;
+    if (tn_numbered_open(&n, job, settings)) {
+        r.page.form = &n.form;
+        r.page.library = n.record;
+        tn_status status = count(&n, &r, &error);
+        if (status == TN_OK)
+            status = sample(&n, &r, wanted, &error);
+        if (status == TN_OK)
+            status = tn_house_report_page(&r.page, page, &error);
+        good = status == TN_OK;
+        if (!good)
+            tn_job_fail(job, &error);
+    }
+    clear(&n, &r);
+    tn_numbered_close(&n);
+    return good;
+}
