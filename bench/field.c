@@ -10,43 +10,9 @@
 #include <string.h>
 #include <sys/resource.h>
 
-#include "bench/bench.h"
-#include "runtime/field/contour.h"
+#include "bench/field_mesh.h"
 
 enum { RUNS_MAX = 101 };
-
-static int compare(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-static double median(double *times, int count)
-{
-    qsort(times, (size_t)count, sizeof *times, compare);
-    return times[count / 2];
-}
-
-static double mesh_once(const tn_module *module, uint32_t surface, uint32_t samples, unsigned threads, size_t *faces)
-{
-    clockid_t clock = threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
-    double begun = seconds(clock);
-    tn_field field;
-    tn_contour contour;
-    tn_error error;
-    tn_status status = tn_field_read(module, surface, NULL, &field, &error);
-    if (status == TN_OK) {
-        tn_field_grid grid = tn_field_grid_of(&field, samples);
-        status = tn_contour_new(&field, &grid, &(tn_contour_options){.threads = threads}, &contour, &error);
-    }
-    if (status != TN_OK)
-        stop(error.message);
-    double took = seconds(clock) - begun;
-    *faces = contour.mesh.face_count;
-    tn_contour_clear(&contour);
-    tn_field_clear(&field);
-    return took;
-}
 
 /* Seconds a sample, of a block of 64 x 16 rows of 256 samples. */
 static double evaluate(const tn_module *module, uint32_t surface, bool interpret)
@@ -93,6 +59,7 @@ int main(int argc, char **argv)
     tn_module *module = load_module(argv[1]);
     uint32_t samples = (uint32_t)atoi(argv[2]);
     unsigned threads = (unsigned)atoi(argv[3]);
+    clockid_t clock = threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
     int runs = atoi(argv[4]) < RUNS_MAX ? atoi(argv[4]) : RUNS_MAX;
     if (runs < 1 || samples < 2)
         stop("give a grid and how many runs");
@@ -100,7 +67,7 @@ int main(int argc, char **argv)
         double times[RUNS_MAX];
         size_t faces = 0;
         for (int i = 0; i < runs; i++)
-            times[i] = mesh_once(module, s, samples, threads, &faces);
+            times[i] = mesh_once(module, s, samples, threads, clock, &faces);
         printf("%s %zu %.6f\n", tn_text(module, module->SURFACE_records[s].name), faces, median(times, runs));
     }
     for (uint32_t s = 0; s < module->SURFACE_count; s++)
