@@ -302,9 +302,9 @@ tn_status tn_count_buildings(const tn_place_rules *rules, const bool *wanted, ui
     if (status == TN_OK && parts > 1 && lattice.look_count > 0)
         status = count_sets(&lattice, NULL, parts, threads, watch, &counts->fixed, error);
     if (status == TN_OK && !fixed && lattice.look_count > 0) {
-        status = tn_count_turned(&lattice, parts, 2, watch, &counts->half, error);
+        status = tn_count_turned(&lattice, parts, 2, threads, watch, &counts->half, error);
         if (status == TN_OK)
-            status = tn_count_turned(&lattice, parts, 1, watch, &counts->quarter, error);
+            status = tn_count_turned(&lattice, parts, 1, threads, watch, &counts->quarter, error);
     }
     counts->buildings = (counts->fixed + counts->half + 2 * counts->quarter) / 4; /* Burnside */
     tn_lattice_clear(&lattice);

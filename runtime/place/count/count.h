@@ -43,7 +43,7 @@ tn_status tn_visit_sets(const tn_lattice *lattice, const uint8_t *forbidden, uin
                         tn_slots_visit *visit, void *context, tn_error *error);
 
 /* Those that are taken to themselves by quarter turns, so many at once (1 or 2), about any vertical. */
-tn_status tn_count_turned(const tn_lattice *lattice, uint32_t parts, uint32_t turns, tn_watch *watch, uint64_t *count,
-                          tn_error *error);
+tn_status tn_count_turned(const tn_lattice *lattice, uint32_t parts, uint32_t turns, unsigned threads, tn_watch *watch,
+                          uint64_t *count, tn_error *error);
 
 #endif

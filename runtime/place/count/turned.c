@@ -2,11 +2,14 @@
  * They are few beside all buildings, as a third of the parts or so can be chosen.
  *
  * Sets of orbits grow as in count.c. Parts of a connected set of orbits may still fall into pieces, which is looked at
- * when all are there. Where the axis stands matters up to steps of the lattice. */
+ * when all are there. Where the axis stands matters up to steps of the lattice. Threads share the axes and the slots of
+ * the lowest parts. */
 #include "runtime/place/count/count.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+#include "runtime/base/crew.h"
 
 enum { IMAGES = 4 };
 
@@ -19,7 +22,6 @@ typedef struct turning {
     const tn_lattice *l;
     uint32_t parts, turns;
     int32_t axis[2]; /* twice where it stands along x and z, in cells */
-    int32_t *axes;   /* such numbers for which some part has its image on the lattice, up to steps of it */
     uint8_t *marks;  /* [slot]: of an orbit's lowest: it was seen */
     size_t *chosen;  /* slots of the parts that are there */
     size_t *untried; /* for each number of chosen orbits */
@@ -162,13 +164,11 @@ static tn_status count_from(turning *t, size_t slot)
     return grow(t, 0, 0, slot, 1);
 }
 
-/* All buildings about one axis: their lowest slots lie at height 0. */
-static tn_status count_about(turning *t)
+/* Some of the slots at height 0, where the lowest of a building lies. */
+static tn_status count_slots(turning *t, size_t from, size_t to)
 {
-    size_t layer = (size_t)t->l->side[0] * (size_t)t->l->side[2] * t->l->look_count;
-    size_t first = (size_t)t->l->reach[1] * layer;
     tn_status status = TN_OK;
-    for (size_t slot = first; slot < first + layer && status == TN_OK; slot++) {
+    for (size_t slot = from; slot < to && status == TN_OK; slot++) {
         int32_t corner[3];
         tn_slot_look(t->l, slot, corner);
         if (tn_watch_stopped_at(t->watch, slot))
@@ -193,48 +193,87 @@ static bool is_listed(const int32_t *axes, size_t count, int32_t axis)
 /* An image's corner is the axis's number less the corner and the extent, and a multiple of the step like the corner. Of
  * quarter turns (turn_slot) half the sum of the two numbers takes that place, and half their difference is such a
  * multiple: up to steps of the lattice the two are equal. */
-static size_t list_axes(turning *t)
+static size_t list_axes(const tn_lattice *l, int32_t *axes)
 {
     size_t count = 0;
-    int32_t step = t->l->step[0];
-    for (uint32_t look = 0; look < t->l->look_count; look++) {
+    int32_t step = l->step[0];
+    for (uint32_t look = 0; look < l->look_count; look++) {
         for (int k = 0; k < 3; k += 2) {
-            int32_t rest = t->l->looks[look].size[k] % step;
-            if (is_listed(t->axes, count, rest))
+            int32_t rest = l->looks[look].size[k] % step;
+            if (is_listed(axes, count, rest))
                 continue;
-            t->axes[count++] = rest;
-            t->axes[count++] = rest + step;
+            axes[count++] = rest;
+            axes[count++] = rest + step;
         }
     }
     return count;
 }
 
-tn_status tn_count_turned(const tn_lattice *lattice, uint32_t parts, uint32_t turns, tn_watch *watch, uint64_t *count,
-                          tn_error *error)
+enum { PIECES = 64 }; /* that the slots at height 0 are divided into: one is an item of work */
+
+typedef struct turned_work {
+    const tn_lattice *l;
+    uint32_t turns;
+    int32_t *axes; /* numbers for which some part has its image on the lattice, up to steps of it */
+    size_t axis_count;
+    turning *threads;
+} turned_work;
+
+static tn_status count_item(void *context, unsigned thread, size_t item, tn_error *error)
 {
-    turning t = {.l = lattice, .parts = parts, .turns = turns, .watch = watch, .error = error, .room = 1};
-    tn_status status = TN_OK;
-    for (uint32_t look = 0; look < lattice->look_count; look++)
-        t.room += parts * (size_t)lattice->looks[look].joining_count;
-    t.marks = calloc(lattice->slot_count, sizeof *t.marks);
-    t.chosen = calloc(parts + IMAGES, sizeof *t.chosen);
-    t.untried = calloc(t.room * ((size_t)parts + 1), sizeof *t.untried);
-    t.axes = calloc(4 * (size_t)lattice->look_count, sizeof *t.axes);
-    if (!t.marks || !t.chosen || !t.untried || !t.axes)
-        status = tn_fail_memory(error);
-    size_t axes = status == TN_OK ? list_axes(&t) : 0;
-    for (size_t i = 0; i < axes && status == TN_OK; i++) {
-        for (size_t j = 0; j < axes && status == TN_OK; j++) {
-            t.axis[0] = t.axes[i];
-            t.axis[1] = t.axes[j];
-            if (turns == 2 || i == j)
-                status = count_about(&t);
-        }
+    const turned_work *w = context;
+    turning *t = &w->threads[thread];
+    size_t axis = item / PIECES, piece = item % PIECES;
+    size_t layer = (size_t)w->l->side[0] * (size_t)w->l->side[2] * w->l->look_count;
+    size_t first = (size_t)w->l->reach[1] * layer;
+    t->axis[0] = w->axes[w->turns == 2 ? axis / w->axis_count : axis];
+    t->axis[1] = w->axes[w->turns == 2 ? axis % w->axis_count : axis];
+    t->error = error;
+    return count_slots(t, first + layer * piece / PIECES, first + layer * (piece + 1) / PIECES);
+}
+
+static tn_status make_threads(turned_work *w, uint32_t parts, unsigned threads, tn_watch *watch, tn_error *error)
+{
+    size_t room = 1;
+    for (uint32_t look = 0; look < w->l->look_count; look++)
+        room += parts * (size_t)w->l->looks[look].joining_count;
+    w->axes = calloc(4 * (size_t)w->l->look_count, sizeof *w->axes);
+    w->threads = calloc(threads, sizeof *w->threads);
+    if (!w->axes || !w->threads)
+        return tn_fail_memory(error);
+    for (unsigned i = 0; i < threads; i++) {
+        turning *t = &w->threads[i];
+        *t = (turning){.l = w->l, .parts = parts, .turns = w->turns, .watch = watch, .room = room};
+        t->marks = calloc(w->l->slot_count, sizeof *t->marks);
+        t->chosen = calloc(parts + IMAGES, sizeof *t->chosen);
+        t->untried = calloc(room * ((size_t)parts + 1), sizeof *t->untried);
+        if (!t->marks || !t->chosen || !t->untried)
+            return tn_fail_memory(error);
     }
-    *count = t.count;
-    free(t.marks);
-    free(t.axes);
-    free(t.chosen);
-    free(t.untried);
+    return TN_OK;
+}
+
+tn_status tn_count_turned(const tn_lattice *lattice, uint32_t parts, uint32_t turns, unsigned threads, tn_watch *watch,
+                          uint64_t *count, tn_error *error)
+{
+    turned_work w = {.l = lattice, .turns = turns};
+    tn_crew *crew = tn_crew_new(threads, watch);
+    unsigned made = crew ? tn_crew_threads(crew) : 0;
+    tn_status status = crew ? make_threads(&w, parts, made, watch, error) : tn_fail_memory(error);
+    if (status == TN_OK) {
+        w.axis_count = list_axes(lattice, w.axes);
+        size_t axes = turns == 2 ? w.axis_count * w.axis_count : w.axis_count;
+        status = tn_crew_run(crew, PIECES * axes, 1, count_item, &w, error);
+    }
+    *count = 0;
+    for (unsigned i = 0; w.threads && i < made; i++) {
+        *count += w.threads[i].count;
+        free(w.threads[i].marks);
+        free(w.threads[i].chosen);
+        free(w.threads[i].untried);
+    }
+    free(w.threads);
+    free(w.axes);
+    tn_crew_free(crew);
     return status;
 }

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "driver/place/asked.h"
-#include "tests/support/failing_memory.h"
+#include "tests/support/fail_each.h"
 
 static tn_opened opened;
 
@@ -96,38 +96,22 @@ static tn_status require(void)
     return status;
 }
 
-static void fail_each(tn_status (*what)(void))
-{
-    assert_int_equal(what(), TN_OK);
-    for (int all_after = 0; all_after < 2; all_after++) {
-        for (size_t number = 0;; number++) {
-            fail_allocation(number, all_after);
-            tn_status status = what();
-            if (stop_failing() <= number) {
-                assert_int_equal(status, TN_OK);
-                break;
-            }
-            assert_true(status == TN_MEMORY || status == TN_OK);
-        }
-    }
-}
-
 static void fitness(void **state)
 {
     (void)state;
-    fail_each(by_fitness);
+    fail_each(by_fitness, false);
 }
 
 static void wrong_fitness(void **state)
 {
     (void)state;
-    fail_each(by_wrong_fitness);
+    fail_each(by_wrong_fitness, true);
 }
 
 static void requirements(void **state)
 {
     (void)state;
-    fail_each(require);
+    fail_each(require, true);
 }
 
 int main(void)

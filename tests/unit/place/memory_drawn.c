@@ -11,7 +11,7 @@
 
 #include "driver/open/open.h"
 #include "driver/place/drawn.h"
-#include "tests/support/failing_memory.h"
+#include "tests/support/fail_each.h"
 
 static const char kit[] = "unit 10 x 8 x 10;\n"
                           "connector stud joins tube turns 4; connector tube joins stud turns 4;\n"
@@ -86,32 +86,16 @@ static tn_status as_kit(void)
     return status;
 }
 
-static void fail_each(tn_status (*what)(void))
-{
-    assert_int_equal(what(), TN_OK);
-    for (int all_after = 0; all_after < 2; all_after++) {
-        for (size_t number = 0;; number++) {
-            fail_allocation(number, all_after);
-            tn_status status = what();
-            if (stop_failing() <= number) {
-                assert_int_equal(status, TN_OK);
-                break;
-            }
-            assert_true(status == TN_MEMORY || status == TN_OK);
-        }
-    }
-}
-
 static void grammar_of_a_model(void **state)
 {
     (void)state;
-    fail_each(as_grammar);
+    fail_each(as_grammar, false);
 }
 
 static void kit_of_a_model(void **state)
 {
     (void)state;
-    fail_each(as_kit);
+    fail_each(as_kit, false);
 }
 
 int main(void)

@@ -15,7 +15,7 @@
 #include "runtime/place/count/count.h"
 #include "runtime/place/search/search.h"
 #include "runtime/place/steps.h"
-#include "tests/support/failing_memory.h"
+#include "tests/support/fail_each.h"
 
 static const char kit[] =
     "unit 10 x 8 x 10;\nconnector stud joins tube every 20;\nconnector tube joins stud every 20;\n"
@@ -202,33 +202,16 @@ static tn_status run_files(void)
     return status;
 }
 
-static void fail_each(tn_status (*what)(void))
-{
-    assert_int_equal(what(), TN_OK);
-    for (int all_after = 0; all_after < 2; all_after++) {
-        for (size_t number = 0;; number++) {
-            fail_allocation(number, all_after);
-            tn_status status = what();
-            bool reached = stop_failing() > number;
-            if (!reached) {
-                assert_int_equal(status, TN_OK);
-                break;
-            }
-            assert_true(status == TN_MEMORY || (!all_after && status == TN_OK));
-        }
-    }
-}
-
 static void every_allocation(void **state)
 {
     (void)state;
-    fail_each(run);
+    fail_each(run, false);
 }
 
 static void every_allocation_of_files(void **state)
 {
     (void)state;
-    fail_each(run_files);
+    fail_each(run_files, false);
 }
 
 int main(void)

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "driver/place/placer.h"
-#include "tests/support/failing_memory.h"
+#include "tests/support/fail_each.h"
 
 static const char kit[] =
     "unit 10 x 8 x 10;\n"
@@ -61,26 +61,10 @@ static tn_status score(void)
     return status;
 }
 
-static void fail_each(tn_status (*what)(void))
-{
-    assert_int_equal(what(), TN_OK);
-    for (int all_after = 0; all_after < 2; all_after++) {
-        for (size_t number = 0;; number++) {
-            fail_allocation(number, all_after);
-            tn_status status = what();
-            if (stop_failing() <= number) {
-                assert_int_equal(status, TN_OK);
-                break;
-            }
-            assert_true(status == TN_MEMORY || status == TN_OK);
-        }
-    }
-}
-
 static void scoring(void **state)
 {
     (void)state;
-    fail_each(score);
+    fail_each(score, false);
 }
 
 int main(void)
