@@ -6,8 +6,9 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/genome/evolution_session.h"
-#include "driver/breed/choice.h"
+#include "cli/genome/prompt.h"
 #include "driver/breed/evolve_sheet.h"
+#include "driver/hand/choice.h"
 
 /* Reads a line of choices and says what is wrong with it. */
 static bool read_choice(const char *line, size_t members, tn_choices *choices)
@@ -30,19 +31,6 @@ static bool read_choice(const char *line, size_t members, tn_choices *choices)
 
 typedef enum answer { PARENTS, CHANGED, NOTHING_MORE } answer;
 
-/* "set gravity 0 0 -0.2": a change of the run, made at once. False where it is none that can be. */
-static bool change(tn_evolution_session *e, char *line)
-{
-    tn_error error;
-    line[strcspn(line, "\r\n")] = '\0';
-    if (tn_run_set(&e->run, line + strspn(line, " "), &error) == TN_OK)
-        return true;
-    puts(error.message);
-    if (error.help[0])
-        puts(error.help);
-    return false;
-}
-
 /* Asks until there is an answer. */
 static answer ask(tn_evolution_session *e, size_t members, tn_choices *c)
 {
@@ -50,7 +38,7 @@ static answer ask(tn_evolution_session *e, size_t members, tn_choices *c)
     size_t capacity = 0;
     answer given = NOTHING_MORE;
     for (bool answered = false; !answered;) {
-        printf("parents? (numbers; set NAME VALUE; an empty line ends) ");
+        printf("parents? (numbers; set, insert, edit or out; an empty line ends) ");
         fflush(stdout);
         tn_interrupt_asking(true);
         bool read = !tn_interrupted() && getline(&line, &capacity, stdin) >= 0;
@@ -59,9 +47,10 @@ static answer ask(tn_evolution_session *e, size_t members, tn_choices *c)
             putchar('\n');
             break;
         }
-        bool changes = strncmp(line, "set ", 4) == 0;
-        answered = changes ? change(e, line + 4) : read_choice(line, members, c);
-        given = changes ? CHANGED : c->count > 0 ? PARENTS : NOTHING_MORE;
+        tn_prompt_answer done = tn_prompt_do(e, line);
+        bool command = done != TN_PROMPT_NOT_A_COMMAND;
+        answered = command ? done == TN_PROMPT_DONE : read_choice(line, members, c);
+        given = command ? CHANGED : c->count > 0 ? PARENTS : NOTHING_MORE;
     }
     free(line);
     return given;
@@ -120,8 +109,10 @@ const tn_command tn_command_breed = {
     .description =
         "Like evolve, but you choose the parents of each generation: a sheet shows every individual with its "
         "number, and you type the numbers of those that are to have children. 3*2 counts twice as much as 3, and #41 "
-        "is the individual with the id 41, of any generation. `set gravity 0 0 -0.2` or `set mutation codons 0.05` "
-        "changes the run from here on, as --set does. Fields and designs can be weighed: 3@0.4 gives the "
+        "is the individual with the id 41, of any generation. `set gravity 0 0 -0.2`, `set mutation codons 0.05` "
+        "or `set population 30` changes the run from here on, as --set does. `insert FILE` puts a sentence of your own "
+        "into the generation, in the place of the worst; `edit 3` opens the third in your editor (`edit 3 FILE` takes "
+        "what a file says) and puts it back; `out 3` takes it out. Fields and designs can be weighed: 3@0.4 gives the "
         "children less "
         "of 3. Your "
         "choices are stored with the run, so it can be replayed and continued. A population of 12 to 24 suits a "

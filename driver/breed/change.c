@@ -21,7 +21,26 @@ static bool begins_with(const char *text, const char *word)
 
 bool tn_change_varies(const char *change)
 {
-    return begins_with(change, "mutation") || begins_with(change, "crossover");
+    return begins_with(change, "mutation") || begins_with(change, "crossover") || tn_change_resizes(change);
+}
+
+bool tn_change_resizes(const char *change)
+{
+    return begins_with(change, "population");
+}
+
+tn_status tn_change_population(const char *change, uint32_t *population, tn_error *error)
+{
+    char *end;
+    const char *word = change + strlen("population"), *digits = word + strspn(word, " ");
+    unsigned long long number = strtoull(digits, &end, 10);
+    if (*digits >= '0' && *digits <= '9' && end[strspn(end, " ")] == '\0' && number <= TN_POPULATION_MAX) {
+        *population = (uint32_t)number;
+        return TN_OK;
+    }
+    tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.100s` is no size of a population", change);
+    tn_error_help(error, "write `population 30`; at most %u", TN_POPULATION_MAX);
+    return TN_INVALID;
 }
 
 static bool is_force(const char *change)

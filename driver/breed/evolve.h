@@ -16,6 +16,7 @@
 #include "driver/breed/learn.h"
 #include "driver/program/program_scorer.h"
 #include "driver/breed/skeleton.h"
+#include "driver/hand/by_hand.h"
 #include "driver/open/open.h"
 #include "driver/place/placer.h"
 #include "runtime/genome/breeding/problem.h"
@@ -99,6 +100,8 @@ typedef struct tn_run {
     tn_run_event *
         changes; /* of targets, weights and inputs: all that were made, the last `new_changes` of them not stored yet */
     size_t change_count, new_changes;
+    tn_run_event *waiting; /* what was stored to be done by hand before the next generation */
+    size_t waiting_count;
     tn_rescored *rescored; /* by those */
     size_t rescored_count;
 } tn_run;
@@ -122,6 +125,21 @@ tn_status tn_run_step(tn_run *run, const tn_chosen *chosen, size_t chosen_count,
  * change is stored with the next generation. A change that holds already changes nothing, so that the same words may be
  * said at every resuming. */
 tn_status tn_run_set(tn_run *run, const char *change, tn_error *error);
+
+/* Inserts an individual, edits one or takes one out, as an event of by_hand.h says it; stored with the next generation.
+ */
+tn_status tn_run_by_hand(tn_run *run, const char *kind, const char *text, tn_error *error);
+
+/* What sentences of the job are, for what a person writes (driver/hand/by_hand.h). */
+tn_by_hand_language tn_evolution_job_language(const tn_evolution_job *job);
+
+#define TN_SENTENCE_FILE_MAX ((size_t)1 << 20) /* bytes of a sentence that is inserted */
+
+/* Stores such an event in the run of a folder, to be done when the run goes on: the sentence of `file` goes to the
+ * place of `member`, or (TN_NO_PARENT) of the worst; with file NULL the member is taken out. `sentence`: what the file
+ * says in one line, which an error may be about; the caller frees it. The others are cleared as after a replay. */
+tn_status tn_run_leave(const char *dir, const char *kind, const char *file, uint64_t member, tn_opened *opened,
+                       tn_evolution_job *job, tn_run *run, char **sentence, tn_error *error);
 
 /* Is the best score as good as `stop` asks for? */
 bool tn_run_reached(const tn_run *run);

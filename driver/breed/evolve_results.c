@@ -42,7 +42,9 @@ static void write_origin(const tn_run *run, const tn_individual *individual, FIL
     fprintf(out, "# individual %" PRIu64 ", seed %" PRIu64, individual->id, run->job->settings.seed);
     bool child = individual->parents[0] != TN_NO_PARENT;
     uint8_t kind = individual->kind & (uint8_t)~TN_BIRTH_MUTATED;
-    if (kind == TN_BIRTH_SEED)
+    if (kind == TN_BIRTH_INSERTED)
+        fputs("\n# written by hand", out);
+    else if (kind == TN_BIRTH_SEED)
         fputs("\n# as it was given", out);
     else if (kind == TN_BIRTH_CROSSED)
         fprintf(out, "\n# a child of %" PRIu64 " and %" PRIu64, individual->parents[0], individual->parents[1]);

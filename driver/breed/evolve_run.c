@@ -1,4 +1,4 @@
-/* Begins or resumes a run in a folder, steps it, changes it and replays it. */
+/* Begins or resumes a run in a folder, steps it and changes it. */
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -9,10 +9,11 @@
 
 #include "compiler/evolution/evolution.h"
 #include "driver/breed/change.h"
-#include "driver/breed/choice.h"
 #include "driver/breed/evolve.h"
 #include "driver/breed/evolve_history.h"
+#include "driver/breed/evolve_replay.h"
 #include "driver/breed/inputs.h"
+#include "driver/hand/choice.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
 #include "runtime/numeric/numeric.h"
@@ -28,6 +29,7 @@ void tn_run_clear(tn_run *run)
     tn_evolution_free(run->evolution);
     tn_run_store_free(run->store);
     tn_run_events_free(run->changes, run->change_count);
+    tn_run_events_free(run->waiting, run->waiting_count);
     free(run->rescored);
     free(run->dir);
     *run = (tn_run){0};
@@ -68,7 +70,7 @@ static void start_anew(tn_error *error)
 
 /* Scores, and what is grown again of a genome, hang on the last digits of elementary functions. Runs from before these
  * had versions were made with the first. */
-static tn_status same_arithmetic(const tn_run *run, tn_error *error)
+tn_status tn_run_same_arithmetic(const tn_run *run, tn_error *error)
 {
     char *stored;
     tn_status status = tn_run_store_get_meta(run->store, "arithmetic", &stored, error);
@@ -167,9 +169,18 @@ static tn_status rescore(tn_run *run, tn_error *error)
     return tn_ranks_agree(run->job->settings.ranks, status, error);
 }
 
-/* Genomes vary otherwise from here on; scores stay. */
+static tn_status resize(tn_run *run, const char *change, tn_error *error)
+{
+    uint32_t population;
+    tn_status status = tn_change_population(change, &population, error);
+    return status == TN_OK ? tn_evolution_resize(run->evolution, population, error) : status;
+}
+
+/* Children are made otherwise from here on, or more or fewer of them; scores stay. */
 static tn_status vary(tn_run *run, const char *change, tn_error *error)
 {
+    if (tn_change_resizes(change))
+        return resize(run, change, error);
     const tn_vary_options *now = tn_evolution_varies(run->evolution);
     if (!now) {
         tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.100s` is about genomes of codons, and this run has others",
@@ -206,8 +217,58 @@ tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
     return status == TN_OK && !varies ? rescore(run, error) : status;
 }
 
+/* ---- by hand */
+
+/* Together: what is remembered is stored with the next generation, or was (`stored`). */
+static tn_status do_by_hand(tn_run *run, const char *kind, const char *text, uint32_t generation, bool stored,
+                            tn_error *error)
+{
+    char *said;
+    tn_status status = tn_by_hand_do(run->evolution, kind, text, &said, error);
+    if (status == TN_OK)
+        status = remember_change(run, generation, kind, said, error);
+    free(said);
+    status = tn_ranks_agree(run->job->settings.ranks, status, error);
+    if (status == TN_OK && !stored)
+        run->new_changes++;
+    return status;
+}
+
+tn_status tn_run_by_hand(tn_run *run, const char *kind, const char *text, tn_error *error)
+{
+    if (run->generations > 0)
+        return do_by_hand(run, kind, text, run->generations, false, error);
+    tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "the run has not begun yet");
+    tn_error_help(error, "first individuals of a study are its `seeds`");
+    return TN_INVALID;
+}
+
+/* ---- repeating */
+
+/* Scores after a change; of those who were taken out after it, those that they were born with. */
+typedef struct known_scores {
+    tn_rescored_list *list;
+    const tn_run_scores *births;
+} known_scores;
+
+static bool recall_known(void *context, uint64_t id, tn_score *score)
+{
+    known_scores *known = context;
+    tn_run_scores births = *known->births;
+    return tn_rescored_recall(known->list, id, score) || tn_run_scores_recall(&births, id, score);
+}
+
+static tn_status repeat_by_hand(tn_run *run, const tn_run_event *event, const tn_run_scores *births, tn_error *error)
+{
+    tn_run_scores scores = *births;
+    tn_evolution_recall(run->evolution, tn_run_scores_recall, &scores);
+    tn_status status = do_by_hand(run, event->kind, event->text, event->generation, true, error);
+    tn_evolution_recall(run->evolution, NULL, NULL);
+    return status;
+}
+
 /* One stored change, made again; the members' scores only after the last of a generation, when they were stored. */
-static tn_status repeat_change(tn_run *run, const tn_run_event *event, tn_rescored_list *list, tn_error *error)
+static tn_status repeat_change(tn_run *run, const tn_run_event *event, known_scores *known, tn_error *error)
 {
     const tn_evaluator *evaluator = &run->job->evaluator;
     bool set = strcmp(event->kind, "set") == 0, varies = set && tn_change_varies(event->text);
@@ -220,7 +281,7 @@ static tn_status repeat_change(tn_run *run, const tn_run_event *event, tn_rescor
     status = tn_ranks_agree(run->job->settings.ranks, status, error);
     if (status != TN_OK || varies)
         return status;
-    tn_evolution_recall(run->evolution, tn_rescored_recall, list);
+    tn_evolution_recall(run->evolution, recall_known, known);
     return tn_evolution_rescore(run->evolution, error);
 }
 
@@ -242,8 +303,10 @@ static tn_status repeat_step(tn_run *run, const tn_run_history *history, size_t 
     for (; status == TN_OK && *at < history->event_count && history->events[*at].generation == run->generations;
          ++*at) {
         const tn_run_event *event = &history->events[*at];
+        known_scores known = {&history->rescored[*at], &history->scores};
         status = strcmp(event->kind, "choose") == 0 ? repeat_choice(run, event, error)
-                                                    : repeat_change(run, event, &history->rescored[*at], error);
+                 : tn_by_hand(event->kind)          ? repeat_by_hand(run, event, &history->scores, error)
+                                                    : repeat_change(run, event, &known, error);
     }
     tn_run_scores scores = history->scores;
     tn_evolution_recall(run->evolution, tn_run_scores_recall, &scores);
@@ -257,8 +320,17 @@ static tn_status repeat_step(tn_run *run, const tn_run_history *history, size_t 
     return tn_ranks_agree(run->job->settings.ranks, status, error);
 }
 
+static tn_status keep_waiting(tn_run *run, const tn_run_event *event, tn_error *error)
+{
+    if (!tn_array_resize(&run->waiting, run->waiting_count + 1, sizeof *run->waiting))
+        return tn_fail_memory(error);
+    tn_run_event *kept = &run->waiting[run->waiting_count++];
+    *kept = (tn_run_event){event->generation, strdup(event->kind), strdup(event->text)};
+    return kept->kind && kept->text ? TN_OK : tn_fail_memory(error);
+}
+
 /* Together: makes the stored generations again, without evaluating; up to the one that `until` is born in, or all. */
-static tn_status repeat(tn_run *run, uint64_t until, tn_error *error)
+tn_status tn_run_repeat(tn_run *run, uint64_t until, tn_error *error)
 {
     tn_run_history history;
     tn_status status =
@@ -266,12 +338,26 @@ static tn_status repeat(tn_run *run, uint64_t until, tn_error *error)
     for (size_t i = 0; status == TN_OK && i < history.event_count; i++)
         if (strcmp(history.events[i].kind, "choose") == 0 && tn_choices_have_ids(history.events[i].text))
             tn_evolution_remember(run->evolution);
+    size_t done = 0;
     for (size_t at = 0; status == TN_OK && run->generations < history.generations; run->generations++) {
-        if (until != UINT64_MAX && until / run->job->settings.population < run->generations)
+        if (until < tn_evolution_next_id(run->evolution))
             break;
         status = repeat_step(run, &history, &at, error);
+        done = at;
     }
+    for (size_t i = done; status == TN_OK && i < history.event_count; i++)
+        if (history.events[i].generation == history.generations)
+            status = keep_waiting(run, &history.events[i], error);
     tn_run_history_clear(&history);
+    return status;
+}
+
+/* Together: what was stored to be done before the next generation. */
+static tn_status do_waiting(tn_run *run, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < run->waiting_count && status == TN_OK; i++)
+        status = tn_run_by_hand(run, run->waiting[i].kind, run->waiting[i].text, error);
     return status;
 }
 
@@ -346,7 +432,7 @@ static tn_status open_or_begin(tn_run *run, const char *path, const tn_run_optio
     *goes_on = true;
     status = tn_run_store_open(path, options->durable, false, &run->store, error);
     if (status == TN_OK)
-        status = same_arithmetic(run, error);
+        status = tn_run_same_arithmetic(run, error);
     if (status == TN_OK)
         status = same_study(run, error);
     return status == TN_OK ? same_grammar(run, texts->grammar_text, error) : status;
@@ -392,8 +478,10 @@ tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_opti
     status = tn_ranks_agree(ranks, status, error);
     if (status != TN_OK || !tn_ranks_any(ranks, goes_on))
         return status;
-    status = repeat(run, UINT64_MAX, error);
-    return status == TN_OK ? same_inputs(run, options->rescore, error) : status;
+    status = tn_run_repeat(run, UINT64_MAX, error);
+    if (status == TN_OK)
+        status = same_inputs(run, options->rescore, error);
+    return status == TN_OK ? do_waiting(run, error) : status;
 }
 
 /* ---- going on */
@@ -446,6 +534,7 @@ tn_status tn_run_step(tn_run *run, const tn_chosen *chosen, size_t chosen_count,
     if (status == TN_OK) {
         run->generations++;
         run->new_changes = 0;
+        run->rescored_count = 0;
     }
     free(events);
     free(text);
@@ -456,102 +545,4 @@ bool tn_run_reached(const tn_run *run)
 {
     const tn_setting_value *stop = &run->job->study.of[TN_SET_STOP];
     return stop->written && run->generations && tn_evolution_stats(run->evolution).best[0] <= stop->first;
-}
-
-/* ---- replay */
-
-static tn_status compile_stored(tn_run *run, tn_opened *opened, tn_error *error)
-{
-    char *path = NULL, *text = NULL;
-    tn_status status = tn_run_store_get_meta(run->store, "grammar_path", &path, error);
-    if (status == TN_OK)
-        status = tn_run_store_get_meta(run->store, "grammar", &text, error);
-    if (status == TN_OK && path && !path[0]) { /* of forms: the study stands alone */
-        free(path);
-        free(text);
-        path = strdup("run.study");
-        text = NULL;
-        status = path ? tn_run_store_get_meta(run->store, "study", &text, error) : tn_fail_memory(error);
-    }
-    if (status == TN_OK && (!path || !text))
-        status = tn_fail(error, TN_INVALID, E_RUN_DATABASE, "the run's database holds no grammar");
-    if (status == TN_OK && tn_open_bytes(path, (const uint8_t *)text, strlen(text), false, opened) != TN_OK)
-        status =
-            tn_fail(error, TN_INVALID, E_RUN_DIFFERS, "the run's grammar does not compile with this version of tartan");
-    free(path);
-    free(text);
-    return status;
-}
-
-/* The settings of the stored study; its texts live in the arena of `opened`. */
-static tn_status read_stored(tn_run *run, tn_opened *opened, tn_evolution_study *study, tn_error *error)
-{
-    char *text = NULL;
-    uint32_t file;
-    tn_compilation *c = &opened->compilation;
-    tn_status status = tn_run_store_get_meta(run->store, "study", &text, error);
-    if (status == TN_OK && !text)
-        status = tn_fail(error, TN_INVALID, E_RUN_DATABASE, "the run's database holds no study");
-    if (status == TN_OK)
-        status = tn_sources_add(&c->sources, "run.study", text, strlen(text), &file, error);
-    if (status == TN_OK && !tn_evolution_settings_read(&c->sources, file, &c->diagnostics, c->arena, study))
-        status = tn_fail(error, TN_INVALID, E_RUN_DIFFERS, "the run's study cannot be read by this version of tartan");
-    free(text);
-    return status;
-}
-
-static tn_status stored_number(tn_run *run, const char *key, uint64_t *number, tn_error *error)
-{
-    char *text = NULL;
-    tn_status status = tn_run_store_get_meta(run->store, key, &text, error);
-    if (status == TN_OK && !(text && *text))
-        status = tn_fail(error, TN_INVALID, E_RUN_DATABASE, "the run's database does not say its %s", key);
-    if (status == TN_OK)
-        *number = strtoull(text, NULL, 10);
-    free(text);
-    return status;
-}
-
-tn_status tn_run_replay(const char *dir, uint64_t id, tn_opened *opened, tn_evolution_job *job, tn_run *run,
-                        const tn_individual **individual, tn_error *error)
-{
-    tn_evolution_study study;
-    tn_evolution_job_options options = {.only_replay = true, .says_seed = true};
-    char *seeds = NULL, *path = tn_run_database(dir);
-    *individual = NULL;
-    *run = (tn_run){.job = job, .dir = strdup(dir)};
-    tn_status status =
-        path && run->dir ? tn_run_store_open(path, false, true, &run->store, error) : tn_fail_memory(error);
-    free(path);
-    if (status == TN_OK)
-        status = same_arithmetic(run, error);
-    if (status == TN_OK)
-        status = compile_stored(run, opened, error);
-    if (status == TN_OK)
-        status = read_stored(run, opened, &study, error);
-    if (status == TN_OK)
-        status = stored_number(run, "seed", &options.seed, error);
-    if (status == TN_OK)
-        status = stored_number(run, "objectives", &options.objectives, error);
-    if (status == TN_OK)
-        status = tn_run_store_get_meta(run->store, "seeds", &seeds, error);
-    options.stored_seeds = seeds;
-    if (status == TN_OK)
-        status = tn_evolution_job_make(&study, dir, opened->module, &options, job, error);
-    free(seeds);
-    if (status == TN_OK)
-        status = tn_evolution_new(job->grammar, &job->settings, &job->evaluator, &run->evolution, error);
-    if (status == TN_OK)
-        status = repeat(run, id, error);
-    size_t born = 0;
-    const tn_individual *const *newest =
-        status == TN_OK && run->generations ? tn_evolution_born(run->evolution, &born) : NULL;
-    for (size_t i = 0; i < born; i++)
-        if (newest[i]->id == id)
-            *individual = newest[i];
-    if (status == TN_OK && !*individual) {
-        status = tn_fail(error, TN_INVALID, E_NO_INDIVIDUAL, "the run has no individual %" PRIu64, id);
-        tn_error_help(error, "its folder has the best (best/scores.csv), its run.sqlite all");
-    }
-    return status;
 }

@@ -28,7 +28,7 @@ tn_evolution_settings tn_evolution_settings_default(void)
 
 /* ---- making and freeing */
 
-static bool allocate(tn_evolution *e)
+bool tn_evolution_allocate(tn_evolution *e)
 {
     size_t n = e->settings.population;
     e->all = calloc(2 * n, sizeof *e->all);
@@ -40,10 +40,33 @@ static bool allocate(tn_evolution *e)
     e->todo = calloc(n, sizeof *e->todo);
     e->hashes = calloc(n, sizeof *e->hashes);
     e->scores = calloc(n, sizeof *e->scores);
+    return e->all && e->members && e->born && e->pool && e->merits && e->scratch && e->todo && e->hashes && e->scores &&
+           tn_islands_make(e);
+}
+
+void tn_evolution_free_arrays(tn_evolution *e)
+{
+    for (size_t i = 0; e->all && i < 2 * (size_t)e->settings.population; i++) {
+        tn_genome_clear(&e->all[i].genome);
+        free(e->all[i].sentence);
+    }
+    tn_islands_free(e);
+    free(e->all);
+    free(e->members);
+    free(e->born);
+    free(e->pool);
+    free(e->merits);
+    free(e->scratch);
+    free(e->todo);
+    free(e->hashes);
+    free(e->scores);
+}
+
+static bool allocate(tn_evolution *e)
+{
     e->workplaces = calloc(e->threads, sizeof *e->workplaces);
     e->crew = tn_crew_new(e->threads, e->settings.watch);
-    if (!e->all || !e->members || !e->born || !e->pool || !e->merits || !e->scratch || !e->todo || !e->hashes ||
-        !e->scores || !e->workplaces || !e->crew || !tn_islands_make(e))
+    if (!e->workplaces || !e->crew || !tn_evolution_allocate(e))
         return false;
     for (unsigned t = 0; t < e->threads; t++)
         if (!(e->workplaces[t] = e->kind->workplace_new(e->kind->context)))
@@ -102,9 +125,11 @@ void tn_evolution_free(tn_evolution *e)
 {
     if (!e)
         return;
-    for (size_t i = 0; e->all && i < 2 * (size_t)e->settings.population; i++) {
-        tn_genome_clear(&e->all[i].genome);
-        free(e->all[i].sentence);
+    tn_evolution_free_arrays(e);
+    for (size_t i = 0; i < e->guest_count; i++) {
+        tn_genome_clear(&e->guests[i]->genome);
+        free(e->guests[i]->sentence);
+        free(e->guests[i]);
     }
     for (unsigned t = 0; e->workplaces && t < e->threads; t++)
         e->kind->workplace_free(e->workplaces[t]);
@@ -114,16 +139,7 @@ void tn_evolution_free(tn_evolution *e)
     tn_codon_kind_free(&e->own);
     tn_score_cache_clear(&e->cache);
     tn_lexicase_clear(&e->lexicase);
-    tn_islands_free(e);
-    free(e->all);
-    free(e->members);
-    free(e->born);
-    free(e->pool);
-    free(e->merits);
-    free(e->scratch);
-    free(e->todo);
-    free(e->hashes);
-    free(e->scores);
+    free(e->guests);
     free(e->workplaces);
     free(e->chosen);
     free(e->album);
@@ -170,8 +186,8 @@ static tn_status replace_chosen(tn_evolution *e, tn_error *error)
 static void replace_on_island(tn_evolution *e, size_t number, bool survivors)
 {
     tn_island *island = &e->islands[number];
-    size_t count = 0, size = island->count;
-    for (size_t i = 0; i < size; i++) {
+    size_t count = 0, size = tn_island_size(e);
+    for (size_t i = 0; i < island->count; i++) {
         tn_individual *member = island->members[island->merits[i].index];
         if (survivors || i < e->settings.elites)
             e->pool[count++] = member;
@@ -180,7 +196,7 @@ static void replace_on_island(tn_evolution *e, size_t number, bool survivors)
     }
     for (size_t i = 0; i < e->births_each; i++)
         e->pool[count++] = e->born[number * e->births_each + i];
-    tn_island_keep_best(e, island, e->pool, count, size);
+    tn_island_keep_best(e, island, e->pool, count, size < count ? size : count);
 }
 
 static tn_status replace_generation(tn_evolution *e, tn_error *error)
@@ -213,7 +229,8 @@ static tn_status replace_steady(tn_evolution *e, tn_error *error)
             return status;
         memcpy(e->pool, island->members, island->count * sizeof *e->pool);
         memcpy(e->pool + island->count, e->born + pair.first, pair.count * sizeof *e->pool);
-        tn_island_keep_best(e, island, e->pool, island->count + pair.count, island->count);
+        size_t count = island->count + pair.count, size = tn_island_size(e);
+        tn_island_keep_best(e, island, e->pool, count, size < count ? size : count);
     }
     e->births += e->settings.population;
     return tn_evolution_keep_born(e, error);
@@ -238,6 +255,7 @@ tn_status tn_evolution_step(tn_evolution *e, tn_error *error)
 {
     if (e->member_count == 0)
         return first_generation(e, error);
+    tn_evolution_part_from_guests(e);
     e->generation++;
     bool steady = e->settings.replacement == TN_REPLACE_STEADY && !e->chosen, stay = e->chosen && e->kind->parents_stay;
     tn_status status = stay     ? replace_chosen(e, error)

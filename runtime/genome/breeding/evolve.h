@@ -97,7 +97,7 @@ typedef struct tn_evolution_settings {
 tn_evolution_settings tn_evolution_settings_default(void);
 
 typedef struct tn_individual {
-    uint64_t id;         /* generation * population + place among those born in it */
+    uint64_t id;         /* as they are born; each generation takes as many as the population, used or not */
     uint64_t parents[2]; /* ids; TN_NO_PARENT in the first generation */
     uint8_t kind;        /* tn_birth_kind, TN_BIRTH_MUTATED */
     tn_genome genome;
@@ -158,6 +158,29 @@ tn_status tn_evolution_choose(tn_evolution *evolution, const tn_chosen *chosen, 
 
 /* From here on genomes are remembered. Before the first step. */
 void tn_evolution_remember(tn_evolution *evolution);
+
+/* A person's genome becomes a member at once, in the place of the member with the id `out`, or where there is room
+ * (tn_evolution_worst) TN_NO_PARENT. `parent`: the id of whom it was made from by hand, or TN_NO_PARENT. It is a score
+ * that is recalled, where scores are. TN_INVALID (E1241) where there is no such member. */
+tn_status tn_evolution_insert(tn_evolution *evolution, const tn_genome *genome, uint64_t out, uint64_t parent,
+                              tn_error *error);
+
+/* A member is one no more, and the next generation is bred without it. TN_INVALID (E1241) where there is no such
+ * member, or as few as can be. */
+tn_status tn_evolution_remove(tn_evolution *evolution, uint64_t id, tn_error *error);
+
+/* The id of the worst member, or TN_NO_PARENT where there are fewer than the population. */
+uint64_t tn_evolution_worst(const tn_evolution *evolution);
+
+/* From here on the population has another size; where it is smaller, the best members stay. TN_INVALID (E1240) where it
+ * cannot. */
+tn_status tn_evolution_resize(tn_evolution *evolution, uint32_t population, tn_error *error);
+
+/* Those whom a person inserted before the newest generation, in order of their ids. Valid until the next step. */
+const tn_individual *const *tn_evolution_inserted(const tn_evolution *evolution, size_t *count);
+
+/* The id of whoever is born or inserted next: all ids that were given are smaller. */
+uint64_t tn_evolution_next_id(const tn_evolution *evolution);
 
 /* Makes the first generation, then at each call the next. */
 tn_status tn_evolution_step(tn_evolution *evolution, tn_error *error);

@@ -15,9 +15,10 @@ void tn_evolution_take_places(tn_evolution *e, size_t count)
     e->born_count = count;
     e->births_each = count / e->island_count;
     for (size_t i = 0; i < count; i++) {
-        e->born[i]->id = (uint64_t)e->generation * e->settings.population + i;
+        e->born[i]->id = e->next_id + i;
         e->born[i]->stayed = false;
     }
+    e->next_id += e->settings.population;
 }
 
 static size_t pairs_each(const tn_evolution *e)

@@ -13,7 +13,7 @@ void tn_evolution_remember(tn_evolution *e)
     e->settings.remembers = true;
 }
 
-static bool copy_genome(tn_genome *to, const tn_genome *from)
+bool tn_genome_take(tn_genome *to, const tn_genome *from)
 {
     if (!tn_genome_reserve(to, from->count))
         return false;
@@ -23,19 +23,34 @@ static bool copy_genome(tn_genome *to, const tn_genome *from)
     return true;
 }
 
-tn_status tn_evolution_keep_born(tn_evolution *e, tn_error *error)
+static tn_status make_album(tn_evolution *e, tn_error *error)
 {
-    size_t end = ((size_t)e->generation + 1) * e->settings.population;
-    if (!e->settings.remembers)
+    size_t end = (size_t)e->next_id;
+    if (end <= e->album_count)
         return TN_OK;
     if (!tn_array_resize(&e->album, end, sizeof *e->album))
         return tn_fail_memory(error);
     memset(e->album + e->album_count, 0, (end - e->album_count) * sizeof *e->album);
     e->album_count = end;
-    for (size_t i = 0; i < e->born_count; i++)
-        if (!copy_genome(&e->album[e->born[i]->id], &e->born[i]->genome))
-            return tn_fail_memory(error);
     return TN_OK;
+}
+
+tn_status tn_evolution_keep_genome(tn_evolution *e, const tn_individual *individual, tn_error *error)
+{
+    if (!e->settings.remembers)
+        return TN_OK;
+    tn_status status = make_album(e, error);
+    if (status == TN_OK && !tn_genome_take(&e->album[individual->id], &individual->genome))
+        status = tn_fail_memory(error);
+    return status;
+}
+
+tn_status tn_evolution_keep_born(tn_evolution *e, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < e->born_count && status == TN_OK; i++)
+        status = tn_evolution_keep_genome(e, e->born[i], error);
+    return status;
 }
 
 /* ---- choosing */
@@ -104,7 +119,7 @@ static tn_individual *free_place(tn_evolution *e)
 static tn_status bring_back(tn_evolution *e, const tn_chosen_parent *parent, tn_individual **back, tn_error *error)
 {
     tn_individual *individual = free_place(e);
-    if (!copy_genome(&individual->genome, &e->album[parent->id]))
+    if (!tn_genome_take(&individual->genome, &e->album[parent->id]))
         return tn_fail_memory(error);
     individual->id = parent->id;
     individual->kind = TN_BIRTH_CLONE;

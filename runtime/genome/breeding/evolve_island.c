@@ -4,7 +4,7 @@
 
 #include "runtime/genome/breeding/evolve_state.h"
 
-static size_t island_size(const tn_evolution *e)
+size_t tn_island_size(const tn_evolution *e)
 {
     return e->settings.population / e->island_count;
 }
@@ -20,8 +20,8 @@ bool tn_islands_make(tn_evolution *e)
     if (!e->islands || !e->residents || !e->resident_merits)
         return false;
     for (size_t i = 0; i < e->island_count; i++)
-        e->islands[i] = (tn_island){.members = e->residents + i * island_size(e),
-                                    .merits = e->resident_merits + i * island_size(e)};
+        e->islands[i] = (tn_island){.members = e->residents + i * tn_island_size(e),
+                                    .merits = e->resident_merits + i * tn_island_size(e)};
     return true;
 }
 
@@ -90,7 +90,7 @@ void tn_islands_order(tn_evolution *e)
 
 void tn_islands_migrate(tn_evolution *e)
 {
-    size_t size = island_size(e), moving = e->settings.migrants;
+    size_t size = tn_island_size(e), moving = e->settings.migrants;
     for (size_t i = 0; i < e->island_count; i++) {
         const tn_island *before = &e->islands[(i + e->island_count - 1) % e->island_count];
         memcpy(e->pool + i * size, before->members, moving * sizeof *e->pool);

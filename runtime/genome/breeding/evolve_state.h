@@ -2,6 +2,7 @@
  *
  * evolve.c        moves it on, generation by generation
  * evolve_choice.c takes parents that a person chose, and remembers genomes for that
+ * evolve_person.c takes individuals that a person inserts, and takes others out
  * evolve_island.c keeps its islands
  * evolve_birth.c  makes genomes and their sentences
  * evolve_score.c  gives them their scores
@@ -50,8 +51,12 @@ struct tn_evolution {
     uint32_t *scratch;
     uint32_t *todo; /* places in born that wait for their score */
     tn_score_cache cache;
-    uint32_t generation;      /* of the members */
-    tn_chosen_parent *chosen; /* by a person, or NULL */
+    uint32_t generation; /* of the members */
+    uint64_t next_id;
+    tn_individual **guests;         /* inserted by a person, in order of their ids; owned */
+    size_t guest_count, new_guests; /* new_guests: the last of them, since the newest generation was born */
+    size_t shown_guests;            /* those inserted before the newest generation: the ones before the new */
+    tn_chosen_parent *chosen;       /* by a person, or NULL */
     size_t chosen_count;
     tn_genome *album; /* by id, where genomes are remembered */
     size_t album_count;
@@ -64,7 +69,13 @@ struct tn_evolution {
     double *scores;   /* of the members, while their quartiles are found */
 };
 
+/* Makes what is as large as the population. False: out of memory. */
+bool tn_evolution_allocate(tn_evolution *evolution);
+void tn_evolution_free_arrays(tn_evolution *evolution);
+
 /* ---- islands */
+
+size_t tn_island_size(const tn_evolution *evolution);
 
 /* NULL: out of memory. Frees with tn_islands_free. */
 bool tn_islands_make(tn_evolution *evolution);
@@ -100,6 +111,14 @@ tn_status tn_evolution_write(tn_evolution *evolution, unsigned thread, tn_indivi
 
 /* Remembers the genomes of those who were born, if that is wished. */
 tn_status tn_evolution_keep_born(tn_evolution *evolution, tn_error *error);
+
+/* Before a step: lets go of those inserted who were stored and are no members any more. */
+void tn_evolution_part_from_guests(tn_evolution *evolution);
+
+/* Remembers a genome by its id, if that is wished. */
+tn_status tn_evolution_keep_genome(tn_evolution *evolution, const tn_individual *individual, tn_error *error);
+
+bool tn_genome_take(tn_genome *to, const tn_genome *from);
 
 /* The genome of a chosen parent. */
 const tn_genome *tn_evolution_chosen_genome(const tn_evolution *evolution, const tn_chosen_parent *parent);

@@ -35,7 +35,8 @@ typedef enum tn_birth_kind {
     TN_BIRTH_TREE,
     TN_BIRTH_SEED,
     TN_BIRTH_CLONE,
-    TN_BIRTH_CROSSED
+    TN_BIRTH_CROSSED,
+    TN_BIRTH_INSERTED /* a person wrote it */
 } tn_birth_kind;
 
 #define TN_BIRTH_MUTATED 16 /* is added to the kind */

@@ -62,6 +62,13 @@ tn_status tn_run_store_generations(tn_run_store *store, uint32_t *count, tn_erro
     return absent(error);
 }
 
+tn_status tn_run_store_put_event(tn_run_store *store, uint32_t generation, const char *kind, const char *text,
+                                 tn_error *error)
+{
+    (void)store, (void)generation, (void)kind, (void)text;
+    return absent(error);
+}
+
 tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t objectives,
                            const tn_run_event *events, size_t event_count, const tn_rescored *rescored,
                            size_t rescored_count, tn_error *error)

@@ -66,7 +66,7 @@ static tn_status prepare_writing(tn_run_store *store, tn_error *error)
         status = prepare(store, "INSERT INTO generation VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
                          &store->put_generation, error);
     if (status == TN_OK)
-        status = prepare(store, "INSERT INTO event VALUES(?,?,?,?)", &store->put_event, error);
+        status = prepare(store, "INSERT OR REPLACE INTO event VALUES(?,?,?,?)", &store->put_event, error);
     if (status == TN_OK)
         status = prepare(store, "INSERT INTO rescore VALUES(?,?,?,?,?)", &store->put_rescore, error);
     return status;
@@ -296,6 +296,23 @@ static tn_status put_events(tn_run_store *store, uint32_t generation, const tn_r
     return status;
 }
 
+tn_status tn_run_store_put_event(tn_run_store *store, uint32_t generation, const char *kind, const char *text,
+                                 tn_error *error)
+{
+    sqlite3_stmt *statement = NULL;
+    tn_status status = prepare(
+        store, "INSERT INTO event SELECT ?1, coalesce(max(number) + 1, 0), ?2, ?3 FROM event WHERE generation=?1",
+        &statement, error);
+    if (status == TN_OK) {
+        sqlite3_bind_int64(statement, 1, generation);
+        sqlite3_bind_text(statement, 2, kind, -1, SQLITE_STATIC);
+        sqlite3_bind_text(statement, 3, text, -1, SQLITE_STATIC);
+        status = finish_step(store, statement, error);
+    }
+    sqlite3_finalize(statement);
+    return status;
+}
+
 static tn_status put_rescored(tn_run_store *store, uint32_t generation, const tn_rescored *rescored, size_t count,
                               size_t objectives, tn_error *error)
 {
@@ -313,7 +330,7 @@ tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, s
                            const tn_run_event *events, size_t event_count, const tn_rescored *rescored,
                            size_t rescored_count, tn_error *error)
 {
-    size_t count;
+    size_t count, inserted_count;
     const tn_individual *const *born = tn_evolution_born(evolution, &count);
     uint32_t generation = tn_evolution_generation(evolution);
     tn_status status = run(store, "BEGIN IMMEDIATE", error);
@@ -321,6 +338,9 @@ tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, s
         status = put_events(store, generation, events, event_count, error);
     if (status == TN_OK)
         status = put_rescored(store, generation, rescored, rescored_count, objectives, error);
+    const tn_individual *const *inserted = tn_evolution_inserted(evolution, &inserted_count);
+    for (size_t i = 0; i < inserted_count && status == TN_OK; i++)
+        status = put_birth(store, inserted[i], objectives, error);
     for (size_t i = 0; i < count && status == TN_OK; i++)
         status = put_birth(store, born[i], objectives, error);
     if (status == TN_OK)

@@ -1,12 +1,13 @@
 /* A run's database (SQLite): settings, generations, every birth with its parents and score, and what a person decided.
  *
- *   meta        key, value           what the run was started from: study text, grammar text, seed, compiler's version,
- * hashes generation  number, best, mean, scored, no_sentence, failed, limited, distinct_sentences, evaluations, births,
- * mean_codons, mean_depth, members: 8 bytes an id, little-endian, the best first, lower_quartile, median,
- * upper_quartile birth       id, kind, parent, other, state, fitness, more, message: `more` holds the further
- * objectives, 8 bytes each event       generation, number, kind, text: before that generation is bred; kind choose
- * (places, from 1) or set (a target or weight) rescore generation, id, state, fitness, more: the members' scores after
- * a set
+ *   meta        key, value: what the run was started from: study text, grammar text, seed, compiler's version, hashes
+ *   generation  number, best, mean, scored, no_sentence, failed, limited, distinct_sentences, evaluations, births,
+ *               mean_codons, mean_depth, members (8 bytes an id, little-endian, the best first), lower_quartile,
+ * median, upper_quartile birth       id, kind, parent, other, state, fitness, more (the further objectives, 8 bytes
+ * each), message event       generation, number, kind, text, before that generation is bred: choose (places, from 1),
+ * set (a target, weight or another number), inputs (what scores depend on), insert, edit and remove
+ *               (driver/hand/by_hand.h)
+ *   rescore     generation, id, state, fitness, more: the members' scores after a set
  *
  * Genomes are not stored: births are functions of parents, settings and seed, and replaying is exact. Nothing stored
  * depends on the clock, the machine, or an interruption: a generation is one transaction, so that a run that was killed
@@ -53,6 +54,10 @@ typedef struct tn_rescored {
     uint64_t id;
     tn_score score;
 } tn_rescored;
+
+/* Stores an event before a generation that is not made yet, behind those that are there. */
+tn_status tn_run_store_put_event(tn_run_store *store, uint32_t generation, const char *kind, const char *text,
+                                 tn_error *error);
 
 /* Stores the generation that was made last, and the events and scores that came before it, in one transaction. */
 tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t objectives,

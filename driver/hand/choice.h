@@ -1,8 +1,8 @@
 /* Parents that a person names, as text: "3 7*2 #41@0.4". A number is a place on the sheet, from 1; with # it is the id
  * of anybody who was ever born; *2 counts twice; @0.4 gives the children less of it. Free the list with
  * tn_choices_clear. */
-#ifndef TARTAN_DRIVER_BREED_CHOICE_H
-#define TARTAN_DRIVER_BREED_CHOICE_H
+#ifndef TARTAN_DRIVER_HAND_CHOICE_H
+#define TARTAN_DRIVER_HAND_CHOICE_H
 
 #include "runtime/genome/breeding/evolve.h"
 

@@ -1,5 +1,5 @@
 /* Reads and writes the parents that a person names. */
-#include "driver/breed/choice.h"
+#include "driver/hand/choice.h"
 
 #include <inttypes.h>
 #include <stdio.h>

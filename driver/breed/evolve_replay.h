@@ -1,0 +1,14 @@
+/* What replaying a run shares with resuming it. Of no use elsewhere. */
+#ifndef TARTAN_DRIVER_BREED_EVOLVE_REPLAY_H
+#define TARTAN_DRIVER_BREED_EVOLVE_REPLAY_H
+
+#include "driver/breed/evolve.h"
+
+/* TN_INVALID (E1252) where the run was made with other elementary functions. */
+tn_status tn_run_same_arithmetic(const tn_run *run, tn_error *error);
+
+/* Together: makes the stored generations again, without evaluating; up to the one that `until` is born in, or all. What
+ * waits for the next generation is kept in run->waiting. */
+tn_status tn_run_repeat(tn_run *run, uint64_t until, tn_error *error);
+
+#endif
