@@ -46,7 +46,7 @@ expect 'json text ' tartan count --diagnostics =
 expect 'json ' tartan count --diagnostics = j
 expect 'bits ' tartan match rules.plan -f b
 expect '' tartan match rules.plan --rule ''
-expect 'compare replay show ' tartan runs ''
+expect 'compare insert remove replay show ' tartan runs ''
 touch "$scratch/a file.plan" "$scratch/b.tnb"
 cd "$scratch"
 expect 'a file.plan ' tartan check 'a '
