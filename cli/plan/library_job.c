@@ -91,7 +91,7 @@ bool tn_job_library(tn_job *job, const char *path, const tn_plan_settings *plans
     return tn_job_open_plans(job, path, plans) && tn_job_opened_library(job, plans, ready);
 }
 
-static tn_library_options options_of(const tn_plan_settings *plans)
+tn_library_options tn_job_library_options(const tn_plan_settings *plans)
 {
     return (tn_library_options){.max_states = (uint32_t)plans->max_states.value,
                                 .override_trays = plans->trays.given,
@@ -110,14 +110,14 @@ tn_house_settings tn_job_houses(const tn_plan_settings *plans)
 {
     return (tn_house_settings){.library = plans->library,
                                .max_length = tn_job_max_length(plans),
-                               .plans = options_of(plans),
+                               .plans = tn_job_library_options(plans),
                                .wheres = plans->wheres.items,
                                .where_count = plans->wheres.count};
 }
 
 bool tn_job_opened_library(tn_job *job, const tn_plan_settings *plans, tn_ready_library *ready)
 {
-    const tn_library_options options = options_of(plans);
+    const tn_library_options options = tn_job_library_options(plans);
     return ready_library(job, plans, &options, ready);
 }
 

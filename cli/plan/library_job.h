@@ -54,7 +54,10 @@ bool tn_job_opened_library(tn_job *job, const tn_plan_settings *plans, tn_ready_
 /* Is the library that --library names one of houses? */
 bool tn_job_of_houses(const tn_job *job, const tn_plan_settings *plans);
 
-/* What the options say, for libraries of houses. */
+/* What the options say of a library's plans and of the work that it may take. */
+tn_library_options tn_job_library_options(const tn_plan_settings *plans);
+
+/* The same for libraries of houses. */
 tn_house_settings tn_job_houses(const tn_plan_settings *plans);
 
 /* The same, but only the schema: for commands that match plans against the clauses. */

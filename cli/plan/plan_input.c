@@ -49,7 +49,7 @@ bool tn_job_bad_plan(tn_job *job, const tn_plans_source *source, const tn_error 
 static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS])
 {
     const tn_sifting *s = context;
-    return s->plan(s->context, plan, texts);
+    return s->answering->plan(s->answering->context, plan, texts);
 }
 
 static bool write_texts(void *context, uint64_t plans, const tn_buffer texts[TN_RELAY_TEXTS])
@@ -83,13 +83,17 @@ bool tn_job_sift(tn_sifting *s)
 {
     tn_plan_reader *reader;
     tn_error error;
-    if (!tn_job_reader(s->job, s->schema, &s->source, &reader))
+    if (!tn_job_reader(s->job, s->answering->schema, &s->source, &reader))
         return false;
     bool opened = s->open(s->context);
-    tn_sift_calls calls = {s, s->numbered, describe, write_texts, complain};
+    tn_sift_calls calls = {.context = s,
+                           .numbered = s->answering->numbered,
+                           .plan = describe,
+                           .write = write_texts,
+                           .bad = complain};
     if (opened)
         begin_progress(s);
-    if (opened && tn_sift(reader, s->rules, (int)tn_job_threads(s->source.plans), &calls, &error) != TN_OK) {
+    if (opened && tn_sift(reader, s->answering->rules, (int)tn_job_threads(s->source.plans), &calls, &error) != TN_OK) {
         tn_job_fail(s->job, &error);
         s->stopped = true;
     }
@@ -104,16 +108,15 @@ bool tn_job_sift(tn_sifting *s)
     return opened;
 }
 
-void tn_job_fallbacks(tn_job *job, const tn_rules *rules, const char *(*name)(const void *, size_t),
-                      const void *context)
+void tn_job_fallbacks(tn_job *job, const tn_answering *answering)
 {
-    for (size_t i = 0; i < tn_rules_count(rules); i++) {
-        const tn_error *reason = tn_rules_fallback(rules, i);
+    for (size_t i = 0; i < tn_rules_count(answering->rules); i++) {
+        const tn_error *reason = tn_rules_fallback(answering->rules, i);
         if (!reason)
             continue;
         tn_diagnostic *note = tn_finding_note(&job->opened, reason);
         tn_note(tn_job_diagnostics(job), note, NULL, "`%s` is matched by the interpreter, which is slower",
-                name(context, i));
+                answering->rule_name(answering->context, i));
     }
     tn_job_show(job);
 }

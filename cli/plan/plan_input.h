@@ -5,7 +5,7 @@
 #include "cli/common/job.h"
 #include "cli/common/progress.h"
 #include "cli/plan/library_job.h"
-#include "driver/plan/sift.h"
+#include "driver/plan/answering.h"
 
 /* How plans are read. Commands embed it as `input`. */
 typedef struct tn_input_settings {
@@ -41,12 +41,8 @@ bool tn_job_bad_plan(tn_job *job, const tn_plans_source *source, const tn_error 
 typedef struct tn_sifting {
     tn_job *job;
     tn_plans_source source;
-    const tn_schema *schema;
-    const tn_rules *rules;
-    bool numbered;               /* the plans' lines are needed */
+    const tn_answering *answering;
     bool (*open)(void *context); /* called when the plans could be opened; false (and recorded why) ends it there */
-    /* As in tn_sift_calls: appends to the texts, in several threads at once; false where out of memory. */
-    bool (*plan)(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS]);
     FILE **streams[TN_RELAY_TEXTS]; /* where the texts go; NULL where nothing is appended to one */
     void *context;
     bool stopped;  /* before the end of the plans, by a plan that cannot be read or a failure */
@@ -58,8 +54,7 @@ typedef struct tn_sifting {
  * closed. */
 bool tn_job_sift(tn_sifting *sifting);
 
-/* Notes the rules that fell back to the interpreter. `name` gives the name of rule i. */
-void tn_job_fallbacks(tn_job *job, const tn_rules *rules, const char *(*name)(const void *, size_t),
-                      const void *context);
+/* Notes the rules that fell back to the interpreter. */
+void tn_job_fallbacks(tn_job *job, const tn_answering *answering);
 
 #endif

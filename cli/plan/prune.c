@@ -1,11 +1,10 @@
 /* tartan prune: filters plans through a library. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/common/option_rows.h"
 #include "cli/plan/library_job.h"
 #include "cli/plan/plan_input.h"
-#include "driver/plan/clauses.h"
+#include "driver/plan/pruned.h"
 
 typedef struct prune_settings {
     tn_settings common;
@@ -27,109 +26,28 @@ typedef struct pruning {
     tn_job *job;
     const char *path; /* of the plans */
     tn_ready_library ready;
-    tn_rules *rules;
-    uint32_t trays_min, trays_max;
+    tn_pruned pruned;
     tn_output kept, dropped;
     FILE *dropped_stream; /* NULL where nobody asked */
 } pruning;
 
-static const char *clause_name(const void *context, size_t i)
-{
-    const pruning *p = context;
-    const tn_module *module = p->job->opened.module;
-    return tn_text(module, module->CLAUSE_records[p->ready.record->clause_first + i].name);
-}
-
-static bool length_drops(const pruning *p, const tn_sifted *plan)
-{
-    return plan->length < p->trays_min || plan->length > p->trays_max;
-}
-
-static bool drops(const pruning *p, const tn_sifted *plan, size_t i)
-{
-    return tn_clause_drops(p->job->opened.module, p->ready.record, i, plan->bits);
-}
-
-static bool is_kept(const pruning *p, const tn_sifted *plan)
-{
-    if (length_drops(p, plan))
-        return false;
-    for (size_t i = 0; i < p->ready.record->clause_count; i++)
-        if (drops(p, plan, i))
-            return false;
-    return true;
-}
-
-/* The names of what drops the plan, each between quotes. */
-static bool append_reasons(const pruning *p, const tn_sifted *plan, const char *quote, tn_buffer *out)
-{
-    const char *between = "";
-    bool done = true;
-    if (length_drops(p, plan)) {
-        done = tn_buffer_printf(out, "%strays%s", quote, quote);
-        between = ", ";
-    }
-    for (size_t i = 0; done && i < p->ready.record->clause_count; i++) {
-        if (!drops(p, plan, i))
-            continue;
-        done = tn_buffer_printf(out, "%s%s%s%s", between, quote, clause_name(p, i), quote);
-        between = ", ";
-    }
-    return done;
-}
-
-/* A dropped plan: as plan lines, a comment with the reasons before it, so that the file can be read again; as JSON, the
- * object
- * {"trays": [...], "dropped_by": [...]}. Names hold nothing that JSON would escape. */
-static bool append_dropped(const pruning *p, const tn_sifted *plan, tn_buffer *out)
-{
-    const tn_schema *schema = p->ready.schema;
-    if (settings_of(p->job)->format == FORMAT_LINES)
-        return tn_buffer_printf(out, "# dropped by ") && append_reasons(p, plan, "", out) &&
-               tn_buffer_append(out, "\n", 1) && tn_plan_write_line(schema, plan->trays, plan->length, out);
-    if (!tn_plan_write_json(schema, plan->trays, plan->length, out))
-        return false;
-    out->size -= out->data[out->size - 1] == '}';
-    return tn_buffer_printf(out, ",\"dropped_by\":[") && append_reasons(p, plan, "\"", out) &&
-           tn_buffer_printf(out, "]}");
-}
-
-static bool append_kept(const pruning *p, const tn_sifted *plan, tn_buffer *out)
-{
-    const tn_schema *schema = p->ready.schema;
-    return settings_of(p->job)->format == FORMAT_JSON ? tn_plan_write_json(schema, plan->trays, plan->length, out)
-                                                      : tn_plan_write_line(schema, plan->trays, plan->length, out);
-}
-
-/* Plans that go to the same stream are in the same text, in the order they came. */
-static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS])
-{
-    const pruning *p = context;
-    bool kept = is_kept(p, plan);
-    if (!kept && !p->dropped_stream)
-        return true;
-    tn_buffer *out = &texts[!kept && p->dropped_stream != p->kept.stream];
-    return (kept ? append_kept(p, plan, out) : append_dropped(p, plan, out)) && tn_buffer_append(out, "\n", 1);
-}
-
 static bool compile_clauses(pruning *p)
 {
     const prune_settings *settings = settings_of(p->job);
-    tn_rules_options options = {.engine = (tn_matching_engine)settings->engine,
-                                .max_states = (uint32_t)settings->plans.max_states.value,
-                                .max_length = tn_job_max_length(&settings->plans)};
+    const tn_library_options lengths = tn_job_library_options(&settings->plans);
+    const tn_rules_options options = {.engine = (tn_matching_engine)settings->engine,
+                                      .max_states = (uint32_t)settings->plans.max_states.value,
+                                      .max_length = tn_job_max_length(&settings->plans)};
+    tn_answer_format format = settings->format == FORMAT_JSON ? TN_ANSWER_JSON : TN_ANSWER_LINES;
     tn_error error;
-    p->trays_min = settings->plans.trays.given ? (uint32_t)settings->plans.trays.low : p->ready.record->trays_min;
-    p->trays_max = settings->plans.trays.given ? (uint32_t)settings->plans.trays.high : p->ready.record->trays_max;
-    if (tn_clause_rules_new(p->ready.schema, p->ready.record, &options, &p->rules, &error) == TN_OK) {
-        tn_job_fallbacks(p->job, p->rules, clause_name, p);
-        return true;
-    }
-    tn_job_fail(p->job, &error);
-    return false;
+    tn_status status =
+        tn_pruned_new(p->job->opened.module, &p->ready, &lengths, &options, format, &p->pruned, &error);
+    if (status != TN_OK)
+        tn_job_fail(p->job, &error);
+    return status == TN_OK;
 }
 
-/* Kept and dropped plans may both go to standard output, in the order they came. */
+/* Kept and dropped plans may both go to standard output, in the order they came: then they are in the same text. */
 static bool open_outputs(void *context)
 {
     pruning *p = context;
@@ -140,26 +58,27 @@ static bool open_outputs(void *context)
         return true;
     if (strcmp(settings->dropped, "-") == 0) {
         p->dropped_stream = stdout;
-        return true;
-    }
-    if (tn_job_output(p->job, settings->dropped, &p->dropped)) {
+    } else if (tn_job_output(p->job, settings->dropped, &p->dropped)) {
         p->dropped_stream = p->dropped.stream;
-        return true;
+    } else {
+        tn_output_discard(&p->kept);
+        return false;
     }
-    tn_output_discard(&p->kept);
-    return false;
+    p->pruned.dropped = p->dropped_stream != p->kept.stream;
+    return true;
 }
 
 static void prune_plans(pruning *p)
 {
+    const prune_settings *settings = settings_of(p->job);
+    const tn_answering answering = tn_pruned_answering(&p->pruned);
     tn_sifting sifting = {.job = p->job,
-                          .source = {p->path, &settings_of(p->job)->input, &settings_of(p->job)->plans},
-                          .schema = p->ready.schema,
-                          .rules = p->rules,
+                          .source = {p->path, &settings->input, &settings->plans},
+                          .answering = &answering,
                           .open = open_outputs,
-                          .plan = describe,
                           .streams = {&p->kept.stream, &p->dropped_stream},
                           .context = p};
+    tn_job_fallbacks(p->job, &answering);
     if (!tn_job_sift(&sifting))
         return;
     tn_job_close(p->job, &p->kept, !sifting.stopped);
@@ -177,7 +96,7 @@ static int run(const tn_command *command, const tn_settings *common)
     if (p.path && tn_job_library_schema(&job, common->operands.items[0], &settings->plans, &p.ready) &&
         compile_clauses(&p))
         prune_plans(&p);
-    tn_rules_free(p.rules);
+    tn_pruned_clear(&p.pruned);
     tn_library_close(&p.ready);
     return tn_job_end(&job);
 }

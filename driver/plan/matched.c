@@ -1,0 +1,112 @@
+/* Says which rules a plan matches. */
+#include "driver/plan/matched.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+tn_status tn_matched_new(const tn_module *module, const uint32_t *indices, size_t count, uint32_t schema,
+                         const tn_rules_options *options, tn_answer_format format, tn_matched *matched,
+                         tn_error *error)
+{
+    *matched = (tn_matched){.module = module, .indices = indices, .count = count, .format = format};
+    uint32_t *functions = malloc(sizeof *functions * (count + 1));
+    tn_status status = functions ? tn_schema_new(module, schema, 0, &matched->schema, error) : tn_fail_memory(error);
+    for (size_t i = 0; functions && i < count; i++)
+        functions[i] = module->RULE_records[indices[i]].holds;
+    if (status == TN_OK)
+        status = tn_rules_new(matched->schema, functions, count, options, &matched->rules, error);
+    free(functions);
+    return status;
+}
+
+void tn_matched_clear(tn_matched *matched)
+{
+    tn_rules_free(matched->rules);
+    tn_schema_free(matched->schema);
+    *matched = (tn_matched){0};
+}
+
+static const char *rule_name(const void *context, size_t i)
+{
+    const tn_matched *m = context;
+    return tn_text(m->module, m->module->RULE_records[m->indices[i]].name);
+}
+
+static bool is_matched(const tn_sifted *plan, size_t i)
+{
+    return plan->bits[i / 64] >> (i % 64) & 1;
+}
+
+/* In one piece: a plan is matched in some nanoseconds, and a call a rule would take longer. */
+static bool append_bits(const tn_matched *m, const tn_sifted *plan, tn_buffer *out)
+{
+    if (!tn_buffer_reserve(out, m->count))
+        return false;
+    for (size_t i = 0; i < m->count; i++)
+        out->data[out->size++] = is_matched(plan, i) ? '1' : '0';
+    return true;
+}
+
+static bool append_text(tn_buffer *out, const char *text)
+{
+    return tn_buffer_append(out, text, strlen(text));
+}
+
+/* The names of the rules that match, each between quotes. */
+static bool append_names(const tn_matched *m, const tn_sifted *plan, const char *between, const char *quote,
+                         tn_buffer *out)
+{
+    const char *before = "";
+    for (size_t i = 0; i < m->count; i++) {
+        if (!is_matched(plan, i))
+            continue;
+        if (!append_text(out, before) || !append_text(out, quote) || !append_text(out, rule_name(m, i)) ||
+            !append_text(out, quote))
+            return false;
+        before = between;
+    }
+    return true;
+}
+
+static bool append_names_or_dash(const tn_matched *m, const tn_sifted *plan, tn_buffer *out)
+{
+    size_t before = out->size;
+    return append_names(m, plan, " ", "", out) && (out->size > before || append_text(out, "-"));
+}
+
+/* Names of rules hold nothing that JSON would escape. */
+static bool append_object(const tn_matched *m, const tn_sifted *plan, tn_buffer *out)
+{
+    tn_buffer line = {0};
+    bool done = tn_plan_write_line(m->schema, plan->trays, plan->length, &line) &&
+                tn_buffer_printf(out, TN_MATCHED_LINE "%" PRIu64 ",\"plan\":", plan->line) &&
+                tn_buffer_append_json(out, line.data ? line.data : "") && append_text(out, ",\"rules\":[") &&
+                append_names(m, plan, ",", "\"", out) && append_text(out, "]}");
+    free(line.data);
+    return done;
+}
+
+static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS])
+{
+    const tn_matched *m = context;
+    tn_buffer *out = &texts[0];
+    bool done;
+    if (m->format == TN_ANSWER_BITS)
+        done = append_bits(m, plan, out);
+    else if (m->format == TN_ANSWER_NAMES)
+        done = append_names_or_dash(m, plan, out);
+    else
+        done = append_object(m, plan, out);
+    return done && append_text(out, "\n");
+}
+
+tn_answering tn_matched_answering(const tn_matched *matched)
+{
+    return (tn_answering){.schema = matched->schema,
+                          .rules = matched->rules,
+                          .numbered = matched->format == TN_ANSWER_JSON,
+                          .plan = describe,
+                          .rule_name = rule_name,
+                          .context = matched};
+}
