@@ -2,7 +2,7 @@
 """Kills workers of a shard set at random moments: shards_kill.py TARTAN RULES KILLS
 
 Workers are begun two at a time, each by a launcher, and one of the four processes is killed with -9, again and again. A set that is
-complete is held against one `enumerate`, byte for byte, and a new one is begun. Nothing may be missing, there twice or half there."""
+complete, of plans or of answers about them, is held against one `enumerate` or `match`, byte for byte, and a new one is begun. Nothing may be missing, there twice or half there."""
 import os, random, signal, subprocess, sys, tempfile, time
 
 tartan, rules, kills = sys.argv[1], sys.argv[2], int(sys.argv[3])
@@ -51,23 +51,28 @@ def files(folder):
     return sorted(os.path.join(top, name) for top, _, names in os.walk(folder) for name in names)
 
 
-def check(folder, wanted, shards):
+def check(folder, wanted, shards, ending):
     call("shards", "run", folder, "--stale", "1")
     call("shards", "check", folder)
     if call("shards", "cat", folder) != wanted:
-        fail("the set is not what enumerate writes")
-    left = [name for name in files(folder + "/shards") if not name.endswith((".bin", ".record", ".claim"))]
-    if left or len([name for name in files(folder) if name.endswith(".bin")]) != shards:
+        fail("the set is not what one command writes")
+    left = [name for name in files(folder + "/shards") if not name.endswith((ending, ".record", ".claim"))]
+    if left or len([name for name in files(folder) if name.endswith(ending)]) != shards:
         fail("files that are half there: %s" % left)
 
 
 def main():
-    wanted = call("enumerate", rules, *LIBRARY, "--format", "bin")
     killed = sets = 0
     with tempfile.TemporaryDirectory() as work:
+        plans = work + "/plans"
+        call("enumerate", rules, *LIBRARY, "-o", plans)
+        kinds = [(".bin", call("enumerate", rules, *LIBRARY, "--format", "bin"), [*LIBRARY, "--format", "bin"]),
+                 (".jsonl", call("match", rules, plans, "--format", "json"),
+                  ["--task", "match", "--input", plans, "--format", "json"])]
         while killed < kills:
             folder, shards, sets = "%s/set%d" % (work, sets), random.choice([5, 40, 150]), sets + 1
-            call("shards", "new", rules, *LIBRARY, "--format", "bin", "--shards", str(shards), "-o", folder)
+            ending, wanted, asked = kinds[sets % len(kinds)]
+            call("shards", "new", rules, *asked, "--shards", str(shards), "-o", folder)
             for _ in range(12):
                 launchers = [begin(folder), begin(folder)]
                 time.sleep(random.random() * 0.12)
@@ -75,7 +80,7 @@ def main():
                 end(launchers)
                 if killed >= kills:
                     break
-            check(folder, wanted, shards)
+            check(folder, wanted, shards, ending)
     print("%d kills, %d sets" % (killed, sets))
 
 

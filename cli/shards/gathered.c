@@ -29,7 +29,10 @@ void tn_shards_cat(tn_job *job, tn_shards_open *open)
 void tn_shards_merge(tn_job *job, tn_shards_open *open)
 {
     const char *output = tn_shards_settings_of(job)->written.output;
-    if (output && strcmp(output, "-") != 0)
+    if (tn_shard_set_answers(&open->set))
+        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "the shards hold answers, of which no database is made"),
+                "`tartan shards cat SET -o FILE` writes all of them");
+    else if (output && strcmp(output, "-") != 0)
         gather(job, open, output, TN_FORMAT_SQLITE);
     else
         tn_help(tn_job_diagnostics(job), tn_job_usage(job, "a database is a file, and none is named"),

@@ -1,5 +1,6 @@
 /* tartan shards status, check: what is there of a set, and whether it is what it should be. */
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,19 +12,21 @@
 #include "driver/open/digits.h"
 #include "driver/shards/check.h"
 #include "driver/shards/claim.h"
+#include "driver/shards/inputs.h"
 #include "driver/shards/record.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/file_error.h"
 #include "runtime/base/utf8.h"
 
-#define SHOWN_MOST 10u /* claims, and wrong shards */
+#define SHOWN_MOST 10u       /* claims, and wrong shards */
+#define COMPLAINTS_MOST 100u /* about plans that could not be read */
 
 /* ---- status */
 
 typedef struct counted {
     uint32_t there, claimed, stale;
     mpz_t plans;
-    uint64_t bytes;
+    uint64_t bytes, unread;
     double stale_after;
 } counted;
 
@@ -36,18 +39,31 @@ static void show_claim(const tn_shard_set *set, uint32_t shard, const tn_claiman
     fprintf(out, ", touched %.0f s ago%s\n", fmax(by->age, 0), stale ? ": stale" : "");
 }
 
+/* What a shard that is there holds: plans, or answers. */
+static void count_held(const tn_shard_set *set, uint32_t shard, counted *c)
+{
+    tn_shard_record record;
+    mpz_t plans;
+    if (tn_shard_set_answers(set)) {
+        if (tn_shard_record_read(set, shard, &record, NULL) == TN_OK)
+            c->unread += record.unread;
+        return;
+    }
+    mpz_init(plans);
+    tn_shard_plans(set, shard, plans);
+    mpz_add(c->plans, c->plans, plans);
+    mpz_clear(plans);
+}
+
 static void count_shard(const tn_shard_set *set, uint32_t shard, counted *c, tn_buffer *claims)
 {
     struct stat known;
     tn_claimant by;
     char *path = tn_shard_path(set, shard, ""), *claim = tn_shard_path(set, shard, TN_SHARD_CLAIM);
-    mpz_t plans;
-    mpz_init(plans);
     if (path && tn_shard_done(set, shard) && stat(path, &known) == 0) {
         c->there++;
         c->bytes += (uint64_t)known.st_size;
-        tn_shard_plans(set, shard, plans);
-        mpz_add(c->plans, c->plans, plans);
+        count_held(set, shard, c);
     } else if (claim && tn_claim_read(claim, &by)) {
         bool stale = fabs(by.age) > c->stale_after;
         c->claimed++;
@@ -55,7 +71,6 @@ static void count_shard(const tn_shard_set *set, uint32_t shard, counted *c, tn_
         if (c->claimed <= SHOWN_MOST)
             tn_buffer_append(claims, (const char *)&(uint32_t){shard}, sizeof shard);
     }
-    mpz_clear(plans);
     free(path);
     free(claim);
 }
@@ -75,23 +90,75 @@ static void show_claims(const tn_shard_set *set, const counted *c, const tn_buff
         fprintf(out, "  and %u more\n", c->claimed - SHOWN_MOST);
 }
 
+static void show_number(const char *before, const mpz_t number, const char *behind, FILE *out)
+{
+    char *digits = tn_digits(number, true);
+    fprintf(out, "%s%s%s", before, digits ? digits : "?", behind);
+    free(digits);
+}
+
 static void show_status(const tn_shard_set *set, const counted *c, const tn_buffer *claims, FILE *out)
 {
-    mpz_t all;
-    mpz_init(all);
-    mpz_sub(all, set->bounds[set->count], set->bounds[0]);
-    char *there = tn_digits(c->plans, true), *plans = tn_digits(all, true);
-    mpz_set_ui(all, c->bytes);
-    char *bytes = tn_digits(all, true);
+    mpz_t number;
+    mpz_init(number);
     fprintf(out, "shards  %u of %u\n", c->there, set->count);
-    fprintf(out, "plans   %s of %s\n", there ? there : "?", plans ? plans : "?");
-    fprintf(out, "bytes   %s\n", bytes ? bytes : "?");
+    if (!tn_shard_set_answers(set)) {
+        mpz_sub(number, set->bounds[set->count], set->bounds[0]);
+        show_number("plans   ", c->plans, " of ", out);
+        show_number("", number, "\n", out);
+    }
+    mpz_set_ui(number, c->bytes);
+    show_number("bytes   ", number, "\n", out);
     fprintf(out, "claimed %u%s\n", c->claimed, c->stale ? ", some by workers that are gone" : "");
     show_claims(set, c, claims, out);
-    free(there);
-    free(plans);
-    free(bytes);
-    mpz_clear(all);
+    mpz_clear(number);
+}
+
+/* ---- plans that could not be read */
+
+static void show_complaint(const char *path, const tn_error *complaint, uint64_t before, FILE *out)
+{
+    fprintf(out, "  ");
+    tn_write_clean(out, path, strlen(path));
+    fprintf(out, ":%" PRIu64 ":%u: ", before + complaint->line, complaint->column);
+    tn_write_clean(out, complaint->message, strlen(complaint->message));
+    fprintf(out, "\n");
+}
+
+/* Those of a shard; *shown: of all shards so far. */
+static tn_status show_shard_unread(const tn_shards_open *open, uint32_t shard, uint64_t *shown, FILE *out,
+                                   tn_error *error)
+{
+    const tn_shard_set *set = &open->set;
+    uint64_t before;
+    tn_shard_read *read = calloc(1, sizeof *read);
+    tn_status status = read ? tn_shard_read_of(set, shard, read, error) : tn_fail_memory(error);
+    if (status == TN_OK && read->unread > 0) {
+        status = tn_shard_lines_before(set, open->answering.schema, shard, &before, error);
+        for (size_t i = 0; status == TN_OK && i < read->unread && i < TN_COMPLAINTS_KEPT && *shown < COMPLAINTS_MOST;
+             i++, ++*shown)
+            show_complaint(set->inputs.items[set->inputs.pieces[shard].input].path, &read->complaints[i], before, out);
+    }
+    free(read);
+    return status;
+}
+
+/* The lines are those of the whole files, which the module is needed to count where shards are missing. */
+static void show_unread(tn_job *job, tn_shards_open *open, const counted *c, FILE *out)
+{
+    uint64_t shown = 0;
+    tn_error error;
+    tn_status status = TN_OK;
+    if (c->unread == 0 || !tn_shards_open_rules(job, open))
+        return;
+    fprintf(out, "unread  %" PRIu64 "\n", c->unread);
+    for (uint32_t i = 0; status == TN_OK && shown < COMPLAINTS_MOST && i < open->set.count; i++)
+        if (tn_shard_done(&open->set, i))
+            status = show_shard_unread(open, i, &shown, out, &error);
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    else if (shown < c->unread)
+        fprintf(out, "  and %" PRIu64 " more\n", c->unread - shown);
 }
 
 void tn_shards_status(tn_job *job, tn_shards_open *open)
@@ -106,6 +173,7 @@ void tn_shards_status(tn_job *job, tn_shards_open *open)
     for (uint32_t i = 0; i < open->set.count; i++)
         count_shard(&open->set, i, &c, &claims);
     show_status(&open->set, &c, &claims, output.stream);
+    show_unread(job, open, &c, output.stream);
     tn_job_commit(job, &output);
     mpz_clear(c.plans);
     free(claims.data);
@@ -166,10 +234,12 @@ static void tell(tn_job *job, const tn_shard_set *set)
     if (!tn_job_output(job, tn_shards_settings_of(job)->written.output, &output))
         return;
     mpz_init(plans);
-    mpz_sub(plans, set->bounds[set->count], set->bounds[0]);
-    char *digits = tn_digits(plans, true);
-    fprintf(output.stream, "all %u shards are there and whole: %s plans\n", set->count, digits ? digits : "?");
-    free(digits);
+    fprintf(output.stream, "all %u shards are there and whole", set->count);
+    if (!tn_shard_set_answers(set)) {
+        mpz_sub(plans, set->bounds[set->count], set->bounds[0]);
+        show_number(": ", plans, " plans", output.stream);
+    }
+    fprintf(output.stream, "\n");
     mpz_clear(plans);
     tn_job_commit(job, &output);
 }

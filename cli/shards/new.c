@@ -14,7 +14,18 @@ static bool check_options(tn_job *job)
     const tn_shards_settings *settings = tn_shards_settings_of(job);
     tn_diagnostics *list = tn_job_diagnostics(job);
     const char *path = job->settings->operands.items[1];
-    if (!settings->written.output || strcmp(settings->written.output, "-") == 0)
+    if (settings->inputs.count > 0 || settings->rules.count > 0)
+        tn_help(list,
+                tn_job_usage(job, "--input and --rule are about files of plans, and --task says what to do with "
+                                  "them"),
+                "add --task match or --task prune");
+    else if (settings->input.format || settings->input.on_error)
+        tn_help(list, tn_job_usage(job, "--input-format and --on-error are about files of plans"),
+                "leave them out, or add --task match or --task prune, and --input");
+    else if (settings->written.format >= TN_FORMAT_COUNT)
+        tn_help(list, tn_job_usage(job, "a plan is written as names or bits only by --task match"),
+                "choose lines, json, csv, bin or parquet");
+    else if (!settings->written.output || strcmp(settings->written.output, "-") == 0)
         tn_help(list, tn_job_usage(job, "a shard set is a folder, and none is named"), "name it: -o SET");
     else if (settings->written.format == TN_FORMAT_SQLITE)
         tn_help(list, tn_job_usage(job, "a shard is no database"),
@@ -64,8 +75,7 @@ static bool describe(tn_job *job, const tn_ready_library *ready, tn_shard_set *s
     return set->folder && set->library && set->rules_path && set->command;
 }
 
-/* The bytes of the module: just compiled, or those of the file. */
-static tn_status create(tn_job *job, tn_shard_set *set, tn_error *error)
+tn_status tn_shards_create(tn_job *job, tn_shard_set *set, tn_error *error)
 {
     const tn_compilation *compilation = &job->opened.compilation;
     uint8_t *bytes = NULL;
@@ -105,7 +115,7 @@ static void make_set(tn_job *job, const tn_ready_library *ready)
                                                                             settings->each.value, &error)
                                                       : tn_fail_memory(&error);
         if (status == TN_OK)
-            status = create(job, &set, &error);
+            status = tn_shards_create(job, &set, &error);
         if (status == TN_OK)
             tell(job, &set);
         else

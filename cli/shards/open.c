@@ -37,17 +37,59 @@ static bool make_ready(tn_job *job, tn_shards_open *open)
     return status == TN_OK;
 }
 
-bool tn_shards_open_set(tn_job *job, tn_shards_open *open)
+static tn_status ready_rules(tn_job *job, tn_shards_open *open, const tn_rules_options *options, tn_error *error)
+{
+    const tn_shard_inputs *inputs = &open->set.inputs;
+    tn_status status = tn_matched_new(job->opened.module, open->rules.indices, open->rules.count, open->rules.schema,
+                                      options, inputs->answer, &open->matched, error);
+    open->answering = tn_matched_answering(&open->matched);
+    return status;
+}
+
+static tn_status ready_clauses(tn_job *job, tn_shards_open *open, const tn_rules_options *options, tn_error *error)
+{
+    tn_status status = tn_pruned_new(job->opened.module, &open->ready, &open->set.options, options,
+                                     open->set.inputs.answer, &open->pruned, error);
+    open->answering = tn_pruned_answering(&open->pruned);
+    return status;
+}
+
+bool tn_shards_ready_answers(tn_job *job, tn_shards_open *open)
+{
+    const tn_shard_set *set = &open->set;
+    const tn_option_list asked = {(void *)set->inputs.rules, set->inputs.rule_count};
+    const tn_rules_options options = {.max_states = set->options.max_states, .max_length = set->options.max_length};
+    bool matches = set->task == TN_TASK_MATCH;
+    tn_error error;
+    if (matches && !tn_job_choose_rules(job, &asked, "name one of those it uses with --rule", &open->rules))
+        return false;
+    if (!matches) {
+        tn_status chosen = tn_library_ready(&job->opened, set->library, NULL, &open->ready);
+        tn_job_status(job, chosen);
+        if (chosen != TN_OK)
+            return false;
+    }
+    tn_status status = matches ? ready_rules(job, open, &options, &error) : ready_clauses(job, open, &options, &error);
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    return status == TN_OK;
+}
+
+static bool make_ready_for(tn_job *job, tn_shards_open *open)
+{
+    return tn_shard_set_answers(&open->set) ? tn_shards_ready_answers(job, open) : make_ready(job, open);
+}
+
+bool tn_shards_open_rules(tn_job *job, tn_shards_open *open)
 {
     tn_error error;
-    if (!tn_shards_read(job, open))
-        return false;
     open->module = tn_shard_set_path(&open->set, TN_MODULE_NAME);
     tn_status status = open->module ? tn_shard_set_module_same(&open->set, &error) : tn_fail_memory(&error);
     if (status == TN_OK) {
-        if (!tn_job_open(job, open->module) || !make_ready(job, open))
+        if (!tn_job_open(job, open->module) || !make_ready_for(job, open))
             return false;
-        status = tn_shard_set_agrees(&open->set, &open->ready, &error);
+        const tn_schema *schema = open->ready.schema ? open->ready.schema : open->matched.schema;
+        status = tn_shard_set_agrees(&open->set, schema, open->ready.library, &error);
     }
     if (status != TN_OK)
         tn_job_fail(job, &error);
@@ -56,6 +98,9 @@ bool tn_shards_open_set(tn_job *job, tn_shards_open *open)
 
 void tn_shards_close_library(tn_shards_open *open)
 {
+    tn_matched_clear(&open->matched);
+    tn_pruned_clear(&open->pruned);
+    tn_chosen_rules_clear(&open->rules);
     tn_library_close(&open->ready);
 }
 

@@ -16,14 +16,16 @@ typedef struct shards_part {
 
 static void run_new(tn_job *job, tn_shards_open *open)
 {
-    (void)open;
-    tn_shards_new(job);
+    if (tn_shards_settings_of(job)->task == TN_TASK_ENUMERATE)
+        tn_shards_new(job);
+    else
+        tn_shards_new_answers(job, open);
 }
 
 static const shards_part parts[] = {
     {"new",
-     " library where trays max-length max-states threads shards plans from to format compress plan-lines "
-     "row-group output ",
+     " task input rule input-format on-error library where trays max-length max-states threads shards plans from to "
+     "format compress plan-lines row-group output ",
      false, run_new},
     {"run", " shard part threads for stale ", true, tn_shards_run_set},
     {"status", " stale output ", false, tn_shards_status},
@@ -65,12 +67,16 @@ static bool takes_options(tn_job *job, const shards_part *part)
     return true;
 }
 
+/* Words behind --input FILE are inputs too. */
 static bool takes_operands(tn_job *job, const shards_part *part)
 {
-    if (job->settings->operands.count == 2)
+    size_t count = job->settings->operands.count;
+    if (count == 2 || (count > 2 && tn_shards_settings_of(job)->inputs.count > 0))
         return true;
-    tn_job_usage(job, "`tartan shards %s` takes one %s", part->name,
-                 strcmp(part->name, "new") == 0 ? "rule file" : "set");
+    bool makes = strcmp(part->name, "new") == 0;
+    tn_diagnostic *d = tn_job_usage(job, "`tartan shards %s` takes one %s", part->name, makes ? "rule file" : "set");
+    if (makes && count > 2)
+        tn_help(tn_job_diagnostics(job), d, "files of plans come behind --input, with --task match or --task prune");
     return false;
 }
 
@@ -83,7 +89,7 @@ static int run(const tn_command *command, const tn_settings *settings)
     const shards_part *part = find_part(&job);
     if (part && takes_operands(&job, part) && takes_options(&job, part)) {
         bool reads = strcmp(part->name, "new") != 0;
-        bool well = !reads || (part->opens ? tn_shards_open_set(&job, &open) : tn_shards_read(&job, &open));
+        bool well = !reads || (tn_shards_read(&job, &open) && (!part->opens || tn_shards_open_rules(&job, &open)));
         if (tn_job_agree(&job, well))
             part->run(&job, &open);
     }
@@ -95,13 +101,21 @@ static int run(const tn_command *command, const tn_settings *settings)
 
 #define SETTINGS tn_shards_settings
 static const tn_option options[] = {
+    CHOICE("task", 0, "TASK", task, "enumerate|match|prune",
+           "new: what the shards hold: the plans of a library (the default), or what `tartan match` or `tartan prune` "
+           "says of the plans of --input"),
+    LIST("input", 'i', "FILE", inputs, "new: a file of plans to match or prune; more of them may follow"),
+    LIST("rule", 'r', "NAME", rules, "new: match this rule; may be repeated (default: all rules of the file itself)"),
+    OPTION_INPUT_FORMAT,
+    OPTION_ON_ERROR,
     OPTIONS_LIBRARY,
-    NUMBER("shards", 0, "N", shards, 1, 0, "new: divide the plans among N shards"),
+    NUMBER("shards", 0, "N", shards, 1, 0, "new: divide the plans among N shards; inputs among about N"),
     NUMBER("plans", 0, "N", each, 1, 0, "new: make shards of N plans each"),
     RANK("from", 0, "RANK", from, "new: the first rank (default 0)"),
     RANK("to", 0, "RANK", to, "new: one past the last rank (default: all)"),
-    CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite|parquet",
-           "new: what the shards are: lines (the default), json, csv, bin or parquet"),
+    CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite|parquet|names|bits",
+           "new: what the shards are: lines (the default), json, csv, bin or parquet; of a match names (the default), "
+           "json or bits; of a prune lines (the default) or json"),
     MAYBE("compress", 0, "HOW", compress, "zstd", "new: compress the shards"),
     FLAG("plan-lines", 0, written.plan_lines, "new: in Parquet, add a column of plan lines"),
     NUMBER("row-group", 0, "N", written.row_group, 1, UINT32_MAX,
@@ -118,9 +132,11 @@ static const tn_option options[] = {
 const tn_command tn_command_shards = {
     .name = "shards",
     .summary = "write a library by many workers, on many machines",
-    .usage =
-        "new FILE -o SET (--shards N | --plans N) [--from RANK] [--to RANK] [--format FORMAT]\nrun SET [--shard I | "
-        "--part I/N] [--threads N] [--for TIME]\nstatus SET\ncheck SET\ncat SET [-o FILE]\nmerge SET -o FILE.sqlite",
+    .usage = "new FILE -o SET (--shards N | --plans N) [--from RANK] [--to RANK] [--format FORMAT]\n"
+             "new FILE -o SET --task match --input PLANS... --shards N [--rule NAME]...\n"
+             "new FILE -o SET --task prune --input PLANS... --shards N [--library NAME]\n"
+             "run SET [--shard I | --part I/N] [--threads N] [--for TIME]\nstatus SET\ncheck SET\ncat SET [-o FILE]\n"
+             "merge SET -o FILE.sqlite",
     .description =
         "A shard set is a folder. new makes it: manifest.json says which ranks of the library are in which shard, and "
         "rules.tnb is the compiled rule file. run writes the shards that are not there yet, until none is left. Start "
@@ -128,8 +144,13 @@ const tn_command tn_command_shards = {
         "not at all, so a worker may be killed at any moment, and run again. SIGUSR1 ends it after the shards that it "
         "has begun.\n\n"
         "status says how many shards are there, and who writes which. check reads all of them, and compares them with "
-        "the manifest. cat writes the bytes that one `tartan enumerate` would write. merge makes one database of all "
-        "shards.",
+        "the manifest. cat writes the bytes that one `tartan enumerate`, `match` or `prune` would write. merge makes "
+        "one database of all "
+        "shards.\n\n"
+        "With --task match or prune the shards hold answers about the plans of large files. Lines are divided near "
+        "equal numbers of bytes, packed plans between plans, and Parquet between row groups. CSV, databases and "
+        "compressed files have one shard each. A file may not change until all shards are there. status lists plans "
+        "that could not be read.",
     .example =
         "$ tartan shards new terrace -o terrace.set --plans 1000000 --to 8000000\n$ tartan shards run terrace.set\n$ "
         "tartan shards cat terrace.set -o terrace.plans",

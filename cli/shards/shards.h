@@ -2,13 +2,21 @@
 #ifndef TARTAN_CLI_SHARDS_SHARDS_H
 #define TARTAN_CLI_SHARDS_SHARDS_H
 
+#include "cli/plan/chosen_rules.h"
+#include "cli/plan/plan_input.h"
 #include "cli/plan/plan_output.h"
+#include "driver/plan/matched.h"
+#include "driver/plan/pruned.h"
 #include "driver/shards/set.h"
 
 typedef struct tn_shards_settings {
     tn_settings common;
     tn_plan_settings plans;
     tn_written_settings written;
+    int task;              /* a tn_shard_task */
+    tn_option_list inputs; /* --input; further operands are inputs too */
+    tn_option_list rules;  /* --rule */
+    tn_input_settings input;
     tn_option_number shards, each; /* --shards, --plans */
     const char *from, *to;
     int compress; /* 1: zstd */
@@ -25,14 +33,24 @@ static inline const tn_shards_settings *tn_shards_settings_of(const tn_job *job)
 typedef struct tn_shards_open {
     tn_shard_set set;
     tn_ready_library ready;
+    tn_chosen_rules rules; /* of a set of answers, with what is said of plans */
+    tn_matched matched;
+    tn_pruned pruned;
+    tn_answering answering;
     char *module; /* its path, which the job borrows */
 } tn_shards_open;
+
+/* What --format says beside the formats of plans. */
+enum { TN_SHARDS_NAMES = TN_FORMAT_COUNT, TN_SHARDS_BITS };
 
 /* Reads the manifest of the set that the second operand names. False where that failed (then end the job). */
 bool tn_shards_read(tn_job *job, tn_shards_open *open);
 
-/* The same, and opens its module and library, which must agree with the manifest. */
-bool tn_shards_open_set(tn_job *job, tn_shards_open *open);
+/* Opens the module of a set that was read, and its library or rules, which must agree with the manifest. */
+bool tn_shards_open_rules(tn_job *job, tn_shards_open *open);
+
+/* Makes ready what the set's answers are made by, of the file that the job has open. */
+bool tn_shards_ready_answers(tn_job *job, tn_shards_open *open);
 void tn_shards_close_library(tn_shards_open *open); /* before the job's end */
 void tn_shards_clear(tn_shards_open *open);         /* after it */
 
@@ -48,6 +66,9 @@ bool tn_shards_stale(tn_job *job, double *seconds);
 
 /* Each does one thing that `tartan shards` does, and records what went wrong. */
 void tn_shards_new(tn_job *job);
+/* Makes the set, with the module that the job has open: just compiled, or the bytes of its file. */
+tn_status tn_shards_create(tn_job *job, tn_shard_set *set, tn_error *error);
+void tn_shards_new_answers(tn_job *job, tn_shards_open *open);
 void tn_shards_run_set(tn_job *job, tn_shards_open *open);
 void tn_shards_status(tn_job *job, tn_shards_open *open);
 void tn_shards_check_set(tn_job *job, tn_shards_open *open);

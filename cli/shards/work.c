@@ -56,6 +56,8 @@ static bool choose_time(tn_job *job, tn_shards_job *work)
 static void tell(tn_job *job, const tn_shards_done *done)
 {
     const char *plural = done->written == 1 ? "" : "s";
+    if (done->unread > 0)
+        tn_job_status(job, TN_INVALID);
     job->said = true; /* also on ranks that leave it to the first */
     if (!tn_ranks_lead(job->settings->ranks))
         return;
@@ -71,6 +73,9 @@ static void tell(tn_job *job, const tn_shards_done *done)
         tn_job_note(job, "all shards are there already");
     else
         tn_job_note(job, "%u shard%s written; all are there", done->written, plural);
+    if (done->unread > 0)
+        tn_job_note(job, "%" PRIu64 " plan%s could not be read; `tartan shards status` lists them", done->unread,
+                    done->unread == 1 ? "" : "s");
 }
 
 /* Do all ranks work on the same set? */
@@ -93,6 +98,7 @@ void tn_shards_run_set(tn_job *job, tn_shards_open *open)
     tn_shards_job work = {.set = &open->set,
                           .opened = &job->opened,
                           .ready = &open->ready,
+                          .answering = &open->answering,
                           .threads = tn_shards_threads(job),
                           .watch = tn_interrupt_waiting(),
                           .last = tn_interrupt_gently(ranks != NULL, false),

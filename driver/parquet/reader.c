@@ -346,6 +346,25 @@ static tn_status read_line(tn_plan_reader *reader, tn_error *error)
 
 /* ---- row groups */
 
+tn_plan_part tn_parquet_reader_groups(const tn_plan_reader *reader)
+{
+    return (tn_plan_part){0, tn_reading_of(reader)->group_count};
+}
+
+uint64_t tn_parquet_reader_count(const tn_plan_reader *reader, tn_plan_part groups)
+{
+    uint64_t count = 0;
+    for (uint64_t g = groups.begin; g < groups.end; g++)
+        count += tn_reading_of(reader)->group_rows[g];
+    return count;
+}
+
+void tn_parquet_reader_restrict(tn_plan_reader *reader, tn_plan_part groups)
+{
+    tn_reading_of(reader)->group = groups.begin;
+    tn_reading_of(reader)->group_end = groups.end;
+}
+
 static tn_status end_group(tn_plan_reader *reader, tn_error *error)
 {
     tn_parquet_reading *r = tn_reading_of(reader);

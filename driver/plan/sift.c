@@ -346,6 +346,8 @@ static tn_status start_and_run(sift *s, worker *workers, size_t count, tn_error 
         status = s->status;
         if (status == TN_OK)
             status = tn_plan_reader_unchanged(s->reader, error);
+        if (s->calls->lines)
+            *s->calls->lines = s->shared ? s->relay.lines : tn_plan_reader_line(s->reader);
     }
     for (size_t i = 0; i < made; i++)
         worker_clear(&workers[i]);

@@ -26,6 +26,7 @@ typedef struct tn_sift_calls {
     tn_relay_write *write;
     /* A plan that cannot be read or matched; the error has its line. `text` may be NULL. */
     bool (*bad)(void *context, const tn_error *error, const char *text, size_t size);
+    uint64_t *lines; /* or NULL: set to the number of lines (plans, where the format has none) that were read */
 } tn_sift_calls;
 
 /* Reads to the end. TN_OK also where a call ended it. Memory is bounded by the number of threads: a batch for each, and

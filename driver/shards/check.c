@@ -16,7 +16,8 @@ tn_status tn_shard_check(const tn_shard_set *set, const tn_ready_library *ready,
     tn_status status = TN_OK;
     if (tn_shard_done(set, shard))
         status = tn_shard_same_as_record(set, shard, error);
-    return status == TN_OK ? tn_shard_read_through(set, ready, shard, watch, error) : status;
+    bool plans = !tn_shard_set_answers(set);
+    return status == TN_OK && plans ? tn_shard_read_through(set, ready, shard, watch, error) : status;
 }
 
 tn_status tn_shards_complete(const tn_shard_set *set, tn_error *error)

@@ -4,8 +4,8 @@
 
 #include "driver/shards/set.h"
 
-/* Is the shard that of its record (where that is there), and does it hold the plans of its ranks? TN_INVALID (E1706),
- * TN_STOPPED. */
+/* Is the shard that of its record (where that is there), and does it hold the plans of its ranks, if any? TN_INVALID
+ * (E1706), TN_STOPPED. */
 tn_status tn_shard_check(const tn_shard_set *set, const tn_ready_library *ready, uint32_t shard, tn_watch *watch,
                          tn_error *error);
 

@@ -54,7 +54,7 @@ static tn_status gather_shard(const tn_gathering *g, uint32_t shard, tn_plan_wri
     return status;
 }
 
-tn_status tn_shards_gather(const tn_gathering *g, tn_error *error)
+static tn_status gather_plans(const tn_gathering *g, tn_error *error)
 {
     tn_made made;
     tn_plan_writer *writer = NULL;
@@ -66,9 +66,7 @@ tn_status tn_shards_gather(const tn_gathering *g, tn_error *error)
     options.format = g->format;
     options.compression = NULL;
     options.sqlite = tn_plan_sqlite();
-    tn_status status = tn_shards_complete(g->set, error);
-    if (status == TN_OK)
-        status = tn_plan_writer_open(g->ready->schema, g->output, &options, &writer, error);
+    tn_status status = tn_plan_writer_open(g->ready->schema, g->output, &options, &writer, error);
     for (uint32_t i = 0; status == TN_OK && i < g->set->count; i++)
         status = gather_shard(g, i, writer, error);
     if (status == TN_OK)
@@ -76,4 +74,12 @@ tn_status tn_shards_gather(const tn_gathering *g, tn_error *error)
     tn_plan_writer_free(writer);
     mpz_clear(ranks);
     return status;
+}
+
+tn_status tn_shards_gather(const tn_gathering *g, tn_error *error)
+{
+    tn_status status = tn_shards_complete(g->set, error);
+    if (status != TN_OK)
+        return status;
+    return tn_shard_set_answers(g->set) ? tn_shards_gather_answers(g, error) : gather_plans(g, error);
 }

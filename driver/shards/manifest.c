@@ -2,18 +2,24 @@
 #include "driver/shards/manifest.h"
 
 #include <inttypes.h>
-#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "driver/shards/hash.h"
+#include "driver/shards/manifest_read.h"
 
 /* How formats are called, as by --format. */
-static const char *const formats[TN_FORMAT_COUNT] = {[TN_FORMAT_LINES] = "lines",
-                                                     [TN_FORMAT_JSON] = "json",
-                                                     [TN_FORMAT_CSV] = "csv",
-                                                     [TN_FORMAT_BIN] = "bin",
-                                                     [TN_FORMAT_PARQUET] = "parquet"};
+static const char *const formats[TN_FORMAT_COUNT] = {
+    [TN_FORMAT_LINES] = "lines", [TN_FORMAT_JSON] = "json",     [TN_FORMAT_CSV] = "csv",
+    [TN_FORMAT_BIN] = "bin",     [TN_FORMAT_SQLITE] = "sqlite", [TN_FORMAT_PARQUET] = "parquet"};
+
+const char *const *tn_manifest_formats(void)
+{
+    return formats;
+}
+
+static const char *const tasks[TN_TASK_COUNT] = {
+    [TN_TASK_ENUMERATE] = "enumerate", [TN_TASK_MATCH] = "match", [TN_TASK_PRUNE] = "prune"};
 
 #define HASH_BEGIN "  \"hash\": \""
 #define HASH_END "\"\n}\n"
@@ -42,8 +48,10 @@ static bool write_rank(tn_buffer *text, const char *key, const mpz_t rank)
 
 static bool write_shard(const tn_shard_set *set, uint32_t i, tn_buffer *text)
 {
+    bool ranks = !tn_shard_set_answers(set);
     return tn_buffer_printf(text, "    {\"name\": \"%s\"", tn_shard_name_of(set, i).text) &&
-           write_rank(text, "from", set->bounds[i]) && write_rank(text, "to", set->bounds[i + 1]) &&
+           (ranks ? write_rank(text, "from", set->bounds[i]) && write_rank(text, "to", set->bounds[i + 1])
+                  : tn_manifest_write_piece(&set->inputs.pieces[i], text)) &&
            tn_buffer_printf(text, "}%s\n", i + 1 < set->count ? "," : "");
 }
 
@@ -54,20 +62,31 @@ bool tn_manifest_seal(tn_buffer *text)
     return tn_buffer_printf(text, HASH_BEGIN "%s" HASH_END, hash);
 }
 
-bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text)
+/* What the plans of a library are written as. */
+static bool write_plans(const tn_shard_set *set, tn_buffer *text)
 {
-    bool done = tn_buffer_printf(text, "{\n  \"tartan_shards\": %d,\n", TN_MANIFEST_VERSION) &&
-                write_member(text, "version", set->version) && write_member(text, "module", TN_MODULE_NAME) &&
-                write_member(text, "module_hash", set->module_hash) && write_member(text, "library", set->library) &&
-                write_member(text, "library_hash", set->library_hash) &&
-                write_member(text, "schema_hash", set->schema_hash) &&
-                write_member(text, "rules_path", set->rules_path) && write_member(text, "command", set->command) &&
-                write_member(text, "format", formats[set->format]);
+    bool done =
+        write_member(text, "library_hash", set->library_hash) && write_member(text, "format", formats[set->format]);
     if (done && set->compressed)
         done = write_member(text, "compress", "zstd");
     if (done && set->plan_lines)
         done = write_member(text, "columns", "plan");
-    done = done && write_number(text, "row_group", set->row_group);
+    return done && write_number(text, "row_group", set->row_group);
+}
+
+bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text)
+{
+    bool answers = tn_shard_set_answers(set);
+    bool done = tn_buffer_printf(text, "{\n  \"tartan_shards\": %d,\n", TN_MANIFEST_VERSION) &&
+                write_member(text, "version", set->version) && write_member(text, "module", TN_MODULE_NAME) &&
+                write_member(text, "module_hash", set->module_hash);
+    if (done && answers)
+        done = write_member(text, "task", tasks[set->task]);
+    if (done && set->library)
+        done = write_member(text, "library", set->library);
+    done = done && write_member(text, "schema_hash", set->schema_hash) &&
+           write_member(text, "rules_path", set->rules_path) && write_member(text, "command", set->command) &&
+           (answers ? tn_manifest_write_inputs(set, text) : write_plans(set, text));
     if (done && set->options.override_trays)
         done = tn_buffer_printf(text, "  \"trays\": [%u, %u],\n", set->options.trays_min, set->options.trays_max);
     done = done && write_number(text, "max_states", set->options.max_states) &&
@@ -79,15 +98,9 @@ bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text)
 
 /* ---- reading */
 
-typedef struct reading {
-    tn_shard_set *set;
-    json_t *manifest;
-    tn_error *error;
-} reading;
+typedef tn_manifest_reading reading;
 
-static tn_status refuse(const reading *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static tn_status refuse(const reading *r, const char *format, ...)
+tn_status tn_manifest_refuse(const reading *r, const char *format, ...)
 {
     char text[300];
     va_list args;
@@ -103,7 +116,7 @@ static tn_status read_text(const reading *r, const char *key, char **text)
 {
     const char *value = json_string_value(json_object_get(r->manifest, key));
     if (!value)
-        return refuse(r, "it has no text `%s`", key);
+        return tn_manifest_refuse(r, "it has no text `%s`", key);
     *text = strdup(value);
     return *text ? TN_OK : tn_fail_memory(r->error);
 }
@@ -112,7 +125,7 @@ static tn_status read_hash(const reading *r, const char *key, char *hash, size_t
 {
     const char *value = json_string_value(json_object_get(r->manifest, key));
     if (!value || strlen(value) != digits || strspn(value, "0123456789abcdef") != digits)
-        return refuse(r, "`%s` is no hash of %zu digits", key, digits);
+        return tn_manifest_refuse(r, "`%s` is no hash of %zu digits", key, digits);
     memcpy(hash, value, digits + 1);
     return TN_OK;
 }
@@ -121,7 +134,7 @@ static tn_status read_version(const reading *r)
 {
     const json_t *version = json_object_get(r->manifest, "tartan_shards");
     if (!json_is_integer(version))
-        return refuse(r, "it is not the manifest of a shard set");
+        return tn_manifest_refuse(r, "it is not the manifest of a shard set");
     if (json_integer_value(version) == TN_MANIFEST_VERSION)
         return TN_OK;
     tn_fail(r->error, TN_INVALID, E_SHARD_VERSION,
@@ -151,26 +164,34 @@ static tn_status check_seal(const reading *r, const char *text, size_t size)
         if ((size_t)length == size - (size_t)(seal - text) && memcmp(seal, wanted, (size_t)length) == 0)
             return TN_OK;
     }
-    return refuse(r, "it was changed after it was made: its hash does not fit what it holds");
+    return tn_manifest_refuse(r, "it was changed after it was made: its hash does not fit what it holds");
+}
+
+tn_status tn_manifest_word(const reading *r, const char *key, const char *const *words, int count, int *number)
+{
+    const char *word = json_string_value(json_object_get(r->manifest, key));
+    for (*number = 0; word && *number < count; ++*number)
+        if (words[*number] && strcmp(words[*number], word) == 0)
+            return TN_OK;
+    return tn_manifest_refuse(r, "`%s` is none that is known", key);
 }
 
 static tn_status read_format(const reading *r)
 {
-    const char *name = json_string_value(json_object_get(r->manifest, "format"));
-    for (int f = 0; name && f < TN_FORMAT_COUNT; f++) {
-        if (formats[f] && strcmp(formats[f], name) == 0) {
-            r->set->format = (tn_plan_format)f;
-            return TN_OK;
-        }
-    }
-    return refuse(r, "`format` is none of lines, json, csv, bin and parquet");
+    int format;
+    tn_status status = tn_manifest_word(r, "format", formats, TN_FORMAT_COUNT, &format);
+    if (status != TN_OK)
+        return status;
+    r->set->format = (tn_plan_format)format;
+    return format != TN_FORMAT_SQLITE ? TN_OK
+                                      : tn_manifest_refuse(r, "`format` is none of lines, json, csv, bin and parquet");
 }
 
 static tn_status read_compression(const reading *r)
 {
     const json_t *how = json_object_get(r->manifest, "compress");
     r->set->compressed = how && json_is_string(how) && strcmp(json_string_value(how), "zstd") == 0;
-    return !how || r->set->compressed ? TN_OK : refuse(r, "`compress` is not zstd");
+    return !how || r->set->compressed ? TN_OK : tn_manifest_refuse(r, "`compress` is not zstd");
 }
 
 /* What is asked for of Parquet. */
@@ -178,7 +199,7 @@ static tn_status read_columns(const reading *r)
 {
     const json_t *columns = json_object_get(r->manifest, "columns");
     r->set->plan_lines = columns && json_is_string(columns) && strcmp(json_string_value(columns), "plan") == 0;
-    return !columns || r->set->plan_lines ? TN_OK : refuse(r, "`columns` is not plan");
+    return !columns || r->set->plan_lines ? TN_OK : tn_manifest_refuse(r, "`columns` is not plan");
 }
 
 /* A whole number of 32 bits; absent: `otherwise`. */
@@ -186,7 +207,7 @@ static tn_status read_number(const reading *r, const json_t *value, const char *
 {
     json_int_t read = json_integer_value(value);
     if (value && (!json_is_integer(value) || read < 0 || read > UINT32_MAX - 1))
-        return refuse(r, "`%s` is not a number that it can be", key);
+        return tn_manifest_refuse(r, "`%s` is not a number that it can be", key);
     *number = (uint32_t)read;
     return TN_OK;
 }
@@ -203,7 +224,7 @@ static tn_status read_options(const reading *r)
     if (status != TN_OK || !trays)
         return status;
     if (json_array_size(trays) != 2)
-        return refuse(r, "`trays` is not two numbers");
+        return tn_manifest_refuse(r, "`trays` is not two numbers");
     options->override_trays = true;
     status = read_number(r, json_array_get(trays, 0), "trays", &options->trays_min);
     return status == TN_OK ? read_number(r, json_array_get(trays, 1), "trays", &options->trays_max) : status;
@@ -215,21 +236,42 @@ static bool read_rank(const json_t *shard, const char *key, mpz_t rank)
     return digits && *digits && strspn(digits, "0123456789") == strlen(digits) && mpz_set_str(rank, digits, 10) == 0;
 }
 
-static tn_status read_shard(const reading *r, uint32_t i, const json_t *shard, mpz_t from)
+static tn_status read_ranks(const reading *r, uint32_t i, const json_t *shard, mpz_t from)
 {
     tn_shard_set *set = r->set;
-    const char *name = json_string_value(json_object_get(shard, "name"));
-    tn_shard_name wanted = tn_shard_name_of(set, i);
-    if (!name || strcmp(name, wanted.text) != 0)
-        return refuse(r, "shard %u is not called `%s`", i, wanted.text);
     if (!read_rank(shard, "from", from) || !read_rank(shard, "to", set->bounds[i + 1]))
-        return refuse(r, "shard %u has no ranks `from` and `to`", i);
+        return tn_manifest_refuse(r, "shard %u has no ranks `from` and `to`", i);
     if (i == 0)
         mpz_set(set->bounds[0], from);
     int order = mpz_cmp(from, set->bounds[i]);
     if (order != 0)
-        return refuse(r, order < 0 ? "shards %u and %u overlap" : "there are ranks between shards %u and %u", i - 1, i);
-    return mpz_cmp(set->bounds[i + 1], from) >= 0 ? TN_OK : refuse(r, "shard %u ends before it begins", i);
+        return tn_manifest_refuse(
+            r, order < 0 ? "shards %u and %u overlap" : "there are ranks between shards %u and %u", i - 1, i);
+    return mpz_cmp(set->bounds[i + 1], from) >= 0 ? TN_OK : tn_manifest_refuse(r, "shard %u ends before it begins", i);
+}
+
+static tn_status read_shard(const reading *r, uint32_t i, const json_t *shard, mpz_t from)
+{
+    const char *name = json_string_value(json_object_get(shard, "name"));
+    tn_shard_name wanted = tn_shard_name_of(r->set, i);
+    if (!name || strcmp(name, wanted.text) != 0)
+        return tn_manifest_refuse(r, "shard %u is not called `%s`", i, wanted.text);
+    return tn_shard_set_answers(r->set) ? tn_manifest_read_piece(r, i, shard) : read_ranks(r, i, shard, from);
+}
+
+/* Room for what is said of each shard. */
+static tn_status make_room(tn_shard_set *set, size_t count, tn_error *error)
+{
+    if (tn_shard_set_answers(set))
+        set->inputs.pieces = calloc(count, sizeof *set->inputs.pieces);
+    else
+        set->bounds = calloc(count + 1, sizeof *set->bounds);
+    if (!set->bounds && !set->inputs.pieces)
+        return tn_fail_memory(error);
+    set->count = (uint32_t)count;
+    for (size_t i = 0; set->bounds && i <= count; i++)
+        mpz_init(set->bounds[i]);
+    return TN_OK;
 }
 
 static tn_status read_shards(const reading *r)
@@ -238,50 +280,61 @@ static tn_status read_shards(const reading *r)
     const json_t *shards = json_object_get(r->manifest, "shards");
     size_t count = json_array_size(shards);
     if (count == 0)
-        return refuse(r, "it has no list `shards`");
+        return tn_manifest_refuse(r, "it has no list `shards`");
     if (count > TN_SHARDS_MAX)
         return tn_fail(r->error, TN_LIMIT, E_SHARD_TOO_MANY, "%.200s has %zu shards, and %u is the most", set->folder,
                        count, TN_SHARDS_MAX);
-    set->bounds = calloc(count + 1, sizeof *set->bounds);
-    if (!set->bounds)
-        return tn_fail_memory(r->error);
-    set->count = (uint32_t)count;
-    for (size_t i = 0; i <= count; i++)
-        mpz_init(set->bounds[i]);
+    tn_status status = make_room(set, count, r->error);
     mpz_t from;
     mpz_init(from);
-    tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < set->count; i++)
         status = read_shard(r, i, json_array_get(shards, i), from);
     mpz_clear(from);
     return status;
 }
 
-static tn_status read_members(const reading *r)
+static tn_status read_texts(const reading *r)
 {
     tn_shard_set *set = r->set;
     const struct {
         const char *key;
         char **text;
     } texts[] = {{"version", &set->version},
-                 {"library", &set->library},
                  {"rules_path", &set->rules_path},
-                 {"command", &set->command}};
+                 {"command", &set->command},
+                 {"library", &set->library}};
+    size_t count = sizeof texts / sizeof *texts - (set->task == TN_TASK_MATCH);
     tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && i < sizeof texts / sizeof *texts; i++)
+    for (size_t i = 0; status == TN_OK && i < count; i++)
         status = read_text(r, texts[i].key, texts[i].text);
     if (status == TN_OK)
         status = read_hash(r, "module_hash", set->module_hash, 32);
-    if (status == TN_OK)
-        status = read_hash(r, "library_hash", set->library_hash, 32);
-    if (status == TN_OK)
-        status = read_hash(r, "schema_hash", set->schema_hash, 16);
+    return status == TN_OK ? read_hash(r, "schema_hash", set->schema_hash, 16) : status;
+}
+
+/* What the plans of a library are written as. */
+static tn_status read_plans(const reading *r)
+{
+    tn_status status = read_hash(r, "library_hash", r->set->library_hash, 32);
     if (status == TN_OK)
         status = read_format(r);
     if (status == TN_OK)
         status = read_compression(r);
+    return status == TN_OK ? read_columns(r) : status;
+}
+
+static tn_status read_members(const reading *r)
+{
+    int task = TN_TASK_ENUMERATE; /* where it is not said */
+    tn_status status = TN_OK;
+    if (json_object_get(r->manifest, "task"))
+        status = tn_manifest_word(r, "task", tasks, TN_TASK_COUNT, &task);
+    if (status != TN_OK)
+        return status;
+    r->set->task = (tn_shard_task)task;
+    status = read_texts(r);
     if (status == TN_OK)
-        status = read_columns(r);
+        status = tn_shard_set_answers(r->set) ? tn_manifest_read_inputs(r) : read_plans(r);
     if (status == TN_OK)
         status = read_options(r);
     return status == TN_OK ? read_shards(r) : status;
@@ -292,7 +345,7 @@ tn_status tn_manifest_read(const char *text, size_t size, tn_shard_set *set, tn_
     json_error_t wrong;
     reading r = {set, json_loadb(text, size, JSON_REJECT_DUPLICATES, &wrong), error};
     if (!r.manifest)
-        return refuse(&r, "line %d: %s", wrong.line, wrong.text);
+        return tn_manifest_refuse(&r, "line %d: %s", wrong.line, wrong.text);
     tn_status status = read_version(&r);
     if (status == TN_OK)
         status = check_seal(&r, text, size);

@@ -13,7 +13,7 @@
 #include "runtime/base/file.h"
 #include "runtime/plan/text/pack.h"
 
-#define RECORD_BYTES 4096u
+#define RECORD_BYTES (1u << 20) /* the most: complaints about a hundred plans */
 
 /* Needs no memory, whose lack would look like a shard that is not there. */
 static bool is_there(const tn_shard_set *set, uint32_t shard, const char *ending)
@@ -49,15 +49,44 @@ tn_status tn_shard_wrong(const tn_shard_set *set, uint32_t shard, tn_error *erro
 
 /* ---- records */
 
-tn_status tn_shard_record_write(const tn_shard_set *set, uint32_t shard, const tn_shard_record *record, tn_error *error)
+static bool write_complaint(const tn_error *complaint, bool first, tn_buffer *text)
+{
+    return tn_buffer_printf(text, "%s\n  {\"code\": %d, \"line\": %" PRIu64 ", \"column\": %u, \"message\": ",
+                            first ? "" : ",", (int)complaint->code, complaint->line, complaint->column) &&
+           tn_buffer_append_json(text, complaint->message) && tn_buffer_append(text, "}", 1);
+}
+
+static bool write_read(const tn_shard_read *read, tn_buffer *text)
+{
+    bool done = tn_buffer_printf(text, ", \"lines\": %" PRIu64 ", \"unread\": %" PRIu64, read->lines, read->unread);
+    if (!done || read->unread == 0)
+        return done;
+    done = tn_buffer_printf(text, ", \"complaints\": [");
+    for (size_t i = 0; done && i < read->unread && i < TN_COMPLAINTS_KEPT; i++)
+        done = write_complaint(&read->complaints[i], i == 0, text);
+    return done && tn_buffer_append(text, "]", 1);
+}
+
+static bool write_record(const tn_shard_record *record, const tn_shard_read *read, tn_buffer *text)
+{
+    return tn_buffer_printf(text, "{\"bytes\": %" PRIu64 ", \"hash\": \"%s\"", record->bytes, record->hash) &&
+           (!read || write_read(read, text)) && tn_buffer_append(text, "}\n", 2);
+}
+
+tn_status tn_shard_record_write(const tn_shard_set *set, uint32_t shard, const tn_shard_record *record,
+                                const tn_shard_read *read, tn_error *error)
 {
     tn_output output;
+    tn_buffer text = {0};
     char *beside = tn_shard_path(set, shard, TN_SHARD_RECORD);
-    tn_status status = beside ? tn_output_open(beside, &output, error) : tn_fail_memory(error);
+    tn_status status = beside && write_record(record, read, &text) ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_output_open(beside, &output, error);
     if (status == TN_OK) {
-        fprintf(output.stream, "{\"bytes\": %" PRIu64 ", \"hash\": \"%s\"}\n", record->bytes, record->hash);
+        fwrite(text.data, 1, text.size, output.stream);
         status = tn_output_commit(&output, error);
     }
+    free(text.data);
     free(beside);
     return status;
 }
@@ -68,33 +97,91 @@ tn_status tn_shard_record_make(const tn_shard_set *set, uint32_t shard, tn_error
     char *path = tn_shard_path(set, shard, "");
     tn_status status = path ? tn_hash_file(path, record.hash, &record.bytes, error) : tn_fail_memory(error);
     free(path);
-    return status == TN_OK ? tn_shard_record_write(set, shard, &record, error) : status;
+    return status == TN_OK ? tn_shard_record_write(set, shard, &record, NULL, error) : status;
 }
 
-static bool parse_record(const char *text, size_t size, tn_shard_record *record)
+static bool parse_number(const json_t *object, const char *key, uint64_t *number)
 {
-    json_t *json = json_loadb(text, size, 0, NULL);
-    const json_t *bytes = json_object_get(json, "bytes");
+    const json_t *value = json_object_get(object, key);
+    *number = (uint64_t)json_integer_value(value);
+    return json_is_integer(value) && json_integer_value(value) >= 0;
+}
+
+static bool parse_record(const tn_shard_set *set, const json_t *json, tn_shard_record *record)
+{
     const char *hash = json_string_value(json_object_get(json, "hash"));
-    bool whole = json_is_integer(bytes) && json_integer_value(bytes) >= 0 && hash && strlen(hash) == 32;
-    if (whole) {
-        record->bytes = (uint64_t)json_integer_value(bytes);
+    *record = (tn_shard_record){0};
+    bool whole = parse_number(json, "bytes", &record->bytes) && hash && strlen(hash) == 32;
+    if (whole)
         memcpy(record->hash, hash, 33);
-    }
-    json_decref(json);
+    if (whole && tn_shard_set_answers(set))
+        whole = parse_number(json, "lines", &record->lines) && parse_number(json, "unread", &record->unread);
     return whole;
 }
 
-tn_status tn_shard_record_read(const tn_shard_set *set, uint32_t shard, tn_shard_record *record, tn_error *error)
+static bool parse_complaint(const json_t *json, tn_error *complaint)
+{
+    const char *message = json_string_value(json_object_get(json, "message"));
+    uint64_t code, column;
+    bool whole = message && parse_number(json, "code", &code) && parse_number(json, "line", &complaint->line) &&
+                 parse_number(json, "column", &column) && code <= UINT16_MAX && column <= UINT32_MAX;
+    if (!whole)
+        return false;
+    uint64_t line = complaint->line;
+    tn_fail(complaint, TN_INVALID, (tn_code)code, "%s", message);
+    tn_error_place(complaint, line, (size_t)column, (size_t)column + 1);
+    return true;
+}
+
+static bool parse_read(const tn_shard_set *set, const json_t *json, tn_shard_read *read)
+{
+    tn_shard_record record;
+    const json_t *complaints = json_object_get(json, "complaints");
+    bool whole = parse_record(set, json, &record);
+    read->lines = record.lines;
+    read->unread = record.unread;
+    size_t wanted = record.unread < TN_COMPLAINTS_KEPT ? (size_t)record.unread : TN_COMPLAINTS_KEPT;
+    whole = whole && json_array_size(complaints) == wanted;
+    for (size_t i = 0; whole && i < wanted; i++)
+        whole = parse_complaint(json_array_get(complaints, i), &read->complaints[i]);
+    return whole;
+}
+
+/* The JSON of the record; NULL where there is none. */
+static tn_status load_record(const tn_shard_set *set, uint32_t shard, json_t **json, tn_error *error)
 {
     uint8_t *bytes = NULL;
     size_t size = 0;
     char *path = tn_shard_path(set, shard, TN_SHARD_RECORD);
     tn_status status = path ? tn_file_read(path, RECORD_BYTES, &bytes, &size, error) : tn_fail_memory(error);
-    if (status == TN_OK && !parse_record((const char *)bytes, size, record))
-        status = tn_shard_wrong(set, shard, error, "has a damaged " TN_SHARD_RECORD);
+    *json = status == TN_OK ? json_loadb((const char *)bytes, size, 0, NULL) : NULL;
     free(bytes);
     free(path);
+    return status;
+}
+
+static tn_status damaged_record(const tn_shard_set *set, uint32_t shard, tn_error *error)
+{
+    return tn_shard_wrong(set, shard, error, "has a damaged " TN_SHARD_RECORD);
+}
+
+tn_status tn_shard_record_read(const tn_shard_set *set, uint32_t shard, tn_shard_record *record, tn_error *error)
+{
+    json_t *json;
+    tn_status status = load_record(set, shard, &json, error);
+    if (status == TN_OK && !parse_record(set, json, record))
+        status = damaged_record(set, shard, error);
+    json_decref(json);
+    return status;
+}
+
+tn_status tn_shard_read_of(const tn_shard_set *set, uint32_t shard, tn_shard_read *read, tn_error *error)
+{
+    json_t *json;
+    tn_status status = load_record(set, shard, &json, error);
+    if (status == TN_OK && !parse_read(set, json, read))
+        status = damaged_record(set, shard, error);
+    json_decref(json);
     return status;
 }
 

@@ -11,7 +11,16 @@
 typedef struct tn_shard_record {
     uint64_t bytes;
     char hash[33];
+    uint64_t lines, unread; /* answers: of the piece, and plans of it that could not be read */
 } tn_shard_record;
+
+#define TN_COMPLAINTS_KEPT 100u /* of a shard */
+
+/* What was found while a shard of answers was written. */
+typedef struct tn_shard_read {
+    uint64_t lines, unread;
+    tn_error complaints[TN_COMPLAINTS_KEPT]; /* about the first that could not be read; lines count from the shard's */
+} tn_shard_read;
 
 /* Is the shard there, with its record? */
 bool tn_shard_done(const tn_shard_set *set, uint32_t shard);
@@ -19,12 +28,15 @@ bool tn_shard_done(const tn_shard_set *set, uint32_t shard);
 /* Is the shard's own file there? */
 bool tn_shard_exists(const tn_shard_set *set, uint32_t shard);
 
-/* Writes the record of a shard. TN_IO (E0902). */
+/* Writes the record of a shard, with what was read for it (NULL: it holds no answers). TN_IO (E0902). */
 tn_status tn_shard_record_write(const tn_shard_set *set, uint32_t shard, const tn_shard_record *record,
-                                tn_error *error);
+                                const tn_shard_read *read, tn_error *error);
 
-/* Hashes a shard that is there, and writes its record. */
+/* Hashes a shard of plans that is there, and writes its record. */
 tn_status tn_shard_record_make(const tn_shard_set *set, uint32_t shard, tn_error *error);
+
+/* Reads what the record says was found. TN_INVALID (E1706) where it is none. */
+tn_status tn_shard_read_of(const tn_shard_set *set, uint32_t shard, tn_shard_read *read, tn_error *error);
 
 /* Reads the record: TN_INVALID (E1706) where it is none. */
 tn_status tn_shard_record_read(const tn_shard_set *set, uint32_t shard, tn_shard_record *record, tn_error *error);

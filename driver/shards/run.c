@@ -11,11 +11,11 @@
 #include "driver/shards/claim.h"
 #include "driver/shards/hash.h"
 #include "driver/shards/record.h"
+#include "driver/shards/write.h"
 #include "runtime/base/crew.h"
 
-#define LOOK_EVERY 4096u /* plans between looks at the clock and for interruptions */
-#define WAIT_FIRST 0.05  /* seconds until it is looked again whether others are done */
-#define WAIT_MOST 2.0    /* and at most */
+#define WAIT_FIRST 0.05 /* seconds until it is looked again whether others are done */
+#define WAIT_MOST 2.0   /* and at most */
 
 typedef struct running {
     const tn_shards_job *job;
@@ -26,89 +26,46 @@ typedef struct running {
     bool *done;       /* [shards]: known to be there; each is written by the thread that has the shard */
     atomic_uint next; /* the first shard that no thread has looked at in this pass, where there is one rank */
     atomic_uint written;
-    atomic_uint held;   /* by others, in this pass */
-    atomic_bool failed; /* no further shard is begun here */
+    _Atomic uint64_t unread; /* plans */
+    atomic_uint held;        /* by others, in this pass */
+    atomic_bool failed;      /* no further shard is begun here */
     atomic_bool out_of_time, ended;
     _Atomic double longest; /* seconds that a shard took */
 } running;
 
 /* ---- one shard */
 
-static char *words_of(const tn_shard_set *set, uint32_t shard)
-{
-    char *from = mpz_get_str(NULL, 10, set->bounds[shard]), *to = mpz_get_str(NULL, 10, set->bounds[shard + 1]);
-    const tn_enumerated asked = {.from = from,
-                                 .to = to,
-                                 .trays_given = set->options.override_trays,
-                                 .trays_min = set->options.trays_min,
-                                 .trays_max = set->options.trays_max};
-    char *words = from && to ? tn_enumerated_words(&asked) : NULL;
-    free(from);
-    free(to);
-    return words;
-}
-
-static tn_status write_plans(const running *run, uint32_t shard, tn_claim *claim, tn_plan_writer *writer,
-                             tn_error *error)
-{
-    const tn_shard_set *set = run->job->set;
-    tn_cursor *cursor;
-    const tn_tray *trays;
-    uint32_t length;
-    size_t seen = 0;
-    tn_status status =
-        tn_cursor_new(run->job->ready->library, set->bounds[shard], set->bounds[shard + 1], &cursor, error);
-    if (status != TN_OK)
-        return status;
-    mpz_t rank;
-    mpz_init_set(rank, set->bounds[shard]);
-    while (status == TN_OK && tn_cursor_next(cursor, &trays, &length)) {
-        status = tn_plan_writer_write(writer, rank, trays, length, error);
-        mpz_add_ui(rank, rank, 1);
-        if (status == TN_OK && ++seen % LOOK_EVERY == 0) {
-            tn_claim_touch(claim, run->job->stale);
-            status = tn_watch_check(run->job->watch, error);
-        }
-    }
-    mpz_clear(rank);
-    tn_cursor_free(cursor);
-    return status;
-}
-
-/* The file of a shard, whose bytes `written` sees. */
+/* The file of a shard, whose bytes `written` sees; `read` is filled for answers. */
 static tn_status write_file(const running *run, uint32_t shard, tn_claim *claim, const tn_seen_bytes *written,
-                            tn_error *error)
+                            tn_shard_read *read, tn_error *error)
 {
-    const tn_shard_set *set = run->job->set;
-    char *path = tn_shard_path(set, shard, ""), *words = words_of(set, shard);
-    tn_plan_writer *writer = NULL;
-    tn_writer_options options = tn_shard_writing(set, &run->made->metadata, run->ranks);
-    options.metadata.command = words;
-    options.written = written;
-    tn_status status = path && words ? tn_plan_writer_open(run->job->ready->schema, path, &options, &writer, error)
-                                     : tn_fail_memory(error);
-    if (status == TN_OK)
-        status = write_plans(run, shard, claim, writer, error);
-    if (status == TN_OK)
-        status = tn_plan_writer_close(writer, error);
-    tn_plan_writer_free(writer);
-    free(path);
-    free(words);
-    return status;
+    const tn_shards_job *job = run->job;
+    const tn_shard_writing_now now = {shard, claim, job->stale, job->watch, written};
+    return tn_shard_set_answers(job->set)
+               ? tn_shard_answer(job->set, job->answering, &now, read, error)
+               : tn_shard_enumerate(job->set, job->ready, &run->made->metadata, run->ranks, &now, error);
 }
 
 /* A shard, and its record. It is hashed while it is written, so that it need not be read again. */
-static tn_status write_shard(const running *run, uint32_t shard, tn_claim *claim, tn_error *error)
+static tn_status write_shard(running *run, uint32_t shard, tn_claim *claim, tn_error *error)
 {
+    bool answers = tn_shard_set_answers(run->job->set);
+    tn_shard_read *read = answers ? calloc(1, sizeof *read) : NULL;
     tn_hashing *hashing = tn_hashing_new();
-    if (!hashing)
-        return tn_fail_memory(error);
-    tn_shard_record record;
-    const tn_seen_bytes written = tn_hashing_seen(hashing);
-    tn_status status = write_file(run, shard, claim, &written, error);
-    tn_hashing_end(hashing, record.hash, &record.bytes);
+    tn_shard_record record = {0};
+    tn_status status = hashing && (read || !answers) ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK) {
+        const tn_seen_bytes written = tn_hashing_seen(hashing);
+        status = write_file(run, shard, claim, &written, read, error);
+        tn_hashing_end(hashing, record.hash, &record.bytes);
+    }
+    if (status == TN_OK)
+        status = tn_shard_record_write(run->job->set, shard, &record, read, error);
+    if (status == TN_OK && read)
+        run->unread += read->unread;
     tn_hashing_free(hashing);
-    return status == TN_OK ? tn_shard_record_write(run->job->set, shard, &record, error) : status;
+    free(read);
+    return status;
 }
 
 /* A shard that is there without its record: whoever wrote it was killed between the two. */
@@ -118,7 +75,8 @@ static tn_status record_shard(const tn_shards_job *job, uint32_t shard, tn_error
     return status == TN_OK ? tn_shard_record_make(job->set, shard, error) : status;
 }
 
-/* What lacks of a claimed shard: the shard, or only its record. */
+/* What lacks of a claimed shard: the shard, or only its record. Answers are written again for it, which says more of
+ * them than the shard does. */
 static tn_status finish_shard(running *run, uint32_t shard, tn_claim *claim, tn_error *error)
 {
     const tn_shards_job *job = run->job;
@@ -126,8 +84,9 @@ static tn_status finish_shard(running *run, uint32_t shard, tn_claim *claim, tn_
     bool exists = tn_shard_exists(job->set, shard);
     if (exists && tn_shard_done(job->set, shard)) /* by another, while it was being claimed */
         return TN_OK;
-    tn_status status = exists ? record_shard(job, shard, error) : write_shard(run, shard, claim, error);
-    if (status == TN_OK && !exists) {
+    bool writes = !exists || tn_shard_set_answers(job->set);
+    tn_status status = writes ? write_shard(run, shard, claim, error) : record_shard(job, shard, error);
+    if (status == TN_OK && writes) {
         run->written++;
         run->longest = fmax(run->longest, tn_seconds() - begun);
     }
@@ -214,6 +173,7 @@ static tn_status wait_a_little(const running *run, double *seconds, tn_error *er
 /* What ranks tell each other behind a pass. */
 typedef struct passed {
     uint32_t held, written;
+    uint64_t unread;
     bool failed, out_of_time, ended;
 } passed;
 
@@ -221,7 +181,7 @@ typedef struct passed {
 static passed all_passed(const running *run)
 {
     const tn_ranks *ranks = run->job->ranks;
-    passed sum = {run->held, run->written, run->failed, run->out_of_time, run->ended}, one;
+    passed sum = {run->held, run->written, run->unread, run->failed, run->out_of_time, run->ended}, one;
     if (!tn_ranks_several(ranks))
         return sum;
     tn_gathered all;
@@ -231,6 +191,7 @@ static passed all_passed(const running *run)
         memcpy(&one, all.bytes + all.begins[r], sizeof one);
         sum.held += one.held;
         sum.written += one.written;
+        sum.unread += one.unread;
         sum.failed |= one.failed;
         sum.out_of_time |= one.out_of_time;
         sum.ended |= one.ended;
@@ -293,19 +254,23 @@ tn_status tn_shards_run(const tn_shards_job *job, tn_shards_done *done, tn_error
     uint32_t count = job->end - job->begin;
     passed now = {0};
     tn_made made;
-    tn_made_describe(job->opened, job->ready, job->set->rules_path, NULL, &made);
+    bool answers = tn_shard_set_answers(job->set);
+    if (!answers)
+        tn_made_describe(job->opened, job->ready, job->set->rules_path, NULL, &made);
     running run = {.job = job,
                    .made = &made,
                    .self = tn_claimant_self(),
                    .start = tn_seconds(),
                    .done = calloc(count + 1, sizeof *run.done)};
     mpz_init(run.ranks);
-    tn_library_kept(job->ready->library, TN_ALL_LENGTHS, run.ranks);
+    if (!answers)
+        tn_library_kept(job->ready->library, TN_ALL_LENGTHS, run.ranks);
     tn_crew *crew = tn_crew_new(job->threads, NULL);
     tn_status status = tn_ranks_agree(job->ranks, run.done && crew ? TN_OK : tn_fail_memory(error), error);
     if (status == TN_OK)
         status = run_all(&run, crew, &now, error);
-    *done = (tn_shards_done){.written = now.written, .out_of_time = now.out_of_time, .ended = now.ended};
+    *done = (tn_shards_done){
+        .written = now.written, .unread = now.unread, .out_of_time = now.out_of_time, .ended = now.ended};
     if (run.done && tn_ranks_lead(job->ranks)) {
         done->left = count_left(&run);
         if (status == TN_OK)

@@ -11,7 +11,8 @@ typedef struct tn_shards_job {
     const tn_shard_set *set;
     const tn_opened *opened; /* the set's module and library, which agree with it */
     const tn_ready_library *ready;
-    uint32_t begin, end; /* which shards */
+    const tn_answering *answering; /* what is said of plans; NULL where they are enumerated */
+    uint32_t begin, end;           /* which shards */
     unsigned threads;
     double stale;   /* seconds after which a claim that nobody touches is taken over */
     double seconds; /* after which no shard is begun, nor one that would take longer; 0: any number */
@@ -22,6 +23,7 @@ typedef struct tn_shards_job {
 
 typedef struct tn_shards_done {
     uint32_t written; /* by this call, on all ranks */
+    uint64_t unread;  /* plans that were skipped for them */
     uint32_t left;    /* of those asked for, as this rank sees them */
     bool out_of_time;
     bool ended; /* by `last` */

@@ -17,8 +17,20 @@
 
 #define MANIFEST_BYTES ((size_t)256 << 20) /* the most: 100,000 shards with ranks of a thousand digits */
 
+static void clear_inputs(tn_shard_inputs *inputs)
+{
+    for (uint32_t i = 0; inputs->items && i < inputs->count; i++)
+        free(inputs->items[i].path);
+    for (uint32_t i = 0; inputs->rules && i < inputs->rule_count; i++)
+        free(inputs->rules[i]);
+    free(inputs->items);
+    free(inputs->pieces);
+    free(inputs->rules);
+}
+
 void tn_shard_set_clear(tn_shard_set *set)
 {
+    clear_inputs(&set->inputs);
     for (size_t i = 0; set->bounds && i <= set->count; i++)
         mpz_clear(set->bounds[i]);
     free(set->bounds);
@@ -32,21 +44,25 @@ void tn_shard_set_clear(tn_shard_set *set)
 
 /* ---- names */
 
-static const char *ending_of(tn_plan_format format)
+static const char *ending_of(const tn_shard_set *set)
 {
+    static const char *const answers[TN_ANSWER_FORMAT_COUNT] = {[TN_ANSWER_NAMES] = ".names",
+                                                                [TN_ANSWER_JSON] = ".jsonl",
+                                                                [TN_ANSWER_BITS] = ".bits",
+                                                                [TN_ANSWER_LINES] = ".plans"};
     static const char *const endings[TN_FORMAT_COUNT] = {[TN_FORMAT_LINES] = ".plans",
                                                          [TN_FORMAT_JSON] = ".jsonl",
                                                          [TN_FORMAT_CSV] = ".csv",
                                                          [TN_FORMAT_BIN] = ".bin",
                                                          [TN_FORMAT_PARQUET] = ".parquet"};
-    return endings[format];
+    return tn_shard_set_answers(set) ? answers[set->inputs.answer] : endings[set->format];
 }
 
 tn_shard_name tn_shard_name_of(const tn_shard_set *set, uint32_t shard)
 {
     tn_shard_name name;
-    snprintf(name.text, sizeof name.text, "shards/%03u/%06u%s%s", shard / TN_SHARDS_A_FOLDER, shard,
-             ending_of(set->format), set->compressed ? ".zst" : "");
+    snprintf(name.text, sizeof name.text, "shards/%03u/%06u%s%s", shard / TN_SHARDS_A_FOLDER, shard, ending_of(set),
+             set->compressed ? ".zst" : "");
     return name;
 }
 
@@ -278,20 +294,22 @@ static bool within(const tn_shard_set *set, const tn_library *library)
     return fits;
 }
 
-tn_status tn_shard_set_agrees(const tn_shard_set *set, const tn_ready_library *ready, tn_error *error)
+tn_status tn_shard_set_agrees(const tn_shard_set *set, const tn_schema *schema, const tn_library *library,
+                              tn_error *error)
 {
-    char library[33], schema[17];
-    tn_library_hash(ready->library, library);
-    snprintf(schema, sizeof schema, "%016" PRIx64, tn_pack_schema_hash(ready->schema));
+    char library_hash[33] = "", schema_hash[17];
+    if (library)
+        tn_library_hash(library, library_hash);
+    snprintf(schema_hash, sizeof schema_hash, "%016" PRIx64, tn_pack_schema_hash(schema));
     if (strcmp(set->version, TARTAN_VERSION) != 0) {
         tn_fail(error, TN_INVALID, E_SHARD_VERSION, "Tartan %.60s made %.200s, and this is Tartan " TARTAN_VERSION,
                 set->version, set->folder);
         tn_error_help(error, "use that version on every machine: shards of two versions may differ");
         return TN_INVALID;
     }
-    if (strcmp(library, set->library_hash) != 0 || strcmp(schema, set->schema_hash) != 0)
+    if (strcmp(library_hash, set->library_hash) != 0 || strcmp(schema_hash, set->schema_hash) != 0)
         return refuse_module(set, TN_MANIFEST_NAME " is about another library than the module has", error);
-    if (!within(set, ready->library))
+    if (library && !within(set, library))
         return refuse_module(set, TN_MANIFEST_NAME " has ranks that the library does not", error);
     return TN_OK;
 }

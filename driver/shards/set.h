@@ -5,11 +5,15 @@
  * and what a shard holds depends on the manifest and the module alone. Beside a shard lies its record (record.h), and
  * while a worker writes it, its claim (claim.h).
  *
+ * The shards of other sets are not plans of a library, but what `tartan match` or `tartan prune` says of the plans of
+ * large files (inputs.h).
+ *
  * A tn_shard_set owns everything reached through it, and is constant once it was read or created: threads may share it.
  */
 #ifndef TARTAN_DRIVER_SHARDS_SET_H
 #define TARTAN_DRIVER_SHARDS_SET_H
 
+#include "driver/plan/answering.h"
 #include "driver/plan/library.h"
 #include "runtime/plan/text/stream.h"
 
@@ -19,20 +23,55 @@
 #define TN_SHARD_RECORD ".record"
 #define TN_SHARD_CLAIM ".claim"
 
-typedef struct tn_shard_set {
-    char *folder;
-    char *version;    /* of the Tartan that made it */
-    char *library;    /* its name in the module */
-    char *rules_path; /* as it was named when the set was made */
-    char *command;    /* the one `enumerate` whose plans these are */
-    char module_hash[33], library_hash[33], schema_hash[17];
+/* What the shards hold. */
+typedef enum tn_shard_task {
+    TN_TASK_ENUMERATE, /* the plans of a stretch of ranks */
+    TN_TASK_MATCH,     /* which rules match the plans of a piece of a file */
+    TN_TASK_PRUNE,     /* which of them a library keeps */
+    TN_TASK_COUNT
+} tn_shard_task;
+
+/* A file whose plans are answered about, as it was when the set was made. */
+typedef struct tn_shard_input {
+    char *path; /* from the root of the file system */
+    uint64_t size;
+    int64_t seconds, nanoseconds; /* when it was changed */
     tn_plan_format format;
-    bool compressed;            /* by zstd */
-    uint32_t row_group;         /* Parquet: plans of a row group, or 0 */
-    bool plan_lines;            /* Parquet: also a column of plan lines */
+} tn_shard_input;
+
+typedef struct tn_shard_piece {
+    uint32_t input;
+    bool whole; /* the file cannot be divided, and `part` is empty */
+    tn_plan_part part;
+} tn_shard_piece;
+
+/* What a set of answers is about. */
+typedef struct tn_shard_inputs {
+    tn_shard_input *items;
+    uint32_t count;
+    tn_shard_piece *pieces; /* [shards], in the order of the files and within them */
+    tn_answer_format answer;
+    char **rules; /* match: those asked for; none: all of the file's own */
+    uint32_t rule_count;
+    bool skips; /* plans that cannot be read */
+} tn_shard_inputs;
+
+typedef struct tn_shard_set {
+    tn_shard_task task;
+    char *folder;
+    char *version;                                           /* of the Tartan that made it */
+    char *library;                                           /* its name in the module; NULL where rules are matched */
+    char *rules_path;                                        /* as it was named when the set was made */
+    char *command;                                           /* the one command whose output these are */
+    char module_hash[33], library_hash[33], schema_hash[17]; /* library_hash: only of enumerated plans */
+    tn_plan_format format;                                   /* of enumerated plans */
+    bool compressed;                                         /* by zstd */
+    uint32_t row_group;                                      /* Parquet: plans of a row group, or 0 */
+    bool plan_lines;                                         /* Parquet: also a column of plan lines */
     tn_library_options options; /* those that decide which plans there are, and the limits */
     uint32_t count;
-    mpz_t *bounds; /* [count + 1]: shard i has the ranks from bounds[i] on, before bounds[i + 1] */
+    mpz_t *bounds; /* [count + 1]: shard i has the ranks from bounds[i] on, before bounds[i + 1]; NULL: answers */
+    tn_shard_inputs inputs; /* of answers */
 } tn_shard_set;
 
 /* Divides the ranks [from, to) among `shards` shards, as equal as can be, but none empty where another is not; or
@@ -52,9 +91,16 @@ void tn_shard_set_clear(tn_shard_set *set);
 /* Is the module that which the set was made with? TN_INVALID (E1704). Asked before it is opened. */
 tn_status tn_shard_set_module_same(const tn_shard_set *set, tn_error *error);
 
-/* Does the library that was opened hold what the manifest says, and would this program write the same bytes? TN_INVALID
- * (E1703, E1704). */
-tn_status tn_shard_set_agrees(const tn_shard_set *set, const tn_ready_library *ready, tn_error *error);
+/* Does what was opened (the library; NULL for answers) hold what the manifest says, and would this program write the
+ * same bytes? TN_INVALID (E1703, E1704). */
+tn_status tn_shard_set_agrees(const tn_shard_set *set, const tn_schema *schema, const tn_library *library,
+                              tn_error *error);
+
+/* Are the shards answers about the plans of files? */
+static inline bool tn_shard_set_answers(const tn_shard_set *set)
+{
+    return set->task != TN_TASK_ENUMERATE;
+}
 
 /* A hash of all that the manifest says: two sets with the same one are copies. TN_MEMORY. */
 tn_status tn_shard_set_hash(const tn_shard_set *set, char hex[33], tn_error *error);

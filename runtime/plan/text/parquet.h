@@ -12,6 +12,9 @@ struct tn_plan_parquet {
     tn_status (*open_reader)(tn_plan_reader *reader, tn_error *error);
     tn_status (*next)(tn_plan_reader *reader, bool *found, tn_error *error);
     void (*close_reader)(tn_plan_reader *reader);
+    tn_plan_part (*groups)(const tn_plan_reader *reader);                 /* all row groups */
+    uint64_t (*count)(const tn_plan_reader *reader, tn_plan_part groups); /* plans in some of them */
+    void (*restrict_to)(tn_plan_reader *reader, tn_plan_part groups);     /* before a plan is read */
 
     /* Begins the writer's file, which is open. */
     tn_status (*open_writer)(tn_plan_writer *writer, const tn_writer_options *options, tn_error *error);

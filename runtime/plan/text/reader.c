@@ -42,6 +42,8 @@ static tn_status read_some(tn_plan_reader *reader, size_t *count, tn_error *erro
 {
     char *end = reader->data + reader->end;
     size_t room = reader->capacity - reader->end;
+    if (room > reader->left)
+        room = (size_t)reader->left;
     if (reader->decompressing)
         return reader->compression->read(reader->decompressing, reader->file, reader->path, end, room, count, error);
     ssize_t got;
@@ -49,6 +51,8 @@ static tn_status read_some(tn_plan_reader *reader, size_t *count, tn_error *erro
         got = read(reader->file, end, room);
     while (got < 0 && errno == EINTR);
     *count = got > 0 ? (size_t)got : 0;
+    if (reader->left != UINT64_MAX)
+        reader->left -= *count;
     return got < 0 ? tn_cannot_read(reader->path, errno, error) : TN_OK;
 }
 
@@ -111,6 +115,7 @@ tn_status tn_reader_line(tn_plan_reader *reader, bool *found, tn_error *error)
         }
         if (newline || reader->input_ended) {
             *found = newline || length > 0;
+            reader->line -= !*found;
             reader->text = reader->data + reader->begin;
             reader->text_size = length > 0 && reader->text[length - 1] == '\r' ? length - 1 : length;
             reader->begin += length + (newline ? 1 : 0);
@@ -291,6 +296,7 @@ tn_status tn_plan_reader_open(const tn_schema *schema, const char *path, const t
     tn_reader_options given = options ? *options : (tn_reader_options){.format = TN_FORMAT_AUTO};
     reader->schema = schema;
     reader->file = -1;
+    reader->left = UINT64_MAX;
     reader->format = given.format;
     reader->sqlite = given.sqlite;
     reader->parquet = given.parquet;

@@ -24,6 +24,7 @@ struct tn_plan_reader {
     int file; /* descriptor, or -1 */
     tn_file_state opened;
     bool input_ended;
+    uint64_t left;                          /* bytes of the file that may still be read; UINT64_MAX: all */
     const tn_plan_compression *compression; /* NULL: none is known */
     void *decompressing;                    /* its state, where the input is compressed */
     uint64_t shared, shared_end;            /* bytes of the file that were given up to tn_plan_lines_read */
@@ -72,6 +73,7 @@ tn_status tn_reader_csv_open(tn_plan_reader *reader, bool *is_csv, tn_error *err
 tn_status tn_reader_csv_next(tn_plan_reader *reader, bool *found, tn_error *error);
 
 tn_status tn_reader_bin_open(tn_plan_reader *reader, tn_error *error);
+tn_status tn_reader_bin_step(tn_plan_reader *reader, tn_error *error); /* skips a plan unread */
 tn_status tn_reader_bin_next(tn_plan_reader *reader, bool *found, tn_error *error);
 
 /* E0805 for a plan of so many trays. */

@@ -77,6 +77,13 @@ static tn_status read_length(tn_plan_reader *reader, uint64_t *length, tn_error 
     }
 }
 
+tn_status tn_reader_bin_step(tn_plan_reader *reader, tn_error *error)
+{
+    uint64_t length;
+    tn_status status = read_length(reader, &length, error);
+    return status == TN_OK ? skip(reader, length * reader->tray_bytes, error) : status;
+}
+
 tn_status tn_reader_bin_next(tn_plan_reader *reader, bool *found, tn_error *error)
 {
     tn_status status = tn_reader_fill(reader, 1, error);

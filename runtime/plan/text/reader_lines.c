@@ -133,6 +133,8 @@ uint64_t tn_plan_reader_share(tn_plan_reader *reader)
         return 0;
     reader->shared = (uint64_t)at - unused;
     reader->shared_end = (uint64_t)known.st_size;
+    if (reader->left < reader->shared_end - (uint64_t)at)
+        reader->shared_end = (uint64_t)at + reader->left;
     reader->begin = reader->end = 0;
     reader->at_end = reader->input_ended = true;
     (void)lseek(reader->file, known.st_size, SEEK_SET); /* as if it had been read: standard input is others' too */

@@ -65,6 +65,33 @@ const char *tn_plan_reader_text(const tn_plan_reader *reader, size_t *size);
 /* The rank that the file gives the plan read last; false where it gives none. */
 bool tn_plan_reader_rank(const tn_plan_reader *reader, mpz_t rank);
 
+/* ---- reading a part of a file */
+
+/* Of plan lines, JSON lines and packed plans: bytes [begin, end) of the file. Of Parquet: row groups. */
+typedef struct tn_plan_part {
+    uint64_t begin, end;
+} tn_plan_part;
+
+/* The format that was given, or found. */
+tn_plan_format tn_plan_reader_format(const tn_plan_reader *reader);
+
+/* All that the file has to be divided. False where it can only be read as a whole: CSV, SQLite, what is compressed as a
+ * whole, and what is no regular file; `whole` is then one indivisible part, [0, 1). */
+bool tn_plan_reader_whole(const tn_plan_reader *reader, tn_plan_part *whole);
+
+/* The first place from `near` on, at most the part's end, where the file can be divided: where a line, a packed plan or
+ * a row group begins. The part begins at such a place; packed plans are stepped over from there on, which reads them.
+ * What was to be read next is lost: restrict the reader before reading. TN_IO; TN_INVALID (E0604) where packed plans
+ * are damaged. */
+tn_status tn_plan_reader_cut(tn_plan_reader *reader, const tn_plan_part *part, uint64_t near, uint64_t *cut,
+                             tn_error *error);
+
+/* How many lines, or packed plans or plans in row groups, a part has. Reads it; what was to be read next is lost. */
+tn_status tn_plan_reader_count(tn_plan_reader *reader, const tn_plan_part *part, uint64_t *count, tn_error *error);
+
+/* Reads only the part from here on, whose lines or plans are numbered from 1. To be called before a plan is read. */
+tn_status tn_plan_reader_restrict(tn_plan_reader *reader, const tn_plan_part *part, tn_error *error);
+
 /* ---- reading by several threads */
 
 /* Lines of a file of plan lines or JSON lines, of which each thread has its own. What they hold is either taken from
