@@ -29,11 +29,11 @@ zstd -q "$scratch/plans.lines" "$scratch/plans.bin" 2>/dev/null || python3 -c 'i
 : >"$scratch/empty"
 for format in lines json csv bin sqlite parquet lines.zst bin.zst odd; do
     inputs=("$scratch/plans.$format" "$scratch/empty" "$scratch/plans.lines")
-    new set match --input "${inputs[@]}" --shards 9 --format json
+    new set match --input "${inputs[@]}" --shards 4 --format json
     run set --threads 2
     "$TARTAN" shards cat "$scratch/set" | cmp - <(one match --format json -- "${inputs[@]}") || fail "match of $format"
     exits 0 "$TARTAN" shards check "$scratch/set"
-    new set prune --input "${inputs[@]}" --shards 9 --library sheds --trays 1..4 --where "sum(width) >= 3m"
+    new set prune --input "${inputs[@]}" --shards 4 --library sheds --trays 1..4 --where "sum(width) >= 3m"
     run set
     "$TARTAN" shards cat "$scratch/set" | cmp - <(one prune -l sheds --trays 1..4 --where "sum(width) >= 3m" -- "${inputs[@]}") || fail "prune of $format"
 done
@@ -54,12 +54,12 @@ run set
 cmp "$scratch/out.json" <(one prune -l sheds --format json -- "$scratch/plans.json") || fail 'prune as JSON'
 
 # ---- several workers, and a set that stands in another folder than its worker
-new set match -i "$scratch/plans.lines" --shards 30 --format json
+new set match -i "$scratch/plans.lines" --shards 12 --format json
 for worker in 1 2 3; do "$TARTAN" shards run "$scratch/set" --threads 2 2>"$scratch/said.$worker" & done
 wait
-is 'each shard is written once' "$(sed -nE 's/^note: ([0-9]+) shards? written.*/\1/p' "$scratch"/said.? | awk '{ sum += $1 } END { print sum }')" 30
+is 'each shard is written once' "$(sed -nE 's/^note: ([0-9]+) shards? written.*/\1/p' "$scratch"/said.? | awk '{ sum += $1 } END { print sum }')" 12
 "$TARTAN" shards cat "$scratch/set" | cmp - <(one match --format json -- "$scratch/plans.lines") || fail 'three workers'
-rm "$scratch/set"/shards/000/00001*.record # what was read for a shard is not known without: it is written again
+rm "$scratch/set"/shards/000/00000*.record # what was read for a shard is not known without: it is written again
 (cd / && "$TARTAN" shards run "$scratch/set" 2>"$scratch/err") || fail 'records are not made again'
 grep -q '10 shards written' "$scratch/err" || fail "records: $(cat "$scratch/err")"
 golden status "tartan shards status $scratch/set"
