@@ -9,6 +9,7 @@
 #include "cli/genome/prompt.h"
 #include "driver/breed/evolve_sheet.h"
 #include "driver/hand/choice.h"
+#include "driver/sheet/sheet_page.h"
 
 /* Reads a line of choices and says what is wrong with it. */
 static bool read_choice(const char *line, size_t members, tn_choices *choices)
@@ -63,12 +64,15 @@ static void breed(tn_evolution_session *e)
     tn_status status = e->run.generations ? TN_OK : tn_run_step(&e->run, NULL, 0, &error);
     while (status == TN_OK && !tn_interrupted()) {
         size_t members;
-        char sheet[512];
+        char sheet[512], page[512];
         tn_evolution_members(e->run.evolution, &members);
         status = tn_run_sheet(&e->run, sheet, sizeof sheet, &error);
         if (status != TN_OK)
             break;
-        printf("generation %u: %s\n", e->run.generations - 1, sheet);
+        status = tn_sheet_page(&e->run, page, sizeof page, &error);
+        if (status != TN_OK)
+            break;
+        printf("generation %u: %s%s%s\n", e->run.generations - 1, sheet, page[0] ? ", " : "", page);
         answer given = e->run.generations > e->generations ? NOTHING_MORE : ask(e, members, &c);
         if (given == NOTHING_MORE)
             break;

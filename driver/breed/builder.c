@@ -9,8 +9,8 @@
 #include "driver/breed/goals.h"
 #include "driver/breed/inputs.h"
 #include "driver/solid/solid.h"
-#include "runtime/number/run.h"
 #include "runtime/geometry/union/union.h"
+#include "runtime/number/run.h"
 #include "runtime/solid/genes.h"
 
 #define BATCH 32u /* designs that a thread scores at once */
@@ -221,9 +221,9 @@ static tn_status tell(const tn_design_scorer *s, unsigned thread, const tn_built
     tn_status status = tn_union_cells(built->cells, built->cell_count, &mesh, error);
     if (status == TN_OK) {
         tn_solid_turn_up(&mesh);
-        status = tn_form_listener_tell(&s->listener, thread,
-                                  &(tn_form_facts){&mesh, tn_solid_measured_names, values, TN_SOLID_MEASURED_COUNT},
-                                  error);
+        status = tn_form_listener_tell(
+            &s->listener, thread, &(tn_form_facts){&mesh, tn_solid_measured_names, values, TN_SOLID_MEASURED_COUNT},
+            error);
     }
     tn_mesh_clear(&mesh);
     return status;
@@ -367,5 +367,26 @@ tn_status tn_design_scorer_draw(const void *scorer, const char *const *sentences
     for (size_t i = 0; views && i < drawn; i++)
         tn_view_free(views[i]);
     free(views);
+    return status;
+}
+
+tn_status tn_design_scorer_mesh(const void *scorer, const char *sentence, tn_mesh *mesh, tn_guides *guides,
+                                tn_error *error)
+{
+    tn_opened opened = {0};
+    tn_built built;
+    tn_union u = {0};
+    (void)scorer, (void)guides;
+    *mesh = (tn_mesh){0};
+    tn_status status = build(sentence, strlen(sentence), &opened, &built, error);
+    if (status == TN_OK)
+        status = tn_union_make(built.cells, built.cell_count, &u, error);
+    if (status == TN_OK)
+        status = tn_mesh_copy(&u.mesh, mesh, error);
+    if (status == TN_OK)
+        tn_solid_turn_up(mesh);
+    tn_union_clear(&u);
+    tn_built_clear(&built);
+    tn_close(&opened);
     return status;
 }

@@ -6,6 +6,8 @@
 #include "runtime/genome/boxes/box_kind.h"
 #include "runtime/genome/breeding/evolve.h"
 #include "runtime/genome/settings.h"
+#include "runtime/geometry/guide/guide.h"
+#include "runtime/geometry/mesh.h"
 
 typedef struct tn_design_scorer tn_design_scorer;
 
@@ -45,5 +47,9 @@ tn_status tn_design_scorer_draw(const void *scorer, const char *const *sentences
 
 /* Adds what its scores depend on to the text (inputs.h). */
 tn_status tn_design_scorer_inputs(const tn_design_scorer *scorer, char **inputs, tn_error *error);
+
+/* A sentence's form as a mesh, z up, which the caller clears with the guides that are added to it. */
+tn_status tn_design_scorer_mesh(const void *scorer, const char *sentence, tn_mesh *mesh, tn_guides *guides,
+                                tn_error *error);
 
 #endif

@@ -14,14 +14,16 @@
 #include "driver/breed/field_scorer.h"
 #include "driver/breed/grower.h"
 #include "driver/breed/learn.h"
-#include "driver/program/program_scorer.h"
 #include "driver/breed/skeleton.h"
 #include "driver/hand/by_hand.h"
 #include "driver/open/open.h"
 #include "driver/place/placer.h"
+#include "driver/program/program_scorer.h"
 #include "runtime/genome/breeding/problem.h"
 #include "runtime/genome/settings.h"
 #include "runtime/genome/store/run_store.h"
+#include "runtime/geometry/guide/guide.h"
+#include "runtime/geometry/mesh.h"
 
 /* What is bred, where it has a form that can be drawn: a surface, or a design of boxes. Functions as tn_grower_draw and
  * tn_grower_objective. */
@@ -32,6 +34,8 @@ typedef struct tn_bred_forms {
     tn_status (*draw)(const void *context, const char *const *sentences, const char *const *labels, size_t count,
                       const char *title, const char *path, tn_error *error);
     const char *(*objective)(const void *context, size_t i);
+    /* A form as a mesh, z up, and what explains it (guides); NULL: there is none. The caller clears both. */
+    tn_status (*mesh)(const void *context, const char *sentence, tn_mesh *mesh, tn_guides *guides, tn_error *error);
 } tn_bred_forms;
 
 /* What is evolved. Zero it to begin with; clear it in any case. */

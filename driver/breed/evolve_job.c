@@ -116,7 +116,8 @@ static char *identity_of(const tn_evolution_job *job)
             i == TN_SET_MAX_DEPTH || i == TN_SET_WRAPS || i == TN_SET_TREE_DEPTH || i == TN_SET_MAX_STEPS ||
             tn_setting_rows[i].kind == TN_SETTING_TEXT || /* from the grammar, or nothing, where not written */
             i >= TN_SET_TEST; /* newer than runs that lack them, where they say what always held */
-        if (i == TN_SET_GENERATIONS || i == TN_SET_STOP || i == TN_SET_PROGRAM_TIMEOUT || (follows && value.written == 0))
+        if (i == TN_SET_GENERATIONS || i == TN_SET_STOP || i == TN_SET_PROGRAM_TIMEOUT ||
+            (follows && value.written == 0))
             continue;
         if (i == TN_SET_CROSSOVER)
             value.written = 2; /* its default number is said too */
@@ -221,7 +222,7 @@ static tn_status make_grower(tn_evolution_job *job, const char *path, tn_error *
     if (status == TN_OK)
         status = tn_grower_new(job->blamed_path, weighs_separately(job), is_asked(job), job->settings.threads,
                                &job->grower, error);
-    job->forms = (tn_bred_forms){job->grower, "surface", ".svg", tn_grower_draw, tn_grower_objective};
+    job->forms = (tn_bred_forms){job->grower, "surface", ".svg", tn_grower_draw, tn_grower_objective, tn_grower_mesh};
     return status == TN_OK ? tn_grower_inputs(job->grower, &job->inputs, error) : status;
 }
 
@@ -230,7 +231,8 @@ static tn_status make_designs(tn_evolution_job *job, const char *path, tn_error 
     tn_status status = find_data(job, TN_SET_BUILD, path, error);
     if (status == TN_OK)
         status = tn_design_scorer_new(job->blamed_path, weighs_separately(job), is_asked(job), &job->designs, error);
-    job->forms = (tn_bred_forms){job->designs, "form", ".svg", tn_design_scorer_draw, tn_design_scorer_objective};
+    job->forms = (tn_bred_forms){
+        job->designs, "form", ".svg", tn_design_scorer_draw, tn_design_scorer_objective, tn_design_scorer_mesh};
     return status == TN_OK ? tn_design_scorer_inputs(job->designs, &job->inputs, error) : status;
 }
 
@@ -265,7 +267,7 @@ static tn_status make_placer(tn_evolution_job *job, const char *path, tn_error *
     tn_status status = find_data(job, TN_SET_PLACE, path, error);
     if (status == TN_OK)
         status = tn_placer_new(job->blamed_path, weighs_separately(job), is_asked(job), &job->placer, error);
-    job->forms = (tn_bred_forms){job->placer, "model", ".svg", tn_placer_draw, tn_placer_objective};
+    job->forms = (tn_bred_forms){job->placer, "model", ".svg", tn_placer_draw, tn_placer_objective, NULL};
     return status == TN_OK ? add_kit(tn_placer_kit(job->placer), &job->inputs, error) : status;
 }
 

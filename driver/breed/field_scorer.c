@@ -209,7 +209,7 @@ static tn_status score_form(const tn_field_scorer *s, unsigned thread, const for
     }
     if (status == TN_OK && score->state == TN_SCORED)
         status = tn_form_listener_tell(&s->listener, thread,
-                                  &(tn_form_facts){&f->contour.mesh, measure_names, values, MEASURE_COUNT}, error);
+                                       &(tn_form_facts){&f->contour.mesh, measure_names, values, MEASURE_COUNT}, error);
     return status;
 }
 
@@ -298,5 +298,18 @@ tn_status tn_field_scorer_draw(const void *scorer, const char *const *sentences,
     free(f.items);
     free(f.normals);
     free(meshes);
+    return status;
+}
+
+tn_status tn_field_scorer_mesh(const void *scorer, const char *sentence, tn_mesh *mesh, tn_guides *guides,
+                               tn_error *error)
+{
+    form f;
+    (void)scorer, (void)guides;
+    *mesh = (tn_mesh){0};
+    tn_status status = make_form(sentence, strlen(sentence), TO_DRAW, &f, error);
+    if (status == TN_OK)
+        status = tn_mesh_copy(&f.contour.mesh, mesh, error);
+    form_clear(&f);
     return status;
 }

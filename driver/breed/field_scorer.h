@@ -5,6 +5,8 @@
 #include "driver/program/form_listener.h"
 #include "runtime/genome/breeding/evolve.h"
 #include "runtime/genome/settings.h"
+#include "runtime/geometry/guide/guide.h"
+#include "runtime/geometry/mesh.h"
 
 typedef struct tn_field_scorer tn_field_scorer;
 
@@ -32,5 +34,9 @@ const char *tn_field_scorer_objective(const void *scorer, size_t i);
 /* Draws sentences that could be scored side by side, as tn_grower_draw does, but in pixels. */
 tn_status tn_field_scorer_draw(const void *scorer, const char *const *sentences, const char *const *labels,
                                size_t count, const char *title, const char *path, tn_error *error);
+
+/* A sentence's form as a mesh, z up, which the caller clears with the guides that are added to it. */
+tn_status tn_field_scorer_mesh(const void *scorer, const char *sentence, tn_mesh *mesh, tn_guides *guides,
+                               tn_error *error);
 
 #endif

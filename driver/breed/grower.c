@@ -9,6 +9,7 @@
 
 #include "driver/breed/change.h"
 #include "driver/breed/inputs.h"
+#include "runtime/growth/environment/surroundings.h"
 #include "runtime/growth/picture/draw.h"
 #include "runtime/growth/soundness.h"
 #include "runtime/growth/study.h"
@@ -66,8 +67,8 @@ static tn_status open_study(tn_grower *g, const char *path, tn_error *error)
     return status;
 }
 
-tn_status tn_grower_new(const char *study, bool separately, bool may_want_nothing, unsigned threads,
-                        tn_grower **grower, tn_error *error)
+tn_status tn_grower_new(const char *study, bool separately, bool may_want_nothing, unsigned threads, tn_grower **grower,
+                        tn_error *error)
 {
     tn_grower *g = calloc(1, sizeof *g);
     *grower = g;
@@ -189,7 +190,7 @@ static tn_status tell(const tn_grower *g, unsigned thread, const tn_fitness *fit
     tn_status status = tn_surface_mesh(g->growths[thread], &(tn_surface_options){0}, &mesh, error);
     if (status == TN_OK)
         status = tn_form_listener_tell(&g->listener, thread,
-                                  &(tn_form_facts){&mesh, tn_measured_names, values, TN_MEASURED_COUNT}, error);
+                                       &(tn_form_facts){&mesh, tn_measured_names, values, TN_MEASURED_COUNT}, error);
     tn_mesh_clear(&mesh);
     return status;
 }
@@ -320,5 +321,33 @@ tn_status tn_grower_draw(const void *grower, const char *const *sentences, const
         tn_view_free(views[i]);
     tn_growth_free(growth);
     free(views);
+    return status;
+}
+
+/* ---- meshes */
+
+static tn_status surround(const tn_grower *g, const tn_mesh *mesh, tn_guides *guides, tn_error *error)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < 3 * mesh->vertex_count; i++) {
+        low[i % 3] = fmin(low[i % 3], mesh->positions[i]);
+        high[i % 3] = fmax(high[i % 3], mesh->positions[i]);
+    }
+    return tn_surroundings_guides(&g->study.environment, low, high, guides, error);
+}
+
+tn_status tn_grower_mesh(const void *grower, const char *sentence, tn_mesh *mesh, tn_guides *guides, tn_error *error)
+{
+    const tn_grower *g = grower;
+    tn_growth *growth = NULL;
+    rules compiled;
+    *mesh = (tn_mesh){0};
+    tn_status status = grow(g, sentence, strlen(sentence), &compiled, &growth, error);
+    if (status == TN_OK)
+        status = tn_surface_mesh(growth, &(tn_surface_options){.lines = true}, mesh, error);
+    if (status == TN_OK)
+        status = surround(g, mesh, guides, error);
+    tn_growth_free(growth);
+    rules_clear(&compiled);
     return status;
 }

@@ -5,6 +5,8 @@
 
 #include "driver/program/form_listener.h"
 #include "runtime/genome/breeding/evolve.h"
+#include "runtime/geometry/guide/guide.h"
+#include "runtime/geometry/mesh.h"
 
 typedef struct tn_grower tn_grower;
 
@@ -13,8 +15,8 @@ typedef struct tn_grower tn_grower;
 /* `study` is the path of a .study with the surroundings, the steps and the fitness terms; the rules that it names are
  * not grown. With `separately`, each term is an objective; else their sum is the one. Sentences are scored by up to
  * `threads` threads. It has goals, or it `may_want_nothing`. TN_INVALID (E1245) where it cannot be used. */
-tn_status tn_grower_new(const char *study, bool separately, bool may_want_nothing, unsigned threads,
-                        tn_grower **grower, tn_error *error);
+tn_status tn_grower_new(const char *study, bool separately, bool may_want_nothing, unsigned threads, tn_grower **grower,
+                        tn_error *error);
 void tn_grower_free(tn_grower *grower);
 
 /* Who is told of the surfaces that are scored, with their measures. */
@@ -35,5 +37,8 @@ tn_status tn_grower_draw(const void *grower, const char *const *sentences, const
 
 /* Adds what its scores depend on to the text (inputs.h): the study, its rules and meshes. */
 tn_status tn_grower_inputs(const tn_grower *grower, char **inputs, tn_error *error);
+
+/* A sentence's form as a mesh, z up, which the caller clears with the guides that are added to it. */
+tn_status tn_grower_mesh(const void *grower, const char *sentence, tn_mesh *mesh, tn_guides *guides, tn_error *error);
 
 #endif

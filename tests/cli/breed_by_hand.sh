@@ -63,6 +63,24 @@ done
 [ "$("$TARTAN" runs replay hand1 8 | tail -n 1)" = "$square" ] || fail "what was inserted is not replayed"
 for id in 0 10 20 24; do "$TARTAN" runs replay hand1 $id > /dev/null || fail "$id is not replayed"; done
 
+# the page: whole, without the network, with as many forms as are scored
+grep -q 'sheet-0002.svg, hand1/sheet.html$' hand1.txt && cmp -s hand1/sheet.html hand2/sheet.html || fail "there is no page, or it is another at two threads"
+printf '1 2\n\n' | "$TARTAN" breed garden.study -o page > /dev/null
+python3 - page/sheet.html <<'X' || fail "the page does not hold its forms"
+import base64, json, re, sys
+text = open(sys.argv[1]).read()
+assert 'http' not in text and 'src=' not in text and text.count('<canvas>') == text.count('<summary>genealogy')
+forms = json.loads(re.search(r'id="forms">(.*?)</script>', text, re.S).group(1))
+assert len(forms) == text.count('<canvas>') > 0
+for form in forms:
+    points, triangles = len(base64.b64decode(form['p'])) // 6, base64.b64decode(form['t'])
+    each = 4 if form['wide'] else 2
+    ends = [int.from_bytes(triangles[i:i + each], 'little') for i in range(0, len(triangles), each)]
+    assert len(ends) % 3 == 0 and ends and max(ends) == points - 1
+    assert any(guide['k'] == 'arrow' and guide['n'].startswith('gravity') for guide in form['guides'])
+assert re.search(r'<li>#\d+ is of #\d', text)
+X
+
 # resumed between any two lines
 printf 'insert square.hemls\nout 3\nset population 6\n1 2\n' | "$TARTAN" breed garden.study -o parts > /dev/null
 printf 'set population 10\n1\n' | "$TARTAN" breed garden.study -o parts --resume --threads 2 > /dev/null || fail "cannot go on"
