@@ -78,6 +78,15 @@ golden skips_missing "tartan shards status $scratch/set"
 new set prune -i "$scratch/worse.lines" --shards 2 -l sheds --on-error skip
 golden skips_many "tartan shards run $scratch/set; tartan shards status $scratch/set | sed -n '4,6p;\$p'"
 
+# ---- a full disk: said with the shard, and nothing half is there
+new set prune -i "$scratch/plans.lines" --shards 2 --library any-sheds --trays 0..5
+code=0 && (ulimit -f 1 && exec "$TARTAN" shards run "$scratch/set" 2>"$scratch/err") || code=$?
+is 'a limit of sizes' "$code" 3
+is 'said once' "$(grep -c 'error' "$scratch/err")" 1
+is 'nothing is half there' "$(find "$scratch/set/shards" -type f | wc -l)" 0
+run set
+"$TARTAN" shards cat "$scratch/set" | cmp - "$scratch/plans.lines" || fail 'with room again'
+
 # ---- wrong inputs
 wrong_input() { golden "$1" "tartan shards new sheds.plan --task match --shards 3 -o $scratch/wrong --input $2; ls $scratch/wrong 2>&1 | sed 's/.*: No/No/'"; }
 wrong_input missing "$scratch/plans.line"
