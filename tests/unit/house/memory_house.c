@@ -129,6 +129,22 @@ static tn_status describe(tn_error *error)
     return status;
 }
 
+/* The line and the members of JSON, and the line read again. */
+static tn_status write_and_read(tn_error *error)
+{
+    tn_buffer line = {0}, members = {0};
+    tn_house again = {0};
+    tn_status status = tn_house_write(&house, &line, error);
+    if (status == TN_OK)
+        status = tn_house_write_members(&house, &members, error);
+    if (status == TN_OK)
+        status = tn_house_read(&made.form, line.data, line.size, 8, &again, error);
+    tn_house_clear(&again);
+    free(members.data);
+    free(line.data);
+    return status;
+}
+
 static tn_status tile_fails(tn_error *error)
 {
     tn_tile_failure failure;
@@ -157,6 +173,7 @@ static void test_failing(void **state)
     expect_robust(build);
     expect_robust(mesh);
     expect_robust(describe);
+    expect_robust(write_and_read);
     expect_robust(tile_fails);
     expect_robust(write_ifc);
     expect_robust(write_dxf);

@@ -98,6 +98,32 @@ static tn_status write_plans(const context *c, tn_error *error)
     return status;
 }
 
+/* Rows that are houses: with texts beside the plan, and members of JSON. */
+static tn_status write_rows(const context *c, tn_error *error)
+{
+    static const tn_row_columns columns = {"houses", {"plan_rank", "variant", "house"}, 3};
+    tn_plan_writer *writer = NULL;
+    tn_writer_options options = {.format = c->format,
+                                 .rows = &columns,
+                                 .metadata = {.library = "houses", .command = "all"},
+                                 .batch = 5,
+                                 .sqlite = tn_plan_sqlite()};
+    mpz_t rank;
+    mpz_init(rank);
+    tn_status status = tn_plan_writer_open(c->schema, c->path, &options, &writer, error);
+    for (uint32_t n = 0; status == TN_OK && n < 20; n++) {
+        const tn_tray trays[20] = {n, 1, 2, 3};
+        const tn_plan_row row = {trays, n, {"3", "17", "a plan ; \"shed\", then ; -"}, ",\"section\":{}"};
+        mpz_set_ui(rank, n);
+        status = tn_plan_writer_write_row(writer, rank, &row, error);
+    }
+    if (status == TN_OK)
+        status = tn_plan_writer_close(writer, error);
+    tn_plan_writer_free(writer);
+    mpz_clear(rank);
+    return status;
+}
+
 static tn_status read_plans(const context *c, tn_error *error)
 {
     tn_plan_reader *reader = NULL;
@@ -177,6 +203,12 @@ static void test_out_of_memory(void **state)
         expect_robust(write_plans, &c);
         expect_robust(read_plans, &c);
         expect_robust(read_stretches, &c);
+    }
+    static const tn_plan_format formats[] = {TN_FORMAT_LINES, TN_FORMAT_JSON, TN_FORMAT_CSV, TN_FORMAT_SQLITE};
+    for (size_t f = 0; f < sizeof formats / sizeof *formats; f++) {
+        c.format = formats[f];
+        remove(c.path);
+        expect_robust(write_rows, &c);
     }
     remove(c.path);
     tn_schema_free(c.schema);
