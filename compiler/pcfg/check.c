@@ -172,11 +172,11 @@ static void check_probabilities(const tn_pcfg_grammar *g, tn_pcfg_symbol *symbol
     }
     symbol->drawn = tn_place_draws(sum);
     if (sum >= 3) {
-        tn_report(list, E_PLACE_PROBABILITY, symbol->span, "the probabilities of %s sum to %g, which is more than 1",
+        tn_report(list, E_PLACE_PROBABILITY, symbol->span, "the probabilities of %s sum to %.15g, which is more than 1",
                   symbol->name, sum);
     } else if (sum > 0 && !symbol->drawn && !g->partial) {
         tn_diagnostic *d = tn_report(list, W_PLACE_PROBABILITY_SUM, symbol->span,
-                                     "the probabilities of %s sum to %g, not to 1: its alternatives are tried in "
+                                     "the probabilities of %s sum to %.15g, not to 1: its alternatives are tried in "
                                      "order, and none is drawn",
                                      symbol->name, sum);
         tn_help(list, d, "let them sum to 1, or leave them all out");

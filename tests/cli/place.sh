@@ -110,6 +110,41 @@ golden fitness_of_kit "tartan place ../../../examples/gatehouse/gatehouse.kit --
 golden fitness_traced "tartan place $scratch/value.pcfg --fitness elements --trace"
 golden header_alone "tartan place $scratch/touch.pcfg --header"
 
+# ---- reading: ends of lines, a byte order mark, blank lines, names and quotes; and the rules that no published run shows
+room="'PlaceBoundingBox(9,9,9)'"
+reads() { # WHAT PCFG NAMES... : the grammar, a format of printf, places the parts of these names without a word
+    local what=$1 found
+    printf "$2" >"$scratch/read.pcfg"
+    found=$("$TARTAN" place "$scratch/read.pcfg" -o - 2>&1 | sed -n 's/^1 .* 0 0 0 1 \(.*\)\.dat$/\1/p; /warning\|error/p' | paste -sd' ')
+    is "$what" "$found" "$3"
+}
+for end in '\n' '\r\n' '\r'; do reads 'ends of lines' "S -> $room A$end$end  # none${end}A -> 'Place(1)'$end" 1; done
+reads 'no end of the last line' "S -> $room 'Place(1)'" 1
+reads 'a byte order mark' "\xef\xbb\xbfS -> $room 'Place(1)'\n" 1
+reads 'blanks before rules, and lines of blanks' "  S -> $room A\n \t \n\tA -> 'Place(1)'\n" 1
+reads 'no blank behind the arrow' "S ->$room A\nA ->'Place(1)'\n" 1
+reads 'names' "S -> $room Ä^<-> /b_9 \nÄ^<-> -> 'Place(1)'\n/b_9 -> 'Place(2)'\n" '1 2'
+reads 'quotes' "S -> $room 'Place(a\"#|]b)'\"Place(c'd)\"\n" "a\"#|]b c'd"
+reads 'numbers with blanks and signs' "S -> $room 'Move( -1 ,+1,01)' 'Place(1)'\n" 1
+# A symbol that another leads with, or that stands behind one that is now empty, is expanded.
+reads 'symbols side by side' "S -> $room A B 'Place(9)'\nA -> B 'Place(1)'\nB -> C\nC ->\n" '1 9'
+# A probability of 0 is never drawn.
+reads 'an alternative of probability 0' "S -> $room A\nA -> 'Place(1)' [1]\nA -> [0]\n" 1
+reads 'sums within 2^-26 of 1' "S -> $room A\nA -> 'Place(1)' [.5]\nA -> 'Place(1)' [.500000014]\n" 1
+# A bound of an alternative that is not taken stays; a step before the first bound makes a ball of radius 8.
+printf "S -> 'PlaceBoundingBox(4,4,4)' 'Place(9)' A 'Move(3,0,0)' 'FillRect(2,3,2)'\nA -> 'PlaceBoundingBox(2,2,2)' 'FillRect(50,1,2)' |\n" >"$scratch/stays.pcfg"
+golden stays "tartan place $scratch/stays.pcfg"
+printf "S -> 'Move(0,0,0)' 'PlaceBoundingBox(40,40,40)' 'Place(9)' 'Move(8,0,0)' 'FillRect(2,3,2)'\n" >"$scratch/ball.pcfg"
+golden ball "tartan place $scratch/ball.pcfg"
+# Files are one grammar; each message has its own file and line, of whatever command.
+printf "S -> $room A\n" >"$scratch/first.pcfg"
+printf "# its rules\nA -> 'Place(1)' Miss 'Mve(1)'\n" >"$scratch/second.pcfg"
+for command in check place build; do golden "files_$command" "tartan $command $scratch/first.pcfg $scratch/second.pcfg"; done
+golden files_fmt "tartan fmt - <$scratch/first.pcfg --notation pcfg"
+printf "S -> $room A\nA -> '(' 'Place(1)' A |\n" >"$scratch/nested.pcfg"
+golden frames "tartan place $scratch/nested.pcfg --frame-limit 100"
+golden seed "tartan place $scratch/first.pcfg --seed 4294967296; tartan place $scratch/first.pcfg --seed -1"
+
 # ---- the published program
 if [ -n "${TARTAN_ORACLES:-}" ] && [ -e "$TARTAN_ORACLES/place/model.py" ]; then
     oracle=$TARTAN_ORACLES/place
