@@ -103,7 +103,7 @@ static void show_status(const tn_shard_set *set, const counted *c, const tn_buff
     mpz_init(number);
     fprintf(out, "shards  %u of %u\n", c->there, set->count);
     if (!tn_shard_set_answers(set)) {
-        mpz_sub(number, set->bounds[set->count], set->bounds[0]);
+        tn_shard_set_plans(set, number);
         show_number("plans   ", c->plans, " of ", out);
         show_number("", number, "\n", out);
     }
@@ -236,7 +236,7 @@ static void tell(tn_job *job, const tn_shard_set *set)
     mpz_init(plans);
     fprintf(output.stream, "all %u shards are there and whole", set->count);
     if (!tn_shard_set_answers(set)) {
-        mpz_sub(plans, set->bounds[set->count], set->bounds[0]);
+        tn_shard_set_plans(set, plans);
         show_number(": ", plans, " plans", output.stream);
     }
     fprintf(output.stream, "\n");

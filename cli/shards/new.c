@@ -3,11 +3,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/common/interrupt.h"
 #include "cli/shards/shards.h"
 #include "driver/open/digits.h"
 #include "driver/plan/made.h"
 #include "runtime/base/utf8.h"
 #include "runtime/plan/text/pack.h"
+
+#define DRAWN_MEMORY ((size_t)512 << 20) /* for the numbers of a sample, while a set is made */
 
 static bool check_options(tn_job *job)
 {
@@ -35,6 +38,12 @@ static bool check_options(tn_job *job)
     else if (settings->written.format != TN_FORMAT_PARQUET &&
              (settings->written.plan_lines || settings->written.row_group.given))
         tn_help(list, tn_job_usage(job, "--plan-lines and --row-group are about Parquet"), "add --format parquet");
+    else if (settings->sample.given && (settings->from || settings->to || settings->each.given))
+        tn_help(list, tn_job_usage(job, "a sample is drawn from all ranks, and --shards divides it"),
+                "leave out --from, --to and --plans");
+    else if (settings->seed.given && !settings->sample.given)
+        tn_help(list, tn_job_usage(job, "--seed says which sample, and none is asked for"),
+                "add --sample N, or leave out --seed");
     else if (settings->shards.given == settings->each.given)
         tn_help(list,
                 tn_job_usage(job, settings->shards.given ? "--shards and --plans say the same thing twice"
@@ -46,6 +55,14 @@ static bool check_options(tn_job *job)
     else
         return true;
     return false;
+}
+
+/* As `tartan sample` describes what it does. */
+static char *sample_words(const tn_shards_settings *settings)
+{
+    char text[80];
+    snprintf(text, sizeof text, "sample %" PRIu64 " --seed %" PRIu64, settings->sample.value, settings->seed.value);
+    return strdup(text);
 }
 
 /* The set's texts and what decides its plans. */
@@ -60,7 +77,7 @@ static bool describe(tn_job *job, const tn_ready_library *ready, tn_shard_set *s
     set->folder = strdup(settings->written.output);
     set->library = strdup(tn_text(job->opened.module, ready->record->name));
     set->rules_path = strdup(job->settings->operands.items[1]);
-    set->command = tn_enumerated_words(&asked);
+    set->command = settings->sample.given ? sample_words(settings) : tn_enumerated_words(&asked);
     set->format = settings->written.format ? (tn_plan_format)settings->written.format : TN_FORMAT_LINES;
     set->compressed = settings->compress != 0;
     set->row_group = (uint32_t)settings->written.row_group.value;
@@ -95,7 +112,7 @@ static void tell(tn_job *job, const tn_shard_set *set)
 {
     mpz_t plans;
     mpz_init(plans);
-    mpz_sub(plans, set->bounds[set->count], set->bounds[0]);
+    tn_shard_set_plans(set, plans);
     char *digits = tn_digits(plans, true);
     tn_job_note(job, "%.200s has %u shard%s for %.60s plans; `tartan shards run %.100s` writes them", set->folder,
                 set->count, set->count == 1 ? "" : "s", digits ? digits : "?", set->folder);
@@ -114,6 +131,9 @@ static void make_set(tn_job *job, const tn_ready_library *ready)
         tn_status status = describe(job, ready, &set) ? tn_shard_set_divide(&set, from, to, settings->shards.value,
                                                                             settings->each.value, &error)
                                                       : tn_fail_memory(&error);
+        if (status == TN_OK && settings->sample.given)
+            status = tn_shard_set_sample(&set, to, settings->sample.value, settings->seed.value, DRAWN_MEMORY,
+                                         tn_interrupt_waiting(), &error);
         if (status == TN_OK)
             status = tn_shards_create(job, &set, &error);
         if (status == TN_OK)

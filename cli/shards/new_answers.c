@@ -18,6 +18,8 @@ static const char *foreign_option(const tn_shards_settings *s)
 {
     bool matches = s->task == TN_TASK_MATCH;
     return s->each.given                          ? "--plans"
+           : s->sample.given                      ? "--sample"
+           : s->seed.given                        ? "--seed"
            : s->from                              ? "--from"
            : s->to                                ? "--to"
            : s->compress                          ? "--compress"

@@ -25,6 +25,7 @@ static void run_new(tn_job *job, tn_shards_open *open)
 static const shards_part parts[] = {
     {"new",
      " task input rule input-format on-error library where trays max-length max-states threads shards plans from to "
+     "sample seed "
      "format compress plan-lines row-group output ",
      false, run_new},
     {"run", " shard part threads for stale ", true, tn_shards_run_set},
@@ -113,6 +114,9 @@ static const tn_option options[] = {
     NUMBER("plans", 0, "N", each, 1, 0, "new: make shards of N plans each"),
     RANK("from", 0, "RANK", from, "new: the first rank (default 0)"),
     RANK("to", 0, "RANK", to, "new: one past the last rank (default: all)"),
+    NUMBER("sample", 0, "N", sample, 0, TN_SHARDS_SAMPLE_MAX,
+           "new: only N plans, the same that `tartan sample` draws from all of them"),
+    NUMBER("seed", 's', "S", seed, 0, 0, "new: which sample: the same seed gives the same plans (default 0)"),
     CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite|parquet|names|bits",
            "new: what the shards are: lines (the default), json, csv, bin or parquet; of a match names (the default), "
            "json or bits; of a prune lines (the default) or json"),
@@ -133,6 +137,7 @@ const tn_command tn_command_shards = {
     .name = "shards",
     .summary = "write a library by many workers, on many machines",
     .usage = "new FILE -o SET (--shards N | --plans N) [--from RANK] [--to RANK] [--format FORMAT]\n"
+             "new FILE -o SET --sample N [--seed S] --shards N\n"
              "new FILE -o SET --task match --input PLANS... --shards N [--rule NAME]...\n"
              "new FILE -o SET --task prune --input PLANS... --shards N [--library NAME]\n"
              "run SET [--shard I | --part I/N] [--threads N] [--for TIME]\nstatus SET\ncheck SET\ncat SET [-o FILE]\n"
@@ -144,9 +149,13 @@ const tn_command tn_command_shards = {
         "not at all, so a worker may be killed at any moment, and run again. SIGUSR1 ends it after the shards that it "
         "has begun.\n\n"
         "status says how many shards are there, and who writes which. check reads all of them, and compares them with "
-        "the manifest. cat writes the bytes that one `tartan enumerate`, `match` or `prune` would write. merge makes "
+        "the manifest. cat writes the bytes that one `tartan enumerate`, `match` or `prune` would write, or one "
+        "`tartan sample`. merge makes "
         "one database of all "
         "shards.\n\n"
+        "With --sample the shards hold the plans that `tartan sample` would draw, for samples that one machine has no "
+        "room for: each worker draws all numbers and keeps those of its shard, so choose about as many shards as "
+        "workers.\n\n"
         "With --task match or prune the shards hold answers about the plans of large files. Lines are divided near "
         "equal numbers of bytes, packed plans between plans, and Parquet between row groups. CSV, databases and "
         "compressed files have one shard each. A file may not change until all shards are there. status lists plans "

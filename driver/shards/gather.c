@@ -8,6 +8,14 @@
 #include "driver/shards/record.h"
 #include "runtime/plan/store/sqlite.h"
 
+/* The rank of a plan that is in the library. */
+static tn_status rank_of(const tn_gathering *g, uint32_t shard, const tn_plan *plan, mpz_t rank, tn_error *error)
+{
+    return tn_library_rank(g->ready->library, plan->trays, plan->length, rank)
+               ? TN_OK
+               : tn_shard_wrong(g->set, shard, error, "has a plan that the library does not have");
+}
+
 /* Reads a shard's plans and writes them, with their ranks. */
 static tn_status rewrite_shard(const tn_gathering *g, const char *path, uint32_t shard, tn_plan_writer *writer,
                                tn_error *error)
@@ -16,19 +24,25 @@ static tn_status rewrite_shard(const tn_gathering *g, const char *path, uint32_t
     tn_plan_reader *reader;
     const tn_plan *plan;
     size_t seen = 0;
-    mpz_t rank;
+    bool sampled = g->set->task == TN_TASK_SAMPLE;
+    mpz_t rank, plans;
     tn_status status = tn_plan_reader_open(g->ready->schema, path, &options, &reader, error);
     if (status != TN_OK)
         return status;
     mpz_init_set(rank, g->set->bounds[shard]);
+    mpz_init(plans);
     while (status == TN_OK && (status = tn_plan_reader_next(reader, &plan, error)) == TN_OK && plan) {
-        status = tn_plan_writer_write(writer, rank, plan->trays, plan->length, error);
+        if (sampled)
+            status = rank_of(g, shard, plan, rank, error);
+        if (status == TN_OK)
+            status = tn_plan_writer_write(writer, rank, plan->trays, plan->length, error);
         mpz_add_ui(rank, rank, 1);
         if (status == TN_OK && tn_watch_stopped_at(g->watch, ++seen))
             status = tn_fail_stopped(g->watch, error);
     }
-    bool whole = mpz_cmp(rank, g->set->bounds[shard + 1]) == 0;
-    mpz_clear(rank);
+    tn_shard_plans(g->set, shard, plans);
+    bool whole = mpz_cmp_ui(plans, seen) == 0;
+    mpz_clears(rank, plans, NULL);
     tn_plan_reader_free(reader);
     return status == TN_OK && !whole ? tn_shard_wrong(g->set, shard, error, "does not have the plans of its ranks")
                                      : status;

@@ -18,8 +18,10 @@ const char *const *tn_manifest_formats(void)
     return formats;
 }
 
-static const char *const tasks[TN_TASK_COUNT] = {
-    [TN_TASK_ENUMERATE] = "enumerate", [TN_TASK_MATCH] = "match", [TN_TASK_PRUNE] = "prune"};
+static const char *const tasks[TN_TASK_COUNT] = {[TN_TASK_ENUMERATE] = "enumerate",
+                                                 [TN_TASK_SAMPLE] = "sample",
+                                                 [TN_TASK_MATCH] = "match",
+                                                 [TN_TASK_PRUNE] = "prune"};
 
 #define HASH_BEGIN "  \"hash\": \""
 #define HASH_END "\"\n}\n"
@@ -52,6 +54,7 @@ static bool write_shard(const tn_shard_set *set, uint32_t i, tn_buffer *text)
     return tn_buffer_printf(text, "    {\"name\": \"%s\"", tn_shard_name_of(set, i).text) &&
            (ranks ? write_rank(text, "from", set->bounds[i]) && write_rank(text, "to", set->bounds[i + 1])
                   : tn_manifest_write_piece(&set->inputs.pieces[i], text)) &&
+           (set->task != TN_TASK_SAMPLE || tn_buffer_printf(text, ", \"plans\": %" PRIu64, set->sample.of[i])) &&
            tn_buffer_printf(text, "}%s\n", i + 1 < set->count ? "," : "");
 }
 
@@ -71,6 +74,10 @@ static bool write_plans(const tn_shard_set *set, tn_buffer *text)
         done = write_member(text, "compress", "zstd");
     if (done && set->plan_lines)
         done = write_member(text, "columns", "plan");
+    if (done && set->task == TN_TASK_SAMPLE) /* numbers of 64 bits are texts: readers of JSON round them */
+        done = tn_buffer_printf(
+            text, "  \"sample\": {\"plans\": %" PRIu64 ", \"seed\": \"%" PRIu64 "\", \"attempts\": %" PRIu64 "},\n",
+            set->sample.plans, set->sample.seed, set->sample.attempts);
     return done && write_number(text, "row_group", set->row_group);
 }
 
@@ -80,7 +87,7 @@ bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text)
     bool done = tn_buffer_printf(text, "{\n  \"tartan_shards\": %d,\n", TN_MANIFEST_VERSION) &&
                 write_member(text, "version", set->version) && write_member(text, "module", TN_MODULE_NAME) &&
                 write_member(text, "module_hash", set->module_hash);
-    if (done && answers)
+    if (done && set->task != TN_TASK_ENUMERATE)
         done = write_member(text, "task", tasks[set->task]);
     if (done && set->library)
         done = write_member(text, "library", set->library);
@@ -236,6 +243,58 @@ static bool read_rank(const json_t *shard, const char *key, mpz_t rank)
     return digits && *digits && strspn(digits, "0123456789") == strlen(digits) && mpz_set_str(rank, digits, 10) == 0;
 }
 
+static tn_status read_count(const reading *r, const json_t *object, const char *key, uint64_t *count)
+{
+    const json_t *value = json_object_get(object, key);
+    if (!json_is_integer(value) || json_integer_value(value) < 0)
+        return tn_manifest_refuse(r, "`%s` is no number of plans or draws", key);
+    *count = (uint64_t)json_integer_value(value);
+    return TN_OK;
+}
+
+/* How many plans of the sample are in the shard. */
+static tn_status read_share(const reading *r, uint32_t i, const json_t *shard)
+{
+    mpz_t ranks;
+    tn_status status = read_count(r, shard, "plans", &r->set->sample.of[i]);
+    mpz_init(ranks);
+    mpz_sub(ranks, r->set->bounds[i + 1], r->set->bounds[i]);
+    if (status == TN_OK && mpz_cmp_ui(ranks, r->set->sample.of[i]) < 0)
+        status = tn_manifest_refuse(r, "shard %u has more plans than ranks", i);
+    mpz_clear(ranks);
+    return status;
+}
+
+/* `attempts` are at most what drawing so many numbers takes, so that no manifest keeps a worker busy for ever. */
+static tn_status read_sample(const reading *r)
+{
+    tn_shard_sample *sample = &r->set->sample;
+    const json_t *json = json_object_get(r->manifest, "sample");
+    const char *seed = json_string_value(json_object_get(json, "seed"));
+    char *end = NULL;
+    tn_status status = read_count(r, json, "plans", &sample->plans);
+    if (status == TN_OK)
+        status = read_count(r, json, "attempts", &sample->attempts);
+    if (status != TN_OK)
+        return status;
+    sample->seed = seed ? strtoull(seed, &end, 10) : 0;
+    if (!seed || *seed < '0' || *seed > '9' || *end)
+        return tn_manifest_refuse(r, "`seed` is no number");
+    return sample->plans <= TN_SHARDS_SAMPLE_MAX && sample->attempts <= 8 * sample->plans + 100000
+               ? TN_OK
+               : tn_manifest_refuse(r, "its sample is too large");
+}
+
+/* The shares of the shards are those of the whole. */
+static tn_status add_shares(const reading *r)
+{
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < r->set->count; i++)
+        sum += r->set->sample.of[i];
+    return sum == r->set->sample.plans ? TN_OK
+                                       : tn_manifest_refuse(r, "its shards do not have all plans of the sample");
+}
+
 static tn_status read_ranks(const reading *r, uint32_t i, const json_t *shard, mpz_t from)
 {
     tn_shard_set *set = r->set;
@@ -247,7 +306,9 @@ static tn_status read_ranks(const reading *r, uint32_t i, const json_t *shard, m
     if (order != 0)
         return tn_manifest_refuse(
             r, order < 0 ? "shards %u and %u overlap" : "there are ranks between shards %u and %u", i - 1, i);
-    return mpz_cmp(set->bounds[i + 1], from) >= 0 ? TN_OK : tn_manifest_refuse(r, "shard %u ends before it begins", i);
+    if (mpz_cmp(set->bounds[i + 1], from) < 0)
+        return tn_manifest_refuse(r, "shard %u ends before it begins", i);
+    return set->task == TN_TASK_SAMPLE ? read_share(r, i, shard) : TN_OK;
 }
 
 static tn_status read_shard(const reading *r, uint32_t i, const json_t *shard, mpz_t from)
@@ -266,7 +327,9 @@ static tn_status make_room(tn_shard_set *set, size_t count, tn_error *error)
         set->inputs.pieces = calloc(count, sizeof *set->inputs.pieces);
     else
         set->bounds = calloc(count + 1, sizeof *set->bounds);
-    if (!set->bounds && !set->inputs.pieces)
+    if (set->task == TN_TASK_SAMPLE)
+        set->sample.of = calloc(count + 1, sizeof *set->sample.of);
+    if ((!set->bounds && !set->inputs.pieces) || (set->task == TN_TASK_SAMPLE && !set->sample.of))
         return tn_fail_memory(error);
     set->count = (uint32_t)count;
     for (size_t i = 0; set->bounds && i <= count; i++)
@@ -290,7 +353,7 @@ static tn_status read_shards(const reading *r)
     for (uint32_t i = 0; status == TN_OK && i < set->count; i++)
         status = read_shard(r, i, json_array_get(shards, i), from);
     mpz_clear(from);
-    return status;
+    return status == TN_OK && set->task == TN_TASK_SAMPLE ? add_shares(r) : status;
 }
 
 static tn_status read_texts(const reading *r)
@@ -320,7 +383,9 @@ static tn_status read_plans(const reading *r)
         status = read_format(r);
     if (status == TN_OK)
         status = read_compression(r);
-    return status == TN_OK ? read_columns(r) : status;
+    if (status == TN_OK)
+        status = read_columns(r);
+    return status == TN_OK && r->set->task == TN_TASK_SAMPLE ? read_sample(r) : status;
 }
 
 static tn_status read_members(const reading *r)

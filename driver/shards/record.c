@@ -11,6 +11,7 @@
 #include "driver/open/missing.h"
 #include "driver/shards/hash.h"
 #include "runtime/base/file.h"
+#include "runtime/base/integers.h"
 #include "runtime/plan/text/pack.h"
 
 #define RECORD_BYTES (1u << 20) /* the most: complaints about a hundred plans */
@@ -209,6 +210,8 @@ typedef struct through {
     uint32_t shard;
     tn_watch *watch;
     uint64_t count;
+    mpz_t *sampled; /* [sampled_count]: ranks of a sample that are in the shard; NULL: it has all */
+    size_t sampled_count;
     tn_plan last;
 } through;
 
@@ -222,6 +225,12 @@ static tn_status compare_rank(const through *t, const tn_plan *plan, const mpz_t
     return found ? TN_OK
                  : tn_shard_wrong(t->set, t->shard, error,
                                   "does not hold the plans of its ranks: its %s plan is another", which);
+}
+
+/* Each plan of a sample is looked at: no two follow one another. */
+static tn_status compare_sampled(const through *t, const tn_plan *plan, tn_error *error)
+{
+    return t->count < t->sampled_count ? compare_rank(t, plan, t->sampled[t->count], "next", error) : TN_OK;
 }
 
 static bool keep_plan(const tn_plan *plan, tn_plan *kept)
@@ -244,7 +253,9 @@ static tn_status read_plans(through *t, tn_plan_reader *reader, tn_error *error)
                                   t->count + 1);
         if (status != TN_OK || !plan)
             return status;
-        if (t->count == 0)
+        if (t->sampled)
+            status = compare_sampled(t, plan, error);
+        else if (t->count == 0)
             status = compare_rank(t, plan, t->set->bounds[t->shard], "first", error);
         if (status == TN_OK && !keep_plan(plan, &t->last))
             status = tn_fail_memory(error);
@@ -268,11 +279,23 @@ static tn_status compare_end(const through *t, tn_error *error)
         status = tn_shard_wrong(t->set, t->shard, error, "has %" PRIu64 " plans instead of %.60s", t->count,
                                 digits ? digits : "?");
         free(digits);
-    } else if (t->count > 0) {
+    } else if (t->count > 0 && !t->sampled) {
         mpz_sub_ui(wanted, t->set->bounds[t->shard + 1], 1);
         status = compare_rank(t, &t->last, wanted, "last", error);
     }
     mpz_clear(wanted);
+    return status;
+}
+
+static tn_status find_sampled(through *t, tn_error *error)
+{
+    if (t->set->task != TN_TASK_SAMPLE)
+        return TN_OK;
+    mpz_t all;
+    mpz_init(all);
+    tn_library_kept(t->library, TN_ALL_LENGTHS, all);
+    tn_status status = tn_shard_sampled(t->set, all, t->shard, &t->sampled, &t->sampled_count, t->watch, error);
+    mpz_clear(all);
     return status;
 }
 
@@ -283,8 +306,9 @@ tn_status tn_shard_read_through(const tn_shard_set *set, const tn_ready_library 
     const tn_reader_options options = tn_shard_reading(set, ready->library);
     tn_plan_reader *reader = NULL;
     char *path = tn_shard_path(set, shard, "");
-    tn_status status =
-        path ? tn_plan_reader_open(ready->schema, path, &options, &reader, error) : tn_fail_memory(error);
+    tn_status status = path ? find_sampled(&t, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_plan_reader_open(ready->schema, path, &options, &reader, error);
     if (status == TN_INVALID)
         status = tn_shard_wrong(set, shard, error, "does not begin as such a file does");
     if (status == TN_OK)
@@ -292,6 +316,7 @@ tn_status tn_shard_read_through(const tn_shard_set *set, const tn_ready_library 
     if (status == TN_OK)
         status = compare_end(&t, error);
     tn_plan_reader_free(reader);
+    tn_integers_free(t.sampled, t.sampled_count);
     free(t.last.trays);
     free(path);
     return status;

@@ -34,6 +34,7 @@ void tn_shard_set_clear(tn_shard_set *set)
     for (size_t i = 0; set->bounds && i <= set->count; i++)
         mpz_clear(set->bounds[i]);
     free(set->bounds);
+    free(set->sample.of);
     free(set->folder);
     free(set->version);
     free(set->library);
@@ -97,7 +98,18 @@ tn_writer_options tn_shard_writing(const tn_shard_set *set, const tn_plan_metada
 
 void tn_shard_plans(const tn_shard_set *set, uint32_t shard, mpz_t plans)
 {
-    mpz_sub(plans, set->bounds[shard + 1], set->bounds[shard]);
+    if (set->task == TN_TASK_SAMPLE)
+        mpz_set_ui(plans, set->sample.of[shard]);
+    else
+        mpz_sub(plans, set->bounds[shard + 1], set->bounds[shard]);
+}
+
+void tn_shard_set_plans(const tn_shard_set *set, mpz_t plans)
+{
+    if (set->task == TN_TASK_SAMPLE)
+        mpz_set_ui(plans, set->sample.plans);
+    else
+        mpz_sub(plans, set->bounds[set->count], set->bounds[0]);
 }
 
 /* ---- dividing */

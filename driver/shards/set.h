@@ -18,6 +18,7 @@
 #include "runtime/plan/text/stream.h"
 
 #define TN_SHARDS_MAX 100000u
+#define TN_SHARDS_SAMPLE_MAX UINT64_C(10000000000)
 #define TN_SHARDS_A_FOLDER 1000u /* with records and claims, 3,000 files: few enough for any file system */
 
 #define TN_SHARD_RECORD ".record"
@@ -28,6 +29,7 @@ typedef enum tn_shard_task {
     TN_TASK_ENUMERATE, /* the plans of a stretch of ranks */
     TN_TASK_MATCH,     /* which rules match the plans of a piece of a file */
     TN_TASK_PRUNE,     /* which of them a library keeps */
+    TN_TASK_SAMPLE,    /* the plans of a sample that are in a stretch of ranks */
     TN_TASK_COUNT
 } tn_shard_task;
 
@@ -56,6 +58,13 @@ typedef struct tn_shard_inputs {
     bool skips; /* plans that cannot be read */
 } tn_shard_inputs;
 
+/* A sample: the plans that `tartan sample` draws. */
+typedef struct tn_shard_sample {
+    uint64_t plans, seed;
+    uint64_t attempts; /* of drawing: see tn_draws */
+    uint64_t *of;      /* [shards]: plans of each */
+} tn_shard_sample;
+
 typedef struct tn_shard_set {
     tn_shard_task task;
     char *folder;
@@ -72,6 +81,7 @@ typedef struct tn_shard_set {
     uint32_t count;
     mpz_t *bounds; /* [count + 1]: shard i has the ranks from bounds[i] on, before bounds[i + 1]; NULL: answers */
     tn_shard_inputs inputs; /* of answers */
+    tn_shard_sample sample; /* of TN_TASK_SAMPLE */
 } tn_shard_set;
 
 /* Divides the ranks [from, to) among `shards` shards, as equal as can be, but none empty where another is not; or
@@ -99,7 +109,7 @@ tn_status tn_shard_set_agrees(const tn_shard_set *set, const tn_schema *schema, 
 /* Are the shards answers about the plans of files? */
 static inline bool tn_shard_set_answers(const tn_shard_set *set)
 {
-    return set->task != TN_TASK_ENUMERATE;
+    return set->task == TN_TASK_MATCH || set->task == TN_TASK_PRUNE;
 }
 
 /* A hash of all that the manifest says: two sets with the same one are copies. TN_MEMORY. */
@@ -122,7 +132,17 @@ tn_reader_options tn_shard_reading(const tn_shard_set *set, const tn_library *li
 /* How to write one. `ranks`: how many the library has, borrowed. */
 tn_writer_options tn_shard_writing(const tn_shard_set *set, const tn_plan_metadata *metadata, mpz_srcptr ranks);
 
-/* How many plans a shard holds. `plans` is initialised. */
+/* How many plans a shard holds, and all do. `plans` is initialised. */
 void tn_shard_plans(const tn_shard_set *set, uint32_t shard, mpz_t plans);
+void tn_shard_set_plans(const tn_shard_set *set, mpz_t plans);
+
+/* Makes a divided set one of a sample: so many plans of all `all` that its bounds are of, drawn by the seed. memory:
+ * see tn_draws_count. TN_MEMORY, TN_STOPPED. */
+tn_status tn_shard_set_sample(tn_shard_set *set, const mpz_t all, uint64_t plans, uint64_t seed, size_t memory,
+                              tn_watch *watch, tn_error *error);
+
+/* The ranks of a sample that are in a shard, ascending; free them by tn_integers_free. all: plans of the library. */
+tn_status tn_shard_sampled(const tn_shard_set *set, const mpz_t all, uint32_t shard, mpz_t **ranks, size_t *count,
+                           tn_watch *watch, tn_error *error);
 
 #endif

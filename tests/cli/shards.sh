@@ -34,6 +34,32 @@ for format in lines json csv bin; do
     "$TARTAN" shards merge "$scratch/set" -o "$scratch/merged.sqlite" && enumerate --trays 0..5 --from 5 --to 777 -o "$scratch/one.sqlite"
     is "$format: the database" "$(sqlite3 "$scratch/merged.sqlite" .dump | md5sum)" "$(sqlite3 "$scratch/one.sqlite" .dump | md5sum)"
 done
+# ---- a sample: the plans of one `tartan sample`, also where more than half of all are wanted
+for format in lines json csv bin; do
+    for plans in 0 40 900 5000; do
+        new set --format $format --sample $plans --seed 6 --shards 5
+        run set --threads 3
+        "$TARTAN" shards cat "$scratch/set" |
+            cmp - <("$TARTAN" sample "$sheds" $plans -l any-sheds --trays 0..5 --seed 6 --format $format) ||
+            fail "$format: the set is not the sample of $plans"
+        exits 0 "$TARTAN" shards check "$scratch/set"
+    done
+done
+new set --format bin --sample 300 --shards 4
+run set
+"$TARTAN" shards merge "$scratch/set" -o "$scratch/merged.sqlite" &&
+    "$TARTAN" sample "$sheds" 300 -l any-sheds --trays 0..5 -o "$scratch/one.sqlite"
+is "the database of a sample" "$(sqlite3 "$scratch/merged.sqlite" .dump | md5sum)" "$(sqlite3 "$scratch/one.sqlite" .dump | md5sum)"
+new set --sample 300 --shards 4
+run set
+sed -i 1d "$scratch/set/shards/000/000001.plans"
+rm "$scratch/set/shards/000/000001.plans.record"
+exits 1 "$TARTAN" shards check "$scratch/set"
+golden sample_from "tartan shards new $sheds -l any-sheds -o $scratch/other --sample 9 --from 3 --shards 2"
+golden sample_each "tartan shards new $sheds -l any-sheds -o $scratch/other --sample 9 --plans 2"
+golden sample_seed "tartan shards new $sheds -l any-sheds -o $scratch/other --seed 9 --shards 2"
+golden sample_match "tartan shards new $sheds -o $scratch/other --task match --input a.plans --sample 9 --shards 2"
+
 # ---- compressed: the same bytes again, and files that match and prune read
 for format in lines json csv bin; do
     new set --format $format --shards 5 --compress

@@ -2,78 +2,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/random.h"
+#include "runtime/plan/library/drawn.h"
 #include "runtime/plan/library/library_data.h"
 
-/* Numbers below a bound, of one size in limbs, in a hash table: those drawn so far. */
-typedef struct tn_drawn {
-    size_t limbs;
-    mp_limb_t *values; /* [count][limbs], in the order drawn */
-    size_t *slots;     /* number + 1; 0 is free */
-    size_t count, capacity;
-    mp_limb_t *candidate; /* [limbs] */
-} tn_drawn;
-
-static bool drawn_make(tn_drawn *drawn, const mpz_t bound, size_t count)
+/* Draws `count` different numbers below the bound. */
+static tn_status draw(tn_drawn *drawn, uint64_t seed, uint64_t stream, size_t count, tn_error *error)
 {
-    drawn->limbs = mpz_size(bound);
-    drawn->capacity = 64;
-    while (drawn->capacity < 2 * count)
-        drawn->capacity *= 2;
-    drawn->values = malloc((count * drawn->limbs + 1) * sizeof *drawn->values);
-    drawn->slots = calloc(drawn->capacity, sizeof *drawn->slots);
-    drawn->candidate = malloc((drawn->limbs + 1) * sizeof *drawn->candidate);
-    return drawn->values && drawn->slots && drawn->candidate;
-}
-
-static void drawn_clear(tn_drawn *drawn)
-{
-    free(drawn->values);
-    free(drawn->slots);
-    free(drawn->candidate);
-}
-
-/* Adds the candidate unless it is there already. */
-static void drawn_add(tn_drawn *drawn)
-{
-    uint64_t hash = drawn->limbs;
-    for (size_t i = 0; i < drawn->limbs; i++)
-        hash = tn_mix64(hash ^ drawn->candidate[i]);
-    size_t at = hash & (drawn->capacity - 1), bytes = drawn->limbs * sizeof *drawn->candidate;
-    for (; drawn->slots[at]; at = (at + 1) & (drawn->capacity - 1))
-        if (memcmp(drawn->values + (drawn->slots[at] - 1) * drawn->limbs, drawn->candidate, bytes) == 0)
-            return;
-    memcpy(drawn->values + drawn->count * drawn->limbs, drawn->candidate, bytes);
-    drawn->slots[at] = ++drawn->count;
-}
-
-/* Draws `count` different numbers below the bound. Attempt a takes random words a * limbs and following of stream
- * `stream`, cut to as many bits as the bound has; attempts at or past the bound are thrown away, so the rest are
- * uniform. */
-static void draw(tn_drawn *drawn, uint64_t seed, uint64_t stream, const mpz_t bound, size_t count)
-{
-    size_t bits = mpz_sizeinbase(bound, 2), spare = drawn->limbs * 64 - bits;
-    for (uint64_t attempt = 0; drawn->count < count; attempt++) {
-        for (size_t i = 0; i < drawn->limbs; i++)
-            drawn->candidate[i] = tn_random64(seed, stream, attempt * drawn->limbs + i);
-        drawn->candidate[drawn->limbs - 1] >>= spare;
-        if (mpn_cmp(drawn->candidate, mpz_limbs_read(bound), (mp_size_t)drawn->limbs) < 0)
-            drawn_add(drawn);
-    }
-}
-
-static int compare_integers(const void *a, const void *b)
-{
-    mpz_srcptr x = a, y = b;
-    return mpz_cmp(x, y);
-}
-
-/* Gives the numbers drawn, ascending. */
-static void give_drawn(const tn_drawn *drawn, mpz_t *ranks)
-{
-    for (size_t i = 0; i < drawn->count; i++)
-        mpz_import(ranks[i], drawn->limbs, -1, sizeof(mp_limb_t), 0, 0, drawn->values + i * drawn->limbs);
-    qsort(ranks, drawn->count, sizeof *ranks, compare_integers);
+    tn_status status = TN_OK;
+    bool fresh;
+    for (uint64_t attempt = 0; status == TN_OK && drawn->count < count; attempt++)
+        if (tn_drawn_try(drawn, seed, stream, attempt))
+            status = tn_drawn_add(drawn, &fresh, error);
+    return status;
 }
 
 /* Gives all numbers below `bound` but those drawn; the bound is less than twice the number given, so it fits a word. */
@@ -102,15 +42,15 @@ tn_status tn_ranks_sample(uint64_t seed, uint64_t stream, const mpz_t bound, siz
     bool others = *found > all / 2;
     tn_drawn drawn = {0};
     size_t wanted = others ? (size_t)(all - *found) : *found;
-    bool ok = drawn_make(&drawn, bound, wanted);
-    if (ok)
-        draw(&drawn, seed, stream, bound, wanted);
-    if (ok && others)
-        ok = give_others(&drawn, all, ranks);
-    else if (ok)
-        give_drawn(&drawn, ranks);
-    drawn_clear(&drawn);
-    return ok ? TN_OK : tn_fail_memory(error);
+    tn_status status = tn_drawn_make(&drawn, bound, wanted) ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = draw(&drawn, seed, stream, wanted, error);
+    if (status == TN_OK && others)
+        status = give_others(&drawn, all, ranks) ? TN_OK : tn_fail_memory(error);
+    else if (status == TN_OK)
+        tn_drawn_give(&drawn, ranks);
+    tn_drawn_clear(&drawn);
+    return status;
 }
 
 tn_status tn_library_sample(const tn_library *library, uint64_t seed, uint32_t length, size_t count, mpz_t *ranks,

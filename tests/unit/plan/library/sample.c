@@ -6,6 +6,8 @@
 
 #include <cmocka.h>
 
+#include "runtime/base/integers.h"
+#include "runtime/plan/library/sample_shares.h"
 #include "tests/support/test_library.h"
 
 #define RANKS_MAX 2000
@@ -253,10 +255,57 @@ static void limits_are_reported(void **state)
     hand_clear(&made);
 }
 
+/* Shares of a sample together are the sample, whatever memory its counting has; also where the others are drawn. */
+static void check_shares(uint64_t seed, const char *all, size_t wanted, uint32_t shares)
+{
+    tn_error error;
+    ranks *whole = ranks_new();
+    mpz_t bound, *bounds = tn_integers_new(shares + 1);
+    uint64_t counts[8], again[8];
+    mpz_init_set_str(bound, all, 10);
+    for (uint32_t i = 0; i <= shares; i++) {
+        mpz_mul_ui(bounds[i], bound, i);
+        mpz_fdiv_q_ui(bounds[i], bounds[i], shares);
+    }
+    test_ok(tn_ranks_sample(seed, 3, bound, wanted, whole->of, &whole->found, &error), &error);
+    tn_draws draws = {.seed = seed, .stream = 3, .bound = bound, .wanted = wanted}, small = draws;
+    test_ok(tn_draws_count(&draws, (const mpz_t *)bounds, shares, counts, 1 << 20, NULL, &error), &error);
+    test_ok(tn_draws_count(&small, (const mpz_t *)bounds, shares, again, 1000, NULL, &error), &error);
+    assert_true(draws.attempts == small.attempts);
+    assert_memory_equal(counts, again, shares * sizeof *counts);
+    size_t at = 0;
+    for (uint32_t i = 0; i < shares; i++) {
+        mpz_t *given;
+        size_t count;
+        test_ok(tn_draws_between(&draws, bounds[i], bounds[i + 1], &given, &count, NULL, &error), &error);
+        assert_int_equal(count, counts[i]);
+        for (size_t k = 0; k < count; k++)
+            assert_int_equal(mpz_cmp(given[k], whole->of[at++]), 0);
+        tn_integers_free(given, count);
+    }
+    assert_int_equal(at, whole->found);
+    tn_integers_free(bounds, shares + 1);
+    mpz_clear(bound);
+    ranks_free(whole);
+}
+
+static void shares_are_the_whole(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 0; seed < 20; seed++) {
+        check_shares(seed, "1", seed % 2, 1);
+        check_shares(seed, "100", 5 * seed, 4);
+        check_shares(seed, "2001", 1000 + 50 * seed, 8);
+        check_shares(seed, "4294967296", 2000, 7);
+        check_shares(seed, "340282366920938463463374607431768211457", 500, 3);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(samples_are_kept_distinct_and_repeatable),
+        cmocka_unit_test(shares_are_the_whole),
         cmocka_unit_test(equal_meaning_has_equal_hash),
         cmocka_unit_test(empty_libraries_and_empty_plans),
         cmocka_unit_test(limits_are_reported),
