@@ -41,7 +41,7 @@ done
 
 # The embedding program, linked to libtartan elsewhere.
 printf "8' single public - dense:4' open:8' empty | 4' single - - dense:4' open:8' empty | 8' single - - dense:4' open:8' empty\n" >plans
-./embed narrow.plan <plans >out
+./embed narrow.plan /usr/share/tartan/stdlib <plans >out
 grep -q '^corridor matches 8' out || fail 'the embedding program did not match'
 grep -qE '^[0-9]+ plans, three of them:$' out || fail 'the embedding program did not count'
 
