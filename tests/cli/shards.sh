@@ -55,10 +55,10 @@ run set
 sed -i 1d "$scratch/set/shards/000/000001.plans"
 rm "$scratch/set/shards/000/000001.plans.record"
 exits 1 "$TARTAN" shards check "$scratch/set"
-golden sample_from "tartan shards new $sheds -l any-sheds -o $scratch/other --sample 9 --from 3 --shards 2"
-golden sample_each "tartan shards new $sheds -l any-sheds -o $scratch/other --sample 9 --plans 2"
-golden sample_seed "tartan shards new $sheds -l any-sheds -o $scratch/other --seed 9 --shards 2"
-golden sample_match "tartan shards new $sheds -o $scratch/other --task match --input a.plans --sample 9 --shards 2"
+golden sample_from 'tartan shards new sheds.plan -l any-sheds -o $scratch/other --sample 9 --from 3 --shards 2'
+golden sample_each 'tartan shards new sheds.plan -l any-sheds -o $scratch/other --sample 9 --plans 2'
+golden sample_seed 'tartan shards new sheds.plan -l any-sheds -o $scratch/other --seed 9 --shards 2'
+golden sample_match 'tartan shards new sheds.plan -o $scratch/other --task match --input a.plans --sample 9 --shards 2'
 
 # ---- compressed: the same bytes again, and files that match and prune read
 for format in lines json csv bin; do
