@@ -30,13 +30,13 @@ static tn_status look(tn_watch *watch, uint64_t attempt, tn_error *error)
 
 /* ---- how far it is drawn */
 
-typedef struct tn_counting {
+typedef struct tn_drawing {
     const tn_draws *draws;
     tn_watch *watch;
     uint64_t limit; /* attempts that are looked at */
     uint64_t rounds;
     uint64_t *fresh; /* a bit for each: is its number a new one? */
-} tn_counting;
+} tn_drawing;
 
 /* About so many attempts are needed: some are at or past the bound, some meet a number again. */
 static uint64_t expect(const tn_draws *d)
@@ -48,7 +48,7 @@ static uint64_t expect(const tn_draws *d)
 }
 
 /* A round sees the numbers of one class: equal numbers are of one class. */
-static tn_status count_round(tn_counting *c, uint64_t round, tn_error *error)
+static tn_status count_round(tn_drawing *c, uint64_t round, tn_error *error)
 {
     tn_drawn drawn;
     const tn_draws *d = c->draws;
@@ -67,14 +67,14 @@ static tn_status count_round(tn_counting *c, uint64_t round, tn_error *error)
 }
 
 /* *attempts: those up to the last new number that is needed; false where the limit comes before. */
-static bool find_end(const tn_counting *c, uint64_t needed, uint64_t *attempts)
+static bool find_end(const tn_drawing *c, uint64_t needed, uint64_t *attempts)
 {
     for (*attempts = 0; needed > 0 && *attempts < c->limit; ++*attempts)
         needed -= c->fresh[*attempts / 64] >> *attempts % 64 & 1;
     return needed == 0;
 }
 
-static tn_status find_attempts(tn_counting *c, uint64_t *attempts, tn_error *error)
+static tn_status find_attempts(tn_drawing *c, uint64_t *attempts, tn_error *error)
 {
     bool found = false;
     for (c->limit = expect(c->draws); !found; c->limit += c->limit / 8) {
@@ -105,7 +105,7 @@ static uint32_t share_of(const mpz_t *bounds, uint32_t shares, const mpz_t numbe
     return low;
 }
 
-static tn_status count_shares(const tn_counting *c, const mpz_t *bounds, uint32_t shares, uint64_t *counts,
+static tn_status count_shares(const tn_drawing *c, const mpz_t *bounds, uint32_t shares, uint64_t *counts,
                               tn_error *error)
 {
     tn_drawn drawn;
@@ -135,7 +135,7 @@ tn_status tn_draws_count(tn_draws *draws, const mpz_t *bounds, uint32_t shares, 
 {
     /* A number, its place among the slots, of which half are free, and the room that arrays grow into. */
     size_t each = 2 * (mpz_size(draws->bound) * sizeof(mp_limb_t) + 4 * sizeof(size_t));
-    tn_counting c = {.draws = draws, .watch = watch, .rounds = to_draw(draws) / (memory / each + 1) + 1};
+    tn_drawing c = {.draws = draws, .watch = watch, .rounds = to_draw(draws) / (memory / each + 1) + 1};
     draws->attempts = 0;
     tn_status status = to_draw(draws) > 0 ? find_attempts(&c, &draws->attempts, error) : TN_OK;
     if (status == TN_OK)
