@@ -256,17 +256,24 @@ static tn_status check_parts(const char *line, size_t size, tn_error *error)
     return TN_OK;
 }
 
+/* The part of the plan is a plan line, or `-` where the plan has no trays. */
+static tn_status read_plan(const tn_house_form *form, const char *line, size_t max_trays, tn_part_reader part,
+                           tn_plan *plan, tn_error *error)
+{
+    bool none = !part.there && !memchr(line, '|', part.end);
+    return tn_plan_parse_line(form->schema, line, none ? 0 : part.end, max_trays, plan, error);
+}
+
 /* Everything but the tiles. */
 static tn_status read_open(const tn_house_form *form, const char *line, size_t size, size_t max_trays, tn_house *house,
                            tn_error *error)
 {
-    tn_part_reader plan = open_part(line, size, PLAN);
     tn_plan trays = {0};
     uint32_t shapes[TN_CHOICES_MAX] = {0};
     *house = (tn_house){0};
     tn_status status = check_parts(line, size, error);
     if (status == TN_OK)
-        status = tn_plan_parse_line(form->schema, line, plan.end, max_trays, &trays, error);
+        status = read_plan(form, line, max_trays, open_part(line, size, PLAN), &trays, error);
     if (status == TN_OK)
         status = read_section(form, line, size, shapes, error);
     if (status == TN_OK)
