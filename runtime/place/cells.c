@@ -246,6 +246,13 @@ static bool any_in_space(tn_cells *cells, const tn_cell_box *box, chunk_part *pa
     return false;
 }
 
+static bool in_one_chunk(const tn_cell_box *box, const chunk_part *part)
+{
+    return (box->high[0] - 1) >> SHIFT_X == part->at[0] && (box->high[1] - 1) >> SHIFT_YZ == part->at[1] &&
+           (box->high[2] - 1) >> SHIFT_YZ == part->at[2];
+}
+
+/* Most boxes are those of a lookahead, and lie in one chunk. */
 bool tn_cells_any(tn_cells *cells, const tn_cell_box *box)
 {
     chunk_part part;
@@ -253,6 +260,13 @@ bool tn_cells_any(tn_cells *cells, const tn_cell_box *box)
         return false;
     if (cells->space)
         return any_in_space(cells, box, &part);
+    if (in_one_chunk(box, &part)) {
+        const cell_chunk *chunk = find_chunk(cells, part.at);
+        if (!chunk)
+            return false;
+        cut_part(box, &part);
+        return part_any(chunk, &part);
+    }
     if (count_parts(box) > (double)cells->slot_count)
         return any_of_all(cells, box);
     do {

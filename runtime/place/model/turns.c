@@ -38,8 +38,21 @@ uint32_t tn_turn_back(uint32_t turn)
     return back;
 }
 
+/* Turns about the vertical, which are nearly all. */
+static void turn_upright(uint32_t turn, const int32_t from[3], int32_t to[3])
+{
+    int32_t x = from[0], z = from[2];
+    to[0] = turn == 0 ? x : turn == 1 ? -z : turn == 2 ? -x : z;
+    to[1] = from[1];
+    to[2] = turn == 0 ? z : turn == 1 ? x : turn == 2 ? -z : -x;
+}
+
 void tn_turn_place(uint32_t turn, const int32_t from[3], int32_t to[3])
 {
+    if (turn < TN_UPRIGHT_TURNS) {
+        turn_upright(turn, from, to);
+        return;
+    }
     static const uint8_t forward[3] = {R, D, B}, coordinate[TN_AXIS_COUNT] = {1, 1, 0, 0, 2, 2};
     int32_t turned[3] = {0};
     for (int k = 0; k < 3; k++) {
