@@ -51,7 +51,9 @@ static const char text[] =
     "  prune touch(cell(living), cell(stair) by door) as blocked\n"
     "  prune section(body roof vault) as round\n"
     "  prune sum(area of cell(bed), a < 90sf)\n"
-    "}\n";
+    "}\n"
+    "measure rooms = 3 * quantity(cell(bed)) - quantity(room(living)) + quantity(tray(10'))\n"
+    "measure floor = sum(area of cell(any))\n";
 
 void test_house_make(test_house *made)
 {

@@ -12,7 +12,7 @@
 
 #include "runtime/house/export/export.h"
 #include "runtime/house/schedule/describe.h"
-#include "runtime/house/strip/houses.h"
+#include "runtime/house/strip/best.h"
 #include "runtime/house/variant/change.h"
 #include "runtime/house/variant/variant.h"
 #include "tests/support/failing_memory.h"
@@ -80,6 +80,77 @@ static void test_count_together(void **state)
 {
     (void)state;
     expect_robust(count_together);
+}
+
+/* ---- the best of them, by two measures */
+
+static tn_house_weights *weights[2];
+static const tn_house_measures *measures;
+
+static tn_status take_one(void *context, const tn_house *one, bool *stop, tn_error *error)
+{
+    (void)context, (void)one, (void)error;
+    *stop = true;
+    return TN_OK;
+}
+
+static tn_status find_best(tn_houses_aim aim, tn_error *error)
+{
+    tn_houses *houses = NULL;
+    tn_house_variants *variants = NULL;
+    const tn_houses_what what = {.measures = measures, .aim = aim, .wanted = 3};
+    tn_status status = tn_houses_of(&made.form, made.all, plans, &what, 0, &houses, error);
+    if (status == TN_OK)
+        status = tn_house_variants_new(&made.form, made.all, 0, &variants, error);
+    if (status == TN_OK)
+        assert_true(tn_houses_points(houses) > 0);
+    if (status == TN_OK)
+        status = tn_houses_point_each(houses, 0, variants, take_one, NULL, error);
+    tn_house_variants_free(variants);
+    tn_houses_free(houses);
+    return status;
+}
+
+static tn_status best(tn_error *error)
+{
+    return find_best(TN_HOUSES_LEAST, error);
+}
+
+static tn_status front(tn_error *error)
+{
+    return find_best(TN_HOUSES_FRONT, error);
+}
+
+static tn_status complete(tn_error *error)
+{
+    static const tn_open_tray trays[] = {{.gap = true}, {.gap = false}};
+    const tn_open_plan open = {.trays = trays, .count = 2};
+    tn_houses *houses = NULL;
+    tn_completions found;
+    const tn_houses_what what = {.measures = measures, .aim = TN_HOUSES_COMPLETE};
+    tn_status status = tn_houses_of(&made.form, made.all, plans, &what, 0, &houses, error);
+    if (status == TN_OK) {
+        status = tn_houses_complete(houses, &open, &found, error);
+        tn_completions_clear(&found);
+    }
+    tn_houses_free(houses);
+    return status;
+}
+
+static void test_best(void **state)
+{
+    (void)state;
+    tn_error error = {0};
+    for (uint32_t k = 0; k < 2; k++)
+        assert_int_equal(
+            tn_house_weights_new(&made.form, tn_house_measured_of(made.module, k), &weights[k], &error), TN_OK);
+    const tn_house_measures two = {.count = 2, .of = {weights[0], weights[1]}, .most = {true, false}};
+    measures = &two;
+    expect_robust(best);
+    expect_robust(front);
+    expect_robust(complete);
+    for (uint32_t k = 0; k < 2; k++)
+        tn_house_weights_free(weights[k]);
 }
 
 static tn_status seen(void *context, const tn_house_change *one, const tn_house *changed, tn_error *error)
@@ -181,7 +252,7 @@ static void test_failing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_count_together), cmocka_unit_test(test_failing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_count_together), cmocka_unit_test(test_best), cmocka_unit_test(test_failing)};
     tn_house_variants *variants = NULL;
     tn_error error = {0};
     mpz_t variant;
