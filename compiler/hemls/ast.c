@@ -87,7 +87,18 @@ tn_decimal tn_growth_number(tn_growth_parse *parse, tn_span span)
         tn_help(parse->diagnostics, d, "the largest is %.0f", TN_COORDINATE_MAX);
         value = 3; /* what every setting takes: one mistake is told once */
     }
-    return (tn_decimal){value, span};
+    return (tn_decimal){value, span, 0};
+}
+
+tn_decimal tn_growth_whole(tn_growth_parse *parse, tn_span span)
+{
+    const char *text = parse->text + span.begin;
+    uint64_t whole = 0;
+    bool fits = span.end > span.begin;
+    for (size_t i = 0; fits && i < span.end - span.begin; i++)
+        fits = text[i] >= '0' && text[i] <= '9' && !__builtin_mul_overflow(whole, UINT64_C(10), &whole) &&
+               !__builtin_add_overflow(whole, (uint64_t)(text[i] - '0'), &whole);
+    return (tn_decimal){fits ? (double)whole : -1, span, whole};
 }
 
 void tn_growth_stray(tn_growth_parse *parse, tn_span span, const char *help)
@@ -107,8 +118,8 @@ void tn_growth_stray(tn_growth_parse *parse, tn_span span, const char *help)
     tn_help(parse->diagnostics, d, "%s", help);
 }
 
-/* Only blanks lie between a character that means nothing, which was reported, and this place: what is wrong here follows
- * from that. */
+/* Only blanks lie between a character that means nothing, which was reported, and this place: what is wrong here
+ * follows from that. */
 static bool behind_stray(const tn_growth_parse *parse, uint32_t begin)
 {
     if (!parse->stray_end || parse->stray_end > begin)

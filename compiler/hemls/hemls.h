@@ -86,10 +86,11 @@ typedef struct tn_hemls_file {
     bool damaged; /* lines are missing because of errors already reported */
 } tn_hemls_file;
 
-/* A number as the lexers of growth read it. */
+/* A number as the lexers of growth read it; `whole` is that of tn_growth_whole. */
 typedef struct tn_decimal {
     double value;
     tn_span span;
+    uint64_t whole;
 } tn_decimal;
 
 /* One run of a parser of growth notations over one source. */
@@ -142,6 +143,9 @@ void tn_growth_place(tn_growth_parse *parse, tn_span *span, size_t size);
 
 /* A decimal number; an error (E0005) where it is too large. */
 tn_decimal tn_growth_number(tn_growth_parse *parse, tn_span span);
+
+/* A whole number of 64 bits, exactly; the value is -1 where it is none. */
+tn_decimal tn_growth_whole(tn_growth_parse *parse, tn_span span);
 
 /* Reports a character that no token starts with. */
 void tn_growth_stray(tn_growth_parse *parse, tn_span span, const char *help);

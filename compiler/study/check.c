@@ -58,8 +58,9 @@ static void check_setting(check *c, const tn_study_item *item)
                          "it is the side of the seed, in model units");
         break;
     case TN_STUDY_SEED:
-        if (!is_whole(n) || n > 9007199254740992.0)
-            out_of_range(c, item->number.span, "a seed is a whole number", "any will do, such as 7");
+        if (n < 0)
+            out_of_range(c, item->number.span, "a seed is a whole number",
+                         "any from 0 to 18446744073709551615 will do, such as 7");
         break;
     case TN_STUDY_BRANCH_ANGLE:
         if (!(n >= 0 && n <= 360))

@@ -29,7 +29,7 @@ static void emit_settings(tn_builder *builder, const tn_checked_study *study)
                  {TN_STUDY_SETS_MIRROR, TN_STUDY_MIRROR},
                  {TN_STUDY_SETS_RAW, TN_STUDY_RAW_FITNESS}};
     const tn_study_item *scale = study->settings[TN_STUDY_SCALE], *start = study->settings[TN_STUDY_START],
-                        *title = study->settings[TN_STUDY_TITLE];
+                        *title = study->settings[TN_STUDY_TITLE], *seed = study->settings[TN_STUDY_SEED];
     tn_study_record record = {.name = tn_builder_string(builder, title ? title->text : NULL),
                               .steps = (uint32_t)number_or(study, TN_STUDY_STEPS, 4),
                               .scale_x = scale ? scale->a.x : 1.5,
@@ -41,7 +41,7 @@ static void emit_settings(tn_builder *builder, const tn_checked_study *study)
                               .start_length = number_or(study, TN_STUDY_START_LENGTH, 1),
                               .branch_angle = number_or(study, TN_STUDY_BRANCH_ANGLE, -1),
                               .branch_length = number_or(study, TN_STUDY_BRANCH_LENGTH, -1),
-                              .seed = (int64_t)number_or(study, TN_STUDY_SEED, 1),
+                              .seed = seed ? (int64_t)seed->number.whole : 1,
                               .edge_limit = (int64_t)number_or(study, TN_STUDY_EDGE_LIMIT, 0),
                               .file = study->span.file,
                               .begin = study->span.begin,

@@ -14,7 +14,8 @@
 
 #include "runtime/base/file_error.h"
 
-#define TOUCHES 8 /* times that a claim is touched before it would be stale */
+#define TOUCHES 8         /* times that a claim is touched before it would be stale */
+#define WRITTEN_WITHIN 5. /* seconds after which a claim that says nothing is of a worker killed while it made it */
 
 double tn_seconds(void)
 {
@@ -46,7 +47,8 @@ tn_claimant tn_claimant_self(void)
     return me;
 }
 
-static bool write_claimant(int file, const tn_claimant *self)
+/* What a claim says; NULL where out of memory. */
+static char *describe(const tn_claimant *self)
 {
     char since[sizeof self->since] = "";
     time_t now = time(NULL);
@@ -56,11 +58,8 @@ static bool write_claimant(int file, const tn_claimant *self)
     json_t *json = json_pack("{s:s, s:s, s:s, s:I, s:s}", "host", self->host, "boot", self->boot, "space", self->space,
                              "process", (json_int_t)self->process, "since", since);
     char *text = json ? json_dumps(json, 0) : NULL;
-    size_t size = text ? strlen(text) : 0;
-    bool done = text && write(file, text, size) == (ssize_t)size;
-    free(text);
     json_decref(json);
-    return done;
+    return text;
 }
 
 /* ---- whose claim is it? */
@@ -141,19 +140,29 @@ static bool is_gone(const tn_claimant *claimant, const tn_claimant *self)
 /* Makes the claim's file. False where that cannot be; errno says why. */
 static bool make(const char *path, const tn_claimant *self, tn_claim *claim)
 {
-    int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file < 0)
-        return false;
-    bool written = write_claimant(file, self);
-    int reason = errno;
-    close(file);
-    claim->path = written ? strdup(path) : NULL;
+    char *text = describe(self), *own = strdup(path);
+    size_t size = text ? strlen(text) : 0;
+    int file = text && own ? open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
+    bool written = file >= 0 && write(file, text, size) == (ssize_t)size;
+    int reason = text && own ? errno : ENOMEM;
+    if (file >= 0)
+        close(file);
+    if (file >= 0 && !written)
+        unlink(path);
+    free(text);
+    claim->path = written ? own : NULL;
     claim->touched = tn_seconds();
-    if (claim->path)
-        return true;
-    unlink(path);
-    errno = written ? ENOMEM : reason;
-    return false;
+    if (!written)
+        free(own);
+    errno = reason;
+    return written;
+}
+
+/* Nothing is lost where a claim is taken over whose worker lives: two write the same shard. */
+static bool may_be_taken(const tn_claimant *other, const tn_claimant *self, double stale)
+{
+    double silent = fabs(other->age);
+    return silent > stale || is_gone(other, self) || (other->process == 0 && silent > WRITTEN_WITHIN);
 }
 
 tn_status tn_claim_take(const char *path, const tn_claimant *self, double stale, tn_claim *claim, bool *taken,
@@ -166,7 +175,7 @@ tn_status tn_claim_take(const char *path, const tn_claimant *self, double stale,
         return TN_OK;
     if (errno != EEXIST)
         return tn_cannot_write(path, errno, error);
-    if (!tn_claim_read(path, &other) || !(is_gone(&other, self) || fabs(other.age) > stale))
+    if (!tn_claim_read(path, &other) || !may_be_taken(&other, self, stale))
         return TN_OK; /* given up just now, or held */
     unlink(path);
     *taken = make(path, self, claim);

@@ -132,6 +132,16 @@ cmp <(tail -c 1000 by-study.ply) <(tail -c 1000 by-options.ply)
 if "$TARTAN" grow square.hemls --scale 0 -o no.obj 2>stderr; then fail 'a scale of 0 is accepted'; fi
 grep -q 'E1103' stderr || fail 'a scale of 0 is not explained'
 
+# Seeds have 64 bits.
+run grow square.hemls -n 2 --seed 18446744073709551615 -o seed.obj
+printf 'rules "square"\nseed 18446744073709551615\n' >seed.study
+run disasm seed.study -o seed.txt
+grep -q 'seed 18446744073709551615' seed.txt || fail 'a seed of 64 bits is not the one that was said'
+for seed in 18446744073709551616 2.5 -1 1e3; do
+    if "$TARTAN" grow square.hemls --seed $seed -o no.obj 2>stderr; then fail "the seed $seed is accepted"; fi
+    grep -q '18446744073709551615' stderr || fail "the seed $seed is not explained"
+done
+
 # A module grows as its source does.
 run build said.study -o said.tnb
 run grow said.tnb -o by-module.ply

@@ -152,6 +152,11 @@ drop
 printf 'no claim' >"$claim"
 exits 0 timeout 60 "$TARTAN" shards run "$scratch/set" --stale 0.3s
 cat_is set
+drop
+: >"$claim" # its worker was killed while it made it
+touch -d '-9 seconds' "$claim"
+exits 0 timeout 60 "$TARTAN" shards run "$scratch/set"
+cat_is set
 
 # ---- records are made again, of shards that are whole
 rm "$scratch/set"/shards/000/*.record

@@ -72,8 +72,8 @@ static void list_study(FILE *out, const tn_module *module)
     write_text(out, module, s->name);
     fprintf(out, "\n  steps %u, scale (%.15g, %.15g, %.15g), start (%.15g, %.15g, %.15g), start length %.15g\n",
             s->steps, s->scale_x, s->scale_y, s->scale_z, s->start_x, s->start_y, s->start_z, s->start_length);
-    fprintf(out, "  branch angle %.15g, branch length %.15g, seed %lld, edge limit %lld, flags %u\n", s->branch_angle,
-            s->branch_length, (long long)s->seed, (long long)s->edge_limit, s->flags);
+    fprintf(out, "  branch angle %.15g, branch length %.15g, seed %llu, edge limit %lld, flags %u\n", s->branch_angle,
+            s->branch_length, (unsigned long long)s->seed, (long long)s->edge_limit, s->flags);
 }
 
 void tn_growth_list(tn_lister *lister)
