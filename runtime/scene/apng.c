@@ -27,7 +27,8 @@ static uint32_t number_at(const unsigned char *from)
 
 static void write_bytes(writer *w, const void *bytes, size_t size)
 {
-    w->fine = w->fine && fwrite(bytes, 1, size, w->out) == size;
+    if (size > 0) /* nothing is written from nowhere */
+        w->fine = w->fine && fwrite(bytes, 1, size, w->out) == size;
 }
 
 /* A chunk whose data are in two parts. */
