@@ -12,11 +12,24 @@
 
 #define DRAWN_MEMORY ((size_t)512 << 20) /* for the numbers of a sample, while a set is made */
 
+bool tn_shards_names_fit(tn_job *job)
+{
+    const char *folder = tn_shards_settings_of(job)->written.output, *path = job->settings->operands.items[1];
+    tn_diagnostics *list = tn_job_diagnostics(job);
+    if (!folder || strcmp(folder, "-") == 0)
+        tn_help(list, tn_job_usage(job, "a shard set is a folder, and none is named"), "name it: -o SET");
+    else if (!tn_is_utf8(path, strlen(path)))
+        tn_help(list, tn_job_usage(job, "the name of the rule file is not UTF-8 text, and a manifest holds only that"),
+                "rename the file");
+    else
+        return true;
+    return false;
+}
+
 static bool check_options(tn_job *job)
 {
     const tn_shards_settings *settings = tn_shards_settings_of(job);
     tn_diagnostics *list = tn_job_diagnostics(job);
-    const char *path = job->settings->operands.items[1];
     if (settings->inputs.count > 0 || settings->rules.count > 0)
         tn_help(list,
                 tn_job_usage(job, "--input and --rule are about files of plans, and --task says what to do with "
@@ -28,8 +41,6 @@ static bool check_options(tn_job *job)
     else if (settings->written.format >= TN_FORMAT_COUNT)
         tn_help(list, tn_job_usage(job, "a plan is written as names or bits only by --task match"),
                 "choose lines, json, csv, bin or parquet");
-    else if (!settings->written.output || strcmp(settings->written.output, "-") == 0)
-        tn_help(list, tn_job_usage(job, "a shard set is a folder, and none is named"), "name it: -o SET");
     else if (settings->written.format == TN_FORMAT_SQLITE)
         tn_help(list, tn_job_usage(job, "a shard is no database"),
                 "choose another --format; `tartan shards merge SET -o FILE.sqlite` makes one database of all shards");
@@ -49,11 +60,8 @@ static bool check_options(tn_job *job)
                 tn_job_usage(job, settings->shards.given ? "--shards and --plans say the same thing twice"
                                                          : "nothing says how large the shards are to be"),
                 "write --shards N for so many shards, or --plans N for so many plans in each");
-    else if (!tn_is_utf8(path, strlen(path)))
-        tn_help(list, tn_job_usage(job, "the name of the rule file is not UTF-8 text, and a manifest holds only that"),
-                "rename the file");
     else
-        return true;
+        return tn_shards_names_fit(job);
     return false;
 }
 

@@ -6,7 +6,6 @@
 #include "cli/house/judged.h"
 #include "cli/shards/shards.h"
 #include "driver/shards/inputs.h"
-#include "runtime/base/utf8.h"
 #include "runtime/plan/text/pack.h"
 
 static const char *const tasks[TN_TASK_COUNT] = {[TN_TASK_MATCH] = "match", [TN_TASK_PRUNE] = "prune"};
@@ -55,10 +54,8 @@ static bool check_options(tn_job *job)
 {
     const tn_shards_settings *settings = tn_shards_settings_of(job);
     tn_diagnostics *list = tn_job_diagnostics(job);
-    const char *path = job->settings->operands.items[1], *foreign = foreign_option(settings);
-    if (!settings->written.output || strcmp(settings->written.output, "-") == 0)
-        tn_help(list, tn_job_usage(job, "a shard set is a folder, and none is named"), "name it: -o SET");
-    else if (settings->inputs.count == 0)
+    const char *foreign = foreign_option(settings);
+    if (settings->inputs.count == 0)
         tn_help(list, tn_job_usage(job, "--task %s needs files of plans", tasks[settings->task]),
                 "name them: --input FILE...");
     else if (foreign)
@@ -66,11 +63,8 @@ static bool check_options(tn_job *job)
     else if (!settings->shards.given)
         tn_help(list, tn_job_usage(job, "nothing says how large the shards are to be"),
                 "write --shards N for about so many");
-    else if (!tn_is_utf8(path, strlen(path)))
-        tn_help(list, tn_job_usage(job, "the name of the rule file is not UTF-8 text, and a manifest holds only that"),
-                "rename the file");
     else
-        return true;
+        return tn_shards_names_fit(job);
     return false;
 }
 

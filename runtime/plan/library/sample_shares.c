@@ -8,8 +8,6 @@
 #include "runtime/base/integers.h"
 #include "runtime/plan/library/drawn.h"
 
-#define LOOK_EVERY (1u << 16) /* attempts between looks for interruptions */
-
 /* Where more than half are wanted, those left out are drawn. */
 static bool draws_others(const tn_draws *d)
 {
@@ -23,9 +21,7 @@ static uint64_t to_draw(const tn_draws *d)
 
 static tn_status look(tn_watch *watch, uint64_t attempt, tn_error *error)
 {
-    return attempt % LOOK_EVERY == 0 && tn_watch_stopped_at(watch, (size_t)(attempt / LOOK_EVERY))
-               ? tn_fail_stopped(watch, error)
-               : TN_OK;
+    return tn_watch_stopped_at(watch, (size_t)attempt) ? tn_fail_stopped(watch, error) : TN_OK;
 }
 
 /* ---- how far it is drawn */

@@ -13,7 +13,7 @@
 #include "runtime/plan/picture/draw_rule.h"
 #include "runtime/plan/text/export_prolog.h"
 #include "runtime/plan/text/export_regex.h"
-#include "tests/support/failing_memory.h"
+#include "tests/support/same_or_memory.h"
 #include "tests/support/test_schema.h"
 
 static const char text[] =
@@ -37,10 +37,9 @@ typedef struct opened_rows {
     tn_covered covered;
 } opened_rows;
 
-typedef tn_status (*operation)(opened_rows *rows, tn_buffer *out, tn_error *error);
-
-static tn_status explain(opened_rows *rows, tn_buffer *out, tn_error *error)
+static tn_status explain(void *context, tn_buffer *out, tn_error *error)
 {
+    opened_rows *rows = context;
     tn_explained explained;
     tn_near_finder *finder = NULL;
     tn_picture picture = {.number = 1};
@@ -64,8 +63,9 @@ static tn_status explain(opened_rows *rows, tn_buffer *out, tn_error *error)
     return status;
 }
 
-static tn_status cover(opened_rows *rows, tn_buffer *out, tn_error *error)
+static tn_status cover(void *context, tn_buffer *out, tn_error *error)
 {
+    opened_rows *rows = context;
     const tn_coverage_options options = {.imported = true};
     tn_covered covered;
     tn_status status = tn_coverage_measure(&rows->opened, &options, &covered);
@@ -77,14 +77,16 @@ static tn_status cover(opened_rows *rows, tn_buffer *out, tn_error *error)
     return status;
 }
 
-static tn_status report(opened_rows *rows, tn_buffer *out, tn_error *error)
+static tn_status report(void *context, tn_buffer *out, tn_error *error)
 {
+    opened_rows *rows = context;
     const tn_report_options options = {.samples = 1, .seed = 3};
     return tn_report_page(&rows->opened, &rows->ready, &rows->analyses, &rows->covered, &options, out, error);
 }
 
-static tn_status draw(opened_rows *rows, tn_buffer *out, tn_error *error)
+static tn_status draw(void *context, tn_buffer *out, tn_error *error)
 {
+    opened_rows *rows = context;
     tn_picture picture = {.number = 1};
     tn_drawn_rule rules[3];
     for (uint32_t i = 0; i < 3; i++)
@@ -96,8 +98,9 @@ static tn_status draw(opened_rows *rows, tn_buffer *out, tn_error *error)
     return status;
 }
 
-static tn_status export(opened_rows *rows, tn_buffer *out, tn_error *error)
+static tn_status export(void *context, tn_buffer *out, tn_error *error)
 {
+    opened_rows *rows = context;
     const tn_module *module = rows->opened.module;
     tn_classes *classes = NULL;
     tn_lowering *lowering = NULL;
@@ -121,55 +124,29 @@ static tn_status export(opened_rows *rows, tn_buffer *out, tn_error *error)
     return status;
 }
 
-/* step: of the allocations after the first, every one in this many more. */
-static void expect_robust(operation operate, opened_rows *rows, size_t step)
-{
-    tn_buffer expected = {0};
-    size_t failures = 0;
-    tn_error error = {0};
-    test_ok(operate(rows, &expected, &error), &error);
-    for (int all_after = 0; all_after < 2; all_after++) {
-        for (size_t number = 0, reached = 1; reached > 0; number += 1 + number / step) {
-            tn_buffer out = {0};
-            error = (tn_error){0};
-            fail_allocation(number, all_after);
-            tn_status status = operate(rows, &out, &error);
-            reached = stop_failing() > number;
-            if (status == TN_OK && (out.size != expected.size || memcmp(out.data, expected.data, out.size) != 0))
-                fail_msg("without allocation %zu the result is another", number);
-            if (status != TN_OK && (status != TN_MEMORY || error.code != E_OUT_OF_MEMORY))
-                fail_msg("without allocation %zu: %s", number, error.message);
-            failures += status != TN_OK;
-            free(out.data);
-        }
-    }
-    free(expected.data);
-    assert_true(failures > 20);
-}
-
 static void explaining(void **state)
 {
-    expect_robust(explain, *state, 16);
+    same_or_memory(explain, *state, 16);
 }
 
 static void covering(void **state)
 {
-    expect_robust(cover, *state, 10);
+    same_or_memory(cover, *state, 10);
 }
 
 static void reporting(void **state)
 {
-    expect_robust(report, *state, 6);
+    same_or_memory(report, *state, 6);
 }
 
 static void drawing(void **state)
 {
-    expect_robust(draw, *state, 30);
+    same_or_memory(draw, *state, 30);
 }
 
 static void exporting(void **state)
 {
-    expect_robust(export, *state, 30);
+    same_or_memory(export, *state, 30);
 }
 
 static int open_rows(void **state)
