@@ -141,7 +141,7 @@ changed() { # NAME SED: a manifest that was changed and sealed again
     sed -i "$2" "$manifest"
     sed -i '/^  "hash": /,$d' "$manifest"
     printf '  "hash": "%s"\n}\n' "$(xxhsum -H128 <"$manifest" | cut -d' ' -f1)" >>"$manifest"
-    golden "$1" "tartan shards run $scratch/wrong"
+    golden "$1" "tartan shards run --threads 1 $scratch/wrong"
 }
 new right match -i "$scratch/plans.lines" "$scratch/plans.bin" "$scratch/plans.csv" --shards 6 --rule "$rule"
 changed bad_task 's/"task": "match"/"task": "merge"/'
