@@ -13,6 +13,8 @@ static tn_status write_numbers(tartan_coverage *coverage)
 {
     coverage->plans = calloc(coverage->covered.count + 1, sizeof *coverage->plans);
     for (size_t i = 0; coverage->plans && i < coverage->covered.count; i++) {
+        if (coverage->covered.parts[i].of_houses)
+            continue;
         coverage->plans[i] = malloc(mpz_sizeinbase(coverage->covered.parts[i].flips, 10) + 2);
         if (!coverage->plans[i])
             return TN_MEMORY;

@@ -176,7 +176,9 @@ const tn_command tn_command_test = {
         "not run.\n\n"
         "With --coverage, each part of each rule and clause is listed with two answers: how many plans would be "
         "decided otherwise if the part never matched, counted exactly, and whether a test would notice. The plans "
-        "are those that the library generates or, without a library, all plans of up to 4 trays.\n\n"
+        "are those that the library generates or, without a library, all plans of up to 4 trays. Of rules about "
+        "houses only the second is answered. Of a form each line is listed, with the number of tests whose houses "
+        "have what it says.\n\n"
         "For designs of boxes it prints what they measure, and checks their requirements. Of a kit every model is "
         "placed "
         "with seed 0 and held to its requirements and its tests.",

@@ -23,6 +23,7 @@ typedef struct measuring {
     tn_coverage *tests;    /* of all rules and clauses that tests are of; NULL: there are none */
     uint32_t *tested;      /* per test block: its first function in `tests` */
     bool *left_out;        /* per test block: not known, a clause of it passes a limit */
+    tn_house_cases houses; /* of tests */
     tn_covered *covered;
 } measuring;
 
@@ -218,6 +219,7 @@ typedef struct subject {
     uint32_t function; /* HOLDS */
     uint32_t whole;    /* UINT32_MAX: a clause has none */
     const char *name;
+    bool of_houses;
     tn_parts trees[2];
 } subject;
 
@@ -242,6 +244,17 @@ static void drop_parts(tn_covered *covered, size_t count)
     }
 }
 
+static tn_status measure_plans(measuring *m, const uint32_t *offsets, size_t count, tn_covered_part *made,
+                               tn_error *error)
+{
+    tn_status status = tn_coverage_without(m->plans, offsets, count, error);
+    if (status == TN_OK)
+        status = tn_coverage_flips(m->plans, made->flips, error);
+    if (status == TN_OK && m->tests)
+        status = tn_coverage_without(m->tests, offsets, count, error);
+    return status == TN_OK ? tests_notice(m, &made->noticed, error) : status;
+}
+
 static tn_status measure_part(measuring *m, const subject *s, uint32_t index, unsigned depth, uint32_t *offsets,
                               tn_error *error)
 {
@@ -257,14 +270,13 @@ static tn_status measure_part(measuring *m, const subject *s, uint32_t index, un
     made->kind = tn_part_word(part->kind);
     made->text = strdup(text);
     made->root = part->root;
+    made->of_houses = s->of_houses;
     size_t count = find_offsets(s->trees, part, offsets);
-    tn_status status = made->text ? tn_coverage_without(m->plans, offsets, count, error) : tn_fail_memory(error);
-    if (status == TN_OK)
-        status = tn_coverage_flips(m->plans, made->flips, error);
-    if (status == TN_OK && m->tests)
-        status = tn_coverage_without(m->tests, offsets, count, error);
-    if (status == TN_OK)
-        status = tests_notice(m, &made->noticed, error);
+    tn_status status = made->text ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK && s->of_houses)
+        status = tn_house_cases_notice(&m->houses, offsets, count, &made->noticed, error);
+    else if (status == TN_OK)
+        status = measure_plans(m, offsets, count, made, error);
     m->covered->noticed += made->noticed;
     return status;
 }
@@ -301,17 +313,19 @@ static tn_status measure_parts(measuring *m, const subject *s, tn_error *error)
 static tn_status try_subject(measuring *m, subject *s, tn_error *error)
 {
     size_t before = m->covered->count;
+    tn_status (*read_parts)(const tn_module *, uint32_t, tn_parts *, tn_error *) =
+        s->of_houses ? tn_parts_read_house : tn_parts_read;
     tn_status status = TN_OK;
-    if (!m->library) {
+    if (!m->library && !s->of_houses) {
         tn_coverage_free(m->plans);
         m->plans = NULL;
         status =
             tn_coverage_new(m->schema, &s->function, 1, 1, TN_COVERAGE_TRAYS, m->options->max_states, &m->plans, error);
     }
     if (status == TN_OK)
-        status = tn_parts_read(m->module, s->function, &s->trees[0], error);
+        status = read_parts(m->module, s->function, &s->trees[0], error);
     if (status == TN_OK && s->whole != UINT32_MAX)
-        status = tn_parts_read(m->module, s->whole, &s->trees[1], error);
+        status = read_parts(m->module, s->whole, &s->trees[1], error);
     if (status == TN_OK)
         status = measure_parts(m, s, error);
     if (status != TN_OK)
@@ -373,6 +387,84 @@ static tn_status measure_clauses(measuring *m, tn_error *error)
     return status;
 }
 
+/* ---- houses */
+
+static tn_status measure_house_rules(measuring *m, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < m->module->HOUSE_RULE_count; i++) {
+        const tn_house_rule_record *rule = &m->module->HOUSE_RULE_records[i];
+        if (!(rule->flags & TN_IMPORTED))
+            status = measure_subject(m,
+                                     (subject){.function = rule->holds,
+                                               .whole = rule->whole,
+                                               .name = tn_text(m->module, rule->name),
+                                               .of_houses = true},
+                                     error);
+    }
+    return status;
+}
+
+static bool is_house_rule(const tn_module *module, uint32_t function)
+{
+    for (uint32_t i = 0; i < module->HOUSE_RULE_count; i++)
+        if (module->HOUSE_RULE_records[i].holds == function || module->HOUSE_RULE_records[i].whole == function)
+            return true;
+    return tn_function_rule(module, function) != UINT32_MAX;
+}
+
+/* Of the file's libraries of houses, the clauses that are more than a rule's name. */
+static tn_status measure_house_clauses(measuring *m, const tn_house_library_record *library, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < library->clause_count; i++) {
+        const tn_house_clause_record *clause = &m->module->HOUSE_CLAUSE_records[library->clause_first + i];
+        if (!is_house_rule(m->module, clause->holds))
+            status = measure_subject(m,
+                                     (subject){.function = clause->holds,
+                                               .whole = UINT32_MAX,
+                                               .name = tn_text(m->module, clause->name),
+                                               .of_houses = true},
+                                     error);
+    }
+    return status;
+}
+
+static bool has_case(const measuring *m, uint32_t form)
+{
+    for (size_t i = 0; i < m->houses.count; i++)
+        if (m->houses.items[i].form == form)
+            return true;
+    return false;
+}
+
+static tn_status measure_forms(measuring *m, tn_error *error)
+{
+    tn_covered *covered = m->covered;
+    tn_status status = TN_OK;
+    covered->forms = calloc(m->module->FORM_count + 1, sizeof *covered->forms);
+    if (!covered->forms)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < m->module->FORM_count; i++)
+        if (!(m->module->FORM_records[i].flags & TN_IMPORTED) || has_case(m, i))
+            status = tn_form_covered(&m->houses, i, &covered->forms[covered->form_count++], error);
+    return status;
+}
+
+static tn_status measure_houses(measuring *m, tn_error *error)
+{
+    tn_status status = tn_house_cases_read(m->opened, &m->houses, error);
+    if (status == TN_OK)
+        status = measure_house_rules(m, error);
+    for (uint32_t i = 0; status == TN_OK && i < m->module->HOUSE_LIBRARY_count; i++)
+        if (!(m->module->HOUSE_LIBRARY_records[i].flags & TN_IMPORTED))
+            status = measure_house_clauses(m, &m->module->HOUSE_LIBRARY_records[i], error);
+    if (status == TN_OK)
+        status = measure_forms(m, error);
+    tn_house_cases_clear(&m->houses);
+    return status;
+}
+
 /* ---- the whole */
 
 static bool has_own_library(const tn_module *module)
@@ -407,7 +499,9 @@ static tn_status measure(measuring *m, tn_error *error)
         status = cover_tests(m, error);
     if (status == TN_OK)
         status = measure_rules(m, error);
-    return status == TN_OK ? measure_clauses(m, error) : status;
+    if (status == TN_OK)
+        status = measure_clauses(m, error);
+    return status == TN_OK && m->module->FORM_count ? measure_houses(m, error) : status;
 }
 
 tn_status tn_coverage_measure(tn_opened *opened, const tn_coverage_options *options, tn_covered *covered)
@@ -436,6 +530,9 @@ tn_status tn_coverage_measure(tn_opened *opened, const tn_coverage_options *opti
 void tn_covered_clear(tn_covered *covered)
 {
     drop_parts(covered, 0);
+    for (size_t i = 0; i < covered->form_count; i++)
+        tn_form_coverage_clear(&covered->forms[i]);
+    free(covered->forms);
     free(covered->parts);
     *covered = (tn_covered){0};
 }

@@ -1,12 +1,13 @@
 /* Coverage of rules: for each part of each rule, how many plans' decisions would be others if the part never matched,
- * and whether some test case would notice.
+ * and whether some test case would notice. Of rules about houses only the latter is found out. Of forms: what the
+ * houses of tests have.
  */
 #ifndef TARTAN_DRIVER_PLAN_COVERAGE_H
 #define TARTAN_DRIVER_PLAN_COVERAGE_H
 
 #include <gmp.h>
 
-#include "driver/open/findings.h"
+#include "driver/house/coverage.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/text/text.h"
 
@@ -21,7 +22,8 @@ typedef struct tn_covered_part {
     const char *kind;  /* "neighbour" */
     char *text;        /* as its author wrote it, cut off where it is long */
     uint32_t root;     /* its place: an offset into the code */
-    mpz_t flips;       /* plans that would be decided otherwise */
+    bool of_houses;    /* of a rule or clause about houses: */
+    mpz_t flips;       /* otherwise, plans that would be decided otherwise */
     bool noticed;      /* a test case comes out otherwise */
 } tn_covered_part;
 
@@ -32,6 +34,8 @@ typedef struct tn_covered {
     tn_covered_part *parts;           /* those of a rule in a row, each before what is below it */
     size_t count, capacity;
     size_t noticed;
+    tn_form_coverage *forms; /* of the file itself, and those that its tests are about */
+    size_t form_count;
 } tn_covered;
 
 typedef struct tn_coverage_options {
@@ -42,7 +46,8 @@ typedef struct tn_coverage_options {
     bool imported; /* also rules of used files that the library's clauses name */
 } tn_coverage_options;
 
-/* Measures the rules of the file itself and the clauses written out in its library. What passes the state limit is
+/* Measures the rules of the file itself, the clauses written out in its library and in its libraries of houses, and
+ * forms. What passes the state limit is
  * reported (a note) and left out. A module, which holds no tests, has no coverage. Failures are reported too. Clear in
  * any case. */
 tn_status tn_coverage_measure(tn_opened *opened, const tn_coverage_options *options, tn_covered *covered);

@@ -7,6 +7,7 @@
 #include "driver/plan/coverage.h"
 
 #define LABEL_WIDTH 58u
+#define FORM_WIDTH 80u
 #define DEEPEST 8u /* parts deeper in their rule are not indented further */
 
 static bool write_head(const tn_covered *covered, tn_buffer *out)
@@ -42,7 +43,7 @@ static size_t characters(const char *text)
 static bool write_part(const tn_covered_part *part, tn_buffer *out)
 {
     unsigned indent = 2 * (part->depth < DEEPEST ? part->depth : DEEPEST);
-    char *digits = tn_digits(part->flips, true), *text = strdup(part->text);
+    char *digits = part->of_houses ? strdup("") : tn_digits(part->flips, true), *text = strdup(part->text);
     bool ok = digits && text;
     if (ok) {
         cut(text, LABEL_WIDTH - indent);
@@ -55,6 +56,39 @@ static bool write_part(const tn_covered_part *part, tn_buffer *out)
     return ok;
 }
 
+/* ---- forms */
+
+static tn_place place_of(const tn_covered *covered, tn_span span)
+{
+    tn_sources *sources = (tn_sources *)(uintptr_t)&covered->opened->compilation.sources; /* finds its lines late */
+    return tn_sources_place(sources, span);
+}
+
+static bool write_form_part(const tn_covered *covered, const tn_form_line *part, tn_buffer *out)
+{
+    unsigned indent = 2 * part->depth;
+    char *text = strdup(part->text);
+    if (!text)
+        return false;
+    cut(text, FORM_WIDTH - indent);
+    size_t room = FORM_WIDTH - indent - characters(text);
+    bool ok = tn_buffer_printf(out, "%5zu  %*s%s%*s %6zu\n", place_of(covered, part->place).line, (int)indent, "", text,
+                               (int)room, "", part->houses);
+    free(text);
+    return ok;
+}
+
+static bool write_form(const tn_covered *covered, const tn_form_coverage *form, tn_buffer *out)
+{
+    bool ok = tn_buffer_printf(
+        out, "`%s`%s%s in the houses of %zu tests: how many have what a line says\n%5s  %-*s %6s\n", form->name,
+        form->imported ? " of " : "", form->imported ? place_of(covered, form->place).path : "", form->tests, "line",
+        (int)FORM_WIDTH, "part", "houses");
+    for (size_t i = 0; ok && i < form->count; i++)
+        ok = write_form_part(covered, &form->parts[i], out);
+    return ok && tn_buffer_printf(out, "%zu of %zu parts are in a house of a test\n", form->reached, form->count);
+}
+
 bool tn_covered_text(const tn_covered *covered, tn_buffer *out)
 {
     bool ok = write_head(covered, out);
@@ -62,7 +96,11 @@ bool tn_covered_text(const tn_covered *covered, tn_buffer *out)
         const tn_covered_part *part = &covered->parts[i];
         ok = (part->depth > 0 || tn_buffer_printf(out, "%s\n", part->name)) && write_part(part, out);
     }
-    return ok && tn_buffer_printf(out, "%zu of %zu parts noticed by tests\n", covered->noticed, covered->count);
+    if (ok && covered->count)
+        ok = tn_buffer_printf(out, "%zu of %zu parts noticed by tests\n", covered->noticed, covered->count);
+    for (size_t i = 0; ok && i < covered->form_count; i++)
+        ok = write_form(covered, &covered->forms[i], out);
+    return ok;
 }
 
 /* ---- JSON */
@@ -80,9 +118,32 @@ static json_t *part_json(const tn_covered *covered, const tn_covered_part *part)
         json_object_set_new(made, "line", json_integer((json_int_t)place.line));
         json_object_set_new(made, "column", json_integer((json_int_t)place.column));
     }
-    json_object_set_new(made, "flips", digits ? json_string(digits) : NULL);
+    json_object_set_new(made, "flips", part->of_houses ? json_null() : digits ? json_string(digits) : NULL);
     json_object_set_new(made, "noticed", json_boolean(part->noticed));
     free(digits);
+    return made;
+}
+
+static json_t *form_json(const tn_covered *covered, const tn_form_coverage *form)
+{
+    json_t *made = json_object(), *parts = json_array();
+    json_object_set_new(made, "name", json_string(form->name));
+    json_object_set_new(made, "tests", json_integer((json_int_t)form->tests));
+    json_object_set_new(made, "reached", json_integer((json_int_t)form->reached));
+    json_object_set_new(made, "parts", parts);
+    for (size_t i = 0; i < form->count; i++) {
+        const tn_form_line *part = &form->parts[i];
+        tn_place place = place_of(covered, part->place);
+        json_t *one = json_object();
+        json_object_set_new(one, "text", json_string(part->text));
+        json_object_set_new(one, "kind", json_string(part->kind));
+        json_object_set_new(one, "depth", json_integer(part->depth));
+        json_object_set_new(one, "file", json_string(place.path));
+        json_object_set_new(one, "line", json_integer((json_int_t)place.line));
+        json_object_set_new(one, "column", json_integer((json_int_t)place.column));
+        json_object_set_new(one, "houses", json_integer((json_int_t)part->houses));
+        json_array_append_new(parts, one);
+    }
     return made;
 }
 
@@ -109,6 +170,10 @@ bool tn_covered_json(const tn_covered *covered, tn_buffer *out)
         json_array_append_new(parts, part_json(covered, part));
     }
     json_object_set_new(root, "rules", rules);
+    json_t *forms = json_array();
+    for (size_t i = 0; i < covered->form_count; i++)
+        json_array_append_new(forms, form_json(covered, &covered->forms[i]));
+    json_object_set_new(root, "forms", forms);
     char *text = json_dumps(root, JSON_COMPACT);
     bool ok = text && tn_buffer_append(out, text, strlen(text));
     free(text);

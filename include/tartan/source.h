@@ -61,7 +61,8 @@ typedef struct tartan_covered_part {
     uint32_t depth;    /* 0: the whole rule */
     const char *kind;  /* "neighbour", "tray", "and" */
     const char *text;  /* as its author wrote it, cut off where it is long */
-    const char *plans; /* how many plans would be decided otherwise if the part never matched, in decimal */
+    const char *plans; /* how many plans would be decided otherwise if the part never matched, in decimal;
+                        * NULL: the part is of a rule about houses */
     bool noticed;      /* would a test case notice that? */
 } tartan_covered_part;
 TARTAN_SIZED(tartan_covered_part)

@@ -155,12 +155,12 @@ static bool is_about(const tn_house *house, const tn_face_line_record *line, con
     return either && tn_house_decide(house, line->first, second) && tn_house_decide(house, line->second, first);
 }
 
-/* The kinds of the first line that is about the face and has some that fit; a void is always open to what is below it.
- */
-size_t tn_face_options(const tn_house *house, const tn_face *face, uint32_t kinds[TN_FACE_KINDS_MAX])
+/* A void is always open to what is below it. */
+size_t tn_face_decided(const tn_house *house, const tn_face *face, uint32_t kinds[TN_FACE_KINDS_MAX], uint32_t *decides)
 {
     const tn_house_form *form = house->form;
     size_t count = 0;
+    *decides = TN_NO_RECORD;
     if (face->relation == TN_FACE_UNDER && house->cells[face->second].open) {
         kinds[0] = TN_FACE_OPEN;
         return 1;
@@ -174,10 +174,18 @@ size_t tn_face_options(const tn_house *house, const tn_face *face, uint32_t kind
             if (fits(house, face, kind))
                 kinds[count++] = kind;
         }
+        if (count > 0)
+            *decides = i;
     }
     if (count == 0)
         kinds[count++] = face->relation == TN_FACE_UNDER ? TN_FACE_FLOOR : TN_FACE_WALL;
     return count;
+}
+
+size_t tn_face_options(const tn_house *house, const tn_face *face, uint32_t kinds[TN_FACE_KINDS_MAX])
+{
+    uint32_t line;
+    return tn_face_decided(house, face, kinds, &line);
 }
 
 int64_t tn_face_thickness(const tn_house *house, const tn_face *face)

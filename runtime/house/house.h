@@ -61,6 +61,10 @@ tn_status tn_house_stand(const tn_house_form *form, const tn_tray *trays, size_t
                          tn_house *house, tn_error *error);
 void tn_house_clear(tn_house *house);
 
+/* The lowest cell of a zone (a field) of a tray that its section has and a line `no` takes away, at x = y = 0; false
+ * where all are there. */
+bool tn_house_ends(const tn_house *house, uint32_t tray, uint32_t zone, tn_cell *end);
+
 /* The value of a zone's choice of that kind: a SHAPE record, or NULL where the form has none. */
 const tn_shape_record *tn_house_shape(const tn_house *house, uint32_t zone, tn_choice_kind kind);
 
@@ -91,6 +95,10 @@ bool tn_cell_may(const tn_house *house, const tn_cell *cell, uint32_t function);
 
 /* What may be in a face, when all functions are given: at least one kind. Returns how many. */
 size_t tn_face_options(const tn_house *house, const tn_face *face, uint32_t kinds[TN_FACE_KINDS_MAX]);
+
+/* The same, and which of the form's lines of faces decides it: the first that is about the face and has a kind that
+ * fits, counted within the form; TN_NO_RECORD where none does. */
+size_t tn_face_decided(const tn_house *house, const tn_face *face, uint32_t kinds[TN_FACE_KINDS_MAX], uint32_t *line);
 
 /* The thickness of the wall that stands in a face; 0 where none does. */
 int64_t tn_face_thickness(const tn_house *house, const tn_face *face);

@@ -81,6 +81,16 @@ static tn_status add_tray(tn_house *house, uint32_t tray, int64_t x0, int64_t x1
     return TN_OK;
 }
 
+bool tn_house_ends(const tn_house *house, uint32_t tray, uint32_t zone, tn_cell *end)
+{
+    int64_t width = tn_tray_value_record(house->form->schema, house->trays[tray], house->form->width)->length;
+    int64_t depth = depth_of(house, tray, zone);
+    *end = (tn_cell){.tray = tray, .zone = zone, .at = {0, width, 0, depth}, .function = TN_NO_FUNCTION};
+    for (uint32_t i = house->tray_first[tray]; i < house->tray_first[tray + 1]; i++)
+        end->storey += house->cells[i].zone == zone;
+    return depth > 0 && end->storey < storeys_of(house, zone);
+}
+
 static tn_status add_cells(tn_house *house, tn_error *error)
 {
     int64_t x = 0;

@@ -236,6 +236,25 @@ golden where_of_houses 'tartan count cottage --where "cell(kitchen)"'
 golden where_of_plans 'tartan count cottage --where "quantity(any) = 2" | tail -n 8'
 golden where_in_houses 'tartan count cottage -l cottages --where "quantity(any) = 2"'
 golden coverage 'tartan test cottage --coverage'
+golden coverage_used 'tartan test huts.plan --coverage'
+golden coverage_json 'tartan test house-coverage.plan --coverage --json'
+
+# What a test notices is what makes one fail where the part is written as one that never matches.
+never='(section(body storeys 1) and section(body storeys 2))'
+noticed() { # PART LINE
+    verdict=$("$TARTAN" test cottage --coverage | awk -v part="  $1  " 'index($0, part) { print $NF; exit }')
+    sed "$2s/$(sed 's/[.*]/[&]/g' <<<"$1")/$never/" stdlib/cottage.plan >"$scratch/cottage.plan"
+    grep -qF "$never" "$scratch/cottage.plan" || fail "no $1 in line $2 of the cottage"
+    fails=no
+    "$TARTAN" test "$scratch/cottage.plan" >/dev/null 2>&1 || fails=yes
+    is "a test notices $1" "$verdict" "$fails"
+}
+noticed 'apart(cell(bedroom, ground), from cell(living or kitchen))' 59
+noticed 'room(living, not by window)' 62
+noticed 'cell(kitchen)' 65
+noticed 'cell(bedroom)' 65
+noticed 'quantity(room(living), n = 1)' 66
+noticed 'sum(area of cell(bedroom), a < 140sf)' 68
 golden prolog 'tartan export cottage --prolog | tail -n 2'
 exits 0 "$TARTAN" report cottage -o "$scratch/report"
 [ -s "$scratch/report/index.html" ] || fail 'no report of plans that houses are built on'

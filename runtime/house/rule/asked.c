@@ -247,6 +247,11 @@ void tn_house_rules_free(tn_house_rules *rules)
     free(rules);
 }
 
+void tn_house_rules_disable(tn_house_rules *rules, const uint32_t *offsets, size_t count)
+{
+    tn_plan_vm_disable(rules->vm, offsets, count);
+}
+
 static tn_status make_room(tn_house_rules *rules, const tn_house *house, tn_error *error)
 {
     size_t needed = house->cell_count > house->length ? house->cell_count : house->length;

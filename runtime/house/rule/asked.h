@@ -14,6 +14,9 @@ typedef struct tn_house_rules tn_house_rules;
 tn_status tn_house_rules_new(const tn_house_form *form, size_t max_length, tn_house_rules **rules, tn_error *error);
 void tn_house_rules_free(tn_house_rules *rules);
 
+/* From the next house on, what the instructions at these code offsets make is empty, for coverage (borrowed). */
+void tn_house_rules_disable(tn_house_rules *rules, const uint32_t *offsets, size_t count);
+
 /* Starts on a house whose functions and faces are known (borrowed); forgets what was found for the one before. */
 tn_status tn_house_rules_start(tn_house_rules *rules, const tn_house *house, tn_error *error);
 

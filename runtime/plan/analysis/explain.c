@@ -344,6 +344,7 @@ static tn_status explain_below(tn_explaining *e, tn_reader_of who, uint32_t node
     case TN_PART_DISTANCE:
         return tn_explain_distance(e, who, node, at);
     case TN_PART_COMPARISON:
+    case TN_PART_HOUSE: /* in no rule about plans */
     case TN_PART_KIND_COUNT:
         break;
     }

@@ -16,6 +16,7 @@ typedef struct reading {
     uint32_t depth;
     size_t capacity;
     unsigned nesting; /* of functions */
+    bool houses;      /* may be asked about */
     tn_error *error;
 } reading;
 
@@ -217,6 +218,8 @@ static tn_status read_call(reading *r, uint32_t offset, const tn_instruction *co
 static tn_status read_instruction(reading *r, uint32_t offset, const tn_instruction *code)
 {
     tn_part made;
+    if (r->houses && tn_code_asks_house(code->opcode))
+        return push(r, leaf(TN_PART_HOUSE, offset, code->length));
     switch (code->opcode) {
     case TN_OP_TRAY:
         made = leaf(TN_PART_TRAY, offset, code->length);
@@ -367,15 +370,25 @@ static tn_status number(reading *r)
     return TN_OK;
 }
 
-tn_status tn_parts_read(const tn_module *module, uint32_t function, tn_parts *parts, tn_error *error)
+static tn_status read_parts(const tn_module *module, uint32_t function, bool houses, tn_parts *parts, tn_error *error)
 {
     *parts = (tn_parts){.module = module};
-    reading r = {.parts = parts, .module = module, .error = error};
+    reading r = {.parts = parts, .module = module, .houses = houses, .error = error};
     tn_status status = read_rule(&r, function);
     if (status == TN_OK)
         status = number(&r);
     free(r.stack);
     return status;
+}
+
+tn_status tn_parts_read(const tn_module *module, uint32_t function, tn_parts *parts, tn_error *error)
+{
+    return read_parts(module, function, false, parts, error);
+}
+
+tn_status tn_parts_read_house(const tn_module *module, uint32_t function, tn_parts *parts, tn_error *error)
+{
+    return read_parts(module, function, true, parts, error);
 }
 
 void tn_parts_clear(tn_parts *parts)
@@ -390,7 +403,7 @@ const char *tn_part_word(tn_part_kind kind)
 {
     static const char *const words[TN_PART_KIND_COUNT] = {
         "tray",     "rule", "and",         "or",   "not",      "neighbour",  "symmetric",
-        "quantity", "sum",  "occurrences", "many", "distance", "comparison",
+        "quantity", "sum",  "occurrences", "many", "distance", "comparison", "house",
     };
     return kind < TN_PART_KIND_COUNT ? words[kind] : "part";
 }
@@ -474,6 +487,14 @@ void tn_part_text(const tn_parts *parts, uint32_t part, char *text, size_t size)
     if (parts->parts[part].kind == TN_PART_RULE && parts->parts[part].rule != UINT32_MAX)
         word = tn_text(module, module->RULE_records[parts->parts[part].rule].name);
     copy_text(word, strlen(word), text, size);
+}
+
+void tn_source_text(const tn_module *module, uint32_t file, uint32_t begin, uint32_t end, char *text, size_t size)
+{
+    const char *source = file < module->SOURCE_count ? tn_text(module, module->SOURCE_records[file].text) : "";
+    text[0] = '\0';
+    if (begin < end && end <= strlen(source))
+        copy_text(source + begin, end - begin, text, size);
 }
 
 bool tn_part_is_step(const tn_parts *parts, uint32_t part)

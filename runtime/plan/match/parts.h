@@ -27,6 +27,7 @@ typedef enum tn_part_kind {
     TN_PART_MANY,
     TN_PART_DISTANCE,   /* source, destination, separator */
     TN_PART_COMPARISON, /* of sums: a leaf, what it counts is not opened */
+    TN_PART_HOUSE,      /* a question about a house (`cell`, `room`, `apart`): a leaf */
     TN_PART_KIND_COUNT
 } tn_part_kind;
 
@@ -56,6 +57,10 @@ typedef struct tn_parts {
 /* Reads the parts of a rule function (kind WHOLE or HOLDS). TN_INVALID (E0703) for code that is not what the compiler
  * makes of a rule. Clear in any case. */
 tn_status tn_parts_read(const tn_module *module, uint32_t function, tn_parts *parts, tn_error *error);
+
+/* The same of a rule that may ask about houses. A rule about houses that is named is a TN_PART_RULE without a record.
+ */
+tn_status tn_parts_read_house(const tn_module *module, uint32_t function, tn_parts *parts, tn_error *error);
 void tn_parts_clear(tn_parts *parts);
 
 /* The part's name in the language: "neighbour". */
@@ -65,6 +70,9 @@ const char *tn_part_word(tn_part_kind kind);
  * what is not known is the part's word. */
 #define TN_PART_TEXT_MAX 512u
 void tn_part_text(const tn_parts *parts, uint32_t part, char *text, size_t size);
+
+/* A stretch of a source file of the module's in the same way; empty where the module has no such text. */
+void tn_source_text(const tn_module *module, uint32_t file, uint32_t begin, uint32_t end, char *text, size_t size);
 
 /* Is the part's place in the source its parent's too, so that it is only there in the code (the trays that `total` or a
  * sum without `of` adds up)? */

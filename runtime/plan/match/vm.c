@@ -256,6 +256,30 @@ static tn_status run_instruction(tn_plan_vm *vm, tn_error *error)
     return TN_OK;
 }
 
+static bool is_disabled(const tn_plan_vm *vm, uint32_t offset)
+{
+    for (size_t i = 0; i < vm->disabled_count; i++)
+        if (vm->disabled[i] == offset)
+            return true;
+    return false;
+}
+
+/* Runs the next instruction. One that is disabled makes an empty relation as soon as it makes one: a call that still
+ * has to find the function's relation comes back to it. */
+static tn_status step(tn_plan_vm *vm, tn_error *error)
+{
+    if (vm->disabled_count == 0)
+        return run_instruction(vm, error);
+    size_t frames = vm->frame_count;
+    uint32_t offset = vm->frames[frames - 1].offset;
+    tn_status status = run_instruction(vm, error);
+    bool made = status == TN_OK && vm->frame_count == frames && vm->frames[frames - 1].offset != offset;
+    if (made && is_disabled(vm, offset))
+        memset(vm->stack.words + (vm->stack.count - 1) * vm->relation_size, 0,
+               vm->relation_size * sizeof *vm->stack.words);
+    return status;
+}
+
 /* The relation of a function on the plan, found now or before. */
 static tn_status evaluate(tn_plan_vm *vm, uint32_t function, const uint64_t **relation, tn_error *error)
 {
@@ -270,7 +294,7 @@ static tn_status evaluate(tn_plan_vm *vm, uint32_t function, const uint64_t **re
         vm->frame_count = 0;
         tn_status status = add_frame(vm, function, false, error);
         while (status == TN_OK && vm->frame_count > 0)
-            status = run_instruction(vm, error);
+            status = step(vm, error);
         if (status != TN_OK)
             return status;
     }
@@ -325,6 +349,12 @@ void tn_plan_vm_limit(tn_plan_vm *vm, uint64_t memory, uint64_t work)
         vm->work_limit = work;
 }
 
+void tn_plan_vm_disable(tn_plan_vm *vm, const uint32_t *offsets, size_t count)
+{
+    vm->disabled = offsets;
+    vm->disabled_count = count;
+}
+
 tn_status tn_plan_vm_plan(tn_plan_vm *vm, const tn_tray *trays, size_t length, tn_error *error)
 {
     if (length > vm->max_length) {
@@ -376,7 +406,7 @@ tn_status tn_plan_vm_term(tn_plan_vm *vm, uint32_t code_begin, uint32_t code_end
     if (status == TN_OK)
         vm->frames[0].offset = code_begin;
     while (status == TN_OK && (vm->frame_count > 1 || vm->frames[0].offset < code_end))
-        status = run_instruction(vm, error);
+        status = step(vm, error);
     *relation = vm->stack.words;
     *words = vm->words;
     return status;

@@ -27,6 +27,10 @@ void tn_plan_vm_free(tn_plan_vm *vm);
 #define TN_VM_WORK_DEFAULT (UINT64_C(1) << 37)
 void tn_plan_vm_limit(tn_plan_vm *vm, uint64_t memory, uint64_t work);
 
+/* From the next plan on, what the instructions at these code offsets make is empty, for coverage (borrowed; count 0:
+ * nothing is). */
+void tn_plan_vm_disable(tn_plan_vm *vm, const uint32_t *offsets, size_t count);
+
 /* Starts on a plan (copied); forgets what was found for the one before. */
 tn_status tn_plan_vm_plan(tn_plan_vm *vm, const tn_tray *trays, size_t length, tn_error *error);
 

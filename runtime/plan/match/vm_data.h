@@ -36,6 +36,8 @@ struct tn_plan_vm {
 
     tn_plan_vm_ask *ask; /* about the house on the plan, or NULL */
     void *house;
+    const uint32_t *disabled; /* offsets of instructions whose relations are empty */
+    size_t disabled_count;
 
     tn_tray *trays;
     size_t length;

@@ -27,6 +27,21 @@ static const char text[] =
     "test pair { match [door | door] reject [1m] }\n"
     "test rows { keep [1m | high door] drop [door | door] by pair }\n";
 
+static const char cabins[] =
+    "schema bay { width role length = 3m | 4m zone body role band = room(4m) role void }\n"
+    "form cabin of bay { storey low 3m storey high 2800mm wall 200mm partition 100mm deck 300mm roof 200mm\n"
+    "  section body storeys = 1 | 2 section body roof = flat | gable(9:12) section colour = red | blue\n"
+    "  forbid section(colour red) and section(body storeys 2) void cell(high, 3m) no cell(low, area < 10m2)\n"
+    "  function live at cell(low) function sleep at cell(body)\n"
+    "  opening door wide 900mm high 2m clear 1m passage opening pane wide 1m high 1m sill 1m glazed\n"
+    "  face cell(live) beside cell(sleep) = door | wall  face cell(any) outside = pane | wall\n"
+    "  tile bed for sleep { item bed left 0..1m, back 0..2m, up 0..500mm } }\n"
+    "library bays using bay { trays 1..2 }\n"
+    "rule dark \"no light\" = room(sleep, not by pane)\n"
+    "library cabins from bays in cabin { require cell(live) and not tray(3m) prune dark }\n"
+    "test dark { match [4m ; 1 flat red ; sleep ; wall wall wall wall] }\n"
+    "test cabins { keep [4m ; 1 flat blue ; live ; pane wall wall wall] drop [4m ; 1 flat blue ; sleep] }\n";
+
 static const tn_tray dropped[] = {3, 2, 3, 0, 5, 5};
 
 /* The file, opened with memory enough. */
@@ -134,6 +149,17 @@ static void covering(void **state)
     same_or_memory(cover, *state, 10);
 }
 
+/* Of rules about houses and of a form. */
+static void covering_houses(void **state)
+{
+    opened_rows rows = {0};
+    (void)state;
+    if (tn_open_bytes("cabins.plan", (const uint8_t *)cabins, strlen(cabins), false, &rows.opened) != TN_OK)
+        fail_msg("%s", rows.opened.compilation.diagnostics.items[0].message);
+    same_or_memory(cover, &rows, 10);
+    tn_close(&rows.opened);
+}
+
 static void reporting(void **state)
 {
     same_or_memory(report, *state, 6);
@@ -177,8 +203,8 @@ static int close_rows(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(explaining), cmocka_unit_test(covering),
-                                       cmocka_unit_test(reporting), cmocka_unit_test(drawing),
-                                       cmocka_unit_test(exporting)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(explaining),      cmocka_unit_test(covering),
+                                       cmocka_unit_test(covering_houses), cmocka_unit_test(reporting),
+                                       cmocka_unit_test(drawing),         cmocka_unit_test(exporting)};
     return cmocka_run_group_tests(tests, open_rows, close_rows);
 }
