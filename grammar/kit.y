@@ -71,8 +71,8 @@ static const tn_kit_nodes no_nodes = {0};
 %left STAR SLASH
 %precedence SIGN
 
-%type <node> statement feature fill space alternative placed drawn_one line condition connector has
-%type <nodes> features names alternatives drawn several lines conditions lengths stocks
+%type <node> statement feature fill space extent alternative placed drawn_one line condition connector has
+%type <nodes> features names alternatives drawn several lines conditions extents stocks
 %type <text> doc part_name axis axis_word upright
 %type <length> length
 %type <vector> vector
@@ -180,9 +180,14 @@ length
     | MINUS NUMBER NAME                     { $$ = $2; $$.negative = true; $$.unit = $3; $$.span = @$; }
     ;
 
-lengths
-    : length                                { $$ = tn_kit_nodes_add(no_nodes, sized(parse, TN_KIT_LENGTH, @$, $1, $1, $1)); }
-    | lengths COMMA length                  { $$ = tn_kit_nodes_add($1, sized(parse, TN_KIT_LENGTH, @3, $3, $3, $3)); }
+extents
+    : extent                                { $$ = tn_kit_nodes_add(no_nodes, $1); }
+    | extents COMMA extent                  { $$ = tn_kit_nodes_add($1, $3); }
+    ;
+
+extent
+    : length                                { $$ = sized(parse, TN_KIT_LENGTH, @$, $1, $1, $1); }
+    | NAME length                           { $$ = sized(parse, TN_KIT_LENGTH, @$, $2, $2, $2); if ($$) $$->name = $1; }
     ;
 
 names
@@ -192,9 +197,9 @@ names
 
 space
     : NAME                                  { $$ = node(parse, TN_KIT_NAMED, @$, $1, no_nodes); }
-    | NAME OPEN lengths CLOSE               { $$ = node(parse, TN_KIT_SHAPE, @$, $1, $3); }
+    | NAME OPEN extents CLOSE               { $$ = node(parse, TN_KIT_SHAPE, @$, $1, $3); }
     | NAME OPEN STRING upright CLOSE        { $$ = filed(parse, @$, $1, $3, $4, no_nodes); }
-    | NAME OPEN STRING upright COMMA lengths CLOSE
+    | NAME OPEN STRING upright COMMA extents CLOSE
                                             { $$ = filed(parse, @$, $1, $3, $4, $6); }
     | MODEL OPEN STRING CLOSE               { $$ = filed(parse, @$, (tn_kit_text){"model", @1}, $3, no_text, no_nodes); }
     | OPEN space CLOSE                      { $$ = $2; }
@@ -441,6 +446,8 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
     case YYSYMBOL_WITH: return "write the rule that goes on there: `3005 with wall`";
     default: break;
     }
+    if (found == YYSYMBOL_OPEN_BRACKET)
+        return "parts that are drawn by weight stand in parentheses, each with its weight: `(3004 [0.8] | 3005 [0.2])`";
     if (found == YYSYMBOL_CODE)
         return "a number and what it counts are apart: `4 studs`, `20 mm`, `4 x 2`";
     if (found == YYSYMBOL_BELOW || found == YYSYMBOL_AT_MOST || found == YYSYMBOL_AT_LEAST || found == YYSYMBOL_ABOVE ||

@@ -182,9 +182,8 @@ static void find_partners(tn_kit *kit)
         if (type->joins)
             continue;
         type->joins = type;
-        tn_diagnostic *d =
-            tn_report(kit->diagnostics, E_KIT_UNKNOWN, other->span, "there is no connector `%.100s`", other->text);
-        tn_kit_suggest(kit, d, &kit->types, other->text, "tell it as well: `connector tube joins stud;`");
+        tn_kit_unknown(kit, &kit->types, "connector", other->span, other->text,
+                       "tell it as well: `connector tube joins stud;`");
     }
 }
 

@@ -168,6 +168,11 @@ double tn_kit_number(const tn_kit *kit, const tn_kit_length *number);
 bool tn_kit_whole(tn_kit *kit, const tn_kit_length *number, int64_t low, int64_t high, const char *what,
                   int64_t *value);
 
+/* Says that there is no such part, rule, space, ..., with the nearest name of the table, or `otherwise`. Where
+   statements of the file were lost to errors that were said, it may be one of those, and nothing is said. */
+void tn_kit_unknown(tn_kit *kit, const tn_names *names, const char *kind, tn_span span, const char *wrong,
+                    const char *otherwise);
+
 /* "did you mean" among the names of a table, or `otherwise`. */
 void tn_kit_suggest(tn_kit *kit, tn_diagnostic *d, const tn_names *names, const char *wrong, const char *otherwise);
 
@@ -188,8 +193,15 @@ tn_kit_region tn_kit_check_space(tn_kit *kit, const tn_kit_node *node);
 tn_kit_region tn_kit_region_of_file(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *spot);
 const tn_kit_parts *tn_kit_parts_of_file(tn_kit *kit, const tn_kit_node *node);
 
+/* The lengths that a shape takes, in their order: a file may write their names before them. */
+typedef struct tn_kit_extents {
+    const char *names[3];
+    uint32_t count;
+    const char *example;
+} tn_kit_extents;
+
 /* As many sizes in LDU as a shape takes; or says what is wrong (E1326), with an example of the shape. */
-bool tn_kit_sizes(tn_kit *kit, const tn_kit_node *node, uint32_t wanted, double size[3], const char *example);
+bool tn_kit_sizes(tn_kit *kit, const tn_kit_node *node, const tn_kit_extents *wanted, double size[3]);
 
 /* A box of a part that stands, in cells. */
 tn_cell_box tn_kit_box_of(const tn_kit_stands *one, uint32_t index);

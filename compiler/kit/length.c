@@ -62,9 +62,8 @@ static bool unit_of(tn_kit *kit, const tn_kit_length *length, int64_t *unit)
         *unit = *found;
         return true;
     }
-    tn_diagnostic *d =
-        tn_report(kit->diagnostics, E_KIT_UNKNOWN, length->unit.span, "there is no length `%.100s`", name);
-    tn_kit_suggest(kit, d, &kit->lengths, name, "lengths are in LDU, mm, or named: `length brick = 24;`");
+    tn_kit_unknown(kit, &kit->lengths, "length", length->unit.span, name,
+                   "lengths are in LDU, mm, or named: `length brick = 24;`");
     return false;
 }
 
@@ -147,6 +146,15 @@ bool tn_kit_whole(tn_kit *kit, const tn_kit_length *number, int64_t low, int64_t
             : strcmp(what, "a number of copies") == 0 ? "repeat 4 by (3 studs, 0, 0)"
                                                       : "4 x 2");
     return false;
+}
+
+void tn_kit_unknown(tn_kit *kit, const tn_names *names, const char *kind, tn_span span, const char *wrong,
+                    const char *otherwise)
+{
+    if (kit->damaged)
+        return;
+    tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_UNKNOWN, span, "there is no %s `%.100s`", kind, wrong);
+    tn_kit_suggest(kit, d, names, wrong, otherwise);
 }
 
 void tn_kit_suggest(tn_kit *kit, tn_diagnostic *d, const tn_names *names, const char *wrong_name, const char *otherwise)

@@ -224,6 +224,8 @@ static bool fill_mesh(tn_kit *kit, tn_kit_mask *mask, tn_mesh *mesh, double heig
     return status == TN_OK;
 }
 
+static const tn_kit_extents mesh_extents = {{"height"}, 1, "mesh(\"statue.stl\", 20 bricks): how high it is"};
+
 static bool make_mesh(tn_kit *kit, tn_kit_mask *mask)
 {
     const tn_kit_node *node = mask->node;
@@ -231,8 +233,7 @@ static bool make_mesh(tn_kit *kit, tn_kit_mask *mask)
     bool y_up;
     tn_mesh mesh = {0};
     tn_error error = {0};
-    if ((node->inner.first && !tn_kit_sizes(kit, node, 1, size, "mesh(\"statue.stl\", 20 bricks): how high it is")) ||
-        !read_upright(kit, node, &y_up))
+    if ((node->inner.first && !tn_kit_sizes(kit, node, &mesh_extents, size)) || !read_upright(kit, node, &y_up))
         return false;
     const tn_request request = tn_kit_request(kit, node);
     tn_status status = kit->attachments->mesh(kit->attachments->context, &request, &mesh, &error);
@@ -264,6 +265,11 @@ static bool hill_holds(const void *context, const double place[3])
            place[1] <= h->size[1] * tn_heights_at(h->heights, across, down);
 }
 
+static const tn_kit_extents hill_extents = {
+    {"width", "height", "depth"},
+    3,
+    "heightmap(\"hill.pgm\", 32 studs, 10 bricks, 32 studs): width, height of what is white, and depth"};
+
 static bool make_hill(tn_kit *kit, tn_kit_mask *mask)
 {
     const tn_kit_node *node = mask->node;
@@ -272,9 +278,7 @@ static bool make_hill(tn_kit *kit, tn_kit_mask *mask)
     size_t count = 0;
     tn_heights heights = {0};
     tn_error error = {0};
-    if (!tn_kit_sizes(
-            kit, node, 3, size,
-            "heightmap(\"hill.pgm\", 32 studs, 10 bricks, 32 studs): width, height of what is white, and depth"))
+    if (!tn_kit_sizes(kit, node, &hill_extents, size))
         return false;
     const double from[3] = {-size[0] / 2, 0, -size[2] / 2}, to[3] = {size[0] / 2, size[1], size[2] / 2};
     const tn_request request = tn_kit_request(kit, node);

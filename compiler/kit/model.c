@@ -21,9 +21,7 @@ static uint32_t slot_of(tn_kit *kit, const tn_expression *e)
 {
     uint32_t slot = 0;
     if (!tn_names_get(&kit->parts, e->name)) {
-        tn_diagnostic *d =
-            tn_report(kit->diagnostics, E_KIT_UNKNOWN, e->name_span, "there is no part `%.100s`", e->name);
-        tn_kit_suggest(kit, d, &kit->parts, e->name,
+        tn_kit_unknown(kit, &kit->parts, "part", e->name_span, e->name,
                        "parts are told by `part 3005 { ... }`, or in a file that is used");
         return 0;
     }
@@ -114,9 +112,8 @@ static void check_stands(tn_kit *kit, const tn_kit_model *model, const tn_kit_no
 {
     tn_kit_parts_of_file(kit, node);
     if (!tn_names_get(&kit->rules, node->other.text)) {
-        tn_diagnostic *d =
-            tn_report(kit->diagnostics, E_KIT_UNKNOWN, node->other.span, "there is no rule `%.100s`", node->other.text);
-        tn_kit_suggest(kit, d, &kit->rules, node->other.text, "write `rule wall at stud, tube = 3001 | 3003;`");
+        tn_kit_unknown(kit, &kit->rules, "rule", node->other.span, node->other.text,
+                       "write `rule wall at stud, tube = 3001 | 3003;`");
     }
     if (!model->repeats)
         return;
@@ -149,9 +146,7 @@ static void check_start(tn_kit *kit, const tn_kit_node *node)
     int32_t cells;
     uint32_t turns;
     if (!type) {
-        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_UNKNOWN, node->name.span, "there is no connector `%.100s`",
-                                     node->name.text);
-        tn_kit_suggest(kit, d, &kit->types, node->name.text,
+        tn_kit_unknown(kit, &kit->types, "connector", node->name.span, node->name.text,
                        "a model starts at a connector that is thought to be there: `start stud at (0, 0, 0) by wall;`");
     }
     if (node->doc.text && tn_kit_axis(kit, &node->doc, &axis) && !tn_kit_start_turn(kit, node, &turns)) {
@@ -166,9 +161,8 @@ static void check_start(tn_kit *kit, const tn_kit_node *node)
         if (tn_kit_measure(kit, &node->at.at[k], &at))
             tn_kit_cells(kit, node->at.at[k].span, at, k, 1, "the model starts at", &cells);
     if (!rule) {
-        tn_diagnostic *d =
-            tn_report(kit->diagnostics, E_KIT_UNKNOWN, node->other.span, "there is no rule `%.100s`", node->other.text);
-        tn_kit_suggest(kit, d, &kit->rules, node->other.text, "write `rule wall at stud, tube = 3001 | 3003;`");
+        tn_kit_unknown(kit, &kit->rules, "rule", node->other.span, node->other.text,
+                       "write `rule wall at stud, tube = 3001 | 3003;`");
     } else if (type && !tn_kit_rule_takes(rule, type)) {
         tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_MODEL, node->other.span, "rule %.100s is not at %.100s",
                                      node->other.text, node->name.text);
@@ -217,9 +211,7 @@ void tn_kit_check_model(tn_kit *kit, tn_kit_model *model)
 void tn_kit_check_test(tn_kit *kit, const tn_kit_node *test)
 {
     if (!tn_names_get(&kit->models, test->name.text)) {
-        tn_diagnostic *d =
-            tn_report(kit->diagnostics, E_KIT_UNKNOWN, test->name.span, "there is no model `%.100s`", test->name.text);
-        tn_kit_suggest(kit, d, &kit->models, test->name.text,
+        tn_kit_unknown(kit, &kit->models, "model", test->name.span, test->name.text,
                        "a test is called by the model that it is about, in the same file");
     }
     tn_kit_check_conditions(kit, test);

@@ -117,9 +117,7 @@ static tn_kit_type *type_of(tn_kit *kit, const tn_kit_text *name)
     }
     if (type)
         return type;
-    tn_diagnostic *d =
-        tn_report(kit->diagnostics, E_KIT_UNKNOWN, name->span, "there is no connector `%.100s`", name->text);
-    tn_kit_suggest(kit, d, &kit->types, name->text,
+    tn_kit_unknown(kit, &kit->types, "connector", name->span, name->text,
                    "a connector is told before parts have it: `connector stud joins tube;`");
     return NULL;
 }
@@ -184,9 +182,9 @@ static void check_boxes(tn_kit *kit, const tn_kit_part *part)
         for (uint32_t j = 0; j < i; j++) {
             if (!overlap(&part->boxes[i], &part->boxes[j]))
                 continue;
-            tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_PART, part->node->name.span,
-                                         "boxes %u and %u of part %.100s overlap", part->boxes[j].fill,
-                                         part->boxes[i].fill, name);
+            tn_diagnostic *d =
+                tn_report(kit->diagnostics, E_KIT_PART, part->node->name.span, "boxes %u and %u of part %.100s overlap",
+                          part->boxes[j].fill, part->boxes[i].fill, name);
             tn_help(kit->diagnostics, d, "boxes of a part lie side by side");
             return;
         }
@@ -219,7 +217,8 @@ void tn_kit_check_part(tn_kit *kit, tn_kit_part *part)
     part->boxes = TN_NEW_ARRAY(kit->arena, tn_kit_box, boxes + slopes * TN_KIT_SLOPE_STEPS_MAX + 1);
     part->slopes = TN_NEW_ARRAY(kit->arena, tn_kit_slope, slopes + 1);
     part->joints = TN_NEW_ARRAY(kit->arena, tn_kit_joint, most_joints(kit, part) + 4 * from.stud_count + 2);
-    if (part->boxes && part->joints && part->slopes && part->node->other.text && kit->diagnostics->error_count == errors)
+    if (part->boxes && part->joints && part->slopes && part->node->other.text &&
+        kit->diagnostics->error_count == errors)
         tn_kit_take_part_file(kit, part, &from, boxes == 0);
     tn_part_file_clear(&from);
     if (!part->boxes || !part->joints || !part->slopes)

@@ -225,17 +225,13 @@ static bool check_placed(tn_kit *kit, const tn_kit_node *placed, bool first)
     int32_t at[3];
     uint32_t turns;
     if (!part_of(kit, placed)) {
-        tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_UNKNOWN, placed->name.span, "there is no part `%.100s`",
-                                     placed->name.text);
-        tn_kit_suggest(kit, d, &kit->parts, placed->name.text,
+        tn_kit_unknown(kit, &kit->parts, "part", placed->name.span, placed->name.text,
                        "parts are told by `part 3005 { ... }`, or in a file that is used: `use \"bricks\";`");
     }
     for (const tn_kit_node *next = placed->outer.first; next; next = next->next) {
         if (tn_names_get(&kit->rules, next->name.text))
             continue;
-        tn_diagnostic *d =
-            tn_report(kit->diagnostics, E_KIT_UNKNOWN, next->name.span, "there is no rule `%.100s`", next->name.text);
-        tn_kit_suggest(kit, d, &kit->rules, next->name.text,
+        tn_kit_unknown(kit, &kit->rules, "rule", next->name.span, next->name.text,
                        "`with` names the rule that goes on at the part's connectors");
     }
     if (placed->outer.first && placed->stops) {
@@ -315,9 +311,8 @@ void tn_kit_check_rule(tn_kit *kit, const tn_kit_rule *rule)
     for (const tn_kit_node *at = rule->node->outer.first; at; at = at->next) {
         if (tn_names_get(&kit->types, at->name.text))
             continue;
-        tn_diagnostic *d =
-            tn_report(kit->diagnostics, E_KIT_UNKNOWN, at->name.span, "there is no connector `%.100s`", at->name.text);
-        tn_kit_suggest(kit, d, &kit->types, at->name.text, "a connector is told by `connector stud joins tube;`");
+        tn_kit_unknown(kit, &kit->types, "connector", at->name.span, at->name.text,
+                       "a connector is told by `connector stud joins tube;`");
     }
     for (const tn_kit_node *one = rule->node->inner.first; one; one = one->next) {
         if (one->kind == TN_KIT_PLACES)

@@ -151,9 +151,7 @@ static void check_stocked(tn_kit *kit, const tn_kit_node *stocks, const tn_kit_n
 {
     int64_t most;
     if (!tn_names_get(&kit->parts, node->name.text)) {
-        tn_diagnostic *d =
-            tn_report(kit->diagnostics, E_KIT_UNKNOWN, node->name.span, "there is no part `%.100s`", node->name.text);
-        tn_kit_suggest(kit, d, &kit->parts, node->name.text,
+        tn_kit_unknown(kit, &kit->parts, "part", node->name.span, node->name.text,
                        "parts are told by `part 3005 { ... }`, or in a file that is used");
     }
     for (const tn_kit_node *other = stocks->inner.first; other != node; other = other->next)

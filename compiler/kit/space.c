@@ -48,11 +48,11 @@ static tn_expression *within(tn_kit *kit, tn_span span, const double centre[3], 
 }
 
 static const struct {
-    const char *name, *example;
-    uint32_t sizes;
-} shapes[] = {{"box", "box(16 studs, 8 bricks, 1 stud): width, height and depth", 3},
-              {"sphere", "sphere(8 studs): the radius", 1},
-              {"cylinder", "cylinder(6 studs, 8 bricks): radius and height", 2}};
+    const char *name;
+    tn_kit_extents extents;
+} shapes[] = {{"box", {{"width", "height", "depth"}, 3, "box(16 studs, 8 bricks, 1 stud): width, height and depth"}},
+              {"sphere", {{"radius"}, 1, "sphere(8 studs): the radius"}},
+              {"cylinder", {{"radius", "height"}, 2, "cylinder(6 studs, 8 bricks): radius and height"}}};
 enum { BOX, SPHERE, CYLINDER, SHAPE_COUNT };
 
 static int find_shape(tn_kit *kit, const tn_kit_node *node)
@@ -81,14 +81,25 @@ static int find_shape(tn_kit *kit, const tn_kit_node *node)
     return SHAPE_COUNT;
 }
 
-bool tn_kit_sizes(tn_kit *kit, const tn_kit_node *node, uint32_t wanted, double size[3], const char *example)
+/* A length may be called by its name, which is the one of its place. */
+static bool called_right(tn_kit *kit, const tn_kit_node *node, const tn_kit_node *length, const char *name)
+{
+    if (!length->name.text || strcmp(length->name.text, name) == 0)
+        return true;
+    tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_SPACE, length->name.span, "of `%.100s`, the %s stands here",
+                                 node->name.text, name);
+    tn_suggest(kit->diagnostics, d, "%s", name);
+    return false;
+}
+
+bool tn_kit_sizes(tn_kit *kit, const tn_kit_node *node, const tn_kit_extents *wanted, double size[3])
 {
     uint32_t count = 0;
     for (const tn_kit_node *length = node->inner.first; length; length = length->next, count++) {
         int64_t value;
-        if (count >= wanted)
+        if (count >= wanted->count)
             continue;
-        if (!tn_kit_measure(kit, &length->size[0], &value))
+        if (!called_right(kit, node, length, wanted->names[count]) || !tn_kit_measure(kit, &length->size[0], &value))
             return false;
         size[count] = (double)value / 1e6;
         if (value > 0)
@@ -98,12 +109,12 @@ bool tn_kit_sizes(tn_kit *kit, const tn_kit_node *node, uint32_t wanted, double 
         tn_help(kit->diagnostics, d, "sizes are above 0");
         return false;
     }
-    if (count == wanted)
+    if (count == wanted->count)
         return true;
-    tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_SPACE, node->span, "`%s` takes %s%u length%s, not %u",
-                                 node->name.text, node->kind == TN_KIT_FILED ? "a file and " : "", wanted,
-                                 wanted == 1 ? "" : "s", count);
-    tn_help(kit->diagnostics, d, "as %s", example);
+    tn_diagnostic *d =
+        tn_report(kit->diagnostics, E_KIT_SPACE, node->span, "`%s` takes %s%u length%s, not %u", node->name.text,
+                  node->kind == TN_KIT_FILED ? "a file and " : "", wanted->count, wanted->count == 1 ? "" : "s", count);
+    tn_help(kit->diagnostics, d, "as %s", wanted->example);
     return false;
 }
 
@@ -112,7 +123,7 @@ static tn_kit_region region_of_shape(tn_kit *kit, const tn_kit_node *node, const
     double size[3] = {0};
     tn_kit_region region = {.inside = NULL};
     int shape = find_shape(kit, node);
-    if (shape == SHAPE_COUNT || !tn_kit_sizes(kit, node, shapes[shape].sizes, size, shapes[shape].example))
+    if (shape == SHAPE_COUNT || !tn_kit_sizes(kit, node, &shapes[shape].extents, size))
         return region;
     bool across = at->turns % 2;
     double wide = shape == BOX ? size[across ? 2 : 0] / 2 : size[0],
@@ -143,9 +154,7 @@ static tn_kit_region region_named(tn_kit *kit, const tn_kit_node *node, const tn
     tn_kit_region none = {.inside = NULL};
     tn_kit_space *space = tn_names_get(&kit->spaces, node->name.text);
     if (!space) {
-        tn_diagnostic *d =
-            tn_report(kit->diagnostics, E_KIT_UNKNOWN, node->name.span, "there is no space `%.100s`", node->name.text);
-        tn_kit_suggest(kit, d, &kit->spaces, node->name.text,
+        tn_kit_unknown(kit, &kit->spaces, "space", node->name.span, node->name.text,
                        "write `space room = box(8 studs, 4 bricks, 8 studs);`, or the shape itself here");
         return none;
     }
