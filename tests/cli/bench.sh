@@ -54,6 +54,24 @@ done
 runs solid crowded 30 1
 runs solid sphere 30 1
 runs solid tables 10 1
+
+for file in huts lofts; do "$TARTAN" build "bench/$file.plan" -o "$scratch/$file.tnb"; done
+runs house count "$scratch/huts.tnb" "$scratch/lofts.tnb"
+is 'houses that are counted' "$(tail -n 2 "$scratch/house.out" | xargs)" '479616 5450528'
+runs house unrank "$scratch/lofts.tnb" 3
+runs house glb "$scratch/lofts.tnb" 2 "$scratch"
+[ -s "$scratch/1.glb" ] || fail 'bench_house wrote no house'
+one="8' room:12' | 8' room:12' | 8' room:12'"
+runs house plan "$scratch/lofts.tnb" "$one" 1
+two=$("$TARTAN" sample bench/lofts.plan 1 --library loft-rows --plan "$one")
+runs house solids "$scratch/lofts.tnb" "$two" 1
+runs house vary "$scratch/lofts.tnb" "$two" 1
+is 'all that differ in one choice are listed' "$(cut -d' ' -f5 "$scratch/house.out")" "$(cut -d' ' -f6 "$scratch/house.out")"
+if command -v swipl >/dev/null; then # on a plan of the LaHave House, in all its sections
+    plan="12' double public great dense:4' open:8' open:3' | 8' single - - dense:4' dense:8' empty | 4' single - - dense:4' open:8' empty | 8' single - - dense:4' open:8' open:3'"
+    python3 bench/house_facts.py "$plan" >"$scratch/facts.pl"
+    is 'houses that Prolog counts' "$(swipl -q -g main bench/house.pl -- "$scratch/facts.pl" | cut -d' ' -f1)" 8160
+fi
 runs openmesh cc 2 1
 runs openmesh loop 2 1
 finish
