@@ -2,7 +2,8 @@
  * matter to the tiles of one cell are summed up cell by cell, and the cells multiplied. */
 #include "runtime/house/variant/parts.h"
 
-/* What is outside of a cell comes after what is outside of the cells before it: faces are in that order. */
+/* Of the wheels that are set there is only the choice at hand. What is outside of a cell comes after what is outside of
+ * the cells before it: faces are in that order. */
 static tn_status split_faces(tn_house_variants *v, tn_error *error)
 {
     tn_status status = TN_OK;
@@ -10,8 +11,9 @@ static tn_status split_faces(tn_house_variants *v, tn_error *error)
     tn_wheels_clear(&v->own);
     for (size_t i = 0; status == TN_OK && i < v->faces.count; i++) {
         const tn_wheel *w = &v->faces.items[i];
-        bool relevant = tn_face_relevant(&v->house, &v->questions, &v->house.faces[w->of]);
-        status = tn_wheels_add(relevant ? &v->shared : &v->own, w->of, v->faces.choices + w->first, w->count, error);
+        bool relevant = tn_face_relevant(&v->house, &v->questions, &v->house.faces[w->of]), set = i < v->faces_set;
+        status = tn_wheels_add(relevant ? &v->shared : &v->own, w->of, v->faces.choices + w->first + (set ? w->at : 0),
+                               set ? 1 : w->count, error);
     }
     return status;
 }
@@ -78,17 +80,12 @@ static tn_status count_cells(tn_house_variants *v, mpz_t houses, mpz_t faced, tn
     return status;
 }
 
-tn_status tn_variants_count_faces(tn_house_variants *v, tn_house_counts *counts, tn_error *error)
+tn_status tn_variants_count_set(tn_house_variants *v, tn_house_counts *counts, tn_error *error)
 {
     bool kept = false, zoned = false;
     mpz_t houses, faced;
-    tn_status status = tn_variants_keep(v, TN_STAGE_FUNCTIONS, &kept, error);
-    if (status != TN_OK || !kept)
-        return status;
     mpz_inits(houses, faced, NULL);
-    status = tn_variants_set_faces(v, error);
-    if (status == TN_OK)
-        status = split_faces(v, error);
+    tn_status status = split_faces(v, error);
     do {
         set_kinds(v, &v->shared, 0, v->shared.count);
         if (status == TN_OK)
@@ -103,4 +100,13 @@ tn_status tn_variants_count_faces(tn_house_variants *v, tn_house_counts *counts,
     counts->zoned += zoned;
     mpz_clears(houses, faced, NULL);
     return status;
+}
+
+tn_status tn_variants_count_faces(tn_house_variants *v, tn_house_counts *counts, tn_error *error)
+{
+    bool kept = false;
+    tn_status status = tn_variants_keep(v, TN_STAGE_FUNCTIONS, &kept, error);
+    if (status == TN_OK && kept)
+        status = tn_variants_set_faces(v, error);
+    return status == TN_OK && kept ? tn_variants_count_set(v, counts, error) : status;
 }

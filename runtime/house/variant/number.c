@@ -17,7 +17,7 @@ typedef struct listing {
     mpz_t left, here; /* houses still to be passed over; houses with these faces */
     tn_house_each *each;
     void *context;
-    bool found;
+    bool passing; /* the first house is still to be found */
 } listing;
 
 /* Passes over a part of the houses, if the first that is wanted is not among them. */
@@ -56,7 +56,7 @@ static tn_status give_tiles(tn_house_variants *v, void *context, bool *stop, tn_
         v->house.cells[i].variant = mpz_fdiv_q_ui(list->left, list->left, v->tiles[i]);
     tn_status status;
     do {
-        list->found = true;
+        list->passing = false;
         v->work = v->work_limit; /* there is a limit on the way to a house, none on how many there are */
         status = list->each(list->context, &v->house, stop, error);
     } while (status == TN_OK && !*stop && next_tiles(v));
@@ -66,11 +66,12 @@ static tn_status give_tiles(tn_house_variants *v, void *context, bool *stop, tn_
 tn_status tn_house_variants_each(tn_house_variants *v, const tn_tray *trays, size_t length, const mpz_t from,
                                  tn_house_each *each, void *context, tn_error *error)
 {
-    listing list = {.each = each, .context = context};
+    listing list = {.each = each, .context = context, .passing = true};
+    const tn_house_visitor visitor = {
+        .by_faces = &list.passing, .count = pass_over, .visit = give_tiles, .context = &list};
     mpz_init_set(list.left, from);
     mpz_init(list.here);
-    tn_status status = tn_variants_go_through(
-        v, trays, length, &(tn_house_visitor){.count = pass_over, .visit = give_tiles, .context = &list}, error);
+    tn_status status = tn_variants_go_through(v, trays, length, &visitor, error);
     mpz_clears(list.left, list.here, NULL);
     return status;
 }
@@ -138,7 +139,7 @@ tn_status tn_house_variants_at(tn_house_variants *v, const tn_tray *trays, size_
 typedef struct seeking {
     mpz_t before, here;
     const tn_house *wanted;
-    bool found;
+    bool passing; /* it is still to be found */
 } seeking;
 
 static bool same_section(const tn_house *a, const tn_house *b)
@@ -155,52 +156,50 @@ static bool same_functions(const tn_house *a, const tn_house *b)
     return same;
 }
 
+/* In the faces that are set. */
+static bool same_faces(const tn_house_variants *v, const tn_house *wanted)
+{
+    bool same = true;
+    for (size_t i = 0; same && i < v->faces_set; i++)
+        same = tn_wheel_chosen(&v->faces, i) == wanted->faces[v->faces.items[i].of].kind;
+    return same;
+}
+
 /* Counts a part of the houses at once, if the wanted one is not among them. */
 static void count_over(tn_house_variants *v, void *context, tn_house_part part, const tn_house_counts *counts,
                        bool *taken)
 {
     seeking *s = context;
-    *taken = part == PART_SECTION ? !same_section(&v->house, s->wanted) : !same_functions(&v->house, s->wanted);
+    *taken = part == PART_SECTION     ? !same_section(&v->house, s->wanted)
+             : part == PART_FUNCTIONS ? !same_functions(&v->house, s->wanted)
+                                      : !same_faces(v, s->wanted);
     if (*taken)
         mpz_add(s->before, s->before, counts->houses);
-}
-
-static bool same_faces(const tn_house *a, const tn_house *b)
-{
-    bool same = true;
-    for (size_t i = 0; same && i < a->face_count; i++)
-        same = a->faces[i].kind == b->faces[i].kind;
-    return same;
 }
 
 static tn_status stop_here(tn_house_variants *v, void *context, bool *stop, tn_error *error)
 {
     seeking *s = context;
     (void)error;
-    multiply_tiles(v, s->here);
-    if (!same_faces(&v->house, s->wanted)) {
-        mpz_add(s->before, s->before, s->here);
-        return TN_OK;
-    }
     mpz_set_ui(s->here, 0);
     for (size_t i = 0; i < v->house.cell_count; i++) {
         mpz_mul_ui(s->here, s->here, v->tiles[i]);
         mpz_add_ui(s->here, s->here, s->wanted->cells[i].variant);
     }
     mpz_add(s->before, s->before, s->here);
-    *stop = s->found = true;
+    s->passing = false;
+    *stop = true;
     return TN_OK;
 }
 
 tn_status tn_house_variants_rank(tn_house_variants *v, const tn_house *house, mpz_t variant, tn_error *error)
 {
-    seeking s = {.wanted = house};
+    seeking s = {.wanted = house, .passing = true};
+    const tn_house_visitor visitor = {.by_faces = &s.passing, .count = count_over, .visit = stop_here, .context = &s};
     mpz_inits(s.before, s.here, NULL);
-    tn_status status =
-        tn_variants_go_through(v, house->trays, house->length,
-                               &(tn_house_visitor){.count = count_over, .visit = stop_here, .context = &s}, error);
+    tn_status status = tn_variants_go_through(v, house->trays, house->length, &visitor, error);
     mpz_set(variant, s.before);
-    if (status == TN_OK && !s.found) {
+    if (status == TN_OK && s.passing) {
         status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library does not keep this house");
         tn_error_help(error, "`tartan explain` says which clauses drop it");
     }

@@ -29,6 +29,7 @@ struct tn_house_variants {
     uint64_t *runs; /* of each clause, on the plan at hand: the dearest is named where the work is too much */
     tn_house house;
     tn_wheels functions, faces;
+    size_t faces_set; /* of the wheels of faces, how many at the beginning are set while those after them are counted */
     tn_wheels shared, own; /* those of `faces` that clauses can depend on, and the others, by their cell: count.c */
     tn_room_questions questions;
     struct tn_sections *sections; /* what was counted on the plan at hand: section.h */
@@ -59,7 +60,7 @@ tn_status tn_variants_spend(tn_house_variants *v, tn_error *error);
 /* Do all clauses that can be asked at this stage, and not before, keep the house? */
 tn_status tn_variants_keep(tn_house_variants *v, tn_clause_stage stage, bool *kept, tn_error *error);
 
-/* The wheels of the faces, all at their first kind. */
+/* The wheels of the faces, all at their first kind, none of them set. */
 tn_status tn_variants_set_faces(tn_house_variants *v, tn_error *error);
 
 /* ---- count.c */
@@ -67,11 +68,15 @@ tn_status tn_variants_set_faces(tn_house_variants *v, tn_error *error);
 /* Adds the houses with the functions at hand: faces that clauses cannot tell apart are multiplied cell by cell. */
 tn_status tn_variants_count_faces(tn_house_variants *v, tn_house_counts *counts, tn_error *error);
 
-/* Who looks at the houses. `count` is shown how many there are of a section, and then of functions; it takes them all
- * at once (*taken), or is shown fewer at a time. `visit` is shown houses one by one, without tiles. *stop ends the
- * going through. */
-typedef enum tn_house_part { PART_SECTION, PART_FUNCTIONS } tn_house_part;
+/* The same of the houses whose first faces_set wheels of faces are as they stand; the functions are kept. */
+tn_status tn_variants_count_set(tn_house_variants *v, tn_house_counts *counts, tn_error *error);
+
+/* Who looks at the houses. `count` is shown how many there are of a section, then of functions, then of the faces that
+ * are set, one more at a time (where `by_faces` is set); it takes them all at once (*taken), or is shown fewer at a
+ * time. `visit` is shown houses one by one, without tiles. *stop ends the going through. */
+typedef enum tn_house_part { PART_SECTION, PART_FUNCTIONS, PART_FACES } tn_house_part;
 typedef struct tn_house_visitor {
+    const bool *by_faces; /* or NULL: never */
     void (*count)(tn_house_variants *v, void *context, tn_house_part part, const tn_house_counts *counts, bool *taken);
     tn_status (*visit)(tn_house_variants *v, void *context, bool *stop, tn_error *error);
     void *context;

@@ -125,6 +125,7 @@ tn_status tn_variants_set_faces(tn_house_variants *v, tn_error *error)
     uint32_t kinds[TN_FACE_KINDS_MAX];
     tn_status status = TN_OK;
     tn_wheels_clear(&v->faces);
+    v->faces_set = 0;
     for (uint32_t i = 0; status == TN_OK && i < v->house.face_count; i++) {
         size_t count = tn_face_options(&v->house, &v->house.faces[i], kinds);
         v->house.faces[i].kind = kinds[0];
@@ -134,23 +135,68 @@ tn_status tn_variants_set_faces(tn_house_variants *v, tn_error *error)
     return status;
 }
 
-static tn_status go_through_faces(tn_house_variants *v, const tn_house_visitor *seen_by, bool *stop, tn_error *error)
+static void set_kinds(tn_house_variants *v)
+{
+    for (size_t i = 0; i < v->faces_set; i++)
+        v->house.faces[v->faces.items[i].of].kind = tn_wheel_chosen(&v->faces, i);
+}
+
+/* Shows how many houses there are with the faces that are set. */
+static tn_status show_set(tn_house_variants *v, const tn_house_visitor *seen_by, bool *taken, tn_error *error)
+{
+    tn_house_counts counts;
+    if (!seen_by->by_faces || !*seen_by->by_faces || v->faces_set == 0)
+        return TN_OK;
+    tn_house_counts_init(&counts);
+    tn_status status = tn_variants_count_set(v, &counts, error);
+    set_kinds(v);
+    if (status == TN_OK)
+        seen_by->count(v, seen_by->context, PART_FACES, &counts, taken);
+    tn_house_counts_clear(&counts);
+    return status;
+}
+
+/* Shows the house whose faces are all set, if it is kept and each cell has a tile. */
+static tn_status show_house(tn_house_variants *v, const tn_house_visitor *seen_by, bool *stop, tn_error *error)
 {
     bool kept = false, fit = false;
+    set_kinds(v);
+    tn_status status = tn_variants_keep(v, TN_STAGE_FACES, &kept, error);
+    if (status == TN_OK && kept)
+        status = count_tiles(v, &fit, error);
+    return status == TN_OK && kept && fit ? seen_by->visit(v, seen_by->context, stop, error) : status;
+}
+
+/* The next choice of the last wheel that is set, or of one before it. False: all have come round. */
+static bool turn_set(tn_house_variants *v)
+{
+    for (; v->faces_set > 0; v->faces_set--) {
+        tn_wheel *last = &v->faces.items[v->faces_set - 1];
+        if (++last->at < last->count)
+            return true;
+        last->at = 0;
+    }
+    return false;
+}
+
+/* Wheel by wheel, so that whole parts can be taken at once. */
+static tn_status go_through_faces(tn_house_variants *v, const tn_house_visitor *seen_by, bool *stop, tn_error *error)
+{
+    bool kept = false, more = true;
     tn_status status = tn_variants_keep(v, TN_STAGE_FUNCTIONS, &kept, error);
     if (status == TN_OK && kept)
         status = tn_variants_set_faces(v, error);
-    if (status != TN_OK || !kept)
-        return status;
-    do {
-        for (size_t i = 0; i < v->faces.count; i++)
-            v->house.faces[v->faces.items[i].of].kind = tn_wheel_chosen(&v->faces, i);
-        status = tn_variants_keep(v, TN_STAGE_FACES, &kept, error);
-        if (status == TN_OK && kept)
-            status = count_tiles(v, &fit, error);
-        if (status == TN_OK && kept && fit)
-            status = seen_by->visit(v, seen_by->context, stop, error);
-    } while (status == TN_OK && !*stop && tn_wheels_turn(&v->faces, 0, v->faces.count));
+    while (status == TN_OK && kept && more && !*stop) {
+        bool taken = false;
+        status = show_set(v, seen_by, &taken, error);
+        if (status == TN_OK && !taken && v->faces_set < v->faces.count) {
+            v->faces_set++;
+            continue;
+        }
+        if (status == TN_OK && !taken)
+            status = show_house(v, seen_by, stop, error);
+        more = turn_set(v);
+    }
     return status;
 }
 
