@@ -187,15 +187,30 @@ static int sign_of(tn_int128 value)
     return (value > 0) - (value < 0);
 }
 
+/* Is the point where its vertex is, not rounded? A corner is, and so is where two lines along axes cross. */
+static bool is_whole(const tn_grid *grid, const tn_grid_point *point)
+{
+    return point->one == TN_NOTHING || (grid->lines[point->one].kind < 3 && grid->lines[point->other].kind < 3);
+}
+
+/* The side of a vertex. A line along an axis, as nearly all are where walls are upright, needs one comparison. */
+static int side_of_vertex(const tn_grid *grid, int axis, uint32_t line, const int64_t at[3])
+{
+    const tn_grid_line *l = &grid->lines[line];
+    if (l->kind >= 3)
+        return sign_of((tn_int128)l->a * at[(axis + 1) % 3] + (tn_int128)l->b * at[(axis + 2) % 3] - l->c);
+    int fixed = 3 - axis - (int)l->kind;
+    int64_t coordinate = fixed == (l->kind == 0 ? 1 : 0) ? l->p : l->q; /* p is of the first of the other axes */
+    return (at[fixed] > coordinate) - (at[fixed] < coordinate);
+}
+
 int tn_grid_side(const tn_grid *grid, int axis, uint32_t line, const tn_grid_point *point)
 {
     if (line == point->one || line == point->other)
         return 0;
+    if (is_whole(grid, point))
+        return side_of_vertex(grid, axis, line, grid->vertices[point->vertex].at);
     tn_grid_line l = in_plane(grid, axis, line);
-    if (point->one == TN_NOTHING) {
-        const int64_t *at = grid->vertices[point->vertex].at;
-        return sign_of((tn_int128)l.a * at[(axis + 1) % 3] + (tn_int128)l.b * at[(axis + 2) % 3] - l.c);
-    }
     tn_grid_line m = in_plane(grid, axis, point->one), n = in_plane(grid, axis, point->other);
     tn_int128 w = (tn_int128)m.a * n.b - (tn_int128)n.a * m.b;
     tn_wide x = tn_wide_subtract(tn_wide_product(m.c, n.b), tn_wide_product(n.c, m.b));
