@@ -38,7 +38,7 @@ static double rate(double said)
 
 static void fill(const tn_evolution_study *s, tartan_evolution_options *o)
 {
-    o->seed = (uint64_t)s->of[TN_SET_SEED].first;
+    o->seed = tn_setting_whole64(&s->of[TN_SET_SEED]);
     o->population = whole(s, TN_SET_POPULATION);
     o->initialisation = (tartan_initialisation)(s->of[TN_SET_INITIALISE].choice + 1);
     o->codons = whole(s, TN_SET_CODONS);

@@ -61,7 +61,10 @@ static void breed(tn_evolution_session *e)
 {
     tn_error error;
     tn_choices c = {0};
-    tn_status status = e->run.generations ? TN_OK : tn_run_step(&e->run, NULL, 0, &error);
+    bool begins = e->run.generations == 0;
+    tn_status status = begins ? tn_run_step(&e->run, NULL, 0, &error) : TN_OK;
+    if (begins && status == TN_OK)
+        tn_evolution_session_warn(e);
     while (status == TN_OK && !tn_interrupted()) {
         size_t members;
         char sheet[512], page[512];

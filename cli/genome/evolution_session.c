@@ -9,8 +9,9 @@
 #include "driver/ponyge/ponyge.h"
 #include "runtime/base/file.h"
 
-#define PARAMETERS_BYTES_MAX ((size_t)1 << 20)
 #include "runtime/ranks/ranks.h"
+
+#define PARAMETERS_BYTES_MAX ((size_t)1 << 20)
 
 /* study.study -> study.run, in the folder that the command is given in. */
 static char *default_dir(const char *study)
@@ -220,6 +221,19 @@ static bool open_session(tn_job *command, const tn_session_settings *settings, b
     bool begun = tn_job_agree(command, ready) && begin(e, &study, dir, &error);
     free(own);
     return begun;
+}
+
+void tn_evolution_session_warn(tn_evolution_session *e)
+{
+    tn_diagnostics *list = tn_job_diagnostics(e->command);
+    for (size_t i = 0; i < e->run.look.count; i++) {
+        const tn_finding *finding = &e->run.look.items[i];
+        tn_diagnostic *d = tn_report_bare(list, TN_WARNING, finding->code, "%s", finding->message);
+        if (finding->help[0])
+            tn_help(list, d, "%s", finding->help);
+    }
+    if (e->run.look.count)
+        tn_job_show(e->command);
 }
 
 int tn_evolution_session_run(const tn_session_settings *settings, bool remembers,

@@ -44,4 +44,7 @@ typedef struct tn_evolution_session {
 int tn_evolution_session_run(const tn_session_settings *settings, bool remembers,
                              void (*work)(tn_evolution_session *evolution));
 
+/* Warns of what the first generation shows, once it was made here. */
+void tn_evolution_session_warn(tn_evolution_session *evolution);
+
 #endif

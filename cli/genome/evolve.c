@@ -72,6 +72,8 @@ static tn_status breed_all(tn_evolution_session *e, tn_error *error)
         status = tn_run_step(&e->run, NULL, 0, error);
         if (status == TN_OK && lead)
             warn_of_failures(e);
+        if (status == TN_OK && lead && e->run.generations == 1)
+            tn_evolution_session_warn(e);
         if (status == TN_OK && progress.shows)
             describe(e, before, start, text, sizeof text);
         tn_progress_update(&progress, e->run.generations);

@@ -65,7 +65,8 @@ static const char *words_of(const char *kind)
     } rows[] = {{"choose", "           chosen: "},
                 {"insert", "           inserted "},
                 {"edit", "           edited, "},
-                {"remove", "           taken out: "}};
+                {"remove", "           taken out: "},
+                {"warning", "           warning: "}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (strcmp(rows[i].kind, kind) == 0)
             return rows[i].words;

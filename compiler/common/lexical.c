@@ -52,6 +52,17 @@ bool tn_integer_read(const char *digits, size_t size, int64_t *value)
     return true;
 }
 
+bool tn_whole_read(const char *text, size_t size, uint64_t *value)
+{
+    uint64_t sum = 0;
+    bool fits = size > 0;
+    for (size_t i = 0; fits && i < size; i++)
+        fits = text[i] >= '0' && text[i] <= '9' && !__builtin_mul_overflow(sum, UINT64_C(10), &sum) &&
+               !__builtin_add_overflow(sum, (uint64_t)(text[i] - '0'), &sum);
+    *value = fits ? sum : 0;
+    return fits;
+}
+
 size_t tn_length_lex(tn_diagnostics *diagnostics, const char *text, size_t size, tn_span span, int64_t *nanometres,
                      bool *broken)
 {

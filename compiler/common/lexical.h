@@ -43,6 +43,9 @@ size_t tn_text_mark(const char *text, size_t size);
 /* The value of decimal digits; false (and INT64_MAX) where it does not fit. */
 bool tn_integer_read(const char *digits, size_t size, int64_t *value);
 
+/* The value of a text that is decimal digits and nothing else; false where it is not, or does not fit. */
+bool tn_whole_read(const char *text, size_t size, uint64_t *value);
+
 /* Reads a length that `span` covers the start of; returns its bytes (0: none). A length that cannot be held is reported
  * and *broken set, so that nothing else is said about it. */
 size_t tn_length_lex(tn_diagnostics *diagnostics, const char *text, size_t size, tn_span span, int64_t *nanometres,

@@ -1,4 +1,5 @@
 /* What the settings of an evolution block mean. Kinds and ranges are the rows of runtime/genome/settings.def. */
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -89,6 +90,9 @@ static void bad_value(check *c, tn_setting setting, const tn_evolution_value *va
         break;
     case TN_SETTING_REAL:
         tn_help(list, diagnostic, "write a number from %.0f to %.0f", row->low, row->high);
+        break;
+    case TN_SETTING_SEED:
+        tn_help(list, diagnostic, "write a whole number from 0 to %" PRIu64, UINT64_MAX);
         break;
     case TN_SETTING_PAIR:
         tn_help(list, diagnostic, "write a whole number from %.0f to %.0f, or a range of them, as 2..8", row->low,
@@ -184,6 +188,19 @@ static bool read_second(const tn_evolution_value *value, tn_setting_value *out)
     return true;
 }
 
+/* In digits it has all its 64 bits; written otherwise, as 1e6, what a double holds. */
+static bool read_seed(const tn_evolution_value *value, tn_setting_value *out)
+{
+    uint64_t whole;
+    if (value->kind != TN_EVOLUTION_NUMBER)
+        return false;
+    if (tn_whole_read(value->text, strlen(value->text), &whole))
+        tn_setting_put_whole64(out, whole);
+    else
+        out->first = tn_decimal_value(value->text, strlen(value->text));
+    return true;
+}
+
 static bool read_first(tn_setting setting, const tn_evolution_value *value, tn_setting_value *out)
 {
     const tn_setting_row *row = &tn_setting_rows[setting];
@@ -195,8 +212,9 @@ static bool read_first(tn_setting setting, const tn_evolution_value *value, tn_s
             return false;
         out->first = tn_decimal_value(value->text, strlen(value->text));
         return true;
+    case TN_SETTING_SEED:
+        return read_seed(value, out);
     case TN_SETTING_PAIR:
-        return read_pair(value, out);
     case TN_SETTING_SPAN:
         return read_pair(value, out);
     case TN_SETTING_EACH:

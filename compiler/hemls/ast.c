@@ -92,12 +92,8 @@ tn_decimal tn_growth_number(tn_growth_parse *parse, tn_span span)
 
 tn_decimal tn_growth_whole(tn_growth_parse *parse, tn_span span)
 {
-    const char *text = parse->text + span.begin;
-    uint64_t whole = 0;
-    bool fits = span.end > span.begin;
-    for (size_t i = 0; fits && i < span.end - span.begin; i++)
-        fits = text[i] >= '0' && text[i] <= '9' && !__builtin_mul_overflow(whole, UINT64_C(10), &whole) &&
-               !__builtin_add_overflow(whole, (uint64_t)(text[i] - '0'), &whole);
+    uint64_t whole;
+    bool fits = tn_whole_read(parse->text + span.begin, span.end - span.begin, &whole);
     return (tn_decimal){fits ? (double)whole : -1, span, whole};
 }
 

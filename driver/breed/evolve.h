@@ -95,12 +95,27 @@ typedef struct tn_run_options {
     bool rescore; /* where a resumed run's inputs have changed, all members are scored again; otherwise E1252 */
 } tn_run_options;
 
+/* What first_look.h finds. */
+typedef struct tn_finding {
+    tn_code code; /* of a warning */
+    char message[200], help[300];
+    char text[520]; /* both, as the database has them */
+} tn_finding;
+
+#define TN_FINDINGS_MAX 2u
+
+typedef struct tn_first_look {
+    tn_finding items[TN_FINDINGS_MAX];
+    size_t count;
+} tn_first_look;
+
 typedef struct tn_run {
     tn_evolution_job *job; /* borrowed */
     char *dir;
     tn_run_store *store; /* NULL on ranks but the first, which alone writes */
     tn_evolution *evolution;
     uint32_t generations; /* done */
+    tn_first_look look;   /* once the first generation was made here; the database has it as events "warning" */
     tn_run_event *
         changes; /* of targets, weights and inputs: all that were made, the last `new_changes` of them not stored yet */
     size_t change_count, new_changes;

@@ -44,18 +44,18 @@ static bool is_choice(const tn_run_event *event)
     return strcmp(event->kind, "choose") == 0;
 }
 
-static tn_status read_store(tn_run_store *store, size_t objectives, tn_run_history *h, tn_error *error)
+static tn_status read_store(tn_run_store *store, size_t numbers, tn_run_history *h, tn_error *error)
 {
     tn_status status = tn_run_store_generations(store, &h->generations, error);
     if (status == TN_OK)
-        status = tn_run_store_scores(store, objectives, &h->scores, error);
+        status = tn_run_store_scores(store, numbers, &h->scores, error);
     if (status == TN_OK)
         status = tn_run_store_events(store, &h->events, &h->event_count, error);
     if (status == TN_OK && !(h->rescored = calloc(h->event_count + 1, sizeof *h->rescored)))
         status = tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < h->event_count; i++)
         if (!is_choice(&h->events[i]))
-            status = tn_run_store_rescored(store, h->events[i].generation, objectives, &h->rescored[i].items,
+            status = tn_run_store_rescored(store, h->events[i].generation, numbers, &h->rescored[i].items,
                                            &h->rescored[i].count, error);
     return status;
 }
@@ -160,10 +160,10 @@ static tn_status tell(const tn_ranks *ranks, tn_status status, tn_run_history *h
     return status;
 }
 
-tn_status tn_run_history_read(tn_run_store *store, size_t objectives, const tn_ranks *ranks, tn_run_history *history,
+tn_status tn_run_history_read(tn_run_store *store, size_t numbers, const tn_ranks *ranks, tn_run_history *history,
                               tn_error *error)
 {
     *history = (tn_run_history){0};
-    tn_status status = tn_ranks_lead(ranks) ? read_store(store, objectives, history, error) : TN_OK;
+    tn_status status = tn_ranks_lead(ranks) ? read_store(store, numbers, history, error) : TN_OK;
     return tn_ranks_several(ranks) ? tell(ranks, status, history, error) : status;
 }

@@ -21,7 +21,7 @@ typedef struct tn_run_history {
 } tn_run_history;
 
 /* Reads it; with several ranks together. `store` is NULL on all but rank 0. */
-tn_status tn_run_history_read(tn_run_store *store, size_t objectives, const tn_ranks *ranks, tn_run_history *history,
+tn_status tn_run_history_read(tn_run_store *store, size_t numbers, const tn_ranks *ranks, tn_run_history *history,
                               tn_error *error);
 void tn_run_history_clear(tn_run_history *history);
 

@@ -70,7 +70,7 @@ static void translate(const tn_evolution_study *s, const tn_grammar *grammar, co
                       tn_evolution_settings *out)
 {
     *out = tn_evolution_settings_default();
-    out->seed = options->says_seed ? options->seed : (uint64_t)s->of[TN_SET_SEED].first;
+    out->seed = options->says_seed ? options->seed : tn_setting_whole64(&s->of[TN_SET_SEED]);
     out->population = whole(s, TN_SET_POPULATION);
     out->initialisation = (tn_initialisation)s->of[TN_SET_INITIALISE].choice;
     out->codons = whole(s, TN_SET_CODONS);
@@ -197,6 +197,18 @@ static bool is_asked(const tn_evolution_job *job)
     return job->study.of[TN_SET_PROGRAM].written > 0;
 }
 
+static bool selects_by_cases(const tn_evolution_job *job)
+{
+    tn_selection selection = job->settings.select.selection;
+    return selection == TN_SELECT_LEXICASE || selection == TN_SELECT_EPSILON_LEXICASE;
+}
+
+size_t tn_evolution_held_cases(const tn_evolution_job *job)
+{
+    size_t values = (size_t)job->study.of[TN_SET_PROGRAM_VALUES].first;
+    return is_asked(job) && selects_by_cases(job) ? TN_PROGRAM_CASES(values) : 0;
+}
+
 static tn_status make_learner(tn_evolution_job *job, const char *path, tn_error *error)
 {
     const char *schema = job->study.of[TN_SET_SCHEMA].text;
@@ -294,10 +306,11 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_
          places = s->of[TN_SET_PLACE].written;
     job->extension = learns ? "plan" : grows ? "hemls" : builds ? "solid" : places ? "kit" : "txt";
     if (options->only_replay) {
+        size_t held = tn_evolution_held_cases(job);
         job->evaluator = (tn_evaluator){.objectives = options->objectives,
                                         .evaluate = tn_never_evaluate,
-                                        .cases = 1,
-                                        .evaluate_cases = never_evaluate_cases};
+                                        .cases = held ? held : 1,
+                                        .evaluate_cases = held ? NULL : never_evaluate_cases};
         return TN_OK;
     }
     if (learns)
@@ -376,7 +389,8 @@ static tn_status take_program(tn_evolution_job *job, const char *program, tn_err
                     .values = (size_t)s->of[TN_SET_PROGRAM_VALUES].first,
                     .watch = job->settings.watch},
         .weight = s->of[TN_SET_PROGRAM].second,
-        .separately = job->settings.select.selection == TN_SELECT_NSGA2,
+        .separately = weighs_separately(job),
+        .by_cases = selects_by_cases(job),
         .population = job->settings.population,
     };
     tn_status status = tn_inputs_add_file(&job->inputs, "fitness program", program, error);

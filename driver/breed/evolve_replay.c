@@ -131,7 +131,7 @@ static bool recall_unknown(void *context, uint64_t id, tn_score *score)
 {
     (void)context, (void)id;
     *score = (tn_score){.state = TN_SCORED};
-    for (size_t i = 0; i < TN_OBJECTIVES_MAX; i++)
+    for (size_t i = 0; i < TN_SCORE_NUMBERS_MAX; i++)
         score->objectives[i] = -DBL_MAX;
     return true;
 }

@@ -1,4 +1,4 @@
-/* What replaying a run shares with resuming it. Of no use elsewhere. */
+/* What beginning, replaying and resuming a run share. Of no use elsewhere. */
 #ifndef TARTAN_DRIVER_BREED_EVOLVE_REPLAY_H
 #define TARTAN_DRIVER_BREED_EVOLVE_REPLAY_H
 
@@ -10,5 +10,8 @@ tn_status tn_run_same_arithmetic(const tn_run *run, tn_error *error);
 /* Together: makes the stored generations again, without evaluating; up to the one that `until` is born in, or all. What
  * waits for the next generation is kept in run->waiting. */
 tn_status tn_run_repeat(tn_run *run, uint64_t until, tn_error *error);
+
+/* Together: scores are of the job's inputs from here on, and all members are scored again. */
+tn_status tn_run_take_inputs(tn_run *run, tn_error *error);
 
 #endif

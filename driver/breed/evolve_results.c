@@ -173,15 +173,26 @@ static bool seen_before(const tn_individual *const *members, size_t i)
     return false;
 }
 
-static const char *objective_name(const tn_run *run, size_t i)
+/* Of an answer's numbers; behind them, where these are cases of their own, comes the problem's score. */
+static const char *const program_numbers[TN_OBJECTIVES_MAX + 1] = {
+    "program", "program 2", "program 3", "program 4", "program 5", "program 6", "program 7", "program 8", "goals"};
+
+static const char *case_name(const tn_run *run, size_t i)
 {
-    if (run->job->evaluator.objectives == 1)
+    size_t last = run->job->evaluator.cases - 1;
+    return program_numbers[i < last ? i : TN_OBJECTIVES_MAX];
+}
+
+static const char *number_name(const tn_run *run, size_t i)
+{
+    size_t objectives = run->job->evaluator.objectives;
+    if (i >= objectives)
+        return case_name(run, i - objectives);
+    if (objectives == 1)
         return "score";
-    static const char *const numbers[TN_OBJECTIVES_MAX] = {"program",   "program 2", "program 3", "program 4",
-                                                           "program 5", "program 6", "program 7", "program 8"};
     size_t number = run->job->program ? tn_program_scorer_number(run->job->program, i) : SIZE_MAX;
     if (number != SIZE_MAX)
-        return numbers[number];
+        return program_numbers[number];
     if (run->job->learner)
         return i ? "length" : "errors";
     return run->job->forms.objective(run->job->forms.context, i);
@@ -191,8 +202,8 @@ static const char *objective_name(const tn_run *run, size_t i)
 static void list_head(const tn_run *run, FILE *out)
 {
     fputs("file,individual", out);
-    for (size_t i = 0; i < run->job->evaluator.objectives; i++)
-        fprintf(out, ",%s", objective_name(run, i));
+    for (size_t i = 0; i < tn_evaluator_numbers(&run->job->evaluator); i++)
+        fprintf(out, ",%s", number_name(run, i));
     if (run->job->study.of[TN_SET_TEST].written)
         fputs(",test", out);
     if (run->job->study.of[TN_SET_SCALING].choice)
@@ -220,7 +231,7 @@ static tn_status list_individual(const tn_run *run, size_t number, const tn_indi
                                  tn_error *error)
 {
     fprintf(out, "%zu.%s,%" PRIu64, number, run->job->extension, individual->id);
-    for (size_t i = 0; i < run->job->evaluator.objectives; i++)
+    for (size_t i = 0; i < tn_evaluator_numbers(&run->job->evaluator); i++)
         fprintf(out, ",%.17g", individual->score.objectives[i]);
     tn_status status = list_report(run, individual, out, error);
     fputc('\n', out);

@@ -212,11 +212,16 @@ static void take_answer(const tn_program_scorer *s, const tn_answer *answer, tn_
         snprintf(individual->message, sizeof individual->message, TN_PROGRAM_SAYS "%.187s", answer->refusal);
         return;
     }
-    for (size_t i = 0; i < s->options.program.values; i++) {
+    size_t values = s->options.program.values;
+    if (s->options.by_cases) /* behind the one objective, the numbers of the program, and then this */
+        score->objectives[1 + values] = score->objectives[0];
+    for (size_t i = 0; i < values; i++) {
         double part = s->options.weight * answer->values[i];
         sum += part;
         if (s->options.separately)
             score->objectives[s->first + i] = part;
+        if (s->options.by_cases)
+            score->objectives[1 + i] = part;
     }
     if (!s->options.separately)
         score->objectives[0] += sum;
@@ -297,5 +302,6 @@ tn_evaluator tn_program_scorer_evaluator(tn_program_scorer *s)
                           .evaluate = say_again,
                           .adjust = adjust,
                           .evaluate_many = evaluate_many,
+                          .cases = s->options.by_cases ? TN_PROGRAM_CASES(s->options.program.values) : 0,
                           .batch = shared < 1 ? 1 : shared < BATCH_MAX ? shared : BATCH_MAX};
 }

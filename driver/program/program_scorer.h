@@ -10,6 +10,9 @@
 
 typedef struct tn_program_scorer tn_program_scorer;
 
+/* Cases of a program whose answers have so many numbers: these, and the problem's score. */
+#define TN_PROGRAM_CASES(VALUES) ((VALUES) + 1)
+
 /* What messages about individuals begin with where the program gave them no score. */
 #define TN_PROGRAM_SAYS "the program "
 
@@ -18,6 +21,7 @@ typedef struct tn_program_scoring {
     double weight;
     bool separately;        /* each number is an objective behind those of the problem; else their sum is added to its
                                score */
+    bool by_cases;          /* each number is also an error in a case of its own, and so is the problem's score */
     uint32_t population;    /* of the run */
 } tn_program_scoring;
 

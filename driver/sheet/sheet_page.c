@@ -239,7 +239,7 @@ tn_status tn_sheet_page(const tn_run *run, char *path, size_t size, tn_error *er
     if (!run->job->forms.mesh || count == 0)
         return TN_OK;
     snprintf(path, size, "%s/sheet.html", run->dir);
-    tn_status status = tn_run_store_scores(run->store, run->job->evaluator.objectives, &births, error);
+    tn_status status = tn_run_store_scores(run->store, tn_evaluator_numbers(&run->job->evaluator), &births, error);
     if (status == TN_OK)
         status = tn_page_written(&page, put_cards(run, &page, &births, count));
     if (status == TN_OK)

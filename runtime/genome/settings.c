@@ -2,6 +2,7 @@
 #include "runtime/genome/settings.h"
 #include "runtime/base/number_text.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -88,6 +89,30 @@ void tn_setting_choice_name(const tn_setting_row *row, uint32_t choice, char nam
     name[size] = '\0';
 }
 
+/* ---- whole numbers of 64 bits */
+
+#define EXACT_BITS 53 /* whole numbers of so many bits are exact as doubles */
+
+void tn_setting_put_whole64(tn_setting_value *value, uint64_t whole)
+{
+    value->first = (double)(whole & ((UINT64_C(1) << EXACT_BITS) - 1));
+    value->second = (double)(whole >> EXACT_BITS);
+}
+
+uint64_t tn_setting_whole64(const tn_setting_value *value)
+{
+    return ((uint64_t)value->second << EXACT_BITS) + (uint64_t)value->first;
+}
+
+/* Modules of before there were 64 bits have 2^53 too, as its low part. */
+static bool is_whole64(const tn_setting_value *value)
+{
+    double low = (double)(UINT64_C(1) << EXACT_BITS), high = (double)(UINT64_C(1) << (64 - EXACT_BITS));
+    return value->first >= 0 && (value->first < low || (value->first == low && value->second == 0)) &&
+           value->first == floor(value->first) && value->second >= 0 && value->second < high &&
+           value->second == floor(value->second);
+}
+
 /* ---- writing */
 
 static void write_quoted(FILE *out, const char *text)
@@ -121,11 +146,10 @@ void tn_setting_write(FILE *out, tn_setting setting, const tn_setting_value *val
     case TN_SETTING_REAL:
         write_number(out, value->first);
         return;
-    case TN_SETTING_PAIR:
-        write_number(out, value->first);
-        fputs("..", out);
-        write_number(out, value->second);
+    case TN_SETTING_SEED:
+        fprintf(out, "%" PRIu64, tn_setting_whole64(value));
         return;
+    case TN_SETTING_PAIR:
     case TN_SETTING_SPAN:
         write_number(out, value->first);
         fputs("..", out);
@@ -181,6 +205,8 @@ bool tn_setting_fits(tn_setting setting, const tn_setting_value *value)
         return one && whole_within(row, value->first);
     case TN_SETTING_REAL:
         return one && within(row, value->first);
+    case TN_SETTING_SEED:
+        return one && is_whole64(value);
     case TN_SETTING_PAIR:
         return one && whole_within(row, value->first) && whole_within(row, value->second) &&
                value->first <= value->second;
@@ -217,6 +243,11 @@ static void find(findings *f, tn_setting setting, tn_setting other, const char *
 static bool chose(const findings *f, tn_setting setting, const char *word)
 {
     return f->study->of[setting].choice == tn_setting_choice(&tn_setting_rows[setting], word);
+}
+
+static bool chooses_by_cases(const findings *f)
+{
+    return chose(f, TN_SET_SELECTION, "lexicase") || chose(f, TN_SET_SELECTION, "epsilon-lexicase");
 }
 
 static bool is_written(const findings *f, tn_setting setting)
@@ -273,7 +304,7 @@ static void find_fitting(findings *f)
 {
     static const tn_setting fitting[] = {TN_SET_TEST, TN_SET_ERROR, TN_SET_SCALING};
     bool fits = is_written(f, TN_SET_FIT);
-    bool lexicase = chose(f, TN_SET_SELECTION, "lexicase") || chose(f, TN_SET_SELECTION, "epsilon-lexicase");
+    bool lexicase = chooses_by_cases(f);
     bool classes =
         chose(f, TN_SET_ERROR, "log-loss") || chose(f, TN_SET_ERROR, "accuracy") || chose(f, TN_SET_ERROR, "f1");
     for (size_t i = 0; i < sizeof fitting / sizeof *fitting; i++)
@@ -282,9 +313,11 @@ static void find_fitting(findings *f)
                  "name the data, as `fit \"DATA.csv\"`, or leave it out");
     if (classes && chose(f, TN_SET_SCALING, "linear"))
         find(f, TN_SET_SCALING, TN_SET_ERROR, "values that mean classes are not scaled", "leave `scaling` out");
-    if (lexicase && !fits)
-        find(f, TN_SET_SELECTION, TN_SETTING_COUNT, "this selection looks at the errors of data, line by line",
-             "name the data, as `fit \"DATA.csv\"`, or write `selection tournament 3`");
+    if (lexicase && !fits && !is_written(f, TN_SET_PROGRAM))
+        find(f, TN_SET_SELECTION, TN_SETTING_COUNT,
+             "this selection looks at errors one by one: in each line of data, or those that a program answers with",
+             "name the data, as `fit \"DATA.csv\"`, or the program, as `fitness program \"./score.sh\"`, or write "
+             "`selection tournament 3`");
     if (lexicase && chose(f, TN_SET_REPLACEMENT, "steady-state"))
         find(f, TN_SET_REPLACEMENT, TN_SET_SELECTION, "this selection looks at a whole generation",
              "leave `replacement` out");
@@ -314,15 +347,22 @@ static void find_strangers(findings *f)
     }
 }
 
+/* All that there is to select by is one number of a program. */
+static bool has_one_answer(const findings *f)
+{
+    return is_written(f, TN_SET_PROGRAM) && tn_evolution_study_use(f->study) == TN_USE_CODONS &&
+           !is_written(f, TN_SET_GROW) && !is_written(f, TN_SET_BUILD) && !is_written(f, TN_SET_PLACE) &&
+           f->study->of[TN_SET_PROGRAM_VALUES].first == 1;
+}
+
 static void find_selection(findings *f)
 {
     const tn_setting_value *selection = &f->study->of[TN_SET_SELECTION];
     bool nsga2 = chose(f, TN_SET_SELECTION, "nsga2");
-    if (nsga2 && is_written(f, TN_SET_PROGRAM) && tn_evolution_study_use(f->study) == TN_USE_CODONS &&
-        !is_written(f, TN_SET_GROW) && !is_written(f, TN_SET_BUILD) && !is_written(f, TN_SET_PLACE) &&
-        f->study->of[TN_SET_PROGRAM_VALUES].first == 1)
+    if ((nsga2 || chooses_by_cases(f)) && has_one_answer(f))
         find(f, TN_SET_SELECTION, TN_SET_PROGRAM,
-             "`selection nsga2` weighs several objectives, and the program answers with one number",
+             nsga2 ? "`selection nsga2` weighs several objectives, and the program answers with one number"
+                   : "lexicase selection looks at several errors, and the program answers with one number",
              "write `selection tournament 3`, or how many numbers it answers with, as `program-values 2`");
     for (tn_setting one = TN_SET_MATCH; nsga2 && one <= TN_SET_FIT; one++)
         if (is_written(f, one))
@@ -355,7 +395,7 @@ static void find_islands(findings *f)
                  "add a line such as `islands 4`");
         return;
     }
-    if (chose(f, TN_SET_SELECTION, "lexicase") || chose(f, TN_SET_SELECTION, "epsilon-lexicase"))
+    if (chooses_by_cases(f))
         find(f, TN_SET_ISLANDS, TN_SET_SELECTION, "lexicase selection chooses among the whole population",
              "leave `islands` out, or write `selection tournament 3`");
     double size = floor(population / islands);

@@ -18,6 +18,7 @@ typedef enum tn_setting {
 typedef enum tn_setting_kind {
     TN_SETTING_WHOLE,
     TN_SETTING_REAL,
+    TN_SETTING_SEED,
     TN_SETTING_PAIR,
     TN_SETTING_TEXT,
     TN_SETTING_CHOICE,
@@ -87,6 +88,10 @@ bool tn_setting_fits(tn_setting setting, const tn_setting_value *value);
 /* The index of a word among a row's choices, case aside; UINT32_MAX where it is none. */
 uint32_t tn_setting_choice(const tn_setting_row *row, const char *word);
 uint32_t tn_setting_choice_count(const tn_setting_row *row);
+
+/* A whole number of 64 bits as the value of a setting of kind SEED, and back. */
+void tn_setting_put_whole64(tn_setting_value *value, uint64_t whole);
+uint64_t tn_setting_whole64(const tn_setting_value *value);
 
 /* Copies the name of a choice into `name`, of 32 bytes. */
 void tn_setting_choice_name(const tn_setting_row *row, uint32_t choice, char name[32]);

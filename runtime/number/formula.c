@@ -147,6 +147,14 @@ bool tn_formula_is_constant(const tn_formula *formula, double *number)
     return true;
 }
 
+bool tn_formula_has_terms(const tn_formula *formula)
+{
+    uint32_t offset = 0;
+    while (offset < formula->size && tn_code_read(formula->code, offset).opcode != TN_OP_TERM)
+        offset += tn_code_read(formula->code, offset).length;
+    return offset < formula->size;
+}
+
 uint64_t tn_formula_terms(const tn_formula *formula)
 {
     uint64_t terms = 0;

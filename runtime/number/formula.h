@@ -47,6 +47,9 @@ tn_status tn_formula_end(tn_formula *formula, tn_error *error);
 /* The terms that it asks for, of the first 64: bit i is that of term i. It has been ended. */
 uint64_t tn_formula_terms(const tn_formula *formula);
 
+/* Does it ask for any term? It has been ended. */
+bool tn_formula_has_terms(const tn_formula *formula);
+
 /* Is all of it one number? It has been ended. */
 bool tn_formula_is_constant(const tn_formula *formula, double *number);
 

@@ -71,7 +71,7 @@ for selection in lexicase epsilon-lexicase; do
 done
 printf 'evolution {\n grammar "words"\n match "abc"\n selection lexicase\n}\n' > letters.study
 "$TARTAN" check letters.study 2> err.txt && fail "selects by cases where there are none"
-grep -q 'E1232.*errors of data' err.txt || fail "does not say what lexicase looks at"
+grep -q 'E1232.*in each line of data' err.txt || fail "does not say what lexicase looks at"
 
 # ---- position-independent mapping: with any number of threads, resumed, replayed, and from a module
 for way in "initialise random" "initialise pi-grow" "crossover subtree 0.9" "mutation subtree 0.5"; do
@@ -120,6 +120,46 @@ grep -q '^warning\[W158\]: of 80 sentences of the first generation, .* have no s
 failing=$(sed -n 's/.*sentence, \([0-9]*\) failed.*/\1/p' odd.txt | tail -n 1)
 counted=$(sed -n 's/^  \([0-9]*\) failed: there is no function `\(sinh\|logg\)`.*/\1/p' odd.txt | awk '{ s += $1 } END { print s }')
 [ -n "$failing" ] && [ "$failing" = "$counted" ] || fail "reasons do not add up: $failing, $counted"
+
+# ---- a first generation of few different sentences, of which none names a column: said at once, and stored; the help is right
+printf '<e> ::= <e>+<e> | <e>*<e> | <c>\n<c> ::= 1.0 | 2.0 | 0.5\n' > plain.bnf
+study | sed 's/sums.bnf/plain.bnf/; s/depth .*/depth 2..3/' > few.study
+"$TARTAN" evolve few.study -g 3 --threads 1 > few.txt 2> err.txt || fail "a run that begins with few sentences does not run"
+grep -q '^warning\[W159\]: of 80 sentences of the first generation, only [0-9]* are different' err.txt || fail "does not warn of few sentences: $(cat err.txt)"
+grep -q '^warning\[W160\]: no sentence of the first generation .* names a column' err.txt && grep -q 'its columns are `x`, `y`' err.txt ||
+  fail "does not warn of missing columns: $(cat err.txt)"
+[ "$("$TARTAN" runs show few.run | grep -c '^ *warning: ')" = 2 ] || fail "the run does not keep its warnings"
+setting=$(sed -n 's/^  help: `\([^`]*\)` makes \([0-9]*\) different ones of 80$/\1/p' err.txt)
+promised=$(sed -n 's/^  help: `\([^`]*\)` makes \([0-9]*\) different ones of 80$/\2/p' err.txt)
+study | sed "s/sums.bnf/plain.bnf/; s/depth .*/$setting/" > better.study
+"$TARTAN" evolve better.study -g 0 > better.txt 2> err.txt || fail "the setting that a warning names does not run: $setting"
+grep -q " $promised distinct" better.txt || fail "\`$setting\` does not make $promised different sentences: $(cat better.txt)"
+! grep -q W159 err.txt || fail "still few sentences with what the help says"
+"$TARTAN" evolve few.study -o few.two -g 1 --threads 2 > /dev/null 2>&1
+"$TARTAN" evolve few.study -o few.two -g 3 --threads 2 --resume > /dev/null 2> err.txt || fail "a run with warnings cannot be resumed"
+[ ! -s err.txt ] || fail "warns again where it goes on: $(cat err.txt)"
+cmp -s few.run/run.sqlite few.two/run.sqlite || fail "a run with warnings: other bytes when it is resumed"
+"$TARTAN" runs replay few.run "$(sed -n 's/^best: individual //p' few.txt)" | tail -n 1 | cmp -s - few.run/best/1.txt || fail "a run with warnings is not replayed"
+printf '<e> ::= 1 | x + 1\n' > two.bnf
+study | sed 's/sums.bnf/two.bnf/' > two.study
+"$TARTAN" evolve two.study -g 0 > /dev/null 2> err.txt
+grep -q W159 err.txt && ! grep -q 'help' err.txt && ! grep -q W160 err.txt || fail "promises more sentences than a grammar has: $(cat err.txt)"
+study > many.study
+"$TARTAN" evolve many.study -o many.run -g 0 2>&1 > /dev/null | grep -q 'W159\|W160' && fail "warns of a first generation that is as it should be"
+
+# ---- seeds have 64 bits, in the study, on the command line and in a module; runs of before have theirs
+study | sed 's/^ *seed .*/seed 18446744073709551615/' > far.study
+"$TARTAN" evolve far.study -o far.one -g 1 > /dev/null || fail "a seed of 64 bits does not run"
+"$TARTAN" evolve many.study -o far.two -g 1 --seed 18446744073709551615 > /dev/null
+cmp -s far.one/stats.csv far.two/stats.csv || fail "--seed is another seed than the study's"
+"$TARTAN" evolve many.study -o far.three -g 1 --seed 9223372036854775807 > /dev/null
+! cmp -s far.one/stats.csv far.three/stats.csv || fail "the 64th bit of a seed is lost"
+"$TARTAN" runs show far.one | grep -q '^  seed 18446744073709551615$' || fail "the run does not keep its seed"
+"$TARTAN" build far.study -o far.tnb && "$TARTAN" disasm far.tnb | grep -q 'seed 18446744073709551615$' || fail "a module does not keep its seed"
+"$TARTAN" evolve far.tnb -o far.one --resume -g 2 > /dev/null || fail "a run with a seed of 64 bits cannot be resumed"
+"$TARTAN" runs replay far.one 100 > /dev/null || fail "a run with a seed of 64 bits is not replayed"
+study | sed 's/^ *seed .*/seed 18446744073709551616/' > past.study
+"$TARTAN" check past.study 2>&1 | grep -q 'from 0 to 18446744073709551615' || fail "takes a seed of 65 bits, or does not say how large one is"
 
 # ---- medians and quartiles
 head -n 1 rmse.one/stats.csv | grep -q 'lower_quartile,median,upper_quartile$' || fail "no quartiles in stats.csv"

@@ -60,6 +60,37 @@ for other in length.py once.sh noisy.sh; do
     nothing_left $other
 done
 
+# ---- lexicase by the numbers of an answer: kept with each individual, so that the run goes on and is made again without asking
+cat >programs/three.py <<'X'
+#!/usr/bin/env python3
+import json
+import sys
+
+for line in sys.stdin:
+    text = json.loads(line)["sentence"]
+    print(json.dumps([abs(len(text) - 9), text.count("a"), sum(letter not in "hello" for letter in text)]), flush=True)
+X
+chmod +x programs/three.py
+for selection in lexicase epsilon-lexicase; do
+    study three.py "  program-values 3
+  selection $selection" >cases.study
+    rm -rf cases.*run
+    "$TARTAN" evolve cases.study -o cases.run --run-programs --threads 1 >cases.txt || fail "$selection by a program does not run"
+    "$TARTAN" evolve cases.study -o cases.two.run --run-programs --threads 2 --generations 1 >/dev/null
+    "$TARTAN" evolve cases.study -o cases.two.run --run-programs --threads 2 --resume >/dev/null || fail "$selection by a program is not gone on with"
+    cmp cases.run/run.sqlite cases.two.run/run.sqlite || fail "$selection by a program: other bytes when it is resumed with two threads"
+    head -n 1 cases.run/best/scores.csv | grep -qx 'file,individual,score,program,program 2,program 3,goals' || fail "$selection: the numbers are not listed"
+    awk -F, 'NR > 1 && $3 != $4 + $5 + $6 { exit 1 }' cases.run/best/scores.csv || fail "$selection: the numbers are not the score's"
+    "$TARTAN" runs replay cases.run "$(sed -n 's/^best: individual //p' cases.txt)" | tail -n 1 | cmp -s - cases.run/best/1.txt || fail "$selection: the best is not replayed"
+    "$TARTAN" evolve cases.study -o cases.run --run-programs --resume --generations 5 --set 'program weight 2' >/dev/null || fail "$selection: the weight cannot be changed"
+    nothing_left $selection
+done
+sed 's/epsilon-lexicase/tournament 2/' cases.study >plainly.study
+"$TARTAN" evolve plainly.study --run-programs >/dev/null
+! cmp -s plainly.run/stats.csv cases.two.run/stats.csv || fail "lexicase selection is another's"
+study length.sh '  selection lexicase' >single.study
+golden single "cd $scratch && tartan check single.study"
+
 # ---- killed at any moment, and gone on with: the same bytes, and nothing left
 sed 's|programs/length.sh|programs/slow.sh|' good.study >slow.study
 printf '#!/bin/sh\nwhile IFS= read -r line; do\n    line=${line#*sentence}\n    sleep 0.01\n    echo ${#line}\ndone\n' >programs/slow.sh

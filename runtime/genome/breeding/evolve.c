@@ -93,9 +93,12 @@ tn_status tn_evolution_new(const tn_grammar *grammar, const tn_evolution_setting
                        evaluator->objectives);
     bool by_cases =
         settings->select.selection == TN_SELECT_LEXICASE || settings->select.selection == TN_SELECT_EPSILON_LEXICASE;
-    if (by_cases && (!evaluator->evaluate_cases || settings->replacement == TN_REPLACE_STEADY))
+    if (tn_evaluator_numbers(evaluator) > TN_SCORE_NUMBERS_MAX)
+        return tn_fail(error, TN_INVALID, E_POPULATION, "a score holds at most %u numbers, not %zu",
+                       TN_SCORE_NUMBERS_MAX, tn_evaluator_numbers(evaluator));
+    if (by_cases && (!evaluator->cases || settings->replacement == TN_REPLACE_STEADY))
         return tn_fail(error, TN_INVALID, E_POPULATION,
-                       evaluator->evaluate_cases
+                       evaluator->cases
                            ? "lexicase selection looks at a whole generation, and this run has none"
                            : "lexicase selection needs errors in single cases, which are not given");
     if (by_cases && islands > 1)

@@ -26,8 +26,11 @@ typedef enum tn_score_state {
     TN_SCORE_STATE_COUNT
 } tn_score_state;
 
+/* The objectives; and behind them, where an evaluator finds a few errors in single cases with the score, these. */
+#define TN_SCORE_NUMBERS_MAX (TN_OBJECTIVES_MAX + 2u)
+
 typedef struct tn_score {
-    double objectives[TN_OBJECTIVES_MAX]; /* lower is better */
+    double objectives[TN_SCORE_NUMBERS_MAX]; /* lower is better */
     double violation; /* how far from meeting what is required, where that is weighed apart from several objectives */
     tn_score_state state;
 } tn_score;
@@ -48,10 +51,18 @@ typedef struct tn_evaluator {
     tn_status (*evaluate_many)(void *context, unsigned thread, struct tn_individual *const *individuals, size_t count,
                                tn_error *error); /* or NULL */
     size_t batch;
-    size_t cases; /* that a sentence is scored by, or 0; then evaluate_cases gives its error in each */
+    /* How many cases a sentence is scored by, or 0: evaluate_cases gives its error in each, or where that is NULL they
+     * stand behind the objectives of its score, and are stored with it. */
+    size_t cases;
     tn_status (*evaluate_cases)(void *context, unsigned thread, const char *sentence, size_t size, double *errors,
                                 tn_error *error);
 } tn_evaluator;
+
+/* How many numbers of a score say something. */
+static inline size_t tn_evaluator_numbers(const tn_evaluator *evaluator)
+{
+    return evaluator->objectives + (evaluator->evaluate_cases ? 0 : evaluator->cases);
+}
 
 /* What a failed evaluation returns: running out of memory ends the run; anything else is the sentence's own fault,
  * whose score then says so. */

@@ -1,5 +1,5 @@
-/* The errors of a generation's members in single cases. They are not stored: a run that is made again recalls who the
- * parents were, and finds the errors only of the members that it goes on with. */
+/* The errors of a generation's members in single cases. A run that is made again recalls who the parents were, and
+ * finds the errors only of the members that it goes on with: those that no score holds are not stored. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,10 @@ static tn_status find_errors(void *context, unsigned thread, size_t item, tn_err
     tn_status status = TN_OK;
     for (size_t i = 0; i < e->evaluator.cases; i++)
         errors[i] = HUGE_VAL;
-    if (member->score.state == TN_SCORED)
+    bool scored = member->score.state == TN_SCORED, held = !e->evaluator.evaluate_cases;
+    for (size_t i = 0; scored && held && i < e->evaluator.cases; i++)
+        errors[i] = member->score.objectives[e->evaluator.objectives + i];
+    if (scored && !held)
         status = e->evaluator.evaluate_cases(e->evaluator.context, thread, member->sentence, member->sentence_size,
                                              errors, error);
     if (status == TN_OK)

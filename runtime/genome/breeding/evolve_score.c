@@ -18,7 +18,7 @@ tn_status tn_score_refuse(tn_status status, const tn_error *why, tn_score *score
 
 static void worst_score(tn_score *score, tn_score_state state)
 {
-    for (size_t i = 0; i < TN_OBJECTIVES_MAX; i++)
+    for (size_t i = 0; i < TN_SCORE_NUMBERS_MAX; i++)
         score->objectives[i] = HUGE_VAL;
     score->violation = HUGE_VAL;
     score->state = state;
@@ -28,13 +28,14 @@ static void worst_score(tn_score *score, tn_score_state state)
 static void tidy_score(const tn_evolution *e, tn_score *score)
 {
     bool bad = isnan(score->violation);
-    for (size_t i = 0; i < e->evaluator.objectives; i++)
+    size_t numbers = tn_evaluator_numbers(&e->evaluator);
+    for (size_t i = 0; i < numbers; i++)
         bad |= isnan(score->objectives[i]);
     if (score->state == TN_SCORED && bad)
         score->state = TN_SCORE_FAILED;
     if (score->state != TN_SCORED)
         worst_score(score, score->state);
-    for (size_t i = e->evaluator.objectives; i < TN_OBJECTIVES_MAX; i++)
+    for (size_t i = numbers; i < TN_SCORE_NUMBERS_MAX; i++)
         score->objectives[i] = 0;
 }
 

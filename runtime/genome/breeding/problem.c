@@ -360,6 +360,22 @@ tn_status tn_problem_examine(tn_problem *p, const char *sentence, size_t size, t
     return TN_OK;
 }
 
+const char *const *tn_problem_columns(const tn_problem *p, size_t *count)
+{
+    *count = p->variables;
+    return (const char *const *)p->names;
+}
+
+tn_status tn_problem_names_column(tn_problem *p, const char *sentence, size_t size, bool *names, tn_error *error)
+{
+    tn_score score = {0};
+    char message[200];
+    bool read;
+    tn_status status = read_sentence(p, &p->places[0], sentence, size, &score, message, &read, error);
+    *names = status == TN_OK && read && tn_formula_has_terms(&p->places[0].formula);
+    return status;
+}
+
 tn_evaluator tn_problem_evaluator(tn_problem *problem)
 {
     if (problem->target)

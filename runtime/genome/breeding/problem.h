@@ -30,6 +30,12 @@ tn_status tn_problem_fit_csv(const char *text, size_t size, const tn_fit_options
 tn_status tn_problem_hold_csv(tn_problem *problem, const char *text, size_t size, tn_error *error);
 bool tn_problem_holds(const tn_problem *problem);
 
+/* The columns that sentences can name. */
+const char *const *tn_problem_columns(const tn_problem *problem, size_t *count);
+
+/* Does a sentence name any? While nothing is evaluated. */
+tn_status tn_problem_names_column(tn_problem *problem, const char *sentence, size_t size, bool *names, tn_error *error);
+
 /* What else there is to say about a sentence. */
 typedef struct tn_fit_report {
     double test;    /* its error with the data held; not a number where there are none, or it has no value */

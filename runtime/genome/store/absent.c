@@ -69,19 +69,19 @@ tn_status tn_run_store_put_event(tn_run_store *store, uint32_t generation, const
     return absent(error);
 }
 
-tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t objectives,
+tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t numbers,
                            const tn_run_event *events, size_t event_count, const tn_rescored *rescored,
                            size_t rescored_count, tn_error *error)
 {
-    (void)store, (void)evolution, (void)objectives, (void)events, (void)event_count, (void)rescored;
+    (void)store, (void)evolution, (void)numbers, (void)events, (void)event_count, (void)rescored;
     (void)rescored_count;
     return absent(error);
 }
 
-tn_status tn_run_store_rescored(tn_run_store *store, uint32_t generation, size_t objectives, tn_rescored **rescored,
+tn_status tn_run_store_rescored(tn_run_store *store, uint32_t generation, size_t numbers, tn_rescored **rescored,
                                 size_t *count, tn_error *error)
 {
-    (void)store, (void)generation, (void)objectives;
+    (void)store, (void)generation, (void)numbers;
     *rescored = NULL;
     *count = 0;
     return absent(error);
@@ -100,9 +100,9 @@ void tn_run_events_free(tn_run_event *events, size_t count)
     (void)events, (void)count; /* always none */
 }
 
-tn_status tn_run_store_scores(tn_run_store *store, size_t objectives, tn_run_scores *scores, tn_error *error)
+tn_status tn_run_store_scores(tn_run_store *store, size_t numbers, tn_run_scores *scores, tn_error *error)
 {
-    (void)store, (void)objectives;
+    (void)store, (void)numbers;
     *scores = (tn_run_scores){0};
     return absent(error);
 }

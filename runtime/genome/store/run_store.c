@@ -216,33 +216,33 @@ static uint64_t bits_of(double value)
 
 /* State, the first objective and the further ones, from column `first` on. What is lacking of the requirements comes
  * after the last one, where it is not 0. */
-static void bind_score(sqlite3_stmt *s, int first, const tn_score *score, size_t objectives)
+static void bind_score(sqlite3_stmt *s, int first, const tn_score *score, size_t numbers)
 {
-    uint8_t more[8 * TN_OBJECTIVES_MAX];
-    bool lacks = objectives > 1 && score->state == TN_SCORED && score->violation != 0;
-    for (size_t i = 1; i < objectives; i++)
+    uint8_t more[8 * TN_SCORE_NUMBERS_MAX];
+    bool lacks = numbers > 1 && score->state == TN_SCORED && score->violation != 0;
+    for (size_t i = 1; i < numbers; i++)
         tn_put_u64(more + 8 * (i - 1), bits_of(score->objectives[i]));
     if (lacks)
-        tn_put_u64(more + 8 * (objectives - 1), bits_of(score->violation));
+        tn_put_u64(more + 8 * (numbers - 1), bits_of(score->violation));
     sqlite3_bind_int(s, first, (int)score->state);
     if (score->state == TN_SCORED)
         sqlite3_bind_double(s, first + 1, score->objectives[0]);
     else
         sqlite3_bind_null(s, first + 1);
-    if (objectives > 1)
-        sqlite3_bind_blob(s, first + 2, more, (int)(8 * (objectives - 1 + lacks)), SQLITE_TRANSIENT);
+    if (numbers > 1)
+        sqlite3_bind_blob(s, first + 2, more, (int)(8 * (numbers - 1 + lacks)), SQLITE_TRANSIENT);
     else
         sqlite3_bind_null(s, first + 2);
 }
 
-static tn_status put_birth(tn_run_store *store, const tn_individual *born, size_t objectives, tn_error *error)
+static tn_status put_birth(tn_run_store *store, const tn_individual *born, size_t numbers, tn_error *error)
 {
     sqlite3_stmt *s = store->put_birth;
     sqlite3_bind_int64(s, 1, (int64_t)born->id);
     sqlite3_bind_int(s, 2, born->kind);
     bind_id(s, 3, born->parents[0]);
     bind_id(s, 4, born->parents[1]);
-    bind_score(s, 5, &born->score, objectives);
+    bind_score(s, 5, &born->score, numbers);
     bool said = born->score.state == TN_SCORE_FAILED || born->score.state == TN_SCORE_LIMIT;
     if (born->score.state == TN_SCORE_NO_SENTENCE)
         sqlite3_bind_text(s, 8, tn_mapping_reason_text(born->reason), -1, SQLITE_STATIC);
@@ -314,19 +314,19 @@ tn_status tn_run_store_put_event(tn_run_store *store, uint32_t generation, const
 }
 
 static tn_status put_rescored(tn_run_store *store, uint32_t generation, const tn_rescored *rescored, size_t count,
-                              size_t objectives, tn_error *error)
+                              size_t numbers, tn_error *error)
 {
     tn_status status = TN_OK;
     for (size_t i = 0; i < count && status == TN_OK; i++) {
         sqlite3_bind_int64(store->put_rescore, 1, generation);
         sqlite3_bind_int64(store->put_rescore, 2, (int64_t)rescored[i].id);
-        bind_score(store->put_rescore, 3, &rescored[i].score, objectives);
+        bind_score(store->put_rescore, 3, &rescored[i].score, numbers);
         status = finish_step(store, store->put_rescore, error);
     }
     return status;
 }
 
-tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t objectives,
+tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t numbers,
                            const tn_run_event *events, size_t event_count, const tn_rescored *rescored,
                            size_t rescored_count, tn_error *error)
 {
@@ -337,12 +337,12 @@ tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, s
     if (status == TN_OK)
         status = put_events(store, generation, events, event_count, error);
     if (status == TN_OK)
-        status = put_rescored(store, generation, rescored, rescored_count, objectives, error);
+        status = put_rescored(store, generation, rescored, rescored_count, numbers, error);
     const tn_individual *const *inserted = tn_evolution_inserted(evolution, &inserted_count);
     for (size_t i = 0; i < inserted_count && status == TN_OK; i++)
-        status = put_birth(store, inserted[i], objectives, error);
+        status = put_birth(store, inserted[i], numbers, error);
     for (size_t i = 0; i < count && status == TN_OK; i++)
-        status = put_birth(store, born[i], objectives, error);
+        status = put_birth(store, born[i], numbers, error);
     if (status == TN_OK)
         status = put_generation(store, evolution, error);
     if (status == TN_OK)

@@ -3,9 +3,10 @@
  *   meta        key, value: what the run was started from: study text, grammar text, seed, compiler's version, hashes
  *   generation  number, best, mean, scored, no_sentence, failed, limited, distinct_sentences, evaluations, births,
  *               mean_codons, mean_depth, members (8 bytes an id, little-endian, the best first), lower_quartile,
- * median, upper_quartile birth       id, kind, parent, other, state, fitness, more (the further objectives, 8 bytes
- * each), message event       generation, number, kind, text, before that generation is bred: choose (places, from 1),
- * set (a target, weight or another number), inputs (what scores depend on), insert, edit and remove
+ *               median, upper_quartile
+ *   birth       id, kind, parent, other, state, fitness, more (the further numbers of the score, 8 bytes each), message
+ *   event       generation, number, kind, text, before that generation is bred: choose (places, from 1), set (a target,
+ *               weight or another number), inputs (what scores depend on), insert, edit and remove
  *               (driver/hand/by_hand.h)
  *   rescore     generation, id, state, fitness, more: the members' scores after a set
  *
@@ -59,13 +60,14 @@ typedef struct tn_rescored {
 tn_status tn_run_store_put_event(tn_run_store *store, uint32_t generation, const char *kind, const char *text,
                                  tn_error *error);
 
-/* Stores the generation that was made last, and the events and scores that came before it, in one transaction. */
-tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t objectives,
+/* Stores the generation that was made last, and the events and scores that came before it, in one transaction. Scores
+ * have `numbers` (tn_evaluator_numbers), here and where they are read. */
+tn_status tn_run_store_put(tn_run_store *store, const tn_evolution *evolution, size_t numbers,
                            const tn_run_event *events, size_t event_count, const tn_rescored *rescored,
                            size_t rescored_count, tn_error *error);
 
 /* The members' scores after the changes before a generation, in order of their ids. The caller frees *rescored. */
-tn_status tn_run_store_rescored(tn_run_store *store, uint32_t generation, size_t objectives, tn_rescored **rescored,
+tn_status tn_run_store_rescored(tn_run_store *store, uint32_t generation, size_t numbers, tn_rescored **rescored,
                                 size_t *count, tn_error *error);
 
 /* All events, in order. The caller frees with tn_run_events_free. */
@@ -80,7 +82,7 @@ typedef struct tn_run_scores {
     size_t count;
 } tn_run_scores;
 
-tn_status tn_run_store_scores(tn_run_store *store, size_t objectives, tn_run_scores *scores, tn_error *error);
+tn_status tn_run_store_scores(tn_run_store *store, size_t numbers, tn_run_scores *scores, tn_error *error);
 void tn_run_scores_clear(tn_run_scores *scores);
 bool tn_run_scores_recall(void *scores, uint64_t id, tn_score *score);
 bool tn_run_scores_recall_parents(void *scores, uint64_t id, uint64_t parents[2]);

@@ -72,20 +72,20 @@ static uint64_t read_parent(sqlite3_stmt *statement, int column)
                                                                  : (uint64_t)sqlite3_column_int64(statement, column);
 }
 
-static void read_score(sqlite3_stmt *statement, size_t objectives, tn_score *score)
+static void read_score(sqlite3_stmt *statement, size_t numbers, tn_score *score)
 {
     int state = sqlite3_column_int(statement, 1);
     score->state = state >= 0 && state < TN_SCORE_STATE_COUNT ? (tn_score_state)state : TN_SCORE_FAILED;
     score->objectives[0] = sqlite3_column_double(statement, 2);
     const uint8_t *more = sqlite3_column_blob(statement, 3);
     size_t size = (size_t)sqlite3_column_bytes(statement, 3);
-    for (size_t i = 1; i <= objectives; i++) {
+    for (size_t i = 1; i <= numbers; i++) {
         uint64_t bits = more && size >= 8 * i ? tn_get_u64(more + 8 * (i - 1)) : 0;
-        memcpy(i < objectives ? &score->objectives[i] : &score->violation, &bits, sizeof bits);
+        memcpy(i < numbers ? &score->objectives[i] : &score->violation, &bits, sizeof bits);
     }
 }
 
-tn_status tn_run_store_scores(tn_run_store *store, size_t objectives, tn_run_scores *scores, tn_error *error)
+tn_status tn_run_store_scores(tn_run_store *store, size_t numbers, tn_run_scores *scores, tn_error *error)
 {
     sqlite3_stmt *statement = NULL;
     int64_t most = -1;
@@ -106,7 +106,7 @@ tn_status tn_run_store_scores(tn_run_store *store, size_t objectives, tn_run_sco
         int64_t id = sqlite3_column_int64(statement, 0);
         if (id < 0)
             continue;
-        read_score(statement, objectives, &scores->scores[id]);
+        read_score(statement, numbers, &scores->scores[id]);
         for (int i = 0; i < 2; i++)
             scores->parents[id][i] = read_parent(statement, 4 + i);
         scores->known[id] = 1;
@@ -115,7 +115,7 @@ tn_status tn_run_store_scores(tn_run_store *store, size_t objectives, tn_run_sco
     return status;
 }
 
-tn_status tn_run_store_rescored(tn_run_store *store, uint32_t generation, size_t objectives, tn_rescored **rescored,
+tn_status tn_run_store_rescored(tn_run_store *store, uint32_t generation, size_t numbers, tn_rescored **rescored,
                                 size_t *count, tn_error *error)
 {
     sqlite3_stmt *statement = NULL;
@@ -133,7 +133,7 @@ tn_status tn_run_store_rescored(tn_run_store *store, uint32_t generation, size_t
         }
         tn_rescored *one = &(*rescored)[(*count)++];
         *one = (tn_rescored){.id = (uint64_t)sqlite3_column_int64(statement, 0)};
-        read_score(statement, objectives, &one->score);
+        read_score(statement, numbers, &one->score);
     }
     sqlite3_finalize(statement);
     return status;
