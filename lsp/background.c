@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "driver/breed/grammar_report.h"
+#include "driver/grammar/grammar_report.h"
 #include "driver/plan/analysis.h"
 #include "runtime/load.h"
 

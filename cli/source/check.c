@@ -11,7 +11,7 @@
 #include "cli/solid/solid.h"
 #include "cli/source/fix.h"
 #include "cli/source/sarif.h"
-#include "driver/breed/grammar_report.h"
+#include "driver/grammar/grammar_report.h"
 
 typedef struct check_settings {
     tn_settings common;

@@ -95,7 +95,7 @@ typedef struct tn_run_options {
     bool rescore; /* where a resumed run's inputs have changed, all members are scored again; otherwise E1252 */
 } tn_run_options;
 
-/* What first_look.h finds. */
+/* What is worth saying of a run's first generation (first_look.c). */
 typedef struct tn_finding {
     tn_code code; /* of a warning */
     char message[200], help[300];

@@ -12,7 +12,6 @@
 #include "driver/breed/evolve.h"
 #include "driver/breed/evolve_history.h"
 #include "driver/breed/evolve_replay.h"
-#include "driver/breed/first_look.h"
 #include "driver/hand/choice.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"

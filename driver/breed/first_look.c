@@ -1,7 +1,7 @@
 /* Looks for first generations with few different sentences, or with none that names a column of the data. */
-#include "driver/breed/first_look.h"
-
 #include <stdio.h>
+
+#include "driver/breed/evolve_replay.h"
 
 #define FEW 4u             /* different sentences are few where they are fewer than one in so many */
 #define SENTENCES_LEAST 10u /* of fewer, nothing is said */

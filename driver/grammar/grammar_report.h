@@ -1,6 +1,6 @@
 /* What analysing a grammar finds, as diagnostics with their places. */
-#ifndef TARTAN_DRIVER_BREED_GRAMMAR_REPORT_H
-#define TARTAN_DRIVER_BREED_GRAMMAR_REPORT_H
+#ifndef TARTAN_DRIVER_GRAMMAR_GRAMMAR_REPORT_H
+#define TARTAN_DRIVER_GRAMMAR_GRAMMAR_REPORT_H
 
 #include "driver/open/open.h"
 

@@ -1,5 +1,5 @@
 /* Reports what analysing a grammar finds, at its places. */
-#include "driver/breed/grammar_report.h"
+#include "driver/grammar/grammar_report.h"
 
 #include <stdlib.h>
 #include <string.h>
