@@ -6,20 +6,25 @@
 
 #include "runtime/plan/text/text.h"
 
-/* How a relation is written: the sign in the matrix, and a word. */
+/* How a relation is written: the sign in the matrix, a word, and what it means of rules, and of clauses about houses.
+ */
 typedef struct sign {
     char letter;
-    const char *word, *meaning;
+    const char *word, *meaning, *of_houses;
 } sign;
 
 static const sign signs[] = {
-    [TN_RULES_UNKNOWN] = {'?', "unknown", "not analysed"},
-    [TN_RULES_EQUAL] = {'=', "equal", "the same plans"},
-    [TN_RULES_APART] = {'/', "apart", "no plan in common"},
-    [TN_RULES_INSIDE] = {'<', "inside", "the column's rule matches all that the row's does"},
-    [TN_RULES_CONTAINS] = {'>', "contains", "the row's rule matches all that the column's does"},
-    [TN_RULES_OVERLAP] = {'x', "overlap", "some plans in common"},
+    [TN_RULES_UNKNOWN] = {'?', "unknown", "not analysed", "not found out"},
+    [TN_RULES_EQUAL] = {'=', "equal", "the same plans", "the same houses"},
+    [TN_RULES_APART] = {'/', "apart", "no plan in common", "no house in common"},
+    [TN_RULES_INSIDE] = {'<', "inside", "the column's rule matches all that the row's does",
+                         "the column's clause matches all that the row's does"},
+    [TN_RULES_CONTAINS] = {'>', "contains", "the row's rule matches all that the column's does",
+                           "the row's clause matches all that the column's does"},
+    [TN_RULES_OVERLAP] = {'x', "overlap", "some plans in common", "some houses in common"},
 };
+
+static const char *const pair_keys[TN_RELATED_KINDS] = {"both", "only_a", "only_b"};
 
 static const char *rule_name(const tn_plan_analyses *analyses, size_t a, size_t i)
 {
@@ -27,40 +32,66 @@ static const char *rule_name(const tn_plan_analyses *analyses, size_t a, size_t 
     return tn_text(module, module->RULE_records[tn_plan_analysis_rule(analyses->items[a], i)].name);
 }
 
-static int name_width(const tn_plan_analyses *analyses, size_t a)
+/* What is related: rules about plans, or clauses about houses. */
+typedef struct related {
+    const char **names;
+    tn_rule_relation *relations; /* [count][count] */
+    size_t count;
+    bool houses;
+} related;
+
+static int name_width(const related *r)
 {
     int width = 0;
-    for (size_t i = 0; i < tn_plan_analysis_rule_count(analyses->items[a]); i++) {
-        int length = (int)strlen(rule_name(analyses, a, i));
+    for (size_t i = 0; i < r->count; i++) {
+        int length = (int)strlen(r->names[i]);
         width = length > width ? length : width;
     }
     return width;
 }
 
-/* Each rule has a number, which heads its column. */
-static void write_matrix(const tn_plan_analyses *analyses, size_t a, FILE *out)
+/* Each has a number, which heads its column. */
+static void write_matrix(const related *r, FILE *out)
 {
-    const tn_plan_analysis *analysis = analyses->items[a];
-    size_t count = tn_plan_analysis_rule_count(analysis);
-    int width = name_width(analyses, a), digits = snprintf(NULL, 0, "%zu", count);
+    int width = name_width(r), digits = snprintf(NULL, 0, "%zu", r->count);
     size_t cells[sizeof signs / sizeof *signs] = {0};
     fprintf(out, "%*s", digits + 1 + width, "");
-    for (size_t j = 0; j < count; j++)
+    for (size_t j = 0; j < r->count; j++)
         fprintf(out, " %*zu", digits, j + 1);
     fputc('\n', out);
-    for (size_t i = 0; i < count; i++) {
-        fprintf(out, "%*zu %-*s", digits, i + 1, width, rule_name(analyses, a, i));
-        for (size_t j = 0; j < count; j++) {
-            tn_rule_relation relation = tn_plan_analysis_relation(analysis, i, j);
+    for (size_t i = 0; i < r->count; i++) {
+        fprintf(out, "%*zu %-*s", digits, i + 1, width, r->names[i]);
+        for (size_t j = 0; j < r->count; j++) {
+            tn_rule_relation relation = r->relations[i * r->count + j];
             cells[relation] += i != j;
             fprintf(out, " %*c", digits, i == j ? '.' : signs[relation].letter);
         }
         fputc('\n', out);
     }
     for (size_t s = 0; s < sizeof signs / sizeof *signs; s++)
-        if (cells[s]) /* inside and contains are one relation seen from both rules */
-            fprintf(out, "%c %s: %s (%zu)\n", signs[s].letter, signs[s].word, signs[s].meaning,
+        if (cells[s]) /* inside and contains are one relation seen from both */
+            fprintf(out, "%c %s: %s (%zu)\n", signs[s].letter, signs[s].word,
+                    r->houses ? signs[s].of_houses : signs[s].meaning,
                     s == TN_RULES_INSIDE || s == TN_RULES_CONTAINS ? cells[s] : cells[s] / 2);
+}
+
+static tn_status write_rules(const tn_plan_analyses *analyses, size_t a, FILE *out, tn_error *error)
+{
+    size_t count = tn_plan_analysis_rule_count(analyses->items[a]);
+    related r = {.names = malloc((count + 1) * sizeof *r.names),
+                 .relations = malloc((count * count + 1) * sizeof *r.relations),
+                 .count = count};
+    bool made = r.names && r.relations;
+    for (size_t i = 0; made && i < count; i++) {
+        r.names[i] = rule_name(analyses, a, i);
+        for (size_t j = 0; j < count; j++)
+            r.relations[i * count + j] = i == j ? TN_RULES_EQUAL : tn_plan_analysis_relation(analyses->items[a], i, j);
+    }
+    if (made)
+        write_matrix(&r, out);
+    free(r.names);
+    free(r.relations);
+    return made ? TN_OK : tn_fail_memory(error);
 }
 
 static tn_status write_example(const tn_schema *schema, const char *who, const tn_shown_plan *plan, FILE *out,
@@ -94,8 +125,8 @@ static tn_status write_pair(const tn_plan_analyses *analyses, size_t a, size_t i
     return status;
 }
 
-static tn_status write_text(const tn_plan_analyses *analyses, const tn_relations_options *options, FILE *out,
-                            tn_error *error)
+static tn_status write_plans(const tn_plan_analyses *analyses, const tn_relations_options *options, FILE *out,
+                             tn_error *error)
 {
     tn_status status = TN_OK;
     for (size_t a = 0; status == TN_OK && a < analyses->count; a++) {
@@ -105,13 +136,66 @@ static tn_status write_text(const tn_plan_analyses *analyses, const tn_relations
         if (analyses->count > 1)
             fprintf(out, "%s%s\n", a ? "\n" : "",
                     tn_text(analyses->schemas[a]->module, analyses->schemas[a]->record->name));
-        write_matrix(analyses, a, out);
+        status = write_rules(analyses, a, out, error);
         for (size_t i = 0; options->examples && i < count; i++)
             for (size_t j = i + 1; status == TN_OK && j < count; j++)
                 status = write_pair(analyses, a, i, j, out, error);
     }
     return status;
 }
+
+/* ---- houses */
+
+static void write_house_pair(const tn_related_houses *houses, size_t i, size_t j, FILE *out)
+{
+    char *const *examples = &houses->examples[(i * houses->count + j) * TN_RELATED_KINDS];
+    fprintf(out, "\n%s, %s: %s\n", houses->names[i], houses->names[j],
+            signs[houses->relations[i * houses->count + j]].word);
+    if (examples[TN_RELATED_BOTH])
+        fprintf(out, "  both: %s\n", examples[TN_RELATED_BOTH]);
+    if (examples[TN_RELATED_ONLY_A])
+        fprintf(out, "  only %s: %s\n", houses->names[i], examples[TN_RELATED_ONLY_A]);
+    if (examples[TN_RELATED_ONLY_B])
+        fprintf(out, "  only %s: %s\n", houses->names[j], examples[TN_RELATED_ONLY_B]);
+}
+
+static void write_houses(const tn_related_houses *houses, const tn_relations_options *options, FILE *out)
+{
+    const related r = {houses->names, houses->relations, houses->count, true};
+    fprintf(out, "houses that the clauses of %s match\n", houses->library);
+    write_matrix(&r, out);
+    for (size_t i = 0; options->examples && i < houses->count; i++)
+        for (size_t j = i + 1; j < houses->count; j++)
+            write_house_pair(houses, i, j, out);
+}
+
+static json_t *house_pair_json(const tn_related_houses *houses, size_t i, size_t j, bool examples)
+{
+    char *const *found = &houses->examples[(i * houses->count + j) * TN_RELATED_KINDS];
+    json_t *pair = json_object();
+    json_object_set_new(pair, "a", json_string(houses->names[i]));
+    json_object_set_new(pair, "b", json_string(houses->names[j]));
+    json_object_set_new(pair, "relation", json_string(signs[houses->relations[i * houses->count + j]].word));
+    for (int kind = 0; examples && kind < TN_RELATED_KINDS; kind++)
+        json_object_set_new(pair, pair_keys[kind], found[kind] ? json_string(found[kind]) : json_null());
+    return pair;
+}
+
+static json_t *houses_json(const tn_related_houses *houses, bool examples)
+{
+    json_t *item = json_object(), *clauses = json_array(), *pairs = json_array();
+    for (size_t i = 0; i < houses->count; i++) {
+        json_array_append_new(clauses, json_string(houses->names[i]));
+        for (size_t j = i + 1; j < houses->count; j++)
+            json_array_append_new(pairs, house_pair_json(houses, i, j, examples));
+    }
+    json_object_set_new(item, "library", json_string(houses->library));
+    json_object_set_new(item, "clauses", clauses);
+    json_object_set_new(item, "relations", pairs);
+    return item;
+}
+
+/* ---- JSON of plans */
 
 static tn_status set_plan(json_t *object, const char *key, const tn_schema *schema, const tn_shown_plan *plan,
                           tn_error *error)
@@ -127,7 +211,6 @@ static tn_status set_plan(json_t *object, const char *key, const tn_schema *sche
 static tn_status pair_json(const tn_plan_analyses *analyses, size_t a, size_t i, size_t j, bool examples, json_t *list,
                            tn_error *error)
 {
-    static const char *const keys[3] = {"both", "only_a", "only_b"};
     json_t *pair = json_object();
     tn_status status = TN_OK;
     json_object_set_new(pair, "a", json_string(rule_name(analyses, a, i)));
@@ -138,7 +221,7 @@ static tn_status pair_json(const tn_plan_analyses *analyses, size_t a, size_t i,
         status = tn_plan_analysis_examples(analyses->items[a], i, j, plans, error);
         for (int e = 0; e < 3; e++) {
             if (status == TN_OK)
-                status = set_plan(pair, keys[e], analyses->schemas[a], &plans[e], error);
+                status = set_plan(pair, pair_keys[e], analyses->schemas[a], &plans[e], error);
             tn_shown_plan_clear(&plans[e]);
         }
     }
@@ -146,8 +229,8 @@ static tn_status pair_json(const tn_plan_analyses *analyses, size_t a, size_t i,
     return status;
 }
 
-static tn_status write_json(const tn_plan_analyses *analyses, const tn_relations_options *options, FILE *out,
-                            tn_error *error)
+static tn_status write_json(const tn_plan_analyses *analyses, const tn_related_houses *houses, size_t house_count,
+                            const tn_relations_options *options, FILE *out, tn_error *error)
 {
     json_t *root = json_array();
     tn_status status = TN_OK;
@@ -165,6 +248,8 @@ static tn_status write_json(const tn_plan_analyses *analyses, const tn_relations
         json_object_set_new(item, "relations", pairs);
         json_array_append_new(root, item);
     }
+    for (size_t i = 0; i < house_count; i++)
+        json_array_append_new(root, houses_json(&houses[i], options->examples));
     if (status == TN_OK) {
         json_dumpf(root, out, JSON_INDENT(2));
         fputc('\n', out);
@@ -173,8 +258,18 @@ static tn_status write_json(const tn_plan_analyses *analyses, const tn_relations
     return status;
 }
 
-tn_status tn_relations_write(const tn_plan_analyses *analyses, const tn_relations_options *options, FILE *out,
-                             tn_error *error)
+tn_status tn_relations_write(const tn_plan_analyses *analyses, const tn_related_houses *houses, size_t house_count,
+                             const tn_relations_options *options, FILE *out, tn_error *error)
 {
-    return (options->json ? write_json : write_text)(analyses, options, out, error);
+    if (options->json)
+        return write_json(analyses, houses, house_count, options, out, error);
+    size_t begun = 0;
+    for (size_t a = 0; a < analyses->count; a++)
+        begun += tn_plan_analysis_rule_count(analyses->items[a]) > 0;
+    tn_status status = write_plans(analyses, options, out, error);
+    for (size_t i = 0; status == TN_OK && i < house_count; i++) {
+        fputs(begun++ ? "\n" : "", out);
+        write_houses(&houses[i], options, out);
+    }
+    return status;
 }

@@ -239,6 +239,19 @@ golden coverage 'tartan test cottage --coverage'
 golden coverage_used 'tartan test huts.plan --coverage'
 golden coverage_json 'tartan test house-coverage.plan --coverage --json'
 
+golden relations 'tartan check house-coverage.plan --relations --examples 2>/dev/null'
+golden relations_json 'tartan check cottage --relations --json'
+golden relations_few 'tartan check cottage --relations --max-states 40 | head -n 4'
+golden relations_limit 'tartan check lahave-complete --relations --max-states 12000'
+
+# Two clauses are what counting says of libraries with them.
+printf '%s\n' 'use "cottage"' 'library all from cottage-rows in cottage-form { }' >"$scratch/all.plan"
+matched() { "$TARTAN" count "$scratch/all.plan" --library all --where "$1" --json | sed 's/.*"houses":"\([0-9]*\)".*/\1/'; }
+is 'far-bed is inside of bedroom' "$(matched far-bed)" "$(matched 'far-bed and cell(bedroom)')"
+is 'far-bed is apart from kitchen' 0 "$(matched 'far-bed and cell(kitchen)')"
+is 'cramped is apart from bedroom' 0 "$(matched 'sum(area of cell(bedroom), a < 140sf) and cell(bedroom)')"
+is 'dark-living is not inside of bedroom' no "$([ "$(matched dark-living)" = "$(matched 'dark-living and cell(bedroom)')" ] && echo yes || echo no)"
+
 # What a test notices is what makes one fail where the part is written as one that never matches.
 never='(section(body storeys 1) and section(body storeys 2))'
 noticed() { # PART LINE
