@@ -338,7 +338,7 @@ static void write_sections(const tn_numbered *n, const house_tally *tally, bool 
             if (json)
                 write_json_count(name, k == 0, *value, out);
             else if (choice->shape_count > 1)
-                gmp_fprintf(out, "  %-*s%Zd\n", LABEL_WIDTH - 2, name, *value);
+                gmp_fprintf(out, "  %-*s %Zd\n", LABEL_WIDTH - 3, name, *value);
         }
         fputs(json ? "}" : "", out);
     }

@@ -28,6 +28,7 @@ typedef struct sheet {
     double points;        /* a nanometre, in points */
     double width, height; /* of the page */
     double foot;          /* room for notes and the scale bar */
+    double spare;         /* height of the page that nothing needs */
 } sheet;
 
 static tn_length_style style_of(const tn_house *house)
@@ -133,7 +134,22 @@ static bool fits(sheet *s, double width, double height)
     set_rows(s, width - 2 * MARGIN, &most, &down);
     s->width = width;
     s->height = height;
-    return most <= width - 2 * MARGIN && down + s->foot + MARGIN <= height;
+    s->spare = height - MARGIN - s->foot - down;
+    return most <= width - 2 * MARGIN && s->spare >= 0;
+}
+
+/* Puts what is left of the page's height between the rows, as much above the first and below the last. */
+static void spread_rows(sheet *s)
+{
+    size_t rows = 0, row = 0;
+    for (size_t i = 0; i < s->drawing->count; i++)
+        rows += i == 0 || s->drawn[i].y > s->drawn[i - 1].y;
+    for (size_t i = 0; i < s->drawing->count; i++) {
+        double gap = s->spare / (double)(rows + 1);
+        bool next = i + 1 < s->drawing->count && s->drawn[i + 1].y > s->drawn[i].y;
+        s->drawn[i].y += gap * (double)(row + 1);
+        row += next;
+    }
 }
 
 static tn_status choose_paper(sheet *s, tn_error *error)
@@ -147,8 +163,11 @@ static tn_status choose_paper(sheet *s, tn_error *error)
                 if (s->drawing->scale ? i > 0 : legible && scales[i] > (s->metric ? LEGIBLE_METRIC : LEGIBLE_FEET))
                     break;
                 tn_status status = mark_all(s, s->drawing->scale ? s->drawing->scale : scales[i], error);
-                if (status != TN_OK || fits(s, papers[p].width, papers[p].height))
-                    return status;
+                if (status == TN_OK && !fits(s, papers[p].width, papers[p].height))
+                    continue;
+                if (status == TN_OK)
+                    spread_rows(s);
+                return status;
             }
         }
     }
