@@ -17,7 +17,7 @@
              "with --resume: from here on another target, weight, rate or surroundings, as \"length-weight 0.01\", "   \
              "\"mutation codons 0.05\" or \"gravity 0 0 -0.2\"; may be repeated"),                                     \
         NUMBER("seed", 's', "S", seed, 0, 0, "another seed than the study's"), OPTION_THREADS(threads),                \
-        FLAG("run-programs", 0, run_programs, "let the study run the program that it names for scores"),                 \
+        FLAG("run-programs", 0, run_programs, "let the study run the program that it names for scores"),               \
         FLAG("ponyge", 0, ponyge, "the file has parameters of PonyGE2, `POPULATION_SIZE: 500` a line"),                \
         FLAG("durable", 0, durable, "sync every generation to the disk, against loss of power")
 

@@ -62,11 +62,9 @@ static const char *words_of(const char *kind)
 {
     static const struct {
         const char *kind, *words;
-    } rows[] = {{"choose", "           chosen: "},
-                {"insert", "           inserted "},
-                {"edit", "           edited, "},
-                {"remove", "           taken out: "},
-                {"warning", "           warning: "}};
+    } rows[] = {{"choose", "           chosen: "}, {"insert", "           inserted "},
+                {"edit", "           edited, "},   {"remove", "           taken out: "},
+                {"left", "           left: "},     {"warning", "           warning: "}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (strcmp(rows[i].kind, kind) == 0)
             return rows[i].words;

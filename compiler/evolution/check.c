@@ -338,8 +338,8 @@ static void unknown(check *c, const tn_evolution_setting *item)
 static bool names_program(const tn_evolution_setting *item, tn_evolution_setting *program)
 {
     tn_evolution_value *word = item->values;
-    if (strcasecmp(item->name, tn_setting_rows[TN_SET_FITNESS].name) != 0 || !word ||
-        word->kind != TN_EVOLUTION_WORD || strcasecmp(word->text, "program") != 0)
+    if (strcasecmp(item->name, tn_setting_rows[TN_SET_FITNESS].name) != 0 || !word || word->kind != TN_EVOLUTION_WORD ||
+        strcasecmp(word->text, "program") != 0)
         return false;
     *program = *item;
     program->name = tn_setting_rows[TN_SET_PROGRAM].name;

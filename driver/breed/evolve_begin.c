@@ -1,4 +1,5 @@
-/* Begins a run in a folder, or opens the one that is there and sees that it is of the same study, grammar and inputs. */
+/* Begins a run in a folder, or opens the one that is there and sees that it is of the same study, grammar and inputs.
+ */
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -40,7 +41,8 @@ static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *erro
 
 static void start_anew(tn_error *error)
 {
-    tn_error_help(error, "only `generations`, `stop` and `program-timeout` may change in between; -o DIR starts another run");
+    tn_error_help(error,
+                  "only `generations`, `stop` and `program-timeout` may change in between; -o DIR starts another run");
 }
 
 /* Scores, and what is grown again of a genome, hang on the last digits of elementary functions. Runs from before these

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include "compiler/format.h"
 #include "driver/breed/evolve.h"
@@ -15,7 +16,8 @@
 #include "runtime/genome/picture/plot.h"
 #include "runtime/genome/picture/tree_draw.h"
 
-#define BEST_MAX 10u /* files of best/ for one objective; of several, all of the first front are written */
+#define BEST_MAX 10u   /* files of best/ for one objective; of several, all of the first front are written */
+#define LOOKS_MAX 200u /* forms that are made to see whether they are others than those written before */
 
 /* ---- best/ */
 
@@ -173,6 +175,56 @@ static bool seen_before(const tn_individual *const *members, size_t i)
     return false;
 }
 
+/* Those that were written: where they have forms, each is another. */
+typedef struct written {
+    const tn_individual **items; /* owned */
+    uint64_t *forms;             /* owned; 0: not looked at yet */
+    size_t count, looks;
+} written;
+
+/* What tells a form from others: its vertices, in whatever order they came about. Never 0. */
+static tn_status look_at_form(const tn_run *run, const tn_individual *individual, uint64_t *form, tn_error *error)
+{
+    tn_mesh mesh = {0};
+    tn_guides guides = {0};
+    tn_status status = run->job->forms.mesh(run->job->forms.context, individual->sentence, &mesh, &guides, error);
+    uint64_t sum = mesh.face_count;
+    for (size_t i = 0; status == TN_OK && i < mesh.vertex_count; i++)
+        sum += XXH3_64bits(mesh.positions + 3 * i, 3 * sizeof *mesh.positions);
+    *form = sum ? sum : 1;
+    tn_mesh_clear(&mesh);
+    tn_guides_clear(&guides);
+    return status;
+}
+
+static bool scored_alike(const tn_run *run, const tn_individual *a, const tn_individual *b)
+{
+    size_t numbers = tn_evaluator_numbers(&run->job->evaluator);
+    return memcmp(a->score.objectives, b->score.objectives, numbers * sizeof(double)) == 0;
+}
+
+/* Has one of those written this form too? Only forms that score alike are looked at. Other sentences often grow the
+ * same surface, and a designer wants to see others. */
+static tn_status drawn_before(const tn_run *run, const tn_individual *individual, written *w, uint64_t *form,
+                              bool *before, tn_error *error)
+{
+    tn_status status = TN_OK;
+    *form = 0;
+    *before = false;
+    for (size_t i = 0; run->job->forms.mesh && i < w->count && !*before && status == TN_OK; i++) {
+        if (!scored_alike(run, individual, w->items[i]))
+            continue;
+        if (!*form) {
+            w->looks++;
+            status = look_at_form(run, individual, form, error);
+        }
+        if (status == TN_OK && !w->forms[i])
+            status = look_at_form(run, w->items[i], &w->forms[i], error);
+        *before = status == TN_OK && w->forms[i] == *form;
+    }
+    return status == TN_LIMIT ? TN_OK : status;
+}
+
 /* Of an answer's numbers; behind them, where these are cases of their own, comes the problem's score. */
 static const char *const program_numbers[TN_OBJECTIVES_MAX + 1] = {
     "program", "program 2", "program 3", "program 4", "program 5", "program 6", "program 7", "program 8", "goals"};
@@ -238,23 +290,37 @@ static tn_status list_individual(const tn_run *run, size_t number, const tn_indi
     return status;
 }
 
+static tn_status write_member(tn_run *run, const char *dir, const tn_individual *individual, written *w, FILE *list,
+                              tn_error *error)
+{
+    uint64_t form;
+    bool before;
+    tn_status status = drawn_before(run, individual, w, &form, &before, error);
+    if (status != TN_OK || before)
+        return status;
+    w->items[w->count] = individual;
+    w->forms[w->count++] = form;
+    status = write_individual(run, dir, w->count, individual, error);
+    return status == TN_OK ? list_individual(run, w->count, individual, list, error) : status;
+}
+
 /* The best of one objective, or the first front of several. */
 static tn_status write_members(tn_run *run, const char *dir, FILE *list, tn_error *error)
 {
-    size_t count, front = tn_evolution_front(run->evolution), written = 0;
+    size_t count, front = tn_evolution_front(run->evolution);
     const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
     bool several = run->job->evaluator.objectives > 1;
-    tn_status status = TN_OK;
+    written w = {calloc(count + 1, sizeof *w.items), calloc(count + 1, sizeof *w.forms), 0, 0};
+    tn_status status = w.items && w.forms ? TN_OK : tn_fail_memory(error);
     list_head(run, list);
-    for (size_t i = 0; i < count && status == TN_OK; i++) {
-        if (several ? i >= front : written >= BEST_MAX)
+    for (size_t i = 0; i < count && status == TN_OK && w.looks < LOOKS_MAX; i++) {
+        if (several ? i >= front : w.count >= BEST_MAX)
             break;
-        if (members[i]->score.state != TN_SCORED || seen_before(members, i))
-            continue;
-        status = write_individual(run, dir, ++written, members[i], error);
-        if (status == TN_OK)
-            status = list_individual(run, written, members[i], list, error);
+        if (members[i]->score.state == TN_SCORED && !seen_before(members, i))
+            status = write_member(run, dir, members[i], &w, list, error);
     }
+    free(w.items);
+    free(w.forms);
     return status;
 }
 

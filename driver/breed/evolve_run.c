@@ -91,18 +91,73 @@ tn_status tn_run_take_inputs(tn_run *run, tn_error *error)
     return status == TN_OK ? rescore(run, error) : status;
 }
 
-static tn_status resize(tn_run *run, const char *change, tn_error *error)
+static int compare_ids(const void *left, const void *right)
 {
-    uint32_t population;
-    tn_status status = tn_change_population(change, &population, error);
-    return status == TN_OK ? tn_evolution_resize(run->evolution, population, error) : status;
+    const uint64_t *a = left, *b = right;
+    return *a < *b ? -1 : *a > *b;
 }
 
-/* Children are made otherwise from here on, or more or fewer of them; scores stay. */
-static tn_status vary(tn_run *run, const char *change, tn_error *error)
+/* The members' ids, in ascending order. The caller frees them; NULL: out of memory. */
+static uint64_t *member_ids(const tn_run *run, size_t *count)
+{
+    const tn_individual *const *members = tn_evolution_members(run->evolution, count);
+    uint64_t *ids = calloc(*count + 1, sizeof *ids);
+    for (size_t i = 0; ids && i < *count; i++)
+        ids[i] = members[i]->id;
+    if (ids)
+        qsort(ids, *count, sizeof *ids, compare_ids);
+    return ids;
+}
+
+/* Those that are members no more, as text "12 40". The caller frees it; NULL: out of memory. */
+static char *ids_left(const tn_run *run, const uint64_t *before, size_t before_count)
+{
+    char *text = NULL;
+    size_t size, count;
+    uint64_t *now = member_ids(run, &count);
+    FILE *out = now ? open_memstream(&text, &size) : NULL;
+    const char *between = "";
+    for (size_t i = 0; out && i < before_count; i++) {
+        if (bsearch(&before[i], now, count, sizeof *now, compare_ids))
+            continue;
+        fprintf(out, "%s%" PRIu64, between, before[i]);
+        between = " ";
+    }
+    free(now);
+    if (out && fclose(out) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
+/* What the event "left" says. The caller frees the ids; NULL: out of memory. */
+static uint64_t *read_ids(const char *text, size_t *count)
+{
+    uint64_t *ids = calloc(strlen(text) / 2 + 1, sizeof *ids);
+    *count = 0;
+    for (char *end = NULL; ids && *text; text = *end ? end + 1 : end)
+        ids[(*count)++] = strtoull(text, &end, 10);
+    return ids;
+}
+
+static tn_status resize(tn_run *run, const char *change, const char *left, tn_error *error)
+{
+    uint32_t population;
+    size_t count = 0;
+    uint64_t *ids = left ? read_ids(left, &count) : NULL;
+    tn_status status = left && !ids ? tn_fail_memory(error) : tn_change_population(change, &population, error);
+    if (status == TN_OK)
+        status = tn_evolution_resize(run->evolution, population, ids, count, error);
+    free(ids);
+    return status;
+}
+
+/* Children are made otherwise from here on, or more or fewer of them; scores stay. `left`: of a stored change, who left
+ * the population by it, or NULL. */
+static tn_status vary(tn_run *run, const char *change, const char *left, tn_error *error)
 {
     if (tn_change_resizes(change))
-        return resize(run, change, error);
+        return resize(run, change, left, error);
     const tn_vary_options *now = tn_evolution_varies(run->evolution);
     if (!now) {
         tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "`%.100s` is about genomes of codons, and this run has others",
@@ -114,6 +169,28 @@ static tn_status vary(tn_run *run, const char *change, tn_error *error)
     tn_status status = tn_change_variation(change, &next, error);
     if (status == TN_OK)
         tn_evolution_vary(run->evolution, &next);
+    return status;
+}
+
+/* Whose scores were changed before in this generation is not known later: then who leaves is stored with the change. */
+static tn_status vary_and_note(tn_run *run, const char *change, tn_error *error)
+{
+    size_t before_count;
+    bool notes = tn_change_resizes(change) && run->rescored_count > 0;
+    uint64_t *before = notes ? member_ids(run, &before_count) : NULL;
+    char *left = NULL;
+    tn_status status = notes && !before ? tn_fail_memory(error) : vary(run, change, NULL, error);
+    if (status == TN_OK && notes && !(left = ids_left(run, before, before_count)))
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = remember_change(run, run->generations, "set", change, error);
+    if (status == TN_OK && left && *left)
+        status = remember_change(run, run->generations, "left", left, error);
+    status = tn_ranks_agree(run->job->settings.ranks, status, error);
+    if (status == TN_OK)
+        run->new_changes += 1 + (left && *left);
+    free(before);
+    free(left);
     return status;
 }
 
@@ -130,13 +207,13 @@ tn_status tn_run_set(tn_run *run, const char *change, tn_error *error)
     }
     if (holds_already(run, change))
         return TN_OK;
-    tn_status status = varies ? vary(run, change, error) : evaluator->adjust(evaluator->context, change, error);
+    if (varies)
+        return vary_and_note(run, change, error);
+    tn_status status = evaluator->adjust(evaluator->context, change, error);
     if (status == TN_OK)
         status = remember_change(run, run->generations, "set", change, error);
     status = tn_ranks_agree(run->job->settings.ranks, status, error);
-    if (status == TN_OK && varies)
-        run->new_changes++;
-    return status == TN_OK && !varies ? rescore(run, error) : status;
+    return status == TN_OK ? rescore(run, error) : status;
 }
 
 /* ---- by hand */
@@ -190,12 +267,13 @@ static tn_status repeat_by_hand(tn_run *run, const tn_run_event *event, const tn
 }
 
 /* One stored change, made again; the members' scores only after the last of a generation, when they were stored. */
-static tn_status repeat_change(tn_run *run, const tn_run_event *event, known_scores *known, tn_error *error)
+static tn_status repeat_change(tn_run *run, const tn_run_event *event, const char *left, known_scores *known,
+                               tn_error *error)
 {
     const tn_evaluator *evaluator = &run->job->evaluator;
     bool set = strcmp(event->kind, "set") == 0, varies = set && tn_change_varies(event->text);
     bool adjusts = evaluator->adjust && set;
-    tn_status status = varies    ? vary(run, event->text, error)
+    tn_status status = varies    ? vary(run, event->text, left, error)
                        : adjusts ? evaluator->adjust(evaluator->context, event->text, error)
                                  : TN_OK;
     if (status == TN_OK)
@@ -218,6 +296,12 @@ static tn_status repeat_choice(tn_run *run, const tn_run_event *event, tn_error 
     return tn_ranks_agree(run->job->settings.ranks, status, error);
 }
 
+/* A warning, or who left by the change before it. */
+static bool tells_only(const char *kind)
+{
+    return strcmp(kind, "warning") == 0 || strcmp(kind, "left") == 0;
+}
+
 /* Together: one stored generation, made again and compared with what is stored. */
 static tn_status repeat_step(tn_run *run, const tn_run_history *history, size_t *at, tn_error *error)
 {
@@ -226,10 +310,11 @@ static tn_status repeat_step(tn_run *run, const tn_run_history *history, size_t 
          ++*at) {
         const tn_run_event *event = &history->events[*at];
         known_scores known = {&history->rescored[*at], &history->scores};
+        bool leaves = *at + 1 < history->event_count && strcmp(event[1].kind, "left") == 0;
         status = strcmp(event->kind, "choose") == 0 ? repeat_choice(run, event, error)
-                 : strcmp(event->kind, "warning") == 0 ? TN_OK /* was told then */
+                 : tells_only(event->kind)          ? TN_OK
                  : tn_by_hand(event->kind)          ? repeat_by_hand(run, event, &history->scores, error)
-                                                    : repeat_change(run, event, &known, error);
+                                           : repeat_change(run, event, leaves ? event[1].text : NULL, &known, error);
     }
     tn_run_scores scores = history->scores;
     tn_evolution_recall(run->evolution, tn_run_scores_recall, &scores);
@@ -256,8 +341,8 @@ static tn_status keep_waiting(tn_run *run, const tn_run_event *event, tn_error *
 tn_status tn_run_repeat(tn_run *run, uint64_t until, tn_error *error)
 {
     tn_run_history history;
-    tn_status status =
-        tn_run_history_read(run->store, tn_evaluator_numbers(&run->job->evaluator), run->job->settings.ranks, &history, error);
+    tn_status status = tn_run_history_read(run->store, tn_evaluator_numbers(&run->job->evaluator),
+                                           run->job->settings.ranks, &history, error);
     for (size_t i = 0; status == TN_OK && i < history.event_count; i++)
         if (strcmp(history.events[i].kind, "choose") == 0 && tn_choices_have_ids(history.events[i].text))
             tn_evolution_remember(run->evolution);
@@ -309,7 +394,7 @@ static tn_status check_program(const tn_run *run, tn_error *error)
     for (size_t i = 0; i < count; i++)
         if (strncmp(born[i]->message, TN_PROGRAM_SAYS, strlen(TN_PROGRAM_SAYS)) == 0)
             return tn_external_useless(tn_program_scorer_program(run->job->program), born[i]->id,
-                                      born[i]->message + strlen(TN_PROGRAM_SAYS), error);
+                                       born[i]->message + strlen(TN_PROGRAM_SAYS), error);
     return TN_OK;
 }
 

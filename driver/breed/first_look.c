@@ -3,11 +3,11 @@
 
 #include "driver/breed/evolve_replay.h"
 
-#define FEW 4u             /* different sentences are few where they are fewer than one in so many */
+#define FEW 4u              /* different sentences are few where they are fewer than one in so many */
 #define SENTENCES_LEAST 10u /* of fewer, nothing is said */
-#define TRIAL_MOST 2000u   /* individuals of a generation that is made to see what another depth gives */
-#define DEPTH_MOST 10000u  /* of settings.def */
-#define SHOWN 90           /* bytes of the columns' names */
+#define TRIAL_MOST 2000u    /* individuals of a generation that is made to see what another depth gives */
+#define DEPTH_MOST 10000u   /* of settings.def */
+#define SHOWN 90            /* bytes of the columns' names */
 
 static tn_finding *add(tn_first_look *look, tn_code code)
 {
@@ -77,8 +77,8 @@ static tn_status find_better(const tn_run *run, tn_finding *finding, tn_error *e
     const tn_evolution_settings *now = &run->job->settings;
     bool random = now->initialisation == TN_INITIALISE_RANDOM;
     tn_initialisation method = random ? TN_INITIALISE_RAMPED : now->initialisation;
-    const proposal proposals[] = {{method, random ? 0 : 2}, {method, 4}, {TN_INITIALISE_PI_GROW, 0},
-                                  {method, 8}, {TN_INITIALISE_PI_GROW, 4}};
+    const proposal proposals[] = {
+        {method, random ? 0 : 2}, {method, 4}, {TN_INITIALISE_PI_GROW, 0}, {method, 8}, {TN_INITIALISE_PI_GROW, 4}};
     tn_evolution_settings settings;
     uint32_t distinct, today, best;
     propose(now, &(proposal){now->initialisation, 0}, &settings);
@@ -144,8 +144,8 @@ static tn_status look_for_columns(const tn_run *run, tn_first_look *look, tn_err
     tn_finding *finding = add(look, W_NO_COLUMN);
     snprintf(finding->message, sizeof finding->message,
              "no sentence of the first generation that can be scored names a column of the data");
-    snprintf(finding->help, sizeof finding->help, "its columns are %s; the grammar can also say x[:, 0], x[:, 1] and so on",
-             names);
+    snprintf(finding->help, sizeof finding->help,
+             "its columns are %s; the grammar can also say x[:, 0], x[:, 1] and so on", names);
     return TN_OK;
 }
 

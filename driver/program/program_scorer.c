@@ -48,8 +48,7 @@ tn_status tn_program_scorer_new(const tn_program_scoring *options, tn_program_sc
         return tn_fail_memory(error);
     s->options = *options;
     s->writings = calloc(options->program.threads, sizeof *s->writings);
-    tn_status status =
-        s->writings ? tn_external_new(&options->program, &s->program, error) : tn_fail_memory(error);
+    tn_status status = s->writings ? tn_external_new(&options->program, &s->program, error) : tn_fail_memory(error);
     if (status == TN_OK)
         *scorer = s;
     else
@@ -132,8 +131,8 @@ static tn_status hear(void *context, unsigned thread, const tn_form_facts *facts
     if (!w->individual)
         return TN_OK;
     char *folder = folder_of(s, w->individual->id), *path = NULL;
-    tn_status status = folder && asprintf(&path, "%s/form.obj", folder) >= 0 ? tn_folder_make(folder, error)
-                                                                             : tn_fail_memory(error);
+    tn_status status =
+        folder && asprintf(&path, "%s/form.obj", folder) >= 0 ? tn_folder_make(folder, error) : tn_fail_memory(error);
     w->has_folder = status == TN_OK;
     if (status == TN_OK)
         status = write_mesh(facts->mesh, path, error);
@@ -158,8 +157,8 @@ tn_status tn_program_scorer_hear_model(void *scorer, unsigned thread, const tn_p
     unsigned char(*palette)[3] = NULL;
     tn_status status = tn_placed_mesh(facts->module, facts->model, &mesh, &palette, error);
     if (status == TN_OK)
-        status = hear(scorer, thread, &(tn_form_facts){&mesh, tn_placed_terms, facts->terms, TN_PLACED_TERM_COUNT},
-                      error);
+        status =
+            hear(scorer, thread, &(tn_form_facts){&mesh, tn_placed_terms, facts->terms, TN_PLACED_TERM_COUNT}, error);
     tn_mesh_clear(&mesh);
     free(palette);
     return status;
@@ -171,10 +170,10 @@ static tn_status score_problem(tn_program_scorer *s, unsigned thread, tn_individ
     const tn_evaluator *problem = &s->problem;
     if (problem->evaluate_many)
         return problem->evaluate_many(problem->context, thread, &individual, 1, error);
-    return problem->evaluate ? problem->evaluate(problem->context, thread, individual->sentence,
-                                                 individual->sentence_size, &individual->score, individual->message,
-                                                 error)
-                             : TN_OK;
+    return problem->evaluate
+               ? problem->evaluate(problem->context, thread, individual->sentence, individual->sentence_size,
+                                   &individual->score, individual->message, error)
+               : TN_OK;
 }
 
 static tn_status write_question(tn_program_scorer *s, unsigned thread, tn_individual *individual, asked *texts,
@@ -228,7 +227,8 @@ static void take_answer(const tn_program_scorer *s, const tn_answer *answer, tn_
     if (isfinite(sum))
         return;
     score->state = TN_SCORE_FAILED;
-    snprintf(individual->message, sizeof individual->message, TN_PROGRAM_SAYS "answered with numbers that are too large");
+    snprintf(individual->message, sizeof individual->message,
+             TN_PROGRAM_SAYS "answered with numbers that are too large");
 }
 
 static void clear_asked(asked *texts)
@@ -303,5 +303,7 @@ tn_evaluator tn_program_scorer_evaluator(tn_program_scorer *s)
                           .adjust = adjust,
                           .evaluate_many = evaluate_many,
                           .cases = s->options.by_cases ? TN_PROGRAM_CASES(s->options.program.values) : 0,
-                          .batch = shared < 1 ? 1 : shared < BATCH_MAX ? shared : BATCH_MAX};
+                          .batch = shared < 1           ? 1
+                                   : shared < BATCH_MAX ? shared
+                                                        : BATCH_MAX};
 }

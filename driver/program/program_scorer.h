@@ -3,9 +3,9 @@
 #ifndef TARTAN_DRIVER_PROGRAM_PROGRAM_SCORER_H
 #define TARTAN_DRIVER_PROGRAM_PROGRAM_SCORER_H
 
-#include "driver/program/form_listener.h"
 #include "driver/place/placer.h"
 #include "driver/program/external.h"
+#include "driver/program/form_listener.h"
 #include "runtime/genome/breeding/evolve.h"
 
 typedef struct tn_program_scorer tn_program_scorer;
@@ -19,10 +19,10 @@ typedef struct tn_program_scorer tn_program_scorer;
 typedef struct tn_program_scoring {
     tn_external_options program;
     double weight;
-    bool separately;        /* each number is an objective behind those of the problem; else their sum is added to its
-                               score */
-    bool by_cases;          /* each number is also an error in a case of its own, and so is the problem's score */
-    uint32_t population;    /* of the run */
+    bool separately;     /* each number is an objective behind those of the problem; else their sum is added to its
+                            score */
+    bool by_cases;       /* each number is also an error in a case of its own, and so is the problem's score */
+    uint32_t population; /* of the run */
 } tn_program_scoring;
 
 tn_status tn_program_scorer_new(const tn_program_scoring *options, tn_program_scorer **scorer, tn_error *error);

@@ -213,6 +213,14 @@ cmp -s bred/run.sqlite bred4/run.sqlite || fail "four threads breed other surfac
 "$TARTAN" check bred/best/1.hemls || fail "the best rules are no rule file"
 "$TARTAN" grow bred/best/1.hemls --steps 2 > /dev/null || fail "the best rules do not grow"
 grep -q '<path' bred/best/1.svg || fail "no picture of the best surface"
+# best/ has each surface once, though others have sentences that grow the same
+sed 's/genr8-angles/genr8-dividing/; s/depth .*/depth 3..5/; s/generations .*/generations 12/' bred.study > alike.study
+"$TARTAN" evolve alike.study > /dev/null 2>&1 || fail "does not breed surfaces that are alike"
+for rules in alike.run/best/*.hemls; do
+  sed "s,\"square\",\"$rules\"," garden.study > one.study
+  "$TARTAN" grow one.study -o one.obj > /dev/null 2>&1 && grep '^v ' one.obj | sort | md5sum
+done > forms.txt
+[ "$(sort -u forms.txt | wc -l)" = "$(ls alike.run/best/*.hemls | wc -l)" ] || fail "best/ has a surface twice: $(sort forms.txt | uniq -c)"
 "$TARTAN" evolve bred.study -o bred --resume --generations 8 --set "undulation target 1 weight 3" > /dev/null || fail "cannot change a target"
 "$TARTAN" runs replay bred 300 > /dev/null || fail "cannot replay surfaces"
 "$TARTAN" evolve bred.study -o bred --resume --set "undulation height 1" > /dev/null 2>&1; [ $? -eq 1 ] || fail "takes a wrong target"

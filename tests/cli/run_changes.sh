@@ -34,6 +34,15 @@ done
 "$TARTAN" evolve breed.study -o 1 --resume -g 9 >/dev/null
 "$TARTAN" evolve breed.study -o 2 --threads 2 --resume -g 9 >/dev/null
 cmp 1/run.sqlite 2/run.sqlite || fail 'another run in two parts'
+# Scores, the size and scores again, between the same two generations: who left is kept, so that the same members stay.
+for threads in 1 2; do
+    "$TARTAN" evolve breed.study -o mixed-$threads --threads $threads >/dev/null
+    "$TARTAN" evolve breed.study -o mixed-$threads --threads $threads --resume -g 5 --set 'gravity 0 0 -0.9' --set 'population 8' \
+        --set 'attractor at 2 2 3 strength 0' --set 'population 5' --set 'gravity 0 0 -0.2' --set 'population 9' >/dev/null
+    "$TARTAN" evolve breed.study -o mixed-$threads --threads $threads --resume -g 6 >/dev/null || fail 'a run whose scores and size were changed is not gone on with'
+done
+cmp mixed-1/run.sqlite mixed-2/run.sqlite || fail 'changes of scores and size: another run at 2 threads'
+[ "$("$TARTAN" runs show mixed-1 | grep -c ' left: ')" = 2 ] || fail 'who left is not said'
 # At the prompt; a wrong change is said and asked again.
 printf '1 2\nset gravity 0 0\nset gravity 0 0 -0.3\nset mutation genome 2\n3 4\n' | "$TARTAN" breed breed.study -o by-eye >said
 grep -q 'changes nothing that surfaces grow in' said || fail 'a wrong change is not said'

@@ -98,9 +98,8 @@ tn_status tn_evolution_new(const tn_grammar *grammar, const tn_evolution_setting
                        TN_SCORE_NUMBERS_MAX, tn_evaluator_numbers(evaluator));
     if (by_cases && (!evaluator->cases || settings->replacement == TN_REPLACE_STEADY))
         return tn_fail(error, TN_INVALID, E_POPULATION,
-                       evaluator->cases
-                           ? "lexicase selection looks at a whole generation, and this run has none"
-                           : "lexicase selection needs errors in single cases, which are not given");
+                       evaluator->cases ? "lexicase selection looks at a whole generation, and this run has none"
+                                        : "lexicase selection needs errors in single cases, which are not given");
     if (by_cases && islands > 1)
         return tn_fail(error, TN_INVALID, E_POPULATION,
                        "lexicase selection chooses among the whole population, and this run has islands");

@@ -183,9 +183,11 @@ tn_status tn_evolution_remove(tn_evolution *evolution, uint64_t id, tn_error *er
 /* The id of the worst member, or TN_NO_PARENT where there are fewer than the population. */
 uint64_t tn_evolution_worst(const tn_evolution *evolution);
 
-/* From here on the population has another size; where it is smaller, the best members stay. TN_INVALID (E1240) where it
- * cannot. */
-tn_status tn_evolution_resize(tn_evolution *evolution, uint32_t population, tn_error *error);
+/* From here on the population has another size; where it is smaller, the best members stay. Of a change that is made
+ * again, `left` are the ids of those that left then, in ascending order, and they leave; otherwise it is NULL.
+ * TN_INVALID (E1240) where it cannot. */
+tn_status tn_evolution_resize(tn_evolution *evolution, uint32_t population, const uint64_t *left, size_t left_count,
+                              tn_error *error);
 
 /* Those whom a person inserted before the newest generation, in order of their ids. Valid until the next step. */
 const tn_individual *const *tn_evolution_inserted(const tn_evolution *evolution, size_t *count);

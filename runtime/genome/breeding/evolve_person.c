@@ -162,11 +162,34 @@ static tn_individual *move_member(tn_evolution *from, tn_individual *member, tn_
     return place;
 }
 
-tn_status tn_evolution_resize(tn_evolution *e, uint32_t population, tn_error *error)
+static int compare_ids(const void *left, const void *right)
+{
+    const uint64_t *a = left, *b = right;
+    return *a < *b ? -1 : *a > *b;
+}
+
+/* Those that leave come behind the others, whose order stays. */
+static void put_last(tn_evolution *e, tn_island *island, const uint64_t *left, size_t left_count)
+{
+    size_t kept = 0, leaving = 0;
+    for (size_t i = 0; i < island->count; i++) {
+        tn_individual *member = island->members[i];
+        if (bsearch(&member->id, left, left_count, sizeof *left, compare_ids))
+            e->pool[leaving++] = member;
+        else
+            island->members[kept++] = member;
+    }
+    memcpy(island->members + kept, e->pool, leaving * sizeof *e->pool);
+}
+
+tn_status tn_evolution_resize(tn_evolution *e, uint32_t population, const uint64_t *left, size_t left_count,
+                              tn_error *error)
 {
     tn_status status = check_size(e, population, error);
     if (status != TN_OK)
         return status;
+    for (size_t i = 0; i < e->island_count && left_count; i++)
+        put_last(e, &e->islands[i], left, left_count);
     tn_evolution before = *e;
     e->settings.population = population;
     if (!tn_evolution_allocate(e)) {
