@@ -15,7 +15,7 @@
 #include <time.h>
 
 #define COUNTERS 3         /* that of this restart, of the one before, and of the next, which is set to 0 meanwhile */
-#define EAGER 100u         /* times that is looked for an answer before sleeping */
+#define EAGER 500u         /* times that is looked for an answer before sleeping */
 #define SLEEP_FIRST 20000L /* nanoseconds */
 #define SLEEP_MOST 1000000L
 #define ATTEND_EVERY 2000000L
@@ -139,6 +139,8 @@ static void gather(void *context, const void *bytes, size_t size, tn_gathered *a
     all->bytes = malloc(all->begins[j->ranks.count] + 1);
     if (!all->bytes)
         give_up(j, "out of memory");
+    if (all->begins[j->ranks.count] == 0) /* as where all agree */
+        return;
     pthread_mutex_lock(&j->lock);
     MPI_Iallgatherv(bytes, (int)size, MPI_BYTE, all->bytes, j->sizes, j->begins, MPI_BYTE, MPI_COMM_WORLD, &request);
     pthread_mutex_unlock(&j->lock);

@@ -5,14 +5,16 @@
 
 #include "runtime/genome/breeding/evolve_state.h"
 
-#define TAKES 16 /* times that a thread goes to the counter, where items take equally long */
+/* A thread takes a part of what is left: this many times as many takes as there are threads, were they all equal. So
+ * few takes do for many items, and the last ones are single items, which nobody waits for long. */
+#define SPREAD 4
 
 typedef struct sharing {
     tn_evolution *evolution;
     const tn_shared_work *work;
     const tn_ranks *ranks;
-    size_t amount; /* of items that are taken at once */
-    bool *mine;    /* [items]: done here */
+    size_t workers; /* threads of all ranks */
+    bool *mine;     /* [items]: done here */
 } sharing;
 
 /* Nobody begins any more: one that failed makes the others wait for nothing. */
@@ -38,13 +40,15 @@ static tn_status take_part(void *context, unsigned thread, size_t place, tn_erro
 {
     (void)place;
     sharing *s = context;
-    size_t items = s->work->items;
+    uint64_t items = s->work->items, next = 0; /* those before have been taken */
     tn_status status = TN_OK;
     while (status == TN_OK) {
-        uint64_t from = s->ranks->take(s->ranks->context, s->amount);
+        uint64_t amount = (items - next) / (s->workers * SPREAD) + 1;
+        uint64_t from = s->ranks->take(s->ranks->context, amount);
         if (from >= items)
             return TN_OK;
-        status = do_items(s, thread, from, from + s->amount < items ? from + s->amount : items, error);
+        next = from + amount < items ? from + amount : items;
+        status = do_items(s, thread, from, next, error);
     }
     take_the_rest(s);
     return status;
@@ -98,7 +102,7 @@ tn_status tn_evolution_share(tn_evolution *e, const tn_shared_work *work, tn_err
     sharing s = {.evolution = e,
                  .work = work,
                  .ranks = ranks,
-                 .amount = work->items / ((size_t)ranks->count * e->threads * TAKES) + 1,
+                 .workers = (size_t)ranks->count * e->threads,
                  .mine = calloc(work->items + 1, sizeof *s.mine)};
     ranks->restart(ranks->context);
     tn_status status = s.mine ? tn_crew_run(e->crew, e->threads, 1, take_part, &s, error) : tn_fail_memory(error);
