@@ -136,7 +136,7 @@ static bool write_matches(const asked_rules *asked, const bool *holds, const cha
     for (size_t i = 0; i < asked->count; i++) {
         if (answer == TN_HOUSE_BITS)
             tn_buffer_printf(&text, "%d", holds[i]);
-        else if (holds[i])
+        else if (holds[i] && answer != TN_HOUSE_ANY)
             tn_buffer_printf(&text, answer == TN_HOUSE_JSON ? "%s\"%s\"" : "%s%s",
                              !any                      ? ""
                              : answer == TN_HOUSE_JSON ? ","
@@ -144,6 +144,8 @@ static bool write_matches(const asked_rules *asked, const bool *holds, const cha
                              asked->items[i].name);
         any |= holds[i];
     }
+    if (answer == TN_HOUSE_ANY)
+        tn_buffer_printf(&text, "%d", any);
     tn_buffer_printf(&text, "%s\n", answer == TN_HOUSE_JSON ? "]}" : answer == TN_HOUSE_NAMES && !any ? "-" : "");
     bool good = !text.failed;
     if (good)

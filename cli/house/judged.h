@@ -5,7 +5,7 @@
 #include "cli/common/job.h"
 #include "driver/house/judge.h"
 
-typedef enum tn_house_answer { TN_HOUSE_NAMES, TN_HOUSE_JSON, TN_HOUSE_BITS } tn_house_answer;
+typedef enum tn_house_answer { TN_HOUSE_NAMES, TN_HOUSE_JSON, TN_HOUSE_BITS, TN_HOUSE_ANY } tn_house_answer;
 
 /* Do these rules (none: those of the file itself) ask for houses, so that houses are what is matched? */
 bool tn_job_matches_houses(const tn_job *job, const tn_option_list *rules);

@@ -91,9 +91,9 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS match_settings
 static const tn_option options[] = {
     LIST("rule", 'r', "NAME", rules, "match this rule; may be repeated (default: all rules of the file itself)"),
-    CHOICE("format", 'f', "FORMAT", format, "names|json|bits",
+    CHOICE("format", 'f', "FORMAT", format, "names|json|bits|any",
            "names (default): the names of the rules, or - where there is none; json: an object a line; bits: a 0 or 1 "
-           "a rule"),
+           "a rule; any: 1 where at least one rule matches, else 0"),
     OPTION_OUTPUT,
     OPTION_INPUT_FORMAT,
     OPTION_ON_ERROR,
@@ -106,7 +106,7 @@ static const tn_option options[] = {
 const tn_command tn_command_match = {
     .name = "match",
     .summary = "print which rules match each plan",
-    .usage = "RULES [PLANS] [--rule NAME]... [--format names|json|bits]",
+    .usage = "RULES [PLANS] [--rule NAME]... [--format names|json|bits|any]",
     .description =
         "Reads plans (plan lines, JSON lines, CSV, packed, SQLite or Parquet; from standard input if no file or - is "
         "given). For each plan it writes a line with the rules that match, of those that the file itself holds, "

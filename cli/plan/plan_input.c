@@ -88,6 +88,7 @@ bool tn_job_sift(tn_sifting *s)
     bool opened = s->open(s->context);
     tn_sift_calls calls = {.context = s,
                            .numbered = s->answering->numbered,
+                           .any = s->answering->any,
                            .plan = describe,
                            .write = write_texts,
                            .bad = complain};

@@ -39,7 +39,7 @@ static bool check_options(tn_job *job)
         tn_help(list, tn_job_usage(job, "--input-format and --on-error are about files of plans"),
                 "leave them out, or add --task match or --task prune, and --input");
     else if (settings->written.format >= TN_FORMAT_COUNT)
-        tn_help(list, tn_job_usage(job, "a plan is written as names or bits only by --task match"),
+        tn_help(list, tn_job_usage(job, "a plan is written as names, bits or any only by --task match"),
                 "choose lines, json, csv, bin or parquet");
     else if (settings->written.format == TN_FORMAT_SQLITE)
         tn_help(list, tn_job_usage(job, "a shard is no database"),

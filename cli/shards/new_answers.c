@@ -41,10 +41,12 @@ static bool choose_answer(tn_job *job, tn_answer_format *answer)
         *answer = TN_ANSWER_JSON;
     else if (matches && format == TN_SHARDS_BITS)
         *answer = TN_ANSWER_BITS;
+    else if (matches && format == TN_SHARDS_ANY)
+        *answer = TN_ANSWER_ANY;
     else if (format != TN_FORMAT_AUTO && format != (matches ? (int)TN_SHARDS_NAMES : (int)TN_FORMAT_LINES)) {
         tn_help(tn_job_diagnostics(job),
                 tn_job_usage(job, "`tartan %s` does not write that format", tasks[settings->task]),
-                matches ? "choose names, json or bits" : "choose lines or json");
+                matches ? "choose names, json, bits or any" : "choose lines or json");
         return false;
     }
     return true;

@@ -117,9 +117,9 @@ static const tn_option options[] = {
     NUMBER("sample", 0, "N", sample, 0, TN_SHARDS_SAMPLE_MAX,
            "new: only N plans, the same that `tartan sample` draws from all of them"),
     NUMBER("seed", 's', "S", seed, 0, 0, "new: which sample: the same seed gives the same plans (default 0)"),
-    CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite|parquet|names|bits",
+    CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite|parquet|names|bits|any",
            "new: what the shards are: lines (the default), json, csv, bin or parquet; of a match names (the default), "
-           "json or bits; of a prune lines (the default) or json"),
+           "json, bits or any; of a prune lines (the default) or json"),
     MAYBE("compress", 0, "HOW", compress, "zstd", "new: compress the shards"),
     FLAG("plan-lines", 0, written.plan_lines, "new: in Parquet, add a column of plan lines"),
     NUMBER("row-group", 0, "N", written.row_group, 1, UINT32_MAX,

@@ -42,7 +42,7 @@ typedef struct tn_shards_open {
 } tn_shards_open;
 
 /* What --format says beside the formats of plans. */
-enum { TN_SHARDS_NAMES = TN_FORMAT_COUNT, TN_SHARDS_BITS };
+enum { TN_SHARDS_NAMES = TN_FORMAT_COUNT, TN_SHARDS_BITS, TN_SHARDS_ANY };
 
 /* Reads the manifest of the set that the second operand names. False where that failed (then end the job). */
 bool tn_shards_read(tn_job *job, tn_shards_open *open);

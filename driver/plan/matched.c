@@ -10,12 +10,14 @@ tn_status tn_matched_new(const tn_module *module, const uint32_t *indices, size_
                          tn_error *error)
 {
     *matched = (tn_matched){.module = module, .indices = indices, .count = count, .format = format};
+    tn_rules_options asked = *options;
+    asked.any = format == TN_ANSWER_ANY;
     uint32_t *functions = malloc(sizeof *functions * (count + 1));
     tn_status status = functions ? tn_schema_new(module, schema, 0, &matched->schema, error) : tn_fail_memory(error);
     for (size_t i = 0; functions && i < count; i++)
         functions[i] = module->RULE_records[indices[i]].holds;
     if (status == TN_OK)
-        status = tn_rules_new(matched->schema, functions, count, options, &matched->rules, error);
+        status = tn_rules_new(matched->schema, functions, count, &asked, &matched->rules, error);
     free(functions);
     return status;
 }
@@ -94,6 +96,8 @@ static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts
     bool done;
     if (m->format == TN_ANSWER_BITS)
         done = append_bits(m, plan, out);
+    else if (m->format == TN_ANSWER_ANY)
+        done = append_text(out, plan->bits[0] ? "1" : "0");
     else if (m->format == TN_ANSWER_NAMES)
         done = append_names_or_dash(m, plan, out);
     else
@@ -106,6 +110,7 @@ tn_answering tn_matched_answering(const tn_matched *matched)
     return (tn_answering){.schema = matched->schema,
                           .rules = matched->rules,
                           .numbered = matched->format == TN_ANSWER_JSON,
+                          .any = matched->format == TN_ANSWER_ANY,
                           .plan = describe,
                           .rule_name = rule_name,
                           .context = matched};

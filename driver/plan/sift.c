@@ -50,6 +50,7 @@ typedef struct worker {
     size_t tray_count, tray_room;
     size_t *starts; /* of plan i in trays; one past the last too */
     uint64_t *numbers, *bits;
+    uint8_t *some; /* of plans: does any rule match? NULL where that is not what is asked for */
     tn_status *statuses;
     size_t count;     /* plans in the batch */
     tn_status status; /* TN_OK, or why the batch ended before the end of the chunk */
@@ -67,6 +68,7 @@ static void worker_clear(worker *w)
     free(w->starts);
     free(w->numbers);
     free(w->bits);
+    free(w->some);
     free(w->statuses);
     free(w->bad.data);
     for (size_t t = 0; t < TN_RELAY_TEXTS; t++)
@@ -80,7 +82,8 @@ static tn_status worker_start(worker *w, sift *s, tn_error *error)
     w->numbers = malloc(s->batch * sizeof *w->numbers);
     w->bits = calloc(s->batch * s->words + 1, sizeof *w->bits);
     w->statuses = calloc(s->batch, sizeof *w->statuses);
-    if (!w->starts || !w->numbers || !w->bits || !w->statuses)
+    w->some = s->calls->any ? malloc(s->batch) : NULL;
+    if (!w->starts || !w->numbers || !w->bits || !w->statuses || (s->calls->any && !w->some))
         return tn_fail_memory(error);
     tn_status status = tn_matcher_new(s->rules, &w->matcher, error);
     return status == TN_OK ? tn_plan_lines_new(s->reader, &w->lines, error) : status;
@@ -183,13 +186,24 @@ static bool take(worker *w)
 
 /* ---- matching */
 
+/* Matches plans from the first on; *done: how many. */
+static tn_status match_some(worker *w, const tn_plan_array *plans, size_t first, size_t *done, tn_error *error)
+{
+    if (!w->some)
+        return tn_match_all(w->matcher, plans, w->bits + first * w->s->words, done, error);
+    tn_status status = tn_match_any(w->matcher, plans, w->some, done, error);
+    for (size_t i = 0; i < *done; i++)
+        w->bits[first + i] = w->some[i];
+    return status;
+}
+
 /* Matches plans [first, last) of the batch; statuses says of each what came of it. */
 static void match(worker *w, size_t first, size_t last, tn_error *error)
 {
     while (first < last) {
         tn_plan_array plans = {w->trays, w->starts[first], w->starts + first + 1, last - first};
         size_t done;
-        tn_status status = tn_match_all(w->matcher, &plans, w->bits + first * w->s->words, &done, error);
+        tn_status status = match_some(w, &plans, first, &done, error);
         for (size_t i = 0; i < done; i++)
             w->statuses[first + i] = TN_OK;
         first += done;
@@ -364,7 +378,7 @@ tn_status tn_sift(tn_plan_reader *reader, const tn_rules *rules, int threads, co
     sift s = {.reader = reader,
               .rules = rules,
               .calls = calls,
-              .words = (tn_rules_count(rules) + 63) / 64,
+              .words = calls->any ? 1 : (tn_rules_count(rules) + 63) / 64,
               .chunk_bytes = interpreted ? CHUNK_BYTES_INTERPRETED : CHUNK_BYTES,
               .batch = interpreted ? BATCH_INTERPRETED : BATCH_PLANS,
               .shared = tn_plan_reader_share(reader),

@@ -11,13 +11,14 @@ typedef struct tn_sifted {
     const tn_tray *trays;
     size_t length;
     uint64_t line;        /* in the input, where the calls ask for that */
-    const uint64_t *bits; /* which rules match */
+    const uint64_t *bits; /* which rules match; where only `any` is asked for, 1 or 0 */
 } tn_sifted;
 
 /* What to do with the plans. */
 typedef struct tn_sift_calls {
     void *context;
     bool numbered; /* lines are needed; that is more work */
+    bool any;      /* only whether any rule matches is asked for; that is less work */
     /* Appends to the texts what is to be written of a plan. Called by several threads at once; false where out of
      * memory. */
     bool (*plan)(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS]);

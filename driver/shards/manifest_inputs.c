@@ -6,7 +6,11 @@
 #include "driver/shards/manifest_read.h"
 
 static const char *const answers[TN_ANSWER_FORMAT_COUNT] = {
-    [TN_ANSWER_NAMES] = "names", [TN_ANSWER_JSON] = "json", [TN_ANSWER_BITS] = "bits", [TN_ANSWER_LINES] = "lines"};
+    [TN_ANSWER_NAMES] = "names",
+    [TN_ANSWER_JSON] = "json",
+    [TN_ANSWER_BITS] = "bits",
+    [TN_ANSWER_ANY] = "any",
+    [TN_ANSWER_LINES] = "lines"};
 
 /* ---- writing */
 

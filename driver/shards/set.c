@@ -50,6 +50,7 @@ static const char *ending_of(const tn_shard_set *set)
     static const char *const answers[TN_ANSWER_FORMAT_COUNT] = {[TN_ANSWER_NAMES] = ".names",
                                                                 [TN_ANSWER_JSON] = ".jsonl",
                                                                 [TN_ANSWER_BITS] = ".bits",
+                                                                [TN_ANSWER_ANY] = ".any",
                                                                 [TN_ANSWER_LINES] = ".plans"};
     static const char *const endings[TN_FORMAT_COUNT] = {[TN_FORMAT_LINES] = ".plans",
                                                          [TN_FORMAT_JSON] = ".jsonl",

@@ -62,6 +62,7 @@ static tn_status sift_piece(answers *a, tn_plan_reader *reader, tn_error *error)
 {
     const tn_sift_calls calls = {.context = a,
                                  .numbered = a->answering->numbered,
+                                 .any = a->answering->any,
                                  .plan = describe,
                                  .write = write_texts,
                                  .bad = complain,

@@ -30,6 +30,7 @@ golden explained_near "tartan explain lahave-complete \"12' double public great 
 golden explained_line "tartan explain cottage \"14' room:14' none ; 3\""
 golden explained_nothing "tartan explain sheds.plan ';'"
 golden matched "printf '%s\n' '# two' \"$bedrooms\" | tartan match cottage --rule far-bed --rule dark-living"
+golden matched_any "printf '%s\n' \"$bedrooms\" | tartan match cottage --rule far-bed --rule dark-living --format any"
 golden matched_badly "printf '%s\n' '' \"14' room:14' none ; 3\" | tartan match cottage --rule far-bed"
 golden failed_test "tartan test houses-wrong.plan"
 

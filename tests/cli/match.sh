@@ -15,6 +15,7 @@ printf '3m door\n3m dor\n4m -\n6m - | 3m -\n' >"$scratch/bad"
 
 golden names "tartan match sheds.plan $scratch/plans"
 golden bits "tartan match sheds.plan $scratch/plans --format bits"
+golden any "tartan match sheds.plan $scratch/plans --format any"
 golden json "tartan match sheds.plan $scratch/plans --format json"
 golden one_rule "tartan match sheds.plan $scratch/plans --rule wide-end --format bits"
 golden order_of_rules "tartan match sheds.plan $scratch/plans --rule wide-end --rule door-pair --format bits"
@@ -48,5 +49,12 @@ for threads in 1 2 7; do
         "$TARTAN" match "$rules" "$scratch/many" --format bits --engine dfa --threads $threads | cmp -s - "$scratch/one" ||
             fail "$threads threads of automata differ from the interpreter ($rules)"
     done
+done
+
+# Whether any rule matches is what all of them say, by the automaton of their union, by those of each, and interpreted.
+sed 's/.*1.*/1/; t; s/.*/0/' "$scratch/one" >"$scratch/some"
+is 'plans that some rule matches, and that none does' "$(sort -u "$scratch/some" | wc -l)" 2
+for how in '--engine dfa' '--engine vm' '--max-states 8' '--threads 7'; do
+    "$TARTAN" match "$files/sheds.plan" "$scratch/many" --format any $how 2>/dev/null | cmp -s - "$scratch/some" || fail "any by $how"
 done
 finish

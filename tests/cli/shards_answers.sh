@@ -43,7 +43,7 @@ for format in lines json bin; do
     is "a shard a plan of $format" "$(grep -c '"name"' "$scratch/set/manifest.json")" 1365
 done
 rule=$(sed -nE 's/^rule ([a-z-]+).*/\1/p' "$sheds" | tail -1)
-for format in names bits json; do
+for format in names bits any json; do
     new set match -i "$scratch/plans.lines" --shards 3 --rule "$rule" --format $format
     run set
     "$TARTAN" shards cat "$scratch/set" | cmp - <(one match --rule "$rule" --format $format -- "$scratch/plans.lines") || fail "one rule as $format"
