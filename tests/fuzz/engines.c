@@ -1,11 +1,9 @@
 /* Lists a module and runs the engines on it, each by its row; and the small engines' own functions. */
 #include "tests/fuzz/engines.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "runtime/base/memory.h"
-#include "runtime/house/schedule/describe.h"
 #include "runtime/load.h"
 #include "runtime/number/run.h"
 #include "runtime/place/count/count.h"
@@ -14,13 +12,7 @@
 #include "runtime/solid/measure.h"
 #include "tests/fuzz/grow.h"
 
-enum { DRAWN_ONE_IN = 8, FORMS = 8, FORM_CODES = 4096 };
-
-void fuzz_broken(const char *promise)
-{
-    fprintf(stderr, "%s\n", promise);
-    abort();
-}
+enum { DRAWN_ONE_IN = 8 };
 
 bool fuzz_draws(const tn_module *module)
 {
@@ -39,39 +31,6 @@ void fuzz_number(const tn_module *module)
     for (size_t i = 0; i < module->FUNCTION_count; i++)
         if (module->FUNCTION_records[i].kind == TN_FUNCTION_MEASURE)
             tn_number_run(module->code, module->FUNCTION_records[i].code_begin, terms);
-}
-
-/* A short plan stands up in each form; where it does, its solids and its line are made. */
-void fuzz_house(const tn_module *module)
-{
-    for (uint32_t i = 0; i < module->FORM_count && i < FORMS; i++) {
-        tn_schema *schema;
-        tn_house_form form;
-        tn_house house;
-        tn_solids solids;
-        tn_buffer text = {0};
-        if (tn_schema_new(module, module->FORM_records[i].schema, FORM_CODES, &schema, NULL) != TN_OK)
-            continue;
-        tn_tray trays[2] = {0, schema->tray_count - 1};
-        uint32_t shapes[TN_CHOICES_MAX] = {0};
-        tn_form_ready(module, i, schema, &form);
-        if (tn_house_stand(&form, trays, schema->tray_count ? 2 : 0, shapes, &house, NULL) == TN_OK) {
-            uint32_t kinds[TN_FACE_KINDS_MAX];
-            for (size_t c = 0; c < house.cell_count && tn_form_functions(&form) > 0; c++)
-                house.cells[c].function = (uint32_t)c % tn_form_functions(&form);
-            for (size_t f = 0; f < house.face_count && tn_form_functions(&form) > 0; f++) {
-                tn_face_options(&house, &house.faces[f], kinds);
-                house.faces[f].kind = kinds[0];
-            }
-            if (tn_form_functions(&form) > 0 && tn_house_solids(&house, &solids, NULL) == TN_OK)
-                tn_house_describe(&house, &solids, &text, NULL);
-            if (tn_form_functions(&form) > 0)
-                tn_solids_clear(&solids);
-        }
-        free(text.data);
-        tn_house_clear(&house);
-        tn_schema_free(schema);
-    }
 }
 
 void fuzz_growth(const tn_module *module)

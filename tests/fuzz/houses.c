@@ -1,10 +1,12 @@
-/* House lines of a small form from any bytes: what is read can be written, and reads back as the same house. */
+/* House lines of a small form from any bytes: what is read can be written, and reads back as the same house. The houses
+ * on its plan are counted, ranked and changed. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/house/house.h"
 #include "runtime/load.h"
+#include "tests/fuzz/engines_house.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/compile_file.h"
 
@@ -57,6 +59,15 @@ static void round_trip(const tn_house *house)
     free(second.data);
 }
 
+/* The last library of the file is of the form. */
+static void use(const tn_house *house)
+{
+    const tn_module *module = house->form->module;
+    round_trip(house);
+    fuzz_houses_on(house->form, &module->HOUSE_LIBRARY_records[module->HOUSE_LIBRARY_count - 1], NULL, house->trays,
+                   house->length);
+}
+
 typedef tn_status reader(const tn_house_form *form, const char *line, size_t size, size_t max_trays, tn_house *house,
                          tn_error *error);
 
@@ -70,7 +81,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         tn_error error = {0};
         tn_status status = readers[i](cottages(), (const char *)data, size, TRAYS, &house, &error);
         if (status == TN_OK)
-            round_trip(&house);
+            use(&house);
         else if (error.status != status || error.message[0] == '\0')
             stop("a line is refused without a reason");
         tn_house_clear(&house);

@@ -11,7 +11,7 @@ enum { QUESTIONS_MAX = 64 }; /* the bits of what they say of a function */
 struct tn_clause_memo {
     uint32_t *weights; /* [choice of a wheel] its class, times the number of combinations of the wheels before */
     uint8_t *answers;
-    size_t last;
+    size_t end;
 };
 
 void tn_memos_free(tn_house_variants *v)
@@ -112,7 +112,7 @@ static tn_status make_memo(tn_house_variants *v, const uint32_t *questions, size
         for (uint32_t k = 0; k < w->count; k++)
             memo->weights[w->first + k] *= (uint32_t)size;
         size *= classes;
-        memo->last = classes > 1 ? i : memo->last;
+        memo->end = classes > 1 ? i + 1 : memo->end;
     }
     if (size > TN_MEMO_ANSWERS_MAX)
         return TN_OK;
@@ -151,7 +151,7 @@ uint8_t *tn_memo_answer(const tn_house_variants *v, uint32_t clause)
     return &memo->answers[at];
 }
 
-size_t tn_memo_last(const tn_house_variants *v, uint32_t clause)
+size_t tn_memo_end(const tn_house_variants *v, uint32_t clause)
 {
-    return v->memos[clause].last;
+    return v->memos[clause].end;
 }

@@ -24,7 +24,7 @@ void tn_memos_free(tn_house_variants *v);
 uint8_t *tn_memo_answer(const tn_house_variants *v, uint32_t clause);
 enum { TN_MEMO_UNKNOWN, TN_MEMO_KEEPS, TN_MEMO_DROPS };
 
-/* The last of the wheels that the clause looks at: turning those after it does not change the answer. */
-size_t tn_memo_last(const tn_house_variants *v, uint32_t clause);
+/* The wheels of functions from here on are none that the clause looks at: turning them does not change the answer. */
+size_t tn_memo_end(const tn_house_variants *v, uint32_t clause);
 
 #endif

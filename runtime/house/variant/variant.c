@@ -96,7 +96,7 @@ tn_status tn_variants_keep(tn_house_variants *v, tn_clause_stage stage, bool *ke
         if (answer && status == TN_OK)
             *answer = drops ? TN_MEMO_DROPS : TN_MEMO_KEEPS;
         if (answer && drops)
-            v->turn_end = tn_memo_last(v, i) + 1;
+            v->turn_end = tn_memo_end(v, i);
         *kept = !drops;
     }
     return status;
