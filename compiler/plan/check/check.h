@@ -296,6 +296,9 @@ uint32_t tn_field_find(const tn_checked_schema *schema, const char *name);
 bool tn_field_has(const tn_checked_field *field, const char *name); /* a choice's value or a zone's fill of that name */
 /* The one field that has the value; TN_NONE where none or several have: then reported, unless the schema is broken. */
 uint32_t tn_value_field(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word);
+bool tn_schema_says(const tn_checked_schema *schema, const char *word); /* is it a field or a value? */
+/* Is the unknown word so like one of the schema's that an error about it says which is meant? */
+bool tn_value_guessed(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word);
 void tn_say_values(const tn_checked_field *field, const char *fill, char *text, size_t size); /* "4', 8' or 12'" */
 void tn_say_items(const tn_checked_schema *schema, char *text, size_t size); /* "`use room`, `width >= 4'`" */
 /* A value that the field does not have: E0303. */

@@ -314,7 +314,8 @@ static void check_form(tn_check *check, tn_checked_form *form)
     gather_allowed(check, form);
     form->schema = tn_check_schema_for(check, form->unit, form->ast->schema, form->ast->schema->node.span);
     check->schema = form->schema;
-    if (!form->schema || !make_room(check, form) || !schema_stands(check, form))
+    form->broken = !form->schema || !make_room(check, form) || !schema_stands(check, form);
+    if (form->broken)
         return;
     for (size_t i = 0; i < sizeof before / sizeof *before; i++)
         each(check, form, before[i]);

@@ -92,6 +92,7 @@ typedef struct tn_checked_form {
     const char *name;
     size_t unit;
     tn_checked_schema *schema; /* NULL: already reported */
+    bool broken;               /* the schema is not one of houses: reported; what the form says was not read */
     uint32_t spine;
     int64_t thickness[4]; /* wall, partition, deck, roof */
     tn_checked_storey *storeys;

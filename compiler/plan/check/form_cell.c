@@ -114,6 +114,43 @@ static bool read_own_word(tn_cell_reader *reader, const tn_ast_word *word, bool 
     return true;
 }
 
+enum { OWN_WORDS = 2 }; /* `any` and `void` */
+
+/* The names of storeys, functions where they are known, and zones, and the words of cells; how many. */
+static size_t own_words(const tn_cell_reader *reader, const char **names)
+{
+    const tn_checked_form *form = reader->form;
+    size_t count = 0;
+    for (uint32_t i = 0; i < form->storey_count; i++)
+        names[count++] = form->storeys[i].ast->name->text;
+    for (uint32_t i = 0; i < form->function_count && reader->decided; i++)
+        names[count++] = form->rules[i].ast->name->text;
+    for (uint32_t f = 0; f < form->schema->field_count; f++)
+        if (form->schema->fields[f].kind == TN_FIELD_ZONE)
+            names[count++] = form->schema->fields[f].name;
+    names[count++] = "any";
+    if (reader->decided)
+        names[count++] = "void";
+    return count;
+}
+
+/* A word that is meant as a storey, a function or a zone, and is none: reported, with the one that is nearest. */
+static bool is_unknown(const tn_cell_reader *reader, const tn_ast_word *word)
+{
+    const tn_checked_form *form = reader->form;
+    if (form->broken || word->kind != TN_WORD_NAME || tn_schema_says(form->schema, word->text))
+        return form->broken;
+    const char **names =
+        TN_NEW_ARRAY(reader->check->arena, const char *,
+                     form->storey_count + form->function_count + form->schema->field_count + OWN_WORDS);
+    size_t count = names ? own_words(reader, names) : 0;
+    if (!tn_nearest(word->text, names, count) && tn_value_guessed(reader->check, form->schema, word))
+        return false;
+    tn_form_unknown(reader->check, form, word, reader->decided ? "zone, storey or function" : "zone or storey", names,
+                    count);
+    return true;
+}
+
 /* A zone alone, or what a tray specifier says. */
 static bool read_tray_words(tn_cell_reader *reader, const tn_ast_word *word, tn_span span)
 {
@@ -144,7 +181,7 @@ static bool read_words(tn_cell_reader *reader, const tn_ast_word *word, tn_span 
         return tn_form_compared(reader->check, word, TN_OP_HAS_AREA, reader->decision);
     if (word->kind == TN_WORD_NAME && !read_own_word(reader, word, &found))
         return false;
-    return found || read_tray_words(reader, word, span);
+    return found || (!is_unknown(reader, word) && read_tray_words(reader, word, span));
 }
 
 bool tn_form_cell_words(tn_check *check, const tn_checked_form *form, const tn_ast_word *word, tn_span span,

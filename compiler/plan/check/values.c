@@ -77,7 +77,7 @@ static const char *nearest_word(tn_check *check, const tn_checked_schema *schema
     return names ? tn_nearest(word, names, count) : NULL;
 }
 
-static bool is_word_of(const tn_checked_schema *schema, const char *word)
+bool tn_schema_says(const tn_checked_schema *schema, const char *word)
 {
     for (uint32_t f = 0; f < schema->field_count; f++)
         if (strcmp(schema->fields[f].name, word) == 0 || tn_field_has(&schema->fields[f], word))
@@ -109,7 +109,7 @@ static bool join_words(const tn_checked_schema *schema, const tn_ast_word *word,
     if (!next || next->kind != TN_WORD_NAME)
         return false;
     snprintf(joined, size, "%s-%s", word->text, next->text);
-    return is_word_of(schema, joined);
+    return tn_schema_says(schema, joined);
 }
 
 /* `non-smoking`, `inaccessible`: the word whose opposite it is, or NULL. */
@@ -118,10 +118,18 @@ static const char *opposite_of(const tn_checked_schema *schema, const char *word
     static const char *const beginnings[] = {"non-", "not-", "no-", "non", "un", "in", "im", "dis"};
     for (size_t i = 0; i < sizeof beginnings / sizeof *beginnings; i++) {
         size_t size = strlen(beginnings[i]);
-        if (strncmp(word, beginnings[i], size) == 0 && is_word_of(schema, word + size))
+        if (strncmp(word, beginnings[i], size) == 0 && tn_schema_says(schema, word + size))
             return word + size;
     }
     return NULL;
+}
+
+bool tn_value_guessed(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word)
+{
+    char joined[80];
+    return nearest_word(check, schema, word->text) || same_stem(schema, word->text) ||
+           opposite_of(schema, word->text) || join_words(schema, word, joined, sizeof joined) ||
+           tn_slip_find(TN_SLIP_TRAY, word->text, strlen(word->text));
 }
 
 static void report_unknown_word(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word)
