@@ -2,10 +2,12 @@
 """Prints how fast connection grammars grow beside a slow independent model of the published program: place_model.py TARTAN PLACE
 
 PLACE is the folder with model.py and its grammars. Both write the same bytes, which is looked at first. Processor seconds and the most memory of whole
-processes: medians of 21 runs of ours, of three of the model. Growing alone is what the large box takes longer than a box of 8 9 8."""
-import os, re, statistics, subprocess, sys, tempfile
+processes: medians of 21 runs of ours, of three of the model. Growing alone is timed within a process that grows again and again: bench_derive, and the model's
+own function, less reading its grammar."""
+import importlib.util, os, re, statistics, subprocess, sys, tempfile, time
 
 tartan, place = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+derive = os.path.join(os.path.dirname(tartan), "bench", "bench_derive")
 grammars = os.path.join(place, "grammars")
 BOX = ["box_constraints.pcfg", "brick.pcfg", "brick_defs.pcfg", "close.pcfg"]
 CASTLE = ["castle/wall_constraints.pcfg", "brick.pcfg", "brick_defs.pcfg", "tile.pcfg", "close.pcfg"]
@@ -40,6 +42,29 @@ def model(files, out):
     return statistics.median(run[0] for run in runs), max(run[1] for run in runs)
 
 
+def grown_by_us(files, module, runs):
+    """Seconds to derive a model once, of many times in one process."""
+    subprocess.run([tartan, "build", *files, "-o", module], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    said = subprocess.run([derive, module, str(runs)], capture_output=True, text=True, check=True).stdout
+    return float(re.search(r"in ([0-9.]+) ms", said).group(1)) / 1e3
+
+
+def grown_by_model(files, runs):
+    sys.dont_write_bytecode = True
+    spec = importlib.util.spec_from_file_location("model", os.path.join(place, "model.py"))
+    known = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(known)
+    text = "\n".join(open(file).read() for file in files)
+    times = []
+    for _ in range(runs):
+        begun = time.process_time()
+        known.load(text)
+        read = time.process_time()
+        known.run(text, 0)
+        times.append(time.process_time() - read - (read - begun))
+    return statistics.median(times)
+
+
 def parts(out):
     with open(out) as file:
         return sum(line.startswith("1 ") for line in file)
@@ -52,11 +77,13 @@ with tempfile.TemporaryDirectory() as folder:
         (seconds, memory), (slow, much) = ours(files, mine), model(files, theirs)
         with open(mine, "rb") as a, open(theirs, "rb") as b:
             assert a.read() == b.read(), name
-        if name.startswith("box"):
-            less = sized(folder, (8, 9, 8))
-            alone = seconds - ours(less, os.path.join(folder, "less.ldr"))[0], slow - model(less, os.path.join(folder, "less.ldr"))[0]
         print("%-22s %8d %10.3f %8.0f %10.2f %8.0f %8.0f" % (name, parts(mine), seconds, memory, slow, much, slow / max(seconds, 1e-3)), flush=True)
-    print("%-22s %8s %10.4f %8s %10.2f %8s %8.0f" % ("box 32 36 32, grown", "", alone[0], "", alone[1], "", alone[1] / max(alone[0], 1e-4)))
+    print("%-22s %8s %10s %8s %10s %8s %8s" % ("grown alone", "", "tartan, ms", "", "model, ms", "", "ratio"), flush=True)
+    for name, files in (("box 32 36 32", sized(folder, (32, 36, 32))), ("castle", [os.path.join(grammars, f) for f in CASTLE])):
+        few, many = (3, 101) if name.startswith("box") else (21, 1001)
+        mine, theirs = grown_by_us(files, os.path.join(folder, "grown.tnb"), many), grown_by_model(files, few)
+        print("%-22s %8s %10.3f %8s %10.1f %8s %8.0f" % (name, "", mine * 1e3, "", theirs * 1e3, "", theirs / mine), flush=True)
+    mine = os.path.join(folder, "mine.ldr")
     files = sized(folder, (128, 144, 128))
     seconds, memory = ours(files, mine)
     large = seconds / parts(mine)

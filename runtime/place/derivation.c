@@ -35,6 +35,12 @@ const tn_step *tn_pending_next(const derivation *d, cursor_stack *stack, uint32_
     return NULL;
 }
 
+tn_status tn_look_up(const derivation *d)
+{
+    tn_watch_tell(d->options.watch, (double)d->model->count, 0);
+    return tn_watch_check(d->options.watch, d->error);
+}
+
 tn_status tn_past_limit(derivation *d, const char *what, uint64_t limit, const char *option)
 {
     tn_fail(d->error, TN_LIMIT, E_PLACE_LIMIT, "the derivation passes the limit of %llu %s", (unsigned long long)limit,

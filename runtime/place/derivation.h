@@ -1,7 +1,8 @@
-/* A derivation under way: what looking ahead and taking steps share. Internal to grow.c and lookahead.c. */
+/* A derivation under way: what choosing, looking ahead and taking steps share. Internal to this folder. */
 #ifndef TARTAN_PLACE_DERIVATION_H
 #define TARTAN_PLACE_DERIVATION_H
 
+#include "runtime/place/acts.h"
 #include "runtime/place/grow.h"
 #include "runtime/place/mersenne.h"
 #include "runtime/place/trace.h"
@@ -21,6 +22,19 @@ typedef struct cursor_stack {
     cursor *items;
     size_t count, capacity;
 } cursor_stack;
+
+/* An alternative whose acts are being done. */
+typedef struct begun {
+    const tn_act *next, *end;
+    tn_frame frame; /* at which it began */
+    uint32_t depth; /* frames at its start, with that one */
+    uint32_t alternative;
+} begun;
+
+typedef struct begun_stack {
+    begun *items;
+    size_t count, capacity;
+} begun_stack;
 
 /* A box that a step filled, kept where somebody asks what is in the way. */
 typedef struct filled_box {
@@ -43,10 +57,12 @@ typedef struct derivation {
     const tn_place_rules *rules;
     tn_place_options options;
     tn_traces traces;
+    tn_acts acts;
     tn_cells *cells;
     tn_mersenne random;
     frame_stack frames, trial; /* trial: frames of the lookahead above the lowest that it kept */
     cursor_stack pending, ahead;
+    begun_stack begun;
     filled_boxes boxes;
     refusal refused;
     const char **ahead_parts; /* placed by the lookahead at hand, where alternatives have values */
@@ -58,6 +74,12 @@ typedef struct derivation {
 } derivation;
 
 tn_status tn_pending_push(derivation *d, cursor_stack *stack, uint32_t alternative);
+
+/* Steps between two looks at whether to go on. */
+enum { TN_PLACE_ASK_EVERY = 4096 };
+
+/* Tells how many parts there are, and asks whether to go on. */
+tn_status tn_look_up(const derivation *d);
 
 /* The next step of the topmost alternative that has one; NULL where all are done. */
 const tn_step *tn_pending_next(const derivation *d, cursor_stack *stack, uint32_t *index, uint32_t *alternative);
@@ -85,8 +107,21 @@ tn_place_obstacle tn_obstacle_find(derivation *d, const tn_cell_box *box);
 /* Does an alternative fit? Where it does not, and was looked at step by step, d->refused says why. */
 tn_status tn_fits_here(derivation *d, uint32_t alternative, bool *fits);
 
-/* Is it sure that only the symbol's last alternative fits, which always does? */
-bool tn_nothing_fits(derivation *d, const tn_place_symbol *symbol);
+/* Chooses among alternatives whose lookaheads were worked out. False where they were not, or do not say all here. */
+bool tn_choose_traced(derivation *d, uint32_t index, uint32_t *chosen);
+
 tn_status tn_look_ahead(derivation *d, uint32_t alternative, bool *fits);
+
+/* The alternative by which symbol `index` is expanded, at the last frame; `from` is that which asks for it. */
+tn_status tn_choose(derivation *d, uint32_t index, uint32_t from, uint32_t *chosen);
+
+tn_status tn_take_part(derivation *d, const tn_frame *frame, const char *name);
+
+/* FILL, FILL_OVER, BLOCK or TOUCH: step `step` of the rules, which `alternative` put there. */
+tn_status tn_take_cells(derivation *d, tn_step_kind kind, const tn_cell_box *box, uint32_t step, uint32_t alternative);
+
+/* Derives by acts from an alternative of the start on, at the only frame that there is; something is filled. TN_INVALID
+ * and TN_LIMIT say only that deriving by steps will not come to a good end either. */
+tn_status tn_derive_by_acts(derivation *d, uint32_t alternative);
 
 #endif

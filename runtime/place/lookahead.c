@@ -85,45 +85,62 @@ tn_status tn_look_ahead(derivation *d, uint32_t alternative, bool *fits)
     return status;
 }
 
-/* A box at the frame, as a trace has it. */
-static tn_cell_box box_at(const tn_cell_box *box, const tn_frame *frame)
+/* May what was worked out be relied on here? Whoever looks on is told of every alternative, and where no cell is filled
+ * yet, steps have the effect of bound_empty_world. */
+static bool traces_do(const derivation *d)
 {
-    tn_cell_box moved = *box;
-    for (int k = 0; k < 3; k++) {
-        moved.low[k] += frame->at[k];
-        moved.high[k] += frame->at[k];
-    }
-    return moved;
+    return !d->options.interpret && !d->options.report && d->frames.count > 0 && !tn_world_is_empty(d);
 }
 
 /* Does a trace that is known fit at a frame? */
-static bool trace_fits(derivation *d, const tn_trace *trace, const tn_frame *frame)
+static inline bool trace_fits(derivation *d, const tn_trace *trace, const tn_frame *frame)
 {
-    for (uint32_t i = 0; i < trace->count; i++) {
-        const tn_trace_test *test = &d->traces.tests[trace->first + i];
-        tn_cell_box turned = tn_cell_box_of(test->box, frame->heading), box = box_at(&turned, frame);
+    const tn_trace_test *test = &d->traces.tests[trace->first], *end = test + trace->count;
+    for (; test < end; test++) {
+        tn_cell_box box = tn_cell_box_at(test->box, frame);
         if (tn_cells_any(d->cells, &box) != test->filled)
             return false;
     }
     return true;
 }
 
-/* Whoever looks on is told of every alternative. */
-bool tn_nothing_fits(derivation *d, const tn_place_symbol *symbol)
+/* The first that fits of alternatives that are traced; the last where none does. */
+static uint32_t first_that_fits(derivation *d, const tn_place_symbol *symbol, const tn_frame *frame)
 {
-    const tn_common *common = &d->traces.common[symbol - d->rules->symbols];
-    if (!common->known || d->options.interpret || d->options.report || tn_world_is_empty(d) || d->frames.count == 0)
-        return false;
-    const tn_frame *frame = &d->frames.items[d->frames.count - 1];
-    tn_cell_box turned = tn_cell_box_of(common->box, frame->heading), box = box_at(&turned, frame);
-    return tn_cells_any(d->cells, &box);
+    const tn_trace *traces = &d->traces.traces[symbol->first];
+    uint32_t next = 0;
+    while (next < symbol->count && !trace_fits(d, &traces[next], frame))
+        next++;
+    bool fits = next < symbol->count;
+    d->model->counts.tries += next + fits;
+    d->model->counts.fallbacks += !fits;
+    return symbol->first + (fits ? next : next - 1);
 }
 
-/* Does an alternative fit? Where no cell is filled yet, steps have the effect of bound_empty_world. */
+bool tn_choose_traced(derivation *d, uint32_t index, uint32_t *chosen)
+{
+    const tn_place_symbol *symbol = &d->rules->symbols[index];
+    const tn_common *common = &d->traces.common[index];
+    if ((!common->known && !common->traced) || !traces_do(d))
+        return false;
+    const tn_frame *frame = &d->frames.items[d->frames.count - 1];
+    if (common->known) {
+        tn_cell_box box = tn_cell_box_at(common->box, frame);
+        if (tn_cells_any(d->cells, &box)) { /* they were all tried at once */
+            d->model->counts.tries += symbol->count;
+            *chosen = symbol->first + symbol->count - 1;
+            return true;
+        }
+    }
+    if (common->traced)
+        *chosen = first_that_fits(d, symbol, frame);
+    return common->traced;
+}
+
 tn_status tn_fits_here(derivation *d, uint32_t alternative, bool *fits)
 {
     const tn_trace *trace = &d->traces.traces[alternative];
-    if (d->options.interpret || d->options.report || !trace->known || tn_world_is_empty(d) || d->frames.count == 0)
+    if (!trace->known || !traces_do(d))
         return tn_look_ahead(d, alternative, fits);
     *fits = trace_fits(d, trace, &d->frames.items[d->frames.count - 1]);
     return TN_OK;

@@ -101,11 +101,10 @@ static void mark_outside(const block *b, uint64_t row[TN_CHUNK_ROWS][TN_CHUNK_RO
 static tn_status look_at_block(tn_space *space, const block *b, const int32_t at[3],
                                uint64_t row[TN_CHUNK_ROWS][TN_CHUNK_ROWS], tn_error *error)
 {
-    static const int32_t chunk[3] = {TN_CHUNK_WIDTH, TN_CHUNK_ROWS, TN_CHUNK_ROWS};
     static const int32_t least[3] = {BLOCK_WIDTH, BLOCK_ROWS, BLOCK_ROWS};
     int64_t low[3];
     for (int k = 0; k < 3; k++)
-        low[k] = (int64_t)at[k] * chunk[k] + b->low[k];
+        low[k] = (int64_t)tn_cell_chunk_start(at[k], k) + b->low[k];
     int all = judge(space, low, b->size), axis = 0;
     if (all == 0)
         mark_outside(b, row);
@@ -123,11 +122,39 @@ static tn_status look_at_block(tn_space *space, const block *b, const int32_t at
     return status == TN_OK ? look_at_block(space, &half, at, row, error) : status;
 }
 
+/* The bits of a row from one on and before another. */
+static uint64_t bits_between(int32_t first, int32_t end)
+{
+    first = first < 0 ? 0 : first;
+    if (first >= TN_CHUNK_WIDTH || end <= first)
+        return 0;
+    uint64_t below_end = end < TN_CHUNK_WIDTH ? (UINT64_C(1) << end) - 1 : UINT64_MAX;
+    return below_end & ~((UINT64_C(1) << first) - 1);
+}
+
+/* Marks what is not in the space's box. */
+static void mark_beyond(const tn_cell_box *box, const int32_t at[3], uint64_t row[TN_CHUNK_ROWS][TN_CHUNK_ROWS])
+{
+    int32_t start[3];
+    for (int k = 0; k < 3; k++)
+        start[k] = tn_cell_chunk_start(at[k], k);
+    uint64_t within = bits_between(box->low[0] - start[0], box->high[0] - start[0]);
+    for (int32_t y = 0; y < TN_CHUNK_ROWS; y++) {
+        for (int32_t z = 0; z < TN_CHUNK_ROWS; z++) {
+            bool in = y + start[1] >= box->low[1] && y + start[1] < box->high[1] && z + start[2] >= box->low[2] &&
+                      z + start[2] < box->high[2];
+            row[y][z] |= in ? ~within : UINT64_MAX;
+        }
+    }
+}
+
 static tn_status find_outside(void *context, const int32_t at[3], uint64_t row[TN_CHUNK_ROWS][TN_CHUNK_ROWS],
                               tn_error *error)
 {
     const block whole = {.size = {TN_CHUNK_WIDTH, TN_CHUNK_ROWS, TN_CHUNK_ROWS}};
+    const tn_space *space = context;
     memset(row, 0, TN_CHUNK_ROWS * sizeof *row);
+    mark_beyond(&space->cells.box, at, row);
     return look_at_block(context, &whole, at, row, error);
 }
 
@@ -189,48 +216,25 @@ const tn_cell_space *tn_space_cells(const tn_space *space)
     return &space->cells;
 }
 
-/* The bits of a row from one on and before another. */
-static uint64_t bits_between(int32_t first, int32_t end)
+/* The cells of a chunk that are inside of the space. */
+static uint64_t count_chunk(uint64_t outside[TN_CHUNK_ROWS][TN_CHUNK_ROWS])
 {
-    first = first < 0 ? 0 : first;
-    if (first >= TN_CHUNK_WIDTH || end <= first)
-        return 0;
-    uint64_t below_end = end < TN_CHUNK_WIDTH ? (UINT64_C(1) << end) - 1 : UINT64_MAX;
-    return below_end & ~((UINT64_C(1) << first) - 1);
-}
-
-/* The cells of a chunk that are inside of the space and of its box. */
-static uint64_t count_chunk(const tn_space *space, const int32_t at[3], uint64_t outside[TN_CHUNK_ROWS][TN_CHUNK_ROWS])
-{
-    const tn_cell_box *box = &space->cells.box;
-    uint64_t within = bits_between(box->low[0] - at[0] * TN_CHUNK_WIDTH, box->high[0] - at[0] * TN_CHUNK_WIDTH);
     uint64_t count = 0;
-    for (int32_t y = 0; y < TN_CHUNK_ROWS; y++) {
-        int32_t height = at[1] * TN_CHUNK_ROWS + y;
-        for (int32_t z = 0; z < TN_CHUNK_ROWS && height >= box->low[1] && height < box->high[1]; z++) {
-            int32_t depth = at[2] * TN_CHUNK_ROWS + z;
-            if (depth >= box->low[2] && depth < box->high[2])
-                count += (uint64_t)__builtin_popcountll(within & ~outside[y][z]);
-        }
-    }
+    for (int y = 0; y < TN_CHUNK_ROWS; y++)
+        for (int z = 0; z < TN_CHUNK_ROWS; z++)
+            count += (uint64_t)__builtin_popcountll(~outside[y][z]);
     return count;
-}
-
-static int32_t chunk_of(int32_t cell, int size)
-{
-    return cell >= 0 ? cell / size : -((size - 1 - cell) / size);
 }
 
 tn_status tn_space_count(tn_space *space, tn_watch *watch, uint64_t *count, tn_error *error)
 {
-    static const int sizes[3] = {TN_CHUNK_WIDTH, TN_CHUNK_ROWS, TN_CHUNK_ROWS};
     uint64_t row[TN_CHUNK_ROWS][TN_CHUNK_ROWS];
     int32_t low[3], high[3], at[3];
     tn_status status = TN_OK;
     *count = 0;
     for (int k = 0; k < 3; k++) {
-        low[k] = chunk_of(space->cells.box.low[k], sizes[k]);
-        high[k] = chunk_of(space->cells.box.high[k] - 1, sizes[k]);
+        low[k] = tn_cell_chunk_of(space->cells.box.low[k], k);
+        high[k] = tn_cell_chunk_of(space->cells.box.high[k] - 1, k);
     }
     for (at[0] = low[0]; at[0] <= high[0]; at[0]++) {
         for (at[1] = low[1]; at[1] <= high[1]; at[1]++) {
@@ -239,7 +243,7 @@ tn_status tn_space_count(tn_space *space, tn_watch *watch, uint64_t *count, tn_e
                 if (status == TN_OK)
                     status = find_outside(space, at, row, error);
                 if (status == TN_OK)
-                    *count += count_chunk(space, at, row);
+                    *count += count_chunk(row);
             }
             if (status != TN_OK)
                 return status;

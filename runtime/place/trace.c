@@ -5,14 +5,15 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/place/heads.h"
 
-enum { STEPS_MAX = 4096, FRAMES_MAX = 64, DEPTH_MAX = 64 }; /* of a lookahead that is worked out beforehand */
+enum { STEPS_MAX = 4096, DEPTH_MAX = 64 }; /* of a lookahead that is worked out beforehand */
 
 typedef struct tracer {
     const tn_place_rules *rules;
     tn_traces *traces;
-    tn_frame frames[4][FRAMES_MAX]; /* by the heading at the start */
-    uint32_t depth, steps;
+    tn_heads heads;
+    uint32_t steps;
     bool known, failed;
 } tracer;
 
@@ -33,24 +34,13 @@ static void add_test(tracer *t, const tn_step *step)
     }
     tn_trace_test *test = &all->tests[all->test_count++];
     test->filled = step->kind == TN_STEP_TOUCH;
-    for (int h = 0; h < 4; h++)
-        test->box[h] = tn_frame_box(&t->frames[h][t->depth], step);
+    for (int h = 0; h < TN_UPRIGHT_TURNS; h++)
+        test->box[h] = tn_frame_box(&tn_heads_frames(&t->heads)[h], step);
 }
 
 static void take_step(tracer *t, const tn_step *step)
 {
     switch (step->kind) {
-    case TN_STEP_PUSH:
-        t->known &= t->depth + 1 < FRAMES_MAX;
-        if (t->known)
-            for (int h = 0; h < 4; h++)
-                t->frames[h][t->depth + 1] = t->frames[h][t->depth];
-        t->depth++;
-        break;
-    case TN_STEP_POP:
-        t->known &= t->depth > 0;
-        t->depth--;
-        break;
     case TN_STEP_BOUND_BOX:
     case TN_STEP_BOUND_BALL:
         t->known = false;
@@ -60,12 +50,11 @@ static void take_step(tracer *t, const tn_step *step)
     case TN_STEP_TOUCH:
         add_test(t, step);
         break;
-    case TN_STEP_MOVE:
-    case TN_STEP_TURN:
-        for (int h = 0; h < 4; h++)
-            t->known &= tn_frame_step(&t->frames[h][t->depth], step);
+    case TN_STEP_PART:
+    case TN_STEP_FILL_OVER:
         break;
     default:
+        t->known &= tn_heads_step(&t->heads, step);
         break;
     }
 }
@@ -140,6 +129,9 @@ static void find_common(const tn_place_rules *rules, tn_traces *traces)
                 common->box[h].low[k] = -INT32_MAX, common->box[h].high[k] = INT32_MAX;
         for (uint32_t i = 0; i + 1 < symbol->count && common->known; i++)
             common->known = cut_common(traces, symbol->first + i, common);
+        common->traced = !symbol->drawn;
+        for (uint32_t i = symbol->first; i < symbol->first + symbol->count; i++)
+            common->traced &= traces->traces[i].known && rules->alternatives[i].member == 0;
     }
 }
 
@@ -153,10 +145,11 @@ tn_status tn_traces_make(const tn_place_rules *rules, tn_traces *traces, tn_erro
         return tn_fail_memory(error);
     }
     find_bounds(rules, traces);
+    tracer t = {.rules = rules, .traces = traces};
     for (uint32_t a = 0; a < rules->alternative_count; a++) {
-        tracer t = {.rules = rules, .traces = traces, .known = true};
-        for (uint32_t h = 0; h < 4; h++)
-            t.frames[h][0].heading = h;
+        t.known = true;
+        t.steps = 0;
+        tn_heads_begin(&t.heads);
         size_t first = traces->test_count;
         take_alternative(&t, &rules->alternatives[a], 0);
         if (t.failed) {

@@ -19,8 +19,10 @@ typedef struct tn_trace {
     uint32_t first, count; /* tests */
 } tn_trace;
 
-/* A box that must be free for any alternative of a symbol but the last, which always fits. */
+/* What the traces of a symbol's alternatives have in common: a box that must be free for any of them but the last,
+ * which always fits. */
 typedef struct tn_common {
+    bool traced; /* they are known, and the first that fits is taken: none is of a draw */
     bool known;
     tn_cell_box box[4]; /* relative to the head, by its heading */
 } tn_common;

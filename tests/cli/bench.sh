@@ -51,6 +51,9 @@ for x in 1 10 100; do echo "plans $x $x"; done >"$scratch/points"
 for scene in square triangle forces boundary; do
     runs growth "$scene" 2 2 1
 done
+"$TARTAN" build examples/brick-wall/wall.pcfg examples/brick-wall/bricks.pcfg -o "$scratch/place.tnb" 2>/dev/null
+runs derive "$scratch/place.tnb" 2
+runs derive "$scratch/place.tnb" 2 vm
 runs solid crowded 30 1
 runs solid sphere 30 1
 runs solid tables 10 1

@@ -156,6 +156,8 @@ if [ -n "${TARTAN_ORACLES:-}" ] && [ -e "$TARTAN_ORACLES/place/model.py" ]; then
         cmp "$scratch/$model.ldr" "$oracle/expected/$model.ldr" || fail "$model is not the published program's"
         [ ! -e "$oracle/expected/$model.program.txt" ] || cmp "$scratch/$model.txt" "$oracle/expected/$model.program.txt" ||
             fail "$model has another program"
+        (cd "$oracle/grammars" && "$TARTAN" place "$@" --seed "$seed" -o "$scratch/$model.again.ldr" >/dev/null 2>&1) || fail "$model does not end without --program"
+        cmp "$scratch/$model.again.ldr" "$oracle/expected/$model.ldr" || fail "$model is not the published program's without --program"
         is "figures of $model" "$(sed -E 's/.*"elements":([0-9]+),"terminals":([0-9]+),.*"tries":([0-9]+),.*/\1 \2 \3/' <<<"$said")" "$figures"
         is "alternatives of $model that miss their place" "$(grep -c 'W187' "$scratch/$model.err")" 2
     }

@@ -40,6 +40,17 @@ static inline tn_cell_box tn_cell_box_of(const tn_cell_box upright[TN_UPRIGHT_TU
     return turn < TN_UPRIGHT_TURNS ? upright[turn] : tn_cell_box_turn(&upright[0], turn);
 }
 
+/* A box that was worked out for each upright turn, at a frame. */
+static inline tn_cell_box tn_cell_box_at(const tn_cell_box box[TN_UPRIGHT_TURNS], const tn_frame *frame)
+{
+    tn_cell_box moved = tn_cell_box_of(box, frame->heading);
+    for (int k = 0; k < 3; k++) {
+        moved.low[k] += frame->at[k];
+        moved.high[k] += frame->at[k];
+    }
+    return moved;
+}
+
 /* Moves, turns or colours the frame. False where it would go farther than TN_PLACE_FAR. */
 bool tn_frame_step(tn_frame *frame, const tn_step *step);
 

@@ -92,6 +92,12 @@ static inline bool tn_step_may_fail(tn_step_kind kind)
     return kind == TN_STEP_FILL || kind == TN_STEP_BLOCK || kind == TN_STEP_TOUCH;
 }
 
+/* Is the step about cells (tn_frame_box)? */
+static inline bool tn_step_has_cells(tn_step_kind kind)
+{
+    return tn_step_may_fail(kind) || kind == TN_STEP_FILL_OVER;
+}
+
 static inline bool tn_step_is_bound(tn_step_kind kind)
 {
     return kind == TN_STEP_BOUND_BOX || kind == TN_STEP_BOUND_BALL;
