@@ -26,6 +26,20 @@ static const char *text_of(const tn_sources *sources, tn_token token)
     return sources->files[token.span.file].text + token.span.begin;
 }
 
+/* Are two house lines the same, one blank or line end being as good as several? */
+static bool same_house(const char *a, size_t a_size, const char *b, size_t b_size)
+{
+    size_t i = 0, k = 0;
+    while (i < a_size && k < b_size) {
+        size_t blanks = strspn(a + i, " \t\r\n\f\v"), others = strspn(b + k, " \t\r\n\f\v");
+        if ((blanks > 0) != (others > 0) || (!blanks && a[i] != b[k]))
+            return false;
+        i += blanks ? blanks : 1;
+        k += blanks ? others : 1;
+    }
+    return i == a_size && k == b_size;
+}
+
 static bool same_token(const tn_sources *sources, tn_token one, tn_token other)
 {
     size_t size = one.span.end - one.span.begin;
@@ -34,6 +48,8 @@ static bool same_token(const tn_sources *sources, tn_token one, tn_token other)
     if (one.kind == TN_TOKEN_CLAUSE_NAME) /* the line that it names is elsewhere now */
         return true;
     const char *a = text_of(sources, one), *b = text_of(sources, other);
+    if (one.kind == TN_TOKEN_HOUSE)
+        return same_house(a, size, b, other.span.end - other.span.begin);
     return size == other.span.end - other.span.begin &&
            (one.kind == TN_TOKEN_WORD ? strncasecmp(a, b, size) : memcmp(a, b, size)) == 0;
 }

@@ -424,7 +424,7 @@ static bool find_tokens(cursor *c, size_t offset, bool *quoted)
             break;
         if (token.kind == TN_TOKEN_COMMENT && offset <= token.span.end)
             return false;
-        *quoted = token.kind == TN_TOKEN_STRING && offset < token.span.end;
+        *quoted = (token.kind == TN_TOKEN_STRING || token.kind == TN_TOKEN_HOUSE) && offset < token.span.end;
         if (*quoted)
             break;
         c->count = i + 1;

@@ -63,6 +63,23 @@ static void take_comment(taker *t, const tn_token *from, size_t lines)
     t->comments++;
 }
 
+/* One blank or line end for several. */
+static const char *join_blanks(tn_arena *arena, const char *text, size_t size)
+{
+    char *joined = TN_NEW_ARRAY(arena, char, size + 1);
+    size_t used = 0;
+    for (size_t i = 0; joined && i < size; i++) {
+        bool blank = strchr(" \t\r\n\f\v", text[i]) != NULL, after = used > 0 && strchr(" \n", joined[used - 1]);
+        if (!blank)
+            joined[used++] = text[i];
+        else if (!after)
+            joined[used++] = text[i] == '\n' ? '\n' : ' ';
+        else if (text[i] == '\n')
+            joined[used - 1] = '\n';
+    }
+    return joined;
+}
+
 static void take_token(taker *t, const tn_token *from, size_t lines)
 {
     tn_format *format = t->format;
@@ -70,8 +87,8 @@ static void take_token(taker *t, const tn_token *from, size_t lines)
     token->kind = from->kind;
     token->text = t->source->text + from->span.begin;
     token->size = from->span.end - from->span.begin;
-    if (token->kind == TN_TOKEN_WORD) {
-        token->text = t->spell(t->arena, token->text, token->size);
+    if (token->kind == TN_TOKEN_WORD || token->kind == TN_TOKEN_HOUSE) {
+        token->text = (token->kind == TN_TOKEN_WORD ? t->spell : join_blanks)(t->arena, token->text, token->size);
         token->size = token->text ? strlen(token->text) : 0;
     }
     token->offset = from->span.begin;

@@ -47,6 +47,17 @@ static bool fits(const tn_format *format, size_t first, size_t last, size_t gap,
     return format->layout.column + gap + tn_format_width(format, first, last) + tail <= TN_FORMAT_WIDTH;
 }
 
+/* The lines of a house line stand below one another. */
+static void put_lines(tn_layout *layout, const char *text, size_t size)
+{
+    size_t column = layout->column;
+    for (const char *end; (end = memchr(text, '\n', size)); size -= (size_t)(end + 1 - text), text = end + 1) {
+        tn_layout_put(layout, text, (size_t)(end - text));
+        tn_layout_line(layout, column);
+    }
+    tn_layout_put(layout, text, size);
+}
+
 void tn_format_put(tn_format *format, size_t i, size_t gap)
 {
     tn_layout *layout = &format->layout;
@@ -62,7 +73,7 @@ void tn_format_put(tn_format *format, size_t i, size_t gap)
     if (!layout->fresh)
         tn_layout_spaces(layout, gap);
     token->line = layout->line;
-    tn_layout_put(layout, token->text, token->size);
+    put_lines(layout, token->text, token->size);
     if (token->remark.text)
         tn_layout_remark(layout, token->remark.text, token->remark.size);
 }

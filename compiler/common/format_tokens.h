@@ -17,7 +17,7 @@ typedef struct tn_format_comment {
 
 typedef struct tn_format_token {
     tn_token_kind kind;
-    const char *text;
+    const char *text; /* of a house line, a new line where its author began one and one blank between other words */
     size_t size, width;
     const tn_format_comment *comments; /* on lines of their own before it */
     size_t comment_count;

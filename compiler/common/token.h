@@ -14,6 +14,7 @@ typedef enum tn_token_kind {
     TN_TOKEN_NUMBER,
     TN_TOKEN_LENGTH,
     TN_TOKEN_STRING,
+    TN_TOKEN_HOUSE, /* the line of a house in a test: one blank or line end in it is as good as several */
     TN_TOKEN_SIGN,
     TN_TOKEN_TEXT,    /* of a sentence of a grammar, as it is written */
     TN_TOKEN_STRAY,   /* passed over; a warning says so */

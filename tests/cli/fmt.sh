@@ -43,6 +43,9 @@ is 'a formatted file' "$(stat -c %y "$scratch/wild.plan" | cut -c 1-4)" 2001
 cd "$here/../.."
 # What ships is laid out so, in every notation.
 exits 0 "$TARTAN" fmt --check stdlib/*.{plan,hemls,bnf,kit} examples/*/*.{plan,study,kit} bench/*.plan
+# Forms and houses that are laid out at random.
+python3 tests/fmt_houses.py "$TARTAN" "$scratch" stdlib/{cottage,lahave-form,lahave-complete,row-houses,apartments}.plan \
+    tests/cli/files/house-coverage.plan || fail 'forms are formatted wrongly'
 # What --diff says, patch can do.
 if command -v patch >/dev/null; then
     cp tests/cli/files/sheds.plan "$scratch/a.plan"
