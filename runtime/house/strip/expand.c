@@ -37,64 +37,6 @@ typedef struct tn_houses_expansion {
     void *context;
 } tn_houses_expansion;
 
-bool tn_houses_plan_lives(const tn_houses *h, uint32_t layer, uint32_t plan)
-{
-    uint32_t least = h->low > layer ? h->low - layer : 0;
-    for (uint32_t left = least; left <= h->high - layer; left++)
-        if (tn_houses_plan_alive(h, left, plan))
-            return true;
-    return false;
-}
-
-bool tn_houses_plan_alive(const tn_houses *h, uint32_t left, uint32_t plan)
-{
-    return plan != TN_STRIP_NONE &&
-           (h->weighed ? tn_weighed_alive(h->weighed, left, plan) : tn_library_lives(h->plans, left, plan));
-}
-
-/* Steps of the plan's part of each measure, as steps of the measure. */
-static tn_house_gain gain_of_plan(const tn_houses *h, const int64_t *steps)
-{
-    tn_house_gain gain = {{0}};
-    for (uint32_t k = 0; k < h->measures->count; k++)
-        gain.by[k] = steps[k] * h->measures->of[k]->plan * (h->measures->most[k] ? -1 : 1);
-    return gain;
-}
-
-tn_house_gain tn_houses_plan_start(const tn_houses *h)
-{
-    int64_t steps[TN_WEIGHED_MAX] = {0};
-    for (uint32_t k = 0; k < h->measures->count; k++)
-        steps[k] = tn_weighed_start(h->weighed, k);
-    return gain_of_plan(h, steps);
-}
-
-tn_house_gain tn_houses_plan_rest(const tn_houses *h, uint32_t plan)
-{
-    int64_t steps[TN_WEIGHED_MAX] = {0};
-    for (uint32_t k = 0; h->measures && k < h->measures->count; k++)
-        steps[k] = tn_weighed_rest(h->weighed, plan, k);
-    return h->measures ? gain_of_plan(h, steps) : (tn_house_gain){{0}};
-}
-
-tn_status tn_houses_plan_next(const tn_houses *h, uint32_t layer, uint32_t plan, tn_tray tray, uint32_t *next,
-                              tn_house_gain *gain, tn_error *error)
-{
-    int64_t gains[TN_WEIGHED_MAX] = {0};
-    tn_status status = TN_OK;
-    *next = TN_STRIP_NONE;
-    *gain = (tn_house_gain){{0}};
-    if (h->only && h->only[layer] != tray)
-        return TN_OK;
-    if (h->weighed)
-        status = tn_weighed_step(h->weighed, plan, tn_weighed_letter(h->weighed, tray), next, gains, error);
-    else
-        *next = tn_library_next(h->plans, plan, tray);
-    if (h->weighed)
-        *gain = gain_of_plan(h, gains);
-    return status;
-}
-
 /* ---- ways of plans */
 
 static int compare_ways(const void *a, const void *b)

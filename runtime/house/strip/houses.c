@@ -160,32 +160,6 @@ static tn_status scout(const tn_houses *h, tn_houses_kind *kind, tn_error *error
 
 /* ---- sections */
 
-/* The trays that stand in some plan of the library. */
-static tn_status find_trays(const tn_houses *h, bool *trays, tn_error *error)
-{
-    tn_numbering layer = {0}, next = {0};
-    tn_status status = TN_OK;
-    bool ok = tn_number(&layer, 0) != UINT32_MAX;
-    for (uint32_t k = 0; ok && k < h->high; k++) {
-        for (uint32_t i = 0; ok && i < layer.count; i++)
-            for (tn_tray t = 0; ok && t < h->form->schema->tray_count; t++) {
-                uint32_t plan;
-                tn_house_gain gain;
-                status = tn_houses_plan_next(h, k, (uint32_t)layer.keys[i], t, &plan, &gain, error);
-                ok = status == TN_OK;
-                if (!ok || !tn_houses_plan_lives(h, k + 1, plan))
-                    continue;
-                trays[t] = true;
-                ok = tn_number(&next, plan) != UINT32_MAX;
-            }
-        tn_numbering_clear(&layer);
-        layer = next;
-        next = (tn_numbering){0};
-    }
-    tn_numbering_clear(&layer);
-    return ok ? TN_OK : status != TN_OK ? status : tn_fail_memory(error);
-}
-
 tn_houses_kind *tn_houses_kind_of(const tn_houses *h, const tn_house *section)
 {
     tn_section_key key = tn_sections_key(&h->sections, section);
@@ -275,7 +249,7 @@ tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record 
     if (status == TN_OK && h->measures)
         status = weigh_plans(h, error);
     if (status == TN_OK)
-        status = find_trays(h, trays, error);
+        status = tn_houses_plans_find(h, trays, error);
     if (status == TN_OK)
         status = count_sections(h, trays, error);
     if (status == TN_OK && (h->aim == TN_HOUSES_LEAST || h->aim == TN_HOUSES_FRONT))
@@ -302,6 +276,7 @@ void tn_houses_free(tn_houses *h)
         tn_strip_free(kind->strip);
     }
     tn_sections_free(&h->sections);
+    tn_houses_plans_clear(h);
     tn_weighed_free(h->weighed);
     tn_value_counts_clear(&h->best);
     free(h->kinds);

@@ -30,6 +30,12 @@ void tn_value_counts_keep_front(tn_value_counts *counts);
 int tn_house_gain_compare(const tn_house_gain *a, const tn_house_gain *b);
 tn_house_gain tn_house_gain_sum(const tn_house_gain *a, const tn_house_gain *b);
 
+/* The plan states after so many trays from which plans of the library go on. */
+typedef struct tn_houses_plan_layer {
+    tn_numbering states;
+    uint32_t *alike; /* [states]: the first from which the same goes on */
+} tn_houses_plan_layer;
+
 /* The nodes after so many trays: {state of the library of plans, state of the strip}. */
 typedef struct tn_houses_layer {
     tn_numbering nodes; /* plan state << 32 | state */
@@ -61,6 +67,7 @@ struct tn_houses {
     const tn_house_library_record *library;
     const tn_library *plans;
     uint32_t max_states, low, high; /* trays */
+    tn_houses_plan_layer *plan_layers; /* [high + 1] */
     tn_sections sections;
     tn_houses_kind *kinds;
     size_t kind_count, kind_room;
@@ -90,7 +97,12 @@ typedef tn_status tn_houses_edge_seen(void *context, const tn_houses_edge *edge,
 tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end,
                            tn_houses_edge_seen *seen, void *context, tn_error *error);
 
-/* The plans that are looked at: where a tray leads, and what it adds; TN_STRIP_NONE: to none of them. */
+/* Finds the plan states, and the trays that stand in some plan (trays: [of the schema], false). */
+tn_status tn_houses_plans_find(tn_houses *houses, bool *trays, tn_error *error);
+void tn_houses_plans_clear(tn_houses *houses);
+
+/* The plans that are looked at: where a tray leads, and what it adds; TN_STRIP_NONE: to none of them. layer: the trays
+ * before it. */
 tn_status tn_houses_plan_next(const tn_houses *houses, uint32_t layer, uint32_t plan, tn_tray tray, uint32_t *next,
                               tn_house_gain *gain, tn_error *error);
 bool tn_houses_plan_alive(const tn_houses *houses, uint32_t left, uint32_t plan);

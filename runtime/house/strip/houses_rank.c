@@ -218,10 +218,11 @@ static tn_status onward(tn_plan_walk *w, size_t kind, uint32_t slice, uint32_t p
 static tn_status houses_by(tn_plan_walk *w, tn_tray tray, mpz_t houses, tn_error *error)
 {
     const tn_houses *h = w->houses;
-    uint32_t plan = tn_library_next(h->plans, w->plan, tray);
-    tn_status status = TN_OK;
+    uint32_t plan;
+    tn_house_gain gain;
+    tn_status status = tn_houses_plan_next(h, w->layer, w->plan, tray, &plan, &gain, error);
     mpz_set_ui(houses, 0);
-    if (!tn_library_lives(h->plans, w->length - w->layer - 1, plan))
+    if (status != TN_OK || !tn_houses_plan_alive(h, w->length - w->layer - 1, plan))
         return status;
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
         const tn_strip_list *list = &h->kinds[i].strip->of_tray[tray];
@@ -278,7 +279,9 @@ static tn_status go_on(tn_plan_walk *w, tn_tray tray, tn_error *error)
         w->fronts[i] = next;
         clear_onward(&w->onwards[i]);
     }
-    w->plan = tn_library_next(w->houses->plans, w->plan, tray);
+    tn_house_gain gain;
+    if (status == TN_OK)
+        status = tn_houses_plan_next(w->houses, w->layer, w->plan, tray, &w->plan, &gain, error);
     w->layer++;
     return status;
 }

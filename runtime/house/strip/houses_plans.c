@@ -1,0 +1,176 @@
+/* The plans that houses stand on, as an automaton: what the library knows after so many trays, and what measures add.
+ *
+ * Near the end of the row little of that still matters: plan states from which the same trays lead to plans, and add the
+ * same to the measures, are merged for each number of trays. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/house/strip/houses_data.h"
+
+bool tn_houses_plan_lives(const tn_houses *h, uint32_t layer, uint32_t plan)
+{
+    uint32_t least = h->low > layer ? h->low - layer : 0;
+    for (uint32_t left = least; left <= h->high - layer; left++)
+        if (tn_houses_plan_alive(h, left, plan))
+            return true;
+    return false;
+}
+
+bool tn_houses_plan_alive(const tn_houses *h, uint32_t left, uint32_t plan)
+{
+    return plan != TN_STRIP_NONE &&
+           (h->weighed ? tn_weighed_alive(h->weighed, left, plan) : tn_library_lives(h->plans, left, plan));
+}
+
+/* Steps of the plan's part of each measure, as steps of the measure. */
+static tn_house_gain gain_of_plan(const tn_houses *h, const int64_t *steps)
+{
+    tn_house_gain gain = {{0}};
+    for (uint32_t k = 0; k < h->measures->count; k++)
+        gain.by[k] = steps[k] * h->measures->of[k]->plan * (h->measures->most[k] ? -1 : 1);
+    return gain;
+}
+
+tn_house_gain tn_houses_plan_start(const tn_houses *h)
+{
+    int64_t steps[TN_WEIGHED_MAX] = {0};
+    for (uint32_t k = 0; k < h->measures->count; k++)
+        steps[k] = tn_weighed_start(h->weighed, k);
+    return gain_of_plan(h, steps);
+}
+
+tn_house_gain tn_houses_plan_rest(const tn_houses *h, uint32_t plan)
+{
+    int64_t steps[TN_WEIGHED_MAX] = {0};
+    for (uint32_t k = 0; h->measures && k < h->measures->count; k++)
+        steps[k] = tn_weighed_rest(h->weighed, plan, k);
+    return h->measures ? gain_of_plan(h, steps) : (tn_house_gain){{0}};
+}
+
+/* As tn_houses_plan_next, before what is alike is merged. */
+static tn_status step(const tn_houses *h, uint32_t layer, uint32_t plan, tn_tray tray, uint32_t *next,
+                      tn_house_gain *gain, tn_error *error)
+{
+    int64_t gains[TN_WEIGHED_MAX] = {0};
+    tn_status status = TN_OK;
+    *next = TN_STRIP_NONE;
+    *gain = (tn_house_gain){{0}};
+    if (h->only && h->only[layer] != tray)
+        return TN_OK;
+    if (h->weighed)
+        status = tn_weighed_step(h->weighed, plan, tn_weighed_letter(h->weighed, tray), next, gains, error);
+    else
+        *next = tn_library_next(h->plans, plan, tray);
+    if (h->weighed)
+        *gain = gain_of_plan(h, gains);
+    return status;
+}
+
+tn_status tn_houses_plan_next(const tn_houses *h, uint32_t layer, uint32_t plan, tn_tray tray, uint32_t *next,
+                              tn_house_gain *gain, tn_error *error)
+{
+    tn_status status = step(h, layer, plan, tray, next, gain, error);
+    const tn_houses_plan_layer *after = &h->plan_layers[layer + 1];
+    uint32_t at = status == TN_OK && *next != TN_STRIP_NONE ? tn_number_find(&after->states, *next) : UINT32_MAX;
+    *next = at == UINT32_MAX ? TN_STRIP_NONE : after->alike[at];
+    return status;
+}
+
+/* ---- the states that plans of the library reach */
+
+static tn_status reach_next(const tn_houses *h, uint32_t layer, uint32_t plan, bool *trays, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (tn_tray t = 0; status == TN_OK && t < h->form->schema->tray_count; t++) {
+        uint32_t next;
+        tn_house_gain gain;
+        status = step(h, layer, plan, t, &next, &gain, error);
+        if (status != TN_OK || !tn_houses_plan_lives(h, layer + 1, next))
+            continue;
+        trays[t] = true;
+        if (tn_number(&h->plan_layers[layer + 1].states, next) == UINT32_MAX)
+            status = tn_fail_memory(error);
+    }
+    return status;
+}
+
+/* ---- what is alike */
+
+static bool push_gain(const tn_houses *h, tn_key *key, const tn_house_gain *gain)
+{
+    bool ok = true;
+    for (uint32_t k = 0; ok && h->measures && k < h->measures->count; k++)
+        ok = tn_push_long(key, (uint64_t)gain->by[k]);
+    return ok;
+}
+
+/* What goes on from a plan state: whether the row may end, then each tray that leads on, with what is behind it. */
+static tn_status describe(const tn_houses *h, uint32_t layer, uint32_t plan, tn_key *key, tn_error *error)
+{
+    bool end = layer >= h->low && tn_houses_plan_alive(h, 0, plan);
+    tn_house_gain gain = end ? tn_houses_plan_rest(h, plan) : (tn_house_gain){{0}};
+    tn_status status = TN_OK;
+    key->size = 0;
+    bool ok = tn_key_push(key, end) && push_gain(h, key, &gain);
+    for (tn_tray t = 0; ok && layer < h->high && t < h->form->schema->tray_count; t++) {
+        uint32_t next;
+        status = tn_houses_plan_next(h, layer, plan, t, &next, &gain, error);
+        ok = status == TN_OK;
+        if (ok && next != TN_STRIP_NONE)
+            ok = tn_key_push(key, t) && tn_key_push(key, next) && push_gain(h, key, &gain);
+    }
+    return ok ? TN_OK : status != TN_OK ? status : tn_fail_memory(error);
+}
+
+/* The layer behind it is merged already. */
+static tn_status merge_layer(tn_houses *h, uint32_t at, tn_error *error)
+{
+    tn_houses_plan_layer *layer = &h->plan_layers[at];
+    tn_interner classes = {0};
+    tn_key key = {0};
+    tn_status status = TN_OK;
+    uint32_t *first = malloc(((size_t)layer->states.count + 1) * sizeof *first); /* of each class */
+    layer->alike = malloc(((size_t)layer->states.count + 1) * sizeof *layer->alike);
+    if (!first || !layer->alike)
+        status = tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < layer->states.count; i++) {
+        uint32_t plan = (uint32_t)layer->states.keys[i], before = classes.count;
+        status = describe(h, at, plan, &key, error);
+        uint32_t class = status == TN_OK ? tn_intern(&classes, key.data, key.size) : 0;
+        if (class == UINT32_MAX)
+            status = tn_fail_memory(error);
+        if (status != TN_OK)
+            continue;
+        if (class == before)
+            first[class] = plan;
+        layer->alike[i] = first[class];
+    }
+    tn_interner_clear(&classes);
+    free(key.data);
+    free(first);
+    return status;
+}
+
+tn_status tn_houses_plans_find(tn_houses *h, bool *trays, tn_error *error)
+{
+    h->plan_layers = calloc((size_t)h->high + 1, sizeof *h->plan_layers);
+    if (!h->plan_layers || tn_number(&h->plan_layers[0].states, 0) == UINT32_MAX)
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    for (uint32_t k = 0; status == TN_OK && k < h->high; k++)
+        for (uint32_t i = 0; status == TN_OK && i < h->plan_layers[k].states.count; i++)
+            status = reach_next(h, k, (uint32_t)h->plan_layers[k].states.keys[i], trays, error);
+    for (uint32_t k = h->high + 1; status == TN_OK && k-- > 0;)
+        status = merge_layer(h, k, error);
+    return status;
+}
+
+void tn_houses_plans_clear(tn_houses *h)
+{
+    for (uint32_t k = 0; h->plan_layers && k <= h->high; k++) {
+        tn_numbering_clear(&h->plan_layers[k].states);
+        free(h->plan_layers[k].alike);
+    }
+    free(h->plan_layers);
+}
