@@ -32,6 +32,7 @@ void tn_strip_clauses_free(tn_strip *strip)
     for (uint32_t i = 0; i < strip->clause_count; i++) {
         tn_classes_free(strip->clauses[i].classes);
         tn_interner_clear(&strip->clauses[i].bases);
+        tn_strip_horizons_free(strip, &strip->clauses[i]);
         tn_dfa_free(strip->clauses[i].dfa);
         free(strip->clauses[i].atoms);
     }
@@ -318,8 +319,6 @@ static tn_status lower_clause(tn_strip *strip, tn_strip_clause *clause, const ch
         status = tn_dfa_complement(dfa, &clause->dfa, error);
     else if (status == TN_OK)
         clause->dfa = tn_dfa_share(dfa);
-    if (status == TN_OK)
-        clause->dead = tn_dfa_sink(clause->dfa, 0);
     tn_dfa_free(dfa);
     tn_lowering_free(lowering);
     free(classes.representative);
@@ -336,5 +335,5 @@ tn_status tn_strip_lower(tn_strip *strip, tn_error *error)
         const tn_house_clause_record *record = &module->HOUSE_CLAUSE_records[strip->library->clause_first + i];
         status = lower_clause(strip, &strip->clauses[i], tn_text(module, record->name), error);
     }
-    return status;
+    return status == TN_OK ? tn_strip_horizons(strip, error) : status;
 }

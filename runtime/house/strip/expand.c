@@ -109,6 +109,22 @@ static tn_status reach(void *context, uint32_t state, uint64_t times, uint64_t f
     return TN_OK;
 }
 
+/* Behind the last tray only states are kept in which the row may end. */
+static tn_status keep_ends(tn_houses_expansion *e, size_t first, tn_error *error)
+{
+    tn_fan *fan = &e->fan;
+    tn_status status = TN_OK;
+    size_t kept = first;
+    for (size_t i = first; status == TN_OK && i < fan->used; i++) {
+        bool ends;
+        status = tn_strip_ends(e->kind->strip, e->layer + 1, fan->reached[i].state, &ends, error);
+        fan->reached[kept] = fan->reached[i];
+        kept += ends;
+    }
+    fan->used = kept;
+    return status;
+}
+
 /* Steps by a slice, if the group has not done so yet. */
 static tn_status ask(tn_houses_expansion *e, uint32_t group, uint32_t state, uint32_t slice, size_t at, tn_error *error)
 {
@@ -117,7 +133,9 @@ static tn_status ask(tn_houses_expansion *e, uint32_t group, uint32_t state, uin
         return TN_OK;
     fan->mark[at] = group;
     fan->first[at] = fan->used;
-    tn_status status = tn_strip_step(e->kind->strip, state, slice, reach, fan, error);
+    tn_status status = tn_strip_step(e->kind->strip, e->layer, state, slice, reach, fan, error);
+    if (status == TN_OK && slice != TN_STRIP_NONE && e->layer + 1 == e->houses->high)
+        status = keep_ends(e, fan->first[at], error);
     fan->count[at] = fan->used - fan->first[at];
     return status;
 }

@@ -182,7 +182,7 @@ static tn_status add_kind(tn_houses *h, const tn_house *section, const bool *tra
     *kind = (tn_houses_kind){.key = tn_sections_key(&h->sections, section), .sections = 1};
     mpz_init(kind->faced);
     tn_status status =
-        tn_strip_new(h->form, h->library, section->shapes, trays, h->high, h->measures, &kind->strip, error);
+        tn_strip_new(h->form, h->library, section->shapes, trays, h->low, h->high, h->measures, &kind->strip, error);
     if (status == TN_OK)
         status = scout(h, kind, error);
     if (status != TN_OK)

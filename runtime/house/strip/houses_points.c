@@ -85,7 +85,7 @@ static tn_status advance(const tn_seeking *s, const tn_houses_kind *kind, uint32
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < marks->count; i++) {
         tn_advancing a = {s, kind, layer + 1, tn_house_gain_sum(&marks->items[i].value, &s->gains[layer]), next};
-        status = tn_strip_step(kind->strip, marks->items[i].state, slice, reach, &a, error);
+        status = tn_strip_step(kind->strip, layer, marks->items[i].state, slice, reach, &a, error);
     }
     return status;
 }

@@ -208,7 +208,7 @@ static tn_status onward(tn_plan_walk *w, size_t kind, uint32_t slice, uint32_t p
     mpz_init(s.one);
     for (size_t i = 0; status == TN_OK && i < w->fronts[kind].count; i++) {
         s.count = w->fronts[kind].counts[i];
-        status = tn_strip_step(k->strip, w->fronts[kind].states[i], slice, sum_up, &s, error);
+        status = tn_strip_step(k->strip, w->layer, w->fronts[kind].states[i], slice, sum_up, &s, error);
     }
     mpz_clear(s.one);
     return status;
@@ -270,7 +270,7 @@ static tn_status go_on(tn_plan_walk *w, tn_tray tray, tn_error *error)
             for (size_t n = 0; status == TN_OK && n < w->fronts[i].count; n++) {
                 g.count = w->fronts[i].counts[n];
                 g.times = list->items[k].times;
-                status = tn_strip_step(strip, w->fronts[i].states[n], list->items[k].slice, go_to, &g, error);
+                status = tn_strip_step(strip, w->layer, w->fronts[i].states[n], list->items[k].slice, go_to, &g, error);
             }
         mpz_clear(g.one);
         clear_front(&w->fronts[i]);

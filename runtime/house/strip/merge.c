@@ -202,6 +202,9 @@ tn_status tn_strip_merge(tn_strip *strip, tn_error *error)
     strip->scouting = false;
     tn_interner_clear(&strip->states);
     tn_interner_clear(&strip->waiting);
+    free(strip->ends);
+    strip->ends = NULL;
+    strip->end_room = 0;
     return merge_edges(strip) && find_sides(strip) ? TN_OK : tn_fail_memory(error);
 }
 

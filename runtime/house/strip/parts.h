@@ -67,6 +67,17 @@ typedef struct tn_strip_atom {
     uint32_t radix;
 } tn_strip_atom;
 
+/* What a clause can still tell apart after so many letters. pairs: {its state, the base of the last tray, whose value is
+ * not known yet}. */
+typedef struct tn_strip_horizon {
+    uint32_t *alike;     /* [states]: the first that keeps the same; TN_NO_STATE: it keeps nothing */
+    tn_numbering pairs;
+    uint64_t *of_pair;   /* [pairs]: the first that leads to the same states; TN_STRIP_NO_PAIR: none keeps anything */
+    tn_interner classes; /* where the values lead */
+    uint64_t *first;     /* [classes] */
+    size_t pair_room, first_room;
+} tn_strip_horizon;
+
 /* What a slice is to one clause: {class of its tray, then a word or four for each atom}. */
 typedef struct tn_strip_clause {
     uint32_t holds; /* function */
@@ -77,7 +88,7 @@ typedef struct tn_strip_clause {
     uint32_t radix;    /* letters of one base: the product over the atoms */
     tn_interner bases; /* of slices */
     tn_dfa *dfa;       /* of what the clause keeps, over letters base * radix + value */
-    uint32_t dead;     /* its state that keeps nothing, or TN_NO_STATE */
+    tn_strip_horizon *horizons; /* [trays_most + 1] */
 } tn_strip_clause;
 
 /* ---- edges, slices, planes */
@@ -143,7 +154,7 @@ typedef struct tn_strip {
     const tn_house_form *form;
     const tn_house_library_record *library;
     uint32_t shapes[TN_CHOICES_MAX];
-    uint32_t trays_most;
+    uint32_t trays_least, trays_most;
     tn_watch *watch;
     const tn_house_measures *measures;       /* or NULL */
     uint32_t *weighed_rooms[TN_WEIGHED_MAX]; /* [terms of the measure]: of the questions about rooms */
@@ -156,6 +167,8 @@ typedef struct tn_strip {
     tn_strip_clause *clauses;
     uint32_t clause_count;
     tn_strip_list *of_tray; /* [trays of the schema] */
+    uint8_t *ends; /* [states]: may the row end there? see tn_strip_ends */
+    size_t end_room;
     tn_interner edge_keys, slice_keys, outcome_keys, areas, bases, sides, waiting, rooms, walks, states;
     tn_strip_edge *edges;
     size_t edge_room;
@@ -167,15 +180,15 @@ typedef struct tn_strip {
     size_t fit_room;
     tn_strip_crossings crossed_rooms, crossed_walks[TN_STRIP_MEETINGS_MAX];
     tn_key key, joined; /* scratch */
-    uint32_t *scratch;  /* [clauses] */
+    uint32_t *scratch;  /* [2 * clauses] */
 } tn_strip;
 
 /* ---- strip.c */
 
-/* The houses of the section, on trays of these and up to so many. measures: NULL, or borrowed. Free with tn_strip_free,
+/* The houses of the section, on trays of these, at least and at most so many. measures: NULL, or borrowed. Free with tn_strip_free,
  * also after a failure. */
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
-                       const bool *trays, uint32_t trays_most, const tn_house_measures *measures, tn_strip **strip,
+                       const bool *trays, uint32_t trays_least, uint32_t trays_most, const tn_house_measures *measures, tn_strip **strip,
                        tn_error *error);
 void tn_strip_free(tn_strip *strip);
 
@@ -280,15 +293,30 @@ tn_status tn_strip_base(tn_strip *strip, tn_strip_clause *clause, const tn_house
 /* When all slices are made: their automata. */
 tn_status tn_strip_lower(tn_strip *strip, tn_error *error);
 
+/* ---- horizon.c */
+
+#define TN_STRIP_NO_PAIR UINT64_MAX
+
+/* When all automata are made. */
+tn_status tn_strip_horizons(tn_strip *strip, tn_error *error);
+void tn_strip_horizons_free(const tn_strip *strip, tn_strip_clause *clause);
+
+/* The first state and base, state << 32 | base, that cannot be told from these after so many trays. */
+tn_status tn_strip_pair(tn_strip *strip, tn_strip_clause *clause, uint32_t trays, uint32_t state, uint32_t base,
+                        uint64_t *pair, tn_error *error);
+
 /* ---- step.c */
 
 /* Calls `seen` for each state after another slice (TN_STRIP_NONE: the end, and the state 0), with the number of choices
- * that lead there, that of those that differ in more than tiles, and what the step adds to the measures. state:
- * TN_STRIP_NONE before the first slice. */
+ * that lead there, that of those that differ in more than tiles, and what the step adds to the measures. trays: before
+ * the slice; state: TN_STRIP_NONE before the first. */
 typedef tn_status tn_strip_seen(void *context, uint32_t state, uint64_t times, uint64_t faced,
                                 const tn_house_gain *gain, tn_error *error);
-tn_status tn_strip_step(tn_strip *strip, uint32_t state, uint32_t slice, tn_strip_seen *seen, void *context,
+tn_status tn_strip_step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, tn_strip_seen *seen, void *context,
                         tn_error *error);
+
+/* May the row end in the state, after so many trays? */
+tn_status tn_strip_ends(tn_strip *strip, uint32_t trays, uint32_t state, bool *ends, tn_error *error);
 
 /* The area that has this number, in square nanometres. */
 tn_int128 tn_strip_area(const tn_strip *strip, uint32_t number);

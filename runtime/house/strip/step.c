@@ -11,7 +11,7 @@ enum { STATE_EDGE, STATE_WAITING, STATE_ROOMS, STATE_WALKS };
 typedef struct tn_stepping {
     tn_strip *strip;
     const uint32_t *state, *slice; /* NULL: before the first, after the last */
-    uint32_t slice_number, outcome_number;
+    uint32_t trays, slice_number, outcome_number; /* trays: before the slice */
     tn_strip_crossing crossing;
     uint32_t rooms, walks[TN_STRIP_MEETINGS_MAX];
     uint32_t closed[TN_STRIP_QUESTIONS_MAX];
@@ -125,10 +125,15 @@ static uint32_t value_of(const tn_stepping *s, const tn_strip_clause *clause)
     return value;
 }
 
-static bool keep(const tn_strip *strip, uint32_t clause, uint32_t state, bool last)
+/* A letter of a clause, after which it has read so many. Does the clause keep something then? */
+static bool read_letter(const tn_stepping *s, const tn_strip_clause *clause, uint32_t letter, uint32_t letters,
+                        uint32_t *state)
 {
-    const tn_strip_clause *c = &strip->clauses[clause];
-    return last ? c->dfa->accept[state] : state != c->dead;
+    *state = tn_dfa_read(clause->dfa, *state, letter);
+    if (!s->slice)
+        return clause->dfa->accept[*state];
+    *state = clause->horizons[letters].alike[*state];
+    return *state != TN_NO_STATE;
 }
 
 /* Reads the letters of the right slice, for the clauses that do not wait for its right side. Do all keep something? */
@@ -142,8 +147,7 @@ static bool read_right(const tn_stepping *s, uint32_t *states)
         states[i] = before ? before[i] : 0;
         if (clause->radix > 1)
             continue;
-        states[i] = bases ? tn_dfa_read(clause->dfa, states[i], bases[i]) : states[i];
-        if (!keep(strip, i, states[i], !s->slice))
+        if (bases ? !read_letter(s, clause, bases[i], s->trays + 1, &states[i]) : !clause->dfa->accept[states[i]])
             return false;
     }
     return true;
@@ -159,8 +163,8 @@ static bool read_left(const tn_stepping *s, uint32_t *states)
         if (clause->radix == 1)
             continue;
         uint32_t letter = before[strip->clause_count + i] * clause->radix + value_of(s, clause);
-        states[i] = tn_dfa_read(clause->dfa, before[i], letter);
-        if (!keep(strip, i, states[i], !s->slice))
+        states[i] = before[i];
+        if (!read_letter(s, clause, letter, s->trays, &states[i]))
             return false;
     }
     return true;
@@ -195,14 +199,38 @@ static tn_status find_waiting(const tn_stepping *s, uint32_t *waiting, tn_error 
     return *waiting != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-/* *after: TN_STRIP_NONE where no house goes on from there. */
-static tn_status make_state(const tn_stepping *s, const uint32_t *states, uint32_t *after, tn_error *error)
+/* Merges what the clauses that wait for the right side of the slice cannot tell apart: states and bases are replaced.
+ * *keeps: does each keep something? */
+static tn_status merge_pairs(const tn_stepping *s, uint32_t *states, uint32_t *bases, bool *keeps, tn_error *error)
+{
+    tn_strip *strip = s->strip;
+    tn_status status = TN_OK;
+    *keeps = true;
+    for (uint32_t i = 0; status == TN_OK && *keeps && i < strip->clause_count; i++) {
+        uint64_t pair;
+        bases[i] = 0;
+        if (strip->clauses[i].radix == 1)
+            continue;
+        status = tn_strip_pair(strip, &strip->clauses[i], s->trays + 1, states[i], bases_of(s)[i], &pair, error);
+        *keeps = pair != TN_STRIP_NO_PAIR;
+        states[i] = tn_high(pair);
+        bases[i] = tn_low(pair);
+    }
+    return status;
+}
+
+/* states: of the clauses, then room for their bases. *after: TN_STRIP_NONE where no house goes on from there. */
+static tn_status make_state(const tn_stepping *s, uint32_t *states, uint32_t *after, tn_error *error)
 {
     tn_strip *strip = s->strip;
     tn_key *key = &strip->joined;
-    uint32_t waiting = 0, edge = s->slice[SLICE_EDGE];
-    tn_status status = find_waiting(s, &waiting, error);
+    uint32_t waiting = 0, edge = s->slice[SLICE_EDGE], *bases = states + strip->clause_count;
+    bool keeps;
     *after = TN_STRIP_NONE;
+    tn_status status = merge_pairs(s, states, bases, &keeps, error);
+    if (status != TN_OK || !keeps)
+        return status;
+    status = find_waiting(s, &waiting, error);
     if (status != TN_OK || waiting == TN_STRIP_NONE)
         return status;
     key->size = 0;
@@ -210,10 +238,8 @@ static tn_status make_state(const tn_stepping *s, const uint32_t *states, uint32
               tn_key_push(key, s->rooms);
     for (uint32_t w = 0; ok && w < strip->questions.walk_count; w++)
         ok = tn_key_push(key, s->walks[w]);
-    for (uint32_t i = 0; ok && i < strip->clause_count; i++)
+    for (uint32_t i = 0; ok && i < 2 * strip->clause_count; i++)
         ok = tn_key_push(key, states[i]);
-    for (uint32_t i = 0; ok && i < strip->clause_count; i++)
-        ok = tn_key_push(key, strip->clauses[i].radix > 1 ? bases_of(s)[i] : 0);
     *after = ok ? tn_intern(&strip->states, key->data, key->size) : UINT32_MAX;
     return *after != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
@@ -283,11 +309,11 @@ static void look(tn_stepping *s, uint32_t state, uint32_t slice)
                                       .slice = s->slice};
 }
 
-tn_status tn_strip_step(tn_strip *strip, uint32_t state, uint32_t slice, tn_strip_seen *seen, void *context,
-                        tn_error *error)
+tn_status tn_strip_step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, tn_strip_seen *seen,
+                        void *context, tn_error *error)
 {
     const tn_strip_list *plane;
-    tn_stepping s = {.strip = strip};
+    tn_stepping s = {.strip = strip, .trays = trays};
     if (state == TN_STRIP_NONE && slice == TN_STRIP_NONE) /* a row without trays */
         return keeps_no_trays(strip) ? seen(context, 0, 1, 1, &(tn_house_gain){{0}}, error) : TN_OK;
     look(&s, state, slice);
@@ -300,5 +326,34 @@ tn_status tn_strip_step(tn_strip *strip, uint32_t state, uint32_t slice, tn_stri
         look(&s, state, slice); /* states are made while others are read: the words may move */
         status = try_outcome(&s, &outcomes.items[i], seen, context, error);
     }
+    return status;
+}
+
+static tn_status see_end(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
+                         tn_error *error)
+{
+    (void)state;
+    (void)times;
+    (void)faced;
+    (void)gain;
+    (void)error;
+    *(bool *)context = true;
+    return TN_OK;
+}
+
+tn_status tn_strip_ends(tn_strip *strip, uint32_t trays, uint32_t state, bool *ends, tn_error *error)
+{
+    enum { UNKNOWN, NO, YES };
+    size_t before = strip->end_room;
+    *ends = false;
+    if (!tn_array_reserve(&strip->ends, &strip->end_room, state, 1, sizeof *strip->ends))
+        return tn_fail_memory(error);
+    memset(strip->ends + before, UNKNOWN, strip->end_room - before);
+    tn_status status = TN_OK;
+    if (strip->ends[state] == UNKNOWN) {
+        status = tn_strip_step(strip, trays, state, TN_STRIP_NONE, see_end, ends, error);
+        strip->ends[state] = status != TN_OK ? UNKNOWN : *ends ? YES : NO;
+    }
+    *ends = strip->ends[state] == YES;
     return status;
 }

@@ -19,7 +19,7 @@ static tn_status begin(tn_strip *strip, tn_error *error)
     const tn_house_form *form = strip->form;
     strip->of_tray = calloc((size_t)form->schema->tray_count + 1, sizeof *strip->of_tray);
     strip->tiled = calloc((size_t)tn_form_functions(form) + 1, sizeof *strip->tiled);
-    strip->scratch = calloc((size_t)strip->library->clause_count + 1, sizeof *strip->scratch);
+    strip->scratch = calloc(2 * (size_t)strip->library->clause_count + 1, sizeof *strip->scratch);
     if (!strip->of_tray || !strip->tiled || !strip->scratch)
         return tn_fail_memory(error);
     for (uint32_t k = 0; strip->measures && k < strip->measures->count; k++) {
@@ -35,14 +35,14 @@ static tn_status begin(tn_strip *strip, tn_error *error)
 }
 
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
-                       const bool *trays, uint32_t trays_most, const tn_house_measures *measures, tn_strip **out,
-                       tn_error *error)
+                       const bool *trays, uint32_t trays_least, uint32_t trays_most,
+                       const tn_house_measures *measures, tn_strip **out, tn_error *error)
 {
     tn_strip *strip = *out = calloc(1, sizeof *strip);
     if (!strip)
         return tn_fail_memory(error);
     *strip = (tn_strip){
-        .form = form, .library = library, .trays_most = trays_most, .watch = form->module->watch, .measures = measures};
+        .form = form, .library = library, .trays_least = trays_least, .trays_most = trays_most, .watch = form->module->watch, .measures = measures};
     memcpy(strip->shapes, shapes, form->record->choice_count * sizeof *shapes);
     tn_status status = begin(strip, error);
     for (tn_tray t = 0; status == TN_OK && t < form->schema->tray_count; t++)
@@ -93,6 +93,7 @@ void tn_strip_free(tn_strip *strip)
     free(strip->edges);
     free(strip->tiled);
     free(strip->scratch);
+    free(strip->ends);
     for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
         free(strip->weighed_rooms[k]);
     tn_room_questions_clear(&strip->glass);
