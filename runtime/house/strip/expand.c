@@ -173,26 +173,48 @@ static tn_status expand_node(tn_houses_expansion *e, uint32_t group, uint32_t no
 
 /* ---- nodes by their states */
 
+/* order: of the state's rooms and walks, with its edge, by their first appearance. */
 typedef struct tn_ordered {
-    uint32_t state, node;
+    uint32_t order, state, node;
 } tn_ordered;
 
 static int compare_ordered(const void *a, const void *b)
 {
     const tn_ordered *p = a, *q = b;
-    return p->state != q->state ? (p->state > q->state) - (p->state < q->state)
-                                : (p->node > q->node) - (p->node < q->node);
+    return p->order != q->order   ? (p->order > q->order) - (p->order < q->order)
+           : p->state != q->state ? (p->state > q->state) - (p->state < q->state)
+                                  : (p->node > q->node) - (p->node < q->node);
+}
+
+/* States that cross planes alike follow one another. */
+static tn_ordered *order_nodes(const tn_strip *strip, const tn_numbering *nodes)
+{
+    tn_ordered *order = malloc(((size_t)nodes->count + 1) * sizeof *order);
+    tn_interner crossing = {0};
+    bool ok = order != NULL;
+    for (uint32_t i = 0; ok && i < nodes->count; i++) {
+        size_t size;
+        uint32_t state = (uint32_t)nodes->keys[i];
+        const uint32_t *words = state == TN_STRIP_NONE ? &state : tn_interned(&strip->states, state, &size);
+        uint32_t place = tn_intern(&crossing, words, state == TN_STRIP_NONE ? 1 : tn_strip_waiting_word(strip) - 1);
+        order[i] = (tn_ordered){place, state, i};
+        ok = place != UINT32_MAX;
+    }
+    tn_interner_clear(&crossing);
+    if (ok && nodes->count > 0)
+        qsort(order, nodes->count, sizeof *order, compare_ordered);
+    if (ok)
+        return order;
+    free(order);
+    return NULL;
 }
 
 static tn_status expand_nodes(tn_houses_expansion *e, bool end, tn_error *error)
 {
     const tn_numbering *nodes = &e->kind->layers[e->layer].nodes;
-    tn_ordered *order = malloc(((size_t)nodes->count + 1) * sizeof *order);
+    tn_ordered *order = order_nodes(e->kind->strip, nodes);
     if (!order)
         return tn_fail_memory(error);
-    for (uint32_t i = 0; i < nodes->count; i++)
-        order[i] = (tn_ordered){(uint32_t)nodes->keys[i], i};
-    qsort(order, nodes->count, sizeof *order, compare_ordered);
     tn_status status = TN_OK;
     uint32_t group = 0;
     for (uint32_t i = 0; status == TN_OK && i < nodes->count; i++) {

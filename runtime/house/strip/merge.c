@@ -122,8 +122,8 @@ static bool see_plane(const tn_strip *strip, uint32_t plane, const uint32_t *cel
         const uint32_t *sides = outcome + 3 + (size_t)STEP_WORDS * outcome[2];
         for (uint32_t i = 0; ok && i < strip->edges[left].count; i++)
             if (strip->edges[left].cells[i].tiled)
-                ok =
-                    tn_number(seen, (uint64_t)(cells[left] + i) << 32 | sides[SIDE_WORDS * i + SIDE_FIT]) != UINT32_MAX;
+                ok = tn_number(seen, (uint64_t)(cells[left] + i) << 32 | (sides[SIDE_WORDS * i + SIDE_FIT] - 1)) !=
+                     UINT32_MAX;
     }
     return ok;
 }
@@ -201,7 +201,6 @@ tn_status tn_strip_merge(tn_strip *strip, tn_error *error)
 {
     strip->scouting = false;
     tn_interner_clear(&strip->states);
-    tn_interner_clear(&strip->waiting);
     free(strip->ends);
     strip->ends = NULL;
     strip->end_room = 0;

@@ -128,15 +128,50 @@ enum { CELL_TILE, CELL_AREA, CELL_GLASS, CELL_MARKS, CELL_MARKS_HIGH, CELL_ROOM,
 enum { STEP_FROM, STEP_TO, STEP_HOW, STEP_WORDS }; /* HOW: bit 0: one room; bit w + 1: a step of walk w */
 
 /* Words of an outcome's key: the meetings across the plane (two words), the number of steps and STEP_WORDS for each,
- * then SIDE_WORDS for each cell of the left and of the right edge. */
+ * then SIDE_WORDS for each cell of the left and of the right edge, then the number of cells of the left one. FIT: 0 for
+ * a cell without tiles, or 1 and what of the side matters to them. */
 enum { SIDE_MARKS, SIDE_MARKS_HIGH, SIDE_FIT, SIDE_GLASS, SIDE_WORDS };
 
-/* Planes that were crossed by rooms or a walk, and what came of it. */
-typedef struct tn_strip_crossings {
-    tn_numbering keys[3]; /* {before, left edge}, {that, outcome}, {that, slice} */
-    uint32_t *results;
+/* What parts of a slice are, by number: equal parts are one. Lists of fits have a word for each cell: 0, or 1 and what
+ * matters to its tiles. */
+typedef struct tn_strip_slice {
+    uint32_t edge;
+    uint32_t bases;  /* of all clauses: of `letters` */
+    uint32_t tiles;  /* what of its own walls matters to each cell's tiles: of `fit_lists` */
+    uint32_t inside; /* what rooms and walks meet in it: of `insides` */
+    int64_t gains[TN_WEIGHED_MAX]; /* what its cells add to each measure */
+} tn_strip_slice;
+
+/* The same of an outcome. */
+typedef struct tn_strip_outcome {
+    uint32_t left_fits, right_fits; /* of `fit_lists` */
+    uint32_t through;               /* what rooms and walks meet at the plane: of `throughs` */
+} tn_strip_outcome;
+
+/* Words of a state: edge, rooms, each walk, what the clauses have read, what waits for its right side. */
+enum { STATE_EDGE, STATE_ROOMS, STATE_WALKS };
+
+/* Words of what came of an outcome: what it is to the clauses (of `values`; TN_STRIP_NONE: the row begins), rooms, each
+ * walk, then how many rooms have ended and are what each question asks for. */
+enum { CROSSED_VALUES, CROSSED_ROOMS, CROSSED_WALKS };
+
+/* What came of the planes that states with the same before them have met. mark: the stamp where that is known. */
+typedef struct tn_strip_row {
+    uint32_t *before; /* the words of the states up to the last walk; first TN_STRIP_NONE: the row begins */
+    uint32_t stamp;
+    uint32_t *mark;       /* [insides + 1]: by what is inside the slice; last: the end */
+    tn_strip_list *plane; /* the same: borrowed from `planes` */
+    size_t *first;        /* the same: of words, those of each outcome in order */
+    uint32_t *words;
+    size_t used, room;
+} tn_strip_row;
+
+/* What came of pairs of numbers. */
+typedef struct tn_strip_known {
+    tn_numbering pairs; /* first << 32 | second */
+    uint32_t *results;  /* [pairs][words] */
     size_t room;
-} tn_strip_crossings;
+} tn_strip_known;
 
 /* What nothing that follows can tell apart (merge.c). */
 typedef struct tn_strip_merged {
@@ -178,7 +213,17 @@ typedef struct tn_strip {
     tn_numbering fit_keys[2]; /* {base, left side}, then {that, right side} */
     uint32_t *fits;           /* [fit_keys[1]]: tiles */
     size_t fit_room;
-    tn_strip_crossings crossed_rooms, crossed_walks[TN_STRIP_MEETINGS_MAX];
+    tn_strip_slice *slices;     /* [slices] */
+    tn_strip_outcome *outcomes; /* [outcomes] */
+    size_t slice_room, outcome_room;
+    tn_interner letters, fit_lists, insides, throughs;
+    tn_strip_row row;
+    tn_interner readings, between, values; /* see reading.c */
+    tn_strip_known *after_slice, *after_plane; /* [trays_most + 1] */
+    tn_strip_known tiles, waits; /* {waiting, left fits}: how many; {tiles of a slice, right fits}: what waits */
+    tn_numbering befores;        /* edge << 32 | rooms or a walk */
+    tn_numbering moves;          /* through << 32 | inside */
+    tn_strip_known crossed_rooms, crossed_walks[TN_STRIP_MEETINGS_MAX]; /* {before, move} */
     tn_key key, joined; /* scratch */
     uint32_t *scratch;  /* [2 * clauses] */
 } tn_strip;
@@ -213,6 +258,17 @@ static inline uint64_t tn_both(const uint32_t *words)
 static inline bool tn_push_long(tn_key *key, uint64_t word)
 {
     return tn_key_push(key, tn_low(word)) && tn_key_push(key, tn_high(word));
+}
+
+/* The place among the words of a state; what the clauses have read comes before it. */
+static inline uint32_t tn_strip_waiting_word(const tn_strip *strip)
+{
+    return STATE_WALKS + strip->questions.walk_count + 1;
+}
+
+static inline size_t tn_strip_crossed_words(const tn_strip *strip)
+{
+    return CROSSED_WALKS + (size_t)strip->questions.walk_count + strip->questions.room_count;
 }
 
 static inline bool tn_edge_answers(const tn_strip *strip, const tn_strip_edge *edge, uint32_t cell, size_t decision)
@@ -304,6 +360,29 @@ void tn_strip_horizons_free(const tn_strip *strip, tn_strip_clause *clause);
 /* The first state and base, state << 32 | base, that cannot be told from these after so many trays. */
 tn_status tn_strip_pair(tn_strip *strip, tn_strip_clause *clause, uint32_t trays, uint32_t state, uint32_t base,
                         uint64_t *pair, tn_error *error);
+
+/* ---- reading.c */
+
+/* What is known of two numbers, `words` long; not *met: it is for the caller to fill in. */
+tn_status tn_strip_known_at(tn_strip_known *known, uint32_t first, uint32_t second, size_t words, uint32_t **result,
+                            bool *met, tn_error *error);
+void tn_strip_known_clear(tn_strip_known *known);
+
+/* What the clauses have read after a slice (TN_STRIP_NONE: the end), by what they had read before (TN_STRIP_NONE: the
+ * beginning); then after the plane before the slice, by what that is to them. trays: before the slice. TN_STRIP_NONE: a
+ * clause keeps nothing of that. */
+tn_status tn_strip_read_slice(tn_strip *strip, uint32_t trays, uint32_t read, uint32_t slice, uint32_t *between,
+                              tn_error *error);
+tn_status tn_strip_read_plane(tn_strip *strip, uint32_t trays, uint32_t between, uint32_t values, uint32_t *read,
+                              tn_error *error);
+
+/* ---- crossing.c */
+
+/* What comes of the outcomes of the plane behind a state (its words; NULL: the row begins), before a slice
+ * (TN_STRIP_NONE: the end): so many words each. Both are good until the next call. */
+tn_status tn_strip_cross(tn_strip *strip, const uint32_t *state, uint32_t slice, tn_strip_list *plane,
+                         const uint32_t **crossed, tn_error *error);
+void tn_strip_row_clear(tn_strip_row *row);
 
 /* ---- step.c */
 

@@ -153,6 +153,7 @@ static tn_status push_sides(tn_crossing_house *c, tn_key *key, tn_error *error)
         if (status == TN_OK && tiled)
             status = tn_strip_fit_side(s, &c->house, i, i < c->left_cells ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, c->x,
                                        &posts, &fit, error);
+        fit += tiled;
         uint32_t glass = tn_strip_number_area(s, plane_glass(c, i));
         if (status == TN_OK &&
             (glass == UINT32_MAX || !tn_push_long(key, marks) || !tn_key_push(key, fit) || !tn_key_push(key, glass)))
@@ -160,6 +161,43 @@ static tn_status push_sides(tn_crossing_house *c, tn_key *key, tn_error *error)
     }
     free(posts.items);
     return status;
+}
+
+/* Numbers what of the sides of some cells matters to their tiles. */
+static uint32_t number_fits(tn_crossing_house *c, const uint32_t *sides, uint32_t first, uint32_t end)
+{
+    tn_strip *s = c->strip;
+    bool ok = true;
+    s->key.size = 0;
+    for (uint32_t i = first; ok && i < end; i++)
+        ok = tn_key_push(&s->key, sides[(size_t)SIDE_WORDS * i + SIDE_FIT]);
+    return ok ? tn_intern(&s->fit_lists, s->key.data, s->key.size) : UINT32_MAX;
+}
+
+/* Numbers what rooms and walks meet: the key from the steps on, without what matters to tiles. */
+static uint32_t number_through(tn_crossing_house *c, const uint32_t *steps, const uint32_t *sides)
+{
+    tn_strip *s = c->strip;
+    const uint32_t *end = sides + (size_t)SIDE_WORDS * c->house.cell_count;
+    bool ok = true;
+    s->key.size = 0;
+    for (const uint32_t *word = steps; ok && word <= end; word++) {
+        bool fit = word >= sides && word < end && (size_t)(word - sides) % SIDE_WORDS == SIDE_FIT;
+        ok = tn_key_push(&s->key, fit ? 0 : *word);
+    }
+    return ok ? tn_intern(&s->throughs, s->key.data, s->key.size) : UINT32_MAX;
+}
+
+/* The parts of a new outcome, whose key is `joined`. */
+static bool keep_outcome(tn_crossing_house *c, uint32_t outcome)
+{
+    tn_strip *s = c->strip;
+    const uint32_t *steps = s->joined.data + 2, *sides = steps + 1 + (size_t)STEP_WORDS * *steps;
+    tn_strip_outcome *parts = &s->outcomes[outcome];
+    parts->left_fits = number_fits(c, sides, 0, c->left_cells);
+    parts->right_fits = number_fits(c, sides, c->left_cells, (uint32_t)c->house.cell_count);
+    parts->through = number_through(c, steps, sides);
+    return parts->left_fits != UINT32_MAX && parts->right_fits != UINT32_MAX && parts->through != UINT32_MAX;
 }
 
 static tn_status add_outcome(tn_crossing_house *c, tn_error *error)
@@ -172,7 +210,13 @@ static tn_status add_outcome(tn_crossing_house *c, tn_error *error)
     tn_status status = push_sides(c, key, error);
     if (status != TN_OK)
         return status;
+    uint32_t before = s->outcome_keys.count;
+    if (!tn_key_push(key, c->left_cells) ||
+        !tn_array_reserve(&s->outcomes, &s->outcome_room, before, 1, sizeof *s->outcomes))
+        return tn_fail_memory(error);
     uint32_t outcome = tn_intern(&s->outcome_keys, key->data, key->size);
+    if (outcome == before && !keep_outcome(c, outcome))
+        return tn_fail_memory(error);
     uint32_t at = outcome == UINT32_MAX ? UINT32_MAX : tn_number(&c->found, outcome);
     if (at == UINT32_MAX || !tn_array_reserve_from(&c->list->items, &c->list->room, 1, at, 1, sizeof *c->list->items))
         return tn_fail_memory(error);

@@ -168,6 +168,47 @@ static bool push_inner_steps(tn_cutting *c, tn_key *key)
     return ok;
 }
 
+/* A word for each cell: 0, or 1 and what of its own walls matters to its tiles. */
+static bool push_tiles(const tn_strip_edge *edge, const uint32_t *cells, tn_key *key)
+{
+    bool ok = true;
+    key->size = 0;
+    for (uint32_t i = 0; ok && i < edge->count; i++)
+        ok = tn_key_push(key, edge->cells[i].tiled ? cells[(size_t)CELL_WORDS * i + CELL_TILE] + 1 : 0);
+    return ok;
+}
+
+/* What rooms and walks meet in a slice: its edge, then its cells, tiles left aside, and its steps. */
+static bool push_inside(const uint32_t *slice, const uint32_t *end, uint32_t count, tn_key *key)
+{
+    bool ok = true;
+    key->size = 0;
+    for (const uint32_t *word = slice; ok && word < end; word++) {
+        size_t at = (size_t)(word - slice);
+        bool tile = at >= SLICE_CELLS && at < SLICE_CELLS + (size_t)CELL_WORDS * count &&
+                    (at - SLICE_CELLS) % CELL_WORDS == CELL_TILE;
+        ok = tn_key_push(key, tile ? 0 : *word);
+    }
+    return ok;
+}
+
+/* The parts of a new slice, whose key is `joined`. */
+static bool keep_slice(tn_strip *s, uint32_t slice)
+{
+    const uint32_t *words = s->joined.data, *cells = words + SLICE_CELLS;
+    const tn_strip_edge *edge = &s->edges[words[SLICE_EDGE]];
+    const uint32_t *steps = cells + (size_t)CELL_WORDS * edge->count;
+    const uint32_t *bases = steps + 1 + (size_t)STEP_WORDS * *steps, *gains = bases + s->clause_count;
+    tn_strip_slice *parts = &s->slices[slice];
+    *parts = (tn_strip_slice){.edge = words[SLICE_EDGE], .bases = tn_intern(&s->letters, bases, s->clause_count)};
+    parts->tiles = push_tiles(edge, cells, &s->key) ? tn_intern(&s->fit_lists, s->key.data, s->key.size) : UINT32_MAX;
+    parts->inside = push_inside(words, bases, edge->count, &s->key) ? tn_intern(&s->insides, s->key.data, s->key.size)
+                                                                    : UINT32_MAX;
+    for (uint32_t k = 0; s->measures && k < s->measures->count; k++)
+        parts->gains[k] = (int64_t)tn_both(gains + 2 * (size_t)k);
+    return parts->bases != UINT32_MAX && parts->tiles != UINT32_MAX && parts->inside != UINT32_MAX;
+}
+
 /* The slice that the house at hand is. */
 static tn_status add_slice(tn_cutting *c, tn_error *error)
 {
@@ -192,7 +233,12 @@ static tn_status add_slice(tn_cutting *c, tn_error *error)
             status = tn_fail_memory(error);
     if (status != TN_OK)
         return status;
+    uint32_t before = s->slice_keys.count;
+    if (!tn_array_reserve(&s->slices, &s->slice_room, before, 1, sizeof *s->slices))
+        return tn_fail_memory(error);
     uint32_t slice = tn_intern(&s->slice_keys, key->data, key->size);
+    if (slice == before && !keep_slice(s, slice))
+        return tn_fail_memory(error);
     uint32_t at = slice == UINT32_MAX ? UINT32_MAX : tn_number(&c->found, slice);
     if (at == UINT32_MAX || !tn_array_reserve_from(&c->list->items, &c->list->room, 8, at, 1, sizeof *c->list->items))
         return tn_fail_memory(error);

@@ -4,242 +4,113 @@
 #include "runtime/base/array.h"
 #include "runtime/house/strip/parts.h"
 
-/* Words of a state: edge, what waits for its right side, rooms, then each walk, each clause's state, each clause's base
- * (0 where nothing of its letter is known at the right side only). */
-enum { STATE_EDGE, STATE_WAITING, STATE_ROOMS, STATE_WALKS };
-
 typedef struct tn_stepping {
     tn_strip *strip;
-    const uint32_t *state, *slice; /* NULL: before the first, after the last */
-    uint32_t trays, slice_number, outcome_number; /* trays: before the slice */
-    tn_strip_crossing crossing;
-    uint32_t rooms, walks[TN_STRIP_MEETINGS_MAX];
-    uint32_t closed[TN_STRIP_QUESTIONS_MAX];
-    bool apart[TN_STRIP_MEETINGS_MAX];
+    const uint32_t *state; /* words; NULL: before the first slice */
+    uint32_t slice;        /* TN_STRIP_NONE: after the last */
+    uint32_t trays;        /* before the slice */
+    const tn_strip_outcome *outcome;
+    const uint32_t *crossed; /* words: what came of rooms and walks at the outcome */
 } tn_stepping;
 
-static const uint32_t *bases_of(const tn_stepping *s)
-{
-    const uint32_t *steps = s->slice + SLICE_CELLS + (size_t)CELL_WORDS * s->crossing.right->count;
-    return steps + 1 + (size_t)STEP_WORDS * *steps;
-}
+/* ---- tiles */
 
-/* The tiles of the left slice: *tiles := the product over its cells; 0 where one has none. */
-static tn_status count_tiles(const tn_stepping *s, uint64_t *tiles, tn_error *error)
+/* The tiles of the left slice: the product over its cells; 0 where one has none. */
+static tn_status multiply_tiles(tn_strip *strip, uint32_t waiting, uint32_t sides, uint64_t *tiles, tn_error *error)
 {
-    size_t size;
+    size_t count, cells;
+    const uint32_t *classes = tn_interned(&strip->waiting, waiting, &count);
+    const uint32_t *fits = tn_interned(&strip->fit_lists, sides, &cells);
     tn_status status = TN_OK;
     *tiles = 1;
-    if (!s->state || s->strip->scouting)
-        return TN_OK;
-    const tn_strip_edge *left = s->crossing.left;
-    const uint32_t *sides = s->crossing.outcome + 3 + (size_t)STEP_WORDS * s->crossing.outcome[2];
-    const uint32_t *waiting = tn_interned(&s->strip->waiting, s->state[STATE_WAITING], &size);
-    for (uint32_t i = 0; status == TN_OK && *tiles > 0 && i < left->count; i++) {
+    for (size_t i = 0; status == TN_OK && *tiles > 0 && i < cells; i++) {
         uint32_t fit = 0;
-        if (!left->cells[i].tiled)
+        if (fits[i] == 0)
             continue;
-        uint64_t pair = s->strip->merged.one[*waiting++];
-        status = tn_strip_fit(s->strip, tn_high(pair), tn_low(pair), sides[SIDE_WORDS * i + SIDE_FIT], &fit, error);
+        uint64_t pair = strip->merged.one[*classes++];
+        status = tn_strip_fit(strip, tn_high(pair), tn_low(pair), fits[i] - 1, &fit, error);
         if (status == TN_OK && __builtin_mul_overflow(*tiles, (uint64_t)fit, tiles))
-            status = tn_strip_limit(s->strip, NULL, "a tray has more than 2^64 arrangements of tiles", error);
+            status = tn_strip_limit(strip, NULL, "a tray has more than 2^64 arrangements of tiles", error);
     }
     return status;
 }
 
-/* The number of what is crossed: {before, left edge, outcome, slice}; *met: it was crossed before. */
-static uint32_t number_crossing(const tn_stepping *s, tn_strip_crossings *known, uint32_t before, bool *met)
+static tn_status count_tiles(const tn_stepping *s, uint64_t *tiles, tn_error *error)
 {
-    const uint32_t parts[] = {s->state ? s->state[STATE_EDGE] : TN_STRIP_NONE, s->outcome_number, s->slice_number};
-    uint32_t at = before, count = known->keys[2].count;
-    for (size_t i = 0; i < sizeof parts / sizeof *parts && at != UINT32_MAX; i++)
-        at = tn_number(&known->keys[i], (uint64_t)at << 32 | parts[i]);
-    *met = at < count;
-    return at;
-}
-
-static tn_status cross_rooms(tn_stepping *s, tn_error *error)
-{
-    tn_strip_crossings *known = &s->strip->crossed_rooms;
-    uint32_t questions = s->strip->questions.room_count, before = s->state ? s->state[STATE_ROOMS] : 0;
-    size_t words = 1 + (size_t)questions;
+    tn_strip *strip = s->strip;
+    uint32_t *result;
     bool met;
-    if (questions == 0)
+    *tiles = 1;
+    if (!s->state || strip->scouting)
         return TN_OK;
-    uint32_t at = number_crossing(s, known, before, &met);
-    if (at == UINT32_MAX || !tn_array_reserve(&known->results, &known->room, at * words, words, sizeof *known->results))
-        return tn_fail_memory(error);
-    uint32_t *result = &known->results[at * words];
-    tn_status status =
-        met ? TN_OK : tn_strip_rooms_cross(s->strip, before, &s->crossing, &result[0], result + 1, error);
-    s->rooms = result[0];
-    memcpy(s->closed, result + 1, questions * sizeof *s->closed);
+    uint32_t waiting = s->state[tn_strip_waiting_word(strip)], sides = s->outcome->left_fits;
+    tn_status status = tn_strip_known_at(&strip->tiles, waiting, sides, 2, &result, &met, error);
+    if (status == TN_OK && !met) {
+        status = multiply_tiles(strip, waiting, sides, tiles, error);
+        result[0] = tn_low(*tiles);
+        result[1] = tn_high(*tiles);
+    }
+    *tiles = status == TN_OK ? tn_both(result) : 0;
     return status;
-}
-
-static tn_status cross_walk(tn_stepping *s, uint32_t walk, tn_error *error)
-{
-    tn_strip_crossings *known = &s->strip->crossed_walks[walk];
-    uint32_t before = s->state ? s->state[STATE_WALKS + walk] : 0;
-    bool met;
-    uint32_t at = number_crossing(s, known, before, &met);
-    if (at == UINT32_MAX || !tn_array_reserve(&known->results, &known->room, 2 * (size_t)at, 2, sizeof *known->results))
-        return tn_fail_memory(error);
-    uint32_t *result = &known->results[2 * (size_t)at];
-    tn_status status = TN_OK;
-    if (!met) {
-        bool apart = false;
-        status = tn_strip_walk_cross(s->strip, walk, before, &s->crossing, &result[0], &apart, error);
-        result[1] = apart;
-    }
-    s->walks[walk] = result[0];
-    s->apart[walk] = result[1];
-    return status;
-}
-
-static tn_status cross(tn_stepping *s, tn_error *error)
-{
-    tn_status status = cross_rooms(s, error);
-    for (uint32_t w = 0; status == TN_OK && w < s->strip->questions.walk_count; w++)
-        status = cross_walk(s, w, error);
-    return status;
-}
-
-/* What the plane says of the atoms of a clause. */
-static uint32_t value_of(const tn_stepping *s, const tn_strip_clause *clause)
-{
-    uint32_t value = 0;
-    for (size_t i = clause->atom_count; i-- > 0;) {
-        const tn_strip_atom *atom = &clause->atoms[i];
-        uint32_t of = atom->of, one = 0;
-        if (atom->op.opcode == TN_OP_MEETS)
-            one = tn_both(s->crossing.outcome) >> of & 1;
-        else if (atom->op.opcode == TN_OP_APART)
-            one = s->apart[of];
-        else if (atom->op.opcode == TN_OP_SOME_ROOM)
-            one = s->closed[of] > 0;
-        else if (atom->op.opcode == TN_OP_ROOMS)
-            one = s->closed[of];
-        value = value * atom->radix + one;
-    }
-    return value;
-}
-
-/* A letter of a clause, after which it has read so many. Does the clause keep something then? */
-static bool read_letter(const tn_stepping *s, const tn_strip_clause *clause, uint32_t letter, uint32_t letters,
-                        uint32_t *state)
-{
-    *state = tn_dfa_read(clause->dfa, *state, letter);
-    if (!s->slice)
-        return clause->dfa->accept[*state];
-    *state = clause->horizons[letters].alike[*state];
-    return *state != TN_NO_STATE;
-}
-
-/* Reads the letters of the right slice, for the clauses that do not wait for its right side. Do all keep something? */
-static bool read_right(const tn_stepping *s, uint32_t *states)
-{
-    const tn_strip *strip = s->strip;
-    const uint32_t *before = s->state ? s->state + STATE_WALKS + strip->questions.walk_count : NULL;
-    const uint32_t *bases = s->slice ? bases_of(s) : NULL;
-    for (uint32_t i = 0; i < strip->clause_count; i++) {
-        const tn_strip_clause *clause = &strip->clauses[i];
-        states[i] = before ? before[i] : 0;
-        if (clause->radix > 1)
-            continue;
-        if (bases ? !read_letter(s, clause, bases[i], s->trays + 1, &states[i]) : !clause->dfa->accept[states[i]])
-            return false;
-    }
-    return true;
-}
-
-/* Reads the letters of the left slice, for the clauses that waited for the plane. */
-static bool read_left(const tn_stepping *s, uint32_t *states)
-{
-    const tn_strip *strip = s->strip;
-    const uint32_t *before = s->state ? s->state + STATE_WALKS + strip->questions.walk_count : NULL;
-    for (uint32_t i = 0; before && i < strip->clause_count; i++) {
-        const tn_strip_clause *clause = &strip->clauses[i];
-        if (clause->radix == 1)
-            continue;
-        uint32_t letter = before[strip->clause_count + i] * clause->radix + value_of(s, clause);
-        states[i] = before[i];
-        if (!read_letter(s, clause, letter, s->trays, &states[i]))
-            return false;
-    }
-    return true;
 }
 
 /* The cells of the right slice that have tiles, by which of them fit; TN_STRIP_NONE: a cell has none, whatever stands
  * at its right. */
-static tn_status find_waiting(const tn_stepping *s, uint32_t *waiting, tn_error *error)
+static tn_status list_waiting(tn_strip *strip, uint32_t bases, uint32_t sides, uint32_t *waiting, tn_error *error)
 {
-    tn_strip *strip = s->strip;
+    size_t cells;
     tn_key *key = &strip->joined;
-    const tn_strip_edge *right = s->crossing.right;
-    const uint32_t *sides = s->crossing.outcome + 3 + (size_t)STEP_WORDS * s->crossing.outcome[2] +
-                            (size_t)SIDE_WORDS * (s->crossing.left ? s->crossing.left->count : 0);
     tn_status status = TN_OK;
+    const uint32_t *base = tn_interned(&strip->fit_lists, bases, &cells);
+    const uint32_t *fits = tn_interned(&strip->fit_lists, sides, &cells);
     key->size = 0;
-    *waiting = 0;
-    for (uint32_t i = 0; status == TN_OK && !strip->scouting && *waiting == 0 && i < right->count; i++) {
+    for (size_t i = 0; i < cells; i++) {
         uint32_t class;
-        if (!right->cells[i].tiled)
+        if (base[i] == 0)
             continue;
-        status = tn_strip_waits(strip, s->slice[SLICE_CELLS + CELL_WORDS * i + CELL_TILE],
-                                sides[SIDE_WORDS * i + SIDE_FIT], &class, error);
-        if (status == TN_OK && class == TN_STRIP_NONE)
-            *waiting = TN_STRIP_NONE;
-        else if (status == TN_OK && !tn_key_push(key, class))
-            status = tn_fail_memory(error);
+        status = tn_strip_waits(strip, base[i] - 1, fits[i] - 1, &class, error);
+        *waiting = TN_STRIP_NONE;
+        if (status != TN_OK || class == TN_STRIP_NONE)
+            return status;
+        if (!tn_key_push(key, class))
+            return tn_fail_memory(error);
     }
-    if (status != TN_OK || *waiting == TN_STRIP_NONE)
-        return status;
     *waiting = tn_intern(&strip->waiting, key->data, key->size);
     return *waiting != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-/* Merges what the clauses that wait for the right side of the slice cannot tell apart: states and bases are replaced.
- * *keeps: does each keep something? */
-static tn_status merge_pairs(const tn_stepping *s, uint32_t *states, uint32_t *bases, bool *keeps, tn_error *error)
+static tn_status find_waiting(const tn_stepping *s, uint32_t *waiting, tn_error *error)
 {
     tn_strip *strip = s->strip;
-    tn_status status = TN_OK;
-    *keeps = true;
-    for (uint32_t i = 0; status == TN_OK && *keeps && i < strip->clause_count; i++) {
-        uint64_t pair;
-        bases[i] = 0;
-        if (strip->clauses[i].radix == 1)
-            continue;
-        status = tn_strip_pair(strip, &strip->clauses[i], s->trays + 1, states[i], bases_of(s)[i], &pair, error);
-        *keeps = pair != TN_STRIP_NO_PAIR;
-        states[i] = tn_high(pair);
-        bases[i] = tn_low(pair);
-    }
+    uint32_t *result, bases = strip->slices[s->slice].tiles, sides = s->outcome->right_fits;
+    bool met;
+    *waiting = 0;
+    if (strip->scouting)
+        return TN_OK;
+    tn_status status = tn_strip_known_at(&strip->waits, bases, sides, 1, &result, &met, error);
+    if (status == TN_OK && !met)
+        status = list_waiting(strip, bases, sides, result, error);
+    *waiting = status == TN_OK ? *result : TN_STRIP_NONE;
     return status;
 }
 
-/* states: of the clauses, then room for their bases. *after: TN_STRIP_NONE where no house goes on from there. */
-static tn_status make_state(const tn_stepping *s, uint32_t *states, uint32_t *after, tn_error *error)
+/* ---- states */
+
+/* *after: TN_STRIP_NONE where no house goes on from there. */
+static tn_status make_state(const tn_stepping *s, uint32_t read, uint32_t *after, tn_error *error)
 {
     tn_strip *strip = s->strip;
     tn_key *key = &strip->joined;
-    uint32_t waiting = 0, edge = s->slice[SLICE_EDGE], *bases = states + strip->clause_count;
-    bool keeps;
+    uint32_t waiting, edge = strip->slices[s->slice].edge;
+    tn_status status = find_waiting(s, &waiting, error);
     *after = TN_STRIP_NONE;
-    tn_status status = merge_pairs(s, states, bases, &keeps, error);
-    if (status != TN_OK || !keeps)
-        return status;
-    status = find_waiting(s, &waiting, error);
     if (status != TN_OK || waiting == TN_STRIP_NONE)
         return status;
     key->size = 0;
-    bool ok = tn_key_push(key, strip->merged.edges ? strip->merged.edges[edge] : edge) && tn_key_push(key, waiting) &&
-              tn_key_push(key, s->rooms);
-    for (uint32_t w = 0; ok && w < strip->questions.walk_count; w++)
-        ok = tn_key_push(key, s->walks[w]);
-    for (uint32_t i = 0; ok && i < 2 * strip->clause_count; i++)
-        ok = tn_key_push(key, states[i]);
+    bool ok = tn_key_push(key, strip->merged.edges ? strip->merged.edges[edge] : edge);
+    for (uint32_t w = 0; ok && w <= strip->questions.walk_count; w++)
+        ok = tn_key_push(key, s->crossed[CROSSED_ROOMS + w]);
+    ok = ok && tn_key_push(key, read) && tn_key_push(key, waiting);
     *after = ok ? tn_intern(&strip->states, key->data, key->size) : UINT32_MAX;
     return *after != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
@@ -248,10 +119,11 @@ static tn_status make_state(const tn_stepping *s, uint32_t *states, uint32_t *af
 static int64_t gain_by(const tn_stepping *s, uint32_t measure)
 {
     const tn_house_weights *w = s->strip->measures->of[measure];
-    int64_t gain = s->slice ? (int64_t)tn_both(bases_of(s) + s->strip->clause_count + 2 * (size_t)measure) : 0;
+    const uint32_t *closed = s->crossed + CROSSED_WALKS + s->strip->questions.walk_count;
+    int64_t gain = s->slice != TN_STRIP_NONE ? s->strip->slices[s->slice].gains[measure] : 0;
     for (uint32_t i = 0; i < w->count; i++)
         if (w->terms[i].kind == TN_HOUSE_ROOMS)
-            gain += (int64_t)s->closed[s->strip->weighed_rooms[measure][i]] * w->terms[i].each;
+            gain += (int64_t)closed[s->strip->weighed_rooms[measure][i]] * w->terms[i].each;
     return s->strip->measures->most[measure] ? -gain : gain;
 }
 
@@ -263,30 +135,29 @@ static tn_house_gain gain_of(const tn_stepping *s)
     return gain;
 }
 
-/* One outcome of the plane. */
-static tn_status try_outcome(tn_stepping *s, const tn_strip_choice *choice, tn_strip_seen *seen, void *context,
-                             tn_error *error)
+/* ---- steps */
+
+/* One outcome of the plane. between: what the clauses have read of the slice. */
+static tn_status try_outcome(tn_stepping *s, const tn_strip_choice *choice, uint32_t between, tn_strip_seen *seen,
+                             void *context, tn_error *error)
 {
     tn_strip *strip = s->strip;
-    size_t size;
-    uint64_t times, faced = choice->times;
-    uint32_t after = 0;
-    s->outcome_number = choice->slice;
-    s->crossing.outcome = tn_interned(&strip->outcome_keys, choice->slice, &size);
+    uint64_t times;
+    uint32_t after = 0, read;
+    s->outcome = &strip->outcomes[choice->slice];
     tn_status status = count_tiles(s, &times, error);
     if (status != TN_OK || times == 0)
         return status;
     if (__builtin_mul_overflow(times, choice->times, &times))
         return tn_strip_limit(strip, NULL, "a tray has more than 2^64 choices", error);
-    status = cross(s, error);
-    if (status != TN_OK)
+    status = tn_strip_read_plane(strip, s->trays, between, s->crossed[CROSSED_VALUES], &read, error);
+    if (status != TN_OK || read == TN_STRIP_NONE)
         return status;
-    if (!read_left(s, strip->scratch))
-        return TN_OK;
     tn_house_gain gain = gain_of(s);
-    if (s->slice)
-        status = make_state(s, strip->scratch, &after, error);
-    return status == TN_OK && after != TN_STRIP_NONE ? seen(context, after, times, faced, &gain, error) : status;
+    if (s->slice != TN_STRIP_NONE)
+        status = make_state(s, read, &after, error);
+    return status == TN_OK && after != TN_STRIP_NONE ? seen(context, after, times, choice->times, &gain, error)
+                                                     : status;
 }
 
 static bool keeps_no_trays(const tn_strip *strip)
@@ -297,34 +168,28 @@ static bool keeps_no_trays(const tn_strip *strip)
     return true;
 }
 
-static void look(tn_stepping *s, uint32_t state, uint32_t slice)
+/* The words may move where states are made. */
+static const uint32_t *words_of(const tn_strip *strip, uint32_t state)
 {
-    tn_strip *strip = s->strip;
     size_t size;
-    s->state = state == TN_STRIP_NONE ? NULL : tn_interned(&strip->states, state, &size);
-    s->slice = slice == TN_STRIP_NONE ? NULL : tn_interned(&strip->slice_keys, slice, &size);
-    s->slice_number = slice;
-    s->crossing = (tn_strip_crossing){.left = s->state ? &strip->edges[s->state[STATE_EDGE]] : NULL,
-                                      .right = s->slice ? &strip->edges[s->slice[SLICE_EDGE]] : NULL,
-                                      .slice = s->slice};
+    return state == TN_STRIP_NONE ? NULL : tn_interned(&strip->states, state, &size);
 }
 
 tn_status tn_strip_step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, tn_strip_seen *seen,
                         void *context, tn_error *error)
 {
-    const tn_strip_list *plane;
-    tn_stepping s = {.strip = strip, .trays = trays};
+    tn_strip_list plane = {0};
+    tn_stepping s = {.strip = strip, .trays = trays, .slice = slice, .state = words_of(strip, state)};
+    uint32_t between, read = s.state ? s.state[tn_strip_waiting_word(strip) - 1] : TN_STRIP_NONE;
     if (state == TN_STRIP_NONE && slice == TN_STRIP_NONE) /* a row without trays */
         return keeps_no_trays(strip) ? seen(context, 0, 1, 1, &(tn_house_gain){{0}}, error) : TN_OK;
-    look(&s, state, slice);
-    if (!read_right(&s, strip->scratch))
-        return TN_OK;
-    tn_status status = tn_strip_plane(strip, s.state ? s.state[STATE_EDGE] : TN_STRIP_NONE,
-                                      s.slice ? s.slice[SLICE_EDGE] : TN_STRIP_NONE, &plane, error);
-    tn_strip_list outcomes = status == TN_OK ? *plane : (tn_strip_list){0};
-    for (size_t i = 0; status == TN_OK && i < outcomes.count; i++) {
-        look(&s, state, slice); /* states are made while others are read: the words may move */
-        status = try_outcome(&s, &outcomes.items[i], seen, context, error);
+    tn_status status = tn_strip_read_slice(strip, trays, read, slice, &between, error);
+    if (status != TN_OK || between == TN_STRIP_NONE)
+        return status;
+    status = tn_strip_cross(strip, s.state, slice, &plane, &s.crossed, error);
+    for (size_t i = 0; status == TN_OK && i < plane.count; i++, s.crossed += tn_strip_crossed_words(strip)) {
+        s.state = words_of(strip, state);
+        status = try_outcome(&s, &plane.items[i], between, seen, context, error);
     }
     return status;
 }

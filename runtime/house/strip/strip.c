@@ -20,7 +20,9 @@ static tn_status begin(tn_strip *strip, tn_error *error)
     strip->of_tray = calloc((size_t)form->schema->tray_count + 1, sizeof *strip->of_tray);
     strip->tiled = calloc((size_t)tn_form_functions(form) + 1, sizeof *strip->tiled);
     strip->scratch = calloc(2 * (size_t)strip->library->clause_count + 1, sizeof *strip->scratch);
-    if (!strip->of_tray || !strip->tiled || !strip->scratch)
+    strip->after_slice = calloc((size_t)strip->trays_most + 1, sizeof *strip->after_slice);
+    strip->after_plane = calloc((size_t)strip->trays_most + 1, sizeof *strip->after_plane);
+    if (!strip->of_tray || !strip->tiled || !strip->scratch || !strip->after_slice || !strip->after_plane)
         return tn_fail_memory(error);
     for (uint32_t k = 0; strip->measures && k < strip->measures->count; k++) {
         strip->weighed_rooms[k] = calloc((size_t)strip->measures->of[k]->count + 1, sizeof(uint32_t));
@@ -51,11 +53,19 @@ tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record 
     return status == TN_OK ? tn_strip_lower(strip, error) : status;
 }
 
-static void clear_crossings(tn_strip_crossings *crossings)
+static void clear_known(tn_strip *strip)
 {
-    for (size_t i = 0; i < sizeof crossings->keys / sizeof *crossings->keys; i++)
-        tn_numbering_clear(&crossings->keys[i]);
-    free(crossings->results);
+    for (uint32_t k = 0; strip->after_slice && strip->after_plane && k <= strip->trays_most; k++) {
+        tn_strip_known_clear(&strip->after_slice[k]);
+        tn_strip_known_clear(&strip->after_plane[k]);
+    }
+    free(strip->after_slice);
+    free(strip->after_plane);
+    tn_strip_known_clear(&strip->tiles);
+    tn_strip_known_clear(&strip->waits);
+    tn_strip_known_clear(&strip->crossed_rooms);
+    for (uint32_t w = 0; w < TN_STRIP_MEETINGS_MAX; w++)
+        tn_strip_known_clear(&strip->crossed_walks[w]);
 }
 
 static void free_lists(tn_strip_list *lists, size_t count)
@@ -71,7 +81,8 @@ void tn_strip_free(tn_strip *strip)
         return;
     tn_interner *const interners[] = {&strip->edge_keys, &strip->slice_keys, &strip->outcome_keys, &strip->areas,
                                       &strip->bases,     &strip->sides,      &strip->waiting,      &strip->rooms,
-                                      &strip->walks,     &strip->states};
+                                      &strip->walks,     &strip->states,     &strip->letters,      &strip->fit_lists,
+                                      &strip->insides,   &strip->throughs,   &strip->readings,   &strip->between,      &strip->values};
     for (uint32_t i = 0; i < strip->edge_keys.count; i++) {
         free(strip->edges[i].cells);
         free(strip->edges[i].answers);
@@ -84,13 +95,16 @@ void tn_strip_free(tn_strip *strip)
     tn_numbering_clear(&strip->plane_keys);
     tn_numbering_clear(&strip->fit_keys[0]);
     tn_numbering_clear(&strip->fit_keys[1]);
-    clear_crossings(&strip->crossed_rooms);
-    for (uint32_t w = 0; w < TN_STRIP_MEETINGS_MAX; w++)
-        clear_crossings(&strip->crossed_walks[w]);
+    tn_strip_row_clear(&strip->row);
+    tn_numbering_clear(&strip->befores);
+    tn_numbering_clear(&strip->moves);
+    clear_known(strip);
     tn_strip_clauses_free(strip);
     tn_strip_merged_clear(&strip->merged);
     free(strip->questions.decisions);
     free(strip->edges);
+    free(strip->slices);
+    free(strip->outcomes);
     free(strip->tiled);
     free(strip->scratch);
     free(strip->ends);
