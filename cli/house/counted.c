@@ -13,9 +13,10 @@ typedef struct house_tally {
     mpz_t plans, faced, houses;
     mpz_t *lengths; /* houses on plans of each length, from the shortest */
     uint32_t low, high;
-    mpz_t *values;   /* houses that have each value of each choice, choice by choice */
-    mpz_t *kept_out; /* by each clause, of the houses that no clause is asked about; NULL: not counted */
-    mpz_t *alone;    /* by each clause, of those that all others keep */
+    mpz_t *values;    /* houses that have each value of each choice, choice by choice */
+    mpz_t *kept_out;  /* by each clause, of the houses that no clause is asked about; NULL: not counted */
+    mpz_t *alone;     /* by each clause, of those that all others keep */
+    uint64_t *asking; /* [clauses + 1] states that each takes by itself, then those without any; 0: not counted so */
 } house_tally;
 
 static size_t value_count(const tn_numbered *n)
@@ -42,6 +43,7 @@ static void tally_free(const tn_numbered *n, house_tally *tally)
     tn_integers_free(tally->values, value_count(n));
     tn_integers_free(tally->kept_out, n->record->clause_count);
     tn_integers_free(tally->alone, n->record->clause_count);
+    free(tally->asking);
     mpz_clears(tally->plans, tally->faced, tally->houses, NULL);
 }
 
@@ -208,9 +210,10 @@ tn_status tn_numbered_lengths(tn_numbered *n, uint32_t low, uint32_t high, mpz_t
 
 /* ---- what clauses keep out */
 
-/* The houses on the plan, or on all plans, that some of the clauses keep: those of another module's record. */
+/* The houses on the plan, or on all plans, that some of the clauses keep: those of another module's record. states:
+ * NULL, or what counting them took, 0 where the plans were gone through. */
 static tn_status count_by(const tn_numbered *n, const tn_module *module, const tn_house_library_record *clauses,
-                          const tn_plan *plan, mpz_t houses, tn_error *error)
+                          const tn_plan *plan, mpz_t houses, uint64_t *states, tn_error *error)
 {
     tn_numbered some;
     house_tally tally;
@@ -220,6 +223,8 @@ static tn_status count_by(const tn_numbered *n, const tn_module *module, const t
     if (status == TN_OK)
         status = tally_all(&some, plan, &tally, error);
     mpz_set(houses, tally.houses);
+    if (states)
+        *states = tally.each ? 0 : tally.states;
     tally_free(&some, &tally);
     tn_numbered_other_close(&some);
     return status;
@@ -232,11 +237,11 @@ static tn_status tally_kept_out(const tn_numbered *n, const tn_plan *plan, house
     mpz_t all;
     mpz_init(all);
     some.clause_count = 0;
-    tn_status status = count_by(n, n->form.module, &some, plan, all, error);
+    tn_status status = count_by(n, n->form.module, &some, plan, all, &tally->asking[n->record->clause_count], error);
     some.clause_count = 1;
     for (uint32_t i = 0; status == TN_OK && i < n->record->clause_count; i++) {
         some.clause_first = n->record->clause_first + i;
-        status = count_by(n, n->form.module, &some, plan, tally->kept_out[i], error);
+        status = count_by(n, n->form.module, &some, plan, tally->kept_out[i], &tally->asking[i], error);
         mpz_sub(tally->kept_out[i], all, tally->kept_out[i]);
     }
     mpz_clear(all);
@@ -260,7 +265,7 @@ static tn_status tally_alone(const tn_numbered *n, const tn_plan *plan, house_ta
         for (uint32_t k = 0; k < count; k++)
             if (k != i)
                 others[k - (k > i)] = clauses[k];
-        status = count_by(n, &module, &some, plan, tally->alone[i], error);
+        status = count_by(n, &module, &some, plan, tally->alone[i], NULL, error);
         mpz_sub(tally->alone[i], tally->alone[i], tally->houses);
     }
     free(others);
@@ -271,7 +276,9 @@ static tn_status tally_clauses(const tn_numbered *n, const tn_plan *plan, house_
 {
     tally->kept_out = tn_integers_new(n->record->clause_count);
     tally->alone = tn_integers_new(n->record->clause_count);
-    tn_status status = tally->kept_out && tally->alone ? tally_kept_out(n, plan, tally, error) : tn_fail_memory(error);
+    tally->asking = calloc((size_t)n->record->clause_count + 1, sizeof *tally->asking);
+    tn_status status = tally->kept_out && tally->alone && tally->asking ? tally_kept_out(n, plan, tally, error)
+                                                                        : tn_fail_memory(error);
     return status == TN_OK ? tally_alone(n, plan, tally, error) : status;
 }
 
@@ -344,6 +351,38 @@ static void write_sections(const tn_numbered *n, const house_tally *tally, bool 
     }
 }
 
+/* States, where all was counted with them. */
+static bool knows_states(const tn_numbered *n, const house_tally *tally)
+{
+    bool known = !tally->each;
+    for (uint32_t i = 0; known && i <= n->record->clause_count; i++)
+        known = tally->asking[i] > 0;
+    return known;
+}
+
+static void write_states(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
+{
+    const tn_module *module = n->form.module;
+    const tn_house_clause_record *clauses = module->HOUSE_CLAUSE_records + n->record->clause_first;
+    uint32_t count = n->record->clause_count;
+    if (json)
+        fprintf(out, ",\"states_of_none\":%llu,\"states_of\":{", (unsigned long long)tally->asking[count]);
+    else
+        fprintf(out, "%-*s%s\n  %-*s%llu\n", LABEL_WIDTH, "clause by itself", "states", LABEL_WIDTH - 2, "none",
+                (unsigned long long)tally->asking[count]);
+    for (uint32_t i = 0; i < count; i++) {
+        if (json)
+            write_json_key(tn_text(module, clauses[i].name), i == 0, ":", out);
+        else
+            fprintf(out, "  %-*s ", LABEL_WIDTH - 3, tn_text(module, clauses[i].name));
+        fprintf(out, json ? "%llu" : "%llu\n", (unsigned long long)tally->asking[i]);
+    }
+    if (json)
+        fputs("}", out);
+    else
+        fprintf(out, "  %-*s%llu\n", LABEL_WIDTH - 2, "all of them", (unsigned long long)tally->states);
+}
+
 static void write_clauses(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
 {
     const tn_module *module = n->form.module;
@@ -360,6 +399,8 @@ static void write_clauses(const tn_numbered *n, const house_tally *tally, bool j
                              out);
         fputs("}", out);
     }
+    if (knows_states(n, tally))
+        write_states(n, tally, json, out);
 }
 
 static void write_json(const tn_numbered *n, const house_tally *tally, FILE *out)

@@ -459,7 +459,8 @@ const tn_command tn_command_count = {
         "tiles; the houses by length, and by each value of each choice of the section. For one plan (--plan) and for "
         "up to 1,000 plans it also counts the plans that have a house, and the choices of section and functions. "
         "--clauses counts how many of the houses that the form allows each clause keeps out, and how many only it "
-        "keeps out. --by counts the houses by a measure of houses or of plans.\n\n"
+        "keeps out; where the houses are counted together, also how many states that takes for each clause by itself. "
+        "--by counts the houses by a measure of houses or of plans.\n\n"
         "For a kit (docs/kit-language.md) it counts buildings: sets of N parts that hang together by their connectors. "
         "Two that differ by where they stand, or by a turn about the vertical, are one; --fixed tells turns apart. "
         "--inside counts those in the space of a model of the kit, each where it stands.",

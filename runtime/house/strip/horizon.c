@@ -31,7 +31,8 @@ static bool describe(const tn_strip_clause *clause, uint32_t state, bool last, c
 static uint32_t *merge_states(const tn_strip_clause *clause, bool last, const uint32_t *next, tn_key *key)
 {
     uint32_t states = clause->dfa->states;
-    uint32_t *alike = malloc(((size_t)states + 1) * sizeof *alike), *first = malloc(((size_t)states + 1) * sizeof *first);
+    uint32_t *alike = malloc(((size_t)states + 1) * sizeof *alike),
+             *first = malloc(((size_t)states + 1) * sizeof *first);
     tn_interner classes = {0};
     bool ok = alike && first;
     for (uint32_t s = 0; ok && s < states; s++) {

@@ -1,7 +1,7 @@
 /* The plans that houses stand on, as an automaton: what the library knows after so many trays, and what measures add.
  *
- * Near the end of the row little of that still matters: plan states from which the same trays lead to plans, and add the
- * same to the measures, are merged for each number of trays. */
+ * Near the end of the row little of that still matters: plan states from which the same trays lead to plans, and add
+ * the same to the measures, are merged for each number of trays. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -67,10 +67,10 @@ typedef struct tn_strip_atom {
     uint32_t radix;
 } tn_strip_atom;
 
-/* What a clause can still tell apart after so many letters. pairs: {its state, the base of the last tray, whose value is
- * not known yet}. */
+/* What a clause can still tell apart after so many letters. pairs: {its state, the base of the last tray, whose value
+ * is not known yet}. */
 typedef struct tn_strip_horizon {
-    uint32_t *alike;     /* [states]: the first that keeps the same; TN_NO_STATE: it keeps nothing */
+    uint32_t *alike; /* [states]: the first that keeps the same; TN_NO_STATE: it keeps nothing */
     tn_numbering pairs;
     uint64_t *of_pair;   /* [pairs]: the first that leads to the same states; TN_STRIP_NO_PAIR: none keeps anything */
     tn_interner classes; /* where the values lead */
@@ -85,9 +85,9 @@ typedef struct tn_strip_clause {
     tn_classes *classes; /* of trays */
     tn_strip_atom *atoms;
     size_t atom_count, atom_room;
-    uint32_t radix;    /* letters of one base: the product over the atoms */
-    tn_interner bases; /* of slices */
-    tn_dfa *dfa;       /* of what the clause keeps, over letters base * radix + value */
+    uint32_t radix;             /* letters of one base: the product over the atoms */
+    tn_interner bases;          /* of slices */
+    tn_dfa *dfa;                /* of what the clause keeps, over letters base * radix + value */
     tn_strip_horizon *horizons; /* [trays_most + 1] */
 } tn_strip_clause;
 
@@ -136,9 +136,9 @@ enum { SIDE_MARKS, SIDE_MARKS_HIGH, SIDE_FIT, SIDE_GLASS, SIDE_WORDS };
  * matters to its tiles. */
 typedef struct tn_strip_slice {
     uint32_t edge;
-    uint32_t bases;  /* of all clauses: of `letters` */
-    uint32_t tiles;  /* what of its own walls matters to each cell's tiles: of `fit_lists` */
-    uint32_t inside; /* what rooms and walks meet in it: of `insides` */
+    uint32_t bases;                /* of all clauses: of `letters` */
+    uint32_t tiles;                /* what of its own walls matters to each cell's tiles: of `fit_lists` */
+    uint32_t inside;               /* what rooms and walks meet in it: of `insides` */
     int64_t gains[TN_WEIGHED_MAX]; /* what its cells add to each measure */
 } tn_strip_slice;
 
@@ -202,7 +202,7 @@ typedef struct tn_strip {
     tn_strip_clause *clauses;
     uint32_t clause_count;
     tn_strip_list *of_tray; /* [trays of the schema] */
-    uint8_t *ends; /* [states]: may the row end there? see tn_strip_ends */
+    uint8_t *ends;          /* [states]: may the row end there? see tn_strip_ends */
     size_t end_room;
     tn_interner edge_keys, slice_keys, outcome_keys, areas, bases, sides, waiting, rooms, walks, states;
     tn_strip_edge *edges;
@@ -218,23 +218,23 @@ typedef struct tn_strip {
     size_t slice_room, outcome_room;
     tn_interner letters, fit_lists, insides, throughs;
     tn_strip_row row;
-    tn_interner readings, between, values; /* see reading.c */
+    tn_interner readings, between, values;     /* see reading.c */
     tn_strip_known *after_slice, *after_plane; /* [trays_most + 1] */
     tn_strip_known tiles, waits; /* {waiting, left fits}: how many; {tiles of a slice, right fits}: what waits */
     tn_numbering befores;        /* edge << 32 | rooms or a walk */
     tn_numbering moves;          /* through << 32 | inside */
     tn_strip_known crossed_rooms, crossed_walks[TN_STRIP_MEETINGS_MAX]; /* {before, move} */
-    tn_key key, joined; /* scratch */
-    uint32_t *scratch;  /* [2 * clauses] */
+    tn_key key, joined;                                                 /* scratch */
+    uint32_t *scratch;                                                  /* [2 * clauses] */
 } tn_strip;
 
 /* ---- strip.c */
 
-/* The houses of the section, on trays of these, at least and at most so many. measures: NULL, or borrowed. Free with tn_strip_free,
- * also after a failure. */
+/* The houses of the section, on trays of these, at least and at most so many. measures: NULL, or borrowed. Free with
+ * tn_strip_free, also after a failure. */
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
-                       const bool *trays, uint32_t trays_least, uint32_t trays_most, const tn_house_measures *measures, tn_strip **strip,
-                       tn_error *error);
+                       const bool *trays, uint32_t trays_least, uint32_t trays_most, const tn_house_measures *measures,
+                       tn_strip **strip, tn_error *error);
 void tn_strip_free(tn_strip *strip);
 
 /* What of the strip has the most states, as the name of the clause that is about it; NULL where there is none. */
@@ -391,8 +391,8 @@ void tn_strip_row_clear(tn_strip_row *row);
  * the slice; state: TN_STRIP_NONE before the first. */
 typedef tn_status tn_strip_seen(void *context, uint32_t state, uint64_t times, uint64_t faced,
                                 const tn_house_gain *gain, tn_error *error);
-tn_status tn_strip_step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, tn_strip_seen *seen, void *context,
-                        tn_error *error);
+tn_status tn_strip_step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, tn_strip_seen *seen,
+                        void *context, tn_error *error);
 
 /* May the row end in the state, after so many trays? */
 tn_status tn_strip_ends(tn_strip *strip, uint32_t trays, uint32_t state, bool *ends, tn_error *error);

@@ -202,8 +202,8 @@ static bool keep_slice(tn_strip *s, uint32_t slice)
     tn_strip_slice *parts = &s->slices[slice];
     *parts = (tn_strip_slice){.edge = words[SLICE_EDGE], .bases = tn_intern(&s->letters, bases, s->clause_count)};
     parts->tiles = push_tiles(edge, cells, &s->key) ? tn_intern(&s->fit_lists, s->key.data, s->key.size) : UINT32_MAX;
-    parts->inside = push_inside(words, bases, edge->count, &s->key) ? tn_intern(&s->insides, s->key.data, s->key.size)
-                                                                    : UINT32_MAX;
+    parts->inside =
+        push_inside(words, bases, edge->count, &s->key) ? tn_intern(&s->insides, s->key.data, s->key.size) : UINT32_MAX;
     for (uint32_t k = 0; s->measures && k < s->measures->count; k++)
         parts->gains[k] = (int64_t)tn_both(gains + 2 * (size_t)k);
     return parts->bases != UINT32_MAX && parts->tiles != UINT32_MAX && parts->inside != UINT32_MAX;

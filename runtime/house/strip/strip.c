@@ -37,14 +37,18 @@ static tn_status begin(tn_strip *strip, tn_error *error)
 }
 
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
-                       const bool *trays, uint32_t trays_least, uint32_t trays_most,
-                       const tn_house_measures *measures, tn_strip **out, tn_error *error)
+                       const bool *trays, uint32_t trays_least, uint32_t trays_most, const tn_house_measures *measures,
+                       tn_strip **out, tn_error *error)
 {
     tn_strip *strip = *out = calloc(1, sizeof *strip);
     if (!strip)
         return tn_fail_memory(error);
-    *strip = (tn_strip){
-        .form = form, .library = library, .trays_least = trays_least, .trays_most = trays_most, .watch = form->module->watch, .measures = measures};
+    *strip = (tn_strip){.form = form,
+                        .library = library,
+                        .trays_least = trays_least,
+                        .trays_most = trays_most,
+                        .watch = form->module->watch,
+                        .measures = measures};
     memcpy(strip->shapes, shapes, form->record->choice_count * sizeof *shapes);
     tn_status status = begin(strip, error);
     for (tn_tray t = 0; status == TN_OK && t < form->schema->tray_count; t++)
@@ -82,7 +86,8 @@ void tn_strip_free(tn_strip *strip)
     tn_interner *const interners[] = {&strip->edge_keys, &strip->slice_keys, &strip->outcome_keys, &strip->areas,
                                       &strip->bases,     &strip->sides,      &strip->waiting,      &strip->rooms,
                                       &strip->walks,     &strip->states,     &strip->letters,      &strip->fit_lists,
-                                      &strip->insides,   &strip->throughs,   &strip->readings,   &strip->between,      &strip->values};
+                                      &strip->insides,   &strip->throughs,   &strip->readings,     &strip->between,
+                                      &strip->values};
     for (uint32_t i = 0; i < strip->edge_keys.count; i++) {
         free(strip->edges[i].cells);
         free(strip->edges[i].answers);
