@@ -71,6 +71,10 @@ golden sample_diverse "tartan sample cottage 2 --library cottages --diverse"
 golden sample_no_plan "tartan sample cottage 2 --library cottages --plan '#14'"
 golden too_many_states "tartan count lahave-complete --library lahave-complete --max-states 20000"
 golden count_clauses "tartan count cottage --plan '#10' --clauses"
+golden count_clauses_together 'tartan count cottage --library cottages --trays 9..10 --clauses'
+lengths="$("$TARTAN" count cottage --library cottages --trays 2..9 | grep ' of . trays')"
+is 'each length counted by itself, and all together' "$lengths" \
+    "$(for trays in 2 3 4 5 6 7 8 9; do "$TARTAN" count cottage --library cottages --trays $trays | grep ' of . trays'; done)"
 golden rank_of_all "tartan rank cottage \"\$(tartan unrank cottage '#10:77')\" --of-all"
 golden rank_of_all_plan "tartan rank cottage \"14' room:14' none\" --of-all"
 is 'a rank among all, and back' "$("$TARTAN" rank cottage "$("$TARTAN" unrank cottage -l cottages 4999999)" --of-all)" "#4999999"
