@@ -2,7 +2,7 @@
 """Reads a house's files with programs of its own, and holds them to each other: house_files.py FOLDER [READER] (FOLDER as `tartan house -o
 FOLDER/` writes it). READER is ifc_read.cc, made: it has to find the same products with the same volumes in the IFC.
 
-The IFC is parsed as STEP; each instance has to have as many attributes as IFC4 gives its entity (ISO 16739-1:2018, inherited ones
+The IFC is parsed as STEP; each instance has to have as many attributes as IFC4 gives its entity, of their types (ISO 16739-1:2018, inherited ones
 included), each reference has to lead to an instance of an entity that may stand there, and identifiers are unique. Volumes and numbers
 of parts are those of the JSON. The DXF is read as groups, and by ezdxf where that is installed."""
 import csv
@@ -14,15 +14,31 @@ import sys
 from collections import Counter
 from fractions import Fraction as F
 
-ARITY = {
-    "IFCAXIS2PLACEMENT2D": 2, "IFCAXIS2PLACEMENT3D": 3, "IFCARBITRARYCLOSEDPROFILEDEF": 3, "IFCBUILDING": 12, "IFCBUILDINGSTOREY": 10,
-    "IFCCARTESIANPOINT": 1, "IFCCOLUMN": 9, "IFCDIRECTION": 1, "IFCDOOR": 13, "IFCELEMENTQUANTITY": 6, "IFCEXTRUDEDAREASOLID": 4,
-    "IFCFURNITURE": 9, "IFCGEOMETRICREPRESENTATIONCONTEXT": 6, "IFCGEOMETRICREPRESENTATIONSUBCONTEXT": 10, "IFCLOCALPLACEMENT": 2,
-    "IFCMATERIAL": 3, "IFCOPENINGELEMENT": 9, "IFCPOLYLINE": 1, "IFCPRODUCTDEFINITIONSHAPE": 3, "IFCPROJECT": 9, "IFCQUANTITYAREA": 5,
-    "IFCQUANTITYVOLUME": 5, "IFCRECTANGLEPROFILEDEF": 5, "IFCRELAGGREGATES": 6, "IFCRELASSOCIATESMATERIAL": 6,
-    "IFCRELCONTAINEDINSPATIALSTRUCTURE": 6, "IFCRELDEFINESBYPROPERTIES": 6, "IFCRELFILLSELEMENT": 6, "IFCRELSPACEBOUNDARY": 9,
-    "IFCRELVOIDSELEMENT": 6, "IFCROOF": 9, "IFCSHAPEREPRESENTATION": 4, "IFCSITE": 14, "IFCSIUNIT": 4, "IFCSLAB": 9, "IFCSPACE": 11,
-    "IFCSTAIR": 9, "IFCUNITASSIGNMENT": 1, "IFCWALL": 9, "IFCWINDOW": 13,
+# The attributes of each entity, inherited ones first: S text, E enumeration, R real, I integer, N instance, A list of instances, V list of
+# numbers, D derived (*). Small letters: it may be left out ($).
+ROOT, PRODUCT = "Snss", "Snsssnn"
+ELEMENT, SPATIAL = PRODUCT + "s", PRODUCT + "se"
+TYPES = {
+    "IFCAXIS2PLACEMENT2D": "Nn", "IFCAXIS2PLACEMENT3D": "Nnn", "IFCARBITRARYCLOSEDPROFILEDEF": "EsN", "IFCBUILDING": SPATIAL + "rrn",
+    "IFCBUILDINGSTOREY": SPATIAL + "r", "IFCCARTESIANPOINT": "V", "IFCCOLUMN": ELEMENT + "e", "IFCDIRECTION": "V", "IFCDOOR": ELEMENT + "rrees",
+    "IFCELEMENTQUANTITY": ROOT + "sA", "IFCEXTRUDEDAREASOLID": "NnNR", "IFCFURNITURE": ELEMENT + "e",
+    "IFCGEOMETRICREPRESENTATIONCONTEXT": "ssIrNn", "IFCGEOMETRICREPRESENTATIONSUBCONTEXT": "ssDDDDNrEs", "IFCLOCALPLACEMENT": "nN",
+    "IFCMATERIAL": "Sss", "IFCOPENINGELEMENT": ELEMENT + "e", "IFCPOLYLINE": "A", "IFCPRODUCTDEFINITIONSHAPE": "ssA", "IFCPROJECT": ROOT + "sssan",
+    "IFCQUANTITYAREA": "SsnRs", "IFCQUANTITYVOLUME": "SsnRs", "IFCRECTANGLEPROFILEDEF": "EsnRR", "IFCRELAGGREGATES": ROOT + "NA",
+    "IFCRELASSOCIATESMATERIAL": ROOT + "AN", "IFCRELCONTAINEDINSPATIALSTRUCTURE": ROOT + "AN", "IFCRELDEFINESBYPROPERTIES": ROOT + "AN",
+    "IFCRELFILLSELEMENT": ROOT + "NN", "IFCRELSPACEBOUNDARY": ROOT + "NNnEE", "IFCRELVOIDSELEMENT": ROOT + "NN", "IFCROOF": ELEMENT + "e",
+    "IFCSHAPEREPRESENTATION": "NssA", "IFCSITE": SPATIAL + "vvrsn", "IFCSIUNIT": "DEeE", "IFCSLAB": ELEMENT + "e", "IFCSPACE": SPATIAL + "er",
+    "IFCSTAIR": ELEMENT + "e", "IFCUNITASSIGNMENT": "A", "IFCWALL": ELEMENT + "e", "IFCWINDOW": ELEMENT + "rrees",
+}
+NUMBER = r"-?\d+(\.\d*(E[+-]?\d+)?)?"
+WRITTEN = {
+    "S": r"'([^']|'')*'", "E": r"\.[A-Z0-9_]+\.", "R": r"-?\d+\.\d*(E[+-]?\d+)?", "I": r"-?\d+", "N": r"#\d+", "A": r"\(#\d+(,#\d+)*\)",
+    "V": rf"\({NUMBER}(,{NUMBER})*\)", "D": r"\*",
+}
+# (entity, attribute) -> the values of its enumeration that houses have
+VALUES = {
+    ("IFCWALL", 8): "SOLIDWALL PARTITIONING", ("IFCSLAB", 8): "FLOOR BASESLAB ROOF", ("IFCDOOR", 10): "DOOR", ("IFCWINDOW", 10): "WINDOW",
+    ("IFCRELSPACEBOUNDARY", 7): "PHYSICAL", ("IFCRELSPACEBOUNDARY", 8): "INTERNAL EXTERNAL", ("IFCSPACE", 8): "ELEMENT",
 }
 ELEMENTS = "IFCWALL IFCCOLUMN IFCSLAB IFCROOF IFCSTAIR IFCFURNITURE IFCDOOR IFCWINDOW".split()
 PRODUCTS = ELEMENTS + ["IFCOPENINGELEMENT", "IFCSPACE", "IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY"]
@@ -83,8 +99,13 @@ def references(argument):
 def check_ifc(made):
     ids = Counter()
     for number, (name, args) in made.items():
-        check(f"{name}, known", name in ARITY)
-        check(f"#{number}={name} has {len(args)} attributes", len(args) == ARITY.get(name))
+        check(f"{name}, known", name in TYPES)
+        check(f"#{number}={name} has {len(args)} attributes", len(args) == len(TYPES.get(name, "")))
+        for i, (argument, wanted) in enumerate(zip(args, TYPES.get(name, ""))):
+            left_out = argument == "$" and wanted.islower()
+            check(f"#{number}={name}: attribute {i} is {argument}", left_out or re.fullmatch(WRITTEN[wanted.upper()], argument))
+            values = VALUES.get((name, i))
+            check(f"#{number}={name}: {argument}", values is None or argument.strip(".") in values.split())
         for i, argument in enumerate(args):
             for to in references(argument):
                 check(f"#{number} refers to #{to}", to in made)
@@ -93,7 +114,6 @@ def check_ifc(made):
         if name.startswith("IFCREL") or name in PRODUCTS or name in ("IFCPROJECT", "IFCELEMENTQUANTITY"):
             check(f"#{number}: an identifier", re.fullmatch(r"'[0-3][0-9A-Za-z_$]{21}'", args[0]))
             ids[args[0]] += 1
-        check(f"#{number}: reals have a point", not any(re.fullmatch(r"-?\d+(E-?\d+)?", a) for a in args if name != "IFCGEOMETRICREPRESENTATIONCONTEXT"))
     check("identifiers are unique", all(n == 1 for n in ids.values()))
     inside = Counter(to for name, args in made.values() if name == "IFCRELCONTAINEDINSPATIALSTRUCTURE" for to in references(args[4]))
     for number, (name, _) in made.items():
