@@ -729,6 +729,37 @@ static void test_forms(void **state)
     finish_live(&l);
 }
 
+/* In `section(`: the form's choices, then what each chooses among. */
+static void test_sections(void **state)
+{
+    static const char uri[] = "file:///nowhere/sections.plan";
+    static const char text[] = "schema s { w role length = 8'  zone z role band = room(9') role void }\n"
+                               "form f of s { storey low 9' storey high 8' wall 8\" partition 4\" deck 10\" roof 8\"\n"
+                               "  section z storeys = 1 | 2  section z roof = gable(9:12) | vault(4')\n"
+                               "  section cladding = board | brick  function sleep at cell(z) }\n"
+                               "rule r = section(z roof vault) and section(cladding brick)\n";
+    const struct {
+        const char *before, *offered, *not_offered;
+    } cases[] = {
+        {"z roof vault", "cladding", "vault"},
+        {"roof vault)", "storeys", "cladding"},
+        {"vault) and", "gable", "brick"},
+        {"brick)", "board", "gable"},
+    };
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, uri, text);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        json_t *params = at(uri, text, (size_t)(strstr(text, cases[i].before) - text));
+        json_t *answer = hear_answer(&l, ask(&l.session, "textDocument/completion", params));
+        assert_true(mentions(answer, cases[i].offered));
+        assert_false(mentions(answer, cases[i].not_offered));
+        json_decref(answer);
+    }
+    finish_live(&l);
+}
+
 /* What a form says for nothing is warned of, and can be allowed there. */
 static void test_form_allows(void **state)
 {
@@ -891,6 +922,7 @@ int main(void)
         cmocka_unit_test(test_wrong_messages),
         cmocka_unit_test(test_meaning),
         cmocka_unit_test(test_forms),
+        cmocka_unit_test(test_sections),
         cmocka_unit_test(test_form_allows),
         cmocka_unit_test(test_meaning_given_up),
         cmocka_unit_test(test_meaning_of_grammar),
