@@ -162,11 +162,7 @@ static tn_status compile(tn_compilation *c, const tn_compile_options *options, t
         const tn_setting_value *v = &study.of[TN_SET_GRAMMAR];
         tn_diagnostic *d = tn_report(&c->diagnostics, E_EVOLUTION_VALUE, (tn_span){v->file, v->begin, v->end},
                                      "`grammar` names a .bnf file");
-        bool python = strcmp(grammar->extension, ".pybnf") == 0;
-        tn_help(&c->diagnostics, d,
-                python ? "a .pybnf file writes Python programs, whose blocks `{:` and `:}` are not "
-                         "supported"
-                       : "rule files such as .plan and .hemls are what a grammar's sentences become");
+        tn_help(&c->diagnostics, d, "rule files such as .plan and .hemls are what a grammar's sentences become");
     } else if (grammar && !((const tn_evolution_reader *)grammar->tree)->failed) {
         status = emit(c, &imports, grammar->file, &study, error);
     } else if (!grammar && c->diagnostics.error_count == 0) {

@@ -92,6 +92,18 @@ static tn_status read_text(const tn_files *files, tn_file *file, tn_error *error
     return status;
 }
 
+tn_status tn_refuse_python_grammar(const char *path, tn_error *error)
+{
+    const char *dot = strrchr(path, '.');
+    if (!dot || strcmp(dot, ".pybnf") != 0)
+        return TN_OK;
+    tn_fail(error, TN_INVALID, E_OTHER_GRAMMAR,
+            "%.200s is a grammar of Python programs, whose blocks `{:` and `:}` only PonyGE2 turns into indented lines",
+            path);
+    tn_error_help(error, "a grammar without such blocks is read once its name ends in .bnf");
+    return TN_INVALID;
+}
+
 /* A file is a rule file by its name, of whatever notation: of any other not even a line is quoted. */
 static tn_status check_name(const tn_file *file, const tn_request *request, tn_error *error)
 {
@@ -99,6 +111,8 @@ static tn_status check_name(const tn_file *file, const tn_request *request, tn_e
     bool folder = stat(file->path, &known) == 0 && S_ISDIR(known.st_mode); /* reading says that */
     if (file->is_stdlib || folder || tn_notation_of(file->path, "", 0))
         return TN_OK;
+    if (tn_refuse_python_grammar(file->path, error) != TN_OK)
+        return TN_INVALID;
     tn_fail(error, TN_INVALID, E_IMPORT_NOT_FOUND, "cannot use %.300s: it is not a rule file", file->path);
     tn_error_help(error, "a file that can be used here has a name that ends in %s", request->extension);
     return TN_INVALID;

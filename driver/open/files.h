@@ -35,4 +35,8 @@ tn_resolver tn_files_resolver(tn_files *files);
  * NULL where out of memory. */
 char *tn_file_identity(const char *path);
 
+/* Grammars whose sentences are Python programs (.pybnf), with their own marks of blocks, look like ours and are not:
+ * TN_INVALID (E1263). */
+tn_status tn_refuse_python_grammar(const char *path, tn_error *error);
+
 #endif

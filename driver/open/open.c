@@ -107,24 +107,13 @@ static tn_status refuse_questions(tn_opened *opened)
     return TN_INVALID;
 }
 
-/* Grammars whose sentences are Python programs, with their own marks of blocks, look like ours and are not. */
-static tn_status refuse_python(tn_opened *opened)
-{
-    tn_error error = {0};
-    tn_fail(&error, TN_INVALID, E_OTHER_GRAMMAR,
-            "%.200s is a grammar of Python programs, whose blocks `{:` and `:}` only PonyGE2 turns into indented lines",
-            opened->path);
-    tn_error_help(&error, "a grammar without such blocks is read once its name ends in .bnf");
-    return refuse(opened, &error);
-}
-
 static tn_status open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
                             const tn_questions *questions, tn_opened *opened)
 {
-    const char *dot = strrchr(path, '.');
+    tn_error error = {0};
     start(path, opened);
-    if (dot && strcmp(dot, ".pybnf") == 0)
-        return refuse_python(opened);
+    if (tn_refuse_python_grammar(path, &error) != TN_OK)
+        return refuse(opened, &error);
     if (!tn_module_has_magic(bytes, size))
         return compile_file(opened, (const char *)bytes, size, &(asked){warnings_are_errors, questions, NULL, 0});
     return questions ? refuse_questions(opened) : load(opened, bytes, size);

@@ -243,12 +243,34 @@ static tn_status write_word(translation *t, const parameter *p, size_t row)
     return TN_OK;
 }
 
+/* The fitness functions that are problems of ours. Without one, what the parameters name says which it is. */
+static bool is_function(const parameter *goal, const char *const *names)
+{
+    while (*names && strcmp(*names, goal->value) != 0)
+        names++;
+    return *names != NULL;
+}
+
+static const char *const matching[] = {"string_match", NULL};
+static const char *const fitting[] = {"supervised_learning.regression",
+                                      "supervised_learning.classification",
+                                      "supervised_learning.supervised_learning",
+                                      "regression",
+                                      "classification",
+                                      NULL};
+
+static bool matches_text(const translation *t)
+{
+    const parameter *goal = find(t, "FITNESS_FUNCTION");
+    return goal ? is_function(goal, matching) : find(t, "TARGET") && !find(t, "DATASET_TRAIN");
+}
+
 static tn_status write_parameter(translation *t, size_t row)
 {
     const parameter *p = find(t, rows[row].name);
     if (!p)
         return TN_OK;
-    bool matches = find(t, "TARGET") && !find(t, "DATASET_TRAIN");
+    bool matches = matches_text(t);
     switch (rows[row].manner) {
     case NUMBER:
         if (!is_number(p->value))
@@ -256,6 +278,10 @@ static tn_status write_parameter(translation *t, size_t row)
         fprintf(t->study, "  %s %s\n", rows[row].setting, p->value);
         return TN_OK;
     case FILE_OF:
+        if (matches && strcmp(rows[row].folder, "datasets") == 0) {
+            ignore(t, p->name);
+            return TN_OK;
+        }
         return write_file(t, p, rows[row].setting, rows[row].folder);
     case TEXT:
         if (!matches) {
@@ -291,13 +317,14 @@ static void write_depth(translation *t)
 
 static tn_status check_goal(translation *t)
 {
+    static const char help[] = "data to fit (DATASET_TRAIN) and a text to match (TARGET) are read";
     const parameter *goal = find(t, "FITNESS_FUNCTION");
-    if (find(t, "DATASET_TRAIN") || find(t, "TARGET"))
+    if (goal && !is_function(goal, matching) && !is_function(goal, fitting))
+        return wrong(t, goal->line, E_EVOLUTION_VALUE, help,
+                     "the fitness function `%.80s` is a Python program, which is not run here", goal->value);
+    if (find(t, matches_text(t) ? "TARGET" : "DATASET_TRAIN"))
         return TN_OK;
-    return wrong(t, goal ? goal->line : 1, E_EVOLUTION_VALUE,
-                 "data to fit (DATASET_TRAIN) and a text to match (TARGET) are read", "%s",
-                 goal ? "this fitness function is a Python program, which is not run here"
-                      : "the parameters do not say what to evolve towards");
+    return wrong(t, goal ? goal->line : 1, E_EVOLUTION_VALUE, help, "the parameters do not say what to evolve towards");
 }
 
 static void list_ignored(translation *t)

@@ -104,6 +104,17 @@ cmp -s plane/run.sqlite short/run.sqlite || fail "a run of parameters is not res
 printf 'POPULATION_SIZE: 40\nFITNESS_FUNCTION: pymax\n' > pymax.txt
 "$TARTAN" evolve --ponyge pymax.txt > /dev/null 2> err.txt && fail "runs a Python program"
 grep -q '^pymax.txt:2:1: error\[E1232\].*Python program' err.txt || fail "does not say that a fitness function is not run: $(cat err.txt)"
+sed 's/supervised_learning.regression/pymax/' tool/parameters/plane.txt > tool/parameters/program.txt
+"$TARTAN" evolve --ponyge tool/parameters/program.txt > /dev/null 2> err.txt && fail "fits data in the place of a Python program"
+grep -q 'program.txt:[0-9]*:1: error\[E1232\].*`pymax` is a Python program' err.txt || fail "does not name the fitness function: $(cat err.txt)"
+printf 'TARGET: abc\nDATASET_TRAIN: none.txt\nFITNESS_FUNCTION: string_match\nGRAMMAR_FILE: words.bnf\nPOPULATION_SIZE: 20\nGENERATIONS: 1\n' > both.txt
+printf '<w> ::= <l> | <l><w>\n<l> ::= a | b | c\n' > words.bnf
+"$TARTAN" evolve --ponyge both.txt > /dev/null 2> err.txt || fail "does not match a text where data are named too: $(cat err.txt)"
+grep -q 'do not apply: .*DATASET_TRAIN' err.txt || fail "does not list the data that a text has no use for"
+printf 'evolution {\n grammar "blocks.pybnf"\n match "x"\n}\n' > blocks.study
+printf '<p> ::= {::}x{::}\n' > blocks.pybnf
+"$TARTAN" check blocks.study > /dev/null 2> err.txt && fail "takes a grammar of Python programs"
+grep -q 'blocks.study:2:10: error\[E1263\].*only PonyGE2' err.txt || fail "does not say why such a grammar is refused: $(cat err.txt)"
 printf 'TARGET: abc\nCROSSOVER: mine.own\n' > own.txt
 "$TARTAN" evolve --ponyge own.txt > /dev/null 2> err.txt && fail "takes an operator that is not there"
 grep -q '^own.txt:2:1: error\[E1232\].*mine.own' err.txt || fail "does not name the operator: $(cat err.txt)"
