@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "cli/growth/grow.h"
 #include "runtime/growth/surface.h"
@@ -72,6 +73,17 @@ static bool check_use(tn_job *job, tn_out_format format)
     return true;
 }
 
+/* Is this the name of a moving picture of a kind that is not written, rather than of a folder? */
+static bool moves_otherwise(const char *path)
+{
+    static const char *const kinds[] = {"gif", "apng", "webp", "mp4", "webm", "mov", "avi"};
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
+        if (strcasecmp(dot + 1, kinds[i]) == 0)
+            return true;
+    return false;
+}
+
 /* A turn is one picture from each side, as PNG. */
 static bool check_turn(tn_job *job, tn_out_format format)
 {
@@ -98,7 +110,7 @@ bool tn_grow_format_of(tn_job *job, tn_out_format *format)
     if (*format == TN_OUT_NONE)
         *format = tn_out_format_of(path);
     if (settings->turn.given && *format == TN_OUT_NONE && strcmp(path, "-") != 0)
-        return check_turn(job, TN_OUT_PNG);
+        return check_turn(job, moves_otherwise(path) ? TN_OUT_NONE : TN_OUT_PNG);
     if (*format == TN_OUT_NONE || *format > TN_OUT_PDF) {
         tn_diagnostic *d = tn_job_usage(job, "%s does not say what is to be written", path);
         tn_help(tn_job_diagnostics(job), d,
@@ -210,6 +222,7 @@ void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, 
                                .caption = caption,
                                .columns = (uint32_t)settings->columns.value,
                                .scaled = true,
+                               .fades = true,
                                .dpi = (uint32_t)settings->dpi.value,
                                .legend = tn_growth_legend(tn_growth_rules(growth))};
     tn_picture to = picture_to(settings->output, format);
@@ -229,12 +242,12 @@ static void write_sight(tn_job *job, const tn_growth *growth, const tn_study *st
                                    tn_grow_settings_of(job)->title ? tn_grow_settings_of(job)->title : study->title,
                                .caption = caption,
                                .scaled = true,
+                               .fades = true,
                                .dpi = (uint32_t)tn_grow_settings_of(job)->dpi.value,
                                .legend = tn_growth_legend(tn_growth_rules(growth))};
     tn_picture to = picture_to(path, format);
-    tn_status status = tn_grow_surrounded(tn_grow_settings_of(job), study)
-                           ? tn_growth_sight_surround(growth, sight, &error)
-                           : TN_OK;
+    tn_status status =
+        tn_grow_surrounded(tn_grow_settings_of(job), study) ? tn_growth_sight_surround(growth, sight, &error) : TN_OK;
     if (status == TN_OK)
         status = tn_view_take(sight, &camera, &view, &error);
     if (status == TN_OK)

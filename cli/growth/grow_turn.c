@@ -31,6 +31,7 @@ static tn_status draw_frame(tn_job *job, const tn_growth *growth, const tn_study
     tn_view *view = NULL;
     tn_view_options options = {.title = settings->title ? settings->title : study->title,
                                .scaled = true,
+                               .fades = true,
                                .dpi = (uint32_t)settings->dpi.value,
                                .legend = tn_growth_legend(tn_growth_rules(growth))};
     tn_status status = take_view(growth, &camera, tn_grow_surrounded(settings, study), &view, error);

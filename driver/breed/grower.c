@@ -314,7 +314,7 @@ tn_status tn_grower_draw(const void *grower, const char *const *sentences, const
             status = tn_growth_view(growth, &camera, surrounded, &views[drawn++], error);
         rules_clear(&compiled);
     }
-    tn_view_options options = {.title = title, .labels = labels};
+    tn_view_options options = {.title = title, .labels = labels, .fades = true};
     if (status == TN_OK && drawn)
         status = tn_views_draw(views, drawn, &options, &(tn_picture){.path = path}, error);
     for (size_t i = 0; views && i < drawn; i++)

@@ -277,6 +277,8 @@ tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **resul
         status = keep(view, &seen, &painting, error);
     if (status == TN_OK)
         status = tn_view_join(view, error);
+    for (int k = 0; k < 2 && status == TN_OK; k++)
+        view->extent[k] = view->high[k] - view->low[k];
     if (status == TN_OK)
         status = tn_view_take_guides(view, &sight->guides, &eye, error);
     if (status == TN_OK && frame.radius > 0)

@@ -30,7 +30,7 @@ typedef struct tn_sight {
     int threads;            /* 0: as many as there are processors */
     struct tn_watch *watch; /* or NULL */
     tn_guides guides;       /* drawn with it; owned */
-    bool turns; /* views from all around, at one elevation, shall have one scale and one middle */
+    bool turns;             /* views from all around, at one elevation, shall have one scale and one middle */
 } tn_sight;
 
 /* Room for so many; TN_MEMORY. Clear it in any case. E0820 for more than TN_DRAWN_FACES_MAX faces. */
@@ -65,9 +65,9 @@ typedef struct tn_view_options {
     uint32_t columns;          /* of a sheet; 0: about as many as rows */
     const char *const *labels; /* below each view; NULL: its step, if there are several */
     uint32_t dpi;
-    bool scaled; /* each view fills its cell, and a bar below it says how long a length of the model is there; lines
-                    fade where faces are small */
-    tn_legend legend;           /* count 0: none */
+    bool scaled;      /* each view fills its cell, and a bar below it says how long a length of the model is there */
+    bool fades;       /* lines fade where faces are small */
+    tn_legend legend; /* count 0: none */
     const double (*palette)[3]; /* colours of groups, in sRGB; NULL: those of tn_group_colour */
 } tn_view_options;
 

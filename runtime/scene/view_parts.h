@@ -26,6 +26,7 @@ struct tn_view {
     float (*points)[2]; /* [corner] in the picture's plane, y up */
     uint16_t *edges;    /* [corner] of the edge that starts there: as in tn_sight; TN_EDGE_NONE where a face was cut */
     double low[2], high[2];
+    double extent[2]; /* of the form alone: guides and views from all around make the frame larger */
     double width;
     uint32_t step;
     uint32_t by_depth;

@@ -30,7 +30,7 @@ typedef struct sheet {
     size_t columns, rows;
     double size[2];
     const double (*palette)[3]; /* or NULL */
-    bool scaled;
+    bool scaled, fades;
 } sheet;
 
 static void mark_seen(const tn_view *view, const tn_legend *legend, bool *seen)
@@ -73,7 +73,8 @@ static bool lay_out_legend(tn_view *const *views, size_t count, const tn_legend 
 
 static sheet lay_out(tn_view *const *views, size_t count, const tn_view_options *options)
 {
-    sheet s = {.columns = options->columns, .palette = options->palette, .scaled = options->scaled};
+    sheet s = {
+        .columns = options->columns, .palette = options->palette, .scaled = options->scaled, .fades = options->fades};
     double extent[2] = {1e-9, 1e-9};
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 2; k++)
@@ -253,9 +254,9 @@ static void draw_scale(cairo_t *cr, double scale, double most, double right, dou
 }
 
 /* How far lines fade where faces are so small on the mean. */
-static double fade_of(const tn_view *view, double wide, double high)
+static double fade_of(const tn_view *view, double scale)
 {
-    double across = sqrt(wide * high / fmax(1, (double)view->face_count));
+    double across = scale * sqrt(view->extent[0] * view->extent[1] / fmax(1, (double)view->face_count));
     return across >= LARGE_FACE ? 0 : 0.9 * (1 - across / LARGE_FACE);
 }
 
@@ -278,7 +279,7 @@ static void paint_view(const tn_canvas *canvas, const tn_view *view, const sheet
                            .y = top + high + view->low[1] * scale,
                            .scale = scale,
                            .line = line,
-                           .fade = s->scaled ? fade_of(view, wide, high) : 0,
+                           .fade = s->fades ? fade_of(view, scale) : 0,
                            .ambient = s->palette ? given_ambient : 0,
                            .palette = s->palette};
     bool guided = view->guides.count > 0; /* they may reach beyond the cell */

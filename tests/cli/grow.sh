@@ -237,7 +237,7 @@ for i in range(5):
     assert b''.join(body for name, body in single if name == b'IDAT') == frames[i]
 assert len(set(frames)) == 5
 EOF
-for words in '--turn 5' '--turn 5 -o x.svg' '--turn 1 -o x' '--turn 5 --sheet -o x' '--turn 5 -o x.obj' '--surroundings yes' '--surroundings yes -o x.obj'; do
+for words in '--turn 5' '--turn 5 -o x.svg' '--turn 1 -o x' '--turn 5 --sheet -o x' '--turn 5 -o x.obj' '--turn 5 -o x.gif' '--surroundings yes' '--surroundings yes -o x.obj'; do
     if "$TARTAN" grow square.hemls -n 2 $words 2>stderr >/dev/null; then fail "accepted: $words"; fi
     grep -q 'E0904' stderr || fail "not said what is wrong: $words"
 done
