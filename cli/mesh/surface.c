@@ -90,10 +90,8 @@ static void warn_of_cut(tn_job *job, const tn_contour *contour)
 void tn_job_warn_of_contour(tn_job *job, const tn_contour *c, const char *jumps)
 {
     if (!c->inside)
-        tn_job_warn(
-            job, W_FIELD_EMPTY,
-            "inside is where the field is below 0; what is smaller than a cell is seen with a finer --grid only",
-            "nothing of the box is inside, at this grid");
+        tn_job_warn(job, W_FIELD_EMPTY, "inside is where the field is below 0",
+                    "nothing of the box is inside, at this grid");
     else if (!c->outside)
         tn_job_warn(job, W_FIELD_FULL, "inside is where the field is below 0; turn its sign round for the rest",
                     "all of the box is inside");
