@@ -1,4 +1,5 @@
 /* Reads which drawings of a house are wanted: `plan:STOREY`, `section:x=LENGTH`, `elevation:SIDE`, ... */
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/house/files.h"
@@ -70,7 +71,34 @@ static bool read_side(tn_job *job, const char *text, tn_aspect *aspect)
     return false;
 }
 
-/* Everything of a sheet: plans, sections through the middle, elevations, the house with its roof and without. */
+/* Does a cut there go along a wall, or might it? */
+static bool in_wall(const tn_house *house, tn_aspect_kind kind, int64_t at)
+{
+    int64_t half = house->form->record->wall / 2;
+    for (size_t i = 0; i < house->cell_count; i++) {
+        const tn_rectangle *r = &house->cells[i].at;
+        int64_t low = kind == TN_ASPECT_SECTION_X ? r->x0 : r->y0, high = kind == TN_ASPECT_SECTION_X ? r->x1 : r->y1;
+        if (llabs(at - low) <= half || llabs(at - high) <= half)
+            return true;
+    }
+    return false;
+}
+
+/* Where a section is cut: at the place, or if that is in a wall, in the nearest middle of a cell that is in none. */
+static int64_t clear_of_walls(const tn_house *house, tn_aspect_kind kind, int64_t wanted)
+{
+    int64_t best = wanted;
+    for (size_t i = 0; in_wall(house, kind, wanted) && i < house->cell_count; i++) {
+        const tn_rectangle *r = &house->cells[i].at;
+        int64_t at = kind == TN_ASPECT_SECTION_X ? r->x0 + (r->x1 - r->x0) / 2 : r->y0 + (r->y1 - r->y0) / 2;
+        if ((best == wanted || llabs(at - wanted) < llabs(best - wanted)) && !in_wall(house, kind, at))
+            best = at;
+    }
+    return best;
+}
+
+/* Everything of a sheet: plans, sections through the middle or beside it, elevations, the house with its roof and
+ * without. */
 static size_t add_sheet(const tn_house *house, const tn_aspect *usual, tn_aspect *aspects, size_t room)
 {
     size_t count = 0;
@@ -89,10 +117,10 @@ static size_t add_sheet(const tn_house *house, const tn_aspect *usual, tn_aspect
     }
     tn_aspect section = *usual, roofless = *usual;
     section.kind = TN_ASPECT_SECTION_X;
-    section.at = house->trays ? width / 4 : 0;
+    section.at = house->trays ? clear_of_walls(house, section.kind, width / 4) : 0;
     aspects[count++] = section;
     section.kind = TN_ASPECT_SECTION_Y;
-    section.at = low + (high - low) / 2;
+    section.at = clear_of_walls(house, section.kind, low + (high - low) / 2);
     aspects[count++] = section;
     for (int side = TN_HOUSE_BACK; side <= TN_HOUSE_RIGHT; side++) {
         aspects[count] = *usual;

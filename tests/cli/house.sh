@@ -51,6 +51,9 @@ golden view_section "tartan house cottage \"$room\" -o $scratch/h.svg --view sec
 golden view_side "tartan house cottage \"$room\" -o $scratch/h.svg --view elevation:north"
 golden view_cut "tartan house cottage \"$room\" -o $scratch/h.svg --cut cellar"
 golden no_number "tartan house cottage '#ten'"
+row="2m first two room:4m room:4m none | 4m - two room:4m room:4m none ; 1 shed(back,1:1) shed(front,1:1) flat brick"
+"$TARTAN" house row-houses "$row ; hall bath stair stair | parlour bedroom kitchen bedroom ; door ; bath-room.back.m sitting-room.front double-bed.left galley.back double-bed.right" -o "$scratch/row.dxf"
+is 'sections of a sheet that are beside the wall in the middle' "$(grep -a '^section' "$scratch/row.dxf" | tr -d '\r' | tr '\n' ' ')" 'section x = 1.5m section y = 2m '
 if grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; then
     golden view_empty "tartan house cottage \"$room\" -o $scratch/h.svg --view plan:loft"
     golden view_outside "tartan house cottage \"$room\" -o $scratch/h.svg --view section:x=99\'"
