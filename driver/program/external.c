@@ -257,10 +257,11 @@ static void end_and_give_up(asking *a, const char *why, bool at_once)
     give_up(a, reason, at_once);
 }
 
-static tn_status unasked(const asking *a, const char *line, size_t size, tn_error *error)
+static tn_status unasked(const asking *a, const char *text, size_t size, tn_error *error)
 {
     char shown[80];
-    tn_clean_copy(shown, sizeof shown, line, size);
+    const char *end = memchr(text, '\n', size);
+    tn_clean_copy(shown, sizeof shown, text, end ? (size_t)(end - text) : size);
     tn_fail(error, TN_INVALID, E_PROGRAM_ANSWERS,
             "the program %.200s answered `%s`, and was not asked: its answers cannot be told apart", a->program->path,
             shown);
