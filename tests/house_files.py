@@ -217,9 +217,10 @@ def check_dxf(path):
     check("ezdxf finds nothing", not auditor.errors and not auditor.fixes)
 
 
-def square_root(fraction):
-    """The floor of the root of a fraction that stands for an area squared."""
-    return math.isqrt(fraction.numerator // fraction.denominator)
+def slope(rise, way):
+    """How much longer a slope is than its plan, rounded down to a billionth."""
+    square = 1 + (rise / way) ** 2
+    return F(math.isqrt(square.numerator * 10**18 // square.denominator), 10**9)
 
 
 def check_parts(path, house):
@@ -243,7 +244,7 @@ def check_parts(path, house):
         line, wide = [(F(y), F(z)) for y, z in r["profile"]], length_of_roof(r)
         number["roof"] += 1
         for a, b in zip(line, line[1:]):
-            area["roof"] += square_root(((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2) * wide**2)
+            area["roof"] += (b[0] - a[0]) * wide * slope(b[1] - a[1], b[0] - a[0])
         volume["roof"] += volume_of_roof(r)
     for f in house["faces"]:
         number[f["kind"]] += f["kind"] not in ("wall", "party", "open", "floor", "stair")

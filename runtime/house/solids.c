@@ -231,27 +231,42 @@ static tn_status put_items(const tn_house *house, uint32_t index, tn_solids *sol
     return status;
 }
 
-tn_status tn_house_solids(const tn_house *house, tn_solids *solids, tn_error *error)
+/* Everything but flights. */
+static tn_status put_building(const tn_house *house, bool items, tn_solids *solids, tn_error *error)
 {
     uint32_t storeys = house->form->record->storey_count;
     tn_rectangles foot[TN_STOREYS_MAX + 1] = {{0}}, decks[TN_STOREYS_MAX + 1] = {{0}};
     tn_status status = TN_OK;
-    *solids = (tn_solids){0};
     for (uint32_t k = 0; status == TN_OK && k < storeys; k++)
         status = put_walls(house, k, &foot[k], solids, error);
     for (uint32_t k = 0; status == TN_OK && k <= storeys; k++)
         status = put_deck(house, k, &foot[k], &decks[k], solids, error);
     if (status == TN_OK)
         status = tn_house_roofs(house, decks, foot, solids, error);
-    for (uint32_t i = 0; status == TN_OK && i < house->cell_count; i++)
+    for (uint32_t i = 0; status == TN_OK && items && i < house->cell_count; i++)
         status = put_items(house, i, solids, error);
-    if (status == TN_OK)
-        status = put_flights(house, solids, error);
     for (uint32_t k = 0; k <= storeys; k++) {
         free(foot[k].items);
         free(decks[k].items);
     }
     return status;
+}
+
+static tn_status put_all(const tn_house *house, bool items, tn_solids *solids, tn_error *error)
+{
+    *solids = (tn_solids){0};
+    tn_status status = put_building(house, items, solids, error);
+    return status == TN_OK ? put_flights(house, solids, error) : status;
+}
+
+tn_status tn_house_solids(const tn_house *house, tn_solids *solids, tn_error *error)
+{
+    return put_all(house, true, solids, error);
+}
+
+tn_status tn_house_shell(const tn_house *house, tn_solids *solids, tn_error *error)
+{
+    return put_all(house, false, solids, error);
 }
 
 void tn_solids_clear(tn_solids *solids)

@@ -67,6 +67,9 @@ typedef struct tn_solids {
 } tn_solids;
 
 tn_status tn_house_solids(const tn_house *house, tn_solids *solids, tn_error *error);
+
+/* The same without what stands in the rooms. */
+tn_status tn_house_shell(const tn_house *house, tn_solids *solids, tn_error *error);
 void tn_solids_clear(tn_solids *solids);
 
 /* ---- region.c: rectangles */

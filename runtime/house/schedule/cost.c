@@ -119,16 +119,15 @@ static bool is_wall(tn_solid_kind kind)
 }
 
 /* `counts`: is it more than another piece of the same wall? */
-static void add_box(const tn_house *house, const tn_solid *s, bool counts, tn_costs *costs)
+static void add_box(const tn_house *house, const tn_solid *s, bool counts, tn_cost_line *line)
 {
-    tn_cost_line *line = &costs->lines[tn_solid_made_part(house, s->kind, s->of, s->item)];
     bool face = is_wall(s->kind) || s->kind == TN_SOLID_PANE || s->kind == TN_SOLID_LEAF;
     mpz_t area;
     mpq_t volume;
     mpz_init(area);
     mpq_init(volume);
-    set_wide(area, face ? face_of_wall(house, s) : face_of(s));
-    mpz_add(line->area, line->area, area);
+    set_wide(mpq_numref(volume), face ? face_of_wall(house, s) : face_of(s));
+    mpq_add(line->area, line->area, volume);
     set_wide(mpq_numref(volume), (tn_int128)(s->at.x1 - s->at.x0) * (s->at.y1 - s->at.y0));
     mpz_set_si(area, s->at.z1 - s->at.z0);
     mpz_mul(mpq_numref(volume), mpq_numref(volume), area);
@@ -144,39 +143,53 @@ static void set_fraction(mpq_t to, tn_fraction fraction)
     set_wide(mpq_denref(to), fraction.bottom);
 }
 
+#define SLOPE_PARTS 1000000000u
+
+/* factor := how much longer a slope is than its plan, which rises so far on such a way; rounded down to a billionth, so
+ * that the area of a roof is the same however it is cut. Changes both. */
+static void set_slope(mpq_t factor, mpq_t rise, mpq_t way)
+{
+    mpz_t root;
+    mpz_init(root);
+    mpq_mul(rise, rise, rise);
+    mpq_mul(way, way, way);
+    mpq_add(rise, rise, way);
+    mpq_div(factor, rise, way);
+    mpz_ui_pow_ui(root, SLOPE_PARTS, 2);
+    mpz_mul(root, root, mpq_numref(factor));
+    mpz_fdiv_q(root, root, mpq_denref(factor)); /* the floor of a root is that of the floor's root */
+    mpz_sqrt(mpq_numref(factor), root);
+    mpz_set_ui(mpq_denref(factor), SLOPE_PARTS);
+    mpq_canonicalize(factor);
+    mpz_clear(root);
+}
+
 /* The stretch of a roof between two points of its line: an upright strip as wide as the prism, or a slab. */
 static void add_slope(const tn_prism *prism, const tn_roof_point *points, tn_cost_line *line)
 {
-    mpq_t y, z, middle, wide;
-    mpz_t root;
-    mpq_inits(y, z, middle, wide, NULL);
-    mpz_init(root);
-    mpq_set_si(wide, prism->base, 1);
-    set_fraction(y, points[0].z);
-    set_fraction(z, points[1].z);
-    mpq_add(middle, y, z);
-    mpq_div_2exp(middle, middle, 1);
-    mpq_sub(middle, middle, wide); /* how high in the middle */
+    mpq_t way, rise, high, plan;
+    mpq_inits(way, rise, high, plan, NULL);
+    set_fraction(rise, points[0].z);
+    set_fraction(plan, points[1].z);
+    mpq_add(high, rise, plan);
+    mpq_div_2exp(high, high, 1);
+    mpq_sub(rise, plan, rise);
+    mpq_set_si(plan, prism->slab ? prism->slab : prism->base, 1);
     if (prism->slab)
-        mpq_set_si(middle, prism->slab, 1);
-    mpq_sub(z, z, y); /* how far it rises */
-    set_fraction(y, points[0].y);
-    set_fraction(wide, points[1].y);
-    mpq_sub(y, wide, y); /* how deep */
-    mpq_set_si(wide, prism->to - prism->from, 1);
-    mpq_mul(middle, middle, y);
-    mpq_mul(middle, middle, wide);
-    mpq_add(line->volume, line->volume, middle);
-    mpq_mul(y, y, y);
-    mpq_mul(z, z, z);
-    mpq_add(z, z, y);
-    mpq_mul(z, z, wide);
-    mpq_mul(z, z, wide);
-    mpz_fdiv_q(root, mpq_numref(z), mpq_denref(z)); /* the floor of a root is that of the floor's root */
-    mpz_sqrt(root, root);
-    mpz_add(line->area, line->area, root);
-    mpq_clears(y, z, middle, wide, NULL);
-    mpz_clear(root);
+        mpq_set(high, plan);
+    else
+        mpq_sub(high, high, plan); /* how high in the middle */
+    set_fraction(way, points[0].y);
+    set_fraction(plan, points[1].y);
+    mpq_sub(way, plan, way);
+    mpq_set_si(plan, prism->to - prism->from, 1);
+    mpq_mul(plan, plan, way); /* its area in plan */
+    mpq_mul(high, high, plan);
+    mpq_add(line->volume, line->volume, high);
+    set_slope(high, rise, way);
+    mpq_mul(plan, plan, high);
+    mpq_add(line->area, line->area, plan);
+    mpq_clears(way, rise, high, plan, NULL);
 }
 
 static void add_roof(const tn_solids *solids, const tn_prism *prism, tn_costs *costs)
@@ -209,7 +222,7 @@ static void price_line(const tn_house *house, tn_cost_line *line)
     if (material->unit == TN_PER_EACH)
         mpq_set_ui(line->cost, line->count, 1);
     else if (material->unit <= TN_PER_SQUARE_METRE)
-        mpq_set_z(line->cost, line->area);
+        mpq_set(line->cost, line->area);
     else
         mpq_set(line->cost, line->volume);
     mpz_set_si(mpq_numref(factor), material->price);
@@ -226,6 +239,19 @@ static void price_line(const tn_house *house, tn_cost_line *line)
     mpq_clear(factor);
 }
 
+static void line_init(tn_cost_line *line, uint32_t part)
+{
+    *line = (tn_cost_line){.part = part, .material = TN_NO_RECORD};
+    mpz_init(line->hundredths);
+    mpq_inits(line->area, line->volume, line->cost, NULL);
+}
+
+static void line_clear(tn_cost_line *line)
+{
+    mpz_clear(line->hundredths);
+    mpq_clears(line->area, line->volume, line->cost, NULL);
+}
+
 static tn_status make_lines(const tn_house *house, tn_costs *costs, tn_error *error)
 {
     uint32_t count = tn_form_parts(house->form);
@@ -234,13 +260,14 @@ static tn_status make_lines(const tn_house *house, tn_costs *costs, tn_error *er
         return tn_fail_memory(error);
     mpz_init(costs->hundredths);
     mpq_init(costs->exact);
-    for (; costs->count < count; costs->count++) {
-        tn_cost_line *line = &costs->lines[costs->count];
-        *line = (tn_cost_line){.part = (uint32_t)costs->count, .material = TN_NO_RECORD};
-        mpz_inits(line->area, line->hundredths, NULL);
-        mpq_inits(line->volume, line->cost, NULL);
-    }
+    for (; costs->count < count; costs->count++)
+        line_init(&costs->lines[costs->count], (uint32_t)costs->count);
     return TN_OK;
+}
+
+static tn_cost_line *line_of(const tn_house *house, const tn_solid *s, const tn_costs *costs)
+{
+    return &costs->lines[tn_solid_made_part(house, s->kind, s->of, s->item)];
 }
 
 tn_status tn_house_costs(const tn_house *house, const tn_solids *solids, tn_costs *costs, tn_error *error)
@@ -254,11 +281,11 @@ tn_status tn_house_costs(const tn_house *house, const tn_solids *solids, tn_cost
     for (size_t i = 0; status == TN_OK && i < solids->box_count; i++) {
         const tn_solid *s = &solids->boxes[i];
         bool pieces = is_wall(s->kind) || s->kind == TN_SOLID_FLIGHT;
-        add_box(house, s, !pieces || s->of != wall, costs);
+        add_box(house, s, !pieces || s->of != wall, line_of(house, s, costs));
         wall = pieces ? s->of : TN_NO_CELL;
     }
     for (size_t i = 0; status == TN_OK && i < leaves.box_count; i++)
-        add_box(house, &leaves.boxes[i], true, costs);
+        add_box(house, &leaves.boxes[i], true, line_of(house, &leaves.boxes[i], costs));
     for (size_t i = 0; status == TN_OK && i < solids->prism_count; i++)
         add_roof(solids, &solids->prisms[i], costs);
     for (size_t i = 0; status == TN_OK && i < costs->count; i++) {
@@ -272,14 +299,40 @@ tn_status tn_house_costs(const tn_house *house, const tn_solids *solids, tn_cost
 
 void tn_costs_clear(tn_costs *costs)
 {
-    for (size_t i = 0; i < costs->count; i++) {
-        mpz_clears(costs->lines[i].area, costs->lines[i].hundredths, NULL);
-        mpq_clears(costs->lines[i].volume, costs->lines[i].cost, NULL);
-    }
+    for (size_t i = 0; i < costs->count; i++)
+        line_clear(&costs->lines[i]);
     if (costs->lines) {
         mpz_clear(costs->hundredths);
         mpq_clear(costs->exact);
     }
     free(costs->lines);
     *costs = (tn_costs){0};
+}
+
+tn_status tn_house_shell_cost(const tn_house *house, mpq_t cost, tn_error *error)
+{
+    tn_solids solids;
+    tn_costs costs = {0};
+    tn_status status = tn_house_shell(house, &solids, error);
+    if (status == TN_OK)
+        status = tn_house_costs(house, &solids, &costs, error);
+    if (status == TN_OK)
+        mpq_set(cost, costs.exact);
+    tn_costs_clear(&costs);
+    tn_solids_clear(&solids);
+    return status;
+}
+
+void tn_house_items_cost(const tn_house *house, const tn_standing_item *items, size_t count, mpq_t cost)
+{
+    mpq_set_ui(cost, 0, 1);
+    for (size_t i = 0; i < count; i++) {
+        const tn_solid solid = {.kind = TN_SOLID_ITEM, .item = items[i].box, .at = items[i].at};
+        tn_cost_line line;
+        line_init(&line, tn_solid_made_part(house, TN_SOLID_ITEM, 0, items[i].box));
+        add_box(house, &solid, true, &line);
+        price_line(house, &line);
+        mpq_add(cost, cost, line.cost);
+        line_clear(&line);
+    }
 }

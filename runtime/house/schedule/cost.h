@@ -1,8 +1,9 @@
 /* What a house is made of, and what that costs: a line for each kind of part.
  *
- * Quantities are exact: nanometres squared and cubed. Areas of sloped roofs are rounded down to a square nanometre,
- * face by face; their volumes are exact fractions. A line's cost is rounded half up to the hundredth, and the total is
- * the sum of the lines. A tn_costs owns its lines; free them with tn_costs_clear.
+ * Quantities are exact: nanometres squared and cubed. The area of a slope is that of its plan times a factor that is
+ * rounded down to a billionth, however the roof is cut; volumes of roofs are exact fractions. A line's cost is rounded
+ * half up to the hundredth, and the total is the sum of the lines. A tn_costs owns its lines; free them with
+ * tn_costs_clear.
  */
 #ifndef TARTAN_HOUSE_COST_H
 #define TARTAN_HOUSE_COST_H
@@ -15,8 +16,7 @@
 typedef struct tn_cost_line {
     uint32_t part, material;
     size_t count;
-    mpz_t area;
-    mpq_t volume, cost; /* unrounded */
+    mpq_t area, volume, cost; /* unrounded */
     mpz_t hundredths;
 } tn_cost_line;
 
@@ -47,5 +47,11 @@ const char *tn_form_part_text(const tn_house_form *form, uint32_t part);
 /* tn_costs_clear also after a failure. TN_MEMORY. */
 tn_status tn_house_costs(const tn_house *house, const tn_solids *solids, tn_costs *costs, tn_error *error);
 void tn_costs_clear(tn_costs *costs);
+
+/* cost := what a house costs, unrounded, without what stands in its rooms. TN_MEMORY. */
+tn_status tn_house_shell_cost(const tn_house *house, mpq_t cost, tn_error *error);
+
+/* cost := what things cost, unrounded, that stand so in a house. */
+void tn_house_items_cost(const tn_house *house, const tn_standing_item *items, size_t count, mpq_t cost);
 
 #endif

@@ -208,13 +208,10 @@ static void put_hundredths(tn_buffer *out, const mpz_t hundredths)
 static void put_part(const tn_house *house, const tn_cost_line *line, tn_buffer *out)
 {
     const tn_module *module = house->form->module;
-    mpq_t area;
-    mpq_init(area);
-    mpq_set_z(area, line->area);
     tn_buffer_printf(out, "{\"part\": ");
     tn_buffer_append_json(out, tn_form_part_text(house->form, line->part));
     tn_buffer_printf(out, ", \"number\": %zu, \"area\": \"", line->count);
-    put_digits(out, mpq_get_str(NULL, 10, area));
+    put_digits(out, mpq_get_str(NULL, 10, line->area));
     tn_buffer_printf(out, "\", \"volume\": \"");
     put_digits(out, mpq_get_str(NULL, 10, line->volume));
     tn_buffer_printf(out, "\"");
@@ -226,7 +223,6 @@ static void put_part(const tn_house *house, const tn_cost_line *line, tn_buffer 
         tn_buffer_printf(out, "\"");
     }
     tn_buffer_append(out, "}", 1);
-    mpq_clear(area);
 }
 
 static void put_parts(const tn_house *house, const tn_costs *costs, tn_buffer *out)
@@ -343,11 +339,8 @@ static void put_part_row(const tn_house *house, const tn_cost_line *line, tn_buf
 {
     static const char *const units[] = {"each", "sf", "m2", "cf", "m3"};
     const tn_module *module = house->form->module;
-    mpq_t area;
-    mpq_init(area);
-    mpq_set_z(area, line->area);
     tn_buffer_printf(out, "%s,%zu,", tn_form_part_text(house->form, line->part), line->count);
-    put_millionths(out, area, 18);
+    put_millionths(out, line->area, 18);
     tn_buffer_append(out, ",", 1);
     put_millionths(out, line->volume, 27);
     if (line->material == TN_NO_RECORD) {
@@ -359,7 +352,6 @@ static void put_part_row(const tn_house *house, const tn_cost_line *line, tn_buf
         put_hundredths(out, line->hundredths);
         tn_buffer_append(out, "\r\n", 2);
     }
-    mpq_clear(area);
 }
 
 tn_status tn_house_parts(const tn_house *house, const tn_solids *solids, tn_buffer *out, tn_error *error)
