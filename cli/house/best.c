@@ -109,7 +109,7 @@ static bool write_value(const search *s, uint32_t k, bool exact, tn_buffer *text
     mpq_t value;
     mpq_init(value);
     mpq_set_si(value, s->values[k], 1);
-    mpq_mul(value, value, s->weights[k]->unit);
+    mpq_mul(value, value, s->weights[k]->shown);
     bool ok = (exact ? tn_amount_write_exact : tn_amount_write)(s->units[k], value, text);
     mpq_clear(value);
     return ok;
@@ -254,7 +254,7 @@ void tn_job_complete_houses(tn_job *job, const tn_house_settings *settings, cons
     if (wishes->count && s.weights[0]) {
         completed.measure = measure_name(&s, 0);
         completed.most = wishes->most[0];
-        completed.step = s.weights[0]->unit;
+        completed.step = s.weights[0]->shown;
         completed.unit = s.units[0];
     }
     if (begun && status == TN_OK)

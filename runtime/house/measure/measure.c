@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "runtime/number/rational.h"
+#include "runtime/plan/measure/amount.h"
 #include "runtime/plan/schema/sum.h"
 
 tn_house_measured tn_house_measured_of(const tn_module *module, uint32_t measure)
@@ -52,8 +53,7 @@ static void common_area(const tn_house_form *form, mpz_t common)
 
 /* ---- steps */
 
-/* unit := the greatest number that unit and `other` are multiples of; both are not below 0. */
-static void find_common(mpq_t unit, const mpq_t other)
+void tn_common_unit(mpq_t unit, const mpq_t other)
 {
     mpz_t a, b;
     mpz_inits(a, b, NULL);
@@ -65,7 +65,7 @@ static void find_common(mpq_t unit, const mpq_t other)
     mpz_clears(a, b, NULL);
 }
 
-static tn_status too_fine(tn_error *error)
+tn_status tn_too_fine(tn_error *error)
 {
     tn_fail(error, TN_LIMIT, E_TOO_FINE,
             "the numbers of the measure have no step in common that they are few times of");
@@ -75,13 +75,36 @@ static tn_status too_fine(tn_error *error)
 
 static bool to_steps(const tn_house_weights *w, const mpq_t number, int64_t *steps)
 {
+    tn_int128 wide;
+    bool fits = tn_steps_of(number, w->unit, &wide) && wide >> 45 == wide >> 127; /* TN_SUM_STEPS_MAX */
+    *steps = fits ? (int64_t)wide : 0;
+    return fits;
+}
+
+bool tn_steps_of(const mpq_t number, const mpq_t unit, tn_int128 *steps)
+{
+    uint64_t words[2] = {0};
     mpq_t quotient;
     mpq_init(quotient);
-    mpq_div(quotient, number, w->unit);
-    bool fits = mpz_sizeinbase(mpq_numref(quotient), 2) < 45; /* TN_SUM_STEPS_MAX */
-    *steps = fits ? mpz_get_si(mpq_numref(quotient)) : 0;
+    mpq_div(quotient, number, unit);
+    bool fits = mpz_cmp_ui(mpq_denref(quotient), 1) == 0 && mpz_sizeinbase(mpq_numref(quotient), 2) < 100;
+    if (fits)
+        mpz_export(words, NULL, -1, sizeof *words, 0, 0, mpq_numref(quotient));
+    *steps = (tn_int128)words[1] << 64 | words[0];
+    *steps = mpq_sgn(quotient) < 0 ? -*steps : *steps;
     mpq_clear(quotient);
     return fits;
+}
+
+void tn_steps_number(tn_int128 steps, const mpq_t unit, mpq_t number)
+{
+    tn_int128 size = steps < 0 ? -steps : steps;
+    const uint64_t words[2] = {(uint64_t)size, (uint64_t)(size >> 64)};
+    mpq_set_ui(number, 0, 1);
+    mpz_import(mpq_numref(number), 2, -1, sizeof *words, 0, 0, words);
+    if (steps < 0)
+        mpq_neg(number, number);
+    mpq_mul(number, number, unit);
 }
 
 /* number := what one cell, room or common area adds. */
@@ -107,9 +130,10 @@ static tn_status find_steps(tn_house_weights *w, mpq_t number, tn_error *error)
     for (uint32_t i = 0; i < w->count; i++) {
         number_of(w, i, number);
         mpq_abs(number, number);
-        find_common(w->unit, number);
+        tn_common_unit(w->unit, number);
     }
-    if (mpq_sgn(w->unit) == 0)
+    w->only_costs = mpq_sgn(w->unit) == 0;
+    if (w->only_costs)
         mpq_set_ui(w->unit, 1, 1);
     mpq_set(number, plan->unit);
     bool good = tn_rational_fits(w->unit) && (!of_plans || to_steps(w, number, &w->plan));
@@ -118,33 +142,48 @@ static tn_status find_steps(tn_house_weights *w, mpq_t number, tn_error *error)
         good = to_steps(w, number, &w->terms[i].each);
     }
     tn_sum_free(plan);
-    return good ? TN_OK : too_fine(error);
+    return good ? TN_OK : tn_too_fine(error);
 }
 
-static tn_status take_terms(tn_house_weights *w, tn_error *error)
+static void add_cost(tn_house_weights *w, const tn_house_term_record *record)
+{
+    mpq_t factor;
+    mpq_init(factor);
+    mpq_set_str(factor, tn_text(w->form->module, record->factor), 10);
+    mpq_add(w->cost, w->cost, factor);
+    mpq_clear(factor);
+}
+
+static void take_terms(tn_house_weights *w)
 {
     mpz_t common;
     mpz_init(common);
-    tn_status status = TN_OK;
     common_area(w->form, common);
-    for (; status == TN_OK && w->count < w->of.term_count; w->count++) {
+    for (; w->count < w->of.term_count; w->count++) {
         const tn_house_term_record *record = term_record(w, w->count);
         tn_house_weight_term *term = &w->terms[w->count];
         *term = (tn_house_weight_term){.kind = (tn_house_term_kind)record->kind, .part = record->part};
         mpz_init_set_ui(term->area, 1);
         if (term->kind == TN_HOUSE_AREAS)
             mpz_set(term->area, common);
-        if (term->kind != TN_HOUSE_COST)
-            continue;
-        status =
-            tn_fail(error, TN_LIMIT, E_COST_OF_ALL, "`%.60s` adds up costs, which are known of one house at a time",
-                    tn_text(w->form->module, w->of.name));
-        tn_error_help(
-            error,
-            "count by a measure without `sum(cost)`; `tartan house HOUSE -o NAME.parts.csv` says what one costs");
+        if (term->kind == TN_HOUSE_COST) {
+            mpz_set_ui(term->area, 0);
+            add_cost(w, record);
+        }
     }
     mpz_clear(common);
-    return status;
+}
+
+/* Costs are shown to the hundredth of what they are written in. */
+static void find_shown(tn_house_weights *w)
+{
+    uint32_t power = w->form->module->SUM_records[w->of.sum].power;
+    mpq_set(w->shown, w->unit);
+    if (mpq_sgn(w->cost) == 0)
+        return;
+    mpq_set_ui(w->shown, 100, 1);
+    tn_amount_convert(tn_amount_unit_of(w->form->schema, power), w->shown);
+    mpq_inv(w->shown, w->shown);
 }
 
 tn_status tn_house_weights_new(const tn_house_form *form, tn_house_measured measure, tn_house_weights **out,
@@ -156,11 +195,15 @@ tn_status tn_house_weights_new(const tn_house_form *form, tn_house_measured meas
         return tn_fail_memory(error);
     *w = (tn_house_weights){.form = form, .of = measure};
     mpq_init(number);
-    mpq_init(w->unit);
+    mpq_inits(w->unit, w->shown, w->cost, NULL);
     w->terms = calloc((size_t)w->of.term_count + 1, sizeof *w->terms);
-    tn_status status = w->terms ? take_terms(w, error) : tn_fail_memory(error);
-    if (status == TN_OK)
+    tn_status status = w->terms ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK) {
+        take_terms(w);
         status = find_steps(w, number, error);
+    }
+    if (status == TN_OK)
+        find_shown(w);
     mpq_clear(number);
     if (status != TN_OK) {
         tn_house_weights_free(w);
@@ -176,7 +219,7 @@ void tn_house_weights_free(tn_house_weights *w)
     for (uint32_t i = 0; i < w->count; i++)
         mpz_clear(w->terms[i].area);
     free(w->terms);
-    mpq_clear(w->unit);
+    mpq_clears(w->unit, w->shown, w->cost, NULL);
     free(w);
 }
 
@@ -197,11 +240,16 @@ static int64_t cell_steps(const tn_house_weight_term *term, const tn_cell *cell)
     return steps;
 }
 
+static bool is_of_cells(tn_house_term_kind kind)
+{
+    return kind == TN_HOUSE_CELLS || kind == TN_HOUSE_AREAS;
+}
+
 int64_t tn_house_weights_cells(const tn_house_weights *w, const tn_house *house)
 {
     int64_t steps = 0;
     for (uint32_t i = 0; i < w->count; i++)
-        for (size_t c = 0; w->terms[i].kind != TN_HOUSE_ROOMS && c < house->cell_count; c++)
+        for (size_t c = 0; is_of_cells(w->terms[i].kind) && c < house->cell_count; c++)
             if (tn_house_decide(house, w->terms[i].part, &house->cells[c]))
                 steps += cell_steps(&w->terms[i], &house->cells[c]);
     return steps;

@@ -1,7 +1,7 @@
 /* Measures of houses made ready: what a tray's cells, and rooms, add to each, in whole steps of its unit.
  *
- * The cost of a house is known of a whole house alone; a measure that asks for it has no weights. A tn_house_weights is
- * immutable; it borrows the form.
+ * How much houses cost is not in these steps: runtime/house/strip/prices.c finds it out of parts of houses. A
+ * tn_house_weights is immutable; it borrows the form.
  */
 #ifndef TARTAN_HOUSE_MEASURE_H
 #define TARTAN_HOUSE_MEASURE_H
@@ -34,10 +34,12 @@ typedef struct tn_house_weights {
     tn_house_weight_term *terms;
     int64_t plan; /* steps of a step of the plan's part */
     mpq_t unit;   /* a step, in nanometres to the measure's power; above 0 */
+    mpq_t cost;   /* the factor of the cost of a house; 0: it asks for none */
+    bool only_costs;
+    mpq_t shown; /* a step of the values that are given out: `unit`, or with costs a hundredth of what is written */
 } tn_house_weights;
 
-/* E0424 (TN_LIMIT) where the numbers have no common step that is coarse enough, E1685 where the measure asks for costs.
- */
+/* E0424 (TN_LIMIT) where the numbers have no common step that is coarse enough. */
 tn_status tn_house_weights_new(const tn_house_form *form, tn_house_measured measure, tn_house_weights **weights,
                                tn_error *error);
 void tn_house_weights_free(tn_house_weights *weights);
@@ -47,7 +49,7 @@ int64_t tn_house_weights_cells(const tn_house_weights *weights, const tn_house *
 
 /* Up to so many measures at a time: what each comes to, in its steps. */
 typedef struct tn_house_gain {
-    int64_t by[TN_WEIGHED_MAX];
+    tn_int128 by[TN_WEIGHED_MAX];
 } tn_house_gain;
 
 /* The measures that houses are counted by, or put in order. Borrowed by whoever is given them. */
@@ -56,5 +58,17 @@ typedef struct tn_house_measures {
     const tn_house_weights *of[TN_WEIGHED_MAX];
     bool most[TN_WEIGHED_MAX]; /* more of it is better: its values are those below 0 that it would be with less */
 } tn_house_measures;
+
+/* ---- steps */
+
+/* unit := the greatest number that unit and `other` are multiples of; both are not below 0. */
+void tn_common_unit(mpq_t unit, const mpq_t other);
+
+/* How many steps a number is. False where it is no whole number of them, or more than 2^99. */
+bool tn_steps_of(const mpq_t number, const mpq_t unit, tn_int128 *steps);
+
+/* number := steps * unit */
+void tn_steps_number(tn_int128 steps, const mpq_t unit, mpq_t number);
+tn_status tn_too_fine(tn_error *error); /* E0424 */
 
 #endif

@@ -2,6 +2,7 @@
  *
  * A cell is built again by itself: its own faces, and short ends of the walls that make posts at its corners. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/base/array.h"
 #include "runtime/house/strip/parts.h"
@@ -123,6 +124,7 @@ static tn_status build(const tn_strip *strip, uint32_t base, uint32_t left, uint
     tn_interned(&strip->sides, left, &sides[0]);
     tn_interned(&strip->sides, right, &sides[1]);
     *house = (tn_house){.form = strip->form, .length = 1, .cell_count = CELLS};
+    memcpy(house->shapes, strip->shapes, strip->form->record->choice_count * sizeof *strip->shapes);
     house->cells = calloc(CELLS, sizeof *house->cells);
     house->faces = calloc(size + sides[0] + sides[1] + 1, sizeof *house->faces);
     if (!house->cells || !house->faces)
@@ -157,7 +159,10 @@ tn_status tn_strip_fit(tn_strip *strip, uint32_t base, uint32_t left, uint32_t r
     tn_status status = build(strip, base, left, right, &house, error);
     if (status == TN_OK)
         status = tn_tile_variants(&house, CELL, &variants, error);
-    strip->fits[at] = *tiles = (uint32_t)variants.count;
+    *tiles = (uint32_t)variants.count;
+    if (status == TN_OK && strip->prices.items)
+        status = tn_strip_list_tiles(strip, &house, &variants, tiles, error);
+    strip->fits[at] = *tiles;
     tn_variants_clear(&variants);
     free(house.cells);
     free(house.faces);

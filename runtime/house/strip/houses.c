@@ -137,14 +137,11 @@ static void clear_layers(const tn_houses *h, tn_houses_kind *kind)
     kind->layers = NULL;
 }
 
-/* Goes through all states without their tiles, so that what nothing can tell apart is merged (merge.c). */
-static tn_status scout(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
+/* Goes through all states. */
+static tn_status walk(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
 {
     tn_scout s = {.houses = h, .kind = kind};
     tn_status status = TN_OK;
-    if (!kind->strip->any_tiled)
-        return TN_OK;
-    kind->strip->scouting = true;
     kind->layers = calloc((size_t)h->high + 1, sizeof *kind->layers);
     if (!kind->layers || tn_number(&kind->layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX)
         return tn_fail_memory(error);
@@ -155,7 +152,21 @@ static tn_status scout(const tn_houses *h, tn_houses_kind *kind, tn_error *error
             status = tn_houses_expand(h, kind, s.layer, false, come_by, &s, error);
     }
     clear_layers(h, kind);
-    return status == TN_OK ? tn_strip_merge(kind->strip, error) : status;
+    return status;
+}
+
+/* Goes through all states without their tiles, so that what nothing can tell apart is merged (merge.c); then, where
+ * tiles have prices, with them, so that all costs are known. */
+static tn_status scout(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
+{
+    tn_strip *strip = kind->strip;
+    if (!strip->any_tiled && !strip->prices.asked)
+        return TN_OK;
+    strip->scouting = true;
+    tn_status status = walk(h, kind, error);
+    if (status == TN_OK)
+        status = tn_strip_merge(strip, error);
+    return status == TN_OK && strip->any_tiled && strip->prices.items ? walk(h, kind, error) : status;
 }
 
 /* ---- sections */
@@ -183,13 +194,14 @@ static tn_status add_kind(tn_houses *h, const tn_house *section, const bool *tra
     mpz_init(kind->faced);
     tn_status status =
         tn_strip_new(h->form, h->library, section->shapes, trays, h->low, h->high, h->measures, &kind->strip, error);
-    if (status == TN_OK)
-        status = scout(h, kind, error);
-    if (status != TN_OK)
-        return status;
+    return status == TN_OK ? scout(h, kind, error) : status;
+}
+
+static tn_status look_at_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
+{
     if (h->measures && h->aim == TN_HOUSES_SPREAD)
         return tn_houses_spread_kind(h, kind, error);
-    status = count_kind(h, kind, error);
+    tn_status status = count_kind(h, kind, error);
     return status == TN_OK && (h->aim == TN_HOUSES_LEAST || h->aim == TN_HOUSES_FRONT)
                ? tn_houses_aim_kind(h, kind, error)
                : status;
@@ -202,6 +214,10 @@ static tn_status count_sections(tn_houses *h, const bool *trays, tn_error *error
     for (bool more = true; status == TN_OK && more; more = tn_form_next_section(h->form, section.shapes))
         if (tn_house_section_stands(&section))
             status = add_kind(h, &section, trays, error);
+    if (status == TN_OK && h->measures)
+        status = tn_houses_settle(h, error);
+    for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
+        status = look_at_kind(h, &h->kinds[i], error);
     return status;
 }
 
@@ -244,8 +260,11 @@ tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record 
                      .aim = what->aim,
                      .wanted = what->wanted};
     h->high = h->high < h->low ? h->low : h->high;
+    tn_houses_units_init(&h->units);
     bool *trays = calloc((size_t)form->schema->tray_count + 1, sizeof *trays);
     tn_status status = trays ? tn_sections_begin(form, &h->sections, error) : tn_fail_memory(error);
+    for (uint32_t k = 0; h->measures && k < h->measures->count; k++) /* costs are of each section by itself */
+        h->sections.apart = h->sections.apart || mpq_sgn(h->measures->of[k]->cost) != 0;
     if (status == TN_OK && h->measures)
         status = weigh_plans(h, error);
     if (status == TN_OK)
@@ -279,6 +298,7 @@ void tn_houses_free(tn_houses *h)
     tn_houses_plans_clear(h);
     tn_weighed_free(h->weighed);
     tn_value_counts_clear(&h->best);
+    tn_houses_units_clear(&h->units);
     free(h->kinds);
     free(h);
 }

@@ -36,15 +36,7 @@ static tn_status add_values(const tn_houses *h, tn_value_counts *to, const tn_va
                             const tn_house_gain *gain, const mpz_t times, tn_error *error)
 {
     size_t most = 2 * from->count + to->count + 64;
-    bool ok = true;
-    mpz_t count;
-    mpz_init(count);
-    for (size_t i = 0; ok && i < from->count; i++) {
-        tn_house_gain value = tn_house_gain_sum(&from->items[i].value, gain);
-        mpz_mul(count, from->items[i].count, times);
-        ok = tn_value_counts_add(to, &value, count);
-    }
-    mpz_clear(count);
+    bool ok = tn_value_counts_pour(to, from, gain, times);
     if (ok && to->count + from->count > most)
         keep_best(h, to);
     return ok ? TN_OK : tn_fail_memory(error);
@@ -149,6 +141,6 @@ size_t tn_houses_points(const tn_houses *h)
 void tn_houses_point(const tn_houses *h, size_t point, int64_t *values, mpz_t count)
 {
     for (uint32_t k = 0; k < h->measures->count; k++)
-        values[k] = h->best.items[point].value.by[k] * (h->measures->most[k] ? -1 : 1);
+        values[k] = tn_houses_shown(h, k, h->best.items[point].value.by[k] * (h->measures->most[k] ? -1 : 1));
     mpz_set(count, h->best.items[point].count);
 }

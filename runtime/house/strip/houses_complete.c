@@ -6,7 +6,7 @@
 #include "runtime/house/strip/houses_data.h"
 #include "runtime/plan/measure/complete_data.h"
 
-#define WORST INT64_MAX
+#define WORST ((tn_int128)INT64_MAX << 63)
 
 /* After so many trays: each node with each place of the machine. Counts are of the choices that lead there, and of the
  * houses that go on from there and complete the plan; values the best of these. */
@@ -15,7 +15,7 @@ typedef struct tn_joint_layer {
     uint32_t *next;      /* [joints]: the next of the same node, or UINT32_MAX */
     uint32_t *first;     /* [nodes] */
     mpz_t *before, *after;
-    int64_t *best_before, *best_after;
+    tn_int128 *best_before, *best_after;
     size_t room;
 } tn_joint_layer;
 
@@ -28,7 +28,7 @@ typedef struct tn_completing {
     tn_joint_layer *layers; /* [high + 1] */
     uint64_t joints;        /* of all layers */
     mpz_t *placed;          /* [items][trays of the schema] */
-    int64_t *best_placed;
+    tn_int128 *best_placed, *best_values; /* of the same; [items][values of the schema] */
     mpz_t one;
     tn_completions *out;
 } tn_completing;
@@ -59,9 +59,9 @@ static void clear_layer(tn_joint_layer *layer)
     free(layer->best_after);
 }
 
-static int64_t *worst_new(size_t count)
+static tn_int128 *worst_new(size_t count)
 {
-    int64_t *values = malloc((count + 1) * sizeof *values);
+    tn_int128 *values = malloc((count + 1) * sizeof *values);
     for (size_t i = 0; values && i < count; i++)
         values[i] = WORST;
     return values;
@@ -99,7 +99,7 @@ static tn_status too_many(const tn_completing *c, tn_error *error)
     return TN_LIMIT;
 }
 
-static void take_better(int64_t *best, int64_t value)
+static void take_better(tn_int128 *best, tn_int128 value)
 {
     *best = value < *best ? value : *best;
 }
@@ -167,7 +167,7 @@ static tn_status count_backwards(tn_completing *c, const tn_joint_step *step, tn
     (void)error;
     if (mpz_sgn(next->after[step->to]) == 0)
         return TN_OK;
-    int64_t rest = step->edge->gain.by[0] + next->best_after[step->to];
+    tn_int128 rest = step->edge->gain.by[0] + next->best_after[step->to];
     times(c, next->after[step->to], step->edge);
     mpz_add(layer->after[step->from], layer->after[step->from], c->one);
     take_better(&layer->best_after[step->from], rest);
@@ -273,8 +273,9 @@ static tn_status make_room(tn_completing *c, tn_error *error)
     c->placed = tn_integers_new(placed);
     c->best_placed = worst_new(placed);
     out->counts = tn_integers_new(values);
-    out->best = c->houses->measures ? worst_new(values) : NULL;
-    if (!c->placed || !c->best_placed || !out->counts || (c->houses->measures && !out->best))
+    out->best = c->houses->measures ? calloc(values + 1, sizeof *out->best) : NULL;
+    c->best_values = worst_new(values);
+    if (!c->placed || !c->best_placed || !c->best_values || !out->counts || (c->houses->measures && !out->best))
         return tn_fail_memory(error);
     out->trays = c->pattern.items;
     out->values = schema->value_count;
@@ -291,12 +292,12 @@ static void add_values(const tn_completing *c)
                 size_t at = (size_t)i * out->values + schema->value_start[f] + tn_tray_value(schema, t, f);
                 size_t placed = (size_t)i * schema->tray_count + t;
                 mpz_add(out->counts[at], out->counts[at], c->placed[placed]);
-                if (out->best)
-                    take_better(&out->best[at], c->best_placed[placed]);
+                take_better(&c->best_values[at], c->best_placed[placed]);
             }
-    int64_t sign = out->best && c->houses->measures->most[0] ? -1 : 1;
+    tn_int128 sign = out->best && c->houses->measures->most[0] ? -1 : 1;
     for (size_t i = 0; out->best && i < (size_t)out->trays * out->values; i++)
-        out->best[i] = out->best[i] == WORST ? 0 : sign * out->best[i];
+        if (c->best_values[i] != WORST)
+            out->best[i] = tn_houses_shown(c->houses, 0, sign * c->best_values[i]);
 }
 
 tn_status tn_houses_complete(tn_houses *h, const tn_open_plan *open, tn_completions *out, tn_error *error)
@@ -317,6 +318,7 @@ tn_status tn_houses_complete(tn_houses *h, const tn_open_plan *open, tn_completi
     tn_interner_clear(&c.machines);
     tn_integers_free(c.placed, (size_t)c.pattern.items * h->form->schema->tray_count);
     free(c.best_placed);
+    free(c.best_values);
     mpz_clear(c.one);
     return status;
 }

@@ -2,9 +2,11 @@
 #ifndef TARTAN_HOUSE_STRIP_HOUSES_DATA_H
 #define TARTAN_HOUSE_STRIP_HOUSES_DATA_H
 
+#include "runtime/house/rule/asked.h"
 #include "runtime/house/strip/houses.h"
 #include "runtime/house/strip/parts.h"
 #include "runtime/house/variant/section.h"
+#include "runtime/house/variant/variant.h"
 
 /* How many there are of each value, in steps of each measure, by the first measure, then the next: ascending. */
 typedef struct tn_value_count {
@@ -27,6 +29,10 @@ bool tn_value_counts_has(const tn_value_counts *counts, const tn_house_gain *val
  * none in another. */
 void tn_value_counts_keep_least(tn_value_counts *counts, uint64_t wanted);
 void tn_value_counts_keep_front(tn_value_counts *counts);
+
+/* to += each value of `from`, more by `gain`, so many times. False where out of memory. */
+bool tn_value_counts_pour(tn_value_counts *to, const tn_value_counts *from, const tn_house_gain *gain,
+                          const mpz_t times);
 int tn_house_gain_compare(const tn_house_gain *a, const tn_house_gain *b);
 tn_house_gain tn_house_gain_sum(const tn_house_gain *a, const tn_house_gain *b);
 
@@ -75,6 +81,7 @@ struct tn_houses {
     const tn_tray *only;               /* [high]: the one plan that is looked at, or NULL */
     const tn_house_measures *measures; /* or NULL; else plans are those of `weighed` */
     tn_weighed *weighed;
+    tn_strip_units units; /* that values are in */
     bool trays_matter; /* to whom steps are shown */
     tn_houses_aim aim;
     uint64_t wanted;      /* houses, of the least values */
@@ -109,8 +116,29 @@ bool tn_houses_plan_alive(const tn_houses *houses, uint32_t left, uint32_t plan)
 tn_house_gain tn_houses_plan_start(const tn_houses *houses);
 tn_house_gain tn_houses_plan_rest(const tn_houses *houses, uint32_t plan); /* what the end of the plan adds */
 
+void tn_houses_units_init(tn_strip_units *units);
+void tn_houses_units_clear(tn_strip_units *units);
+
+/* Finds the steps that the numbers of all measures are whole numbers of, once all sections are scouted. E0424. */
+tn_status tn_houses_settle(tn_houses *houses, tn_error *error);
+
+/* A value as it is given out, in steps of the measure's `shown`: costs are rounded half up. */
+int64_t tn_houses_shown(const tn_houses *houses, uint32_t measure, tn_int128 value);
+
 /* Counts the houses of one section by the values of the measure. */
 tn_status tn_houses_spread_kind(const tn_houses *houses, tn_houses_kind *kind, tn_error *error);
+
+/* Houses of these values are looked for. rules: NULL where a house's functions say that it has them. */
+typedef struct tn_houses_wanted {
+    const tn_houses *houses;
+    tn_house_rules *rules;
+    const tn_house_gain *values;
+} tn_houses_wanted;
+
+/* Calls `each` with the house in all combinations of tiles with which it has the values, in order, until *stop. tiles:
+ * as of tn_house_faced. */
+tn_status tn_houses_furnish(const tn_houses_wanted *wanted, tn_house *house, const size_t *tiles, tn_house_each *each,
+                            void *context, bool *stop, tn_error *error);
 
 /* Finds the values that are aimed at, from the nodes that counting has met (houses_best.c). */
 tn_status tn_houses_aim_kind(const tn_houses *houses, tn_houses_kind *kind, tn_error *error);

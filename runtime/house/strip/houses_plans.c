@@ -23,57 +23,84 @@ bool tn_houses_plan_alive(const tn_houses *h, uint32_t left, uint32_t plan)
            (h->weighed ? tn_weighed_alive(h->weighed, left, plan) : tn_library_lives(h->plans, left, plan));
 }
 
-/* Steps of the plan's part of each measure, as steps of the measure. */
-static tn_house_gain gain_of_plan(const tn_houses *h, const int64_t *steps)
+/* What plans add to each measure, in steps of its numbers but for costs: these are known before all costs are. */
+typedef struct tn_plan_steps {
+    int64_t by[TN_WEIGHED_MAX];
+} tn_plan_steps;
+
+static void weigh(const tn_houses *h, tn_plan_steps *steps)
+{
+    for (uint32_t k = 0; k < h->measures->count; k++)
+        steps->by[k] *= h->measures->of[k]->plan * (h->measures->most[k] ? -1 : 1);
+}
+
+static tn_plan_steps rest_of_plan(const tn_houses *h, uint32_t plan)
+{
+    tn_plan_steps steps = {{0}};
+    for (uint32_t k = 0; h->measures && k < h->measures->count; k++)
+        steps.by[k] = tn_weighed_rest(h->weighed, plan, k);
+    if (h->measures)
+        weigh(h, &steps);
+    return steps;
+}
+
+/* The same in the steps that values have. */
+static tn_house_gain gain_of_plan(const tn_houses *h, const tn_plan_steps *steps)
 {
     tn_house_gain gain = {{0}};
-    for (uint32_t k = 0; k < h->measures->count; k++)
-        gain.by[k] = steps[k] * h->measures->of[k]->plan * (h->measures->most[k] ? -1 : 1);
+    for (uint32_t k = 0; h->measures && k < h->measures->count; k++)
+        gain.by[k] = h->units.others[k] * steps->by[k];
     return gain;
 }
 
 tn_house_gain tn_houses_plan_start(const tn_houses *h)
 {
-    int64_t steps[TN_WEIGHED_MAX] = {0};
+    tn_plan_steps steps = {{0}};
     for (uint32_t k = 0; k < h->measures->count; k++)
-        steps[k] = tn_weighed_start(h->weighed, k);
-    return gain_of_plan(h, steps);
+        steps.by[k] = tn_weighed_start(h->weighed, k);
+    weigh(h, &steps);
+    return gain_of_plan(h, &steps);
 }
 
 tn_house_gain tn_houses_plan_rest(const tn_houses *h, uint32_t plan)
 {
-    int64_t steps[TN_WEIGHED_MAX] = {0};
-    for (uint32_t k = 0; h->measures && k < h->measures->count; k++)
-        steps[k] = tn_weighed_rest(h->weighed, plan, k);
-    return h->measures ? gain_of_plan(h, steps) : (tn_house_gain){{0}};
+    const tn_plan_steps steps = rest_of_plan(h, plan);
+    return gain_of_plan(h, &steps);
 }
 
-/* As tn_houses_plan_next, before what is alike is merged. */
+/* Where a tray leads before what is alike is merged. */
 static tn_status step(const tn_houses *h, uint32_t layer, uint32_t plan, tn_tray tray, uint32_t *next,
-                      tn_house_gain *gain, tn_error *error)
+                      tn_plan_steps *steps, tn_error *error)
 {
-    int64_t gains[TN_WEIGHED_MAX] = {0};
-    tn_status status = TN_OK;
     *next = TN_STRIP_NONE;
-    *gain = (tn_house_gain){{0}};
+    *steps = (tn_plan_steps){{0}};
     if (h->only && h->only[layer] != tray)
         return TN_OK;
-    if (h->weighed)
-        status = tn_weighed_step(h->weighed, plan, tn_weighed_letter(h->weighed, tray), next, gains, error);
-    else
+    if (!h->weighed) {
         *next = tn_library_next(h->plans, plan, tray);
-    if (h->weighed)
-        *gain = gain_of_plan(h, gains);
+        return TN_OK;
+    }
+    tn_status status = tn_weighed_step(h->weighed, plan, tn_weighed_letter(h->weighed, tray), next, steps->by, error);
+    weigh(h, steps);
+    return status;
+}
+
+static tn_status merged_step(const tn_houses *h, uint32_t layer, uint32_t plan, tn_tray tray, uint32_t *next,
+                             tn_plan_steps *steps, tn_error *error)
+{
+    tn_status status = step(h, layer, plan, tray, next, steps, error);
+    const tn_houses_plan_layer *after = &h->plan_layers[layer + 1];
+    uint32_t at = status == TN_OK && *next != TN_STRIP_NONE ? tn_number_find(&after->states, *next) : UINT32_MAX;
+    *next = at == UINT32_MAX ? TN_STRIP_NONE : after->alike[at];
     return status;
 }
 
 tn_status tn_houses_plan_next(const tn_houses *h, uint32_t layer, uint32_t plan, tn_tray tray, uint32_t *next,
                               tn_house_gain *gain, tn_error *error)
 {
-    tn_status status = step(h, layer, plan, tray, next, gain, error);
-    const tn_houses_plan_layer *after = &h->plan_layers[layer + 1];
-    uint32_t at = status == TN_OK && *next != TN_STRIP_NONE ? tn_number_find(&after->states, *next) : UINT32_MAX;
-    *next = at == UINT32_MAX ? TN_STRIP_NONE : after->alike[at];
+    tn_plan_steps steps;
+    tn_status status = merged_step(h, layer, plan, tray, next, &steps, error);
+    *gain = gain_of_plan(h, &steps);
     return status;
 }
 
@@ -84,8 +111,8 @@ static tn_status reach_next(const tn_houses *h, uint32_t layer, uint32_t plan, b
     tn_status status = TN_OK;
     for (tn_tray t = 0; status == TN_OK && t < h->form->schema->tray_count; t++) {
         uint32_t next;
-        tn_house_gain gain;
-        status = step(h, layer, plan, t, &next, &gain, error);
+        tn_plan_steps steps;
+        status = step(h, layer, plan, t, &next, &steps, error);
         if (status != TN_OK || !tn_houses_plan_lives(h, layer + 1, next))
             continue;
         trays[t] = true;
@@ -97,11 +124,11 @@ static tn_status reach_next(const tn_houses *h, uint32_t layer, uint32_t plan, b
 
 /* ---- what is alike */
 
-static bool push_gain(const tn_houses *h, tn_key *key, const tn_house_gain *gain)
+static bool push_steps(const tn_houses *h, tn_key *key, const tn_plan_steps *steps)
 {
     bool ok = true;
     for (uint32_t k = 0; ok && h->measures && k < h->measures->count; k++)
-        ok = tn_push_long(key, (uint64_t)gain->by[k]);
+        ok = tn_push_long(key, (uint64_t)steps->by[k]);
     return ok;
 }
 
@@ -109,16 +136,16 @@ static bool push_gain(const tn_houses *h, tn_key *key, const tn_house_gain *gain
 static tn_status describe(const tn_houses *h, uint32_t layer, uint32_t plan, tn_key *key, tn_error *error)
 {
     bool end = layer >= h->low && tn_houses_plan_alive(h, 0, plan);
-    tn_house_gain gain = end ? tn_houses_plan_rest(h, plan) : (tn_house_gain){{0}};
+    tn_plan_steps steps = end ? rest_of_plan(h, plan) : (tn_plan_steps){{0}};
     tn_status status = TN_OK;
     key->size = 0;
-    bool ok = tn_key_push(key, end) && push_gain(h, key, &gain);
+    bool ok = tn_key_push(key, end) && push_steps(h, key, &steps);
     for (tn_tray t = 0; ok && layer < h->high && t < h->form->schema->tray_count; t++) {
         uint32_t next;
-        status = tn_houses_plan_next(h, layer, plan, t, &next, &gain, error);
+        status = merged_step(h, layer, plan, t, &next, &steps, error);
         ok = status == TN_OK;
         if (ok && next != TN_STRIP_NONE)
-            ok = tn_key_push(key, t) && tn_key_push(key, next) && push_gain(h, key, &gain);
+            ok = tn_key_push(key, t) && tn_key_push(key, next) && push_steps(h, key, &steps);
     }
     return ok ? TN_OK : status != TN_OK ? status : tn_fail_memory(error);
 }

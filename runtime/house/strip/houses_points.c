@@ -30,7 +30,7 @@ typedef struct tn_seeking {
     size_t function_count, function_room;
     tn_house section;      /* its shapes only */
     tn_house_rules *rules; /* NULL: the functions say what the value is */
-    bool fits, stop;       /* fits: the house has the value, whatever its tiles */
+    bool stop;
     tn_house_each *each;
     void *context;
 } tn_seeking;
@@ -101,42 +101,19 @@ static bool mark_start(const tn_seeking *s, tn_leads *marks)
 
 /* ---- houses */
 
-/* The value of the house, and the wanted one. */
-static tn_status has_value(tn_seeking *s, const tn_house *house, bool *has, tn_error *error)
-{
-    const tn_house_measures *measures = s->houses->measures;
-    mpq_t value, cost, wanted;
-    mpq_inits(value, cost, wanted, NULL);
-    tn_status status = tn_house_rules_start(s->rules, house, error);
-    *has = true;
-    for (uint32_t k = 0; status == TN_OK && *has && k < measures->count; k++) {
-        status = tn_house_rules_measure(s->rules, measures->of[k]->of, value, cost, error);
-        mpq_set_si(wanted, measures->most[k] ? -s->wanted.by[k] : s->wanted.by[k], 1);
-        mpq_mul(wanted, wanted, measures->of[k]->unit);
-        *has = mpq_equal(value, wanted);
-    }
-    mpq_clears(value, cost, wanted, NULL);
-    return status;
-}
-
-static bool is_first_of_tiles(const tn_house *house)
-{
-    for (size_t i = 0; i < house->cell_count; i++)
-        if (house->cells[i].variant > 0)
-            return false;
-    return true;
-}
-
 static tn_status give(void *context, const tn_house *house, bool *stop, tn_error *error)
 {
     tn_seeking *s = context;
-    tn_status status = TN_OK;
-    if (s->rules && is_first_of_tiles(house))
-        status = has_value(s, house, &s->fits, error);
-    if (status == TN_OK && s->fits)
-        status = s->each(s->context, house, &s->stop, error);
+    tn_status status = s->each(s->context, house, &s->stop, error);
     *stop = s->stop;
     return status;
+}
+
+static tn_status give_faced(void *context, tn_house *house, const size_t *tiles, bool *stop, tn_error *error)
+{
+    tn_seeking *s = context;
+    const tn_houses_wanted wanted = {s->houses, s->rules, &s->wanted};
+    return tn_houses_furnish(&wanted, house, tiles, give, s, stop, error);
 }
 
 static tn_status give_houses(tn_seeking *s, tn_error *error)
@@ -145,9 +122,8 @@ static tn_status give_houses(tn_seeking *s, tn_error *error)
     tn_status status = tn_house_stand(s->houses->form, s->trays, s->length, s->section.shapes, &house, error);
     for (size_t i = 0; status == TN_OK && i < house.cell_count; i++)
         house.cells[i].function = s->functions[i];
-    s->fits = true;
     if (status == TN_OK)
-        status = tn_house_variants_like(s->variants, &house, give, s, error);
+        status = tn_house_variants_like(s->variants, &house, give_faced, s, error);
     tn_house_clear(&house);
     return status;
 }

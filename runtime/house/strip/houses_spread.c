@@ -26,12 +26,8 @@ static tn_status pour(tn_spreading *s, tn_value_counts *to, const tn_houses_edge
     size_t before = to->count;
     mpz_set_ui(s->times, edge->ways);
     mpz_mul_ui(s->times, s->times, edge->times);
-    for (size_t i = 0; i < from->count; i++) {
-        mpz_mul(s->one, from->items[i].count, s->times);
-        tn_house_gain value = tn_house_gain_sum(&from->items[i].value, &edge->gain);
-        if (!tn_value_counts_add(to, &value, s->one))
-            return tn_fail_memory(error);
-    }
+    if (!tn_value_counts_pour(to, from, &edge->gain, s->times))
+        return tn_fail_memory(error);
     s->pairs += to->count - before;
     return s->pairs > s->houses->max_states ? tn_houses_too_many_values(s->houses, error) : TN_OK;
 }
@@ -101,6 +97,7 @@ tn_status tn_houses_spread_kind(const tn_houses *h, tn_houses_kind *kind, tn_err
 
 /* ---- all sections */
 
+/* The values of all sections, as they are given out. */
 static bool join_kinds(const tn_houses *h, tn_value_counts *all)
 {
     bool ok = true;
@@ -108,8 +105,10 @@ static bool join_kinds(const tn_houses *h, tn_value_counts *all)
     mpz_init(times);
     for (size_t k = 0; ok && k < h->kind_count; k++)
         for (size_t i = 0; ok && i < h->kinds[k].spread.count; i++) {
-            mpz_mul_ui(times, h->kinds[k].spread.items[i].count, h->kinds[k].sections);
-            ok = tn_value_counts_add(all, &h->kinds[k].spread.items[i].value, times);
+            const tn_value_count *item = &h->kinds[k].spread.items[i];
+            const tn_house_gain shown = {{tn_houses_shown(h, 0, item->value.by[0])}};
+            mpz_mul_ui(times, item->count, h->kinds[k].sections);
+            ok = tn_value_counts_add(all, &shown, times);
         }
     mpz_clear(times);
     return ok;
@@ -119,12 +118,12 @@ tn_status tn_houses_spread(const tn_houses *h, tn_distribution *d, tn_error *err
 {
     tn_value_counts all = {0};
     bool ok = join_kinds(h, &all);
-    mpq_set(d->unit, h->measures->of[0]->unit);
+    mpq_set(d->unit, h->measures->of[0]->shown);
     d->value = ok ? malloc((all.count + 1) * sizeof *d->value) : NULL;
     d->plans = d->value ? tn_integers_new(all.count) : NULL;
     d->count = d->plans ? all.count : 0;
     for (size_t i = 0; i < d->count; i++) {
-        d->value[i] = all.items[i].value.by[0];
+        d->value[i] = (int64_t)all.items[i].value.by[0];
         mpz_set(d->plans[i], all.items[i].count);
         mpz_add(d->all, d->all, d->plans[i]);
     }

@@ -107,6 +107,7 @@ typedef struct tn_strip_edge {
     uint64_t *answers; /* [count][answer_words] of the decisions */
     uint32_t *inner;
     size_t inner_count;
+    uint32_t shape, cost; /* where costs are asked for: what its planes' costs depend on; of the house of one tray */
 } tn_strip_edge;
 
 /* One of a tray's slices, and how many choices have it. */
@@ -122,14 +123,16 @@ typedef struct tn_strip_list {
 } tn_strip_list;
 
 /* Words of a slice's key: EDGE, then CELL_WORDS for each cell, then the number of its steps and STEP_WORDS for each,
- * then the base of each clause; then two words for each measure of what its cells add to it. */
+ * then the base of each clause; then two words for each measure of what its cells add to it; then, where costs are
+ * asked for, the number of the tray's. */
 enum { SLICE_EDGE, SLICE_CELLS };
 enum { CELL_TILE, CELL_AREA, CELL_GLASS, CELL_MARKS, CELL_MARKS_HIGH, CELL_ROOM, CELL_WORDS };
 enum { STEP_FROM, STEP_TO, STEP_HOW, STEP_WORDS }; /* HOW: bit 0: one room; bit w + 1: a step of walk w */
 
 /* Words of an outcome's key: the meetings across the plane (two words), the number of steps and STEP_WORDS for each,
- * then SIDE_WORDS for each cell of the left and of the right edge, then the number of cells of the left one. FIT: 0 for
- * a cell without tiles, or 1 and what of the side matters to them. */
+ * then SIDE_WORDS for each cell of the left and of the right edge, then the number of cells of the left one; then,
+ * where costs are asked for, the number of the plane's. FIT: 0 for a cell without tiles, or 1 and what of the side
+ * matters to them. */
 enum { SIDE_MARKS, SIDE_MARKS_HIGH, SIDE_FIT, SIDE_GLASS, SIDE_WORDS };
 
 /* What parts of a slice are, by number: equal parts are one. Lists of fits have a word for each cell: 0, or 1 and what
@@ -139,6 +142,7 @@ typedef struct tn_strip_slice {
     uint32_t bases;                /* of all clauses: of `letters` */
     uint32_t tiles;                /* what of its own walls matters to each cell's tiles: of `fit_lists` */
     uint32_t inside;               /* what rooms and walks meet in it: of `insides` */
+    uint32_t cost;                 /* where costs are asked for: the number of the tray's */
     int64_t gains[TN_WEIGHED_MAX]; /* what its cells add to each measure */
 } tn_strip_slice;
 
@@ -146,6 +150,7 @@ typedef struct tn_strip_slice {
 typedef struct tn_strip_outcome {
     uint32_t left_fits, right_fits; /* of `fit_lists` */
     uint32_t through;               /* what rooms and walks meet at the plane: of `throughs` */
+    uint32_t cost;                  /* where costs are asked for: the number of the plane's */
 } tn_strip_outcome;
 
 /* Words of a state: edge, rooms, each walk, what the clauses have read, what waits for its right side. */
@@ -185,6 +190,34 @@ typedef struct tn_strip_merged {
     size_t class_room, one_room;
 } tn_strip_merged;
 
+/* What a number of arrangements of tiles cost. */
+typedef struct tn_strip_sum {
+    tn_int128 cost;
+    uint64_t times;
+} tn_strip_sum;
+
+/* What houses cost, in parts that add up (prices.c). Exact costs are numbered; their steps are known when all are. */
+typedef struct tn_strip_prices {
+    bool asked, items, across; /* items: these have prices. across: so goes a roof that has one */
+    tn_interner numbers;
+    mpq_t *exact;
+    size_t room;
+    tn_int128 *steps;                            /* [numbers], or NULL */
+    tn_interner alone_keys, plane_keys, shapes;  /* {tray, what is in its inner faces}; {shapes, what is in it} */
+    uint32_t *alone, *planes;                    /* [keys]: numbers of costs */
+    size_t alone_room, plane_room;
+    tn_interner lists; /* of tiles that fit in a cell: {cost, how many} by cost */
+    tn_key key;
+    tn_strip_sum *sums, *more; /* of the tiles of a tray; scratch */
+    size_t sum_count, sum_room, more_room;
+} tn_strip_prices;
+
+/* What the numbers of each measure are in, once all costs are known: steps so small that all are whole. */
+typedef struct tn_strip_units {
+    mpq_t cost, measures[TN_WEIGHED_MAX];
+    tn_int128 others[TN_WEIGHED_MAX], costs[TN_WEIGHED_MAX]; /* steps of its other numbers' steps, and of the costs' */
+} tn_strip_units;
+
 typedef struct tn_strip {
     const tn_house_form *form;
     const tn_house_library_record *library;
@@ -192,6 +225,8 @@ typedef struct tn_strip {
     uint32_t trays_least, trays_most;
     tn_watch *watch;
     const tn_house_measures *measures;       /* or NULL */
+    const tn_strip_units *units;             /* NULL: not known yet, and nothing is gained */
+    tn_strip_prices prices;
     uint32_t *weighed_rooms[TN_WEIGHED_MAX]; /* [terms of the measure]: of the questions about rooms */
     tn_strip_questions questions;
     size_t answer_words;
@@ -220,9 +255,10 @@ typedef struct tn_strip {
     tn_strip_row row;
     tn_interner readings, between, values;     /* see reading.c */
     tn_strip_known *after_slice, *after_plane; /* [trays_most + 1] */
-    tn_strip_known tiles, waits; /* {waiting, left fits}: how many; {tiles of a slice, right fits}: what waits */
-    tn_numbering befores;        /* edge << 32 | rooms or a walk */
-    tn_numbering moves;          /* through << 32 | inside */
+    tn_strip_known tiles;                      /* {waiting, left fits}: how many, unless they have prices */
+    tn_strip_known waits;                      /* {tiles of a slice, right fits}: what waits */
+    tn_numbering befores;                      /* edge << 32 | rooms or a walk */
+    tn_numbering moves;                        /* through << 32 | inside */
     tn_strip_known crossed_rooms, crossed_walks[TN_STRIP_MEETINGS_MAX]; /* {before, move} */
     tn_key key, joined;                                                 /* scratch */
     uint32_t *scratch;                                                  /* [2 * clauses] */
@@ -309,7 +345,7 @@ tn_status tn_strip_fit_base(tn_strip *strip, const tn_house *house, uint32_t cel
 tn_status tn_strip_fit_side(tn_strip *strip, const tn_house *house, uint32_t cell, tn_house_side side, int64_t x,
                             const tn_posts *posts, uint32_t *fit, tn_error *error);
 
-/* How many tiles fit. */
+/* How many tiles fit; where they have prices, the number of the list of what they cost, which is 0 where none fits. */
 tn_status tn_strip_fit(tn_strip *strip, uint32_t base, uint32_t left, uint32_t right, uint32_t *tiles, tn_error *error);
 
 /* ---- merge.c */
@@ -387,8 +423,9 @@ void tn_strip_row_clear(tn_strip_row *row);
 /* ---- step.c */
 
 /* Calls `seen` for each state after another slice (TN_STRIP_NONE: the end, and the state 0), with the number of choices
- * that lead there, that of those that differ in more than tiles, and what the step adds to the measures. trays: before
- * the slice; state: TN_STRIP_NONE before the first. */
+ * that lead there, that of those that differ in more than tiles, and what the step adds to the measures. Where tiles
+ * cost more or less, it is called for each sum, and those that differ in more than tiles come with the first. trays:
+ * before the slice; state: TN_STRIP_NONE before the first. */
 typedef tn_status tn_strip_seen(void *context, uint32_t state, uint64_t times, uint64_t faced,
                                 const tn_house_gain *gain, tn_error *error);
 tn_status tn_strip_step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, tn_strip_seen *seen,
@@ -396,6 +433,43 @@ tn_status tn_strip_step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_
 
 /* May the row end in the state, after so many trays? */
 tn_status tn_strip_ends(tn_strip *strip, uint32_t trays, uint32_t state, bool *ends, tn_error *error);
+
+/* ---- prices.c */
+
+/* trays: of the library. E1685 (TN_LIMIT) where costs are asked for that do not add up. */
+tn_status tn_strip_prices_begin(tn_strip *strip, const bool *trays, tn_error *error);
+void tn_strip_prices_clear(tn_strip_prices *prices);
+
+tn_status tn_strip_cost_number(tn_strip *strip, const mpq_t cost, uint32_t *number, tn_error *error);
+
+/* unit := what it and all costs so far are multiples of; it is not below 0. */
+void tn_strip_cost_unit(const tn_strip *strip, mpq_t unit);
+
+/* All costs are known: from now on steps gain. units: borrowed. */
+tn_status tn_strip_settle(tn_strip *strip, const tn_strip_units *units, tn_error *error);
+
+/* What the house of one tray costs, without what stands in its rooms, between plain walls. */
+tn_status tn_strip_tray_cost(tn_strip *strip, const tn_house *house, uint32_t *number, tn_error *error);
+
+/* Appends what the costs of planes beside the tray depend on, but for walls that end there. */
+bool tn_strip_push_shape(const tn_strip *strip, const tn_house *house, tn_key *key);
+
+/* What a plane costs: by how much its one or two trays cost more together, or less, than by themselves. left, right:
+ * NULL outside. faces: those of the house that are in the plane. */
+typedef struct tn_strip_border {
+    const tn_strip_edge *left, *right;
+    const uint32_t *faces;
+    size_t count;
+} tn_strip_border;
+tn_status tn_strip_plane_cost(tn_strip *strip, const tn_strip_border *border, const tn_house *house, uint32_t *number,
+                              tn_error *error);
+
+/* The list of what the tiles cost that fit in a cell. */
+tn_status tn_strip_list_tiles(tn_strip *strip, const tn_house *house, const tn_variants *variants, uint32_t *list,
+                              tn_error *error);
+
+/* Adds each tile of a list to each of the sums. */
+tn_status tn_strip_add_tiles(tn_strip *strip, uint32_t list, tn_error *error);
 
 /* The area that has this number, in square nanometres. */
 tn_int128 tn_strip_area(const tn_strip *strip, uint32_t number);

@@ -36,6 +36,7 @@ bool tn_strip_joins(const tn_house *house, const tn_face *face)
 
 typedef struct tn_crossing_house {
     tn_strip *strip;
+    uint32_t left, right; /* edges, or TN_STRIP_NONE */
     uint32_t left_cells; /* those of the left edge come first */
     bool has_left, has_right;
     tn_house house;
@@ -62,9 +63,10 @@ static void furnish(tn_crossing_house *c, const tn_strip_edge *edge, size_t firs
     }
 }
 
-static tn_status stand(tn_crossing_house *c, uint32_t left, uint32_t right, tn_error *error)
+static tn_status stand(tn_crossing_house *c, tn_error *error)
 {
     const tn_strip *s = c->strip;
+    uint32_t left = c->left, right = c->right;
     tn_tray trays[2];
     size_t length = 0, face = 0;
     c->has_left = left != TN_STRIP_NONE;
@@ -197,7 +199,20 @@ static bool keep_outcome(tn_crossing_house *c, uint32_t outcome)
     parts->left_fits = number_fits(c, sides, 0, c->left_cells);
     parts->right_fits = number_fits(c, sides, c->left_cells, (uint32_t)c->house.cell_count);
     parts->through = number_through(c, steps, sides);
+    parts->cost = s->prices.asked ? sides[(size_t)SIDE_WORDS * c->house.cell_count + 1] : 0;
     return parts->left_fits != UINT32_MAX && parts->right_fits != UINT32_MAX && parts->through != UINT32_MAX;
+}
+
+static tn_status push_cost(const tn_crossing_house *c, tn_key *key, tn_error *error)
+{
+    tn_strip *s = c->strip;
+    const tn_strip_border border = {.left = c->has_left ? &s->edges[c->left] : NULL,
+                                    .right = c->has_right ? &s->edges[c->right] : NULL,
+                                    .faces = c->faces,
+                                    .count = c->count};
+    uint32_t cost = 0;
+    tn_status status = tn_strip_plane_cost(s, &border, &c->house, &cost, error);
+    return status == TN_OK && !tn_key_push(key, cost) ? tn_fail_memory(error) : status;
 }
 
 static tn_status add_outcome(tn_crossing_house *c, tn_error *error)
@@ -208,11 +223,14 @@ static tn_status add_outcome(tn_crossing_house *c, tn_error *error)
     if (!push_meetings_and_steps(c, key))
         return tn_fail_memory(error);
     tn_status status = push_sides(c, key, error);
+    if (status == TN_OK && !tn_key_push(key, c->left_cells))
+        status = tn_fail_memory(error);
+    if (status == TN_OK && s->prices.asked)
+        status = push_cost(c, key, error);
     if (status != TN_OK)
         return status;
     uint32_t before = s->outcome_keys.count;
-    if (!tn_key_push(key, c->left_cells) ||
-        !tn_array_reserve(&s->outcomes, &s->outcome_room, before, 1, sizeof *s->outcomes))
+    if (!tn_array_reserve(&s->outcomes, &s->outcome_room, before, 1, sizeof *s->outcomes))
         return tn_fail_memory(error);
     uint32_t outcome = tn_intern(&s->outcome_keys, key->data, key->size);
     if (outcome == before && !keep_outcome(c, outcome))
@@ -275,8 +293,8 @@ tn_status tn_strip_plane(tn_strip *strip, uint32_t left, uint32_t right, const t
     *plane = &strip->planes[at];
     if (strip->planes[at].made)
         return TN_OK;
-    tn_crossing_house c = {.strip = strip, .list = &strip->planes[at]};
-    tn_status status = stand(&c, left, right, error);
+    tn_crossing_house c = {.strip = strip, .left = left, .right = right, .list = &strip->planes[at]};
+    tn_status status = stand(&c, error);
     if (status == TN_OK)
         status = add_outcomes(&c, error);
     strip->planes[at].made = status == TN_OK;

@@ -84,12 +84,25 @@ static bool keep_edge(tn_cutting *c, tn_strip_edge *edge)
     return true;
 }
 
-static tn_status find_edge(tn_cutting *c, uint32_t *edge, tn_error *error)
+/* What the costs of planes beside the tray depend on. */
+static tn_status find_shape(tn_cutting *c, uint32_t *shape, tn_error *error)
+{
+    tn_strip_prices *p = &c->strip->prices;
+    p->key.size = 0;
+    bool ok = tn_strip_push_shape(c->strip, &c->house, &p->key) && push_ends(c, &p->key);
+    *shape = ok ? tn_intern(&p->shapes, p->key.data, p->key.size) : UINT32_MAX;
+    return *shape != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status find_edge(tn_cutting *c, uint32_t cost, uint32_t *edge, tn_error *error)
 {
     tn_strip *s = c->strip;
-    uint32_t before = s->edge_keys.count;
+    uint32_t before = s->edge_keys.count, shape = 0;
+    tn_status status = s->prices.asked ? find_shape(c, &shape, error) : TN_OK;
     s->key.size = 0;
-    if (!push_cells(c, &s->key) || !push_ends(c, &s->key))
+    if (status != TN_OK)
+        return status;
+    if (!push_cells(c, &s->key) || !push_ends(c, &s->key) || (s->prices.asked && !tn_key_push(&s->key, shape)))
         return tn_fail_memory(error);
     if (!tn_array_reserve(&s->edges, &s->edge_room, before, 1, sizeof *s->edges))
         return tn_fail_memory(error);
@@ -98,7 +111,10 @@ static tn_status find_edge(tn_cutting *c, uint32_t *edge, tn_error *error)
         return tn_fail_memory(error);
     if (*edge < before)
         return TN_OK;
-    return keep_edge(c, &s->edges[*edge]) ? TN_OK : tn_fail_memory(error);
+    bool kept = keep_edge(c, &s->edges[*edge]);
+    s->edges[*edge].shape = shape;
+    s->edges[*edge].cost = cost;
+    return kept ? TN_OK : tn_fail_memory(error);
 }
 
 /* ---- slices */
@@ -206,6 +222,7 @@ static bool keep_slice(tn_strip *s, uint32_t slice)
         push_inside(words, bases, edge->count, &s->key) ? tn_intern(&s->insides, s->key.data, s->key.size) : UINT32_MAX;
     for (uint32_t k = 0; s->measures && k < s->measures->count; k++)
         parts->gains[k] = (int64_t)tn_both(gains + 2 * (size_t)k);
+    parts->cost = s->prices.asked ? gains[2 * (size_t)s->measures->count] : 0;
     return parts->bases != UINT32_MAX && parts->tiles != UINT32_MAX && parts->inside != UINT32_MAX;
 }
 
@@ -213,8 +230,10 @@ static bool keep_slice(tn_strip *s, uint32_t slice)
 static tn_status add_slice(tn_cutting *c, tn_error *error)
 {
     tn_strip *s = c->strip;
-    uint32_t edge = 0, base = 0;
-    tn_status status = find_edge(c, &edge, error);
+    uint32_t edge = 0, base = 0, cost = 0;
+    tn_status status = s->prices.asked ? tn_strip_tray_cost(s, &c->house, &cost, error) : TN_OK;
+    if (status == TN_OK)
+        status = find_edge(c, cost, &edge, error);
     tn_key *key = &s->joined;
     key->size = 0;
     if (status == TN_OK && !tn_key_push(key, edge))
@@ -231,6 +250,8 @@ static tn_status add_slice(tn_cutting *c, tn_error *error)
     for (uint32_t k = 0; status == TN_OK && s->measures && k < s->measures->count; k++)
         if (!tn_push_long(key, (uint64_t)tn_house_weights_cells(s->measures->of[k], &c->house)))
             status = tn_fail_memory(error);
+    if (status == TN_OK && s->prices.asked && !tn_key_push(key, cost))
+        status = tn_fail_memory(error);
     if (status != TN_OK)
         return status;
     uint32_t before = s->slice_keys.count;

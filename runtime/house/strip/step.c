@@ -15,42 +15,60 @@ typedef struct tn_stepping {
 
 /* ---- tiles */
 
-/* The tiles of the left slice: the product over its cells; 0 where one has none. */
-static tn_status multiply_tiles(tn_strip *strip, uint32_t waiting, uint32_t sides, uint64_t *tiles, tn_error *error)
+/* Adds the tiles of a cell to the sums: `fit` as of tn_strip_fit. */
+static tn_status add_tiles(tn_strip *strip, uint32_t fit, tn_error *error)
+{
+    tn_strip_prices *p = &strip->prices;
+    if (p->items)
+        return tn_strip_add_tiles(strip, fit, error);
+    p->sum_count = fit > 0;
+    if (__builtin_mul_overflow(p->sums[0].times, (uint64_t)fit, &p->sums[0].times))
+        return tn_strip_limit(strip, NULL, "a tray has more than 2^64 arrangements of tiles", error);
+    return TN_OK;
+}
+
+/* The tiles of the left slice, in the sums of the prices: none where one of its cells has none. */
+static tn_status multiply_tiles(tn_strip *strip, uint32_t waiting, uint32_t sides, tn_error *error)
 {
     size_t count, cells;
     const uint32_t *classes = tn_interned(&strip->waiting, waiting, &count);
     const uint32_t *fits = tn_interned(&strip->fit_lists, sides, &cells);
     tn_status status = TN_OK;
-    *tiles = 1;
-    for (size_t i = 0; status == TN_OK && *tiles > 0 && i < cells; i++) {
+    for (size_t i = 0; status == TN_OK && strip->prices.sum_count > 0 && i < cells; i++) {
         uint32_t fit = 0;
         if (fits[i] == 0)
             continue;
         uint64_t pair = strip->merged.one[*classes++];
         status = tn_strip_fit(strip, tn_high(pair), tn_low(pair), fits[i] - 1, &fit, error);
-        if (status == TN_OK && __builtin_mul_overflow(*tiles, (uint64_t)fit, tiles))
-            status = tn_strip_limit(strip, NULL, "a tray has more than 2^64 arrangements of tiles", error);
+        if (status == TN_OK)
+            status = add_tiles(strip, fit, error);
     }
     return status;
 }
 
-static tn_status count_tiles(const tn_stepping *s, uint64_t *tiles, tn_error *error)
+/* The same. How many there are is worked out once for each combination; where tiles have prices, the sums would take
+ * too much room for that. */
+static tn_status count_tiles(const tn_stepping *s, tn_error *error)
 {
     tn_strip *strip = s->strip;
+    tn_strip_prices *p = &strip->prices;
     uint32_t *result;
     bool met;
-    *tiles = 1;
+    p->sums[0] = (tn_strip_sum){0, 1};
+    p->sum_count = 1;
     if (!s->state || strip->scouting)
         return TN_OK;
     uint32_t waiting = s->state[tn_strip_waiting_word(strip)], sides = s->outcome->left_fits;
+    if (p->items)
+        return multiply_tiles(strip, waiting, sides, error);
     tn_status status = tn_strip_known_at(&strip->tiles, waiting, sides, 2, &result, &met, error);
     if (status == TN_OK && !met) {
-        status = multiply_tiles(strip, waiting, sides, tiles, error);
-        result[0] = tn_low(*tiles);
-        result[1] = tn_high(*tiles);
+        status = multiply_tiles(strip, waiting, sides, error);
+        result[0] = tn_low(p->sums[0].times);
+        result[1] = tn_high(p->sums[0].times);
     }
-    *tiles = status == TN_OK ? tn_both(result) : 0;
+    p->sums[0].times = status == TN_OK ? tn_both(result) : 0;
+    p->sum_count = p->sums[0].times > 0;
     return status;
 }
 
@@ -115,8 +133,8 @@ static tn_status make_state(const tn_stepping *s, uint32_t read, uint32_t *after
     return *after != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-/* What the step adds to a measure: the right slice's cells, and the rooms that end at the plane. */
-static int64_t gain_by(const tn_stepping *s, uint32_t measure)
+/* What the step adds to a measure, but for costs: the right slice's cells, and the rooms that end at the plane. */
+static int64_t others_of(const tn_stepping *s, uint32_t measure)
 {
     const tn_house_weights *w = s->strip->measures->of[measure];
     const uint32_t *closed = s->crossed + CROSSED_WALKS + s->strip->questions.walk_count;
@@ -124,40 +142,71 @@ static int64_t gain_by(const tn_stepping *s, uint32_t measure)
     for (uint32_t i = 0; i < w->count; i++)
         if (w->terms[i].kind == TN_HOUSE_ROOMS)
             gain += (int64_t)closed[s->strip->weighed_rooms[measure][i]] * w->terms[i].each;
-    return s->strip->measures->most[measure] ? -gain : gain;
+    return gain;
+}
+
+/* What the step costs, in steps: the right slice and the plane. */
+static tn_int128 cost_of(const tn_stepping *s)
+{
+    const tn_strip *strip = s->strip;
+    if (!strip->prices.asked)
+        return 0;
+    tn_int128 cost = strip->prices.steps[s->outcome->cost];
+    if (s->slice != TN_STRIP_NONE)
+        cost += strip->prices.steps[strip->slices[s->slice].cost];
+    return cost;
 }
 
 static tn_house_gain gain_of(const tn_stepping *s)
 {
+    const tn_strip_units *units = s->strip->units;
     tn_house_gain gain = {{0}};
-    for (uint32_t k = 0; s->strip->measures && k < s->strip->measures->count; k++)
-        gain.by[k] = gain_by(s, k);
+    tn_int128 cost = units ? cost_of(s) : 0;
+    for (uint32_t k = 0; units && k < s->strip->measures->count; k++) {
+        tn_int128 value = others_of(s, k) * units->others[k] + cost * units->costs[k];
+        gain.by[k] = s->strip->measures->most[k] ? -value : value;
+    }
     return gain;
 }
 
 /* ---- steps */
+
+/* Shows what the step leads to, with each sum of the tiles. */
+static tn_status show(const tn_stepping *s, uint32_t after, uint64_t faced, tn_strip_seen *seen, void *context,
+                      tn_error *error)
+{
+    const tn_strip_prices *p = &s->strip->prices;
+    const tn_strip_units *units = s->strip->units;
+    const tn_house_gain gain = gain_of(s);
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < p->sum_count; i++) {
+        tn_house_gain sum = gain;
+        uint64_t times;
+        if (__builtin_mul_overflow(p->sums[i].times, faced, &times))
+            return tn_strip_limit(s->strip, NULL, "a tray has more than 2^64 choices", error);
+        for (uint32_t k = 0; units && k < s->strip->measures->count; k++)
+            sum.by[k] += p->sums[i].cost * units->costs[k] * (s->strip->measures->most[k] ? -1 : 1);
+        status = seen(context, after, times, i == 0 ? faced : 0, &sum, error);
+    }
+    return status;
+}
 
 /* One outcome of the plane. between: what the clauses have read of the slice. */
 static tn_status try_outcome(tn_stepping *s, const tn_strip_choice *choice, uint32_t between, tn_strip_seen *seen,
                              void *context, tn_error *error)
 {
     tn_strip *strip = s->strip;
-    uint64_t times;
     uint32_t after = 0, read;
     s->outcome = &strip->outcomes[choice->slice];
-    tn_status status = count_tiles(s, &times, error);
-    if (status != TN_OK || times == 0)
+    tn_status status = count_tiles(s, error);
+    if (status != TN_OK || strip->prices.sum_count == 0)
         return status;
-    if (__builtin_mul_overflow(times, choice->times, &times))
-        return tn_strip_limit(strip, NULL, "a tray has more than 2^64 choices", error);
     status = tn_strip_read_plane(strip, s->trays, between, s->crossed[CROSSED_VALUES], &read, error);
     if (status != TN_OK || read == TN_STRIP_NONE)
         return status;
-    tn_house_gain gain = gain_of(s);
     if (s->slice != TN_STRIP_NONE)
         status = make_state(s, read, &after, error);
-    return status == TN_OK && after != TN_STRIP_NONE ? seen(context, after, times, choice->times, &gain, error)
-                                                     : status;
+    return status == TN_OK && after != TN_STRIP_NONE ? show(s, after, choice->times, seen, context, error) : status;
 }
 
 static bool keeps_no_trays(const tn_strip *strip)

@@ -51,6 +51,8 @@ tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record 
                         .measures = measures};
     memcpy(strip->shapes, shapes, form->record->choice_count * sizeof *shapes);
     tn_status status = begin(strip, error);
+    if (status == TN_OK)
+        status = tn_strip_prices_begin(strip, trays, error);
     for (tn_tray t = 0; status == TN_OK && t < form->schema->tray_count; t++)
         if (trays[t])
             status = tn_strip_slices(strip, t, error);
@@ -106,6 +108,7 @@ void tn_strip_free(tn_strip *strip)
     clear_known(strip);
     tn_strip_clauses_free(strip);
     tn_strip_merged_clear(&strip->merged);
+    tn_strip_prices_clear(&strip->prices);
     free(strip->questions.decisions);
     free(strip->edges);
     free(strip->slices);

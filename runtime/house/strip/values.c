@@ -58,6 +58,35 @@ bool tn_value_counts_add(tn_value_counts *counts, const tn_house_gain *value, co
     return true;
 }
 
+bool tn_value_counts_pour(tn_value_counts *to, const tn_value_counts *from, const tn_house_gain *gain,
+                          const mpz_t times)
+{
+    size_t room = to->count + from->count, count = 0, k = 0;
+    if (from->count == 0)
+        return true;
+    tn_value_count *merged = malloc((room + 1) * sizeof *merged);
+    if (!merged)
+        return false;
+    for (size_t i = 0; i < from->count; i++) {
+        tn_house_gain value = tn_house_gain_sum(&from->items[i].value, gain);
+        while (k < to->count && tn_house_gain_compare(&to->items[k].value, &value) < 0)
+            merged[count++] = to->items[k++];
+        if (k < to->count && tn_house_gain_compare(&to->items[k].value, &value) == 0) {
+            mpz_addmul(to->items[k].count, from->items[i].count, times);
+            merged[count++] = to->items[k++];
+            continue;
+        }
+        merged[count].value = value;
+        mpz_init(merged[count].count);
+        mpz_mul(merged[count++].count, from->items[i].count, times);
+    }
+    while (k < to->count)
+        merged[count++] = to->items[k++];
+    free(to->items);
+    *to = (tn_value_counts){merged, count, room + 1};
+    return true;
+}
+
 bool tn_value_counts_has(const tn_value_counts *counts, const tn_house_gain *value)
 {
     size_t at = place_of(counts, value);

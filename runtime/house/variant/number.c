@@ -76,15 +76,23 @@ tn_status tn_house_variants_each(tn_house_variants *v, const tn_tray *trays, siz
     return status;
 }
 
-tn_status tn_house_variants_like(tn_house_variants *v, const tn_house *like, tn_house_each *each, void *context,
+typedef struct facing {
+    tn_house_faced *faced;
+    void *context;
+} facing;
+
+static tn_status give_faced(tn_house_variants *v, void *context, bool *stop, tn_error *error)
+{
+    const facing *f = context;
+    v->work = v->work_limit;
+    return f->faced(f->context, &v->house, v->tiles, stop, error);
+}
+
+tn_status tn_house_variants_like(tn_house_variants *v, const tn_house *like, tn_house_faced *faced, void *context,
                                  tn_error *error)
 {
-    listing list = {.each = each, .context = context};
-    mpz_inits(list.left, list.here, NULL);
-    tn_status status =
-        tn_variants_go_through_faces(v, like, &(tn_house_visitor){.visit = give_tiles, .context = &list}, error);
-    mpz_clears(list.left, list.here, NULL);
-    return status;
+    facing f = {faced, context};
+    return tn_variants_go_through_faces(v, like, &(tn_house_visitor){.visit = give_faced, .context = &f}, error);
 }
 
 static tn_status stop_at_once(void *context, const tn_house *house, bool *stop, tn_error *error)
