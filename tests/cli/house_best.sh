@@ -14,7 +14,10 @@ golden best_database 'tartan best house-measures.plan 1 -l cottages --least bedr
 golden best_mirror 'tartan best house-measures.plan 1 -l cottages --least bedrooms --mirror'
 golden best_limit 'tartan best house-measures.plan 1 -l cottages --least bedrooms --max-states 10'
 golden best_bad_plan "tartan best house-measures.plan 1 --plan '#99' --least bedrooms"
-golden best_house_cost 'tartan best house-measures.plan 1 -l cottages --least price'
+golden best_cost 'tartan best priced.plan 3 -l barns --least price --then-most floors'
+golden best_cost_json 'tartan best priced.plan 2 -l barns --most offer --format json --where "quantity(cell(living), n = 3)"'
+golden front_cost 'tartan pareto priced.plan -l barns --least price --most floors'
+golden complete_cost 'tartan complete priced.plan "14'"'"' | ..." -l barns --least price'
 golden front 'tartan pareto house-measures.plan -l cottages --least floor-area --most bedrooms'
 golden front_json "tartan pareto house-measures.plan --plan '#3' --least floor-area --most rooms-value --json"
 golden front_one 'tartan pareto house-measures.plan -l cottages --least floor-area'

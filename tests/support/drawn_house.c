@@ -151,13 +151,44 @@ static void put_expression(drawn_house *d, int depth)
     }
 }
 
+static void put_roofs(drawn_house *d)
+{
+    ONE_OF(d, "  section body roof = gable(9:12, eaves 1'6\", open)\n  section bay roof = shed(front, 3:12, eaves 1')\n",
+           "  section body roof = vault(3', across) | gable(6:12, across)\n",
+           "  section body roof = shed(back, 4:12, eaves 2') | flat\n  section bay roof = vault(1')\n",
+           "  section body roof = gable(7:12, across, open)\n  section bay roof = gable(12:12)\n");
+}
+
+static void put_materials(drawn_house *d)
+{
+    put(d, "  material brick \"#888888\" price 12.35 per ");
+    ONE_OF(d, "sf", "m2", "cf", "each");
+    put(d, " for wall, post where section(cladding board)\n  material shingles \"#888888\" price 9.10 per ");
+    ONE_OF(d, "sf", "m3", "cf");
+    put(d, " for wall, party\n  material planks \"#888888\" price 41.7 per ");
+    ONE_OF(d, "sf for partition, deck\n", "cf for partition\n", "each for deck, partition\n", "m2 for deck, post\n");
+    put(d, "  material slates \"#888888\" price 17 per ");
+    ONE_OF(d, "sf", "sf", "m3", "each");
+    put(d, " for roof\n");
+    ONE_OF(d, "  material glass \"#888888\" price 333.33 per each for window, door\n",
+           "  material glass \"#888888\" price 80 per sf for window\n");
+    if (strstr(d->text, "item cot"))
+        ONE_OF(d, "  material pine \"#888888\" price 55.5 per sf for cot\n",
+               "  material pine \"#888888\" price 55.5 per each for cot\n",
+               "  material pine \"#888888\" price 7 per cf for cot where section(cladding board)\n", "");
+}
+
 static void put_form(drawn_house *d)
 {
     put(d, "form huts of hut {\n  storey ground 9'\n  storey loft 8'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof "
            "8\"\n");
     ONE_OF(d, "  section body storeys = 1 | 2\n", "  section body storeys = 2 | 1\n",
            "  section bay storeys = 1\n  section body storeys = 1 | 2\n");
-    put(d, "  section body roof = gable(9:12) | vault(3')\n  section cladding = shingle | board\n");
+    if (d->priced)
+        put_roofs(d);
+    else
+        put(d, "  section body roof = gable(9:12) | vault(3')\n");
+    put(d, "  section cladding = shingle | board\n");
     ONE_OF(d, "", "  void cell(loft, 10')\n", "  void cell(body 12', loft)\n", "  no cell(bay, loft)\n");
     put(d, "  function living at cell(body, ground)\n  function bed at cell(body)\n");
     ONE_OF(d, "  function stair at cell(body)\n", "  function stair at cell(body, 8')\n");
@@ -179,6 +210,8 @@ static void put_form(drawn_house *d)
         "  tile rug for bed, living { item rug left 2'..right 2', back 1'..4' keep edge left 0..1' }\n"
         "  tile cot for bed { against wall item cot right 3'..right 0, back 0..6'6\", up 0..2' }\n",
         "");
+    if (d->priced)
+        put_materials(d);
     put(d, "}\n");
 }
 
@@ -202,13 +235,19 @@ void drawn_house_write(drawn_house *d)
     put(d, "schema hut {\n  width role length = 8' | 10'\n  zone body role band = room(10', 12')\n"
            "  zone bay role band = empty role absent | open(4')\n}\n");
     put_form(d);
-    put(d,
-        "library rows using hut { trays 1..2 }\nlibrary all from rows in huts { }\nlibrary some from rows in huts {\n");
-    for (uint32_t i = 1 + draw(d, 3); i > 0; i--) {
+    put(d, d->priced ? "library rows using hut { trays 1..3 }\n" : "library rows using hut { trays 1..2 }\n");
+    put(d, "library all from rows in huts { }\nlibrary some from rows in huts {\n");
+    if (d->priced)
+        put(d, "  require quantity(cell(any), n < 4), section(cladding board)\n"
+               "  prune cell(stair), quantity(cell(bed), n > 1)\n");
+    for (uint32_t i = d->priced ? draw(d, 2) : 1 + draw(d, 3); i > 0; i--) {
         put(d, draw(d, 2) ? "  require " : "  prune ");
         put_expression(d, 2);
         put(d, "\n");
     }
     put(d, "}\n");
     put_measures(d);
+    if (d->priced)
+        ONE_OF(d, "measure fifth using huts = sum(cost)\n", "measure fifth using huts = 100 - 1.1 * sum(cost)\n",
+               "measure fifth using huts = sum(cost) / 2 + 35.5 * quantity(cell(bed)) - 2 * sum(width) / 1'\n");
 }

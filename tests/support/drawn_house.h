@@ -2,12 +2,15 @@
 #ifndef TARTAN_TEST_DRAWN_HOUSE_H
 #define TARTAN_TEST_DRAWN_HOUSE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-/* state: where the drawing stands; to begin with any number. */
+/* state: where the drawing stands; to begin with any number. priced: forms have prices and roofs of more kinds, the
+ * houses of `some` are small, of up to three trays, and there is a measure `fifth` of costs. */
 typedef struct drawn_house {
     uint64_t state;
+    bool priced;
     char text[8192];
     size_t size;
 } drawn_house;

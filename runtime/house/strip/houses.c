@@ -104,6 +104,7 @@ typedef struct tn_scout {
     const tn_houses *houses;
     tn_houses_kind *kind;
     uint32_t layer;
+    bool any; /* does a house come to its end? */
 } tn_scout;
 
 static tn_status come_by(void *context, const tn_houses_edge *edge, tn_error *error)
@@ -117,9 +118,10 @@ static tn_status come_by(void *context, const tn_houses_edge *edge, tn_error *er
 
 static tn_status pass_end(void *context, const tn_houses_edge *edge, tn_error *error)
 {
-    (void)context;
+    tn_scout *s = context;
     (void)edge;
     (void)error;
+    s->any = true;
     return TN_OK;
 }
 
@@ -137,8 +139,8 @@ static void clear_layers(const tn_houses *h, tn_houses_kind *kind)
     kind->layers = NULL;
 }
 
-/* Goes through all states. */
-static tn_status walk(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
+/* Goes through all states. *any: has the section houses, as far as is known? */
+static tn_status walk(const tn_houses *h, tn_houses_kind *kind, bool *any, tn_error *error)
 {
     tn_scout s = {.houses = h, .kind = kind};
     tn_status status = TN_OK;
@@ -152,21 +154,25 @@ static tn_status walk(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
             status = tn_houses_expand(h, kind, s.layer, false, come_by, &s, error);
     }
     clear_layers(h, kind);
+    *any = s.any;
     return status;
 }
 
 /* Goes through all states without their tiles, so that what nothing can tell apart is merged (merge.c); then, where
  * tiles have prices, with them, so that all costs are known. */
-static tn_status scout(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
+static tn_status scout(const tn_houses *h, tn_houses_kind *kind, const bool *trays, tn_error *error)
 {
     tn_strip *strip = kind->strip;
+    bool any = false;
     if (!strip->any_tiled && !strip->prices.asked)
         return TN_OK;
     strip->scouting = true;
-    tn_status status = walk(h, kind, error);
+    tn_status status = walk(h, kind, &any, error);
     if (status == TN_OK)
         status = tn_strip_merge(strip, error);
-    return status == TN_OK && strip->any_tiled && strip->prices.items ? walk(h, kind, error) : status;
+    if (status == TN_OK && any && strip->prices.asked)
+        status = tn_strip_prices_check(strip, trays, error);
+    return status == TN_OK && strip->any_tiled && strip->prices.items ? walk(h, kind, &any, error) : status;
 }
 
 /* ---- sections */
@@ -194,7 +200,7 @@ static tn_status add_kind(tn_houses *h, const tn_house *section, const bool *tra
     mpz_init(kind->faced);
     tn_status status =
         tn_strip_new(h->form, h->library, section->shapes, trays, h->low, h->high, h->measures, &kind->strip, error);
-    return status == TN_OK ? scout(h, kind, error) : status;
+    return status == TN_OK ? scout(h, kind, trays, error) : status;
 }
 
 static tn_status look_at_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)

@@ -436,8 +436,10 @@ tn_status tn_strip_ends(tn_strip *strip, uint32_t trays, uint32_t state, bool *e
 
 /* ---- prices.c */
 
-/* trays: of the library. E1685 (TN_LIMIT) where costs are asked for that do not add up. */
-tn_status tn_strip_prices_begin(tn_strip *strip, const bool *trays, tn_error *error);
+tn_status tn_strip_prices_begin(tn_strip *strip, tn_error *error);
+
+/* trays: of the library. E1685 (TN_LIMIT) where costs that are asked for do not add up in this section. */
+tn_status tn_strip_prices_check(const tn_strip *strip, const bool *trays, tn_error *error);
 void tn_strip_prices_clear(tn_strip_prices *prices);
 
 tn_status tn_strip_cost_number(tn_strip *strip, const mpq_t cost, uint32_t *number, tn_error *error);

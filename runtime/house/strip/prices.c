@@ -110,7 +110,7 @@ static tn_status check_openings(const tn_strip *strip, tn_error *error)
     return TN_OK;
 }
 
-tn_status tn_strip_prices_begin(tn_strip *strip, const bool *trays, tn_error *error)
+tn_status tn_strip_prices_begin(tn_strip *strip, tn_error *error)
 {
     tn_strip_prices *p = &strip->prices;
     if (!tn_array_reserve(&p->sums, &p->sum_room, 0, 1, sizeof *p->sums))
@@ -119,17 +119,20 @@ tn_status tn_strip_prices_begin(tn_strip *strip, const bool *trays, tn_error *er
         p->asked = p->asked || mpq_sgn(strip->measures->of[k]->cost) != 0;
     if (!p->asked)
         return TN_OK;
-    tn_roofs roofs = roofs_of(strip);
     p->items = are_items_priced(strip->form);
-    p->across = roofs.across && is_priced(strip->form, TN_OF_ROOF, BY_ANY);
-    if (p->across && roofs.eaves > 0)
-        return refuse(strip, "a section has eaves, and a roof that goes `across`",
-                      "leave out one of both, or forbid them together", error);
-    tn_status status = check_widths(strip, &roofs, trays, error);
-    if (status == TN_OK)
-        status = check_openings(strip, error);
+    p->across = roofs_of(strip).across && is_priced(strip->form, TN_OF_ROOF, BY_ANY);
     const uint32_t none = 0; /* the first list is that of a cell in which nothing fits */
-    return status == TN_OK && tn_intern(&p->lists, &none, 0) == UINT32_MAX ? tn_fail_memory(error) : status;
+    return tn_intern(&p->lists, &none, 0) == UINT32_MAX ? tn_fail_memory(error) : TN_OK;
+}
+
+tn_status tn_strip_prices_check(const tn_strip *strip, const bool *trays, tn_error *error)
+{
+    tn_roofs roofs = roofs_of(strip);
+    if (strip->prices.across && roofs.eaves > 0)
+        return refuse(strip, "a section has eaves, and a roof that goes `across`",
+                      "keep sections that have only one of both: `prune section(...)`", error);
+    tn_status status = check_widths(strip, &roofs, trays, error);
+    return status == TN_OK ? check_openings(strip, error) : status;
 }
 
 void tn_strip_prices_clear(tn_strip_prices *p)

@@ -52,7 +52,7 @@ tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record 
     memcpy(strip->shapes, shapes, form->record->choice_count * sizeof *shapes);
     tn_status status = begin(strip, error);
     if (status == TN_OK)
-        status = tn_strip_prices_begin(strip, trays, error);
+        status = tn_strip_prices_begin(strip, error);
     for (tn_tray t = 0; status == TN_OK && t < form->schema->tray_count; t++)
         if (trays[t])
             status = tn_strip_slices(strip, t, error);

@@ -9,11 +9,12 @@
 
 #include <cmocka.h>
 
+#include "runtime/house/schedule/cost.h"
 #include "runtime/house/strip/best.h"
 #include "tests/support/drawn_house.h"
 #include "tests/support/test_house.h"
 
-enum { HOUSES_MAX = 20000, MEASURES = 2, WANTED = 7, LENGTH_MAX = 2, PLACES = 3 };
+enum { HOUSES_MAX = 20000, MEASURES = 2, WANTED = 7, LENGTH_MAX = 3, PLACES = 3 };
 
 typedef struct listed {
     mpq_t values[MEASURES]; /* with the sign that makes less better */
@@ -31,7 +32,7 @@ typedef struct check {
     tn_house_weights *weights[MEASURES];
     tn_house_measures measures;
     listed houses[HOUSES_MAX], *order[HOUSES_MAX];
-    size_t count, given;
+    size_t count, given, most;
 } check;
 
 static char *line_of(const tn_house *house)
@@ -42,16 +43,31 @@ static char *line_of(const tn_house *house)
     return line.data;
 }
 
+/* cost := what a house costs, from its solids. */
+static void find_cost(const tn_house *house, mpq_t cost)
+{
+    tn_solids solids;
+    tn_costs costs;
+    tn_error error = {0};
+    assert_int_equal(tn_house_solids(house, &solids, &error), TN_OK);
+    assert_int_equal(tn_house_costs(house, &solids, &costs, &error), TN_OK);
+    mpq_set(cost, costs.exact);
+    tn_costs_clear(&costs);
+    tn_solids_clear(&solids);
+}
+
 static tn_status list_house(void *context, const tn_house *house, bool *stop, tn_error *error)
 {
     check *c = context;
-    if (c->count == HOUSES_MAX) {
+    if (c->count == c->most) {
         *stop = true;
         return TN_OK;
     }
     listed *one = &c->houses[c->count++];
-    mpq_t cost;
-    mpq_init(cost);
+    mpq_t cost, whole;
+    mpq_inits(cost, whole, NULL);
+    if (tn_form_has_costs(house->form))
+        find_cost(house, whole);
     one->line = line_of(house);
     one->length = house->length;
     memcpy(one->trays, house->trays, house->length * sizeof *house->trays);
@@ -59,10 +75,12 @@ static tn_status list_house(void *context, const tn_house *house, bool *stop, tn
     for (uint32_t k = 0; k < MEASURES; k++) {
         mpq_init(one->values[k]);
         assert_int_equal(tn_house_rules_measure(c->rules, c->measures.of[k]->of, one->values[k], cost, error), TN_OK);
+        mpq_mul(cost, cost, whole);
+        mpq_add(one->values[k], one->values[k], cost);
         if (c->measures.most[k])
             mpq_neg(one->values[k], one->values[k]);
     }
-    mpq_clear(cost);
+    mpq_clears(cost, whole, NULL);
     return TN_OK;
 }
 
@@ -76,7 +94,7 @@ static void list_houses(check *c)
     mpz_inits(from, to, NULL);
     tn_library_kept(c->plans, TN_ALL_LENGTHS, to);
     assert_int_equal(tn_cursor_new(c->plans, from, to, &cursor, &error), TN_OK);
-    while (c->count < HOUSES_MAX && tn_cursor_next(cursor, &trays, &length))
+    while (c->count < c->most && tn_cursor_next(cursor, &trays, &length))
         assert_int_equal(tn_house_variants_each(c->variants, trays, length, from, list_house, c, &error), TN_OK);
     tn_cursor_free(cursor);
     mpz_clears(from, to, NULL);
@@ -255,15 +273,33 @@ static completed list_completed(const check *c, const open_pattern *p, size_t pl
     return sum;
 }
 
+/* A value as it is given out: the nearest step, half up. */
+static int64_t shown(const tn_house_weights *weights, const mpq_t value)
+{
+    mpq_t number, half;
+    mpz_t floor;
+    mpq_inits(number, half, NULL);
+    mpz_init(floor);
+    mpq_set_ui(half, 1, 2);
+    mpq_div(number, value, weights->shown);
+    mpq_add(number, number, half);
+    mpz_fdiv_q(floor, mpq_numref(number), mpq_denref(number));
+    int64_t steps = mpz_get_si(floor);
+    mpq_clears(number, half, NULL);
+    mpz_clear(floor);
+    return steps;
+}
+
 static void compare_completed(const check *c, const tn_completions *found, size_t at, const completed *sum)
 {
     mpq_t best;
     mpq_init(best);
     assert_int_equal(mpz_cmp_ui(found->counts[at], sum->houses), 0);
-    mpq_set_si(best, c->measures.most[0] ? -found->best[at] : found->best[at], 1);
-    mpq_mul(best, best, c->weights[0]->unit);
+    mpq_set(best, sum->best);
+    if (c->measures.most[0])
+        mpq_neg(best, best);
     if (sum->houses > 0)
-        assert_true(mpq_equal(best, sum->best));
+        assert_int_equal(found->best[at], shown(c->weights[0], best));
     mpq_clear(best);
 }
 
@@ -306,6 +342,49 @@ static void check_open_plans(check *c)
     tn_houses_free(houses);
 }
 
+/* ---- all houses by the first measure */
+
+static int compare_steps(const void *a, const void *b)
+{
+    int64_t p = *(const int64_t *)a, q = *(const int64_t *)b;
+    return (p > q) - (p < q);
+}
+
+static void check_spread(const check *c)
+{
+    tn_houses *houses;
+    tn_error error = {0};
+    tn_distribution d;
+    const tn_house_measures one = {.count = 1, .of = {c->weights[0]}};
+    const tn_houses_what what = {.measures = &one};
+    int64_t *steps = malloc((c->count + 1) * sizeof *steps);
+    size_t at = 0;
+    mpq_t value;
+    mpq_init(value);
+    assert_non_null(steps);
+    for (size_t i = 0; i < c->count; i++) {
+        mpq_set(value, c->houses[i].values[0]);
+        if (c->measures.most[0])
+            mpq_neg(value, value);
+        steps[i] = shown(c->weights[0], value);
+    }
+    qsort(steps, c->count, sizeof *steps, compare_steps);
+    tn_distribution_init(&d);
+    assert_int_equal(tn_houses_of(&c->made->form, c->record, c->plans, &what, 0, &houses, &error), TN_OK);
+    assert_int_equal(tn_houses_spread(houses, &d, &error), TN_OK);
+    for (size_t i = 0, end; i < c->count; i = end, at++) {
+        for (end = i; end < c->count && steps[end] == steps[i];)
+            end++;
+        assert_true(at < d.count && d.value[at] == steps[i]);
+        assert_int_equal(mpz_cmp_ui(d.plans[at], end - i), 0);
+    }
+    assert_int_equal(at, d.count);
+    tn_distribution_clear(&d);
+    tn_houses_free(houses);
+    mpq_clear(value);
+    free(steps);
+}
+
 static void check_houses(check *c)
 {
     for (size_t i = 0; i < c->count; i++)
@@ -314,11 +393,12 @@ static void check_houses(check *c)
     check_aim(c, TN_HOUSES_LEAST);
     check_aim(c, TN_HOUSES_FRONT);
     check_open_plans(c);
+    check_spread(c);
 }
 
-/* most: a bit for each measure. Returns how many houses there are, 0 where they are too many to be listed. */
+/* most: a bit for each measure. Returns how many houses there are, 0 where they are more than can be listed. */
 static size_t check_library(const test_house *made, const tn_house_library_record *record, const uint32_t *measures,
-                            uint32_t most)
+                            uint32_t most, size_t houses_most)
 {
     check *c = calloc(1, sizeof *c);
     tn_error error = {0};
@@ -326,6 +406,7 @@ static size_t check_library(const test_house *made, const tn_house_library_recor
     assert_non_null(c);
     c->made = made;
     c->record = record;
+    c->most = houses_most;
     c->measures.count = MEASURES;
     assert_int_equal(tn_library_new(made->schema, record->plans, &options, &c->plans, &error), TN_OK);
     assert_int_equal(tn_house_variants_new(&made->form, record, 0, &c->variants, &error), TN_OK);
@@ -337,7 +418,7 @@ static size_t check_library(const test_house *made, const tn_house_library_recor
         c->measures.most[k] = most >> k & 1;
     }
     list_houses(c);
-    size_t count = c->count < HOUSES_MAX ? c->count : 0;
+    size_t count = c->count < c->most ? c->count : 0;
     if (count > 0)
         check_houses(c);
     for (size_t i = 0; i < c->count; i++) {
@@ -354,25 +435,37 @@ static size_t check_library(const test_house *made, const tn_house_library_recor
     return count;
 }
 
-static void test_drawn(void **state)
+/* Returns how many libraries are checked. */
+static uint32_t check_drawn(drawn_house d, uint32_t count, size_t houses_most)
 {
-    (void)state;
-    drawn_house d = {.state = 11};
     uint32_t libraries = 0;
-    for (uint32_t i = 0; i < 40; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         test_house made;
         drawn_house_write(&d);
         test_house_compile(&made, d.text);
         uint32_t measures = (uint32_t)made.module->HOUSE_MEASURE_count + (uint32_t)made.module->MEASURE_count;
-        const uint32_t two[MEASURES] = {i % measures, (i + 1 + i / measures % (measures - 1)) % measures};
-        libraries += check_library(&made, made.some, two, i % 4) > 0;
+        uint32_t first = d.priced ? (uint32_t)made.module->HOUSE_MEASURE_count - 1 : i % measures; /* `fifth` */
+        const uint32_t two[MEASURES] = {first, (first + 1 + i / measures % (measures - 1)) % measures};
+        libraries += check_library(&made, made.some, two, i % 4, houses_most) > 0;
         test_house_clear(&made);
     }
-    assert_true(libraries > 5);
+    return libraries;
+}
+
+static void test_drawn(void **state)
+{
+    (void)state;
+    assert_true(check_drawn((drawn_house){.state = 11}, 40, HOUSES_MAX) > 5);
+}
+
+static void test_costs(void **state)
+{
+    (void)state;
+    assert_true(check_drawn((drawn_house){.state = 5, .priced = true}, 30, 5000) > 9);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_drawn)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_drawn), cmocka_unit_test(test_costs)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
