@@ -153,7 +153,8 @@ static void put_expression(drawn_house *d, int depth)
 
 static void put_roofs(drawn_house *d)
 {
-    ONE_OF(d, "  section body roof = gable(9:12, eaves 1'6\", open)\n  section bay roof = shed(front, 3:12, eaves 1')\n",
+    ONE_OF(d,
+           "  section body roof = gable(9:12, eaves 1'6\", open)\n  section bay roof = shed(front, 3:12, eaves 1')\n",
            "  section body roof = vault(3', across) | gable(6:12, across)\n",
            "  section body roof = shed(back, 4:12, eaves 2') | flat\n  section bay roof = vault(1')\n",
            "  section body roof = gable(7:12, across, open)\n  section bay roof = gable(12:12)\n");

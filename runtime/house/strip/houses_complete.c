@@ -25,9 +25,9 @@ typedef struct tn_completing {
     tn_completer pattern;
     tn_interner machines; /* {placed, gap, earlier in two words} */
     uint32_t layer;
-    tn_joint_layer *layers; /* [high + 1] */
-    uint64_t joints;        /* of all layers */
-    mpz_t *placed;          /* [items][trays of the schema] */
+    tn_joint_layer *layers;               /* [high + 1] */
+    uint64_t joints;                      /* of all layers */
+    mpz_t *placed;                        /* [items][trays of the schema] */
     tn_int128 *best_placed, *best_values; /* of the same; [items][values of the schema] */
     mpz_t one;
     tn_completions *out;

@@ -82,7 +82,7 @@ struct tn_houses {
     const tn_house_measures *measures; /* or NULL; else plans are those of `weighed` */
     tn_weighed *weighed;
     tn_strip_units units; /* that values are in */
-    bool trays_matter; /* to whom steps are shown */
+    bool trays_matter;    /* to whom steps are shown */
     tn_houses_aim aim;
     uint64_t wanted;      /* houses, of the least values */
     tn_value_counts best; /* of all houses, as far as they are aimed at */

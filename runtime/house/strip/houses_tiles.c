@@ -63,7 +63,7 @@ typedef struct tn_furnishing {
     struct tn_cost_sums {
         tn_int128 *items;
         size_t count;
-    } *sums;
+    } * sums;
     tn_house_each *each;
     void *context;
     bool *stop;

@@ -202,9 +202,9 @@ typedef struct tn_strip_prices {
     tn_interner numbers;
     mpq_t *exact;
     size_t room;
-    tn_int128 *steps;                            /* [numbers], or NULL */
-    tn_interner alone_keys, plane_keys, shapes;  /* {tray, what is in its inner faces}; {shapes, what is in it} */
-    uint32_t *alone, *planes;                    /* [keys]: numbers of costs */
+    tn_int128 *steps;                           /* [numbers], or NULL */
+    tn_interner alone_keys, plane_keys, shapes; /* {tray, what is in its inner faces}; {shapes, what is in it} */
+    uint32_t *alone, *planes;                   /* [keys]: numbers of costs */
     size_t alone_room, plane_room;
     tn_interner lists; /* of tiles that fit in a cell: {cost, how many} by cost */
     tn_key key;
@@ -224,8 +224,8 @@ typedef struct tn_strip {
     uint32_t shapes[TN_CHOICES_MAX];
     uint32_t trays_least, trays_most;
     tn_watch *watch;
-    const tn_house_measures *measures;       /* or NULL */
-    const tn_strip_units *units;             /* NULL: not known yet, and nothing is gained */
+    const tn_house_measures *measures; /* or NULL */
+    const tn_strip_units *units;       /* NULL: not known yet, and nothing is gained */
     tn_strip_prices prices;
     uint32_t *weighed_rooms[TN_WEIGHED_MAX]; /* [terms of the measure]: of the questions about rooms */
     tn_strip_questions questions;

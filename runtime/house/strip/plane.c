@@ -37,7 +37,7 @@ bool tn_strip_joins(const tn_house *house, const tn_face *face)
 typedef struct tn_crossing_house {
     tn_strip *strip;
     uint32_t left, right; /* edges, or TN_STRIP_NONE */
-    uint32_t left_cells; /* those of the left edge come first */
+    uint32_t left_cells;  /* those of the left edge come first */
     bool has_left, has_right;
     tn_house house;
     uint32_t *faces; /* those in the plane */

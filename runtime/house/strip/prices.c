@@ -1,5 +1,5 @@
-/* What houses cost, in parts that add up: each tray by itself, between plain walls at its sides, and what stands in each
- * plane between two trays, which is the difference to that.
+/* What houses cost, in parts that add up: each tray by itself, between plain walls at its sides, and what stands in
+ * each plane between two trays, which is the difference to that.
  *
  * Such parts know all that there is as long as nothing reaches over a whole tray: what a wall, a deck or a roof is at a
  * plane depends on the trays at both of its sides alone. Where that is not so, costs are not counted (E1685). */

@@ -48,8 +48,8 @@ tn_status tn_house_variants_each(tn_house_variants *variants, const tn_tray *tra
                                  tn_house_each *each, void *context, tn_error *error);
 
 /* Calls `faced` with the houses that are like this one in plan, section and functions, which have a house, in order,
- * without their tiles, until there are no more or *stop. tiles: [cells] how many fit in each, 1 where it wants none; the
- * callee may set the cells' variants below these. */
+ * without their tiles, until there are no more or *stop. tiles: [cells] how many fit in each, 1 where it wants none;
+ * the callee may set the cells' variants below these. */
 typedef tn_status tn_house_faced(void *context, tn_house *house, const size_t *tiles, bool *stop, tn_error *error);
 tn_status tn_house_variants_like(tn_house_variants *variants, const tn_house *like, tn_house_faced *faced,
                                  void *context, tn_error *error);
