@@ -287,6 +287,6 @@ golden count_by_of_plans "tartan count house-measures.plan --library cottages --
 golden count_by_cost "tartan count priced.plan --library barns --by price --bins 6"
 golden count_by_cost_json "tartan count priced.plan --library barns --by offer --plan '#1' --json"
 golden count_by_cost_across "tartan count priced.plan --library across --by price"
-golden count_by_cost_narrow 'sed "s/eaves 1.6./eaves 12'\''/" priced.plan > $scratch/wide.plan && tartan count $scratch/wide.plan --library barns --by price'
+golden count_by_cost_narrow 'sed "s/eaves 1.6./eaves 6'\''/" priced.plan > $scratch/wide.plan && tartan count $scratch/wide.plan --library barns --by price'
 golden count_by_unknown "tartan count house-measures.plan --library cottages --by bedroom"
 golden count_long_plan "tartan count row-houses --library row-houses --plan '#1' && tartan sample row-houses 1 --library row-houses --seed 5"
