@@ -353,16 +353,22 @@ static bool few_matches(tn_check *check, const tn_ast_expr *expr, const sum *sid
 /* A measure of houses is counted by and optimised, not compared. */
 static bool of_plans(tn_check *check, const tn_ast_expr *expr, const sum *sides, size_t count)
 {
-    bool houses = false;
+    bool houses = false, costs = false;
     for (size_t i = 0; i < count; i++)
-        for (size_t t = 0; t < sides[i].count; t++)
+        for (size_t t = 0; t < sides[i].count; t++) {
             houses |= sides[i].terms[t].kind >= TN_TERM_CELLS;
+            costs |= sides[i].terms[t].kind == TN_TERM_COST;
+        }
     if (!houses)
         return true;
     tn_diagnostic *d = tn_report(check->diagnostics, E_HOUSE_CLAUSE, expr->node.span,
                                  "measures of houses cannot be compared in a rule");
-    tn_help(check->diagnostics, d,
-            "write the condition itself, such as `quantity(cell(...), n > 1)` or `sum(area of cell(...), a > 90sf)`");
+    tn_help(
+        check->diagnostics, d,
+        costs
+            ? "make the cost a measure: `tartan best` and `tartan pareto` choose by it, `tartan count --by` counts by "
+              "it"
+            : "write the condition itself, such as `quantity(cell(...), n > 1)` or `sum(area of cell(...), a > 90sf)`");
     return false;
 }
 
