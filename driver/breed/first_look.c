@@ -156,8 +156,9 @@ tn_status tn_run_first_look(const tn_run *run, tn_first_look *look, tn_error *er
     if (status == TN_OK)
         status = look_for_columns(run, look, error);
     for (size_t i = 0; i < look->count; i++) {
-        tn_finding *f = &look->items[i];
-        snprintf(f->text, sizeof f->text, "%s%s%s", f->message, f->help[0] ? "; " : "", f->help);
+        const tn_finding said = look->items[i];
+        snprintf(look->items[i].text, sizeof look->items[i].text, "%s%s%s", said.message, said.help[0] ? "; " : "",
+                 said.help);
     }
     return status;
 }
