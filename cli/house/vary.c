@@ -44,18 +44,14 @@ static double square_metres(tn_int128 square_nanometres)
 /* What the house costs, in hundredths; 0 where its form has no materials. */
 static tn_status cost_of(const tn_house *house, mpz_t hundredths, tn_error *error)
 {
-    tn_solids solids = {0};
-    tn_costs costs = {0};
+    tn_costs costs;
     mpz_set_ui(hundredths, 0);
     if (!tn_form_has_costs(house->form))
         return TN_OK;
-    tn_status status = tn_house_solids(house, &solids, error);
-    if (status == TN_OK)
-        status = tn_house_costs(house, &solids, &costs, error);
+    tn_status status = tn_house_bill(house, tn_house_solids, &costs, error);
     if (status == TN_OK)
         mpz_set(hundredths, costs.hundredths);
     tn_costs_clear(&costs);
-    tn_solids_clear(&solids);
     return status;
 }
 

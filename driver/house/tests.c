@@ -16,21 +16,6 @@ typedef struct outcome {
     mpq_t value, wanted; /* of a measure, where it is one */
 } outcome;
 
-/* The house's cost, unrounded. */
-static tn_status find_cost(const tn_house *house, mpq_t cost, tn_error *error)
-{
-    tn_solids solids = {0};
-    tn_costs costs = {0};
-    tn_status status = tn_house_solids(house, &solids, error);
-    if (status == TN_OK)
-        status = tn_house_costs(house, &solids, &costs, error);
-    if (status == TN_OK)
-        mpq_set(cost, costs.exact);
-    tn_costs_clear(&costs);
-    tn_solids_clear(&solids);
-    return status;
-}
-
 /* Half up to the hundredth, as bills are written. */
 static void round_to_cent(mpq_t value)
 {
@@ -57,7 +42,7 @@ static tn_status measure_case(tn_house_judge *judge, const tn_test_block *block,
     if (status == TN_OK)
         status = tn_house_rules_measure(judge->rules, measure, out->value, parts, error);
     if (status == TN_OK && mpq_sgn(parts) != 0)
-        status = find_cost(house, cost, error);
+        status = tn_house_exact_cost(house, tn_house_solids, cost, error);
     mpq_mul(cost, cost, parts);
     mpq_add(out->value, out->value, cost);
     if (mpq_sgn(parts) != 0)

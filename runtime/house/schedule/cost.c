@@ -309,17 +309,24 @@ void tn_costs_clear(tn_costs *costs)
     *costs = (tn_costs){0};
 }
 
-tn_status tn_house_shell_cost(const tn_house *house, mpq_t cost, tn_error *error)
+tn_status tn_house_bill(const tn_house *house, tn_house_build *build, tn_costs *costs, tn_error *error)
 {
-    tn_solids solids;
-    tn_costs costs = {0};
-    tn_status status = tn_house_shell(house, &solids, error);
+    tn_solids solids = {0};
+    *costs = (tn_costs){0};
+    tn_status status = build(house, &solids, error);
     if (status == TN_OK)
-        status = tn_house_costs(house, &solids, &costs, error);
+        status = tn_house_costs(house, &solids, costs, error);
+    tn_solids_clear(&solids);
+    return status;
+}
+
+tn_status tn_house_exact_cost(const tn_house *house, tn_house_build *build, mpq_t cost, tn_error *error)
+{
+    tn_costs costs;
+    tn_status status = tn_house_bill(house, build, &costs, error);
     if (status == TN_OK)
         mpq_set(cost, costs.exact);
     tn_costs_clear(&costs);
-    tn_solids_clear(&solids);
     return status;
 }
 

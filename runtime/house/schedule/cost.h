@@ -48,8 +48,14 @@ const char *tn_form_part_text(const tn_house_form *form, uint32_t part);
 tn_status tn_house_costs(const tn_house *house, const tn_solids *solids, tn_costs *costs, tn_error *error);
 void tn_costs_clear(tn_costs *costs);
 
-/* cost := what a house costs, unrounded, without what stands in its rooms. TN_MEMORY. */
-tn_status tn_house_shell_cost(const tn_house *house, mpq_t cost, tn_error *error);
+/* What is built of a house: tn_house_solids, or tn_house_shell without what stands in its rooms. */
+typedef tn_status tn_house_build(const tn_house *house, tn_solids *solids, tn_error *error);
+
+/* What that costs. tn_costs_clear also after a failure. TN_MEMORY. */
+tn_status tn_house_bill(const tn_house *house, tn_house_build *build, tn_costs *costs, tn_error *error);
+
+/* cost := what that costs, unrounded; unchanged after a failure. TN_MEMORY. */
+tn_status tn_house_exact_cost(const tn_house *house, tn_house_build *build, mpq_t cost, tn_error *error);
 
 /* cost := what things cost, unrounded, that stand so in a house. */
 void tn_house_items_cost(const tn_house *house, const tn_standing_item *items, size_t count, mpq_t cost);

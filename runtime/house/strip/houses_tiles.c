@@ -38,7 +38,7 @@ static tn_status find_left(const tn_houses_wanted *wanted, const tn_house *house
     mpq_init(shell);
     tn_status status = tn_house_rules_start(wanted->rules, house, error);
     if (status == TN_OK && h->kinds[0].strip->prices.asked)
-        status = tn_house_shell_cost(house, shell, error);
+        status = tn_house_exact_cost(house, tn_house_shell, shell, error);
     for (uint32_t k = 0; status == TN_OK && *fits && k < h->measures->count; k++) {
         tn_int128 value = 0, all = wanted->values->by[k] * (h->measures->most[k] ? -1 : 1);
         status = value_of(wanted, k, shell, &value, error);

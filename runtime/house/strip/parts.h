@@ -196,16 +196,22 @@ typedef struct tn_strip_sum {
     uint64_t times;
 } tn_strip_sum;
 
+/* Numbers of costs by what they depend on. */
+typedef struct tn_strip_keyed {
+    tn_interner keys;
+    uint32_t *costs; /* [keys] */
+    size_t room;
+} tn_strip_keyed;
+
 /* What houses cost, in parts that add up (prices.c). Exact costs are numbered; their steps are known when all are. */
 typedef struct tn_strip_prices {
     bool asked, items, across; /* items: these have prices. across: so goes a roof that has one */
     tn_interner numbers;
     mpq_t *exact;
     size_t room;
-    tn_int128 *steps;                           /* [numbers], or NULL */
-    tn_interner alone_keys, plane_keys, shapes; /* {tray, what is in its inner faces}; {shapes, what is in it} */
-    uint32_t *alone, *planes;                   /* [keys]: numbers of costs */
-    size_t alone_room, plane_room;
+    tn_int128 *steps;             /* [numbers], or NULL */
+    tn_strip_keyed alone, planes; /* by {tray, what is in its inner faces}; by {shapes, what is in it} */
+    tn_interner shapes;
     tn_interner lists; /* of tiles that fit in a cell: {cost, how many} by cost */
     tn_key key;
     tn_strip_sum *sums, *more; /* of the tiles of a tray; scratch */

@@ -140,14 +140,14 @@ void tn_strip_prices_clear(tn_strip_prices *p)
     for (uint32_t i = 0; i < p->numbers.count; i++)
         mpq_clear(p->exact[i]);
     tn_interner_clear(&p->numbers);
-    tn_interner_clear(&p->alone_keys);
-    tn_interner_clear(&p->plane_keys);
+    tn_interner_clear(&p->alone.keys);
+    tn_interner_clear(&p->planes.keys);
     tn_interner_clear(&p->shapes);
     tn_interner_clear(&p->lists);
     free(p->exact);
     free(p->steps);
-    free(p->alone);
-    free(p->planes);
+    free(p->alone.costs);
+    free(p->planes.costs);
     free(p->key.data);
     free(p->sums);
     free(p->more);
@@ -215,30 +215,43 @@ static bool is_inner(const tn_face *face)
     return face->relation == TN_FACE_UNDER || face->side == TN_HOUSE_BACK || face->side == TN_HOUSE_FRONT;
 }
 
-tn_status tn_strip_tray_cost(tn_strip *strip, const tn_house *house, uint32_t *number, tn_error *error)
+/* The number of the house's cost without what stands in its rooms, less what trays to the left and right of a plane
+ * cost by themselves (NULL: nothing is taken off), by the key at hand: it is found once. */
+static tn_status keyed_cost(tn_strip *strip, tn_strip_keyed *known, const tn_house *house, const tn_strip_edge *left,
+                            const tn_strip_edge *right, uint32_t *number, tn_error *error)
 {
     tn_strip_prices *p = &strip->prices;
-    uint32_t before = p->alone_keys.count;
-    p->key.size = 0;
-    bool ok = tn_key_push(&p->key, house->trays[0]);
-    for (size_t i = 0; ok && i < house->face_count; i++)
-        if (is_inner(&house->faces[i]))
-            ok = tn_key_push(&p->key, house->faces[i].kind);
-    ok = ok && tn_array_reserve(&p->alone, &p->alone_room, before, 1, sizeof *p->alone);
-    uint32_t at = ok ? tn_intern(&p->alone_keys, p->key.data, p->key.size) : UINT32_MAX;
+    uint32_t before = known->keys.count;
+    bool ok = tn_array_reserve(&known->costs, &known->room, before, 1, sizeof *known->costs);
+    uint32_t at = ok ? tn_intern(&known->keys, p->key.data, p->key.size) : UINT32_MAX;
     if (at == UINT32_MAX)
         return tn_fail_memory(error);
     tn_status status = TN_OK;
     if (at == before) {
         mpq_t cost;
         mpq_init(cost);
-        status = tn_house_shell_cost(house, cost, error);
+        status = tn_house_exact_cost(house, tn_house_shell, cost, error);
+        if (left)
+            mpq_sub(cost, cost, p->exact[left->cost]);
+        if (right)
+            mpq_sub(cost, cost, p->exact[right->cost]);
         if (status == TN_OK)
-            status = tn_strip_cost_number(strip, cost, &p->alone[at], error);
+            status = tn_strip_cost_number(strip, cost, &known->costs[at], error);
         mpq_clear(cost);
     }
-    *number = p->alone[at];
+    *number = known->costs[at];
     return status;
+}
+
+tn_status tn_strip_tray_cost(tn_strip *strip, const tn_house *house, uint32_t *number, tn_error *error)
+{
+    tn_strip_prices *p = &strip->prices;
+    p->key.size = 0;
+    bool ok = tn_key_push(&p->key, house->trays[0]);
+    for (size_t i = 0; ok && i < house->face_count; i++)
+        if (is_inner(&house->faces[i]))
+            ok = tn_key_push(&p->key, house->faces[i].kind);
+    return ok ? keyed_cost(strip, &p->alone, house, NULL, NULL, number, error) : tn_fail_memory(error);
 }
 
 /* Is there no floor above the face? */
@@ -268,31 +281,13 @@ tn_status tn_strip_plane_cost(tn_strip *strip, const tn_strip_border *border, co
                               tn_error *error)
 {
     tn_strip_prices *p = &strip->prices;
-    uint32_t before = p->plane_keys.count;
     p->key.size = 0;
     bool ok = tn_key_push(&p->key, border->left ? border->left->shape : TN_STRIP_NONE) &&
               tn_key_push(&p->key, border->right ? border->right->shape : TN_STRIP_NONE);
     for (size_t i = 0; ok && i < border->count; i++)
         ok = tn_key_push(&p->key, house->faces[border->faces[i]].kind);
-    ok = ok && tn_array_reserve(&p->planes, &p->plane_room, before, 1, sizeof *p->planes);
-    uint32_t at = ok ? tn_intern(&p->plane_keys, p->key.data, p->key.size) : UINT32_MAX;
-    if (at == UINT32_MAX)
-        return tn_fail_memory(error);
-    tn_status status = TN_OK;
-    if (at == before) {
-        mpq_t cost;
-        mpq_init(cost);
-        status = tn_house_shell_cost(house, cost, error);
-        if (border->left)
-            mpq_sub(cost, cost, p->exact[border->left->cost]);
-        if (border->right)
-            mpq_sub(cost, cost, p->exact[border->right->cost]);
-        if (status == TN_OK)
-            status = tn_strip_cost_number(strip, cost, &p->planes[at], error);
-        mpq_clear(cost);
-    }
-    *number = p->planes[at];
-    return status;
+    return ok ? keyed_cost(strip, &p->planes, house, border->left, border->right, number, error)
+              : tn_fail_memory(error);
 }
 
 /* ---- tiles */
