@@ -70,8 +70,9 @@ static void add_feature(const tn_kit *kit, feature *to, const tn_kit_box *box, c
                         uint32_t turns, const int32_t by[3])
 {
     int32_t a[3], b[3];
-    tn_turn_place(turns, box ? box->low : joint->at, a);
-    tn_turn_place(turns, box ? box->high : joint->at, b);
+    const int32_t *low = joint ? joint->at : box->low, *high = joint ? joint->at : box->high;
+    tn_turn_place(turns, low, a);
+    tn_turn_place(turns, high, b);
     for (int k = 0; k < 3; k++) {
         to->v[1 + k] = by[k] + (a[k] < b[k] ? a[k] : b[k]);
         to->v[4 + k] = by[k] + (a[k] < b[k] ? b[k] : a[k]);

@@ -40,7 +40,7 @@ static tn_status look(tn_plan_reader *reader, tn_read_column *column, size_t siz
 static tn_status read_head(tn_plan_reader *reader, tn_read_column *column, tn_page_head *head, tn_error *error)
 {
     uint64_t left = column->chunk.end - column->at;
-    const uint8_t *bytes;
+    const uint8_t *bytes = NULL;
     for (size_t most = HEAD_FIRST; most <= HEAD_MOST; most *= HEAD_MOST / HEAD_FIRST) {
         size_t size = left < most ? (size_t)left : most;
         tn_status status = look(reader, column, size, &bytes, error);
@@ -65,7 +65,7 @@ static tn_status read_head(tn_plan_reader *reader, tn_read_column *column, tn_pa
 static tn_status read_body(tn_plan_reader *reader, tn_read_column *column, const tn_page_head *head, tn_buffer *out,
                            tn_error *error)
 {
-    const uint8_t *bytes;
+    const uint8_t *bytes = NULL;
     size_t size = (size_t)head->size, packed = (size_t)head->packed;
     bool second = head->page == TN_PAGE_DATA_V2;
     uint64_t levels = second ? (uint64_t)head->levels[0] + (uint64_t)head->levels[1] : 0;

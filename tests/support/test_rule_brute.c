@@ -45,7 +45,7 @@ static bool tray_meets(const test_brute *brute, const test_rule *rule, bool reve
 /* exists i = c0 < c1 < ... < cn = j with M(pk, c(k-1), ck); an optional part may be left out */
 static bool parts(test_brute *brute, const test_rule *rule, bool reversed, uint32_t part, uint32_t i, uint32_t j)
 {
-    if (part == rule->part_count)
+    if (part == rule->part_count || part == TEST_PARTS_MAX)
         return i == j;
     if (rule->optional[part] && parts(brute, rule, reversed, part + 1, i, j))
         return true;

@@ -57,26 +57,35 @@ void tn_plan_vm_compare(tn_plan_vm *vm, tn_opcode opcode, const tn_sum *sum, uin
     }
 }
 
+/* Adds what a term is worth over the whole plan, in steps of its sum's unit. */
+static tn_status add_term(tn_plan_vm *vm, const tn_sum_term *term, int64_t *steps, tn_error *error)
+{
+    bool in = false;
+    tn_status status = tn_plan_vm_relation(vm, term->part, 0, vm->length, &in, error);
+    if (status != TN_OK)
+        return status;
+    const uint64_t *relation = tn_plan_vm_found(vm, term->part, false);
+    if (term->kind == TN_SUM_MATCHES)
+        *steps += in ? term->each : 0;
+    for (size_t k = 0; k < vm->length; k++) {
+        const uint64_t *row = relation + k * vm->words;
+        if (term->kind == TN_SUM_SINGLES && tn_relation_row_has(row, k + 1))
+            *steps += term->weight ? term->weight[vm->trays[k]] : term->each;
+        if (term->kind == TN_SUM_STARTS && tn_relation_row_next(row, k + 1, vm->words) != TN_NO_BIT)
+            *steps += term->each;
+    }
+    return TN_OK;
+}
+
 tn_status tn_plan_vm_value(tn_plan_vm *vm, uint32_t index, mpq_t value, tn_error *error)
 {
-    const tn_sum *sum;
+    const tn_sum *sum = NULL;
     tn_status status = tn_plan_vm_summed(vm, index, &sum, error);
-    int64_t steps = status == TN_OK ? sum->constant : 0;
-    for (uint32_t i = 0; status == TN_OK && i < sum->count; i++) {
-        const tn_sum_term *term = &sum->terms[i];
-        bool in;
-        status = tn_plan_vm_relation(vm, term->part, 0, vm->length, &in, error);
-        const uint64_t *relation = status == TN_OK ? tn_plan_vm_found(vm, term->part, false) : NULL;
-        if (relation && term->kind == TN_SUM_MATCHES)
-            steps += in ? term->each : 0;
-        for (size_t k = 0; relation && k < vm->length; k++) {
-            const uint64_t *row = relation + k * vm->words;
-            if (term->kind == TN_SUM_SINGLES && tn_relation_row_has(row, k + 1))
-                steps += term->weight ? term->weight[vm->trays[k]] : term->each;
-            if (term->kind == TN_SUM_STARTS && tn_relation_row_next(row, k + 1, vm->words) != TN_NO_BIT)
-                steps += term->each;
-        }
-    }
+    if (status != TN_OK)
+        return status;
+    int64_t steps = sum->constant;
+    for (uint32_t i = 0; status == TN_OK && i < sum->count; i++)
+        status = add_term(vm, &sum->terms[i], &steps, error);
     if (status != TN_OK)
         return status;
     mpz_set_si(mpq_numref(value), steps);
