@@ -7,12 +7,17 @@
 
 enum { ROUNDS = 16, CAREFUL = 48 /* corners up to which the best ear is looked for */ };
 
+/* What is known of a corner that has no ear: as long as the corners beside it stay, or only until another is cut off. */
+#define NO_EAR (-1.0)
+#define UNDECIDED (-2.0)
+
 typedef struct outline {
     const tn_grid *grid;
     int u, v;    /* seen along the third axis */
     bool turned; /* clockwise there */
     uint32_t *ring;
-    size_t count, capacity;
+    double *ears; /* of each corner: how round its ear is, NO_EAR or UNDECIDED */
+    size_t count, capacity, ear_capacity;
     uint32_t *triangles;
     uint32_t *cells;
     size_t triangle_count, triangle_capacity, cell_capacity;
@@ -68,32 +73,42 @@ static void sort_stops(const tn_grid *grid, tn_grid_stop *stops, tn_grid_stop *r
     memcpy(stops, room, count * sizeof *stops);
 }
 
-static size_t without_repeats(tn_grid_stop *stops, size_t count)
+/* Each vertex of a line once: `last` says on which line a vertex was seen last. */
+static size_t without_repeats(tn_grid_stop *stops, size_t count, uint32_t *last)
 {
     size_t kept = 0;
     for (size_t i = 0; i < count; i++)
-        if (kept == 0 || stops[kept - 1].vertex != stops[i].vertex)
+        if (last[stops[i].vertex] != stops[i].line) {
+            last[stops[i].vertex] = stops[i].line;
             stops[kept++] = stops[i];
+        }
     return kept;
+}
+
+/* Stops by their lines; first[l + 1] is where those of line l begin, and at the end where they end. */
+static void stops_by_line(const tn_grid *grid, size_t *first, tn_grid_stop *sorted)
+{
+    for (size_t i = 0; i < grid->stop_count; i++)
+        first[grid->stops[i].line + 2]++;
+    for (size_t l = 0; l < grid->line_count; l++)
+        first[l + 2] += first[l + 1];
+    for (size_t i = 0; i < grid->stop_count; i++)
+        sorted[first[grid->stops[i].line + 1]++] = grid->stops[i];
 }
 
 static bool gather_stops(tn_grid *grid)
 {
     size_t *first = calloc(grid->line_count + 2, sizeof *first), kept = 0;
+    uint32_t *last = malloc((grid->vertex_count + 1) * sizeof *last);
     tn_grid_stop *sorted = malloc((grid->stop_count + 1) * sizeof *sorted);
     tn_grid_stop *room = malloc((grid->stop_count + 1) * sizeof *room);
-    bool made = first && sorted && room;
+    bool made = first && last && sorted && room;
     if (made) {
-        for (size_t i = 0; i < grid->stop_count; i++)
-            first[grid->stops[i].line + 2]++;
-        for (size_t l = 0; l < grid->line_count; l++)
-            first[l + 2] += first[l + 1];
-        for (size_t i = 0; i < grid->stop_count; i++)
-            sorted[first[grid->stops[i].line + 1]++] = grid->stops[i];
+        memset(last, 0xff, grid->vertex_count * sizeof *last);
+        stops_by_line(grid, first, sorted);
         for (size_t l = 0; l < grid->line_count; l++) {
-            size_t begin = first[l], count = first[l + 1] - begin;
+            size_t begin = first[l], count = without_repeats(sorted + begin, first[l + 1] - begin, last);
             sort_stops(grid, sorted + begin, room, count);
-            count = without_repeats(sorted + begin, count);
             memmove(sorted + kept, sorted + begin, count * sizeof *sorted);
             first[l] = kept;
             kept += count;
@@ -101,6 +116,7 @@ static bool gather_stops(tn_grid *grid)
         first[grid->line_count] = kept;
     }
     free(room);
+    free(last);
     free(grid->line_stops);
     grid->line_stops = first;
     if (!made) {
@@ -250,12 +266,29 @@ static void trace(outline *o, const tn_ring *ring)
 
 /* ---- ears */
 
+static int64_t least(int64_t a, int64_t b, int64_t c)
+{
+    int64_t least = a < b ? a : b;
+    return c < least ? c : least;
+}
+
+static int64_t most(int64_t a, int64_t b, int64_t c)
+{
+    int64_t most = a > b ? a : b;
+    return c > most ? c : most;
+}
+
 static bool holds_other(const outline *o, size_t a, size_t b, size_t c)
 {
+    const tn_grid_vertex *vertices = o->grid->vertices;
     uint32_t p = o->ring[a], q = o->ring[b], r = o->ring[c];
+    const int64_t *at_p = vertices[p].at, *at_q = vertices[q].at, *at_r = vertices[r].at;
+    int64_t low_u = least(at_p[o->u], at_q[o->u], at_r[o->u]), high_u = most(at_p[o->u], at_q[o->u], at_r[o->u]);
+    int64_t low_v = least(at_p[o->v], at_q[o->v], at_r[o->v]), high_v = most(at_p[o->v], at_q[o->v], at_r[o->v]);
     for (size_t k = 0; k < o->count; k++) {
         uint32_t x = o->ring[k];
-        if (x == p || x == q || x == r)
+        int64_t u = vertices[x].at[o->u], v = vertices[x].at[o->v];
+        if (u < low_u || u > high_u || v < low_v || v > high_v || x == p || x == q || x == r)
             continue;
         if (area_twice(o, p, q, x) >= 0 && area_twice(o, q, r, x) >= 0 && area_twice(o, r, p, x) >= 0)
             return true;
@@ -270,35 +303,55 @@ static double length_square(const outline *o, uint32_t a, uint32_t b)
     return du * du + dv * dv;
 }
 
-/* How far the triangle is from being a line: the square of the sine of its smallest angle. */
-static double roundness(const outline *o, uint32_t a, uint32_t b, uint32_t c)
+/* How far a triangle of an area is from being a line: the square of the sine of its smallest angle. */
+static double roundness(const outline *o, tn_int128 twice, uint32_t a, uint32_t b, uint32_t c)
 {
-    double area = (double)area_twice(o, a, b, c), x = length_square(o, a, b), y = length_square(o, b, c),
-           z = length_square(o, c, a);
+    double area = (double)twice, x = length_square(o, a, b), y = length_square(o, b, c), z = length_square(o, c, a);
     double least = fmin(x, fmin(y, z));
     return area * area / (x * y * z / least);
 }
 
-/* The next ear from a corner on; among few corners the roundest. o->count where there is none. An edge that is to be
- * split is no diagonal: only outlines are split. */
-static size_t find_ear(const outline *o, size_t from)
+/* An edge that is to be split is no diagonal: only outlines are split. */
+static double judge_ear(const outline *o, size_t k)
+{
+    size_t before = k ? k - 1 : o->count - 1, after = k + 1 < o->count ? k + 1 : 0;
+    uint32_t a = o->ring[before], b = o->ring[k], c = o->ring[after];
+    tn_int128 area = area_twice(o, a, b, c);
+    if (area <= 0)
+        return NO_EAR;
+    if (holds_other(o, before, k, after) || (o->count > 3 && split_of(o->grid, a, c)))
+        return UNDECIDED;
+    return roundness(o, area, a, b, c);
+}
+
+/* The next ear from a corner on; among few corners the roundest. o->count where there is none. */
+static size_t find_ear(outline *o, size_t from)
 {
     size_t best = o->count;
     double most = -1;
-    for (size_t i = 0; i < o->count; i++) {
-        size_t k = (from + i) % o->count, before = (k + o->count - 1) % o->count, after = (k + 1) % o->count;
-        if (area_twice(o, o->ring[before], o->ring[k], o->ring[after]) <= 0 || holds_other(o, before, k, after) ||
-            (o->count > 3 && split_of(o->grid, o->ring[before], o->ring[after])))
+    for (size_t i = 0, k = from; i < o->count; i++, k = k + 1 < o->count ? k + 1 : 0) {
+        if (o->ears[k] == UNDECIDED)
+            o->ears[k] = judge_ear(o, k);
+        if (o->ears[k] < 0)
             continue;
         if (o->count > CAREFUL)
             return k;
-        double round = roundness(o, o->ring[before], o->ring[k], o->ring[after]);
-        if (round > most) {
-            most = round;
+        if (o->ears[k] > most) {
+            most = o->ears[k];
             best = k;
         }
     }
     return best;
+}
+
+static void cut_ear(outline *o, size_t ear)
+{
+    size_t behind = o->count - ear - 1;
+    memmove(o->ring + ear, o->ring + ear + 1, behind * sizeof *o->ring);
+    memmove(o->ears + ear, o->ears + ear + 1, behind * sizeof *o->ears);
+    o->count--;
+    o->ears[ear ? ear - 1 : o->count - 1] = UNDECIDED;
+    o->ears[ear < o->count ? ear : 0] = UNDECIDED;
 }
 
 static void add_triangle(outline *o, uint32_t cell, bool turn, uint32_t a, uint32_t b, uint32_t c)
@@ -321,14 +374,19 @@ static bool cut_ears(outline *o, const tn_ring *ring)
 {
     bool turn = ring->face != TN_CUT_BOX_CAP && ring->face % 2 == 0;
     size_t at = 0;
+    if (!tn_array_reserve(&o->ears, &o->ear_capacity, 0, o->count, sizeof *o->ears)) {
+        o->failed = true;
+        return false;
+    }
+    for (size_t k = 0; k < o->count; k++)
+        o->ears[k] = UNDECIDED;
     while (o->count >= 3) {
         size_t ear = find_ear(o, at);
         if (ear == o->count)
             return false;
         size_t before = (ear + o->count - 1) % o->count, after = (ear + 1) % o->count;
         add_triangle(o, ring->cell, turn, o->ring[before], o->ring[ear], o->ring[after]);
-        memmove(o->ring + ear, o->ring + ear + 1, (o->count - ear - 1) * sizeof *o->ring);
-        o->count--;
+        cut_ear(o, ear);
         at = o->count ? (ear + 1) % o->count : 0;
         if (o->count == 2)
             break;
@@ -404,6 +462,7 @@ tn_status tn_grid_triangles(tn_grid *grid, tn_mesh *mesh, tn_error *error)
     if (status == TN_OK && (!done || stuck))
         status = tn_union_too_fine(error);
     free(o.ring);
+    free(o.ears);
     if (status != TN_OK) {
         free(o.triangles);
         free(o.cells);
