@@ -168,7 +168,10 @@ bool tn_same_power(tn_check *check, tn_sum_amount left, tn_span left_span, tn_su
         tn_report(check->diagnostics, E_DIMENSIONS, right_span, "%s cannot be %s %s",
                   tn_power_name(right.power, other, sizeof other), verb, tn_power_name(left.power, one, sizeof one));
     tn_note(check->diagnostics, d, &left_span, "this is %s", one);
-    if (left.power == 2 || right.power == 2)
+    if (left.power == 0 && right.power == 2)
+        tn_help(check->diagnostics, d,
+                "write this without a unit; divided by `1m2` or `1sf` an area is a plain number");
+    else if (left.power == 2 || right.power == 2)
         tn_help(check->diagnostics, d,
                 "areas are written `120m2` or `96ft2`; divide by `1m2` or `1sf` for a plain number");
     else

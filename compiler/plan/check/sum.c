@@ -383,16 +383,17 @@ void tn_check_comparison(tn_check *check, tn_ast_expr *expr)
         good &= eval(check, part, &sides[count++]);
     if (!good)
         return;
-    if (!few_matches(check, expr, sides, count) || !of_plans(check, expr, sides, count))
+    if (!few_matches(check, expr, sides, count))
         return;
-    if (expr->kind == TN_EXPR_COMPARE) {
-        expr->sum = difference(check, expr, left, right, &sides[0], &sides[1]);
-        expr->whole = expr->sum && expr->sum->whole;
+    /* First the dimensions: what cannot be compared at all is said before what cannot be compared here. */
+    bool range = expr->kind != TN_EXPR_COMPARE;
+    tn_checked_sum *low = difference(check, expr, left, middle, &sides[0], &sides[1]),
+                   *high = range ? difference(check, expr, left, right, &sides[0], &sides[2]) : NULL;
+    if (!low || (range && !high) || !of_plans(check, expr, sides, count))
         return;
-    }
-    expr->sum = difference(check, expr, left, middle, &sides[0], &sides[1]);
-    expr->high = difference(check, expr, left, right, &sides[0], &sides[2]);
-    expr->whole = expr->sum && expr->sum->whole;
+    expr->sum = low;
+    expr->high = high;
+    expr->whole = low->whole;
 }
 
 void tn_check_plan_measure(tn_check *check, tn_checked_rule *measure)

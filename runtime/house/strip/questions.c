@@ -185,8 +185,13 @@ static tn_status see(void *context, const tn_instruction *op, tn_relation_use us
     tn_strip_questions *q = &a->strip->questions;
     uint32_t of = 0, radix = 1, first = (uint32_t)op->first;
     bool counted = op->opcode == TN_OP_ROOMS, late = op->opcode == TN_OP_SOME_ROOM || op->opcode == TN_OP_APART;
-    if ((late && use != TN_USE_SOMEWHERE) || (counted && use != TN_USE_WHOLE))
-        return tn_strip_limit(a->strip, a->name, "asks where in the row a room or a walk is", error);
+    if ((late && use != TN_USE_SOMEWHERE) || (counted && use != TN_USE_WHOLE)) {
+        tn_strip_limit(a->strip, a->name, "asks where in the row a room or a walk is", error);
+        tn_error_help(error,
+                      "ask where cells are, as in `neighbour(cell(...), cell(...))`, or whether they meet, as in "
+                      "`touch(cell(...), cell(...))`; or ask about one plan (--plan PLAN or '#P')");
+        return TN_LIMIT;
+    }
     tn_status status = TN_OK;
     switch (op->opcode) {
     case TN_OP_SOME_ROOM:
