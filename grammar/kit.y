@@ -109,6 +109,8 @@ statements
                                             { yyerrok; tn_kit_lost(parse); }
     | statements MODEL NAME doc OPEN_BRACE lines error CLOSE_BRACE
                                             { yyerrok; tn_kit_lost(parse); }
+    | statements TEST NAME OPEN_BRACE error CLOSE_BRACE
+                                            { yyerrok; tn_kit_lost(parse); }
     | statements error END                        { yyerrok; tn_kit_lost(parse); }
     | statements error CLOSE_BRACE                { yyerrok; tn_kit_lost(parse); }
     ;
@@ -422,8 +424,23 @@ static tn_expression *of_two(tn_growth_parse *parse, tn_opcode op, tn_span span,
     return tn_expression_of(parse->arena, op, span, a, b, NULL);
 }
 
-static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
+static bool starts_statement(yysymbol_kind_t found)
 {
+    switch (found) {
+    case YYSYMBOL_USE: case YYSYMBOL_UNIT: case YYSYMBOL_LENGTH: case YYSYMBOL_CONNECTOR: case YYSYMBOL_PART: case YYSYMBOL_SPACE:
+    case YYSYMBOL_RULE: case YYSYMBOL_MODEL: case YYSYMBOL_TEST: case YYSYMBOL_FILL: case YYSYMBOL_MASS: case YYSYMBOL_PRICE:
+    case YYSYMBOL_INSIDE: case YYSYMBOL_START: case YYSYMBOL_COLOUR: case YYSYMBOL_REQUIRE: case YYSYMBOL_MINIMIZE:
+    case YYSYMBOL_MAXIMIZE: case YYSYMBOL_SEARCH: case YYSYMBOL_SYMMETRY: case YYSYMBOL_STOCK: case YYSYMBOL_ORDER: case YYSYMBOL_STEPS:
+        return true;
+    default:
+        return false;
+    }
+}
+
+static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before, bool may_end)
+{
+    if (may_end && starts_statement(found))
+        return "write `;` before it: each statement ends with one";
     switch (before) {
     case YYSYMBOL_USE: return "write the file's path or name in quotes: `use \"bricks\";`";
     case YYSYMBOL_UNIT: return "write a cell's three sides: `unit 10 x 8 x 10;`";
@@ -446,6 +463,10 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
     case YYSYMBOL_WITH: return "write the rule that goes on there: `3005 with wall`";
     default: break;
     }
+    if (before == YYSYMBOL_CLOSE && (found == YYSYMBOL_WITH || found == YYSYMBOL_IN || found == YYSYMBOL_STOP))
+        return "colours, `with` and `stop` stand behind each part, inside the parentheses: `(3004 in 71 with wall [0.8] | 3005 [0.2])`";
+    if (found == YYSYMBOL_EXPECT)
+        return "a test has one `expect`; its conditions have commas between them: `expect components = 1, floating = 0;`";
     if (found == YYSYMBOL_OPEN_BRACKET)
         return "parts that are drawn by weight stand in parentheses, each with its weight: `(3004 [0.8] | 3005 [0.2])`";
     if (found == YYSYMBOL_CODE)
@@ -471,10 +492,13 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *p
     int count = yypcontext_expected_tokens(context, kinds, MOST);
     if (count < 0)
         return count;
-    for (int i = 0; i < count; i++)
+    bool may_end = false;
+    for (int i = 0; i < count; i++) {
         expected[i] = yysymbol_name(kinds[i]);
+        may_end |= kinds[i] == YYSYMBOL_END;
+    }
     tn_growth_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
-                           (size_t)count, parse->asks ? "write conditions, as `components = 1, count(3005) <= 30`" : likely_fix(found, YYTRANSLATE(parse->token_before)));
+                           (size_t)count, parse->asks ? "write conditions, as `components = 1, count(3005) <= 30`" : likely_fix(found, YYTRANSLATE(parse->token_before), may_end));
     return 0;
 }
 

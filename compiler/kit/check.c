@@ -79,6 +79,8 @@ static void take_length(tn_kit *kit, const tn_kit_node *node)
     int64_t *value = TN_NEW(kit->arena, int64_t);
     if (value && tn_kit_measure(kit, &node->size[0], value))
         define(kit, &kit->lengths, node, "the length", value);
+    else
+        kit->names_lost = true;
 }
 
 static void take_type(tn_kit *kit, const tn_kit_node *node)
@@ -224,6 +226,7 @@ bool tn_check_kit(tn_kit *kit, const tn_imports *imports)
     for (size_t u = 0; u < imports->count; u++) {
         const tn_kit_file *file = imports->units[u]->tree;
         kit->damaged |= file->damaged;
+        kit->names_lost |= file->damaged;
         for (const tn_kit_node *node = file->first; node; node = node->next)
             take(kit, node, u + 1 < imports->count);
     }

@@ -51,6 +51,7 @@ typedef struct tn_kit_part {
     tn_kit_joint *joints;
     tn_kit_slope *slopes;
     uint32_t box_count, joint_count, slope_count, index;
+    bool wrong; /* errors in it were reported: connectors may be missing */
     struct tn_kit_part *next;
 } tn_kit_part;
 
@@ -149,7 +150,7 @@ typedef struct tn_kit {
     size_t mask_words;
     uint32_t mask_count, masks_placed; /* those that models have come first */
     uint32_t counted_count, shapes;    /* shapes: of the space at hand, each as often as it is named */
-    bool damaged, out_of_memory;
+    bool damaged, names_lost, out_of_memory; /* names_lost: some may be missing because of errors that were reported */
 } tn_kit;
 
 /* Checks the files of all units. False where there were errors. */

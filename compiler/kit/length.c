@@ -100,6 +100,17 @@ static void write_ldu(int64_t value, char text[32])
         end[-1] = '\0';
 }
 
+/* The largest cell of which both a cell and a length are whole numbers, all in millionths of an LDU. */
+static int64_t common_cell(int64_t cell, int64_t length)
+{
+    while (length) {
+        int64_t rest = cell % length;
+        cell = length;
+        length = rest;
+    }
+    return llabs(cell);
+}
+
 bool tn_kit_cells(tn_kit *kit, tn_span span, int64_t length, int axis, int halves, const char *what, int32_t *cells)
 {
     static const char *const sides[] = {"wide", "high", "deep"};
@@ -117,7 +128,18 @@ bool tn_kit_cells(tn_kit *kit, tn_span span, int64_t length, int axis, int halve
     if (kit->unit_node)
         tn_note(kit->diagnostics, d, &kit->unit_node->span, "a cell is %s LDU %s, and %s %s LDU", cell, sides[axis],
                 what, at);
-    tn_help(kit->diagnostics, d, length % unit ? "choose a smaller unit, or another length" : "make it smaller");
+    int64_t common = common_cell(kit->unit[axis], length / halves);
+    if (length % unit == 0) {
+        tn_help(kit->diagnostics, d, "make it smaller");
+    } else if (length % halves || common < kit->unit[axis] / 32) { /* no cell that somebody would want */
+        tn_help(kit->diagnostics, d, "choose another length");
+    } else {
+        char fits[32], mm[32];
+        write_ldu(common, fits);
+        write_ldu(common * 2 / 5, mm);
+        tn_help(kit->diagnostics, d, "choose another length; or a cell %s LDU (%s mm) %s, on which this falls", fits,
+                mm, sides[axis]);
+    }
     return false;
 }
 
@@ -151,7 +173,7 @@ bool tn_kit_whole(tn_kit *kit, const tn_kit_length *number, int64_t low, int64_t
 void tn_kit_unknown(tn_kit *kit, const tn_names *names, const char *kind, tn_span span, const char *wrong,
                     const char *otherwise)
 {
-    if (kit->damaged)
+    if (kit->names_lost)
         return;
     tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_UNKNOWN, span, "there is no %s `%.100s`", kind, wrong);
     tn_kit_suggest(kit, d, names, wrong, otherwise);

@@ -231,6 +231,7 @@ void tn_kit_check_part(tn_kit *kit, tn_kit_part *part)
         else
             *(node->kind == TN_KIT_MASS ? &part->mass : &part->price) = read_amount(kit, node);
     }
-    if (kit->diagnostics->error_count == errors && !kit->damaged)
+    part->wrong = kit->diagnostics->error_count > errors;
+    if (!part->wrong && !kit->damaged)
         check_boxes(kit, part);
 }

@@ -225,7 +225,8 @@ static bool check_placed(tn_kit *kit, const tn_kit_node *placed, bool first)
     int64_t colour;
     int32_t at[3];
     uint32_t turns;
-    if (!part_of(kit, placed)) {
+    bool known = part_of(kit, placed) != NULL;
+    if (!known) {
         tn_kit_unknown(kit, &kit->parts, "part", placed->name.span, placed->name.text,
                        "parts are told by `part 3005 { ... }`, or in a file that is used: `use \"bricks\";`");
     }
@@ -249,7 +250,7 @@ static bool check_placed(tn_kit *kit, const tn_kit_node *placed, bool first)
                 "leave out `at` and `turn`: only the second and later parts of an alternative in braces have them");
     }
     tn_kit_offset(kit, placed, at, &turns);
-    return kit->diagnostics->error_count == errors;
+    return known && kit->diagnostics->error_count == errors; /* of names that errors took away nothing is said */
 }
 
 /* Parts of one alternative may not be in each other's way. */
@@ -299,7 +300,7 @@ static void check_places(tn_kit *kit, const tn_kit_rule *rule, const tn_kit_node
     if (!right || !places->inner.first || tn_arena_failed(kit->arena))
         return;
     check_overlap(kit, places);
-    if (kit->damaged || joins_here(kit, rule, places->inner.first))
+    if (kit->damaged || part_of(kit, places->inner.first)->wrong || joins_here(kit, rule, places->inner.first))
         return;
     tn_diagnostic *d = tn_report(kit->diagnostics, W_KIT_JOINS_NOTHING, places->inner.first->name.span,
                                  "part %.100s joins none of the connectors of rule %.100s",
