@@ -290,4 +290,15 @@ golden count_by_cost_json "tartan count priced.plan --library barns --by offer -
 golden count_by_cost_across "tartan count priced.plan --library across --by price"
 golden count_by_cost_narrow 'sed "s/eaves 1.6./eaves 6'\''/" priced.plan > $scratch/wide.plan && tartan count $scratch/wide.plan --library barns --by price'
 golden count_by_unknown "tartan count house-measures.plan --library cottages --by bedroom"
+# Windows of voids count for the room below. Those over rooms that no clause asks for are not gone through.
+bays="3m room:6m open:2m | 6m room:6m open:2m"
+"$TARTAN" enumerate "$files/clerestory.plan" --library all --plan "$bays" >"$scratch/bays"
+is 'houses under voids that are not dark, one by one' \
+    "$("$TARTAN" count "$files/clerestory.plan" --library light --plan "$bays" | awk '$1 == "houses" { print $2 }')" \
+    "$("$TARTAN" match "$files/clerestory.plan" "$scratch/bays" --rule dark --format any | grep -c 0)"
+long=$(printf '3m none open:2m | %.0s' 1 2 3 4 5 6 7 8 9 10 11)"3m room:6m open:2m"
+"$TARTAN" sample "$files/clerestory.plan" 1 --library light --plan "$long" --seed 1 >"$scratch/bays"
+is 'a house of many voids and its rank' \
+    "$("$TARTAN" unrank "$files/clerestory.plan" "$("$TARTAN" rank "$files/clerestory.plan" --library light "$(cat "$scratch/bays")")" --library light)" \
+    "$(cat "$scratch/bays")"
 golden count_long_plan "tartan count row-houses --library row-houses --plan '#1' && tartan sample row-houses 1 --library row-houses --seed 5"

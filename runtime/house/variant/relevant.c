@@ -50,12 +50,19 @@ static tn_outcome ask(const void *context, const tn_instruction *op)
     return TN_OUTCOME_OPEN;
 }
 
-/* A void belongs to the room of the cell below: its function is not asked for, so the room is open. */
+/* A void has no function: it belongs to the room of the first cell below it that is none. */
+static const tn_cell *floor_below(const tn_cell *cell)
+{
+    while (cell->open) /* the cells of a stack follow one another upwards, and the lowest is no void */
+        cell--;
+    return cell;
+}
+
 bool tn_face_relevant(const tn_house *house, const tn_room_questions *questions, const tn_face *face)
 {
-    const tn_cell *cell = &house->cells[face->first];
-    if (face->relation != TN_FACE_OUTSIDE || cell->open)
+    if (face->relation != TN_FACE_OUTSIDE)
         return true;
+    const tn_cell *cell = floor_below(&house->cells[face->first]);
     tn_known_cell known = {house, cell};
     for (size_t i = 0; i < questions->count; i++)
         if (tn_outcome_decide(house->form->module, questions->functions[i], ask, &known) == TN_OUTCOME_OPEN)

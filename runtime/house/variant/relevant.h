@@ -3,6 +3,7 @@
  * An outside face is never walked through and never open, so clauses see what is in it only through rooms:
  * `room(living, not by window)`. Where no such question is open about the room of its cell (the cell is no living
  * room), all of the face's kinds are the same to the clauses: they only change which tiles fit into that one cell.
+ * A void is of the room below it.
  */
 #ifndef TARTAN_HOUSE_RELEVANT_H
 #define TARTAN_HOUSE_RELEVANT_H
