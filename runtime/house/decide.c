@@ -1,4 +1,8 @@
 /* Decides on cells and sections by running their code, and from that what may be in a cell or a face. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
 #include "runtime/house/house.h"
 #include "runtime/module/code.h"
 
@@ -100,10 +104,61 @@ bool tn_decision_run(const tn_module *module, uint32_t function, tn_decision_ask
     }
 }
 
+/* Where the answer is kept; NULL where it is not. */
+static uint8_t *known_answer(const tn_house *house, uint32_t function, const tn_cell *cell)
+{
+    const tn_house_known *known = house->known;
+    if (!known || !cell || known->place[function] == TN_NO_RECORD)
+        return NULL;
+    size_t of = cell->function == TN_NO_FUNCTION ? known->functions : cell->function;
+    size_t row = (size_t)(cell - house->cells) * (known->functions + 1) + of;
+    return &known->answers[row * known->decisions + known->place[function]];
+}
+
 bool tn_house_decide(const tn_house *house, uint32_t function, const tn_cell *cell)
 {
+    enum { UNKNOWN, NO, YES };
     tn_asked_cell asked = {house, cell};
-    return tn_decision_run(house->form->module, function, ask_cell, &asked);
+    uint8_t *answer = known_answer(house, function, cell);
+    if (answer && *answer != UNKNOWN)
+        return *answer == YES;
+    bool decided = tn_decision_run(house->form->module, function, ask_cell, &asked);
+    if (answer)
+        *answer = decided ? YES : NO;
+    return decided;
+}
+
+tn_status tn_house_known_begin(const tn_house_form *form, tn_house_known *known, tn_error *error)
+{
+    const tn_module *module = form->module;
+    *known = (tn_house_known){.functions = tn_form_functions(form)};
+    known->place = malloc((module->FUNCTION_count + 1) * sizeof *known->place);
+    if (!known->place)
+        return tn_fail_memory(error);
+    for (size_t f = 0; f < module->FUNCTION_count; f++)
+        known->place[f] =
+            module->FUNCTION_records[f].kind == TN_FUNCTION_CELL ? (uint32_t)known->decisions++ : TN_NO_RECORD;
+    return TN_OK;
+}
+
+void tn_house_known_clear(tn_house_known *known)
+{
+    free(known->place);
+    free(known->answers);
+    *known = (tn_house_known){0};
+}
+
+tn_status tn_house_known_use(tn_house_known *known, tn_house *house, tn_error *error)
+{
+    size_t of_cell = (known->functions + 1) * known->decisions;
+    house->known = NULL;
+    if (of_cell == 0 || house->cell_count > TN_KNOWN_ANSWERS_MAX / of_cell)
+        return TN_OK;
+    if (!tn_array_reserve(&known->answers, &known->room, 0, house->cell_count * of_cell + 1, sizeof *known->answers))
+        return tn_fail_memory(error);
+    memset(known->answers, 0, house->cell_count * of_cell);
+    house->known = known;
+    return TN_OK;
 }
 
 bool tn_house_section_stands(const tn_house *house)

@@ -44,6 +44,16 @@ typedef struct tn_face {
     uint32_t kind; /* what is in it: a tn_face_kind or an opening */
 } tn_face;
 
+/* What functions of kind CELL have decided on the cells of one house in one section, for each function that a cell may
+ * have. A house that is looked at many times borrows it. Owns its arrays. */
+#define TN_KNOWN_ANSWERS_MAX ((size_t)1 << 20)
+typedef struct tn_house_known {
+    uint32_t *place; /* [functions of the module] of an answer; TN_NO_RECORD: its answers are not kept */
+    size_t decisions, functions;
+    uint8_t *answers; /* [cells][functions, and none][decisions]: 0 where it is not known yet */
+    size_t room;
+} tn_house_known;
+
 typedef struct tn_house {
     const tn_house_form *form;
     tn_tray *trays;
@@ -54,6 +64,7 @@ typedef struct tn_house {
     uint32_t *tray_first; /* [length + 1] a tray's first cell */
     tn_face *faces;       /* by first cell; then left, back, front, right, above; then y */
     size_t face_count, face_room;
+    tn_house_known *known; /* or NULL */
 } tn_house;
 
 /* Stands a plan up: its cells and faces, without functions and with walls everywhere. The trays are copied. */
@@ -70,6 +81,14 @@ const tn_shape_record *tn_house_shape(const tn_house *house, uint32_t zone, tn_c
 
 /* What a function of kind CELL decides on a cell, or of kind SECTION on the house (cell NULL). */
 bool tn_house_decide(const tn_house *house, uint32_t function, const tn_cell *cell);
+
+/* Begins to keep answers for houses of a form. Clear it in any case. */
+tn_status tn_house_known_begin(const tn_house_form *form, tn_house_known *known, tn_error *error);
+void tn_house_known_clear(tn_house_known *known);
+
+/* Forgets the answers, and keeps those for this house from now on; not where they are more than TN_KNOWN_ANSWERS_MAX.
+ * Until the next one its plan, its section and its cells must stay as they are, but for their functions. */
+tn_status tn_house_known_use(tn_house_known *known, tn_house *house, tn_error *error);
 
 /* Runs such a function, asking what each instruction says that has no inputs. */
 typedef bool tn_decision_ask(const void *context, const tn_instruction *instruction);

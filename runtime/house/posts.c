@@ -1,5 +1,6 @@
 /* Finds where the walls of a storey end, and how thick the post there is. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/house/house.h"
 
@@ -11,21 +12,21 @@ static int compare(const void *a, const void *b)
     return (p->y > q->y) - (p->y < q->y);
 }
 
-/* Ends at one point become one. */
-static void join(tn_posts *posts)
+/* Ends at one point become one. Faces go by trays, so that a new one belongs near the last. */
+static void add_end(tn_posts *posts, const tn_post *end)
 {
-    size_t kept = 0;
-    qsort(posts->items, posts->count, sizeof *posts->items, compare);
-    for (size_t i = 0; i < posts->count; i++) {
-        tn_post *last = kept ? &posts->items[kept - 1] : NULL, next = posts->items[i];
-        if (!last || compare(last, &next) != 0) {
-            posts->items[kept++] = next;
-            continue;
-        }
-        last->thick_x = next.thick_x > last->thick_x ? next.thick_x : last->thick_x;
-        last->thick_y = next.thick_y > last->thick_y ? next.thick_y : last->thick_y;
+    size_t at = posts->count;
+    while (at > 0 && compare(&posts->items[at - 1], end) > 0)
+        at--;
+    tn_post *last = at > 0 ? &posts->items[at - 1] : NULL;
+    if (!last || compare(last, end) != 0) {
+        memmove(&posts->items[at + 1], &posts->items[at], (posts->count - at) * sizeof *posts->items);
+        posts->items[at] = *end;
+        posts->count++;
+        return;
     }
-    posts->count = kept;
+    last->thick_x = end->thick_x > last->thick_x ? end->thick_x : last->thick_x;
+    last->thick_y = end->thick_y > last->thick_y ? end->thick_y : last->thick_y;
 }
 
 tn_status tn_house_posts(const tn_house *house, uint32_t storey, tn_posts *posts, tn_error *error)
@@ -40,13 +41,11 @@ tn_status tn_house_posts(const tn_house *house, uint32_t storey, tn_posts *posts
             continue;
         bool in_y = face->at.x0 == face->at.x1;
         tn_post end = {face->at.x0, face->at.y0, in_y ? thick : 0, in_y ? 0 : thick};
-        posts->items[posts->count++] = end;
+        add_end(posts, &end);
         end.x = face->at.x1;
         end.y = face->at.y1;
-        posts->items[posts->count++] = end;
+        add_end(posts, &end);
     }
-    if (posts->count)
-        join(posts);
     return TN_OK;
 }
 

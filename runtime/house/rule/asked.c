@@ -191,7 +191,10 @@ static tn_status answer(void *context, const tn_instruction *op, uint64_t *relat
     tn_house_rules *rules = context;
     const tn_house *house = rules->house;
     uint32_t first = (uint32_t)op->first;
-    (void)error;
+    bool of_rooms = op->opcode == TN_OP_SOME_ROOM || op->opcode == TN_OP_ROOMS;
+    tn_status status = of_rooms ? tn_rooms_gather(rules, error) : TN_OK;
+    if (status != TN_OK)
+        return status;
     switch (op->opcode) {
     case TN_OP_SOME_CELL:
         some_cell(house, first, relation, words);
@@ -272,8 +275,7 @@ tn_status tn_house_rules_start(tn_house_rules *rules, const tn_house *house, tn_
 {
     rules->house = house;
     tn_status status = make_room(rules, house, error);
-    if (status == TN_OK)
-        status = tn_rooms_gather(rules, error);
+    rules->gathered = false;
     if (status == TN_OK)
         status = tn_plan_vm_plan(rules->vm, house->trays, house->length, error);
     if (status == TN_OK)

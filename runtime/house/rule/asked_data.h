@@ -16,6 +16,7 @@ typedef struct tn_room_span {
 struct tn_house_rules {
     const tn_house *house;
     tn_plan_vm *vm;
+    bool gathered;     /* the rooms are known */
     uint32_t *room_of; /* each cell's */
     tn_room_span *rooms;
     size_t room_count;
@@ -26,6 +27,7 @@ struct tn_house_rules {
 };
 
 /* ---- asked_rooms.c */
+/* The rooms of the house, if they are not known. */
 tn_status tn_rooms_gather(tn_house_rules *rules, tn_error *error);
 
 /* ---- asked.c */

@@ -6,6 +6,8 @@
 tn_status tn_rooms_gather(tn_house_rules *rules, tn_error *error)
 {
     const tn_house *house = rules->house;
+    if (rules->gathered)
+        return TN_OK;
     free(rules->room_of);
     rules->room_of = NULL;
     rules->room_count = 0;
@@ -24,6 +26,7 @@ tn_status tn_rooms_gather(tn_house_rules *rules, tn_error *error)
         room->cells += !cell->open;
         room->area += cell->open ? 0 : tn_cell_area(cell);
     }
+    rules->gathered = status == TN_OK;
     return status;
 }
 

@@ -35,7 +35,9 @@ tn_status tn_house_rules_measure(tn_house_rules *rules, tn_house_measured measur
                                  tn_error *error)
 {
     const tn_module *module = rules->house->form->module;
-    tn_status status = tn_plan_vm_value(rules->vm, measure.sum, value, error);
+    tn_status status = tn_rooms_gather(rules, error);
+    if (status == TN_OK)
+        status = tn_plan_vm_value(rules->vm, measure.sum, value, error);
     mpq_set_ui(cost, 0, 1);
     for (uint32_t i = 0; status == TN_OK && i < measure.term_count; i++) {
         const tn_house_term_record *term = &module->HOUSE_TERM_records[measure.term_first + i];

@@ -25,7 +25,7 @@ static tn_status see_cells(const witnessing *w, tn_witness found, uint32_t decid
 
 static tn_status see_rooms(const witnessing *w, tn_witness found, uint32_t decides, tn_error *error)
 {
-    tn_status status = TN_OK;
+    tn_status status = tn_rooms_gather(w->rules, error);
     for (size_t r = 0; status == TN_OK && r < w->rules->room_count; r++) {
         found.first = w->rules->rooms[r].room;
         if (tn_room_decide(w->rules, decides, &w->rules->rooms[r]))

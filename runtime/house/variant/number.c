@@ -130,6 +130,7 @@ tn_status tn_house_variants_at(tn_house_variants *v, const tn_tray *trays, size_
         return status;
     if (found) {
         *house = v->house;
+        house->known = NULL;
         v->house = (tn_house){0};
         return TN_OK;
     }

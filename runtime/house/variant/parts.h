@@ -18,6 +18,13 @@ typedef struct tn_wheels {
     size_t count, room, choice_count, choice_room;
 } tn_wheels;
 
+/* What may be in a face when its cells have these functions. count: 0 where that is not known. */
+enum { TN_KNOWN_KINDS_MAX = 6 }; /* of a face with more it is found out each time */
+typedef struct tn_known_face {
+    uint32_t first, second; /* functions; second: TN_NO_FUNCTION outside */
+    uint32_t count, kinds[TN_KNOWN_KINDS_MAX];
+} tn_known_face;
+
 struct tn_house_variants {
     const tn_house_form *form;
     const tn_house_library_record *library;
@@ -28,6 +35,8 @@ struct tn_house_variants {
     uint64_t work_limit, work;
     uint64_t *runs; /* of each clause, on the plan at hand: the dearest is named where the work is too much */
     tn_house house;
+    tn_house_known known;       /* of that house's cells */
+    tn_known_face *known_faces; /* [faces] */
     tn_wheels functions, faces;
     size_t faces_set; /* of the wheels of faces, how many at the beginning are set while those after them are counted */
     tn_wheels shared, own; /* those of `faces` that clauses can depend on, and the others, by their cell: count.c */

@@ -120,6 +120,26 @@ static tn_status count_tiles(tn_house_variants *v, bool *fit, tn_error *error)
 
 /* ---- stages */
 
+/* What may be in a face depends on its cells alone: most of them have the functions that they had the last time. */
+static size_t face_options(tn_house_variants *v, size_t i, uint32_t kinds[TN_FACE_KINDS_MAX])
+{
+    const tn_face *face = &v->house.faces[i];
+    tn_known_face *known = &v->known_faces[i];
+    uint32_t first = v->house.cells[face->first].function;
+    uint32_t second = face->second == TN_NO_CELL ? TN_NO_FUNCTION : v->house.cells[face->second].function;
+    if (known->count > 0 && known->first == first && known->second == second) {
+        memcpy(kinds, known->kinds, known->count * sizeof *kinds);
+        return known->count;
+    }
+    size_t count = tn_face_options(&v->house, face, kinds);
+    *known = (tn_known_face){.first = first, .second = second};
+    if (count <= TN_KNOWN_KINDS_MAX) {
+        known->count = (uint32_t)count;
+        memcpy(known->kinds, kinds, count * sizeof *kinds);
+    }
+    return count;
+}
+
 tn_status tn_variants_set_faces(tn_house_variants *v, tn_error *error)
 {
     uint32_t kinds[TN_FACE_KINDS_MAX];
@@ -127,7 +147,7 @@ tn_status tn_variants_set_faces(tn_house_variants *v, tn_error *error)
     tn_wheels_clear(&v->faces);
     v->faces_set = 0;
     for (uint32_t i = 0; status == TN_OK && i < v->house.face_count; i++) {
-        size_t count = tn_face_options(&v->house, &v->house.faces[i], kinds);
+        size_t count = face_options(v, i, kinds);
         v->house.faces[i].kind = kinds[0];
         if (count > 1)
             status = tn_wheels_add(&v->faces, i, kinds, (uint32_t)count, error);
@@ -277,13 +297,25 @@ static void begin_work(tn_house_variants *v)
     memset(v->runs, 0, v->library->clause_count * sizeof *v->runs);
 }
 
+static tn_status stand(tn_house_variants *v, const tn_tray *trays, size_t length, const uint32_t *shapes,
+                       tn_error *error)
+{
+    tn_house_clear(&v->house);
+    tn_status status = tn_house_stand(v->form, trays, length, shapes, &v->house, error);
+    if (status == TN_OK && !tn_array_resize((void **)&v->known_faces, v->house.face_count + 1, sizeof *v->known_faces))
+        return tn_fail_memory(error);
+    if (status != TN_OK)
+        return status;
+    memset(v->known_faces, 0, v->house.face_count * sizeof *v->known_faces);
+    return tn_house_known_use(&v->known, &v->house, error);
+}
+
 tn_status tn_variants_go_through_faces(tn_house_variants *v, const tn_house *like, const tn_house_visitor *seen_by,
                                        tn_error *error)
 {
     bool stop = false;
     begin_work(v);
-    tn_house_clear(&v->house);
-    tn_status status = tn_house_stand(v->form, like->trays, like->length, like->shapes, &v->house, error);
+    tn_status status = stand(v, like->trays, like->length, like->shapes, error);
     if (status == TN_OK && !tn_array_resize(&v->tiles, v->house.cell_count + 1, sizeof *v->tiles))
         status = tn_fail_memory(error);
     if (status == TN_OK)
@@ -356,8 +388,7 @@ tn_status tn_variants_go_through(tn_house_variants *v, const tn_tray *trays, siz
     begin_work(v);
     status = begin_plan(v, trays, length, error);
     for (bool more = true; status == TN_OK && !stop && more; more = tn_form_next_section(v->form, shapes)) {
-        tn_house_clear(&v->house);
-        status = tn_house_stand(v->form, trays, length, shapes, &v->house, error);
+        status = stand(v, trays, length, shapes, error);
         if (status == TN_OK && tn_house_section_stands(&v->house))
             status = go_through_section(v, seen_by, &stop, error);
     }
@@ -416,6 +447,8 @@ tn_status tn_house_variants_new(const tn_house_form *form, const tn_house_librar
     if (status == TN_OK)
         status = tn_room_questions_find(form->module, &v->questions, error);
     if (status == TN_OK)
+        status = tn_house_known_begin(form, &v->known, error);
+    if (status == TN_OK)
         status = tn_house_rules_new(form, 0, &v->rules, error);
     if (status != TN_OK) {
         tn_house_variants_free(v);
@@ -430,6 +463,8 @@ void tn_house_variants_free(tn_house_variants *v)
         return;
     tn_house_rules_free(v->rules);
     tn_house_clear(&v->house);
+    tn_house_known_clear(&v->known);
+    free(v->known_faces);
     tn_room_questions_clear(&v->questions);
     tn_wheels *const wheels[] = {&v->functions, &v->faces, &v->shared, &v->own};
     for (size_t i = 0; i < sizeof wheels / sizeof *wheels; i++) {
