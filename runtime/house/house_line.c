@@ -126,8 +126,9 @@ static tn_status read_section(const tn_house_form *form, const char *line, size_
         size_t chosen;
         for (uint32_t s = 0; s < choice->shape_count; s++)
             texts[s] = tn_text(form->module, form->module->SHAPE_records[choice->shape_first + s].spelling);
-        tn_status status =
-            choose(&reader, tn_text(form->module, choice->name), texts, choice->shape_count, &chosen, error);
+        char what[120];
+        snprintf(what, sizeof what, "value of `%.80s`", tn_text(form->module, choice->name));
+        tn_status status = choose(&reader, what, texts, choice->shape_count, &chosen, error);
         if (status != TN_OK)
             return status;
         shapes[i] = (uint32_t)chosen;

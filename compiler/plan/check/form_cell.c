@@ -51,7 +51,7 @@ const tn_ast_word *tn_form_negated(tn_check *check, const tn_ast_alternative *al
     for (*negated = false; word && word->kind == TN_WORD_NOT; word = (const tn_ast_word *)word->node.next)
         *negated = !*negated;
     if (!word) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_CELL, alternative->node.span, "`not` of nothing");
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_CELL, alternative->node.span, "nothing follows this `not`");
         tn_help(check->diagnostics, d, "say what the %s is not", what);
     }
     return word;
@@ -74,9 +74,9 @@ bool tn_form_compared(tn_check *check, const tn_ast_word *word, tn_opcode opcode
     const tn_ast_word *other = sign ? (const tn_ast_word *)sign->node.next : NULL;
     if (!sign || sign->kind != TN_WORD_OPERATOR || !other || other->kind != (areas ? TN_WORD_AREA : TN_WORD_NUMBER) ||
         other->node.next)
-        return areas ? bad_cell(check, word->node.span, "an area is compared with another",
+        return areas ? bad_cell(check, word->node.span, "an area can only be compared with an area",
                                 "write `area < 90sf` or `area >= 8.5m2`")
-                     : bad_cell(check, word->node.span, "the number of cells is compared with a whole number",
+                     : bad_cell(check, word->node.span, "the number of cells can only be compared with a whole number",
                                 "write `cells > 1`");
     tn_decision_step step = {.opcode = opcode,
                              .index = tn_form_test(sign->op),

@@ -112,10 +112,10 @@ void tn_check_flight(tn_check *check, tn_checked_form *form, const tn_ast_form_c
     if (known && !sized)
         bad_flight(check, ast, "has no size", "write lengths above 0");
     else if (sized && flight.rise_least > flight.rise_most)
-        bad_flight(check, ast, "has its least rise after its most", "write them as `rise 6\"..7 3/4\"`");
+        bad_flight(check, ast, "has a `rise` whose larger length is first", "write them as `rise 6\"..7 3/4\"`");
     else if (sized && turns && !fits && form->storey_count > 0)
         bad_flight(check, ast, "climbs no storey in equal steps of such a rise",
-                   "a storey is a whole number of steps, four or more: allow more kinds of `rise`");
+                   "a storey is a whole number of steps, four or more: let `rise` go from a smaller length to a larger one");
     form->openings[form->opening_count++] = flight;
 }
 

@@ -27,7 +27,7 @@ static bool read_kind(tn_room_reader *reader, const tn_ast_word *word)
     reader->by = true;
     if (!kind || kind->kind != TN_WORD_NAME || kind->node.next) {
         tn_diagnostic *d =
-            tn_report(reader->check->diagnostics, E_BAD_CELL, word->node.span, "`by` is followed by one kind of face");
+            tn_report(reader->check->diagnostics, E_BAD_CELL, word->node.span, "one kind of face must follow `by`");
         tn_help(reader->check->diagnostics, d, "write `by` and an opening, `open`, `wall` or `stair`");
         return false;
     }
@@ -49,7 +49,7 @@ static bool read_glazing(tn_room_reader *reader, const tn_ast_word *word)
     const tn_ast_word *ratio = sign ? (const tn_ast_word *)sign->node.next : NULL;
     if (!sign || sign->kind != TN_WORD_OPERATOR || !is_ratio(ratio)) {
         tn_diagnostic *d = tn_report(reader->check->diagnostics, E_BAD_CELL, word->node.span,
-                                     "the glazing of a room is compared with a part of its floor");
+                                     "the glazing of a room can only be compared with a part of its floor");
         tn_help(reader->check->diagnostics, d,
                 "write `glazing < 1:12` for windows smaller than a twelfth of the floor; numbers up to %u",
                 TN_RATIO_MAX);

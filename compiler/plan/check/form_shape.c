@@ -151,8 +151,8 @@ static bool read_storeys(tn_check *check, const tn_checked_form *form, const tn_
         return bad_shape(check, shape->node.span, "this is not a number of storeys",
                          "write `section ZONE storeys = 1 | 2`");
     if (count < 1 || count > form->storey_count) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_SHAPE, shape->node.span, "the form has no %lld storeys",
-                                     (long long)count);
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_SHAPE, shape->node.span,
+                                     "a section of this form cannot have %lld storeys", (long long)count);
         tn_help(check->diagnostics, d, "it has %u: declare another `storey`, or write a number from 1 to %u",
                 form->storey_count, form->storey_count);
         return false;
@@ -296,6 +296,32 @@ static bool add_values(tn_check *check, const tn_checked_form *form, const tn_ch
     return found;
 }
 
+static bool help_choice(tn_check *check, const tn_checked_form *form, tn_diagnostic *d)
+{
+    if (form->choice_count > 0 && form->choices[0].shape_count > 0)
+        tn_help(check->diagnostics, d, "write a choice and one of its values, such as `%.80s %.80s`",
+                form->choices[0].name, form->choices[0].shapes[0].ast->word->text);
+    return false;
+}
+
+/* A value without its choice: the first choice that has such a value may be the one that is meant. */
+static void no_choice_named(tn_check *check, const tn_checked_form *form, const tn_ast_shape *shape)
+{
+    const char *value = shape->word->text;
+    for (uint32_t i = 0; i < form->choice_count; i++)
+        for (uint32_t k = 0; k < form->choices[i].shape_count; k++) {
+            if (strcmp(form->choices[i].shapes[k].ast->word->text, value) != 0)
+                continue;
+            tn_diagnostic *d =
+                tn_report(check->diagnostics, E_BAD_SHAPE, shape->node.span, "the choice is missing before this value");
+            tn_help(check->diagnostics, d, "write `%.80s %.80s`", form->choices[i].name, value);
+            return;
+        }
+    help_choice(check, form,
+                tn_report(check->diagnostics, E_BAD_SHAPE, shape->node.span,
+                          "no choice of the form has the value `%.80s`", value));
+}
+
 /* [not] [choice] value; the choice of the alternative before counts where none is named. */
 static bool read_alternative(tn_check *check, const tn_checked_form *form, const tn_ast_alternative *alternative,
                              const tn_checked_choice **choice, tn_decision *decision)
@@ -309,8 +335,9 @@ static bool read_alternative(tn_check *check, const tn_checked_form *form, const
         if (word->kind == TN_WORD_NOT && count == 0)
             negated = !negated;
         else if (word->kind != TN_WORD_NAME || count == 2)
-            return bad_shape(check, word->node.span, "a section has no such choice",
-                             "write `section(body roof gable)`, `section(cladding board)`");
+            return help_choice(
+                check, form,
+                tn_report(check->diagnostics, E_BAD_SHAPE, word->node.span, "a section has no such choice"));
         else
             words[count++] = word;
     }
@@ -321,8 +348,7 @@ static bool read_alternative(tn_check *check, const tn_checked_form *form, const
     if (!*choice && count > 0)
         unknown_choice(check, form, words[0]);
     else if (!*choice)
-        bad_shape(check, alternative->node.span, "this value stands alone",
-                  "name what it is a value of: `section(body roof gable)`");
+        no_choice_named(check, form, (const tn_ast_shape *)node);
     if (!*choice || !add_values(check, form, *choice, (const tn_ast_shape *)node, decision))
         return false;
     if (negated)

@@ -16,7 +16,7 @@ static void read_range(tn_check *check, const tn_ast_tile_part *part, int64_t ra
     range[0] = tn_form_length(check, part->low);
     range[1] = tn_form_length(check, part->high);
     if (range[0] >= 0 && range[1] >= 0 && range[0] > range[1])
-        bad_tile(check, part->node.span, "no room is so wide or deep: the larger length is first",
+        bad_tile(check, part->node.span, "no room has such a size: the larger length is first",
                  "write the smaller length first");
 }
 
@@ -47,7 +47,7 @@ static void read_reach(tn_check *check, const tn_ast_reach *reach, bool said[3],
     int64_t low = tn_form_length(check, reach->low), high = tn_form_length(check, reach->high);
     if (axis != other || said[axis]) {
         bad_tile(check, reach->node.span,
-                 axis != other ? "a stretch goes from a side to the opposite one" : "this stretch is there twice",
+                 axis != other ? "these two sides are not opposite each other" : "this box has two stretches in the same direction",
                  "write `left 0 .. right 0, back 0 .. 2', up 0 .. 3'`");
         return;
     }

@@ -166,7 +166,7 @@ static bool find_field(tn_item_reader *item)
 {
     const tn_ast_word *word = item->word;
     if (!word)
-        return bad_item(item, item->span, "`not` of nothing");
+        return bad_item(item, item->span, "nothing follows this `not`");
     if (word->kind == TN_WORD_NAME)
         return field_of_name(item);
     if (word->kind == TN_WORD_GROUP)

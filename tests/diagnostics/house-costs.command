@@ -1,0 +1,1 @@
+count house-costs.plan --library huts --by price
