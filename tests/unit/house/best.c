@@ -235,7 +235,7 @@ static void draw_pattern(open_pattern *p, uint32_t trays, uint64_t *state)
 /* The leftmost places of the written trays, from place `at` and tray `from` on; false where the plan does not fit. */
 static bool put_places(const open_pattern *p, size_t at, const listed *one, size_t from, size_t *where)
 {
-    if (at == p->count)
+    if (at == p->count || at == PLACES)
         return from == one->length;
     if (p->places[at].gap) {
         for (size_t next = from; next <= one->length; next++)
