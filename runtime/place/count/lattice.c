@@ -241,6 +241,20 @@ void tn_lattice_clear(tn_lattice *l)
 
 /* ---- slots */
 
+static int by_slots(const void *a, const void *b)
+{
+    const tn_look_pair *p = a, *q = b;
+    return p->slots < q->slots ? -1 : p->slots > q->slots;
+}
+
+bool tn_slots_overlap(const tn_lattice *l, size_t a, size_t b)
+{
+    const tn_look *look = &l->looks[a % l->look_count];
+    const tn_look_pair wanted = {.slots = (int64_t)b - (int64_t)a};
+    return look->overlapping_count > 0 && bsearch(&wanted, &l->pairs[look->overlapping_first], look->overlapping_count,
+                                                  sizeof *l->pairs, by_slots) != NULL;
+}
+
 /* A table of so many places about the middle. */
 static tn_status make_table(tn_lattice *l, const int64_t reach[3], const char *what, tn_error *error)
 {
@@ -271,6 +285,8 @@ static tn_status make_table(tn_lattice *l, const int64_t reach[3], const char *w
             l->pairs[look->joining_first + i].slots += (int64_t)l->pairs[look->joining_first + i].look - a;
         for (uint32_t i = 0; i < look->overlapping_count; i++)
             l->pairs[look->overlapping_first + i].slots += (int64_t)l->pairs[look->overlapping_first + i].look - a;
+        if (look->overlapping_count > 0) /* large parts overlap in many ways, which are searched */
+            qsort(&l->pairs[look->overlapping_first], look->overlapping_count, sizeof *l->pairs, by_slots);
     }
     return TN_OK;
 }

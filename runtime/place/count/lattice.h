@@ -48,6 +48,9 @@ tn_status tn_lattice_cover(tn_lattice *lattice, const tn_cell_box *box, tn_error
 /* The look of a slot, and its lowest corner in cells from that of the middle. */
 uint32_t tn_slot_look(const tn_lattice *lattice, size_t slot, int32_t corner[3]);
 
+/* Would what lies in two slots share a cell? By search, also where parts are large. */
+bool tn_slots_overlap(const tn_lattice *l, size_t a, size_t b);
+
 /* The slot of a look at a corner; SIZE_MAX: off the lattice, or outside of the table. */
 size_t tn_slot_at(const tn_lattice *lattice, uint32_t look, const int32_t corner[3]);
 

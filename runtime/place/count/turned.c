@@ -47,13 +47,11 @@ static size_t turn_slot(const turning *t, size_t slot)
     return tn_slot_at(t->l, tn_look_of(t->l, look->kind, tn_turn_after(t->turns, look->heading)), to);
 }
 
-static bool related(const tn_lattice *l, size_t a, size_t b, bool joining)
+static bool joined(const tn_lattice *l, size_t a, size_t b)
 {
     const tn_look *look = &l->looks[a % l->look_count];
-    const tn_look_pair *pairs = &l->pairs[joining ? look->joining_first : look->overlapping_first];
-    uint32_t count = joining ? look->joining_count : look->overlapping_count;
-    for (uint32_t i = 0; i < count; i++)
-        if ((int64_t)a + pairs[i].slots == (int64_t)b)
+    for (uint32_t i = 0; i < look->joining_count; i++)
+        if ((int64_t)a + l->pairs[look->joining_first + i].slots == (int64_t)b)
             return true;
     return false;
 }
@@ -65,7 +63,7 @@ static orbit orbit_of(const turning *t, size_t slot)
         if (next == SIZE_MAX || o.count == IMAGES)
             return (orbit){.count = 0};
         for (uint32_t i = 0; i < o.count; i++)
-            if (related(t->l, o.slots[i], next, false))
+            if (tn_slots_overlap(t->l, o.slots[i], next))
                 return (orbit){.count = 0};
         o.slots[o.count++] = next;
         if (next < o.slots[0]) {
@@ -84,11 +82,11 @@ static bool hang_together(const turning *t, uint32_t count)
     memcpy(order, t->chosen, count * sizeof *order);
     for (uint32_t i = 0; i < reached; i++) {
         for (uint32_t j = reached; j < count; j++) {
-            if (!related(t->l, order[i], order[j], true))
+            if (!joined(t->l, order[i], order[j]))
                 continue;
-            size_t joined = order[j];
+            size_t found = order[j];
             order[j] = order[reached];
-            order[reached++] = joined;
+            order[reached++] = found;
         }
     }
     return reached == count;
@@ -97,7 +95,7 @@ static bool hang_together(const turning *t, uint32_t count)
 static bool is_free(const turning *t, uint32_t count, const orbit *o)
 {
     for (uint32_t i = 0; i < count; i++)
-        if (related(t->l, t->chosen[i], o->slots[0], false)) /* the images of both lie alike */
+        if (tn_slots_overlap(t->l, t->chosen[i], o->slots[0])) /* the images of both lie alike */
             return false;
     return true;
 }
