@@ -108,10 +108,11 @@ bool tn_decision_run(const tn_module *module, uint32_t function, tn_decision_ask
 static uint8_t *known_answer(const tn_house *house, uint32_t function, const tn_cell *cell)
 {
     const tn_house_known *known = house->known;
-    if (!known || !cell || known->place[function] == TN_NO_RECORD)
-        return NULL;
+    size_t at = (size_t)((uintptr_t)cell - (uintptr_t)house->cells) / sizeof *cell;
+    if (!known || at >= house->cell_count || known->place[function] == TN_NO_RECORD)
+        return NULL; /* at: large for a cell that is none of the house's, and for none */
     size_t of = cell->function == TN_NO_FUNCTION ? known->functions : cell->function;
-    size_t row = (size_t)(cell - house->cells) * (known->functions + 1) + of;
+    size_t row = at * (known->functions + 1) + of;
     return &known->answers[row * known->decisions + known->place[function]];
 }
 
