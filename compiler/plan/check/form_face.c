@@ -54,7 +54,8 @@ void tn_check_opening(tn_check *check, tn_checked_form *form, const tn_ast_form_
         return;
     bool good = read_opening(check, &opening), fits = false;
     for (uint32_t i = 0; i < form->storey_count; i++)
-        fits |= opening.sill + opening.high <= form->storeys[i].height - form->thickness[2];
+        fits |= form->storeys[i].height < 0 || /* no length: that was said */
+                opening.sill + opening.high <= form->storeys[i].height - form->thickness[2];
     if (good && !fits && form->storey_count > 0) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_OPENING, ast->high->node.span,
                                      "opening `%s` is higher than every storey", ast->name->text);
@@ -108,7 +109,7 @@ void tn_check_flight(tn_check *check, tn_checked_form *form, const tn_ast_form_c
     bool sized = flight.wide > 0 && flight.rise_least > 0 && flight.rise_most > 0 && flight.going > 0, fits = false;
     bool turns = read_turn(check, ast, &flight.turn);
     for (uint32_t i = 0; sized && i < form->storey_count; i++)
-        fits |= climbs(&flight, form->storeys[i].height);
+        fits |= form->storeys[i].height < 0 || climbs(&flight, form->storeys[i].height);
     if (known && !sized)
         bad_flight(check, ast, "has no size", "write lengths above 0");
     else if (sized && flight.rise_least > flight.rise_most)

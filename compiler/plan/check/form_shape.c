@@ -49,7 +49,7 @@ static void check_eaves(tn_check *check, const tn_checked_form *form, const tn_a
                         const tn_shape_record *record)
 {
     for (uint32_t i = 0; i < form->storey_count && record->eaves > 0; i++)
-        if (eaves_drop(record) >= form->storeys[i].height - form->thickness[2]) {
+        if (form->storeys[i].height >= 0 && eaves_drop(record) >= form->storeys[i].height - form->thickness[2]) {
             bad_shape(check, shape->node.span, "these eaves hang down to the floor",
                       "make the eaves narrower, or the slope gentler");
             return;
