@@ -132,15 +132,30 @@ static void outline(cairo_t *cr, const tn_view *view, const tn_seen_face *face)
     cairo_close_path(cr);
 }
 
-/* Strokes the sides of one kind, from one corner on; returns the next corner. */
-static uint32_t stroke_run(cairo_t *cr, const tn_view *view, const tn_seen_face *face, uint32_t i)
+/* The point on a side so far from one of its ends, but at most in its middle. */
+static void point_on_side(const float *end, const float *other, double inset, double at[2])
 {
-    uint16_t edge = view->edges[face->first + i];
-    const float *start = view->points[face->first + i];
-    cairo_move_to(cr, (double)start[0], (double)start[1]);
-    for (; i < face->size && view->edges[face->first + i] == edge; i++) {
-        uint32_t next = face->first + (i + 1 == face->size ? 0 : i + 1);
-        cairo_line_to(cr, (double)view->points[next][0], (double)view->points[next][1]);
+    double along[2] = {(double)other[0] - (double)end[0], (double)other[1] - (double)end[1]};
+    double length = hypot(along[0], along[1]), share = length > 0 ? fmin(inset / length, 0.5) : 0;
+    at[0] = (double)end[0] + share * along[0];
+    at[1] = (double)end[1] + share * along[1];
+}
+
+/* Strokes the sides of one kind, from one corner on; returns the next corner. The stroke keeps the inset away from the
+ * sides of other kinds at its ends. */
+static uint32_t stroke_run(cairo_t *cr, const tn_view *view, const tn_seen_face *face, uint32_t i, double inset)
+{
+    const uint16_t *edges = view->edges + face->first;
+    const float(*points)[2] = (const float(*)[2])(view->points + face->first);
+    uint16_t edge = edges[i];
+    double at[2];
+    uint32_t size = face->size, before = i ? i - 1 : size - 1;
+    point_on_side(points[i], points[(i + 1) % size], edges[before] != edge ? inset : 0, at);
+    cairo_move_to(cr, at[0], at[1]);
+    for (; i < size && edges[i] == edge; i++) {
+        uint32_t next = (i + 1) % size;
+        point_on_side(points[next], points[i], edges[next] != edge ? inset : 0, at);
+        cairo_line_to(cr, at[0], at[1]);
     }
     cairo_stroke(cr);
     return i;
@@ -157,10 +172,10 @@ static void set_fill(cairo_t *cr, const tn_seen_face *face, const tn_view_place 
         set_face_colour(cr, face);
 }
 
-static void draw_seams(cairo_t *cr, const tn_view *view, const tn_seen_face *face)
+static void draw_seams(cairo_t *cr, const tn_view *view, const tn_seen_face *face, double inset)
 {
     for (uint32_t i = 0; i < face->size;)
-        i = view->edges[face->first + i] == TN_EDGE_NONE ? stroke_run(cr, view, face, i) : i + 1;
+        i = view->edges[face->first + i] == TN_EDGE_NONE ? stroke_run(cr, view, face, i, inset) : i + 1;
 }
 
 static void draw_edges(cairo_t *cr, const tn_view *view, const tn_seen_face *face, double fade)
@@ -172,12 +187,13 @@ static void draw_edges(cairo_t *cr, const tn_view *view, const tn_seen_face *fac
             continue;
         }
         set_edge_colour(cr, edge, fade);
-        i = stroke_run(cr, view, face, i);
+        i = stroke_run(cr, view, face, i, 0);
     }
 }
 
 /* Fills faces of one plane as one shape, then draws their edges, runs of one colour at a time. Where they were cut, a
- * hairline of their own colour closes the seam that smoothed edges would leave. */
+ * hairline of their own colour closes the seam that smoothed edges would leave. It does not reach into lines, which the
+ * face on their other side may have drawn before. */
 static void paint_faces(cairo_t *cr, const tn_view *view, const tn_seen_face *faces, size_t count,
                         const tn_view_place *place, double seam)
 {
@@ -187,10 +203,10 @@ static void paint_faces(cairo_t *cr, const tn_view *view, const tn_seen_face *fa
     set_fill(cr, faces, place);
     cairo_set_fill_rule(cr, count > 1 ? CAIRO_FILL_RULE_WINDING : CAIRO_FILL_RULE_EVEN_ODD);
     cairo_fill(cr);
-    cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT); /* so as not to run into the lines where it ends */
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
     cairo_set_line_width(cr, seam);
     for (size_t f = 0; f < count; f++)
-        draw_seams(cr, view, &faces[f]);
+        draw_seams(cr, view, &faces[f], place->line / place->scale / 2);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_width(cr, place->line / place->scale);
     for (size_t f = 0; f < count; f++)

@@ -7,7 +7,7 @@
 
 enum { ROUNDS = 16, CAREFUL = 48 /* corners up to which the best ear is looked for */ };
 
-/* What is known of a corner that has no ear: as long as the corners beside it stay, or only until another is cut off. */
+/* What is known of a corner without an ear: as long as its neighbours stay, or only until another is cut off. */
 #define NO_EAR (-1.0)
 #define UNDECIDED (-2.0)
 
