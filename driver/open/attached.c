@@ -46,6 +46,23 @@ static tn_status read_there(const char *folder, const char *inner, const char *n
     return status;
 }
 
+/* The nearest name among the library's parts, where there is a library. */
+static void suggest_part(const char *folder, const char *name, tn_error *error)
+{
+    char *path;
+    if (asprintf(&path, "%s/parts/%s", folder, name) < 0)
+        return;
+    if (tn_suggest_file(path, error)) {
+        const char *near = strrchr(error->help, '/');
+        if (near) {
+            char named[256];
+            snprintf(named, sizeof named, "%s", near + 1);
+            tn_error_help(error, "did you mean `%s", named);
+        }
+    }
+    free(path);
+}
+
 static tn_status read_part(const char *name, uint8_t **bytes, size_t *size, tn_error *error)
 {
     static const char *const inner[] = {"parts", "p", "PARTS", "P"};
@@ -57,7 +74,10 @@ static tn_status read_part(const char *name, uint8_t **bytes, size_t *size, tn_e
     if (status != TN_OK || there)
         return status;
     tn_fail(error, TN_IO, E_CANNOT_READ, "there is no %.120s in the LDraw library %.200s", name, folder);
-    tn_error_help(error, "name the folder of the library, which has the folders parts and p, by --ldraw or by the variable LDRAWDIR");
+    tn_error_help(
+        error,
+        "name the folder of the library, which has the folders parts and p, by --ldraw or by the variable LDRAWDIR");
+    suggest_part(folder, name, error);
     return TN_IO;
 }
 

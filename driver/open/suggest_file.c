@@ -11,7 +11,7 @@
 
 #include "runtime/base/nearest.h"
 
-enum { NAMES_MAX = 512 };
+enum { NAMES_MAX = 1 << 15 }; /* a library of LDraw parts has some 20,000 files */
 
 static int compare_texts(const void *a, const void *b)
 {
@@ -63,9 +63,9 @@ bool tn_suggest_file(const char *path, tn_error *error)
         return false;
     const char *slash = strrchr(path, '/'), *near = NULL;
     int folder_size = slash ? (int)(slash - path) + 1 : 0;
-    char folder[PATH_MAX], *names[NAMES_MAX];
+    char folder[PATH_MAX], **names = malloc(NAMES_MAX * sizeof *names);
     char *wanted = cut_name(path + folder_size);
-    if (wanted && (size_t)folder_size < sizeof folder) {
+    if (names && wanted && (size_t)folder_size < sizeof folder) {
         snprintf(folder, sizeof folder, "%.*s", folder_size, path);
         size_t count = list_folder(folder_size ? folder : ".", extension_of(wanted), names);
         near = tn_nearest(wanted, (const char *const *)names, count);
@@ -75,6 +75,7 @@ bool tn_suggest_file(const char *path, tn_error *error)
         for (size_t i = 0; i < count; i++)
             free(names[i]);
     }
+    free(names);
     free(wanted);
     return near != NULL;
 }

@@ -53,6 +53,9 @@ for words in "place --ldraw $library $scratch/own.kit" "check --ldraw $library $
     $TARTAN $words >"$scratch/said" 2>&1
     grep -qE "LDRAWDIR|no option" "$scratch/said" && fail "tartan $words does not look in the library: $(cat "$scratch/said")"
 done
+# A name that the library lacks has the nearest of its parts.
+printf 'use "bricks";\npart long from ldraw "3O01.dat";\n' >"$scratch/near.kit"
+golden near_part "tartan check --ldraw $library $scratch/near.kit"
 golden no_folder "tartan place --ldraw $scratch/nowhere $scratch/own.kit"
 "$TARTAN" place "$scratch/own.tnb" -o "$scratch/module.ldr"
 cmp "$scratch/own.ldr" "$scratch/module.ldr" || fail 'the module places other parts'
