@@ -3,9 +3,8 @@
 
 #include "driver/parquet/encoding.h"
 
-#define BLOCK 128u /* differences in a block, and PART in each of its parts: the fewest that the format allows */
-#define PART 32u
-#define PARTS (BLOCK / PART)
+#define PART 32u /* differences of a part of a block: the fewest that the format allows */
+#define PARTS (TN_DELTA_BLOCK / PART)
 
 void tn_run_write(tn_buffer *out, unsigned width, uint32_t value, size_t count)
 {
@@ -24,20 +23,23 @@ static size_t packed_head(tn_buffer *out, size_t count)
     return groups;
 }
 
-/* Bytes that were written already, and zeros up to `size`. */
-static void append_padded(tn_buffer *out, const void *bytes, size_t used, size_t size)
+uint8_t *tn_bytes_begin(tn_buffer *out, size_t count)
 {
-    static const char zeros[16];
-    tn_buffer_append(out, bytes, used);
-    tn_buffer_append(out, zeros, size - used);
+    size_t size = 8 * packed_head(out, count);
+    return tn_buffer_reserve(out, size) ? (uint8_t *)out->data + out->size : NULL;
 }
 
-void tn_bytes_write(tn_buffer *out, const uint8_t *values, size_t count)
+void tn_bytes_end(tn_buffer *out, size_t begin, size_t count)
 {
-    if (count > 0 && memcmp(values, values + 1, count - 1) == 0)
-        tn_run_write(out, 8, values[0], count);
-    else
-        append_padded(out, values, count, 8 * packed_head(out, count));
+    char *values = out->data + out->size;
+    size_t size = (count + 7) / 8 * 8;
+    if (count > 0 && memcmp(values, values + 1, count - 1) == 0) {
+        out->size = begin;
+        tn_run_write(out, 8, (uint8_t)values[0], count);
+        return;
+    }
+    memset(values + count, 0, size - count);
+    out->size += size;
 }
 
 void tn_shorts_write(tn_buffer *out, const uint16_t *values, size_t count)
@@ -81,33 +83,54 @@ static void pack_part(tn_buffer *out, const uint64_t *values, unsigned width)
     tn_buffer_append(out, (const char *)bytes, PART * width / 8);
 }
 
-/* The differences in front of values[1..count], which are at most BLOCK. */
-static void write_block(tn_buffer *out, const int64_t *values, size_t count)
+static uint64_t least_difference(const tn_delta_writer *writer)
 {
-    uint64_t differences[BLOCK] = {0};
     int64_t least = INT64_MAX;
-    for (size_t i = 0; i < count; i++) {
-        differences[i] = (uint64_t)values[i + 1] - (uint64_t)values[i];
-        least = (int64_t)differences[i] < least ? (int64_t)differences[i] : least;
-    }
+    for (size_t i = 0; i < writer->in_block; i++)
+        least = (int64_t)writer->differences[i] < least ? (int64_t)writer->differences[i] : least;
+    return (uint64_t)least;
+}
+
+/* The block in hand; what its last part lacks is 0. */
+static void write_block(tn_delta_writer *writer)
+{
+    uint64_t *differences = writer->differences, least = least_difference(writer);
+    size_t count = writer->in_block;
     uint8_t widths[PARTS] = {0};
     for (size_t i = 0; i < count; i++) {
-        differences[i] -= (uint64_t)least;
+        differences[i] -= least;
         unsigned bits = bits_of(differences[i]);
         widths[i / PART] = (uint8_t)(bits > widths[i / PART] ? bits : widths[i / PART]);
     }
-    tn_varint_write(out, tn_fold(least));
-    tn_buffer_append(out, (const char *)widths, sizeof widths);
+    memset(differences + count, 0, (TN_DELTA_BLOCK - count) * sizeof *differences);
+    tn_varint_write(&writer->blocks, tn_fold((int64_t)least));
+    tn_buffer_append(&writer->blocks, (const char *)widths, sizeof widths);
     for (size_t part = 0; part * PART < count; part++)
-        pack_part(out, differences + part * PART, widths[part]);
+        pack_part(&writer->blocks, differences + part * PART, widths[part]);
+    writer->in_block = 0;
 }
 
-void tn_delta_write(tn_buffer *out, const int64_t *values, size_t count)
+bool tn_delta_add(tn_delta_writer *writer, int64_t value)
 {
-    tn_varint_write(out, BLOCK);
+    if (writer->count++ == 0)
+        writer->first = value;
+    else
+        writer->differences[writer->in_block++] = (uint64_t)value - (uint64_t)writer->last;
+    writer->last = value;
+    if (writer->in_block == TN_DELTA_BLOCK)
+        write_block(writer);
+    return !writer->blocks.failed;
+}
+
+void tn_delta_end(tn_delta_writer *writer, tn_buffer *out)
+{
+    if (writer->in_block > 0)
+        write_block(writer);
+    tn_varint_write(out, TN_DELTA_BLOCK);
     tn_varint_write(out, PARTS);
-    tn_varint_write(out, count);
-    tn_varint_write(out, tn_fold(count > 0 ? values[0] : 0));
-    for (size_t at = 1; at < count; at += BLOCK)
-        write_block(out, values + at - 1, count - at < BLOCK ? count - at : BLOCK);
+    tn_varint_write(out, writer->count);
+    tn_varint_write(out, tn_fold(writer->count > 0 ? writer->first : 0));
+    tn_buffer_append(out, writer->blocks.data, writer->blocks.size);
+    out->failed = out->failed || writer->blocks.failed;
+    writer->blocks.size = writer->count = 0;
 }

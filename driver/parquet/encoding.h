@@ -4,13 +4,17 @@
 
 #include "driver/parquet/thrift.h"
 
+enum { TN_DELTA_BLOCK = 128 }; /* differences of a block that we write: the fewest that the format allows */
+
 /* ---- writing: where memory runs out, out->failed is set */
 
 /* A run of `count` times the value, in `width` bits. */
 void tn_run_write(tn_buffer *out, unsigned width, uint32_t value, size_t count);
 
-/* Numbers of one byte each, as one run where they are equal. */
-void tn_bytes_write(tn_buffer *out, const uint8_t *values, size_t count);
+/* Numbers of one byte each, as one run where they are equal. tn_bytes_begin gives the place to write them to, at the
+ * end of `out` (NULL: out of memory); `begin` is the size that `out` had before. */
+uint8_t *tn_bytes_begin(tn_buffer *out, size_t count);
+void tn_bytes_end(tn_buffer *out, size_t begin, size_t count);
 
 /* Numbers of 16 bits each, in the same way. */
 void tn_shorts_write(tn_buffer *out, const uint16_t *values, size_t count);
@@ -18,8 +22,20 @@ void tn_shorts_write(tn_buffer *out, const uint16_t *values, size_t count);
 /* Bits, of which the first is the lowest of the first byte. What follows `count` of them in the last byte is 0. */
 void tn_bits_write(tn_buffer *out, const uint8_t *bits, size_t count);
 
-/* Differences, in blocks of 128. */
-void tn_delta_write(tn_buffer *out, const int64_t *values, size_t count);
+/* Differences, in blocks of 128, of numbers that come one by one. Zero it to begin with, free blocks.data with free().
+ */
+typedef struct tn_delta_writer {
+    tn_buffer blocks;
+    int64_t first, last; /* numbers */
+    uint64_t differences[TN_DELTA_BLOCK];
+    size_t count, in_block; /* numbers; differences of the block in hand */
+} tn_delta_writer;
+
+/* False where out of memory. */
+bool tn_delta_add(tn_delta_writer *writer, int64_t value);
+
+/* Appends the numbers to `out`, and begins again with none. */
+void tn_delta_end(tn_delta_writer *writer, tn_buffer *out);
 
 /* ---- reading. Both give false where the bytes end too soon or cannot be. They borrow the bytes. */
 

@@ -5,66 +5,109 @@
 #include <string.h>
 
 #include "driver/parquet/encoding.h"
+#include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
 
 #define DICTIONARY_MOST 65536u
-#define SLOTS (2u * DICTIONARY_MOST)
+#define SLOTS_FIRST 256u /* a power of two, as all larger ones */
 
 tn_status tn_numbers_new(tn_numbers *numbers, unsigned bytes, size_t page, tn_error *error)
 {
     *numbers = (tn_numbers){.bytes = bytes,
-                            .page = calloc(page, sizeof *numbers->page),
                             .places = calloc(page, sizeof *numbers->places),
-                            .dictionary = calloc(DICTIONARY_MOST, sizeof *numbers->dictionary),
-                            .slots = calloc(SLOTS, sizeof *numbers->slots)};
-    tn_numbers_clear(numbers);
-    bool made = numbers->page && numbers->places && numbers->dictionary && numbers->slots;
+                            .slots = calloc(SLOTS_FIRST, sizeof *numbers->slots),
+                            .slot_count = SLOTS_FIRST};
+    bool made = numbers->places && numbers->slots;
+    if (made)
+        tn_numbers_clear(numbers);
     return made ? TN_OK : tn_fail_memory(error);
 }
 
 void tn_numbers_free(tn_numbers *numbers)
 {
-    free(numbers->page);
     free(numbers->places);
+    free(numbers->plain.data);
     free(numbers->dictionary);
     free(numbers->slots);
 }
 
 void tn_numbers_clear(tn_numbers *numbers)
 {
-    if (numbers->slots)
-        memset(numbers->slots, 0, SLOTS * sizeof *numbers->slots);
+    memset(numbers->slots, 0, numbers->slot_count * sizeof *numbers->slots);
     numbers->known = 0;
     numbers->full = numbers->mixed = false;
     numbers->least = INT64_MAX;
     numbers->most = INT64_MIN;
 }
 
-/* The number's place in the dictionary, into which it is put where it is new. Past the last place where it is full. */
-static size_t find_place(tn_numbers *numbers, int64_t value)
+/* ---- the dictionary */
+
+/* The slot that has the number, or the empty one where it belongs. */
+static uint32_t *find_slot(const tn_numbers *numbers, int64_t value)
 {
-    size_t slot = (size_t)((uint64_t)value * UINT64_C(0x9E3779B97F4A7C15) >> 32) % SLOTS;
-    for (; numbers->slots[slot]; slot = (slot + 1) % SLOTS)
-        if (numbers->dictionary[numbers->slots[slot] - 1] == value)
-            return numbers->slots[slot] - 1;
-    if (numbers->known == DICTIONARY_MOST)
-        return DICTIONARY_MOST;
-    numbers->dictionary[numbers->known] = value;
-    numbers->slots[slot] = (uint32_t)++numbers->known;
-    return numbers->known - 1;
+    size_t last = numbers->slot_count - 1;
+    size_t slot = (size_t)((uint64_t)value * UINT64_C(0x9E3779B97F4A7C15) >> 32) & last;
+    while (numbers->slots[slot] && numbers->dictionary[numbers->slots[slot] - 1] != value)
+        slot = (slot + 1) & last;
+    return &numbers->slots[slot];
 }
 
-void tn_numbers_add(tn_numbers *numbers, int64_t value)
+/* Room for one number more; half of the slots stay empty. */
+static bool make_room(tn_numbers *numbers)
+{
+    if (!tn_array_reserve(&numbers->dictionary, &numbers->known_room, numbers->known, 1, sizeof *numbers->dictionary))
+        return false;
+    if (2 * numbers->known < numbers->slot_count)
+        return true;
+    uint32_t *slots = calloc(2 * numbers->slot_count, sizeof *slots);
+    if (!slots)
+        return false;
+    free(numbers->slots);
+    numbers->slots = slots;
+    numbers->slot_count *= 2;
+    for (size_t i = 0; i < numbers->known; i++)
+        *find_slot(numbers, numbers->dictionary[i]) = (uint32_t)i + 1;
+    return true;
+}
+
+/* Puts the number into the dictionary, where it is new and there is a place left. */
+static bool add_to_dictionary(tn_numbers *numbers, int64_t value, uint32_t **slot)
+{
+    *slot = find_slot(numbers, value);
+    if (**slot || numbers->known == DICTIONARY_MOST)
+        return true;
+    if (!make_room(numbers))
+        return false;
+    *slot = find_slot(numbers, value);
+    numbers->dictionary[numbers->known] = value;
+    **slot = (uint32_t)++numbers->known;
+    return true;
+}
+
+/* From now on numbers are written as they are, those of this page too. */
+static void leave_dictionary(tn_numbers *numbers, size_t before)
+{
+    numbers->full = true;
+    for (size_t i = 0; i < before; i++)
+        tn_plain_write(&numbers->plain, numbers->dictionary[numbers->places[i]], numbers->bytes);
+}
+
+bool tn_numbers_add(tn_numbers *numbers, int64_t value)
 {
     size_t i = numbers->count++;
-    numbers->page[i] = value;
+    uint32_t *slot = NULL;
     numbers->least = value < numbers->least ? value : numbers->least;
     numbers->most = value > numbers->most ? value : numbers->most;
-    if (numbers->full)
-        return;
-    size_t place = find_place(numbers, value);
-    numbers->full = place == DICTIONARY_MOST;
-    numbers->places[i] = (uint16_t)place;
+    if (!numbers->full && !add_to_dictionary(numbers, value, &slot))
+        return false;
+    if (slot && *slot) {
+        numbers->places[i] = (uint16_t)(*slot - 1);
+        return true;
+    }
+    if (!numbers->full)
+        leave_dictionary(numbers, i);
+    tn_plain_write(&numbers->plain, value, numbers->bytes);
+    return !numbers->plain.failed;
 }
 
 void tn_plain_write(tn_buffer *out, int64_t value, unsigned bytes)
@@ -77,9 +120,10 @@ void tn_plain_write(tn_buffer *out, int64_t value, unsigned bytes)
 enum tn_parquet_encoding tn_numbers_page(tn_numbers *numbers, tn_buffer *body)
 {
     static const char width[] = {16};
-    for (size_t i = 0; numbers->full && i < numbers->count; i++)
-        tn_plain_write(body, numbers->page[i], numbers->bytes);
-    if (!numbers->full) {
+    if (numbers->full) {
+        tn_buffer_append(body, numbers->plain.data, numbers->plain.size);
+        numbers->plain.size = 0;
+    } else {
         tn_buffer_append(body, width, 1);
         tn_shorts_write(body, numbers->places, numbers->count);
     }

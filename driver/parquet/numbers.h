@@ -7,12 +7,13 @@
 
 typedef struct tn_numbers {
     unsigned bytes;   /* of a number: 4 or 8 */
-    int64_t *page;    /* those of the page in hand */
-    uint16_t *places; /* theirs in the dictionary, while it has room */
-    size_t count;
+    uint16_t *places; /* in the dictionary, of the page's numbers, while it has room */
+    tn_buffer plain;  /* the page's numbers as they are, where it has none */
+    size_t count;     /* of the page */
     int64_t *dictionary;
-    size_t known;
-    uint32_t *slots;     /* by hash: 1 + place in the dictionary, or 0 */
+    size_t known, known_room;
+    uint32_t *slots; /* by hash: 1 + place in the dictionary, or 0 */
+    size_t slot_count;
     bool full;           /* a number had no room there: from now on none is looked up */
     bool mixed;          /* some page of the row group has numbers as they are */
     int64_t least, most; /* of the row group */
@@ -22,7 +23,8 @@ typedef struct tn_numbers {
 tn_status tn_numbers_new(tn_numbers *numbers, unsigned bytes, size_t page, tn_error *error);
 void tn_numbers_free(tn_numbers *numbers);
 
-void tn_numbers_add(tn_numbers *numbers, int64_t value);
+/* False where out of memory. */
+bool tn_numbers_add(tn_numbers *numbers, int64_t value);
 
 /* Appends the page's numbers to `body`, and begins another. How they are encoded. */
 enum tn_parquet_encoding tn_numbers_page(tn_numbers *numbers, tn_buffer *body);

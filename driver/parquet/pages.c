@@ -23,7 +23,7 @@ static tn_status end_body(tn_parquet_writing *w, unsigned column, enum tn_parque
 static enum tn_parquet_encoding write_ranks(tn_parquet_writing *w)
 {
     if (w->rank_bytes == 0) {
-        tn_delta_write(&w->body, w->ranks, w->in_page);
+        tn_delta_end(&w->ranks, &w->body);
         return TN_ENCODING_DELTA;
     }
     tn_buffer_append(&w->body, w->wide_ranks.data, w->wide_ranks.size);
@@ -44,40 +44,53 @@ static tn_status end_numbers(tn_parquet_writing *w, tn_error *error)
 /* ---- lists */
 
 /* Levels stand behind their size. */
-static void end_levels(tn_buffer *levels, size_t begin)
+static void end_levels(tn_buffer *body, size_t begin)
 {
-    if (!levels->failed)
-        tn_put_u32((uint8_t *)levels->data + begin, (uint32_t)(levels->size - begin - 4));
+    if (!body->failed)
+        tn_put_u32((uint8_t *)body->data + begin, (uint32_t)(body->size - begin - 4));
 }
 
-/* The levels of all lists, which are as long as one another: where a plan begins, and where it has no tray. */
+/* The levels of a list, which are those of all lists: where a plan begins, and where it has no tray. */
 static void write_levels(tn_parquet_writing *w)
 {
-    tn_buffer *levels = &w->levels;
-    levels->size = 0;
-    tn_buffer_append(levels, "\0\0\0", 4);
-    tn_bits_write(levels, w->goes_on, w->places);
-    end_levels(levels, 0);
-    size_t second = levels->size;
-    tn_buffer_append(levels, "\0\0\0", 4);
+    tn_buffer *body = &w->body;
+    size_t begin = body->size;
+    tn_buffer_append(body, "\0\0\0", 4);
+    tn_bits_write(body, w->goes_on, w->places);
+    end_levels(body, begin);
+    begin = body->size;
+    tn_buffer_append(body, "\0\0\0", 4);
     if (w->some_empty)
-        tn_bits_write(levels, w->holds, w->places);
+        tn_bits_write(body, w->holds, w->places);
     else
-        tn_run_write(levels, 1, 1, w->places);
-    end_levels(levels, second);
+        tn_run_write(body, 1, 1, w->places);
+    end_levels(body, begin);
+}
+
+/* The field's values of the page's trays. */
+static void write_field(tn_parquet_writing *w, uint32_t field)
+{
+    const uint8_t *number = w->tray_numbers;
+    uint32_t mask = UINT32_MAX >> (32 - 8 * w->tray_bytes);
+    size_t begin = w->body.size;
+    uint8_t *values = tn_bytes_begin(&w->body, w->trays);
+    if (!values)
+        return;
+    for (size_t i = 0; i < w->trays; i++, number += w->tray_bytes) {
+        values[i] = (uint8_t)tn_tray_value(w->schema, tn_get_u32(number) & mask, field);
+        w->seen[field][values[i]] = 1;
+    }
+    tn_bytes_end(&w->body, begin, w->trays);
 }
 
 static tn_status end_lists(tn_parquet_writing *w, tn_error *error)
 {
     static const char width[] = {8};
     tn_status status = TN_OK;
-    write_levels(w);
     for (uint32_t f = 0; status == TN_OK && f < w->schema->field_count; f++) {
-        const uint8_t *values = w->trays_of + f * w->room;
-        tn_buffer_append(&w->body, w->levels.data, w->levels.size);
+        write_levels(w);
         tn_buffer_append(&w->body, width, 1);
-        tn_bytes_write(&w->body, values, w->trays);
-        w->body.failed = w->body.failed || w->levels.failed;
+        write_field(w, f);
         status = end_body(w, tn_first_field_column(w) + f, TN_ENCODING_RLE_DICTIONARY, w->places, error);
     }
     return status;

@@ -46,15 +46,18 @@ static tn_status write_out(tn_plan_writer *writer, const tn_buffer *bytes, tn_er
     return tn_cannot_write(strcmp(writer->path, "-") == 0 ? "standard output" : writer->path, errno, error);
 }
 
+#define PAGE_BYTES (PAGE_TRAYS + PAGE_TRAYS / 4 + PAGE_PLANS) /* before compression, where plans are not long */
+
 static tn_status open_columns(tn_parquet_writing *w, tn_error *error)
 {
     tn_status status = tn_page_packer_new(&w->packer, error);
+    if (status == TN_OK &&
+        (!tn_buffer_reserve(&w->body, PAGE_BYTES) || !tn_buffer_reserve(&w->packer.packed, PAGE_BYTES)))
+        status = tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_numbers_new(&w->length, 4, PAGE_PLANS, error);
     if (status == TN_OK && w->has_total)
         status = tn_numbers_new(&w->total, 8, PAGE_PLANS, error);
-    if (status == TN_OK && !(w->ranks = calloc(PAGE_PLANS, sizeof *w->ranks)))
-        status = tn_fail_memory(error);
     return status;
 }
 
@@ -69,6 +72,8 @@ tn_status tn_parquet_writer_open(tn_plan_writer *writer, const tn_writer_options
     w->has_lines = options->plan_lines;
     w->has_total = writer->length_field != UINT32_MAX;
     choose_rank(w, options->ranks);
+    while (w->tray_bytes < 4 && w->schema->tray_count > UINT32_C(1) << 8 * w->tray_bytes)
+        w->tray_bytes++;
     tn_status status = open_columns(w, error);
     if (status != TN_OK)
         return status;
@@ -146,9 +151,9 @@ static bool encode_rank(tn_parquet_writing *w, const mpz_t rank)
     tn_buffer *out = &w->this_rank;
     out->size = 0;
     if (w->rank_bytes == 0) {
-        w->ranks[w->in_page] = (int64_t)mpz_get_ui(rank);
-        tn_plain_write(out, w->ranks[w->in_page], 8);
-        return !out->failed;
+        int64_t number = (int64_t)mpz_get_ui(rank);
+        tn_plain_write(out, number, 8);
+        return !out->failed && tn_delta_add(&w->ranks, number);
     }
     size_t used = (mpz_sizeinbase(rank, 2) + 7) / 8;
     if (!tn_buffer_reserve(out, w->rank_bytes))
@@ -192,23 +197,11 @@ static tn_status add_rank(tn_parquet_writing *w, const mpz_t rank, tn_error *err
     return done ? TN_OK : tn_fail_memory(error);
 }
 
-/* Room for so many trays more in the page: the fields' values move apart. */
+/* Room for so many trays more in the page. A number is written as four bytes, of which the next one takes some back. */
 static bool make_room(tn_parquet_writing *w, size_t more)
 {
-    uint32_t fields = w->schema->field_count;
-    size_t room = w->room, needed = w->trays + more;
-    if (needed <= room)
-        return true;
-    room = tn_array_larger(room, needed, PAGE_TRAYS + 64);
-    uint8_t *larger = calloc(room, fields);
-    for (uint32_t f = 0; larger && w->trays > 0 && f < fields; f++)
-        memcpy(larger + f * room, w->trays_of + f * w->room, w->trays);
-    if (!larger)
-        return false;
-    free(w->trays_of);
-    w->trays_of = larger;
-    w->room = room;
-    return true;
+    size_t first = (PAGE_TRAYS + 64) * w->tray_bytes, used = w->trays * w->tray_bytes;
+    return tn_array_reserve_from(&w->tray_numbers, &w->tray_room, first, used, more * w->tray_bytes + 4, 1);
 }
 
 static bool make_places(tn_parquet_writing *w, size_t more)
@@ -247,15 +240,9 @@ static void add_places(tn_parquet_writing *w, size_t length)
 
 static void add_trays(tn_parquet_writing *w, const tn_tray *trays, size_t length)
 {
-    uint32_t fields = w->schema->field_count;
-    for (size_t k = 0; k < length; k++) {
-        const uint8_t *values = w->schema->tray_values + (size_t)trays[k] * fields;
-        uint8_t *out = w->trays_of + w->trays + k;
-        for (uint32_t f = 0; f < fields; f++, out += w->room) {
-            *out = values[f];
-            w->seen[f][values[f]] = 1;
-        }
-    }
+    uint8_t *out = w->tray_numbers + w->trays * w->tray_bytes;
+    for (size_t k = 0; k < length; k++, out += w->tray_bytes)
+        tn_put_u32(out, trays[k]);
     w->trays += length;
 }
 
@@ -279,9 +266,9 @@ tn_status tn_parquet_writer_write(tn_plan_writer *writer, const mpz_t rank, cons
         status = tn_fail_memory(error);
     if (status != TN_OK)
         return status;
-    tn_numbers_add(&w->length, (int64_t)length);
-    if (w->has_total)
-        tn_numbers_add(&w->total, tn_writer_total(writer, trays, length));
+    if (!tn_numbers_add(&w->length, (int64_t)length) ||
+        (w->has_total && !tn_numbers_add(&w->total, tn_writer_total(writer, trays, length))))
+        return tn_fail_memory(error);
     add_places(w, length);
     add_trays(w, trays, length);
     w->in_page++;
@@ -312,7 +299,7 @@ void tn_parquet_writer_free(tn_plan_writer *writer)
     if (!w)
         return;
     tn_buffer *buffers[] = {&w->about_groups, &w->created_by, &w->metadata,  &w->wide_ranks, &w->lines,
-                            &w->least_rank,   &w->most_rank,  &w->this_rank, &w->body,       &w->levels};
+                            &w->least_rank,   &w->most_rank,  &w->this_rank, &w->body};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         free(buffers[i]->data);
     for (unsigned c = 0; c < TN_PARQUET_COLUMNS_MAX; c++)
@@ -320,10 +307,10 @@ void tn_parquet_writer_free(tn_plan_writer *writer)
     tn_numbers_free(&w->length);
     tn_numbers_free(&w->total);
     tn_page_packer_free(&w->packer);
-    free(w->trays_of);
+    free(w->tray_numbers);
     free(w->goes_on);
     free(w->holds);
-    free(w->ranks);
+    free(w->ranks.blocks.data);
     free(w);
     writer->parquet_state = NULL;
 }

@@ -3,6 +3,7 @@
 #define TARTAN_DRIVER_PARQUET_WRITING_H
 
 #include "driver/parquet/columns.h"
+#include "driver/parquet/encoding.h"
 #include "driver/parquet/numbers.h"
 #include "runtime/plan/text/writer.h"
 
@@ -25,12 +26,13 @@ typedef struct tn_parquet_writing {
 
     /* The page in hand, of all columns. */
     size_t in_page, trays;    /* plans, trays */
-    uint8_t *trays_of;        /* [field][room]: value numbers of the trays */
-    size_t room;              /* trays */
+    uint8_t *tray_numbers;    /* [tray]: tray_bytes each, the lowest first; their fields' values would take more */
+    size_t tray_room;         /* bytes */
+    unsigned tray_bytes;      /* what the largest number takes: 1 to 4 */
     uint8_t *goes_on, *holds; /* a bit a place of the lists: it is of the plan before; it is a tray */
     size_t places, places_room;
     bool some_empty;                  /* a plan without trays is among them */
-    int64_t *ranks;                   /* [plans], where they fit */
+    tn_delta_writer ranks;            /* where they fit */
     tn_buffer wide_ranks;             /* otherwise: rank_bytes each, the highest first */
     unsigned rank_bytes, rank_digits; /* 0: ranks fit in 64 bits */
     tn_numbers length, total;
@@ -44,7 +46,7 @@ typedef struct tn_parquet_writing {
     tn_buffer least_rank, most_rank, this_rank;       /* as the statistics write them; the one of the plan in hand */
     bool descends;                                    /* they do not all ascend */
 
-    tn_buffer body, levels;
+    tn_buffer body; /* of the page that is written */
     tn_page_packer packer;
 } tn_parquet_writing;
 

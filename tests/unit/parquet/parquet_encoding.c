@@ -4,14 +4,26 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
 #include "driver/parquet/encoding.h"
 #include "driver/parquet/numbers.h"
+#include "runtime/base/bytes.h"
 #include "tests/support/test_rule.h"
 
 enum { MOST = 1000 };
+
+static void write_deltas(tn_buffer *out, const int64_t *values, size_t count)
+{
+    tn_delta_writer writer = {0};
+    for (size_t i = 0; i < count; i++)
+        assert_true(tn_delta_add(&writer, values[i]));
+    tn_delta_end(&writer, out);
+    assert_false(out->failed);
+    free(writer.blocks.data);
+}
 
 /* Are these the numbers that were written, and does each shorter text end too soon? */
 static void expect_deltas(const int64_t *values, size_t count)
@@ -19,7 +31,7 @@ static void expect_deltas(const int64_t *values, size_t count)
     tn_buffer out = {0};
     tn_deltas deltas;
     int64_t value;
-    tn_delta_write(&out, values, count);
+    write_deltas(&out, values, count);
     assert_true(tn_deltas_begin(&deltas, (const uint8_t *)out.data, out.size));
     for (size_t i = 0; i < count; i++) {
         assert_true(tn_deltas_next(&deltas, &value));
@@ -50,7 +62,7 @@ static void test_deltas(void **state)
     for (size_t i = 0; i < MOST; i++) /* ranks in a row take next to no room */
         values[i] = INT64_C(10000000000) + (int64_t)i;
     tn_buffer out = {0};
-    tn_delta_write(&out, values, MOST);
+    write_deltas(&out, values, MOST);
     assert_in_range(out.size, 1, 60);
     free(out.data);
 }
@@ -82,7 +94,8 @@ static void test_runs(void **state)
         for (size_t i = 0; i < count; i++)
             shorts[i] = bytes[i] = (uint8_t)(values[i] = test_random_below(&random, most));
         tn_buffer out = {0};
-        tn_bytes_write(&out, bytes, count);
+        memcpy(tn_bytes_begin(&out, count), bytes, count);
+        tn_bytes_end(&out, 0, count);
         expect_runs(8, &out, values, count);
         out.size = 0;
         tn_shorts_write(&out, shorts, count);
@@ -126,6 +139,19 @@ static void test_numbers(void **state)
     assert_int_equal(body.size, 16);
     assert_memory_equal(body.data, "\4\0\0\0\0\0\0\0\xf9\xff\xff\xff\xff\xff\xff\xff", 16);
     assert_true(numbers.least == -7 && numbers.most == INT64_C(65535) * 65535 - 5);
+    tn_numbers_clear(&numbers);
+    body.size = 0;
+    for (int64_t n = 0; n < 65535; n++)
+        assert_true(tn_numbers_add(&numbers, n));
+    assert_int_equal(tn_numbers_page(&numbers, &body), TN_ENCODING_RLE_DICTIONARY);
+    body.size = 0;
+    const int64_t last[] = {3, 65535, 3, 65536, 4}; /* the fourth finds no place, in the middle of a page */
+    for (size_t i = 0; i < sizeof last / sizeof *last; i++)
+        assert_true(tn_numbers_add(&numbers, last[i]));
+    assert_int_equal(tn_numbers_page(&numbers, &body), TN_ENCODING_PLAIN);
+    assert_int_equal(body.size, 8 * sizeof last / sizeof *last);
+    for (size_t i = 0; i < sizeof last / sizeof *last; i++)
+        assert_true(tn_get_i64((const uint8_t *)body.data + 8 * i) == last[i]);
     tn_numbers_clear(&numbers);
     tn_numbers_add(&numbers, 9);
     assert_int_equal(tn_numbers_page(&numbers, &body), TN_ENCODING_RLE_DICTIONARY);
