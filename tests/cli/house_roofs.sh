@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Needs the parts: mesh
 # Roofs at random, with eaves, open and across: the solids of houses are apart, and their meshes closed and as large.
-# Some odd lengths together pass the limit of meshing (E1517): not those of these seeds.
+# Seeds 6 and 14 have lines of roofs that cross side by side, a step of the mesh apart.
 # Slow under sanitizers.
 name=house_roofs
 . "$(dirname "$0")/golden.bash"
 tests=$(cd "$here/.." && pwd)
 cd "$scratch"
 
-for seed in ${TARTAN_SEEDS:-1 2 3 4 5 7}; do
+for seed in ${TARTAN_SEEDS:-1 2 3 4 5 6 7 14}; do
     python3 -B "$tests/house_roofs.py" "$seed" >form.plan
     "$TARTAN" sample form.plan 2 --library all --plan '#70' --seed "$seed" >lines
     is "houses of form $seed" "$(wc -l <lines)" 2

@@ -15,9 +15,10 @@ void tn_union_clear(tn_union *result)
     *result = (tn_union){0};
 }
 
-static tn_status make(const tn_cut_box *cells, size_t count, double step, tn_union *result, tn_error *error)
+static tn_status make(const tn_cut_box *cells, size_t count, double step, bool merging, tn_union *result,
+                      tn_error *error)
 {
-    tn_grid grid = {.step = step};
+    tn_grid grid = {.step = step, .merging = merging};
     tn_grid_planes(&grid, cells, count);
     tn_status status = grid.failed ? tn_fail_memory(error) : TN_OK;
     bool again = true;
@@ -31,15 +32,16 @@ static tn_status make(const tn_cut_box *cells, size_t count, double step, tn_uni
     return status;
 }
 
-/* Edges of one step have no middle to be split at: with longer steps their ends are one vertex. */
+/* Edges of one step have no middle to be split at: with longer steps their ends are one vertex. Where no step will do,
+ * because crossings that are a few steps apart changed places when they were rounded, these are merged. */
 tn_status tn_union_make(const tn_cut_box *cells, size_t count, tn_union *result, tn_error *error)
 {
     double step = tn_cut_boxes_step(cells, count);
     tn_status status = TN_LIMIT;
     *result = (tn_union){0};
-    for (int longer = 0; longer < STEPS && status == TN_LIMIT; longer++) {
+    for (int attempt = 0; attempt < 2 * STEPS && status == TN_LIMIT; attempt++) {
         tn_union_clear(result);
-        status = make(cells, count, ldexp(step, 8 * longer), result, error);
+        status = make(cells, count, ldexp(step, 8 * (attempt % STEPS)), attempt >= STEPS, result, error);
     }
     result->mesh.group_count = (uint32_t)count;
     return status;

@@ -5,7 +5,8 @@
  * side of a line a point is on is decided exactly, where two lines cross is rounded once, to a step; so the boundary is
  * closed for every input, and no triangle is without area. Where cells touch along edges or at corners only, they come
  * apart: vertices are doubled, so that an edge has two triangles and a vertex one umbrella. Where that takes a vertex
- * between two that are a step apart, the whole is made again with longer steps.
+ * between two that are a step apart, the whole is made again with longer steps, as it is where
+ * rounding leaves an outline that crosses itself; if that does not help, crossings a few steps apart are merged.
  *
  * A tn_union owns its arrays; clear it in any case.
  */

@@ -4,6 +4,8 @@
 
 #include "runtime/geometry/union/union_parts.h"
 
+enum { NEAR = 4 }; /* steps: crossings were seen to be two apart */
+
 void tn_grid_clear(tn_grid *grid)
 {
     free(grid->vertices);
@@ -78,6 +80,16 @@ static bool grow(tn_grid *grid, tn_grid_table *table, bool of_lines)
     return true;
 }
 
+/* Where in the table a vertex is, or is to be. */
+static size_t vertex_slot(const tn_grid *grid, const tn_grid_vertex *vertex)
+{
+    const tn_grid_table *table = &grid->vertex_table;
+    size_t slot = hash_vertex(vertex) & (table->capacity - 1);
+    while (table->slots[slot] != TN_NOTHING && memcmp(&grid->vertices[table->slots[slot]], vertex, sizeof *vertex) != 0)
+        slot = (slot + 1) & (table->capacity - 1);
+    return slot;
+}
+
 uint32_t tn_grid_vertex_of(tn_grid *grid, const int64_t at[3])
 {
     tn_grid_vertex vertex = {{at[0], at[1], at[2]}};
@@ -85,10 +97,9 @@ uint32_t tn_grid_vertex_of(tn_grid *grid, const int64_t at[3])
     if (!grow(grid, table, false) ||
         !tn_grid_room(grid, &grid->vertices, sizeof vertex, grid->vertex_count, &grid->vertex_capacity))
         return 0;
-    size_t slot = hash_vertex(&vertex) & (table->capacity - 1);
-    for (; table->slots[slot] != TN_NOTHING; slot = (slot + 1) & (table->capacity - 1))
-        if (memcmp(&grid->vertices[table->slots[slot]], &vertex, sizeof vertex) == 0)
-            return table->slots[slot];
+    size_t slot = vertex_slot(grid, &vertex);
+    if (table->slots[slot] != TN_NOTHING)
+        return table->slots[slot];
     table->slots[slot] = (uint32_t)grid->vertex_count;
     table->count++;
     grid->vertices[grid->vertex_count] = vertex;
@@ -239,6 +250,26 @@ static int64_t nearest_small(tn_int128 numerator, tn_int128 denominator)
     return (int64_t)(quotient - (n % d < 0));
 }
 
+/* Moves a crossing to the nearest vertex of the plane that is at most NEAR steps away, if there is one. Lines that were
+ * one before their ends were rounded cross a third side by side; at a thin corner those crossings would change places.
+ */
+static void move_to_near(const tn_grid *grid, int u, int v, int64_t at[3])
+{
+    int64_t nearest_square = INT64_MAX;
+    tn_grid_vertex one = {{at[0], at[1], at[2]}}, best = one;
+    for (int64_t du = -NEAR; du <= NEAR && grid->vertex_count; du++)
+        for (int64_t dv = -NEAR; dv <= NEAR; dv++) {
+            one.at[u] = at[u] + du;
+            one.at[v] = at[v] + dv;
+            bool nearer = du * du + dv * dv < nearest_square;
+            if (!nearer || grid->vertex_table.slots[vertex_slot(grid, &one)] == TN_NOTHING)
+                continue;
+            nearest_square = du * du + dv * dv;
+            best = one;
+        }
+    memcpy(at, best.at, sizeof best.at);
+}
+
 tn_grid_point tn_grid_crossing(tn_grid *grid, int axis, int64_t w, uint32_t one, uint32_t other)
 {
     if (grid->failed)
@@ -266,6 +297,8 @@ tn_grid_point tn_grid_crossing(tn_grid *grid, int axis, int64_t w, uint32_t one,
         at[u] = nearest(turn < 0 ? tn_wide_negate(x) : x, turn * det);
         at[v] = nearest(turn < 0 ? tn_wide_negate(y) : y, turn * det);
     }
+    if (grid->merging)
+        move_to_near(grid, u, v, at);
     tn_grid_point point = {tn_grid_vertex_of(grid, at), one, other};
     tn_grid_stop_at(grid, one, point.vertex);
     tn_grid_stop_at(grid, other, point.vertex);

@@ -58,6 +58,7 @@ typedef struct tn_grid_table {
 
 typedef struct tn_grid {
     double step;
+    bool merging; /* a crossing of lines becomes the vertex that is a few steps away, if there is one */
     tn_grid_vertex *vertices;
     size_t vertex_count, vertex_capacity;
     tn_grid_table vertex_table;
