@@ -148,7 +148,8 @@ const tn_command tn_command_house = {
     .description =
         "Stands a plan up in a form (docs/houses.md): storeys, rooms with their functions, walls with their "
         "openings, decks, roofs, and what stands in the rooms. HOUSE is a house line in quotes: `plan ; section ; "
-        "functions ; faces ; tiles`. Parts at its end that leave no choice may be left out. #P:V is variant V of the "
+        "functions ; faces ; tiles`, or a JSON object with one. Parts at its end that leave no choice may be left out. "
+        "#P:V is variant V of the "
         "plan of rank P in a library of houses, and #R the house of rank R. Without -o the house's line is written. "
         "JSON has everything, in whole nanometres; CSV has the rooms with their areas; OBJ, PLY and GLB have the "
         "house as one closed mesh in metres, in groups by what its parts are. IFC has it as a building model, in "

@@ -378,7 +378,8 @@ const tn_command tn_command_explain = {
         "For a dropped plan, the nearest plans that the library keeps follow. A changed field costs 1; a tray "
         "that is added or left out costs as much as it has fields. With --rule, or if the file has no library, "
         "rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes.\n\n"
-        "HOUSE is a house line (docs/houses.md): explain says which clauses of a library of houses drop it, and "
+        "HOUSE is a house line (docs/houses.md) or a JSON object with one: explain says which clauses of a library of "
+        "houses drop it, and "
         "whether its plan is one of the library's. The tiles may be left out.\n\n"
         "For a design of boxes it says how they were squashed, pair by pair; -o draws each step.",
     .example = "$ tartan explain terrace \"$(tartan unrank terrace 1000)\"",

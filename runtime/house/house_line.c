@@ -1,5 +1,5 @@
-/* Reads and writes house lines: `plan ; section ; functions ; faces ; tiles`, in this order; trays are between bars,
- * and a part without words is `-`. */
+/* Reads house lines: `plan ; section ; functions ; faces ; tiles`, in this order; trays are between bars, and a part
+ * without words is `-`. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +15,7 @@ static const char *const part_names[] = {"plan", "section", "functions", "faces"
 typedef struct tn_part_reader {
     const char *line;
     size_t at, end; /* what is left of it */
+    size_t bars;    /* before that */
     int part;
     bool there; /* has it words at all? */
 } tn_part_reader;
@@ -24,12 +25,12 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* The next word; of no size at the end. Bars and `-` say nothing. */
+/* The next word; of no size at the end. Bars are counted; `-` says nothing. */
 static tn_word next_word(tn_part_reader *reader)
 {
     for (;;) {
         while (reader->at < reader->end && (is_blank(reader->line[reader->at]) || reader->line[reader->at] == '|'))
-            reader->at++;
+            reader->bars += reader->line[reader->at++] == '|';
         size_t begin = reader->at;
         while (reader->at < reader->end && !is_blank(reader->line[reader->at]) && reader->line[reader->at] != '|')
             reader->at++;
@@ -136,6 +137,45 @@ static tn_status read_section(const tn_house_form *form, const char *line, size_
     return at_end(&reader, "choice of the form", error);
 }
 
+/* Names a value of one choice with which the form allows the section, if there is one. The house stays as it is. */
+static void help_section(tn_house *house, tn_error *error)
+{
+    const tn_house_form *form = house->form;
+    for (uint32_t i = 0; i < form->record->choice_count; i++) {
+        const tn_choice_record *choice = tn_form_choice(form, i);
+        uint32_t was = house->shapes[i], other = 0;
+        for (; other < choice->shape_count; other++) {
+            house->shapes[i] = other;
+            if (tn_house_section_stands(house))
+                break;
+        }
+        house->shapes[i] = was;
+        if (other == choice->shape_count)
+            continue;
+        tn_error_help(error, "with `%.80s` for `%.80s` it would be allowed",
+                      tn_text(form->module, form->module->SHAPE_records[choice->shape_first + other].spelling),
+                      tn_text(form->module, choice->name));
+        return;
+    }
+    tn_error_help(error, "its `forbid` lines say which sections there are not");
+}
+
+static tn_status check_section(tn_house *house, const char *line, size_t size, tn_error *error)
+{
+    if (tn_house_section_stands(house))
+        return TN_OK;
+    tn_part_reader reader = open_part(line, size, SECTION);
+    size_t end = reader.end;
+    tn_word first = next_word(&reader);
+    while (end > 0 && is_blank(line[end - 1]))
+        end--;
+    tn_fail(error, TN_INVALID, E_BAD_HOUSE, "the form forbids this section");
+    help_section(house, error);
+    if (first.size > 0)
+        tn_error_place(error, 0, first.column, end + 1);
+    return TN_INVALID;
+}
+
 /* A cell that no function may take makes that there is no such house. */
 static tn_status no_function(const tn_house *house, const tn_cell *cell, tn_error *error)
 {
@@ -169,11 +209,33 @@ static tn_status read_function(tn_house *house, tn_part_reader *reader, tn_cell 
     return status;
 }
 
+/* Is the next word, if there is one, in the tray whose turn it is? */
+static tn_status at_tray(const tn_house *house, const tn_part_reader *reader, uint32_t tray, tn_error *error)
+{
+    tn_part_reader look = *reader;
+    tn_word word = next_word(&look);
+    if (!reader->there || word.size == 0 || look.bars == tray)
+        return TN_OK;
+    bool more = look.bars < tray;
+    if (more)
+        tray = (uint32_t)look.bars;
+    char shown[TN_WORD_SHOWN];
+    uint32_t cells = house->tray_first[tray + 1] - house->tray_first[tray];
+    tn_fail(error, TN_INVALID, E_BAD_HOUSE,
+            more ? "tray %u has %u cell%s, and `%s` is one word more: a bar is missing, or a word too many"
+                 : "tray %u has %u cell%s, and its functions end too soon, before `%s`",
+            tray + 1, cells, cells == 1 ? "" : "s", tn_word_show(&word, shown));
+    tn_error_help(error, "bars stand between the functions of two trays, as in the plan; without cells there is `-`");
+    return tn_word_refuse(&word, error);
+}
+
 static tn_status read_functions(tn_house *house, const char *line, size_t size, tn_error *error)
 {
     tn_part_reader reader = open_part(line, size, FUNCTIONS);
     for (size_t i = 0; i < house->cell_count; i++) {
-        tn_status status = read_function(house, &reader, &house->cells[i], error);
+        tn_status status = at_tray(house, &reader, house->cells[i].tray, error);
+        if (status == TN_OK)
+            status = read_function(house, &reader, &house->cells[i], error);
         if (status != TN_OK)
             return status;
     }
@@ -280,10 +342,8 @@ static tn_status read_open(const tn_house_form *form, const char *line, size_t s
     if (status == TN_OK)
         status = tn_house_stand(form, trays.trays, trays.length, shapes, house, error);
     free(trays.trays);
-    if (status == TN_OK && !tn_house_section_stands(house)) {
-        status = tn_fail(error, TN_INVALID, E_BAD_HOUSE, "the form forbids this section");
-        tn_error_help(error, "its `forbid` lines say which sections there are not");
-    }
+    if (status == TN_OK)
+        status = check_section(house, line, size, error);
     if (status == TN_OK)
         status = read_functions(house, line, size, error);
     if (status == TN_OK)
@@ -291,16 +351,61 @@ static tn_status read_open(const tn_house_form *form, const char *line, size_t s
     return status;
 }
 
-tn_status tn_house_read(const tn_house_form *form, const char *line, size_t size, size_t max_trays, tn_house *house,
-                        tn_error *error)
+static tn_status read_whole(const tn_house_form *form, const char *line, size_t size, size_t max_trays, tn_house *house,
+                            tn_error *error)
 {
     tn_status status = read_open(form, line, size, max_trays, house, error);
     return status == TN_OK ? read_tiles(house, line, size, error) : status;
 }
 
-tn_status tn_house_read_open(const tn_house_form *form, const char *line, size_t size, size_t max_trays,
-                             tn_house *house, tn_error *error)
+static tn_status read_tiles_there(const tn_house_form *form, const char *line, size_t size, size_t max_trays,
+                                  tn_house *house, tn_error *error)
 {
     tn_status status = read_open(form, line, size, max_trays, house, error);
     return status == TN_OK && open_part(line, size, TILES).there ? read_tiles(house, line, size, error) : status;
+}
+
+typedef tn_status line_reader(const tn_house_form *form, const char *line, size_t size, size_t max_trays,
+                              tn_house *house, tn_error *error);
+
+/* The line that is member "house" of a JSON object. */
+static tn_status read_member(line_reader *read, const tn_house_form *form, const char *text, size_t size,
+                             size_t max_trays, tn_house *house, tn_error *error)
+{
+    tn_buffer line = {0};
+    size_t begin;
+    *house = (tn_house){0};
+    tn_status status = tn_json_text(text, size, "house", &line, &begin, error);
+    if (status == TN_OK) {
+        status = read(form, line.data ? line.data : "", line.size, max_trays, house, error);
+        if (status == TN_INVALID && error && error->column)
+            tn_error_place(error, 0, tn_json_column(text, size, begin, error->column),
+                           tn_json_column(text, size, begin, error->column_end));
+    } else if (status == TN_INVALID) {
+        tn_error_help(error, "a house is a house line, or a JSON object with one: {\"house\": \"...\"}");
+    }
+    free(line.data);
+    return status;
+}
+
+static tn_status read_text(line_reader *read, const tn_house_form *form, const char *text, size_t size,
+                           size_t max_trays, tn_house *house, tn_error *error)
+{
+    size_t at = 0;
+    while (at < size && is_blank(text[at]))
+        at++;
+    return at < size && text[at] == '{' ? read_member(read, form, text, size, max_trays, house, error)
+                                        : read(form, text, size, max_trays, house, error);
+}
+
+tn_status tn_house_read(const tn_house_form *form, const char *line, size_t size, size_t max_trays, tn_house *house,
+                        tn_error *error)
+{
+    return read_text(read_whole, form, line, size, max_trays, house, error);
+}
+
+tn_status tn_house_read_open(const tn_house_form *form, const char *line, size_t size, size_t max_trays,
+                             tn_house *house, tn_error *error)
+{
+    return read_text(read_tiles_there, form, line, size, max_trays, house, error);
 }

@@ -1,4 +1,5 @@
 /* JSON lines: {"trays": [{"width": "12'", "public": true, "machine": {"fill": "dense", "depth": "4'"}}, ...]}. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "runtime/plan/text/scanner.h"
@@ -441,4 +442,55 @@ tn_status tn_scanner_json(tn_plan_scanner *scanner, const char *text, size_t len
     if (!found)
         return refuse_at(&json, 0, E_UNEXPECTED, "the object has no \"trays\"");
     return peek(&json) || json.at < json.size ? refuse(&json, "one plan a line: nothing may follow it") : TN_OK;
+}
+
+/* ---- one member of an object */
+
+typedef struct tn_json_wanted {
+    const char *name;
+    tn_buffer *out;
+    tn_word *place;
+    bool found;
+} tn_json_wanted;
+
+static tn_status read_wanted(tn_json *json, const tn_word *key, void *context)
+{
+    tn_json_wanted *wanted = context;
+    if (!word_is(key, wanted->name))
+        return skip_value(json);
+    if (wanted->found)
+        return refuse_key(json, key, "the object has this member twice");
+    wanted->found = true;
+    tn_status status = read_string(json, 1, wanted->place);
+    if (status == TN_OK && !tn_buffer_append(wanted->out, wanted->place->text, wanted->place->size))
+        status = tn_fail_memory(json->error);
+    return status;
+}
+
+tn_status tn_json_text(const char *text, size_t length, const char *name, tn_buffer *out, size_t *column,
+                       tn_error *error)
+{
+    tn_plan_scanner scanner = {0};
+    tn_word place = {0};
+    tn_json json = {.scanner = &scanner, .text = text, .size = length, .error = error};
+    tn_json_wanted wanted = {.name = name, .out = out, .place = &place};
+    tn_status status = read_object(&json, read_wanted, &wanted);
+    if (status == TN_OK && (peek(&json) || json.at < json.size))
+        status = refuse(&json, "nothing may follow the object");
+    if (status == TN_OK && !wanted.found) {
+        status = tn_fail(error, TN_INVALID, E_PLAN_SYNTAX, "the object has no \"%s\"", name);
+        tn_error_place(error, 0, 1, length + 1);
+    }
+    *column = place.column + 1;
+    for (size_t i = 0; i < sizeof scanner.unescaped / sizeof *scanner.unescaped; i++)
+        free(scanner.unescaped[i].data);
+    return status;
+}
+
+size_t tn_json_column(const char *text, size_t length, size_t begin, size_t column)
+{
+    size_t at = begin - 1;
+    for (size_t read = 1; read < column && at < length && text[at] != '"'; read++)
+        at += text[at] != '\\' ? 1 : at + 1 < length && text[at + 1] == 'u' ? 6 : 2;
+    return at + 1;
 }

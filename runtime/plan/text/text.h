@@ -46,6 +46,15 @@ tn_status tn_plan_parse_line(const tn_schema *schema, const char *line, size_t l
 tn_status tn_plan_parse_json(const tn_schema *schema, const char *text, size_t length, size_t max_trays, tn_plan *plan,
                              tn_error *error);
 
+/* Appends the text that is member `name` of a JSON object to `out`; *column is where it begins, after its quote. Other
+ * members are skipped. E0601, with its columns, where there is no such text, or no object. */
+tn_status tn_json_text(const char *text, size_t length, const char *name, tn_buffer *out, size_t *column,
+                       tn_error *error);
+
+/* The column of an object in which `column` of such a text, which begins at column `begin`, is written: escapes take
+ * more room there. A character beyond ASCII that is written as an escape counts as one column. */
+size_t tn_json_column(const char *text, size_t length, size_t begin, size_t column);
+
 /* The same for many plans: a scanner remembers the trays that it has read, text by text (in bounded memory), and so
  * reads most trays at a glance. It belongs to one thread and borrows the schema. */
 typedef struct tn_plan_scanner tn_plan_scanner;
