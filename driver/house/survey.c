@@ -7,12 +7,6 @@
 #include "runtime/base/length.h"
 
 #define DECISIONS_MAX 100000000u /* a second or two */
-#define SECTIONS_MAX 100000u
-
-static tn_diagnostics *list_of(const tn_survey *s)
-{
-    return &s->opened->compilation.diagnostics;
-}
 
 static bool decides(const tn_survey *s, uint32_t function, const tn_cell *cell)
 {
@@ -26,7 +20,8 @@ static tn_status add_class(tn_survey *s, const tn_cell *cell, tn_error *error)
     if (!tn_array_reserve_from(&s->classes, &s->class_room, 64, s->class_count, 1, sizeof *s->classes))
         return tn_fail_memory(error);
     tn_cell_class *class = &s->classes[s->class_count];
-    *class = (tn_cell_class){cell->zone, cell->storey, cell->open, calloc(s->words, sizeof *class->met)};
+    int64_t wide = cell->at.x1 - cell->at.x0, deep = cell->at.y1 - cell->at.y0;
+    *class = (tn_cell_class){cell->zone, cell->storey, cell->open, wide, deep, calloc(s->words, sizeof *class->met)};
     if (!class->met)
         return tn_fail_memory(error);
     for (uint32_t i = 0; i < s->form.record->face_count; i++) {
@@ -36,9 +31,11 @@ static tn_status add_class(tn_survey *s, const tn_cell *cell, tn_error *error)
         class->met[i / 32] |= (first | second << 1) << 2 * (i % 32);
     }
     for (size_t i = 0; i < s->class_count; i++) {
-        const tn_cell_class *other = &s->classes[i];
+        tn_cell_class *other = &s->classes[i];
         if (other->zone == class->zone && other->storey == class->storey && other->open == class->open &&
             memcmp(other->met, class->met, s->words * sizeof *class->met) == 0) {
+            other->wide = wide > other->wide ? wide : other->wide;
+            other->deep = deep > other->deep ? deep : other->deep;
             free(class->met);
             return TN_OK;
         }
@@ -72,6 +69,19 @@ static tn_status try_tiles(tn_survey *s, tn_cell *cell, tn_error *error)
         if (!s->tiles[i] && tn_tile_is_for(&s->house, 0, s->form.record->tile_first + i))
             status = try_sizes(s, i, cell, error);
     return status;
+}
+
+/* ---- flights */
+
+/* The flights for which there is room in the cell, and no tile in the way. */
+static void try_flights(tn_survey *s, tn_cell *cell)
+{
+    s->house.cells = cell;
+    for (uint32_t i = 0; cell->storey + 1 < s->form.record->storey_count && i < s->form.record->opening_count; i++) {
+        const tn_opening_record *flight = tn_form_flight(&s->form, TN_FACE_KIND_COUNT + i);
+        const tn_face face = {.relation = TN_FACE_UNDER, .storey = cell->storey, .at = cell->at};
+        s->climbs[i] |= flight && tn_flight_fits(&s->house, &face, flight);
+    }
 }
 
 /* ---- cells */
@@ -117,6 +127,7 @@ static tn_status see_cell(tn_survey *s, tn_cell *cell, bool surely, tn_error *er
         status = add_class(s, cell, error);
         if (status == TN_OK)
             status = try_tiles(s, cell, error);
+        try_flights(s, cell);
     }
     cell->function = TN_NO_FUNCTION;
     if (!any && surely && !s->bare) {
@@ -147,17 +158,15 @@ static tn_status see_tray(tn_survey *s, tn_error *error)
 
 /* ---- what is said */
 
-#define SPAN(RECORD) ((tn_span){(RECORD)->file, (RECORD)->begin, (RECORD)->end})
-
 static void warn_functions(const tn_survey *s)
 {
     for (uint32_t f = 0; f < tn_form_functions(&s->form); f++) {
         const tn_cell_rule_record *rule = tn_form_rule(&s->form, f);
-        if (s->functions[f] || tn_survey_allows(s, W_FUNCTION_NEVER, SPAN(rule)))
+        if (s->functions[f] || tn_survey_allows(s, W_FUNCTION_NEVER, TN_SURVEY_SPAN(rule)))
             continue;
-        tn_diagnostic *d = tn_report(list_of(s), W_FUNCTION_NEVER, SPAN(rule), "no cell may have the function `%s`",
-                                     tn_text(s->form.module, rule->name));
-        tn_help(list_of(s), d, "no one cell meets all items after `at` and is kept by every `void` and `no`");
+        tn_diagnostic *d = tn_report(tn_survey_list(s), W_FUNCTION_NEVER, TN_SURVEY_SPAN(rule),
+                                     "no cell may have the function `%s`", tn_text(s->form.module, rule->name));
+        tn_help(tn_survey_list(s), d, "no one cell meets all items after `at` and is kept by every `void` and `no`");
     }
 }
 
@@ -165,15 +174,16 @@ static tn_status warn_bare(const tn_survey *s, tn_error *error)
 {
     const tn_form_record *form = s->form.record;
     tn_buffer line = {0};
-    if (!s->bare || tn_form_functions(&s->form) == 0 || tn_survey_allows(s, W_NO_FUNCTION, SPAN(form)))
+    if (!s->bare || tn_form_functions(&s->form) == 0 || tn_survey_allows(s, W_NO_FUNCTION, TN_SURVEY_SPAN(form)))
         return TN_OK;
     bool ok = tn_plan_write_line(s->schema, &s->bare_tray, 1, &line);
     tn_diagnostic *d = tn_report(
-        list_of(s), W_NO_FUNCTION, SPAN(form), "form `%s`: no function may take the %s in storey `%s` of some trays",
-        tn_text(s->form.module, form->name), tn_text(s->form.module, s->schema->fields[s->bare_cell.zone].name),
+        tn_survey_list(s), W_NO_FUNCTION, TN_SURVEY_SPAN(form),
+        "form `%s`: no function may take the %s in storey `%s` of some trays", tn_text(s->form.module, form->name),
+        tn_text(s->form.module, s->schema->fields[s->bare_cell.zone].name),
         tn_text(s->form.module, s->form.module->STOREY_records[form->storey_first + s->bare_cell.storey].name));
-    tn_note(list_of(s), d, NULL, "this plan has no house: %s", ok ? line.data : "");
-    tn_help(list_of(s), d, "add a function for such cells; or say that they are not there: `no cell(...)`");
+    tn_note(tn_survey_list(s), d, NULL, "this plan has no house: %s", ok ? line.data : "");
+    tn_help(tn_survey_list(s), d, "add a function for such cells; or say that they are not there: `no cell(...)`");
     free(line.data);
     return ok ? TN_OK : tn_fail_memory(error);
 }
@@ -182,17 +192,17 @@ static void warn_tiles(const tn_survey *s)
 {
     for (uint32_t i = 0; i < s->form.record->tile_count; i++) {
         const tn_tile_record *tile = &s->form.module->TILE_records[s->form.record->tile_first + i];
-        if (s->tiles[i] || tn_survey_allows(s, W_TILE_NEVER, SPAN(tile)))
+        if (s->tiles[i] || tn_survey_allows(s, W_TILE_NEVER, TN_SURVEY_SPAN(tile)))
             continue;
-        tn_diagnostic *d = tn_report(list_of(s), W_TILE_NEVER, SPAN(tile), "tile `%s` fits into no cell",
-                                     tn_text(s->form.module, tile->name));
-        tn_help(list_of(s), d,
+        tn_diagnostic *d = tn_report(tn_survey_list(s), W_TILE_NEVER, TN_SURVEY_SPAN(tile),
+                                     "tile `%s` fits into no cell", tn_text(s->form.module, tile->name));
+        tn_help(tn_survey_list(s), d,
                 "make its boxes, or its `wide` and `deep`, smaller: they must fit between the walls of a room, beside "
                 "each other");
     }
 }
 
-static bool is_named(const tn_survey *s, uint32_t kind)
+bool tn_survey_names(const tn_survey *s, uint32_t kind)
 {
     const tn_module *module = s->form.module;
     for (uint32_t i = 0; i < s->form.record->face_count; i++) {
@@ -204,65 +214,32 @@ static bool is_named(const tn_survey *s, uint32_t kind)
     return false;
 }
 
-static void warn_openings(const tn_survey *s)
+static void warn_opening(const tn_survey *s, uint32_t number)
 {
-    for (uint32_t i = 0; i < s->form.record->opening_count; i++) {
-        const tn_opening_record *opening = &s->form.module->OPENING_records[s->form.record->opening_first + i];
-        const char *name = tn_text(s->form.module, opening->name);
-        bool named = is_named(s, TN_FACE_KIND_COUNT + i);
-        if ((named && opening->wide + s->form.record->wall <= s->widest) ||
-            tn_survey_allows(s, W_OPENING_NEVER, SPAN(opening)))
-            continue;
-        tn_diagnostic *d =
-            tn_report(list_of(s), W_OPENING_NEVER, SPAN(opening),
-                      named ? "opening `%s` is wider than every face" : "no face has the opening `%s`", name);
-        if (named)
-            tn_help(list_of(s), d, "a face has to be as wide as the opening and a `wall` added");
-        else
-            tn_help(list_of(s), d, "name it in a line such as `face cell(any) outside = %s`", name);
-    }
-}
-
-/* ---- sections */
-
-/* The next combination of values; false after the last. */
-static bool next_section(tn_survey *s)
-{
-    for (uint32_t i = s->form.record->choice_count; i-- > 0;) {
-        if (++s->house.shapes[i] < tn_form_choice(&s->form, i)->shape_count)
-            return true;
-        s->house.shapes[i] = 0;
-    }
-    return false;
-}
-
-static tn_status warn_sections(tn_survey *s, tn_error *error)
-{
-    const tn_module *module = s->form.module;
-    uint64_t sections = 1;
-    for (uint32_t i = 0; i < s->form.record->choice_count && sections <= SECTIONS_MAX; i++)
-        sections *= tn_form_choice(&s->form, i)->shape_count;
-    bool *stands = calloc((size_t)module->SHAPE_count + 1, sizeof *stands), any = false;
-    if (!stands)
-        return tn_fail_memory(error);
-    do {
-        bool good = sections <= SECTIONS_MAX && tn_house_section_stands(&s->house);
-        any |= good;
-        for (uint32_t i = 0; good && i < s->form.record->choice_count; i++)
-            stands[tn_form_choice(&s->form, i)->shape_first + s->house.shapes[i]] = true;
-    } while (sections <= SECTIONS_MAX && next_section(s));
-    for (uint32_t i = 0; any && i < s->form.record->choice_count; i++)
-        for (uint32_t k = 0; k < tn_form_choice(&s->form, i)->shape_count; k++) {
-            const tn_choice_record *choice = tn_form_choice(&s->form, i);
-            const tn_shape_record *shape = &module->SHAPE_records[choice->shape_first + k];
-            if (stands[choice->shape_first + k] || tn_survey_allows(s, W_SHAPE_NEVER, SPAN(shape)))
-                continue;
-            tn_diagnostic *d = tn_report(list_of(s), W_SHAPE_NEVER, SPAN(shape), "no section has this value of `%s`",
-                                         tn_text(module, choice->name));
-            tn_help(list_of(s), d, "the form's `forbid` lines leave no combination with it");
-        }
-    free(stands);
-    return TN_OK;
+    const tn_opening_record *opening = &s->form.module->OPENING_records[s->form.record->opening_first + number];
+    const char *name = tn_text(s->form.module, opening->name);
+    bool flight = tn_form_flight(&s->form, TN_FACE_KIND_COUNT + number);
+    bool named = tn_survey_names(s, TN_FACE_KIND_COUNT + number);
+    bool wider = opening->wide + s->form.record->wall > s->widest;
+    if ((named && !wider && s->used[TN_FACE_KIND_COUNT + number]) ||
+        tn_survey_allows(s, W_OPENING_NEVER, TN_SURVEY_SPAN(opening)))
+        return;
+    tn_diagnostic *d = tn_report(tn_survey_list(s), W_OPENING_NEVER, TN_SURVEY_SPAN(opening),
+                                 !named   ? "no face has the opening `%s`"
+                                 : flight ? "no face can have the flight `%s`"
+                                 : wider  ? "opening `%s` is wider than every face"
+                                          : "no face can have the opening `%s`",
+                                 name);
+    if (!named)
+        tn_help(tn_survey_list(s), d, "name it in a line such as `face cell(any) %s = %s`",
+                flight ? "under cell(any)" : "outside", name);
+    else if (flight)
+        tn_help(tn_survey_list(s), d, TN_FLIGHT_NEEDS);
+    else
+        tn_help(tn_survey_list(s), d,
+                wider ? "a face has to be as wide as the opening and a `wall` added"
+                      : "the faces of the lines that name it are narrower than it and a `wall` added, or lower, or "
+                        "lines before these decide them");
 }
 
 /* ---- forms */
@@ -280,9 +257,12 @@ static tn_status see_all(tn_survey *s, tn_error *error)
         return status;
     warn_functions(s);
     warn_tiles(s);
-    warn_openings(s);
     status = warn_bare(s, error);
-    return status == TN_OK ? tn_survey_faces(s, error) : status;
+    if (status == TN_OK)
+        status = tn_survey_faces(s, error);
+    for (uint32_t i = 0; status == TN_OK && i < form->opening_count; i++)
+        warn_opening(s, i);
+    return status;
 }
 
 static tn_status survey(tn_opened *opened, uint32_t index, tn_error *error)
@@ -299,7 +279,9 @@ static tn_status survey(tn_opened *opened, uint32_t index, tn_error *error)
     s.house = (tn_house){.form = &s.form, .trays = &s.tray, .length = 1};
     s.functions = calloc((size_t)form->rule_count + 1, sizeof *s.functions);
     s.tiles = calloc((size_t)form->tile_count + 1, sizeof *s.tiles);
-    status = s.functions && s.tiles ? warn_sections(&s, error) : tn_fail_memory(error);
+    s.climbs = calloc((size_t)form->opening_count + 1, sizeof *s.climbs);
+    s.used = calloc(TN_FACE_KIND_COUNT + (size_t)form->opening_count, sizeof *s.used);
+    status = s.functions && s.tiles && s.climbs && s.used ? tn_survey_sections(&s, error) : tn_fail_memory(error);
     if (status == TN_OK)
         status = see_all(&s, error);
     for (size_t i = 0; i < s.class_count; i++)
@@ -307,6 +289,8 @@ static tn_status survey(tn_opened *opened, uint32_t index, tn_error *error)
     free(s.classes);
     free(s.functions);
     free(s.tiles);
+    free(s.climbs);
+    free(s.used);
     tn_schema_free(s.schema);
     return status;
 }

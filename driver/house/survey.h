@@ -1,5 +1,6 @@
 /* What a form says that comes to nothing, found by going through all trays of its schema: functions that no cell may
- * have, tiles and openings that never fit, lines of faces that never apply, values that no section has (W202 to W207).
+ * have, tiles and openings that never fit, lines of faces that never apply, values that no section has, materials that
+ * none uses (W201 to W207).
  *
  * A form whose trays and lines are too many to go through (a hundred million decisions) is left out without a word.
  */

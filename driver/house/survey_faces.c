@@ -37,77 +37,166 @@ static bool always_fits(const tn_survey *s, const tn_face_line_record *record)
     return false;
 }
 
-/* What is known of each line. */
+/* What is known of each line. hidden_by: a line that takes all such faces, or such into which a kind fits that both
+ * have. */
 typedef struct line_use {
     bool applies, reached;
-    uint32_t hidden_by;
+    uint32_t hidden_by, hidden_kind; /* kind: TN_NO_RECORD where it takes all */
 } line_use;
 
-static void ask(const tn_survey *s, const meeting *m, line_use *uses)
+/* Which line had a kind first, among those about one meeting. */
+typedef struct kind_use {
+    size_t meeting;
+    uint32_t line;
+} kind_use;
+
+typedef struct asking {
+    tn_survey *survey;
+    line_use *lines;
+    kind_use *kinds;
+    size_t meeting; /* from 1 */
+} asking;
+
+static int64_t least(int64_t a, int64_t b)
 {
+    return a < b ? a : b;
+}
+
+/* Is the face large enough for the kind, as far as the largest cells of both classes say? */
+static bool may_fit(const tn_survey *s, const meeting *m, uint32_t kind)
+{
+    const tn_opening_record *opening = tn_form_opening(&s->form, kind);
+    if (kind < TN_FACE_KIND_COUNT)
+        return true;
+    if (tn_form_flight(&s->form, kind))
+        return s->climbs[kind - TN_FACE_KIND_COUNT];
+    bool in_x = m->relation == TN_FACE_OUTSIDE ? m->side == TN_HOUSE_BACK || m->side == TN_HOUSE_FRONT
+                                               : m->relation == TN_FACE_ACROSS;
+    int64_t room = in_x ? m->a->wide : m->a->deep;
+    if (m->b)
+        room = least(room, in_x ? m->b->wide : m->b->deep);
+    return opening->wide + s->form.record->wall <= room &&
+           opening->sill + opening->high <= tn_form_clear(&s->form, m->a->storey);
+}
+
+/* The kinds of a line that is about the meeting, where no line before it takes all such faces. */
+static void ask_kinds(asking *a, const meeting *m, uint32_t line)
+{
+    const tn_survey *s = a->survey;
+    const tn_face_line_record *record = &s->form.module->FACE_LINE_records[s->form.record->face_first + line];
+    for (uint32_t i = 0; i < record->kind_count; i++) {
+        uint32_t kind = s->form.module->HOUSE_ITEM_records[record->kind_first + i].number;
+        bool had = a->kinds[kind].meeting == a->meeting && a->kinds[kind].line != line;
+        if (!had)
+            a->kinds[kind] = (kind_use){a->meeting, line};
+        if (!may_fit(s, m, kind))
+            continue;
+        s->used[kind] = true;
+        a->lines[line].reached |= !had;
+        if (had) {
+            a->lines[line].hidden_by = a->kinds[kind].line;
+            a->lines[line].hidden_kind = kind;
+        }
+    }
+}
+
+static void ask(asking *a, const meeting *m)
+{
+    const tn_survey *s = a->survey;
     uint32_t taken = TN_NO_RECORD;
+    a->meeting++;
     for (uint32_t i = 0; i < s->form.record->face_count; i++) {
         const tn_face_line_record *record = &s->form.module->FACE_LINE_records[s->form.record->face_first + i];
         if (!is_about(record, i, m))
             continue;
-        uses[i].applies = true;
-        if (taken == TN_NO_RECORD)
-            uses[i].reached = true;
-        else
-            uses[i].hidden_by = taken;
-        if (taken == TN_NO_RECORD && always_fits(s, record))
+        a->lines[i].applies = true;
+        if (taken != TN_NO_RECORD) {
+            a->lines[i].hidden_by = taken;
+            a->lines[i].hidden_kind = TN_NO_RECORD;
+            continue;
+        }
+        ask_kinds(a, m, i);
+        if (always_fits(s, record))
             taken = i;
     }
 }
 
-static void ask_pair(const tn_survey *s, const tn_cell_class *a, const tn_cell_class *b, line_use *uses)
+static void ask_pair(asking *to, const tn_cell_class *a, const tn_cell_class *b)
 {
     if (a->storey == b->storey) {
-        ask(s, &(meeting){a, b, TN_FACE_ALONG, TN_HOUSE_ANY_SIDE}, uses);
+        ask(to, &(meeting){a, b, TN_FACE_ALONG, TN_HOUSE_ANY_SIDE});
         if (a->zone != b->zone)
-            ask(s, &(meeting){a, b, TN_FACE_ACROSS, TN_HOUSE_ANY_SIDE}, uses);
+            ask(to, &(meeting){a, b, TN_FACE_ACROSS, TN_HOUSE_ANY_SIDE});
     }
     if (a->zone == b->zone && a->storey + 1 == b->storey && !b->open)
-        ask(s, &(meeting){a, b, TN_FACE_UNDER, TN_HOUSE_ANY_SIDE}, uses);
+        ask(to, &(meeting){a, b, TN_FACE_UNDER, TN_HOUSE_ANY_SIDE});
+}
+
+static void warn_hidden(const tn_survey *s, tn_diagnostic *d, const line_use *use)
+{
+    const tn_face_line_record *before = &s->form.module->FACE_LINE_records[s->form.record->face_first + use->hidden_by];
+    tn_span place = TN_SURVEY_SPAN(before);
+    if (use->hidden_kind == TN_NO_RECORD)
+        tn_note(tn_survey_list(s), d, &place, "this line takes such faces, and has a kind that always fits");
+    else
+        tn_note(tn_survey_list(s), d, &place, "this line takes such faces wherever `%s` fits",
+                tn_form_kind_text(&s->form, use->hidden_kind));
+    tn_help(tn_survey_list(s), d, "the first line that applies counts: put this one before that");
 }
 
 static void warn(const tn_survey *s, uint32_t line, const line_use *use)
 {
-    tn_diagnostics *list = &s->opened->compilation.diagnostics;
-    const tn_face_line_record *records = s->form.module->FACE_LINE_records + s->form.record->face_first;
-    tn_span span = {records[line].file, records[line].begin, records[line].end};
-    if (tn_survey_allows(s, W_FACE_LINE_IDLE, span))
+    const tn_face_line_record *record = &s->form.module->FACE_LINE_records[s->form.record->face_first + line];
+    bool hidden = use->hidden_by != TN_NO_RECORD;
+    if (tn_survey_allows(s, W_FACE_LINE_IDLE, TN_SURVEY_SPAN(record)))
         return;
-    tn_diagnostic *d =
-        tn_report(list, W_FACE_LINE_IDLE, span,
-                  use->applies ? "this line decides no face: others before it do" : "no face is between such cells");
-    if (!use->applies) {
-        tn_help(list, d, "check the storey, the zone and the function that it names");
-        return;
+    tn_diagnostic *d = tn_report(tn_survey_list(s), W_FACE_LINE_IDLE, TN_SURVEY_SPAN(record),
+                                 !use->applies ? "no face is between such cells"
+                                 : hidden      ? "this line decides no face: others before it do"
+                                               : "this line decides no face: none of its kinds fits");
+    if (!use->applies)
+        tn_help(tn_survey_list(s), d, "check the storey, the zone and the function that it names");
+    else if (hidden)
+        warn_hidden(s, d, use);
+    else
+        tn_help(tn_survey_list(s), d,
+                record->relation == TN_FACE_UNDER ? TN_FLIGHT_NEEDS
+                                                  : "an opening needs a face as wide as itself and a `wall` added, and "
+                                                    "a storey as high as its `sill` and "
+                                                    "`high` added");
+}
+
+static void ask_all(asking *to)
+{
+    const tn_survey *s = to->survey;
+    for (size_t a = 0; a < s->class_count; a++) {
+        for (size_t b = 0; b < s->class_count; b++)
+            ask_pair(to, &s->classes[a], &s->classes[b]);
+        for (int side = TN_HOUSE_BACK; side < TN_HOUSE_SIDE_COUNT; side++)
+            ask(to, &(meeting){&s->classes[a], NULL, TN_FACE_OUTSIDE, (tn_house_side)side});
     }
-    const tn_face_line_record *before = &records[use->hidden_by];
-    tn_span place = {before->file, before->begin, before->end};
-    tn_note(list, d, &place, "this line takes such faces, and has a kind that always fits");
-    tn_help(list, d, "the first line that applies counts: put this one before that");
+    for (uint32_t i = 0; i < s->form.record->face_count; i++)
+        if (!to->lines[i].reached)
+            warn(s, i, &to->lines[i]);
 }
 
 tn_status tn_survey_faces(tn_survey *s, tn_error *error)
 {
     uint32_t lines = s->form.record->face_count;
-    if (s->class_count * s->class_count * lines > 100000000)
+    size_t kinds = TN_FACE_KIND_COUNT + (size_t)s->form.record->opening_count;
+    if (s->class_count * s->class_count * lines > 100000000) {
+        for (size_t i = 0; i < kinds; i++)
+            s->used[i] = true; /* nothing is known */
         return TN_OK;
-    line_use *uses = calloc((size_t)lines + 1, sizeof *uses);
-    if (!uses)
-        return tn_fail_memory(error);
-    for (size_t a = 0; a < s->class_count; a++) {
-        for (size_t b = 0; b < s->class_count; b++)
-            ask_pair(s, &s->classes[a], &s->classes[b], uses);
-        for (int side = TN_HOUSE_BACK; side < TN_HOUSE_SIDE_COUNT; side++)
-            ask(s, &(meeting){&s->classes[a], NULL, TN_FACE_OUTSIDE, (tn_house_side)side}, uses);
     }
-    for (uint32_t i = 0; i < lines; i++)
-        if (!uses[i].reached)
-            warn(s, i, &uses[i]);
-    free(uses);
-    return TN_OK;
+    asking to = {
+        .survey = s, .lines = calloc((size_t)lines + 1, sizeof *to.lines), .kinds = calloc(kinds, sizeof *to.kinds)};
+    tn_status status = to.lines && to.kinds ? TN_OK : tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < lines; i++)
+        to.lines[i].hidden_by = TN_NO_RECORD;
+    if (status == TN_OK)
+        ask_all(&to);
+    free(to.lines);
+    free(to.kinds);
+    return status;
 }

@@ -10,6 +10,7 @@
 typedef struct tn_cell_class {
     uint32_t zone, storey;
     bool open;
+    int64_t wide, deep; /* the most that one of them has */
     uint64_t *met;
 } tn_cell_class;
 
@@ -20,6 +21,8 @@ typedef struct tn_survey {
     tn_schema *schema;
     tn_house_form form;
     bool *functions, *tiles; /* [function] a cell may have it; [tile] it fits somewhere */
+    bool *climbs;            /* [opening] a flight for which a cell has room */
+    bool *used;              /* [kind of face] a face may have it, as far as is known */
     int64_t widest;          /* the longest that a face can be */
     bool bare;               /* a cell was found that no function may take: */
     tn_cell bare_cell;
@@ -35,7 +38,26 @@ static inline bool tn_survey_allows(const tn_survey *survey, tn_code code, tn_sp
     return tn_program_allows(survey->opened->compilation.program, code, at);
 }
 
-/* ---- survey_faces.c: lines of faces that never apply, or are hidden by those before them */
+static inline tn_diagnostics *tn_survey_list(const tn_survey *survey)
+{
+    return &survey->opened->compilation.diagnostics;
+}
+
+#define TN_SURVEY_SPAN(RECORD) ((tn_span){(RECORD)->file, (RECORD)->begin, (RECORD)->end})
+
+#define TN_FLIGHT_NEEDS                                                                                                \
+    "a flight needs cells whose functions have no tiles, with room between the walls for the steps and a place at "    \
+    "both "                                                                                                            \
+    "ends"
+
+/* Has a line of faces this kind? */
+bool tn_survey_names(const tn_survey *survey, uint32_t kind);
+
+/* ---- survey_sections.c: values that no section has, and materials that none uses */
+tn_status tn_survey_sections(tn_survey *survey, tn_error *error);
+
+/* ---- survey_faces.c: lines of faces that never apply, or are hidden by those before them; notes which kinds are used
+ */
 tn_status tn_survey_faces(tn_survey *survey, tn_error *error);
 
 #endif

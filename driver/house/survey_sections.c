@@ -1,0 +1,159 @@
+/* Goes through the sections of a form: warns about values that none has, and about materials of which nothing is made.
+ */
+#include <stdlib.h>
+
+#include "driver/house/survey_parts.h"
+#include "runtime/house/schedule/cost.h"
+
+#define SECTIONS_MAX 100000u
+#define QUESTIONS_MAX 100000000u /* which material a part has in a section: a second or two */
+
+/* What is known when all sections were seen. */
+typedef struct section_use {
+    bool any;           /* the form does not forbid all */
+    bool *stands;       /* [SHAPE] some section has the value */
+    bool *holds, *used; /* [material of the form] its `where` holds in some section; a part is made of it in some */
+    bool materials;     /* are there few enough to ask for? */
+} section_use;
+
+static const tn_material_record *material_of(const tn_survey *s, uint32_t number)
+{
+    return &s->form.module->MATERIAL_records[s->form.record->material_first + number];
+}
+
+static uint32_t part_of(const tn_survey *s, const tn_material_record *material, uint32_t place)
+{
+    return s->form.module->HOUSE_ITEM_records[material->part_first + place].number;
+}
+
+/* Which materials the section of the house has. */
+static void see_materials(const tn_survey *s, section_use *seen)
+{
+    for (uint32_t i = 0; i < s->form.record->material_count; i++) {
+        const tn_material_record *material = material_of(s, i);
+        seen->holds[i] =
+            seen->holds[i] || material->where == TN_NO_RECORD || tn_house_decide(&s->house, material->where, NULL);
+        for (uint32_t p = 0; seen->holds[i] && !seen->used[i] && p < material->part_count; p++) {
+            uint32_t part = part_of(s, material, p);
+            bool there = part != TN_OF_PARTY || tn_survey_names(s, TN_FACE_PARTY);
+            seen->used[i] = there && tn_part_material(&s->house, part) == s->form.record->material_first + i;
+        }
+    }
+}
+
+/* The next combination of values; false after the last. */
+static bool next_section(tn_survey *s)
+{
+    for (uint32_t i = s->form.record->choice_count; i-- > 0;) {
+        if (++s->house.shapes[i] < tn_form_choice(&s->form, i)->shape_count)
+            return true;
+        s->house.shapes[i] = 0;
+    }
+    return false;
+}
+
+static void see_sections(tn_survey *s, section_use *seen)
+{
+    do {
+        if (!tn_house_section_stands(&s->house))
+            continue;
+        seen->any = true;
+        for (uint32_t i = 0; i < s->form.record->choice_count; i++)
+            seen->stands[tn_form_choice(&s->form, i)->shape_first + s->house.shapes[i]] = true;
+        if (seen->materials)
+            see_materials(s, seen);
+    } while (next_section(s));
+}
+
+static void warn_values(const tn_survey *s, const bool *stands)
+{
+    const tn_module *module = s->form.module;
+    for (uint32_t i = 0; i < s->form.record->choice_count; i++) {
+        const tn_choice_record *choice = tn_form_choice(&s->form, i);
+        for (uint32_t k = choice->shape_first; k < choice->shape_first + choice->shape_count; k++) {
+            const tn_shape_record *shape = &module->SHAPE_records[k];
+            if (stands[k] || tn_survey_allows(s, W_SHAPE_NEVER, TN_SURVEY_SPAN(shape)))
+                continue;
+            tn_diagnostic *d = tn_report(tn_survey_list(s), W_SHAPE_NEVER, TN_SURVEY_SPAN(shape),
+                                         "no section has this value of `%s`", tn_text(module, choice->name));
+            tn_help(tn_survey_list(s), d, "the form's `forbid` lines leave no combination with it");
+        }
+    }
+}
+
+/* All sections are forbidden: said once, and not of each value. */
+static void warn_all(const tn_survey *s)
+{
+    const tn_form_record *form = s->form.record;
+    if (tn_survey_allows(s, W_SHAPE_NEVER, TN_SURVEY_SPAN(form)))
+        return;
+    tn_diagnostic *d = tn_report(tn_survey_list(s), W_SHAPE_NEVER, TN_SURVEY_SPAN(form),
+                                 "form `%s` has no house: its `forbid` lines forbid every section",
+                                 tn_text(s->form.module, form->name));
+    tn_help(tn_survey_list(s), d, "leave one of them out, or join what they ask by `and`");
+}
+
+/* Is each of its parts that of an earlier material without `where`? The compiler says so. */
+static bool is_hidden(const tn_survey *s, uint32_t number)
+{
+    const tn_material_record *material = material_of(s, number);
+    for (uint32_t p = 0; p < material->part_count; p++) {
+        bool hidden = false;
+        for (uint32_t i = 0; i < number; i++)
+            for (uint32_t q = 0; material_of(s, i)->where == TN_NO_RECORD && q < material_of(s, i)->part_count; q++)
+                hidden |= part_of(s, material_of(s, i), q) == part_of(s, material, p);
+        if (!hidden)
+            return false;
+    }
+    return true;
+}
+
+static void warn_materials(const tn_survey *s, const section_use *seen)
+{
+    for (uint32_t i = 0; i < s->form.record->material_count; i++) {
+        const tn_material_record *material = material_of(s, i);
+        if (seen->used[i] || is_hidden(s, i) || tn_survey_allows(s, W_MATERIAL_FOR_NOTHING, TN_SURVEY_SPAN(material)))
+            continue;
+        bool party =
+            material->part_count == 1 && part_of(s, material, 0) == TN_OF_PARTY && !tn_survey_names(s, TN_FACE_PARTY);
+        tn_diagnostic *d = tn_report(tn_survey_list(s), W_MATERIAL_FOR_NOTHING, TN_SURVEY_SPAN(material),
+                                     "nothing is ever made of `%s`", tn_text(s->form.module, material->name));
+        tn_help(tn_survey_list(s), d,
+                party            ? "no line of faces has the kind `party`"
+                : seen->holds[i] ? "where it is meant for, lines before it name all of its parts"
+                                 : "no section of the form is as its `where` says");
+    }
+}
+
+static bool may_go_through(const tn_survey *s, bool *materials)
+{
+    uint64_t sections = 1, parts = 0;
+    for (uint32_t i = 0; i < s->form.record->choice_count && sections <= SECTIONS_MAX; i++)
+        sections *= tn_form_choice(&s->form, i)->shape_count;
+    for (uint32_t i = 0; i < s->form.record->material_count; i++)
+        parts += material_of(s, i)->part_count;
+    *materials = sections * parts * parts <= QUESTIONS_MAX;
+    return sections <= SECTIONS_MAX;
+}
+
+tn_status tn_survey_sections(tn_survey *s, tn_error *error)
+{
+    size_t materials = (size_t)s->form.record->material_count + 1;
+    section_use seen = {.stands = calloc((size_t)s->form.module->SHAPE_count + 1, sizeof *seen.stands),
+                        .holds = calloc(materials, sizeof *seen.holds),
+                        .used = calloc(materials, sizeof *seen.used)};
+    tn_status status = seen.stands && seen.holds && seen.used ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK && may_go_through(s, &seen.materials)) {
+        see_sections(s, &seen);
+        if (!seen.any)
+            warn_all(s);
+        else
+            warn_values(s, seen.stands);
+        if (seen.any && seen.materials)
+            warn_materials(s, &seen);
+    }
+    free(seen.stands);
+    free(seen.holds);
+    free(seen.used);
+    return status;
+}
