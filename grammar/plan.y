@@ -102,7 +102,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <box_side> side_word
 %type <node> form_clause shape argument opening_part tile_part reach section_alternative section_item
 %type <list> form_clauses shapes arguments opening_parts tile_parts kinds or_names reaches section_items section_alternatives
-%type <word> size outside_side number turn
+%type <word> size outside_side number turn section
 %type <expr> material_where
 %type <expr> cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
 %type <expr> expression implied disjunction ors and ands not compared comparable additive term signed primary pattern_tray head_number
@@ -616,8 +616,8 @@ form_clause
     : storey NAME doc size                      { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_STOREY, .name = $2, .doc = $3, .length = $4}); }
     | spine NAME                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SPINE, .name = $2}); }
     | thickness size                            { $1.length = $2; $$ = tn_ast_form_clause_new(parse, @$, $1); }
-    | section NAME EQUAL shapes                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SECTION, .name = $2, .list = $4}); }
-    | section NAME NAME EQUAL shapes            { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SECTION, .name = $2, .detail = $3, .list = $5}); }
+    | section EQUAL shapes                      { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SECTION, .name = $1, .list = $3}); }
+    | section NAME EQUAL shapes                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SECTION, .name = $1, .detail = $2, .list = $4}); }
     | forbid_word sections                      { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FORBID, .first = $2}); }
     | void cells                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_VOID, .first = $2}); }
     | no cells                                  { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_NO, .first = $2}); }
@@ -638,7 +638,7 @@ form_clause
 
 storey: STOREY                                  { yyerrok; };
 spine: SPINE                                    { yyerrok; };
-section: SECTION                                { yyerrok; };
+section: SECTION NAME                           { $$ = $2; yyerrok; }; /* not that of `where section(...)` */
 void: VOID                                      { yyerrok; };
 no: NO                                          { yyerrok; };
 function: FUNCTION                              { yyerrok; };

@@ -28,7 +28,7 @@ int64_t tn_form_length(tn_check *check, const tn_ast_word *word)
 void tn_form_unknown(tn_check *check, const tn_checked_form *form, const tn_ast_word *word, const char *what,
                      const char *const *names, size_t count)
 {
-    if (word->broken || check->skipped)
+    if (word->broken || check->skipped || (form->schema && form->schema->broken))
         return;
     tn_diagnostic *d =
         tn_report(check->diagnostics, E_UNKNOWN_PART, word->node.span, "there is no %s `%s`", what, word->text);

@@ -108,6 +108,8 @@ void tn_check_flight(tn_check *check, tn_checked_form *form, const tn_ast_form_c
     bool known = flight.wide >= 0 && flight.rise_least >= 0 && flight.rise_most >= 0 && flight.going >= 0;
     bool sized = flight.wide > 0 && flight.rise_least > 0 && flight.rise_most > 0 && flight.going > 0, fits = false;
     bool turns = read_turn(check, ast, &flight.turn);
+    if (!turns)
+        flight.turn = TN_TURN_STRAIGHT; /* a flight all the same */
     for (uint32_t i = 0; sized && i < form->storey_count; i++)
         fits |= form->storeys[i].height < 0 || climbs(&flight, form->storeys[i].height);
     if (known && !sized)

@@ -150,7 +150,7 @@ static bool read_storeys(tn_check *check, const tn_checked_form *form, const tn_
     if (shape->word->kind != TN_WORD_NUMBER || shape->arguments.count > 0)
         return bad_shape(check, shape->node.span, "this is not a number of storeys",
                          "write `section ZONE storeys = 1 | 2`");
-    if (count < 1 || count > form->storey_count) {
+    if (count < 1 || (count > form->storey_count && !check->skipped)) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_SHAPE, shape->node.span,
                                      "a section of this form cannot have %lld storeys", (long long)count);
         tn_help(check->diagnostics, d, "it has %u: declare another `storey`, or write a number from 1 to %u",

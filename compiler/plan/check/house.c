@@ -17,14 +17,27 @@ tn_checked_form *tn_check_form_named(const tn_check *check, size_t unit, const c
     return NULL;
 }
 
+/* The first form of the schema that is in scope, if there is one. */
+static const tn_checked_form *first_form(const tn_check *check)
+{
+    for (size_t i = 0; i < check->result->form_count; i++) {
+        const tn_checked_form *form = check->result->forms[i];
+        if (form->schema == check->schema && tn_import_reaches(check->imports, check->unit, form->unit))
+            return form;
+    }
+    return NULL;
+}
+
 static tn_checked_form *no_form(tn_check *check, tn_span place)
 {
     if (check->incomplete || (!check->rule && check->form_wrong))
         return NULL;
     tn_diagnostic *d = tn_report(check->diagnostics, E_NO_FORM, place,
                                  "this asks for cells of houses, and no form says what they are");
+    const tn_checked_form *form = first_form(check);
     if (!check->rule)
-        tn_help(check->diagnostics, d, "a library of houses is one `from` a library of plans `in` a form");
+        tn_help(check->diagnostics, d, "a library of houses is one `from` a library of plans `in` a form%s%s%s",
+                form ? ": `from PLANS in " : "", form ? form->name : "", form ? "`" : "");
     else
         tn_help(check->diagnostics, d, "declare a form of schema `%s`, or `use` the file that does",
                 check->schema ? check->schema->name : "...");
@@ -50,7 +63,8 @@ static tn_checked_form *only_form(tn_check *check, tn_span place)
                                  "several forms are in scope here, and it is not clear which one the houses have");
     tn_note(check->diagnostics, d, &other->ast->name->node.span, "form `%s`", other->name);
     tn_note(check->diagnostics, d, &found->ast->name->node.span, "form `%s`", found->name);
-    tn_help(check->diagnostics, d, "write `using %s` or `using %s` after the rule's name", other->name, found->name);
+    tn_help(check->diagnostics, d, "write `using %s` or `using %s` after the name of the %s", other->name, found->name,
+            check->rule->is_measure ? "measure" : "rule");
     return NULL;
 }
 
@@ -58,11 +72,12 @@ static tn_checked_form *form_meant(tn_check *check, tn_span place)
 {
     if (!check->schema || check->schema->broken)
         return NULL;
-    if (!check->rule)
-        return check->form ? check->form : no_form(check, place);
-    if (!check->rule->form)
-        check->rule->form = only_form(check, place);
-    return check->rule->form;
+    tn_checked_form *form = check->rule ? check->rule->form : check->form;
+    if (!form)
+        form = check->rule ? only_form(check, place) : no_form(check, place);
+    if (check->rule)
+        check->rule->form = form;
+    return form && form->broken ? NULL : form; /* what is wrong with it is said at its place */
 }
 
 void tn_check_same_form(tn_check *check, const tn_ast_expr *name)

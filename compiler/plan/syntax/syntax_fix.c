@@ -203,9 +203,9 @@ static bool comes_after_heading(const tn_parse *parse)
 static const char *likely_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
     if (parse->mode == TN_LEX_TRAY && strcmp(found, "`and`") == 0)
-        return "inside tray(...) the items are separated by commas: all of them must be met";
+        return "items in parentheses are separated by commas: all of them must be met";
     if (parse->mode == TN_LEX_TRAY && (strcmp(found, "`[`") == 0 || strcmp(found, "`{`") == 0))
-        return "close tray(...) with `)` first";
+        return "close the parenthesis with `)` first";
     if (parse->mode == TN_LEX_LITERAL && strcmp(found, "`,`") == 0)
         return "inside a plan, values are separated by blanks and trays by `|`: `[a b | c]`";
     if (parse->mode == TN_LEX_LITERAL || tn_expects(e, "`]`"))
