@@ -10,8 +10,8 @@
 #include "runtime/base/file_error.h"
 
 #define GROUP_DEFAULT 1000000u
-#define PAGE_PLANS 65536u             /* plans of a page at most */
-#define PAGE_TRAYS ((size_t)1 << 19)  /* trays, and a plan more */
+#define PAGE_PLANS 32768u             /* plans of a page at most */
+#define PAGE_TRAYS ((size_t)1 << 18)  /* trays, and a plan more */
 #define LINES_BYTES ((size_t)1 << 20) /* plan lines of a page, and one more */
 
 static tn_parquet_writing *writing_of(const tn_plan_writer *writer)
