@@ -57,6 +57,32 @@ static tn_house_file file_kind(const char *path)
     return FILE_KINDS;
 }
 
+/* An option that is only for drawings and was given; NULL where there is none. A title is for IFC, too. */
+static const char *drawing_option(const tn_house_outputs *outputs)
+{
+    const struct {
+        const char *name;
+        bool given;
+    } options[] = {{"view", outputs->views.count > 0},  {"cut", outputs->cut},
+                   {"furnish", outputs->furnish == 1},  {"scale", outputs->scale.given},
+                   {"azimuth", outputs->azimuth.given}, {"elevation", outputs->elevation.given},
+                   {"dpi", outputs->dpi.given}};
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+        if (options[i].given)
+            return options[i].name;
+    return NULL;
+}
+
+static bool has_drawing(const tn_house_outputs *outputs)
+{
+    for (size_t i = 0; i < outputs->files.count; i++) {
+        tn_house_file kind = file_kind(outputs->files.items[i]);
+        if ((kind >= FILE_DXF && kind <= FILE_PNG) || is_folder(outputs->files.items[i]))
+            return true;
+    }
+    return false;
+}
+
 bool tn_house_files_known(tn_job *job, const tn_house_outputs *outputs)
 {
     bool known = true;
@@ -68,7 +94,12 @@ bool tn_house_files_known(tn_job *job, const tn_house_outputs *outputs)
         tn_help(tn_job_diagnostics(job), d, "let it end in " ENDINGS ", or in / for all of them in a folder");
         known = false;
     }
-    return known;
+    const char *option = drawing_option(outputs);
+    if (!known || !option || has_drawing(outputs))
+        return known;
+    tn_diagnostic *d = tn_job_usage(job, "--%s is about drawings, and no file is one", option);
+    tn_help(tn_job_diagnostics(job), d, "add `-o NAME.svg`, or .pdf, .png or .dxf");
+    return false;
 }
 
 /* ---- models */

@@ -16,7 +16,8 @@ typedef struct tn_house_outputs {
     const char *name; /* what the house is called, for titles and notes; NULL: by its line */
 } tn_house_outputs;
 
-/* Do the names of all files say a format? Otherwise wrong usage is recorded. */
+/* Do the names of all files say a format, and is one a drawing where options ask for that? Otherwise wrong usage is
+ * recorded. */
 bool tn_house_files_known(tn_job *job, const tn_house_outputs *outputs);
 
 /* Writes them; with none, the line of the house. */

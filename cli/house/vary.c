@@ -6,6 +6,7 @@
 #include "cli/common/option_rows.h"
 #include "cli/house/change_text.h"
 #include "cli/house/numbered_parts.h"
+#include "runtime/base/nearest.h"
 #include "runtime/house/schedule/cost.h"
 
 typedef struct vary_settings {
@@ -123,10 +124,30 @@ static tn_status write_change(void *context, const tn_house_change *change, cons
     return TN_OK;
 }
 
+enum { CELL_TEXT = 96 };
+
+static void help_cell(const tn_house *house, const char *at, tn_error *error)
+{
+    char(*texts)[CELL_TEXT] = calloc(house->cell_count + 1, sizeof *texts);
+    const char **names = calloc(house->cell_count + 1, sizeof *names);
+    for (uint32_t i = 0; texts && names && i < house->cell_count; i++) {
+        tn_cell_text(house, i, texts[i], sizeof texts[i]);
+        names[i] = texts[i];
+    }
+    const char *near = texts && names ? tn_nearest(at, names, house->cell_count) : NULL;
+    if (near)
+        tn_error_help(error, "did you mean `%s`?", near);
+    else
+        tn_error_help(error, "a cell is TRAY.ZONE.STOREY, such as %s; trays count from 1",
+                      texts && house->cell_count ? texts[0] : "1.body.ground");
+    free(names);
+    free(texts);
+}
+
 /* TRAY.ZONE.STOREY, trays from 1. TN_INVALID where the house has no such cell. */
 static tn_status find_cell(const varying *v, const char *at, uint32_t *cell, tn_error *error)
 {
-    char text[96];
+    char text[CELL_TEXT];
     *cell = TN_NO_CELL;
     for (uint32_t i = 0; at && i < v->house->cell_count; i++) {
         tn_cell_text(v->house, i, text, sizeof text);
@@ -136,9 +157,7 @@ static tn_status find_cell(const varying *v, const char *at, uint32_t *cell, tn_
     if (!at || *cell != TN_NO_CELL)
         return TN_OK;
     tn_status status = tn_fail(error, TN_INVALID, E_USAGE, "--at: the house has no cell `%.60s`", at);
-    tn_cell_text(v->house, 0, text, sizeof text);
-    tn_error_help(error, "a cell is TRAY.ZONE.STOREY, such as %s; trays count from 1",
-                  v->house->cell_count ? text : "1.body.ground");
+    help_cell(v->house, at, error);
     return status;
 }
 

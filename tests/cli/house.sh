@@ -60,6 +60,8 @@ golden view_unknown "tartan house cottage \"$room\" -o $scratch/h.svg --view per
 golden view_storey "tartan house cottage \"$room\" -o $scratch/h.svg --view plan:attic"
 golden view_section "tartan house cottage \"$room\" -o $scratch/h.svg --view section:z=3\'"
 golden view_side "tartan house cottage \"$room\" -o $scratch/h.svg --view elevation:north"
+golden view_of_nothing "tartan house cottage \"$room\" -o $scratch/h.ifc --view plan:ground"
+golden cut_of_nothing "tartan house cottage \"$room\" --cut ground"
 golden view_cut "tartan house cottage \"$room\" -o $scratch/h.svg --cut cellar"
 golden no_number "tartan house cottage '#ten'"
 row="2m first two room:4m room:4m none | 4m - two room:4m room:4m none ; 1 shed(back,1:1) shed(front,1:1) flat brick"
@@ -138,6 +140,7 @@ fi
 golden vary "tartan vary cottage '#10:77'"
 golden vary_cell "tartan vary cottage '#10:77' --at 3.body.ground --json"
 golden vary_storeys "tartan vary cottage \"\$(tartan unrank cottage '#2:0')\" --at 2.body.ground"
+golden vary_near_cell "tartan vary cottage '#10:77' --at 2.bodi.ground"
 golden vary_no_cell "tartan vary cottage '#10:77' --at 9.body.ground"
 golden vary_dropped "tartan vary cottage \"$bedrooms ; bed.back bed.back\""
 
