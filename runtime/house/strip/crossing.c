@@ -1,7 +1,8 @@
 /* What comes of rooms and walks at a plane, and what the plane is to the clauses: each combination is worked out once.
  *
- * States that have an edge, rooms and walks in common cross each plane alike. What came of it is kept as long as such
- * states follow one another. */
+ * Rooms and walks know of an edge only what is asked of its cells, so they cross all edges that are asked alike at
+ * once. States that have an edge, rooms and walks in common cross each plane alike. What came of it is kept as long as
+ * such states follow one another. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,11 +29,14 @@ void tn_strip_row_clear(tn_strip_row *row)
 
 /* ---- rooms and walks */
 
-/* What crosses a plane: what was before it, with the edge there. */
+/* What crosses a plane: what was before it, with what is asked of the edge there. */
 static tn_status number_before(const tn_passing *p, uint32_t before, uint32_t *number, tn_error *error)
 {
-    *number = p->state ? tn_number(&p->strip->befores, (uint64_t)p->state[STATE_EDGE] << 32 | before) : TN_STRIP_NONE;
-    return p->state && *number == UINT32_MAX ? tn_fail_memory(error) : TN_OK;
+    *number = TN_STRIP_NONE;
+    if (!p->state)
+        return TN_OK;
+    *number = tn_number(&p->strip->befores, (uint64_t)p->crossing.left->asked << 32 | before);
+    return *number == UINT32_MAX ? tn_fail_memory(error) : TN_OK;
 }
 
 /* closed: of the questions about rooms. */
@@ -141,7 +145,7 @@ static tn_status cross_plane(tn_strip *strip, const uint32_t *state, uint32_t sl
         uint32_t outcome = plane->items[i].slice;
         p.crossing.outcome = tn_interned(&strip->outcome_keys, outcome, &size);
         p.move = tn_number(&strip->moves, (uint64_t)strip->outcomes[outcome].through << 32 |
-                                              (last ? TN_STRIP_NONE : strip->slices[slice].inside));
+                                              (last ? TN_STRIP_NONE : strip->slices[slice].met));
         status = p.move == UINT32_MAX ? tn_fail_memory(error) : cross_outcome(&p, error);
     }
     return status;

@@ -44,12 +44,9 @@ static bool number_outcomes(tn_strip *strip, tn_interner *lists, const tn_strip_
 /* What is asked of an edge's cells later, when it is the left one. */
 static bool push_asked(tn_strip *strip, const tn_strip_edge *edge)
 {
-    bool ok = tn_key_push(&strip->joined, edge->count);
-    for (uint32_t i = 0; ok && i < edge->count; i++) {
-        ok = tn_key_push(&strip->joined, (uint32_t)edge->cells[i].open | (uint32_t)edge->cells[i].tiled << 1);
-        for (size_t w = 0; ok && w < strip->answer_words; w++)
-            ok = tn_push_long(&strip->joined, edge->answers[i * strip->answer_words + w]);
-    }
+    bool ok = tn_key_push(&strip->joined, edge->asked);
+    for (uint32_t i = 0; ok && i < edge->count; i++)
+        ok = tn_key_push(&strip->joined, edge->cells[i].tiled);
     return ok;
 }
 

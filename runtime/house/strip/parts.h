@@ -105,6 +105,7 @@ typedef struct tn_strip_edge {
     uint32_t count; /* cells */
     tn_strip_cell *cells;
     uint64_t *answers; /* [count][answer_words] of the decisions */
+    uint32_t asked;    /* which cells are open, and the answers, by number: all that rooms and walks know of the edge */
     uint32_t *inner;
     size_t inner_count;
     uint32_t shape, cost; /* where costs are asked for: what its planes' costs depend on; of the house of one tray */
@@ -141,7 +142,8 @@ typedef struct tn_strip_slice {
     uint32_t edge;
     uint32_t bases;                /* of all clauses: of `letters` */
     uint32_t tiles;                /* what of its own walls matters to each cell's tiles: of `fit_lists` */
-    uint32_t inside;               /* what rooms and walks meet in it: of `insides` */
+    uint32_t inside;               /* its edge, and what rooms and walks meet in it: of `insides` */
+    uint32_t met;                  /* the same, but of its edge only what is asked: of `mets` */
     uint32_t cost;                 /* where costs are asked for: the number of the tray's */
     int64_t gains[TN_WEIGHED_MAX]; /* what its cells add to each measure */
 } tn_strip_slice;
@@ -257,14 +259,14 @@ typedef struct tn_strip {
     tn_strip_slice *slices;     /* [slices] */
     tn_strip_outcome *outcomes; /* [outcomes] */
     size_t slice_room, outcome_room;
-    tn_interner letters, fit_lists, insides, throughs;
+    tn_interner letters, fit_lists, asked, insides, mets, throughs;
     tn_strip_row row;
     tn_interner readings, between, values;     /* see reading.c */
     tn_strip_known *after_slice, *after_plane; /* [trays_most + 1] */
     tn_strip_known tiles;                      /* {waiting, left fits}: how many, unless they have prices */
     tn_strip_known waits;                      /* {tiles of a slice, right fits}: what waits */
-    tn_numbering befores;                      /* edge << 32 | rooms or a walk */
-    tn_numbering moves;                        /* through << 32 | inside */
+    tn_numbering befores;                      /* what is asked of the edge << 32 | rooms or a walk */
+    tn_numbering moves;                        /* through << 32 | what is met in the slice */
     tn_strip_known crossed_rooms, crossed_walks[TN_STRIP_MEETINGS_MAX]; /* {before, move} */
     tn_key key, joined;                                                 /* scratch */
     uint32_t *scratch;                                                  /* [2 * clauses] */

@@ -59,6 +59,19 @@ static bool push_ends(tn_cutting *c, tn_key *key)
     return ok;
 }
 
+/* Numbers what is asked of the cells of the edge. */
+static uint32_t number_asked(tn_strip *s, const tn_strip_edge *edge)
+{
+    bool ok = true;
+    s->key.size = 0;
+    for (size_t i = 0; ok && i < edge->count; i++) {
+        ok = tn_key_push(&s->key, edge->cells[i].open);
+        for (size_t w = 0; ok && w < s->answer_words; w++)
+            ok = tn_push_long(&s->key, edge->answers[i * s->answer_words + w]);
+    }
+    return ok ? tn_intern(&s->asked, s->key.data, s->key.size) : UINT32_MAX;
+}
+
 /* The edge's cells, read back from its key; what is in the inner faces, from the house at hand. */
 static bool keep_edge(tn_cutting *c, tn_strip_edge *edge)
 {
@@ -81,7 +94,8 @@ static bool keep_edge(tn_cutting *c, tn_strip_edge *edge)
     for (size_t i = 0; i < c->house.face_count; i++)
         if (is_inner(&c->house.faces[i]))
             edge->inner[edge->inner_count++] = c->house.faces[i].kind;
-    return true;
+    edge->asked = number_asked(s, edge);
+    return edge->asked != UINT32_MAX;
 }
 
 /* What the costs of planes beside the tray depend on. */
@@ -218,12 +232,16 @@ static bool keep_slice(tn_strip *s, uint32_t slice)
     tn_strip_slice *parts = &s->slices[slice];
     *parts = (tn_strip_slice){.edge = words[SLICE_EDGE], .bases = tn_intern(&s->letters, bases, s->clause_count)};
     parts->tiles = push_tiles(edge, cells, &s->key) ? tn_intern(&s->fit_lists, s->key.data, s->key.size) : UINT32_MAX;
-    parts->inside =
-        push_inside(words, bases, edge->count, &s->key) ? tn_intern(&s->insides, s->key.data, s->key.size) : UINT32_MAX;
+    if (!push_inside(words, bases, edge->count, &s->key))
+        return false;
+    parts->inside = tn_intern(&s->insides, s->key.data, s->key.size);
+    s->key.data[SLICE_EDGE] = edge->asked;
+    parts->met = tn_intern(&s->mets, s->key.data, s->key.size);
     for (uint32_t k = 0; s->measures && k < s->measures->count; k++)
         parts->gains[k] = (int64_t)tn_both(gains + 2 * (size_t)k);
     parts->cost = s->prices.asked ? gains[2 * (size_t)s->measures->count] : 0;
-    return parts->bases != UINT32_MAX && parts->tiles != UINT32_MAX && parts->inside != UINT32_MAX;
+    return parts->bases != UINT32_MAX && parts->tiles != UINT32_MAX && parts->inside != UINT32_MAX &&
+           parts->met != UINT32_MAX;
 }
 
 /* The slice that the house at hand is. */
