@@ -4,6 +4,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/house/house.h"
+#include "runtime/house/solids.h"
 #include "runtime/module/code.h"
 
 /* ---- code */
@@ -178,7 +179,16 @@ bool tn_cell_may(const tn_house *house, const tn_cell *cell, uint32_t function)
 
 /* ---- faces */
 
-/* Does the kind fit into the face? An opening leaves half a wall at either side, and a deck above. */
+/* Does a lower roof stand above the sill, somewhere along the opening? */
+static bool is_behind_roof(const tn_house *house, const tn_face *face, const tn_opening_record *opening)
+{
+    tn_fraction top;
+    tn_int128 sill = (tn_int128)house->form->level[face->storey] + opening->sill;
+    return tn_face_roofed(house, face, opening->wide, &top) && top.top > sill * top.bottom;
+}
+
+/* Does the kind fit into the face? An opening leaves half a wall at either side, and a deck above, and no lower roof
+ * stands above its sill. */
 static bool fits(const tn_house *house, const tn_face *face, uint32_t kind)
 {
     const tn_opening_record *opening = tn_form_opening(house->form, kind), *flight = tn_form_flight(house->form, kind);
@@ -188,7 +198,8 @@ static bool fits(const tn_house *house, const tn_face *face, uint32_t kind)
         return kind != TN_FACE_OPEN || face->relation != TN_FACE_OUTSIDE;
     int64_t x = face->at.x1 - face->at.x0, y = face->at.y1 - face->at.y0, wide = x > y ? x : y;
     return opening->wide + house->form->record->wall <= wide &&
-           opening->sill + opening->high <= tn_form_clear(house->form, face->storey);
+           opening->sill + opening->high <= tn_form_clear(house->form, face->storey) &&
+           !is_behind_roof(house, face, opening);
 }
 
 static bool is_about(const tn_house *house, const tn_face_line_record *line, const tn_face *face)

@@ -4,55 +4,6 @@
 #include "runtime/base/array.h"
 #include "runtime/house/solids.h"
 
-enum { VAULT_STEPS = 16, PROFILE_MAX = VAULT_STEPS + 1 };
-
-/* ---- the line of a roof */
-
-/* The top of a roof above its slab, over a cell as wide as that: heights at places between which it is straight. Both
- * are in fractions of a common bottom. */
-typedef struct tn_profile {
-    tn_int128 y[PROFILE_MAX], z[PROFILE_MAX];
-    tn_int128 y_bottom, z_bottom;
-    size_t count;
-} tn_profile;
-
-static tn_profile profile_of(const tn_shape_record *shape, int64_t y0, int64_t y1)
-{
-    tn_int128 from = y0, to = y1, wide = to - from, rise = shape ? shape->rise : 0;
-    tn_int128 run = shape && shape->run ? shape->run : 1;
-    switch (shape ? (tn_roof_kind)shape->roof : TN_ROOF_FLAT) {
-    case TN_ROOF_SHED_BACK:
-        return (tn_profile){{from, to}, {0, wide * rise}, 1, run, 2};
-    case TN_ROOF_SHED_FRONT:
-        return (tn_profile){{from, to}, {wide * rise, 0}, 1, run, 2};
-    case TN_ROOF_GABLE:
-        return (tn_profile){{2 * from, from + to, 2 * to}, {0, wide * rise, 0}, 2, 2 * run, 3};
-    case TN_ROOF_VAULT: {
-        tn_profile profile = {.y_bottom = VAULT_STEPS, .z_bottom = VAULT_STEPS * VAULT_STEPS, .count = PROFILE_MAX};
-        for (int i = 0; i <= VAULT_STEPS; i++) {
-            profile.y[i] = from * VAULT_STEPS + wide * i;
-            profile.z[i] = (tn_int128)shape->height * 4 * i * (VAULT_STEPS - i);
-        }
-        return profile;
-    }
-    default:
-        return (tn_profile){{from, to}, {0, 0}, 1, 1, 2};
-    }
-}
-
-/* The line's height at a place; beyond its ends it goes straight on. `y` is in the profile's fractions. */
-static tn_fraction height_at(const tn_profile *profile, tn_int128 y, int64_t base)
-{
-    size_t i = 0;
-    while (i + 2 < profile->count && profile->y[i + 1] < y)
-        i++;
-    tn_int128 run = profile->y[i + 1] - profile->y[i], rise = profile->z[i + 1] - profile->z[i];
-    tn_fraction slope = tn_fraction_new(rise, run * profile->z_bottom); /* of a y in fractions */
-    tn_fraction part = tn_fraction_new((y - profile->y[i]) * slope.top, slope.bottom);
-    tn_fraction start = tn_fraction_new(profile->z[i] + (tn_int128)base * profile->z_bottom, profile->z_bottom);
-    return tn_fraction_new(start.top * part.bottom + part.top * start.bottom, start.bottom * part.bottom);
-}
-
 static tn_status add_point(tn_solids *solids, tn_roof_point point, tn_error *error)
 {
     if (!tn_array_reserve_from(&solids->points, &solids->point_room, 64, solids->point_count, 1,
@@ -76,9 +27,8 @@ tn_status tn_roof_put(const tn_house *house, uint32_t index, tn_rectangle r, boo
 {
     const tn_cell *cell = &house->cells[index];
     const tn_shape_record *shape = tn_house_shape(house, cell->zone, TN_CHOICE_ROOF);
-    tn_rectangle grown = tn_cell_grown(house, cell);
     bool across = shape && shape->flags & TN_ROOF_ACROSS;
-    tn_profile profile = across ? profile_of(shape, grown.x0, grown.x1) : profile_of(shape, grown.y0, grown.y1);
+    tn_profile profile = tn_roof_profile(house, cell);
     int64_t eaves = house->form->level[cell->storey + 1] + house->form->record->roof;
     tn_prism prism = {.of = index,
                       .across = across,
@@ -95,7 +45,7 @@ tn_status tn_roof_put(const tn_house *house, uint32_t index, tn_rectangle r, boo
         bool between = y > first && y < last;
         if (i == 0 || i == profile.count + 1 || between)
             status = add_point(
-                solids, (tn_roof_point){tn_fraction_new(y, profile.y_bottom), height_at(&profile, y, eaves)}, error);
+                solids, (tn_roof_point){tn_fraction_new(y, profile.y_bottom), tn_profile_height(&profile, y, eaves)}, error);
     }
     prism.point_count = solids->point_count - prism.point_first;
     return status == TN_OK ? add_prism(solids, prism, error) : status;
@@ -163,12 +113,6 @@ static tn_status parcel(const tn_house *house, tn_parcel *covered, size_t count,
 }
 
 /* ---- a level */
-
-static bool is_top(const tn_house *house, uint32_t cell)
-{
-    const tn_cell *c = &house->cells[cell], *above = c + 1; /* cells are in order */
-    return cell + 1 == house->cell_count || above->tray != c->tray || above->zone != c->zone;
-}
 
 /* What the cells of the storey above cover. */
 static tn_status above_of(const tn_house *house, uint32_t storey, tn_rectangles *above, tn_error *error)
@@ -255,7 +199,7 @@ static tn_status put_level(const tn_house *house, uint32_t storey, const tn_rect
     if (!land)
         return tn_fail_memory(error);
     for (uint32_t i = 0; i < house->cell_count; i++)
-        if (house->cells[i].storey == storey && is_top(house, i)) {
+        if (house->cells[i].storey == storey && tn_cell_is_top(house, i)) {
             land[count].cell = i;
             decked[count++].cell = i;
         }

@@ -89,6 +89,32 @@ tn_status tn_region_cut(const tn_rectangles *of, const tn_rectangles *less, tn_r
 tn_status tn_house_roofs(const tn_house *house, const tn_rectangles *decks, const tn_rectangles *foot,
                          tn_solids *solids, tn_error *error);
 
+/* ---- lower.c */
+
+#define TN_PROFILE_MAX 17u
+
+/* The line of a roof above its slab, across its ridge: heights at places between which it is straight. Both are in
+ * fractions of a common bottom. */
+typedef struct tn_profile {
+    tn_int128 y[TN_PROFILE_MAX], z[TN_PROFILE_MAX];
+    tn_int128 y_bottom, z_bottom;
+    size_t count;
+} tn_profile;
+
+tn_profile tn_roof_profile(const tn_house *house, const tn_cell *cell);
+
+/* The line's height at a place, above `base`; beyond its ends it goes straight on. `y` is in the profile's fractions. */
+tn_fraction tn_profile_height(const tn_profile *profile, tn_int128 y, int64_t base);
+
+/* Is it the highest cell of its stack? */
+bool tn_cell_is_top(const tn_house *house, uint32_t cell);
+
+/* The highest point of the lower roofs that stand against the outer side of an outside face, along an opening so wide
+ * in its middle: above the lowest floor, in nanometres. false: none stands there. Eaves do not count, which hang free. */
+bool tn_face_roofed(const tn_house *house, const tn_face *face, int64_t wide, tn_fraction *top);
+
+/* ---- roof.c */
+
 /* A roof of a cell over a rectangle. slab: without what is below its slab. base: how far down it is solid otherwise. */
 tn_status tn_roof_put(const tn_house *house, uint32_t cell, tn_rectangle r, bool slab, int64_t base, tn_solids *solids,
                       tn_error *error);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/house/solids.h"
 #include "runtime/house/strip/parts.h"
 
 /* A tray that is being cut: each wheel is a cell's functions or an inner face's kinds. */
@@ -72,6 +73,25 @@ static uint32_t number_asked(tn_strip *s, const tn_strip_edge *edge)
     return ok ? tn_intern(&s->asked, s->key.data, s->key.size) : UINT32_MAX;
 }
 
+/* Lower roofs, which may stand before openings of the trays beside. */
+static bool push_roofs(const tn_cutting *c, tn_key *key)
+{
+    uint32_t storeys = c->strip->form->record->storey_count;
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < c->house.cell_count; i++) {
+        const tn_cell *cell = &c->house.cells[i];
+        const tn_shape_record *shape = tn_house_shape(&c->house, cell->zone, TN_CHOICE_ROOF);
+        if (cell->storey + 1 == storeys || !tn_cell_is_top(&c->house, i))
+            continue;
+        bool across = shape && shape->flags & TN_ROOF_ACROSS;
+        ok = tn_key_push(key, shape ? (uint32_t)shape->roof : TN_ROOF_FLAT) &&
+             tn_key_push(key, shape ? (uint32_t)shape->rise : 0) && tn_key_push(key, shape ? (uint32_t)shape->run : 0) &&
+             tn_push_long(key, shape ? (uint64_t)shape->height : 0) &&
+             tn_push_long(key, across ? (uint64_t)(cell->at.x1 - cell->at.x0) : 0);
+    }
+    return ok;
+}
+
 /* The edge's cells, read back from its key; what is in the inner faces, from the house at hand. */
 static bool keep_edge(tn_cutting *c, tn_strip_edge *edge)
 {
@@ -116,7 +136,7 @@ static tn_status find_edge(tn_cutting *c, uint32_t cost, uint32_t *edge, tn_erro
     s->key.size = 0;
     if (status != TN_OK)
         return status;
-    if (!push_cells(c, &s->key) || !push_ends(c, &s->key) || (s->prices.asked && !tn_key_push(&s->key, shape)))
+    if (!push_cells(c, &s->key) || !push_ends(c, &s->key) || !push_roofs(c, &s->key) || (s->prices.asked && !tn_key_push(&s->key, shape)))
         return tn_fail_memory(error);
     if (!tn_array_reserve(&s->edges, &s->edge_room, before, 1, sizeof *s->edges))
         return tn_fail_memory(error);

@@ -78,13 +78,40 @@ tn_status tn_sections_begin(const tn_house_form *form, tn_sections *sections, tn
     return TN_OK;
 }
 
+static uint32_t storeys_of(const tn_house *house, uint32_t zone)
+{
+    const tn_shape_record *shape = tn_house_shape(house, zone, TN_CHOICE_STOREYS);
+    return shape ? shape->storeys : house->form->record->storey_count;
+}
+
+/* Can the roof of a zone stand before an opening of a higher storey? */
+static bool may_be_lower(const tn_house *house, uint32_t zone)
+{
+    const tn_house_form *form = house->form;
+    uint32_t most = 0;
+    for (uint32_t z = 0; z < form->zone_count; z++) {
+        uint32_t storeys = storeys_of(house, form->zones[z]);
+        most = storeys > most ? storeys : most;
+    }
+    bool ends = form->kinds_end[TN_CELL_NO] > form->kinds_end[TN_CELL_NO - 1];
+    return most > 1 && (ends || storeys_of(house, zone) < most);
+}
+
+/* Can what fits into faces depend on this choice? */
+static bool is_shaped_by(const tn_house *house, const tn_choice_record *choice)
+{
+    if (choice->kind == TN_CHOICE_ROOF)
+        return may_be_lower(house, choice->zone - house->form->schema->record->field_first);
+    return choice->kind == TN_CHOICE_STOREYS;
+}
+
 tn_section_key tn_sections_key(const tn_sections *sections, const tn_house *house)
 {
     tn_section_key key;
     memset(&key, 0, sizeof key);
     for (uint32_t i = 0; i < house->form->record->choice_count; i++)
-        if (sections->apart || tn_form_choice(house->form, i)->kind == TN_CHOICE_STOREYS)
-            key.storeys[i] = house->shapes[i];
+        if (sections->apart || is_shaped_by(house, tn_form_choice(house->form, i)))
+            key.shapes[i] = house->shapes[i];
     for (size_t i = 0; i < sections->question_count; i++)
         key.answers |= (uint64_t)tn_house_chosen(house, sections->questions[i]) << i;
     return key;

@@ -1,7 +1,8 @@
 /* Sections that nothing tells apart: with them, a plan has as many houses. Internal to runtime/house/variant.
  *
- * How many houses a section has depends on how many storeys its zones have, and on what code asks of its choices, but
- * for what `forbid` asks. Roofs and claddings that nobody asks for are multiplied.
+ * How many houses a section has depends on how many storeys its zones have, on the roofs of zones that may be lower than
+ * others, which openings may have before them, and on what code asks of its choices, but for what `forbid` asks. Other
+ * roofs and claddings that nobody asks for are multiplied.
  */
 #ifndef TARTAN_HOUSE_SECTION_H
 #define TARTAN_HOUSE_SECTION_H
@@ -12,7 +13,7 @@ enum { TN_SECTION_QUESTIONS_MAX = 64 };
 
 typedef struct tn_section_key {
     uint64_t answers;
-    uint32_t storeys[TN_CHOICES_MAX];
+    uint32_t shapes[TN_CHOICES_MAX]; /* of storeys, and of roofs that may stand before openings */
 } tn_section_key;
 
 /* What was counted for a section of each kind, on the plan at hand. Owns its arrays. */
