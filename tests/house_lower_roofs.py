@@ -4,58 +4,79 @@ use(ORACLES) loads the reference from ORACLES/house and returns it with the rule
 builds, and heights are exact fractions: nothing here is shared with the engines."""
 import os
 import sys
-from fractions import Fraction as Q
+from fractions import Fraction
 
 
 def use(oracles):
-    global ref, plain
+    global reference, plain_options
     sys.path.insert(0, os.path.join(oracles, "house"))
-    import house as ref
+    import house
 
-    plain, ref.face_options = ref.face_options, options
-    return ref
+    reference = house
+    plain_options, house.face_options = house.face_options, options
+    return house
 
 
-def roofs(h):
-    if not hasattr(h, 'lower_roofs'):
-        kinds=[q.kind for q in h.faces]
-        for q in h.faces: q.kind='floor' if q.rel=='above' else 'wall'
-        _, prisms = ref.build(h, [None]*len(h.cells))
-        for q,k in zip(h.faces,kinds): q.kind=k
-        h.lower_roofs=[(h.cells[p['of']].storey, p['x'], [(Q(y),Q(z)) for y,z in p['profile']]) for p in prisms]
-    return h.lower_roofs
-def line_at(prof, y):
-    for (a,p),(b,q) in zip(prof, prof[1:]):
-        if a<=y<=b: return p+(q-p)*(y-a)/(b-a)
-def highest(h,q,wide):
-    """the highest point of a lower roof at the wall's outer side along the opening, or None"""
-    g=h.form.wall//2; best=None
-    v=q.x0==q.x1; m=((q.y0+q.y1 if v else q.x0+q.x1)-wide)//2
-    for s,(x0,x1),prof in roofs(h):
-        if s>=q.storey: continue
-        y0,y1=prof[0][0],prof[-1][0]
-        if v:
-            X=q.x0+g if q.side=='right' else q.x0-g
-            if not (x0<=X<x1 if q.side=='right' else x0<X<=x1): continue
-            lo,hi=max(y0,Q(m)),min(y1,Q(m+wide))
-            if lo>=hi: continue
-            t=max([line_at(prof,lo),line_at(prof,hi)]+[z for y,z in prof if lo<y<hi])
-        else:
-            Y=q.y1+g if q.side=='front' else q.y0-g
-            if not (y0<=Y<y1 if q.side=='front' else y0<Y<=y1): continue
-            if max(x0,m)>=min(x1,m+wide): continue
-            t=line_at(prof,Q(Y))
-        if best is None or t>best: best=t
-    return best
-def options(h,q):
-    if q.rel!='outside' or q.storey==0: return plain(h,q)
-    f=h.form; base=sum(x for _,x in f.storeys[:q.storey]); saved=f.openings; L=max(q.x1-q.x0,q.y1-q.y0)
-    new={}
-    for n,o in saved.items():
-        t=highest(h,q,o.wide) if o.wide+f.wall<=L else None
-        if t is not None and t>base+o.sill:
-            c=ref.File(); c.__dict__.update(o.__dict__); c.wide=1<<62; new[n]=c
-        else: new[n]=o
-    f.openings=new
-    try: return plain(h,q)
-    finally: f.openings=saved
+def roofs_of(house):
+    """(storey, x, [(y, z)...]) of each roof. Which openings there are does not matter to roofs, but something has to be in all faces."""
+    if not hasattr(house, "lower_roofs"):
+        kinds = [face.kind for face in house.faces]
+        for face in house.faces:
+            face.kind = "floor" if face.rel == "above" else "wall"
+        _, prisms = reference.build(house, [None] * len(house.cells))
+        for face, kind in zip(house.faces, kinds):
+            face.kind = kind
+        house.lower_roofs = [(house.cells[p["of"]].storey, p["x"], [(Fraction(y), Fraction(z)) for y, z in p["profile"]]) for p in prisms]
+    return house.lower_roofs
+
+
+def height_at(profile, y):
+    for (y0, z0), (y1, z1) in zip(profile, profile[1:]):
+        if y0 <= y <= y1:
+            return z0 + (z1 - z0) * (y - y0) / (y1 - y0)
+
+
+def height_along(face, roof, wall, start, wide):
+    """The highest point of a roof at the outer side of the wall along an opening, or None where it does not stand there."""
+    _, (x0, x1), profile = roof
+    y0, y1 = profile[0][0], profile[-1][0]
+    low, high = (x0, x1) if face.side in ("left", "right") else (y0, y1)
+    at = face.x0 if face.side in ("left", "right") else face.y0
+    if not (low <= at + wall // 2 < high if face.side in ("right", "front") else low < at - wall // 2 <= high):
+        return None
+    if face.side in ("back", "front"):
+        beside = max(x0, start) < min(x1, start + wide)
+        return height_at(profile, Fraction(at + (wall // 2 if face.side == "front" else -(wall // 2)))) if beside else None
+    first, last = max(y0, Fraction(start)), min(y1, Fraction(start + wide))
+    if first >= last:
+        return None
+    return max([height_at(profile, first), height_at(profile, last)] + [z for y, z in profile if first < y < last])
+
+
+def is_behind(house, face, opening):
+    form = house.form
+    along = (face.y0, face.y1) if face.x0 == face.x1 else (face.x0, face.x1)
+    if opening.wide + form.wall > along[1] - along[0]:
+        return False
+    start = (along[0] + along[1] - opening.wide) // 2
+    lower = (roof for roof in roofs_of(house) if roof[0] < face.storey)
+    heights = [height_along(face, roof, form.wall, start, opening.wide) for roof in lower]
+    sill = sum(high for _, high in form.storeys[: face.storey]) + opening.sill
+    return any(height is not None and height > sill for height in heights)
+
+
+def options(house, face):
+    """The reference's, as if openings behind roofs were far too wide."""
+    if face.rel != "outside" or face.storey == 0:
+        return plain_options(house, face)
+    form, openings = house.form, house.form.openings
+    form.openings = {}
+    for name, opening in openings.items():
+        form.openings[name] = reference.File()
+        form.openings[name].__dict__.update(opening.__dict__)
+        if is_behind(house, face, opening):
+            form.openings[name].wide = 1 << 62
+    try:
+        return plain_options(house, face)
+    finally:
+        form.openings = openings

@@ -136,7 +136,8 @@ static tn_status find_edge(tn_cutting *c, uint32_t cost, uint32_t *edge, tn_erro
     s->key.size = 0;
     if (status != TN_OK)
         return status;
-    if (!push_cells(c, &s->key) || !push_ends(c, &s->key) || !push_roofs(c, &s->key) || (s->prices.asked && !tn_key_push(&s->key, shape)))
+    if (!push_cells(c, &s->key) || !push_ends(c, &s->key) || !push_roofs(c, &s->key) ||
+        (s->prices.asked && !tn_key_push(&s->key, shape)))
         return tn_fail_memory(error);
     if (!tn_array_reserve(&s->edges, &s->edge_room, before, 1, sizeof *s->edges))
         return tn_fail_memory(error);
