@@ -28,7 +28,7 @@ def asked_again(path, wanted):
     form = reference.parse(path)
     library = reference.File()  # houses are read as those of a library in the only form
     (library.form,) = form.forms
-    solids = [reference.report(form, library, one["house"]) for one in wanted["solids"]]
+    solids = [reference.report2(form, *reference.read_house(form, library, one["house"])) for one in wanted["solids"]]
     tiles, reference.tile_variants = reference.tile_variants, lambda house, cell: None  # the lines have no tiles
     houses = [reference.read_house(form, library, line)[0] for line in wanted["lines"]]
     reference.tile_variants = tiles

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/house/solids.h"
 #include "runtime/house/variant/memo.h"
 
 void tn_sections_forget(tn_sections *sections)
@@ -93,16 +94,62 @@ static bool may_be_lower(const tn_house *house, uint32_t zone)
         uint32_t storeys = storeys_of(house, form->zones[z]);
         most = storeys > most ? storeys : most;
     }
-    bool ends = form->kinds_end[TN_CELL_NO] > form->kinds_end[TN_CELL_NO - 1];
-    return most > 1 && (ends || storeys_of(house, zone) < most);
+    return storeys_of(house, zone) < most;
 }
 
-/* Can what fits into faces depend on this choice? */
-static bool is_shaped_by(const tn_house *house, const tn_choice_record *choice)
+static int64_t longest(const tn_schema *schema, uint32_t field)
 {
-    if (choice->kind == TN_CHOICE_ROOF)
-        return may_be_lower(house, choice->zone - house->form->schema->record->field_first);
-    return choice->kind == TN_CHOICE_STOREYS;
+    int64_t most = 0;
+    for (uint32_t v = schema->value_start[field]; v < schema->value_start[field + 1]; v++)
+        most = schema->values[v].length > most ? schema->values[v].length : most;
+    return most;
+}
+
+/* How many sills that an outside face may have, from a storey upwards, are below a height of top / bottom. */
+static uint32_t sills_below(const tn_house_form *form, uint32_t storey, tn_int128 top, tn_int128 bottom)
+{
+    uint32_t below = 0;
+    for (uint32_t i = 0; i < form->record->face_count; i++) {
+        const tn_face_line_record *line = &form->module->FACE_LINE_records[form->record->face_first + i];
+        for (uint32_t k = 0; line->relation == TN_FACE_OUTSIDE && k < line->kind_count; k++) {
+            uint32_t kind = form->module->HOUSE_ITEM_records[line->kind_first + k].number;
+            const tn_opening_record *opening = tn_form_opening(form, kind);
+            for (uint32_t s = storey; opening && s < form->record->storey_count; s++)
+                below += ((tn_int128)form->level[s] + opening->sill) * bottom < top;
+        }
+    }
+    return below;
+}
+
+/* What openings can tell of the roof of a zone that is lower than others: where no sill is between its lowest and its
+ * highest point, only how many sills are below it; otherwise the shape itself. */
+static uint32_t roof_seen(const tn_house *house, uint32_t zone, uint32_t shape)
+{
+    const tn_house_form *form = house->form;
+    uint32_t storeys = storeys_of(house, zone);
+    tn_cell cell = {.zone = zone, .storey = storeys - 1};
+    cell.at = (tn_rectangle){0, longest(form->schema, form->width), 0, longest(form->schema, zone)};
+    tn_profile profile = tn_roof_profile(house, &cell); /* of the largest cell: no other is higher */
+    tn_int128 base = (tn_int128)form->level[storeys] + form->record->roof, rise = 0;
+    for (size_t i = 0; i < profile.count; i++)
+        rise = profile.z[i] > rise ? profile.z[i] : rise;
+    uint32_t below = sills_below(form, storeys, base, 1);
+    bool alike = below == sills_below(form, storeys, base * profile.z_bottom + rise, profile.z_bottom);
+    return alike ? UINT32_MAX - below : shape;
+}
+
+/* What can matter of a choice to what fits into faces. */
+static uint32_t shape_seen(const tn_house *house, uint32_t i)
+{
+    const tn_choice_record *choice = tn_form_choice(house->form, i);
+    uint32_t zone = choice->zone - house->form->schema->record->field_first;
+    if (choice->kind == TN_CHOICE_STOREYS)
+        return house->shapes[i];
+    if (choice->kind != TN_CHOICE_ROOF)
+        return 0;
+    if (house->form->kinds_end[TN_CELL_NO] > house->form->kinds_end[TN_CELL_NO - 1])
+        return house->shapes[i]; /* the zone may end below its storeys */
+    return may_be_lower(house, zone) ? roof_seen(house, zone, house->shapes[i]) : 0;
 }
 
 tn_section_key tn_sections_key(const tn_sections *sections, const tn_house *house)
@@ -110,8 +157,7 @@ tn_section_key tn_sections_key(const tn_sections *sections, const tn_house *hous
     tn_section_key key;
     memset(&key, 0, sizeof key);
     for (uint32_t i = 0; i < house->form->record->choice_count; i++)
-        if (sections->apart || is_shaped_by(house, tn_form_choice(house->form, i)))
-            key.shapes[i] = house->shapes[i];
+        key.shapes[i] = sections->apart ? house->shapes[i] : shape_seen(house, i);
     for (size_t i = 0; i < sections->question_count; i++)
         key.answers |= (uint64_t)tn_house_chosen(house, sections->questions[i]) << i;
     return key;

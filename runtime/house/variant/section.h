@@ -13,7 +13,7 @@ enum { TN_SECTION_QUESTIONS_MAX = 64 };
 
 typedef struct tn_section_key {
     uint64_t answers;
-    uint32_t shapes[TN_CHOICES_MAX]; /* of storeys, and of roofs that may stand before openings */
+    uint32_t shapes[TN_CHOICES_MAX]; /* of storeys, and of roofs what openings can tell of them */
 } tn_section_key;
 
 /* What was counted for a section of each kind, on the plan at hand. Owns its arrays. */
