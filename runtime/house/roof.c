@@ -45,7 +45,8 @@ tn_status tn_roof_put(const tn_house *house, uint32_t index, tn_rectangle r, boo
         bool between = y > first && y < last;
         if (i == 0 || i == profile.count + 1 || between)
             status = add_point(
-                solids, (tn_roof_point){tn_fraction_new(y, profile.y_bottom), tn_profile_height(&profile, y, eaves)}, error);
+                solids, (tn_roof_point){tn_fraction_new(y, profile.y_bottom), tn_profile_height(&profile, y, eaves)},
+                error);
     }
     prism.point_count = solids->point_count - prism.point_first;
     return status == TN_OK ? add_prism(solids, prism, error) : status;

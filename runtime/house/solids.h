@@ -103,14 +103,16 @@ typedef struct tn_profile {
 
 tn_profile tn_roof_profile(const tn_house *house, const tn_cell *cell);
 
-/* The line's height at a place, above `base`; beyond its ends it goes straight on. `y` is in the profile's fractions. */
+/* The line's height at a place, above `base`; beyond its ends it goes straight on. `y` is in the profile's fractions.
+ */
 tn_fraction tn_profile_height(const tn_profile *profile, tn_int128 y, int64_t base);
 
 /* Is it the highest cell of its stack? */
 bool tn_cell_is_top(const tn_house *house, uint32_t cell);
 
 /* The highest point of the lower roofs that stand against the outer side of an outside face, along an opening so wide
- * in its middle: above the lowest floor, in nanometres. false: none stands there. Eaves do not count, which hang free. */
+ * in its middle: above the lowest floor, in nanometres. false: none stands there. Eaves do not count, which hang free.
+ */
 bool tn_face_roofed(const tn_house *house, const tn_face *face, int64_t wide, tn_fraction *top);
 
 /* ---- roof.c */

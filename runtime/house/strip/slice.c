@@ -85,7 +85,8 @@ static bool push_roofs(const tn_cutting *c, tn_key *key)
             continue;
         bool across = shape && shape->flags & TN_ROOF_ACROSS;
         ok = tn_key_push(key, shape ? (uint32_t)shape->roof : TN_ROOF_FLAT) &&
-             tn_key_push(key, shape ? (uint32_t)shape->rise : 0) && tn_key_push(key, shape ? (uint32_t)shape->run : 0) &&
+             tn_key_push(key, shape ? (uint32_t)shape->rise : 0) &&
+             tn_key_push(key, shape ? (uint32_t)shape->run : 0) &&
              tn_push_long(key, shape ? (uint64_t)shape->height : 0) &&
              tn_push_long(key, across ? (uint64_t)(cell->at.x1 - cell->at.x0) : 0);
     }

@@ -1,8 +1,8 @@
 /* Sections that nothing tells apart: with them, a plan has as many houses. Internal to runtime/house/variant.
  *
- * How many houses a section has depends on how many storeys its zones have, on the roofs of zones that may be lower than
- * others, which openings may have before them, and on what code asks of its choices, but for what `forbid` asks. Other
- * roofs and claddings that nobody asks for are multiplied.
+ * How many houses a section has depends on how many storeys its zones have, on the roofs of zones that may be lower
+ * than others, which openings may have before them, and on what code asks of its choices, but for what `forbid` asks.
+ * Other roofs and claddings that nobody asks for are multiplied.
  */
 #ifndef TARTAN_HOUSE_SECTION_H
 #define TARTAN_HOUSE_SECTION_H
