@@ -300,9 +300,31 @@ tn_status tn_numbered_clauses(tn_numbered *n, mpz_t *kept_out, mpz_t *alone, tn_
 
 enum { LABEL_WIDTH = 24, COUNT_WIDTH = 24 };
 
-static void write_lengths(const house_tally *tally, bool json, FILE *out)
+static size_t widest(size_t width, const char *name)
+{
+    size_t size = strlen(name) + 3; /* indented by two, and a blank after it */
+    return size > width ? size : width;
+}
+
+/* Of the labels of the text: of the values and the clauses that are counted each, or more. */
+static int label_width(const tn_numbered *n)
+{
+    const tn_module *module = n->form.module;
+    size_t width = LABEL_WIDTH;
+    for (uint32_t i = 0; i < n->form.record->choice_count; i++) {
+        const tn_choice_record *choice = tn_form_choice(&n->form, i);
+        for (uint32_t k = 0; k < choice->shape_count && choice->shape_count > 1; k++)
+            width = widest(width, tn_text(module, module->SHAPE_records[choice->shape_first + k].spelling));
+    }
+    for (uint32_t i = 0; i < n->record->clause_count; i++)
+        width = widest(width, tn_text(module, module->HOUSE_CLAUSE_records[n->record->clause_first + i].name));
+    return (int)width;
+}
+
+static void write_lengths(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
 {
     bool first = true;
+    int labels = label_width(n);
     for (uint32_t i = 0; i <= tally->high - tally->low; i++) {
         if (mpz_sgn(tally->lengths[i]) == 0)
             continue;
@@ -311,7 +333,7 @@ static void write_lengths(const house_tally *tally, bool json, FILE *out)
         if (json)
             gmp_fprintf(out, "%s\"%u\":\"%Zd\"", first ? "" : ",", tally->low + i, tally->lengths[i]);
         else
-            gmp_fprintf(out, "%-*s%Zd\n", LABEL_WIDTH, label, tally->lengths[i]);
+            gmp_fprintf(out, "%-*s%Zd\n", labels, label, tally->lengths[i]);
         first = false;
     }
 }
@@ -332,6 +354,7 @@ static void write_json_count(const char *name, bool first, const mpz_t count, FI
 /* Choices that leave nothing to choose are left out of the text. */
 static void write_sections(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
 {
+    int labels = label_width(n);
     const tn_module *module = n->form.module;
     const mpz_t *value = (const mpz_t *)tally->values;
     for (uint32_t i = 0; i < n->form.record->choice_count; i++) {
@@ -345,7 +368,7 @@ static void write_sections(const tn_numbered *n, const house_tally *tally, bool 
             if (json)
                 write_json_count(name, k == 0, *value, out);
             else if (choice->shape_count > 1)
-                gmp_fprintf(out, "  %-*s %Zd\n", LABEL_WIDTH - 3, name, *value);
+                gmp_fprintf(out, "  %-*s %Zd\n", labels - 3, name, *value);
         }
         fputs(json ? "}" : "", out);
     }
@@ -362,35 +385,37 @@ static bool knows_states(const tn_numbered *n, const house_tally *tally)
 
 static void write_states(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
 {
+    int labels = label_width(n);
     const tn_module *module = n->form.module;
     const tn_house_clause_record *clauses = module->HOUSE_CLAUSE_records + n->record->clause_first;
     uint32_t count = n->record->clause_count;
     if (json)
         fprintf(out, ",\"states_of_none\":%llu,\"states_of\":{", (unsigned long long)tally->asking[count]);
     else
-        fprintf(out, "%-*s%s\n  %-*s%llu\n", LABEL_WIDTH, "clause by itself", "states", LABEL_WIDTH - 2, "none",
+        fprintf(out, "%-*s%s\n  %-*s%llu\n", labels, "clause by itself", "states", labels - 2, "none",
                 (unsigned long long)tally->asking[count]);
     for (uint32_t i = 0; i < count; i++) {
         if (json)
             write_json_key(tn_text(module, clauses[i].name), i == 0, ":", out);
         else
-            fprintf(out, "  %-*s ", LABEL_WIDTH - 3, tn_text(module, clauses[i].name));
+            fprintf(out, "  %-*s ", labels - 3, tn_text(module, clauses[i].name));
         fprintf(out, json ? "%llu" : "%llu\n", (unsigned long long)tally->asking[i]);
     }
     if (json)
         fputs("}", out);
     else
-        fprintf(out, "  %-*s%llu\n", LABEL_WIDTH - 2, "all of them", (unsigned long long)tally->states);
+        fprintf(out, "  %-*s%llu\n", labels - 2, "all of them", (unsigned long long)tally->states);
 }
 
 static void write_clauses(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
 {
+    int labels = label_width(n);
     const tn_module *module = n->form.module;
     const tn_house_clause_record *clauses = module->HOUSE_CLAUSE_records + n->record->clause_first;
     if (!json)
-        fprintf(out, "%-*s%-*s%s\n", LABEL_WIDTH, "clause", COUNT_WIDTH, "keeps out", "only by it");
+        fprintf(out, "%-*s%-*s%s\n", labels, "clause", COUNT_WIDTH, "keeps out", "only by it");
     for (uint32_t i = 0; !json && i < n->record->clause_count; i++)
-        gmp_fprintf(out, "  %-*s %-*Zd%Zd\n", LABEL_WIDTH - 3, tn_text(module, clauses[i].name), COUNT_WIDTH,
+        gmp_fprintf(out, "  %-*s %-*Zd%Zd\n", labels - 3, tn_text(module, clauses[i].name), COUNT_WIDTH,
                     tally->kept_out[i], tally->alone[i]);
     for (int alone = 0; json && alone < 2; alone++) {
         fputs(alone ? ",\"only\":{" : ",\"kept_out\":{", out);
@@ -414,7 +439,7 @@ static void write_json(const tn_numbered *n, const house_tally *tally, FILE *out
     else
         fprintf(out, ",\"states\":%llu", (unsigned long long)tally->states);
     gmp_fprintf(out, ",\"faced\":\"%Zd\",\"houses\":\"%Zd\",\"by_length\":{", tally->faced, tally->houses);
-    write_lengths(tally, true, out);
+    write_lengths(n, tally, true, out);
     fputs("},\"by_section\":{", out);
     write_sections(n, tally, true, out);
     fputs("}", out);
@@ -425,14 +450,15 @@ static void write_json(const tn_numbered *n, const house_tally *tally, FILE *out
 
 static void write_text(const tn_numbered *n, const house_tally *tally, FILE *out)
 {
-    gmp_fprintf(out, "%-*s%Zd\n", LABEL_WIDTH, "plans", tally->plans);
+    int labels = label_width(n);
+    gmp_fprintf(out, "%-*s%Zd\n", labels, "plans", tally->plans);
     if (tally->each) {
-        fprintf(out, "%-*s%llu\n", LABEL_WIDTH, "with a house", (unsigned long long)tally->with_houses);
-        fprintf(out, "%-*s%llu\n", LABEL_WIDTH, "sections and functions", (unsigned long long)tally->zoned);
+        fprintf(out, "%-*s%llu\n", labels, "with a house", (unsigned long long)tally->with_houses);
+        fprintf(out, "%-*s%llu\n", labels, "sections and functions", (unsigned long long)tally->zoned);
     }
-    gmp_fprintf(out, "%-*s%Zd\n", LABEL_WIDTH, "with openings", tally->faced);
-    gmp_fprintf(out, "%-*s%Zd\n", LABEL_WIDTH, "houses", tally->houses);
-    write_lengths(tally, false, out);
+    gmp_fprintf(out, "%-*s%Zd\n", labels, "with openings", tally->faced);
+    gmp_fprintf(out, "%-*s%Zd\n", labels, "houses", tally->houses);
+    write_lengths(n, tally, false, out);
     write_sections(n, tally, false, out);
     if (tally->kept_out)
         write_clauses(n, tally, false, out);

@@ -209,7 +209,7 @@ static void inspect(inspection *n)
     if (n->settings->require)
         tn_job_status(n->job, tn_kit_hold(&n->job->opened, &n->asked, &n->ldraw.model, &n->measures));
     if (space)
-        tn_job_status(n->job, tn_kit_conditions(&n->job->opened, n->chosen, &n->measures, false, NULL, &tally));
+        tn_job_status(n->job, tn_kit_conditions(&n->job->opened, n->chosen, &n->measures, false, false, &tally));
 }
 
 static int run(const tn_command *command, const tn_settings *common)

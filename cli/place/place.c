@@ -134,7 +134,7 @@ static tn_status check_conditions(placing *p)
         return TN_OK;
     tn_status status = tn_placed_measure(p->rules.module, p->rules.space, &p->model, p->watch, &measured, &error);
     if (status == TN_OK)
-        status = tn_kit_conditions(&p->job->opened, p->chosen, &measured, false, TN_KIT_HELP, &tally);
+        status = tn_kit_conditions(&p->job->opened, p->chosen, &measured, false, true, &tally);
     else
         tn_job_fail(p->job, &error);
     tn_placed_measures_clear(&measured);

@@ -68,8 +68,21 @@ static void write_found(const tn_module *module, uint32_t function, const tn_pla
     }
 }
 
+/* Is the condition about the part of the space that is filled? A larger space does not raise that. */
+static bool asks_fill(const tn_module *module, uint32_t function)
+{
+    const tn_function_record *f = &module->FUNCTION_records[function];
+    tn_instruction i;
+    for (uint32_t offset = f->code_begin; offset < f->code_end; offset += i.length) {
+        i = tn_code_read(module->code, offset);
+        if (i.opcode == TN_OP_TERM && i.first == TN_PLACED_FILL)
+            return true;
+    }
+    return false;
+}
+
 bool tn_kit_holds(tn_opened *opened, const tn_module *module, const tn_kit_condition_record *condition, const char *who,
-                  const tn_placed_measures *measured, const char *help)
+                  const tn_placed_measures *measured, bool placed)
 {
     tn_diagnostics *list = &opened->compilation.diagnostics;
     char found[300];
@@ -78,13 +91,15 @@ bool tn_kit_holds(tn_opened *opened, const tn_module *module, const tn_kit_condi
     write_found(module, condition->holds, measured, found, sizeof found);
     tn_diagnostic *d = tn_report(list, E_PLACE_CONDITION, (tn_span){condition->file, condition->begin, condition->end},
                                  "%s does not meet this: %s", who, found);
-    if (help)
-        tn_help(list, d, "%s", help);
+    if (placed)
+        tn_help(list, d, "another --seed%s may help",
+                asks_fill(module, condition->holds) ? " or another order of alternatives"
+                                                    : ", another order of alternatives, or a larger space");
     return false;
 }
 
 tn_status tn_kit_conditions(tn_opened *opened, uint32_t model, const tn_placed_measures *measured, bool tests,
-                            const char *help, tn_kit_tally *tally)
+                            bool placed, tn_kit_tally *tally)
 {
     const tn_module *module = opened->module;
     const tn_kit_model_record *record = &module->KIT_MODEL_records[model];
@@ -95,7 +110,7 @@ tn_status tn_kit_conditions(tn_opened *opened, uint32_t model, const tn_placed_m
         const tn_kit_condition_record *condition = &module->KIT_CONDITION_records[record->condition_first + i];
         if (condition->flags & TN_CONDITION_TEST && !tests)
             continue;
-        bool holds = tn_kit_holds(opened, module, condition, who, measured, help);
+        bool holds = tn_kit_holds(opened, module, condition, who, measured, placed);
         tally->passed += holds;
         tally->failed += !holds;
     }
@@ -124,7 +139,7 @@ static tn_status test_model(tn_opened *opened, uint32_t model, tn_watch *watch, 
     if (status != TN_OK)
         tn_report_error(&opened->compilation.diagnostics, &error, opened->path, NULL, 0);
     else
-        status = tn_kit_conditions(opened, model, &measured, true, TN_KIT_HELP, tally);
+        status = tn_kit_conditions(opened, model, &measured, true, true, tally);
     tn_placed_measures_clear(&measured);
     tn_placed_model_clear(&placed);
     return status;

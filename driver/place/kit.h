@@ -11,22 +11,20 @@
 /* The model of this name, or the kit's only one where that is NULL; what is wrong is reported (E1317). */
 tn_status tn_kit_choose(tn_opened *opened, const char *name, uint32_t *model);
 
-/* Where the model was placed by us. */
-#define TN_KIT_HELP "another --seed, another order of alternatives, or a larger space may help"
-
 typedef struct tn_kit_tally {
     size_t passed, failed;
 } tn_kit_tally;
 
 /* Reports the conditions of a model that do not hold (E1316), with what was found: its requirements, and where `tests`
- * the expectations of its tests too. help: what may help, or NULL. TN_INVALID where one does not hold. */
+ * the expectations of its tests too. placed: by us, so that placing otherwise may help. TN_INVALID where one does not
+ * hold. */
 tn_status tn_kit_conditions(tn_opened *opened, uint32_t model, const tn_placed_measures *measured, bool tests,
-                            const char *help, tn_kit_tally *tally);
+                            bool placed, tn_kit_tally *tally);
 
 /* Does a condition of a module hold? Where not, that is added to the diagnostics of `opened` (E1316) of `who`, with
  * what was found. */
 bool tn_kit_holds(tn_opened *opened, const tn_module *module, const tn_kit_condition_record *condition, const char *who,
-                  const tn_placed_measures *measured, const char *help);
+                  const tn_placed_measures *measured, bool placed);
 
 /* Places every model of a kit, seed 0, and holds each to its requirements and tests. */
 tn_status tn_kit_tests_run(tn_opened *opened, tn_watch *watch, tn_kit_tally *tally);

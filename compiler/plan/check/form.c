@@ -4,7 +4,7 @@
 
 #include "compiler/common/limits.h"
 #include "compiler/plan/check/form.h"
-#include "runtime/base/length.h"
+#include "runtime/base/length_style.h"
 
 static const char *const part_words[] = {"storey", "spine", "wall", "partition", "deck", "roof"};
 
@@ -23,6 +23,15 @@ int64_t tn_form_length(tn_check *check, const tn_ast_word *word)
         return -1;
     }
     return word->value;
+}
+
+const char *tn_form_in_unit(const tn_checked_form *form, const char *feet, const char *metric)
+{
+    const tn_checked_schema *schema = form->schema;
+    if (!schema || schema->length_field == TN_NONE || schema->fields[schema->length_field].value_count == 0)
+        return feet;
+    const char *spelling = schema->fields[schema->length_field].values[0].spelling;
+    return tn_length_style_of(spelling) == TN_STYLE_FEET ? feet : metric;
 }
 
 void tn_form_unknown(tn_check *check, const tn_checked_form *form, const tn_ast_word *word, const char *what,
@@ -210,7 +219,8 @@ static void check_once(tn_check *check, tn_checked_form *form)
         tn_diagnostic *d = tn_report(check->diagnostics, E_FORM_LACKS, form->ast->name->node.span,
                                      "form `%s` has no `%s`", form->name, part_words[needed[i]]);
         tn_help(check->diagnostics, d, "add a line such as `%s %s`", part_words[needed[i]],
-                needed[i] == TN_PART_STOREY ? "ground 9'" : "6\"");
+                needed[i] == TN_PART_STOREY ? tn_form_in_unit(form, "ground 9'", "ground 2.7m")
+                                            : tn_form_in_unit(form, "6\"", "150mm"));
     }
 }
 

@@ -108,6 +108,9 @@ typedef struct tn_checked_form {
     uint32_t material_count;
 } tn_checked_form;
 
+/* Of two words for one thing, those in the unit of the schema's lengths; in feet where it has none. */
+const char *tn_form_in_unit(const tn_checked_form *form, const char *feet, const char *metric);
+
 /* ---- form.c (tn_check_forms: check.h) */
 /* The length that a word says, where 0 may stand without a unit; -1 where it is none: then reported. */
 int64_t tn_form_length(tn_check *check, const tn_ast_word *word);

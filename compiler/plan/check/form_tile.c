@@ -40,24 +40,29 @@ static void add_against(tn_check *check, const tn_checked_form *form, tn_checked
 /* ---- boxes */
 
 /* One stretch; a box has at most one across, one into the room, one up. */
-static void read_reach(tn_check *check, const tn_ast_reach *reach, bool said[3], tn_tile_box_record *box)
+static void read_reach(tn_check *check, const tn_checked_form *form, const tn_ast_reach *reach, bool said[3],
+                       tn_tile_box_record *box)
 {
     int axis = reach->from <= TN_BOX_RIGHT ? 0 : reach->from <= TN_BOX_FRONT ? 1 : 2;
     int other = reach->to <= TN_BOX_RIGHT ? 0 : reach->to <= TN_BOX_FRONT ? 1 : 2;
     int64_t low = tn_form_length(check, reach->low), high = tn_form_length(check, reach->high);
     if (axis != other || said[axis]) {
         bad_tile(check, reach->node.span,
-                 axis != other ? "these two sides are not opposite each other" : "this box has two stretches in the same direction",
-                 "write `left 0 .. right 0, back 0 .. 2', up 0 .. 3'`");
+                 axis != other ? "these two sides are not opposite each other"
+                               : "this box has two stretches in the same direction",
+                 tn_form_in_unit(form, "write `left 0 .. right 0, back 0 .. 2', up 0 .. 3'`",
+                                 "write `left 0 .. right 0, back 0 .. 600mm, up 0 .. 900mm`"));
         return;
     }
     said[axis] = true;
     bool opposite = reach->from != reach->to, far = reach->from == TN_BOX_RIGHT || reach->from == TN_BOX_FRONT;
     bool inside_out = low >= 0 && high >= 0 && !opposite && (far ? low <= high : low >= high);
     if (inside_out || (opposite && far))
-        bad_tile(check, reach->node.span, "this box is turned inside out at every size",
-                 far ? "from the right or the front the larger length is first: `right 2' .. right 0`"
-                     : "write the smaller length first");
+        bad_tile(
+            check, reach->node.span, "this box is turned inside out at every size",
+            far ? tn_form_in_unit(form, "from the right or the front the larger length is first: `right 2' .. right 0`",
+                                  "from the right or the front the larger length is first: `right 600mm .. right 0`")
+                : "write the smaller length first");
     if (axis == 2) {
         box->up_low = low;
         box->up_high = high;
@@ -72,12 +77,12 @@ static void read_reach(tn_check *check, const tn_ast_reach *reach, bool said[3],
     }
 }
 
-static void add_box(tn_check *check, tn_checked_tile *tile, const tn_ast_tile_part *part)
+static void add_box(tn_check *check, const tn_checked_form *form, tn_checked_tile *tile, const tn_ast_tile_part *part)
 {
     bool said[3] = {false};
     tn_tile_box_record box = {.flags = part->part == TN_TILE_KEEPS ? TN_TILE_KEEP : 0};
     for (TN_EACH(const tn_ast_reach, reach, part->list))
-        read_reach(check, reach, said, &box);
+        read_reach(check, form, reach, said, &box);
     box.flags |= (said[0] ? 0 : TN_TILE_X_TO_RIGHT) | (said[1] ? 0 : TN_TILE_Y_TO_FRONT);
     if (!tn_name_fits(check->diagnostics, part->name->text, part->name->node.span) ||
         !tn_check_room(check, tile->box_count, TN_TILE_BOXES_MAX, "item", part->node.span, "make two tiles of it"))
@@ -132,7 +137,7 @@ void tn_check_tile(tn_check *check, tn_checked_form *form, const tn_ast_form_cla
         else if (part->part <= TN_TILE_DEEP)
             read_range(check, part, part->part == TN_TILE_WIDE ? tile.wide : tile.deep);
         else
-            add_box(check, &tile, part);
+            add_box(check, form, &tile, part);
     }
     form->tiles[form->tile_count++] = tile;
 }

@@ -248,11 +248,60 @@ static bool report_two_words(tn_parse *parse, const tn_syntax_found *found, cons
     return true;
 }
 
+/* `118,50`: the comma of a number whose decimals stand after one. */
+static bool report_decimal_comma(tn_parse *parse, const tn_syntax_found *found, const tn_expected *e)
+{
+    tn_span whole = parse->span_before;
+    const char *rest = parse->text + found->span.end;
+    int digits = (int)strspn(rest, "0123456789"), size = (int)(whole.end - whole.begin);
+    if (strcmp(found->name, "`,`") != 0 || !tn_expects(e, "`per`") || digits == 0 || whole.end != found->span.begin)
+        return false;
+    tn_span span = {whole.file, whole.begin, found->span.end + (uint32_t)digits};
+    const char *text = parse->text + whole.begin;
+    tn_diagnostic *d =
+        tn_report(parse->diagnostics, E_UNEXPECTED, span, "`%.*s,%.*s` is no price", size, text, digits, rest);
+    tn_help(parse->diagnostics, d, "decimals stand after a point: `%.*s.%.*s`", size, text, digits, rest);
+    tn_replace_with(parse->diagnostics, d, "%.*s.%.*s", size, text, digits, rest);
+    return true;
+}
+
+/* How the line that is wrong is written: where the next line began too early, the one before it. */
+static const char *example_of(const tn_parse *parse, tn_span span)
+{
+    const char *example = tn_syntax_example(parse->text, span.begin);
+    return example ? example : tn_syntax_example(parse->text, parse->span_before.end);
+}
+
+/* The last `(` before a byte that is not closed, where it is on a line before that and the byte's own line begins as
+ * one of the language's does. Texts in quotes and comments are not told apart: their parentheses are mostly closed. */
+static bool find_unclosed(const tn_parse *parse, tn_span span, tn_span *open)
+{
+    size_t closed = 0, at = span.begin;
+    bool line = false;
+    if (!tn_syntax_example(parse->text, at))
+        return false;
+    while (at-- > 0) {
+        char c = parse->text[at];
+        line |= c == '\n';
+        if (c == '{' || c == '}')
+            return false;
+        closed += c == ')';
+        if (c == '(' && closed-- == 0)
+            break;
+    }
+    *open = (tn_span){span.file, (uint32_t)at, (uint32_t)at + 1};
+    return line && at != SIZE_MAX;
+}
+
 /* By what is known of the place, or else by how such a line is written. */
 static void advise_otherwise(tn_parse *parse, tn_diagnostic *d, tn_span span, const tn_expected *e, const char *help)
 {
-    const char *example = tn_syntax_example(parse->text, span.begin);
-    if (help)
+    const char *example = example_of(parse, span);
+    tn_span open;
+    if (tn_expects(e, "`)`") && find_unclosed(parse, span, &open)) {
+        tn_note(parse->diagnostics, d, &open, "this `(` is not closed");
+        tn_help(parse->diagnostics, d, "write the `)` that is missing");
+    } else if (help)
         tn_help(parse->diagnostics, d, "%s", help);
     else if (tn_expects(e, "`neighbour`"))
         tn_help(parse->diagnostics, d,
@@ -269,7 +318,8 @@ void tn_syntax_error(tn_parse *parse, const tn_syntax_found *found, const char *
     if (parse->quiet_now || (parse->virtual_brace && span.begin == span.end))
         return; /* what led to this was reported */
     tn_expected e = {.tokens = expected, .count = count < 96 ? count : 96};
-    if (report_misspelled(parse, found, &e) || report_two_words(parse, found, &e))
+    if (report_misspelled(parse, found, &e) || report_two_words(parse, found, &e) ||
+        report_decimal_comma(parse, found, &e))
         return;
     char list[800], words[800], here[120];
     say_expected(expected, count, list, sizeof list);

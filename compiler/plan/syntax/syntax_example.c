@@ -2,37 +2,62 @@
 #include "compiler/plan/syntax/syntax_example.h"
 
 #include <ctype.h>
+#include <stdbool.h>
 #include <string.h>
 #include <strings.h>
 
 static const struct {
-    const char *word, *example;
+    const char *word, *feet, *metric; /* metric: NULL where it is the same */
 } examples[] = {
-    {"storey", "storey ground 9'"},
-    {"spine", "spine body"},
-    {"wall", "wall 8\""},
-    {"partition", "partition 4\""},
-    {"deck", "deck 10\""},
-    {"section", "section body roof = flat | gable(9:12)"},
-    {"void", "void cell(body, loft)"},
-    {"no", "no cell(body, loft)"},
-    {"function", "function kitchen at cell(body, ground)"},
-    {"opening", "opening door wide 2'8\" high 6'8\" passage"},
-    {"allow", "allow W204"},
-    {"flight", "flight stairs wide 3' rise 6\"..7 3/4\" going 10\""},
-    {"face", "face cell(kitchen) beside cell(hall) = open | door"},
-    {"tile", "tile bed for bedroom { against wall  item bed left 2'..7', back 0..6'8\" }"},
-    {"item", "item bed left 2'..7', back 0..6'8\", up 0..2'"},
-    {"material", "material brick \"#a05040\" price 12 per sf for wall"},
-    {"rule", "rule wide = tray(width > 8')"},
-    {"library", "library rows using shed { trays 2..4 }"},
-    {"test", "test corner { match [8' | 4'] }"},
-    {"schema", "schema shed { width = 4' | 8' }"},
-    {"trays", "trays 2..4"},
-    {"require", "require quantity(tray(8'), n >= 1)"},
-    {"prune", "prune tray(4') as narrow"},
-    {"measure", "measure cost = 1200 * quantity(any)"},
+    {"storey", "storey ground 9'", "storey ground 2.7m"},
+    {"spine", "spine body", NULL},
+    {"wall", "wall 8\"", "wall 200mm"},
+    {"partition", "partition 4\"", "partition 100mm"},
+    {"deck", "deck 10\"", "deck 250mm"},
+    {"section", "section body roof = flat | gable(9:12)", NULL},
+    {"void", "void cell(body, loft)", NULL},
+    {"no", "no cell(body, loft)", NULL},
+    {"function", "function kitchen at cell(body, ground)", NULL},
+    {"opening", "opening door wide 2'8\" high 6'8\" passage", "opening door wide 800mm high 2m passage"},
+    {"allow", "allow W204", NULL},
+    {"flight", "flight stairs wide 3' rise 6\"..7 3/4\" going 10\"",
+     "flight stairs wide 900mm rise 150mm..195mm going 250mm"},
+    {"face", "face cell(kitchen) beside cell(hall) = open | door", NULL},
+    {"tile", "tile bed for bedroom { against wall  item bed left 2'..7', back 0..6'8\" }",
+     "tile bed for bedroom { against wall  item bed left 600mm..2.1m, back 0..2m }"},
+    {"item", "item bed left 2'..7', back 0..6'8\", up 0..2'", "item bed left 600mm..2.1m, back 0..2m, up 0..600mm"},
+    {"material", "material brick \"#a05040\" price 12 per sf for wall",
+     "material brick \"#a05040\" price 120 per m2 for wall"},
+    {"rule", "rule wide = tray(width > 8')", "rule wide = tray(width > 2.4m)"},
+    {"library", "library rows using shed { trays 2..4 }", NULL},
+    {"test", "test corner { match [8' | 4'] }", "test corner { match [2.4m | 1.2m] }"},
+    {"schema", "schema shed { width = 4' | 8' }", "schema shed { width = 1.2m | 2.4m }"},
+    {"trays", "trays 2..4", NULL},
+    {"require", "require quantity(tray(8'), n >= 1)", NULL},
+    {"prune", "prune tray(4') as narrow", "prune tray(1.2m) as narrow"},
+    {"measure", "measure cost = 1200 * quantity(any)", NULL},
 };
+
+/* The unit that a length is spelt in which begins at a digit: 'f' for feet and inches, 'm' for metric ones, or 0. */
+static char unit_of(const char *at)
+{
+    at += strspn(at, "0123456789.");
+    if (*at == '\'' || *at == '"')
+        return 'f';
+    at += *at == 'c' || (*at == 'm' && at[1] == 'm');
+    return *at == 'm' && !isalnum((unsigned char)at[1]) ? 'm' : 0;
+}
+
+/* Is the first length of the text metric? */
+static bool is_metric(const char *text)
+{
+    char unit = 0, before = 0;
+    for (const char *at = text; *at && !unit; before = *at++) {
+        if (isdigit((unsigned char)*at) && !isalnum((unsigned char)before) && before != '.')
+            unit = unit_of(at);
+    }
+    return unit == 'm';
+}
 
 const char *tn_syntax_example(const char *text, size_t at)
 {
@@ -47,6 +72,6 @@ const char *tn_syntax_example(const char *text, size_t at)
     for (size_t i = 0; i < sizeof examples / sizeof *examples; i++)
         if (begin + size <= at && strlen(examples[i].word) == size &&
             strncasecmp(text + begin, examples[i].word, size) == 0)
-            return examples[i].example;
+            return examples[i].metric && is_metric(text) ? examples[i].metric : examples[i].feet;
     return NULL;
 }
