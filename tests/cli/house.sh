@@ -76,6 +76,9 @@ if grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; th
         "$TARTAN" house cottage "$room" --view "$view" -o "$scratch/two.svg"
         cmp "$scratch/one.svg" "$scratch/two.svg" || fail "two pictures of $view differ"
     done
+    "$TARTAN" house apartments '#0:0' -o "$scratch/flats.svg"
+    is 'a block of flats, drawn at 1:200, is on A2 and not on A1' \
+        "$(grep -o -m1 ' width="[^"]*" height="[^"]*"' "$scratch/flats.svg")" ' width="1683.779528pt" height="1190.551181pt"'
     "$TARTAN" house cottage '#10:77' -o "$scratch/all/"
     is 'a folder of all files' "$(cd "$scratch/all" && echo *)" 'house.csv house.dxf house.glb house.ifc house.json house.obj house.parts.csv house.pdf house.ply house.png house.svg'
 fi

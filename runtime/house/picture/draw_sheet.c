@@ -152,6 +152,16 @@ static void spread_rows(sheet *s)
     }
 }
 
+/* Takes the smallest paper that holds everything at the scale that is set. */
+static void take_smallest(sheet *s, const tn_paper *papers, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (fits(s, papers[i].width, papers[i].height))
+            return;
+}
+
+/* The smallest paper on which the drawings are legible. If they are on none, the largest scale that there is a paper
+ * for, and the smallest paper at that scale. */
 static tn_status choose_paper(sheet *s, tn_error *error)
 {
     const tn_paper *papers;
@@ -165,8 +175,10 @@ static tn_status choose_paper(sheet *s, tn_error *error)
                 tn_status status = mark_all(s, s->drawing->scale ? s->drawing->scale : scales[i], error);
                 if (status == TN_OK && !fits(s, papers[p].width, papers[p].height))
                     continue;
-                if (status == TN_OK)
+                if (status == TN_OK) {
+                    take_smallest(s, papers, p + 1);
                     spread_rows(s);
+                }
                 return status;
             }
         }
