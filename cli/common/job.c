@@ -1,6 +1,7 @@
 /* Runs the parts that commands share: opening files, messages, output, exit codes. */
 #include "cli/common/job.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -155,22 +156,39 @@ static bool wants_colour(void)
     return isatty(STDERR_FILENO) && !(no_colour && *no_colour) && !(terminal && strcmp(terminal, "dumb") == 0);
 }
 
-/* With several ranks, what each has to say is kept for the end: then the first says what it has not said itself. */
-static void keep_words(tn_job *job, tn_diagnostics *list, const tn_show_options *options)
+/* Whole in one write, so that the words of processes that share an error output do not mix. */
+static void say(const char *words, size_t size)
 {
-    char *words = NULL, *both = NULL;
+    fflush(stderr);
+    for (ssize_t wrote = 0; size > 0 && (wrote >= 0 || errno == EINTR); words += wrote > 0 ? wrote : 0) {
+        wrote = write(STDERR_FILENO, words, size);
+        size -= wrote > 0 ? (size_t)wrote : 0;
+    }
+}
+
+/* With several ranks, what each has to say is kept for the end: then the first says what it has not said itself. */
+static void keep_words(tn_job *job, const char *words)
+{
+    char *both = NULL;
+    if (asprintf(&both, "%s%s", job->words ? job->words : "", words) >= 0) {
+        free(job->words);
+        job->words = both;
+    }
+}
+
+static void tell(tn_job *job, tn_diagnostics *list, const tn_show_options *options)
+{
+    char *words = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&words, &size);
     if (out) {
         tn_diagnostics_show(list, options, out);
         fclose(out);
     }
-    if (words && tn_ranks_lead(job->settings->ranks))
-        fputs(words, stderr);
-    if (words && asprintf(&both, "%s%s", job->words ? job->words : "", words) >= 0) {
-        free(job->words);
-        job->words = both;
-    }
+    if (tn_ranks_lead(job->settings->ranks))
+        words ? say(words, size) : tn_diagnostics_show(list, options, stderr);
+    if (words && tn_ranks_several(job->settings->ranks))
+        keep_words(job, words);
     free(words);
 }
 
@@ -186,8 +204,7 @@ static void show(tn_job *job)
     if (job->listener)
         job->listener->listen(job->listener, list);
     if (list->count || list->failed || options.json)
-        tn_ranks_several(job->settings->ranks) ? keep_words(job, list, &options)
-                                               : tn_diagnostics_show(list, &options, stderr);
+        tell(job, list, &options);
     if (list->failed)
         worsen(job, TN_EXIT_LIMIT);
     tn_diagnostics_clear(list);
