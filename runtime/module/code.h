@@ -54,10 +54,16 @@ static inline tn_operands tn_code_operands(uint8_t opcode)
     return (tn_operands)kinds[opcode];
 }
 
+/* Does it compare a number of the whole house with 0? */
+static inline bool tn_code_compares_house(tn_opcode opcode)
+{
+    return opcode >= TN_OP_HOUSE_BELOW && opcode <= TN_OP_HOUSE_ABOVE;
+}
+
 /* Is it a relation over the trays of a house, which a plan alone does not say? */
 static inline bool tn_code_asks_house(tn_opcode opcode)
 {
-    return opcode >= TN_OP_SOME_CELL && opcode <= TN_OP_AREAS;
+    return (opcode >= TN_OP_SOME_CELL && opcode <= TN_OP_AREAS) || tn_code_compares_house(opcode);
 }
 
 typedef struct tn_opcode_effect {

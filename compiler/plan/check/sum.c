@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "compiler/plan/check/amount.h"
+#include "compiler/plan/check/form.h"
 
 enum { MEASURE_POWER_MAX = 3, TERMS_MAX = 1000, MATCHES_MAX = 10 };
 
@@ -312,7 +313,10 @@ static tn_checked_sum *finish(tn_check *check, const sum *s, tn_span span)
                              .index = TN_NONE};
     for (size_t i = 0; i < s->count; i++) {
         made->whole |= s->terms[i].kind == TN_TERM_MATCHES;
-        made->houses |= s->terms[i].kind >= TN_TERM_CELLS;
+        if (s->terms[i].kind < TN_TERM_CELLS)
+            continue;
+        made->houses = true;
+        made->form = s->terms[i].part->ask->form;
     }
     return made;
 }
@@ -350,28 +354,6 @@ static bool few_matches(tn_check *check, const tn_ast_expr *expr, const sum *sid
     return false;
 }
 
-/* A measure of houses is counted by and optimised, not compared. */
-static bool of_plans(tn_check *check, const tn_ast_expr *expr, const sum *sides, size_t count)
-{
-    bool houses = false, costs = false;
-    for (size_t i = 0; i < count; i++)
-        for (size_t t = 0; t < sides[i].count; t++) {
-            houses |= sides[i].terms[t].kind >= TN_TERM_CELLS;
-            costs |= sides[i].terms[t].kind == TN_TERM_COST;
-        }
-    if (!houses)
-        return true;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_HOUSE_CLAUSE, expr->node.span,
-                                 "measures of houses cannot be compared in a rule");
-    tn_help(
-        check->diagnostics, d,
-        costs
-            ? "make the cost a measure: `tartan best` and `tartan pareto` choose by it, `tartan count --by` counts by "
-              "it"
-            : "write the condition itself, such as `quantity(cell(...), n > 1)` or `sum(area of cell(...), a > 90sf)`");
-    return false;
-}
-
 void tn_check_comparison(tn_check *check, tn_ast_expr *expr)
 {
     const tn_ast_expr *left = (const tn_ast_expr *)expr->parts.first, *middle = (const tn_ast_expr *)left->node.next,
@@ -389,18 +371,21 @@ void tn_check_comparison(tn_check *check, tn_ast_expr *expr)
     bool range = expr->kind != TN_EXPR_COMPARE;
     tn_checked_sum *low = difference(check, expr, left, middle, &sides[0], &sides[1]),
                    *high = range ? difference(check, expr, left, right, &sides[0], &sides[2]) : NULL;
-    if (!low || (range && !high) || !of_plans(check, expr, sides, count))
+    if (!low || (range && !high))
         return;
     expr->sum = low;
     expr->high = high;
-    expr->whole = low->whole;
+    expr->whole = low->whole || low->houses;
+    tn_check_house_sum(check, low, expr->node.span);
+    if (range)
+        tn_check_house_sum(check, high, expr->node.span);
 }
 
 void tn_check_plan_measure(tn_check *check, tn_checked_rule *measure)
 {
     measure->sum = tn_check_sum(check, measure->ast->body);
     if (measure->sum && measure->form)
-        tn_check_house_measure(check, measure);
+        tn_check_house_sum(check, measure->sum, measure->ast->body->node.span);
     if (!measure->sum || (measure->sum->power >= 0 && measure->sum->power <= MEASURE_POWER_MAX))
         return;
     tn_diagnostic *d = tn_report(check->diagnostics, E_DIMENSIONS, measure->ast->body->node.span,

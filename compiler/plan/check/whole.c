@@ -1,4 +1,4 @@
-/* What speaks of the whole plan (comparisons with `matches`) stands only where the plan is meant. */
+/* What speaks of the whole plan (comparisons with `matches`, or of numbers of houses) stands only where the plan is meant. */
 #include "compiler/plan/check/check.h"
 
 static const tn_ast_expr *comparison_in(const tn_ast_expr *expr)
@@ -23,7 +23,8 @@ static void report(tn_check *check, const tn_ast_expr *expr)
                                  "this is about the whole plan, and stands where a part of it is meant");
     const tn_ast_expr *comparison = comparison_in(expr);
     if (comparison && comparison != expr)
-        tn_note(check->diagnostics, d, &comparison->node.span, "because of this comparison, which has `matches` in it");
+        tn_note(check->diagnostics, d, &comparison->node.span, comparison->sum && comparison->sum->houses ? "because of this comparison, which adds up over the house"
+                                                            : "because of this comparison, which has `matches` in it");
     tn_help(check->diagnostics, d, "join it to other rules by `and`, `or`, `not` and `implies` only");
 }
 

@@ -47,8 +47,8 @@ void tn_emit_sum_needs(tn_emit *emit, tn_checked_sum *sum, const char *name); /*
 /* The relation of the stretches on which the sum compares so with 0. */
 void tn_emit_comparison(tn_emit *emit, tn_span span, tn_checked_sum *sum, tn_operator op);
 void tn_emit_number(tn_emit *emit, const tn_checked_number *number, tn_span span);
-void tn_emit_house_terms_need(tn_emit *emit, const tn_checked_sum *sum);
 void tn_emit_house_measure(tn_emit *emit, const tn_checked_rule *measure);
+uint32_t tn_emit_house_sum(tn_emit *emit, const tn_checked_sum *sum, uint32_t of_plan); /* of_plan: a SUM */
 void tn_emit_plan_measure(tn_emit *emit, tn_checked_rule *measure);
 void tn_emit_measures(tn_emit *emit); /* their records */
 

@@ -77,23 +77,17 @@ void tn_emit_house_rule(tn_emit *emit, const tn_checked_rule *rule)
                                                       PLACE(rule->ast->top.node.span)});
 }
 
-void tn_emit_house_terms_need(tn_emit *emit, const tn_checked_sum *sum)
-{
-    for (size_t i = 0; i < sum->count; i++)
-        if (sum->terms[i].kind >= TN_TERM_CELLS && sum->terms[i].kind != TN_TERM_COST)
-            tn_emit_ask_needs(emit, sum->terms[i].part);
-}
-
-void tn_emit_house_measure(tn_emit *emit, const tn_checked_rule *measure)
+/* The records of what the sum adds up of houses; returns the first. */
+static uint32_t emit_house_terms(tn_emit *emit, const tn_checked_sum *sum, uint32_t *count)
 {
     static const uint32_t kinds[] = {[TN_TERM_CELLS] = TN_HOUSE_CELLS,
                                      [TN_TERM_AREAS] = TN_HOUSE_AREAS,
                                      [TN_TERM_ROOMS] = TN_HOUSE_ROOMS,
                                      [TN_TERM_COST] = TN_HOUSE_COST};
-    const tn_ast_word *doc = measure->ast->doc;
-    uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_HOUSE_TERM), count = 0;
-    for (size_t i = 0; i < measure->sum->count; i++) {
-        const tn_checked_term *term = &measure->sum->terms[i];
+    uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_HOUSE_TERM);
+    *count = 0;
+    for (size_t i = 0; i < sum->count; i++) {
+        const tn_checked_term *term = &sum->terms[i];
         if (term->kind < TN_TERM_CELLS)
             continue;
         tn_builder_add_HOUSE_TERM(
@@ -101,8 +95,23 @@ void tn_emit_house_measure(tn_emit *emit, const tn_checked_rule *measure)
             &(tn_house_term_record){.kind = kinds[term->kind],
                                     .factor = tn_builder_string(emit->builder, term->factor),
                                     .part = term->kind == TN_TERM_COST ? TN_NO_RECORD : term->part->ask->function - 1});
-        count++;
+        ++*count;
     }
+    return first;
+}
+
+uint32_t tn_emit_house_sum(tn_emit *emit, const tn_checked_sum *sum, uint32_t of_plan)
+{
+    uint32_t count, first = emit_house_terms(emit, sum, &count);
+    return tn_builder_add_HOUSE_SUM(
+        emit->builder, &(tn_house_sum_record){
+                           .form = sum->form->index, .sum = of_plan, .term_first = first, .term_count = count});
+}
+
+void tn_emit_house_measure(tn_emit *emit, const tn_checked_rule *measure)
+{
+    const tn_ast_word *doc = measure->ast->doc;
+    uint32_t count, first = emit_house_terms(emit, measure->sum, &count);
     tn_builder_add_HOUSE_MEASURE(
         emit->builder, &(tn_house_measure_record){.name = tn_builder_string(emit->builder, measure->name),
                                                   .doc = tn_builder_string(emit->builder, doc ? doc->text : NULL),

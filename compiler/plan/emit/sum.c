@@ -90,10 +90,15 @@ static uint32_t part_of(tn_emit *emit, const tn_checked_term *term, const char *
 void tn_emit_sum_needs(tn_emit *emit, tn_checked_sum *sum, const char *name)
 {
     for (size_t i = 0; sum && i < sum->count; i++) {
-        if (sum->terms[i].kind >= TN_TERM_CELLS)
+        const tn_checked_term *term = &sum->terms[i];
+        if (term->kind == TN_TERM_COST)
             continue;
-        part_of(emit, &sum->terms[i], name);
-        tally_of(emit, sum->terms[i].figure, name);
+        if (term->kind >= TN_TERM_CELLS) {
+            tn_emit_ask_needs(emit, term->part);
+            continue;
+        }
+        part_of(emit, term, name);
+        tally_of(emit, term->figure, name);
     }
 }
 
@@ -126,11 +131,15 @@ static uint32_t emit_sum(tn_emit *emit, const tn_checked_sum *sum, const char *c
 
 static void emit_plain(tn_emit *emit, tn_span span, const tn_checked_sum *sum, const char *constant, tn_operator op)
 {
-    static const tn_opcode opcodes[] = {
-        [TN_LESS] = TN_OP_BELOW,   [TN_AT_MOST] = TN_OP_ABOVE,  [TN_EQUAL] = TN_OP_ZERO,
-        [TN_UNEQUAL] = TN_OP_ZERO, [TN_AT_LEAST] = TN_OP_BELOW, [TN_GREATER] = TN_OP_ABOVE,
+    static const tn_opcode opcodes[][2] = {
+        [TN_LESS] = {TN_OP_BELOW, TN_OP_HOUSE_BELOW},     [TN_AT_MOST] = {TN_OP_ABOVE, TN_OP_HOUSE_ABOVE},
+        [TN_EQUAL] = {TN_OP_ZERO, TN_OP_HOUSE_ZERO},      [TN_UNEQUAL] = {TN_OP_ZERO, TN_OP_HOUSE_ZERO},
+        [TN_AT_LEAST] = {TN_OP_BELOW, TN_OP_HOUSE_BELOW}, [TN_GREATER] = {TN_OP_ABOVE, TN_OP_HOUSE_ABOVE},
     };
-    tn_emit_op(emit, span, opcodes[op], emit_sum(emit, sum, constant, false), 0);
+    uint32_t number = emit_sum(emit, sum, constant, false);
+    if (sum->houses)
+        number = tn_emit_house_sum(emit, sum, number);
+    tn_emit_op(emit, span, opcodes[op][sum->houses], number, 0);
     if (op == TN_AT_MOST || op == TN_UNEQUAL || op == TN_AT_LEAST)
         tn_emit_op(emit, span, TN_OP_NOT, 0, 0);
 }
@@ -170,7 +179,6 @@ void tn_emit_plan_measure(tn_emit *emit, tn_checked_rule *measure)
 {
     emit->schema = measure->schema->index;
     tn_emit_sum_needs(emit, measure->sum, measure->name);
-    tn_emit_house_terms_need(emit, measure->sum);
     measure->sum->index = emit_sum(emit, measure->sum, measure->sum->constant, true);
 }
 

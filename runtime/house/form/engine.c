@@ -5,6 +5,7 @@
 #include "runtime/module/code.h"
 #include "runtime/module/engine.h"
 #include "runtime/number/rational.h"
+#include "runtime/plan/schema/list.h"
 
 static const tn_function_record *function_of(const tn_checker *checker, uint32_t index)
 {
@@ -179,22 +180,36 @@ static tn_status check_house_term(const tn_checker *checker, uint32_t schema, ui
     return TN_OK;
 }
 
+/* Terms of a number of the houses of a form, whose plan's part is the sum. */
+static tn_status check_added(const tn_checker *checker, uint32_t form, uint32_t sum, uint32_t first, uint32_t count)
+{
+    const tn_module *module = checker->module;
+    uint32_t schema = module->FORM_records[form].schema;
+    tn_status status = TN_OK;
+    if (module->SUM_records[sum].schema != schema)
+        return tn_refuse(checker, "sum %u is not of the schema of form %u, whose houses it is about", sum, form);
+    for (uint32_t i = 0; status == TN_OK && i < count; i++)
+        status = check_house_term(checker, schema, first + i);
+    return status;
+}
+
 static tn_status check_measures_of_houses(const tn_checker *checker)
 {
     const tn_module *module = checker->module;
-    for (uint32_t i = 0; i < module->HOUSE_MEASURE_count; i++) {
-        const tn_house_measure_record *measure = &module->HOUSE_MEASURE_records[i];
-        uint32_t schema = module->FORM_records[measure->form].schema;
-        if (module->SUM_records[measure->sum].schema != schema)
-            return tn_refuse(checker, "measure %u of houses has a sum of another schema than its form's", i);
-        for (uint32_t t = 0; t < measure->term_count; t++) {
-            tn_status status = check_house_term(checker, schema, measure->term_first + t);
-            if (status != TN_OK)
-                return status;
-        }
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < module->HOUSE_MEASURE_count; i++) {
+        const tn_house_measure_record *r = &module->HOUSE_MEASURE_records[i];
+        status = check_added(checker, r->form, r->sum, r->term_first, r->term_count);
     }
-    return tn_check_different(checker, &module->HOUSE_MEASURE_records->name, sizeof *module->HOUSE_MEASURE_records,
-                              module->HOUSE_MEASURE_count, "two measures of houses have the same name");
+    for (uint32_t i = 0; status == TN_OK && i < module->HOUSE_SUM_count; i++) {
+        const tn_house_sum_record *r = &module->HOUSE_SUM_records[i];
+        status = check_added(checker, r->form, r->sum, r->term_first, r->term_count);
+    }
+    return status == TN_OK
+               ? tn_check_different(checker, &module->HOUSE_MEASURE_records->name,
+                                    sizeof *module->HOUSE_MEASURE_records, module->HOUSE_MEASURE_count,
+                                    "two measures of houses have the same name")
+               : status;
 }
 
 static bool has_length(const tn_checker *checker, uint32_t schema)
@@ -309,6 +324,43 @@ static tn_status check_meeting(const tn_checker *checker, const tn_instruction *
     return TN_OK;
 }
 
+/* What is compared is of the caller's schema, without `matches`; its functions are lower than the caller. */
+static tn_status check_house_summed(const tn_checker *checker, const tn_instruction *instruction)
+{
+    const tn_module *module = checker->module;
+    const tn_house_sum_record *compared = &module->HOUSE_SUM_records[instruction->first];
+    const tn_sum_record *sum = &module->SUM_records[compared->sum];
+    if (module->FORM_records[compared->form].schema != function_of(checker, checker->record)->schema)
+        return tn_refuse(checker, "sum %u of houses is of another schema", (unsigned)instruction->first);
+    bool lower = true;
+    for (uint32_t i = 0; i < sum->term_count; i++) {
+        const tn_term_record *term = &module->TERM_records[sum->term_first + i];
+        lower = lower && term->part < checker->record && term->kind != TN_SUM_MATCHES;
+    }
+    for (uint32_t i = 0; i < compared->term_count; i++) {
+        uint32_t part = module->HOUSE_TERM_records[compared->term_first + i].part;
+        lower = lower && (part == TN_NO_RECORD || part < checker->record);
+    }
+    return lower ? TN_OK
+                 : tn_refuse(checker, "sum %u of houses has `matches`, or a function that is not a lower one",
+                             (unsigned)instruction->first);
+}
+
+static void list_house_summed(tn_lister *lister, const tn_instruction *instruction)
+{
+    static const char *const kinds[] = {"cells", "areas", "rooms", "cost"};
+    const tn_module *module = lister->module;
+    const tn_house_sum_record *compared = &module->HOUSE_SUM_records[instruction->first];
+    fprintf(lister->out, "house sum %u: ", (unsigned)instruction->first);
+    tn_list_sum(lister, compared->sum);
+    for (uint32_t i = 0; i < compared->term_count; i++) {
+        const tn_house_term_record *term = &module->HOUSE_TERM_records[compared->term_first + i];
+        fprintf(lister->out, " + %s %s", tn_text(module, term->factor), kinds[term->kind]);
+        if (term->part != TN_NO_RECORD)
+            fprintf(lister->out, " of function %u", term->part);
+    }
+}
+
 static void list_area(tn_lister *lister, const tn_instruction *instruction)
 {
     static const char *const signs[] = {"<", "<=", "=", "!=", ">=", ">"};
@@ -366,6 +418,9 @@ static tn_status verify_after(const tn_checker *checker)
     for (uint32_t i = 0; status == TN_OK && i < module->HOUSE_MEASURE_count; i++)
         if (sum_asks(module, &module->SUM_records[module->HOUSE_MEASURE_records[i].sum], asking))
             status = tn_refuse(checker, "the plan's part of measure %u of houses asks for houses", i);
+    for (uint32_t i = 0; status == TN_OK && i < module->HOUSE_SUM_count; i++)
+        if (sum_asks(module, &module->SUM_records[module->HOUSE_SUM_records[i].sum], asking))
+            status = tn_refuse(checker, "the plan's part of sum %u of houses asks for houses", i);
     free(asking);
     return status;
 }
@@ -375,13 +430,15 @@ static const tn_section sections[] = {TN_SECTION_FORM,          TN_SECTION_STORE
                                       TN_SECTION_FACE_LINE,     TN_SECTION_TILE,       TN_SECTION_TILE_BOX,
                                       TN_SECTION_HOUSE_ITEM,    TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
                                       TN_SECTION_HOUSE_CLAUSE,  TN_SECTION_MEETING,    TN_SECTION_MATERIAL,
-                                      TN_SECTION_HOUSE_MEASURE, TN_SECTION_HOUSE_TERM, TN_SECTION_STRINGS};
+                                      TN_SECTION_HOUSE_MEASURE, TN_SECTION_HOUSE_TERM, TN_SECTION_HOUSE_SUM,
+                                      TN_SECTION_STRINGS};
 
 static const tn_operand_rules operands[] = {{TN_OPERANDS_AREA, check_area, list_area},
                                             {TN_OPERANDS_RATIO, check_ratio, list_ratio},
                                             {TN_OPERANDS_DECISION, check_decision, NULL},
                                             {TN_OPERANDS_DECISION_COND, check_counted, NULL},
-                                            {TN_OPERANDS_MEETING, check_meeting, NULL}};
+                                            {TN_OPERANDS_MEETING, check_meeting, NULL},
+                                            {TN_OPERANDS_HOUSE_SUMMED, check_house_summed, list_house_summed}};
 
 extern const tn_engine tn_engine_house;
 const tn_engine tn_engine_house = {.name = "house",

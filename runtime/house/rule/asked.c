@@ -186,6 +186,16 @@ static void add_areas(const tn_house_rules *rules, const tn_instruction *op, uin
 
 /* ---- the whole */
 
+static tn_status compare(tn_house_rules *rules, const tn_instruction *op, uint64_t *relation, size_t words,
+                         tn_error *error)
+{
+    bool so = false;
+    tn_status status = tn_house_compare(rules, op, &so, error);
+    if (status == TN_OK && so)
+        add(relation, words, 0, rules->house->length);
+    return status;
+}
+
 static tn_status answer(void *context, const tn_instruction *op, uint64_t *relation, size_t words, tn_error *error)
 {
     tn_house_rules *rules = context;
@@ -217,9 +227,11 @@ static tn_status answer(void *context, const tn_instruction *op, uint64_t *relat
     case TN_OP_ROOMS:
         count_rooms(rules, op, relation, words);
         break;
-    default:
+    case TN_OP_AREAS:
         add_areas(rules, op, relation, words);
         break;
+    default:
+        return compare(rules, op, relation, words, error);
     }
     return TN_OK;
 }
@@ -229,6 +241,8 @@ tn_status tn_house_rules_new(const tn_house_form *form, size_t max_length, tn_ho
     tn_house_rules *rules = *out = calloc(1, sizeof *rules);
     if (!rules)
         return tn_fail_memory(error);
+    rules->max_length = max_length;
+    mpq_init(rules->cost);
     tn_status status = tn_plan_vm_new(form->schema, max_length, &rules->vm, error);
     if (status != TN_OK) {
         tn_house_rules_free(rules);
@@ -242,6 +256,8 @@ void tn_house_rules_free(tn_house_rules *rules)
     if (!rules)
         return;
     tn_plan_vm_free(rules->vm);
+    tn_plan_vm_free(rules->sums_vm);
+    mpq_clear(rules->cost);
     free(rules->seen);
     free(rules->todo);
     free(rules->sums);
@@ -275,7 +291,7 @@ tn_status tn_house_rules_start(tn_house_rules *rules, const tn_house *house, tn_
 {
     rules->house = house;
     tn_status status = make_room(rules, house, error);
-    rules->gathered = false;
+    rules->gathered = rules->summed = rules->priced = false;
     if (status == TN_OK)
         status = tn_plan_vm_plan(rules->vm, house->trays, house->length, error);
     if (status == TN_OK)

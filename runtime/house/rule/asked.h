@@ -34,6 +34,9 @@ tn_status tn_house_rules_hold(tn_house_rules *rules, uint32_t function, bool *ho
 tn_status tn_house_rules_measure(tn_house_rules *rules, tn_house_measured measure, mpq_t value, mpq_t cost,
                                  tn_error *error);
 
+/* What the house costs, where the caller knows it: it is not worked out then. Good until the next house. */
+void tn_house_rules_price(tn_house_rules *rules, const mpq_t cost);
+
 /* Does clause `clause` (of the library) keep the house out? */
 tn_status tn_house_rules_drop(tn_house_rules *rules, const tn_house_library_record *library, uint32_t clause,
                               bool *drops, tn_error *error);

@@ -15,6 +15,7 @@ typedef struct tn_room_span {
 
 struct tn_house_rules {
     const tn_house *house;
+    size_t max_length;
     tn_plan_vm *vm;
     bool gathered;     /* the rooms are known */
     uint32_t *room_of; /* each cell's */
@@ -24,6 +25,10 @@ struct tn_house_rules {
     uint32_t *todo;
     int64_t *sums;
     size_t capacity; /* of each of the arrays, in items */
+    tn_plan_vm *sums_vm; /* what comparisons add up of the plan, once one is asked; that of the rules is at work then */
+    bool summed;         /* it has the plan */
+    bool priced;         /* the cost is known */
+    mpq_t cost;
 };
 
 /* ---- asked_rooms.c */
@@ -34,6 +39,10 @@ tn_status tn_rooms_gather(tn_house_rules *rules, tn_error *error);
 /* Is there no walk from the cell to one of the second kind? Cells between are of the third. Then rules->seen are the
  * cells that walks come to. */
 bool tn_cell_apart(tn_house_rules *rules, const tn_meeting_record *walk, uint32_t from);
+
+/* ---- measured.c */
+/* *so: does the number of the house compare so with 0 (HOUSE_BELOW and those after it)? */
+tn_status tn_house_compare(tn_house_rules *rules, const tn_instruction *op, bool *so, tn_error *error);
 
 /* ---- asked_rooms.c, again: what a function of kind ROOM decides on a room. */
 bool tn_room_decide(const tn_house_rules *rules, uint32_t function, const tn_room_span *room);

@@ -1,5 +1,6 @@
-/* The value of a measure on one house, from what it adds up. */
+/* The value of a measure on one house, from what it adds up, and comparisons of such values. */
 #include "runtime/house/rule/asked_data.h"
+#include "runtime/house/schedule/cost.h"
 
 /* to += factor * number */
 static void add(mpq_t to, const tn_module *module, const tn_house_term_record *term, tn_int128 number)
@@ -31,17 +32,73 @@ static tn_int128 number_of(const tn_house_rules *rules, const tn_house_term_reco
     return number;
 }
 
+/* Adds the terms; what is in parts of the house's cost, to `cost`. */
+static void add_terms(const tn_house_rules *rules, uint32_t first, uint32_t count, mpq_t value, mpq_t cost)
+{
+    const tn_module *module = rules->house->form->module;
+    mpq_set_ui(cost, 0, 1);
+    for (uint32_t i = 0; i < count; i++) {
+        const tn_house_term_record *term = &module->HOUSE_TERM_records[first + i];
+        add(term->kind == TN_HOUSE_COST ? cost : value, module, term, number_of(rules, term));
+    }
+}
+
 tn_status tn_house_rules_measure(tn_house_rules *rules, tn_house_measured measure, mpq_t value, mpq_t cost,
                                  tn_error *error)
 {
-    const tn_module *module = rules->house->form->module;
     tn_status status = tn_rooms_gather(rules, error);
     if (status == TN_OK)
         status = tn_plan_vm_value(rules->vm, measure.sum, value, error);
-    mpq_set_ui(cost, 0, 1);
-    for (uint32_t i = 0; status == TN_OK && i < measure.term_count; i++) {
-        const tn_house_term_record *term = &module->HOUSE_TERM_records[measure.term_first + i];
-        add(term->kind == TN_HOUSE_COST ? cost : value, module, term, number_of(rules, term));
+    if (status == TN_OK)
+        add_terms(rules, measure.term_first, measure.term_count, value, cost);
+    return status;
+}
+
+/* ---- comparisons */
+
+static tn_status plan_value(tn_house_rules *rules, uint32_t sum, mpq_t value, tn_error *error)
+{
+    const tn_house *house = rules->house;
+    tn_status status = TN_OK;
+    if (!rules->sums_vm)
+        status = tn_plan_vm_new(house->form->schema, rules->max_length, &rules->sums_vm, error);
+    if (status == TN_OK && !rules->summed)
+        status = tn_plan_vm_plan(rules->sums_vm, house->trays, house->length, error);
+    rules->summed = status == TN_OK;
+    return status == TN_OK ? tn_plan_vm_value(rules->sums_vm, sum, value, error) : status;
+}
+
+static tn_status find_cost(tn_house_rules *rules, tn_error *error)
+{
+    tn_status status =
+        rules->priced ? TN_OK : tn_house_exact_cost(rules->house, tn_house_solids, rules->cost, error);
+    rules->priced = status == TN_OK;
+    return status;
+}
+
+void tn_house_rules_price(tn_house_rules *rules, const mpq_t cost)
+{
+    mpq_set(rules->cost, cost);
+    rules->priced = true;
+}
+
+tn_status tn_house_compare(tn_house_rules *rules, const tn_instruction *op, bool *so, tn_error *error)
+{
+    const tn_house_sum_record *sum = &rules->house->form->module->HOUSE_SUM_records[op->first];
+    mpq_t value, cost;
+    mpq_inits(value, cost, NULL);
+    tn_status status = plan_value(rules, sum->sum, value, error);
+    if (status == TN_OK)
+        status = tn_rooms_gather(rules, error);
+    if (status == TN_OK)
+        add_terms(rules, sum->term_first, sum->term_count, value, cost);
+    if (status == TN_OK && mpq_sgn(cost) != 0) {
+        status = find_cost(rules, error);
+        mpq_mul(cost, cost, rules->cost);
+        mpq_add(value, value, cost);
     }
+    int sign = mpq_sgn(value);
+    *so = op->opcode == TN_OP_HOUSE_BELOW ? sign < 0 : op->opcode == TN_OP_HOUSE_ZERO ? sign == 0 : sign > 0;
+    mpq_clears(value, cost, NULL);
     return status;
 }

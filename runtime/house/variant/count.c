@@ -1,5 +1,6 @@
 /* Counts the houses with the functions at hand. Faces that clauses can depend on are turned together; those that only
  * matter to the tiles of one cell are summed up cell by cell, and the cells multiplied. */
+#include "runtime/house/variant/furnish.h"
 #include "runtime/house/variant/parts.h"
 
 /* Of the wheels that are set there is only the choice at hand. What is outside of a cell comes after what is outside of
@@ -11,7 +12,8 @@ static tn_status split_faces(tn_house_variants *v, tn_error *error)
     tn_wheels_clear(&v->own);
     for (size_t i = 0; status == TN_OK && i < v->faces.count; i++) {
         const tn_wheel *w = &v->faces.items[i];
-        bool relevant = tn_face_relevant(&v->house, &v->questions, &v->house.faces[w->of]), set = i < v->faces_set;
+        bool relevant = v->asks_costs || tn_face_relevant(&v->house, &v->questions, &v->house.faces[w->of]),
+             set = i < v->faces_set;
         status = tn_wheels_add(relevant ? &v->shared : &v->own, w->of, v->faces.choices + w->first + (set ? w->at : 0),
                                set ? 1 : w->count, error);
     }
@@ -80,6 +82,20 @@ static tn_status count_cells(tn_house_variants *v, mpz_t houses, mpz_t faced, tn
     return status;
 }
 
+/* All faces are known: the combinations of tiles with which clauses keep the house. */
+static tn_status count_kept(tn_house_variants *v, mpz_t houses, mpz_t faced, tn_error *error)
+{
+    bool fit = false;
+    mpz_set_ui(houses, 0);
+    tn_status status = tn_variants_count_tiles(v, &fit, error);
+    if (status == TN_OK && fit)
+        status = tn_furnish(v, error);
+    if (status == TN_OK && fit)
+        tn_furnished_count(v, houses);
+    mpz_set_ui(faced, mpz_sgn(houses) > 0);
+    return status;
+}
+
 tn_status tn_variants_count_set(tn_house_variants *v, tn_house_counts *counts, tn_error *error)
 {
     bool kept = false, zoned = false;
@@ -92,7 +108,7 @@ tn_status tn_variants_count_set(tn_house_variants *v, tn_house_counts *counts, t
             status = tn_variants_keep(v, TN_STAGE_FACES, &kept, error);
         if (status != TN_OK || !kept)
             continue;
-        status = count_cells(v, houses, faced, error);
+        status = (v->asks_costs ? count_kept : count_cells)(v, houses, faced, error);
         mpz_add(counts->houses, counts->houses, houses);
         counts->faced += mpz_sgn(houses) > 0 ? mpz_get_ui(faced) : 0;
         zoned |= mpz_sgn(houses) > 0;

@@ -26,6 +26,13 @@ void tn_memos_free(tn_house_variants *v)
 
 /* ---- what a clause asks */
 
+static void mark_sum(const tn_module *module, uint32_t index, bool *reached)
+{
+    const tn_sum_record *sum = &module->SUM_records[index];
+    for (uint32_t i = 0; i < sum->term_count; i++)
+        reached[module->TERM_records[sum->term_first + i].part] = true;
+}
+
 void tn_mark_operands(const tn_module *module, const tn_instruction *op, bool *reached)
 {
     switch (tn_code_operands((uint8_t)op->opcode)) {
@@ -34,10 +41,17 @@ void tn_mark_operands(const tn_module *module, const tn_instruction *op, bool *r
     case TN_OPERANDS_DECISION_COND:
         reached[op->first] = true;
         return;
-    case TN_OPERANDS_SUMMED: {
-        const tn_sum_record *sum = &module->SUM_records[op->first];
-        for (uint32_t i = 0; i < sum->term_count; i++)
-            reached[module->TERM_records[sum->term_first + i].part] = true;
+    case TN_OPERANDS_SUMMED:
+        mark_sum(module, (uint32_t)op->first, reached);
+        return;
+    case TN_OPERANDS_HOUSE_SUMMED: {
+        const tn_house_sum_record *sum = &module->HOUSE_SUM_records[op->first];
+        mark_sum(module, sum->sum, reached);
+        for (uint32_t i = 0; i < sum->term_count; i++) {
+            const tn_house_term_record *term = &module->HOUSE_TERM_records[sum->term_first + i];
+            if (term->part != TN_NO_RECORD)
+                reached[term->part] = true;
+        }
         return;
     }
     default:

@@ -2,14 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/house/variant/furnish.h"
 #include "runtime/house/variant/parts.h"
-
-static void multiply_tiles(const tn_house_variants *v, mpz_t product)
-{
-    mpz_set_ui(product, 1);
-    for (size_t i = 0; i < v->house.cell_count; i++)
-        mpz_mul_ui(product, product, v->tiles[i]);
-}
 
 /* ---- houses from a number on */
 
@@ -32,34 +26,23 @@ static void pass_over(tn_house_variants *v, void *context, tn_house_part part, c
         mpz_sub(list->left, list->left, counts->houses);
 }
 
-/* The next combination of tiles, the last cell's changing first; false after the last one. */
-static bool next_tiles(tn_house_variants *v)
-{
-    for (size_t i = v->house.cell_count; i-- > 0;) {
-        if (++v->house.cells[i].variant < v->tiles[i])
-            return true;
-        v->house.cells[i].variant = 0;
-    }
-    return false;
-}
-
 /* Gives the houses with these faces out, from the `left`-th combination of tiles on. */
 static tn_status give_tiles(tn_house_variants *v, void *context, bool *stop, tn_error *error)
 {
     listing *list = context;
-    multiply_tiles(v, list->here);
+    tn_furnished_count(v, list->here);
     if (mpz_cmp(list->left, list->here) >= 0) {
         mpz_sub(list->left, list->left, list->here);
         return TN_OK;
     }
-    for (size_t i = v->house.cell_count; i-- > 0;)
-        v->house.cells[i].variant = mpz_fdiv_q_ui(list->left, list->left, v->tiles[i]);
+    tn_furnished_find(v, list->left);
+    mpz_set_ui(list->left, 0);
     tn_status status;
     do {
         list->passing = false;
         v->work = v->work_limit; /* there is a limit on the way to a house, none on how many there are */
         status = list->each(list->context, &v->house, stop, error);
-    } while (status == TN_OK && !*stop && next_tiles(v));
+    } while (status == TN_OK && !*stop && tn_furnished_next(v));
     return status;
 }
 
@@ -190,13 +173,9 @@ static tn_status stop_here(tn_house_variants *v, void *context, bool *stop, tn_e
 {
     seeking *s = context;
     (void)error;
-    mpz_set_ui(s->here, 0);
-    for (size_t i = 0; i < v->house.cell_count; i++) {
-        mpz_mul_ui(s->here, s->here, v->tiles[i]);
-        mpz_add_ui(s->here, s->here, s->wanted->cells[i].variant);
-    }
+    tn_furnished_before(v, s->wanted, s->here);
     mpz_add(s->before, s->before, s->here);
-    s->passing = false;
+    s->passing = !tn_furnished_has(v, s->wanted);
     *stop = true;
     return TN_OK;
 }

@@ -46,6 +46,9 @@ struct tn_house_variants {
     size_t counted_length;
     size_t *tiles; /* how many fit in each cell; 1 where it has none */
     size_t tile_room;
+    bool asks_costs;                /* a clause is of the stage of tiles */
+    mpq_t price;                    /* what the house costs, while these are asked */
+    struct tn_combinations *combinations; /* furnish.h; NULL unless costs are asked for */
 };
 
 /* ---- wheels */
@@ -68,6 +71,9 @@ tn_status tn_variants_spend(tn_house_variants *v, tn_error *error);
 
 /* Do all clauses that can be asked at this stage, and not before, keep the house? */
 tn_status tn_variants_keep(tn_house_variants *v, tn_clause_stage stage, bool *kept, tn_error *error);
+
+/* How many tiles fit in each cell (v->tiles). fit: does one in each? */
+tn_status tn_variants_count_tiles(tn_house_variants *v, bool *fit, tn_error *error);
 
 /* The wheels of the faces, all at their first kind, none of them set. */
 tn_status tn_variants_set_faces(tn_house_variants *v, tn_error *error);

@@ -10,23 +10,42 @@ static tn_clause_stage later(tn_clause_stage a, tn_clause_stage b)
     return a > b ? a : b;
 }
 
+static tn_clause_stage of_sum(const tn_module *module, uint32_t index, const tn_clause_stage *known)
+{
+    const tn_sum_record *sum = &module->SUM_records[index];
+    tn_clause_stage stage = TN_STAGE_SECTION;
+    for (uint32_t i = 0; i < sum->term_count; i++)
+        stage = later(stage, known[module->TERM_records[sum->term_first + i].part]);
+    return stage;
+}
+
+static tn_clause_stage of_house_sum(const tn_module *module, uint32_t index, const tn_clause_stage *known)
+{
+    const tn_house_sum_record *sum = &module->HOUSE_SUM_records[index];
+    tn_clause_stage stage = of_sum(module, sum->sum, known);
+    for (uint32_t i = 0; i < sum->term_count; i++) {
+        const tn_house_term_record *term = &module->HOUSE_TERM_records[sum->term_first + i];
+        stage = later(stage, term->kind == TN_HOUSE_COST    ? TN_STAGE_TILES
+                             : term->kind == TN_HOUSE_ROOMS ? TN_STAGE_FACES
+                                                            : known[term->part]);
+    }
+    return stage;
+}
+
 /* The latest of the functions that an instruction names; they are lower, and so known. */
 static tn_clause_stage of_operands(const tn_module *module, const tn_instruction *op, const tn_clause_stage *known)
 {
-    tn_clause_stage stage = TN_STAGE_SECTION;
     switch (tn_code_operands((uint8_t)op->opcode)) {
     case TN_OPERANDS_FUNC:
     case TN_OPERANDS_DECISION:
     case TN_OPERANDS_DECISION_COND:
         return known[op->first];
-    case TN_OPERANDS_SUMMED: {
-        const tn_sum_record *sum = &module->SUM_records[op->first];
-        for (uint32_t i = 0; i < sum->term_count; i++)
-            stage = later(stage, known[module->TERM_records[sum->term_first + i].part]);
-        return stage;
-    }
+    case TN_OPERANDS_SUMMED:
+        return of_sum(module, (uint32_t)op->first, known);
+    case TN_OPERANDS_HOUSE_SUMMED:
+        return of_house_sum(module, (uint32_t)op->first, known);
     default:
-        return stage;
+        return TN_STAGE_SECTION;
     }
 }
 

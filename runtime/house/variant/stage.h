@@ -7,7 +7,8 @@
 typedef enum tn_clause_stage {
     TN_STAGE_SECTION,   /* the plan, the section, which cells there are */
     TN_STAGE_FUNCTIONS, /* their functions */
-    TN_STAGE_FACES      /* what is in the faces: rooms, walks, what touches what */
+    TN_STAGE_FACES,     /* what is in the faces: rooms, walks, what touches what */
+    TN_STAGE_TILES      /* what it costs, also what stands in its rooms */
 } tn_clause_stage;
 
 /* The stage of each clause of the library. */

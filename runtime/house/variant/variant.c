@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/house/variant/furnish.h"
 #include "runtime/house/variant/memo.h"
 #include "runtime/house/variant/section.h"
 
@@ -75,6 +76,8 @@ static tn_status run_clause(tn_house_variants *v, uint32_t clause, bool *started
 {
     tn_status status = *started ? TN_OK : tn_house_rules_start(v->rules, &v->house, error);
     *started = true;
+    if (v->stages[clause] == TN_STAGE_TILES)
+        tn_house_rules_price(v->rules, v->price);
     v->runs[clause]++;
     return status == TN_OK ? tn_house_rules_drop(v->rules, v->library, clause, drops, error) : status;
 }
@@ -104,7 +107,7 @@ tn_status tn_variants_keep(tn_house_variants *v, tn_clause_stage stage, bool *ke
 
 /* ---- tiles */
 
-static tn_status count_tiles(tn_house_variants *v, bool *fit, tn_error *error)
+tn_status tn_variants_count_tiles(tn_house_variants *v, bool *fit, tn_error *error)
 {
     tn_status status = TN_OK;
     *fit = true;
@@ -183,7 +186,9 @@ static tn_status show_house(tn_house_variants *v, const tn_house_visitor *seen_b
     set_kinds(v);
     tn_status status = tn_variants_keep(v, TN_STAGE_FACES, &kept, error);
     if (status == TN_OK && kept)
-        status = count_tiles(v, &fit, error);
+        status = tn_variants_count_tiles(v, &fit, error);
+    if (status == TN_OK && kept && fit)
+        status = tn_furnish(v, error);
     return status == TN_OK && kept && fit ? seen_by->visit(v, seen_by->context, stop, error) : status;
 }
 
@@ -442,8 +447,13 @@ tn_status tn_house_variants_new(const tn_house_form *form, const tn_house_librar
     v->runs = calloc((size_t)library->clause_count + 1, sizeof *v->runs);
     tn_status status = v->stages && v->runs ? tn_clause_stages(form, library, v->stages, error) : tn_fail_memory(error);
     v->sections = calloc(1, sizeof *v->sections);
+    mpq_init(v->price);
     if (status == TN_OK)
         status = v->sections ? tn_sections_begin(form, v->sections, error) : tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < library->clause_count; i++)
+        v->asks_costs = v->asks_costs || v->stages[i] == TN_STAGE_TILES;
+    if (v->asks_costs)
+        v->sections->apart = true; /* each section has its own costs */
     if (status == TN_OK)
         status = tn_room_questions_find(form->module, &v->questions, error);
     if (status == TN_OK)
@@ -478,6 +488,8 @@ void tn_house_variants_free(tn_house_variants *v)
     tn_memos_free(v);
     free(v->stages);
     free(v->runs);
+    tn_furnished_clear(v);
+    mpq_clear(v->price);
     free(v->tiles);
     free(v);
 }

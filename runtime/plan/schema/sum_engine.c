@@ -4,6 +4,7 @@
 
 #include "runtime/module/engine.h"
 #include "runtime/number/rational.h"
+#include "runtime/plan/schema/list.h"
 
 static bool is_rational(const tn_module *module, tn_string text)
 {
@@ -143,7 +144,7 @@ static tn_status check_extent(const tn_checker *checker, const tn_instruction *i
 
 /* ---- listing */
 
-static void list_sum(tn_lister *lister, uint32_t index)
+void tn_list_sum(tn_lister *lister, uint32_t index)
 {
     static const char *const kinds[] = {"singles", "starts", "matches"};
     const tn_module *module = lister->module;
@@ -159,7 +160,7 @@ static void list_sum(tn_lister *lister, uint32_t index)
 
 static void list_summed(tn_lister *lister, const tn_instruction *instruction)
 {
-    list_sum(lister, (uint32_t)instruction->first);
+    tn_list_sum(lister, (uint32_t)instruction->first);
 }
 
 static void list_rational(tn_lister *lister, const tn_instruction *instruction)
@@ -184,7 +185,7 @@ static void list(tn_lister *lister)
         tn_list_name(lister, measure->name);
         tn_list_doc(lister, measure->doc);
         fputs(": ", lister->out);
-        list_sum(lister, measure->sum);
+        tn_list_sum(lister, measure->sum);
         tn_list_place(lister, measure->file, measure->begin);
     }
 }
