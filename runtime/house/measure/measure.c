@@ -18,6 +18,12 @@ tn_house_measured tn_house_measured_of(const tn_module *module, uint32_t measure
     return (tn_house_measured){.name = r->name, .doc = r->doc, .sum = r->sum};
 }
 
+tn_house_measured tn_house_measured_sum(const tn_module *module, uint32_t sum, tn_string name)
+{
+    const tn_house_sum_record *r = &module->HOUSE_SUM_records[sum];
+    return (tn_house_measured){.name = name, .sum = r->sum, .term_first = r->term_first, .term_count = r->term_count};
+}
+
 static const tn_house_term_record *term_record(const tn_house_weights *w, uint32_t i)
 {
     return &w->form->module->HOUSE_TERM_records[w->of.term_first + i];

@@ -24,6 +24,9 @@ typedef struct tn_house_measured {
     uint32_t sum, term_first, term_count;
 } tn_house_measured;
 
+/* What a HOUSE_SUM record adds up, under the name of the clause that compares it. */
+tn_house_measured tn_house_measured_sum(const tn_module *module, uint32_t sum, tn_string name);
+
 /* measure: below the module's HOUSE_MEASUREs one of them, then its MEASUREs. */
 tn_house_measured tn_house_measured_of(const tn_module *module, uint32_t measure);
 
@@ -58,6 +61,16 @@ typedef struct tn_house_measures {
     const tn_house_weights *of[TN_WEIGHED_MAX];
     bool most[TN_WEIGHED_MAX]; /* more of it is better: its values are those below 0 that it would be with less */
 } tn_house_measures;
+
+#define TN_COMPARED_MAX 8u /* numbers that the clauses of a library compare with 0 */
+#define TN_ADDED_MAX (TN_WEIGHED_MAX + TN_COMPARED_MAX)
+
+/* All that is added up over houses: the measures, then what clauses compare. */
+typedef struct tn_house_added {
+    uint32_t measures, count;
+    const tn_house_weights *of[TN_ADDED_MAX];
+    uint32_t sums[TN_ADDED_MAX]; /* of what is compared: HOUSE_SUM records */
+} tn_house_added;
 
 /* ---- steps */
 

@@ -258,6 +258,26 @@ static tn_status relate_count(const tn_strip_lowering *l, const tn_marked *marke
     return status;
 }
 
+/* The last letter says it of the whole row: its value is the sum of all values. */
+static tn_status relate_comparison(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+                                   tn_error *error)
+{
+    uint8_t holds[TN_STRIP_TRUTHS] = {[TRUTH_YES] = true};
+    uint32_t letters = marked->letters - 1;
+    uint64_t *counts = malloc(((size_t)letters + 1) * sizeof *counts);
+    bool empty = false;
+    tn_status status = counts ? tn_strip_empty_meets(l->strip, &l->clause->atoms[atom].op, &empty, error)
+                              : tn_fail_memory(error);
+    holds[TRUTH_LATER] = empty; /* there is no letter */
+    const tn_periodic_set set = {.threshold = TRUTH_NO, .period = 1, .holds = holds};
+    for (uint32_t i = 0; counts && i < letters; i++)
+        counts[i] = value_of(l->clause, i, atom);
+    if (status == TN_OK)
+        status = tn_marked_count(marked, marked->single, TN_TALLY_SINGLES, &set, counts, out, error);
+    free(counts);
+    return status;
+}
+
 static tn_status relate(void *context, const tn_marked *marked, const tn_instruction *op, bool reversed, tn_dfa **out,
                         tn_error *error)
 {
@@ -277,8 +297,10 @@ static tn_status relate(void *context, const tn_marked *marked, const tn_instruc
         return relate_count(l, marked, atom, PART_BASE, out, error);
     case TN_OP_ROOMS:
         return relate_count(l, marked, atom, PART_VALUE, out, error);
-    default:
+    case TN_OP_AREAS:
         return relate_areas(l, marked, atom, out, error);
+    default:
+        return relate_comparison(l, marked, atom, out, error);
     }
 }
 

@@ -199,7 +199,8 @@ static tn_status add_kind(tn_houses *h, const tn_house *section, const bool *tra
     *kind = (tn_houses_kind){.key = tn_sections_key(&h->sections, section), .sections = 1};
     mpz_init(kind->faced);
     tn_status status =
-        tn_strip_new(h->form, h->library, section->shapes, trays, h->low, h->high, h->measures, &kind->strip, error);
+        tn_strip_new(h->form, h->library, section->shapes, trays, h->low, h->high, h->measures, &h->added,
+                     &kind->strip, error);
     return status == TN_OK ? scout(h, kind, trays, error) : status;
 }
 
@@ -220,7 +221,7 @@ static tn_status count_sections(tn_houses *h, const bool *trays, tn_error *error
     for (bool more = true; status == TN_OK && more; more = tn_form_next_section(h->form, section.shapes))
         if (tn_house_section_stands(&section))
             status = add_kind(h, &section, trays, error);
-    if (status == TN_OK && h->measures)
+    if (status == TN_OK && h->added.count > 0)
         status = tn_houses_settle(h, error);
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
         status = look_at_kind(h, &h->kinds[i], error);
@@ -269,8 +270,8 @@ tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record 
     tn_houses_units_init(&h->units);
     bool *trays = calloc((size_t)form->schema->tray_count + 1, sizeof *trays);
     tn_status status = trays ? tn_sections_begin(form, &h->sections, error) : tn_fail_memory(error);
-    for (uint32_t k = 0; h->measures && k < h->measures->count; k++) /* costs are of each section by itself */
-        h->sections.apart = h->sections.apart || mpq_sgn(h->measures->of[k]->cost) != 0;
+    if (status == TN_OK)
+        status = tn_houses_find_added(h, error);
     if (status == TN_OK && h->measures)
         status = weigh_plans(h, error);
     if (status == TN_OK)
@@ -305,6 +306,7 @@ void tn_houses_free(tn_houses *h)
     tn_weighed_free(h->weighed);
     tn_value_counts_clear(&h->best);
     tn_houses_units_clear(&h->units);
+    tn_houses_added_clear(h);
     free(h->kinds);
     free(h);
 }

@@ -80,6 +80,9 @@ struct tn_houses {
     bool ranked;                       /* what is ahead of each node is known */
     const tn_tray *only;               /* [high]: the one plan that is looked at, or NULL */
     const tn_house_measures *measures; /* or NULL; else plans are those of `weighed` */
+    tn_house_added added;              /* these, and what clauses compare */
+    tn_house_weights *compared[TN_COMPARED_MAX]; /* the latter; owned */
+    uint32_t compared_count;
     tn_weighed *weighed;
     tn_strip_units units; /* that values are in */
     bool trays_matter;    /* to whom steps are shown */
@@ -115,6 +118,10 @@ tn_status tn_houses_plan_next(const tn_houses *houses, uint32_t layer, uint32_t 
 bool tn_houses_plan_alive(const tn_houses *houses, uint32_t left, uint32_t plan);
 tn_house_gain tn_houses_plan_start(const tn_houses *houses);
 tn_house_gain tn_houses_plan_rest(const tn_houses *houses, uint32_t plan); /* what the end of the plan adds */
+
+/* Finds what is added up (houses_added.c). TN_LIMIT (E1640) where a clause compares what cannot be. */
+tn_status tn_houses_find_added(tn_houses *houses, tn_error *error);
+void tn_houses_added_clear(tn_houses *houses);
 
 void tn_houses_units_init(tn_strip_units *units);
 void tn_houses_units_clear(tn_strip_units *units);

@@ -5,14 +5,14 @@ void tn_houses_units_init(tn_strip_units *units)
 {
     *units = (tn_strip_units){0};
     mpq_init(units->cost);
-    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+    for (uint32_t k = 0; k < TN_ADDED_MAX; k++)
         mpq_init(units->measures[k]);
 }
 
 void tn_houses_units_clear(tn_strip_units *units)
 {
     mpq_clear(units->cost);
-    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+    for (uint32_t k = 0; k < TN_ADDED_MAX; k++)
         mpq_clear(units->measures[k]);
 }
 
@@ -43,7 +43,7 @@ static bool are_small(const tn_houses *h)
             steps = steps < 0 ? -steps : steps;
             most = steps > most ? steps : most;
         }
-    for (uint32_t k = 0; k < h->measures->count; k++) {
+    for (uint32_t k = 0; k < h->added.count; k++) {
         tn_int128 each = h->units.costs[k] < 0 ? -h->units.costs[k] : h->units.costs[k];
         if (each > 0 && most * TN_STRIP_CELLS_MAX > room / each)
             return false;
@@ -60,8 +60,8 @@ tn_status tn_houses_settle(tn_houses *h, tn_error *error)
         tn_strip_cost_unit(h->kinds[i].strip, h->units.cost);
     if (mpq_sgn(h->units.cost) == 0)
         mpq_set_ui(h->units.cost, 1, 1);
-    for (uint32_t k = 0; status == TN_OK && k < h->measures->count; k++)
-        status = settle_measure(&h->units, k, h->measures->of[k], error);
+    for (uint32_t k = 0; status == TN_OK && k < h->added.count; k++)
+        status = settle_measure(&h->units, k, h->added.of[k], error);
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
         status = tn_strip_settle(h->kinds[i].strip, &h->units, error);
     return status == TN_OK && !are_small(h) ? tn_too_fine(error) : status;

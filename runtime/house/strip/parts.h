@@ -17,6 +17,7 @@
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/uses.h"
+#include "runtime/plan/match/vm.h"
 
 #define TN_STRIP_NONE UINT32_MAX        /* no edge: the house begins or ends */
 #define TN_STRIP_CELLS_MAX 60u          /* of a tray: sets of cells are words */
@@ -61,6 +62,7 @@ typedef struct tn_strip_questions {
 
 /* An instruction about houses that a clause depends on. radix: how many values a letter has for it that are known only
  * at the right side of the tray; 1: none. */
+enum { TRUTH_LATER, TRUTH_YES, TRUTH_NO, TN_STRIP_TRUTHS }; /* of a comparison: it is known at the end of the row */
 typedef struct tn_strip_atom {
     tn_instruction op;
     uint32_t of; /* MEETS: of `meetings`; APART: of `walks`; SOME_ROOM, ROOMS: of `rooms` */
@@ -145,7 +147,7 @@ typedef struct tn_strip_slice {
     uint32_t inside;               /* its edge, and what rooms and walks meet in it: of `insides` */
     uint32_t met;                  /* the same, but of its edge only what is asked: of `mets` */
     uint32_t cost;                 /* where costs are asked for: the number of the tray's */
-    int64_t gains[TN_WEIGHED_MAX]; /* what its cells add to each measure */
+    int64_t gains[TN_ADDED_MAX];   /* what its cells, and its tray, add to each number that is added up */
 } tn_strip_slice;
 
 /* The same of an outcome. */
@@ -155,7 +157,8 @@ typedef struct tn_strip_outcome {
     uint32_t cost;                  /* where costs are asked for: the number of the plane's */
 } tn_strip_outcome;
 
-/* Words of a state: edge, rooms, each walk, what the clauses have read, what waits for its right side. */
+/* Words of a state: edge, rooms, each walk, what the clauses have read, what waits for its right side; then, where
+ * clauses compare, the number of the totals. */
 enum { STATE_EDGE, STATE_ROOMS, STATE_WALKS };
 
 /* Words of what came of an outcome: what it is to the clauses (of `values`; TN_STRIP_NONE: the row begins), rooms, each
@@ -220,10 +223,10 @@ typedef struct tn_strip_prices {
     size_t sum_count, sum_room, more_room;
 } tn_strip_prices;
 
-/* What the numbers of each measure are in, once all costs are known: steps so small that all are whole. */
+/* What each number that is added up is in, once all costs are known: steps so small that all are whole. */
 typedef struct tn_strip_units {
-    mpq_t cost, measures[TN_WEIGHED_MAX];
-    tn_int128 others[TN_WEIGHED_MAX], costs[TN_WEIGHED_MAX]; /* steps of its other numbers' steps, and of the costs' */
+    mpq_t cost, measures[TN_ADDED_MAX];
+    tn_int128 others[TN_ADDED_MAX], costs[TN_ADDED_MAX]; /* steps of its other numbers' steps, and of the costs' */
 } tn_strip_units;
 
 typedef struct tn_strip {
@@ -233,9 +236,12 @@ typedef struct tn_strip {
     uint32_t trays_least, trays_most;
     tn_watch *watch;
     const tn_house_measures *measures; /* or NULL */
+    const tn_house_added *added;       /* these, and what clauses compare */
     const tn_strip_units *units;       /* NULL: not known yet, and nothing is gained */
     tn_strip_prices prices;
-    uint32_t *weighed_rooms[TN_WEIGHED_MAX]; /* [terms of the measure]: of the questions about rooms */
+    uint32_t *weighed_rooms[TN_ADDED_MAX]; /* [terms of the number]: of the questions about rooms */
+    tn_plan_vm *plan_vm;                   /* what comparisons add up of trays; NULL: none does */
+    tn_interner totals;                    /* what compared numbers come to so far: compared.c */
     tn_strip_questions questions;
     size_t answer_words;
     tn_room_questions glass; /* functions about rooms that ask for faces: see tn_strip_sees_glass */
@@ -274,11 +280,11 @@ typedef struct tn_strip {
 
 /* ---- strip.c */
 
-/* The houses of the section, on trays of these, at least and at most so many. measures: NULL, or borrowed. Free with
- * tn_strip_free, also after a failure. */
+/* The houses of the section, on trays of these, at least and at most so many. measures: NULL, or borrowed, as is
+ * `added`. Free with tn_strip_free, also after a failure. */
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
                        const bool *trays, uint32_t trays_least, uint32_t trays_most, const tn_house_measures *measures,
-                       tn_strip **strip, tn_error *error);
+                       const tn_house_added *added, tn_strip **strip, tn_error *error);
 void tn_strip_free(tn_strip *strip);
 
 /* What of the strip has the most states, as the name of the clause that is about it; NULL where there is none. */
@@ -427,6 +433,33 @@ tn_status tn_strip_read_plane(tn_strip *strip, uint32_t trays, uint32_t between,
 tn_status tn_strip_cross(tn_strip *strip, const uint32_t *state, uint32_t slice, tn_strip_list *plane,
                          const uint32_t **crossed, tn_error *error);
 void tn_strip_row_clear(tn_strip_row *row);
+
+/* ---- compared.c: what clauses compare with 0, which is known at the end of the row */
+
+/* Does a clause compare anything? Before the units are known it cannot be said of what. */
+static inline bool tn_strip_compares(const tn_strip *strip)
+{
+    return strip->added->count > strip->added->measures;
+}
+
+/* The place of a HOUSE_SUM among what is added up. */
+uint32_t tn_strip_compared(const tn_strip *strip, uint32_t sum);
+
+/* steps := what the tray of a house of one tray adds to a compared number by itself. */
+tn_status tn_strip_tray_adds(tn_strip *strip, uint32_t number, tn_tray tray, int64_t *steps, tn_error *error);
+
+/* The totals before the first tray; after a step that adds so much to each compared number ([compared], in order). */
+tn_status tn_strip_first_total(tn_strip *strip, uint32_t *total, tn_error *error);
+tn_status tn_strip_next_total(tn_strip *strip, uint32_t total, const tn_int128 *gains, uint32_t *next, tn_error *error);
+
+/* The values of the last plane with what the totals say of each comparison; as long as the units are not known, with
+ * what `guess` says: below tn_strip_guesses. */
+tn_status tn_strip_end_values(tn_strip *strip, uint32_t values, uint32_t total, uint32_t guess, uint32_t *ends,
+                              tn_error *error);
+uint32_t tn_strip_guesses(const tn_strip *strip);
+
+/* Does a house without trays meet the comparison? */
+tn_status tn_strip_empty_meets(tn_strip *strip, const tn_instruction *op, bool *meets, tn_error *error);
 
 /* ---- step.c */
 

@@ -59,12 +59,12 @@ static tn_roofs roofs_of(const tn_strip *strip)
 
 static tn_status refuse(const tn_strip *strip, const char *why, const char *help, tn_error *error)
 {
-    const tn_house_measures *measures = strip->measures;
+    const tn_house_added *added = strip->added;
     uint32_t k = 0;
-    while (mpq_sgn(measures->of[k]->cost) == 0)
+    while (mpq_sgn(added->of[k]->cost) == 0)
         k++;
     tn_fail(error, TN_LIMIT, E_COST_OF_ALL, "the costs that `%.60s` adds up cannot be counted: %s",
-            tn_text(strip->form->module, measures->of[k]->of.name), why);
+            tn_text(strip->form->module, added->of[k]->of.name), why);
     tn_error_help(error, "%s", help);
     return TN_LIMIT;
 }
@@ -115,8 +115,8 @@ tn_status tn_strip_prices_begin(tn_strip *strip, tn_error *error)
     tn_strip_prices *p = &strip->prices;
     if (!tn_array_reserve(&p->sums, &p->sum_room, 0, 1, sizeof *p->sums))
         return tn_fail_memory(error);
-    for (uint32_t k = 0; strip->measures && k < strip->measures->count; k++)
-        p->asked = p->asked || mpq_sgn(strip->measures->of[k]->cost) != 0;
+    for (uint32_t k = 0; k < strip->added->count; k++)
+        p->asked = p->asked || mpq_sgn(strip->added->of[k]->cost) != 0;
     if (!p->asked)
         return TN_OK;
     p->items = are_items_priced(strip->form);

@@ -192,6 +192,10 @@ static tn_status see(void *context, const tn_instruction *op, tn_relation_use us
                       "`touch(cell(...), cell(...))`; or ask about one plan (--plan PLAN or '#P')");
         return TN_LIMIT;
     }
+    if (tn_code_compares_house(op->opcode)) /* the automaton has no other question about such a number */
+        return use == TN_USE_WHOLE
+                   ? add_atom(a, op, tn_strip_compared(a->strip, first), TN_STRIP_TRUTHS, error)
+                   : tn_strip_limit(a->strip, a->name, "compares a number of the whole house within a part of it", error);
     tn_status status = TN_OK;
     switch (op->opcode) {
     case TN_OP_SOME_ROOM:
@@ -213,15 +217,15 @@ static tn_status see(void *context, const tn_instruction *op, tn_relation_use us
     return status == TN_OK ? add_atom(a, op, of, radix, error) : status;
 }
 
-/* The rooms that a measure counts. */
-static tn_status ask_weights(tn_strip *strip, uint32_t measure, tn_error *error)
+/* The rooms that a number counts. */
+static tn_status ask_weights(tn_strip *strip, uint32_t number, tn_error *error)
 {
-    const tn_house_weights *w = strip->measures->of[measure];
+    const tn_house_weights *w = strip->added->of[number];
     tn_asking asking = {strip, NULL, tn_text(strip->form->module, w->of.name)};
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < w->count; i++)
         if (w->terms[i].kind == TN_HOUSE_ROOMS)
-            status = add_room(&asking, w->terms[i].part, &strip->weighed_rooms[measure][i], error);
+            status = add_room(&asking, w->terms[i].part, &strip->weighed_rooms[number][i], error);
     return status;
 }
 
@@ -235,7 +239,7 @@ tn_status tn_strip_ask(tn_strip *strip, tn_error *error)
         tn_asking asking = {strip, clause, tn_text(module, record->name)};
         status = tn_rule_uses(module, clause->holds, see, &asking, error);
     }
-    for (uint32_t k = 0; status == TN_OK && strip->measures && k < strip->measures->count; k++)
+    for (uint32_t k = 0; status == TN_OK && k < strip->added->count; k++)
         status = ask_weights(strip, k, error);
     strip->answer_words = strip->questions.decision_count / 64 + 1;
     return status;

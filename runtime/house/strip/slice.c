@@ -259,9 +259,9 @@ static bool keep_slice(tn_strip *s, uint32_t slice)
     parts->inside = tn_intern(&s->insides, s->key.data, s->key.size);
     s->key.data[SLICE_EDGE] = edge->asked;
     parts->met = tn_intern(&s->mets, s->key.data, s->key.size);
-    for (uint32_t k = 0; s->measures && k < s->measures->count; k++)
+    for (uint32_t k = 0; k < s->added->count; k++)
         parts->gains[k] = (int64_t)tn_both(gains + 2 * (size_t)k);
-    parts->cost = s->prices.asked ? gains[2 * (size_t)s->measures->count] : 0;
+    parts->cost = s->prices.asked ? gains[2 * (size_t)s->added->count] : 0;
     return parts->bases != UINT32_MAX && parts->tiles != UINT32_MAX && parts->inside != UINT32_MAX &&
            parts->met != UINT32_MAX;
 }
@@ -287,9 +287,13 @@ static tn_status add_slice(tn_cutting *c, tn_error *error)
         if (status == TN_OK && !tn_key_push(key, base))
             status = tn_fail_memory(error);
     }
-    for (uint32_t k = 0; status == TN_OK && s->measures && k < s->measures->count; k++)
-        if (!tn_push_long(key, (uint64_t)tn_house_weights_cells(s->measures->of[k], &c->house)))
+    for (uint32_t k = 0; status == TN_OK && k < s->added->count; k++) {
+        int64_t tray = 0;
+        if (k >= s->added->measures)
+            status = tn_strip_tray_adds(s, k, c->house.trays[0], &tray, error);
+        if (status == TN_OK && !tn_push_long(key, (uint64_t)(tn_house_weights_cells(s->added->of[k], &c->house) + tray)))
             status = tn_fail_memory(error);
+    }
     if (status == TN_OK && s->prices.asked && !tn_key_push(key, cost))
         status = tn_fail_memory(error);
     if (status != TN_OK)

@@ -115,7 +115,7 @@ static tn_status find_waiting(const tn_stepping *s, uint32_t *waiting, tn_error 
 /* ---- states */
 
 /* *after: TN_STRIP_NONE where no house goes on from there. */
-static tn_status make_state(const tn_stepping *s, uint32_t read, uint32_t *after, tn_error *error)
+static tn_status make_state(const tn_stepping *s, uint32_t read, uint32_t total, uint32_t *after, tn_error *error)
 {
     tn_strip *strip = s->strip;
     tn_key *key = &strip->joined;
@@ -129,19 +129,21 @@ static tn_status make_state(const tn_stepping *s, uint32_t read, uint32_t *after
     for (uint32_t w = 0; ok && w <= strip->questions.walk_count; w++)
         ok = tn_key_push(key, s->crossed[CROSSED_ROOMS + w]);
     ok = ok && tn_key_push(key, read) && tn_key_push(key, waiting);
+    if (tn_strip_compares(strip) && strip->units)
+        ok = ok && tn_key_push(key, total);
     *after = ok ? tn_intern(&strip->states, key->data, key->size) : UINT32_MAX;
     return *after != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-/* What the step adds to a measure, but for costs: the right slice's cells, and the rooms that end at the plane. */
-static int64_t others_of(const tn_stepping *s, uint32_t measure)
+/* What the step adds to a number, but for costs: the right slice's cells, and the rooms that end at the plane. */
+static int64_t others_of(const tn_stepping *s, uint32_t number)
 {
-    const tn_house_weights *w = s->strip->measures->of[measure];
+    const tn_house_weights *w = s->strip->added->of[number];
     const uint32_t *closed = s->crossed + CROSSED_WALKS + s->strip->questions.walk_count;
-    int64_t gain = s->slice != TN_STRIP_NONE ? s->strip->slices[s->slice].gains[measure] : 0;
+    int64_t gain = s->slice != TN_STRIP_NONE ? s->strip->slices[s->slice].gains[number] : 0;
     for (uint32_t i = 0; i < w->count; i++)
         if (w->terms[i].kind == TN_HOUSE_ROOMS)
-            gain += (int64_t)closed[s->strip->weighed_rooms[measure][i]] * w->terms[i].each;
+            gain += (int64_t)closed[s->strip->weighed_rooms[number][i]] * w->terms[i].each;
     return gain;
 }
 
@@ -162,7 +164,7 @@ static tn_house_gain gain_of(const tn_stepping *s)
     const tn_strip_units *units = s->strip->units;
     tn_house_gain gain = {{0}};
     tn_int128 cost = units ? cost_of(s) : 0;
-    for (uint32_t k = 0; units && k < s->strip->measures->count; k++) {
+    for (uint32_t k = 0; units && k < s->strip->added->measures; k++) {
         tn_int128 value = others_of(s, k) * units->others[k] + cost * units->costs[k];
         gain.by[k] = s->strip->measures->most[k] ? -value : value;
     }
@@ -171,22 +173,87 @@ static tn_house_gain gain_of(const tn_stepping *s)
 
 /* ---- steps */
 
-/* Shows what the step leads to, with each sum of the tiles. */
-static tn_status show(const tn_stepping *s, uint32_t after, uint64_t faced, tn_strip_seen *seen, void *context,
-                      tn_error *error)
+typedef struct tn_showing {
+    tn_strip_seen *seen;
+    void *context;
+    uint64_t faced;
+    tn_house_gain gain; /* without tiles */
+} tn_showing;
+
+/* Shows what the step leads to with a sum of the tiles. */
+static tn_status show_sum(const tn_stepping *s, const tn_showing *to, uint32_t after, size_t i, tn_error *error)
 {
     const tn_strip_prices *p = &s->strip->prices;
     const tn_strip_units *units = s->strip->units;
-    const tn_house_gain gain = gain_of(s);
+    tn_house_gain sum = to->gain;
+    uint64_t times;
+    if (__builtin_mul_overflow(p->sums[i].times, to->faced, &times))
+        return tn_strip_limit(s->strip, NULL, "a tray has more than 2^64 choices", error);
+    for (uint32_t k = 0; units && k < s->strip->added->measures; k++)
+        sum.by[k] += p->sums[i].cost * units->costs[k] * (s->strip->measures->most[k] ? -1 : 1);
+    return to->seen(to->context, after, times, i == 0 ? to->faced : 0, &sum, error);
+}
+
+static tn_status show(const tn_stepping *s, const tn_showing *to, uint32_t after, tn_error *error)
+{
     tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && i < p->sum_count; i++) {
-        tn_house_gain sum = gain;
-        uint64_t times;
-        if (__builtin_mul_overflow(p->sums[i].times, faced, &times))
-            return tn_strip_limit(s->strip, NULL, "a tray has more than 2^64 choices", error);
-        for (uint32_t k = 0; units && k < s->strip->measures->count; k++)
-            sum.by[k] += p->sums[i].cost * units->costs[k] * (s->strip->measures->most[k] ? -1 : 1);
-        status = seen(context, after, times, i == 0 ? faced : 0, &sum, error);
+    for (size_t i = 0; status == TN_OK && i < s->strip->prices.sum_count; i++)
+        status = show_sum(s, to, after, i, error);
+    return status;
+}
+
+/* ---- where clauses compare: each sum of the tiles has totals of its own */
+
+static tn_status total_after(const tn_stepping *s, uint32_t before, tn_int128 tiles, uint32_t *total, tn_error *error)
+{
+    tn_strip *strip = s->strip;
+    tn_int128 gains[TN_COMPARED_MAX], cost = cost_of(s) + tiles;
+    for (uint32_t k = strip->added->measures; k < strip->added->count; k++)
+        gains[k - strip->added->measures] =
+            others_of(s, k) * strip->units->others[k] + cost * strip->units->costs[k];
+    return tn_strip_next_total(strip, before, gains, total, error);
+}
+
+static tn_status try_total(const tn_stepping *s, const tn_showing *to, uint32_t between, uint32_t before, size_t i,
+                           tn_error *error)
+{
+    tn_strip *strip = s->strip;
+    uint32_t total = 0, values = s->crossed[CROSSED_VALUES], read = TN_STRIP_NONE, after = 0;
+    tn_status status = total_after(s, before, strip->prices.sums[i].cost, &total, error);
+    if (status == TN_OK && s->slice == TN_STRIP_NONE)
+        status = tn_strip_end_values(strip, values, total, 0, &values, error);
+    if (status == TN_OK)
+        status = tn_strip_read_plane(strip, s->trays, between, values, &read, error);
+    if (status != TN_OK || read == TN_STRIP_NONE)
+        return status;
+    if (s->slice != TN_STRIP_NONE)
+        status = make_state(s, read, total, &after, error);
+    return status == TN_OK && after != TN_STRIP_NONE ? show_sum(s, to, after, i, error) : status;
+}
+
+static tn_status try_totals(const tn_stepping *s, const tn_showing *to, uint32_t between, tn_error *error)
+{
+    uint32_t before = 0;
+    tn_status status = TN_OK;
+    if (s->state)
+        before = s->state[tn_strip_waiting_word(s->strip) + 1];
+    else
+        status = tn_strip_first_total(s->strip, &before, error);
+    for (size_t i = 0; status == TN_OK && i < s->strip->prices.sum_count; i++)
+        status = try_total(s, to, between, before, i, error);
+    return status;
+}
+
+/* As long as the units are not known, the row ends if the clauses keep it with anything that comparisons may say. */
+static tn_status guess_end(const tn_stepping *s, uint32_t between, uint32_t *read, tn_error *error)
+{
+    tn_status status = TN_OK;
+    *read = TN_STRIP_NONE;
+    for (uint32_t guess = 0; status == TN_OK && *read == TN_STRIP_NONE && guess < tn_strip_guesses(s->strip); guess++) {
+        uint32_t values;
+        status = tn_strip_end_values(s->strip, s->crossed[CROSSED_VALUES], 0, guess, &values, error);
+        if (status == TN_OK)
+            status = tn_strip_read_plane(s->strip, s->trays, between, values, read, error);
     }
     return status;
 }
@@ -201,12 +268,17 @@ static tn_status try_outcome(tn_stepping *s, const tn_strip_choice *choice, uint
     tn_status status = count_tiles(s, error);
     if (status != TN_OK || strip->prices.sum_count == 0)
         return status;
-    status = tn_strip_read_plane(strip, s->trays, between, s->crossed[CROSSED_VALUES], &read, error);
+    const tn_showing to = {seen, context, choice->times, gain_of(s)};
+    if (tn_strip_compares(strip) && strip->units)
+        return try_totals(s, &to, between, error);
+    bool guesses = tn_strip_compares(strip) && s->slice == TN_STRIP_NONE;
+    status = guesses ? guess_end(s, between, &read, error)
+                     : tn_strip_read_plane(strip, s->trays, between, s->crossed[CROSSED_VALUES], &read, error);
     if (status != TN_OK || read == TN_STRIP_NONE)
         return status;
     if (s->slice != TN_STRIP_NONE)
-        status = make_state(s, read, &after, error);
-    return status == TN_OK && after != TN_STRIP_NONE ? show(s, after, choice->times, seen, context, error) : status;
+        status = make_state(s, read, 0, &after, error);
+    return status == TN_OK && after != TN_STRIP_NONE ? show(s, &to, after, error) : status;
 }
 
 static bool keeps_no_trays(const tn_strip *strip)

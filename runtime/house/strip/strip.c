@@ -24,8 +24,8 @@ static tn_status begin(tn_strip *strip, tn_error *error)
     strip->after_plane = calloc((size_t)strip->trays_most + 1, sizeof *strip->after_plane);
     if (!strip->of_tray || !strip->tiled || !strip->scratch || !strip->after_slice || !strip->after_plane)
         return tn_fail_memory(error);
-    for (uint32_t k = 0; strip->measures && k < strip->measures->count; k++) {
-        strip->weighed_rooms[k] = calloc((size_t)strip->measures->of[k]->count + 1, sizeof(uint32_t));
+    for (uint32_t k = 0; k < strip->added->count; k++) {
+        strip->weighed_rooms[k] = calloc((size_t)strip->added->of[k]->count + 1, sizeof(uint32_t));
         if (!strip->weighed_rooms[k])
             return tn_fail_memory(error);
     }
@@ -38,7 +38,7 @@ static tn_status begin(tn_strip *strip, tn_error *error)
 
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
                        const bool *trays, uint32_t trays_least, uint32_t trays_most, const tn_house_measures *measures,
-                       tn_strip **out, tn_error *error)
+                       const tn_house_added *added, tn_strip **out, tn_error *error)
 {
     tn_strip *strip = *out = calloc(1, sizeof *strip);
     if (!strip)
@@ -48,7 +48,8 @@ tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record 
                         .trays_least = trays_least,
                         .trays_most = trays_most,
                         .watch = form->module->watch,
-                        .measures = measures};
+                        .measures = measures,
+                        .added = added};
     memcpy(strip->shapes, shapes, form->record->choice_count * sizeof *shapes);
     tn_status status = begin(strip, error);
     if (status == TN_OK)
@@ -89,7 +90,8 @@ void tn_strip_free(tn_strip *strip)
                                       &strip->bases,     &strip->sides,      &strip->waiting,      &strip->rooms,
                                       &strip->walks,     &strip->states,     &strip->letters,      &strip->fit_lists,
                                       &strip->insides,   &strip->throughs,   &strip->readings,     &strip->between,
-                                      &strip->values,    &strip->asked,      &strip->mets};
+                                      &strip->values,    &strip->asked,      &strip->mets,
+                                      &strip->totals};
     for (uint32_t i = 0; i < strip->edge_keys.count; i++) {
         free(strip->edges[i].cells);
         free(strip->edges[i].answers);
@@ -116,8 +118,9 @@ void tn_strip_free(tn_strip *strip)
     free(strip->tiled);
     free(strip->scratch);
     free(strip->ends);
-    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+    for (uint32_t k = 0; k < TN_ADDED_MAX; k++)
         free(strip->weighed_rooms[k]);
+    tn_plan_vm_free(strip->plan_vm);
     tn_room_questions_clear(&strip->glass);
     free(strip->fits);
     free(strip->key.data);
@@ -133,6 +136,7 @@ static uint64_t kept_apart(const tn_strip *strip, const tn_strip_clause *clause)
         tn_opcode opcode = clause->atoms[i].op.opcode;
         states += opcode == TN_OP_APART                                ? strip->walks.count
                   : opcode == TN_OP_SOME_ROOM || opcode == TN_OP_ROOMS ? strip->rooms.count
+                  : tn_code_compares_house(opcode)                     ? strip->totals.count
                                                                        : 0;
     }
     return states;

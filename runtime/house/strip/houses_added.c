@@ -1,0 +1,83 @@
+/* Finds what is added up over the houses of a library: the measures that are asked for, and what its clauses compare
+ * with 0. */
+#include <string.h>
+
+#include "runtime/house/strip/houses_data.h"
+
+typedef struct tn_comparing {
+    tn_houses *houses;
+    const tn_house_clause_record *clause;
+} tn_comparing;
+
+static bool is_known(const tn_house_added *added, uint32_t sum)
+{
+    for (uint32_t k = added->measures; k < added->count; k++)
+        if (added->sums[k] == sum)
+            return true;
+    return false;
+}
+
+static tn_status too_much(const tn_comparing *c, const char *what, tn_error *error)
+{
+    const tn_module *module = c->houses->form->module;
+    tn_fail(error, TN_LIMIT, E_STRIP, "`%.60s` %s: the houses of all plans together cannot be counted",
+            tn_text(module, c->clause->name), what);
+    tn_error_help(error, "ask about one plan (--plan PLAN or '#P'), or name a house by #P:V");
+    return TN_LIMIT;
+}
+
+/* Trays and the house add up tray by tray; places of several trays do not. */
+static bool counts_places(const tn_module *module, uint32_t sum)
+{
+    const tn_sum_record *of_plan = &module->SUM_records[module->HOUSE_SUM_records[sum].sum];
+    for (uint32_t i = 0; i < of_plan->term_count; i++)
+        if (module->TERM_records[of_plan->term_first + i].kind != TN_SUM_SINGLES)
+            return true;
+    return false;
+}
+
+static tn_status see(void *context, const tn_instruction *op, tn_relation_use use, tn_error *error)
+{
+    const tn_comparing *c = context;
+    tn_houses *h = c->houses;
+    const tn_form_record *forms = h->form->module->FORM_records;
+    uint32_t sum = (uint32_t)op->first;
+    (void)use;
+    if (!tn_code_compares_house(op->opcode) || is_known(&h->added, sum))
+        return TN_OK;
+    if (counts_places(h->form->module, sum))
+        return too_much(c, "compares a number of the house with `occurrences`", error);
+    if (h->added.count == h->added.measures + TN_COMPARED_MAX)
+        return too_much(c, "is about more comparisons of houses than can be counted at once", error);
+    if (&forms[h->form->module->HOUSE_SUM_records[sum].form] != h->form->record)
+        return tn_fail(error, TN_INVALID, E_OTHER_FORM, "a clause of the library is about houses of another form");
+    tn_house_weights *weights = NULL;
+    tn_status status = tn_house_weights_new(
+        h->form, tn_house_measured_sum(h->form->module, sum, c->clause->name), &weights, error);
+    if (status != TN_OK)
+        return status;
+    h->added.sums[h->added.count] = sum;
+    h->added.of[h->added.count++] = h->compared[h->compared_count++] = weights;
+    return TN_OK;
+}
+
+tn_status tn_houses_find_added(tn_houses *h, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t k = 0; h->measures && k < h->measures->count; k++)
+        h->added.of[k] = h->measures->of[k];
+    h->added.measures = h->added.count = h->measures ? h->measures->count : 0;
+    for (uint32_t i = 0; status == TN_OK && i < h->library->clause_count; i++) {
+        tn_comparing comparing = {h, &h->form->module->HOUSE_CLAUSE_records[h->library->clause_first + i]};
+        status = tn_rule_uses(h->form->module, comparing.clause->holds, see, &comparing, error);
+    }
+    for (uint32_t k = 0; k < h->added.count; k++) /* costs are of each section by itself */
+        h->sections.apart = h->sections.apart || mpq_sgn(h->added.of[k]->cost) != 0;
+    return status;
+}
+
+void tn_houses_added_clear(tn_houses *h)
+{
+    for (uint32_t k = 0; k < h->compared_count; k++)
+        tn_house_weights_free(h->compared[k]);
+}
