@@ -8,7 +8,8 @@
 
 /* What was counted. Where the plans were not gone through, it is not known how many of them have a house. */
 typedef struct house_tally {
-    bool each; /* the plans were gone through */
+    bool each;         /* the plans were gone through */
+    bool faced_unsaid; /* houses without their tiles were not counted */
     uint64_t with_houses, zoned, states;
     mpz_t plans, faced, houses;
     mpz_t *lengths; /* houses on plans of each length, from the shortest */
@@ -117,6 +118,7 @@ static void tally_together(const tn_numbered *n, const tn_houses *all, house_tal
     mpz_init(houses);
     tally->each = false;
     tn_houses_faced(all, tally->faced);
+    tally->faced_unsaid = !tn_houses_faced_known(all);
     tn_houses_count(all, TN_ALL_LENGTHS, tally->houses);
     tally->states = tn_houses_states(all);
     for (uint32_t k = tally->low; k <= tally->high; k++) {
@@ -438,7 +440,9 @@ static void write_json(const tn_numbered *n, const house_tally *tally, FILE *out
                 (unsigned long long)tally->zoned);
     else
         fprintf(out, ",\"states\":%llu", (unsigned long long)tally->states);
-    gmp_fprintf(out, ",\"faced\":\"%Zd\",\"houses\":\"%Zd\",\"by_length\":{", tally->faced, tally->houses);
+    if (!tally->faced_unsaid)
+        gmp_fprintf(out, ",\"faced\":\"%Zd\"", tally->faced);
+    gmp_fprintf(out, ",\"houses\":\"%Zd\",\"by_length\":{", tally->houses);
     write_lengths(n, tally, true, out);
     fputs("},\"by_section\":{", out);
     write_sections(n, tally, true, out);
@@ -456,7 +460,8 @@ static void write_text(const tn_numbered *n, const house_tally *tally, FILE *out
         fprintf(out, "%-*s%llu\n", labels, "with a house", (unsigned long long)tally->with_houses);
         fprintf(out, "%-*s%llu\n", labels, "sections and functions", (unsigned long long)tally->zoned);
     }
-    gmp_fprintf(out, "%-*s%Zd\n", labels, "with openings", tally->faced);
+    if (!tally->faced_unsaid)
+        gmp_fprintf(out, "%-*s%Zd\n", labels, "with openings", tally->faced);
     gmp_fprintf(out, "%-*s%Zd\n", labels, "houses", tally->houses);
     write_lengths(n, tally, false, out);
     write_sections(n, tally, false, out);

@@ -7,6 +7,8 @@
 #include "cli/house/explained_parts.h"
 #include "runtime/base/length.h"
 #include "runtime/house/rule/witness.h"
+#include "runtime/house/schedule/cost.h"
+#include "runtime/plan/measure/amount.h"
 
 enum { TEXT_MAX = 4096, NEAREST_MAX = 5 };
 
@@ -90,6 +92,50 @@ static void found_text(const tn_house *house, const tn_witness *found, char *tex
     }
 }
 
+/* Exactly where a decimal does that, else to six digits. */
+static bool append_amount(tn_amount_unit unit, mpq_t value, tn_buffer *out)
+{
+    bool good = tn_amount_write(unit, value, out);
+    if (!good || !strchr(out->data, '/'))
+        return good;
+    out->size = 0;
+    tn_amount_convert(unit, value);
+    return tn_amount_write_about(unit, value, out);
+}
+
+/* What a comparison finds: the number of the house and the one that is compared with it, costs to the cent. */
+static tn_status append_numbers(answering *a, uint32_t offset, tn_error *error)
+{
+    const tn_module *module = a->e->judge.module;
+    tn_instruction op = tn_code_read(module->code, offset);
+    const tn_sum_record *sum = &module->SUM_records[module->HOUSE_SUM_records[op.first].sum];
+    tn_amount_unit unit = tn_amount_unit_of(a->e->judge.schema, sum->power);
+    tn_buffer left = {0}, right = {0};
+    bool costs = false;
+    mpq_t value, constant;
+    mpq_inits(value, constant, NULL);
+    tn_status status = tn_house_rules_sum(a->e->judge.rules, (uint32_t)op.first, value, &costs, error);
+    mpq_set_str(constant, tn_text(module, sum->constant), 10);
+    mpq_sub(value, value, constant);
+    mpq_neg(constant, constant);
+    if (costs)
+        tn_round_to_cent(value);
+    bool alone = mpq_sgn(constant) == 0;
+    if (status == TN_OK && (!append_amount(unit, value, &left) || !append_amount(unit, constant, &right)))
+        status = tn_fail_memory(error);
+    const char *quote = a->e->json ? "\"" : "";
+    if (status == TN_OK)
+        tn_buffer_printf(&a->e->text, "%s%s%s%s%s%s", a->e->json ? "" : " ", quote,
+                         alone ? "the left side less the right side is " : "", left.data,
+                         alone ? "" : ", compared with ", alone ? "" : right.data);
+    tn_buffer_printf(&a->e->text, "%s", quote);
+    a->found++;
+    free(left.data);
+    free(right.data);
+    mpq_clears(value, constant, NULL);
+    return status;
+}
+
 static void end_question(answering *a)
 {
     if (a->begun)
@@ -101,7 +147,6 @@ static tn_status write_found(void *context, const tn_witness *found, tn_error *e
     answering *a = context;
     tn_buffer *out = &a->e->text;
     char text[TEXT_MAX] = "";
-    (void)error;
     if (found->first != TN_NO_CELL) {
         found_text(&a->e->house, found, text, sizeof text);
         if (a->e->json) {
@@ -124,7 +169,7 @@ static tn_status write_found(void *context, const tn_witness *found, tn_error *e
     }
     a->begun = true;
     a->found = 0;
-    return TN_OK;
+    return tn_code_compares_house((tn_opcode)found->opcode) ? append_numbers(a, found->offset, error) : TN_OK;
 }
 
 tn_status tn_explain_why(tn_house_explaining *e, uint32_t function, tn_error *error)

@@ -16,20 +16,6 @@ typedef struct outcome {
     mpq_t value, wanted; /* of a measure, where it is one */
 } outcome;
 
-/* Half up to the hundredth, as bills are written. */
-static void round_to_cent(mpq_t value)
-{
-    mpz_t cents;
-    mpz_init(cents);
-    mpz_mul_ui(cents, mpq_numref(value), 200);
-    mpz_add(cents, cents, mpq_denref(value));
-    mpz_fdiv_q(cents, cents, mpq_denref(value));
-    mpz_fdiv_q_2exp(mpq_numref(value), cents, 1);
-    mpz_set_ui(mpq_denref(value), 100);
-    mpq_canonicalize(value);
-    mpz_clear(cents);
-}
-
 /* What adds up costs is compared to the cent. */
 static tn_status measure_case(tn_house_judge *judge, const tn_test_block *block, const tn_test_case *test,
                               const tn_house *house, outcome *out, tn_error *error)
@@ -42,11 +28,11 @@ static tn_status measure_case(tn_house_judge *judge, const tn_test_block *block,
     if (status == TN_OK)
         status = tn_house_rules_measure(judge->rules, measure, out->value, parts, error);
     if (status == TN_OK && mpq_sgn(parts) != 0)
-        status = tn_house_exact_cost(house, tn_house_solids, cost, error);
+        status = tn_house_rules_cost(judge->rules, cost, error);
     mpq_mul(cost, cost, parts);
     mpq_add(out->value, out->value, cost);
     if (mpq_sgn(parts) != 0)
-        round_to_cent(out->value);
+        tn_round_to_cent(out->value);
     mpq_clears(parts, cost, NULL);
     return status;
 }
@@ -157,15 +143,13 @@ static tn_status run_case(tn_opened *opened, tn_house_judge *judge, const tn_tes
     tn_status status =
         tn_house_read_open(&judge->form, test->house, strlen(test->house), TN_HOUSE_TRAYS_DEFAULT, &house, error);
     *good = false;
-    if (status == TN_INVALID) {
-        report_line(opened, test, error);
-        tn_house_clear(&house);
-        return TN_OK;
-    }
     mpq_inits(out.value, out.wanted, NULL);
     if (status == TN_OK)
         status = judge_case(judge, block, test, &house, &out, error);
-    if (status == TN_OK) {
+    if (status == TN_INVALID) {
+        report_line(opened, test, error);
+        status = TN_OK;
+    } else if (status == TN_OK) {
         *good = comes_out(test, &out);
         if (!*good && !test->todo)
             report(opened, judge, block, test, &out);

@@ -65,6 +65,7 @@ typedef struct tn_house {
     tn_face *faces;       /* by first cell; then left, back, front, right, above; then y */
     size_t face_count, face_room;
     tn_house_known *known; /* or NULL */
+    bool tiles_left_out;   /* by the line that it was read from: each cell has the first that fits */
 } tn_house;
 
 /* Stands a plan up: its cells and faces, without functions and with walls everywhere. The trays are copied. */
@@ -130,8 +131,8 @@ int64_t tn_face_thickness(const tn_house *house, const tn_face *face);
 tn_status tn_house_read(const tn_house_form *form, const char *line, size_t size, size_t max_trays, tn_house *house,
                         tn_error *error);
 
-/* The same where the tiles may be left out, whatever choice they leave: no rule asks for them. Each cell then has the
- * first that fits, if any does. */
+/* The same where the tiles may be left out, whatever choice they leave: few rules ask for them. Each cell then has the
+ * first that fits, if any does, and house->tiles_left_out is set. */
 tn_status tn_house_read_open(const tn_house_form *form, const char *line, size_t size, size_t max_trays,
                              tn_house *house, tn_error *error);
 

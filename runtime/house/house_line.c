@@ -362,7 +362,8 @@ static tn_status read_tiles_there(const tn_house_form *form, const char *line, s
                                   tn_house *house, tn_error *error)
 {
     tn_status status = read_open(form, line, size, max_trays, house, error);
-    return status == TN_OK && open_part(line, size, TILES).there ? read_tiles(house, line, size, error) : status;
+    house->tiles_left_out = !open_part(line, size, TILES).there;
+    return status == TN_OK && !house->tiles_left_out ? read_tiles(house, line, size, error) : status;
 }
 
 typedef tn_status line_reader(const tn_house_form *form, const char *line, size_t size, size_t max_trays,

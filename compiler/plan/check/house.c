@@ -236,7 +236,7 @@ static bool asks_house(const tn_ast_expr *expr)
 
 void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum, tn_span place)
 {
-    for (size_t i = 0; sum->houses && i < sum->count; i++) {
+    for (size_t i = 0; i < sum->count; i++) {
         const tn_checked_term *term = &sum->terms[i];
         if (term->kind >= TN_TERM_CELLS || !(term->rule ? term->rule->form != NULL : asks_house(term->part)))
             continue;

@@ -376,8 +376,9 @@ void tn_check_comparison(tn_check *check, tn_ast_expr *expr)
     expr->sum = low;
     expr->high = high;
     expr->whole = low->whole || low->houses;
-    tn_check_house_sum(check, low, expr->node.span);
-    if (range)
+    if (low->houses)
+        tn_check_house_sum(check, low, expr->node.span);
+    if (range && high->houses)
         tn_check_house_sum(check, high, expr->node.span);
 }
 

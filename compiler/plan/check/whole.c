@@ -19,13 +19,20 @@ static const tn_ast_expr *comparison_in(const tn_ast_expr *expr)
 
 static void report(tn_check *check, const tn_ast_expr *expr)
 {
-    tn_diagnostic *d = tn_report(check->diagnostics, E_WHOLE_PLAN, expr->node.span,
-                                 "this is about the whole plan, and stands where a part of it is meant");
     const tn_ast_expr *comparison = comparison_in(expr);
+    bool houses = comparison && comparison->sum && comparison->sum->houses;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_WHOLE_PLAN, expr->node.span,
+                                 "this is about the whole %s, and stands where a part of it is meant",
+                                 houses ? "house" : "plan");
     if (comparison && comparison != expr)
-        tn_note(check->diagnostics, d, &comparison->node.span, comparison->sum && comparison->sum->houses ? "because of this comparison, which adds up over the house"
-                                                            : "because of this comparison, which has `matches` in it");
-    tn_help(check->diagnostics, d, "join it to other rules by `and`, `or`, `not` and `implies` only");
+        tn_note(check->diagnostics, d, &comparison->node.span, "because of this comparison, which %s",
+                houses ? "adds up over the house" : "has `matches` in it");
+    if (houses)
+        tn_help(check->diagnostics, d,
+                "about a part of it write a condition, such as `quantity(cell(...), n > 1)`; or join this to other "
+                "rules by `and`, `or`, `not` and `implies` only");
+    else
+        tn_help(check->diagnostics, d, "join it to other rules by `and`, `or`, `not` and `implies` only");
 }
 
 /* level: is the plan as a whole meant? */

@@ -25,7 +25,8 @@ static uint32_t emit_meeting(tn_emit *emit, const tn_ast_expr *expr, tn_checked_
 void tn_emit_ask_needs(tn_emit *emit, tn_ast_expr *expr)
 {
     tn_checked_ask *ask = expr->ask;
-    if (!ask || ask->function > 0)
+    bool cost = expr->kind == TN_EXPR_SUM && !expr->parts.first; /* it asks for no cells */
+    if (!ask || ask->function > 0 || cost)
         return;
     if (expr->kind == TN_EXPR_TOUCH || expr->kind == TN_EXPR_APART) {
         ask->function = emit_meeting(emit, expr, ask) + 1;

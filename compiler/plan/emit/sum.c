@@ -102,9 +102,10 @@ void tn_emit_sum_needs(tn_emit *emit, tn_checked_sum *sum, const char *name)
     }
 }
 
-/* matches: whether those terms are written out too. */
+/* matches: whether those terms are written out too. The power is kept of what is shown to people. */
 static uint32_t emit_sum(tn_emit *emit, const tn_checked_sum *sum, const char *constant, bool matches)
 {
+    bool shown = matches || (sum->houses && sum->power >= 0 && sum->power <= 3);
     uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_TERM), count = 0;
     for (size_t i = 0; i < sum->count; i++) {
         const tn_checked_term *term = &sum->terms[i];
@@ -120,7 +121,7 @@ static uint32_t emit_sum(tn_emit *emit, const tn_checked_sum *sum, const char *c
     }
     return tn_builder_add_SUM(emit->builder, &(tn_sum_record){
                                                  .schema = emit->schema,
-                                                 .power = matches ? (uint32_t)sum->power : 0,
+                                                 .power = shown ? (uint32_t)sum->power : 0,
                                                  .constant = tn_builder_string(emit->builder, constant),
                                                  .term_first = first,
                                                  .term_count = count,

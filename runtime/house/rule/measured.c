@@ -68,11 +68,45 @@ static tn_status plan_value(tn_house_rules *rules, uint32_t sum, mpq_t value, tn
     return status == TN_OK ? tn_plan_vm_value(rules->sums_vm, sum, value, error) : status;
 }
 
-static tn_status find_cost(tn_house_rules *rules, tn_error *error)
+/* Do all tiles that fit in a cell cost the same? */
+static tn_status same_costs(const tn_house *house, uint32_t cell, bool *same, tn_error *error)
 {
-    tn_status status =
-        rules->priced ? TN_OK : tn_house_exact_cost(rules->house, tn_house_solids, rules->cost, error);
+    tn_variants tiles;
+    mpq_t first, cost;
+    mpq_inits(first, cost, NULL);
+    tn_status status = tn_tile_variants(house, cell, &tiles, error);
+    *same = true;
+    for (size_t i = 0; status == TN_OK && *same && i < tiles.count; i++) {
+        const tn_tile_variant *tile = &tiles.variants[i];
+        tn_house_items_cost(house, tiles.items + tile->item_first, tile->item_count, i == 0 ? first : cost);
+        *same = i == 0 || mpq_equal(first, cost);
+    }
+    tn_variants_clear(&tiles);
+    mpq_clears(first, cost, NULL);
+    return status;
+}
+
+/* What a house costs whose line leaves its tiles out is known where that makes no difference. */
+static tn_status check_tiles(const tn_house *house, tn_error *error)
+{
+    tn_status status = TN_OK;
+    bool same = true;
+    for (uint32_t i = 0; house->tiles_left_out && status == TN_OK && same && i < house->cell_count; i++)
+        status = same_costs(house, i, &same, error);
+    if (status != TN_OK || same)
+        return status;
+    tn_fail(error, TN_INVALID, E_COST_OF_TILES, "what this house costs depends on its tiles, which the line leaves out");
+    tn_error_help(error, "write them after a last `;`: `tartan unrank` and `tartan sample` give whole lines");
+    return TN_INVALID;
+}
+
+tn_status tn_house_rules_cost(tn_house_rules *rules, mpq_t cost, tn_error *error)
+{
+    tn_status status = rules->priced ? TN_OK : check_tiles(rules->house, error);
+    if (status == TN_OK && !rules->priced)
+        status = tn_house_exact_cost(rules->house, tn_house_solids, rules->cost, error);
     rules->priced = status == TN_OK;
+    mpq_set(cost, rules->cost);
     return status;
 }
 
@@ -82,23 +116,33 @@ void tn_house_rules_price(tn_house_rules *rules, const mpq_t cost)
     rules->priced = true;
 }
 
-tn_status tn_house_compare(tn_house_rules *rules, const tn_instruction *op, bool *so, tn_error *error)
+tn_status tn_house_rules_sum(tn_house_rules *rules, uint32_t sum, mpq_t value, bool *costs, tn_error *error)
 {
-    const tn_house_sum_record *sum = &rules->house->form->module->HOUSE_SUM_records[op->first];
-    mpq_t value, cost;
-    mpq_inits(value, cost, NULL);
-    tn_status status = plan_value(rules, sum->sum, value, error);
+    const tn_house_sum_record *record = &rules->house->form->module->HOUSE_SUM_records[sum];
+    mpq_t cost, all;
+    mpq_inits(cost, all, NULL);
+    tn_status status = plan_value(rules, record->sum, value, error);
     if (status == TN_OK)
         status = tn_rooms_gather(rules, error);
     if (status == TN_OK)
-        add_terms(rules, sum->term_first, sum->term_count, value, cost);
-    if (status == TN_OK && mpq_sgn(cost) != 0) {
-        status = find_cost(rules, error);
-        mpq_mul(cost, cost, rules->cost);
-        mpq_add(value, value, cost);
-    }
+        add_terms(rules, record->term_first, record->term_count, value, cost);
+    *costs = mpq_sgn(cost) != 0;
+    if (status == TN_OK && *costs)
+        status = tn_house_rules_cost(rules, all, error);
+    mpq_mul(cost, cost, all);
+    mpq_add(value, value, cost);
+    mpq_clears(cost, all, NULL);
+    return status;
+}
+
+tn_status tn_house_compare(tn_house_rules *rules, const tn_instruction *op, bool *so, tn_error *error)
+{
+    bool costs;
+    mpq_t value;
+    mpq_init(value);
+    tn_status status = tn_house_rules_sum(rules, (uint32_t)op->first, value, &costs, error);
     int sign = mpq_sgn(value);
     *so = op->opcode == TN_OP_HOUSE_BELOW ? sign < 0 : op->opcode == TN_OP_HOUSE_ZERO ? sign == 0 : sign > 0;
-    mpq_clears(value, cost, NULL);
+    mpq_clear(value);
     return status;
 }

@@ -239,6 +239,19 @@ static void price_line(const tn_house *house, tn_cost_line *line)
     mpq_clear(factor);
 }
 
+void tn_round_to_cent(mpq_t cost)
+{
+    mpz_t cents;
+    mpz_init(cents);
+    mpz_mul_ui(cents, mpq_numref(cost), 200);
+    mpz_add(cents, cents, mpq_denref(cost));
+    mpz_fdiv_q(cents, cents, mpq_denref(cost));
+    mpz_fdiv_q_2exp(mpq_numref(cost), cents, 1);
+    mpz_set_ui(mpq_denref(cost), 100);
+    mpq_canonicalize(cost);
+    mpz_clear(cents);
+}
+
 static void line_init(tn_cost_line *line, uint32_t part)
 {
     *line = (tn_cost_line){.part = part, .material = TN_NO_RECORD};

@@ -57,6 +57,9 @@ tn_status tn_house_bill(const tn_house *house, tn_house_build *build, tn_costs *
 /* cost := what that costs, unrounded; unchanged after a failure. TN_MEMORY. */
 tn_status tn_house_exact_cost(const tn_house *house, tn_house_build *build, mpq_t cost, tn_error *error);
 
+/* Half up to the hundredth, as bills are written. */
+void tn_round_to_cent(mpq_t cost);
+
 /* cost := what things cost, unrounded, that stand so in a house. */
 void tn_house_items_cost(const tn_house *house, const tn_standing_item *items, size_t count, mpq_t cost);
 

@@ -329,6 +329,14 @@ void tn_houses_faced(const tn_houses *h, mpz_t faced)
         mpz_addmul_ui(faced, h->kinds[i].faced, h->kinds[i].sections);
 }
 
+bool tn_houses_faced_known(const tn_houses *h)
+{
+    bool known = true;
+    for (size_t i = 0; i < h->kind_count; i++)
+        known = known && (!h->kinds[i].strip->prices.items || h->added.count == h->added.measures);
+    return known;
+}
+
 void tn_houses_of_section(const tn_houses *h, const uint32_t *shapes, mpz_t count)
 {
     tn_house section = {.form = h->form};

@@ -57,6 +57,9 @@ tn_status tn_houses_complete(tn_houses *houses, const tn_open_plan *open, tn_com
 void tn_houses_count(const tn_houses *houses, uint32_t length, mpz_t count);
 void tn_houses_faced(const tn_houses *houses, mpz_t faced);
 
+/* Is the latter known? It is not where clauses compare what tiles add to: sums of tiles are counted one by one then. */
+bool tn_houses_faced_known(const tn_houses *houses);
+
 /* How many have a section (a value for each choice of the form). */
 void tn_houses_of_section(const tn_houses *houses, const uint32_t *shapes, mpz_t count);
 

@@ -4,10 +4,10 @@
 
 #include "runtime/house/strip/houses_data.h"
 
-typedef struct tn_comparing {
+typedef struct tn_added_finding {
     tn_houses *houses;
     const tn_house_clause_record *clause;
-} tn_comparing;
+} tn_added_finding;
 
 static bool is_known(const tn_house_added *added, uint32_t sum)
 {
@@ -17,7 +17,7 @@ static bool is_known(const tn_house_added *added, uint32_t sum)
     return false;
 }
 
-static tn_status too_much(const tn_comparing *c, const char *what, tn_error *error)
+static tn_status too_much(const tn_added_finding *c, const char *what, tn_error *error)
 {
     const tn_module *module = c->houses->form->module;
     tn_fail(error, TN_LIMIT, E_STRIP, "`%.60s` %s: the houses of all plans together cannot be counted",
@@ -38,7 +38,7 @@ static bool counts_places(const tn_module *module, uint32_t sum)
 
 static tn_status see(void *context, const tn_instruction *op, tn_relation_use use, tn_error *error)
 {
-    const tn_comparing *c = context;
+    const tn_added_finding *c = context;
     tn_houses *h = c->houses;
     const tn_form_record *forms = h->form->module->FORM_records;
     uint32_t sum = (uint32_t)op->first;
@@ -68,7 +68,7 @@ tn_status tn_houses_find_added(tn_houses *h, tn_error *error)
         h->added.of[k] = h->measures->of[k];
     h->added.measures = h->added.count = h->measures ? h->measures->count : 0;
     for (uint32_t i = 0; status == TN_OK && i < h->library->clause_count; i++) {
-        tn_comparing comparing = {h, &h->form->module->HOUSE_CLAUSE_records[h->library->clause_first + i]};
+        tn_added_finding comparing = {h, &h->form->module->HOUSE_CLAUSE_records[h->library->clause_first + i]};
         status = tn_rule_uses(h->form->module, comparing.clause->holds, see, &comparing, error);
     }
     for (uint32_t k = 0; k < h->added.count; k++) /* costs are of each section by itself */

@@ -104,6 +104,8 @@ static bool mark_start(const tn_seeking *s, tn_leads *marks)
 static tn_status give(void *context, const tn_house *house, bool *stop, tn_error *error)
 {
     tn_seeking *s = context;
+    if (!tn_house_variants_keep_tiles(s->variants, house))
+        return TN_OK;
     tn_status status = s->each(s->context, house, &s->stop, error);
     *stop = s->stop;
     return status;

@@ -8,6 +8,15 @@
 
 /* ---- what the tiles have to cost */
 
+/* Does a measure add up costs? */
+static bool asks_costs(const tn_houses *h)
+{
+    bool asks = false;
+    for (uint32_t k = 0; h->measures && k < h->measures->count; k++)
+        asks = asks || h->units.costs[k] != 0;
+    return asks;
+}
+
 /* A measure's value of the house without its tiles, in steps. */
 static tn_status value_of(const tn_houses_wanted *wanted, uint32_t k, const mpq_t shell, tn_int128 *steps,
                           tn_error *error)
@@ -37,7 +46,7 @@ static tn_status find_left(const tn_houses_wanted *wanted, const tn_house *house
         return TN_OK;
     mpq_init(shell);
     tn_status status = tn_house_rules_start(wanted->rules, house, error);
-    if (status == TN_OK && h->kinds[0].strip->prices.asked)
+    if (status == TN_OK && asks_costs(h))
         status = tn_house_exact_cost(house, tn_house_shell, shell, error);
     for (uint32_t k = 0; status == TN_OK && *fits && k < h->measures->count; k++) {
         tn_int128 value = 0, all = wanted->values->by[k] * (h->measures->most[k] ? -1 : 1);
@@ -142,7 +151,7 @@ static tn_status choose(tn_furnishing *f, size_t cell, tn_int128 left, tn_error 
 static tn_status make_sums(const tn_houses *h, tn_furnishing *f, tn_error *error)
 {
     size_t cells = f->house->cell_count;
-    bool priced = h->kind_count > 0 && h->kinds[0].strip->prices.items;
+    bool priced = asks_costs(h) && h->kinds[0].strip->prices.items;
     f->cost = calloc(cells + 1, sizeof *f->cost);
     f->sums = calloc(cells + 1, sizeof *f->sums);
     if (f->sums)

@@ -323,7 +323,7 @@ bool tn_furnished_next(tn_house_variants *v)
     return false;
 }
 
-bool tn_furnished_has(const tn_house_variants *v, const tn_house *house)
+bool tn_house_variants_keep_tiles(const tn_house_variants *v, const tn_house *house)
 {
     tn_int128 cost = 0;
     for (size_t i = 0; v->asks_costs && i < house->cell_count; i++)

@@ -23,9 +23,6 @@ void tn_furnished_find(tn_house_variants *v, const mpz_t number);
 /* The next kept one after that at hand. False: that was the last. */
 bool tn_furnished_next(tn_house_variants *v);
 
-/* Do clauses keep the house with the tiles of this one? */
-bool tn_furnished_has(const tn_house_variants *v, const tn_house *house);
-
 /* How many kept ones come before the tiles of a house. */
 void tn_furnished_before(const tn_house_variants *v, const tn_house *house, mpz_t count);
 

@@ -175,7 +175,7 @@ static tn_status stop_here(tn_house_variants *v, void *context, bool *stop, tn_e
     (void)error;
     tn_furnished_before(v, s->wanted, s->here);
     mpz_add(s->before, s->before, s->here);
-    s->passing = !tn_furnished_has(v, s->wanted);
+    s->passing = !tn_house_variants_keep_tiles(v, s->wanted);
     *stop = true;
     return TN_OK;
 }

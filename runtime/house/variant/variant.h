@@ -1,8 +1,8 @@
 /* The houses of a library on one plan, in the order of their ranks: section, functions, faces, tiles.
  *
  * Sections, then functions, then what is in the faces are tried one after another; a clause is asked as soon as what it
- * asks for is known, so that what it drops is not gone into. Tiles do not change what clauses say: they are multiplied.
- * Counts are exact. Going through all takes as long as there are faced houses that no earlier clause drops: past a
+ * asks for is known, so that what it drops is not gone into. Tiles change only what a house costs: they are multiplied,
+ * or, where a clause asks for costs, added up (furnish.h). Counts are exact. Going through all takes as long as there are faced houses that no earlier clause drops: past a
  * limit of `work` it is TN_LIMIT (E1617).
  *
  * A tn_house_variants belongs to one thread and borrows the form.
@@ -53,6 +53,9 @@ tn_status tn_house_variants_each(tn_house_variants *variants, const tn_tray *tra
 typedef tn_status tn_house_faced(void *context, tn_house *house, const size_t *tiles, bool *stop, tn_error *error);
 tn_status tn_house_variants_like(tn_house_variants *variants, const tn_house *like, tn_house_faced *faced,
                                  void *context, tn_error *error);
+
+/* While tn_house_faced is called: do the clauses that ask what tiles cost keep the house with those that are set? */
+bool tn_house_variants_keep_tiles(const tn_house_variants *variants, const tn_house *house);
 
 /* The house that `variant` others come before; TN_INVALID (E1618) where there are not so many. Clear *house in any
  * case. */
