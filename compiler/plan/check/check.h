@@ -113,9 +113,9 @@ typedef struct tn_checked_sum {
     size_t count;
     const char *constant;
     int power;
-    bool any;    /* 0: of any dimension */
-    bool whole;  /* has `matches` */
-    bool houses; /* has terms about houses */
+    bool any;                           /* 0: of any dimension */
+    bool whole;                         /* has `matches` */
+    bool houses;                        /* has terms about houses */
     const struct tn_checked_form *form; /* theirs */
     tn_span span;
     uint32_t index; /* emitted: of its SUM record */
@@ -384,7 +384,8 @@ void tn_check_areas(tn_check *check, tn_ast_expr *sum);
 tn_ast_expr *tn_counts_house(const tn_ast_expr *quantity);
 bool tn_sums_cost(const tn_check *check, const tn_ast_expr *sum); /* is it `sum(cost)`? */
 void tn_check_cost(tn_check *check, tn_ast_expr *sum);
-void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum, tn_span place); /* what else it counts is of plans */
+void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum,
+                        tn_span place); /* what else it counts is of plans */
 /* A rule that is named: is it about houses of the same form as what names it? */
 void tn_check_same_form(tn_check *check, const tn_ast_expr *name);
 /* The form called so, where it is in scope; NULL: there is none. */

@@ -1,4 +1,5 @@
-/* What speaks of the whole plan (comparisons with `matches`, or of numbers of houses) stands only where the plan is meant. */
+/* What speaks of the whole plan (comparisons with `matches`, or of numbers of houses) stands only where the plan is
+ * meant. */
 #include "compiler/plan/check/check.h"
 
 static const tn_ast_expr *comparison_in(const tn_ast_expr *expr)
@@ -21,9 +22,9 @@ static void report(tn_check *check, const tn_ast_expr *expr)
 {
     const tn_ast_expr *comparison = comparison_in(expr);
     bool houses = comparison && comparison->sum && comparison->sum->houses;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_WHOLE_PLAN, expr->node.span,
-                                 "this is about the whole %s, and stands where a part of it is meant",
-                                 houses ? "house" : "plan");
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_WHOLE_PLAN, expr->node.span,
+                  "this is about the whole %s, and stands where a part of it is meant", houses ? "house" : "plan");
     if (comparison && comparison != expr)
         tn_note(check->diagnostics, d, &comparison->node.span, "because of this comparison, which %s",
                 houses ? "adds up over the house" : "has `matches` in it");

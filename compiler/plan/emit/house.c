@@ -105,8 +105,8 @@ uint32_t tn_emit_house_sum(tn_emit *emit, const tn_checked_sum *sum, uint32_t of
 {
     uint32_t count, first = emit_house_terms(emit, sum, &count);
     return tn_builder_add_HOUSE_SUM(
-        emit->builder, &(tn_house_sum_record){
-                           .form = sum->form->index, .sum = of_plan, .term_first = first, .term_count = count});
+        emit->builder,
+        &(tn_house_sum_record){.form = sum->form->index, .sum = of_plan, .term_first = first, .term_count = count});
 }
 
 void tn_emit_house_measure(tn_emit *emit, const tn_checked_rule *measure)

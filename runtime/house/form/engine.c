@@ -205,11 +205,10 @@ static tn_status check_measures_of_houses(const tn_checker *checker)
         const tn_house_sum_record *r = &module->HOUSE_SUM_records[i];
         status = check_added(checker, r->form, r->sum, r->term_first, r->term_count);
     }
-    return status == TN_OK
-               ? tn_check_different(checker, &module->HOUSE_MEASURE_records->name,
-                                    sizeof *module->HOUSE_MEASURE_records, module->HOUSE_MEASURE_count,
-                                    "two measures of houses have the same name")
-               : status;
+    return status == TN_OK ? tn_check_different(checker, &module->HOUSE_MEASURE_records->name,
+                                                sizeof *module->HOUSE_MEASURE_records, module->HOUSE_MEASURE_count,
+                                                "two measures of houses have the same name")
+                           : status;
 }
 
 static bool has_length(const tn_checker *checker, uint32_t schema)
@@ -425,20 +424,17 @@ static tn_status verify_after(const tn_checker *checker)
     return status;
 }
 
-static const tn_section sections[] = {TN_SECTION_FORM,          TN_SECTION_STOREY,     TN_SECTION_CHOICE,
-                                      TN_SECTION_SHAPE,         TN_SECTION_CELL_RULE,  TN_SECTION_OPENING,
-                                      TN_SECTION_FACE_LINE,     TN_SECTION_TILE,       TN_SECTION_TILE_BOX,
-                                      TN_SECTION_HOUSE_ITEM,    TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
-                                      TN_SECTION_HOUSE_CLAUSE,  TN_SECTION_MEETING,    TN_SECTION_MATERIAL,
-                                      TN_SECTION_HOUSE_MEASURE, TN_SECTION_HOUSE_TERM, TN_SECTION_HOUSE_SUM,
-                                      TN_SECTION_STRINGS};
+static const tn_section sections[] = {
+    TN_SECTION_FORM,         TN_SECTION_STOREY,     TN_SECTION_CHOICE,     TN_SECTION_SHAPE,
+    TN_SECTION_CELL_RULE,    TN_SECTION_OPENING,    TN_SECTION_FACE_LINE,  TN_SECTION_TILE,
+    TN_SECTION_TILE_BOX,     TN_SECTION_HOUSE_ITEM, TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
+    TN_SECTION_HOUSE_CLAUSE, TN_SECTION_MEETING,    TN_SECTION_MATERIAL,   TN_SECTION_HOUSE_MEASURE,
+    TN_SECTION_HOUSE_TERM,   TN_SECTION_HOUSE_SUM,  TN_SECTION_STRINGS};
 
-static const tn_operand_rules operands[] = {{TN_OPERANDS_AREA, check_area, list_area},
-                                            {TN_OPERANDS_RATIO, check_ratio, list_ratio},
-                                            {TN_OPERANDS_DECISION, check_decision, NULL},
-                                            {TN_OPERANDS_DECISION_COND, check_counted, NULL},
-                                            {TN_OPERANDS_MEETING, check_meeting, NULL},
-                                            {TN_OPERANDS_HOUSE_SUMMED, check_house_summed, list_house_summed}};
+static const tn_operand_rules operands[] = {
+    {TN_OPERANDS_AREA, check_area, list_area},    {TN_OPERANDS_RATIO, check_ratio, list_ratio},
+    {TN_OPERANDS_DECISION, check_decision, NULL}, {TN_OPERANDS_DECISION_COND, check_counted, NULL},
+    {TN_OPERANDS_MEETING, check_meeting, NULL},   {TN_OPERANDS_HOUSE_SUMMED, check_house_summed, list_house_summed}};
 
 extern const tn_engine tn_engine_house;
 const tn_engine tn_engine_house = {.name = "house",

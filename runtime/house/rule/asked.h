@@ -38,8 +38,8 @@ tn_status tn_house_rules_measure(tn_house_rules *rules, tn_house_measured measur
  * the house costs part of it? `value` is initialised. */
 tn_status tn_house_rules_sum(tn_house_rules *rules, uint32_t sum, mpq_t value, bool *costs, tn_error *error);
 
-/* What the house costs, unrounded, into `cost`, which is initialised. TN_INVALID (E1649) where that depends on tiles that
- * its line leaves out. */
+/* What the house costs, unrounded, into `cost`, which is initialised. TN_INVALID (E1649) where that depends on tiles
+ * that its line leaves out. */
 tn_status tn_house_rules_cost(tn_house_rules *rules, mpq_t cost, tn_error *error);
 
 /* What the house costs, where the caller knows it: it is not worked out then. Good until the next house. */

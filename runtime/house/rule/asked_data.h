@@ -24,7 +24,7 @@ struct tn_house_rules {
     bool *seen;
     uint32_t *todo;
     int64_t *sums;
-    size_t capacity; /* of each of the arrays, in items */
+    size_t capacity;     /* of each of the arrays, in items */
     tn_plan_vm *sums_vm; /* what comparisons add up of the plan, once one is asked; that of the rules is at work then */
     bool summed;         /* it has the plan */
     bool priced;         /* the cost is known */

@@ -95,7 +95,8 @@ static tn_status check_tiles(const tn_house *house, tn_error *error)
         status = same_costs(house, i, &same, error);
     if (status != TN_OK || same)
         return status;
-    tn_fail(error, TN_INVALID, E_COST_OF_TILES, "what this house costs depends on its tiles, which the line leaves out");
+    tn_fail(error, TN_INVALID, E_COST_OF_TILES,
+            "what this house costs depends on its tiles, which the line leaves out");
     tn_error_help(error, "write them after a last `;`: `tartan unrank` and `tartan sample` give whole lines");
     return TN_INVALID;
 }

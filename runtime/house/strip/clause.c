@@ -266,8 +266,8 @@ static tn_status relate_comparison(const tn_strip_lowering *l, const tn_marked *
     uint32_t letters = marked->letters - 1;
     uint64_t *counts = malloc(((size_t)letters + 1) * sizeof *counts);
     bool empty = false;
-    tn_status status = counts ? tn_strip_empty_meets(l->strip, &l->clause->atoms[atom].op, &empty, error)
-                              : tn_fail_memory(error);
+    tn_status status =
+        counts ? tn_strip_empty_meets(l->strip, &l->clause->atoms[atom].op, &empty, error) : tn_fail_memory(error);
     holds[TRUTH_LATER] = empty; /* there is no letter */
     const tn_periodic_set set = {.threshold = TRUTH_NO, .period = 1, .holds = holds};
     for (uint32_t i = 0; counts && i < letters; i++)

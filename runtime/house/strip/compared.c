@@ -26,8 +26,7 @@ uint32_t tn_strip_compared(const tn_strip *strip, uint32_t sum)
 /* value := what the number is of a plan of one tray, or (TN_STRIP_NONE) of none. */
 static tn_status value_of_plan(tn_strip *strip, uint32_t number, tn_tray tray, mpq_t value, tn_error *error)
 {
-    tn_status status =
-        strip->plan_vm ? TN_OK : tn_plan_vm_new(strip->form->schema, 1, &strip->plan_vm, error);
+    tn_status status = strip->plan_vm ? TN_OK : tn_plan_vm_new(strip->form->schema, 1, &strip->plan_vm, error);
     if (status == TN_OK)
         status = tn_plan_vm_plan(strip->plan_vm, &tray, tray != TN_STRIP_NONE, error);
     return status == TN_OK ? tn_plan_vm_value(strip->plan_vm, strip->added->of[number]->of.sum, value, error) : status;
@@ -58,8 +57,7 @@ tn_status tn_strip_empty_meets(tn_strip *strip, const tn_instruction *op, bool *
 {
     mpq_t value;
     mpq_init(value);
-    tn_status status =
-        value_of_plan(strip, tn_strip_compared(strip, (uint32_t)op->first), TN_STRIP_NONE, value, error);
+    tn_status status = value_of_plan(strip, tn_strip_compared(strip, (uint32_t)op->first), TN_STRIP_NONE, value, error);
     *meets = holds(op->opcode, mpq_sgn(value));
     mpq_clear(value);
     return status;
@@ -143,8 +141,8 @@ tn_status tn_strip_end_values(tn_strip *strip, uint32_t values, uint32_t total, 
         signs[i] = strip->units ? (totals[i] > 0) - (totals[i] < 0) : (int)(guess % 3) - 1;
     strip->key.size = 0;
     for (uint32_t i = 0; ok && i < strip->clause_count; i++)
-        ok = tn_key_push(&strip->key, with_truths(strip, &strip->clauses[i],
-                                                  tn_interned(&strip->values, values, &size)[i], signs));
+        ok = tn_key_push(&strip->key,
+                         with_truths(strip, &strip->clauses[i], tn_interned(&strip->values, values, &size)[i], signs));
     *ends = ok ? tn_intern(&strip->values, strip->key.data, strip->key.size) : UINT32_MAX;
     return *ends != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }

@@ -198,9 +198,8 @@ static tn_status add_kind(tn_houses *h, const tn_house *section, const bool *tra
     kind = &h->kinds[h->kind_count++];
     *kind = (tn_houses_kind){.key = tn_sections_key(&h->sections, section), .sections = 1};
     mpz_init(kind->faced);
-    tn_status status =
-        tn_strip_new(h->form, h->library, section->shapes, trays, h->low, h->high, h->measures, &h->added,
-                     &kind->strip, error);
+    tn_status status = tn_strip_new(h->form, h->library, section->shapes, trays, h->low, h->high, h->measures,
+                                    &h->added, &kind->strip, error);
     return status == TN_OK ? scout(h, kind, trays, error) : status;
 }
 

@@ -52,8 +52,8 @@ static tn_status see(void *context, const tn_instruction *op, tn_relation_use us
     if (&forms[h->form->module->HOUSE_SUM_records[sum].form] != h->form->record)
         return tn_fail(error, TN_INVALID, E_OTHER_FORM, "a clause of the library is about houses of another form");
     tn_house_weights *weights = NULL;
-    tn_status status = tn_house_weights_new(
-        h->form, tn_house_measured_sum(h->form->module, sum, c->clause->name), &weights, error);
+    tn_status status =
+        tn_house_weights_new(h->form, tn_house_measured_sum(h->form->module, sum, c->clause->name), &weights, error);
     if (status != TN_OK)
         return status;
     h->added.sums[h->added.count] = sum;

@@ -77,10 +77,10 @@ struct tn_houses {
     tn_sections sections;
     tn_houses_kind *kinds;
     size_t kind_count, kind_room;
-    bool ranked;                       /* what is ahead of each node is known */
-    const tn_tray *only;               /* [high]: the one plan that is looked at, or NULL */
-    const tn_house_measures *measures; /* or NULL; else plans are those of `weighed` */
-    tn_house_added added;              /* these, and what clauses compare */
+    bool ranked;                                 /* what is ahead of each node is known */
+    const tn_tray *only;                         /* [high]: the one plan that is looked at, or NULL */
+    const tn_house_measures *measures;           /* or NULL; else plans are those of `weighed` */
+    tn_house_added added;                        /* these, and what clauses compare */
     tn_house_weights *compared[TN_COMPARED_MAX]; /* the latter; owned */
     uint32_t compared_count;
     tn_weighed *weighed;

@@ -142,12 +142,12 @@ enum { SIDE_MARKS, SIDE_MARKS_HIGH, SIDE_FIT, SIDE_GLASS, SIDE_WORDS };
  * matters to its tiles. */
 typedef struct tn_strip_slice {
     uint32_t edge;
-    uint32_t bases;                /* of all clauses: of `letters` */
-    uint32_t tiles;                /* what of its own walls matters to each cell's tiles: of `fit_lists` */
-    uint32_t inside;               /* its edge, and what rooms and walks meet in it: of `insides` */
-    uint32_t met;                  /* the same, but of its edge only what is asked: of `mets` */
-    uint32_t cost;                 /* where costs are asked for: the number of the tray's */
-    int64_t gains[TN_ADDED_MAX];   /* what its cells, and its tray, add to each number that is added up */
+    uint32_t bases;              /* of all clauses: of `letters` */
+    uint32_t tiles;              /* what of its own walls matters to each cell's tiles: of `fit_lists` */
+    uint32_t inside;             /* its edge, and what rooms and walks meet in it: of `insides` */
+    uint32_t met;                /* the same, but of its edge only what is asked: of `mets` */
+    uint32_t cost;               /* where costs are asked for: the number of the tray's */
+    int64_t gains[TN_ADDED_MAX]; /* what its cells, and its tray, add to each number that is added up */
 } tn_strip_slice;
 
 /* The same of an outcome. */

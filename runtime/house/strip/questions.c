@@ -193,9 +193,9 @@ static tn_status see(void *context, const tn_instruction *op, tn_relation_use us
         return TN_LIMIT;
     }
     if (tn_code_compares_house(op->opcode)) /* the automaton has no other question about such a number */
-        return use == TN_USE_WHOLE
-                   ? add_atom(a, op, tn_strip_compared(a->strip, first), TN_STRIP_TRUTHS, error)
-                   : tn_strip_limit(a->strip, a->name, "compares a number of the whole house within a part of it", error);
+        return use == TN_USE_WHOLE ? add_atom(a, op, tn_strip_compared(a->strip, first), TN_STRIP_TRUTHS, error)
+                                   : tn_strip_limit(a->strip, a->name,
+                                                    "compares a number of the whole house within a part of it", error);
     tn_status status = TN_OK;
     switch (op->opcode) {
     case TN_OP_SOME_ROOM:

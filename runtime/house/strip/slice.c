@@ -291,7 +291,8 @@ static tn_status add_slice(tn_cutting *c, tn_error *error)
         int64_t tray = 0;
         if (k >= s->added->measures)
             status = tn_strip_tray_adds(s, k, c->house.trays[0], &tray, error);
-        if (status == TN_OK && !tn_push_long(key, (uint64_t)(tn_house_weights_cells(s->added->of[k], &c->house) + tray)))
+        if (status == TN_OK &&
+            !tn_push_long(key, (uint64_t)(tn_house_weights_cells(s->added->of[k], &c->house) + tray)))
             status = tn_fail_memory(error);
     }
     if (status == TN_OK && s->prices.asked && !tn_key_push(key, cost))

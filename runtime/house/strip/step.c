@@ -209,8 +209,7 @@ static tn_status total_after(const tn_stepping *s, uint32_t before, tn_int128 ti
     tn_strip *strip = s->strip;
     tn_int128 gains[TN_COMPARED_MAX], cost = cost_of(s) + tiles;
     for (uint32_t k = strip->added->measures; k < strip->added->count; k++)
-        gains[k - strip->added->measures] =
-            others_of(s, k) * strip->units->others[k] + cost * strip->units->costs[k];
+        gains[k - strip->added->measures] = others_of(s, k) * strip->units->others[k] + cost * strip->units->costs[k];
     return tn_strip_next_total(strip, before, gains, total, error);
 }
 

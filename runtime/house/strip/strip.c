@@ -90,8 +90,7 @@ void tn_strip_free(tn_strip *strip)
                                       &strip->bases,     &strip->sides,      &strip->waiting,      &strip->rooms,
                                       &strip->walks,     &strip->states,     &strip->letters,      &strip->fit_lists,
                                       &strip->insides,   &strip->throughs,   &strip->readings,     &strip->between,
-                                      &strip->values,    &strip->asked,      &strip->mets,
-                                      &strip->totals};
+                                      &strip->values,    &strip->asked,      &strip->mets,         &strip->totals};
     for (uint32_t i = 0; i < strip->edge_keys.count; i++) {
         free(strip->edges[i].cells);
         free(strip->edges[i].answers);

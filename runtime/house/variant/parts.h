@@ -46,8 +46,8 @@ struct tn_house_variants {
     size_t counted_length;
     size_t *tiles; /* how many fit in each cell; 1 where it has none */
     size_t tile_room;
-    bool asks_costs;                /* a clause is of the stage of tiles */
-    mpq_t price;                    /* what the house costs, while these are asked */
+    bool asks_costs;                      /* a clause is of the stage of tiles */
+    mpq_t price;                          /* what the house costs, while these are asked */
     struct tn_combinations *combinations; /* furnish.h; NULL unless costs are asked for */
 };
 

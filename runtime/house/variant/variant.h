@@ -2,8 +2,8 @@
  *
  * Sections, then functions, then what is in the faces are tried one after another; a clause is asked as soon as what it
  * asks for is known, so that what it drops is not gone into. Tiles change only what a house costs: they are multiplied,
- * or, where a clause asks for costs, added up (furnish.h). Counts are exact. Going through all takes as long as there are faced houses that no earlier clause drops: past a
- * limit of `work` it is TN_LIMIT (E1617).
+ * or, where a clause asks for costs, added up (furnish.h). Counts are exact. Going through all takes as long as there
+ * are faced houses that no earlier clause drops: past a limit of `work` it is TN_LIMIT (E1617).
  *
  * A tn_house_variants belongs to one thread and borrows the form.
  */

@@ -126,8 +126,9 @@ static tn_status check_summed(const tn_checker *checker, const tn_instruction *i
 
 static tn_status check_rational(const tn_checker *checker, const tn_instruction *instruction)
 {
-    return is_rational(checker->module, (tn_string)instruction->first) ? TN_OK
-                                                                       : tn_refuse(checker, "a number of a sum is not a fraction of whole numbers");
+    return is_rational(checker->module, (tn_string)instruction->first)
+               ? TN_OK
+               : tn_refuse(checker, "a number of a sum is not a fraction of whole numbers");
 }
 
 static tn_status check_extent(const tn_checker *checker, const tn_instruction *instruction)
