@@ -230,6 +230,26 @@ static void put_measures(drawn_house *d)
     put(d, ")\nmeasure fourth using hut = sum(width) + occurrences(tray(8')) * 1'\n");
 }
 
+static void put_small(drawn_house *d)
+{
+    put(d, "  require quantity(cell(any), n < 4), section(cladding board)\n"
+           "  prune cell(stair), quantity(cell(bed), n > 1)\n");
+}
+
+/* Clauses that compare what is added up over houses. */
+static void put_comparisons(drawn_house *d)
+{
+    ONE_OF(d, "  require second >= 100sf\n", "  require first in 6..10\n", "  prune first > 8 and second < 90sf\n",
+           "  require third > 20 or cell(bed)\n", "  prune 2 * second > 100sf + 4 * sum(width) * 1'\n", "");
+    if (d->priced)
+        ONE_OF(d, "  require fifth <= 5000\n", "  prune fifth in -4000..9000 as middle\n",
+               "  require not fifth > 40 * second / 1sf\n", "  prune section(body storeys 1) implies fifth < 7000\n",
+               "  require fifth + 1000 * quantity(tray(10')) in 1000..12000 or cell(seat)\n",
+               "  require fifth >= 4000 and quantity(cell(bed)) = 1\n");
+    else
+        ONE_OF(d, "  require quantity(room(bed)) <= quantity(cell(living))\n", "  prune first != 7 and not cell(seat)\n");
+}
+
 void drawn_house_write(drawn_house *d)
 {
     d->size = 0;
@@ -237,10 +257,14 @@ void drawn_house_write(drawn_house *d)
            "  zone bay role band = empty role absent | open(4')\n}\n");
     put_form(d);
     put(d, d->priced ? "library rows using hut { trays 1..3 }\n" : "library rows using hut { trays 1..2 }\n");
-    put(d, "library all from rows in huts { }\nlibrary some from rows in huts {\n");
-    if (d->priced)
-        put(d, "  require quantity(cell(any), n < 4), section(cladding board)\n"
-               "  prune cell(stair), quantity(cell(bed), n > 1)\n");
+    put(d, "library all from rows in huts {\n");
+    if (d->compares)
+        put_small(d);
+    put(d, "}\nlibrary some from rows in huts {\n");
+    if (d->priced || d->compares)
+        put_small(d);
+    if (d->compares)
+        put_comparisons(d);
     for (uint32_t i = d->priced ? draw(d, 2) : 1 + draw(d, 3); i > 0; i--) {
         put(d, draw(d, 2) ? "  require " : "  prune ");
         put_expression(d, 2);

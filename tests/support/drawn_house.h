@@ -7,10 +7,11 @@
 #include <stdint.h>
 
 /* state: where the drawing stands; to begin with any number. priced: forms have prices and roofs of more kinds, the
- * houses of `some` are small, of up to three trays, and there is a measure `fifth` of costs. */
+ * houses of `some` are small, of up to three trays, and there is a measure `fifth` of costs. compares: the houses of
+ * `all` are small, too, and `some` has clauses that compare measures. */
 typedef struct drawn_house {
     uint64_t state;
-    bool priced;
+    bool priced, compares;
     char text[8192];
     size_t size;
 } drawn_house;

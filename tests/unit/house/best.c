@@ -464,8 +464,17 @@ static void test_costs(void **state)
     assert_true(check_drawn((drawn_house){.state = 5, .priced = true}, 30, 5000) > 9);
 }
 
+/* Libraries whose clauses compare measures. */
+static void test_compared(void **state)
+{
+    (void)state;
+    assert_true(check_drawn((drawn_house){.state = 2, .compares = true}, 30, HOUSES_MAX) > 3);
+    assert_true(check_drawn((drawn_house){.state = 9, .priced = true, .compares = true}, 12, 2000) > 1);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_drawn), cmocka_unit_test(test_costs)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_drawn), cmocka_unit_test(test_costs),
+                                       cmocka_unit_test(test_compared)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -61,7 +61,7 @@ static tn_library *plans; /* of one tray */
 static tn_status count_together(tn_error *error)
 {
     tn_houses *houses = NULL;
-    tn_tray tray;
+    tn_tray trays[2];
     uint32_t length;
     mpz_t rank;
     mpz_init(rank);
@@ -69,7 +69,7 @@ static tn_status count_together(tn_error *error)
     if (status == TN_OK) {
         tn_houses_count(houses, TN_ALL_LENGTHS, rank);
         mpz_sub_ui(rank, rank, 1);
-        status = tn_houses_find(houses, rank, &tray, &length, error);
+        status = tn_houses_find(houses, rank, trays, &length, error);
     }
     tn_houses_free(houses);
     mpz_clear(rank);
@@ -151,6 +151,41 @@ static void test_best(void **state)
     expect_robust(complete);
     for (uint32_t k = 0; k < 2; k++)
         tn_house_weights_free(weights[k]);
+}
+
+/* ---- clauses that compare costs */
+
+static const char priced[] =
+    "schema hut {\n  width role length = 10'\n  zone body role band = room(10')\n}\n"
+    "form huts of hut {\n  storey ground 9'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof 8\"\n"
+    "  function living at cell(body)\n  function bed at cell(body)\n"
+    "  face cell(body) beside cell(body) = open | wall\n"
+    "  material stone \"#808080\" price 12.50 per sf for wall\n  material pine \"#b08050\" price 90 per each for cot\n"
+    "  tile cot for bed { item cot left 1'..3', back 0..6', up 0..2' }\n"
+    "  tile floor for bed { keep middle left 2'..4', back 2'..4' }\n}\n"
+    "library rows using hut { trays 1..2 }\nlibrary all from rows in huts { }\n"
+    "library some from rows in huts {\n  require sum(cost) + 10 * quantity(cell(bed)) + sum(width) / 1' > 4000\n"
+    "  prune sum(cost) in 6000..6100 or quantity(cell(living)) > 1\n}\n";
+
+static void test_compared(void **state)
+{
+    (void)state;
+    test_house usual = made;
+    tn_plan usual_plan = plan;
+    tn_library *usual_plans = plans;
+    tn_error error = {0};
+    tn_library_options options = {0};
+    test_house_compile(&made, priced);
+    plan = test_house_plan(&made, "10' room:10'");
+    assert_int_equal(tn_library_new(made.schema, made.some->plans, &options, &plans, &error), TN_OK);
+    expect_robust(count);
+    expect_robust(count_together);
+    tn_library_free(plans);
+    free(plan.trays);
+    test_house_clear(&made);
+    made = usual;
+    plan = usual_plan;
+    plans = usual_plans;
 }
 
 static tn_status seen(void *context, const tn_house_change *one, const tn_house *changed, tn_error *error)
@@ -252,7 +287,8 @@ static void test_failing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_count_together), cmocka_unit_test(test_best), cmocka_unit_test(test_failing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_count_together), cmocka_unit_test(test_best),
+                                       cmocka_unit_test(test_compared), cmocka_unit_test(test_failing)};
     tn_house_variants *variants = NULL;
     tn_error error = {0};
     mpz_t variant;
