@@ -41,8 +41,8 @@ END
 
 # Ranks: each house of the library with a requirement by its number, and back.
 "$TARTAN" enumerate priced.plan -l barns --where 'price <= 20000' >"$scratch/cheap"
-is 'unrank' "$(for i in 0 7 100 $(($(wc -l <"$scratch/cheap") - 1)); do "$TARTAN" unrank priced.plan -l barns --where 'price <= 20000' $i; done)" \
-    "$(sed -n '1p;8p;101p;$p' "$scratch/cheap")"
+is 'unrank' "$(for i in 0 7 20 $(($(wc -l <"$scratch/cheap") - 1)); do "$TARTAN" unrank priced.plan -l barns --where 'price <= 20000' $i; done)" \
+    "$(sed -n '1p;8p;21p;$p' "$scratch/cheap")"
 
 golden count 'tartan count priced.plan -l barns --where "price <= 44000"'
 golden best 'tartan best priced.plan 2 -l barns --most floors --where "price <= 44000"'

@@ -84,6 +84,21 @@ static tn_status check_flights(const tn_checker *checker, const tn_form_record *
     return TN_OK;
 }
 
+/* A choice has each of its kinds once, so that no two houses are the same. */
+static tn_status check_different_kinds(const tn_checker *checker, const tn_face_line_record *face, uint32_t kinds)
+{
+    bool *seen = calloc((size_t)kinds + 1, sizeof *seen), again = false;
+    if (!seen)
+        return tn_fail_memory(checker->error);
+    for (uint32_t i = 0; i < face->kind_count; i++) {
+        uint32_t kind = checker->module->HOUSE_ITEM_records[face->kind_first + i].number;
+        again = again || seen[kind];
+        seen[kind] = true;
+    }
+    free(seen);
+    return again ? tn_refuse(checker, "a line of faces has a kind twice") : TN_OK;
+}
+
 static tn_status check_face(const tn_checker *checker, const tn_form_record *form, uint32_t index)
 {
     const tn_face_line_record *face = &checker->module->FACE_LINE_records[index];
@@ -97,7 +112,9 @@ static tn_status check_face(const tn_checker *checker, const tn_form_record *for
         if (kind != TN_FACE_OPEN && vertical != (face->relation == TN_FACE_UNDER))
             return tn_refuse(checker, "line %u of faces has a kind that cannot be there", index);
     }
-    return check_items(checker, face->kind_first, face->kind_count, TN_FACE_KIND_COUNT + form->opening_count);
+    uint32_t kinds = TN_FACE_KIND_COUNT + form->opening_count;
+    tn_status status = check_items(checker, face->kind_first, face->kind_count, kinds);
+    return status == TN_OK ? check_different_kinds(checker, face, kinds) : status;
 }
 
 static tn_status check_tile(const tn_checker *checker, const tn_form_record *form, uint32_t index)
