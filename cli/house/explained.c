@@ -100,6 +100,8 @@ static tn_status write_library(tn_house_explaining *e, const char *line, tn_erro
         tn_buffer_printf(&e->text, "]");
     if (status == TN_OK)
         status = tn_explain_tiles(e, error);
+    if (status == TN_OK && (e->full || e->json))
+        tn_explain_behind_roofs(e);
     if (status == TN_OK && dropped && !of_plans)
         status = tn_explain_nearest(e, error);
     if (e->json)

@@ -26,6 +26,9 @@ tn_status tn_explain_tiles(tn_house_explaining *e, tn_error *error);
 /* Moves on to the first cell from *cell on in which no tile stands; the number of cells where there is none. */
 tn_status tn_explain_next_bare(const tn_house_explaining *e, uint32_t *cell, tn_error *error);
 
+/* The openings that lower roofs keep out of faces. */
+void tn_explain_behind_roofs(tn_house_explaining *e);
+
 /* Kept houses that differ from this one by one choice. */
 tn_status tn_explain_nearest(tn_house_explaining *e, tn_error *error);
 

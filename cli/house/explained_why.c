@@ -8,6 +8,7 @@
 #include "runtime/base/length.h"
 #include "runtime/house/rule/witness.h"
 #include "runtime/house/schedule/cost.h"
+#include "runtime/house/solids.h"
 #include "runtime/plan/measure/amount.h"
 
 enum { TEXT_MAX = 4096, NEAREST_MAX = 5 };
@@ -289,6 +290,36 @@ tn_status tn_explain_tiles(tn_house_explaining *e, tn_error *error)
     if (e->json)
         tn_buffer_printf(&e->text, "]");
     return status;
+}
+
+/* ---- openings behind lower roofs */
+
+void tn_explain_behind_roofs(tn_house_explaining *e)
+{
+    tn_behind_roof behind;
+    const char *before = e->json ? "{" : "";
+    if (e->json)
+        tn_buffer_printf(&e->text, ",\"behind_roofs\":[");
+    for (uint32_t i = 0; i < e->house.face_count; i++) {
+        char face[256], why[200];
+        if (!tn_face_behind_roof(&e->house, &e->house.faces[i], TN_NO_RECORD, &behind))
+            continue;
+        const char *opening = tn_form_kind_text(&e->judge.form, behind.kind);
+        tn_face_text(&e->house, i, face, sizeof face);
+        tn_behind_roof_text(&e->house, &behind, why, sizeof why);
+        if (e->json) {
+            append_member(&e->text, before, "face", face);
+            append_member(&e->text, ",", "opening", opening);
+            append_member(&e->text, ",", "why", why);
+            tn_buffer_append(&e->text, "}", 1);
+        } else {
+            tn_buffer_printf(&e->text, "%s    %s: `%s` does not fit, as %s\n", *before ? "" : "behind lower roofs:\n",
+                             face, opening, why);
+        }
+        before = e->json ? ",{" : ",";
+    }
+    if (e->json)
+        tn_buffer_printf(&e->text, "]");
 }
 
 /* ---- the nearest kept houses */

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/house.h"
+#include "runtime/house/decide_parts.h"
 #include "runtime/house/solids.h"
 #include "runtime/module/code.h"
 
@@ -187,8 +187,14 @@ static bool is_behind_roof(const tn_house *house, const tn_face *face, const tn_
     return tn_face_roofed(house, face, opening->wide, &top) && top.top > sill * top.bottom;
 }
 
-/* Does the kind fit into the face? An opening leaves half a wall at either side, and a deck above, and no lower roof
- * stands above its sill. */
+bool tn_opening_has_room(const tn_house *house, const tn_face *face, const tn_opening_record *opening)
+{
+    int64_t x = face->at.x1 - face->at.x0, y = face->at.y1 - face->at.y0, wide = x > y ? x : y;
+    return opening->wide + house->form->record->wall <= wide &&
+           opening->sill + opening->high <= tn_form_clear(house->form, face->storey);
+}
+
+/* Does the kind fit into the face? An opening has room there, and no lower roof stands above its sill. */
 static bool fits(const tn_house *house, const tn_face *face, uint32_t kind)
 {
     const tn_opening_record *opening = tn_form_opening(house->form, kind), *flight = tn_form_flight(house->form, kind);
@@ -196,13 +202,10 @@ static bool fits(const tn_house *house, const tn_face *face, uint32_t kind)
         return tn_flight_fits(house, face, flight);
     if (!opening)
         return kind != TN_FACE_OPEN || face->relation != TN_FACE_OUTSIDE;
-    int64_t x = face->at.x1 - face->at.x0, y = face->at.y1 - face->at.y0, wide = x > y ? x : y;
-    return opening->wide + house->form->record->wall <= wide &&
-           opening->sill + opening->high <= tn_form_clear(house->form, face->storey) &&
-           !is_behind_roof(house, face, opening);
+    return tn_opening_has_room(house, face, opening) && !is_behind_roof(house, face, opening);
 }
 
-static bool is_about(const tn_house *house, const tn_face_line_record *line, const tn_face *face)
+bool tn_face_line_is_about(const tn_house *house, const tn_face_line_record *line, const tn_face *face)
 {
     if (line->relation == TN_FACE_ALONG || line->relation == TN_FACE_ACROSS) {
         bool along = face->side == TN_HOUSE_LEFT || face->side == TN_HOUSE_RIGHT;
@@ -234,7 +237,7 @@ size_t tn_face_decided(const tn_house *house, const tn_face *face, uint32_t kind
     }
     for (uint32_t i = 0; count == 0 && i < form->record->face_count; i++) {
         const tn_face_line_record *line = &form->module->FACE_LINE_records[form->record->face_first + i];
-        if (!is_about(house, line, face))
+        if (!tn_face_line_is_about(house, line, face))
             continue;
         for (uint32_t k = 0; k < line->kind_count && count < TN_FACE_KINDS_MAX; k++) {
             uint32_t kind = form->module->HOUSE_ITEM_records[line->kind_first + k].number;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/house/house.h"
+#include "runtime/house/solids.h"
 #include "runtime/plan/schema/value.h"
 #include "runtime/plan/text/text.h"
 
@@ -242,6 +242,32 @@ static tn_status read_functions(tn_house *house, const char *line, size_t size, 
     return at_end(&reader, "cell", error);
 }
 
+/* Where the word names an opening that a lower roof keeps out of one of the first faces, says so. */
+static void help_behind_roof(const tn_house *house, size_t faces, const tn_word *word, tn_error *error)
+{
+    static const char *const sides[TN_HOUSE_SIDE_COUNT] = {
+        [TN_HOUSE_BACK] = "back", [TN_HOUSE_FRONT] = "front", [TN_HOUSE_LEFT] = "left", [TN_HOUSE_RIGHT] = "right"};
+    const tn_house_form *form = house->form;
+    uint32_t kind = TN_FACE_KIND_COUNT, kinds = kind + form->record->opening_count;
+    tn_behind_roof behind;
+    while (kind < kinds && !word_is(word, tn_form_kind_text(form, kind)))
+        kind++;
+    for (size_t i = 0; kind < kinds && i < faces; i++) {
+        const tn_face *face = &house->faces[i];
+        const tn_cell *cell = &house->cells[face->first];
+        char text[200];
+        if (!tn_face_behind_roof(house, face, kind, &behind))
+            continue;
+        tn_behind_roof_text(house, &behind, text, sizeof text);
+        tn_error_help(
+            error, "`%.40s` does not fit at the %s of %.24s in tray %u, storey %.24s: %s",
+            tn_form_kind_text(form, kind), sides[face->side],
+            tn_text(form->module, form->schema->fields[cell->zone].name), cell->tray + 1,
+            tn_text(form->module, form->module->STOREY_records[form->record->storey_first + cell->storey].name), text);
+        return;
+    }
+}
+
 static tn_status read_faces(tn_house *house, const char *line, size_t size, tn_error *error)
 {
     tn_part_reader reader = open_part(line, size, FACES);
@@ -249,14 +275,23 @@ static tn_status read_faces(tn_house *house, const char *line, size_t size, tn_e
         uint32_t kinds[TN_FACE_KINDS_MAX];
         const char *texts[TN_FACE_KINDS_MAX];
         size_t count = tn_face_options(house, &house->faces[i], kinds), chosen = 0;
+        tn_part_reader look = reader;
+        tn_word word = next_word(&look);
         for (size_t k = 0; k < count; k++)
             texts[k] = tn_form_kind_text(house->form, kinds[k]);
         tn_status status = count > 1 ? choose(&reader, "kind of that face", texts, count, &chosen, error) : TN_OK;
-        if (status != TN_OK)
+        if (status != TN_OK) {
+            help_behind_roof(house, i + 1, &word, error);
             return status;
+        }
         house->faces[i].kind = kinds[chosen];
     }
-    return at_end(&reader, "face with a choice", error);
+    tn_part_reader look = reader;
+    tn_word word = next_word(&look);
+    tn_status status = at_end(&reader, "face with a choice", error);
+    if (status != TN_OK)
+        help_behind_roof(house, house->face_count, &word, error);
+    return status;
 }
 
 static tn_status no_tile(const tn_house *house, const tn_cell *cell, tn_error *error)

@@ -7,6 +7,7 @@
 #define TARTAN_HOUSE_SOLIDS_H
 
 #include "runtime/base/int128.h"
+#include "runtime/base/length_style.h"
 #include "runtime/house/house.h"
 
 /* top / bottom, in lowest terms, bottom > 0. */
@@ -114,6 +115,27 @@ bool tn_cell_is_top(const tn_house *house, uint32_t cell);
  * in its middle: above the lowest floor, in nanometres. false: none stands there. Eaves do not count, which hang free.
  */
 bool tn_face_roofed(const tn_house *house, const tn_face *face, int64_t wide, tn_fraction *top);
+
+/* ---- behind.c */
+
+/* An opening that would be in a face, but for a lower roof. kind: of the face. sill, top: of that roof; above the
+ * lowest floor, in nanometres. */
+typedef struct tn_behind_roof {
+    uint32_t kind;
+    int64_t sill;
+    tn_fraction top;
+} tn_behind_roof;
+
+/* Finds such an opening of the lines that are asked for a face: of kind `kind`, or the first where that is
+ * TN_NO_RECORD. false: there is none. */
+bool tn_face_behind_roof(const tn_house *house, const tn_face *face, uint32_t kind, tn_behind_roof *behind);
+
+/* "its sill is 11' above the lowest floor, and the roof there reaches 12'6\"", in the unit of the schema's lengths; the
+ * roof to the next 1/64" or millimetre above. A text of 200 holds any. */
+void tn_behind_roof_text(const tn_house *house, const tn_behind_roof *behind, char *text, size_t size);
+
+/* In what the schema's author writes lengths: as the first value of the field of lengths is spelt. */
+tn_length_style tn_house_length_style(const tn_house *house);
 
 /* ---- roof.c */
 

@@ -35,6 +35,11 @@ golden explained_rule "tartan explain cottage \"$bedrooms\" --rule far-bed --rul
 golden explained_tiles "tartan explain bare.plan \"8' open ; - ; hall\""
 golden explained_near "tartan explain lahave-complete \"12' double public great dense:4' open:8' open:3' | 8' single - - dense:4' dense:8' empty | 4' single - - dense:4' open:8' empty | 8' single - - dense:4' open:8' open:3' ; 1 shed(back,4:12) 2 gable(12:12) 1 shed(front,4:12) shingle ; entry hall void seat | bath stair stair | store passage passage | kitchen living bedroom seat ; glass glass\""
 golden explained_line "tartan explain cottage \"14' room:14' none ; 3\""
+golden behind_roof "tartan explain lean-to.plan \"12' room:10' open:6' ; 2 1 shed(front,4:12) ; living bedroom veranda ; window window window window\""
+golden behind_roof_shifted "tartan explain lean-to.plan \"12' room:10' open:6' ; 2 1 shed(front,4:12) ; living bedroom veranda ; window window slot window window\""
+golden behind_roof_full "tartan explain lean-to.plan \"12' room:10' open:6' ; 2 1 shed(front,4:12) ; living bedroom veranda ; window window slot window\" --full"
+golden behind_roof_json "tartan explain lean-to.plan \"12' room:10' open:6' ; 2 1 shed(front,4:12) ; living bedroom veranda ; window window slot window\" --json"
+golden behind_roof_metres 'sed "s/4:12/1:3/; s/12. | 16./3.6m/; s/(10.)/(3m)/; s/open(6.)/open(1.8m)/" lean-to.plan > $scratch/metres.plan && tartan explain $scratch/metres.plan "3.6m room:3m open:1.8m ; 2 1 shed(front,1:3) ; living bedroom veranda ; window window window"'
 golden explained_nothing "tartan explain sheds.plan ';'"
 golden matched "printf '%s\n' '# two' \"$bedrooms\" | tartan match cottage --rule far-bed --rule dark-living"
 golden matched_any "printf '%s\n' \"$bedrooms\" | tartan match cottage --rule far-bed --rule dark-living --format any"

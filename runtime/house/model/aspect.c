@@ -63,11 +63,8 @@ static void write_title(const tn_house *house, const tn_aspect *aspect, char *te
                                         [TN_HOUSE_LEFT] = "left",
                                         [TN_HOUSE_RIGHT] = "right"};
     const tn_house_form *form = house->form;
-    const tn_schema *schema = form->schema;
     char at[64];
-    tn_length_style style =
-        tn_length_style_of(tn_text(schema->module, schema->values[schema->value_start[form->width]].name));
-    tn_length_write_style(aspect->at < 0 ? -aspect->at : aspect->at, style, at, sizeof at);
+    tn_length_write_style(aspect->at < 0 ? -aspect->at : aspect->at, tn_house_length_style(house), at, sizeof at);
     switch (aspect->kind) {
     case TN_ASPECT_PLAN:
         snprintf(text, size, "plan, %.50s",

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/base/length_style.h"
+#include "runtime/house/solids.h"
 
 void tn_marks_clear(tn_marks *marks)
 {
@@ -45,19 +45,12 @@ double tn_mark_width(const char *text)
     return 0.62 * (double)strlen(text); /* letters and digits of a sans serif, on the mean, with a little room */
 }
 
-/* The unit in which the schema's author writes widths. */
-static tn_length_style style_of(const tn_house *house)
-{
-    const tn_schema *schema = house->form->schema;
-    return tn_length_style_of(tn_text(schema->module, schema->values[schema->value_start[house->form->width]].name));
-}
-
 void tn_marks_dimension(tn_marks *marks, const tn_house *house, double from, double to, double at, bool upright,
                         double lettering)
 {
     char text[64];
     double tick = lettering * 0.4, middle = (from + to) / 2, room = to - from;
-    tn_length_write_style((int64_t)(room + 0.5), style_of(house), text, sizeof text);
+    tn_length_write_style((int64_t)(room + 0.5), tn_house_length_style(house), text, sizeof text);
     if (upright) {
         tn_marks_line(marks, TN_MARK_DIMENSION, at, from, at, to);
         tn_marks_line(marks, TN_MARK_DIMENSION, at - tick, from - tick, at + tick, from + tick);
@@ -81,14 +74,14 @@ void tn_marks_dimension(tn_marks *marks, const tn_house *house, double from, dou
 /* Heights of roofs are fractions: they are written to the nearest 1/64" or millimetre. */
 static int64_t rounded(const tn_house *house, double v)
 {
-    int64_t step = style_of(house) == TN_STYLE_FEET ? TN_INCH_NM / 64 : 1000000;
+    int64_t step = tn_house_length_style(house) == TN_STYLE_FEET ? TN_INCH_NM / 64 : 1000000;
     return (int64_t)(v / (double)step + 0.5) * step;
 }
 
 static void put_level(tn_marks *marks, const tn_house *house, double u, double v, double lettering, const char *name)
 {
     char text[sizeof marks->items->text], length[64];
-    tn_length_write_style(rounded(house, v), style_of(house), length, sizeof length);
+    tn_length_write_style(rounded(house, v), tn_house_length_style(house), length, sizeof length);
     snprintf(text, sizeof text, "%.30s%s%.15s", name, name[0] ? " " : "", length);
     double wide = tn_mark_width(text) * lettering;
     tn_marks_line(marks, TN_MARK_DIMENSION, u - wide - lettering, v, u, v);

@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "runtime/base/length_style.h"
 #include "runtime/draw/paper.h"
 #include "runtime/draw/type.h"
 #include "runtime/house/picture/draw_parts.h"
@@ -30,12 +29,6 @@ typedef struct sheet {
     double foot;          /* room for notes and the scale bar */
     double spare;         /* height of the page that nothing needs */
 } sheet;
-
-static tn_length_style style_of(const tn_house *house)
-{
-    const tn_schema *schema = house->form->schema;
-    return tn_length_style_of(tn_text(schema->module, schema->values[schema->value_start[house->form->width]].name));
-}
 
 tn_status tn_house_view_take(const tn_solids *solids, const tn_aspect *aspect, const tn_house *house,
                              tn_house_drawn *drawn, tn_watch *watch, tn_error *error)
@@ -233,7 +226,7 @@ static void paint_bar(const sheet *s, cairo_t *cr, double y)
     tn_type_line(cr, x - 8, y + 4, TN_ALIGN_RIGHT, text);
     cairo_set_line_width(cr, 0.5);
     for (int i = 0; i <= 4; i++) {
-        tn_length_write_style(unit * i, style_of(s->house), text, sizeof text);
+        tn_length_write_style(unit * i, tn_house_length_style(s->house), text, sizeof text);
         if (i % 2 == 0)
             tn_type_line(cr, x + step * i, y + 12, TN_ALIGN_CENTRE, text);
         if (i == 4)
@@ -279,7 +272,7 @@ tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn
     sheet s = {.house = house,
                .drawing = drawing,
                .drawn = calloc(drawing->count + 1, sizeof *s.drawn),
-               .metric = style_of(house) != TN_STYLE_FEET,
+               .metric = tn_house_length_style(house) != TN_STYLE_FEET,
                .foot = 22 + NOTE_LEADING * (double)drawing->note_count};
     tn_canvas *canvas = NULL;
     tn_status status = s.drawn ? TN_OK : tn_fail_memory(error);

@@ -1,0 +1,13 @@
+/* What the files that decide on faces share. Internal to runtime/house. */
+#ifndef TARTAN_HOUSE_DECIDE_PARTS_H
+#define TARTAN_HOUSE_DECIDE_PARTS_H
+
+#include "runtime/house/house.h"
+
+/* Is a form's line of faces about the face? All functions are given. */
+bool tn_face_line_is_about(const tn_house *house, const tn_face_line_record *line, const tn_face *face);
+
+/* Is the face as wide and high as the opening needs: with half a wall at either side, and a deck above? */
+bool tn_opening_has_room(const tn_house *house, const tn_face *face, const tn_opening_record *opening);
+
+#endif
