@@ -1,7 +1,9 @@
-/* What clauses compare with 0: numbers that are added up along the row, and of which only the end says what they are.
+/* What clauses compare with 0: numbers that are added up along the row, and of which only the end says what they are,
+ * unless nothing that is ahead can change their sign.
  *
  * A state has the number of its totals, one for each compared number, in its steps. At the end of the row they say
  * which comparisons hold: to a clause that is a part of the last letter's value. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "runtime/house/strip/parts.h"
@@ -96,13 +98,64 @@ tn_status tn_strip_first_total(tn_strip *strip, uint32_t *total, tn_error *error
     return status == TN_OK ? number_totals(strip, totals, total, error) : status;
 }
 
-tn_status tn_strip_next_total(tn_strip *strip, uint32_t total, const tn_int128 *gains, uint32_t *next, tn_error *error)
+/* Below and above all that can be added up (are_small in houses_units.c). */
+#define SURELY_BELOW (-((tn_int128)1 << 126))
+#define SURELY_ABOVE ((tn_int128)1 << 126)
+
+static tn_int128 settle(const tn_strip *strip, uint32_t trays, uint32_t compared, tn_int128 total)
+{
+    const tn_strip_range *ahead = &strip->ahead[trays].all[compared];
+    if (!ahead->any)
+        return total;
+    return total + ahead->from > 0 ? SURELY_ABOVE : total + ahead->to < 0 ? SURELY_BELOW : total;
+}
+
+tn_status tn_strip_next_total(tn_strip *strip, uint32_t trays, uint32_t total, const tn_int128 *gains, uint32_t *next,
+                              tn_error *error)
 {
     tn_int128 totals[TN_COMPARED_MAX];
     read_totals(strip, total, totals);
     for (uint32_t i = 0; i < compared_count(strip); i++)
-        totals[i] += gains[i];
+        if (totals[i] != SURELY_BELOW && totals[i] != SURELY_ABOVE)
+            totals[i] = settle(strip, trays, i, totals[i] + gains[i]);
     return number_totals(strip, totals, next, error);
+}
+
+/* ---- what is ahead */
+
+tn_status tn_strip_ahead_begin(tn_strip *strip, tn_error *error)
+{
+    strip->ahead = calloc((size_t)strip->trays_most + 2, sizeof *strip->ahead);
+    strip->looking_ahead = true;
+    return strip->ahead ? TN_OK : tn_fail_memory(error);
+}
+
+static void widen(tn_strip_range *range, tn_int128 from, tn_int128 to)
+{
+    range->from = range->any && range->from < from ? range->from : from;
+    range->to = range->any && range->to > to ? range->to : to;
+    range->any = true;
+}
+
+void tn_strip_ahead_note(tn_strip *strip, uint32_t trays, bool end, uint32_t compared, tn_int128 from, tn_int128 to)
+{
+    tn_strip_ahead *ahead = &strip->ahead[trays];
+    widen(&(end ? ahead->end : ahead->tray)[compared], from, to);
+}
+
+void tn_strip_ahead_end(tn_strip *strip)
+{
+    strip->looking_ahead = false;
+    for (uint32_t k = strip->trays_most + 1; k-- > 0;)
+        for (uint32_t i = 0; i < compared_count(strip); i++) {
+            tn_strip_ahead *here = &strip->ahead[k];
+            const tn_strip_range *next = &here[1].all[i];
+            if (here->end[i].any)
+                widen(&here->all[i], here->end[i].from, here->end[i].to);
+            if (here->tray[i].any && next->any)
+                widen(&here->all[i], here->tray[i].from + next->from, here->tray[i].to + next->to);
+        }
+    tn_strip_forget_states(strip);
 }
 
 /* ---- the end of the row */
@@ -135,10 +188,11 @@ tn_status tn_strip_end_values(tn_strip *strip, uint32_t values, uint32_t total, 
     tn_int128 totals[TN_COMPARED_MAX];
     size_t size;
     bool ok = true;
-    if (strip->units)
+    bool known = strip->units && !strip->looking_ahead;
+    if (known)
         read_totals(strip, total, totals);
     for (uint32_t i = 0; i < compared_count(strip); i++, guess /= 3)
-        signs[i] = strip->units ? (totals[i] > 0) - (totals[i] < 0) : (int)(guess % 3) - 1;
+        signs[i] = known ? (totals[i] > 0) - (totals[i] < 0) : (int)(guess % 3) - 1;
     strip->key.size = 0;
     for (uint32_t i = 0; ok && i < strip->clause_count; i++)
         ok = tn_key_push(&strip->key,

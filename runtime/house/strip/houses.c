@@ -175,6 +175,20 @@ static tn_status scout(const tn_houses *h, tn_houses_kind *kind, const bool *tra
     return status == TN_OK && strip->any_tiled && strip->prices.items ? walk(h, kind, &any, error) : status;
 }
 
+/* Goes through all states without the totals of what clauses compare, to see how much may still be added. */
+static tn_status look_ahead(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
+{
+    bool any;
+    if (!tn_strip_compares(kind->strip))
+        return TN_OK;
+    tn_status status = tn_strip_ahead_begin(kind->strip, error);
+    if (status == TN_OK)
+        status = walk(h, kind, &any, error);
+    if (status == TN_OK)
+        tn_strip_ahead_end(kind->strip);
+    return status;
+}
+
 /* ---- sections */
 
 tn_houses_kind *tn_houses_kind_of(const tn_houses *h, const tn_house *section)
@@ -222,8 +236,11 @@ static tn_status count_sections(tn_houses *h, const bool *trays, tn_error *error
             status = add_kind(h, &section, trays, error);
     if (status == TN_OK && h->added.count > 0)
         status = tn_houses_settle(h, error);
-    for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
-        status = look_at_kind(h, &h->kinds[i], error);
+    for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
+        status = look_ahead(h, &h->kinds[i], error);
+        if (status == TN_OK)
+            status = look_at_kind(h, &h->kinds[i], error);
+    }
     return status;
 }
 

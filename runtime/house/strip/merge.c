@@ -194,13 +194,18 @@ static bool find_sides(tn_strip *strip)
     return ok;
 }
 
-tn_status tn_strip_merge(tn_strip *strip, tn_error *error)
+void tn_strip_forget_states(tn_strip *strip)
 {
-    strip->scouting = false;
     tn_interner_clear(&strip->states);
     free(strip->ends);
     strip->ends = NULL;
     strip->end_room = 0;
+}
+
+tn_status tn_strip_merge(tn_strip *strip, tn_error *error)
+{
+    strip->scouting = false;
+    tn_strip_forget_states(strip);
     return merge_edges(strip) && find_sides(strip) ? TN_OK : tn_fail_memory(error);
 }
 

@@ -229,6 +229,18 @@ typedef struct tn_strip_units {
     tn_int128 others[TN_ADDED_MAX], costs[TN_ADDED_MAX]; /* steps of its other numbers' steps, and of the costs' */
 } tn_strip_units;
 
+/* What steps add to a compared number: from, to. */
+typedef struct tn_strip_range {
+    bool any;
+    tn_int128 from, to;
+} tn_strip_range;
+
+/* What may still be added to each compared number after so many trays: by another tray, by the end of the row, in all.
+ */
+typedef struct tn_strip_ahead {
+    tn_strip_range tray[TN_COMPARED_MAX], end[TN_COMPARED_MAX], all[TN_COMPARED_MAX];
+} tn_strip_ahead;
+
 typedef struct tn_strip {
     const tn_house_form *form;
     const tn_house_library_record *library;
@@ -242,6 +254,8 @@ typedef struct tn_strip {
     uint32_t *weighed_rooms[TN_ADDED_MAX]; /* [terms of the number]: of the questions about rooms */
     tn_plan_vm *plan_vm;                   /* what comparisons add up of trays; NULL: none does */
     tn_interner totals;                    /* what compared numbers come to so far: compared.c */
+    tn_strip_ahead *ahead;                 /* [trays_most + 1], once it is known or being found */
+    bool looking_ahead;                    /* totals are left aside: compared.c */
     tn_strip_questions questions;
     size_t answer_words;
     tn_room_questions glass; /* functions about rooms that ask for faces: see tn_strip_sees_glass */
@@ -364,6 +378,8 @@ tn_status tn_strip_fit(tn_strip *strip, uint32_t base, uint32_t left, uint32_t r
 
 /* ---- merge.c */
 
+void tn_strip_forget_states(tn_strip *strip); /* they are numbered anew */
+
 /* Ends scouting: all planes of the library's houses are made. States are numbered anew. */
 tn_status tn_strip_merge(tn_strip *strip, tn_error *error);
 void tn_strip_merged_clear(tn_strip_merged *merged);
@@ -448,9 +464,16 @@ uint32_t tn_strip_compared(const tn_strip *strip, uint32_t sum);
 /* steps := what the tray of a house of one tray adds to a compared number by itself. */
 tn_status tn_strip_tray_adds(tn_strip *strip, uint32_t number, tn_tray tray, int64_t *steps, tn_error *error);
 
-/* The totals before the first tray; after a step that adds so much to each compared number ([compared], in order). */
+/* The totals before the first tray; after a step that adds so much to each compared number ([compared], in order), with
+ * so many trays. Totals whose sign nothing that is ahead can change are one. */
 tn_status tn_strip_first_total(tn_strip *strip, uint32_t *total, tn_error *error);
-tn_status tn_strip_next_total(tn_strip *strip, uint32_t total, const tn_int128 *gains, uint32_t *next, tn_error *error);
+tn_status tn_strip_next_total(tn_strip *strip, uint32_t trays, uint32_t total, const tn_int128 *gains, uint32_t *next,
+                              tn_error *error);
+
+/* Begins to find what is ahead: then all states are gone through, each step is noted, and it ends. */
+tn_status tn_strip_ahead_begin(tn_strip *strip, tn_error *error);
+void tn_strip_ahead_note(tn_strip *strip, uint32_t trays, bool end, uint32_t compared, tn_int128 from, tn_int128 to);
+void tn_strip_ahead_end(tn_strip *strip);
 
 /* The values of the last plane with what the totals say of each comparison; as long as the units are not known, with
  * what `guess` says: below tn_strip_guesses. */

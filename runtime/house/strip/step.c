@@ -114,6 +114,12 @@ static tn_status find_waiting(const tn_stepping *s, uint32_t *waiting, tn_error 
 
 /* ---- states */
 
+/* Have states totals of what clauses compare? */
+static bool counts_totals(const tn_strip *strip)
+{
+    return tn_strip_compares(strip) && strip->units && !strip->looking_ahead;
+}
+
 /* *after: TN_STRIP_NONE where no house goes on from there. */
 static tn_status make_state(const tn_stepping *s, uint32_t read, uint32_t total, uint32_t *after, tn_error *error)
 {
@@ -129,7 +135,7 @@ static tn_status make_state(const tn_stepping *s, uint32_t read, uint32_t total,
     for (uint32_t w = 0; ok && w <= strip->questions.walk_count; w++)
         ok = tn_key_push(key, s->crossed[CROSSED_ROOMS + w]);
     ok = ok && tn_key_push(key, read) && tn_key_push(key, waiting);
-    if (tn_strip_compares(strip) && strip->units)
+    if (counts_totals(strip))
         ok = ok && tn_key_push(key, total);
     *after = ok ? tn_intern(&strip->states, key->data, key->size) : UINT32_MAX;
     return *after != UINT32_MAX ? TN_OK : tn_fail_memory(error);
@@ -210,7 +216,21 @@ static tn_status total_after(const tn_stepping *s, uint32_t before, tn_int128 ti
     tn_int128 gains[TN_COMPARED_MAX], cost = cost_of(s) + tiles;
     for (uint32_t k = strip->added->measures; k < strip->added->count; k++)
         gains[k - strip->added->measures] = others_of(s, k) * strip->units->others[k] + cost * strip->units->costs[k];
-    return tn_strip_next_total(strip, before, gains, total, error);
+    uint32_t trays = s->slice == TN_STRIP_NONE ? strip->trays_most + 1 : s->trays + 1;
+    return tn_strip_next_total(strip, trays, before, gains, total, error);
+}
+
+/* The sums of the tiles are by what they cost. */
+static void note_ahead(const tn_stepping *s)
+{
+    tn_strip *strip = s->strip;
+    const tn_strip_sum *sums = strip->prices.sums;
+    for (uint32_t k = strip->added->measures; k < strip->added->count; k++) {
+        tn_int128 each = strip->units->costs[k], gain = others_of(s, k) * strip->units->others[k] + cost_of(s) * each,
+                  least = gain + sums[0].cost * each, most = gain + sums[strip->prices.sum_count - 1].cost * each;
+        tn_strip_ahead_note(strip, s->trays, s->slice == TN_STRIP_NONE, k - strip->added->measures,
+                            least < most ? least : most, least < most ? most : least);
+    }
 }
 
 static tn_status try_total(const tn_stepping *s, const tn_showing *to, uint32_t between, uint32_t before, size_t i,
@@ -243,7 +263,7 @@ static tn_status try_totals(const tn_stepping *s, const tn_showing *to, uint32_t
     return status;
 }
 
-/* As long as the units are not known, the row ends if the clauses keep it with anything that comparisons may say. */
+/* As long as totals are not counted, the row ends if the clauses keep it with anything that comparisons may say. */
 static tn_status guess_end(const tn_stepping *s, uint32_t between, uint32_t *read, tn_error *error)
 {
     tn_status status = TN_OK;
@@ -268,7 +288,7 @@ static tn_status try_outcome(tn_stepping *s, const tn_strip_choice *choice, uint
     if (status != TN_OK || strip->prices.sum_count == 0)
         return status;
     const tn_showing to = {seen, context, choice->times, gain_of(s)};
-    if (tn_strip_compares(strip) && strip->units)
+    if (counts_totals(strip))
         return try_totals(s, &to, between, error);
     bool guesses = tn_strip_compares(strip) && s->slice == TN_STRIP_NONE;
     status = guesses ? guess_end(s, between, &read, error)
@@ -277,7 +297,11 @@ static tn_status try_outcome(tn_stepping *s, const tn_strip_choice *choice, uint
         return status;
     if (s->slice != TN_STRIP_NONE)
         status = make_state(s, read, 0, &after, error);
-    return status == TN_OK && after != TN_STRIP_NONE ? show(s, &to, after, error) : status;
+    if (status != TN_OK || after == TN_STRIP_NONE)
+        return status;
+    if (strip->looking_ahead)
+        note_ahead(s);
+    return show(s, &to, after, error);
 }
 
 static bool keeps_no_trays(const tn_strip *strip)

@@ -120,6 +120,7 @@ void tn_strip_free(tn_strip *strip)
     for (uint32_t k = 0; k < TN_ADDED_MAX; k++)
         free(strip->weighed_rooms[k]);
     tn_plan_vm_free(strip->plan_vm);
+    free(strip->ahead);
     tn_room_questions_clear(&strip->glass);
     free(strip->fits);
     free(strip->key.data);
