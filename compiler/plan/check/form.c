@@ -143,12 +143,20 @@ static void set_thickness(tn_check *check, tn_checked_form *form, const tn_ast_f
     tn_help(check->diagnostics, d, "%s", helps[length == 0]);
 }
 
+/* A function whose name is that of something else is kept: what is said of it elsewhere is right then. */
+static bool takes_name(tn_check *check, const tn_checked_form *form, const tn_ast_word *name)
+{
+    bool there = tn_form_storey(form, name->text) != TN_NONE || tn_form_function(form, name->text) != TN_NONE;
+    word_is_free(check, form, name);
+    return !there;
+}
+
 static void add_rule(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast, tn_cell_rule_kind kind)
 {
     if (!tn_check_room(check, form->rule_count, TN_CELL_RULES_MAX, "line of cells", ast->node.span,
                        "join some of them by `or`"))
         return;
-    if (kind == TN_CELL_FUNCTION && !word_is_free(check, form, ast->name))
+    if (kind == TN_CELL_FUNCTION && !takes_name(check, form, ast->name))
         return;
     form->rules[form->rule_count++] = (tn_checked_cell_rule){.ast = ast, .kind = kind};
     form->function_count += kind == TN_CELL_FUNCTION;
