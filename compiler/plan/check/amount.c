@@ -197,7 +197,12 @@ static void help_figure(tn_check *check, const tn_checked_schema *schema, tn_dia
     for (size_t i = 0; i < count; i++)
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", names[i]);
     const char *near = tn_nearest(word, names, count);
-    if (near)
+    const tn_checked_name *measure = tn_names_get(&check->names, word);
+    if (measure && measure->rule && measure->rule->is_measure)
+        tn_help(check->diagnostics, d, "`%s` is a measure, and so a number already: write it without `sum(...)`", word);
+    else if (tn_means_cost(check, word))
+        tn_help(check->diagnostics, d, "what a whole house costs is `sum(cost)`");
+    else if (near)
         tn_suggest(check->diagnostics, d, "%s", near);
     else if (count)
         tn_help(check->diagnostics, d, "what can be added up is %s", list);

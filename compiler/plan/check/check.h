@@ -384,6 +384,7 @@ void tn_check_areas(tn_check *check, tn_ast_expr *sum);
 tn_ast_expr *tn_counts_house(const tn_ast_expr *quantity);
 bool tn_sums_cost(const tn_check *check, const tn_ast_expr *sum); /* is it `sum(cost)`? */
 void tn_check_cost(tn_check *check, tn_ast_expr *sum);
+bool tn_means_cost(const tn_check *check, const char *word); /* of houses: `cost` or the like, and there is a form */
 void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum,
                         tn_span place); /* what else it counts is of plans */
 /* A rule that is named: is it about houses of the same form as what names it? */

@@ -333,6 +333,14 @@ static bool help_word(tn_check *check, tn_diagnostic *d, const tn_checked_schema
     return f || value || number;
 }
 
+bool tn_means_cost(const tn_check *check, const char *word)
+{
+    bool forms = false;
+    for (size_t i = 0; i < check->result->form_count; i++)
+        forms = forms || check->result->forms[i]->schema == check->schema;
+    return forms && (strcmp(word, "cost") == 0 || strcmp(word, "costs") == 0 || strcmp(word, "price") == 0);
+}
+
 static void report_unknown(tn_check *check, const tn_ast_word *word, tn_want want)
 {
     if (check->incomplete || word->broken)
@@ -347,6 +355,8 @@ static void report_unknown(tn_check *check, const tn_ast_word *word, tn_want wan
         return;
     if (near)
         tn_suggest(check->diagnostics, d, "%s", near);
+    else if (want == TN_WANT_RULE && tn_means_cost(check, word->text))
+        tn_help(check->diagnostics, d, "what a house costs is `sum(cost)`");
     else if (slip)
         tn_help(check->diagnostics, d, "%s", slip->help);
     else

@@ -187,8 +187,10 @@ static void report_product(tn_check *check, const tn_ast_expr *expr, bool divide
                                : tn_report(check->diagnostics, E_NOT_ADDITIVE, expr->node.span,
                                            "both sides of this product depend on the plan");
     tn_help(check->diagnostics, d,
-            "over the plan sums are only added, and multiplied by constants; inside `sum(...)` any "
-            "arithmetic over one tray is allowed: `sum(FIELD * FIELD)`");
+            divides ? "over the plan sums are only added, and multiplied by constants; a comparison `A / B < 3` is "
+                      "written `A < 3 * B`"
+                    : "over the plan sums are only added, and multiplied by constants; inside `sum(...)` any "
+                      "arithmetic over one tray is allowed: `sum(FIELD * FIELD)`");
 }
 
 static bool eval_product(tn_check *check, tn_ast_expr *expr, sum *a, sum *b, sum *out)
