@@ -107,8 +107,9 @@ typedef tn_status tn_houses_edge_seen(void *context, const tn_houses_edge *edge,
 tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end,
                            tn_houses_edge_seen *seen, void *context, tn_error *error);
 
-/* Finds the plan states, and the trays that stand in some plan (trays: [of the schema], false). */
-tn_status tn_houses_plans_find(tn_houses *houses, bool *trays, tn_error *error);
+/* Finds the plan states, and the trays that stand in some plan. trays: zeroed; clear them also after a failure. */
+tn_status tn_houses_plans_find(tn_houses *houses, tn_strip_trays *trays, tn_error *error);
+void tn_strip_trays_clear(tn_strip_trays *trays);
 void tn_houses_plans_clear(tn_houses *houses);
 
 /* The plans that are looked at: where a tray leads, and what it adds; TN_STRIP_NONE: to none of them. layer: the trays
