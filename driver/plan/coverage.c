@@ -11,7 +11,7 @@
 #include "runtime/plan/match/parts.h"
 
 /* A test of a rule or a library of plans: what measures come to and what houses are is another matter. */
-static bool is_own_test(const tn_measuring *m, size_t b)
+static bool is_own_test(const tn_covering *m, size_t b)
 {
     const tn_test_block *block = &m->opened->compilation.program->tests[b];
     bool of_rules = !block->is_measure && !block->of_houses;
@@ -20,7 +20,7 @@ static bool is_own_test(const tn_measuring *m, size_t b)
 
 /* ---- the two sets of functions */
 
-static tn_status cover_library(tn_measuring *m, tn_error *error)
+static tn_status cover_library(tn_covering *m, tn_error *error)
 {
     const tn_library *library = m->options->automaton;
     const tn_library_options options = {.max_states = m->options->max_states};
@@ -33,13 +33,13 @@ static tn_status cover_library(tn_measuring *m, tn_error *error)
     return status == TN_OK ? tn_coverage_of_library(library, &m->plans, error) : status;
 }
 
-static size_t clauses_of(const tn_measuring *m, const tn_test_block *block)
+static size_t clauses_of(const tn_covering *m, const tn_test_block *block)
 {
     return block->is_library ? m->module->LIBRARY_records[block->index].clause_count : 1;
 }
 
 /* Appends the functions of a block; those of a library's clauses are asked one by one. */
-static void add_functions(const tn_measuring *m, const tn_test_block *block, uint32_t *functions, size_t *count)
+static void add_functions(const tn_covering *m, const tn_test_block *block, uint32_t *functions, size_t *count)
 {
     for (size_t i = 0; i < clauses_of(m, block); i++)
         functions[(*count)++] =
@@ -60,7 +60,7 @@ static size_t longest_case(const tn_program *program)
 
 /* All blocks together, or, where some clause passes a limit, each by itself: those with such a clause are left out, and
  * that is said. */
-static tn_status choose_blocks(tn_measuring *m, uint32_t *functions, size_t *count, tn_error *error)
+static tn_status choose_blocks(tn_covering *m, uint32_t *functions, size_t *count, tn_error *error)
 {
     const tn_program *program = m->opened->compilation.program;
     uint32_t longest = (uint32_t)longest_case(program);
@@ -89,7 +89,7 @@ static tn_status choose_blocks(tn_measuring *m, uint32_t *functions, size_t *cou
     return status;
 }
 
-static tn_status cover_tests(tn_measuring *m, tn_error *error)
+static tn_status cover_tests(tn_covering *m, tn_error *error)
 {
     const tn_program *program = m->opened->compilation.program;
     size_t count = 0, all = 0;
@@ -120,7 +120,7 @@ static tn_status cover_tests(tn_measuring *m, tn_error *error)
 
 /* ---- does a test notice? */
 
-static bool is_dropped(const tn_measuring *m, size_t block, const tn_library_record *library, bool without,
+static bool is_dropped(const tn_covering *m, size_t block, const tn_library_record *library, bool without,
                        const tn_tray *trays, size_t length)
 {
     for (uint32_t i = 0; i < library->clause_count; i++) {
@@ -132,7 +132,7 @@ static bool is_dropped(const tn_measuring *m, size_t block, const tn_library_rec
 }
 
 /* Would one of the clauses that a case names come out otherwise? */
-static bool names_flip(const tn_measuring *m, size_t block, const tn_library_record *library, const tn_test_case *test,
+static bool names_flip(const tn_covering *m, size_t block, const tn_library_record *library, const tn_test_case *test,
                        const tn_tray *trays)
 {
     for (uint32_t i = 0; i < library->clause_count; i++) {
@@ -146,7 +146,7 @@ static bool names_flip(const tn_measuring *m, size_t block, const tn_library_rec
     return false;
 }
 
-static bool case_notices(const tn_measuring *m, size_t b, const tn_test_case *test, tn_tray *trays)
+static bool case_notices(const tn_covering *m, size_t b, const tn_test_case *test, tn_tray *trays)
 {
     const tn_test_block *block = &m->opened->compilation.program->tests[b];
     for (size_t i = 0; i < test->length; i++)
@@ -162,7 +162,7 @@ static bool case_notices(const tn_measuring *m, size_t b, const tn_test_case *te
            names_flip(m, b, library, test, trays);
 }
 
-static tn_status tests_notice(const tn_measuring *m, bool *notice, tn_error *error)
+static tn_status tests_notice(const tn_covering *m, bool *notice, tn_error *error)
 {
     const tn_program *program = m->opened->compilation.program;
     size_t longest = longest_case(program);
@@ -218,7 +218,7 @@ static void drop_parts(tn_covered *covered, size_t count)
     }
 }
 
-static tn_status measure_plans(tn_measuring *m, const uint32_t *offsets, size_t count, tn_covered_part *made,
+static tn_status measure_plans(tn_covering *m, const uint32_t *offsets, size_t count, tn_covered_part *made,
                                tn_error *error)
 {
     tn_status status = tn_coverage_without(m->plans, offsets, count, error);
@@ -229,7 +229,7 @@ static tn_status measure_plans(tn_measuring *m, const uint32_t *offsets, size_t 
     return status == TN_OK ? tests_notice(m, &made->noticed, error) : status;
 }
 
-static tn_status measure_part(tn_measuring *m, const tn_covered_subject *s, uint32_t index, unsigned depth,
+static tn_status measure_part(tn_covering *m, const tn_covered_subject *s, uint32_t index, unsigned depth,
                               uint32_t *offsets, tn_error *error)
 {
     const tn_part *part = &s->trees[0].parts[index];
@@ -255,7 +255,7 @@ static tn_status measure_part(tn_measuring *m, const tn_covered_subject *s, uint
     return status;
 }
 
-static tn_status measure_parts(tn_measuring *m, const tn_covered_subject *s, tn_error *error)
+static tn_status measure_parts(tn_covering *m, const tn_covered_subject *s, tn_error *error)
 {
     uint32_t at = 0;
     uint32_t *offsets = malloc(((size_t)s->trees[0].count + s->trees[1].count + 1) * sizeof *offsets);
@@ -284,7 +284,7 @@ static tn_status measure_parts(tn_measuring *m, const tn_covered_subject *s, tn_
 }
 
 /* All parts of a rule or clause; none where one of them passes a limit. */
-static tn_status try_subject(tn_measuring *m, tn_covered_subject *s, tn_error *error)
+static tn_status try_subject(tn_covering *m, tn_covered_subject *s, tn_error *error)
 {
     size_t before = m->covered->count;
     tn_status (*read_parts)(const tn_module *, uint32_t, tn_parts *, tn_error *) =
@@ -309,7 +309,7 @@ static tn_status try_subject(tn_measuring *m, tn_covered_subject *s, tn_error *e
     return status;
 }
 
-tn_status tn_measure_subject(tn_measuring *m, tn_covered_subject s, tn_error *error)
+tn_status tn_measure_subject(tn_covering *m, tn_covered_subject s, tn_error *error)
 {
     tn_status status = try_subject(m, &s, error);
     if (status != TN_LIMIT)
@@ -324,7 +324,7 @@ tn_status tn_measure_subject(tn_measuring *m, tn_covered_subject s, tn_error *er
     return TN_OK;
 }
 
-static bool is_named(const tn_measuring *m, const tn_rule_record *rule)
+static bool is_named(const tn_covering *m, const tn_rule_record *rule)
 {
     for (uint32_t i = 0; m->library && i < m->library->clause_count; i++)
         if (m->module->CLAUSE_records[m->library->clause_first + i].holds == rule->holds)
@@ -332,7 +332,7 @@ static bool is_named(const tn_measuring *m, const tn_rule_record *rule)
     return false;
 }
 
-static tn_status measure_rules(tn_measuring *m, tn_error *error)
+static tn_status measure_rules(tn_covering *m, tn_error *error)
 {
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < m->module->RULE_count; i++) {
@@ -350,7 +350,7 @@ static tn_status measure_rules(tn_measuring *m, tn_error *error)
 }
 
 /* The clauses that are more than a rule's name. */
-static tn_status measure_clauses(tn_measuring *m, tn_error *error)
+static tn_status measure_clauses(tn_covering *m, tn_error *error)
 {
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && m->library && i < m->library->clause_count; i++) {
@@ -375,7 +375,7 @@ static bool has_own_library(const tn_module *module)
     return false;
 }
 
-static tn_status choose(tn_measuring *m, const char *name)
+static tn_status choose(tn_covering *m, const char *name)
 {
     uint32_t library;
     if (name || has_own_library(m->module)) {
@@ -392,7 +392,7 @@ static tn_status choose(tn_measuring *m, const char *name)
     return TN_OK;
 }
 
-static tn_status measure(tn_measuring *m, tn_error *error)
+static tn_status measure(tn_covering *m, tn_error *error)
 {
     tn_status status = m->library ? cover_library(m, error) : TN_OK;
     if (status == TN_OK)
@@ -406,7 +406,7 @@ static tn_status measure(tn_measuring *m, tn_error *error)
 
 tn_status tn_coverage_measure(tn_opened *opened, const tn_coverage_options *options, tn_covered *covered)
 {
-    tn_measuring m = {.opened = opened, .module = opened->module, .options = options, .covered = covered};
+    tn_covering m = {.opened = opened, .module = opened->module, .options = options, .covered = covered};
     tn_error error;
     *covered = (tn_covered){.opened = opened};
     tn_status status = choose(&m, options->library);

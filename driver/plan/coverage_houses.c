@@ -6,7 +6,7 @@
 /* ---- counting */
 
 /* The library opened for counting; one whose plans pass a limit stays closed. */
-static tn_status open_library(tn_measuring *m, uint32_t index, tn_error *error)
+static tn_status open_library(tn_covering *m, uint32_t index, tn_error *error)
 {
     tn_measured_houses *houses = &m->libraries[index];
     if (houses->dependents || houses->unknown)
@@ -14,7 +14,7 @@ static tn_status open_library(tn_measuring *m, uint32_t index, tn_error *error)
     return tn_dependents_new(m->module, index, m->options->max_states, &houses->dependents, error);
 }
 
-static tn_status count_houses(tn_measuring *m, uint32_t index, const uint32_t *offsets, size_t count,
+static tn_status count_houses(tn_covering *m, uint32_t index, const uint32_t *offsets, size_t count,
                               tn_covered_part *made, tn_error *error)
 {
     tn_measured_houses *houses = &m->libraries[index];
@@ -30,7 +30,7 @@ static tn_status count_houses(tn_measuring *m, uint32_t index, const uint32_t *o
     return TN_OK;
 }
 
-tn_status tn_measure_dependents(tn_measuring *m, const tn_covered_subject *s, const uint32_t *offsets, size_t count,
+tn_status tn_measure_dependents(tn_covering *m, const tn_covered_subject *s, const uint32_t *offsets, size_t count,
                                 tn_covered_part *made, tn_error *error)
 {
     tn_status status = tn_house_cases_notice(&m->houses, offsets, count, &made->noticed, error);
@@ -39,7 +39,7 @@ tn_status tn_measure_dependents(tn_measuring *m, const tn_covered_subject *s, co
 }
 
 /* The first library of houses of the file itself that uses a rule; TN_NO_RECORD: none does. */
-static tn_status find_library(const tn_measuring *m, uint32_t holds, uint32_t *library, tn_error *error)
+static tn_status find_library(const tn_covering *m, uint32_t holds, uint32_t *library, tn_error *error)
 {
     tn_status status = TN_OK;
     bool concern = false;
@@ -55,7 +55,7 @@ static tn_status find_library(const tn_measuring *m, uint32_t holds, uint32_t *l
 
 /* ---- rules and clauses */
 
-static tn_status measure_house_rules(tn_measuring *m, tn_error *error)
+static tn_status measure_house_rules(tn_covering *m, tn_error *error)
 {
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < m->module->HOUSE_RULE_count; i++) {
@@ -80,7 +80,7 @@ static bool is_house_rule(const tn_module *module, uint32_t function)
 }
 
 /* Of the file's libraries of houses, the clauses that are more than a rule's name. */
-static tn_status measure_house_clauses(tn_measuring *m, uint32_t index, tn_error *error)
+static tn_status measure_house_clauses(tn_covering *m, uint32_t index, tn_error *error)
 {
     const tn_house_library_record *library = &m->module->HOUSE_LIBRARY_records[index];
     tn_status status = TN_OK;
@@ -98,7 +98,7 @@ static tn_status measure_house_clauses(tn_measuring *m, uint32_t index, tn_error
     return status;
 }
 
-static bool has_case(const tn_measuring *m, uint32_t form)
+static bool has_case(const tn_covering *m, uint32_t form)
 {
     for (size_t i = 0; i < m->houses.count; i++)
         if (m->houses.items[i].form == form)
@@ -106,7 +106,7 @@ static bool has_case(const tn_measuring *m, uint32_t form)
     return false;
 }
 
-static tn_status measure_forms(tn_measuring *m, tn_error *error)
+static tn_status measure_forms(tn_covering *m, tn_error *error)
 {
     tn_covered *covered = m->covered;
     tn_status status = TN_OK;
@@ -119,7 +119,7 @@ static tn_status measure_forms(tn_measuring *m, tn_error *error)
     return status;
 }
 
-static tn_status measure_all(tn_measuring *m, tn_error *error)
+static tn_status measure_all(tn_covering *m, tn_error *error)
 {
     tn_status status = tn_house_cases_read(m->opened, &m->houses, error);
     if (status == TN_OK)
@@ -131,7 +131,7 @@ static tn_status measure_all(tn_measuring *m, tn_error *error)
 }
 
 /* The limit that the first part passed. */
-static void say_unknown(tn_measuring *m, uint32_t library)
+static void say_unknown(tn_covering *m, uint32_t library)
 {
     const tn_house_library_record *record = &m->module->HOUSE_LIBRARY_records[library];
     tn_measured_houses *houses = &m->libraries[library];
@@ -142,7 +142,7 @@ static void say_unknown(tn_measuring *m, uint32_t library)
             tn_text(m->module, record->name), houses->unknown, houses->asked);
 }
 
-tn_status tn_measure_houses(tn_measuring *m, tn_error *error)
+tn_status tn_measure_houses(tn_covering *m, tn_error *error)
 {
     m->libraries = calloc((size_t)m->module->HOUSE_LIBRARY_count + 1, sizeof *m->libraries);
     tn_status status = m->libraries ? measure_all(m, error) : tn_fail_memory(error);

@@ -16,7 +16,7 @@ typedef struct tn_measured_houses {
 } tn_measured_houses;
 
 /* What is measured: the file's library (or each rule by itself), and its tests. */
-typedef struct tn_measuring {
+typedef struct tn_covering {
     tn_opened *opened;
     const tn_module *module;
     const tn_library_record *library; /* or NULL */
@@ -31,7 +31,7 @@ typedef struct tn_measuring {
     tn_house_cases houses;         /* of tests */
     tn_measured_houses *libraries; /* [HOUSE_LIBRARY records] */
     tn_covered *covered;
-} tn_measuring;
+} tn_covering;
 
 /* The rule or clause at hand, in the code of both its judgements. */
 typedef struct tn_covered_subject {
@@ -44,15 +44,15 @@ typedef struct tn_covered_subject {
 } tn_covered_subject;
 
 /* Measures all parts of a rule or clause; one that passes a limit is left out, and that is said. */
-tn_status tn_measure_subject(tn_measuring *m, tn_covered_subject s, tn_error *error);
+tn_status tn_measure_subject(tn_covering *m, tn_covered_subject s, tn_error *error);
 
 /* ---- coverage_houses.c */
 
 /* Of a part of a rule or clause about houses: do tests notice, and how many houses depend on it? */
-tn_status tn_measure_dependents(tn_measuring *m, const tn_covered_subject *s, const uint32_t *offsets, size_t count,
+tn_status tn_measure_dependents(tn_covering *m, const tn_covered_subject *s, const uint32_t *offsets, size_t count,
                                 tn_covered_part *made, tn_error *error);
 
 /* The rules and clauses about houses, and the forms. */
-tn_status tn_measure_houses(tn_measuring *m, tn_error *error);
+tn_status tn_measure_houses(tn_covering *m, tn_error *error);
 
 #endif
