@@ -213,7 +213,7 @@ static tn_status add_kind(tn_houses *h, const tn_house *section, const tn_strip_
     *kind = (tn_houses_kind){.key = tn_sections_key(&h->sections, section), .sections = 1};
     mpz_init(kind->faced);
     tn_status status = tn_strip_new(h->form, h->library, section->shapes, trays, h->low, h->high, h->measures,
-                                    &h->added, &kind->strip, error);
+                                    &h->added, h->without, &kind->strip, error);
     return status == TN_OK ? scout(h, kind, trays, error) : status;
 }
 
@@ -281,7 +281,8 @@ tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record 
                      .measures = what->measures,
                      .trays_matter = what->aim == TN_HOUSES_COMPLETE,
                      .aim = what->aim,
-                     .wanted = what->wanted};
+                     .wanted = what->wanted,
+                     .without = what->without};
     h->high = h->high < h->low ? h->low : h->high;
     tn_houses_units_init(&h->units);
     tn_strip_trays trays = {0};

@@ -73,6 +73,7 @@ struct tn_houses {
     const tn_house_library_record *library;
     const tn_library *plans;
     uint32_t max_states, low, high;    /* trays */
+    const tn_houses_without *without;  /* or NULL; only while they are counted */
     tn_houses_plan_layer *plan_layers; /* [high + 1] */
     tn_sections sections;
     tn_houses_kind *kinds;

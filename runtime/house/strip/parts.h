@@ -13,6 +13,7 @@
 #include "runtime/base/int128.h"
 #include "runtime/house/house.h"
 #include "runtime/house/measure/measure.h"
+#include "runtime/house/strip/houses.h"
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/uses.h"
@@ -92,7 +93,8 @@ typedef struct tn_strip_horizon {
 typedef struct tn_strip_clause {
     uint32_t holds; /* function */
     bool prunes;
-    tn_classes *classes; /* of trays */
+    bool without, differs; /* see tn_houses_without */
+    tn_classes *classes;   /* of trays */
     tn_strip_atom *atoms;
     size_t atom_count, atom_room;
     uint32_t radix;             /* letters of one base: the product over the atoms */
@@ -331,6 +333,7 @@ typedef struct tn_strip {
     tn_watch *watch;
     const tn_house_measures *measures; /* or NULL */
     const tn_house_added *added;       /* these, and what clauses compare */
+    const tn_houses_without *without;  /* or NULL; only while the clauses are made */
     const tn_strip_units *units;       /* NULL: not known yet, and nothing is gained */
     tn_strip_prices prices;
     uint32_t *weighed_rooms[TN_ADDED_MAX]; /* [terms of the number]: of the questions about rooms */
@@ -386,11 +389,11 @@ typedef struct tn_strip {
 /* ---- strip.c */
 
 /* The houses of the section, on trays of these, at least and at most so many. measures: NULL, or borrowed, as is
- * `added`. Free with tn_strip_free, also after a failure. */
+ * `added`; without: NULL, or borrowed until the strip is made. Free with tn_strip_free, also after a failure. */
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
                        const tn_strip_trays *trays, uint32_t trays_least, uint32_t trays_most,
-                       const tn_house_measures *measures, const tn_house_added *added, tn_strip **strip,
-                       tn_error *error);
+                       const tn_house_measures *measures, const tn_house_added *added, const tn_houses_without *without,
+                       tn_strip **strip, tn_error *error);
 void tn_strip_free(tn_strip *strip);
 
 /* What of the strip has the most states, as the name of the clause that is about it; NULL where there is none. */

@@ -39,7 +39,8 @@ static tn_status begin(tn_strip *strip, tn_error *error)
 
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
                        const tn_strip_trays *trays, uint32_t trays_least, uint32_t trays_most,
-                       const tn_house_measures *measures, const tn_house_added *added, tn_strip **out, tn_error *error)
+                       const tn_house_measures *measures, const tn_house_added *added, const tn_houses_without *without,
+                       tn_strip **out, tn_error *error)
 {
     tn_strip *strip = *out = calloc(1, sizeof *strip);
     if (!strip)
@@ -50,7 +51,8 @@ tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record 
                         .trays_most = trays_most,
                         .watch = form->module->watch,
                         .measures = measures,
-                        .added = added};
+                        .added = added,
+                        .without = without};
     memcpy(strip->shapes, shapes, form->record->choice_count * sizeof *shapes);
     tn_status status = begin(strip, error);
     if (status == TN_OK)
@@ -60,7 +62,10 @@ tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record 
     for (tn_tray t = 0; status == TN_OK && t < form->schema->tray_count; t++)
         if (trays->stand[t])
             status = tn_strip_slices(strip, t, error);
-    return status == TN_OK ? tn_strip_lower(strip, error) : status;
+    if (status == TN_OK)
+        status = tn_strip_lower(strip, error);
+    strip->without = NULL;
+    return status;
 }
 
 static void clear_known(tn_strip *strip)
