@@ -149,16 +149,15 @@ static tn_status relate_letter(const tn_strip_lowering *l, const tn_marked *mark
 }
 
 /* In one tray, or in two: then the left one's letter says so. */
-static tn_status relate_meeting(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, bool reversed,
-                                tn_dfa **out, tn_error *error)
+static tn_status relate_meeting(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+                                tn_error *error)
 {
     tn_dfa *inside = NULL, *left = NULL, *across = NULL;
     tn_status status = relate_letter(l, marked, atom, PART_BASE, &inside, error);
     if (status == TN_OK)
         status = relate_letter(l, marked, atom, PART_VALUE, &left, error);
     if (status == TN_OK)
-        status = reversed ? tn_marked_chain(marked, marked->single, left, &across, error)
-                          : tn_marked_chain(marked, left, marked->single, &across, error);
+        status = tn_marked_chain(marked, left, marked->single, &across, error);
     if (status == TN_OK)
         status = tn_dfa_product(inside, across, TN_DFA_OR, "touch", marked->bounds, out, error);
     tn_dfa_free(inside);
@@ -278,11 +277,14 @@ static tn_status relate_comparison(const tn_strip_lowering *l, const tn_marked *
     return status;
 }
 
+/* A house in a mirror has the same stretches, from the other side; letters are read as the house stands, and so a
+ * relation is the same for both. */
 static tn_status relate(void *context, const tn_marked *marked, const tn_instruction *op, bool reversed, tn_dfa **out,
                         tn_error *error)
 {
     const tn_strip_lowering *l = context;
     size_t atom = find_atom(l->clause, op);
+    (void)reversed;
     switch (op->opcode) {
     case TN_OP_SOME_CELL:
         return relate_letter(l, marked, atom, PART_BASE, out, error);
@@ -290,7 +292,7 @@ static tn_status relate(void *context, const tn_marked *marked, const tn_instruc
     case TN_OP_APART:
         return relate_letter(l, marked, atom, PART_VALUE, out, error);
     case TN_OP_MEETS:
-        return relate_meeting(l, marked, atom, reversed, out, error);
+        return relate_meeting(l, marked, atom, out, error);
     case TN_OP_SECTION_IS:
         return relate_section(l, marked, atom, out, error);
     case TN_OP_CELLS:

@@ -356,6 +356,25 @@ static void test_compared_costs(void **state)
     check_compared(true, 4, 0);
 }
 
+/* Cells that meet across a plane, where the clause may be read from either end of the row. */
+static void test_mirror(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "schema hut {\n  width role length = 8' | 10'\n  zone body role band = room(10')\n}\nform huts of hut {\n"
+        "  storey ground 9'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof 8\"\n"
+        "  function living at cell(body)\n  function bed at cell(body)\n"
+        "  opening door wide 2'8\" high 6'8\" passage\n  face cell(any) beside cell(any) = door | wall\n}\n"
+        "library rows using hut { trays 1..3 }\nlibrary all from rows in huts { }\nlibrary some from rows in huts {\n"
+        "  require symmetric neighbour(touch(cell(bed), cell(living) by door), tray(8'))\n}\n";
+    test_house made;
+    test_house_compile(&made, text);
+    uint64_t kept = kept_one_by_one(&made);
+    assert_true(kept > 0);
+    assert_int_equal(check_library(&made, made.some, 1), kept);
+    test_house_clear(&made);
+}
+
 static void test_limit(void **state)
 {
     (void)state;
@@ -373,8 +392,8 @@ static void test_limit(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_written), cmocka_unit_test(test_drawn),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_written),  cmocka_unit_test(test_drawn),
                                        cmocka_unit_test(test_compared), cmocka_unit_test(test_compared_costs),
-                                       cmocka_unit_test(test_limit)};
+                                       cmocka_unit_test(test_mirror),   cmocka_unit_test(test_limit)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
