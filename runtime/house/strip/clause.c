@@ -1,11 +1,13 @@
 /* Makes an automaton of each clause, over letters that say what a tray and its house are to the clause.
  *
  * A letter is a base, which a slice has by itself, and a value for what is known only at the slice's right side: cells
- * that meet across it, rooms that end there, walks that turn out to lead nowhere. */
+ * that meet across it, rooms that end there, walks that turn out to lead nowhere; where in the row these are, is read
+ * from several letters (spans.c). */
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/house/strip/parts.h"
+#include "runtime/house/strip/placed.h"
 #include "runtime/plan/match/condition.h"
 #include "runtime/plan/match/tray_relations.h"
 
@@ -277,6 +279,19 @@ static tn_status relate_comparison(const tn_strip_lowering *l, const tn_marked *
     return status;
 }
 
+static tn_status relate_spans(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+                              tn_error *error)
+{
+    uint32_t letters = marked->letters - 1, *values = malloc(((size_t)letters + 1) * sizeof *values);
+    if (!values)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < letters; i++)
+        values[i] = value_of(l->clause, i, atom);
+    tn_status status = tn_strip_relate_spans(l->strip, &l->clause->atoms[atom], marked, values, out, error);
+    free(values);
+    return status;
+}
+
 /* A house in a mirror has the same stretches, from the other side; letters are read as the house stands, and so a
  * relation is the same for both. */
 static tn_status relate(void *context, const tn_marked *marked, const tn_instruction *op, bool reversed, tn_dfa **out,
@@ -285,6 +300,8 @@ static tn_status relate(void *context, const tn_marked *marked, const tn_instruc
     const tn_strip_lowering *l = context;
     size_t atom = find_atom(l->clause, op);
     (void)reversed;
+    if (l->clause->atoms[atom].placed)
+        return relate_spans(l, marked, atom, out, error);
     switch (op->opcode) {
     case TN_OP_SOME_CELL:
         return relate_letter(l, marked, atom, PART_BASE, out, error);
@@ -346,6 +363,19 @@ static tn_status lower_clause(tn_strip *strip, tn_strip_clause *clause, const ch
     tn_dfa_free(dfa);
     tn_lowering_free(lowering);
     free(classes.representative);
+    return status;
+}
+
+/* With one slot each, where the automaton with more of them is too large. */
+static tn_status lower_in_limits(tn_strip *strip, tn_strip_clause *clause, const char *name, tn_error *error)
+{
+    tn_status status = lower_clause(strip, clause, name, error);
+    if (status == TN_LIMIT && error->code == E_TOO_MANY_STATES && tn_strip_fewer_slots(clause)) {
+        *error = (tn_error){0};
+        while (tn_strip_fewer_slots(clause))
+            continue;
+        status = lower_clause(strip, clause, name, error);
+    }
     return status == TN_LIMIT && error->code == E_TOO_MANY_STATES
                ? tn_strip_limit(strip, name, "takes more states than the limit", error)
                : status;
@@ -354,10 +384,13 @@ static tn_status lower_clause(tn_strip *strip, tn_strip_clause *clause, const ch
 tn_status tn_strip_lower(tn_strip *strip, tn_error *error)
 {
     const tn_module *module = strip->form->module;
+    uint32_t at_once[TN_STRIP_PLACED_MAX];
     tn_status status = TN_OK;
+    tn_strip_rooms_at_once(strip, at_once);
     for (uint32_t i = 0; status == TN_OK && i < strip->clause_count; i++) {
         const tn_house_clause_record *record = &module->HOUSE_CLAUSE_records[strip->library->clause_first + i];
-        status = lower_clause(strip, &strip->clauses[i], tn_text(module, record->name), error);
+        tn_strip_fit_slots(strip, &strip->clauses[i], at_once);
+        status = lower_in_limits(strip, &strip->clauses[i], tn_text(module, record->name), error);
     }
     return status == TN_OK ? tn_strip_horizons(strip, error) : status;
 }

@@ -60,6 +60,15 @@ static bool push_ends(tn_cutting *c, tn_key *key)
     return ok;
 }
 
+/* The first cell that has the function of this one. */
+static uint32_t first_alike(const tn_strip_edge *edge, size_t cell)
+{
+    uint32_t i = 0;
+    while (edge->cells[i].open || edge->cells[i].function != edge->cells[cell].function)
+        i++;
+    return i;
+}
+
 /* Numbers what is asked of the cells of the edge. */
 static uint32_t number_asked(tn_strip *s, const tn_strip_edge *edge)
 {
@@ -67,6 +76,8 @@ static uint32_t number_asked(tn_strip *s, const tn_strip_edge *edge)
     s->key.size = 0;
     for (size_t i = 0; ok && i < edge->count; i++) {
         ok = tn_key_push(&s->key, edge->cells[i].open);
+        if (ok && s->questions.placed_count > 0 && !edge->cells[i].open)
+            ok = tn_key_push(&s->key, first_alike(edge, i));
         for (size_t w = 0; ok && w < s->answer_words; w++)
             ok = tn_push_long(&s->key, edge->answers[i * s->answer_words + w]);
     }
