@@ -126,7 +126,7 @@ bool tn_face_roofed(const tn_house *house, const tn_face *face, int64_t wide, tn
 {
     uint32_t tray = house->cells[face->first].tray;
     bool any = false;
-    if (face->relation != TN_FACE_OUTSIDE || (face->side == TN_HOUSE_LEFT && tray == 0))
+    if (face->relation != TN_FACE_OUTSIDE || face->storey == 0 || (face->side == TN_HOUSE_LEFT && tray == 0))
         return false;
     tray += face->side == TN_HOUSE_RIGHT ? 1u : face->side == TN_HOUSE_LEFT ? UINT32_MAX : 0u;
     if (tray == house->length)
