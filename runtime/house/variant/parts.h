@@ -19,7 +19,10 @@ typedef struct tn_wheels {
 } tn_wheels;
 
 /* What may be in a face when its cells have these functions. count: 0 where that is not known. */
-enum { TN_KNOWN_KINDS_MAX = 6 }; /* of a face with more it is found out each time */
+enum {
+    TN_KNOWN_KINDS_MAX = 6, /* of a face with more it is found out each time */
+    TN_KNOWN_WAYS = 4       /* of a face: pairs of functions that are kept, each at its place */
+};
 typedef struct tn_known_face {
     uint32_t first, second; /* functions; second: TN_NO_FUNCTION outside */
     uint32_t count, kinds[TN_KNOWN_KINDS_MAX];
@@ -36,7 +39,7 @@ struct tn_house_variants {
     uint64_t *runs; /* of each clause, on the plan at hand: the dearest is named where the work is too much */
     tn_house house;
     tn_house_known known;       /* of that house's cells */
-    tn_known_face *known_faces; /* [faces] */
+    tn_known_face *known_faces; /* [faces][TN_KNOWN_WAYS] */
     tn_wheels functions, faces;
     size_t faces_set; /* of the wheels of faces, how many at the beginning are set while those after them are counted */
     tn_wheels shared, own; /* those of `faces` that clauses can depend on, and the others, by their cell: count.c */

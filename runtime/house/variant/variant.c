@@ -123,13 +123,13 @@ tn_status tn_variants_count_tiles(tn_house_variants *v, bool *fit, tn_error *err
 
 /* ---- stages */
 
-/* What may be in a face depends on its cells alone: most of them have the functions that they had the last time. */
+/* What may be in a face depends on its cells alone: most of them have functions that they had before. */
 static size_t face_options(tn_house_variants *v, size_t i, uint32_t kinds[TN_FACE_KINDS_MAX])
 {
     const tn_face *face = &v->house.faces[i];
-    tn_known_face *known = &v->known_faces[i];
     uint32_t first = v->house.cells[face->first].function;
     uint32_t second = face->second == TN_NO_CELL ? TN_NO_FUNCTION : v->house.cells[face->second].function;
+    tn_known_face *known = &v->known_faces[TN_KNOWN_WAYS * i + (first + 3 * second) % TN_KNOWN_WAYS];
     if (known->count > 0 && known->first == first && known->second == second) {
         memcpy(kinds, known->kinds, known->count * sizeof *kinds);
         return known->count;
@@ -307,11 +307,12 @@ static tn_status stand(tn_house_variants *v, const tn_tray *trays, size_t length
 {
     tn_house_clear(&v->house);
     tn_status status = tn_house_stand(v->form, trays, length, shapes, &v->house, error);
-    if (status == TN_OK && !tn_array_resize((void **)&v->known_faces, v->house.face_count + 1, sizeof *v->known_faces))
+    if (status == TN_OK &&
+        !tn_array_resize((void **)&v->known_faces, TN_KNOWN_WAYS * v->house.face_count + 1, sizeof *v->known_faces))
         return tn_fail_memory(error);
     if (status != TN_OK)
         return status;
-    memset(v->known_faces, 0, v->house.face_count * sizeof *v->known_faces);
+    memset(v->known_faces, 0, TN_KNOWN_WAYS * v->house.face_count * sizeof *v->known_faces);
     return tn_house_known_use(&v->known, &v->house, error);
 }
 
