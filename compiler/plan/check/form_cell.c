@@ -95,6 +95,8 @@ static bool read_own_word(tn_cell_reader *reader, const tn_ast_word *word, bool 
     tn_span span = word->node.span;
     uint32_t storey = tn_form_storey(form, word->text), function = tn_form_function(form, word->text);
     bool is_void = strcmp(word->text, "void") == 0, any = strcmp(word->text, "any") == 0;
+    if (!reader->decided && tn_schema_says(form->schema, word->text))
+        function = TN_NONE; /* it has a name of the schema: that was said, and here the schema's word is meant */
     *found = storey != TN_NONE || function != TN_NONE || is_void || any;
     if (!*found)
         return true;
