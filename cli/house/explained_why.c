@@ -5,7 +5,7 @@
 
 #include "cli/house/change_text.h"
 #include "cli/house/explained_parts.h"
-#include "runtime/base/length.h"
+#include "runtime/house/bare.h"
 #include "runtime/house/rule/witness.h"
 #include "runtime/house/schedule/cost.h"
 #include "runtime/house/solids.h"
@@ -183,36 +183,6 @@ tn_status tn_explain_why(tn_house_explaining *e, uint32_t function, tn_error *er
 
 /* ---- tiles */
 
-static void obstacle_text(const tn_house_form *form, const tn_tile_record *tile, const tn_tile_failure *f, char *text,
-                          size_t size)
-{
-    const tn_module *module = form->module;
-    const char *box = tile->box_count ? tn_text(module, module->TILE_BOX_records[f->box].name) : "";
-    char wide[64], deep[64];
-    tn_length_write(f->wide, wide, sizeof wide);
-    tn_length_write(f->deep, deep, sizeof deep);
-    switch (f->obstacle) {
-    case TN_TILE_NO_SIDE:
-        snprintf(text, size, "no side of the room is one that it stands against");
-        return;
-    case TN_TILE_SIZE:
-        snprintf(text, size, "the room is %s wide and %s deep, and it asks for another size", wide, deep);
-        return;
-    case TN_TILE_BEYOND:
-        snprintf(text, size, "`%s` is not inside the room, which is %s wide and %s deep", box, wide, deep);
-        return;
-    case TN_TILE_MEETS_BOX:
-        snprintf(text, size, "`%s` and `%s` are in each other's way", box,
-                 tn_text(module, module->TILE_BOX_records[f->other].name));
-        return;
-    case TN_TILE_MEETS_POST:
-        snprintf(text, size, "`%s` meets a corner of thicker walls", box);
-        return;
-    default:
-        snprintf(text, size, "`%s` stands where an opening is kept clear", box);
-    }
-}
-
 static void append_member(tn_buffer *out, const char *before, const char *key, const char *value)
 {
     tn_buffer_printf(out, "%s\"%s\":", before, key);
@@ -227,7 +197,7 @@ static tn_status write_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile
     tn_status status = tn_tile_fails(&e->house, cell, tile, &failure, error);
     if (status != TN_OK)
         return status;
-    obstacle_text(&e->judge.form, record, &failure, text, sizeof text);
+    tn_tile_failure_text(&e->judge.form, &failure, text, sizeof text);
     const char *name = tn_text(e->judge.module, record->name);
     if (!e->json) {
         tn_buffer_printf(&e->text, "    %s: %s\n", name, text);
