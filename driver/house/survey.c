@@ -5,6 +5,7 @@
 #include "driver/house/survey_parts.h"
 #include "runtime/base/array.h"
 #include "runtime/base/length.h"
+#include "runtime/house/bare.h"
 
 #define DECISIONS_MAX 100000000u /* a second or two */
 
@@ -46,6 +47,14 @@ static tn_status add_class(tn_survey *s, const tn_cell *cell, tn_error *error)
 
 /* ---- tiles */
 
+/* Did a tile come further in this room than in those before, or as far in a larger one? */
+static bool is_further(const tn_tile_failure *now, const tn_tile_failure *before)
+{
+    if (now->obstacle != before->obstacle)
+        return now->obstacle > before->obstacle;
+    return (tn_int128)now->wide * now->deep > (tn_int128)before->wide * before->deep;
+}
+
 /* A side of the room has no wall, a partition or an outside wall: half of it is taken off. */
 static tn_status try_sizes(tn_survey *s, uint32_t tile, const tn_cell *cell, tn_error *error)
 {
@@ -53,10 +62,13 @@ static tn_status try_sizes(tn_survey *s, uint32_t tile, const tn_cell *cell, tn_
     int64_t wide = cell->at.x1 - cell->at.x0, deep = cell->at.y1 - cell->at.y0;
     tn_tile_failure failure = {.obstacle = TN_TILE_NO_SIDE};
     tn_status status = TN_OK;
-    for (int i = 0; status == TN_OK && i < 81 && failure.obstacle != TN_TILE_STANDS; i++)
+    for (int i = 0; status == TN_OK && i < 81 && failure.obstacle != TN_TILE_STANDS; i++) {
         status =
             tn_tile_fails_in(&s->form, wide - off[i % 3] - off[i / 3 % 3], deep - off[i / 9 % 3] - off[i / 27],
                              tn_form_clear(&s->form, cell->storey), s->form.record->tile_first + tile, &failure, error);
+        if (status == TN_OK && is_further(&failure, &s->failures[tile]))
+            s->failures[tile] = failure;
+    }
     s->tiles[tile] |= failure.obstacle == TN_TILE_STANDS;
     return status;
 }
@@ -196,9 +208,16 @@ static void warn_tiles(const tn_survey *s)
             continue;
         tn_diagnostic *d = tn_report(tn_survey_list(s), W_TILE_NEVER, TN_SURVEY_SPAN(tile),
                                      "tile `%s` fits into no cell", tn_text(s->form.module, tile->name));
-        tn_help(tn_survey_list(s), d,
-                "make its boxes, or its `wide` and `deep`, smaller: they must fit between the walls of a room, beside "
-                "each other");
+        char why[4 * TN_NAME_MAX];
+        tn_tile_failure_text(&s->form, &s->failures[i], why, sizeof why);
+        if (s->failures[i].obstacle > TN_TILE_NO_SIDE)
+            tn_note(tn_survey_list(s), d, NULL, "where it comes furthest, %s", why);
+        if (s->failures[i].obstacle == TN_TILE_MEETS_BOX)
+            tn_help(tn_survey_list(s), d, "items of a tile may not overlap, nor be in what it keeps free");
+        else
+            tn_help(tn_survey_list(s), d,
+                    "make its boxes, or its `wide` and `deep`, smaller: they must fit between the walls of a room, "
+                    "beside each other");
     }
 }
 
@@ -279,9 +298,11 @@ static tn_status survey(tn_opened *opened, uint32_t index, tn_error *error)
     s.house = (tn_house){.form = &s.form, .trays = &s.tray, .length = 1};
     s.functions = calloc((size_t)form->rule_count + 1, sizeof *s.functions);
     s.tiles = calloc((size_t)form->tile_count + 1, sizeof *s.tiles);
+    s.failures = calloc((size_t)form->tile_count + 1, sizeof *s.failures);
     s.climbs = calloc((size_t)form->opening_count + 1, sizeof *s.climbs);
     s.used = calloc(TN_FACE_KIND_COUNT + (size_t)form->opening_count, sizeof *s.used);
-    status = s.functions && s.tiles && s.climbs && s.used ? tn_survey_sections(&s, error) : tn_fail_memory(error);
+    status = s.functions && s.tiles && s.failures && s.climbs && s.used ? tn_survey_sections(&s, error)
+                                                                        : tn_fail_memory(error);
     if (status == TN_OK)
         status = see_all(&s, error);
     for (size_t i = 0; i < s.class_count; i++)
@@ -289,6 +310,7 @@ static tn_status survey(tn_opened *opened, uint32_t index, tn_error *error)
     free(s.classes);
     free(s.functions);
     free(s.tiles);
+    free(s.failures);
     free(s.climbs);
     free(s.used);
     tn_schema_free(s.schema);

@@ -20,11 +20,12 @@ typedef struct tn_survey {
     tn_tray tray;
     tn_schema *schema;
     tn_house_form form;
-    bool *functions, *tiles; /* [function] a cell may have it; [tile] it fits somewhere */
-    bool *climbs;            /* [opening] a flight for which a cell has room */
-    bool *used;              /* [kind of face] a face may have it, as far as is known */
-    int64_t widest;          /* the longest that a face can be */
-    bool bare;               /* a cell was found that no function may take: */
+    bool *functions, *tiles;   /* [function] a cell may have it; [tile] it fits somewhere */
+    tn_tile_failure *failures; /* [tile] where it came furthest so far */
+    bool *climbs;              /* [opening] a flight for which a cell has room */
+    bool *used;                /* [kind of face] a face may have it, as far as is known */
+    int64_t widest;            /* the longest that a face can be */
+    bool bare;                 /* a cell was found that no function may take: */
     tn_cell bare_cell;
     tn_tray bare_tray;
     size_t words; /* of a class's bits */
