@@ -153,6 +153,25 @@ static bool is_unknown(const tn_cell_reader *reader, const tn_ast_word *word)
     return true;
 }
 
+/* A cell has the depth of its zone: there is none where a fill has no depth. */
+static void warn_no_depth(const tn_cell_reader *reader, const tn_checked_spec *spec, const tn_checked_field *zone,
+                          tn_span span)
+{
+    tn_check *check = reader->check;
+    for (uint32_t v = 0; v < zone->value_count; v++) {
+        uint32_t bit = zone->first_bit + v;
+        if (zone->values[v].length > 0 && spec->mask[bit / 64] >> (bit % 64) & 1)
+            return;
+    }
+    if (spec->broken || !tn_check_wanted(check, W_CELL_NEVER))
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, W_CELL_NEVER, span,
+                                 "no cell is so: where the `%s` of a tray has no depth, it has no cell", zone->name);
+    tn_help(check->diagnostics, d,
+            "leave it out, or name fills of `%s` that have a depth; cells of other zones are not meant by it",
+            zone->name);
+}
+
 /* A zone alone, or what a tray specifier says. */
 static bool read_tray_words(tn_cell_reader *reader, const tn_ast_word *word, tn_span span)
 {
@@ -170,6 +189,7 @@ static bool read_tray_words(tn_cell_reader *reader, const tn_ast_word *word, tn_
     tn_decision_add(reader->check, reader->decision,
                     (tn_decision_step){.opcode = TN_OP_IN_TRAY, .spec = spec, .span = span});
     if (schema->fields[reader->context.field].kind == TN_FIELD_ZONE) {
+        warn_no_depth(reader, spec, &schema->fields[reader->context.field], span);
         add(reader, TN_OP_IN_ZONE, reader->context.field, span);
         add(reader, TN_OP_ALL_OF, 0, span);
     }
