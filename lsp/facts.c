@@ -136,6 +136,7 @@ tn_facts *tn_facts_new(const tn_module *module, const tn_plan_analyses *analyses
         good = take_matrix(&facts->matrices[facts->matrix_count++], module, analyses->items[i]);
     if (good) {
         count_module(facts, module, memory);
+        tn_place_facts_add(&facts->places, module);
         return facts;
     }
     tn_facts_free(facts);
@@ -161,6 +162,7 @@ void tn_facts_free(tn_facts *facts)
     for (size_t i = 0; i < facts->length_count; i++)
         free(facts->lengths[i].library);
     tn_measure_facts_clear(&facts->measures);
+    tn_place_facts_clear(&facts->places);
     free(facts->lengths);
     free(facts->matrices);
     free(facts->counts);
@@ -169,8 +171,7 @@ void tn_facts_free(tn_facts *facts)
 
 /* ---- in words */
 
-/* "1,234,567" */
-static void write_grouped(FILE *out, const char *digits)
+void tn_facts_grouped(FILE *out, const char *digits)
 {
     size_t size = strlen(digits);
     for (size_t i = 0; i < size; i++) {
@@ -190,14 +191,14 @@ static void write_count(FILE *out, const tn_rule_count *item, bool of_library)
         fprintf(out, "required in `%s`: keeps out ", item->library);
     else if (item->rule)
         fprintf(out, "prunes ");
-    write_grouped(out, item->out);
+    tn_facts_grouped(out, item->out);
     if (!item->rule)
         fprintf(out, " plans generated, ");
     else if (item->requires)
         fprintf(out, " plans of its lengths, ");
     else
         fprintf(out, " plans of `%s`, ", item->library);
-    write_grouped(out, item->only);
+    tn_facts_grouped(out, item->only);
     fprintf(out, item->rule ? " of them alone" : " kept");
 }
 
@@ -265,10 +266,10 @@ char *tn_facts_text(const tn_facts *facts, const tn_symbol *symbol)
     size_t size = 0;
     bool rule = symbol->kind == TN_SYMBOL_RULE || symbol->kind == TN_SYMBOL_CLAUSE,
          library = symbol->kind == TN_SYMBOL_LIBRARY, measure = symbol->kind == TN_SYMBOL_MEASURE;
-    FILE *out = facts && (rule || library || measure) ? open_memstream(&text, &size) : NULL;
+    FILE *out = facts ? open_memstream(&text, &size) : NULL;
     if (!out)
         return NULL;
-    if (!measure)
+    if (rule || library)
         write_counts(out, facts, symbol);
     if (library)
         write_lengths(out, facts, symbol);
@@ -276,6 +277,7 @@ char *tn_facts_text(const tn_facts *facts, const tn_symbol *symbol)
         tn_measure_facts_write(&facts->measures, symbol, out);
     for (size_t i = 0; i < facts->matrix_count && symbol->kind == TN_SYMBOL_RULE; i++)
         write_relations(out, &facts->matrices[i], symbol);
+    tn_place_facts_write(&facts->places, symbol, out);
     fclose(out);
     if (size > 0)
         return text;

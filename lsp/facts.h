@@ -1,10 +1,11 @@
-/* What is known of a module's rules beyond their text, for hovering: how many plans each keeps out, and how the plans
- * that it matches lie to those of the others. Owns its texts. */
+/* What is known of a module beyond its text, for hovering: how many plans each rule keeps out, how the plans that it
+ * matches lie to those of the others, and what the declarations of forms come to. Owns its texts. */
 #ifndef TARTAN_LSP_FACTS_H
 #define TARTAN_LSP_FACTS_H
 
 #include "driver/plan/analysis.h"
 #include "lsp/measures.h"
+#include "lsp/places.h"
 
 typedef struct tn_rule_count {
     char *library, *rule;
@@ -32,6 +33,7 @@ typedef struct tn_facts {
     tn_rule_matrix *matrices;
     size_t matrix_count;
     tn_measure_facts measures;
+    tn_place_facts places;
     tn_length_count *lengths; /* of libraries that have more than one */
     size_t length_count, length_capacity;
 } tn_facts;
@@ -41,9 +43,12 @@ typedef struct tn_facts {
 tn_facts *tn_facts_new(const tn_module *module, const tn_plan_analyses *analyses, tn_plan_memory *memory);
 void tn_facts_free(tn_facts *facts);
 
-/* What there is to say about a rule, measure, clause or library, as Markdown; NULL where there is nothing. The caller
- * frees it.
+/* What there is to say about a rule, measure, clause, library, form or part of one, as Markdown; NULL where there is
+ * nothing. The caller frees it.
  */
 char *tn_facts_text(const tn_facts *facts, const tn_symbol *symbol);
+
+/* Writes a number's digits in groups of three: "1,234,567". */
+void tn_facts_grouped(FILE *out, const char *digits);
 
 #endif

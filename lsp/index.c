@@ -191,6 +191,8 @@ void tn_index_expression(tn_index *index, const tn_index_about *about, const tn_
         tn_index_use(index, &index->names, expr->name);
     else if (expr->kind == TN_EXPR_SUM)
         use_field(index, about->schema, expr->name);
+    if (expr->kind == TN_EXPR_SECTION)
+        tn_index_section(index, about->form, expr);
     use_specifier(index, about, expr);
     tn_index_kinds(index, about->form, expr->kinds);
     for (TN_EACH(const tn_ast_expr, part, expr->parts))

@@ -1,5 +1,6 @@
 /* Finds what a form declares, and where it is named: in the form itself, in questions about houses, in lines of houses.
  */
+#include <stdio.h>
 #include <string.h>
 
 #include "lsp/index_parts.h"
@@ -7,7 +8,7 @@
 const tn_symbol *tn_index_part(const tn_symbol *form, const char *name)
 {
     for (const tn_symbol *s = form ? form->next : NULL; s && s->parent == form; s = s->next)
-        if (strcmp(s->name, name) == 0)
+        if (s->kind != TN_SYMBOL_CHOICE && strcmp(s->name, name) == 0)
             return s;
     return NULL;
 }
@@ -35,6 +36,20 @@ static bool is_defined(tn_form_part part, tn_symbol_kind *kind)
     }
 }
 
+/* `section NAME = ...`, or `section ZONE NAME = ...`. */
+static void define_choice(tn_index *index, const tn_ast_form_clause *clause, const tn_symbol *form)
+{
+    const tn_ast_word *zone = clause->name, *own = clause->detail ? clause->detail : zone;
+    tn_symbol *choice = tn_index_define(index, TN_SYMBOL_CHOICE, own, clause->doc, &clause->node, form);
+    char name[2 * TN_NAME_MAX + 2];
+    if (!choice || !clause->detail || !zone->text)
+        return;
+    int size = snprintf(name, sizeof name, "%s %s", zone->text, own->text);
+    const char *copied = size < (int)sizeof name ? tn_arena_copy(index->arena, name, (size_t)size) : NULL;
+    if (copied)
+        choice->name = copied;
+}
+
 void tn_index_define_form(tn_index *index, const tn_ast_form *ast)
 {
     tn_symbol *form = tn_index_define(index, TN_SYMBOL_FORM, ast->name, ast->doc, &ast->top.node, NULL);
@@ -46,7 +61,9 @@ void tn_index_define_form(tn_index *index, const tn_ast_form *ast)
     if (!tn_names_get(&index->forms, form->name))
         tn_names_put(&index->forms, form->name, form);
     for (TN_EACH(const tn_ast_form_clause, clause, ast->clauses))
-        if (is_defined(clause->part, &kind) && clause->name)
+        if (clause->part == TN_PART_SECTION && clause->name)
+            define_choice(index, clause, form);
+        else if (is_defined(clause->part, &kind) && clause->name)
             tn_index_define(index, kind, clause->name, clause->doc, &clause->node, form);
 }
 
@@ -63,6 +80,43 @@ static void use_zone(tn_index *index, const tn_symbol *form, const tn_ast_word *
 {
     if (zone && zone->text)
         tn_index_occur(index, zone->node.span, tn_index_field(form->schema, zone->text));
+}
+
+/* The choice that words before a value name; second: NULL where there is one word. */
+static const tn_symbol *find_choice(const tn_symbol *form, const tn_ast_word *first, const tn_ast_word *second)
+{
+    for (const tn_symbol *s = form ? form->next : NULL; s && s->parent == form; s = s->next) {
+        const tn_ast_form_clause *clause = (const tn_ast_form_clause *)s->ast;
+        if (s->kind == TN_SYMBOL_CHOICE && clause->name->text && strcmp(clause->name->text, first->text) == 0 &&
+            (second ? clause->detail && strcmp(clause->detail->text, second->text) == 0 : !clause->detail))
+            return s;
+    }
+    return NULL;
+}
+
+/* The last node of an alternative is its value. */
+static void use_choice(tn_index *index, const tn_symbol *form, const tn_ast_list *words)
+{
+    const tn_ast_word *named[2] = {NULL, NULL};
+    size_t count = 0;
+    for (const tn_ast_node *node = words->first; node && node != words->last; node = node->next) {
+        const tn_ast_word *word = (const tn_ast_word *)node;
+        if (word->kind == TN_WORD_NAME && word->text && count < 2)
+            named[count++] = word;
+    }
+    if (count == 0)
+        return;
+    const tn_symbol *choice = find_choice(form, named[0], named[1]);
+    tn_index_occur(index, named[count - 1]->node.span, choice);
+    if (choice && count == 2)
+        use_zone(index, form, named[0]);
+}
+
+void tn_index_section(tn_index *index, const tn_symbol *form, const tn_ast_expr *section)
+{
+    for (TN_EACH(const tn_ast_item, item, section->items))
+        for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives))
+            use_choice(index, form, &alternative->words);
 }
 
 static void use_tile(tn_index *index, const tn_symbol *form, const tn_ast_form_clause *tile)

@@ -24,6 +24,9 @@ void tn_index_expression(tn_index *index, const tn_index_about *about, const tn_
 void tn_index_define_form(tn_index *index, const tn_ast_form *form);
 void tn_index_use_form(tn_index *index, const tn_symbol *form, const tn_ast_form *ast);
 
+/* `section(...)`, of a form or NULL. */
+void tn_index_section(tn_index *index, const tn_symbol *form, const tn_ast_expr *section);
+
 /* Openings by name, of a form or NULL: kinds of faces, functions of tiles, parts of materials (tn_ast_word). */
 void tn_index_kinds(tn_index *index, const tn_symbol *form, tn_ast_list words);
 

@@ -80,11 +80,18 @@ json_t *tn_lsp_highlight(tn_document *document, tn_file_analysis *analysis, size
 
 /* ---- renaming */
 
+/* A zone's choice is called by two words, of which `storeys` and `roof` are the language's. */
+static bool is_of_zone(const tn_symbol *symbol)
+{
+    return symbol->kind == TN_SYMBOL_CHOICE && strchr(symbol->name, ' ') != NULL;
+}
+
 json_t *tn_lsp_prepare_rename(tn_workspace *workspace, tn_document *document, tn_file_analysis *analysis, size_t offset)
 {
     (void)document;
     const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
-    if (!found || tn_workspace_is_stdlib(workspace, tn_analysis_path(analysis, found->symbol->name_span.file)))
+    if (!found || is_of_zone(found->symbol) ||
+        tn_workspace_is_stdlib(workspace, tn_analysis_path(analysis, found->symbol->name_span.file)))
         return json_null();
     return tn_analysis_range(analysis, found->span);
 }
@@ -179,6 +186,8 @@ json_t *tn_lsp_rename(tn_workspace *workspace, tn_document *document, tn_file_an
         *reason = "there is no name here";
     else if (tn_workspace_is_stdlib(workspace, tn_analysis_path(analysis, found->symbol->name_span.file)))
         *reason = "the name is the standard library's";
+    else if (is_of_zone(found->symbol))
+        *reason = "a choice that a zone has keeps its name";
     else if (!is_name(name))
         *reason = "a name is letters, digits, _ and, inside, -, and no word of the language";
     else if (is_taken(&analysis->index, found->symbol, name))

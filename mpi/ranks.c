@@ -1,7 +1,8 @@
 /* The counter is a number in rank 0's memory, which the others add to by one-sided operations; all else is gathered.
  *
  * MPI is called by one thread at a time. Waiting sleeps: where there are more ranks than processors, those that wait
- * leave them to those that work. */
+ * leave them to those that work. Each sleep is a small part of the wait before it, so that little time is lost between
+ * the end of a wait and its being seen, whether the wait was short or long. */
 #include "mpi/ranks.h"
 
 #include <limits.h>
@@ -15,16 +16,25 @@
 #include <time.h>
 
 #define COUNTERS 3         /* that of this restart, of the one before, and of the next, which is set to 0 meanwhile */
-#define EAGER 500u         /* times that is looked for an answer before sleeping */
-#define SLEEP_FIRST 20000L /* nanoseconds */
+#define SHORT 60           /* bytes that ranks tell each other at once; for more they tell the sizes first */
+#define EAGER 50000L       /* nanoseconds of waiting without sleep: about as long as the shortest sleep takes */
+#define SLEEP_LEAST 10000L /* nanoseconds */
 #define SLEEP_MOST 1000000L
+#define SLEEP_PART 16 /* of the wait so far */
 #define ATTEND_EVERY 2000000L
+
+/* What a rank tells, where that is short; or how much it is. */
+typedef struct told {
+    int32_t size; /* -1: more than can be told */
+    uint8_t bytes[SHORT];
+} told;
 
 typedef struct joined {
     tn_ranks ranks;
     char host[MPI_MAX_PROCESSOR_NAME + 1];
     MPI_Win window;
     uint64_t restarts;
+    told *told;          /* [ranks] */
     int *sizes, *begins; /* [ranks] */
     pthread_mutex_t lock;
     pthread_t attendant;
@@ -82,22 +92,32 @@ static void *attend(void *context)
 
 /* ---- gathering */
 
+static long nanoseconds_since(const struct timespec *start)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (now.tv_sec - start->tv_sec) * 1000000000L + now.tv_nsec - start->tv_nsec;
+}
+
+static bool is_done(joined *j, MPI_Request *request)
+{
+    int done;
+    pthread_mutex_lock(&j->lock);
+    MPI_Test(request, &done, MPI_STATUS_IGNORE);
+    pthread_mutex_unlock(&j->lock);
+    return done;
+}
+
 static void wait_for(joined *j, MPI_Request *request)
 {
-    long pause = SLEEP_FIRST;
-    for (unsigned looks = 0;; looks++) {
-        int done;
-        pthread_mutex_lock(&j->lock);
-        MPI_Test(request, &done, MPI_STATUS_IGNORE);
-        pthread_mutex_unlock(&j->lock);
-        if (done)
-            return;
-        if (looks < EAGER) {
+    struct timespec start;
+    clock_gettime(CLOCK_MONOTONIC, &start);
+    while (!is_done(j, request)) {
+        long waited = nanoseconds_since(&start), pause = waited / SLEEP_PART;
+        if (waited < EAGER)
             sched_yield();
-            continue;
-        }
-        sleep_for(pause);
-        pause = pause * 2 < SLEEP_MOST ? pause * 2 : SLEEP_MOST;
+        else
+            sleep_for(pause < SLEEP_LEAST ? SLEEP_LEAST : pause < SLEEP_MOST ? pause : SLEEP_MOST);
     }
 }
 
@@ -109,23 +129,30 @@ static _Noreturn void give_up(const joined *j, const char *why)
     abort();
 }
 
-static void gather_sizes(joined *j, size_t size, tn_gathered *all)
+/* What is short, and how much there is of what is not. Is all of it short? */
+static bool gather_short(joined *j, const void *bytes, size_t size, tn_gathered *all)
 {
     MPI_Request request;
-    int mine = size > INT_MAX ? -1 : (int)size;
+    told mine = {.size = size > INT_MAX ? -1 : (int32_t)size};
+    if (size > 0 && size <= SHORT)
+        memcpy(mine.bytes, bytes, size);
     pthread_mutex_lock(&j->lock);
-    MPI_Iallgather(&mine, 1, MPI_INT, j->sizes, 1, MPI_INT, MPI_COMM_WORLD, &request);
+    MPI_Iallgather(&mine, sizeof mine, MPI_BYTE, j->told, sizeof mine, MPI_BYTE, MPI_COMM_WORLD, &request);
     pthread_mutex_unlock(&j->lock);
     wait_for(j, &request);
     size_t sum = 0;
+    bool is_short = true;
     for (unsigned r = 0; r < j->ranks.count; r++) {
         all->begins[r] = sum;
+        j->sizes[r] = j->told[r].size;
         if (j->sizes[r] < 0 || sum + (size_t)j->sizes[r] > INT_MAX)
             give_up(j, "ranks tell each other more than 2 GB at once");
         j->begins[r] = (int)sum;
         sum += (size_t)j->sizes[r];
+        is_short &= j->sizes[r] <= SHORT;
     }
     all->begins[j->ranks.count] = sum;
+    return is_short;
 }
 
 static void gather(void *context, const void *bytes, size_t size, tn_gathered *all)
@@ -135,11 +162,13 @@ static void gather(void *context, const void *bytes, size_t size, tn_gathered *a
     all->begins = calloc((size_t)j->ranks.count + 1, sizeof *all->begins);
     if (!all->begins)
         give_up(j, "out of memory");
-    gather_sizes(j, size, all);
+    bool is_short = gather_short(j, bytes, size, all);
     all->bytes = malloc(all->begins[j->ranks.count] + 1);
     if (!all->bytes)
         give_up(j, "out of memory");
-    if (all->begins[j->ranks.count] == 0) /* as where all agree */
+    for (unsigned r = 0; is_short && r < j->ranks.count; r++)
+        memcpy(all->bytes + all->begins[r], j->told[r].bytes, (size_t)j->sizes[r]);
+    if (is_short)
         return;
     pthread_mutex_lock(&j->lock);
     MPI_Iallgatherv(bytes, (int)size, MPI_BYTE, all->bytes, j->sizes, j->begins, MPI_BYTE, MPI_COMM_WORLD, &request);
@@ -172,10 +201,11 @@ const tn_ranks *tn_mpi_join(void)
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &count);
     if (j) {
+        j->told = calloc((size_t)count, sizeof *j->told);
         j->sizes = calloc((size_t)count, sizeof *j->sizes);
         j->begins = calloc((size_t)count, sizeof *j->begins);
     }
-    if (level < MPI_THREAD_SERIALIZED || !j || !j->sizes || !j->begins) {
+    if (level < MPI_THREAD_SERIALIZED || !j || !j->told || !j->sizes || !j->begins) {
         fprintf(stderr, "error: rank %d: %s\n", rank,
                 level < MPI_THREAD_SERIALIZED ? "this MPI does not let several threads call it" : "out of memory");
         MPI_Abort(MPI_COMM_WORLD, 4);
@@ -207,6 +237,7 @@ void tn_mpi_leave(const tn_ranks *ranks)
     MPI_Win_free(&j->window);
     MPI_Finalize();
     pthread_mutex_destroy(&j->lock);
+    free(j->told);
     free(j->sizes);
     free(j->begins);
     free(j);

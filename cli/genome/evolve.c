@@ -48,11 +48,12 @@ static void warn_of_failures(tn_evolution_session *e)
     tn_job_show(e->command);
 }
 
-/* Is there another generation to breed? With several ranks, together. */
+/* Is there another generation to breed? Several ranks give the same answer: an interrupt ends the step of all of them.
+ */
 static bool goes_on(const tn_evolution_session *e)
 {
     bool wanted = e->run.generations <= e->generations && !tn_run_reached(&e->run);
-    return wanted && !tn_ranks_any(e->job.settings.ranks, tn_interrupted());
+    return wanted && (tn_ranks_several(e->job.settings.ranks) || !tn_interrupted());
 }
 
 static tn_status breed_all(tn_evolution_session *e, tn_error *error)
@@ -79,6 +80,8 @@ static tn_status breed_all(tn_evolution_session *e, tn_error *error)
         tn_progress_update(&progress, e->run.generations);
     }
     tn_progress_end(&progress);
+    if (status == TN_OK)
+        status = tn_run_settle(&e->run, error);
     return status;
 }
 

@@ -173,18 +173,26 @@ static tn_status tally_afresh(const tn_numbered *n, house_tally *tally, tn_error
     return tally_new(n, tally) ? TN_OK : tn_fail_memory(error);
 }
 
-/* Few plans are gone through, unless one of them takes long; else all are counted together, if that can be done. */
-static tn_status tally_all(tn_numbered *n, const tn_plan *plan, house_tally *tally, tn_error *error)
+/* The steps in which a plan is gone through quickly: each takes as long as the house is large. */
+static uint64_t quick_steps(const tn_numbered *n, const tn_plan *plan)
 {
-    enum { QUICK = 50000, QUICK_ALONE = 300000 };
+    enum { QUICK = 50000, QUICK_ALONE = 300000, USUAL_CELLS = 32 };
+    uint64_t trays = plan ? plan->length : tn_library_max(n->plans),
+             cells = trays * n->form.zone_count * n->form.record->storey_count;
     mpz_t plans;
     mpz_init(plans);
     tn_library_kept(n->plans, TN_ALL_LENGTHS, plans);
-    uint64_t work = plan || mpz_cmp_ui(plans, 1) <= 0 ? QUICK_ALONE : QUICK;
+    uint64_t steps = plan || mpz_cmp_ui(plans, 1) <= 0 ? QUICK_ALONE : QUICK;
     mpz_clear(plans);
+    return cells > USUAL_CELLS ? steps * USUAL_CELLS / cells : steps;
+}
+
+/* Few plans are gone through, unless one of them takes long; else all are counted together, if that can be done. */
+static tn_status tally_all(tn_numbered *n, const tn_plan *plan, house_tally *tally, tn_error *error)
+{
     tn_status status = TN_LIMIT;
     if (plan || tn_numbered_few(n))
-        status = tally_each(n, plan, work, tally, error);
+        status = tally_each(n, plan, quick_steps(n, plan), tally, error);
     if (status != TN_LIMIT)
         return status;
     status = tally_afresh(n, tally, error);

@@ -7,6 +7,7 @@
 #include "cli/house/numbered_parts.h"
 #include "runtime/base/utf8.h"
 #include "runtime/house/bare.h"
+#include "runtime/house/solids.h"
 
 typedef struct tn_plan_explaining {
     tn_numbered n;
@@ -31,7 +32,7 @@ static tn_status write_tile(tn_plan_explaining *e, uint32_t cell, uint32_t funct
     tn_status status = tn_bare_why(&e->bare, cell, function, tile, &failure, error);
     if (status != TN_OK)
         return status;
-    tn_tile_failure_text(&e->n.form, &failure, why, sizeof why);
+    tn_tile_failure_text(&e->n.form, tile, &failure, tn_house_length_style(&e->bare.house), why, sizeof why);
     if (!e->json) {
         tn_buffer_printf(&e->text, "    %s, as %s: %s\n", name,
                          tn_text(e->n.form.module, tn_form_rule(&e->n.form, function)->name), why);

@@ -5,7 +5,6 @@
 
 #include "cli/house/change_text.h"
 #include "cli/house/explained_parts.h"
-#include "runtime/house/bare.h"
 #include "runtime/house/rule/witness.h"
 #include "runtime/house/schedule/cost.h"
 #include "runtime/house/solids.h"
@@ -197,7 +196,7 @@ static tn_status write_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile
     tn_status status = tn_tile_fails(&e->house, cell, tile, &failure, error);
     if (status != TN_OK)
         return status;
-    tn_tile_failure_text(&e->judge.form, &failure, text, sizeof text);
+    tn_tile_failure_text(&e->judge.form, tile, &failure, tn_house_length_style(&e->house), text, sizeof text);
     const char *name = tn_text(e->judge.module, record->name);
     if (!e->json) {
         tn_buffer_printf(&e->text, "    %s: %s\n", name, text);

@@ -68,7 +68,8 @@ static void write_report(tn_job *job, const test_report *report)
 static void write_coverage(tn_job *job, test_report *report)
 {
     const tn_coverage_options options = {.library = settings_of(job)->plans.library,
-                                         .max_states = (uint32_t)settings_of(job)->plans.max_states.value};
+                                         .max_states = (uint32_t)settings_of(job)->plans.max_states.value,
+                                         .houses = true};
     tn_covered covered;
     tn_buffer text = {0};
     tn_output output;
@@ -177,8 +178,9 @@ const tn_command tn_command_test = {
         "With --coverage, each part of each rule and clause is listed with two answers: how many plans would be "
         "decided otherwise if the part never matched, counted exactly, and whether a test would notice. The plans "
         "are those that the library generates or, without a library, all plans of up to 4 trays. Of rules about "
-        "houses only the second is answered. Of a form each line is listed, with the number of tests whose houses "
-        "have what it says.\n\n"
+        "houses it is the number of houses of the library that uses them, as far as counts of 100,000 states (or "
+        "--max-states) know it. Of a form each line is listed, with the number of tests whose houses have what it "
+        "says.\n\n"
         "For designs of boxes it prints what they measure, and checks their requirements. Of a kit every model is "
         "placed "
         "with seed 0 and held to its requirements and its tests.",

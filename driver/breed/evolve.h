@@ -123,6 +123,8 @@ typedef struct tn_run {
     size_t waiting_count;
     tn_rescored *rescored; /* by those */
     size_t rescored_count;
+    tn_error
+        store_failure; /* with several ranks: why the generation before could not be stored (status), not said yet */
 } tn_run;
 
 /* What of the study and its grammar a database keeps, so that a run can be replayed from it alone. */
@@ -130,15 +132,20 @@ typedef struct tn_run_texts {
     const char *study_path, *study_text, *grammar_path, *grammar_text;
 } tn_run_texts;
 
-/* With several ranks, these are called together, and fail for all of them alike: tn_run_begin, tn_run_step, tn_run_set.
+/* With several ranks, these are called together, and fail for all of them alike: tn_run_begin, tn_run_step, tn_run_set,
+ * tn_run_settle.
  *
  * Starts a run in the folder `dir`, which is made, or goes on with the one that is there: then all its generations are
  * made again, without evaluating. */
 tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_options *options, const tn_run_texts *texts,
                        tn_run *run, tn_error *error);
 
-/* Makes and stores the next generation, bred from the parents chosen where a person chose (NULL: selection). */
+/* Makes and stores the next generation, bred from the parents chosen where a person chose (NULL: selection). With
+ * several ranks, the others go on while the first one stores: that it could not is the failure of the next step. */
 tn_status tn_run_step(tn_run *run, const tn_chosen *chosen, size_t chosen_count, tn_error *error);
+
+/* After the last step that succeeded: is all that was bred stored? */
+tn_status tn_run_settle(tn_run *run, tn_error *error);
 
 /* Changes a target or weight of a run that has begun, as "length-weight 0.01": all members are scored again, and the
  * change is stored with the next generation. A change that holds already changes nothing, so that the same words may be

@@ -384,6 +384,57 @@ static tn_status look_first(tn_run *run, char *kind, tn_run_event *events, size_
     return status;
 }
 
+/* Stores what was bred, with the changes and the choice (`text`) that led to it. With several ranks it fails later,
+ * where they meet: they breed on meanwhile. */
+static tn_status store_step(tn_run *run, char *text, tn_error *error)
+{
+    char kind[] = "choose", warning[] = "warning";
+    size_t count;
+    tn_run_event *events = events_to_store(run, kind, text, &count);
+    tn_status status = events ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK && run->generations == 0)
+        status = look_first(run, warning, events, &count, error);
+    if (status == TN_OK)
+        status = tn_run_store_put(run->store, run->evolution, tn_evaluator_numbers(&run->job->evaluator), events, count,
+                                  run->rescored, run->new_changes ? run->rescored_count : 0, error);
+    free(events);
+    if (status == TN_OK || !tn_ranks_several(run->job->settings.ranks))
+        return status;
+    run->store_failure = *error;
+    run->store_failure.status = status;
+    return TN_OK;
+}
+
+/* Could this rank store the generation before? */
+static tn_status stored(const tn_run *run, tn_error *error)
+{
+    if (run->store_failure.status != TN_OK)
+        *error = run->store_failure;
+    return run->store_failure.status;
+}
+
+tn_status tn_run_settle(tn_run *run, tn_error *error)
+{
+    return tn_ranks_agree(run->job->settings.ranks, stored(run, error), error);
+}
+
+/* How this rank has fared since all last met. One that is to end, ends all of them with it. */
+static tn_status fared(const tn_run *run, tn_error *error)
+{
+    tn_status status = stored(run, error);
+    if (status == TN_OK && tn_ranks_several(run->job->settings.ranks))
+        status = tn_watch_check(run->job->settings.watch, error);
+    return status;
+}
+
+/* Together: the choice of parents. */
+static tn_status choose(tn_run *run, const tn_chosen *chosen, size_t count, char **text, tn_error *error)
+{
+    *text = tn_choices_text(chosen, count);
+    tn_status status = *text ? tn_evolution_choose(run->evolution, chosen, count, error) : tn_fail_memory(error);
+    return tn_ranks_agree(run->job->settings.ranks, status, error);
+}
+
 /* Together: a program that gives nobody of the first generation a score is not gone on with. */
 static tn_status check_program(const tn_run *run, tn_error *error)
 {
@@ -400,30 +451,19 @@ static tn_status check_program(const tn_run *run, tn_error *error)
 
 tn_status tn_run_step(tn_run *run, const tn_chosen *chosen, size_t chosen_count, tn_error *error)
 {
-    const tn_ranks *ranks = run->job->settings.ranks;
-    char kind[] = "choose", warning[] = "warning", *text = chosen ? tn_choices_text(chosen, chosen_count) : NULL;
-    size_t count;
-    tn_run_event *events = events_to_store(run, kind, text, &count);
-    tn_status status = events && (text || !chosen) ? TN_OK : tn_fail_memory(error);
-    if (status == TN_OK && chosen)
-        status = tn_evolution_choose(run->evolution, chosen, chosen_count, error);
-    status = tn_ranks_agree(ranks, status, error);
+    char *text = NULL;
+    tn_status status = chosen ? choose(run, chosen, chosen_count, &text, error) : TN_OK;
     if (status == TN_OK)
-        status = tn_evolution_step(run->evolution, error);
+        status = tn_evolution_step_after(run->evolution, fared(run, error), error);
     if (status == TN_OK)
         status = check_program(run, error);
-    if (status == TN_OK && run->store && run->generations == 0)
-        status = look_first(run, warning, events, &count, error);
     if (status == TN_OK && run->store)
-        status = tn_run_store_put(run->store, run->evolution, tn_evaluator_numbers(&run->job->evaluator), events, count,
-                                  run->rescored, run->new_changes ? run->rescored_count : 0, error);
-    status = tn_ranks_agree(ranks, status, error);
+        status = store_step(run, text, error);
     if (status == TN_OK) {
         run->generations++;
         run->new_changes = 0;
         run->rescored_count = 0;
     }
-    free(events);
     free(text);
     return status;
 }

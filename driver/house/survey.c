@@ -1,17 +1,20 @@
-/* Goes through all trays of a form's schema, and warns about what of the form comes to nothing. */
+/* Goes through all trays of a form's schema. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "driver/house/survey_parts.h"
 #include "runtime/base/array.h"
-#include "runtime/base/length.h"
-#include "runtime/house/bare.h"
 
 #define DECISIONS_MAX 100000000u /* a second or two */
 
 static bool decides(const tn_survey *s, uint32_t function, const tn_cell *cell)
 {
     return tn_house_decide(&s->house, function, cell);
+}
+
+static void add_to(uint64_t *set, uint32_t number)
+{
+    set[number / 64] |= UINT64_C(1) << number % 64;
 }
 
 /* ---- classes of cells */
@@ -22,99 +25,103 @@ static tn_status add_class(tn_survey *s, const tn_cell *cell, tn_error *error)
         return tn_fail_memory(error);
     tn_cell_class *class = &s->classes[s->class_count];
     int64_t wide = cell->at.x1 - cell->at.x0, deep = cell->at.y1 - cell->at.y0;
-    *class = (tn_cell_class){cell->zone, cell->storey, cell->open, wide, deep, calloc(s->words, sizeof *class->met)};
-    if (!class->met)
+    uint64_t *met = calloc(s->met_words + s->words, sizeof *met);
+    if (!met)
         return tn_fail_memory(error);
+    *class = (tn_cell_class){cell->zone, cell->storey, cell->open, wide, deep, met, met + s->met_words};
     for (uint32_t i = 0; i < s->form.record->face_count; i++) {
         const tn_face_line_record *line = &s->form.module->FACE_LINE_records[s->form.record->face_first + i];
         uint64_t first = decides(s, line->first, cell);
         uint64_t second = line->second != TN_NO_RECORD && decides(s, line->second, cell);
-        class->met[i / 32] |= (first | second << 1) << 2 * (i % 32);
+        met[i / 32] |= (first | second << 1) << 2 * (i % 32);
     }
-    for (size_t i = 0; i < s->class_count; i++) {
-        tn_cell_class *other = &s->classes[i];
+    size_t at = 0;
+    for (; at < s->class_count; at++) {
+        tn_cell_class *other = &s->classes[at];
         if (other->zone == class->zone && other->storey == class->storey && other->open == class->open &&
-            memcmp(other->met, class->met, s->words * sizeof *class->met) == 0) {
-            other->wide = wide > other->wide ? wide : other->wide;
-            other->deep = deep > other->deep ? deep : other->deep;
-            free(class->met);
-            return TN_OK;
-        }
+            memcmp(other->met, met, s->met_words * sizeof *met) == 0)
+            break;
     }
-    s->class_count++;
+    tn_cell_class *into = &s->classes[at];
+    into->wide = wide > into->wide ? wide : into->wide;
+    into->deep = deep > into->deep ? deep : into->deep;
+    if (cell->function != TN_NO_FUNCTION)
+        add_to(into->functions, cell->function);
+    if (at < s->class_count)
+        free(met);
+    else
+        s->class_count++;
     return TN_OK;
 }
 
-/* ---- tiles */
+/* ---- places */
 
-/* Did a tile come further in this room than in those before, or as far in a larger one? */
-static bool is_further(const tn_tile_failure *now, const tn_tile_failure *before)
+static bool is_place(const tn_survey *s, const tn_survey_place *place, const tn_cell *cell)
 {
-    if (now->obstacle != before->obstacle)
-        return now->obstacle > before->obstacle;
-    return (tn_int128)now->wide * now->deep > (tn_int128)before->wide * before->deep;
+    return place->wide == cell->at.x1 - cell->at.x0 && place->deep == cell->at.y1 - cell->at.y0 &&
+           place->open == cell->open && memcmp(place->may, s->may, s->words * sizeof *s->may) == 0;
 }
 
-/* A side of the room has no wall, a partition or an outside wall: half of it is taken off. */
-static tn_status try_sizes(tn_survey *s, uint32_t tile, const tn_cell *cell, tn_error *error)
+/* The cell has one more tray; s->may: which functions it may have. */
+static tn_status add_place(tn_survey *s, const tn_cell *cell, tn_error *error)
 {
-    const int64_t off[] = {0, s->form.record->partition / 2, s->form.record->wall / 2};
-    int64_t wide = cell->at.x1 - cell->at.x0, deep = cell->at.y1 - cell->at.y0;
-    tn_tile_failure failure = {.obstacle = TN_TILE_NO_SIDE};
-    tn_status status = TN_OK;
-    for (int i = 0; status == TN_OK && i < 81 && failure.obstacle != TN_TILE_STANDS; i++) {
-        status =
-            tn_tile_fails_in(&s->form, wide - off[i % 3] - off[i / 3 % 3], deep - off[i / 9 % 3] - off[i / 27],
-                             tn_form_clear(&s->form, cell->storey), s->form.record->tile_first + tile, &failure, error);
-        if (status == TN_OK && is_further(&failure, &s->failures[tile]))
-            s->failures[tile] = failure;
+    size_t *first = &s->first_places[(size_t)cell->zone * s->form.record->storey_count + cell->storey], at = *first;
+    s->cells++;
+    while (at != TN_NO_PLACE && !is_place(s, &s->places[at], cell))
+        at = s->places[at].next;
+    if (at != TN_NO_PLACE) {
+        s->places[at].cells++;
+        return TN_OK;
     }
-    s->tiles[tile] |= failure.obstacle == TN_TILE_STANDS;
-    return status;
+    if (s->place_count == TN_SURVEY_PLACES_MAX)
+        return TN_OK;
+    uint64_t *may = malloc(s->words * sizeof *may);
+    if (!may || !tn_array_reserve_from(&s->places, &s->place_room, 64, s->place_count, 1, sizeof *s->places)) {
+        free(may);
+        return tn_fail_memory(error);
+    }
+    memcpy(may, s->may, s->words * sizeof *may);
+    s->places[s->place_count] = (tn_survey_place){.zone = cell->zone,
+                                                  .storey = cell->storey,
+                                                  .wide = cell->at.x1 - cell->at.x0,
+                                                  .deep = cell->at.y1 - cell->at.y0,
+                                                  .open = cell->open,
+                                                  .may = may,
+                                                  .cells = 1,
+                                                  .next = *first};
+    *first = s->place_count++;
+    return TN_OK;
 }
 
-static tn_status try_tiles(tn_survey *s, tn_cell *cell, tn_error *error)
+/* From small to large; those of a size as they were found. */
+static int compare_places(const void *a, const void *b)
 {
-    tn_status status = TN_OK;
-    s->house.cells = cell;
-    for (uint32_t i = 0; status == TN_OK && i < s->form.record->tile_count; i++)
-        if (!s->tiles[i] && tn_tile_is_for(&s->house, 0, s->form.record->tile_first + i))
-            status = try_sizes(s, i, cell, error);
-    return status;
+    const tn_survey_place *first = a, *second = b;
+    if (first->wide != second->wide)
+        return first->wide > second->wide ? 1 : -1;
+    if (first->deep != second->deep)
+        return first->deep > second->deep ? 1 : -1;
+    return first->next > second->next ? 1 : -1;
 }
 
-/* ---- flights */
-
-/* The flights for which there is room in the cell, and no tile in the way. */
-static void try_flights(tn_survey *s, tn_cell *cell)
+/* Sorts the places, and chains them anew. */
+static void sort_places(tn_survey *s)
 {
-    s->house.cells = cell;
-    for (uint32_t i = 0; cell->storey + 1 < s->form.record->storey_count && i < s->form.record->opening_count; i++) {
-        const tn_opening_record *flight = tn_form_flight(&s->form, TN_FACE_KIND_COUNT + i);
-        const tn_face face = {.relation = TN_FACE_UNDER, .storey = cell->storey, .at = cell->at};
-        s->climbs[i] |= flight && tn_flight_fits(&s->house, &face, flight);
+    for (size_t i = 0; i < s->place_count; i++) {
+        s->places[i].next = i;
+        s->first_places[(size_t)s->places[i].zone * s->form.record->storey_count + s->places[i].storey] = TN_NO_PLACE;
+    }
+    if (s->place_count > 0)
+        qsort(s->places, s->place_count, sizeof *s->places, compare_places);
+    for (size_t i = s->place_count; i-- > 0;) {
+        tn_survey_place *place = &s->places[i];
+        size_t *first = &s->first_places[(size_t)place->zone * s->form.record->storey_count + place->storey];
+        place->next = *first;
+        *first = i;
     }
 }
 
 /* ---- cells */
-
-/* How many storeys a zone has in some section, or in every one. */
-static uint32_t storeys_of(const tn_survey *s, uint32_t zone, bool most)
-{
-    const tn_form_record *record = s->form.record;
-    for (uint32_t i = 0; i < record->choice_count; i++) {
-        const tn_choice_record *choice = tn_form_choice(&s->form, i);
-        if (choice->kind != TN_CHOICE_STOREYS || choice->zone != s->schema->record->field_first + zone)
-            continue;
-        uint32_t found = s->form.module->SHAPE_records[choice->shape_first].storeys;
-        for (uint32_t k = 1; k < choice->shape_count; k++) {
-            uint32_t other = s->form.module->SHAPE_records[choice->shape_first + k].storeys;
-            found = (other > found) == most ? other : found;
-        }
-        return found;
-    }
-    return record->storey_count;
-}
 
 static bool meets(const tn_survey *s, const tn_cell *cell, tn_cell_rule_kind kind)
 {
@@ -124,30 +131,35 @@ static bool meets(const tn_survey *s, const tn_cell *cell, tn_cell_rule_kind kin
     return false;
 }
 
+/* The cell with this function. */
+static tn_status see_function(tn_survey *s, tn_cell *cell, uint32_t function, tn_error *error)
+{
+    add_to(s->may, function);
+    s->functions[function] = true;
+    cell->function = function;
+    tn_status status = add_class(s, cell, error);
+    cell->function = TN_NO_FUNCTION;
+    return status;
+}
+
 /* A cell with each function that it may have. `surely`: is it there in every section? */
 static tn_status see_cell(tn_survey *s, tn_cell *cell, bool surely, tn_error *error)
 {
     bool any = false;
-    tn_status status = TN_OK;
-    if (cell->open)
-        return add_class(s, cell, error);
+    tn_status status = cell->open ? add_class(s, cell, error) : TN_OK;
+    memset(s->may, 0, s->words * sizeof *s->may);
     for (uint32_t f = 0; status == TN_OK && f < tn_form_functions(&s->form); f++) {
         if (!tn_cell_may(&s->house, cell, f))
             continue;
-        any = s->functions[f] = true;
-        cell->function = f;
-        status = add_class(s, cell, error);
-        if (status == TN_OK)
-            status = try_tiles(s, cell, error);
-        try_flights(s, cell);
+        any = true;
+        status = see_function(s, cell, f, error);
     }
-    cell->function = TN_NO_FUNCTION;
-    if (!any && surely && !s->bare) {
+    if (!any && !cell->open && surely && !s->bare) {
         s->bare = true;
         s->bare_cell = *cell;
         s->bare_tray = s->tray;
     }
-    return status;
+    return status == TN_OK ? add_place(s, cell, error) : status;
 }
 
 static tn_status see_tray(tn_survey *s, tn_error *error)
@@ -155,7 +167,8 @@ static tn_status see_tray(tn_survey *s, tn_error *error)
     int64_t width = tn_tray_value_record(s->schema, s->tray, s->form.width)->length;
     tn_status status = TN_OK;
     for (uint32_t z = 0; z < s->form.zone_count; z++) {
-        uint32_t zone = s->form.zones[z], most = storeys_of(s, zone, true), least = storeys_of(s, zone, false);
+        uint32_t zone = s->form.zones[z], most = tn_survey_storeys(s, zone, true),
+                 least = tn_survey_storeys(s, zone, false);
         int64_t depth = tn_tray_value_record(s->schema, s->tray, zone)->length;
         tn_cell cell = {.zone = zone, .at = {0, width, 0, depth}, .function = TN_NO_FUNCTION};
         s->widest = depth > s->widest ? depth : s->widest;
@@ -168,160 +181,105 @@ static tn_status see_tray(tn_survey *s, tn_error *error)
     return status;
 }
 
-/* ---- what is said */
-
-static void warn_functions(const tn_survey *s)
-{
-    for (uint32_t f = 0; f < tn_form_functions(&s->form); f++) {
-        const tn_cell_rule_record *rule = tn_form_rule(&s->form, f);
-        if (s->functions[f] || tn_survey_allows(s, W_FUNCTION_NEVER, TN_SURVEY_SPAN(rule)))
-            continue;
-        tn_diagnostic *d = tn_report(tn_survey_list(s), W_FUNCTION_NEVER, TN_SURVEY_SPAN(rule),
-                                     "no cell may have the function `%s`", tn_text(s->form.module, rule->name));
-        tn_help(tn_survey_list(s), d, "no one cell meets all items after `at` and is kept by every `void` and `no`");
-    }
-}
-
-static tn_status warn_bare(const tn_survey *s, tn_error *error)
-{
-    const tn_form_record *form = s->form.record;
-    tn_buffer line = {0};
-    if (!s->bare || tn_form_functions(&s->form) == 0 || tn_survey_allows(s, W_NO_FUNCTION, TN_SURVEY_SPAN(form)))
-        return TN_OK;
-    bool ok = tn_plan_write_line(s->schema, &s->bare_tray, 1, &line);
-    tn_diagnostic *d = tn_report(
-        tn_survey_list(s), W_NO_FUNCTION, TN_SURVEY_SPAN(form),
-        "form `%s`: no function may take the %s in storey `%s` of some trays", tn_text(s->form.module, form->name),
-        tn_text(s->form.module, s->schema->fields[s->bare_cell.zone].name),
-        tn_text(s->form.module, s->form.module->STOREY_records[form->storey_first + s->bare_cell.storey].name));
-    tn_note(tn_survey_list(s), d, NULL, "this plan has no house: %s", ok ? line.data : "");
-    tn_help(tn_survey_list(s), d, "add a function for such cells; or say that they are not there: `no cell(...)`");
-    free(line.data);
-    return ok ? TN_OK : tn_fail_memory(error);
-}
-
-static void warn_tiles(const tn_survey *s)
-{
-    for (uint32_t i = 0; i < s->form.record->tile_count; i++) {
-        const tn_tile_record *tile = &s->form.module->TILE_records[s->form.record->tile_first + i];
-        if (s->tiles[i] || tn_survey_allows(s, W_TILE_NEVER, TN_SURVEY_SPAN(tile)))
-            continue;
-        tn_diagnostic *d = tn_report(tn_survey_list(s), W_TILE_NEVER, TN_SURVEY_SPAN(tile),
-                                     "tile `%s` fits into no cell", tn_text(s->form.module, tile->name));
-        char why[4 * TN_NAME_MAX];
-        tn_tile_failure_text(&s->form, &s->failures[i], why, sizeof why);
-        if (s->failures[i].obstacle > TN_TILE_NO_SIDE)
-            tn_note(tn_survey_list(s), d, NULL, "where it comes furthest, %s", why);
-        if (s->failures[i].obstacle == TN_TILE_MEETS_BOX)
-            tn_help(tn_survey_list(s), d, "items of a tile may not overlap, nor be in what it keeps free");
-        else
-            tn_help(tn_survey_list(s), d,
-                    "make its boxes, or its `wide` and `deep`, smaller: they must fit between the walls of a room, "
-                    "beside each other");
-    }
-}
-
-bool tn_survey_names(const tn_survey *s, uint32_t kind)
-{
-    const tn_module *module = s->form.module;
-    for (uint32_t i = 0; i < s->form.record->face_count; i++) {
-        const tn_face_line_record *line = &module->FACE_LINE_records[s->form.record->face_first + i];
-        for (uint32_t k = 0; k < line->kind_count; k++)
-            if (module->HOUSE_ITEM_records[line->kind_first + k].number == kind)
-                return true;
-    }
-    return false;
-}
-
-static void warn_opening(const tn_survey *s, uint32_t number)
-{
-    const tn_opening_record *opening = &s->form.module->OPENING_records[s->form.record->opening_first + number];
-    const char *name = tn_text(s->form.module, opening->name);
-    bool flight = tn_form_flight(&s->form, TN_FACE_KIND_COUNT + number);
-    bool named = tn_survey_names(s, TN_FACE_KIND_COUNT + number);
-    bool wider = opening->wide + s->form.record->wall > s->widest;
-    if ((named && !wider && s->used[TN_FACE_KIND_COUNT + number]) ||
-        tn_survey_allows(s, W_OPENING_NEVER, TN_SURVEY_SPAN(opening)))
-        return;
-    tn_diagnostic *d = tn_report(tn_survey_list(s), W_OPENING_NEVER, TN_SURVEY_SPAN(opening),
-                                 !named   ? "no face has the opening `%s`"
-                                 : flight ? "no face can have the flight `%s`"
-                                 : wider  ? "opening `%s` is wider than every face"
-                                          : "no face can have the opening `%s`",
-                                 name);
-    if (!named)
-        tn_help(tn_survey_list(s), d, "name it in a line such as `face cell(any) %s = %s`",
-                flight ? "under cell(any)" : "outside", name);
-    else if (flight)
-        tn_help(tn_survey_list(s), d, TN_FLIGHT_NEEDS);
-    else
-        tn_help(tn_survey_list(s), d,
-                wider ? "a face has to be as wide as the opening and a `wall` added"
-                      : "the faces of the lines that name it are narrower than it and a `wall` added, or lower, or "
-                        "lines before these decide them");
-}
-
 /* ---- forms */
 
-static tn_status see_all(tn_survey *s, tn_error *error)
+tn_status tn_survey_trays(tn_survey *s, tn_error *error)
 {
     const tn_form_record *form = s->form.record;
     uint64_t lines = 2 * (uint64_t)form->face_count + form->rule_count + 1;
     tn_status status = TN_OK;
     if ((uint64_t)s->schema->tray_count * s->form.zone_count * form->storey_count * lines > DECISIONS_MAX)
         return TN_OK;
-    for (s->tray = 0; status == TN_OK && s->tray < s->schema->tray_count; s->tray++)
+    for (s->tray = 0; status == TN_OK && s->tray < s->schema->tray_count; s->tray++) {
         status = see_tray(s, error);
-    if (status != TN_OK)
-        return status;
-    warn_functions(s);
-    warn_tiles(s);
-    status = warn_bare(s, error);
+        if (status == TN_OK && tn_watch_stopped_at(s->form.module->watch, s->tray))
+            status = tn_fail_stopped(s->form.module->watch, error);
+    }
+    sort_places(s);
+    tn_survey_try_flights(s);
+    s->complete = status == TN_OK;
+    return status == TN_OK ? tn_survey_faces(s, error) : status;
+}
+
+/* Room for what is noted of functions, tiles and kinds of faces. */
+static tn_status make_room(tn_survey *s, tn_error *error)
+{
+    const tn_form_record *form = s->form.record;
+    size_t kinds = TN_FACE_KIND_COUNT + (size_t)form->opening_count;
+    size_t stacks = (size_t)s->schema->record->field_count * form->storey_count;
+    s->words = tn_form_functions(&s->form) / 64 + 1;
+    s->met_words = form->face_count / 32 + 1;
+    s->functions = calloc((size_t)form->rule_count + 1, sizeof *s->functions);
+    s->climbs = calloc((size_t)form->opening_count + 1, sizeof *s->climbs);
+    s->may = calloc(s->words, sizeof *s->may);
+    s->uses = calloc(kinds, sizeof *s->uses);
+    s->first_places = malloc((stacks + 1) * sizeof *s->first_places);
+    if (!s->functions || !s->climbs || !s->may || !s->uses || !s->first_places)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < stacks; i++)
+        s->first_places[i] = TN_NO_PLACE;
+    for (size_t i = 0; i < kinds; i++) {
+        uint64_t *sets = calloc(3 * s->words, sizeof *sets);
+        if (!sets)
+            return tn_fail_memory(error);
+        s->uses[i] = (tn_kind_use){.outside_of = sets, .between_of = sets + s->words, .under_of = sets + 2 * s->words};
+    }
+    return TN_OK;
+}
+
+tn_status tn_survey_begin(const tn_module *module, uint32_t form, tn_opened *opened, tn_survey **survey,
+                          tn_error *error)
+{
+    tn_survey *s = calloc(1, sizeof *s);
+    *survey = NULL;
+    if (!s)
+        return tn_fail_memory(error);
+    s->opened = opened;
+    tn_status status = tn_schema_new(module, module->FORM_records[form].schema, 0, &s->schema, error);
+    if (status == TN_OK) {
+        tn_form_ready(module, form, s->schema, &s->form);
+        s->house = (tn_house){.form = &s->form, .trays = &s->tray, .length = 1};
+        status = make_room(s, error);
+    }
     if (status == TN_OK)
-        status = tn_survey_faces(s, error);
-    for (uint32_t i = 0; status == TN_OK && i < form->opening_count; i++)
-        warn_opening(s, i);
+        status = tn_survey_sections(s, error);
+    if (status == TN_OK)
+        *survey = s;
+    else
+        tn_survey_free(s);
     return status;
 }
 
-static tn_status survey(tn_opened *opened, uint32_t index, tn_error *error)
+tn_status tn_survey_new(const tn_module *module, uint32_t form, tn_survey **survey, tn_error *error)
 {
-    const tn_module *module = opened->module;
-    const tn_form_record *form = &module->FORM_records[index];
-    tn_survey s = {.opened = opened, .words = form->face_count / 32 + 1};
-    tn_status status = tn_schema_new(module, form->schema, 0, &s.schema, error);
-    if (status == TN_LIMIT)
-        return TN_OK; /* said of the schema */
-    if (status != TN_OK)
-        return status;
-    tn_form_ready(module, index, s.schema, &s.form);
-    s.house = (tn_house){.form = &s.form, .trays = &s.tray, .length = 1};
-    s.functions = calloc((size_t)form->rule_count + 1, sizeof *s.functions);
-    s.tiles = calloc((size_t)form->tile_count + 1, sizeof *s.tiles);
-    s.failures = calloc((size_t)form->tile_count + 1, sizeof *s.failures);
-    s.climbs = calloc((size_t)form->opening_count + 1, sizeof *s.climbs);
-    s.used = calloc(TN_FACE_KIND_COUNT + (size_t)form->opening_count, sizeof *s.used);
-    status = s.functions && s.tiles && s.failures && s.climbs && s.used ? tn_survey_sections(&s, error)
-                                                                        : tn_fail_memory(error);
+    tn_status status = tn_survey_begin(module, form, NULL, survey, error);
     if (status == TN_OK)
-        status = see_all(&s, error);
-    for (size_t i = 0; i < s.class_count; i++)
-        free(s.classes[i].met);
-    free(s.classes);
-    free(s.functions);
-    free(s.tiles);
-    free(s.failures);
-    free(s.climbs);
-    free(s.used);
-    tn_schema_free(s.schema);
+        status = tn_survey_trays(*survey, error);
+    if (status != TN_OK) {
+        tn_survey_free(*survey);
+        *survey = NULL;
+    }
     return status;
 }
 
-tn_status tn_house_survey(tn_opened *opened, tn_error *error)
+void tn_survey_free(tn_survey *s)
 {
-    tn_status status = TN_OK;
-    for (uint32_t i = 0; status == TN_OK && opened->compiled && i < opened->module->FORM_count; i++)
-        if (!(opened->module->FORM_records[i].flags & TN_IMPORTED))
-            status = survey(opened, i, error);
-    return status;
+    if (!s)
+        return;
+    for (size_t i = 0; i < s->class_count; i++)
+        free(s->classes[i].met);
+    for (size_t i = 0; i < s->place_count; i++)
+        free(s->places[i].may);
+    for (size_t i = 0; s->uses && i < TN_FACE_KIND_COUNT + (size_t)s->form.record->opening_count; i++)
+        free(s->uses[i].outside_of);
+    free(s->classes);
+    free(s->places);
+    free(s->first_places);
+    free(s->functions);
+    free(s->climbs);
+    free(s->may);
+    free(s->uses);
+    free(s->with);
+    tn_schema_free(s->schema);
+    free(s);
 }

@@ -79,6 +79,28 @@ static bool may_fit(const tn_survey *s, const meeting *m, uint32_t kind)
            opening->sill + opening->high <= tn_form_clear(&s->form, m->a->storey);
 }
 
+static void add_all(uint64_t *set, const uint64_t *of, size_t words)
+{
+    for (size_t i = 0; i < words; i++)
+        set[i] |= of[i];
+}
+
+/* The kind may be in a face of this meeting. */
+static void note_use(const tn_survey *s, const meeting *m, tn_kind_use *use)
+{
+    uint64_t storey = UINT64_C(1) << m->a->storey;
+    bool outside = m->relation == TN_FACE_OUTSIDE, under = m->relation == TN_FACE_UNDER;
+    uint64_t *of = outside ? use->outside_of : under ? use->under_of : use->between_of;
+    use->used = true;
+    use->outside |= outside ? storey : 0;
+    use->under |= under ? storey : 0;
+    use->between |= outside || under ? 0 : storey;
+    use->sides |= outside ? 1U << m->side : 0;
+    add_all(of, m->a->functions, s->words);
+    if (m->b)
+        add_all(of, m->b->functions, s->words);
+}
+
 /* The kinds of a line that is about the meeting, where no line before it takes all such faces. */
 static void ask_kinds(asking *a, const meeting *m, uint32_t line)
 {
@@ -91,7 +113,7 @@ static void ask_kinds(asking *a, const meeting *m, uint32_t line)
             a->kinds[kind] = (kind_use){a->meeting, line};
         if (!may_fit(s, m, kind))
             continue;
-        s->used[kind] = true;
+        note_use(s, m, &s->uses[kind]);
         a->lines[line].reached |= !had;
         if (had) {
             a->lines[line].hidden_by = a->kinds[kind].line;
@@ -175,7 +197,7 @@ static void ask_all(asking *to)
         for (int side = TN_HOUSE_BACK; side < TN_HOUSE_SIDE_COUNT; side++)
             ask(to, &(meeting){&s->classes[a], NULL, TN_FACE_OUTSIDE, (tn_house_side)side});
     }
-    for (uint32_t i = 0; i < s->form.record->face_count; i++)
+    for (uint32_t i = 0; s->opened && i < s->form.record->face_count; i++)
         if (!to->lines[i].reached)
             warn(s, i, &to->lines[i]);
 }
@@ -186,9 +208,10 @@ tn_status tn_survey_faces(tn_survey *s, tn_error *error)
     size_t kinds = TN_FACE_KIND_COUNT + (size_t)s->form.record->opening_count;
     if (s->class_count * s->class_count * lines > 100000000) {
         for (size_t i = 0; i < kinds; i++)
-            s->used[i] = true; /* nothing is known */
+            s->uses[i].used = true; /* nothing is known */
         return TN_OK;
     }
+    s->met = true;
     asking to = {
         .survey = s, .lines = calloc((size_t)lines + 1, sizeof *to.lines), .kinds = calloc(kinds, sizeof *to.kinds)};
     tn_status status = to.lines && to.kinds ? TN_OK : tn_fail_memory(error);

@@ -4,34 +4,6 @@
 
 #include "compiler/plan/syntax/program.h"
 #include "driver/house/survey.h"
-#include "runtime/house/house.h"
-
-/* Cells that no line of faces tells apart. met: a bit for each line's first cells, and one for its second ones. */
-typedef struct tn_cell_class {
-    uint32_t zone, storey;
-    bool open;
-    int64_t wide, deep; /* the most that one of them has */
-    uint64_t *met;
-} tn_cell_class;
-
-typedef struct tn_survey {
-    tn_opened *opened;
-    tn_house house; /* of one tray, without cells: what decides on a cell needs no more */
-    tn_tray tray;
-    tn_schema *schema;
-    tn_house_form form;
-    bool *functions, *tiles;   /* [function] a cell may have it; [tile] it fits somewhere */
-    tn_tile_failure *failures; /* [tile] where it came furthest so far */
-    bool *climbs;              /* [opening] a flight for which a cell has room */
-    bool *used;                /* [kind of face] a face may have it, as far as is known */
-    int64_t widest;            /* the longest that a face can be */
-    bool bare;                 /* a cell was found that no function may take: */
-    tn_cell bare_cell;
-    tn_tray bare_tray;
-    size_t words; /* of a class's bits */
-    tn_cell_class *classes;
-    size_t class_count, class_room;
-} tn_survey;
 
 /* Does the form `allow` the warning? */
 static inline bool tn_survey_allows(const tn_survey *survey, tn_code code, tn_span at)
@@ -54,8 +26,30 @@ static inline tn_diagnostics *tn_survey_list(const tn_survey *survey)
 /* Has a line of faces this kind? */
 bool tn_survey_names(const tn_survey *survey, uint32_t kind);
 
+/* ---- survey.c */
+
+/* The first part: the form made ready, its sections counted. */
+tn_status tn_survey_begin(const tn_module *module, uint32_t form, tn_opened *opened, tn_survey **survey,
+                          tn_error *error);
+
+/* The second: its trays. Warns about lines of faces where warnings are wanted. */
+tn_status tn_survey_trays(tn_survey *survey, tn_error *error);
+
 /* ---- survey_sections.c: values that no section has, and materials that none uses */
 tn_status tn_survey_sections(tn_survey *survey, tn_error *error);
+
+/* How many storeys a zone (a field) has in some section, or in every one. */
+uint32_t tn_survey_storeys(const tn_survey *survey, uint32_t zone, bool most);
+
+/* ---- survey_tiles.c */
+
+/* Does a tile fit into some cell, whatever is round it? If not, further: what is in its way where it comes furthest, if
+ * any cell is for it (TN_TILE_STANDS: none is). */
+tn_status tn_survey_tile_anywhere(const tn_survey *survey, uint32_t tile, bool *fits, tn_tile_failure *further,
+                                  tn_error *error);
+
+/* Notes which flights some cell has room for. */
+void tn_survey_try_flights(tn_survey *survey);
 
 /* ---- survey_faces.c: lines of faces that never apply, or are hidden by those before them; notes which kinds are used
  */

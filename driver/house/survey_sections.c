@@ -8,10 +8,8 @@
 #define SECTIONS_MAX 100000u
 #define QUESTIONS_MAX 100000000u /* which material a part has in a section: a second or two */
 
-/* What is known when all sections were seen. */
+/* What is known of materials when all sections were seen. */
 typedef struct section_use {
-    bool any;           /* the form does not forbid all */
-    bool *stands;       /* [SHAPE] some section has the value */
     bool *holds, *used; /* [material of the form] its `where` holds in some section; a part is made of it in some */
     bool materials;     /* are there few enough to ask for? */
 } section_use;
@@ -41,38 +39,28 @@ static void see_materials(const tn_survey *s, section_use *seen)
     }
 }
 
-/* The next combination of values; false after the last. */
-static bool next_section(tn_survey *s)
-{
-    for (uint32_t i = s->form.record->choice_count; i-- > 0;) {
-        if (++s->house.shapes[i] < tn_form_choice(&s->form, i)->shape_count)
-            return true;
-        s->house.shapes[i] = 0;
-    }
-    return false;
-}
-
 static void see_sections(tn_survey *s, section_use *seen)
 {
     do {
+        s->sections++;
         if (!tn_house_section_stands(&s->house))
             continue;
-        seen->any = true;
+        s->stands++;
         for (uint32_t i = 0; i < s->form.record->choice_count; i++)
-            seen->stands[tn_form_choice(&s->form, i)->shape_first + s->house.shapes[i]] = true;
+            s->with[tn_form_choice(&s->form, i)->shape_first + s->house.shapes[i]]++;
         if (seen->materials)
             see_materials(s, seen);
-    } while (next_section(s));
+    } while (tn_form_next_section(&s->form, s->house.shapes));
 }
 
-static void warn_values(const tn_survey *s, const bool *stands)
+static void warn_values(const tn_survey *s)
 {
     const tn_module *module = s->form.module;
     for (uint32_t i = 0; i < s->form.record->choice_count; i++) {
         const tn_choice_record *choice = tn_form_choice(&s->form, i);
         for (uint32_t k = choice->shape_first; k < choice->shape_first + choice->shape_count; k++) {
             const tn_shape_record *shape = &module->SHAPE_records[k];
-            if (stands[k] || tn_survey_allows(s, W_SHAPE_NEVER, TN_SURVEY_SPAN(shape)))
+            if (s->with[k] || tn_survey_allows(s, W_SHAPE_NEVER, TN_SURVEY_SPAN(shape)))
                 continue;
             tn_diagnostic *d = tn_report(tn_survey_list(s), W_SHAPE_NEVER, TN_SURVEY_SPAN(shape),
                                          "no section has this value of `%s`", tn_text(module, choice->name));
@@ -136,24 +124,64 @@ static bool may_go_through(const tn_survey *s, bool *materials)
     return sections <= SECTIONS_MAX;
 }
 
+static void warn(const tn_survey *s, const section_use *seen)
+{
+    if (!s->stands)
+        warn_all(s);
+    else
+        warn_values(s);
+    if (s->stands && seen->materials)
+        warn_materials(s, seen);
+}
+
 tn_status tn_survey_sections(tn_survey *s, tn_error *error)
 {
     size_t materials = (size_t)s->form.record->material_count + 1;
-    section_use seen = {.stands = calloc((size_t)s->form.module->SHAPE_count + 1, sizeof *seen.stands),
-                        .holds = calloc(materials, sizeof *seen.holds),
-                        .used = calloc(materials, sizeof *seen.used)};
-    tn_status status = seen.stands && seen.holds && seen.used ? TN_OK : tn_fail_memory(error);
-    if (status == TN_OK && may_go_through(s, &seen.materials)) {
+    section_use seen = {.holds = calloc(materials, sizeof *seen.holds), .used = calloc(materials, sizeof *seen.used)};
+    s->with = calloc((size_t)s->form.module->SHAPE_count + 1, sizeof *s->with);
+    tn_status status = s->with && seen.holds && seen.used ? TN_OK : tn_fail_memory(error);
+    s->counted = may_go_through(s, &seen.materials);
+    seen.materials = seen.materials && s->opened;
+    if (status == TN_OK && s->counted)
         see_sections(s, &seen);
-        if (!seen.any)
-            warn_all(s);
-        else
-            warn_values(s, seen.stands);
-        if (seen.any && seen.materials)
-            warn_materials(s, &seen);
-    }
-    free(seen.stands);
+    if (status == TN_OK && s->counted && s->opened)
+        warn(s, &seen);
     free(seen.holds);
     free(seen.used);
     return status;
+}
+
+/* Where sections were counted, only those that stand are asked; a form that forbids all of them is as one that forbids
+ * none. */
+uint32_t tn_survey_storeys(const tn_survey *s, uint32_t zone, bool most)
+{
+    bool all = !s->counted || !s->stands, any = false;
+    uint32_t found = s->form.record->storey_count;
+    for (uint32_t i = 0; i < s->form.record->choice_count; i++) {
+        const tn_choice_record *choice = tn_form_choice(&s->form, i);
+        if (choice->kind != TN_CHOICE_STOREYS || choice->zone != s->schema->record->field_first + zone)
+            continue;
+        for (uint32_t k = choice->shape_first; k < choice->shape_first + choice->shape_count; k++) {
+            uint32_t storeys = s->form.module->SHAPE_records[k].storeys;
+            if (!all && !s->with[k])
+                continue;
+            found = !any || (storeys > found) == most ? storeys : found;
+            any = true;
+        }
+    }
+    return found;
+}
+
+uint64_t tn_survey_sections_with(const tn_survey *s, uint32_t zone, uint32_t storey)
+{
+    for (uint32_t i = 0; i < s->form.record->choice_count; i++) {
+        const tn_choice_record *choice = tn_form_choice(&s->form, i);
+        uint64_t found = 0;
+        if (choice->kind != TN_CHOICE_STOREYS || choice->zone != s->schema->record->field_first + zone)
+            continue;
+        for (uint32_t k = choice->shape_first; k < choice->shape_first + choice->shape_count; k++)
+            found += s->form.module->SHAPE_records[k].storeys > storey ? s->with[k] : 0;
+        return found;
+    }
+    return s->stands;
 }

@@ -1,5 +1,5 @@
 /* Measures which parts of a file's rules its tests notice. */
-#include "driver/plan/coverage.h"
+#include "driver/plan/coverage_parts.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -10,25 +10,8 @@
 #include "runtime/plan/analysis/coverage.h"
 #include "runtime/plan/match/parts.h"
 
-/* What is measured: the file's library (or each rule by itself), and its tests. */
-typedef struct measuring {
-    tn_opened *opened;
-    const tn_module *module;
-    const tn_library_record *library; /* or NULL */
-    uint32_t schema_index;
-    const tn_coverage_options *options;
-    tn_schema *schema;
-    tn_library *automaton; /* of the library, where the caller has none */
-    tn_coverage *plans;    /* of the library; without one, of the rule at hand */
-    tn_coverage *tests;    /* of all rules and clauses that tests are of; NULL: there are none */
-    uint32_t *tested;      /* per test block: its first function in `tests` */
-    bool *left_out;        /* per test block: not known, a clause of it passes a limit */
-    tn_house_cases houses; /* of tests */
-    tn_covered *covered;
-} measuring;
-
 /* A test of a rule or a library of plans: what measures come to and what houses are is another matter. */
-static bool is_own_test(const measuring *m, size_t b)
+static bool is_own_test(const tn_covering *m, size_t b)
 {
     const tn_test_block *block = &m->opened->compilation.program->tests[b];
     bool of_rules = !block->is_measure && !block->of_houses;
@@ -37,7 +20,7 @@ static bool is_own_test(const measuring *m, size_t b)
 
 /* ---- the two sets of functions */
 
-static tn_status cover_library(measuring *m, tn_error *error)
+static tn_status cover_library(tn_covering *m, tn_error *error)
 {
     const tn_library *library = m->options->automaton;
     const tn_library_options options = {.max_states = m->options->max_states};
@@ -50,13 +33,13 @@ static tn_status cover_library(measuring *m, tn_error *error)
     return status == TN_OK ? tn_coverage_of_library(library, &m->plans, error) : status;
 }
 
-static size_t clauses_of(const measuring *m, const tn_test_block *block)
+static size_t clauses_of(const tn_covering *m, const tn_test_block *block)
 {
     return block->is_library ? m->module->LIBRARY_records[block->index].clause_count : 1;
 }
 
 /* Appends the functions of a block; those of a library's clauses are asked one by one. */
-static void add_functions(const measuring *m, const tn_test_block *block, uint32_t *functions, size_t *count)
+static void add_functions(const tn_covering *m, const tn_test_block *block, uint32_t *functions, size_t *count)
 {
     for (size_t i = 0; i < clauses_of(m, block); i++)
         functions[(*count)++] =
@@ -77,7 +60,7 @@ static size_t longest_case(const tn_program *program)
 
 /* All blocks together, or, where some clause passes a limit, each by itself: those with such a clause are left out, and
  * that is said. */
-static tn_status choose_blocks(measuring *m, uint32_t *functions, size_t *count, tn_error *error)
+static tn_status choose_blocks(tn_covering *m, uint32_t *functions, size_t *count, tn_error *error)
 {
     const tn_program *program = m->opened->compilation.program;
     uint32_t longest = (uint32_t)longest_case(program);
@@ -106,7 +89,7 @@ static tn_status choose_blocks(measuring *m, uint32_t *functions, size_t *count,
     return status;
 }
 
-static tn_status cover_tests(measuring *m, tn_error *error)
+static tn_status cover_tests(tn_covering *m, tn_error *error)
 {
     const tn_program *program = m->opened->compilation.program;
     size_t count = 0, all = 0;
@@ -137,7 +120,7 @@ static tn_status cover_tests(measuring *m, tn_error *error)
 
 /* ---- does a test notice? */
 
-static bool is_dropped(const measuring *m, size_t block, const tn_library_record *library, bool without,
+static bool is_dropped(const tn_covering *m, size_t block, const tn_library_record *library, bool without,
                        const tn_tray *trays, size_t length)
 {
     for (uint32_t i = 0; i < library->clause_count; i++) {
@@ -149,7 +132,7 @@ static bool is_dropped(const measuring *m, size_t block, const tn_library_record
 }
 
 /* Would one of the clauses that a case names come out otherwise? */
-static bool names_flip(const measuring *m, size_t block, const tn_library_record *library, const tn_test_case *test,
+static bool names_flip(const tn_covering *m, size_t block, const tn_library_record *library, const tn_test_case *test,
                        const tn_tray *trays)
 {
     for (uint32_t i = 0; i < library->clause_count; i++) {
@@ -163,7 +146,7 @@ static bool names_flip(const measuring *m, size_t block, const tn_library_record
     return false;
 }
 
-static bool case_notices(const measuring *m, size_t b, const tn_test_case *test, tn_tray *trays)
+static bool case_notices(const tn_covering *m, size_t b, const tn_test_case *test, tn_tray *trays)
 {
     const tn_test_block *block = &m->opened->compilation.program->tests[b];
     for (size_t i = 0; i < test->length; i++)
@@ -179,7 +162,7 @@ static bool case_notices(const measuring *m, size_t b, const tn_test_case *test,
            names_flip(m, b, library, test, trays);
 }
 
-static tn_status tests_notice(const measuring *m, bool *notice, tn_error *error)
+static tn_status tests_notice(const tn_covering *m, bool *notice, tn_error *error)
 {
     const tn_program *program = m->opened->compilation.program;
     size_t longest = longest_case(program);
@@ -214,15 +197,6 @@ static size_t find_offsets(const tn_parts *trees, const tn_part *part, uint32_t 
     return count;
 }
 
-/* The rule or clause at hand, in the code of both its judgements. */
-typedef struct subject {
-    uint32_t function; /* HOLDS */
-    uint32_t whole;    /* UINT32_MAX: a clause has none */
-    const char *name;
-    bool of_houses;
-    tn_parts trees[2];
-} subject;
-
 static tn_covered_part *add_part(tn_covered *covered)
 {
     if (!tn_array_reserve(&covered->parts, &covered->capacity, covered->count, 1, sizeof *covered->parts))
@@ -244,7 +218,7 @@ static void drop_parts(tn_covered *covered, size_t count)
     }
 }
 
-static tn_status measure_plans(measuring *m, const uint32_t *offsets, size_t count, tn_covered_part *made,
+static tn_status measure_plans(tn_covering *m, const uint32_t *offsets, size_t count, tn_covered_part *made,
                                tn_error *error)
 {
     tn_status status = tn_coverage_without(m->plans, offsets, count, error);
@@ -255,8 +229,8 @@ static tn_status measure_plans(measuring *m, const uint32_t *offsets, size_t cou
     return status == TN_OK ? tests_notice(m, &made->noticed, error) : status;
 }
 
-static tn_status measure_part(measuring *m, const subject *s, uint32_t index, unsigned depth, uint32_t *offsets,
-                              tn_error *error)
+static tn_status measure_part(tn_covering *m, const tn_covered_subject *s, uint32_t index, unsigned depth,
+                              uint32_t *offsets, tn_error *error)
 {
     const tn_part *part = &s->trees[0].parts[index];
     char text[TN_PART_TEXT_MAX];
@@ -274,14 +248,14 @@ static tn_status measure_part(measuring *m, const subject *s, uint32_t index, un
     size_t count = find_offsets(s->trees, part, offsets);
     tn_status status = made->text ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK && s->of_houses)
-        status = tn_house_cases_notice(&m->houses, offsets, count, &made->noticed, error);
+        status = tn_measure_dependents(m, s, offsets, count, made, error);
     else if (status == TN_OK)
         status = measure_plans(m, offsets, count, made, error);
     m->covered->noticed += made->noticed;
     return status;
 }
 
-static tn_status measure_parts(measuring *m, const subject *s, tn_error *error)
+static tn_status measure_parts(tn_covering *m, const tn_covered_subject *s, tn_error *error)
 {
     uint32_t at = 0;
     uint32_t *offsets = malloc(((size_t)s->trees[0].count + s->trees[1].count + 1) * sizeof *offsets);
@@ -310,7 +284,7 @@ static tn_status measure_parts(measuring *m, const subject *s, tn_error *error)
 }
 
 /* All parts of a rule or clause; none where one of them passes a limit. */
-static tn_status try_subject(measuring *m, subject *s, tn_error *error)
+static tn_status try_subject(tn_covering *m, tn_covered_subject *s, tn_error *error)
 {
     size_t before = m->covered->count;
     tn_status (*read_parts)(const tn_module *, uint32_t, tn_parts *, tn_error *) =
@@ -335,7 +309,7 @@ static tn_status try_subject(measuring *m, subject *s, tn_error *error)
     return status;
 }
 
-static tn_status measure_subject(measuring *m, subject s, tn_error *error)
+tn_status tn_measure_subject(tn_covering *m, tn_covered_subject s, tn_error *error)
 {
     tn_status status = try_subject(m, &s, error);
     if (status != TN_LIMIT)
@@ -350,7 +324,7 @@ static tn_status measure_subject(measuring *m, subject s, tn_error *error)
     return TN_OK;
 }
 
-static bool is_named(const measuring *m, const tn_rule_record *rule)
+static bool is_named(const tn_covering *m, const tn_rule_record *rule)
 {
     for (uint32_t i = 0; m->library && i < m->library->clause_count; i++)
         if (m->module->CLAUSE_records[m->library->clause_first + i].holds == rule->holds)
@@ -358,7 +332,7 @@ static bool is_named(const measuring *m, const tn_rule_record *rule)
     return false;
 }
 
-static tn_status measure_rules(measuring *m, tn_error *error)
+static tn_status measure_rules(tn_covering *m, tn_error *error)
 {
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < m->module->RULE_count; i++) {
@@ -366,102 +340,28 @@ static tn_status measure_rules(measuring *m, tn_error *error)
         tn_watch_tell(m->module->watch, i, (double)m->module->RULE_count);
         bool wanted = !(rule->flags & TN_IMPORTED) || (m->options->imported && is_named(m, rule));
         if (wanted && rule->schema == m->schema_index)
-            status = measure_subject(
-                m, (subject){.function = rule->holds, .whole = rule->whole, .name = tn_text(m->module, rule->name)},
-                error);
+            status = tn_measure_subject(m,
+                                        (tn_covered_subject){.function = rule->holds,
+                                                             .whole = rule->whole,
+                                                             .name = tn_text(m->module, rule->name)},
+                                        error);
     }
     return status;
 }
 
 /* The clauses that are more than a rule's name. */
-static tn_status measure_clauses(measuring *m, tn_error *error)
+static tn_status measure_clauses(tn_covering *m, tn_error *error)
 {
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && m->library && i < m->library->clause_count; i++) {
         const tn_clause_record *clause = &m->module->CLAUSE_records[m->library->clause_first + i];
         if (tn_function_rule(m->module, clause->holds) == UINT32_MAX)
-            status = measure_subject(
-                m, (subject){.function = clause->holds, .whole = UINT32_MAX, .name = tn_text(m->module, clause->name)},
-                error);
+            status = tn_measure_subject(m,
+                                        (tn_covered_subject){.function = clause->holds,
+                                                             .whole = UINT32_MAX,
+                                                             .name = tn_text(m->module, clause->name)},
+                                        error);
     }
-    return status;
-}
-
-/* ---- houses */
-
-static tn_status measure_house_rules(measuring *m, tn_error *error)
-{
-    tn_status status = TN_OK;
-    for (uint32_t i = 0; status == TN_OK && i < m->module->HOUSE_RULE_count; i++) {
-        const tn_house_rule_record *rule = &m->module->HOUSE_RULE_records[i];
-        if (!(rule->flags & TN_IMPORTED))
-            status = measure_subject(m,
-                                     (subject){.function = rule->holds,
-                                               .whole = rule->whole,
-                                               .name = tn_text(m->module, rule->name),
-                                               .of_houses = true},
-                                     error);
-    }
-    return status;
-}
-
-static bool is_house_rule(const tn_module *module, uint32_t function)
-{
-    for (uint32_t i = 0; i < module->HOUSE_RULE_count; i++)
-        if (module->HOUSE_RULE_records[i].holds == function || module->HOUSE_RULE_records[i].whole == function)
-            return true;
-    return tn_function_rule(module, function) != UINT32_MAX;
-}
-
-/* Of the file's libraries of houses, the clauses that are more than a rule's name. */
-static tn_status measure_house_clauses(measuring *m, const tn_house_library_record *library, tn_error *error)
-{
-    tn_status status = TN_OK;
-    for (uint32_t i = 0; status == TN_OK && i < library->clause_count; i++) {
-        const tn_house_clause_record *clause = &m->module->HOUSE_CLAUSE_records[library->clause_first + i];
-        if (!is_house_rule(m->module, clause->holds))
-            status = measure_subject(m,
-                                     (subject){.function = clause->holds,
-                                               .whole = UINT32_MAX,
-                                               .name = tn_text(m->module, clause->name),
-                                               .of_houses = true},
-                                     error);
-    }
-    return status;
-}
-
-static bool has_case(const measuring *m, uint32_t form)
-{
-    for (size_t i = 0; i < m->houses.count; i++)
-        if (m->houses.items[i].form == form)
-            return true;
-    return false;
-}
-
-static tn_status measure_forms(measuring *m, tn_error *error)
-{
-    tn_covered *covered = m->covered;
-    tn_status status = TN_OK;
-    covered->forms = calloc(m->module->FORM_count + 1, sizeof *covered->forms);
-    if (!covered->forms)
-        return tn_fail_memory(error);
-    for (uint32_t i = 0; status == TN_OK && i < m->module->FORM_count; i++)
-        if (!(m->module->FORM_records[i].flags & TN_IMPORTED) || has_case(m, i))
-            status = tn_form_covered(&m->houses, i, &covered->forms[covered->form_count++], error);
-    return status;
-}
-
-static tn_status measure_houses(measuring *m, tn_error *error)
-{
-    tn_status status = tn_house_cases_read(m->opened, &m->houses, error);
-    if (status == TN_OK)
-        status = measure_house_rules(m, error);
-    for (uint32_t i = 0; status == TN_OK && i < m->module->HOUSE_LIBRARY_count; i++)
-        if (!(m->module->HOUSE_LIBRARY_records[i].flags & TN_IMPORTED))
-            status = measure_house_clauses(m, &m->module->HOUSE_LIBRARY_records[i], error);
-    if (status == TN_OK)
-        status = measure_forms(m, error);
-    tn_house_cases_clear(&m->houses);
     return status;
 }
 
@@ -475,7 +375,7 @@ static bool has_own_library(const tn_module *module)
     return false;
 }
 
-static tn_status choose(measuring *m, const char *name)
+static tn_status choose(tn_covering *m, const char *name)
 {
     uint32_t library;
     if (name || has_own_library(m->module)) {
@@ -492,7 +392,7 @@ static tn_status choose(measuring *m, const char *name)
     return TN_OK;
 }
 
-static tn_status measure(measuring *m, tn_error *error)
+static tn_status measure(tn_covering *m, tn_error *error)
 {
     tn_status status = m->library ? cover_library(m, error) : TN_OK;
     if (status == TN_OK)
@@ -501,12 +401,12 @@ static tn_status measure(measuring *m, tn_error *error)
         status = measure_rules(m, error);
     if (status == TN_OK)
         status = measure_clauses(m, error);
-    return status == TN_OK && m->module->FORM_count ? measure_houses(m, error) : status;
+    return status == TN_OK && m->module->FORM_count ? tn_measure_houses(m, error) : status;
 }
 
 tn_status tn_coverage_measure(tn_opened *opened, const tn_coverage_options *options, tn_covered *covered)
 {
-    measuring m = {.opened = opened, .module = opened->module, .options = options, .covered = covered};
+    tn_covering m = {.opened = opened, .module = opened->module, .options = options, .covered = covered};
     tn_error error;
     *covered = (tn_covered){.opened = opened};
     tn_status status = choose(&m, options->library);

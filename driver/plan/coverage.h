@@ -1,6 +1,6 @@
 /* Coverage of rules: for each part of each rule, how many plans' decisions would be others if the part never matched,
- * and whether some test case would notice. Of rules about houses only the latter is found out. Of forms: what the
- * houses of tests have.
+ * and whether some test case would notice. Of rules about houses, how many houses of the library that uses it are
+ * decided otherwise, where that can be counted. Of forms: what the houses of tests have.
  */
 #ifndef TARTAN_DRIVER_PLAN_COVERAGE_H
 #define TARTAN_DRIVER_PLAN_COVERAGE_H
@@ -22,8 +22,9 @@ typedef struct tn_covered_part {
     const char *kind;  /* "neighbour" */
     char *text;        /* as its author wrote it, cut off where it is long */
     uint32_t root;     /* its place: an offset into the code */
-    bool of_houses;    /* of a rule or clause about houses: */
-    mpz_t flips;       /* otherwise, plans that would be decided otherwise */
+    bool of_houses;    /* of a rule or clause about houses */
+    bool counted;      /* of these: how many houses it decides is known */
+    mpz_t flips;       /* plans, or houses of a library, that would be decided otherwise */
     bool noticed;      /* a test case comes out otherwise */
 } tn_covered_part;
 
@@ -44,6 +45,7 @@ typedef struct tn_coverage_options {
     /* The library made ready, with its own lengths; NULL: measuring makes its own. */
     const tn_library *automaton;
     bool imported; /* also rules of used files that the library's clauses name */
+    bool houses;   /* also count the houses that depend on parts: some seconds for a large library */
 } tn_coverage_options;
 
 /* Measures the rules of the file itself, the clauses written out in its library and in its libraries of houses, and

@@ -8,6 +8,7 @@
 
 #define LABEL_WIDTH 58u
 #define FORM_WIDTH 80u
+#define NUMBER_WIDTH 26
 #define DEEPEST 8u /* parts deeper in their rule are not indented further */
 
 static bool write_head(const tn_covered *covered, tn_buffer *out)
@@ -43,13 +44,15 @@ static size_t characters(const char *text)
 static bool write_part(const tn_covered_part *part, tn_buffer *out)
 {
     unsigned indent = 2 * (part->depth < DEEPEST ? part->depth : DEEPEST);
-    char *digits = part->of_houses ? strdup("") : tn_digits(part->flips, true), *text = strdup(part->text);
+    bool known = !part->of_houses || part->counted;
+    char *digits = known ? tn_digits(part->flips, true) : strdup(""), *text = strdup(part->text);
     bool ok = digits && text;
     if (ok) {
         cut(text, LABEL_WIDTH - indent);
         size_t used = characters(text), room = LABEL_WIDTH - indent;
-        ok = tn_buffer_printf(out, "  %*s%s%*s %26s  %s\n", (int)indent, "", text, (int)(room - used), "", digits,
-                              part->noticed ? "yes" : "no");
+        ok = tn_buffer_printf(out, "  %*s%s%*s %*s%s  %s\n", (int)indent, "", text, (int)(room - used), "",
+                              part->counted ? NUMBER_WIDTH - (int)strlen(" houses") : NUMBER_WIDTH, digits,
+                              part->counted ? " houses" : "", part->noticed ? "yes" : "no");
     }
     free(digits);
     free(text);
@@ -118,7 +121,9 @@ static json_t *part_json(const tn_covered *covered, const tn_covered_part *part)
         json_object_set_new(made, "line", json_integer((json_int_t)place.line));
         json_object_set_new(made, "column", json_integer((json_int_t)place.column));
     }
-    json_object_set_new(made, "flips", part->of_houses ? json_null() : digits ? json_string(digits) : NULL);
+    bool known = !part->of_houses || part->counted;
+    json_object_set_new(made, "flips", !known ? json_null() : digits ? json_string(digits) : NULL);
+    json_object_set_new(made, "of", json_string(part->of_houses ? "houses" : "plans"));
     json_object_set_new(made, "noticed", json_boolean(part->noticed));
     free(digits);
     return made;

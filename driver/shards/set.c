@@ -122,8 +122,8 @@ static tn_status too_many(const mpz_t plans, tn_error *error)
     mpz_cdiv_q_ui(least, plans, TN_SHARDS_MAX);
     char *digits = mpz_get_str(NULL, 10, least);
     tn_fail(error, TN_LIMIT, E_SHARD_TOO_MANY, "more shards than a set may have, which is %u", TN_SHARDS_MAX);
-    tn_error_help(error, "make shards of at least %.200s plans: --plans %.60s", digits ? digits : "?",
-                  digits ? digits : "?");
+    tn_error_help(error, "make shards of at least %.200s plan%s: --plans %.60s", digits ? digits : "?",
+                  mpz_cmp_ui(least, 1) == 0 ? "" : "s", digits ? digits : "?");
     free(digits);
     mpz_clear(least);
     return TN_LIMIT;

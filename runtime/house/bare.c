@@ -1,11 +1,9 @@
 /* Finds the cells of a plan that keep all houses off it, one cell at a time. */
 #include "runtime/house/bare.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
-#include "runtime/base/length.h"
 #include "runtime/house/form/form.h"
 
 enum {
@@ -232,33 +230,4 @@ tn_status tn_bare_why(tn_bare_cells *bare, uint32_t cell, uint32_t function, uin
     house->cells[cell].function = TN_NO_FUNCTION;
     free(walls);
     return status;
-}
-
-void tn_tile_failure_text(const tn_house_form *form, const tn_tile_failure *f, char *text, size_t size)
-{
-    const tn_module *module = form->module;
-    const char *box = f->obstacle >= TN_TILE_BEYOND ? tn_text(module, module->TILE_BOX_records[f->box].name) : "";
-    char wide[64], deep[64];
-    tn_length_write(f->wide, wide, sizeof wide);
-    tn_length_write(f->deep, deep, sizeof deep);
-    switch (f->obstacle) {
-    case TN_TILE_NO_SIDE:
-        snprintf(text, size, "no side of the room is one that it stands against");
-        return;
-    case TN_TILE_SIZE:
-        snprintf(text, size, "the room is %s wide and %s deep, and it asks for another size", wide, deep);
-        return;
-    case TN_TILE_BEYOND:
-        snprintf(text, size, "`%s` is not inside the room, which is %s wide and %s deep", box, wide, deep);
-        return;
-    case TN_TILE_MEETS_BOX:
-        snprintf(text, size, "`%s` and `%s` are in each other's way", box,
-                 tn_text(module, module->TILE_BOX_records[f->other].name));
-        return;
-    case TN_TILE_MEETS_POST:
-        snprintf(text, size, "`%s` meets a corner of thicker walls", box);
-        return;
-    default:
-        snprintf(text, size, "`%s` stands where an opening is kept clear", box);
-    }
 }

@@ -26,8 +26,4 @@ void tn_bare_clear(tn_bare_cells *bare);
 tn_status tn_bare_why(tn_bare_cells *bare, uint32_t cell, uint32_t function, uint32_t tile, tn_tile_failure *failure,
                       tn_error *error);
 
-/* ---- what keeps tiles out, in words: "`bed` is not inside the room, which is 12' wide and 9' deep" */
-
-void tn_tile_failure_text(const tn_house_form *form, const tn_tile_failure *failure, char *text, size_t size);
-
 #endif

@@ -8,6 +8,7 @@
 #define TARTAN_HOUSE_HOUSE_H
 
 #include "runtime/base/int128.h"
+#include "runtime/base/length_style.h"
 #include "runtime/house/form/form.h"
 #include "runtime/module/code.h"
 #include "runtime/plan/text/text.h"
@@ -182,11 +183,11 @@ typedef enum tn_tile_obstacle {
     TN_TILE_MEETS_CLEAR /* what an opening needs clear */
 } tn_tile_obstacle;
 
-/* box, other: TILE_BOX records. wide, deep: of the clear room, as the tile is turned. */
+/* box, other: TILE_BOX records. wide, deep, high: of the clear room, as the tile is turned. */
 typedef struct tn_tile_failure {
     tn_tile_obstacle obstacle;
     uint32_t box, other;
-    int64_t wide, deep;
+    int64_t wide, deep, high;
     tn_house_side side;
 } tn_tile_failure;
 
@@ -198,6 +199,19 @@ tn_status tn_tile_fails(const tn_house *house, uint32_t cell, uint32_t tile, tn_
 /* The same in an empty room of this clear size, whose sides are of any kind. */
 tn_status tn_tile_fails_in(const tn_house_form *form, int64_t wide, int64_t deep, int64_t height, uint32_t tile,
                            tn_tile_failure *failure, tn_error *error);
+
+/* Does it stand so, plain, with its back at the back of that room? */
+tn_status tn_tile_turned_in(const tn_house_form *form, int64_t wide, int64_t deep, int64_t height, uint32_t tile,
+                            bool *stands, tn_error *error);
+
+/* All ways in which it stands in that room. Clear in any case. */
+tn_status tn_tile_variants_in(const tn_house_form *form, int64_t wide, int64_t deep, int64_t height, uint32_t tile,
+                              tn_variants *variants, tn_error *error);
+
+/* Why a tile (a TILE record) does not stand, as the end of a sentence: "`bed` is not inside the room, which is 12' wide
+ * and 9' deep". */
+void tn_tile_failure_text(const tn_house_form *form, uint32_t tile, const tn_tile_failure *failure,
+                          tn_length_style style, char *text, size_t size);
 
 /* A variant's name: `bed.left.m`. */
 #define TN_VARIANT_TEXT (TN_NAME_MAX + 16)

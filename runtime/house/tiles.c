@@ -124,7 +124,8 @@ typedef struct tn_placing {
 
 static bool fail(tn_placing *p, tn_tile_obstacle obstacle, uint32_t box, uint32_t other)
 {
-    p->failure = (tn_tile_failure){obstacle, p->tile->box_first + box, other, p->wide, p->deep, p->side};
+    p->failure =
+        (tn_tile_failure){obstacle, p->tile->box_first + box, other, p->wide, p->deep, p->room->height, p->side};
     return false;
 }
 
@@ -332,6 +333,32 @@ tn_status tn_tile_fails_in(const tn_house_form *form, int64_t wide, int64_t deep
     return find_failure(&room, tile, failure, error);
 }
 
+tn_status tn_tile_turned_in(const tn_house_form *form, int64_t wide, int64_t deep, int64_t height, uint32_t tile,
+                            bool *stands_there, tn_error *error)
+{
+    const tn_house house = {.form = form};
+    const tn_room room = {.house = &house, .clear = {0, wide, 0, deep}, .height = height};
+    tn_variants v = {0};
+    tn_placing p;
+    size_t count;
+    bool good = make_room(&v, form->module->TILE_records[tile].box_count);
+    *stands_there = good && turn(&room, tile, TN_HOUSE_BACK, &p) && stands(&p, &v, &count);
+    tn_variants_clear(&v);
+    return good ? TN_OK : tn_fail_memory(error);
+}
+
+tn_status tn_tile_variants_in(const tn_house_form *form, int64_t wide, int64_t deep, int64_t height, uint32_t tile,
+                              tn_variants *variants, tn_error *error)
+{
+    const tn_house house = {.form = form};
+    const tn_room room = {.house = &house, .clear = {0, wide, 0, deep}, .height = height};
+    tn_status status = TN_OK;
+    *variants = (tn_variants){.wanted = true};
+    for (size_t i = 0; status == TN_OK && i < sizeof all_sides / sizeof *all_sides; i++)
+        status = try_side(&room, tile, all_sides[i], variants, error);
+    return status;
+}
+
 tn_status tn_tile_variants(const tn_house *house, uint32_t cell, tn_variants *variants, tn_error *error)
 {
     const tn_house_form *form = house->form;
@@ -364,4 +391,45 @@ void tn_variant_text(const tn_house_form *form, const tn_tile_variant *variant, 
     static const char *const sides[] = {"", "back", "front", "left", "right"};
     snprintf(text, TN_VARIANT_TEXT, "%s.%s%s", tn_text(form->module, form->module->TILE_records[variant->tile].name),
              sides[variant->side], variant->mirrored ? ".m" : "");
+}
+
+static bool is_too_high(const tn_house_form *form, const tn_tile_failure *failure)
+{
+    const tn_tile_box_record *box = &form->module->TILE_BOX_records[failure->box];
+    return box->up_low >= failure->high || box->up_high > failure->high;
+}
+
+void tn_tile_failure_text(const tn_house_form *form, uint32_t tile, const tn_tile_failure *failure,
+                          tn_length_style style, char *text, size_t size)
+{
+    const tn_module *module = form->module;
+    bool boxes = module->TILE_records[tile].box_count > 0;
+    const char *box = boxes ? tn_text(module, module->TILE_BOX_records[failure->box].name) : "";
+    char wide[64], deep[64], high[64];
+    tn_length_write_style(failure->wide, style, wide, sizeof wide);
+    tn_length_write_style(failure->deep, style, deep, sizeof deep);
+    tn_length_write_style(failure->high, style, high, sizeof high);
+    switch (failure->obstacle) {
+    case TN_TILE_NO_SIDE:
+        snprintf(text, size, "no side of the room is one that it stands against");
+        return;
+    case TN_TILE_SIZE:
+        snprintf(text, size, "the room is %s wide and %s deep, and it asks for another size", wide, deep);
+        return;
+    case TN_TILE_BEYOND:
+        if (is_too_high(form, failure))
+            snprintf(text, size, "`%s` reaches higher than the room, which is %s high", box, high);
+        else
+            snprintf(text, size, "`%s` is not inside the room, which is %s wide and %s deep", box, wide, deep);
+        return;
+    case TN_TILE_MEETS_BOX:
+        snprintf(text, size, "`%s` and `%s` are in each other's way", box,
+                 tn_text(module, module->TILE_BOX_records[failure->other].name));
+        return;
+    case TN_TILE_MEETS_POST:
+        snprintf(text, size, "`%s` meets a corner of thicker walls", box);
+        return;
+    default:
+        snprintf(text, size, "`%s` stands where an opening is kept clear", box);
+    }
 }

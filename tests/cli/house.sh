@@ -280,6 +280,28 @@ golden where_in_houses 'tartan count cottage -l cottages --where "quantity(any) 
 golden coverage 'tartan test cottage --coverage'
 golden coverage_used 'tartan test huts.plan --coverage'
 golden coverage_json 'tartan test house-coverage.plan --coverage --json'
+golden coverage_depends 'tartan test house-depends.plan --coverage | head -n 24'
+golden coverage_states 'tartan test house-depends.plan --coverage --max-states 60 | head -n 12'
+
+# How many houses depend on a part is what counting says of three libraries: as it is written, with the part as one that never matches, and
+# with the clauses of both (what is in just one of two sets is all of both less twice what they share).
+never='(section(body storeys 1) and section(body storeys 2))'
+small() { "$TARTAN" count "$1" --library small --json | sed 's/.*"houses":"\([0-9]*\)".*/\1/'; }
+depends() { # LINE PART N: the N-th of that text in the table
+    said=$("$TARTAN" test "$files/house-depends.plan" --coverage | awk -v part="  $2  " -v n="$3" 'index($0, part) && --n == 0 { gsub(",", "", $(NF - 2)); print $(NF - 2); exit }')
+    sed '/^test/,$d' "$files/house-depends.plan" >"$scratch/before.plan"
+    sed "$1s/$(sed 's/[.*]/[&]/g' <<<"$2")/$never/" "$scratch/before.plan" >"$scratch/after.plan"
+    sed -E 's/(open-plan|one-bed|as [a-z-]+$)/\12/g' "$scratch/after.plan" >"$scratch/again.plan"
+    grep '^rule' "$scratch/again.plan" >"$scratch/rules"
+    { sed '/^library/,$d' "$scratch/before.plan"; cat "$scratch/rules"; sed -n '/^library/,/^}/p' "$scratch/before.plan" | grep -v '^}'; grep '^  ' "$scratch/again.plan"; echo '}'; } >"$scratch/both.plan"
+    is "houses that depend on $2" "$said" "$(($(small "$scratch/before.plan") + $(small "$scratch/after.plan") - 2 * $(small "$scratch/both.plan")))"
+}
+depends 4 'touch(cell(living), cell(kitchen) by open)' 1
+depends 5 'quantity(cell(bedroom), n = 1)' 1
+depends 5 'not cell(porch-deck)' 1
+depends 8 'room(living, by window)' 1
+depends 8 'one-bed' 1
+depends 9 'open-plan' 1
 
 golden relations 'tartan check house-coverage.plan --relations --examples 2>/dev/null'
 golden relations_json 'tartan check cottage --relations --json'

@@ -272,6 +272,7 @@ golden stranger "tartan shards check $scratch/wrong"
 # ---- wrong use
 golden there "tartan shards new sheds.plan -l sheds --shards 2 -o $scratch/right"
 golden too_many "tartan shards new sheds.plan -l any-sheds --trays 30 --shards 1000000000 -o $scratch/x"
+golden too_many_for_few "tartan shards new sheds.plan -l any-sheds --trays 1 --shards 1000000000 -o $scratch/x"
 golden too_small "tartan shards new sheds.plan -l any-sheds --trays 30 --plans 3 -o $scratch/x"
 golden no_size "tartan shards new sheds.plan -l sheds -o $scratch/x"
 golden two_sizes "tartan shards new sheds.plan -l sheds -o $scratch/x --plans 3 --shards 2"

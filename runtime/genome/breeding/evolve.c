@@ -162,19 +162,17 @@ void tn_evolution_recall_parents(tn_evolution *e, tn_recall_parents *recall)
 /* ---- generations */
 
 /* The chosen parents stay, and their children take all other places. */
-static tn_status replace_chosen(tn_evolution *e, tn_error *error)
+static tn_status replace_chosen(tn_evolution *e, tn_status status, tn_error *error)
 {
-    size_t stay;
-    tn_status status = tn_evolution_bring_back(e, &stay, error);
-    status = tn_ranks_agree(e->settings.ranks, status, error);
+    size_t stay = 0;
     if (status == TN_OK)
-        status = tn_evolution_score(e, e->pool, stay, error);
+        status = tn_evolution_bring_back(e, &stay, error);
+    status = tn_evolution_score(e, status, e->pool, stay, error);
     if (status != TN_OK)
         return status;
     tn_evolution_take_places(e, e->settings.population - stay);
     status = tn_evolution_make(e, false, error);
-    if (status == TN_OK)
-        status = tn_evolution_score(e, e->born, e->born_count, error);
+    status = tn_evolution_score(e, status, e->born, e->born_count, error);
     if (status != TN_OK)
         return status;
     for (size_t i = 0; i < e->member_count; i++)
@@ -201,32 +199,31 @@ static void replace_on_island(tn_evolution *e, size_t number, bool survivors)
     tn_island_keep_best(e, island, e->pool, count, size < count ? size : count);
 }
 
-static tn_status replace_generation(tn_evolution *e, tn_error *error)
+static tn_status replace_generation(tn_evolution *e, tn_status status, tn_error *error)
 {
     size_t n = e->settings.population;
     bool survivors = e->settings.select.selection == TN_SELECT_NSGA2; /* parents compete with their children */
     size_t elites = survivors ? 0 : e->settings.elites;
     tn_evolution_take_places(e, n - elites * e->island_count);
-    tn_status status = tn_ranks_agree(e->settings.ranks, tn_evolution_find_cases(e, error), error);
+    status = tn_evolution_find_cases(e, status, error);
     if (status == TN_OK)
         status = tn_evolution_make(e, false, error);
-    if (status == TN_OK)
-        status = tn_evolution_score(e, e->born, e->born_count, error);
+    status = tn_evolution_score(e, status, e->born, e->born_count, error);
     for (size_t i = 0; status == TN_OK && i < e->island_count; i++)
         replace_on_island(e, i, survivors);
     return status;
 }
 
 /* Each child takes the place of the worst member, if it is better. */
-static tn_status replace_steady(tn_evolution *e, tn_error *error)
+static tn_status replace_steady(tn_evolution *e, tn_status status, tn_error *error)
 {
     tn_evolution_take_places(e, e->settings.population);
     for (size_t number = 0; number < tn_evolution_pairs(e); number++) {
         const tn_brood pair = tn_evolution_pair(e, number);
         tn_island *island = &e->islands[pair.island];
-        tn_status status = tn_evolution_make_pair(e, number, error);
         if (status == TN_OK)
-            status = tn_evolution_score(e, e->born + pair.first, pair.count, error);
+            status = tn_evolution_make_pair(e, number, error);
+        status = tn_evolution_score(e, status, e->born + pair.first, pair.count, error);
         if (status != TN_OK)
             return status;
         memcpy(e->pool, island->members, island->count * sizeof *e->pool);
@@ -235,15 +232,15 @@ static tn_status replace_steady(tn_evolution *e, tn_error *error)
         tn_island_keep_best(e, island, e->pool, count, size < count ? size : count);
     }
     e->births += e->settings.population;
-    return tn_evolution_keep_born(e, error);
+    return tn_ranks_agree(e->settings.ranks, tn_evolution_keep_born(e, error), error);
 }
 
-static tn_status first_generation(tn_evolution *e, tn_error *error)
+static tn_status first_generation(tn_evolution *e, tn_status status, tn_error *error)
 {
     tn_evolution_take_places(e, e->settings.population);
-    tn_status status = tn_evolution_make(e, true, error);
     if (status == TN_OK)
-        status = tn_evolution_score(e, e->born, e->born_count, error);
+        status = tn_evolution_make(e, true, error);
+    status = tn_evolution_score(e, status, e->born, e->born_count, error);
     for (size_t i = 0; status == TN_OK && i < e->island_count; i++) {
         memcpy(e->pool, e->born + i * e->births_each, e->births_each * sizeof *e->pool);
         tn_island_keep_best(e, &e->islands[i], e->pool, e->births_each, e->births_each);
@@ -255,14 +252,19 @@ static tn_status first_generation(tn_evolution *e, tn_error *error)
 
 tn_status tn_evolution_step(tn_evolution *e, tn_error *error)
 {
+    return tn_evolution_step_after(e, TN_OK, error);
+}
+
+tn_status tn_evolution_step_after(tn_evolution *e, tn_status status, tn_error *error)
+{
     if (e->member_count == 0)
-        return first_generation(e, error);
+        return first_generation(e, status, error);
     tn_evolution_part_from_guests(e);
     e->generation++;
     bool steady = e->settings.replacement == TN_REPLACE_STEADY && !e->chosen, stay = e->chosen && e->kind->parents_stay;
-    tn_status status = stay     ? replace_chosen(e, error)
-                       : steady ? replace_steady(e, error)
-                                : replace_generation(e, error);
+    status = stay     ? replace_chosen(e, status, error)
+             : steady ? replace_steady(e, status, error)
+                      : replace_generation(e, status, error);
     free(e->chosen);
     e->chosen = NULL;
     if (status != TN_OK)
@@ -289,7 +291,7 @@ void tn_evolution_vary(tn_evolution *e, const tn_vary_options *vary)
 tn_status tn_evolution_rescore(tn_evolution *e, tn_error *error)
 {
     tn_score_cache_clear(&e->cache);
-    tn_status status = tn_evolution_score(e, e->members, e->member_count, error);
+    tn_status status = tn_evolution_score(e, TN_OK, e->members, e->member_count, error);
     if (status != TN_OK)
         return status;
     for (size_t i = 0; i < e->island_count; i++) {

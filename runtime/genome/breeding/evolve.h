@@ -195,8 +195,12 @@ const tn_individual *const *tn_evolution_inserted(const tn_evolution *evolution,
 /* The id of whoever is born or inserted next: all ids that were given are smaller. */
 uint64_t tn_evolution_next_id(const tn_evolution *evolution);
 
-/* Makes the first generation, then at each call the next. */
+/* Makes the first generation, then at each call the next. With several ranks, together, and it fails for all alike. */
 tn_status tn_evolution_step(tn_evolution *evolution, tn_error *error);
+
+/* The same, where this rank may have failed on its way here: then `error` says how, and the step fails for all ranks.
+ * So what only one of them does before a step, and may fail in, does not keep the others waiting. */
+tn_status tn_evolution_step_after(tn_evolution *evolution, tn_status status, tn_error *error);
 
 /* Scores all members again, after the evaluator's targets have changed. */
 tn_status tn_evolution_rescore(tn_evolution *evolution, tn_error *error);

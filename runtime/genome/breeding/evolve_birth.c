@@ -177,12 +177,10 @@ tn_status tn_evolution_make(tn_evolution *e, bool first, tn_error *error)
 {
     e->births += e->born_count;
     tn_status status = tn_crew_run(e->crew, tn_evolution_pairs(e), 8, first ? first_item : next_item, e, error);
-    if (status == TN_OK)
-        status = tn_evolution_keep_born(e, error);
-    return tn_ranks_agree(e->settings.ranks, status, error);
+    return status == TN_OK ? tn_evolution_keep_born(e, error) : status;
 }
 
 tn_status tn_evolution_make_pair(tn_evolution *e, size_t pair, tn_error *error)
 {
-    return tn_ranks_agree(e->settings.ranks, make(e, 0, false, pair, error), error);
+    return make(e, 0, false, pair, error);
 }

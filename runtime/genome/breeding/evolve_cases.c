@@ -58,7 +58,7 @@ static const uint8_t *read_errors(void *context, const uint8_t *bytes)
     return bytes;
 }
 
-static tn_status find_all(tn_evolution *e, tn_error *error)
+static tn_status find_all(tn_evolution *e, tn_status status, tn_error *error)
 {
     const tn_shared_work work = {.context = e,
                                  .items = e->member_count,
@@ -67,22 +67,24 @@ static tn_status find_all(tn_evolution *e, tn_error *error)
                                  .write = write_errors,
                                  .read = read_errors};
     if (tn_ranks_several(e->settings.ranks))
-        return tn_evolution_share(e, &work, error);
-    return tn_crew_run(e->crew, e->member_count, 8, find_errors, e, error);
+        return tn_evolution_share(e, status, &work, error);
+    if (status == TN_OK)
+        status = tn_crew_run(e->crew, e->member_count, 8, find_errors, e, error);
+    return status;
 }
 
-tn_status tn_evolution_find_cases(tn_evolution *e, tn_error *error)
+tn_status tn_evolution_find_cases(tn_evolution *e, tn_status status, tn_error *error)
 {
     uint64_t parents[2];
     tn_selection selection = e->settings.select.selection;
     tn_lexicase_clear(&e->lexicase);
     if ((selection != TN_SELECT_LEXICASE && selection != TN_SELECT_EPSILON_LEXICASE) || e->chosen)
-        return TN_OK;
+        return status;
     if (e->recall_parents && e->recall_parents(e->recall_context, e->born[0]->id, parents))
-        return TN_OK;
-    tn_status status = tn_lexicase_new(e->member_count, e->evaluator.cases, e->threads, &e->lexicase, error);
+        return status;
     if (status == TN_OK)
-        status = find_all(e, error);
+        status = tn_lexicase_new(e->member_count, e->evaluator.cases, e->threads, &e->lexicase, error);
+    status = find_all(e, status, error);
     if (status == TN_OK && selection == TN_SELECT_EPSILON_LEXICASE)
         status = tn_lexicase_find_epsilons(&e->lexicase, error);
     return status;

@@ -106,7 +106,7 @@ tn_status tn_evolution_insert(tn_evolution *e, const tn_genome *genome, uint64_t
     tn_status status = make_guest(e, genome, parent, &guest, error);
     status = tn_ranks_agree(e->settings.ranks, status, error);
     if (status == TN_OK)
-        status = tn_evolution_score(e, &guest, 1, error);
+        status = tn_evolution_score(e, TN_OK, &guest, 1, error);
     if (status != TN_OK)
         return status;
     size_t count = island->count;

@@ -97,34 +97,51 @@ tn_status tn_scoring_item(void *scoring, unsigned thread, size_t item, tn_error 
     return evaluate_batch(s, thread, begin, left < s->batch ? left : s->batch, error);
 }
 
-static tn_status evaluate_all(tn_evolution *e, tn_individual **individuals, size_t todo, tn_error *error)
+static tn_status evaluate_all(tn_evolution *e, tn_status status, tn_individual **individuals, size_t todo,
+                              tn_error *error)
 {
     tn_scoring s = {e, individuals, todo, e->evaluator.evaluate_many ? e->evaluator.batch : 1};
     if (tn_ranks_several(e->settings.ranks))
-        return todo ? tn_scoring_share(&s, error) : TN_OK;
-    return tn_crew_run(e->crew, (todo + s.batch - 1) / s.batch, 1, tn_scoring_item, &s, error);
+        return tn_scoring_share(&s, status, error);
+    if (status == TN_OK)
+        status = tn_crew_run(e->crew, (todo + s.batch - 1) / s.batch, 1, tn_scoring_item, &s, error);
+    return status;
 }
 
-static tn_status score_new(tn_evolution *e, tn_individual **individuals, size_t todo, tn_error *error)
+/* Scores that were stored, where all of them were. */
+static bool recall_all(tn_evolution *e, tn_individual **individuals, size_t todo)
 {
-    bool recalled = e->recall != NULL;
+    bool recalled = true;
     for (size_t i = 0; i < todo && recalled; i++) {
         tn_individual *individual = individuals[e->todo[i]];
         recalled = e->recall(e->recall_context, individual->id, &individual->score);
         if (recalled)
             tidy_score(e, &individual->score);
     }
-    e->evaluations += todo;
-    return recalled ? TN_OK : evaluate_all(e, individuals, todo, error);
+    return recalled;
 }
 
-tn_status tn_evolution_score(tn_evolution *e, tn_individual **individuals, size_t count, tn_error *error)
+static tn_status score_new(tn_evolution *e, tn_status status, tn_individual **individuals, size_t todo, tn_error *error)
 {
-    size_t todo;
-    tn_status status = list_unknown(e, individuals, count, &todo, error);
-    status = tn_ranks_agree(e->settings.ranks, status, error);
+    if (e->recall) { /* then whether there is anything to share depends on what they have */
+        status = tn_ranks_agree(e->settings.ranks, status, error);
+        if (status != TN_OK)
+            return status;
+    }
     if (status == TN_OK)
-        status = score_new(e, individuals, todo, error);
+        e->evaluations += todo;
+    if (e->recall && recall_all(e, individuals, todo))
+        return TN_OK;
+    return evaluate_all(e, status, individuals, todo, error);
+}
+
+tn_status tn_evolution_score(tn_evolution *e, tn_status status, tn_individual **individuals, size_t count,
+                             tn_error *error)
+{
+    size_t todo = 0;
+    if (status == TN_OK)
+        status = list_unknown(e, individuals, count, &todo, error);
+    status = score_new(e, status, individuals, todo, error);
     if (status != TN_OK)
         return status;
     for (size_t i = 0; i < todo; i++)

@@ -1,12 +1,17 @@
 /* Work that several processes do together: each takes items from a counter that all share, and tells the others what it
- * found. All have the same items, in the same order. Scores of sentences are found so. */
+ * found. All have the same items, in the same order. Scores of sentences are found so.
+ *
+ * Ranks meet here alone while they breed: one begins as soon as it can, and hears at the end of the work that another
+ * failed before it. Where a rank has something else to do, as the one that stores the run, the others work meanwhile.
+ */
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/genome/breeding/evolve_state.h"
 
 /* A thread takes a part of what is left: this many times as many takes as there are threads, were they all equal. So
- * few takes do for many items, and the last ones are single items, which nobody waits for long. */
+ * few takes do for many items, and the last ones are single items, which nobody waits for long. What is left is
+ * guessed: since a thread's last take, the others have each taken as much. */
 #define SPREAD 4
 
 typedef struct sharing {
@@ -17,10 +22,11 @@ typedef struct sharing {
     bool *mine;     /* [items]: done here */
 } sharing;
 
-/* Nobody begins any more: one that failed makes the others wait for nothing. */
+/* Nobody begins any more: one that failed makes the others wait for nothing. It may not know how many items they have.
+ */
 static void take_the_rest(const sharing *s)
 {
-    s->ranks->take(s->ranks->context, s->work->items);
+    s->ranks->take(s->ranks->context, TN_POPULATION_MAX);
 }
 
 static tn_status do_items(sharing *s, unsigned thread, uint64_t from, uint64_t to, tn_error *error)
@@ -40,21 +46,24 @@ static tn_status take_part(void *context, unsigned thread, size_t place, tn_erro
 {
     (void)place;
     sharing *s = context;
-    uint64_t items = s->work->items, next = 0; /* those before have been taken */
+    uint64_t items = s->work->items, next = 0; /* those before have been taken, as far as is known */
     tn_status status = TN_OK;
     while (status == TN_OK) {
-        uint64_t amount = (items - next) / (s->workers * SPREAD) + 1;
+        uint64_t left = next < items ? items - next : 0, amount = left / (s->workers * SPREAD) + 1;
         uint64_t from = s->ranks->take(s->ranks->context, amount);
         if (from >= items)
             return TN_OK;
-        next = from + amount < items ? from + amount : items;
-        status = do_items(s, thread, from, next, error);
+        next = from + amount * s->workers;
+        status = do_items(s, thread, from, from + amount < items ? from + amount : items, error);
     }
     take_the_rest(s);
     return status;
 }
 
 /* ---- what ranks tell each other */
+
+/* The first byte of what a rank tells. */
+enum { FOUND, FAILED };
 
 /* What was found here. NULL: out of memory. */
 static uint8_t *write_mine(const sharing *s, size_t *size)
@@ -64,6 +73,8 @@ static uint8_t *write_mine(const sharing *s, size_t *size)
     for (size_t item = 0; item < work->items; item++)
         room += s->mine[item] ? work->size(work->context, item) : 0;
     uint8_t *bytes = malloc(room), *end = bytes;
+    if (bytes)
+        *end++ = FOUND;
     for (size_t item = 0; bytes && item < work->items; item++)
         if (s->mine[item])
             end = work->write(work->context, item, end);
@@ -71,41 +82,75 @@ static uint8_t *write_mine(const sharing *s, size_t *size)
     return bytes;
 }
 
-static void read_theirs(const sharing *s, const uint8_t *bytes, const uint8_t *end)
+typedef struct failure {
+    uint8_t kind; /* FAILED */
+    tn_error error;
+} failure;
+
+/* Together: everybody's findings or failures. */
+static void tell(const sharing *s, tn_status status, const tn_error *error, tn_gathered *all)
 {
-    while (bytes < end)
-        bytes = s->work->read(s->work->context, bytes);
+    const tn_ranks *ranks = s->ranks;
+    size_t size = 0;
+    uint8_t *bytes = status == TN_OK ? write_mine(s, &size) : NULL;
+    if (bytes) {
+        ranks->gather(ranks->context, bytes, size, all);
+        free(bytes);
+        return;
+    }
+    failure f;
+    memset(&f, 0, sizeof f);
+    f.kind = FAILED;
+    if (status == TN_OK)
+        status = tn_fail_memory(&f.error);
+    else
+        f.error = *error;
+    f.error.status = status;
+    ranks->gather(ranks->context, &f, sizeof f, all);
+}
+
+/* The failure of the first rank that has one. */
+static tn_status hear_failure(const sharing *s, const tn_gathered *all, tn_error *error)
+{
+    failure f;
+    for (unsigned r = 0; r < s->ranks->count; r++) {
+        const uint8_t *told = all->bytes + all->begins[r];
+        if (*told != FAILED)
+            continue;
+        memcpy(&f, told, sizeof f);
+        *error = f.error;
+        return f.error.status;
+    }
+    return TN_OK;
 }
 
 static tn_status exchange(const sharing *s, tn_status status, tn_error *error)
 {
     tn_gathered all;
-    size_t size = 0;
-    uint8_t *bytes = status == TN_OK ? write_mine(s, &size) : NULL;
-    if (status == TN_OK && !bytes)
-        status = tn_fail_memory(error);
-    status = tn_ranks_agree(s->ranks, status, error);
-    if (status == TN_OK) {
-        s->ranks->gather(s->ranks->context, bytes, size, &all);
-        for (unsigned r = 0; r < s->ranks->count; r++)
-            if (r != s->ranks->rank)
-                read_theirs(s, all.bytes + all.begins[r], all.bytes + all.begins[r + 1]);
-        tn_gathered_clear(&all);
+    tell(s, status, error, &all);
+    status = hear_failure(s, &all, error);
+    for (unsigned r = 0; status == TN_OK && r < s->ranks->count; r++) {
+        const uint8_t *bytes = all.bytes + all.begins[r] + 1, *end = all.bytes + all.begins[r + 1];
+        while (r != s->ranks->rank && bytes < end)
+            bytes = s->work->read(s->work->context, bytes);
     }
-    free(bytes);
+    tn_gathered_clear(&all);
     return status;
 }
 
-tn_status tn_evolution_share(tn_evolution *e, const tn_shared_work *work, tn_error *error)
+tn_status tn_evolution_share(tn_evolution *e, tn_status status, const tn_shared_work *work, tn_error *error)
 {
     const tn_ranks *ranks = e->settings.ranks;
     sharing s = {.evolution = e,
                  .work = work,
                  .ranks = ranks,
                  .workers = (size_t)ranks->count * e->threads,
-                 .mine = calloc(work->items + 1, sizeof *s.mine)};
+                 .mine = status == TN_OK ? calloc(work->items + 1, sizeof *s.mine) : NULL};
     ranks->restart(ranks->context);
-    tn_status status = s.mine ? tn_crew_run(e->crew, e->threads, 1, take_part, &s, error) : tn_fail_memory(error);
+    if (status == TN_OK && !s.mine)
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_crew_run(e->crew, e->threads, 1, take_part, &s, error);
     if (status != TN_OK)
         take_the_rest(&s);
     status = exchange(&s, status, error);
@@ -168,7 +213,7 @@ static const uint8_t *read_score(void *context, const uint8_t *bytes)
     return bytes + sizeof e + e.message_size;
 }
 
-tn_status tn_scoring_share(tn_scoring *scoring, tn_error *error)
+tn_status tn_scoring_share(tn_scoring *scoring, tn_status status, tn_error *error)
 {
     const tn_shared_work work = {.context = scoring,
                                  .items = (scoring->todo + scoring->batch - 1) / scoring->batch,
@@ -176,5 +221,5 @@ tn_status tn_scoring_share(tn_scoring *scoring, tn_error *error)
                                  .size = scores_size,
                                  .write = write_scores,
                                  .read = read_score};
-    return tn_evolution_share(scoring->evolution, &work, error);
+    return tn_evolution_share(scoring->evolution, status, &work, error);
 }

@@ -150,16 +150,21 @@ typedef struct tn_shared_work {
     const uint8_t *(*read)(void *context, const uint8_t *bytes);       /* one result; where the next begins */
 } tn_shared_work;
 
-/* Together: does the items with the other ranks of the settings, each once; then all know the results. */
-tn_status tn_evolution_share(tn_evolution *evolution, const tn_shared_work *work, tn_error *error);
+/* With several ranks, the next four are called together. `status` says how this rank has fared since they last met: one
+ * that failed then (`error` says how) does no work, and so fails all of them. */
 
-/* Evaluates all batches together with the other ranks of the settings. */
-tn_status tn_scoring_share(tn_scoring *scoring, tn_error *error);
+/* Does the items with the other ranks of the settings, each once; then all know the results. */
+tn_status tn_evolution_share(tn_evolution *evolution, tn_status status, const tn_shared_work *work, tn_error *error);
 
-/* Where parents are selected by single cases: the members' errors in them, unless the parents are recalled. */
-tn_status tn_evolution_find_cases(tn_evolution *evolution, tn_error *error);
+/* Evaluates all batches with the other ranks of the settings. */
+tn_status tn_scoring_share(tn_scoring *scoring, tn_status status, tn_error *error);
+
+/* Where parents are selected by single cases: the members' errors in them, unless the parents are recalled. It may fail
+ * for this rank alone. */
+tn_status tn_evolution_find_cases(tn_evolution *evolution, tn_status status, tn_error *error);
 
 /* Gives scores to individuals that have a sentence. */
-tn_status tn_evolution_score(tn_evolution *evolution, tn_individual **individuals, size_t count, tn_error *error);
+tn_status tn_evolution_score(tn_evolution *evolution, tn_status status, tn_individual **individuals, size_t count,
+                             tn_error *error);
 
 #endif

@@ -31,7 +31,7 @@ static void section_is(const tn_house *house, uint32_t function, uint64_t *relat
             add(relation, words, i, j);
 }
 
-static bool has_kind(const tn_module *module, const tn_meeting_record *meeting, uint32_t kind)
+bool tn_meeting_has(const tn_module *module, const tn_meeting_record *meeting, uint32_t kind)
 {
     for (uint32_t i = 0; i < meeting->kind_count; i++)
         if (module->HOUSE_ITEM_records[meeting->kind_first + i].number == kind)
@@ -41,7 +41,7 @@ static bool has_kind(const tn_module *module, const tn_meeting_record *meeting, 
 
 bool tn_face_meets(const tn_house *house, const tn_meeting_record *meeting, const tn_face *face)
 {
-    if (face->second == TN_NO_CELL || !has_kind(house->form->module, meeting, face->kind))
+    if (face->second == TN_NO_CELL || !tn_meeting_has(house->form->module, meeting, face->kind))
         return false;
     const tn_cell *a = &house->cells[face->first], *b = &house->cells[face->second];
     return (tn_house_decide(house, meeting->first, a) && tn_house_decide(house, meeting->second, b)) ||
@@ -60,15 +60,21 @@ static void meets(const tn_house *house, const tn_meeting_record *meeting, uint6
 
 /* ---- walks */
 
+bool tn_walk_goes_through(const tn_house_form *form, const tn_meeting_record *walk, uint32_t kind)
+{
+    const tn_opening_record *opening = tn_form_opening(form, kind);
+    return tn_meeting_has(form->module, walk, kind) &&
+           (kind == TN_FACE_OPEN || (opening && opening->flags & TN_PASSAGE));
+}
+
 bool tn_house_is_step(const tn_house *house, const tn_meeting_record *walk, const tn_face *face)
 {
-    if (face->second == TN_NO_CELL || house->cells[face->first].open || house->cells[face->second].open ||
-        !has_kind(house->form->module, walk, face->kind))
+    if (face->second == TN_NO_CELL || house->cells[face->first].open || house->cells[face->second].open)
         return false;
-    if (face->relation == TN_FACE_UNDER)
-        return face->kind == TN_FACE_STAIR || tn_form_flight(house->form, face->kind);
-    const tn_opening_record *opening = tn_form_opening(house->form, face->kind);
-    return face->kind == TN_FACE_OPEN || (opening && opening->flags & TN_PASSAGE);
+    if (face->relation != TN_FACE_UNDER)
+        return tn_walk_goes_through(house->form, walk, face->kind);
+    return tn_meeting_has(house->form->module, walk, face->kind) &&
+           (face->kind == TN_FACE_STAIR || tn_form_flight(house->form, face->kind));
 }
 
 bool tn_cell_apart(tn_house_rules *rules, const tn_meeting_record *walk, uint32_t from)
@@ -97,12 +103,41 @@ bool tn_cell_apart(tn_house_rules *rules, const tn_meeting_record *walk, uint32_
     return true;
 }
 
+/* Of a cell: no walk is known from it to a goal; one is; one is, and walks from beside it can go on through it. */
+enum { IS_APART, IS_NEAR, LEADS_ON };
+
+/* Spreads from cells that lead on to those beside them. False: nothing changed. */
+static bool spread(tn_house_rules *rules, const tn_meeting_record *walk)
+{
+    const tn_house *house = rules->house;
+    bool changed = false;
+    for (size_t i = 0; i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        if (face->second == TN_NO_CELL)
+            continue;
+        uint8_t *a = &rules->near[face->first], *b = &rules->near[face->second];
+        bool onward = *a == LEADS_ON && *b == IS_APART, back = *b == LEADS_ON && *a == IS_APART;
+        if ((!onward && !back) || !tn_house_is_step(house, walk, face))
+            continue;
+        uint32_t to = onward ? face->second : face->first;
+        bool through = walk->through == TN_NO_RECORD || tn_house_decide(house, walk->through, &house->cells[to]);
+        rules->near[to] = through ? LEADS_ON : IS_NEAR;
+        changed = true;
+    }
+    return changed;
+}
+
+/* All sources at once: from the goals backwards, as one can walk through a face both ways. */
 static void apart(tn_house_rules *rules, const tn_meeting_record *walk, uint64_t *relation, size_t words)
 {
     const tn_house *house = rules->house;
+    for (uint32_t i = 0; i < house->cell_count; i++)
+        rules->near[i] = tn_house_decide(house, walk->second, &house->cells[i]) ? LEADS_ON : IS_APART;
+    while (spread(rules, walk))
+        ;
     for (uint32_t i = 0; i < house->cell_count; i++) {
         const tn_cell *cell = &house->cells[i];
-        if (!cell->open && tn_house_decide(house, walk->first, cell) && tn_cell_apart(rules, walk, i))
+        if (!cell->open && rules->near[i] == IS_APART && tn_house_decide(house, walk->first, cell))
             add(relation, words, cell->tray, cell->tray + 1u);
     }
 }
@@ -259,6 +294,7 @@ void tn_house_rules_free(tn_house_rules *rules)
     tn_plan_vm_free(rules->sums_vm);
     mpq_clear(rules->cost);
     free(rules->seen);
+    free(rules->near);
     free(rules->todo);
     free(rules->sums);
     free(rules->rooms);
@@ -279,6 +315,7 @@ static tn_status make_room(tn_house_rules *rules, const tn_house *house, tn_erro
     size_t capacity = 2 * needed + 32;
     rules->capacity = 0;
     if (!tn_array_resize((void **)&rules->seen, capacity, sizeof *rules->seen) ||
+        !tn_array_resize((void **)&rules->near, capacity, sizeof *rules->near) ||
         !tn_array_resize((void **)&rules->todo, capacity, sizeof *rules->todo) ||
         !tn_array_resize((void **)&rules->rooms, capacity, sizeof *rules->rooms) ||
         !tn_array_resize((void **)&rules->sums, capacity, sizeof *rules->sums))

@@ -23,6 +23,12 @@ tn_status tn_house_rules_start(tn_house_rules *rules, const tn_house *house, tn_
 /* Do two cells that are so, in any order, share the face, and has it one of the kinds? */
 bool tn_face_meets(const tn_house *house, const tn_meeting_record *meeting, const tn_face *face);
 
+/* Is the kind one of those that are asked for? */
+bool tn_meeting_has(const tn_module *module, const tn_meeting_record *meeting, uint32_t kind);
+
+/* Can one walk from a cell to one beside it through such a face? */
+bool tn_walk_goes_through(const tn_house_form *form, const tn_meeting_record *walk, uint32_t kind);
+
 /* Can one walk through the face, by `apart`? Never into a void; up and down by stairs alone. */
 bool tn_house_is_step(const tn_house *house, const tn_meeting_record *walk, const tn_face *face);
 

@@ -9,8 +9,9 @@
 typedef struct tn_room_span {
     uint32_t room; /* its lowest cell */
     uint32_t begin, end;
-    uint32_t cells; /* without voids */
-    tn_int128 area; /* likewise, in square nanometres */
+    uint32_t cells;   /* without voids */
+    tn_int128 area;   /* likewise, in square nanometres */
+    tn_int128 glazed; /* to the outside */
 } tn_room_span;
 
 struct tn_house_rules {
@@ -22,6 +23,7 @@ struct tn_house_rules {
     tn_room_span *rooms;
     size_t room_count;
     bool *seen;
+    uint8_t *near; /* [cells] on one walk: asked.c */
     uint32_t *todo;
     int64_t *sums;
     size_t capacity;     /* of each of the arrays, in items */

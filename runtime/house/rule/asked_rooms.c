@@ -14,18 +14,18 @@ tn_status tn_rooms_gather(tn_house_rules *rules, tn_error *error)
     tn_status status = tn_house_rooms(house, &rules->room_of, error);
     for (uint32_t i = 0; status == TN_OK && i < house->cell_count; i++) {
         const tn_cell *cell = &house->cells[i];
-        size_t r = 0;
-        while (r < rules->room_count && rules->rooms[r].room != rules->room_of[i])
-            r++;
-        tn_room_span *room = &rules->rooms[r];
-        if (r == rules->room_count) {
-            *room = (tn_room_span){.room = rules->room_of[i], .begin = cell->tray};
-            rules->room_count++;
+        if (rules->room_of[i] == i) { /* a room is named by its first cell */
+            rules->todo[i] = (uint32_t)rules->room_count;
+            rules->rooms[rules->room_count++] = (tn_room_span){.room = i, .begin = cell->tray};
         }
+        tn_room_span *room = &rules->rooms[rules->todo[rules->room_of[i]]];
         room->end = cell->tray + 1; /* cells go by trays */
         room->cells += !cell->open;
         room->area += cell->open ? 0 : tn_cell_area(cell);
     }
+    for (size_t i = 0; status == TN_OK && i < house->face_count; i++)
+        rules->rooms[rules->todo[rules->room_of[house->faces[i].first]]].glazed +=
+            tn_face_glazing(house, &house->faces[i]);
     rules->gathered = status == TN_OK;
     return status;
 }
@@ -62,8 +62,7 @@ static bool has_face(const tn_asked_room *asked, int64_t kind)
  * stay within 128 bits, because a house is at most 2^43 long and deep. */
 static bool glazing_compares(const tn_asked_room *asked, int64_t test, int64_t ratio)
 {
-    tn_int128 glazed = tn_room_glazing(asked->rules->house, asked->rules->room_of, asked->room->room);
-    return tn_area_compares(glazed * (ratio & UINT32_MAX) - asked->room->area * (ratio >> 32), test, 0);
+    return tn_area_compares(asked->room->glazed * (ratio & UINT32_MAX) - asked->room->area * (ratio >> 32), test, 0);
 }
 
 static bool ask_room(const void *context, const tn_instruction *instruction)

@@ -7,6 +7,7 @@
 
 #include "runtime/house/strip/parts.h"
 #include "runtime/plan/match/condition.h"
+#include "runtime/plan/match/rules.h"
 #include "runtime/plan/match/tray_relations.h"
 
 #define AREA_STEPS_MAX UINT64_C(1000000) /* of the sum of all areas */
@@ -21,7 +22,12 @@ tn_status tn_strip_clauses_new(tn_strip *strip, tn_error *error)
     for (uint32_t i = 0; status == TN_OK && i < strip->library->clause_count; i++) {
         const tn_house_clause_record *record = &module->HOUSE_CLAUSE_records[strip->library->clause_first + i];
         tn_strip_clause *clause = &strip->clauses[strip->clause_count++];
-        *clause = (tn_strip_clause){.holds = record->holds, .prunes = record->kind == TN_CLAUSE_PRUNE, .radix = 1};
+        bool without = strip->without && i >= strip->without->first;
+        *clause = (tn_strip_clause){.holds = record->holds,
+                                    .prunes = record->kind == TN_CLAUSE_PRUNE,
+                                    .without = without,
+                                    .differs = without && strip->without->differs,
+                                    .radix = 1};
         status = tn_classes_new(strip->form->schema, &clause->holds, 1, &clause->classes, error);
     }
     return status;
@@ -320,29 +326,64 @@ static tn_status make_letters(const tn_strip_clause *clause, uint32_t letters, t
     return TN_OK;
 }
 
+/* What the clause says of a house, as the rules are or without a part of them. */
+static tn_status lower_holds(const tn_strip_lowering *context, const tn_classes *classes, bool without, tn_dfa **out,
+                             tn_error *error)
+{
+    const tn_strip *strip = context->strip;
+    tn_lowering *lowering = NULL;
+    tn_status status = tn_lowering_new(classes, 0, &lowering, error);
+    if (status == TN_OK) {
+        tn_lowering_within(lowering, strip->trays_most);
+        tn_lowering_house(lowering, relate, (void *)(uintptr_t)context);
+        if (without)
+            tn_lowering_disable(lowering, strip->without->offsets, strip->without->count);
+        status = tn_lower(lowering, context->clause->holds, out, error);
+    }
+    tn_lowering_free(lowering);
+    return status;
+}
+
+/* The houses of which it says otherwise without the part. */
+static tn_status lower_difference(const tn_strip_lowering *context, const tn_classes *classes, tn_dfa **out,
+                                  tn_error *error)
+{
+    tn_bounds bounds = tn_bounds_make(TN_STATES_DEFAULT);
+    tn_dfa *with = NULL, *without = NULL, *lost = NULL, *gained = NULL;
+    tn_status status = lower_holds(context, classes, false, &with, error);
+    bounds.watch = context->strip->watch;
+    if (status == TN_OK)
+        status = lower_holds(context, classes, true, &without, error);
+    if (status == TN_OK)
+        status = tn_dfa_product(with, without, TN_DFA_MINUS, "the difference", &bounds, &lost, error);
+    if (status == TN_OK)
+        status = tn_dfa_product(without, with, TN_DFA_MINUS, "the difference", &bounds, &gained, error);
+    if (status == TN_OK)
+        status = tn_dfa_product(lost, gained, TN_DFA_OR, "the difference", &bounds, out, error);
+    tn_dfa_free(with);
+    tn_dfa_free(without);
+    tn_dfa_free(lost);
+    tn_dfa_free(gained);
+    return status;
+}
+
 static tn_status lower_clause(tn_strip *strip, tn_strip_clause *clause, const char *name, tn_error *error)
 {
-    tn_strip_lowering context = {strip, clause, name};
+    const tn_strip_lowering context = {strip, clause, name};
     uint64_t letters = (uint64_t)clause->bases.count * clause->radix;
     tn_classes classes = {0};
-    tn_lowering *lowering = NULL;
     tn_dfa *dfa = NULL;
     if (letters > TN_STRIP_LETTERS_MAX)
         return tn_strip_limit(strip, name, "tells too many trays with their houses apart", error);
     tn_status status = make_letters(clause, (uint32_t)letters, &classes, error);
     if (status == TN_OK)
-        status = tn_lowering_new(&classes, 0, &lowering, error);
-    if (status == TN_OK) {
-        tn_lowering_within(lowering, strip->trays_most);
-        tn_lowering_house(lowering, relate, &context);
-        status = tn_lower(lowering, clause->holds, &dfa, error);
-    }
-    if (status == TN_OK && clause->prunes)
+        status = clause->differs ? lower_difference(&context, &classes, &dfa, error)
+                                 : lower_holds(&context, &classes, clause->without, &dfa, error);
+    if (status == TN_OK && clause->prunes && !clause->differs)
         status = tn_dfa_complement(dfa, &clause->dfa, error);
     else if (status == TN_OK)
         clause->dfa = tn_dfa_share(dfa);
     tn_dfa_free(dfa);
-    tn_lowering_free(lowering);
     free(classes.representative);
     return status == TN_LIMIT && error->code == E_TOO_MANY_STATES
                ? tn_strip_limit(strip, name, "takes more states than the limit", error)

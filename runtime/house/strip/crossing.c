@@ -138,7 +138,7 @@ static tn_status cross_plane(tn_strip *strip, const uint32_t *state, uint32_t sl
     bool last = slice == TN_STRIP_NONE;
     tn_passing p = {.strip = strip, .state = state, .crossed = crossed};
     p.crossing = (tn_strip_crossing){.left = state ? &strip->edges[state[STATE_EDGE]] : NULL,
-                                     .right = last ? NULL : &strip->edges[strip->slices[slice].edge],
+                                     .right = last ? NULL : &strip->edges[strip->slices[slice].entry],
                                      .slice = last ? NULL : tn_interned(&strip->slice_keys, slice, &size)};
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < plane->count; i++, p.crossed += tn_strip_crossed_words(strip)) {
@@ -191,7 +191,7 @@ tn_status tn_strip_cross(tn_strip *strip, const uint32_t *state, uint32_t slice,
     if (row->mark[at] != row->stamp) {
         const tn_strip_list *list;
         status = tn_strip_plane(strip, state ? state[STATE_EDGE] : TN_STRIP_NONE,
-                                slice == TN_STRIP_NONE ? slice : strip->slices[slice].edge, &list, error);
+                                slice == TN_STRIP_NONE ? slice : strip->slices[slice].entry, &list, error);
         if (status != TN_OK)
             return status;
         row->plane[at] = *list;

@@ -64,10 +64,11 @@ static void merge_ways(tn_ways *ways)
 static tn_status find_ways(tn_houses_expansion *e, uint32_t plan, tn_ways *ways, tn_error *error)
 {
     const tn_houses *h = e->houses;
+    const tn_strip *strip = e->kind->strip;
     for (tn_tray t = 0; e->layer < h->high && t < h->form->schema->tray_count; t++) {
         uint32_t next;
         tn_house_gain gain;
-        const tn_strip_list *list = &e->kind->strip->of_tray[t];
+        const tn_strip_list *list = &strip->of_tray[t];
         tn_status status = tn_houses_plan_next(h, e->layer, plan, t, &next, &gain, error);
         if (status != TN_OK)
             return status;
@@ -75,9 +76,11 @@ static tn_status find_ways(tn_houses_expansion *e, uint32_t plan, tn_ways *ways,
             continue;
         if (!tn_array_reserve(&ways->items, &ways->room, ways->count, list->count, sizeof *ways->items))
             return tn_fail_memory(error);
-        for (size_t i = 0; i < list->count; i++)
-            ways->items[ways->count++] =
-                (tn_houses_way){list->items[i].slice, next, list->items[i].times, gain, h->trays_matter ? t : 0};
+        for (size_t i = 0; i < list->count; i++) {
+            uint32_t slice = list->items[i].slice;
+            ways->items[ways->count++] = (tn_houses_way){strip->scouting ? strip->slices[slice].plain : slice, next,
+                                                         list->items[i].times, gain, h->trays_matter ? t : 0};
+        }
     }
     if (ways->count > 0)
         merge_ways(ways);

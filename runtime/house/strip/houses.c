@@ -160,7 +160,7 @@ static tn_status walk(const tn_houses *h, tn_houses_kind *kind, bool *any, tn_er
 
 /* Goes through all states without their tiles, so that what nothing can tell apart is merged (merge.c); then, where
  * tiles have prices, with them, so that all costs are known. */
-static tn_status scout(const tn_houses *h, tn_houses_kind *kind, const bool *trays, tn_error *error)
+static tn_status scout(const tn_houses *h, tn_houses_kind *kind, const tn_strip_trays *trays, tn_error *error)
 {
     tn_strip *strip = kind->strip;
     bool any = false;
@@ -171,7 +171,7 @@ static tn_status scout(const tn_houses *h, tn_houses_kind *kind, const bool *tra
     if (status == TN_OK)
         status = tn_strip_merge(strip, error);
     if (status == TN_OK && any && strip->prices.asked)
-        status = tn_strip_prices_check(strip, trays, error);
+        status = tn_strip_prices_check(strip, trays->stand, error);
     return status == TN_OK && strip->any_tiled && strip->prices.items ? walk(h, kind, &any, error) : status;
 }
 
@@ -200,7 +200,7 @@ tn_houses_kind *tn_houses_kind_of(const tn_houses *h, const tn_house *section)
     return NULL;
 }
 
-static tn_status add_kind(tn_houses *h, const tn_house *section, const bool *trays, tn_error *error)
+static tn_status add_kind(tn_houses *h, const tn_house *section, const tn_strip_trays *trays, tn_error *error)
 {
     tn_houses_kind *kind = tn_houses_kind_of(h, section);
     if (kind) {
@@ -213,7 +213,7 @@ static tn_status add_kind(tn_houses *h, const tn_house *section, const bool *tra
     *kind = (tn_houses_kind){.key = tn_sections_key(&h->sections, section), .sections = 1};
     mpz_init(kind->faced);
     tn_status status = tn_strip_new(h->form, h->library, section->shapes, trays, h->low, h->high, h->measures,
-                                    &h->added, &kind->strip, error);
+                                    &h->added, h->without, &kind->strip, error);
     return status == TN_OK ? scout(h, kind, trays, error) : status;
 }
 
@@ -227,7 +227,7 @@ static tn_status look_at_kind(tn_houses *h, tn_houses_kind *kind, tn_error *erro
                : status;
 }
 
-static tn_status count_sections(tn_houses *h, const bool *trays, tn_error *error)
+static tn_status count_sections(tn_houses *h, const tn_strip_trays *trays, tn_error *error)
 {
     tn_house section = {.form = h->form};
     tn_status status = TN_OK;
@@ -281,22 +281,23 @@ tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record 
                      .measures = what->measures,
                      .trays_matter = what->aim == TN_HOUSES_COMPLETE,
                      .aim = what->aim,
-                     .wanted = what->wanted};
+                     .wanted = what->wanted,
+                     .without = what->without};
     h->high = h->high < h->low ? h->low : h->high;
     tn_houses_units_init(&h->units);
-    bool *trays = calloc((size_t)form->schema->tray_count + 1, sizeof *trays);
-    tn_status status = trays ? tn_sections_begin(form, &h->sections, error) : tn_fail_memory(error);
+    tn_strip_trays trays = {0};
+    tn_status status = tn_sections_begin(form, &h->sections, error);
     if (status == TN_OK)
         status = tn_houses_find_added(h, error);
     if (status == TN_OK && h->measures)
         status = weigh_plans(h, error);
     if (status == TN_OK)
-        status = tn_houses_plans_find(h, trays, error);
+        status = tn_houses_plans_find(h, &trays, error);
     if (status == TN_OK)
-        status = count_sections(h, trays, error);
+        status = count_sections(h, &trays, error);
     if (status == TN_OK && (h->aim == TN_HOUSES_LEAST || h->aim == TN_HOUSES_FRONT))
         status = tn_houses_aim_all(h, error);
-    free(trays);
+    tn_strip_trays_clear(&trays);
     if (status != TN_OK) {
         tn_houses_free(h);
         *out = NULL;

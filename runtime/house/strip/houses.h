@@ -32,6 +32,15 @@ tn_status tn_houses_new(const tn_house_form *form, const tn_house_library_record
  * another; or what completes an open plan, and the best that the first measure, if there is one, still can be. */
 typedef enum tn_houses_aim { TN_HOUSES_SPREAD, TN_HOUSES_LEAST, TN_HOUSES_FRONT, TN_HOUSES_COMPLETE } tn_houses_aim;
 
+/* For coverage: what the instructions at these code offsets make is empty in the library's clauses from `first` on
+ * (counted within it; borrowed). differs: these keep the houses of which the clause says otherwise then. */
+typedef struct tn_houses_without {
+    const uint32_t *offsets;
+    size_t count;
+    uint32_t first;
+    bool differs;
+} tn_houses_without;
+
 /* The houses on one plan of the library (only, of that length; NULL: on all), and the measures that they are counted
  * by (NULL: none). Both are borrowed. With measures only what they are for may be asked: tn_houses_spread, or best.h.
  */
@@ -40,7 +49,8 @@ typedef struct tn_houses_what {
     uint32_t length;
     const tn_house_measures *measures;
     tn_houses_aim aim;
-    uint64_t wanted; /* houses, by TN_HOUSES_LEAST */
+    uint64_t wanted;                  /* houses, by TN_HOUSES_LEAST */
+    const tn_houses_without *without; /* or NULL */
 } tn_houses_what;
 tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
                        const tn_houses_what *what, uint32_t max_states, tn_houses **houses, tn_error *error);

@@ -73,6 +73,7 @@ struct tn_houses {
     const tn_house_library_record *library;
     const tn_library *plans;
     uint32_t max_states, low, high;    /* trays */
+    const tn_houses_without *without;  /* or NULL; only while they are counted */
     tn_houses_plan_layer *plan_layers; /* [high + 1] */
     tn_sections sections;
     tn_houses_kind *kinds;
@@ -107,8 +108,9 @@ typedef tn_status tn_houses_edge_seen(void *context, const tn_houses_edge *edge,
 tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end,
                            tn_houses_edge_seen *seen, void *context, tn_error *error);
 
-/* Finds the plan states, and the trays that stand in some plan (trays: [of the schema], false). */
-tn_status tn_houses_plans_find(tn_houses *houses, bool *trays, tn_error *error);
+/* Finds the plan states, and the trays that stand in some plan. trays: zeroed; clear them also after a failure. */
+tn_status tn_houses_plans_find(tn_houses *houses, tn_strip_trays *trays, tn_error *error);
+void tn_strip_trays_clear(tn_strip_trays *trays);
 void tn_houses_plans_clear(tn_houses *houses);
 
 /* The plans that are looked at: where a tray leads, and what it adds; TN_STRIP_NONE: to none of them. layer: the trays

@@ -104,20 +104,76 @@ tn_status tn_houses_plan_next(const tn_houses *h, uint32_t layer, uint32_t plan,
     return status;
 }
 
-/* ---- the states that plans of the library reach */
+/* ---- the states that plans of the library reach, and the trays between them */
 
-static tn_status reach_next(const tn_houses *h, uint32_t layer, uint32_t plan, bool *trays, tn_error *error)
+/* Sets of trays are bits in so many words. */
+typedef struct tn_reaching {
+    const tn_houses *houses;
+    tn_strip_trays *trays;
+    uint64_t *into, *next; /* [states of the layer], of the next: by which trays plans come there */
+    size_t into_room, next_room;
+    uint64_t *onward; /* by which they go on */
+} tn_reaching;
+
+static void add_tray(uint64_t *set, tn_tray tray)
 {
+    set[tray / 64] |= UINT64_C(1) << tray % 64;
+}
+
+/* A state of the next layer, new or old, that the tray leads to. */
+static tn_status reach_state(tn_reaching *r, uint32_t layer, uint32_t state, tn_tray tray, tn_error *error)
+{
+    size_t words = r->trays->words, before = r->next_room;
+    uint32_t at = tn_number(&r->houses->plan_layers[layer + 1].states, state);
+    if (at == UINT32_MAX || !tn_array_reserve(&r->next, &r->next_room, at * words, words, sizeof *r->next))
+        return tn_fail_memory(error);
+    memset(r->next + before, 0, (r->next_room - before) * sizeof *r->next);
+    add_tray(r->next + at * words, tray);
+    add_tray(r->onward, tray);
+    r->trays->stand[tray] = true;
+    return TN_OK;
+}
+
+static void note_followers(tn_reaching *r, uint32_t at)
+{
+    size_t words = r->trays->words;
+    for (tn_tray t = 0; r->trays->follows && t < r->houses->form->schema->tray_count; t++)
+        for (size_t w = 0; r->into[at * words + t / 64] >> t % 64 & 1 && w < words; w++)
+            r->trays->follows[t * words + w] |= r->onward[w];
+}
+
+static tn_status reach_next(tn_reaching *r, uint32_t layer, uint32_t at, tn_error *error)
+{
+    const tn_houses *h = r->houses;
+    uint32_t plan = (uint32_t)h->plan_layers[layer].states.keys[at];
     tn_status status = TN_OK;
+    memset(r->onward, 0, r->trays->words * sizeof *r->onward);
     for (tn_tray t = 0; status == TN_OK && t < h->form->schema->tray_count; t++) {
         uint32_t next;
         tn_plan_steps steps;
         status = step(h, layer, plan, t, &next, &steps, error);
-        if (status != TN_OK || !tn_houses_plan_lives(h, layer + 1, next))
-            continue;
-        trays[t] = true;
-        if (tn_number(&h->plan_layers[layer + 1].states, next) == UINT32_MAX)
-            status = tn_fail_memory(error);
+        if (status == TN_OK && tn_houses_plan_lives(h, layer + 1, next))
+            status = reach_state(r, layer, next, t, error);
+    }
+    if (layer > 0)
+        note_followers(r, at);
+    return status;
+}
+
+static tn_status reach_layers(tn_reaching *r, tn_error *error)
+{
+    const tn_houses *h = r->houses;
+    tn_status status = TN_OK;
+    for (uint32_t k = 0; status == TN_OK && k < h->high; k++) {
+        for (uint32_t i = 0; status == TN_OK && i < h->plan_layers[k].states.count; i++)
+            status = reach_next(r, k, i, error);
+        uint64_t *into = r->into;
+        size_t room = r->into_room;
+        r->into = r->next;
+        r->into_room = r->next_room;
+        r->next = into;
+        r->next_room = room;
+        memset(r->next, 0, room * sizeof *r->next);
     }
     return status;
 }
@@ -179,18 +235,41 @@ static tn_status merge_layer(tn_houses *h, uint32_t at, tn_error *error)
     return status;
 }
 
-tn_status tn_houses_plans_find(tn_houses *h, bool *trays, tn_error *error)
+/* A schema with more trays than this has too many pairs of them. */
+enum { FOLLOWED_TRAYS_MAX = 4096 };
+
+static tn_status begin_trays(const tn_houses *h, tn_strip_trays *trays, tn_error *error)
 {
+    size_t count = h->form->schema->tray_count;
+    trays->words = count / 64 + 1;
+    trays->stand = calloc(count + 1, sizeof *trays->stand);
+    if (count <= FOLLOWED_TRAYS_MAX)
+        trays->follows = calloc((count + 1) * trays->words, sizeof *trays->follows);
+    return trays->stand && (trays->follows || count > FOLLOWED_TRAYS_MAX) ? TN_OK : tn_fail_memory(error);
+}
+
+tn_status tn_houses_plans_find(tn_houses *h, tn_strip_trays *trays, tn_error *error)
+{
+    tn_reaching r = {.houses = h, .trays = trays};
+    tn_status status = begin_trays(h, trays, error);
     h->plan_layers = calloc((size_t)h->high + 1, sizeof *h->plan_layers);
-    if (!h->plan_layers || tn_number(&h->plan_layers[0].states, 0) == UINT32_MAX)
-        return tn_fail_memory(error);
-    tn_status status = TN_OK;
-    for (uint32_t k = 0; status == TN_OK && k < h->high; k++)
-        for (uint32_t i = 0; status == TN_OK && i < h->plan_layers[k].states.count; i++)
-            status = reach_next(h, k, (uint32_t)h->plan_layers[k].states.keys[i], trays, error);
+    r.onward = calloc(trays->words, sizeof *r.onward);
+    if (status == TN_OK && (!h->plan_layers || !r.onward || tn_number(&h->plan_layers[0].states, 0) == UINT32_MAX))
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = reach_layers(&r, error);
     for (uint32_t k = h->high + 1; status == TN_OK && k-- > 0;)
         status = merge_layer(h, k, error);
+    free(r.into);
+    free(r.next);
+    free(r.onward);
     return status;
+}
+
+void tn_strip_trays_clear(tn_strip_trays *trays)
+{
+    free(trays->stand);
+    free(trays->follows);
 }
 
 void tn_houses_plans_clear(tn_houses *h)

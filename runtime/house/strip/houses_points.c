@@ -132,34 +132,29 @@ static tn_status give_houses(tn_seeking *s, tn_error *error)
 
 /* ---- functions */
 
-static const tn_strip_edge *edge_of(const tn_strip *strip, uint32_t slice)
-{
-    size_t size;
-    return &strip->edges[tn_interned(&strip->slice_keys, slice, &size)[SLICE_EDGE]];
-}
-
 /* A slice of a tray, and the functions of its cells. */
 typedef struct tn_furnished {
     uint32_t slice;
-    const tn_strip_edge *edge;
+    const uint32_t *functions;
+    size_t cells;
 } tn_furnished;
 
 static int compare_functions(const void *left, const void *right)
 {
     const tn_furnished *a = left, *b = right;
-    for (uint32_t i = 0; i < a->edge->count; i++)
-        if (a->edge->cells[i].function != b->edge->cells[i].function)
-            return a->edge->cells[i].function < b->edge->cells[i].function ? -1 : 1;
+    for (size_t i = 0; i < a->cells; i++)
+        if (a->functions[i] != b->functions[i])
+            return a->functions[i] < b->functions[i] ? -1 : 1;
     return 0;
 }
 
-static bool take_functions(tn_seeking *s, size_t first, const tn_strip_edge *edge)
+static bool take_functions(tn_seeking *s, size_t first, const tn_furnished *furnished)
 {
     s->function_count = first;
-    if (!tn_array_reserve(&s->functions, &s->function_room, first, edge->count + 1, sizeof *s->functions))
+    if (!tn_array_reserve(&s->functions, &s->function_room, first, furnished->cells + 1, sizeof *s->functions))
         return false;
-    for (uint32_t i = 0; i < edge->count; i++)
-        s->functions[s->function_count++] = edge->cells[i].function;
+    for (size_t i = 0; i < furnished->cells; i++)
+        s->functions[s->function_count++] = furnished->functions[i];
     return true;
 }
 
@@ -177,8 +172,8 @@ static tn_status seek_furnished(tn_seeking *s, const tn_houses_kind *kind, uint3
         for (end = i; status == TN_OK && end < count && compare_functions(&slices[i], &slices[end]) == 0; end++)
             status = advance(s, kind, layer, marks, slices[end].slice, &next, error);
         if (status == TN_OK && next.count > 0)
-            status = take_functions(s, first, slices[i].edge) ? seek_functions(s, kind, layer + 1, &next, error)
-                                                              : tn_fail_memory(error);
+            status = take_functions(s, first, &slices[i]) ? seek_functions(s, kind, layer + 1, &next, error)
+                                                          : tn_fail_memory(error);
         free(next.items);
     }
     s->function_count = first;
@@ -190,12 +185,14 @@ static tn_status seek_functions(tn_seeking *s, const tn_houses_kind *kind, uint3
 {
     if (layer == s->length)
         return give_houses(s, error);
-    const tn_strip_list *list = &kind->strip->of_tray[s->trays[layer]];
+    const tn_strip_furnished_list *list = &kind->strip->furnished[s->trays[layer]];
     tn_furnished *slices = malloc((list->count + 1) * sizeof *slices);
     if (!slices)
         return tn_fail_memory(error);
-    for (size_t i = 0; i < list->count; i++)
-        slices[i] = (tn_furnished){list->items[i].slice, edge_of(kind->strip, list->items[i].slice)};
+    for (size_t i = 0; i < list->count; i++) {
+        slices[i].slice = list->items[i].slice;
+        slices[i].functions = tn_interned(&kind->strip->functions, list->items[i].functions, &slices[i].cells);
+    }
     qsort(slices, list->count, sizeof *slices, compare_functions);
     tn_status status = seek_furnished(s, kind, layer, marks, slices, list->count, error);
     free(slices);

@@ -132,10 +132,10 @@ static bool see_slices(const tn_strip *strip, const uint32_t *cells, tn_numberin
     for (uint32_t s = 0; ok && s < strip->slice_keys.count; s++) {
         size_t size;
         const uint32_t *slice = tn_interned(&strip->slice_keys, s, &size);
-        const tn_strip_edge *edge = &strip->edges[slice[SLICE_EDGE]];
+        const tn_strip_edge *edge = &strip->edges[slice[SLICE_EXIT]];
         for (uint32_t i = 0; ok && i < edge->count; i++)
             if (edge->cells[i].tiled)
-                ok = tn_number(cell_bases, (uint64_t)(cells[slice[SLICE_EDGE]] + i) << 32 |
+                ok = tn_number(cell_bases, (uint64_t)(cells[slice[SLICE_EXIT]] + i) << 32 |
                                                slice[SLICE_CELLS + CELL_WORDS * i + CELL_TILE]) != UINT32_MAX;
     }
     return ok;
@@ -214,7 +214,7 @@ void tn_strip_merged_clear(tn_strip_merged *merged)
     free(merged->edges);
     free(merged->first);
     free(merged->sides);
-    free(merged->classes);
+    free(merged->waits);
     free(merged->one);
     tn_numbering_clear(&merged->pairs);
     tn_interner_clear(&merged->tiles);
@@ -222,48 +222,81 @@ void tn_strip_merged_clear(tn_strip_merged *merged)
 
 /* ---- tiles that wait for the right side of their cell */
 
-/* How many tiles fit, for each side that can stand at the right: equal lists are one class. *any: does one fit? */
-static tn_status classify(tn_strip *strip, uint32_t base, uint32_t left, uint32_t *class, bool *any, tn_error *error)
+static uint32_t common_divisor(uint32_t a, uint32_t b)
 {
-    tn_strip_merged *m = &strip->merged;
+    while (b != 0) {
+        uint32_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+/* strip->key := {what stands at the right, how many tiles fit}, for each side that can. */
+static tn_status list_tiles(tn_strip *strip, uint32_t base, uint32_t left, tn_error *error)
+{
+    const tn_strip_merged *m = &strip->merged;
     tn_key *key = &strip->key;
     tn_status status = TN_OK;
     key->size = 0;
-    *any = false;
     for (size_t i = m->first[base]; status == TN_OK && i < m->first[base + 1]; i++) {
         uint32_t tiles = 0;
         status = tn_strip_fit(strip, base, left, m->sides[i], &tiles, error);
-        *any = *any || tiles > 0;
         if (status == TN_OK && (!tn_key_push(key, m->sides[i]) || !tn_key_push(key, tiles)))
             status = tn_fail_memory(error);
     }
-    uint32_t before = m->tiles.count;
-    *class = status == TN_OK ? tn_intern(&m->tiles, key->data, key->size) : 0;
+    return status;
+}
+
+/* Takes from the list at hand what all of its numbers are multiples of: 0 where no tile ever fits. A list of ones
+ * becomes empty: nothing waits. Where tiles have prices, numbers are of lists of costs, and stay as they are. */
+static uint32_t take_factor(const tn_strip *strip, tn_key *key)
+{
+    uint32_t factor = 0;
+    bool ones = true;
+    for (size_t i = 1; i < key->size; i += 2)
+        factor = common_divisor(factor, key->data[i]);
+    if (strip->prices.items)
+        return factor > 0;
+    for (size_t i = 1; factor > 0 && i < key->size; i += 2) {
+        key->data[i] /= factor;
+        ones = ones && key->data[i] == 1;
+    }
+    key->size = ones ? 0 : key->size;
+    return factor;
+}
+
+/* Equal lists are one class. */
+static tn_status classify(tn_strip *strip, uint32_t base, uint32_t left, tn_strip_wait *wait, tn_error *error)
+{
+    tn_strip_merged *m = &strip->merged;
+    tn_status status = list_tiles(strip, base, left, error);
     if (status != TN_OK)
         return status;
-    if (*class == UINT32_MAX || !tn_array_reserve(&m->one, &m->one_room, before, 1, sizeof *m->one))
+    uint32_t before = m->tiles.count, factor = take_factor(strip, &strip->key);
+    *wait = (tn_strip_wait){.class = TN_STRIP_NONE};
+    if (factor == 0)
+        return TN_OK;
+    bool ever = strip->key.size > 0;
+    uint32_t class = tn_intern(&m->tiles, strip->key.data, strip->key.size);
+    if (class == UINT32_MAX || !tn_array_reserve(&m->one, &m->one_room, before, 1, sizeof *m->one))
         return tn_fail_memory(error);
-    if (*class == before)
-        m->one[*class] = (uint64_t)base << 32 | left;
+    if (class == before)
+        m->one[class] = (tn_strip_one){base, left, factor};
+    *wait = (tn_strip_wait){class, factor, ever};
     return TN_OK;
 }
 
-tn_status tn_strip_waits(tn_strip *strip, uint32_t base, uint32_t left, uint32_t *class, tn_error *error)
+tn_status tn_strip_waits(tn_strip *strip, uint32_t base, uint32_t left, tn_strip_wait *wait, tn_error *error)
 {
     tn_strip_merged *m = &strip->merged;
     uint32_t before = m->pairs.count;
-    if (!tn_array_reserve(&m->classes, &m->class_room, before, 1, sizeof *m->classes))
+    if (!tn_array_reserve(&m->waits, &m->wait_room, before, 1, sizeof *m->waits))
         return tn_fail_memory(error);
     uint32_t at = tn_number(&m->pairs, (uint64_t)base << 32 | left);
     if (at == UINT32_MAX)
         return tn_fail_memory(error);
-    tn_status status = TN_OK;
-    if (at == before) {
-        bool any;
-        m->classes[at] = TN_STRIP_NONE;
-        status = classify(strip, base, left, class, &any, error);
-        m->classes[at] = status == TN_OK && any ? *class : TN_STRIP_NONE;
-    }
-    *class = m->classes[at];
+    tn_status status = at == before ? classify(strip, base, left, &m->waits[at], error) : TN_OK;
+    *wait = status == TN_OK ? m->waits[at] : (tn_strip_wait){.class = TN_STRIP_NONE};
     return status;
 }

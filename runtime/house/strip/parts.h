@@ -13,7 +13,7 @@
 #include "runtime/base/int128.h"
 #include "runtime/house/house.h"
 #include "runtime/house/measure/measure.h"
-#include "runtime/house/variant/relevant.h"
+#include "runtime/house/strip/houses.h"
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/uses.h"
@@ -39,16 +39,25 @@ typedef struct tn_strip_room {
     uint32_t ratios; /* a bit for each of the ratios below */
 } tn_strip_room;
 
+/* Of an APART or MEETS: places of decisions. any: all cells are walked through. */
+typedef struct tn_strip_walk {
+    size_t first, second, through;
+    bool any;
+} tn_strip_walk;
+
 typedef struct tn_strip_questions {
     uint32_t *decisions; /* functions of kind CELL that are asked of cells at a plane, or of cells of rooms */
     size_t decision_count, decision_room;
-    uint32_t meetings[64]; /* MEETING records that MEETS asks for */
+    uint32_t meetings[64];           /* MEETING records that MEETS asks for */
+    tn_strip_walk meeting_parts[64]; /* the same */
     uint32_t meeting_count;
-    uint32_t walks[TN_STRIP_MEETINGS_MAX]; /* MEETING records that APART asks for */
+    uint32_t walks[TN_STRIP_MEETINGS_MAX];           /* MEETING records that APART asks for */
+    tn_strip_walk walk_parts[TN_STRIP_MEETINGS_MAX]; /* the same */
     uint32_t walk_count;
     tn_strip_room rooms[TN_STRIP_QUESTIONS_MAX];
     uint32_t room_count;
-    uint32_t all[64]; /* decisions that rooms ask of all cells */
+    uint32_t all[64];         /* decisions that rooms ask of all cells */
+    size_t all_decisions[64]; /* their places */
     uint32_t all_count;
     uint32_t kinds[TN_STRIP_KINDS_MAX];
     uint32_t kind_count;
@@ -84,7 +93,8 @@ typedef struct tn_strip_horizon {
 typedef struct tn_strip_clause {
     uint32_t holds; /* function */
     bool prunes;
-    tn_classes *classes; /* of trays */
+    bool without, differs; /* see tn_houses_without */
+    tn_classes *classes;   /* of trays */
     tn_strip_atom *atoms;
     size_t atom_count, atom_room;
     uint32_t radix;             /* letters of one base: the product over the atoms */
@@ -92,6 +102,44 @@ typedef struct tn_strip_clause {
     tn_dfa *dfa;                /* of what the clause keeps, over letters base * radix + value */
     tn_strip_horizon *horizons; /* [trays_most + 1] */
 } tn_strip_clause;
+
+/* Where an edge is met: from its left, at the slice's entry, or from its right. */
+typedef enum tn_strip_role_at { TN_STRIP_ENTRY, TN_STRIP_EXIT, TN_STRIP_ROLES } tn_strip_role_at;
+
+/* What can be in a cell's faces at a plane: kinds that rooms ask for, that walks step through (a bit each), that
+ * meetings ask for; nothing at all, so that rooms go on; glass to the outside. */
+typedef struct tn_strip_reach {
+    uint64_t marks, meetings;
+    uint32_t walks;
+    bool open, glazed;
+} tn_strip_reach;
+
+/* What lines of faces can tell of cells at planes: border.c. */
+typedef struct tn_strip_borders {
+    tn_interner descriptions;
+    uint32_t *classes[TN_STRIP_ROLES];     /* [descriptions] */
+    tn_strip_reach *reach[TN_STRIP_ROLES]; /* the same */
+    uint64_t *matter[TN_STRIP_ROLES];      /* [descriptions][answer_words]: decisions that can matter there */
+} tn_strip_borders;
+
+/* The trays that plans of the library have. */
+typedef struct tn_strip_trays {
+    bool *stand;       /* [trays of the schema] */
+    uint64_t *follows; /* [trays][words]: a bit for each tray that can follow; NULL: each may follow each */
+    size_t words;
+} tn_strip_trays;
+
+/* any: it may be what a question asks for, for which its faces of these kinds, its area and its glass can matter. */
+typedef struct tn_room_open {
+    bool any, area, glass;
+    uint64_t kinds;
+} tn_room_open;
+
+/* What a cell is to a walk; as a word: bits in this order. ends: no step leads on to the right. */
+typedef struct tn_strip_role {
+    bool through, goal, source, ends;
+} tn_strip_role;
+enum { ROLE_THROUGH = 1, ROLE_GOAL = 2, ROLE_SOURCE = 4, ROLE_ENDS = 8 };
 
 /* ---- edges, slices, planes */
 
@@ -101,7 +149,8 @@ typedef struct tn_strip_cell {
     bool open, tiled;
 } tn_strip_cell;
 
-/* inner: what is in the inner faces of the house of one tray, in their order, of the first slice that has the edge. */
+/* What a slice shows the plane at its left, or at its right. Cells with their functions, and what is in the inner faces
+ * of the house of one tray, in their order, are those of the first slice that has the edge. */
 typedef struct tn_strip_edge {
     tn_tray tray;
     uint32_t count; /* cells */
@@ -125,11 +174,32 @@ typedef struct tn_strip_list {
     bool made;
 } tn_strip_list;
 
-/* Words of a slice's key: EDGE, then CELL_WORDS for each cell, then the number of its steps and STEP_WORDS for each,
- * then the base of each clause; then two words for each measure of what its cells add to it; then, where costs are
- * asked for, the number of the tray's. */
-enum { SLICE_EDGE, SLICE_CELLS };
-enum { CELL_TILE, CELL_AREA, CELL_GLASS, CELL_MARKS, CELL_MARKS_HIGH, CELL_ROOM, CELL_WORDS };
+/* Cells with these functions (of `functions`) can be the slice. */
+typedef struct tn_strip_furnished {
+    uint32_t functions, slice;
+} tn_strip_furnished;
+
+typedef struct tn_strip_furnished_list {
+    tn_strip_furnished *items;
+    size_t count, room;
+} tn_strip_furnished_list;
+
+/* Words of a slice's key: its edges at the left and at the right, then CELL_WORDS for each cell, then the number of its
+ * steps and STEP_WORDS for each, then the base of each clause; then two words for each measure of what its cells add to
+ * it; then, where costs are asked for, the number of the tray's. */
+enum { SLICE_ENTRY, SLICE_EXIT, SLICE_CELLS };
+enum {
+    CELL_TILE,
+    CELL_AREA,
+    CELL_GLASS,
+    CELL_MARKS,
+    CELL_FAILS = CELL_MARKS + 2, /* of `all`, what it is not */
+    CELL_ROOM = CELL_FAILS + 2,
+    CELL_ROOM_IS, /* ROOM_GOES_ON: TRUTH is not known yet */
+    CELL_TRUTH,   /* a bit for each question about rooms: is it so? */
+    CELL_WORDS
+};
+enum { ROOM_IS_VOID, ROOM_GOES_ON, ROOM_IS_KNOWN };
 enum { STEP_FROM, STEP_TO, STEP_HOW, STEP_WORDS }; /* HOW: bit 0: one room; bit w + 1: a step of walk w */
 
 /* Words of an outcome's key: the meetings across the plane (two words), the number of steps and STEP_WORDS for each,
@@ -141,11 +211,12 @@ enum { SIDE_MARKS, SIDE_MARKS_HIGH, SIDE_FIT, SIDE_GLASS, SIDE_WORDS };
 /* What parts of a slice are, by number: equal parts are one. Lists of fits have a word for each cell: 0, or 1 and what
  * matters to its tiles. */
 typedef struct tn_strip_slice {
-    uint32_t edge;
+    uint32_t entry, exit;        /* edges: at its left, at its right */
     uint32_t bases;              /* of all clauses: of `letters` */
     uint32_t tiles;              /* what of its own walls matters to each cell's tiles: of `fit_lists` */
     uint32_t inside;             /* its edge, and what rooms and walks meet in it: of `insides` */
     uint32_t met;                /* the same, but of its edge only what is asked: of `mets` */
+    uint32_t plain;              /* the first slice that can differ from it only in tiles and what is added up */
     uint32_t cost;               /* where costs are asked for: the number of the tray's */
     int64_t gains[TN_ADDED_MAX]; /* what its cells, and its tray, add to each number that is added up */
 } tn_strip_slice;
@@ -183,16 +254,29 @@ typedef struct tn_strip_known {
     size_t room;
 } tn_strip_known;
 
+/* The tiles of a cell that wait for what stands at its right. Their numbers are `factor` times those of the class.
+ * class: TN_STRIP_NONE: none fits, whatever stands there. ever: false where it makes no difference what stands there.
+ */
+typedef struct tn_strip_wait {
+    uint32_t class, factor;
+    bool ever;
+} tn_strip_wait;
+
+/* A cell of which a class is, by its base and what stands at its left, and its factor. */
+typedef struct tn_strip_one {
+    uint32_t base, left, factor;
+} tn_strip_one;
+
 /* What nothing that follows can tell apart (merge.c). */
 typedef struct tn_strip_merged {
-    uint32_t *edges;    /* [edges]: the first that meets all neighbours as this one does; NULL: each is by itself */
-    size_t *first;      /* [bases + 1]: its part of sides */
-    uint32_t *sides;    /* what can stand at the right of a cell of the base */
-    tn_numbering pairs; /* base << 32 | what stands at its left */
-    uint32_t *classes;  /* [pairs]: of the tiles that fit whatever stands at the right; TN_STRIP_NONE: none ever do */
-    tn_interner tiles;  /* of classes: {what stands at the right, how many fit} */
-    uint64_t *one;      /* [classes]: one of its pairs */
-    size_t class_room, one_room;
+    uint32_t *edges;      /* [edges]: the first that meets all neighbours as this one does; NULL: each is by itself */
+    size_t *first;        /* [bases + 1]: its part of sides */
+    uint32_t *sides;      /* what can stand at the right of a cell of the base */
+    tn_numbering pairs;   /* base << 32 | what stands at its left */
+    tn_strip_wait *waits; /* [pairs] */
+    tn_interner tiles;    /* of classes: {what stands at the right, how many fit} */
+    tn_strip_one *one;    /* [classes] */
+    size_t wait_room, one_room;
 } tn_strip_merged;
 
 /* What a number of arrangements of tiles cost. */
@@ -249,6 +333,7 @@ typedef struct tn_strip {
     tn_watch *watch;
     const tn_house_measures *measures; /* or NULL */
     const tn_house_added *added;       /* these, and what clauses compare */
+    const tn_houses_without *without;  /* or NULL; only while the clauses are made */
     const tn_strip_units *units;       /* NULL: not known yet, and nothing is gained */
     tn_strip_prices prices;
     uint32_t *weighed_rooms[TN_ADDED_MAX]; /* [terms of the number]: of the questions about rooms */
@@ -258,14 +343,20 @@ typedef struct tn_strip {
     bool looking_ahead;                    /* totals are left aside: compared.c */
     tn_strip_questions questions;
     size_t answer_words;
-    tn_room_questions glass; /* functions about rooms that ask for faces: see tn_strip_sees_glass */
-    bool *tiled, any_tiled;  /* [functions] */
-    bool scouting;           /* tiles are left aside: see merge.c */
+    tn_numbering fails;       /* of rooms, that were met: tn_strip_room_open */
+    tn_room_open *open_rooms; /* [fails] */
+    size_t open_room;
+    bool *tiled, any_tiled; /* [functions] */
+    bool *asked_function;   /* [functions]: can something be asked of rooms with this function? */
+    bool scouting;          /* tiles are left aside: see merge.c */
     tn_strip_merged merged;
     tn_strip_clause *clauses;
     uint32_t clause_count;
-    tn_strip_list *of_tray; /* [trays of the schema] */
-    uint8_t *ends;          /* [states]: may the row end there? see tn_strip_ends */
+    tn_strip_list *of_tray;             /* [trays of the schema] */
+    tn_strip_furnished_list *furnished; /* the same */
+    tn_interner functions;              /* of the cells of a tray */
+    tn_strip_borders borders;
+    uint8_t *ends; /* [states]: may the row end there? see tn_strip_ends */
     size_t end_room;
     tn_interner edge_keys, slice_keys, outcome_keys, areas, bases, sides, waiting, rooms, walks, states;
     tn_strip_edge *edges;
@@ -280,11 +371,14 @@ typedef struct tn_strip {
     tn_strip_outcome *outcomes; /* [outcomes] */
     size_t slice_room, outcome_room;
     tn_interner letters, fit_lists, asked, insides, mets, throughs;
+    tn_interner plain_keys;
+    uint32_t *plains; /* [plain_keys]: slices */
+    size_t plain_room;
     tn_strip_row row;
     tn_interner readings, between, values;     /* see reading.c */
     tn_strip_known *after_slice, *after_plane; /* [trays_most + 1] */
     tn_strip_known tiles;                      /* {waiting, left fits}: how many, unless they have prices */
-    tn_strip_known waits;                      /* {tiles of a slice, right fits}: what waits */
+    tn_strip_known waits;                      /* {tiles of a slice, right fits}: what waits; how many times that */
     tn_numbering befores;                      /* what is asked of the edge << 32 | rooms or a walk */
     tn_numbering moves;                        /* through << 32 | what is met in the slice */
     tn_strip_known crossed_rooms, crossed_walks[TN_STRIP_MEETINGS_MAX]; /* {before, move} */
@@ -295,10 +389,11 @@ typedef struct tn_strip {
 /* ---- strip.c */
 
 /* The houses of the section, on trays of these, at least and at most so many. measures: NULL, or borrowed, as is
- * `added`. Free with tn_strip_free, also after a failure. */
+ * `added`; without: NULL, or borrowed until the strip is made. Free with tn_strip_free, also after a failure. */
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
-                       const bool *trays, uint32_t trays_least, uint32_t trays_most, const tn_house_measures *measures,
-                       const tn_house_added *added, tn_strip **strip, tn_error *error);
+                       const tn_strip_trays *trays, uint32_t trays_least, uint32_t trays_most,
+                       const tn_house_measures *measures, const tn_house_added *added, const tn_houses_without *without,
+                       tn_strip **strip, tn_error *error);
 void tn_strip_free(tn_strip *strip);
 
 /* What of the strip has the most states, as the name of the clause that is about it; NULL where there is none. */
@@ -335,16 +430,67 @@ static inline size_t tn_strip_crossed_words(const tn_strip *strip)
     return CROSSED_WALKS + (size_t)strip->questions.walk_count + strip->questions.room_count;
 }
 
-static inline bool tn_edge_answers(const tn_strip *strip, const tn_strip_edge *edge, uint32_t cell, size_t decision)
+/* The answers of an edge's cell. */
+static inline const uint64_t *tn_edge_answers(const tn_strip *strip, const tn_strip_edge *edge, uint32_t cell)
 {
-    return edge->answers[cell * strip->answer_words + decision / 64] >> decision % 64 & 1;
+    return edge->answers + cell * strip->answer_words;
+}
+
+static inline bool tn_answers(const uint64_t *answers, size_t decision)
+{
+    return answers[decision / 64] >> decision % 64 & 1;
 }
 
 tn_status tn_strip_limit(const tn_strip *strip, const char *clause, const char *what, tn_error *error);
 
 /* Finds them. TN_LIMIT (E1640) where there are too many, or one that is not known here, with the clause. */
 tn_status tn_strip_ask(tn_strip *strip, tn_error *error);
-size_t tn_strip_decision(const tn_strip *strip, uint32_t function); /* its place among the decisions */
+
+static inline bool tn_strip_reaches_rooms(const tn_strip_reach *reach)
+{
+    return reach->open || reach->glazed || reach->marks != 0;
+}
+
+/* What a cell of a tray with one function is. */
+typedef struct tn_strip_cut {
+    bool known;
+    uint32_t description;
+    uint64_t *answers; /* [answer_words] of the decisions */
+} tn_strip_cut;
+
+/* A tray as a house of its own. */
+typedef struct tn_inside {
+    tn_strip *strip;
+    tn_tray tray;
+    tn_house house;
+    const tn_strip_cut *cells[TN_STRIP_CELLS_MAX];
+} tn_inside;
+
+static inline const tn_strip_reach *tn_inside_reach(const tn_inside *inside, tn_strip_role_at role, uint32_t cell)
+{
+    return &inside->strip->borders.reach[role][inside->cells[cell]->description];
+}
+
+static inline bool tn_face_is_inner(const tn_face *face)
+{
+    return face->relation == TN_FACE_UNDER || face->side == TN_HOUSE_BACK || face->side == TN_HOUSE_FRONT;
+}
+
+/* ---- edge.c */
+
+/* The edge at the left or the right of the tray. cost: where costs are asked for, the number of the tray's. */
+tn_status tn_strip_find_edge(const tn_inside *inside, tn_strip_role_at role, uint32_t cost, uint32_t *edge,
+                             tn_error *error);
+
+/* ---- border.c */
+
+/* Finds the classes of cells; before any slice is made. */
+tn_status tn_strip_borders_find(tn_strip *strip, const tn_strip_trays *trays, tn_error *error);
+void tn_strip_borders_clear(tn_strip_borders *borders);
+
+/* What lines of faces at planes say of a cell with its function; UINT32_MAX is never one. */
+tn_status tn_strip_describe(tn_strip *strip, const tn_house *house, uint32_t cell, uint32_t *description,
+                            tn_error *error);
 
 /* ---- slice.c */
 
@@ -357,8 +503,6 @@ tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error);
 tn_status tn_strip_plane(tn_strip *strip, uint32_t left, uint32_t right, const tn_strip_list **plane, tn_error *error);
 uint64_t tn_strip_marks(const tn_strip *strip, uint32_t kind); /* the bit of a kind that rooms ask for */
 
-/* Can a question about rooms depend on how much glass this cell has, or on its floor as a part of that? */
-bool tn_strip_sees_glass(const tn_strip *strip, const tn_house *house, uint32_t cell);
 uint32_t tn_strip_number_area(tn_strip *strip, tn_int128 area); /* UINT32_MAX: out of memory */
 
 /* May one step through this face on walk w? */
@@ -384,10 +528,38 @@ void tn_strip_forget_states(tn_strip *strip); /* they are numbered anew */
 tn_status tn_strip_merge(tn_strip *strip, tn_error *error);
 void tn_strip_merged_clear(tn_strip_merged *merged);
 
-/* The class of a cell's tiles, by what stands at its left; TN_STRIP_NONE: none fits, whatever stands at the right. */
-tn_status tn_strip_waits(tn_strip *strip, uint32_t base, uint32_t left, uint32_t *class, tn_error *error);
+/* A cell's tiles, by what stands at its left. */
+tn_status tn_strip_waits(tn_strip *strip, uint32_t base, uint32_t left, tn_strip_wait *wait, tn_error *error);
+
+/* ---- inside.c, inside_walks.c */
+
+/* Appends CELL_WORDS for each cell, then the roles, then the steps. */
+tn_status tn_strip_push_inside(const tn_inside *inside, tn_key *key, tn_error *error);
+
+/* Appends a word for each cell, for each walk; then the number of steps and STEP_WORDS for each. */
+bool tn_strip_push_walks(const tn_inside *inside, tn_key *key);
 
 /* ---- rooms.c, walks.c: what is known before and after a plane */
+
+/* What of `all` a cell is not, by its answers; what a cell of an edge is not, of a void the cell below it. */
+uint64_t tn_strip_answers_fail(const tn_strip *strip, const uint64_t *answers);
+uint64_t tn_strip_fails(const tn_strip *strip, const tn_strip_edge *edge, uint32_t cell);
+
+/* What can still be asked of a room, some cells of which are not these. */
+tn_status tn_strip_room_open(tn_strip *strip, uint64_t fails, tn_room_open *open, tn_error *error);
+
+/* A room that lies in one tray, and that nothing more is seen of. */
+typedef struct tn_whole_room {
+    uint64_t fails, kinds;
+    tn_int128 area, glass;
+    uint32_t cells;
+} tn_whole_room;
+
+/* Which questions it answers: a bit each. */
+uint32_t tn_strip_room_truth(const tn_strip *strip, const tn_whole_room *room);
+
+/* What a cell is to a walk, by its answers. A source is no goal; a void is nothing. */
+tn_strip_role tn_strip_role_of(const tn_strip *strip, uint32_t walk, const uint64_t *answers, bool open);
 
 typedef struct tn_strip_crossing {
     const tn_strip_edge *left, *right; /* NULL: the outside */

@@ -42,6 +42,7 @@ typedef struct tn_crossing_house {
     tn_house house;
     uint32_t *faces; /* those in the plane */
     size_t count;
+    tn_room_open *open; /* [cells]: of the rooms that they are in */
     int64_t x;
     tn_numbering found;
     tn_strip_list *list;
@@ -61,6 +62,28 @@ static void furnish(tn_crossing_house *c, const tn_strip_edge *edge, size_t firs
         if (f->relation == TN_FACE_UNDER || f->side == TN_HOUSE_BACK || f->side == TN_HOUSE_FRONT)
             f->kind = edge->inner[i++];
     }
+}
+
+/* The cell among those of its edge. */
+static const tn_strip_edge *edge_of(const tn_crossing_house *c, uint32_t cell, uint32_t *at)
+{
+    bool left = cell < c->left_cells;
+    *at = left ? cell : cell - c->left_cells;
+    return &c->strip->edges[left ? c->left : c->right];
+}
+
+static tn_status find_open(tn_crossing_house *c, tn_error *error)
+{
+    tn_status status = TN_OK;
+    c->open = malloc((c->house.cell_count + 1) * sizeof *c->open);
+    if (!c->open)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < c->house.cell_count; i++) {
+        uint32_t at;
+        const tn_strip_edge *edge = edge_of(c, i, &at);
+        status = tn_strip_room_open(c->strip, tn_strip_fails(c->strip, edge, at), &c->open[i], error);
+    }
+    return status;
 }
 
 static tn_status stand(tn_crossing_house *c, tn_error *error)
@@ -90,10 +113,31 @@ static tn_status stand(tn_crossing_house *c, tn_error *error)
     for (uint32_t i = 0; i < c->house.face_count; i++)
         if (in_plane(c, &c->house.faces[i]) && c->house.faces[i].relation != TN_FACE_UNDER)
             c->faces[c->count++] = i;
-    return TN_OK;
+    return find_open(c, error);
 }
 
 /* ---- outcomes */
+
+/* Do its cells become one room, of which something may be asked? */
+static bool joins(const tn_crossing_house *c, const tn_face *face)
+{
+    return (c->open[face->first].any || c->open[face->second].any) && tn_strip_joins(&c->house, face);
+}
+
+static tn_strip_role role_of(const tn_strip *strip, uint32_t walk, const tn_strip_edge *edge, uint32_t cell)
+{
+    return tn_strip_role_of(strip, walk, tn_edge_answers(strip, edge, cell), edge->cells[cell].open);
+}
+
+/* Can a step through it make a difference to the walk? */
+static bool leads(const tn_crossing_house *c, const tn_face *face, uint32_t walk)
+{
+    uint32_t a, b;
+    const tn_strip_edge *left = edge_of(c, face->first, &a), *right = edge_of(c, face->second, &b);
+    tn_strip_role from = role_of(c->strip, walk, left, a), to = role_of(c->strip, walk, right, b);
+    return (from.through && (to.through || to.source || to.goal)) || (from.source && (to.through || to.goal)) ||
+           (from.goal && (to.through || to.source));
+}
 
 static bool push_meetings_and_steps(tn_crossing_house *c, tn_key *key)
 {
@@ -104,9 +148,9 @@ static bool push_meetings_and_steps(tn_crossing_house *c, tn_key *key)
         const tn_face *face = &c->house.faces[c->faces[i]];
         if (face->second == TN_NO_CELL)
             continue;
-        uint32_t how = s->questions.room_count > 0 && tn_strip_joins(&c->house, face);
+        uint32_t how = joins(c, face);
         for (uint32_t w = 0; w < s->questions.walk_count; w++)
-            how |= (uint32_t)tn_strip_steps(s, &c->house, face, w) << (w + 1);
+            how |= (uint32_t)(leads(c, face, w) && tn_strip_steps(s, &c->house, face, w)) << (w + 1);
         for (uint32_t m = 0; m < s->questions.meeting_count; m++)
             meetings |= (uint64_t)tn_strip_meets(s, &c->house, face, m) << m;
         if (how == 0)
@@ -125,8 +169,7 @@ static bool push_meetings_and_steps(tn_crossing_house *c, tn_key *key)
 static tn_int128 plane_glass(const tn_crossing_house *c, uint32_t cell)
 {
     tn_int128 glass = 0;
-    bool asked = tn_strip_sees_glass(c->strip, &c->house, cell);
-    for (size_t k = 0; asked && k < c->count; k++)
+    for (size_t k = 0; c->open[cell].glass && k < c->count; k++)
         if (c->house.faces[c->faces[k]].first == cell)
             glass += tn_face_glazing(&c->house, &c->house.faces[c->faces[k]]);
     return glass;
@@ -146,6 +189,7 @@ static tn_status push_sides(tn_crossing_house *c, tn_key *key, tn_error *error)
             const tn_face *face = &c->house.faces[c->faces[k]];
             marks |= face->first == i || face->second == i ? tn_strip_marks(s, face->kind) : 0;
         }
+        marks &= c->open[i].kinds;
         bool tiled = !cell->open && s->tiled[cell->function];
         if (tiled && storey != cell->storey) {
             free(posts.items);
@@ -301,5 +345,6 @@ tn_status tn_strip_plane(tn_strip *strip, uint32_t left, uint32_t right, const t
     tn_house_clear(&c.house);
     tn_numbering_clear(&c.found);
     free(c.faces);
+    free(c.open);
     return status;
 }

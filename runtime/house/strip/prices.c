@@ -210,11 +210,6 @@ tn_status tn_strip_settle(tn_strip *strip, const tn_strip_units *units, tn_error
 
 /* ---- trays */
 
-static bool is_inner(const tn_face *face)
-{
-    return face->relation == TN_FACE_UNDER || face->side == TN_HOUSE_BACK || face->side == TN_HOUSE_FRONT;
-}
-
 /* The number of the house's cost without what stands in its rooms, less what trays to the left and right of a plane
  * cost by themselves (NULL: nothing is taken off), by the key at hand: it is found once. */
 static tn_status keyed_cost(tn_strip *strip, tn_strip_keyed *known, const tn_house *house, const tn_strip_edge *left,
@@ -249,7 +244,7 @@ tn_status tn_strip_tray_cost(tn_strip *strip, const tn_house *house, uint32_t *n
     p->key.size = 0;
     bool ok = tn_key_push(&p->key, house->trays[0]);
     for (size_t i = 0; ok && i < house->face_count; i++)
-        if (is_inner(&house->faces[i]))
+        if (tn_face_is_inner(&house->faces[i]))
             ok = tn_key_push(&p->key, house->faces[i].kind);
     return ok ? keyed_cost(strip, &p->alone, house, NULL, NULL, number, error) : tn_fail_memory(error);
 }

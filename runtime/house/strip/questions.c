@@ -29,7 +29,7 @@ static tn_status add_decision(tn_strip *strip, uint32_t function, tn_error *erro
     return TN_OK;
 }
 
-size_t tn_strip_decision(const tn_strip *strip, uint32_t function)
+static size_t decision_of(const tn_strip *strip, uint32_t function)
 {
     size_t i = 0;
     while (strip->questions.decisions[i] != function)
@@ -44,22 +44,6 @@ static tn_status add_meeting(tn_strip *strip, uint32_t index, tn_error *error)
     if (status == TN_OK)
         status = add_decision(strip, m->second, error);
     return status == TN_OK && m->through != TN_NO_RECORD ? add_decision(strip, m->through, error) : status;
-}
-
-/* Lines about faces that lie in a plane between trays, or are outside at the end of the row. */
-static tn_status ask_face_lines(tn_strip *strip, tn_error *error)
-{
-    const tn_house_form *form = strip->form;
-    tn_status status = TN_OK;
-    for (uint32_t i = 0; status == TN_OK && i < form->record->face_count; i++) {
-        const tn_face_line_record *line = &form->module->FACE_LINE_records[form->record->face_first + i];
-        if (line->relation == TN_FACE_UNDER || line->relation == TN_FACE_ACROSS)
-            continue;
-        status = add_decision(strip, line->first, error);
-        if (status == TN_OK && line->relation != TN_FACE_OUTSIDE)
-            status = add_decision(strip, line->second, error);
-    }
-    return status;
 }
 
 /* ---- what clauses ask */
@@ -229,10 +213,30 @@ static tn_status ask_weights(tn_strip *strip, uint32_t number, tn_error *error)
     return status;
 }
 
+static tn_strip_walk parts_of(const tn_strip *strip, uint32_t meeting)
+{
+    const tn_meeting_record *m = &strip->form->module->MEETING_records[meeting];
+    bool any = m->through == TN_NO_RECORD;
+    return (tn_strip_walk){decision_of(strip, m->first), decision_of(strip, m->second),
+                           any ? 0 : decision_of(strip, m->through), any};
+}
+
+/* The places of the decisions that rooms, meetings and walks ask for. */
+static void place_decisions(tn_strip *strip)
+{
+    tn_strip_questions *q = &strip->questions;
+    for (uint32_t i = 0; i < q->all_count; i++)
+        q->all_decisions[i] = decision_of(strip, q->all[i]);
+    for (uint32_t m = 0; m < q->meeting_count; m++)
+        q->meeting_parts[m] = parts_of(strip, q->meetings[m]);
+    for (uint32_t w = 0; w < q->walk_count; w++)
+        q->walk_parts[w] = parts_of(strip, q->walks[w]);
+}
+
 tn_status tn_strip_ask(tn_strip *strip, tn_error *error)
 {
     const tn_module *module = strip->form->module;
-    tn_status status = ask_face_lines(strip, error);
+    tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < strip->clause_count; i++) {
         tn_strip_clause *clause = &strip->clauses[i];
         const tn_house_clause_record *record = &module->HOUSE_CLAUSE_records[strip->library->clause_first + i];
@@ -241,6 +245,8 @@ tn_status tn_strip_ask(tn_strip *strip, tn_error *error)
     }
     for (uint32_t k = 0; status == TN_OK && k < strip->added->count; k++)
         status = ask_weights(strip, k, error);
+    if (status == TN_OK)
+        place_decisions(strip);
     strip->answer_words = strip->questions.decision_count / 64 + 1;
     return status;
 }

@@ -4,6 +4,7 @@
  * question needs it. */
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/house/rule/outcome.h"
 #include "runtime/house/strip/parts.h"
 
@@ -145,6 +146,54 @@ static void settle(const tn_strip *strip, tn_known_room *room, bool whole)
     room->cells = !cells ? 0 : room->cells > q->cells_most ? q->cells_most : room->cells;
 }
 
+/* ---- what can be asked at all */
+
+uint64_t tn_strip_answers_fail(const tn_strip *strip, const uint64_t *answers)
+{
+    uint64_t fails = 0;
+    for (uint32_t i = 0; i < strip->questions.all_count; i++)
+        fails |= (uint64_t)!tn_answers(answers, strip->questions.all_decisions[i]) << i;
+    return fails;
+}
+
+uint64_t tn_strip_fails(const tn_strip *strip, const tn_strip_edge *edge, uint32_t cell)
+{
+    while (edge->cells[cell].open) /* a void is of the room below it; cells of a stack follow one another upwards */
+        cell--;
+    return tn_strip_answers_fail(strip, tn_edge_answers(strip, edge, cell));
+}
+
+static void find_open(const tn_strip *strip, uint64_t fails, tn_room_open *open)
+{
+    const tn_strip_questions *q = &strip->questions;
+    tn_known_room room = {.fails = fails};
+    const tn_asked_known asked = {q, &room, false};
+    *open = (tn_room_open){0};
+    for (uint32_t i = 0; i < q->room_count; i++) {
+        tn_outcome outcome = tn_outcome_decide(strip->form->module, q->rooms[i].function, ask, &asked);
+        open->any = open->any || outcome != TN_OUTCOME_FALSE;
+        if (outcome != TN_OUTCOME_OPEN)
+            continue;
+        open->kinds |= q->rooms[i].kinds;
+        open->area = open->area || q->rooms[i].area || q->rooms[i].ratios != 0;
+        open->glass = open->glass || q->rooms[i].ratios != 0;
+    }
+}
+
+tn_status tn_strip_room_open(tn_strip *strip, uint64_t fails, tn_room_open *open, tn_error *error)
+{
+    uint32_t before = strip->fails.count;
+    if (!tn_array_reserve(&strip->open_rooms, &strip->open_room, before, 1, sizeof *strip->open_rooms))
+        return tn_fail_memory(error);
+    uint32_t at = tn_number(&strip->fails, fails);
+    if (at == UINT32_MAX)
+        return tn_fail_memory(error);
+    if (at == before)
+        find_open(strip, fails, &strip->open_rooms[at]);
+    *open = strip->open_rooms[at];
+    return TN_OK;
+}
+
 /* ---- a plane */
 
 tn_int128 tn_strip_area(const tn_strip *strip, uint32_t number)
@@ -174,31 +223,37 @@ uint32_t tn_strip_number_area(tn_strip *strip, tn_int128 area)
     return tn_intern(&strip->areas, words, 4);
 }
 
-bool tn_strip_sees_glass(const tn_strip *strip, const tn_house *house, uint32_t cell)
+static uint64_t all_questions(const tn_strip *strip)
 {
-    const tn_face outside = {.first = cell, .second = TN_NO_CELL, .relation = TN_FACE_OUTSIDE};
-    return strip->questions.ratio_count > 0 && tn_face_relevant(house, &strip->glass, &outside);
+    return (UINT64_C(1) << strip->questions.room_count) - 1;
+}
+
+uint32_t tn_strip_room_truth(const tn_strip *strip, const tn_whole_room *whole)
+{
+    tn_known_room room = {.fails = whole->fails, .kinds = whole->kinds, .area = whole->area, .cells = whole->cells};
+    add_balance(strip, &room, whole->glass, whole->area);
+    settle(strip, &room, true);
+    return (uint32_t)room.truth;
 }
 
 static void begin_cell(tn_joining *j, const tn_strip_crossing *c, uint32_t cell, const uint32_t *side)
 {
     const uint32_t *words = c->slice + SLICE_CELLS + CELL_WORDS * cell;
-    const tn_strip_questions *q = &j->strip->questions;
     uint32_t room = j->before + cell;
     tn_known_room *known = &j->rooms[room];
     memset(known, 0, sizeof *known); /* padding too: rooms are compared as words */
     j->parent[room] = room;
     known->kinds = tn_both(side + SIDE_MARKS) | tn_both(words + CELL_MARKS);
+    known->fails = tn_both(words + CELL_FAILS);
+    if (words[CELL_ROOM_IS] == ROOM_IS_KNOWN) {
+        known->known = all_questions(j->strip);
+        known->truth = words[CELL_TRUTH];
+    }
     tn_int128 area = tn_strip_area(j->strip, words[CELL_AREA]);
     add_balance(j->strip, known, tn_strip_area(j->strip, words[CELL_GLASS]) + tn_strip_area(j->strip, side[SIDE_GLASS]),
                 area);
-    if (c->right->cells[cell].open)
-        return;
-    known->cells = 1;
     known->area = area;
-    for (uint32_t i = 0; i < q->all_count; i++)
-        known->fails |= (uint64_t)!tn_edge_answers(j->strip, c->right, cell, tn_strip_decision(j->strip, q->all[i]))
-                        << i;
+    known->cells = words[CELL_ROOM_IS] == ROOM_GOES_ON;
 }
 
 /* The rooms before, with the faces of their last cells. */
@@ -216,6 +271,22 @@ static void begin_left(tn_joining *j, const tn_strip_crossing *c, const uint32_t
     }
 }
 
+/* Rooms that are nothing that is asked for become one: what is joined to one of them is nothing of that, either. */
+static void settle_all(const tn_strip *strip, tn_joining *j, uint32_t cells)
+{
+    uint64_t all = all_questions(strip);
+    uint32_t nothing = UINT32_MAX;
+    for (uint32_t i = 0; i < cells; i++) {
+        uint32_t root = root_of(j, j->before + i);
+        settle(strip, &j->rooms[root], false);
+        if (j->rooms[root].known != all || j->rooms[root].truth != 0)
+            continue;
+        if (nothing == UINT32_MAX)
+            nothing = root;
+        join(j, nothing, root);
+    }
+}
+
 static tn_status leave(tn_strip *strip, tn_joining *j, uint32_t cells, uint32_t *after, tn_error *error)
 {
     uint32_t number[2 * TN_STRIP_CELLS_MAX], count = 0;
@@ -223,6 +294,7 @@ static tn_status leave(tn_strip *strip, tn_joining *j, uint32_t cells, uint32_t 
     bool ok = true;
     key->size = 0;
     memset(number, 0xff, sizeof number);
+    settle_all(strip, j, cells);
     for (uint32_t i = 0; ok && i < cells; i++) {
         uint32_t root = root_of(j, j->before + i);
         number[root] = number[root] == UINT32_MAX ? count++ : number[root];
@@ -234,7 +306,6 @@ static tn_status leave(tn_strip *strip, tn_joining *j, uint32_t cells, uint32_t 
         if (number[root] != next)
             continue;
         next++;
-        settle(strip, &j->rooms[root], false);
         memcpy(words, &j->rooms[root], sizeof words);
         for (size_t w = 0; ok && w < ROOM_WORDS; w++)
             ok = tn_key_push(key, words[w]);

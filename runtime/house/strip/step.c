@@ -4,6 +4,13 @@
 #include "runtime/base/array.h"
 #include "runtime/house/strip/parts.h"
 
+/* What of the right slice's tiles waits for its right side, by number; TN_STRIP_NONE: a cell has none, whatever stands
+ * there. The numbers of its tiles are `times` those that wait. */
+typedef struct tn_waiting {
+    uint32_t number;
+    uint64_t times;
+} tn_waiting;
+
 typedef struct tn_stepping {
     tn_strip *strip;
     const uint32_t *state; /* words; NULL: before the first slice */
@@ -11,6 +18,7 @@ typedef struct tn_stepping {
     uint32_t trays;        /* before the slice */
     const tn_strip_outcome *outcome;
     const uint32_t *crossed; /* words: what came of rooms and walks at the outcome */
+    tn_waiting waiting;      /* the same */
 } tn_stepping;
 
 /* ---- tiles */
@@ -27,21 +35,22 @@ static tn_status add_tiles(tn_strip *strip, uint32_t fit, tn_error *error)
     return TN_OK;
 }
 
+/* Tiles that wait: {place of the cell, class}. */
+enum { WAIT_CELL, WAIT_CLASS, WAIT_WORDS };
+
 /* The tiles of the left slice, in the sums of the prices: none where one of its cells has none. */
 static tn_status multiply_tiles(tn_strip *strip, uint32_t waiting, uint32_t sides, tn_error *error)
 {
     size_t count, cells;
-    const uint32_t *classes = tn_interned(&strip->waiting, waiting, &count);
+    const uint32_t *wait = tn_interned(&strip->waiting, waiting, &count);
     const uint32_t *fits = tn_interned(&strip->fit_lists, sides, &cells);
     tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && strip->prices.sum_count > 0 && i < cells; i++) {
+    for (size_t i = 0; status == TN_OK && strip->prices.sum_count > 0 && i < count; i += WAIT_WORDS) {
         uint32_t fit = 0;
-        if (fits[i] == 0)
-            continue;
-        uint64_t pair = strip->merged.one[*classes++];
-        status = tn_strip_fit(strip, tn_high(pair), tn_low(pair), fits[i] - 1, &fit, error);
+        const tn_strip_one *one = &strip->merged.one[wait[i + WAIT_CLASS]];
+        status = tn_strip_fit(strip, one->base, one->left, fits[wait[i + WAIT_CELL]] - 1, &fit, error);
         if (status == TN_OK)
-            status = add_tiles(strip, fit, error);
+            status = add_tiles(strip, strip->prices.items ? fit : fit / one->factor, error);
     }
     return status;
 }
@@ -72,43 +81,47 @@ static tn_status count_tiles(const tn_stepping *s, tn_error *error)
     return status;
 }
 
-/* The cells of the right slice that have tiles, by which of them fit; TN_STRIP_NONE: a cell has none, whatever stands
- * at its right. */
-static tn_status list_waiting(tn_strip *strip, uint32_t bases, uint32_t sides, uint32_t *waiting, tn_error *error)
+static tn_status list_waiting(tn_strip *strip, uint32_t bases, uint32_t sides, tn_waiting *waiting, tn_error *error)
 {
     size_t cells;
     tn_key *key = &strip->joined;
-    tn_status status = TN_OK;
     const uint32_t *base = tn_interned(&strip->fit_lists, bases, &cells);
     const uint32_t *fits = tn_interned(&strip->fit_lists, sides, &cells);
     key->size = 0;
-    for (size_t i = 0; i < cells; i++) {
-        uint32_t class;
+    *waiting = (tn_waiting){TN_STRIP_NONE, 1};
+    for (uint32_t i = 0; i < cells; i++) {
+        tn_strip_wait wait;
         if (base[i] == 0)
             continue;
-        status = tn_strip_waits(strip, base[i] - 1, fits[i] - 1, &class, error);
-        *waiting = TN_STRIP_NONE;
-        if (status != TN_OK || class == TN_STRIP_NONE)
+        tn_status status = tn_strip_waits(strip, base[i] - 1, fits[i] - 1, &wait, error);
+        if (status != TN_OK || wait.class == TN_STRIP_NONE)
             return status;
-        if (!tn_key_push(key, class))
+        if (wait.ever && (!tn_key_push(key, i) || !tn_key_push(key, wait.class)))
             return tn_fail_memory(error);
+        if (__builtin_mul_overflow(waiting->times, (uint64_t)wait.factor, &waiting->times))
+            return tn_strip_limit(strip, NULL, "a tray has more than 2^64 arrangements of tiles", error);
     }
-    *waiting = tn_intern(&strip->waiting, key->data, key->size);
-    return *waiting != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+    waiting->number = tn_intern(&strip->waiting, key->data, key->size);
+    return waiting->number != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-static tn_status find_waiting(const tn_stepping *s, uint32_t *waiting, tn_error *error)
+/* The tiles of the row's last cells, where a row ends, wait for nothing. */
+static tn_status find_waiting(const tn_stepping *s, tn_waiting *waiting, tn_error *error)
 {
     tn_strip *strip = s->strip;
-    uint32_t *result, bases = strip->slices[s->slice].tiles, sides = s->outcome->right_fits;
     bool met;
-    *waiting = 0;
-    if (strip->scouting)
+    *waiting = (tn_waiting){0, 1};
+    if (strip->scouting || s->slice == TN_STRIP_NONE)
         return TN_OK;
-    tn_status status = tn_strip_known_at(&strip->waits, bases, sides, 1, &result, &met, error);
-    if (status == TN_OK && !met)
-        status = list_waiting(strip, bases, sides, result, error);
-    *waiting = status == TN_OK ? *result : TN_STRIP_NONE;
+    uint32_t *result, bases = strip->slices[s->slice].tiles, sides = s->outcome->right_fits;
+    tn_status status = tn_strip_known_at(&strip->waits, bases, sides, 3, &result, &met, error);
+    if (status == TN_OK && !met) {
+        status = list_waiting(strip, bases, sides, waiting, error);
+        memcpy(result, (const uint32_t[]){waiting->number, tn_low(waiting->times), tn_high(waiting->times)},
+               3 * sizeof *result);
+    }
+    if (status == TN_OK)
+        *waiting = (tn_waiting){result[0], tn_both(result + 1)};
     return status;
 }
 
@@ -120,21 +133,16 @@ static bool counts_totals(const tn_strip *strip)
     return tn_strip_compares(strip) && strip->units && !strip->looking_ahead;
 }
 
-/* *after: TN_STRIP_NONE where no house goes on from there. */
 static tn_status make_state(const tn_stepping *s, uint32_t read, uint32_t total, uint32_t *after, tn_error *error)
 {
     tn_strip *strip = s->strip;
     tn_key *key = &strip->joined;
-    uint32_t waiting, edge = strip->slices[s->slice].edge;
-    tn_status status = find_waiting(s, &waiting, error);
-    *after = TN_STRIP_NONE;
-    if (status != TN_OK || waiting == TN_STRIP_NONE)
-        return status;
+    uint32_t edge = strip->slices[s->slice].exit;
     key->size = 0;
     bool ok = tn_key_push(key, strip->merged.edges ? strip->merged.edges[edge] : edge);
     for (uint32_t w = 0; ok && w <= strip->questions.walk_count; w++)
         ok = tn_key_push(key, s->crossed[CROSSED_ROOMS + w]);
-    ok = ok && tn_key_push(key, read) && tn_key_push(key, waiting);
+    ok = ok && tn_key_push(key, read) && tn_key_push(key, s->waiting.number);
     if (counts_totals(strip))
         ok = ok && tn_key_push(key, total);
     *after = ok ? tn_intern(&strip->states, key->data, key->size) : UINT32_MAX;
@@ -193,7 +201,8 @@ static tn_status show_sum(const tn_stepping *s, const tn_showing *to, uint32_t a
     const tn_strip_units *units = s->strip->units;
     tn_house_gain sum = to->gain;
     uint64_t times;
-    if (__builtin_mul_overflow(p->sums[i].times, to->faced, &times))
+    if (__builtin_mul_overflow(p->sums[i].times, to->faced, &times) ||
+        __builtin_mul_overflow(times, s->waiting.times, &times))
         return tn_strip_limit(s->strip, NULL, "a tray has more than 2^64 choices", error);
     for (uint32_t k = 0; units && k < s->strip->added->measures; k++)
         sum.by[k] += p->sums[i].cost * units->costs[k] * (s->strip->measures->most[k] ? -1 : 1);
@@ -247,7 +256,7 @@ static tn_status try_total(const tn_stepping *s, const tn_showing *to, uint32_t 
         return status;
     if (s->slice != TN_STRIP_NONE)
         status = make_state(s, read, total, &after, error);
-    return status == TN_OK && after != TN_STRIP_NONE ? show_sum(s, to, after, i, error) : status;
+    return status == TN_OK ? show_sum(s, to, after, i, error) : status;
 }
 
 static tn_status try_totals(const tn_stepping *s, const tn_showing *to, uint32_t between, tn_error *error)
@@ -288,16 +297,20 @@ static tn_status try_outcome(tn_stepping *s, const tn_strip_choice *choice, uint
     if (status != TN_OK || strip->prices.sum_count == 0)
         return status;
     const tn_showing to = {seen, context, choice->times, gain_of(s)};
-    if (counts_totals(strip))
-        return try_totals(s, &to, between, error);
+    if (counts_totals(strip)) {
+        status = find_waiting(s, &s->waiting, error);
+        return status == TN_OK && s->waiting.number != TN_STRIP_NONE ? try_totals(s, &to, between, error) : status;
+    }
     bool guesses = tn_strip_compares(strip) && s->slice == TN_STRIP_NONE;
     status = guesses ? guess_end(s, between, &read, error)
                      : tn_strip_read_plane(strip, s->trays, between, s->crossed[CROSSED_VALUES], &read, error);
-    if (status != TN_OK || read == TN_STRIP_NONE)
+    if (status == TN_OK && read != TN_STRIP_NONE)
+        status = find_waiting(s, &s->waiting, error);
+    if (status != TN_OK || read == TN_STRIP_NONE || s->waiting.number == TN_STRIP_NONE)
         return status;
     if (s->slice != TN_STRIP_NONE)
         status = make_state(s, read, 0, &after, error);
-    if (status != TN_OK || after == TN_STRIP_NONE)
+    if (status != TN_OK)
         return status;
     if (strip->looking_ahead)
         note_ahead(s);

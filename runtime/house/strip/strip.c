@@ -18,11 +18,14 @@ static tn_status begin(tn_strip *strip, tn_error *error)
 {
     const tn_house_form *form = strip->form;
     strip->of_tray = calloc((size_t)form->schema->tray_count + 1, sizeof *strip->of_tray);
+    strip->furnished = calloc((size_t)form->schema->tray_count + 1, sizeof *strip->furnished);
     strip->tiled = calloc((size_t)tn_form_functions(form) + 1, sizeof *strip->tiled);
+    strip->asked_function = calloc((size_t)tn_form_functions(form) + 1, sizeof *strip->asked_function);
     strip->scratch = calloc(2 * (size_t)strip->library->clause_count + 1, sizeof *strip->scratch);
     strip->after_slice = calloc((size_t)strip->trays_most + 1, sizeof *strip->after_slice);
     strip->after_plane = calloc((size_t)strip->trays_most + 1, sizeof *strip->after_plane);
-    if (!strip->of_tray || !strip->tiled || !strip->scratch || !strip->after_slice || !strip->after_plane)
+    if (!strip->of_tray || !strip->furnished || !strip->tiled || !strip->asked_function || !strip->scratch ||
+        !strip->after_slice || !strip->after_plane)
         return tn_fail_memory(error);
     for (uint32_t k = 0; k < strip->added->count; k++) {
         strip->weighed_rooms[k] = calloc((size_t)strip->added->of[k]->count + 1, sizeof(uint32_t));
@@ -31,14 +34,13 @@ static tn_status begin(tn_strip *strip, tn_error *error)
     }
     find_tiled(strip);
     tn_status status = tn_strip_clauses_new(strip, error);
-    if (status == TN_OK)
-        status = tn_room_questions_find(form->module, &strip->glass, error);
     return status == TN_OK ? tn_strip_ask(strip, error) : status;
 }
 
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
-                       const bool *trays, uint32_t trays_least, uint32_t trays_most, const tn_house_measures *measures,
-                       const tn_house_added *added, tn_strip **out, tn_error *error)
+                       const tn_strip_trays *trays, uint32_t trays_least, uint32_t trays_most,
+                       const tn_house_measures *measures, const tn_house_added *added, const tn_houses_without *without,
+                       tn_strip **out, tn_error *error)
 {
     tn_strip *strip = *out = calloc(1, sizeof *strip);
     if (!strip)
@@ -49,15 +51,21 @@ tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record 
                         .trays_most = trays_most,
                         .watch = form->module->watch,
                         .measures = measures,
-                        .added = added};
+                        .added = added,
+                        .without = without};
     memcpy(strip->shapes, shapes, form->record->choice_count * sizeof *shapes);
     tn_status status = begin(strip, error);
     if (status == TN_OK)
         status = tn_strip_prices_begin(strip, error);
+    if (status == TN_OK)
+        status = tn_strip_borders_find(strip, trays, error);
     for (tn_tray t = 0; status == TN_OK && t < form->schema->tray_count; t++)
-        if (trays[t])
+        if (trays->stand[t])
             status = tn_strip_slices(strip, t, error);
-    return status == TN_OK ? tn_strip_lower(strip, error) : status;
+    if (status == TN_OK)
+        status = tn_strip_lower(strip, error);
+    strip->without = NULL;
+    return status;
 }
 
 static void clear_known(tn_strip *strip)
@@ -90,13 +98,18 @@ void tn_strip_free(tn_strip *strip)
                                       &strip->bases,     &strip->sides,      &strip->waiting,      &strip->rooms,
                                       &strip->walks,     &strip->states,     &strip->letters,      &strip->fit_lists,
                                       &strip->insides,   &strip->throughs,   &strip->readings,     &strip->between,
-                                      &strip->values,    &strip->asked,      &strip->mets,         &strip->totals};
+                                      &strip->values,    &strip->asked,      &strip->mets,         &strip->totals,
+                                      &strip->functions, &strip->plain_keys};
     for (uint32_t i = 0; i < strip->edge_keys.count; i++) {
         free(strip->edges[i].cells);
         free(strip->edges[i].answers);
         free(strip->edges[i].inner);
     }
     free_lists(strip->of_tray, strip->form->schema->tray_count);
+    for (size_t t = 0; strip->furnished && t < strip->form->schema->tray_count; t++)
+        free(strip->furnished[t].items);
+    free(strip->furnished);
+    tn_strip_borders_clear(&strip->borders);
     free_lists(strip->planes, strip->plane_keys.count);
     for (size_t i = 0; i < sizeof interners / sizeof *interners; i++)
         tn_interner_clear(interners[i]);
@@ -113,15 +126,18 @@ void tn_strip_free(tn_strip *strip)
     free(strip->questions.decisions);
     free(strip->edges);
     free(strip->slices);
+    free(strip->plains);
     free(strip->outcomes);
     free(strip->tiled);
+    free(strip->asked_function);
     free(strip->scratch);
     free(strip->ends);
     for (uint32_t k = 0; k < TN_ADDED_MAX; k++)
         free(strip->weighed_rooms[k]);
     tn_plan_vm_free(strip->plan_vm);
     free(strip->ahead);
-    tn_room_questions_clear(&strip->glass);
+    tn_numbering_clear(&strip->fails);
+    free(strip->open_rooms);
     free(strip->fits);
     free(strip->key.data);
     free(strip->joined.data);

@@ -12,29 +12,38 @@ enum { NODES = 2 * TN_STRIP_CELLS_MAX, NO_GROUP = 0xff, AT_GOAL = 0xfe };
 
 typedef struct tn_walking {
     const tn_strip *strip;
-    size_t first, second, through; /* decisions */
-    bool any;                      /* all cells are walked through */
-    uint32_t before;               /* nodes: the groups before, then the cells of the right edge */
+    uint32_t walk;
+    const uint32_t *roles; /* of the cells of the right edge, from the slice */
+    uint32_t before;       /* nodes: the groups before, then the cells of the right edge */
     uint8_t parent[NODES];
     bool near[NODES];
     tn_uint128 waiting[4 * TN_STRIP_CELLS_MAX]; /* sets of nodes */
     uint32_t count;
+    bool inside; /* the row has begun: what waits in vain may be said at once */
     bool apart, too_many;
 } tn_walking;
 
-typedef struct tn_role {
-    bool through, goal, source;
-} tn_role;
-
-static tn_role role_of(const tn_walking *w, const tn_strip_edge *edge, uint32_t cell)
+tn_strip_role tn_strip_role_of(const tn_strip *strip, uint32_t walk, const uint64_t *answers, bool open)
 {
-    tn_role role = {false, false, false};
-    if (edge->cells[cell].open)
+    const tn_strip_walk *w = &strip->questions.walk_parts[walk];
+    tn_strip_role role = {false, false, false, false};
+    if (open)
         return role;
-    role.through = w->any || tn_edge_answers(w->strip, edge, cell, w->through);
-    role.goal = tn_edge_answers(w->strip, edge, cell, w->second);
-    role.source = !role.goal && tn_edge_answers(w->strip, edge, cell, w->first);
+    role.through = w->any || tn_answers(answers, w->through);
+    role.goal = tn_answers(answers, w->second);
+    role.source = !role.goal && tn_answers(answers, w->first);
     return role;
+}
+
+static tn_strip_role role_at_left(const tn_walking *w, const tn_strip_edge *edge, uint32_t cell)
+{
+    return tn_strip_role_of(w->strip, w->walk, tn_edge_answers(w->strip, edge, cell), edge->cells[cell].open);
+}
+
+static tn_strip_role role_at_right(const tn_walking *w, uint32_t cell)
+{
+    uint32_t word = w->roles[cell];
+    return (tn_strip_role){word & ROLE_THROUGH, word & ROLE_GOAL, word & ROLE_SOURCE, word & ROLE_ENDS};
 }
 
 static uint8_t root_of(tn_walking *w, uint8_t node)
@@ -61,7 +70,7 @@ static void wait_for(tn_walking *w, tn_uint128 set)
 }
 
 /* One of the two ways through a face: from the cell at node a to the cell at node b. */
-static void step(tn_walking *w, uint8_t a, tn_role from, uint8_t b, tn_role to)
+static void step(tn_walking *w, uint8_t a, tn_strip_role from, uint8_t b, tn_strip_role to)
 {
     if (b != NO_GROUP && from.goal) {
         if (b != AT_GOAL)
@@ -77,7 +86,7 @@ static void step(tn_walking *w, uint8_t a, tn_role from, uint8_t b, tn_role to)
         w->near[b] = true;
 }
 
-static void pass(tn_walking *w, uint8_t a, tn_role from, uint8_t b, tn_role to)
+static void pass(tn_walking *w, uint8_t a, tn_strip_role from, uint8_t b, tn_strip_role to)
 {
     if (from.through && to.through && a != NO_GROUP && b != NO_GROUP) {
         if (a != AT_GOAL && b != AT_GOAL)
@@ -110,7 +119,7 @@ static void begin_right(tn_walking *w, const tn_strip_edge *edge)
         w->near[n] = false;
     }
     for (uint32_t i = 0; i < edge->count; i++) {
-        tn_role role = role_of(w, edge, i);
+        tn_strip_role role = role_at_right(w, i);
         w->near[w->before + i] = role.goal;
         if (role.source)
             wait_for(w, (tn_uint128)1 << (w->before + i));
@@ -126,10 +135,10 @@ static uint32_t number_groups(tn_walking *w, const tn_strip_edge *edge, uint32_t
     uint32_t count = 0;
     memset(of_node, 0xff, NODES * sizeof *of_node);
     for (uint32_t i = 0; edge && i < edge->count; i++) {
-        tn_role role = role_of(w, edge, i);
+        tn_strip_role role = role_at_right(w, i);
         uint8_t root = root_of(w, (uint8_t)(w->before + i));
         group[i] = NO_GROUP;
-        if (!role.through && !role.source)
+        if ((!role.through && !role.source) || (role.ends && w->inside))
             continue;
         if (w->near[root])
             group[i] = AT_GOAL;
@@ -204,29 +213,25 @@ static tn_status leave(tn_strip *strip, tn_walking *w, const tn_strip_edge *edge
 tn_status tn_strip_walk_cross(tn_strip *strip, uint32_t walk, uint32_t before, const tn_strip_crossing *c,
                               uint32_t *after, bool *apart, tn_error *error)
 {
-    const tn_meeting_record *m = &strip->form->module->MEETING_records[strip->questions.walks[walk]];
-    tn_walking w = {.strip = strip,
-                    .first = tn_strip_decision(strip, m->first),
-                    .second = tn_strip_decision(strip, m->second),
-                    .any = m->through == TN_NO_RECORD};
-    w.through = w.any ? 0 : tn_strip_decision(strip, m->through);
+    tn_walking w = {.strip = strip, .walk = walk, .inside = c->left != NULL};
     size_t size = 0;
     const uint32_t *state = c->left ? tn_interned(&strip->walks, before, &size) : NULL;
     uint32_t right = c->right ? c->right->count : 0;
     if (c->left)
         begin_left(&w, state, size, c->left->count);
     static const tn_strip_edge nothing = {0};
+    const uint32_t *roles = right ? c->slice + SLICE_CELLS + (size_t)CELL_WORDS * right : NULL, *steps = c->outcome + 3;
+    w.roles = right ? roles + (size_t)walk * right : NULL;
     begin_right(&w, c->right ? c->right : &nothing);
-    const uint32_t *steps = c->outcome + 3;
     for (uint32_t i = 0; i < c->outcome[2]; i++, steps += STEP_WORDS)
         if (steps[STEP_HOW] >> (walk + 1) & 1)
-            pass(&w, node_before(state, steps[STEP_FROM]), role_of(&w, c->left, steps[STEP_FROM]),
-                 (uint8_t)(w.before + steps[STEP_TO]), role_of(&w, c->right, steps[STEP_TO]));
-    steps = right ? c->slice + SLICE_CELLS + (size_t)CELL_WORDS * right : NULL;
+            pass(&w, node_before(state, steps[STEP_FROM]), role_at_left(&w, c->left, steps[STEP_FROM]),
+                 (uint8_t)(w.before + steps[STEP_TO]), role_at_right(&w, steps[STEP_TO]));
+    steps = right ? roles + (size_t)strip->questions.walk_count * right : NULL;
     for (uint32_t i = 0, count = steps ? *steps++ : 0; i < count; i++, steps += STEP_WORDS)
         if (steps[STEP_HOW] >> (walk + 1) & 1)
-            pass(&w, (uint8_t)(w.before + steps[STEP_FROM]), role_of(&w, c->right, steps[STEP_FROM]),
-                 (uint8_t)(w.before + steps[STEP_TO]), role_of(&w, c->right, steps[STEP_TO]));
+            pass(&w, (uint8_t)(w.before + steps[STEP_FROM]), role_at_right(&w, steps[STEP_FROM]),
+                 (uint8_t)(w.before + steps[STEP_TO]), role_at_right(&w, steps[STEP_TO]));
     if (w.too_many)
         return tn_strip_limit(strip, NULL, "more sources wait for a walk than can be told apart at once", error);
     tn_status status = leave(strip, &w, c->right, after, error);

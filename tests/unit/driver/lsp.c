@@ -779,6 +779,138 @@ static void test_form_allows(void **state)
     finish_live(&l);
 }
 
+static const char placed[] =
+    "schema s { w role length = 8' | 12'  zone z role band = room(9') | hall(14')\n"
+    "  zone b role band = nook(4') role void }\n"
+    "form f of s {\n"
+    "  storey low 9'  storey high 8'  spine z  wall 8\"  partition 4\"  deck 10\"  roof 8\"\n"
+    "  section z storeys = 1 | 2  section b storeys = 1  section z roof = flat | gable(9:12)\n"
+    "  section cladding = board | brick\n"
+    "  forbid section(z storeys 2) and section(z roof gable)\n"
+    "  void cell(z hall, high)\n"
+    "  function sleep at cell(z room)  function sit at cell(z)  function niche at cell(b nook)\n"
+    "  opening door wide 2'8\" high 6'8\" passage  opening gate wide 8' high 7'6\" passage\n"
+    "  flight dogleg wide 2' rise 6\"..8\" going 9\" turn half\n"
+    "  face cell(sit) outside = gate | door | wall\n"
+    "  face cell(sit) under cell(sit) = dogleg | floor\n"
+    "  tile bed for sleep { wide 5'..11'  item bed left 0..3', back 0..6'  keep way right 2'..right 0, back 0..6' }\n"
+    "  tile pool for niche { item pool left 0..5', back 0..5' }\n"
+    "  tile pole for niche { item pole left 0..1', back 0..1', up 0..9' }\n"
+    "}\n"
+    "rule tall = section(z storeys 2) and section(cladding brick)\n";
+
+static json_t *ask_placed(live *l, const char *method, const char *uri, const char *before, size_t further)
+{
+    return hear_answer(l,
+                       ask(&l->session, method, at(uri, placed, (size_t)(strstr(placed, before) - placed) + further)));
+}
+
+/* What a form's declarations come to, over all trays and sections. */
+static void test_places(void **state)
+{
+    static const char uri[] = "file:///nowhere/placed.plan";
+    static const struct {
+        const char *before;
+        size_t further;
+        const char *said[4];
+    } cases[] = {
+        {"form f of", 5, {"4 trays of `s` have 12 cells", "6 sections; 2 more are forbidden"}},
+        {"storey high",
+         8,
+         {"it has 4 of 12 cells", "z: 4 cells, 2 of them open to the cell below, in 2 of 6 sections"}},
+        {"z storeys = 1", 3, {"choice `z storeys` of form `f`", "- `1`: in 4 of 6 sections", "- `2`: in 2 of 6"}},
+        {"cladding brick", 1, {"choice `cladding` of form `f`", "- `brick`: in 3 of 6 sections"}},
+        {"function sit",
+         10,
+         {"it may be in 6 of 12 cells", "z, low: 4 of 4 cells, 8' to 12' wide and 9' to 14' deep, 72 ft2 to 168 ft2",
+          "z, high: 2 of 4 cells, 8' to 12' wide and 9' deep, 72 ft2 to 108 ft2",
+          "other functions there: `sleep`; in 2 of these cells no other may be"}},
+        {"function niche",
+         10,
+         {"b, low: 4 of 4 cells", "no other function may be there",
+          "none of its tiles fits with walls round it in cells of 8' by 4', 12' by 4'"}},
+        {"tile bed",
+         6,
+         {"clear rooms 5' to 11' wide and at least 6' deep", "z, low: cells of 8' by 9', 12' by 9'; ",
+          "; its back at any side; up to 8 layouts", "z, high: cells of 8' by 9'"}},
+        {"tile pool",
+         6,
+         {"clear rooms at least 5' wide and at least 5' deep",
+          "it fits nowhere; in the largest cell for it, b, low, 12' by 4': `pool` is not inside"}},
+        {"tile pole", 6, {"`pole` reaches higher than the room, which is 8'2\\\" high"}},
+        {"opening door",
+         9,
+         {"needs a face at least 3'4\\\" wide and 6'8\\\" high: storey `low`, `high`",
+          "may be in outside walls, storey `low`, `high`: `sit`"}},
+        {"opening gate", 9, {"needs a face at least 8'8\\\" wide and 7'6\\\" high: storey `low`\\n"}},
+        {"flight dogleg",
+         8,
+         {"has room in z, low: cells of 8' by 14', 12' by 9', 12' by 14'",
+          "may be in floors between cells, storey `low`: `sit`"}},
+    };
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, uri, placed);
+    await_diagnostics(&l, 1, "W204");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        json_t *answer = ask_placed(&l, "textDocument/hover", uri, cases[i].before, cases[i].further);
+        for (size_t k = 0; k < 4 && cases[i].said[k]; k++)
+            assert_true(mentions(answer, cases[i].said[k]));
+        json_decref(answer);
+    }
+    finish_live(&l);
+}
+
+/* Choices of sections: where they are named, and which may be renamed. */
+static void test_choices(void **state)
+{
+    static const char uri[] = "file:///nowhere/placed.plan";
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, uri, placed);
+    json_t *answer = ask_placed(&l, "textDocument/definition", uri, "storeys 2) and section(c", 1);
+    assert_true(mentions(answer, "\"line\":4"));
+    json_decref(answer);
+    answer = hear_answer(&l, ask(&l.session, "textDocument/documentSymbol", everything(uri)));
+    assert_true(mentions(answer, "\"z roof\"") && mentions(answer, "\"cladding\""));
+    json_decref(answer);
+    json_t *params = at(uri, placed, (size_t)(strstr(placed, "cladding brick") - placed));
+    json_object_set_new(params, "newName", json_string("facade"));
+    answer = hear_answer(&l, ask(&l.session, "textDocument/rename", params));
+    assert_int_equal(
+        json_array_size(json_object_get(json_object_get(json_object_get(answer, "result"), "changes"), uri)), 2);
+    json_decref(answer);
+    params = at(uri, placed, (size_t)(strstr(placed, "storeys = 1") - placed));
+    json_object_set_new(params, "newName", json_string("floors"));
+    answer = hear_answer(&l, ask(&l.session, "textDocument/rename", params));
+    assert_true(mentions(answer, "a choice that a zone has keeps its name"));
+    json_decref(answer);
+    answer = ask_placed(&l, "textDocument/prepareRename", uri, "storeys = 1", 0);
+    assert_true(json_is_null(json_object_get(answer, "result")));
+    json_decref(answer);
+    finish_live(&l);
+}
+
+/* Also of a form in a file that is used. */
+static void test_places_of_used(void **state)
+{
+    static const char uri[] = "file:///nowhere/used.plan";
+    static const char text[] = "use \"lahave-form\"\nrule never = tray(12') and not tray(12')\n"
+                               "rule seldom = room(bath, area < 40sf)\n";
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, uri, text);
+    await_diagnostics(&l, 1, "W001");
+    json_t *answer =
+        hear_answer(&l, ask(&l.session, "textDocument/hover", at(uri, text, (size_t)(strstr(text, "bath") - text))));
+    assert_true(mentions(answer, "machine, ground: 384 of 480 cells, 8' to 12' wide and 4' to 8' deep"));
+    json_decref(answer);
+    finish_live(&l);
+}
+
 static void test_meaning(void **state)
 {
     static const char uri[] = "file:///nowhere/a.plan";
@@ -924,6 +1056,9 @@ int main(void)
         cmocka_unit_test(test_forms),
         cmocka_unit_test(test_sections),
         cmocka_unit_test(test_form_allows),
+        cmocka_unit_test(test_places),
+        cmocka_unit_test(test_choices),
+        cmocka_unit_test(test_places_of_used),
         cmocka_unit_test(test_meaning_given_up),
         cmocka_unit_test(test_meaning_of_grammar),
         cmocka_unit_test(test_outlines),

@@ -18,6 +18,7 @@ typedef struct trial {
     tn_grammar *grammar;
     atomic_ullong evaluated, errors_found;
     unsigned long long fails_at; /* the evaluation that fails; 0: none */
+    int fails_before;            /* the step that one rank fails before */
     tn_evolution *evolutions[RANKS];
     tn_status status[RANKS];
     tn_error error[RANKS];
@@ -165,8 +166,43 @@ static void test_same_failure(void **state)
     clear(&t);
 }
 
+/* Its own failure before a step, which the others hear of in that step. */
+static void breed_late(const tn_ranks *ranks, void *context)
+{
+    trial *t = context;
+    unsigned r = ranks->rank;
+    t->evolutions[r] = evolution_of(t, ranks);
+    for (t->steps[r] = 0; t->steps[r] < STEPS && t->status[r] == TN_OK; t->steps[r]++) {
+        tn_status status = TN_OK;
+        if (r == 2 && t->steps[r] == t->fails_before)
+            status = tn_fail(&t->error[r], TN_IO, TN_CODE_NONE, "no room for generation %d", t->fails_before);
+        t->status[r] = tn_evolution_step_after(t->evolutions[r], status, &t->error[r]);
+    }
+}
+
+static void test_late_failure(void **state)
+{
+    (void)state;
+    for (int variant = 0; variant < 7; variant++) {
+        for (int before = 0; before < 3; before += 2) {
+            trial t = trial_of(variant);
+            char said[40];
+            t.fails_before = before;
+            snprintf(said, sizeof said, "no room for generation %d", before);
+            test_ranks_run(RANKS, breed_late, &t);
+            for (unsigned r = 0; r < RANKS; r++) {
+                assert_int_equal(t.status[r], TN_IO);
+                assert_string_equal(t.error[r].message, said);
+                assert_int_equal(t.steps[r], before + 1);
+            }
+            clear(&t);
+        }
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_run), cmocka_unit_test(test_same_failure)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_run), cmocka_unit_test(test_same_failure),
+                                       cmocka_unit_test(test_late_failure)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,207 @@
+/* Counts the houses that depend on a part of a rule. */
+#include "driver/house/dependents.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/module/code.h"
+
+struct tn_dependents {
+    const tn_module *module;
+    const tn_house_library_record *record;
+    tn_schema *schema;
+    tn_house_form form;
+    tn_library *plans;
+    uint32_t max_states;
+    uint64_t states_left; /* of all counts */
+    bool known;           /* `kept` is */
+    mpz_t kept;           /* houses of the library */
+};
+
+tn_status tn_dependents_new(const tn_module *module, uint32_t library, uint32_t max_states, tn_dependents **dependents,
+                            tn_error *error)
+{
+    const tn_library_options options = {.max_states = max_states};
+    tn_dependents *d = *dependents = calloc(1, sizeof *d);
+    if (!d)
+        return tn_fail_memory(error);
+    d->module = module;
+    d->record = &module->HOUSE_LIBRARY_records[library];
+    d->max_states = max_states ? max_states : TN_DEPENDENTS_STATES;
+    d->states_left = (uint64_t)d->max_states * TN_DEPENDENTS_COUNTS;
+    mpz_init(d->kept);
+    tn_status status = tn_schema_new(module, module->FORM_records[d->record->form].schema, 0, &d->schema, error);
+    if (status == TN_OK) {
+        tn_form_ready(module, d->record->form, d->schema, &d->form);
+        status = tn_library_new(d->schema, d->record->plans, &options, &d->plans, error);
+    }
+    if (status != TN_OK) {
+        tn_dependents_free(d);
+        *dependents = NULL;
+    }
+    return status;
+}
+
+void tn_dependents_free(tn_dependents *d)
+{
+    if (!d)
+        return;
+    mpz_clear(d->kept);
+    tn_library_free(d->plans);
+    tn_schema_free(d->schema);
+    free(d);
+}
+
+/* ---- which clauses a part is in */
+
+static bool is_inside(const tn_function_record *function, const uint32_t *offsets, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (offsets[i] >= function->code_begin && offsets[i] < function->code_end)
+            return true;
+    return false;
+}
+
+static void mark_callees(const tn_module *module, uint32_t function, bool *reached)
+{
+    const tn_function_record *record = &module->FUNCTION_records[function];
+    for (uint32_t at = record->code_begin; at < record->code_end;) {
+        tn_instruction op = tn_code_read(module->code, at);
+        if (op.opcode == TN_OP_CALL || op.opcode == TN_OP_MIRROR)
+            reached[op.first] = true;
+        at += op.length;
+    }
+}
+
+/* Is one of the instructions in the function, or in one that it calls? Callees have lower numbers: one pass downwards
+ * finds them all. (A comparison of sums is one part: nothing in it is a part of its own.) reached: room for all. */
+static bool concerns(const tn_module *module, uint32_t function, const uint32_t *offsets, size_t count, bool *reached)
+{
+    memset(reached, 0, ((size_t)function + 1) * sizeof *reached);
+    reached[function] = true;
+    for (uint32_t f = function + 1; f-- > 0;) {
+        if (!reached[f])
+            continue;
+        if (is_inside(&module->FUNCTION_records[f], offsets, count))
+            return true;
+        mark_callees(module, f, reached);
+    }
+    return false;
+}
+
+/* ---- counting */
+
+/* The library's clauses, with those that the part is in behind the others, and how many these are. */
+typedef struct sorted_clauses {
+    tn_house_clause_record *clauses; /* [clauses, and room for as many more] */
+    uint32_t count, concerned;
+} sorted_clauses;
+
+static tn_status sort_clauses(const tn_module *module, const tn_house_library_record *record, const uint32_t *offsets,
+                              size_t count, sorted_clauses *sorted, tn_error *error)
+{
+    const tn_house_clause_record *all = module->HOUSE_CLAUSE_records + record->clause_first;
+    bool *reached = malloc((size_t)module->FUNCTION_count + 1);
+    uint32_t others = 0;
+    *sorted = (sorted_clauses){.clauses = calloc(2 * (size_t)record->clause_count + 1, sizeof *sorted->clauses),
+                               .count = record->clause_count};
+    if (!reached || !sorted->clauses) {
+        free(reached);
+        return tn_fail_memory(error);
+    }
+    for (uint32_t i = 0; i < sorted->count; i++) {
+        if (concerns(module, all[i].holds, offsets, count, reached))
+            sorted->clauses[sorted->count - ++sorted->concerned] = all[i];
+        else
+            sorted->clauses[others++] = all[i];
+    }
+    free(reached);
+    return TN_OK;
+}
+
+static tn_status past_limit(tn_error *error)
+{
+    tn_fail(error, TN_LIMIT, E_STRIP, "counting the houses that depend on parts of rules takes too many states");
+    tn_error_help(error, "--max-states N allows more; a library on plans of fewer trays takes fewer");
+    return TN_LIMIT;
+}
+
+/* How many houses these clauses keep, with or without the part. */
+static tn_status count_kept(tn_dependents *d, tn_house_clause_record *clauses, uint32_t count,
+                            const tn_houses_without *without, mpz_t houses, tn_error *error)
+{
+    tn_module module = *d->module; /* but for the clauses it is the same */
+    tn_house_library_record record = *d->record;
+    tn_house_form form = d->form;
+    const tn_houses_what what = {.without = without};
+    tn_houses *counted = NULL;
+    module.HOUSE_CLAUSE_records = clauses;
+    module.HOUSE_CLAUSE_count = record.clause_count = count;
+    record.clause_first = 0;
+    form.module = &module;
+    tn_status status = d->states_left < d->max_states
+                           ? past_limit(error)
+                           : tn_houses_of(&form, &record, d->plans, &what, d->max_states, &counted, error);
+    if (status == TN_OK) {
+        uint64_t states = tn_houses_states(counted);
+        tn_houses_count(counted, TN_ALL_LENGTHS, houses);
+        d->states_left -= states < d->states_left ? states : d->states_left;
+    } else if (status == TN_LIMIT) {
+        d->states_left = 0; /* others of the same clauses would take as many */
+        tn_error_help(error, "--max-states N allows more; a library on plans of fewer trays takes fewer");
+    }
+    tn_houses_free(counted);
+    return status;
+}
+
+/* Of several clauses: those kept as it is, and those kept without the part, less twice what both keep. */
+static tn_status count_several(tn_dependents *d, const sorted_clauses *sorted, tn_houses_without *without, mpz_t houses,
+                               tn_error *error)
+{
+    tn_status status = TN_OK;
+    mpz_t other;
+    mpz_init(other);
+    if (!d->known)
+        status = count_kept(d, sorted->clauses, sorted->count, NULL, d->kept, error);
+    d->known = status == TN_OK;
+    without->first = sorted->count - sorted->concerned;
+    if (status == TN_OK)
+        status = count_kept(d, sorted->clauses, sorted->count, without, houses, error);
+    memcpy(sorted->clauses + sorted->count, sorted->clauses + without->first,
+           sorted->concerned * sizeof *sorted->clauses);
+    without->first = sorted->count;
+    if (status == TN_OK)
+        status = count_kept(d, sorted->clauses, sorted->count + sorted->concerned, without, other, error);
+    mpz_add(houses, houses, d->kept);
+    mpz_submul_ui(houses, other, 2);
+    mpz_clear(other);
+    return status;
+}
+
+tn_status tn_dependents_count(tn_dependents *d, const uint32_t *offsets, size_t count, mpz_t houses, tn_error *error)
+{
+    sorted_clauses sorted;
+    tn_houses_without without = {.offsets = offsets, .count = count};
+    tn_status status = sort_clauses(d->module, d->record, offsets, count, &sorted, error);
+    mpz_set_ui(houses, 0);
+    if (status == TN_OK && sorted.concerned == 1) {
+        without.first = sorted.count - 1;
+        without.differs = true;
+        status = count_kept(d, sorted.clauses, sorted.count, &without, houses, error);
+    } else if (status == TN_OK && sorted.concerned > 1) {
+        status = count_several(d, &sorted, &without, houses, error);
+    }
+    free(sorted.clauses);
+    return status;
+}
+
+tn_status tn_dependents_concern(const tn_module *module, uint32_t library, uint32_t function, bool *concern,
+                                tn_error *error)
+{
+    const uint32_t offset = module->FUNCTION_records[function].code_begin;
+    sorted_clauses sorted;
+    tn_status status = sort_clauses(module, &module->HOUSE_LIBRARY_records[library], &offset, 1, &sorted, error);
+    *concern = status == TN_OK && sorted.concerned > 0;
+    free(sorted.clauses);
+    return status;
+}

@@ -1,0 +1,146 @@
+/* Warns about what of a form comes to nothing. */
+#include <stdlib.h>
+
+#include "driver/house/survey_parts.h"
+#include "runtime/house/solids.h"
+
+static void warn_functions(const tn_survey *s)
+{
+    for (uint32_t f = 0; f < tn_form_functions(&s->form); f++) {
+        const tn_cell_rule_record *rule = tn_form_rule(&s->form, f);
+        if (s->functions[f] || tn_survey_allows(s, W_FUNCTION_NEVER, TN_SURVEY_SPAN(rule)))
+            continue;
+        tn_diagnostic *d = tn_report(tn_survey_list(s), W_FUNCTION_NEVER, TN_SURVEY_SPAN(rule),
+                                     "no cell may have the function `%s`", tn_text(s->form.module, rule->name));
+        tn_help(tn_survey_list(s), d,
+                "no one cell, in a storey that some section has, meets all items after `at` and is kept by every "
+                "`void` and `no`");
+    }
+}
+
+static tn_status warn_bare(const tn_survey *s, tn_error *error)
+{
+    const tn_form_record *form = s->form.record;
+    tn_buffer line = {0};
+    if (!s->bare || tn_form_functions(&s->form) == 0 || tn_survey_allows(s, W_NO_FUNCTION, TN_SURVEY_SPAN(form)))
+        return TN_OK;
+    bool ok = tn_plan_write_line(s->schema, &s->bare_tray, 1, &line);
+    tn_diagnostic *d = tn_report(
+        tn_survey_list(s), W_NO_FUNCTION, TN_SURVEY_SPAN(form),
+        "form `%s`: no function may take the %s in storey `%s` of some trays", tn_text(s->form.module, form->name),
+        tn_text(s->form.module, s->schema->fields[s->bare_cell.zone].name),
+        tn_text(s->form.module, s->form.module->STOREY_records[form->storey_first + s->bare_cell.storey].name));
+    tn_note(tn_survey_list(s), d, NULL, "this plan has no house: %s", ok ? line.data : "");
+    tn_help(tn_survey_list(s), d, "add a function for such cells; or say that they are not there: `no cell(...)`");
+    free(line.data);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+static void say_in_way(const tn_survey *s, uint32_t tile, const tn_tile_failure *further, tn_diagnostic *d)
+{
+    char why[4 * TN_NAME_MAX];
+    tn_tile_failure_text(&s->form, tile, further, tn_house_length_style(&s->house), why, sizeof why);
+    if (further->obstacle > TN_TILE_NO_SIDE)
+        tn_note(tn_survey_list(s), d, NULL, "where it comes furthest, %s", why);
+    if (further->obstacle == TN_TILE_MEETS_BOX)
+        tn_help(tn_survey_list(s), d, "items of a tile may not overlap, nor be in what it keeps free");
+    else
+        tn_help(tn_survey_list(s), d,
+                "make its boxes, or its `wide` and `deep`, smaller: they must fit between the walls of a room, beside "
+                "each other");
+}
+
+static tn_status warn_tile(const tn_survey *s, uint32_t number, tn_error *error)
+{
+    const tn_tile_record *tile = &s->form.module->TILE_records[s->form.record->tile_first + number];
+    tn_tile_failure further;
+    bool fits;
+    if (tn_survey_allows(s, W_TILE_NEVER, TN_SURVEY_SPAN(tile)))
+        return TN_OK;
+    tn_status status = tn_survey_tile_anywhere(s, number, &fits, &further, error);
+    if (status != TN_OK || fits)
+        return status;
+    tn_diagnostic *d = tn_report(tn_survey_list(s), W_TILE_NEVER, TN_SURVEY_SPAN(tile), "tile `%s` fits into no cell",
+                                 tn_text(s->form.module, tile->name));
+    say_in_way(s, s->form.record->tile_first + number, &further, d);
+    return TN_OK;
+}
+
+bool tn_survey_names(const tn_survey *s, uint32_t kind)
+{
+    const tn_module *module = s->form.module;
+    for (uint32_t i = 0; i < s->form.record->face_count; i++) {
+        const tn_face_line_record *line = &module->FACE_LINE_records[s->form.record->face_first + i];
+        for (uint32_t k = 0; k < line->kind_count; k++)
+            if (module->HOUSE_ITEM_records[line->kind_first + k].number == kind)
+                return true;
+    }
+    return false;
+}
+
+static void warn_opening(const tn_survey *s, uint32_t number)
+{
+    const tn_opening_record *opening = &s->form.module->OPENING_records[s->form.record->opening_first + number];
+    const char *name = tn_text(s->form.module, opening->name);
+    bool flight = tn_form_flight(&s->form, TN_FACE_KIND_COUNT + number);
+    bool named = tn_survey_names(s, TN_FACE_KIND_COUNT + number);
+    bool wider = opening->wide + s->form.record->wall > s->widest;
+    if ((named && !wider && s->uses[TN_FACE_KIND_COUNT + number].used) ||
+        tn_survey_allows(s, W_OPENING_NEVER, TN_SURVEY_SPAN(opening)))
+        return;
+    tn_diagnostic *d = tn_report(tn_survey_list(s), W_OPENING_NEVER, TN_SURVEY_SPAN(opening),
+                                 !named   ? "no face has the opening `%s`"
+                                 : flight ? "no face can have the flight `%s`"
+                                 : wider  ? "opening `%s` is wider than every face"
+                                          : "no face can have the opening `%s`",
+                                 name);
+    if (!named)
+        tn_help(tn_survey_list(s), d, "name it in a line such as `face cell(any) %s = %s`",
+                flight ? "under cell(any)" : "outside", name);
+    else if (flight)
+        tn_help(tn_survey_list(s), d, TN_FLIGHT_NEEDS);
+    else
+        tn_help(tn_survey_list(s), d,
+                wider ? "a face has to be as wide as the opening and a `wall` added"
+                      : "the faces of the lines that name it are narrower than it and a `wall` added, or lower, or "
+                        "lines before these decide them");
+}
+
+/* ---- forms */
+
+static tn_status warn(tn_survey *s, tn_error *error)
+{
+    warn_functions(s);
+    for (uint32_t i = 0; i < s->form.record->opening_count; i++)
+        warn_opening(s, i);
+    tn_status status = warn_bare(s, error);
+    for (uint32_t i = 0; status == TN_OK && i < s->form.record->tile_count; i++) {
+        status = warn_tile(s, i, error);
+        if (status == TN_OK && tn_watch_stopped(s->form.module->watch))
+            status = tn_fail_stopped(s->form.module->watch, error);
+    }
+    return status;
+}
+
+static tn_status survey(tn_opened *opened, uint32_t form, tn_error *error)
+{
+    tn_survey *s;
+    tn_status status = tn_survey_begin(opened->module, form, opened, &s, error);
+    if (status == TN_LIMIT)
+        return TN_OK; /* said of the schema */
+    if (status == TN_OK)
+        status = tn_survey_trays(s, error);
+    if (status == TN_OK && s->complete)
+        status = warn(s, error);
+    tn_survey_free(s);
+    return status;
+}
+
+tn_status tn_house_survey(tn_opened *opened, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && opened->compiled && i < opened->module->FORM_count; i++)
+        if (!(opened->module->FORM_records[i].flags & TN_IMPORTED))
+            status = survey(opened, i, error);
+    return status;
+}
