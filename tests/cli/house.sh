@@ -105,7 +105,7 @@ golden sample_plan "tartan sample cottage 2 --plan '#10' --library cottages"
 golden sample_diverse "tartan sample cottage 2 --library cottages --diverse"
 golden sample_no_plan "tartan sample cottage 2 --library cottages --plan '#14'"
 golden too_many_states "tartan count lahave-complete --library lahave-complete --max-states 20000"
-golden rooms_in_row "tartan count lahave-complete --library lahave-complete --where 'neighbour(room(bedroom), room(hall))'"
+golden rooms_in_row "tartan count cottage --library cottages --trays 9..10 --where 'neighbour(room(bedroom), room(kitchen))'"
 golden count_clauses "tartan count cottage --plan '#10' --clauses"
 golden count_clauses_together 'tartan count cottage --library cottages --trays 9..10 --clauses'
 lengths="$("$TARTAN" count cottage --library cottages --trays 2..9 | grep ' of . trays')"

@@ -104,6 +104,82 @@ static void put_simple(drawn_house *d)
     }
 }
 
+static void put_walk(drawn_house *d)
+{
+    put(d, "apart(");
+    put_cell(d);
+    put(d, ", from ");
+    put_cell(d);
+    if (draw(d, 2)) {
+        put(d, ", through ");
+        put_cell(d);
+    }
+    put(d, ")");
+}
+
+/* What has a place in the row, rooms and walks above all. */
+static void put_placed(drawn_house *d, int depth)
+{
+    switch (draw(d, depth > 0 ? 13 : 6)) {
+    case 0:
+    case 1:
+    case 2:
+        put_room(d);
+        return;
+    case 3:
+        put_walk(d);
+        return;
+    case 4:
+        put(d, "quantity(");
+        put_room(d);
+        ONE_OF(d, ", n > 1)", ", n = 1)", ", n < 2)", ", n = 0)", ", n mod 2 = 0)");
+        return;
+    case 5:
+        ONE_OF(d, "tray(8')", "tray(bay open)", "cell(bed)", "touch(cell(bed), cell(living))");
+        return;
+    case 6:
+        put(d, "many(");
+        put_placed(d, depth - 1);
+        put(d, ")");
+        return;
+    case 7:
+        put(d, "not ");
+        put_placed(d, depth - 1);
+        return;
+    case 8:
+        put(d, "(");
+        put_placed(d, depth - 1);
+        ONE_OF(d, " and ", " or ", " implies ");
+        put_placed(d, depth - 1);
+        put(d, ")");
+        return;
+    case 9:
+        put(d, "quantity(");
+        put_placed(d, depth - 1);
+        ONE_OF(d, ", n > 1)", ", n = 1)", ", n mod 2 = 0)");
+        return;
+    case 10:
+        put(d, "distance(from ");
+        put_placed(d, depth - 1);
+        put(d, ", to ");
+        put_placed(d, depth - 1);
+        ONE_OF(d, ", by quantity(any, n >= 1))", ", by sum(width, w > 9'))", ", by quantity(tray(8'), n = 0))");
+        return;
+    case 11:
+        put(d, "occurrences(");
+        put_placed(d, depth - 1);
+        ONE_OF(d, ", n > 1)", ", n = 1)");
+        return;
+    default:
+        ONE_OF(d, "neighbour(", "symmetric neighbour(");
+        ONE_OF(d, "beginning, ", "", "", "optional(tray(8')), ");
+        put_placed(d, depth - 1);
+        put(d, ", ");
+        put_placed(d, depth - 1);
+        ONE_OF(d, ")", ")", ", end)");
+    }
+}
+
 static void put_row(drawn_house *d)
 {
     put(d, draw(d, 3) ? "neighbour(" : "symmetric neighbour(");
@@ -191,10 +267,13 @@ static void put_form(drawn_house *d)
         put(d, "  section body roof = gable(9:12) | vault(3')\n");
     put(d, "  section cladding = shingle | board\n");
     ONE_OF(d, "", "  void cell(loft, 10')\n", "  void cell(body 12', loft)\n", "  no cell(bay, loft)\n");
-    put(d, "  function living at cell(body, ground)\n  function bed at cell(body)\n");
+    put(d, "  function living at cell(body, ground)\n");
+    put(d, d->places ? "  function bed at cell(any)\n" : "  function bed at cell(body)\n");
     ONE_OF(d, "  function stair at cell(body)\n", "  function stair at cell(body, 8')\n");
     put(d, "  function seat at cell(bay)\n  opening door wide 2'8\" high 6'8\" clear 2' passage\n"
            "  opening window wide 3' high 4' sill 2'8\" glazed\n");
+    if (d->places)
+        put(d, "  face cell(bed) beside cell(bed) = open | wall\n");
     ONE_OF(d, "", "  face cell(bed) along cell(bed) = open | wall\n",
            "  face cell(living) along cell(any) = party | door\n");
     ONE_OF(d, "  face cell(stair) under cell(stair) = stair\n", "  face cell(any) under cell(stair) = stair | floor\n",
@@ -202,9 +281,13 @@ static void put_form(drawn_house *d)
     put(d, "  face cell(living) beside cell(living) = open | door\n");
     ONE_OF(d, "  face cell(seat) across cell(any) = open\n", "  face cell(seat) beside cell(any) = open | wall\n", "");
     put(d, "  face cell(any) beside cell(any) = door\n");
-    ONE_OF(d, "  face cell(bed) outside = window | wall\n", "  face cell(bed) outside front = window | wall\n",
-           "  face cell(any) outside left = wall | window\n");
-    ONE_OF(d, "  face cell(seat) outside front = window | wall\n", "");
+    if (d->places) {
+        put(d, "  face cell(any) outside left = wall | window\n  face cell(bed) outside back = window\n");
+    } else {
+        ONE_OF(d, "  face cell(bed) outside = window | wall\n", "  face cell(bed) outside front = window | wall\n",
+               "  face cell(any) outside left = wall | window\n");
+        ONE_OF(d, "  face cell(seat) outside front = window | wall\n", "");
+    }
     ONE_OF(
         d,
         "  tile cot for bed { against wall or window wide 7'..12' item cot left 1'..right 1', back 0..6', up 0..2' }\n",
@@ -232,6 +315,12 @@ static void put_measures(drawn_house *d)
 
 static void put_small(drawn_house *d)
 {
+    if (d->places) {
+        put(d, "  require section(cladding board), section(body roof gable)\n"
+               "  require quantity(cell(any), n < 6) or (quantity(cell(any), n = 6) and not cell(living or loft))\n");
+        put(d, "  prune cell(stair), quantity(cell(bed), n > 5)\n");
+        return;
+    }
     put(d, "  require quantity(cell(any), n < 4), section(cladding board)\n"
            "  prune cell(stair), quantity(cell(bed), n > 1)\n");
 }
@@ -247,7 +336,8 @@ static void put_comparisons(drawn_house *d)
                "  require fifth + 1000 * quantity(tray(10')) in 1000..12000 or cell(seat)\n",
                "  require fifth >= 4000 and quantity(cell(bed)) = 1\n");
     else
-        ONE_OF(d, "  require quantity(room(bed)) <= quantity(cell(living))\n", "  prune first != 7 and not cell(seat)\n");
+        ONE_OF(d, "  require quantity(room(bed)) <= quantity(cell(living))\n",
+               "  prune first != 7 and not cell(seat)\n");
 }
 
 void drawn_house_write(drawn_house *d)
@@ -256,18 +346,24 @@ void drawn_house_write(drawn_house *d)
     put(d, "schema hut {\n  width role length = 8' | 10'\n  zone body role band = room(10', 12')\n"
            "  zone bay role band = empty role absent | open(4')\n}\n");
     put_form(d);
-    put(d, d->priced ? "library rows using hut { trays 1..3 }\n" : "library rows using hut { trays 1..2 }\n");
+    put(d,
+        d->priced || d->places ? "library rows using hut { trays 1..3 }\n" : "library rows using hut { trays 1..2 }\n");
     put(d, "library all from rows in huts {\n");
-    if (d->compares)
+    if (d->compares || d->places)
         put_small(d);
     put(d, "}\nlibrary some from rows in huts {\n");
-    if (d->priced || d->compares)
+    if (d->priced || d->compares || d->places)
         put_small(d);
     if (d->compares)
         put_comparisons(d);
-    for (uint32_t i = d->priced ? draw(d, 2) : 1 + draw(d, 3); i > 0; i--) {
+    for (uint32_t i = d->priced || d->places ? draw(d, 2) : 1 + draw(d, 3); i > 0; i--) {
         put(d, draw(d, 2) ? "  require " : "  prune ");
         put_expression(d, 2);
+        put(d, "\n");
+    }
+    if (d->places) {
+        ONE_OF(d, "  require ", "  prune ");
+        put_placed(d, 2);
         put(d, "\n");
     }
     put(d, "}\n");

@@ -8,10 +8,11 @@
 
 /* state: where the drawing stands; to begin with any number. priced: forms have prices and roofs of more kinds, the
  * houses of `some` are small, of up to three trays, and there is a measure `fifth` of costs. compares: the houses of
- * `all` are small, too, and `some` has clauses that compare measures. */
+ * `all` are small, too, and `some` has clauses that compare measures. places: the same, but `some` has a clause about
+ * where in the row rooms and walks are. */
 typedef struct drawn_house {
     uint64_t state;
-    bool priced, compares;
+    bool priced, compares, places;
     char text[8192];
     size_t size;
 } drawn_house;

@@ -1,11 +1,13 @@
 /* Makes an automaton of each clause, over letters that say what a tray and its house are to the clause.
  *
  * A letter is a base, which a slice has by itself, and a value for what is known only at the slice's right side: cells
- * that meet across it, rooms that end there, walks that turn out to lead nowhere. */
+ * that meet across it, rooms that end there, walks that turn out to lead nowhere; where in the row these are, is read
+ * from several letters (spans.c). */
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/house/strip/parts.h"
+#include "runtime/house/strip/placed.h"
 #include "runtime/plan/match/condition.h"
 #include "runtime/plan/match/rules.h"
 #include "runtime/plan/match/tray_relations.h"
@@ -155,16 +157,15 @@ static tn_status relate_letter(const tn_strip_lowering *l, const tn_marked *mark
 }
 
 /* In one tray, or in two: then the left one's letter says so. */
-static tn_status relate_meeting(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, bool reversed,
-                                tn_dfa **out, tn_error *error)
+static tn_status relate_meeting(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+                                tn_error *error)
 {
     tn_dfa *inside = NULL, *left = NULL, *across = NULL;
     tn_status status = relate_letter(l, marked, atom, PART_BASE, &inside, error);
     if (status == TN_OK)
         status = relate_letter(l, marked, atom, PART_VALUE, &left, error);
     if (status == TN_OK)
-        status = reversed ? tn_marked_chain(marked, marked->single, left, &across, error)
-                          : tn_marked_chain(marked, left, marked->single, &across, error);
+        status = tn_marked_chain(marked, left, marked->single, &across, error);
     if (status == TN_OK)
         status = tn_dfa_product(inside, across, TN_DFA_OR, "touch", marked->bounds, out, error);
     tn_dfa_free(inside);
@@ -284,11 +285,29 @@ static tn_status relate_comparison(const tn_strip_lowering *l, const tn_marked *
     return status;
 }
 
+static tn_status relate_spans(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+                              tn_error *error)
+{
+    uint32_t letters = marked->letters - 1, *values = malloc(((size_t)letters + 1) * sizeof *values);
+    if (!values)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < letters; i++)
+        values[i] = value_of(l->clause, i, atom);
+    tn_status status = tn_strip_relate_spans(l->strip, &l->clause->atoms[atom], marked, values, out, error);
+    free(values);
+    return status;
+}
+
+/* A house in a mirror has the same stretches, from the other side; letters are read as the house stands, and so a
+ * relation is the same for both. */
 static tn_status relate(void *context, const tn_marked *marked, const tn_instruction *op, bool reversed, tn_dfa **out,
                         tn_error *error)
 {
     const tn_strip_lowering *l = context;
     size_t atom = find_atom(l->clause, op);
+    (void)reversed;
+    if (l->clause->atoms[atom].placed)
+        return relate_spans(l, marked, atom, out, error);
     switch (op->opcode) {
     case TN_OP_SOME_CELL:
         return relate_letter(l, marked, atom, PART_BASE, out, error);
@@ -296,7 +315,7 @@ static tn_status relate(void *context, const tn_marked *marked, const tn_instruc
     case TN_OP_APART:
         return relate_letter(l, marked, atom, PART_VALUE, out, error);
     case TN_OP_MEETS:
-        return relate_meeting(l, marked, atom, reversed, out, error);
+        return relate_meeting(l, marked, atom, out, error);
     case TN_OP_SECTION_IS:
         return relate_section(l, marked, atom, out, error);
     case TN_OP_CELLS:
@@ -385,6 +404,19 @@ static tn_status lower_clause(tn_strip *strip, tn_strip_clause *clause, const ch
         clause->dfa = tn_dfa_share(dfa);
     tn_dfa_free(dfa);
     free(classes.representative);
+    return status;
+}
+
+/* With one slot each, where the automaton with more of them is too large. */
+static tn_status lower_in_limits(tn_strip *strip, tn_strip_clause *clause, const char *name, tn_error *error)
+{
+    tn_status status = lower_clause(strip, clause, name, error);
+    if (status == TN_LIMIT && error->code == E_TOO_MANY_STATES && tn_strip_fewer_slots(clause)) {
+        *error = (tn_error){0};
+        while (tn_strip_fewer_slots(clause))
+            continue;
+        status = lower_clause(strip, clause, name, error);
+    }
     return status == TN_LIMIT && error->code == E_TOO_MANY_STATES
                ? tn_strip_limit(strip, name, "takes more states than the limit", error)
                : status;
@@ -393,10 +425,13 @@ static tn_status lower_clause(tn_strip *strip, tn_strip_clause *clause, const ch
 tn_status tn_strip_lower(tn_strip *strip, tn_error *error)
 {
     const tn_module *module = strip->form->module;
+    uint32_t at_once[TN_STRIP_PLACED_MAX];
     tn_status status = TN_OK;
+    tn_strip_rooms_at_once(strip, at_once);
     for (uint32_t i = 0; status == TN_OK && i < strip->clause_count; i++) {
         const tn_house_clause_record *record = &module->HOUSE_CLAUSE_records[strip->library->clause_first + i];
-        status = lower_clause(strip, &strip->clauses[i], tn_text(module, record->name), error);
+        tn_strip_fit_slots(strip, &strip->clauses[i], at_once);
+        status = lower_in_limits(strip, &strip->clauses[i], tn_text(module, record->name), error);
     }
     return status == TN_OK ? tn_strip_horizons(strip, error) : status;
 }

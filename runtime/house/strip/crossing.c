@@ -8,6 +8,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/house/strip/parts.h"
+#include "runtime/house/strip/placed.h"
 
 /* What is behind is known by the slice, what is between by the outcome. */
 typedef struct tn_passing {
@@ -15,7 +16,8 @@ typedef struct tn_passing {
     const uint32_t *state; /* words, or NULL */
     uint32_t move;
     tn_strip_crossing crossing;
-    uint32_t *crossed; /* words, to be filled in */
+    uint32_t *crossed;                                              /* words, to be filled in */
+    const uint32_t *seen_rooms, *seen_walks[TN_STRIP_MEETINGS_MAX]; /* SEEN_WORDS of what is placed in the row */
 } tn_passing;
 
 void tn_strip_row_clear(tn_strip_row *row)
@@ -50,13 +52,16 @@ static tn_status cross_rooms(tn_passing *p, uint32_t *rooms, uint32_t *closed, t
         return TN_OK;
     tn_status status = number_before(p, before, &number, error);
     if (status == TN_OK)
-        status = tn_strip_known_at(&strip->crossed_rooms, number, p->move, 1 + (size_t)questions, &result, &met, error);
+        status =
+            tn_strip_known_at(&strip->crossed_rooms, number, p->move,
+                              1 + questions + SEEN_WORDS * (size_t)strip->questions.placed_count, &result, &met, error);
     if (status == TN_OK && !met)
         status = tn_strip_rooms_cross(strip, before, &p->crossing, &result[0], result + 1, error);
     if (status != TN_OK)
         return status;
     *rooms = result[0];
     memcpy(closed, result + 1, questions * sizeof *closed);
+    p->seen_rooms = result + 1 + questions;
     return TN_OK;
 }
 
@@ -65,30 +70,40 @@ static tn_status cross_walk(tn_passing *p, uint32_t walk, uint32_t *after, bool 
     tn_strip *strip = p->strip;
     uint32_t before = p->state ? p->state[STATE_WALKS + walk] : 0, number, *result;
     bool met;
+    size_t words = 2 + (tn_strip_walk_placed(strip, walk) ? SEEN_WORDS : 0);
     tn_status status = number_before(p, before, &number, error);
     if (status == TN_OK)
-        status = tn_strip_known_at(&strip->crossed_walks[walk], number, p->move, 2, &result, &met, error);
+        status = tn_strip_known_at(&strip->crossed_walks[walk], number, p->move, words, &result, &met, error);
     if (status == TN_OK && !met) {
-        status = tn_strip_walk_cross(strip, walk, before, &p->crossing, &result[0], apart, error);
+        status = tn_strip_walk_cross(strip, walk, before, &p->crossing, &result[0], apart, result + 2, error);
         result[1] = *apart;
     }
     if (status != TN_OK)
         return status;
     *after = result[0];
     *apart = result[1];
+    p->seen_walks[walk] = result + 2;
     return TN_OK;
 }
 
 /* ---- clauses */
 
-/* What the plane says of the atoms of a clause. */
+static uint32_t seen_of(const tn_passing *p, const tn_strip_atom *atom)
+{
+    bool walk = atom->op.opcode == TN_OP_APART;
+    return tn_strip_span_value(atom, walk ? p->seen_walks[atom->of] : p->seen_rooms + SEEN_WORDS * atom->place);
+}
+
+/* What the plane says of the atoms of a clause; UINT32_MAX: more than it tells apart. */
 static uint32_t value_of(const tn_passing *p, const tn_strip_clause *clause, const uint32_t *closed, const bool *apart)
 {
     uint32_t value = 0;
     for (size_t i = clause->atom_count; i-- > 0;) {
         const tn_strip_atom *atom = &clause->atoms[i];
         uint32_t of = atom->of, one = 0;
-        if (atom->op.opcode == TN_OP_MEETS)
+        if (atom->placed)
+            one = seen_of(p, atom);
+        else if (atom->op.opcode == TN_OP_MEETS)
             one = tn_both(p->crossing.outcome) >> of & 1;
         else if (atom->op.opcode == TN_OP_APART)
             one = apart[of];
@@ -96,9 +111,22 @@ static uint32_t value_of(const tn_passing *p, const tn_strip_clause *clause, con
             one = closed[of] > 0;
         else if (atom->op.opcode == TN_OP_ROOMS)
             one = closed[of];
+        if (one == UINT32_MAX)
+            return one;
         value = value * atom->radix + one;
     }
     return value;
+}
+
+static tn_status too_many_slots(const tn_strip *strip, uint32_t clause, tn_error *error)
+{
+    const tn_module *module = strip->form->module;
+    const tn_house_clause_record *record = &module->HOUSE_CLAUSE_records[strip->library->clause_first + clause];
+    tn_strip_limit(strip, tn_text(module, record->name),
+                   "asks where more rooms or walks are than can be told apart at once", error);
+    tn_error_help(error, "ask where cells are, as in `neighbour(cell(...), cell(...))`, or whether they meet, as in "
+                         "`touch(cell(...), cell(...))`; or ask about one plan (--plan PLAN or '#P')");
+    return TN_LIMIT;
 }
 
 static tn_status find_values(const tn_passing *p, const uint32_t *closed, const bool *apart, uint32_t *values,
@@ -112,7 +140,10 @@ static tn_status find_values(const tn_passing *p, const uint32_t *closed, const 
     strip->key.size = 0;
     for (uint32_t i = 0; ok && i < strip->clause_count; i++) {
         const tn_strip_clause *clause = &strip->clauses[i];
-        ok = tn_key_push(&strip->key, clause->radix > 1 ? value_of(p, clause, closed, apart) : 0);
+        uint32_t value = clause->radix > 1 ? value_of(p, clause, closed, apart) : 0;
+        if (value == UINT32_MAX)
+            return too_many_slots(strip, i, error);
+        ok = tn_key_push(&strip->key, value);
     }
     *values = ok ? tn_intern(&strip->values, strip->key.data, strip->key.size) : UINT32_MAX;
     return *values != UINT32_MAX ? TN_OK : tn_fail_memory(error);

@@ -13,7 +13,8 @@ static const uint64_t *matter_at(const tn_inside *in, tn_strip_role_at role, uin
     return s->borders.matter[role] + in->cells[cell]->description * s->answer_words;
 }
 
-/* A room of cells that something is asked of goes on into cells with the same function. */
+/* A room of cells that something is asked of goes on into cells with the same function. Where it is asked where rooms
+ * are, all cells have their functions. */
 static bool push_cells(const tn_inside *in, tn_strip_role_at role, tn_key *key)
 {
     tn_strip *s = in->strip;
@@ -24,7 +25,8 @@ static bool push_cells(const tn_inside *in, tn_strip_role_at role, tn_key *key)
         const tn_strip_reach *reach = tn_inside_reach(in, role, (uint32_t)i);
         const uint64_t *matter = matter_at(in, role, (uint32_t)i);
         bool tiled = !cell->open && s->tiled[cell->function],
-             goes_on = !cell->open && reach->open && s->asked_function[cell->function];
+             goes_on =
+                 !cell->open && (s->questions.placed_count > 0 || (reach->open && s->asked_function[cell->function]));
         ok = tn_push_long(key, (uint64_t)cell->at.y0) && tn_push_long(key, (uint64_t)cell->at.y1) &&
              tn_key_push(key, cell->storey << 2 | (uint32_t)cell->open << 1 | tiled) &&
              tn_key_push(key, goes_on ? cell->function : TN_NO_FUNCTION) &&
@@ -50,6 +52,15 @@ static bool push_ends(const tn_inside *in, tn_key *key)
     return ok;
 }
 
+/* The first cell that has the function of this one. */
+static uint32_t first_alike(const tn_strip_edge *edge, size_t cell)
+{
+    uint32_t i = 0;
+    while (edge->cells[i].open || edge->cells[i].function != edge->cells[cell].function)
+        i++;
+    return i;
+}
+
 /* Numbers what is asked of the cells of the edge. */
 static uint32_t number_asked(tn_strip *s, const tn_strip_edge *edge)
 {
@@ -57,6 +68,8 @@ static uint32_t number_asked(tn_strip *s, const tn_strip_edge *edge)
     s->key.size = 0;
     for (size_t i = 0; ok && i < edge->count; i++) {
         ok = tn_key_push(&s->key, edge->cells[i].open);
+        if (ok && s->questions.placed_count > 0 && !edge->cells[i].open)
+            ok = tn_key_push(&s->key, first_alike(edge, i));
         for (size_t w = 0; ok && w < s->answer_words; w++)
             ok = tn_push_long(&s->key, edge->answers[i * s->answer_words + w]);
     }

@@ -55,12 +55,13 @@ static tn_status find_open(tn_inside_rooms *r, tn_error *error)
     return status;
 }
 
-/* Can the plane at a side of the cell tell more of its room? */
+/* Can the plane at a side of the cell tell more of its room? Where it is asked where rooms are, it always may. */
 static bool is_seen(const tn_inside_rooms *r, tn_strip_role_at role, uint32_t cell)
 {
     const tn_strip_reach *reach = tn_inside_reach(r->in, role, cell);
     const tn_room_open *open = &r->open[r->of[cell]];
-    return reach->open || reach->marks & open->kinds || (open->glass && reach->glazed);
+    return r->in->strip->questions.placed_count > 0 || reach->open || reach->marks & open->kinds ||
+           (open->glass && reach->glazed);
 }
 
 static void gather(tn_inside_rooms *r)
@@ -70,7 +71,7 @@ static void gather(tn_inside_rooms *r)
         uint32_t room = r->of[i];
         const tn_room_open *open = &r->open[room];
         tn_whole_room *whole = &r->whole[room];
-        if (!open->any)
+        if (!open->any && in->strip->questions.placed_count == 0)
             continue;
         whole->kinds |= open->kinds ? inner_marks(in, i) & open->kinds : 0;
         whole->glass += open->glass ? inner_glass(in, i) : 0;

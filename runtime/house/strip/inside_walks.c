@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "runtime/house/strip/parts.h"
+#include "runtime/house/strip/placed.h"
 
 /* By groups: of their first cell. by_source: of a source that is not walked through, the cells to which it can go. */
 typedef struct tn_inside_walk {
@@ -171,6 +172,27 @@ static bool push_step(const tn_inside_walk *w, uint32_t from, uint32_t to, tn_ke
     return ok;
 }
 
+/* Where it is asked where in the row sources are, all roles and steps stay. */
+static bool push_plain_steps(const tn_inside_walk *w, tn_key *key, size_t count)
+{
+    const tn_house *house = &w->in->house;
+    bool ok = true;
+    for (size_t i = 0; ok && i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        if (face->second != TN_NO_CELL && tn_strip_steps(w->in->strip, house, face, w->walk))
+            ok = push_step(w, face->first, face->second, key, count);
+    }
+    return ok;
+}
+
+static void place_plainly(tn_inside_walk *w)
+{
+    begin(w);
+    for (uint32_t i = 0; i < w->cells; i++)
+        w->words[i] = (w->role[i].through ? ROLE_THROUGH : 0u) | (w->role[i].goal ? ROLE_GOAL : 0u) |
+                      (w->role[i].source ? ROLE_SOURCE : 0u);
+}
+
 /* Joins a cell to the first of its group that is shown, and a source to the groups that it waits for. */
 static bool push_steps(tn_inside_walk *w, uint32_t cell, tn_key *key, size_t count)
 {
@@ -194,14 +216,20 @@ bool tn_strip_push_walks(const tn_inside *in, tn_key *key)
         w[k].in = in;
         w[k].walk = k;
         w[k].cells = cells;
-        place(&w[k]);
+        if (tn_strip_walk_placed(in->strip, k))
+            place_plainly(&w[k]);
+        else
+            place(&w[k]);
         for (uint32_t i = 0; ok && i < cells; i++)
             ok = tn_key_push(key, w[k].words[i]);
     }
     size_t count = key->size;
     ok = ok && tn_key_push(key, 0);
-    for (uint32_t k = 0; k < walks; k++)
-        for (uint32_t i = 0; ok && i < cells; i++)
+    for (uint32_t k = 0; ok && k < walks; k++) {
+        bool placed = tn_strip_walk_placed(in->strip, k);
+        ok = !placed || push_plain_steps(&w[k], key, count);
+        for (uint32_t i = 0; ok && !placed && i < cells; i++)
             ok = push_steps(&w[k], i, key, count);
+    }
     return ok;
 }

@@ -25,6 +25,8 @@
 #define TN_STRIP_QUESTIONS_MAX 32u      /* about rooms */
 #define TN_STRIP_KINDS_MAX 64u          /* that these ask for */
 #define TN_STRIP_RATIOS_MAX 4u          /* of glass to floor, that these ask for */
+#define TN_STRIP_PLACED_MAX 8u          /* questions about rooms that ask where in the row these are */
+#define TN_STRIP_SLOTS_MAX 4u           /* beginnings of rooms, or sources of a walk, that are told apart at a plane */
 #define TN_STRIP_LETTERS_MAX 65536u     /* of a clause */
 #define TN_STRIP_FUNCTIONS_MAX 1000000u /* ways to give a tray's cells their functions */
 #define TN_STRIP_CHOICES_MAX 4000000u   /* of a tray's functions and faces, or of a plane's */
@@ -54,8 +56,11 @@ typedef struct tn_strip_questions {
     uint32_t walks[TN_STRIP_MEETINGS_MAX];           /* MEETING records that APART asks for */
     tn_strip_walk walk_parts[TN_STRIP_MEETINGS_MAX]; /* the same */
     uint32_t walk_count;
+    uint32_t placed_walks; /* a bit for each of the walks: clauses ask where in the row its sources are */
     tn_strip_room rooms[TN_STRIP_QUESTIONS_MAX];
     uint32_t room_count;
+    uint32_t placed_rooms[TN_STRIP_PLACED_MAX]; /* of `rooms`: clauses ask where in the row they are */
+    uint32_t placed_count;
     uint32_t all[64];         /* decisions that rooms ask of all cells */
     size_t all_decisions[64]; /* their places */
     uint32_t all_count;
@@ -76,6 +81,10 @@ typedef struct tn_strip_atom {
     tn_instruction op;
     uint32_t of; /* MEETS: of `meetings`; APART: of `walks`; SOME_ROOM, ROOMS: of `rooms` */
     uint32_t radix;
+    bool placed;    /* where in the row matters: spans.c */
+    uint32_t place; /* placed rooms: of `placed_rooms` */
+    uint32_t slots; /* placed: how many are told apart, */
+    uint32_t most;  /* and how many rooms that end in one tray with each */
 } tn_strip_atom;
 
 /* What a clause can still tell apart after so many letters. pairs: {its state, the base of the last tray, whose value
@@ -156,7 +165,8 @@ typedef struct tn_strip_edge {
     uint32_t count; /* cells */
     tn_strip_cell *cells;
     uint64_t *answers; /* [count][answer_words] of the decisions */
-    uint32_t asked;    /* which cells are open, and the answers, by number: all that rooms and walks know of the edge */
+    uint32_t asked;    /* which cells are open, the answers, and where rooms are placed, which cells have one function,
+                          by number: all that rooms and walks know of the edge */
     uint32_t *inner;
     size_t inner_count;
     uint32_t shape, cost; /* where costs are asked for: what its planes' costs depend on; of the house of one tray */
@@ -567,13 +577,14 @@ typedef struct tn_strip_crossing {
     const uint32_t *outcome;
 } tn_strip_crossing;
 
-/* closed: [questions about rooms] how many rooms end at the plane and are so. */
+/* closed: [questions about rooms] how many rooms end at the plane and are so; then SEEN_WORDS for each that is placed.
+ */
 tn_status tn_strip_rooms_cross(tn_strip *strip, uint32_t before, const tn_strip_crossing *crossing, uint32_t *after,
                                uint32_t *closed, tn_error *error);
 
-/* apart: does a source turn out to be apart from all goals? */
+/* apart: does a source turn out to be apart from all goals? seen: SEEN_WORDS of a walk that is placed. */
 tn_status tn_strip_walk_cross(tn_strip *strip, uint32_t walk, uint32_t before, const tn_strip_crossing *crossing,
-                              uint32_t *after, bool *apart, tn_error *error);
+                              uint32_t *after, bool *apart, uint32_t *seen, tn_error *error);
 
 /* ---- clause.c */
 

@@ -121,7 +121,8 @@ static tn_status stand(tn_crossing_house *c, tn_error *error)
 /* Do its cells become one room, of which something may be asked? */
 static bool joins(const tn_crossing_house *c, const tn_face *face)
 {
-    return (c->open[face->first].any || c->open[face->second].any) && tn_strip_joins(&c->house, face);
+    bool asked = c->strip->questions.placed_count > 0 || c->open[face->first].any || c->open[face->second].any;
+    return asked && tn_strip_joins(&c->house, face);
 }
 
 static tn_strip_role role_of(const tn_strip *strip, uint32_t walk, const tn_strip_edge *edge, uint32_t cell)

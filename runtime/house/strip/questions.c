@@ -146,13 +146,20 @@ static tn_status add_room(const tn_asking *a, uint32_t function, uint32_t *at, t
     return status;
 }
 
-static tn_status add_atom(const tn_asking *a, const tn_instruction *op, uint32_t of, uint32_t radix, tn_error *error)
+static tn_strip_atom *find_atom(const tn_strip_clause *clause, const tn_instruction *op)
 {
-    tn_strip_clause *clause = a->clause;
     for (size_t i = 0; i < clause->atom_count; i++)
         if (clause->atoms[i].op.opcode == op->opcode && clause->atoms[i].op.first == op->first &&
             clause->atoms[i].op.second == op->second)
-            return TN_OK;
+            return &clause->atoms[i];
+    return NULL;
+}
+
+static tn_status add_atom(const tn_asking *a, const tn_instruction *op, uint32_t of, uint32_t radix, tn_error *error)
+{
+    tn_strip_clause *clause = a->clause;
+    if (find_atom(clause, op))
+        return TN_OK;
     if (!tn_array_reserve_from(&clause->atoms, &clause->atom_room, 4, clause->atom_count, 1, sizeof *clause->atoms))
         return tn_fail_memory(error);
     clause->atoms[clause->atom_count++] = (tn_strip_atom){.op = *op, .of = of, .radix = radix};
@@ -162,20 +169,30 @@ static tn_status add_atom(const tn_asking *a, const tn_instruction *op, uint32_t
     return TN_OK;
 }
 
-/* Where in the row a room or a walk is, is known too late to be a stretch: whether there is one, is not. */
+/* The question that the atom asks is placed from now on. */
+static tn_status place_atom(const tn_asking *a, tn_strip_atom *atom, tn_error *error)
+{
+    tn_strip_questions *q = &a->strip->questions;
+    atom->placed = true;
+    if (atom->op.opcode != TN_OP_APART)
+        return find_or_add(a, q->placed_rooms, &q->placed_count, TN_STRIP_PLACED_MAX, atom->of, &atom->place, error);
+    q->placed_walks |= 1u << atom->of;
+    return TN_OK;
+}
+
+/* Where in the row a room or a walk is, takes more to follow than whether there is one, or how many rooms there are. */
+static bool is_placed(tn_opcode opcode, tn_relation_use use)
+{
+    return opcode == TN_OP_ROOMS ? use != TN_USE_WHOLE
+                                 : use != TN_USE_SOMEWHERE && (opcode == TN_OP_SOME_ROOM || opcode == TN_OP_APART);
+}
+
 static tn_status see(void *context, const tn_instruction *op, tn_relation_use use, tn_error *error)
 {
     const tn_asking *a = context;
     tn_strip_questions *q = &a->strip->questions;
     uint32_t of = 0, radix = 1, first = (uint32_t)op->first;
-    bool counted = op->opcode == TN_OP_ROOMS, late = op->opcode == TN_OP_SOME_ROOM || op->opcode == TN_OP_APART;
-    if ((late && use != TN_USE_SOMEWHERE) || (counted && use != TN_USE_WHOLE)) {
-        tn_strip_limit(a->strip, a->name, "asks where in the row a room or a walk is", error);
-        tn_error_help(error,
-                      "ask where cells are, as in `neighbour(cell(...), cell(...))`, or whether they meet, as in "
-                      "`touch(cell(...), cell(...))`; or ask about one plan (--plan PLAN or '#P')");
-        return TN_LIMIT;
-    }
+    bool late = op->opcode == TN_OP_APART;
     if (tn_code_compares_house(op->opcode)) /* the automaton has no other question about such a number */
         return use == TN_USE_WHOLE ? add_atom(a, op, tn_strip_compared(a->strip, first), TN_STRIP_TRUTHS, error)
                                    : tn_strip_limit(a->strip, a->name,
@@ -184,7 +201,7 @@ static tn_status see(void *context, const tn_instruction *op, tn_relation_use us
     switch (op->opcode) {
     case TN_OP_SOME_ROOM:
     case TN_OP_ROOMS:
-        radix = counted ? TN_STRIP_CELLS_MAX + 1 : 2;
+        radix = op->opcode == TN_OP_ROOMS ? TN_STRIP_CELLS_MAX + 1 : 2;
         status = add_room(a, first, &of, error);
         break;
     case TN_OP_MEETS:
@@ -198,7 +215,9 @@ static tn_status see(void *context, const tn_instruction *op, tn_relation_use us
     default:
         break;
     }
-    return status == TN_OK ? add_atom(a, op, of, radix, error) : status;
+    if (status == TN_OK)
+        status = add_atom(a, op, of, radix, error);
+    return status == TN_OK && is_placed(op->opcode, use) ? place_atom(a, find_atom(a->clause, op), error) : status;
 }
 
 /* The rooms that a number counts. */

@@ -7,6 +7,7 @@
 #include "runtime/base/array.h"
 #include "runtime/house/rule/outcome.h"
 #include "runtime/house/strip/parts.h"
+#include "runtime/house/strip/placed.h"
 
 /* known, truth: a bit for each question. fails: of `all`, what some cell of the room is not. */
 typedef struct tn_known_room {
@@ -18,11 +19,18 @@ typedef struct tn_known_room {
 
 enum { ROOM_WORDS = sizeof(tn_known_room) / sizeof(uint32_t) };
 
+/* What goes on behind a plane: the number of each right cell's room, and where each is among those joined. */
+typedef struct tn_leaving {
+    uint32_t of_cell[TN_STRIP_CELLS_MAX], roots[TN_STRIP_CELLS_MAX], count;
+} tn_leaving;
+
 /* The rooms of the left edge, then those that begin with a cell of the right one. */
 typedef struct tn_joining {
     const tn_strip *strip;
     uint32_t parent[2 * TN_STRIP_CELLS_MAX];
     tn_known_room rooms[2 * TN_STRIP_CELLS_MAX];
+    tn_strip_place places[2 * TN_STRIP_CELLS_MAX]; /* where in the row it is asked for */
+    uint32_t held[TN_STRIP_PLACED_MAX];            /* slots of the rooms before */
     uint32_t before;
 } tn_joining;
 
@@ -50,6 +58,8 @@ static void join(tn_joining *j, uint32_t a, uint32_t b)
     to->cells += from->cells;
     for (uint32_t r = 0; r < j->strip->questions.ratio_count; r++)
         to->balance[r] += from->balance[r];
+    if (j->strip->questions.placed_count > 0)
+        tn_strip_place_join(j->strip, &j->places[low], &j->places[high]);
 }
 
 /* ---- questions */
@@ -243,6 +253,8 @@ static void begin_cell(tn_joining *j, const tn_strip_crossing *c, uint32_t cell,
     tn_known_room *known = &j->rooms[room];
     memset(known, 0, sizeof *known); /* padding too: rooms are compared as words */
     j->parent[room] = room;
+    if (j->strip->questions.placed_count > 0)
+        tn_strip_place_new(j->strip, &j->places[room]);
     known->kinds = tn_both(side + SIDE_MARKS) | tn_both(words + CELL_MARKS);
     known->fails = tn_both(words + CELL_FAILS);
     if (words[CELL_ROOM_IS] == ROOM_IS_KNOWN) {
@@ -256,14 +268,27 @@ static void begin_cell(tn_joining *j, const tn_strip_crossing *c, uint32_t cell,
     known->cells = words[CELL_ROOM_IS] == ROOM_GOES_ON;
 }
 
+static void load_place(tn_joining *j, uint32_t room, const uint32_t *words)
+{
+    if (j->strip->questions.placed_count == 0)
+        return;
+    tn_strip_place_load(j->strip, words, &j->places[room]);
+    for (uint32_t p = 0; p < j->strip->questions.placed_count; p++)
+        if (j->places[room].slots[p] > 0)
+            j->held[p] |= 1u << (j->places[room].slots[p] - 1);
+}
+
 /* The rooms before, with the faces of their last cells. */
 static void begin_left(tn_joining *j, const tn_strip_crossing *c, const uint32_t *state, const uint32_t *sides)
 {
     uint32_t cells = c->left ? c->left->count : 0;
+    size_t each = ROOM_WORDS + tn_strip_place_words(j->strip);
     j->before = c->left ? state[cells] : 0;
     for (uint32_t r = 0; r < j->before; r++) {
+        const uint32_t *words = state + cells + 1 + r * each;
         j->parent[r] = r;
-        memcpy(&j->rooms[r], state + cells + 1 + (size_t)r * ROOM_WORDS, sizeof j->rooms[r]);
+        memcpy(&j->rooms[r], words, sizeof j->rooms[r]);
+        load_place(j, r, words + ROOM_WORDS);
     }
     for (uint32_t i = 0; i < cells; i++) {
         j->rooms[state[i]].kinds |= tn_both(sides + SIDE_WORDS * i + SIDE_MARKS);
@@ -271,7 +296,8 @@ static void begin_left(tn_joining *j, const tn_strip_crossing *c, const uint32_t
     }
 }
 
-/* Rooms that are nothing that is asked for become one: what is joined to one of them is nothing of that, either. */
+/* Rooms that are nothing that is asked for become one: what is joined to one of them is nothing of that, either. Not
+ * where it is asked where rooms are: then each begins somewhere. */
 static void settle_all(const tn_strip *strip, tn_joining *j, uint32_t cells)
 {
     uint64_t all = all_questions(strip);
@@ -287,28 +313,60 @@ static void settle_all(const tn_strip *strip, tn_joining *j, uint32_t cells)
     }
 }
 
-static tn_status leave(tn_strip *strip, tn_joining *j, uint32_t cells, uint32_t *after, tn_error *error)
+/* Numbers the rooms of the right cells by the first cell in each, and settles them. */
+static void number_rooms(tn_joining *j, uint32_t cells, tn_leaving *to)
 {
-    uint32_t number[2 * TN_STRIP_CELLS_MAX], count = 0;
-    tn_key *key = &strip->key;
-    bool ok = true;
-    key->size = 0;
+    uint32_t number[2 * TN_STRIP_CELLS_MAX];
     memset(number, 0xff, sizeof number);
-    settle_all(strip, j, cells);
-    for (uint32_t i = 0; ok && i < cells; i++) {
+    if (j->strip->questions.placed_count == 0)
+        settle_all(j->strip, j, cells);
+    to->count = 0;
+    for (uint32_t i = 0; i < cells; i++) {
         uint32_t root = root_of(j, j->before + i);
-        number[root] = number[root] == UINT32_MAX ? count++ : number[root];
-        ok = tn_key_push(key, number[root]);
+        if (number[root] == UINT32_MAX) {
+            to->roots[to->count] = root;
+            number[root] = to->count++;
+            settle(j->strip, &j->rooms[root], false);
+        }
+        to->of_cell[i] = number[root];
     }
-    ok = ok && tn_key_push(key, count);
-    for (uint32_t next = 0, i = 0; ok && next < count; i++) {
-        uint32_t root = root_of(j, j->before + i), words[ROOM_WORDS];
-        if (number[root] != next)
-            continue;
-        next++;
-        memcpy(words, &j->rooms[root], sizeof words);
-        for (size_t w = 0; ok && w < ROOM_WORDS; w++)
-            ok = tn_key_push(key, words[w]);
+}
+
+/* seen: of the questions that ask where rooms are. */
+static void go_on(tn_joining *j, const tn_strip_edge *right, const tn_leaving *to, uint32_t *seen)
+{
+    tn_strip_going rooms[TN_STRIP_CELLS_MAX];
+    for (uint32_t r = 0; r < to->count; r++) {
+        const tn_known_room *known = &j->rooms[to->roots[r]];
+        rooms[r] = (tn_strip_going){.place = &j->places[to->roots[r]], .open = ~known->known | known->truth};
+    }
+    for (uint32_t i = 0; right && i < right->count; i++)
+        if (!right->cells[i].open)
+            rooms[to->of_cell[i]].function = right->cells[i].function;
+    tn_strip_places_go_on(j->strip, rooms, to->count, j->held, seen);
+}
+
+static bool push_words(tn_key *key, const uint32_t *words, size_t count)
+{
+    bool ok = true;
+    for (size_t w = 0; ok && w < count; w++)
+        ok = tn_key_push(key, words[w]);
+    return ok;
+}
+
+static tn_status leave(tn_strip *strip, tn_joining *j, const tn_leaving *to, uint32_t cells, uint32_t *after,
+                       tn_error *error)
+{
+    tn_key *key = &strip->key;
+    key->size = 0;
+    bool ok = push_words(key, to->of_cell, cells) && tn_key_push(key, to->count);
+    for (uint32_t r = 0; ok && r < to->count; r++) {
+        const tn_strip_place *place = &j->places[to->roots[r]];
+        uint32_t words[ROOM_WORDS];
+        memcpy(words, &j->rooms[to->roots[r]], sizeof words);
+        ok = push_words(key, words, ROOM_WORDS);
+        if (ok && strip->questions.placed_count > 0)
+            ok = tn_key_push(key, place->age) && push_words(key, place->slots, strip->questions.placed_count);
     }
     *after = ok ? tn_intern(&strip->rooms, key->data, key->size) : UINT32_MAX;
     return *after != UINT32_MAX ? TN_OK : tn_fail_memory(error);
@@ -326,6 +384,7 @@ static void close_rooms(tn_strip *strip, tn_joining *j, uint32_t cells, uint32_t
         settle(strip, &j->rooms[r], true);
         for (uint32_t q = 0; q < strip->questions.room_count; q++)
             closed[q] += j->rooms[r].truth >> q & 1;
+        tn_strip_place_end(strip, &j->places[r], j->rooms[r].truth, closed + strip->questions.room_count);
     }
 }
 
@@ -333,8 +392,12 @@ tn_status tn_strip_rooms_cross(tn_strip *strip, uint32_t before, const tn_strip_
                                uint32_t *closed, tn_error *error)
 {
     size_t size;
-    memset(closed, 0, strip->questions.room_count * sizeof *closed);
-    tn_joining j = {.strip = strip};
+    const tn_strip_questions *q = &strip->questions;
+    memset(closed, 0, (q->room_count + (size_t)q->placed_count * SEEN_WORDS) * sizeof *closed);
+    tn_joining j; /* large, and filled in as far as it is used */
+    tn_leaving to;
+    j.strip = strip;
+    memset(j.held, 0, sizeof j.held);
     uint32_t left = c->left ? c->left->count : 0, right = c->right ? c->right->count : 0;
     const uint32_t *steps = c->outcome + 3, *sides = steps + (size_t)STEP_WORDS * c->outcome[2];
     begin_left(&j, c, c->left ? tn_interned(&strip->rooms, before, &size) : NULL, sides);
@@ -347,5 +410,44 @@ tn_status tn_strip_rooms_cross(tn_strip *strip, uint32_t before, const tn_strip_
         if (steps[STEP_HOW] & 1)
             join(&j, state[steps[STEP_FROM]], j.before + steps[STEP_TO]);
     close_rooms(strip, &j, right, closed);
-    return leave(strip, &j, right, after, error);
+    number_rooms(&j, right, &to);
+    if (q->placed_count > 0)
+        go_on(&j, c->right, &to, closed + q->room_count);
+    return leave(strip, &j, &to, right, after, error);
+}
+
+/* ---- how many rooms of one tray a question can be about */
+
+/* most: the greatest number so far. Nothing depends on the glass of a room that is not whole. */
+static void look_at_slice(tn_strip *strip, uint32_t slice, uint32_t *most)
+{
+    static const uint32_t unseen[SIDE_WORDS] = {0};
+    size_t size;
+    const uint32_t *words = tn_interned(&strip->slice_keys, slice, &size);
+    const tn_strip_crossing c = {.right = &strip->edges[words[SLICE_ENTRY]], .slice = words};
+    const tn_strip_questions *q = &strip->questions;
+    tn_joining j;
+    tn_leaving to;
+    j.strip = strip;
+    j.before = 0;
+    for (uint32_t i = 0; i < c.right->count; i++)
+        begin_cell(&j, &c, i, unseen);
+    for (uint32_t i = 0; i < c.right->count; i++)
+        join(&j, i, words[SLICE_CELLS + CELL_WORDS * i + CELL_ROOM]);
+    number_rooms(&j, c.right->count, &to);
+    for (uint32_t p = 0; p < q->placed_count; p++) {
+        uint32_t count = 0;
+        for (uint32_t r = 0; r < to.count; r++) {
+            const tn_known_room *known = &j.rooms[to.roots[r]];
+            count += (~known->known | known->truth) >> q->placed_rooms[p] & 1;
+        }
+        most[p] = count > most[p] ? count : most[p];
+    }
+}
+
+void tn_strip_rooms_at_once(tn_strip *strip, uint32_t most[TN_STRIP_PLACED_MAX])
+{
+    memset(most, 0, TN_STRIP_PLACED_MAX * sizeof *most);
+    for (uint32_t s = 0; strip->questions.placed_count > 0 && s < strip->slice_keys.count; s++)
+        look_at_slice(strip, s, most);
 }

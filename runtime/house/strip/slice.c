@@ -131,7 +131,7 @@ static bool keep_slice(tn_strip *s, uint32_t slice)
     if (!push_inside(words, bases, edge->count, &s->key))
         return false;
     parts->inside = tn_intern(&s->insides, s->key.data, s->key.size);
-    s->key.data[SLICE_ENTRY] = 0;
+    s->key.data[SLICE_ENTRY] = s->questions.placed_count > 0 ? edge->asked : 0;
     parts->met = tn_intern(&s->mets, s->key.data, s->key.size);
     for (uint32_t k = 0; k < s->added->count; k++)
         parts->gains[k] = (int64_t)tn_both(gains + 2 * (size_t)k);

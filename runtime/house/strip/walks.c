@@ -3,12 +3,20 @@
  *
  * A group consists of cells to walk through, or is one source that is none of these. A source waits for a set of
  * groups: one of them has to reach a goal. Where a set is part of another, only the smaller one is kept: if that waits
- * in vain, there is a source apart already. */
+ * in vain, there is a source apart already.
+ *
+ * Where clauses ask in which trays sources are apart (a placed walk), each set has owners: slots for the sources of
+ * trays before, and one for those of the last tray. Only sets of one owner make each other needless. Slots that wait
+ * for the same sets become one. */
 #include <string.h>
 
 #include "runtime/house/strip/parts.h"
+#include "runtime/house/strip/placed.h"
 
 enum { NODES = 2 * TN_STRIP_CELLS_MAX, NO_GROUP = 0xff, AT_GOAL = 0xfe };
+
+/* Owners, as bits: below them the slots. */
+enum { LAST_TRAY = 1u << TN_STRIP_SLOTS_MAX, NEW_TRAY = LAST_TRAY << 1 };
 
 typedef struct tn_walking {
     const tn_strip *strip;
@@ -18,8 +26,11 @@ typedef struct tn_walking {
     uint8_t parent[NODES];
     bool near[NODES];
     tn_uint128 waiting[4 * TN_STRIP_CELLS_MAX]; /* sets of nodes */
+    uint32_t owners[4 * TN_STRIP_CELLS_MAX];    /* of each; 0 where the walk is not placed */
     uint32_t count;
     bool inside; /* the row has begun: what waits in vain may be said at once */
+    bool placed;
+    uint32_t resolved; /* owners that have a source that is apart */
     bool apart, too_many;
 } tn_walking;
 
@@ -61,12 +72,13 @@ static void join(tn_walking *w, uint8_t a, uint8_t b)
     w->parent[a > b ? a : b] = a < b ? a : b;
 }
 
-static void wait_for(tn_walking *w, tn_uint128 set)
+static void wait_for(tn_walking *w, tn_uint128 set, uint32_t owners)
 {
-    if (w->count == sizeof w->waiting / sizeof *w->waiting)
-        w->too_many = true;
-    else
-        w->waiting[w->count++] = set;
+    w->too_many = w->too_many || w->count == sizeof w->waiting / sizeof *w->waiting;
+    if (w->too_many)
+        return;
+    w->owners[w->count] = owners;
+    w->waiting[w->count++] = set;
 }
 
 /* One of the two ways through a face: from the cell at node a to the cell at node b. */
@@ -98,7 +110,8 @@ static void pass(tn_walking *w, uint8_t a, tn_strip_role from, uint8_t b, tn_str
     step(w, b, to, a, from);
 }
 
-/* ---- before: {group of each cell, number of groups, then four words for each set} */
+/* ---- before: {group of each cell, number of groups, then two words for each set; of a placed walk, three: its owners}
+ */
 
 static uint8_t node_before(const uint32_t *state, uint32_t cell)
 {
@@ -107,9 +120,10 @@ static uint8_t node_before(const uint32_t *state, uint32_t cell)
 
 static void begin_left(tn_walking *w, const uint32_t *state, size_t size, uint32_t cells)
 {
+    size_t each = w->placed ? 3 : 2;
     w->before = state[cells];
-    for (size_t i = cells + 1; i < size; i += 2)
-        wait_for(w, tn_both(state + i));
+    for (size_t i = cells + 1; i < size; i += each)
+        wait_for(w, tn_both(state + i), w->placed ? state[i + 2] : 0);
 }
 
 static void begin_right(tn_walking *w, const tn_strip_edge *edge)
@@ -122,7 +136,7 @@ static void begin_right(tn_walking *w, const tn_strip_edge *edge)
         tn_strip_role role = role_at_right(w, i);
         w->near[w->before + i] = role.goal;
         if (role.source)
-            wait_for(w, (tn_uint128)1 << (w->before + i));
+            wait_for(w, (tn_uint128)1 << (w->before + i), w->placed ? NEW_TRAY : 0);
     }
 }
 
@@ -165,6 +179,8 @@ static void carry(tn_walking *w, const uint32_t of_node[NODES])
         if (near)
             continue;
         w->apart = w->apart || set == 0;
+        w->resolved |= set == 0 ? w->owners[i] : 0;
+        w->owners[kept] = w->owners[i];
         w->waiting[kept++] = set;
     }
     w->count = kept;
@@ -189,7 +205,99 @@ static void reduce(tn_walking *w)
     w->count = kept;
 }
 
-static tn_status leave(tn_strip *strip, tn_walking *w, const tn_strip_edge *edge, uint32_t *after, tn_error *error)
+/* ---- placed walks */
+
+/* Drops what has become known, and sets that an owner has a smaller one than; equal sets become one. */
+static void reduce_owned(tn_walking *w)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < w->count; i++)
+        w->owners[i] &= ~w->resolved;
+    for (uint32_t i = 0; i < w->count; i++)
+        for (uint32_t k = 0; k < w->count; k++)
+            if (w->waiting[k] != w->waiting[i] && (w->waiting[k] & ~w->waiting[i]) == 0)
+                w->owners[i] &= ~w->owners[k];
+    for (uint32_t i = 0; i < w->count; i++) {
+        tn_uint128 set = w->waiting[i];
+        uint32_t owners = w->owners[i], at = 0;
+        while (at < kept && w->waiting[at] < set)
+            at++;
+        if (at < kept && w->waiting[at] == set)
+            w->owners[at] |= owners;
+        if (owners == 0 || (at < kept && w->waiting[at] == set))
+            continue;
+        memmove(w->waiting + at + 1, w->waiting + at, (kept - at) * sizeof *w->waiting);
+        memmove(w->owners + at + 1, w->owners + at, (kept - at) * sizeof *w->owners);
+        w->waiting[at] = set;
+        w->owners[at] = owners;
+        kept++;
+    }
+    w->count = kept;
+}
+
+static uint32_t all_owners(const tn_walking *w)
+{
+    uint32_t owners = 0;
+    for (uint32_t i = 0; i < w->count; i++)
+        owners |= w->owners[i];
+    return owners;
+}
+
+static bool own_alike(const tn_walking *w, uint32_t a, uint32_t b)
+{
+    for (uint32_t i = 0; i < w->count; i++)
+        if (!(w->owners[i] & a) != !(w->owners[i] & b))
+            return false;
+    return true;
+}
+
+/* What the owner's sets go to: a slot that owns the same, or the one that is given. */
+static uint32_t hand_over(tn_walking *w, uint32_t owner, uint32_t slots, uint32_t slot)
+{
+    for (uint32_t s = 0; s < slots; s++)
+        if (all_owners(w) >> s & 1 && own_alike(w, owner, 1u << s)) {
+            slot = s;
+            break;
+        }
+    for (uint32_t i = 0; i < w->count; i++)
+        if (w->owners[i] & owner)
+            w->owners[i] = (w->owners[i] & ~owner) | 1u << slot;
+    return slot;
+}
+
+/* What is seen at the right side of the last tray. */
+static void see_owners(tn_walking *w, uint32_t *seen)
+{
+    for (uint32_t s = 0; s < TN_STRIP_SLOTS_MAX; s++) {
+        uint32_t *word = &seen[SEEN_SLOTS + s];
+        *word = w->resolved >> s & 1 ? WALK_APART : WALK_NONE;
+        if (!(all_owners(w) >> s & 1))
+            continue;
+        uint32_t to = hand_over(w, 1u << s, s, s);
+        *word = to == s ? WALK_ON : WALK_TO + to;
+    }
+    seen[SEEN_FIRST] = w->resolved & LAST_TRAY ? WALK_APART : WALK_NONE;
+    if (!(all_owners(w) & LAST_TRAY))
+        return;
+    uint32_t free = 0;
+    while (all_owners(w) >> free & 1)
+        free++;
+    uint32_t to = hand_over(w, LAST_TRAY, TN_STRIP_SLOTS_MAX, free);
+    seen[SEEN_FIRST] = to < TN_STRIP_SLOTS_MAX ? WALK_TO + to : SEEN_TOO_MANY;
+}
+
+/* What is the new tray's behind the plane is the last tray's before the next one. */
+static void follow_owners(tn_walking *w, uint32_t *seen)
+{
+    reduce_owned(w);
+    see_owners(w, seen);
+    for (uint32_t i = 0; i < w->count; i++)
+        w->owners[i] = (w->owners[i] & ~NEW_TRAY) | (w->owners[i] & NEW_TRAY ? LAST_TRAY : 0);
+}
+
+/* seen: of a placed walk. */
+static tn_status leave(tn_strip *strip, tn_walking *w, const tn_strip_edge *edge, uint32_t *after, uint32_t *seen,
+                       tn_error *error)
 {
     uint32_t group[TN_STRIP_CELLS_MAX], of_node[NODES];
     uint32_t count = number_groups(w, edge, group, of_node);
@@ -197,23 +305,27 @@ static tn_status leave(tn_strip *strip, tn_walking *w, const tn_strip_edge *edge
     tn_key *key = &strip->key;
     key->size = 0;
     *after = 0;
-    if (w->apart)
+    if (w->placed)
+        follow_owners(w, seen);
+    if (!w->placed && w->apart)
         w->count = 0; /* it is known; what else waits does not matter, but for where the others are */
-    reduce(w);
+    if (!w->placed)
+        reduce(w);
     bool ok = true;
     for (uint32_t i = 0; ok && edge && i < edge->count; i++)
         ok = tn_key_push(key, group[i]);
     ok = ok && tn_key_push(key, count);
     for (uint32_t i = 0; ok && i < w->count; i++)
-        ok = tn_push_long(key, (uint64_t)w->waiting[i]);
+        ok = tn_push_long(key, (uint64_t)w->waiting[i]) && (!w->placed || tn_key_push(key, w->owners[i]));
     *after = ok ? tn_intern(&strip->walks, key->data, key->size) : UINT32_MAX;
     return *after != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
 tn_status tn_strip_walk_cross(tn_strip *strip, uint32_t walk, uint32_t before, const tn_strip_crossing *c,
-                              uint32_t *after, bool *apart, tn_error *error)
+                              uint32_t *after, bool *apart, uint32_t *seen, tn_error *error)
 {
-    tn_walking w = {.strip = strip, .walk = walk, .inside = c->left != NULL};
+    tn_walking w = {
+        .strip = strip, .walk = walk, .inside = c->left != NULL, .placed = tn_strip_walk_placed(strip, walk)};
     size_t size = 0;
     const uint32_t *state = c->left ? tn_interned(&strip->walks, before, &size) : NULL;
     uint32_t right = c->right ? c->right->count : 0;
@@ -234,7 +346,7 @@ tn_status tn_strip_walk_cross(tn_strip *strip, uint32_t walk, uint32_t before, c
                  (uint8_t)(w.before + steps[STEP_TO]), role_at_right(&w, steps[STEP_TO]));
     if (w.too_many)
         return tn_strip_limit(strip, NULL, "more sources wait for a walk than can be told apart at once", error);
-    tn_status status = leave(strip, &w, c->right, after, error);
+    tn_status status = leave(strip, &w, c->right, after, seen, error);
     *apart = w.apart;
     return status;
 }

@@ -143,8 +143,8 @@ static void test_best(void **state)
     (void)state;
     tn_error error = {0};
     for (uint32_t k = 0; k < 2; k++)
-        assert_int_equal(
-            tn_house_weights_new(&made.form, tn_house_measured_of(made.module, k), &weights[k], &error), TN_OK);
+        assert_int_equal(tn_house_weights_new(&made.form, tn_house_measured_of(made.module, k), &weights[k], &error),
+                         TN_OK);
     const tn_house_measures two = {.count = 2, .of = {weights[0], weights[1]}, .most = {true, false}};
     measures = &two;
     expect_robust(best);
@@ -168,15 +168,25 @@ static const char priced[] =
     "library some from rows in huts {\n  require sum(cost) + 10 * quantity(cell(bed)) + sum(width) / 1' > 4000\n"
     "  prune sum(cost) in 6000..6100 or quantity(cell(living)) > 1\n}\n";
 
-static void test_compared(void **state)
+/* Clauses that ask where in the row rooms and walks are. */
+static const char placed[] =
+    "schema hut {\n  width role length = 10'\n  zone body role band = room(10')\n}\n"
+    "form huts of hut {\n  storey ground 9'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof 8\"\n"
+    "  function living at cell(body)\n  function bed at cell(body)\n"
+    "  face cell(body) beside cell(body) = open | wall\n}\n"
+    "library rows using hut { trays 1..2 }\nlibrary all from rows in huts { }\n"
+    "library some from rows in huts {\n  require neighbour(room(bed, cells > 1), room(living))\n"
+    "  prune symmetric neighbour(beginning, apart(cell(bed), from cell(living)))\n"
+    "  require many(quantity(room(any), n < 3))\n}\n";
+
+static void other_house(const char *text)
 {
-    (void)state;
     test_house usual = made;
     tn_plan usual_plan = plan;
     tn_library *usual_plans = plans;
     tn_error error = {0};
     tn_library_options options = {0};
-    test_house_compile(&made, priced);
+    test_house_compile(&made, text);
     plan = test_house_plan(&made, "10' room:10'");
     assert_int_equal(tn_library_new(made.schema, made.some->plans, &options, &plans, &error), TN_OK);
     expect_robust(count);
@@ -187,6 +197,18 @@ static void test_compared(void **state)
     made = usual;
     plan = usual_plan;
     plans = usual_plans;
+}
+
+static void test_compared(void **state)
+{
+    (void)state;
+    other_house(priced);
+}
+
+static void test_placed(void **state)
+{
+    (void)state;
+    other_house(placed);
 }
 
 static tn_status seen(void *context, const tn_house_change *one, const tn_house *changed, tn_error *error)
@@ -301,7 +323,8 @@ static void test_failing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_count_together), cmocka_unit_test(test_best),
-                                       cmocka_unit_test(test_compared), cmocka_unit_test(test_failing)};
+                                       cmocka_unit_test(test_compared), cmocka_unit_test(test_placed),
+                                       cmocka_unit_test(test_failing)};
     tn_house_variants *variants = NULL;
     tn_error error = {0};
     mpz_t variant;

@@ -356,6 +356,102 @@ static void test_compared_costs(void **state)
     check_compared(true, 4, 0);
 }
 
+/* Where in the row rooms and walks are: such as two halves of a room that meet in its last tray. */
+static void test_placed(void **state)
+{
+    (void)state;
+    static const char form[] =
+        "schema hut {\n  width role length = 8'\n  zone body role band = room(10')\n  zone bay role band = empty role "
+        "absent | open(6')\n}\nform huts of hut {\n  storey ground 9'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n"
+        "  roof 8\"\n  function bed at cell(any)\n  function seat at cell(bay)\n"
+        "  face cell(bed) beside cell(bed) = open | wall\n  face cell(seat) across cell(any) = open | wall\n}\n"
+        "library rows using hut { trays 1..3 }\nlibrary all from rows in huts { }\n"
+        "library some from rows in huts { prune %s }\n";
+    static const char *const clauses[] = {"neighbour(room(bed, cells > 2), any)",
+                                          "symmetric neighbour(beginning, room(bed, cells = 2))",
+                                          "many(quantity(room(bed), n = 1))",
+                                          "quantity(room(bed) and not room(seat), n = 1)",
+                                          "not neighbour(room(seat), room(bed), end)",
+                                          "neighbour(quantity(room(bed, cells < 3), n = 2), room(bed))",
+                                          "neighbour(apart(cell(seat), from cell(bed), by open), tray(bay open))"};
+    for (size_t i = 0; i < sizeof clauses / sizeof *clauses; i++) {
+        char text[2000];
+        test_house made;
+        snprintf(text, sizeof text, form, clauses[i]);
+        test_house_compile(&made, text);
+        uint64_t kept = kept_one_by_one(&made);
+        assert_true(kept > 0);
+        assert_int_equal(check_library(&made, made.some, 1), kept);
+        assert_true(kept < check_library(&made, made.all, 1));
+        test_house_clear(&made);
+    }
+}
+
+/* More of them at once than are told apart: said with the clause. */
+static void test_placed_limit(void **state)
+{
+    (void)state;
+    char text[4000];
+    size_t size = (size_t)snprintf(text, sizeof text, "schema hut {\n  width role length = 8'\n");
+    for (int z = 0; z < 6; z++)
+        size += (size_t)snprintf(text + size, sizeof text - size,
+                                 "  zone part%d role band = empty role absent | room(8')\n", z);
+    snprintf(text + size, sizeof text - size,
+             "}\nform huts of hut {\n  storey ground 9'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof 8\"\n"
+             "  function bed at cell(any)\n  face cell(bed) along cell(bed) = open\n}\n"
+             "library rows using hut { trays 6 prune neighbour(tray(part0 room), tray(part0 empty)) }\n"
+             "library all from rows in huts { }\n"
+             "library some from rows in huts { prune neighbour(beginning, room(bed)) }\n");
+    test_house made;
+    tn_houses *houses;
+    tn_error error = {0};
+    test_house_compile(&made, text);
+    tn_library *plans = plans_of(&made, made.some);
+    assert_int_equal(tn_houses_new(&made.form, made.some, plans, 0, &houses, &error), TN_LIMIT);
+    assert_int_equal(error.code, E_STRIP);
+    assert_non_null(strstr(error.message, "prune@21` asks where more rooms or walks are"));
+    tn_library_free(plans);
+    test_house_clear(&made);
+}
+
+/* The same of forms and clauses that are drawn. */
+static void test_places(void **state)
+{
+    (void)state;
+    static const uint64_t draws[] = {0, 5, 18, 1017};
+    uint32_t with_houses = 0;
+    for (size_t i = 0; i < sizeof draws / sizeof *draws; i++) {
+        test_house made;
+        drawn_house d = {.state = draws[i], .places = true};
+        drawn_house_write(&d);
+        test_house_compile(&made, d.text);
+        uint64_t kept = kept_one_by_one(&made);
+        assert_int_equal(check_library(&made, made.some, 200), kept);
+        with_houses += kept > 0;
+        test_house_clear(&made);
+    }
+    assert_true(with_houses > 2);
+}
+
+/* Cells that meet across a plane, where the clause may be read from either end of the row. */
+static void test_mirror(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "schema hut {\n  width role length = 8' | 10'\n  zone body role band = room(10')\n}\nform huts of hut {\n"
+        "  storey ground 9'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof 8\"\n"
+        "  function living at cell(body)\n  function bed at cell(body)\n"
+        "  opening door wide 2'8\" high 6'8\" passage\n  face cell(any) beside cell(any) = door | wall\n}\n"
+        "library rows using hut { trays 1..3 }\nlibrary all from rows in huts { }\nlibrary some from rows in huts {\n"
+        "  require symmetric neighbour(touch(cell(bed), cell(living) by door), tray(8'))\n}\n";
+    test_house made;
+    test_house_compile(&made, text);
+    uint64_t kept = kept_one_by_one(&made);
+    assert_true(kept > 0);
+    assert_int_equal(check_library(&made, made.some, 1), kept);
+    test_house_clear(&made);
+}
+
 static void test_limit(void **state)
 {
     (void)state;
@@ -373,8 +469,9 @@ static void test_limit(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_written), cmocka_unit_test(test_drawn),
-                                       cmocka_unit_test(test_compared), cmocka_unit_test(test_compared_costs),
-                                       cmocka_unit_test(test_limit)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_written),        cmocka_unit_test(test_drawn),  cmocka_unit_test(test_compared),
+        cmocka_unit_test(test_compared_costs), cmocka_unit_test(test_placed), cmocka_unit_test(test_placed_limit),
+        cmocka_unit_test(test_places),         cmocka_unit_test(test_mirror), cmocka_unit_test(test_limit)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
