@@ -39,15 +39,19 @@ static tn_status warn_bare(const tn_survey *s, tn_error *error)
 static void say_in_way(const tn_survey *s, uint32_t tile, const tn_tile_failure *further, tn_diagnostic *d)
 {
     char why[4 * TN_NAME_MAX];
+    if (further->obstacle == TN_TILE_STANDS) {
+        tn_note(tn_survey_list(s), d, NULL, "no cell may have a function that it is for");
+        tn_help(tn_survey_list(s), d, "let a cell have such a function, or name another one after `for`");
+        return;
+    }
     tn_tile_failure_text(&s->form, tile, further, tn_house_length_style(&s->house), why, sizeof why);
-    if (further->obstacle > TN_TILE_NO_SIDE)
-        tn_note(tn_survey_list(s), d, NULL, "where it comes furthest, %s", why);
+    tn_note(tn_survey_list(s), d, NULL, "where it comes furthest, %s", why);
     if (further->obstacle == TN_TILE_MEETS_BOX)
         tn_help(tn_survey_list(s), d, "items of a tile may not overlap, nor be in what it keeps free");
     else
         tn_help(tn_survey_list(s), d,
-                "make its boxes, or its `wide` and `deep`, smaller: they must fit between the walls of a room, beside "
-                "each other");
+                "make its boxes, or its `wide` and `deep`, smaller: they must fit between the walls, the floor and the "
+                "ceiling of a room, beside each other");
 }
 
 static tn_status warn_tile(const tn_survey *s, uint32_t number, tn_error *error)
