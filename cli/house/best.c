@@ -161,24 +161,26 @@ static tn_status write_houses(search *s, tn_error *error)
     return status;
 }
 
-static void write_found(search *s, tn_status write(search *s, tn_error *error))
+/* Was it written? */
+static bool write_found(search *s, tn_status write(search *s, tn_error *error))
 {
     tn_error error = {0};
     tn_output out;
     if (!tn_job_output(s->n.job, s->wishes->output, &out))
-        return;
+        return false;
     s->out = out.stream;
     tn_status status = write(s, &error);
     if (status != TN_OK)
         tn_job_fail(s->n.job, &error);
     tn_job_close(s->n.job, &out, status == TN_OK);
+    return status == TN_OK;
 }
 
 void tn_job_best_houses(tn_job *job, const tn_house_settings *settings, const tn_house_wishes *wishes)
 {
     search s;
-    if (begin(&s, job, settings, wishes, TN_HOUSES_LEAST))
-        write_found(&s, write_houses);
+    if (begin(&s, job, settings, wishes, TN_HOUSES_LEAST) && write_found(&s, write_houses))
+        tn_numbered_say_few(&s.n, wishes->plan != NULL, s.given, wishes->wanted);
     end(&s);
 }
 

@@ -5,7 +5,6 @@
 
 #include "cli/house/change_text.h"
 #include "cli/house/explained_parts.h"
-#include "runtime/base/length.h"
 #include "runtime/house/rule/witness.h"
 #include "runtime/house/schedule/cost.h"
 #include "runtime/house/solids.h"

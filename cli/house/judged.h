@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_HOUSE_JUDGED_H
 #define TARTAN_CLI_HOUSE_JUDGED_H
 
-#include "cli/common/job.h"
+#include "cli/house/numbered.h"
 #include "driver/house/judge.h"
 
 typedef enum tn_house_answer { TN_HOUSE_NAMES, TN_HOUSE_JSON, TN_HOUSE_BITS, TN_HOUSE_ANY } tn_house_answer;
@@ -20,5 +20,11 @@ bool tn_is_house_line(const char *text);
 /* Says which clauses of the house library (NULL: the only one) keep the house out, or which of the rules match it. */
 void tn_job_explain_house(tn_job *job, const char *library, const tn_option_list *rules, const char *line, bool full,
                           bool json, size_t max_length);
+
+/* Says which cells keep all houses of a library off a plan (a line, or #P). */
+void tn_job_explain_plan(tn_job *job, const tn_house_settings *settings, const char *text, bool json);
+
+/* Appends the line of the house #P:V. False: reported. */
+bool tn_job_house_line(tn_job *job, const tn_house_settings *settings, const char *number, tn_buffer *line);
 
 #endif

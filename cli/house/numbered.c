@@ -1,6 +1,7 @@
 /* Opens a library of houses, and names them: each plan's houses one after another. */
 #include "cli/house/numbered_parts.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -189,6 +190,28 @@ tn_status tn_numbered_plans_until(tn_numbered *n, tn_plan_visit *visit, void *co
     tn_status status = tn_numbered_plans_from(n, first, visit, context, error);
     mpz_clear(first);
     return status;
+}
+
+/* ---- fewer houses than were asked for */
+
+void tn_numbered_say_few(const tn_numbered *n, bool on_plan, uint64_t found, uint64_t wanted)
+{
+    const char *name = tn_text(n->job->opened.module, n->record->name);
+    if (found >= wanted)
+        return;
+    if (found > 0)
+        tn_job_note(n->job,
+                    "the library holds %" PRIu64 " house%s%s, fewer than the %" PRIu64 " asked for: these are all",
+                    found, found == 1 ? "" : "s", on_plan ? " on this plan" : "", wanted);
+    else if (on_plan)
+        tn_job_note(n->job,
+                    "the library has no house on this plan: `tartan explain` with the plan and --library %s says why",
+                    name);
+    else
+        tn_job_note(n->job,
+                    "the library holds no house: `tartan count` with --library %s and --clauses says what each clause "
+                    "keeps out",
+                    name);
 }
 
 /* ---- all houses */

@@ -44,6 +44,9 @@ tn_status tn_numbered_all(tn_numbered *n, tn_error *error);
 #define TN_HOUSE_PLANS_FEW 1000u
 bool tn_numbered_few(const tn_numbered *n);
 
+/* A note where fewer houses were found than were wanted. */
+void tn_numbered_say_few(const tn_numbered *n, bool on_plan, uint64_t found, uint64_t wanted);
+
 /* Can one go through them at all (TN_HOUSE_PLANS_MAX)? */
 bool tn_numbered_countable(const tn_numbered *n);
 

@@ -130,22 +130,32 @@ tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted,
     return status;
 }
 
+typedef struct tn_sample_writing {
+    tn_house_rows out;
+    uint64_t written;
+} tn_sample_writing;
+
 static tn_status write_house(void *context, tn_house *house, const mpz_t rank, const mpz_t variant, tn_error *error)
 {
-    return tn_house_rows_write(context, house, rank, variant, error);
+    tn_sample_writing *w = context;
+    w->written++;
+    return tn_house_rows_write(&w->out, house, rank, variant, error);
 }
 
 static void write_sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed,
                          const tn_written_settings *written)
 {
-    tn_house_rows out;
+    tn_sample_writing w = {0};
     tn_error error;
     char made[80];
     snprintf(made, sizeof made, "sample %zu --seed %" PRIu64, wanted, seed);
-    if (tn_house_rows_open(&out, n, written, made) &&
-        tn_numbered_sample(n, plan, wanted, seed, write_house, &out, &error) != TN_OK)
+    bool open = tn_house_rows_open(&w.out, n, written, made);
+    tn_status status = open ? tn_numbered_sample(n, plan, wanted, seed, write_house, &w, &error) : TN_OK;
+    if (status != TN_OK)
         tn_job_fail(n->job, &error);
-    tn_house_rows_close(&out);
+    tn_house_rows_close(&w.out);
+    if (open && status == TN_OK)
+        tn_numbered_say_few(n, plan != NULL, w.written, wanted);
 }
 
 void tn_job_sample_houses(tn_job *job, const tn_house_settings *settings, const char *plan, size_t wanted,

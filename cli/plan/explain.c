@@ -319,13 +319,35 @@ static void draw_solid(tn_job *job)
         tn_job_draw_solid(job, settings->solid, &drawing, settings->output);
 }
 
+static void explain_house(tn_job *job, const char *line)
+{
+    const explain_settings *settings = settings_of(job);
+    tn_job_explain_house(job, settings->plans.library, &settings->rules, line, settings->full, settings->json,
+                         tn_job_max_length(&settings->plans));
+}
+
+/* A house by its name, #P:V. */
+static void explain_numbered(tn_job *job, const char *number)
+{
+    const tn_house_settings houses = tn_job_houses(&settings_of(job)->plans);
+    tn_buffer line = {0};
+    if (tn_job_house_line(job, &houses, number, &line))
+        explain_house(job, line.data);
+    free(line.data);
+}
+
 static void explain_plan_or_house(tn_job *job)
 {
     const explain_settings *settings = settings_of(job);
     const char *text = settings->common.operands.count > 1 ? settings->common.operands.items[1] : "";
+    const char *library = settings->plans.library;
+    const tn_house_settings houses = tn_job_houses(&settings->plans);
     if (tn_is_house_line(text))
-        tn_job_explain_house(job, settings->plans.library, &settings->rules, text, settings->full, settings->json,
-                             tn_job_max_length(&settings->plans));
+        explain_house(job, text);
+    else if (text[0] == '#' && strchr(text, ':') && job->opened.module->HOUSE_LIBRARY_count > 0)
+        explain_numbered(job, text);
+    else if (*text && library && tn_house_library_find(job->opened.module, library) != TN_NO_RECORD)
+        tn_job_explain_plan(job, &houses, text, settings->json);
     else
         explain(job);
 }
@@ -368,7 +390,8 @@ static const tn_option options[] = {
 const tn_command tn_command_explain = {
     .name = "explain",
     .summary = "explain why a library keeps or drops a plan",
-    .usage = "FILE PLAN\nFILE HOUSE\nFILE '#RANK'\nFILE --plan PLANS\nFILE PLAN --rule NAME\nFILE [--solid NAME] [-o "
+    .usage = "FILE PLAN\nFILE HOUSE\nFILE '#RANK'\nFILE '#P:V'\nFILE PLAN --library HOUSES\nFILE --plan PLANS\nFILE "
+             "PLAN --rule NAME\nFILE [--solid NAME] [-o "
              "STEPS.svg]",
     .description =
         "Says which clauses of a library drop a plan, and shows for each clause which of its parts hold. + marks a "
@@ -380,7 +403,9 @@ const tn_command tn_command_explain = {
         "rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes.\n\n"
         "HOUSE is a house line (docs/houses.md) or a JSON object with one: explain says which clauses of a library of "
         "houses drop it, and "
-        "whether its plan is one of the library's. The tiles may be left out.\n\n"
+        "whether its plan is one of the library's. The tiles may be left out. '#P:V' is a house by its name. Of a PLAN "
+        "(or '#P') and a library of houses it says which cells keep all houses off the plan: no function may be "
+        "there, or no tile of one stands.\n\n"
         "For a design of boxes it says how they were squashed, pair by pair; -o draws each step.",
     .example = "$ tartan explain terrace \"$(tartan unrank terrace 1000)\"",
     .options = options,

@@ -103,7 +103,8 @@ typedef struct tn_tile_fits {
     tn_tile_fit fit;
     bool straight, turned;   /* with walls all round: its back is a back or front; is a left or right side */
     size_t layouts;          /* different ones there, at most */
-    tn_tile_failure failure; /* in the largest such room, where it fits nowhere */
+    tn_tile_failure failure; /* where it fits nowhere: in the largest such room, */
+    tn_tile_failure further; /* and in the room, with or without walls, where it comes furthest */
 } tn_tile_fits;
 
 tn_status tn_survey_tile(const tn_survey *survey, const tn_survey_place *place, uint32_t tile, tn_tile_fits *fits,

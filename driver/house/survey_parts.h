@@ -43,8 +43,10 @@ uint32_t tn_survey_storeys(const tn_survey *survey, uint32_t zone, bool most);
 
 /* ---- survey_tiles.c */
 
-/* Does a tile fit into some cell, whatever is round it? */
-tn_status tn_survey_tile_anywhere(const tn_survey *survey, uint32_t tile, bool *fits, tn_error *error);
+/* Does a tile fit into some cell, whatever is round it? If not, further: what is in its way where it comes furthest, if
+ * any cell is for it (TN_TILE_STANDS: none is). */
+tn_status tn_survey_tile_anywhere(const tn_survey *survey, uint32_t tile, bool *fits, tn_tile_failure *further,
+                                  tn_error *error);
 
 /* Notes which flights some cell has room for. */
 void tn_survey_try_flights(tn_survey *survey);

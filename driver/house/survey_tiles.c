@@ -49,6 +49,14 @@ static tn_status try_walled(const tn_survey *s, const tn_survey_place *place, ui
     return TN_OK;
 }
 
+/* Did a tile come further in this room than in another, or as far in a larger one? */
+static bool is_further(const tn_tile_failure *now, const tn_tile_failure *before)
+{
+    if (now->obstacle != before->obstacle)
+        return now->obstacle > before->obstacle;
+    return (tn_int128)now->wide * now->deep > (tn_int128)before->wide * before->deep;
+}
+
 /* Half a wall less on some side. */
 static tn_status try_open(const tn_survey *s, const tn_survey_place *place, uint32_t tile, tn_tile_fits *fits,
                           tn_error *error)
@@ -57,10 +65,13 @@ static tn_status try_open(const tn_survey *s, const tn_survey_place *place, uint
     const int64_t off[] = {0, thin / 2, thick / 2, thin, (thin + thick) / 2, thick};
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < 36 && fits->fit == TN_FITS_NOWHERE; i++) {
-        bool so[2];
-        status = try_room(s, place, tile, (int64_t[2]){off[i % 6], off[i / 6]}, so, error);
-        if (status == TN_OK && (so[0] || so[1]))
+        tn_tile_failure failure;
+        status = tn_tile_fails_in(&s->form, place->wide - off[i % 6], place->deep - off[i / 6],
+                                  tn_form_clear(&s->form, place->storey), tile, &failure, error);
+        if (status == TN_OK && failure.obstacle == TN_TILE_STANDS)
             fits->fit = TN_FITS_OPEN;
+        else if (status == TN_OK && is_further(&failure, &fits->further))
+            fits->further = failure;
     }
     return status;
 }
@@ -105,9 +116,11 @@ bool tn_survey_is_for(const tn_survey *s, const tn_survey_place *place, uint32_t
     return false;
 }
 
-tn_status tn_survey_tile_anywhere(const tn_survey *s, uint32_t tile, bool *fits, tn_error *error)
+tn_status tn_survey_tile_anywhere(const tn_survey *s, uint32_t tile, bool *fits, tn_tile_failure *further,
+                                  tn_error *error)
 {
     tn_status status = TN_OK;
+    *further = (tn_tile_failure){.obstacle = TN_TILE_STANDS};
     *fits = s->place_count == TN_SURVEY_PLACES_MAX; /* not all are known */
     for (size_t i = 0; status == TN_OK && !*fits && i < s->place_count; i++) {
         tn_tile_fits found;
@@ -115,6 +128,8 @@ tn_status tn_survey_tile_anywhere(const tn_survey *s, uint32_t tile, bool *fits,
             continue;
         status = tn_survey_tile(s, &s->places[i], tile, &found, error);
         *fits = status == TN_OK && found.fit != TN_FITS_NOWHERE;
+        if (status == TN_OK && is_further(&found.further, further))
+            *further = found.further;
     }
     return status;
 }

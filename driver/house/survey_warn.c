@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "driver/house/survey_parts.h"
+#include "runtime/house/solids.h"
 
 static void warn_functions(const tn_survey *s)
 {
@@ -35,20 +36,37 @@ static tn_status warn_bare(const tn_survey *s, tn_error *error)
     return ok ? TN_OK : tn_fail_memory(error);
 }
 
+static void say_in_way(const tn_survey *s, uint32_t tile, const tn_tile_failure *further, tn_diagnostic *d)
+{
+    char why[4 * TN_NAME_MAX];
+    if (further->obstacle == TN_TILE_STANDS) {
+        tn_note(tn_survey_list(s), d, NULL, "no cell may have a function that it is for");
+        tn_help(tn_survey_list(s), d, "let a cell have such a function, or name another one after `for`");
+        return;
+    }
+    tn_tile_failure_text(&s->form, tile, further, tn_house_length_style(&s->house), why, sizeof why);
+    tn_note(tn_survey_list(s), d, NULL, "where it comes furthest, %s", why);
+    if (further->obstacle == TN_TILE_MEETS_BOX)
+        tn_help(tn_survey_list(s), d, "items of a tile may not overlap, nor be in what it keeps free");
+    else
+        tn_help(tn_survey_list(s), d,
+                "make its boxes, or its `wide` and `deep`, smaller: they must fit between the walls, the floor and the "
+                "ceiling of a room, beside each other");
+}
+
 static tn_status warn_tile(const tn_survey *s, uint32_t number, tn_error *error)
 {
     const tn_tile_record *tile = &s->form.module->TILE_records[s->form.record->tile_first + number];
+    tn_tile_failure further;
     bool fits;
     if (tn_survey_allows(s, W_TILE_NEVER, TN_SURVEY_SPAN(tile)))
         return TN_OK;
-    tn_status status = tn_survey_tile_anywhere(s, number, &fits, error);
+    tn_status status = tn_survey_tile_anywhere(s, number, &fits, &further, error);
     if (status != TN_OK || fits)
         return status;
     tn_diagnostic *d = tn_report(tn_survey_list(s), W_TILE_NEVER, TN_SURVEY_SPAN(tile), "tile `%s` fits into no cell",
                                  tn_text(s->form.module, tile->name));
-    tn_help(tn_survey_list(s), d,
-            "make its boxes, or its `wide` and `deep`, smaller: they must fit between the walls of a room, beside "
-            "each other");
+    say_in_way(s, s->form.record->tile_first + number, &further, d);
     return TN_OK;
 }
 

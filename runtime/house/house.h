@@ -208,7 +208,8 @@ tn_status tn_tile_turned_in(const tn_house_form *form, int64_t wide, int64_t dee
 tn_status tn_tile_variants_in(const tn_house_form *form, int64_t wide, int64_t deep, int64_t height, uint32_t tile,
                               tn_variants *variants, tn_error *error);
 
-/* Why a tile (a TILE record) does not stand, as the end of a sentence. */
+/* Why a tile (a TILE record) does not stand, as the end of a sentence: "`bed` is not inside the room, which is 12' wide
+ * and 9' deep". */
 void tn_tile_failure_text(const tn_house_form *form, uint32_t tile, const tn_tile_failure *failure,
                           tn_length_style style, char *text, size_t size);
 

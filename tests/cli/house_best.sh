@@ -6,6 +6,7 @@ name=house_best
 golden best 'tartan best house-measures.plan 3 -l cottages --least floor-area --then-most rooms-value'
 golden best_json 'tartan best house-measures.plan 2 -l cottages --most bedrooms --then-least floor-area --format json'
 golden best_on_plan "tartan best house-measures.plan 2 --plan '#3' --least rooms-value"
+golden best_none_on_plan "tartan best house-measures.plan 1 -l cottages --plan '#3' --least floor-area --where 'quantity(cell(bedroom), n > 90)'"
 golden best_where 'tartan best house-measures.plan 1 -l cottages --least floor-area --where "quantity(cell(bedroom), n >= 2)"'
 golden best_none 'tartan best house-measures.plan 1 -l cottages --least floor-area --where "quantity(cell(bedroom), n > 90)"'
 golden best_of_plans 'tartan best house-measures.plan 1 -l cottages --least bedroom'

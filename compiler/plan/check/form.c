@@ -75,28 +75,45 @@ uint32_t tn_form_function(const tn_checked_form *form, const char *name)
 
 /* ---- names */
 
+/* Whose name a storey or function would have; where that is, if anywhere. */
+typedef struct tn_name_taken {
+    const char *what;
+    const tn_span *place;
+} tn_name_taken;
+
 /* A storey's or function's name is a word of `cell(...)`: nothing else may be called so. */
-static bool word_is_free(tn_check *check, const tn_checked_form *form, const tn_ast_word *name)
+static tn_name_taken who_has_name(const tn_checked_form *form, const char *name)
 {
     static const char *const own[] = {"any", "void", "area", "not", "or", "and"};
     const tn_checked_schema *schema = form->schema;
-    uint32_t storey = tn_form_storey(form, name->text), function = tn_form_function(form, name->text);
-    bool taken = storey != TN_NONE || function != TN_NONE;
-    const char *what = "another part of the form";
-    for (size_t i = 0; i < sizeof own / sizeof *own && !taken; i++)
-        if (strcmp(own[i], name->text) == 0) {
-            taken = true;
-            what = "a word of `cell(...)`";
-        }
-    for (uint32_t f = 0; f < schema->field_count && !taken; f++)
-        if (strcmp(schema->fields[f].name, name->text) == 0 || tn_field_has(&schema->fields[f], name->text)) {
-            taken = true;
-            what = "a word of the schema";
-        }
-    if (!taken)
+    uint32_t storey = tn_form_storey(form, name), function = tn_form_function(form, name);
+    if (storey != TN_NONE)
+        return (tn_name_taken){"a storey", &form->storeys[storey].ast->name->node.span};
+    if (function != TN_NONE)
+        return (tn_name_taken){"another function", &form->rules[function].ast->name->node.span};
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        if (strcmp(own[i], name) == 0)
+            return (tn_name_taken){"a word of `cell(...)`", NULL};
+    for (uint32_t f = 0; f < schema->field_count; f++) {
+        const tn_checked_field *field = &schema->fields[f];
+        if (strcmp(field->name, name) == 0)
+            return (tn_name_taken){"a field of the schema", &field->ast->name->node.span};
+        for (uint32_t v = 0; tn_field_has(field, name) && v < field->value_count; v++)
+            if (strcmp(field->values[v].name, name) == 0)
+                return (tn_name_taken){"a value of the schema", &field->values[v].span};
+    }
+    return (tn_name_taken){0};
+}
+
+static bool word_is_free(tn_check *check, const tn_checked_form *form, const tn_ast_word *name)
+{
+    tn_name_taken taken = who_has_name(form, name->text);
+    if (!taken.what)
         return tn_name_fits(check->diagnostics, name->text, name->node.span);
     tn_diagnostic *d = tn_report(check->diagnostics, E_PART_TWICE, name->node.span,
-                                 "the name `%.80s` is that of %s already", name->text, what);
+                                 "the name `%.80s` is that of %s already", name->text, taken.what);
+    if (taken.place)
+        tn_note(check->diagnostics, d, taken.place, "it is here");
     tn_help(check->diagnostics, d, "choose another name, so that `cell(NAME)` is clear");
     return false;
 }

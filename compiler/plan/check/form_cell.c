@@ -95,6 +95,8 @@ static bool read_own_word(tn_cell_reader *reader, const tn_ast_word *word, bool 
     tn_span span = word->node.span;
     uint32_t storey = tn_form_storey(form, word->text), function = tn_form_function(form, word->text);
     bool is_void = strcmp(word->text, "void") == 0, any = strcmp(word->text, "any") == 0;
+    if (!reader->decided && tn_schema_says(form->schema, word->text))
+        function = TN_NONE; /* it has a name of the schema: that was said, and here the schema's word is meant */
     *found = storey != TN_NONE || function != TN_NONE || is_void || any;
     if (!*found)
         return true;
@@ -151,6 +153,25 @@ static bool is_unknown(const tn_cell_reader *reader, const tn_ast_word *word)
     return true;
 }
 
+/* A cell has the depth of its zone: there is none where a fill has no depth. */
+static void warn_no_depth(const tn_cell_reader *reader, const tn_checked_spec *spec, const tn_checked_field *zone,
+                          tn_span span)
+{
+    tn_check *check = reader->check;
+    for (uint32_t v = 0; v < zone->value_count; v++) {
+        uint32_t bit = zone->first_bit + v;
+        if (zone->values[v].length > 0 && spec->mask[bit / 64] >> (bit % 64) & 1)
+            return;
+    }
+    if (spec->broken || !tn_check_wanted(check, W_CELL_NEVER))
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, W_CELL_NEVER, span,
+                                 "no cell is so: where the `%s` of a tray has no depth, it has no cell", zone->name);
+    tn_help(check->diagnostics, d,
+            "leave it out, or name fills of `%s` that have a depth; cells of other zones are not meant by it",
+            zone->name);
+}
+
 /* A zone alone, or what a tray specifier says. */
 static bool read_tray_words(tn_cell_reader *reader, const tn_ast_word *word, tn_span span)
 {
@@ -168,6 +189,7 @@ static bool read_tray_words(tn_cell_reader *reader, const tn_ast_word *word, tn_
     tn_decision_add(reader->check, reader->decision,
                     (tn_decision_step){.opcode = TN_OP_IN_TRAY, .spec = spec, .span = span});
     if (schema->fields[reader->context.field].kind == TN_FIELD_ZONE) {
+        warn_no_depth(reader, spec, &schema->fields[reader->context.field], span);
         add(reader, TN_OP_IN_ZONE, reader->context.field, span);
         add(reader, TN_OP_ALL_OF, 0, span);
     }

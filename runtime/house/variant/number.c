@@ -91,7 +91,9 @@ static tn_status too_few(const mpz_t houses, tn_error *error)
 {
     if (mpz_sgn(houses) == 0) {
         tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library has no house on this plan");
-        tn_error_help(error, "choose another plan: `tartan sample` with --library draws houses that are there");
+        tn_error_help(
+            error,
+            "`tartan explain` with --library and this plan says why, and `tartan sample` draws houses that are there");
         return TN_INVALID;
     }
     char *digits = mpz_get_str(NULL, 10, houses);

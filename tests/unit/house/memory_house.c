@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "runtime/house/bare.h"
 #include "runtime/house/export/export.h"
 #include "runtime/house/schedule/describe.h"
 #include "runtime/house/strip/best.h"
@@ -280,6 +281,17 @@ static tn_status tile_fails(tn_error *error)
                                           : TN_OK;
 }
 
+static tn_status find_bare(tn_error *error)
+{
+    tn_bare_cells bare;
+    tn_tile_failure failure;
+    tn_status status = tn_bare_find(&made.form, plan.trays, plan.length, &bare, error);
+    if (status == TN_OK)
+        status = tn_bare_why(&bare, 0, 0, made.form.record->tile_first, &failure, error);
+    tn_bare_clear(&bare);
+    return status;
+}
+
 static tn_status write_ifc(tn_error *error)
 {
     return tn_house_write_ifc(&house, &solids, "a hut", sink, error);
@@ -303,6 +315,7 @@ static void test_failing(void **state)
     expect_robust(describe);
     expect_robust(write_and_read);
     expect_robust(tile_fails);
+    expect_robust(find_bare);
     expect_robust(write_ifc);
     expect_robust(write_dxf);
 }
