@@ -233,7 +233,7 @@ static void take(drawn *d, size_t i, tn_house *house)
     tn_error error = {0};
     mpz_init_set(rank, d->ranks[i]);
     must(tn_houses_find(d->all, rank, d->trays, &length, &error), &error);
-    must(tn_house_variants_at(d->variants, d->trays, length, rank, house, &error), &error);
+    must(tn_houses_at(d->all, d->variants, d->trays, length, rank, house, &error), &error);
     mpz_clear(rank);
 }
 

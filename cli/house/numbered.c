@@ -322,6 +322,41 @@ bool tn_is_house_number(const char *text)
     return text[0] == '#' || (digits > 0 && text[digits] == ':');
 }
 
+tn_status tn_numbered_on_plan(tn_numbered *n, const tn_tray *trays, uint32_t length, tn_houses **houses,
+                              tn_error *error)
+{
+    const tn_houses_what what = {.only = trays, .length = length};
+    return tn_houses_of(&n->form, n->record, n->plans, &what, n->max_states, houses, error);
+}
+
+/* Goes through the houses on the plan one by one, if that is quick; else they are counted tray by tray. */
+static tn_status house_on_plan(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant,
+                               tn_house *house, tn_error *error)
+{
+    enum { QUICK = 20000 }; /* steps */
+    tn_houses *houses = NULL;
+    tn_house_variants *quick = NULL;
+    tn_status status = tn_house_variants_new(&n->form, n->record, QUICK, &quick, error);
+    if (status == TN_OK)
+        status = tn_house_variants_at(quick, trays, length, variant, house, error);
+    tn_house_variants_free(quick);
+    if (status != TN_LIMIT)
+        return status;
+    tn_house_clear(house);
+    status = tn_numbered_on_plan(n, trays, length, &houses, error);
+    if (status == TN_OK)
+        status = tn_houses_at(houses, n->variants, trays, length, variant, house, error);
+    tn_houses_free(houses);
+    return status == TN_LIMIT ? tn_house_variants_at(n->variants, trays, length, variant, house, error) : status;
+}
+
+tn_status tn_numbered_at(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant, tn_house *house,
+                         tn_error *error)
+{
+    return n->all ? tn_houses_at(n->all, n->variants, trays, length, variant, house, error)
+                  : house_on_plan(n, trays, length, variant, house, error);
+}
+
 typedef struct tn_house_search {
     mpz_t left; /* houses before the wanted one, on the plans to come */
     tn_house *house;
@@ -368,7 +403,7 @@ static tn_status find_house(tn_numbered *n, const mpz_t rank, tn_house *house, t
     mpz_init_set(rest, rank);
     tn_status status = tn_houses_find(n->all, rest, trays, &length, error);
     if (status == TN_OK)
-        status = tn_house_variants_at(n->variants, trays, length, rest, house, error);
+        status = tn_numbered_at(n, trays, length, rest, house, error);
     mpz_clear(rest);
     free(trays);
     return status;
@@ -418,7 +453,7 @@ tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house,
         tn_error_help(error, "a house is #P:V: the plan's rank, and its place among the houses on that plan");
     }
     if (status == TN_OK)
-        status = tn_house_variants_at(n->variants, trays, length, variant, house, error);
+        status = tn_numbered_at(n, trays, length, variant, house, error);
     mpz_clear(variant);
     free(trays);
     return status;

@@ -40,6 +40,14 @@ tn_status tn_numbered_clauses(tn_numbered *n, mpz_t *kept_out, mpz_t *alone, tn_
 /* All houses together, in n->all: counted now or before. TN_LIMIT (E1640) where that takes too much. */
 tn_status tn_numbered_all(tn_numbered *n, tn_error *error);
 
+/* The houses on one plan, counted tray by tray; free them with tn_houses_free. */
+tn_status tn_numbered_on_plan(tn_numbered *n, const tn_tray *trays, uint32_t length, tn_houses **houses,
+                              tn_error *error);
+
+/* The house of a number on a plan. Clear *house in any case. */
+tn_status tn_numbered_at(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant, tn_house *house,
+                         tn_error *error);
+
 /* Are there so few plans that one may as well go through them? What is said of each of them is then known, too. */
 #define TN_HOUSE_PLANS_FEW 1000u
 bool tn_numbered_few(const tn_numbered *n);

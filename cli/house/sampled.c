@@ -10,7 +10,8 @@
 typedef struct tn_house_sample {
     mpz_t *ranks;
     size_t room, count, next;
-    mpz_t before; /* houses on the plans before */
+    mpz_t before;      /* houses on the plans before */
+    tn_houses *houses; /* where they are counted tray by tray, or NULL */
     tn_sampled_house *use;
     void *context;
 } tn_house_sample;
@@ -45,7 +46,8 @@ static tn_status use_house(tn_numbered *n, tn_house_sample *s, const tn_tray *tr
                            const mpz_t variant, const mpz_t rank, tn_error *error)
 {
     tn_house house;
-    tn_status status = tn_house_variants_at(n->variants, trays, length, variant, &house, error);
+    tn_status status = s->houses ? tn_houses_at(s->houses, n->variants, trays, length, variant, &house, error)
+                                 : tn_house_variants_at(n->variants, trays, length, variant, &house, error);
     if (status == TN_OK)
         status = s->use(s->context, &house, rank, variant, error);
     tn_house_clear(&house);
@@ -83,20 +85,20 @@ static tn_status visit_plans(tn_numbered *n, const tn_plan *plan, tn_plan_visit 
                 : tn_numbered_plans(n, visit, context, error);
 }
 
-/* Draws among all houses, and finds the plan of each. */
-static tn_status sample_together(tn_numbered *n, size_t wanted, uint64_t seed, tn_sampled_house *use, void *context,
-                                 tn_error *error)
+/* Draws among houses that are counted tray by tray, and finds the plan of each. */
+static tn_status sample_together(tn_numbered *n, tn_houses *houses, size_t wanted, uint64_t seed, tn_sampled_house *use,
+                                 void *context, tn_error *error)
 {
-    tn_house_sample s = {.use = use, .context = context};
+    tn_house_sample s = {.use = use, .context = context, .houses = houses};
     uint32_t length = 0;
     tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(n->plans) + 1));
     mpz_t rank;
     mpz_inits(rank, s.before, NULL);
-    tn_houses_count(n->all, TN_ALL_LENGTHS, rank);
+    tn_houses_count(houses, TN_ALL_LENGTHS, rank);
     tn_status status = trays ? sample_draw(&s, seed, rank, wanted, error) : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < s.count; i++) {
         mpz_set(rank, s.ranks[i]);
-        status = tn_houses_find(n->all, rank, trays, &length, error);
+        status = tn_houses_find(houses, rank, trays, &length, error);
         if (status == TN_OK)
             status = use_house(n, &s, trays, length, rank, s.ranks[i], error);
     }
@@ -106,16 +108,42 @@ static tn_status sample_together(tn_numbered *n, size_t wanted, uint64_t seed, t
     return status;
 }
 
-tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, tn_sampled_house *use,
-                             void *context, tn_error *error)
+/* Are the houses on the plan counted in few steps? */
+static tn_status is_quick(const tn_numbered *n, const tn_plan *plan, bool *quick, tn_error *error)
 {
+    enum { QUICK = 20000 };
+    tn_house_variants *variants = NULL;
+    tn_house_counts counts;
+    tn_house_counts_init(&counts);
+    tn_status status = tn_house_variants_new(&n->form, n->record, QUICK, &variants, error);
+    if (status == TN_OK)
+        status = tn_house_variants_count(variants, plan->trays, plan->length, &counts, error);
+    *quick = status == TN_OK;
+    tn_house_variants_free(variants);
+    tn_house_counts_clear(&counts);
+    return status == TN_LIMIT ? TN_OK : status;
+}
+
+/* The houses that are counted tray by tray: all, or those on a plan that are not counted quickly. NULL: they cannot be,
+ * or are few. */
+static tn_status count_together(tn_numbered *n, const tn_plan *plan, tn_houses **houses, tn_error *error)
+{
+    bool quick;
+    *houses = NULL;
     if (!plan) {
-        tn_status together = tn_numbered_all(n, error);
-        if (together == TN_OK)
-            return sample_together(n, wanted, seed, use, context, error);
-        if (together != TN_LIMIT || !tn_numbered_countable(n))
-            return together;
+        tn_status status = tn_numbered_all(n, error);
+        *houses = status == TN_OK ? n->all : NULL;
+        return status == TN_LIMIT && tn_numbered_countable(n) ? TN_OK : status;
     }
+    tn_status status = is_quick(n, plan, &quick, error);
+    if (status == TN_OK && !quick)
+        status = tn_numbered_on_plan(n, plan->trays, (uint32_t)plan->length, houses, error);
+    return status == TN_LIMIT ? TN_OK : status;
+}
+
+static tn_status sample_one_by_one(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed,
+                                   tn_sampled_house *use, void *context, tn_error *error)
+{
     tn_house_sample s = {.use = use, .context = context};
     tn_house_counts all;
     mpz_init(s.before);
@@ -127,6 +155,20 @@ tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted,
         status = visit_plans(n, plan, use_plan, &s, error);
     tn_house_counts_clear(&all);
     sample_clear(&s);
+    return status;
+}
+
+tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, tn_sampled_house *use,
+                             void *context, tn_error *error)
+{
+    tn_houses *houses;
+    tn_status status = count_together(n, plan, &houses, error);
+    if (status == TN_OK && houses)
+        status = sample_together(n, houses, wanted, seed, use, context, error);
+    else if (status == TN_OK)
+        status = sample_one_by_one(n, plan, wanted, seed, use, context, error);
+    if (houses != n->all)
+        tn_houses_free(houses);
     return status;
 }
 

@@ -185,9 +185,10 @@ typedef struct tn_strip_list {
     bool made;
 } tn_strip_list;
 
-/* Cells with these functions (of `functions`) can be the slice. */
+/* Cells with these functions (of `functions`) can be the slice, with so many choices of what is in the inner faces. */
 typedef struct tn_strip_furnished {
     uint32_t functions, slice;
+    uint64_t times;
 } tn_strip_furnished;
 
 typedef struct tn_strip_furnished_list {

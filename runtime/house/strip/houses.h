@@ -15,6 +15,7 @@
 
 #include "runtime/house/house.h"
 #include "runtime/house/measure/measure.h"
+#include "runtime/house/variant/variant.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/measure/complete.h"
 #include "runtime/plan/measure/distribution.h"
@@ -82,5 +83,10 @@ tn_status tn_houses_before(tn_houses *houses, const tn_tray *trays, uint32_t len
 /* The plan of the house of a rank: fills trays (room for tn_library_max) and its length; rank becomes the house's
  * number among those on the plan. TN_INVALID (E1618) where there are not so many. */
 tn_status tn_houses_find(tn_houses *houses, mpz_t rank, tn_tray *trays, uint32_t *length, tn_error *error);
+
+/* The house that `variant` others on its plan come before, a plan of the houses. It takes no longer where there are
+ * many. TN_INVALID (E1618) where there are not so many. Clear *house in any case. */
+tn_status tn_houses_at(tn_houses *houses, tn_house_variants *variants, const tn_tray *trays, uint32_t length,
+                       const mpz_t variant, tn_house *house, tn_error *error);
 
 #endif

@@ -132,23 +132,7 @@ static tn_status give_houses(tn_seeking *s, tn_error *error)
 
 /* ---- functions */
 
-/* A slice of a tray, and the functions of its cells. */
-typedef struct tn_furnished {
-    uint32_t slice;
-    const uint32_t *functions;
-    size_t cells;
-} tn_furnished;
-
-static int compare_functions(const void *left, const void *right)
-{
-    const tn_furnished *a = left, *b = right;
-    for (size_t i = 0; i < a->cells; i++)
-        if (a->functions[i] != b->functions[i])
-            return a->functions[i] < b->functions[i] ? -1 : 1;
-    return 0;
-}
-
-static bool take_functions(tn_seeking *s, size_t first, const tn_furnished *furnished)
+static bool take_functions(tn_seeking *s, size_t first, const tn_strip_functioned *furnished)
 {
     s->function_count = first;
     if (!tn_array_reserve(&s->functions, &s->function_room, first, furnished->cells + 1, sizeof *s->functions))
@@ -163,13 +147,14 @@ static tn_status seek_functions(tn_seeking *s, const tn_houses_kind *kind, uint3
 
 /* The slices in order, those of the same functions together. */
 static tn_status seek_furnished(tn_seeking *s, const tn_houses_kind *kind, uint32_t layer, const tn_leads *marks,
-                                const tn_furnished *slices, size_t count, tn_error *error)
+                                const tn_strip_functioned *slices, size_t count, tn_error *error)
 {
     tn_status status = TN_OK;
     size_t first = s->function_count;
     for (size_t i = 0, end; status == TN_OK && !s->stop && i < count; i = end) {
         tn_leads next = {0};
-        for (end = i; status == TN_OK && end < count && compare_functions(&slices[i], &slices[end]) == 0; end++)
+        for (end = i; status == TN_OK && end < count && tn_strip_functioned_compare(&slices[i], &slices[end]) == 0;
+             end++)
             status = advance(s, kind, layer, marks, slices[end].slice, &next, error);
         if (status == TN_OK && next.count > 0)
             status = take_functions(s, first, &slices[i]) ? seek_functions(s, kind, layer + 1, &next, error)
@@ -185,16 +170,11 @@ static tn_status seek_functions(tn_seeking *s, const tn_houses_kind *kind, uint3
 {
     if (layer == s->length)
         return give_houses(s, error);
-    const tn_strip_furnished_list *list = &kind->strip->furnished[s->trays[layer]];
-    tn_furnished *slices = malloc((list->count + 1) * sizeof *slices);
+    size_t count;
+    tn_strip_functioned *slices = tn_strip_functioned_of(kind->strip, s->trays[layer], &count);
     if (!slices)
         return tn_fail_memory(error);
-    for (size_t i = 0; i < list->count; i++) {
-        slices[i].slice = list->items[i].slice;
-        slices[i].functions = tn_interned(&kind->strip->functions, list->items[i].functions, &slices[i].cells);
-    }
-    qsort(slices, list->count, sizeof *slices, compare_functions);
-    tn_status status = seek_furnished(s, kind, layer, marks, slices, list->count, error);
+    tn_status status = seek_furnished(s, kind, layer, marks, slices, count, error);
     free(slices);
     return status;
 }

@@ -43,6 +43,20 @@ tn_status tn_strip_describe(tn_strip *strip, const tn_house *house, uint32_t cel
 /* Makes the slices of a tray, if they are not made. */
 tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error);
 
+/* ---- slice.c, by functions */
+
+/* A slice of a tray, the functions of its cells, and how many choices of what is in its inner faces make it. */
+typedef struct tn_strip_functioned {
+    const uint32_t *functions;
+    size_t cells;
+    uint32_t slice;
+    uint64_t times;
+} tn_strip_functioned;
+
+/* The slices of a tray, by functions in the order of houses; the caller frees them. NULL: out of memory. */
+tn_strip_functioned *tn_strip_functioned_of(const tn_strip *strip, tn_tray tray, size_t *count);
+int tn_strip_functioned_compare(const void *left, const void *right);
+
 /* ---- plane.c */
 
 /* The outcomes between two edges; TN_STRIP_NONE: the outside. */

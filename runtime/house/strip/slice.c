@@ -148,7 +148,8 @@ static tn_status add_furnished(tn_cutting *c, uint32_t slice, tn_error *error)
     if (at == UINT32_MAX || !tn_array_reserve_from(&list->items, &list->room, 8, at, 1, sizeof *list->items))
         return tn_fail_memory(error);
     if (at == list->count)
-        list->items[list->count++] = (tn_strip_furnished){c->functions, slice};
+        list->items[list->count++] = (tn_strip_furnished){c->functions, slice, 0};
+    list->items[at].times++;
     return TN_OK;
 }
 
@@ -294,4 +295,29 @@ tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error)
     free(c.cells);
     free(c.answers);
     return status;
+}
+
+/* ---- by functions */
+
+int tn_strip_functioned_compare(const void *left, const void *right)
+{
+    const tn_strip_functioned *a = left, *b = right;
+    for (size_t i = 0; i < a->cells; i++)
+        if (a->functions[i] != b->functions[i])
+            return a->functions[i] < b->functions[i] ? -1 : 1;
+    return 0;
+}
+
+tn_strip_functioned *tn_strip_functioned_of(const tn_strip *strip, tn_tray tray, size_t *count)
+{
+    const tn_strip_furnished_list *list = &strip->furnished[tray];
+    tn_strip_functioned *slices = malloc((list->count + 1) * sizeof *slices);
+    *count = list->count;
+    for (size_t i = 0; slices && i < list->count; i++) {
+        slices[i] = (tn_strip_functioned){.slice = list->items[i].slice, .times = list->items[i].times};
+        slices[i].functions = tn_interned(&strip->functions, list->items[i].functions, &slices[i].cells);
+    }
+    if (slices)
+        qsort(slices, list->count, sizeof *slices, tn_strip_functioned_compare);
+    return slices;
 }

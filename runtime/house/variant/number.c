@@ -86,8 +86,7 @@ static tn_status stop_at_once(void *context, const tn_house *house, bool *stop, 
     return TN_OK;
 }
 
-/* A house is asked for by a number that a plan with so many houses does not have. */
-static tn_status too_few(const mpz_t houses, tn_error *error)
+tn_status tn_house_variants_too_few(const mpz_t houses, tn_error *error)
 {
     if (mpz_sgn(houses) == 0) {
         tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library has no house on this plan");
@@ -105,6 +104,14 @@ static tn_status too_few(const mpz_t houses, tn_error *error)
     return status;
 }
 
+/* The house at hand becomes the caller's. */
+static void give_away(tn_house_variants *v, tn_house *house)
+{
+    *house = v->house;
+    house->known = NULL;
+    v->house = (tn_house){0};
+}
+
 tn_status tn_house_variants_at(tn_house_variants *v, const tn_tray *trays, size_t length, const mpz_t variant,
                                tn_house *house, tn_error *error)
 {
@@ -114,18 +121,35 @@ tn_status tn_house_variants_at(tn_house_variants *v, const tn_tray *trays, size_
     if (status != TN_OK)
         return status;
     if (found) {
-        *house = v->house;
-        house->known = NULL;
-        v->house = (tn_house){0};
+        give_away(v, house);
         return TN_OK;
     }
     tn_house_counts counts;
     tn_house_counts_init(&counts);
     status = tn_house_variants_count(v, trays, length, &counts, error);
     if (status == TN_OK)
-        status = too_few(counts.houses, error);
+        status = tn_house_variants_too_few(counts.houses, error);
     tn_house_counts_clear(&counts);
     return status;
+}
+
+tn_status tn_house_variants_like_at(tn_house_variants *v, const tn_house *like, const mpz_t variant, tn_house *house,
+                                    tn_error *error)
+{
+    bool found = false;
+    listing list = {.each = stop_at_once, .context = &found, .passing = true};
+    const tn_house_visitor visitor = {
+        .by_faces = &list.passing, .count = pass_over, .visit = give_tiles, .context = &list};
+    mpz_init_set(list.left, variant);
+    mpz_init(list.here);
+    *house = (tn_house){0};
+    tn_status status = tn_variants_go_through_faces(v, like, &visitor, error);
+    mpz_clears(list.left, list.here, NULL);
+    if (status == TN_OK && found)
+        give_away(v, house);
+    return status != TN_OK || found
+               ? status
+               : tn_fail(error, TN_INVALID, E_NO_VARIANT, "there are fewer houses with these functions than that");
 }
 
 /* ---- the number of a house */

@@ -62,6 +62,13 @@ bool tn_house_variants_keep_tiles(const tn_house_variants *variants, const tn_ho
 tn_status tn_house_variants_at(tn_house_variants *variants, const tn_tray *trays, size_t length, const mpz_t variant,
                                tn_house *house, tn_error *error);
 
+/* TN_INVALID (E1618): a house is asked for by a number that a plan with so many houses does not have. */
+tn_status tn_house_variants_too_few(const mpz_t houses, tn_error *error);
+
+/* The same among the houses that are like this one in plan, section and functions. */
+tn_status tn_house_variants_like_at(tn_house_variants *variants, const tn_house *like, const mpz_t variant,
+                                    tn_house *house, tn_error *error);
+
 /* How many houses on its plan come before this one, which the library keeps. TN_INVALID (E1618) where it does not. */
 tn_status tn_house_variants_rank(tn_house_variants *variants, const tn_house *house, mpz_t variant, tn_error *error);
 

@@ -77,10 +77,38 @@ static tn_status count_together(tn_error *error)
     return status;
 }
 
+/* The last house on a plan of one tray. */
+static tn_status find_together(tn_error *error)
+{
+    tn_houses *houses = NULL;
+    tn_house_variants *variants = NULL;
+    tn_house last = {0};
+    tn_tray trays[2];
+    uint32_t length;
+    mpz_t rank;
+    mpz_init(rank);
+    tn_status status = tn_houses_new(&made.form, made.all, plans, 0, &houses, error);
+    if (status == TN_OK)
+        status = tn_house_variants_new(&made.form, made.all, 0, &variants, error);
+    if (status == TN_OK) {
+        tn_houses_count(houses, TN_ALL_LENGTHS, rank);
+        mpz_sub_ui(rank, rank, 1);
+        status = tn_houses_find(houses, rank, trays, &length, error);
+    }
+    if (status == TN_OK)
+        status = tn_houses_at(houses, variants, trays, length, rank, &last, error);
+    tn_house_clear(&last);
+    tn_house_variants_free(variants);
+    tn_houses_free(houses);
+    mpz_clear(rank);
+    return status;
+}
+
 static void test_count_together(void **state)
 {
     (void)state;
     expect_robust(count_together);
+    expect_robust(find_together);
 }
 
 /* ---- the best of them, by two measures */

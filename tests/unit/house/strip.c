@@ -36,6 +36,42 @@ static tn_library *plans_of(const test_house *made, const tn_house_library_recor
     return plans;
 }
 
+/* The house of a number on the plan is that which is found by going through them one by one. */
+static void check_house(check *c, const tn_tray *trays, uint32_t length, const mpz_t variant)
+{
+    tn_house one, other;
+    tn_error error = {0};
+    assert_int_equal(tn_houses_at(c->houses, c->variants, trays, length, variant, &one, &error), TN_OK);
+    assert_int_equal(tn_house_variants_at(c->variants, trays, length, variant, &other, &error), TN_OK);
+    assert_memory_equal(one.shapes, other.shapes, sizeof one.shapes);
+    assert_int_equal(one.cell_count, other.cell_count);
+    assert_int_equal(one.face_count, other.face_count);
+    for (size_t i = 0; i < one.cell_count; i++) {
+        assert_int_equal(one.cells[i].function, other.cells[i].function);
+        assert_int_equal(one.cells[i].variant, other.cells[i].variant);
+    }
+    for (size_t i = 0; i < one.face_count; i++)
+        assert_int_equal(one.faces[i].kind, other.faces[i].kind);
+    tn_house_clear(&one);
+    tn_house_clear(&other);
+}
+
+/* The first, the last and one more house on the plan; there is none behind the last. */
+static void check_houses(check *c, const tn_tray *trays, uint32_t length, const mpz_t houses)
+{
+    tn_house house;
+    tn_error error = {0};
+    for (unsigned long part = 0; part <= 2 && mpz_sgn(houses) > 0; part++) {
+        mpz_sub_ui(c->variant, houses, 1);
+        mpz_mul_ui(c->variant, c->variant, part);
+        mpz_fdiv_q_ui(c->variant, c->variant, 2);
+        check_house(c, trays, length, c->variant);
+    }
+    assert_int_equal(tn_houses_at(c->houses, c->variants, trays, length, houses, &house, &error), TN_INVALID);
+    assert_int_equal(error.code, E_NO_VARIANT);
+    tn_house_clear(&house);
+}
+
 /* The first and the last house on the plan have the ranks that they should have. */
 static void check_ranks(check *c, const tn_tray *trays, uint32_t length, const mpz_t houses)
 {
@@ -62,8 +98,10 @@ static void check_plan(check *c, const tn_tray *trays, uint32_t length, bool ran
     tn_error error = {0};
     tn_house_counts_init(&counts);
     assert_int_equal(tn_house_variants_count(c->variants, trays, length, &counts, &error), TN_OK);
-    if (ranks)
+    if (ranks) {
         check_ranks(c, trays, length, counts.houses);
+        check_houses(c, trays, length, counts.houses);
+    }
     mpz_add(c->all, c->all, counts.houses);
     mpz_add(c->lengths[length], c->lengths[length], counts.houses);
     mpz_add_ui(c->faced, c->faced, counts.faced);
