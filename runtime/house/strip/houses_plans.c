@@ -173,7 +173,8 @@ static tn_status reach_layers(tn_reaching *r, tn_error *error)
         r->into_room = r->next_room;
         r->next = into;
         r->next_room = room;
-        memset(r->next, 0, room * sizeof *r->next);
+        if (room > 0)
+            memset(r->next, 0, room * sizeof *r->next);
     }
     return status;
 }
