@@ -53,7 +53,6 @@ static tn_status find_states(tn_on_plan *p, tn_error *error)
 
 /* sum: of the houses that go on from where steps lead. next: NULL behind the last tray. */
 typedef struct tn_plan_summing {
-    tn_on_plan *plan;
     const tn_plan_states *next;
     mpz_t sum;
 } tn_plan_summing;
@@ -95,7 +94,7 @@ static tn_status count_ahead(tn_on_plan *p, uint32_t layer, uint32_t at, tn_plan
 
 static tn_status look_ahead(tn_on_plan *p, tn_error *error)
 {
-    tn_plan_summing s = {.plan = p};
+    tn_plan_summing s = {0};
     tn_status status = TN_OK;
     mpz_init(s.sum);
     for (uint32_t layer = p->length + 1; status == TN_OK && layer-- > 0;) {
@@ -138,7 +137,7 @@ static tn_status add_slice(tn_on_plan *p, uint32_t layer, const tn_strip_functio
                            tn_error *error)
 {
     const tn_plan_states *states = &p->layers[layer];
-    tn_plan_summing s = {.plan = p, .next = &p->layers[layer + 1]};
+    tn_plan_summing s = {.next = &p->layers[layer + 1]};
     tn_status status = TN_OK;
     mpz_init(s.sum);
     for (uint32_t i = 0; status == TN_OK && i < states->of.count; i++) {
