@@ -17,7 +17,7 @@
 #include "bench/bench.h"
 #include "runtime/geometry/write.h"
 #include "runtime/house/model/model.h"
-#include "runtime/house/strip/houses.h"
+#include "runtime/house/rank/rank.h"
 #include "runtime/house/variant/change.h"
 #include "runtime/house/variant/variant.h"
 

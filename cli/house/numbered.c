@@ -45,6 +45,8 @@ bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *sett
 
 void tn_numbered_close(tn_numbered *n)
 {
+    tn_numbered_forget_plan(n);
+    tn_house_variants_free(n->quick);
     tn_houses_free(n->all);
     tn_house_variants_free(n->variants);
     tn_library_free(n->opened);
@@ -59,13 +61,16 @@ tn_status tn_numbered_other(const tn_numbered *n, const tn_module *module, const
     other->record = record;
     other->plans = plans;
     other->opened = NULL;
-    other->variants = NULL;
+    other->variants = other->quick = NULL;
     other->all = NULL;
+    other->on_plan = (tn_numbered_plan_found){0};
     return tn_house_variants_new(&other->form, record, 0, &other->variants, error);
 }
 
 void tn_numbered_other_close(tn_numbered *other)
 {
+    tn_numbered_forget_plan(other);
+    tn_house_variants_free(other->quick);
     tn_houses_free(other->all);
     tn_house_variants_free(other->variants);
     *other = (tn_numbered){0};
@@ -282,10 +287,10 @@ static tn_status name_house(tn_numbered *n, const char *line, size_t max_length,
         status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library does not hold the plan of this house");
         tn_error_help(error, "`tartan explain` says which clauses drop it");
     }
-    if (status == TN_OK)
-        status = tn_house_variants_rank(n->variants, &house, variant, error);
     if (status == TN_OK && of_all)
         status = tn_numbered_all(n, error);
+    if (status == TN_OK)
+        status = tn_numbered_number(n, &house, variant, error);
     if (status == TN_OK && of_all) {
         status = tn_houses_before(n->all, house.trays, (uint32_t)house.length, plan, error);
         mpz_add(variant, variant, plan);
@@ -320,41 +325,6 @@ bool tn_is_house_number(const char *text)
 {
     size_t digits = strspn(text, "0123456789");
     return text[0] == '#' || (digits > 0 && text[digits] == ':');
-}
-
-tn_status tn_numbered_on_plan(tn_numbered *n, const tn_tray *trays, uint32_t length, tn_houses **houses,
-                              tn_error *error)
-{
-    const tn_houses_what what = {.only = trays, .length = length};
-    return tn_houses_of(&n->form, n->record, n->plans, &what, n->max_states, houses, error);
-}
-
-/* Goes through the houses on the plan one by one, if that is quick; else they are counted tray by tray. */
-static tn_status house_on_plan(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant,
-                               tn_house *house, tn_error *error)
-{
-    enum { QUICK = 20000 }; /* steps */
-    tn_houses *houses = NULL;
-    tn_house_variants *quick = NULL;
-    tn_status status = tn_house_variants_new(&n->form, n->record, QUICK, &quick, error);
-    if (status == TN_OK)
-        status = tn_house_variants_at(quick, trays, length, variant, house, error);
-    tn_house_variants_free(quick);
-    if (status != TN_LIMIT)
-        return status;
-    tn_house_clear(house);
-    status = tn_numbered_on_plan(n, trays, length, &houses, error);
-    if (status == TN_OK)
-        status = tn_houses_at(houses, n->variants, trays, length, variant, house, error);
-    tn_houses_free(houses);
-    return status == TN_LIMIT ? tn_house_variants_at(n->variants, trays, length, variant, house, error) : status;
-}
-
-tn_status tn_numbered_at(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant, tn_house *house,
-                         tn_error *error)
-{
-    return n->all ? tn_houses_at(n->all, n->variants, trays, length, variant, house, error)
-                  : house_on_plan(n, trays, length, variant, house, error);
 }
 
 typedef struct tn_house_search {

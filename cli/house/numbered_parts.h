@@ -4,9 +4,18 @@
 
 #include "cli/house/numbered.h"
 #include "driver/house/judge.h"
-#include "runtime/house/strip/houses.h"
+#include "runtime/house/rank/rank.h"
 #include "runtime/house/variant/variant.h"
 #include "runtime/plan/library/library.h"
+
+/* The houses on the plan that was asked for last. counted: NULL, or those on this plan alone. */
+typedef struct tn_numbered_plan_found {
+    const tn_houses *among;
+    tn_houses *counted;
+    tn_plan_houses *houses; /* or NULL */
+    tn_tray *trays;
+    uint32_t length;
+} tn_numbered_plan_found;
 
 typedef struct tn_numbered {
     tn_job *job;
@@ -16,7 +25,9 @@ typedef struct tn_numbered {
     const tn_library *plans;
     tn_library *opened; /* the same where tn_numbered_open made it */
     tn_house_variants *variants;
-    tn_houses *all; /* or NULL: not asked for */
+    tn_house_variants *quick; /* with a small limit of work, or NULL: not asked for */
+    tn_houses *all;           /* or NULL: not asked for */
+    tn_numbered_plan_found on_plan;
     uint32_t max_states;
 } tn_numbered;
 
@@ -44,9 +55,19 @@ tn_status tn_numbered_all(tn_numbered *n, tn_error *error);
 tn_status tn_numbered_on_plan(tn_numbered *n, const tn_tray *trays, uint32_t length, tn_houses **houses,
                               tn_error *error);
 
+/* The houses on a plan, among these (NULL: they are counted for this plan). They are n's until it is asked for another
+ * plan. */
+tn_status tn_numbered_among(tn_numbered *n, tn_houses *among, const tn_tray *trays, uint32_t length,
+                            tn_plan_houses **houses, tn_error *error);
+void tn_numbered_forget_plan(tn_numbered *n);
+
 /* The house of a number on a plan. Clear *house in any case. */
 tn_status tn_numbered_at(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant, tn_house *house,
                          tn_error *error);
+
+/* The number of a house among those on its plan, which is one of the library's. TN_INVALID (E1618) where the library
+ * does not keep it. */
+tn_status tn_numbered_number(tn_numbered *n, const tn_house *house, mpz_t variant, tn_error *error);
 
 /* Are there so few plans that one may as well go through them? What is said of each of them is then known, too. */
 #define TN_HOUSE_PLANS_FEW 1000u

@@ -45,9 +45,12 @@ static tn_status add_plan(tn_numbered *n, void *context, const tn_tray *trays, u
 static tn_status use_house(tn_numbered *n, tn_house_sample *s, const tn_tray *trays, uint32_t length,
                            const mpz_t variant, const mpz_t rank, tn_error *error)
 {
-    tn_house house;
-    tn_status status = s->houses ? tn_houses_at(s->houses, n->variants, trays, length, variant, &house, error)
-                                 : tn_house_variants_at(n->variants, trays, length, variant, &house, error);
+    tn_house house = {0};
+    tn_plan_houses *houses = NULL;
+    tn_status status = s->houses ? tn_numbered_among(n, s->houses, trays, length, &houses, error) : TN_OK;
+    if (status == TN_OK)
+        status = houses ? tn_plan_houses_at(houses, variant, &house, error)
+                        : tn_house_variants_at(n->variants, trays, length, variant, &house, error);
     if (status == TN_OK)
         status = s->use(s->context, &house, rank, variant, error);
     tn_house_clear(&house);
@@ -167,6 +170,7 @@ tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted,
         status = sample_together(n, houses, wanted, seed, use, context, error);
     else if (status == TN_OK)
         status = sample_one_by_one(n, plan, wanted, seed, use, context, error);
+    tn_numbered_forget_plan(n);
     if (houses != n->all)
         tn_houses_free(houses);
     return status;

@@ -109,7 +109,7 @@ static tn_status write_change(void *context, const tn_house_change *change, cons
     varying *v = context;
     tn_change_words w;
     mpz_set_ui(v->variant, 0);
-    tn_status status = tn_house_variants_rank(v->n->variants, changed, v->variant, error);
+    tn_status status = tn_numbered_number(v->n, changed, v->variant, error);
     if (status == TN_OK)
         status = cost_of(changed, v->more, error);
     if (status != TN_OK)
@@ -171,7 +171,7 @@ static tn_status vary(varying *v, const char *at, tn_error *error)
         tn_error_help(error, "`tartan explain` says which clauses drop it");
     }
     if (status == TN_OK) /* is it a house of the library? */
-        status = tn_house_variants_rank(v->n->variants, v->house, v->variant, error);
+        status = tn_numbered_number(v->n, v->house, v->variant, error);
     if (status == TN_OK)
         status = cost_of(v->house, v->cost, error);
     if (status == TN_OK)

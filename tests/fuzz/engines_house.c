@@ -4,9 +4,9 @@
 #include <gmp.h>
 #include <stdlib.h>
 
+#include "runtime/house/rank/rank.h"
 #include "runtime/house/schedule/cost.h"
 #include "runtime/house/schedule/describe.h"
-#include "runtime/house/strip/houses.h"
 #include "runtime/house/variant/change.h"
 #include "runtime/house/variant/variant.h"
 #include "tests/fuzz/engines.h"
@@ -227,7 +227,8 @@ static void fuzz_short_plan(const tn_house_form *form)
     tn_house house;
     tn_tray trays[2] = {0, form->schema->tray_count - 1};
     uint32_t shapes[TN_CHOICES_MAX] = {0}, kinds[TN_FACE_KINDS_MAX], functions = tn_form_functions(form);
-    if (tn_house_stand(form, trays, form->schema->tray_count ? 2 : 0, shapes, &house, &error) == TN_OK && functions > 0) {
+    if (tn_house_stand(form, trays, form->schema->tray_count ? 2 : 0, shapes, &house, &error) == TN_OK &&
+        functions > 0) {
         for (size_t c = 0; c < house.cell_count; c++)
             house.cells[c].function = (uint32_t)c % functions;
         for (size_t f = 0; f < house.face_count; f++) {

@@ -11,6 +11,7 @@
 #ifndef TARTAN_HOUSE_STRIP_DATA_H
 #define TARTAN_HOUSE_STRIP_DATA_H
 
+#include "runtime/base/array.h"
 #include "runtime/base/int128.h"
 #include "runtime/house/house.h"
 #include "runtime/house/measure/measure.h"
@@ -184,6 +185,12 @@ typedef struct tn_strip_list {
     size_t count, room;
     bool made;
 } tn_strip_list;
+
+/* Slices or outcomes, one for each choice, in the order of the choices. */
+typedef struct tn_strip_ordered {
+    uint32_t *items;
+    size_t count, room;
+} tn_strip_ordered;
 
 /* Cells with these functions (of `functions`) can be the slice, with so many choices of what is in the inner faces. */
 typedef struct tn_strip_furnished {
@@ -397,6 +404,14 @@ typedef struct tn_strip {
     tn_key key, joined;                                                 /* scratch */
     uint32_t *scratch;                                                  /* [2 * clauses] */
 } tn_strip;
+
+static inline bool tn_strip_ordered_add(tn_strip_ordered *ordered, uint32_t item)
+{
+    if (!tn_array_reserve(&ordered->items, &ordered->room, ordered->count, 1, sizeof *ordered->items))
+        return false;
+    ordered->items[ordered->count++] = item;
+    return true;
+}
 
 /* ---- words */
 

@@ -1,12 +1,11 @@
-/* All houses of a library: counted, and their ranks, without going through plans or houses.
+/* All houses of a library: counted without going through plans or houses. Their ranks: runtime/house/rank/rank.h.
  *
  * The row is read tray by tray. What has to be known between two trays is a state; the states that plans and houses
  * reach together are counted, layer by layer (parts.h says what a state is). Sections that nothing tells apart share
  * the work. Past a limit of states it is TN_LIMIT (E1640), which names the clause that makes the most of them; houses
  * on one plan (variant.h) do not depend on it.
  *
- * Ranks compare the plan first: the rank of a house is that of the first house on its plan, and its number among the
- * houses on that plan. A tn_houses belongs to one thread, and borrows the form and the library of plans.
+ * A tn_houses belongs to one thread, and borrows the form and the library of plans.
  */
 #ifndef TARTAN_HOUSE_STRIP_HOUSES_H
 #define TARTAN_HOUSE_STRIP_HOUSES_H
@@ -76,17 +75,5 @@ void tn_houses_of_section(const tn_houses *houses, const uint32_t *shapes, mpz_t
 
 /* States of all sections. */
 uint64_t tn_houses_states(const tn_houses *houses);
-
-/* How many houses come before the first on this plan, one of the library's. */
-tn_status tn_houses_before(tn_houses *houses, const tn_tray *trays, uint32_t length, mpz_t before, tn_error *error);
-
-/* The plan of the house of a rank: fills trays (room for tn_library_max) and its length; rank becomes the house's
- * number among those on the plan. TN_INVALID (E1618) where there are not so many. */
-tn_status tn_houses_find(tn_houses *houses, mpz_t rank, tn_tray *trays, uint32_t *length, tn_error *error);
-
-/* The house that `variant` others on its plan come before, a plan of the houses. It takes no longer where there are
- * many. TN_INVALID (E1618) where there are not so many. Clear *house in any case. */
-tn_status tn_houses_at(tn_houses *houses, tn_house_variants *variants, const tn_tray *trays, uint32_t length,
-                       const mpz_t variant, tn_house *house, tn_error *error);
 
 #endif

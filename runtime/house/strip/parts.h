@@ -43,6 +43,11 @@ tn_status tn_strip_describe(tn_strip *strip, const tn_house *house, uint32_t cel
 /* Makes the slices of a tray, if they are not made. */
 tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error);
 
+/* The slices of a tray whose cells have the functions of these [cells], one for each choice of what is in its inner
+ * faces, in the order of houses: the last face changes first. */
+tn_status tn_strip_slices_ordered(tn_strip *strip, tn_tray tray, const tn_cell *like, tn_strip_ordered *slices,
+                                  tn_error *error);
+
 /* ---- slice.c, by functions */
 
 /* A slice of a tray, the functions of its cells, and how many choices of what is in its inner faces make it. */
@@ -61,6 +66,11 @@ int tn_strip_functioned_compare(const void *left, const void *right);
 
 /* The outcomes between two edges; TN_STRIP_NONE: the outside. */
 tn_status tn_strip_plane(tn_strip *strip, uint32_t left, uint32_t right, const tn_strip_list **plane, tn_error *error);
+
+/* The outcomes between two edges, whose cells, the left ones first, have the functions of these, one for each choice of
+ * what is in the plane, in the order of houses. */
+tn_status tn_strip_outcomes_ordered(tn_strip *strip, uint32_t left, uint32_t right, const tn_cell *like,
+                                    tn_strip_ordered *outcomes, tn_error *error);
 uint64_t tn_strip_marks(const tn_strip *strip, uint32_t kind); /* the bit of a kind that rooms ask for */
 
 uint32_t tn_strip_number_area(tn_strip *strip, tn_int128 area); /* UINT32_MAX: out of memory */
@@ -227,6 +237,10 @@ typedef tn_status tn_strip_seen(void *context, uint32_t state, uint64_t times, u
                                 const tn_house_gain *gain, tn_error *error);
 tn_status tn_strip_step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, tn_strip_seen *seen,
                         void *context, tn_error *error);
+
+/* The same, with these outcomes (in the order of their numbers) at the plane before the slice alone. */
+tn_status tn_strip_step_by(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, const tn_strip_list *plane,
+                           tn_strip_seen *seen, void *context, tn_error *error);
 
 /* May the row end in the state, after so many trays? */
 tn_status tn_strip_ends(tn_strip *strip, uint32_t trays, uint32_t state, bool *ends, tn_error *error);

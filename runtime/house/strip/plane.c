@@ -46,6 +46,7 @@ typedef struct tn_crossing_house {
     int64_t x;
     tn_numbering found;
     tn_strip_list *list;
+    tn_strip_ordered *ordered; /* where these are wanted, and no list */
 } tn_crossing_house;
 
 static bool in_plane(const tn_crossing_house *c, const tn_face *face)
@@ -140,7 +141,7 @@ static bool leads(const tn_crossing_house *c, const tn_face *face, uint32_t walk
            (from.goal && (to.through || to.source));
 }
 
-static bool push_meetings_and_steps(tn_crossing_house *c, tn_key *key)
+static bool push_meetings_and_steps(const tn_crossing_house *c, tn_key *key)
 {
     const tn_strip *s = c->strip;
     uint64_t meetings = 0;
@@ -176,7 +177,7 @@ static tn_int128 plane_glass(const tn_crossing_house *c, uint32_t cell)
     return glass;
 }
 
-static tn_status push_sides(tn_crossing_house *c, tn_key *key, tn_error *error)
+static tn_status push_sides(const tn_crossing_house *c, tn_key *key, tn_error *error)
 {
     tn_strip *s = c->strip;
     tn_posts posts = {0};
@@ -260,27 +261,41 @@ static tn_status push_cost(const tn_crossing_house *c, tn_key *key, tn_error *er
     return status == TN_OK && !tn_key_push(key, cost) ? tn_fail_memory(error) : status;
 }
 
-static tn_status add_outcome(tn_crossing_house *c, tn_error *error)
+static tn_status push_outcome(const tn_crossing_house *c, tn_key *key, tn_error *error)
 {
-    tn_strip *s = c->strip;
-    tn_key *key = &s->joined;
     key->size = 0;
     if (!push_meetings_and_steps(c, key))
         return tn_fail_memory(error);
     tn_status status = push_sides(c, key, error);
     if (status == TN_OK && !tn_key_push(key, c->left_cells))
         status = tn_fail_memory(error);
-    if (status == TN_OK && s->prices.asked)
-        status = push_cost(c, key, error);
+    return status == TN_OK && c->strip->prices.asked ? push_cost(c, key, error) : status;
+}
+
+static tn_status find_outcome(tn_crossing_house *c, uint32_t *outcome, tn_error *error)
+{
+    tn_strip *s = c->strip;
+    tn_key *key = &s->joined;
+    tn_status status = push_outcome(c, key, error);
+    uint32_t before = s->outcome_keys.count;
     if (status != TN_OK)
         return status;
-    uint32_t before = s->outcome_keys.count;
     if (!tn_array_reserve(&s->outcomes, &s->outcome_room, before, 1, sizeof *s->outcomes))
         return tn_fail_memory(error);
-    uint32_t outcome = tn_intern(&s->outcome_keys, key->data, key->size);
-    if (outcome == before && !keep_outcome(c, outcome))
-        return tn_fail_memory(error);
-    uint32_t at = outcome == UINT32_MAX ? UINT32_MAX : tn_number(&c->found, outcome);
+    *outcome = tn_intern(&s->outcome_keys, key->data, key->size);
+    bool ok = *outcome != UINT32_MAX && (*outcome < before || keep_outcome(c, *outcome));
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status add_outcome(tn_crossing_house *c, tn_error *error)
+{
+    uint32_t outcome = 0;
+    tn_status status = find_outcome(c, &outcome, error);
+    if (status != TN_OK)
+        return status;
+    if (c->ordered)
+        return tn_strip_ordered_add(c->ordered, outcome) ? TN_OK : tn_fail_memory(error);
+    uint32_t at = tn_number(&c->found, outcome);
     if (at == UINT32_MAX || !tn_array_reserve_from(&c->list->items, &c->list->room, 1, at, 1, sizeof *c->list->items))
         return tn_fail_memory(error);
     if (at == c->list->count)
@@ -325,6 +340,14 @@ static tn_status add_outcomes(tn_crossing_house *c, tn_error *error)
     return status;
 }
 
+static void end(tn_crossing_house *c)
+{
+    tn_house_clear(&c->house);
+    tn_numbering_clear(&c->found);
+    free(c->faces);
+    free(c->open);
+}
+
 tn_status tn_strip_plane(tn_strip *strip, uint32_t left, uint32_t right, const tn_strip_list **plane, tn_error *error)
 {
     uint32_t before = strip->plane_keys.count;
@@ -343,9 +366,19 @@ tn_status tn_strip_plane(tn_strip *strip, uint32_t left, uint32_t right, const t
     if (status == TN_OK)
         status = add_outcomes(&c, error);
     strip->planes[at].made = status == TN_OK;
-    tn_house_clear(&c.house);
-    tn_numbering_clear(&c.found);
-    free(c.faces);
-    free(c.open);
+    end(&c);
+    return status;
+}
+
+tn_status tn_strip_outcomes_ordered(tn_strip *strip, uint32_t left, uint32_t right, const tn_cell *like,
+                                    tn_strip_ordered *outcomes, tn_error *error)
+{
+    tn_crossing_house c = {.strip = strip, .left = left, .right = right, .ordered = outcomes};
+    tn_status status = stand(&c, error);
+    for (size_t i = 0; status == TN_OK && i < c.house.cell_count; i++)
+        c.house.cells[i].function = like[i].function;
+    if (status == TN_OK)
+        status = add_outcomes(&c, error);
+    end(&c);
     return status;
 }

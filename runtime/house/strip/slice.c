@@ -11,6 +11,7 @@ typedef struct tn_cutting {
     tn_inside inside;
     tn_numbering found, furnished;
     tn_strip_list *list;
+    tn_strip_ordered *ordered; /* where these are wanted, and no list */
     uint64_t tried;
     tn_strip_cut *cells; /* [cells][functions + 1], as far as they are met; last: voids */
     uint64_t *answers;   /* of these */
@@ -153,8 +154,23 @@ static tn_status add_furnished(tn_cutting *c, uint32_t slice, tn_error *error)
     return TN_OK;
 }
 
-/* The slice that the house at hand is. */
-static tn_status add_slice(tn_cutting *c, tn_error *error)
+/* What the tray adds to each number that is added up: two words each; last, where costs are asked for, their number. */
+static tn_status push_gains(const tn_cutting *c, uint32_t cost, tn_key *key, tn_error *error)
+{
+    tn_strip *s = c->inside.strip;
+    tn_status status = TN_OK;
+    for (uint32_t k = 0; status == TN_OK && k < s->added->count; k++) {
+        int64_t tray = 0;
+        if (k >= s->added->measures)
+            status = tn_strip_tray_adds(s, k, c->inside.house.trays[0], &tray, error);
+        if (status == TN_OK &&
+            !tn_push_long(key, (uint64_t)(tn_house_weights_cells(s->added->of[k], &c->inside.house) + tray)))
+            status = tn_fail_memory(error);
+    }
+    return status == TN_OK && s->prices.asked && !tn_key_push(key, cost) ? tn_fail_memory(error) : status;
+}
+
+static tn_status push_slice(const tn_cutting *c, tn_key *key, tn_error *error)
 {
     tn_strip *s = c->inside.strip;
     uint32_t entry = 0, exit = 0, base = 0, cost = 0;
@@ -163,7 +179,6 @@ static tn_status add_slice(tn_cutting *c, tn_error *error)
         status = tn_strip_find_edge(&c->inside, TN_STRIP_ENTRY, cost, &entry, error);
     if (status == TN_OK)
         status = tn_strip_find_edge(&c->inside, TN_STRIP_EXIT, cost, &exit, error);
-    tn_key *key = &s->joined;
     key->size = 0;
     if (status == TN_OK && (!tn_key_push(key, entry) || !tn_key_push(key, exit)))
         status = tn_fail_memory(error);
@@ -174,25 +189,34 @@ static tn_status add_slice(tn_cutting *c, tn_error *error)
         if (status == TN_OK && !tn_key_push(key, base))
             status = tn_fail_memory(error);
     }
-    for (uint32_t k = 0; status == TN_OK && k < s->added->count; k++) {
-        int64_t tray = 0;
-        if (k >= s->added->measures)
-            status = tn_strip_tray_adds(s, k, c->inside.house.trays[0], &tray, error);
-        if (status == TN_OK &&
-            !tn_push_long(key, (uint64_t)(tn_house_weights_cells(s->added->of[k], &c->inside.house) + tray)))
-            status = tn_fail_memory(error);
-    }
-    if (status == TN_OK && s->prices.asked && !tn_key_push(key, cost))
-        status = tn_fail_memory(error);
+    return status == TN_OK ? push_gains(c, cost, key, error) : status;
+}
+
+/* The slice that the house at hand is. */
+static tn_status find_slice(const tn_cutting *c, uint32_t *slice, tn_error *error)
+{
+    tn_strip *s = c->inside.strip;
+    tn_key *key = &s->joined;
+    tn_status status = push_slice(c, key, error);
+    uint32_t before = s->slice_keys.count;
     if (status != TN_OK)
         return status;
-    uint32_t before = s->slice_keys.count;
     if (!tn_array_reserve(&s->slices, &s->slice_room, before, 1, sizeof *s->slices))
         return tn_fail_memory(error);
-    uint32_t slice = tn_intern(&s->slice_keys, key->data, key->size);
-    if (slice == before && !keep_slice(s, slice))
-        return tn_fail_memory(error);
-    uint32_t at = slice == UINT32_MAX ? UINT32_MAX : tn_number(&c->found, slice);
+    *slice = tn_intern(&s->slice_keys, key->data, key->size);
+    bool ok = *slice != UINT32_MAX && (*slice < before || keep_slice(s, *slice));
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status add_slice(tn_cutting *c, tn_error *error)
+{
+    uint32_t slice = 0;
+    tn_status status = find_slice(c, &slice, error);
+    if (status != TN_OK)
+        return status;
+    if (c->ordered)
+        return tn_strip_ordered_add(c->ordered, slice) ? TN_OK : tn_fail_memory(error);
+    uint32_t at = tn_number(&c->found, slice);
     if (at == UINT32_MAX || !tn_array_reserve_from(&c->list->items, &c->list->room, 8, at, 1, sizeof *c->list->items))
         return tn_fail_memory(error);
     if (at == c->list->count)
@@ -276,24 +300,49 @@ static tn_status cut_functions(tn_cutting *c, tn_error *error)
     return status;
 }
 
+static tn_status begin(tn_cutting *c, tn_error *error)
+{
+    const tn_strip *strip = c->inside.strip;
+    tn_status status = tn_house_stand(strip->form, &c->inside.tray, 1, strip->shapes, &c->inside.house, error);
+    if (status == TN_OK && c->inside.house.cell_count > TN_STRIP_CELLS_MAX)
+        status = tn_strip_limit(strip, NULL, "a tray has more than 60 cells", error);
+    return status == TN_OK ? begin_cells(c, error) : status;
+}
+
+static void end(tn_cutting *c)
+{
+    tn_house_clear(&c->inside.house);
+    tn_numbering_clear(&c->found);
+    tn_numbering_clear(&c->furnished);
+    free(c->cells);
+    free(c->answers);
+}
+
 tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error)
 {
     tn_cutting c = {.inside = {.strip = strip, .tray = tray}, .list = &strip->of_tray[tray]};
     if (c.list->made)
         return TN_OK;
     c.list->made = true;
-    tn_status status = tn_house_stand(strip->form, &tray, 1, strip->shapes, &c.inside.house, error);
-    if (status == TN_OK && c.inside.house.cell_count > TN_STRIP_CELLS_MAX)
-        status = tn_strip_limit(strip, NULL, "a tray has more than 60 cells", error);
-    if (status == TN_OK)
-        status = begin_cells(&c, error);
+    tn_status status = begin(&c, error);
     if (status == TN_OK)
         status = cut_functions(&c, error);
-    tn_house_clear(&c.inside.house);
-    tn_numbering_clear(&c.found);
-    tn_numbering_clear(&c.furnished);
-    free(c.cells);
-    free(c.answers);
+    end(&c);
+    return status;
+}
+
+tn_status tn_strip_slices_ordered(tn_strip *strip, tn_tray tray, const tn_cell *like, tn_strip_ordered *slices,
+                                  tn_error *error)
+{
+    tn_cutting c = {.inside = {.strip = strip, .tray = tray}, .ordered = slices};
+    tn_status status = begin(&c, error);
+    for (size_t i = 0; status == TN_OK && i < c.inside.house.cell_count; i++)
+        c.inside.house.cells[i].function = like[i].function;
+    if (status == TN_OK)
+        status = know_cells(&c, error);
+    if (status == TN_OK)
+        status = cut_faces(&c, error);
+    end(&c);
     return status;
 }
 

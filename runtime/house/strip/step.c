@@ -1,4 +1,5 @@
 /* Goes from a state to those after one more slice. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
@@ -332,8 +333,20 @@ static const uint32_t *words_of(const tn_strip *strip, uint32_t state)
     return state == TN_STRIP_NONE ? NULL : tn_interned(&strip->states, state, &size);
 }
 
-tn_status tn_strip_step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, tn_strip_seen *seen,
-                        void *context, tn_error *error)
+static int compare_choices(const void *a, const void *b)
+{
+    const tn_strip_choice *p = a, *q = b;
+    return (p->slice > q->slice) - (p->slice < q->slice);
+}
+
+/* One of the outcomes that are looked at, in order; NULL: of all. */
+static const tn_strip_choice *choice_of(const tn_strip_choice *choice, const tn_strip_list *only)
+{
+    return only ? bsearch(choice, only->items, only->count, sizeof *choice, compare_choices) : choice;
+}
+
+static tn_status step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, const tn_strip_list *only,
+                      tn_strip_seen *seen, void *context, tn_error *error)
 {
     tn_strip_list plane = {0};
     tn_stepping s = {.strip = strip, .trays = trays, .slice = slice, .state = words_of(strip, state)};
@@ -345,10 +358,24 @@ tn_status tn_strip_step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_
         return status;
     status = tn_strip_cross(strip, s.state, slice, &plane, &s.crossed, error);
     for (size_t i = 0; status == TN_OK && i < plane.count; i++, s.crossed += tn_strip_crossed_words(strip)) {
+        const tn_strip_choice *choice = choice_of(&plane.items[i], only);
         s.state = words_of(strip, state);
-        status = try_outcome(&s, &plane.items[i], between, seen, context, error);
+        if (choice)
+            status = try_outcome(&s, choice, between, seen, context, error);
     }
     return status;
+}
+
+tn_status tn_strip_step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, tn_strip_seen *seen,
+                        void *context, tn_error *error)
+{
+    return step(strip, trays, state, slice, NULL, seen, context, error);
+}
+
+tn_status tn_strip_step_by(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, const tn_strip_list *plane,
+                           tn_strip_seen *seen, void *context, tn_error *error)
+{
+    return step(strip, trays, state, slice, plane, seen, context, error);
 }
 
 static tn_status see_end(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,

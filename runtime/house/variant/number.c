@@ -104,6 +104,13 @@ tn_status tn_house_variants_too_few(const mpz_t houses, tn_error *error)
     return status;
 }
 
+tn_status tn_house_variants_no_house(tn_error *error)
+{
+    tn_status status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library does not keep this house");
+    tn_error_help(error, "`tartan explain` says which clauses drop it");
+    return status;
+}
+
 /* The house at hand becomes the caller's. */
 static void give_away(tn_house_variants *v, tn_house *house)
 {
@@ -133,23 +140,45 @@ tn_status tn_house_variants_at(tn_house_variants *v, const tn_tray *trays, size_
     return status;
 }
 
-tn_status tn_house_variants_like_at(tn_house_variants *v, const tn_house *like, const mpz_t variant, tn_house *house,
+/* The combinations of tiles of the house, whose faces are all set. */
+static tn_status furnish(tn_house_variants *v, const tn_house *house, tn_error *error)
+{
+    bool fit = false;
+    tn_status status = tn_variants_take(v, house, error);
+    if (status == TN_OK)
+        status = tn_variants_count_tiles(v, &fit, error);
+    if (status == TN_OK && !fit)
+        status = tn_house_variants_no_house(error);
+    return status == TN_OK ? tn_furnish(v, error) : status;
+}
+
+tn_status tn_house_variants_furnish(tn_house_variants *v, const tn_house *like, const mpz_t number, tn_house *house,
                                     tn_error *error)
 {
-    bool found = false;
-    listing list = {.each = stop_at_once, .context = &found, .passing = true};
-    const tn_house_visitor visitor = {
-        .by_faces = &list.passing, .count = pass_over, .visit = give_tiles, .context = &list};
-    mpz_init_set(list.left, variant);
-    mpz_init(list.here);
     *house = (tn_house){0};
-    tn_status status = tn_variants_go_through_faces(v, like, &visitor, error);
-    mpz_clears(list.left, list.here, NULL);
-    if (status == TN_OK && found)
+    tn_status status = furnish(v, like, error);
+    if (status != TN_OK)
+        return status;
+    mpz_t count;
+    mpz_init(count);
+    tn_furnished_count(v, count);
+    if (mpz_cmp(number, count) < 0) {
+        tn_furnished_find(v, number);
         give_away(v, house);
-    return status != TN_OK || found
-               ? status
-               : tn_fail(error, TN_INVALID, E_NO_VARIANT, "there are fewer houses with these functions than that");
+    } else {
+        status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "the houses with the same faces were counted wrong");
+    }
+    mpz_clear(count);
+    return status;
+}
+
+tn_status tn_house_variants_furnished(tn_house_variants *v, const tn_house *house, mpz_t number, tn_error *error)
+{
+    tn_status status = furnish(v, house, error);
+    if (status != TN_OK)
+        return status;
+    tn_furnished_before(v, house, number);
+    return tn_house_variants_keep_tiles(v, house) ? TN_OK : tn_house_variants_no_house(error);
 }
 
 /* ---- the number of a house */
@@ -213,10 +242,8 @@ tn_status tn_house_variants_rank(tn_house_variants *v, const tn_house *house, mp
     mpz_inits(s.before, s.here, NULL);
     tn_status status = tn_variants_go_through(v, house->trays, house->length, &visitor, error);
     mpz_set(variant, s.before);
-    if (status == TN_OK && s.passing) {
-        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library does not keep this house");
-        tn_error_help(error, "`tartan explain` says which clauses drop it");
-    }
+    if (status == TN_OK && s.passing)
+        status = tn_house_variants_no_house(error);
     mpz_clears(s.before, s.here, NULL);
     return status;
 }

@@ -104,6 +104,9 @@ typedef struct tn_house_visitor {
 tn_status tn_variants_go_through_faces(tn_house_variants *variants, const tn_house *like,
                                        const tn_house_visitor *visitor, tn_error *error);
 
+/* The house at hand becomes one like this, but for its tiles; work begins. */
+tn_status tn_variants_take(tn_house_variants *variants, const tn_house *like, tn_error *error);
+
 /* Shows the houses on a plan in the order of their numbers. */
 tn_status tn_variants_go_through(tn_house_variants *variants, const tn_tray *trays, size_t length,
                                  const tn_house_visitor *visitor, tn_error *error);

@@ -316,19 +316,32 @@ static tn_status stand(tn_house_variants *v, const tn_tray *trays, size_t length
     return tn_house_known_use(&v->known, &v->house, error);
 }
 
-tn_status tn_variants_go_through_faces(tn_house_variants *v, const tn_house *like, const tn_house_visitor *seen_by,
-                                       tn_error *error)
+/* The house at hand stands like this one, with its functions. */
+static tn_status begin_like(tn_house_variants *v, const tn_house *like, tn_error *error)
 {
-    bool stop = false;
     begin_work(v);
     tn_status status = stand(v, like->trays, like->length, like->shapes, error);
     if (status == TN_OK && !tn_array_resize(&v->tiles, v->house.cell_count + 1, sizeof *v->tiles))
         status = tn_fail_memory(error);
-    if (status == TN_OK)
-        status = take_functions(v, like, error);
+    return status == TN_OK ? take_functions(v, like, error) : status;
+}
+
+tn_status tn_variants_go_through_faces(tn_house_variants *v, const tn_house *like, const tn_house_visitor *seen_by,
+                                       tn_error *error)
+{
+    bool stop = false;
+    tn_status status = begin_like(v, like, error);
     if (status == TN_OK)
         status = tn_memos_make(v, error);
     return status == TN_OK ? go_through_faces(v, seen_by, &stop, error) : status;
+}
+
+tn_status tn_variants_take(tn_house_variants *v, const tn_house *like, tn_error *error)
+{
+    tn_status status = begin_like(v, like, error);
+    for (size_t i = 0; status == TN_OK && i < v->house.face_count; i++)
+        v->house.faces[i].kind = like->faces[i].kind;
+    return status;
 }
 
 static void add_counts(tn_house_variants *v, void *context, tn_house_part part, const tn_house_counts *counts,

@@ -65,9 +65,18 @@ tn_status tn_house_variants_at(tn_house_variants *variants, const tn_tray *trays
 /* TN_INVALID (E1618): a house is asked for by a number that a plan with so many houses does not have. */
 tn_status tn_house_variants_too_few(const mpz_t houses, tn_error *error);
 
-/* The same among the houses that are like this one in plan, section and functions. */
-tn_status tn_house_variants_like_at(tn_house_variants *variants, const tn_house *like, const mpz_t variant,
+/* TN_INVALID (E1618): the library does not keep a house whose number is asked for. */
+tn_status tn_house_variants_no_house(tn_error *error);
+
+/* The house that is like this one in everything but its tiles, which have so many kept combinations before them; the
+ * clauses that do not ask for costs are taken to keep it. Clear *house in any case. */
+tn_status tn_house_variants_furnish(tn_house_variants *variants, const tn_house *like, const mpz_t number,
                                     tn_house *house, tn_error *error);
+
+/* How many kept combinations of tiles come before those of the house; the same. TN_INVALID (E1618) where its own is not
+ * kept. */
+tn_status tn_house_variants_furnished(tn_house_variants *variants, const tn_house *house, mpz_t number,
+                                      tn_error *error);
 
 /* How many houses on its plan come before this one, which the library keeps. TN_INVALID (E1618) where it does not. */
 tn_status tn_house_variants_rank(tn_house_variants *variants, const tn_house *house, mpz_t variant, tn_error *error);

@@ -12,6 +12,7 @@
 
 #include "runtime/house/bare.h"
 #include "runtime/house/export/export.h"
+#include "runtime/house/rank/rank.h"
 #include "runtime/house/schedule/describe.h"
 #include "runtime/house/strip/best.h"
 #include "runtime/house/variant/change.h"

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/house/strip/houses.h"
+#include "runtime/house/rank/rank.h"
 #include "runtime/house/variant/variant.h"
 #include "tests/support/drawn_house.h"
 #include "tests/support/test_house.h"
@@ -36,40 +36,79 @@ static tn_library *plans_of(const test_house *made, const tn_house_library_recor
     return plans;
 }
 
+static void check_same(const tn_house *one, const tn_house *other)
+{
+    assert_memory_equal(one->shapes, other->shapes, sizeof one->shapes);
+    assert_int_equal(one->cell_count, other->cell_count);
+    assert_int_equal(one->face_count, other->face_count);
+    for (size_t i = 0; i < one->cell_count; i++) {
+        assert_int_equal(one->cells[i].function, other->cells[i].function);
+        assert_int_equal(one->cells[i].variant, other->cells[i].variant);
+    }
+    for (size_t i = 0; i < one->face_count; i++)
+        assert_int_equal(one->faces[i].kind, other->faces[i].kind);
+}
+
+/* The house has the number among those on its plan. */
+static void check_number(check *c, tn_plan_houses *plan, const tn_house *house, const mpz_t variant)
+{
+    tn_error error = {0};
+    assert_int_equal(tn_plan_houses_number(plan, house, c->rank, &error), TN_OK);
+    assert_int_equal(mpz_cmp(c->rank, variant), 0);
+}
+
+/* With something else in one face the library may not keep it: it has no number, or that which is found one by one. */
+static void check_changed(check *c, tn_plan_houses *plan, tn_house *house, size_t at)
+{
+    uint32_t kinds[TN_FACE_KINDS_MAX], was = house->faces[at].kind;
+    size_t count = tn_face_options(house, &house->faces[at], kinds);
+    tn_error error = {0};
+    mpz_t number;
+    mpz_init(number);
+    for (size_t i = 0; i < house->cell_count; i++)
+        house->cells[i].variant = 0;
+    house->faces[at].kind = kinds[count - 1] == was ? kinds[0] : kinds[count - 1];
+    tn_status status = tn_house_variants_rank(c->variants, house, number, &error);
+    assert_int_equal(tn_plan_houses_number(plan, house, c->rank, &error), status);
+    if (status == TN_OK)
+        assert_int_equal(mpz_cmp(c->rank, number), 0);
+    house->faces[at].kind = was;
+    mpz_clear(number);
+}
+
 /* The house of a number on the plan is that which is found by going through them one by one. */
-static void check_house(check *c, const tn_tray *trays, uint32_t length, const mpz_t variant)
+static void check_house(check *c, tn_plan_houses *plan, const tn_tray *trays, uint32_t length, const mpz_t variant)
 {
     tn_house one, other;
     tn_error error = {0};
-    assert_int_equal(tn_houses_at(c->houses, c->variants, trays, length, variant, &one, &error), TN_OK);
+    assert_int_equal(tn_plan_houses_at(plan, variant, &one, &error), TN_OK);
     assert_int_equal(tn_house_variants_at(c->variants, trays, length, variant, &other, &error), TN_OK);
-    assert_memory_equal(one.shapes, other.shapes, sizeof one.shapes);
-    assert_int_equal(one.cell_count, other.cell_count);
-    assert_int_equal(one.face_count, other.face_count);
-    for (size_t i = 0; i < one.cell_count; i++) {
-        assert_int_equal(one.cells[i].function, other.cells[i].function);
-        assert_int_equal(one.cells[i].variant, other.cells[i].variant);
-    }
-    for (size_t i = 0; i < one.face_count; i++)
-        assert_int_equal(one.faces[i].kind, other.faces[i].kind);
+    check_same(&one, &other);
+    check_number(c, plan, &one, variant);
+    if (one.face_count > 0)
+        check_changed(c, plan, &one, mpz_fdiv_ui(variant, one.face_count));
     tn_house_clear(&one);
     tn_house_clear(&other);
 }
 
-/* The first, the last and one more house on the plan; there is none behind the last. */
+/* Houses on the plan from the first to the last; there is none behind it. */
 static void check_houses(check *c, const tn_tray *trays, uint32_t length, const mpz_t houses)
 {
+    enum { PARTS = 3 };
     tn_house house;
     tn_error error = {0};
-    for (unsigned long part = 0; part <= 2 && mpz_sgn(houses) > 0; part++) {
+    tn_plan_houses *plan;
+    assert_int_equal(tn_plan_houses_new(c->houses, c->variants, trays, length, &plan, &error), TN_OK);
+    for (unsigned long part = 0; part <= PARTS && mpz_sgn(houses) > 0; part++) {
         mpz_sub_ui(c->variant, houses, 1);
         mpz_mul_ui(c->variant, c->variant, part);
-        mpz_fdiv_q_ui(c->variant, c->variant, 2);
-        check_house(c, trays, length, c->variant);
+        mpz_fdiv_q_ui(c->variant, c->variant, PARTS);
+        check_house(c, plan, trays, length, c->variant);
     }
-    assert_int_equal(tn_houses_at(c->houses, c->variants, trays, length, houses, &house, &error), TN_INVALID);
+    assert_int_equal(tn_plan_houses_at(plan, houses, &house, &error), TN_INVALID);
     assert_int_equal(error.code, E_NO_VARIANT);
     tn_house_clear(&house);
+    tn_plan_houses_free(plan);
 }
 
 /* The first and the last house on the plan have the ranks that they should have. */

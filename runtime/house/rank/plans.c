@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/house/rank/rank.h"
 #include "runtime/house/strip/houses_data.h"
 
 /* ---- what is ahead */

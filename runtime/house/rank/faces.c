@@ -1,0 +1,413 @@
+/* What is in the faces of a house of a number, whose functions are known, in their order.
+ *
+ * The faces of a tray are those of its cells: some are in the plane at its left, some inside it, the others in the
+ * plane at its right. In each of these three the last face changes first, so that with the first faces chosen a stretch
+ * of all choices is left. How many houses have them: the states before the tray go by the slices that are left and the
+ * outcomes that are left on both sides to states with houses ahead, which have the functions. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/integers.h"
+#include "runtime/house/rank/path.h"
+
+/* ---- choices that are left */
+
+/* Of all slices of a tray, or outcomes of a plane. `left`: those of a stretch, each with its number of choices. */
+typedef struct tn_left {
+    tn_strip_ordered all;
+    tn_strip_list left;
+    size_t first, count; /* the stretch that `left` is of; count 0: of none yet */
+} tn_left;
+
+static void clear_left(tn_left *l)
+{
+    free(l->all.items);
+    free(l->left.items);
+}
+
+static int compare_words(const void *a, const void *b)
+{
+    uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
+    return (p > q) - (p < q);
+}
+
+/* Joins what is equal among [first, first + count). */
+static tn_status gather(tn_left *l, size_t first, size_t count, tn_error *error)
+{
+    if (l->first == first && l->count == count)
+        return TN_OK;
+    uint32_t *items = malloc(count * sizeof *items);
+    if (!items || !tn_array_reserve(&l->left.items, &l->left.room, 0, count, sizeof *l->left.items)) {
+        free(items);
+        return tn_fail_memory(error);
+    }
+    memcpy(items, l->all.items + first, count * sizeof *items);
+    qsort(items, count, sizeof *items, compare_words);
+    l->left.count = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (l->left.count == 0 || l->left.items[l->left.count - 1].slice != items[i])
+            l->left.items[l->left.count++] = (tn_strip_choice){.slice = items[i]};
+        l->left.items[l->left.count - 1].times++;
+    }
+    free(items);
+    l->first = first;
+    l->count = count;
+    return TN_OK;
+}
+
+/* The stretch of choices that is left, of each of these alike. */
+typedef struct tn_choice_stretch {
+    size_t first, count;
+} tn_choice_stretch;
+
+/* A plane between two trays whose functions are known: by the edges that meet there. */
+typedef struct tn_plane_left {
+    const tn_cell *cells; /* of both trays */
+    tn_numbering edges;   /* left << 32 | right */
+    tn_left *of;          /* [edges] */
+    size_t room;
+    tn_choice_stretch stretch;
+} tn_plane_left;
+
+static void clear_plane(tn_plane_left *plane)
+{
+    for (uint32_t i = 0; i < plane->edges.count; i++)
+        clear_left(&plane->of[i]);
+    free(plane->of);
+    tn_numbering_clear(&plane->edges);
+    *plane = (tn_plane_left){0};
+}
+
+static tn_status outcomes_of(tn_plan_path *a, tn_plane_left *plane, uint32_t left, uint32_t right,
+                             const tn_strip_list **list, tn_error *error)
+{
+    uint32_t before = plane->edges.count;
+    if (!tn_array_reserve_from(&plane->of, &plane->room, 4, before, 1, sizeof *plane->of))
+        return tn_fail_memory(error);
+    uint32_t at = tn_number(&plane->edges, (uint64_t)left << 32 | right);
+    if (at == UINT32_MAX)
+        return tn_fail_memory(error);
+    tn_left *l = &plane->of[at];
+    tn_status status = TN_OK;
+    if (at == before) {
+        *l = (tn_left){0};
+        status = tn_strip_outcomes_ordered(a->strip, left, right, plane->cells, &l->all, error);
+    }
+    if (status == TN_OK)
+        status = gather(l, plane->stretch.first, plane->stretch.count, error);
+    *list = &l->left;
+    return status;
+}
+
+/* ---- the tray whose faces are being chosen */
+
+/* Where houses are on their way: a state, and the edge at the right of the slice that led there; by how many choices.
+ */
+typedef struct tn_places {
+    tn_numbering keys; /* edge << 32 | state */
+    mpz_t *choices;
+    size_t room;
+} tn_places;
+
+typedef struct tn_facing {
+    tn_plan_path *path;
+    const tn_choosing *choosing;
+    tn_house *house;
+    const tn_path_slices *of_tray;
+    uint32_t tray;
+    tn_places before, after; /* the tray, with the faces so far */
+    tn_left slices;
+    tn_choice_stretch inner;
+    tn_plane_left left, right;
+    mpz_t one;
+} tn_facing;
+
+static void empty(tn_places *places)
+{
+    for (uint32_t i = 0; i < places->keys.count; i++)
+        mpz_set_ui(places->choices[i], 0);
+    tn_numbering_clear(&places->keys);
+    places->keys = (tn_numbering){0};
+}
+
+static void clear_places(tn_places *places)
+{
+    tn_numbering_clear(&places->keys);
+    tn_integers_free(places->choices, places->room);
+}
+
+static tn_status add_place(tn_places *places, uint32_t edge, uint32_t state, const mpz_t choices, uint64_t times,
+                           tn_error *error)
+{
+    size_t before = places->room;
+    if (!tn_array_reserve_from(&places->choices, &places->room, 16, places->keys.count, 1, sizeof *places->choices))
+        return tn_fail_memory(error);
+    for (size_t i = before; i < places->room; i++)
+        mpz_init(places->choices[i]);
+    uint32_t at = tn_number(&places->keys, (uint64_t)edge << 32 | state);
+    if (at == UINT32_MAX)
+        return tn_fail_memory(error);
+    mpz_addmul_ui(places->choices[at], choices, times);
+    return TN_OK;
+}
+
+/* ---- through the tray */
+
+typedef struct tn_going {
+    tn_places *to;
+    uint32_t edge;
+    mpz_ptr choices;
+} tn_going;
+
+static tn_status go_to(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
+                       tn_error *error)
+{
+    tn_going *g = context;
+    (void)faced;
+    (void)gain;
+    return add_place(g->to, g->edge, state, g->choices, times, error);
+}
+
+/* f->after := where the houses with the faces so far are behind the tray. */
+static tn_status go_through(tn_facing *f, tn_error *error)
+{
+    tn_strip *strip = f->path->strip;
+    tn_status status = gather(&f->slices, f->inner.first, f->inner.count, error);
+    empty(&f->after);
+    for (uint32_t i = 0; status == TN_OK && i < f->before.keys.count; i++) {
+        uint32_t edge = tn_high(f->before.keys.keys[i]), state = tn_low(f->before.keys.keys[i]);
+        status = tn_watch_check(strip->watch, error);
+        for (size_t k = 0; status == TN_OK && k < f->slices.left.count; k++) {
+            const tn_strip_choice *slice = &f->slices.left.items[k];
+            const tn_strip_list *outcomes;
+            tn_going g = {&f->after, strip->slices[slice->slice].exit, f->one};
+            status = outcomes_of(f->path, &f->left, edge, strip->slices[slice->slice].entry, &outcomes, error);
+            mpz_mul_ui(f->one, f->before.choices[i], slice->times);
+            if (status == TN_OK)
+                status = tn_strip_step_by(strip, f->tray, state, slice->slice, outcomes, go_to, &g, error);
+        }
+    }
+    return status;
+}
+
+/* ---- houses ahead */
+
+/* sum->houses := those that go on from a place behind the tray. */
+static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_error *error)
+{
+    tn_plan_path *a = f->path;
+    uint32_t edge = tn_high(place), state = tn_low(place), next = f->tray + 1;
+    const tn_strip_list *outcomes;
+    tn_status status;
+    mpz_set_ui(sum->houses, 0);
+    if (next == a->length) {
+        sum->next = NULL;
+        status = outcomes_of(a, &f->right, edge, TN_STRIP_NONE, &outcomes, error);
+        return status == TN_OK
+                   ? tn_strip_step_by(a->strip, next, state, TN_STRIP_NONE, outcomes, tn_path_add, sum, error)
+                   : status;
+    }
+    mpz_t all;
+    mpz_init(all);
+    sum->next = &a->layers[next + 1].of;
+    sum->ahead = a->layers[next + 1].like;
+    status = TN_OK;
+    for (size_t k = 0; status == TN_OK && k < f->of_tray[next].count; k++) {
+        const tn_strip_choice *slice = &f->of_tray[next].items[k];
+        mpz_set_ui(sum->houses, 0);
+        status = outcomes_of(a, &f->right, edge, a->strip->slices[slice->slice].entry, &outcomes, error);
+        if (status == TN_OK)
+            status = tn_strip_step_by(a->strip, next, state, slice->slice, outcomes, tn_path_add, sum, error);
+        mpz_addmul_ui(all, sum->houses, slice->times);
+    }
+    mpz_swap(sum->houses, all);
+    mpz_clear(all);
+    return status;
+}
+
+/* houses := those that go on behind the tray. */
+static tn_status count_on(tn_facing *f, mpz_t houses, tn_error *error)
+{
+    tn_path_sum sum = {0};
+    tn_status status = TN_OK;
+    mpz_init(sum.houses);
+    mpz_set_ui(houses, 0);
+    for (uint32_t i = 0; status == TN_OK && i < f->after.keys.count; i++) {
+        status = look_on(f, f->after.keys.keys[i], &sum, error);
+        mpz_addmul(houses, sum.houses, f->after.choices[i]);
+    }
+    mpz_clear(sum.houses);
+    return status;
+}
+
+/* houses := those with the faces so far. */
+static tn_status count_houses(tn_facing *f, mpz_t houses, tn_error *error)
+{
+    tn_status status = go_through(f, error);
+    return status == TN_OK ? count_on(f, houses, error) : status;
+}
+
+/* ---- faces */
+
+static tn_choice_stretch *stretch_of(tn_facing *f, const tn_face *face)
+{
+    if (tn_face_is_inner(face))
+        return &f->inner;
+    return face->side == TN_HOUSE_LEFT ? &f->left.stretch : &f->right.stretch;
+}
+
+/* *found: does the house have one of the kinds? */
+static tn_status choose_kind(tn_facing *f, uint32_t at, bool *found, tn_error *error)
+{
+    uint32_t kinds[TN_FACE_KINDS_MAX];
+    tn_face *face = &f->house->faces[at];
+    size_t count = tn_face_options(f->house, face, kinds);
+    tn_choice_stretch *stretch = stretch_of(f, face);
+    const tn_house *wanted = f->choosing->wanted;
+    tn_status status = TN_OK;
+    mpz_t houses;
+    mpz_init(houses);
+    *found = false;
+    stretch->count /= count;
+    for (size_t i = 0; status == TN_OK && !*found && i < count; i++) {
+        bool is_it = wanted ? wanted->faces[at].kind == kinds[i] : i + 1 == count; /* none before it has the house */
+        face->kind = kinds[i];
+        if (!is_it)
+            status = count_houses(f, houses, error);
+        *found = status == TN_OK && (is_it || !tn_choosing_passes(f->choosing, houses, false));
+        stretch->first += *found ? 0 : stretch->count;
+    }
+    mpz_clear(houses);
+    return status;
+}
+
+/* Ways to choose what is in the faces of a plane: those at this x that are not between storeys. */
+static size_t choices_at(const tn_house *house, int64_t x)
+{
+    uint32_t kinds[TN_FACE_KINDS_MAX];
+    size_t ways = 1;
+    for (size_t i = 0; i < house->face_count; i++)
+        if (!tn_face_is_inner(&house->faces[i]) && house->faces[i].at.x0 == x)
+            ways *= tn_face_options(house, &house->faces[i], kinds);
+    return ways;
+}
+
+static void begin_plane(const tn_facing *f, uint32_t place, tn_plane_left *plane)
+{
+    const tn_house *house = f->house;
+    uint32_t tray = place > 0 ? place - 1 : 0;
+    const tn_cell *cells = &house->cells[house->tray_first[tray]];
+    *plane = (tn_plane_left){.cells = cells};
+    plane->stretch.count = choices_at(house, place > 0 ? cells->at.x1 : cells->at.x0);
+}
+
+/* The plane at the right of the last tray is that at the left of this one. */
+static tn_status begin_tray(tn_facing *f, uint32_t tray, tn_error *error)
+{
+    tn_house *house = f->house;
+    f->tray = tray;
+    if (tray > 0) {
+        clear_plane(&f->left);
+        f->left = f->right;
+    } else {
+        begin_plane(f, 0, &f->left);
+    }
+    begin_plane(f, tray + 1, &f->right);
+    clear_left(&f->slices);
+    f->slices = (tn_left){0};
+    tn_status status = tn_strip_slices_ordered(f->path->strip, house->trays[tray],
+                                               &house->cells[house->tray_first[tray]], &f->slices.all, error);
+    f->inner = (tn_choice_stretch){0, f->slices.all.count};
+    return status;
+}
+
+static tn_status choose_faces(tn_facing *f, bool *found, tn_error *error)
+{
+    const tn_house *house = f->house;
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && *found && i < house->face_count; i++)
+        if (house->cells[house->faces[i].first].tray == f->tray)
+            status = choose_kind(f, i, found, error);
+    return status == TN_OK && *found ? go_through(f, error) : status;
+}
+
+static void go_on(tn_facing *f)
+{
+    tn_places before = f->before;
+    f->before = f->after;
+    f->after = before;
+}
+
+/* The faces are all chosen: *found becomes false where clauses or tiles leave no house with them. */
+static tn_status check_left(tn_facing *f, bool *found, tn_error *error)
+{
+    mpz_t houses;
+    mpz_init(houses);
+    tn_status status = count_on(f, houses, error);
+    *found = mpz_sgn(houses) > 0;
+    mpz_clear(houses);
+    return status;
+}
+
+/* ---- what is ahead, of houses with the functions */
+
+static tn_status count_ahead(tn_plan_path *a, uint32_t layer, uint32_t at, const tn_path_slices *slices,
+                             tn_path_sum *sum, tn_error *error)
+{
+    uint32_t state = (uint32_t)a->layers[layer].of.keys[at];
+    mpz_ptr like = a->layers[layer].like[at];
+    tn_status status = TN_OK;
+    mpz_set_ui(like, 0);
+    for (size_t k = 0; status == TN_OK && k < slices->count; k++) {
+        mpz_set_ui(sum->houses, 0);
+        status = tn_strip_step(a->strip, layer, state, slices->items[k].slice, tn_path_add, sum, error);
+        mpz_addmul_ui(like, sum->houses, slices->items[k].times);
+    }
+    return status;
+}
+
+/* How the row ends does not depend on functions. */
+static tn_status look_ahead(tn_plan_path *a, const tn_path_slices *of_tray, tn_error *error)
+{
+    const tn_path_states *last = &a->layers[a->length];
+    tn_path_sum sum = {0};
+    tn_status status = TN_OK;
+    mpz_init(sum.houses);
+    for (uint32_t i = 0; i < last->of.count; i++)
+        mpz_set(last->like[i], last->ahead[i]);
+    for (uint32_t layer = a->length; status == TN_OK && layer-- > 0;) {
+        sum.next = &a->layers[layer + 1].of;
+        sum.ahead = a->layers[layer + 1].like;
+        for (uint32_t i = 0; status == TN_OK && i < a->layers[layer].of.count; i++)
+            if (mpz_sgn(a->layers[layer].here[i]) > 0)
+                status = count_ahead(a, layer, i, &of_tray[layer], &sum, error);
+    }
+    mpz_clear(sum.houses);
+    return status;
+}
+
+tn_status tn_path_faces(tn_plan_path *a, const tn_choosing *choosing, tn_house *house, const tn_path_slices *of_tray,
+                        bool *found, tn_error *error)
+{
+    tn_facing f = {.path = a, .choosing = choosing, .house = house, .of_tray = of_tray};
+    mpz_init_set_ui(f.one, 1);
+    *found = true;
+    tn_status status = look_ahead(a, of_tray, error);
+    if (status == TN_OK)
+        status = add_place(&f.before, TN_STRIP_NONE, TN_STRIP_NONE, f.one, 1, error);
+    for (uint32_t i = 0; status == TN_OK && *found && i < a->length; i++) {
+        status = begin_tray(&f, i, error);
+        if (status == TN_OK)
+            status = choose_faces(&f, found, error);
+        if (status == TN_OK && *found && i + 1 == a->length)
+            status = check_left(&f, found, error);
+        go_on(&f);
+    }
+    clear_places(&f.before);
+    clear_places(&f.after);
+    clear_left(&f.slices);
+    clear_plane(&f.left);
+    clear_plane(&f.right);
+    mpz_clear(f.one);
+    return status;
+}

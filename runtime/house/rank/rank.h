@@ -1,0 +1,38 @@
+/* Ranks of the houses of a library, whatever number of them there is.
+ *
+ * Ranks compare the plan first: the rank of a house is that of the first house on its plan, and its number among the
+ * houses on that plan. These are in the order of section, functions, faces, tiles. No list of plans or houses is gone
+ * through: what is ahead is counted tray by tray (runtime/house/strip).
+ */
+#ifndef TARTAN_HOUSE_RANK_RANK_H
+#define TARTAN_HOUSE_RANK_RANK_H
+
+#include "runtime/house/strip/houses.h"
+#include "runtime/house/variant/variant.h"
+
+/* How many houses come before the first on this plan, one of the library's. */
+tn_status tn_houses_before(tn_houses *houses, const tn_tray *trays, uint32_t length, mpz_t before, tn_error *error);
+
+/* The plan of the house of a rank: fills trays (room for tn_library_max) and its length; rank becomes the house's
+ * number among those on the plan. TN_INVALID (E1618) where there are not so many. */
+tn_status tn_houses_find(tn_houses *houses, mpz_t rank, tn_tray *trays, uint32_t *length, tn_error *error);
+
+/* The houses on one plan of these houses, whose states are found once. Borrows all that it is made of; the variants are
+ * of the same library. Free with tn_plan_houses_free, also after a failure. */
+typedef struct tn_plan_houses tn_plan_houses;
+tn_status tn_plan_houses_new(tn_houses *houses, tn_house_variants *variants, const tn_tray *trays, uint32_t length,
+                             tn_plan_houses **plan, tn_error *error);
+void tn_plan_houses_free(tn_plan_houses *plan);
+
+/* The house that `variant` others come before. TN_INVALID (E1618) where there are not so many. Clear *house in any
+ * case. */
+tn_status tn_plan_houses_at(tn_plan_houses *plan, const mpz_t variant, tn_house *house, tn_error *error);
+
+/* How many houses come before this one, which is on the plan. TN_INVALID (E1618) where the library does not keep it. */
+tn_status tn_plan_houses_number(tn_plan_houses *plan, const tn_house *house, mpz_t variant, tn_error *error);
+
+/* The same as tn_plan_houses_at, for one house. */
+tn_status tn_houses_at(tn_houses *houses, tn_house_variants *variants, const tn_tray *trays, uint32_t length,
+                       const mpz_t variant, tn_house *house, tn_error *error);
+
+#endif
