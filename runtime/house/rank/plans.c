@@ -14,7 +14,7 @@
 typedef struct tn_backward {
     const tn_houses *houses;
     tn_houses_kind *kind;
-    uint32_t layer;
+    uint32_t layer, stages;
     mpz_t one;
 } tn_backward;
 
@@ -23,7 +23,8 @@ static tn_status add_end(void *context, const tn_houses_edge *edge, tn_error *er
     tn_backward *b = context;
     mpz_t *ahead = &b->kind->layers[b->layer].ahead[(size_t)edge->from * tn_houses_lengths(b->houses)];
     (void)error;
-    mpz_add_ui(ahead[b->layer - b->houses->low], ahead[b->layer - b->houses->low], edge->times);
+    uint32_t length = b->layer / b->stages - b->houses->low;
+    mpz_add_ui(ahead[length], ahead[length], edge->times);
     return TN_OK;
 }
 
@@ -46,19 +47,19 @@ static tn_status add_ahead(void *context, const tn_houses_edge *edge, tn_error *
 
 static tn_status look_ahead(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
 {
-    tn_backward b = {.houses = h, .kind = kind};
+    tn_backward b = {.houses = h, .kind = kind, .stages = tn_houses_stages(h, kind)};
     tn_status status = TN_OK;
     mpz_init(b.one);
-    for (b.layer = h->high + 1; status == TN_OK && b.layer-- > 0;) {
+    for (b.layer = h->high * b.stages + 1; status == TN_OK && b.layer-- > 0;) {
         tn_houses_layer *layer = &kind->layers[b.layer];
         size_t count = (size_t)layer->nodes.count * tn_houses_lengths(h);
         layer->ahead = malloc((count + 1) * sizeof *layer->ahead);
         for (size_t i = 0; layer->ahead && i < count; i++)
             mpz_init(layer->ahead[i]);
         status = layer->ahead ? TN_OK : tn_fail_memory(error);
-        if (status == TN_OK && b.layer >= h->low)
+        if (status == TN_OK && b.layer % b.stages == 0 && b.layer >= h->low * b.stages)
             status = tn_houses_expand(h, kind, b.layer, true, add_end, &b, error);
-        if (status == TN_OK && b.layer < h->high)
+        if (status == TN_OK && b.layer < h->high * b.stages)
             status = tn_houses_expand(h, kind, b.layer, false, add_ahead, &b, error);
     }
     mpz_clear(b.one);
@@ -176,7 +177,7 @@ static tn_status sum_up(void *context, uint32_t state, uint64_t times, uint64_t 
 {
     tn_summing_up *s = context;
     const tn_houses *h = s->walk->houses;
-    const tn_houses_layer *layer = &s->kind->layers[s->walk->layer + 1];
+    const tn_houses_layer *layer = &s->kind->layers[(s->walk->layer + 1) * tn_houses_stages(h, s->kind)];
     uint32_t node = tn_number_find(&layer->nodes, (uint64_t)s->plan << 32 | state);
     (void)faced;
     (void)gain;

@@ -162,24 +162,44 @@ static tn_status cross_outcome(tn_passing *p, tn_error *error)
     return status == TN_OK ? find_values(p, closed, apart, &p->crossed[CROSSED_VALUES], error) : status;
 }
 
-static tn_status cross_plane(tn_strip *strip, const uint32_t *state, uint32_t slice, const tn_strip_list *plane,
-                             uint32_t *crossed, tn_error *error)
+static tn_passing begin_passing(tn_strip *strip, const uint32_t *state, uint32_t left, uint32_t slice)
 {
     size_t size;
     bool last = slice == TN_STRIP_NONE;
-    tn_passing p = {.strip = strip, .state = state, .crossed = crossed};
-    p.crossing = (tn_strip_crossing){.left = state ? &strip->edges[state[STATE_EDGE]] : NULL,
+    tn_passing p = {.strip = strip, .state = state};
+    p.crossing = (tn_strip_crossing){.left = state ? &strip->edges[left] : NULL,
                                      .right = last ? NULL : &strip->edges[strip->slices[slice].entry],
                                      .slice = last ? NULL : tn_interned(&strip->slice_keys, slice, &size)};
+    return p;
+}
+
+static tn_status pass(tn_passing *p, uint32_t slice, uint32_t outcome, tn_error *error)
+{
+    tn_strip *strip = p->strip;
+    size_t size;
+    p->crossing.outcome = tn_interned(&strip->outcome_keys, outcome, &size);
+    p->move = tn_number(&strip->moves, (uint64_t)strip->outcomes[outcome].through << 32 |
+                                           (slice == TN_STRIP_NONE ? slice : strip->slices[slice].met));
+    return p->move == UINT32_MAX ? tn_fail_memory(error) : cross_outcome(p, error);
+}
+
+static tn_status cross_plane(tn_strip *strip, const uint32_t *state, uint32_t slice, const tn_strip_list *plane,
+                             uint32_t *crossed, tn_error *error)
+{
+    tn_passing p = begin_passing(strip, state, state ? state[STATE_EDGE] : TN_STRIP_NONE, slice);
     tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && i < plane->count; i++, p.crossed += tn_strip_crossed_words(strip)) {
-        uint32_t outcome = plane->items[i].slice;
-        p.crossing.outcome = tn_interned(&strip->outcome_keys, outcome, &size);
-        p.move = tn_number(&strip->moves, (uint64_t)strip->outcomes[outcome].through << 32 |
-                                              (last ? TN_STRIP_NONE : strip->slices[slice].met));
-        status = p.move == UINT32_MAX ? tn_fail_memory(error) : cross_outcome(&p, error);
-    }
+    p.crossed = crossed;
+    for (size_t i = 0; status == TN_OK && i < plane->count; i++, p.crossed += tn_strip_crossed_words(strip))
+        status = pass(&p, slice, plane->items[i].slice, error);
     return status;
+}
+
+tn_status tn_strip_cross_outcome(tn_strip *strip, const uint32_t *state, uint32_t left, uint32_t slice,
+                                 uint32_t outcome, uint32_t *crossed, tn_error *error)
+{
+    tn_passing p = begin_passing(strip, state, left, slice);
+    p.crossed = crossed;
+    return pass(&p, slice, outcome, error);
 }
 
 /* ---- planes that states with the same before them have crossed */

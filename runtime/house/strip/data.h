@@ -236,6 +236,7 @@ typedef struct tn_strip_slice {
     uint32_t inside;             /* its edge, and what rooms and walks meet in it: of `insides` */
     uint32_t met;                /* the same, but of its edge only what is asked: of `mets` */
     uint32_t plain;              /* the first slice that can differ from it only in tiles and what is added up */
+    uint32_t group;              /* its entry, what is met in it, its bases: of `groups` */
     uint32_t cost;               /* where costs are asked for: the number of the tray's */
     int64_t gains[TN_ADDED_MAX]; /* what its cells, and its tray, add to each number that is added up */
 } tn_strip_slice;
@@ -250,6 +251,29 @@ typedef struct tn_strip_outcome {
 /* Words of a state: edge, rooms, each walk, what the clauses have read, what waits for its right side; then, where
  * clauses compare, the number of the totals. */
 enum { STATE_EDGE, STATE_ROOMS, STATE_WALKS };
+
+/* A step in three stages, so that what is equal half way is gone on from once (stage.c).
+ *
+ * Words of a threshold, where the plane behind a state is known and the slice is not: what is asked of the edge
+ * (TN_STRIP_NONE: the row begins), rooms, walks and what the clauses have read, as in a state; then the slice's entry,
+ * the meetings (two words), what rooms and walks meet at the plane, what of it matters to the tiles at its right. Words
+ * of an arrival, where all of the slice is known but its exit and its tiles: the slice's group, rooms, walks and what
+ * the clauses have read; then the last word of a threshold. */
+enum { THRESHOLD_ASKED, ARRIVAL_GROUP = THRESHOLD_ASKED };
+enum { THRESHOLD_ENTRY, THRESHOLD_MEETINGS, THRESHOLD_THROUGH = THRESHOLD_MEETINGS + 2, THRESHOLD_FITS };
+
+/* The first state's edge and outcome that led to a threshold: crossing is the same from all. */
+typedef struct tn_strip_threshold {
+    uint32_t left, outcome;
+} tn_strip_threshold;
+
+typedef struct tn_strip_stages {
+    tn_interner thresholds, arrivals;
+    tn_strip_threshold *of; /* [thresholds] */
+    tn_interner groups;     /* of slices */
+    uint32_t *slices;       /* [groups]: the first of each */
+    size_t room, slice_room;
+} tn_strip_stages;
 
 /* Words of what came of an outcome: what it is to the clauses (of `values`; TN_STRIP_NONE: the row begins), rooms, each
  * walk, then how many rooms have ended and are what each question asks for. */
@@ -394,6 +418,7 @@ typedef struct tn_strip {
     uint32_t *plains; /* [plain_keys]: slices */
     size_t plain_room;
     tn_strip_row row;
+    tn_strip_stages stages;
     tn_interner readings, between, values;     /* see reading.c */
     tn_strip_known *after_slice, *after_plane; /* [trays_most + 1] */
     tn_strip_known tiles;                      /* {waiting, left fits}: how many, unless they have prices */

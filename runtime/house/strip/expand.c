@@ -1,4 +1,7 @@
-/* Goes from the nodes of a layer to those of the next: each state meets each slice once, whatever the plans are. */
+/* Goes from the nodes of a layer to those of the next: what is equal for several plans is worked out once.
+ *
+ * Between the states after two trays there are two more layers where a step has three stages (stage.c): of thresholds,
+ * then of arrivals. What a state goes on by are then entries; a threshold, groups; an arrival, slices. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,10 +14,10 @@ typedef struct tn_reached {
     tn_house_gain gain;
 } tn_reached;
 
-/* From one state: what it reaches by each slice that was asked for. */
+/* From one state, threshold or arrival: what it reaches by each slice, entry or group that was asked for. */
 typedef struct tn_fan {
-    uint32_t *mark; /* [slices]: the group that the slice was last asked for */
-    size_t *first;  /* [slices + 1]: its part of `reached`, and how much */
+    uint32_t *mark; /* [slices and edges]: the turn in which it was last asked for */
+    size_t *first;  /* the same: its part of `reached`, and how much */
     size_t *count;
     tn_reached *reached;
     size_t used, room;
@@ -26,12 +29,16 @@ typedef struct tn_ways {
     size_t count, room;
 } tn_ways;
 
+/* A step as a whole, or one of its stages. */
+typedef enum tn_stage { STAGE_LEAVE, STAGE_ENTER, STAGE_ARRIVE, STAGE_WHOLE } tn_stage;
+
 typedef struct tn_houses_expansion {
     const tn_houses *houses;
     tn_houses_kind *kind;
-    uint32_t layer;
-    tn_numbering plans; /* of the layer */
-    tn_ways *ways;      /* [plans] */
+    tn_stage stage;
+    uint32_t layer, trays; /* of the kind's; before the step */
+    tn_numbering plans;    /* of the layer */
+    tn_ways *ways;         /* [plans] */
     tn_fan fan;
     tn_houses_edge_seen *seen;
     void *context;
@@ -39,13 +46,16 @@ typedef struct tn_houses_expansion {
 
 /* ---- ways of plans */
 
+/* Ways by slices of one entry, and of one group, follow one another: groups have one entry. */
 static int compare_ways(const void *a, const void *b)
 {
     const tn_houses_way *p = a, *q = b;
-    return p->slice != q->slice ? (p->slice > q->slice) - (p->slice < q->slice)
-           : p->plan != q->plan ? (p->plan > q->plan) - (p->plan < q->plan)
-           : p->tray != q->tray ? (p->tray > q->tray) - (p->tray < q->tray)
-                                : tn_house_gain_compare(&p->gain, &q->gain);
+    return p->entry != q->entry   ? (p->entry > q->entry) - (p->entry < q->entry)
+           : p->group != q->group ? (p->group > q->group) - (p->group < q->group)
+           : p->slice != q->slice ? (p->slice > q->slice) - (p->slice < q->slice)
+           : p->plan != q->plan   ? (p->plan > q->plan) - (p->plan < q->plan)
+           : p->tray != q->tray   ? (p->tray > q->tray) - (p->tray < q->tray)
+                                  : tn_house_gain_compare(&p->gain, &q->gain);
 }
 
 static void merge_ways(tn_ways *ways)
@@ -61,25 +71,36 @@ static void merge_ways(tn_ways *ways)
     ways->count = kept;
 }
 
+static tn_houses_way way_by(const tn_strip *strip, const tn_strip_choice *choice)
+{
+    uint32_t slice = strip->scouting ? strip->slices[choice->slice].plain : choice->slice;
+    return (tn_houses_way){.slice = slice,
+                           .entry = strip->slices[slice].entry,
+                           .group = strip->slices[slice].group,
+                           .times = choice->times};
+}
+
 static tn_status find_ways(tn_houses_expansion *e, uint32_t plan, tn_ways *ways, tn_error *error)
 {
     const tn_houses *h = e->houses;
     const tn_strip *strip = e->kind->strip;
-    for (tn_tray t = 0; e->layer < h->high && t < h->form->schema->tray_count; t++) {
+    for (tn_tray t = 0; e->trays < h->high && t < h->form->schema->tray_count; t++) {
         uint32_t next;
         tn_house_gain gain;
         const tn_strip_list *list = &strip->of_tray[t];
-        tn_status status = tn_houses_plan_next(h, e->layer, plan, t, &next, &gain, error);
+        tn_status status = tn_houses_plan_next(h, e->trays, plan, t, &next, &gain, error);
         if (status != TN_OK)
             return status;
-        if (list->count == 0 || !tn_houses_plan_lives(h, e->layer + 1, next))
+        if (list->count == 0 || !tn_houses_plan_lives(h, e->trays + 1, next))
             continue;
         if (!tn_array_reserve(&ways->items, &ways->room, ways->count, list->count, sizeof *ways->items))
             return tn_fail_memory(error);
         for (size_t i = 0; i < list->count; i++) {
-            uint32_t slice = list->items[i].slice;
-            ways->items[ways->count++] = (tn_houses_way){strip->scouting ? strip->slices[slice].plain : slice, next,
-                                                         list->items[i].times, gain, h->trays_matter ? t : 0};
+            tn_houses_way *way = &ways->items[ways->count++];
+            *way = way_by(strip, &list->items[i]);
+            way->plan = next;
+            way->gain = gain;
+            way->tray = h->trays_matter ? t : 0;
         }
     }
     if (ways->count > 0)
@@ -120,7 +141,7 @@ static tn_status keep_ends(tn_houses_expansion *e, size_t first, tn_error *error
     size_t kept = first;
     for (size_t i = first; status == TN_OK && i < fan->used; i++) {
         bool ends;
-        status = tn_strip_ends(e->kind->strip, e->layer + 1, fan->reached[i].state, &ends, error);
+        status = tn_strip_ends(e->kind->strip, e->trays + 1, fan->reached[i].state, &ends, error);
         fan->reached[kept] = fan->reached[i];
         kept += ends;
     }
@@ -128,16 +149,34 @@ static tn_status keep_ends(tn_houses_expansion *e, size_t first, tn_error *error
     return status;
 }
 
-/* Steps by a slice, if the group has not done so yet. */
-static tn_status ask(tn_houses_expansion *e, uint32_t group, uint32_t state, uint32_t slice, size_t at, tn_error *error)
+/* What a way goes by at this stage: the number of an edge, a group or a slice. */
+static uint32_t goes_by(const tn_houses_expansion *e, const tn_houses_way *way)
+{
+    return e->stage == STAGE_LEAVE ? way->entry : e->stage == STAGE_ENTER ? way->group : way->slice;
+}
+
+static tn_status step(tn_houses_expansion *e, uint32_t state, uint32_t by, tn_error *error)
+{
+    tn_strip *strip = e->kind->strip;
+    if (e->stage == STAGE_LEAVE)
+        return tn_strip_leave(strip, state, by, reach, &e->fan, error);
+    if (e->stage == STAGE_ENTER)
+        return tn_strip_enter(strip, e->trays, state, by, reach, &e->fan, error);
+    return e->stage == STAGE_ARRIVE ? tn_strip_arrive(strip, state, by, reach, &e->fan, error)
+                                    : tn_strip_step(strip, e->trays, state, by, reach, &e->fan, error);
+}
+
+/* Steps by a slice, an entry or a group, if that was not done in this turn. */
+static tn_status ask(tn_houses_expansion *e, uint32_t turn, uint32_t state, uint32_t by, size_t at, tn_error *error)
 {
     tn_fan *fan = &e->fan;
-    if (fan->mark[at] == group)
+    if (fan->mark[at] == turn)
         return TN_OK;
-    fan->mark[at] = group;
+    fan->mark[at] = turn;
     fan->first[at] = fan->used;
-    tn_status status = tn_strip_step(e->kind->strip, e->layer, state, slice, reach, fan, error);
-    if (status == TN_OK && slice != TN_STRIP_NONE && e->layer + 1 == e->houses->high)
+    tn_status status = step(e, state, by, error);
+    bool behind = by != TN_STRIP_NONE && e->stage >= STAGE_ARRIVE;
+    if (status == TN_OK && behind && e->trays + 1 == e->houses->high)
         status = keep_ends(e, fan->first[at], error);
     fan->count[at] = fan->used - fan->first[at];
     return status;
@@ -155,21 +194,69 @@ static tn_status show(const tn_houses_expansion *e, uint32_t from, const tn_hous
     return status;
 }
 
-static tn_status expand_node(tn_houses_expansion *e, uint32_t group, uint32_t node, bool end, tn_error *error)
+/* The first way that is not before this entry and group. */
+static size_t first_way(const tn_ways *ways, uint32_t entry, uint32_t group)
+{
+    size_t low = 0, high = ways->count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        const tn_houses_way *way = &ways->items[middle];
+        if (way->entry < entry || (way->entry == entry && way->group < group))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* The ways [*first, *end) by which the node can go on. */
+static void find_stretch(const tn_houses_expansion *e, const tn_ways *ways, uint32_t state, size_t *first, size_t *end)
+{
+    const tn_strip *strip = e->kind->strip;
+    *first = 0;
+    *end = ways->count;
+    if (e->stage == STAGE_ENTER) {
+        uint32_t entry = tn_strip_threshold_entry(strip, state);
+        *first = first_way(ways, entry, 0);
+        *end = first_way(ways, entry + 1, 0);
+    } else if (e->stage == STAGE_ARRIVE) {
+        uint32_t group = tn_strip_arrival_group(strip, state);
+        uint32_t entry = strip->slices[strip->stages.slices[group]].entry;
+        *first = first_way(ways, entry, group);
+        *end = first_way(ways, entry, group + 1);
+    }
+}
+
+static tn_status expand_end(tn_houses_expansion *e, uint32_t turn, uint32_t node, tn_error *error)
+{
+    uint64_t key = e->kind->layers[e->layer].nodes.keys[node];
+    uint32_t plan = (uint32_t)(key >> 32);
+    if (e->trays < e->houses->low || !tn_houses_plan_alive(e->houses, 0, plan))
+        return TN_OK;
+    const tn_houses_way way = {.plan = plan, .times = 1, .gain = tn_houses_plan_rest(e->houses, plan)};
+    tn_status status = ask(e, turn, (uint32_t)key, TN_STRIP_NONE, 0, error);
+    return status == TN_OK ? show(e, node, &way, 0, error) : status;
+}
+
+static tn_status expand_node(tn_houses_expansion *e, uint32_t turn, uint32_t node, tn_error *error)
 {
     uint64_t key = e->kind->layers[e->layer].nodes.keys[node];
     uint32_t state = (uint32_t)key, plan = (uint32_t)(key >> 32);
-    const tn_ways *ways = end ? NULL : &e->ways[tn_number_find(&e->plans, plan)];
+    const tn_ways *ways = &e->ways[tn_number_find(&e->plans, plan)];
+    bool half = e->stage == STAGE_LEAVE || e->stage == STAGE_ENTER; /* the tray is not taken yet */
+    size_t first, end;
     tn_status status = TN_OK;
-    if (end && e->layer >= e->houses->low && tn_houses_plan_alive(e->houses, 0, plan)) {
-        const tn_houses_way way = {.plan = plan, .times = 1, .gain = tn_houses_plan_rest(e->houses, plan)};
-        status = ask(e, group, state, TN_STRIP_NONE, 0, error);
-        return status == TN_OK ? show(e, node, &way, 0, error) : status;
-    }
-    for (size_t i = 0; ways && status == TN_OK && i < ways->count; i++) {
-        status = ask(e, group, state, ways->items[i].slice, ways->items[i].slice, error);
+    find_stretch(e, ways, state, &first, &end);
+    for (size_t i = first; status == TN_OK && i < end; i++) {
+        tn_houses_way way = ways->items[i];
+        uint32_t by = goes_by(e, &way);
+        if (half && i > first && by == goes_by(e, &ways->items[i - 1]))
+            continue;
+        if (half)
+            way = (tn_houses_way){.plan = plan, .times = 1};
+        status = ask(e, turn, state, by, by, error);
         if (status == TN_OK)
-            status = show(e, node, &ways->items[i], ways->items[i].slice, error);
+            status = show(e, node, &way, by, error);
     }
     return status;
 }
@@ -189,45 +276,51 @@ static int compare_ordered(const void *a, const void *b)
                                   : (p->node > q->node) - (p->node < q->node);
 }
 
-/* States that cross planes alike follow one another. */
-static tn_ordered *order_nodes(const tn_strip *strip, const tn_numbering *nodes)
+/* What nodes are gone through by: states that cross planes alike follow one another. */
+static tn_status find_place(const tn_houses_expansion *e, tn_interner *crossing, uint32_t state, uint32_t *place,
+                            tn_error *error)
 {
-    tn_ordered *order = malloc(((size_t)nodes->count + 1) * sizeof *order);
+    const tn_strip *strip = e->kind->strip;
+    size_t size;
+    *place = 0;
+    if (e->stage == STAGE_ENTER || e->stage == STAGE_ARRIVE)
+        return TN_OK;
+    const uint32_t *words = state == TN_STRIP_NONE ? &state : tn_interned(&strip->states, state, &size);
+    *place = tn_intern(crossing, words, state == TN_STRIP_NONE ? 1 : tn_strip_waiting_word(strip) - 1);
+    return *place != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status order_nodes(const tn_houses_expansion *e, tn_ordered **order, tn_error *error)
+{
+    const tn_numbering *nodes = &e->kind->layers[e->layer].nodes;
     tn_interner crossing = {0};
-    bool ok = order != NULL;
-    for (uint32_t i = 0; ok && i < nodes->count; i++) {
-        size_t size;
-        uint32_t state = (uint32_t)nodes->keys[i];
-        const uint32_t *words = state == TN_STRIP_NONE ? &state : tn_interned(&strip->states, state, &size);
-        uint32_t place = tn_intern(&crossing, words, state == TN_STRIP_NONE ? 1 : tn_strip_waiting_word(strip) - 1);
-        order[i] = (tn_ordered){place, state, i};
-        ok = place != UINT32_MAX;
+    *order = malloc(((size_t)nodes->count + 1) * sizeof **order);
+    tn_status status = *order ? TN_OK : tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < nodes->count; i++) {
+        tn_ordered *o = &(*order)[i];
+        *o = (tn_ordered){.state = (uint32_t)nodes->keys[i], .node = i};
+        status = find_place(e, &crossing, o->state, &o->order, error);
     }
     tn_interner_clear(&crossing);
-    if (ok && nodes->count > 0)
-        qsort(order, nodes->count, sizeof *order, compare_ordered);
-    if (ok)
-        return order;
-    free(order);
-    return NULL;
+    if (status == TN_OK && nodes->count > 0)
+        qsort(*order, nodes->count, sizeof **order, compare_ordered);
+    return status;
 }
 
 static tn_status expand_nodes(tn_houses_expansion *e, bool end, tn_error *error)
 {
     const tn_numbering *nodes = &e->kind->layers[e->layer].nodes;
-    tn_ordered *order = order_nodes(e->kind->strip, nodes);
-    if (!order)
-        return tn_fail_memory(error);
-    tn_status status = TN_OK;
-    uint32_t group = 0;
+    tn_ordered *order;
+    tn_status status = order_nodes(e, &order, error);
+    uint32_t turn = 0;
     for (uint32_t i = 0; status == TN_OK && i < nodes->count; i++) {
         if (i == 0 || order[i].state != order[i - 1].state) {
-            group++;
+            turn++;
             e->fan.used = 0;
             status = tn_watch_check(e->kind->strip->watch, error);
         }
         if (status == TN_OK)
-            status = expand_node(e, group, order[i].node, end, error);
+            status = end ? expand_end(e, turn, order[i].node, error) : expand_node(e, turn, order[i].node, error);
     }
     free(order);
     return status;
@@ -236,11 +329,18 @@ static tn_status expand_nodes(tn_houses_expansion *e, bool end, tn_error *error)
 tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end,
                            tn_houses_edge_seen *seen, void *context, tn_error *error)
 {
-    size_t slices = (size_t)kind->strip->slice_keys.count + 1;
-    tn_houses_expansion e = {.houses = houses, .kind = kind, .layer = layer, .seen = seen, .context = context};
-    e.fan.mark = calloc(slices, sizeof *e.fan.mark);
-    e.fan.first = malloc(slices * sizeof *e.fan.first);
-    e.fan.count = malloc(slices * sizeof *e.fan.count);
+    size_t ways = (size_t)kind->strip->slice_keys.count + kind->strip->edge_keys.count + 1; /* of each stage */
+    uint32_t stages = tn_houses_stages(houses, kind);
+    tn_houses_expansion e = {.houses = houses,
+                             .kind = kind,
+                             .stage = end || stages == 1 ? STAGE_WHOLE : (tn_stage)(layer % stages),
+                             .layer = layer,
+                             .trays = layer / stages,
+                             .seen = seen,
+                             .context = context};
+    e.fan.mark = calloc(ways, sizeof *e.fan.mark);
+    e.fan.first = malloc(ways * sizeof *e.fan.first);
+    e.fan.count = malloc(ways * sizeof *e.fan.count);
     tn_status status = e.fan.mark && e.fan.first && e.fan.count ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK && !end)
         status = find_all_ways(&e, error);

@@ -20,16 +20,22 @@ static tn_status too_many(const tn_houses *h, const tn_houses_kind *kind, tn_err
     return TN_LIMIT;
 }
 
+/* nodes: of all layers of states so far, and of the next layer. */
+static bool too_large(const tn_houses *h, const tn_houses_kind *kind, uint64_t nodes)
+{
+    return nodes > h->max_states || kind->strip->states.count > h->max_states;
+}
+
 /* ---- counting forwards */
 
 /* counts: two numbers a node, houses and those without their tiles. */
 typedef struct tn_forward {
     const tn_houses *houses;
     tn_houses_kind *kind;
-    uint32_t layer;
+    uint32_t layer, stages;
     mpz_t *counts, *next;
     size_t count, next_count, next_room; /* in numbers */
-    uint64_t nodes;                      /* of all layers */
+    uint64_t nodes;                      /* of all layers of states */
     mpz_t one;
 } tn_forward;
 
@@ -41,7 +47,7 @@ static tn_status lead_on(void *context, const tn_houses_edge *edge, tn_error *er
         return tn_fail_memory(error);
     for (; f->next_count < 2 * ((size_t)to + 1); f->next_count++)
         mpz_init(f->next[f->next_count]);
-    if (f->nodes + to > f->houses->max_states || f->kind->strip->states.count > f->houses->max_states)
+    if (too_large(f->houses, f->kind, f->nodes + to))
         return too_many(f->houses, f->kind, error);
     const uint64_t times[2] = {edge->times, edge->faced};
     for (size_t i = 0; i < 2; i++) {
@@ -55,7 +61,8 @@ static tn_status come_to_end(void *context, const tn_houses_edge *edge, tn_error
 {
     tn_forward *f = context;
     (void)error;
-    mpz_addmul_ui(f->kind->houses[f->layer - f->houses->low], f->counts[2 * (size_t)edge->from], edge->times);
+    mpz_addmul_ui(f->kind->houses[f->layer / f->stages - f->houses->low], f->counts[2 * (size_t)edge->from],
+                  edge->times);
     mpz_addmul_ui(f->kind->faced, f->counts[2 * (size_t)edge->from + 1], edge->faced);
     return TN_OK;
 }
@@ -63,11 +70,12 @@ static tn_status come_to_end(void *context, const tn_houses_edge *edge, tn_error
 static tn_status count_layer(tn_forward *f, tn_error *error)
 {
     const tn_houses *h = f->houses;
+    bool states = f->layer % f->stages == 0;
     tn_status status = TN_OK;
-    if (f->layer >= h->low)
+    if (states && f->layer >= h->low * f->stages)
         status = tn_houses_expand(h, f->kind, f->layer, true, come_to_end, f, error);
-    f->nodes += f->kind->layers[f->layer].nodes.count;
-    if (status == TN_OK && f->layer < h->high)
+    f->nodes += states ? f->kind->layers[f->layer].nodes.count : 0;
+    if (status == TN_OK && f->layer < h->high * f->stages)
         status = tn_houses_expand(h, f->kind, f->layer, false, lead_on, f, error);
     tn_integers_free(f->counts, f->count);
     f->counts = f->next;
@@ -79,9 +87,9 @@ static tn_status count_layer(tn_forward *f, tn_error *error)
 
 static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
 {
-    tn_forward f = {.houses = h, .kind = kind, .count = 2};
+    tn_forward f = {.houses = h, .kind = kind, .stages = tn_houses_stages(h, kind), .count = 2};
     tn_status status = TN_OK;
-    kind->layers = calloc((size_t)h->high + 1, sizeof *kind->layers);
+    kind->layers = calloc((size_t)h->high * f.stages + 1, sizeof *kind->layers);
     kind->houses = tn_integers_new(tn_houses_lengths(h));
     f.counts = tn_integers_new(f.count);
     if (!kind->layers || !kind->houses || !f.counts || tn_number(&kind->layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX) {
@@ -91,7 +99,7 @@ static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
     mpz_init(f.one);
     mpz_set_ui(f.counts[0], 1);
     mpz_set_ui(f.counts[1], 1);
-    for (f.layer = 0; status == TN_OK && f.layer <= h->high; f.layer++)
+    for (f.layer = 0; status == TN_OK && f.layer <= h->high * f.stages; f.layer++)
         status = count_layer(&f, error);
     tn_integers_free(f.counts, f.count);
     mpz_clear(f.one);
@@ -127,7 +135,7 @@ static tn_status pass_end(void *context, const tn_houses_edge *edge, tn_error *e
 
 static void clear_layers(const tn_houses *h, tn_houses_kind *kind)
 {
-    for (uint32_t k = 0; kind->layers && k <= h->high; k++) {
+    for (uint32_t k = 0; kind->layers && k <= h->high * tn_houses_stages(h, kind); k++) {
         size_t lists = (size_t)kind->layers[k].nodes.count * tn_houses_lengths(h);
         tn_integers_free(kind->layers[k].ahead, lists);
         for (size_t n = 0; kind->layers[k].best && n < lists; n++)
@@ -143,14 +151,15 @@ static void clear_layers(const tn_houses *h, tn_houses_kind *kind)
 static tn_status walk(const tn_houses *h, tn_houses_kind *kind, bool *any, tn_error *error)
 {
     tn_scout s = {.houses = h, .kind = kind};
+    uint32_t stages = tn_houses_stages(h, kind);
     tn_status status = TN_OK;
-    kind->layers = calloc((size_t)h->high + 1, sizeof *kind->layers);
+    kind->layers = calloc((size_t)h->high * stages + 1, sizeof *kind->layers);
     if (!kind->layers || tn_number(&kind->layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX)
         return tn_fail_memory(error);
-    for (; status == TN_OK && s.layer <= h->high; s.layer++) {
-        if (s.layer >= h->low)
+    for (; status == TN_OK && s.layer <= h->high * stages; s.layer++) {
+        if (s.layer % stages == 0 && s.layer >= h->low * stages)
             status = tn_houses_expand(h, kind, s.layer, true, pass_end, &s, error);
-        if (status == TN_OK && s.layer < h->high)
+        if (status == TN_OK && s.layer < h->high * stages)
             status = tn_houses_expand(h, kind, s.layer, false, come_by, &s, error);
     }
     clear_layers(h, kind);
@@ -371,6 +380,6 @@ uint64_t tn_houses_states(const tn_houses *h)
     uint64_t states = 0;
     for (size_t i = 0; i < h->kind_count; i++)
         for (uint32_t k = 0; k <= h->high; k++)
-            states += h->kinds[i].layers[k].nodes.count;
+            states += h->kinds[i].layers[k * tn_houses_stages(h, &h->kinds[i])].nodes.count;
     return states;
 }

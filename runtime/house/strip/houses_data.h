@@ -42,7 +42,8 @@ typedef struct tn_houses_plan_layer {
     uint32_t *alike; /* [states]: the first from which the same goes on */
 } tn_houses_plan_layer;
 
-/* The nodes after so many trays: {state of the library of plans, state of the strip}. */
+/* The nodes after so many trays, or within a step: {state of the library of plans, state of the strip, or threshold, or
+ * arrival}. */
 typedef struct tn_houses_layer {
     tn_numbering nodes; /* plan state << 32 | state */
     mpz_t *ahead; /* [nodes][lengths]: houses on plans of each length that go on from there; NULL: not asked for */
@@ -51,7 +52,7 @@ typedef struct tn_houses_layer {
 
 /* A way on from a plan state: a slice, the plan state behind it, how many choices of trays and of their insides. */
 typedef struct tn_houses_way {
-    uint32_t slice, plan;
+    uint32_t slice, entry, group, plan; /* entry, group: of the slice */
     uint64_t times;
     tn_house_gain gain; /* what the tray adds to the plan's part of the measures */
     tn_tray tray;       /* 0 where it does not matter which one it is */
@@ -62,7 +63,7 @@ typedef struct tn_houses_kind {
     tn_section_key key;
     uint32_t sections; /* how many */
     tn_strip *strip;
-    tn_houses_layer *layers; /* [max + 1] */
+    tn_houses_layer *layers; /* [high * stages + 1] */
     mpz_t *houses;           /* [lengths], of one section */
     mpz_t faced;
     tn_value_counts spread; /* houses of one section, by the measures */
@@ -95,6 +96,13 @@ struct tn_houses {
 /* The kind that a section is of, NULL where no such is known. */
 tn_houses_kind *tn_houses_kind_of(const tn_houses *houses, const tn_house *section);
 
+/* Layers from one tray to the next: 3, or 1 where a step is not divided, as something is added up on the way or trays
+ * matter. Layers that are multiples of it are of states after trays. */
+static inline uint32_t tn_houses_stages(const tn_houses *houses, const tn_houses_kind *kind)
+{
+    return tn_strip_has_stages(kind->strip) && !houses->trays_matter ? 3 : 1;
+}
+
 /* A step from a node: `from` among those of the layer. */
 typedef struct tn_houses_edge {
     uint32_t from, plan, state;
@@ -104,7 +112,8 @@ typedef struct tn_houses_edge {
 } tn_houses_edge;
 typedef tn_status tn_houses_edge_seen(void *context, const tn_houses_edge *edge, tn_error *error);
 
-/* Shows all steps from the nodes of a layer to plans of the library; with `end`, those to the end of the row. */
+/* Shows all steps from the nodes of a layer to plans of the library; with `end`, from a layer of states, those to the
+ * end of the row. `state` of a step is what the next layer is of. */
 tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end,
                            tn_houses_edge_seen *seen, void *context, tn_error *error);
 

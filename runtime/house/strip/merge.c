@@ -197,6 +197,7 @@ static bool find_sides(tn_strip *strip)
 void tn_strip_forget_states(tn_strip *strip)
 {
     tn_interner_clear(&strip->states);
+    tn_strip_stages_forget(&strip->stages);
     free(strip->ends);
     strip->ends = NULL;
     strip->end_room = 0;

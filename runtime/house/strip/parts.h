@@ -193,6 +193,11 @@ tn_status tn_strip_cross(tn_strip *strip, const uint32_t *state, uint32_t slice,
                          const uint32_t **crossed, tn_error *error);
 void tn_strip_row_clear(tn_strip_row *row);
 
+/* What comes of one outcome alone, before a slice: so many words, to be filled in. state: its words, of which the edge
+ * is `left`; or NULL. */
+tn_status tn_strip_cross_outcome(tn_strip *strip, const uint32_t *state, uint32_t left, uint32_t slice,
+                                 uint32_t outcome, uint32_t *crossed, tn_error *error);
+
 /* ---- compared.c: what clauses compare with 0, which is known at the end of the row */
 
 /* Does a clause compare anything? Before the units are known it cannot be said of what. */
@@ -241,6 +246,40 @@ tn_status tn_strip_step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_
 /* The same, with these outcomes (in the order of their numbers) at the plane before the slice alone. */
 tn_status tn_strip_step_by(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, const tn_strip_list *plane,
                            tn_strip_seen *seen, void *context, tn_error *error);
+
+/* Tiles that waited for an outcome of the plane at their right: how many arrangements there are; after a slice, what
+ * waits, and of how many arrangements that is one. TN_STRIP_NONE: a cell has no tile. Without prices. */
+typedef struct tn_strip_waiting {
+    uint32_t number;
+    uint64_t times;
+} tn_strip_waiting;
+tn_status tn_strip_end_waiting(tn_strip *strip, uint32_t waiting, uint32_t left_fits, uint64_t *times, tn_error *error);
+tn_status tn_strip_find_waiting(tn_strip *strip, uint32_t slice, uint32_t right_fits, tn_strip_waiting *waiting,
+                                tn_error *error);
+
+/* ---- stage.c: a step in three stages; nothing is added up, and tiles have no prices */
+
+bool tn_strip_has_stages(const tn_strip *strip);
+
+/* From a state (TN_STRIP_NONE before the first slice) over the plane to thresholds of an entry; from a threshold into
+ * slices of a group, which has its entry, to an arrival; from an arrival to the state behind one of these slices. Shown
+ * to `seen` as by tn_strip_step; trays: before the slice. */
+tn_status tn_strip_leave(tn_strip *strip, uint32_t state, uint32_t entry, tn_strip_seen *seen, void *context,
+                         tn_error *error);
+tn_status tn_strip_enter(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t group, tn_strip_seen *seen,
+                         void *context, tn_error *error);
+tn_status tn_strip_arrive(tn_strip *strip, uint32_t arrival, uint32_t slice, tn_strip_seen *seen, void *context,
+                          tn_error *error);
+
+/* The entry of a threshold, the group of an arrival. */
+uint32_t tn_strip_threshold_entry(const tn_strip *strip, uint32_t threshold);
+uint32_t tn_strip_arrival_group(const tn_strip *strip, uint32_t arrival);
+
+void tn_strip_stages_forget(tn_strip_stages *stages); /* states are numbered anew; groups stay */
+void tn_strip_stages_clear(tn_strip_stages *stages);
+
+/* Finds the group of a slice. False: out of memory. */
+bool tn_strip_find_group(tn_strip *strip, uint32_t slice);
 
 /* May the row end in the state, after so many trays? */
 tn_status tn_strip_ends(tn_strip *strip, uint32_t trays, uint32_t state, bool *ends, tn_error *error);

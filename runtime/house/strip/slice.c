@@ -138,7 +138,7 @@ static bool keep_slice(tn_strip *s, uint32_t slice)
         parts->gains[k] = (int64_t)tn_both(gains + 2 * (size_t)k);
     parts->cost = s->prices.asked ? gains[2 * (size_t)s->added->count] : 0;
     return parts->bases != UINT32_MAX && parts->tiles != UINT32_MAX && parts->inside != UINT32_MAX &&
-           parts->met != UINT32_MAX && find_plain(s, slice);
+           parts->met != UINT32_MAX && find_plain(s, slice) && tn_strip_find_group(s, slice);
 }
 
 /* Notes that cells with these functions can be the slice. */

@@ -5,21 +5,14 @@
 #include "runtime/base/array.h"
 #include "runtime/house/strip/parts.h"
 
-/* What of the right slice's tiles waits for its right side, by number; TN_STRIP_NONE: a cell has none, whatever stands
- * there. The numbers of its tiles are `times` those that wait. */
-typedef struct tn_waiting {
-    uint32_t number;
-    uint64_t times;
-} tn_waiting;
-
 typedef struct tn_stepping {
     tn_strip *strip;
     const uint32_t *state; /* words; NULL: before the first slice */
     uint32_t slice;        /* TN_STRIP_NONE: after the last */
     uint32_t trays;        /* before the slice */
     const tn_strip_outcome *outcome;
-    const uint32_t *crossed; /* words: what came of rooms and walks at the outcome */
-    tn_waiting waiting;      /* the same */
+    const uint32_t *crossed;  /* words: what came of rooms and walks at the outcome */
+    tn_strip_waiting waiting; /* the same */
 } tn_stepping;
 
 /* ---- tiles */
@@ -56,14 +49,29 @@ static tn_status multiply_tiles(tn_strip *strip, uint32_t waiting, uint32_t side
     return status;
 }
 
-/* The same. How many there are is worked out once for each combination; where tiles have prices, the sums would take
- * too much room for that. */
+/* How many there are is worked out once for each combination; where tiles have prices, the sums would take too much
+ * room for that. */
+tn_status tn_strip_end_waiting(tn_strip *strip, uint32_t waiting, uint32_t left_fits, uint64_t *times, tn_error *error)
+{
+    tn_strip_prices *p = &strip->prices;
+    uint32_t *result;
+    bool met;
+    tn_status status = tn_strip_known_at(&strip->tiles, waiting, left_fits, 2, &result, &met, error);
+    if (status == TN_OK && !met) {
+        p->sums[0] = (tn_strip_sum){0, 1};
+        p->sum_count = 1;
+        status = multiply_tiles(strip, waiting, left_fits, error);
+        result[0] = tn_low(p->sums[0].times);
+        result[1] = tn_high(p->sums[0].times);
+    }
+    *times = status == TN_OK ? tn_both(result) : 0;
+    return status;
+}
+
 static tn_status count_tiles(const tn_stepping *s, tn_error *error)
 {
     tn_strip *strip = s->strip;
     tn_strip_prices *p = &strip->prices;
-    uint32_t *result;
-    bool met;
     p->sums[0] = (tn_strip_sum){0, 1};
     p->sum_count = 1;
     if (!s->state || strip->scouting)
@@ -71,25 +79,22 @@ static tn_status count_tiles(const tn_stepping *s, tn_error *error)
     uint32_t waiting = s->state[tn_strip_waiting_word(strip)], sides = s->outcome->left_fits;
     if (p->items)
         return multiply_tiles(strip, waiting, sides, error);
-    tn_status status = tn_strip_known_at(&strip->tiles, waiting, sides, 2, &result, &met, error);
-    if (status == TN_OK && !met) {
-        status = multiply_tiles(strip, waiting, sides, error);
-        result[0] = tn_low(p->sums[0].times);
-        result[1] = tn_high(p->sums[0].times);
-    }
-    p->sums[0].times = status == TN_OK ? tn_both(result) : 0;
-    p->sum_count = p->sums[0].times > 0;
+    uint64_t times;
+    tn_status status = tn_strip_end_waiting(strip, waiting, sides, &times, error);
+    p->sums[0] = (tn_strip_sum){0, times};
+    p->sum_count = times > 0;
     return status;
 }
 
-static tn_status list_waiting(tn_strip *strip, uint32_t bases, uint32_t sides, tn_waiting *waiting, tn_error *error)
+static tn_status list_waiting(tn_strip *strip, uint32_t bases, uint32_t sides, tn_strip_waiting *waiting,
+                              tn_error *error)
 {
     size_t cells;
     tn_key *key = &strip->joined;
     const uint32_t *base = tn_interned(&strip->fit_lists, bases, &cells);
     const uint32_t *fits = tn_interned(&strip->fit_lists, sides, &cells);
     key->size = 0;
-    *waiting = (tn_waiting){TN_STRIP_NONE, 1};
+    *waiting = (tn_strip_waiting){TN_STRIP_NONE, 1};
     for (uint32_t i = 0; i < cells; i++) {
         tn_strip_wait wait;
         if (base[i] == 0)
@@ -107,22 +112,22 @@ static tn_status list_waiting(tn_strip *strip, uint32_t bases, uint32_t sides, t
 }
 
 /* The tiles of the row's last cells, where a row ends, wait for nothing. */
-static tn_status find_waiting(const tn_stepping *s, tn_waiting *waiting, tn_error *error)
+tn_status tn_strip_find_waiting(tn_strip *strip, uint32_t slice, uint32_t right_fits, tn_strip_waiting *waiting,
+                                tn_error *error)
 {
-    tn_strip *strip = s->strip;
     bool met;
-    *waiting = (tn_waiting){0, 1};
-    if (strip->scouting || s->slice == TN_STRIP_NONE)
+    *waiting = (tn_strip_waiting){0, 1};
+    if (strip->scouting || slice == TN_STRIP_NONE)
         return TN_OK;
-    uint32_t *result, bases = strip->slices[s->slice].tiles, sides = s->outcome->right_fits;
-    tn_status status = tn_strip_known_at(&strip->waits, bases, sides, 3, &result, &met, error);
+    uint32_t *result, bases = strip->slices[slice].tiles;
+    tn_status status = tn_strip_known_at(&strip->waits, bases, right_fits, 3, &result, &met, error);
     if (status == TN_OK && !met) {
-        status = list_waiting(strip, bases, sides, waiting, error);
+        status = list_waiting(strip, bases, right_fits, waiting, error);
         memcpy(result, (const uint32_t[]){waiting->number, tn_low(waiting->times), tn_high(waiting->times)},
                3 * sizeof *result);
     }
     if (status == TN_OK)
-        *waiting = (tn_waiting){result[0], tn_both(result + 1)};
+        *waiting = (tn_strip_waiting){result[0], tn_both(result + 1)};
     return status;
 }
 
@@ -299,14 +304,14 @@ static tn_status try_outcome(tn_stepping *s, const tn_strip_choice *choice, uint
         return status;
     const tn_showing to = {seen, context, choice->times, gain_of(s)};
     if (counts_totals(strip)) {
-        status = find_waiting(s, &s->waiting, error);
+        status = tn_strip_find_waiting(strip, s->slice, s->outcome->right_fits, &s->waiting, error);
         return status == TN_OK && s->waiting.number != TN_STRIP_NONE ? try_totals(s, &to, between, error) : status;
     }
     bool guesses = tn_strip_compares(strip) && s->slice == TN_STRIP_NONE;
     status = guesses ? guess_end(s, between, &read, error)
                      : tn_strip_read_plane(strip, s->trays, between, s->crossed[CROSSED_VALUES], &read, error);
     if (status == TN_OK && read != TN_STRIP_NONE)
-        status = find_waiting(s, &s->waiting, error);
+        status = tn_strip_find_waiting(strip, s->slice, s->outcome->right_fits, &s->waiting, error);
     if (status != TN_OK || read == TN_STRIP_NONE || s->waiting.number == TN_STRIP_NONE)
         return status;
     if (s->slice != TN_STRIP_NONE)
