@@ -84,6 +84,7 @@ tn_status tn_shard_record_write(const tn_shard_set *set, uint32_t shard, const t
     if (status == TN_OK)
         status = tn_output_open(beside, &output, error);
     if (status == TN_OK) {
+        output.derived = true;
         fwrite(text.data, 1, text.size, output.stream);
         status = tn_output_commit(&output, error);
     }

@@ -339,7 +339,7 @@ tn_status tn_output_commit(tn_output *output, tn_error *error)
         tn_output_discard(output);
         return status;
     }
-    if (output->replaces)
+    if (output->replaces && !output->derived)
         sync_folder(output->target);
     forget(output);
     return TN_OK;

@@ -34,8 +34,9 @@ typedef struct tn_output {
     int file;         /* which the stream writes to */
     const char *path; /* the target, borrowed: must outlive the output; "-" is standard output */
     bool replaces;    /* a file, put in the target's place by the commit; others are written to directly */
-    char *target;     /* owned; what `path` names, links followed; NULL for standard output */
-    char *temporary;  /* owned; the file's name till then; NULL while it has none */
+    bool derived; /* set by the caller: made again where it is missing, so its name need not be on the disk at once */
+    char *target; /* owned; what `path` names, links followed; NULL for standard output */
+    char *temporary; /* owned; the file's name till then; NULL while it has none */
 } tn_output;
 
 /* Opens a temporary file in the folder of `path`: one without a name, where the system has that, so that nothing is
