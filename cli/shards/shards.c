@@ -76,8 +76,14 @@ static bool takes_operands(tn_job *job, const shards_part *part)
         return true;
     bool makes = strcmp(part->name, "new") == 0;
     tn_diagnostic *d = tn_job_usage(job, "`tartan shards %s` takes one %s", part->name, makes ? "rule file" : "set");
-    if (makes && count > 2)
+    if (count < 2)
+        tn_help(tn_job_diagnostics(job), d, "name it: tartan shards %s %s", part->name,
+                makes ? "FILE -o SET --shards N" : "SET");
+    else if (makes)
         tn_help(tn_job_diagnostics(job), d, "files of plans come behind --input, with --task match or --task prune");
+    else
+        tn_help(tn_job_diagnostics(job), d, "run it once for each: tartan shards %s %.200s", part->name,
+                job->settings->operands.items[1]);
     return false;
 }
 
@@ -168,7 +174,7 @@ const tn_command tn_command_shards = {
     .settings_size = sizeof(SETTINGS),
     .ask_less = "give fewer trays with --trays",
     .operands = "new, run, status, check, cat or merge, and a rule file or a set",
-    .operands_min = 2,
+    .operands_min = 1,
     .operands_max = SIZE_MAX,
     .run = run,
 };

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "driver/open/missing.h"
 #include "driver/open/suggest_file.h"
 #include "driver/parquet/parquet.h"
 #include "driver/shards/record.h"
@@ -169,11 +170,13 @@ static bool is_unchanged(const tn_shard_input *input)
            known.st_mtim.tv_sec == input->seconds && known.st_mtim.tv_nsec == input->nanoseconds;
 }
 
+static const char put_back[] = "put the file back, with its time, or make a new set by `tartan shards new`";
+
 static tn_status refuse_changed(const tn_shard_set *set, const tn_shard_input *input, tn_error *error)
 {
     tn_fail(error, TN_INVALID, E_SHARD_INPUT_CHANGED, "%.300s is not as it was when %.100s was made", input->path,
             set->folder);
-    tn_error_help(error, "put the file back, with its time, or make a new set by `tartan shards new`");
+    tn_error_help(error, "%s", put_back);
     return TN_INVALID;
 }
 
@@ -185,6 +188,8 @@ static tn_status open_file(const tn_shard_set *set, const tn_schema *schema, con
     tn_status status = tn_plan_reader_open(schema, input->path, &options, reader, error);
     if (status != TN_IO && !is_unchanged(input))
         status = refuse_changed(set, input, error);
+    else if (status == TN_IO && !tn_path_exists(input->path))
+        tn_error_help(error, "%s", put_back);
     return status;
 }
 

@@ -277,10 +277,12 @@ tn_status tn_shard_set_read(const char *folder, tn_shard_set *set, tn_error *err
     return status;
 }
 
+static const char another_copy[] = "get another copy of the set, or make a new one by `tartan shards new`";
+
 static tn_status refuse_module(const tn_shard_set *set, const char *what, tn_error *error)
 {
     tn_fail(error, TN_INVALID, E_SHARD_MODULE, "%.200s/%s", set->folder, what);
-    tn_error_help(error, "get another copy of the set, or make a new one by `tartan shards new`");
+    tn_error_help(error, "%s", another_copy);
     return TN_INVALID;
 }
 
@@ -290,6 +292,8 @@ tn_status tn_shard_set_module_same(const tn_shard_set *set, tn_error *error)
     uint64_t size;
     char *path = tn_shard_set_path(set, TN_MODULE_NAME);
     tn_status status = path ? tn_hash_file(path, hash, &size, error) : tn_fail_memory(error);
+    if (status == TN_IO && path && !tn_path_exists(path))
+        tn_error_help(error, "%s", another_copy);
     free(path);
     if (status != TN_OK || strcmp(hash, set->module_hash) == 0)
         return status;
