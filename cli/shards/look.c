@@ -33,9 +33,13 @@ typedef struct counted {
 static void show_claim(const tn_shard_set *set, uint32_t shard, const tn_claimant *by, bool stale, FILE *out)
 {
     fprintf(out, "  %s: ", tn_shard_name_of(set, shard).text);
-    tn_write_clean(out, by->host, strlen(by->host));
-    fprintf(out, " (process %lld) since ", (long long)by->process);
-    tn_write_clean(out, by->since, strlen(by->since));
+    if (by->process == 0) { /* killed while it made the claim, or just making it */
+        fprintf(out, "a worker that has not said who it is");
+    } else {
+        tn_write_clean(out, by->host, strlen(by->host));
+        fprintf(out, " (process %lld) since ", (long long)by->process);
+        tn_write_clean(out, by->since, strlen(by->since));
+    }
     fprintf(out, ", touched %.0f s ago%s\n", fmax(by->age, 0), stale ? ": stale" : "");
 }
 

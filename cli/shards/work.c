@@ -55,7 +55,9 @@ static bool choose_time(tn_job *job, tn_shards_job *work)
 
 static void tell(tn_job *job, const tn_shards_done *done)
 {
-    const char *plural = done->written == 1 ? "" : "s";
+    const tn_shards_settings *settings = tn_shards_settings_of(job);
+    const char *plural = done->written == 1 ? "" : "s",
+               *asked = settings->part || settings->shard.given ? " that were asked for" : "";
     if (done->unread > 0)
         tn_job_status(job, TN_INVALID);
     job->said = true; /* also on ranks that leave it to the first */
@@ -70,9 +72,9 @@ static void tell(tn_job *job, const tn_shards_done *done)
                     : done->out_of_time ? ": time is up"
                                         : "");
     else if (done->written == 0)
-        tn_job_note(job, "all shards are there already");
+        tn_job_note(job, "all shards%s are there already", asked);
     else
-        tn_job_note(job, "%u shard%s written; all are there", done->written, plural);
+        tn_job_note(job, "%u shard%s written; all%s are there", done->written, plural, asked);
     if (done->unread > 0)
         tn_job_note(job, "%" PRIu64 " plan%s could not be read; `tartan shards status` lists them", done->unread,
                     done->unread == 1 ? "" : "s");

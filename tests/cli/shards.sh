@@ -143,6 +143,7 @@ for when in '-1 hour' '+1 hour'; do # of a machine with another clock
 done
 drop
 echo '{"host": "else\u001bwhere", "boot": "b", "space": "s", "process": 17, "since": "2026-01-01T00:00:00Z"}' >"$claim"
+golden part_done "tartan shards run $scratch/set --shard 1; tartan shards run $scratch/set --part 2/3"
 golden claimed "tartan shards status $scratch/set | sed 's/touched [0-9]* s/touched N s/'"
 exits 0 "$TARTAN" shards run "$scratch/set" --for 0.2 # does not wait for the other longer than that
 grep -q '1 to go: time is up' "$scratch/err" || fail "--for: $(cat "$scratch/err")"
@@ -150,6 +151,7 @@ exits 0 timeout 60 "$TARTAN" shards run "$scratch/set" --stale 0.3s # garbled or
 cat_is set
 drop
 printf 'no claim' >"$claim"
+golden unsaid "tartan shards status $scratch/set | sed 's/touched [0-9]* s/touched N s/'"
 exits 0 timeout 60 "$TARTAN" shards run "$scratch/set" --stale 0.3s
 cat_is set
 drop
