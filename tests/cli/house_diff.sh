@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Two versions of a library of houses: what is removed, added and kept is what the lists of all houses say.
+# Slow under sanitizers.
 name=house_diff
 . "$(dirname "$0")/golden.bash"
 stdlib=$(cd "$here/../../stdlib" && pwd)

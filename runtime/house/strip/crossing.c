@@ -162,12 +162,12 @@ static tn_status cross_outcome(tn_passing *p, tn_error *error)
     return status == TN_OK ? find_values(p, closed, apart, &p->crossed[CROSSED_VALUES], error) : status;
 }
 
-static tn_passing begin_passing(tn_strip *strip, const uint32_t *state, uint32_t left, uint32_t slice)
+static tn_passing begin_passing(tn_strip *strip, const uint32_t *state, uint32_t slice)
 {
     size_t size;
     bool last = slice == TN_STRIP_NONE;
     tn_passing p = {.strip = strip, .state = state};
-    p.crossing = (tn_strip_crossing){.left = state ? &strip->edges[left] : NULL,
+    p.crossing = (tn_strip_crossing){.left = state ? &strip->edges[state[STATE_EDGE]] : NULL,
                                      .right = last ? NULL : &strip->edges[strip->slices[slice].entry],
                                      .slice = last ? NULL : tn_interned(&strip->slice_keys, slice, &size)};
     return p;
@@ -186,7 +186,7 @@ static tn_status pass(tn_passing *p, uint32_t slice, uint32_t outcome, tn_error 
 static tn_status cross_plane(tn_strip *strip, const uint32_t *state, uint32_t slice, const tn_strip_list *plane,
                              uint32_t *crossed, tn_error *error)
 {
-    tn_passing p = begin_passing(strip, state, state ? state[STATE_EDGE] : TN_STRIP_NONE, slice);
+    tn_passing p = begin_passing(strip, state, slice);
     tn_status status = TN_OK;
     p.crossed = crossed;
     for (size_t i = 0; status == TN_OK && i < plane->count; i++, p.crossed += tn_strip_crossed_words(strip))
@@ -194,10 +194,10 @@ static tn_status cross_plane(tn_strip *strip, const uint32_t *state, uint32_t sl
     return status;
 }
 
-tn_status tn_strip_cross_outcome(tn_strip *strip, const uint32_t *state, uint32_t left, uint32_t slice,
-                                 uint32_t outcome, uint32_t *crossed, tn_error *error)
+tn_status tn_strip_cross_outcome(tn_strip *strip, const uint32_t *state, uint32_t slice, uint32_t outcome,
+                                 uint32_t *crossed, tn_error *error)
 {
-    tn_passing p = begin_passing(strip, state, left, slice);
+    tn_passing p = begin_passing(strip, state, slice);
     p.crossed = crossed;
     return pass(&p, slice, outcome, error);
 }

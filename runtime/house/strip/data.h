@@ -252,19 +252,28 @@ typedef struct tn_strip_outcome {
  * clauses compare, the number of the totals. */
 enum { STATE_EDGE, STATE_ROOMS, STATE_WALKS };
 
+/* What came of pairs of numbers. */
+typedef struct tn_strip_known {
+    tn_numbering pairs; /* first << 32 | second */
+    uint32_t *results;  /* [pairs][words] */
+    size_t room;
+} tn_strip_known;
+
 /* A step in three stages, so that what is equal half way is gone on from once (stage.c).
  *
- * Words of a threshold, where the plane behind a state is known and the slice is not: what is asked of the edge
- * (TN_STRIP_NONE: the row begins), rooms, walks and what the clauses have read, as in a state; then the slice's entry,
- * the meetings (two words), what rooms and walks meet at the plane, what of it matters to the tiles at its right. Words
- * of an arrival, where all of the slice is known but its exit and its tiles: the slice's group, rooms, walks and what
- * the clauses have read; then the last word of a threshold. */
-enum { THRESHOLD_ASKED, ARRIVAL_GROUP = THRESHOLD_ASKED };
-enum { THRESHOLD_ENTRY, THRESHOLD_MEETINGS, THRESHOLD_THROUGH = THRESHOLD_MEETINGS + 2, THRESHOLD_FITS };
+ * Words of a threshold, where the plane behind a state is known and the slice is not: 0 (TN_STRIP_NONE: the row
+ * begins); what the plane leaves of rooms and of each walk (views), and what the clauses have read, in the places where
+ * these are in a state; then those below. Words of an arrival, where all of the slice is known but its exit and its
+ * tiles: the slice's group, rooms, walks and what the clauses have read; then the last word of a threshold. */
+enum { THRESHOLD_BEGUN, ARRIVAL_GROUP = THRESHOLD_BEGUN };
 
-/* The first state's edge and outcome that led to a threshold: crossing is the same from all. */
+/* From the waiting word of a state on: the slice's entry, the meetings (two words), what rooms see of the plane from
+ * its right, what of it matters to the tiles there. */
+enum { THRESHOLD_ENTRY, THRESHOLD_MEETINGS, THRESHOLD_SIDES = THRESHOLD_MEETINGS + 2, THRESHOLD_FITS };
+
+/* The first state and outcome that led to a threshold: crossing is the same from all. */
 typedef struct tn_strip_threshold {
-    uint32_t left, outcome;
+    uint32_t state, outcome;
 } tn_strip_threshold;
 
 typedef struct tn_strip_stages {
@@ -273,6 +282,11 @@ typedef struct tn_strip_stages {
     tn_interner groups;     /* of slices */
     uint32_t *slices;       /* [groups]: the first of each */
     size_t room, slice_room;
+    tn_interner views; /* of rooms, of walks; what rooms see from the right */
+    tn_strip_known room_views, walk_views[TN_STRIP_MEETINGS_MAX]; /* {before, through} */
+    tn_strip_known sides;                                         /* {cells of the left edge, through} */
+    uint32_t left;                                                /* 1 and the state that was left last; 0: none */
+    uint32_t befores[1 + TN_STRIP_MEETINGS_MAX];                  /* of its rooms, then of each walk */
 } tn_strip_stages;
 
 /* Words of what came of an outcome: what it is to the clauses (of `values`; TN_STRIP_NONE: the row begins), rooms, each
@@ -289,13 +303,6 @@ typedef struct tn_strip_row {
     uint32_t *words;
     size_t used, room;
 } tn_strip_row;
-
-/* What came of pairs of numbers. */
-typedef struct tn_strip_known {
-    tn_numbering pairs; /* first << 32 | second */
-    uint32_t *results;  /* [pairs][words] */
-    size_t room;
-} tn_strip_known;
 
 /* The tiles of a cell that wait for what stands at its right. Their numbers are `factor` times those of the class.
  * class: TN_STRIP_NONE: none fits, whatever stands there. ever: false where it makes no difference what stands there.

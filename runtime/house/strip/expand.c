@@ -238,25 +238,35 @@ static tn_status expand_end(tn_houses_expansion *e, uint32_t turn, uint32_t node
     return status == TN_OK ? show(e, node, &way, 0, error) : status;
 }
 
+/* A threshold or an arrival is met once, however many slices lead on from it: the tray is not taken yet. */
+static bool is_half(const tn_houses_expansion *e)
+{
+    return e->stage == STAGE_LEAVE || e->stage == STAGE_ENTER;
+}
+
+/* The next way that differs from this one at the stage. */
+static size_t next_way(const tn_houses_expansion *e, const tn_ways *ways, size_t i)
+{
+    const tn_houses_way *way = &ways->items[i];
+    return e->stage == STAGE_LEAVE   ? first_way(ways, way->entry + 1, 0)
+           : e->stage == STAGE_ENTER ? first_way(ways, way->entry, way->group + 1)
+                                     : i + 1;
+}
+
 static tn_status expand_node(tn_houses_expansion *e, uint32_t turn, uint32_t node, tn_error *error)
 {
     uint64_t key = e->kind->layers[e->layer].nodes.keys[node];
     uint32_t state = (uint32_t)key, plan = (uint32_t)(key >> 32);
     const tn_ways *ways = &e->ways[tn_number_find(&e->plans, plan)];
-    bool half = e->stage == STAGE_LEAVE || e->stage == STAGE_ENTER; /* the tray is not taken yet */
+    const tn_houses_way stays = {.plan = plan, .times = 1};
     size_t first, end;
     tn_status status = TN_OK;
     find_stretch(e, ways, state, &first, &end);
-    for (size_t i = first; status == TN_OK && i < end; i++) {
-        tn_houses_way way = ways->items[i];
-        uint32_t by = goes_by(e, &way);
-        if (half && i > first && by == goes_by(e, &ways->items[i - 1]))
-            continue;
-        if (half)
-            way = (tn_houses_way){.plan = plan, .times = 1};
+    for (size_t i = first; status == TN_OK && i < end; i = next_way(e, ways, i)) {
+        uint32_t by = goes_by(e, &ways->items[i]);
         status = ask(e, turn, state, by, by, error);
         if (status == TN_OK)
-            status = show(e, node, &way, by, error);
+            status = show(e, node, is_half(e) ? &stays : &ways->items[i], by, error);
     }
     return status;
 }

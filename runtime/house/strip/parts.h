@@ -146,6 +146,13 @@ tn_status tn_strip_rooms_cross(tn_strip *strip, uint32_t before, const tn_strip_
 tn_status tn_strip_walk_cross(tn_strip *strip, uint32_t walk, uint32_t before, const tn_strip_crossing *crossing,
                               uint32_t *after, bool *apart, uint32_t *seen, tn_error *error);
 
+/* Appends what an outcome (its words) leaves of the rooms, or of a walk, that were before it: before whatever slice
+ * they go on alike with what is equal here. Where nothing asks where they are in the row. */
+tn_status tn_strip_rooms_view(const tn_strip *strip, uint32_t before, const tn_strip_edge *left,
+                              const uint32_t *outcome, tn_key *key, tn_error *error);
+tn_status tn_strip_walk_view(const tn_strip *strip, uint32_t walk, uint32_t before, const tn_strip_edge *left,
+                             const uint32_t *outcome, tn_key *key, tn_error *error);
+
 /* ---- clause.c */
 
 tn_status tn_strip_clauses_new(tn_strip *strip, tn_error *error);
@@ -193,10 +200,9 @@ tn_status tn_strip_cross(tn_strip *strip, const uint32_t *state, uint32_t slice,
                          const uint32_t **crossed, tn_error *error);
 void tn_strip_row_clear(tn_strip_row *row);
 
-/* What comes of one outcome alone, before a slice: so many words, to be filled in. state: its words, of which the edge
- * is `left`; or NULL. */
-tn_status tn_strip_cross_outcome(tn_strip *strip, const uint32_t *state, uint32_t left, uint32_t slice,
-                                 uint32_t outcome, uint32_t *crossed, tn_error *error);
+/* What comes of one outcome alone, before a slice: so many words, to be filled in. */
+tn_status tn_strip_cross_outcome(tn_strip *strip, const uint32_t *state, uint32_t slice, uint32_t outcome,
+                                 uint32_t *crossed, tn_error *error);
 
 /* ---- compared.c: what clauses compare with 0, which is known at the end of the row */
 

@@ -416,6 +416,63 @@ tn_status tn_strip_rooms_cross(tn_strip *strip, uint32_t before, const tn_strip_
     return leave(strip, &j, &to, right, after, error);
 }
 
+/* ---- what of the rooms before can be told behind a plane */
+
+/* Appends the steps into rooms before, with these by number, in the order of the steps. */
+static bool push_joined(const uint32_t *state, const uint32_t *outcome, uint32_t number[TN_STRIP_CELLS_MAX],
+                        uint32_t joined[TN_STRIP_CELLS_MAX], uint32_t *count, tn_key *key)
+{
+    const uint32_t *step = outcome + 3;
+    bool ok = true;
+    memset(number, 0xff, TN_STRIP_CELLS_MAX * sizeof *number);
+    *count = 0;
+    for (uint32_t i = 0; ok && i < outcome[2]; i++, step += STEP_WORDS) {
+        if (!(step[STEP_HOW] & 1))
+            continue;
+        uint32_t room = state[step[STEP_FROM]];
+        if (number[room] == UINT32_MAX) {
+            joined[*count] = room;
+            number[room] = (*count)++;
+        }
+        ok = tn_key_push(key, step[STEP_TO]) && tn_key_push(key, number[room]);
+    }
+    return ok && tn_key_push(key, *count);
+}
+
+/* Rooms that no step leads into are whole: of these, only how many are so for each question. */
+static bool push_closed(const tn_strip *strip, tn_joining *j, const uint32_t *number, tn_key *key)
+{
+    uint32_t closed[TN_STRIP_QUESTIONS_MAX] = {0};
+    for (uint32_t r = 0; r < j->before; r++) {
+        if (number[r] != UINT32_MAX)
+            continue;
+        settle(strip, &j->rooms[r], true);
+        for (uint32_t q = 0; q < strip->questions.room_count; q++)
+            closed[q] += j->rooms[r].truth >> q & 1;
+    }
+    return push_words(key, closed, strip->questions.room_count);
+}
+
+tn_status tn_strip_rooms_view(const tn_strip *strip, uint32_t before, const tn_strip_edge *left,
+                              const uint32_t *outcome, tn_key *key, tn_error *error)
+{
+    size_t size;
+    uint32_t number[TN_STRIP_CELLS_MAX], joined[TN_STRIP_CELLS_MAX], count;
+    const uint32_t *state = tn_interned(&strip->rooms, before, &size);
+    const tn_strip_crossing c = {.left = left, .outcome = outcome};
+    tn_joining j; /* large, and filled in as far as it is used */
+    j.strip = strip;
+    begin_left(&j, &c, state, outcome + 3 + (size_t)STEP_WORDS * outcome[2]);
+    bool ok = push_joined(state, outcome, number, joined, &count, key);
+    for (uint32_t i = 0; ok && i < count; i++) {
+        uint32_t words[ROOM_WORDS];
+        settle(strip, &j.rooms[joined[i]], false);
+        memcpy(words, &j.rooms[joined[i]], sizeof words);
+        ok = push_words(key, words, ROOM_WORDS);
+    }
+    return ok && push_closed(strip, &j, number, key) ? TN_OK : tn_fail_memory(error);
+}
+
 /* ---- how many rooms of one tray a question can be about */
 
 /* most: the greatest number so far. Nothing depends on the glass of a room that is not whole. */

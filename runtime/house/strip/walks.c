@@ -350,3 +350,49 @@ tn_status tn_strip_walk_cross(tn_strip *strip, uint32_t walk, uint32_t before, c
     *apart = w.apart;
     return status;
 }
+
+/* ---- what of the walk before can be told behind a plane */
+
+/* Appends the steps from cells of the left edge, each with its role and its group, by number in the order of the steps.
+ */
+static bool push_steps(const tn_walking *w, const uint32_t *state, const tn_strip_edge *left, const uint32_t *outcome,
+                       uint32_t of_node[NODES], tn_key *key)
+{
+    const uint32_t *step = outcome + 3;
+    uint32_t count = 0;
+    bool ok = true;
+    memset(of_node, 0xff, NODES * sizeof *of_node);
+    for (uint32_t i = 0; ok && i < outcome[2]; i++, step += STEP_WORDS) {
+        if (!(step[STEP_HOW] >> (w->walk + 1) & 1))
+            continue;
+        tn_strip_role role = role_at_left(w, left, step[STEP_FROM]);
+        uint32_t node = node_before(state, step[STEP_FROM]);
+        if (node < w->before)
+            node = of_node[node] = of_node[node] == UINT32_MAX ? count++ : of_node[node];
+        ok = tn_key_push(key, step[STEP_TO]) &&
+             tn_key_push(key, node << 3 | (uint32_t)role.through * ROLE_THROUGH | (uint32_t)role.goal * ROLE_GOAL |
+                                  (uint32_t)role.source * ROLE_SOURCE);
+    }
+    return ok;
+}
+
+tn_status tn_strip_walk_view(const tn_strip *strip, uint32_t walk, uint32_t before, const tn_strip_edge *left,
+                             const uint32_t *outcome, tn_key *key, tn_error *error)
+{
+    tn_walking w = {.strip = strip, .walk = walk, .inside = true};
+    uint32_t of_node[NODES];
+    size_t size;
+    const uint32_t *state = tn_interned(&strip->walks, before, &size);
+    begin_left(&w, state, size, left->count);
+    for (uint32_t n = 0; n < w.before; n++)
+        w.parent[n] = (uint8_t)n;
+    bool ok = push_steps(&w, state, left, outcome, of_node, key);
+    carry(&w, of_node);
+    if (w.apart)
+        w.count = 0; /* whatever else waits */
+    reduce(&w);
+    ok = ok && tn_key_push(key, TN_STRIP_NONE) && tn_key_push(key, w.apart);
+    for (uint32_t i = 0; ok && i < w.count; i++)
+        ok = tn_push_long(key, (uint64_t)w.waiting[i]);
+    return ok ? TN_OK : tn_fail_memory(error);
+}

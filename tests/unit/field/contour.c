@@ -5,6 +5,7 @@
 #include "runtime/geometry/crossing.h"
 #include "runtime/geometry/measure.h"
 #include "tests/support/openmesh_takes.h"
+#include "tests/support/share.h"
 #include "tests/unit/field/support.h"
 
 /* ---- random fields */
@@ -104,7 +105,7 @@ static void test_random_fields(void **state)
 {
     (void)state;
     dice d = {0};
-    for (int i = 0; i < 400; i++) {
+    for (int i = 0; i < test_share(400); i++) {
         tn_module *module = random_module(&d);
         tn_field field;
         tn_error error;
