@@ -132,29 +132,44 @@ static void outline(cairo_t *cr, const tn_view *view, const tn_seen_face *face)
     cairo_close_path(cr);
 }
 
-/* The point on a side so far from one of its ends, but at most in its middle. */
-static void point_on_side(const float *end, const float *other, double inset, double at[2])
+/* How far a stroke keeps away from lines at its ends: `line` is half as wide as these are, `stroke` half as wide as it
+ * is itself. */
+typedef struct clearance {
+    double line, stroke;
+} clearance;
+
+/* The point on a side where a stroke along it ends: so far from the corner that no part of it touches a line along the
+ * next side, but at most in the middle. The sharper the corner, the farther away that is. */
+static void end_of_stroke(const float *corner, const float *other, const float *next, const clearance *clear,
+                          double at[2])
 {
-    double along[2] = {(double)other[0] - (double)end[0], (double)other[1] - (double)end[1]};
-    double length = hypot(along[0], along[1]), share = length > 0 ? fmin(inset / length, 0.5) : 0;
-    at[0] = (double)end[0] + share * along[0];
-    at[1] = (double)end[1] + share * along[1];
+    double along[2] = {(double)other[0] - (double)corner[0], (double)other[1] - (double)corner[1]};
+    double beside[2] = {(double)next[0] - (double)corner[0], (double)next[1] - (double)corner[1]};
+    double length = hypot(along[0], along[1]), product = length * hypot(beside[0], beside[1]), share = 0;
+    if (clear && product > 0) {
+        double sine = fabs(along[0] * beside[1] - along[1] * beside[0]) / product;
+        double cosine = fabs(along[0] * beside[0] + along[1] * beside[1]) / product;
+        share = fmin((clear->line + clear->stroke * cosine) / fmax(sine * length, 1e-30), 0.5);
+    }
+    at[0] = (double)corner[0] + share * along[0];
+    at[1] = (double)corner[1] + share * along[1];
 }
 
-/* Strokes the sides of one kind, from one corner on; returns the next corner. The stroke keeps the inset away from the
- * sides of other kinds at its ends. */
-static uint32_t stroke_run(cairo_t *cr, const tn_view *view, const tn_seen_face *face, uint32_t i, double inset)
+/* Strokes the sides of one kind, from one corner on; returns the next corner. Where there are sides of other kinds at
+ * its ends, the stroke keeps clear of them. */
+static uint32_t stroke_run(cairo_t *cr, const tn_view *view, const tn_seen_face *face, uint32_t i,
+                           const clearance *clear)
 {
     const uint16_t *edges = view->edges + face->first;
     const float(*points)[2] = (const float(*)[2])(view->points + face->first);
     uint16_t edge = edges[i];
     double at[2];
     uint32_t size = face->size, before = i ? i - 1 : size - 1;
-    point_on_side(points[i], points[(i + 1) % size], edges[before] != edge ? inset : 0, at);
+    end_of_stroke(points[i], points[(i + 1) % size], points[before], edges[before] != edge ? clear : NULL, at);
     cairo_move_to(cr, at[0], at[1]);
     for (; i < size && edges[i] == edge; i++) {
         uint32_t next = (i + 1) % size;
-        point_on_side(points[next], points[i], edges[next] != edge ? inset : 0, at);
+        end_of_stroke(points[next], points[i], points[(next + 1) % size], edges[next] != edge ? clear : NULL, at);
         cairo_line_to(cr, at[0], at[1]);
     }
     cairo_stroke(cr);
@@ -172,10 +187,10 @@ static void set_fill(cairo_t *cr, const tn_seen_face *face, const tn_view_place 
         set_face_colour(cr, face);
 }
 
-static void draw_seams(cairo_t *cr, const tn_view *view, const tn_seen_face *face, double inset)
+static void draw_seams(cairo_t *cr, const tn_view *view, const tn_seen_face *face, const clearance *clear)
 {
     for (uint32_t i = 0; i < face->size;)
-        i = view->edges[face->first + i] == TN_EDGE_NONE ? stroke_run(cr, view, face, i, inset) : i + 1;
+        i = view->edges[face->first + i] == TN_EDGE_NONE ? stroke_run(cr, view, face, i, clear) : i + 1;
 }
 
 static void draw_edges(cairo_t *cr, const tn_view *view, const tn_seen_face *face, double fade)
@@ -187,7 +202,7 @@ static void draw_edges(cairo_t *cr, const tn_view *view, const tn_seen_face *fac
             continue;
         }
         set_edge_colour(cr, edge, fade);
-        i = stroke_run(cr, view, face, i, 0);
+        i = stroke_run(cr, view, face, i, NULL);
     }
 }
 
@@ -197,6 +212,7 @@ static void draw_edges(cairo_t *cr, const tn_view *view, const tn_seen_face *fac
 static void paint_faces(cairo_t *cr, const tn_view *view, const tn_seen_face *faces, size_t count,
                         const tn_view_place *place, double seam)
 {
+    const clearance clear = {place->line / place->scale / 2, seam / 2};
     cairo_new_path(cr); /* text leaves a point behind */
     for (size_t f = 0; f < count; f++)
         outline(cr, view, &faces[f]);
@@ -206,7 +222,7 @@ static void paint_faces(cairo_t *cr, const tn_view *view, const tn_seen_face *fa
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
     cairo_set_line_width(cr, seam);
     for (size_t f = 0; f < count; f++)
-        draw_seams(cr, view, &faces[f], place->line / place->scale / 2);
+        draw_seams(cr, view, &faces[f], &clear);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_width(cr, place->line / place->scale);
     for (size_t f = 0; f < count; f++)
