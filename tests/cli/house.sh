@@ -96,6 +96,12 @@ if grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; th
     "$TARTAN" house apartments '#0:0' -o "$scratch/flats.svg"
     is 'a block of flats, drawn at 1:200, is on A2 and not on A1' \
         "$(grep -o -m1 ' width="[^"]*" height="[^"]*"' "$scratch/flats.svg")" ' width="1683.779528pt" height="1190.551181pt"'
+    # The bricks of the row houses, #a4553f: in elevations, and not in plans.
+    for view in elevation:back plan:ground; do
+        "$TARTAN" house row-houses '#0:0' --library row-houses --view "$view" -o "$scratch/bricks.svg"
+        is "bricks in $view" "$(grep -q 'rgb(64.3[0-9]*%, *33.3[0-9]*%, *24.7[0-9]*%)' "$scratch/bricks.svg" && echo yes)" \
+            "$([ "$view" = plan:ground ] || echo yes)"
+    done
     "$TARTAN" house cottage '#10:77' -o "$scratch/all/"
     is 'a folder of all files' "$(cd "$scratch/all" && echo *)" 'house.csv house.dxf house.glb house.ifc house.json house.obj house.parts.csv house.pdf house.ply house.png house.svg'
 fi

@@ -165,7 +165,7 @@ tn_status tn_house_write_dxf(const tn_house *house, const tn_solids *solids, con
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         tn_prospect p;
         double low[2], high[2];
-        status = tn_prospect_take(house, solids, &aspects[i], &p, error);
+        status = tn_prospect_take(house, solids, &aspects[i], NULL, &p, error);
         if (status == TN_OK)
             status = tn_prospect_mark(house, LETTERING_NM, &p, error);
         if (status == TN_OK) {

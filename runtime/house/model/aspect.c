@@ -219,8 +219,17 @@ void tn_prospect_extent(const tn_prospect *prospect, double low[2], double high[
     }
 }
 
+static void group_blocks(const tn_house *house, const tn_grouping *grouping, tn_blocks *blocks)
+{
+    for (size_t i = 0; i < blocks->count; i++) {
+        tn_house_block *block = &blocks->items[i];
+        uint32_t own = grouping ? grouping->group(house, block) : UINT32_MAX;
+        block->group = own == UINT32_MAX ? tn_solid_groups[block->kind] : own;
+    }
+}
+
 tn_status tn_prospect_take(const tn_house *house, const tn_solids *solids, const tn_aspect *aspect,
-                           tn_prospect *prospect, tn_error *error)
+                           const tn_grouping *grouping, tn_prospect *prospect, tn_error *error)
 {
     tn_blocks blocks;
     *prospect = (tn_prospect){.aspect = *aspect, .camera = camera_of(aspect)};
@@ -231,9 +240,8 @@ tn_status tn_prospect_take(const tn_house *house, const tn_solids *solids, const
     if (status == TN_OK && misses(house, aspect, &blocks))
         status = missed(aspect, prospect, error);
     if (status == TN_OK) {
-        for (size_t i = 0; i < blocks.count; i++)
-            blocks.items[i].group = tn_solid_groups[blocks.items[i].kind];
-        status = tn_blocks_mesh(&blocks, TN_GROUP_COUNT, &prospect->mesh, error);
+        group_blocks(house, grouping, &blocks);
+        status = tn_blocks_mesh(&blocks, TN_GROUP_COUNT + (grouping ? grouping->more : 0), &prospect->mesh, error);
     }
     drop_item_cuts(&blocks, aspect->kind == TN_ASPECT_PLAN);
     if (status == TN_OK) {

@@ -44,7 +44,7 @@ typedef struct tn_aspect {
 typedef struct tn_prospect {
     tn_aspect aspect;
     tn_camera camera;
-    tn_mesh mesh;      /* nanometres, groups as in tn_material_group */
+    tn_mesh mesh;      /* nanometres, groups as in tn_material_group, then those of the tn_grouping */
     tn_cut_face *cuts; /* u, v as the camera sees them */
     size_t cut_count;
     double low[2], high[2]; /* of all of it, without marks */
@@ -52,9 +52,17 @@ typedef struct tn_prospect {
     char title[64];
 } tn_prospect;
 
-/* Without marks. E0904 for a section that misses the house, a plan of a storey that it does not have. */
+/* Puts blocks into groups of its own, TN_GROUP_COUNT and the next: `more` of them. Others keep the group of their kind:
+ * UINT32_MAX. */
+typedef struct tn_grouping {
+    uint32_t (*group)(const tn_house *house, const tn_house_block *block);
+    uint32_t more;
+} tn_grouping;
+
+/* Without marks. grouping: or NULL. E0904 for a section that misses the house, a plan of a storey that it does not
+ * have. */
 tn_status tn_prospect_take(const tn_house *house, const tn_solids *solids, const tn_aspect *aspect,
-                           tn_prospect *prospect, tn_error *error);
+                           const tn_grouping *grouping, tn_prospect *prospect, tn_error *error);
 
 /* Makes the marks anew, with lettering so high in nanometres of the house. */
 tn_status tn_prospect_mark(const tn_house *house, double lettering, tn_prospect *prospect, tn_error *error);

@@ -71,21 +71,29 @@ void tn_marks_dimension(tn_marks *marks, const tn_house *house, double from, dou
 
 /* ---- levels */
 
-/* Heights of roofs are fractions: they are written to the nearest 1/64" or millimetre. */
+/* Heights of roofs are fractions: they are written to the nearest 1/8" or millimetre, as one would build them. */
 static int64_t rounded(const tn_house *house, double v)
 {
-    int64_t step = tn_house_length_style(house) == TN_STYLE_FEET ? TN_INCH_NM / 64 : 1000000;
+    int64_t step = tn_house_length_style(house) == TN_STYLE_FEET ? TN_INCH_NM / 8 : 1000000;
     return (int64_t)(v / (double)step + 0.5) * step;
 }
 
-static void put_level(tn_marks *marks, const tn_house *house, double u, double v, double lettering, const char *name)
+/* A height, and what is written of it. */
+typedef struct tn_level {
+    double v;
+    int64_t said;
+    const char *name;
+} tn_level;
+
+static void put_level(tn_marks *marks, const tn_house *house, double u, double lettering, const tn_level *level)
 {
     char text[sizeof marks->items->text], length[64];
-    tn_length_write_style(rounded(house, v), tn_house_length_style(house), length, sizeof length);
-    snprintf(text, sizeof text, "%.30s%s%.15s", name, name[0] ? " " : "", length);
+    tn_length_write_style(level->said, tn_house_length_style(house), length, sizeof length);
+    snprintf(text, sizeof text, "%.30s%s%.15s", level->name, level->name[0] ? " " : "", length);
     double wide = tn_mark_width(text) * lettering;
-    tn_marks_line(marks, TN_MARK_DIMENSION, u - wide - lettering, v, u, v);
-    tn_marks_text(marks, TN_MARK_DIMENSION, u - lettering - wide / 2, v + 0.7 * lettering, lettering, false, text);
+    tn_marks_line(marks, TN_MARK_DIMENSION, u - wide - lettering, level->v, u, level->v);
+    tn_marks_text(marks, TN_MARK_DIMENSION, u - lettering - wide / 2, level->v + 0.7 * lettering, lettering, false,
+                  text);
 }
 
 tn_status tn_marks_levels(const tn_house *house, const double low[2], const double high[2], double lettering,
@@ -96,15 +104,16 @@ tn_status tn_marks_levels(const tn_house *house, const double low[2], const doub
     tn_marks_line(marks, TN_MARK_GROUND, low[0] - beyond, ground, high[0] + beyond, ground);
     double last = -1e30;
     for (uint32_t k = 0; k <= form->record->storey_count; k++) {
-        double v = (double)form->level[k];
         bool top = k == form->record->storey_count;
-        if (v > high[1] || v - last < 1.6 * lettering)
+        tn_level level = {
+            (double)form->level[k], form->level[k],
+            top ? "" : tn_text(form->module, form->module->STOREY_records[form->record->storey_first + k].name)};
+        if (level.v > high[1] || level.v - last < 1.6 * lettering)
             continue;
-        put_level(marks, house, u, v, lettering,
-                  top ? "" : tn_text(form->module, form->module->STOREY_records[form->record->storey_first + k].name));
-        last = v;
+        put_level(marks, house, u, lettering, &level);
+        last = level.v;
     }
     if (high[1] - last >= 1.6 * lettering)
-        put_level(marks, house, u, high[1], lettering, "top");
+        put_level(marks, house, u, lettering, &(tn_level){high[1], rounded(house, high[1]), "top"});
     return marks->failed ? tn_fail_memory(error) : TN_OK;
 }

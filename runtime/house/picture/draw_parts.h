@@ -10,6 +10,7 @@
 
 /* A drawing of a sheet, and where it stands. */
 typedef struct tn_house_drawn {
+    const tn_house_form *form; /* lent */
     tn_prospect prospect;
     tn_view *view;
     double low[2], high[2]; /* with its marks, nanometres */
@@ -20,6 +21,16 @@ typedef struct tn_house_drawn {
 tn_status tn_house_view_take(const tn_solids *solids, const tn_aspect *aspect, const tn_house *house,
                              tn_house_drawn *drawn, tn_watch *watch, tn_error *error);
 void tn_house_drawn_clear(tn_house_drawn *drawn);
+
+/* The groups of what is drawn in this way, and their colours: in elevations and in space those of the form's materials,
+ * where it names one for a part. In plans and sections the lines count, on light ground. NULL: only kinds of parts. */
+#define TN_PALETTE_MAX (TN_GROUP_COUNT + TN_MATERIALS_MAX)
+const tn_grouping *tn_house_grouping(const tn_house_form *form, tn_aspect_kind kind, tn_grouping *grouping);
+void tn_house_palette(const tn_house_form *form, tn_aspect_kind kind, double palette[TN_PALETTE_MAX][3]);
+
+/* The share of light that comes from all around: more where surfaces have the colours of materials, as bricks and
+ * slates in the shade are to be told apart. */
+double tn_house_ambient(const tn_house_form *form, tn_aspect_kind kind);
 
 /* Paints a drawing where it stands, points_per_nm its scale. */
 void tn_draw_prospect(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm);

@@ -4,24 +4,6 @@
 #include "runtime/draw/type.h"
 #include "runtime/house/picture/draw_parts.h"
 
-/* Surfaces that the lamp lights fully have these colours. */
-static const double colours[TN_GROUP_COUNT][3] = {
-    [TN_GROUP_WALL] = {0.97, 0.96, 0.94}, [TN_GROUP_FLOOR] = {0.93, 0.90, 0.84}, [TN_GROUP_ROOF] = {0.62, 0.66, 0.72},
-    [TN_GROUP_ITEM] = {0.84, 0.74, 0.60}, [TN_GROUP_PANE] = {0.70, 0.84, 0.93},  [TN_GROUP_LEAF] = {0.74, 0.46, 0.34},
-};
-
-#define FACING 0.79  /* how light a surface is that looks at the eye (camera.c) */
-#define AMBIENT 0.45 /* the share of light that comes from all around */
-
-/* In drawings that look straight at surfaces, these have their full colour. */
-static void make_palette(tn_aspect_kind kind, double palette[TN_GROUP_COUNT][3])
-{
-    double factor = kind == TN_ASPECT_AXONOMETRIC ? 1.04 : 1 / (AMBIENT + (1 - AMBIENT) * FACING);
-    for (int g = 0; g < TN_GROUP_COUNT; g++)
-        for (int k = 0; k < 3; k++)
-            palette[g][k] = colours[g][k] * factor;
-}
-
 /* Before the drawing's coordinates: u, v in nanometres. */
 typedef struct tn_drawing_frame {
     cairo_t *cr;
@@ -152,11 +134,12 @@ static void paint_mark(const tn_drawing_frame *f, const tn_mark *m)
 void tn_draw_prospect(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm)
 {
     const tn_prospect *p = &drawn->prospect;
-    double palette[TN_GROUP_COUNT][3];
+    double palette[TN_PALETTE_MAX][3];
     tn_drawing_frame f = {tn_canvas_context(canvas), drawn->x - drawn->low[0] * points_per_nm,
                           drawn->y + drawn->low[1] * points_per_nm, points_per_nm};
-    make_palette(p->aspect.kind, palette);
-    tn_view_place place = {f.x, f.y, f.scale, 0.35, AMBIENT, (const double(*)[3])palette, 0};
+    tn_house_palette(drawn->form, p->aspect.kind, palette);
+    tn_view_place place = {
+        f.x, f.y, f.scale, 0.35, tn_house_ambient(drawn->form, p->aspect.kind), (const double(*)[3])palette, 0};
     tn_view_paint(canvas, drawn->view, &place);
     if (p->aspect.kind != TN_ASPECT_AXONOMETRIC)
         paint_cuts(&f, p);

@@ -34,7 +34,10 @@ tn_status tn_house_view_take(const tn_solids *solids, const tn_aspect *aspect, c
                              tn_house_drawn *drawn, tn_watch *watch, tn_error *error)
 {
     tn_sight sight = {0};
-    tn_status status = tn_prospect_take(house, solids, aspect, &drawn->prospect, error);
+    tn_grouping grouping;
+    drawn->form = house->form;
+    tn_status status = tn_prospect_take(house, solids, aspect, tn_house_grouping(house->form, aspect->kind, &grouping),
+                                        &drawn->prospect, error);
     if (status == TN_OK)
         status = tn_sight_of_mesh(&drawn->prospect.mesh, &sight, error);
     if (status == TN_OK) {
@@ -84,14 +87,14 @@ static tn_status mark_all(sheet *s, uint32_t scale, tn_error *error)
     return status;
 }
 
-/* How many drawings go into the row that starts with this one, and how high it becomes. */
-static size_t measure_row(const sheet *s, size_t first, double room, double *across, double *down)
+/* How many drawings go into the row that starts with this one, no wider than `most`, and how high it becomes. */
+static size_t measure_row(const sheet *s, size_t first, double most, double *across, double *down)
 {
     size_t count = 0;
     *across = *down = 0;
     for (size_t i = first; i < s->drawing->count; i++, count++) {
         double w = wide(s, &s->drawn[i]) + (count ? GAP : 0);
-        if (count && *across + w > room)
+        if (count && *across + w > most)
             break;
         *across += w;
         *down = fmax(*down, high(s, &s->drawn[i]));
@@ -99,14 +102,20 @@ static size_t measure_row(const sheet *s, size_t first, double room, double *acr
     return count;
 }
 
-/* Sets the drawings in rows; how high and wide they become. */
-static void set_rows(sheet *s, double room, double *most, double *down)
+static double top_of(const sheet *s)
 {
-    double y = MARGIN + (s->drawing->title ? HEADING : 0);
+    return MARGIN + (s->drawing->title ? HEADING : 0);
+}
+
+/* Sets the drawings in rows that are no wider than `wrap`, and spreads these over the room; how high and wide they
+ * become. */
+static void set_rows(sheet *s, double room, double wrap, double *most, double *down)
+{
+    double y = top_of(s);
     *most = 0;
     for (size_t first = 0; first < s->drawing->count;) {
         double across, row;
-        size_t count = measure_row(s, first, room, &across, &row);
+        size_t count = measure_row(s, first, wrap, &across, &row);
         double gap = count > 1 ? (room - across) / (double)(count + 1) : (room - across) / 2, x = MARGIN + gap;
         for (size_t i = first; i < first + count; i++) {
             s->drawn[i].x = x;
@@ -123,12 +132,32 @@ static void set_rows(sheet *s, double room, double *most, double *down)
 /* Does everything fit on a page of this size? */
 static bool fits(sheet *s, double width, double height)
 {
-    double most, down;
-    set_rows(s, width - 2 * MARGIN, &most, &down);
+    double most, down, room = width - 2 * MARGIN;
+    set_rows(s, room, room, &most, &down);
     s->width = width;
     s->height = height;
     s->spare = height - MARGIN - s->foot - down;
-    return most <= width - 2 * MARGIN && s->spare >= 0;
+    return most <= room && s->spare >= 0;
+}
+
+#define WRAPS 48 /* widths of rows that are tried */
+
+/* Full rows can leave half of a page empty below them. Shorter ones are taken where they leave room more evenly: the
+ * rows that could be enlarged most. */
+static void even_rows(sheet *s)
+{
+    double room = s->width - 2 * MARGIN, page = s->height - MARGIN - s->foot, best = 0, taken = room, most, down;
+    for (int i = WRAPS; i > 0; i--) {
+        double wrap = room * i / WRAPS;
+        set_rows(s, room, wrap, &most, &down);
+        double larger = fmin(room / most, (page - top_of(s)) / (down - top_of(s)));
+        if (most <= room && down <= page && larger > best) {
+            best = larger;
+            taken = wrap;
+        }
+    }
+    set_rows(s, room, taken, &most, &down);
+    s->spare = page - down;
 }
 
 /* Puts what is left of the page's height between the rows, as much above the first and below the last. */
@@ -170,6 +199,7 @@ static tn_status choose_paper(sheet *s, tn_error *error)
                     continue;
                 if (status == TN_OK) {
                     take_smallest(s, papers, p + 1);
+                    even_rows(s);
                     spread_rows(s);
                 }
                 return status;
@@ -194,7 +224,7 @@ static tn_status choose_page(sheet *s, tn_error *error)
     }
     double most, down;
     s->width = fmax(wide(s, &s->drawn[0]), 240) + 2 * MARGIN;
-    set_rows(s, s->width - 2 * MARGIN, &most, &down);
+    set_rows(s, s->width - 2 * MARGIN, s->width - 2 * MARGIN, &most, &down);
     s->height = down + s->foot + MARGIN;
     return status;
 }

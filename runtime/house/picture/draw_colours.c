@@ -1,0 +1,48 @@
+/* The colours of drawings: of a form's materials, or of kinds of parts. */
+#include "runtime/house/picture/draw_parts.h"
+#include "runtime/house/schedule/cost.h"
+
+/* Surfaces that the lamp lights fully have these colours where the form names no material. */
+static const double colours[TN_GROUP_COUNT][3] = {
+    [TN_GROUP_WALL] = {0.97, 0.96, 0.94}, [TN_GROUP_FLOOR] = {0.93, 0.90, 0.84}, [TN_GROUP_ROOF] = {0.62, 0.66, 0.72},
+    [TN_GROUP_ITEM] = {0.84, 0.74, 0.60}, [TN_GROUP_PANE] = {0.70, 0.84, 0.93},  [TN_GROUP_LEAF] = {0.74, 0.46, 0.34},
+};
+
+#define FACING 0.79 /* how light a surface is that looks at the eye (camera.c) */
+
+static bool shows_materials(const tn_house_form *form, tn_aspect_kind kind)
+{
+    return form->record->material_count && (kind == TN_ASPECT_ELEVATION || kind == TN_ASPECT_AXONOMETRIC);
+}
+
+static uint32_t material_group(const tn_house *house, const tn_house_block *block)
+{
+    uint32_t material = tn_part_material(house, tn_solid_made_part(house, block->kind, block->of, block->item));
+    return material == TN_NO_RECORD ? UINT32_MAX : TN_GROUP_COUNT + material - house->form->record->material_first;
+}
+
+const tn_grouping *tn_house_grouping(const tn_house_form *form, tn_aspect_kind kind, tn_grouping *grouping)
+{
+    *grouping = (tn_grouping){material_group, form->record->material_count};
+    return shows_materials(form, kind) ? grouping : NULL;
+}
+
+double tn_house_ambient(const tn_house_form *form, tn_aspect_kind kind)
+{
+    return shows_materials(form, kind) ? 0.62 : 0.45;
+}
+
+/* In drawings that look straight at surfaces, these have their full colour. */
+void tn_house_palette(const tn_house_form *form, tn_aspect_kind kind, double palette[TN_PALETTE_MAX][3])
+{
+    double ambient = tn_house_ambient(form, kind);
+    double factor = kind == TN_ASPECT_AXONOMETRIC ? 1.04 : 1 / (ambient + (1 - ambient) * FACING);
+    for (int g = 0; g < TN_GROUP_COUNT; g++)
+        for (int k = 0; k < 3; k++)
+            palette[g][k] = colours[g][k] * factor;
+    for (uint32_t m = 0; shows_materials(form, kind) && m < form->record->material_count; m++) {
+        uint32_t colour = form->module->MATERIAL_records[form->record->material_first + m].colour;
+        for (int k = 0; k < 3; k++)
+            palette[TN_GROUP_COUNT + m][k] = (double)(colour >> (16 - 8 * k) & 255) / 255 * factor;
+    }
+}
