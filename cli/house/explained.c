@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/house/explained_parts.h"
+#include "cli/house/numbered.h"
 #include "runtime/base/utf8.h"
 
 bool tn_is_house_line(const char *text)
@@ -29,12 +30,7 @@ static bool choose(tn_house_explaining *e, const char *library, uint32_t *form)
         *form = e->library->form;
         return true;
     }
-    d = library ? tn_job_usage(e->job, "the file has no library of houses `%.80s`", library)
-                : tn_job_usage(e->job, module->HOUSE_LIBRARY_count ? "the file has several libraries of houses"
-                                                                   : "the file has no library of houses");
-    tn_help(tn_job_diagnostics(e->job), d,
-            module->HOUSE_LIBRARY_count ? "say which: --library NAME"
-                                        : "a library of houses is `library NAME from PLANS in FORM { ... }`");
+    tn_report_no_houses(e->job, library);
     return false;
 }
 

@@ -5,6 +5,45 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/nearest.h"
+
+/* A name that is one of plans, or near to one of houses; false where it is neither. */
+static bool report_other(tn_job *job, const char *name)
+{
+    const tn_module *module = job->opened.module;
+    const char *near = NULL, *names[1];
+    tn_diagnostic *d = NULL;
+    for (uint32_t i = 0; i < module->LIBRARY_count && !d; i++)
+        if (strcmp(tn_text(module, module->LIBRARY_records[i].name), name) == 0)
+            d = tn_job_usage(job, "`%.80s` is a library about plans, and one about houses is needed here", name);
+    for (uint32_t i = 0; i < module->HOUSE_LIBRARY_count && !near; i++) {
+        const tn_house_library_record *library = &module->HOUSE_LIBRARY_records[i];
+        names[0] = tn_text(module, library->name);
+        bool on_them = strcmp(tn_text(module, module->LIBRARY_records[library->plans].name), name) == 0;
+        near = d ? (on_them ? names[0] : NULL) : tn_nearest(name, names, 1);
+    }
+    if (d && near)
+        tn_help(tn_job_diagnostics(job), d, "`%s` has the houses on its plans", near);
+    else if (d)
+        tn_help(tn_job_diagnostics(job), d, "a library of houses is `library NAME from %.80s in FORM { ... }`", name);
+    else if (near)
+        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "the file has no library of houses `%.80s`", name),
+                "did you mean `%s`?", near);
+    return d || near;
+}
+
+void tn_report_no_houses(tn_job *job, const char *name)
+{
+    bool any = job->opened.module->HOUSE_LIBRARY_count > 0;
+    if (name && report_other(job, name))
+        return;
+    tn_diagnostic *d = name ? tn_job_usage(job, "the file has no library of houses `%.80s`", name)
+                            : tn_job_usage(job, any ? "the file has several libraries of houses"
+                                                    : "the file has no library of houses");
+    tn_help(tn_job_diagnostics(job), d,
+            any ? "say which: --library NAME" : "a library of houses is `library NAME from PLANS in FORM { ... }`");
+}
+
 static bool choose(tn_numbered *n, const char *name)
 {
     const tn_module *module = n->job->opened.module;
@@ -13,13 +52,7 @@ static bool choose(tn_numbered *n, const char *name)
         n->record = &module->HOUSE_LIBRARY_records[found];
         return true;
     }
-    tn_diagnostic *d =
-        name ? tn_job_usage(n->job, "the file has no library of houses `%.80s`", name)
-             : tn_job_usage(n->job, module->HOUSE_LIBRARY_count ? "the file has several libraries of houses"
-                                                                : "the file has no library of houses");
-    tn_help(tn_job_diagnostics(n->job), d,
-            module->HOUSE_LIBRARY_count ? "say which: --library NAME"
-                                        : "a library of houses is `library NAME from PLANS in FORM { ... }`");
+    tn_report_no_houses(n->job, name);
     return false;
 }
 

@@ -87,4 +87,7 @@ void tn_job_use_house(tn_job *job, const tn_house_settings *settings, const char
 /* Writes such a house: its line, or a JSON object. */
 void tn_job_unrank_house(tn_job *job, const tn_house_settings *settings, const char *number, bool json);
 
+/* Records that no library of houses has this name, with what was meant; NULL: that the file has none, or several. */
+void tn_report_no_houses(tn_job *job, const char *name);
+
 #endif

@@ -72,6 +72,20 @@ static bool report_of_houses(tn_opened *opened, const char *what, const char *na
     return true;
 }
 
+/* The names, and where they are those of libraries the ones of houses, which most commands take as well. */
+static bool with_houses(const tn_opened *opened, const names *list, const char *what, names *all)
+{
+    const tn_module *module = opened->module;
+    uint32_t more = strcmp(what, "library") == 0 ? module->HOUSE_LIBRARY_count : 0;
+    if (!names_new(list->count + more, all))
+        return false;
+    for (size_t i = 0; i < list->count; i++)
+        names_add(all, list->texts[i], list->indices[i]);
+    for (uint32_t i = 0; i < more; i++)
+        names_add(all, tn_text(module, module->HOUSE_LIBRARY_records[i].name), i);
+    return true;
+}
+
 /* Finds `name` among the names; a name not there is reported with what there is. */
 static tn_status pick(tn_opened *opened, const names *list, const char *what, const char *name, uint32_t *index)
 {
@@ -84,15 +98,21 @@ static tn_status pick(tn_opened *opened, const names *list, const char *what, co
     if (report_of_houses(opened, what, name))
         return TN_INVALID;
     tn_diagnostics *diagnostics = &opened->compilation.diagnostics;
+    names all;
+    if (!with_houses(opened, list, what, &all)) {
+        names_free(&all);
+        return no_memory(opened);
+    }
     char text[240];
-    join(list, text, sizeof text);
+    join(&all, text, sizeof text);
     tn_diagnostic *diagnostic =
         tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE, "%s has no %s `%.80s`", opened->path, what, name);
-    const char *near = tn_nearest(name, list->texts, list->count);
+    const char *near = tn_nearest(name, all.texts, all.count);
     if (near)
         tn_help(diagnostics, diagnostic, "did you mean `%s`?", near);
-    else if (list->count)
+    else if (all.count)
         tn_help(diagnostics, diagnostic, "it has %s", text);
+    names_free(&all);
     return TN_INVALID;
 }
 

@@ -53,6 +53,9 @@ golden behind_roof_full "tartan explain lean-to.plan \"12' room:10' open:6' ; 2 
 golden behind_roof_json "tartan explain lean-to.plan \"12' room:10' open:6' ; 2 1 shed(front,4:12) ; living bedroom veranda ; window window slot window\" --json"
 golden behind_roof_metres 'sed "s/4:12/1:3/; s/12. | 16./3.6m/; s/(10.)/(3m)/; s/open(6.)/open(1.8m)/" lean-to.plan > $scratch/metres.plan && tartan explain $scratch/metres.plan "3.6m room:3m open:1.8m ; 2 1 shed(front,1:3) ; living bedroom veranda ; window window window"'
 golden explained_nothing "tartan explain sheds.plan ';'"
+golden library_of_plans "tartan unrank cottage '#1' --library cottage-rows"
+golden library_near "tartan vary cottage '#1' --library cottage"
+golden library_near_of_both 'tartan count cottage --library cottage'
 golden matched "printf '%s\n' '# two' \"$bedrooms\" | tartan match cottage --rule far-bed --rule dark-living"
 golden matched_any "printf '%s\n' \"$bedrooms\" | tartan match cottage --rule far-bed --rule dark-living --format any"
 golden matched_badly "printf '%s\n' '' \"14' room:14' none ; 3\" | tartan match cottage --rule far-bed"
