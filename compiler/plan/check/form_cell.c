@@ -29,6 +29,8 @@ typedef struct tn_cell_reader {
     tn_decision *decision;
     bool decided;
     tn_item_context context; /* the field that the alternatives before were about */
+    uint32_t zone;           /* which the alternative asks for; TN_NONE: none */
+    bool alone;              /* it asks for nothing else */
 } tn_cell_reader;
 
 static void add(tn_cell_reader *reader, tn_opcode opcode, uint32_t index, tn_span span)
@@ -51,7 +53,8 @@ const tn_ast_word *tn_form_negated(tn_check *check, const tn_ast_alternative *al
     for (*negated = false; word && word->kind == TN_WORD_NOT; word = (const tn_ast_word *)word->node.next)
         *negated = !*negated;
     if (!word) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_CELL, alternative->node.span, "nothing follows this `not`");
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_BAD_CELL, alternative->node.span, "nothing follows this `not`");
         tn_help(check->diagnostics, d, "say what the %s is not", what);
     }
     return word;
@@ -179,7 +182,8 @@ static bool read_tray_words(tn_cell_reader *reader, const tn_ast_word *word, tn_
     uint32_t field = word->kind == TN_WORD_NAME ? tn_field_find(schema, word->text) : TN_NONE;
     bool zone = field != TN_NONE && schema->fields[field].kind == TN_FIELD_ZONE;
     if (zone && !word->node.next) {
-        reader->context.field = field;
+        reader->context.field = reader->zone = field;
+        reader->alone = true;
         add(reader, TN_OP_IN_ZONE, field, span);
         return true;
     }
@@ -189,6 +193,7 @@ static bool read_tray_words(tn_cell_reader *reader, const tn_ast_word *word, tn_
     tn_decision_add(reader->check, reader->decision,
                     (tn_decision_step){.opcode = TN_OP_IN_TRAY, .spec = spec, .span = span});
     if (schema->fields[reader->context.field].kind == TN_FIELD_ZONE) {
+        reader->zone = reader->context.field;
         warn_no_depth(reader, spec, &schema->fields[reader->context.field], span);
         add(reader, TN_OP_IN_ZONE, reader->context.field, span);
         add(reader, TN_OP_ALL_OF, 0, span);
@@ -215,23 +220,36 @@ bool tn_form_cell_words(tn_check *check, const tn_checked_form *form, const tn_a
     return good;
 }
 
-static bool read_alternative(tn_cell_reader *reader, const tn_ast_alternative *alternative)
+/* zones[field]: may a cell be of the zone, by one of the alternatives of an item? */
+static void allow_zones(const tn_cell_reader *reader, bool negated, bool *zones)
+{
+    const tn_checked_schema *schema = reader->form->schema;
+    for (uint32_t f = 0; zones && f < schema->field_count; f++)
+        zones[f] |= schema->fields[f].kind == TN_FIELD_ZONE &&
+                    (reader->zone == TN_NONE || (negated ? !reader->alone || f != reader->zone : f == reader->zone));
+}
+
+static bool read_alternative(tn_cell_reader *reader, const tn_ast_alternative *alternative, bool *zones)
 {
     bool negated;
+    reader->zone = TN_NONE;
+    reader->alone = false;
     const tn_ast_word *word = tn_form_negated(reader->check, alternative, "cell", &negated);
     if (!word || !read_words(reader, word, alternative->node.span))
         return false;
     if (negated)
         add(reader, TN_OP_NONE_OF, 0, alternative->node.span);
+    allow_zones(reader, negated, zones);
     return true;
 }
 
-static bool read_item(tn_cell_reader *reader, const tn_ast_item *item)
+/* Adds the zones that the item allows. */
+static bool read_item(tn_cell_reader *reader, const tn_ast_item *item, bool *zones)
 {
     bool good = true, first = true;
     reader->context = (tn_item_context){.field = TN_NONE};
     for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives)) {
-        good &= read_alternative(reader, alternative);
+        good &= read_alternative(reader, alternative, zones);
         if (!first)
             add(reader, TN_OP_ONE_OF, 0, alternative->node.span);
         first = false;
@@ -239,13 +257,45 @@ static bool read_item(tn_cell_reader *reader, const tn_ast_item *item)
     return good;
 }
 
+/* Keeps the zones that an item allows, too; true where none is left. */
+static bool keep_zones(const tn_cell_reader *reader, const bool *zones, bool *kept)
+{
+    bool any = false;
+    for (uint32_t f = 0; f < reader->form->schema->field_count; f++)
+        any |= kept[f] &= zones[f];
+    return !any;
+}
+
+static void warn_two_zones(const tn_cell_reader *reader, tn_span span)
+{
+    tn_check *check = reader->check;
+    if (!tn_check_wanted(check, W_CELL_NEVER))
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, W_CELL_NEVER, span,
+                                 "no cell is so: it would be of another zone than the items before ask for");
+    tn_help(check->diagnostics, d,
+            "a cell is of one zone: several are joined by `or`; in a rule, `cell(...) and tray(...)` also asks what "
+            "the tray is");
+}
+
 static bool read_cell(tn_cell_reader *reader, const tn_ast_expr *expr)
 {
     bool good = true, first = true;
+    uint32_t fields = reader->form->schema->field_count;
+    bool *kept = TN_NEW_ARRAY(reader->check->arena, bool, fields + 1);
+    bool *zones = TN_NEW_ARRAY(reader->check->arena, bool, fields + 1);
+    bool never = !kept || !zones; /* or it was said */
+    if (!never)
+        memset(kept, true, fields);
     if (!expr->items.first)
         add(reader, TN_OP_EVERY, 0, expr->node.span);
     for (TN_EACH(const tn_ast_item, item, expr->items)) {
-        good &= read_item(reader, item);
+        if (zones)
+            memset(zones, false, fields);
+        bool read = read_item(reader, item, zones);
+        if (!never && read && good && (never = keep_zones(reader, zones, kept)))
+            warn_two_zones(reader, item->node.span);
+        good &= read;
         if (!first)
             add(reader, TN_OP_ALL_OF, 0, item->node.span);
         first = false;

@@ -48,12 +48,14 @@ static tn_int128 eaves_drop(const tn_shape_record *roof)
 static void check_eaves(tn_check *check, const tn_checked_form *form, const tn_ast_shape *shape,
                         const tn_shape_record *record)
 {
-    for (uint32_t i = 0; i < form->storey_count && record->eaves > 0; i++)
-        if (form->storeys[i].height >= 0 && eaves_drop(record) >= form->storeys[i].height - form->thickness[2]) {
+    for (uint32_t i = 0; i < form->storey_count && record->eaves > 0; i++) {
+        int64_t clear = form->storeys[i].height - form->thickness[2];
+        if (clear > 0 && eaves_drop(record) >= clear) { /* that a storey is too low is said of the storey */
             bad_shape(check, shape->node.span, "these eaves hang down to the floor",
                       "make the eaves narrower, or the slope gentler");
             return;
         }
+    }
 }
 
 /* `eaves LENGTH`, `open`, `across`, in any order, each once. */
@@ -153,8 +155,11 @@ static bool read_storeys(tn_check *check, const tn_checked_form *form, const tn_
     if (count < 1 || (count > form->storey_count && !check->skipped)) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_SHAPE, shape->node.span,
                                      "a section of this form cannot have %lld storeys", (long long)count);
-        tn_help(check->diagnostics, d, "it has %u: declare another `storey`, or write a number from 1 to %u",
-                form->storey_count, form->storey_count);
+        if (form->storey_count == 1)
+            tn_help(check->diagnostics, d, "it has one: declare another `storey`, or write 1");
+        else
+            tn_help(check->diagnostics, d, "it has %u: declare another `storey`, or write a number from 1 to %u",
+                    form->storey_count, form->storey_count);
         return false;
     }
     record->storeys = (uint32_t)count;

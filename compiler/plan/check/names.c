@@ -243,7 +243,13 @@ static tn_checked_schema *named_schema(tn_check *check, size_t unit, const tn_as
     tn_diagnostic *d =
         tn_report(check->diagnostics, E_UNKNOWN_SCHEMA, using->node.span, "there is no schema `%s`", using->text);
     const char *near = nearest_schema(check, using->text);
-    if (near)
+    bool form = false;
+    for (size_t i = 0; i < check->result->form_count; i++)
+        form |= strcmp(check->result->forms[i]->name, using->text) == 0;
+    if (form)
+        tn_help(check->diagnostics, d, "it is a form: a library of houses is written `library NAME from PLANS in %s`",
+                using->text);
+    else if (near)
         tn_suggest(check->diagnostics, d, "%s", near);
     else
         tn_help(check->diagnostics, d, "declare it with `schema %s { ... }`, or `use` the file that does", using->text);

@@ -1,4 +1,5 @@
 /* Rule expressions: what may stand where, and what names mean. */
+#include <ctype.h>
 #include <string.h>
 
 #include "compiler/plan/check/amount.h"
@@ -152,11 +153,20 @@ static void check_leaf(tn_check *check, tn_ast_expr *expr)
         expr->spec = tn_check_any(check, check->schema, expr->node.span);
 }
 
+/* `210,000`: a comma directly between two digits. */
+static bool follows_number(const tn_check *check, tn_span span)
+{
+    const char *text = check->diagnostics->sources->files[span.file].text;
+    return span.begin >= 2 && text[span.begin - 1] == ',' && isdigit((unsigned char)text[span.begin - 2]);
+}
+
 static void report_number(tn_check *check, const tn_ast_expr *expr)
 {
     tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_OR_NUMBER, expr->node.span,
                                  "a rule has to stand here, and this is a number");
-    if (expr->kind == TN_EXPR_NUMBER)
+    if (expr->kind == TN_EXPR_NUMBER && follows_number(check, expr->node.span))
+        tn_help(check->diagnostics, d, "a number is written without marks between its digits: `1200`");
+    else if (expr->kind == TN_EXPR_NUMBER)
         tn_help(check->diagnostics, d,
                 "each side of `and` and `or` compares: `quantity(a) = 2 or quantity(a) = 3`, or `quantity(a) in 2..3`");
     else

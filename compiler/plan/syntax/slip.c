@@ -35,6 +35,8 @@ static const tn_slip slips[] = {
     {TN_SLIP_RULE, "isolated|alone|lone",
      "a tray alone among others is written `neighbour(tray(not a), tray(a), tray(not a))`", NULL},
     {TN_SLIP_RULE, "repeat|repeated|several|sequence|row", "some in a row are written `neighbour(many(a))`", NULL},
+    {TN_SLIP_RULE, "area|floor-area|floorarea",
+     "areas of cells of a house are added up by `sum(area of cell(...))`; trays have none", NULL},
     {TN_SLIP_RULE, "length|width|total", "lengths are added up by `sum(FIELD)`: `sum(FIELD) <= 24m`", NULL},
     {TN_SLIP_RULE, "average|mean|avg|median", "a mean is compared as a sum: `sum(FIELD) >= 3m * trays`", NULL},
     {TN_SLIP_RULE, "min|max", "`min(a, b)` and `max(a, b)` stand inside `sum(...)`, over one tray", NULL},

@@ -87,6 +87,51 @@ static bool digit_follows(const tn_parse *parse)
     return parse->last_span.end < parse->size && isdigit((unsigned char)parse->text[parse->last_span.end]);
 }
 
+/* Is this the first word of the line of the token at hand? */
+static bool line_begins(const tn_parse *parse, const char *word)
+{
+    size_t begin = parse->last_span.begin, size = strlen(word);
+    while (begin > 0 && parse->text[begin - 1] != '\n')
+        begin--;
+    begin += strspn(parse->text + begin, " \t");
+    return strncmp(parse->text + begin, word, size) == 0 && !isalnum((unsigned char)parse->text[begin + size]);
+}
+
+/* Lines `face` of forms: one relation, one side, kinds by bars. */
+static const char *face_fix(const tn_parse *parse, const char *found, const tn_expected *e)
+{
+    bool joined = strcmp(found, "`or`") == 0 || strcmp(found, "`and`") == 0 || strcmp(found, "`,`") == 0;
+    if (joined && tn_expects(e, "`|`"))
+        return "kinds that a face may have are separated by `|`: `= door | wall`";
+    if (joined && e->count == 1 && tn_expects(e, "`=`"))
+        return "a line is about one side, or without a side about all of them: write a line for each";
+    if (tn_expects(e, "`under`") && stands_here(parse, "above"))
+        return "the lower cell comes first: `face cell(stair) under cell(stair) = stair`";
+    if (tn_expects(e, "`front`") && tn_expects(e, "`=`"))
+        return "what is outside is written `face cell(any) outside front = window | wall`; the side may be left out";
+    return NULL;
+}
+
+/* What was likely meant in forms and in what asks for houses. */
+static const char *house_fix(const tn_parse *parse, const char *found, const tn_expected *e)
+{
+    const char *fix = line_begins(parse, "face") ? face_fix(parse, found, e) : NULL;
+    if (fix)
+        return fix;
+    if (tn_expects(e, "`cell`") && !tn_expects(e, "`tray`") && strcmp(found, "a name") == 0)
+        return "cells are asked for by `cell(...)`: `cell(kitchen)`, `cell(body, ground)`";
+    if (tn_expects(e, "`from`") && comes_after(parse, ",") && strcmp(found, "`to`") == 0)
+        return "a walk is asked for by `apart(cell(...), from cell(...), by door or open)`";
+    if (tn_expects(e, "`from`") && tn_expects(e, "`using`") && strcmp(found, "`in`") == 0)
+        return "a library of houses is written `library NAME from PLANS in FORM { ... }`";
+    if (strcmp(found, "`of`") == 0 && comes_after(parse, "area"))
+        return "areas of cells are added up by `sum(area of cell(...), a > 400sf)`; rooms are asked for by "
+               "`room(kitchen, area < 90sf)`";
+    if (e->count == 1 && tn_expects(e, "`:`"))
+        return "numbers in the parentheses of a roof are a slope, how far it rises for how far: `gable(9:12)`";
+    return NULL;
+}
+
 /* What was likely meant by a mark that other notations have there, or that stands in a wrong place. */
 static const char *mark_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
@@ -274,7 +319,9 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
 
 const char *tn_syntax_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
-    const char *fix = mark_fix(parse, found, e);
+    const char *fix = house_fix(parse, found, e);
+    if (!fix)
+        fix = mark_fix(parse, found, e);
     if (!fix)
         fix = word_fix(parse, found, e);
     return fix ? fix : likely_fix(parse, found, e);
