@@ -15,7 +15,7 @@ typedef struct house_tally {
     mpz_t *lengths; /* houses on plans of each length, from the shortest */
     uint32_t low, high;
     mpz_t *values;    /* houses that have each value of each choice, choice by choice */
-    mpz_t *kept_out;  /* by each clause, of the houses that no clause is asked about; NULL: not counted */
+    mpz_t *kept_out;  /* by each clause, of the houses that the form allows; last those; NULL: not counted */
     mpz_t *alone;     /* by each clause, of those that all others keep */
     uint64_t *asking; /* [clauses + 1] states that each takes by itself, then those without any; 0: not counted so */
 } house_tally;
@@ -42,7 +42,7 @@ static void tally_free(const tn_numbered *n, house_tally *tally)
 {
     tn_integers_free(tally->lengths, (size_t)tally->high - tally->low + 1);
     tn_integers_free(tally->values, value_count(n));
-    tn_integers_free(tally->kept_out, n->record->clause_count);
+    tn_integers_free(tally->kept_out, n->record->clause_count + 1);
     tn_integers_free(tally->alone, n->record->clause_count);
     free(tally->asking);
     mpz_clears(tally->plans, tally->faced, tally->houses, NULL);
@@ -244,17 +244,15 @@ static tn_status count_by(const tn_numbered *n, const tn_module *module, const t
 static tn_status tally_kept_out(const tn_numbered *n, const tn_plan *plan, house_tally *tally, tn_error *error)
 {
     tn_house_library_record some = *n->record;
-    mpz_t all;
-    mpz_init(all);
+    uint32_t count = n->record->clause_count;
     some.clause_count = 0;
-    tn_status status = count_by(n, n->form.module, &some, plan, all, &tally->asking[n->record->clause_count], error);
+    tn_status status = count_by(n, n->form.module, &some, plan, tally->kept_out[count], &tally->asking[count], error);
     some.clause_count = 1;
-    for (uint32_t i = 0; status == TN_OK && i < n->record->clause_count; i++) {
+    for (uint32_t i = 0; status == TN_OK && i < count; i++) {
         some.clause_first = n->record->clause_first + i;
         status = count_by(n, n->form.module, &some, plan, tally->kept_out[i], &tally->asking[i], error);
-        mpz_sub(tally->kept_out[i], all, tally->kept_out[i]);
+        mpz_sub(tally->kept_out[i], tally->kept_out[count], tally->kept_out[i]);
     }
-    mpz_clear(all);
     return status;
 }
 
@@ -284,7 +282,7 @@ static tn_status tally_alone(const tn_numbered *n, const tn_plan *plan, house_ta
 
 static tn_status tally_clauses(const tn_numbered *n, const tn_plan *plan, house_tally *tally, tn_error *error)
 {
-    tally->kept_out = tn_integers_new(n->record->clause_count);
+    tally->kept_out = tn_integers_new(n->record->clause_count + 1);
     tally->alone = tn_integers_new(n->record->clause_count);
     tally->asking = calloc((size_t)n->record->clause_count + 1, sizeof *tally->asking);
     tn_status status = tally->kept_out && tally->alone && tally->asking ? tally_kept_out(n, plan, tally, error)
@@ -422,8 +420,12 @@ static void write_clauses(const tn_numbered *n, const house_tally *tally, bool j
     int labels = label_width(n);
     const tn_module *module = n->form.module;
     const tn_house_clause_record *clauses = module->HOUSE_CLAUSE_records + n->record->clause_first;
-    if (!json)
-        fprintf(out, "%-*s%-*s%s\n", labels, "clause", COUNT_WIDTH, "keeps out", "only by it");
+    mpz_srcptr allowed = tally->kept_out[n->record->clause_count];
+    if (json)
+        gmp_fprintf(out, ",\"without_clauses\":\"%Zd\"", allowed);
+    else
+        gmp_fprintf(out, "%-*s%Zd\n%-*s%-*s%s\n", labels, "without clauses", allowed, labels, "clause", COUNT_WIDTH,
+                    "keeps out", "only by it");
     for (uint32_t i = 0; !json && i < n->record->clause_count; i++)
         gmp_fprintf(out, "  %-*s %-*Zd%Zd\n", labels - 3, tn_text(module, clauses[i].name), COUNT_WIDTH,
                     tally->kept_out[i], tally->alone[i]);
@@ -518,6 +520,8 @@ void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const t
         else
             write_text(&n, &tally, out.stream);
         tn_job_commit(job, &out);
+        if (mpz_sgn(tally.houses) == 0 && !counting->clauses)
+            tn_numbered_say_few(&n, counting->plan != NULL, 0, 1);
     }
     tally_free(&n, &tally);
     tn_numbered_close(&n);
