@@ -110,6 +110,8 @@ static tn_status pick(tn_opened *opened, const names *list, const char *what, co
     const char *near = tn_nearest(name, all.texts, all.count);
     if (near)
         tn_help(diagnostics, diagnostic, "did you mean `%s`?", near);
+    else if (strcmp(what, "measure") == 0 && strcmp(name, "cost") == 0 && opened->module->MATERIAL_count)
+        tn_help(diagnostics, diagnostic, "write a measure of what a house costs: `measure cost = sum(cost)`");
     else if (all.count)
         tn_help(diagnostics, diagnostic, "it has %s", text);
     names_free(&all);

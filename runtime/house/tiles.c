@@ -399,6 +399,22 @@ static bool is_too_high(const tn_house_form *form, const tn_tile_failure *failur
     return box->up_low >= failure->high || box->up_high > failure->high;
 }
 
+/* "it stands against wall or sash, and no side of the room is that" */
+static void say_no_side(const tn_house_form *form, uint32_t tile, char *text, size_t size)
+{
+    const tn_module *module = form->module;
+    const tn_tile_record *record = &module->TILE_records[tile];
+    size_t used = (size_t)snprintf(text, size, "it stands against ");
+    for (uint32_t i = 0; i < record->against_count && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s",
+                                 i == 0                           ? ""
+                                 : i + 1 == record->against_count ? " or "
+                                                                  : ", ",
+                                 tn_form_kind_text(form, module->HOUSE_ITEM_records[record->against_first + i].number));
+    if (used < size)
+        snprintf(text + used, size - used, ", and no side of the room is that");
+}
+
 void tn_tile_failure_text(const tn_house_form *form, uint32_t tile, const tn_tile_failure *failure,
                           tn_length_style style, char *text, size_t size)
 {
@@ -411,7 +427,7 @@ void tn_tile_failure_text(const tn_house_form *form, uint32_t tile, const tn_til
     tn_length_write_style(failure->high, style, high, sizeof high);
     switch (failure->obstacle) {
     case TN_TILE_NO_SIDE:
-        snprintf(text, size, "no side of the room is one that it stands against");
+        say_no_side(form, tile, text, size);
         return;
     case TN_TILE_SIZE:
         snprintf(text, size, "the room is %s wide and %s deep, and it asks for another size", wide, deep);

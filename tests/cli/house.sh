@@ -56,6 +56,25 @@ golden explained_nothing "tartan explain sheds.plan ';'"
 golden library_of_plans "tartan unrank cottage '#1' --library cottage-rows"
 golden library_near "tartan vary cottage '#1' --library cottage"
 golden library_near_of_both 'tartan count cottage --library cottage'
+golden measure_cost 'tartan best row-houses 1 --library row-houses --least cost'
+cat >"$scratch/cells.plan" <<'PLAN'
+schema row { bay = 4m  zone rooms = room(4m) }
+form cells of row {
+  storey ground 3m
+  wall 300mm
+  partition 100mm
+  deck 250mm
+  roof 200mm
+  function bedroom at cell(rooms)
+  opening sash wide 1m high 1m sill 1m
+  face cell(any) along cell(any) = party
+  face cell(any) outside = sash
+  tile bed for bedroom { against wall or floor  item bed left 1m..2m, back 0..2m }
+}
+library rows using row { trays 2 }
+library houses from rows in cells { }
+PLAN
+golden explained_no_side "tartan explain $scratch/cells.plan '#0' --library houses"
 golden matched "printf '%s\n' '# two' \"$bedrooms\" | tartan match cottage --rule far-bed --rule dark-living"
 golden matched_any "printf '%s\n' \"$bedrooms\" | tartan match cottage --rule far-bed --rule dark-living --format any"
 golden matched_badly "printf '%s\n' '' \"14' room:14' none ; 3\" | tartan match cottage --rule far-bed"
