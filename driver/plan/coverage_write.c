@@ -84,9 +84,9 @@ static bool write_form_part(const tn_covered *covered, const tn_form_line *part,
 static bool write_form(const tn_covered *covered, const tn_form_coverage *form, tn_buffer *out)
 {
     bool ok = tn_buffer_printf(
-        out, "`%s`%s%s in the houses of %zu tests: how many have what a line says\n%5s  %-*s %6s\n", form->name,
-        form->imported ? " of " : "", form->imported ? place_of(covered, form->place).path : "", form->tests, "line",
-        (int)FORM_WIDTH, "part", "houses");
+        out, "`%s`%s%s in the houses of %zu test%s: how many have what a line says\n%5s  %-*s %6s\n", form->name,
+        form->imported ? " of " : "", form->imported ? place_of(covered, form->place).path : "", form->tests,
+        form->tests == 1 ? "" : "s", "line", (int)FORM_WIDTH, "part", "houses");
     for (size_t i = 0; ok && i < form->count; i++)
         ok = write_form_part(covered, &form->parts[i], out);
     return ok && tn_buffer_printf(out, "%zu of %zu parts are in a house of a test\n", form->reached, form->count);
