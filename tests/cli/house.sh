@@ -75,6 +75,27 @@ library rows using row { trays 2 }
 library houses from rows in cells { }
 PLAN
 golden explained_no_side "tartan explain $scratch/cells.plan '#0' --library houses"
+
+# A section along the side of a flight, where the parts of the decks meet: they are cut, as they are a little beside.
+cat >"$scratch/tower.plan" <<'PLAN'
+schema tower { side = 6m  zone well = shaft(6m) }
+form tower-form of tower {
+  storey cellar 2.8m
+  storey hall 2.8m
+  wall 600mm
+  partition 150mm
+  deck 300mm
+  roof 250mm
+  function stair at cell(well)
+  flight dogleg wide 1.2m rise 150mm..190mm going 260mm turn half
+  face cell(stair) under cell(stair) = dogleg
+}
+PLAN
+for at in 1.5m 1.49m; do
+    "$TARTAN" house "$scratch/tower.plan" '6m shaft:6m' --view "section:x=$at" -o "$scratch/$at.dxf"
+    grep -c '^HATCH' "$scratch/$at.dxf" || true
+done >"$scratch/hatched"
+is 'decks that are hatched along a flight' "$(head -n 1 "$scratch/hatched")" "$(tail -n 1 "$scratch/hatched")"
 golden matched "printf '%s\n' '# two' \"$bedrooms\" | tartan match cottage --rule far-bed --rule dark-living"
 golden matched_any "printf '%s\n' \"$bedrooms\" | tartan match cottage --rule far-bed --rule dark-living --format any"
 golden matched_badly "printf '%s\n' '' \"14' room:14' none ; 3\" | tartan match cottage --rule far-bed"

@@ -8,6 +8,7 @@
 #include "runtime/base/length_style.h"
 
 #define PLAN_CUT_NM INT64_C(1219200000) /* 4' */
+#define INTO_NM 1000.0                  /* less than one sees */
 
 const uint32_t tn_solid_groups[TN_SOLID_COUNT] = {
     [TN_SOLID_OUTSIDE] = TN_GROUP_WALL, [TN_SOLID_PARTY] = TN_GROUP_WALL,   [TN_SOLID_PARTITION] = TN_GROUP_WALL,
@@ -127,6 +128,26 @@ static void drop_item_cuts(tn_blocks *blocks, bool plan)
     blocks->cut_count = kept;
 }
 
+/* Do two blocks of one part of the house meet in the plane across the axis? */
+static bool meet(const tn_house_block *below, const tn_house_block *above, int axis, double at)
+{
+    bool meet = below->kind == above->kind && below->high[axis] == at && above->low[axis] == at;
+    for (int k = 0; k < 3; k++)
+        meet = meet && (k == axis || (below->low[k] < above->high[k] && above->low[k] < below->high[k]));
+    return meet;
+}
+
+/* Where a section is cut: at the place, or where blocks meet there that are one deck or wall, a little way into what is
+ * drawn, so that they are cut and not seen from beside. */
+static double off_joints(const tn_blocks *blocks, int axis, double at, double into)
+{
+    for (size_t i = 0; i < blocks->count; i++)
+        for (size_t k = 0; blocks->items[i].high[axis] == at && k < blocks->count; k++)
+            if (meet(&blocks->items[i], &blocks->items[k], axis, at))
+                return at + into;
+    return at;
+}
+
 static tn_status cut(const tn_house *house, const tn_aspect *aspect, tn_blocks *blocks, tn_error *error)
 {
     drop_parts(blocks, aspect);
@@ -134,9 +155,9 @@ static tn_status cut(const tn_house *house, const tn_aspect *aspect, tn_blocks *
     case TN_ASPECT_PLAN:
         return tn_blocks_cut(blocks, 2, (double)plan_level(house->form, aspect->storey), false, error);
     case TN_ASPECT_SECTION_X:
-        return tn_blocks_cut(blocks, 0, (double)aspect->at, false, error);
+        return tn_blocks_cut(blocks, 0, off_joints(blocks, 0, (double)aspect->at, -INTO_NM), false, error);
     case TN_ASPECT_SECTION_Y:
-        return tn_blocks_cut(blocks, 1, (double)aspect->at, true, error);
+        return tn_blocks_cut(blocks, 1, off_joints(blocks, 1, (double)aspect->at, INTO_NM), true, error);
     default:
         if (aspect->storeys && aspect->storeys <= house->form->record->storey_count)
             drop_above(house, blocks, aspect->storeys);

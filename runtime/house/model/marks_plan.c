@@ -145,10 +145,11 @@ static bool put_dimensions(const tn_house *house, uint32_t storey, double letter
     if (!places)
         return false;
     double *deep = places + 2 * house->cell_count, low[2] = {INFINITY, INFINITY};
+    int64_t half = house->form->record->wall / 2; /* walls reach so far beyond their planes */
     for (uint32_t i = 0; i < house->cell_count; i++) {
         const tn_rectangle *at = &house->cells[i].at;
-        low[0] = fmin(low[0], (double)at->x0);
-        low[1] = fmin(low[1], (double)at->y0);
+        low[0] = fmin(low[0], (double)(at->x0 - half));
+        low[1] = fmin(low[1], (double)(at->y0 - half));
         if (house->cells[i].storey != storey)
             continue;
         places[2 * count] = (double)at->x0;
