@@ -114,7 +114,11 @@ static bool word_is_free(tn_check *check, const tn_checked_form *form, const tn_
                                  "the name `%.80s` is that of %s already", name->text, taken.what);
     if (taken.place)
         tn_note(check->diagnostics, d, taken.place, "it is here");
-    tn_help(check->diagnostics, d, "choose another name, so that `cell(NAME)` is clear");
+    if (tn_form_function(form, name->text) != TN_NONE)
+        tn_help(check->diagnostics, d,
+                "choose another name; places that one function may be are joined: `at cell(...) or cell(...)`");
+    else
+        tn_help(check->diagnostics, d, "choose another name, so that `cell(NAME)` is clear");
     return false;
 }
 

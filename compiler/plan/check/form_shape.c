@@ -276,15 +276,49 @@ static void unknown_choice(tn_check *check, const tn_checked_form *form, const t
     tn_form_unknown(check, form, word, "choice", names, form->choice_count);
 }
 
+/* A value that the choice does not have: its values are listed as they are written, or by their names, each once. */
+static void unknown_value(tn_check *check, const tn_checked_form *form, const tn_checked_choice *choice,
+                          const tn_ast_shape *shape)
+{
+    const char *names[TN_VALUES_MAX];
+    size_t count = 0;
+    char list[300] = "";
+    for (uint32_t i = 0; i < choice->shape_count; i++) {
+        const char *name = choice->shapes[i].ast->word->text;
+        bool known = false;
+        for (size_t k = 0; k < count; k++)
+            known |= strcmp(names[k], name) == 0;
+        if (!known)
+            names[count++] = name;
+    }
+    for (uint32_t i = 0; i < choice->shape_count; i++) {
+        tn_span span = choice->shapes[i].ast->node.span;
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s`%.*s`",
+                 i == 0                         ? ""
+                 : i + 1 == choice->shape_count ? " or "
+                                                : ", ",
+                 (int)(span.end - span.begin), check->diagnostics->sources->files[span.file].text + span.begin);
+    }
+    bool named = false;
+    for (size_t k = 0; k < count; k++)
+        named |= strcmp(names[k], shape->word->text) == 0;
+    if (!named) {
+        tn_form_unknown(check, form, shape->word, "value", names, count);
+        return;
+    }
+    tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_PART, shape->node.span,
+                                 "there is no `%.80s` of `%.80s` that is so", shape->word->text, choice->name);
+    tn_help(check->diagnostics, d, "write all of it, or its name alone: it can be %s", list);
+}
+
 /* The values that a shape means: those of its name, or, where it has parentheses, the one that is spelled so. */
 static bool add_values(tn_check *check, const tn_checked_form *form, const tn_checked_choice *choice,
                        const tn_ast_shape *shape, tn_decision *decision)
 {
-    const char *spelling = spell(check, shape), *names[TN_VALUES_MAX];
+    const char *spelling = spell(check, shape);
     bool found = false;
     for (uint32_t i = 0; i < choice->shape_count; i++) {
         const tn_checked_shape *value = &choice->shapes[i];
-        names[i] = value->ast->word->text;
         bool meant = shape->arguments.count ? strcmp(value->spelling, spelling) == 0
                                             : strcmp(value->ast->word->text, shape->word->text) == 0;
         if (!meant)
@@ -297,7 +331,7 @@ static bool add_values(tn_check *check, const tn_checked_form *form, const tn_ch
         found = true;
     }
     if (!found)
-        tn_form_unknown(check, form, shape->word, "value", names, choice->shape_count);
+        unknown_value(check, form, choice, shape);
     return found;
 }
 

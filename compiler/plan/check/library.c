@@ -232,8 +232,14 @@ static void stand_in_form(tn_check *check, tn_checked_library *library, tn_check
             return;
         tn_diagnostic *d =
             tn_report(check->diagnostics, E_UNKNOWN_FORM, word->node.span, "there is no form `%s`", word->text);
-        tn_help(check->diagnostics, d, "declare it with `form %s of SCHEMA { ... }`, or `use` the file that does",
-                word->text);
+        const char *near = NULL;
+        for (size_t i = 0; i < check->result->form_count && !near; i++)
+            near = tn_nearest(word->text, &(const char *){check->result->forms[i]->name}, 1);
+        if (near)
+            tn_suggest(check->diagnostics, d, "%s", near);
+        else
+            tn_help(check->diagnostics, d, "declare it with `form %s of SCHEMA { ... }`, or `use` the file that does",
+                    word->text);
     } else if (other && form != from->form) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_OTHER_FORM, word->node.span,
                                      "library `%s` has houses of form `%s`", from->name, other);

@@ -127,6 +127,8 @@ static const char *house_fix(const tn_parse *parse, const char *found, const tn_
     if (strcmp(found, "`of`") == 0 && comes_after(parse, "area"))
         return "areas of cells are added up by `sum(area of cell(...), a > 400sf)`; rooms are asked for by "
                "`room(kitchen, area < 90sf)`";
+    if (e->count <= 2 && tn_expects(e, "`of`") && line_begins(parse, "form"))
+        return "a form is written `form NAME of SCHEMA { ... }`";
     if (e->count == 1 && tn_expects(e, "`:`"))
         return "numbers in the parentheses of a roof are a slope, how far it rises for how far: `gable(9:12)`";
     return NULL;
