@@ -1,6 +1,7 @@
 /* Reads texts in quotes and numbers, and checks that a source is UTF-8, for all lexers. */
 #include "compiler/common/lexical.h"
 
+#include <ctype.h>
 #include <string.h>
 
 #include "runtime/base/length.h"
@@ -99,6 +100,21 @@ char *tn_string_lex(tn_arena *arena, const char *text, size_t size)
     return copy;
 }
 
+/* `room:7.2m`, as lines of plans have it: how that is written elsewhere. `text` is at the colon, begin where it starts.
+ */
+static bool help_depth(tn_diagnostics *diagnostics, tn_diagnostic *d, const char *begin, const char *text)
+{
+    const char *fill = text;
+    while (fill > begin && (isalnum((unsigned char)fill[-1]) || fill[-1] == '-'))
+        fill--;
+    size_t depth = strspn(text + 1, "0123456789.'\"/cm");
+    if (*text != ':' || !isalpha((unsigned char)*fill) || !isdigit((unsigned char)text[1]))
+        return false;
+    tn_help(diagnostics, d, "a depth follows its fill after a blank: `%.*s %.*s`", (int)(text - fill), fill, (int)depth,
+            text + 1);
+    return true;
+}
+
 void tn_stray_report(tn_diagnostics *diagnostics, tn_span span)
 {
     static const struct {
@@ -126,6 +142,8 @@ void tn_stray_report(tn_diagnostics *diagnostics, tn_span span)
                 : tn_report(diagnostics, E_STRAY_CHARACTER, span, "the control character 0x%02x means nothing here",
                             (unsigned char)text[0]);
     const char *help = "leave it out";
+    if (help_depth(diagnostics, d, diagnostics->sources->files[span.file].text, text))
+        return;
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
         if (strlen(table[i].found) == size && memcmp(text, table[i].found, size) == 0)
             help = table[i].help;

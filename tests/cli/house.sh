@@ -56,6 +56,7 @@ golden explained_nothing "tartan explain sheds.plan ';'"
 golden library_of_plans "tartan unrank cottage '#1' --library cottage-rows"
 golden library_near "tartan vary cottage '#1' --library cottage"
 golden library_near_of_both 'tartan count cottage --library cottage'
+golden open_plan_depth "tartan complete cottage \"14' room:14' porch | ...\" --library cottages"
 golden measure_cost 'tartan best row-houses 1 --library row-houses --least cost'
 cat >"$scratch/cells.plan" <<'PLAN'
 schema row { bay = 4m  zone rooms = room(4m) }
