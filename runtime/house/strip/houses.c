@@ -20,10 +20,12 @@ static tn_status too_many(const tn_houses *h, const tn_houses_kind *kind, tn_err
     return TN_LIMIT;
 }
 
-/* nodes: of all layers of states so far, and of the next layer. */
-static bool too_large(const tn_houses *h, const tn_houses_kind *kind, uint64_t nodes)
+/* The limit is of states. Within a step there are more nodes, but they take little to find: eight times as many. */
+static bool too_large(const tn_houses *h, const tn_houses_kind *kind, uint32_t layer, uint64_t nodes)
 {
-    return nodes > h->max_states || kind->strip->states.count > h->max_states;
+    enum { HALF_WAY = 8 };
+    bool states = layer % tn_houses_stages(h, kind) == 0;
+    return (states ? nodes : nodes / HALF_WAY) > h->max_states || kind->strip->states.count > h->max_states;
 }
 
 /* ---- counting forwards */
@@ -47,7 +49,7 @@ static tn_status lead_on(void *context, const tn_houses_edge *edge, tn_error *er
         return tn_fail_memory(error);
     for (; f->next_count < 2 * ((size_t)to + 1); f->next_count++)
         mpz_init(f->next[f->next_count]);
-    if (too_large(f->houses, f->kind, f->nodes + to))
+    if (too_large(f->houses, f->kind, f->layer + 1, f->nodes + to))
         return too_many(f->houses, f->kind, error);
     const uint64_t times[2] = {edge->times, edge->faced};
     for (size_t i = 0; i < 2; i++) {
@@ -119,9 +121,9 @@ static tn_status come_by(void *context, const tn_houses_edge *edge, tn_error *er
 {
     const tn_scout *s = context;
     uint32_t to = tn_number(&s->kind->layers[s->layer + 1].nodes, (uint64_t)edge->plan << 32 | edge->state);
-    return to == UINT32_MAX             ? tn_fail_memory(error)
-           : to > s->houses->max_states ? too_many(s->houses, s->kind, error)
-                                        : TN_OK;
+    if (to == UINT32_MAX)
+        return tn_fail_memory(error);
+    return too_large(s->houses, s->kind, s->layer + 1, to) ? too_many(s->houses, s->kind, error) : TN_OK;
 }
 
 static tn_status pass_end(void *context, const tn_houses_edge *edge, tn_error *error)

@@ -289,6 +289,12 @@ static void check_measures(check *c)
     }
 }
 
+/* One plan in so many is looked at more closely: in fewer under AddressSanitizer. */
+static uint32_t every(uint32_t plans)
+{
+    return plans * (uint32_t)(4 / test_share(4));
+}
+
 /* Returns how many houses there are. */
 static uint64_t check_library(const test_house *made, const tn_house_library_record *record, uint32_t rank_every)
 {
@@ -323,8 +329,8 @@ static void test_written(void **state)
     (void)state;
     test_house made;
     test_house_make(&made);
-    assert_true(check_library(&made, made.all, 7) > 1000);
-    assert_true(check_library(&made, made.some, 7) > 100);
+    assert_true(check_library(&made, made.all, every(7)) > 1000);
+    assert_true(check_library(&made, made.some, every(7)) > 100);
     test_house_clear(&made);
 }
 
@@ -335,7 +341,7 @@ static void test_drawn(void **state)
     (void)state;
     drawn_house d = {.state = 7};
     uint32_t with_houses = 0;
-    for (int i = 0; i < test_share(40); i++) {
+    for (int i = 0; i < test_share(24); i++) {
         test_house made;
         drawn_house_write(&d);
         test_house_compile(&made, d.text);
@@ -344,7 +350,7 @@ static void test_drawn(void **state)
         with_houses += some > 0 && some < all;
         test_house_clear(&made);
     }
-    assert_true(with_houses > (uint32_t)test_share(10));
+    assert_true(with_houses > (uint32_t)test_share(6));
 }
 
 /* ---- clauses that compare measures: the interpreter says of each house of `all` whether `some` has it */
@@ -431,7 +437,7 @@ static void test_compared(void **state)
 static void test_compared_costs(void **state)
 {
     (void)state;
-    check_compared(true, 4, 0);
+    check_compared(true, test_share(4), 0);
 }
 
 /* Where in the row rooms and walks are: such as two halves of a room that meet in its last tray. */
@@ -498,7 +504,7 @@ static void test_places(void **state)
     (void)state;
     static const uint64_t draws[] = {0, 5, 18, 1017};
     uint32_t with_houses = 0;
-    for (size_t i = 0; i < sizeof draws / sizeof *draws; i++) {
+    for (int i = 0; i < test_share(4); i++) {
         test_house made;
         drawn_house d = {.state = draws[i], .places = true};
         drawn_house_write(&d);
@@ -508,7 +514,7 @@ static void test_places(void **state)
         with_houses += kept > 0;
         test_house_clear(&made);
     }
-    assert_true(with_houses > 2);
+    assert_true(with_houses > 0);
 }
 
 /* Cells that meet across a plane, where the clause may be read from either end of the row. */
