@@ -91,7 +91,7 @@ static tn_status outcomes_of(tn_plan_path *a, tn_plane_left *plane, uint32_t lef
     tn_status status = TN_OK;
     if (at == before) {
         *l = (tn_left){0};
-        status = tn_strip_outcomes_ordered(a->strip, left, right, plane->cells, &l->all, error);
+        status = tn_strip_outcomes_ordered(a->kind.strip, left, right, plane->cells, &l->all, error);
     }
     if (status == TN_OK)
         status = gather(l, plane->stretch.first, plane->stretch.count, error);
@@ -171,7 +171,7 @@ static tn_status go_to(void *context, uint32_t state, uint64_t times, uint64_t f
 /* f->after := where the houses with the faces so far are behind the tray. */
 static tn_status go_through(tn_facing *f, tn_error *error)
 {
-    tn_strip *strip = f->path->strip;
+    tn_strip *strip = f->path->kind.strip;
     tn_status status = gather(&f->slices, f->inner.first, f->inner.count, error);
     empty(&f->after);
     for (uint32_t i = 0; status == TN_OK && i < f->before.keys.count; i++) {
@@ -201,23 +201,23 @@ static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_erro
     tn_status status;
     mpz_set_ui(sum->houses, 0);
     if (next == a->length) {
-        sum->next = NULL;
+        sum->ahead = NULL;
         status = outcomes_of(a, &f->right, edge, TN_STRIP_NONE, &outcomes, error);
         return status == TN_OK
-                   ? tn_strip_step_by(a->strip, next, state, TN_STRIP_NONE, outcomes, tn_path_add, sum, error)
+                   ? tn_strip_step_by(a->kind.strip, next, state, TN_STRIP_NONE, outcomes, tn_path_add, sum, error)
                    : status;
     }
     mpz_t all;
     mpz_init(all);
-    sum->next = &a->layers[next + 1].of;
-    sum->ahead = a->layers[next + 1].like;
+    sum->trays = next + 1;
+    sum->ahead = a->states[next + 1].like;
     status = TN_OK;
     for (size_t k = 0; status == TN_OK && k < f->of_tray[next].count; k++) {
         const tn_strip_choice *slice = &f->of_tray[next].items[k];
         mpz_set_ui(sum->houses, 0);
-        status = outcomes_of(a, &f->right, edge, a->strip->slices[slice->slice].entry, &outcomes, error);
+        status = outcomes_of(a, &f->right, edge, a->kind.strip->slices[slice->slice].entry, &outcomes, error);
         if (status == TN_OK)
-            status = tn_strip_step_by(a->strip, next, state, slice->slice, outcomes, tn_path_add, sum, error);
+            status = tn_strip_step_by(a->kind.strip, next, state, slice->slice, outcomes, tn_path_add, sum, error);
         mpz_addmul_ui(all, sum->houses, slice->times);
     }
     mpz_swap(sum->houses, all);
@@ -228,7 +228,7 @@ static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_erro
 /* houses := those that go on behind the tray. */
 static tn_status count_on(tn_facing *f, mpz_t houses, tn_error *error)
 {
-    tn_path_sum sum = {0};
+    tn_path_sum sum = {.path = f->path};
     tn_status status = TN_OK;
     mpz_init(sum.houses);
     mpz_set_ui(houses, 0);
@@ -315,7 +315,7 @@ static tn_status begin_tray(tn_facing *f, uint32_t tray, tn_error *error)
     begin_plane(f, tray + 1, &f->right);
     clear_left(&f->slices);
     f->slices = (tn_left){0};
-    tn_status status = tn_strip_slices_ordered(f->path->strip, house->trays[tray],
+    tn_status status = tn_strip_slices_ordered(f->path->kind.strip, house->trays[tray],
                                                &house->cells[house->tray_first[tray]], &f->slices.all, error);
     f->inner = (tn_choice_stretch){0, f->slices.all.count};
     return status;
@@ -351,16 +351,16 @@ static tn_status check_left(tn_facing *f, bool *found, tn_error *error)
 
 /* ---- what is ahead, of houses with the functions */
 
-static tn_status count_ahead(tn_plan_path *a, uint32_t layer, uint32_t at, const tn_path_slices *slices,
+static tn_status count_ahead(tn_plan_path *a, uint32_t tray, uint32_t node, const tn_path_slices *slices,
                              tn_path_sum *sum, tn_error *error)
 {
-    uint32_t state = (uint32_t)a->layers[layer].of.keys[at];
-    mpz_ptr like = a->layers[layer].like[at];
+    mpz_ptr like = a->states[tray].like[node];
     tn_status status = TN_OK;
     mpz_set_ui(like, 0);
     for (size_t k = 0; status == TN_OK && k < slices->count; k++) {
         mpz_set_ui(sum->houses, 0);
-        status = tn_strip_step(a->strip, layer, state, slices->items[k].slice, tn_path_add, sum, error);
+        status = tn_strip_step(a->kind.strip, tray, tn_path_state(a, tray, node), slices->items[k].slice, tn_path_add,
+                               sum, error);
         mpz_addmul_ui(like, sum->houses, slices->items[k].times);
     }
     return status;
@@ -369,18 +369,18 @@ static tn_status count_ahead(tn_plan_path *a, uint32_t layer, uint32_t at, const
 /* How the row ends does not depend on functions. */
 static tn_status look_ahead(tn_plan_path *a, const tn_path_slices *of_tray, tn_error *error)
 {
-    const tn_path_states *last = &a->layers[a->length];
-    tn_path_sum sum = {0};
+    const tn_houses_layer *last = tn_path_layer(a, a->length);
+    tn_path_sum sum = {.path = a};
     tn_status status = TN_OK;
     mpz_init(sum.houses);
-    for (uint32_t i = 0; i < last->of.count; i++)
-        mpz_set(last->like[i], last->ahead[i]);
-    for (uint32_t layer = a->length; status == TN_OK && layer-- > 0;) {
-        sum.next = &a->layers[layer + 1].of;
-        sum.ahead = a->layers[layer + 1].like;
-        for (uint32_t i = 0; status == TN_OK && i < a->layers[layer].of.count; i++)
-            if (mpz_sgn(a->layers[layer].here[i]) > 0)
-                status = count_ahead(a, layer, i, &of_tray[layer], &sum, error);
+    for (uint32_t i = 0; i < last->nodes.count; i++)
+        mpz_set(a->states[a->length].like[i], last->ahead[i]);
+    for (uint32_t tray = a->length; status == TN_OK && tray-- > 0;) {
+        sum.trays = tray + 1;
+        sum.ahead = a->states[tray + 1].like;
+        for (uint32_t i = 0; status == TN_OK && i < tn_path_layer(a, tray)->nodes.count; i++)
+            if (mpz_sgn(a->states[tray].here[i]) > 0)
+                status = count_ahead(a, tray, i, &of_tray[tray], &sum, error);
     }
     mpz_clear(sum.houses);
     return status;

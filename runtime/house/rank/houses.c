@@ -27,16 +27,13 @@ tn_status tn_plan_houses_new(tn_houses *h, tn_house_variants *variants, const tn
         return tn_fail_memory(error);
     if (length > 0)
         memcpy(p->trays, trays, length * sizeof *trays);
-    for (size_t i = 0; i < h->kind_count; i++)
-        tn_path_init(&p->kinds[i], p->trays, length);
     return TN_OK;
 }
 
 void tn_plan_houses_free(tn_plan_houses *p)
 {
     for (size_t i = 0; p && p->kinds && i < p->houses->kind_count; i++)
-        if (p->trays)
-            tn_path_clear(&p->kinds[i]);
+        tn_path_clear(&p->kinds[i]);
     if (p) {
         free(p->kinds);
         free(p->trays);
@@ -48,7 +45,7 @@ static tn_status path_of(tn_plan_houses *p, const tn_house *section, tn_plan_pat
 {
     const tn_houses_kind *kind = tn_houses_kind_of(p->houses, section);
     *path = &p->kinds[kind - p->houses->kinds];
-    return (*path)->layers ? TN_OK : tn_path_find(*path, kind->strip, error);
+    return (*path)->states ? TN_OK : tn_path_find(*path, p->houses, kind, p->trays, p->length, error);
 }
 
 /* ---- a section */
@@ -80,7 +77,7 @@ static tn_status try_section(tn_plan_houses *p, const tn_choosing *choosing, con
     tn_plan_path *path;
     tn_status status = path_of(p, section, &path, error);
     *ended = status == TN_OK &&
-             !tn_choosing_passes(choosing, path->layers[0].ahead[0], has_section(choosing->wanted, section));
+             !tn_choosing_passes(choosing, tn_path_layer(path, 0)->ahead[0], has_section(choosing->wanted, section));
     if (!*ended)
         return status;
     status = tn_house_stand(p->houses->form, p->trays, p->length, section->shapes, house, error);

@@ -1,4 +1,4 @@
-/* The states that a plan reaches are found forwards, and how many houses go on from each backwards. */
+/* The states of a plan are those of a library that has only this plan. */
 #include "runtime/house/rank/path.h"
 
 #include <stdlib.h>
@@ -16,115 +16,87 @@ bool tn_choosing_passes(const tn_choosing *c, const mpz_t houses, bool is_wanted
     return true;
 }
 
-void tn_path_init(tn_plan_path *a, const tn_tray *trays, uint32_t length)
+void tn_path_clear(tn_plan_path *p)
 {
-    *a = (tn_plan_path){.trays = trays, .length = length};
-    mpz_init(a->one);
-}
-
-void tn_path_clear(tn_plan_path *a)
-{
-    for (uint32_t i = 0; a->layers && i <= a->length; i++) {
-        tn_path_states *states = &a->layers[i];
-        tn_integers_free(states->ahead, states->of.count);
-        tn_integers_free(states->here, states->of.count);
-        tn_integers_free(states->like, states->of.count);
-        tn_numbering_clear(&states->of);
+    for (uint32_t i = 0; p->states && i <= p->length; i++) {
+        tn_integers_free(p->states[i].here, tn_path_layer(p, i)->nodes.count);
+        tn_integers_free(p->states[i].like, tn_path_layer(p, i)->nodes.count);
     }
-    free(a->layers);
-    mpz_clear(a->one);
+    free(p->states);
+    tn_houses_layers_clear(&p->view, &p->kind);
+    *p = (tn_plan_path){0};
 }
 
 /* ---- states */
 
-static tn_status reach(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
-                       tn_error *error)
+typedef struct tn_path_reaching {
+    tn_plan_path *path;
+    uint32_t layer;
+} tn_path_reaching;
+
+static tn_status reach(void *context, const tn_houses_edge *edge, tn_error *error)
 {
-    tn_path_states *next = context;
-    (void)times;
-    (void)faced;
-    (void)gain;
-    return tn_number(&next->of, state) != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+    const tn_path_reaching *r = context;
+    uint64_t node = (uint64_t)edge->plan << 32 | edge->state;
+    return tn_number(&r->path->kind.layers[r->layer + 1].nodes, node) != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-static tn_status find_states(tn_plan_path *a, tn_error *error)
+static tn_status find_nodes(tn_plan_path *p, tn_error *error)
 {
-    tn_status status = tn_number(&a->layers[0].of, TN_STRIP_NONE) != UINT32_MAX ? TN_OK : tn_fail_memory(error);
-    for (uint32_t i = 0; status == TN_OK && i < a->length; i++) {
-        const tn_strip_list *list = &a->strip->of_tray[a->trays[i]];
-        for (uint32_t s = 0; status == TN_OK && s < a->layers[i].of.count; s++) {
-            uint32_t state = (uint32_t)a->layers[i].of.keys[s];
-            status = tn_watch_check(a->strip->watch, error);
-            for (size_t k = 0; status == TN_OK && k < list->count; k++)
-                status = tn_strip_step(a->strip, i, state, list->items[k].slice, reach, &a->layers[i + 1], error);
-        }
-    }
+    tn_path_reaching r = {.path = p};
+    p->kind.layers = calloc((size_t)p->length * p->stages + 1, sizeof *p->kind.layers);
+    if (!p->kind.layers || tn_number(&p->kind.layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX)
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    for (; status == TN_OK && r.layer < p->length * p->stages; r.layer++)
+        status = tn_houses_expand(&p->view, &p->kind, r.layer, false, reach, &r, error);
     return status;
 }
 
-/* ---- what is ahead */
+/* With fewer slices, a step as a whole is quicker than one in stages. */
+enum { SLICES_FEW = 5000 };
 
+tn_status tn_path_find(tn_plan_path *p, const tn_houses *houses, const tn_houses_kind *kind, const tn_tray *trays,
+                       uint32_t length, tn_error *error)
+{
+    *p = (tn_plan_path){.view = *houses, .kind = {.strip = kind->strip}, .length = length};
+    p->view.only = trays;
+    p->view.low = p->view.high = length;
+    p->view.whole_steps = kind->strip->slice_keys.count < SLICES_FEW;
+    p->stages = tn_houses_stages(&p->view, &p->kind);
+    tn_status status = find_nodes(p, error);
+    if (status == TN_OK)
+        status = tn_houses_look_ahead(&p->view, &p->kind, error);
+    if (status != TN_OK)
+        return status;
+    p->states = calloc((size_t)length + 1, sizeof *p->states);
+    for (uint32_t i = 0; p->states && i <= length; i++) {
+        p->states[i].here = tn_integers_new(tn_path_layer(p, i)->nodes.count);
+        p->states[i].like = tn_integers_new(tn_path_layer(p, i)->nodes.count);
+        if (!p->states[i].here || !p->states[i].like)
+            return tn_fail_memory(error);
+    }
+    return p->states ? TN_OK : tn_fail_memory(error);
+}
+
+uint32_t tn_path_node(const tn_plan_path *p, uint32_t trays, uint32_t state)
+{
+    const tn_numbering *nodes = &tn_path_layer(p, trays)->nodes; /* of one plan, so of one state of it */
+    return nodes->count > 0 ? tn_number_find(nodes, (nodes->keys[0] >> 32 << 32) | state) : UINT32_MAX;
+}
+
+/* A state in which the row cannot end is no node, where it would be the last. */
 tn_status tn_path_add(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
                       tn_error *error)
 {
     tn_path_sum *sum = context;
     (void)faced;
     (void)gain;
-    uint32_t at = sum->next ? tn_number_find(sum->next, state) : 0;
-    if (at == UINT32_MAX)
-        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a house goes on to a state that its plan does not reach");
-    if (!sum->next)
+    (void)error;
+    uint32_t at = sum->ahead ? tn_path_node(sum->path, sum->trays, state) : 0;
+    if (!sum->ahead)
         mpz_add_ui(sum->houses, sum->houses, times);
-    else
+    else if (at != UINT32_MAX)
         mpz_addmul_ui(sum->houses, sum->ahead[at], times);
     return TN_OK;
-}
-
-static tn_status count_ahead(tn_plan_path *a, uint32_t layer, uint32_t at, tn_path_sum *sum, tn_error *error)
-{
-    uint32_t state = (uint32_t)a->layers[layer].of.keys[at];
-    mpz_ptr ahead = a->layers[layer].ahead[at];
-    const tn_path_states *next = layer < a->length ? &a->layers[layer + 1] : NULL;
-    sum->next = next ? &next->of : NULL;
-    sum->ahead = next ? next->ahead : NULL;
-    mpz_set_ui(sum->houses, 0);
-    if (!next) {
-        tn_status status = tn_strip_step(a->strip, layer, state, TN_STRIP_NONE, tn_path_add, sum, error);
-        mpz_set(ahead, sum->houses);
-        return status;
-    }
-    const tn_strip_list *list = &a->strip->of_tray[a->trays[layer]];
-    tn_status status = tn_watch_check(a->strip->watch, error);
-    for (size_t k = 0; status == TN_OK && k < list->count; k++) {
-        mpz_set_ui(sum->houses, 0);
-        status = tn_strip_step(a->strip, layer, state, list->items[k].slice, tn_path_add, sum, error);
-        mpz_addmul_ui(ahead, sum->houses, list->items[k].times);
-    }
-    return status;
-}
-
-static tn_status look_ahead(tn_plan_path *a, tn_error *error)
-{
-    tn_path_sum sum = {0};
-    tn_status status = TN_OK;
-    mpz_init(sum.houses);
-    for (uint32_t layer = a->length + 1; status == TN_OK && layer-- > 0;) {
-        tn_path_states *states = &a->layers[layer];
-        states->ahead = tn_integers_new(states->of.count);
-        states->here = tn_integers_new(states->of.count);
-        states->like = tn_integers_new(states->of.count);
-        status = states->ahead && states->here && states->like ? TN_OK : tn_fail_memory(error);
-        for (uint32_t i = 0; status == TN_OK && i < states->of.count; i++)
-            status = count_ahead(a, layer, i, &sum, error);
-    }
-    mpz_clear(sum.houses);
-    return status;
-}
-
-tn_status tn_path_find(tn_plan_path *a, tn_strip *strip, tn_error *error)
-{
-    a->strip = strip;
-    a->layers = calloc((size_t)a->length + 1, sizeof *a->layers);
-    tn_status status = a->layers ? find_states(a, error) : tn_fail_memory(error);
-    return status == TN_OK ? look_ahead(a, error) : status;
 }

@@ -15,32 +15,48 @@ typedef struct tn_choosing {
 /* Passes over so many houses, unless the house is among them; is_wanted: the wanted house is, where there is one. */
 bool tn_choosing_passes(const tn_choosing *choosing, const mpz_t houses, bool is_wanted);
 
-/* The states after so many trays of the plan. [of]: houses that go on from there; choices of the functions so far, and
- * of all else, that lead there; houses that go on from there with the functions, once they are chosen. */
+/* How many houses go on from each node of the layers, for each length; the nodes are found. */
+tn_status tn_houses_look_ahead(const tn_houses *houses, tn_houses_kind *kind, tn_error *error);
+
+/* Of each state after so many trays: choices of the functions so far, and of all else, that lead there; houses that go
+ * on from there with the functions, once they are chosen. */
 typedef struct tn_path_states {
-    tn_numbering of;
-    mpz_t *ahead, *here, *like;
+    mpz_t *here, *like;
 } tn_path_states;
 
-/* The houses on a plan in one section. */
+/* The houses on a plan in one section: a library of this plan alone, and one kind of section, whose strip is borrowed.
+ */
 typedef struct tn_plan_path {
-    tn_strip *strip;
-    const tn_tray *trays;
-    uint32_t length;
-    tn_path_states *layers; /* [length + 1] */
-    mpz_t one;              /* scratch */
+    tn_houses view;
+    tn_houses_kind kind;
+    uint32_t length, stages;
+    tn_path_states *states; /* [length + 1] */
 } tn_plan_path;
 
-void tn_path_init(tn_plan_path *path, const tn_tray *trays, uint32_t length);
+/* Finds the states, and what is ahead of each. Borrows all. Clear it in any case. */
+tn_status tn_path_find(tn_plan_path *path, const tn_houses *houses, const tn_houses_kind *kind, const tn_tray *trays,
+                       uint32_t length, tn_error *error);
 void tn_path_clear(tn_plan_path *path);
 
-/* Finds the states, and what is ahead of each. */
-tn_status tn_path_find(tn_plan_path *path, tn_strip *strip, tn_error *error);
+/* The nodes after so many trays; what is ahead of them; the state of a node, and the node of a state. */
+static inline const tn_houses_layer *tn_path_layer(const tn_plan_path *path, uint32_t trays)
+{
+    return &path->kind.layers[trays * path->stages];
+}
 
-/* Houses that go on from a state by those of the next layer. next: NULL behind the last tray. */
+static inline uint32_t tn_path_state(const tn_plan_path *path, uint32_t trays, uint32_t node)
+{
+    return (uint32_t)tn_path_layer(path, trays)->nodes.keys[node];
+}
+
+uint32_t tn_path_node(const tn_plan_path *path, uint32_t trays, uint32_t state); /* UINT32_MAX: none */
+
+/* Houses that go on from a state by those after so many trays, of which so many houses are ahead (NULL: the row ends).
+ */
 typedef struct tn_path_sum {
-    const tn_numbering *next;
-    mpz_t *ahead; /* [next]; borrowed */
+    const tn_plan_path *path;
+    uint32_t trays;
+    mpz_t *ahead;
     mpz_t houses;
 } tn_path_sum;
 tn_status tn_path_add(void *sum, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,

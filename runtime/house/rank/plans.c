@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/rank/rank.h"
-#include "runtime/house/strip/houses_data.h"
+#include "runtime/base/integers.h"
+#include "runtime/house/rank/path.h"
 
 /* ---- what is ahead */
 
@@ -45,7 +45,7 @@ static tn_status add_ahead(void *context, const tn_houses_edge *edge, tn_error *
     return TN_OK;
 }
 
-static tn_status look_ahead(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
+tn_status tn_houses_look_ahead(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
 {
     tn_backward b = {.houses = h, .kind = kind, .stages = tn_houses_stages(h, kind)};
     tn_status status = TN_OK;
@@ -70,7 +70,7 @@ static tn_status make_ranked(tn_houses *h, tn_error *error)
 {
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && !h->ranked && i < h->kind_count; i++)
-        status = look_ahead(h, &h->kinds[i], error);
+        status = tn_houses_look_ahead(h, &h->kinds[i], error);
     h->ranked = status == TN_OK;
     return status;
 }
@@ -84,18 +84,11 @@ typedef struct tn_houses_front {
     size_t count, room, counts_room;
 } tn_houses_front;
 
-/* How many houses of one length go on from a front by a slice to a plan state. */
-typedef struct tn_onward {
-    tn_numbering keys; /* slice << 32 | plan state */
-    mpz_t *houses;
-    size_t room;
-} tn_onward;
-
 typedef struct tn_plan_walk {
     tn_houses *houses;
     uint32_t length, layer, plan;
     tn_houses_front *fronts; /* [kinds] */
-    tn_onward *onwards;      /* [kinds] */
+    mpz_t *by_tray;          /* [trays of the schema] scratch */
     mpz_t one;
 } tn_plan_walk;
 
@@ -104,14 +97,6 @@ static void clear_front(tn_houses_front *front)
     for (size_t i = 0; i < front->count; i++)
         mpz_clear(front->counts[i]);
     front->count = 0;
-}
-
-static void clear_onward(tn_onward *onward)
-{
-    for (uint32_t i = 0; i < onward->keys.count; i++)
-        mpz_clear(onward->houses[i]);
-    tn_numbering_clear(&onward->keys);
-    onward->keys = (tn_numbering){0};
 }
 
 static tn_status add_state(tn_houses_front *front, uint32_t state, const mpz_t count, uint64_t times, tn_error *error)
@@ -133,19 +118,13 @@ static tn_status add_state(tn_houses_front *front, uint32_t state, const mpz_t c
 
 static void walk_end(tn_plan_walk *w)
 {
-    for (size_t i = 0; i < w->houses->kind_count; i++) {
-        if (w->fronts) {
-            clear_front(&w->fronts[i]);
-            free(w->fronts[i].states);
-            free(w->fronts[i].counts);
-        }
-        if (w->onwards) {
-            clear_onward(&w->onwards[i]);
-            free(w->onwards[i].houses);
-        }
+    for (size_t i = 0; w->fronts && i < w->houses->kind_count; i++) {
+        clear_front(&w->fronts[i]);
+        free(w->fronts[i].states);
+        free(w->fronts[i].counts);
     }
     free(w->fronts);
-    free(w->onwards);
+    tn_integers_free(w->by_tray, w->houses->form->schema->tray_count);
     mpz_clear(w->one);
 }
 
@@ -154,8 +133,8 @@ static tn_status walk_begin(tn_houses *h, uint32_t length, tn_plan_walk *w, tn_e
     *w = (tn_plan_walk){.houses = h, .length = length};
     mpz_init_set_ui(w->one, 1);
     w->fronts = calloc(h->kind_count + 1, sizeof *w->fronts);
-    w->onwards = calloc(h->kind_count + 1, sizeof *w->onwards);
-    tn_status status = w->fronts && w->onwards ? make_ranked(h, error) : tn_fail_memory(error);
+    w->by_tray = tn_integers_new(h->form->schema->tray_count);
+    tn_status status = w->fronts && w->by_tray ? make_ranked(h, error) : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
         status = add_state(&w->fronts[i], TN_STRIP_NONE, w->one, 1, error);
     return status;
@@ -165,11 +144,9 @@ static tn_status walk_begin(tn_houses *h, uint32_t length, tn_plan_walk *w, tn_e
 
 typedef struct tn_summing_up {
     const tn_plan_walk *walk;
-    const tn_houses_kind *kind;
+    const tn_houses_layer *next;
     uint32_t plan;
-    mpz_ptr count; /* choices that lead here */
-    mpz_ptr sum;
-    mpz_t one;
+    mpz_t sum;
 } tn_summing_up;
 
 static tn_status sum_up(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
@@ -177,66 +154,105 @@ static tn_status sum_up(void *context, uint32_t state, uint64_t times, uint64_t 
 {
     tn_summing_up *s = context;
     const tn_houses *h = s->walk->houses;
-    const tn_houses_layer *layer = &s->kind->layers[(s->walk->layer + 1) * tn_houses_stages(h, s->kind)];
-    uint32_t node = tn_number_find(&layer->nodes, (uint64_t)s->plan << 32 | state);
+    uint32_t node = tn_number_find(&s->next->nodes, (uint64_t)s->plan << 32 | state);
     (void)faced;
     (void)gain;
     (void)error;
-    if (node == UINT32_MAX)
-        return TN_OK;
-    mpz_mul_ui(s->one, layer->ahead[(size_t)node * tn_houses_lengths(h) + s->walk->length - h->low], times);
-    mpz_addmul(s->sum, s->one, s->count);
+    if (node != UINT32_MAX)
+        mpz_addmul_ui(s->sum, s->next->ahead[(size_t)node * tn_houses_lengths(h) + s->walk->length - h->low], times);
     return TN_OK;
 }
 
-static tn_status onward(tn_plan_walk *w, size_t kind, uint32_t slice, uint32_t plan, mpz_ptr *sum, tn_error *error)
+/* houses := those that go on from a state by this tray to a plan of the length. */
+static tn_status go_on_by(tn_plan_walk *w, const tn_houses_kind *kind, uint32_t state, tn_tray tray, mpz_t houses,
+                          tn_error *error)
 {
-    tn_onward *o = &w->onwards[kind];
-    uint32_t before = o->keys.count;
-    if (!tn_array_reserve(&o->houses, &o->room, before, 1, sizeof *o->houses))
-        return tn_fail_memory(error);
-    uint32_t at = tn_number(&o->keys, (uint64_t)slice << 32 | plan);
-    if (at == UINT32_MAX)
-        return tn_fail_memory(error);
-    if (at < before) {
-        *sum = o->houses[at];
-        return TN_OK;
+    const tn_houses *h = w->houses;
+    const tn_strip_list *list = &kind->strip->of_tray[tray];
+    tn_summing_up s = {.walk = w, .next = &kind->layers[(w->layer + 1) * tn_houses_stages(h, kind)]};
+    tn_house_gain gain;
+    mpz_set_ui(houses, 0);
+    tn_status status = tn_houses_plan_next(h, w->layer, w->plan, tray, &s.plan, &gain, error);
+    if (status != TN_OK || !tn_houses_plan_alive(h, w->length - w->layer - 1, s.plan))
+        return status;
+    mpz_init(s.sum);
+    for (size_t k = 0; status == TN_OK && k < list->count; k++) {
+        mpz_set_ui(s.sum, 0);
+        status = tn_strip_step(kind->strip, w->layer, state, list->items[k].slice, sum_up, &s, error);
+        mpz_addmul_ui(houses, s.sum, list->items[k].times);
     }
-    mpz_init(o->houses[at]);
-    *sum = o->houses[at];
-    tn_houses_kind *k = &w->houses->kinds[kind];
-    tn_summing_up s = {.walk = w, .kind = k, .plan = plan, .sum = *sum};
-    tn_status status = TN_OK;
-    mpz_init(s.one);
-    for (size_t i = 0; status == TN_OK && i < w->fronts[kind].count; i++) {
-        s.count = w->fronts[kind].counts[i];
-        status = tn_strip_step(k->strip, w->layer, w->fronts[kind].states[i], slice, sum_up, &s, error);
-    }
-    mpz_clear(s.one);
+    mpz_clear(s.sum);
     return status;
+}
+
+static tn_status find_by_tray(tn_plan_walk *w, const tn_houses_kind *kind, uint32_t state, mpz_t *by_tray,
+                              tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (tn_tray t = 0; status == TN_OK && t < w->houses->form->schema->tray_count; t++)
+        status = go_on_by(w, kind, state, t, by_tray[t], error);
+    return status;
+}
+
+/* *place: where the numbers of a node are kept, of houses of the walk's length; NULL: there are too many. */
+static tn_status place_of(tn_plan_walk *w, tn_houses_kind *kind, uint32_t state, mpz_t ***place, tn_error *error)
+{
+    enum { MOST = 1000000 }; /* numbers */
+    tn_houses *h = w->houses;
+    tn_houses_layer *layer = &kind->layers[w->layer * tn_houses_stages(h, kind)];
+    size_t lengths = tn_houses_lengths(h);
+    uint32_t node = tn_number_find(&layer->nodes, (uint64_t)w->plan << 32 | state);
+    *place = NULL;
+    if (node == UINT32_MAX || h->by_tray_count > MOST)
+        return TN_OK;
+    if (!layer->by_tray)
+        layer->by_tray = calloc(layer->nodes.count * lengths + 1, sizeof *layer->by_tray);
+    if (!layer->by_tray)
+        return tn_fail_memory(error);
+    *place = &layer->by_tray[node * lengths + w->length - h->low];
+    return TN_OK;
+}
+
+/* *houses: of a state by a tray, good until the next call. Those of all trays are found at once and kept, as many plans
+ * begin alike. */
+static tn_status find_houses(tn_plan_walk *w, tn_houses_kind *kind, uint32_t state, tn_tray tray, mpz_ptr *houses,
+                             tn_error *error)
+{
+    tn_houses *h = w->houses;
+    mpz_t **place = NULL;
+    tn_status status = place_of(w, kind, state, &place, error);
+    *houses = w->by_tray[tray];
+    if (status != TN_OK || !place)
+        return status != TN_OK ? status : go_on_by(w, kind, state, tray, w->by_tray[tray], error);
+    if (!*place) {
+        mpz_t *found = tn_integers_new(h->form->schema->tray_count);
+        status = found ? find_by_tray(w, kind, state, found, error) : tn_fail_memory(error);
+        if (status != TN_OK) {
+            tn_integers_free(found, h->form->schema->tray_count);
+            return status;
+        }
+        *place = found;
+        h->by_tray_count += h->form->schema->tray_count;
+    }
+    *houses = (*place)[tray];
+    return TN_OK;
 }
 
 /* Houses whose plans go on with this tray. */
 static tn_status houses_by(tn_plan_walk *w, tn_tray tray, mpz_t houses, tn_error *error)
 {
     const tn_houses *h = w->houses;
-    uint32_t plan;
-    tn_house_gain gain;
-    tn_status status = tn_houses_plan_next(h, w->layer, w->plan, tray, &plan, &gain, error);
+    tn_status status = TN_OK;
     mpz_set_ui(houses, 0);
-    if (status != TN_OK || !tn_houses_plan_alive(h, w->length - w->layer - 1, plan))
-        return status;
-    for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
-        const tn_strip_list *list = &h->kinds[i].strip->of_tray[tray];
-        for (size_t k = 0; status == TN_OK && k < list->count; k++) {
-            mpz_ptr sum;
-            status = onward(w, i, list->items[k].slice, plan, &sum, error);
+    for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
+        for (size_t k = 0; status == TN_OK && k < w->fronts[i].count; k++) {
+            mpz_ptr one;
+            status = find_houses(w, &h->kinds[i], w->fronts[i].states[k], tray, &one, error);
             if (status != TN_OK)
                 continue;
-            mpz_mul_ui(w->one, sum, list->items[k].times);
+            mpz_mul(w->one, one, w->fronts[i].counts[k]);
             mpz_addmul_ui(houses, w->one, h->kinds[i].sections);
         }
-    }
     return status;
 }
 
@@ -279,7 +295,6 @@ static tn_status go_on(tn_plan_walk *w, tn_tray tray, tn_error *error)
         free(w->fronts[i].states);
         free(w->fronts[i].counts);
         w->fronts[i] = next;
-        clear_onward(&w->onwards[i]);
     }
     tn_house_gain gain;
     if (status == TN_OK)
@@ -306,7 +321,7 @@ tn_status tn_houses_before(tn_houses *h, const tn_tray *trays, uint32_t length, 
             status = houses_by(&w, t, houses, error);
             mpz_add(before, before, houses);
         }
-        if (status == TN_OK)
+        if (status == TN_OK && i + 1 < length)
             status = go_on(&w, trays[i], error);
     }
     walk_end(&w);
@@ -357,7 +372,7 @@ tn_status tn_houses_find(tn_houses *h, mpz_t rank, tn_tray *trays, uint32_t *len
     tn_status status = walk_begin(h, *length, &w, error);
     for (uint32_t i = 0; status == TN_OK && i < *length; i++) {
         status = find_tray(&w, rank, &trays[i], error);
-        if (status == TN_OK)
+        if (status == TN_OK && i + 1 < *length)
             status = go_on(&w, trays[i], error);
     }
     walk_end(&w);

@@ -40,6 +40,7 @@ typedef struct tn_houses_expansion {
     tn_numbering plans;    /* of the layer */
     tn_ways *ways;         /* [plans] */
     tn_fan fan;
+    mpz_t *here; /* or NULL: nodes with 0 are left aside */
     tn_houses_edge_seen *seen;
     void *context;
 } tn_houses_expansion;
@@ -80,10 +81,12 @@ static tn_houses_way way_by(const tn_strip *strip, const tn_strip_choice *choice
                            .times = choice->times};
 }
 
+/* The slices of a tray are in the order of ways, as long as they stand for themselves. */
 static tn_status find_ways(tn_houses_expansion *e, uint32_t plan, tn_ways *ways, tn_error *error)
 {
     const tn_houses *h = e->houses;
     const tn_strip *strip = e->kind->strip;
+    size_t trays = 0;
     for (tn_tray t = 0; e->trays < h->high && t < h->form->schema->tray_count; t++) {
         uint32_t next;
         tn_house_gain gain;
@@ -102,8 +105,9 @@ static tn_status find_ways(tn_houses_expansion *e, uint32_t plan, tn_ways *ways,
             way->gain = gain;
             way->tray = h->trays_matter ? t : 0;
         }
+        trays++;
     }
-    if (ways->count > 0)
+    if (ways->count > 0 && (trays > 1 || strip->scouting))
         merge_ways(ways);
     return TN_OK;
 }
@@ -329,15 +333,15 @@ static tn_status expand_nodes(tn_houses_expansion *e, bool end, tn_error *error)
             e->fan.used = 0;
             status = tn_watch_check(e->kind->strip->watch, error);
         }
-        if (status == TN_OK)
+        if (status == TN_OK && !(e->here && mpz_sgn(e->here[order[i].node]) == 0))
             status = end ? expand_end(e, turn, order[i].node, error) : expand_node(e, turn, order[i].node, error);
     }
     free(order);
     return status;
 }
 
-tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end,
-                           tn_houses_edge_seen *seen, void *context, tn_error *error)
+static tn_status expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end, mpz_t *here,
+                        tn_houses_edge_seen *seen, void *context, tn_error *error)
 {
     size_t ways = (size_t)kind->strip->slice_keys.count + kind->strip->edge_keys.count + 1; /* of each stage */
     uint32_t stages = tn_houses_stages(houses, kind);
@@ -346,6 +350,7 @@ tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32
                              .stage = end || stages == 1 ? STAGE_WHOLE : (tn_stage)(layer % stages),
                              .layer = layer,
                              .trays = layer / stages,
+                             .here = here,
                              .seen = seen,
                              .context = context};
     e.fan.mark = calloc(ways, sizeof *e.fan.mark);
@@ -365,4 +370,16 @@ tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32
     free(e.fan.count);
     free(e.fan.reached);
     return status;
+}
+
+tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end,
+                           tn_houses_edge_seen *seen, void *context, tn_error *error)
+{
+    return expand(houses, kind, layer, end, NULL, seen, context, error);
+}
+
+tn_status tn_houses_expand_from(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, mpz_t *here,
+                                tn_houses_edge_seen *seen, void *context, tn_error *error)
+{
+    return expand(houses, kind, layer, false, here, seen, context, error);
 }

@@ -135,11 +135,14 @@ static tn_status pass_end(void *context, const tn_houses_edge *edge, tn_error *e
     return TN_OK;
 }
 
-static void clear_layers(const tn_houses *h, tn_houses_kind *kind)
+void tn_houses_layers_clear(const tn_houses *h, tn_houses_kind *kind)
 {
     for (uint32_t k = 0; kind->layers && k <= h->high * tn_houses_stages(h, kind); k++) {
         size_t lists = (size_t)kind->layers[k].nodes.count * tn_houses_lengths(h);
         tn_integers_free(kind->layers[k].ahead, lists);
+        for (size_t n = 0; kind->layers[k].by_tray && n < lists; n++)
+            tn_integers_free(kind->layers[k].by_tray[n], h->form->schema->tray_count);
+        free(kind->layers[k].by_tray);
         for (size_t n = 0; kind->layers[k].best && n < lists; n++)
             tn_value_counts_clear(&kind->layers[k].best[n]);
         free(kind->layers[k].best);
@@ -164,7 +167,7 @@ static tn_status walk(const tn_houses *h, tn_houses_kind *kind, bool *any, tn_er
         if (status == TN_OK && s.layer < h->high * stages)
             status = tn_houses_expand(h, kind, s.layer, false, come_by, &s, error);
     }
-    clear_layers(h, kind);
+    tn_houses_layers_clear(h, kind);
     *any = s.any;
     return status;
 }
@@ -322,7 +325,7 @@ void tn_houses_free(tn_houses *h)
         return;
     for (size_t i = 0; i < h->kind_count; i++) {
         tn_houses_kind *kind = &h->kinds[i];
-        clear_layers(h, kind);
+        tn_houses_layers_clear(h, kind);
         if (kind->houses)
             tn_integers_free(kind->houses, tn_houses_lengths(h));
         mpz_clear(kind->faced);

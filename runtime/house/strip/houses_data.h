@@ -46,7 +46,8 @@ typedef struct tn_houses_plan_layer {
  * arrival}. */
 typedef struct tn_houses_layer {
     tn_numbering nodes; /* plan state << 32 | state */
-    mpz_t *ahead; /* [nodes][lengths]: houses on plans of each length that go on from there; NULL: not asked for */
+    mpz_t *ahead;    /* [nodes][lengths]: houses on plans of each length that go on from there; NULL: not asked for */
+    mpz_t **by_tray; /* [nodes][lengths]: NULL, or [trays] houses that go on by each; or NULL */
     tn_value_counts *best; /* [nodes][lengths]: the values that these add, as far as they are looked for; or NULL */
 } tn_houses_layer;
 
@@ -79,6 +80,7 @@ struct tn_houses {
     tn_sections sections;
     tn_houses_kind *kinds;
     size_t kind_count, kind_room;
+    size_t by_tray_count;                        /* numbers that are kept there */
     bool ranked;                                 /* what is ahead of each node is known */
     const tn_tray *only;                         /* [high]: the one plan that is looked at, or NULL */
     const tn_house_measures *measures;           /* or NULL; else plans are those of `weighed` */
@@ -88,6 +90,7 @@ struct tn_houses {
     tn_weighed *weighed;
     tn_strip_units units; /* that values are in */
     bool trays_matter;    /* to whom steps are shown */
+    bool whole_steps;     /* these are so few that stages would cost more */
     tn_houses_aim aim;
     uint64_t wanted;      /* houses, of the least values */
     tn_value_counts best; /* of all houses, as far as they are aimed at */
@@ -96,11 +99,11 @@ struct tn_houses {
 /* The kind that a section is of, NULL where no such is known. */
 tn_houses_kind *tn_houses_kind_of(const tn_houses *houses, const tn_house *section);
 
-/* Layers from one tray to the next: 3, or 1 where a step is not divided, as something is added up on the way or trays
- * matter. Layers that are multiples of it are of states after trays. */
+/* Layers from one tray to the next: 3, or 1 where a step is not divided, as something is added up on the way, trays
+ * matter, or steps are few. Layers that are multiples of it are of states after trays. */
 static inline uint32_t tn_houses_stages(const tn_houses *houses, const tn_houses_kind *kind)
 {
-    return tn_strip_has_stages(kind->strip) && !houses->trays_matter ? 3 : 1;
+    return tn_strip_has_stages(kind->strip) && !houses->trays_matter && !houses->whole_steps ? 3 : 1;
 }
 
 /* A step from a node: `from` among those of the layer. */
@@ -117,6 +120,9 @@ typedef tn_status tn_houses_edge_seen(void *context, const tn_houses_edge *edge,
 tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end,
                            tn_houses_edge_seen *seen, void *context, tn_error *error);
 
+/* Frees the layers of the kind. */
+void tn_houses_layers_clear(const tn_houses *houses, tn_houses_kind *kind);
+
 /* Finds the plan states, and the trays that stand in some plan. trays: zeroed; clear them also after a failure. */
 tn_status tn_houses_plans_find(tn_houses *houses, tn_strip_trays *trays, tn_error *error);
 void tn_strip_trays_clear(tn_strip_trays *trays);
@@ -129,6 +135,10 @@ tn_status tn_houses_plan_next(const tn_houses *houses, uint32_t layer, uint32_t 
 bool tn_houses_plan_alive(const tn_houses *houses, uint32_t left, uint32_t plan);
 tn_house_gain tn_houses_plan_start(const tn_houses *houses);
 tn_house_gain tn_houses_plan_rest(const tn_houses *houses, uint32_t plan); /* what the end of the plan adds */
+
+/* The same from those nodes alone of which `here` [nodes of the layer] is not 0. */
+tn_status tn_houses_expand_from(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, mpz_t *here,
+                                tn_houses_edge_seen *seen, void *context, tn_error *error);
 
 /* Finds what is added up (houses_added.c). TN_LIMIT (E1640) where a clause compares what cannot be. */
 tn_status tn_houses_find_added(tn_houses *houses, tn_error *error);

@@ -318,6 +318,37 @@ static void end(tn_cutting *c)
     free(c->answers);
 }
 
+/* A choice in the order of ways: by what its slice begins with. */
+typedef struct tn_cut_choice {
+    uint32_t entry, group;
+    tn_strip_choice choice;
+} tn_cut_choice;
+
+static int compare_cut(const void *a, const void *b)
+{
+    const tn_cut_choice *p = a, *q = b;
+    return p->entry != q->entry   ? (p->entry > q->entry) - (p->entry < q->entry)
+           : p->group != q->group ? (p->group > q->group) - (p->group < q->group)
+                                  : (p->choice.slice > q->choice.slice) - (p->choice.slice < q->choice.slice);
+}
+
+static tn_status order_list(const tn_strip *strip, tn_strip_list *list, tn_error *error)
+{
+    tn_cut_choice *cut = malloc((list->count + 1) * sizeof *cut);
+    if (!cut)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < list->count; i++) {
+        const tn_strip_slice *slice = &strip->slices[list->items[i].slice];
+        cut[i] = (tn_cut_choice){slice->entry, slice->group, list->items[i]};
+    }
+    if (list->count > 0)
+        qsort(cut, list->count, sizeof *cut, compare_cut);
+    for (size_t i = 0; i < list->count; i++)
+        list->items[i] = cut[i].choice;
+    free(cut);
+    return TN_OK;
+}
+
 tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error)
 {
     tn_cutting c = {.inside = {.strip = strip, .tray = tray}, .list = &strip->of_tray[tray]};
@@ -327,6 +358,8 @@ tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error)
     tn_status status = begin(&c, error);
     if (status == TN_OK)
         status = cut_functions(&c, error);
+    if (status == TN_OK)
+        status = order_list(strip, c.list, error);
     end(&c);
     return status;
 }
