@@ -369,6 +369,10 @@ tn_status tn_houses_find(tn_houses *h, mpz_t rank, tn_tray *trays, uint32_t *len
         tn_error_help(error, "`tartan count` says how many; ranks count from 0");
         return status;
     }
+    if (h->only) {
+        memcpy(trays, h->only, *length * sizeof *trays);
+        return TN_OK;
+    }
     tn_status status = walk_begin(h, *length, &w, error);
     for (uint32_t i = 0; status == TN_OK && i < *length; i++) {
         status = find_tray(&w, rank, &trays[i], error);

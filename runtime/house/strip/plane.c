@@ -43,6 +43,8 @@ typedef struct tn_crossing_house {
     uint32_t *faces; /* those in the plane */
     size_t count;
     tn_room_open *open; /* [cells]: of the rooms that they are in */
+    uint32_t *sides;    /* [cells][SIDE_WORDS] */
+    uint64_t changed;   /* storeys of whose faces one has another kind than when sides were found */
     int64_t x;
     tn_numbering found;
     tn_strip_list *list;
@@ -177,37 +179,64 @@ static tn_int128 plane_glass(const tn_crossing_house *c, uint32_t cell)
     return glass;
 }
 
-static tn_status push_sides(const tn_crossing_house *c, tn_key *key, tn_error *error)
+/* What a side of the cell is, in SIDE_WORDS. posts: of its storey. */
+static tn_status find_side(const tn_crossing_house *c, uint32_t i, const tn_posts *posts, uint32_t *side,
+                           tn_error *error)
 {
     tn_strip *s = c->strip;
-    tn_posts posts = {0};
-    uint32_t storey = TN_NO_CELL;
-    tn_status status = TN_OK;
-    for (uint32_t i = 0; status == TN_OK && i < c->house.cell_count; i++) {
-        const tn_cell *cell = &c->house.cells[i];
-        uint32_t fit = 0;
-        uint64_t marks = 0;
-        for (size_t k = 0; k < c->count; k++) {
-            const tn_face *face = &c->house.faces[c->faces[k]];
-            marks |= face->first == i || face->second == i ? tn_strip_marks(s, face->kind) : 0;
-        }
-        marks &= c->open[i].kinds;
-        bool tiled = !cell->open && s->tiled[cell->function];
-        if (tiled && storey != cell->storey) {
-            free(posts.items);
-            posts = (tn_posts){0};
-            status = tn_house_posts(&c->house, storey = cell->storey, &posts, error);
-        }
-        if (status == TN_OK && tiled)
-            status = tn_strip_fit_side(s, &c->house, i, i < c->left_cells ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, c->x,
-                                       &posts, &fit, error);
-        fit += tiled;
-        uint32_t glass = tn_strip_number_area(s, plane_glass(c, i));
-        if (status == TN_OK &&
-            (glass == UINT32_MAX || !tn_push_long(key, marks) || !tn_key_push(key, fit) || !tn_key_push(key, glass)))
-            status = tn_fail_memory(error);
+    const tn_cell *cell = &c->house.cells[i];
+    bool tiled = !cell->open && s->tiled[cell->function];
+    uint32_t fit = 0, glass = tn_strip_number_area(s, plane_glass(c, i));
+    uint64_t marks = 0;
+    tn_status status = glass != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+    for (size_t k = 0; c->open[i].kinds != 0 && k < c->count; k++) {
+        const tn_face *face = &c->house.faces[c->faces[k]];
+        marks |= face->first == i || face->second == i ? tn_strip_marks(s, face->kind) : 0;
     }
+    marks &= c->open[i].kinds;
+    if (status == TN_OK && tiled)
+        status = tn_strip_fit_side(s, &c->house, i, i < c->left_cells ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, c->x, posts,
+                                   &fit, error);
+    side[SIDE_MARKS] = tn_low(marks);
+    side[SIDE_MARKS_HIGH] = tn_high(marks);
+    side[SIDE_FIT] = fit + tiled;
+    side[SIDE_GLASS] = glass;
+    return status;
+}
+
+static bool has_tiles(const tn_crossing_house *c, uint32_t storey)
+{
+    for (size_t i = 0; i < c->house.cell_count; i++) {
+        const tn_cell *cell = &c->house.cells[i];
+        if (cell->storey == storey && !cell->open && c->strip->tiled[cell->function])
+            return true;
+    }
+    return false;
+}
+
+/* Storeys do not see each other's faces. */
+static tn_status find_sides(tn_crossing_house *c, uint32_t storey, tn_error *error)
+{
+    tn_posts posts = {0};
+    tn_status status = has_tiles(c, storey) ? tn_house_posts(&c->house, storey, &posts, error) : TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < c->house.cell_count; i++)
+        if (c->house.cells[i].storey == storey)
+            status = find_side(c, i, &posts, c->sides + (size_t)SIDE_WORDS * i, error);
     free(posts.items);
+    return status;
+}
+
+/* Of storeys in which no face has changed, sides are what they were. */
+static tn_status push_sides(tn_crossing_house *c, tn_key *key, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t storey = 0; status == TN_OK && storey < TN_STOREYS_MAX; storey++)
+        if (c->changed >> storey & 1)
+            status = find_sides(c, storey, error);
+    c->changed = status == TN_OK ? 0 : c->changed;
+    for (size_t w = 0; status == TN_OK && w < SIDE_WORDS * c->house.cell_count; w++)
+        if (!tn_key_push(key, c->sides[w]))
+            status = tn_fail_memory(error);
     return status;
 }
 
@@ -261,7 +290,7 @@ static tn_status push_cost(const tn_crossing_house *c, tn_key *key, tn_error *er
     return status == TN_OK && !tn_key_push(key, cost) ? tn_fail_memory(error) : status;
 }
 
-static tn_status push_outcome(const tn_crossing_house *c, tn_key *key, tn_error *error)
+static tn_status push_outcome(tn_crossing_house *c, tn_key *key, tn_error *error)
 {
     key->size = 0;
     if (!push_meetings_and_steps(c, key))
@@ -318,12 +347,22 @@ static bool turn(tn_plane_wheel *wheels, size_t count)
     return false;
 }
 
+static void set_kind(tn_crossing_house *c, tn_face *face, uint32_t kind)
+{
+    c->changed |= (uint64_t)(face->kind != kind) << face->storey;
+    face->kind = kind;
+}
+
 static tn_status add_outcomes(tn_crossing_house *c, tn_error *error)
 {
     tn_plane_wheel *wheels = malloc((c->count + 1) * sizeof *wheels);
     uint64_t tried = 0;
-    if (!wheels)
+    c->sides = malloc((c->house.cell_count + 1) * SIDE_WORDS * sizeof *c->sides);
+    c->changed = UINT64_MAX;
+    if (!wheels || !c->sides) {
+        free(wheels);
         return tn_fail_memory(error);
+    }
     for (size_t i = 0; i < c->count; i++) {
         wheels[i].at = 0;
         wheels[i].count = (uint32_t)tn_face_options(&c->house, &c->house.faces[c->faces[i]], wheels[i].kinds);
@@ -331,7 +370,7 @@ static tn_status add_outcomes(tn_crossing_house *c, tn_error *error)
     tn_status status = TN_OK;
     do {
         for (size_t i = 0; i < c->count; i++)
-            c->house.faces[c->faces[i]].kind = wheels[i].kinds[wheels[i].at];
+            set_kind(c, &c->house.faces[c->faces[i]], wheels[i].kinds[wheels[i].at]);
         status = ++tried <= TN_STRIP_CHOICES_MAX
                      ? add_outcome(c, error)
                      : tn_strip_limit(c->strip, NULL, "two trays have more than 4,000,000 choices between them", error);
@@ -346,6 +385,7 @@ static void end(tn_crossing_house *c)
     tn_numbering_clear(&c->found);
     free(c->faces);
     free(c->open);
+    free(c->sides);
 }
 
 tn_status tn_strip_plane(tn_strip *strip, uint32_t left, uint32_t right, const tn_strip_list **plane, tn_error *error)
