@@ -75,7 +75,64 @@ static void clear_plane(tn_plane_left *plane)
         clear_left(&plane->of[i]);
     free(plane->of);
     tn_numbering_clear(&plane->edges);
-    *plane = (tn_plane_left){0};
+}
+
+/* ---- what is kept: choices of houses with the same functions are the same */
+
+struct tn_path_kept {
+    uint32_t *functions; /* [cells]; NULL: of none yet */
+    size_t cells;
+    tn_left *slices;       /* [length] */
+    tn_plane_left *planes; /* [length + 1] */
+};
+
+static void forget_kept(struct tn_path_kept *kept, uint32_t length)
+{
+    for (uint32_t i = 0; kept->slices && i < length; i++)
+        clear_left(&kept->slices[i]);
+    for (uint32_t i = 0; kept->planes && i <= length; i++)
+        clear_plane(&kept->planes[i]);
+    free(kept->functions);
+    free(kept->slices);
+    free(kept->planes);
+    *kept = (struct tn_path_kept){0};
+}
+
+void tn_path_kept_free(struct tn_path_kept *kept, uint32_t length)
+{
+    if (kept)
+        forget_kept(kept, length);
+    free(kept);
+}
+
+static bool is_kept(const struct tn_path_kept *kept, const tn_house *house)
+{
+    bool same = kept->functions && kept->cells == house->cell_count;
+    for (size_t i = 0; same && i < house->cell_count; i++)
+        same = kept->functions[i] == house->cells[i].function;
+    return same;
+}
+
+static tn_status keep(tn_plan_path *path, const tn_house *house, tn_error *error)
+{
+    path->kept = path->kept ? path->kept : calloc(1, sizeof *path->kept);
+    struct tn_path_kept *kept = path->kept;
+    if (kept && is_kept(kept, house))
+        return TN_OK;
+    if (!kept)
+        return tn_fail_memory(error);
+    forget_kept(kept, path->length);
+    kept->slices = calloc((size_t)path->length + 1, sizeof *kept->slices);
+    kept->planes = calloc((size_t)path->length + 1, sizeof *kept->planes);
+    kept->functions = malloc((house->cell_count + 1) * sizeof *kept->functions);
+    if (!kept->slices || !kept->planes || !kept->functions) {
+        forget_kept(kept, path->length);
+        return tn_fail_memory(error);
+    }
+    kept->cells = house->cell_count;
+    for (size_t i = 0; i < house->cell_count; i++)
+        kept->functions[i] = house->cells[i].function;
+    return TN_OK;
 }
 
 static tn_status outcomes_of(tn_plan_path *a, tn_plane_left *plane, uint32_t left, uint32_t right,
@@ -116,9 +173,9 @@ typedef struct tn_facing {
     const tn_path_slices *of_tray;
     uint32_t tray;
     tn_places before, after; /* the tray, with the faces so far */
-    tn_left slices;
+    tn_left *slices;
     tn_choice_stretch inner;
-    tn_plane_left left, right;
+    tn_plane_left *left, *right;
     mpz_t one;
 } tn_facing;
 
@@ -172,16 +229,16 @@ static tn_status go_to(void *context, uint32_t state, uint64_t times, uint64_t f
 static tn_status go_through(tn_facing *f, tn_error *error)
 {
     tn_strip *strip = f->path->kind.strip;
-    tn_status status = gather(&f->slices, f->inner.first, f->inner.count, error);
+    tn_status status = gather(f->slices, f->inner.first, f->inner.count, error);
     empty(&f->after);
     for (uint32_t i = 0; status == TN_OK && i < f->before.keys.count; i++) {
         uint32_t edge = tn_high(f->before.keys.keys[i]), state = tn_low(f->before.keys.keys[i]);
         status = tn_watch_check(strip->watch, error);
-        for (size_t k = 0; status == TN_OK && k < f->slices.left.count; k++) {
-            const tn_strip_choice *slice = &f->slices.left.items[k];
+        for (size_t k = 0; status == TN_OK && k < f->slices->left.count; k++) {
+            const tn_strip_choice *slice = &f->slices->left.items[k];
             const tn_strip_list *outcomes;
             tn_going g = {&f->after, strip->slices[slice->slice].exit, f->one};
-            status = outcomes_of(f->path, &f->left, edge, strip->slices[slice->slice].entry, &outcomes, error);
+            status = outcomes_of(f->path, f->left, edge, strip->slices[slice->slice].entry, &outcomes, error);
             mpz_mul_ui(f->one, f->before.choices[i], slice->times);
             if (status == TN_OK)
                 status = tn_strip_step_by(strip, f->tray, state, slice->slice, outcomes, go_to, &g, error);
@@ -202,7 +259,7 @@ static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_erro
     mpz_set_ui(sum->houses, 0);
     if (next == a->length) {
         sum->ahead = NULL;
-        status = outcomes_of(a, &f->right, edge, TN_STRIP_NONE, &outcomes, error);
+        status = outcomes_of(a, f->right, edge, TN_STRIP_NONE, &outcomes, error);
         return status == TN_OK
                    ? tn_strip_step_by(a->kind.strip, next, state, TN_STRIP_NONE, outcomes, tn_path_add, sum, error)
                    : status;
@@ -215,7 +272,7 @@ static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_erro
     for (size_t k = 0; status == TN_OK && k < f->of_tray[next].count; k++) {
         const tn_strip_choice *slice = &f->of_tray[next].items[k];
         mpz_set_ui(sum->houses, 0);
-        status = outcomes_of(a, &f->right, edge, a->kind.strip->slices[slice->slice].entry, &outcomes, error);
+        status = outcomes_of(a, f->right, edge, a->kind.strip->slices[slice->slice].entry, &outcomes, error);
         if (status == TN_OK)
             status = tn_strip_step_by(a->kind.strip, next, state, slice->slice, outcomes, tn_path_add, sum, error);
         mpz_addmul_ui(all, sum->houses, slice->times);
@@ -253,7 +310,7 @@ static tn_choice_stretch *stretch_of(tn_facing *f, const tn_face *face)
 {
     if (tn_face_is_inner(face))
         return &f->inner;
-    return face->side == TN_HOUSE_LEFT ? &f->left.stretch : &f->right.stretch;
+    return face->side == TN_HOUSE_LEFT ? &f->left->stretch : &f->right->stretch;
 }
 
 /* *found: does the house have one of the kinds? */
@@ -297,27 +354,28 @@ static void begin_plane(const tn_facing *f, uint32_t place, tn_plane_left *plane
     const tn_house *house = f->house;
     uint32_t tray = place > 0 ? place - 1 : 0;
     const tn_cell *cells = &house->cells[house->tray_first[tray]];
-    *plane = (tn_plane_left){.cells = cells};
+    plane->cells = cells;
+    plane->stretch = (tn_choice_stretch){0};
     plane->stretch.count = choices_at(house, place > 0 ? cells->at.x1 : cells->at.x0);
 }
 
-/* The plane at the right of the last tray is that at the left of this one. */
+/* The plane at the right of the last tray is that at the left of this one: part of it is chosen. */
 static tn_status begin_tray(tn_facing *f, uint32_t tray, tn_error *error)
 {
+    struct tn_path_kept *kept = f->path->kept;
     tn_house *house = f->house;
     f->tray = tray;
-    if (tray > 0) {
-        clear_plane(&f->left);
-        f->left = f->right;
-    } else {
-        begin_plane(f, 0, &f->left);
-    }
-    begin_plane(f, tray + 1, &f->right);
-    clear_left(&f->slices);
-    f->slices = (tn_left){0};
-    tn_status status = tn_strip_slices_ordered(f->path->kind.strip, house->trays[tray],
-                                               &house->cells[house->tray_first[tray]], &f->slices.all, error);
-    f->inner = (tn_choice_stretch){0, f->slices.all.count};
+    f->slices = &kept->slices[tray];
+    f->left = &kept->planes[tray];
+    f->right = &kept->planes[tray + 1];
+    if (tray == 0)
+        begin_plane(f, 0, f->left);
+    begin_plane(f, tray + 1, f->right);
+    tn_status status = TN_OK;
+    if (f->slices->all.count == 0)
+        status = tn_strip_slices_ordered(f->path->kind.strip, house->trays[tray],
+                                         &house->cells[house->tray_first[tray]], &f->slices->all, error);
+    f->inner = (tn_choice_stretch){0, f->slices->all.count};
     return status;
 }
 
@@ -392,7 +450,9 @@ tn_status tn_path_faces(tn_plan_path *a, const tn_choosing *choosing, tn_house *
     tn_facing f = {.path = a, .choosing = choosing, .house = house, .of_tray = of_tray};
     mpz_init_set_ui(f.one, 1);
     *found = true;
-    tn_status status = look_ahead(a, of_tray, error);
+    tn_status status = keep(a, house, error);
+    if (status == TN_OK)
+        status = look_ahead(a, of_tray, error);
     if (status == TN_OK)
         status = add_place(&f.before, TN_STRIP_NONE, TN_STRIP_NONE, f.one, 1, error);
     for (uint32_t i = 0; status == TN_OK && *found && i < a->length; i++) {
@@ -403,11 +463,10 @@ tn_status tn_path_faces(tn_plan_path *a, const tn_choosing *choosing, tn_house *
             status = check_left(&f, found, error);
         go_on(&f);
     }
+    if (status != TN_OK && a->kept)
+        forget_kept(a->kept, a->length); /* which may be found by half */
     clear_places(&f.before);
     clear_places(&f.after);
-    clear_left(&f.slices);
-    clear_plane(&f.left);
-    clear_plane(&f.right);
     mpz_clear(f.one);
     return status;
 }

@@ -23,6 +23,7 @@ void tn_path_clear(tn_plan_path *p)
         tn_integers_free(p->states[i].like, tn_path_layer(p, i)->nodes.count);
     }
     free(p->states);
+    tn_path_kept_free(p->kept, p->length);
     tn_houses_layers_clear(&p->view, &p->kind);
     *p = (tn_plan_path){0};
 }

@@ -30,13 +30,15 @@ typedef struct tn_plan_path {
     tn_houses view;
     tn_houses_kind kind;
     uint32_t length, stages;
-    tn_path_states *states; /* [length + 1] */
+    tn_path_states *states;    /* [length + 1] */
+    struct tn_path_kept *kept; /* faces.c; or NULL */
 } tn_plan_path;
 
 /* Finds the states, and what is ahead of each. Borrows all. Clear it in any case. */
 tn_status tn_path_find(tn_plan_path *path, const tn_houses *houses, const tn_houses_kind *kind, const tn_tray *trays,
                        uint32_t length, tn_error *error);
 void tn_path_clear(tn_plan_path *path);
+void tn_path_kept_free(struct tn_path_kept *kept, uint32_t length);
 
 /* The nodes after so many trays; what is ahead of them; the state of a node, and the node of a state. */
 static inline const tn_houses_layer *tn_path_layer(const tn_plan_path *path, uint32_t trays)
