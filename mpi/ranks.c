@@ -178,6 +178,23 @@ static void gather(void *context, const void *bytes, size_t size, tn_gathered *a
 
 /* ---- joining and leaving */
 
+/* More ranks on a machine than it lets them use processors are spare: where two share one, each finds what the other
+ * left of the caches. The processors are those that any of these ranks may use, since a launcher may bind each to its
+ * own. */
+static bool is_spare(void)
+{
+    MPI_Comm here;
+    cpu_set_t mine, all;
+    int place;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
+    MPI_Comm_rank(here, &place);
+    CPU_ZERO(&mine);
+    bool known = sched_getaffinity(0, sizeof mine, &mine) == 0;
+    MPI_Allreduce(&mine, &all, sizeof mine, MPI_BYTE, MPI_BOR, here);
+    MPI_Comm_free(&here);
+    return known && place >= CPU_COUNT(&all) && CPU_COUNT(&all) > 0;
+}
+
 static void make_counters(joined *j)
 {
     uint64_t *counters;
@@ -219,6 +236,7 @@ const tn_ranks *tn_mpi_join(void)
                           .take = take,
                           .restart = restart,
                           .gather = gather};
+    j->ranks.spare = is_spare();
     pthread_mutex_init(&j->lock, NULL);
     make_counters(j);
     j->attended = rank == 0 && count > 1 && pthread_create(&j->attendant, NULL, attend, j) == 0;

@@ -21,6 +21,7 @@ typedef struct tn_ranks {
     void *context;
     unsigned rank, count; /* this one's number, and how many there are */
     const char *host;     /* the name of this one's machine */
+    bool spare;           /* its machine has no processor for it: it leaves what is dealt out to the others */
     /* Takes the next `amount` numbers of the counter that all ranks share; the first of them. By any thread. */
     uint64_t (*take)(void *context, uint64_t amount);
     /* Together: the counter is 0 from here on, for all. */

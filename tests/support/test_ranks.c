@@ -72,7 +72,14 @@ void test_ranks_run(unsigned count, test_ranks_work *work, void *context)
     pthread_barrier_init(&g.barrier, NULL, count);
     for (unsigned r = 0; r < count; r++) {
         members[r] = (member){.group = &g};
-        members[r].ranks = (tn_ranks){&members[r], r, count, "here", take, restart, gather};
+        members[r].ranks = (tn_ranks){.context = &members[r],
+                                      .rank = r,
+                                      .count = count,
+                                      .host = "here",
+                                      .spare = r > 1 && r + 1 == count,
+                                      .take = take,
+                                      .restart = restart,
+                                      .gather = gather};
         pthread_create(&threads[r], NULL, run, &members[r]);
     }
     for (unsigned r = 0; r < count; r++)

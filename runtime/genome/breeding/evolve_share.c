@@ -48,7 +48,7 @@ static tn_status take_part(void *context, unsigned thread, size_t place, tn_erro
     sharing *s = context;
     uint64_t items = s->work->items, next = 0; /* those before have been taken, as far as is known */
     tn_status status = TN_OK;
-    while (status == TN_OK) {
+    while (status == TN_OK && !s->ranks->spare) {
         uint64_t left = next < items ? items - next : 0, amount = left / (s->workers * SPREAD) + 1;
         uint64_t from = s->ranks->take(s->ranks->context, amount);
         if (from >= items)
@@ -56,7 +56,8 @@ static tn_status take_part(void *context, unsigned thread, size_t place, tn_erro
         next = from + amount * s->workers;
         status = do_items(s, thread, from, from + amount < items ? from + amount : items, error);
     }
-    take_the_rest(s);
+    if (status != TN_OK)
+        take_the_rest(s);
     return status;
 }
 
