@@ -36,6 +36,8 @@ static tn_status gather(tn_left *l, size_t first, size_t count, tn_error *error)
 {
     if (l->first == first && l->count == count)
         return TN_OK;
+    if (first + count > l->all.count)
+        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a tray has other faces by itself than in the house");
     uint32_t *items = malloc(count * sizeof *items);
     if (!items || !tn_array_reserve(&l->left.items, &l->left.room, 0, count, sizeof *l->left.items)) {
         free(items);
