@@ -401,6 +401,8 @@ primary
                                                 { $$ = tn_ast_meeting(parse, TN_EXPR_APART, @$, tn_ast_append(tn_ast_one($3), $6), $7); }
     | APART OPEN cells COMMA FROM cells COMMA THROUGH cells walk_by CLOSE
                                                 { $$ = tn_ast_meeting(parse, TN_EXPR_APART, @$, tn_ast_append(tn_ast_append(tn_ast_one($3), $6), $9), $10); }
+    | APART OPEN cells COMMA FROM cells COMMA BY or_names COMMA THROUGH cells CLOSE
+                                                { $$ = tn_ast_meeting(parse, TN_EXPR_APART, @$, tn_ast_append(tn_ast_append(tn_ast_one($3), $6), $12), $9); }
     | DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE
                                                 { $$ = tn_ast_distance(parse, @$, $4, $7, $10); }
     ;

@@ -31,6 +31,16 @@ golden too_near "tartan house near.plan \"9' open:9' | 9' open:9'6\\\" ; - ; hal
 bedrooms="14' room:14' none | 14' room:14' none ; 1 gable(9:12) 1 flat ; bedroom | bedroom ; wall wall wall wall wall wall"
 golden dropped "tartan explain cottage \"$bedrooms\""
 golden dropped_json "tartan explain cottage \"$bedrooms\" --json"
+
+# `through` may come before `by` or behind it.
+for parts in 'through cell(any), by door or open' 'by door or open, through cell(any)'; do
+    file=$scratch/${parts%% *}.plan
+    cat "$here/../../stdlib/cottage.plan" >"$file"
+    printf 'library walked from cottage-rows in cottage-form {\n  prune apart(cell(bedroom), from cell(living), %s) as cut-off\n}\n' "$parts" >>"$file"
+    "$TARTAN" count "$file" --library walked >"$scratch/${parts%% *}.count"
+done
+cmp -s "$scratch/through.count" "$scratch/by.count" || fail 'apart says something else with by before through'
+grep -q '^houses  *[1-9]' "$scratch/by.count" || fail 'no houses with by before through'
 golden explained_rule "tartan explain cottage \"$bedrooms\" --rule far-bed --rule dark-living"
 golden explained_tiles "tartan explain bare.plan \"8' open ; - ; hall\""
 golden explained_plan "tartan explain bare.plan '#0' --library halls"
