@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # What the standard library's grammars of forms promise holds of 200 sentences each; Genr8's own systems are sentences of one.
+# Slow under sanitizers.
 set -euo pipefail
 python3 -B tests/form_grammars.py
 square="A + B + A + B ; A -> A [ [ + B ] - B ] A ; B -> B [ [ + A ] - A ] B ; Angle 90 ; BranchAngle 90"
