@@ -13,8 +13,10 @@
 /* What is behind is known by the slice, what is between by the outcome. */
 typedef struct tn_passing {
     tn_strip *strip;
-    const uint32_t *state; /* words, or NULL */
-    uint32_t move;
+    const uint32_t *state;  /* words, or NULL */
+    const uint32_t *behind; /* its words, where what comes of views is asked for (outlook.c), or NULL */
+    uint32_t move, met;     /* met: what views of walks meet; rooms: sides, too */
+    uint32_t sided;
     tn_strip_crossing crossing;
     uint32_t *crossed;                                              /* words, to be filled in */
     const uint32_t *seen_rooms, *seen_walks[TN_STRIP_MEETINGS_MAX]; /* SEEN_WORDS of what is placed in the row */
@@ -31,13 +33,14 @@ void tn_strip_row_clear(tn_strip_row *row)
 
 /* ---- rooms and walks */
 
-/* What crosses a plane: what was before it, with what is asked of the edge there. */
-static tn_status number_before(const tn_passing *p, uint32_t before, uint32_t *number, tn_error *error)
+/* What crosses a plane: what was before it, with what is asked of the edge there. word: its place in a state. */
+static tn_status number_before(const tn_passing *p, size_t word, uint32_t *number, tn_error *error)
 {
     *number = TN_STRIP_NONE;
     if (!p->state)
         return TN_OK;
-    *number = tn_number(&p->strip->befores, (uint64_t)p->crossing.left->asked << 32 | before);
+    *number = p->behind ? p->behind[word]
+                        : tn_number(&p->strip->befores, (uint64_t)p->crossing.left->asked << 32 | p->state[word]);
     return *number == UINT32_MAX ? tn_fail_memory(error) : TN_OK;
 }
 
@@ -45,18 +48,19 @@ static tn_status number_before(const tn_passing *p, uint32_t before, uint32_t *n
 static tn_status cross_rooms(tn_passing *p, uint32_t *rooms, uint32_t *closed, tn_error *error)
 {
     tn_strip *strip = p->strip;
-    uint32_t questions = strip->questions.room_count, before = p->state ? p->state[STATE_ROOMS] : 0, number, *result;
+    tn_strip_known *known = p->behind ? &strip->stages.crossed_rooms : &strip->crossed_rooms;
+    uint32_t questions = strip->questions.room_count, number, *result;
+    size_t words = 1 + questions + SEEN_WORDS * (size_t)strip->questions.placed_count;
     bool met;
     *rooms = 0;
     if (questions == 0)
         return TN_OK;
-    tn_status status = number_before(p, before, &number, error);
+    tn_status status = number_before(p, STATE_ROOMS, &number, error);
     if (status == TN_OK)
-        status =
-            tn_strip_known_at(&strip->crossed_rooms, number, p->move,
-                              1 + questions + SEEN_WORDS * (size_t)strip->questions.placed_count, &result, &met, error);
+        status = tn_strip_known_at(known, number, p->behind ? p->sided : p->move, words, &result, &met, error);
     if (status == TN_OK && !met)
-        status = tn_strip_rooms_cross(strip, before, &p->crossing, &result[0], result + 1, error);
+        status = tn_strip_rooms_cross(strip, p->state ? p->state[STATE_ROOMS] : 0, &p->crossing, &result[0], result + 1,
+                                      error);
     if (status != TN_OK)
         return status;
     *rooms = result[0];
@@ -68,12 +72,13 @@ static tn_status cross_rooms(tn_passing *p, uint32_t *rooms, uint32_t *closed, t
 static tn_status cross_walk(tn_passing *p, uint32_t walk, uint32_t *after, bool *apart, tn_error *error)
 {
     tn_strip *strip = p->strip;
+    tn_strip_known *known = p->behind ? &strip->stages.crossed_walks[walk] : &strip->crossed_walks[walk];
     uint32_t before = p->state ? p->state[STATE_WALKS + walk] : 0, number, *result;
     bool met;
     size_t words = 2 + (tn_strip_walk_placed(strip, walk) ? SEEN_WORDS : 0);
-    tn_status status = number_before(p, before, &number, error);
+    tn_status status = number_before(p, STATE_WALKS + walk, &number, error);
     if (status == TN_OK)
-        status = tn_strip_known_at(&strip->crossed_walks[walk], number, p->move, words, &result, &met, error);
+        status = tn_strip_known_at(known, number, p->behind ? p->met : p->move, words, &result, &met, error);
     if (status == TN_OK && !met) {
         status = tn_strip_walk_cross(strip, walk, before, &p->crossing, &result[0], apart, result + 2, error);
         result[1] = *apart;
@@ -183,6 +188,18 @@ static tn_status pass(tn_passing *p, uint32_t slice, uint32_t outcome, tn_error 
     return p->move == UINT32_MAX ? tn_fail_memory(error) : cross_outcome(p, error);
 }
 
+/* The same by what can be seen of the plane and of what is behind it. */
+static tn_status pass_seen(tn_passing *p, uint32_t slice, uint32_t outcome, tn_error *error)
+{
+    tn_strip *strip = p->strip;
+    size_t size;
+    uint32_t sides = tn_interned(&strip->stages.rights, strip->outcomes[outcome].right, &size)[RIGHT_SIDES];
+    p->crossing.outcome = tn_interned(&strip->outcome_keys, outcome, &size);
+    p->met = strip->slices[slice].met;
+    p->sided = tn_number(&strip->stages.sided, (uint64_t)sides << 32 | p->met);
+    return p->sided == UINT32_MAX ? tn_fail_memory(error) : cross_outcome(p, error);
+}
+
 static tn_status cross_plane(tn_strip *strip, const uint32_t *state, uint32_t slice, const tn_strip_list *plane,
                              uint32_t *crossed, tn_error *error)
 {
@@ -195,11 +212,12 @@ static tn_status cross_plane(tn_strip *strip, const uint32_t *state, uint32_t sl
 }
 
 tn_status tn_strip_cross_outcome(tn_strip *strip, const uint32_t *state, uint32_t slice, uint32_t outcome,
-                                 uint32_t *crossed, tn_error *error)
+                                 const uint32_t *behind, uint32_t *crossed, tn_error *error)
 {
     tn_passing p = begin_passing(strip, state, slice);
     p.crossed = crossed;
-    return pass(&p, slice, outcome, error);
+    p.behind = behind;
+    return pass_seen(&p, slice, outcome, error);
 }
 
 /* ---- planes that states with the same before them have crossed */

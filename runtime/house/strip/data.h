@@ -245,6 +245,7 @@ typedef struct tn_strip_slice {
 typedef struct tn_strip_outcome {
     uint32_t left_fits, right_fits; /* of `fit_lists` */
     uint32_t through;               /* what rooms and walks meet at the plane: of `throughs` */
+    uint32_t left, right, plain;    /* of `lefts` and `rights` of the stages; plain: as if nothing mattered to tiles */
     uint32_t cost;                  /* where costs are asked for: the number of the plane's */
 } tn_strip_outcome;
 
@@ -259,34 +260,68 @@ typedef struct tn_strip_known {
     size_t room;
 } tn_strip_known;
 
-/* A step in three stages, so that what is equal half way is gone on from once (stage.c).
+/* A step in four stages, so that what is equal half way is gone on from once (outlook.c, stage.c).
  *
- * Words of a threshold, where the plane behind a state is known and the slice is not: 0 (TN_STRIP_NONE: the row
- * begins); what the plane leaves of rooms and of each walk (views), and what the clauses have read, in the places where
- * these are in a state; then those below. Words of an arrival, where all of the slice is known but its exit and its
- * tiles: the slice's group, rooms, walks and what the clauses have read; then the last word of a threshold. */
-enum { THRESHOLD_BEGUN, ARRIVAL_GROUP = THRESHOLD_BEGUN };
+ * What is behind a plane, as it is seen from there, is words: 0 (TN_STRIP_NONE: the row begins), a view of the rooms
+ * and of each walk, and what the clauses have read, in the places where these are in a state. What faces it, at the
+ * plane's right side, is an entry and what can be seen of the plane from there. In between an outlook stands for all
+ * that can face it. So a leaving is {what is behind, an outlook}; a threshold, where the plane is known and the slice
+ * is not, {what is behind, what faces it}. Words of an arrival, where all of the slice is known but its exit and its
+ * tiles: the slice's group, rooms, walks and what the clauses have read; then what of the plane matters to its tiles.
+ */
+enum { BEHIND_BEGUN, ARRIVAL_GROUP = BEHIND_BEGUN };
 
-/* From the waiting word of a state on: the slice's entry, the meetings (two words), what rooms see of the plane from
- * its right, what of it matters to the tiles there. */
-enum { THRESHOLD_ENTRY, THRESHOLD_MEETINGS, THRESHOLD_SIDES = THRESHOLD_MEETINGS + 2, THRESHOLD_FITS };
+/* Words of what can be seen of a plane from its right: the meetings (two words), marks and glass of each cell there (of
+ * `views`), what matters to the tiles there. */
+enum { RIGHT_MEETINGS, RIGHT_SIDES = RIGHT_MEETINGS + 2, RIGHT_FITS, RIGHT_WORDS };
 
-/* The first state and outcome that led to a threshold: crossing is the same from all. */
+/* Words of each part of an outlook: what faces the plane, and how many choices have it (two words). */
+enum { OUTLOOK_FACING, OUTLOOK_TIMES, OUTLOOK_WORDS = OUTLOOK_TIMES + 2 };
+
+/* What can be seen of a plane from its left, and all that then can stand at its right. */
+typedef struct tn_strip_prospect {
+    uint32_t left, fits; /* of `lefts`; of `fit_lists`: for the tiles that wait */
+    uint32_t outlook;
+} tn_strip_prospect;
+
+typedef struct tn_strip_prospects {
+    tn_strip_prospect *items;
+    size_t count;
+} tn_strip_prospects;
+
+/* The first state that led to a leaving, and what it saw of the plane. Crossing is the same from all. */
+typedef struct tn_strip_leaving {
+    uint32_t state, left, fits;
+} tn_strip_leaving;
+
+/* The same of a threshold, with an outcome of the plane. */
 typedef struct tn_strip_threshold {
     uint32_t state, outcome;
 } tn_strip_threshold;
 
 typedef struct tn_strip_stages {
-    tn_interner thresholds, arrivals;
-    tn_strip_threshold *of; /* [thresholds] */
-    tn_interner groups;     /* of slices */
-    uint32_t *slices;       /* [groups]: the first of each */
-    size_t room, slice_room;
-    tn_interner views; /* of rooms, of walks; what rooms see from the right */
-    tn_strip_known room_views, walk_views[TN_STRIP_MEETINGS_MAX]; /* {before, through} */
-    tn_strip_known sides;                                         /* {cells of the left edge, through} */
-    uint32_t left;                                                /* 1 and the state that was left last; 0: none */
-    uint32_t befores[1 + TN_STRIP_MEETINGS_MAX];                  /* of its rooms, then of each walk */
+    tn_interner groups; /* of slices */
+    uint32_t *slices;   /* [groups]: the first of each */
+    size_t slice_room;
+    tn_interner lefts, rights;     /* what can be seen of outcomes from the left, from the right */
+    tn_interner entries;           /* lists of entries that can follow, ascending */
+    tn_numbering facings;          /* entry << 32 | right */
+    tn_interner outlooks;          /* OUTLOOK_WORDS for each facing, ascending */
+    tn_numbering prospect_keys;    /* left edge << 32 | entries */
+    tn_strip_prospects *prospects; /* [prospect_keys] */
+    size_t prospect_room;
+    tn_interner behinds;
+    tn_numbering leavings, thresholds; /* behind << 32 | outlook; behind << 32 | facing */
+    tn_strip_leaving *left_by;         /* [leavings] */
+    tn_strip_threshold *crossed_by;    /* [thresholds] */
+    size_t leaving_room, threshold_room;
+    tn_interner arrivals;
+    tn_interner views; /* of rooms, of walks; of cells at the right of a plane */
+    tn_strip_known room_views, walk_views[TN_STRIP_MEETINGS_MAX];       /* {before, left} */
+    tn_strip_known crossed_rooms, crossed_walks[TN_STRIP_MEETINGS_MAX]; /* {view, what it meets} */
+    tn_numbering sided;                                                 /* sides of the right << 32 | met in a slice */
+    uint32_t left;                               /* 1 and the state that was left last; 0: none */
+    uint32_t befores[1 + TN_STRIP_MEETINGS_MAX]; /* of its rooms, then of each walk */
 } tn_strip_stages;
 
 /* Words of what came of an outcome: what it is to the clauses (of `values`; TN_STRIP_NONE: the row begins), rooms, each

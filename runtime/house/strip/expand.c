@@ -1,7 +1,8 @@
 /* Goes from the nodes of a layer to those of the next: what is equal for several plans is worked out once.
  *
- * Between the states after two trays there are two more layers where a step has three stages (stage.c): of thresholds,
- * then of arrivals. What a state goes on by are then entries; a threshold, groups; an arrival, slices. */
+ * Between the states after two trays there are three more layers where a step has four stages (stage.c): of leavings,
+ * of thresholds, then of arrivals. A state then goes on by all entries that can follow at once; a leaving by itself; a
+ * threshold by groups; an arrival by slices. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,9 +15,10 @@ typedef struct tn_reached {
     tn_house_gain gain;
 } tn_reached;
 
-/* From one state, threshold or arrival: what it reaches by each slice, entry or group that was asked for. */
+/* From one state, leaving, threshold or arrival: what it reaches by each slice, list of entries or group that was asked
+ * for. */
 typedef struct tn_fan {
-    uint32_t *mark; /* [slices and edges]: the turn in which it was last asked for */
+    uint32_t *mark; /* [slices and lists of entries]: the turn in which it was last asked for */
     size_t *first;  /* the same: its part of `reached`, and how much */
     size_t *count;
     tn_reached *reached;
@@ -27,10 +29,11 @@ typedef struct tn_fan {
 typedef struct tn_ways {
     tn_houses_way *items;
     size_t count, room;
+    uint32_t entries; /* the number of the list of them, where a step has stages */
 } tn_ways;
 
 /* A step as a whole, or one of its stages. */
-typedef enum tn_stage { STAGE_LEAVE, STAGE_ENTER, STAGE_ARRIVE, STAGE_WHOLE } tn_stage;
+typedef enum tn_stage { STAGE_LEAVE, STAGE_FACE, STAGE_ENTER, STAGE_ARRIVE, STAGE_WHOLE } tn_stage;
 
 typedef struct tn_houses_expansion {
     const tn_houses *houses;
@@ -112,6 +115,19 @@ static tn_status find_ways(tn_houses_expansion *e, uint32_t plan, tn_ways *ways,
     return TN_OK;
 }
 
+/* The ways are by entry. */
+static tn_status find_entries(tn_strip *strip, tn_ways *ways, tn_error *error)
+{
+    tn_key *key = &strip->key;
+    bool ok = true;
+    key->size = 0;
+    for (size_t i = 0; ok && i < ways->count; i++)
+        if (i == 0 || ways->items[i].entry != ways->items[i - 1].entry)
+            ok = tn_key_push(key, ways->items[i].entry);
+    ways->entries = ok ? tn_strip_number_entries(strip, key->data, key->size) : UINT32_MAX;
+    return ways->entries != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+}
+
 static tn_status find_all_ways(tn_houses_expansion *e, tn_error *error)
 {
     const tn_numbering *nodes = &e->kind->layers[e->layer].nodes;
@@ -120,8 +136,11 @@ static tn_status find_all_ways(tn_houses_expansion *e, tn_error *error)
             return tn_fail_memory(error);
     e->ways = calloc((size_t)e->plans.count + 1, sizeof *e->ways);
     tn_status status = e->ways ? TN_OK : tn_fail_memory(error);
-    for (uint32_t i = 0; status == TN_OK && i < e->plans.count; i++)
+    for (uint32_t i = 0; status == TN_OK && i < e->plans.count; i++) {
         status = find_ways(e, (uint32_t)e->plans.keys[i], &e->ways[i], error);
+        if (status == TN_OK && e->stage == STAGE_LEAVE)
+            status = find_entries(e->kind->strip, &e->ways[i], error);
+    }
     return status;
 }
 
@@ -153,10 +172,13 @@ static tn_status keep_ends(tn_houses_expansion *e, size_t first, tn_error *error
     return status;
 }
 
-/* What a way goes by at this stage: the number of an edge, a group or a slice. */
-static uint32_t goes_by(const tn_houses_expansion *e, const tn_houses_way *way)
+/* What a way goes by at this stage: the number of a list of entries, nothing, a group or a slice. */
+static uint32_t goes_by(const tn_houses_expansion *e, const tn_ways *ways, const tn_houses_way *way)
 {
-    return e->stage == STAGE_LEAVE ? way->entry : e->stage == STAGE_ENTER ? way->group : way->slice;
+    return e->stage == STAGE_LEAVE   ? ways->entries
+           : e->stage == STAGE_FACE  ? 0
+           : e->stage == STAGE_ENTER ? way->group
+                                     : way->slice;
 }
 
 static tn_status step(tn_houses_expansion *e, uint32_t state, uint32_t by, tn_error *error)
@@ -164,13 +186,15 @@ static tn_status step(tn_houses_expansion *e, uint32_t state, uint32_t by, tn_er
     tn_strip *strip = e->kind->strip;
     if (e->stage == STAGE_LEAVE)
         return tn_strip_leave(strip, state, by, reach, &e->fan, error);
+    if (e->stage == STAGE_FACE)
+        return tn_strip_face(strip, state, reach, &e->fan, error);
     if (e->stage == STAGE_ENTER)
         return tn_strip_enter(strip, e->trays, state, by, reach, &e->fan, error);
     return e->stage == STAGE_ARRIVE ? tn_strip_arrive(strip, state, by, reach, &e->fan, error)
                                     : tn_strip_step(strip, e->trays, state, by, reach, &e->fan, error);
 }
 
-/* Steps by a slice, an entry or a group, if that was not done in this turn. */
+/* Steps by a slice, a list of entries or a group, if that was not done in this turn. */
 static tn_status ask(tn_houses_expansion *e, uint32_t turn, uint32_t state, uint32_t by, size_t at, tn_error *error)
 {
     tn_fan *fan = &e->fan;
@@ -242,17 +266,17 @@ static tn_status expand_end(tn_houses_expansion *e, uint32_t turn, uint32_t node
     return status == TN_OK ? show(e, node, &way, 0, error) : status;
 }
 
-/* A threshold or an arrival is met once, however many slices lead on from it: the tray is not taken yet. */
+/* What is half way is met once, however many slices lead on from it: the tray is not taken yet. */
 static bool is_half(const tn_houses_expansion *e)
 {
-    return e->stage == STAGE_LEAVE || e->stage == STAGE_ENTER;
+    return e->stage < STAGE_ARRIVE;
 }
 
 /* The next way that differs from this one at the stage. */
 static size_t next_way(const tn_houses_expansion *e, const tn_ways *ways, size_t i)
 {
     const tn_houses_way *way = &ways->items[i];
-    return e->stage == STAGE_LEAVE   ? first_way(ways, way->entry + 1, 0)
+    return e->stage < STAGE_ENTER    ? ways->count
            : e->stage == STAGE_ENTER ? first_way(ways, way->entry, way->group + 1)
                                      : i + 1;
 }
@@ -267,7 +291,7 @@ static tn_status expand_node(tn_houses_expansion *e, uint32_t turn, uint32_t nod
     tn_status status = TN_OK;
     find_stretch(e, ways, state, &first, &end);
     for (size_t i = first; status == TN_OK && i < end; i = next_way(e, ways, i)) {
-        uint32_t by = goes_by(e, &ways->items[i]);
+        uint32_t by = goes_by(e, ways, &ways->items[i]);
         status = ask(e, turn, state, by, by, error);
         if (status == TN_OK)
             status = show(e, node, is_half(e) ? &stays : &ways->items[i], by, error);
@@ -297,7 +321,7 @@ static tn_status find_place(const tn_houses_expansion *e, tn_interner *crossing,
     const tn_strip *strip = e->kind->strip;
     size_t size;
     *place = 0;
-    if (e->stage == STAGE_ENTER || e->stage == STAGE_ARRIVE)
+    if (e->stage != STAGE_LEAVE && e->stage != STAGE_WHOLE)
         return TN_OK;
     const uint32_t *words = state == TN_STRIP_NONE ? &state : tn_interned(&strip->states, state, &size);
     *place = tn_intern(crossing, words, state == TN_STRIP_NONE ? 1 : tn_strip_waiting_word(strip) - 1);
@@ -340,10 +364,19 @@ static tn_status expand_nodes(tn_houses_expansion *e, bool end, tn_error *error)
     return status;
 }
 
+static tn_status begin_fan(tn_houses_expansion *e, tn_error *error)
+{
+    const tn_strip *strip = e->kind->strip;
+    size_t by = (size_t)strip->slice_keys.count + strip->stages.entries.count + 1; /* what each stage goes by */
+    e->fan.mark = calloc(by, sizeof *e->fan.mark);
+    e->fan.first = malloc(by * sizeof *e->fan.first);
+    e->fan.count = malloc(by * sizeof *e->fan.count);
+    return e->fan.mark && e->fan.first && e->fan.count ? TN_OK : tn_fail_memory(error);
+}
+
 static tn_status expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end, mpz_t *here,
                         tn_houses_edge_seen *seen, void *context, tn_error *error)
 {
-    size_t ways = (size_t)kind->strip->slice_keys.count + kind->strip->edge_keys.count + 1; /* of each stage */
     uint32_t stages = tn_houses_stages(houses, kind);
     tn_houses_expansion e = {.houses = houses,
                              .kind = kind,
@@ -353,12 +386,9 @@ static tn_status expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t 
                              .here = here,
                              .seen = seen,
                              .context = context};
-    e.fan.mark = calloc(ways, sizeof *e.fan.mark);
-    e.fan.first = malloc(ways * sizeof *e.fan.first);
-    e.fan.count = malloc(ways * sizeof *e.fan.count);
-    tn_status status = e.fan.mark && e.fan.first && e.fan.count ? TN_OK : tn_fail_memory(error);
-    if (status == TN_OK && !end)
-        status = find_all_ways(&e, error);
+    tn_status status = end ? TN_OK : find_all_ways(&e, error);
+    if (status == TN_OK)
+        status = begin_fan(&e, error);
     if (status == TN_OK)
         status = expand_nodes(&e, end, error);
     for (uint32_t i = 0; e.ways && i < e.plans.count; i++)

@@ -42,8 +42,8 @@ typedef struct tn_houses_plan_layer {
     uint32_t *alike; /* [states]: the first from which the same goes on */
 } tn_houses_plan_layer;
 
-/* The nodes after so many trays, or within a step: {state of the library of plans, state of the strip, or threshold, or
- * arrival}. */
+/* The nodes after so many trays, or within a step: {state of the library of plans, state of the strip, or leaving, or
+ * threshold, or arrival}. */
 typedef struct tn_houses_layer {
     tn_numbering nodes; /* plan state << 32 | state */
     mpz_t *ahead;    /* [nodes][lengths]: houses on plans of each length that go on from there; NULL: not asked for */
@@ -99,11 +99,11 @@ struct tn_houses {
 /* The kind that a section is of, NULL where no such is known. */
 tn_houses_kind *tn_houses_kind_of(const tn_houses *houses, const tn_house *section);
 
-/* Layers from one tray to the next: 3, or 1 where a step is not divided, as something is added up on the way, trays
+/* Layers from one tray to the next: 4, or 1 where a step is not divided, as something is added up on the way, trays
  * matter, or steps are few. Layers that are multiples of it are of states after trays. */
 static inline uint32_t tn_houses_stages(const tn_houses *houses, const tn_houses_kind *kind)
 {
-    return tn_strip_has_stages(kind->strip) && !houses->trays_matter && !houses->whole_steps ? 3 : 1;
+    return tn_strip_has_stages(kind->strip) && !houses->trays_matter && !houses->whole_steps ? 4 : 1;
 }
 
 /* A step from a node: `from` among those of the layer. */

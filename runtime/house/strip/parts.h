@@ -200,9 +200,9 @@ tn_status tn_strip_cross(tn_strip *strip, const uint32_t *state, uint32_t slice,
                          const uint32_t **crossed, tn_error *error);
 void tn_strip_row_clear(tn_strip_row *row);
 
-/* What comes of one outcome alone, before a slice: so many words, to be filled in. */
+/* What comes of one outcome alone, before a slice: so many words, to be filled in. behind: its words. */
 tn_status tn_strip_cross_outcome(tn_strip *strip, const uint32_t *state, uint32_t slice, uint32_t outcome,
-                                 uint32_t *crossed, tn_error *error);
+                                 const uint32_t *behind, uint32_t *crossed, tn_error *error);
 
 /* ---- compared.c: what clauses compare with 0, which is known at the end of the row */
 
@@ -263,19 +263,25 @@ tn_status tn_strip_end_waiting(tn_strip *strip, uint32_t waiting, uint32_t left_
 tn_status tn_strip_find_waiting(tn_strip *strip, uint32_t slice, uint32_t right_fits, tn_strip_waiting *waiting,
                                 tn_error *error);
 
-/* ---- stage.c: a step in three stages; nothing is added up, and tiles have no prices */
+/* ---- outlook.c, stage.c: a step in four stages; nothing is added up, and tiles have no prices */
 
 bool tn_strip_has_stages(const tn_strip *strip);
 
-/* From a state (TN_STRIP_NONE before the first slice) over the plane to thresholds of an entry; from a threshold into
- * slices of a group, which has its entry, to an arrival; from an arrival to the state behind one of these slices. Shown
- * to `seen` as by tn_strip_step; trays: before the slice. */
-tn_status tn_strip_leave(tn_strip *strip, uint32_t state, uint32_t entry, tn_strip_seen *seen, void *context,
+/* From a state (TN_STRIP_NONE before the first slice), before slices with one of these entries, to leavings; from a
+ * leaving over the plane to thresholds; from a threshold into slices of a group, which has its entry, to an arrival;
+ * from an arrival to the state behind one of these slices. Shown to `seen` as by tn_strip_step; trays: before the
+ * slice.
+ */
+tn_status tn_strip_leave(tn_strip *strip, uint32_t state, uint32_t entries, tn_strip_seen *seen, void *context,
                          tn_error *error);
+tn_status tn_strip_face(tn_strip *strip, uint32_t leaving, tn_strip_seen *seen, void *context, tn_error *error);
 tn_status tn_strip_enter(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t group, tn_strip_seen *seen,
                          void *context, tn_error *error);
 tn_status tn_strip_arrive(tn_strip *strip, uint32_t arrival, uint32_t slice, tn_strip_seen *seen, void *context,
                           tn_error *error);
+
+/* The number of a list of entries, ascending; UINT32_MAX: out of memory. */
+uint32_t tn_strip_number_entries(tn_strip *strip, const uint32_t *entries, size_t count);
 
 /* The entry of a threshold, the group of an arrival. */
 uint32_t tn_strip_threshold_entry(const tn_strip *strip, uint32_t threshold);
@@ -284,8 +290,10 @@ uint32_t tn_strip_arrival_group(const tn_strip *strip, uint32_t arrival);
 void tn_strip_stages_forget(tn_strip_stages *stages); /* states are numbered anew; groups stay */
 void tn_strip_stages_clear(tn_strip_stages *stages);
 
-/* Finds the group of a slice. False: out of memory. */
+/* Finds the group of a slice; what can be seen of an outcome (its words) from both sides. False: out of memory. */
 bool tn_strip_find_group(tn_strip *strip, uint32_t slice);
+bool tn_strip_split_outcome(tn_strip *strip, const uint32_t *words, uint32_t left_cells, uint32_t right_cells,
+                            tn_strip_outcome *parts);
 
 /* May the row end in the state, after so many trays? */
 tn_status tn_strip_ends(tn_strip *strip, uint32_t trays, uint32_t state, bool *ends, tn_error *error);

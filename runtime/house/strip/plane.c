@@ -275,7 +275,9 @@ static bool keep_outcome(tn_crossing_house *c, uint32_t outcome)
     parts->right_fits = number_fits(c, sides, c->left_cells, (uint32_t)c->house.cell_count);
     parts->through = number_through(c, steps, sides);
     parts->cost = s->prices.asked ? sides[(size_t)SIDE_WORDS * c->house.cell_count + 1] : 0;
-    return parts->left_fits != UINT32_MAX && parts->right_fits != UINT32_MAX && parts->through != UINT32_MAX;
+    return parts->left_fits != UINT32_MAX && parts->right_fits != UINT32_MAX && parts->through != UINT32_MAX &&
+           tn_strip_split_outcome(s, s->joined.data, c->left_cells, (uint32_t)c->house.cell_count - c->left_cells,
+                                  parts);
 }
 
 static tn_status push_cost(const tn_crossing_house *c, tn_key *key, tn_error *error)
