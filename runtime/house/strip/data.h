@@ -304,7 +304,7 @@ typedef struct tn_strip_stages {
     uint32_t *slices;   /* [groups]: the first of each */
     size_t slice_room;
     tn_interner lefts, rights;     /* what can be seen of outcomes from the left, from the right */
-    tn_interner entries;           /* lists of entries that can follow, ascending */
+    tn_interner lists;             /* of entries, of groups, that can follow */
     tn_numbering facings;          /* entry << 32 | right */
     tn_interner outlooks;          /* OUTLOOK_WORDS for each facing, ascending */
     tn_numbering prospect_keys;    /* left edge << 32 | entries */

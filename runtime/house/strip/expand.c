@@ -1,8 +1,8 @@
 /* Goes from the nodes of a layer to those of the next: what is equal for several plans is worked out once.
  *
  * Between the states after two trays there are three more layers where a step has four stages (stage.c): of leavings,
- * of thresholds, then of arrivals. A state then goes on by all entries that can follow at once; a leaving by itself; a
- * threshold by groups; an arrival by slices. */
+ * of thresholds, then of arrivals. A state then goes on by all entries that can follow, a leaving by itself, a
+ * threshold by all groups of its entry; an arrival goes on by each slice. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,21 +15,27 @@ typedef struct tn_reached {
     tn_house_gain gain;
 } tn_reached;
 
-/* From one state, leaving, threshold or arrival: what it reaches by each slice, list of entries or group that was asked
- * for. */
+/* From one state, leaving, threshold or arrival: what it reaches by each slice, or list, that was asked for. */
 typedef struct tn_fan {
-    uint32_t *mark; /* [slices and lists of entries]: the turn in which it was last asked for */
+    uint32_t *mark; /* [slices and lists]: the turn in which it was last asked for */
     size_t *first;  /* the same: its part of `reached`, and how much */
     size_t *count;
     tn_reached *reached;
     size_t used, room;
 } tn_fan;
 
+/* The groups of slices that an entry has; as a list, by number. */
+typedef struct tn_entering {
+    uint32_t entry, groups;
+} tn_entering;
+
 /* The ways on from one plan state. */
 typedef struct tn_ways {
     tn_houses_way *items;
     size_t count, room;
-    uint32_t entries; /* the number of the list of them, where a step has stages */
+    uint32_t entries;      /* STAGE_LEAVE: the list of them, by number */
+    tn_entering *entering; /* STAGE_ENTER: by entry */
+    size_t entering_count, entering_room;
 } tn_ways;
 
 /* A step as a whole, or one of its stages. */
@@ -124,8 +130,51 @@ static tn_status find_entries(tn_strip *strip, tn_ways *ways, tn_error *error)
     for (size_t i = 0; ok && i < ways->count; i++)
         if (i == 0 || ways->items[i].entry != ways->items[i - 1].entry)
             ok = tn_key_push(key, ways->items[i].entry);
-    ways->entries = ok ? tn_strip_number_entries(strip, key->data, key->size) : UINT32_MAX;
+    ways->entries = ok ? tn_strip_number_list(strip, key->data, key->size) : UINT32_MAX;
     return ways->entries != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+}
+
+/* strip->key := for each group of the ways from here that have one entry: what clauses read of it, and its number. *at
+ * := behind these ways. */
+static bool list_groups(tn_strip *strip, const tn_ways *ways, size_t *at)
+{
+    uint32_t entry = ways->items[*at].entry;
+    tn_key *key = &strip->key;
+    bool ok = true;
+    key->size = 0;
+    for (size_t first = *at; ok && *at < ways->count && ways->items[*at].entry == entry; ++*at) {
+        const tn_houses_way *way = &ways->items[*at];
+        if (*at == first || way->group != way[-1].group)
+            ok = tn_key_push(key, strip->slices[way->slice].bases) && tn_key_push(key, way->group);
+    }
+    return ok;
+}
+
+static int compare_pairs(const void *a, const void *b)
+{
+    const uint32_t *p = a, *q = b;
+    return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
+}
+
+/* Groups of which clauses read the same follow one another in the lists. */
+static tn_status find_groups(tn_strip *strip, tn_ways *ways, tn_error *error)
+{
+    const tn_key *key = &strip->key;
+    for (size_t at = 0; at < ways->count;) {
+        tn_entering entering = {.entry = ways->items[at].entry};
+        if (!list_groups(strip, ways, &at) ||
+            !tn_array_reserve(&ways->entering, &ways->entering_room, ways->entering_count, 1, sizeof *ways->entering))
+            return tn_fail_memory(error);
+        size_t count = key->size / 2;
+        qsort(key->data, count, 2 * sizeof *key->data, compare_pairs);
+        for (size_t i = 0; i < count; i++)
+            key->data[i] = key->data[2 * i + 1];
+        entering.groups = tn_strip_number_list(strip, key->data, count);
+        if (entering.groups == UINT32_MAX)
+            return tn_fail_memory(error);
+        ways->entering[ways->entering_count++] = entering;
+    }
+    return TN_OK;
 }
 
 static tn_status find_all_ways(tn_houses_expansion *e, tn_error *error)
@@ -140,6 +189,8 @@ static tn_status find_all_ways(tn_houses_expansion *e, tn_error *error)
         status = find_ways(e, (uint32_t)e->plans.keys[i], &e->ways[i], error);
         if (status == TN_OK && e->stage == STAGE_LEAVE)
             status = find_entries(e->kind->strip, &e->ways[i], error);
+        if (status == TN_OK && e->stage == STAGE_ENTER)
+            status = find_groups(e->kind->strip, &e->ways[i], error);
     }
     return status;
 }
@@ -172,15 +223,6 @@ static tn_status keep_ends(tn_houses_expansion *e, size_t first, tn_error *error
     return status;
 }
 
-/* What a way goes by at this stage: the number of a list of entries, nothing, a group or a slice. */
-static uint32_t goes_by(const tn_houses_expansion *e, const tn_ways *ways, const tn_houses_way *way)
-{
-    return e->stage == STAGE_LEAVE   ? ways->entries
-           : e->stage == STAGE_FACE  ? 0
-           : e->stage == STAGE_ENTER ? way->group
-                                     : way->slice;
-}
-
 static tn_status step(tn_houses_expansion *e, uint32_t state, uint32_t by, tn_error *error)
 {
     tn_strip *strip = e->kind->strip;
@@ -194,7 +236,7 @@ static tn_status step(tn_houses_expansion *e, uint32_t state, uint32_t by, tn_er
                                     : tn_strip_step(strip, e->trays, state, by, reach, &e->fan, error);
 }
 
-/* Steps by a slice, a list of entries or a group, if that was not done in this turn. */
+/* Steps by a slice or a list, if that was not done in this turn. */
 static tn_status ask(tn_houses_expansion *e, uint32_t turn, uint32_t state, uint32_t by, size_t at, tn_error *error)
 {
     tn_fan *fan = &e->fan;
@@ -243,16 +285,31 @@ static void find_stretch(const tn_houses_expansion *e, const tn_ways *ways, uint
     const tn_strip *strip = e->kind->strip;
     *first = 0;
     *end = ways->count;
-    if (e->stage == STAGE_ENTER) {
-        uint32_t entry = tn_strip_threshold_entry(strip, state);
-        *first = first_way(ways, entry, 0);
-        *end = first_way(ways, entry + 1, 0);
-    } else if (e->stage == STAGE_ARRIVE) {
-        uint32_t group = tn_strip_arrival_group(strip, state);
-        uint32_t entry = strip->slices[strip->stages.slices[group]].entry;
-        *first = first_way(ways, entry, group);
-        *end = first_way(ways, entry, group + 1);
-    }
+    if (e->stage != STAGE_ARRIVE)
+        return;
+    uint32_t group = tn_strip_arrival_group(strip, state);
+    uint32_t entry = strip->slices[strip->stages.slices[group]].entry;
+    *first = first_way(ways, entry, group);
+    *end = first_way(ways, entry, group + 1);
+}
+
+static int compare_entering(const void *a, const void *b)
+{
+    const tn_entering *p = a, *q = b;
+    return (p->entry > q->entry) - (p->entry < q->entry);
+}
+
+/* The list that a node goes on by, where it does so by a list. False: nothing follows. */
+static bool find_list(const tn_houses_expansion *e, const tn_ways *ways, uint32_t state, uint32_t *list)
+{
+    *list = e->stage == STAGE_LEAVE ? ways->entries : 0;
+    if (e->stage != STAGE_ENTER)
+        return ways->count > 0;
+    const tn_entering entry = {.entry = tn_strip_threshold_entry(e->kind->strip, state)}, *found = NULL;
+    if (ways->entering_count > 0)
+        found = bsearch(&entry, ways->entering, ways->entering_count, sizeof entry, compare_entering);
+    *list = found ? found->groups : 0;
+    return found != NULL;
 }
 
 static tn_status expand_end(tn_houses_expansion *e, uint32_t turn, uint32_t node, tn_error *error)
@@ -272,13 +329,15 @@ static bool is_half(const tn_houses_expansion *e)
     return e->stage < STAGE_ARRIVE;
 }
 
-/* The next way that differs from this one at the stage. */
-static size_t next_way(const tn_houses_expansion *e, const tn_ways *ways, size_t i)
+static tn_status expand_half(tn_houses_expansion *e, uint32_t turn, uint32_t node, const tn_ways *ways, tn_error *error)
 {
-    const tn_houses_way *way = &ways->items[i];
-    return e->stage < STAGE_ENTER    ? ways->count
-           : e->stage == STAGE_ENTER ? first_way(ways, way->entry, way->group + 1)
-                                     : i + 1;
+    uint64_t key = e->kind->layers[e->layer].nodes.keys[node];
+    const tn_houses_way stays = {.plan = (uint32_t)(key >> 32), .times = 1};
+    uint32_t list;
+    if (!find_list(e, ways, (uint32_t)key, &list))
+        return TN_OK;
+    tn_status status = ask(e, turn, (uint32_t)key, list, list, error);
+    return status == TN_OK ? show(e, node, &stays, list, error) : status;
 }
 
 static tn_status expand_node(tn_houses_expansion *e, uint32_t turn, uint32_t node, tn_error *error)
@@ -286,15 +345,16 @@ static tn_status expand_node(tn_houses_expansion *e, uint32_t turn, uint32_t nod
     uint64_t key = e->kind->layers[e->layer].nodes.keys[node];
     uint32_t state = (uint32_t)key, plan = (uint32_t)(key >> 32);
     const tn_ways *ways = &e->ways[tn_number_find(&e->plans, plan)];
-    const tn_houses_way stays = {.plan = plan, .times = 1};
     size_t first, end;
     tn_status status = TN_OK;
+    if (is_half(e))
+        return expand_half(e, turn, node, ways, error);
     find_stretch(e, ways, state, &first, &end);
-    for (size_t i = first; status == TN_OK && i < end; i = next_way(e, ways, i)) {
-        uint32_t by = goes_by(e, ways, &ways->items[i]);
-        status = ask(e, turn, state, by, by, error);
+    for (size_t i = first; status == TN_OK && i < end; i++) {
+        const tn_houses_way *way = &ways->items[i];
+        status = ask(e, turn, state, way->slice, way->slice, error);
         if (status == TN_OK)
-            status = show(e, node, is_half(e) ? &stays : &ways->items[i], by, error);
+            status = show(e, node, way, way->slice, error);
     }
     return status;
 }
@@ -367,7 +427,7 @@ static tn_status expand_nodes(tn_houses_expansion *e, bool end, tn_error *error)
 static tn_status begin_fan(tn_houses_expansion *e, tn_error *error)
 {
     const tn_strip *strip = e->kind->strip;
-    size_t by = (size_t)strip->slice_keys.count + strip->stages.entries.count + 1; /* what each stage goes by */
+    size_t by = (size_t)strip->slice_keys.count + strip->stages.lists.count + 1; /* what each stage goes by */
     e->fan.mark = calloc(by, sizeof *e->fan.mark);
     e->fan.first = malloc(by * sizeof *e->fan.first);
     e->fan.count = malloc(by * sizeof *e->fan.count);
@@ -391,8 +451,10 @@ static tn_status expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t 
         status = begin_fan(&e, error);
     if (status == TN_OK)
         status = expand_nodes(&e, end, error);
-    for (uint32_t i = 0; e.ways && i < e.plans.count; i++)
+    for (uint32_t i = 0; e.ways && i < e.plans.count; i++) {
         free(e.ways[i].items);
+        free(e.ways[i].entering);
+    }
     free(e.ways);
     tn_numbering_clear(&e.plans);
     free(e.fan.mark);

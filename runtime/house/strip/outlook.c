@@ -66,11 +66,6 @@ static uint32_t fits_of(const tn_strip *strip, uint32_t outcome)
 
 /* ---- prospects behind an edge */
 
-uint32_t tn_strip_number_entries(tn_strip *strip, const uint32_t *entries, size_t count)
-{
-    return tn_intern(&strip->stages.entries, entries, count);
-}
-
 /* An outcome of a plane behind an edge, with what is seen of it. */
 typedef struct tn_strip_sight {
     uint32_t left, fits, facing;
@@ -153,10 +148,10 @@ static tn_status find_prospects(tn_strip *strip, uint32_t edge, uint32_t entries
 {
     tn_strip_sights sights = {0};
     size_t count;
-    tn_interned(&strip->stages.entries, entries, &count);
+    tn_interned(&strip->stages.lists, entries, &count);
     tn_status status = TN_OK;
     for (size_t i = 0, size; status == TN_OK && i < count; i++)
-        status = see_plane(strip, edge, tn_interned(&strip->stages.entries, entries, &size)[i], &sights, error);
+        status = see_plane(strip, edge, tn_interned(&strip->stages.lists, entries, &size)[i], &sights, error);
     if (status == TN_OK && sights.count > 0)
         qsort(sights.items, sights.count, sizeof *sights.items, compare_sights);
     if (status == TN_OK)

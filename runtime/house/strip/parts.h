@@ -275,13 +275,14 @@ bool tn_strip_has_stages(const tn_strip *strip);
 tn_status tn_strip_leave(tn_strip *strip, uint32_t state, uint32_t entries, tn_strip_seen *seen, void *context,
                          tn_error *error);
 tn_status tn_strip_face(tn_strip *strip, uint32_t leaving, tn_strip_seen *seen, void *context, tn_error *error);
-tn_status tn_strip_enter(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t group, tn_strip_seen *seen,
+tn_status tn_strip_enter(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t groups, tn_strip_seen *seen,
                          void *context, tn_error *error);
 tn_status tn_strip_arrive(tn_strip *strip, uint32_t arrival, uint32_t slice, tn_strip_seen *seen, void *context,
                           tn_error *error);
 
-/* The number of a list of entries, ascending; UINT32_MAX: out of memory. */
-uint32_t tn_strip_number_entries(tn_strip *strip, const uint32_t *entries, size_t count);
+/* The number of a list: of entries, ascending; of groups, those together of which clauses read the same. UINT32_MAX:
+ * out of memory. */
+uint32_t tn_strip_number_list(tn_strip *strip, const uint32_t *items, size_t count);
 
 /* The entry of a threshold, the group of an arrival. */
 uint32_t tn_strip_threshold_entry(const tn_strip *strip, uint32_t threshold);

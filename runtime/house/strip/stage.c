@@ -27,7 +27,7 @@ void tn_strip_stages_forget(tn_strip_stages *stages)
 
 void tn_strip_stages_clear(tn_strip_stages *stages)
 {
-    tn_interner *const interners[] = {&stages->groups,   &stages->lefts,   &stages->rights, &stages->entries,
+    tn_interner *const interners[] = {&stages->groups,   &stages->lefts,   &stages->rights, &stages->lists,
                                       &stages->outlooks, &stages->behinds, &stages->views};
     tn_strip_stages_forget(stages);
     for (size_t i = 0; i < sizeof interners / sizeof *interners; i++)
@@ -60,6 +60,11 @@ bool tn_strip_find_group(tn_strip *strip, uint32_t slice)
     return parts->group != UINT32_MAX;
 }
 
+uint32_t tn_strip_number_list(tn_strip *strip, const uint32_t *items, size_t count)
+{
+    return tn_intern(&strip->stages.lists, items, count);
+}
+
 /* The entry, and what is seen of the plane from there: entry << 32 | right. */
 static uint64_t facing_of(const tn_strip *strip, uint32_t threshold)
 {
@@ -79,40 +84,68 @@ uint32_t tn_strip_arrival_group(const tn_strip *strip, uint32_t arrival)
 
 /* ---- into the slice */
 
-static tn_status number_arrival(tn_strip *strip, uint32_t group, const uint32_t *crossed, uint32_t read, uint32_t fits,
+typedef struct tn_entering_by {
+    tn_strip *strip;
+    const uint32_t *state, *behind; /* words; state: or NULL */
+    uint32_t trays, outcome, fits;
+} tn_entering_by;
+
+static tn_status number_arrival(const tn_entering_by *by, uint32_t group, const uint32_t *crossed, uint32_t read,
                                 uint32_t *number, tn_error *error)
 {
+    tn_strip *strip = by->strip;
     tn_key *key = &strip->joined;
     key->size = 0;
     bool ok = tn_key_push(key, group);
     for (uint32_t w = 0; ok && w <= strip->questions.walk_count; w++)
         ok = tn_key_push(key, crossed[CROSSED_ROOMS + w]);
-    ok = ok && tn_key_push(key, read) && tn_key_push(key, fits);
+    ok = ok && tn_key_push(key, read) && tn_key_push(key, by->fits);
     *number = ok ? tn_intern(&strip->stages.arrivals, key->data, key->size) : UINT32_MAX;
     return *number != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-tn_status tn_strip_enter(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t group, tn_strip_seen *seen,
-                         void *context, tn_error *error)
+/* between: what clauses have read of the group's slices by themselves. */
+static tn_status enter_group(const tn_entering_by *by, uint32_t group, uint32_t between, tn_strip_seen *seen,
+                             void *context, tn_error *error)
 {
-    size_t size;
-    uint32_t crossed[CROSSED_WALKS + TN_STRIP_MEETINGS_MAX + TN_STRIP_QUESTIONS_MAX], between, read, arrival;
-    const tn_strip_stages *stages = &strip->stages;
-    const tn_strip_threshold *by = &stages->crossed_by[threshold];
-    const uint32_t *behind = tn_interned(&stages->behinds, tn_high(stages->thresholds.keys[threshold]), &size);
-    const uint32_t *state = by->state == TN_STRIP_NONE ? NULL : tn_interned(&strip->states, by->state, &size);
-    uint32_t slice = stages->slices[group], last = tn_strip_waiting_word(strip) - 1;
-    uint32_t fits = tn_interned(&stages->rights, tn_low(facing_of(strip, threshold)), &size)[RIGHT_FITS];
-    tn_status status = tn_strip_read_slice(strip, trays, behind[last], slice, &between, error);
-    if (status != TN_OK || between == TN_STRIP_NONE)
-        return status;
-    status = tn_strip_cross_outcome(strip, state, slice, by->outcome, behind, crossed, error);
+    uint32_t crossed[CROSSED_WALKS + TN_STRIP_MEETINGS_MAX + TN_STRIP_QUESTIONS_MAX], read, arrival;
+    tn_strip *strip = by->strip;
+    tn_status status =
+        tn_strip_cross_outcome(strip, by->state, strip->stages.slices[group], by->outcome, by->behind, crossed, error);
     if (status == TN_OK)
-        status = tn_strip_read_plane(strip, trays, between, crossed[CROSSED_VALUES], &read, error);
+        status = tn_strip_read_plane(strip, by->trays, between, crossed[CROSSED_VALUES], &read, error);
     if (status != TN_OK || read == TN_STRIP_NONE)
         return status;
-    status = number_arrival(strip, group, crossed, read, fits, &arrival, error);
+    status = number_arrival(by, group, crossed, read, &arrival, error);
     return status == TN_OK ? seen(context, arrival, 1, 1, &(tn_house_gain){{0}}, error) : status;
+}
+
+tn_status tn_strip_enter(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t groups, tn_strip_seen *seen,
+                         void *context, tn_error *error)
+{
+    size_t size, count;
+    const tn_strip_stages *stages = &strip->stages;
+    const tn_strip_threshold *crossed = &stages->crossed_by[threshold];
+    const uint32_t *behind = tn_interned(&stages->behinds, tn_high(stages->thresholds.keys[threshold]), &size);
+    const uint32_t *list = tn_interned(&stages->lists, groups, &count);
+    const tn_entering_by by = {
+        .strip = strip,
+        .state = crossed->state == TN_STRIP_NONE ? NULL : tn_interned(&strip->states, crossed->state, &size),
+        .behind = behind,
+        .trays = trays,
+        .outcome = crossed->outcome,
+        .fits = tn_interned(&stages->rights, tn_low(facing_of(strip, threshold)), &size)[RIGHT_FITS]};
+    uint32_t bases = TN_STRIP_NONE, between = TN_STRIP_NONE, last = tn_strip_waiting_word(strip) - 1;
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        uint32_t slice = stages->slices[list[i]];
+        if (i == 0 || strip->slices[slice].bases != bases)
+            status = tn_strip_read_slice(strip, trays, behind[last], slice, &between, error);
+        bases = strip->slices[slice].bases;
+        if (status == TN_OK && between != TN_STRIP_NONE)
+            status = enter_group(&by, list[i], between, seen, context, error);
+    }
+    return status;
 }
 
 /* ---- to its right side */
