@@ -446,6 +446,9 @@ typedef struct tn_strip {
     tn_interner edge_keys, slice_keys, outcome_keys, areas, bases, sides, waiting, rooms, walks, states;
     tn_strip_edge *edges;
     size_t edge_room;
+    tn_interner parts, combined; /* of planes: what comes of their storeys; these together: plane.c */
+    uint32_t *of_combined;       /* [combined]: outcomes */
+    size_t combined_room;
     tn_numbering plane_keys;
     tn_strip_list *planes;
     size_t plane_room;

@@ -46,6 +46,9 @@ typedef struct tn_crossing_house {
     uint32_t *sides;    /* [cells][SIDE_WORDS] */
     uint64_t changed;   /* storeys of whose faces one has another kind than when sides were found */
     int64_t x;
+    struct tn_plane_part *parts;
+    size_t part_count;
+    tn_key words; /* scratch */
     tn_numbering found;
     tn_strip_list *list;
     tn_strip_ordered *ordered; /* where these are wanted, and no list */
@@ -143,30 +146,18 @@ static bool leads(const tn_crossing_house *c, const tn_face *face, uint32_t walk
            (from.goal && (to.through || to.source));
 }
 
-static bool push_meetings_and_steps(const tn_crossing_house *c, tn_key *key)
+/* How a face matters to rooms and walks, as in STEP_HOW. */
+static uint32_t find_how(const tn_crossing_house *c, const tn_face *face, uint64_t *meetings)
 {
     const tn_strip *s = c->strip;
-    uint64_t meetings = 0;
-    bool ok = tn_push_long(key, 0) && tn_key_push(key, 0);
-    for (size_t i = 0; ok && i < c->count; i++) {
-        const tn_face *face = &c->house.faces[c->faces[i]];
-        if (face->second == TN_NO_CELL)
-            continue;
-        uint32_t how = joins(c, face);
-        for (uint32_t w = 0; w < s->questions.walk_count; w++)
-            how |= (uint32_t)(leads(c, face, w) && tn_strip_steps(s, &c->house, face, w)) << (w + 1);
-        for (uint32_t m = 0; m < s->questions.meeting_count; m++)
-            meetings |= (uint64_t)tn_strip_meets(s, &c->house, face, m) << m;
-        if (how == 0)
-            continue;
-        ok = tn_key_push(key, face->first) && tn_key_push(key, face->second - c->left_cells) && tn_key_push(key, how);
-        key->data[2]++;
-    }
-    if (ok) {
-        key->data[0] = tn_low(meetings);
-        key->data[1] = tn_high(meetings);
-    }
-    return ok;
+    if (face->second == TN_NO_CELL)
+        return 0;
+    uint32_t how = joins(c, face);
+    for (uint32_t w = 0; w < s->questions.walk_count; w++)
+        how |= (uint32_t)(leads(c, face, w) && tn_strip_steps(s, &c->house, face, w)) << (w + 1);
+    for (uint32_t m = 0; m < s->questions.meeting_count; m++)
+        *meetings |= (uint64_t)tn_strip_meets(s, &c->house, face, m) << m;
+    return how;
 }
 
 /* What of the cell's glass is in the plane, if any question depends on that. */
@@ -226,19 +217,100 @@ static tn_status find_sides(tn_crossing_house *c, uint32_t storey, tn_error *err
     return status;
 }
 
+/* ---- parts of a plane: storeys whose outcomes do not depend on others */
+
+/* Words of what comes of a part: the meetings (two words), the number of steps and STEP_WORDS for each, then for each
+ * cell of its storeys its place and SIDE_WORDS; then, where costs are asked for, the number of the plane's. */
+enum { PART_MEETINGS, PART_STEPS = PART_MEETINGS + 2 };
+
+/* What comes of its faces, of `parts`, and of how many choices. */
+typedef struct tn_plane_found {
+    uint32_t part;
+    uint64_t times;
+} tn_plane_found;
+
+/* Outcomes of the plane are the combinations of what its parts have. */
+typedef struct tn_plane_part {
+    uint64_t storeys; /* a bit each */
+    tn_plane_found *found;
+    size_t count, room;
+    size_t at; /* of found: where a combination is at */
+} tn_plane_part;
+
+static bool is_in_part(const tn_plane_part *part, uint32_t storey)
+{
+    return part->storeys >> storey & 1;
+}
+
+static bool push_part_steps(const tn_crossing_house *c, const tn_plane_part *part, tn_key *key)
+{
+    uint64_t meetings = 0;
+    bool ok = tn_push_long(key, 0) && tn_key_push(key, 0);
+    for (size_t i = 0; ok && i < c->count; i++) {
+        const tn_face *face = &c->house.faces[c->faces[i]];
+        uint32_t how = is_in_part(part, face->storey) ? find_how(c, face, &meetings) : 0;
+        if (how == 0)
+            continue;
+        ok = tn_key_push(key, face->first) && tn_key_push(key, face->second - c->left_cells) && tn_key_push(key, how);
+        key->data[PART_STEPS]++;
+    }
+    if (ok) {
+        key->data[PART_MEETINGS] = tn_low(meetings);
+        key->data[PART_MEETINGS + 1] = tn_high(meetings);
+    }
+    return ok;
+}
+
+static bool push_side(const tn_crossing_house *c, uint32_t cell, tn_key *key)
+{
+    bool ok = tn_key_push(key, cell);
+    for (size_t w = 0; ok && w < SIDE_WORDS; w++)
+        ok = tn_key_push(key, c->sides[(size_t)SIDE_WORDS * cell + w]);
+    return ok;
+}
+
 /* Of storeys in which no face has changed, sides are what they were. */
-static tn_status push_sides(tn_crossing_house *c, tn_key *key, tn_error *error)
+static tn_status push_part_sides(tn_crossing_house *c, const tn_plane_part *part, tn_key *key, tn_error *error)
 {
     tn_status status = TN_OK;
     for (uint32_t storey = 0; status == TN_OK && storey < TN_STOREYS_MAX; storey++)
-        if (c->changed >> storey & 1)
+        if (c->changed >> storey & 1 && is_in_part(part, storey))
             status = find_sides(c, storey, error);
-    c->changed = status == TN_OK ? 0 : c->changed;
-    for (size_t w = 0; status == TN_OK && w < SIDE_WORDS * c->house.cell_count; w++)
-        if (!tn_key_push(key, c->sides[w]))
+    c->changed = status == TN_OK ? c->changed & ~part->storeys : c->changed;
+    for (uint32_t i = 0; status == TN_OK && i < c->house.cell_count; i++)
+        if (is_in_part(part, c->house.cells[i].storey) && !push_side(c, i, key))
             status = tn_fail_memory(error);
     return status;
 }
+
+static tn_status push_cost(const tn_crossing_house *c, tn_key *key, tn_error *error)
+{
+    tn_strip *s = c->strip;
+    const tn_strip_border border = {.left = c->has_left ? &s->edges[c->left] : NULL,
+                                    .right = c->has_right ? &s->edges[c->right] : NULL,
+                                    .faces = c->faces,
+                                    .count = c->count};
+    uint32_t cost = 0;
+    tn_status status = tn_strip_plane_cost(s, &border, &c->house, &cost, error);
+    return status == TN_OK && !tn_key_push(key, cost) ? tn_fail_memory(error) : status;
+}
+
+/* Numbers what comes of its faces as they are. */
+static tn_status number_part(tn_crossing_house *c, const tn_plane_part *part, uint32_t *number, tn_error *error)
+{
+    tn_strip *s = c->strip;
+    tn_key *key = &s->joined;
+    key->size = 0;
+    if (!push_part_steps(c, part, key))
+        return tn_fail_memory(error);
+    tn_status status = push_part_sides(c, part, key, error);
+    if (status == TN_OK && s->prices.asked)
+        status = push_cost(c, key, error);
+    *number = status == TN_OK ? tn_intern(&s->parts, key->data, key->size) : UINT32_MAX;
+    return status == TN_OK && *number == UINT32_MAX ? tn_fail_memory(error) : status;
+}
+
+/* ---- outcomes of the plane, from those of its parts */
 
 /* Numbers what of the sides of some cells matters to their tiles. */
 static uint32_t number_fits(tn_crossing_house *c, const uint32_t *sides, uint32_t first, uint32_t end)
@@ -280,62 +352,144 @@ static bool keep_outcome(tn_crossing_house *c, uint32_t outcome)
                                   parts);
 }
 
-static tn_status push_cost(const tn_crossing_house *c, tn_key *key, tn_error *error)
+static int compare_steps(const void *a, const void *b)
 {
-    tn_strip *s = c->strip;
-    const tn_strip_border border = {.left = c->has_left ? &s->edges[c->left] : NULL,
-                                    .right = c->has_right ? &s->edges[c->right] : NULL,
-                                    .faces = c->faces,
-                                    .count = c->count};
-    uint32_t cost = 0;
-    tn_status status = tn_strip_plane_cost(s, &border, &c->house, &cost, error);
-    return status == TN_OK && !tn_key_push(key, cost) ? tn_fail_memory(error) : status;
+    const uint32_t *p = a, *q = b;
+    return p[STEP_FROM] != q[STEP_FROM] ? (p[STEP_FROM] > q[STEP_FROM]) - (p[STEP_FROM] < q[STEP_FROM])
+                                        : (p[STEP_TO] > q[STEP_TO]) - (p[STEP_TO] < q[STEP_TO]);
 }
 
-static tn_status push_outcome(tn_crossing_house *c, tn_key *key, tn_error *error)
+/* parts: of `parts`, `count` of them. Appends their meetings, then their steps in order. */
+static bool push_steps(const tn_strip *s, const uint32_t *parts, size_t count, tn_key *key)
 {
-    key->size = 0;
-    if (!push_meetings_and_steps(c, key))
-        return tn_fail_memory(error);
-    tn_status status = push_sides(c, key, error);
-    if (status == TN_OK && !tn_key_push(key, c->left_cells))
-        status = tn_fail_memory(error);
-    return status == TN_OK && c->strip->prices.asked ? push_cost(c, key, error) : status;
+    bool ok = tn_push_long(key, 0) && tn_key_push(key, 0);
+    for (size_t p = 0; ok && p < count; p++) {
+        size_t size;
+        const uint32_t *words = tn_interned(&s->parts, parts[p], &size);
+        key->data[0] |= words[PART_MEETINGS];
+        key->data[1] |= words[PART_MEETINGS + 1];
+        key->data[2] += words[PART_STEPS];
+        for (size_t w = 0; ok && w < (size_t)STEP_WORDS * words[PART_STEPS]; w++)
+            ok = tn_key_push(key, words[PART_STEPS + 1 + w]);
+    }
+    if (ok)
+        qsort(key->data + 3, key->data[2], STEP_WORDS * sizeof *key->data, compare_steps);
+    return ok;
 }
 
-static tn_status find_outcome(tn_crossing_house *c, uint32_t *outcome, tn_error *error)
+/* Appends SIDE_WORDS of each cell, in the order of cells. *cost: the last word of a part. */
+static bool push_sides(const tn_crossing_house *c, const uint32_t *parts, size_t count, tn_key *key, uint32_t *cost)
+{
+    const tn_strip *s = c->strip;
+    size_t first = key->size, cells = c->house.cell_count;
+    bool ok = true;
+    for (size_t w = 0; ok && w < SIDE_WORDS * cells; w++)
+        ok = tn_key_push(key, 0);
+    for (size_t p = 0; ok && p < count; p++) {
+        size_t size;
+        const uint32_t *words = tn_interned(&s->parts, parts[p], &size), *end = words + size - s->prices.asked;
+        *cost = words[size - 1];
+        for (words += PART_STEPS + 1 + (size_t)STEP_WORDS * words[PART_STEPS]; words < end; words += 1 + SIDE_WORDS)
+            memcpy(key->data + first + (size_t)SIDE_WORDS * *words, words + 1, SIDE_WORDS * sizeof *words);
+    }
+    return ok;
+}
+
+/* The outcome that parts have together. */
+static tn_status find_outcome(tn_crossing_house *c, const uint32_t *parts, size_t count, uint32_t *outcome,
+                              tn_error *error)
 {
     tn_strip *s = c->strip;
     tn_key *key = &s->joined;
-    tn_status status = push_outcome(c, key, error);
-    uint32_t before = s->outcome_keys.count;
-    if (status != TN_OK)
-        return status;
-    if (!tn_array_reserve(&s->outcomes, &s->outcome_room, before, 1, sizeof *s->outcomes))
+    uint32_t before = s->outcome_keys.count, cost = 0;
+    key->size = 0;
+    if (!push_steps(s, parts, count, key) || !push_sides(c, parts, count, key, &cost) ||
+        !tn_key_push(key, c->left_cells) || (s->prices.asked && !tn_key_push(key, cost)) ||
+        !tn_array_reserve(&s->outcomes, &s->outcome_room, before, 1, sizeof *s->outcomes))
         return tn_fail_memory(error);
     *outcome = tn_intern(&s->outcome_keys, key->data, key->size);
     bool ok = *outcome != UINT32_MAX && (*outcome < before || keep_outcome(c, *outcome));
     return ok ? TN_OK : tn_fail_memory(error);
 }
 
-static tn_status add_outcome(tn_crossing_house *c, tn_error *error)
+/* The same for parts that may have been met together. */
+static tn_status know_outcome(tn_crossing_house *c, const tn_key *parts, uint32_t *outcome, tn_error *error)
 {
-    uint32_t outcome = 0;
-    tn_status status = find_outcome(c, &outcome, error);
-    if (status != TN_OK)
-        return status;
-    if (c->ordered)
-        return tn_strip_ordered_add(c->ordered, outcome) ? TN_OK : tn_fail_memory(error);
+    tn_strip *s = c->strip;
+    uint32_t before = s->combined.count;
+    if (!tn_array_reserve(&s->of_combined, &s->combined_room, before, 1, sizeof *s->of_combined))
+        return tn_fail_memory(error);
+    uint32_t at = tn_intern(&s->combined, parts->data, parts->size);
+    if (at == UINT32_MAX)
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    if (at == before)
+        status = find_outcome(c, parts->data, c->part_count, &s->of_combined[at], error);
+    *outcome = status == TN_OK ? s->of_combined[at] : 0;
+    return status;
+}
+
+static tn_status add_to_list(tn_crossing_house *c, uint32_t outcome, uint64_t times, tn_error *error)
+{
     uint32_t at = tn_number(&c->found, outcome);
     if (at == UINT32_MAX || !tn_array_reserve_from(&c->list->items, &c->list->room, 1, at, 1, sizeof *c->list->items))
         return tn_fail_memory(error);
     if (at == c->list->count)
         c->list->items[c->list->count++] = (tn_strip_choice){.slice = outcome};
-    c->list->items[at].times++;
+    c->list->items[at].times += times;
     return TN_OK;
 }
 
+static tn_status too_many(const tn_crossing_house *c, tn_error *error)
+{
+    return tn_strip_limit(c->strip, NULL, "two trays have more than 4,000,000 choices between them", error);
+}
+
+static bool turn_parts(const tn_crossing_house *c)
+{
+    for (size_t p = c->part_count; p-- > 0;) {
+        if (++c->parts[p].at < c->parts[p].count)
+            return true;
+        c->parts[p].at = 0;
+    }
+    return false;
+}
+
+/* words := the part that each is at, and the number of the left cells. *times: choices that have these. */
+static tn_status begin_combination(tn_crossing_house *c, uint64_t *times, tn_error *error)
+{
+    bool ok = true;
+    *times = 1;
+    c->words.size = 0;
+    for (size_t p = 0; ok && p < c->part_count; p++) {
+        const tn_plane_found *found = &c->parts[p].found[c->parts[p].at];
+        *times *= found->times;
+        ok = tn_key_push(&c->words, found->part);
+    }
+    return ok && tn_key_push(&c->words, c->left_cells) ? TN_OK : tn_fail_memory(error);
+}
+
+/* Adds the outcomes of all combinations of what the parts have. */
+static tn_status combine(tn_crossing_house *c, tn_error *error)
+{
+    uint64_t tried = 0;
+    tn_status status;
+    do {
+        uint64_t times = 0;
+        uint32_t outcome = 0;
+        status = ++tried <= TN_STRIP_CHOICES_MAX ? begin_combination(c, &times, error) : too_many(c, error);
+        if (status == TN_OK)
+            status = know_outcome(c, &c->words, &outcome, error);
+        if (status == TN_OK)
+            status = add_to_list(c, outcome, times, error);
+    } while (status == TN_OK && turn_parts(c));
+    return status;
+}
+
+/* ---- choices of what is in the faces */
+
 typedef struct tn_plane_wheel {
+    tn_face *face;
     uint32_t count, at, kinds[TN_FACE_KINDS_MAX];
 } tn_plane_wheel;
 
@@ -355,36 +509,90 @@ static void set_kind(tn_crossing_house *c, tn_face *face, uint32_t kind)
     face->kind = kind;
 }
 
-static tn_status add_outcomes(tn_crossing_house *c, tn_error *error)
+/* In order, the outcome itself; else what the part has, to be combined with the others. */
+static tn_status add_choice(tn_crossing_house *c, tn_plane_part *part, tn_error *error)
+{
+    uint32_t number, outcome;
+    tn_status status = number_part(c, part, &number, error);
+    if (status == TN_OK && c->ordered) {
+        status = find_outcome(c, &number, 1, &outcome, error);
+        return status == TN_OK && !tn_strip_ordered_add(c->ordered, outcome) ? tn_fail_memory(error) : status;
+    }
+    size_t at = 0;
+    while (status == TN_OK && at < part->count && part->found[at].part != number)
+        at++;
+    if (status != TN_OK)
+        return status;
+    if (!tn_array_reserve_from(&part->found, &part->room, 4, at, 1, sizeof *part->found))
+        return tn_fail_memory(error);
+    if (at == part->count)
+        part->found[part->count++] = (tn_plane_found){.part = number};
+    part->found[at].times++;
+    return TN_OK;
+}
+
+static tn_status add_choices(tn_crossing_house *c, tn_plane_part *part, tn_error *error)
 {
     tn_plane_wheel *wheels = malloc((c->count + 1) * sizeof *wheels);
     uint64_t tried = 0;
-    c->sides = malloc((c->house.cell_count + 1) * SIDE_WORDS * sizeof *c->sides);
-    c->changed = UINT64_MAX;
-    if (!wheels || !c->sides) {
-        free(wheels);
+    size_t count = 0;
+    if (!wheels)
         return tn_fail_memory(error);
-    }
     for (size_t i = 0; i < c->count; i++) {
-        wheels[i].at = 0;
-        wheels[i].count = (uint32_t)tn_face_options(&c->house, &c->house.faces[c->faces[i]], wheels[i].kinds);
+        tn_face *face = &c->house.faces[c->faces[i]];
+        if (!is_in_part(part, face->storey))
+            continue;
+        wheels[count] = (tn_plane_wheel){.face = face};
+        wheels[count].count = (uint32_t)tn_face_options(&c->house, face, wheels[count].kinds);
+        count++;
     }
     tn_status status = TN_OK;
     do {
-        for (size_t i = 0; i < c->count; i++)
-            set_kind(c, &c->house.faces[c->faces[i]], wheels[i].kinds[wheels[i].at]);
-        status = ++tried <= TN_STRIP_CHOICES_MAX
-                     ? add_outcome(c, error)
-                     : tn_strip_limit(c->strip, NULL, "two trays have more than 4,000,000 choices between them", error);
-    } while (status == TN_OK && turn(wheels, c->count));
+        for (size_t i = 0; i < count; i++)
+            set_kind(c, wheels[i].face, wheels[i].kinds[wheels[i].at]);
+        status = ++tried <= TN_STRIP_CHOICES_MAX ? add_choice(c, part, error) : too_many(c, error);
+    } while (status == TN_OK && turn(wheels, count));
     free(wheels);
     return status;
+}
+
+/* Storeys are parts of their own. Not where choices are wanted in their order, nor where costs are asked for, which are
+ * of the plane as a whole. */
+static tn_status find_parts(tn_crossing_house *c, tn_error *error)
+{
+    uint64_t storeys = 0;
+    for (size_t i = 0; i < c->house.cell_count; i++)
+        storeys |= UINT64_C(1) << c->house.cells[i].storey;
+    bool whole = c->ordered || c->strip->prices.asked;
+    c->parts = calloc(TN_STOREYS_MAX, sizeof *c->parts);
+    if (!c->parts)
+        return tn_fail_memory(error);
+    for (uint32_t storey = 0; !whole && storey < TN_STOREYS_MAX; storey++)
+        if (storeys >> storey & 1)
+            c->parts[c->part_count++].storeys = UINT64_C(1) << storey;
+    if (whole)
+        c->parts[c->part_count++].storeys = UINT64_MAX;
+    return TN_OK;
+}
+
+static tn_status add_outcomes(tn_crossing_house *c, tn_error *error)
+{
+    c->sides = malloc((c->house.cell_count + 1) * SIDE_WORDS * sizeof *c->sides);
+    c->changed = UINT64_MAX;
+    tn_status status = c->sides ? find_parts(c, error) : tn_fail_memory(error);
+    for (size_t p = 0; status == TN_OK && p < c->part_count; p++)
+        status = add_choices(c, &c->parts[p], error);
+    return status == TN_OK && !c->ordered ? combine(c, error) : status;
 }
 
 static void end(tn_crossing_house *c)
 {
     tn_house_clear(&c->house);
     tn_numbering_clear(&c->found);
+    for (size_t p = 0; p < c->part_count; p++)
+        free(c->parts[p].found);
+    free(c->parts);
+    free(c->words.data);
     free(c->faces);
     free(c->open);
     free(c->sides);

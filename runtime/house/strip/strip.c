@@ -99,7 +99,7 @@ void tn_strip_free(tn_strip *strip)
                                       &strip->walks,     &strip->states,     &strip->letters,      &strip->fit_lists,
                                       &strip->insides,   &strip->throughs,   &strip->readings,     &strip->between,
                                       &strip->values,    &strip->asked,      &strip->mets,         &strip->totals,
-                                      &strip->functions, &strip->plain_keys};
+                                      &strip->functions, &strip->plain_keys, &strip->parts,        &strip->combined};
     for (uint32_t i = 0; i < strip->edge_keys.count; i++) {
         free(strip->edges[i].cells);
         free(strip->edges[i].answers);
@@ -129,6 +129,7 @@ void tn_strip_free(tn_strip *strip)
     free(strip->slices);
     free(strip->plains);
     free(strip->outcomes);
+    free(strip->of_combined);
     free(strip->tiled);
     free(strip->asked_function);
     free(strip->scratch);
