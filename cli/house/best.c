@@ -9,7 +9,7 @@
 #include "cli/house/numbered_parts.h"
 #include "driver/open/digits.h"
 #include "driver/plan/library.h"
-#include "runtime/house/strip/best.h"
+#include "runtime/house/count/best.h"
 #include "runtime/plan/measure/amount.h"
 
 /* A search: the measures made ready, and what was found. */

@@ -8,7 +8,7 @@
 
 #include <gmp.h>
 
-#include "runtime/house/strip/houses.h"
+#include "runtime/house/count/houses.h"
 
 /* The states of one count, where nobody says another limit, and of all counts of a library, in such limits: some
  * seconds. */

@@ -2,8 +2,8 @@
 #ifndef TARTAN_HOUSE_RANK_PATH_H
 #define TARTAN_HOUSE_RANK_PATH_H
 
+#include "runtime/house/count/data.h"
 #include "runtime/house/rank/rank.h"
-#include "runtime/house/strip/houses_data.h"
 
 /* A house by its number among those on the plan, or the number by the house. Choices are gone through in their order:
  * those before the house's are passed over. */

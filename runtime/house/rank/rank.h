@@ -7,7 +7,7 @@
 #ifndef TARTAN_HOUSE_RANK_RANK_H
 #define TARTAN_HOUSE_RANK_RANK_H
 
-#include "runtime/house/strip/houses.h"
+#include "runtime/house/count/houses.h"
 #include "runtime/house/variant/variant.h"
 
 /* How many houses come before the first on this plan, one of the library's. */

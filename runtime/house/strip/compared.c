@@ -98,7 +98,7 @@ tn_status tn_strip_first_total(tn_strip *strip, uint32_t *total, tn_error *error
     return status == TN_OK ? number_totals(strip, totals, total, error) : status;
 }
 
-/* Below and above all that can be added up (are_small in houses_units.c). */
+/* Below and above all that can be added up (are_small in runtime/house/count/units.c). */
 #define SURELY_BELOW (-((tn_int128)1 << 126))
 #define SURELY_ABOVE ((tn_int128)1 << 126)
 

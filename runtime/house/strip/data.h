@@ -15,7 +15,7 @@
 #include "runtime/base/int128.h"
 #include "runtime/house/house.h"
 #include "runtime/house/measure/measure.h"
-#include "runtime/house/strip/houses.h"
+#include "runtime/house/strip/without.h"
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/uses.h"
@@ -32,7 +32,6 @@
 #define TN_STRIP_LETTERS_MAX 65536u     /* of a clause */
 #define TN_STRIP_FUNCTIONS_MAX 1000000u /* ways to give a tray's cells their functions */
 #define TN_STRIP_CHOICES_MAX 4000000u   /* of a tray's functions and faces, or of a plane's */
-#define TN_STRIP_OBJECTS_MAX 20000000u  /* slices, planes, states */
 
 /* ---- questions.c: what clauses and face lines ask */
 
@@ -104,7 +103,7 @@ typedef struct tn_strip_horizon {
 typedef struct tn_strip_clause {
     uint32_t holds; /* function */
     bool prunes;
-    bool without, differs; /* see tn_houses_without */
+    bool without, differs; /* see tn_strip_without */
     tn_classes *classes;   /* of trays */
     tn_strip_atom *atoms;
     size_t atom_count, atom_room;
@@ -418,7 +417,7 @@ typedef struct tn_strip {
     tn_watch *watch;
     const tn_house_measures *measures; /* or NULL */
     const tn_house_added *added;       /* these, and what clauses compare */
-    const tn_houses_without *without;  /* or NULL; only while the clauses are made */
+    const tn_strip_without *without;   /* or NULL; only while the clauses are made */
     const tn_strip_units *units;       /* NULL: not known yet, and nothing is gained */
     tn_strip_prices prices;
     uint32_t *weighed_rooms[TN_ADDED_MAX]; /* [terms of the number]: of the questions about rooms */
@@ -452,6 +451,7 @@ typedef struct tn_strip {
     tn_numbering plane_keys;
     tn_strip_list *planes;
     size_t plane_room;
+    uint64_t plane_outcomes; /* of all planes */
     tn_numbering fit_keys[2]; /* {base, left side}, then {that, right side} */
     uint32_t *fits;           /* [fit_keys[1]]: tiles */
     size_t fit_room;

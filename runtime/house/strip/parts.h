@@ -10,7 +10,7 @@
  * `added`; without: NULL, or borrowed until the strip is made. Free with tn_strip_free, also after a failure. */
 tn_status tn_strip_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,
                        const tn_strip_trays *trays, uint32_t trays_least, uint32_t trays_most,
-                       const tn_house_measures *measures, const tn_house_added *added, const tn_houses_without *without,
+                       const tn_house_measures *measures, const tn_house_added *added, const tn_strip_without *without,
                        tn_strip **strip, tn_error *error);
 void tn_strip_free(tn_strip *strip);
 

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "runtime/house/schedule/cost.h"
-#include "runtime/house/strip/best.h"
+#include "runtime/house/count/best.h"
 #include "tests/support/drawn_house.h"
 #include "tests/support/share.h"
 #include "tests/support/test_house.h"

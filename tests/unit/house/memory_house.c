@@ -14,7 +14,7 @@
 #include "runtime/house/export/export.h"
 #include "runtime/house/rank/rank.h"
 #include "runtime/house/schedule/describe.h"
-#include "runtime/house/strip/best.h"
+#include "runtime/house/count/best.h"
 #include "runtime/house/variant/change.h"
 #include "runtime/house/variant/variant.h"
 #include "tests/support/failing_memory.h"

@@ -1,17 +1,18 @@
 /* Counts the houses of a library layer by layer: how many choices lead to each node. */
-#include "runtime/house/strip/houses.h"
+#include "runtime/house/count/houses.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
 #include "runtime/base/integers.h"
-#include "runtime/house/strip/houses_data.h"
+#include "runtime/house/count/data.h"
 
-static tn_status too_many(const tn_houses *h, const tn_houses_kind *kind, tn_error *error)
+/* Adds to an error what helps. */
+static tn_status too_many(const tn_houses_kind *kind, tn_error *error)
 {
     const char *name = tn_strip_dearest(kind->strip);
-    tn_fail(error, TN_LIMIT, E_STRIP, "counting these houses takes more than %u states", h->max_states);
     if (name)
         tn_error_help(error, "`%.60s` keeps most apart. Ask about one plan (--plan), or allow more (--max-states N)",
                       name);
@@ -20,12 +21,29 @@ static tn_status too_many(const tn_houses *h, const tn_houses_kind *kind, tn_err
     return TN_LIMIT;
 }
 
-/* The limit is of states. Within a step there are more nodes, but they take little to find: eight times as many. */
-static bool too_large(const tn_houses *h, const tn_houses_kind *kind, uint32_t layer, uint64_t nodes)
+/* The limit is of states. Nodes within a step, and what can stand between trays, take less to find: eight times as
+ * many.
+ */
+enum { OTHERS_A_STATE = 8 };
+
+static tn_status check_nodes(const tn_houses *h, const tn_houses_kind *kind, uint32_t layer, uint64_t nodes,
+                             tn_error *error)
 {
-    enum { HALF_WAY = 8 };
     bool states = layer % tn_houses_stages(h, kind) == 0;
-    return (states ? nodes : nodes / HALF_WAY) > h->max_states || kind->strip->states.count > h->max_states;
+    if ((states ? nodes : nodes / OTHERS_A_STATE) <= h->max_states && kind->strip->states.count <= h->max_states)
+        return TN_OK;
+    tn_fail(error, TN_LIMIT, E_STRIP, "counting these houses takes more than %u states", h->max_states);
+    return too_many(kind, error);
+}
+
+tn_status tn_houses_check_planes(const tn_houses *h, const tn_houses_kind *kind, tn_error *error)
+{
+    uint64_t most = (uint64_t)OTHERS_A_STATE * h->max_states;
+    if (kind->strip->plane_outcomes <= most)
+        return TN_OK;
+    tn_fail(error, TN_LIMIT, E_STRIP, "these houses have more than %" PRIu64 " choices of what is between two trays",
+            most);
+    return too_many(kind, error);
 }
 
 /* ---- counting forwards */
@@ -49,8 +67,9 @@ static tn_status lead_on(void *context, const tn_houses_edge *edge, tn_error *er
         return tn_fail_memory(error);
     for (; f->next_count < 2 * ((size_t)to + 1); f->next_count++)
         mpz_init(f->next[f->next_count]);
-    if (too_large(f->houses, f->kind, f->layer + 1, f->nodes + to))
-        return too_many(f->houses, f->kind, error);
+    tn_status status = check_nodes(f->houses, f->kind, f->layer + 1, f->nodes + to, error);
+    if (status != TN_OK)
+        return status;
     const uint64_t times[2] = {edge->times, edge->faced};
     for (size_t i = 0; i < 2; i++) {
         mpz_mul_ui(f->one, f->counts[2 * (size_t)edge->from + i], edge->ways);
@@ -123,7 +142,7 @@ static tn_status come_by(void *context, const tn_houses_edge *edge, tn_error *er
     uint32_t to = tn_number(&s->kind->layers[s->layer + 1].nodes, (uint64_t)edge->plan << 32 | edge->state);
     if (to == UINT32_MAX)
         return tn_fail_memory(error);
-    return too_large(s->houses, s->kind, s->layer + 1, to) ? too_many(s->houses, s->kind, error) : TN_OK;
+    return check_nodes(s->houses, s->kind, s->layer + 1, to, error);
 }
 
 static tn_status pass_end(void *context, const tn_houses_edge *edge, tn_error *error)

@@ -1,5 +1,5 @@
 /* The steps that values are counted in, and given out in. */
-#include "runtime/house/strip/houses_data.h"
+#include "runtime/house/count/data.h"
 
 void tn_houses_units_init(tn_strip_units *units)
 {

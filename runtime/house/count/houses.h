@@ -1,19 +1,20 @@
 /* All houses of a library: counted without going through plans or houses. Their ranks: runtime/house/rank/rank.h.
  *
  * The row is read tray by tray. What has to be known between two trays is a state; the states that plans and houses
- * reach together are counted, layer by layer (parts.h says what a state is). Sections that nothing tells apart share
- * the work. Past a limit of states it is TN_LIMIT (E1640), which names the clause that makes the most of them; houses
- * on one plan (variant.h) do not depend on it.
+ * reach together are counted, layer by layer (runtime/house/strip says what a state is). Sections that nothing tells
+ * apart share the work. Past a limit of states it is TN_LIMIT (E1640), which names the clause that makes the most of
+ * them; houses on one plan (variant.h) do not depend on it.
  *
  * A tn_houses belongs to one thread, and borrows the form and the library of plans.
  */
-#ifndef TARTAN_HOUSE_STRIP_HOUSES_H
-#define TARTAN_HOUSE_STRIP_HOUSES_H
+#ifndef TARTAN_HOUSE_COUNT_HOUSES_H
+#define TARTAN_HOUSE_COUNT_HOUSES_H
 
 #include <gmp.h>
 
 #include "runtime/house/house.h"
 #include "runtime/house/measure/measure.h"
+#include "runtime/house/strip/without.h"
 #include "runtime/house/variant/variant.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/measure/complete.h"
@@ -32,15 +33,6 @@ tn_status tn_houses_new(const tn_house_form *form, const tn_house_library_record
  * another; or what completes an open plan, and the best that the first measure, if there is one, still can be. */
 typedef enum tn_houses_aim { TN_HOUSES_SPREAD, TN_HOUSES_LEAST, TN_HOUSES_FRONT, TN_HOUSES_COMPLETE } tn_houses_aim;
 
-/* For coverage: what the instructions at these code offsets make is empty in the library's clauses from `first` on
- * (counted within it; borrowed). differs: these keep the houses of which the clause says otherwise then. */
-typedef struct tn_houses_without {
-    const uint32_t *offsets;
-    size_t count;
-    uint32_t first;
-    bool differs;
-} tn_houses_without;
-
 /* The houses on one plan of the library (only, of that length; NULL: on all), and the measures that they are counted
  * by (NULL: none). Both are borrowed. With measures only what they are for may be asked: tn_houses_spread, or best.h.
  */
@@ -49,8 +41,8 @@ typedef struct tn_houses_what {
     uint32_t length;
     const tn_house_measures *measures;
     tn_houses_aim aim;
-    uint64_t wanted;                  /* houses, by TN_HOUSES_LEAST */
-    const tn_houses_without *without; /* or NULL */
+    uint64_t wanted;                 /* houses, by TN_HOUSES_LEAST */
+    const tn_strip_without *without; /* or NULL */
 } tn_houses_what;
 tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
                        const tn_houses_what *what, uint32_t max_states, tn_houses **houses, tn_error *error);

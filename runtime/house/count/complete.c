@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "runtime/base/integers.h"
-#include "runtime/house/strip/houses_data.h"
+#include "runtime/house/count/data.h"
 #include "runtime/plan/measure/complete_data.h"
 
 #define WORST ((tn_int128)INT64_MAX << 63)

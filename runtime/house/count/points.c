@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/strip/best.h"
-#include "runtime/house/strip/houses_data.h"
+#include "runtime/house/count/best.h"
+#include "runtime/house/count/data.h"
 
 /* States that the row so far leads to, each with a value, from which the wanted value is reached. */
 typedef struct tn_lead {

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
+#include "runtime/house/count/data.h"
 #include "runtime/house/schedule/cost.h"
-#include "runtime/house/strip/houses_data.h"
 
 /* ---- what the tiles have to cost */
 

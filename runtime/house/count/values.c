@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/strip/houses_data.h"
+#include "runtime/house/count/data.h"
 
 void tn_value_counts_clear(tn_value_counts *counts)
 {

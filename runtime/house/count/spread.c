@@ -6,7 +6,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/integers.h"
-#include "runtime/house/strip/houses_data.h"
+#include "runtime/house/count/data.h"
 
 /* ---- layers */
 

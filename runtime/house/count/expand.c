@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/strip/houses_data.h"
+#include "runtime/house/count/data.h"
 
 typedef struct tn_reached {
     uint32_t state;
@@ -416,6 +416,8 @@ static tn_status expand_nodes(tn_houses_expansion *e, bool end, tn_error *error)
             turn++;
             e->fan.used = 0;
             status = tn_watch_check(e->kind->strip->watch, error);
+            if (status == TN_OK)
+                status = tn_houses_check_planes(e->houses, e->kind, error);
         }
         if (status == TN_OK && !(e->here && mpz_sgn(e->here[order[i].node]) == 0))
             status = end ? expand_end(e, turn, order[i].node, error) : expand_node(e, turn, order[i].node, error);

@@ -2,10 +2,10 @@
  * of their ranks. They are found choice by choice: plan, section and functions follow the states that lead to such a
  * value; no other house is looked at but those that differ from one in what is in their faces.
  */
-#ifndef TARTAN_HOUSE_STRIP_BEST_H
-#define TARTAN_HOUSE_STRIP_BEST_H
+#ifndef TARTAN_HOUSE_COUNT_BEST_H
+#define TARTAN_HOUSE_COUNT_BEST_H
 
-#include "runtime/house/strip/houses.h"
+#include "runtime/house/count/houses.h"
 #include "runtime/house/variant/variant.h"
 
 /* How many values there are: of houses by measures, made with an aim of TN_HOUSES_LEAST or TN_HOUSES_FRONT. */

@@ -1,9 +1,9 @@
 /* What a tn_houses is made of, for the files that implement houses.h. */
-#ifndef TARTAN_HOUSE_STRIP_HOUSES_DATA_H
-#define TARTAN_HOUSE_STRIP_HOUSES_DATA_H
+#ifndef TARTAN_HOUSE_COUNT_DATA_H
+#define TARTAN_HOUSE_COUNT_DATA_H
 
+#include "runtime/house/count/houses.h"
 #include "runtime/house/rule/asked.h"
-#include "runtime/house/strip/houses.h"
 #include "runtime/house/strip/parts.h"
 #include "runtime/house/variant/section.h"
 #include "runtime/house/variant/variant.h"
@@ -75,7 +75,7 @@ struct tn_houses {
     const tn_house_library_record *library;
     const tn_library *plans;
     uint32_t max_states, low, high;    /* trays */
-    const tn_houses_without *without;  /* or NULL; only while they are counted */
+    const tn_strip_without *without;   /* or NULL; only while they are counted */
     tn_houses_plan_layer *plan_layers; /* [high + 1] */
     tn_sections sections;
     tn_houses_kind *kinds;
@@ -105,6 +105,9 @@ static inline uint32_t tn_houses_stages(const tn_houses *houses, const tn_houses
 {
     return tn_strip_has_stages(kind->strip) && !houses->trays_matter && !houses->whole_steps ? 4 : 1;
 }
+
+/* TN_LIMIT (E1640) where more can stand between two trays than the limit of states allows. */
+tn_status tn_houses_check_planes(const tn_houses *houses, const tn_houses_kind *kind, tn_error *error);
 
 /* A step from a node: `from` among those of the layer. */
 typedef struct tn_houses_edge {
@@ -140,7 +143,7 @@ tn_house_gain tn_houses_plan_rest(const tn_houses *houses, uint32_t plan); /* wh
 tn_status tn_houses_expand_from(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, mpz_t *here,
                                 tn_houses_edge_seen *seen, void *context, tn_error *error);
 
-/* Finds what is added up (houses_added.c). TN_LIMIT (E1640) where a clause compares what cannot be. */
+/* Finds what is added up (added.c). TN_LIMIT (E1640) where a clause compares what cannot be. */
 tn_status tn_houses_find_added(tn_houses *houses, tn_error *error);
 void tn_houses_added_clear(tn_houses *houses);
 
@@ -168,7 +171,7 @@ typedef struct tn_houses_wanted {
 tn_status tn_houses_furnish(const tn_houses_wanted *wanted, tn_house *house, const size_t *tiles, tn_house_each *each,
                             void *context, bool *stop, tn_error *error);
 
-/* Finds the values that are aimed at, from the nodes that counting has met (houses_best.c). */
+/* Finds the values that are aimed at, from the nodes that counting has met (best.c). */
 tn_status tn_houses_aim_kind(const tn_houses *houses, tn_houses_kind *kind, tn_error *error);
 tn_status tn_houses_aim_all(tn_houses *houses, tn_error *error);
 

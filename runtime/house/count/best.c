@@ -1,10 +1,10 @@
 /* Finds the best values of a library's houses: for each node, the values that what follows can add. */
-#include "runtime/house/strip/best.h"
+#include "runtime/house/count/best.h"
 
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/strip/houses_data.h"
+#include "runtime/house/count/data.h"
 #include "runtime/plan/measure/pareto.h"
 
 tn_status tn_houses_too_many_values(const tn_houses *h, tn_error *error)

@@ -2,7 +2,7 @@
  * with 0. */
 #include <string.h>
 
-#include "runtime/house/strip/houses_data.h"
+#include "runtime/house/count/data.h"
 
 typedef struct tn_added_finding {
     tn_houses *houses;

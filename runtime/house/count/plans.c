@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/strip/houses_data.h"
+#include "runtime/house/count/data.h"
 
 bool tn_houses_plan_lives(const tn_houses *h, uint32_t layer, uint32_t plan)
 {
