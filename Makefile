@@ -3,8 +3,9 @@ PREFIX ?= /usr/local
 DESTDIR ?=
 CMAKE_FLAGS ?=
 JOBS ?= $(shell nproc)
+TEST_JOBS ?= $(JOBS)
 FUZZ_SECONDS ?= 600
-TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(JOBS)
+TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(TEST_JOBS)
 
 .PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale lint package check-package bench bench-place bench-scale fuzz install uninstall clean
 

@@ -39,11 +39,11 @@ def replace(path):
     os.rename(path + ".new", path)
 
 for kind in "txt", "csv", "bin", "sqlite":
+    whole = subprocess.run([tartan, "match", rules, f"{scratch}/whole.{kind}", "--format", "names"], stdout=subprocess.PIPE, check=True).stdout
     for change in shorten, lengthen, rewrite, replace:
         for threads in 1, 3:
             path = f"{scratch}/part.{kind}"
             shutil.copy(f"{scratch}/whole.{kind}", path)
-            whole = subprocess.run([tartan, "match", rules, path, "--format", "names"], stdout=subprocess.PIPE).stdout
             run = answers(path, threads)
             first = run.stdout.read(1)  # it has opened the file, and waits for its answers to be read
             time.sleep(0.05)

@@ -7,13 +7,11 @@ name=resume
 command -v sqlite3 >/dev/null || exit 77
 
 enumerate=("$TARTAN" enumerate "$files/sheds.plan" -l any-sheds --trays 0..9)
-contents() {
-    python3 - "$1" <<'PYTHON'
-import sqlite3, sys
-db = sqlite3.connect(sys.argv[1])
-for (table,) in sorted(db.execute("select name from sqlite_master where type = 'table'")):
-    sys.stdout.write("\n".join(map(repr, db.execute(f'select * from "{table}" order by 1'))) + "\n")
-PYTHON
+contents() { # values as SQL writes them, so that 1 and '1' differ
+    local table
+    sqlite3 "$1" "select name from sqlite_master where type = 'table' order by name" | while read -r table; do
+        sqlite3 -cmd '.mode quote' "$1" "select * from \"$table\" order by 1"
+    done
 }
 "${enumerate[@]}" -o "$scratch/whole.sqlite"
 contents "$scratch/whole.sqlite" >"$scratch/whole"
@@ -48,7 +46,7 @@ wait "$pid" 2>/dev/null || true
 "${houses[@]}" -o "$scratch/part.sqlite" --limit 150000 --resume 2>/dev/null || fail 'cannot resume houses'
 "${houses[@]}" -o "$scratch/part.sqlite" --resume 2>/dev/null || fail 'cannot go on with houses'
 contents "$scratch/part.sqlite" | cmp -s - "$scratch/whole" || fail 'other houses after a kill'
-is 'houses in the database' "$(grep -c '^(' "$scratch/whole")" $((259000 + 10))
+is 'houses in the database' "$(wc -l <"$scratch/whole")" $((259000 + 10))
 exits 1 "${houses[@]}" --where 'cell(kitchen)' -o "$scratch/part.sqlite" --resume
 
 # Nothing is left of a file whose writer was killed, where the system has files without a name.

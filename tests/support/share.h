@@ -1,15 +1,20 @@
-/* How much is done of what a test may do any number of times: under AddressSanitizer, where it takes some five times as
- * long, a fourth. */
+/* How much is done of what a test may do any number of times: half, and all of it in `make check-long`. Under
+ * AddressSanitizer, where it takes some five times as long, a fourth. */
 #ifndef TARTAN_TESTS_SUPPORT_SHARE_H
 #define TARTAN_TESTS_SUPPORT_SHARE_H
 
+#include <stdlib.h>
+
 static inline int test_share(int times)
 {
+    if (getenv("TARTAN_TESTS_LONG"))
+        return times;
 #ifdef __SANITIZE_ADDRESS__
-    return times < 4 ? 1 : times / 4;
+    const int share = 4;
 #else
-    return times;
+    const int share = 2;
 #endif
+    return times < share ? 1 : times / share;
 }
 
 #endif

@@ -239,7 +239,8 @@ static void test_meshes(void **state)
         check_mesh(forms[i], 21, true);
         check_mesh(forms[i], 21, false);
         check_mesh(forms[i], 2, true);
-        check_mesh(forms[i], 66, true); /* more samples than a word has bits */
+        if (i % (size_t)(4 / test_share(4)) == 0)
+            check_mesh(forms[i], 66, true); /* more samples than a word has bits */
     }
 }
 

@@ -457,7 +457,7 @@ static void test_drawn(void **state)
 {
     (void)state;
     assert_true(check_drawn((drawn_house){.state = 11}, (uint32_t)test_share(40), HOUSES_MAX) >
-                (uint32_t)test_share(5));
+                (uint32_t)test_share(5) / 2);
 }
 
 static void test_costs(void **state)

@@ -289,7 +289,7 @@ static void check_measures(check *c)
     }
 }
 
-/* One plan in so many is looked at more closely: in fewer under AddressSanitizer. */
+/* One plan in so many is looked at more closely: in fewer where the share is small. */
 static uint32_t every(uint32_t plans)
 {
     return plans * (uint32_t)(4 / test_share(4));
