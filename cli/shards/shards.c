@@ -79,6 +79,11 @@ static bool takes_operands(tn_job *job, const shards_part *part)
     if (count < 2)
         tn_help(tn_job_diagnostics(job), d, "name it: tartan shards %s %s", part->name,
                 makes ? "FILE -o SET --shards N" : "SET");
+    else if (makes && tn_shards_settings_of(job)->compress) /* a word behind it that it does not know is an operand */
+        tn_help(tn_job_diagnostics(job), d,
+                "--compress knows zstd alone, which need not be written; `%.60s` and "
+                "`%.60s` are taken for rule files",
+                job->settings->operands.items[1], job->settings->operands.items[2]);
     else if (makes)
         tn_help(tn_job_diagnostics(job), d, "files of plans come behind --input, with --task match or --task prune");
     else

@@ -70,6 +70,7 @@ for format in lines json csv bin; do
         cmp - <(enumerate --trays 0..5) || fail "compressed $format does not read back"
     "$TARTAN" prune "$sheds" -l any-sheds --trays 0..5 <"$(echo "$scratch"/set/shards/000/000004.*.zst)" | cmp - <(enumerate --trays 0..5 --from 1092) || fail "compressed $format from a pipe"
 done
+golden compress_other "tartan shards new sheds.plan -l sheds --shards 2 --compress gzip -o $scratch/never"
 new set --format bin --shards 2 --compress --from 100
 run set
 packed=$scratch/set/shards/000/000000.bin.zst
