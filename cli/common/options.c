@@ -81,6 +81,23 @@ static tn_status see_help(parse *p, tn_status status)
     return status;
 }
 
+/* Names the commands that have the option: three at most. */
+static void help_other_commands(parse *p, const char *word)
+{
+    enum { SHOWN = 3 };
+    char list[160] = "";
+    size_t used = 0, found = 0;
+    for (size_t i = 0; i < tn_commands_count; i++) {
+        const tn_command *command = tn_commands[i];
+        if (!find_long(command, word, strlen(word)) || found++ >= SHOWN)
+            continue;
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s`tartan %.30s`", used ? ", " : "", command->name);
+    }
+    if (found > 0)
+        tn_error_help(p->error, "%s%s %s it; `tartan help %s` lists what this command takes", list,
+                      found > SHOWN ? " and others" : "", found > 1 ? "have" : "has", p->command->name);
+}
+
 static tn_status unknown_option(parse *p, const char *name, size_t length)
 {
     tn_status status = tn_fail(p->error, TN_INVALID, E_USAGE, "`tartan %s` has no option --%.*s", p->command->name,
@@ -96,6 +113,8 @@ static tn_status unknown_option(parse *p, const char *name, size_t length)
         near = strncmp(names[i], word, length) == 0 ? names[i] : NULL;
     if (near)
         tn_error_help(p->error, "did you mean --%s?", near);
+    else if (length > 0)
+        help_other_commands(p, word);
     return see_help(p, status);
 }
 

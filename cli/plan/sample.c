@@ -167,11 +167,10 @@ const tn_command tn_command_sample = {
         "Draws N different plans of the library at random, each with the same probability, and writes them in the "
         "order of their ranks. Nearly all plans of a library have the greatest number of trays, so nearly all "
         "samples do too; --length and --per-length draw plans of other lengths. --diverse draws one plan; each next "
-        "plan is the one of 1,000 fresh draws that is "
-        "farthest from those before. With --library HOUSES, or --plan, houses are drawn. A "
-        "changed field counts 1, a tray more or less counts as many as it has fields. "
-        "The same file, seed and options "
-        "give the same plans on every machine.",
+        "plan is the one of 1,000 fresh draws that is farthest from those before. A changed field counts 1, a tray "
+        "more or less counts as many as it has fields. With --library HOUSES, or --plan, houses are drawn. The same "
+        "file, seed and options give the same plans on every machine. `tartan shards new FILE --sample N` divides "
+        "the drawing among workers.",
     .example = "$ tartan sample lahave-houses 1000 --seed 7 -o sample.sqlite",
     .options = options,
     .option_count = OPTION_COUNT(options),
