@@ -68,6 +68,9 @@ typedef struct tn_houses_kind {
     mpz_t *houses;           /* [lengths], of one section */
     mpz_t faced;
     tn_value_counts spread; /* houses of one section, by the measures */
+    tn_interner beginnings; /* of plans: {length, trays so far} */
+    mpz_t **by_beginning;   /* [beginnings]: NULL, or [trays] houses of one section that go on by each */
+    size_t beginning_room;
 } tn_houses_kind;
 
 struct tn_houses {
@@ -90,6 +93,8 @@ struct tn_houses {
     tn_weighed *weighed;
     tn_strip_units units; /* that values are in */
     bool trays_matter;    /* to whom steps are shown */
+    bool keep_trays;      /* ways are by tray, though steps have stages */
+    uint32_t many_slices; /* along one plan, with fewer, a step as a whole is quicker than one in stages */
     bool whole_steps;     /* these are so few that stages would cost more */
     tn_houses_aim aim;
     uint64_t wanted;      /* houses, of the least values */

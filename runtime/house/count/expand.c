@@ -112,7 +112,7 @@ static tn_status find_ways(tn_houses_expansion *e, uint32_t plan, tn_ways *ways,
             *way = way_by(strip, &list->items[i]);
             way->plan = next;
             way->gain = gain;
-            way->tray = h->trays_matter ? t : 0;
+            way->tray = h->trays_matter || h->keep_trays ? t : 0;
         }
         trays++;
     }
@@ -177,11 +177,17 @@ static tn_status find_groups(tn_strip *strip, tn_ways *ways, tn_error *error)
     return TN_OK;
 }
 
+/* Is the node left aside? */
+static bool is_empty(const tn_houses_expansion *e, uint32_t node)
+{
+    return e->here && mpz_sgn(e->here[node]) == 0;
+}
+
 static tn_status find_all_ways(tn_houses_expansion *e, tn_error *error)
 {
     const tn_numbering *nodes = &e->kind->layers[e->layer].nodes;
     for (uint32_t i = 0; i < nodes->count; i++)
-        if (tn_number(&e->plans, nodes->keys[i] >> 32) == UINT32_MAX)
+        if (!is_empty(e, i) && tn_number(&e->plans, nodes->keys[i] >> 32) == UINT32_MAX)
             return tn_fail_memory(error);
     e->ways = calloc((size_t)e->plans.count + 1, sizeof *e->ways);
     tn_status status = e->ways ? TN_OK : tn_fail_memory(error);
@@ -388,30 +394,33 @@ static tn_status find_place(const tn_houses_expansion *e, tn_interner *crossing,
     return *place != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-static tn_status order_nodes(const tn_houses_expansion *e, tn_ordered **order, tn_error *error)
+static tn_status order_nodes(const tn_houses_expansion *e, tn_ordered **order, uint32_t *count, tn_error *error)
 {
     const tn_numbering *nodes = &e->kind->layers[e->layer].nodes;
     tn_interner crossing = {0};
     *order = malloc(((size_t)nodes->count + 1) * sizeof **order);
     tn_status status = *order ? TN_OK : tn_fail_memory(error);
+    *count = 0;
     for (uint32_t i = 0; status == TN_OK && i < nodes->count; i++) {
-        tn_ordered *o = &(*order)[i];
+        tn_ordered *o = &(*order)[*count];
+        if (is_empty(e, i))
+            continue;
         *o = (tn_ordered){.state = (uint32_t)nodes->keys[i], .node = i};
         status = find_place(e, &crossing, o->state, &o->order, error);
+        ++*count;
     }
     tn_interner_clear(&crossing);
-    if (status == TN_OK && nodes->count > 0)
-        qsort(*order, nodes->count, sizeof **order, compare_ordered);
+    if (status == TN_OK && *count > 0)
+        qsort(*order, *count, sizeof **order, compare_ordered);
     return status;
 }
 
 static tn_status expand_nodes(tn_houses_expansion *e, bool end, tn_error *error)
 {
-    const tn_numbering *nodes = &e->kind->layers[e->layer].nodes;
     tn_ordered *order;
-    tn_status status = order_nodes(e, &order, error);
-    uint32_t turn = 0;
-    for (uint32_t i = 0; status == TN_OK && i < nodes->count; i++) {
+    uint32_t turn = 0, count;
+    tn_status status = order_nodes(e, &order, &count, error);
+    for (uint32_t i = 0; status == TN_OK && i < count; i++) {
         if (i == 0 || order[i].state != order[i - 1].state) {
             turn++;
             e->fan.used = 0;
@@ -419,7 +428,7 @@ static tn_status expand_nodes(tn_houses_expansion *e, bool end, tn_error *error)
             if (status == TN_OK)
                 status = tn_houses_check_planes(e->houses, e->kind, error);
         }
-        if (status == TN_OK && !(e->here && mpz_sgn(e->here[order[i].node]) == 0))
+        if (status == TN_OK)
             status = end ? expand_end(e, turn, order[i].node, error) : expand_node(e, turn, order[i].node, error);
     }
     free(order);

@@ -298,6 +298,8 @@ tn_status tn_houses_new(const tn_house_form *form, const tn_house_library_record
     return tn_houses_of(form, library, plans, &all, max_states, out, error);
 }
 
+enum { MANY_SLICES = 5000 };
+
 tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
                        const tn_houses_what *what, uint32_t max_states, tn_houses **out, tn_error *error)
 {
@@ -312,6 +314,7 @@ tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record 
                      .high = what->only ? what->length : tn_library_max(plans),
                      .only = what->only,
                      .measures = what->measures,
+                     .many_slices = MANY_SLICES,
                      .trays_matter = what->aim == TN_HOUSES_COMPLETE,
                      .aim = what->aim,
                      .wanted = what->wanted,
@@ -348,6 +351,10 @@ void tn_houses_free(tn_houses *h)
         if (kind->houses)
             tn_integers_free(kind->houses, tn_houses_lengths(h));
         mpz_clear(kind->faced);
+        for (uint32_t k = 0; k < kind->beginnings.count; k++)
+            tn_integers_free(kind->by_beginning[k], h->form->schema->tray_count);
+        free(kind->by_beginning);
+        tn_interner_clear(&kind->beginnings);
         tn_value_counts_clear(&kind->spread);
         tn_strip_free(kind->strip);
     }

@@ -54,16 +54,13 @@ static tn_status find_nodes(tn_plan_path *p, tn_error *error)
     return status;
 }
 
-/* With fewer slices, a step as a whole is quicker than one in stages. */
-enum { SLICES_FEW = 5000 };
-
 tn_status tn_path_find(tn_plan_path *p, const tn_houses *houses, const tn_houses_kind *kind, const tn_tray *trays,
                        uint32_t length, tn_error *error)
 {
     *p = (tn_plan_path){.view = *houses, .kind = {.strip = kind->strip}, .length = length};
     p->view.only = trays;
     p->view.low = p->view.high = length;
-    p->view.whole_steps = kind->strip->slice_keys.count < SLICES_FEW;
+    p->view.whole_steps = kind->strip->slice_keys.count < houses->many_slices;
     p->stages = tn_houses_stages(&p->view, &p->kind);
     tn_status status = find_nodes(p, error);
     if (status == TN_OK)

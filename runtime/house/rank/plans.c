@@ -7,6 +7,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/integers.h"
+#include "runtime/house/rank/along.h"
 #include "runtime/house/rank/path.h"
 
 /* ---- what is ahead */
@@ -77,11 +78,14 @@ static tn_status make_ranked(tn_houses *h, tn_error *error)
 
 /* ---- a walk along a plan */
 
-/* The states of one kind of section that the trays so far reach, and how many choices lead to each. */
+/* The states of one kind of section that the trays so far reach, and how many choices lead to each; where there are
+ * many slices, `along` knows instead. */
 typedef struct tn_houses_front {
     uint32_t *states;
     mpz_t *counts;
     size_t count, room, counts_room;
+    bool staged;
+    tn_along along;
 } tn_houses_front;
 
 typedef struct tn_plan_walk {
@@ -119,6 +123,8 @@ static tn_status add_state(tn_houses_front *front, uint32_t state, const mpz_t c
 static void walk_end(tn_plan_walk *w)
 {
     for (size_t i = 0; w->fronts && i < w->houses->kind_count; i++) {
+        if (w->fronts[i].staged)
+            tn_along_end(&w->fronts[i].along);
         clear_front(&w->fronts[i]);
         free(w->fronts[i].states);
         free(w->fronts[i].counts);
@@ -135,8 +141,12 @@ static tn_status walk_begin(tn_houses *h, uint32_t length, tn_plan_walk *w, tn_e
     w->fronts = calloc(h->kind_count + 1, sizeof *w->fronts);
     w->by_tray = tn_integers_new(h->form->schema->tray_count);
     tn_status status = w->fronts && w->by_tray ? make_ranked(h, error) : tn_fail_memory(error);
-    for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
-        status = add_state(&w->fronts[i], TN_STRIP_NONE, w->one, 1, error);
+    for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
+        tn_houses_front *front = &w->fronts[i];
+        front->staged = tn_houses_stages(h, &h->kinds[i]) > 1 && h->kinds[i].strip->slice_keys.count >= h->many_slices;
+        status = front->staged ? tn_along_begin(h, &h->kinds[i], &front->along, error)
+                               : add_state(front, TN_STRIP_NONE, w->one, 1, error);
+    }
     return status;
 }
 
@@ -238,21 +248,58 @@ static tn_status find_houses(tn_plan_walk *w, tn_houses_kind *kind, uint32_t sta
     return TN_OK;
 }
 
+/* The same by the trays so far, of one section. */
+static tn_status find_staged(tn_plan_walk *w, tn_houses_kind *kind, tn_along *along, tn_tray tray, mpz_ptr *houses,
+                             tn_error *error)
+{
+    uint32_t trays = w->houses->form->schema->tray_count, before = kind->beginnings.count;
+    tn_key *key = &kind->strip->key;
+    key->size = 0;
+    bool ok = tn_key_push(key, w->length);
+    for (uint32_t i = 0; ok && i < along->count; i++)
+        ok = tn_key_push(key, (uint32_t)along->trays[i]);
+    if (!ok || !tn_array_reserve(&kind->by_beginning, &kind->beginning_room, before, 1, sizeof *kind->by_beginning))
+        return tn_fail_memory(error);
+    uint32_t at = tn_intern(&kind->beginnings, key->data, key->size);
+    if (at == UINT32_MAX)
+        return tn_fail_memory(error);
+    if (at == before)
+        kind->by_beginning[at] = NULL;
+    tn_status status = TN_OK;
+    if (!kind->by_beginning[at]) {
+        mpz_t *found = tn_integers_new(trays);
+        status = found ? tn_along_by_tray(along, w->length, found, error) : tn_fail_memory(error);
+        if (status != TN_OK) {
+            tn_integers_free(found, trays);
+            return status;
+        }
+        kind->by_beginning[at] = found;
+    }
+    *houses = kind->by_beginning[at][tray];
+    return status;
+}
+
 /* Houses whose plans go on with this tray. */
 static tn_status houses_by(tn_plan_walk *w, tn_tray tray, mpz_t houses, tn_error *error)
 {
     const tn_houses *h = w->houses;
     tn_status status = TN_OK;
     mpz_set_ui(houses, 0);
-    for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
+    for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
+        mpz_ptr one;
+        if (w->fronts[i].staged) {
+            status = find_staged(w, &h->kinds[i], &w->fronts[i].along, tray, &one, error);
+            if (status == TN_OK)
+                mpz_addmul_ui(houses, one, h->kinds[i].sections);
+        }
         for (size_t k = 0; status == TN_OK && k < w->fronts[i].count; k++) {
-            mpz_ptr one;
             status = find_houses(w, &h->kinds[i], w->fronts[i].states[k], tray, &one, error);
             if (status != TN_OK)
                 continue;
             mpz_mul(w->one, one, w->fronts[i].counts[k]);
             mpz_addmul_ui(houses, w->one, h->kinds[i].sections);
         }
+    }
     return status;
 }
 
@@ -282,6 +329,10 @@ static tn_status go_on(tn_plan_walk *w, tn_tray tray, tn_error *error)
         tn_strip *strip = w->houses->kinds[i].strip;
         const tn_strip_list *list = &strip->of_tray[tray];
         tn_houses_front next = {0};
+        if (w->fronts[i].staged) {
+            tn_along_take(&w->fronts[i].along, tray);
+            continue;
+        }
         tn_going_on g = {.next = &next};
         mpz_init(g.one);
         for (size_t k = 0; status == TN_OK && k < list->count; k++)

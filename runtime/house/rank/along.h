@@ -1,0 +1,26 @@
+/* Where the trays of a plan lead, one after another, in a kind of section whose steps have stages. The number of
+ * choices that lead to each node is kept for the nodes of a layer as a whole; many states are then gone on from at
+ * once. */
+#ifndef TARTAN_HOUSE_RANK_ALONG_H
+#define TARTAN_HOUSE_RANK_ALONG_H
+
+#include "runtime/house/count/data.h"
+
+typedef struct tn_along {
+    tn_houses view; /* the houses, with ways by tray; borrows all that they have */
+    tn_houses_kind *kind;
+    tn_tray *trays; /* [count]: those taken; the nodes may be behind them */
+    uint32_t count, layer;
+    mpz_t *here; /* [nodes of the layer]: choices that lead there */
+} tn_along;
+
+/* Begins before the first tray. Both are borrowed. End it also after a failure. */
+tn_status tn_along_begin(const tn_houses *houses, tn_houses_kind *kind, tn_along *along, tn_error *error);
+void tn_along_end(tn_along *along);
+
+void tn_along_take(tn_along *along, tn_tray tray);
+
+/* by_tray [trays of the schema] := houses of one section on plans of the length that go on by each. */
+tn_status tn_along_by_tray(tn_along *along, uint32_t length, mpz_t *by_tray, tn_error *error);
+
+#endif
