@@ -33,6 +33,8 @@ for flights in 'dogleg dogleg winding winding' 'winding winding run run' 'run do
     looked "$files/stairs.plan" "22' rooms:14' well:7'6\" | 22' rooms:14' deep:12' ; gable(9:12,eaves-1',across) flat ; living living living climb climb climb | living living living climb climb climb ; $flights" "$flights"
 done
 
+looked "$files/gallery.plan" "$("$TARTAN" sample "$files/gallery.plan" 1 --library inns --seed 4)" 'a gallery'
+
 # Flights are climbed by walks, and fit only where there is room for them.
 golden count "tartan count stairs.plan --library towers"
 golden no_way "tartan explain stairs.plan \"10' rooms:14' well:7'6\\\" ; gable(9:12,eaves-1',across) flat ; living living living climb climb climb\""

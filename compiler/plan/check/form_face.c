@@ -37,6 +37,7 @@ static bool read_opening(tn_check *check, tn_checked_opening *opening)
             opening->clear = tn_form_length(check, part->length);
         opening->passage |= part->part == TN_OPENING_PASSAGE;
         opening->glazed |= part->part == TN_OPENING_GLAZED;
+        opening->leafless |= part->part == TN_OPENING_LEAFLESS;
     }
     if (opening->wide != 0 && opening->high != 0)
         return opening->wide > 0 && opening->high > 0 && opening->sill >= 0 && opening->clear >= 0;
@@ -139,14 +140,13 @@ uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, const tn_ast
     return TN_NONE;
 }
 
-/* Can a kind be in a face of this relation? floor, stair, flights and open are of cells one over another. */
-static bool kind_belongs(const tn_checked_form *form, tn_face_relation relation, uint32_t kind)
+bool tn_form_kind_belongs(const tn_checked_form *form, tn_face_relation relation, uint32_t kind)
 {
     if (kind >= TN_FACE_KIND_COUNT)
         return (form->openings[kind - TN_FACE_KIND_COUNT].turn != TN_TURN_NONE) == (relation == TN_FACE_UNDER);
     if (relation == TN_FACE_UNDER)
         return kind == TN_FACE_FLOOR || kind == TN_FACE_STAIR || kind == TN_FACE_OPEN;
-    return kind != TN_FACE_FLOOR && kind != TN_FACE_STAIR && !(relation == TN_FACE_OUTSIDE && kind == TN_FACE_OPEN);
+    return kind != TN_FACE_FLOOR && kind != TN_FACE_STAIR;
 }
 
 static void add_kind(tn_check *check, const tn_checked_form *form, tn_checked_face *face, const tn_ast_word *word)
@@ -161,13 +161,13 @@ static void add_kind(tn_check *check, const tn_checked_form *form, tn_checked_fa
             tn_help(check->diagnostics, d, "leave one of the two out");
             return;
         }
-    if (!kind_belongs(form, face->ast->relation, kind)) {
+    if (!tn_form_kind_belongs(form, face->ast->relation, kind)) {
         tn_diagnostic *d =
             tn_report(check->diagnostics, E_UNKNOWN_PART, word->node.span, "`%s` cannot be in such a face", word->text);
         tn_help(check->diagnostics, d,
                 face->ast->relation == TN_FACE_UNDER ? "between storeys there is `floor`, `stair`, `open` or a flight"
                 : face->ast->relation == TN_FACE_OUTSIDE
-                    ? "outside there is `wall`, `party` or an opening"
+                    ? "outside there is `wall`, `party`, `open` or an opening"
                     : "between rooms there is `wall`, `party`, `open` or an opening");
         return;
     }

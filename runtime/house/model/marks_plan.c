@@ -32,7 +32,8 @@ static void put_leaf(tn_marks *marks, double hinge, double shut, double face, do
 static void put_door(const tn_house *house, const tn_face *face, tn_marks *marks)
 {
     tn_box hole;
-    if (!tn_house_hole(house, face, &hole) || !(tn_form_opening(house->form, face->kind)->flags & TN_PASSAGE))
+    if (!tn_house_hole(house, face, &hole) || !tn_house_is_filled(house, face) ||
+        !(tn_form_opening(house->form, face->kind)->flags & TN_PASSAGE))
         return;
     const tn_cell *room = &house->cells[face->first];
     bool in_y = face->at.x0 == face->at.x1;

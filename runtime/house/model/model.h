@@ -58,6 +58,9 @@ tn_status tn_blocks_mesh(const tn_blocks *blocks, uint32_t groups, tn_mesh *mesh
  * the face has no opening. */
 bool tn_house_hole(const tn_house *house, const tn_face *face, tn_box *hole);
 
+/* Has a face an opening with a leaf or a pane? */
+bool tn_house_is_filled(const tn_house *house, const tn_face *face);
+
 /* Adds leaves and panes to the solids; `of` is their face. */
 tn_status tn_house_leaves(const tn_house *house, tn_solids *solids, tn_error *error);
 
