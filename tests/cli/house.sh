@@ -425,4 +425,14 @@ golden gallery_parts 'tartan house gallery.plan "$(tartan sample gallery.plan 1 
 golden gallery_behind "tartan house gallery.plan '$inn ; open open'"
 golden gallery_behind_full "tartan explain gallery.plan '$inn ; open' --full | grep -A 2 roofs"
 is 'houses with galleries, one by one' "$("$TARTAN" enumerate "$files/gallery.plan" --library inns | wc -l)" 14312
+# Doors hang and open where nothing stands; names stand where nothing is below them.
+arcs_and_names() {
+    tartan house "$1" "$2" --view plan:ground -o "$scratch/plan.dxf" && tr -d '\r' <"$scratch/plan.dxf" | awk '
+        NR % 2 { code = $1; next }
+        code == 0 { if (layer == "DOORS" && kind == "ARC" || layer == "NAMES") print kind, text, x, y, from; kind = $0; text = from = "" }
+        code == 8 { layer = $0 } code == 1 { text = $0 } code == 10 { x = $0 } code == 20 { y = $0 } code == 50 { from = $0 }'
+}
+for number in 0 1 2; do
+    golden "swing_$number" "arcs_and_names swing.plan \"\$(tartan unrank swing.plan '#0:$number')\""
+done
 finish
