@@ -425,6 +425,8 @@ golden gallery_parts 'tartan house gallery.plan "$(tartan sample gallery.plan 1 
 golden gallery_behind "tartan house gallery.plan '$inn ; open open'"
 golden gallery_behind_full "tartan explain gallery.plan '$inn ; open' --full | grep -A 2 roofs"
 is 'houses with galleries, one by one' "$("$TARTAN" enumerate "$files/gallery.plan" --library inns | wc -l)" 14312
+# Long numbers stay apart from those beside them.
+golden count_wide "tartan count apartments --library apartments --plan '#0' --clauses | sed -n '/without/,\$p'"
 # Doors hang and open where nothing stands; names stand where nothing is below them.
 arcs_and_names() {
     tartan house "$1" "$2" --view plan:ground -o "$scratch/plan.dxf" && tr -d '\r' <"$scratch/plan.dxf" | awk '
