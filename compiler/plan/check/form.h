@@ -162,7 +162,9 @@ void tn_check_flight(tn_check *check, tn_checked_form *form, const tn_ast_form_c
 void tn_check_face(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
 /* Can a kind be in a face of this relation? floor, stair and flights are between cells one over another. */
 bool tn_form_kind_belongs(const tn_checked_form *form, tn_face_relation relation, uint32_t kind);
-uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, const tn_ast_word *word); /* TN_NONE: reported */
+
+/* The kind of a name; TN_NONE: reported, with those that can be in such a face (TN_FACE_RELATION_COUNT: any). */
+uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, tn_face_relation relation, const tn_ast_word *word);
 void tn_check_tile(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
 
 /* ---- form_material.c */

@@ -116,7 +116,8 @@ void tn_check_flight(tn_check *check, tn_checked_form *form, const tn_ast_form_c
     if (known && !sized)
         bad_flight(check, ast, "has no size", "write lengths above 0");
     else if (sized && flight.rise_least > flight.rise_most)
-        bad_flight(check, ast, "has a `rise` whose larger length is first", "write them as `rise 6\"..7 3/4\"`");
+        bad_flight(check, ast, "has a `rise` whose larger length is first",
+                   tn_form_in_unit(form, "write them as `rise 6\"..7 3/4\"`", "write them as `rise 150mm..190mm`"));
     else if (sized && turns && !fits && form->storey_count > 0)
         bad_flight(check, ast, "climbs no storey in equal steps of such a rise",
                    "a storey is a whole number of steps, four or more: let `rise` go from a smaller length to a larger one");
@@ -124,21 +125,6 @@ void tn_check_flight(tn_check *check, tn_checked_form *form, const tn_ast_form_c
 }
 
 /* ---- faces */
-
-uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, const tn_ast_word *word)
-{
-    const char *names[TN_FACE_KIND_COUNT + TN_OPENINGS_MAX];
-    size_t count = 0;
-    for (; count < TN_FACE_KIND_COUNT; count++)
-        names[count] = kind_words[count];
-    for (uint32_t i = 0; i < form->opening_count; i++)
-        names[count++] = form->openings[i].ast->name->text;
-    for (uint32_t i = 0; i < count; i++)
-        if (strcmp(names[i], word->text) == 0)
-            return i;
-    tn_form_unknown(check, form, word, "opening or kind of face", names, count);
-    return TN_NONE;
-}
 
 bool tn_form_kind_belongs(const tn_checked_form *form, tn_face_relation relation, uint32_t kind)
 {
@@ -149,9 +135,25 @@ bool tn_form_kind_belongs(const tn_checked_form *form, tn_face_relation relation
     return kind != TN_FACE_FLOOR && kind != TN_FACE_STAIR;
 }
 
+uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, tn_face_relation relation, const tn_ast_word *word)
+{
+    const char *names[TN_FACE_KIND_COUNT + TN_OPENINGS_MAX];
+    size_t count = 0;
+    for (uint32_t i = 0; i < TN_FACE_KIND_COUNT + form->opening_count; i++) {
+        const char *name =
+            i < TN_FACE_KIND_COUNT ? kind_words[i] : form->openings[i - TN_FACE_KIND_COUNT].ast->name->text;
+        if (strcmp(name, word->text) == 0)
+            return i;
+        if (relation == TN_FACE_RELATION_COUNT || tn_form_kind_belongs(form, relation, i))
+            names[count++] = name;
+    }
+    tn_form_unknown(check, form, word, "opening or kind of face", names, count);
+    return TN_NONE;
+}
+
 static void add_kind(tn_check *check, const tn_checked_form *form, tn_checked_face *face, const tn_ast_word *word)
 {
-    uint32_t kind = tn_form_kind(check, form, word);
+    uint32_t kind = tn_form_kind(check, form, face->ast->relation, word);
     if (kind == TN_NONE)
         return;
     for (uint32_t i = 0; i < face->kind_count; i++)

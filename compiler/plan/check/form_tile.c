@@ -31,7 +31,7 @@ static void add_against(tn_check *check, const tn_checked_form *form, tn_checked
     }
     tile->against = kinds;
     for (TN_EACH(const tn_ast_word, word, part->list)) {
-        uint32_t kind = tn_form_kind(check, form, word);
+        uint32_t kind = tn_form_kind(check, form, TN_FACE_BESIDE, word);
         if (kind != TN_NONE && tn_form_kind_belongs(form, TN_FACE_BESIDE, kind))
             kinds[tile->against_count++] = kind;
         else if (kind != TN_NONE)
