@@ -286,9 +286,9 @@ static void put_form(drawn_house *d)
         put(d, "  face cell(any) outside left = wall | window\n  face cell(bed) outside back = window\n");
     } else {
         ONE_OF(d, "  face cell(bed) outside = window | wall\n", "  face cell(bed) outside front = window | wall\n",
-               "  face cell(any) outside left = wall | window\n", "  face cell(bed) outside = window | open\n");
+               "  face cell(any) outside left = wall | window\n", "  face cell(bed) outside back = window | open\n");
         ONE_OF(d, "  face cell(seat) outside front = window | wall\n", "", "  face cell(seat) outside = open\n",
-               "  face cell(seat) outside front = open | wall\n  face cell(any) outside right = open | window\n");
+               "  face cell(seat) outside front = open | wall\n  face cell(any) outside right = open\n");
     }
     ONE_OF(
         d,
