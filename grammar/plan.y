@@ -74,7 +74,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
 %token OPENING "`opening`" WIDE "`wide`" HIGH "`high`" SILL "`sill`" CLEAR "`clear`" PASSAGE "`passage`"
 %token FLIGHT "`flight`" RISE "`rise`" GOING "`going`" TURN "`turn`"
-%token GLAZED "`glazed`" MATERIAL "`material`" PRICE "`price`" PER "`per`"
+%token GLAZED "`glazed`" LEAFLESS "`leafless`" MATERIAL "`material`" PRICE "`price`" PER "`per`"
 %token FACE "`face`" BESIDE "`beside`" ALONG "`along`" ACROSS "`across`" UNDER "`under`" OUTSIDE "`outside`"
 %token TILE "`tile`" FOR "`for`" AGAINST "`against`" DEEP "`deep`" ITEM "`item`"
 %token LEFT "`left`" RIGHT "`right`" BACK "`back`" FRONT "`front`" UP "`up`" COLON "`:`"
@@ -735,6 +735,7 @@ opening_part
     | CLEAR size                                { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_CLEAR, $2); }
     | PASSAGE                                   { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_PASSAGE, NULL); }
     | GLAZED                                    { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_GLAZED, NULL); }
+    | LEAFLESS                                  { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_LEAFLESS, NULL); }
     ;
 
 tile_parts

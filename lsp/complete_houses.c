@@ -95,7 +95,7 @@ void tn_complete_form(tn_lsp_cursor *c)
                                         "back", "front",  "left",  "right",  NULL};
     static const char *const tiles[] = {"for",  "against", "or",   "wide",  "deep", "item", "keep",
                                         "left", "right",   "back", "front", "up",   NULL};
-    static const char *const openings[] = {"wide", "high", "sill", "clear", "passage", "glazed", NULL};
+    static const char *const openings[] = {"wide", "high", "sill", "clear", "passage", "glazed", "leafless", NULL};
     static const char *const flights[] = {"wide", "rise", "going", "turn", "half", "quarter", NULL};
     static const char *const sections[] = {"storeys", "roof",  "flat", "shed",   "gable",
                                            "vault",   "eaves", "open", "across", NULL};

@@ -153,6 +153,11 @@ def volume_of_roof(r):
     return length_of_roof(r) * sum((b[0] - a[0]) * high for a, b, high in zip(line, line[1:], heights))
 
 
+def has_leaf(kind):
+    """The forms of these tests call openings that are leafless arches."""
+    return not kind.endswith("arch")
+
+
 def compare(made, house):
     of = lambda name: [n for n, (entity, _) in made.items() if entity == name]
     box = lambda s: F((s["box"][1] - s["box"][0]) * (s["box"][3] - s["box"][2]) * (s["box"][5] - s["box"][4]), 10**18)
@@ -166,7 +171,8 @@ def compare(made, house):
     check("as many slabs", len(of("IFCSLAB")) == kinds["deck"] + kinds["roofdeck"])
     check("as many things", len(of("IFCFURNITURE")) == kinds["item"])
     check("as many roofs", len(of("IFCROOF")) == len(house["roofs"]))
-    check("as many doors and windows", len(of("IFCDOOR")) + len(of("IFCWINDOW")) == len(of("IFCOPENINGELEMENT")) == len(openings))
+    check("as many openings", len(of("IFCOPENINGELEMENT")) == len(openings))
+    check("as many doors and windows", len(of("IFCDOOR")) + len(of("IFCWINDOW")) == sum(has_leaf(f["kind"]) for f in openings))
     check("as many stairs", len(of("IFCSTAIR")) == sum(f["kind"] == "stair" for f in house["faces"]) + len(flights))
     check("as many rooms", len(of("IFCSPACE")) == len(house["rooms"]))
     solid = sum(volume_of(made, n) for n in of("IFCWALL")) - sum(volume_of(made, n) for n in of("IFCOPENINGELEMENT"))
@@ -247,7 +253,7 @@ def check_parts(path, house):
             area["roof"] += (b[0] - a[0]) * wide * slope(b[1] - a[1], b[0] - a[0])
         volume["roof"] += volume_of_roof(r)
     for f in house["faces"]:
-        number[f["kind"]] += f["kind"] not in ("wall", "party", "open", "floor", "stair")
+        number[f["kind"]] += f["kind"] not in ("wall", "party", "open", "floor", "stair") and has_leaf(f["kind"])
     unit = {"each": 1, "sf": 304800000**2, "m2": 10**18, "cf": 304800000**3, "m3": 10**27}
     total = F(0)
     rows = list(csv.DictReader(open(path, newline="")))

@@ -427,7 +427,7 @@ static void write_clauses(const tn_numbered *n, const house_tally *tally, bool j
         gmp_fprintf(out, "%-*s%Zd\n%-*s%-*s%s\n", labels, "without clauses", allowed, labels, "clause", COUNT_WIDTH,
                     "keeps out", "only by it");
     for (uint32_t i = 0; !json && i < n->record->clause_count; i++)
-        gmp_fprintf(out, "  %-*s %-*Zd%Zd\n", labels - 3, tn_text(module, clauses[i].name), COUNT_WIDTH,
+        gmp_fprintf(out, "  %-*s %-*Zd %Zd\n", labels - 3, tn_text(module, clauses[i].name), COUNT_WIDTH - 1,
                     tally->kept_out[i], tally->alone[i]);
     for (int alone = 0; json && alone < 2; alone++) {
         fputs(alone ? ",\"only\":{" : ",\"kept_out\":{", out);

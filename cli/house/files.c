@@ -113,13 +113,18 @@ static const unsigned char part_colours[TN_SOLID_COUNT][3] = {
 };
 
 /* The groups of models: a kind of part, or what it is made of. */
+static uint32_t group_of(const tn_house *house, const tn_house_block *b)
+{
+    uint32_t material = tn_part_material(house, tn_solid_made_part(house, b->kind, b->of, b->item));
+    return material == TN_NO_RECORD ? b->kind : TN_SOLID_COUNT + material - house->form->record->material_first;
+}
+
 static void group_blocks(const tn_house *house, tn_blocks *blocks)
 {
     for (size_t i = 0; tn_form_has_costs(house->form) && i < blocks->count; i++) {
-        tn_house_block *b = &blocks->items[i];
-        uint32_t material = tn_part_material(house, tn_solid_made_part(house, b->kind, b->of, b->item));
-        if (material != TN_NO_RECORD)
-            b->group = TN_SOLID_COUNT + material - house->form->record->material_first;
+        tn_house_block *b = &blocks->items[i], end = tn_block_end(b);
+        b->group = group_of(house, b);
+        b->end_group = group_of(house, &end);
     }
 }
 

@@ -28,12 +28,14 @@ static bool is_about(const tn_face_line_record *record, uint32_t line, const mee
            (either && meets(m->b, line, false) && meets(m->a, line, true));
 }
 
-/* Has the line a kind that fits into every face? */
+/* Has the line a kind that fits into every face? A lower roof keeps open sides out. */
 static bool always_fits(const tn_survey *s, const tn_face_line_record *record)
 {
-    for (uint32_t i = 0; i < record->kind_count; i++)
-        if (s->form.module->HOUSE_ITEM_records[record->kind_first + i].number < TN_FACE_KIND_COUNT)
+    for (uint32_t i = 0; i < record->kind_count; i++) {
+        uint32_t kind = s->form.module->HOUSE_ITEM_records[record->kind_first + i].number;
+        if (kind < TN_FACE_KIND_COUNT && (kind != TN_FACE_OPEN || record->relation != TN_FACE_OUTSIDE))
             return true;
+    }
     return false;
 }
 

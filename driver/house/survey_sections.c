@@ -24,6 +24,14 @@ static uint32_t part_of(const tn_survey *s, const tn_material_record *material, 
     return s->form.module->HOUSE_ITEM_records[material->part_first + place].number;
 }
 
+/* Nothing stands in an opening that is leafless. */
+static bool is_leafless(const tn_survey *s, uint32_t part)
+{
+    const tn_form_record *form = s->form.record;
+    return part >= TN_OF_COUNT && part - TN_OF_COUNT < form->opening_count &&
+           s->form.module->OPENING_records[form->opening_first + part - TN_OF_COUNT].flags & TN_LEAFLESS;
+}
+
 /* Which materials the section of the house has. */
 static void see_materials(const tn_survey *s, section_use *seen)
 {
@@ -33,7 +41,7 @@ static void see_materials(const tn_survey *s, section_use *seen)
             seen->holds[i] || material->where == TN_NO_RECORD || tn_house_decide(&s->house, material->where, NULL);
         for (uint32_t p = 0; seen->holds[i] && !seen->used[i] && p < material->part_count; p++) {
             uint32_t part = part_of(s, material, p);
-            bool there = part != TN_OF_PARTY || tn_survey_names(s, TN_FACE_PARTY);
+            bool there = (part != TN_OF_PARTY || tn_survey_names(s, TN_FACE_PARTY)) && !is_leafless(s, part);
             seen->used[i] = there && tn_part_material(&s->house, part) == s->form.record->material_first + i;
         }
     }
@@ -104,10 +112,12 @@ static void warn_materials(const tn_survey *s, const section_use *seen)
             continue;
         bool party =
             material->part_count == 1 && part_of(s, material, 0) == TN_OF_PARTY && !tn_survey_names(s, TN_FACE_PARTY);
+        bool leafless = material->part_count == 1 && is_leafless(s, part_of(s, material, 0));
         tn_diagnostic *d = tn_report(tn_survey_list(s), W_MATERIAL_FOR_NOTHING, TN_SURVEY_SPAN(material),
                                      "nothing is ever made of `%s`", tn_text(s->form.module, material->name));
         tn_help(tn_survey_list(s), d,
                 party            ? "no line of faces has the kind `party`"
+                : leafless       ? "the opening is `leafless`: nothing stands in it"
                 : seen->holds[i] ? "where it is meant for, lines before it name all of its parts"
                                  : "no section of the form is as its `where` says");
     }

@@ -7,12 +7,10 @@
 static bool is_behind(const tn_house *house, const tn_face *face, uint32_t kind, tn_behind_roof *behind)
 {
     const tn_opening_record *opening = tn_form_opening(house->form, kind);
-    if (!opening || !tn_opening_has_room(house, face, opening))
+    if (opening ? !tn_opening_has_room(house, face, opening) : kind != TN_FACE_OPEN)
         return false;
     behind->kind = kind;
-    behind->sill = house->form->level[face->storey] + opening->sill;
-    return tn_face_roofed(house, face, opening->wide, &behind->top) &&
-           behind->top.top > behind->sill * behind->top.bottom;
+    return tn_face_behind(house, face, opening, &behind->sill, &behind->top);
 }
 
 bool tn_face_behind_roof(const tn_house *house, const tn_face *face, uint32_t kind, tn_behind_roof *behind)
@@ -46,5 +44,6 @@ void tn_behind_roof_text(const tn_house *house, const tn_behind_roof *behind, ch
     char sill[64], top[64];
     tn_length_write_style(behind->sill, style, sill, sizeof sill);
     tn_length_write_style((int64_t)((behind->top.top + part - 1) / part * step), style, top, sizeof top);
-    snprintf(text, size, "its sill is %s above the lowest floor, and the roof there reaches %s", sill, top);
+    snprintf(text, size, "its %s is %s above the lowest floor, and the roof there reaches %s",
+             behind->kind == TN_FACE_OPEN ? "floor" : "sill", sill, top);
 }

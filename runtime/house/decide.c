@@ -179,30 +179,38 @@ bool tn_cell_may(const tn_house *house, const tn_cell *cell, uint32_t function)
 
 /* ---- faces */
 
-/* Does a lower roof stand above the sill, somewhere along the opening? */
-static bool is_behind_roof(const tn_house *house, const tn_face *face, const tn_opening_record *opening)
+static int64_t wide_of(const tn_face *face)
 {
-    tn_fraction top;
-    tn_int128 sill = (tn_int128)house->form->level[face->storey] + opening->sill;
-    return tn_face_roofed(house, face, opening->wide, &top) && top.top > sill * top.bottom;
+    int64_t x = face->at.x1 - face->at.x0, y = face->at.y1 - face->at.y0;
+    return x > y ? x : y;
+}
+
+bool tn_face_behind(const tn_house *house, const tn_face *face, const tn_opening_record *opening, int64_t *sill,
+                    tn_fraction *top)
+{
+    *sill = house->form->level[face->storey] + (opening ? opening->sill : 0);
+    return tn_face_roofed(house, face, opening ? opening->wide : wide_of(face), top) && top->top > *sill * top->bottom;
 }
 
 bool tn_opening_has_room(const tn_house *house, const tn_face *face, const tn_opening_record *opening)
 {
-    int64_t x = face->at.x1 - face->at.x0, y = face->at.y1 - face->at.y0, wide = x > y ? x : y;
-    return opening->wide + house->form->record->wall <= wide &&
+    return opening->wide + house->form->record->wall <= wide_of(face) &&
            opening->sill + opening->high <= tn_form_clear(house->form, face->storey);
 }
 
-/* Does the kind fit into the face? An opening has room there, and no lower roof stands above its sill. */
+/* Does the kind fit into the face? An opening has room there, and no lower roof stands above its sill. Nor does one
+ * stand above the floor where a side is open. */
 static bool fits(const tn_house *house, const tn_face *face, uint32_t kind)
 {
     const tn_opening_record *opening = tn_form_opening(house->form, kind), *flight = tn_form_flight(house->form, kind);
     if (flight)
         return tn_flight_fits(house, face, flight);
-    if (!opening)
-        return kind != TN_FACE_OPEN || face->relation != TN_FACE_OUTSIDE;
-    return tn_opening_has_room(house, face, opening) && !is_behind_roof(house, face, opening);
+    if (!opening && (kind != TN_FACE_OPEN || face->relation != TN_FACE_OUTSIDE))
+        return true;
+    tn_fraction top;
+    int64_t sill;
+    return (!opening || tn_opening_has_room(house, face, opening)) &&
+           !tn_face_behind(house, face, opening, &sill, &top);
 }
 
 bool tn_face_line_is_about(const tn_house *house, const tn_face_line_record *line, const tn_face *face)

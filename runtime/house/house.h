@@ -121,6 +121,12 @@ size_t tn_face_options(const tn_house *house, const tn_face *face, uint32_t kind
  * fits, counted within the form; TN_NO_RECORD where none does. */
 size_t tn_face_decided(const tn_house *house, const tn_face *face, uint32_t kinds[TN_FACE_KINDS_MAX], uint32_t *line);
 
+/* Is nothing in it, and nothing behind it? Its cell is a gallery then. */
+static inline bool tn_face_is_open_side(const tn_face *face)
+{
+    return face->relation == TN_FACE_OUTSIDE && face->kind == TN_FACE_OPEN;
+}
+
 /* The thickness of the wall that stands in a face; 0 where none does. */
 int64_t tn_face_thickness(const tn_house *house, const tn_face *face);
 
@@ -217,7 +223,7 @@ void tn_tile_failure_text(const tn_house_form *form, uint32_t tile, const tn_til
 #define TN_VARIANT_TEXT (TN_NAME_MAX + 16)
 void tn_variant_text(const tn_house_form *form, const tn_tile_variant *variant, char text[TN_VARIANT_TEXT]);
 
-/* The clear rectangle of a cell: each side back by half of its thickest wall. */
+/* The clear rectangle of a cell: each side back by half of its thickest wall; an open side as if a wall stood there. */
 tn_rectangle tn_cell_clear(const tn_house *house, uint32_t cell);
 
 /* ---- posts.c */

@@ -242,13 +242,13 @@ static tn_status read_functions(tn_house *house, const char *line, size_t size, 
     return at_end(&reader, "cell", error);
 }
 
-/* Where the word names an opening that a lower roof keeps out of one of the first faces, says so. */
+/* Where the word names an opening, or `open`, that a lower roof keeps out of one of the first faces, says so. */
 static void help_behind_roof(const tn_house *house, size_t faces, const tn_word *word, tn_error *error)
 {
     static const char *const sides[TN_HOUSE_SIDE_COUNT] = {
         [TN_HOUSE_BACK] = "back", [TN_HOUSE_FRONT] = "front", [TN_HOUSE_LEFT] = "left", [TN_HOUSE_RIGHT] = "right"};
     const tn_house_form *form = house->form;
-    uint32_t kind = TN_FACE_KIND_COUNT, kinds = kind + form->record->opening_count;
+    uint32_t kind = TN_FACE_OPEN, kinds = TN_FACE_KIND_COUNT + form->record->opening_count;
     tn_behind_roof behind;
     while (kind < kinds && !word_is(word, tn_form_kind_text(form, kind)))
         kind++;

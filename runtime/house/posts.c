@@ -29,6 +29,14 @@ static void add_end(tn_posts *posts, const tn_post *end)
     last->thick_y = end->thick_y > last->thick_y ? end->thick_y : last->thick_y;
 }
 
+/* At both ends of a side that is open to the outside stands a post, as thick as a wall. */
+static tn_post end_of(const tn_house *house, const tn_face *face)
+{
+    int64_t thick = tn_face_thickness(house, face), wall = house->form->record->wall;
+    bool in_y = face->at.x0 == face->at.x1, open = tn_face_is_open_side(face);
+    return (tn_post){face->at.x0, face->at.y0, open ? wall : in_y ? thick : 0, open ? wall : in_y ? 0 : thick};
+}
+
 tn_status tn_house_posts(const tn_house *house, uint32_t storey, tn_posts *posts, tn_error *error)
 {
     *posts = (tn_posts){.items = malloc((2 * house->face_count + 1) * sizeof *posts->items)};
@@ -36,11 +44,9 @@ tn_status tn_house_posts(const tn_house *house, uint32_t storey, tn_posts *posts
         return tn_fail_memory(error);
     for (size_t i = 0; i < house->face_count; i++) {
         const tn_face *face = &house->faces[i];
-        int64_t thick = tn_face_thickness(house, face);
-        if (face->storey != storey || thick == 0)
+        tn_post end = end_of(house, face);
+        if (face->relation == TN_FACE_UNDER || face->storey != storey || (end.thick_x == 0 && end.thick_y == 0))
             continue;
-        bool in_y = face->at.x0 == face->at.x1;
-        tn_post end = {face->at.x0, face->at.y0, in_y ? thick : 0, in_y ? 0 : thick};
         add_end(posts, &end);
         end.x = face->at.x1;
         end.y = face->at.y1;

@@ -118,8 +118,8 @@ bool tn_face_roofed(const tn_house *house, const tn_face *face, int64_t wide, tn
 
 /* ---- behind.c */
 
-/* An opening that would be in a face, but for a lower roof. kind: of the face. sill, top: of that roof; above the
- * lowest floor, in nanometres. */
+/* An opening (or TN_FACE_OPEN) that would be in a face, but for a lower roof. kind: of the face. sill, top: of that
+ * roof; above the lowest floor, in nanometres. */
 typedef struct tn_behind_roof {
     uint32_t kind;
     int64_t sill;

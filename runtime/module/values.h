@@ -243,6 +243,7 @@ typedef enum tn_price_unit {
 /* Flags of openings and of the boxes of tiles. */
 #define TN_PASSAGE 1u
 #define TN_GLAZED 2u
+#define TN_LEAFLESS 4u /* nothing stands in it */
 #define TN_TILE_KEEP 1u
 #define TN_TILE_X_FROM_RIGHT 2u
 #define TN_TILE_X_TO_RIGHT 4u

@@ -80,7 +80,7 @@ form cells of row {
   opening sash wide 1m high 1m sill 1m
   face cell(any) along cell(any) = party
   face cell(any) outside = sash
-  tile bed for bedroom { against wall or floor  item bed left 1m..2m, back 0..2m }
+  tile bed for bedroom { against wall or open  item bed left 1m..2m, back 0..2m }
 }
 library rows using row { trays 2 }
 library houses from rows in cells { }
@@ -397,7 +397,6 @@ golden prolog 'tartan export cottage --prolog | tail -n 2'
 exits 0 "$TARTAN" report cottage -o "$scratch/report"
 [ -s "$scratch/report/index.html" ] || fail 'no report of plans that houses are built on'
 
-finish
 golden count_by "tartan count house-measures.plan --library cottages --by rooms-value"
 golden count_by_plan "tartan count house-measures.plan --library cottages --by doubled --plan '#3' --json"
 golden count_by_of_plans "tartan count house-measures.plan --library cottages --by bedrooms --step 5"
@@ -418,3 +417,24 @@ is 'a house of many voids and its rank' \
     "$("$TARTAN" unrank "$files/clerestory.plan" "$("$TARTAN" rank "$files/clerestory.plan" --library light "$(cat "$scratch/bays")")" --library light)" \
     "$(cat "$scratch/bays")"
 golden count_long_plan "tartan count row-houses --library row-houses --plan '#1' && tartan sample row-houses 1 --library row-houses --seed 5"
+
+# A gallery has no walls outside, but posts, in which no furniture stands; an arch has no leaf, and nothing is open behind a lower roof.
+golden gallery_count "tartan count gallery.plan --library inns"
+inn="3.6m none room:4.2m gallery:1.5m | 3.6m lean:1.5m room:4.2m gallery:1.5m ; gable(2:3,eaves-400mm,open) 1 shed(back,1:1) shed(front,1:4) ; parlour loft walk walk | shed parlour loft walk walk"
+golden gallery_parts 'tartan house gallery.plan "$(tartan sample gallery.plan 1 --library inns --seed 4)" -o $scratch/inn.parts.csv && cat $scratch/inn.parts.csv'
+golden gallery_behind "tartan house gallery.plan '$inn ; open open'"
+golden gallery_behind_full "tartan explain gallery.plan '$inn ; open' --full | grep -A 2 roofs"
+is 'houses with galleries, one by one' "$("$TARTAN" enumerate "$files/gallery.plan" --library inns | wc -l)" 14312
+# Long numbers stay apart from those beside them.
+golden count_wide "tartan count apartments --library apartments --plan '#0' --clauses | sed -n '/without/,\$p'"
+# Doors hang and open where nothing stands; names stand where nothing is below them.
+arcs_and_names() {
+    tartan house "$1" "$2" --view plan:ground -o "$scratch/plan.dxf" && tr -d '\r' <"$scratch/plan.dxf" | awk '
+        NR % 2 { code = $1; next }
+        code == 0 { if (layer == "DOORS" && kind == "ARC" || layer == "NAMES") print kind, text, x, y, from; kind = $0; text = from = "" }
+        code == 8 { layer = $0 } code == 1 { text = $0 } code == 10 { x = $0 } code == 20 { y = $0 } code == 50 { from = $0 }'
+}
+for number in 0 1 2; do
+    golden "swing_$number" "arcs_and_names swing.plan \"\$(tartan unrank swing.plan '#0:$number')\""
+done
+finish

@@ -27,6 +27,8 @@ is 'the walk-through' "$($python "$here/../house_files.py" "$scratch/walk" "${re
 climbed="22' rooms:14' well:7'6\" ; gable(9:12,eaves-1',across) flat ; living living living climb climb climb ; dogleg winding"
 made "$files/stairs.plan" "$climbed" climbed
 is 'a house with flights' "$($python "$here/../house_files.py" "$scratch/climbed" "${reader[@]}")" fine
+made "$files/gallery.plan" "$("$TARTAN" sample "$files/gallery.plan" 1 --library inns --seed 2)" gallery
+is 'a gallery' "$($python "$here/../house_files.py" "$scratch/gallery" "${reader[@]}")" fine
 is 'a hut' "$($python "$here/../house_files.py" "$scratch/hut" "${reader[@]}")" fine
 cmp "$scratch/walk/house.ifc" "$scratch/again/house.ifc" || fail 'two models of one house differ'
 cmp "$scratch/walk/house.dxf" "$scratch/again/house.dxf" || fail 'two drawings of one house differ'

@@ -33,6 +33,27 @@ for flights in 'dogleg dogleg winding winding' 'winding winding run run' 'run do
     looked "$files/stairs.plan" "22' rooms:14' well:7'6\" | 22' rooms:14' deep:12' ; gable(9:12,eaves-1',across) flat ; living living living climb climb climb | living living living climb climb climb ; $flights" "$flights"
 done
 
+looked "$files/gallery.plan" "$("$TARTAN" sample "$files/gallery.plan" 1 --library inns --seed 2)" 'a gallery'
+
+# Gable ends are of the walls below; of the roof itself only slabs end upright.
+"$TARTAN" house cottage "14' room:14' none ; 1 gable(9:12) 1 flat ; living ; window window window" -o "$scratch/cottage.obj" 2>/dev/null || fail 'no cottage'
+is 'gable ends' "$(python3 - "$scratch/cottage.obj" <<'PY'
+import collections, sys
+points, group, ends = [], None, collections.Counter()
+for line in open(sys.argv[1]):
+    word, *rest = line.split() or [""]
+    if word == "v":
+        points.append(tuple(map(float, rest)))
+    elif word == "g":
+        group = rest[0]
+    elif word == "f":
+        corners = [points[int(r.split("/")[0]) - 1] for r in rest]
+        if len({c[0] for c in corners}) == 1 and min(c[2] for c in corners) >= 2.7432:
+            ends[group] += 1
+print(*sorted(ends))
+PY
+)" outside
+
 # Flights are climbed by walks, and fit only where there is room for them.
 golden count "tartan count stairs.plan --library towers"
 golden no_way "tartan explain stairs.plan \"10' rooms:14' well:7'6\\\" ; gable(9:12,eaves-1',across) flat ; living living living climb climb climb\""

@@ -271,7 +271,7 @@ static void put_form(drawn_house *d)
     put(d, d->places ? "  function bed at cell(any)\n" : "  function bed at cell(body)\n");
     ONE_OF(d, "  function stair at cell(body)\n", "  function stair at cell(body, 8')\n");
     put(d, "  function seat at cell(bay)\n  opening door wide 2'8\" high 6'8\" clear 2' passage\n"
-           "  opening window wide 3' high 4' sill 2'8\" glazed\n");
+           "  opening window wide 3' high 4' sill 2'8\" glazed\n  opening arch wide 4' high 7' passage leafless\n");
     if (d->places)
         put(d, "  face cell(bed) beside cell(bed) = open | wall\n");
     ONE_OF(d, "", "  face cell(bed) along cell(bed) = open | wall\n",
@@ -279,20 +279,24 @@ static void put_form(drawn_house *d)
     ONE_OF(d, "  face cell(stair) under cell(stair) = stair\n", "  face cell(any) under cell(stair) = stair | floor\n",
            "");
     put(d, "  face cell(living) beside cell(living) = open | door\n");
-    ONE_OF(d, "  face cell(seat) across cell(any) = open\n", "  face cell(seat) beside cell(any) = open | wall\n", "");
+    ONE_OF(d, "  face cell(seat) across cell(any) = open\n", "  face cell(seat) beside cell(any) = open | wall\n",
+           "  face cell(seat) beside cell(any) = arch | wall\n", "");
     put(d, "  face cell(any) beside cell(any) = door\n");
     if (d->places) {
         put(d, "  face cell(any) outside left = wall | window\n  face cell(bed) outside back = window\n");
     } else {
         ONE_OF(d, "  face cell(bed) outside = window | wall\n", "  face cell(bed) outside front = window | wall\n",
-               "  face cell(any) outside left = wall | window\n");
-        ONE_OF(d, "  face cell(seat) outside front = window | wall\n", "");
+               "  face cell(any) outside left = wall | window\n", "  face cell(bed) outside back = window | open\n");
+        ONE_OF(d, "  face cell(seat) outside front = window | wall\n", "", "  face cell(seat) outside = open\n",
+               "  face cell(seat) outside front = open | wall\n  face cell(any) outside right = open\n");
     }
     ONE_OF(
         d,
         "  tile cot for bed { against wall or window wide 7'..12' item cot left 1'..right 1', back 0..6', up 0..2' }\n",
         "  tile rug for bed, living { item rug left 2'..right 2', back 1'..4' keep edge left 0..1' }\n"
         "  tile cot for bed { against wall item cot right 3'..right 0, back 0..6'6\", up 0..2' }\n",
+        "  tile bench for seat { against open or wall item bench left 0..right 0, back 0..1'6\" }\n"
+        "  tile cot for bed { item cot left 0..3', back 0..6' }\n",
         "");
     if (d->priced)
         put_materials(d);

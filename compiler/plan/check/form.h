@@ -56,7 +56,7 @@ typedef struct tn_checked_opening {
     int64_t wide, high, sill, clear;
     int64_t rise_least, rise_most, going; /* of a flight */
     tn_turn turn;
-    bool passage, glazed;
+    bool passage, glazed, leafless;
 } tn_checked_opening;
 
 typedef struct tn_checked_face {
@@ -160,7 +160,11 @@ typedef struct tn_checked_ask {
 void tn_check_opening(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
 void tn_check_flight(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
 void tn_check_face(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
-uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, const tn_ast_word *word); /* TN_NONE: reported */
+/* Can a kind be in a face of this relation? floor, stair and flights are between cells one over another. */
+bool tn_form_kind_belongs(const tn_checked_form *form, tn_face_relation relation, uint32_t kind);
+
+/* The kind of a name; TN_NONE: reported, with those that can be in such a face (TN_FACE_RELATION_COUNT: any). */
+uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, tn_face_relation relation, const tn_ast_word *word);
 void tn_check_tile(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
 
 /* ---- form_material.c */

@@ -37,6 +37,7 @@ static bool read_opening(tn_check *check, tn_checked_opening *opening)
             opening->clear = tn_form_length(check, part->length);
         opening->passage |= part->part == TN_OPENING_PASSAGE;
         opening->glazed |= part->part == TN_OPENING_GLAZED;
+        opening->leafless |= part->part == TN_OPENING_LEAFLESS;
     }
     if (opening->wide != 0 && opening->high != 0)
         return opening->wide > 0 && opening->high > 0 && opening->sill >= 0 && opening->clear >= 0;
@@ -115,7 +116,8 @@ void tn_check_flight(tn_check *check, tn_checked_form *form, const tn_ast_form_c
     if (known && !sized)
         bad_flight(check, ast, "has no size", "write lengths above 0");
     else if (sized && flight.rise_least > flight.rise_most)
-        bad_flight(check, ast, "has a `rise` whose larger length is first", "write them as `rise 6\"..7 3/4\"`");
+        bad_flight(check, ast, "has a `rise` whose larger length is first",
+                   tn_form_in_unit(form, "write them as `rise 6\"..7 3/4\"`", "write them as `rise 150mm..190mm`"));
     else if (sized && turns && !fits && form->storey_count > 0)
         bad_flight(check, ast, "climbs no storey in equal steps of such a rise",
                    "a storey is a whole number of steps, four or more: let `rise` go from a smaller length to a larger one");
@@ -124,34 +126,34 @@ void tn_check_flight(tn_check *check, tn_checked_form *form, const tn_ast_form_c
 
 /* ---- faces */
 
-uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, const tn_ast_word *word)
-{
-    const char *names[TN_FACE_KIND_COUNT + TN_OPENINGS_MAX];
-    size_t count = 0;
-    for (; count < TN_FACE_KIND_COUNT; count++)
-        names[count] = kind_words[count];
-    for (uint32_t i = 0; i < form->opening_count; i++)
-        names[count++] = form->openings[i].ast->name->text;
-    for (uint32_t i = 0; i < count; i++)
-        if (strcmp(names[i], word->text) == 0)
-            return i;
-    tn_form_unknown(check, form, word, "opening or kind of face", names, count);
-    return TN_NONE;
-}
-
-/* Can a kind be in a face of this relation? floor, stair, flights and open are of cells one over another. */
-static bool kind_belongs(const tn_checked_form *form, tn_face_relation relation, uint32_t kind)
+bool tn_form_kind_belongs(const tn_checked_form *form, tn_face_relation relation, uint32_t kind)
 {
     if (kind >= TN_FACE_KIND_COUNT)
         return (form->openings[kind - TN_FACE_KIND_COUNT].turn != TN_TURN_NONE) == (relation == TN_FACE_UNDER);
     if (relation == TN_FACE_UNDER)
         return kind == TN_FACE_FLOOR || kind == TN_FACE_STAIR || kind == TN_FACE_OPEN;
-    return kind != TN_FACE_FLOOR && kind != TN_FACE_STAIR && !(relation == TN_FACE_OUTSIDE && kind == TN_FACE_OPEN);
+    return kind != TN_FACE_FLOOR && kind != TN_FACE_STAIR;
+}
+
+uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, tn_face_relation relation, const tn_ast_word *word)
+{
+    const char *names[TN_FACE_KIND_COUNT + TN_OPENINGS_MAX];
+    size_t count = 0;
+    for (uint32_t i = 0; i < TN_FACE_KIND_COUNT + form->opening_count; i++) {
+        const char *name =
+            i < TN_FACE_KIND_COUNT ? kind_words[i] : form->openings[i - TN_FACE_KIND_COUNT].ast->name->text;
+        if (strcmp(name, word->text) == 0)
+            return i;
+        if (relation == TN_FACE_RELATION_COUNT || tn_form_kind_belongs(form, relation, i))
+            names[count++] = name;
+    }
+    tn_form_unknown(check, form, word, "opening or kind of face", names, count);
+    return TN_NONE;
 }
 
 static void add_kind(tn_check *check, const tn_checked_form *form, tn_checked_face *face, const tn_ast_word *word)
 {
-    uint32_t kind = tn_form_kind(check, form, word);
+    uint32_t kind = tn_form_kind(check, form, face->ast->relation, word);
     if (kind == TN_NONE)
         return;
     for (uint32_t i = 0; i < face->kind_count; i++)
@@ -161,13 +163,13 @@ static void add_kind(tn_check *check, const tn_checked_form *form, tn_checked_fa
             tn_help(check->diagnostics, d, "leave one of the two out");
             return;
         }
-    if (!kind_belongs(form, face->ast->relation, kind)) {
+    if (!tn_form_kind_belongs(form, face->ast->relation, kind)) {
         tn_diagnostic *d =
             tn_report(check->diagnostics, E_UNKNOWN_PART, word->node.span, "`%s` cannot be in such a face", word->text);
         tn_help(check->diagnostics, d,
                 face->ast->relation == TN_FACE_UNDER ? "between storeys there is `floor`, `stair`, `open` or a flight"
                 : face->ast->relation == TN_FACE_OUTSIDE
-                    ? "outside there is `wall`, `party` or an opening"
+                    ? "outside there is `wall`, `party`, `open` or an opening"
                     : "between rooms there is `wall`, `party`, `open` or an opening");
         return;
     }

@@ -31,7 +31,7 @@ static bool read_kind(tn_room_reader *reader, const tn_ast_word *word)
         tn_help(reader->check->diagnostics, d, "write `by` and an opening, `open`, `wall` or `stair`");
         return false;
     }
-    uint32_t number = tn_form_kind(reader->check, reader->form, kind);
+    uint32_t number = tn_form_kind(reader->check, reader->form, TN_FACE_RELATION_COUNT, kind);
     add(reader, (tn_decision_step){.opcode = TN_OP_HAS_FACE, .index = number, .span = kind->node.span});
     return number != TN_NONE;
 }

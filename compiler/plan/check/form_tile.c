@@ -31,9 +31,12 @@ static void add_against(tn_check *check, const tn_checked_form *form, tn_checked
     }
     tile->against = kinds;
     for (TN_EACH(const tn_ast_word, word, part->list)) {
-        uint32_t kind = tn_form_kind(check, form, word);
-        if (kind != TN_NONE)
+        uint32_t kind = tn_form_kind(check, form, TN_FACE_BESIDE, word);
+        if (kind != TN_NONE && tn_form_kind_belongs(form, TN_FACE_BESIDE, kind))
             kinds[tile->against_count++] = kind;
+        else if (kind != TN_NONE)
+            bad_tile(check, word->node.span, "this is below or above a room, and not at a side of it",
+                     "a tile stands against `wall`, `party`, `open` or an opening");
     }
 }
 

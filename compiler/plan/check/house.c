@@ -127,7 +127,7 @@ static bool read_kinds(tn_check *check, const tn_ast_expr *expr, tn_checked_ask 
     bool good = true;
     ask->kinds = TN_NEW_ARRAY(check->arena, uint32_t, expr->kinds.count);
     for (TN_EACH(const tn_ast_word, word, expr->kinds)) {
-        uint32_t kind = ask->kinds ? tn_form_kind(check, ask->form, word) : TN_NONE;
+        uint32_t kind = ask->kinds ? tn_form_kind(check, ask->form, TN_FACE_RELATION_COUNT, word) : TN_NONE;
         good &= kind != TN_NONE;
         if (kind == TN_NONE)
             continue;

@@ -120,7 +120,8 @@ static void emit_openings(tn_emit *emit, const tn_checked_form *form)
                                                                    .going = opening->going,
                                                                    .turn = opening->turn,
                                                                    .flags = (opening->passage ? TN_PASSAGE : 0) |
-                                                                            (opening->glazed ? TN_GLAZED : 0),
+                                                                            (opening->glazed ? TN_GLAZED : 0) |
+                                                                            (opening->leafless ? TN_LEAFLESS : 0),
                                                                    PLACE(opening->ast->node.span)});
     }
 }

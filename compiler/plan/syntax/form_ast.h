@@ -39,12 +39,13 @@ typedef struct tn_ast_argument {
     const tn_ast_word *word, *run; /* run: NULL where there is one word */
 } tn_ast_argument;
 
-/* `sill LENGTH`, `clear LENGTH`, `passage` or `glazed` of an opening. */
+/* `sill LENGTH`, `clear LENGTH`, `passage`, `glazed` or `leafless` of an opening. */
 typedef enum tn_opening_part {
     TN_OPENING_SILL,
     TN_OPENING_CLEAR,
     TN_OPENING_PASSAGE,
-    TN_OPENING_GLAZED
+    TN_OPENING_GLAZED,
+    TN_OPENING_LEAFLESS
 } tn_opening_part;
 typedef struct tn_ast_opening_part {
     tn_ast_node node;

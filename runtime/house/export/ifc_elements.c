@@ -138,7 +138,8 @@ static void put_wall(tn_ifc *ifc, size_t first, tn_stepfile_list *list)
                                        tn_stepfile_guid(step, "opening", s->of).text, at, cut);
     tn_stepfile_add(step, "IFCRELVOIDSELEMENT('%s',$,$,$,#%u,#%u)", tn_stepfile_guid(step, "voids", s->of).text, wall,
                     opening);
-    fill(ifc, s->of, opening, &hole, list);
+    if (tn_house_is_filled(ifc->house, &ifc->house->faces[s->of]))
+        fill(ifc, s->of, opening, &hole, list);
 }
 
 /* ---- other boxes */

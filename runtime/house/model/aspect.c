@@ -12,7 +12,7 @@
 
 const uint32_t tn_solid_groups[TN_SOLID_COUNT] = {
     [TN_SOLID_OUTSIDE] = TN_GROUP_WALL, [TN_SOLID_PARTY] = TN_GROUP_WALL,   [TN_SOLID_PARTITION] = TN_GROUP_WALL,
-    [TN_SOLID_POST] = TN_GROUP_WALL,    [TN_SOLID_DECK] = TN_GROUP_FLOOR,   [TN_SOLID_ROOFDECK] = TN_GROUP_ROOF,
+    [TN_SOLID_POST] = TN_GROUP_WALL,    [TN_SOLID_DECK] = TN_GROUP_FLOOR,   [TN_SOLID_ROOFDECK] = TN_GROUP_FLOOR,
     [TN_SOLID_ITEM] = TN_GROUP_ITEM,    [TN_SOLID_ROOF] = TN_GROUP_ROOF,    [TN_SOLID_PANE] = TN_GROUP_PANE,
     [TN_SOLID_LEAF] = TN_GROUP_LEAF,    [TN_SOLID_FLIGHT] = TN_GROUP_FLOOR,
 };
@@ -240,12 +240,18 @@ void tn_prospect_extent(const tn_prospect *prospect, double low[2], double high[
     }
 }
 
+static uint32_t group_of(const tn_house *house, const tn_grouping *grouping, const tn_house_block *block)
+{
+    uint32_t own = grouping ? grouping->group(house, block) : UINT32_MAX;
+    return own == UINT32_MAX ? tn_solid_groups[block->kind] : own;
+}
+
 static void group_blocks(const tn_house *house, const tn_grouping *grouping, tn_blocks *blocks)
 {
     for (size_t i = 0; i < blocks->count; i++) {
-        tn_house_block *block = &blocks->items[i];
-        uint32_t own = grouping ? grouping->group(house, block) : UINT32_MAX;
-        block->group = own == UINT32_MAX ? tn_solid_groups[block->kind] : own;
+        tn_house_block *block = &blocks->items[i], end = tn_block_end(block);
+        block->group = group_of(house, grouping, block);
+        block->end_group = group_of(house, grouping, &end);
     }
 }
 

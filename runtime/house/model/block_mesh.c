@@ -54,31 +54,48 @@ static bool is_solid(const tn_house_block *b)
     return b->low[0] < b->high[0] && b->low[1] < b->high[1] && b->low[2] < b->high[2];
 }
 
+/* Is an upright face of a roof a part of the wall below: a gable end, or a side that is higher than the roof is thick?
+ */
+static bool is_end(const tn_house_block *block, const tn_mesh *mesh, size_t face)
+{
+    const uint32_t *corners = mesh->corners + mesh->face_first[face];
+    double n[3], at = mesh->positions[3 * corners[0] + (size_t)block->axis];
+    if (block->edge == 0)
+        return false;
+    tn_mesh_face_normal(mesh, corners, mesh->face_first[face + 1] - mesh->face_first[face], n);
+    if (n[2] != 0 || n[block->axis] == 0)
+        return n[2] == 0;
+    int end = at > block->low[block->axis];
+    return block->top[end] - block->bottom[end] > block->edge;
+}
+
 tn_status tn_blocks_mesh(const tn_blocks *blocks, uint32_t groups, tn_mesh *mesh, tn_error *error)
 {
     tn_cut_box *cells = malloc((blocks->count + 1) * sizeof *cells);
-    uint32_t *group_of = malloc((blocks->count + 1) * sizeof *group_of);
+    const tn_house_block **of = malloc((blocks->count + 1) * sizeof *of);
     tn_union united = {0};
     size_t count = 0;
-    tn_status status = cells && group_of ? TN_OK : tn_fail_memory(error);
+    tn_status status = cells && of ? TN_OK : tn_fail_memory(error);
     *mesh = (tn_mesh){0};
     for (size_t i = 0; status == TN_OK && i < blocks->count; i++) {
         if (!is_solid(&blocks->items[i]))
             continue;
-        group_of[count] = blocks->items[i].group;
+        of[count] = &blocks->items[i];
         make_cell(&blocks->items[i], &cells[count++]);
     }
     if (status == TN_OK)
         status = tn_union_make(cells, count, &united, error);
     if (status == TN_OK) {
-        for (size_t f = 0; f < united.mesh.face_count; f++)
-            united.mesh.face_group[f] = group_of[united.mesh.face_group[f]];
+        for (size_t f = 0; f < united.mesh.face_count; f++) {
+            const tn_house_block *block = of[united.mesh.face_group[f]];
+            united.mesh.face_group[f] = is_end(block, &united.mesh, f) ? block->end_group : block->group;
+        }
         united.mesh.group_count = groups;
         *mesh = united.mesh;
         united.mesh = (tn_mesh){0};
     }
     tn_union_clear(&united);
     free(cells);
-    free(group_of);
+    free(of);
     return status;
 }

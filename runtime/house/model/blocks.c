@@ -36,6 +36,7 @@ static tn_status add_box(tn_blocks *blocks, const tn_solid *solid, tn_error *err
     const tn_box *b = &solid->at;
     tn_house_block block = {.kind = solid->kind,
                             .group = solid->kind,
+                            .end_group = solid->kind,
                             .of = solid->of,
                             .item = solid->item,
                             .axis = 1,
@@ -107,7 +108,8 @@ static tn_fraction between(const tn_roof_point ends[2], tn_fraction at)
 static tn_status add_stretch(tn_blocks *blocks, const tn_prism *prism, const tn_roof_point ends[2], tn_error *error)
 {
     int axis = prism->across ? 0 : 1;
-    tn_house_block block = {.kind = TN_SOLID_ROOF, .group = TN_SOLID_ROOF, .of = prism->of, .axis = axis};
+    tn_house_block block = {
+        .kind = TN_SOLID_ROOF, .group = TN_SOLID_ROOF, .end_group = TN_SOLID_OUTSIDE, .of = prism->of, .axis = axis};
     block.low[1 - axis] = (double)prism->from;
     block.high[1 - axis] = (double)prism->to;
     block.low[axis] = tn_fraction_value(ends[0].y);
@@ -144,6 +146,22 @@ static tn_status add_prism(tn_blocks *blocks, const tn_prism *prism, const tn_ro
     return status;
 }
 
+tn_house_block tn_block_end(const tn_house_block *block)
+{
+    tn_house_block wall = *block;
+    wall.kind = TN_SOLID_OUTSIDE;
+    return wall;
+}
+
+/* The blocks from `first` on are the prism's. */
+static void find_ends(const tn_house *house, const tn_prism *prism, size_t first, tn_blocks *blocks)
+{
+    const tn_shape_record *shape = tn_house_shape(house, house->cells[prism->of].zone, TN_CHOICE_ROOF);
+    bool ends = prism->slab == 0 && shape && shape->roof != TN_ROOF_FLAT;
+    for (size_t i = first; ends && i < blocks->count; i++)
+        blocks->items[i].edge = (double)house->form->record->roof;
+}
+
 tn_status tn_blocks_of(const tn_house *house, const tn_solids *solids, tn_blocks *blocks, tn_error *error)
 {
     tn_solids leaves = {0};
@@ -156,8 +174,12 @@ tn_status tn_blocks_of(const tn_house *house, const tn_solids *solids, tn_blocks
         status = add_box(blocks, &solids->boxes[i], error);
     for (size_t i = 0; status == TN_OK && i < leaves.box_count; i++)
         status = add_box(blocks, &leaves.boxes[i], error);
-    for (size_t i = 0; status == TN_OK && i < solids->prism_count; i++)
-        status = add_prism(blocks, &solids->prisms[i], solids->points + solids->prisms[i].point_first, &breaks, error);
+    for (size_t i = 0; status == TN_OK && i < solids->prism_count; i++) {
+        const tn_prism *prism = &solids->prisms[i];
+        size_t first = blocks->count;
+        status = add_prism(blocks, prism, solids->points + prism->point_first, &breaks, error);
+        find_ends(house, prism, first, blocks);
+    }
     tn_solids_clear(&leaves);
     free(breaks.at[0]);
     free(breaks.at[1]);

@@ -17,6 +17,12 @@ bool tn_house_hole(const tn_house *house, const tn_face *face, tn_box *hole)
     return true;
 }
 
+bool tn_house_is_filled(const tn_house *house, const tn_face *face)
+{
+    const tn_opening_record *opening = tn_form_opening(house->form, face->kind);
+    return opening && !(opening->flags & TN_LEAFLESS);
+}
+
 /* As thick as wanted, or as the wall where that is thinner. */
 static void make_thin(int64_t thick, int64_t *from, int64_t *to)
 {
@@ -33,7 +39,7 @@ tn_status tn_house_leaves(const tn_house *house, tn_solids *solids, tn_error *er
     for (uint32_t i = 0; status == TN_OK && i < house->face_count; i++) {
         const tn_face *face = &house->faces[i];
         tn_box hole;
-        if (!tn_house_hole(house, face, &hole))
+        if (!tn_house_hole(house, face, &hole) || !tn_house_is_filled(house, face))
             continue;
         bool leaf = tn_form_opening(house->form, face->kind)->flags & TN_PASSAGE;
         int64_t thick = leaf ? TN_LEAF_NM : TN_PANE_NM;

@@ -1,4 +1,5 @@
-/* Draws the marks of a plan: how doors swing, stairs, spaces that are open to below, names of rooms, dimensions. */
+/* Draws the marks of a plan: stairs, spaces that are open to below, dimensions; with them how doors swing, and names.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,46 +8,7 @@
 #include "runtime/house/model/marks_parts.h"
 #include "runtime/house/model/model.h"
 
-#define DOUBLE_LEAF_NM INT64_C(1220000000) /* 4': wider doors have two leaves */
-#define TREAD_NM 254000000.0               /* 10" */
-
-static tn_box box_in_plan(tn_box hole, bool in_y) /* as if its wall ran along x */
-{
-    return in_y ? (tn_box){hole.y0, hole.y1, hole.x0, hole.x1, 0, 0} : hole;
-}
-
-/* A leaf that hangs at `hinge` and closes towards `shut`, both along a wall; it swings to `side` (1 or -1) of the place
- * `face` across it. in_y: the wall runs along y. */
-static void put_leaf(tn_marks *marks, double hinge, double shut, double face, double side, bool in_y)
-{
-    double wide = fabs(shut - hinge), tip = face + side * wide;
-    double h[2] = {hinge, face}, s[2] = {shut, face}, t[2] = {hinge, tip};
-    int u = in_y ? 1 : 0, v = 1 - u;
-    double turn = (s[u] - h[u]) * (t[v] - h[v]) - (s[v] - h[v]) * (t[u] - h[u]);
-    const double *from = turn > 0 ? s : t; /* quarters go counter-clockwise */
-    tn_marks_line(marks, TN_MARK_DOOR, h[u], h[v], t[u], t[v]);
-    tn_marks_arc(marks, TN_MARK_DOOR, h[u], h[v], from[u], from[v]);
-}
-
-/* Doors swing into the room that comes first. */
-static void put_door(const tn_house *house, const tn_face *face, tn_marks *marks)
-{
-    tn_box hole;
-    if (!tn_house_hole(house, face, &hole) || !(tn_form_opening(house->form, face->kind)->flags & TN_PASSAGE))
-        return;
-    const tn_cell *room = &house->cells[face->first];
-    bool in_y = face->at.x0 == face->at.x1;
-    hole = box_in_plan(hole, in_y);
-    int64_t plane = in_y ? face->at.x0 : face->at.y0;
-    bool low = in_y ? room->at.x1 <= plane : room->at.y1 <= plane;
-    double at = (double)(low ? hole.y0 : hole.y1), side = low ? -1 : 1, from = (double)hole.x0, to = (double)hole.x1;
-    if (hole.x1 - hole.x0 <= DOUBLE_LEAF_NM) {
-        put_leaf(marks, from, to, at, side, in_y);
-    } else {
-        put_leaf(marks, from, (from + to) / 2, at, side, in_y);
-        put_leaf(marks, to, (from + to) / 2, at, side, in_y);
-    }
-}
+#define TREAD_NM 254000000.0 /* 10" */
 
 /* Treads across a stair, and a line up its middle. */
 static void put_stair(tn_rectangle r, tn_marks *marks)
@@ -92,7 +54,7 @@ static void put_void(tn_rectangle r, tn_marks *marks)
     tn_marks_line(marks, TN_MARK_VOID, x0, y1, x1, y0);
 }
 
-static tn_status put_symbols(const tn_house *house, uint32_t storey, tn_marks *marks, tn_error *error)
+static tn_status put_symbols(const tn_house *house, uint32_t storey, tn_taken *taken, tn_marks *marks, tn_error *error)
 {
     tn_status status = TN_OK;
     for (uint32_t i = 0; i < house->face_count; i++) {
@@ -104,8 +66,8 @@ static tn_status put_symbols(const tn_house *house, uint32_t storey, tn_marks *m
         } else if (face->relation == TN_FACE_UNDER && tn_form_flight(house->form, face->kind)) {
             if (status == TN_OK && face->storey == storey)
                 status = put_flight(house, face, marks, error);
-        } else if (face->storey == storey && face->relation != TN_FACE_UNDER) {
-            put_door(house, face, marks);
+        } else if (status == TN_OK && face->storey == storey && face->relation != TN_FACE_UNDER) {
+            status = tn_marks_door(house, face, taken, marks, error);
         }
     }
     for (uint32_t i = 0; i < house->cell_count; i++)
@@ -167,10 +129,14 @@ static bool put_dimensions(const tn_house *house, uint32_t storey, double letter
 
 tn_status tn_marks_plan(const tn_house *house, uint32_t storey, double lettering, tn_marks *marks, tn_error *error)
 {
-    tn_status status = put_symbols(house, storey, marks, error);
-    if (status != TN_OK)
-        return status;
-    if (!put_dimensions(house, storey, lettering, marks) || marks->failed)
-        return tn_fail_memory(error);
-    return tn_marks_names(house, storey, lettering, marks, error);
+    tn_taken taken = {0};
+    tn_status status = tn_taken_find(house, storey, &taken, error);
+    if (status == TN_OK)
+        status = put_symbols(house, storey, &taken, marks, error);
+    if (status == TN_OK && (!put_dimensions(house, storey, lettering, marks) || marks->failed))
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_marks_names(house, storey, lettering, &taken, marks, error);
+    tn_taken_clear(&taken);
+    return status;
 }

@@ -11,10 +11,13 @@
 #include "runtime/geometry/mesh.h"
 #include "runtime/house/solids.h"
 
-/* of, item: as in tn_solid; of a roof, the cell. group: of its faces in a mesh; at first its kind. */
+/* of, item: as in tn_solid; of a roof, the cell. group: of its faces in a mesh; at first its kind. edge: of a roof that
+ * is no slab and not flat, how thick it is drawn: what of it stands upright and is higher, such as a gable end, is in
+ * the group of the walls below it, end_group. Otherwise 0. */
 typedef struct tn_house_block {
     tn_solid_kind kind;
-    uint32_t of, item, group;
+    uint32_t of, item, group, end_group;
+    double edge;
     int axis;                 /* in which it may slope: 0 or 1 */
     double low[3], high[3];   /* low[2] is the lower of the two bottoms, high[2] the higher of the two tops */
     double bottom[2], top[2]; /* at low[axis] and at high[axis] */
@@ -39,6 +42,9 @@ void tn_blocks_clear(tn_blocks *blocks);
 /* The blocks of a house, with the leaves of its doors and the panes of its windows (tn_house_leaves). */
 tn_status tn_blocks_of(const tn_house *house, const tn_solids *solids, tn_blocks *blocks, tn_error *error);
 
+/* The wall that the ends of a roof are part of. */
+tn_house_block tn_block_end(const tn_house_block *block);
+
 /* Keeps what lies below (or, `above`, beyond) the plane across an axis, in blocks->items; blocks->cuts are the faces in
  * the plane of what was cut through. */
 tn_status tn_blocks_cut(tn_blocks *blocks, int axis, double at, bool above, tn_error *error);
@@ -57,6 +63,9 @@ tn_status tn_blocks_mesh(const tn_blocks *blocks, uint32_t groups, tn_mesh *mesh
 /* The hole that an opening of this height leaves in a face: across the wall it is as thick as the wall. False where
  * the face has no opening. */
 bool tn_house_hole(const tn_house *house, const tn_face *face, tn_box *hole);
+
+/* Has a face an opening with a leaf or a pane? */
+bool tn_house_is_filled(const tn_house *house, const tn_face *face);
 
 /* Adds leaves and panes to the solids; `of` is their face. */
 tn_status tn_house_leaves(const tn_house *house, tn_solids *solids, tn_error *error);

@@ -182,31 +182,50 @@ static void take_smallest(sheet *s, const tn_paper *papers, size_t count)
             return;
 }
 
+/* Does everything fit on the paper at a scale no smaller than that? The largest such is set then, or the drawing's. */
+static bool fits_scaled(sheet *s, const tn_paper *paper, uint32_t smallest, tn_status *status, tn_error *error)
+{
+    const uint32_t *scales;
+    size_t count = tn_scale_choices(s->metric, &scales);
+    for (size_t i = 0; *status == TN_OK && i < count; i++) {
+        if (s->drawing->scale ? i > 0 : scales[i] > smallest)
+            return false;
+        *status = mark_all(s, s->drawing->scale ? s->drawing->scale : scales[i], error);
+        if (*status == TN_OK && fits(s, paper->width, paper->height))
+            return true;
+    }
+    return false;
+}
+
+/* Which papers are tried at which scales, the smallest first: a small paper with drawings that are half as large before
+ * one that few can print. On the last paper any scale will do. */
+static const struct tn_paper_order {
+    size_t paper;
+    enum { LEGIBLE, HALF, ANY } scale;
+} paper_order[] = {{0, LEGIBLE}, {1, LEGIBLE}, {0, HALF}, {2, LEGIBLE}, {1, HALF}, {2, ANY}};
+
 /* The smallest paper on which the drawings are legible. If they are on none, the largest scale that there is a paper
  * for, and the smallest paper at that scale. */
 static tn_status choose_paper(sheet *s, tn_error *error)
 {
     const tn_paper *papers;
-    const uint32_t *scales;
-    size_t paper_count = tn_paper_choices(s->metric, &papers), scale_count = tn_scale_choices(s->metric, &scales);
-    for (int legible = 1; legible >= 0; legible--) {
-        for (size_t p = legible ? 0 : paper_count - 1; p < paper_count; p++) {
-            for (size_t i = 0; i < scale_count; i++) {
-                if (s->drawing->scale ? i > 0 : legible && scales[i] > (s->metric ? LEGIBLE_METRIC : LEGIBLE_FEET))
-                    break;
-                tn_status status = mark_all(s, s->drawing->scale ? s->drawing->scale : scales[i], error);
-                if (status == TN_OK && !fits(s, papers[p].width, papers[p].height))
-                    continue;
-                if (status == TN_OK) {
-                    take_smallest(s, papers, p + 1);
-                    even_rows(s);
-                    spread_rows(s);
-                }
-                return status;
-            }
-        }
+    tn_paper_choices(s->metric, &papers);
+    uint32_t legible = s->metric ? LEGIBLE_METRIC : LEGIBLE_FEET;
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < sizeof paper_order / sizeof *paper_order; i++) {
+        uint32_t smallest = paper_order[i].scale == LEGIBLE ? legible
+                            : paper_order[i].scale == HALF  ? 2 * legible
+                                                            : UINT32_MAX;
+        if (!fits_scaled(s, &papers[paper_order[i].paper], smallest, &status, error))
+            continue;
+        take_smallest(s, papers, paper_order[i].paper + 1);
+        even_rows(s);
+        spread_rows(s);
+        return TN_OK;
     }
-    tn_status status = tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "the drawings do not fit on a sheet of paper");
+    if (status != TN_OK)
+        return status;
+    status = tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "the drawings do not fit on a sheet of paper");
     tn_error_help(error, "choose a smaller --scale (a larger number), or write single drawings: --view");
     return status;
 }

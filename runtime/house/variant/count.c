@@ -3,6 +3,15 @@
 #include "runtime/house/variant/furnish.h"
 #include "runtime/house/variant/parts.h"
 
+/* Posts stand at both ends of an open side, also in the cells beside: their tiles can depend on it. */
+static bool may_be_open(const tn_house_variants *v, const tn_wheel *w)
+{
+    bool open = false;
+    for (uint32_t k = 0; k < w->count; k++)
+        open = open || v->faces.choices[w->first + k] == TN_FACE_OPEN;
+    return open;
+}
+
 /* Of the wheels that are set there is only the choice at hand. What is outside of a cell comes after what is outside of
  * the cells before it: faces are in that order. */
 static tn_status split_faces(tn_house_variants *v, tn_error *error)
@@ -12,7 +21,8 @@ static tn_status split_faces(tn_house_variants *v, tn_error *error)
     tn_wheels_clear(&v->own);
     for (size_t i = 0; status == TN_OK && i < v->faces.count; i++) {
         const tn_wheel *w = &v->faces.items[i];
-        bool relevant = v->asks_costs || tn_face_relevant(&v->house, &v->questions, &v->house.faces[w->of]),
+        bool relevant = v->asks_costs || may_be_open(v, w) ||
+                        tn_face_relevant(&v->house, &v->questions, &v->house.faces[w->of]),
              set = i < v->faces_set;
         status = tn_wheels_add(relevant ? &v->shared : &v->own, w->of, v->faces.choices + w->first + (set ? w->at : 0),
                                set ? 1 : w->count, error);

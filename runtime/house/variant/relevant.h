@@ -1,9 +1,9 @@
 /* Which faces clauses can tell apart, when the functions are given. Internal to runtime/house/variant.
  *
- * An outside face is never walked through and never open, so clauses see what is in it only through rooms:
+ * An outside face is never walked through and joins no rooms, so clauses see what is in it only through them:
  * `room(living, not by window)`. Where no such question is open about the room of its cell (the cell is no living
- * room), all of the face's kinds are the same to the clauses: they only change which tiles fit into that one cell.
- * A void is of the room below it.
+ * room), all of the face's kinds are the same to the clauses: they only change which tiles fit into that one cell
+ * (where none of them is `open`). A void is of the room below it.
  */
 #ifndef TARTAN_HOUSE_RELEVANT_H
 #define TARTAN_HOUSE_RELEVANT_H

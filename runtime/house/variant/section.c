@@ -114,8 +114,9 @@ static uint32_t sills_below(const tn_house_form *form, uint32_t storey, tn_int12
         for (uint32_t k = 0; line->relation == TN_FACE_OUTSIDE && k < line->kind_count; k++) {
             uint32_t kind = form->module->HOUSE_ITEM_records[line->kind_first + k].number;
             const tn_opening_record *opening = tn_form_opening(form, kind);
-            for (uint32_t s = storey; opening && s < form->record->storey_count; s++)
-                below += ((tn_int128)form->level[s] + opening->sill) * bottom < top;
+            bool has_sill = opening || kind == TN_FACE_OPEN; /* an open side has its floor for one */
+            for (uint32_t s = storey; has_sill && s < form->record->storey_count; s++)
+                below += ((tn_int128)form->level[s] + (opening ? opening->sill : 0)) * bottom < top;
         }
     }
     return below;

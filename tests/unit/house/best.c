@@ -456,7 +456,7 @@ static uint32_t check_drawn(drawn_house d, uint32_t count, size_t houses_most)
 static void test_drawn(void **state)
 {
     (void)state;
-    assert_true(check_drawn((drawn_house){.state = 11}, (uint32_t)test_share(40), HOUSES_MAX) >
+    assert_true(check_drawn((drawn_house){.state = 2}, (uint32_t)test_share(40), HOUSES_MAX) >
                 (uint32_t)test_share(5) / 2);
 }
 
