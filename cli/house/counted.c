@@ -200,8 +200,13 @@ static tn_status tally_all(tn_numbered *n, const tn_plan *plan, house_tally *tal
         status = count_together(n, plan, tally, error);
     if (status != TN_LIMIT || (!plan && !tn_numbered_countable(n)))
         return status;
+    const tn_error together = *error;
     status = tally_afresh(n, tally, error);
-    return status == TN_OK ? tally_each(n, plan, 0, tally, error) : status;
+    if (status == TN_OK)
+        status = tally_each(n, plan, 0, tally, error);
+    if (status == TN_LIMIT && !plan) /* what keeps all plans from being counted says more than what one of them takes */
+        *error = together;
+    return status;
 }
 
 tn_status tn_numbered_lengths(tn_numbered *n, uint32_t low, uint32_t high, mpz_t *lengths, tn_error *error)
