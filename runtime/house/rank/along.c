@@ -5,9 +5,9 @@
 
 #include "runtime/base/integers.h"
 
-tn_status tn_along_begin(const tn_houses *houses, tn_houses_kind *kind, tn_along *a, tn_error *error)
+tn_status tn_plan_along_begin(const tn_houses *houses, tn_houses_kind *kind, tn_plan_along *a, tn_error *error)
 {
-    *a = (tn_along){.view = *houses, .kind = kind};
+    *a = (tn_plan_along){.view = *houses, .kind = kind};
     a->view.keep_trays = true;
     a->trays = malloc(((size_t)houses->high + 1) * sizeof *a->trays);
     a->here = tn_integers_new(1);
@@ -17,30 +17,30 @@ tn_status tn_along_begin(const tn_houses *houses, tn_houses_kind *kind, tn_along
     return TN_OK;
 }
 
-void tn_along_end(tn_along *a)
+void tn_plan_along_end(tn_plan_along *a)
 {
     tn_integers_free(a->here, a->kind ? a->kind->layers[a->layer].nodes.count : 0);
     free(a->trays);
-    *a = (tn_along){0};
+    *a = (tn_plan_along){0};
 }
 
-void tn_along_take(tn_along *a, tn_tray tray)
+void tn_plan_along_take(tn_plan_along *a, tn_tray tray)
 {
     a->trays[a->count++] = tray;
 }
 
 /* ---- from layer to layer */
 
-typedef struct tn_along_push {
-    const tn_along *along;
+typedef struct tn_plan_along_push {
+    const tn_plan_along *along;
     const tn_tray *only; /* NULL: all */
     mpz_t *next;
     mpz_t one;
-} tn_along_push;
+} tn_plan_along_push;
 
 static tn_status push(void *context, const tn_houses_edge *edge, tn_error *error)
 {
-    tn_along_push *p = context;
+    tn_plan_along_push *p = context;
     const tn_numbering *to = &p->along->kind->layers[p->along->layer + 1].nodes;
     (void)error;
     if (p->only && edge->tray != *p->only)
@@ -52,10 +52,10 @@ static tn_status push(void *context, const tn_houses_edge *edge, tn_error *error
 }
 
 /* only: the tray, where the step ends with one. */
-static tn_status push_on(tn_along *a, const tn_tray *only, tn_error *error)
+static tn_status push_on(tn_plan_along *a, const tn_tray *only, tn_error *error)
 {
     const tn_houses_layer *layers = a->kind->layers;
-    tn_along_push p = {.along = a, .only = only, .next = tn_integers_new(layers[a->layer + 1].nodes.count)};
+    tn_plan_along_push p = {.along = a, .only = only, .next = tn_integers_new(layers[a->layer + 1].nodes.count)};
     if (!p.next)
         return tn_fail_memory(error);
     mpz_init(p.one);
@@ -68,7 +68,7 @@ static tn_status push_on(tn_along *a, const tn_tray *only, tn_error *error)
 }
 
 /* To the last layer before the states behind so many trays and one more. */
-static tn_status push_to(tn_along *a, uint32_t trays, tn_error *error)
+static tn_status push_to(tn_plan_along *a, uint32_t trays, tn_error *error)
 {
     uint32_t stages = tn_houses_stages(&a->view, a->kind);
     tn_status status = TN_OK;
@@ -81,17 +81,17 @@ static tn_status push_to(tn_along *a, uint32_t trays, tn_error *error)
 
 /* ---- houses by tray */
 
-typedef struct tn_along_sum {
-    const tn_along *along;
+typedef struct tn_plan_along_sum {
+    const tn_plan_along *along;
     uint32_t length;
     mpz_t *by_tray;
     mpz_t one;
-} tn_along_sum;
+} tn_plan_along_sum;
 
 static tn_status sum_up(void *context, const tn_houses_edge *edge, tn_error *error)
 {
-    tn_along_sum *s = context;
-    const tn_along *a = s->along;
+    tn_plan_along_sum *s = context;
+    const tn_plan_along *a = s->along;
     const tn_houses_layer *next = &a->kind->layers[a->layer + 1];
     uint32_t at = tn_number_find(&next->nodes, (uint64_t)edge->plan << 32 | edge->state);
     (void)error;
@@ -101,9 +101,9 @@ static tn_status sum_up(void *context, const tn_houses_edge *edge, tn_error *err
     return TN_OK;
 }
 
-tn_status tn_along_by_tray(tn_along *a, uint32_t length, mpz_t *by_tray, tn_error *error)
+tn_status tn_plan_along_by_tray(tn_plan_along *a, uint32_t length, mpz_t *by_tray, tn_error *error)
 {
-    tn_along_sum s = {.along = a, .length = length, .by_tray = by_tray};
+    tn_plan_along_sum s = {.along = a, .length = length, .by_tray = by_tray};
     for (tn_tray t = 0; t < a->view.form->schema->tray_count; t++)
         mpz_set_ui(by_tray[t], 0);
     tn_status status = push_to(a, a->count, error);

@@ -6,21 +6,21 @@
 
 #include "runtime/house/count/data.h"
 
-typedef struct tn_along {
+typedef struct tn_plan_along {
     tn_houses view; /* the houses, with ways by tray; borrows all that they have */
     tn_houses_kind *kind;
     tn_tray *trays; /* [count]: those taken; the nodes may be behind them */
     uint32_t count, layer;
     mpz_t *here; /* [nodes of the layer]: choices that lead there */
-} tn_along;
+} tn_plan_along;
 
 /* Begins before the first tray. Both are borrowed. End it also after a failure. */
-tn_status tn_along_begin(const tn_houses *houses, tn_houses_kind *kind, tn_along *along, tn_error *error);
-void tn_along_end(tn_along *along);
+tn_status tn_plan_along_begin(const tn_houses *houses, tn_houses_kind *kind, tn_plan_along *along, tn_error *error);
+void tn_plan_along_end(tn_plan_along *along);
 
-void tn_along_take(tn_along *along, tn_tray tray);
+void tn_plan_along_take(tn_plan_along *along, tn_tray tray);
 
 /* by_tray [trays of the schema] := houses of one section on plans of the length that go on by each. */
-tn_status tn_along_by_tray(tn_along *along, uint32_t length, mpz_t *by_tray, tn_error *error);
+tn_status tn_plan_along_by_tray(tn_plan_along *along, uint32_t length, mpz_t *by_tray, tn_error *error);
 
 #endif

@@ -85,7 +85,7 @@ typedef struct tn_houses_front {
     mpz_t *counts;
     size_t count, room, counts_room;
     bool staged;
-    tn_along along;
+    tn_plan_along along;
 } tn_houses_front;
 
 typedef struct tn_plan_walk {
@@ -124,7 +124,7 @@ static void walk_end(tn_plan_walk *w)
 {
     for (size_t i = 0; w->fronts && i < w->houses->kind_count; i++) {
         if (w->fronts[i].staged)
-            tn_along_end(&w->fronts[i].along);
+            tn_plan_along_end(&w->fronts[i].along);
         clear_front(&w->fronts[i]);
         free(w->fronts[i].states);
         free(w->fronts[i].counts);
@@ -144,7 +144,7 @@ static tn_status walk_begin(tn_houses *h, uint32_t length, tn_plan_walk *w, tn_e
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
         tn_houses_front *front = &w->fronts[i];
         front->staged = tn_houses_stages(h, &h->kinds[i]) > 1 && h->kinds[i].strip->slice_keys.count >= h->many_slices;
-        status = front->staged ? tn_along_begin(h, &h->kinds[i], &front->along, error)
+        status = front->staged ? tn_plan_along_begin(h, &h->kinds[i], &front->along, error)
                                : add_state(front, TN_STRIP_NONE, w->one, 1, error);
     }
     return status;
@@ -249,7 +249,7 @@ static tn_status find_houses(tn_plan_walk *w, tn_houses_kind *kind, uint32_t sta
 }
 
 /* The same by the trays so far, of one section. */
-static tn_status find_staged(tn_plan_walk *w, tn_houses_kind *kind, tn_along *along, tn_tray tray, mpz_ptr *houses,
+static tn_status find_staged(tn_plan_walk *w, tn_houses_kind *kind, tn_plan_along *along, tn_tray tray, mpz_ptr *houses,
                              tn_error *error)
 {
     uint32_t trays = w->houses->form->schema->tray_count, before = kind->beginnings.count;
@@ -268,7 +268,7 @@ static tn_status find_staged(tn_plan_walk *w, tn_houses_kind *kind, tn_along *al
     tn_status status = TN_OK;
     if (!kind->by_beginning[at]) {
         mpz_t *found = tn_integers_new(trays);
-        status = found ? tn_along_by_tray(along, w->length, found, error) : tn_fail_memory(error);
+        status = found ? tn_plan_along_by_tray(along, w->length, found, error) : tn_fail_memory(error);
         if (status != TN_OK) {
             tn_integers_free(found, trays);
             return status;
@@ -330,7 +330,7 @@ static tn_status go_on(tn_plan_walk *w, tn_tray tray, tn_error *error)
         const tn_strip_list *list = &strip->of_tray[tray];
         tn_houses_front next = {0};
         if (w->fronts[i].staged) {
-            tn_along_take(&w->fronts[i].along, tray);
+            tn_plan_along_take(&w->fronts[i].along, tray);
             continue;
         }
         tn_going_on g = {.next = &next};

@@ -12,6 +12,14 @@
 /* Tables hold at most this many keys: their slots are at most half full and counted in 32 bits. */
 #define MAX_KEYS (UINT32_C(1) << 30)
 
+/* Where to look for a key first. Keys that follow one another share a block of slots, and so a line of the cache, as they
+ * are often asked for one after another. */
+static uint32_t slot_of(uint64_t key, uint32_t mask)
+{
+    enum { BLOCK_BITS = 4 };
+    return ((uint32_t)tn_mix64(key >> BLOCK_BITS) << BLOCK_BITS | (uint32_t)(key & ((1u << BLOCK_BITS) - 1))) & mask;
+}
+
 static bool numbering_grow(tn_numbering *numbering)
 {
     if (numbering->count >= MAX_KEYS)
@@ -23,7 +31,7 @@ static bool numbering_grow(tn_numbering *numbering)
     if (!slots)
         return false;
     for (uint32_t i = 0; i < numbering->count; i++) {
-        uint32_t at = (uint32_t)tn_mix64(numbering->keys[i]) & (capacity - 1);
+        uint32_t at = slot_of(numbering->keys[i], capacity - 1);
         while (slots[at])
             at = (at + 1) & (capacity - 1);
         slots[at] = i + 1;
@@ -39,7 +47,7 @@ uint32_t tn_number(tn_numbering *numbering, uint64_t key)
     if (numbering->count >= numbering->capacity / 2 && !numbering_grow(numbering))
         return UINT32_MAX;
     uint32_t mask = numbering->capacity - 1;
-    uint32_t at = (uint32_t)tn_mix64(key) & mask;
+    uint32_t at = slot_of(key, mask);
     for (; numbering->slots[at]; at = (at + 1) & mask)
         if (numbering->keys[numbering->slots[at] - 1] == key)
             return numbering->slots[at] - 1;
@@ -53,7 +61,7 @@ uint32_t tn_number_find(const tn_numbering *numbering, uint64_t key)
     uint32_t mask = numbering->capacity - 1;
     if (numbering->capacity == 0)
         return UINT32_MAX;
-    for (uint32_t at = (uint32_t)tn_mix64(key) & mask; numbering->slots[at]; at = (at + 1) & mask)
+    for (uint32_t at = slot_of(key, mask); numbering->slots[at]; at = (at + 1) & mask)
         if (numbering->keys[numbering->slots[at] - 1] == key)
             return numbering->slots[at] - 1;
     return UINT32_MAX;
