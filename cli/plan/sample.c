@@ -5,6 +5,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
 #include "cli/house/numbered.h"
+#include "cli/plan/new_set.h"
 #include "cli/plan/plan_output.h"
 #include "cli/plan/sampled.h"
 
@@ -16,6 +17,7 @@ typedef struct sample_settings {
     tn_sampled_settings sampled;
     tn_written_settings written;
     const char *plan;
+    tn_option_number shards;
 } sample_settings;
 
 static const sample_settings *settings_of(const tn_job *job)
@@ -84,7 +86,7 @@ static void sample(tn_job *job, const tn_ready_library *ready, size_t wanted)
 static bool read_wanted(tn_job *job, size_t *wanted)
 {
     const sample_settings *settings = settings_of(job);
-    uint64_t number = 0;
+    uint64_t number = 0, most = settings->shards.given ? TN_SHARDS_SAMPLE_MAX : TN_SAMPLE_MAX;
     if ((settings->common.operands.count > 1) == settings->sampled.per_length.given) {
         tn_job_usage(job, "say how many plans: either N after the file, or --per-length N");
         return false;
@@ -94,8 +96,8 @@ static bool read_wanted(tn_job *job, size_t *wanted)
         return false;
     }
     if (settings->common.operands.count > 1 &&
-        (!tn_number_read(settings->common.operands.items[1], &number) || number > TN_SAMPLE_MAX)) {
-        tn_diagnostic *d = tn_job_usage(job, "the number of plans is a number from 0 to %u, not `%.60s`", TN_SAMPLE_MAX,
+        (!tn_number_read(settings->common.operands.items[1], &number) || number > most)) {
+        tn_diagnostic *d = tn_job_usage(job, "the number of plans is a number from 0 to %" PRIu64 ", not `%.60s`", most,
                                         settings->common.operands.items[1]);
         tn_help(tn_job_diagnostics(job), d, "the file comes first: tartan sample FILE N");
         return false;
@@ -123,6 +125,42 @@ static void sample_houses(tn_job *job, size_t wanted)
     tn_job_sample_houses(job, &houses, s->plan, wanted, s->sampled.seed.value, &s->written);
 }
 
+/* ---- --shards: a set, whose workers draw the same plans */
+
+static bool can_share(tn_job *job)
+{
+    const sample_settings *s = settings_of(job);
+    tn_diagnostics *list = tn_job_diagnostics(job);
+    if (s->sampled.length.given || s->sampled.per_length.given || s->sampled.diverse)
+        tn_help(list, tn_job_usage(job, "a shard set has a sample of all plans"),
+                "leave out --length, --per-length and --diverse; `tartan shards new --trays L` takes one length");
+    else if (s->written.columns || s->written.csv_safe)
+        tn_help(list, tn_job_usage(job, "the shards of a set have the usual columns"),
+                "leave out --columns and --csv-safe");
+    else if (samples_houses(job, s))
+        tn_help(list, tn_job_usage(job, "a shard set has plans, and houses are drawn here"),
+                "leave out --shards, or name a library of plans");
+    else
+        return true;
+    return false;
+}
+
+static void sample_shards(tn_job *job, size_t wanted)
+{
+    const sample_settings *s = settings_of(job);
+    tn_ready_library ready = {0};
+    const tn_new_set what = {.path = s->common.operands.items[0],
+                             .plans = &s->plans,
+                             .written = &s->written,
+                             .shards = s->shards.value,
+                             .sampled = true,
+                             .sample = wanted,
+                             .seed = s->sampled.seed.value};
+    if (can_share(job) && tn_new_set_fits(job, &what) && tn_job_opened_library(job, &s->plans, &ready))
+        tn_job_new_set(job, &ready, &what);
+    tn_library_close(&ready);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
@@ -132,7 +170,9 @@ static int run(const tn_command *command, const tn_settings *common)
     size_t wanted;
     tn_job_begin(&job, common);
     bool open = read_wanted(&job, &wanted) && tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
-    if (open && samples_houses(&job, settings))
+    if (open && settings->shards.given)
+        sample_shards(&job, wanted);
+    else if (open && samples_houses(&job, settings))
         sample_houses(&job, wanted);
     else if (open && tn_job_opened_library(&job, &settings->plans, &ready))
         sample(&job, &ready, wanted);
@@ -148,6 +188,8 @@ static const tn_option options[] = {
     NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX,
            "N plans of each number of trays, instead of N in all"),
     OPTION_DIVERSE,
+    NUMBER("shards", 0, "M", shards, 1, 0,
+           "make a shard set of M shards, the folder that -o names: `tartan shards run` draws the same plans"),
     TEXT("plan", 0, "PLAN", plan, "draw houses on one plan: a plan line, or # and its rank"),
     OPTION_PLAN_FORMAT,
     OPTION_COLUMNS,
@@ -162,15 +204,15 @@ const tn_command tn_command_sample = {
     .name = "sample",
     .summary = "choose random plans of a library",
     .usage = "FILE N [--seed S] [--length L] [--diverse]\nFILE --per-length N [--seed S]\nFILE N --library HOUSES "
-             "[--plan PLAN] [--seed S]",
+             "[--plan PLAN] [--seed S]\nFILE N --shards M -o SET [--seed S]",
     .description =
         "Draws N different plans of the library at random, each with the same probability, and writes them in the "
         "order of their ranks. Nearly all plans of a library have the greatest number of trays, so nearly all "
         "samples do too; --length and --per-length draw plans of other lengths. --diverse draws one plan; each next "
         "plan is the one of 1,000 fresh draws that is farthest from those before. A changed field counts 1, a tray "
         "more or less counts as many as it has fields. With --library HOUSES, or --plan, houses are drawn. The same "
-        "file, seed and options give the same plans on every machine. `tartan shards new FILE --sample N` divides "
-        "the drawing among workers.",
+        "file, seed and options give the same plans on every machine. With --shards M and -o SET a shard set is made, "
+        "whose workers draw the same plans on any number of machines; see `tartan help shards`.",
     .example = "$ tartan sample lahave-houses 1000 --seed 7 -o sample.sqlite",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/house/judged.h"
+#include "cli/plan/new_set.h"
 #include "cli/shards/shards.h"
 #include "driver/shards/inputs.h"
 #include "runtime/plan/text/pack.h"
@@ -66,7 +67,7 @@ static bool check_options(tn_job *job)
         tn_help(list, tn_job_usage(job, "nothing says how large the shards are to be"),
                 "write --shards N for about so many");
     else
-        return tn_shards_names_fit(job);
+        return tn_new_set_named(job, tn_shards_settings_of(job)->written.output, job->settings->operands.items[1]);
     return false;
 }
 
@@ -153,7 +154,7 @@ static void make_set(tn_job *job, tn_shards_open *open)
         status = tn_shard_inputs_divide(set, open->answering.schema, (tn_plan_format)settings->input.format,
                                         settings->shards.value, &error);
     if (status == TN_OK)
-        status = tn_shards_create(job, set, &error);
+        status = tn_new_set_create(job, set, &error);
     if (status != TN_OK) {
         tn_job_fail(job, &error);
         return;

@@ -67,11 +67,6 @@ bool tn_shards_stale(tn_job *job, double *seconds);
 
 /* Each does one thing that `tartan shards` does, and records what went wrong. */
 void tn_shards_new(tn_job *job);
-/* What every new set needs: a folder, and a rule file whose name a manifest can hold. False: that was said. */
-bool tn_shards_names_fit(tn_job *job);
-
-/* Makes the set, with the module that the job has open: just compiled, or the bytes of its file. */
-tn_status tn_shards_create(tn_job *job, tn_shard_set *set, tn_error *error);
 void tn_shards_new_answers(tn_job *job, tn_shards_open *open);
 void tn_shards_run_set(tn_job *job, tn_shards_open *open);
 void tn_shards_status(tn_job *job, tn_shards_open *open);

@@ -55,6 +55,14 @@ run set
 sed -i 1d "$scratch/set/shards/000/000001.plans"
 rm "$scratch/set/shards/000/000001.plans.record"
 exits 1 "$TARTAN" shards check "$scratch/set"
+"$TARTAN" sample "$sheds" 300 -l any-sheds --trays 0..5 --seed 6 --shards 4 -o "$scratch/drawn" 2>"$scratch/err" || fail "sample --shards: $(cat "$scratch/err")"
+run drawn
+"$TARTAN" shards cat "$scratch/drawn" | cmp - <("$TARTAN" sample "$sheds" 300 -l any-sheds --trays 0..5 --seed 6) || fail "the set of sample --shards is not the sample"
+golden sample_shards_nowhere 'tartan sample sheds.plan 9 -l any-sheds --shards 2'
+golden sample_shards_length 'tartan sample sheds.plan 9 -l any-sheds --shards 2 --length 3 -o $scratch/other'
+golden sample_shards_columns 'tartan sample sheds.plan 9 -l any-sheds --shards 2 --format csv --columns -o $scratch/other'
+golden sample_shards_database 'tartan sample sheds.plan 9 -l any-sheds --shards 2 --format sqlite -o $scratch/other'
+golden sample_shards_houses 'tartan sample huts.plan 9 -l huts --shards 2 -o $scratch/other'
 golden sample_from 'tartan shards new sheds.plan -l any-sheds -o $scratch/other --sample 9 --from 3 --shards 2'
 golden sample_each 'tartan shards new sheds.plan -l any-sheds -o $scratch/other --sample 9 --plans 2'
 golden sample_seed 'tartan shards new sheds.plan -l any-sheds -o $scratch/other --seed 9 --shards 2'

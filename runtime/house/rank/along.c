@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/integers.h"
 
 tn_status tn_plan_along_begin(const tn_houses *houses, tn_houses_kind *kind, tn_plan_along *a, tn_error *error)
@@ -11,7 +12,8 @@ tn_status tn_plan_along_begin(const tn_houses *houses, tn_houses_kind *kind, tn_
     a->view.keep_trays = true;
     a->trays = malloc(((size_t)houses->high + 1) * sizeof *a->trays);
     a->here = tn_integers_new(1);
-    if (!a->trays || !a->here)
+    a->by_tray = tn_integers_new(houses->form->schema->tray_count);
+    if (!a->trays || !a->here || !a->by_tray)
         return tn_fail_memory(error);
     mpz_set_ui(a->here[0], 1);
     return TN_OK;
@@ -20,6 +22,7 @@ tn_status tn_plan_along_begin(const tn_houses *houses, tn_houses_kind *kind, tn_
 void tn_plan_along_end(tn_plan_along *a)
 {
     tn_integers_free(a->here, a->kind ? a->kind->layers[a->layer].nodes.count : 0);
+    tn_integers_free(a->by_tray, a->kind ? a->view.form->schema->tray_count : 0);
     free(a->trays);
     *a = (tn_plan_along){0};
 }
@@ -27,6 +30,7 @@ void tn_plan_along_end(tn_plan_along *a)
 void tn_plan_along_take(tn_plan_along *a, tn_tray tray)
 {
     a->trays[a->count++] = tray;
+    a->summed = false;
 }
 
 /* ---- from layer to layer */
@@ -84,7 +88,6 @@ static tn_status push_to(tn_plan_along *a, uint32_t trays, tn_error *error)
 typedef struct tn_plan_along_sum {
     const tn_plan_along *along;
     uint32_t length;
-    mpz_t *by_tray;
     mpz_t one;
 } tn_plan_along_sum;
 
@@ -97,19 +100,67 @@ static tn_status sum_up(void *context, const tn_houses_edge *edge, tn_error *err
     (void)error;
     mpz_mul_ui(s->one, next->ahead[(size_t)at * tn_houses_lengths(&a->view) + s->length - a->view.low], edge->ways);
     mpz_mul_ui(s->one, s->one, edge->times);
-    mpz_addmul(s->by_tray[edge->tray], s->one, a->here[edge->from]);
+    mpz_addmul(a->by_tray[edge->tray], s->one, a->here[edge->from]);
     return TN_OK;
 }
 
-tn_status tn_plan_along_by_tray(tn_plan_along *a, uint32_t length, mpz_t *by_tray, tn_error *error)
+static tn_status find_by_tray(tn_plan_along *a, uint32_t length, tn_error *error)
 {
-    tn_plan_along_sum s = {.along = a, .length = length, .by_tray = by_tray};
+    tn_plan_along_sum s = {.along = a, .length = length};
+    if (a->summed)
+        return TN_OK;
     for (tn_tray t = 0; t < a->view.form->schema->tray_count; t++)
-        mpz_set_ui(by_tray[t], 0);
+        mpz_set_ui(a->by_tray[t], 0);
     tn_status status = push_to(a, a->count, error);
     mpz_init(s.one);
     if (status == TN_OK)
         status = tn_houses_expand_from(&a->view, a->kind, a->layer, a->here, sum_up, &s, error);
     mpz_clear(s.one);
+    a->summed = status == TN_OK;
     return status;
+}
+
+/* ---- what is kept */
+
+/* *place: where the numbers behind this beginning are kept, NULL where they are not known yet; NULL: too many are. */
+static tn_status place_of(const tn_plan_along *a, uint32_t length, mpz_t ***place, tn_error *error)
+{
+    enum { MOST = 1000000 }; /* numbers */
+    tn_houses_kind *kind = a->kind;
+    tn_key *key = &kind->strip->key;
+    uint32_t before = kind->beginnings.count;
+    *place = NULL;
+    if ((uint64_t)before * a->view.form->schema->tray_count > MOST)
+        return TN_OK;
+    key->size = 0;
+    bool ok = tn_key_push(key, length);
+    for (uint32_t i = 0; ok && i < a->count; i++)
+        ok = tn_key_push(key, (uint32_t)a->trays[i]);
+    if (!ok || !tn_array_reserve(&kind->by_beginning, &kind->beginning_room, before, 1, sizeof *kind->by_beginning))
+        return tn_fail_memory(error);
+    uint32_t at = tn_intern(&kind->beginnings, key->data, key->size);
+    if (at == UINT32_MAX)
+        return tn_fail_memory(error);
+    if (at == before)
+        kind->by_beginning[at] = NULL;
+    *place = &kind->by_beginning[at];
+    return TN_OK;
+}
+
+tn_status tn_plan_along_houses(tn_plan_along *a, uint32_t length, tn_tray tray, mpz_ptr *houses, tn_error *error)
+{
+    uint32_t trays = a->view.form->schema->tray_count;
+    mpz_t **place;
+    tn_status status = place_of(a, length, &place, error);
+    *houses = a->by_tray[tray];
+    if (status == TN_OK && place && *place)
+        *houses = (*place)[tray];
+    else if (status == TN_OK)
+        status = find_by_tray(a, length, error);
+    if (status != TN_OK || !place || *place)
+        return status;
+    *place = tn_integers_new(trays);
+    for (tn_tray t = 0; *place && t < trays; t++)
+        mpz_set((*place)[t], a->by_tray[t]);
+    return *place ? TN_OK : tn_fail_memory(error);
 }

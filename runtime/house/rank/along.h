@@ -11,7 +11,9 @@ typedef struct tn_plan_along {
     tn_houses_kind *kind;
     tn_tray *trays; /* [count]: those taken; the nodes may be behind them */
     uint32_t count, layer;
-    mpz_t *here; /* [nodes of the layer]: choices that lead there */
+    mpz_t *here;    /* [nodes of the layer]: choices that lead there */
+    mpz_t *by_tray; /* [trays of the schema]: houses that go on by each */
+    bool summed;    /* these are behind the trays taken so far */
 } tn_plan_along;
 
 /* Begins before the first tray. Both are borrowed. End it also after a failure. */
@@ -20,7 +22,8 @@ void tn_plan_along_end(tn_plan_along *along);
 
 void tn_plan_along_take(tn_plan_along *along, tn_tray tray);
 
-/* by_tray [trays of the schema] := houses of one section on plans of the length that go on by each. */
-tn_status tn_plan_along_by_tray(tn_plan_along *along, uint32_t length, mpz_t *by_tray, tn_error *error);
+/* *houses: of one section, on plans of the length that go on by the tray; good until the next call. Those by all trays
+ * are found at once, and kept with the kind by the beginning of the plan, as many plans begin alike. */
+tn_status tn_plan_along_houses(tn_plan_along *along, uint32_t length, tn_tray tray, mpz_ptr *houses, tn_error *error);
 
 #endif

@@ -248,37 +248,6 @@ static tn_status find_houses(tn_plan_walk *w, tn_houses_kind *kind, uint32_t sta
     return TN_OK;
 }
 
-/* The same by the trays so far, of one section. */
-static tn_status find_staged(tn_plan_walk *w, tn_houses_kind *kind, tn_plan_along *along, tn_tray tray, mpz_ptr *houses,
-                             tn_error *error)
-{
-    uint32_t trays = w->houses->form->schema->tray_count, before = kind->beginnings.count;
-    tn_key *key = &kind->strip->key;
-    key->size = 0;
-    bool ok = tn_key_push(key, w->length);
-    for (uint32_t i = 0; ok && i < along->count; i++)
-        ok = tn_key_push(key, (uint32_t)along->trays[i]);
-    if (!ok || !tn_array_reserve(&kind->by_beginning, &kind->beginning_room, before, 1, sizeof *kind->by_beginning))
-        return tn_fail_memory(error);
-    uint32_t at = tn_intern(&kind->beginnings, key->data, key->size);
-    if (at == UINT32_MAX)
-        return tn_fail_memory(error);
-    if (at == before)
-        kind->by_beginning[at] = NULL;
-    tn_status status = TN_OK;
-    if (!kind->by_beginning[at]) {
-        mpz_t *found = tn_integers_new(trays);
-        status = found ? tn_plan_along_by_tray(along, w->length, found, error) : tn_fail_memory(error);
-        if (status != TN_OK) {
-            tn_integers_free(found, trays);
-            return status;
-        }
-        kind->by_beginning[at] = found;
-    }
-    *houses = kind->by_beginning[at][tray];
-    return status;
-}
-
 /* Houses whose plans go on with this tray. */
 static tn_status houses_by(tn_plan_walk *w, tn_tray tray, mpz_t houses, tn_error *error)
 {
@@ -288,7 +257,7 @@ static tn_status houses_by(tn_plan_walk *w, tn_tray tray, mpz_t houses, tn_error
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
         mpz_ptr one;
         if (w->fronts[i].staged) {
-            status = find_staged(w, &h->kinds[i], &w->fronts[i].along, tray, &one, error);
+            status = tn_plan_along_houses(&w->fronts[i].along, w->length, tray, &one, error);
             if (status == TN_OK)
                 mpz_addmul_ui(houses, one, h->kinds[i].sections);
         }
