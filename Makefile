@@ -7,7 +7,7 @@ TEST_JOBS ?= $(JOBS)
 FUZZ_SECONDS ?= 600
 TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(TEST_JOBS)
 
-.PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale lint package check-package bench bench-place bench-scale fuzz install uninstall clean
+.PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale check-sanitizers lint package check-package bench bench-place bench-scale fuzz install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
@@ -19,6 +19,7 @@ help:
 	@echo 'make check-editor  test the language server and the VS Code extension (needs node and npm)'
 	@echo 'make check-report  test the report page in a browser without a screen (chromium)'
 	@echo 'make check-scale  write a library by MPI, GNU parallel and Slurm, where these are installed'
+	@echo 'make check-sanitizers  run every test under AddressSanitizer and UndefinedBehaviorSanitizer (into build-asan/)'
 	@echo 'make lint        look over the sources with clang-tidy'
 	@echo 'make bench       print how fast it is here'
 	@echo 'make bench-place print how fast parts are placed, counted and drawn here'
@@ -63,6 +64,11 @@ check-report: build
 
 check-scale: build
 	@tools/check-scale build/tartan
+
+check-sanitizers: packages
+	@cmake --preset asan $(CMAKE_FLAGS) >/dev/null
+	@cmake --build --preset asan -j $(JOBS)
+	@ctest --test-dir build-asan --output-on-failure --timeout 3600 -j $(TEST_JOBS) -LE LONG
 
 lint: build
 	@tools/lint build

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Fields bred from parents: the same bytes for any number of threads and after an interruption, weights and ids, results that can be
 # meshed and bred again as the same trees, changed inputs.
+# Slow under sanitizers.
 # Needs the parts: draw mesh store
 set -u
 work=$(mktemp -d)

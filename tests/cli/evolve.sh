@@ -1,4 +1,5 @@
 # Runs of evolution: the same bytes for any number of threads, whether interrupted or not; extension; replay; breeding by hand.
+# Slow under sanitizers.
 # Needs the parts: draw store
 set -u
 work=$(mktemp -d)

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Rules that compare what is added up over houses, such as their costs: the same houses by all three engines.
+# Slow under sanitizers.
 name=house_compared
 . "$(dirname "$0")/golden.bash"
 

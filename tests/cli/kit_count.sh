@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Counting buildings of a kit's parts: known numbers, what is said about wrong questions, and a brute force (kit_count.py).
+# Slow under sanitizers.
 name=kit_count
 source "$(dirname "$0")/golden.bash"
 printf 'use "bricks";\nlength far = 20000;\npart long { fill 1 far x 1 brick x 1 stud; stud up; tube down at (1 far, -1 brick, 0); }\n' >"$scratch/long.kit"

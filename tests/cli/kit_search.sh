@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Searching in kits: what is found and said, limits, interrupts, threads; quality where the least is known; and a checker that lists the
 # models of small spaces by brute force (kit_search.py).
+# Slow under sanitizers.
 name=kit_search
 source "$(dirname "$0")/golden.bash"
 cat >"$scratch/box.kit" <<'X'

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Kits whose parts have all 24 turns: a world that is turned or moved gives the result turned or moved, and wrong turns are said.
+# Slow under sanitizers.
 name=kit_turns
 source "$(dirname "$0")/golden.bash"
 python3 "$here/kit_turns.py" "$TARTAN" "$scratch" || fail 'a world that is turned gives something else'

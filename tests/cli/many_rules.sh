@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Libraries of 50 and 500 pruning rules: counted as trying every plan counts them, the same at any number of threads, or
 # refused with the names of the rules in the way.
+# Slow under sanitizers.
 name=many_rules
 . "$(dirname "$0")/golden.bash"
 

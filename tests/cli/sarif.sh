@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # check --sarif: a SARIF 2.1.0 log with the properties that the standard requires, for every wrong file of tests/diagnostics.
+# Slow under sanitizers.
 name=sarif
 . "$(dirname "$0")/golden.bash"
 

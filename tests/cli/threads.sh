@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The same bytes at any number of threads, bad plans and interpreted rules included, and where no thread can be had; shards put together are
 # the whole.
+# Slow under sanitizers.
 name=threads
 . "$(dirname "$0")/golden.bash"
 stdlib=$(cd "$here/../../stdlib" && pwd)

@@ -9,16 +9,28 @@
 enum { QUESTIONS_MAX = 64 }; /* the bits of what they say of a function */
 
 struct tn_clause_memo {
+    bool asked;          /* with the functions, by questions that are not too many */
+    uint32_t *questions; /* [question_count] functions of kind CELL that the clause reaches */
+    size_t question_count;
     uint32_t *weights; /* [choice of a wheel] its class, times the number of combinations of the wheels before */
-    uint8_t *answers;
+    size_t weight_room;
+    uint8_t *answers; /* NULL where there are too many */
     size_t end;
 };
+
+static void forget_answers(struct tn_clause_memo *memo)
+{
+    free(memo->answers);
+    memo->answers = NULL;
+    memo->end = 0;
+}
 
 void tn_memos_free(tn_house_variants *v)
 {
     for (uint32_t i = 0; v->memos && i < v->library->clause_count; i++) {
+        forget_answers(&v->memos[i]);
+        free(v->memos[i].questions);
         free(v->memos[i].weights);
-        free(v->memos[i].answers);
     }
     free(v->memos);
     v->memos = NULL;
@@ -84,45 +96,70 @@ static bool find_questions(const tn_module *module, uint32_t holds, bool *reache
     return true;
 }
 
+static tn_status begin_memo(tn_house_variants *v, uint32_t clause, bool *reached, tn_error *error)
+{
+    struct tn_clause_memo *memo = &v->memos[clause];
+    uint32_t questions[QUESTIONS_MAX];
+    uint32_t holds = v->form->module->HOUSE_CLAUSE_records[v->library->clause_first + clause].holds;
+    memo->asked = v->stages[clause] == TN_STAGE_FUNCTIONS &&
+                  find_questions(v->form->module, holds, reached, questions, &memo->question_count);
+    if (!memo->asked)
+        return TN_OK;
+    memo->questions = malloc((memo->question_count + 1) * sizeof *memo->questions);
+    if (!memo->questions)
+        return tn_fail_memory(error);
+    memcpy(memo->questions, questions, memo->question_count * sizeof *questions);
+    return TN_OK;
+}
+
+tn_status tn_memos_begin(tn_house_variants *v, tn_error *error)
+{
+    bool *reached = malloc(v->form->module->FUNCTION_count + 1);
+    v->memos = calloc((size_t)v->library->clause_count + 1, sizeof *v->memos);
+    tn_status status = reached && v->memos ? TN_OK : tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < v->library->clause_count; i++)
+        status = begin_memo(v, i, reached, error);
+    free(reached);
+    return status;
+}
+
 /* ---- classes */
 
-static uint64_t seen_by(tn_house_variants *v, const uint32_t *questions, size_t count, uint32_t cell, uint32_t function)
+static uint64_t seen_by(tn_house_variants *v, const struct tn_clause_memo *memo, uint32_t cell, uint32_t function)
 {
     uint64_t bits = 0;
     v->house.cells[cell].function = function;
-    for (size_t q = 0; q < count; q++)
-        bits |= (uint64_t)tn_house_decide(&v->house, questions[q], &v->house.cells[cell]) << q;
+    for (size_t q = 0; q < memo->question_count; q++)
+        bits |= (uint64_t)tn_house_decide(&v->house, memo->questions[q], &v->house.cells[cell]) << q;
     return bits;
 }
 
 /* The classes of a wheel's functions, in the order in which they come. Returns how many. */
-static uint32_t classify(tn_house_variants *v, const uint32_t *questions, size_t count, const tn_wheel *w,
-                         uint32_t *classes)
+static uint32_t classify(tn_house_variants *v, struct tn_clause_memo *memo, const tn_wheel *w)
 {
     uint64_t known[TN_CELL_RULES_MAX];
     uint32_t found = 0;
     for (uint32_t k = 0; k < w->count; k++) {
-        uint64_t bits = seen_by(v, questions, count, w->of, v->functions.choices[w->first + k]);
+        uint64_t bits = seen_by(v, memo, w->of, v->functions.choices[w->first + k]);
         uint32_t class = 0;
         while (class < found && known[class] != bits)
             class ++;
         known[class] = bits;
         found += class == found;
-        classes[w->first + k] = class;
+        memo->weights[w->first + k] = class;
     }
     return found;
 }
 
-static tn_status make_memo(tn_house_variants *v, const uint32_t *questions, size_t count, struct tn_clause_memo *memo,
-                           tn_error *error)
+static tn_status make_memo(tn_house_variants *v, struct tn_clause_memo *memo, tn_error *error)
 {
     size_t size = 1;
-    memo->weights = malloc((v->functions.choice_count + 1) * sizeof *memo->weights);
-    if (!memo->weights)
+    forget_answers(memo);
+    if (!tn_array_reserve(&memo->weights, &memo->weight_room, 0, v->functions.choice_count + 1, sizeof *memo->weights))
         return tn_fail_memory(error);
     for (size_t i = 0; i < v->functions.count && size <= TN_MEMO_ANSWERS_MAX; i++) {
         const tn_wheel *w = &v->functions.items[i];
-        uint32_t classes = classify(v, questions, count, w, memo->weights);
+        uint32_t classes = classify(v, memo, w);
         for (uint32_t k = 0; k < w->count; k++)
             memo->weights[w->first + k] *= (uint32_t)size;
         size *= classes;
@@ -136,19 +173,10 @@ static tn_status make_memo(tn_house_variants *v, const uint32_t *questions, size
 
 tn_status tn_memos_make(tn_house_variants *v, tn_error *error)
 {
-    const tn_module *module = v->form->module;
-    uint32_t questions[QUESTIONS_MAX];
-    size_t count;
-    tn_memos_free(v);
-    bool *reached = malloc(module->FUNCTION_count + 1);
-    v->memos = calloc((size_t)v->library->clause_count + 1, sizeof *v->memos);
-    tn_status status = reached && v->memos ? TN_OK : tn_fail_memory(error);
-    for (uint32_t i = 0; status == TN_OK && i < v->library->clause_count; i++) {
-        uint32_t holds = module->HOUSE_CLAUSE_records[v->library->clause_first + i].holds;
-        if (v->stages[i] == TN_STAGE_FUNCTIONS && find_questions(module, holds, reached, questions, &count))
-            status = make_memo(v, questions, count, &v->memos[i], error);
-    }
-    free(reached);
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < v->library->clause_count; i++)
+        if (v->memos[i].asked)
+            status = make_memo(v, &v->memos[i], error);
     return status;
 }
 

@@ -16,6 +16,9 @@
 /* Marks the functions that an instruction names. */
 void tn_mark_operands(const tn_module *module, const tn_instruction *op, bool *reached);
 
+/* Finds what the library's clauses ask, once for all houses. Free the memos in any case. */
+tn_status tn_memos_begin(tn_house_variants *v, tn_error *error);
+
 /* Makes the memos of all clauses that are asked with the functions, empty, for the wheels of the house at hand. */
 tn_status tn_memos_make(tn_house_variants *v, tn_error *error);
 void tn_memos_free(tn_house_variants *v);

@@ -471,6 +471,8 @@ tn_status tn_house_variants_new(const tn_house_form *form, const tn_house_librar
     if (status == TN_OK)
         status = tn_room_questions_find(form->module, &v->questions, error);
     if (status == TN_OK)
+        status = tn_memos_begin(v, error);
+    if (status == TN_OK)
         status = tn_house_known_begin(form, &v->known, error);
     if (status == TN_OK)
         status = tn_house_rules_new(form, 0, &v->rules, error);
