@@ -10,6 +10,7 @@
 #include "driver/open/digits.h"
 #include "driver/plan/library.h"
 #include "runtime/house/count/best.h"
+#include "runtime/house/rank/rank.h"
 #include "runtime/plan/measure/amount.h"
 
 /* A search: the measures made ready, and what was found. */

@@ -243,7 +243,7 @@ static tn_status go_through(tn_facing *f, tn_error *error)
             status = outcomes_of(f->path, f->left, edge, strip->slices[slice->slice].entry, &outcomes, error);
             mpz_mul_ui(f->one, f->before.choices[i], slice->times);
             if (status == TN_OK)
-                status = tn_strip_step_by(strip, f->tray, state, slice->slice, outcomes, go_to, &g, error);
+                status = tn_path_step(f->path, f->tray, state, slice->slice, outcomes, go_to, &g, error);
         }
     }
     return status;
@@ -262,9 +262,8 @@ static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_erro
     if (next == a->length) {
         sum->ahead = NULL;
         status = outcomes_of(a, f->right, edge, TN_STRIP_NONE, &outcomes, error);
-        return status == TN_OK
-                   ? tn_strip_step_by(a->kind.strip, next, state, TN_STRIP_NONE, outcomes, tn_path_add, sum, error)
-                   : status;
+        return status == TN_OK ? tn_path_step(a, next, state, TN_STRIP_NONE, outcomes, tn_path_add, sum, error)
+                               : status;
     }
     mpz_t all;
     mpz_init(all);
@@ -276,7 +275,7 @@ static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_erro
         mpz_set_ui(sum->houses, 0);
         status = outcomes_of(a, f->right, edge, a->kind.strip->slices[slice->slice].entry, &outcomes, error);
         if (status == TN_OK)
-            status = tn_strip_step_by(a->kind.strip, next, state, slice->slice, outcomes, tn_path_add, sum, error);
+            status = tn_path_step(a, next, state, slice->slice, outcomes, tn_path_add, sum, error);
         mpz_addmul_ui(all, sum->houses, slice->times);
     }
     mpz_swap(sum->houses, all);
@@ -419,8 +418,8 @@ static tn_status count_ahead(tn_plan_path *a, uint32_t tray, uint32_t node, cons
     mpz_set_ui(like, 0);
     for (size_t k = 0; status == TN_OK && k < slices->count; k++) {
         mpz_set_ui(sum->houses, 0);
-        status = tn_strip_step(a->kind.strip, tray, tn_path_state(a, tray, node), slices->items[k].slice, tn_path_add,
-                               sum, error);
+        status =
+            tn_path_step(a, tray, tn_path_state(a, tray, node), slices->items[k].slice, NULL, tn_path_add, sum, error);
         mpz_addmul_ui(like, sum->houses, slices->items[k].times);
     }
     return status;

@@ -145,7 +145,7 @@ static tn_status go_by(const tn_coming *c, uint32_t i, uint32_t slice, tn_strip_
 {
     tn_strip *strip = c->path->kind.strip;
     return c->path->stages > 1 ? tn_strip_arrive(strip, node_of(c, i), slice, seen, context, error)
-                               : tn_strip_step(strip, c->tray, node_of(c, i), slice, seen, context, error);
+                               : tn_path_step(c->path, c->tray, node_of(c, i), slice, NULL, seen, context, error);
 }
 
 /* houses += those that have this slice in this place, with the functions so far. */

@@ -50,21 +50,6 @@ static tn_status path_of(tn_plan_houses *p, const tn_house *section, tn_plan_pat
 
 /* ---- a section */
 
-/* house: in the section, without functions; it becomes the one without tiles. *found: is there one? */
-static tn_status choose_parts(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, bool *found,
-                              tn_error *error)
-{
-    tn_path_slices *of_tray = calloc((size_t)path->length + 1, sizeof *of_tray);
-    tn_status status =
-        of_tray ? tn_path_functions(path, choosing, house, of_tray, found, error) : tn_fail_memory(error);
-    if (status == TN_OK && *found)
-        status = tn_path_faces(path, choosing, house, of_tray, found, error);
-    for (uint32_t i = 0; of_tray && i < path->length; i++)
-        free(of_tray[i].items);
-    free(of_tray);
-    return status;
-}
-
 static bool has_section(const tn_house *house, const tn_house *section)
 {
     return house && memcmp(house->shapes, section->shapes, sizeof house->shapes) == 0;
@@ -81,7 +66,7 @@ static tn_status try_section(tn_plan_houses *p, const tn_choosing *choosing, con
     if (!*ended)
         return status;
     status = tn_house_stand(p->houses->form, p->trays, p->length, section->shapes, house, error);
-    return status == TN_OK ? choose_parts(path, choosing, house, found, error) : status;
+    return status == TN_OK ? tn_path_choose(path, choosing, house, found, error) : status;
 }
 
 /* Of all sections in their order. */

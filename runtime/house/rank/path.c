@@ -24,6 +24,8 @@ void tn_path_clear(tn_plan_path *p)
     }
     free(p->states);
     tn_path_kept_free(p->kept, p->length);
+    tn_interner_clear(&p->numbers);
+    free(p->valued);
     tn_houses_layers_clear(&p->view, &p->kind);
     *p = (tn_plan_path){0};
 }
@@ -65,10 +67,13 @@ tn_status tn_path_find(tn_plan_path *p, const tn_houses *houses, const tn_houses
     tn_status status = find_nodes(p, error);
     if (status == TN_OK)
         status = tn_houses_look_ahead(&p->view, &p->kind, error);
-    if (status != TN_OK)
-        return status;
-    p->states = calloc((size_t)length + 1, sizeof *p->states);
-    for (uint32_t i = 0; p->states && i <= length; i++) {
+    return status == TN_OK ? tn_path_begin_states(p, error) : status;
+}
+
+tn_status tn_path_begin_states(tn_plan_path *p, tn_error *error)
+{
+    p->states = calloc((size_t)p->length + 1, sizeof *p->states);
+    for (uint32_t i = 0; p->states && i <= p->length; i++) {
         p->states[i].here = tn_integers_new(tn_path_layer(p, i)->nodes.count);
         p->states[i].like = tn_integers_new(tn_path_layer(p, i)->nodes.count);
         if (!p->states[i].here || !p->states[i].like)
@@ -97,4 +102,17 @@ tn_status tn_path_add(void *context, uint32_t state, uint64_t times, uint64_t fa
     else if (at != UINT32_MAX)
         mpz_addmul_ui(sum->houses, sum->ahead[at], times);
     return TN_OK;
+}
+
+tn_status tn_path_choose(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, bool *found, tn_error *error)
+{
+    tn_path_slices *of_tray = calloc((size_t)path->length + 1, sizeof *of_tray);
+    tn_status status =
+        of_tray ? tn_path_functions(path, choosing, house, of_tray, found, error) : tn_fail_memory(error);
+    if (status == TN_OK && *found)
+        status = tn_path_faces(path, choosing, house, of_tray, found, error);
+    for (uint32_t i = 0; of_tray && i < path->length; i++)
+        free(of_tray[i].items);
+    free(of_tray);
+    return status;
 }

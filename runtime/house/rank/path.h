@@ -24,12 +24,31 @@ typedef struct tn_path_states {
     mpz_t *here, *like;
 } tn_path_states;
 
+/* Houses of one value are looked for, on a plan of a library whose values are known (best.h). All is borrowed. */
+typedef struct tn_path_aim {
+    const tn_houses *houses;
+    const tn_houses_kind *kind;
+    const tn_house_gain *wanted;
+    const uint32_t *plans;      /* [length + 1] the states of the plan */
+    const tn_house_gain *gains; /* [length] what each tray adds to the plan's part */
+} tn_path_aim;
+
+/* A state of the strip, and the value of what led there. */
+typedef struct tn_path_valued {
+    uint32_t state;
+    tn_house_gain value;
+} tn_path_valued;
+
 /* The houses on a plan in one section: a library of this plan alone, and one kind of section, whose strip is borrowed.
- */
+ * With an aim its states are the strip's with the value so far (valued.c). */
 typedef struct tn_plan_path {
     tn_houses view;
     tn_houses_kind kind;
     uint32_t length, stages;
+    const tn_path_aim *aim; /* or NULL */
+    tn_interner numbers;    /* of {state, value} */
+    tn_path_valued *valued; /* [numbers] */
+    size_t valued_room;
     tn_path_states *states;    /* [length + 1] */
     struct tn_path_kept *kept; /* faces.c; or NULL */
 } tn_plan_path;
@@ -37,7 +56,22 @@ typedef struct tn_plan_path {
 /* Finds the states, and what is ahead of each. Borrows all. Clear it in any case. */
 tn_status tn_path_find(tn_plan_path *path, const tn_houses *houses, const tn_houses_kind *kind, const tn_tray *trays,
                        uint32_t length, tn_error *error);
+tn_status tn_path_find_valued(tn_plan_path *path, const tn_path_aim *aim, const tn_tray *trays, uint32_t length,
+                              tn_error *error);
 void tn_path_clear(tn_plan_path *path);
+
+/* Room for what is found of each state, once the states are. */
+tn_status tn_path_begin_states(tn_plan_path *path, tn_error *error);
+
+/* Goes from a state of the path to those after one more slice, as tn_strip_step does; only: the outcomes of the plane
+ * that are looked at, or NULL. */
+tn_status tn_path_step(tn_plan_path *path, uint32_t tray, uint32_t state, uint32_t slice, const tn_strip_list *only,
+                       tn_strip_seen *seen, void *context, tn_error *error);
+
+/* Can houses behind so many trays, in a state of the strip and with this value so far, have the value that is aimed at?
+ */
+bool tn_aim_leads_on(const tn_path_aim *aim, uint32_t trays, uint32_t length, uint32_t state,
+                     const tn_house_gain *value);
 void tn_path_kept_free(struct tn_path_kept *kept, uint32_t length);
 
 /* The nodes after so many trays; what is ahead of them; the state of a node, and the node of a state. */
@@ -72,6 +106,10 @@ typedef struct tn_path_slices {
 } tn_path_slices;
 tn_status tn_path_functions(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, tn_path_slices *of_tray,
                             bool *found, tn_error *error);
+
+/* Both, one after the other: *house is stood up in the section. */
+tn_status tn_path_choose(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, bool *found,
+                         tn_error *error);
 
 /* Chooses what is in the faces of the house, whose functions are those. *found: is there one? */
 tn_status tn_path_faces(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, const tn_path_slices *of_tray,

@@ -35,4 +35,10 @@ tn_status tn_plan_houses_number(tn_plan_houses *plan, const tn_house *house, mpz
 tn_status tn_houses_at(tn_houses *houses, tn_house_variants *variants, const tn_tray *trays, uint32_t length,
                        const mpz_t variant, tn_house *house, tn_error *error);
 
+/* Calls `each` with the houses that have value `point` of these (count/best.h), in the order of their ranks, until
+ * there are no more or *stop. No other house is looked at. The house is borrowed for the call. variants: of the same
+ * library. */
+tn_status tn_houses_point_each(tn_houses *houses, size_t point, tn_house_variants *variants, tn_house_each *each,
+                               void *context, tn_error *error);
+
 #endif

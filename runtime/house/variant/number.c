@@ -59,25 +59,6 @@ tn_status tn_house_variants_each(tn_house_variants *v, const tn_tray *trays, siz
     return status;
 }
 
-typedef struct facing {
-    tn_house_faced *faced;
-    void *context;
-} facing;
-
-static tn_status give_faced(tn_house_variants *v, void *context, bool *stop, tn_error *error)
-{
-    const facing *f = context;
-    v->work = v->work_limit;
-    return f->faced(f->context, &v->house, v->tiles, stop, error);
-}
-
-tn_status tn_house_variants_like(tn_house_variants *v, const tn_house *like, tn_house_faced *faced, void *context,
-                                 tn_error *error)
-{
-    facing f = {faced, context};
-    return tn_variants_go_through_faces(v, like, &(tn_house_visitor){.visit = give_faced, .context = &f}, error);
-}
-
 static tn_status stop_at_once(void *context, const tn_house *house, bool *stop, tn_error *error)
 {
     (void)house;
@@ -179,6 +160,13 @@ tn_status tn_house_variants_furnished(tn_house_variants *v, const tn_house *hous
         return status;
     tn_furnished_before(v, house, number);
     return tn_house_variants_keep_tiles(v, house) ? TN_OK : tn_house_variants_no_house(error);
+}
+
+tn_status tn_house_variants_faced(tn_house_variants *v, const tn_house *like, tn_house_faced *faced, void *context,
+                                  tn_error *error)
+{
+    tn_status status = furnish(v, like, error);
+    return status == TN_OK ? faced(context, &v->house, v->tiles, error) : status;
 }
 
 /* ---- the number of a house */

@@ -100,10 +100,6 @@ typedef struct tn_house_visitor {
     void *context;
 } tn_house_visitor;
 
-/* Shows the houses that are like this one in plan, section and functions. */
-tn_status tn_variants_go_through_faces(tn_house_variants *variants, const tn_house *like,
-                                       const tn_house_visitor *visitor, tn_error *error);
-
 /* The house at hand becomes one like this, but for its tiles; work begins. */
 tn_status tn_variants_take(tn_house_variants *variants, const tn_house *like, tn_error *error);
 

@@ -326,16 +326,6 @@ static tn_status begin_like(tn_house_variants *v, const tn_house *like, tn_error
     return status == TN_OK ? take_functions(v, like, error) : status;
 }
 
-tn_status tn_variants_go_through_faces(tn_house_variants *v, const tn_house *like, const tn_house_visitor *seen_by,
-                                       tn_error *error)
-{
-    bool stop = false;
-    tn_status status = begin_like(v, like, error);
-    if (status == TN_OK)
-        status = tn_memos_make(v, error);
-    return status == TN_OK ? go_through_faces(v, seen_by, &stop, error) : status;
-}
-
 tn_status tn_variants_take(tn_house_variants *v, const tn_house *like, tn_error *error)
 {
     tn_status status = begin_like(v, like, error);

@@ -47,12 +47,11 @@ typedef tn_status tn_house_each(void *context, const tn_house *house, bool *stop
 tn_status tn_house_variants_each(tn_house_variants *variants, const tn_tray *trays, size_t length, const mpz_t from,
                                  tn_house_each *each, void *context, tn_error *error);
 
-/* Calls `faced` with the houses that are like this one in plan, section and functions, which have a house, in order,
- * without their tiles, until there are no more or *stop. tiles: [cells] how many fit in each, 1 where it wants none;
- * the callee may set the cells' variants below these. */
-typedef tn_status tn_house_faced(void *context, tn_house *house, const size_t *tiles, bool *stop, tn_error *error);
-tn_status tn_house_variants_like(tn_house_variants *variants, const tn_house *like, tn_house_faced *faced,
-                                 void *context, tn_error *error);
+/* Calls `faced` with the house that is like this one, which has functions and faces, without its tiles. tiles: [cells]
+ * how many fit in each, 1 where it wants none; the callee may set the cells' variants below these. */
+typedef tn_status tn_house_faced(void *context, tn_house *house, const size_t *tiles, tn_error *error);
+tn_status tn_house_variants_faced(tn_house_variants *variants, const tn_house *like, tn_house_faced *faced,
+                                  void *context, tn_error *error);
 
 /* While tn_house_faced is called: do the clauses that ask what tiles cost keep the house with those that are set? */
 bool tn_house_variants_keep_tiles(const tn_house_variants *variants, const tn_house *house);

@@ -9,8 +9,9 @@
 
 #include <cmocka.h>
 
-#include "runtime/house/schedule/cost.h"
 #include "runtime/house/count/best.h"
+#include "runtime/house/rank/rank.h"
+#include "runtime/house/schedule/cost.h"
 #include "tests/support/drawn_house.h"
 #include "tests/support/share.h"
 #include "tests/support/test_house.h"

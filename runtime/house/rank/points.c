@@ -1,11 +1,11 @@
-/* Goes to the houses that have a value: by the states that lead to it, first tray by tray, then, on a plan, section by
- * section and the functions of one tray after another. */
+/* Goes to the houses that have a value: by the states that lead to it, tray by tray; then, on a plan, by their numbers
+ * among the houses of a section that have it. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
 #include "runtime/house/count/best.h"
-#include "runtime/house/count/data.h"
+#include "runtime/house/rank/path.h"
 
 /* States that the row so far leads to, each with a value, from which the wanted value is reached. */
 typedef struct tn_lead {
@@ -23,11 +23,10 @@ typedef struct tn_seeking {
     tn_house_variants *variants;
     tn_house_gain wanted;
     uint32_t length;
-    tn_tray *trays;       /* [high] of the plan so far */
-    uint32_t *plans;      /* [high + 1] its states */
-    tn_house_gain *gains; /* [high] what each tray adds to the plan's part */
-    uint32_t *functions;  /* of the cells of the trays so far */
-    size_t function_count, function_room;
+    tn_tray *trays;        /* [high] of the plan so far */
+    uint32_t *plans;       /* [high + 1] its states */
+    tn_house_gain *gains;  /* [high] what each tray adds to the plan's part */
+    mpz_t given;           /* houses, of those that are counted */
     tn_house section;      /* its shapes only */
     tn_house_rules *rules; /* NULL: the functions say what the value is */
     bool stop;
@@ -48,15 +47,8 @@ typedef struct tn_advancing {
 /* Is the wanted value reached from here? */
 static bool leads_on(const tn_advancing *a, const tn_lead *mark)
 {
-    const tn_houses *h = a->s->houses;
-    const tn_houses_layer *layer = &a->kind->layers[a->layer];
-    uint32_t node = tn_number_find(&layer->nodes, (uint64_t)a->s->plans[a->layer] << 32 | mark->state);
-    tn_house_gain left;
-    if (node == UINT32_MAX)
-        return false;
-    for (size_t k = 0; k < TN_WEIGHED_MAX; k++)
-        left.by[k] = a->s->wanted.by[k] - mark->value.by[k];
-    return tn_value_counts_has(&layer->best[(size_t)node * tn_houses_lengths(h) + a->s->length - h->low], &left);
+    const tn_path_aim aim = {a->s->houses, a->kind, &a->s->wanted, a->s->plans, a->s->gains};
+    return tn_aim_leads_on(&aim, a->layer, a->s->length, mark->state, &mark->value);
 }
 
 static tn_status reach(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
@@ -106,93 +98,74 @@ static tn_status give(void *context, const tn_house *house, bool *stop, tn_error
     tn_seeking *s = context;
     if (!tn_house_variants_keep_tiles(s->variants, house))
         return TN_OK;
+    mpz_add_ui(s->given, s->given, 1);
     tn_status status = s->each(s->context, house, &s->stop, error);
     *stop = s->stop;
     return status;
 }
 
-static tn_status give_faced(void *context, tn_house *house, const size_t *tiles, bool *stop, tn_error *error)
+static tn_status give_tiles(void *context, tn_house *house, const size_t *tiles, tn_error *error)
 {
     tn_seeking *s = context;
     const tn_houses_wanted wanted = {s->houses, s->rules, &s->wanted};
-    return tn_houses_furnish(&wanted, house, tiles, give, s, stop, error);
+    bool stop = false;
+    return tn_houses_furnish(&wanted, house, tiles, give, s, &stop, error);
 }
 
-static tn_status give_houses(tn_seeking *s, tn_error *error)
+/* The houses that have the functions and faces of the one of this number, which is of the first of them. */
+static tn_status give_faced(tn_seeking *s, tn_plan_path *path, const mpz_t number, tn_error *error)
 {
     tn_house house;
+    bool found = false;
+    mpz_t left;
+    mpz_init_set(left, number);
+    const tn_choosing choosing = {.number = left};
     tn_status status = tn_house_stand(s->houses->form, s->trays, s->length, s->section.shapes, &house, error);
-    for (size_t i = 0; status == TN_OK && i < house.cell_count; i++)
-        house.cells[i].function = s->functions[i];
     if (status == TN_OK)
-        status = tn_house_variants_like(s->variants, &house, give_faced, s, error);
+        status = tn_path_choose(path, &choosing, &house, &found, error);
+    if (status == TN_OK && found)
+        status = tn_house_variants_faced(s->variants, &house, give_tiles, s, error);
     tn_house_clear(&house);
+    mpz_clear(left);
     return status;
 }
 
-/* ---- functions */
-
-static bool take_functions(tn_seeking *s, size_t first, const tn_strip_functioned *furnished)
-{
-    s->function_count = first;
-    if (!tn_array_reserve(&s->functions, &s->function_room, first, furnished->cells + 1, sizeof *s->functions))
-        return false;
-    for (size_t i = 0; i < furnished->cells; i++)
-        s->functions[s->function_count++] = furnished->functions[i];
-    return true;
-}
-
-static tn_status seek_functions(tn_seeking *s, const tn_houses_kind *kind, uint32_t layer, const tn_leads *marks,
-                                tn_error *error);
-
-/* The slices in order, those of the same functions together. */
-static tn_status seek_furnished(tn_seeking *s, const tn_houses_kind *kind, uint32_t layer, const tn_leads *marks,
-                                const tn_strip_functioned *slices, size_t count, tn_error *error)
+/* A number of which no house is found would be gone to for ever. */
+static tn_status give_section(tn_seeking *s, tn_plan_path *path, tn_error *error)
 {
     tn_status status = TN_OK;
-    size_t first = s->function_count;
-    for (size_t i = 0, end; status == TN_OK && !s->stop && i < count; i = end) {
-        tn_leads next = {0};
-        for (end = i; status == TN_OK && end < count && tn_strip_functioned_compare(&slices[i], &slices[end]) == 0;
-             end++)
-            status = advance(s, kind, layer, marks, slices[end].slice, &next, error);
-        if (status == TN_OK && next.count > 0)
-            status = take_functions(s, first, &slices[i]) ? seek_functions(s, kind, layer + 1, &next, error)
-                                                          : tn_fail_memory(error);
-        free(next.items);
+    mpz_t number;
+    mpz_init(number);
+    while (status == TN_OK && !s->stop && mpz_cmp(number, tn_path_layer(path, 0)->ahead[0]) < 0) {
+        mpz_set_ui(s->given, 0);
+        status = give_faced(s, path, number, error);
+        mpz_add(number, number, s->given);
+        if (status == TN_OK && mpz_sgn(s->given) == 0)
+            status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a house that was counted is not found");
     }
-    s->function_count = first;
+    mpz_clear(number);
     return status;
 }
 
-static tn_status seek_functions(tn_seeking *s, const tn_houses_kind *kind, uint32_t layer, const tn_leads *marks,
-                                tn_error *error)
+/* marks: [kinds] what leads to the end of the plan. */
+static tn_status seek_sections(tn_seeking *s, const tn_leads *marks, tn_error *error)
 {
-    if (layer == s->length)
-        return give_houses(s, error);
-    size_t count;
-    tn_strip_functioned *slices = tn_strip_functioned_of(kind->strip, s->trays[layer], &count);
-    if (!slices)
-        return tn_fail_memory(error);
-    tn_status status = seek_furnished(s, kind, layer, marks, slices, count, error);
-    free(slices);
-    return status;
-}
-
-static tn_status seek_sections(tn_seeking *s, tn_error *error)
-{
+    tn_houses *h = s->houses;
     tn_status status = TN_OK;
-    s->section = (tn_house){.form = s->houses->form};
+    s->section = (tn_house){.form = h->form};
     for (bool more = true; status == TN_OK && !s->stop && more;
-         more = tn_form_next_section(s->houses->form, s->section.shapes)) {
-        tn_leads marks = {0};
+         more = tn_form_next_section(h->form, s->section.shapes)) {
         if (!tn_house_section_stands(&s->section))
             continue;
-        s->function_count = 0;
-        status = mark_start(s, &marks) ? TN_OK : tn_fail_memory(error);
+        const tn_houses_kind *kind = tn_houses_kind_of(h, &s->section);
+        if (marks[kind - h->kinds].count == 0)
+            continue;
+        const tn_path_aim aim = {h, kind, &s->wanted, s->plans, s->gains};
+        tn_plan_path path;
+        status = tn_path_find_valued(&path, &aim, s->trays, s->length, error);
         if (status == TN_OK)
-            status = seek_functions(s, tn_houses_kind_of(s->houses, &s->section), 0, &marks, error);
-        free(marks.items);
+            status = give_section(s, &path, error);
+        tn_path_clear(&path);
     }
     return status;
 }
@@ -237,7 +210,7 @@ static tn_status seek_trays(tn_seeking *s, uint32_t layer, const tn_leads *marks
 {
     tn_status status = tn_watch_check(s->houses->form->module->watch, error);
     if (status == TN_OK && layer == s->length)
-        return seek_sections(s, error);
+        return seek_sections(s, marks, error);
     for (tn_tray t = 0; status == TN_OK && !s->stop && t < s->houses->form->schema->tray_count; t++)
         status = seek_tray(s, layer, marks, t, error);
     return status;
@@ -277,6 +250,7 @@ tn_status tn_houses_point_each(tn_houses *h, size_t point, tn_house_variants *va
     s.trays = malloc(((size_t)h->high + 1) * sizeof *s.trays);
     s.plans = calloc((size_t)h->high + 1, sizeof *s.plans);
     s.gains = malloc(((size_t)h->high + 1) * sizeof *s.gains);
+    mpz_init(s.given);
     tn_status status = s.trays && s.plans && s.gains ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK && values_need_faces(h->measures))
         status = tn_house_rules_new(h->form, 0, &s.rules, error);
@@ -286,6 +260,6 @@ tn_status tn_houses_point_each(tn_houses *h, size_t point, tn_house_variants *va
     free(s.trays);
     free(s.plans);
     free(s.gains);
-    free(s.functions);
+    mpz_clear(s.given);
     return status;
 }

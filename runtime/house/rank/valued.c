@@ -1,0 +1,172 @@
+/* The states of the houses on a plan that have one value: a state of the strip and the value so far, from which the
+ * wanted one is reached. Choosing among these houses is then the same as among all. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/base/integers.h"
+#include "runtime/house/rank/path.h"
+
+bool tn_aim_leads_on(const tn_path_aim *aim, uint32_t trays, uint32_t length, uint32_t state,
+                     const tn_house_gain *value)
+{
+    const tn_houses_layer *layer = &aim->kind->layers[trays];
+    uint32_t node = tn_number_find(&layer->nodes, (uint64_t)aim->plans[trays] << 32 | state);
+    tn_house_gain left;
+    if (node == UINT32_MAX)
+        return false;
+    for (size_t k = 0; k < TN_WEIGHED_MAX; k++)
+        left.by[k] = aim->wanted->by[k] - value->by[k];
+    const tn_value_counts *of_node = &layer->best[(size_t)node * tn_houses_lengths(aim->houses)];
+    return tn_value_counts_has(&of_node[length - aim->houses->low], &left);
+}
+
+/* ---- steps */
+
+typedef struct tn_valuing {
+    tn_plan_path *path;
+    uint32_t trays; /* before the step */
+    bool ends;
+    tn_house_gain before;
+    tn_strip_seen *seen;
+    void *context;
+} tn_valuing;
+
+/* *number: of the state with the value. */
+static tn_status number_of(tn_plan_path *p, uint32_t state, const tn_house_gain *value, uint32_t *number,
+                           tn_error *error)
+{
+    enum { STATE, VALUE, WORDS = VALUE + sizeof value->by / (sizeof(uint32_t)) };
+    uint32_t words[WORDS] = {state}, before = p->numbers.count;
+    memcpy(words + VALUE, value->by, sizeof value->by);
+    bool ok = tn_array_reserve(&p->valued, &p->valued_room, before, 1, sizeof *p->valued);
+    *number = ok ? tn_intern(&p->numbers, words, WORDS) : UINT32_MAX;
+    if (*number == UINT32_MAX)
+        return tn_fail_memory(error);
+    p->valued[*number] = (tn_path_valued){state, *value};
+    return TN_OK;
+}
+
+static tn_status see(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
+                     tn_error *error)
+{
+    const tn_valuing *v = context;
+    const tn_path_aim *aim = v->path->aim;
+    tn_house_gain value = tn_house_gain_sum(&v->before, gain);
+    if (v->ends) {
+        tn_house_gain rest = tn_houses_plan_rest(aim->houses, aim->plans[v->trays]);
+        value = tn_house_gain_sum(&value, &rest);
+        bool has = tn_house_gain_compare(&value, aim->wanted) == 0;
+        return has ? v->seen(v->context, state, times, faced, gain, error) : TN_OK;
+    }
+    value = tn_house_gain_sum(&value, &aim->gains[v->trays]);
+    if (!tn_aim_leads_on(aim, v->trays + 1, v->path->length, state, &value))
+        return TN_OK;
+    uint32_t number;
+    tn_status status = number_of(v->path, state, &value, &number, error);
+    return status == TN_OK ? v->seen(v->context, number, times, faced, gain, error) : status;
+}
+
+/* The state before the first slice has the value that plans begin with. */
+static uint32_t begin_step(tn_valuing *v, uint32_t state)
+{
+    const tn_path_valued first = {TN_STRIP_NONE, tn_houses_plan_start(v->path->aim->houses)};
+    const tn_path_valued *before = state != TN_STRIP_NONE ? &v->path->valued[state] : &first;
+    v->before = before->value;
+    return before->state;
+}
+
+tn_status tn_path_step(tn_plan_path *p, uint32_t tray, uint32_t state, uint32_t slice, const tn_strip_list *only,
+                       tn_strip_seen *seen, void *context, tn_error *error)
+{
+    tn_strip *strip = p->kind.strip;
+    tn_valuing v = {.path = p, .trays = tray, .ends = slice == TN_STRIP_NONE, .seen = seen, .context = context};
+    if (p->aim) {
+        state = begin_step(&v, state);
+        seen = see;
+        context = &v;
+    }
+    return only ? tn_strip_step_by(strip, tray, state, slice, only, seen, context, error)
+                : tn_strip_step(strip, tray, state, slice, seen, context, error);
+}
+
+/* ---- states */
+
+static tn_status add_node(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
+                          tn_error *error)
+{
+    tn_houses_layer *layer = context;
+    (void)times;
+    (void)faced;
+    (void)gain;
+    return tn_number(&layer->nodes, state) != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status find_nodes(tn_plan_path *p, uint32_t tray, tn_error *error)
+{
+    const tn_strip_list *slices = &p->kind.strip->of_tray[p->view.only[tray]];
+    tn_houses_layer *after = &p->kind.layers[tray + 1];
+    tn_status status = tn_watch_check(p->kind.strip->watch, error);
+    for (uint32_t i = 0; status == TN_OK && i < p->kind.layers[tray].nodes.count; i++)
+        for (size_t k = 0; status == TN_OK && k < slices->count; k++)
+            status =
+                tn_path_step(p, tray, tn_path_state(p, tray, i), slices->items[k].slice, NULL, add_node, after, error);
+    return status;
+}
+
+/* ahead := the houses that go on from a node after so many trays. */
+static tn_status count_ahead(tn_plan_path *p, uint32_t trays, uint32_t node, tn_path_sum *sum, mpz_t ahead,
+                             tn_error *error)
+{
+    uint32_t state = tn_path_state(p, trays, node);
+    tn_status status = TN_OK;
+    mpz_set_ui(sum->houses, 0);
+    if (trays == p->length) {
+        status = tn_path_step(p, trays, state, TN_STRIP_NONE, NULL, tn_path_add, sum, error);
+        mpz_set(ahead, sum->houses);
+        return status;
+    }
+    const tn_strip_list *slices = &p->kind.strip->of_tray[p->view.only[trays]];
+    for (size_t k = 0; status == TN_OK && k < slices->count; k++) {
+        mpz_set_ui(sum->houses, 0);
+        status = tn_path_step(p, trays, state, slices->items[k].slice, NULL, tn_path_add, sum, error);
+        mpz_addmul_ui(ahead, sum->houses, slices->items[k].times);
+    }
+    return status;
+}
+
+static tn_status look_ahead(tn_plan_path *p, uint32_t trays, tn_path_sum *sum, tn_error *error)
+{
+    tn_houses_layer *layer = &p->kind.layers[trays];
+    tn_status status = tn_watch_check(p->kind.strip->watch, error);
+    layer->ahead = tn_integers_new(layer->nodes.count);
+    if (!layer->ahead)
+        return tn_fail_memory(error);
+    sum->trays = trays + 1;
+    sum->ahead = trays < p->length ? layer[1].ahead : NULL;
+    for (uint32_t i = 0; status == TN_OK && i < layer->nodes.count; i++)
+        status = count_ahead(p, trays, i, sum, layer->ahead[i], error);
+    return status;
+}
+
+tn_status tn_path_find_valued(tn_plan_path *p, const tn_path_aim *aim, const tn_tray *trays, uint32_t length,
+                              tn_error *error)
+{
+    *p = (tn_plan_path){.view = *aim->houses, .kind = {.strip = aim->kind->strip}, .length = length, .aim = aim};
+    p->view.only = trays;
+    p->view.low = p->view.high = length;
+    p->view.whole_steps = true;
+    p->stages = 1;
+    p->kind.layers = calloc((size_t)length + 1, sizeof *p->kind.layers);
+    if (!p->kind.layers || tn_number(&p->kind.layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX)
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < length; i++)
+        status = find_nodes(p, i, error);
+    tn_path_sum sum = {.path = p};
+    mpz_init(sum.houses);
+    for (uint32_t i = length + 1; status == TN_OK && i-- > 0;)
+        status = look_ahead(p, i, &sum, error);
+    mpz_clear(sum.houses);
+    return status == TN_OK ? tn_path_begin_states(p, error) : status;
+}
