@@ -60,7 +60,7 @@ static tn_status count_cell(tn_house_variants *v, uint32_t cell, size_t first, s
     do {
         tn_variants tiles = {0};
         set_kinds(v, &v->own, first, end);
-        status = tn_variants_spend(v, error);
+        status = tn_variants_spend(v, 1, error);
         if (status == TN_OK)
             status = tn_tile_variants(&v->house, cell, &tiles, error);
         wanted = tiles.wanted;

@@ -199,9 +199,12 @@ static tn_status ask_clauses(tn_house_variants *v, tn_error *error)
 
 tn_status tn_furnish(tn_house_variants *v, tn_error *error)
 {
+    enum { PRICING_STEPS = 100 }; /* what a house costs takes as long as so many other steps */
     if (!v->asks_costs)
         return TN_OK;
-    tn_status status = begin(v, error);
+    tn_status status = tn_variants_spend(v, PRICING_STEPS, error);
+    if (status == TN_OK)
+        status = begin(v, error);
     if (status == TN_OK)
         status = price_cells(v, error);
     if (status == TN_OK)

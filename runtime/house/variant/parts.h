@@ -69,8 +69,8 @@ bool tn_wheels_turn(tn_wheels *wheels, size_t first, size_t end);
 
 /* ---- stages */
 
-/* A step of the work on a plan; TN_LIMIT (E1617) past the limit. */
-tn_status tn_variants_spend(tn_house_variants *v, tn_error *error);
+/* Steps of the work on a plan; TN_LIMIT (E1617) past the limit. */
+tn_status tn_variants_spend(tn_house_variants *v, uint64_t steps, tn_error *error);
 
 /* Do all clauses that can be asked at this stage, and not before, keep the house? */
 tn_status tn_variants_keep(tn_house_variants *v, tn_clause_stage stage, bool *kept, tn_error *error);

@@ -51,10 +51,12 @@ static const tn_house_clause_record *dearest(const tn_house_variants *v)
     return found;
 }
 
-tn_status tn_variants_spend(tn_house_variants *v, tn_error *error)
+tn_status tn_variants_spend(tn_house_variants *v, uint64_t steps, tn_error *error)
 {
-    if (v->work-- > 0)
+    if (v->work >= steps) {
+        v->work -= steps;
         return TN_OK;
+    }
     v->work = 0;
     tn_fail(error, TN_LIMIT, E_VARIANTS, "the houses on this plan take more than %llu steps to go through",
             (unsigned long long)v->work_limit);
@@ -84,7 +86,7 @@ static tn_status run_clause(tn_house_variants *v, uint32_t clause, bool *started
 
 tn_status tn_variants_keep(tn_house_variants *v, tn_clause_stage stage, bool *kept, tn_error *error)
 {
-    tn_status status = tn_variants_spend(v, error);
+    tn_status status = tn_variants_spend(v, 1, error);
     bool started = false;
     *kept = true;
     for (uint32_t i = 0; status == TN_OK && *kept && i < v->library->clause_count; i++) {
