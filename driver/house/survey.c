@@ -196,9 +196,19 @@ tn_status tn_survey_trays(tn_survey *s, tn_error *error)
             status = tn_fail_stopped(s->form.module->watch, error);
     }
     sort_places(s);
-    tn_survey_try_flights(s);
     s->complete = status == TN_OK;
     return status == TN_OK ? tn_survey_faces(s, error) : status;
+}
+
+static void find_bare_functions(tn_survey *s)
+{
+    for (uint32_t f = 0; f < tn_form_functions(&s->form); f++) {
+        uint32_t tile = 0;
+        while (tile < s->form.record->tile_count && !tn_survey_serves(s, tile, f))
+            tile++;
+        if (tile == s->form.record->tile_count)
+            add_to(s->bare_functions, f);
+    }
 }
 
 /* Room for what is noted of functions, tiles and kinds of faces. */
@@ -210,14 +220,15 @@ static tn_status make_room(tn_survey *s, tn_error *error)
     s->words = tn_form_functions(&s->form) / 64 + 1;
     s->met_words = form->face_count / 32 + 1;
     s->functions = calloc((size_t)form->rule_count + 1, sizeof *s->functions);
-    s->climbs = calloc((size_t)form->opening_count + 1, sizeof *s->climbs);
+    s->bare_functions = calloc(s->words, sizeof *s->bare_functions);
     s->may = calloc(s->words, sizeof *s->may);
     s->uses = calloc(kinds, sizeof *s->uses);
     s->first_places = malloc((stacks + 1) * sizeof *s->first_places);
-    if (!s->functions || !s->climbs || !s->may || !s->uses || !s->first_places)
+    if (!s->functions || !s->bare_functions || !s->may || !s->uses || !s->first_places)
         return tn_fail_memory(error);
     for (size_t i = 0; i < stacks; i++)
         s->first_places[i] = TN_NO_PLACE;
+    find_bare_functions(s);
     for (size_t i = 0; i < kinds; i++) {
         uint64_t *sets = calloc(3 * s->words, sizeof *sets);
         if (!sets)
@@ -276,7 +287,7 @@ void tn_survey_free(tn_survey *s)
     free(s->places);
     free(s->first_places);
     free(s->functions);
-    free(s->climbs);
+    free(s->bare_functions);
     free(s->may);
     free(s->uses);
     free(s->with);

@@ -31,12 +31,20 @@ typedef struct tn_cell_class {
     uint64_t *met, *functions;
 } tn_cell_class;
 
+/* Two cells that may meet, or one and the outside: more than really do, so that what is said holds. */
+typedef struct tn_survey_meeting {
+    const tn_cell_class *a, *b; /* along: a is left of b; under: a is below b; outside: b is NULL */
+    tn_face_relation relation;  /* ALONG, ACROSS, UNDER or OUTSIDE */
+    tn_house_side side;
+} tn_survey_meeting;
+
 /* Which faces may have an opening or a flight, as far as the lines of faces and the largest cells say. */
 typedef struct tn_kind_use {
     bool used;
     uint64_t outside, between, under;             /* a bit for each storey: outside walls, walls of two cells, floors */
     uint32_t sides;                               /* of outside walls: a bit for each tn_house_side */
     uint64_t *outside_of, *between_of, *under_of; /* a bit for each function of one of the cells */
+    tn_survey_meeting nearest;                    /* a face where it does not fit (a: NULL, none), nearest to it */
 } tn_kind_use;
 
 typedef struct tn_survey {
@@ -53,14 +61,14 @@ typedef struct tn_survey {
     size_t words;              /* of a set of functions */
     tn_survey_place *places;   /* complete only where they are at most TN_SURVEY_PLACES_MAX */
     size_t place_count, place_room;
-    size_t *first_places; /* [zone field][storey] */
-    uint64_t *may;        /* of the cell at hand */
-    bool *functions;      /* [function] a cell may have it */
-    bool *climbs;         /* [opening] a flight for which a cell has room */
-    tn_kind_use *uses;    /* [kind of face] */
-    bool met;             /* the classes were few enough to ask all lines of faces; if not, every kind counts as used */
-    int64_t widest;       /* the longest that a face can be */
-    bool bare;            /* a cell was found that no function may take: */
+    size_t *first_places;     /* [zone field][storey] */
+    uint64_t *may;            /* of the cell at hand */
+    bool *functions;          /* [function] a cell may have it */
+    uint64_t *bare_functions; /* those without tiles */
+    tn_kind_use *uses;        /* [kind of face] */
+    bool met;       /* the classes were few enough to ask all lines of faces; if not, every kind counts as used */
+    int64_t widest; /* the longest that a face can be */
+    bool bare;      /* a cell was found that no function may take: */
     tn_cell bare_cell;
     tn_tray bare_tray;
     size_t met_words; /* of a class's bits */

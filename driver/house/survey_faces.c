@@ -3,20 +3,13 @@
 
 #include "driver/house/survey_parts.h"
 
-/* Two cells that may meet, or one and the outside: more than really do, so that what is said holds. */
-typedef struct meeting {
-    const tn_cell_class *a, *b; /* along: a is left of b; under: a is below b; outside: b is NULL */
-    tn_face_relation relation;  /* ALONG, ACROSS, UNDER or OUTSIDE */
-    tn_house_side side;
-} meeting;
-
 static bool meets(const tn_cell_class *c, uint32_t line, bool second)
 {
     uint32_t bit = 2 * line + second;
     return c->met[bit / 64] >> bit % 64 & 1;
 }
 
-static bool is_about(const tn_face_line_record *record, uint32_t line, const meeting *m)
+static bool is_about(const tn_face_line_record *record, uint32_t line, const tn_survey_meeting *m)
 {
     bool beside = record->relation == TN_FACE_BESIDE && (m->relation == TN_FACE_ALONG || m->relation == TN_FACE_ACROSS);
     if (!beside && record->relation != (uint32_t)m->relation)
@@ -43,6 +36,7 @@ static bool always_fits(const tn_survey *s, const tn_face_line_record *record)
  * have. */
 typedef struct line_use {
     bool applies, reached;
+    uint32_t item_first;             /* of its kinds */
     uint32_t hidden_by, hidden_kind; /* kind: TN_NO_RECORD where it takes all */
 } line_use;
 
@@ -52,34 +46,19 @@ typedef struct kind_use {
     uint32_t line;
 } kind_use;
 
+/* A kind of a line: does it fit into some face that the line is about? If not, the one where it comes nearest to it. */
+typedef struct line_kind {
+    bool fits;
+    tn_survey_meeting nearest;
+} line_kind;
+
 typedef struct asking {
     tn_survey *survey;
     line_use *lines;
     kind_use *kinds;
-    size_t meeting; /* from 1 */
+    line_kind *items; /* [kind of a line], those of one line after those of the line before */
+    size_t meeting;   /* from 1 */
 } asking;
-
-static int64_t least(int64_t a, int64_t b)
-{
-    return a < b ? a : b;
-}
-
-/* Is the face large enough for the kind, as far as the largest cells of both classes say? */
-static bool may_fit(const tn_survey *s, const meeting *m, uint32_t kind)
-{
-    const tn_opening_record *opening = tn_form_opening(&s->form, kind);
-    if (kind < TN_FACE_KIND_COUNT)
-        return true;
-    if (tn_form_flight(&s->form, kind))
-        return s->climbs[kind - TN_FACE_KIND_COUNT];
-    bool in_x = m->relation == TN_FACE_OUTSIDE ? m->side == TN_HOUSE_BACK || m->side == TN_HOUSE_FRONT
-                                               : m->relation == TN_FACE_ACROSS;
-    int64_t room = in_x ? m->a->wide : m->a->deep;
-    if (m->b)
-        room = least(room, in_x ? m->b->wide : m->b->deep);
-    return opening->wide + s->form.record->wall <= room &&
-           opening->sill + opening->high <= tn_form_clear(&s->form, m->a->storey);
-}
 
 static void add_all(uint64_t *set, const uint64_t *of, size_t words)
 {
@@ -88,7 +67,7 @@ static void add_all(uint64_t *set, const uint64_t *of, size_t words)
 }
 
 /* The kind may be in a face of this meeting. */
-static void note_use(const tn_survey *s, const meeting *m, tn_kind_use *use)
+static void note_use(const tn_survey *s, const tn_survey_meeting *m, tn_kind_use *use)
 {
     uint64_t storey = UINT64_C(1) << m->a->storey;
     bool outside = m->relation == TN_FACE_OUTSIDE, under = m->relation == TN_FACE_UNDER;
@@ -103,8 +82,26 @@ static void note_use(const tn_survey *s, const meeting *m, tn_kind_use *use)
         add_all(of, m->b->functions, s->words);
 }
 
+/* Which kinds of a line fit into faces that the line is about, whatever other lines say. */
+static void ask_sizes(asking *a, const tn_survey_meeting *m, uint32_t line)
+{
+    const tn_survey *s = a->survey;
+    const tn_face_line_record *record = &s->form.module->FACE_LINE_records[s->form.record->face_first + line];
+    for (uint32_t i = 0; i < record->kind_count; i++) {
+        line_kind *item = &a->items[a->lines[line].item_first + i];
+        uint32_t kind = s->form.module->HOUSE_ITEM_records[record->kind_first + i].number;
+        if (item->fits)
+            continue;
+        item->fits = tn_survey_may_fit(s, m, kind);
+        if (!item->fits) {
+            tn_survey_note_misfit(s, m, kind, &item->nearest);
+            tn_survey_note_misfit(s, m, kind, &s->uses[kind].nearest);
+        }
+    }
+}
+
 /* The kinds of a line that is about the meeting, where no line before it takes all such faces. */
-static void ask_kinds(asking *a, const meeting *m, uint32_t line)
+static void ask_kinds(asking *a, const tn_survey_meeting *m, uint32_t line)
 {
     const tn_survey *s = a->survey;
     const tn_face_line_record *record = &s->form.module->FACE_LINE_records[s->form.record->face_first + line];
@@ -113,7 +110,7 @@ static void ask_kinds(asking *a, const meeting *m, uint32_t line)
         bool had = a->kinds[kind].meeting == a->meeting && a->kinds[kind].line != line;
         if (!had)
             a->kinds[kind] = (kind_use){a->meeting, line};
-        if (!may_fit(s, m, kind))
+        if (!tn_survey_may_fit(s, m, kind))
             continue;
         note_use(s, m, &s->uses[kind]);
         a->lines[line].reached |= !had;
@@ -124,7 +121,7 @@ static void ask_kinds(asking *a, const meeting *m, uint32_t line)
     }
 }
 
-static void ask(asking *a, const meeting *m)
+static void ask(asking *a, const tn_survey_meeting *m)
 {
     const tn_survey *s = a->survey;
     uint32_t taken = TN_NO_RECORD;
@@ -134,6 +131,7 @@ static void ask(asking *a, const meeting *m)
         if (!is_about(record, i, m))
             continue;
         a->lines[i].applies = true;
+        ask_sizes(a, m, i);
         if (taken != TN_NO_RECORD) {
             a->lines[i].hidden_by = taken;
             a->lines[i].hidden_kind = TN_NO_RECORD;
@@ -148,12 +146,12 @@ static void ask(asking *a, const meeting *m)
 static void ask_pair(asking *to, const tn_cell_class *a, const tn_cell_class *b)
 {
     if (a->storey == b->storey) {
-        ask(to, &(meeting){a, b, TN_FACE_ALONG, TN_HOUSE_ANY_SIDE});
+        ask(to, &(tn_survey_meeting){a, b, TN_FACE_ALONG, TN_HOUSE_ANY_SIDE});
         if (a->zone != b->zone)
-            ask(to, &(meeting){a, b, TN_FACE_ACROSS, TN_HOUSE_ANY_SIDE});
+            ask(to, &(tn_survey_meeting){a, b, TN_FACE_ACROSS, TN_HOUSE_ANY_SIDE});
     }
     if (a->zone == b->zone && a->storey + 1 == b->storey && !b->open)
-        ask(to, &(meeting){a, b, TN_FACE_UNDER, TN_HOUSE_ANY_SIDE});
+        ask(to, &(tn_survey_meeting){a, b, TN_FACE_UNDER, TN_HOUSE_ANY_SIDE});
 }
 
 static void warn_hidden(const tn_survey *s, tn_diagnostic *d, const line_use *use)
@@ -168,12 +166,25 @@ static void warn_hidden(const tn_survey *s, tn_diagnostic *d, const line_use *us
     tn_help(tn_survey_list(s), d, "the first line that applies counts: put this one before that");
 }
 
-static void warn(const tn_survey *s, uint32_t line, const line_use *use)
+#define OPENING_NEEDS                                                                                                  \
+    "an opening needs a face as wide as itself and a `wall` added, and a storey as high as its `sill` and `high` "     \
+    "added"
+
+/* Does nothing else say already that the kind fits nowhere? */
+static bool is_misfit(const asking *a, uint32_t line, uint32_t number, uint32_t *kind)
 {
+    const tn_survey *s = a->survey;
+    const tn_face_line_record *record = &s->form.module->FACE_LINE_records[s->form.record->face_first + line];
+    *kind = s->form.module->HOUSE_ITEM_records[record->kind_first + number].number;
+    return !a->items[a->lines[line].item_first + number].fits && s->uses[*kind].used;
+}
+
+static void warn_idle(const asking *a, uint32_t line)
+{
+    const tn_survey *s = a->survey;
+    const line_use *use = &a->lines[line];
     const tn_face_line_record *record = &s->form.module->FACE_LINE_records[s->form.record->face_first + line];
     bool hidden = use->hidden_by != TN_NO_RECORD;
-    if (tn_survey_allows(s, W_FACE_LINE_IDLE, TN_SURVEY_SPAN(record)))
-        return;
     tn_diagnostic *d = tn_report(tn_survey_list(s), W_FACE_LINE_IDLE, TN_SURVEY_SPAN(record),
                                  !use->applies ? "no face is between such cells"
                                  : hidden      ? "this line decides no face: others before it do"
@@ -182,12 +193,37 @@ static void warn(const tn_survey *s, uint32_t line, const line_use *use)
         tn_help(tn_survey_list(s), d, "check the storey, the zone and the function that it names");
     else if (hidden)
         warn_hidden(s, d, use);
-    else
-        tn_help(tn_survey_list(s), d,
-                record->relation == TN_FACE_UNDER ? TN_FLIGHT_NEEDS
-                                                  : "an opening needs a face as wide as itself and a `wall` added, and "
-                                                    "a storey as high as its `sill` and "
-                                                    "`high` added");
+    for (uint32_t i = 0, kind; use->applies && !hidden && i < record->kind_count; i++)
+        if (is_misfit(a, line, i, &kind))
+            tn_survey_say_misfit(s, d, &a->items[use->item_first + i].nearest, kind);
+    if (use->applies && !hidden)
+        tn_help(tn_survey_list(s), d, record->relation == TN_FACE_UNDER ? TN_FLIGHT_NEEDS : OPENING_NEEDS);
+}
+
+/* A line that decides faces has a kind that fits into none of those that it is about. */
+static void warn_misfit(const asking *a, uint32_t line, uint32_t number, uint32_t kind)
+{
+    const tn_survey *s = a->survey;
+    const tn_face_line_record *record = &s->form.module->FACE_LINE_records[s->form.record->face_first + line];
+    tn_diagnostic *d = tn_report(tn_survey_list(s), W_FACE_LINE_IDLE, TN_SURVEY_SPAN(record),
+                                 "`%s` fits into no face that this line is about", tn_form_kind_text(&s->form, kind));
+    tn_survey_say_misfit(s, d, &a->items[a->lines[line].item_first + number].nearest, kind);
+    tn_help(tn_survey_list(s), d, "change its size, or the cells that the line is about, or leave it out of this line");
+}
+
+static void warn(const asking *a, uint32_t line)
+{
+    const tn_survey *s = a->survey;
+    const tn_face_line_record *record = &s->form.module->FACE_LINE_records[s->form.record->face_first + line];
+    if (tn_survey_allows(s, W_FACE_LINE_IDLE, TN_SURVEY_SPAN(record)))
+        return;
+    if (!a->lines[line].reached) {
+        warn_idle(a, line);
+        return;
+    }
+    for (uint32_t i = 0, kind; i < record->kind_count; i++)
+        if (is_misfit(a, line, i, &kind))
+            warn_misfit(a, line, i, kind);
 }
 
 static void ask_all(asking *to)
@@ -197,11 +233,10 @@ static void ask_all(asking *to)
         for (size_t b = 0; b < s->class_count; b++)
             ask_pair(to, &s->classes[a], &s->classes[b]);
         for (int side = TN_HOUSE_BACK; side < TN_HOUSE_SIDE_COUNT; side++)
-            ask(to, &(meeting){&s->classes[a], NULL, TN_FACE_OUTSIDE, (tn_house_side)side});
+            ask(to, &(tn_survey_meeting){&s->classes[a], NULL, TN_FACE_OUTSIDE, (tn_house_side)side});
     }
     for (uint32_t i = 0; s->opened && i < s->form.record->face_count; i++)
-        if (!to->lines[i].reached)
-            warn(s, i, &to->lines[i]);
+        warn(to, i);
 }
 
 tn_status tn_survey_faces(tn_survey *s, tn_error *error)
@@ -214,14 +249,22 @@ tn_status tn_survey_faces(tn_survey *s, tn_error *error)
         return TN_OK;
     }
     s->met = true;
-    asking to = {
-        .survey = s, .lines = calloc((size_t)lines + 1, sizeof *to.lines), .kinds = calloc(kinds, sizeof *to.kinds)};
-    tn_status status = to.lines && to.kinds ? TN_OK : tn_fail_memory(error);
-    for (uint32_t i = 0; status == TN_OK && i < lines; i++)
-        to.lines[i].hidden_by = TN_NO_RECORD;
+    size_t items = 0;
+    for (uint32_t i = 0; i < lines; i++)
+        items += s->form.module->FACE_LINE_records[s->form.record->face_first + i].kind_count;
+    asking to = {.survey = s,
+                 .lines = calloc((size_t)lines + 1, sizeof *to.lines),
+                 .kinds = calloc(kinds, sizeof *to.kinds),
+                 .items = calloc(items + 1, sizeof *to.items)};
+    tn_status status = to.lines && to.kinds && to.items ? TN_OK : tn_fail_memory(error);
+    for (uint32_t i = 0, first = 0; status == TN_OK && i < lines; i++) {
+        to.lines[i] = (line_use){.item_first = first, .hidden_by = TN_NO_RECORD};
+        first += s->form.module->FACE_LINE_records[s->form.record->face_first + i].kind_count;
+    }
     if (status == TN_OK)
         ask_all(&to);
     free(to.lines);
     free(to.kinds);
+    free(to.items);
     return status;
 }

@@ -48,8 +48,18 @@ uint32_t tn_survey_storeys(const tn_survey *survey, uint32_t zone, bool most);
 tn_status tn_survey_tile_anywhere(const tn_survey *survey, uint32_t tile, bool *fits, tn_tile_failure *further,
                                   tn_error *error);
 
-/* Notes which flights some cell has room for. */
-void tn_survey_try_flights(tn_survey *survey);
+/* ---- survey_fits.c */
+
+/* Is the face large enough for the kind, as far as the largest cells of both classes say? */
+bool tn_survey_may_fit(const tn_survey *survey, const tn_survey_meeting *meeting, uint32_t kind);
+
+/* The kind does not fit: keeps the meeting where it comes nearer to it than in *nearest, if there is one yet. */
+void tn_survey_note_misfit(const tn_survey *survey, const tn_survey_meeting *meeting, uint32_t kind,
+                           tn_survey_meeting *nearest);
+
+/* Adds a note: how large the kind is, and how large the faces are. None where there is no such meeting. */
+void tn_survey_say_misfit(const tn_survey *survey, tn_diagnostic *diagnostic, const tn_survey_meeting *nearest,
+                          uint32_t kind);
 
 /* ---- survey_faces.c: lines of faces that never apply, or are hidden by those before them; notes which kinds are used
  */

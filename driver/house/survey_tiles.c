@@ -134,15 +134,6 @@ tn_status tn_survey_tile_anywhere(const tn_survey *s, uint32_t tile, bool *fits,
     return status;
 }
 
-void tn_survey_try_flights(tn_survey *s)
-{
-    for (uint32_t i = 0; i < s->form.record->opening_count; i++) {
-        s->climbs[i] = s->place_count == TN_SURVEY_PLACES_MAX;
-        for (size_t k = 0; !s->climbs[i] && k < s->place_count; k++)
-            s->climbs[i] = tn_survey_climbs(s, &s->places[k], i);
-    }
-}
-
 /* ---- clear rooms of any size */
 
 #define EDGES_MAX 100u

@@ -101,9 +101,11 @@ static void warn_opening(const tn_survey *s, uint32_t number)
     if (!named)
         tn_help(tn_survey_list(s), d, "name it in a line such as `face cell(any) %s = %s`",
                 flight ? "under cell(any)" : "outside", name);
-    else if (flight)
+    else if (!wider && !s->uses[TN_FACE_KIND_COUNT + number].used)
+        tn_survey_say_misfit(s, d, &s->uses[TN_FACE_KIND_COUNT + number].nearest, TN_FACE_KIND_COUNT + number);
+    if (named && flight)
         tn_help(tn_survey_list(s), d, TN_FLIGHT_NEEDS);
-    else
+    else if (named)
         tn_help(tn_survey_list(s), d,
                 wider ? "a face has to be as wide as the opening and a `wall` added"
                       : "the faces of the lines that name it are narrower than it and a `wall` added, or lower, or "

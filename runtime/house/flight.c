@@ -49,6 +49,20 @@ static tn_steps steps_of(const tn_opening_record *flight, int64_t height, int64_
     return steps.first >= 1 && steps.deep <= deep && steps.wide <= wide ? steps : none;
 }
 
+tn_flight_size tn_flight_size_in(const tn_house_form *form, uint32_t storey, const tn_opening_record *flight)
+{
+    int64_t height = form->level[storey + 1] - form->level[storey];
+    bool turns = flight->turn == TN_TURN_QUARTER;
+    tn_steps steps = steps_of(flight, height, TN_HOUSE_LENGTH_MAX, TN_HOUSE_LENGTH_MAX);
+    tn_flight_size size = {steps.risers, steps.deep, steps.wide, turns};
+    if (turns && steps.risers) { /* about as much each way */
+        int64_t treads = steps.first + steps.second, first = (treads + 1) / 2;
+        size.deep = 2 * flight->wide + first * flight->going;
+        size.wide = 2 * flight->wide + (treads - first) * flight->going;
+    }
+    return size;
+}
+
 /* What of a face is clear, whatever walls there are. */
 static tn_rectangle clear_of(const tn_house *house, const tn_face *face)
 {

@@ -273,6 +273,16 @@ typedef struct tn_flight {
     size_t path_count;
 } tn_flight;
 
+/* How many steps a flight has in a storey, and how much room it takes between walls: as it is climbed at first, and
+ * across that. steps: 0 where the storey is no whole number of them. turns: by a right angle; it takes less one way and
+ * more the other, too. */
+typedef struct tn_flight_size {
+    int64_t steps, deep, wide;
+    bool turns;
+} tn_flight_size;
+
+tn_flight_size tn_flight_size_in(const tn_house_form *form, uint32_t storey, const tn_opening_record *flight);
+
 /* Does a flight fit between the two cells of a face? Their functions have no tiles, there is room for its steps, for
  * landings and, at either end, for standing before it, and the storey is a whole number of steps. */
 bool tn_flight_fits(const tn_house *house, const tn_face *face, const tn_opening_record *flight);
