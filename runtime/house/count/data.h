@@ -42,6 +42,18 @@ typedef struct tn_houses_plan_layer {
     uint32_t *alike; /* [states]: the first from which the same goes on */
 } tn_houses_plan_layer;
 
+/* Steps that counting went to the next layer, in how many ways; `all`: none is left out. */
+typedef struct tn_kept_step {
+    uint32_t from, to;
+    uint64_t times;
+} tn_kept_step;
+
+typedef struct tn_kept_steps {
+    tn_kept_step *items;
+    size_t count, room;
+    bool all;
+} tn_kept_steps;
+
 /* The nodes after so many trays, or within a step: {state of the library of plans, state of the strip, or leaving, or
  * threshold, or arrival}. */
 typedef struct tn_houses_layer {
@@ -49,6 +61,7 @@ typedef struct tn_houses_layer {
     mpz_t *ahead;    /* [nodes][lengths]: houses on plans of each length that go on from there; NULL: not asked for */
     mpz_t **by_tray; /* [nodes][lengths]: NULL, or [trays] houses that go on by each; or NULL */
     tn_value_counts *best; /* [nodes][lengths]: the values that these add, as far as they are looked for; or NULL */
+    tn_kept_steps kept;
 } tn_houses_layer;
 
 /* A way on from a plan state: a slice, the plan state behind it, how many choices of trays and of their insides. */
@@ -71,6 +84,7 @@ typedef struct tn_houses_kind {
     tn_interner beginnings; /* of plans: {length, trays so far} */
     mpz_t **by_beginning;   /* [beginnings]: NULL, or [trays] houses of one section that go on by each */
     size_t beginning_room;
+    size_t kept_steps; /* in all layers */
 } tn_houses_kind;
 
 struct tn_houses {
@@ -127,6 +141,12 @@ typedef tn_status tn_houses_edge_seen(void *context, const tn_houses_edge *edge,
  * end of the row. `state` of a step is what the next layer is of. */
 tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end,
                            tn_houses_edge_seen *seen, void *context, tn_error *error);
+
+/* Keeps a step of a layer that counting goes, since ranks go the same ones backwards. Where there are too many, those
+ * of the layer are forgotten. */
+tn_status tn_houses_keep_step(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, uint32_t to,
+                              const tn_houses_edge *edge, tn_error *error);
+void tn_houses_forget_steps(tn_houses_kind *kind, uint32_t layer);
 
 /* Frees the layers of the kind. */
 void tn_houses_layers_clear(const tn_houses *houses, tn_houses_kind *kind);

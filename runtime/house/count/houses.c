@@ -75,7 +75,7 @@ static tn_status lead_on(void *context, const tn_houses_edge *edge, tn_error *er
         mpz_mul_ui(f->one, f->counts[2 * (size_t)edge->from + i], edge->ways);
         mpz_addmul_ui(f->next[2 * (size_t)to + i], f->one, times[i]);
     }
-    return TN_OK;
+    return tn_houses_keep_step(f->houses, f->kind, f->layer, to, edge, error);
 }
 
 static tn_status come_to_end(void *context, const tn_houses_edge *edge, tn_error *error)
@@ -95,6 +95,7 @@ static tn_status count_layer(tn_forward *f, tn_error *error)
     tn_status status = TN_OK;
     if (states && f->layer >= h->low * f->stages)
         status = tn_houses_expand(h, f->kind, f->layer, true, come_to_end, f, error);
+    f->kind->layers[f->layer].kept.all = !h->measures && !h->trays_matter;
     f->nodes += states ? f->kind->layers[f->layer].nodes.count : 0;
     if (status == TN_OK && f->layer < h->high * f->stages)
         status = tn_houses_expand(h, f->kind, f->layer, false, lead_on, f, error);
@@ -158,6 +159,7 @@ void tn_houses_layers_clear(const tn_houses *h, tn_houses_kind *kind)
 {
     for (uint32_t k = 0; kind->layers && k <= h->high * tn_houses_stages(h, kind); k++) {
         size_t lists = (size_t)kind->layers[k].nodes.count * tn_houses_lengths(h);
+        tn_houses_forget_steps(kind, k);
         tn_integers_free(kind->layers[k].ahead, lists);
         for (size_t n = 0; kind->layers[k].by_tray && n < lists; n++)
             tn_integers_free(kind->layers[k].by_tray[n], h->form->schema->tray_count);

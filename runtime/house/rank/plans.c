@@ -29,21 +29,49 @@ static tn_status add_end(void *context, const tn_houses_edge *edge, tn_error *er
     return TN_OK;
 }
 
+static void add_step(tn_backward *b, uint32_t from, uint32_t to, uint64_t ways, uint64_t times)
+{
+    const tn_houses_layer *layer = &b->kind->layers[b->layer];
+    uint32_t lengths = tn_houses_lengths(b->houses);
+    mpz_t *ahead = &layer->ahead[(size_t)from * lengths], *next = &layer[1].ahead[(size_t)to * lengths];
+    for (uint32_t i = 0; i < lengths; i++) {
+        if (mpz_sgn(next[i]) == 0)
+            continue;
+        mpz_mul_ui(b->one, next[i], ways);
+        mpz_addmul_ui(ahead[i], b->one, times);
+    }
+}
+
 static tn_status add_ahead(void *context, const tn_houses_edge *edge, tn_error *error)
 {
     tn_backward *b = context;
-    const tn_houses_layer *next = &b->kind->layers[b->layer + 1];
-    uint32_t lengths = tn_houses_lengths(b->houses);
-    uint32_t to = tn_number_find(&next->nodes, (uint64_t)edge->plan << 32 | edge->state);
-    mpz_t *ahead = &b->kind->layers[b->layer].ahead[(size_t)edge->from * lengths];
+    const tn_numbering *nodes = &b->kind->layers[b->layer + 1].nodes;
     (void)error;
-    for (uint32_t i = 0; i < lengths; i++) {
-        if (mpz_sgn(next->ahead[(size_t)to * lengths + i]) == 0)
-            continue;
-        mpz_mul_ui(b->one, next->ahead[(size_t)to * lengths + i], edge->ways);
-        mpz_addmul_ui(ahead[i], b->one, edge->times);
-    }
+    add_step(b, edge->from, tn_number_find(nodes, (uint64_t)edge->plan << 32 | edge->state), edge->ways, edge->times);
     return TN_OK;
+}
+
+/* The steps to the next layer: those that counting kept, or once more. */
+static tn_status add_steps(tn_backward *b, tn_error *error)
+{
+    const tn_kept_steps *kept = &b->kind->layers[b->layer].kept;
+    if (!kept->all)
+        return tn_houses_expand(b->houses, b->kind, b->layer, false, add_ahead, b, error);
+    for (size_t i = 0; i < kept->count; i++)
+        add_step(b, kept->items[i].from, kept->items[i].to, 1, kept->items[i].times);
+    tn_houses_forget_steps(b->kind, b->layer);
+    return TN_OK;
+}
+
+static tn_status look_back(tn_backward *b, tn_error *error)
+{
+    const tn_houses *h = b->houses;
+    tn_houses_layer *layer = &b->kind->layers[b->layer];
+    layer->ahead = tn_integers_new((size_t)layer->nodes.count * tn_houses_lengths(h));
+    tn_status status = layer->ahead ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK && b->layer % b->stages == 0 && b->layer >= h->low * b->stages)
+        status = tn_houses_expand(h, b->kind, b->layer, true, add_end, b, error);
+    return status == TN_OK && b->layer < h->high * b->stages ? add_steps(b, error) : status;
 }
 
 tn_status tn_houses_look_ahead(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
@@ -51,18 +79,8 @@ tn_status tn_houses_look_ahead(const tn_houses *h, tn_houses_kind *kind, tn_erro
     tn_backward b = {.houses = h, .kind = kind, .stages = tn_houses_stages(h, kind)};
     tn_status status = TN_OK;
     mpz_init(b.one);
-    for (b.layer = h->high * b.stages + 1; status == TN_OK && b.layer-- > 0;) {
-        tn_houses_layer *layer = &kind->layers[b.layer];
-        size_t count = (size_t)layer->nodes.count * tn_houses_lengths(h);
-        layer->ahead = malloc((count + 1) * sizeof *layer->ahead);
-        for (size_t i = 0; layer->ahead && i < count; i++)
-            mpz_init(layer->ahead[i]);
-        status = layer->ahead ? TN_OK : tn_fail_memory(error);
-        if (status == TN_OK && b.layer % b.stages == 0 && b.layer >= h->low * b.stages)
-            status = tn_houses_expand(h, kind, b.layer, true, add_end, &b, error);
-        if (status == TN_OK && b.layer < h->high * b.stages)
-            status = tn_houses_expand(h, kind, b.layer, false, add_ahead, &b, error);
-    }
+    for (b.layer = h->high * b.stages + 1; status == TN_OK && b.layer-- > 0;)
+        status = look_back(&b, error);
     mpz_clear(b.one);
     return status;
 }
