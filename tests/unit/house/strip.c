@@ -298,6 +298,14 @@ static uint32_t every(uint32_t plans)
     return plans * (uint32_t)(4 / test_share(4));
 }
 
+/* Ranks then go the steps that counting went once more. */
+static void forget_steps(tn_houses *houses)
+{
+    for (size_t i = 0; i < houses->kind_count; i++)
+        for (uint32_t k = 0; k <= houses->high * tn_houses_stages(houses, &houses->kinds[i]); k++)
+            tn_houses_forget_steps(&houses->kinds[i], k);
+}
+
 /* Returns how many houses there are. */
 static uint64_t check_library(const test_house *made, const tn_house_library_record *record, uint32_t rank_every)
 {
@@ -311,6 +319,9 @@ static uint64_t check_library(const test_house *made, const tn_house_library_rec
     if (status != TN_OK)
         fprintf(stderr, "%s\n", error.message);
     assert_int_equal(status, TN_OK);
+    static int libraries;
+    if (++libraries % 2 == 0)
+        forget_steps(c.houses);
     check_plans(&c, rank_every);
     check_numbers(&c);
     check_measures(&c);
