@@ -54,6 +54,24 @@ print(*sorted(ends))
 PY
 )" outside
 
+# A roof whose heights are no whole nanometres is one plane over rooms and walls: no corners a few nanometres apart, which draw a line.
+cat >"$scratch/lean-to.plan" <<'PLAN'
+schema shed { bay = 5m  zone garden = none | room(5.4m)  zone way = path(2.4m) }
+library sheds using shed { trays 2..2 }
+form lean-to of shed {
+  storey ground 3m  spine way  wall 400mm  partition 120mm  deck 350mm  roof 250mm
+  section garden roof = shed(front, 1:3)
+  function space at cell(any)
+}
+PLAN
+"$TARTAN" house "$scratch/lean-to.plan" '5m none path:2.4m | 5m room:5.4m path:2.4m ; shed(front,1:3) ; space | space space' -o "$scratch/lean-to.obj"
+is 'corners side by side' "$(python3 - "$scratch/lean-to.obj" <<'PY'
+import sys
+points = sorted({tuple(map(float, line.split()[1:])) for line in open(sys.argv[1]) if line.startswith("v ")})
+print(sum(0 < max(abs(a - b) for a, b in zip(p, q)) < 1e-6 for i, p in enumerate(points) for q in points[i + 1:]))
+PY
+)" 0
+
 # Flights are climbed by walks, and fit only where there is room for them.
 golden count "tartan count stairs.plan --library towers"
 golden no_way "tartan explain stairs.plan \"10' rooms:14' well:7'6\\\" ; gable(9:12,eaves-1',across) flat ; living living living climb climb climb\""

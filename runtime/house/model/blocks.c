@@ -65,14 +65,16 @@ static int by_value(const void *a, const void *b)
     return compare(*(const tn_fraction *)a, *(const tn_fraction *)b);
 }
 
-/* Only roofs with slabs are cut so. */
+/* Only roofs with slabs are cut so, and those with points that rounding moves. */
 static tn_status gather_breaks(const tn_solids *solids, tn_breaks *breaks, tn_error *error)
 {
-    bool slabs = false;
+    bool needed = false;
     *breaks = (tn_breaks){0};
     for (size_t i = 0; i < solids->prism_count; i++)
-        slabs |= solids->prisms[i].slab > 0;
-    if (!slabs)
+        needed |= solids->prisms[i].slab > 0;
+    for (size_t i = 0; i < solids->point_count; i++)
+        needed |= solids->points[i].y.bottom != 1 || solids->points[i].z.bottom != 1;
+    if (!needed)
         return TN_OK;
     for (int axis = 0; axis < 2; axis++) {
         tn_fraction *at = breaks->at[axis] = malloc(solids->point_count * sizeof *at);
