@@ -47,7 +47,8 @@ static bool read_section(tn_job *job, const char *text, tn_aspect *aspect)
     size_t read = known ? tn_length_read(length, strlen(length), false, &aspect->at, &error) : 0;
     if (read == 0 || length[read]) {
         tn_diagnostic *d = tn_job_usage(job, "--view: a section is cut at a place, not `%.60s`", text);
-        tn_help(tn_job_diagnostics(job), d, "write section:x=LENGTH or section:y=LENGTH, such as section:x=6'");
+        tn_help(tn_job_diagnostics(job), d,
+                "write section:x=LENGTH or section:y=LENGTH, with a unit: section:x=6', section:y=2.5m");
         return false;
     }
     aspect->kind = x ? TN_ASPECT_SECTION_X : TN_ASPECT_SECTION_Y;

@@ -72,8 +72,10 @@ static tn_status refuse_word(const tn_part_reader *reader, const tn_word *word, 
 static void help_choices(tn_error *error, const char *lead, const char *const *texts, size_t count)
 {
     char list[240] = "";
-    for (size_t i = 0; i < count && strlen(list) + strlen(texts[i]) + 8 < sizeof list; i++)
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s",
+    size_t room = sizeof error->help - strlen(lead) - 2;
+    room = room < sizeof list ? room : sizeof list;
+    for (size_t i = 0; i < count && strlen(list) + strlen(texts[i]) + 8 < room; i++)
+        snprintf(list + strlen(list), room - strlen(list), "%s%s",
                  i == 0           ? ""
                  : i + 1 == count ? " or "
                                   : ", ",
@@ -81,9 +83,10 @@ static void help_choices(tn_error *error, const char *lead, const char *const *t
     tn_error_help(error, "%s %s", lead, list);
 }
 
-/* Which of the texts the next word is. Where the part has no words, the only one there is. */
-static tn_status choose(tn_part_reader *reader, const char *what, const char *const *texts, size_t count,
-                        size_t *chosen, tn_error *error)
+/* Which of the texts the next word is. Where the part has no words, the only one there is. lead: what comes before the
+ * texts in an error's help. */
+static tn_status choose(tn_part_reader *reader, const char *what, const char *lead, const char *const *texts,
+                        size_t count, size_t *chosen, tn_error *error)
 {
     *chosen = 0;
     if (!reader->there && count == 1)
@@ -99,7 +102,7 @@ static tn_status choose(tn_part_reader *reader, const char *what, const char *co
                 part_names[reader->part], what);
         tn_error_place(error, 0, reader->end + 1, reader->end + 1);
     }
-    help_choices(error, "it can be", texts, count);
+    help_choices(error, lead, texts, count);
     return TN_INVALID;
 }
 
@@ -113,6 +116,42 @@ static tn_status at_end(tn_part_reader *reader, const char *what, tn_error *erro
             part_names[reader->part]);
     tn_error_help(error, "there is a word for each %s", what);
     return tn_word_refuse(&word, error);
+}
+
+/* ---- which cell or face it is about */
+
+#define LEAD_SIZE 240
+
+/* "the corridor of tray 2 in storey ground" */
+static void write_cell(const tn_house *house, uint32_t number, char *text, size_t size)
+{
+    const tn_house_form *form = house->form;
+    const tn_cell *cell = &house->cells[number];
+    snprintf(text, size, "the %.24s of tray %u in storey %.24s",
+             tn_text(form->module, form->schema->fields[cell->zone].name), cell->tray + 1,
+             tn_text(form->module, form->module->STOREY_records[form->record->storey_first + cell->storey].name));
+}
+
+static void lead_for_cell(const tn_house *house, uint32_t number, char lead[LEAD_SIZE])
+{
+    char cell[LEAD_SIZE / 3 + 20];
+    write_cell(house, number, cell, sizeof cell);
+    snprintf(lead, LEAD_SIZE, "%s can have", cell);
+}
+
+static const char *const side_names[TN_HOUSE_SIDE_COUNT] = {
+    [TN_HOUSE_BACK] = "back", [TN_HOUSE_FRONT] = "front", [TN_HOUSE_LEFT] = "left", [TN_HOUSE_RIGHT] = "right"};
+
+static void lead_for_face(const tn_house *house, const tn_face *face, char lead[LEAD_SIZE])
+{
+    char first[LEAD_SIZE / 3 + 20], second[LEAD_SIZE / 3 + 20];
+    write_cell(house, face->first, first, sizeof first);
+    if (face->relation == TN_FACE_OUTSIDE) {
+        snprintf(lead, LEAD_SIZE, "the %s of %s can be", side_names[face->side], first);
+        return;
+    }
+    write_cell(house, face->second, second, sizeof second);
+    snprintf(lead, LEAD_SIZE, "between %s and %s can be", first, second);
 }
 
 /* ---- reading */
@@ -129,7 +168,7 @@ static tn_status read_section(const tn_house_form *form, const char *line, size_
             texts[s] = tn_text(form->module, form->module->SHAPE_records[choice->shape_first + s].spelling);
         char what[120];
         snprintf(what, sizeof what, "value of `%.80s`", tn_text(form->module, choice->name));
-        tn_status status = choose(&reader, what, texts, choice->shape_count, &chosen, error);
+        tn_status status = choose(&reader, what, "it can be", texts, choice->shape_count, &chosen, error);
         if (status != TN_OK)
             return status;
         shapes[i] = (uint32_t)chosen;
@@ -203,7 +242,9 @@ static tn_status read_function(tn_house *house, tn_part_reader *reader, tn_cell 
         texts[count++] = "void";
     if (count == 0)
         return no_function(house, cell, error);
-    tn_status status = choose(reader, "function that may be there", texts, count, &chosen, error);
+    char lead[LEAD_SIZE];
+    lead_for_cell(house, (uint32_t)(cell - house->cells), lead);
+    tn_status status = choose(reader, "function that may be there", lead, texts, count, &chosen, error);
     if (status == TN_OK && !cell->open)
         cell->function = functions[chosen];
     return status;
@@ -245,8 +286,6 @@ static tn_status read_functions(tn_house *house, const char *line, size_t size, 
 /* Where the word names an opening, or `open`, that a lower roof keeps out of one of the first faces, says so. */
 static void help_behind_roof(const tn_house *house, size_t faces, const tn_word *word, tn_error *error)
 {
-    static const char *const sides[TN_HOUSE_SIDE_COUNT] = {
-        [TN_HOUSE_BACK] = "back", [TN_HOUSE_FRONT] = "front", [TN_HOUSE_LEFT] = "left", [TN_HOUSE_RIGHT] = "right"};
     const tn_house_form *form = house->form;
     uint32_t kind = TN_FACE_OPEN, kinds = TN_FACE_KIND_COUNT + form->record->opening_count;
     tn_behind_roof behind;
@@ -261,7 +300,7 @@ static void help_behind_roof(const tn_house *house, size_t faces, const tn_word 
         tn_behind_roof_text(house, &behind, text, sizeof text);
         tn_error_help(
             error, "`%.40s` does not fit at the %s of %.24s in tray %u, storey %.24s: %s",
-            tn_form_kind_text(form, kind), sides[face->side],
+            tn_form_kind_text(form, kind), side_names[face->side],
             tn_text(form->module, form->schema->fields[cell->zone].name), cell->tray + 1,
             tn_text(form->module, form->module->STOREY_records[form->record->storey_first + cell->storey].name), text);
         return;
@@ -279,7 +318,10 @@ static tn_status read_faces(tn_house *house, const char *line, size_t size, tn_e
         tn_word word = next_word(&look);
         for (size_t k = 0; k < count; k++)
             texts[k] = tn_form_kind_text(house->form, kinds[k]);
-        tn_status status = count > 1 ? choose(&reader, "kind of that face", texts, count, &chosen, error) : TN_OK;
+        char lead[LEAD_SIZE] = "";
+        if (count > 1)
+            lead_for_face(house, &house->faces[i], lead);
+        tn_status status = count > 1 ? choose(&reader, "kind of that face", lead, texts, count, &chosen, error) : TN_OK;
         if (status != TN_OK) {
             help_behind_roof(house, i + 1, &word, error);
             return status;
@@ -320,8 +362,11 @@ static tn_status read_tile(tn_house *house, tn_part_reader *reader, uint32_t cel
             tn_variant_text(house->form, &v.variants[i], names[i]);
             texts[i] = names[i];
         }
-        if (status == TN_OK)
-            status = choose(reader, "tile that fits there", texts, v.count, &house->cells[cell].variant, error);
+        if (status == TN_OK) {
+            char lead[LEAD_SIZE];
+            lead_for_cell(house, cell, lead);
+            status = choose(reader, "tile that fits there", lead, texts, v.count, &house->cells[cell].variant, error);
+        }
     }
     free(names);
     free(texts);

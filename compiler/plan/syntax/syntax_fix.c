@@ -112,6 +112,28 @@ static const char *face_fix(const tn_parse *parse, const char *found, const tn_e
     return NULL;
 }
 
+/* Is the parenthesis in which the token at hand stands that of this word? */
+static bool stands_in(const tn_parse *parse, const char *word)
+{
+    size_t at = parse->last_span.begin, size = strlen(word), closed = 0;
+    while (at-- > 0 && parse->text[at] != '{' && parse->text[at] != '}') {
+        closed += parse->text[at] == ')';
+        if (parse->text[at] == '(' && closed-- == 0)
+            return at >= size && memcmp(parse->text + at - size, word, size) == 0;
+    }
+    return false;
+}
+
+/* Questions about cells of houses that have two parts. */
+static const char *pair_fix(const tn_parse *parse, const tn_expected *e)
+{
+    if (stands_in(parse, "apart") && tn_expects(e, "`from`"))
+        return "a walk is asked for by `apart(cell(...), from cell(...), by door or open)`";
+    if (stands_in(parse, "touch"))
+        return "two cells that meet are asked for by `touch(cell(...), cell(...) by door or open)`";
+    return NULL;
+}
+
 /* What was likely meant in forms and in what asks for houses. */
 static const char *house_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
@@ -120,8 +142,11 @@ static const char *house_fix(const tn_parse *parse, const char *found, const tn_
         return fix;
     if (tn_expects(e, "`cell`") && !tn_expects(e, "`tray`") && strcmp(found, "a name") == 0)
         return "cells are asked for by `cell(...)`: `cell(kitchen)`, `cell(body, ground)`";
-    if (tn_expects(e, "`from`") && comes_after(parse, ",") && strcmp(found, "`to`") == 0)
-        return "a walk is asked for by `apart(cell(...), from cell(...), by door or open)`";
+    if ((fix = pair_fix(parse, e)))
+        return fix;
+    if (strcmp(found, "`cell`") == 0 && line_begins(parse, "forbid"))
+        return "`forbid section(...)` is about choices of the form; cells that are not there are said by `no "
+               "cell(...)`";
     if (tn_expects(e, "`from`") && tn_expects(e, "`using`") && strcmp(found, "`in`") == 0)
         return "a library of houses is written `library NAME from PLANS in FORM { ... }`";
     if (strcmp(found, "`of`") == 0 && comes_after(parse, "area"))
@@ -149,6 +174,8 @@ static const char *mark_fix(const tn_parse *parse, const char *found, const tn_e
         return "values that a tray may have are joined by `or`: `tray(a or b)`, `tray(not (a or b))`";
     if (strcmp(found, "`|`") == 0 && tn_expects(e, "`or`"))
         return "alternatives are joined by `or`: `tray(a or b)` for the values of a tray, `a or b` for rules";
+    if (strcmp(found, "`...`") == 0 && parse->mode == TN_LEX_PATTERN && tn_expects(e, "`|`"))
+        return "`...` stands for trays, between bars; values of a tray that are left open are not written";
     if (strcmp(found, "`[`") == 0 && parse->mode == TN_LEX_PATTERN)
         return "an open plan on the command line has no brackets: `a | ? | ...`";
     if (strcmp(found, "`[`") == 0 && tn_expects(e, "`{`"))
