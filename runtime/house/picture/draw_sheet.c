@@ -198,7 +198,9 @@ static bool fits_scaled(sheet *s, const tn_paper *paper, uint32_t smallest, tn_s
 }
 
 /* Which papers are tried at which scales, the smallest first: a small paper with drawings that are half as large before
- * one that few can print. On the last paper any scale will do. */
+ * one that few can print. The largest paper comes before the middle one at half the scale, which it is as full as: its
+ * names and furniture can be read, and printed at half its size it is the smallest paper at half the scale. On the last
+ * paper any scale will do. */
 static const struct tn_paper_order {
     size_t paper;
     enum { LEGIBLE, HALF, ANY } scale;
