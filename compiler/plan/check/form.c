@@ -279,7 +279,7 @@ static void check_walls(tn_check *check, const tn_checked_form *form)
             if (!measured || value->length >= form->thickness[0])
                 continue;
             char shown[64];
-            tn_length_write(value->length, shown, sizeof shown);
+            tn_length_write_style(value->length, tn_length_style_of(value->spelling), shown, sizeof shown);
             tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_NEAR, form->ast->name->node.span,
                                          "walls of form `%s` can be %s apart, and are thicker", form->name, shown);
             tn_note(check->diagnostics, d, &value->span, "the length is here");
