@@ -173,18 +173,16 @@ static tn_status tally_afresh(const tn_numbered *n, house_tally *tally, tn_error
     return tally_new(n, tally) ? TN_OK : tn_fail_memory(error);
 }
 
-/* The steps in which a plan is gone through quickly: each takes as long as the house is large. */
+/* The steps in which a plan is gone through quickly. */
 static uint64_t quick_steps(const tn_numbered *n, const tn_plan *plan)
 {
-    enum { QUICK = 50000, QUICK_ALONE = 300000, USUAL_CELLS = 32 };
-    uint64_t trays = plan ? plan->length : tn_library_max(n->plans),
-             cells = trays * n->form.zone_count * n->form.record->storey_count;
+    enum { QUICK = 50000, QUICK_ALONE = 300000 };
     mpz_t plans;
     mpz_init(plans);
     tn_library_kept(n->plans, TN_ALL_LENGTHS, plans);
     uint64_t steps = plan || mpz_cmp_ui(plans, 1) <= 0 ? QUICK_ALONE : QUICK;
     mpz_clear(plans);
-    return cells > USUAL_CELLS ? steps * USUAL_CELLS / cells : steps;
+    return steps;
 }
 
 /* Few plans are gone through, unless one of them takes long; else all are counted together, if that can be done. */

@@ -36,6 +36,7 @@ struct tn_house_variants {
     struct tn_clause_memo *memos; /* of each clause: memo.h */
     size_t turn_end; /* the wheels of functions from here on change nothing: a clause dropped all their houses */
     uint64_t work_limit, work;
+    uint64_t step;  /* what a step takes of it: as much as the house is large */
     uint64_t *runs; /* of each clause, on the plan at hand: the dearest is named where the work is too much */
     tn_house house;
     tn_house_known known;       /* of that house's cells */

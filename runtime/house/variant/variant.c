@@ -53,8 +53,8 @@ static const tn_house_clause_record *dearest(const tn_house_variants *v)
 
 tn_status tn_variants_spend(tn_house_variants *v, uint64_t steps, tn_error *error)
 {
-    if (v->work >= steps) {
-        v->work -= steps;
+    if (v->work >= steps * v->step) {
+        v->work -= steps * v->step;
         return TN_OK;
     }
     v->work = 0;
@@ -298,6 +298,8 @@ static tn_status take_functions(tn_house_variants *v, const tn_house *like, tn_e
     return status;
 }
 
+enum { USUAL_CELLS = 32 };
+
 static void begin_work(tn_house_variants *v)
 {
     v->work = v->work_limit;
@@ -314,6 +316,7 @@ static tn_status stand(tn_house_variants *v, const tn_tray *trays, size_t length
         return tn_fail_memory(error);
     if (status != TN_OK)
         return status;
+    v->step = 1 + v->house.cell_count / USUAL_CELLS;
     memset(v->known_faces, 0, TN_KNOWN_WAYS * v->house.face_count * sizeof *v->known_faces);
     return tn_house_known_use(&v->known, &v->house, error);
 }
