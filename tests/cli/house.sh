@@ -365,7 +365,6 @@ depends 9 'open-plan' 1
 golden relations 'tartan check house-coverage.plan --relations --examples 2>/dev/null'
 golden relations_json 'tartan check cottage --relations --json'
 golden relations_few 'tartan check cottage --relations --max-states 40 | head -n 4'
-golden relations_limit 'tartan check lahave-few.plan --relations --max-states 12000'
 
 # Two clauses are what counting says of libraries with them.
 printf '%s\n' 'use "cottage"' 'library all from cottage-rows in cottage-form { }' >"$scratch/all.plan"
@@ -423,8 +422,6 @@ golden gallery_parts 'tartan house gallery.plan "$(tartan sample gallery.plan 1 
 golden gallery_behind "tartan house gallery.plan '$inn ; open open'"
 golden gallery_behind_full "tartan explain gallery.plan '$inn ; open' --full | grep -A 2 roofs"
 is 'houses with galleries, one by one' "$("$TARTAN" enumerate "$files/gallery.plan" --library inns | wc -l)" 14312
-# Long numbers stay apart from those beside them.
-golden count_wide "tartan count apartments --library apartments --plan '#0' --clauses | sed -n '/without/,\$p'"
 # Doors hang and open where nothing stands; names stand where nothing is below them.
 arcs_and_names() {
     tartan house "$1" "$2" --view plan:ground -o "$scratch/plan.dxf" && tr -d '\r' <"$scratch/plan.dxf" | awk '

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is said of libraries of houses that pass a limit after as much work as it allows.
+# Libraries of houses that take much work: what is said where they pass a limit, and of very many houses.
 # Slow under sanitizers.
 name=house_limits
 . "$(dirname "$0")/golden.bash"
@@ -13,4 +13,7 @@ name=house_limits
 } >"$scratch/city.plan"
 golden too_many_together "tartan count $scratch/city.plan --library tall"
 golden too_many_steps "tartan count $scratch/city.plan --library tall --plan '#0'"
+golden relations_limit 'tartan check lahave-few.plan --relations --max-states 12000'
+# Long numbers stay apart from those beside them.
+golden count_wide "tartan count apartments --library apartments --plan '#0' --clauses | sed -n '/without/,\$p'"
 finish
