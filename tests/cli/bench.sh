@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# Slow under sanitizers.
 # Needs the parts: draw mesh
 # The programs of the benchmarks still run, and all peers that are here decide as Tartan does. Times are not looked at.
 # (bench_gene and bench_breeding are only built: the least they do takes too long for a test.)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Individuals inserted, edited and taken out while a run is bred, and populations of another size: the same bytes at any number of
 # threads, whether interrupted or not, by the prompt or by command; what a grammar cannot make is refused with its place.
+# Slow under sanitizers.
 # Needs the parts: draw store
 set -u
 work=$(mktemp -d)

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # export: Prolog programs decide as the interpreter does, in SWI-Prolog where that is installed; patterns with their legends.
+# Slow under sanitizers.
 name=export
 . "$(dirname "$0")/golden.bash"
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Fitting: data to test with, measures of errors, classes, scaling, lexicase selection, why sentences fail.
+# Slow under sanitizers.
 # Needs the parts: draw store
 set -u
 work=$(mktemp -d)

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # tartan mesh: the nine primitives have the measures that two other implementations found; files, limits, wrong use.
+# Slow under sanitizers.
 name=mesh
 source "$(dirname "$0")/golden.bash"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# Slow under sanitizers.
 # Needs the parts: store
 # shards --task match, prune: large files in pieces, with the bytes of one command; lines of whole files; wrong inputs, wrong sets.
 name=shards_answers
