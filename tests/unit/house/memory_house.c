@@ -11,10 +11,10 @@
 #include <cmocka.h>
 
 #include "runtime/house/bare.h"
+#include "runtime/house/count/best.h"
 #include "runtime/house/export/export.h"
 #include "runtime/house/rank/rank.h"
 #include "runtime/house/schedule/describe.h"
-#include "runtime/house/count/best.h"
 #include "runtime/house/variant/change.h"
 #include "runtime/house/variant/variant.h"
 #include "tests/support/failing_memory.h"
