@@ -410,21 +410,6 @@ static tn_status check_left(tn_facing *f, bool *found, tn_error *error)
 
 /* ---- what is ahead, of houses with the functions */
 
-static tn_status count_ahead(tn_plan_path *a, uint32_t tray, uint32_t node, const tn_path_slices *slices,
-                             tn_path_sum *sum, tn_error *error)
-{
-    mpz_ptr like = a->states[tray].like[node];
-    tn_status status = TN_OK;
-    mpz_set_ui(like, 0);
-    for (size_t k = 0; status == TN_OK && k < slices->count; k++) {
-        mpz_set_ui(sum->houses, 0);
-        status =
-            tn_path_step(a, tray, tn_path_state(a, tray, node), slices->items[k].slice, NULL, tn_path_add, sum, error);
-        mpz_addmul_ui(like, sum->houses, slices->items[k].times);
-    }
-    return status;
-}
-
 /* How the row ends does not depend on functions. */
 static tn_status look_ahead(tn_plan_path *a, const tn_path_slices *of_tray, tn_error *error)
 {
@@ -439,7 +424,8 @@ static tn_status look_ahead(tn_plan_path *a, const tn_path_slices *of_tray, tn_e
         sum.ahead = a->states[tray + 1].like;
         for (uint32_t i = 0; status == TN_OK && i < tn_path_layer(a, tray)->nodes.count; i++)
             if (mpz_sgn(a->states[tray].here[i]) > 0)
-                status = count_ahead(a, tray, i, &of_tray[tray], &sum, error);
+                status = tn_path_count_on(a, tray, tn_path_state(a, tray, i), of_tray[tray].items, of_tray[tray].count,
+                                          &sum, a->states[tray].like[i], error);
     }
     mpz_clear(sum.houses);
     return status;

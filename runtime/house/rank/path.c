@@ -104,6 +104,19 @@ tn_status tn_path_add(void *context, uint32_t state, uint64_t times, uint64_t fa
     return TN_OK;
 }
 
+tn_status tn_path_count_on(tn_plan_path *path, uint32_t trays, uint32_t state, const tn_strip_choice *slices,
+                           size_t count, tn_path_sum *sum, mpz_t houses, tn_error *error)
+{
+    tn_status status = TN_OK;
+    mpz_set_ui(houses, 0);
+    for (size_t k = 0; status == TN_OK && k < count; k++) {
+        mpz_set_ui(sum->houses, 0);
+        status = tn_path_step(path, trays, state, slices[k].slice, NULL, tn_path_add, sum, error);
+        mpz_addmul_ui(houses, sum->houses, slices[k].times);
+    }
+    return status;
+}
+
 tn_status tn_path_choose(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, bool *found, tn_error *error)
 {
     tn_path_slices *of_tray = calloc((size_t)path->length + 1, sizeof *of_tray);

@@ -98,6 +98,10 @@ typedef struct tn_path_sum {
 tn_status tn_path_add(void *sum, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
                       tn_error *error);
 
+/* houses := those that go on from a state after so many trays by one of these slices. sum: of those after one more. */
+tn_status tn_path_count_on(tn_plan_path *path, uint32_t trays, uint32_t state, const tn_strip_choice *slices,
+                           size_t count, tn_path_sum *sum, mpz_t houses, tn_error *error);
+
 /* Chooses the functions of the house, tray by tray. Then `here` is of houses with these; `of_tray` [length] the slices
  * of each tray that have them, which the caller frees. house: on the plan in the section. *found: is there one? */
 typedef struct tn_path_slices {

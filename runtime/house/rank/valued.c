@@ -119,19 +119,13 @@ static tn_status count_ahead(tn_plan_path *p, uint32_t trays, uint32_t node, tn_
                              tn_error *error)
 {
     uint32_t state = tn_path_state(p, trays, node);
-    tn_status status = TN_OK;
+    if (trays < p->length) {
+        const tn_strip_list *slices = &p->kind.strip->of_tray[p->view.only[trays]];
+        return tn_path_count_on(p, trays, state, slices->items, slices->count, sum, ahead, error);
+    }
     mpz_set_ui(sum->houses, 0);
-    if (trays == p->length) {
-        status = tn_path_step(p, trays, state, TN_STRIP_NONE, NULL, tn_path_add, sum, error);
-        mpz_set(ahead, sum->houses);
-        return status;
-    }
-    const tn_strip_list *slices = &p->kind.strip->of_tray[p->view.only[trays]];
-    for (size_t k = 0; status == TN_OK && k < slices->count; k++) {
-        mpz_set_ui(sum->houses, 0);
-        status = tn_path_step(p, trays, state, slices->items[k].slice, NULL, tn_path_add, sum, error);
-        mpz_addmul_ui(ahead, sum->houses, slices->items[k].times);
-    }
+    tn_status status = tn_path_step(p, trays, state, TN_STRIP_NONE, NULL, tn_path_add, sum, error);
+    mpz_set(ahead, sum->houses);
     return status;
 }
 
