@@ -239,8 +239,10 @@ typedef struct tn_posts {
     size_t count;
 } tn_posts;
 
-/* The caller frees posts->items, also after a failure. */
-tn_status tn_house_posts(const tn_house *house, uint32_t storey, tn_posts *posts, tn_error *error);
+/* The posts of a storey; near: those in a rectangle and on its edges, or NULL for all. The caller frees posts->items,
+ * also after a failure. */
+tn_status tn_house_posts(const tn_house *house, uint32_t storey, const tn_rectangle *near, tn_posts *posts,
+                         tn_error *error);
 
 /* The one at a point, where a wall ends. */
 const tn_post *tn_posts_find(const tn_posts *posts, int64_t x, int64_t y);

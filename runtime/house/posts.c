@@ -37,20 +37,34 @@ static tn_post end_of(const tn_house *house, const tn_face *face)
     return (tn_post){face->at.x0, face->at.y0, open ? wall : in_y ? thick : 0, open ? wall : in_y ? 0 : thick};
 }
 
-tn_status tn_house_posts(const tn_house *house, uint32_t storey, tn_posts *posts, tn_error *error)
+static void add_near(tn_posts *posts, const tn_rectangle *near, const tn_post *end)
+{
+    if (!near || (end->x >= near->x0 && end->x <= near->x1 && end->y >= near->y0 && end->y <= near->y1))
+        add_end(posts, end);
+}
+
+static bool is_apart(const tn_rectangle *a, const tn_rectangle *b)
+{
+    return a->x0 > b->x1 || b->x0 > a->x1 || a->y0 > b->y1 || b->y0 > a->y1;
+}
+
+tn_status tn_house_posts(const tn_house *house, uint32_t storey, const tn_rectangle *near, tn_posts *posts,
+                         tn_error *error)
 {
     *posts = (tn_posts){.items = malloc((2 * house->face_count + 1) * sizeof *posts->items)};
     if (!posts->items)
         return tn_fail_memory(error);
     for (size_t i = 0; i < house->face_count; i++) {
         const tn_face *face = &house->faces[i];
-        tn_post end = end_of(house, face);
-        if (face->relation == TN_FACE_UNDER || face->storey != storey || (end.thick_x == 0 && end.thick_y == 0))
+        if (face->storey != storey || face->relation == TN_FACE_UNDER || (near && is_apart(&face->at, near)))
             continue;
-        add_end(posts, &end);
+        tn_post end = end_of(house, face);
+        if (end.thick_x == 0 && end.thick_y == 0)
+            continue;
+        add_near(posts, near, &end);
         end.x = face->at.x1;
         end.y = face->at.y1;
-        add_end(posts, &end);
+        add_near(posts, near, &end);
     }
     return TN_OK;
 }

@@ -124,7 +124,7 @@ static tn_status put_walls(const tn_house *house, uint32_t storey, tn_rectangles
     const tn_house_form *form = house->form;
     int64_t z0 = form->level[storey], z1 = z0 + tn_form_clear(form, storey);
     tn_posts posts;
-    tn_status status = tn_house_posts(house, storey, &posts, error);
+    tn_status status = tn_house_posts(house, storey, NULL, &posts, error);
     for (size_t i = 0; status == TN_OK && i < posts.count; i++) {
         const tn_post *post = &posts.items[i];
         if (!post->thick_x || !post->thick_y)

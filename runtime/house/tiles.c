@@ -81,13 +81,11 @@ static tn_status take_posts(tn_room *room, tn_error *error)
 {
     const tn_cell *cell = &room->house->cells[room->cell];
     tn_posts posts;
-    tn_status status = tn_house_posts(room->house, cell->storey, &posts, error);
+    tn_status status = tn_house_posts(room->house, cell->storey, &cell->at, &posts, error);
     for (size_t i = 0; status == TN_OK && i < posts.count; i++) {
         const tn_post *post = &posts.items[i];
-        bool near =
-            post->x >= cell->at.x0 && post->x <= cell->at.x1 && post->y >= cell->at.y0 && post->y <= cell->at.y1;
         tn_rectangle at = tn_post_at(post);
-        if (near && post->thick_x && post->thick_y)
+        if (post->thick_x && post->thick_y)
             status = take(room, (tn_box){at.x0, at.x1, at.y0, at.y1, 0, room->height}, error);
     }
     free(posts.items);

@@ -127,7 +127,7 @@ static bool has_tiles(const tn_plane_house *c, uint32_t storey)
 static tn_status find_sides(tn_plane_house *c, uint32_t storey, tn_error *error)
 {
     tn_posts posts = {0};
-    tn_status status = has_tiles(c, storey) ? tn_house_posts(&c->house, storey, &posts, error) : TN_OK;
+    tn_status status = has_tiles(c, storey) ? tn_house_posts(&c->house, storey, NULL, &posts, error) : TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < c->house.cell_count; i++)
         if (c->house.cells[i].storey == storey)
             status = find_side(c, i, &posts, c->sides + (size_t)SIDE_WORDS * i, error);

@@ -54,22 +54,23 @@ static tn_cell_count take_any(const tn_wheels *wheels, size_t first, size_t end)
 static tn_status count_cell(tn_house_variants *v, uint32_t cell, size_t first, size_t end, tn_cell_count *count,
                             tn_error *error)
 {
-    tn_status status = TN_OK;
-    bool wanted = true;
-    *count = (tn_cell_count){0};
-    do {
-        tn_variants tiles = {0};
-        set_kinds(v, &v->own, first, end);
-        status = tn_variants_spend(v, 1, error);
-        if (status == TN_OK)
-            status = tn_tile_variants(&v->house, cell, &tiles, error);
-        wanted = tiles.wanted;
-        count->houses += tiles.count;
-        count->faced += tiles.count > 0;
-        tn_variants_clear(&tiles);
-    } while (status == TN_OK && wanted && tn_wheels_turn(&v->own, first, end));
-    if (status == TN_OK && !wanted)
+    tn_status status = tn_variants_spend(v, 1, error);
+    if (status == TN_OK && !tn_fits_wanted(&v->fits, &v->house.cells[cell])) {
         *count = take_any(&v->own, first, end);
+        return TN_OK;
+    }
+    *count = (tn_cell_count){0};
+    while (status == TN_OK) {
+        size_t tiles = 0;
+        set_kinds(v, &v->own, first, end);
+        status = tn_fits_count(&v->fits, &v->house, cell, &tiles, error);
+        count->houses += tiles;
+        count->faced += tiles > 0;
+        if (!tn_wheels_turn(&v->own, first, end))
+            break;
+        if (status == TN_OK)
+            status = tn_variants_spend(v, 1, error);
+    }
     return status;
 }
 

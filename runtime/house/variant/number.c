@@ -179,13 +179,12 @@ typedef struct seeking {
 
 static bool same_section(const tn_house *a, const tn_house *b)
 {
-    return memcmp(a->shapes, b->shapes, sizeof a->shapes) == 0 && a->cell_count == b->cell_count &&
-           a->face_count == b->face_count;
+    return memcmp(a->shapes, b->shapes, sizeof a->shapes) == 0;
 }
 
 static bool same_functions(const tn_house *a, const tn_house *b)
 {
-    bool same = true;
+    bool same = a->cell_count == b->cell_count && a->face_count == b->face_count;
     for (size_t i = 0; same && i < a->cell_count; i++)
         same = a->cells[i].function == b->cells[i].function;
     return same;

@@ -2,6 +2,7 @@
 #ifndef TARTAN_HOUSE_VARIANT_PARTS_H
 #define TARTAN_HOUSE_VARIANT_PARTS_H
 
+#include "runtime/house/variant/fit.h"
 #include "runtime/house/variant/relevant.h"
 #include "runtime/house/variant/stage.h"
 #include "runtime/house/variant/variant.h"
@@ -48,6 +49,7 @@ struct tn_house_variants {
     struct tn_sections *sections; /* what was counted on the plan at hand: section.h */
     tn_tray *counted;             /* that plan */
     size_t counted_length;
+    tn_fits fits;
     size_t *tiles; /* how many fit in each cell; 1 where it has none */
     size_t tile_room;
     bool asks_costs;                      /* a clause is of the stage of tiles */

@@ -114,11 +114,10 @@ tn_status tn_variants_count_tiles(tn_house_variants *v, bool *fit, tn_error *err
     tn_status status = TN_OK;
     *fit = true;
     for (uint32_t i = 0; status == TN_OK && *fit && i < v->house.cell_count; i++) {
-        tn_variants tiles;
-        status = tn_tile_variants(&v->house, i, &tiles, error);
-        v->tiles[i] = tiles.wanted ? tiles.count : 1;
+        v->tiles[i] = 1;
+        if (tn_fits_wanted(&v->fits, &v->house.cells[i]))
+            status = tn_fits_count(&v->fits, &v->house, i, &v->tiles[i], error);
         *fit = v->tiles[i] > 0;
-        tn_variants_clear(&tiles);
     }
     return status;
 }
@@ -321,6 +320,23 @@ static tn_status stand(tn_house_variants *v, const tn_tray *trays, size_t length
     return tn_house_known_use(&v->known, &v->house, error);
 }
 
+/* Only the section is known of the house at hand; it stands up when more is asked for. */
+static void take_section(tn_house_variants *v, const uint32_t *shapes)
+{
+    tn_house_clear(&v->house);
+    v->house.form = v->form;
+    memcpy(v->house.shapes, shapes, v->form->record->choice_count * sizeof *shapes);
+}
+
+static tn_status stand_up(tn_house_variants *v, tn_error *error)
+{
+    uint32_t shapes[TN_CHOICES_MAX];
+    if (v->house.trays)
+        return TN_OK;
+    memcpy(shapes, v->house.shapes, sizeof shapes);
+    return stand(v, v->counted, v->counted_length, shapes, error);
+}
+
 /* The house at hand stands like this one, with its functions. */
 static tn_status begin_like(tn_house_variants *v, const tn_house *like, tn_error *error)
 {
@@ -362,8 +378,9 @@ static tn_status count_section(tn_house_variants *v, tn_house_counts *counts, tn
         mpz_set(counts->houses, known->houses);
         return TN_OK;
     }
-    tn_status status =
-        go_through_functions(v, &(tn_house_visitor){.count = add_counts, .context = counts}, &stop, error);
+    tn_status status = stand_up(v, error);
+    if (status == TN_OK)
+        status = go_through_functions(v, &(tn_house_visitor){.count = add_counts, .context = counts}, &stop, error);
     return status == TN_OK ? tn_sections_keep(v->sections, &v->house, counts, error) : status;
 }
 
@@ -376,6 +393,8 @@ static tn_status go_through_section(tn_house_variants *v, const tn_house_visitor
     if (status == TN_OK)
         seen_by->count(v, seen_by->context, PART_SECTION, &counts, &taken);
     tn_house_counts_clear(&counts);
+    if (status == TN_OK && !taken)
+        status = stand_up(v, error);
     return status == TN_OK && !taken ? go_through_functions(v, seen_by, stop, error) : status;
 }
 
@@ -402,8 +421,8 @@ tn_status tn_variants_go_through(tn_house_variants *v, const tn_tray *trays, siz
     begin_work(v);
     status = begin_plan(v, trays, length, error);
     for (bool more = true; status == TN_OK && !stop && more; more = tn_form_next_section(v->form, shapes)) {
-        status = stand(v, trays, length, shapes, error);
-        if (status == TN_OK && tn_house_section_stands(&v->house))
+        take_section(v, shapes);
+        if (tn_house_section_stands(&v->house))
             status = go_through_section(v, seen_by, &stop, error);
     }
     return status;
@@ -470,6 +489,8 @@ tn_status tn_house_variants_new(const tn_house_form *form, const tn_house_librar
     if (status == TN_OK)
         status = tn_house_known_begin(form, &v->known, error);
     if (status == TN_OK)
+        status = tn_fits_begin(form, &v->fits, error);
+    if (status == TN_OK)
         status = tn_house_rules_new(form, 0, &v->rules, error);
     if (status != TN_OK) {
         tn_house_variants_free(v);
@@ -485,6 +506,7 @@ void tn_house_variants_free(tn_house_variants *v)
     tn_house_rules_free(v->rules);
     tn_house_clear(&v->house);
     tn_house_known_clear(&v->known);
+    tn_fits_clear(&v->fits);
     free(v->known_faces);
     tn_room_questions_clear(&v->questions);
     tn_wheels *const wheels[] = {&v->functions, &v->faces, &v->shared, &v->own};

@@ -10,6 +10,12 @@ typedef struct tn_small_row {
     uint8_t other, chosen, marker, accepts;
 } tn_small_row;
 
+/* Those below are minimal: only where letters lack can states become alike. */
+static bool has_all_letters(const tn_marked *marked, const uint8_t *chosen)
+{
+    return marked->letters > 1 && (!chosen || memchr(chosen, true, marked->letters - 1));
+}
+
 static tn_status small(const tn_marked *marked, const tn_small_row *rows, uint32_t states, const uint8_t *chosen,
                        tn_dfa **out, tn_error *error)
 {
@@ -25,7 +31,7 @@ static tn_status small(const tn_marked *marked, const tn_small_row *rows, uint32
         dfa->delta[(size_t)s * 3 + 2] = rows[s].marker;
         dfa->accept[s] = rows[s].accepts;
     }
-    tn_status status = tn_dfa_minimise(dfa, 0, out, error);
+    tn_status status = (has_all_letters(marked, chosen) ? tn_dfa_tidy : tn_dfa_minimise)(dfa, 0, out, error);
     tn_dfa_free(dfa);
     return status;
 }
