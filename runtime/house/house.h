@@ -74,6 +74,13 @@ tn_status tn_house_stand(const tn_house_form *form, const tn_tray *trays, size_t
                          tn_house *house, tn_error *error);
 void tn_house_clear(tn_house *house);
 
+/* The same for a house that is zero or has stood before, whose memory is used again. shapes: not the house's own. */
+tn_status tn_house_stand_again(const tn_house_form *form, const tn_tray *trays, size_t length, const uint32_t *shapes,
+                               tn_house *house, tn_error *error);
+
+/* Nothing but the section is known of such a house: it has no trays, cells and faces. */
+void tn_house_take_section(const tn_house_form *form, const uint32_t *shapes, tn_house *house);
+
 /* The lowest cell of a zone (a field) of a tray that its section has and a line `no` takes away, at x = y = 0; false
  * where all are there. */
 bool tn_house_ends(const tn_house *house, uint32_t tray, uint32_t zone, tn_cell *end);

@@ -246,13 +246,29 @@ static tn_status check_walls(const tn_house *house, tn_error *error)
 tn_status tn_house_stand(const tn_house_form *form, const tn_tray *trays, size_t length, const uint32_t *shapes,
                          tn_house *house, tn_error *error)
 {
-    *house = (tn_house){.form = form, .length = length};
+    *house = (tn_house){0};
+    return tn_house_stand_again(form, trays, length, shapes, house, error);
+}
+
+void tn_house_take_section(const tn_house_form *form, const uint32_t *shapes, tn_house *house)
+{
+    house->form = form;
+    house->known = NULL;
+    house->length = house->cell_count = house->face_count = 0;
+    memset(house->shapes, 0, sizeof house->shapes);
     if (form->record->choice_count)
         memcpy(house->shapes, shapes, form->record->choice_count * sizeof *shapes);
-    house->trays = malloc((length + 1) * sizeof *trays);
-    house->tray_first = malloc((length + 1) * sizeof *house->tray_first);
-    if (!house->trays || !house->tray_first)
+}
+
+tn_status tn_house_stand_again(const tn_house_form *form, const tn_tray *trays, size_t length, const uint32_t *shapes,
+                               tn_house *house, tn_error *error)
+{
+    if (!tn_array_resize(&house->trays, length + 1, sizeof *trays) ||
+        !tn_array_resize(&house->tray_first, length + 1, sizeof *house->tray_first))
         return tn_fail_memory(error);
+    tn_house_take_section(form, shapes, house);
+    house->length = length;
+    house->tiles_left_out = false;
     if (length)
         memcpy(house->trays, trays, length * sizeof *trays);
     tn_status status = add_cells(house, error);

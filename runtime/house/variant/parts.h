@@ -40,6 +40,7 @@ struct tn_house_variants {
     uint64_t step;  /* what a step takes of it: as much as the house is large */
     uint64_t *runs; /* of each clause, on the plan at hand: the dearest is named where the work is too much */
     tn_house house;
+    bool stands;                /* or only its section is known */
     tn_house_known known;       /* of that house's cells */
     tn_known_face *known_faces; /* [faces][TN_KNOWN_WAYS] */
     tn_wheels functions, faces;

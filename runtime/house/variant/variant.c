@@ -308,8 +308,7 @@ static void begin_work(tn_house_variants *v)
 static tn_status stand(tn_house_variants *v, const tn_tray *trays, size_t length, const uint32_t *shapes,
                        tn_error *error)
 {
-    tn_house_clear(&v->house);
-    tn_status status = tn_house_stand(v->form, trays, length, shapes, &v->house, error);
+    tn_status status = tn_house_stand_again(v->form, trays, length, shapes, &v->house, error);
     if (status == TN_OK &&
         !tn_array_resize((void **)&v->known_faces, TN_KNOWN_WAYS * v->house.face_count + 1, sizeof *v->known_faces))
         return tn_fail_memory(error);
@@ -320,20 +319,14 @@ static tn_status stand(tn_house_variants *v, const tn_tray *trays, size_t length
     return tn_house_known_use(&v->known, &v->house, error);
 }
 
-/* Only the section is known of the house at hand; it stands up when more is asked for. */
-static void take_section(tn_house_variants *v, const uint32_t *shapes)
-{
-    tn_house_clear(&v->house);
-    v->house.form = v->form;
-    memcpy(v->house.shapes, shapes, v->form->record->choice_count * sizeof *shapes);
-}
-
+/* Of the house at hand only the section is known until more is asked for. */
 static tn_status stand_up(tn_house_variants *v, tn_error *error)
 {
     uint32_t shapes[TN_CHOICES_MAX];
-    if (v->house.trays)
+    if (v->stands)
         return TN_OK;
     memcpy(shapes, v->house.shapes, sizeof shapes);
+    v->stands = true;
     return stand(v, v->counted, v->counted_length, shapes, error);
 }
 
@@ -421,7 +414,8 @@ tn_status tn_variants_go_through(tn_house_variants *v, const tn_tray *trays, siz
     begin_work(v);
     status = begin_plan(v, trays, length, error);
     for (bool more = true; status == TN_OK && !stop && more; more = tn_form_next_section(v->form, shapes)) {
-        take_section(v, shapes);
+        tn_house_take_section(v->form, shapes, &v->house);
+        v->stands = false;
         if (tn_house_section_stands(&v->house))
             status = go_through_section(v, seen_by, &stop, error);
     }
