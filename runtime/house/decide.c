@@ -83,9 +83,7 @@ bool tn_decision_run(const tn_module *module, uint32_t function, tn_decision_ask
     size_t depth = 0;
     uint32_t at = module->FUNCTION_records[function].code_begin;
     for (;;) {
-        tn_instruction instruction = tn_code_read(module->code, at);
-        at += instruction.length;
-        switch (instruction.opcode) {
+        switch (module->code[at++]) { /* these have no operands */
         case TN_OP_ALL_OF:
             depth--;
             stack[depth - 1] = stack[depth - 1] && stack[depth];
@@ -99,8 +97,11 @@ bool tn_decision_run(const tn_module *module, uint32_t function, tn_decision_ask
             break;
         case TN_OP_DECIDE:
             return stack[depth - 1];
-        default:
+        default: {
+            tn_instruction instruction = tn_code_read(module->code, --at);
+            at += instruction.length;
             stack[depth++] = ask(context, &instruction);
+        }
         }
     }
 }
@@ -213,24 +214,36 @@ static bool fits(const tn_house *house, const tn_face *face, uint32_t kind)
            !tn_face_behind(house, face, opening, &sill, &top);
 }
 
-bool tn_face_line_is_about(const tn_house *house, const tn_face_line_record *line, const tn_face *face)
+/* Are all the faces of such a relation and side the line's, whatever their cells are? */
+static inline bool is_placed(const tn_face_line_record *line, const tn_face *face)
 {
-    if (line->relation == TN_FACE_ALONG || line->relation == TN_FACE_ACROSS) {
-        bool along = face->side == TN_HOUSE_LEFT || face->side == TN_HOUSE_RIGHT;
-        if (face->relation != TN_FACE_BESIDE || along != (line->relation == TN_FACE_ALONG))
-            return false;
-    } else if (line->relation != (uint32_t)face->relation) {
-        return false;
+    bool along = face->side == TN_HOUSE_LEFT || face->side == TN_HOUSE_RIGHT;
+    switch (face->relation) {
+    case TN_FACE_BESIDE:
+        return line->relation == TN_FACE_BESIDE || line->relation == (along ? TN_FACE_ALONG : TN_FACE_ACROSS);
+    case TN_FACE_OUTSIDE:
+        return line->relation == TN_FACE_OUTSIDE &&
+               (line->side == TN_HOUSE_ANY_SIDE || line->side == (uint32_t)face->side);
+    default:
+        return line->relation == (uint32_t)face->relation;
     }
+}
+
+static bool has_cells(const tn_house *house, const tn_face_line_record *line, const tn_face *face)
+{
     const tn_cell *first = &house->cells[face->first];
     if (face->relation == TN_FACE_OUTSIDE)
-        return (line->side == TN_HOUSE_ANY_SIDE || line->side == (uint32_t)face->side) &&
-               tn_house_decide(house, line->first, first);
+        return tn_house_decide(house, line->first, first);
     const tn_cell *second = &house->cells[face->second];
     if (tn_house_decide(house, line->first, first) && tn_house_decide(house, line->second, second))
         return true;
     bool either = line->relation == TN_FACE_BESIDE || line->relation == TN_FACE_ACROSS;
     return either && tn_house_decide(house, line->first, second) && tn_house_decide(house, line->second, first);
+}
+
+bool tn_face_line_is_about(const tn_house *house, const tn_face_line_record *line, const tn_face *face)
+{
+    return is_placed(line, face) && has_cells(house, line, face);
 }
 
 /* A void is always open to what is below it. */
