@@ -369,6 +369,17 @@ typedef struct tn_strip_sum {
     uint64_t times;
 } tn_strip_sum;
 
+/* The sums of the tiles of a tray, by cost (sums.c). */
+typedef struct tn_strip_sums {
+    tn_strip_sum *items, *more; /* scratch */
+    size_t count, room, more_room;
+    tn_strip_known places; /* {waiting, left fits}: their sums that are kept, once costs are known */
+    tn_strip_sum *kept;
+    size_t kept_count, kept_room;
+    const tn_strip_sum *found; /* those asked for last, until the next are */
+    size_t found_count;
+} tn_strip_sums;
+
 /* Numbers of costs by what they depend on. */
 typedef struct tn_strip_keyed {
     tn_interner keys;
@@ -387,8 +398,6 @@ typedef struct tn_strip_prices {
     tn_interner shapes;
     tn_interner lists; /* of tiles that fit in a cell: {cost, how many} by cost */
     tn_key key;
-    tn_strip_sum *sums, *more; /* of the tiles of a tray; scratch */
-    size_t sum_count, sum_room, more_room;
 } tn_strip_prices;
 
 /* What each number that is added up is in, once all costs are known: steps so small that all are whole. */
@@ -420,6 +429,7 @@ typedef struct tn_strip {
     const tn_strip_without *without;   /* or NULL; only while the clauses are made */
     const tn_strip_units *units;       /* NULL: not known yet, and nothing is gained */
     tn_strip_prices prices;
+    tn_strip_sums sums;
     uint32_t *weighed_rooms[TN_ADDED_MAX]; /* [terms of the number]: of the questions about rooms */
     tn_plan_vm *plan_vm;                   /* what comparisons add up of trays; NULL: none does */
     tn_interner totals;                    /* what compared numbers come to so far: compared.c */
@@ -451,7 +461,7 @@ typedef struct tn_strip {
     tn_numbering plane_keys;
     tn_strip_list *planes;
     size_t plane_room;
-    uint64_t plane_outcomes; /* of all planes */
+    uint64_t plane_outcomes;  /* of all planes */
     tn_numbering fit_keys[2]; /* {base, left side}, then {that, right side} */
     uint32_t *fits;           /* [fit_keys[1]]: tiles */
     size_t fit_room;

@@ -335,8 +335,13 @@ tn_status tn_strip_plane_cost(tn_strip *strip, const tn_strip_border *border, co
 tn_status tn_strip_list_tiles(tn_strip *strip, const tn_house *house, const tn_variants *variants, uint32_t *list,
                               tn_error *error);
 
-/* Adds each tile of a list to each of the sums. */
-tn_status tn_strip_add_tiles(tn_strip *strip, uint32_t list, tn_error *error);
+/* ---- sums.c */
+
+/* strip->sums.found := what the tiles that waited for an outcome of the plane at their right cost, and how many
+ * arrangements cost that; no sum where a cell has no tile. Without prices it is one sum of nothing. */
+tn_status tn_strip_sum_tiles(tn_strip *strip, uint32_t waiting, uint32_t left_fits, tn_error *error);
+tn_status tn_strip_sum_one(tn_strip *strip, uint64_t times, tn_error *error); /* so many arrangements, of nothing */
+void tn_strip_sums_clear(tn_strip_sums *sums);
 
 /* The area that has this number, in square nanometres. */
 tn_int128 tn_strip_area(const tn_strip *strip, uint32_t number);

@@ -113,8 +113,6 @@ static tn_status check_openings(const tn_strip *strip, tn_error *error)
 tn_status tn_strip_prices_begin(tn_strip *strip, tn_error *error)
 {
     tn_strip_prices *p = &strip->prices;
-    if (!tn_array_reserve(&p->sums, &p->sum_room, 0, 1, sizeof *p->sums))
-        return tn_fail_memory(error);
     for (uint32_t k = 0; k < strip->added->count; k++)
         p->asked = p->asked || mpq_sgn(strip->added->of[k]->cost) != 0;
     if (!p->asked)
@@ -149,8 +147,6 @@ void tn_strip_prices_clear(tn_strip_prices *p)
     free(p->alone.costs);
     free(p->planes.costs);
     free(p->key.data);
-    free(p->sums);
-    free(p->more);
 }
 
 /* ---- exact costs, numbered */
@@ -329,52 +325,4 @@ tn_status tn_strip_list_tiles(tn_strip *strip, const tn_house *house, const tn_v
     mpq_clear(cost);
     free(costs);
     return status;
-}
-
-static int compare_sums(const void *a, const void *b)
-{
-    const tn_strip_sum *p = a, *q = b;
-    return (p->cost > q->cost) - (p->cost < q->cost);
-}
-
-/* Sums of the same cost become one. False: there are more than 2^64 arrangements. */
-static bool join_sums(tn_strip_sum *sums, size_t *count)
-{
-    size_t kept = 0;
-    bool ok = true;
-    qsort(sums, *count, sizeof *sums, compare_sums);
-    for (size_t i = 0; ok && i < *count; i++) {
-        if (kept > 0 && sums[kept - 1].cost == sums[i].cost)
-            ok = !__builtin_add_overflow(sums[kept - 1].times, sums[i].times, &sums[kept - 1].times);
-        else
-            sums[kept++] = sums[i];
-    }
-    *count = kept;
-    return ok;
-}
-
-tn_status tn_strip_add_tiles(tn_strip *strip, uint32_t list, tn_error *error)
-{
-    tn_strip_prices *p = &strip->prices;
-    size_t words, count = 0;
-    const uint32_t *added = tn_interned(&p->lists, list, &words);
-    bool ok = true;
-    if (!tn_array_reserve(&p->more, &p->more_room, 0, p->sum_count * (words / 2) + 1, sizeof *p->more))
-        return tn_fail_memory(error);
-    for (size_t i = 0; i < p->sum_count; i++)
-        for (size_t w = 0; ok && w < words; w += 2) {
-            tn_strip_sum sum = {p->sums[i].cost + (p->steps ? p->steps[added[w]] : 0), 0};
-            ok = !__builtin_mul_overflow(p->sums[i].times, (uint64_t)added[w + 1], &sum.times);
-            p->more[count++] = sum;
-        }
-    if (count > 0)
-        ok = ok && join_sums(p->more, &count);
-    tn_strip_sum *sums = p->sums;
-    size_t room = p->sum_room;
-    p->sums = p->more;
-    p->sum_room = p->more_room;
-    p->more = sums;
-    p->more_room = room;
-    p->sum_count = count;
-    return ok ? TN_OK : tn_strip_limit(strip, NULL, "a tray has more than 2^64 arrangements of tiles", error);
 }

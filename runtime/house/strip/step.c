@@ -17,73 +17,13 @@ typedef struct tn_stepping {
 
 /* ---- tiles */
 
-/* Adds the tiles of a cell to the sums: `fit` as of tn_strip_fit. */
-static tn_status add_tiles(tn_strip *strip, uint32_t fit, tn_error *error)
-{
-    tn_strip_prices *p = &strip->prices;
-    if (p->items)
-        return tn_strip_add_tiles(strip, fit, error);
-    p->sum_count = fit > 0;
-    if (__builtin_mul_overflow(p->sums[0].times, (uint64_t)fit, &p->sums[0].times))
-        return tn_strip_limit(strip, NULL, "a tray has more than 2^64 arrangements of tiles", error);
-    return TN_OK;
-}
-
-/* Tiles that wait: {place of the cell, class}. */
-enum { WAIT_CELL, WAIT_CLASS, WAIT_WORDS };
-
-/* The tiles of the left slice, in the sums of the prices: none where one of its cells has none. */
-static tn_status multiply_tiles(tn_strip *strip, uint32_t waiting, uint32_t sides, tn_error *error)
-{
-    size_t count, cells;
-    const uint32_t *wait = tn_interned(&strip->waiting, waiting, &count);
-    const uint32_t *fits = tn_interned(&strip->fit_lists, sides, &cells);
-    tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && strip->prices.sum_count > 0 && i < count; i += WAIT_WORDS) {
-        uint32_t fit = 0;
-        const tn_strip_one *one = &strip->merged.one[wait[i + WAIT_CLASS]];
-        status = tn_strip_fit(strip, one->base, one->left, fits[wait[i + WAIT_CELL]] - 1, &fit, error);
-        if (status == TN_OK)
-            status = add_tiles(strip, strip->prices.items ? fit : fit / one->factor, error);
-    }
-    return status;
-}
-
-/* How many there are is worked out once for each combination; where tiles have prices, the sums would take too much
- * room for that. */
-tn_status tn_strip_end_waiting(tn_strip *strip, uint32_t waiting, uint32_t left_fits, uint64_t *times, tn_error *error)
-{
-    tn_strip_prices *p = &strip->prices;
-    uint32_t *result;
-    bool met;
-    tn_status status = tn_strip_known_at(&strip->tiles, waiting, left_fits, 2, &result, &met, error);
-    if (status == TN_OK && !met) {
-        p->sums[0] = (tn_strip_sum){0, 1};
-        p->sum_count = 1;
-        status = multiply_tiles(strip, waiting, left_fits, error);
-        result[0] = tn_low(p->sums[0].times);
-        result[1] = tn_high(p->sums[0].times);
-    }
-    *times = status == TN_OK ? tn_both(result) : 0;
-    return status;
-}
-
+/* The sums of the tiles of the slice before, which are known with the outcome. */
 static tn_status count_tiles(const tn_stepping *s, tn_error *error)
 {
     tn_strip *strip = s->strip;
-    tn_strip_prices *p = &strip->prices;
-    p->sums[0] = (tn_strip_sum){0, 1};
-    p->sum_count = 1;
     if (!s->state || strip->scouting)
-        return TN_OK;
-    uint32_t waiting = s->state[tn_strip_waiting_word(strip)], sides = s->outcome->left_fits;
-    if (p->items)
-        return multiply_tiles(strip, waiting, sides, error);
-    uint64_t times;
-    tn_status status = tn_strip_end_waiting(strip, waiting, sides, &times, error);
-    p->sums[0] = (tn_strip_sum){0, times};
-    p->sum_count = times > 0;
-    return status;
+        return tn_strip_sum_one(strip, 1, error);
+    return tn_strip_sum_tiles(strip, s->state[tn_strip_waiting_word(strip)], s->outcome->left_fits, error);
 }
 
 static tn_status list_waiting(tn_strip *strip, uint32_t bases, uint32_t sides, tn_strip_waiting *waiting,
@@ -203,22 +143,22 @@ typedef struct tn_showing {
 /* Shows what the step leads to with a sum of the tiles. */
 static tn_status show_sum(const tn_stepping *s, const tn_showing *to, uint32_t after, size_t i, tn_error *error)
 {
-    const tn_strip_prices *p = &s->strip->prices;
+    const tn_strip_sum *tiles = &s->strip->sums.found[i];
     const tn_strip_units *units = s->strip->units;
     tn_house_gain sum = to->gain;
     uint64_t times;
-    if (__builtin_mul_overflow(p->sums[i].times, to->faced, &times) ||
+    if (__builtin_mul_overflow(tiles->times, to->faced, &times) ||
         __builtin_mul_overflow(times, s->waiting.times, &times))
         return tn_strip_limit(s->strip, NULL, "a tray has more than 2^64 choices", error);
     for (uint32_t k = 0; units && k < s->strip->added->measures; k++)
-        sum.by[k] += p->sums[i].cost * units->costs[k] * (s->strip->measures->most[k] ? -1 : 1);
+        sum.by[k] += tiles->cost * units->costs[k] * (s->strip->measures->most[k] ? -1 : 1);
     return to->seen(to->context, after, times, i == 0 ? to->faced : 0, &sum, error);
 }
 
 static tn_status show(const tn_stepping *s, const tn_showing *to, uint32_t after, tn_error *error)
 {
     tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && i < s->strip->prices.sum_count; i++)
+    for (size_t i = 0; status == TN_OK && i < s->strip->sums.found_count; i++)
         status = show_sum(s, to, after, i, error);
     return status;
 }
@@ -239,10 +179,10 @@ static tn_status total_after(const tn_stepping *s, uint32_t before, tn_int128 ti
 static void note_ahead(const tn_stepping *s)
 {
     tn_strip *strip = s->strip;
-    const tn_strip_sum *sums = strip->prices.sums;
+    const tn_strip_sum *sums = strip->sums.found;
     for (uint32_t k = strip->added->measures; k < strip->added->count; k++) {
         tn_int128 each = strip->units->costs[k], gain = others_of(s, k) * strip->units->others[k] + cost_of(s) * each,
-                  least = gain + sums[0].cost * each, most = gain + sums[strip->prices.sum_count - 1].cost * each;
+                  least = gain + sums[0].cost * each, most = gain + sums[strip->sums.found_count - 1].cost * each;
         tn_strip_ahead_note(strip, s->trays, s->slice == TN_STRIP_NONE, k - strip->added->measures,
                             least < most ? least : most, least < most ? most : least);
     }
@@ -253,7 +193,7 @@ static tn_status try_total(const tn_stepping *s, const tn_showing *to, uint32_t 
 {
     tn_strip *strip = s->strip;
     uint32_t total = 0, values = s->crossed[CROSSED_VALUES], read = TN_STRIP_NONE, after = 0;
-    tn_status status = total_after(s, before, strip->prices.sums[i].cost, &total, error);
+    tn_status status = total_after(s, before, strip->sums.found[i].cost, &total, error);
     if (status == TN_OK && s->slice == TN_STRIP_NONE)
         status = tn_strip_end_values(strip, values, total, 0, &values, error);
     if (status == TN_OK)
@@ -273,7 +213,7 @@ static tn_status try_totals(const tn_stepping *s, const tn_showing *to, uint32_t
         before = s->state[tn_strip_waiting_word(s->strip) + 1];
     else
         status = tn_strip_first_total(s->strip, &before, error);
-    for (size_t i = 0; status == TN_OK && i < s->strip->prices.sum_count; i++)
+    for (size_t i = 0; status == TN_OK && i < s->strip->sums.found_count; i++)
         status = try_total(s, to, between, before, i, error);
     return status;
 }
@@ -300,7 +240,7 @@ static tn_status try_outcome(tn_stepping *s, const tn_strip_choice *choice, uint
     uint32_t after = 0, read;
     s->outcome = &strip->outcomes[choice->slice];
     tn_status status = count_tiles(s, error);
-    if (status != TN_OK || strip->prices.sum_count == 0)
+    if (status != TN_OK || strip->sums.found_count == 0)
         return status;
     const tn_showing to = {seen, context, choice->times, gain_of(s)};
     if (counts_totals(strip)) {

@@ -77,6 +77,7 @@ static void clear_known(tn_strip *strip)
     free(strip->after_slice);
     free(strip->after_plane);
     tn_strip_known_clear(&strip->tiles);
+    tn_strip_sums_clear(&strip->sums);
     tn_strip_known_clear(&strip->waits);
     tn_strip_known_clear(&strip->crossed_rooms);
     for (uint32_t w = 0; w < TN_STRIP_MEETINGS_MAX; w++)
