@@ -18,7 +18,10 @@ typedef struct house_list {
     uint64_t written; /* houses in the file, those resumed included */
     tn_house_rows out;
     tn_progress progress;
+    tn_house_variants *quick; /* plans are gone through in so many steps, before they are counted */
 } house_list;
+
+enum { QUICK_STEPS = 1000000 };
 
 static bool is_done(const house_list *list)
 {
@@ -39,26 +42,93 @@ static tn_status write_house(void *context, const tn_house *house, bool *stop, t
     return TN_OK;
 }
 
+/* The number on its plan of the next house; false: it is not one of the plan's. */
+static bool find_variant(house_list *list, const mpz_t houses)
+{
+    if (is_done(list))
+        return false;
+    mpz_sub(list->variant, list->next, list->before);
+    return mpz_cmp(list->variant, houses) < 0;
+}
+
+/* Goes through the houses on a plan one by one: TN_LIMIT where that takes many steps, and what is written stays. */
+static tn_status list_through(tn_house_variants *variants, house_list *list, const tn_tray *trays, uint32_t length,
+                              mpz_t houses, tn_error *error)
+{
+    tn_house_counts counts;
+    tn_house_counts_init(&counts);
+    tn_status status = tn_house_variants_count(variants, trays, length, &counts, error);
+    if (status == TN_OK && find_variant(list, counts.houses)) {
+        mpz_set(houses, list->variant);
+        status = tn_house_variants_each(variants, trays, length, houses, write_house, list, error);
+    }
+    mpz_set(houses, counts.houses);
+    tn_house_counts_clear(&counts);
+    return status;
+}
+
+/* From house to house by their numbers: that takes a while for each, but nothing that clauses drop is gone through. */
+static tn_status list_by_number(tn_numbered *n, house_list *list, const mpz_t houses, tn_error *error)
+{
+    tn_status status = TN_OK;
+    while (status == TN_OK && find_variant(list, houses)) {
+        tn_house house;
+        status = tn_plan_houses_at(n->on_plan.houses, list->variant, &house, error);
+        if (status == TN_OK)
+            status = tn_house_variants_tiles_from(n->variants, &house, write_house, list, error);
+        tn_house_clear(&house);
+    }
+    return status;
+}
+
+/* Are so few of the houses on the plan asked for that going through all of them would take longer? */
+static bool wants_few(house_list *list, const mpz_t houses)
+{
+    enum { FEW = 5000 };
+    mpz_t end;
+    mpz_init_set(end, houses);
+    mpz_add(end, end, list->before);
+    if (list->bounded && mpz_cmp(list->to, end) < 0)
+        mpz_set(end, list->to);
+    mpz_sub(end, end, list->next);
+    bool few = (list->range->limited && list->range->limit - list->written <= FEW) || mpz_cmp_ui(end, FEW) <= 0;
+    mpz_clear(end);
+    return few;
+}
+
+/* Writes the houses on a plan that are asked for, where they are many to go through: they are counted tray by tray. */
+static tn_status list_many(tn_numbered *n, house_list *list, const tn_tray *trays, uint32_t length, mpz_t houses,
+                           tn_error *error)
+{
+    tn_plan_houses *plan;
+    tn_status status = tn_numbered_among(n, NULL, trays, length, &plan, error);
+    if (status == TN_LIMIT)
+        return list_through(n->variants, list, trays, length, houses, error);
+    if (status != TN_OK)
+        return status;
+    tn_houses_count(n->on_plan.counted, TN_ALL_LENGTHS, houses);
+    status = TN_LIMIT;
+    if (!wants_few(list, houses))
+        status = list_through(n->variants, list, trays, length, houses, error);
+    if (status != TN_LIMIT)
+        return status;
+    tn_houses_count(n->on_plan.counted, TN_ALL_LENGTHS, houses);
+    return list_by_number(n, list, houses, error);
+}
+
 /* Writes the houses on a plan that are asked for. */
 static tn_status list_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
                            tn_error *error)
 {
     house_list *list = context;
-    tn_house_counts counts;
-    mpz_t from;
-    mpz_init(from);
-    tn_house_counts_init(&counts);
-    tn_status status = tn_house_variants_count(n->variants, trays, length, &counts, error);
-    mpz_add(counts.houses, counts.houses, list->before); /* those up to the end of this plan */
-    if (status == TN_OK && !is_done(list) && mpz_cmp(list->next, counts.houses) < 0) {
-        mpz_sub(from, list->next, list->before);
-        mpz_set(list->variant, from);
-        status = tn_house_variants_each(n->variants, trays, length, from, write_house, list, error);
-    }
-    mpz_set(list->before, counts.houses);
+    mpz_t houses;
+    mpz_init(houses);
+    tn_status status = list_through(list->quick, list, trays, length, houses, error);
+    if (status == TN_LIMIT)
+        status = list_many(n, list, trays, length, houses, error);
+    mpz_add(list->before, list->before, houses); /* those up to the end of this plan */
     *stop = is_done(list);
-    tn_house_counts_clear(&counts);
-    mpz_clear(from);
+    mpz_clear(houses);
     return status;
 }
 
@@ -92,11 +162,16 @@ static void interrupted(tn_job *job, house_list *list)
     free(rank);
 }
 
-static void say_none(tn_job *job, const house_list *list)
+static void say_none(const tn_numbered *n, bool on_plan, const house_list *list)
 {
+    tn_job *job = n->job;
     bool past = list->written == 0 && mpz_cmp(list->next, list->before) >= 0;
     if (!past || list->bounded || (list->range->limited && list->range->limit == 0))
         return;
+    if (mpz_sgn(list->before) == 0) {
+        tn_numbered_say_few(n, on_plan, 0, 1);
+        return;
+    }
     char *rank = mpz_get_str(NULL, 10, list->next), *houses = mpz_get_str(NULL, 10, list->before);
     tn_job_note(job, "there are %.400s houses, none of them from rank %.40s on", houses ? houses : "?",
                 rank ? rank : "?");
@@ -148,15 +223,18 @@ static void list_all(tn_numbered *n, const tn_plan *plan, house_list *list)
     tn_error error;
     tn_progress_begin(&list->progress, "houses", (double)list->written,
                       list->range->limited ? (double)list->range->limit : 0);
-    tn_status status =
-        plan ? list_plan(n, list, plan->trays, (uint32_t)plan->length, &stop, &error) : list_from(n, list, &error);
+    tn_status status = tn_house_variants_new(&n->form, n->record, QUICK_STEPS, &list->quick, &error);
+    if (status == TN_OK)
+        status =
+            plan ? list_plan(n, list, plan->trays, (uint32_t)plan->length, &stop, &error) : list_from(n, list, &error);
+    tn_house_variants_free(list->quick);
     tn_progress_end(&list->progress);
     if (status != TN_OK)
         tn_job_fail(job, &error);
     else if (tn_interrupted())
         interrupted(job, list);
     else
-        say_none(job, list);
+        say_none(n, plan != NULL, list);
 }
 
 /* The command, as files of houses say how they were made. The limit is left out: a library can be resumed to go on past

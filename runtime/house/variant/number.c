@@ -169,6 +169,18 @@ tn_status tn_house_variants_faced(tn_house_variants *v, const tn_house *like, tn
     return status == TN_OK ? faced(context, &v->house, v->tiles, error) : status;
 }
 
+tn_status tn_house_variants_tiles_from(tn_house_variants *v, const tn_house *house, tn_house_each *each, void *context,
+                                       tn_error *error)
+{
+    bool stop = false;
+    tn_status status = furnish(v, house, error);
+    for (size_t i = 0; status == TN_OK && i < house->cell_count; i++)
+        v->house.cells[i].variant = house->cells[i].variant;
+    for (bool more = true; status == TN_OK && !stop && more; more = !stop && tn_furnished_next(v))
+        status = each(context, &v->house, &stop, error);
+    return status;
+}
+
 /* ---- the number of a house */
 
 typedef struct seeking {

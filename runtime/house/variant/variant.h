@@ -53,6 +53,11 @@ typedef tn_status tn_house_faced(void *context, tn_house *house, const size_t *t
 tn_status tn_house_variants_faced(tn_house_variants *variants, const tn_house *like, tn_house_faced *faced,
                                   void *context, tn_error *error);
 
+/* Calls `each` with a house that the library keeps, and with those after it that differ from it only in tiles, until
+ * *stop. */
+tn_status tn_house_variants_tiles_from(tn_house_variants *variants, const tn_house *house, tn_house_each *each,
+                                       void *context, tn_error *error);
+
 /* While tn_house_faced is called: do the clauses that ask what tiles cost keep the house with those that are set? */
 bool tn_house_variants_keep_tiles(const tn_house_variants *variants, const tn_house *house);
 
