@@ -20,7 +20,8 @@ typedef struct tn_plan_settings {
          "which library of the file; may be left out where the file has only one")
 #define OPTION_WHERE                                                                                                   \
     LIST("where", 0, "EXPRESSION", plans.wheres,                                                                       \
-         "only plans that meet EXPRESSION too, a requirement in the words of the file; may be repeated")
+         "only plans that meet EXPRESSION too, a requirement in the words of the file; may be repeated. Answers call " \
+         "them where@1, where@2 and so on")
 #define OPTION_TRAYS                                                                                                   \
     RANGE("trays", 0, "A..B", plans.trays, 0, UINT32_MAX - 1,                                                          \
           "how many trays a plan has, instead of what the library says")
