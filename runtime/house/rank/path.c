@@ -39,9 +39,12 @@ typedef struct tn_path_reaching {
 
 static tn_status reach(void *context, const tn_houses_edge *edge, tn_error *error)
 {
-    const tn_path_reaching *r = context;
+    tn_path_reaching *r = context;
     uint64_t node = (uint64_t)edge->plan << 32 | edge->state;
-    return tn_number(&r->path->kind.layers[r->layer + 1].nodes, node) != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+    uint32_t to = tn_number(&r->path->kind.layers[r->layer + 1].nodes, node);
+    if (to == UINT32_MAX)
+        return tn_fail_memory(error);
+    return tn_houses_keep_step(&r->path->view, &r->path->kind, r->layer, to, edge, error);
 }
 
 static tn_status find_nodes(tn_plan_path *p, tn_error *error)
@@ -51,8 +54,10 @@ static tn_status find_nodes(tn_plan_path *p, tn_error *error)
     if (!p->kind.layers || tn_number(&p->kind.layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX)
         return tn_fail_memory(error);
     tn_status status = TN_OK;
-    for (; status == TN_OK && r.layer < p->length * p->stages; r.layer++)
+    for (; status == TN_OK && r.layer < p->length * p->stages; r.layer++) {
+        p->kind.layers[r.layer].kept.all = true;
         status = tn_houses_expand(&p->view, &p->kind, r.layer, false, reach, &r, error);
+    }
     return status;
 }
 
