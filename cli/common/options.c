@@ -98,6 +98,19 @@ static void help_other_commands(parse *p, const char *word)
                       found > SHOWN ? " and others" : "", found > 1 ? "have" : "has", p->command->name);
 }
 
+/* Some expect an option for how many, where a command has an operand. */
+static void help_number(parse *p, const char *name)
+{
+    static const char *const words[] = {"n", "count", "number", "size"};
+    bool taken = strncmp(p->command->usage, "FILE N", strlen("FILE N")) == 0 ||
+                 strncmp(p->command->usage, "FILE [N]", strlen("FILE [N]")) == 0;
+    if (!taken)
+        return;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(name, words[i]) == 0)
+            tn_error_help(p->error, "write how many without an option: `tartan %s FILE N`", p->command->name);
+}
+
 static tn_status unknown_option(parse *p, const char *name, size_t length)
 {
     tn_status status = tn_fail(p->error, TN_INVALID, E_USAGE, "`tartan %s` has no option --%.*s", p->command->name,
@@ -111,9 +124,10 @@ static tn_status unknown_option(parse *p, const char *name, size_t length)
     const char *near = tn_nearest(word, names, count);
     for (size_t i = 0; i < count && !near && length > 0; i++) /* shortened: --lib */
         near = strncmp(names[i], word, length) == 0 ? names[i] : NULL;
-    if (near)
+    help_number(p, word);
+    if (near && !p->error->help[0])
         tn_error_help(p->error, "did you mean --%s?", near);
-    else if (length > 0)
+    else if (length > 0 && !p->error->help[0])
         help_other_commands(p, word);
     return see_help(p, status);
 }
@@ -124,6 +138,8 @@ static tn_status unknown_letter(parse *p, const char *letters)
         tn_fail(p->error, TN_INVALID, E_USAGE, "`tartan %s` has no option -%.60s", p->command->name, letters);
     if (letters[0] >= '0' && letters[0] <= '9')
         tn_error_help(p->error, "numbers here are 0 or more; an operand that begins with - goes after --");
+    if (letters[0] == 'n')
+        help_number(p, "n");
     return see_help(p, status);
 }
 
