@@ -159,7 +159,7 @@ static tn_status count_together(tn_numbered *n, const tn_plan *plan, house_tally
         return status;
     }
     const tn_houses_what what = {.only = plan->trays, .length = (uint32_t)plan->length};
-    tn_status status = tn_houses_of(&n->form, n->record, n->plans, &what, n->max_states, &houses, error);
+    tn_status status = tn_numbered_of(n, &what, &houses, error);
     mpz_set_ui(tally->plans, 1);
     if (status == TN_OK)
         tally_together(n, houses, tally);

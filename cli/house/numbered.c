@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/common/interrupt.h"
+#include "cli/common/progress.h"
 #include "runtime/base/nearest.h"
 
 /* A name that is one of plans, or near to one of houses; false where it is neither. */
@@ -254,9 +256,28 @@ void tn_numbered_say_few(const tn_numbered *n, bool on_plan, uint64_t found, uin
 
 /* ---- all houses */
 
+tn_status tn_numbered_of(tn_numbered *n, const tn_houses_what *what, tn_houses **houses, tn_error *error)
+{
+    tn_progress progress;
+    tn_progress_watch(&progress, "counting houses", tn_interrupt_waiting());
+    tn_status status = tn_houses_of(&n->form, n->record, n->plans, what, n->max_states, houses, error);
+    tn_progress_unwatch(&progress, tn_interrupt_waiting());
+    return status;
+}
+
 tn_status tn_numbered_all(tn_numbered *n, tn_error *error)
 {
-    return n->all ? TN_OK : tn_houses_new(&n->form, n->record, n->plans, n->max_states, &n->all, error);
+    const tn_houses_what all = {0};
+    return n->all ? TN_OK : tn_numbered_of(n, &all, &n->all, error);
+}
+
+tn_status tn_numbered_find(tn_houses *houses, mpz_t rank, tn_tray *trays, uint32_t *length, tn_error *error)
+{
+    tn_progress progress;
+    tn_progress_watch(&progress, "looking for the plan", tn_interrupt_waiting());
+    tn_status status = tn_houses_find(houses, rank, trays, length, error);
+    tn_progress_unwatch(&progress, tn_interrupt_waiting());
+    return status;
 }
 
 /* rest: the rank, of which the houses before its plan are taken. */
@@ -266,7 +287,7 @@ static tn_status locate(tn_numbered *n, mpz_t rest, mpz_t plan, tn_error *error)
     tn_tray *trays = tray_room(n, error);
     if (!trays)
         return TN_MEMORY;
-    tn_status status = tn_houses_find(n->all, rest, trays, &length, error);
+    tn_status status = tn_numbered_find(n->all, rest, trays, &length, error);
     if (status == TN_OK && !tn_library_rank(n->plans, trays, length, plan))
         status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a house stands on a plan that is not in the library");
     free(trays);
@@ -404,7 +425,7 @@ static tn_status find_house(tn_numbered *n, const mpz_t rank, tn_house *house, t
     if (!trays)
         return TN_MEMORY;
     mpz_init_set(rest, rank);
-    tn_status status = tn_houses_find(n->all, rest, trays, &length, error);
+    tn_status status = tn_numbered_find(n->all, rest, trays, &length, error);
     if (status == TN_OK)
         status = tn_numbered_at(n, trays, length, rest, house, error);
     mpz_clear(rest);

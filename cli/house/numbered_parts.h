@@ -48,6 +48,12 @@ tn_status tn_numbered_lengths(tn_numbered *n, uint32_t low, uint32_t high, mpz_t
  * clause. */
 tn_status tn_numbered_clauses(tn_numbered *n, mpz_t *kept_out, mpz_t *alone, tn_error *error);
 
+/* Counts houses together; on a terminal it says for how long. Free them with tn_houses_free. */
+tn_status tn_numbered_of(tn_numbered *n, const tn_houses_what *what, tn_houses **houses, tn_error *error);
+
+/* The plan of a rank (tn_houses_find), saying so on a terminal where that takes long, as it does the first time. */
+tn_status tn_numbered_find(tn_houses *houses, mpz_t rank, tn_tray *trays, uint32_t *length, tn_error *error);
+
 /* All houses together, in n->all: counted now or before. TN_LIMIT (E1640) where that takes too much. */
 tn_status tn_numbered_all(tn_numbered *n, tn_error *error);
 

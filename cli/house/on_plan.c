@@ -16,7 +16,7 @@ tn_status tn_numbered_on_plan(tn_numbered *n, const tn_tray *trays, uint32_t len
                               tn_error *error)
 {
     const tn_houses_what what = {.only = trays, .length = length};
-    return tn_houses_of(&n->form, n->record, n->plans, &what, n->max_states, houses, error);
+    return tn_numbered_of(n, &what, houses, error);
 }
 
 static bool is_found(const tn_numbered_plan_found *found, const tn_houses *among, const tn_tray *trays, uint32_t length)

@@ -101,7 +101,7 @@ static tn_status sample_together(tn_numbered *n, tn_houses *houses, size_t wante
     tn_status status = trays ? sample_draw(&s, seed, rank, wanted, error) : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < s.count; i++) {
         mpz_set(rank, s.ranks[i]);
-        status = tn_houses_find(houses, rank, trays, &length, error);
+        status = tn_numbered_find(houses, rank, trays, &length, error);
         if (status == TN_OK)
             status = use_house(n, &s, trays, length, rank, s.ranks[i], error);
     }
