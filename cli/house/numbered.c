@@ -1,12 +1,10 @@
-/* Opens a library of houses, and names them: each plan's houses one after another. */
+/* Opens a library of houses, and goes through its plans. */
 #include "cli/house/numbered_parts.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/common/interrupt.h"
-#include "cli/common/progress.h"
 #include "runtime/base/nearest.h"
 
 /* A name that is one of plans, or near to one of houses; false where it is neither. */
@@ -124,9 +122,8 @@ void tn_numbered_bad_text(tn_job *job, tn_error *error, const char *name, const 
 
 /* ---- plans by rank */
 
-/* The plan of a rank, whose digits end at `end`; trays: room for the longest. */
-static tn_status plan_of_rank(const tn_numbered *n, const char *digits, size_t size, tn_tray *trays, uint32_t *length,
-                              tn_error *error)
+tn_status tn_numbered_plan_of_rank(const tn_numbered *n, const char *digits, size_t size, tn_tray *trays,
+                                   uint32_t *length, tn_error *error)
 {
     mpz_t rank;
     char *text = strndup(digits, size);
@@ -149,7 +146,7 @@ static tn_status plan_of_rank(const tn_numbered *n, const char *digits, size_t s
     return status;
 }
 
-static tn_tray *tray_room(const tn_numbered *n, tn_error *error)
+tn_tray *tn_numbered_tray_room(const tn_numbered *n, tn_error *error)
 {
     tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(n->plans) + 1));
     if (!trays)
@@ -164,10 +161,10 @@ tn_status tn_numbered_plan(tn_numbered *n, const char *text, size_t max_length, 
     mpz_t rank;
     *plan = (tn_plan){0};
     if (text[0] == '#') {
-        plan->trays = tray_room(n, error);
+        plan->trays = tn_numbered_tray_room(n, error);
         if (!plan->trays)
             return TN_MEMORY;
-        tn_status status = plan_of_rank(n, text + 1, strlen(text) - 1, plan->trays, &length, error);
+        tn_status status = tn_numbered_plan_of_rank(n, text + 1, strlen(text) - 1, plan->trays, &length, error);
         plan->length = length;
         return status;
     }
@@ -252,296 +249,4 @@ void tn_numbered_say_few(const tn_numbered *n, bool on_plan, uint64_t found, uin
                     "the library holds no house: `tartan count` with --library %s and --clauses says what each clause "
                     "keeps out, `tartan explain` with '#0' what is wrong with the first plan",
                     name);
-}
-
-/* ---- all houses */
-
-tn_status tn_numbered_of(tn_numbered *n, const tn_houses_what *what, tn_houses **houses, tn_error *error)
-{
-    tn_progress progress;
-    tn_progress_watch(&progress, "counting houses", tn_interrupt_waiting());
-    tn_status status = tn_houses_of(&n->form, n->record, n->plans, what, n->max_states, houses, error);
-    tn_progress_unwatch(&progress, tn_interrupt_waiting());
-    return status;
-}
-
-tn_status tn_numbered_all(tn_numbered *n, tn_error *error)
-{
-    const tn_houses_what all = {0};
-    return n->all ? TN_OK : tn_numbered_of(n, &all, &n->all, error);
-}
-
-tn_status tn_numbered_find(tn_houses *houses, mpz_t rank, tn_tray *trays, uint32_t *length, tn_error *error)
-{
-    tn_progress progress;
-    tn_progress_watch(&progress, "looking for the plan", tn_interrupt_waiting());
-    tn_status status = tn_houses_find(houses, rank, trays, length, error);
-    tn_progress_unwatch(&progress, tn_interrupt_waiting());
-    return status;
-}
-
-/* rest: the rank, of which the houses before its plan are taken. */
-static tn_status locate(tn_numbered *n, mpz_t rest, mpz_t plan, tn_error *error)
-{
-    uint32_t length = 0;
-    tn_tray *trays = tray_room(n, error);
-    if (!trays)
-        return TN_MEMORY;
-    tn_status status = tn_numbered_find(n->all, rest, trays, &length, error);
-    if (status == TN_OK && !tn_library_rank(n->plans, trays, length, plan))
-        status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a house stands on a plan that is not in the library");
-    free(trays);
-    return status;
-}
-
-tn_status tn_numbered_locate(tn_numbered *n, const mpz_t rank, mpz_t plan, mpz_t before, tn_error *error)
-{
-    tn_status status = TN_OK;
-    tn_houses_count(n->all, TN_ALL_LENGTHS, before);
-    tn_library_kept(n->plans, TN_ALL_LENGTHS, plan);
-    if (mpz_cmp(rank, before) < 0) {
-        mpz_t rest;
-        mpz_init_set(rest, rank);
-        status = locate(n, rest, plan, error);
-        mpz_sub(before, rank, rest);
-        mpz_clear(rest);
-    }
-    return status;
-}
-
-static bool at_most(const tn_numbered *n, unsigned long plans)
-{
-    mpz_t kept;
-    mpz_init(kept);
-    tn_library_kept(n->plans, TN_ALL_LENGTHS, kept);
-    bool few = mpz_cmp_ui(kept, plans) <= 0;
-    mpz_clear(kept);
-    return few;
-}
-
-bool tn_numbered_few(const tn_numbered *n)
-{
-    return at_most(n, TN_HOUSE_PLANS_FEW);
-}
-
-bool tn_numbered_countable(const tn_numbered *n)
-{
-    return at_most(n, TN_HOUSE_PLANS_MAX);
-}
-
-/* ---- names */
-
-/* variant := the rank among all houses, where that is wanted. */
-static tn_status name_house(tn_numbered *n, const char *line, size_t max_length, bool of_all, mpz_t plan, mpz_t variant,
-                            tn_error *error)
-{
-    tn_house house;
-    tn_status status = tn_house_read(&n->form, line, strlen(line), max_length, &house, error);
-    if (status == TN_OK && !tn_library_rank(n->plans, house.trays, house.length, plan)) {
-        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library does not hold the plan of this house");
-        tn_error_help(error, "`tartan explain` says which clauses drop it");
-    }
-    if (status == TN_OK && of_all)
-        status = tn_numbered_all(n, error);
-    if (status == TN_OK)
-        status = tn_numbered_number(n, &house, variant, error);
-    if (status == TN_OK && of_all) {
-        status = tn_houses_before(n->all, house.trays, (uint32_t)house.length, plan, error);
-        mpz_add(variant, variant, plan);
-    }
-    tn_house_clear(&house);
-    return status;
-}
-
-void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const char *line, bool of_all)
-{
-    tn_numbered n;
-    tn_error error = {0};
-    tn_output out;
-    mpz_t plan, variant;
-    mpz_inits(plan, variant, NULL);
-    if (tn_numbered_open(&n, job, settings)) {
-        if (name_house(&n, line, settings->max_length, of_all, plan, variant, &error) != TN_OK) {
-            tn_numbered_bad_text(job, &error, "HOUSE", line);
-        } else if (tn_job_output(job, NULL, &out)) {
-            if (of_all)
-                gmp_fprintf(out.stream, "#%Zd\n", variant);
-            else
-                gmp_fprintf(out.stream, "#%Zd:%Zd\n", plan, variant);
-            tn_job_commit(job, &out);
-        }
-    }
-    tn_numbered_close(&n);
-    mpz_clears(plan, variant, NULL);
-}
-
-bool tn_is_house_number(const char *text)
-{
-    size_t digits = strspn(text, "0123456789");
-    return text[0] == '#' || (digits > 0 && text[digits] == ':');
-}
-
-typedef struct tn_house_search {
-    mpz_t left; /* houses before the wanted one, on the plans to come */
-    tn_house *house;
-    bool found;
-} tn_house_search;
-
-static tn_status search_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
-                             tn_error *error)
-{
-    tn_house_search *s = context;
-    tn_house_counts counts;
-    tn_house_counts_init(&counts);
-    tn_status status = tn_house_variants_count(n->variants, trays, length, &counts, error);
-    *stop = s->found = status == TN_OK && mpz_cmp(s->left, counts.houses) < 0;
-    if (s->found)
-        status = tn_house_variants_at(n->variants, trays, length, s->left, s->house, error);
-    else
-        mpz_sub(s->left, s->left, counts.houses);
-    tn_house_counts_clear(&counts);
-    return status;
-}
-
-/* Plan by plan, the houses before it are counted. */
-static tn_status search_plans(tn_numbered *n, const mpz_t rank, tn_house *house, tn_error *error)
-{
-    tn_house_search s = {.house = house};
-    mpz_init_set(s.left, rank);
-    tn_status status = tn_numbered_plans(n, search_plan, &s, error);
-    if (status == TN_OK && !s.found) {
-        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library has fewer houses than that");
-        tn_error_help(error, "`tartan count` says how many; ranks count from 0");
-    }
-    mpz_clear(s.left);
-    return status;
-}
-
-static tn_status find_house(tn_numbered *n, const mpz_t rank, tn_house *house, tn_error *error)
-{
-    uint32_t length = 0;
-    mpz_t rest;
-    tn_tray *trays = tray_room(n, error);
-    if (!trays)
-        return TN_MEMORY;
-    mpz_init_set(rest, rank);
-    tn_status status = tn_numbered_find(n->all, rest, trays, &length, error);
-    if (status == TN_OK)
-        status = tn_numbered_at(n, trays, length, rest, house, error);
-    mpz_clear(rest);
-    free(trays);
-    return status;
-}
-
-/* The house that `rank` others come before. */
-static tn_status house_of_rank(tn_numbered *n, const mpz_t rank, tn_house *house, tn_error *error)
-{
-    tn_status status = tn_numbered_all(n, error);
-    if (status == TN_OK)
-        return find_house(n, rank, house, error);
-    return status == TN_LIMIT && tn_numbered_countable(n) ? search_plans(n, rank, house, error) : status;
-}
-
-static tn_status house_of_digits(tn_numbered *n, const char *digits, tn_house *house, tn_error *error)
-{
-    mpz_t rank;
-    if (!*digits || digits[strspn(digits, "0123456789")]) {
-        tn_status status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "`#%.60s` names no house", digits);
-        tn_error_help(error, "a house is #P:V, the plan's rank and its place among the houses on that plan, or #R, its "
-                             "rank among all houses");
-        return status;
-    }
-    mpz_init_set_str(rank, digits, 10);
-    tn_status status = house_of_rank(n, rank, house, error);
-    mpz_clear(rank);
-    return status;
-}
-
-tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house, tn_error *error)
-{
-    number += number[0] == '#';
-    const char *colon = strchr(number, ':');
-    mpz_t variant;
-    uint32_t length = 0;
-    *house = (tn_house){0};
-    if (!colon)
-        return house_of_digits(n, number, house, error);
-    tn_tray *trays = tray_room(n, error);
-    if (!trays)
-        return TN_MEMORY;
-    mpz_init(variant);
-    tn_status status = plan_of_rank(n, number, (size_t)(colon - number), trays, &length, error);
-    if (status == TN_OK && (!colon[1] || strspn(colon + 1, "0123456789") != strlen(colon + 1) ||
-                            mpz_set_str(variant, colon + 1, 10) != 0)) {
-        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "a variant is a whole number from 0, not `%.60s`", colon + 1);
-        tn_error_help(error, "a house is #P:V: the plan's rank, and its place among the houses on that plan");
-    }
-    if (status == TN_OK)
-        status = tn_numbered_at(n, trays, length, variant, house, error);
-    mpz_clear(variant);
-    free(trays);
-    return status;
-}
-
-void tn_job_use_house(tn_job *job, const tn_house_settings *settings, const char *number, tn_house_use *use)
-{
-    tn_numbered n;
-    tn_error error = {0};
-    if (tn_numbered_open(&n, job, settings)) {
-        tn_house house;
-        if (tn_numbered_house(&n, number, &house, &error) == TN_OK)
-            use(job, &house);
-        else
-            tn_job_fail(job, &error);
-        tn_house_clear(&house);
-    }
-    tn_numbered_close(&n);
-}
-
-static tn_status append_json(const tn_house *house, tn_buffer *out, tn_error *error)
-{
-    tn_buffer line = {0};
-    tn_status status = tn_house_write(house, &line, error);
-    if (status == TN_OK) {
-        tn_buffer_printf(out, "{\"house\":");
-        tn_buffer_append_json(out, line.data);
-        tn_buffer_printf(out, ",\"trays\":");
-        tn_plan_write_trays(house->form->schema, house->trays, house->length, out);
-        status = tn_house_write_members(house, out, error);
-        tn_buffer_append(out, "}", 1);
-    }
-    free(line.data);
-    return status;
-}
-
-static void write_house(tn_job *job, const tn_house *house, bool json)
-{
-    tn_buffer text = {0};
-    tn_error error = {0};
-    tn_output out;
-    tn_status status = json ? append_json(house, &text, &error) : tn_house_write(house, &text, &error);
-    if (status == TN_OK && !tn_buffer_append(&text, "\n", 1))
-        status = tn_fail_memory(&error);
-    if (status != TN_OK) {
-        tn_job_fail(job, &error);
-    } else if (tn_job_output(job, NULL, &out)) {
-        fwrite(text.data, 1, text.size, out.stream);
-        tn_job_commit(job, &out);
-    }
-    free(text.data);
-}
-
-static void write_line(tn_job *job, const tn_house *house)
-{
-    write_house(job, house, false);
-}
-
-static void write_json(tn_job *job, const tn_house *house)
-{
-    write_house(job, house, true);
-}
-
-void tn_job_unrank_house(tn_job *job, const tn_house_settings *settings, const char *number, bool json)
-{
-    tn_job_use_house(job, settings, number, json ? write_json : write_line);
 }

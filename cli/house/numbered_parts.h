@@ -85,6 +85,13 @@ void tn_numbered_say_few(const tn_numbered *n, bool on_plan, uint64_t found, uin
 /* Can one go through them at all (TN_HOUSE_PLANS_MAX)? */
 bool tn_numbered_countable(const tn_numbered *n);
 
+/* The plan of a rank, written in so many digits; trays: room for the longest. */
+tn_status tn_numbered_plan_of_rank(const tn_numbered *n, const char *digits, size_t size, tn_tray *trays,
+                                   uint32_t *length, tn_error *error);
+
+/* Room for the longest plan of the library; the caller frees it. NULL: out of memory. */
+tn_tray *tn_numbered_tray_room(const tn_numbered *n, tn_error *error);
+
 /* A plan of the library: a plan line, or #P. The caller frees its trays, also after a failure. */
 tn_status tn_numbered_plan(tn_numbered *n, const char *text, size_t max_length, tn_plan *plan, tn_error *error);
 
