@@ -148,10 +148,18 @@ static void set_spine(tn_check *check, tn_checked_form *form, const tn_ast_form_
         tn_form_unknown(check, form, ast->name, "zone", zones, count);
 }
 
+/* The nearest length in whole 1/32" or millimetres: half of it is a whole number of nanometres. */
+static void help_half(tn_check *check, tn_diagnostic *d, int64_t length, const char *spelling)
+{
+    char text[64];
+    tn_length_style style = tn_length_style_of(spelling);
+    int64_t unit = style == TN_STYLE_FEET ? INT64_C(793750) : INT64_C(1000000), count = (length + unit / 2) / unit;
+    tn_length_write_style((count > 0 ? count : 1) * unit, style, text, sizeof text);
+    tn_help(check->diagnostics, d, "half of it goes to each side of a plane: write %s", text);
+}
+
 static void set_thickness(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)
 {
-    static const char *const helps[] = {"half of it goes to each side of a plane: write an even number of nanometres",
-                                        "write a length above 0"};
     int64_t length = tn_form_length(check, ast->length);
     bool halved = ast->part == TN_PART_WALL || ast->part == TN_PART_PARTITION;
     form->thickness[ast->part - TN_PART_WALL] = length > 0 ? length : 2;
@@ -161,7 +169,10 @@ static void set_thickness(tn_check *check, tn_checked_form *form, const tn_ast_f
         tn_report(check->diagnostics, E_BAD_THICKNESS, ast->length->node.span,
                   length == 0 ? "a %s cannot be 0 thick" : "half of this %s is not a whole number of nanometres",
                   part_words[ast->part]);
-    tn_help(check->diagnostics, d, "%s", helps[length == 0]);
+    if (length == 0)
+        tn_help(check->diagnostics, d, "write a length above 0");
+    else
+        help_half(check, d, length, ast->length->text);
 }
 
 /* A function whose name is that of something else is kept: what is said of it elsewhere is right then. */

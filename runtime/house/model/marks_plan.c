@@ -10,11 +10,13 @@
 
 #define TREAD_NM 254000000.0 /* 10" */
 
-/* Treads across a stair, and a line up its middle. */
-static void put_stair(tn_rectangle r, tn_marks *marks)
+/* Treads across a stair, and a line up its middle. It goes the same way on both storeys: their cells are equal, though
+ * the walls around them may not be. */
+static void put_stair(const tn_house *house, uint32_t cell, tn_marks *marks)
 {
+    tn_rectangle whole = house->cells[cell].at, r = tn_cell_clear(house, cell);
+    bool along_x = whole.x1 - whole.x0 > whole.y1 - whole.y0;
     double x0 = (double)r.x0, x1 = (double)r.x1, y0 = (double)r.y0, y1 = (double)r.y1;
-    bool along_x = x1 - x0 > y1 - y0;
     double low = along_x ? x0 : y0, high = along_x ? x1 : y1, tip = TREAD_NM * 0.6;
     for (double at = low + TREAD_NM; at < high; at += TREAD_NM)
         tn_marks_line(marks, TN_MARK_STAIR, along_x ? at : x0, along_x ? y0 : at, along_x ? at : x1, along_x ? y1 : at);
@@ -62,7 +64,7 @@ static tn_status put_symbols(const tn_house *house, uint32_t storey, tn_taken *t
         if (face->relation == TN_FACE_UNDER && face->kind == TN_FACE_STAIR) {
             uint32_t cell = face->storey == storey ? face->first : face->second;
             if (house->cells[cell].storey == storey)
-                put_stair(tn_cell_clear(house, cell), marks);
+                put_stair(house, cell, marks);
         } else if (face->relation == TN_FACE_UNDER && tn_form_flight(house->form, face->kind)) {
             if (status == TN_OK && face->storey == storey)
                 status = put_flight(house, face, marks, error);
