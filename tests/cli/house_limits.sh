@@ -13,6 +13,32 @@ name=house_limits
 } >"$scratch/city.plan"
 golden too_many_together "tartan count $scratch/city.plan --library tall"
 golden too_many_steps "tartan count $scratch/city.plan --library tall --plan '#0'"
+tower() { # STOREYS
+    printf 'schema t { width role length = 4m | 6m  zone core role band = core(5m)  zone flat role band = flat(6m) | none }\nform tower of t {\n'
+    for ((i = 0; i < $1; i++)); do printf '  storey s%s 3m\n' "$i"; done
+    cat <<'END'
+  wall 30cm  partition 10cm  deck 30cm  roof 30cm
+  function hall at cell(core)
+  function home at cell(flat)
+  function den at cell(flat)
+  opening door wide 1m high 2.1m passage
+  opening win wide 1m high 1.5m sill 1m glazed
+  face cell(hall) beside cell(home or den) = door
+  face cell(any) outside = win | wall
+}
+library rows using t { trays 1..1 }
+library towers from rows in tower { prune room(home, not by win)  require quantity(cell(den), n >= 2) }
+measure dens = quantity(cell(den))
+END
+}
+# Windows that no clause asks for are counted together, so that a tower of eight storeys is within the limits.
+tower 8 >"$scratch/eight.plan"
+tower 12 >"$scratch/twelve.plan"
+tower 31 >"$scratch/thirty.plan"
+golden eight_storeys "tartan count $scratch/eight.plan --library towers --by dens"
+golden eight_storeys_ranked "tartan unrank $scratch/eight.plan 123456789 --library towers"
+golden too_many_slices "tartan count $scratch/twelve.plan --library towers --by dens"
+golden too_many_cells "tartan count $scratch/thirty.plan --library towers --by dens"
 golden relations_limit 'tartan check lahave-few.plan --relations --max-states 12000'
 # Long numbers stay apart from those beside them.
 golden count_wide "tartan count apartments --library apartments --plan '#0' --clauses | sed -n '/without/,\$p'"

@@ -31,6 +31,7 @@
 #define TN_STRIP_SLOTS_MAX 4u           /* beginnings of rooms, or sources of a walk, that are told apart at a plane */
 #define TN_STRIP_LETTERS_MAX 65536u     /* of a clause */
 #define TN_STRIP_FUNCTIONS_MAX 1000000u /* ways to give a tray's cells their functions */
+#define TN_STRIP_SLICES_MAX 200000u     /* choices of trays that are told apart */
 #define TN_STRIP_CHOICES_MAX 4000000u   /* of a tray's functions and faces, or of a plane's */
 
 /* ---- questions.c: what clauses and face lines ask */

@@ -21,7 +21,29 @@ typedef struct tn_cutting {
 typedef struct tn_options {
     uint32_t of, count, at;
     uint32_t items[TN_CELL_RULES_MAX > TN_FACE_KINDS_MAX ? TN_CELL_RULES_MAX : TN_FACE_KINDS_MAX];
+    uint32_t times[TN_FACE_KINDS_MAX]; /* of a face: so many kinds are one */
 } tn_options;
+
+/* ---- limits */
+
+/* Whatever plan the tray is in, it has as many. */
+static tn_status too_large(const tn_cutting *c, const char *what, tn_error *error)
+{
+    tn_buffer text = {0};
+    const tn_house_form *form = c->inside.strip->form;
+    bool written = tn_plan_write_line(form->schema, &c->inside.tray, 1, &text);
+    tn_fail(error, TN_LIMIT, E_STRIP,
+            "the tray `%.120s` has more than %s in form `%.60s`: its houses cannot be counted",
+            written ? text.data : "", what, tn_text(form->module, form->record->name));
+    tn_error_help(error, "leave fewer storeys, fewer functions that a cell may have, or fewer kinds for its faces");
+    free(text.data);
+    return TN_LIMIT;
+}
+
+static tn_status too_many(const tn_cutting *c, tn_error *error)
+{
+    return too_large(c, "2^64 choices", error);
+}
 
 /* ---- cells */
 
@@ -142,7 +164,7 @@ static bool keep_slice(tn_strip *s, uint32_t slice)
 }
 
 /* Notes that cells with these functions can be the slice. */
-static tn_status add_furnished(tn_cutting *c, uint32_t slice, tn_error *error)
+static tn_status add_furnished(tn_cutting *c, uint32_t slice, uint64_t times, tn_error *error)
 {
     tn_strip_furnished_list *list = &c->inside.strip->furnished[c->inside.tray];
     uint32_t at = tn_number(&c->furnished, (uint64_t)c->functions << 32 | slice);
@@ -150,8 +172,7 @@ static tn_status add_furnished(tn_cutting *c, uint32_t slice, tn_error *error)
         return tn_fail_memory(error);
     if (at == list->count)
         list->items[list->count++] = (tn_strip_furnished){c->functions, slice, 0};
-    list->items[at].times++;
-    return TN_OK;
+    return __builtin_add_overflow(list->items[at].times, times, &list->items[at].times) ? too_many(c, error) : TN_OK;
 }
 
 /* What the tray adds to each number that is added up: two words each; last, where costs are asked for, their number. */
@@ -201,6 +222,8 @@ static tn_status find_slice(const tn_cutting *c, uint32_t *slice, tn_error *erro
     uint32_t before = s->slice_keys.count;
     if (status != TN_OK)
         return status;
+    if (before >= TN_STRIP_SLICES_MAX)
+        return too_large(c, "200,000 choices that other cells, clauses or costs can tell apart", error);
     if (!tn_array_reserve(&s->slices, &s->slice_room, before, 1, sizeof *s->slices))
         return tn_fail_memory(error);
     *slice = tn_intern(&s->slice_keys, key->data, key->size);
@@ -208,7 +231,7 @@ static tn_status find_slice(const tn_cutting *c, uint32_t *slice, tn_error *erro
     return ok ? TN_OK : tn_fail_memory(error);
 }
 
-static tn_status add_slice(tn_cutting *c, tn_error *error)
+static tn_status add_slice(tn_cutting *c, uint64_t times, tn_error *error)
 {
     uint32_t slice = 0;
     tn_status status = find_slice(c, &slice, error);
@@ -221,8 +244,9 @@ static tn_status add_slice(tn_cutting *c, tn_error *error)
         return tn_fail_memory(error);
     if (at == c->list->count)
         c->list->items[c->list->count++] = (tn_strip_choice){.slice = slice};
-    c->list->items[at].times++;
-    return add_furnished(c, slice, error);
+    if (__builtin_add_overflow(c->list->items[at].times, times, &c->list->items[at].times))
+        return too_many(c, error);
+    return add_furnished(c, slice, times, error);
 }
 
 /* ---- combinations */
@@ -237,28 +261,93 @@ static bool turn(tn_options *options, size_t count)
     return false;
 }
 
+/* Can a room of the cell tell one kind from the other? Walls have no openings, and are as thick as those that have. */
+static bool tells_apart(const tn_cutting *c, const tn_face *face, const tn_room_open *open, uint32_t one,
+                        uint32_t other)
+{
+    const tn_strip *s = c->inside.strip;
+    const uint32_t kinds[2] = {one, other};
+    uint64_t marks[2];
+    tn_int128 glass[2];
+    for (int k = 0; k < 2; k++) {
+        tn_face with = *face;
+        with.kind = kinds[k];
+        if (kinds[k] != TN_FACE_WALL && !tn_form_opening(s->form, kinds[k]))
+            return true;
+        marks[k] = tn_strip_marks(s, kinds[k]) & open->kinds;
+        glass[k] = open->glass ? tn_face_glazing(&c->inside.house, &with) : 0;
+    }
+    return marks[0] != marks[1] || glass[0] != glass[1];
+}
+
+/* Kinds in an outside face at the back or the front that nothing tells apart become one, unless each slice is wanted by
+ * itself. A void belongs to the room below it, which is not looked for here. */
+static tn_status merge_kinds(const tn_cutting *c, const tn_face *face, tn_options *options, tn_error *error)
+{
+    tn_strip *s = c->inside.strip;
+    const tn_cell *cell = &c->inside.house.cells[face->first];
+    if (c->ordered || face->relation != TN_FACE_OUTSIDE || cell->open || s->prices.asked || s->tiled[cell->function])
+        return TN_OK;
+    tn_room_open open;
+    uint64_t fails = tn_strip_answers_fail(s, c->inside.cells[face->first]->answers);
+    tn_status status = tn_strip_room_open(s, fails, &open, error);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; status == TN_OK && i < options->count; i++) {
+        uint32_t like = 0;
+        while (like < kept && tells_apart(c, face, &open, options->items[like], options->items[i]))
+            like++;
+        if (like < kept) {
+            options->times[like]++;
+        } else {
+            options->items[kept] = options->items[i];
+            options->times[kept++] = 1;
+        }
+    }
+    options->count = status == TN_OK ? kept : options->count;
+    return status;
+}
+
+static tn_status face_options(const tn_cutting *c, uint32_t face, tn_options *options, tn_error *error)
+{
+    const tn_house *house = &c->inside.house;
+    *options = (tn_options){.of = face};
+    options->count = (uint32_t)tn_face_options(house, &house->faces[face], options->items);
+    for (uint32_t i = 0; i < options->count; i++)
+        options->times[i] = 1;
+    return merge_kinds(c, &house->faces[face], options, error);
+}
+
+/* Sets the kinds that the wheels show, which stand for so many combinations. False: these are too many to count. */
+static bool set_kinds(tn_cutting *c, const tn_options *options, size_t count, uint64_t *times)
+{
+    bool ok = true;
+    *times = 1;
+    for (size_t i = 0; i < count; i++) {
+        c->inside.house.faces[options[i].of].kind = options[i].items[options[i].at];
+        ok = ok && !__builtin_mul_overflow(*times, (uint64_t)options[i].times[options[i].at], times);
+    }
+    return ok;
+}
+
 static tn_status cut_faces(tn_cutting *c, tn_error *error)
 {
     tn_options *options = malloc((c->inside.house.face_count + 1) * sizeof *options);
     size_t count = 0;
     if (!options)
         return tn_fail_memory(error);
-    for (uint32_t i = 0; i < c->inside.house.face_count; i++) {
-        if (!tn_face_is_inner(&c->inside.house.faces[i]))
-            continue;
-        options[count] = (tn_options){.of = i};
-        options[count].count =
-            (uint32_t)tn_face_options(&c->inside.house, &c->inside.house.faces[i], options[count].items);
-        count++;
-    }
     tn_status status = TN_OK;
-    do {
-        for (size_t i = 0; i < count; i++)
-            c->inside.house.faces[options[i].of].kind = options[i].items[options[i].at];
-        status = ++c->tried <= TN_STRIP_CHOICES_MAX
-                     ? add_slice(c, error)
-                     : tn_strip_limit(c->inside.strip, NULL, "a tray has more than 4,000,000 choices", error);
-    } while (status == TN_OK && turn(options, count));
+    for (uint32_t i = 0; status == TN_OK && i < c->inside.house.face_count; i++)
+        if (tn_face_is_inner(&c->inside.house.faces[i]))
+            status = face_options(c, i, &options[count++], error);
+    for (bool more = true; status == TN_OK && more; more = turn(options, count)) {
+        uint64_t times;
+        if (!set_kinds(c, options, count, &times))
+            status = too_many(c, error);
+        else if (++c->tried > TN_STRIP_CHOICES_MAX)
+            status = too_large(c, "4,000,000 choices", error);
+        else
+            status = add_slice(c, times, error);
+    }
     free(options);
     return status;
 }
@@ -285,8 +374,7 @@ static tn_status cut_functions(tn_cutting *c, tn_error *error)
     }
     tn_status status = TN_OK;
     if (ways > TN_STRIP_FUNCTIONS_MAX)
-        status = tn_strip_limit(c->inside.strip, NULL,
-                                "the cells of a tray have more than 1,000,000 choices of functions", error);
+        status = too_large(c, "1,000,000 choices of functions", error);
     while (possible && status == TN_OK) {
         for (size_t i = 0; i < count; i++)
             c->inside.house.cells[options[i].of].function = options[i].items[options[i].at];
@@ -305,7 +393,7 @@ static tn_status begin(tn_cutting *c, tn_error *error)
     const tn_strip *strip = c->inside.strip;
     tn_status status = tn_house_stand(strip->form, &c->inside.tray, 1, strip->shapes, &c->inside.house, error);
     if (status == TN_OK && c->inside.house.cell_count > TN_STRIP_CELLS_MAX)
-        status = tn_strip_limit(strip, NULL, "a tray has more than 60 cells", error);
+        status = too_large(c, "60 cells", error);
     return status == TN_OK ? begin_cells(c, error) : status;
 }
 

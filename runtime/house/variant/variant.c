@@ -297,7 +297,8 @@ static tn_status take_functions(tn_house_variants *v, const tn_house *like, tn_e
     return status;
 }
 
-enum { USUAL_CELLS = 32 };
+/* A step is as much as a house of so many cells takes; each cell may be asked about each. */
+enum { USUAL_CELLS = 16 };
 
 static void begin_work(tn_house_variants *v)
 {
@@ -314,7 +315,7 @@ static tn_status stand(tn_house_variants *v, const tn_tray *trays, size_t length
         return tn_fail_memory(error);
     if (status != TN_OK)
         return status;
-    v->step = 1 + v->house.cell_count / USUAL_CELLS;
+    v->step = 1 + (uint64_t)v->house.cell_count * v->house.cell_count / (USUAL_CELLS * USUAL_CELLS);
     memset(v->known_faces, 0, TN_KNOWN_WAYS * v->house.face_count * sizeof *v->known_faces);
     return tn_house_known_use(&v->known, &v->house, error);
 }
