@@ -10,7 +10,7 @@
 typedef struct house_tally {
     bool each;         /* the plans were gone through */
     bool faced_unsaid; /* houses without their tiles were not counted */
-    uint64_t with_houses, zoned, states;
+    uint64_t with_houses, sections, zoned, states; /* sections: of each plan, those that have a house */
     mpz_t plans, faced, houses;
     mpz_t *lengths; /* houses on plans of each length, from the shortest */
     uint32_t low, high;
@@ -69,6 +69,7 @@ static tn_status tally_section(void *context, const uint32_t *shapes, const tn_h
     const section_tally *s = context;
     (void)error;
     add_section(s->n, s->tally, shapes, counts->houses);
+    s->tally->sections++;
     s->tally->zoned += counts->zoned;
     mpz_add_ui(s->tally->faced, s->tally->faced, counts->faced);
     mpz_add(s->tally->houses, s->tally->houses, counts->houses);
@@ -449,7 +450,8 @@ static void write_json(const tn_numbered *n, const house_tally *tally, FILE *out
     tn_write_json(out, tn_text(n->form.module, n->record->name));
     gmp_fprintf(out, ",\"plans\":\"%Zd\"", tally->plans);
     if (tally->each)
-        fprintf(out, ",\"plans_with_houses\":\"%llu\",\"zoned\":\"%llu\"", (unsigned long long)tally->with_houses,
+        fprintf(out, ",\"plans_with_houses\":\"%llu\",\"with_sections\":\"%llu\",\"zoned\":\"%llu\"",
+                (unsigned long long)tally->with_houses, (unsigned long long)tally->sections,
                 (unsigned long long)tally->zoned);
     else
         fprintf(out, ",\"states\":%llu", (unsigned long long)tally->states);
@@ -471,7 +473,8 @@ static void write_text(const tn_numbered *n, const house_tally *tally, FILE *out
     gmp_fprintf(out, "%-*s%Zd\n", labels, "plans", tally->plans);
     if (tally->each) {
         fprintf(out, "%-*s%llu\n", labels, "with a house", (unsigned long long)tally->with_houses);
-        fprintf(out, "%-*s%llu\n", labels, "sections and functions", (unsigned long long)tally->zoned);
+        fprintf(out, "%-*s%llu\n", labels, "with sections", (unsigned long long)tally->sections);
+        fprintf(out, "%-*s%llu\n", labels, "with functions", (unsigned long long)tally->zoned);
     }
     if (!tally->faced_unsaid)
         gmp_fprintf(out, "%-*s%Zd\n", labels, "with openings", tally->faced);
