@@ -29,7 +29,10 @@ tn_status tn_explain_next_bare(const tn_house_explaining *e, uint32_t *cell, tn_
 /* The openings that lower roofs keep out of faces. */
 void tn_explain_behind_roofs(tn_house_explaining *e);
 
-/* Kept houses that differ from this one by one choice. */
+/* A member of a JSON object, with what comes before it. */
+void tn_explain_member(tn_buffer *out, const char *before, const char *key, const char *value);
+
+/* ---- explained_near.c: kept houses that differ from this one by as few choices as were found. */
 tn_status tn_explain_nearest(tn_house_explaining *e, tn_error *error);
 
 #endif

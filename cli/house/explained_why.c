@@ -1,5 +1,4 @@
-/* Says on what of a house an answer rests: cells, rooms, faces and walks, tiles that do not stand, the nearest houses.
- */
+/* Says on what of a house an answer rests: cells, rooms, faces and walks; tiles that do not stand. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +9,7 @@
 #include "runtime/house/solids.h"
 #include "runtime/plan/measure/amount.h"
 
-enum { TEXT_MAX = 4096, NEAREST_MAX = 5 };
+enum { TEXT_MAX = 4096 };
 
 /* ---- what questions find */
 
@@ -182,7 +181,7 @@ tn_status tn_explain_why(tn_house_explaining *e, uint32_t function, tn_error *er
 
 /* ---- tiles */
 
-static void append_member(tn_buffer *out, const char *before, const char *key, const char *value)
+void tn_explain_member(tn_buffer *out, const char *before, const char *key, const char *value)
 {
     tn_buffer_printf(out, "%s\"%s\":", before, key);
     tn_buffer_append_json(out, value);
@@ -202,8 +201,8 @@ static tn_status write_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile
         tn_buffer_printf(&e->text, "    %s: %s\n", name, text);
         return TN_OK;
     }
-    append_member(&e->text, first ? "{" : ",{", "tile", name);
-    append_member(&e->text, ",", "why", text);
+    tn_explain_member(&e->text, first ? "{" : ",{", "tile", name);
+    tn_explain_member(&e->text, ",", "why", text);
     tn_buffer_append(&e->text, "}", 1);
     return TN_OK;
 }
@@ -277,9 +276,9 @@ void tn_explain_behind_roofs(tn_house_explaining *e)
         tn_face_text(&e->house, i, face, sizeof face);
         tn_behind_roof_text(&e->house, &behind, why, sizeof why);
         if (e->json) {
-            append_member(&e->text, before, "face", face);
-            append_member(&e->text, ",", "opening", opening);
-            append_member(&e->text, ",", "why", why);
+            tn_explain_member(&e->text, before, "face", face);
+            tn_explain_member(&e->text, ",", "opening", opening);
+            tn_explain_member(&e->text, ",", "why", why);
             tn_buffer_append(&e->text, "}", 1);
         } else {
             tn_buffer_printf(&e->text, "%s    %s: `%s` does not fit, as %s\n", *before ? "" : "behind lower roofs:\n",
@@ -289,50 +288,4 @@ void tn_explain_behind_roofs(tn_house_explaining *e)
     }
     if (e->json)
         tn_buffer_printf(&e->text, "]");
-}
-
-/* ---- the nearest kept houses */
-
-typedef struct nearing {
-    tn_house_explaining *e;
-    size_t count;
-} nearing;
-
-static tn_status write_near(void *context, const tn_house_change *change, const tn_house *changed, tn_error *error)
-{
-    nearing *n = context;
-    tn_change_words w;
-    tn_buffer line = {0};
-    tn_buffer *out = &n->e->text;
-    if (n->count++ >= NEAREST_MAX)
-        return TN_OK;
-    tn_change_text(&n->e->house, change, &w);
-    tn_status status = tn_house_write(changed, &line, error);
-    if (n->e->json) {
-        append_member(out, n->count > 1 ? ",{" : "{", "where", w.where);
-        append_member(out, ",", "from", w.from);
-        append_member(out, ",", "to", w.to);
-        append_member(out, ",", "house", line.data ? line.data : "");
-        tn_buffer_append(out, "}", 1);
-    } else {
-        tn_buffer_printf(out, "%s    %s: %s for %s\n", n->count == 1 ? "kept with one change:\n" : "", w.where, w.to,
-                         w.from);
-    }
-    free(line.data);
-    return status;
-}
-
-tn_status tn_explain_nearest(tn_house_explaining *e, tn_error *error)
-{
-    nearing n = {.e = e};
-    if (e->json)
-        tn_buffer_printf(&e->text, ",\"nearest\":[");
-    tn_status status = tn_house_changes(&e->house, e->judge.rules, e->library, TN_NO_CELL, write_near, &n, error);
-    if (e->json)
-        tn_buffer_printf(&e->text, "]");
-    else if (status == TN_OK && n.count > NEAREST_MAX)
-        tn_buffer_printf(&e->text, "    and %zu more\n", n.count - NEAREST_MAX);
-    else if (status == TN_OK && n.count == 0)
-        tn_buffer_printf(&e->text, "no house that differs by one choice is kept\n");
-    return status;
 }

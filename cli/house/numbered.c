@@ -247,6 +247,6 @@ void tn_numbered_say_few(const tn_numbered *n, bool on_plan, uint64_t found, uin
     else
         tn_job_note(n->job,
                     "the library holds no house: `tartan count` with --library %s and --clauses says what each clause "
-                    "keeps out, `tartan explain` with '#0' what is wrong with the first plan",
+                    "keeps out, `tartan explain` with '#0:' what is wrong with the first plan",
                     name);
 }

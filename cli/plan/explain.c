@@ -326,7 +326,7 @@ static void explain_house(tn_job *job, const char *line)
                          tn_job_max_length(&settings->plans));
 }
 
-/* A house by its name, #P:V. */
+/* A house by its name, #R or #P:V. */
 static void explain_numbered(tn_job *job, const char *number)
 {
     const tn_house_settings houses = tn_job_houses(&settings_of(job)->plans);
@@ -336,18 +336,33 @@ static void explain_numbered(tn_job *job, const char *number)
     free(line.data);
 }
 
+/* A plan for houses, by its line or as #P: with no house behind the colon. */
+static void explain_for_houses(tn_job *job, const char *text)
+{
+    const explain_settings *settings = settings_of(job);
+    const tn_house_settings houses = tn_job_houses(&settings->plans);
+    size_t size = strlen(text) - (text[0] == '#');
+    char *plan = strndup(text, size);
+    if (plan)
+        tn_job_explain_plan(job, &houses, plan, settings->json);
+    else
+        tn_job_fail(job, &(tn_error){.status = TN_MEMORY});
+    free(plan);
+}
+
 static void explain_plan_or_house(tn_job *job)
 {
     const explain_settings *settings = settings_of(job);
     const char *text = settings->common.operands.count > 1 ? settings->common.operands.items[1] : "";
     const char *library = settings->plans.library;
-    const tn_house_settings houses = tn_job_houses(&settings->plans);
+    bool of_houses = library && tn_house_library_find(job->opened.module, library) != TN_NO_RECORD;
+    const char *colon = text[0] == '#' && job->opened.module->HOUSE_LIBRARY_count > 0 ? strchr(text, ':') : NULL;
     if (tn_is_house_line(text))
         explain_house(job, text);
-    else if (text[0] == '#' && strchr(text, ':') && job->opened.module->HOUSE_LIBRARY_count > 0)
+    else if ((colon && colon[1] == '\0') || (of_houses && *text && text[0] != '#'))
+        explain_for_houses(job, text);
+    else if (colon || (of_houses && text[0] == '#'))
         explain_numbered(job, text);
-    else if (*text && library && tn_house_library_find(job->opened.module, library) != TN_NO_RECORD)
-        tn_job_explain_plan(job, &houses, text, settings->json);
     else
         explain(job);
 }
@@ -390,7 +405,8 @@ static const tn_option options[] = {
 const tn_command tn_command_explain = {
     .name = "explain",
     .summary = "explain why a library keeps or drops a plan",
-    .usage = "FILE PLAN\nFILE HOUSE\nFILE '#RANK'\nFILE '#P:V'\nFILE PLAN --library HOUSES\nFILE --plan PLANS\nFILE "
+    .usage = "FILE PLAN\nFILE HOUSE\nFILE '#RANK'\nFILE '#P:V'\nFILE '#P:' --library HOUSES\nFILE PLAN --library "
+             "HOUSES\nFILE --plan PLANS\nFILE "
              "PLAN --rule NAME\nFILE [--solid NAME] [-o "
              "STEPS.svg]",
     .description =
@@ -403,8 +419,10 @@ const tn_command tn_command_explain = {
         "rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes.\n\n"
         "HOUSE is a house line (docs/houses.md) or a JSON object with one: explain says which clauses of a library of "
         "houses drop it, and "
-        "whether its plan is one of the library's. The tiles may be left out. '#P:V' is a house by its name. Of a PLAN "
-        "(or '#P') and a library of houses it says which cells keep all houses off the plan: no function may be "
+        "whether its plan is one of the library's. The tiles may be left out. '#P:V' is a house by its name, and so is "
+        "'#R' "
+        "with --library and a library of houses. Of a PLAN (or '#P:', with nothing behind the colon) and a library of "
+        "houses it says which cells keep all houses off the plan: no function may be "
         "there, or no tile of one stands.\n\n"
         "For a design of boxes it says how they were squashed, pair by pair; -o draws each step.",
     .example = "$ tartan explain terrace \"$(tartan unrank terrace 1000)\"",

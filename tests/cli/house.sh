@@ -43,14 +43,16 @@ cmp -s "$scratch/through.count" "$scratch/by.count" || fail 'apart says somethin
 grep -q '^houses  *[1-9]' "$scratch/by.count" || fail 'no houses with by before through'
 golden explained_rule "tartan explain cottage \"$bedrooms\" --rule far-bed --rule dark-living"
 golden explained_tiles "tartan explain bare.plan \"8' open ; - ; hall\""
-golden explained_plan "tartan explain bare.plan '#0' --library halls"
-golden explained_plan_json "tartan explain bare.plan '#1' --library halls --json"
-golden explained_plan_bare "tartan explain no-function.plan '#0' --library halls"
-golden explained_plan_high "tartan explain too-high.plan '#0' --library barns"
+golden explained_plan "tartan explain bare.plan '#0:' --library halls"
+golden explained_plan_json "tartan explain bare.plan '#1:' --library halls --json"
+golden explained_plan_bare "tartan explain no-function.plan '#0:' --library halls"
+golden explained_plan_high "tartan explain too-high.plan '#0:' --library barns"
 golden explained_plan_well "tartan explain cottage \"14' room:14' none\" --library cottages"
 golden explained_plan_wrong "tartan explain cottage \"14' room:14'\" --library cottages"
-golden explained_plan_none "tartan explain cottage '#4000000' --library cottages"
+golden explained_plan_none "tartan explain cottage '#4000000:' --library cottages"
 golden explained_number "tartan explain cottage '#10:77' --full"
+golden explained_rank "tartan explain cottage '#77' --library cottages"
+golden explained_rank_past "tartan explain cottage '#99999999' --library cottages"
 golden explained_number_past "tartan explain cottage '#10:x'"
 golden sample_none_on_plan "tartan sample bare.plan 1 --library halls --plan '#0'"
 golden sample_none "tartan sample bare.plan 1 --library halls"
@@ -85,7 +87,7 @@ form cells of row {
 library rows using row { trays 2 }
 library houses from rows in cells { }
 PLAN
-golden explained_no_side "tartan explain $scratch/cells.plan '#0' --library houses"
+golden explained_no_side "tartan explain $scratch/cells.plan '#0:' --library houses"
 
 # A section along the side of a flight, where the parts of the decks meet: they are cut, as they are a little beside.
 cat >"$scratch/tower.plan" <<'PLAN'

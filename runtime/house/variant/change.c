@@ -138,10 +138,11 @@ static tn_status try_change(tn_changing *c, const tn_house_change *change, tn_er
         carry_faces(c, change, &to);
         status = carry_tiles(c, change, &to, &fit, error);
     }
-    if (status == TN_OK && fit)
+    if (status == TN_OK && fit && c->library)
         status = tn_house_rules_start(c->rules, &to, error);
-    if (status == TN_OK && fit)
+    if (status == TN_OK && fit && c->library)
         status = tn_house_rules_keep(c->rules, c->library, &kept, error);
+    kept = kept || (fit && !c->library);
     if (status == TN_OK && kept)
         status = c->seen(c->context, change, &to, error);
     tn_house_clear(&to);

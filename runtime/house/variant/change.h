@@ -23,8 +23,8 @@ typedef struct tn_house_change {
 typedef tn_status tn_change_seen(void *context, const tn_house_change *change, const tn_house *changed,
                                  tn_error *error);
 
-/* In the order of a house line. cell: only what is about this cell (TN_NO_CELL: all). The house is one of the library.
- */
+/* In the order of a house line. cell: only what is about this cell (TN_NO_CELL: all). library: NULL shows all changes,
+ * whatever clauses say, and asks nothing of the rules. */
 tn_status tn_house_changes(const tn_house *house, tn_house_rules *rules, const tn_house_library_record *library,
                            uint32_t cell, tn_change_seen *seen, void *context, tn_error *error);
 

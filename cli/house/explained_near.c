@@ -1,0 +1,209 @@
+/* Looks for kept houses near to one that is dropped: by one change, or by the changes that a beam search finds, whose
+ * houses are those that the fewest clauses drop. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/house/change_text.h"
+#include "cli/house/explained_parts.h"
+
+enum { NEAREST_MAX = 5 };
+
+/* ---- one change */
+
+typedef struct nearing {
+    tn_house_explaining *e;
+    size_t count;
+} nearing;
+
+static void write_change(tn_house_explaining *e, const char *before, const tn_change_words *w)
+{
+    if (!e->json) {
+        tn_buffer_printf(&e->text, "%s    %s: %s for %s\n", before, w->where, w->to, w->from);
+        return;
+    }
+    tn_explain_member(&e->text, before, "where", w->where);
+    tn_explain_member(&e->text, ",", "from", w->from);
+    tn_explain_member(&e->text, ",", "to", w->to);
+}
+
+static tn_status write_near(void *context, const tn_house_change *change, const tn_house *changed, tn_error *error)
+{
+    nearing *n = context;
+    tn_change_words w;
+    tn_buffer line = {0};
+    if (n->count++ >= NEAREST_MAX)
+        return TN_OK;
+    tn_change_text(&n->e->house, change, &w);
+    if (!n->e->json) {
+        write_change(n->e, n->count == 1 ? "kept with one change:\n" : "", &w);
+        return TN_OK;
+    }
+    tn_status status = tn_house_write(changed, &line, error);
+    write_change(n->e, n->count > 1 ? ",{" : "{", &w);
+    tn_explain_member(&n->e->text, ",", "house", line.data ? line.data : "");
+    tn_buffer_append(&n->e->text, "}", 1);
+    free(line.data);
+    return status;
+}
+
+/* ---- several changes */
+
+enum { BEAM = 16, DEPTH = 8, NODES = 1 + BEAM * DEPTH };
+
+/* A house that was come to by changes. */
+typedef struct near_node {
+    char *line;
+    size_t dropping, parent; /* clauses that drop it */
+    tn_change_words words;   /* of the change from its parent */
+} near_node;
+
+/* Houses with as many changes as the level are nodes [first, count): the best so far, the best first. */
+typedef struct beam {
+    tn_house_explaining *e;
+    const tn_house *from;
+    size_t parent, first, count;
+    near_node nodes[NODES];
+} beam;
+
+static tn_status count_dropping(tn_house_explaining *e, const tn_house *house, size_t *count, tn_error *error)
+{
+    tn_status status = tn_house_rules_start(e->judge.rules, house, error);
+    *count = 0;
+    for (uint32_t i = 0; status == TN_OK && i < e->library->clause_count; i++) {
+        bool drops = false;
+        status = tn_house_rules_drop(e->judge.rules, e->library, i, &drops, error);
+        *count += drops;
+    }
+    return status;
+}
+
+static bool is_met(const beam *b, const char *line)
+{
+    for (size_t i = 0; i < b->count; i++)
+        if (strcmp(b->nodes[i].line, line) == 0)
+            return true;
+    return false;
+}
+
+/* Takes the node into its level, if it is among the best there; else it is freed. */
+static void insert(beam *b, const near_node *node)
+{
+    size_t at = b->count;
+    while (at > b->first && b->nodes[at - 1].dropping > node->dropping)
+        at--;
+    if (at == b->first + BEAM) {
+        free(node->line);
+        return;
+    }
+    if (b->count == b->first + BEAM)
+        free(b->nodes[--b->count].line);
+    memmove(&b->nodes[at + 1], &b->nodes[at], (b->count - at) * sizeof *b->nodes);
+    b->nodes[at] = *node;
+    b->count++;
+}
+
+static tn_status see_change(void *context, const tn_house_change *change, const tn_house *changed, tn_error *error)
+{
+    beam *b = context;
+    near_node node = {.parent = b->parent};
+    tn_buffer line = {0};
+    tn_status status = count_dropping(b->e, changed, &node.dropping, error);
+    bool full = b->count == b->first + BEAM;
+    if (status != TN_OK || (full && node.dropping >= b->nodes[b->count - 1].dropping))
+        return status;
+    status = tn_house_write(changed, &line, error);
+    if (status != TN_OK || is_met(b, line.data)) {
+        free(line.data);
+        return status;
+    }
+    node.line = line.data;
+    tn_change_text(b->from, change, &node.words);
+    insert(b, &node);
+    return TN_OK;
+}
+
+static tn_status expand(beam *b, size_t parent, tn_error *error)
+{
+    tn_house from = {0};
+    const char *line = b->nodes[parent].line;
+    tn_status status = tn_house_read_open(&b->e->judge.form, line, strlen(line), b->e->house.length, &from, error);
+    b->from = &from;
+    b->parent = parent;
+    if (status == TN_OK)
+        status = tn_house_changes(&from, b->e->judge.rules, NULL, TN_NO_CELL, see_change, b, error);
+    tn_house_clear(&from);
+    return status;
+}
+
+/* The changes that lead to a node, the first first. */
+static void write_steps(const beam *b, size_t node)
+{
+    if (b->nodes[node].parent != 0)
+        write_steps(b, b->nodes[node].parent);
+    bool first = b->nodes[node].parent == 0;
+    tn_house_explaining *e = b->e;
+    if (e->json)
+        write_change(e, first ? "{\"changes\":[{" : "},{", &b->nodes[node].words);
+    else
+        write_change(e, first ? "kept with these changes together:\n" : "", &b->nodes[node].words);
+}
+
+static tn_status search(beam *b, bool *found, tn_error *error)
+{
+    tn_buffer line = {0};
+    tn_status status = tn_house_write(&b->e->house, &line, error);
+    size_t level = 0, end = 1; /* the nodes that are expanded now */
+    if (status != TN_OK) {
+        free(line.data);
+        return status;
+    }
+    b->nodes[0] = (near_node){.line = line.data};
+    b->count = 1;
+    for (int depth = 0; status == TN_OK && !*found && depth < DEPTH && level < end; depth++) {
+        b->first = b->count;
+        for (size_t i = level; status == TN_OK && i < end; i++)
+            status = expand(b, i, error);
+        level = b->first;
+        end = b->count;
+        *found = status == TN_OK && end > level && b->nodes[level].dropping == 0;
+    }
+    return status;
+}
+
+static tn_status explain_several(tn_house_explaining *e, bool *found, tn_error *error)
+{
+    beam *b = calloc(1, sizeof *b);
+    if (!b)
+        return tn_fail_memory(error);
+    b->e = e;
+    tn_status status = search(b, found, error);
+    if (status == TN_OK && *found) {
+        write_steps(b, b->first);
+        if (e->json) {
+            tn_explain_member(&e->text, "}],", "house", b->nodes[b->first].line);
+            tn_buffer_append(&e->text, "}", 1);
+        }
+    }
+    for (size_t i = 0; i < b->count; i++)
+        free(b->nodes[i].line);
+    free(b);
+    return status;
+}
+
+tn_status tn_explain_nearest(tn_house_explaining *e, tn_error *error)
+{
+    nearing n = {.e = e};
+    bool found = false;
+    if (e->json)
+        tn_buffer_printf(&e->text, ",\"nearest\":[");
+    tn_status status = tn_house_changes(&e->house, e->judge.rules, e->library, TN_NO_CELL, write_near, &n, error);
+    if (status == TN_OK && n.count == 0)
+        status = explain_several(e, &found, error);
+    if (e->json)
+        tn_buffer_printf(&e->text, "]");
+    else if (status == TN_OK && n.count > NEAREST_MAX)
+        tn_buffer_printf(&e->text, "    and %zu more\n", n.count - NEAREST_MAX);
+    else if (status == TN_OK && n.count == 0 && !found)
+        tn_buffer_printf(&e->text, "no house that differs by a few choices was found to be kept\n");
+    return status;
+}
