@@ -292,7 +292,7 @@ static bool advise_length(tn_parse *parse, tn_diagnostic *d, const tn_syntax_fou
         return false;
     int digits = (int)strspn(text, "0123456789.");
     bool metric = found->span.end > found->span.begin && memchr(text, 'm', found->span.end - found->span.begin);
-    tn_advise(parse->diagnostics, d, "%.*s%s", digits, text, metric ? "m" : "'");
+    tn_help(parse->diagnostics, d, "a length stands here, such as `%.*s%s`", digits, text, metric ? "m" : "'");
     return true;
 }
 
