@@ -121,12 +121,30 @@ static void report(tn_opened *opened, const tn_house_judge *judge, const tn_test
     }
 }
 
-/* The columns of the line become places of the file. */
+/* A plan that has several houses, where the line of one of them is wanted. */
+static void report_plan(tn_opened *opened, const tn_test_case *test, const tn_error *error)
+{
+    tn_diagnostics *list = &opened->compilation.diagnostics;
+    tn_diagnostic *d = tn_report(list, E_NOT_A_HOUSE, test->house_place,
+                                 "what is tested is about houses, and this is a plan that leaves choices");
+    const char *missing = strstr(error->message, ": ");
+    if (missing)
+        tn_note(list, d, NULL, "%s%s%s", missing + 2, error->help[0] ? ": " : "", error->help);
+    tn_help(list, d,
+            "write the line of a house: `[plan ; section ; functions ; faces]`; parts at the end may be left out if "
+            "they leave no choice");
+}
+
+/* The columns of the line become places of the file; that behind its end is the bracket's, where a word is missing. */
 static void report_line(tn_opened *opened, const tn_test_case *test, const tn_error *error)
 {
     tn_span place = test->house_place;
     uint32_t size = place.end - place.begin;
-    if (error->column > 0 && error->column <= size) {
+    if (error->column == size + 1 && test->plan_alone) {
+        report_plan(opened, test, error);
+        return;
+    }
+    if (error->column > 0 && error->column <= size + 1) {
         place.end = place.begin + (error->column_end > error->column ? error->column_end - 1 : error->column);
         place.begin += error->column - 1;
     }

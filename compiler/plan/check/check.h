@@ -326,6 +326,8 @@ tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_spa
 #define TN_AREAS (TN_NONE - 1) /* instead of a field: areas are added, in halves of a square micrometre */
 /* `field`: whose lengths are added, or TN_NONE for a count. */
 tn_checked_condition *tn_check_condition(tn_check *check, const tn_ast_cond *cond, uint32_t field);
+/* That of `quantity` or `occurrences`, whose parts are checked. */
+tn_checked_condition *tn_check_count(tn_check *check, const tn_ast_expr *quantity);
 /* The condition of a `total`. */
 tn_checked_condition *tn_check_total(tn_check *check, const tn_ast_clause *clause, uint32_t field);
 bool tn_check_range(tn_check *check, const tn_ast_range *range, bool lengths); /* false: reported */

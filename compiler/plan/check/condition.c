@@ -10,6 +10,7 @@ typedef struct tn_condition_builder {
     uint32_t field;              /* whose lengths are added, or TN_NONE */
     const tn_ast_word *variable; /* as first written */
     bool warned;                 /* about a remainder: nothing more is said about the whole */
+    const tn_ast_expr *of_house; /* whose cells or rooms are counted, or NULL */
 } tn_condition_builder;
 
 /* ---- steps */
@@ -71,6 +72,51 @@ static void report_constant(tn_check *check, const tn_ast_word *word, bool lengt
             "compare sums with sums: `sum(FIELD * FIELD) > 90m2`, `quantity(a) >= 25%% * trays`");
 }
 
+/* The text of a file, for words of the author in help. */
+static const char *text_at(tn_check *check, tn_span span)
+{
+    const char *copy = tn_arena_copy(check->arena, check->diagnostics->sources->files[span.file].text + span.begin,
+                                     span.end - span.begin);
+    return copy ? copy : "";
+}
+
+/* An area beside a number of cells or rooms: what asks for areas. compared: the comparison that it stands in */
+static void help_area(tn_condition_builder *b, tn_diagnostic *d, const tn_ast_word *word, tn_span compared)
+{
+    tn_check *check = b->check;
+    const char *of = text_at(check, b->of_house->node.span), *comparison = text_at(check, compared);
+    const char *variable = b->variable ? b->variable->text : "n";
+    const char *sign = comparison + strcspn(comparison, "<>=!");
+    bool first = sign > comparison && *sign; /* `n > 90sf`, not `90sf < n` or `n in 1sf..2sf` */
+    first = first && strncmp(comparison, variable, strlen(variable)) == 0;
+    if (b->of_house->kind == TN_EXPR_CELL)
+        tn_help(check->diagnostics, d,
+                "write a whole number, such as `%s > 2`; areas are added up by `sum(area of %s, %s)`", variable, of,
+                comparison);
+    else
+        tn_help(check->diagnostics, d,
+                "write a whole number, such as `%s > 2`; the area of each room is asked for in its parentheses: "
+                "`%.*s%sarea %s%s)`",
+                variable, (int)strlen(of) - 1, of, b->of_house->items.first ? ", " : "", first ? "" : "> ",
+                first ? sign : word->text);
+}
+
+/* Cells or rooms of houses are compared with what is no whole number. */
+static bool check_count(tn_condition_builder *b, const tn_ast_word *word, tn_span compared)
+{
+    if (word->broken || word->kind == TN_WORD_NUMBER)
+        return !word->broken;
+    tn_diagnostic *d = tn_report(b->check->diagnostics, E_CONDITION_UNIT, word->node.span,
+                                 "%s are counted in whole numbers, and `%s` is not one",
+                                 b->of_house->kind == TN_EXPR_CELL ? "cells" : "rooms", word->text);
+    if (word->kind == TN_WORD_AREA)
+        help_area(b, d, word, compared);
+    else
+        tn_help(b->check->diagnostics, d, "write a whole number, such as `%s > 2`",
+                b->variable ? b->variable->text : "n");
+    return false;
+}
+
 /* A constant with a unit where lengths are added, a plain number where trays are counted. 0 has no need of a unit. */
 static bool check_unit(tn_check *check, const tn_ast_word *word, bool lengths)
 {
@@ -122,17 +168,20 @@ static int64_t counted(tn_condition_builder *b, const tn_ast_word *word)
     return square_micrometres > INT64_MAX / 2 ? INT64_MAX : 2 * square_micrometres;
 }
 
-static bool check_constant(tn_condition_builder *b, const tn_ast_word *word)
+/* compared: the comparison that it stands in */
+static bool check_constant(tn_condition_builder *b, const tn_ast_word *word, tn_span compared)
 {
+    bool good = false;
     if (word->kind != TN_WORD_NAME)
-        return (b->field == TN_AREAS ? check_area(b->check, word) : check_unit(b->check, word, b->field != TN_NONE)) ||
-               fail(b);
-    if (!word->broken) {
+        good = b->of_house            ? check_count(b, word, compared)
+               : b->field == TN_AREAS ? check_area(b->check, word)
+                                      : check_unit(b->check, word, b->field != TN_NONE);
+    else if (!word->broken) {
         tn_diagnostic *d = tn_report(b->check->diagnostics, E_TWO_VARIABLES, word->node.span,
                                      "a number must stand here, and `%s` is not one", word->text);
         tn_help(b->check->diagnostics, d, "a condition compares its one variable with numbers");
     }
-    return fail(b);
+    return good || fail(b);
 }
 
 static bool check_variable(tn_condition_builder *b, const tn_ast_word *word)
@@ -195,7 +244,7 @@ static void add_compare(tn_condition_builder *b, const tn_ast_cond *cond)
     }
     bool constant_left = left->kind != TN_WORD_NAME;
     const tn_ast_word *variable = constant_left ? right : left, *constant = constant_left ? left : right;
-    if (check_variable(b, variable) && check_constant(b, constant))
+    if (check_variable(b, variable) && check_constant(b, constant, cond->node.span))
         compare(b, constant_left ? turned(cond->op) : cond->op, counted(b, constant), cond->node.span);
 }
 
@@ -220,8 +269,12 @@ static void add_within(tn_condition_builder *b, const tn_ast_cond *cond)
 {
     if (!check_variable(b, cond->left))
         return;
+    const tn_ast_range *range = &cond->range;
     if (b->field == TN_AREAS)
         add_areas_within(b, cond);
+    else if (b->of_house && !(check_count(b, range->low, cond->node.span) &&
+                              (range->low == range->high || check_count(b, range->high, cond->node.span))))
+        fail(b);
     else if (tn_check_range(b->check, &cond->range, b->field != TN_NONE))
         step(b, TN_OP_WITHIN, cond->range.low->value, cond->range.high->value, cond->node.span);
     else
@@ -243,7 +296,8 @@ static bool warn_remainder(tn_condition_builder *b, const tn_ast_cond *cond)
 
 static void add_remainder(tn_condition_builder *b, const tn_ast_cond *cond)
 {
-    if (!check_variable(b, cond->left) || !check_constant(b, cond->modulus) || !check_constant(b, cond->right))
+    if (!check_variable(b, cond->left) || !check_constant(b, cond->modulus, cond->node.span) ||
+        !check_constant(b, cond->right, cond->node.span))
         return;
     if (b->field == TN_AREAS) {
         tn_diagnostic *d =
@@ -326,19 +380,30 @@ static tn_checked_condition *share(tn_check *check, tn_checked_condition *condit
     return condition;
 }
 
-tn_checked_condition *tn_check_condition(tn_check *check, const tn_ast_cond *cond, uint32_t field)
+static tn_checked_condition *checked(tn_check *check, const tn_ast_cond *cond, uint32_t field,
+                                     const tn_ast_expr *of_house)
 {
     tn_checked_condition *condition = TN_NEW(check->arena, tn_checked_condition);
     if (!condition)
         return NULL;
     *condition = (tn_checked_condition){.span = cond->node.span};
-    tn_condition_builder b = {.check = check, .condition = condition, .field = field};
+    tn_condition_builder b = {.check = check, .condition = condition, .field = field, .of_house = of_house};
     add(&b, cond);
     if (condition->broken || tn_arena_failed(check->arena))
         return condition;
     if (!b.warned && field != TN_AREAS)
         tn_check_truth(check, condition, b.variable->text, field);
     return share(check, condition);
+}
+
+tn_checked_condition *tn_check_condition(tn_check *check, const tn_ast_cond *cond, uint32_t field)
+{
+    return checked(check, cond, field, NULL);
+}
+
+tn_checked_condition *tn_check_count(tn_check *check, const tn_ast_expr *quantity)
+{
+    return checked(check, quantity->condition, TN_NONE, tn_counts_house(quantity));
 }
 
 tn_checked_condition *tn_check_total(tn_check *check, const tn_ast_clause *clause, uint32_t field)
@@ -348,7 +413,7 @@ tn_checked_condition *tn_check_total(tn_check *check, const tn_ast_clause *claus
         return NULL;
     *condition = (tn_checked_condition){.span = clause->node.span};
     tn_condition_builder b = {.check = check, .condition = condition, .field = field};
-    if (clause->form == TN_FORM_TOTAL_COMPARE && check_constant(&b, clause->word))
+    if (clause->form == TN_FORM_TOTAL_COMPARE && check_constant(&b, clause->word, clause->node.span))
         compare(&b, clause->op, clause->word->value, clause->node.span);
     if (clause->form == TN_FORM_TOTAL_RANGE) {
         if (tn_check_range(check, &clause->range, true))

@@ -302,6 +302,38 @@ static void check_walls(tn_check *check, const tn_checked_form *form)
 
 /* ---- forms */
 
+/* How many names are tried for what is to be added to a schema. */
+enum { FREE_NAMES = 4 };
+
+static bool is_taken(const tn_checked_schema *schema, const char *name)
+{
+    bool taken = tn_schema_says(schema, name);
+    for (uint32_t n = 0; n < schema->number_count; n++)
+        taken |= strcmp(schema->numbers[n].name, name) == 0;
+    return taken;
+}
+
+/* The first of these names that nothing in the schema has; the last one where all are taken. */
+static const char *free_name(const tn_checked_schema *schema, const char *const names[FREE_NAMES])
+{
+    size_t i = 0;
+    while (i + 1 < FREE_NAMES && is_taken(schema, names[i]))
+        i++;
+    return names[i];
+}
+
+static void help_schema(tn_check *check, const tn_checked_schema *schema, bool zones, tn_diagnostic *d)
+{
+    static const char *const lengths[FREE_NAMES] = {"width", "length", "bay", "span"};
+    static const char *const bodies[FREE_NAMES] = {"body", "core", "middle", "inside"};
+    static const char *const fills[FREE_NAMES] = {"open", "room", "free", "space"};
+    if (zones)
+        tn_help(check->diagnostics, d, "add a field such as `%s = 8' | 12'`", free_name(schema, lengths));
+    else
+        tn_help(check->diagnostics, d, "add a field such as `zone %s = %s(8')`", free_name(schema, bodies),
+                free_name(schema, fills));
+}
+
 /* A form stands on trays that have a length, in zones. */
 static bool schema_stands(tn_check *check, tn_checked_form *form)
 {
@@ -318,8 +350,7 @@ static bool schema_stands(tn_check *check, tn_checked_form *form)
         tn_report(check->diagnostics, E_FORM_SCHEMA, form->ast->schema->node.span, "trays of schema `%s` have no %s",
                   schema->name, form->spine == TN_NONE ? "zones" : "length");
     tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
-    tn_help(check->diagnostics, d, "add a field such as `%s`",
-            form->spine == TN_NONE ? "zone body = open(8')" : "width = 8' | 12'");
+    help_schema(check, schema, form->spine != TN_NONE, d);
     return false;
 }
 

@@ -69,6 +69,31 @@ tn_area_test tn_form_test(tn_operator sign)
     return tests[sign];
 }
 
+/* What is wrong about `area` or `cells` and what follows: the value, where there is one. */
+static bool bad_comparison(tn_check *check, const tn_ast_word *word, bool areas)
+{
+    const tn_ast_word *sign = (const tn_ast_word *)word->node.next;
+    bool compared = sign && sign->kind == TN_WORD_OPERATOR;
+    const tn_ast_word *value = compared ? (const tn_ast_word *)sign->node.next : NULL;
+    if (value && value->broken)
+        return false;
+    if (value && value->kind == (areas ? TN_WORD_AREA : TN_WORD_NUMBER))
+        return bad_cell(check, value->node.next->span, "this does not belong to the item",
+                        "items are separated by commas, alternatives joined by `or`");
+    tn_span span = value ? value->node.span : word->node.span;
+    if (!areas)
+        return bad_cell(check, span, "the number of cells can only be compared with a whole number",
+                        "write `cells > 1`");
+    if (!value || (value->kind != TN_WORD_NUMBER && value->kind != TN_WORD_DECIMAL))
+        return bad_cell(check, span, "an area can only be compared with an area",
+                        "write `area < 90sf` or `area >= 8.5m2`");
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_CELL, span, "an area can only be compared with an area");
+    size_t digits = strspn(value->text, "0123456789.");
+    tn_help(check->diagnostics, d, "write it with its unit, such as `%.*ssf` or `%.*sm2`", (int)digits, value->text,
+            (int)digits, value->text);
+    return false;
+}
+
 /* area < 90sf, cells > 1 */
 bool tn_form_compared(tn_check *check, const tn_ast_word *word, tn_opcode opcode, tn_decision *decision)
 {
@@ -77,10 +102,7 @@ bool tn_form_compared(tn_check *check, const tn_ast_word *word, tn_opcode opcode
     const tn_ast_word *other = sign ? (const tn_ast_word *)sign->node.next : NULL;
     if (!sign || sign->kind != TN_WORD_OPERATOR || !other || other->kind != (areas ? TN_WORD_AREA : TN_WORD_NUMBER) ||
         other->node.next)
-        return areas ? bad_cell(check, word->node.span, "an area can only be compared with an area",
-                                "write `area < 90sf` or `area >= 8.5m2`")
-                     : bad_cell(check, word->node.span, "the number of cells can only be compared with a whole number",
-                                "write `cells > 1`");
+        return bad_comparison(check, word, areas);
     tn_decision_step step = {.opcode = opcode,
                              .index = tn_form_test(sign->op),
                              .area = other->value,

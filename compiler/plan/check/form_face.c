@@ -119,8 +119,9 @@ void tn_check_flight(tn_check *check, tn_checked_form *form, const tn_ast_form_c
         bad_flight(check, ast, "has a `rise` whose larger length is first",
                    tn_form_in_unit(form, "write them as `rise 6\"..7 3/4\"`", "write them as `rise 150mm..190mm`"));
     else if (sized && turns && !fits && form->storey_count > 0)
-        bad_flight(check, ast, "climbs no storey in equal steps of such a rise",
-                   "a storey is a whole number of steps, four or more: let `rise` go from a smaller length to a larger one");
+        bad_flight(
+            check, ast, "climbs no storey in equal steps of such a rise",
+            "a storey is a whole number of steps, four or more: let `rise` go from a smaller length to a larger one");
     form->openings[form->opening_count++] = flight;
 }
 

@@ -48,7 +48,8 @@ static bool read_glazing(tn_room_reader *reader, const tn_ast_word *word)
     const tn_ast_word *sign = (const tn_ast_word *)word->node.next;
     const tn_ast_word *ratio = sign ? (const tn_ast_word *)sign->node.next : NULL;
     if (!sign || sign->kind != TN_WORD_OPERATOR || !is_ratio(ratio)) {
-        tn_diagnostic *d = tn_report(reader->check->diagnostics, E_BAD_CELL, word->node.span,
+        bool compared = sign && sign->kind == TN_WORD_OPERATOR && ratio;
+        tn_diagnostic *d = tn_report(reader->check->diagnostics, E_BAD_CELL, (compared ? ratio : word)->node.span,
                                      "the glazing of a room can only be compared with a part of its floor");
         tn_help(reader->check->diagnostics, d,
                 "write `glazing < 1:12` for windows smaller than a twelfth of the floor; numbers up to %u",

@@ -5,6 +5,7 @@
 
 #include "compiler/plan/check/form.h"
 #include "runtime/base/int128.h"
+#include "runtime/base/nearest.h"
 
 static bool bad_shape(tn_check *check, tn_span span, const char *message, const char *help)
 {
@@ -166,6 +167,59 @@ static bool read_storeys(tn_check *check, const tn_checked_form *form, const tn_
     return true;
 }
 
+/* Does what stands in parentheses make a roof of it? */
+static bool is_roof(const tn_ast_shape *shape)
+{
+    static const char *const roofs[] = {"gable", "shed", "vault", "flat"};
+    for (size_t i = 0; shape->arguments.count > 0 && i < sizeof roofs / sizeof *roofs; i++)
+        if (tn_word_is(shape->word, roofs[i]))
+            return true;
+    return false;
+}
+
+/* Has it values that a choice of names cannot have? */
+static bool has_arguments(const tn_ast_form_clause *ast)
+{
+    for (TN_EACH(const tn_ast_shape, shape, ast->list))
+        if (shape->arguments.count > 0)
+            return true;
+    return false;
+}
+
+/* Has the form a line `section ZONE roof`, or `storeys`? */
+static bool has_choice(const tn_checked_form *form, const char *zone, const char *detail)
+{
+    for (TN_EACH(const tn_ast_form_clause, clause, form->ast->clauses))
+        if (clause->part == TN_PART_SECTION && clause->detail && tn_word_is(clause->detail, detail) &&
+            strcmp(clause->name->text, zone) == 0)
+            return true;
+    return false;
+}
+
+static const char *zone_of(const tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    uint32_t zone = form->spine;
+    return ast->detail ? ast->name->text : zone == TN_NONE ? "" : form->schema->fields[zone].name;
+}
+
+/* `roof` or `storeys`, where a choice of names is likely meant to be that; or NULL. */
+static const char *meant_choice(const tn_checked_form *form, const tn_checked_choice *choice)
+{
+    static const char *const kinds[] = {"roof", "storeys", "storey"};
+    const tn_ast_form_clause *ast = choice->ast;
+    const char *meant = NULL;
+    if (choice->kind != TN_CHOICE_PLAIN)
+        return NULL;
+    for (TN_EACH(const tn_ast_shape, shape, ast->list))
+        if (is_roof(shape))
+            meant = kinds[0];
+    if (!meant && !has_arguments(ast))
+        meant = tn_nearest(ast->detail ? ast->detail->text : ast->name->text, kinds, sizeof kinds / sizeof *kinds);
+    if (meant == kinds[2])
+        meant = kinds[1];
+    return meant && !has_choice(form, zone_of(form, ast), meant) ? meant : NULL;
+}
+
 static void read_shape(tn_check *check, const tn_checked_form *form, const tn_checked_choice *choice,
                        const tn_ast_shape *ast, tn_checked_shape *shape)
 {
@@ -178,8 +232,30 @@ static void read_shape(tn_check *check, const tn_checked_form *form, const tn_ch
         bad_shape(check, ast->node.span, "this is no roof",
                   "write `flat`, `shed(back, 4:12)`, `shed(front, 4:12)`, `gable(12:12)` or `vault(4')`; these may end "
                   "with `eaves 1'` and `open`, gables and vaults with `across`");
-    else if (choice->kind == TN_CHOICE_PLAIN && ast->arguments.count > 0)
+    else if (choice->kind == TN_CHOICE_PLAIN && ast->arguments.count > 0 && !meant_choice(form, choice))
         bad_shape(check, ast->node.span, "this choice has names only", "leave out what is in the parentheses");
+}
+
+/* ---- choices of roofs and storeys by another name */
+
+/* A choice of the author's that is one of roofs or storeys: an error where its values are no names, or else a warning,
+ * as it may be meant. */
+static void check_meant(tn_check *check, const tn_checked_form *form, const tn_checked_choice *choice)
+{
+    const tn_ast_form_clause *ast = choice->ast;
+    const char *meant = meant_choice(form, choice), *zone = ast->detail ? "" : zone_of(form, ast);
+    bool roofs = has_arguments(ast);
+    if (!meant || (!roofs && !tn_check_wanted(check, W_NEARLY_ROOF)))
+        return;
+    tn_span span = (ast->detail ? ast->detail : ast->name)->node.span;
+    tn_diagnostic *d = roofs ? tn_report(check->diagnostics, E_BAD_SHAPE, span,
+                                         "the choice `%.80s` has names only, and these values are roofs", choice->name)
+                             : tn_report(check->diagnostics, W_NEARLY_ROOF, span,
+                                         "`%.80s` is a choice of names, and says nothing of %s", choice->name,
+                                         strcmp(meant, "roof") == 0 ? "roofs" : "how many storeys there are");
+    tn_help(check->diagnostics, d, "did you mean `%s%s%s`?%s", zone, *zone ? " " : "", meant,
+            !roofs && strcmp(meant, "roof") == 0 ? " Its values have slopes, such as `gable(9:12)`" : "");
+    tn_replace_with(check->diagnostics, d, "%s%s%s", zone, *zone ? " " : "", meant);
 }
 
 /* ---- choices */
@@ -248,6 +324,7 @@ void tn_check_choice(tn_check *check, tn_checked_form *form, const tn_ast_form_c
             }
         choice.shape_count++;
     }
+    check_meant(check, form, &choice);
     const tn_checked_choice *last = form->choice_count ? &form->choices[form->choice_count - 1] : NULL;
     choice.shape_first = last ? last->shape_first + last->shape_count : 0;
     form->choices[form->choice_count++] = choice;

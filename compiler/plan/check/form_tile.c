@@ -42,12 +42,62 @@ static void add_against(tn_check *check, const tn_checked_form *form, tn_checked
 
 /* ---- boxes */
 
+static int axis_of(tn_box_side side)
+{
+    return side <= TN_BOX_RIGHT ? 0 : side <= TN_BOX_FRONT ? 1 : 2;
+}
+
+static bool is_far(tn_box_side side)
+{
+    return side == TN_BOX_RIGHT || side == TN_BOX_FRONT;
+}
+
+static const char *const side_words[] = {
+    [TN_BOX_LEFT] = "left",   [TN_BOX_RIGHT] = "right", [TN_BOX_BACK] = "back",
+    [TN_BOX_FRONT] = "front", [TN_BOX_UP] = "up",
+};
+
+/* The stretch that is meant has the same two ends in the other order; at two equal lengths no order is good. */
+static void report_turned(tn_check *check, const tn_ast_reach *reach, int64_t low, int64_t high)
+{
+    static const char *const sizes[] = {"width", "depth", "height"};
+    tn_span span = reach->node.span;
+    if (reach->from == reach->to && low == high) {
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_BAD_TILE, span, "this box has no %s", sizes[axis_of(reach->from)]);
+        tn_help(check->diagnostics, d, "write two lengths that differ, the %s one first",
+                is_far(reach->from) ? "larger" : "smaller");
+        return;
+    }
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_TILE, span, "this box is turned inside out at every size");
+    bool side_again = reach->from != reach->to || is_far(reach->from);
+    tn_advise(check->diagnostics, d, "%s %s .. %s%s%s", side_words[reach->to], reach->high->text,
+              side_again ? side_words[reach->from] : "", side_again ? " " : "", reach->low->text);
+}
+
+static void set_reach(const tn_ast_reach *reach, int64_t low, int64_t high, tn_tile_box_record *box)
+{
+    bool far = is_far(reach->from), to_far = is_far(reach->to);
+    int axis = axis_of(reach->from);
+    if (axis == 2) {
+        box->up_low = low;
+        box->up_high = high;
+    } else if (axis == 1) {
+        box->y_from = low;
+        box->y_to = high;
+        box->flags |= (far ? TN_TILE_Y_FROM_FRONT : 0) | (to_far ? TN_TILE_Y_TO_FRONT : 0);
+    } else {
+        box->x_from = low;
+        box->x_to = high;
+        box->flags |= (far ? TN_TILE_X_FROM_RIGHT : 0) | (to_far ? TN_TILE_X_TO_RIGHT : 0);
+    }
+}
+
 /* One stretch; a box has at most one across, one into the room, one up. */
 static void read_reach(tn_check *check, const tn_checked_form *form, const tn_ast_reach *reach, bool said[3],
                        tn_tile_box_record *box)
 {
-    int axis = reach->from <= TN_BOX_RIGHT ? 0 : reach->from <= TN_BOX_FRONT ? 1 : 2;
-    int other = reach->to <= TN_BOX_RIGHT ? 0 : reach->to <= TN_BOX_FRONT ? 1 : 2;
+    int axis = axis_of(reach->from), other = axis_of(reach->to);
     int64_t low = tn_form_length(check, reach->low), high = tn_form_length(check, reach->high);
     if (axis != other || said[axis]) {
         bad_tile(check, reach->node.span,
@@ -58,26 +108,11 @@ static void read_reach(tn_check *check, const tn_checked_form *form, const tn_as
         return;
     }
     said[axis] = true;
-    bool opposite = reach->from != reach->to, far = reach->from == TN_BOX_RIGHT || reach->from == TN_BOX_FRONT;
-    bool inside_out = low >= 0 && high >= 0 && !opposite && (far ? low <= high : low >= high);
-    if (inside_out || (opposite && far))
-        bad_tile(
-            check, reach->node.span, "this box is turned inside out at every size",
-            far ? tn_form_in_unit(form, "from the right or the front the larger length is first: `right 2' .. right 0`",
-                                  "from the right or the front the larger length is first: `right 600mm .. right 0`")
-                : "write the smaller length first");
-    if (axis == 2) {
-        box->up_low = low;
-        box->up_high = high;
-    } else if (axis == 1) {
-        box->y_from = low;
-        box->y_to = high;
-        box->flags |= (far ? TN_TILE_Y_FROM_FRONT : 0) | (reach->to == TN_BOX_FRONT ? TN_TILE_Y_TO_FRONT : 0);
-    } else {
-        box->x_from = low;
-        box->x_to = high;
-        box->flags |= (far ? TN_TILE_X_FROM_RIGHT : 0) | (reach->to == TN_BOX_RIGHT ? TN_TILE_X_TO_RIGHT : 0);
-    }
+    bool opposite = reach->from != reach->to, far = is_far(reach->from);
+    bool turned = opposite ? far : far ? low <= high : low >= high;
+    if (turned && low >= 0 && high >= 0)
+        report_turned(check, reach, low, high);
+    set_reach(reach, low, high, box);
 }
 
 static void add_box(tn_check *check, const tn_checked_form *form, tn_checked_tile *tile, const tn_ast_tile_part *part)
@@ -92,6 +127,44 @@ static void add_box(tn_check *check, const tn_checked_form *form, tn_checked_til
         return;
     tile->box_ast[tile->box_count] = part;
     tile->boxes[tile->box_count++] = box;
+}
+
+/* ---- boxes in the largest room that a tile allows */
+
+/* The tile's line `wide` or `deep`, which may stand behind its boxes; NULL where there is none. The last one counts. */
+static const tn_ast_tile_part *find_range(const tn_checked_tile *tile, tn_tile_part which)
+{
+    const tn_ast_tile_part *found = NULL;
+    for (TN_EACH(const tn_ast_tile_part, part, tile->ast->parts))
+        if (part->part == which)
+            found = part;
+    return found;
+}
+
+/* A stretch from the left to the right, or from the back to the front, must leave something between its ends. */
+static void check_between(tn_check *check, const tn_checked_tile *tile, const tn_ast_reach *reach)
+{
+    bool across = reach->from == TN_BOX_LEFT && reach->to == TN_BOX_RIGHT;
+    bool into = reach->from == TN_BOX_BACK && reach->to == TN_BOX_FRONT;
+    const tn_ast_tile_part *limit = across ? find_range(tile, TN_TILE_WIDE)
+                                    : into ? find_range(tile, TN_TILE_DEEP)
+                                           : NULL;
+    const int64_t *range = across ? tile->wide : tile->deep;
+    if (!limit || range[0] < 0 || range[1] < range[0] || reach->low->value + reach->high->value < range[1])
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_TILE, reach->node.span,
+                                 "this box is turned inside out at every size that the tile allows");
+    tn_note(check->diagnostics, d, &limit->node.span, "its rooms are at most %s %s", limit->high->text,
+            across ? "wide" : "deep");
+    tn_help(check->diagnostics, d, "make `%s %s` and `%s %s` come to less than %s, or the room larger",
+            side_words[reach->from], reach->low->text, side_words[reach->to], reach->high->text, limit->high->text);
+}
+
+static void check_boxes(tn_check *check, const tn_checked_tile *tile)
+{
+    for (uint32_t i = 0; i < tile->box_count; i++)
+        for (TN_EACH(const tn_ast_reach, reach, tile->box_ast[i]->list))
+            check_between(check, tile, reach);
 }
 
 /* ---- tiles */
@@ -142,5 +215,6 @@ void tn_check_tile(tn_check *check, tn_checked_form *form, const tn_ast_form_cla
         else
             add_box(check, form, &tile, part);
     }
+    check_boxes(check, &tile);
     form->tiles[form->tile_count++] = tile;
 }

@@ -235,8 +235,8 @@ void tn_check_expr_known(tn_check *check, tn_ast_expr *expr)
         break;
     case TN_EXPR_QUANTITY:
     case TN_EXPR_OCCURRENCES:
-        expr->condition_checked = tn_check_condition(check, expr->condition, TN_NONE);
         check_parts(check, expr);
+        expr->condition_checked = tn_check_count(check, expr);
         break;
     case TN_EXPR_AND:
     case TN_EXPR_OR:

@@ -3,6 +3,7 @@
 
 #include "compiler/common/limits.h"
 #include "compiler/plan/check/amount.h"
+#include "compiler/plan/check/form.h"
 #include "runtime/base/nearest.h"
 
 static bool expectation_fits(tn_check *check, const tn_ast_word *word, const tn_checked_name *subject)
@@ -126,15 +127,65 @@ static bool check_value(tn_check *check, const tn_ast_case *ast, const tn_checke
     return tn_same_power(check, of, measure->ast->name->node.span, wanted, value->node.span, "the value of", &both);
 }
 
-/* A plan where a house is wanted, or the reverse. */
-static void report_literal(tn_check *check, const tn_ast_case *ast, bool of_houses)
+/* A house where a plan is wanted. */
+static bool not_a_plan(tn_check *check, const tn_ast_case *ast)
 {
     tn_diagnostic *d = tn_report(check->diagnostics, E_NOT_A_HOUSE, ast->node.span,
-                                 of_houses ? "what is tested is about houses, and this is a plan"
-                                           : "what is tested is about plans, and this is a house");
+                                 "what is tested is about plans, and this is a house");
+    tn_help(check->diagnostics, d, "write the plan alone, up to the first `;`");
+    return false;
+}
+
+/* A choice that every plan leaves, whatever its trays are; NULL where none is known. What is forbidden may decide it.
+ */
+static const tn_checked_choice *choice_left(const tn_checked_form *form)
+{
+    for (uint32_t i = 0; i < form->rule_count; i++)
+        if (form->rules[i].kind == TN_CELL_FORBID)
+            return NULL;
+    for (uint32_t i = 0; i < form->choice_count; i++)
+        if (form->choices[i].zone == TN_NONE && form->choices[i].shape_count > 1)
+            return &form->choices[i];
+    return NULL;
+}
+
+static bool not_a_house(tn_check *check, const tn_ast_case *ast, const tn_checked_choice *choice)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NOT_A_HOUSE, ast->node.span,
+                                 "what is tested is about houses, and this is a plan");
+    if (choice)
+        tn_note(check->diagnostics, d, &choice->ast->node.span, "the plan does not say which `%s` the house has",
+                choice->name);
     tn_help(check->diagnostics, d,
-            of_houses ? "write the line of a house: `[plan ; section ; functions ; faces]`"
-                      : "write the plan alone, up to the first `;`");
+            "write the line of a house: `[plan ; section ; functions ; faces]`; parts at the end may be left out if "
+            "they leave no choice");
+    return false;
+}
+
+/* The line of a house. A plan is one, too, where it leaves no choice; that is found out when the test is run. */
+static bool read_house(tn_check *check, const tn_ast_case *ast, const tn_checked_form *form, tn_test_case *result)
+{
+    const tn_ast_list *trays = &ast->literal.trays;
+    const tn_ast_word *house = ast->literal.house;
+    if (house) {
+        result->house = house->text;
+        result->house_place = house->node.span;
+        return true;
+    }
+    const tn_checked_choice *choice = choice_left(form);
+    if (choice || !trays->first)
+        return not_a_house(check, ast, choice);
+    if (!check->schema || !tn_check_plan(check, check->schema, *trays, &result->length))
+        return false;
+    tn_span place = tn_span_join(trays->first->span, trays->last->span);
+    char *line = tn_arena_copy(check->arena, check->diagnostics->sources->files[place.file].text + place.begin,
+                               place.end - place.begin);
+    for (char *c = line; c && *c; c++)
+        *c = *c == '\n' || *c == '\r' ? ' ' : *c;
+    result->house = line;
+    result->house_place = place;
+    result->plan_alone = true;
+    return line != NULL;
 }
 
 static bool check_case(tn_check *check, const tn_ast_case *ast, size_t column, const tn_checked_name *subject,
@@ -149,21 +200,17 @@ static bool check_case(tn_check *check, const tn_ast_case *ast, size_t column, c
                              .doc = ast->doc ? ast->doc->text : NULL};
     result->by = check_by(check, ast, result->expectation, subject);
     result->by_count = ast->by.count;
-    bool of_houses = subject->rule ? subject->rule->form != NULL : subject->library->form != NULL;
-    if (of_houses != (ast->literal.house != NULL)) {
-        report_literal(check, ast, of_houses);
+    const tn_checked_form *form = subject->rule ? subject->rule->form : subject->library->form;
+    if (!form && ast->literal.house)
+        return not_a_plan(check, ast);
+    if (form && !read_house(check, ast, form, result))
         return false;
-    }
-    if (of_houses) {
-        result->house = ast->literal.house->text;
-        result->house_place = ast->literal.house->node.span;
-    } else {
+    if (!form)
         result->values =
             check->schema ? tn_check_plan(check, check->schema, ast->literal.trays, &result->length) : NULL;
-    }
     if (ast->value && !check_value(check, ast, subject->rule, result))
         return false;
-    return result->by && (of_houses || result->values);
+    return result->by && (form || result->values);
 }
 
 /* One subject of a test with all cases. */

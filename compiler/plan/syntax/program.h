@@ -19,6 +19,7 @@ typedef struct tn_test_case {
     size_t length;         /* trays */
     const char *house;     /* instead: the line of a house, or NULL */
     tn_span house_place;
+    bool plan_alone;       /* the line ends behind the plan: the house is the only one on it */
     const char *doc;       /* or NULL */
     const char *const *by; /* drop ... by NAME, NAME: clause names; all must be among the reasons */
     size_t by_count;

@@ -265,6 +265,37 @@ static bool report_decimal_comma(tn_parse *parse, const tn_syntax_found *found, 
     return true;
 }
 
+/* `material brick #a05040 ...`: the sign begins a comment, so the parser stumbles over a line further down. */
+static bool report_colour(tn_parse *parse, const tn_expected *e)
+{
+    enum { DIGITS_LEAST = 3, DIGITS_MOST = 8 };
+    size_t begin = parse->span_before.end;
+    begin += strspn(parse->text + begin, " \t");
+    size_t digits = parse->text[begin] == '#' ? strspn(parse->text + begin + 1, "0123456789abcdefABCDEF") : 0;
+    if (!parse->in_form || e->count != 1 || !tn_expects(e, "a text in quotes") || digits < DIGITS_LEAST ||
+        digits > DIGITS_MOST || isalnum((unsigned char)parse->text[begin + 1 + digits]))
+        return false;
+    tn_span span = {parse->span_before.file, (uint32_t)begin, (uint32_t)(begin + 1 + digits)};
+    int size = (int)(1 + digits);
+    tn_diagnostic *d =
+        tn_report(parse->diagnostics, E_UNEXPECTED, span, "expected a text in quotes, and `#` begins a comment here");
+    tn_help(parse->diagnostics, d, "a colour is written in quotes: `\"%.*s\"`", size, parse->text + begin);
+    tn_replace_with(parse->diagnostics, d, "\"%.*s\"", size, parse->text + begin);
+    return true;
+}
+
+/* `wide 8sf`: an area where a length of a form stands; the length with the same number is shown. */
+static bool advise_length(tn_parse *parse, tn_diagnostic *d, const tn_syntax_found *found, const tn_expected *e)
+{
+    const char *text = parse->text + found->span.begin;
+    if (!parse->in_form || strcmp(found->name, "an area") != 0 || !tn_expects(e, "a length") || e->count > 2)
+        return false;
+    int digits = (int)strspn(text, "0123456789.");
+    bool metric = found->span.end > found->span.begin && memchr(text, 'm', found->span.end - found->span.begin);
+    tn_help(parse->diagnostics, d, "a length stands here, such as `%.*s%s`", digits, text, metric ? "m" : "'");
+    return true;
+}
+
 /* How the line that is wrong is written: where the next line began too early, the one before it. */
 static const char *example_of(const tn_parse *parse, tn_span span)
 {
@@ -319,7 +350,7 @@ void tn_syntax_error(tn_parse *parse, const tn_syntax_found *found, const char *
         return; /* what led to this was reported */
     tn_expected e = {.tokens = expected, .count = count < 96 ? count : 96};
     if (report_misspelled(parse, found, &e) || report_two_words(parse, found, &e) ||
-        report_decimal_comma(parse, found, &e))
+        report_decimal_comma(parse, found, &e) || report_colour(parse, &e))
         return;
     char list[800], words[800], here[120];
     say_expected(expected, count, list, sizeof list);
@@ -340,6 +371,6 @@ void tn_syntax_error(tn_parse *parse, const tn_syntax_found *found, const char *
         advise_slip(parse, d, slip);
     else if (misspelled && nearest_word(parse, span, &e, meant, sizeof meant))
         tn_suggest(parse->diagnostics, d, "%s", meant);
-    else
+    else if (!advise_length(parse, d, found, &e))
         advise_otherwise(parse, d, span, &e, help);
 }

@@ -112,6 +112,22 @@ static const char *face_fix(const tn_parse *parse, const char *found, const tn_e
     return NULL;
 }
 
+/* Heads of libraries of houses: one library of plans, one form. */
+static const char *library_fix(const tn_parse *parse, const char *found, const tn_expected *e)
+{
+    static const char *const joints[] = {"`in`", "`,`", "`or`", "`and`", "`|`", "a name"};
+    bool more = false;
+    for (size_t i = 0; i < sizeof joints / sizeof *joints; i++)
+        more |= strcmp(found, joints[i]) == 0;
+    if (!more || !tn_expects(e, "`{`") || !line_begins(parse, "library"))
+        return NULL;
+    if (e->count == 1)
+        return "a library has one form: for the other write another `library NAME from PLANS in FORM { ... }`";
+    if (tn_expects(e, "`in`") && strcmp(found, "a name") != 0)
+        return "a library is made from one other: write a library for each";
+    return NULL;
+}
+
 /* Is the parenthesis in which the token at hand stands that of this word? */
 static bool stands_in(const tn_parse *parse, const char *word)
 {
@@ -147,6 +163,8 @@ static const char *house_fix(const tn_parse *parse, const char *found, const tn_
     if (strcmp(found, "`cell`") == 0 && line_begins(parse, "forbid"))
         return "`forbid section(...)` is about choices of the form; cells that are not there are said by `no "
                "cell(...)`";
+    if ((fix = library_fix(parse, found, e)))
+        return fix;
     if (tn_expects(e, "`from`") && tn_expects(e, "`using`") && strcmp(found, "`in`") == 0)
         return "a library of houses is written `library NAME from PLANS in FORM { ... }`";
     if (strcmp(found, "`of`") == 0 && comes_after(parse, "area"))

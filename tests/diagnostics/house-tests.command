@@ -1,0 +1,1 @@
+test house-tests.plan
