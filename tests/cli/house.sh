@@ -200,6 +200,7 @@ golden unrank_past "tartan unrank cottage -l cottages 99999999999"
 golden variant_past "tartan unrank cottage '#10:99999999'"
 golden plan_past "tartan house cottage '#99999999:0'"
 golden no_folder "tartan house cottage '#10:77' -o $scratch/none/house.ifc"
+golden folder_refuses "tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; living ; window wall window\" -o /proc/x.obj" # as if it were not there
 golden not_a_folder "tartan house cottage '#10:77' -o $scratch/forty.plan/"
 
 # A sheet of small pictures.
