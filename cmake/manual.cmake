@@ -23,7 +23,7 @@ foreach(row ${rows})
   tartan_writes(tartan-${command}.1 ${CMAKE_INSTALL_MANDIR}/man1 --man ${command})
 endforeach()
 
-# A page of docs as a page of section 5. Its words are a notation's row, or those of files that are no rules.
+# A page of docs as a page of section 5. Its words are a notation's row, or those of what no notation has for itself: houses, and files that are no rules.
 function(tartan_page name page summary)
   set(file ${TARTAN_WRITTEN}/tartan-${name}.5)
   set(source ${PROJECT_SOURCE_DIR}/docs/${page})
@@ -40,6 +40,7 @@ foreach(row ${rows})
     tartan_page(${CMAKE_MATCH_2} ${CMAKE_MATCH_1} ${CMAKE_MATCH_3})
   endif()
 endforeach()
+tartan_page(house house-language.md "forms of houses, and rules and measures about houses")
 tartan_page(plans plan-files.md "the formats of files of plans")
 
 # Each shell looks in a folder of its own, and under a name of its own.

@@ -365,7 +365,7 @@ static void complete(tn_lsp_cursor *c)
     if (c->depth && tn_cursor_is(c, bracket, "["))
         complete_tray(c, true);
     else if (of_room || (c->depth && bracket > 0 && tn_cursor_is(c, bracket - 1, "cell")))
-        tn_complete_cell(c, of_room);
+        tn_complete_cell(c, bracket, of_room);
     else if (c->depth && bracket > 0 && tn_cursor_is(c, bracket - 1, "section"))
         tn_complete_section(c, bracket);
     else if (outer > 0)

@@ -26,13 +26,38 @@ static void offer_parts(tn_lsp_cursor *c, tn_symbol_kind kind, int shown)
             tn_offer(c, s->name, shown, s->doc, "1");
 }
 
-void tn_complete_cell(tn_lsp_cursor *c, bool room)
+/* Is this the `cell(` of a line `function`, `void` or `no` of a form? These lines say where functions and voids may be,
+ * so that their cells have none yet (E1607). */
+static bool before_functions(const tn_lsp_cursor *c, size_t bracket)
 {
-    static const char *const words[] = {"any", "void", "area", "not", "or", NULL};
+    static const char *const such[] = {"at", "void", "no", NULL};
+    static const char *const others[] = {"storey",  "spine", "section", "forbid",   "function", "opening",
+                                         "flight",  "face",  "tile",    "material", "beside",   "along",
+                                         "outside", "under", "across",  "allow",    NULL};
+    size_t depth = 0;
+    for (size_t i = bracket; tn_cursor_is(c, c->item, "form") && i-- > c->item;) {
+        if (tn_cursor_is(c, i, ")"))
+            depth++;
+        else if (tn_cursor_is(c, i, "(") && depth > 0)
+            depth--;
+        else if (depth == 0 && tn_cursor_is_any(c, i, such))
+            return true;
+        else if (depth == 0 && tn_cursor_is_any(c, i, others))
+            return false;
+    }
+    return false;
+}
+
+void tn_complete_cell(tn_lsp_cursor *c, size_t bracket, bool room)
+{
+    static const char *const words[] = {"any", "area", "not", "or", NULL};
     static const char *const room_words[] = {"cells", "by", "glazing", NULL};
     const tn_symbol *form = form_here(c), *field = form ? tn_cursor_field(c, form->schema) : NULL;
     offer_parts(c, TN_SYMBOL_STOREY, KIND_VALUE);
-    offer_parts(c, TN_SYMBOL_FUNCTION, KIND_FUNCTION);
+    if (!before_functions(c, bracket)) {
+        offer_parts(c, TN_SYMBOL_FUNCTION, KIND_FUNCTION);
+        tn_offer(c, "void", KIND_KEYWORD, NULL, "2");
+    }
     for (const tn_symbol *s = form ? form->schema : NULL; s; s = s->schema)
         tn_offer_declared(c, s, field);
     tn_offer_words(c, words);

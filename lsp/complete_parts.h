@@ -50,8 +50,8 @@ void tn_complete_codes(tn_lsp_cursor *c); /* of warnings */
 
 /* ---- complete_houses.c */
 
-/* In `cell(` and `room(`. */
-void tn_complete_cell(tn_lsp_cursor *c, bool room);
+/* In `cell(` and `room(`, whose bracket is that token. */
+void tn_complete_cell(tn_lsp_cursor *c, size_t bracket, bool room);
 /* In `section(`, whose bracket is that token: the choices of the form, then their values. */
 void tn_complete_section(tn_lsp_cursor *c, size_t bracket);
 /* In the braces of a form, outside of parentheses. */

@@ -266,6 +266,9 @@ def check_parts(path, house):
         check(f"{part}: as many", int(row["number"]) == number[part] == given[part]["number"])
         if part in area:
             check(f"{part}: as large", F(given[part]["area"]) == area[part] and F(given[part]["volume"]) == volume[part])
+            for column, size in (("area", area[part]), ("volume", volume[part])):
+                in_unit, at = next((u, f"{column}_{u}") for u in ("sf", "m2", "cf", "m3") if f"{column}_{u}" in row)
+                check(f"{part}: {at}", abs(F(row[at]) - F(size) / unit[in_unit]) <= F(1, 2000000))
         if row["cost"]:
             size = {"each": number[part], "sf": F(given[part]["area"]), "m2": F(given[part]["area"])}.get(row["per"], F(given[part]["volume"]))
             cents = math.floor(F(row["price"]) * size / unit[row["per"]] * 100 + F(1, 2))

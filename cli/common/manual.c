@@ -72,7 +72,8 @@ static void write_see_also(bool overview, FILE *out)
     for (size_t i = 0; i < tn_notation_count; i++)
         if (tn_notations[i].manual[0])
             fprintf(out, ".BR tartan\\-%s (5),\n", tn_notations[i].manual);
-    fputs(".BR tartan\\-plans (5)\n", out); /* of files that are no rules */
+    fputs(".BR tartan\\-house (5),\n", out); /* the part of .plan files that is about houses */
+    fputs(".BR tartan\\-plans (5)\n", out);  /* of files that are no rules */
 }
 
 void tn_manual_overview(FILE *out)

@@ -147,7 +147,40 @@ static void draw_field(tn_job *job)
     tn_job_draw_surface(job, &surface, &picture, s->output);
 }
 
-/* What says how plans are put on paper says nothing of houses. */
+/* What says which plans are drawn, and how they are put on paper, says nothing of houses. Is something of the kind
+ * given? Then it is refused, with what does it for houses. */
+static bool refuses_for_houses(tn_job *job)
+{
+    static const char of_trays[] = "write it as a requirement, such as --where \"quantity(any, n = 3)\"";
+    static const char one_scale[] = "leave it out: all houses of a picture are to one scale. `tartan house FILE HOUSE "
+                                    "-o NAME.pdf` draws one on paper";
+    const tn_draw_settings *s = settings_of(job);
+    const struct {
+        bool given;
+        const char *what, *help;
+    } refused[] = {
+        {s->best.given, "--best",
+         "`tartan best FILE N --library HOUSES --least MEASURE` lists the best, and `tartan house FILE HOUSE -o "
+         "NAME.svg` draws each"},
+        {s->rules.count > 0, "--rule", "rules about houses have no picture; `tartan report` lists them"},
+        {s->common.operands.count > 1, "a file of plans",
+         "--sample N draws N houses of the library, and `tartan house FILE HOUSE -o NAME.svg` one"},
+        {s->sampled.length.given, "--length", of_trays},
+        {s->sampled.per_length.given, "--per-length", of_trays},
+        {s->sampled.diverse, "--diverse", "leave it out: each house of the library is drawn as likely as each"},
+        {s->paper != NULL, "--paper", one_scale},
+        {s->scale.given, "--scale", one_scale},
+    };
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
+        if (refused[i].given) {
+            tn_diagnostic *d =
+                tn_job_usage(job, "for a library of houses, `tartan draw` does not take %s", refused[i].what);
+            tn_help(tn_job_diagnostics(job), d, "%s", refused[i].help);
+            return true;
+        }
+    return false;
+}
+
 static void draw_houses(tn_job *job)
 {
     const tn_draw_settings *s = settings_of(job);
@@ -159,9 +192,9 @@ static void draw_houses(tn_job *job)
                             .title = s->title,
                             .output = s->output,
                             .dpi = (uint32_t)s->dpi.value};
-    bool other = s->best.given || s->rules.count || s->common.operands.count > 1 || s->sampled.length.given ||
-                 s->sampled.per_length.given || s->sampled.diverse || s->paper || s->scale.given;
-    if (other || !s->sample.given)
+    if (refuses_for_houses(job))
+        return;
+    if (!s->sample.given)
         tn_help(tn_job_diagnostics(job), tn_job_usage(job, "of a library of houses, a sample of all of them is drawn"),
                 "write --sample N, with --seed, --columns and --title; `tartan house` draws one house");
     else if (sheet.wanted > TN_HOUSES_DRAWN_MAX)

@@ -179,8 +179,10 @@ static void find_houses(tn_job *job, uint64_t wanted)
         return;
     }
     if (!lines || tn_job_draws(settings->written.output) || names_rows(settings->written.output)) {
-        tn_diagnostic *d = tn_job_usage(job, "the best houses are written as lines or JSON");
-        tn_help(tn_job_diagnostics(job), d, "`tartan house` draws one of them, named by its line");
+        tn_diagnostic *d = tn_job_usage(job, "the best houses are written as lines or JSON: leave out %s%.100s",
+                                        lines ? "-o " : "this --format", lines ? settings->written.output : "");
+        tn_help(tn_job_diagnostics(job), d,
+                "`tartan house FILE HOUSE -o NAME.svg` draws one of them, named by its line");
         return;
     }
     if (!tn_wishes_names(job, &settings->wanted, 1, &wishes))

@@ -157,8 +157,10 @@ static void find_houses(tn_job *job)
     const pareto_settings *settings = settings_of(job);
     tn_wishes wishes;
     if (tn_job_draws(settings->output)) {
-        tn_diagnostic *d = tn_job_usage(job, "a front of houses is written as text or JSON, not drawn");
-        tn_help(tn_job_diagnostics(job), d, "leave out -o, or give the file another ending");
+        tn_diagnostic *d = tn_job_usage(job, "a front of houses is not drawn: -o %.100s", settings->output);
+        tn_help(tn_job_diagnostics(job), d,
+                "leave out -o, or name a text file: it has a house of each row, and `tartan house FILE HOUSE -o "
+                "NAME.svg` draws one");
         return;
     }
     if (!tn_wishes_names(job, &settings->wanted, 2, &wishes))

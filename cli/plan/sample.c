@@ -118,8 +118,14 @@ static void sample_houses(tn_job *job, size_t wanted)
     const sample_settings *s = settings_of(job);
     const tn_house_settings houses = tn_job_houses(&s->plans);
     if (s->sampled.length.given || s->sampled.per_length.given || s->sampled.diverse) {
-        tn_diagnostic *d = tn_job_usage(job, "houses are drawn among all");
-        tn_help(tn_job_diagnostics(job), d, "leave out --length, --per-length and --diverse; --plan takes one plan");
+        bool diverse = s->sampled.diverse;
+        tn_diagnostic *d = tn_job_usage(job, "for a library of houses, `tartan sample` does not take %s",
+                                        diverse                   ? "--diverse"
+                                        : s->sampled.length.given ? "--length"
+                                                                  : "--per-length");
+        tn_help(tn_job_diagnostics(job), d, "%s",
+                diverse ? "leave it out: each house of the library is drawn as likely as each"
+                        : "write it as a requirement, such as --where \"quantity(any, n = 3)\"; --plan takes one plan");
         return;
     }
     tn_job_sample_houses(job, &houses, s->plan, wanted, s->sampled.seed.value, &s->written);

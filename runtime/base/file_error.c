@@ -2,7 +2,9 @@
 #include "runtime/base/file_error.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* A row a reason that users meet; for others the system's own words have to do. */
 typedef struct file_reason {
@@ -51,8 +53,34 @@ tn_status tn_cannot_read(const char *path, int reason, tn_error *error)
     return refuse("read", path, E_CANNOT_READ, reason, read_reasons, sizeof read_reasons / sizeof *read_reasons, error);
 }
 
+/* Is the folder there that a file or folder of this name would be in? */
+static bool has_folder(const char *path)
+{
+    size_t length = strlen(path);
+    while (length > 0 && path[length - 1] == '/')
+        length--;
+    while (length > 0 && path[length - 1] != '/')
+        length--;
+    struct stat found;
+    char *folder = length ? strndup(path, length) : strdup(".");
+    bool there = folder && stat(folder, &found) == 0 && S_ISDIR(found.st_mode);
+    free(folder);
+    return there;
+}
+
+/* A folder that is there can refuse new files as if it were not, as /proc does. */
+static tn_status refused_by_folder(const char *cannot, const char *path, tn_error *error)
+{
+    tn_fail(error, TN_IO, E_CANNOT_WRITE, "cannot %s %.300s: its folder is there, but nothing can be made in it (%s)",
+            cannot, path, strerror(ENOENT));
+    tn_error_help(error, "name another folder");
+    return TN_IO;
+}
+
 static tn_status unwritten(const char *cannot, const char *path, int reason, tn_error *error)
 {
+    if (reason == ENOENT && has_folder(path))
+        return refused_by_folder(cannot, path, error);
     return refuse(cannot, path, E_CANNOT_WRITE, reason ? reason : EIO, write_reasons,
                   sizeof write_reasons / sizeof *write_reasons, error);
 }

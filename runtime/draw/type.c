@@ -9,15 +9,16 @@
 
 #include "runtime/base/utf8.h"
 
-enum { TEXT_ROOM = 1024 };
+enum { TEXT_ROOM = 1024, PARAGRAPH_ROOM = 8192 };
 
 #define ELLIPSIS "\xe2\x80\xa6"
 
-/* Copies what can be shown, what is hidden as escapes: cairo stops drawing for good at a text that is not UTF-8. */
-static void clean(const char *text, char out[TEXT_ROOM])
+/* Copies what can be shown, what is hidden as escapes: cairo stops drawing for good at a text that is not UTF-8. false
+ * where there is no room for all of it. */
+static bool clean_into(const char *text, char *out, size_t room)
 {
     size_t used = 0, left = strlen(text);
-    for (size_t size; left > 0 && used + 8 < TEXT_ROOM; text += size, left -= size) {
+    for (size_t size; left > 0 && used + 8 < room; text += size, left -= size) {
         uint32_t character = tn_utf8_read(text, left, &size);
         if (character == '\t' || character == '\n' || character == '\r') {
             out[used++] = ' ';
@@ -32,6 +33,12 @@ static void clean(const char *text, char out[TEXT_ROOM])
         }
     }
     out[used] = '\0';
+    return left == 0;
+}
+
+static void clean(const char *text, char out[TEXT_ROOM])
+{
+    clean_into(text, out, TEXT_ROOM);
 }
 
 void tn_type_face(cairo_t *context, double size, bool bold)
@@ -198,7 +205,7 @@ void tn_type_fit(cairo_t *context, double x, double baseline, tn_align align, do
 /* How many bytes of a cleaned text fit on one line: whole words, at least one. */
 static size_t line_bytes(cairo_t *context, const char *text, double width)
 {
-    char line[TEXT_ROOM];
+    char line[PARAGRAPH_ROOM];
     size_t fits = 0, length = strlen(text);
     while (fits < length) {
         size_t end = fits + (text[fits] == ' ');
@@ -211,18 +218,40 @@ static size_t line_bytes(cairo_t *context, const char *text, double width)
     return fits;
 }
 
+/* Copies a paragraph; where there is no room for all of it, up to the last whole word, with an ellipsis. */
+static void clean_paragraph(const char *text, char out[PARAGRAPH_ROOM])
+{
+    if (clean_into(text, out, PARAGRAPH_ROOM - sizeof ELLIPSIS))
+        return;
+    char *blank = strrchr(out, ' ');
+    strcpy(blank ? blank + 1 : out + strlen(out), ELLIPSIS);
+}
+
+/* The last line of a paragraph: all of the text, or as many whole words as fit before an ellipsis. */
+static void last_line(cairo_t *context, const char *text, double width, char line[PARAGRAPH_ROOM])
+{
+    bool all = clean_width(context, text) <= width;
+    size_t bytes = all ? strlen(text) : line_bytes(context, text, width - clean_width(context, " " ELLIPSIS));
+    snprintf(line, PARAGRAPH_ROOM, "%.*s%s", (int)bytes, text, all ? "" : " " ELLIPSIS);
+}
+
 unsigned tn_type_paragraph(cairo_t *context, double x, double baseline, double width, double leading,
                            unsigned max_lines, const char *text)
 {
-    char cleaned[TEXT_ROOM], line[TEXT_ROOM];
-    clean(text, cleaned);
+    char cleaned[PARAGRAPH_ROOM], line[PARAGRAPH_ROOM];
+    clean_paragraph(text, cleaned);
     const char *at = cleaned;
     unsigned lines = 0;
     while (*at && lines < max_lines) {
         size_t bytes = line_bytes(context, at, width);
-        bool last = lines + 1 == max_lines;
-        snprintf(line, sizeof line, "%.*s", (int)(last ? strlen(at) : bytes), at);
-        tn_type_fit(context, x, baseline + lines * leading, TN_ALIGN_LEFT, width, line);
+        if (lines + 1 == max_lines)
+            last_line(context, at, width, line);
+        else
+            snprintf(line, sizeof line, "%.*s", (int)bytes, at);
+        if (clean_width(context, line) <= width)
+            set_clean(context, x, baseline + lines * leading, TN_ALIGN_LEFT, line);
+        else /* one word that is too long */
+            tn_type_fit(context, x, baseline + lines * leading, TN_ALIGN_LEFT, width, line);
         at += bytes + (at[bytes] == ' ');
         lines++;
     }

@@ -28,8 +28,8 @@ void tn_type_line(cairo_t *context, double x, double baseline, tn_align align, c
 /* The same, cut off with an ellipsis where it is wider than `width`. */
 void tn_type_fit(cairo_t *context, double x, double baseline, tn_align align, double width, const char *text);
 
-/* Sets words in lines of at most `width`, `leading` apart, `max_lines` at most (the last is cut off). Returns the
- * number of lines set. */
+/* Sets words in lines of at most `width`, `leading` apart, `max_lines` at most. Where there is more, the last ends with
+ * a whole word and an ellipsis. Returns the number of lines set. */
 unsigned tn_type_paragraph(cairo_t *context, double x, double baseline, double width, double leading,
                            unsigned max_lines, const char *text);
 

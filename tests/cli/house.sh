@@ -202,11 +202,16 @@ golden unrank_past "tartan unrank cottage -l cottages 99999999999"
 golden variant_past "tartan unrank cottage '#10:99999999'"
 golden plan_past "tartan house cottage '#99999999:0'"
 golden no_folder "tartan house cottage '#10:77' -o $scratch/none/house.ifc"
+golden folder_refuses "tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; living ; window wall window\" -o /proc/x.obj" # as if it were not there
 golden not_a_folder "tartan house cottage '#10:77' -o $scratch/forty.plan/"
 
 # A sheet of small pictures.
 golden sheet_no_sample "tartan draw cottage --library cottages -o $scratch/h.svg"
 golden sheet_diverse "tartan draw cottage --library cottages --sample 3 --diverse -o $scratch/h.svg"
+golden sheet_best "tartan draw cottage --library cottages --best 4 --least floor-area -o $scratch/h.svg"
+golden sheet_length "tartan draw cottage --library cottages --sample 3 --length 2 -o $scratch/h.svg"
+golden sheet_scale "tartan draw cottage --library cottages --sample 3 --scale 100 -o $scratch/h.svg"
+golden sample_length "tartan sample cottage 2 --library cottages --length 2"
 golden sheet_too_many "tartan draw cottage --library cottages --sample 201 -o $scratch/h.svg"
 if grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; then
     "$TARTAN" draw cottage --library cottages --sample 3 --seed 4 -o "$scratch/one.svg"

@@ -85,7 +85,7 @@ done
 for command in $("$prefix/bin/tartan" help | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p'); do
     [ -s "$prefix/share/man/man1/tartan-$command.1" ] || fail "no manual page of $command"
 done
-for notation in plans $(sed -nE 's/^[A-Z_]+\(.*, "([^"]+)", "[^"]*"\)$/\1/p' compiler/notations.def); do
+for notation in house plans $(sed -nE 's/^[A-Z_]+\(.*, "([^"]+)", "[^"]*"\)$/\1/p' compiler/notations.def); do
     [ -s "$prefix/share/man/man5/tartan-$notation.5" ] || fail "no manual page of the notation $notation"
 done
 for file in man/man1/tartan.1 bash-completion/completions/tartan zsh/site-functions/_tartan fish/vendor_completions.d/tartan.fish; do

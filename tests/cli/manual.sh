@@ -26,12 +26,13 @@ if "$TARTAN" help --man nonsense 2>/dev/null; then
     fail 'a page for a command that there is not'
 fi
 
-# Each notation has one too, made of its page of docs; the overview names it, and every grammar of the compiler has one.
+# Each notation has one too, made of its page of docs, and so have houses and files of plans; the overview names it, and every grammar of the compiler has one.
 version=$("$TARTAN" --version | sed 's/^tartan //')
 rows=$(sed -nE 's/^[A-Z_]+\(.*, "([^"]*)", "([^"]+)", "([^"]*)"\)$/\2|\1|\3/p' compiler/notations.def)
+rows+=$'\nhouse|house-language.md|forms of houses, and rules and measures about houses'
 rows+=$'\nplans|plan-files.md|the formats of files of plans'
 names=$(cut -d'|' -f1 <<<"$rows")
-for name in plan bnf study plans $(find stdlib -type f | sed 's/.*\.//' | sort -u); do
+for name in plan bnf study house plans $(find stdlib -type f | sed 's/.*\.//' | sort -u); do
     grep -qx "$name" <<<"$names" || fail "no notation $name"
 done
 while IFS='|' read -r name source summary; do

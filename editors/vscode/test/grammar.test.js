@@ -74,6 +74,21 @@ test('every word of the language that the lexer knows has a colour', async () =>
     }
 });
 
+test('words of forms and of rooms that the lexer takes for names have a colour', async () => {
+    const found = new Map(tokens(await loadGrammar(), `form f of s {
+  section hall storeys = 1 | 2
+  section hall roof = gable(9:12, eaves 2') | shed(back, 4:12) | vault(4')
+  flight steep wide 3' rise 6"..8" going 10" turn half
+  flight corner wide 3' rise 6"..8" going 10" turn quarter
+}
+rule half-stair = room(bedroom, glazing < 1:12)
+`));
+    for (const word of ['storeys', 'gable', 'eaves', 'shed', 'vault', 'half', 'quarter', 'glazing']) {
+        assert.strictEqual(found.get(word), 'keyword.control.plan', word);
+    }
+    assert.strictEqual(found.get('half-stair'), 'entity.name.function.plan');
+});
+
 // The scopes of a text's tokens, by the token.
 async function scopes(name, text) {
     return new Map(tokens(await loadGrammar(name), text));

@@ -318,14 +318,15 @@ tn_status tn_house_schedule(const tn_house *house, tn_buffer *out, tn_error *err
 
 /* ---- a table of parts */
 
-/* A number over a power of ten, to six places, rounded half up. */
-static void put_millionths(tn_buffer *out, const mpq_t number, unsigned long power)
+/* An area or a volume, of nanometres, in a unit of that length to that power; to six places, rounded half up. */
+static void put_in_unit(tn_buffer *out, const mpq_t number, int64_t unit, unsigned long power)
 {
     mpz_t top, bottom;
-    mpz_inits(top, bottom, NULL);
-    mpz_ui_pow_ui(bottom, 10, power - 6);
+    mpz_init_set_ui(bottom, (unsigned long)unit);
+    mpz_init(top);
+    mpz_pow_ui(bottom, bottom, power);
     mpz_mul(bottom, bottom, mpq_denref(number));
-    mpz_mul_2exp(top, mpq_numref(number), 1);
+    mpz_mul_ui(top, mpq_numref(number), 2000000);
     mpz_add(top, top, bottom);
     mpz_mul_2exp(bottom, bottom, 1);
     mpz_fdiv_q(top, top, bottom);
@@ -335,14 +336,14 @@ static void put_millionths(tn_buffer *out, const mpq_t number, unsigned long pow
     mpz_clears(top, bottom, NULL);
 }
 
-static void put_part_row(const tn_house *house, const tn_cost_line *line, tn_buffer *out)
+static void put_part_row(const tn_house *house, const tn_cost_line *line, int64_t unit, tn_buffer *out)
 {
     static const char *const units[] = {"each", "sf", "m2", "cf", "m3"};
     const tn_module *module = house->form->module;
     tn_buffer_printf(out, "%s,%zu,", tn_form_part_text(house->form, line->part), line->count);
-    put_millionths(out, line->area, 18);
+    put_in_unit(out, line->area, unit, 2);
     tn_buffer_append(out, ",", 1);
-    put_millionths(out, line->volume, 27);
+    put_in_unit(out, line->volume, unit, 3);
     if (line->material == TN_NO_RECORD) {
         tn_buffer_printf(out, ",,,,\r\n");
     } else {
@@ -358,10 +359,12 @@ tn_status tn_house_parts(const tn_house *house, const tn_solids *solids, tn_buff
 {
     tn_costs costs;
     tn_status status = tn_house_costs(house, solids, &costs, error);
-    tn_buffer_printf(out, "part,number,area_m2,volume_m3,material,price,per,cost\r\n");
+    bool feet = tn_house_length_style(house) == TN_STYLE_FEET;
+    tn_buffer_printf(out, "part,number,%s,material,price,per,cost\r\n",
+                     feet ? "area_sf,volume_cf" : "area_m2,volume_m3");
     for (size_t i = 0; status == TN_OK && i < costs.count; i++)
         if (costs.lines[i].count > 0)
-            put_part_row(house, &costs.lines[i], out);
+            put_part_row(house, &costs.lines[i], feet ? TN_FOOT_NM : INT64_C(1000000000), out);
     if (status == TN_OK && tn_form_has_costs(house->form)) {
         tn_buffer_printf(out, "total,,,,,,,");
         put_hundredths(out, costs.hundredths);

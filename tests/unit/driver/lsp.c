@@ -713,6 +713,9 @@ static void test_forms(void **state)
     answer = ask_at(&l, "textDocument/completion", uri, "cell(sleep)", 5);
     assert_true(mentions(answer, "sleep") && mentions(answer, "low") && mentions(answer, "void"));
     json_decref(answer);
+    answer = ask_at(&l, "textDocument/completion", uri, "cell(z, low)", 5); /* has no function yet */
+    assert_true(mentions(answer, "low") && !mentions(answer, "\"sleep\"") && !mentions(answer, "\"void\""));
+    json_decref(answer);
     answer = ask_at(&l, "textDocument/completion", uri, "= door | wall", 2);
     assert_true(mentions(answer, "door") && mentions(answer, "party"));
     json_decref(answer);

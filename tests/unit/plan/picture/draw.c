@@ -129,6 +129,34 @@ static void sets_any_text(void **state)
     cairo_surface_destroy(surface);
 }
 
+/* A paragraph with more words than its lines hold ends with a whole word, also where it is longer than any line. */
+static void ends_with_a_whole_word(void **state)
+{
+    (void)state;
+    char words[20000] = "", *said = NULL;
+    size_t size;
+    for (size_t i = 0; i + 8 < sizeof words; i += 7)
+        memcpy(words + i, "pantry ", 8);
+    FILE *letters = open_memstream(&said, &size);
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, 50, 50);
+    cairo_t *context = cairo_create(surface);
+    assert_true(tn_type_as_text(context, letters));
+    tn_type_face(context, 8, false);
+    assert_int_equal(tn_type_paragraph(context, 0, 10, 300, 8, 3, words), 3);
+    assert_int_equal(tn_type_paragraph(context, 0, 10, 1e6, 8, 3, words), 1);
+    fclose(letters);
+    const char *end = said;
+    for (size_t paragraph = 0; paragraph < 2; paragraph++) {
+        end = strstr(end, "\xe2\x80\xa6</text>");
+        assert_true(end && end - said > 8);
+        assert_memory_equal(end - 7, "pantry ", 7);
+        end++;
+    }
+    cairo_destroy(context);
+    cairo_surface_destroy(surface);
+    free(said);
+}
+
 /* ---- sheets */
 
 enum { PLAN_COUNT = 7, LENGTH = 5 };
@@ -331,6 +359,7 @@ int main(void)
         cmocka_unit_test(knows_formats),
         cmocka_unit_test(knows_papers_and_scales),
         cmocka_unit_test(sets_any_text),
+        cmocka_unit_test(ends_with_a_whole_word),
         cmocka_unit_test_setup_teardown(draws_the_same_bytes, open_sheet, close_sheet),
         cmocka_unit_test_setup_teardown(refuses_what_it_cannot_draw, open_sheet, close_sheet),
         cmocka_unit_test_setup_teardown(groups_begin_rows, open_sheet, close_sheet),
