@@ -152,6 +152,9 @@ if grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; th
     "$TARTAN" house apartments '#0:0' -o "$scratch/flats.svg"
     is 'a block of flats, drawn at 1:200, is on A2 and not on A1' \
         "$(grep -o -m1 ' width="[^"]*" height="[^"]*"' "$scratch/flats.svg")" ' width="1683.779528pt" height="1190.551181pt"'
+    # Both drawings have the same x at the same place: the fifth number of what sets nanometres on paper.
+    "$TARTAN" house cottage '#10:77' --view plan:ground --view section:y=1m -o "$scratch/above.svg"
+    is 'one above the other' "$(grep -o 'matrix([^)]*)' "$scratch/above.svg" | awk -F'[(, )]+' '{ print $6 }' | sort -u | wc -l)" 1
     # The bricks of the row houses, #a4553f: in elevations, and not in plans.
     for view in elevation:back plan:ground; do
         "$TARTAN" house row-houses '#0:0' --library row-houses --view "$view" -o "$scratch/bricks.svg"

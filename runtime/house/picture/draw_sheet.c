@@ -107,6 +107,34 @@ static double top_of(const sheet *s)
     return MARGIN + (s->drawing->title ? HEADING : 0);
 }
 
+/* Is x from the left to the right in it, and is it the only drawing in its row of the sheet? */
+static bool is_alone_along_x(const sheet *s, size_t i)
+{
+    const tn_aspect *a = &s->drawing->aspects[i];
+    bool along = a->kind == TN_ASPECT_PLAN || a->kind == TN_ASPECT_SECTION_Y ||
+                 (a->kind == TN_ASPECT_ELEVATION && a->side == TN_HOUSE_BACK);
+    bool first = i == 0 || s->drawn[i - 1].y < s->drawn[i].y;
+    bool last = i + 1 == s->drawing->count || s->drawn[i].y < s->drawn[i + 1].y;
+    return along && first && last;
+}
+
+/* Drawings that stand one above the other, such as the plans of two storeys, have each wall at the same place across
+ * the sheet, however far their dimensions reach. Returns how wide they are together. */
+static double align_rows(sheet *s, double room)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < s->drawing->count; i++)
+        if (is_alone_along_x(s, i)) {
+            low = fmin(low, s->drawn[i].low[0]);
+            high = fmax(high, s->drawn[i].high[0]);
+        }
+    double across = low < high ? (high - low) * s->points : 0;
+    for (size_t i = 0; i < s->drawing->count; i++)
+        if (is_alone_along_x(s, i))
+            s->drawn[i].x = MARGIN + (room - across) / 2 + (s->drawn[i].low[0] - low) * s->points;
+    return across;
+}
+
 /* Sets the drawings in rows that are no wider than `wrap`, and spreads these over the room; how high and wide they
  * become. */
 static void set_rows(sheet *s, double room, double wrap, double *most, double *down)
@@ -126,6 +154,7 @@ static void set_rows(sheet *s, double room, double wrap, double *most, double *d
         y += row + CAPTION + GAP;
         first += count;
     }
+    *most = fmax(*most, align_rows(s, room));
     *down = y - GAP;
 }
 
