@@ -175,7 +175,8 @@ static bool read_house(tn_check *check, const tn_ast_case *ast, const tn_checked
     const tn_checked_choice *choice = choice_left(form);
     if (choice || !trays->first)
         return not_a_house(check, ast, choice);
-    if (!check->schema || !tn_check_plan(check, check->schema, *trays, &result->length))
+    size_t length;
+    if (!check->schema || !tn_check_plan(check, check->schema, *trays, &length))
         return false;
     tn_span place = tn_span_join(trays->first->span, trays->last->span);
     char *line = tn_arena_copy(check->arena, check->diagnostics->sources->files[place.file].text + place.begin,
