@@ -213,7 +213,7 @@ def check_dxf(path):
         elif code == "8":
             used[value] += 1
     check(f"layers {set(used) - known}", set(used) <= known)
-    for layer in ("SEEN", "CUT", "HATCH", "DIMENSIONS", "NAMES", "TITLES"):
+    for layer in ("WALLS", "FLOORS", "WALLS-CUT", "FLOORS-CUT", "HATCH", "DIMENSIONS", "NAMES", "TITLES"):
         check(f"something is on {layer}", used[layer])
     try:
         import ezdxf

@@ -6,6 +6,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/geometry/crease.h"
+#include "runtime/geometry/twin.h"
 
 /* A triangle that faces the eye, before it. */
 typedef struct screen {
@@ -27,6 +28,7 @@ typedef struct looking {
     shade *shades; /* of the line at hand; owned */
     size_t shade_count, shade_room;
     double tolerance;
+    uint32_t face; /* of the line at hand */
     tn_seen_line *lines;
     size_t line_count, line_room;
 } looking;
@@ -107,6 +109,7 @@ static bool add_line(looking *l, const double p[3], const double q[3], double fr
     if (!tn_array_reserve_from(&l->lines, &l->line_room, 256, l->line_count, 1, sizeof *l->lines))
         return false;
     tn_seen_line *line = &l->lines[l->line_count++];
+    line->face = l->face;
     for (int k = 0; k < 3; k++) {
         line->from[k] = p[k] + from * (q[k] - p[k]);
         line->to[k] = p[k] + to * (q[k] - p[k]);
@@ -155,13 +158,24 @@ static tn_status prepare(looking *l, const tn_eye *eye, tn_error *error)
     return TN_OK;
 }
 
+static bool faces_eye(const looking *l, size_t face)
+{
+    screen s;
+    return make_screen(l, face, &s);
+}
+
 /* Each crease once: from the side of the triangle whose corner has the lower number. */
-static tn_status cut_all(looking *l, const bool *creases, tn_error *error)
+static tn_status cut_all(looking *l, const bool *creases, const uint32_t *twins, tn_error *error)
 {
     const tn_mesh *mesh = l->mesh;
     for (size_t c = 0; c < 3 * mesh->face_count; c++) {
         uint32_t a = mesh->corners[c], b = mesh->corners[c % 3 == 2 ? c - 2 : c + 1];
-        if (creases[c] && a < b && !cut_line(l, l->points[a], l->points[b]))
+        if (!creases[c] || a >= b)
+            continue;
+        l->face = (uint32_t)(c / 3);
+        if (!faces_eye(l, l->face) && twins[c] != TN_NO_TWIN)
+            l->face = twins[c] / 3;
+        if (!cut_line(l, l->points[a], l->points[b]))
             return tn_fail_memory(error);
     }
     return TN_OK;
@@ -172,13 +186,15 @@ tn_status tn_mesh_visible(const tn_mesh *mesh, const tn_eye *eye, double toleran
 {
     looking l = {.mesh = mesh, .tolerance = tolerance};
     bool *creases = NULL;
-    tn_status status = tn_mesh_creases(mesh, &creases, error);
+    uint32_t *twins = tn_mesh_twins(mesh);
+    tn_status status = twins ? tn_mesh_creases(mesh, &creases, error) : tn_fail_memory(error);
     if (status == TN_OK)
         status = prepare(&l, eye, error);
     if (status == TN_OK)
-        status = cut_all(&l, creases, error);
+        status = cut_all(&l, creases, twins, error);
     *lines = l.lines;
     *count = l.line_count;
+    free(twins);
     free(creases);
     free(l.points);
     free(l.screens);

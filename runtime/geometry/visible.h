@@ -12,6 +12,7 @@
 /* From the eye: to the right, up, and towards it. */
 typedef struct tn_seen_line {
     double from[3], to[3];
+    uint32_t face; /* one of the two triangles that meet there: where only one faces the eye, that */
 } tn_seen_line;
 
 /* The lines of a closed mesh of triangles: parts of creases that no triangle hides. What lies nearer behind a triangle

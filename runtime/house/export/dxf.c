@@ -1,44 +1,61 @@
-/* Writes drawings of a house as DXF, release 12: the oldest that every CAD program reads. Group codes and values in
- * turn, a line each; the reference is Autodesk's "DXF Reference", chapters on LAYER, LINE, ARC and TEXT. */
+/* Writes drawings of a house as DXF: lines, arcs and texts, each kind of part on layers of its own. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "runtime/geometry/visible.h"
+#include "runtime/house/export/dxf_file.h"
 #include "runtime/house/export/export.h"
 
 #define LETTERING_NM 100e6 /* 2 mm high at 1:50 */
 #define HATCH_NM 60e6      /* between lines */
 #define GAP_NM 3e9
+#define HEIGHT_MM 20000.0 /* that a viewer shows first */
 #define TOLERANCE_NM 1000.0
 
-/* Layers of marks come first, in the order of tn_mark_layer. */
-enum { LAYER_SEEN = TN_MARK_LAYERS, LAYER_CUT, LAYER_HATCH, LAYER_TITLE, LAYER_COUNT };
+/* Layers of marks come first, in the order of tn_mark_layer; then what is seen of the parts, and what is cut, in the
+ * order of tn_material_group. */
+enum {
+    LAYER_SEEN = TN_MARK_LAYERS,
+    LAYER_CUT = LAYER_SEEN + TN_GROUP_COUNT,
+    LAYER_HATCH = LAYER_CUT + TN_GROUP_COUNT,
+    LAYER_TITLE,
+    LAYER_COUNT
+};
 
-static const struct {
-    const char *name;
-    int colour; /* of AutoCAD's index */
-} layers[LAYER_COUNT] = {
-    [TN_MARK_DOOR] = {"DOORS", 30},
-    [TN_MARK_STAIR] = {"STAIRS", 8},
-    [TN_MARK_VOID] = {"VOIDS", 9},
-    [TN_MARK_GROUND] = {"GROUND", 7},
-    [TN_MARK_DIMENSION] = {"DIMENSIONS", 8},
-    [TN_MARK_NAME] = {"NAMES", 7},
-    [LAYER_SEEN] = {"SEEN", 7},
-    [LAYER_CUT] = {"CUT", 1},
-    [LAYER_HATCH] = {"HATCH", 253},
-    [LAYER_TITLE] = {"TITLES", 7},
+static const tn_dxf_layer layers[LAYER_COUNT] = {
+    [TN_MARK_DOOR] = {"DOORS", 30, false},
+    [TN_MARK_STAIR] = {"STAIRS", 8, false},
+    [TN_MARK_VOID] = {"VOIDS", 9, true},
+    [TN_MARK_GROUND] = {"GROUND", 7, false},
+    [TN_MARK_DIMENSION] = {"DIMENSIONS", 8, false},
+    [TN_MARK_NAME] = {"NAMES", 7, false},
+    [LAYER_SEEN + TN_GROUP_WALL] = {"WALLS", 7, false},
+    [LAYER_SEEN + TN_GROUP_FLOOR] = {"FLOORS", 9, false},
+    [LAYER_SEEN + TN_GROUP_ROOF] = {"ROOFS", 8, false},
+    [LAYER_SEEN + TN_GROUP_ITEM] = {"FURNITURE", 32, false},
+    [LAYER_SEEN + TN_GROUP_PANE] = {"PANES", 150, false},
+    [LAYER_SEEN + TN_GROUP_LEAF] = {"LEAVES", 30, false},
+    [LAYER_CUT + TN_GROUP_WALL] = {"WALLS-CUT", 1, false},
+    [LAYER_CUT + TN_GROUP_FLOOR] = {"FLOORS-CUT", 1, false},
+    [LAYER_CUT + TN_GROUP_ROOF] = {"ROOFS-CUT", 1, false},
+    [LAYER_CUT + TN_GROUP_ITEM] = {"FURNITURE-CUT", 1, false},
+    [LAYER_CUT + TN_GROUP_PANE] = {"PANES-CUT", 150, false},
+    [LAYER_CUT + TN_GROUP_LEAF] = {"LEAVES-CUT", 30, false},
+    [LAYER_HATCH] = {"HATCH", 253, false},
+    [LAYER_TITLE] = {"TITLES", 7, false},
 };
 
 /* Where a drawing stands on the sheet: its u, v move by this. */
 typedef struct tn_dxf {
     FILE *out;
     double du, dv;
+    uint32_t entities; /* so far */
 } tn_dxf;
 
-static void begin(const tn_dxf *dxf, const char *entity, int layer)
+static void begin(tn_dxf *dxf, const char *entity, const char *kind, int layer)
 {
-    fprintf(dxf->out, "0\n%s\n8\n%s\n", entity, layers[layer].name);
+    tn_dxf_entity(dxf->out, entity, dxf->entities++, layers[layer].name);
+    fprintf(dxf->out, "100\n%s\n", kind);
 }
 
 static void point(const tn_dxf *dxf, int code, double u, double v)
@@ -47,25 +64,26 @@ static void point(const tn_dxf *dxf, int code, double u, double v)
             code + 20);
 }
 
-static void line(const tn_dxf *dxf, int layer, double u0, double v0, double u1, double v1)
+static void line(tn_dxf *dxf, int layer, double u0, double v0, double u1, double v1)
 {
-    begin(dxf, "LINE", layer);
+    begin(dxf, "LINE", "AcDbLine", layer);
     point(dxf, 10, u0, v0);
     point(dxf, 11, u1, v1);
 }
 
-static void text(const tn_dxf *dxf, int layer, double u, double v, double high, bool upright, const char *words)
+static void text(tn_dxf *dxf, int layer, double u, double v, double high, bool upright, const char *words)
 {
-    begin(dxf, "TEXT", layer);
+    begin(dxf, "TEXT", "AcDbText", layer);
     point(dxf, 10, u, v);
     fprintf(dxf->out, "40\n%.6f\n1\n", high / 1e6);
     for (const char *c = words; *c; c++)
         putc(*c >= ' ' && *c <= '~' ? *c : '?', dxf->out);
-    fprintf(dxf->out, "\n50\n%d.0\n72\n1\n73\n2\n", upright ? 90 : 0);
+    fprintf(dxf->out, "\n50\n%d.0\n72\n1\n", upright ? 90 : 0);
     point(dxf, 11, u, v);
+    fputs("100\nAcDbText\n73\n2\n", dxf->out);
 }
 
-static void mark(const tn_dxf *dxf, const tn_mark *m)
+static void mark(tn_dxf *dxf, const tn_mark *m)
 {
     if (m->kind == TN_MARK_TEXT) {
         text(dxf, m->layer, m->u0, m->v0, 0.7 * m->high, m->upright, m->text);
@@ -74,16 +92,17 @@ static void mark(const tn_dxf *dxf, const tn_mark *m)
     } else {
         double u = m->u1 - m->u0, v = m->v1 - m->v0;
         int from = fabs(u) > fabs(v) ? (u > 0 ? 0 : 180) : (v > 0 ? 90 : 270);
-        begin(dxf, "ARC", m->layer);
+        begin(dxf, "ARC", "AcDbCircle", m->layer);
         point(dxf, 10, m->u0, m->v0);
-        fprintf(dxf->out, "40\n%.6f\n50\n%d.0\n51\n%d.0\n", (fabs(u) + fabs(v)) / 1e6, from, (from + 90) % 360);
+        fprintf(dxf->out, "40\n%.6f\n100\nAcDbArc\n50\n%d.0\n51\n%d.0\n", (fabs(u) + fabs(v)) / 1e6, from,
+                (from + 90) % 360);
     }
 }
 
 /* ---- what was cut */
 
 /* Lines at 45 degrees across a polygon, on a grid that all polygons share. */
-static void hatch(const tn_dxf *dxf, const tn_cut_face *face)
+static void hatch(tn_dxf *dxf, const tn_cut_face *face)
 {
     double low = INFINITY, high = -INFINITY;
     for (int i = 0; i < 4; i++) {
@@ -118,7 +137,7 @@ static double cut_depth(const tn_prospect *p, const tn_seen_line *lines, size_t 
     return cut ? depth - TOLERANCE_NM : INFINITY;
 }
 
-static tn_status write_prospect(const tn_dxf *dxf, const tn_prospect *p, tn_error *error)
+static tn_status write_prospect(tn_dxf *dxf, const tn_prospect *p, tn_error *error)
 {
     tn_eye eye = tn_camera_eye(&p->camera);
     tn_seen_line *lines;
@@ -127,7 +146,8 @@ static tn_status write_prospect(const tn_dxf *dxf, const tn_prospect *p, tn_erro
     double depth = cut_depth(p, lines, count);
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         const double *a = lines[i].from, *b = lines[i].to;
-        line(dxf, a[2] > depth && b[2] > depth ? LAYER_CUT : LAYER_SEEN, a[0], a[1], b[0], b[1]);
+        int group = (int)p->mesh.face_group[lines[i].face];
+        line(dxf, (a[2] > depth && b[2] > depth ? LAYER_CUT : LAYER_SEEN) + group, a[0], a[1], b[0], b[1]);
     }
     for (size_t i = 0; status == TN_OK && i < p->cut_count; i++)
         if (p->cuts[i].kind != TN_SOLID_PANE && p->cuts[i].kind != TN_SOLID_LEAF)
@@ -140,19 +160,13 @@ static tn_status write_prospect(const tn_dxf *dxf, const tn_prospect *p, tn_erro
 
 /* ---- the file */
 
-static void write_head(FILE *out)
+/* About how wide the drawings are together, in millimetres: what a viewer shows first. */
+static double width_of(const tn_house *house, size_t drawings)
 {
-    fputs("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n0\nENDSEC\n0\nSECTION\n2\nTABLES\n"
-          "0\nTABLE\n2\nLTYPE\n70\n2\n0\nLTYPE\n2\nCONTINUOUS\n70\n0\n3\nSolid line\n72\n65\n73\n0\n40\n0.0\n"
-          "0\nLTYPE\n2\nDASHED\n70\n0\n3\n__ __ __\n72\n65\n73\n2\n40\n300.0\n49\n200.0\n49\n-100.0\n0\nENDTAB\n",
-          out);
-    fprintf(out, "0\nTABLE\n2\nLAYER\n70\n%d\n", LAYER_COUNT);
-    for (int i = 0; i < LAYER_COUNT; i++)
-        fprintf(out, "0\nLAYER\n2\n%s\n70\n0\n62\n%d\n6\n%s\n", layers[i].name, layers[i].colour,
-                i == TN_MARK_VOID ? "DASHED" : "CONTINUOUS");
-    fputs("0\nENDTAB\n0\nTABLE\n2\nSTYLE\n70\n1\n0\nSTYLE\n2\nSTANDARD\n70\n0\n40\n0.0\n41\n1.0\n50\n0.0\n71\n0\n42\n"
-          "100.0\n3\ntxt\n4\n\n0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n",
-          out);
+    double wide = 0;
+    for (size_t i = 0; i < house->cell_count; i++)
+        wide = fmax(wide, (double)house->cells[i].at.x1);
+    return (double)drawings * (wide + GAP_NM) / 1e6;
 }
 
 tn_status tn_house_write_dxf(const tn_house *house, const tn_solids *solids, const tn_aspect *aspects, size_t count,
@@ -161,7 +175,7 @@ tn_status tn_house_write_dxf(const tn_house *house, const tn_solids *solids, con
     tn_dxf dxf = {.out = out};
     double at = 0;
     tn_status status = TN_OK;
-    write_head(out);
+    tn_dxf_begin(out, layers, LAYER_COUNT, width_of(house, count), HEIGHT_MM);
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         tn_prospect p;
         double low[2], high[2];
@@ -179,6 +193,6 @@ tn_status tn_house_write_dxf(const tn_house *house, const tn_solids *solids, con
         }
         tn_prospect_clear(&p);
     }
-    fputs("0\nENDSEC\n0\nEOF\n", out);
+    tn_dxf_end(out);
     return status;
 }
