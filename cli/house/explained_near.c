@@ -122,15 +122,23 @@ static tn_status see_change(void *context, const tn_house_change *change, const 
     return TN_OK;
 }
 
+static tn_status try_changes(beam *b, const tn_house *from, size_t parent, tn_error *error)
+{
+    b->from = from;
+    b->parent = parent;
+    return tn_house_changes(from, b->e->judge.rules, NULL, TN_NO_CELL, see_change, b, error);
+}
+
+/* Node 0 is the house that is explained. It may have cells in which no tile stands, so that its line cannot be read. */
 static tn_status expand(beam *b, size_t parent, tn_error *error)
 {
-    tn_house from = {0};
     const char *line = b->nodes[parent].line;
+    tn_house from = {0};
+    if (parent == 0)
+        return try_changes(b, &b->e->house, parent, error);
     tn_status status = tn_house_read_open(&b->e->judge.form, line, strlen(line), b->e->house.length, &from, error);
-    b->from = &from;
-    b->parent = parent;
     if (status == TN_OK)
-        status = tn_house_changes(&from, b->e->judge.rules, NULL, TN_NO_CELL, see_change, b, error);
+        status = try_changes(b, &from, parent, error);
     tn_house_clear(&from);
     return status;
 }
@@ -150,14 +158,11 @@ static void write_steps(const beam *b, size_t node)
 
 static tn_status search(beam *b, bool *found, tn_error *error)
 {
-    tn_buffer line = {0};
-    tn_status status = tn_house_write(&b->e->house, &line, error);
-    size_t level = 0, end = 1; /* the nodes that are expanded now */
-    if (status != TN_OK) {
-        free(line.data);
-        return status;
-    }
-    b->nodes[0] = (near_node){.line = line.data};
+    tn_status status = TN_OK;
+    size_t level = 0, end = 1;     /* the nodes that are expanded now */
+    b->nodes[0].line = strdup(""); /* a way back to it would be no shorter */
+    if (!b->nodes[0].line)
+        return tn_fail_memory(error);
     b->count = 1;
     for (int depth = 0; status == TN_OK && !*found && depth < DEPTH && level < end; depth++) {
         b->first = b->count;
