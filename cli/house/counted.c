@@ -8,8 +8,8 @@
 
 /* What was counted. Where the plans were not gone through, it is not known how many of them have a house. */
 typedef struct house_tally {
-    bool each;         /* the plans were gone through */
-    bool faced_unsaid; /* houses without their tiles were not counted */
+    bool each;                                     /* the plans were gone through */
+    bool faced_unsaid;                             /* houses without their tiles were not counted */
     uint64_t with_houses, sections, zoned, states; /* sections: of each plan, those that have a house */
     mpz_t plans, faced, houses;
     mpz_t *lengths; /* houses on plans of each length, from the shortest */
