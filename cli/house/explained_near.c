@@ -54,6 +54,7 @@ enum { BEAM = 16, DEPTH = 8, NODES = 1 + BEAM * DEPTH };
 typedef struct near_node {
     char *line;
     size_t dropping, parent; /* clauses that drop it */
+    size_t sections;         /* of the changes that lead to it, those of its section, which change much besides */
     tn_change_words words;   /* of the change from its parent */
 } near_node;
 
@@ -61,6 +62,7 @@ typedef struct near_node {
 typedef struct beam {
     tn_house_explaining *e;
     const tn_house *from;
+    bool few_sections; /* of nodes that as many clauses drop, those with fewer changes of the section are better */
     size_t parent, first, count;
     near_node nodes[NODES];
 } beam;
@@ -85,11 +87,26 @@ static bool is_met(const beam *b, const char *line)
     return false;
 }
 
+/* Did a change on the way to the node, that node's included, choose the same thing? */
+static bool is_chosen(const beam *b, size_t node, const char *where)
+{
+    for (; node != 0; node = b->nodes[node].parent)
+        if (strcmp(b->nodes[node].words.where, where) == 0)
+            return true;
+    return false;
+}
+
+static bool is_better(const beam *b, const near_node *node, const near_node *other)
+{
+    return node->dropping != other->dropping ? node->dropping < other->dropping
+                                             : b->few_sections && node->sections < other->sections;
+}
+
 /* Takes the node into its level, if it is among the best there; else it is freed. */
 static void insert(beam *b, const near_node *node)
 {
     size_t at = b->count;
-    while (at > b->first && b->nodes[at - 1].dropping > node->dropping)
+    while (at > b->first && is_better(b, node, &b->nodes[at - 1]))
         at--;
     if (at == b->first + BEAM) {
         free(node->line);
@@ -107,9 +124,13 @@ static tn_status see_change(void *context, const tn_house_change *change, const 
     beam *b = context;
     near_node node = {.parent = b->parent};
     tn_buffer line = {0};
+    tn_change_text(b->from, change, &node.words);
+    if (is_chosen(b, b->parent, node.words.where))
+        return TN_OK;
     tn_status status = count_dropping(b->e, changed, &node.dropping, error);
     bool full = b->count == b->first + BEAM;
-    if (status != TN_OK || (full && node.dropping >= b->nodes[b->count - 1].dropping))
+    node.sections = b->nodes[b->parent].sections + (change->kind == TN_CHANGE_SECTION);
+    if (status != TN_OK || (full && !is_better(b, &node, &b->nodes[b->count - 1])))
         return status;
     status = tn_house_write(changed, &line, error);
     if (status != TN_OK || is_met(b, line.data)) {
@@ -117,7 +138,6 @@ static tn_status see_change(void *context, const tn_house_change *change, const 
         return status;
     }
     node.line = line.data;
-    tn_change_text(b->from, change, &node.words);
     insert(b, &node);
     return TN_OK;
 }
@@ -156,7 +176,8 @@ static void write_steps(const beam *b, size_t node)
         write_change(e, first ? "kept with these changes together:\n" : "", &b->nodes[node].words);
 }
 
-static tn_status search(beam *b, bool *found, tn_error *error)
+/* *depth: how many changes lead to the kept house that is found first in its level, or 0. */
+static tn_status search(beam *b, int *depth, tn_error *error)
 {
     tn_status status = TN_OK;
     size_t level = 0, end = 1;     /* the nodes that are expanded now */
@@ -164,34 +185,52 @@ static tn_status search(beam *b, bool *found, tn_error *error)
     if (!b->nodes[0].line)
         return tn_fail_memory(error);
     b->count = 1;
-    for (int depth = 0; status == TN_OK && !*found && depth < DEPTH && level < end; depth++) {
+    for (int d = 1; status == TN_OK && *depth == 0 && d <= DEPTH && level < end; d++) {
         b->first = b->count;
         for (size_t i = level; status == TN_OK && i < end; i++)
             status = expand(b, i, error);
         level = b->first;
         end = b->count;
-        *found = status == TN_OK && end > level && b->nodes[level].dropping == 0;
+        if (status == TN_OK && end > level && b->nodes[level].dropping == 0)
+            *depth = d;
     }
     return status;
 }
 
-static tn_status explain_several(tn_house_explaining *e, bool *found, tn_error *error)
+static void write_found(const beam *b)
 {
-    beam *b = calloc(1, sizeof *b);
-    if (!b)
-        return tn_fail_memory(error);
-    b->e = e;
-    tn_status status = search(b, found, error);
-    if (status == TN_OK && *found) {
-        write_steps(b, b->first);
-        if (e->json) {
-            tn_explain_member(&e->text, "}],", "house", b->nodes[b->first].line);
-            tn_buffer_append(&e->text, "}", 1);
-        }
-    }
+    tn_house_explaining *e = b->e;
+    write_steps(b, b->first);
+    if (!e->json)
+        return;
+    tn_explain_member(&e->text, "}],", "house", b->nodes[b->first].line);
+    tn_buffer_append(&e->text, "}", 1);
+}
+
+static void clear_beam(beam *b)
+{
     for (size_t i = 0; i < b->count; i++)
         free(b->nodes[i].line);
-    free(b);
+}
+
+/* Some houses are found sooner where the section is left alone, others where it is changed first: both are tried. */
+static tn_status explain_several(tn_house_explaining *e, bool *found, tn_error *error)
+{
+    beam *both = calloc(2, sizeof *both);
+    int depth[2] = {0};
+    tn_status status = both ? TN_OK : tn_fail_memory(error);
+    for (int i = 0; status == TN_OK && i < 2; i++) {
+        both[i].e = e;
+        both[i].few_sections = i == 0;
+        status = search(&both[i], &depth[i], error);
+    }
+    *found = status == TN_OK && (depth[0] > 0 || depth[1] > 0);
+    bool second = depth[0] == 0 || (depth[1] > 0 && depth[1] < depth[0]);
+    if (*found)
+        write_found(&both[second]);
+    for (int i = 0; both && i < 2; i++)
+        clear_beam(&both[i]);
+    free(both);
     return status;
 }
 

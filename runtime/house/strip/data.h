@@ -364,6 +364,9 @@ typedef struct tn_strip_merged {
     size_t wait_room, one_room;
 } tn_strip_merged;
 
+/* Words of tiles that wait, for each: the place of the cell, the class. */
+enum { WAIT_CELL, WAIT_CLASS, WAIT_WORDS };
+
 /* What a number of arrangements of tiles cost. */
 typedef struct tn_strip_sum {
     tn_int128 cost;

@@ -69,9 +69,6 @@ static tn_status add_tiles(tn_strip *strip, uint32_t fit, tn_error *error)
     return TN_OK;
 }
 
-/* Tiles that wait: {place of the cell, class}. */
-enum { WAIT_CELL, WAIT_CLASS, WAIT_WORDS };
-
 static tn_status begin(tn_strip *strip, tn_error *error)
 {
     tn_strip_sums *s = &strip->sums;
@@ -123,7 +120,6 @@ enum { KEPT_MAX = 1 << 21 }; /* sums: 64 MB */
 
 static tn_status keep(tn_strip_sums *s, uint32_t result[KEPT_WORDS], tn_error *error)
 {
-    result[KEPT_FIRST] = TN_STRIP_NONE; /* not kept */
     if (s->kept_count + s->count > KEPT_MAX)
         return TN_OK;
     if (!tn_array_reserve(&s->kept, &s->kept_room, s->kept_count, s->count, sizeof *s->kept))
@@ -141,7 +137,9 @@ static tn_status find_kept(tn_strip *strip, uint32_t waiting, uint32_t left_fits
     uint32_t *result;
     bool met;
     tn_status status = tn_strip_known_at(&s->places, waiting, left_fits, KEPT_WORDS, &result, &met, error);
-    bool kept = status == TN_OK && met && result[KEPT_FIRST] != TN_STRIP_NONE;
+    if (status == TN_OK && !met)
+        result[KEPT_FIRST] = TN_STRIP_NONE; /* not kept, as long as nothing else is known */
+    bool kept = status == TN_OK && result[KEPT_FIRST] != TN_STRIP_NONE;
     if (status == TN_OK && !kept)
         status = multiply(strip, waiting, left_fits, error);
     if (status == TN_OK && !met)

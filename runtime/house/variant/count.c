@@ -54,23 +54,21 @@ static tn_cell_count take_any(const tn_wheels *wheels, size_t first, size_t end)
 static tn_status count_cell(tn_house_variants *v, uint32_t cell, size_t first, size_t end, tn_cell_count *count,
                             tn_error *error)
 {
-    tn_status status = tn_variants_spend(v, 1, error);
-    if (status == TN_OK && !tn_fits_wanted(&v->fits, &v->house.cells[cell])) {
+    if (!tn_fits_wanted(&v->fits, &v->house.cells[cell])) {
         *count = take_any(&v->own, first, end);
-        return TN_OK;
+        return tn_variants_spend(v, 1, error);
     }
+    tn_status status;
     *count = (tn_cell_count){0};
-    while (status == TN_OK) {
+    do {
         size_t tiles = 0;
         set_kinds(v, &v->own, first, end);
-        status = tn_fits_count(&v->fits, &v->house, cell, &tiles, error);
+        status = tn_variants_spend(v, 1, error);
+        if (status == TN_OK)
+            status = tn_fits_count(&v->fits, &v->house, cell, &tiles, error);
         count->houses += tiles;
         count->faced += tiles > 0;
-        if (!tn_wheels_turn(&v->own, first, end))
-            break;
-        if (status == TN_OK)
-            status = tn_variants_spend(v, 1, error);
-    }
+    } while (status == TN_OK && tn_wheels_turn(&v->own, first, end));
     return status;
 }
 
