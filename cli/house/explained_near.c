@@ -48,7 +48,12 @@ static tn_status write_near(void *context, const tn_house_change *change, const 
 
 /* ---- several changes */
 
-enum { BEAM = 16, DEPTH = 8, NODES = 1 + BEAM * DEPTH };
+enum {
+    BEAM = 16,
+    DEPTH = 8,
+    NODES = 1 + BEAM * DEPTH,
+    TRIED_MAX = 400000 /* cells of houses that are looked at: about a second */
+};
 
 /* A house that was come to by changes. */
 typedef struct near_node {
@@ -63,7 +68,7 @@ typedef struct beam {
     tn_house_explaining *e;
     const tn_house *from;
     bool few_sections; /* of nodes that as many clauses drop, those with fewer changes of the section are better */
-    size_t parent, first, count;
+    size_t parent, first, count, tried;
     near_node nodes[NODES];
 } beam;
 
@@ -124,6 +129,7 @@ static tn_status see_change(void *context, const tn_house_change *change, const 
     beam *b = context;
     near_node node = {.parent = b->parent};
     tn_buffer line = {0};
+    b->tried += changed->cell_count;
     tn_change_text(b->from, change, &node.words);
     if (is_chosen(b, b->parent, node.words.where))
         return TN_OK;
@@ -187,7 +193,7 @@ static tn_status search(beam *b, int *depth, tn_error *error)
     b->count = 1;
     for (int d = 1; status == TN_OK && *depth == 0 && d <= DEPTH && level < end; d++) {
         b->first = b->count;
-        for (size_t i = level; status == TN_OK && i < end; i++)
+        for (size_t i = level; status == TN_OK && i < end && b->tried < TRIED_MAX; i++)
             status = expand(b, i, error);
         level = b->first;
         end = b->count;
