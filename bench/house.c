@@ -203,6 +203,7 @@ static void bench_plan(const subject *s, const char *line, size_t runs)
 typedef struct drawn {
     tn_houses *all;
     tn_house_variants *variants;
+    tn_house_ranks *by_rank;
     mpz_t *ranks;
     size_t count;
     tn_tray *trays;
@@ -217,6 +218,7 @@ static void draw(const subject *s, size_t count, drawn *d)
     d->trays = malloc(((size_t)tn_library_max(s->plans) + 1) * sizeof *d->trays);
     if (!d->ranks || !d->trays)
         stop("out of memory");
+    must(tn_house_ranks_new(d->all, d->variants, &d->by_rank, &error), &error);
     for (size_t i = 0; i < count; i++)
         mpz_init(d->ranks[i]);
     tn_houses_count(d->all, TN_ALL_LENGTHS, bound);
@@ -230,10 +232,12 @@ static void take(drawn *d, size_t i, tn_house *house)
 {
     mpz_t rank;
     uint32_t length;
+    tn_plan_houses *plan;
     tn_error error = {0};
     mpz_init_set(rank, d->ranks[i]);
-    must(tn_houses_find(d->all, rank, d->trays, &length, &error), &error);
-    must(tn_houses_at(d->all, d->variants, d->trays, length, rank, house, &error), &error);
+    must(tn_house_ranks_find(d->by_rank, rank, d->trays, &length, &error), &error);
+    must(tn_house_ranks_plan(d->by_rank, d->trays, length, &plan, &error), &error);
+    must(tn_plan_houses_at(plan, rank, house, &error), &error);
     mpz_clear(rank);
 }
 
@@ -243,11 +247,12 @@ static void drawn_clear(drawn *d)
         mpz_clear(d->ranks[i]);
     free(d->ranks);
     free(d->trays);
+    tn_house_ranks_free(d->by_rank);
     tn_house_variants_free(d->variants);
     tn_houses_free(d->all);
 }
 
-/* Ranks ascend: what is found of one plan is no help for the next, as they are taken in another order. */
+/* Ranks ascend: they are taken in another order. */
 static void bench_unrank(const subject *s, size_t runs)
 {
     drawn d;

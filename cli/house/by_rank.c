@@ -24,15 +24,6 @@ tn_status tn_numbered_all(tn_numbered *n, tn_error *error)
     return n->all ? TN_OK : tn_numbered_of(n, &all, &n->all, error);
 }
 
-tn_status tn_numbered_find(tn_houses *houses, mpz_t rank, tn_tray *trays, uint32_t *length, tn_error *error)
-{
-    tn_progress progress;
-    tn_progress_watch(&progress, "looking for the plan", tn_interrupt_waiting());
-    tn_status status = tn_houses_find(houses, rank, trays, length, error);
-    tn_progress_unwatch(&progress, tn_interrupt_waiting());
-    return status;
-}
-
 /* rest: the rank, of which the houses before its plan are taken. */
 static tn_status locate(tn_numbered *n, mpz_t rest, mpz_t plan, tn_error *error)
 {
@@ -40,7 +31,7 @@ static tn_status locate(tn_numbered *n, mpz_t rest, mpz_t plan, tn_error *error)
     tn_tray *trays = tn_numbered_tray_room(n, error);
     if (!trays)
         return TN_MEMORY;
-    tn_status status = tn_numbered_find(n->all, rest, trays, &length, error);
+    tn_status status = tn_numbered_find(n, n->all, rest, trays, &length, error);
     if (status == TN_OK && !tn_library_rank(n->plans, trays, length, plan))
         status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a house stands on a plan that is not in the library");
     free(trays);
@@ -178,7 +169,7 @@ static tn_status find_house(tn_numbered *n, const mpz_t rank, tn_house *house, t
     if (!trays)
         return TN_MEMORY;
     mpz_init_set(rest, rank);
-    tn_status status = tn_numbered_find(n->all, rest, trays, &length, error);
+    tn_status status = tn_numbered_find(n, n->all, rest, trays, &length, error);
     if (status == TN_OK)
         status = tn_numbered_at(n, trays, length, rest, house, error);
     mpz_clear(rest);

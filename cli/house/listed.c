@@ -68,12 +68,13 @@ static tn_status list_through(tn_house_variants *variants, house_list *list, con
 }
 
 /* From house to house by their numbers: that takes a while for each, but nothing that clauses drop is gone through. */
-static tn_status list_by_number(tn_numbered *n, house_list *list, const mpz_t houses, tn_error *error)
+static tn_status list_by_number(tn_numbered *n, house_list *list, tn_plan_houses *plan, const mpz_t houses,
+                                tn_error *error)
 {
     tn_status status = TN_OK;
     while (status == TN_OK && find_variant(list, houses)) {
         tn_house house;
-        status = tn_plan_houses_at(n->on_plan.houses, list->variant, &house, error);
+        status = tn_plan_houses_at(plan, list->variant, &house, error);
         if (status == TN_OK)
             status = tn_house_variants_tiles_from(n->variants, &house, write_house, list, error);
         tn_house_clear(&house);
@@ -106,14 +107,14 @@ static tn_status list_many(tn_numbered *n, house_list *list, const tn_tray *tray
         return list_through(n->variants, list, trays, length, houses, error);
     if (status != TN_OK)
         return status;
-    tn_houses_count(n->on_plan.counted, TN_ALL_LENGTHS, houses);
+    tn_houses_count(n->ranked.counted, TN_ALL_LENGTHS, houses);
     status = TN_LIMIT;
     if (!wants_few(list, houses))
         status = list_through(n->variants, list, trays, length, houses, error);
     if (status != TN_LIMIT)
         return status;
-    tn_houses_count(n->on_plan.counted, TN_ALL_LENGTHS, houses);
-    return list_by_number(n, list, houses, error);
+    tn_houses_count(n->ranked.counted, TN_ALL_LENGTHS, houses);
+    return list_by_number(n, list, plan, houses, error);
 }
 
 /* Writes the houses on a plan that are asked for. */

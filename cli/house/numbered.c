@@ -78,7 +78,7 @@ bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *sett
 
 void tn_numbered_close(tn_numbered *n)
 {
-    tn_numbered_forget_plan(n);
+    tn_numbered_forget_ranks(n);
     tn_house_variants_free(n->quick);
     tn_houses_free(n->all);
     tn_house_variants_free(n->variants);
@@ -96,13 +96,13 @@ tn_status tn_numbered_other(const tn_numbered *n, const tn_module *module, const
     other->opened = NULL;
     other->variants = other->quick = NULL;
     other->all = NULL;
-    other->on_plan = (tn_numbered_plan_found){0};
+    other->ranked = (tn_numbered_ranked){0};
     return tn_house_variants_new(&other->form, record, 0, &other->variants, error);
 }
 
 void tn_numbered_other_close(tn_numbered *other)
 {
-    tn_numbered_forget_plan(other);
+    tn_numbered_forget_ranks(other);
     tn_house_variants_free(other->quick);
     tn_houses_free(other->all);
     tn_house_variants_free(other->variants);

@@ -8,14 +8,14 @@
 #include "runtime/house/variant/variant.h"
 #include "runtime/plan/library/library.h"
 
-/* The houses on the plan that was asked for last. counted: NULL, or those on this plan alone. */
-typedef struct tn_numbered_plan_found {
+/* The houses that were asked for last by number. counted: NULL, or those on one plan alone, which is this one. */
+typedef struct tn_numbered_ranked {
     const tn_houses *among;
+    tn_house_ranks *ranks; /* or NULL */
     tn_houses *counted;
-    tn_plan_houses *houses; /* or NULL */
     tn_tray *trays;
     uint32_t length;
-} tn_numbered_plan_found;
+} tn_numbered_ranked;
 
 typedef struct tn_numbered {
     tn_job *job;
@@ -27,7 +27,7 @@ typedef struct tn_numbered {
     tn_house_variants *variants;
     tn_house_variants *quick; /* with a small limit of work, or NULL: not asked for */
     tn_houses *all;           /* or NULL: not asked for */
-    tn_numbered_plan_found on_plan;
+    tn_numbered_ranked ranked;
     uint32_t max_states;
 } tn_numbered;
 
@@ -51,8 +51,10 @@ tn_status tn_numbered_clauses(tn_numbered *n, mpz_t *kept_out, mpz_t *alone, tn_
 /* Counts houses together; on a terminal it says for how long. Free them with tn_houses_free. */
 tn_status tn_numbered_of(tn_numbered *n, const tn_houses_what *what, tn_houses **houses, tn_error *error);
 
-/* The plan of a rank (tn_houses_find), saying so on a terminal where that takes long, as it does the first time. */
-tn_status tn_numbered_find(tn_houses *houses, mpz_t rank, tn_tray *trays, uint32_t *length, tn_error *error);
+/* The plan of a rank among these (tn_houses_find), saying so on a terminal where that takes long, as it does the first
+ * time. */
+tn_status tn_numbered_find(tn_numbered *n, tn_houses *among, mpz_t rank, tn_tray *trays, uint32_t *length,
+                           tn_error *error);
 
 /* All houses together, in n->all: counted now or before. TN_LIMIT (E1640) where that takes too much. */
 tn_status tn_numbered_all(tn_numbered *n, tn_error *error);
@@ -61,11 +63,11 @@ tn_status tn_numbered_all(tn_numbered *n, tn_error *error);
 tn_status tn_numbered_on_plan(tn_numbered *n, const tn_tray *trays, uint32_t length, tn_houses **houses,
                               tn_error *error);
 
-/* The houses on a plan, among these (NULL: they are counted for this plan). They are n's until it is asked for another
- * plan. */
+/* The houses on a plan, among these (NULL: they are counted for this plan). They are n's until it is asked for others.
+ */
 tn_status tn_numbered_among(tn_numbered *n, tn_houses *among, const tn_tray *trays, uint32_t length,
                             tn_plan_houses **houses, tn_error *error);
-void tn_numbered_forget_plan(tn_numbered *n);
+void tn_numbered_forget_ranks(tn_numbered *n);
 
 /* The house of a number on a plan. Clear *house in any case. */
 tn_status tn_numbered_at(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant, tn_house *house,

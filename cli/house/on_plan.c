@@ -2,14 +2,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/common/interrupt.h"
+#include "cli/common/progress.h"
 #include "cli/house/numbered_parts.h"
 
-void tn_numbered_forget_plan(tn_numbered *n)
+void tn_numbered_forget_ranks(tn_numbered *n)
 {
-    tn_plan_houses_free(n->on_plan.houses);
-    tn_houses_free(n->on_plan.counted);
-    free(n->on_plan.trays);
-    n->on_plan = (tn_numbered_plan_found){0};
+    tn_house_ranks_free(n->ranked.ranks);
+    tn_houses_free(n->ranked.counted);
+    free(n->ranked.trays);
+    n->ranked = (tn_numbered_ranked){0};
 }
 
 tn_status tn_numbered_on_plan(tn_numbered *n, const tn_tray *trays, uint32_t length, tn_houses **houses,
@@ -19,44 +21,63 @@ tn_status tn_numbered_on_plan(tn_numbered *n, const tn_tray *trays, uint32_t len
     return tn_numbered_of(n, &what, houses, error);
 }
 
-static bool is_found(const tn_numbered_plan_found *found, const tn_houses *among, const tn_tray *trays, uint32_t length)
+/* among: NULL for those on this plan alone. */
+static bool is_ranked(const tn_numbered_ranked *ranked, const tn_houses *among, const tn_tray *trays, uint32_t length)
 {
-    return found->houses && found->among == among && found->length == length &&
-           memcmp(found->trays, trays, length * sizeof *trays) == 0;
+    bool same = ranked->ranks && ranked->among == among;
+    return same && (among || (ranked->length == length && memcmp(ranked->trays, trays, length * sizeof *trays) == 0));
 }
 
-static tn_status find(tn_numbered *n, tn_houses *among, const tn_tray *trays, uint32_t length, tn_error *error)
+static tn_status count_alone(tn_numbered *n, const tn_tray *trays, uint32_t length, tn_error *error)
 {
-    tn_numbered_plan_found *found = &n->on_plan;
-    *found = (tn_numbered_plan_found){.among = among, .length = length};
-    found->trays = malloc(((size_t)length + 1) * sizeof *trays);
-    if (!found->trays)
+    tn_numbered_ranked *ranked = &n->ranked;
+    ranked->length = length;
+    ranked->trays = malloc(((size_t)length + 1) * sizeof *trays);
+    if (!ranked->trays)
         return tn_fail_memory(error);
-    memcpy(found->trays, trays, length * sizeof *trays);
-    tn_status status = among ? TN_OK : tn_numbered_on_plan(n, found->trays, length, &found->counted, error);
-    return status == TN_OK ? tn_plan_houses_new(among ? among : found->counted, n->variants, found->trays, length,
-                                                &found->houses, error)
-                           : status;
+    memcpy(ranked->trays, trays, length * sizeof *trays);
+    return tn_numbered_on_plan(n, ranked->trays, length, &ranked->counted, error);
+}
+
+static tn_status rank(tn_numbered *n, tn_houses *among, const tn_tray *trays, uint32_t length, tn_error *error)
+{
+    if (is_ranked(&n->ranked, among, trays, length))
+        return TN_OK;
+    tn_numbered_forget_ranks(n);
+    n->ranked.among = among;
+    tn_status status = among ? TN_OK : count_alone(n, trays, length, error);
+    if (status == TN_OK)
+        status = tn_house_ranks_new(among ? among : n->ranked.counted, n->variants, &n->ranked.ranks, error);
+    if (status != TN_OK)
+        tn_numbered_forget_ranks(n);
+    return status;
 }
 
 tn_status tn_numbered_among(tn_numbered *n, tn_houses *among, const tn_tray *trays, uint32_t length,
                             tn_plan_houses **houses, tn_error *error)
 {
-    tn_status status = TN_OK;
-    if (!is_found(&n->on_plan, among, trays, length)) {
-        tn_numbered_forget_plan(n);
-        status = find(n, among, trays, length, error);
-    }
+    *houses = NULL;
+    tn_status status = rank(n, among, trays, length, error);
+    return status == TN_OK ? tn_house_ranks_plan(n->ranked.ranks, trays, length, houses, error) : status;
+}
+
+tn_status tn_numbered_find(tn_numbered *n, tn_houses *among, mpz_t number, tn_tray *trays, uint32_t *length,
+                           tn_error *error)
+{
+    tn_status status = rank(n, among, NULL, 0, error);
     if (status != TN_OK)
-        tn_numbered_forget_plan(n);
-    *houses = n->on_plan.houses;
+        return status;
+    tn_progress progress;
+    tn_progress_watch(&progress, "looking for the plan", tn_interrupt_waiting());
+    status = tn_house_ranks_find(n->ranked.ranks, number, trays, length, error);
+    tn_progress_unwatch(&progress, tn_interrupt_waiting());
     return status;
 }
 
 /* Goes through the houses one by one with few steps, where they are not counted yet. */
 static bool try_quick(const tn_numbered *n, const tn_tray *trays, uint32_t length)
 {
-    return !n->all && !is_found(&n->on_plan, NULL, trays, length);
+    return !n->all && !is_ranked(&n->ranked, NULL, trays, length);
 }
 
 static tn_status make_quick(tn_numbered *n, tn_error *error)

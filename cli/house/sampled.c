@@ -101,7 +101,7 @@ static tn_status sample_together(tn_numbered *n, tn_houses *houses, size_t wante
     tn_status status = trays ? sample_draw(&s, seed, rank, wanted, error) : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < s.count; i++) {
         mpz_set(rank, s.ranks[i]);
-        status = tn_numbered_find(houses, rank, trays, &length, error);
+        status = tn_numbered_find(n, houses, rank, trays, &length, error);
         if (status == TN_OK)
             status = use_house(n, &s, trays, length, rank, s.ranks[i], error);
     }
@@ -170,7 +170,7 @@ tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted,
         status = sample_together(n, houses, wanted, seed, use, context, error);
     else if (status == TN_OK)
         status = sample_one_by_one(n, plan, wanted, seed, use, context, error);
-    tn_numbered_forget_plan(n);
+    tn_numbered_forget_ranks(n);
     if (houses != n->all)
         tn_houses_free(houses);
     return status;

@@ -187,13 +187,13 @@ static void fuzz_together(const tn_house_form *form, const tn_house_library_reco
     if (tn_houses_new(form, library, plans, HOUSE_STATES, &houses, &error) == TN_OK) {
         tn_houses_count(houses, TN_ALL_LENGTHS, number);
         for (int last = 1; last >= 0 && mpz_sgn(number) > 0; last--) {
-            mpz_t rank;
-            mpz_init(rank);
+            mpz_t rank, on_plan;
+            mpz_inits(rank, on_plan, NULL);
             if (last)
                 mpz_sub_ui(rank, number, 1);
-            if (tn_houses_find(houses, rank, trays, &length, &error) == TN_INVALID)
+            if (tn_houses_find(houses, rank, trays, &length, on_plan, &error) == TN_INVALID)
                 fuzz_broken("a house that is counted has no rank");
-            mpz_clear(rank);
+            mpz_clears(rank, on_plan, NULL);
         }
         tn_houses_free(houses);
     }

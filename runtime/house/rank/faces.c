@@ -14,21 +14,24 @@
 
 /* Of all slices of a tray, or outcomes of a plane. `left`: those of a stretch, each with its number of choices. */
 typedef struct tn_left {
-    tn_strip_ordered all;
+    tn_strip_sequence all; /* borrowed */
     tn_strip_list left;
+    uint64_t *times;     /* [kinds of all] */
     size_t first, count; /* the stretch that `left` is of; count 0: of none yet */
 } tn_left;
 
 static void clear_left(tn_left *l)
 {
-    free(l->all.items);
     free(l->left.items);
+    free(l->times);
 }
 
-static int compare_words(const void *a, const void *b)
+static bool make_room(tn_left *l)
 {
-    uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
-    return (p > q) - (p < q);
+    size_t kinds = l->all.kind_count;
+    if (!l->times)
+        l->times = malloc((kinds + 1) * sizeof *l->times);
+    return l->times && tn_array_reserve(&l->left.items, &l->left.room, 0, kinds, sizeof *l->left.items);
 }
 
 /* Joins what is equal among [first, first + count). */
@@ -38,20 +41,15 @@ static tn_status gather(tn_left *l, size_t first, size_t count, tn_error *error)
         return TN_OK;
     if (first + count > l->all.count)
         return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a tray has other faces by itself than in the house");
-    uint32_t *items = malloc(count * sizeof *items);
-    if (!items || !tn_array_reserve(&l->left.items, &l->left.room, 0, count, sizeof *l->left.items)) {
-        free(items);
+    if (!make_room(l))
         return tn_fail_memory(error);
-    }
-    memcpy(items, l->all.items + first, count * sizeof *items);
-    qsort(items, count, sizeof *items, compare_words);
+    memset(l->times, 0, l->all.kind_count * sizeof *l->times);
+    for (size_t i = first; i < first + count; i++)
+        l->times[l->all.items[i]]++;
     l->left.count = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (l->left.count == 0 || l->left.items[l->left.count - 1].slice != items[i])
-            l->left.items[l->left.count++] = (tn_strip_choice){.slice = items[i]};
-        l->left.items[l->left.count - 1].times++;
-    }
-    free(items);
+    for (size_t k = 0; k < l->all.kind_count; k++)
+        if (l->times[k] > 0)
+            l->left.items[l->left.count++] = (tn_strip_choice){l->all.kinds[k], l->times[k]};
     l->first = first;
     l->count = count;
     return TN_OK;
@@ -77,64 +75,6 @@ static void clear_plane(tn_plane_left *plane)
         clear_left(&plane->of[i]);
     free(plane->of);
     tn_numbering_clear(&plane->edges);
-}
-
-/* ---- what is kept: choices of houses with the same functions are the same */
-
-struct tn_path_kept {
-    uint32_t *functions; /* [cells]; NULL: of none yet */
-    size_t cells;
-    tn_left *slices;       /* [length] */
-    tn_plane_left *planes; /* [length + 1] */
-};
-
-static void forget_kept(struct tn_path_kept *kept, uint32_t length)
-{
-    for (uint32_t i = 0; kept->slices && i < length; i++)
-        clear_left(&kept->slices[i]);
-    for (uint32_t i = 0; kept->planes && i <= length; i++)
-        clear_plane(&kept->planes[i]);
-    free(kept->functions);
-    free(kept->slices);
-    free(kept->planes);
-    *kept = (struct tn_path_kept){0};
-}
-
-void tn_path_kept_free(struct tn_path_kept *kept, uint32_t length)
-{
-    if (kept)
-        forget_kept(kept, length);
-    free(kept);
-}
-
-static bool is_kept(const struct tn_path_kept *kept, const tn_house *house)
-{
-    bool same = kept->functions && kept->cells == house->cell_count;
-    for (size_t i = 0; same && i < house->cell_count; i++)
-        same = kept->functions[i] == house->cells[i].function;
-    return same;
-}
-
-static tn_status keep(tn_plan_path *path, const tn_house *house, tn_error *error)
-{
-    path->kept = path->kept ? path->kept : calloc(1, sizeof *path->kept);
-    struct tn_path_kept *kept = path->kept;
-    if (kept && is_kept(kept, house))
-        return TN_OK;
-    if (!kept)
-        return tn_fail_memory(error);
-    forget_kept(kept, path->length);
-    kept->slices = calloc((size_t)path->length + 1, sizeof *kept->slices);
-    kept->planes = calloc((size_t)path->length + 1, sizeof *kept->planes);
-    kept->functions = malloc((house->cell_count + 1) * sizeof *kept->functions);
-    if (!kept->slices || !kept->planes || !kept->functions) {
-        forget_kept(kept, path->length);
-        return tn_fail_memory(error);
-    }
-    kept->cells = house->cell_count;
-    for (size_t i = 0; i < house->cell_count; i++)
-        kept->functions[i] = house->cells[i].function;
-    return TN_OK;
 }
 
 static tn_status outcomes_of(tn_plan_path *a, tn_plane_left *plane, uint32_t left, uint32_t right,
@@ -175,9 +115,11 @@ typedef struct tn_facing {
     const tn_path_slices *of_tray;
     uint32_t tray;
     tn_places before, after; /* the tray, with the faces so far */
-    tn_left *slices;
+    tn_places behind;        /* it: how many houses go on from places there, with these choices at its right: */
+    tn_choice_stretch behind_by;
+    tn_left slices;
     tn_choice_stretch inner;
-    tn_plane_left *left, *right;
+    tn_plane_left left, right;
     mpz_t one;
 } tn_facing;
 
@@ -195,19 +137,25 @@ static void clear_places(tn_places *places)
     tn_integers_free(places->choices, places->room);
 }
 
-static tn_status add_place(tn_places *places, uint32_t edge, uint32_t state, const mpz_t choices, uint64_t times,
-                           tn_error *error)
+static tn_status find_place(tn_places *places, uint64_t place, uint32_t *at, tn_error *error)
 {
     size_t before = places->room;
     if (!tn_array_reserve_from(&places->choices, &places->room, 16, places->keys.count, 1, sizeof *places->choices))
         return tn_fail_memory(error);
     for (size_t i = before; i < places->room; i++)
         mpz_init(places->choices[i]);
-    uint32_t at = tn_number(&places->keys, (uint64_t)edge << 32 | state);
-    if (at == UINT32_MAX)
-        return tn_fail_memory(error);
-    mpz_addmul_ui(places->choices[at], choices, times);
-    return TN_OK;
+    *at = tn_number(&places->keys, place);
+    return *at == UINT32_MAX ? tn_fail_memory(error) : TN_OK;
+}
+
+static tn_status add_place(tn_places *places, uint32_t edge, uint32_t state, const mpz_t choices, uint64_t times,
+                           tn_error *error)
+{
+    uint32_t at;
+    tn_status status = find_place(places, (uint64_t)edge << 32 | state, &at, error);
+    if (status == TN_OK)
+        mpz_addmul_ui(places->choices[at], choices, times);
+    return status;
 }
 
 /* ---- through the tray */
@@ -231,16 +179,16 @@ static tn_status go_to(void *context, uint32_t state, uint64_t times, uint64_t f
 static tn_status go_through(tn_facing *f, tn_error *error)
 {
     tn_strip *strip = f->path->kind.strip;
-    tn_status status = gather(f->slices, f->inner.first, f->inner.count, error);
+    tn_status status = gather(&f->slices, f->inner.first, f->inner.count, error);
     empty(&f->after);
     for (uint32_t i = 0; status == TN_OK && i < f->before.keys.count; i++) {
         uint32_t edge = tn_high(f->before.keys.keys[i]), state = tn_low(f->before.keys.keys[i]);
         status = tn_watch_check(strip->watch, error);
-        for (size_t k = 0; status == TN_OK && k < f->slices->left.count; k++) {
-            const tn_strip_choice *slice = &f->slices->left.items[k];
+        for (size_t k = 0; status == TN_OK && k < f->slices.left.count; k++) {
+            const tn_strip_choice *slice = &f->slices.left.items[k];
             const tn_strip_list *outcomes;
             tn_going g = {&f->after, strip->slices[slice->slice].exit, f->one};
-            status = outcomes_of(f->path, f->left, edge, strip->slices[slice->slice].entry, &outcomes, error);
+            status = outcomes_of(f->path, &f->left, edge, strip->slices[slice->slice].entry, &outcomes, error);
             mpz_mul_ui(f->one, f->before.choices[i], slice->times);
             if (status == TN_OK)
                 status = tn_path_step(f->path, f->tray, state, slice->slice, outcomes, go_to, &g, error);
@@ -261,7 +209,7 @@ static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_erro
     mpz_set_ui(sum->houses, 0);
     if (next == a->length) {
         sum->ahead = NULL;
-        status = outcomes_of(a, f->right, edge, TN_STRIP_NONE, &outcomes, error);
+        status = outcomes_of(a, &f->right, edge, TN_STRIP_NONE, &outcomes, error);
         return status == TN_OK ? tn_path_step(a, next, state, TN_STRIP_NONE, outcomes, tn_path_add, sum, error)
                                : status;
     }
@@ -273,13 +221,26 @@ static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_erro
     for (size_t k = 0; status == TN_OK && k < f->of_tray[next].count; k++) {
         const tn_strip_choice *slice = &f->of_tray[next].items[k];
         mpz_set_ui(sum->houses, 0);
-        status = outcomes_of(a, f->right, edge, a->kind.strip->slices[slice->slice].entry, &outcomes, error);
+        status = outcomes_of(a, &f->right, edge, a->kind.strip->slices[slice->slice].entry, &outcomes, error);
         if (status == TN_OK)
             status = tn_path_step(a, next, state, slice->slice, outcomes, tn_path_add, sum, error);
         mpz_addmul_ui(all, sum->houses, slice->times);
     }
     mpz_swap(sum->houses, all);
     mpz_clear(all);
+    return status;
+}
+
+/* *houses: the same, found once for the choices at the tray's right; good until the next. */
+static tn_status find_behind(tn_facing *f, uint64_t place, tn_path_sum *sum, mpz_ptr *houses, tn_error *error)
+{
+    uint32_t at, known = f->behind.keys.count;
+    tn_status status = find_place(&f->behind, place, &at, error);
+    if (status == TN_OK && at == known) {
+        status = look_on(f, place, sum, error);
+        mpz_set(f->behind.choices[at], sum->houses);
+    }
+    *houses = status == TN_OK ? f->behind.choices[at] : sum->houses;
     return status;
 }
 
@@ -290,9 +251,13 @@ static tn_status count_on(tn_facing *f, mpz_t houses, tn_error *error)
     tn_status status = TN_OK;
     mpz_init(sum.houses);
     mpz_set_ui(houses, 0);
+    if (f->behind_by.first != f->right.stretch.first || f->behind_by.count != f->right.stretch.count)
+        empty(&f->behind);
+    f->behind_by = f->right.stretch;
     for (uint32_t i = 0; status == TN_OK && i < f->after.keys.count; i++) {
-        status = look_on(f, f->after.keys.keys[i], &sum, error);
-        mpz_addmul(houses, sum.houses, f->after.choices[i]);
+        mpz_ptr behind;
+        status = find_behind(f, f->after.keys.keys[i], &sum, &behind, error);
+        mpz_addmul(houses, behind, f->after.choices[i]);
     }
     mpz_clear(sum.houses);
     return status;
@@ -311,7 +276,7 @@ static tn_choice_stretch *stretch_of(tn_facing *f, const tn_face *face)
 {
     if (tn_face_is_inner(face))
         return &f->inner;
-    return face->side == TN_HOUSE_LEFT ? &f->left->stretch : &f->right->stretch;
+    return face->side == TN_HOUSE_LEFT ? &f->left.stretch : &f->right.stretch;
 }
 
 /* *found: does the house have one of the kinds? */
@@ -360,23 +325,30 @@ static void begin_plane(const tn_facing *f, uint32_t place, tn_plane_left *plane
     plane->stretch.count = choices_at(house, place > 0 ? cells->at.x1 : cells->at.x0);
 }
 
+static void clear_tray(tn_facing *f)
+{
+    clear_left(&f->slices);
+    clear_plane(&f->left);
+    f->slices = (tn_left){0};
+    f->left = (tn_plane_left){0};
+}
+
 /* The plane at the right of the last tray is that at the left of this one: part of it is chosen. */
 static tn_status begin_tray(tn_facing *f, uint32_t tray, tn_error *error)
 {
-    struct tn_path_kept *kept = f->path->kept;
     tn_house *house = f->house;
+    uint32_t first = house->tray_first[tray];
+    clear_tray(f);
+    empty(&f->behind);
     f->tray = tray;
-    f->slices = &kept->slices[tray];
-    f->left = &kept->planes[tray];
-    f->right = &kept->planes[tray + 1];
+    f->left = f->right;
+    f->right = (tn_plane_left){0};
     if (tray == 0)
-        begin_plane(f, 0, f->left);
-    begin_plane(f, tray + 1, f->right);
-    tn_status status = TN_OK;
-    if (f->slices->all.count == 0)
-        status = tn_strip_slices_ordered(f->path->kind.strip, house->trays[tray],
-                                         &house->cells[house->tray_first[tray]], &f->slices->all, error);
-    f->inner = (tn_choice_stretch){0, f->slices->all.count};
+        begin_plane(f, 0, &f->left);
+    begin_plane(f, tray + 1, &f->right);
+    tn_status status = tn_strip_slices_ordered(f->path->kind.strip, house->trays[tray], &house->cells[first],
+                                               house->tray_first[tray + 1] - first, &f->slices.all, error);
+    f->inner = (tn_choice_stretch){0, f->slices.all.count};
     return status;
 }
 
@@ -437,9 +409,8 @@ tn_status tn_path_faces(tn_plan_path *a, const tn_choosing *choosing, tn_house *
     tn_facing f = {.path = a, .choosing = choosing, .house = house, .of_tray = of_tray};
     mpz_init_set_ui(f.one, 1);
     *found = true;
-    tn_status status = keep(a, house, error);
-    if (status == TN_OK)
-        status = look_ahead(a, of_tray, error);
+    tn_strip_orders_trim(a->kind.strip);
+    tn_status status = look_ahead(a, of_tray, error);
     if (status == TN_OK)
         status = add_place(&f.before, TN_STRIP_NONE, TN_STRIP_NONE, f.one, 1, error);
     for (uint32_t i = 0; status == TN_OK && *found && i < a->length; i++) {
@@ -450,10 +421,11 @@ tn_status tn_path_faces(tn_plan_path *a, const tn_choosing *choosing, tn_house *
             status = check_left(&f, found, error);
         go_on(&f);
     }
-    if (status != TN_OK && a->kept)
-        forget_kept(a->kept, a->length); /* which may be found by half */
+    clear_tray(&f);
+    clear_plane(&f.right);
     clear_places(&f.before);
     clear_places(&f.after);
+    clear_places(&f.behind);
     mpz_clear(f.one);
     return status;
 }

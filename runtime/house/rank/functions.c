@@ -3,6 +3,7 @@
  * Where a step has stages, that is from the arrivals of the slice's group; else from the states before the tray. */
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/integers.h"
 #include "runtime/house/rank/path.h"
 
@@ -11,9 +12,9 @@
 /* The nodes of a layer, and how many choices lead there. */
 typedef struct tn_coming {
     tn_plan_path *path;
-    uint32_t tray, layer;
-    mpz_t *here;     /* [nodes] */
-    uint32_t *order; /* [nodes]: by group, where they are arrivals */
+    uint32_t tray, layer, beginning; /* beginning: the functions so far, of those that are kept */
+    mpz_t *here;                     /* [nodes] */
+    uint32_t *order;                 /* [nodes]: by group, where they are arrivals */
     mpz_t one;
 } tn_coming;
 
@@ -149,7 +150,7 @@ static tn_status go_by(const tn_coming *c, uint32_t i, uint32_t slice, tn_strip_
 }
 
 /* houses += those that have this slice in this place, with the functions so far. */
-static tn_status add_slice(const tn_coming *c, const tn_strip_functioned *slice, mpz_t houses, tn_error *error)
+static tn_status add_slice(const tn_coming *c, const tn_strip_furnished *slice, mpz_t houses, tn_error *error)
 {
     const tn_plan_path *path = c->path;
     tn_path_sum sum = {.path = path, .trays = c->tray + 1, .ahead = tn_path_layer(path, c->tray + 1)->ahead};
@@ -206,53 +207,85 @@ static tn_status take_slice(tn_coming *c, const tn_strip_choice *slice, tn_error
 
 /* ---- functions */
 
-/* The slices of a tray, by functions in order. */
-typedef struct tn_functioned {
-    const tn_strip_functioned *items;
-    size_t count;
-} tn_functioned;
-
-static bool has_functions(const tn_strip_functioned *slice, const tn_house *house, uint32_t tray)
+/* The slices of a tray [first, end), by functions in order, have the same ones. */
+static size_t end_of(const tn_strip_furnished_list *slices, size_t first)
 {
+    size_t end = first;
+    while (end < slices->count && slices->items[end].functions == slices->items[first].functions)
+        end++;
+    return end;
+}
+
+static bool has_functions(const tn_coming *c, uint32_t number, const tn_house *house)
+{
+    size_t cells;
+    const uint32_t *functions = tn_interned(&c->path->kind.strip->functions, number, &cells);
     bool same = house != NULL;
-    for (size_t i = 0; same && i < slice->cells; i++)
-        same = house->cells[house->tray_first[tray] + i].function == slice->functions[i];
+    for (size_t i = 0; same && i < cells; i++)
+        same = house->cells[house->tray_first[c->tray] + i].function == functions[i];
     return same;
 }
 
-/* The slices [*first, *end) have the functions of the house. *found: does one? */
-static tn_status choose(const tn_coming *c, const tn_choosing *choosing, const tn_functioned *slices, size_t *first,
-                        size_t *end, bool *found, tn_error *error)
+/* houses := those with these slices in this place, and the functions so far. */
+static tn_status count_houses(const tn_coming *c, const tn_strip_furnished *slices, size_t count, mpz_t houses,
+                              tn_error *error)
 {
-    mpz_t houses;
-    mpz_init(houses);
     tn_status status = TN_OK;
-    *found = false;
-    for (*first = *end = 0; status == TN_OK && !*found && *end < slices->count;) {
-        *first = *end;
-        mpz_set_ui(houses, 0);
-        for (; status == TN_OK && *end < slices->count &&
-               tn_strip_functioned_compare(&slices->items[*first], &slices->items[*end]) == 0;
-             ++*end)
-            status = add_slice(c, &slices->items[*end], houses, error);
-        *found =
-            status == TN_OK &&
-            !tn_choosing_passes(choosing, houses, has_functions(&slices->items[*first], choosing->wanted, c->tray));
-    }
-    mpz_clear(houses);
+    mpz_set_ui(houses, 0);
+    for (size_t i = 0; status == TN_OK && i < count; i++)
+        status = add_slice(c, &slices[i], houses, error);
     return status;
 }
 
+/* The same, found once: they are the `at`th of what the tray can be with the functions so far. Good until the next. */
+static tn_status find_houses(const tn_coming *c, size_t at, const tn_strip_furnished *slices, size_t count,
+                             mpz_ptr *houses, tn_error *error)
+{
+    tn_path_numbers *numbers = &c->path->by_functions[c->beginning];
+    if (at == numbers->count) {
+        if (!tn_array_reserve_from(&numbers->items, &numbers->room, 4, at, 1, sizeof *numbers->items))
+            return tn_fail_memory(error);
+        mpz_init(numbers->items[numbers->count++]);
+        c->path->number_count++;
+        tn_status status = count_houses(c, slices, count, numbers->items[at], error);
+        if (status != TN_OK) {
+            mpz_clear(numbers->items[--numbers->count]);
+            return status;
+        }
+    }
+    *houses = numbers->items[at];
+    return TN_OK;
+}
+
+/* The slices [*first, *end) have the functions of the house. *found: does one? */
+static tn_status choose(tn_coming *c, const tn_choosing *choosing, const tn_strip_furnished_list *slices, size_t *first,
+                        size_t *end, bool *found, tn_error *error)
+{
+    mpz_ptr houses = NULL;
+    tn_status status = TN_OK;
+    *found = false;
+    for (size_t i = 0, next = 0; status == TN_OK && !*found && next < slices->count; i++) {
+        *first = next;
+        *end = next = end_of(slices, *first);
+        status = find_houses(c, i, &slices->items[*first], *end - *first, &houses, error);
+        *found =
+            status == TN_OK &&
+            !tn_choosing_passes(choosing, houses, has_functions(c, slices->items[*first].functions, choosing->wanted));
+    }
+    return status;
+}
 /* The tray has the functions of these slices. */
-static tn_status take(tn_coming *c, const tn_strip_functioned *slices, size_t count, tn_house *house,
+static tn_status take(tn_coming *c, const tn_strip_furnished *slices, size_t count, tn_house *house,
                       tn_path_slices *taken, tn_error *error)
 {
-    tn_status status = TN_OK;
-    for (size_t i = 0; i < slices->cells; i++)
-        house->cells[house->tray_first[c->tray] + i].function = slices->functions[i];
+    size_t cells;
+    const uint32_t *functions = tn_interned(&c->path->kind.strip->functions, slices->functions, &cells);
+    for (size_t i = 0; i < cells; i++)
+        house->cells[house->tray_first[c->tray] + i].function = functions[i];
     taken->items = malloc((count + 1) * sizeof *taken->items);
-    if (!taken->items)
+    if (!taken->items || !tn_key_push(&c->path->beginning, slices->functions))
         return tn_fail_memory(error);
+    tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         taken->items[taken->count++] = (tn_strip_choice){slices[i].slice, slices[i].times};
         status = take_slice(c, &taken->items[i], error);
@@ -263,19 +296,45 @@ static tn_status take(tn_coming *c, const tn_strip_functioned *slices, size_t co
 static tn_status choose_tray(tn_coming *c, const tn_choosing *choosing, tn_house *house, tn_path_slices *taken,
                              bool *found, tn_error *error)
 {
-    tn_functioned slices = {0};
+    const tn_strip_furnished_list *slices = &c->path->kind.strip->furnished[house->trays[c->tray]];
     size_t first = 0, end = 0;
-    tn_strip_functioned *items = tn_strip_functioned_of(c->path->kind.strip, house->trays[c->tray], &slices.count);
-    slices.items = items;
-    tn_status status = items ? choose(c, choosing, &slices, &first, &end, found, error) : tn_fail_memory(error);
-    if (status == TN_OK && *found)
-        status = take(c, items + first, end - first, house, taken, error);
-    free(items);
-    return status;
+    tn_status status = choose(c, choosing, slices, &first, &end, found, error);
+    return status == TN_OK && *found ? take(c, slices->items + first, end - first, house, taken, error) : status;
+}
+
+/* ---- numbers that are kept */
+
+void tn_path_forget_numbers(tn_plan_path *path)
+{
+    for (uint32_t i = 0; i < path->beginnings.count; i++)
+        tn_integers_free(path->by_functions[i].items, path->by_functions[i].count);
+    free(path->by_functions);
+    tn_interner_clear(&path->beginnings);
+    path->beginnings = (tn_interner){0};
+    path->by_functions = NULL;
+    path->beginning_room = path->number_count = 0;
+}
+
+/* *beginning: the place of the functions so far. */
+static tn_status find_beginning(tn_plan_path *path, uint32_t *beginning, tn_error *error)
+{
+    uint32_t before = path->beginnings.count;
+    if (!tn_array_reserve_from(&path->by_functions, &path->beginning_room, 4, before, 1, sizeof *path->by_functions))
+        return tn_fail_memory(error);
+    *beginning = tn_intern(&path->beginnings, path->beginning.data, path->beginning.size);
+    if (*beginning == UINT32_MAX)
+        return tn_fail_memory(error);
+    if (*beginning == before)
+        path->by_functions[before] = (tn_path_numbers){0};
+    return TN_OK;
 }
 
 static void begin(tn_plan_path *path)
 {
+    enum { NUMBERS_MOST = 1 << 16 };
+    if (path->number_count > NUMBERS_MOST)
+        tn_path_forget_numbers(path);
+    path->beginning.size = 0;
     for (uint32_t layer = 0; layer <= path->length; layer++)
         for (uint32_t i = 0; i < tn_path_layer(path, layer)->nodes.count; i++)
             mpz_set_ui(path->states[layer].here[i], 0);
@@ -291,6 +350,8 @@ tn_status tn_path_functions(tn_plan_path *path, const tn_choosing *choosing, tn_
     for (uint32_t i = 0; status == TN_OK && *found && i < path->length; i++) {
         tn_coming c;
         status = begin_tray(&c, path, i, error);
+        if (status == TN_OK)
+            status = find_beginning(path, &c.beginning, error);
         if (status == TN_OK)
             status = choose_tray(&c, choosing, house, &of_tray[i], found, error);
         end_tray(&c);

@@ -41,6 +41,15 @@ void tn_plan_houses_free(tn_plan_houses *p)
     free(p);
 }
 
+size_t tn_plan_houses_nodes(const tn_plan_houses *p)
+{
+    size_t nodes = 0;
+    for (size_t i = 0; i < p->houses->kind_count; i++)
+        for (uint32_t layer = 0; p->kinds[i].states && layer <= p->length * p->kinds[i].stages; layer++)
+            nodes += p->kinds[i].kind.layers[layer].nodes.count;
+    return nodes;
+}
+
 static tn_status path_of(tn_plan_houses *p, const tn_house *section, tn_plan_path **path, tn_error *error)
 {
     const tn_houses_kind *kind = tn_houses_kind_of(p->houses, section);
@@ -124,17 +133,5 @@ tn_status tn_plan_houses_number(tn_plan_houses *p, const tn_house *house, mpz_t 
     mpz_add(variant, variant, tiles);
     tn_house_clear(&faced);
     mpz_clear(tiles);
-    return status;
-}
-
-tn_status tn_houses_at(tn_houses *h, tn_house_variants *variants, const tn_tray *trays, uint32_t length,
-                       const mpz_t variant, tn_house *house, tn_error *error)
-{
-    tn_plan_houses *plan = NULL;
-    *house = (tn_house){0};
-    tn_status status = tn_plan_houses_new(h, variants, trays, length, &plan, error);
-    if (status == TN_OK)
-        status = tn_plan_houses_at(plan, variant, house, error);
-    tn_plan_houses_free(plan);
     return status;
 }

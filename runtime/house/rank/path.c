@@ -23,7 +23,8 @@ void tn_path_clear(tn_plan_path *p)
         tn_integers_free(p->states[i].like, tn_path_layer(p, i)->nodes.count);
     }
     free(p->states);
-    tn_path_kept_free(p->kept, p->length);
+    tn_path_forget_numbers(p);
+    free(p->beginning.data);
     tn_interner_clear(&p->numbers);
     free(p->valued);
     tn_houses_layers_clear(&p->view, &p->kind);

@@ -39,6 +39,12 @@ typedef struct tn_path_valued {
     tn_house_gain value;
 } tn_path_valued;
 
+/* Houses by what a tray can be, one number for each, as far as they were asked for. */
+typedef struct tn_path_numbers {
+    mpz_t *items;
+    size_t count, room;
+} tn_path_numbers;
+
 /* The houses on a plan in one section: a library of this plan alone, and one kind of section, whose strip is borrowed.
  * With an aim its states are the strip's with the value so far (valued.c). */
 typedef struct tn_plan_path {
@@ -49,8 +55,11 @@ typedef struct tn_plan_path {
     tn_interner numbers;    /* of {state, value} */
     tn_path_valued *valued; /* [numbers] */
     size_t valued_room;
-    tn_path_states *states;    /* [length + 1] */
-    struct tn_path_kept *kept; /* faces.c; or NULL */
+    tn_path_states *states;        /* [length + 1] */
+    tn_key beginning;              /* functions of the trays so far: a number for each tray */
+    tn_interner beginnings;        /* those that were met */
+    tn_path_numbers *by_functions; /* [beginnings]: of the next tray */
+    size_t beginning_room, number_count;
 } tn_plan_path;
 
 /* Finds the states, and what is ahead of each. Borrows all. Clear it in any case. */
@@ -72,7 +81,8 @@ tn_status tn_path_step(tn_plan_path *path, uint32_t tray, uint32_t state, uint32
  */
 bool tn_aim_leads_on(const tn_path_aim *aim, uint32_t trays, uint32_t length, uint32_t state,
                      const tn_house_gain *value);
-void tn_path_kept_free(struct tn_path_kept *kept, uint32_t length);
+
+void tn_path_forget_numbers(tn_plan_path *path);
 
 /* The nodes after so many trays; what is ahead of them; the state of a node, and the node of a state. */
 static inline const tn_houses_layer *tn_path_layer(const tn_plan_path *path, uint32_t trays)
@@ -110,6 +120,9 @@ typedef struct tn_path_slices {
 } tn_path_slices;
 tn_status tn_path_functions(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, tn_path_slices *of_tray,
                             bool *found, tn_error *error);
+
+/* Nodes that have been found for the plan. */
+size_t tn_plan_houses_nodes(const tn_plan_houses *plan);
 
 /* Both, one after the other: *house is stood up in the section. */
 tn_status tn_path_choose(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, bool *found,

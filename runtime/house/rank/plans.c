@@ -384,10 +384,9 @@ static bool find_length(const tn_houses *h, mpz_t rank, uint32_t *length)
     return found;
 }
 
-static tn_status find_tray(tn_plan_walk *w, mpz_t rank, tn_tray *tray, tn_error *error)
+/* houses := those that go on with the tray. */
+static tn_status find_tray(tn_plan_walk *w, mpz_t rank, tn_tray *tray, mpz_t houses, tn_error *error)
 {
-    mpz_t houses;
-    mpz_init(houses);
     tn_status status = TN_OK;
     for (*tray = 0; *tray < w->houses->form->schema->tray_count; ++*tray) {
         status = houses_by(w, *tray, houses, error);
@@ -395,11 +394,10 @@ static tn_status find_tray(tn_plan_walk *w, mpz_t rank, tn_tray *tray, tn_error 
             break;
         mpz_sub(rank, rank, houses);
     }
-    mpz_clear(houses);
     return status;
 }
 
-tn_status tn_houses_find(tn_houses *h, mpz_t rank, tn_tray *trays, uint32_t *length, tn_error *error)
+tn_status tn_houses_find(tn_houses *h, mpz_t rank, tn_tray *trays, uint32_t *length, mpz_t on_plan, tn_error *error)
 {
     tn_plan_walk w;
     if (!find_length(h, rank, length)) {
@@ -407,13 +405,14 @@ tn_status tn_houses_find(tn_houses *h, mpz_t rank, tn_tray *trays, uint32_t *len
         tn_error_help(error, "`tartan count` says how many; ranks count from 0");
         return status;
     }
+    tn_houses_count(h, *length, on_plan); /* where there is one plan, or one without trays */
     if (h->only) {
         memcpy(trays, h->only, *length * sizeof *trays);
         return TN_OK;
     }
     tn_status status = walk_begin(h, *length, &w, error);
     for (uint32_t i = 0; status == TN_OK && i < *length; i++) {
-        status = find_tray(&w, rank, &trays[i], error);
+        status = find_tray(&w, rank, &trays[i], on_plan, error);
         if (status == TN_OK && i + 1 < *length)
             status = go_on(&w, trays[i], error);
     }

@@ -14,8 +14,9 @@
 tn_status tn_houses_before(tn_houses *houses, const tn_tray *trays, uint32_t length, mpz_t before, tn_error *error);
 
 /* The plan of the house of a rank: fills trays (room for tn_library_max) and its length; rank becomes the house's
- * number among those on the plan. TN_INVALID (E1618) where there are not so many. */
-tn_status tn_houses_find(tn_houses *houses, mpz_t rank, tn_tray *trays, uint32_t *length, tn_error *error);
+ * number among those on the plan, of which there are so many. TN_INVALID (E1618) where no house has the rank. */
+tn_status tn_houses_find(tn_houses *houses, mpz_t rank, tn_tray *trays, uint32_t *length, mpz_t on_plan,
+                         tn_error *error);
 
 /* The houses on one plan of these houses, whose states are found once. Borrows all that it is made of; the variants are
  * of the same library. Free with tn_plan_houses_free, also after a failure. */
@@ -31,9 +32,18 @@ tn_status tn_plan_houses_at(tn_plan_houses *plan, const mpz_t variant, tn_house 
 /* How many houses come before this one, which is on the plan. TN_INVALID (E1618) where the library does not keep it. */
 tn_status tn_plan_houses_number(tn_plan_houses *plan, const tn_house *house, mpz_t variant, tn_error *error);
 
-/* The same as tn_plan_houses_at, for one house. */
-tn_status tn_houses_at(tn_houses *houses, tn_house_variants *variants, const tn_tray *trays, uint32_t length,
-                       const mpz_t variant, tn_house *house, tn_error *error);
+/* Houses by rank. The plans that were asked for last are kept with their states, as long as these are not too many.
+ * Borrows the houses and their variants. Free with tn_house_ranks_free, also after a failure. */
+typedef struct tn_house_ranks tn_house_ranks;
+tn_status tn_house_ranks_new(tn_houses *houses, tn_house_variants *variants, tn_house_ranks **ranks, tn_error *error);
+void tn_house_ranks_free(tn_house_ranks *ranks);
+
+/* The same as tn_houses_find. */
+tn_status tn_house_ranks_find(tn_house_ranks *ranks, mpz_t rank, tn_tray *trays, uint32_t *length, tn_error *error);
+
+/* The houses on a plan; borrowed until the next call. */
+tn_status tn_house_ranks_plan(tn_house_ranks *ranks, const tn_tray *trays, uint32_t length, tn_plan_houses **plan,
+                              tn_error *error);
 
 /* Calls `each` with the houses that have value `point` of these (count/best.h), in the order of their ranks, until
  * there are no more or *stop. No other house is looked at. The house is borrowed for the call. variants: of the same

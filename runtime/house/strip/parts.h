@@ -45,22 +45,8 @@ tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error);
 
 /* The slices of a tray whose cells have the functions of these [cells], one for each choice of what is in its inner
  * faces, in the order of houses: the last face changes first. */
-tn_status tn_strip_slices_ordered(tn_strip *strip, tn_tray tray, const tn_cell *like, tn_strip_ordered *slices,
-                                  tn_error *error);
-
-/* ---- slice.c, by functions */
-
-/* A slice of a tray, the functions of its cells, and how many choices of what is in its inner faces make it. */
-typedef struct tn_strip_functioned {
-    const uint32_t *functions;
-    size_t cells;
-    uint32_t slice;
-    uint64_t times;
-} tn_strip_functioned;
-
-/* The slices of a tray, by functions in the order of houses; the caller frees them. NULL: out of memory. */
-tn_strip_functioned *tn_strip_functioned_of(const tn_strip *strip, tn_tray tray, size_t *count);
-int tn_strip_functioned_compare(const void *left, const void *right);
+tn_status tn_strip_order_slices(tn_strip *strip, tn_tray tray, const tn_cell *like, tn_strip_ordered *slices,
+                                tn_error *error);
 
 /* ---- plane.c */
 
@@ -69,8 +55,8 @@ tn_status tn_strip_plane(tn_strip *strip, uint32_t left, uint32_t right, const t
 
 /* The outcomes between two edges, whose cells, the left ones first, have the functions of these, one for each choice of
  * what is in the plane, in the order of houses. */
-tn_status tn_strip_outcomes_ordered(tn_strip *strip, uint32_t left, uint32_t right, const tn_cell *like,
-                                    tn_strip_ordered *outcomes, tn_error *error);
+tn_status tn_strip_order_outcomes(tn_strip *strip, uint32_t left, uint32_t right, const tn_cell *like,
+                                  tn_strip_ordered *outcomes, tn_error *error);
 uint64_t tn_strip_marks(const tn_strip *strip, uint32_t kind); /* the bit of a kind that rooms ask for */
 
 uint32_t tn_strip_number_area(tn_strip *strip, tn_int128 area); /* UINT32_MAX: out of memory */
@@ -79,6 +65,17 @@ uint32_t tn_strip_number_area(tn_strip *strip, tn_int128 area); /* UINT32_MAX: o
 bool tn_strip_steps(const tn_strip *strip, const tn_house *house, const tn_face *face, uint32_t walk);
 bool tn_strip_meets(const tn_strip *strip, const tn_house *house, const tn_face *face, uint32_t meeting);
 bool tn_strip_joins(const tn_house *house, const tn_face *face);
+
+/* ---- ordered.c */
+
+/* Both, without finding again what has been asked for. cells: of the tray. Sequences are borrowed until the next trim,
+ * which drops them where they take much. */
+tn_status tn_strip_slices_ordered(tn_strip *strip, tn_tray tray, const tn_cell *like, size_t cells,
+                                  tn_strip_sequence *slices, tn_error *error);
+tn_status tn_strip_outcomes_ordered(tn_strip *strip, uint32_t left, uint32_t right, const tn_cell *like,
+                                    tn_strip_sequence *outcomes, tn_error *error);
+void tn_strip_orders_trim(tn_strip *strip);
+void tn_strip_orders_clear(tn_strip_orders *orders);
 
 /* ---- fit.c */
 
@@ -262,6 +259,19 @@ typedef struct tn_strip_waiting {
 tn_status tn_strip_end_waiting(tn_strip *strip, uint32_t waiting, uint32_t left_fits, uint64_t *times, tn_error *error);
 tn_status tn_strip_find_waiting(tn_strip *strip, uint32_t slice, uint32_t right_fits, tn_strip_waiting *waiting,
                                 tn_error *error);
+
+/* ---- ways.c */
+
+/* Those of a step that is kept, good until the next step; NULL: it is not. */
+tn_strip_ways_of_step *tn_strip_ways_find(const tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice);
+
+/* Begins to keep the ways of a step. False: steps are not kept, as something is added up on the way, what is kept is
+ * not final, or there are too many. Then each is added, and they are of this step; or they are dropped. */
+bool tn_strip_ways_begin(tn_strip *strip);
+tn_status tn_strip_ways_add(tn_strip *strip, const tn_strip_way *way, tn_error *error);
+tn_status tn_strip_ways_end(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, tn_error *error);
+void tn_strip_ways_drop(tn_strip *strip);
+void tn_strip_ways_forget(tn_strip *strip); /* states are numbered anew */
 
 /* ---- outlook.c, stage.c: a step in four stages; nothing is added up, and tiles have no prices */
 

@@ -263,8 +263,8 @@ tn_status tn_strip_plane(tn_strip *strip, uint32_t left, uint32_t right, const t
     return status;
 }
 
-tn_status tn_strip_outcomes_ordered(tn_strip *strip, uint32_t left, uint32_t right, const tn_cell *like,
-                                    tn_strip_ordered *outcomes, tn_error *error)
+tn_status tn_strip_order_outcomes(tn_strip *strip, uint32_t left, uint32_t right, const tn_cell *like,
+                                  tn_strip_ordered *outcomes, tn_error *error)
 {
     tn_plane_house c = {.strip = strip, .left = left, .right = right, .ordered = outcomes};
     tn_status status = stand(&c, error);

@@ -452,8 +452,8 @@ tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error)
     return status;
 }
 
-tn_status tn_strip_slices_ordered(tn_strip *strip, tn_tray tray, const tn_cell *like, tn_strip_ordered *slices,
-                                  tn_error *error)
+tn_status tn_strip_order_slices(tn_strip *strip, tn_tray tray, const tn_cell *like, tn_strip_ordered *slices,
+                                tn_error *error)
 {
     tn_cutting c = {.inside = {.strip = strip, .tray = tray}, .ordered = slices};
     tn_status status = begin(&c, error);
@@ -465,29 +465,4 @@ tn_status tn_strip_slices_ordered(tn_strip *strip, tn_tray tray, const tn_cell *
         status = cut_faces(&c, error);
     end(&c);
     return status;
-}
-
-/* ---- by functions */
-
-int tn_strip_functioned_compare(const void *left, const void *right)
-{
-    const tn_strip_functioned *a = left, *b = right;
-    for (size_t i = 0; i < a->cells; i++)
-        if (a->functions[i] != b->functions[i])
-            return a->functions[i] < b->functions[i] ? -1 : 1;
-    return 0;
-}
-
-tn_strip_functioned *tn_strip_functioned_of(const tn_strip *strip, tn_tray tray, size_t *count)
-{
-    const tn_strip_furnished_list *list = &strip->furnished[tray];
-    tn_strip_functioned *slices = malloc((list->count + 1) * sizeof *slices);
-    *count = list->count;
-    for (size_t i = 0; slices && i < list->count; i++) {
-        slices[i] = (tn_strip_functioned){.slice = list->items[i].slice, .times = list->items[i].times};
-        slices[i].functions = tn_interned(&strip->functions, list->items[i].functions, &slices[i].cells);
-    }
-    if (slices)
-        qsort(slices, list->count, sizeof *slices, tn_strip_functioned_compare);
-    return slices;
 }

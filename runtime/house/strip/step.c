@@ -13,6 +13,7 @@ typedef struct tn_stepping {
     const tn_strip_outcome *outcome;
     const uint32_t *crossed;  /* words: what came of rooms and walks at the outcome */
     tn_strip_waiting waiting; /* the same */
+    bool keeping;             /* ways are not shown, but kept */
 } tn_stepping;
 
 /* ---- tiles */
@@ -140,6 +141,11 @@ typedef struct tn_showing {
     tn_house_gain gain; /* without tiles */
 } tn_showing;
 
+static tn_status too_many_choices(const tn_strip *strip, tn_error *error)
+{
+    return tn_strip_limit(strip, NULL, "a tray has more than 2^64 choices", error);
+}
+
 /* Shows what the step leads to with a sum of the tiles. */
 static tn_status show_sum(const tn_stepping *s, const tn_showing *to, uint32_t after, size_t i, tn_error *error)
 {
@@ -149,7 +155,11 @@ static tn_status show_sum(const tn_stepping *s, const tn_showing *to, uint32_t a
     uint64_t times;
     if (__builtin_mul_overflow(tiles->times, to->faced, &times) ||
         __builtin_mul_overflow(times, s->waiting.times, &times))
-        return tn_strip_limit(s->strip, NULL, "a tray has more than 2^64 choices", error);
+        return too_many_choices(s->strip, error);
+    if (s->keeping) {
+        const tn_strip_way way = {(uint32_t)(s->outcome - s->strip->outcomes), after, to->faced, times / to->faced};
+        return tn_strip_ways_add(s->strip, &way, error);
+    }
     for (uint32_t k = 0; units && k < s->strip->added->measures; k++)
         sum.by[k] += tiles->cost * units->costs[k] * (s->strip->measures->most[k] ? -1 : 1);
     return to->seen(to->context, after, times, i == 0 ? to->faced : 0, &sum, error);
@@ -290,14 +300,14 @@ static const tn_strip_choice *choice_of(const tn_strip_choice *choice, const tn_
     return only ? bsearch(choice, only->items, only->count, sizeof *choice, compare_choices) : choice;
 }
 
-static tn_status step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, const tn_strip_list *only,
-                      tn_strip_seen *seen, void *context, tn_error *error)
+/* seen: NULL where the ways are kept. */
+static tn_status go(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, const tn_strip_list *only,
+                    tn_strip_seen *seen, void *context, tn_error *error)
 {
     tn_strip_list plane = {0};
-    tn_stepping s = {.strip = strip, .trays = trays, .slice = slice, .state = words_of(strip, state)};
+    tn_stepping s = {
+        .strip = strip, .trays = trays, .slice = slice, .state = words_of(strip, state), .keeping = seen == NULL};
     uint32_t between, read = s.state ? s.state[tn_strip_waiting_word(strip) - 1] : TN_STRIP_NONE;
-    if (state == TN_STRIP_NONE && slice == TN_STRIP_NONE) /* a row without trays */
-        return keeps_no_trays(strip) ? seen(context, 0, 1, 1, &(tn_house_gain){{0}}, error) : TN_OK;
     tn_status status = tn_strip_read_slice(strip, trays, read, slice, &between, error);
     if (status != TN_OK || between == TN_STRIP_NONE)
         return status;
@@ -309,6 +319,53 @@ static tn_status step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t 
             status = try_outcome(&s, choice, between, seen, context, error);
     }
     return status;
+}
+
+/* ---- steps that are kept */
+
+static tn_status keep(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, tn_error *error)
+{
+    tn_status status = go(strip, trays, state, slice, NULL, NULL, NULL, error);
+    if (status == TN_OK)
+        return tn_strip_ways_end(strip, trays, state, slice, error);
+    tn_strip_ways_drop(strip);
+    return status;
+}
+
+/* Shows the ways of a step over the outcomes that are looked at. What sees them may keep other steps. */
+static tn_status show_kept(const tn_strip *strip, tn_strip_ways_of_step ways, const tn_strip_list *only,
+                           tn_strip_seen *seen, void *context, tn_error *error)
+{
+    const tn_house_gain none = {{0}};
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < ways.count; i++) {
+        const tn_strip_way way = strip->way_items[ways.first + i];
+        const tn_strip_choice all = {way.outcome, way.choices}, *choice = choice_of(&all, only);
+        uint64_t times;
+        if (!choice)
+            continue;
+        if (__builtin_mul_overflow(choice->times, way.tiles, &times))
+            return too_many_choices(strip, error);
+        status = seen(context, way.after, times, choice->times, &none, error);
+    }
+    return status;
+}
+
+static tn_status step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, const tn_strip_list *only,
+                      tn_strip_seen *seen, void *context, tn_error *error)
+{
+    if (state == TN_STRIP_NONE && slice == TN_STRIP_NONE) /* a row without trays */
+        return keeps_no_trays(strip) ? seen(context, 0, 1, 1, &(tn_house_gain){{0}}, error) : TN_OK;
+    const tn_strip_ways_of_step *kept = tn_strip_ways_find(strip, trays, state, slice);
+    tn_status status = TN_OK;
+    if (!kept && tn_strip_ways_begin(strip)) {
+        status = keep(strip, trays, state, slice, error);
+        kept = tn_strip_ways_find(strip, trays, state, slice);
+    }
+    if (status != TN_OK)
+        return status;
+    return kept ? show_kept(strip, *kept, only, seen, context, error)
+                : go(strip, trays, state, slice, only, seen, context, error);
 }
 
 tn_status tn_strip_step(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, tn_strip_seen *seen,

@@ -74,16 +74,16 @@ static tn_status count_together(tn_error *error)
     tn_houses *houses = NULL;
     tn_tray trays[2];
     uint32_t length;
-    mpz_t rank;
-    mpz_init(rank);
+    mpz_t rank, on_plan;
+    mpz_inits(rank, on_plan, NULL);
     tn_status status = tn_houses_new(&made.form, made.some, plans, 0, &houses, error);
     if (status == TN_OK) {
         tn_houses_count(houses, TN_ALL_LENGTHS, rank);
         mpz_sub_ui(rank, rank, 1);
-        status = tn_houses_find(houses, rank, trays, &length, error);
+        status = tn_houses_find(houses, rank, trays, &length, on_plan, error);
     }
     tn_houses_free(houses);
-    mpz_clear(rank);
+    mpz_clears(rank, on_plan, NULL);
     return status;
 }
 
@@ -92,6 +92,8 @@ static tn_status find_together(tn_error *error)
 {
     tn_houses *houses = NULL;
     tn_house_variants *variants = NULL;
+    tn_house_ranks *ranks = NULL;
+    tn_plan_houses *on_plan;
     tn_house last = {0};
     tn_tray trays[2];
     uint32_t length;
@@ -103,11 +105,16 @@ static tn_status find_together(tn_error *error)
     if (status == TN_OK) {
         tn_houses_count(houses, TN_ALL_LENGTHS, rank);
         mpz_sub_ui(rank, rank, 1);
-        status = tn_houses_find(houses, rank, trays, &length, error);
+        status = tn_house_ranks_new(houses, variants, &ranks, error);
     }
     if (status == TN_OK)
-        status = tn_houses_at(houses, variants, trays, length, rank, &last, error);
+        status = tn_house_ranks_find(ranks, rank, trays, &length, error);
+    if (status == TN_OK)
+        status = tn_house_ranks_plan(ranks, trays, length, &on_plan, error);
+    if (status == TN_OK)
+        status = tn_plan_houses_at(on_plan, rank, &last, error);
     tn_house_clear(&last);
+    tn_house_ranks_free(ranks);
     tn_house_variants_free(variants);
     tn_houses_free(houses);
     mpz_clear(rank);

@@ -26,6 +26,7 @@ typedef struct check {
     tn_library *plans;
     tn_houses *houses;
     tn_house_variants *variants;
+    tn_house_ranks *ranks;
     mpz_t lengths[LENGTH_MAX + 1], all, faced, rank, variant;
     uint32_t checked;
 } check;
@@ -101,7 +102,7 @@ static void check_houses(check *c, const tn_tray *trays, uint32_t length, const 
     tn_house house;
     tn_error error = {0};
     tn_plan_houses *plan;
-    assert_int_equal(tn_plan_houses_new(c->houses, c->variants, trays, length, &plan, &error), TN_OK);
+    assert_int_equal(tn_house_ranks_plan(c->ranks, trays, length, &plan, &error), TN_OK);
     for (unsigned long part = 0; part <= PARTS && mpz_sgn(houses) > 0; part++) {
         mpz_sub_ui(c->variant, houses, 1);
         mpz_mul_ui(c->variant, c->variant, part);
@@ -111,7 +112,21 @@ static void check_houses(check *c, const tn_tray *trays, uint32_t length, const 
     assert_int_equal(tn_plan_houses_at(plan, houses, &house, &error), TN_INVALID);
     assert_int_equal(error.code, E_NO_VARIANT);
     tn_house_clear(&house);
-    tn_plan_houses_free(plan);
+}
+
+/* The house, whose plan has been found, has the same plan and number among plans that are kept, twice. */
+static void check_kept(check *c, const tn_tray *trays, uint32_t length)
+{
+    tn_error error = {0};
+    tn_tray found[LENGTH_MAX];
+    uint32_t found_length;
+    for (int again = 0; again < 2; again++) {
+        mpz_add(c->rank, c->all, c->variant);
+        assert_int_equal(tn_house_ranks_find(c->ranks, c->rank, found, &found_length, &error), TN_OK);
+        assert_int_equal(mpz_cmp(c->rank, c->variant), 0);
+        assert_int_equal(found_length, length);
+        assert_memory_equal(found, trays, length * sizeof *trays);
+    }
 }
 
 /* The first and the last house on the plan have the ranks that they should have. */
@@ -120,6 +135,7 @@ static void check_ranks(check *c, const tn_tray *trays, uint32_t length, const m
     tn_error error = {0};
     tn_tray found[LENGTH_MAX];
     uint32_t found_length;
+    mpz_t on_plan;
     assert_int_equal(tn_houses_before(c->houses, trays, length, c->rank, &error), TN_OK);
     assert_int_equal(mpz_cmp(c->rank, c->all), 0);
     for (int last = 0; last < 2 && mpz_sgn(houses) > 0; last++) {
@@ -127,10 +143,14 @@ static void check_ranks(check *c, const tn_tray *trays, uint32_t length, const m
         if (last)
             mpz_sub_ui(c->variant, houses, 1);
         mpz_add(c->rank, c->all, c->variant);
-        assert_int_equal(tn_houses_find(c->houses, c->rank, found, &found_length, &error), TN_OK);
+        mpz_init(on_plan);
+        assert_int_equal(tn_houses_find(c->houses, c->rank, found, &found_length, on_plan, &error), TN_OK);
+        assert_int_equal(mpz_cmp(on_plan, houses), 0);
         assert_int_equal(mpz_cmp(c->rank, c->variant), 0);
         assert_int_equal(found_length, length);
         assert_memory_equal(found, trays, length * sizeof *trays);
+        mpz_clear(on_plan);
+        check_kept(c, trays, length);
     }
 }
 
@@ -319,6 +339,7 @@ static uint64_t check_library(const test_house *made, const tn_house_library_rec
     if (status != TN_OK)
         fprintf(stderr, "%s\n", error.message);
     assert_int_equal(status, TN_OK);
+    assert_int_equal(tn_house_ranks_new(c.houses, c.variants, &c.ranks, &error), TN_OK);
     static int libraries;
     if (++libraries % 2 == 0)
         forget_steps(c.houses);
@@ -326,12 +347,13 @@ static uint64_t check_library(const test_house *made, const tn_house_library_rec
     check_numbers(&c);
     check_measures(&c);
     mpz_set(c.rank, c.all);
-    assert_int_equal(tn_houses_find(c.houses, c.rank, NULL, &(uint32_t){0}, &error), TN_INVALID);
+    assert_int_equal(tn_house_ranks_find(c.ranks, c.rank, NULL, &(uint32_t){0}, &error), TN_INVALID);
     assert_int_equal(error.code, E_NO_VARIANT);
     uint64_t houses = mpz_get_ui(c.all);
     for (uint32_t k = 0; k <= LENGTH_MAX; k++)
         mpz_clear(c.lengths[k]);
     mpz_clears(c.all, c.faced, c.rank, c.variant, NULL);
+    tn_house_ranks_free(c.ranks);
     tn_houses_free(c.houses);
     tn_house_variants_free(c.variants);
     tn_library_free(c.plans);
