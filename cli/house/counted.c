@@ -6,11 +6,14 @@
 #include "runtime/base/integers.h"
 #include "runtime/base/utf8.h"
 
-/* What was counted. Where the plans were not gone through, it is not known how many of them have a house. */
+/* What was counted. */
 typedef struct house_tally {
-    bool each;                                     /* the plans were gone through */
-    bool faced_unsaid;                             /* houses without their tiles were not counted */
-    uint64_t with_houses, sections, zoned, states; /* sections: of each plan, those that have a house */
+    bool each;         /* the plans were gone through */
+    bool faced_unsaid; /* houses without their tiles were not counted */
+    bool with_wanted;  /* plans, sections and functions that have a house are asked for */
+    bool with_unsaid;  /* but they were not counted */
+    uint64_t states;
+    tn_houses_projected with; /* those */
     mpz_t plans, faced, houses;
     mpz_t *lengths; /* houses on plans of each length, from the shortest */
     uint32_t low, high;
@@ -35,6 +38,7 @@ static bool tally_new(const tn_numbered *n, house_tally *tally)
     tally->lengths = tn_integers_new((size_t)tally->high - tally->low + 1);
     tally->values = tn_integers_new(value_count(n));
     mpz_inits(tally->plans, tally->faced, tally->houses, NULL);
+    tn_houses_projected_init(&tally->with);
     return tally->lengths && tally->values;
 }
 
@@ -46,6 +50,7 @@ static void tally_free(const tn_numbered *n, house_tally *tally)
     tn_integers_free(tally->alone, n->record->clause_count);
     free(tally->asking);
     mpz_clears(tally->plans, tally->faced, tally->houses, NULL);
+    tn_houses_projected_clear(&tally->with);
 }
 
 /* ---- sections */
@@ -69,8 +74,8 @@ static tn_status tally_section(void *context, const uint32_t *shapes, const tn_h
     const section_tally *s = context;
     (void)error;
     add_section(s->n, s->tally, shapes, counts->houses);
-    s->tally->sections++;
-    s->tally->zoned += counts->zoned;
+    mpz_add_ui(s->tally->with.sections, s->tally->with.sections, 1);
+    mpz_add_ui(s->tally->with.functions, s->tally->with.functions, counts->zoned);
     mpz_add_ui(s->tally->faced, s->tally->faced, counts->faced);
     mpz_add(s->tally->houses, s->tally->houses, counts->houses);
     return TN_OK;
@@ -95,7 +100,8 @@ static tn_status tally_plan(tn_numbered *n, const tn_tray *trays, uint32_t lengt
     mpz_init_set(before, tally->houses);
     tn_status status = tn_house_variants_sections(n->variants, trays, length, tally_section, &sections, error);
     mpz_add_ui(tally->plans, tally->plans, 1);
-    tally->with_houses += mpz_cmp(before, tally->houses) != 0;
+    if (mpz_cmp(before, tally->houses) != 0)
+        mpz_add_ui(tally->with.plans, tally->with.plans, 1);
     mpz_sub(before, tally->houses, before);
     if (length >= tally->low && length <= tally->high)
         mpz_add(tally->lengths[length - tally->low], tally->lengths[length - tally->low], before);
@@ -112,7 +118,15 @@ static tn_status tally_next(tn_numbered *n, void *context, const tn_tray *trays,
 
 /* ---- all together */
 
-static void tally_together(const tn_numbered *n, const tn_houses *all, house_tally *tally)
+/* Plans, sections and functions that have a house. To count them may take too much where houses can be counted. */
+static tn_status tally_with(tn_houses *all, house_tally *tally, tn_error *error)
+{
+    tn_status status = tally->with_wanted ? tn_houses_project(all, &tally->with, error) : TN_LIMIT;
+    tally->with_unsaid = status == TN_LIMIT;
+    return status == TN_LIMIT ? TN_OK : status;
+}
+
+static tn_status tally_together(const tn_numbered *n, tn_houses *all, house_tally *tally, tn_error *error)
 {
     uint32_t shapes[TN_CHOICES_MAX] = {0};
     mpz_t houses;
@@ -131,6 +145,7 @@ static void tally_together(const tn_numbered *n, const tn_houses *all, house_tal
         add_section(n, tally, shapes, houses);
     }
     mpz_clear(houses);
+    return tally_with(all, tally, error);
 }
 
 /* Plan by plan, each in so many steps (0: the usual limit). */
@@ -155,23 +170,24 @@ static tn_status count_together(tn_numbered *n, const tn_plan *plan, house_tally
     if (!plan) {
         tn_status status = tn_numbered_all(n, error);
         tn_library_kept(n->plans, TN_ALL_LENGTHS, tally->plans);
-        if (status == TN_OK)
-            tally_together(n, n->all, tally);
-        return status;
+        return status == TN_OK ? tally_together(n, n->all, tally, error) : status;
     }
     const tn_houses_what what = {.only = plan->trays, .length = (uint32_t)plan->length};
     tn_status status = tn_numbered_of(n, &what, &houses, error);
     mpz_set_ui(tally->plans, 1);
     if (status == TN_OK)
-        tally_together(n, houses, tally);
+        status = tally_together(n, houses, tally, error);
     tn_houses_free(houses);
     return status;
 }
 
 static tn_status tally_afresh(const tn_numbered *n, house_tally *tally, tn_error *error)
 {
+    bool wanted = tally->with_wanted;
     tally_free(n, tally);
-    return tally_new(n, tally) ? TN_OK : tn_fail_memory(error);
+    bool ok = tally_new(n, tally);
+    tally->with_wanted = wanted;
+    return ok ? TN_OK : tn_fail_memory(error);
 }
 
 /* The steps in which a plan is gone through quickly. */
@@ -449,11 +465,10 @@ static void write_json(const tn_numbered *n, const house_tally *tally, FILE *out
     fputs("{\"library\":", out);
     tn_write_json(out, tn_text(n->form.module, n->record->name));
     gmp_fprintf(out, ",\"plans\":\"%Zd\"", tally->plans);
-    if (tally->each)
-        fprintf(out, ",\"plans_with_houses\":\"%llu\",\"with_sections\":\"%llu\",\"zoned\":\"%llu\"",
-                (unsigned long long)tally->with_houses, (unsigned long long)tally->sections,
-                (unsigned long long)tally->zoned);
-    else
+    if (!tally->with_unsaid)
+        gmp_fprintf(out, ",\"plans_with_houses\":\"%Zd\",\"with_sections\":\"%Zd\",\"zoned\":\"%Zd\"",
+                    tally->with.plans, tally->with.sections, tally->with.functions);
+    if (!tally->each)
         fprintf(out, ",\"states\":%llu", (unsigned long long)tally->states);
     if (!tally->faced_unsaid)
         gmp_fprintf(out, ",\"faced\":\"%Zd\"", tally->faced);
@@ -471,11 +486,9 @@ static void write_text(const tn_numbered *n, const house_tally *tally, FILE *out
 {
     int labels = label_width(n);
     gmp_fprintf(out, "%-*s%Zd\n", labels, "plans", tally->plans);
-    if (tally->each) {
-        fprintf(out, "%-*s%llu\n", labels, "with a house", (unsigned long long)tally->with_houses);
-        fprintf(out, "%-*s%llu\n", labels, "with sections", (unsigned long long)tally->sections);
-        fprintf(out, "%-*s%llu\n", labels, "with functions", (unsigned long long)tally->zoned);
-    }
+    if (!tally->with_unsaid)
+        gmp_fprintf(out, "%-*s%Zd\n%-*s%Zd\n%-*s%Zd\n", labels, "with a house", tally->with.plans, labels,
+                    "with sections", tally->with.sections, labels, "with functions", tally->with.functions);
     if (!tally->faced_unsaid)
         gmp_fprintf(out, "%-*s%Zd\n", labels, "with openings", tally->faced);
     gmp_fprintf(out, "%-*s%Zd\n", labels, "houses", tally->houses);
@@ -492,6 +505,7 @@ static tn_status count_houses(tn_numbered *n, const char *text, bool clauses, si
 {
     tn_plan plan = {0};
     tn_status status = text ? tn_numbered_plan(n, text, max_length, &plan, error) : TN_OK;
+    tally->with_wanted = true;
     if (status == TN_OK)
         status = tally_all(n, text ? &plan : NULL, tally, error);
     if (status == TN_OK && clauses)

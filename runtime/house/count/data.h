@@ -42,9 +42,10 @@ typedef struct tn_houses_plan_layer {
     uint32_t *alike; /* [states]: the first from which the same goes on */
 } tn_houses_plan_layer;
 
-/* Steps that counting went to the next layer, in how many ways; `all`: none is left out. */
+/* Steps that counting went to the next layer, in how many ways; `all`: none is left out. slice: 0 where none is taken.
+ */
 typedef struct tn_kept_step {
-    uint32_t from, to;
+    uint32_t from, to, slice;
     uint64_t times;
 } tn_kept_step;
 
@@ -130,10 +131,10 @@ tn_status tn_houses_check_planes(const tn_houses *houses, const tn_houses_kind *
 
 /* A step from a node: `from` among those of the layer. */
 typedef struct tn_houses_edge {
-    uint32_t from, plan, state;
-    uint64_t ways, times, faced; /* ways: of trays and slices; times: of what is at the plane, and tiles */
-    tn_house_gain gain;          /* what it adds to the measures */
-    tn_tray tray;                /* 0 where it does not matter */
+    uint32_t from, plan, state, slice; /* slice: 0 where none is taken */
+    uint64_t ways, times, faced;       /* ways: of trays and slices; times: of what is at the plane, and tiles */
+    tn_house_gain gain;                /* what it adds to the measures */
+    tn_tray tray;                      /* 0 where it does not matter */
 } tn_houses_edge;
 typedef tn_status tn_houses_edge_seen(void *context, const tn_houses_edge *edge, tn_error *error);
 

@@ -263,8 +263,15 @@ static tn_status show(const tn_houses_expansion *e, uint32_t from, const tn_hous
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < e->fan.count[at]; i++) {
         tn_reached r = e->fan.reached[e->fan.first[at] + i];
-        tn_houses_edge edge = {
-            from, way->plan, r.state, way->times, r.times, r.faced, tn_house_gain_sum(&way->gain, &r.gain), way->tray};
+        const tn_houses_edge edge = {.from = from,
+                                     .plan = way->plan,
+                                     .state = r.state,
+                                     .slice = way->slice,
+                                     .ways = way->times,
+                                     .times = r.times,
+                                     .faced = r.faced,
+                                     .gain = tn_house_gain_sum(&way->gain, &r.gain),
+                                     .tray = way->tray};
         status = e->seen(e->context, &edge, error);
     }
     return status;

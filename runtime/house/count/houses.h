@@ -65,6 +65,17 @@ bool tn_houses_faced_known(const tn_houses *houses);
 /* How many have a section (a value for each choice of the form). */
 void tn_houses_of_section(const tn_houses *houses, const uint32_t *shapes, mpz_t count);
 
+/* How many plans have a house; how many sections of each plan, and how many functions of the cells in these, in all. */
+typedef struct tn_houses_projected {
+    mpz_t plans, sections, functions;
+} tn_houses_projected;
+void tn_houses_projected_init(tn_houses_projected *counts);
+void tn_houses_projected_clear(tn_houses_projected *counts);
+
+/* Counts them, without measures; counts: of 0. TN_LIMIT (E1640) where it takes too many steps: choices that lead to one
+ * plan have to be followed together. */
+tn_status tn_houses_project(tn_houses *houses, tn_houses_projected *counts, tn_error *error);
+
 /* States of all sections. */
 uint64_t tn_houses_states(const tn_houses *houses);
 

@@ -4,7 +4,7 @@
 #include "runtime/base/array.h"
 #include "runtime/house/count/data.h"
 
-enum { KEPT_MAX = 1 << 23 }; /* by all kinds of sections together: 128 MB */
+enum { KEPT_MAX = 6000000 }; /* by all kinds of sections together: 144 MB */
 
 tn_status tn_houses_keep_step(const tn_houses *h, tn_houses_kind *kind, uint32_t layer, uint32_t to,
                               const tn_houses_edge *edge, tn_error *error)
@@ -19,7 +19,7 @@ tn_status tn_houses_keep_step(const tn_houses *h, tn_houses_kind *kind, uint32_t
     }
     if (!tn_array_reserve(&kept->items, &kept->room, kept->count, 1, sizeof *kept->items))
         return tn_fail_memory(error);
-    kept->items[kept->count++] = (tn_kept_step){edge->from, to, times};
+    kept->items[kept->count++] = (tn_kept_step){edge->from, to, edge->slice, times};
     kind->kept_steps++;
     return TN_OK;
 }

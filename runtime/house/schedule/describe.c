@@ -280,10 +280,23 @@ tn_status tn_house_describe(const tn_house *house, const tn_solids *solids, tn_b
 
 /* ---- a table of rooms */
 
-/* Square metres to six places, rounded half up. */
-static void put_square_metres(tn_buffer *out, tn_int128 square_nanometres)
+/* What tables are in: a length, in nanometres, and what its square and its cube are called. */
+typedef struct tn_table_unit {
+    int64_t length;
+    const char *square, *cube;
+} tn_table_unit;
+
+/* That of the widths of the schema. */
+static tn_table_unit unit_of(const tn_house *house)
 {
-    tn_int128 millionths = (square_nanometres + 500000000000) / 1000000000000;
+    return tn_house_length_style(house) == TN_STYLE_FEET ? (tn_table_unit){TN_FOOT_NM, "sf", "cf"}
+                                                         : (tn_table_unit){INT64_C(1000000000), "m2", "m3"};
+}
+
+/* Square nanometres in a unit of that length, to six places, rounded half up. */
+static void put_square(tn_buffer *out, tn_int128 area, int64_t unit)
+{
+    tn_int128 square = (tn_int128)unit * unit, millionths = (2000000 * area + square) / (2 * square);
     put_wide(out, millionths / 1000000);
     tn_buffer_printf(out, ".%06d", (int)(millionths % 1000000));
 }
@@ -294,7 +307,8 @@ tn_status tn_house_schedule(const tn_house *house, tn_buffer *out, tn_error *err
     tn_status status = tn_house_rooms(house, &rooms, error);
     if (status != TN_OK)
         return status;
-    tn_buffer_printf(out, "function,storey,cells,gross_m2,net_m2,glazed_m2\r\n");
+    const tn_table_unit unit = unit_of(house);
+    tn_buffer_printf(out, "function,storey,cells,gross_%s,net_%s,glazed_%s\r\n", unit.square, unit.square, unit.square);
     for (uint32_t i = 0; i < house->cell_count; i++) {
         if (rooms[i] != i)
             continue;
@@ -305,11 +319,11 @@ tn_status tn_house_schedule(const tn_house *house, tn_buffer *out, tn_error *err
             cells += rooms[k] == i && !house->cells[k].open;
         tn_buffer_printf(out, "%s,%s,%u,", function_of(house, &house->cells[i]),
                          storey_of(house, house->cells[i].storey), cells);
-        put_square_metres(out, gross);
+        put_square(out, gross, unit.length);
         tn_buffer_append(out, ",", 1);
-        put_square_metres(out, net);
+        put_square(out, net, unit.length);
         tn_buffer_append(out, ",", 1);
-        put_square_metres(out, tn_room_glazing(house, rooms, i));
+        put_square(out, tn_room_glazing(house, rooms, i), unit.length);
         tn_buffer_append(out, "\r\n", 2);
     }
     free(rooms);
@@ -359,12 +373,11 @@ tn_status tn_house_parts(const tn_house *house, const tn_solids *solids, tn_buff
 {
     tn_costs costs;
     tn_status status = tn_house_costs(house, solids, &costs, error);
-    bool feet = tn_house_length_style(house) == TN_STYLE_FEET;
-    tn_buffer_printf(out, "part,number,%s,material,price,per,cost\r\n",
-                     feet ? "area_sf,volume_cf" : "area_m2,volume_m3");
+    const tn_table_unit unit = unit_of(house);
+    tn_buffer_printf(out, "part,number,area_%s,volume_%s,material,price,per,cost\r\n", unit.square, unit.cube);
     for (size_t i = 0; status == TN_OK && i < costs.count; i++)
         if (costs.lines[i].count > 0)
-            put_part_row(house, &costs.lines[i], feet ? TN_FOOT_NM : INT64_C(1000000000), out);
+            put_part_row(house, &costs.lines[i], unit.length, out);
     if (status == TN_OK && tn_form_has_costs(house->form)) {
         tn_buffer_printf(out, "total,,,,,,,");
         put_hundredths(out, costs.hundredths);

@@ -74,14 +74,19 @@ static tn_status count_together(tn_error *error)
     tn_houses *houses = NULL;
     tn_tray trays[2];
     uint32_t length;
+    tn_houses_projected with;
     mpz_t rank, on_plan;
     mpz_inits(rank, on_plan, NULL);
+    tn_houses_projected_init(&with);
     tn_status status = tn_houses_new(&made.form, made.some, plans, 0, &houses, error);
     if (status == TN_OK) {
         tn_houses_count(houses, TN_ALL_LENGTHS, rank);
         mpz_sub_ui(rank, rank, 1);
-        status = tn_houses_find(houses, rank, trays, &length, on_plan, error);
+        status = tn_houses_project(houses, &with, error);
     }
+    if (status == TN_OK)
+        status = tn_houses_find(houses, rank, trays, &length, on_plan, error);
+    tn_houses_projected_clear(&with);
     tn_houses_free(houses);
     mpz_clears(rank, on_plan, NULL);
     return status;

@@ -28,6 +28,7 @@ typedef struct check {
     tn_house_variants *variants;
     tn_house_ranks *ranks;
     mpz_t lengths[LENGTH_MAX + 1], all, faced, rank, variant;
+    tn_houses_projected with; /* plans, sections and functions that have a house, plan by plan */
     uint32_t checked;
 } check;
 
@@ -154,6 +155,16 @@ static void check_ranks(check *c, const tn_tray *trays, uint32_t length, const m
     }
 }
 
+static tn_status add_section(void *context, const uint32_t *shapes, const tn_house_counts *counts, tn_error *error)
+{
+    check *c = context;
+    (void)shapes;
+    (void)error;
+    mpz_add_ui(c->with.sections, c->with.sections, 1);
+    mpz_add_ui(c->with.functions, c->with.functions, counts->zoned);
+    return TN_OK;
+}
+
 static void check_plan(check *c, const tn_tray *trays, uint32_t length, bool ranks)
 {
     c->houses->many_slices = ++c->checked % 2 == 0 ? UINT32_MAX : 0; /* by whole steps, and by stages */
@@ -168,6 +179,8 @@ static void check_plan(check *c, const tn_tray *trays, uint32_t length, bool ran
     mpz_add(c->all, c->all, counts.houses);
     mpz_add(c->lengths[length], c->lengths[length], counts.houses);
     mpz_add_ui(c->faced, c->faced, counts.faced);
+    mpz_add_ui(c->with.plans, c->with.plans, mpz_sgn(counts.houses) > 0);
+    assert_int_equal(tn_house_variants_sections(c->variants, trays, length, add_section, c, &error), TN_OK);
     tn_house_counts_clear(&counts);
 }
 
@@ -185,6 +198,14 @@ static void check_numbers(check *c)
     if (tn_houses_faced_known(c->houses))
         assert_int_equal(mpz_cmp(count, c->faced), 0);
     mpz_clear(count);
+}
+
+/* The automaton of houses, projected, counts what has been met plan by plan. */
+static void check_projected(const check *c, const tn_houses_projected *projected)
+{
+    assert_int_equal(mpz_cmp(projected->plans, c->with.plans), 0);
+    assert_int_equal(mpz_cmp(projected->sections, c->with.sections), 0);
+    assert_int_equal(mpz_cmp(projected->functions, c->with.functions), 0);
 }
 
 static void check_plans(check *c, uint32_t rank_every)
@@ -343,7 +364,14 @@ static uint64_t check_library(const test_house *made, const tn_house_library_rec
     static int libraries;
     if (++libraries % 2 == 0)
         forget_steps(c.houses);
+    tn_houses_projected projected;
+    tn_houses_projected_init(&projected);
+    tn_houses_projected_init(&c.with);
+    assert_int_equal(tn_houses_project(c.houses, &projected, &error), TN_OK);
     check_plans(&c, rank_every);
+    check_projected(&c, &projected);
+    tn_houses_projected_clear(&projected);
+    tn_houses_projected_clear(&c.with);
     check_numbers(&c);
     check_measures(&c);
     mpz_set(c.rank, c.all);
