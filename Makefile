@@ -63,7 +63,7 @@ check-report: build
 	@tools/check-report build/tartan
 
 check-scale: build
-	@tools/check-scale build/tartan
+	@tools/check-scale build/tartan "$(RANKS)"
 
 check-sanitizers: packages
 	@cmake --preset asan $(CMAKE_FLAGS) >/dev/null
@@ -92,4 +92,4 @@ uninstall:
 	@DESTDIR='$(DESTDIR)' cmake -DMANIFEST=build/install_manifest.txt -P cmake/uninstall.cmake
 
 clean:
-	@rm -rf build build-asan build-fuzz build-package build-parts demo
+	@rm -rf build build-asan build-asan-quick build-fuzz build-package build-parts demo

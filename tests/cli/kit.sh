@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Kits: what place, test, build and disasm make of them, what is said where a model cannot be placed, and properties of every placed model,
 # checked by a program that shares nothing with the engine (kit_check.py).
+# Slow under sanitizers.
 name=kit
 source "$(dirname "$0")/golden.bash"
 cp "$here/../fuzz/corpus/kit/tower.kit" "$here/../fuzz/corpus/kit/own.kit" "$scratch"

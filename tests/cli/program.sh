@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Needs the parts: draw store
 # A program that scores: what it is asked and what its answers mean, hostile programs, ends, kills, resuming and replaying without it.
+# Slow under sanitizers.
 name=program
 source "$(dirname "$0")/golden.bash"
 cd "$scratch"

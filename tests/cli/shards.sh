@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Needs the parts: store
 # shards: a library in parts, by several workers, with the bytes of one enumerate; wrong sets, wrong shards, wrong use.
+# Slow under sanitizers.
 name=shards
 . "$(dirname "$0")/golden.bash"
 

@@ -3,5 +3,5 @@
 # Slow under sanitizers.
 name=signals
 . "$(dirname "$0")/golden.bash"
-python3 "$here/signals.py" "$TARTAN" "$here/../.." "$scratch" "${SIGNALS:-3}" || fail 'see above'
+python3 "$here/signals.py" "$TARTAN" "$here/../.." "$scratch" "${SIGNALS:-1}" || fail 'see above'
 finish
