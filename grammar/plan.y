@@ -633,6 +633,8 @@ form_clause
                                                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FACE, .relation = TN_FACE_OUTSIDE, .first = $2, .detail = $4, .list = $6}); }
     | tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE
                                                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_TILE, .name = $2, .doc = $3, .list = $5, .parts = $7}); }
+    | tile NAME doc FOR names OPEN_BRACE tile_parts error CLOSE_BRACE
+                                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_TILE, .name = $2, .doc = $3, .list = $5, .parts = tn_ast_skipped($7, parse)}); yyerrok; }
     | allow_word names                          { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_ALLOW, .list = $2}); }
     | material NAME STRING price FOR names material_where
                                                 { $4.name = $2; $4.doc = $3; $4.list = $6; $4.first = $7; $$ = tn_ast_form_clause_new(parse, @$, $4); }

@@ -110,12 +110,15 @@ bool tn_decision_run(const tn_module *module, uint32_t function, tn_decision_ask
 static uint8_t *known_answer(const tn_house *house, uint32_t function, const tn_cell *cell)
 {
     const tn_house_known *known = house->known;
-    size_t at = (size_t)((uintptr_t)cell - (uintptr_t)house->cells) / sizeof *cell;
-    if (!known || at >= house->cell_count || known->place[function] == TN_NO_RECORD)
-        return NULL; /* at: large for a cell that is none of the house's, and for none */
+    if (!known || !cell || known->place[function] == TN_NO_RECORD)
+        return NULL;
     size_t of = cell->function == TN_NO_FUNCTION ? known->functions : cell->function;
-    size_t row = at * (known->functions + 1) + of;
-    return &known->answers[row * known->decisions + known->place[function]];
+    if (known->alone[function])
+        return &known->of_function[of * known->alones + known->place[function]];
+    size_t at = (size_t)((uintptr_t)cell - (uintptr_t)house->cells) / sizeof *cell;
+    if (at >= house->cell_count)
+        return NULL; /* a cell that is none of the house's */
+    return &known->answers[(at * (known->functions + 1) + of) * known->decisions + known->place[function]];
 }
 
 bool tn_house_decide(const tn_house *house, uint32_t function, const tn_cell *cell)
@@ -131,23 +134,54 @@ bool tn_house_decide(const tn_house *house, uint32_t function, const tn_cell *ce
     return decided;
 }
 
+/* Does the decision ask for nothing but the cell's function? */
+static bool asks_function_alone(const tn_module *module, uint32_t function)
+{
+    bool alone = true;
+    for (uint32_t at = module->FUNCTION_records[function].code_begin; alone;) {
+        tn_instruction instruction = tn_code_read(module->code, at);
+        at += instruction.length;
+        switch (instruction.opcode) {
+        case TN_OP_DECIDE:
+            return true;
+        case TN_OP_ALL_OF:
+        case TN_OP_ONE_OF:
+        case TN_OP_NONE_OF:
+        case TN_OP_EVERY:
+        case TN_OP_IS_FOR:
+            break;
+        default:
+            alone = false;
+        }
+    }
+    return false;
+}
+
 tn_status tn_house_known_begin(const tn_house_form *form, tn_house_known *known, tn_error *error)
 {
     const tn_module *module = form->module;
     *known = (tn_house_known){.functions = tn_form_functions(form)};
     known->place = malloc((module->FUNCTION_count + 1) * sizeof *known->place);
-    if (!known->place)
+    known->alone = calloc(module->FUNCTION_count + 1, sizeof *known->alone);
+    if (!known->place || !known->alone)
         return tn_fail_memory(error);
-    for (size_t f = 0; f < module->FUNCTION_count; f++)
-        known->place[f] =
-            module->FUNCTION_records[f].kind == TN_FUNCTION_CELL ? (uint32_t)known->decisions++ : TN_NO_RECORD;
-    return TN_OK;
+    for (uint32_t f = 0; f < module->FUNCTION_count; f++) {
+        known->place[f] = TN_NO_RECORD;
+        if (module->FUNCTION_records[f].kind != TN_FUNCTION_CELL)
+            continue;
+        known->alone[f] = asks_function_alone(module, f);
+        known->place[f] = (uint32_t)(known->alone[f] ? known->alones++ : known->decisions++);
+    }
+    known->of_function = calloc((known->functions + 1) * known->alones + 1, sizeof *known->of_function);
+    return known->of_function ? TN_OK : tn_fail_memory(error);
 }
 
 void tn_house_known_clear(tn_house_known *known)
 {
     free(known->place);
+    free(known->alone);
     free(known->answers);
+    free(known->of_function);
     *known = (tn_house_known){0};
 }
 
@@ -155,7 +189,7 @@ tn_status tn_house_known_use(tn_house_known *known, tn_house *house, tn_error *e
 {
     size_t of_cell = (known->functions + 1) * known->decisions;
     house->known = NULL;
-    if (of_cell == 0 || house->cell_count > TN_KNOWN_ANSWERS_MAX / of_cell)
+    if (of_cell > 0 && house->cell_count > TN_KNOWN_ANSWERS_MAX / of_cell)
         return TN_OK;
     if (!tn_array_reserve(&known->answers, &known->room, 0, house->cell_count * of_cell + 1, sizeof *known->answers))
         return tn_fail_memory(error);

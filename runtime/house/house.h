@@ -46,12 +46,15 @@ typedef struct tn_face {
 } tn_face;
 
 /* What functions of kind CELL have decided on the cells of one house in one section, for each function that a cell may
- * have. A house that is looked at many times borrows it. Owns its arrays. */
+ * have; those that ask for a cell's function alone, on all cells of all houses. A house that is looked at many times
+ * borrows it. Owns its arrays. */
 #define TN_KNOWN_ANSWERS_MAX ((size_t)1 << 20)
 typedef struct tn_house_known {
     uint32_t *place; /* [functions of the module] of an answer; TN_NO_RECORD: its answers are not kept */
-    size_t decisions, functions;
-    uint8_t *answers; /* [cells][functions, and none][decisions]: 0 where it is not known yet */
+    bool *alone;     /* the same: they are among those of all cells */
+    size_t decisions, functions, alones;
+    uint8_t *answers;     /* [cells][functions, and none][decisions]: 0 where it is not known yet */
+    uint8_t *of_function; /* [functions, and none][alones]: the same */
     size_t room;
 } tn_house_known;
 

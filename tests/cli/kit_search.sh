@@ -79,5 +79,5 @@ assert p.returncode != 0 and "interrupted; the best of" in said, (p.returncode, 
 assert "1 1 " in open("interrupted.ldr").read()
 P
 
-python3 "$here/kit_search.py" "$TARTAN" "$here/../../stdlib/bricks.kit" 30 25 || fail 'a search of random kits is wrong'
+python3 "$here/kit_search.py" "$TARTAN" "$here/../../stdlib/bricks.kit" 60 25 || fail 'a search of random kits is wrong'
 exit $((failures > 0))

@@ -42,8 +42,8 @@ typedef struct tn_parse {
     bool form_head;                 /* the same of `form` */
     bool in_form, in_tile;          /* inside the braces of one */
     bool in_braces;
-    tn_span brace;  /* the { that is open */
-    int held_token; /* to be given out next; 0: none */
+    tn_span brace, tile_brace; /* the { that is open; that of the tile inside it */
+    int held_token;            /* to be given out next; 0: none */
     tn_span held_span;
     bool virtual_brace; /* the last } was not written: it closes what the author forgot to */
     uint32_t stray_end; /* where the last stray character ended: a run of them is reported once */

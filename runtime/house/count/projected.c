@@ -251,14 +251,14 @@ static tn_status go_on(tn_projecting *p, tn_projected_kind *of, uint32_t *set, t
 /* ---- from a set, by a tray or its functions */
 
 /* All ways on from a set, by plan state, slice and class; those to one plan state are [begin, end). */
-typedef struct tn_going_on {
+typedef struct tn_projected_ways {
     tn_projecting *projecting;
     tn_projected_kind *of;
     tn_way_on *on;
     size_t count, room, begin, end;
-} tn_going_on;
+} tn_projected_ways;
 
-static tn_status gather(tn_going_on *g, uint32_t set, tn_error *error)
+static tn_status gather(tn_projected_ways *g, uint32_t set, tn_error *error)
 {
     size_t count, size;
     g->count = g->begin = g->end = 0;
@@ -277,7 +277,7 @@ static tn_status gather(tn_going_on *g, uint32_t set, tn_error *error)
 }
 
 /* From now on ways lead to this plan state; where those by each slice begin is noted. */
-static void aim(tn_going_on *g, uint32_t plan)
+static void aim(tn_projected_ways *g, uint32_t plan)
 {
     tn_projected_kind *of = g->of;
     if (g->end > g->begin && g->on[g->begin].words[ON_PLAN] == plan)
@@ -295,7 +295,7 @@ static void aim(tn_going_on *g, uint32_t plan)
 }
 
 /* Adds the classes behind a slice to those of the key. */
-static bool push_behind(const tn_going_on *g, uint32_t slice)
+static bool push_behind(const tn_projected_ways *g, uint32_t slice)
 {
     bool ok = true;
     if (g->of->stamps[slice] != g->of->turn)
@@ -333,7 +333,7 @@ static tn_status add(tn_projected_layer *layer, uint32_t plan, uint32_t set, con
 }
 
 /* Goes on from a node of a layer of states: over the half steps, to where trays are taken. */
-static tn_status begin_step(tn_going_on *g, uint32_t set, tn_error *error)
+static tn_status begin_step(tn_projected_ways *g, uint32_t set, tn_error *error)
 {
     tn_status status = TN_OK;
     for (uint32_t i = 1; status == TN_OK && i < g->of->stages; i++)
@@ -344,7 +344,7 @@ static tn_status begin_step(tn_going_on *g, uint32_t set, tn_error *error)
 /* ---- functions */
 
 typedef struct tn_project_functions {
-    tn_going_on going;
+    tn_projected_ways going;
     uint32_t layer, plan;
     mpz_ptr count;
     tn_projected_layer *next;
@@ -352,7 +352,7 @@ typedef struct tn_project_functions {
 
 static tn_status take_functions(tn_project_functions *f, tn_tray tray, uint32_t plan, tn_error *error)
 {
-    tn_going_on *g = &f->going;
+    tn_projected_ways *g = &f->going;
     const tn_strip_furnished_list *list = &g->of->kind->strip->furnished[tray];
     tn_status status = spend(g->projecting, list->count, error);
     aim(g, plan);
@@ -418,7 +418,7 @@ static tn_status project_functions(tn_projecting *p, tn_projected_kind *of, mpz_
 /* A plan leads to a set of each kind of section: together they are a tuple. */
 typedef struct tn_project_plans {
     tn_projecting *projecting;
-    tn_going_on *going; /* [kinds] */
+    tn_projected_ways *going; /* [kinds] */
     tn_interner tuples;
     uint32_t *tuple; /* [kinds] scratch */
     uint32_t layer, plan;
@@ -432,7 +432,7 @@ static tn_status take_tray(tn_project_plans *f, tn_tray tray, uint32_t plan, tn_
     bool any = false;
     tn_status status = TN_OK;
     for (size_t k = 0; status == TN_OK && k < h->kind_count; k++) {
-        tn_going_on *g = &f->going[k];
+        tn_projected_ways *g = &f->going[k];
         const tn_strip_list *list = &g->of->kind->strip->of_tray[tray];
         f->projecting->key.size = 0;
         f->tuple[k] = 0;
@@ -492,7 +492,7 @@ static tn_status begin_plans(tn_project_plans *f, tn_projected_layer *first, tn_
     if (!f->going || !f->tuple)
         return tn_fail_memory(error);
     for (size_t k = 0; k < kinds; k++) {
-        f->going[k] = (tn_going_on){.projecting = p, .of = &p->kinds[k]};
+        f->going[k] = (tn_projected_ways){.projecting = p, .of = &p->kinds[k]};
         f->tuple[k] = p->kinds[k].first;
     }
     uint32_t tuple = tn_intern(&f->tuples, f->tuple, kinds);
