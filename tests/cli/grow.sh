@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Needs the parts: draw mesh
 # tartan grow: every format read back, options in the words of studies, limits, rest, sheets, the same bytes at any number of threads.
+# Slow under sanitizers.
 set -euo pipefail
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # tartan place: models from connection grammars, and what is said where a run cannot go on.
+# Slow under sanitizers.
 name=place
 source "$(dirname "$0")/golden.bash"
 

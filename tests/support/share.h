@@ -1,5 +1,5 @@
-/* How much is done of what a test may do any number of times: half, and all of it in `make check-long`. Under
- * AddressSanitizer, where it takes some five times as long, an eighth. */
+/* How much is done of what a test may do any number of times: a quarter, and all of it in `make check-long`. Under
+ * AddressSanitizer, where it takes some five times as long, a sixteenth. */
 #ifndef TARTAN_TESTS_SUPPORT_SHARE_H
 #define TARTAN_TESTS_SUPPORT_SHARE_H
 
@@ -10,9 +10,9 @@ static inline int test_share(int times)
     if (getenv("TARTAN_TESTS_LONG"))
         return times;
 #ifdef __SANITIZE_ADDRESS__
-    const int share = 8;
+    const int share = 16;
 #else
-    const int share = 2;
+    const int share = 4;
 #endif
     return times < share ? 1 : times / share;
 }
