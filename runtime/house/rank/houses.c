@@ -12,6 +12,7 @@ struct tn_plan_houses {
     tn_plan_path *kinds; /* [kinds] */
     tn_tray *trays;
     uint32_t length;
+    tn_house_known known; /* of the cells of the house that is looked for */
 };
 
 tn_status tn_plan_houses_new(tn_houses *h, tn_house_variants *variants, const tn_tray *trays, uint32_t length,
@@ -27,7 +28,7 @@ tn_status tn_plan_houses_new(tn_houses *h, tn_house_variants *variants, const tn
         return tn_fail_memory(error);
     if (length > 0)
         memcpy(p->trays, trays, length * sizeof *trays);
-    return TN_OK;
+    return tn_house_known_begin(h->form, &p->known, error);
 }
 
 void tn_plan_houses_free(tn_plan_houses *p)
@@ -35,6 +36,7 @@ void tn_plan_houses_free(tn_plan_houses *p)
     for (size_t i = 0; p && p->kinds && i < p->houses->kind_count; i++)
         tn_path_clear(&p->kinds[i]);
     if (p) {
+        tn_house_known_clear(&p->known);
         free(p->kinds);
         free(p->trays);
     }
@@ -75,7 +77,12 @@ static tn_status try_section(tn_plan_houses *p, const tn_choosing *choosing, con
     if (!*ended)
         return status;
     status = tn_house_stand(p->houses->form, p->trays, p->length, section->shapes, house, error);
-    return status == TN_OK ? tn_path_choose(path, choosing, house, found, error) : status;
+    if (status == TN_OK)
+        status = tn_house_known_use(&p->known, house, error);
+    if (status == TN_OK)
+        status = tn_path_choose(path, choosing, house, found, error);
+    house->known = NULL;
+    return status;
 }
 
 /* Of all sections in their order. */

@@ -332,21 +332,24 @@ static tn_status keep(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t 
     return status;
 }
 
-/* Shows the ways of a step over the outcomes that are looked at. What sees them may keep other steps. */
+/* Shows the ways of a step over the outcomes that are looked at; both are by outcome. What sees them may keep other
+ * steps. */
 static tn_status show_kept(const tn_strip *strip, tn_strip_ways_of_step ways, const tn_strip_list *only,
                            tn_strip_seen *seen, void *context, tn_error *error)
 {
     const tn_house_gain none = {{0}};
     tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && i < ways.count; i++) {
+    for (size_t i = 0, at = 0; status == TN_OK && i < ways.count; i++) {
         const tn_strip_way way = strip->way_items[ways.first + i];
-        const tn_strip_choice all = {way.outcome, way.choices}, *choice = choice_of(&all, only);
-        uint64_t times;
-        if (!choice)
+        uint64_t choices = way.choices, times;
+        while (only && at < only->count && only->items[at].slice < way.outcome)
+            at++;
+        if (only && (at == only->count || only->items[at].slice != way.outcome))
             continue;
-        if (__builtin_mul_overflow(choice->times, way.tiles, &times))
+        choices = only ? only->items[at].times : choices;
+        if (__builtin_mul_overflow(choices, way.tiles, &times))
             return too_many_choices(strip, error);
-        status = seen(context, way.after, times, choice->times, &none, error);
+        status = seen(context, way.after, times, choices, &none, error);
     }
     return status;
 }

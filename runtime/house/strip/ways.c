@@ -34,6 +34,12 @@ void tn_strip_ways_drop(tn_strip *strip)
     strip->way_count = strip->way_first;
 }
 
+static int compare_ways(const void *a, const void *b)
+{
+    const tn_strip_way *p = a, *q = b;
+    return (p->outcome > q->outcome) - (p->outcome < q->outcome);
+}
+
 tn_status tn_strip_ways_end(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, tn_error *error)
 {
     tn_strip_ways *ways = &strip->ways[trays];
@@ -44,7 +50,10 @@ tn_status tn_strip_ways_end(tn_strip *strip, uint32_t trays, uint32_t state, uin
         tn_strip_ways_drop(strip);
         return tn_fail_memory(error);
     }
-    ways->of[before] = (tn_strip_ways_of_step){strip->way_first, strip->way_count - strip->way_first};
+    size_t count = strip->way_count - strip->way_first;
+    if (count > 0)
+        qsort(strip->way_items + strip->way_first, count, sizeof *strip->way_items, compare_ways);
+    ways->of[before] = (tn_strip_ways_of_step){strip->way_first, count};
     return TN_OK;
 }
 
