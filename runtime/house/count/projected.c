@@ -12,7 +12,7 @@
 #include "runtime/base/integers.h"
 #include "runtime/house/count/data.h"
 
-enum { WORK_MOST = 1 << 30, DEAD = 0 };
+enum { WORK_MOST = 1 << 30, STEPS_MOST = 1 << 24, DEAD = 0 }; /* steps: of one layer, half a gigabyte */
 
 /* Words of a class: may the row end there; then the way on. From one tray to the next, if a step has stages, there are
  * classes that go on without a slice: a word for each. */
@@ -95,6 +95,9 @@ static tn_status note_step(void *context, const tn_houses_edge *edge, tn_error *
     tn_classing *c = context;
     const tn_houses_layer *next = &c->of->kind->layers[c->layer + 1];
     uint32_t to = tn_number_find(&next->nodes, (uint64_t)edge->plan << 32 | edge->state);
+    if (c->count == STEPS_MOST)
+        return tn_fail(error, TN_LIMIT, E_STRIP,
+                       "finding how many plans have a house takes more than %d steps of a tray", STEPS_MOST);
     if (!tn_array_reserve(&c->steps, &c->room, c->count, 1, sizeof *c->steps))
         return tn_fail_memory(error);
     c->steps[c->count++] = (tn_kept_step){edge->from, to, edge->slice, 0};
