@@ -70,7 +70,9 @@ tn_status tn_path_find(tn_plan_path *p, const tn_houses *houses, const tn_houses
     p->view.low = p->view.high = length;
     p->view.whole_steps = kind->strip->slice_keys.count < houses->many_slices;
     p->stages = tn_houses_stages(&p->view, &p->kind);
-    tn_status status = find_nodes(p, error);
+    tn_status status = tn_strip_ways_want(kind->strip, error);
+    if (status == TN_OK)
+        status = find_nodes(p, error);
     if (status == TN_OK)
         status = tn_houses_look_ahead(&p->view, &p->kind, error);
     return status == TN_OK ? tn_path_begin_states(p, error) : status;

@@ -90,6 +90,8 @@ static tn_status make_ranked(tn_houses *h, tn_error *error)
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && !h->ranked && i < h->kind_count; i++)
         status = tn_houses_look_ahead(h, &h->kinds[i], error);
+    for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
+        status = tn_strip_ways_want(h->kinds[i].strip, error);
     h->ranked = status == TN_OK;
     return status;
 }

@@ -15,6 +15,7 @@
 #include "runtime/base/int128.h"
 #include "runtime/house/house.h"
 #include "runtime/house/measure/measure.h"
+#include "runtime/house/strip/kept.h"
 #include "runtime/house/strip/without.h"
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/match/lower.h"
@@ -191,20 +192,6 @@ typedef struct tn_strip_ordered {
     uint32_t *items;
     size_t count, room;
 } tn_strip_ordered;
-
-/* The same: kinds are what is in it, ascending, each once; items are places in these. */
-typedef struct tn_strip_sequence {
-    uint32_t *kinds, *items;
-    size_t kind_count, count;
-} tn_strip_sequence;
-
-/* Sequences that are kept (ordered.c): by {tray, functions of its cells}, or {left edge, right edge, functions of
- * both}. */
-typedef struct tn_strip_orders {
-    tn_interner keys;
-    tn_strip_sequence *of; /* [keys]; without kinds: not known */
-    size_t room, items;    /* items: of all */
-} tn_strip_orders;
 
 /* Cells with these functions (of `functions`) can be the slice, with so many choices of what is in the inner faces. */
 typedef struct tn_strip_furnished {
@@ -436,23 +423,6 @@ typedef struct tn_strip_ahead {
     tn_strip_range tray[TN_COMPARED_MAX], end[TN_COMPARED_MAX], all[TN_COMPARED_MAX];
 } tn_strip_ahead;
 
-/* A way that a step goes on (ways.c): over an outcome of the plane, of which there are so many choices, to the state
- * `after`, with so many arrangements of tiles for each. */
-typedef struct tn_strip_way {
-    uint32_t outcome, after;
-    uint64_t choices, tiles;
-} tn_strip_way;
-
-typedef struct tn_strip_ways_of_step {
-    size_t first, count; /* of way_items; by outcome */
-} tn_strip_ways_of_step;
-
-typedef struct tn_strip_ways {
-    tn_numbering steps;        /* state << 32 | slice */
-    tn_strip_ways_of_step *of; /* [steps] */
-    size_t room;
-} tn_strip_ways;
-
 typedef struct tn_strip {
     const tn_house_form *form;
     const tn_house_library_record *library;
@@ -488,9 +458,7 @@ typedef struct tn_strip {
     tn_strip_borders borders;
     uint8_t *ends; /* [states]: may the row end there? see tn_strip_ends */
     size_t end_room;
-    tn_strip_ways *ways; /* [trays_most + 1]: of steps after so many trays */
-    tn_strip_way *way_items;
-    size_t way_first, way_count, way_room; /* first: of the step that is being kept */
+    tn_strip_ways ways;
     tn_interner edge_keys, slice_keys, outcome_keys, areas, bases, sides, waiting, rooms, walks, states;
     tn_strip_edge *edges;
     size_t edge_room;

@@ -28,17 +28,11 @@ void tn_strip_orders_trim(tn_strip *strip)
 
 /* ---- what is in a sequence */
 
-static int compare_words(const void *a, const void *b)
-{
-    uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
-    return (p > q) - (p < q);
-}
-
 /* kinds := what is in the items, once each. */
 static void find_kinds(tn_strip_sequence *s)
 {
     memcpy(s->kinds, s->items, s->count * sizeof *s->kinds);
-    qsort(s->kinds, s->count, sizeof *s->kinds, compare_words);
+    qsort(s->kinds, s->count, sizeof *s->kinds, tn_words_compare);
     for (size_t i = 0; i < s->count; i++)
         if (i == 0 || s->kinds[i] != s->kinds[s->kind_count - 1])
             s->kinds[s->kind_count++] = s->kinds[i];
@@ -54,7 +48,7 @@ static tn_status make_sequence(const tn_strip_ordered *ordered, tn_strip_sequenc
     if (s->count > 0)
         find_kinds(s);
     for (size_t i = 0; i < s->count; i++) {
-        const uint32_t *kind = bsearch(&s->items[i], s->kinds, s->kind_count, sizeof *kind, compare_words);
+        const uint32_t *kind = bsearch(&s->items[i], s->kinds, s->kind_count, sizeof *kind, tn_words_compare);
         s->items[i] = (uint32_t)(kind - s->kinds);
     }
     return TN_OK;

@@ -262,11 +262,15 @@ tn_status tn_strip_find_waiting(tn_strip *strip, uint32_t slice, uint32_t right_
 
 /* ---- ways.c */
 
+/* Ranks begin: from now on steps are kept. */
+tn_status tn_strip_ways_want(tn_strip *strip, tn_error *error);
+
 /* Those of a step that is kept, good until the next step; NULL: it is not. */
-tn_strip_ways_of_step *tn_strip_ways_find(const tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice);
+const tn_strip_ways_of_step *tn_strip_ways_find(const tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice);
 
 /* Begins to keep the ways of a step. False: steps are not kept, as something is added up on the way, what is kept is
- * not final, or there are too many. Then each is added, and they are of this step; or they are dropped. */
+ * not final, there are too many, or they are not wanted. Then each is added, and they are of this step; or they are
+ * dropped. */
 bool tn_strip_ways_begin(tn_strip *strip);
 tn_status tn_strip_ways_add(tn_strip *strip, const tn_strip_way *way, tn_error *error);
 tn_status tn_strip_ways_end(tn_strip *strip, uint32_t trays, uint32_t state, uint32_t slice, tn_error *error);

@@ -283,19 +283,13 @@ tn_status tn_strip_plane_cost(tn_strip *strip, const tn_strip_border *border, co
 
 /* ---- tiles */
 
-static int compare_words(const void *a, const void *b)
-{
-    uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
-    return (p > q) - (p < q);
-}
-
 /* {cost, how many} of each cost, from the cost of each. */
 static bool push_list(tn_key *key, uint32_t *costs, size_t count)
 {
     bool ok = true;
     key->size = 0;
     if (count > 0)
-        qsort(costs, count, sizeof *costs, compare_words);
+        qsort(costs, count, sizeof *costs, tn_words_compare);
     for (size_t i = 0, end; ok && i < count; i = end) {
         for (end = i; end < count && costs[end] == costs[i];)
             end++;

@@ -340,7 +340,7 @@ static tn_status show_kept(const tn_strip *strip, tn_strip_ways_of_step ways, co
     const tn_house_gain none = {{0}};
     tn_status status = TN_OK;
     for (size_t i = 0, at = 0; status == TN_OK && i < ways.count; i++) {
-        const tn_strip_way way = strip->way_items[ways.first + i];
+        const tn_strip_way way = strip->ways.items[ways.first + i];
         uint64_t choices = way.choices, times;
         while (only && at < only->count && only->items[at].slice < way.outcome)
             at++;

@@ -24,9 +24,8 @@ static tn_status begin(tn_strip *strip, tn_error *error)
     strip->scratch = calloc(2 * (size_t)strip->library->clause_count + 1, sizeof *strip->scratch);
     strip->after_slice = calloc((size_t)strip->trays_most + 1, sizeof *strip->after_slice);
     strip->after_plane = calloc((size_t)strip->trays_most + 1, sizeof *strip->after_plane);
-    strip->ways = calloc((size_t)strip->trays_most + 1, sizeof *strip->ways);
     if (!strip->of_tray || !strip->furnished || !strip->tiled || !strip->asked_function || !strip->scratch ||
-        !strip->after_slice || !strip->after_plane || !strip->ways)
+        !strip->after_slice || !strip->after_plane)
         return tn_fail_memory(error);
     for (uint32_t k = 0; k < strip->added->count; k++) {
         strip->weighed_rooms[k] = calloc((size_t)strip->added->of[k]->count + 1, sizeof(uint32_t));
@@ -124,7 +123,6 @@ void tn_strip_free(tn_strip *strip)
     tn_numbering_clear(&strip->moves);
     clear_known(strip);
     tn_strip_ways_forget(strip);
-    free(strip->ways);
     tn_strip_orders_clear(&strip->slice_orders);
     tn_strip_orders_clear(&strip->outcome_orders);
     tn_strip_clauses_free(strip);

@@ -26,6 +26,13 @@ uint32_t tn_number_find(const tn_numbering *numbering, uint64_t key);
 uint32_t tn_number_new(tn_numbering *numbering, uint64_t key);
 void tn_numbering_clear(tn_numbering *numbering);
 
+/* Orders words ascending, for qsort and bsearch. */
+static inline int tn_words_compare(const void *left, const void *right)
+{
+    uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
+    return (a > b) - (a < b);
+}
+
 /* A key that grows. */
 typedef struct tn_key {
     uint32_t *data;
