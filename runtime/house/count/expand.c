@@ -1,8 +1,8 @@
 /* Goes from the nodes of a layer to those of the next: what is equal for several plans is worked out once.
  *
  * Between the states after two trays there are three more layers where a step has four stages (stage.c): of leavings,
- * of thresholds, then of arrivals. A state then goes on by all entries that can follow, a leaving by itself, a
- * threshold by all groups of its entry; an arrival goes on by each slice. */
+ * of thresholds, then of arrivals. A state then goes on by all entries that can follow, a leaving and a threshold by
+ * all groups of these; an arrival goes on by each slice. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,18 +24,11 @@ typedef struct tn_fan {
     size_t used, room;
 } tn_fan;
 
-/* The groups of slices that an entry has; as a list, by number. */
-typedef struct tn_entering {
-    uint32_t entry, groups;
-} tn_entering;
-
 /* The ways on from one plan state. */
 typedef struct tn_ways {
     tn_houses_way *items;
     size_t count, room;
-    uint32_t entries;      /* STAGE_LEAVE: the list of them, by number */
-    tn_entering *entering; /* STAGE_ENTER: by entry */
-    size_t entering_count, entering_room;
+    uint32_t list; /* half way: of entries (STAGE_LEAVE), of these with their groups (STAGE_FACE, STAGE_ENTER) */
 } tn_ways;
 
 /* A step as a whole, or one of its stages. */
@@ -55,6 +48,12 @@ typedef struct tn_houses_expansion {
 } tn_houses_expansion;
 
 /* ---- ways of plans */
+
+/* What is half way is met once, however many slices lead on from it: the tray is not taken yet. */
+static bool is_half(const tn_houses_expansion *e)
+{
+    return e->stage < STAGE_ARRIVE;
+}
 
 /* Ways by slices of one entry, and of one group, follow one another: groups have one entry. */
 static int compare_ways(const void *a, const void *b)
@@ -130,8 +129,8 @@ static tn_status find_entries(tn_strip *strip, tn_ways *ways, tn_error *error)
     for (size_t i = 0; ok && i < ways->count; i++)
         if (i == 0 || ways->items[i].entry != ways->items[i - 1].entry)
             ok = tn_key_push(key, ways->items[i].entry);
-    ways->entries = ok ? tn_strip_number_list(strip, key->data, key->size) : UINT32_MAX;
-    return ways->entries != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+    ways->list = ok ? tn_strip_number_list(strip, key->data, key->size) : UINT32_MAX;
+    return ways->list != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
 /* strip->key := for each group of the ways from here that have one entry: what clauses read of it, and its number. *at
@@ -156,25 +155,29 @@ static int compare_pairs(const void *a, const void *b)
     return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-/* Groups of which clauses read the same follow one another in the lists. */
-static tn_status find_groups(tn_strip *strip, tn_ways *ways, tn_error *error)
+/* The number of the list of groups in strip->key: those of which clauses read the same follow one another. */
+static uint32_t number_groups(tn_strip *strip)
 {
     const tn_key *key = &strip->key;
-    for (size_t at = 0; at < ways->count;) {
-        tn_entering entering = {.entry = ways->items[at].entry};
-        if (!list_groups(strip, ways, &at) ||
-            !tn_array_reserve(&ways->entering, &ways->entering_room, ways->entering_count, 1, sizeof *ways->entering))
-            return tn_fail_memory(error);
-        size_t count = key->size / 2;
-        qsort(key->data, count, 2 * sizeof *key->data, compare_pairs);
-        for (size_t i = 0; i < count; i++)
-            key->data[i] = key->data[2 * i + 1];
-        entering.groups = tn_strip_number_list(strip, key->data, count);
-        if (entering.groups == UINT32_MAX)
-            return tn_fail_memory(error);
-        ways->entering[ways->entering_count++] = entering;
+    size_t count = key->size / 2;
+    qsort(key->data, count, 2 * sizeof *key->data, compare_pairs);
+    for (size_t i = 0; i < count; i++)
+        key->data[i] = key->data[2 * i + 1];
+    return tn_strip_number_list(strip, key->data, count);
+}
+
+static tn_status find_groups(tn_strip *strip, tn_ways *ways, tn_error *error)
+{
+    tn_key entering = {0};
+    bool ok = true;
+    for (size_t at = 0; ok && at < ways->count;) {
+        uint32_t entry = ways->items[at].entry;
+        uint32_t groups = list_groups(strip, ways, &at) ? number_groups(strip) : UINT32_MAX;
+        ok = groups != UINT32_MAX && tn_key_push(&entering, entry) && tn_key_push(&entering, groups);
     }
-    return TN_OK;
+    ways->list = ok ? tn_strip_number_list(strip, entering.data, entering.size) : UINT32_MAX;
+    free(entering.data);
+    return ways->list != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
 /* Is the node left aside? */
@@ -195,7 +198,7 @@ static tn_status find_all_ways(tn_houses_expansion *e, tn_error *error)
         status = find_ways(e, (uint32_t)e->plans.keys[i], &e->ways[i], error);
         if (status == TN_OK && e->stage == STAGE_LEAVE)
             status = find_entries(e->kind->strip, &e->ways[i], error);
-        if (status == TN_OK && e->stage == STAGE_ENTER)
+        if (status == TN_OK && is_half(e) && e->stage != STAGE_LEAVE)
             status = find_groups(e->kind->strip, &e->ways[i], error);
     }
     return status;
@@ -235,7 +238,7 @@ static tn_status step(tn_houses_expansion *e, uint32_t state, uint32_t by, tn_er
     if (e->stage == STAGE_LEAVE)
         return tn_strip_leave(strip, state, by, reach, &e->fan, error);
     if (e->stage == STAGE_FACE)
-        return tn_strip_face(strip, state, reach, &e->fan, error);
+        return tn_strip_face(strip, e->trays, state, by, reach, &e->fan, error);
     if (e->stage == STAGE_ENTER)
         return tn_strip_enter(strip, e->trays, state, by, reach, &e->fan, error);
     return e->stage == STAGE_ARRIVE ? tn_strip_arrive(strip, state, by, reach, &e->fan, error)
@@ -306,25 +309,6 @@ static void find_stretch(const tn_houses_expansion *e, const tn_ways *ways, uint
     *end = first_way(ways, entry, group + 1);
 }
 
-static int compare_entering(const void *a, const void *b)
-{
-    const tn_entering *p = a, *q = b;
-    return (p->entry > q->entry) - (p->entry < q->entry);
-}
-
-/* The list that a node goes on by, where it does so by a list. False: nothing follows. */
-static bool find_list(const tn_houses_expansion *e, const tn_ways *ways, uint32_t state, uint32_t *list)
-{
-    *list = e->stage == STAGE_LEAVE ? ways->entries : 0;
-    if (e->stage != STAGE_ENTER)
-        return ways->count > 0;
-    const tn_entering entry = {.entry = tn_strip_threshold_entry(e->kind->strip, state)}, *found = NULL;
-    if (ways->entering_count > 0)
-        found = bsearch(&entry, ways->entering, ways->entering_count, sizeof entry, compare_entering);
-    *list = found ? found->groups : 0;
-    return found != NULL;
-}
-
 static tn_status expand_end(tn_houses_expansion *e, uint32_t turn, uint32_t node, tn_error *error)
 {
     uint64_t key = e->kind->layers[e->layer].nodes.keys[node];
@@ -336,21 +320,14 @@ static tn_status expand_end(tn_houses_expansion *e, uint32_t turn, uint32_t node
     return status == TN_OK ? show(e, node, &way, 0, error) : status;
 }
 
-/* What is half way is met once, however many slices lead on from it: the tray is not taken yet. */
-static bool is_half(const tn_houses_expansion *e)
-{
-    return e->stage < STAGE_ARRIVE;
-}
-
 static tn_status expand_half(tn_houses_expansion *e, uint32_t turn, uint32_t node, const tn_ways *ways, tn_error *error)
 {
     uint64_t key = e->kind->layers[e->layer].nodes.keys[node];
     const tn_houses_way stays = {.plan = (uint32_t)(key >> 32), .times = 1};
-    uint32_t list;
-    if (!find_list(e, ways, (uint32_t)key, &list))
+    if (ways->count == 0)
         return TN_OK;
-    tn_status status = ask(e, turn, (uint32_t)key, list, list, error);
-    return status == TN_OK ? show(e, node, &stays, list, error) : status;
+    tn_status status = ask(e, turn, (uint32_t)key, ways->list, ways->list, error);
+    return status == TN_OK ? show(e, node, &stays, ways->list, error) : status;
 }
 
 static tn_status expand_node(tn_houses_expansion *e, uint32_t turn, uint32_t node, tn_error *error)
@@ -469,10 +446,8 @@ static tn_status expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t 
         status = begin_fan(&e, error);
     if (status == TN_OK)
         status = expand_nodes(&e, end, error);
-    for (uint32_t i = 0; e.ways && i < e.plans.count; i++) {
+    for (uint32_t i = 0; e.ways && i < e.plans.count; i++)
         free(e.ways[i].items);
-        free(e.ways[i].entering);
-    }
     free(e.ways);
     tn_numbering_clear(&e.plans);
     free(e.fan.mark);

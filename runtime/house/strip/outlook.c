@@ -1,9 +1,8 @@
-/* From a state over the plane behind it, in two stages: what can be seen of the plane from its left, then what faces
- * it.
+/* From a state to what can be seen of the plane behind it.
  *
  * Most of what tells states apart does not matter to what stands at the right of the plane, and the other way round. So
- * a state leads to leavings, of which each stands for all that can face what is seen from the left; and a leaving,
- * where all states that see this are one, to thresholds. */
+ * a state leads to leavings, of which each stands for all that can face what is seen from the left. All states that
+ * see this are one. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -54,12 +53,12 @@ bool tn_strip_split_outcome(tn_strip *strip, const uint32_t *words, uint32_t lef
 }
 
 /* While tiles are left aside, nothing matters to them. */
-static uint32_t right_of(const tn_strip *strip, uint32_t outcome)
+uint32_t tn_strip_right_seen(const tn_strip *strip, uint32_t outcome)
 {
     return strip->scouting ? strip->outcomes[outcome].plain : strip->outcomes[outcome].right;
 }
 
-static uint32_t fits_of(const tn_strip *strip, uint32_t outcome)
+uint32_t tn_strip_left_fits(const tn_strip *strip, uint32_t outcome)
 {
     return strip->scouting ? 0 : strip->outcomes[outcome].left_fits;
 }
@@ -100,11 +99,12 @@ static tn_status see_plane(tn_strip *strip, uint32_t edge, uint32_t entry, tn_st
         return tn_fail_memory(error);
     for (size_t i = 0; i < plane->count; i++) {
         uint32_t outcome = plane->items[i].slice;
-        uint32_t facing = tn_number(&strip->stages.facings, (uint64_t)entry << 32 | right_of(strip, outcome));
+        uint32_t facing =
+            tn_number(&strip->stages.facings, (uint64_t)entry << 32 | tn_strip_right_seen(strip, outcome));
         if (facing == UINT32_MAX)
             return tn_fail_memory(error);
-        sights->items[sights->count++] =
-            (tn_strip_sight){strip->outcomes[outcome].left, fits_of(strip, outcome), facing, plane->items[i].times};
+        sights->items[sights->count++] = (tn_strip_sight){
+            strip->outcomes[outcome].left, tn_strip_left_fits(strip, outcome), facing, plane->items[i].times};
     }
     return TN_OK;
 }
@@ -308,58 +308,6 @@ tn_status tn_strip_leave(tn_strip *strip, uint32_t state, uint32_t entries, tn_s
         status = number_leaving(&by, prospect->outlook, &leaving, error);
         if (status == TN_OK)
             status = seen(context, leaving, tiles, 1, &(tn_house_gain){{0}}, error);
-    }
-    return status;
-}
-
-/* ---- from a leaving */
-
-/* An outcome of the plane of the leaving's first state with what is seen from both sides. */
-static tn_status find_outcome(tn_strip *strip, const tn_strip_leaving *by, uint64_t facing, uint32_t *outcome,
-                              tn_error *error)
-{
-    size_t size;
-    const tn_strip_list *plane;
-    bool begins = by->state == TN_STRIP_NONE;
-    uint32_t edge = begins ? TN_STRIP_NONE : tn_interned(&strip->states, by->state, &size)[STATE_EDGE];
-    tn_status status = tn_strip_plane(strip, edge, tn_high(facing), &plane, error);
-    for (size_t i = 0; status == TN_OK && i < plane->count; i++) {
-        *outcome = plane->items[i].slice;
-        if (strip->outcomes[*outcome].left == by->left && fits_of(strip, *outcome) == by->fits &&
-            right_of(strip, *outcome) == tn_low(facing))
-            break;
-    }
-    return status;
-}
-
-static tn_status number_threshold(tn_strip *strip, uint32_t leaving, uint32_t facing, uint32_t *number, tn_error *error)
-{
-    tn_strip_stages *stages = &strip->stages;
-    uint32_t before = stages->thresholds.count, behind = tn_high(stages->leavings.keys[leaving]);
-    if (!tn_array_reserve(&stages->crossed_by, &stages->threshold_room, before, 1, sizeof *stages->crossed_by))
-        return tn_fail_memory(error);
-    *number = tn_number(&stages->thresholds, (uint64_t)behind << 32 | facing);
-    if (*number == UINT32_MAX)
-        return tn_fail_memory(error);
-    if (*number < before)
-        return TN_OK;
-    const tn_strip_leaving *by = &stages->left_by[leaving];
-    stages->crossed_by[before].state = by->state;
-    return find_outcome(strip, by, stages->facings.keys[facing], &stages->crossed_by[before].outcome, error);
-}
-
-tn_status tn_strip_face(tn_strip *strip, uint32_t leaving, tn_strip_seen *seen, void *context, tn_error *error)
-{
-    const tn_strip_stages *stages = &strip->stages;
-    size_t size;
-    const uint32_t *outlook = tn_interned(&stages->outlooks, tn_low(stages->leavings.keys[leaving]), &size);
-    tn_status status = TN_OK;
-    for (const uint32_t *end = outlook + size; status == TN_OK && outlook < end; outlook += OUTLOOK_WORDS) {
-        uint32_t threshold;
-        uint64_t times = tn_both(outlook + OUTLOOK_TIMES);
-        status = number_threshold(strip, leaving, outlook[OUTLOOK_FACING], &threshold, error);
-        if (status == TN_OK)
-            status = seen(context, threshold, times, times, &(tn_house_gain){{0}}, error);
     }
     return status;
 }

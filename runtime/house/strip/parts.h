@@ -277,29 +277,34 @@ tn_status tn_strip_ways_end(tn_strip *strip, uint32_t trays, uint32_t state, uin
 void tn_strip_ways_drop(tn_strip *strip);
 void tn_strip_ways_forget(tn_strip *strip); /* states are numbered anew */
 
-/* ---- outlook.c, stage.c: a step in four stages; nothing is added up, and tiles have no prices */
+/* ---- outlook.c, passing.c, stage.c: a step in four stages; nothing is added up, and tiles have no prices */
 
 bool tn_strip_has_stages(const tn_strip *strip);
 
 /* From a state (TN_STRIP_NONE before the first slice), before slices with one of these entries, to leavings; from a
- * leaving over the plane to thresholds; from a threshold into slices of a group, which has its entry, to an arrival;
- * from an arrival to the state behind one of these slices. Shown to `seen` as by tn_strip_step; trays: before the
- * slice.
+ * leaving over the plane to thresholds that lead on; from a threshold into slices of the groups that its entry has, to
+ * arrivals; from an arrival to the state behind one of these slices. entries, entering: numbers of lists. Shown to
+ * `seen` as by tn_strip_step; trays: before the slice.
  */
 tn_status tn_strip_leave(tn_strip *strip, uint32_t state, uint32_t entries, tn_strip_seen *seen, void *context,
                          tn_error *error);
-tn_status tn_strip_face(tn_strip *strip, uint32_t leaving, tn_strip_seen *seen, void *context, tn_error *error);
-tn_status tn_strip_enter(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t groups, tn_strip_seen *seen,
+tn_status tn_strip_face(tn_strip *strip, uint32_t trays, uint32_t leaving, uint32_t entering, tn_strip_seen *seen,
+                        void *context, tn_error *error);
+tn_status tn_strip_enter(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t entering, tn_strip_seen *seen,
                          void *context, tn_error *error);
+void tn_strip_passing_forget(tn_strip_passing *passing);
 tn_status tn_strip_arrive(tn_strip *strip, uint32_t arrival, uint32_t slice, tn_strip_seen *seen, void *context,
                           tn_error *error);
 
-/* The number of a list: of entries, ascending; of groups, those together of which clauses read the same. UINT32_MAX:
- * out of memory. */
+/* The number of a list: of entries, ascending; of groups, those together of which clauses read the same; of pairs of an
+ * entry and the list of its groups, by entry. UINT32_MAX: out of memory. */
 uint32_t tn_strip_number_list(tn_strip *strip, const uint32_t *items, size_t count);
 
-/* The entry of a threshold, the group of an arrival. */
-uint32_t tn_strip_threshold_entry(const tn_strip *strip, uint32_t threshold);
+/* What can be seen of an outcome from its right: of `rights`; what of it matters to the tiles at its left. */
+uint32_t tn_strip_right_seen(const tn_strip *strip, uint32_t outcome);
+uint32_t tn_strip_left_fits(const tn_strip *strip, uint32_t outcome);
+
+/* The group of an arrival. */
 uint32_t tn_strip_arrival_group(const tn_strip *strip, uint32_t arrival);
 
 void tn_strip_stages_forget(tn_strip_stages *stages); /* states are numbered anew; groups stay */

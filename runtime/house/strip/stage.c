@@ -1,5 +1,5 @@
-/* A step from a state to one behind the next slice, in four stages: to what can be seen of the plane behind it, to what
- * faces it (outlook.c), into the slice, to its right side.
+/* A step from a state to one behind the next slice, in four stages: to what can be seen of the plane behind it
+ * (outlook.c), to what faces it, into the slice (passing.c), to its right side.
  *
  * Many states are one at the plane, as their edges are behind it and their tiles are counted; many slices are one to
  * rooms, walks and clauses. So the step is the product of four that are much smaller. */
@@ -65,87 +65,10 @@ uint32_t tn_strip_number_list(tn_strip *strip, const uint32_t *items, size_t cou
     return tn_intern(&strip->stages.lists, items, count);
 }
 
-/* The entry, and what is seen of the plane from there: entry << 32 | right. */
-static uint64_t facing_of(const tn_strip *strip, uint32_t threshold)
-{
-    return strip->stages.facings.keys[tn_low(strip->stages.thresholds.keys[threshold])];
-}
-
-uint32_t tn_strip_threshold_entry(const tn_strip *strip, uint32_t threshold)
-{
-    return tn_high(facing_of(strip, threshold));
-}
-
 uint32_t tn_strip_arrival_group(const tn_strip *strip, uint32_t arrival)
 {
     size_t size;
     return tn_interned(&strip->stages.arrivals, arrival, &size)[ARRIVAL_GROUP];
-}
-
-/* ---- into the slice */
-
-typedef struct tn_entering_by {
-    tn_strip *strip;
-    const uint32_t *state, *behind; /* words; state: or NULL */
-    uint32_t trays, outcome, fits;
-} tn_entering_by;
-
-static tn_status number_arrival(const tn_entering_by *by, uint32_t group, const uint32_t *crossed, uint32_t read,
-                                uint32_t *number, tn_error *error)
-{
-    tn_strip *strip = by->strip;
-    tn_key *key = &strip->joined;
-    key->size = 0;
-    bool ok = tn_key_push(key, group);
-    for (uint32_t w = 0; ok && w <= strip->questions.walk_count; w++)
-        ok = tn_key_push(key, crossed[CROSSED_ROOMS + w]);
-    ok = ok && tn_key_push(key, read) && tn_key_push(key, by->fits);
-    *number = ok ? tn_intern(&strip->stages.arrivals, key->data, key->size) : UINT32_MAX;
-    return *number != UINT32_MAX ? TN_OK : tn_fail_memory(error);
-}
-
-/* between: what clauses have read of the group's slices by themselves. */
-static tn_status enter_group(const tn_entering_by *by, uint32_t group, uint32_t between, tn_strip_seen *seen,
-                             void *context, tn_error *error)
-{
-    uint32_t crossed[CROSSED_WALKS + TN_STRIP_MEETINGS_MAX + TN_STRIP_QUESTIONS_MAX], read, arrival;
-    tn_strip *strip = by->strip;
-    tn_status status =
-        tn_strip_cross_outcome(strip, by->state, strip->stages.slices[group], by->outcome, by->behind, crossed, error);
-    if (status == TN_OK)
-        status = tn_strip_read_plane(strip, by->trays, between, crossed[CROSSED_VALUES], &read, error);
-    if (status != TN_OK || read == TN_STRIP_NONE)
-        return status;
-    status = number_arrival(by, group, crossed, read, &arrival, error);
-    return status == TN_OK ? seen(context, arrival, 1, 1, &(tn_house_gain){{0}}, error) : status;
-}
-
-tn_status tn_strip_enter(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t groups, tn_strip_seen *seen,
-                         void *context, tn_error *error)
-{
-    size_t size, count;
-    const tn_strip_stages *stages = &strip->stages;
-    const tn_strip_threshold *crossed = &stages->crossed_by[threshold];
-    const uint32_t *behind = tn_interned(&stages->behinds, tn_high(stages->thresholds.keys[threshold]), &size);
-    const uint32_t *list = tn_interned(&stages->lists, groups, &count);
-    const tn_entering_by by = {
-        .strip = strip,
-        .state = crossed->state == TN_STRIP_NONE ? NULL : tn_interned(&strip->states, crossed->state, &size),
-        .behind = behind,
-        .trays = trays,
-        .outcome = crossed->outcome,
-        .fits = tn_interned(&stages->rights, tn_low(facing_of(strip, threshold)), &size)[RIGHT_FITS]};
-    uint32_t bases = TN_STRIP_NONE, between = TN_STRIP_NONE, last = tn_strip_waiting_word(strip) - 1;
-    tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && i < count; i++) {
-        uint32_t slice = stages->slices[list[i]];
-        if (i == 0 || strip->slices[slice].bases != bases)
-            status = tn_strip_read_slice(strip, trays, behind[last], slice, &between, error);
-        bases = strip->slices[slice].bases;
-        if (status == TN_OK && between != TN_STRIP_NONE)
-            status = enter_group(&by, list[i], between, seen, context, error);
-    }
-    return status;
 }
 
 /* ---- to its right side */
