@@ -16,6 +16,7 @@ void tn_view_free(tn_view *view)
     free(view->faces);
     free(view->points);
     free(view->edges);
+    free(view->sharpest);
     tn_guides_clear(&view->guides);
     free(view);
 }
@@ -277,6 +278,8 @@ tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **resul
         status = keep(view, &seen, &painting, error);
     if (status == TN_OK)
         status = tn_view_join(view, error);
+    if (status == TN_OK)
+        status = tn_view_find_seams(view, error);
     for (int k = 0; k < 2 && status == TN_OK; k++)
         view->extent[k] = view->high[k] - view->low[k];
     if (status == TN_OK)

@@ -11,6 +11,9 @@
 /* An edge between two faces that are filled together: it has neither a line nor a seam. */
 #define TN_EDGE_JOINED (UINT16_MAX - 2)
 
+/* Where no line ends at the end of a seam. */
+#define TN_MEETS_NOTHING (-2.0f)
+
 /* A face, or a piece of one: what is needed to paint it. */
 typedef struct tn_seen_face {
     uint32_t first, size; /* corners */
@@ -25,6 +28,8 @@ struct tn_view {
     size_t face_count;
     float (*points)[2]; /* [corner] in the picture's plane, y up */
     uint16_t *edges;    /* [corner] of the edge that starts there: as in tn_sight; TN_EDGE_NONE where a face was cut */
+    float *sharpest;    /* [2 * corner] of the seam that starts there, at its ends: the cosine of the sharpest angle
+                           between    it and a line, or TN_MEETS_NOTHING; NULL: there are no seams */
     double low[2], high[2];
     double extent[2]; /* of the form alone: guides and views from all around make the frame larger */
     double width;
@@ -42,5 +47,8 @@ void tn_view_paint_marks(cairo_t *cr, const tn_view *view, const tn_view_place *
 
 /* Joins faces that can be filled together; changes their order. */
 tn_status tn_view_join(tn_view *view, tn_error *error);
+
+/* Finds what lines meet the ends of seams, once faces are joined. */
+tn_status tn_view_find_seams(tn_view *view, tn_error *error);
 
 #endif

@@ -132,45 +132,16 @@ static void outline(cairo_t *cr, const tn_view *view, const tn_seen_face *face)
     cairo_close_path(cr);
 }
 
-/* How far a stroke keeps away from lines at its ends: `line` is half as wide as these are, `stroke` half as wide as it
- * is itself. */
-typedef struct clearance {
-    double line, stroke;
-} clearance;
-
-/* The point on a side where a stroke along it ends: so far from the corner that no part of it touches a line along the
- * next side, but at most in the middle. The sharper the corner, the farther away that is. */
-static void end_of_stroke(const float *corner, const float *other, const float *next, const clearance *clear,
-                          double at[2])
-{
-    double along[2] = {(double)other[0] - (double)corner[0], (double)other[1] - (double)corner[1]};
-    double beside[2] = {(double)next[0] - (double)corner[0], (double)next[1] - (double)corner[1]};
-    double length = hypot(along[0], along[1]), product = length * hypot(beside[0], beside[1]), share = 0;
-    if (clear && product > 0) {
-        double sine = fabs(along[0] * beside[1] - along[1] * beside[0]) / product;
-        double cosine = fabs(along[0] * beside[0] + along[1] * beside[1]) / product;
-        share = fmin((clear->line + clear->stroke * cosine) / fmax(sine * length, 1e-30), 0.5);
-    }
-    at[0] = (double)corner[0] + share * along[0];
-    at[1] = (double)corner[1] + share * along[1];
-}
-
-/* Strokes the sides of one kind, from one corner on; returns the next corner. Where there are sides of other kinds at
- * its ends, the stroke keeps clear of them. */
-static uint32_t stroke_run(cairo_t *cr, const tn_view *view, const tn_seen_face *face, uint32_t i,
-                           const clearance *clear)
+/* Strokes the sides of one kind, from one corner on; returns the next corner. */
+static uint32_t stroke_run(cairo_t *cr, const tn_view *view, const tn_seen_face *face, uint32_t i)
 {
     const uint16_t *edges = view->edges + face->first;
     const float(*points)[2] = (const float(*)[2])(view->points + face->first);
     uint16_t edge = edges[i];
-    double at[2];
-    uint32_t size = face->size, before = i ? i - 1 : size - 1;
-    end_of_stroke(points[i], points[(i + 1) % size], points[before], edges[before] != edge ? clear : NULL, at);
-    cairo_move_to(cr, at[0], at[1]);
-    for (; i < size && edges[i] == edge; i++) {
-        uint32_t next = (i + 1) % size;
-        end_of_stroke(points[next], points[i], points[(next + 1) % size], edges[next] != edge ? clear : NULL, at);
-        cairo_line_to(cr, at[0], at[1]);
+    cairo_move_to(cr, (double)points[i][0], (double)points[i][1]);
+    for (; i < face->size && edges[i] == edge; i++) {
+        const float *next = points[(i + 1) % face->size];
+        cairo_line_to(cr, (double)next[0], (double)next[1]);
     }
     cairo_stroke(cr);
     return i;
@@ -187,10 +158,45 @@ static void set_fill(cairo_t *cr, const tn_seen_face *face, const tn_view_place 
         set_face_colour(cr, face);
 }
 
+/* How far seams keep away from lines at their ends: `line` is half as wide as these are, `stroke` half as wide as a
+ * seam is. */
+typedef struct clearance {
+    double line, stroke;
+} clearance;
+
+/* The share of a seam that is left out at its end, so that no part of it touches a line that ends there: half of it at
+ * most. */
+static double left_out(const tn_view *view, size_t end, double length, const clearance *clear)
+{
+    double cosine = (double)view->sharpest[end];
+    if (view->sharpest[end] == TN_MEETS_NOTHING)
+        return 0;
+    double sine = sqrt(fmax(1 - cosine * cosine, 0));
+    double reach = cosine > 0 ? (clear->line + clear->stroke * cosine) / fmax(sine, 1e-9) : clear->line;
+    return fmin(reach / fmax(length, 1e-30), 0.5);
+}
+
+/* Seams that follow one another are one stroke, unless lines end where they meet. */
 static void draw_seams(cairo_t *cr, const tn_view *view, const tn_seen_face *face, const clearance *clear)
 {
-    for (uint32_t i = 0; i < face->size;)
-        i = view->edges[face->first + i] == TN_EDGE_NONE ? stroke_run(cr, view, face, i, clear) : i + 1;
+    const float(*points)[2] = (const float(*)[2])(view->points + face->first);
+    bool goes_on = false;
+    for (uint32_t i = 0; i < face->size; i++) {
+        const float *a = points[i], *b = points[(i + 1) % face->size];
+        double along[2] = {(double)b[0] - (double)a[0], (double)b[1] - (double)a[1]};
+        size_t end = 2 * ((size_t)face->first + i);
+        if (view->edges[face->first + i] != TN_EDGE_NONE) {
+            goes_on = false;
+            continue;
+        }
+        double length = hypot(along[0], along[1]), from = left_out(view, end, length, clear),
+               to = left_out(view, end + 1, length, clear);
+        if (!goes_on || from > 0)
+            cairo_move_to(cr, (double)a[0] + from * along[0], (double)a[1] + from * along[1]);
+        cairo_line_to(cr, (double)b[0] - to * along[0], (double)b[1] - to * along[1]);
+        goes_on = to == 0;
+    }
+    cairo_stroke(cr);
 }
 
 static void draw_edges(cairo_t *cr, const tn_view *view, const tn_seen_face *face, double fade)
@@ -202,7 +208,7 @@ static void draw_edges(cairo_t *cr, const tn_view *view, const tn_seen_face *fac
             continue;
         }
         set_edge_colour(cr, edge, fade);
-        i = stroke_run(cr, view, face, i, NULL);
+        i = stroke_run(cr, view, face, i);
     }
 }
 

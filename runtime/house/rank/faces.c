@@ -186,7 +186,7 @@ static tn_status go_through(tn_facing *f, tn_error *error)
         status = tn_watch_check(strip->watch, error);
         for (size_t k = 0; status == TN_OK && k < f->slices.left.count; k++) {
             const tn_strip_choice *slice = &f->slices.left.items[k];
-            const tn_strip_list *outcomes;
+            const tn_strip_list *outcomes = NULL;
             tn_going g = {&f->after, strip->slices[slice->slice].exit, f->one};
             status = outcomes_of(f->path, &f->left, edge, strip->slices[slice->slice].entry, &outcomes, error);
             mpz_mul_ui(f->one, f->before.choices[i], slice->times);
@@ -204,7 +204,7 @@ static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_erro
 {
     tn_plan_path *a = f->path;
     uint32_t edge = tn_high(place), state = tn_low(place), next = f->tray + 1;
-    const tn_strip_list *outcomes;
+    const tn_strip_list *outcomes = NULL;
     tn_status status;
     mpz_set_ui(sum->houses, 0);
     if (next == a->length) {
