@@ -4,8 +4,9 @@ FOLDER/` writes it). READER is ifc_read.cc, made: it has to find the same produc
 
 The IFC is parsed as STEP; each instance has to have as many attributes as IFC4 gives its entity, of their types (ISO 16739-1:2018, inherited ones
 included), each reference has to lead to an instance of an entity that may stand there, and identifiers are unique. Volumes and numbers
-of parts are those of the JSON. The DXF is read as groups, and by ezdxf where that is installed."""
+of parts are those of the JSON. The DXF is read as groups, and by ezdxf where that is installed; the IFC is validated by IfcOpenShell where that is installed."""
 import csv
+import importlib.util
 import json
 import math
 import re
@@ -223,6 +224,18 @@ def check_dxf(path):
     check("ezdxf finds nothing", not auditor.errors and not auditor.fixes)
 
 
+def validate(path):
+    """By the validator of IfcOpenShell, with the rules of the schema, where that is installed."""
+    if importlib.util.find_spec("ifcopenshell") is None:
+        return
+    command = [sys.executable, "-m", "ifcopenshell.validate", "--rules", "--json", path]
+    ran = subprocess.run(command, capture_output=True, text=True, check=False)
+    said = [json.loads(line) for line in ran.stdout.splitlines() if line.startswith("{")]
+    for entry in said:
+        check(f"IfcOpenShell: {entry.get('message')}", str(entry.get("level")).lower() not in ("error", "critical"))
+    check(f"IfcOpenShell ends with {ran.returncode}: {ran.stderr[-200:]}", ran.returncode == 0 or said)
+
+
 def slope(rise, way):
     """How much longer a slope is than its plan, rounded down to a billionth."""
     square = 1 + (rise / way) ** 2
@@ -284,6 +297,7 @@ house = json.load(open(folder + "/house.json"))
 compare(made, house)
 check_parts(folder + "/house.parts.csv", house)
 check_dxf(folder + "/house.dxf")
+validate(folder + "/house.ifc")
 if len(sys.argv) > 2:
     read_again(sys.argv[2], folder + "/house.ifc", made)
 print("\n".join(failures[:20]) or "fine")
