@@ -2,13 +2,12 @@
 #include "cli/draw/draw.h"
 #include "cli/common/option_rows.h"
 #include "cli/common/subject.h"
+#include "cli/measure/wishes.h"
 #include "cli/mesh/draw_surface.h"
 #include "cli/plan/library_job.h"
 #include "cli/solid/solid.h"
 #include "driver/house/judge.h"
 #include "runtime/plan/picture/draw.h"
-
-enum { TN_HOUSES_DRAWN_MAX = 200 };
 
 static const tn_draw_settings *settings_of(const tn_job *job)
 {
@@ -159,9 +158,7 @@ static bool refuses_for_houses(tn_job *job)
         bool given;
         const char *what, *help;
     } refused[] = {
-        {s->best.given, "--best",
-         "`tartan best FILE N --library HOUSES --least MEASURE` lists the best, and `tartan house FILE HOUSE -o "
-         "NAME.svg` draws each"},
+        {s->mirror, "--mirror", "leave it out: it is about plans, not about houses"},
         {s->rules.count > 0, "--rule", "rules about houses have no picture; `tartan report` lists them"},
         {s->common.operands.count > 1, "a file of plans",
          "--sample N draws N houses of the library, and `tartan house FILE HOUSE -o NAME.svg` one"},
@@ -185,23 +182,29 @@ static void draw_houses(tn_job *job)
 {
     const tn_draw_settings *s = settings_of(job);
     const tn_house_settings houses = tn_job_houses(&s->plans);
-    tn_house_sheet sheet = {.wanted = (size_t)s->sample.value,
+    tn_wishes wishes = {0};
+    tn_house_wishes best;
+    tn_house_sheet sheet = {.wanted = (size_t)(s->best.given ? s->best.value : s->sample.value),
+                            .best = s->best.given ? &best : NULL,
                             .columns = (size_t)s->columns.value,
                             .seed = s->sampled.seed.value,
-                            .camera = camera_of(s, (tn_camera){60, 30, 480}), /* from the front, as houses are */
+                            .camera = camera_of(s, tn_house_sheet_camera()),
                             .title = s->title,
                             .output = s->output,
                             .dpi = (uint32_t)s->dpi.value};
     if (refuses_for_houses(job))
         return;
-    if (!s->sample.given)
-        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "of a library of houses, a sample of all of them is drawn"),
-                "write --sample N, with --seed, --columns and --title; `tartan house` draws one house");
-    else if (sheet.wanted > TN_HOUSES_DRAWN_MAX)
-        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "a picture shows at most %u houses", TN_HOUSES_DRAWN_MAX),
-                "ask for fewer");
-    else
-        tn_job_draw_houses(job, &houses, &sheet);
+    if (!s->sample.given && !s->best.given) {
+        tn_diagnostic *d = tn_job_usage(job, "of a library of houses, a sample or the best are drawn");
+        tn_help(tn_job_diagnostics(job), d,
+                "write --sample N, or --best N --least MEASURE; `tartan house` draws one house");
+        return;
+    }
+    if (s->best.given && !tn_wishes_names(job, &s->wanted, 1, &wishes))
+        return;
+    best = tn_wishes_of_houses(&wishes);
+    best.wanted = sheet.wanted;
+    tn_job_draw_houses(job, &houses, &sheet);
 }
 
 static void draw_plans(tn_job *job)
@@ -243,7 +246,7 @@ static const tn_option options[] = {
     NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "sample only plans of L trays"),
     NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX, "sample N plans of each number of trays"),
     OPTION_DIVERSE,
-    NUMBER("best", 0, "N", best, 1, TN_SAMPLE_MAX, "draw the N best plans of the library, with their values"),
+    NUMBER("best", 0, "N", best, 1, TN_SAMPLE_MAX, "draw the N best plans or houses of the library, with their values"),
     WISH("least", wanted, "with --best: the plans with the least MEASURE first"),
     WISH("most", wanted, "with --best: the plans with the most MEASURE first"),
     WISH("then-least", wanted, "of equal ones those with the least of this measure; may be repeated"),
@@ -287,8 +290,9 @@ const tn_command tn_command_draw = {
         "drawn to scale, with the zones, marks and dimensions that the roles in the schema ask for, its rank or "
         "line below it, and a legend. A schema whose fields have no roles is drawn as tables. A PDF has as many "
         "pages as it needs; SVG and PNG are one sheet.\n\n"
-        "With --library HOUSES --sample N, houses are drawn instead: N of them in space, each with its rank, its floor "
-        "area and what it costs.\n\n"
+        "With --library HOUSES, --sample N and --best N draw houses instead: N of them in space, each with its rank, "
+        "its "
+        "floor area and what it costs, the best also with their values.\n\n"
         "With --rule, rules are drawn instead, in the manner of the LaHave paper: each part is a box with its "
         "sign, the parts of `and` side by side, those of `or` one above the other, and trays with the symbols of "
         "their zones.\n\n"

@@ -1,39 +1,21 @@
 /* best, pareto and complete of houses: values, the houses that have them, and what open plans leave. */
-#include "cli/house/best.h"
+#include "cli/house/best_parts.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
-#include "cli/house/numbered_parts.h"
 #include "driver/open/digits.h"
 #include "driver/plan/library.h"
-#include "runtime/house/count/best.h"
 #include "runtime/house/rank/rank.h"
-#include "runtime/plan/measure/amount.h"
 
-/* A search: the measures made ready, and what was found. */
-typedef struct search {
-    tn_numbered n;
-    const tn_house_wishes *wishes;
-    tn_plan plan; /* where one is given */
-    tn_house_weights *weights[TN_WEIGHED_MAX];
-    tn_amount_unit units[TN_WEIGHED_MAX];
-    tn_house_measures measures;
-    tn_houses *houses;
-    int64_t values[TN_WEIGHED_MAX]; /* of the point at hand */
-    mpz_t count;                    /* houses there */
-    uint64_t given;
-    FILE *out;
-} search;
-
-static const char *measure_name(const search *s, uint32_t k)
+const char *tn_best_houses_measure(const tn_best_houses *s, uint32_t k)
 {
     return tn_text(s->n.form.module, s->weights[k]->of.name);
 }
 
-static tn_status find_measures(search *s, tn_error *error)
+static tn_status find_measures(tn_best_houses *s, tn_error *error)
 {
     const tn_module *module = s->n.form.module;
     tn_status status = TN_OK;
@@ -55,7 +37,7 @@ static tn_status find_measures(search *s, tn_error *error)
     return status;
 }
 
-static tn_status find_values(search *s, tn_houses_aim aim, tn_error *error)
+static tn_status find_values(tn_best_houses *s, tn_houses_aim aim, tn_error *error)
 {
     const tn_house_wishes *wishes = s->wishes;
     tn_houses_what what = {.measures = wishes->count ? &s->measures : NULL, .aim = aim, .wanted = wishes->wanted};
@@ -70,12 +52,11 @@ static tn_status find_values(search *s, tn_houses_aim aim, tn_error *error)
     return status;
 }
 
-/* Opens the library and finds the values. False: what was wrong is recorded. */
-static bool begin(search *s, tn_job *job, const tn_house_settings *settings, const tn_house_wishes *wishes,
-                  tn_houses_aim aim)
+bool tn_best_houses_begin(tn_best_houses *s, tn_job *job, const tn_house_settings *settings,
+                          const tn_house_wishes *wishes, tn_houses_aim aim)
 {
     tn_error error = {0};
-    *s = (search){.wishes = wishes};
+    *s = (tn_best_houses){.wishes = wishes};
     mpz_init(s->count);
     if (!tn_numbered_open(&s->n, job, settings))
         return false;
@@ -93,7 +74,7 @@ static bool begin(search *s, tn_job *job, const tn_house_settings *settings, con
     return status == TN_OK;
 }
 
-static void end(search *s)
+void tn_best_houses_end(tn_best_houses *s)
 {
     tn_houses_free(s->houses);
     for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
@@ -105,7 +86,7 @@ static void end(search *s)
 
 /* ---- values */
 
-static bool write_value(const search *s, uint32_t k, bool exact, tn_buffer *text)
+bool tn_best_houses_value(const tn_best_houses *s, uint32_t k, bool exact, tn_buffer *text)
 {
     mpq_t value;
     mpq_init(value);
@@ -117,15 +98,16 @@ static bool write_value(const search *s, uint32_t k, bool exact, tn_buffer *text
 }
 
 /* "value":"3/2" or "values":["3/2","4"] */
-static bool write_json_values(const search *s, bool list, tn_buffer *text)
+static bool write_json_values(const tn_best_houses *s, bool list, tn_buffer *text)
 {
     bool ok = tn_buffer_printf(text, list ? "\"values\":[" : "\"value\":");
     for (uint32_t k = 0; ok && k < s->wishes->count; k++)
-        ok = tn_buffer_printf(text, k ? ",\"" : "\"") && write_value(s, k, true, text) && tn_buffer_printf(text, "\"");
+        ok = tn_buffer_printf(text, k ? ",\"" : "\"") && tn_best_houses_value(s, k, true, text) &&
+             tn_buffer_printf(text, "\"");
     return ok && (!list || tn_buffer_printf(text, "]"));
 }
 
-static tn_status put(const search *s, tn_buffer *text, bool ok, tn_error *error)
+static tn_status put(const tn_best_houses *s, tn_buffer *text, bool ok, tn_error *error)
 {
     if (ok)
         fwrite(text->data, 1, text->size, s->out); /* a failure is said when the output is closed */
@@ -137,14 +119,14 @@ static tn_status put(const search *s, tn_buffer *text, bool ok, tn_error *error)
 
 static tn_status write_best(void *context, const tn_house *house, bool *stop, tn_error *error)
 {
-    search *s = context;
+    tn_best_houses *s = context;
     bool json = s->wishes->json;
     tn_buffer text = {0}, line = {0};
     tn_status status = tn_house_write(house, &line, error);
     bool ok =
         tn_buffer_printf(&text, json ? "{" : "# ") && (!json || write_json_values(s, s->wishes->count > 1, &text));
     for (uint32_t k = 0; ok && !json && k < s->wishes->count; k++)
-        ok = tn_buffer_printf(&text, k ? "  " : "") && write_value(s, k, false, &text);
+        ok = tn_buffer_printf(&text, k ? "  " : "") && tn_best_houses_value(s, k, false, &text);
     ok = ok && tn_buffer_printf(&text, json ? ",\"house\":\"%s\"}\n" : "\n%s\n", line.data ? line.data : "");
     free(line.data);
     *stop = ++s->given == s->wishes->wanted;
@@ -152,18 +134,23 @@ static tn_status write_best(void *context, const tn_house *house, bool *stop, tn
     return status == TN_OK ? written : status;
 }
 
-static tn_status write_houses(search *s, tn_error *error)
+tn_status tn_best_houses_each(tn_best_houses *s, tn_house_each *each, void *context, tn_error *error)
 {
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && s->given < s->wishes->wanted && i < tn_houses_points(s->houses); i++) {
         tn_houses_point(s->houses, i, s->values, s->count);
-        status = tn_houses_point_each(s->houses, i, s->n.variants, write_best, s, error);
+        status = tn_houses_point_each(s->houses, i, s->n.variants, each, context, error);
     }
     return status;
 }
 
+static tn_status write_houses(tn_best_houses *s, tn_error *error)
+{
+    return tn_best_houses_each(s, write_best, s, error);
+}
+
 /* Was it written? */
-static bool write_found(search *s, tn_status write(search *s, tn_error *error))
+static bool write_found(tn_best_houses *s, tn_status write(tn_best_houses *s, tn_error *error))
 {
     tn_error error = {0};
     tn_output out;
@@ -179,10 +166,10 @@ static bool write_found(search *s, tn_status write(search *s, tn_error *error))
 
 void tn_job_best_houses(tn_job *job, const tn_house_settings *settings, const tn_house_wishes *wishes)
 {
-    search s;
-    if (begin(&s, job, settings, wishes, TN_HOUSES_LEAST) && write_found(&s, write_houses))
+    tn_best_houses s;
+    if (tn_best_houses_begin(&s, job, settings, wishes, TN_HOUSES_LEAST) && write_found(&s, write_houses))
         tn_numbered_say_few(&s.n, wishes->plan != NULL, s.given, wishes->wanted);
-    end(&s);
+    tn_best_houses_end(&s);
 }
 
 /* ---- the front */
@@ -193,7 +180,7 @@ static tn_status take_line(void *context, const tn_house *house, bool *stop, tn_
     return tn_house_write(house, context, error);
 }
 
-static tn_status write_point(search *s, size_t point, tn_error *error)
+static tn_status write_point(tn_best_houses *s, size_t point, tn_error *error)
 {
     tn_buffer text = {0}, line = {0}, value = {0};
     bool json = s->wishes->json, ok = true;
@@ -204,7 +191,7 @@ static tn_status write_point(search *s, size_t point, tn_error *error)
         ok = tn_buffer_printf(&text, point ? ",\n    {" : "\n    {") && write_json_values(s, true, &text);
     for (uint32_t k = 0; ok && !json && k < s->wishes->count; k++) {
         value.size = 0;
-        ok = write_value(s, k, false, &value) && tn_buffer_printf(&text, "%18s", value.data);
+        ok = tn_best_houses_value(s, k, false, &value) && tn_buffer_printf(&text, "%18s", value.data);
     }
     ok = ok && count && line.data &&
          (json ? tn_buffer_printf(&text, ",\"houses\":\"%s\",\"house\":\"%s\"}", count, line.data)
@@ -216,13 +203,13 @@ static tn_status write_point(search *s, size_t point, tn_error *error)
     return status == TN_OK ? written : status;
 }
 
-static tn_status write_front(search *s, tn_error *error)
+static tn_status write_front(tn_best_houses *s, tn_error *error)
 {
     tn_status status = TN_OK;
     bool json = s->wishes->json;
     fputs(json ? "{\n  \"measures\": [" : "", s->out);
     for (uint32_t k = 0; k < s->wishes->count; k++)
-        fprintf(s->out, json ? "%s\"%s\"" : "%s%18s", json && k ? ", " : "", measure_name(s, k));
+        fprintf(s->out, json ? "%s\"%s\"" : "%s%18s", json && k ? ", " : "", tn_best_houses_measure(s, k));
     if (json)
         fputs("],\n  \"points\": [", s->out);
     else
@@ -235,10 +222,10 @@ static tn_status write_front(search *s, tn_error *error)
 
 void tn_job_front_of_houses(tn_job *job, const tn_house_settings *settings, const tn_house_wishes *wishes)
 {
-    search s;
-    if (begin(&s, job, settings, wishes, TN_HOUSES_FRONT))
+    tn_best_houses s;
+    if (tn_best_houses_begin(&s, job, settings, wishes, TN_HOUSES_FRONT))
         write_found(&s, write_front);
-    end(&s);
+    tn_best_houses_end(&s);
 }
 
 /* ---- open plans */
@@ -246,16 +233,16 @@ void tn_job_front_of_houses(tn_job *job, const tn_house_settings *settings, cons
 void tn_job_complete_houses(tn_job *job, const tn_house_settings *settings, const tn_house_wishes *wishes,
                             const tn_open_plan *open, void show(tn_job *job, const tn_house_completed *completed))
 {
-    search s;
+    tn_best_houses s;
     tn_completions found = {0};
     tn_error error = {0};
-    bool begun = begin(&s, job, settings, wishes, TN_HOUSES_COMPLETE);
+    bool begun = tn_best_houses_begin(&s, job, settings, wishes, TN_HOUSES_COMPLETE);
     tn_status status = begun ? tn_houses_complete(s.houses, open, &found, &error) : TN_OK;
     if (status != TN_OK)
         tn_job_fail(job, &error);
     tn_house_completed completed = {.schema = s.n.schema, .library = s.n.record, .open = open, .found = &found};
     if (wishes->count && s.weights[0]) {
-        completed.measure = measure_name(&s, 0);
+        completed.measure = tn_best_houses_measure(&s, 0);
         completed.most = wishes->most[0];
         completed.step = s.weights[0]->shown;
         completed.unit = s.units[0];
@@ -264,5 +251,5 @@ void tn_job_complete_houses(tn_job *job, const tn_house_settings *settings, cons
         show(job, &completed);
     if (begun)
         tn_completions_clear(&found);
-    end(&s);
+    tn_best_houses_end(&s);
 }

@@ -75,16 +75,29 @@ bool tn_numbered_countable(const tn_numbered *n)
 
 /* ---- names */
 
+static tn_status rank_plan(const tn_numbered *n, const tn_house *house, mpz_t plan, tn_error *error)
+{
+    if (tn_library_rank(n->plans, house->trays, house->length, plan))
+        return TN_OK;
+    tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library does not hold the plan of this house");
+    tn_error_help(error, "`tartan explain` says which clauses drop it");
+    return TN_INVALID;
+}
+
+tn_status tn_numbered_name(tn_numbered *n, const tn_house *house, mpz_t plan, mpz_t variant, tn_error *error)
+{
+    tn_status status = rank_plan(n, house, plan, error);
+    return status == TN_OK ? tn_numbered_number(n, house, variant, error) : status;
+}
+
 /* variant := the rank among all houses, where that is wanted. */
-static tn_status name_house(tn_numbered *n, const char *line, size_t max_length, bool of_all, mpz_t plan, mpz_t variant,
-                            tn_error *error)
+static tn_status name_line(tn_numbered *n, const char *line, size_t max_length, bool of_all, mpz_t plan, mpz_t variant,
+                           tn_error *error)
 {
     tn_house house;
     tn_status status = tn_house_read(&n->form, line, strlen(line), max_length, &house, error);
-    if (status == TN_OK && !tn_library_rank(n->plans, house.trays, house.length, plan)) {
-        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library does not hold the plan of this house");
-        tn_error_help(error, "`tartan explain` says which clauses drop it");
-    }
+    if (status == TN_OK)
+        status = rank_plan(n, &house, plan, error);
     if (status == TN_OK && of_all)
         status = tn_numbered_all(n, error);
     if (status == TN_OK)
@@ -105,7 +118,7 @@ void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const cha
     mpz_t plan, variant;
     mpz_inits(plan, variant, NULL);
     if (tn_numbered_open(&n, job, settings)) {
-        if (name_house(&n, line, settings->max_length, of_all, plan, variant, &error) != TN_OK) {
+        if (name_line(&n, line, settings->max_length, of_all, plan, variant, &error) != TN_OK) {
             tn_numbered_bad_text(job, &error, "HOUSE", line);
         } else if (tn_job_output(job, NULL, &out)) {
             if (of_all)

@@ -1,16 +1,16 @@
-/* Draws a sample of a library of houses: small pictures with rank, area and cost. */
+/* Draws a sample of a library of houses, or its best: small pictures with name, area and cost. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/house/numbered_parts.h"
+#include "cli/house/best_parts.h"
 #include "cli/house/sampled.h"
 #include "runtime/base/length_style.h"
 #include "runtime/house/picture/draw.h"
 #include "runtime/house/schedule/cost.h"
 
-enum { NAME_SIZE = 96, SAID_SIZE = 96, NOTE_SIZE = 256 };
+enum { NAME_SIZE = 96, SAID_SIZE = 128, NOTE_SIZE = 256 };
 #define SQUARE_FOOT_NM2 (304800000.0 * 304800000.0)
 
 /* A house of the sheet, and the words below it. */
@@ -22,7 +22,8 @@ typedef struct pictured {
 
 typedef struct collection {
     pictured *items;
-    size_t room, count;
+    size_t count;
+    tn_best_houses *search; /* of the best, or NULL */
 } collection;
 
 static double floor_area(const tn_house *house)
@@ -51,29 +52,92 @@ static tn_status say_cost(pictured *p, size_t used, tn_error *error)
     return status;
 }
 
-/* "#12": rank, area in the unit of the schema, cost where the form has prices. */
-static tn_status describe(pictured *p, const mpz_t rank, tn_error *error)
+/* The area in the unit of the schema, and the cost where the form has prices. */
+static tn_status describe(pictured *p, tn_error *error)
 {
     const tn_schema *schema = p->house.form->schema;
     const char *width = tn_text(schema->module, schema->values[schema->value_start[p->house.form->width]].name);
     double area = floor_area(&p->house);
     bool feet = tn_length_style_of(width) == TN_STYLE_FEET;
-    gmp_snprintf(p->name, NAME_SIZE, "#%Zd", rank);
     int used = feet ? snprintf(p->said, SAID_SIZE, "%.0f sf", area / SQUARE_FOOT_NM2)
                     : snprintf(p->said, SAID_SIZE, "%.1f m2", area / 1e18);
     return say_cost(p, (size_t)used, error);
 }
 
-static tn_status collect(void *context, tn_house *house, const mpz_t rank, const mpz_t variant, tn_error *error)
+/* Takes the house. */
+static tn_status take(pictured *p, tn_house *house, tn_error *error)
+{
+    p->house = *house;
+    *house = (tn_house){0};
+    return tn_house_solids(&p->house, &p->solids, error);
+}
+
+/* ---- a sample */
+
+static tn_status collect_drawn(void *context, tn_house *house, const mpz_t rank, const mpz_t variant, tn_error *error)
 {
     (void)variant;
     collection *c = context;
     pictured *p = &c->items[c->count++];
-    p->house = *house;
-    *house = (tn_house){0};
-    tn_status status = tn_house_solids(&p->house, &p->solids, error);
-    return status == TN_OK ? describe(p, rank, error) : status;
+    gmp_snprintf(p->name, NAME_SIZE, "#%Zd", rank);
+    tn_status status = take(p, house, error);
+    return status == TN_OK ? describe(p, error) : status;
 }
+
+/* ---- the best */
+
+/* "daylight 14', cost 2500" */
+static tn_status say_values(const tn_best_houses *s, pictured *p, tn_error *error)
+{
+    size_t used = 0;
+    for (uint32_t k = 0; k < s->wishes->count && used < SAID_SIZE; k++) {
+        tn_buffer value = {0};
+        bool ok = tn_best_houses_value(s, k, false, &value);
+        if (ok)
+            used += (size_t)snprintf(p->said + used, SAID_SIZE - used, "%s%s %s", k ? ", " : "",
+                                     tn_best_houses_measure(s, k), value.data);
+        free(value.data);
+        if (!ok)
+            return tn_fail_memory(error);
+    }
+    return TN_OK;
+}
+
+/* The house is the search's: a copy is taken, as its line says it. */
+static tn_status collect_best(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    collection *c = context;
+    tn_buffer line = {0};
+    tn_house copy = {0};
+    tn_status status = tn_house_write(house, &line, error);
+    if (status == TN_OK)
+        status = tn_house_read(house->form, line.data, line.size, house->length, &copy, error);
+    if (status == TN_OK)
+        status = say_values(c->search, &c->items[c->count], error);
+    if (status == TN_OK)
+        status = take(&c->items[c->count++], &copy, error);
+    tn_house_clear(&copy);
+    free(line.data);
+    *stop = ++c->search->given == c->search->wishes->wanted;
+    return status;
+}
+
+/* Searches for all, then names them: each by itself, since both go through houses on plans. */
+static tn_status collect_all_best(collection *c, tn_error *error)
+{
+    mpz_t plan, variant;
+    mpz_inits(plan, variant, NULL);
+    tn_status status = tn_best_houses_each(c->search, collect_best, c, error);
+    for (size_t i = 0; status == TN_OK && i < c->count; i++) {
+        pictured *p = &c->items[i];
+        status = tn_numbered_name(&c->search->n, &p->house, plan, variant, error);
+        gmp_snprintf(p->name, NAME_SIZE, "#%Zd:%Zd", plan, variant);
+    }
+    mpz_clears(plan, variant, NULL);
+    return status;
+}
+
+/* ---- the page */
 
 static tn_status draw(const tn_numbered *n, const collection *c, const tn_house_sheet *sheet, const char *note,
                       tn_error *error)
@@ -98,29 +162,65 @@ static tn_status draw(const tn_numbered *n, const collection *c, const tn_house_
     return status;
 }
 
-void tn_job_draw_houses(tn_job *job, const tn_house_settings *settings, const tn_house_sheet *sheet)
+/* Collects the houses, n's, and draws them. note: what they are, behind how many there are. */
+static void draw_collected(tn_numbered *n, collection *c, const tn_house_sheet *sheet, const char *what)
+{
+    tn_error error = {0};
+    char note[NOTE_SIZE];
+    c->items = calloc(sheet->wanted + 1, sizeof *c->items);
+    tn_status status = c->items ? TN_OK : tn_fail_memory(&error);
+    if (status == TN_OK)
+        status = c->search ? collect_all_best(c, &error)
+                           : tn_numbered_sample(n, NULL, sheet->wanted, sheet->seed, collect_drawn, c, &error);
+    snprintf(note, sizeof note, "%zu house%s of %.100s%s; all to one scale", c->count, c->count == 1 ? "" : "s",
+             tn_text(n->job->opened.module, n->record->name), what);
+    if (status == TN_OK && c->count > 0)
+        status = draw(n, c, sheet, note, &error);
+    if (status == TN_OK)
+        tn_numbered_say_few(n, sheet->best && sheet->best->plan, c->count, sheet->wanted);
+    else
+        tn_job_fail(n->job, &error);
+    for (size_t i = 0; c->items && i < c->count; i++) {
+        tn_solids_clear(&c->items[i].solids);
+        tn_house_clear(&c->items[i].house);
+    }
+    free(c->items);
+}
+
+static void draw_sample(tn_job *job, const tn_house_settings *settings, const tn_house_sheet *sheet)
 {
     tn_numbered n = {0};
-    tn_error error = {0};
-    if (tn_numbered_open(&n, job, settings)) {
-        collection c = {.items = calloc(sheet->wanted + 1, sizeof *c.items), .room = sheet->wanted};
-        tn_status status = c.items ? TN_OK : tn_fail_memory(&error);
-        if (status == TN_OK)
-            status = tn_numbered_sample(&n, NULL, sheet->wanted, sheet->seed, collect, &c, &error);
-        char note[NOTE_SIZE];
-        snprintf(note, sizeof note, "%zu house%s of %.100s, drawn with seed %" PRIu64 "; all to one scale", c.count,
-                 c.count == 1 ? "" : "s", tn_text(job->opened.module, n.record->name), sheet->seed);
-        if (status == TN_OK && c.count == 0)
-            tn_job_note(job, "the library has no houses: nothing is drawn");
-        else if (status == TN_OK)
-            status = draw(&n, &c, sheet, note, &error);
-        if (status != TN_OK)
-            tn_job_fail(job, &error);
-        for (size_t i = 0; i < c.count; i++) {
-            tn_solids_clear(&c.items[i].solids);
-            tn_house_clear(&c.items[i].house);
-        }
-        free(c.items);
-    }
+    collection c = {0};
+    char what[NOTE_SIZE];
+    snprintf(what, sizeof what, ", drawn with seed %" PRIu64, sheet->seed);
+    if (tn_numbered_open(&n, job, settings))
+        draw_collected(&n, &c, sheet, what);
     tn_numbered_close(&n);
+}
+
+static void draw_best(tn_job *job, const tn_house_settings *settings, const tn_house_sheet *sheet)
+{
+    tn_best_houses search;
+    collection c = {.search = &search};
+    char what[NOTE_SIZE] = " with the ";
+    if (tn_best_houses_begin(&search, job, settings, sheet->best, TN_HOUSES_LEAST)) {
+        for (uint32_t k = 0; k < sheet->best->count; k++) {
+            size_t used = strlen(what);
+            snprintf(what + used, sizeof what - used, "%s%s %s", k ? ", then the " : "",
+                     sheet->best->most[k] ? "most" : "least", tn_best_houses_measure(&search, k));
+        }
+        draw_collected(&search.n, &c, sheet, what);
+    }
+    tn_best_houses_end(&search);
+}
+
+void tn_job_draw_houses(tn_job *job, const tn_house_settings *settings, const tn_house_sheet *sheet)
+{
+    if (sheet->wanted == 0 || sheet->wanted > TN_HOUSES_DRAWN_MAX)
+        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "a picture shows 1 to %u houses", TN_HOUSES_DRAWN_MAX),
+                sheet->wanted ? "ask for fewer" : "ask for one, or more");
+    else if (sheet->best)
+        draw_best(job, settings, sheet);
+    else
+        draw_sample(job, settings, sheet);
 }

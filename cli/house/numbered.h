@@ -36,15 +36,28 @@ void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const t
 void tn_job_sample_houses(tn_job *job, const tn_house_settings *settings, const char *plan, size_t wanted,
                           uint64_t seed, const struct tn_written_settings *written);
 
-/* Small pictures of so many houses of the library, drawn at random; their ranks, areas and costs below. */
+/* The most houses of a page. */
+#define TN_HOUSES_DRAWN_MAX 200u
+
+/* Small pictures of so many houses: the best by measures, or drawn at random with a seed. Their names, areas and costs,
+ * or their values, stand below. */
 typedef struct tn_house_sheet {
-    size_t wanted, columns; /* columns: 0 for as many as look well */
+    size_t wanted, columns;             /* columns: 0 for as many as look well */
+    const struct tn_house_wishes *best; /* cli/house/best.h; or NULL */
     uint64_t seed;
     tn_camera camera;
     const char *title; /* NULL: what the form says of itself */
     const char *output;
     uint32_t dpi;
 } tn_house_sheet;
+
+/* Houses are seen from the front. */
+static inline tn_camera tn_house_sheet_camera(void)
+{
+    return (tn_camera){60, 30, 480};
+}
+
+/* An error of usage where more than TN_HOUSES_DRAWN_MAX are wanted. */
 void tn_job_draw_houses(tn_job *job, const tn_house_settings *settings, const tn_house_sheet *sheet);
 
 /* The houses [from, to) by rank, at most `limit` where `limited`. */

@@ -77,6 +77,9 @@ tn_status tn_numbered_at(tn_numbered *n, const tn_tray *trays, uint32_t length, 
  * does not keep it. */
 tn_status tn_numbered_number(tn_numbered *n, const tn_house *house, mpz_t variant, tn_error *error);
 
+/* The name #P:V of a house: the rank of its plan, and its number there. TN_INVALID (E1618) as above. */
+tn_status tn_numbered_name(tn_numbered *n, const tn_house *house, mpz_t plan, mpz_t variant, tn_error *error);
+
 /* Are there so few plans that one may as well go through them? What is said of each of them is then known, too. */
 #define TN_HOUSE_PLANS_FEW 1000u
 bool tn_numbered_few(const tn_numbered *n);

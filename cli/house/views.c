@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/house/files.h"
+#include "cli/house/numbered.h"
 #include "runtime/base/length.h"
 
 static const char *storey_name(const tn_house_form *form, uint32_t storey)
@@ -150,7 +151,7 @@ static bool read_view(tn_job *job, const tn_house *house, const char *text, tn_a
 
 size_t tn_house_views(tn_job *job, const tn_house *house, const tn_house_outputs *outputs, tn_aspect *aspects)
 {
-    tn_aspect usual = {.kind = TN_ASPECT_AXONOMETRIC, .camera = {60, 30, 480}, .bare = outputs->furnish == 1};
+    tn_aspect usual = {.kind = TN_ASPECT_AXONOMETRIC, .camera = tn_house_sheet_camera(), .bare = outputs->furnish == 1};
     size_t count = 0;
     if (outputs->azimuth.given)
         usual.camera.azimuth = outputs->azimuth.value;

@@ -167,7 +167,7 @@ static bool names_rows(const char *path)
     return false;
 }
 
-/* Houses are written as lines, or JSON; what else plans may be told is wrong usage. */
+/* Houses are written as lines or JSON, or drawn; what else plans may be told is wrong usage. */
 static void find_houses(tn_job *job, uint64_t wanted)
 {
     const best_settings *settings = settings_of(job);
@@ -178,11 +178,11 @@ static void find_houses(tn_job *job, uint64_t wanted)
         tn_job_usage(job, "--mirror is about plans, not about houses");
         return;
     }
-    if (!lines || tn_job_draws(settings->written.output) || names_rows(settings->written.output)) {
-        tn_diagnostic *d = tn_job_usage(job, "the best houses are written as lines or JSON: leave out %s%.100s",
-                                        lines ? "-o " : "this --format", lines ? settings->written.output : "");
-        tn_help(tn_job_diagnostics(job), d,
-                "`tartan house FILE HOUSE -o NAME.svg` draws one of them, named by its line");
+    if (!lines || names_rows(settings->written.output)) {
+        tn_diagnostic *d =
+            tn_job_usage(job, "the best houses are written as lines or JSON, or drawn: leave out %s%.100s",
+                         lines ? "-o " : "this --format", lines ? settings->written.output : "");
+        tn_help(tn_job_diagnostics(job), d, "-o NAME.svg, NAME.png or NAME.pdf draws them");
         return;
     }
     if (!tn_wishes_names(job, &settings->wanted, 1, &wishes))
@@ -193,7 +193,13 @@ static void find_houses(tn_job *job, uint64_t wanted)
     of.wanted = wanted;
     of.json = format == TN_FORMAT_JSON;
     of.output = settings->written.output;
-    tn_job_best_houses(job, &houses, &of);
+    if (tn_job_draws(of.output))
+        tn_job_draw_houses(
+            job, &houses,
+            &(tn_house_sheet){
+                .wanted = (size_t)wanted, .best = &of, .camera = tn_house_sheet_camera(), .output = of.output});
+    else
+        tn_job_best_houses(job, &houses, &of);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
@@ -246,8 +252,9 @@ const tn_command tn_command_best = {
         "them exactly, in feet or metres. With -o and the name of a picture (.svg, .png or .pdf) the plans are drawn, "
         "each "
         "with its place and its values.\n\n"
-        "With --library HOUSES, or --plan, the best houses are written, as house lines or JSON lines; --least and "
-        "--most name measures of houses or of plans (docs/houses.md).",
+        "With --library HOUSES, or --plan, the best houses are written, as house lines or JSON lines, or drawn, each "
+        "with its name #P:V and its values; --least and --most name measures of houses or of plans "
+        "(docs/houses.md).",
     .example = "$ tartan best lahave-houses 12 --least cost --then-most daylight",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -17,6 +17,7 @@ void tn_view_free(tn_view *view)
     free(view->points);
     free(view->edges);
     free(view->sharpest);
+    free(view->mends);
     tn_guides_clear(&view->guides);
     free(view);
 }
@@ -161,7 +162,7 @@ static tn_status look(tn_sight *sight, const tn_eye *eye, prospect *seen, tn_err
 
 /* One patch of the painting, back in model units. */
 static void keep_patch(tn_view *view, const prospect *seen, const tn_painting *painting, const tn_patch *patch,
-                       uint32_t *corner)
+                       float *depths, uint32_t *corner)
 {
     view->faces[view->face_count++] =
         (tn_seen_face){.first = *corner,
@@ -178,11 +179,12 @@ static void keep_patch(tn_view *view, const prospect *seen, const tn_painting *p
             view->low[k] = fmin(view->low[k], at);
             view->high[k] = fmax(view->high[k], at);
         }
+        depths[*corner] = (float)(p[2] * seen->size);
         view->edges[(*corner)++] = side == TN_CUT ? TN_EDGE_NONE : seen->sight->edges[side];
     }
 }
 
-static tn_status keep(tn_view *view, const prospect *seen, const tn_painting *painting, tn_error *error)
+static tn_status keep(tn_view *view, const prospect *seen, const tn_painting *painting, float **depths, tn_error *error)
 {
     size_t corners = 0;
     uint32_t corner = 0;
@@ -191,7 +193,8 @@ static tn_status keep(tn_view *view, const prospect *seen, const tn_painting *pa
     view->faces = malloc((painting->patch_count + 1) * sizeof *view->faces);
     view->points = malloc((corners + 1) * sizeof *view->points);
     view->edges = malloc((corners + 1) * sizeof *view->edges);
-    if (!view->faces || !view->points || !view->edges)
+    *depths = malloc((corners + 1) * sizeof **depths);
+    if (!view->faces || !view->points || !view->edges || !*depths)
         return tn_fail_memory(error);
     for (int k = 0; k < 2; k++) {
         view->low[k] = INFINITY;
@@ -199,7 +202,7 @@ static tn_status keep(tn_view *view, const prospect *seen, const tn_painting *pa
     }
     view->by_depth = painting->by_depth;
     for (size_t i = 0; i < painting->patch_count; i++)
-        keep_patch(view, seen, painting, &painting->patches[i], &corner);
+        keep_patch(view, seen, painting, &painting->patches[i], *depths, &corner);
     return TN_OK;
 }
 
@@ -269,17 +272,18 @@ tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **resul
     prospect seen;
     tn_painting painting = {0};
     round_frame frame = {0};
+    float *depths = NULL; /* [corner] */
     if (sight->turns && sight->face_count)
         frame = centre(sight);
     tn_status status = look(sight, &eye, &seen, error);
     if (status == TN_OK)
         status = tn_painting_make(&seen.scene, &painting, error);
     if (status == TN_OK)
-        status = keep(view, &seen, &painting, error);
+        status = keep(view, &seen, &painting, &depths, error);
     if (status == TN_OK)
         status = tn_view_join(view, error);
     if (status == TN_OK)
-        status = tn_view_find_seams(view, error);
+        status = tn_view_find_meets(view, depths, error);
     for (int k = 0; k < 2 && status == TN_OK; k++)
         view->extent[k] = view->high[k] - view->low[k];
     if (status == TN_OK)
@@ -287,6 +291,7 @@ tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **resul
     if (status == TN_OK && frame.radius > 0)
         set_frame(view, &frame, &eye);
     tn_painting_clear(&painting);
+    free(depths);
     free(seen.light);
     free(seen.plane);
     if (status == TN_OK)

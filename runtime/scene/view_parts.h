@@ -23,6 +23,14 @@ typedef struct tn_seen_face {
     bool joined;          /* it is filled together with the one before it */
 } tn_seen_face;
 
+/* A line that ends at a corner, into which the filling there reaches. */
+typedef struct tn_mend {
+    uint32_t corner;
+    uint16_t edge;
+    float along[2], length; /* where the line goes from there, and how far */
+    float tangent;          /* of the angle between it and the filling */
+} tn_mend;
+
 struct tn_view {
     tn_seen_face *faces; /* the farthest first */
     size_t face_count;
@@ -30,6 +38,8 @@ struct tn_view {
     uint16_t *edges;    /* [corner] of the edge that starts there: as in tn_sight; TN_EDGE_NONE where a face was cut */
     float *sharpest;    /* [2 * corner] of the seam that starts there, at its ends: the cosine of the sharpest angle
                            between    it and a line, or TN_MEETS_NOTHING; NULL: there are no seams */
+    tn_mend *mends;     /* by corner; NULL: there are none */
+    size_t mend_count;
     double low[2], high[2];
     double extent[2]; /* of the form alone: guides and views from all around make the frame larger */
     double width;
@@ -48,7 +58,8 @@ void tn_view_paint_marks(cairo_t *cr, const tn_view *view, const tn_view_place *
 /* Joins faces that can be filled together; changes their order. */
 tn_status tn_view_join(tn_view *view, tn_error *error);
 
-/* Finds what lines meet the ends of seams, once faces are joined. */
-tn_status tn_view_find_seams(tn_view *view, tn_error *error);
+/* Finds where lines end at seams and bare corners, once faces are joined. depths: [corner] towards the eye, in model
+ * units. */
+tn_status tn_view_find_meets(tn_view *view, const float *depths, tn_error *error);
 
 #endif

@@ -212,6 +212,37 @@ static void draw_edges(cairo_t *cr, const tn_view *view, const tn_seen_face *fac
     }
 }
 
+/* The first mend that is not of a corner before this one. */
+static size_t first_mend(const tn_view *view, uint32_t corner)
+{
+    size_t low = 0, high = view->mend_count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (view->mends[middle].corner < corner)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Draws lines again as far as the face reaches into them, which are `line` half as wide as they are. */
+static void draw_mends(cairo_t *cr, const tn_view *view, const tn_seen_face *face, double line, double fade)
+{
+    for (size_t i = first_mend(view, face->first); i < view->mend_count; i++) {
+        const tn_mend *mend = &view->mends[i];
+        if (mend->corner >= face->first + face->size)
+            return;
+        const float *at = view->points[mend->corner];
+        double reach = fmin(line / fmax((double)mend->tangent, 1e-9), (double)mend->length);
+        set_edge_colour(cr, mend->edge, fade);
+        cairo_move_to(cr, (double)at[0], (double)at[1]);
+        cairo_line_to(cr, (double)at[0] + reach * (double)mend->along[0],
+                      (double)at[1] + reach * (double)mend->along[1]);
+        cairo_stroke(cr);
+    }
+}
+
 /* Fills faces of one plane as one shape, then draws their edges, runs of one colour at a time. Where they were cut, a
  * hairline of their own colour closes the seam that smoothed edges would leave. It does not reach into lines, which the
  * face on their other side may have drawn before. */
@@ -231,6 +262,8 @@ static void paint_faces(cairo_t *cr, const tn_view *view, const tn_seen_face *fa
         draw_seams(cr, view, &faces[f], &clear);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_width(cr, place->line / place->scale);
+    for (size_t f = 0; f < count; f++)
+        draw_mends(cr, view, &faces[f], clear.line, place->fade);
     for (size_t f = 0; f < count; f++)
         draw_edges(cr, view, &faces[f], place->fade);
 }

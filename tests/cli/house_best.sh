@@ -10,7 +10,6 @@ golden best_none_on_plan "tartan best house-measures.plan 1 -l cottages --plan '
 golden best_where 'tartan best house-measures.plan 1 -l cottages --least floor-area --where "quantity(cell(bedroom), n >= 2)"'
 golden best_none 'tartan best house-measures.plan 1 -l cottages --least floor-area --where "quantity(cell(bedroom), n > 90)"'
 golden best_of_plans 'tartan best house-measures.plan 1 -l cottages --least bedroom'
-golden best_picture 'tartan best house-measures.plan 1 -l cottages --least bedrooms -o best.png'
 golden best_database 'tartan best house-measures.plan 1 -l cottages --least bedrooms -o best.sqlite'
 golden best_mirror 'tartan best house-measures.plan 1 -l cottages --least bedrooms --mirror'
 golden best_limit 'tartan best house-measures.plan 1 -l cottages --least bedrooms --max-states 10'
@@ -28,6 +27,18 @@ golden open_plan_json "tartan complete house-measures.plan -l cottages \"10'\" -
 golden open_plan_cells 'tartan complete house-measures.plan -l cottages "cell(bedroom) | ..." 2>&1 | grep -v "  note: "'
 
 golden values 'tartan test house-values.plan'
+
+# The best are drawn by both commands, on all plans and on one; of none, nothing is.
+if grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; then
+    "$TARTAN" best "$files/house-measures.plan" 5 -l cottages --least floor-area --then-most bedrooms -o "$scratch/best.svg"
+    "$TARTAN" draw "$files/house-measures.plan" -l cottages --best 5 --least floor-area --then-most bedrooms -o "$scratch/drawn.svg"
+    cmp "$scratch/best.svg" "$scratch/drawn.svg" || fail 'two pictures of the best houses differ'
+    "$TARTAN" best "$files/house-measures.plan" 5 --plan '#3' --least rooms-value -o "$scratch/plan.svg"
+    cmp -s "$scratch/best.svg" "$scratch/plan.svg" && fail 'the best on one plan are drawn as the best of all'
+    golden best_picture_none "tartan best house-measures.plan 2 -l cottages --least floor-area --where 'quantity(cell(bedroom), n > 90)' -o $scratch/none.svg"
+    is 'a picture of none' "$(ls "$scratch/none.svg" 2>&1 | grep -c 'No such')" 1
+fi
+golden best_picture_of_0 "tartan best house-measures.plan 0 -l cottages --least floor-area -o $scratch/none.svg"
 
 # What completes the plan is what is counted with the pattern as a requirement.
 is 'houses that complete a plan' \
