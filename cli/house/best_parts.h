@@ -35,4 +35,8 @@ bool tn_best_houses_value(const tn_best_houses *search, uint32_t k, bool exact, 
  * that are wanted. */
 tn_status tn_best_houses_each(tn_best_houses *search, tn_house_each *each, void *context, tn_error *error);
 
+/* Calls `each` with the first house of each point of the front, which stops there: search->count is how many there are.
+ */
+tn_status tn_best_houses_each_point(tn_best_houses *search, tn_house_each *each, void *context, tn_error *error);
+
 #endif

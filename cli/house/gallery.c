@@ -6,6 +6,7 @@
 
 #include "cli/house/best_parts.h"
 #include "cli/house/sampled.h"
+#include "driver/open/digits.h"
 #include "runtime/base/length_style.h"
 #include "runtime/house/picture/draw.h"
 #include "runtime/house/schedule/cost.h"
@@ -24,6 +25,7 @@ typedef struct collection {
     pictured *items;
     size_t count;
     tn_best_houses *search; /* of the best, or NULL */
+    bool front;             /* of the best trade-offs */
 } collection;
 
 static double floor_area(const tn_house *house)
@@ -86,9 +88,10 @@ static tn_status collect_drawn(void *context, tn_house *house, const mpz_t rank,
 
 /* ---- the best */
 
-/* "daylight 14', cost 2500" */
-static tn_status say_values(const tn_best_houses *s, pictured *p, tn_error *error)
+/* "daylight 14', cost 2500"; of a trade-off also how many houses have it. */
+static tn_status say_values(const collection *c, pictured *p, tn_error *error)
 {
+    const tn_best_houses *s = c->search;
     size_t used = 0;
     for (uint32_t k = 0; k < s->wishes->count && used < SAID_SIZE; k++) {
         tn_buffer value = {0};
@@ -100,7 +103,12 @@ static tn_status say_values(const tn_best_houses *s, pictured *p, tn_error *erro
         if (!ok)
             return tn_fail_memory(error);
     }
-    return TN_OK;
+    char *digits = c->front ? tn_digits(s->count, true) : NULL;
+    if (digits && used < SAID_SIZE)
+        snprintf(p->said + used, SAID_SIZE - used, "; %s house%s", digits, strcmp(digits, "1") == 0 ? "" : "s");
+    bool ok = digits || !c->front;
+    free(digits);
+    return ok ? TN_OK : tn_fail_memory(error);
 }
 
 /* The house is the search's: a copy is taken, as its line says it. */
@@ -113,12 +121,12 @@ static tn_status collect_best(void *context, const tn_house *house, bool *stop, 
     if (status == TN_OK)
         status = tn_house_read(house->form, line.data, line.size, house->length, &copy, error);
     if (status == TN_OK)
-        status = say_values(c->search, &c->items[c->count], error);
+        status = say_values(c, &c->items[c->count], error);
     if (status == TN_OK)
         status = take(&c->items[c->count++], &copy, error);
     tn_house_clear(&copy);
     free(line.data);
-    *stop = ++c->search->given == c->search->wishes->wanted;
+    *stop = ++c->search->given == c->search->wishes->wanted || c->front;
     return status;
 }
 
@@ -127,7 +135,8 @@ static tn_status collect_all_best(collection *c, tn_error *error)
 {
     mpz_t plan, variant;
     mpz_inits(plan, variant, NULL);
-    tn_status status = tn_best_houses_each(c->search, collect_best, c, error);
+    tn_status status = c->front ? tn_best_houses_each_point(c->search, collect_best, c, error)
+                                : tn_best_houses_each(c->search, collect_best, c, error);
     for (size_t i = 0; status == TN_OK && i < c->count; i++) {
         pictured *p = &c->items[i];
         status = tn_numbered_name(&c->search->n, &p->house, plan, variant, error);
@@ -177,7 +186,7 @@ static void draw_collected(tn_numbered *n, collection *c, const tn_house_sheet *
     if (status == TN_OK && c->count > 0)
         status = draw(n, c, sheet, note, &error);
     if (status == TN_OK)
-        tn_numbered_say_few(n, sheet->best && sheet->best->plan, c->count, sheet->wanted);
+        tn_numbered_say_few(n, sheet->best && sheet->best->plan, c->count, sheet->wanted > 0 ? sheet->wanted : 1);
     else
         tn_job_fail(n->job, &error);
     for (size_t i = 0; c->items && i < c->count; i++) {
@@ -198,29 +207,57 @@ static void draw_sample(tn_job *job, const tn_house_settings *settings, const tn
     tn_numbered_close(&n);
 }
 
-static void draw_best(tn_job *job, const tn_house_settings *settings, const tn_house_sheet *sheet)
+/* " with the least cost, then the most daylight"; ": the best trade-offs of cost and daylight" */
+static void say_aim(const tn_best_houses *search, bool front, char *text, size_t size)
+{
+    const tn_house_wishes *wishes = search->wishes;
+    snprintf(text, size, front ? ": the first of each of the best trade-offs, with " : " with ");
+    for (uint32_t k = 0; k < wishes->count; k++) {
+        size_t used = strlen(text);
+        const char *between = k == 0 ? "the" : front ? " and the" : ", then the";
+        snprintf(text + used, size - used, "%s %s %s", between, wishes->most[k] ? "most" : "least",
+                 tn_best_houses_measure(search, k));
+    }
+}
+
+/* A front has as many points as it has. */
+static bool fits(tn_job *job, const tn_best_houses *search, tn_house_sheet *sheet)
+{
+    size_t points = tn_houses_points(search->houses);
+    if (!sheet->front)
+        return true;
+    sheet->wanted = points;
+    if (points <= TN_HOUSES_DRAWN_MAX)
+        return true;
+    tn_help(tn_job_diagnostics(job),
+            tn_job_usage(job, "a picture shows 1 to %u houses, and there are %zu best trade-offs", TN_HOUSES_DRAWN_MAX,
+                         points),
+            "leave out -o, or name a text file: it has a house of each");
+    return false;
+}
+
+static void draw_best(tn_job *job, const tn_house_settings *settings, tn_house_sheet sheet)
 {
     tn_best_houses search;
-    collection c = {.search = &search};
-    char what[NOTE_SIZE] = " with the ";
-    if (tn_best_houses_begin(&search, job, settings, sheet->best, TN_HOUSES_LEAST)) {
-        for (uint32_t k = 0; k < sheet->best->count; k++) {
-            size_t used = strlen(what);
-            snprintf(what + used, sizeof what - used, "%s%s %s", k ? ", then the " : "",
-                     sheet->best->most[k] ? "most" : "least", tn_best_houses_measure(&search, k));
-        }
-        draw_collected(&search.n, &c, sheet, what);
+    collection c = {.search = &search, .front = sheet.front};
+    char what[NOTE_SIZE];
+    if (tn_best_houses_begin(&search, job, settings, sheet.best, sheet.front ? TN_HOUSES_FRONT : TN_HOUSES_LEAST) &&
+        fits(job, &search, &sheet)) {
+        say_aim(&search, sheet.front, what, sizeof what);
+        draw_collected(&search.n, &c, &sheet, what);
     }
     tn_best_houses_end(&search);
 }
 
 void tn_job_draw_houses(tn_job *job, const tn_house_settings *settings, const tn_house_sheet *sheet)
 {
-    if (sheet->wanted == 0 || sheet->wanted > TN_HOUSES_DRAWN_MAX)
+    if (sheet->front)
+        draw_best(job, settings, *sheet);
+    else if (sheet->wanted == 0 || sheet->wanted > TN_HOUSES_DRAWN_MAX)
         tn_help(tn_job_diagnostics(job), tn_job_usage(job, "a picture shows 1 to %u houses", TN_HOUSES_DRAWN_MAX),
                 sheet->wanted ? "ask for fewer" : "ask for one, or more");
     else if (sheet->best)
-        draw_best(job, settings, sheet);
+        draw_best(job, settings, *sheet);
     else
         draw_sample(job, settings, sheet);
 }

@@ -39,11 +39,12 @@ void tn_job_sample_houses(tn_job *job, const tn_house_settings *settings, const 
 /* The most houses of a page. */
 #define TN_HOUSES_DRAWN_MAX 200u
 
-/* Small pictures of so many houses: the best by measures, or drawn at random with a seed. Their names, areas and costs,
- * or their values, stand below. */
+/* Small pictures of houses: the best by measures, the first of each of the best trade-offs, or so many drawn at random
+ * with a seed. Their names, areas and costs, or their values, stand below. */
 typedef struct tn_house_sheet {
     size_t wanted, columns;             /* columns: 0 for as many as look well */
     const struct tn_house_wishes *best; /* cli/house/best.h; or NULL */
+    bool front;                         /* the best trade-offs, all of them */
     uint64_t seed;
     tn_camera camera;
     const char *title; /* NULL: what the form says of itself */

@@ -156,13 +156,6 @@ static void find_houses(tn_job *job)
 {
     const pareto_settings *settings = settings_of(job);
     tn_wishes wishes;
-    if (tn_job_draws(settings->output)) {
-        tn_diagnostic *d = tn_job_usage(job, "a front of houses is not drawn: -o %.100s", settings->output);
-        tn_help(tn_job_diagnostics(job), d,
-                "leave out -o, or name a text file: it has a house of each row, and `tartan house FILE HOUSE -o "
-                "NAME.svg` draws one");
-        return;
-    }
     if (!tn_wishes_names(job, &settings->wanted, 2, &wishes))
         return;
     const tn_house_settings houses = tn_job_houses(&settings->plans);
@@ -170,7 +163,12 @@ static void find_houses(tn_job *job)
     of.plan = settings->plan;
     of.json = settings->json;
     of.output = settings->output;
-    tn_job_front_of_houses(job, &houses, &of);
+    if (tn_job_draws(of.output))
+        tn_job_draw_houses(
+            job, &houses,
+            &(tn_house_sheet){.best = &of, .front = true, .camera = tn_house_sheet_camera(), .output = of.output});
+    else
+        tn_job_front_of_houses(job, &houses, &of);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
@@ -214,7 +212,7 @@ const tn_command tn_command_pareto = {
         "measures: "
         "exact along the edges, of a sample inside. Of three measures, each two have a panel.\n\n"
         "With --library HOUSES, or --plan, it is the front of the houses, by measures of houses or of plans "
-        "(docs/houses.md), without a picture.",
+        "(docs/houses.md). A picture then shows the first house of each value, with its name #P:V.",
     .example = "$ tartan pareto lahave-houses --least cost --most area",
     .options = options,
     .option_count = OPTION_COUNT(options),

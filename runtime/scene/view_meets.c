@@ -71,7 +71,7 @@ static float cross(const float *a, const float *b)
 }
 
 /* Would the filling of the corner reach far into a line in this direction, which runs beside it? One that runs inside
- * is hidden. *tangent: of the angle between them. */
+ * is hidden. *tangent: of the angle from the line to the filling, which is at its left where that is positive. */
 static bool reaches(const meeting_place *corner, const float *line, float *tangent)
 {
     const float *a = corner->sides[0], *b = corner->sides[1];
@@ -79,8 +79,8 @@ static bool reaches(const meeting_place *corner, const float *line, float *tange
     bool inside = turn > 0 ? from_a > 0 && to_b > 0 : from_a < 0 && to_b < 0;
     const float *nearest = dot(a, line) > dot(b, line) ? a : b;
     float cosine = dot(nearest, line);
-    *tangent = fabsf(cross(nearest, line)) / fmaxf(cosine, 1e-9f);
-    return !inside && cosine > 0 && *tangent < 1;
+    *tangent = cross(line, nearest) / fmaxf(cosine, 1e-9f);
+    return !inside && cosine > 0 && fabsf(*tangent) < 1;
 }
 
 static tn_status mend(meeting_places *m, const meeting_place *corner, const meeting_place *line, double length,

@@ -28,7 +28,7 @@ typedef struct tn_mend {
     uint32_t corner;
     uint16_t edge;
     float along[2], length; /* where the line goes from there, and how far */
-    float tangent;          /* of the angle between it and the filling */
+    float tangent;          /* of the angle to the filling, which is at its left where that is positive */
 } tn_mend;
 
 struct tn_view {

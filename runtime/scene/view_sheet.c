@@ -226,19 +226,20 @@ static size_t first_mend(const tn_view *view, uint32_t corner)
     return low;
 }
 
-/* Draws lines again as far as the face reaches into them, which are `line` half as wide as they are. */
-static void draw_mends(cairo_t *cr, const tn_view *view, const tn_seen_face *face, double line, double fade)
+/* Draws those halves of lines again into which the face reaches, as far as it does. half: how wide they are. */
+static void draw_mends(cairo_t *cr, const tn_view *view, const tn_seen_face *face, double half, double fade)
 {
     for (size_t i = first_mend(view, face->first); i < view->mend_count; i++) {
         const tn_mend *mend = &view->mends[i];
         if (mend->corner >= face->first + face->size)
             return;
-        const float *at = view->points[mend->corner];
-        double reach = fmin(line / fmax((double)mend->tangent, 1e-9), (double)mend->length);
+        double along[2] = {(double)mend->along[0], (double)mend->along[1]}, tangent = (double)mend->tangent,
+               reach = fmin(half / fmax(fabs(tangent), 1e-9), (double)mend->length),
+               aside = copysign(half / 2, tangent), x = (double)view->points[mend->corner][0] - aside * along[1],
+               y = (double)view->points[mend->corner][1] + aside * along[0];
         set_edge_colour(cr, mend->edge, fade);
-        cairo_move_to(cr, (double)at[0], (double)at[1]);
-        cairo_line_to(cr, (double)at[0] + reach * (double)mend->along[0],
-                      (double)at[1] + reach * (double)mend->along[1]);
+        cairo_move_to(cr, x, y);
+        cairo_line_to(cr, x + reach * along[0], y + reach * along[1]);
         cairo_stroke(cr);
     }
 }
@@ -260,10 +261,11 @@ static void paint_faces(cairo_t *cr, const tn_view *view, const tn_seen_face *fa
     cairo_set_line_width(cr, seam);
     for (size_t f = 0; f < count; f++)
         draw_seams(cr, view, &faces[f], &clear);
-    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-    cairo_set_line_width(cr, place->line / place->scale);
+    cairo_set_line_width(cr, clear.line);
     for (size_t f = 0; f < count; f++)
         draw_mends(cr, view, &faces[f], clear.line, place->fade);
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_width(cr, 2 * clear.line);
     for (size_t f = 0; f < count; f++)
         draw_edges(cr, view, &faces[f], place->fade);
 }

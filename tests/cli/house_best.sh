@@ -21,7 +21,6 @@ golden complete_cost 'tartan complete priced.plan "14'"'"' | ..." -l barns --lea
 golden front 'tartan pareto house-measures.plan -l cottages --least floor-area --most bedrooms'
 golden front_json "tartan pareto house-measures.plan --plan '#3' --least floor-area --most rooms-value --json"
 golden front_one 'tartan pareto house-measures.plan -l cottages --least floor-area'
-golden front_picture 'tartan pareto house-measures.plan -l cottages --least floor-area --most bedrooms -o front.svg'
 golden open_plan "tartan complete house-measures.plan -l cottages \"14' | ? | ...\" --least floor-area"
 golden open_plan_json "tartan complete house-measures.plan -l cottages \"10'\" --json"
 golden open_plan_cells 'tartan complete house-measures.plan -l cottages "cell(bedroom) | ..." 2>&1 | grep -v "  note: "'
@@ -35,6 +34,9 @@ if grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; th
     cmp "$scratch/best.svg" "$scratch/drawn.svg" || fail 'two pictures of the best houses differ'
     "$TARTAN" best "$files/house-measures.plan" 5 --plan '#3' --least rooms-value -o "$scratch/plan.svg"
     cmp -s "$scratch/best.svg" "$scratch/plan.svg" && fail 'the best on one plan are drawn as the best of all'
+    "$TARTAN" pareto "$files/house-measures.plan" -l cottages --least floor-area --most bedrooms -o "$scratch/front.svg"
+    is 'the front is drawn' "$(head -c 5 "$scratch/front.svg")" '<?xml'
+    golden front_picture_none "tartan pareto house-measures.plan -l cottages --least floor-area --most bedrooms --where 'quantity(cell(bedroom), n > 90)' -o $scratch/none.svg"
     golden best_picture_none "tartan best house-measures.plan 2 -l cottages --least floor-area --where 'quantity(cell(bedroom), n > 90)' -o $scratch/none.svg"
     is 'a picture of none' "$(ls "$scratch/none.svg" 2>&1 | grep -c 'No such')" 1
 fi
