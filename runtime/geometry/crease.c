@@ -9,6 +9,56 @@
 /* Triangles whose normals have a product above this lie in one plane: they are not exactly so after rounding. */
 #define FLAT (1 - 1e-9)
 
+/* A triangle that is less high than this share of the mesh is a line, and says nothing of a plane. */
+#define THIN 1e-7
+
+/* A row of so many thin triangles side by side is gone over. */
+enum { THIN_ROW_MAX = 16 };
+
+typedef struct creasing {
+    const tn_mesh *mesh;
+    const uint32_t *twins;
+    double thin; /* how high a triangle is that says nothing */
+} creasing;
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static uint32_t next_corner(uint32_t corner)
+{
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+
+static double squared_length(const tn_mesh *mesh, uint32_t corner)
+{
+    const double *a = mesh->positions + 3 * (size_t)mesh->corners[corner],
+                 *b = mesh->positions + 3 * (size_t)mesh->corners[next_corner(corner)];
+    const double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    return dot(along, along);
+}
+
+static bool is_thin(const creasing *c, uint32_t face)
+{
+    double n[3], longest = 0;
+    tn_mesh_face_normal(c->mesh, c->mesh->corners + 3 * (size_t)face, 3, n);
+    for (uint32_t i = 3 * face; i < 3 * face + 3; i++)
+        longest = fmax(longest, squared_length(c->mesh, i));
+    return dot(n, n) < longest * c->thin * c->thin; /* the normal is as long as the triangle is large, twice */
+}
+
+/* The first triangle from there on that is not thin, over the long sides of those that are. TN_NO_TWIN: the mesh ends.
+ * corner: of the side by which one comes. */
+static uint32_t look_through(const creasing *c, uint32_t corner)
+{
+    for (int i = 0; i < THIN_ROW_MAX && corner != TN_NO_TWIN && is_thin(c, corner / 3); i++) {
+        uint32_t one = next_corner(corner), other = next_corner(one);
+        corner = c->twins[squared_length(c->mesh, one) > squared_length(c->mesh, other) ? one : other];
+    }
+    return corner == TN_NO_TWIN ? TN_NO_TWIN : corner / 3;
+}
+
 static bool bends(const tn_mesh *mesh, uint32_t face, uint32_t other)
 {
     double n[3], m[3];
@@ -16,14 +66,32 @@ static bool bends(const tn_mesh *mesh, uint32_t face, uint32_t other)
         return true;
     tn_mesh_face_normal(mesh, mesh->corners + 3 * (size_t)face, 3, n);
     tn_mesh_face_normal(mesh, mesh->corners + 3 * (size_t)other, 3, m);
-    double lengths = sqrt((n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) * (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]));
-    return !(n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > FLAT * lengths);
+    return !(dot(n, m) > FLAT * sqrt(dot(n, n) * dot(m, m)));
+}
+
+static bool is_crease(const creasing *c, uint32_t corner)
+{
+    uint32_t twin = c->twins[corner];
+    if (twin == TN_NO_TWIN)
+        return true;
+    uint32_t face = look_through(c, corner), other = look_through(c, twin);
+    return face == TN_NO_TWIN || other == TN_NO_TWIN || bends(c->mesh, face, other);
+}
+
+static double size_of(const tn_mesh *mesh)
+{
+    double size = 0;
+    for (size_t i = 0; i < mesh->face_count * 3; i++)
+        for (size_t k = 0; k < 3; k++)
+            size = fmax(size, fabs(mesh->positions[3 * (size_t)mesh->corners[i] + k]));
+    return size;
 }
 
 tn_status tn_mesh_creases(const tn_mesh *mesh, bool **creases, tn_error *error)
 {
     size_t count = 3 * mesh->face_count;
     uint32_t *twins = tn_mesh_twins(mesh);
+    const creasing c = {mesh, twins, THIN * size_of(mesh)};
     *creases = malloc(count + 1);
     if (!twins || !*creases) {
         free(twins);
@@ -31,8 +99,8 @@ tn_status tn_mesh_creases(const tn_mesh *mesh, bool **creases, tn_error *error)
         *creases = NULL;
         return tn_fail_memory(error);
     }
-    for (uint32_t c = 0; c < count; c++)
-        (*creases)[c] = twins[c] == TN_NO_TWIN || bends(mesh, c / 3, twins[c] / 3);
+    for (uint32_t i = 0; i < count; i++)
+        (*creases)[i] = is_crease(&c, i);
     free(twins);
     return TN_OK;
 }

@@ -3,8 +3,8 @@
  * Faces are painted one over another, each with its lines, which reach half their width into the faces beside them.
  * Such a face has that line at one of its sides, too, and draws it again; but not one that touches it with a corner
  * alone, as pieces of faces do. There its filling, and the hairlines that close seams, would cut into the line. So
- * seams end where they come near to a line, the sooner the sharper the angle is; and lines are mended as far as a
- * filling reaches into them. */
+ * seams end where they come near to a line; and where the angle is sharp, lines are mended as far as the filling and
+ * the seam reach into them. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,14 +13,14 @@
 
 #define GRID 1e6 /* points nearer than this share of the form are one */
 
-/* An end of a seam, or a corner between sides that are no lines. */
+/* An end of a seam, or a corner of which a side is no line. */
 typedef struct meeting_place {
     int32_t at[3];
     float sides[2][2]; /* from there on, of unit length; of a seam the first alone */
     uint32_t corner;
-    uint32_t end;   /* of a seam: in `sharpest`; of a line: its edge */
-    uint32_t shape; /* the faces that are filled together: their lines are drawn after all of them */
-    bool bare;      /* it is a corner */
+    uint32_t end;            /* of a seam: in `sharpest`; of a line: its edge */
+    uint32_t shape;          /* the faces that are filled together: their lines are drawn after all of them */
+    bool is_corner, bare[2]; /* bare: is that side no line? */
 } meeting_place;
 
 typedef struct meeting_places {
@@ -77,10 +77,11 @@ static bool reaches(const meeting_place *corner, const float *line, float *tange
     const float *a = corner->sides[0], *b = corner->sides[1];
     float turn = cross(a, b), from_a = cross(a, line), to_b = cross(line, b);
     bool inside = turn > 0 ? from_a > 0 && to_b > 0 : from_a < 0 && to_b < 0;
-    const float *nearest = dot(a, line) > dot(b, line) ? a : b;
+    bool is_b = dot(b, line) > dot(a, line);
+    const float *nearest = is_b ? b : a;
     float cosine = dot(nearest, line);
     *tangent = cross(line, nearest) / fmaxf(cosine, 1e-9f);
-    return !inside && cosine > 0 && fabsf(*tangent) < 1;
+    return corner->bare[is_b] && !inside && cosine > TN_SHARP;
 }
 
 static tn_status mend(meeting_places *m, const meeting_place *corner, const meeting_place *line, double length,
@@ -114,7 +115,7 @@ static tn_status meet(meeting_places *m, const meeting_place *line, double lengt
     for (; status == TN_OK && low < m->count && compare_places(&m->items[low], line) == 0; low++) {
         const meeting_place *place = &m->items[low];
         float *sharpest = &m->view->sharpest[place->end];
-        if (place->bare)
+        if (place->is_corner)
             status = mend(m, place, line, length, error);
         else
             *sharpest = fmaxf(*sharpest, fminf(dot(place->sides[0], line->sides[0]), 1));
@@ -127,22 +128,24 @@ static bool is_line(const tn_view *view, size_t corner)
     return view->edges[corner] != TN_EDGE_NONE && view->edges[corner] != TN_EDGE_JOINED;
 }
 
-/* Of the side that starts at a corner: its seam, and the corner. */
-static void add_places(meeting_places *m, size_t before, size_t corner, size_t next)
+static void add_seam(meeting_places *m, size_t corner, size_t next)
 {
-    const tn_view *view = m->view;
     meeting_place from = place_at(m, corner, next), to = place_at(m, next, corner);
-    if (view->edges[corner] == TN_EDGE_NONE) {
-        from.end = 2 * (uint32_t)corner;
-        to.end = from.end + 1;
-        m->items[m->count++] = from;
-        m->items[m->count++] = to;
-    }
-    if (is_line(view, before) || is_line(view, corner))
-        return;
-    put_direction(m, corner, before, from.sides[1]);
-    from.bare = true;
+    from.end = 2 * (uint32_t)corner;
+    to.end = from.end + 1;
     m->items[m->count++] = from;
+    m->items[m->count++] = to;
+}
+
+static void add_corner(meeting_places *m, size_t before, size_t corner, size_t next)
+{
+    meeting_place place = place_at(m, corner, next);
+    place.is_corner = true;
+    place.bare[0] = !is_line(m->view, corner);
+    place.bare[1] = !is_line(m->view, before);
+    put_direction(m, corner, before, place.sides[1]);
+    if (place.bare[0] || place.bare[1])
+        m->items[m->count++] = place;
 }
 
 static tn_status add_line(meeting_places *m, size_t corner, size_t next, tn_error *error)
@@ -169,9 +172,11 @@ static tn_status go_through(meeting_places *m, side_kind kind, tn_error *error)
             size_t corner = face->first + i, next = face->first + (i + 1) % face->size,
                    before = face->first + (i + face->size - 1) % face->size;
             bool line = is_line(view, corner);
-            if (kind == SIDE_OTHER && !line)
-                add_places(m, before, corner, next);
-            else if (kind == SIDE_LINE && line)
+            if (kind == SIDE_OTHER)
+                add_corner(m, before, corner, next);
+            if (kind == SIDE_OTHER && view->edges[corner] == TN_EDGE_NONE)
+                add_seam(m, corner, next);
+            if (kind == SIDE_LINE && line)
                 status = add_line(m, corner, next, error);
         }
     }
@@ -218,7 +223,7 @@ tn_status tn_view_find_meets(tn_view *view, const float *depths, tn_error *error
     size_t corners, others = count_sides(view, &corners);
     if (others == 0)
         return TN_OK;
-    meeting_places m = {.view = view, .depths = depths, .items = malloc(3 * others * sizeof *m.items)};
+    meeting_places m = {.view = view, .depths = depths, .items = malloc(4 * others * sizeof *m.items)};
     m.unit = fmax(fmax(view->high[0] - view->low[0], view->high[1] - view->low[1]), 1e-300) / GRID;
     view->sharpest = malloc(2 * corners * sizeof *view->sharpest);
     tn_status status = m.items && view->sharpest ? TN_OK : tn_fail_memory(error);

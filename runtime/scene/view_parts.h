@@ -14,6 +14,9 @@
 /* Where no line ends at the end of a seam. */
 #define TN_MEETS_NOTHING (-2.0f)
 
+/* An angle whose cosine is more than this is sharp: lines are mended there. */
+#define TN_SHARP 0.7f
+
 /* A face, or a piece of one: what is needed to paint it. */
 typedef struct tn_seen_face {
     uint32_t first, size; /* corners */

@@ -164,15 +164,17 @@ typedef struct clearance {
     double line, stroke;
 } clearance;
 
-/* The share of a seam that is left out at its end, so that no part of it touches a line that ends there: half of it at
- * most. */
+/* The share of a seam that is left out at its end, so that no part of it touches a line that ends there, half of it at
+ * most. Where the angle is sharp only as much as the line hides: it is mended behind that. */
 static double left_out(const tn_view *view, size_t end, double length, const clearance *clear)
 {
     double cosine = (double)view->sharpest[end];
     if (view->sharpest[end] == TN_MEETS_NOTHING)
         return 0;
     double sine = sqrt(fmax(1 - cosine * cosine, 0));
-    double reach = cosine > 0 ? (clear->line + clear->stroke * cosine) / fmax(sine, 1e-9) : clear->line;
+    double reach = cosine > (double)TN_SHARP ? clear->line / fmax(sine, 1e-9)
+                   : cosine > 0              ? (clear->line + clear->stroke * cosine) / sine
+                                             : clear->line;
     return fmin(reach / fmax(length, 1e-30), 0.5);
 }
 
@@ -226,20 +228,27 @@ static size_t first_mend(const tn_view *view, uint32_t corner)
     return low;
 }
 
-/* Draws those halves of lines again into which the face reaches, as far as it does. half: how wide they are. */
-static void draw_mends(cairo_t *cr, const tn_view *view, const tn_seen_face *face, double half, double fade)
+/* Adds to the path that half of a line into which the face and its seams reach, as far as they do. */
+static void trace_mend(cairo_t *cr, const tn_view *view, const tn_mend *mend, const clearance *clear)
 {
-    for (size_t i = first_mend(view, face->first); i < view->mend_count; i++) {
-        const tn_mend *mend = &view->mends[i];
-        if (mend->corner >= face->first + face->size)
-            return;
-        double along[2] = {(double)mend->along[0], (double)mend->along[1]}, tangent = (double)mend->tangent,
-               reach = fmin(half / fmax(fabs(tangent), 1e-9), (double)mend->length),
-               aside = copysign(half / 2, tangent), x = (double)view->points[mend->corner][0] - aside * along[1],
-               y = (double)view->points[mend->corner][1] + aside * along[0];
-        set_edge_colour(cr, mend->edge, fade);
-        cairo_move_to(cr, x, y);
-        cairo_line_to(cr, x + reach * along[0], y + reach * along[1]);
+    double along[2] = {(double)mend->along[0], (double)mend->along[1]}, tangent = (double)mend->tangent,
+           reach = fmin((clear->line + clear->stroke) / fmax(fabs(tangent), 1e-9), (double)mend->length),
+           aside = copysign(clear->line / 2, tangent), x = (double)view->points[mend->corner][0] - aside * along[1],
+           y = (double)view->points[mend->corner][1] + aside * along[0];
+    cairo_move_to(cr, x, y);
+    cairo_line_to(cr, x + reach * along[0], y + reach * along[1]);
+}
+
+/* Draws such halves again, those of one colour at a time. */
+static void draw_mends(cairo_t *cr, const tn_view *view, const tn_seen_face *face, const clearance *clear, double fade)
+{
+    const tn_mend *mends = view->mends;
+    size_t i = first_mend(view, face->first), end = first_mend(view, face->first + face->size);
+    for (; i < end; i++) {
+        trace_mend(cr, view, &mends[i], clear);
+        if (i + 1 < end && mends[i + 1].edge == mends[i].edge)
+            continue;
+        set_edge_colour(cr, mends[i].edge, fade);
         cairo_stroke(cr);
     }
 }
@@ -263,7 +272,7 @@ static void paint_faces(cairo_t *cr, const tn_view *view, const tn_seen_face *fa
         draw_seams(cr, view, &faces[f], &clear);
     cairo_set_line_width(cr, clear.line);
     for (size_t f = 0; f < count; f++)
-        draw_mends(cr, view, &faces[f], clear.line, place->fade);
+        draw_mends(cr, view, &faces[f], &clear, place->fade);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_width(cr, 2 * clear.line);
     for (size_t f = 0; f < count; f++)
