@@ -148,9 +148,12 @@ static bool begin(tn_job *job, house_list *list, const tn_house_range *range)
     return false;
 }
 
-/* What was written stays, and how to go on is said. */
+/* What was written stays, and how to go on is said. A database that was to be replaced is as it was, which is said at
+ * the end. */
 static void interrupted(tn_job *job, house_list *list)
 {
+    if (tn_plan_writer_replaces(list->out.writer))
+        return;
     tn_interrupt_answered();
     if (tn_plan_writer_resumes(list->out.writer)) {
         tn_job_interrupted(job, "interrupted; a database keeps its whole batches, and --resume goes on after them");

@@ -79,9 +79,12 @@ static bool is_done(const enumeration *e)
     return e->limited && e->written >= e->limit;
 }
 
-/* Keeps what was written: whole batches of a database, every plan of anything else. */
+/* Keeps what was written: whole batches of a database, every plan of anything else. A database that was to be replaced
+ * is as it was, which is said at the end. */
 static void interrupt(enumeration *e)
 {
+    if (tn_plan_writer_replaces(e->writer))
+        return;
     tn_interrupt_answered();
     if (tn_plan_writer_resumes(e->writer)) {
         tn_job_interrupted(e->job, "interrupted; a database keeps its whole batches, and --resume goes on after them");

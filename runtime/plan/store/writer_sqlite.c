@@ -91,8 +91,8 @@ static tn_status set_metadata(tn_plan_writer *writer, const char *key, const cha
 }
 
 /* Makes the tables of a new library, in place of those that are there: within one transaction, so that whoever reads it
- * sees the old library or the new one. */
-static tn_status create(tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_error *error)
+ * sees the old library or the new one. A library that is there is replaced with the first batch, not before. */
+static tn_status create(tn_plan_writer *writer, const tn_plan_metadata *metadata, bool is_new, tn_error *error)
 {
     tn_metadata_room room;
     tn_metadata_item items[TN_METADATA_ITEMS];
@@ -109,7 +109,21 @@ static tn_status create(tn_plan_writer *writer, const tn_plan_metadata *metadata
     }
     if (status == TN_OK)
         status = set_metadata(writer, "complete", "0", error);
-    return status == TN_OK ? run(writer, "COMMIT", error) : status;
+    writer->replaces = writer->had_library = !is_new;
+    return status == TN_OK && is_new ? run(writer, "COMMIT", error) : status;
+}
+
+/* Begins a batch; the first may belong to what is begun already. */
+static tn_status begin_batch(tn_plan_writer *writer, tn_error *error)
+{
+    return writer->replaces ? TN_OK : run(writer, "BEGIN IMMEDIATE", error);
+}
+
+static tn_status end_batch(tn_plan_writer *writer, tn_error *error)
+{
+    tn_status status = run(writer, "COMMIT", error);
+    writer->replaces = writer->replaces && status != TN_OK;
+    return status;
 }
 
 /* ---- a library that is there */
@@ -264,9 +278,7 @@ tn_status tn_writer_sqlite_open(tn_plan_writer *writer, const tn_writer_options 
     if (status == TN_OK && options->resume && !is_new)
         status = resume(writer, &options->metadata, error);
     else if (status == TN_OK)
-        status = create(writer, &options->metadata, error);
-    if (status == TN_OK && !is_new && !options->resume)
-        status = run(writer, "VACUUM", error); /* gives back the space of the library that was there */
+        status = create(writer, &options->metadata, is_new, error);
     return status == TN_OK ? prepare_inserts(writer, error) : status;
 }
 
@@ -336,7 +348,7 @@ static tn_status flush(tn_plan_writer *writer, tn_error *error)
 
 tn_status tn_writer_sqlite_write(tn_plan_writer *writer, const char *rank, const tn_plan_row *row, tn_error *error)
 {
-    tn_status status = writer->in_batch == 0 ? run(writer, "BEGIN IMMEDIATE", error) : TN_OK;
+    tn_status status = writer->in_batch == 0 ? begin_batch(writer, error) : TN_OK;
     if (status != TN_OK)
         return status;
     if (!make_plan(writer, rank, row))
@@ -349,7 +361,7 @@ tn_status tn_writer_sqlite_write(tn_plan_writer *writer, const char *rank, const
     if (status != TN_OK || !batch_ends)
         return status;
     writer->in_batch = 0;
-    return run(writer, "COMMIT", error);
+    return end_batch(writer, error);
 }
 
 static void finalize(tn_plan_writer *writer)
@@ -362,7 +374,7 @@ static void finalize(tn_plan_writer *writer)
 
 tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error)
 {
-    tn_status status = writer->in_batch > 0 ? flush(writer, error) : run(writer, "BEGIN IMMEDIATE", error);
+    tn_status status = writer->in_batch > 0 ? flush(writer, error) : begin_batch(writer, error);
     writer->in_batch = 0;
     if (status == TN_OK)
         status = tn_writer_sqlite_run(writer,
@@ -374,8 +386,10 @@ tn_status tn_writer_sqlite_close(tn_plan_writer *writer, tn_error *error)
     if (status == TN_OK)
         status = set_metadata(writer, "complete", "1", error);
     if (status == TN_OK)
-        status = run(writer, "COMMIT", error);
+        status = end_batch(writer, error);
     finalize(writer);
+    if (status == TN_OK && writer->had_library)
+        status = run(writer, "VACUUM", error); /* gives back the space of the library that was there */
     if (status == TN_OK && sqlite3_close(writer->database) != SQLITE_OK)
         return tn_writer_sqlite_failed(writer, error);
     if (status == TN_OK)

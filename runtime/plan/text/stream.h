@@ -175,8 +175,11 @@ tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const t
 /* Plans that a resumed library holds already, and the rank of the last of them; 0 where it is new. */
 uint64_t tn_plan_writer_resumed(const tn_plan_writer *writer, mpz_t last_rank);
 
-/* Can what it writes be gone on with later? SQLite libraries can. */
+/* Can what it writes be gone on with later? SQLite libraries can, once they are there. */
 bool tn_plan_writer_resumes(const tn_plan_writer *writer);
+
+/* Is the SQLite library that was there before still there? It is replaced when the first batch ends. */
+bool tn_plan_writer_replaces(const tn_plan_writer *writer);
 
 /* Appends a plan. Ranks must ascend. */
 tn_status tn_plan_writer_write(tn_plan_writer *writer, const mpz_t rank, const tn_tray *trays, size_t length,

@@ -367,7 +367,12 @@ tn_status tn_plan_writer_write(tn_plan_writer *writer, const mpz_t rank, const t
 
 bool tn_plan_writer_resumes(const tn_plan_writer *writer)
 {
-    return writer->format == TN_FORMAT_SQLITE;
+    return writer->format == TN_FORMAT_SQLITE && !writer->replaces;
+}
+
+bool tn_plan_writer_replaces(const tn_plan_writer *writer)
+{
+    return writer->replaces;
 }
 
 uint64_t tn_plan_writer_resumed(const tn_plan_writer *writer, mpz_t last_rank)

@@ -58,7 +58,9 @@ struct tn_plan_writer {
     tn_waiting_plan waiting[TN_WAITING_MAX];
     size_t waiting_count;
     uint32_t batch, in_batch;
-    uint64_t number; /* of the plan written last */
+    bool replaces;    /* SQLite: a library that is there, which stays until the first batch ends */
+    bool had_library; /* SQLite: one was there, and was not gone on with */
+    uint64_t number;  /* of the plan written last */
     uint64_t resumed;
     tn_buffer last_rank; /* of the plan that a resumed library ends with */
 };

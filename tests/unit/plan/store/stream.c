@@ -454,6 +454,35 @@ static void test_killed_and_resumed(void **state)
     assert_int_equal(ask(path, "SELECT value FROM metadata WHERE key = 'complete'"), 1);
 }
 
+/* A library that is there stays until a batch of the new one, here of 100 plans, is there. */
+static void test_replaced_with_the_first_batch(void **state)
+{
+    fixture *f = *state;
+    char path[128];
+    tn_error error;
+    mpz_t rank;
+    mpz_init(rank);
+    path_of(f, "replaced.sqlite", path);
+    for (uint32_t written = 0; written <= 150; written += 50) {
+        tn_plan_writer *writer = NULL;
+        write_plans(f->schema, path, &sqlite_options, 7);
+        test_ok(open_writer(f->schema, path, &sqlite_options, &writer, &error), &error);
+        for (uint32_t n = 0; n < written; n++) {
+            tn_tray trays[8];
+            uint32_t length = plan_of(f->schema, n, trays, rank);
+            test_ok(tn_plan_writer_write(writer, rank, trays, length, &error), &error);
+        }
+        assert_int_equal(tn_plan_writer_replaces(writer), written < 100);
+        assert_int_equal(tn_plan_writer_resumes(writer), written >= 100);
+        tn_plan_writer_free(writer); /* given up */
+        assert_int_equal(ask(path, "SELECT count(*) FROM plans"), written < 100 ? 7 : 100);
+        assert_int_equal(ask(path, "SELECT value FROM metadata WHERE key = 'complete'"), written < 100);
+    }
+    write_plans(f->schema, path, &sqlite_options, 5);
+    assert_int_equal(ask(path, "SELECT count(*) FROM plans"), 5);
+    mpz_clear(rank);
+}
+
 static void refuse_writer(const fixture *f, const tn_schema *schema, const char *name, const tn_writer_options *options,
                           uint32_t code)
 {
@@ -535,6 +564,7 @@ int main(void)
         cmocka_unit_test(test_library_of_another_schema),
         cmocka_unit_test(test_library_tables),
         cmocka_unit_test(test_killed_and_resumed),
+        cmocka_unit_test(test_replaced_with_the_first_batch),
         cmocka_unit_test(test_refused_writers),
         cmocka_unit_test(test_given_up),
     };
