@@ -1,7 +1,9 @@
-/* Names cells, faces and changes of houses. */
+/* Names cells, faces, changes and areas of houses. */
 #include "cli/house/change_text.h"
 
 #include <stdio.h>
+
+#include "runtime/base/length_style.h"
 
 static const char *text_of(const tn_house *house, uint32_t string)
 {
@@ -72,4 +74,22 @@ void tn_change_text(const tn_house *house, const tn_house_change *c, tn_change_w
         name_tile(house, c->of, c->from, w->from);
         name_tile(house, c->of, c->to, w->to);
     }
+}
+
+tn_int128 tn_house_floor_area(const tn_house *house)
+{
+    tn_int128 area = 0;
+    for (size_t i = 0; i < house->cell_count; i++)
+        area += house->cells[i].open ? 0 : tn_cell_area(&house->cells[i]);
+    return area;
+}
+
+const char *tn_house_area_unit(const tn_house_form *form, double *nm2)
+{
+    static const double foot = 304800000.0, metre = 1e9;
+    const tn_schema *schema = form->schema;
+    const char *width = tn_text(schema->module, schema->values[schema->value_start[form->width]].name);
+    bool feet = tn_length_style_of(width) == TN_STYLE_FEET;
+    *nm2 = feet ? foot * foot : metre * metre;
+    return feet ? "sf" : "m2";
 }

@@ -1,4 +1,4 @@
-/* How commands name cells, faces and changes of houses. */
+/* How commands name cells, faces, changes and areas of houses. */
 #ifndef TARTAN_CLI_HOUSE_CHANGE_TEXT_H
 #define TARTAN_CLI_HOUSE_CHANGE_TEXT_H
 
@@ -16,5 +16,12 @@ typedef struct tn_change_words {
 
 /* What a change is about, and its two values. house: before it. */
 void tn_change_text(const tn_house *house, const tn_house_change *change, tn_change_words *words);
+
+/* The floors between the planes of walls, in square nanometres; voids have none. */
+tn_int128 tn_house_floor_area(const tn_house *house);
+
+/* Areas of the form's houses are shown in "sf" where the widths of its schema are in feet, and in "m2" otherwise.
+ * *nm2: how large one is, in square nanometres. */
+const char *tn_house_area_unit(const tn_house_form *form, double *nm2);
 
 #endif

@@ -5,14 +5,13 @@
 #include <string.h>
 
 #include "cli/house/best_parts.h"
+#include "cli/house/change_text.h"
 #include "cli/house/sampled.h"
 #include "driver/open/digits.h"
-#include "runtime/base/length_style.h"
 #include "runtime/house/picture/draw.h"
 #include "runtime/house/schedule/cost.h"
 
 enum { NAME_SIZE = 96, SAID_SIZE = 128, NOTE_SIZE = 256 };
-#define SQUARE_FOOT_NM2 (304800000.0 * 304800000.0)
 
 /* A house of the sheet, and the words below it. */
 typedef struct pictured {
@@ -27,15 +26,6 @@ typedef struct collection {
     tn_best_houses *search; /* of the best, or NULL */
     bool front;             /* of the best trade-offs */
 } collection;
-
-static double floor_area(const tn_house *house)
-{
-    double area = 0;
-    for (size_t i = 0; i < house->cell_count; i++)
-        if (!house->cells[i].open)
-            area += (double)tn_cell_area(&house->cells[i]);
-    return area;
-}
 
 static tn_status say_cost(pictured *p, size_t used, tn_error *error)
 {
@@ -57,12 +47,11 @@ static tn_status say_cost(pictured *p, size_t used, tn_error *error)
 /* The area in the unit of the schema, and the cost where the form has prices. */
 static tn_status describe(pictured *p, tn_error *error)
 {
-    const tn_schema *schema = p->house.form->schema;
-    const char *width = tn_text(schema->module, schema->values[schema->value_start[p->house.form->width]].name);
-    double area = floor_area(&p->house);
-    bool feet = tn_length_style_of(width) == TN_STYLE_FEET;
-    int used = feet ? snprintf(p->said, SAID_SIZE, "%.0f sf", area / SQUARE_FOOT_NM2)
-                    : snprintf(p->said, SAID_SIZE, "%.1f m2", area / 1e18);
+    double nm2;
+    const char *unit = tn_house_area_unit(p->house.form, &nm2);
+    bool feet = strcmp(unit, "sf") == 0;
+    int used =
+        snprintf(p->said, SAID_SIZE, "%.*f %s", feet ? 0 : 1, (double)tn_house_floor_area(&p->house) / nm2, unit);
     return say_cost(p, (size_t)used, error);
 }
 

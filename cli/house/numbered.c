@@ -2,6 +2,7 @@
 #include "cli/house/numbered_parts.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,21 +28,39 @@ static bool report_other(tn_job *job, const char *name)
     else if (d)
         tn_help(tn_job_diagnostics(job), d, "a library of houses is `library NAME from %.80s in FORM { ... }`", name);
     else if (near)
-        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "the file has no library of houses `%.80s`", name),
+        tn_help(tn_job_diagnostics(job),
+                tn_job_usage(job, "%.200s has no library of houses `%.80s`", job->opened.path, name),
                 "did you mean `%s`?", near);
     return d || near;
+}
+
+/* "a, b" */
+static void list_libraries(const tn_module *module, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (uint32_t i = 0; i < module->HOUSE_LIBRARY_count && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "",
+                                 tn_text(module, module->HOUSE_LIBRARY_records[i].name));
 }
 
 void tn_report_no_houses(tn_job *job, const char *name)
 {
     bool any = job->opened.module->HOUSE_LIBRARY_count > 0;
+    char all[240];
+    tn_diagnostic *d;
     if (name && report_other(job, name))
         return;
-    tn_diagnostic *d = name ? tn_job_usage(job, "the file has no library of houses `%.80s`", name)
-                            : tn_job_usage(job, any ? "the file has several libraries of houses"
-                                                    : "the file has no library of houses");
-    tn_help(tn_job_diagnostics(job), d,
-            any ? "say which: --library NAME" : "a library of houses is `library NAME from PLANS in FORM { ... }`");
+    list_libraries(job->opened.module, all, sizeof all);
+    if (name)
+        d = tn_job_usage(job, "%.200s has no library of houses `%.80s`", job->opened.path, name);
+    else
+        d = tn_job_usage(job, any ? "%.200s has several libraries of houses" : "%.200s has no library of houses",
+                         job->opened.path);
+    if (any)
+        tn_help(tn_job_diagnostics(job), d, name ? "it has %s" : "say which, with --library NAME: %s", all);
+    else
+        tn_help(tn_job_diagnostics(job), d, "a library of houses is `library NAME from PLANS in FORM { ... }`");
 }
 
 static bool choose(tn_numbered *n, const char *name)

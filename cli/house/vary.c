@@ -24,23 +24,11 @@ typedef struct varying {
     bool json;
     mpz_t plan, variant, cost, more; /* of the house, and what a change adds to it, in hundredths */
     size_t count;
+    const char *unit; /* of areas */
+    double unit_nm2;
 } varying;
 
 /* ---- changes */
-
-/* Between the planes of walls; voids have none. */
-static tn_int128 floor_area(const tn_house *house)
-{
-    tn_int128 area = 0;
-    for (size_t i = 0; i < house->cell_count; i++)
-        area += house->cells[i].open ? 0 : tn_cell_area(&house->cells[i]);
-    return area;
-}
-
-static double square_metres(tn_int128 square_nanometres)
-{
-    return (double)square_nanometres / 1e18;
-}
 
 /* What the house costs, in hundredths; 0 where its form has no materials. */
 static tn_status cost_of(const tn_house *house, mpz_t hundredths, tn_error *error)
@@ -78,7 +66,7 @@ static bool write_json(const varying *v, const tn_house_change *change, const tn
     tn_buffer_append_json(&text, w->from);
     tn_buffer_printf(&text, ",\"to\":");
     tn_buffer_append_json(&text, w->to);
-    tn_buffer_printf(&text, ",\"area_m2\":%.6f", more);
+    tn_buffer_printf(&text, ",\"area_%s\":%.6f", v->unit, more);
     gmp_fprintf(v->out, "{\"house\":\"#%Zd:%Zd\",", v->plan, v->variant);
     fwrite(text.data, 1, text.size, v->out);
     if (tn_form_has_costs(v->house->form)) {
@@ -96,7 +84,7 @@ static void write_line(const varying *v, const tn_change_words *w, double more)
 {
     gmp_fprintf(v->out, "#%Zd:%Zd  %s: %s for %s", v->plan, v->variant, w->where, w->to, w->from);
     if (more != 0)
-        fprintf(v->out, ", %+.2f m2", more);
+        fprintf(v->out, ", %+.2f %s", more, v->unit);
     if (mpz_sgn(v->more) != 0) {
         fputs(", cost ", v->out);
         write_money(v);
@@ -116,7 +104,7 @@ static tn_status write_change(void *context, const tn_house_change *change, cons
         return status;
     mpz_sub(v->more, v->more, v->cost);
     tn_change_text(v->house, change, &w);
-    double more = square_metres(floor_area(changed) - floor_area(v->house));
+    double more = (double)(tn_house_floor_area(changed) - tn_house_floor_area(v->house)) / v->unit_nm2;
     v->count++;
     if (v->json)
         return write_json(v, change, &w, more) ? TN_OK : tn_fail_memory(error);
@@ -199,6 +187,7 @@ static void vary_house(tn_job *job, tn_numbered *n, const vary_settings *setting
         tn_numbered_bad_text(job, &error, "HOUSE", text);
     } else if (tn_job_output(job, settings->output, &out)) {
         varying v = {.n = n, .house = &house, .out = out.stream, .json = settings->json};
+        v.unit = tn_house_area_unit(&n->form, &v.unit_nm2);
         mpz_inits(v.plan, v.variant, v.cost, v.more, NULL);
         status = vary(&v, settings->at, &error);
         if (status != TN_OK)

@@ -131,6 +131,19 @@ static bool meets(const tn_survey *s, const tn_cell *cell, tn_cell_rule_kind kin
     return false;
 }
 
+/* Is the cell open to the one below it? Notes which voids say so; those that meet cells of the lowest storey mean
+ * nothing there. */
+static bool see_voids(tn_survey *s, const tn_cell *cell)
+{
+    bool above = cell->storey > 0, open = false;
+    for (uint32_t i = s->form.kinds_end[TN_CELL_VOID - 1]; i < s->form.kinds_end[TN_CELL_VOID]; i++)
+        if (decides(s, tn_form_rule(&s->form, i)->decides, cell)) {
+            s->voids[i] |= above ? TN_VOID_ABOVE : TN_VOID_LOWEST;
+            open = above;
+        }
+    return open;
+}
+
 /* The cell with this function. */
 static tn_status see_function(tn_survey *s, tn_cell *cell, uint32_t function, tn_error *error)
 {
@@ -173,7 +186,7 @@ static tn_status see_tray(tn_survey *s, tn_error *error)
         tn_cell cell = {.zone = zone, .at = {0, width, 0, depth}, .function = TN_NO_FUNCTION};
         s->widest = depth > s->widest ? depth : s->widest;
         for (; status == TN_OK && depth > 0 && cell.storey < most && !meets(s, &cell, TN_CELL_NO); cell.storey++) {
-            cell.open = cell.storey > 0 && meets(s, &cell, TN_CELL_VOID);
+            cell.open = see_voids(s, &cell);
             status = see_cell(s, &cell, cell.storey < least, error);
         }
     }
@@ -220,11 +233,12 @@ static tn_status make_room(tn_survey *s, tn_error *error)
     s->words = tn_form_functions(&s->form) / 64 + 1;
     s->met_words = form->face_count / 32 + 1;
     s->functions = calloc((size_t)form->rule_count + 1, sizeof *s->functions);
+    s->voids = calloc((size_t)form->rule_count + 1, sizeof *s->voids);
     s->bare_functions = calloc(s->words, sizeof *s->bare_functions);
     s->may = calloc(s->words, sizeof *s->may);
     s->uses = calloc(kinds, sizeof *s->uses);
     s->first_places = malloc((stacks + 1) * sizeof *s->first_places);
-    if (!s->functions || !s->bare_functions || !s->may || !s->uses || !s->first_places)
+    if (!s->functions || !s->voids || !s->bare_functions || !s->may || !s->uses || !s->first_places)
         return tn_fail_memory(error);
     for (size_t i = 0; i < stacks; i++)
         s->first_places[i] = TN_NO_PLACE;
@@ -287,6 +301,7 @@ void tn_survey_free(tn_survey *s)
     free(s->places);
     free(s->first_places);
     free(s->functions);
+    free(s->voids);
     free(s->bare_functions);
     free(s->may);
     free(s->uses);

@@ -47,6 +47,9 @@ typedef struct tn_kind_use {
     tn_survey_meeting nearest;                    /* a face where it does not fit (a: NULL, none), nearest to it */
 } tn_kind_use;
 
+/* A void meets cells on the ground, which are none; cells above others. */
+enum { TN_VOID_LOWEST = 1, TN_VOID_ABOVE = 2 };
+
 typedef struct tn_survey {
     tn_opened *opened; /* where warnings go; NULL: none are given */
     tn_house house;    /* of one tray, without cells: what decides on a cell needs no more */
@@ -64,6 +67,7 @@ typedef struct tn_survey {
     size_t *first_places;     /* [zone field][storey] */
     uint64_t *may;            /* of the cell at hand */
     bool *functions;          /* [function] a cell may have it */
+    uint8_t *voids;           /* [rule] which cells a void meets: TN_VOID_... */
     uint64_t *bare_functions; /* those without tiles */
     tn_kind_use *uses;        /* [kind of face] */
     bool met;       /* the classes were few enough to ask all lines of faces; if not, every kind counts as used */

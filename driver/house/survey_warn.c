@@ -18,6 +18,23 @@ static void warn_functions(const tn_survey *s)
     }
 }
 
+/* Those that meet cells of the lowest storey alone; what meets no cell at all is said elsewhere. */
+static void warn_voids(const tn_survey *s)
+{
+    const tn_module *module = s->form.module;
+    for (uint32_t i = s->form.kinds_end[TN_CELL_VOID - 1]; i < s->form.kinds_end[TN_CELL_VOID]; i++) {
+        const tn_cell_rule_record *rule = tn_form_rule(&s->form, i);
+        if (s->voids[i] != TN_VOID_LOWEST || tn_survey_allows(s, W_VOID_NEVER, TN_SURVEY_SPAN(rule)))
+            continue;
+        tn_diagnostic *d = tn_report(tn_survey_list(s), W_VOID_NEVER, TN_SURVEY_SPAN(rule),
+                                     "this void means nothing: it is about cells of the lowest storey alone");
+        tn_help(tn_survey_list(s), d,
+                "a void is open to the cell below it, so it needs a storey above `%s`; cells that are not there are "
+                "`no cell(...)`",
+                tn_text(module, module->STOREY_records[s->form.record->storey_first].name));
+    }
+}
+
 static tn_status warn_bare(const tn_survey *s, tn_error *error)
 {
     const tn_form_record *form = s->form.record;
@@ -117,6 +134,7 @@ static void warn_opening(const tn_survey *s, uint32_t number)
 static tn_status warn(tn_survey *s, tn_error *error)
 {
     warn_functions(s);
+    warn_voids(s);
     for (uint32_t i = 0; i < s->form.record->opening_count; i++)
         warn_opening(s, i);
     tn_status status = warn_bare(s, error);

@@ -50,12 +50,47 @@ static tn_status no_memory(tn_opened *opened)
     return status;
 }
 
+/* A library of houses in the form; NULL: there is none. */
+static const char *library_in(const tn_module *module, uint32_t form)
+{
+    for (uint32_t i = 0; i < module->HOUSE_LIBRARY_count; i++)
+        if (module->HOUSE_LIBRARY_records[i].form == form)
+            return tn_text(module, module->HOUSE_LIBRARY_records[i].name);
+    return NULL;
+}
+
+/* The same of a measure: it is about the houses of a form. */
+static bool report_measure_of_houses(tn_opened *opened, const char *name)
+{
+    const tn_module *module = opened->module;
+    tn_diagnostics *diagnostics = &opened->compilation.diagnostics;
+    for (uint32_t i = 0; i < module->HOUSE_MEASURE_count; i++) {
+        const tn_house_measure_record *measure = &module->HOUSE_MEASURE_records[i];
+        if (strcmp(tn_text(module, measure->name), name) != 0)
+            continue;
+        const char *library = library_in(module, measure->form);
+        tn_diagnostic *d =
+            tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE,
+                           "`%.80s` is a measure of houses of the form `%.80s`, which are not asked about here", name,
+                           tn_text(module, module->FORM_records[measure->form].name));
+        if (library)
+            tn_help(diagnostics, d, "`--library %.80s` asks about them", library);
+        else
+            tn_help(diagnostics, d, "declare a library of them: `library NAME from PLANS in %.80s { }`",
+                    tn_text(module, module->FORM_records[measure->form].name));
+        return true;
+    }
+    return false;
+}
+
 /* Is the name that of a library or a rule about houses, where one about plans is asked for? Then that is said. */
 static bool report_of_houses(tn_opened *opened, const char *what, const char *name)
 {
     const tn_module *module = opened->module;
     tn_diagnostics *diagnostics = &opened->compilation.diagnostics;
     bool is_library = strcmp(what, "library") == 0;
+    if (strcmp(what, "measure") == 0)
+        return report_measure_of_houses(opened, name);
     uint32_t found = is_library ? tn_house_library_find(module, name) : tn_house_rule_find(module, name);
     if (found == TN_NO_RECORD)
         return false;

@@ -250,6 +250,7 @@ typedef struct tn_check {
     tn_checked_rule *rule;        /* NULL in a library */
     struct tn_checked_form *form; /* of a library of houses */
     bool form_wrong;              /* it has another one than it says, which was reported */
+    bool asking;                  /* what the command line asks is checked */
     tn_ast_list allow;
 } tn_check;
 

@@ -28,6 +28,15 @@ static const tn_checked_form *first_form(const tn_check *check)
     return NULL;
 }
 
+/* The name of a library of houses in the form; NULL: there is none. */
+static const char *library_in(const tn_check *check, const tn_checked_form *form)
+{
+    for (size_t i = 0; form && i < check->result->library_count; i++)
+        if (check->result->libraries[i]->form == form)
+            return check->result->libraries[i]->name;
+    return NULL;
+}
+
 static tn_checked_form *no_form(tn_check *check, tn_span place)
 {
     if (check->incomplete || (!check->rule && check->form_wrong))
@@ -35,7 +44,10 @@ static tn_checked_form *no_form(tn_check *check, tn_span place)
     tn_diagnostic *d = tn_report(check->diagnostics, E_NO_FORM, place,
                                  "this asks for cells of houses, and no form says what they are");
     const tn_checked_form *form = first_form(check);
-    if (!check->rule)
+    const char *library = check->asking ? library_in(check, form) : NULL;
+    if (library)
+        tn_help(check->diagnostics, d, "the library is one of plans; `--library %s` asks about houses", library);
+    else if (!check->rule)
         tn_help(check->diagnostics, d, "a library of houses is one `from` a library of plans `in` a form%s%s%s",
                 form ? ": `from PLANS in " : "", form ? form->name : "", form ? "`" : "");
     else

@@ -466,8 +466,10 @@ void tn_check_asked(tn_check *check)
     check->form = library->form;
     check->form_wrong = false;
     check->allow = library->allow;
+    check->asking = true;
     for (size_t i = 0; i < asked->where_count; i++)
         add_where(check, library, asked->wheres[i], i + 1);
+    check->asking = false;
     check->form = NULL; /* an open plan is about trays */
     check_pattern(check);
 }
