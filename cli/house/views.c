@@ -1,10 +1,12 @@
 /* Reads which drawings of a house are wanted: `plan:STOREY`, `section:x=LENGTH`, `elevation:SIDE`, ... */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/house/files.h"
 #include "cli/house/numbered.h"
 #include "runtime/base/length.h"
+#include "runtime/base/nearest.h"
 
 static const char *storey_name(const tn_house_form *form, uint32_t storey)
 {
@@ -20,11 +22,16 @@ static bool find_storey(tn_job *job, const tn_house_form *form, const char *name
         }
     }
     tn_diagnostic *d = tn_job_usage(job, "%s: the form has no storey `%.60s`", option, name);
-    tn_help(tn_job_diagnostics(job), d, "its storeys are %s%s%s", storey_name(form, 0),
-            form->record->storey_count > 2   ? " ... "
-            : form->record->storey_count > 1 ? " and "
-                                             : "",
-            form->record->storey_count > 1 ? storey_name(form, form->record->storey_count - 1) : "");
+    const char *names[TN_STOREYS_MAX], *near;
+    char all[TN_STOREYS_MAX * 8];
+    size_t used = 0;
+    for (uint32_t k = 0; k < form->record->storey_count; k++) {
+        names[k] = storey_name(form, k);
+        if (used < sizeof all)
+            used += (size_t)snprintf(all + used, sizeof all - used, "%s%s", k ? ", " : "", names[k]);
+    }
+    near = tn_nearest(name, names, form->record->storey_count);
+    tn_help(tn_job_diagnostics(job), d, near ? "did you mean `%s`?" : "its storeys are %s", near ? near : all);
     return false;
 }
 

@@ -26,14 +26,21 @@ static tn_status count_beginning(const tn_library *library, const tn_open_plan *
 static bool say(const mpz_t plans, size_t trays, bool all, FILE *out)
 {
     char *digits = tn_digits(plans, true);
+    bool one = mpz_cmp_ui(plans, 1) == 0;
     if (!digits)
         return false;
     if (all)
-        fprintf(out, "%s plans begin so, and all have more trays: `| ...` at the end lets them\n", digits);
+        fprintf(out,
+                one ? "%s plan begins so, and it has more trays: `| ...` at the end lets it\n"
+                    : "%s plans begin so, and all have more trays: `| ...` at the end lets them\n",
+                digits);
     else if (trays == 1)
         fprintf(out, "no plan of the library has tray 1 as it is written\n");
     else
-        fprintf(out, "%s plans fit what is written before tray %zu, and none of them goes on with it\n", digits, trays);
+        fprintf(out,
+                one ? "%s plan fits what is written before tray %zu, and it does not go on with it\n"
+                    : "%s plans fit what is written before tray %zu, and none of them goes on with it\n",
+                digits, trays);
     free(digits);
     return true;
 }

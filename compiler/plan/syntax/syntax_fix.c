@@ -335,6 +335,8 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
         return "`every(a, b)` has two parts: each tray that is a is b too";
     if (strcmp(found, "a number") == 0 && tn_expects(e, "a text in quotes"))
         return "a text stands in double quotes";
+    if (tn_expects(e, "`from`") && tn_expects(e, "`{`") && strcmp(found, "`in`") == 0)
+        return "a library of houses is `library NAME from PLANS in FORM { ... }`";
     if (tn_expects(e, "`from`") && parse->schema_head)
         return "a schema is made from another by `schema NAME from OLDER { ... }`";
     if (e->count == 1 && tn_expects(e, "a name") && comes_after_heading(parse))

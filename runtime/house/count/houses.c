@@ -248,9 +248,26 @@ static tn_status add_kind(tn_houses *h, const tn_house *section, const tn_strip_
     kind = &h->kinds[h->kind_count++];
     *kind = (tn_houses_kind){.key = tn_sections_key(&h->sections, section), .sections = 1};
     mpz_init(kind->faced);
-    tn_status status = tn_strip_new(h->form, h->library, section->shapes, trays, h->low, h->high, h->measures,
-                                    &h->added, h->without, &kind->strip, error);
-    return status == TN_OK ? scout(h, kind, trays, error) : status;
+    return tn_strip_new(h->form, h->library, section->shapes, trays, h->low, h->high, h->measures, &h->added,
+                        h->without, &kind->strip, error);
+}
+
+/* Costs of these cannot be counted, if they have any houses. */
+static bool is_doubtful(const tn_houses_kind *kind, const tn_strip_trays *trays)
+{
+    tn_error error;
+    return kind->strip->prices.asked && tn_strip_prices_check(kind->strip, trays->stand, &error) != TN_OK;
+}
+
+/* The doubtful ones first: where they are an error, that is said before all others are gone through. */
+static tn_status scout_kinds(const tn_houses *h, const tn_strip_trays *trays, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (int doubtful = 1; doubtful >= 0; doubtful--)
+        for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
+            if (is_doubtful(&h->kinds[i], trays) == doubtful)
+                status = scout(h, &h->kinds[i], trays, error);
+    return status;
 }
 
 static tn_status look_at_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
@@ -270,6 +287,8 @@ static tn_status count_sections(tn_houses *h, const tn_strip_trays *trays, tn_er
     for (bool more = true; status == TN_OK && more; more = tn_form_next_section(h->form, section.shapes))
         if (tn_house_section_stands(&section))
             status = add_kind(h, &section, trays, error);
+    if (status == TN_OK)
+        status = scout_kinds(h, trays, error);
     if (status == TN_OK && h->added.count > 0)
         status = tn_houses_settle(h, error);
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {

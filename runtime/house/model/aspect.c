@@ -56,6 +56,14 @@ static tn_camera camera_of(const tn_aspect *aspect)
     }
 }
 
+/* In the house's unit; a place that is no length of feet and inches is in metres. */
+static void write_place(int64_t at, tn_length_style style, char *text, size_t size)
+{
+    static const int64_t least = 25400000 / 64; /* of an inch */
+    bool whole = style != TN_STYLE_FEET || at % least == 0;
+    tn_length_write_style(at, whole ? style : TN_STYLE_METRES, text, size);
+}
+
 static void write_title(const tn_house *house, const tn_aspect *aspect, char *text, size_t size)
 {
     static const char *const sides[] = {[TN_HOUSE_ANY_SIDE] = "",
@@ -65,7 +73,7 @@ static void write_title(const tn_house *house, const tn_aspect *aspect, char *te
                                         [TN_HOUSE_RIGHT] = "right"};
     const tn_house_form *form = house->form;
     char at[64];
-    tn_length_write_style(aspect->at < 0 ? -aspect->at : aspect->at, tn_house_length_style(house), at, sizeof at);
+    write_place(aspect->at < 0 ? -aspect->at : aspect->at, tn_house_length_style(house), at, sizeof at);
     switch (aspect->kind) {
     case TN_ASPECT_PLAN:
         snprintf(text, size, "plan, %.50s",
