@@ -129,6 +129,7 @@ void tn_stray_report(tn_diagnostics *diagnostics, tn_span span)
         {";", "nothing has to be written at the end of a line"},
         {"//", "a comment starts with `#`"},
         {"/*", "a comment starts with `#`"},
+        {"/", "a slope is written `6:12`, a fraction of an inch `6-1/2\"`"},
         {"%", "a remainder is written `n mod 3 = 1`; a comment starts with `#`"},
         {".", "a range is written with two dots: `4..9`"},
         {"'", "feet are written directly after a number: `12'`; texts stand in double quotes"},

@@ -179,12 +179,21 @@ static bool is_misfit(const asking *a, uint32_t line, uint32_t number, uint32_t 
     return !a->items[a->lines[line].item_first + number].fits && s->uses[*kind].used;
 }
 
+/* Does a kind of the line fit into one of the faces that it is about, whatever lines before it do? */
+static bool fits_somewhere(const asking *a, uint32_t line, uint32_t kinds)
+{
+    bool fits = false;
+    for (uint32_t i = 0; i < kinds; i++)
+        fits = fits || a->items[a->lines[line].item_first + i].fits;
+    return fits;
+}
+
 static void warn_idle(const asking *a, uint32_t line)
 {
     const tn_survey *s = a->survey;
     const line_use *use = &a->lines[line];
     const tn_face_line_record *record = &s->form.module->FACE_LINE_records[s->form.record->face_first + line];
-    bool hidden = use->hidden_by != TN_NO_RECORD;
+    bool hidden = use->hidden_by != TN_NO_RECORD && fits_somewhere(a, line, record->kind_count);
     tn_diagnostic *d = tn_report(tn_survey_list(s), W_FACE_LINE_IDLE, TN_SURVEY_SPAN(record),
                                  !use->applies ? "no face is between such cells"
                                  : hidden      ? "this line decides no face: others before it do"

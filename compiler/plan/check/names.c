@@ -339,6 +339,21 @@ static bool help_word(tn_check *check, tn_diagnostic *d, const tn_checked_schema
     return f || value || number;
 }
 
+/* A function of a form stands where a rule has to. */
+static bool help_function(tn_check *check, tn_diagnostic *d, const tn_checked_schema *schema, const char *word)
+{
+    for (size_t i = 0; i < check->result->form_count; i++) {
+        const tn_checked_form *form = check->result->forms[i];
+        if (form->schema != schema || tn_form_function(form, word) == TN_NONE)
+            continue;
+        tn_help(check->diagnostics, d,
+                "`%s` is a function of form `%s`: `cell(%s)` asks for its cells, `room(%s)` for its rooms", word,
+                form->name, word, word);
+        return true;
+    }
+    return false;
+}
+
 bool tn_means_cost(const tn_check *check, const char *word)
 {
     bool forms = false;
@@ -357,7 +372,7 @@ static void report_unknown(tn_check *check, const tn_ast_word *word, tn_want wan
     const char *near = nearest_name(check, word->text, want);
     const tn_checked_schema *schema = want == TN_WANT_RULE ? check->schema : NULL;
     const tn_slip *slip = want == TN_WANT_LIBRARY ? NULL : tn_slip_find(TN_SLIP_RULE, word->text, strlen(word->text));
-    if (schema && help_word(check, d, schema, word->text))
+    if (schema && (help_word(check, d, schema, word->text) || help_function(check, d, schema, word->text)))
         return;
     if (near)
         tn_suggest(check->diagnostics, d, "%s", near);

@@ -173,7 +173,9 @@ static const char *house_fix(const tn_parse *parse, const char *found, const tn_
     if (e->count <= 2 && tn_expects(e, "`of`") && line_begins(parse, "form"))
         return "a form is written `form NAME of SCHEMA { ... }`";
     if (e->count == 1 && tn_expects(e, "`:`"))
-        return "numbers in the parentheses of a roof are a slope, how far it rises for how far: `gable(9:12)`";
+        return "numbers in the parentheses of a roof are a slope, how far it rises for how far: `gable(9:12)`; a "
+               "length "
+               "has a unit: `vault(4')`";
     return NULL;
 }
 
