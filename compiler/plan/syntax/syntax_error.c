@@ -284,6 +284,22 @@ static bool report_colour(tn_parse *parse, const tn_expected *e)
     return true;
 }
 
+/* `keep [#3:12]`: as above. */
+static bool report_rank(tn_parse *parse, const tn_expected *e)
+{
+    size_t begin = parse->span_before.end;
+    begin += strspn(parse->text + begin, " \t");
+    if (!tn_expects(e, "a house") || parse->text[begin] != '#' || !isdigit((unsigned char)parse->text[begin + 1]))
+        return false;
+    size_t size = 1 + strspn(parse->text + begin + 1, "0123456789:");
+    tn_span span = {parse->span_before.file, (uint32_t)begin, (uint32_t)(begin + size)};
+    tn_diagnostic *d =
+        tn_report(parse->diagnostics, E_UNEXPECTED, span, "expected a plan or a house, and `#` begins a comment here");
+    tn_help(parse->diagnostics, d, "write the line that `tartan unrank FILE '%.*s'` prints", (int)size,
+            parse->text + begin);
+    return true;
+}
+
 /* `wide 8sf`: an area where a length of a form stands; the length with the same number is shown. */
 static bool advise_length(tn_parse *parse, tn_diagnostic *d, const tn_syntax_found *found, const tn_expected *e)
 {
@@ -350,7 +366,7 @@ void tn_syntax_error(tn_parse *parse, const tn_syntax_found *found, const char *
         return; /* what led to this was reported */
     tn_expected e = {.tokens = expected, .count = count < 96 ? count : 96};
     if (report_misspelled(parse, found, &e) || report_two_words(parse, found, &e) ||
-        report_decimal_comma(parse, found, &e) || report_colour(parse, &e))
+        report_decimal_comma(parse, found, &e) || report_colour(parse, &e) || report_rank(parse, &e))
         return;
     char list[800], words[800], here[120];
     say_expected(expected, count, list, sizeof list);
