@@ -174,16 +174,6 @@ void tn_job_best_houses(tn_job *job, const tn_house_settings *settings, const tn
 
 /* ---- the front */
 
-tn_status tn_best_houses_each_point(tn_best_houses *s, tn_house_each *each, void *context, tn_error *error)
-{
-    tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && i < tn_houses_points(s->houses); i++) {
-        tn_houses_point(s->houses, i, s->values, s->count);
-        status = tn_houses_point_each(s->houses, i, s->n.variants, each, context, error);
-    }
-    return status;
-}
-
 static tn_status take_line(void *context, const tn_house *house, bool *stop, tn_error *error)
 {
     *stop = true;

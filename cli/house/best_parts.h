@@ -32,11 +32,7 @@ const char *tn_best_houses_measure(const tn_best_houses *search, uint32_t k);
 bool tn_best_houses_value(const tn_best_houses *search, uint32_t k, bool exact, tn_buffer *text);
 
 /* Calls `each` with the best houses, by value and then by rank; it counts them in search->given, and stops at those
- * that are wanted. */
+ * that are wanted. Of a front it stops at the first house of each point: search->count is how many there are. */
 tn_status tn_best_houses_each(tn_best_houses *search, tn_house_each *each, void *context, tn_error *error);
-
-/* Calls `each` with the first house of each point of the front, which stops there: search->count is how many there are.
- */
-tn_status tn_best_houses_each_point(tn_best_houses *search, tn_house_each *each, void *context, tn_error *error);
 
 #endif

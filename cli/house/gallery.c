@@ -124,8 +124,7 @@ static tn_status collect_all_best(collection *c, tn_error *error)
 {
     mpz_t plan, variant;
     mpz_inits(plan, variant, NULL);
-    tn_status status = c->front ? tn_best_houses_each_point(c->search, collect_best, c, error)
-                                : tn_best_houses_each(c->search, collect_best, c, error);
+    tn_status status = tn_best_houses_each(c->search, collect_best, c, error);
     for (size_t i = 0; status == TN_OK && i < c->count; i++) {
         pictured *p = &c->items[i];
         status = tn_numbered_name(&c->search->n, &p->house, plan, variant, error);
@@ -196,7 +195,8 @@ static void draw_sample(tn_job *job, const tn_house_settings *settings, const tn
     tn_numbered_close(&n);
 }
 
-/* " with the least cost, then the most daylight"; ": the best trade-offs of cost and daylight" */
+/* " with the least cost, then the most daylight"; ": the first of each of the best trade-offs, with the least cost and
+ * the most daylight" */
 static void say_aim(const tn_best_houses *search, bool front, char *text, size_t size)
 {
     const tn_house_wishes *wishes = search->wishes;

@@ -2,7 +2,6 @@
 #include "cli/house/numbered_parts.h"
 
 #include <inttypes.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,14 +33,13 @@ static bool report_other(tn_job *job, const char *name)
     return d || near;
 }
 
-/* "a, b" */
 static void list_libraries(const tn_module *module, char *text, size_t size)
 {
-    size_t used = 0;
-    text[0] = '\0';
-    for (uint32_t i = 0; i < module->HOUSE_LIBRARY_count && used < size; i++)
-        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "",
-                                 tn_text(module, module->HOUSE_LIBRARY_records[i].name));
+    const char **names = calloc(module->HOUSE_LIBRARY_count + 1, sizeof *names);
+    for (uint32_t i = 0; names && i < module->HOUSE_LIBRARY_count; i++)
+        names[i] = tn_text(module, module->HOUSE_LIBRARY_records[i].name);
+    tn_word_list(names, names ? module->HOUSE_LIBRARY_count : 0, text, size);
+    free(names);
 }
 
 void tn_report_no_houses(tn_job *job, const char *name)

@@ -1,5 +1,4 @@
 /* Reads which drawings of a house are wanted: `plan:STOREY`, `section:x=LENGTH`, `elevation:SIDE`, ... */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,15 +21,12 @@ static bool find_storey(tn_job *job, const tn_house_form *form, const char *name
         }
     }
     tn_diagnostic *d = tn_job_usage(job, "%s: the form has no storey `%.60s`", option, name);
-    const char *names[TN_STOREYS_MAX], *near;
-    char all[TN_STOREYS_MAX * 8];
-    size_t used = 0;
-    for (uint32_t k = 0; k < form->record->storey_count; k++) {
+    const char *names[TN_STOREYS_MAX];
+    char all[512];
+    for (uint32_t k = 0; k < form->record->storey_count; k++)
         names[k] = storey_name(form, k);
-        if (used < sizeof all)
-            used += (size_t)snprintf(all + used, sizeof all - used, "%s%s", k ? ", " : "", names[k]);
-    }
-    near = tn_nearest(name, names, form->record->storey_count);
+    tn_word_list(names, form->record->storey_count, all, sizeof all);
+    const char *near = tn_nearest(name, names, form->record->storey_count);
     tn_help(tn_job_diagnostics(job), d, near ? "did you mean `%s`?" : "its storeys are %s", near ? near : all);
     return false;
 }

@@ -161,6 +161,7 @@ static void find_houses(tn_job *job)
     const tn_house_settings houses = tn_job_houses(&settings->plans);
     tn_house_wishes of = tn_wishes_of_houses(&wishes);
     of.plan = settings->plan;
+    of.wanted = UINT64_MAX; /* all of it */
     of.json = settings->json;
     of.output = settings->output;
     if (tn_job_draws(of.output))

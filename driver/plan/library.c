@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "driver/house/judge.h"
+#include "runtime/base/nearest.h"
 
 /* The names of things in a file, for choosing among them. */
 typedef struct names {
@@ -29,17 +30,6 @@ static void names_add(names *list, const char *text, uint32_t index)
 {
     list->texts[list->count] = text;
     list->indices[list->count++] = index;
-}
-
-/* "a, b and c", cut off where there is no room. */
-static void join(const names *list, char *text, size_t size)
-{
-    size_t used = 0;
-    text[0] = '\0';
-    for (size_t i = 0; i < list->count && used < size; i++) {
-        const char *between = i == 0 ? "" : i + 1 == list->count ? " and " : ", ";
-        used += (size_t)snprintf(text + used, size - used, "%s%s", between, list->texts[i]);
-    }
 }
 
 static tn_status no_memory(tn_opened *opened)
@@ -139,7 +129,7 @@ static tn_status pick(tn_opened *opened, const names *list, const char *what, co
         return no_memory(opened);
     }
     char text[240];
-    join(&all, text, sizeof text);
+    tn_word_list(all.texts, all.count, text, sizeof text);
     tn_diagnostic *diagnostic =
         tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE, "%s has no %s `%.80s`", opened->path, what, name);
     const char *near = tn_nearest(name, all.texts, all.count);
@@ -177,7 +167,7 @@ static tn_status pick_only(tn_opened *opened, const names *all, uint32_t *index)
                     .text);
     } else {
         char text[240];
-        join(from, text, sizeof text);
+        tn_word_list(from->texts, from->count, text, sizeof text);
         tn_diagnostic *several =
             tn_report_bare(diagnostics, TN_ERROR, E_NOT_IN_FILE, "%s has %zu libraries", opened->path, from->count);
         tn_help(diagnostics, several, "choose one with --library: %s", text);

@@ -58,6 +58,10 @@ tn_status tn_view_take_guides(tn_view *view, const tn_guides *guides, const tn_e
 void tn_view_paint_areas(cairo_t *cr, const tn_view *view, const tn_view_place *place);
 void tn_view_paint_marks(cairo_t *cr, const tn_view *view, const tn_view_place *place, bool brief);
 
+/* The colour of a face without a palette. Faces of groups are paler than lines of their colour, so that edges stand
+ * out. */
+void tn_view_face_colour(cairo_t *cr, const tn_seen_face *face);
+
 /* Joins faces that can be filled together; changes their order. */
 tn_status tn_view_join(tn_view *view, tn_error *error);
 

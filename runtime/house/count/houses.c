@@ -125,7 +125,7 @@ static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
         status = count_layer(&f, error);
     tn_integers_free(f.counts, f.count);
     mpz_clear(f.one);
-    tn_strip_passing_forget(&kind->strip->passing);
+    tn_strip_entered_forget(&kind->strip->stages.entered);
     return status;
 }
 

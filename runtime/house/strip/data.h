@@ -261,7 +261,7 @@ typedef struct tn_strip_known {
     size_t room;
 } tn_strip_known;
 
-/* A step in four stages, so that what is equal half way is gone on from once (outlook.c, passing.c, stage.c).
+/* A step in four stages, so that what is equal half way is gone on from once (outlook.c, threshold.c, stage.c).
  *
  * What is behind a plane, as it is seen from there, is words: 0 (TN_STRIP_NONE: the row begins), a view of the rooms
  * and of each walk, and what the clauses have read, in the places where these are in a state. What faces it, at the
@@ -300,6 +300,19 @@ typedef struct tn_strip_threshold {
     uint32_t state, outcome;
 } tn_strip_threshold;
 
+typedef struct tn_strip_span {
+    size_t first, count;
+} tn_strip_span;
+
+/* What thresholds lead to by groups of slices (threshold.c). */
+typedef struct tn_strip_entered {
+    uint32_t trays;       /* 1 and how many are before the step; 0: nothing is known */
+    tn_numbering keys;    /* threshold << 32 | groups */
+    tn_strip_span *spans; /* [keys]: of arrivals */
+    uint32_t *arrivals;
+    size_t span_room, arrival_count, arrival_room;
+} tn_strip_entered;
+
 typedef struct tn_strip_stages {
     tn_interner groups; /* of slices */
     uint32_t *slices;   /* [groups]: the first of each */
@@ -316,6 +329,7 @@ typedef struct tn_strip_stages {
     tn_strip_leaving *left_by;         /* [leavings] */
     tn_strip_threshold *crossed_by;    /* [thresholds] */
     size_t leaving_room, threshold_room;
+    tn_strip_entered entered;
     tn_interner arrivals;
     tn_interner views; /* of rooms, of walks; of cells at the right of a plane */
     tn_strip_known room_views, walk_views[TN_STRIP_MEETINGS_MAX];       /* {before, left} */
@@ -324,19 +338,6 @@ typedef struct tn_strip_stages {
     uint32_t left;                               /* 1 and the state that was left last; 0: none */
     uint32_t befores[1 + TN_STRIP_MEETINGS_MAX]; /* of its rooms, then of each walk */
 } tn_strip_stages;
-
-typedef struct tn_strip_span {
-    size_t first, count;
-} tn_strip_span;
-
-/* What thresholds lead to (passing.c). */
-typedef struct tn_strip_passing {
-    uint32_t trays;       /* 1 and how many are before the step; 0: nothing is known */
-    tn_numbering entered; /* threshold << 32 | groups */
-    tn_strip_span *spans; /* [entered]: of arrivals */
-    uint32_t *arrivals;
-    size_t span_room, arrival_count, arrival_room;
-} tn_strip_passing;
 
 /* Words of what came of an outcome: what it is to the clauses (of `values`; TN_STRIP_NONE: the row begins), rooms, each
  * walk, then how many rooms have ended and are what each question asks for. */
@@ -494,7 +495,6 @@ typedef struct tn_strip {
     size_t plain_room;
     tn_strip_row row;
     tn_strip_stages stages;
-    tn_strip_passing passing;
     tn_interner readings, between, values;     /* see reading.c */
     tn_strip_known *after_slice, *after_plane; /* [trays_most + 1] */
     tn_strip_known tiles;                      /* {waiting, left fits}: how many, unless they have prices */

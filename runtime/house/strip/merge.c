@@ -198,7 +198,6 @@ void tn_strip_forget_states(tn_strip *strip)
 {
     tn_interner_clear(&strip->states);
     tn_strip_stages_forget(&strip->stages);
-    tn_strip_passing_forget(&strip->passing);
     tn_strip_ways_forget(strip);
     free(strip->ends);
     strip->ends = NULL;

@@ -277,7 +277,7 @@ tn_status tn_strip_ways_end(tn_strip *strip, uint32_t trays, uint32_t state, uin
 void tn_strip_ways_drop(tn_strip *strip);
 void tn_strip_ways_forget(tn_strip *strip); /* states are numbered anew */
 
-/* ---- outlook.c, passing.c, stage.c: a step in four stages; nothing is added up, and tiles have no prices */
+/* ---- outlook.c, threshold.c, stage.c: a step in four stages; nothing is added up, and tiles have no prices */
 
 bool tn_strip_has_stages(const tn_strip *strip);
 
@@ -292,7 +292,7 @@ tn_status tn_strip_face(tn_strip *strip, uint32_t trays, uint32_t leaving, uint3
                         void *context, tn_error *error);
 tn_status tn_strip_enter(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t entering, tn_strip_seen *seen,
                          void *context, tn_error *error);
-void tn_strip_passing_forget(tn_strip_passing *passing);
+void tn_strip_entered_forget(tn_strip_entered *entered);
 tn_status tn_strip_arrive(tn_strip *strip, uint32_t arrival, uint32_t slice, tn_strip_seen *seen, void *context,
                           tn_error *error);
 

@@ -1,5 +1,5 @@
 /* A step from a state to one behind the next slice, in four stages: to what can be seen of the plane behind it
- * (outlook.c), to what faces it, into the slice (passing.c), to its right side.
+ * (outlook.c), to what faces it, into the slice (threshold.c), to its right side.
  *
  * Many states are one at the plane, as their edges are behind it and their tiles are counted; many slices are one to
  * rooms, walks and clauses. So the step is the product of four that are much smaller. */
@@ -22,6 +22,7 @@ void tn_strip_stages_forget(tn_strip_stages *stages)
     tn_numbering_clear(&stages->leavings);
     tn_numbering_clear(&stages->thresholds);
     tn_interner_clear(&stages->arrivals);
+    tn_strip_entered_forget(&stages->entered);
     stages->left = 0;
 }
 

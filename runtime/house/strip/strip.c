@@ -119,7 +119,6 @@ void tn_strip_free(tn_strip *strip)
     tn_numbering_clear(&strip->fit_keys[1]);
     tn_strip_row_clear(&strip->row);
     tn_strip_stages_clear(&strip->stages);
-    tn_strip_passing_forget(&strip->passing);
     tn_numbering_clear(&strip->befores);
     tn_numbering_clear(&strip->moves);
     clear_known(strip);

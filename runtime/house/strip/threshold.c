@@ -8,12 +8,12 @@
 #include "runtime/base/array.h"
 #include "runtime/house/strip/parts.h"
 
-void tn_strip_passing_forget(tn_strip_passing *passing)
+void tn_strip_entered_forget(tn_strip_entered *entered)
 {
-    tn_numbering_clear(&passing->entered);
-    free(passing->spans);
-    free(passing->arrivals);
-    *passing = (tn_strip_passing){0};
+    tn_numbering_clear(&entered->keys);
+    free(entered->spans);
+    free(entered->arrivals);
+    *entered = (tn_strip_entered){0};
 }
 
 /* ---- thresholds */
@@ -74,12 +74,12 @@ static tn_status number_arrival(const tn_entering_by *by, uint32_t group, const 
     return *number != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-static tn_status keep_arrival(tn_strip_passing *passing, uint32_t arrival, tn_error *error)
+static tn_status keep_arrival(tn_strip_entered *entered, uint32_t arrival, tn_error *error)
 {
-    if (!tn_array_reserve(&passing->arrivals, &passing->arrival_room, passing->arrival_count, 1,
-                          sizeof *passing->arrivals))
+    if (!tn_array_reserve(&entered->arrivals, &entered->arrival_room, entered->arrival_count, 1,
+                          sizeof *entered->arrivals))
         return tn_fail_memory(error);
-    passing->arrivals[passing->arrival_count++] = arrival;
+    entered->arrivals[entered->arrival_count++] = arrival;
     return TN_OK;
 }
 
@@ -95,7 +95,7 @@ static tn_status enter_group(const tn_entering_by *by, uint32_t group, uint32_t 
     if (status != TN_OK || read == TN_STRIP_NONE)
         return status;
     status = number_arrival(by, group, crossed, read, &arrival, error);
-    return status == TN_OK ? keep_arrival(&strip->passing, arrival, error) : status;
+    return status == TN_OK ? keep_arrival(&strip->stages.entered, arrival, error) : status;
 }
 
 /* groups: a list, those together of which clauses read the same. */
@@ -130,20 +130,20 @@ static tn_status enter(tn_strip *strip, uint32_t trays, uint32_t threshold, uint
 static tn_status enter_once(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t groups, tn_strip_span *span,
                             tn_error *error)
 {
-    tn_strip_passing *passing = &strip->passing;
-    uint32_t before = passing->entered.count;
-    if (!tn_array_reserve(&passing->spans, &passing->span_room, before, 1, sizeof *passing->spans))
+    tn_strip_entered *entered = &strip->stages.entered;
+    uint32_t before = entered->keys.count;
+    if (!tn_array_reserve(&entered->spans, &entered->span_room, before, 1, sizeof *entered->spans))
         return tn_fail_memory(error);
-    uint32_t at = tn_number(&passing->entered, (uint64_t)threshold << 32 | groups);
+    uint32_t at = tn_number(&entered->keys, (uint64_t)threshold << 32 | groups);
     if (at == UINT32_MAX)
         return tn_fail_memory(error);
     tn_status status = TN_OK;
     if (at == before) {
-        size_t first = passing->arrival_count;
+        size_t first = entered->arrival_count;
         status = enter(strip, trays, threshold, groups, error);
-        passing->spans[at] = (tn_strip_span){first, passing->arrival_count - first};
+        entered->spans[at] = (tn_strip_span){first, entered->arrival_count - first};
     }
-    *span = passing->spans[at];
+    *span = entered->spans[at];
     return status;
 }
 
@@ -159,12 +159,12 @@ static tn_status find_arrivals(tn_strip *strip, uint32_t trays, uint32_t thresho
     *span = (tn_strip_span){0};
     if (!own)
         return TN_OK;
-    if (strip->passing.trays != trays + 1)
-        tn_strip_passing_forget(&strip->passing);
-    strip->passing.trays = trays + 1;
+    if (strip->stages.entered.trays != trays + 1)
+        tn_strip_entered_forget(&strip->stages.entered);
+    strip->stages.entered.trays = trays + 1;
     tn_status status = enter_once(strip, trays, threshold, own[1], span, error);
     if (status != TN_OK) /* its span is not known */
-        tn_strip_passing_forget(&strip->passing);
+        tn_strip_entered_forget(&strip->stages.entered);
     return status;
 }
 
@@ -196,6 +196,6 @@ tn_status tn_strip_enter(tn_strip *strip, uint32_t trays, uint32_t threshold, ui
     tn_strip_span span;
     tn_status status = find_arrivals(strip, trays, threshold, entering, &span, error);
     for (size_t i = 0; status == TN_OK && i < span.count; i++)
-        status = seen(context, strip->passing.arrivals[span.first + i], 1, 1, &(tn_house_gain){{0}}, error);
+        status = seen(context, strip->stages.entered.arrivals[span.first + i], 1, 1, &(tn_house_gain){{0}}, error);
     return status;
 }
