@@ -78,12 +78,18 @@ static bool is_crease(const creasing *c, uint32_t corner)
     return face == TN_NO_TWIN || other == TN_NO_TWIN || bends(c->mesh, face, other);
 }
 
+/* The longest side of the box around the mesh, wherever that lies. */
 static double size_of(const tn_mesh *mesh)
 {
     double size = 0;
-    for (size_t i = 0; i < mesh->face_count * 3; i++)
-        for (size_t k = 0; k < 3; k++)
-            size = fmax(size, fabs(mesh->positions[3 * (size_t)mesh->corners[i] + k]));
+    for (size_t k = 0; k < 3; k++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t i = 0; i < mesh->face_count * 3; i++) {
+            low = fmin(low, mesh->positions[3 * (size_t)mesh->corners[i] + k]);
+            high = fmax(high, mesh->positions[3 * (size_t)mesh->corners[i] + k]);
+        }
+        size = fmax(size, high - low);
+    }
     return size;
 }
 
