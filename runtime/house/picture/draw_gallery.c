@@ -12,13 +12,14 @@
 #define GAP 18.0
 #define CAPTION 24.0
 #define NOTE_LEADING 9.0
+#define LEAST_WIDTH 460.0 /* so that the notes have room */
 
 typedef struct gallery {
     const tn_house_gallery *what;
     tn_house_drawn *drawn; /* [what->count]; owned */
     size_t columns, rows;
-    double points; /* a nanometre, in points */
-    double width, height;
+    double points;              /* a nanometre, in points */
+    double width, height, left; /* left: of the first column */
 } gallery;
 
 static double across(const tn_house_drawn *d)
@@ -41,13 +42,15 @@ static void lay_out(gallery *g)
     g->points = INFINITY;
     for (size_t i = 0; i < count; i++)
         g->points = fmin(g->points, fmin(PICTURE_WIDTH / across(&g->drawn[i]), PICTURE_HEIGHT / upright(&g->drawn[i])));
-    g->width = 2 * MARGIN + (double)g->columns * (PICTURE_WIDTH + GAP) - GAP;
+    double grid = (double)g->columns * (PICTURE_WIDTH + GAP) - GAP;
+    g->width = fmax(2 * MARGIN + grid, LEAST_WIDTH);
+    g->left = (g->width - grid) / 2;
     g->height = 2 * MARGIN + (g->what->title ? HEADING : 0) + (double)g->rows * (PICTURE_HEIGHT + CAPTION + GAP) +
                 NOTE_LEADING * (double)g->what->note_count;
     double top = MARGIN + (g->what->title ? HEADING : 0);
     for (size_t i = 0; i < count; i++) {
         tn_house_drawn *d = &g->drawn[i];
-        d->x = MARGIN + (double)(i % g->columns) * (PICTURE_WIDTH + GAP) + (PICTURE_WIDTH - across(d) * g->points) / 2;
+        d->x = g->left + (double)(i % g->columns) * (PICTURE_WIDTH + GAP) + (PICTURE_WIDTH - across(d) * g->points) / 2;
         d->y = top + (double)(i / g->columns) * (PICTURE_HEIGHT + CAPTION + GAP) + PICTURE_HEIGHT;
     }
 }
@@ -61,7 +64,7 @@ static void paint(const gallery *g, const tn_canvas *canvas)
     }
     for (size_t i = 0; i < g->what->count && !tn_canvas_stopped(canvas); i++) {
         const tn_house_drawn *d = &g->drawn[i];
-        double middle = MARGIN + (double)(i % g->columns) * (PICTURE_WIDTH + GAP) + PICTURE_WIDTH / 2;
+        double middle = g->left + (double)(i % g->columns) * (PICTURE_WIDTH + GAP) + PICTURE_WIDTH / 2;
         tn_draw_prospect(canvas, d, g->points);
         cairo_set_source_rgb(cr, 0, 0, 0);
         tn_type_face(cr, 7.5, true);
