@@ -41,6 +41,7 @@ typedef struct tn_checked_spec {
     tn_span span;
     const char *key; /* equal for equal masks of one schema */
     uint32_t index;  /* emitted: of its record */
+    uint32_t function; /* emitted: 1 + that of one such tray; 0: none yet */
     bool broken;     /* already reported */
 } tn_checked_spec;
 
@@ -102,8 +103,10 @@ typedef enum tn_term_kind {
 typedef struct tn_checked_term {
     tn_term_kind kind;
     const char *factor; /* "p/q", in nanometres */
-    tn_ast_expr *part;  /* what is counted; an expression whose specifier is the part, for TRAYS and SUM without one */
+    /* What is counted or added up: one of these, or none for costs. */
+    tn_ast_expr *part;
     struct tn_checked_rule *rule; /* the part is this rule's name */
+    tn_checked_spec *any;         /* every tray: `trays`, and `sum` without `of` */
     tn_ast_expr *figure;
 } tn_checked_term;
 

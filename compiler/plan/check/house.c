@@ -235,9 +235,11 @@ void tn_check_cost(tn_check *check, tn_ast_expr *sum)
     sum->ask = new_ask(check, sum);
 }
 
-/* Does it ask for cells, rooms, sections or walks, itself or by a rule that it names? */
+/* Does it ask for cells, rooms, sections or walks, itself or by a rule that it names? NULL does not. */
 static bool asks_house(const tn_ast_expr *expr)
 {
+    if (!expr)
+        return false;
     bool asks = expr->ask || (expr->kind == TN_EXPR_NAME && expr->rule && expr->rule->form);
     for (TN_EACH(const tn_ast_expr, part, expr->parts))
         asks |= asks_house(part);

@@ -104,7 +104,8 @@ static bool add_term(tn_check *check, sum *to, tn_checked_term term)
 {
     for (size_t i = 0; i < to->count; i++) {
         tn_checked_term *t = &to->terms[i];
-        if (t->kind != term.kind || t->part != term.part || t->figure != term.figure || t->rule != term.rule)
+        if (t->kind != term.kind || t->part != term.part || t->rule != term.rule || t->any != term.any ||
+            t->figure != term.figure)
             continue;
         t->factor = tn_amount_apply(check, TN_EXPR_PLUS, t->factor, term.factor);
         if (t->factor && tn_amount_is_zero(t->factor))
@@ -128,10 +129,13 @@ static bool add_term(tn_check *check, sum *to, tn_checked_term term)
 static bool one_term(tn_check *check, tn_term_kind kind, tn_ast_expr *expr, int power, sum *out)
 {
     tn_ast_expr *part = (tn_ast_expr *)expr->parts.first;
-    tn_checked_term term = {.kind = kind, .factor = "1", .part = part ? part : expr, .figure = expr->figure};
-    term.rule = part && part->kind == TN_EXPR_NAME ? part->rule : NULL;
-    if (term.rule && kind != TN_TERM_MATCHES)
-        term.part = NULL; /* the rule says all */
+    tn_checked_term term = {.kind = kind, .factor = "1", .figure = expr->figure};
+    if (!part)
+        term.any = expr->spec;
+    else if (part->kind == TN_EXPR_NAME)
+        term.rule = part->rule;
+    else
+        term.part = part;
     *out = (sum){.constant = {.value = "0", .power = power}};
     return add_term(check, out, term);
 }

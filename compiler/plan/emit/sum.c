@@ -59,9 +59,35 @@ static uint32_t tally_of(tn_emit *emit, tn_ast_expr *figure, const char *name)
 
 /* ---- terms */
 
+typedef struct label {
+    char text[TN_NAME_MAX + 1];
+} label;
+
+/* What the function of a term in `name` is called. */
+static label label_of(const char *name)
+{
+    static const char suffix[] = " (part)";
+    label made;
+    snprintf(made.text, sizeof made.text, "%.*s%s", (int)(TN_NAME_MAX - sizeof suffix), name, suffix);
+    return made;
+}
+
+static uint32_t any_of(tn_emit *emit, tn_checked_spec *any, const char *name)
+{
+    if (any->function)
+        return any->function - 1;
+    tn_emit_begin(emit, emit->schema);
+    tn_emit_op(emit, any->span, TN_OP_TRAY, tn_emit_spec(emit, any), 0);
+    tn_emit_op(emit, any->span, TN_OP_RETURN, 0, 0);
+    any->function = tn_emit_end(emit, label_of(name).text, TN_FUNCTION_WHOLE) + 1;
+    return any->function - 1;
+}
+
 static uint32_t part_of(tn_emit *emit, const tn_checked_term *term, const char *name)
 {
     bool holds = term->kind == TN_TERM_MATCHES;
+    if (term->any)
+        return any_of(emit, term->any, name);
     if (term->rule)
         return holds ? term->rule->holds : term->rule->whole;
     tn_ast_expr *part = term->part;
@@ -69,21 +95,14 @@ static uint32_t part_of(tn_emit *emit, const tn_checked_term *term, const char *
     if (*function)
         return *function - 1;
     uint32_t schema = emit->schema;
-    bool any = part->kind == TN_EXPR_TRAYS || part->kind == TN_EXPR_SUM;
-    if (!any)
-        tn_emit_needs(emit, part, name);
-    char label[TN_NAME_MAX + 1];
-    static const char suffix[] = " (part)";
-    snprintf(label, sizeof label, "%.*s%s", (int)(TN_NAME_MAX - sizeof suffix), name, suffix);
+    tn_emit_needs(emit, part, name);
     tn_emit_begin(emit, schema);
-    if (any)
-        tn_emit_op(emit, part->node.span, TN_OP_TRAY, tn_emit_spec(emit, part->spec), 0);
-    else if (holds)
+    if (holds)
         tn_emit_holds(emit, part);
     else
         tn_emit_whole(emit, part);
     tn_emit_op(emit, part->node.span, TN_OP_RETURN, 0, 0);
-    *function = tn_emit_end(emit, label, holds ? TN_FUNCTION_HOLDS : TN_FUNCTION_WHOLE) + 1;
+    *function = tn_emit_end(emit, label_of(name).text, holds ? TN_FUNCTION_HOLDS : TN_FUNCTION_WHOLE) + 1;
     return *function - 1;
 }
 
