@@ -8,6 +8,7 @@
 
 void tn_emit_begin(tn_emit *emit, uint32_t schema)
 {
+    emit->around = emit->schema;
     emit->schema = schema;
     emit->begin = tn_builder_offset(emit->builder);
     emit->depth = emit->stack_max = 0;
@@ -28,14 +29,16 @@ void tn_emit_op(tn_emit *emit, tn_span span, tn_opcode opcode, int64_t first, in
 
 uint32_t tn_emit_end(tn_emit *emit, const char *name, tn_function_kind kind)
 {
-    return tn_builder_add_FUNCTION(emit->builder, &(tn_function_record){
-                                                      .name = tn_builder_string(emit->builder, name),
-                                                      .kind = kind,
-                                                      .schema = emit->schema,
-                                                      .code_begin = emit->begin,
-                                                      .code_end = tn_builder_offset(emit->builder),
-                                                      .stack_max = emit->stack_max,
-                                                  });
+    uint32_t function = tn_builder_add_FUNCTION(emit->builder, &(tn_function_record){
+                                                                   .name = tn_builder_string(emit->builder, name),
+                                                                   .kind = kind,
+                                                                   .schema = emit->schema,
+                                                                   .code_begin = emit->begin,
+                                                                   .code_end = tn_builder_offset(emit->builder),
+                                                                   .stack_max = emit->stack_max,
+                                                               });
+    emit->schema = emit->around;
+    return function;
 }
 
 /* The sources' texts and paths, and a hash over the texts: paths of the standard library are recorded as they are

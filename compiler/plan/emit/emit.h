@@ -14,7 +14,8 @@ typedef struct tn_emit {
     tn_builder *builder;
     const tn_checked *checked;
     const tn_imports *imports;
-    uint32_t schema; /* of the function at hand */
+    uint32_t schema; /* of what is emitted: while a function's code is written, the function's */
+    uint32_t around; /* the schema before that, which comes back at the function's end */
     uint32_t begin;  /* of its code */
     uint32_t depth, stack_max;
     size_t instructions; /* of the module so far */

@@ -40,15 +40,12 @@ uint32_t tn_emit_decision(tn_emit *emit, const tn_checked_form *form, tn_decisio
         if (step->cells)
             step->index = tn_emit_decision(emit, form, step->cells, "cells", TN_FUNCTION_CELL);
     }
-    uint32_t schema = emit->schema;
     tn_emit_begin(emit, form->schema->index);
     for (size_t i = 0; i < decision->count; i++)
         tn_emit_op(emit, decision->steps[i].span, decision->steps[i].opcode, index_of(form, &decision->steps[i]),
                    decision->steps[i].area);
     tn_emit_op(emit, decision->span, TN_OP_DECIDE, 0, 0);
-    uint32_t function = tn_emit_end(emit, name, kind);
-    emit->schema = schema;
-    return function;
+    return tn_emit_end(emit, name, kind);
 }
 
 /* ---- records */

@@ -260,8 +260,7 @@ void tn_emit_needs(tn_emit *emit, tn_ast_expr *expr, const char *name)
     char label[TN_NAME_MAX + 1];
     static const char suffix[] = " (symmetric)";
     snprintf(label, sizeof label, "%.*s%s", (int)(TN_NAME_MAX - sizeof suffix), name, suffix);
-    uint32_t schema = emit->schema;
-    tn_emit_begin(emit, schema);
+    tn_emit_begin(emit, emit->schema);
     tn_emit_whole(emit, first_part(expr));
     tn_emit_op(emit, first_part(expr)->node.span, TN_OP_RETURN, 0, 0);
     expr->function = tn_emit_end(emit, label, TN_FUNCTION_WHOLE) + 1;

@@ -94,9 +94,8 @@ static uint32_t part_of(tn_emit *emit, const tn_checked_term *term, const char *
     uint32_t *function = holds ? &part->part_holds : &part->part_whole;
     if (*function)
         return *function - 1;
-    uint32_t schema = emit->schema;
     tn_emit_needs(emit, part, name);
-    tn_emit_begin(emit, schema);
+    tn_emit_begin(emit, emit->schema);
     if (holds)
         tn_emit_holds(emit, part);
     else
