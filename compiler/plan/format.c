@@ -73,10 +73,12 @@ static bool starts_field(const tn_format *format, size_t i)
            tn_format_is(format, i, "forbid") || (tn_format_is(format, i, "number") && tokens[i].kind == TN_TOKEN_WORD);
 }
 
+/* `trays` counts trays in sums, too: the clause is the one before a number. */
 static bool starts_clause(const tn_format *format, size_t i)
 {
-    return tn_format_is(format, i, "trays") || tn_format_is(format, i, "total") || tn_format_is(format, i, "require") ||
-           tn_format_is(format, i, "prune") || tn_format_is(format, i, "allow");
+    static const char *const words[] = {"total", "require", "prune", "allow", NULL};
+    return tn_format_is_any(format, i, words) ||
+           (tn_format_is(format, i, "trays") && format->tokens[i + 1].kind == TN_TOKEN_NUMBER);
 }
 
 /* A line of a form; `section(` is a part of one. */

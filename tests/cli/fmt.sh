@@ -43,6 +43,13 @@ is 'a formatted file' "$(stat -c %y "$scratch/wild.plan" | cut -c 1-4)" 2001
 cd "$here/../.."
 # What ships is laid out so, in every notation.
 exits 0 "$TARTAN" fmt --check stdlib/*.{plan,hemls,bnf,kit} examples/*/*.{plan,study,kit} bench/*.plan
+# `trays` begins a line of a library as a clause, and none in a sum, however long the line is.
+cat >"$scratch/sums.plan" <<'END'
+schema s { width = 5' | 12' tag = blue | red }
+library l using s { require trays = 2 trays 1..2 require trays + occurrences(any) = 1 - 5 / 3 * trays prune trays in 3..4
+require (occurrences(tray(not 5', blue)) + quantity(any) + quantity(tray(red)) + quantity(any) = quantity(tray(5')) - trays) }
+END
+golden sums "tartan fmt - <$scratch/sums.plan"
 # Forms and houses that are laid out at random.
 python3 tests/fmt_houses.py "$TARTAN" "$scratch" stdlib/{cottage,lahave-form,lahave-complete,row-houses,apartments}.plan \
     tests/cli/files/house-coverage.plan || fail 'forms are formatted wrongly'
