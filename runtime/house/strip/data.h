@@ -151,7 +151,7 @@ typedef struct tn_room_open {
 typedef struct tn_strip_role {
     bool through, goal, source, ends;
 } tn_strip_role;
-enum { ROLE_THROUGH = 1, ROLE_GOAL = 2, ROLE_SOURCE = 4, ROLE_ENDS = 8 };
+enum { ROLE_THROUGH = 1, ROLE_GOAL = 2, ROLE_SOURCE = 4, ROLE_ENDS = 8, ROLES_APART = 16 };
 
 /* ---- edges, slices, planes */
 

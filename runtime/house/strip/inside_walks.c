@@ -162,7 +162,7 @@ static void place(tn_inside_walk *w)
     memset(w->words, 0, sizeof w->words);
     memset(w->by_source, 0, sizeof w->by_source);
     memset(w->shown, 0, sizeof w->shown);
-    w->words[0] = ROLE_SOURCE | ROLE_ENDS; /* the first cell is no void */
+    w->words[0] = ROLES_APART; /* of the slice: no cell has a role, so that no step over a plane can reach a goal */
 }
 
 static bool push_step(const tn_inside_walk *w, uint32_t from, uint32_t to, tn_key *key, size_t count)

@@ -132,6 +132,8 @@ static void begin_right(tn_walking *w, const tn_strip_edge *edge)
         w->parent[n] = (uint8_t)n;
         w->near[n] = false;
     }
+    if (edge->count > 0 && w->roles[0] & ROLES_APART)
+        wait_for(w, 0, 0);
     for (uint32_t i = 0; i < edge->count; i++) {
         tn_strip_role role = role_at_right(w, i);
         w->near[w->before + i] = role.goal;
@@ -152,7 +154,7 @@ static uint32_t number_groups(tn_walking *w, const tn_strip_edge *edge, uint32_t
         tn_strip_role role = role_at_right(w, i);
         uint8_t root = root_of(w, (uint8_t)(w->before + i));
         group[i] = NO_GROUP;
-        if ((!role.through && !role.source) || (role.ends && w->inside))
+        if ((!role.through && !role.source) || role.ends)
             continue;
         if (w->near[root])
             group[i] = AT_GOAL;
@@ -307,7 +309,7 @@ static tn_status leave(tn_strip *strip, tn_walking *w, const tn_strip_edge *edge
     *after = 0;
     if (w->placed)
         follow_owners(w, seen);
-    if (!w->placed && w->apart)
+    if (!w->placed && w->apart && w->inside)
         w->count = 0; /* it is known; what else waits does not matter, but for where the others are */
     if (!w->placed)
         reduce(w);
@@ -347,7 +349,7 @@ tn_status tn_strip_walk_cross(tn_strip *strip, uint32_t walk, uint32_t before, c
     if (w.too_many)
         return tn_strip_limit(strip, NULL, "more sources wait for a walk than can be told apart at once", error);
     tn_status status = leave(strip, &w, c->right, after, seen, error);
-    *apart = w.apart;
+    *apart = w.apart && w.inside;
     return status;
 }
 

@@ -581,6 +581,39 @@ static void test_places(void **state)
     assert_true(with_houses > 0);
 }
 
+/* Cells that no passage leaves, beside others of their tray: what can never reach its goal is in a slice whose other
+ * cells have passages over planes. */
+static void check_walled(const char *clause)
+{
+    char text[2048];
+    snprintf(text, sizeof text,
+             "schema hut {\n  width role length = 8'\n  zone rear role band = room(6') role solid | none role absent\n"
+             "  zone body role band = hall(10') role void | room(8') role solid\n}\nform huts of hut {\n"
+             "  storey ground 9'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof 8\"\n"
+             "  function living at cell(rear room) or cell(body room)\n  function store at cell(body room)\n"
+             "  opening door wide 2'8\" high 6'8\" passage\n  face cell(store) beside cell(any) = wall\n"
+             "  face cell(any) beside cell(any) = door\n}\nlibrary rows using hut { trays 1..3 }\n"
+             "library all from rows in huts { }\nlibrary some from rows in huts {\n  %s\n}\n"
+             "measure cells using huts = quantity(cell(any))\n",
+             clause);
+    test_house made;
+    test_house_compile(&made, text);
+    uint64_t kept = kept_one_by_one(&made);
+    assert_true(kept > 0);
+    assert_int_equal(check_library(&made, made.some, 50), kept);
+    test_house_clear(&made);
+}
+
+static void test_walled(void **state)
+{
+    (void)state;
+    check_walled("prune apart(cell(store), from cell(living))");
+    check_walled("prune apart(cell(living), from cell(store))");
+    check_walled("require apart(cell(store), from cell(living))");
+    check_walled("prune apart(cell(store), from cell(living), through cell(living))");
+    check_walled("require apart(cell(living, body), from cell(living, rear)) and not cell(store, 8')");
+}
+
 /* Cells that meet across a plane, where the clause may be read from either end of the row. */
 static void test_mirror(void **state)
 {
@@ -629,6 +662,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_written),        cmocka_unit_test(test_drawn),  cmocka_unit_test(test_compared),
         cmocka_unit_test(test_compared_costs), cmocka_unit_test(test_placed), cmocka_unit_test(test_placed_limit),
-        cmocka_unit_test(test_places),         cmocka_unit_test(test_mirror), cmocka_unit_test(test_limit)};
+        cmocka_unit_test(test_places),
+        cmocka_unit_test(test_walled),         cmocka_unit_test(test_mirror), cmocka_unit_test(test_limit)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
