@@ -134,12 +134,32 @@ static tn_status write_best(void *context, const tn_house *house, bool *stop, tn
     return status == TN_OK ? written : status;
 }
 
+/* Whoever gets the houses that were found gets them judged. */
+typedef struct judged {
+    tn_numbered *n;
+    tn_house_each *each;
+    void *context;
+} judged;
+
+static tn_status judge_house(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    judged *j = context;
+    tn_status status = tn_numbered_judge(j->n, house, error);
+    return status == TN_OK ? j->each(j->context, house, stop, error) : status;
+}
+
+static tn_status each_of_point(tn_best_houses *s, size_t point, tn_house_each *each, void *context, tn_error *error)
+{
+    judged j = {.n = &s->n, .each = each, .context = context};
+    return tn_houses_point_each(s->houses, point, s->n.variants, judge_house, &j, error);
+}
+
 tn_status tn_best_houses_each(tn_best_houses *s, tn_house_each *each, void *context, tn_error *error)
 {
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && s->given < s->wishes->wanted && i < tn_houses_points(s->houses); i++) {
         tn_houses_point(s->houses, i, s->values, s->count);
-        status = tn_houses_point_each(s->houses, i, s->n.variants, each, context, error);
+        status = each_of_point(s, i, each, context, error);
     }
     return status;
 }
@@ -185,7 +205,7 @@ static tn_status write_point(tn_best_houses *s, size_t point, tn_error *error)
     tn_buffer text = {0}, line = {0}, value = {0};
     bool json = s->wishes->json, ok = true;
     tn_houses_point(s->houses, point, s->values, s->count);
-    tn_status status = tn_houses_point_each(s->houses, point, s->n.variants, take_line, &line, error);
+    tn_status status = each_of_point(s, point, take_line, &line, error);
     char *count = tn_digits(s->count, !json);
     if (json)
         ok = tn_buffer_printf(&text, point ? ",\n    {" : "\n    {") && write_json_values(s, true, &text);

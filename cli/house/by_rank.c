@@ -153,7 +153,7 @@ static tn_status search_plan(tn_numbered *n, void *context, const tn_tray *trays
     tn_status status = tn_house_variants_count(n->variants, trays, length, &counts, error);
     *stop = s->found = status == TN_OK && mpz_cmp(s->left, counts.houses) < 0;
     if (s->found)
-        status = tn_house_variants_at(n->variants, trays, length, s->left, s->house, error);
+        status = tn_numbered_at(n, trays, length, s->left, s->house, error);
     else
         mpz_sub(s->left, s->left, counts.houses);
     tn_house_counts_clear(&counts);

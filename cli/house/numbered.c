@@ -97,6 +97,7 @@ void tn_numbered_close(tn_numbered *n)
 {
     tn_numbered_forget_ranks(n);
     tn_house_variants_free(n->quick);
+    tn_house_rules_free(n->rules);
     tn_houses_free(n->all);
     tn_house_variants_free(n->variants);
     tn_library_free(n->opened);
@@ -112,6 +113,7 @@ tn_status tn_numbered_other(const tn_numbered *n, const tn_module *module, const
     other->plans = plans;
     other->opened = NULL;
     other->variants = other->quick = NULL;
+    other->rules = NULL;
     other->all = NULL;
     other->ranked = (tn_numbered_ranked){0};
     return tn_house_variants_new(&other->form, record, 0, &other->variants, error);
@@ -121,9 +123,36 @@ void tn_numbered_other_close(tn_numbered *other)
 {
     tn_numbered_forget_ranks(other);
     tn_house_variants_free(other->quick);
+    tn_house_rules_free(other->rules);
     tn_houses_free(other->all);
     tn_house_variants_free(other->variants);
     *other = (tn_numbered){0};
+}
+
+static tn_status report_contradiction(const tn_numbered *n, const tn_house *house, tn_error *error)
+{
+    tn_buffer line = {0};
+    tn_status status = tn_house_write(house, &line, error);
+    if (status == TN_OK)
+        status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE,
+                         "this house was found in `%.80s`, though the rules of the library keep it out: %.400s",
+                         tn_text(n->form.module, n->record->name), line.data);
+    if (status == TN_INTERNAL)
+        tn_error_help(error, "this is a fault of Tartan, and other answers about the library may be wrong as well: "
+                             "please report it with the file and the command");
+    free(line.data);
+    return status;
+}
+
+tn_status tn_numbered_judge(tn_numbered *n, const tn_house *house, tn_error *error)
+{
+    bool kept = false;
+    tn_status status = n->rules ? TN_OK : tn_house_rules_new(&n->form, tn_library_max(n->plans), &n->rules, error);
+    if (status == TN_OK)
+        status = tn_house_rules_start(n->rules, house, error);
+    if (status == TN_OK)
+        status = tn_house_rules_keep(n->rules, n->record, &kept, error);
+    return status == TN_OK && !kept ? report_contradiction(n, house, error) : status;
 }
 
 void tn_numbered_bad_text(tn_job *job, tn_error *error, const char *name, const char *text)

@@ -26,6 +26,7 @@ typedef struct tn_numbered {
     tn_library *opened; /* the same where tn_numbered_open made it */
     tn_house_variants *variants;
     tn_house_variants *quick; /* with a small limit of work, or NULL: not asked for */
+    tn_house_rules *rules;    /* or NULL: no house was judged yet */
     tn_houses *all;           /* or NULL: not asked for */
     tn_numbered_ranked ranked;
     uint32_t max_states;
@@ -72,6 +73,10 @@ void tn_numbered_forget_ranks(tn_numbered *n);
 /* The house of a number on a plan. Clear *house in any case. */
 tn_status tn_numbered_at(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant, tn_house *house,
                          tn_error *error);
+
+/* Asks the interpreter of rules whether the library keeps a house that was found without it: before it is shown.
+ * TN_INTERNAL if it does not, as the two then contradict each other. */
+tn_status tn_numbered_judge(tn_numbered *n, const tn_house *house, tn_error *error);
 
 /* The number of a house among those on its plan, which is one of the library's. TN_INVALID (E1618) where the library
  * does not keep it. */

@@ -86,7 +86,7 @@ static tn_status make_quick(tn_numbered *n, tn_error *error)
     return n->quick ? TN_OK : tn_house_variants_new(&n->form, n->record, STEPS, &n->quick, error);
 }
 
-tn_status tn_numbered_at(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant, tn_house *house,
+static tn_status find_at(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant, tn_house *house,
                          tn_error *error)
 {
     tn_plan_houses *houses;
@@ -102,6 +102,13 @@ tn_status tn_numbered_at(tn_numbered *n, const tn_tray *trays, uint32_t length, 
     if (status == TN_OK)
         status = tn_plan_houses_at(houses, variant, house, error);
     return status == TN_LIMIT ? tn_house_variants_at(n->variants, trays, length, variant, house, error) : status;
+}
+
+tn_status tn_numbered_at(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant, tn_house *house,
+                         tn_error *error)
+{
+    tn_status status = find_at(n, trays, length, variant, house, error);
+    return status == TN_OK ? tn_numbered_judge(n, house, error) : status;
 }
 
 tn_status tn_numbered_number(tn_numbered *n, const tn_house *house, mpz_t variant, tn_error *error)

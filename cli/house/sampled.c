@@ -52,6 +52,8 @@ static tn_status use_house(tn_numbered *n, tn_house_sample *s, const tn_tray *tr
         status = houses ? tn_plan_houses_at(houses, variant, &house, error)
                         : tn_house_variants_at(n->variants, trays, length, variant, &house, error);
     if (status == TN_OK)
+        status = tn_numbered_judge(n, &house, error);
+    if (status == TN_OK)
         status = s->use(s->context, &house, rank, variant, error);
     tn_house_clear(&house);
     return status;

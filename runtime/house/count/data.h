@@ -204,6 +204,10 @@ tn_status tn_houses_aim_all(tn_houses *houses, tn_error *error);
 /* Reports that there are too many values. */
 tn_status tn_houses_too_many_values(const tn_houses *houses, tn_error *error);
 
+/* Holds the count to going through the houses, if these and the plans are at most so many and that is no more than the
+ * limit of work; TN_INTERNAL if they differ. For builds for tests. */
+tn_status tn_houses_recount(const tn_houses *houses, uint64_t most, tn_error *error);
+
 /* May a plan state after so many trays lead to a plan of the library? */
 bool tn_houses_plan_lives(const tn_houses *houses, uint32_t layer, uint32_t plan);
 

@@ -356,6 +356,10 @@ tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record 
     if (status == TN_OK && (h->aim == TN_HOUSES_LEAST || h->aim == TN_HOUSES_FRONT))
         status = tn_houses_aim_all(h, error);
     tn_strip_trays_clear(&trays);
+#ifdef TARTAN_CHECK_COUNTS
+    if (status == TN_OK && !h->measures && !h->without)
+        status = tn_houses_recount(h, TARTAN_CHECK_COUNTS, error);
+#endif
     if (status != TN_OK) {
         tn_houses_free(h);
         *out = NULL;

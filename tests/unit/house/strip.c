@@ -360,6 +360,7 @@ static uint64_t check_library(const test_house *made, const tn_house_library_rec
     if (status != TN_OK)
         fprintf(stderr, "%s\n", error.message);
     assert_int_equal(status, TN_OK);
+    assert_int_equal(tn_houses_recount(c.houses, 2000, &error), TN_OK);
     assert_int_equal(tn_house_ranks_new(c.houses, c.variants, &c.ranks, &error), TN_OK);
     static int libraries;
     if (++libraries % 2 == 0)
@@ -583,10 +584,14 @@ static void test_places(void **state)
 
 /* Cells that no passage leaves, beside others of their tray: what can never reach its goal is in a slice whose other
  * cells have passages over planes. */
-static void check_walled(const char *clause)
-{
+typedef struct walled {
     char text[2048];
-    snprintf(text, sizeof text,
+} walled;
+
+static walled walled_text(const char *clause)
+{
+    walled made;
+    snprintf(made.text, sizeof made.text,
              "schema hut {\n  width role length = 8'\n  zone rear role band = room(6') role solid | none role absent\n"
              "  zone body role band = hall(10') role void | room(8') role solid\n}\nform huts of hut {\n"
              "  storey ground 9'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof 8\"\n"
@@ -596,11 +601,35 @@ static void check_walled(const char *clause)
              "library all from rows in huts { }\nlibrary some from rows in huts {\n  %s\n}\n"
              "measure cells using huts = quantity(cell(any))\n",
              clause);
+    return made;
+}
+
+static void check_walled(const char *clause)
+{
     test_house made;
-    test_house_compile(&made, text);
+    test_house_compile(&made, walled_text(clause).text);
     uint64_t kept = kept_one_by_one(&made);
     assert_true(kept > 0);
     assert_int_equal(check_library(&made, made.some, 50), kept);
+    test_house_clear(&made);
+}
+
+/* A wrong count is noticed where houses are counted once more. */
+static void test_recount(void **state)
+{
+    (void)state;
+    test_house made;
+    tn_error error = {0};
+    tn_houses *houses;
+    test_house_compile(&made, walled_text("prune apart(cell(store), from cell(living))").text);
+    tn_library *plans = plans_of(&made, made.some);
+    assert_int_equal(tn_houses_new(&made.form, made.some, plans, 0, &houses, &error), TN_OK);
+    assert_int_equal(tn_houses_recount(houses, 100000, &error), TN_OK);
+    mpz_add_ui(houses->kinds[0].houses[1], houses->kinds[0].houses[1], 1);
+    assert_int_equal(tn_houses_recount(houses, 100000, &error), TN_INTERNAL);
+    assert_int_equal(tn_houses_recount(houses, 10, &error), TN_OK); /* more than are gone through */
+    tn_houses_free(houses);
+    tn_library_free(plans);
     test_house_clear(&made);
 }
 
@@ -662,7 +691,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_written),        cmocka_unit_test(test_drawn),  cmocka_unit_test(test_compared),
         cmocka_unit_test(test_compared_costs), cmocka_unit_test(test_placed), cmocka_unit_test(test_placed_limit),
-        cmocka_unit_test(test_places),
-        cmocka_unit_test(test_walled),         cmocka_unit_test(test_mirror), cmocka_unit_test(test_limit)};
+        cmocka_unit_test(test_places),         cmocka_unit_test(test_walled), cmocka_unit_test(test_recount),
+        cmocka_unit_test(test_mirror),         cmocka_unit_test(test_limit)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
