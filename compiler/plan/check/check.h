@@ -107,6 +107,7 @@ typedef struct tn_checked_term {
     tn_ast_expr *part;
     struct tn_checked_rule *rule; /* the part is this rule's name */
     tn_checked_spec *any;         /* every tray: `trays`, and `sum` without `of` */
+    tn_span span;                 /* of that, where it is written first */
     tn_ast_expr *figure;
 } tn_checked_term;
 
@@ -391,8 +392,7 @@ tn_ast_expr *tn_counts_house(const tn_ast_expr *quantity);
 bool tn_sums_cost(const tn_check *check, const tn_ast_expr *sum); /* is it `sum(cost)`? */
 void tn_check_cost(tn_check *check, tn_ast_expr *sum);
 bool tn_means_cost(const tn_check *check, const char *word); /* of houses: `cost` or the like, and there is a form */
-void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum,
-                        tn_span place); /* what else it counts is of plans */
+void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum); /* what else it counts is of plans */
 /* A rule that is named: is it about houses of the same form as what names it? */
 void tn_check_same_form(tn_check *check, const tn_ast_expr *name);
 /* The form called so, where it is in scope; NULL: there is none. */

@@ -248,14 +248,14 @@ static bool asks_house(const tn_ast_expr *expr)
     return asks;
 }
 
-void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum, tn_span place)
+void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum)
 {
     for (size_t i = 0; i < sum->count; i++) {
         const tn_checked_term *term = &sum->terms[i];
         if (term->kind >= TN_TERM_CELLS || !(term->rule ? term->rule->form != NULL : asks_house(term->part)))
             continue;
         tn_diagnostic *d =
-            tn_report(check->diagnostics, E_HOUSE_CLAUSE, term->part ? term->part->node.span : place,
+            tn_report(check->diagnostics, E_HOUSE_CLAUSE, term->span,
                       "a measure counts trays and places of plans, and cells and rooms of houses, not both at once");
         tn_help(
             check->diagnostics, d,

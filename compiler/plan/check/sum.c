@@ -129,7 +129,8 @@ static bool add_term(tn_check *check, sum *to, tn_checked_term term)
 static bool one_term(tn_check *check, tn_term_kind kind, tn_ast_expr *expr, int power, sum *out)
 {
     tn_ast_expr *part = (tn_ast_expr *)expr->parts.first;
-    tn_checked_term term = {.kind = kind, .factor = "1", .figure = expr->figure};
+    tn_checked_term term = {
+        .kind = kind, .factor = "1", .figure = expr->figure, .span = (part ? part : expr)->node.span};
     if (!part)
         term.any = expr->spec;
     else if (part->kind == TN_EXPR_NAME)
@@ -383,16 +384,16 @@ void tn_check_comparison(tn_check *check, tn_ast_expr *expr)
     expr->high = high;
     expr->whole = low->whole || low->houses;
     if (low->houses)
-        tn_check_house_sum(check, low, expr->node.span);
+        tn_check_house_sum(check, low);
     if (range && high->houses)
-        tn_check_house_sum(check, high, expr->node.span);
+        tn_check_house_sum(check, high);
 }
 
 void tn_check_plan_measure(tn_check *check, tn_checked_rule *measure)
 {
     measure->sum = tn_check_sum(check, measure->ast->body);
     if (measure->sum && measure->form)
-        tn_check_house_sum(check, measure->sum, measure->ast->body->node.span);
+        tn_check_house_sum(check, measure->sum);
     if (!measure->sum || (measure->sum->power >= 0 && measure->sum->power <= MEASURE_POWER_MAX))
         return;
     tn_diagnostic *d = tn_report(check->diagnostics, E_DIMENSIONS, measure->ast->body->node.span,

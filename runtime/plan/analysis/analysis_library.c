@@ -95,12 +95,13 @@ static tn_status confirm_some(const tn_analysed_clauses *c, const bool *in, size
 
 /* ---- empty libraries */
 
-/* Takes out what is not needed for there to be no plan; where that passes a limit all stays, and *why says so. */
-static tn_status reduce(const tn_analysed_clauses *c, bool *in, bool lengths, tn_error **why, tn_error *error)
+/* Takes out what is not needed for there to be no plan of the library's lengths; where that passes a limit all stays,
+ * and *why says so. */
+static tn_status reduce(const tn_analysed_clauses *c, bool *in, tn_error **why, tn_error *error)
 {
     tn_error failure;
-    tn_status status = tn_plan_analysis_reduce(c->analysis, c->parts, c->count, tn_clauses_shortest(c, lengths),
-                                               tn_clauses_longest(c, lengths), in, &failure);
+    tn_status status = tn_plan_analysis_reduce(c->analysis, c->parts, c->count, tn_clauses_shortest(c, true),
+                                               tn_clauses_longest(c, true), in, &failure);
     if (status == TN_LIMIT) {
         *why = malloc(sizeof **why);
         if (!*why)
@@ -113,14 +114,12 @@ static tn_status reduce(const tn_analysed_clauses *c, bool *in, bool lengths, tn
     return status;
 }
 
-static tn_status show_without(const tn_analysed_clauses *c, const bool *in, size_t i, bool lengths, tn_shown_plan *plan,
+static tn_status show_without(const tn_analysed_clauses *c, const bool *in, size_t i, tn_shown_plan *plan,
                               tn_error *error)
 {
     tn_key word = {0};
     bool found;
     tn_status status = search_some(c, in, i, true, &word, &found, error);
-    if (status == TN_OK && !found && !lengths)
-        status = search_some(c, in, i, false, &word, &found, error);
     if (status == TN_OK && found)
         status = tn_plan_analysis_show(c->analysis, &word, plan, error);
     free(word.data);
@@ -138,7 +137,7 @@ static tn_status list_reasons(const tn_analysed_clauses *c, const bool *in, tn_p
     for (size_t i = 0; i < c->count; i++) {
         if (!in[i])
             continue;
-        tn_status status = show_without(c, in, i, finding->with_lengths, &finding->plans[finding->reason_count], error);
+        tn_status status = show_without(c, in, i, &finding->plans[finding->reason_count], error);
         if (status != TN_OK)
             return status;
         finding->reasons[finding->reason_count++] = (uint32_t)(c->record->clause_first + i);
@@ -154,16 +153,15 @@ static tn_status explain_empty(const tn_analysed_clauses *c, bool *in, tn_error 
         return tn_fail_memory(error);
     finding->library = c->index;
     tn_key word = {0};
-    tn_status status = TN_OK;
+    tn_status status = reduce(c, in, &finding->why, error);
     finding->with_lengths = true;
-    if (tn_clauses_unbounded(c))
+    if (status == TN_OK && tn_clauses_unbounded(c))
         status = search_some(c, in, c->count, false, &word, &finding->with_lengths, error);
     free(word.data);
-    if (status == TN_LIMIT)
+    if (status == TN_LIMIT) {
         finding->with_lengths = true;
-    else if (status != TN_OK)
-        return status;
-    status = reduce(c, in, finding->with_lengths, &finding->why, error);
+        status = TN_OK;
+    }
     return status == TN_OK ? list_reasons(c, in, finding, error) : status;
 }
 
