@@ -2,8 +2,8 @@
  *
  * Each line is a kind, a name, a number and what else never changes about it ("-": nothing), with tabs between: the
  * operands of an instruction, how a field is stored. With modules: the numbers of the instructions that they hold, each
- * once. tests/modules.py compares the first with tests/modules/numbers.txt, and looks with the second whether the modules
- * kept there hold all of them. */
+ * once. tests/modules.py compares the first with tests/modules/numbers.txt, and looks with the second whether the
+ * modules kept there hold all of them. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,8 +19,11 @@
 
 static const char *slot_text(tn_slot slot)
 {
-    static const char *const words[] = {[TN_SLOT_NOTHING] = "-", [TN_SLOT_U32] = "u32", [TN_SLOT_I64] = "i64",
-                                        [TN_SLOT_F64] = "f64",   [TN_SLOT_STRING] = "string"};
+    static const char *const words[] = {[TN_SLOT_NOTHING] = "-",
+                                        [TN_SLOT_U32] = "u32",
+                                        [TN_SLOT_I64] = "i64",
+                                        [TN_SLOT_F64] = "f64",
+                                        [TN_SLOT_STRING] = "string"};
     return slot.kind == TN_SLOT_INDEX ? tn_section_describe(slot.section).name : words[slot.kind];
 }
 

@@ -367,7 +367,8 @@ static void find_selection(findings *f)
     static const tn_setting single[] = {TN_SET_MATCH, TN_SET_FIT};
     for (size_t i = 0; nsga2 && i < sizeof single / sizeof *single; i++)
         if (is_written(f, single[i]))
-            find(f, TN_SET_SELECTION, single[i], "`selection nsga2` weighs several objectives, and this problem has one",
+            find(f, TN_SET_SELECTION, single[i],
+                 "`selection nsga2` weighs several objectives, and this problem has one",
                  "write `selection tournament 3`");
     if (nsga2 && chose(f, TN_SET_REPLACEMENT, "steady-state"))
         find(f, TN_SET_REPLACEMENT, TN_SET_SELECTION,

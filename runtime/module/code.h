@@ -65,10 +65,10 @@ static inline bool tn_code_asks_house(tn_opcode opcode)
 {
     static const bool asks[TN_OPCODE_COUNT] = {
 #define X(NAME, NUMBER, OPERANDS, POPS, PUSHES, CODE, DOC)                                                             \
-    [TN_OP_##NAME] = TN_CODE_##CODE == TN_CODE_RULE &&                                                                 \
-                     (TN_OPERANDS_##OPERANDS == TN_OPERANDS_DECISION || TN_OPERANDS_##OPERANDS == TN_OPERANDS_MEETING || \
-                      TN_OPERANDS_##OPERANDS == TN_OPERANDS_DECISION_COND ||                                           \
-                      TN_OPERANDS_##OPERANDS == TN_OPERANDS_HOUSE_SUMMED),
+    [TN_OP_##NAME] =                                                                                                   \
+        TN_CODE_##CODE == TN_CODE_RULE &&                                                                              \
+        (TN_OPERANDS_##OPERANDS == TN_OPERANDS_DECISION || TN_OPERANDS_##OPERANDS == TN_OPERANDS_MEETING ||            \
+         TN_OPERANDS_##OPERANDS == TN_OPERANDS_DECISION_COND || TN_OPERANDS_##OPERANDS == TN_OPERANDS_HOUSE_SUMMED),
 #include "runtime/module/opcodes.def"
     };
     return asks[opcode];
@@ -98,8 +98,7 @@ typedef struct tn_operand_widths {
 static inline tn_operand_widths tn_code_widths(uint8_t opcode)
 {
     static const tn_operand_widths widths[TN_OPCODE_COUNT] = {
-#define X(NAME, NUMBER, OPERANDS, POPS, PUSHES, CODE, DOC)                                                             \
-    [TN_OP_##NAME] = {TN_FIRST_##OPERANDS, TN_SECOND_##OPERANDS},
+#define X(NAME, NUMBER, OPERANDS, POPS, PUSHES, CODE, DOC) [TN_OP_##NAME] = {TN_FIRST_##OPERANDS, TN_SECOND_##OPERANDS},
 #include "runtime/module/opcodes.def"
     };
     return widths[opcode];

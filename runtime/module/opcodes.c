@@ -5,7 +5,7 @@
 #include "runtime/module/code.h"
 
 static const tn_opcode_info infos[TN_OPCODE_COUNT] = {
-#define X(NAME, NUMBER, OPERANDS, POPS, PUSHES, CODE, DOC)                                                                     \
+#define X(NAME, NUMBER, OPERANDS, POPS, PUSHES, CODE, DOC)                                                             \
     [TN_OP_##NAME] = {#NAME,                                                                                           \
                       DOC,                                                                                             \
                       TN_OPERANDS_##OPERANDS,                                                                          \

@@ -1,5 +1,5 @@
-/* What the numbers in a module's records mean, and how large they may be: the enumerations (values.def), flags and bounds
- * that the rows of records.def name. */
+/* What the numbers in a module's records mean, and how large they may be: the enumerations (values.def), flags and
+ * bounds that the rows of records.def name. */
 #ifndef TARTAN_MODULE_VALUES_H
 #define TARTAN_MODULE_VALUES_H
 

@@ -2,8 +2,8 @@
 #ifndef TARTAN_SOLID_MEASURED_H
 #define TARTAN_SOLID_MEASURED_H
 
-/* name, the number that modules hold (given as those of values.def), word, and what it takes to know it: BOXES (the mapping), CELLS (what clipping leaves), UNION (the boundary of all
- * cells) or PLAN (cells, seen along an axis) */
+/* name, the number that modules hold (given as those of values.def), word, and what it takes to know it: BOXES (the
+ * mapping), CELLS (what clipping leaves), UNION (the boundary of all cells) or PLAN (cells, seen along an axis) */
 #define TN_SOLID_MEASURES(X)                                                                                           \
     X(WIDTH, 0, "width", CELLS)                                                                                        \
     X(HEIGHT, 1, "height", CELLS)                                                                                      \

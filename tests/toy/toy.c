@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "runtime/genome/settings.h"
 #include "runtime/load.h"
 #include "runtime/module/builder.h"
 
@@ -28,6 +29,9 @@ static tn_status load(uint32_t start, uint32_t step, tn_opcode last, tn_module *
     free(bytes);
     return status;
 }
+
+/* Numbers below the rows' that no row has: of an instruction, a kind of functions, a setting. */
+enum { NO_OPCODE = TN_OP_STOP - 1, NO_FUNCTION = TN_FUNCTION_COUNTER - 1, NO_SETTING = TN_SET_COUNTING - 1 };
 
 static void refuse(uint32_t start, uint32_t step, tn_opcode last, const char *reason)
 {
@@ -65,10 +69,42 @@ static void test_it_is_verified(void **state)
     refuse(3, 0, TN_OP_STOP, "counter 0, code offset 0: a step of nothing");
     refuse(3, 7, TN_OP_DONE, "counter 0, code offset 5: DONE does not belong in this kind of code");
     refuse(3, 7, TN_OP_COUNT_UP, "counter 0, code offset 5: ");
+    refuse(3, 7, (tn_opcode)NO_OPCODE, "counter 0, code offset 5: 239 is no opcode");
+}
+
+/* Builds what was begun, and looks for the reason why it does not load. */
+static void refuse_built(tn_builder *builder, const char *reason)
+{
+    uint8_t *bytes;
+    size_t size;
+    tn_module *module;
+    tn_error error = {0};
+    assert_int_equal(tn_builder_finish(builder, &bytes, &size, &error), TN_OK);
+    assert_int_equal(tn_module_load(bytes, size, NULL, &module, &error), TN_INVALID);
+    if (!strstr(error.message, reason))
+        fail_msg("wanted \"%s\", got \"%s\"", reason, error.message);
+    tn_builder_free(builder);
+    free(bytes);
+}
+
+static void test_numbers_without_a_row_are_refused(void **state)
+{
+    (void)state;
+    tn_builder *builder = tn_builder_new();
+    tn_builder_emit(builder, TN_OP_STOP, 0, 0);
+    tn_builder_add_FUNCTION(builder,
+                            &(tn_function_record){.kind = NO_FUNCTION, .code_end = tn_builder_offset(builder)});
+    refuse_built(builder, "function 0: kind is 19, which nothing has for its number");
+
+    builder = tn_builder_new();
+    tn_builder_add_SOURCE(builder, &(tn_source_record){0});
+    tn_builder_add_SETTING(builder, &(tn_setting_record){.setting = NO_SETTING, .written = 1});
+    refuse_built(builder, "setting 0 is unknown");
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_it_is_listed), cmocka_unit_test(test_it_is_verified)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_it_is_listed), cmocka_unit_test(test_it_is_verified),
+                                       cmocka_unit_test(test_numbers_without_a_row_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
