@@ -131,7 +131,7 @@ def check_coverage(program):
 def answer(tartan, folder, command):
     """What a command writes, and where it fails what it says of that."""
     ran = subprocess.run([tartan, *shlex.split(command)[1:]], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True,
-                         text=True, timeout=60)
+                         text=True, timeout=600)
     said = ran.stdout if ran.returncode == 0 else ran.stdout + ran.stderr
     return f"$ {command}\n{said}[exit {ran.returncode}]\n"
 
