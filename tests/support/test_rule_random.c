@@ -37,7 +37,8 @@ test_condition *test_condition_random(test_random *random, int64_t unit, unsigne
     assert_non_null(condition);
     static const tn_opcode opcodes[] = {TN_OP_LESS,      TN_OP_EQUAL, TN_OP_GREATER, TN_OP_WITHIN,
                                         TN_OP_REMAINDER, TN_OP_BOTH,  TN_OP_EITHER,  TN_OP_NEITHER};
-    condition->opcode = opcodes[test_random_below(random, depth > 0 ? 8 : 5)];
+    uint32_t pick = test_random_below(random, depth > 0 ? 8 : 5);
+    condition->opcode = opcodes[pick];
     condition->first = number(random, unit);
     condition->second = condition->first + number(random, unit);
     if (condition->opcode == TN_OP_REMAINDER) {
