@@ -40,14 +40,14 @@ static void write_json(FILE *out, const tn_growth_system *system, const tn_study
         fprintf(out, "%s\"%u\": %" PRIu64, i ? ", " : "", stats->sides[i].sides, stats->sides[i].count);
     fputs("}, \"fitness\": {", out);
     for (int t = 0; t < TN_FITNESS_TERM_COUNT; t++) {
-        double value = tn_fitness_value(&stats->fitness, (tn_fitness_term)t);
-        fprintf(out, "%s\"%s\": %.17g", t ? ", " : "", tn_fitness_term_name((tn_fitness_term)t), value);
+        double value = tn_fitness_value(&stats->fitness, (tn_measured)t);
+        fprintf(out, "%s\"%s\": %.17g", t ? ", " : "", tn_fitness_term_name((tn_measured)t), value);
     }
     write_json_named(out, &study->goal, &stats->fitness);
     fputs("}, \"measures\": {", out);
     for (int i = TN_MEASURED_WIDTH; i < TN_MEASURED_COUNT; i++)
         if (isfinite(stats->fitness.further[i - TN_MEASURED_WIDTH])) /* no distance without a target */
-            fprintf(out, "%s\"%s\": %.17g", i > TN_MEASURED_WIDTH ? ", " : "", tn_measured_names[i],
+            fprintf(out, "%s\"%s\": %.17g", i > TN_MEASURED_WIDTH ? ", " : "", tn_names_MEASURED[i],
                     stats->fitness.further[i - TN_MEASURED_WIDTH]);
     fputc('}', out);
     write_json_lacking(out, &study->goal, &stats->fitness);

@@ -17,9 +17,11 @@ typedef struct check {
 static const char *nearest_setting(const char *name)
 {
     const char *names[TN_SETTING_COUNT];
+    size_t count = 0;
     for (size_t i = 0; i < TN_SETTING_COUNT; i++)
-        names[i] = tn_setting_rows[i].name;
-    return tn_nearest(name, names, TN_SETTING_COUNT);
+        if (tn_setting_rows[i].name)
+            names[count++] = tn_setting_rows[i].name;
+    return tn_nearest(name, names, count);
 }
 
 /* ---- wrong values */

@@ -96,18 +96,31 @@ static tn_solid_answer compare(const tn_expression *e)
     }
 }
 
-tn_solid_answer tn_solid_requirement_answer(const tn_expression *e)
+static tn_solid_answer is_not_zero(tn_interval value)
 {
-    if (e->op >= TN_OP_IS_BELOW && e->op <= TN_OP_IS_BETWEEN)
-        return compare(e);
-    if (e->op == TN_OP_IS_BOTH)
-        return both(tn_solid_requirement_answer(e->first), tn_solid_requirement_answer(e->last));
-    if (e->op == TN_OP_IS_EITHER)
-        return opposite(
-            both(opposite(tn_solid_requirement_answer(e->first)), opposite(tn_solid_requirement_answer(e->last))));
-    if (e->op == TN_OP_IS_NOT)
-        return opposite(tn_solid_requirement_answer(e->first));
-    tn_interval value = bounds_of(e); /* holds where it is not 0 */
     bool always = !value.fails && (value.low > 0 || value.high < 0);
     return answer_of(always, value.low == 0 && value.high == 0);
+}
+
+tn_solid_answer tn_solid_requirement_answer(const tn_expression *e)
+{
+    switch ((int)e->op) {
+    case TN_OP_IS_BELOW:
+    case TN_OP_IS_AT_MOST:
+    case TN_OP_IS_EQUAL:
+    case TN_OP_IS_UNEQUAL:
+    case TN_OP_IS_AT_LEAST:
+    case TN_OP_IS_ABOVE:
+    case TN_OP_IS_BETWEEN:
+        return compare(e);
+    case TN_OP_IS_BOTH:
+        return both(tn_solid_requirement_answer(e->first), tn_solid_requirement_answer(e->last));
+    case TN_OP_IS_EITHER:
+        return opposite(
+            both(opposite(tn_solid_requirement_answer(e->first)), opposite(tn_solid_requirement_answer(e->last))));
+    case TN_OP_IS_NOT:
+        return opposite(tn_solid_requirement_answer(e->first));
+    default:
+        return is_not_zero(bounds_of(e));
+    }
 }

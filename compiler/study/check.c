@@ -5,7 +5,7 @@
 #include "compiler/study/study.h"
 
 const tn_expression_scope tn_study_scope = {
-    .names = tn_measured_names,
+    .names = tn_names_MEASURED,
     .count = TN_MEASURED_COUNT,
     .words = TN_WORDS_PLAIN,
     .what = "term",
@@ -156,7 +156,7 @@ static void check_boundary(check *c, const tn_study_item *item)
 uint32_t tn_study_term(const char *name)
 {
     uint32_t term = 0;
-    while (term < TN_MEASURED_COUNT && strcmp(tn_measured_names[term], name) != 0)
+    while (term < TN_MEASURED_COUNT && strcmp(tn_names_MEASURED[term], name) != 0)
         term++;
     return term;
 }
@@ -178,7 +178,7 @@ static void unknown_term(check *c, const tn_study_item *item)
 {
     tn_diagnostic *d =
         tn_report(c->diagnostics, E_UNKNOWN_TERM, item->text_span, "there is no fitness term `%s`", item->text);
-    const char *near = tn_nearest(item->text, tn_measured_names, TN_MEASURED_COUNT);
+    const char *near = tn_nearest(item->text, tn_names_MEASURED, TN_MEASURED_COUNT);
     if (near)
         tn_help(c->diagnostics, d, "did you mean `%s`?", near);
     else

@@ -147,7 +147,7 @@ static tn_status grow(const tn_grower *g, const char *sentence, size_t size, rul
 
 static const char *name_of(const tn_grower *g, uint32_t goal)
 {
-    return goal < TN_FITNESS_TERM_COUNT ? tn_measured_names[goal]
+    return goal < TN_FITNESS_TERM_COUNT ? tn_names_MEASURED[goal]
                                         : g->study.goal.named[goal - TN_FITNESS_TERM_COUNT].name;
 }
 
@@ -190,7 +190,7 @@ static tn_status tell(const tn_grower *g, unsigned thread, const tn_fitness *fit
     tn_status status = tn_surface_mesh(g->growths[thread], &(tn_surface_options){0}, &mesh, error);
     if (status == TN_OK)
         status = tn_form_listener_tell(&g->listener, thread,
-                                       &(tn_form_facts){&mesh, tn_measured_names, values, TN_MEASURED_COUNT}, error);
+                                       &(tn_form_facts){&mesh, tn_names_MEASURED, values, TN_MEASURED_COUNT}, error);
     tn_mesh_clear(&mesh);
     return status;
 }

@@ -13,7 +13,8 @@ static tn_status check_setting(const tn_checker *checker, size_t index)
                               .first = record->first,
                               .second = record->second,
                               .text = tn_text(checker->module, record->text)};
-    if (record->setting >= TN_SETTING_COUNT || !ascends || !tn_setting_fits((tn_setting)record->setting, &value))
+    bool known = record->setting < TN_SETTING_COUNT && tn_setting_rows[record->setting].name;
+    if (!known || !ascends || !tn_setting_fits((tn_setting)record->setting, &value))
         return tn_refuse(checker, "setting %zu is unknown, out of order or out of range", index);
     return TN_OK;
 }

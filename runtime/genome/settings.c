@@ -11,19 +11,19 @@
 #include "runtime/base/utf8.h"
 
 const tn_setting_row tn_setting_rows[TN_SETTING_COUNT] = {
-#define SETTING(ID, NAME, KIND, FIRST, SECOND, LOW, HIGH, CHOICES, USE)                                                \
+#define SETTING(ID, NUMBER, NAME, KIND, FIRST, SECOND, LOW, HIGH, CHOICES, USE)                                        \
     [TN_SET_##ID] = {NAME, TN_SETTING_##KIND, FIRST, SECOND, LOW, HIGH, CHOICES, TN_USE_##USE},
 #include "runtime/genome/settings.def"
-#undef SETTING
 };
 
 tn_setting tn_setting_named(const char *text, size_t size)
 {
-    tn_setting setting = 0;
-    while (setting < TN_SETTING_COUNT && (strlen(tn_setting_rows[setting].name) != size ||
-                                          strncasecmp(tn_setting_rows[setting].name, text, size) != 0))
-        setting++;
-    return setting;
+    for (tn_setting setting = 0; setting < TN_SETTING_COUNT; setting++) {
+        const char *name = tn_setting_rows[setting].name;
+        if (name && strlen(name) == size && strncasecmp(name, text, size) == 0)
+            return setting;
+    }
+    return TN_SETTING_COUNT;
 }
 
 void tn_evolution_study_default(tn_evolution_study *study)
@@ -364,9 +364,11 @@ static void find_selection(findings *f)
              nsga2 ? "`selection nsga2` weighs several objectives, and the program answers with one number"
                    : "lexicase selection looks at several errors, and the program answers with one number",
              "write `selection tournament 3`, or how many numbers it answers with, as `program-values 2`");
-    for (tn_setting one = TN_SET_MATCH; nsga2 && one <= TN_SET_FIT; one++)
-        if (is_written(f, one))
-            find(f, TN_SET_SELECTION, one, "`selection nsga2` weighs several objectives, and this problem has one",
+    static const tn_setting single[] = {TN_SET_MATCH, TN_SET_FIT};
+    for (size_t i = 0; nsga2 && i < sizeof single / sizeof *single; i++)
+        if (is_written(f, single[i]))
+            find(f, TN_SET_SELECTION, single[i],
+                 "`selection nsga2` weighs several objectives, and this problem has one",
                  "write `selection tournament 3`");
     if (nsga2 && chose(f, TN_SET_REPLACEMENT, "steady-state"))
         find(f, TN_SET_REPLACEMENT, TN_SET_SELECTION,

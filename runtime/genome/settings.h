@@ -8,11 +8,16 @@
 
 #include "runtime/module/module.h"
 
-typedef enum tn_setting {
-#define SETTING(ID, NAME, KIND, FIRST, SECOND, LOW, HIGH, CHOICES, USE) TN_SET_##ID,
+/* As many bytes as the highest number and one. */
+union tn_settings_bytes {
+#define SETTING(ID, NUMBER, NAME, KIND, FIRST, SECOND, LOW, HIGH, CHOICES, USE) char of_##ID[(NUMBER) + 1];
 #include "runtime/genome/settings.def"
-#undef SETTING
-    TN_SETTING_COUNT
+};
+
+typedef enum tn_setting {
+#define SETTING(ID, NUMBER, NAME, KIND, FIRST, SECOND, LOW, HIGH, CHOICES, USE) TN_SET_##ID = (NUMBER),
+#include "runtime/genome/settings.def"
+    TN_SETTING_COUNT = sizeof(union tn_settings_bytes)
 } tn_setting;
 
 typedef enum tn_setting_kind {
@@ -38,7 +43,7 @@ typedef enum tn_setting_use {
 } tn_setting_use;
 
 typedef struct tn_setting_row {
-    const char *name;
+    const char *name; /* NULL for a number that is no setting's */
     tn_setting_kind kind;
     double first, second; /* defaults */
     double low, high;

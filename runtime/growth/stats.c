@@ -228,7 +228,7 @@ tn_status tn_stats_measure(const tn_growth *growth, tn_stats *stats, tn_error *e
     return TN_OK;
 }
 
-double tn_fitness_value(const tn_fitness *fitness, tn_fitness_term term)
+double tn_fitness_value(const tn_fitness *fitness, tn_measured term)
 {
     switch (term) {
     case TN_TERM_SIZE:
@@ -246,7 +246,7 @@ double tn_fitness_value(const tn_fitness *fitness, tn_fitness_term term)
     }
 }
 
-const char *tn_fitness_term_name(tn_fitness_term term)
+const char *tn_fitness_term_name(tn_measured term)
 {
     static const char *const names[] = {"size",         "smoothness", "soft_boundary_nodes",
                                         "subdivisions", "symmetry",   "undulation"};
@@ -257,7 +257,7 @@ double tn_named_value(const tn_named_goal *goal, const tn_fitness *fitness)
 {
     double terms[TN_MEASURED_COUNT];
     for (uint32_t i = 0; i < TN_FITNESS_TERM_COUNT; i++)
-        terms[i] = tn_fitness_value(fitness, (tn_fitness_term)i);
+        terms[i] = tn_fitness_value(fitness, (tn_measured)i);
     terms[TN_MEASURED_VERTICES] = fitness->vertices;
     terms[TN_MEASURED_EDGES] = fitness->edges;
     terms[TN_MEASURED_FACES] = fitness->faces;
@@ -279,7 +279,7 @@ double tn_fitness_part(const tn_fitness *fitness, const tn_fitness_goal *goals, 
     const tn_named_goal *named = is_term ? NULL : &goals->named[goal - TN_FITNESS_TERM_COUNT];
     if (is_term && !goals->wanted[goal])
         return 0;
-    double value = is_term ? tn_fitness_value(fitness, (tn_fitness_term)goal) : tn_named_value(named, fitness);
+    double value = is_term ? tn_fitness_value(fitness, (tn_measured)goal) : tn_named_value(named, fitness);
     double target = is_term ? goals->target[goal] : named->target,
            weight = is_term ? goals->weight[goal] : named->weight;
     double unit = fmax(fabs(target), goal == TN_TERM_SIZE ? start_length : 1);

@@ -66,8 +66,8 @@ typedef struct tn_named_goal {
     double target, weight;
 } tn_named_goal;
 
-double tn_fitness_value(const tn_fitness *fitness, tn_fitness_term term);
-const char *tn_fitness_term_name(tn_fitness_term term);
+double tn_fitness_value(const tn_fitness *fitness, tn_measured term);
+const char *tn_fitness_term_name(tn_measured term);
 
 /* The value of a named expression; not finite where it has none. */
 double tn_named_value(const tn_named_goal *goal, const tn_fitness *fitness);

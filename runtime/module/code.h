@@ -48,7 +48,7 @@ enum {
 static inline tn_operands tn_code_operands(uint8_t opcode)
 {
     static const uint8_t kinds[TN_OPCODE_COUNT] = {
-#define X(NAME, OPERANDS, POPS, PUSHES, CODE, DOC) TN_OPERANDS_##OPERANDS,
+#define X(NAME, NUMBER, OPERANDS, POPS, PUSHES, CODE, DOC) [TN_OP_##NAME] = TN_OPERANDS_##OPERANDS,
 #include "runtime/module/opcodes.def"
     };
     return (tn_operands)kinds[opcode];
@@ -57,13 +57,21 @@ static inline tn_operands tn_code_operands(uint8_t opcode)
 /* Does it compare a number of the whole house with 0? */
 static inline bool tn_code_compares_house(tn_opcode opcode)
 {
-    return opcode >= TN_OP_HOUSE_BELOW && opcode <= TN_OP_HOUSE_ABOVE;
+    return tn_code_operands((uint8_t)opcode) == TN_OPERANDS_HOUSE_SUMMED;
 }
 
 /* Is it a relation over the trays of a house, which a plan alone does not say? */
 static inline bool tn_code_asks_house(tn_opcode opcode)
 {
-    return (opcode >= TN_OP_SOME_CELL && opcode <= TN_OP_AREAS) || tn_code_compares_house(opcode);
+    static const bool asks[TN_OPCODE_COUNT] = {
+#define X(NAME, NUMBER, OPERANDS, POPS, PUSHES, CODE, DOC)                                                             \
+    [TN_OP_##NAME] =                                                                                                   \
+        TN_CODE_##CODE == TN_CODE_RULE &&                                                                              \
+        (TN_OPERANDS_##OPERANDS == TN_OPERANDS_DECISION || TN_OPERANDS_##OPERANDS == TN_OPERANDS_MEETING ||            \
+         TN_OPERANDS_##OPERANDS == TN_OPERANDS_DECISION_COND || TN_OPERANDS_##OPERANDS == TN_OPERANDS_HOUSE_SUMMED),
+#include "runtime/module/opcodes.def"
+    };
+    return asks[opcode];
 }
 
 typedef struct tn_opcode_effect {
@@ -75,7 +83,7 @@ typedef struct tn_opcode_effect {
 static inline tn_opcode_effect tn_code_effect(uint8_t opcode)
 {
     static const tn_opcode_effect effects[TN_OPCODE_COUNT] = {
-#define X(NAME, OPERANDS, POPS, PUSHES, CODE, DOC) {POPS, PUSHES},
+#define X(NAME, NUMBER, OPERANDS, POPS, PUSHES, CODE, DOC) [TN_OP_##NAME] = {POPS, PUSHES},
 #include "runtime/module/opcodes.def"
     };
     return effects[opcode];
@@ -90,7 +98,7 @@ typedef struct tn_operand_widths {
 static inline tn_operand_widths tn_code_widths(uint8_t opcode)
 {
     static const tn_operand_widths widths[TN_OPCODE_COUNT] = {
-#define X(NAME, OPERANDS, POPS, PUSHES, CODE, DOC) {TN_FIRST_##OPERANDS, TN_SECOND_##OPERANDS},
+#define X(NAME, NUMBER, OPERANDS, POPS, PUSHES, CODE, DOC) [TN_OP_##NAME] = {TN_FIRST_##OPERANDS, TN_SECOND_##OPERANDS},
 #include "runtime/module/opcodes.def"
     };
     return widths[opcode];

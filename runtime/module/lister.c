@@ -52,8 +52,8 @@ void tn_list_place(tn_lister *lister, uint32_t file, uint32_t begin)
 
 /* ---- records */
 
-/* The words that a value's bits stand for: one of an enumeration, several of flags. */
-static void list_words(tn_lister *lister, const char *words, uint32_t bits)
+/* The words that the bits of flags stand for. */
+static void list_flags(tn_lister *lister, const char *words, uint32_t bits)
 {
     const char *between = "";
     for (; bits && words; bits >>= 1) {
@@ -91,8 +91,10 @@ static void list_reference(tn_lister *lister, tn_section section, uint32_t index
 
 static void list_whole(tn_lister *lister, const tn_member *member, int64_t value)
 {
-    if (member->words && *member->words)
-        list_words(lister, member->words, member->kind == TN_MEMBER_FLAGS ? (uint32_t)value : 1u << value);
+    if (member->kind == TN_MEMBER_FLAGS)
+        list_flags(lister, member->words, (uint32_t)value);
+    else if (member->names)
+        fputs(member->names[value], lister->out);
     else
         fprintf(lister->out, "%" PRId64, value);
 }
@@ -188,9 +190,8 @@ static void show_source(tn_lister *lister, const tn_source_map_record *place)
 void tn_list_function(tn_lister *lister, uint32_t index)
 {
     const tn_function_record *function = &lister->module->FUNCTION_records[index];
-    const tn_function_kind_info *kind = &tn_function_kinds[function->kind];
-    const tn_engine *engine = tn_engine_of_code(lister->engines, kind->code);
-    fprintf(lister->out, "function %" PRIu32 " (%s", index, kind->word);
+    const tn_engine *engine = tn_engine_of_code(lister->engines, tn_function_kinds[function->kind].code);
+    fprintf(lister->out, "function %" PRIu32 " (%s", index, tn_names_FUNCTION_KIND[function->kind]);
     if (engine->list_function)
         engine->list_function(lister, index);
     if (function->name != 0) {

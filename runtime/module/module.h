@@ -32,7 +32,7 @@ typedef uint32_t tn_string; /* an offset into the strings */
 #define I64(FIELD, LOW, HIGH) int64_t FIELD;
 #define F64(FIELD, LOW, HIGH) double FIELD;
 #define BITS(FIELD) int64_t FIELD;
-#define ENUM(FIELD, COUNT, WORDS) uint32_t FIELD;
+#define ENUM(FIELD, OF) uint32_t FIELD;
 #define FLAGS(FIELD, MASK, WORDS) uint32_t FIELD;
 #define REF(FIELD, OF) uint32_t FIELD;
 #define REF_OR_NONE(FIELD, OF) uint32_t FIELD;

@@ -17,17 +17,30 @@ typedef enum tn_code_kind {
     TN_CODE_KIND_COUNT
 } tn_code_kind;
 
-typedef enum tn_function_kind {
-#define FUNCTION_KIND(NAME, CODE, LAST, WORD) TN_FUNCTION_##NAME,
+/* The counts are one more than the highest number, wherever its row stands: these unions have so many bytes. */
+union tn_function_kinds_bytes {
+#define FUNCTION_KIND(NAME, NUMBER, CODE, LAST, WORD) char of_##NAME[(NUMBER) + 1];
 #include "runtime/module/opcodes.def"
-    TN_FUNCTION_KIND_COUNT
+};
+
+union tn_opcodes_bytes {
+#define X(NAME, NUMBER, OPERANDS, POPS, PUSHES, CODE, DOC) char of_##NAME[(NUMBER) + 1];
+#include "runtime/module/opcodes.def"
+};
+
+typedef enum tn_function_kind {
+#define FUNCTION_KIND(NAME, NUMBER, CODE, LAST, WORD) TN_FUNCTION_##NAME = (NUMBER),
+#include "runtime/module/opcodes.def"
+    TN_FUNCTION_KIND_COUNT = sizeof(union tn_function_kinds_bytes)
 } tn_function_kind;
 
 typedef enum tn_opcode {
-#define X(NAME, OPERANDS, POPS, PUSHES, CODE, DOC) TN_OP_##NAME,
+#define X(NAME, NUMBER, OPERANDS, POPS, PUSHES, CODE, DOC) TN_OP_##NAME = (NUMBER),
 #include "runtime/module/opcodes.def"
-    TN_OPCODE_COUNT
+    TN_OPCODE_COUNT = sizeof(union tn_opcodes_bytes)
 } tn_opcode;
+
+_Static_assert(TN_OPCODE_COUNT <= UINT8_MAX, "an opcode is a byte");
 
 typedef struct tn_opcode_info {
     const char *name;
@@ -40,12 +53,14 @@ typedef struct tn_opcode_info {
 } tn_opcode_info;
 
 typedef struct tn_function_kind_info {
-    const char *word;
     tn_code_kind code;
     tn_opcode last; /* the one instruction that such a function ends with */
 } tn_function_kind_info;
 
 extern const tn_function_kind_info tn_function_kinds[TN_FUNCTION_KIND_COUNT];
+
+/* Their words, by number; NULL for a number that is no kind. */
+extern const char *const tn_names_FUNCTION_KIND[TN_FUNCTION_KIND_COUNT];
 
 /* NULL for a byte that is no opcode. */
 const tn_opcode_info *tn_opcode_describe(uint8_t opcode);

@@ -1,4 +1,4 @@
-/* Makes data of the rows of records.def, and reads and writes records by it. */
+/* Makes data of the rows of records.def and values.def, and reads and writes records by it. */
 #include "runtime/module/records.h"
 
 #include <float.h>
@@ -6,6 +6,12 @@
 
 #include "runtime/base/bytes.h"
 #include "runtime/base/length.h"
+
+/* ---- enumerations */
+
+#define VALUE(ID, NUMBER, WORD) [NUMBER] = (WORD),
+#define ENUMERATION(NAME, TYPE, VALUES) const char *const tn_names_##NAME[TN_##NAME##_COUNT] = {VALUES};
+#include "runtime/module/values.def"
 
 /* ---- the fields of each section */
 
@@ -22,7 +28,7 @@
 #define I64(FIELD, LOW, HIGH) MEMBER(FIELD, WHOLE, I64, .low = LOW, .high = HIGH)
 #define F64(FIELD, LOW, HIGH) MEMBER(FIELD, REAL, F64, .least = LOW, .most = HIGH)
 #define BITS(FIELD) MEMBER(FIELD, BITS, I64, .low = INT64_MIN, .high = INT64_MAX)
-#define ENUM(FIELD, COUNT, WORDS) MEMBER(FIELD, WHOLE, U32, .high = (COUNT)-1, .words = WORDS)
+#define ENUM(FIELD, OF) MEMBER(FIELD, WHOLE, U32, .high = TN_##OF##_COUNT - 1, .names = tn_names_##OF)
 #define FLAGS(FIELD, MASK, WORDS) MEMBER(FIELD, FLAGS, U32, .high = MASK, .words = WORDS)
 #define REF(FIELD, OF) MEMBER(FIELD, REF, U32, .section = TN_SECTION_##OF)
 #define REF_OR_NONE(FIELD, OF) MEMBER(FIELD, REF_OR_NONE, U32, .section = TN_SECTION_##OF)
@@ -55,7 +61,7 @@
 #define I64(FIELD, LOW, HIGH)
 #define F64(FIELD, LOW, HIGH)
 #define BITS(FIELD)
-#define ENUM(FIELD, COUNT, WORDS)
+#define ENUM(FIELD, OF)
 #define FLAGS(FIELD, MASK, WORDS)
 #define REF(FIELD, OF)
 #define REF_OR_NONE(FIELD, OF)

@@ -9,7 +9,7 @@
 /* What a field is; records.def says what each means. RUN, SLICE, CODE and PLACE are several fields. */
 typedef enum tn_member_kind {
     TN_MEMBER_TEXT,  /* low..high bytes; low is 0 where it may be empty */
-    TN_MEMBER_WHOLE, /* U32 or I64, low..high; an ENUM too, which has words */
+    TN_MEMBER_WHOLE, /* U32 or I64, low..high; an ENUM too, which has names */
     TN_MEMBER_REAL,  /* least..most */
     TN_MEMBER_BITS,
     TN_MEMBER_FLAGS, /* bits of high */
@@ -37,7 +37,8 @@ typedef struct tn_member {
     tn_section section; /* of references, runs and slices */
     int64_t low, high;
     double least, most;
-    const char *words; /* "a|b|c" or NULL: names of an enumeration's values, or of flags from the lowest on */
+    const char *words;        /* "a|b|c": of flags, from the lowest on */
+    const char *const *names; /* of an enumeration's values, by number, NULL where there is no value; or NULL */
 } tn_member;
 
 typedef struct tn_members {

@@ -57,7 +57,7 @@ static bool says_nothing(tn_section section, const tn_member *member)
     bool named = section == TN_SECTION_FUNCTION || section == TN_SECTION_CLAUSE || section == TN_SECTION_HOUSE_CLAUSE;
     return member->kind == TN_MEMBER_FILE || member->kind == TN_MEMBER_BEGIN || member->kind == TN_MEMBER_END ||
            strcmp(member->name, "doc") == 0 || (named && strcmp(member->name, "name") == 0) ||
-           (member->kind == TN_MEMBER_FLAGS && member->words && strcmp(member->words, "imported") == 0);
+           (member->kind == TN_MEMBER_FLAGS && strcmp(member->words, "imported") == 0);
 }
 
 static bool lists_same(tn_same *same, tn_section section, const int64_t first[2], const int64_t count[2])

@@ -87,6 +87,8 @@ static tn_status check_wholes(const tn_column *column)
         if (value < member->low || value > member->high)
             return refuse(column, i, "%s is %" PRId64 "; %" PRId64 " to %" PRId64 " are possible", member->name, value,
                           member->low, member->high);
+        if (member->names && !member->names[value])
+            return refuse(column, i, "%s is %" PRId64 ", which nothing has for its number", member->name, value);
     }
     return TN_OK;
 }

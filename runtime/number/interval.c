@@ -293,7 +293,7 @@ tn_interval tn_operation_bounds(tn_opcode opcode, const tn_interval *const *oper
     if (opcode == TN_OP_MULTIPLY && operands[0] == operands[1])
         return tn_interval_is_none(*operands[0]) ? none : bounds_square(*operands[0]);
     switch (opcode) {
-#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                           \
+#define OPERATION(NAME, NUMBER, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                   \
     case TN_OP_##NAME: {                                                                                               \
         INTERVALS_##ARITY UNUSED_##ARITY return BOUNDS;                                                                \
     }

@@ -31,7 +31,7 @@ static double floored_remainder(double a, double b)
 #define SHORT_BELOW(X, Y) ((X) < (Y) ? 0 : (X) == (Y) || (X) - (Y) < STRICT ? STRICT : (X) - (Y))
 
 const tn_operation tn_operations[TN_OPERATION_COUNT] = {
-#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                           \
+#define OPERATION(NAME, NUMBER, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                   \
     {TN_OP_##NAME, WORD, TN_WORDS_##WORDS, ARITY, DOC},
 #include "runtime/module/operations.def"
 #undef OPERATION
@@ -67,7 +67,7 @@ size_t tn_function_names(tn_words words, const char *names[TN_OPERATION_COUNT])
 double tn_operation_apply(tn_opcode opcode, const double *operands)
 {
     switch (opcode) {
-#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                           \
+#define OPERATION(NAME, NUMBER, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                   \
     case TN_OP_##NAME: {                                                                                               \
         TAKE_##ARITY return VALUE;                                                                                     \
     }
@@ -102,7 +102,7 @@ static double slope_blend(double a, double b, double c, double da, double db, do
 double tn_operation_slope(tn_opcode opcode, const double *operands, const double *slopes)
 {
     switch (opcode) {
-#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                           \
+#define OPERATION(NAME, NUMBER, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                   \
     case TN_OP_##NAME: {                                                                                               \
         TAKE_##ARITY SLOPES_##ARITY double v = operands[ARITY];                                                        \
         (void)v;                                                                                                       \
@@ -191,7 +191,7 @@ static void row_PROTECTED_LOGARITHM(const double *const *operands, double *restr
 static void compute_rows(tn_opcode opcode, const double *const *operands, double *restrict out)
 {
     switch (opcode) {
-#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                           \
+#define OPERATION(NAME, NUMBER, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                   \
     IF_ROW_##LOOP(case TN_OP_##NAME : row_##NAME(operands, out); break;)
 #include "runtime/module/operations.def"
 #undef OPERATION
@@ -204,7 +204,7 @@ static void compute_rows(tn_opcode opcode, const double *const *operands, double
 static void compute_calls(tn_opcode opcode, const double *const *operands, double *restrict out)
 {
     switch (opcode) {
-#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                           \
+#define OPERATION(NAME, NUMBER, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                   \
     IF_CALL_##LOOP(case TN_OP_##NAME : EACH(ARITY, VALUE))
 #include "runtime/module/operations.def"
 #undef OPERATION
@@ -217,7 +217,7 @@ static void compute_calls(tn_opcode opcode, const double *const *operands, doubl
 TN_ANY_WIDTH static void compute(tn_opcode opcode, const double *const *operands, double *restrict out)
 {
     switch (opcode) {
-#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                           \
+#define OPERATION(NAME, NUMBER, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC)                                   \
     IF_SIMPLE_##LOOP(case TN_OP_##NAME : EACH(ARITY, VALUE))
 #include "runtime/module/operations.def"
 #undef OPERATION

@@ -15,7 +15,7 @@
 
 enum {
     TN_OPERATION_COUNT = 0
-#define OPERATION(NAME, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC) +1
+#define OPERATION(NAME, NUMBER, WORD, WORDS, ARITY, LOOP, VALUE, BOUNDS, SLOPE, DOC) +1
 #include "runtime/module/operations.def"
 #undef OPERATION
 };

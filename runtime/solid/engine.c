@@ -6,7 +6,7 @@
 #include "runtime/solid/measured.h"
 
 const char *const tn_solid_measured_names[TN_SOLID_MEASURED_COUNT] = {
-#define X(NAME, WORD, NEEDS) WORD,
+#define X(NAME, NUMBER, WORD, NEEDS) [NUMBER] = (WORD),
     TN_SOLID_MEASURES(X)
 #undef X
 };

@@ -52,7 +52,7 @@ static void sentence(const char *text, size_t size)
 {
     tn_formula formula = {0};
     tn_error error = {0};
-    tn_status status = tn_sentence_read(text, size, tn_measured_names, NAMES, &formula, &error);
+    tn_status status = tn_sentence_read(text, size, tn_names_MEASURED, NAMES, &formula, &error);
     if (status == TN_OK)
         run(formula.code, 0, formula.depth);
     else if (status == TN_INVALID && error.column == 0)

@@ -35,8 +35,10 @@ test_condition *test_condition_random(test_random *random, int64_t unit, unsigne
 {
     test_condition *condition = calloc(1, sizeof *condition);
     assert_non_null(condition);
+    static const tn_opcode opcodes[] = {TN_OP_LESS,      TN_OP_EQUAL, TN_OP_GREATER, TN_OP_WITHIN,
+                                        TN_OP_REMAINDER, TN_OP_BOTH,  TN_OP_EITHER,  TN_OP_NEITHER};
     uint32_t pick = test_random_below(random, depth > 0 ? 8 : 5);
-    condition->opcode = (tn_opcode)(TN_OP_LESS + pick);
+    condition->opcode = opcodes[pick];
     condition->first = number(random, unit);
     condition->second = condition->first + number(random, unit);
     if (condition->opcode == TN_OP_REMAINDER) {

@@ -9,8 +9,11 @@
 
 #include <cmocka.h>
 
+#include "runtime/base/bytes.h"
+#include "runtime/genome/settings.h"
 #include "runtime/load.h"
 #include "runtime/module/builder.h"
+#include "runtime/module/layout.h"
 
 static tn_status load(uint32_t start, uint32_t step, tn_opcode last, tn_module **module, tn_error *error)
 {
@@ -28,6 +31,9 @@ static tn_status load(uint32_t start, uint32_t step, tn_opcode last, tn_module *
     free(bytes);
     return status;
 }
+
+/* Numbers below the rows' that no row has: of an instruction, a kind of functions, a setting. */
+enum { NO_OPCODE = TN_OP_STOP - 1, NO_FUNCTION = TN_FUNCTION_COUNTER - 1, NO_SETTING = TN_SET_COUNTING - 1 };
 
 static void refuse(uint32_t start, uint32_t step, tn_opcode last, const char *reason)
 {
@@ -67,8 +73,54 @@ static void test_it_is_verified(void **state)
     refuse(3, 7, TN_OP_COUNT_UP, "counter 0, code offset 5: ");
 }
 
+/* Puts another opcode in place of the one STOP: a builder writes none that there is not. */
+static void change_stop(uint8_t *bytes, size_t size, uint8_t opcode)
+{
+    const uint8_t code[] = {TN_OP_COUNT_UP, 7, 0, 0, 0, TN_OP_STOP};
+    uint8_t *found = memmem(bytes, size, code, sizeof code);
+    assert_non_null(found);
+    found[sizeof code - 1] = opcode;
+    tn_put_u64(bytes + TN_HEADER_HASH, tn_module_hash_bytes(bytes, size));
+}
+
+/* Builds what was begun, with that opcode for STOP, and looks for the reason why it does not load. */
+static void refuse_built(tn_builder *builder, tn_opcode stop, const char *reason)
+{
+    uint8_t *bytes;
+    size_t size;
+    tn_module *module;
+    tn_error error = {0};
+    tn_builder_emit(builder, TN_OP_COUNT_UP, 7, 0);
+    tn_builder_emit(builder, TN_OP_STOP, 0, 0);
+    tn_builder_add_COUNTER(builder, &(tn_counter_record){.name = tn_builder_string(builder, "sheep"),
+                                                         .code_end = tn_builder_offset(builder)});
+    assert_int_equal(tn_builder_finish(builder, &bytes, &size, &error), TN_OK);
+    change_stop(bytes, size, (uint8_t)stop);
+    assert_int_equal(tn_module_load(bytes, size, NULL, &module, &error), TN_INVALID);
+    if (!strstr(error.message, reason))
+        fail_msg("wanted \"%s\", got \"%s\"", reason, error.message);
+    tn_builder_free(builder);
+    free(bytes);
+}
+
+static void test_numbers_without_a_row_are_refused(void **state)
+{
+    (void)state;
+    refuse_built(tn_builder_new(), (tn_opcode)NO_OPCODE, "counter 0, code offset 5: 239 is no opcode");
+
+    tn_builder *builder = tn_builder_new();
+    tn_builder_add_FUNCTION(builder, &(tn_function_record){.kind = NO_FUNCTION});
+    refuse_built(builder, TN_OP_STOP, "function 0: kind is 19, which nothing has for its number");
+
+    builder = tn_builder_new();
+    tn_builder_add_SOURCE(builder, &(tn_source_record){0});
+    tn_builder_add_SETTING(builder, &(tn_setting_record){.setting = NO_SETTING, .written = 1});
+    refuse_built(builder, TN_OP_STOP, "setting 0 is unknown");
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_it_is_listed), cmocka_unit_test(test_it_is_verified)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_it_is_listed), cmocka_unit_test(test_it_is_verified),
+                                       cmocka_unit_test(test_numbers_without_a_row_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

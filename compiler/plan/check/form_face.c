@@ -3,15 +3,13 @@
 
 #include "compiler/plan/check/form.h"
 
-static const char *const kind_words[] = {"wall", "party", "open", "floor", "stair"};
-
 /* ---- openings */
 
 static bool opening_is_new(tn_check *check, const tn_checked_form *form, const tn_ast_word *name)
 {
     const char *what = NULL;
     for (size_t i = 0; i < TN_FACE_KIND_COUNT; i++)
-        if (strcmp(kind_words[i], name->text) == 0)
+        if (strcmp(tn_names_FACE_KIND[i], name->text) == 0)
             what = "a kind of face";
     for (uint32_t i = 0; i < form->opening_count; i++)
         if (strcmp(form->openings[i].ast->name->text, name->text) == 0)
@@ -142,7 +140,7 @@ uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, tn_face_rela
     size_t count = 0;
     for (uint32_t i = 0; i < TN_FACE_KIND_COUNT + form->opening_count; i++) {
         const char *name =
-            i < TN_FACE_KIND_COUNT ? kind_words[i] : form->openings[i - TN_FACE_KIND_COUNT].ast->name->text;
+            i < TN_FACE_KIND_COUNT ? tn_names_FACE_KIND[i] : form->openings[i - TN_FACE_KIND_COUNT].ast->name->text;
         if (strcmp(name, word->text) == 0)
             return i;
         if (relation == TN_FACE_RELATION_COUNT || tn_form_kind_belongs(form, relation, i))

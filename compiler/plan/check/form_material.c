@@ -5,9 +5,6 @@
 #include "compiler/plan/check/form.h"
 #include "runtime/base/nearest.h"
 
-static const char *const part_words[TN_OF_COUNT] = {"wall", "party", "partition", "post", "deck", "roof"};
-static const char *const unit_words[TN_PRICE_UNIT_COUNT] = {"each", "sf", "m2", "cf", "m3"};
-
 static void bad_material(tn_check *check, tn_span span, const char *message, const char *help)
 {
     tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_MATERIAL, span, "%s", message);
@@ -68,12 +65,12 @@ static void read_price(tn_check *check, const tn_checked_form *form, tn_checked_
         bad_material(check, price->node.span, "this price cannot be held exactly",
                      "a price has at most six decimals, and is at most 1000000000");
     for (uint32_t i = 0; per && i < TN_PRICE_UNIT_COUNT; i++)
-        if (tn_word_is(per, unit_words[i])) {
+        if (tn_word_is(per, tn_names_PRICE_UNIT[i])) {
             material->unit = (tn_price_unit)i;
             return;
         }
     if (per)
-        tn_form_unknown(check, form, per, "unit of prices", unit_words, TN_PRICE_UNIT_COUNT);
+        tn_form_unknown(check, form, per, "unit of prices", tn_names_PRICE_UNIT, TN_PRICE_UNIT_COUNT);
 }
 
 /* ---- parts */
@@ -95,7 +92,7 @@ static uint32_t find_item(const tn_checked_form *form, const char *name)
 static uint32_t find_part(const tn_checked_form *form, const char *name)
 {
     for (uint32_t i = 0; i < TN_OF_COUNT; i++)
-        if (strcmp(part_words[i], name) == 0)
+        if (strcmp(tn_names_OF[i], name) == 0)
             return i;
     for (uint32_t i = 0; i < form->opening_count; i++)
         if (strcmp(form->openings[i].ast->name->text, name) == 0)
@@ -109,7 +106,7 @@ static void unknown_part(tn_check *check, const tn_checked_form *form, const tn_
     const char *names[TN_OF_COUNT + TN_OPENINGS_MAX + 64];
     size_t count = 0, room = sizeof names / sizeof *names;
     for (; count < TN_OF_COUNT; count++)
-        names[count] = part_words[count];
+        names[count] = tn_names_OF[count];
     for (uint32_t i = 0; i < form->opening_count; i++)
         names[count++] = form->openings[i].ast->name->text;
     for (uint32_t t = 0; t < form->tile_count; t++)

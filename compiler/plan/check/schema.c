@@ -31,10 +31,6 @@ static bool name_is_good(tn_check *check, tn_checked_schema *schema, const tn_as
 
 /* ---- roles */
 
-static const char *const field_roles[] = {"none", "length", "level", "public-end", "great-hall",
-                                          "band", "text",   "tone",  "hatch"};
-static const char *const fill_roles[] = {"none", "solid", "void", "absent"};
-
 /* The number of a role's name; 0 where there is none: then reported, with the roles that there are. */
 static unsigned find_role(tn_check *check, const tn_ast_word *word, const char *const *roles, unsigned count)
 {
@@ -70,7 +66,7 @@ static void check_field_role(tn_check *check, tn_checked_field *field)
     const tn_ast_word *role = field->ast->role;
     if (!role)
         return;
-    unsigned number = find_role(check, role, field_roles, TN_FIELD_ROLE_COUNT);
+    unsigned number = find_role(check, role, tn_names_FIELD_ROLE, TN_FIELD_ROLE_COUNT);
     static const struct {
         tn_field_kind kind;
         const char *needs;
@@ -225,7 +221,7 @@ static void add_fill(tn_check *check, tn_checked_schema *schema, tn_checked_fiel
     if (deeper && ast->role)
         misplaced_role(check, ast->role, "the role of a fill stands where the fill is declared first");
     else if (ast->role)
-        value.role = (tn_fill_role)find_role(check, ast->role, fill_roles, TN_FILL_ROLE_COUNT);
+        value.role = (tn_fill_role)find_role(check, ast->role, tn_names_FILL_ROLE, TN_FILL_ROLE_COUNT);
     else if (deeper)
         value.role = before->role;
     if (!ast->has_depths)

@@ -37,7 +37,7 @@ static void list_label(tn_lister *lister, const tn_instruction *instruction)
 static void list_stroke(tn_lister *lister, const tn_instruction *instruction)
 {
     list_label(lister, instruction);
-    fputs(tn_age_suffixes[instruction->second], lister->out);
+    fputs(tn_names_AGE_CHANGE[instruction->second], lister->out);
 }
 
 static const tn_section sections[] = {
@@ -58,7 +58,7 @@ const tn_engine tn_engine_growth = {.name = "growth",
                                     .codes = 1u << TN_CODE_TURTLE | 1u << TN_CODE_GUARD,
                                     .operands = operands,
                                     .operand_count = sizeof operands / sizeof *operands,
-                                    .terms = tn_measured_names,
+                                    .terms = tn_names_MEASURED,
                                     .term_count = TN_MEASURED_COUNT,
                                     .term_kind = TN_FUNCTION_MEASURE,
                                     .verify = tn_growth_verify,

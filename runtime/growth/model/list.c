@@ -56,7 +56,7 @@ static void list_goals(FILE *out, const tn_module *module)
         const tn_goal_record *g = &module->GOAL_records[i];
         fputs("  fitness ", out);
         if (g->term < TN_FITNESS_TERM_COUNT) {
-            fputs(tn_measured_names[g->term], out);
+            fputs(tn_names_MEASURED[g->term], out);
         } else {
             write_text(out, module, g->name);
             fprintf(out, " = function %u", g->function);

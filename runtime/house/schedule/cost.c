@@ -60,10 +60,9 @@ uint32_t tn_solid_made_part(const tn_house *house, tn_solid_kind kind, uint32_t 
 
 const char *tn_form_part_text(const tn_house_form *form, uint32_t part)
 {
-    static const char *const words[TN_OF_COUNT] = {"wall", "party", "partition", "post", "deck", "roof"};
     const tn_module *module = form->module;
     if (part < TN_OF_COUNT)
-        return words[part];
+        return tn_names_OF[part];
     part -= TN_OF_COUNT;
     if (part < form->record->opening_count)
         return tn_text(module, module->OPENING_records[form->record->opening_first + part].name);

@@ -82,7 +82,7 @@ static void list_corners(tn_lister *lister, const tn_instruction *instruction)
 /* ---- kits */
 
 const char *const tn_placed_terms[TN_PLACED_TERM_COUNT] = {
-#define X(NAME, WORD) WORD,
+#define X(NAME, NUMBER, WORD) [NUMBER] = (WORD),
     TN_PLACED_TERMS(X)
 #undef X
         [TN_PLACED_X] = "x",

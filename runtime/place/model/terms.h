@@ -5,37 +5,40 @@
 
 #include "runtime/module/values.h"
 
+/* A name, the number that modules hold (given as those of values.def), and a word. */
 #define TN_PLACED_TERMS(X)                                                                                             \
-    X(ELEMENTS, "elements")                                                                                            \
-    X(COLOURS, "colours")                                                                                              \
-    X(CELLS, "cells")                                                                                                  \
-    X(FILL, "fill")                                                                                                    \
-    X(JOINTS, "joints")                                                                                                \
-    X(COMPONENTS, "components")                                                                                        \
-    X(CUTS, "cuts")                                                                                                    \
-    X(FLOATING, "floating")                                                                                            \
-    X(OPEN, "open")                                                                                                    \
-    X(OVERLAPS, "overlaps")                                                                                            \
-    X(WIDTH, "width")                                                                                                  \
-    X(DEPTH, "depth")                                                                                                  \
-    X(HEIGHT, "height")                                                                                                \
-    X(MASS, "mass")                                                                                                    \
-    X(PRICE, "price")                                                                                                  \
-    X(BALANCE, "balance")
+    X(ELEMENTS, 0, "elements")                                                                                         \
+    X(COLOURS, 1, "colours")                                                                                           \
+    X(CELLS, 2, "cells")                                                                                               \
+    X(FILL, 3, "fill")                                                                                                 \
+    X(JOINTS, 4, "joints")                                                                                             \
+    X(COMPONENTS, 5, "components")                                                                                     \
+    X(CUTS, 6, "cuts")                                                                                                 \
+    X(FLOATING, 7, "floating")                                                                                         \
+    X(OPEN, 8, "open")                                                                                                 \
+    X(OVERLAPS, 9, "overlaps")                                                                                         \
+    X(WIDTH, 10, "width")                                                                                              \
+    X(DEPTH, 11, "depth")                                                                                              \
+    X(HEIGHT, 12, "height")                                                                                            \
+    X(MASS, 13, "mass")                                                                                                \
+    X(PRICE, 14, "price")                                                                                              \
+    X(BALANCE, 15, "balance")
 
 /* Behind these come x, y and z of a space, how often each counted part is there, and whether a cell is one of a mask's.
  */
 typedef enum tn_placed_term {
-#define X(NAME, WORD) TN_PLACED_##NAME,
+#define X(NAME, NUMBER, WORD) TN_PLACED_##NAME = (NUMBER),
     TN_PLACED_TERMS(X)
 #undef X
-        TN_PLACED_X,
-    TN_PLACED_Y,
-    TN_PLACED_Z,
-    TN_PLACED_COUNTED,
-    TN_PLACED_MASK = TN_PLACED_COUNTED + TN_KIT_COUNTED_MAX,
+        TN_PLACED_X = 16,
+    TN_PLACED_Y = 17,
+    TN_PLACED_Z = 18,
+    TN_PLACED_COUNTED = 19,
+    TN_PLACED_MASK = 51,
     TN_PLACED_TERM_COUNT = TN_PLACED_MASK + TN_KIT_MASKS_MAX
 } tn_placed_term;
+
+_Static_assert(TN_PLACED_COUNTED + TN_KIT_COUNTED_MAX <= TN_PLACED_MASK, "counted parts come before masks");
 
 extern const char *const tn_placed_terms[TN_PLACED_TERM_COUNT];
 

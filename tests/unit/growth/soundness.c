@@ -66,7 +66,7 @@ static void is(const grown *g, tn_measured measured, double wanted)
 {
     double got = value(g, measured);
     if (!(fabs(got - wanted) <= 1e-9 * (1 + fabs(wanted))))
-        fail_msg("%s is %.17g, not %.17g", tn_measured_names[measured], got, wanted);
+        fail_msg("%s is %.17g, not %.17g", tn_names_MEASURED[measured], got, wanted);
 }
 
 static void test_flat(void **state)

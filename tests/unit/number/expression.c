@@ -32,7 +32,7 @@ static char *write_study(const test_expression *const *trees, size_t count)
     fputs("rules \"square\"\n", out);
     for (size_t i = 0; i < count; i++) {
         fprintf(out, "fitness goal%zu = ", i);
-        test_expression_write(trees[i], tn_measured_names, out);
+        test_expression_write(trees[i], tn_names_MEASURED, out);
         fputc('\n', out);
     }
     fclose(out);
@@ -100,7 +100,7 @@ static tn_expression *build(tn_arena *arena, const test_expression *e)
     if (e->kind == TEST_NUMBER)
         return tn_expression_number(arena, span, atof(e->text));
     if (e->kind == TEST_TERM) {
-        tn_expression *name = tn_expression_name(arena, span, tn_measured_names[e->term]);
+        tn_expression *name = tn_expression_name(arena, span, tn_names_MEASURED[e->term]);
         name->term = e->term;
         return name;
     }
@@ -116,7 +116,7 @@ static void check_violation(const test_expression *tree, const tn_formula *value
     double got = tn_number_run(violation->code, 0, terms), wanted = test_expression_violation(tree, terms, true),
            truth = tn_number_run(value->code, 0, terms);
     if (!test_same(got, wanted)) {
-        test_expression_write(tree, tn_measured_names, stderr);
+        test_expression_write(tree, tn_names_MEASURED, stderr);
         fail_msg(" is %a from holding, not %a", got, wanted);
     }
     assert_true(isnan(truth) == isnan(got));
