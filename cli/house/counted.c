@@ -479,8 +479,7 @@ static void clauses_json(const tn_numbered *n, const house_tally *tally, tn_json
     for (int alone = 0; alone < 2; alone++) {
         tn_json_object(json, alone ? "only" : "kept_out");
         for (uint32_t i = 0; i < n->record->clause_count; i++)
-            tn_json_digits(json, tn_text(n->form.module, clauses[i].name),
-                           (alone ? tally->alone : tally->kept_out)[i]);
+            tn_json_digits(json, tn_text(n->form.module, clauses[i].name), (alone ? tally->alone : tally->kept_out)[i]);
         tn_json_object_end(json);
     }
     if (knows_states(n, tally))

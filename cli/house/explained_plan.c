@@ -23,8 +23,7 @@ static const char *form_name(const tn_plan_explaining *e)
 
 /* ---- tiles and functions of a cell */
 
-static tn_status write_tile(tn_plan_explaining *e, uint32_t cell, uint32_t function, uint32_t tile,
-                            tn_error *error)
+static tn_status write_tile(tn_plan_explaining *e, uint32_t cell, uint32_t function, uint32_t tile, tn_error *error)
 {
     const char *name = tn_text(e->n.form.module, e->n.form.module->TILE_records[tile].name);
     tn_tile_failure failure;

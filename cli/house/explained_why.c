@@ -286,8 +286,8 @@ void tn_explain_behind_roofs(tn_house_explaining *e)
             tn_json_string(e->json, "why", why);
             tn_json_object_end(e->json);
         } else {
-            tn_buffer_printf(&e->text, "%s    %s: `%s` does not fit, as %s\n", any ? "" : "behind lower roofs:\n",
-                             face, opening, why);
+            tn_buffer_printf(&e->text, "%s    %s: `%s` does not fit, as %s\n", any ? "" : "behind lower roofs:\n", face,
+                             opening, why);
         }
         any = true;
     }

@@ -209,8 +209,8 @@ static void plan_json(const char *key, const tn_schema *schema, const tn_shown_p
     free(line.data);
 }
 
-static tn_status pair_json(const tn_plan_analyses *analyses, size_t a, size_t i, size_t j, bool examples,
-                           tn_json *json, tn_error *error)
+static tn_status pair_json(const tn_plan_analyses *analyses, size_t a, size_t i, size_t j, bool examples, tn_json *json,
+                           tn_error *error)
 {
     tn_status status = TN_OK;
     tn_json_object(json, NULL);

@@ -3,7 +3,6 @@
 #ifndef TARTAN_CLI_PLAN_RELATIONS_H
 #define TARTAN_CLI_PLAN_RELATIONS_H
 
-
 #include "cli/house/related.h"
 #include "driver/plan/analysis.h"
 

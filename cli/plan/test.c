@@ -26,8 +26,8 @@ static const test_settings *settings_of(const tn_job *job)
 /* What is written when all files are done: a line, or in JSON everything. */
 typedef struct test_report {
     tn_test_counts counts;
-    tn_buffer files;  /* the coverage of each file, items of a list in JSON */
-    tn_buffer solids; /* measures of designs of boxes: lines, or items of a list in JSON */
+    tn_buffer files;           /* the coverage of each file, items of a list in JSON */
+    tn_buffer solids;          /* measures of designs of boxes: lines, or items of a list in JSON */
     tn_json covered, measured; /* write the two */
 } test_report;
 

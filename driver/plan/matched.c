@@ -59,9 +59,12 @@ static bool append_text(tn_buffer *out, const char *text)
 static bool append_names(const tn_matched *m, const tn_sifted *plan, tn_buffer *out)
 {
     size_t before = out->size;
-    for (size_t i = 0; i < m->count; i++)
-        if (is_matched(plan, i) && !((out->size == before || append_text(out, " ")) && append_text(out, rule_name(m, i))))
+    for (size_t i = 0; i < m->count; i++) {
+        if (!is_matched(plan, i))
+            continue;
+        if (!append_text(out, out->size > before ? " " : "") || !append_text(out, rule_name(m, i)))
             return false;
+    }
     return out->size > before || append_text(out, "-");
 }
 

@@ -104,7 +104,7 @@ static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts
     if (!kept && p->dropped < 0)
         return true;
     tn_buffer *out = &texts[kept ? 0 : p->dropped];
-    bool done = kept                           ? append_kept(p, plan, out)
+    bool done = kept                          ? append_kept(p, plan, out)
                 : p->format == TN_ANSWER_JSON ? append_dropped_json(p, plan, out)
                                               : append_dropped(p, plan, out);
     return done && tn_buffer_append(out, "\n", 1);

@@ -1,4 +1,4 @@
-/* A text that grows as it is appended to. */
+/* A text that grows as it is appended to, and the shortest text of a number. */
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -43,4 +43,15 @@ bool tn_buffer_printf(tn_buffer *buffer, const char *format, ...)
     va_end(again);
     va_end(args);
     return done;
+}
+
+/* 17 digits always tell a number from all others, 15 often. */
+const char *tn_number_text(double number, char text[TN_NUMBER_TEXT_SIZE])
+{
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, TN_NUMBER_TEXT_SIZE, "%.*g", digits, number);
+        if (strtod(text, NULL) == number)
+            break;
+    }
+    return text;
 }

@@ -1,4 +1,4 @@
-/* Text that grows. The caller owns it: zero it to begin with, free data with free(). */
+/* Text that grows, and numbers as text. The caller owns a text: zero it to begin with, free data with free(). */
 #ifndef TARTAN_BASE_BUFFER_H
 #define TARTAN_BASE_BUFFER_H
 
@@ -20,5 +20,10 @@ bool tn_buffer_append(tn_buffer *buffer, const char *text, size_t length);
 bool tn_buffer_reserve(tn_buffer *buffer, size_t more);
 
 bool tn_buffer_printf(tn_buffer *buffer, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+#define TN_NUMBER_TEXT_SIZE 32u
+
+/* Writes a finite number as the shortest text that reads back as the same number, and returns `text`. */
+const char *tn_number_text(double number, char text[TN_NUMBER_TEXT_SIZE]);
 
 #endif

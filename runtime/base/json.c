@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/number_text.h"
 #include "runtime/base/utf8.h"
 
 tn_json tn_json_file(FILE *file, tn_json_layout layout)

@@ -32,8 +32,8 @@ typedef struct tn_json_layout {
 #define TN_JSON_LINES ((tn_json_layout){.spaced = true, .lines = UINT8_MAX, .indent = 2})
 
 typedef struct tn_json {
-    FILE *file;      /* one of these two */
-    tn_buffer *text; /* is where it goes */
+    FILE *file;            /* one of these two */
+    tn_buffer *text;       /* is where it goes */
     tn_json_layout layout; /* may be changed between two items: those that follow are written so */
     unsigned depth;        /* of the object or list that is open */
     bool filled;           /* it has an item, which a comma follows */
@@ -47,8 +47,8 @@ void tn_json_object_end(tn_json *json);
 void tn_json_list(tn_json *json, const char *key);
 void tn_json_list_end(tn_json *json);
 
-void tn_json_string(tn_json *json, const char *key, const char *value);                /* NULL is null */
-void tn_json_bytes(tn_json *json, const char *key, const char *value, size_t size);    /* a string of so many bytes */
+void tn_json_string(tn_json *json, const char *key, const char *value);             /* NULL is null */
+void tn_json_bytes(tn_json *json, const char *key, const char *value, size_t size); /* a string of so many bytes */
 void tn_json_bool(tn_json *json, const char *key, bool value);
 void tn_json_null(tn_json *json, const char *key);
 void tn_json_whole(tn_json *json, const char *key, int64_t value);

@@ -17,7 +17,8 @@
 static json_t *read_back(const tn_buffer *text)
 {
     json_error_t error;
-    json_t *json = json_loadb(text->data, text->size, JSON_DECODE_ANY | JSON_REJECT_DUPLICATES | JSON_ALLOW_NUL, &error);
+    json_t *json =
+        json_loadb(text->data, text->size, JSON_DECODE_ANY | JSON_REJECT_DUPLICATES | JSON_ALLOW_NUL, &error);
     if (!json)
         fail_msg("%s at %d in: %s", error.text, error.position, text->data);
     return json;
@@ -84,15 +85,16 @@ static void test_words(void **state)
 {
     (void)state;
     static const char *const words[] = {
-        "7'-9\"",                                   /* feet and inches */
-        "C:\\drawings\\\"north\"\\",                /* backslashes, also at the end */
-        "line\nline\r\n\ttab\b\f\x1b[31m\x7f",      /* control characters */
-        "\xE2\x80\xA8\xE2\x80\xA9",                 /* line and paragraph separators */
-        "\xE2\x80\xAE" "abc\xE2\x80\xAC\xD7\xA9\xD7\x9C\xD7\x95\xD7\x9D", /* right to left */
-        "\xF0\x9F\x8F\xA0 \xF0\x9F\x91\xA9\xE2\x80\x8D\xF0\x9F\x8E\xA8",  /* beyond the basic plane */
+        "7'-9\"",                              /* feet and inches */
+        "C:\\drawings\\\"north\"\\",           /* backslashes, also at the end */
+        "line\nline\r\n\ttab\b\f\x1b[31m\x7f", /* control characters */
+        "\xE2\x80\xA8\xE2\x80\xA9",            /* line and paragraph separators */
+        "\xE2\x80\xAE"
+        "abc\xE2\x80\xAC\xD7\xA9\xD7\x9C\xD7\x95\xD7\x9D",               /* right to left */
+        "\xF0\x9F\x8F\xA0 \xF0\x9F\x91\xA9\xE2\x80\x8D\xF0\x9F\x8E\xA8", /* beyond the basic plane */
         "</script><!-- \\u0000 %s %n",
         "\xED\xA0\x80 \xC0\xAF \xF4\x90\x80\x80 \xE2\x82 ok\xFF", /* surrogates, overlong, too large, cut short */
-        "\xEF\xBF\xBD",                             /* the replacement itself */
+        "\xEF\xBF\xBD",                                           /* the replacement itself */
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         check_string(words[i], strlen(words[i]));
@@ -116,7 +118,8 @@ static void test_escapes(void **state)
     tn_buffer text = {0};
     tn_json json = tn_json_text(&text, TN_JSON_TIGHT);
     tn_json_string(&json, NULL, "\"\\/</\b\f\n\r\t\x01\x7f\xC2\x85\xE2\x80\xA8\xE2\x80\xAE\xC3\xA9\xFF");
-    assert_string_equal(text.data, "\"\\\"\\\\/<\\/\\b\\f\\n\\r\\t\\u0001\\u007f\\u0085\\u2028\\u202e\xC3\xA9\xEF\xBF\xBD\"");
+    assert_string_equal(text.data,
+                        "\"\\\"\\\\/<\\/\\b\\f\\n\\r\\t\\u0001\\u007f\\u0085\\u2028\\u202e\xC3\xA9\xEF\xBF\xBD\"");
     free(text.data);
 }
 
@@ -144,8 +147,8 @@ static void check_number(double value)
 static void test_numbers(void **state)
 {
     (void)state;
-    static const double values[] = {0,      -0.0,      1,        -1,       0.1,     1.0 / 3,  5e-324,
-                                    1e-7,   1e15,      1e16,     1e17,     1.7e308, 0.1 + 0.2, 123456789012345680.0,
+    static const double values[] = {0,        -0.0,      1,    -1,   0.1,     1.0 / 3,   5e-324,
+                                    1e-7,     1e15,      1e16, 1e17, 1.7e308, 0.1 + 0.2, 123456789012345680.0,
                                     INFINITY, -INFINITY, NAN};
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
         check_number(values[i]);
@@ -286,10 +289,14 @@ static void test_places(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_short_string), cmocka_unit_test(test_words),
-        cmocka_unit_test(test_random_strings),     cmocka_unit_test(test_escapes),
-        cmocka_unit_test(test_numbers),            cmocka_unit_test(test_whole_numbers),
-        cmocka_unit_test(test_layouts),            cmocka_unit_test(test_written),
+        cmocka_unit_test(test_every_short_string),
+        cmocka_unit_test(test_words),
+        cmocka_unit_test(test_random_strings),
+        cmocka_unit_test(test_escapes),
+        cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_whole_numbers),
+        cmocka_unit_test(test_layouts),
+        cmocka_unit_test(test_written),
         cmocka_unit_test(test_places),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
