@@ -277,7 +277,7 @@ static void write_house(tn_job *job, const tn_house *house, bool json)
     tn_error error = {0};
     tn_output out;
     tn_status status = json ? append_json(house, &text, &error) : tn_house_write(house, &text, &error);
-    if (status == TN_OK && !tn_buffer_append(&text, "\n", 1))
+    if (status == TN_OK && (!tn_buffer_append(&text, "\n", 1) || text.failed))
         status = tn_fail_memory(&error);
     if (status != TN_OK) {
         tn_job_fail(job, &error);
