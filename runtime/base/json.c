@@ -57,9 +57,27 @@ static const char *escaped(const char *text, size_t at, uint32_t character, bool
     return escape;
 }
 
+/* Most strings are as they are; in a text they cost one step. */
+static bool put_plain(tn_json *json, const char *text, size_t size)
+{
+    tn_buffer *to = json->text;
+    for (size_t i = 0; to && i < size; i++)
+        if (!is_plain(text[i]))
+            return false;
+    if (!to || !tn_buffer_reserve(to, size + 2))
+        return false;
+    to->data[to->size] = '"';
+    memcpy(to->data + to->size + 1, text, size);
+    memcpy(to->data + to->size + 1 + size, "\"", 2); /* with the zero byte that ends the text */
+    to->size += size + 2;
+    return true;
+}
+
 static void put_string(tn_json *json, const char *text, size_t size)
 {
     size_t written = 0, step;
+    if (put_plain(json, text, size))
+        return;
     put(json, "\"", 1);
     for (size_t at = 0; at < size; at += step) {
         char escape[8];
@@ -161,7 +179,7 @@ void tn_json_end_line(tn_json *json)
 void tn_json_bytes(tn_json *json, const char *key, const char *value, size_t size)
 {
     next(json, key);
-    put_string(json, value, size);
+    put_string(json, size ? value : "", size);
 }
 
 void tn_json_string(tn_json *json, const char *key, const char *value)
