@@ -115,11 +115,7 @@ void tn_interrupt_last_words(const char *format, ...)
     if (!out)
         return; /* then without words */
     if (as_json) {
-        fputs("[\n {\"severity\":\"note\",\"code\":null,\"message\":", out);
-        tn_write_json(out, message);
-        fputs(",\"file\":null,\"line\":null,\"column\":null,\"end_line\":null,\"end_column\":null,\"notes\":[],"
-              "\"help\":null,\"replacement\":null}\n]\n",
-              out);
+        tn_diagnostics_show_alone(TN_NOTE, TN_CODE_NONE, message, NULL, out);
     } else {
         fputs(isatty(STDERR_FILENO) ? "\r\033[Knote: " : "note: ", out); /* in place of the progress */
         tn_write_clean(out, message, strlen(message));

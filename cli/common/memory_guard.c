@@ -11,7 +11,6 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
 #include "runtime/base/memory.h"
-#include "runtime/base/utf8.h"
 
 #define PAUSE_NS 10000000 /* between two measurements: some 50 MB at most are taken in it */
 #define GRACE_BYTES(LIMIT) ((LIMIT) / 8 + (32u << 20)) /* past the limit, for finishing what was begun */
@@ -46,13 +45,7 @@ static void end_from_without(const guard *own)
     tn_memory_guard_describe(own->command, &error);
     FILE *out = fmemopen(text, sizeof text, "w");
     if (out && own->json) {
-        fprintf(out, "[\n {\"severity\":\"error\",\"code\":\"E%04d\",\"message\":", error.code);
-        tn_write_json(out, error.message);
-        fputs(
-            ",\"file\":null,\"line\":null,\"column\":null,\"end_line\":null,\"end_column\":null,\"notes\":[],\"help\":",
-            out);
-        tn_write_json(out, error.help);
-        fputs(",\"replacement\":null}\n]\n", out);
+        tn_diagnostics_show_alone(TN_ERROR, error.code, error.message, error.help, out);
     } else if (out) {
         fprintf(out, "error[E%04d]: %s\n  help: %s\n", error.code, error.message, error.help);
     }

@@ -10,9 +10,9 @@
 #include "cli/common/option_rows.h"
 #include "runtime/base/file.h"
 #include "runtime/base/file_error.h"
+#include "runtime/base/json.h"
 #include "runtime/base/picture.h"
 #include "runtime/base/random.h"
-#include "runtime/base/utf8.h"
 #include "runtime/genome/mapping/invert.h"
 #include "runtime/genome/mapping/mapper.h"
 #include "runtime/genome/picture/tree_draw.h"
@@ -53,44 +53,44 @@ static void fail(mapping_run *run, const tn_error *error)
 
 /* ---- what is written of a mapping */
 
-static void write_number(FILE *out, const char *key, bool known, uint64_t value)
+static void write_number(tn_json *json, const char *key, bool known, uint64_t value)
 {
     if (known)
-        fprintf(out, ",\"%s\":%" PRIu64, key, value);
+        tn_json_count(json, key, value);
     else
-        fprintf(out, ",\"%s\":null", key);
+        tn_json_null(json, key);
 }
 
-static void write_json_repair(FILE *out, const tn_mapping *m)
+static void write_json_repair(tn_json *json, const tn_mapping *m)
 {
-    write_number(out, "max_id", m->has_phenotype, m->max_id);
-    fputs(",\"repaired_phenotype\":", out);
-    tn_write_json(out, m->repaired ? m->repaired_phenotype : NULL);
-    write_number(out, "repaired_used_codons", m->repaired, m->repaired_used);
-    fputs(",\"repaired_ids\":", out);
+    write_number(json, "max_id", m->has_phenotype, m->max_id);
+    tn_json_string(json, "repaired_phenotype", m->repaired ? m->repaired_phenotype : NULL);
+    write_number(json, "repaired_used_codons", m->repaired, m->repaired_used);
     if (!m->repaired) {
-        fputs("null", out);
+        tn_json_null(json, "repaired_ids");
         return;
     }
-    fputc('[', out);
+    tn_json_list(json, "repaired_ids");
     for (size_t i = 0; i < m->repaired_count; i++)
-        fprintf(out, i ? ",%u" : "%u", m->repaired_ids[i]);
-    fputc(']', out);
+        tn_json_count(json, NULL, m->repaired_ids[i]);
+    tn_json_list_end(json);
 }
 
 static void write_json(const mapping_run *run, const tn_mapping *m)
 {
-    fprintf(run->out, "{\"valid\":%s,\"reason\":", m->valid ? "true" : "false");
-    tn_write_json(run->out, m->valid ? NULL : tn_mapping_reason_text(m->reason));
-    fputs(",\"phenotype\":", run->out);
-    tn_write_json(run->out, m->has_phenotype ? m->phenotype : NULL);
-    write_number(run->out, "used_codons", m->has_phenotype, m->used);
-    write_number(run->out, "nodes", m->has_phenotype, m->nodes);
-    write_number(run->out, "depth", m->has_phenotype, m->depth);
-    write_number(run->out, "wraps", m->has_phenotype, m->wraps);
+    tn_json json = tn_json_file(run->out, TN_JSON_TIGHT);
+    tn_json_object(&json, NULL);
+    tn_json_bool(&json, "valid", m->valid);
+    tn_json_string(&json, "reason", m->valid ? NULL : tn_mapping_reason_text(m->reason));
+    tn_json_string(&json, "phenotype", m->has_phenotype ? m->phenotype : NULL);
+    write_number(&json, "used_codons", m->has_phenotype, m->used);
+    write_number(&json, "nodes", m->has_phenotype, m->nodes);
+    write_number(&json, "depth", m->has_phenotype, m->depth);
+    write_number(&json, "wraps", m->has_phenotype, m->wraps);
     if (run->grammar->dialect == TN_DIALECT_GENR8)
-        write_json_repair(run->out, m);
-    fputs("}\n", run->out);
+        write_json_repair(&json, m);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
 }
 
 static void write_text(const mapping_run *run, const tn_mapping *m)
@@ -117,10 +117,9 @@ static void write_tree(mapping_run *run, const tn_mapping *m)
     tn_status status = tn_tree_make(m->events, m->event_count, &tree, &error);
     if (status == TN_OK && strcmp(how, "text") == 0)
         tn_tree_write_text(run->grammar, m->events, &tree, run->out);
-    else if (status == TN_OK && strcmp(how, "json") == 0 &&
-             tn_tree_write_json(run->grammar, m->events, &tree, run->out))
-        fputc('\n', run->out);
-    else if (status == TN_OK && strcmp(how, "json") != 0)
+    else if (status == TN_OK && strcmp(how, "json") == 0)
+        tn_tree_write_json(run->grammar, m->events, &tree, run->out);
+    else if (status == TN_OK)
         status = tn_tree_draw(run->grammar, m->events, &tree, &(tn_picture){.path = how}, &error);
     if (status != TN_OK)
         fail(run, &error);

@@ -3,55 +3,85 @@
 #include <math.h>
 
 #include "cli/growth/grow.h"
+#include "runtime/base/json.h"
 
-/* Expressions by their names; what has no value is null. */
-static void write_json_named(FILE *out, const tn_fitness_goal *goal, const tn_fitness *fitness)
+static void write_fitness(tn_json *json, const tn_fitness_goal *goal, const tn_fitness *fitness)
 {
-    for (uint32_t i = 0; i < goal->named_count; i++) {
-        double value = tn_named_value(&goal->named[i], fitness);
-        fprintf(out, isfinite(value) ? ", \"%s\": %.17g" : ", \"%s\": null", goal->named[i].name, value);
+    tn_json_object(json, "fitness");
+    for (int t = 0; t < TN_FITNESS_TERM_COUNT; t++)
+        tn_json_number(json, tn_fitness_term_name((tn_measured)t), tn_fitness_value(fitness, (tn_measured)t));
+    for (uint32_t i = 0; i < goal->named_count; i++)
+        tn_json_number(json, goal->named[i].name, tn_named_value(&goal->named[i], fitness));
+    tn_json_object_end(json);
+}
+
+static void write_measures(tn_json *json, const tn_fitness *fitness)
+{
+    tn_json_object(json, "measures");
+    for (int i = TN_MEASURED_WIDTH; i < TN_MEASURED_COUNT; i++) {
+        double value = fitness->further[i - TN_MEASURED_WIDTH];
+        if (isfinite(value)) /* no distance without a target */
+            tn_json_number(json, tn_names_MEASURED[i], value);
     }
+    tn_json_object_end(json);
 }
 
-static void write_json_lacking(FILE *out, const tn_fitness_goal *goal, const tn_fitness *fitness)
+static void write_edges(tn_json *json, const tn_growth_system *system, const tn_stats *stats)
 {
-    double lacking = tn_fitness_lacking(fitness, goal);
-    if (goal->required_count)
-        fprintf(out, isfinite(lacking) ? ", \"lacking\": %.17g" : ", \"lacking\": null", lacking);
-}
-
-static void write_json(FILE *out, const tn_growth_system *system, const tn_study *study, const tn_stats *stats)
-{
-    const char *comma = "";
-    fprintf(out, "{\"step\": %u, \"V\": %" PRIu64 ", \"E\": %" PRIu64 ", \"F\": %" PRIu64 ", \"labels\": {",
-            stats->step, stats->vertices, stats->edges, stats->faces);
+    char name[40];
+    tn_json_object(json, "labels");
     for (uint32_t i = 0; i < system->label_count; i++) {
-        if (!stats->labels[i])
-            continue;
-        fprintf(out, "%s\"Edge%u\": %" PRIu64, comma, system->labels[i].number, stats->labels[i]);
-        comma = ", ";
+        snprintf(name, sizeof name, "Edge%u", system->labels[i].number);
+        if (stats->labels[i])
+            tn_json_count(json, name, stats->labels[i]);
     }
-    fputs("}, \"ages\": {", out);
-    for (size_t i = 0; i < stats->age_count; i++)
-        fprintf(out, "%s\"Edge%u_%d\": %" PRIu64, i ? ", " : "", system->labels[stats->ages[i].label].number,
-                stats->ages[i].age, stats->ages[i].count);
-    fputs("}, \"face_sides\": {", out);
-    for (size_t i = 0; i < stats->side_count; i++)
-        fprintf(out, "%s\"%u\": %" PRIu64, i ? ", " : "", stats->sides[i].sides, stats->sides[i].count);
-    fputs("}, \"fitness\": {", out);
-    for (int t = 0; t < TN_FITNESS_TERM_COUNT; t++) {
-        double value = tn_fitness_value(&stats->fitness, (tn_measured)t);
-        fprintf(out, "%s\"%s\": %.17g", t ? ", " : "", tn_fitness_term_name((tn_measured)t), value);
+    tn_json_object_end(json);
+    tn_json_object(json, "ages");
+    for (size_t i = 0; i < stats->age_count; i++) {
+        snprintf(name, sizeof name, "Edge%u_%d", system->labels[stats->ages[i].label].number, stats->ages[i].age);
+        tn_json_count(json, name, stats->ages[i].count);
     }
-    write_json_named(out, &study->goal, &stats->fitness);
-    fputs("}, \"measures\": {", out);
-    for (int i = TN_MEASURED_WIDTH; i < TN_MEASURED_COUNT; i++)
-        if (isfinite(stats->fitness.further[i - TN_MEASURED_WIDTH])) /* no distance without a target */
-            fprintf(out, "%s\"%s\": %.17g", i > TN_MEASURED_WIDTH ? ", " : "", tn_names_MEASURED[i],
-                    stats->fitness.further[i - TN_MEASURED_WIDTH]);
-    fputc('}', out);
-    write_json_lacking(out, &study->goal, &stats->fitness);
-    fputc('}', out);
+    tn_json_object_end(json);
+}
+
+static void write_sides(tn_json *json, const tn_stats *stats)
+{
+    char sides[16];
+    tn_json_object(json, "face_sides");
+    for (size_t i = 0; i < stats->side_count; i++) {
+        snprintf(sides, sizeof sides, "%u", stats->sides[i].sides);
+        tn_json_count(json, sides, stats->sides[i].count);
+    }
+    tn_json_object_end(json);
+}
+
+static void write_json(tn_json *json, const tn_growth_system *system, const tn_study *study, const tn_stats *stats)
+{
+    tn_json_object(json, NULL);
+    tn_json_count(json, "step", stats->step);
+    tn_json_count(json, "V", stats->vertices);
+    tn_json_count(json, "E", stats->edges);
+    tn_json_count(json, "F", stats->faces);
+    write_edges(json, system, stats);
+    write_sides(json, stats);
+    write_fitness(json, &study->goal, &stats->fitness);
+    write_measures(json, &stats->fitness);
+    if (study->goal.required_count)
+        tn_json_number(json, "lacking", tn_fitness_lacking(&stats->fitness, &study->goal));
+    tn_json_object_end(json);
+}
+
+/* A list with a line for each step. */
+static void write_list(FILE *out, const tn_growth_system *system, const tn_study *study, const tn_stats *stats,
+                       size_t count)
+{
+    tn_json json = tn_json_file(out, TN_JSON_SPACED);
+    json.layout.lines = 1;
+    tn_json_list(&json, NULL);
+    for (size_t i = 0; i < count; i++)
+        write_json(&json, system, study, &stats[i]);
+    tn_json_list_end(&json);
+    tn_json_end_line(&json);
 }
 
 static void write_table(FILE *out, const tn_growth_system *system, const tn_study *study, const tn_stats *stats,
@@ -85,15 +115,7 @@ void tn_grow_stats(tn_job *job, const tn_growth_system *system, const tn_study *
     tn_output output;
     if (!tn_job_output(job, NULL, &output))
         return;
-    if (tn_grow_settings_of(job)->stats == 2) {
-        for (size_t i = 0; i < count; i++) {
-            fputs(i ? ",\n" : "[", output.stream);
-            write_json(output.stream, system, study, &stats[i]);
-        }
-        fputs("]\n", output.stream);
-    } else {
-        write_table(output.stream, system, study, stats, count);
-    }
+    (tn_grow_settings_of(job)->stats == 2 ? write_list : write_table)(output.stream, system, study, stats, count);
     tn_job_commit(job, &output);
 }
 

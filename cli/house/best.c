@@ -97,14 +97,22 @@ bool tn_best_houses_value(const tn_best_houses *s, uint32_t k, bool exact, tn_bu
     return ok;
 }
 
-/* "value":"3/2" or "values":["3/2","4"] */
-static bool write_json_values(const tn_best_houses *s, bool list, tn_buffer *text)
+/* "value":"3/2" or "values":["3/2","4"]; false where out of memory. */
+static bool write_json_values(const tn_best_houses *s, bool list, tn_json *json)
 {
-    bool ok = tn_buffer_printf(text, list ? "\"values\":[" : "\"value\":");
-    for (uint32_t k = 0; ok && k < s->wishes->count; k++)
-        ok = tn_buffer_printf(text, k ? ",\"" : "\"") && tn_best_houses_value(s, k, true, text) &&
-             tn_buffer_printf(text, "\"");
-    return ok && (!list || tn_buffer_printf(text, "]"));
+    tn_buffer value = {0};
+    bool ok = true;
+    if (list)
+        tn_json_list(json, "values");
+    for (uint32_t k = 0; ok && k < s->wishes->count; k++) {
+        value.size = 0;
+        ok = tn_best_houses_value(s, k, true, &value);
+        tn_json_bytes(json, list ? NULL : "value", value.data, value.size);
+    }
+    if (list)
+        tn_json_list_end(json);
+    free(value.data);
+    return ok;
 }
 
 static tn_status put(const tn_best_houses *s, tn_buffer *text, bool ok, tn_error *error)
@@ -117,17 +125,31 @@ static tn_status put(const tn_best_houses *s, tn_buffer *text, bool ok, tn_error
 
 /* ---- best */
 
+static bool best_json(const tn_best_houses *s, const char *line, tn_buffer *text)
+{
+    tn_json json = tn_json_text(text, TN_JSON_TIGHT);
+    tn_json_object(&json, NULL);
+    bool ok = write_json_values(s, s->wishes->count > 1, &json);
+    tn_json_string(&json, "house", line);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
+    return ok && !text->failed;
+}
+
+static bool best_text(const tn_best_houses *s, const char *line, tn_buffer *text)
+{
+    bool ok = tn_buffer_printf(text, "# ");
+    for (uint32_t k = 0; ok && k < s->wishes->count; k++)
+        ok = tn_buffer_printf(text, k ? "  " : "") && tn_best_houses_value(s, k, false, text);
+    return ok && tn_buffer_printf(text, "\n%s\n", line);
+}
+
 static tn_status write_best(void *context, const tn_house *house, bool *stop, tn_error *error)
 {
     tn_best_houses *s = context;
-    bool json = s->wishes->json;
     tn_buffer text = {0}, line = {0};
     tn_status status = tn_house_write(house, &line, error);
-    bool ok =
-        tn_buffer_printf(&text, json ? "{" : "# ") && (!json || write_json_values(s, s->wishes->count > 1, &text));
-    for (uint32_t k = 0; ok && !json && k < s->wishes->count; k++)
-        ok = tn_buffer_printf(&text, k ? "  " : "") && tn_best_houses_value(s, k, false, &text);
-    ok = ok && tn_buffer_printf(&text, json ? ",\"house\":\"%s\"}\n" : "\n%s\n", line.data ? line.data : "");
+    bool ok = status == TN_OK && (s->wishes->json ? best_json(s, line.data, &text) : best_text(s, line.data, &text));
     free(line.data);
     *stop = ++s->given == s->wishes->wanted;
     tn_status written = put(s, &text, ok, error);
@@ -200,44 +222,79 @@ static tn_status take_line(void *context, const tn_house *house, bool *stop, tn_
     return tn_house_write(house, context, error);
 }
 
-static tn_status write_point(tn_best_houses *s, size_t point, tn_error *error)
+static bool point_json(const tn_best_houses *s, const char *line, tn_json *json)
 {
-    tn_buffer text = {0}, line = {0}, value = {0};
-    bool json = s->wishes->json, ok = true;
+    tn_json_object(json, NULL);
+    bool ok = write_json_values(s, true, json);
+    tn_json_digits(json, "houses", s->count);
+    tn_json_string(json, "house", line);
+    tn_json_object_end(json);
+    return ok;
+}
+
+static bool point_text(const tn_best_houses *s, const char *line, FILE *out)
+{
+    tn_buffer value = {0};
+    char *count = tn_digits(s->count, true);
+    bool ok = count != NULL;
+    for (uint32_t k = 0; ok && k < s->wishes->count; k++) {
+        value.size = 0;
+        ok = tn_best_houses_value(s, k, false, &value);
+        fprintf(out, "%18s", ok ? value.data : "");
+    }
+    if (ok)
+        fprintf(out, "  %20s  %s\n", count, line);
+    free(count);
+    free(value.data);
+    return ok;
+}
+
+/* As JSON, or as a line of a table where `json` is NULL. */
+static tn_status write_point(tn_best_houses *s, size_t point, tn_json *json, tn_error *error)
+{
+    tn_buffer line = {0};
     tn_houses_point(s->houses, point, s->values, s->count);
     tn_status status = each_of_point(s, point, take_line, &line, error);
-    char *count = tn_digits(s->count, !json);
-    if (json)
-        ok = tn_buffer_printf(&text, point ? ",\n    {" : "\n    {") && write_json_values(s, true, &text);
-    for (uint32_t k = 0; ok && !json && k < s->wishes->count; k++) {
-        value.size = 0;
-        ok = tn_best_houses_value(s, k, false, &value) && tn_buffer_printf(&text, "%18s", value.data);
-    }
-    ok = ok && count && line.data &&
-         (json ? tn_buffer_printf(&text, ",\"houses\":\"%s\",\"house\":\"%s\"}", count, line.data)
-               : tn_buffer_printf(&text, "  %20s  %s\n", count, line.data));
-    free(count);
+    if (status == TN_OK && !(json ? point_json(s, line.data, json) : point_text(s, line.data, s->out)))
+        status = tn_fail_memory(error);
     free(line.data);
-    free(value.data);
-    tn_status written = put(s, &text, ok, error);
-    return status == TN_OK ? written : status;
+    return status;
+}
+
+static tn_status front_json(tn_best_houses *s, tn_error *error)
+{
+    tn_status status = TN_OK;
+    tn_json json = tn_json_file(s->out, TN_JSON_LINES);
+    json.layout.lines = 1;
+    tn_json_object(&json, NULL);
+    tn_json_list(&json, "measures");
+    for (uint32_t k = 0; k < s->wishes->count; k++)
+        tn_json_string(&json, NULL, tn_best_houses_measure(s, k));
+    tn_json_list_end(&json);
+    json.layout.lines = 2;
+    tn_json_list(&json, "points");
+    for (size_t i = 0; status == TN_OK && i < tn_houses_points(s->houses); i++)
+        status = write_point(s, i, &json, error);
+    tn_json_list_end(&json);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
+    return status;
+}
+
+static tn_status front_text(tn_best_houses *s, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t k = 0; k < s->wishes->count; k++)
+        fprintf(s->out, "%18s", tn_best_houses_measure(s, k));
+    fprintf(s->out, "  %20s  %s\n", "houses", "the first of them");
+    for (size_t i = 0; status == TN_OK && i < tn_houses_points(s->houses); i++)
+        status = write_point(s, i, NULL, error);
+    return status;
 }
 
 static tn_status write_front(tn_best_houses *s, tn_error *error)
 {
-    tn_status status = TN_OK;
-    bool json = s->wishes->json;
-    fputs(json ? "{\n  \"measures\": [" : "", s->out);
-    for (uint32_t k = 0; k < s->wishes->count; k++)
-        fprintf(s->out, json ? "%s\"%s\"" : "%s%18s", json && k ? ", " : "", tn_best_houses_measure(s, k));
-    if (json)
-        fputs("],\n  \"points\": [", s->out);
-    else
-        fprintf(s->out, "  %20s  %s\n", "houses", "the first of them");
-    for (size_t i = 0; status == TN_OK && i < tn_houses_points(s->houses); i++)
-        status = write_point(s, i, error);
-    fputs(json ? "\n  ]\n}\n" : "", s->out);
-    return status;
+    return s->wishes->json ? front_json(s, error) : front_text(s, error);
 }
 
 void tn_job_front_of_houses(tn_job *job, const tn_house_settings *settings, const tn_house_wishes *wishes)

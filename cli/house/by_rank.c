@@ -257,15 +257,15 @@ void tn_job_use_house(tn_job *job, const tn_house_settings *settings, const char
 
 static tn_status append_json(const tn_house *house, tn_buffer *out, tn_error *error)
 {
+    tn_json json = tn_json_text(out, TN_JSON_TIGHT);
     tn_buffer line = {0};
     tn_status status = tn_house_write(house, &line, error);
     if (status == TN_OK) {
-        tn_buffer_printf(out, "{\"house\":");
-        tn_buffer_append_json(out, line.data);
-        tn_buffer_printf(out, ",\"trays\":");
-        tn_plan_write_trays(house->form->schema, house->trays, house->length, out);
-        status = tn_house_write_members(house, out, error);
-        tn_buffer_append(out, "}", 1);
+        tn_json_object(&json, NULL);
+        tn_json_string(&json, "house", line.data);
+        tn_plan_write_trays(house->form->schema, house->trays, house->length, &json);
+        status = tn_house_write_members(house, &json, error);
+        tn_json_object_end(&json);
     }
     free(line.data);
     return status;
@@ -277,7 +277,7 @@ static void write_house(tn_job *job, const tn_house *house, bool json)
     tn_error error = {0};
     tn_output out;
     tn_status status = json ? append_json(house, &text, &error) : tn_house_write(house, &text, &error);
-    if (status == TN_OK && !tn_buffer_append(&text, "\n", 1))
+    if (status == TN_OK && (!tn_buffer_append(&text, "\n", 1) || text.failed))
         status = tn_fail_memory(&error);
     if (status != TN_OK) {
         tn_job_fail(job, &error);

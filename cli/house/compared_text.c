@@ -1,7 +1,6 @@
 /* Writes what an edit does to a library of houses, as text and as JSON. */
 #include "cli/house/compared.h"
 
-#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -119,61 +118,65 @@ static bool put_text(const tn_compared_houses *c, mpz_t *row, tn_buffer *out)
 
 /* ---- JSON */
 
-static void set_number(json_t *object, const char *key, const mpz_t number)
+static void put_row(const tn_compared_houses *c, uint32_t from, uint32_t to, mpz_t *row, tn_json *json)
 {
-    char *text = tn_digits(number, false);
-    json_object_set_new(object, key, text ? json_string(text) : NULL);
-    free(text);
-}
-
-static json_t *row_json(const tn_compared_houses *c, uint32_t from, uint32_t to, mpz_t *row)
-{
-    json_t *item = json_object();
     sum_row(c, from, to, row);
     for (int i = 0; i < COLUMNS; i++)
-        set_number(item, columns[i], row[i]);
-    return item;
+        tn_json_digits(json, columns[i], row[i]);
 }
 
-static json_t *edit_json(const tn_house_edit *edit)
+static void lengths_json(const tn_compared_houses *c, mpz_t *row, tn_json *json)
 {
-    json_t *item = json_object(), *examples = json_object();
-    json_object_set_new(item, "name", json_string(edit->name));
-    json_object_set_new(item, "change", json_string(change_words[edit->change]));
-    set_number(item, "removes", edit->houses[0]);
-    set_number(item, "adds", edit->houses[1]);
-    for (int which = 0; which < 2; which++) {
-        json_t *list = json_array();
-        for (size_t i = 0; i < edit->example_count[which]; i++)
-            json_array_append_new(list, json_string(edit->examples[which][i]));
-        json_object_set_new(examples, ways[which], list);
+    tn_json_object(json, "total");
+    put_row(c, 0, c->high - c->low + 1, row, json);
+    tn_json_object_end(json);
+    tn_json_list(json, "by_length");
+    for (uint32_t k = 0; k <= c->high - c->low; k++) {
+        tn_json_object(json, NULL);
+        put_row(c, k, k + 1, row, json);
+        tn_json_count(json, "length", c->low + k);
+        tn_json_object_end(json);
     }
-    json_object_set_new(item, "houses", examples);
-    return item;
+    tn_json_list_end(json);
+}
+
+static void edit_json(const tn_house_edit *edit, tn_json *json)
+{
+    tn_json_object(json, NULL);
+    tn_json_string(json, "name", edit->name);
+    tn_json_string(json, "change", change_words[edit->change]);
+    tn_json_digits(json, "removes", edit->houses[0]);
+    tn_json_digits(json, "adds", edit->houses[1]);
+    tn_json_object(json, "houses");
+    for (int which = 0; which < 2; which++) {
+        tn_json_list(json, ways[which]);
+        for (size_t i = 0; i < edit->example_count[which]; i++)
+            tn_json_string(json, NULL, edit->examples[which][i]);
+        tn_json_list_end(json);
+    }
+    tn_json_object_end(json);
+    tn_json_object_end(json);
 }
 
 static bool put_json(const tn_compared_houses *c, mpz_t *row, tn_buffer *out)
 {
     static const char *const keys[] = {"before", "after"};
-    json_t *root = json_object(), *lengths = json_array(), *edits = json_array();
-    for (int i = 0; i < 2; i++)
-        json_object_set_new(root, keys[i],
-                            json_pack("{ss,ss}", "file", c->sides[i].path, "library", library_of(&c->sides[i])));
-    for (uint32_t k = 0; k <= c->high - c->low; k++) {
-        json_t *item = row_json(c, k, k + 1, row);
-        json_object_set_new(item, "length", json_integer(c->low + k));
-        json_array_append_new(lengths, item);
+    tn_json json = tn_json_text(out, TN_JSON_LINES);
+    tn_json_object(&json, NULL);
+    for (int i = 0; i < 2; i++) {
+        tn_json_object(&json, keys[i]);
+        tn_json_string(&json, "file", c->sides[i].path);
+        tn_json_string(&json, "library", library_of(&c->sides[i]));
+        tn_json_object_end(&json);
     }
+    lengths_json(c, row, &json);
+    tn_json_list(&json, "clauses");
     for (size_t i = 0; i < c->edit_count; i++)
-        json_array_append_new(edits, edit_json(&c->edits[i]));
-    json_object_set_new(root, "total", row_json(c, 0, c->high - c->low + 1, row));
-    json_object_set_new(root, "by_length", lengths);
-    json_object_set_new(root, "clauses", edits);
-    char *text = json_dumps(root, JSON_INDENT(2));
-    bool good = text && tn_buffer_printf(out, "%s\n", text);
-    free(text);
-    json_decref(root);
-    return good;
+        edit_json(&c->edits[i], &json);
+    tn_json_list_end(&json);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
+    return !out->failed;
 }
 
 tn_status tn_compared_write(const tn_compared_houses *c, bool json, tn_buffer *out, tn_error *error)

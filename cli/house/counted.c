@@ -4,7 +4,7 @@
 
 #include "cli/house/numbered_parts.h"
 #include "runtime/base/integers.h"
-#include "runtime/base/utf8.h"
+#include "runtime/base/json.h"
 
 /* What was counted. */
 typedef struct house_tally {
@@ -349,56 +349,33 @@ static int label_width(const tn_numbered *n)
     return (int)width;
 }
 
-static void write_lengths(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
+static void write_lengths(const tn_numbered *n, const house_tally *tally, FILE *out)
 {
-    bool first = true;
     int labels = label_width(n);
     for (uint32_t i = 0; i <= tally->high - tally->low; i++) {
         if (mpz_sgn(tally->lengths[i]) == 0)
             continue;
         char label[40];
         snprintf(label, sizeof label, "  of %u tray%s", tally->low + i, tally->low + i == 1 ? "" : "s");
-        if (json)
-            gmp_fprintf(out, "%s\"%u\":\"%Zd\"", first ? "" : ",", tally->low + i, tally->lengths[i]);
-        else
-            gmp_fprintf(out, "%-*s%Zd\n", labels, label, tally->lengths[i]);
-        first = false;
+        gmp_fprintf(out, "%-*s%Zd\n", labels, label, tally->lengths[i]);
     }
 }
 
-static void write_json_key(const char *name, bool first, const char *after, FILE *out)
-{
-    fputs(first ? "" : ",", out);
-    tn_write_json(out, name);
-    fputs(after, out);
-}
-
-static void write_json_count(const char *name, bool first, const mpz_t count, FILE *out)
-{
-    write_json_key(name, first, ":\"", out);
-    gmp_fprintf(out, "%Zd\"", count);
-}
-
-/* Choices that leave nothing to choose are left out of the text. */
-static void write_sections(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
+/* Choices that leave nothing to choose are left out. */
+static void write_sections(const tn_numbered *n, const house_tally *tally, FILE *out)
 {
     int labels = label_width(n);
     const tn_module *module = n->form.module;
     const mpz_t *value = (const mpz_t *)tally->values;
     for (uint32_t i = 0; i < n->form.record->choice_count; i++) {
         const tn_choice_record *choice = tn_form_choice(&n->form, i);
-        if (json)
-            write_json_key(tn_text(module, choice->name), i == 0, ":{", out);
-        else if (choice->shape_count > 1)
+        if (choice->shape_count > 1)
             fprintf(out, "%s\n", tn_text(module, choice->name));
         for (uint32_t k = 0; k < choice->shape_count; k++, value++) {
             const char *name = tn_text(module, module->SHAPE_records[choice->shape_first + k].spelling);
-            if (json)
-                write_json_count(name, k == 0, *value, out);
-            else if (choice->shape_count > 1)
+            if (choice->shape_count > 1)
                 gmp_fprintf(out, "  %-*s %Zd\n", labels - 3, name, *value);
         }
-        fputs(json ? "}" : "", out);
     }
 }
 
@@ -411,75 +388,33 @@ static bool knows_states(const tn_numbered *n, const house_tally *tally)
     return known;
 }
 
-static void write_states(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
+static void write_states(const tn_numbered *n, const house_tally *tally, FILE *out)
 {
     int labels = label_width(n);
     const tn_module *module = n->form.module;
     const tn_house_clause_record *clauses = module->HOUSE_CLAUSE_records + n->record->clause_first;
     uint32_t count = n->record->clause_count;
-    if (json)
-        fprintf(out, ",\"states_of_none\":%llu,\"states_of\":{", (unsigned long long)tally->asking[count]);
-    else
-        fprintf(out, "%-*s%s\n  %-*s%llu\n", labels, "clause by itself", "states", labels - 2, "none",
-                (unsigned long long)tally->asking[count]);
-    for (uint32_t i = 0; i < count; i++) {
-        if (json)
-            write_json_key(tn_text(module, clauses[i].name), i == 0, ":", out);
-        else
-            fprintf(out, "  %-*s ", labels - 3, tn_text(module, clauses[i].name));
-        fprintf(out, json ? "%llu" : "%llu\n", (unsigned long long)tally->asking[i]);
-    }
-    if (json)
-        fputs("}", out);
-    else
-        fprintf(out, "  %-*s%llu\n", labels - 2, "all of them", (unsigned long long)tally->states);
+    fprintf(out, "%-*s%s\n  %-*s%llu\n", labels, "clause by itself", "states", labels - 2, "none",
+            (unsigned long long)tally->asking[count]);
+    for (uint32_t i = 0; i < count; i++)
+        fprintf(out, "  %-*s %llu\n", labels - 3, tn_text(module, clauses[i].name),
+                (unsigned long long)tally->asking[i]);
+    fprintf(out, "  %-*s%llu\n", labels - 2, "all of them", (unsigned long long)tally->states);
 }
 
-static void write_clauses(const tn_numbered *n, const house_tally *tally, bool json, FILE *out)
+static void write_clauses(const tn_numbered *n, const house_tally *tally, FILE *out)
 {
     int labels = label_width(n);
     const tn_module *module = n->form.module;
     const tn_house_clause_record *clauses = module->HOUSE_CLAUSE_records + n->record->clause_first;
     mpz_srcptr allowed = tally->kept_out[n->record->clause_count];
-    if (json)
-        gmp_fprintf(out, ",\"without_clauses\":\"%Zd\"", allowed);
-    else
-        gmp_fprintf(out, "%-*s%Zd\n%-*s%-*s%s\n", labels, "without clauses", allowed, labels, "clause", COUNT_WIDTH,
-                    "keeps out", "only by it");
-    for (uint32_t i = 0; !json && i < n->record->clause_count; i++)
+    gmp_fprintf(out, "%-*s%Zd\n%-*s%-*s%s\n", labels, "without clauses", allowed, labels, "clause", COUNT_WIDTH,
+                "keeps out", "only by it");
+    for (uint32_t i = 0; i < n->record->clause_count; i++)
         gmp_fprintf(out, "  %-*s %-*Zd %Zd\n", labels - 3, tn_text(module, clauses[i].name), COUNT_WIDTH - 1,
                     tally->kept_out[i], tally->alone[i]);
-    for (int alone = 0; json && alone < 2; alone++) {
-        fputs(alone ? ",\"only\":{" : ",\"kept_out\":{", out);
-        for (uint32_t i = 0; i < n->record->clause_count; i++)
-            write_json_count(tn_text(module, clauses[i].name), i == 0, (alone ? tally->alone : tally->kept_out)[i],
-                             out);
-        fputs("}", out);
-    }
     if (knows_states(n, tally))
-        write_states(n, tally, json, out);
-}
-
-static void write_json(const tn_numbered *n, const house_tally *tally, FILE *out)
-{
-    fputs("{\"library\":", out);
-    tn_write_json(out, tn_text(n->form.module, n->record->name));
-    gmp_fprintf(out, ",\"plans\":\"%Zd\"", tally->plans);
-    if (!tally->with_unsaid)
-        gmp_fprintf(out, ",\"plans_with_houses\":\"%Zd\",\"with_sections\":\"%Zd\",\"zoned\":\"%Zd\"",
-                    tally->with.plans, tally->with.sections, tally->with.functions);
-    if (!tally->each)
-        fprintf(out, ",\"states\":%llu", (unsigned long long)tally->states);
-    if (!tally->faced_unsaid)
-        gmp_fprintf(out, ",\"faced\":\"%Zd\"", tally->faced);
-    gmp_fprintf(out, ",\"houses\":\"%Zd\",\"by_length\":{", tally->houses);
-    write_lengths(n, tally, true, out);
-    fputs("},\"by_section\":{", out);
-    write_sections(n, tally, true, out);
-    fputs("}", out);
-    if (tally->kept_out)
-        write_clauses(n, tally, true, out);
-    fputs("}\n", out);
+        write_states(n, tally, out);
 }
 
 static void write_text(const tn_numbered *n, const house_tally *tally, FILE *out)
@@ -492,10 +427,87 @@ static void write_text(const tn_numbered *n, const house_tally *tally, FILE *out
     if (!tally->faced_unsaid)
         gmp_fprintf(out, "%-*s%Zd\n", labels, "with openings", tally->faced);
     gmp_fprintf(out, "%-*s%Zd\n", labels, "houses", tally->houses);
-    write_lengths(n, tally, false, out);
-    write_sections(n, tally, false, out);
+    write_lengths(n, tally, out);
+    write_sections(n, tally, out);
     if (tally->kept_out)
-        write_clauses(n, tally, false, out);
+        write_clauses(n, tally, out);
+}
+
+/* ---- as JSON */
+
+static void lengths_json(const house_tally *tally, tn_json *json)
+{
+    tn_json_object(json, "by_length");
+    for (uint32_t i = 0; i <= tally->high - tally->low; i++) {
+        char length[16];
+        snprintf(length, sizeof length, "%u", tally->low + i);
+        if (mpz_sgn(tally->lengths[i]) != 0)
+            tn_json_digits(json, length, tally->lengths[i]);
+    }
+    tn_json_object_end(json);
+}
+
+static void sections_json(const tn_numbered *n, const house_tally *tally, tn_json *json)
+{
+    const tn_module *module = n->form.module;
+    const mpz_t *value = (const mpz_t *)tally->values;
+    tn_json_object(json, "by_section");
+    for (uint32_t i = 0; i < n->form.record->choice_count; i++) {
+        const tn_choice_record *choice = tn_form_choice(&n->form, i);
+        tn_json_object(json, tn_text(module, choice->name));
+        for (uint32_t k = 0; k < choice->shape_count; k++, value++)
+            tn_json_digits(json, tn_text(module, module->SHAPE_records[choice->shape_first + k].spelling), *value);
+        tn_json_object_end(json);
+    }
+    tn_json_object_end(json);
+}
+
+static void states_json(const tn_numbered *n, const house_tally *tally, tn_json *json)
+{
+    const tn_house_clause_record *clauses = n->form.module->HOUSE_CLAUSE_records + n->record->clause_first;
+    tn_json_count(json, "states_of_none", tally->asking[n->record->clause_count]);
+    tn_json_object(json, "states_of");
+    for (uint32_t i = 0; i < n->record->clause_count; i++)
+        tn_json_count(json, tn_text(n->form.module, clauses[i].name), tally->asking[i]);
+    tn_json_object_end(json);
+}
+
+static void clauses_json(const tn_numbered *n, const house_tally *tally, tn_json *json)
+{
+    const tn_house_clause_record *clauses = n->form.module->HOUSE_CLAUSE_records + n->record->clause_first;
+    tn_json_digits(json, "without_clauses", tally->kept_out[n->record->clause_count]);
+    for (int alone = 0; alone < 2; alone++) {
+        tn_json_object(json, alone ? "only" : "kept_out");
+        for (uint32_t i = 0; i < n->record->clause_count; i++)
+            tn_json_digits(json, tn_text(n->form.module, clauses[i].name), (alone ? tally->alone : tally->kept_out)[i]);
+        tn_json_object_end(json);
+    }
+    if (knows_states(n, tally))
+        states_json(n, tally, json);
+}
+
+static void write_json(const tn_numbered *n, const house_tally *tally, FILE *out)
+{
+    tn_json json = tn_json_file(out, TN_JSON_TIGHT);
+    tn_json_object(&json, NULL);
+    tn_json_string(&json, "library", tn_text(n->form.module, n->record->name));
+    tn_json_digits(&json, "plans", tally->plans);
+    if (!tally->with_unsaid) {
+        tn_json_digits(&json, "plans_with_houses", tally->with.plans);
+        tn_json_digits(&json, "with_sections", tally->with.sections);
+        tn_json_digits(&json, "zoned", tally->with.functions);
+    }
+    if (!tally->each)
+        tn_json_count(&json, "states", tally->states);
+    if (!tally->faced_unsaid)
+        tn_json_digits(&json, "faced", tally->faced);
+    tn_json_digits(&json, "houses", tally->houses);
+    lengths_json(tally, &json);
+    sections_json(n, tally, &json);
+    if (tally->kept_out)
+        clauses_json(n, tally, &json);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
 }
 
 /* ---- the command */

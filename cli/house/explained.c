@@ -52,16 +52,19 @@ static tn_status write_clause(tn_house_explaining *e, const tn_house_clause *cla
     return clause->function == TN_NO_RECORD ? TN_OK : tn_explain_why(e, clause->function, error);
 }
 
-static tn_status write_clause_json(tn_house_explaining *e, const tn_house_clause *clause, bool first, tn_error *error)
+static tn_status write_clause_json(tn_house_explaining *e, const tn_house_clause *clause, tn_error *error)
 {
     static const char *const kinds[] = {"require", "total", "prune"};
-    tn_buffer_printf(&e->text, "%s{\"name\":", first ? "" : ",");
-    tn_buffer_append_json(&e->text, clause->name);
-    tn_buffer_printf(&e->text, ",\"kind\":\"%s\",\"of\":\"%s\",\"holds\":%s,\"drops\":%s,\"why\":[",
-                     clause->trays ? "trays" : kinds[clause->kind], clause->of_plans ? "plan" : "house",
-                     clause->holds ? "true" : "false", clause->drops ? "true" : "false");
+    tn_json_object(e->json, NULL);
+    tn_json_string(e->json, "name", clause->name);
+    tn_json_string(e->json, "kind", clause->trays ? "trays" : kinds[clause->kind]);
+    tn_json_string(e->json, "of", clause->of_plans ? "plan" : "house");
+    tn_json_bool(e->json, "holds", clause->holds);
+    tn_json_bool(e->json, "drops", clause->drops);
+    tn_json_list(e->json, "why");
     tn_status status = clause->function == TN_NO_RECORD ? TN_OK : tn_explain_why(e, clause->function, error);
-    tn_buffer_printf(&e->text, "]}");
+    tn_json_list_end(e->json);
+    tn_json_object_end(e->json);
     return status;
 }
 
@@ -79,36 +82,40 @@ static tn_status write_library(tn_house_explaining *e, const char *line, tn_erro
         status = tn_explain_next_bare(e, &bare, error);
     dropped |= bare < e->house.cell_count;
     if (e->json) {
-        tn_buffer_printf(&e->text, "{\"house\":");
-        tn_buffer_append_json(&e->text, line);
-        tn_buffer_printf(&e->text, ",\"library\":\"%s\",\"kept\":%s,\"clauses\":[", name, dropped ? "false" : "true");
+        tn_json_object(e->json, NULL);
+        tn_json_string(e->json, "house", line);
+        tn_json_string(e->json, "library", name);
+        tn_json_bool(e->json, "kept", !dropped);
+        tn_json_list(e->json, "clauses");
     } else {
         tn_buffer_printf(&e->text, "`%s` %s this house\n", name, dropped ? "drops" : "keeps");
     }
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         if (e->json)
-            status = write_clause_json(e, &clauses[i], i == 0, error);
+            status = write_clause_json(e, &clauses[i], error);
         else if (e->full || clauses[i].drops)
             status = write_clause(e, &clauses[i], error);
         of_plans |= clauses[i].drops && clauses[i].of_plans;
     }
     if (e->json)
-        tn_buffer_printf(&e->text, "]");
+        tn_json_list_end(e->json);
     if (status == TN_OK)
         status = tn_explain_tiles(e, error);
     if (status == TN_OK && (e->full || e->json))
         tn_explain_behind_roofs(e);
     if (status == TN_OK && dropped && !of_plans)
         status = tn_explain_nearest(e, error);
-    if (e->json)
-        tn_buffer_printf(&e->text, "}\n");
+    if (e->json) {
+        tn_json_object_end(e->json);
+        tn_json_end_line(e->json);
+    }
     free(clauses);
     return status;
 }
 
 /* ---- rules */
 
-static tn_status write_rule(tn_house_explaining *e, const char *name, bool first, tn_error *error)
+static tn_status write_rule(tn_house_explaining *e, const char *name, tn_error *error)
 {
     const tn_module *module = e->judge.module;
     uint32_t rule = tn_house_rule_find(module, name);
@@ -116,16 +123,21 @@ static tn_status write_rule(tn_house_explaining *e, const char *name, bool first
     if (rule == TN_NO_RECORD || &module->FORM_records[module->HOUSE_RULE_records[rule].form] != e->judge.form.record)
         return tn_fail(error, TN_INVALID, E_NOT_IN_FILE, "there is no rule `%.80s` about houses of that form", name);
     tn_status status = tn_house_rules_hold(e->judge.rules, module->HOUSE_RULE_records[rule].holds, &holds, error);
-    if (e->json)
-        tn_buffer_printf(&e->text, "%s{\"name\":\"%s\",\"matches\":%s,\"why\":[", first ? "" : ",", name,
-                         holds ? "true" : "false");
-    else
+    if (e->json) {
+        tn_json_object(e->json, NULL);
+        tn_json_string(e->json, "name", name);
+        tn_json_bool(e->json, "matches", holds);
+        tn_json_list(e->json, "why");
+    } else {
         tn_buffer_printf(&e->text, "%s `%s` %s this house\n", holds ? "+" : "-", name,
                          holds ? "matches" : "does not match");
+    }
     if (status == TN_OK)
         status = tn_explain_why(e, module->HOUSE_RULE_records[rule].holds, error);
-    if (e->json)
-        tn_buffer_printf(&e->text, "]}");
+    if (e->json) {
+        tn_json_list_end(e->json);
+        tn_json_object_end(e->json);
+    }
     return status;
 }
 
@@ -133,14 +145,17 @@ static tn_status write_rules(tn_house_explaining *e, const char *line, tn_error 
 {
     tn_status status = tn_house_rules_start(e->judge.rules, &e->house, error);
     if (e->json) {
-        tn_buffer_printf(&e->text, "{\"house\":");
-        tn_buffer_append_json(&e->text, line);
-        tn_buffer_printf(&e->text, ",\"rules\":[");
+        tn_json_object(e->json, NULL);
+        tn_json_string(e->json, "house", line);
+        tn_json_list(e->json, "rules");
     }
     for (size_t i = 0; status == TN_OK && i < e->rules->count; i++)
-        status = write_rule(e, e->rules->items[i], i == 0, error);
-    if (e->json)
-        tn_buffer_printf(&e->text, "]}\n");
+        status = write_rule(e, e->rules->items[i], error);
+    if (e->json) {
+        tn_json_list_end(e->json);
+        tn_json_object_end(e->json);
+        tn_json_end_line(e->json);
+    }
     return status;
 }
 
@@ -175,7 +190,9 @@ static void explain(tn_house_explaining *e, const char *line, size_t max_length)
 void tn_job_explain_house(tn_job *job, const char *library, const tn_option_list *rules, const char *line, bool full,
                           bool json, size_t max_length)
 {
-    tn_house_explaining e = {.job = job, .rules = rules, .full = full, .json = json};
+    tn_house_explaining e = {.job = job, .rules = rules, .full = full};
+    tn_json writer = tn_json_text(&e.text, TN_JSON_TIGHT);
+    e.json = json ? &writer : NULL;
     uint32_t form;
     tn_error error;
     if (choose(&e, library, &form)) {

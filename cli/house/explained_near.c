@@ -15,15 +15,17 @@ typedef struct nearing {
     size_t count;
 } nearing;
 
-static void write_change(tn_house_explaining *e, const char *before, const tn_change_words *w)
+static void write_change(tn_house_explaining *e, const char *heading, const tn_change_words *w)
 {
-    if (!e->json) {
-        tn_buffer_printf(&e->text, "%s    %s: %s for %s\n", before, w->where, w->to, w->from);
-        return;
-    }
-    tn_explain_member(&e->text, before, "where", w->where);
-    tn_explain_member(&e->text, ",", "from", w->from);
-    tn_explain_member(&e->text, ",", "to", w->to);
+    tn_buffer_printf(&e->text, "%s    %s: %s for %s\n", heading, w->where, w->to, w->from);
+}
+
+/* Members of the object that is open. */
+static void write_change_json(tn_json *json, const tn_change_words *w)
+{
+    tn_json_string(json, "where", w->where);
+    tn_json_string(json, "from", w->from);
+    tn_json_string(json, "to", w->to);
 }
 
 static tn_status write_near(void *context, const tn_house_change *change, const tn_house *changed, tn_error *error)
@@ -39,9 +41,10 @@ static tn_status write_near(void *context, const tn_house_change *change, const 
         return TN_OK;
     }
     tn_status status = tn_house_write(changed, &line, error);
-    write_change(n->e, n->count > 1 ? ",{" : "{", &w);
-    tn_explain_member(&n->e->text, ",", "house", line.data ? line.data : "");
-    tn_buffer_append(&n->e->text, "}", 1);
+    tn_json_object(n->e->json, NULL);
+    write_change_json(n->e->json, &w);
+    tn_json_string(n->e->json, "house", line.data);
+    tn_json_object_end(n->e->json);
     free(line.data);
     return status;
 }
@@ -176,10 +179,13 @@ static void write_steps(const beam *b, size_t node)
         write_steps(b, b->nodes[node].parent);
     bool first = b->nodes[node].parent == 0;
     tn_house_explaining *e = b->e;
-    if (e->json)
-        write_change(e, first ? "{\"changes\":[{" : "},{", &b->nodes[node].words);
-    else
+    if (e->json) {
+        tn_json_object(e->json, NULL);
+        write_change_json(e->json, &b->nodes[node].words);
+        tn_json_object_end(e->json);
+    } else {
         write_change(e, first ? "kept with these changes together:\n" : "", &b->nodes[node].words);
+    }
 }
 
 /* *depth: how many changes lead to the kept house that is found first in its level, or 0. */
@@ -205,12 +211,17 @@ static tn_status search(beam *b, int *depth, tn_error *error)
 
 static void write_found(const beam *b)
 {
-    tn_house_explaining *e = b->e;
-    write_steps(b, b->first);
-    if (!e->json)
+    tn_json *json = b->e->json;
+    if (!json) {
+        write_steps(b, b->first);
         return;
-    tn_explain_member(&e->text, "}],", "house", b->nodes[b->first].line);
-    tn_buffer_append(&e->text, "}", 1);
+    }
+    tn_json_object(json, NULL);
+    tn_json_list(json, "changes");
+    write_steps(b, b->first);
+    tn_json_list_end(json);
+    tn_json_string(json, "house", b->nodes[b->first].line);
+    tn_json_object_end(json);
 }
 
 static void clear_beam(beam *b)
@@ -245,12 +256,12 @@ tn_status tn_explain_nearest(tn_house_explaining *e, tn_error *error)
     nearing n = {.e = e};
     bool found = false;
     if (e->json)
-        tn_buffer_printf(&e->text, ",\"nearest\":[");
+        tn_json_list(e->json, "nearest");
     tn_status status = tn_house_changes(&e->house, e->judge.rules, e->library, TN_NO_CELL, write_near, &n, error);
     if (status == TN_OK && n.count == 0)
         status = explain_several(e, &found, error);
     if (e->json)
-        tn_buffer_printf(&e->text, "]");
+        tn_json_list_end(e->json);
     else if (status == TN_OK && n.count > NEAREST_MAX)
         tn_buffer_printf(&e->text, "    and %zu more\n", n.count - NEAREST_MAX);
     else if (status == TN_OK && n.count == 0 && !found)

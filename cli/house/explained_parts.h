@@ -12,10 +12,11 @@ typedef struct tn_house_explaining {
     const tn_option_list *rules;
     tn_house house;
     tn_buffer text;
-    bool full, json;
+    tn_json *json; /* into the text; NULL: as lines */
+    bool full;
 } tn_house_explaining;
 
-/* ---- explained_why.c: each appends lines or, as JSON, objects, to e->text */
+/* ---- explained_why.c: each appends lines to e->text, or writes JSON into it */
 
 /* What the questions of a clause or rule find: cells, rooms, faces, walks. */
 tn_status tn_explain_why(tn_house_explaining *e, uint32_t function, tn_error *error);
@@ -28,9 +29,6 @@ tn_status tn_explain_next_bare(const tn_house_explaining *e, uint32_t *cell, tn_
 
 /* The openings that lower roofs keep out of faces. */
 void tn_explain_behind_roofs(tn_house_explaining *e);
-
-/* A member of a JSON object, with what comes before it. */
-void tn_explain_member(tn_buffer *out, const char *before, const char *key, const char *value);
 
 /* ---- explained_near.c: kept houses that differ from this one by as few choices as were found. */
 tn_status tn_explain_nearest(tn_house_explaining *e, tn_error *error);

@@ -102,6 +102,15 @@ static bool append_amount(tn_amount_unit unit, mpq_t value, tn_buffer *out)
     return tn_amount_write_about(unit, value, out);
 }
 
+static void append_found(answering *a, const char *text)
+{
+    if (a->e->json)
+        tn_json_string(a->e->json, NULL, text);
+    else
+        tn_buffer_printf(&a->e->text, "%s %s", a->found ? ";" : "", text);
+    a->found++;
+}
+
 /* What a comparison finds: the number of the house and the one that is compared with it, costs to the cent. */
 static tn_status append_numbers(answering *a, uint32_t offset, tn_error *error)
 {
@@ -109,7 +118,7 @@ static tn_status append_numbers(answering *a, uint32_t offset, tn_error *error)
     tn_instruction op = tn_code_read(module->code, offset);
     const tn_sum_record *sum = &module->SUM_records[module->HOUSE_SUM_records[op.first].sum];
     tn_amount_unit unit = tn_amount_unit_of(a->e->judge.schema, sum->power);
-    tn_buffer left = {0}, right = {0};
+    tn_buffer left = {0}, right = {0}, said = {0};
     bool costs = false;
     mpq_t value, constant;
     mpq_inits(value, constant, NULL);
@@ -122,13 +131,14 @@ static tn_status append_numbers(answering *a, uint32_t offset, tn_error *error)
     bool alone = mpq_sgn(constant) == 0;
     if (status == TN_OK && (!append_amount(unit, value, &left) || !append_amount(unit, constant, &right)))
         status = tn_fail_memory(error);
-    const char *quote = a->e->json ? "\"" : "";
     if (status == TN_OK)
-        tn_buffer_printf(&a->e->text, "%s%s%s%s%s%s", a->e->json ? "" : " ", quote,
-                         alone ? "the left side less the right side is " : "", left.data,
+        tn_buffer_printf(&said, "%s%s%s%s", alone ? "the left side less the right side is " : "", left.data,
                          alone ? "" : ", compared with ", alone ? "" : right.data);
-    tn_buffer_printf(&a->e->text, "%s", quote);
-    a->found++;
+    if (status == TN_OK && said.failed)
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        append_found(a, said.data);
+    free(said.data);
     free(left.data);
     free(right.data);
     mpq_clears(value, constant, NULL);
@@ -137,34 +147,33 @@ static tn_status append_numbers(answering *a, uint32_t offset, tn_error *error)
 
 static void end_question(answering *a)
 {
-    if (a->begun)
-        tn_buffer_printf(&a->e->text, "%s", a->e->json ? "]}" : a->found == 0 ? " nothing\n" : "\n");
+    if (!a->begun)
+        return;
+    if (a->e->json) {
+        tn_json_list_end(a->e->json);
+        tn_json_object_end(a->e->json);
+    } else {
+        tn_buffer_printf(&a->e->text, "%s", a->found == 0 ? " nothing\n" : "\n");
+    }
 }
 
 static tn_status write_found(void *context, const tn_witness *found, tn_error *error)
 {
     answering *a = context;
-    tn_buffer *out = &a->e->text;
     char text[TEXT_MAX] = "";
     if (found->first != TN_NO_CELL) {
         found_text(&a->e->house, found, text, sizeof text);
-        if (a->e->json) {
-            tn_buffer_printf(out, "%s", a->found ? "," : "");
-            tn_buffer_append_json(out, text);
-        } else {
-            tn_buffer_printf(out, "%s %s", a->found ? ";" : "", text);
-        }
-        a->found++;
+        append_found(a, text);
         return TN_OK;
     }
     end_question(a);
     question_text(a->e, found->offset, text, sizeof text);
     if (a->e->json) {
-        tn_buffer_printf(out, "%s{\"question\":", a->begun ? "," : "");
-        tn_buffer_append_json(out, text);
-        tn_buffer_printf(out, ",\"found\":[");
+        tn_json_object(a->e->json, NULL);
+        tn_json_string(a->e->json, "question", text);
+        tn_json_list(a->e->json, "found");
     } else {
-        tn_buffer_printf(out, "    %s:", text);
+        tn_buffer_printf(&a->e->text, "    %s:", text);
     }
     a->begun = true;
     a->found = 0;
@@ -181,13 +190,7 @@ tn_status tn_explain_why(tn_house_explaining *e, uint32_t function, tn_error *er
 
 /* ---- tiles */
 
-void tn_explain_member(tn_buffer *out, const char *before, const char *key, const char *value)
-{
-    tn_buffer_printf(out, "%s\"%s\":", before, key);
-    tn_buffer_append_json(out, value);
-}
-
-static tn_status write_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile, bool first, tn_error *error)
+static tn_status write_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile, tn_error *error)
 {
     const tn_tile_record *record = &e->judge.module->TILE_records[tile];
     tn_tile_failure failure;
@@ -201,30 +204,33 @@ static tn_status write_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile
         tn_buffer_printf(&e->text, "    %s: %s\n", name, text);
         return TN_OK;
     }
-    tn_explain_member(&e->text, first ? "{" : ",{", "tile", name);
-    tn_explain_member(&e->text, ",", "why", text);
-    tn_buffer_append(&e->text, "}", 1);
+    tn_json_object(e->json, NULL);
+    tn_json_string(e->json, "tile", name);
+    tn_json_string(e->json, "why", text);
+    tn_json_object_end(e->json);
     return TN_OK;
 }
 
-static tn_status write_bare(tn_house_explaining *e, uint32_t cell, bool first, tn_error *error)
+static tn_status write_bare(tn_house_explaining *e, uint32_t cell, tn_error *error)
 {
     const tn_form_record *form = e->judge.form.record;
     char text[96];
-    bool any = false;
     tn_status status = TN_OK;
     tn_cell_text(&e->house, cell, text, sizeof text);
-    if (e->json)
-        tn_buffer_printf(&e->text, "%s{\"cell\":\"%s\",\"tiles\":[", first ? "" : ",", text);
-    else
+    if (e->json) {
+        tn_json_object(e->json, NULL);
+        tn_json_string(e->json, "cell", text);
+        tn_json_list(e->json, "tiles");
+    } else {
         tn_buffer_printf(&e->text, "- no tile stands in %s, so this is no house of any library\n", text);
+    }
     for (uint32_t t = form->tile_first; status == TN_OK && t < form->tile_first + form->tile_count; t++)
-        if (tn_tile_is_for(&e->house, cell, t)) {
-            status = write_tile(e, cell, t, !any, error);
-            any = true;
-        }
-    if (e->json)
-        tn_buffer_printf(&e->text, "]}");
+        if (tn_tile_is_for(&e->house, cell, t))
+            status = write_tile(e, cell, t, error);
+    if (e->json) {
+        tn_json_list_end(e->json);
+        tn_json_object_end(e->json);
+    }
     return status;
 }
 
@@ -244,19 +250,17 @@ tn_status tn_explain_next_bare(const tn_house_explaining *e, uint32_t *cell, tn_
 
 tn_status tn_explain_tiles(tn_house_explaining *e, tn_error *error)
 {
-    bool any = false;
     uint32_t cell = 0;
     if (e->json)
-        tn_buffer_printf(&e->text, ",\"bare\":[");
+        tn_json_list(e->json, "bare");
     tn_status status = tn_explain_next_bare(e, &cell, error);
     while (status == TN_OK && cell < e->house.cell_count) {
-        status = write_bare(e, cell++, !any, error);
-        any = true;
+        status = write_bare(e, cell++, error);
         if (status == TN_OK)
             status = tn_explain_next_bare(e, &cell, error);
     }
     if (e->json)
-        tn_buffer_printf(&e->text, "]");
+        tn_json_list_end(e->json);
     return status;
 }
 
@@ -265,9 +269,9 @@ tn_status tn_explain_tiles(tn_house_explaining *e, tn_error *error)
 void tn_explain_behind_roofs(tn_house_explaining *e)
 {
     tn_behind_roof behind;
-    const char *before = e->json ? "{" : "";
+    bool any = false;
     if (e->json)
-        tn_buffer_printf(&e->text, ",\"behind_roofs\":[");
+        tn_json_list(e->json, "behind_roofs");
     for (uint32_t i = 0; i < e->house.face_count; i++) {
         char face[256], why[200];
         if (!tn_face_behind_roof(&e->house, &e->house.faces[i], TN_NO_RECORD, &behind))
@@ -276,16 +280,17 @@ void tn_explain_behind_roofs(tn_house_explaining *e)
         tn_face_text(&e->house, i, face, sizeof face);
         tn_behind_roof_text(&e->house, &behind, why, sizeof why);
         if (e->json) {
-            tn_explain_member(&e->text, before, "face", face);
-            tn_explain_member(&e->text, ",", "opening", opening);
-            tn_explain_member(&e->text, ",", "why", why);
-            tn_buffer_append(&e->text, "}", 1);
+            tn_json_object(e->json, NULL);
+            tn_json_string(e->json, "face", face);
+            tn_json_string(e->json, "opening", opening);
+            tn_json_string(e->json, "why", why);
+            tn_json_object_end(e->json);
         } else {
-            tn_buffer_printf(&e->text, "%s    %s: `%s` does not fit, as %s\n", *before ? "" : "behind lower roofs:\n",
-                             face, opening, why);
+            tn_buffer_printf(&e->text, "%s    %s: `%s` does not fit, as %s\n", any ? "" : "behind lower roofs:\n", face,
+                             opening, why);
         }
-        before = e->json ? ",{" : ",";
+        any = true;
     }
     if (e->json)
-        tn_buffer_printf(&e->text, "]");
+        tn_json_list_end(e->json);
 }

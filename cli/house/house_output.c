@@ -23,8 +23,11 @@ static tn_status write_row(tn_house_rows *w, const tn_house *house, const mpz_t 
 {
     w->line.size = w->members.size = 0;
     tn_status status = tn_house_write(house, &w->line, error);
+    tn_json members = tn_json_text(&w->members, TN_JSON_TIGHT);
     if (status == TN_OK && w->json)
-        status = tn_house_write_members(house, &w->members, error);
+        status = tn_house_write_members(house, &members, error);
+    if (status == TN_OK && w->members.failed)
+        status = tn_fail_memory(error);
     if (status != TN_OK)
         return status;
     const tn_plan_row row = {.trays = house->trays,

@@ -123,35 +123,33 @@ static bool judge_line(tn_job *job, tn_house_judge *judge, const asked_rules *as
     return status == TN_OK;
 }
 
-static bool write_matches(const asked_rules *asked, const bool *holds, const char *line, tn_house_answer answer,
-                          FILE *out)
+static void write_matches_json(const asked_rules *asked, const bool *holds, const char *line, FILE *out)
 {
-    tn_buffer text = {0};
+    tn_json json = tn_json_file(out, TN_JSON_TIGHT);
+    tn_json_object(&json, NULL);
+    tn_json_string(&json, "house", line);
+    tn_json_list(&json, "rules");
+    for (size_t i = 0; i < asked->count; i++)
+        if (holds[i])
+            tn_json_string(&json, NULL, asked->items[i].name);
+    tn_json_list_end(&json);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
+}
+
+static void write_matches(const asked_rules *asked, const bool *holds, tn_house_answer answer, FILE *out)
+{
     bool any = false;
-    if (answer == TN_HOUSE_JSON) {
-        tn_buffer_printf(&text, "{\"house\":");
-        tn_buffer_append_json(&text, line);
-        tn_buffer_printf(&text, ",\"rules\":[");
-    }
     for (size_t i = 0; i < asked->count; i++) {
         if (answer == TN_HOUSE_BITS)
-            tn_buffer_printf(&text, "%d", holds[i]);
+            fputc(holds[i] ? '1' : '0', out);
         else if (holds[i] && answer != TN_HOUSE_ANY)
-            tn_buffer_printf(&text, answer == TN_HOUSE_JSON ? "%s\"%s\"" : "%s%s",
-                             !any                      ? ""
-                             : answer == TN_HOUSE_JSON ? ","
-                                                       : " ",
-                             asked->items[i].name);
+            fprintf(out, "%s%s", any ? " " : "", asked->items[i].name);
         any |= holds[i];
     }
     if (answer == TN_HOUSE_ANY)
-        tn_buffer_printf(&text, "%d", any);
-    tn_buffer_printf(&text, "%s\n", answer == TN_HOUSE_JSON ? "]}" : answer == TN_HOUSE_NAMES && !any ? "-" : "");
-    bool good = !text.failed;
-    if (good)
-        fwrite(text.data, 1, text.size, out);
-    free(text.data);
-    return good;
+        fputc(any ? '1' : '0', out);
+    fputs(answer == TN_HOUSE_NAMES && !any ? "-\n" : "\n", out);
 }
 
 static void match_stream(tn_job *job, tn_house_judge *judge, const asked_rules *asked, FILE *in, const char *path,
@@ -167,8 +165,11 @@ static void match_stream(tn_job *job, tn_house_judge *judge, const asked_rules *
         number++;
         if (line[strspn(line, " \t")] == '\0' || line[0] == '#')
             continue;
-        good = judge_line(job, judge, asked, path, line, number, max_length, holds) &&
-               write_matches(asked, holds, line, answer, out);
+        good = judge_line(job, judge, asked, path, line, number, max_length, holds);
+        if (good && answer == TN_HOUSE_JSON)
+            write_matches_json(asked, holds, line, out);
+        else if (good)
+            write_matches(asked, holds, answer, out);
     }
     free(line);
     free(holds);

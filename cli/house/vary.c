@@ -44,51 +44,46 @@ static tn_status cost_of(const tn_house *house, mpz_t hundredths, tn_error *erro
     return status;
 }
 
-/* "+12.50" */
-static void write_money(const varying *v)
+/* "+12.50"; the caller frees it. */
+static char *money(const varying *v)
 {
+    char *text = NULL;
     mpz_t whole;
     mpz_init(whole);
     unsigned long rest = mpz_tdiv_q_ui(whole, v->more, 100);
     mpz_abs(whole, whole);
-    gmp_fprintf(v->out, "%c%Zd.%02lu", mpz_sgn(v->more) < 0 ? '-' : '+', whole, rest);
+    gmp_asprintf(&text, "%c%Zd.%02lu", mpz_sgn(v->more) < 0 ? '-' : '+', whole, rest);
     mpz_clear(whole);
+    return text;
 }
 
-/* A JSON object; false where out of memory. */
-static bool write_json(const varying *v, const tn_house_change *change, const tn_change_words *w, double more)
+static void write_json(const varying *v, const tn_house_change *change, const tn_change_words *w, double more,
+                       const char *number, const char *cost)
 {
     static const char *const kinds[] = {"section", "function", "face", "tile"};
-    tn_buffer text = {0};
-    tn_buffer_printf(&text, "\"kind\":\"%s\",\"where\":", kinds[change->kind]);
-    tn_buffer_append_json(&text, w->where);
-    tn_buffer_printf(&text, ",\"from\":");
-    tn_buffer_append_json(&text, w->from);
-    tn_buffer_printf(&text, ",\"to\":");
-    tn_buffer_append_json(&text, w->to);
-    tn_buffer_printf(&text, ",\"area_%s\":%.6f", v->unit, more);
-    gmp_fprintf(v->out, "{\"house\":\"#%Zd:%Zd\",", v->plan, v->variant);
-    fwrite(text.data, 1, text.size, v->out);
-    if (tn_form_has_costs(v->house->form)) {
-        fputs(",\"cost\":\"", v->out);
-        write_money(v);
-        fputc('"', v->out);
-    }
-    fputs("}\n", v->out);
-    bool fine = !text.failed;
-    free(text.data);
-    return fine;
+    char area[32];
+    tn_json json = tn_json_file(v->out, TN_JSON_TIGHT);
+    snprintf(area, sizeof area, "area_%s", v->unit);
+    tn_json_object(&json, NULL);
+    tn_json_string(&json, "house", number);
+    tn_json_string(&json, "kind", kinds[change->kind]);
+    tn_json_string(&json, "where", w->where);
+    tn_json_string(&json, "from", w->from);
+    tn_json_string(&json, "to", w->to);
+    tn_json_number(&json, area, more);
+    if (tn_form_has_costs(v->house->form))
+        tn_json_string(&json, "cost", cost);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
 }
 
-static void write_line(const varying *v, const tn_change_words *w, double more)
+static void write_line(const varying *v, const tn_change_words *w, double more, const char *number, const char *cost)
 {
-    gmp_fprintf(v->out, "#%Zd:%Zd  %s: %s for %s", v->plan, v->variant, w->where, w->to, w->from);
+    fprintf(v->out, "%s  %s: %s for %s", number, w->where, w->to, w->from);
     if (more != 0)
         fprintf(v->out, ", %+.2f %s", more, v->unit);
-    if (mpz_sgn(v->more) != 0) {
-        fputs(", cost ", v->out);
-        write_money(v);
-    }
+    if (mpz_sgn(v->more) != 0)
+        fprintf(v->out, ", cost %s", cost);
     fputc('\n', v->out);
 }
 
@@ -106,10 +101,16 @@ static tn_status write_change(void *context, const tn_house_change *change, cons
     tn_change_text(v->house, change, &w);
     double more = (double)(tn_house_floor_area(changed) - tn_house_floor_area(v->house)) / v->unit_nm2;
     v->count++;
-    if (v->json)
-        return write_json(v, change, &w, more) ? TN_OK : tn_fail_memory(error);
-    write_line(v, &w, more);
-    return TN_OK;
+    char *number = NULL, *cost = money(v);
+    if (gmp_asprintf(&number, "#%Zd:%Zd", v->plan, v->variant) < 0 || !cost)
+        status = tn_fail_memory(error);
+    else if (v->json)
+        write_json(v, change, &w, more, number, cost);
+    else
+        write_line(v, &w, more, number, cost);
+    free(number);
+    free(cost);
+    return status;
 }
 
 enum { CELL_TEXT = 96 };

@@ -35,49 +35,75 @@ typedef struct sink {
     int64_t written[TN_WEIGHED_MAX];
 } sink;
 
-static bool write_values(sink *s, const int64_t *values)
+/* "value":"3/2" or "values":["3/2","4"] */
+static bool values_json(sink *s, const int64_t *values)
 {
     const tn_wishes *wishes = &s->search->wishes;
-    bool list = wishes->count > 1;
-    s->values.size = 0;
-    bool ok = tn_buffer_printf(&s->values, s->json ? (list ? "{\"values\":[" : "{\"value\":") : "# ");
+    tn_json json = tn_json_text(&s->values, TN_JSON_TIGHT);
+    tn_buffer exact = {0};
+    bool list = wishes->count > 1, ok = true;
+    if (list)
+        tn_json_list(&json, "values");
     for (uint32_t k = 0; ok && k < wishes->count; k++) {
-        ok = k == 0 || tn_buffer_printf(&s->values, s->json ? "," : "  ");
-        s->written[k] = values[k];
-        if (!s->json) {
-            ok = ok && tn_wishes_text(wishes, s->search->weighed, k, values[k], &s->values);
-            continue;
-        }
-        ok = ok && tn_buffer_printf(&s->values, "\"") &&
-             tn_wishes_exact(wishes, s->search->weighed, k, values[k], &s->values) &&
-             tn_buffer_printf(&s->values, "\"");
+        exact.size = 0;
+        ok = tn_wishes_exact(wishes, s->search->weighed, k, values[k], &exact);
+        tn_json_bytes(&json, list ? NULL : "value", exact.data, exact.size);
     }
-    return ok && (!s->json || !list || tn_buffer_printf(&s->values, "]"));
+    if (list)
+        tn_json_list_end(&json);
+    free(exact.data);
+    return ok && !s->values.failed;
 }
 
-static bool put_values(sink *s, const int64_t *values)
+/* A comment in lines: "# 3 m  4". */
+static bool values_text(sink *s, const int64_t *values)
 {
-    bool same = s->values.size > 0;
-    for (uint32_t k = 0; same && k < s->search->wishes.count; k++)
-        same = values[k] == s->written[k];
-    return (same || write_values(s, values)) && tn_buffer_append(&s->text, s->values.data, s->values.size);
+    const tn_wishes *wishes = &s->search->wishes;
+    bool ok = tn_buffer_printf(&s->values, "# ");
+    for (uint32_t k = 0; ok && k < wishes->count; k++)
+        ok = (k == 0 || tn_buffer_printf(&s->values, "  ")) &&
+             tn_wishes_text(wishes, s->search->weighed, k, values[k], &s->values);
+    return ok;
+}
+
+/* Makes s->values those of a plan. */
+static bool make_values(sink *s, const int64_t *values)
+{
+    size_t size = s->search->wishes.count * sizeof *values;
+    if (s->values.size > 0 && memcmp(values, s->written, size) == 0)
+        return true;
+    memcpy(s->written, values, size);
+    s->values.size = 0;
+    return (s->json ? values_json : values_text)(s, values);
+}
+
+static bool plan_json(sink *s, const tn_best_plan *plan, const char *rank)
+{
+    tn_json json = tn_json_text(&s->text, TN_JSON_TIGHT);
+    tn_json_object(&json, NULL);
+    tn_json_written(&json, s->values.data, s->values.size);
+    tn_json_string(&json, "rank", rank);
+    tn_plan_write_trays(s->search->ready->schema, plan->trays, plan->length, &json);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
+    return !s->text.failed;
+}
+
+static bool plan_text(sink *s, const tn_best_plan *plan, const char *rank)
+{
+    return tn_buffer_printf(&s->text, "%s  rank %s\n", s->values.data, rank) &&
+           tn_plan_write_line(s->search->ready->schema, plan->trays, plan->length, &s->text) &&
+           tn_buffer_printf(&s->text, "\n");
 }
 
 static tn_status put_plan(void *to, const tn_best_plan *plan, tn_error *error)
 {
     sink *s = to;
-    const tn_schema *schema = s->search->ready->schema;
     if (s->writer)
         return tn_plan_writer_write(s->writer, plan->rank, plan->trays, plan->length, error);
     s->text.size = 0;
     char *digits = mpz_get_str(NULL, 10, plan->rank);
-    bool ok = digits && put_values(s, plan->values);
-    if (s->json)
-        ok = ok && tn_buffer_printf(&s->text, ",\"rank\":\"%s\",\"trays\":", digits) &&
-             tn_plan_write_trays(schema, plan->trays, plan->length, &s->text) && tn_buffer_printf(&s->text, "}\n");
-    else
-        ok = ok && tn_buffer_printf(&s->text, "  rank %s\n", digits) &&
-             tn_plan_write_line(schema, plan->trays, plan->length, &s->text) && tn_buffer_printf(&s->text, "\n");
+    bool ok = digits && make_values(s, plan->values) && (s->json ? plan_json : plan_text)(s, plan, digits);
     free(digits);
     if (!ok)
         return tn_fail_memory(error);

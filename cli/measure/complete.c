@@ -1,5 +1,4 @@
 /* tartan complete: what may still be chosen in an open plan. */
-#include <jansson.h>
 #include <stdlib.h>
 
 #include "cli/common/option_rows.h"
@@ -76,44 +75,43 @@ static const char *spelling(const paper *p, uint32_t field, uint32_t value)
 }
 
 /* The count; with a measure the best value beside it. */
-static json_t *choice_json(const paper *p, uint32_t tray, uint32_t field, uint32_t value)
+static void choice_json(const paper *p, uint32_t tray, uint32_t field, uint32_t value, tn_json *json)
 {
-    char *digits = tn_digits(*count_at(p, tray, field, value), false);
-    json_t *count = json_string(digits ? digits : "");
-    free(digits);
-    if (!p->found->best)
-        return count;
-    json_t *choice = json_object();
+    const char *key = spelling(p, field, value);
+    mpz_srcptr count = *count_at(p, tray, field, value);
+    if (!p->found->best) {
+        tn_json_digits(json, key, count);
+        return;
+    }
     tn_buffer exact = {0};
     size_t at = (size_t)tray * p->found->values + p->schema->value_start[field] + value;
-    bool any = mpz_sgn(p->found->counts[at]) > 0 && write_amount(p, p->found->best[at], tn_amount_write_exact, &exact);
-    json_object_set_new(choice, p->what, count);
-    json_object_set_new(choice, "best", any ? json_string(exact.data) : json_null());
+    bool any = mpz_sgn(count) > 0 && write_amount(p, p->found->best[at], tn_amount_write_exact, &exact);
+    tn_json_object(json, key);
+    tn_json_digits(json, p->what, count);
+    tn_json_string(json, "best", any ? exact.data : NULL);
+    tn_json_object_end(json);
     free(exact.data);
-    return choice;
 }
 
 static void write_json(const paper *p, FILE *out)
 {
-    json_t *root = json_object(), *trays = json_array();
-    char *plans = tn_digits(p->found->plans, false);
-    json_object_set_new(root, p->what, json_string(plans ? plans : ""));
-    free(plans);
+    tn_json json = tn_json_file(out, TN_JSON_LINES);
+    tn_json_object(&json, NULL);
+    tn_json_digits(&json, p->what, p->found->plans);
+    tn_json_list(&json, "trays");
     for (uint32_t t = 0; t < p->found->trays; t++) {
-        json_t *tray = json_object();
+        tn_json_object(&json, NULL);
         for (uint32_t f = 0; f < p->schema->field_count; f++) {
-            json_t *values = json_object();
-            for (uint32_t v = 0; v < p->schema->fields[f].value_count; v++) {
-                json_object_set_new(values, spelling(p, f, v), choice_json(p, t, f, v));
-            }
-            json_object_set_new(tray, tn_text(p->schema->module, p->schema->fields[f].name), values);
+            tn_json_object(&json, tn_text(p->schema->module, p->schema->fields[f].name));
+            for (uint32_t v = 0; v < p->schema->fields[f].value_count; v++)
+                choice_json(p, t, f, v, &json);
+            tn_json_object_end(&json);
         }
-        json_array_append_new(trays, tray);
+        tn_json_object_end(&json);
     }
-    json_object_set_new(root, "trays", trays);
-    json_dumpf(root, out, JSON_INDENT(2));
-    fputc('\n', out);
-    json_decref(root);
+    tn_json_list_end(&json);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
 }
 
 static void write_field(const paper *p, uint32_t tray, uint32_t field, FILE *out)

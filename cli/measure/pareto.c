@@ -1,5 +1,4 @@
 /* tartan pareto: lists the best trade-offs of two or three measures. */
-#include <jansson.h>
 #include <stdlib.h>
 
 #include "cli/common/interrupt.h"
@@ -37,45 +36,47 @@ static const char *measure_name(const paper *p, uint32_t k)
     return tn_text(module, module->MEASURE_records[p->wishes->measures[k]].name);
 }
 
-static json_t *point_json(const paper *p, const tn_pareto_point *point, bool *ok)
+static bool point_json(const paper *p, const tn_pareto_point *point, tn_json *json)
 {
-    json_t *item = json_object(), *values = json_array();
-    for (uint32_t k = 0; k < p->wishes->count; k++) {
-        tn_buffer text = {0};
-        *ok = *ok && tn_wishes_exact(p->wishes, p->weighed, k, point->values[k], &text);
-        json_array_append_new(values, json_string(text.data ? text.data : ""));
-        free(text.data);
+    tn_buffer text = {0}, line = {0};
+    bool ok = true;
+    tn_json_object(json, NULL);
+    tn_json_list(json, "values");
+    for (uint32_t k = 0; ok && k < p->wishes->count; k++) {
+        text.size = 0;
+        ok = tn_wishes_exact(p->wishes, p->weighed, k, point->values[k], &text);
+        tn_json_bytes(json, NULL, text.data, text.size);
     }
-    tn_buffer line = {0};
+    tn_json_list_end(json);
     mpz_t rank;
     mpz_init(rank);
-    *ok = *ok && tn_library_rank(p->ready->library, point->trays, point->length, rank) &&
-          tn_plan_write_line(p->ready->schema, point->trays, point->length, &line);
-    char *plans = tn_digits(point->plans, false), *digits = tn_digits(rank, false);
-    json_object_set_new(item, "values", values);
-    json_object_set_new(item, "plans", json_string(plans ? plans : ""));
-    json_object_set_new(item, "rank", json_string(digits ? digits : ""));
-    json_object_set_new(item, "plan", json_string(line.data ? line.data : ""));
-    free(plans);
-    free(digits);
-    free(line.data);
+    ok = ok && tn_library_rank(p->ready->library, point->trays, point->length, rank) &&
+         tn_plan_write_line(p->ready->schema, point->trays, point->length, &line);
+    tn_json_digits(json, "plans", point->plans);
+    tn_json_digits(json, "rank", rank);
+    tn_json_string(json, "plan", line.data ? line.data : "");
+    tn_json_object_end(json);
     mpz_clear(rank);
-    return item;
+    free(text.data);
+    free(line.data);
+    return ok;
 }
 
 static bool write_json(const paper *p, FILE *out)
 {
-    json_t *root = json_object(), *names = json_array(), *points = json_array();
+    tn_json json = tn_json_file(out, TN_JSON_LINES);
     bool ok = true;
+    tn_json_object(&json, NULL);
+    tn_json_list(&json, "measures");
     for (uint32_t k = 0; k < p->wishes->count; k++)
-        json_array_append_new(names, json_string(measure_name(p, k)));
-    for (size_t i = 0; i < p->front->count; i++)
-        json_array_append_new(points, point_json(p, &p->front->points[i], &ok));
-    json_object_set_new(root, "measures", names);
-    json_object_set_new(root, "points", points);
-    json_dumpf(root, out, JSON_INDENT(2));
-    fputc('\n', out);
-    json_decref(root);
+        tn_json_string(&json, NULL, measure_name(p, k));
+    tn_json_list_end(&json);
+    tn_json_list(&json, "points");
+    for (size_t i = 0; ok && i < p->front->count; i++)
+        ok = point_json(p, &p->front->points[i], &json);
+    tn_json_list_end(&json);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
     return ok;
 }
 

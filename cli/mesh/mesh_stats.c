@@ -3,35 +3,48 @@
 #include <math.h>
 
 #include "cli/mesh/mesh.h"
+#include "runtime/base/json.h"
 
 static void write_json(FILE *out, const tn_mesh_stats *s)
 {
+    static const char *const times[] = {"samples", "vertices", "triangles"};
     const tn_mesh_measures *m = s->measures;
-    fprintf(out, "{\"%s\": \"%s\", \"vertices\": %zu, \"triangles\": %zu, \"parts\": %u, ", s->what, s->name,
-            s->mesh->vertex_count, s->mesh->face_count, m->parts);
-    if (s->closed)
-        fprintf(out, "\"euler\": %" PRId64 ", \"volume\": %.17g, ", m->euler, m->volume);
-    if (s->proven)
-        fprintf(out, "\"volume_bounds\": [%.17g, %.17g], ", s->proven[0], s->proven[1]);
-    if (s->thickness)
-        fprintf(out, "\"thickness\": [%.17g, %.17g], ", s->thickness[0], s->thickness[1]);
-    fprintf(out, "\"area\": %.17g, ", m->area);
+    tn_json json = tn_json_file(out, TN_JSON_SPACED);
+    tn_json_object(&json, NULL);
+    tn_json_string(&json, s->what, s->name);
+    tn_json_count(&json, "vertices", s->mesh->vertex_count);
+    tn_json_count(&json, "triangles", s->mesh->face_count);
+    tn_json_count(&json, "parts", m->parts);
     if (s->closed) {
-        fprintf(out, "\"centroid\": [%.17g, %.17g, %.17g], \"inertia\": [", m->centroid[0], m->centroid[1],
-                m->centroid[2]);
-        for (int i = 0; i < 3; i++)
-            fprintf(out, "%s[%.17g, %.17g, %.17g]", i ? ", " : "", m->inertia[i][0], m->inertia[i][1],
-                    m->inertia[i][2]);
-        fputs("], ", out);
+        tn_json_whole(&json, "euler", m->euler);
+        tn_json_number(&json, "volume", m->volume);
     }
-    fprintf(out, "\"bounds\": [[%.17g, %.17g, %.17g], [%.17g, %.17g, %.17g]]", m->low[0], m->low[1], m->low[2],
-            m->high[0], m->high[1], m->high[2]);
+    if (s->proven)
+        tn_json_numbers(&json, "volume_bounds", s->proven, 2);
+    if (s->thickness)
+        tn_json_numbers(&json, "thickness", s->thickness, 2);
+    tn_json_number(&json, "area", m->area);
+    if (s->closed) {
+        tn_json_numbers(&json, "centroid", m->centroid, 3);
+        tn_json_list(&json, "inertia");
+        for (int i = 0; i < 3; i++)
+            tn_json_numbers(&json, NULL, m->inertia[i], 3);
+        tn_json_list_end(&json);
+    }
+    tn_json_list(&json, "bounds");
+    tn_json_numbers(&json, NULL, m->low, 3);
+    tn_json_numbers(&json, NULL, m->high, 3);
+    tn_json_list_end(&json);
     for (size_t i = 0; i < s->count_count; i++)
-        fprintf(out, ", \"%s\": %" PRIu64, s->counts[i].key, s->counts[i].count);
-    if (s->seconds)
-        fprintf(out, ", \"seconds\": {\"samples\": %.6f, \"vertices\": %.6f, \"triangles\": %.6f}", s->seconds[0],
-                s->seconds[1], s->seconds[2]);
-    fputs("}\n", out);
+        tn_json_count(&json, s->counts[i].key, s->counts[i].count);
+    if (s->seconds) {
+        tn_json_object(&json, "seconds");
+        for (int i = 0; i < 3; i++)
+            tn_json_number(&json, times[i], s->seconds[i]);
+        tn_json_object_end(&json);
+    }
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
 }
 
 static double largest(const double p[3], double most)

@@ -7,6 +7,7 @@
 
 #include "cli/common/interrupt.h"
 #include "driver/place/kit.h"
+#include "runtime/base/json.h"
 #include "runtime/place/count/count.h"
 #include "runtime/place/joints.h"
 
@@ -54,18 +55,25 @@ static bool choose_parts(tn_job *job, const tn_option_list *kinds, bool **wanted
 
 static void write_counts(const tn_count_kit_options *options, const tn_building_counts *counts, FILE *out)
 {
-    uint64_t parts = options->parts.value;
-    if (options->json && options->inside)
-        fprintf(out, "{\"parts\":%" PRIu64 ",\"inside\":%" PRIu64 "}\n", parts, counts->fixed);
-    else if (options->json && options->fixed)
-        fprintf(out, "{\"parts\":%" PRIu64 ",\"fixed\":%" PRIu64 "}\n", parts, counts->fixed);
-    else if (options->json)
-        fprintf(out,
-                "{\"parts\":%" PRIu64 ",\"buildings\":%" PRIu64 ",\"fixed\":%" PRIu64 ",\"half_turn\":%" PRIu64
-                ",\"quarter_turn\":%" PRIu64 "}\n",
-                parts, counts->buildings, counts->fixed, counts->half, counts->quarter);
-    else
+    if (!options->json) {
         fprintf(out, "%" PRIu64 "\n", options->fixed || options->inside ? counts->fixed : counts->buildings);
+        return;
+    }
+    tn_json json = tn_json_file(out, TN_JSON_TIGHT);
+    tn_json_object(&json, NULL);
+    tn_json_count(&json, "parts", options->parts.value);
+    if (options->inside) {
+        tn_json_count(&json, "inside", counts->fixed);
+    } else if (options->fixed) {
+        tn_json_count(&json, "fixed", counts->fixed);
+    } else {
+        tn_json_count(&json, "buildings", counts->buildings);
+        tn_json_count(&json, "fixed", counts->fixed);
+        tn_json_count(&json, "half_turn", counts->half);
+        tn_json_count(&json, "quarter_turn", counts->quarter);
+    }
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
 }
 
 bool tn_job_kit_space(tn_job *job, const char *name, tn_place_rules *rules)

@@ -10,7 +10,7 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
-#include "runtime/base/utf8.h"
+#include "runtime/base/json.h"
 #include "runtime/place/count/list.h"
 #include "runtime/place/write.h"
 
@@ -39,15 +39,22 @@ static void write_line(const enumeration *e, const tn_placed_model *model)
 
 static void write_json(const enumeration *e, const tn_placed_model *model)
 {
-    fprintf(e->out, "{\"building\":%" PRIu64 ",\"parts\":[", e->rank);
+    tn_json json = tn_json_file(e->out, TN_JSON_TIGHT);
+    tn_json_object(&json, NULL);
+    tn_json_count(&json, "building", e->rank);
+    tn_json_list(&json, "parts");
     for (size_t i = 0; i < model->count; i++) {
-        fputs(i ? ",{\"part\":" : "{\"part\":", e->out);
-        tn_write_json(e->out, model->parts[i].name);
-        fputs(",\"at\":[", e->out);
-        tn_place_write_at(e->module, &model->parts[i].frame, ",", e->out);
-        fprintf(e->out, "],\"turn\":%" PRIu32 "}", model->parts[i].frame.heading);
+        double at[3];
+        tn_json_object(&json, NULL);
+        tn_json_string(&json, "part", model->parts[i].name);
+        tn_place_at(e->module, &model->parts[i].frame, at);
+        tn_json_numbers(&json, "at", at, 3);
+        tn_json_count(&json, "turn", model->parts[i].frame.heading);
+        tn_json_object_end(&json);
     }
-    fputs("]}\n", e->out);
+    tn_json_list_end(&json);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
 }
 
 static void write_subfile(const enumeration *e, const tn_placed_model *model)

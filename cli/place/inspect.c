@@ -9,6 +9,7 @@
 #include "driver/place/asked.h"
 #include "driver/place/drawn.h"
 #include "driver/place/shape.h"
+#include "runtime/base/json.h"
 
 typedef struct inspect_settings {
     tn_settings common;
@@ -37,21 +38,30 @@ static void write_text(const inspection *n, FILE *out)
 
 static void write_json(const inspection *n, FILE *out)
 {
+    tn_json json = tn_json_file(out, TN_JSON_TIGHT);
+    tn_json_object(&json, NULL);
     for (int i = 0; i < TN_PLACED_X; i++)
-        fprintf(out, "%s\"%s\":%.17g", i ? "," : "{", tn_placed_terms[i], n->measures.terms[i]);
-    fprintf(out, ",\"unknown\":%zu,\"snapped\":%zu,\"tilted\":%zu,\"beside\":%zu,\"findings\":[",
-            n->measures.joints.unknown, n->ldraw.snapped, n->ldraw.tilted, n->ldraw.beside);
-    bool comma = false;
+        tn_json_number(&json, tn_placed_terms[i], n->measures.terms[i]);
+    tn_json_count(&json, "unknown", n->measures.joints.unknown);
+    tn_json_count(&json, "snapped", n->ldraw.snapped);
+    tn_json_count(&json, "tilted", n->ldraw.tilted);
+    tn_json_count(&json, "beside", n->ldraw.beside);
+    tn_json_list(&json, "findings");
     for (size_t i = 0; i < n->ldraw.model.count; i++) {
         bool unknown = !n->measures.joints.kinds[i];
         if (!n->measures.overlaps[i] && !n->measures.floating[i] && !n->measures.joints.cut[i] && !unknown)
             continue;
-        fprintf(out, "%s{\"part\":%zu,\"overlaps\":%s,\"floating\":%s,\"cut\":%s,\"unknown\":%s}", comma ? "," : "", i,
-                n->measures.overlaps[i] ? "true" : "false", n->measures.floating[i] ? "true" : "false",
-                n->measures.joints.cut[i] ? "true" : "false", unknown ? "true" : "false");
-        comma = true;
+        tn_json_object(&json, NULL);
+        tn_json_count(&json, "part", i);
+        tn_json_bool(&json, "overlaps", n->measures.overlaps[i]);
+        tn_json_bool(&json, "floating", n->measures.floating[i]);
+        tn_json_bool(&json, "cut", n->measures.joints.cut[i]);
+        tn_json_bool(&json, "unknown", unknown);
+        tn_json_object_end(&json);
     }
-    fputs("]}\n", out);
+    tn_json_list_end(&json);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
 }
 
 /* Parts that the picture shows in red: those that overlap, or float. */

@@ -4,6 +4,7 @@
 
 #include "cli/place/place.h"
 #include "driver/place/place.h"
+#include "runtime/base/json.h"
 
 tn_status tn_place_summary(const tn_placed_model *model, FILE *out, tn_error *error)
 {
@@ -26,14 +27,17 @@ typedef struct figure {
 
 static void write_rows(const figure *rows, size_t count, bool json, FILE *out)
 {
-    for (size_t i = 0; i < count; i++) {
-        if (json)
-            fprintf(out, "%s\"%s\":%" PRIu64, i ? "," : "{", rows[i].name, rows[i].value);
-        else
+    tn_json writer = tn_json_file(out, TN_JSON_TIGHT);
+    if (!json) {
+        for (size_t i = 0; i < count; i++)
             fprintf(out, "%12" PRIu64 "  %s\n", rows[i].value, rows[i].what);
+        return;
     }
-    if (json)
-        fputs("}\n", out);
+    tn_json_object(&writer, NULL);
+    for (size_t i = 0; i < count; i++)
+        tn_json_count(&writer, rows[i].name, rows[i].value);
+    tn_json_object_end(&writer);
+    tn_json_end_line(&writer);
 }
 
 void tn_place_stats(const tn_placed_model *model, bool json, FILE *out)

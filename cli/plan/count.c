@@ -1,5 +1,4 @@
 /* tartan count: how many plans a library holds, exactly, without making one. */
-#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -211,70 +210,74 @@ static void write_text(const counts *c, FILE *out)
     write_lengths(c, out);
 }
 
-static void set_number(json_t *object, const char *key, const mpz_t number)
+/* Below 0 it is not known. */
+static void put_number(tn_json *json, const char *key, const mpz_t number)
 {
-    char *text = tn_digits(number, false);
-    json_object_set_new(object, key, mpz_sgn(number) < 0 ? json_null() : json_string(text ? text : ""));
-    free(text);
+    if (mpz_sgn(number) < 0)
+        tn_json_null(json, key);
+    else
+        tn_json_digits(json, key, number);
 }
 
-static json_t *lengths_json(const counts *c)
+static void lengths_json(const counts *c, tn_json *json)
 {
-    json_t *list = json_array();
+    tn_json_list(json, "by_length");
     for (size_t i = 0; i < c->length_count && !tn_interrupted(); i++) {
-        json_t *item = json_object();
-        json_object_set_new(item, "length", json_integer((json_int_t)(c->low + i)));
-        set_number(item, "generated", c->lengths[i].generated);
-        set_number(item, "kept", c->lengths[i].kept);
+        tn_json_object(json, NULL);
+        tn_json_count(json, "length", c->low + i);
+        put_number(json, "generated", c->lengths[i].generated);
+        put_number(json, "kept", c->lengths[i].kept);
         if (c->mirror)
-            set_number(item, "mirror", c->lengths[i].mirror);
-        json_array_append_new(list, item);
+            put_number(json, "mirror", c->lengths[i].mirror);
+        tn_json_object_end(json);
     }
-    return list;
+    tn_json_list_end(json);
 }
 
-static json_t *clauses_json(const counts *c, bool prunes, const char *out_key)
+static void clauses_json(const counts *c, bool prunes, tn_json *json)
 {
-    json_t *list = json_array();
+    tn_json_list(json, prunes ? "rules" : "requirements");
     for (uint32_t i = 0; i < c->clause_count; i++) {
         if ((clause_record(c, i)->kind == TN_CLAUSE_PRUNE) != prunes)
             continue;
-        json_t *item = json_object();
-        json_object_set_new(item, "name", json_string(clause_name(c, i)));
-        set_number(item, out_key, c->clauses[i].out);
-        set_number(item, "only", c->clauses[i].only);
-        json_object_set_new(item, "states", json_integer(c->clauses[i].states));
-        json_array_append_new(list, item);
+        tn_json_object(json, NULL);
+        tn_json_string(json, "name", clause_name(c, i));
+        put_number(json, prunes ? "prunes" : "keeps_out", c->clauses[i].out);
+        put_number(json, "only", c->clauses[i].only);
+        tn_json_count(json, "states", c->clauses[i].states);
+        tn_json_object_end(json);
     }
-    return list;
+    tn_json_list_end(json);
 }
 
 static void write_json(const counts *c, bool effects, FILE *out)
 {
     const length_counts *total = &c->lengths[c->length_count];
+    tn_json json = tn_json_file(out, TN_JSON_LINES);
     char hash[33];
-    json_t *root = json_object();
     mpz_t pruned;
     mpz_init(pruned);
     mpz_sub(pruned, total->generated, total->kept);
     tn_library_hash(c->ready->library, hash);
-    json_object_set_new(root, "library", json_string(tn_text(c->ready->schema->module, c->ready->record->name)));
-    json_object_set_new(root, "hash", json_string(hash));
-    bool within = tn_library_within(c->ready->library);
-    json_object_set_new(root, "states", within ? json_null() : json_integer(tn_library_states(c->ready->library)));
-    set_number(root, "generated", total->generated);
-    set_number(root, "pruned", pruned);
-    set_number(root, "kept", total->kept);
+    tn_json_object(&json, NULL);
+    tn_json_string(&json, "library", tn_text(c->ready->schema->module, c->ready->record->name));
+    tn_json_string(&json, "hash", hash);
+    if (tn_library_within(c->ready->library))
+        tn_json_null(&json, "states");
+    else
+        tn_json_count(&json, "states", tn_library_states(c->ready->library));
+    put_number(&json, "generated", total->generated);
+    put_number(&json, "pruned", pruned);
+    put_number(&json, "kept", total->kept);
     if (c->mirror)
-        set_number(root, "mirror", total->mirror);
-    json_object_set_new(root, "by_length", lengths_json(c));
-    if (effects)
-        json_object_set_new(root, "requirements", clauses_json(c, false, "keeps_out"));
-    if (effects)
-        json_object_set_new(root, "rules", clauses_json(c, true, "prunes"));
-    json_dumpf(root, out, JSON_INDENT(2));
-    fputc('\n', out);
-    json_decref(root);
+        put_number(&json, "mirror", total->mirror);
+    lengths_json(c, &json);
+    if (effects) {
+        clauses_json(c, false, &json);
+        clauses_json(c, true, &json);
+    }
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
     mpz_clear(pruned);
 }
 

@@ -1,7 +1,6 @@
 /* The distribution of a measure, as text and JSON. */
 #include "cli/plan/count_by.h"
 
-#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -40,17 +39,10 @@ static bool choose_bins(tn_job *job, const tn_count_by_options *options, tn_bins
 
 /* ---- JSON */
 
-static void set_exact(json_t *object, const char *key, const mpq_t value)
+static void put_exact(tn_json *json, const char *key, const mpq_t value)
 {
     char *text = mpq_get_str(NULL, 10, value);
-    json_object_set_new(object, key, json_string(text ? text : ""));
-    free(text);
-}
-
-static void set_plans(json_t *object, const char *key, const mpz_t plans)
-{
-    char *text = tn_digits(plans, false);
-    json_object_set_new(object, key, json_string(text ? text : ""));
+    tn_json_string(json, key, text);
     free(text);
 }
 
@@ -59,70 +51,68 @@ static const char *things(const tn_spread *p)
     return strcmp(p->of, "plan") == 0 ? "plans" : "houses";
 }
 
-static json_t *rows_json(const tn_spread *p)
+static void rows_json(const tn_spread *p, tn_json *json)
 {
-    json_t *list = json_array();
     tn_bin_row r;
     tn_bin_row_init(&p->bins, &r);
+    tn_json_list(json, "distribution");
     while (tn_bin_row_next(&p->bins, &r)) {
-        json_t *item = json_object();
-        set_exact(item, p->bins.binned ? "from" : "value", r.from);
+        tn_json_object(json, NULL);
+        put_exact(json, p->bins.binned ? "from" : "value", r.from);
         if (p->bins.binned)
-            set_exact(item, "to", r.to);
-        set_plans(item, things(p), r.plans);
-        json_array_append_new(list, item);
+            put_exact(json, "to", r.to);
+        tn_json_digits(json, things(p), r.plans);
+        tn_json_object_end(json);
     }
+    tn_json_list_end(json);
     tn_bin_row_clear(&r);
-    return list;
 }
 
-static void set_statistics(const tn_spread *p, json_t *root)
+static void statistics_json(const tn_spread *p, tn_json *json)
 {
     static const char *const none[] = {"least", "most", "mean", "variance", "deviation", "quartiles"};
     const tn_distribution *d = &p->d;
     for (size_t i = 0; d->count == 0 && i < sizeof none / sizeof *none; i++)
-        json_object_set_new(root, none[i], json_null());
+        tn_json_null(json, none[i]);
     if (d->count == 0)
         return;
     mpq_t value, variance;
     mpq_inits(value, variance, NULL);
     tn_bins_value(&p->bins, 0, value);
-    set_exact(root, "least", value);
+    put_exact(json, "least", value);
     tn_bins_value(&p->bins, d->count - 1, value);
-    set_exact(root, "most", value);
+    put_exact(json, "most", value);
     tn_distribution_moments(d, value, variance);
     tn_buffer deviation = {0};
     tn_amount_write_root(p->bins.unit, variance, &deviation);
     tn_amount_convert(p->bins.unit, value);
     tn_amount_convert(p->bins.unit, variance);
     tn_amount_convert(p->bins.unit, variance);
-    set_exact(root, "mean", value);
-    set_exact(root, "variance", variance);
-    json_object_set_new(root, "deviation", json_string(deviation.data ? deviation.data : ""));
+    put_exact(json, "mean", value);
+    put_exact(json, "variance", variance);
+    tn_json_string(json, "deviation", deviation.data);
     free(deviation.data);
-    json_t *quartiles = json_array();
+    tn_json_list(json, "quartiles");
     for (unsigned q = 1; q <= 3; q++) {
         tn_bins_value(&p->bins, tn_distribution_quartile(d, q), value);
-        char *text = mpq_get_str(NULL, 10, value);
-        json_array_append_new(quartiles, json_string(text ? text : ""));
-        free(text);
+        put_exact(json, NULL, value);
     }
-    json_object_set_new(root, "quartiles", quartiles);
+    tn_json_list_end(json);
     mpq_clears(value, variance, NULL);
 }
 
 static void write_json(const tn_spread *p, FILE *out)
 {
-    json_t *root = json_object();
-    json_object_set_new(root, "measure", json_string(p->name));
-    json_object_set_new(root, "dimension", json_integer(p->bins.unit.power));
-    json_object_set_new(root, "unit", json_string(tn_amount_unit_name(p->bins.unit)));
-    set_plans(root, things(p), p->d.all);
-    json_object_set_new(root, "distribution", rows_json(p));
-    set_statistics(p, root);
-    json_dumpf(root, out, JSON_INDENT(2));
-    fputc('\n', out);
-    json_decref(root);
+    tn_json json = tn_json_file(out, TN_JSON_LINES);
+    tn_json_object(&json, NULL);
+    tn_json_string(&json, "measure", p->name);
+    tn_json_whole(&json, "dimension", p->bins.unit.power);
+    tn_json_string(&json, "unit", tn_amount_unit_name(p->bins.unit));
+    tn_json_digits(&json, things(p), p->d.all);
+    rows_json(p, &json);
+    statistics_json(p, &json);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
 }
 
 /* ---- text */

@@ -176,30 +176,31 @@ bool tn_measure_changes_write(const tn_measure_changes *changes, FILE *out)
 
 /* ---- JSON */
 
-static json_t *side_json(const change *c, int side)
+static void side_json(const change *c, const char *key, int side, tn_json *json)
 {
-    json_t *object = json_object();
+    tn_json_object(json, key);
     for (int n = 0; n < NUMBERS; n++) {
         tn_buffer text = {0};
-        bool any =
-            mpz_sgn(c->moments[side].plans) > 0 && tn_amount_write_exact(c->unit[side], number_of(c, side, n), &text);
-        json_object_set_new(object, number_names[n], any ? json_string(text.data) : json_null());
+        bool any = mpz_sgn(c->moments[side].plans) > 0;
+        if (any && !tn_amount_write_exact(c->unit[side], number_of(c, side, n), &text))
+            json->text->failed = true;
+        tn_json_string(json, number_names[n], any ? text.data : NULL);
         free(text.data);
     }
-    return object;
+    tn_json_object_end(json);
 }
 
-json_t *tn_measure_changes_json(const tn_measure_changes *changes)
+void tn_measure_changes_json(const tn_measure_changes *changes, tn_json *json)
 {
-    json_t *list = json_array();
+    tn_json_list(json, "measures");
     for (size_t i = 0; changes && i < changes->count; i++) {
         const change *c = &changes->items[i];
-        json_t *item = json_object();
-        json_object_set_new(item, "name", json_string(c->name));
-        json_object_set_new(item, "unit", json_string(tn_amount_unit_name(c->unit[BEFORE])));
-        json_object_set_new(item, "before", side_json(c, BEFORE));
-        json_object_set_new(item, "after", side_json(c, AFTER));
-        json_array_append_new(list, item);
+        tn_json_object(json, NULL);
+        tn_json_string(json, "name", c->name);
+        tn_json_string(json, "unit", tn_amount_unit_name(c->unit[BEFORE]));
+        side_json(c, "before", BEFORE, json);
+        side_json(c, "after", AFTER, json);
+        tn_json_object_end(json);
     }
-    return list;
+    tn_json_list_end(json);
 }

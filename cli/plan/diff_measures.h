@@ -2,7 +2,6 @@
 #ifndef TARTAN_CLI_PLAN_DIFF_MEASURES_H
 #define TARTAN_CLI_PLAN_DIFF_MEASURES_H
 
-#include <jansson.h>
 #include <stdio.h>
 
 #include "cli/plan/answers.h"
@@ -16,6 +15,8 @@ void tn_measure_changes_free(tn_measure_changes *changes);
 
 /* A table, or nothing where there is no such measure. false where out of memory. */
 bool tn_measure_changes_write(const tn_measure_changes *changes, FILE *out);
-json_t *tn_measure_changes_json(const tn_measure_changes *changes);
+
+/* The member "measures" of an object that is written into a text. */
+void tn_measure_changes_json(const tn_measure_changes *changes, tn_json *json);
 
 #endif

@@ -1,7 +1,6 @@
 /* Writes the differences of two libraries as text and as JSON. */
 #include "cli/plan/diff_report.h"
 
-#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -228,88 +227,101 @@ tn_status tn_diff_write_text(const tn_diff_report *report, FILE *out, tn_error *
 
 /* ---- JSON */
 
-static void set_number(json_t *object, const char *key, const mpz_t number)
+static void put_counts(const tn_diff_report *report, uint32_t length, tn_json *json)
 {
-    char *text = tn_digits(number, false);
-    json_object_set_new(object, key, text ? json_string(text) : NULL);
-    free(text);
-}
-
-static json_t *counts_json(const tn_diff_report *report, uint32_t length)
-{
-    json_t *item = json_object();
     mpz_t count;
     mpz_init(count);
-    if (length != TN_ALL_LENGTHS)
-        json_object_set_new(item, "length", json_integer(length));
     for (int part = 0; part < TN_DIFF_PARTS; part++) {
         tn_library_kept(tn_library_diff_part(report->diff, (tn_diff_part)part), length, count);
-        set_number(item, tn_diff_part_names[part], count);
+        tn_json_digits(json, tn_diff_part_names[part], count);
     }
     mpz_clear(count);
-    return item;
 }
 
-static json_t *clauses_json(const tn_diff_report *report)
+static void counts_json(const tn_diff_report *report, tn_json *json)
 {
-    json_t *list = json_array();
+    const tn_library *any = tn_library_diff_part(report->diff, TN_DIFF_KEPT);
+    tn_json_object(json, "total");
+    put_counts(report, TN_ALL_LENGTHS, json);
+    tn_json_object_end(json);
+    tn_json_list(json, "by_length");
+    for (uint32_t n = tn_library_min(any); n <= tn_library_max(any); n++) {
+        tn_json_object(json, NULL);
+        tn_json_count(json, "length", n);
+        put_counts(report, n, json);
+        tn_json_object_end(json);
+    }
+    tn_json_list_end(json);
+}
+
+static void clauses_json(const tn_diff_report *report, tn_json *json)
+{
+    tn_json_list(json, "clauses");
     for (size_t i = 0; i < tn_library_diff_clauses(report->diff); i++) {
         const tn_changed_clause *clause = tn_library_diff_clause(report->diff, i);
-        json_t *item = json_object();
-        json_object_set_new(item, "name", json_string(clause_name(report, clause)));
-        json_object_set_new(item, "change", json_string(change_names[clause->change]));
-        set_number(item, "removes", clause->removes);
-        set_number(item, "adds", clause->adds);
-        json_array_append_new(list, item);
+        tn_json_object(json, NULL);
+        tn_json_string(json, "name", clause_name(report, clause));
+        tn_json_string(json, "change", change_names[clause->change]);
+        tn_json_digits(json, "removes", clause->removes);
+        tn_json_digits(json, "adds", clause->adds);
+        tn_json_object_end(json);
     }
-    return list;
+    tn_json_list_end(json);
 }
 
-static tn_status plans_json(const tn_diff_report *report, tn_diff_part part, json_t *plans, tn_error *error)
+static tn_status plans_json(const tn_diff_report *report, tn_diff_part part, tn_json *json, tn_error *error)
 {
-    json_t *list = json_array();
     tn_status status = TN_OK;
     mpz_t own;
     mpz_init(own);
+    tn_json_list(json, tn_diff_part_names[part]);
     for (size_t i = 0; status == TN_OK && i < report->samples[part].count; i++) {
-        json_t *item = json_object();
         tn_buffer line;
         status = plan_line(report, part, report->samples[part].ranks[i], &line, own, error);
-        set_number(item, "rank", own);
-        json_object_set_new(item, "plan", json_string(line.data ? line.data : ""));
-        json_array_append_new(list, item);
+        tn_json_object(json, NULL);
+        tn_json_digits(json, "rank", own);
+        tn_json_string(json, "plan", line.data ? line.data : "");
+        tn_json_object_end(json);
         free(line.data);
     }
+    tn_json_list_end(json);
     mpz_clear(own);
-    json_object_set_new(plans, tn_diff_part_names[part], list);
     return status;
 }
 
-tn_status tn_diff_write_json(const tn_diff_report *report, FILE *out, tn_error *error)
+static tn_status report_json(const tn_diff_report *report, tn_json *json, tn_error *error)
 {
     static const char *const keys[2] = {"before", "after"};
-    const tn_library *any = tn_library_diff_part(report->diff, TN_DIFF_KEPT);
-    json_t *root = json_object(), *lengths = json_array(), *plans = json_object();
     tn_status status = TN_OK;
+    tn_json_object(json, NULL);
     for (int side = 0; side < 2; side++) {
-        json_t *item = json_object();
-        json_object_set_new(item, "file", json_string(report->paths[side]));
-        json_object_set_new(item, "library", json_string(tn_text(report->modules[side], report->records[side]->name)));
-        json_object_set_new(root, keys[side], item);
+        tn_json_object(json, keys[side]);
+        tn_json_string(json, "file", report->paths[side]);
+        tn_json_string(json, "library", tn_text(report->modules[side], report->records[side]->name));
+        tn_json_object_end(json);
     }
-    for (uint32_t n = tn_library_min(any); n <= tn_library_max(any); n++)
-        json_array_append_new(lengths, counts_json(report, n));
+    counts_json(report, json);
+    clauses_json(report, json);
+    tn_measure_changes_json(report->measures, json);
+    tn_json_object(json, "plans");
     for (int part = 0; status == TN_OK && part < TN_DIFF_PARTS; part++)
-        status = plans_json(report, (tn_diff_part)part, plans, error);
-    json_object_set_new(root, "total", counts_json(report, TN_ALL_LENGTHS));
-    json_object_set_new(root, "by_length", lengths);
-    json_object_set_new(root, "clauses", clauses_json(report));
-    json_object_set_new(root, "measures", tn_measure_changes_json(report->measures));
-    json_object_set_new(root, "plans", plans);
-    if (status == TN_OK && json_dumpf(root, out, JSON_INDENT(2)) != 0)
-        status = ferror(out) ? TN_OK : tn_fail_memory(error); /* a failed stream is found when it is closed */
+        status = plans_json(report, (tn_diff_part)part, json, error);
+    tn_json_object_end(json);
+    tn_json_object_end(json);
+    tn_json_end_line(json);
+    return status;
+}
+
+/* All of it, or nothing where it fails. */
+tn_status tn_diff_write_json(const tn_diff_report *report, FILE *out, tn_error *error)
+{
+    tn_buffer text = {0};
+    tn_json json = tn_json_text(&text, TN_JSON_LINES);
+    tn_status status = report_json(report, &json, error);
+    if (status == TN_OK && text.failed)
+        status = tn_fail_memory(error);
     if (status == TN_OK)
-        fputc('\n', out);
-    json_decref(root);
+        fwrite(text.data, 1, text.size, out);
+    free(text.data);
     return status;
 }

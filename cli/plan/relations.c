@@ -169,92 +169,106 @@ static void write_houses(const tn_related_houses *houses, const tn_relations_opt
             write_house_pair(houses, i, j, out);
 }
 
-static json_t *house_pair_json(const tn_related_houses *houses, size_t i, size_t j, bool examples)
+static void house_pair_json(const tn_related_houses *houses, size_t i, size_t j, bool examples, tn_json *json)
 {
     char *const *found = &houses->examples[(i * houses->count + j) * TN_RELATED_KINDS];
-    json_t *pair = json_object();
-    json_object_set_new(pair, "a", json_string(houses->names[i]));
-    json_object_set_new(pair, "b", json_string(houses->names[j]));
-    json_object_set_new(pair, "relation", json_string(signs[houses->relations[i * houses->count + j]].word));
+    tn_json_object(json, NULL);
+    tn_json_string(json, "a", houses->names[i]);
+    tn_json_string(json, "b", houses->names[j]);
+    tn_json_string(json, "relation", signs[houses->relations[i * houses->count + j]].word);
     for (int kind = 0; examples && kind < TN_RELATED_KINDS; kind++)
-        json_object_set_new(pair, pair_keys[kind], found[kind] ? json_string(found[kind]) : json_null());
-    return pair;
+        tn_json_string(json, pair_keys[kind], found[kind]);
+    tn_json_object_end(json);
 }
 
-static json_t *houses_json(const tn_related_houses *houses, bool examples)
+static void houses_json(const tn_related_houses *houses, bool examples, tn_json *json)
 {
-    json_t *item = json_object(), *clauses = json_array(), *pairs = json_array();
-    for (size_t i = 0; i < houses->count; i++) {
-        json_array_append_new(clauses, json_string(houses->names[i]));
+    tn_json_object(json, NULL);
+    tn_json_string(json, "library", houses->library);
+    tn_json_list(json, "clauses");
+    for (size_t i = 0; i < houses->count; i++)
+        tn_json_string(json, NULL, houses->names[i]);
+    tn_json_list_end(json);
+    tn_json_list(json, "relations");
+    for (size_t i = 0; i < houses->count; i++)
         for (size_t j = i + 1; j < houses->count; j++)
-            json_array_append_new(pairs, house_pair_json(houses, i, j, examples));
-    }
-    json_object_set_new(item, "library", json_string(houses->library));
-    json_object_set_new(item, "clauses", clauses);
-    json_object_set_new(item, "relations", pairs);
-    return item;
+            house_pair_json(houses, i, j, examples, json);
+    tn_json_list_end(json);
+    tn_json_object_end(json);
 }
 
 /* ---- JSON of plans */
 
-static tn_status set_plan(json_t *object, const char *key, const tn_schema *schema, const tn_shown_plan *plan,
-                          tn_error *error)
+/* null where there is no such plan. */
+static void plan_json(const char *key, const tn_schema *schema, const tn_shown_plan *plan, tn_json *json)
 {
     tn_buffer line = {0};
-    bool ok = !plan->shown || tn_plan_write_line(schema, plan->trays, plan->length, &line);
-    if (ok)
-        json_object_set_new(object, key, plan->shown ? json_string(line.data ? line.data : "") : json_null());
+    if (plan->shown && !tn_plan_write_line(schema, plan->trays, plan->length, &line))
+        json->text->failed = true;
+    tn_json_string(json, key, !plan->shown ? NULL : line.data ? line.data : "");
     free(line.data);
-    return ok ? TN_OK : tn_fail_memory(error);
 }
 
-static tn_status pair_json(const tn_plan_analyses *analyses, size_t a, size_t i, size_t j, bool examples, json_t *list,
+static tn_status pair_json(const tn_plan_analyses *analyses, size_t a, size_t i, size_t j, bool examples, tn_json *json,
                            tn_error *error)
 {
-    json_t *pair = json_object();
     tn_status status = TN_OK;
-    json_object_set_new(pair, "a", json_string(rule_name(analyses, a, i)));
-    json_object_set_new(pair, "b", json_string(rule_name(analyses, a, j)));
-    json_object_set_new(pair, "relation", json_string(signs[tn_plan_analysis_relation(analyses->items[a], i, j)].word));
+    tn_json_object(json, NULL);
+    tn_json_string(json, "a", rule_name(analyses, a, i));
+    tn_json_string(json, "b", rule_name(analyses, a, j));
+    tn_json_string(json, "relation", signs[tn_plan_analysis_relation(analyses->items[a], i, j)].word);
     if (examples) {
         tn_shown_plan plans[3];
         status = tn_plan_analysis_examples(analyses->items[a], i, j, plans, error);
         for (int e = 0; e < 3; e++) {
             if (status == TN_OK)
-                status = set_plan(pair, pair_keys[e], analyses->schemas[a], &plans[e], error);
+                plan_json(pair_keys[e], analyses->schemas[a], &plans[e], json);
             tn_shown_plan_clear(&plans[e]);
         }
     }
-    json_array_append_new(list, pair);
+    tn_json_object_end(json);
     return status;
 }
 
+static tn_status rules_json(const tn_plan_analyses *analyses, size_t a, bool examples, tn_json *json, tn_error *error)
+{
+    const tn_schema *schema = analyses->schemas[a];
+    size_t count = tn_plan_analysis_rule_count(analyses->items[a]);
+    tn_status status = TN_OK;
+    tn_json_object(json, NULL);
+    tn_json_string(json, "schema", tn_text(schema->module, schema->record->name));
+    tn_json_list(json, "rules");
+    for (size_t i = 0; i < count; i++)
+        tn_json_string(json, NULL, rule_name(analyses, a, i));
+    tn_json_list_end(json);
+    tn_json_list(json, "relations");
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = i + 1; status == TN_OK && j < count; j++)
+            status = pair_json(analyses, a, i, j, examples, json, error);
+    tn_json_list_end(json);
+    tn_json_object_end(json);
+    return status;
+}
+
+/* All of it, or nothing where it fails. */
 static tn_status write_json(const tn_plan_analyses *analyses, const tn_related_houses *houses, size_t house_count,
                             const tn_relations_options *options, FILE *out, tn_error *error)
 {
-    json_t *root = json_array();
+    tn_buffer text = {0};
+    tn_json json = tn_json_text(&text, TN_JSON_LINES);
     tn_status status = TN_OK;
-    for (size_t a = 0; status == TN_OK && a < analyses->count; a++) {
-        const tn_schema *schema = analyses->schemas[a];
-        size_t count = tn_plan_analysis_rule_count(analyses->items[a]);
-        json_t *item = json_object(), *rules = json_array(), *pairs = json_array();
-        for (size_t i = 0; i < count; i++) {
-            json_array_append_new(rules, json_string(rule_name(analyses, a, i)));
-            for (size_t j = i + 1; status == TN_OK && j < count; j++)
-                status = pair_json(analyses, a, i, j, options->examples, pairs, error);
-        }
-        json_object_set_new(item, "schema", json_string(tn_text(schema->module, schema->record->name)));
-        json_object_set_new(item, "rules", rules);
-        json_object_set_new(item, "relations", pairs);
-        json_array_append_new(root, item);
-    }
+    tn_json_list(&json, NULL);
+    for (size_t a = 0; status == TN_OK && a < analyses->count; a++)
+        status = rules_json(analyses, a, options->examples, &json, error);
     for (size_t i = 0; i < house_count; i++)
-        json_array_append_new(root, houses_json(&houses[i], options->examples));
-    if (status == TN_OK) {
-        json_dumpf(root, out, JSON_INDENT(2));
-        fputc('\n', out);
-    }
-    json_decref(root);
+        houses_json(&houses[i], options->examples, &json);
+    tn_json_list_end(&json);
+    tn_json_end_line(&json);
+    if (status == TN_OK && text.failed)
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        fwrite(text.data, 1, text.size, out);
+    free(text.data);
     return status;
 }
 

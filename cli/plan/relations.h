@@ -3,8 +3,6 @@
 #ifndef TARTAN_CLI_PLAN_RELATIONS_H
 #define TARTAN_CLI_PLAN_RELATIONS_H
 
-#include <jansson.h>
-
 #include "cli/house/related.h"
 #include "driver/plan/analysis.h"
 

@@ -26,8 +26,9 @@ static const test_settings *settings_of(const tn_job *job)
 /* What is written when all files are done: a line, or in JSON everything. */
 typedef struct test_report {
     tn_test_counts counts;
-    tn_buffer files;  /* JSON: of each file */
-    tn_buffer solids; /* measures of designs of boxes */
+    tn_buffer files;           /* the coverage of each file, items of a list in JSON */
+    tn_buffer solids;          /* measures of designs of boxes: lines, or items of a list in JSON */
+    tn_json covered, measured; /* write the two */
 } test_report;
 
 void tn_test_counts_write(const tn_test_counts *counts, FILE *out)
@@ -38,14 +39,26 @@ void tn_test_counts_write(const tn_test_counts *counts, FILE *out)
     fputc('\n', out);
 }
 
+static void write_items(tn_json *json, const char *key, const char *items)
+{
+    if (!items)
+        return;
+    tn_json_list(json, key);
+    tn_json_written(json, items, strlen(items));
+    tn_json_list_end(json);
+}
+
 void tn_test_counts_json(const tn_test_counts *counts, const char *coverage, const char *solids, FILE *out)
 {
-    fprintf(out, "{\"passed\":%zu,\"failed\":%zu,\"todo\":%zu", counts->passed, counts->failed, counts->todo);
-    if (coverage)
-        fprintf(out, ",\"coverage\":[%s]", coverage);
-    if (solids)
-        fprintf(out, ",\"solids\":[%s]", solids);
-    fputs("}\n", out);
+    tn_json json = tn_json_file(out, TN_JSON_TIGHT);
+    tn_json_object(&json, NULL);
+    tn_json_count(&json, "passed", counts->passed);
+    tn_json_count(&json, "failed", counts->failed);
+    tn_json_count(&json, "todo", counts->todo);
+    write_items(&json, "coverage", coverage);
+    write_items(&json, "solids", solids);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
 }
 
 static void write_report(tn_job *job, const test_report *report)
@@ -81,8 +94,7 @@ static void write_coverage(tn_job *job, test_report *report)
     tn_job_status(job, status);
     bool json = settings_of(job)->json, written = true;
     if (status == TN_OK && json)
-        written = (!report->files.size || tn_buffer_append(&report->files, ",", 1)) &&
-                  tn_covered_json(&covered, &report->files);
+        written = tn_covered_json(&covered, &report->covered);
     else if (status == TN_OK)
         written = tn_covered_text(&covered, &text);
     if (!written) {
@@ -104,9 +116,11 @@ static void test_solids(tn_job *job, test_report *report)
     tn_error error;
     report->counts.passed += tally.passed;
     report->counts.failed += tally.failed;
-    bool comma = settings_of(job)->json && report->solids.size && text && *text;
-    if (text && ((comma && !tn_buffer_append(&report->solids, ",", 1)) ||
-                 !tn_buffer_append(&report->solids, text, strlen(text)))) {
+    if (text && settings_of(job)->json)
+        tn_json_written(&report->measured, text, strlen(text));
+    else if (text)
+        tn_buffer_append(&report->solids, text, strlen(text));
+    if (report->solids.failed) {
         tn_fail_memory(&error);
         tn_job_fail(job, &error);
     }
@@ -126,7 +140,9 @@ static int run(const tn_command *command, const tn_settings *common)
     (void)command;
     const test_settings *settings = (const test_settings *)common;
     tn_job job;
-    test_report report = {0};
+    test_report report = {.counts = {0}};
+    report.covered = tn_json_text(&report.files, TN_JSON_TIGHT);
+    report.measured = tn_json_text(&report.solids, TN_JSON_TIGHT);
     tn_job_begin(&job, common);
     for (size_t i = 0; i < common->operands.count; i++) {
         const char *path = common->operands.items[i];

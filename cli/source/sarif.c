@@ -2,7 +2,10 @@
 #include "cli/source/sarif.h"
 
 #include <ctype.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "runtime/base/array.h"
 
 #define SCHEMA_URI "https://json.schemastore.org/sarif-2.1.0.json"
 
@@ -17,23 +20,11 @@ static const struct {
 #undef WARNING
 };
 
-/* Text that may hold bytes which are no UTF-8: those become a question mark. */
-static json_t *text_of(const char *text)
-{
-    json_t *string = json_string(text ? text : "");
-    if (string)
-        return string;
-    char *copy = strdup(text);
-    for (char *c = copy; c && *c; c++)
-        if ((unsigned char)*c >= 0x80)
-            *c = '?';
-    string = json_string(copy ? copy : "");
-    free(copy);
-    return string;
-}
+/* Results are a list in a run, in the list of runs, in the log. */
+enum { RESULTS_DEPTH = 4 };
 
 /* A path as a URI reference: bytes that a URI cannot have are written %41. */
-static json_t *uri_of(const char *path)
+static void uri_json(tn_json *json, const char *path)
 {
     char uri[3 * 4096 + 16];
     size_t used = (size_t)snprintf(uri, sizeof uri, "%s", path[0] == '/' ? "file://" : "");
@@ -43,8 +34,16 @@ static json_t *uri_of(const char *path)
         else
             used += (size_t)snprintf(uri + used, sizeof uri - used, "%%%02X", *c);
     }
-    uri[used] = '\0';
-    return json_stringn(uri, used);
+    tn_json_object(json, "artifactLocation");
+    tn_json_bytes(json, "uri", uri, used);
+    tn_json_object_end(json);
+}
+
+static void text_json(tn_json *json, const char *key, const char *text)
+{
+    tn_json_object(json, key);
+    tn_json_string(json, "text", text ? text : "");
+    tn_json_object_end(json);
 }
 
 /* The column, in characters: columns are counted in bytes elsewhere. */
@@ -56,98 +55,122 @@ static size_t characters(const char *line, size_t size, size_t column)
     return count;
 }
 
-static json_t *region_of(tn_sources *sources, tn_span span)
+static void region_json(tn_json *json, const char *key, tn_sources *sources, tn_span span)
 {
     tn_place place = tn_sources_place(sources, span);
     tn_place end = tn_sources_place(sources, (tn_span){span.file, span.end, span.end});
-    return json_pack("{s:I,s:I,s:I,s:I}", "startLine", (json_int_t)place.line, "startColumn",
-                     (json_int_t)characters(place.line_text, place.line_size, place.column), "endLine",
-                     (json_int_t)end.line, "endColumn",
-                     (json_int_t)characters(end.line_text, end.line_size, end.column));
+    tn_json_object(json, key);
+    tn_json_count(json, "startLine", place.line);
+    tn_json_count(json, "startColumn", characters(place.line_text, place.line_size, place.column));
+    tn_json_count(json, "endLine", end.line);
+    tn_json_count(json, "endColumn", characters(end.line_text, end.line_size, end.column));
+    tn_json_object_end(json);
 }
 
-static json_t *location_of(tn_sources *sources, tn_span span)
+/* With a message, where there is one to say of it. */
+static void location_json(tn_json *json, tn_sources *sources, tn_span span, const char *message)
 {
-    return json_pack("{s:{s:{s:o},s:o}}", "physicalLocation", "artifactLocation", "uri",
-                     uri_of(sources->files[span.file].path), "region", region_of(sources, span));
+    tn_json_object(json, NULL);
+    tn_json_object(json, "physicalLocation");
+    uri_json(json, sources->files[span.file].path);
+    region_json(json, "region", sources, span);
+    tn_json_object_end(json);
+    if (message)
+        text_json(json, "message", message);
+    tn_json_object_end(json);
 }
 
-/* Where the code's description is among the rules; it is added where it is new. */
-static json_int_t rule_index(tn_sarif *sarif, const tn_diagnostic *item, const char *name)
+/* Where the code is among the rules; it is added where it is new. */
+static size_t rule_index(tn_sarif *sarif, uint32_t code)
 {
-    size_t i;
-    json_t *rule;
-    json_array_foreach(sarif->rules, i, rule) if (strcmp(json_string_value(json_object_get(rule, "id")), name) ==
-                                                  0) return (json_int_t)i;
-    const char *summary = "";
-    for (size_t k = 0; k < sizeof summaries / sizeof *summaries; k++)
-        if (summaries[k].code == item->code)
-            summary = summaries[k].summary;
-    json_array_append_new(sarif->rules,
-                          json_pack("{s:s,s:{s:s},s:{s:s}}", "id", name, "shortDescription", "text", summary,
-                                    "defaultConfiguration", "level", item->code >= 10000 ? "warning" : "error"));
-    return (json_int_t)json_array_size(sarif->rules) - 1;
+    for (size_t i = 0; i < sarif->rule_count; i++)
+        if (sarif->rules[i] == code)
+            return i;
+    if (tn_array_reserve(&sarif->rules, &sarif->rule_capacity, sarif->rule_count, 1, sizeof *sarif->rules))
+        sarif->rules[sarif->rule_count++] = code;
+    else
+        sarif->results.failed = true;
+    return sarif->rule_count - 1;
 }
 
-static json_t *related(const tn_diagnostics *list, const tn_diagnostic *item)
+static bool is_related(const tn_diagnostics *list, const tn_diagnostic_note *note)
 {
-    json_t *notes = json_array();
+    return note->has_span && note->span.file < list->sources->count;
+}
+
+static void related_json(tn_json *json, const tn_diagnostics *list, const tn_diagnostic *item)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < item->note_count; i++)
+        count += is_related(list, &item->notes[i]);
+    if (count == 0)
+        return;
+    tn_json_list(json, "relatedLocations");
     for (size_t i = 0; i < item->note_count; i++) {
         const tn_diagnostic_note *note = &item->notes[i];
-        if (!note->has_span || note->span.file >= list->sources->count)
-            continue;
-        json_t *place = location_of(list->sources, note->span);
-        json_object_set_new(place, "message", json_pack("{s:o}", "text", text_of(note->text)));
-        json_array_append_new(notes, place);
+        if (is_related(list, note))
+            location_json(json, list->sources, note->span, note->text ? note->text : "");
     }
-    return notes;
+    tn_json_list_end(json);
 }
 
-static json_t *fixes(const tn_diagnostics *list, const tn_diagnostic *item)
+/* One fix, of one file, in one place. */
+static void fixes_json(tn_json *json, const tn_diagnostics *list, const tn_diagnostic *item)
 {
-    return json_pack("[{s:{s:o},s:[{s:{s:o},s:[{s:o,s:{s:o}}]}]}]", "description", "text", text_of(item->help),
-                     "artifactChanges", "artifactLocation", "uri", uri_of(list->sources->files[item->span.file].path),
-                     "replacements", "deletedRegion", region_of(list->sources, item->span), "insertedContent", "text",
-                     text_of(item->replacement));
+    tn_json_list(json, "fixes");
+    tn_json_object(json, NULL);
+    text_json(json, "description", item->help);
+    tn_json_list(json, "artifactChanges");
+    tn_json_object(json, NULL);
+    uri_json(json, list->sources->files[item->span.file].path);
+    tn_json_list(json, "replacements");
+    tn_json_object(json, NULL);
+    region_json(json, "deletedRegion", list->sources, item->span);
+    text_json(json, "insertedContent", item->replacement);
+    tn_json_object_end(json);
+    tn_json_list_end(json);
+    tn_json_object_end(json);
+    tn_json_list_end(json);
+    tn_json_object_end(json);
+    tn_json_list_end(json);
 }
 
 /* What a person reads below each other: the message, notes without a place, the help. */
-static json_t *message_of(const tn_diagnostic *item)
+static void message_json(tn_json *json, const tn_diagnostic *item)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out)
-        return text_of(item->message);
-    fputs(item->message ? item->message : "", out);
+    tn_buffer text = {0};
+    tn_buffer_printf(&text, "%s", item->message ? item->message : "");
     for (size_t i = 0; i < item->note_count; i++)
         if (!item->notes[i].has_span)
-            fprintf(out, "\nnote: %s", item->notes[i].text ? item->notes[i].text : "");
+            tn_buffer_printf(&text, "\nnote: %s", item->notes[i].text ? item->notes[i].text : "");
     if (item->help)
-        fprintf(out, "\nhelp: %s", item->help);
-    fclose(out);
-    json_t *message = text_of(text);
-    free(text);
-    return message;
+        tn_buffer_printf(&text, "\nhelp: %s", item->help);
+    json->text->failed |= text.failed;
+    text_json(json, "message", text.data);
+    free(text.data);
 }
 
 static void add(tn_sarif *sarif, const tn_diagnostics *list, const tn_diagnostic *item)
 {
     static const char *const levels[] = {[TN_NOTE] = "note", [TN_WARNING] = "warning", [TN_ERROR] = "error"};
+    tn_json *json = &sarif->json;
     char name[8];
     tn_code_name(item->code, name);
     bool placed = item->has_span && item->span.file < list->sources->count;
-    json_t *result = json_pack("{s:s,s:I,s:s,s:{s:o}}", "ruleId", name, "ruleIndex", rule_index(sarif, item, name),
-                               "level", levels[item->severity], "message", "text", message_of(item));
-    if (placed)
-        json_object_set_new(result, "locations", json_pack("[o]", location_of(list->sources, item->span)));
-    json_t *notes = related(list, item);
-    if (json_array_size(notes) > 0)
-        json_object_set(result, "relatedLocations", notes);
-    json_decref(notes);
+    tn_json_object(json, NULL);
+    tn_json_string(json, "ruleId", name);
+    tn_json_count(json, "ruleIndex", rule_index(sarif, item->code));
+    tn_json_string(json, "level", levels[item->severity]);
+    message_json(json, item);
+    if (placed) {
+        tn_json_list(json, "locations");
+        location_json(json, list->sources, item->span, NULL);
+        tn_json_list_end(json);
+    }
+    related_json(json, list, item);
     if (placed && item->replacement)
-        json_object_set_new(result, "fixes", fixes(list, item));
-    json_array_append_new(sarif->results, result);
+        fixes_json(json, list, item);
+    tn_json_object_end(json);
 }
 
 static void listen(tn_listener *listener, const tn_diagnostics *list)
@@ -160,28 +183,75 @@ static void listen(tn_listener *listener, const tn_diagnostics *list)
 
 void tn_sarif_begin(tn_sarif *sarif)
 {
-    *sarif = (tn_sarif){.listener.listen = listen, .results = json_array(), .rules = json_array()};
+    *sarif = (tn_sarif){.listener.listen = listen, .json = tn_json_text(&sarif->results, TN_JSON_LINES)};
+    sarif->json.depth = RESULTS_DEPTH;
 }
 
 void tn_sarif_clear(tn_sarif *sarif)
 {
-    json_decref(sarif->results);
-    json_decref(sarif->rules);
+    free(sarif->results.data);
+    free(sarif->rules);
     *sarif = (tn_sarif){0};
+}
+
+/* ---- the log */
+
+static void rule_json(tn_json *json, uint32_t code)
+{
+    const char *summary = "";
+    char name[8];
+    tn_code_name(code, name);
+    for (size_t k = 0; k < sizeof summaries / sizeof *summaries; k++)
+        if (summaries[k].code == code)
+            summary = summaries[k].summary;
+    tn_json_object(json, NULL);
+    tn_json_string(json, "id", name);
+    text_json(json, "shortDescription", summary);
+    tn_json_object(json, "defaultConfiguration");
+    tn_json_string(json, "level", code >= 10000 ? "warning" : "error");
+    tn_json_object_end(json);
+    tn_json_object_end(json);
+}
+
+static void tool_json(tn_json *json, const tn_sarif *sarif)
+{
+    tn_json_object(json, "tool");
+    tn_json_object(json, "driver");
+    tn_json_string(json, "name", "tartan");
+    tn_json_string(json, "version", TARTAN_VERSION);
+    tn_json_list(json, "rules");
+    for (size_t i = 0; i < sarif->rule_count; i++)
+        rule_json(json, sarif->rules[i]);
+    tn_json_list_end(json);
+    tn_json_object_end(json);
+    tn_json_object_end(json);
+}
+
+static void log_json(tn_json *json, const tn_sarif *sarif)
+{
+    tn_json_object(json, NULL);
+    tn_json_string(json, "$schema", SCHEMA_URI);
+    tn_json_string(json, "version", "2.1.0");
+    tn_json_list(json, "runs");
+    tn_json_object(json, NULL);
+    tool_json(json, sarif);
+    tn_json_string(json, "columnKind", "unicodeCodePoints");
+    tn_json_list(json, "results");
+    tn_json_written(json, sarif->results.data, sarif->results.size);
+    tn_json_list_end(json);
+    tn_json_object_end(json);
+    tn_json_list_end(json);
+    tn_json_object_end(json);
+    tn_json_end_line(json);
 }
 
 tn_status tn_sarif_write(const tn_sarif *sarif, const char *path, tn_error *error)
 {
-    json_t *log = json_pack("{s:s,s:s,s:[{s:{s:{s:s,s:s,s:O}},s:s,s:O}]}", "$schema", SCHEMA_URI, "version", "2.1.0",
-                            "runs", "tool", "driver", "name", "tartan", "version", TARTAN_VERSION, "rules",
-                            sarif->rules, "columnKind", "unicodeCodePoints", "results", sarif->results);
     tn_output output;
-    tn_status status = log ? tn_output_open(path, &output, error) : tn_fail_memory(error);
-    if (status == TN_OK) {
-        json_dumpf(log, output.stream, JSON_INDENT(2));
-        fputc('\n', output.stream);
-        status = tn_output_commit(&output, error);
-    }
-    json_decref(log);
-    return status;
+    tn_status status = sarif->results.failed ? tn_fail_memory(error) : tn_output_open(path, &output, error);
+    if (status != TN_OK)
+        return status;
+    tn_json json = tn_json_file(output.stream, TN_JSON_LINES);
+    log_json(&json, sarif);
+    return tn_output_commit(&output, error);
 }

@@ -2,14 +2,16 @@
 #ifndef TARTAN_CLI_SOURCE_SARIF_H
 #define TARTAN_CLI_SOURCE_SARIF_H
 
-#include <jansson.h>
-
 #include "cli/common/job.h"
+#include "runtime/base/json.h"
 
-/* Listens to a job. Begin it before, write it or clear it after. */
+/* Listens to a job. Begin it before, in the place where it stays; write it and clear it after. */
 typedef struct tn_sarif {
     tn_listener listener; /* first */
-    json_t *results, *rules;
+    tn_buffer results;
+    tn_json json;    /* writes them, as they come */
+    uint32_t *rules; /* the codes of those that they are about */
+    size_t rule_count, rule_capacity;
 } tn_sarif;
 
 void tn_sarif_begin(tn_sarif *sarif);

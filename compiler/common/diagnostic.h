@@ -102,8 +102,11 @@ typedef struct tn_show_options {
 /* Writes all of them (library code does not choose the stream). JSON objects:
  * {"severity","code","message","file","line",
  * "column","end_line","end_column","notes":[{"message","file","line","column"}],"help","replacement"}; what an item
- * does not have is null. What is not text (control characters, broken UTF-8, direction overrides) is shown as U+FFFD.
- */
+ * does not have is null. Bytes that are no UTF-8 are shown as U+FFFD (runtime/base/json.h). */
 void tn_diagnostics_show(tn_diagnostics *list, const tn_show_options *options, FILE *out);
+
+/* Such an array of one that has no place, where there is no list: for a command that is ended from without. help may
+ * be NULL. */
+void tn_diagnostics_show_alone(tn_severity severity, tn_code code, const char *message, const char *help, FILE *out);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "runtime/base/json.h"
 #include "runtime/base/utf8.h"
 
 /* Tabs are shown as blanks up to the next multiple of TAB_STOP; of a longer line than LINE_COLUMNS a window is shown
@@ -230,75 +231,65 @@ static void show_text(tn_diagnostics *list, const tn_style *style, FILE *out)
 
 /* ---- JSON form */
 
-static void write_number(FILE *out, const char *name, size_t number)
-{
-    if (number > 0)
-        fprintf(out, ",\"%s\":%zu", name, number);
-    else
-        fprintf(out, ",\"%s\":null", name);
-}
-
-static void json_place(FILE *out, const char *path, const size_t numbers[4], size_t count)
-{
-    static const char *const names[] = {"line", "column", "end_line", "end_column"};
-    fputs(",\"file\":", out);
-    tn_write_json(out, path);
-    for (size_t i = 0; i < count; i++)
-        write_number(out, names[i], numbers[i]);
-}
-
-static void json_span(tn_diagnostics *list, bool has_span, tn_span span, size_t count, FILE *out)
+static tn_json_place place_of(tn_diagnostics *list, bool has_span, tn_span span)
 {
     tn_place place = {0};
     if (has_span)
         place = tn_sources_place(list->sources, span);
-    json_place(out, place.line > 0 ? place.path : NULL,
-               (const size_t[]){place.line, place.column, place.end_line, place.end_column}, count);
+    return (tn_json_place){place.line > 0 ? place.path : NULL, place.line, place.column, place.end_line,
+                           place.end_column};
 }
 
-static void json_notes(tn_diagnostics *list, const tn_diagnostic *item, FILE *out)
+static void json_notes(tn_diagnostics *list, const tn_diagnostic *item, tn_json *json)
 {
-    fputs(",\"notes\":[", out);
+    tn_json_list(json, "notes");
     for (size_t i = 0; i < item->note_count; i++) {
         const tn_diagnostic_note *note = &item->notes[i];
-        fprintf(out, "%s{\"message\":", i ? "," : "");
-        tn_write_json(out, note->text);
-        json_span(list, note->has_span, note->span, 2, out);
-        fputc('}', out);
+        const tn_json_place place = place_of(list, note->has_span, note->span);
+        tn_json_object(json, NULL);
+        tn_json_string(json, "message", note->text);
+        tn_json_place_begin(json, &place);
+        tn_json_object_end(json);
     }
-    fputc(']', out);
+    tn_json_list_end(json);
 }
 
-static void json_item(tn_diagnostics *list, const tn_diagnostic *item, FILE *out)
+static void json_item(tn_diagnostics *list, const tn_diagnostic *item, tn_json *json)
 {
     char name[8];
+    size_t line = item->input_line;
+    tn_json_place place = {item->input_path, line, item->input_column, line, item->input_column_end};
+    if (item->has_span || line == 0)
+        place = place_of(list, item->has_span, item->span);
     tn_code_name(item->code, name);
-    fprintf(out, "{\"severity\":\"%s\",\"code\":", severity_name(item->severity));
-    tn_write_json(out, item->code != TN_CODE_NONE ? name : NULL);
-    fputs(",\"message\":", out);
-    tn_write_json(out, item->message);
-    if (item->has_span || item->input_line == 0) {
-        json_span(list, item->has_span, item->span, 4, out);
-    } else {
-        size_t line = item->input_line;
-        json_place(out, item->input_path, (const size_t[]){line, item->input_column, line, item->input_column_end}, 4);
-    }
-    json_notes(list, item, out);
-    fputs(",\"help\":", out);
-    tn_write_json(out, item->help);
-    fputs(",\"replacement\":", out);
-    tn_write_json(out, item->replacement);
-    fputc('}', out);
+    tn_json_object(json, NULL);
+    tn_json_string(json, "severity", severity_name(item->severity));
+    tn_json_string(json, "code", item->code != TN_CODE_NONE ? name : NULL);
+    tn_json_string(json, "message", item->message);
+    tn_json_place_whole(json, &place);
+    json_notes(list, item, json);
+    tn_json_string(json, "help", item->help);
+    tn_json_string(json, "replacement", item->replacement);
+    tn_json_object_end(json);
 }
 
 static void show_json(tn_diagnostics *list, FILE *out)
 {
-    fputc('[', out);
-    for (size_t i = 0; i < list->count; i++) {
-        fputs(i ? ",\n " : "\n ", out);
-        json_item(list, &list->items[i], out);
-    }
-    fputs(list->count ? "\n]\n" : "]\n", out);
+    tn_json json = tn_json_file(out, (tn_json_layout){.lines = 1, .indent = 1});
+    tn_json_list(&json, NULL);
+    for (size_t i = 0; i < list->count; i++)
+        json_item(list, &list->items[i], &json);
+    tn_json_list_end(&json);
+    tn_json_end_line(&json);
+}
+
+void tn_diagnostics_show_alone(tn_severity severity, tn_code code, const char *message, const char *help, FILE *out)
+{
+    char words[2][512];
+    snprintf(words[0], sizeof words[0], "%s", message);
+    snprintf(words[1], sizeof words[1], "%s", help ? help : "");
+    tn_diagnostic item = {.severity = severity, .code = code, .message = words[0], .help = help ? words[1] : NULL};
+    show_json(&(tn_diagnostics){.items = &item, .count = 1}, out);
 }
 
 void tn_diagnostics_show(tn_diagnostics *list, const tn_show_options *options, FILE *out)

@@ -12,8 +12,8 @@
 #include "driver/breed/inputs.h"
 #include "driver/open/open.h"
 #include "runtime/base/array.h"
+#include "runtime/base/buffer.h"
 #include "runtime/base/file.h"
-#include "runtime/base/number_text.h"
 
 /* ---- from files to text */
 

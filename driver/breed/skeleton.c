@@ -10,9 +10,9 @@
 #include "driver/breed/beside.h"
 #include "driver/breed/inputs.h"
 #include "driver/solid/solid.h"
+#include "runtime/base/buffer.h"
 #include "runtime/base/bytes.h"
 #include "runtime/base/file.h"
-#include "runtime/base/number_text.h"
 #include "runtime/numeric/numeric.h"
 
 #define DEGREES 57.29577951308232

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/base/number_text.h"
+#include "runtime/base/buffer.h"
 
 void tn_choices_clear(tn_choices *choices)
 {

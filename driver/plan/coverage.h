@@ -55,8 +55,8 @@ typedef struct tn_coverage_options {
 tn_status tn_coverage_measure(tn_opened *opened, const tn_coverage_options *options, tn_covered *covered);
 void tn_covered_clear(tn_covered *covered);
 
-/* Appends it as a table, or as one JSON object. false where out of memory. */
+/* Appends it as a table, or writes it into a text as a JSON object. false where out of memory. */
 bool tn_covered_text(const tn_covered *covered, tn_buffer *out);
-bool tn_covered_json(const tn_covered *covered, tn_buffer *out);
+bool tn_covered_json(const tn_covered *covered, tn_json *json);
 
 #endif

@@ -1,5 +1,4 @@
 /* Coverage as a table and as JSON. */
-#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -143,80 +142,85 @@ bool tn_covered_text(const tn_covered *covered, tn_buffer *out)
 
 /* ---- JSON */
 
-static json_t *part_json(const tn_covered *covered, const tn_covered_part *part)
+static void place_json(tn_json *json, const tn_place *place)
+{
+    const tn_json_place begin = {.file = place->path, .line = place->line, .column = place->column};
+    tn_json_place_begin(json, &begin);
+}
+
+static void part_json(const tn_covered *covered, const tn_covered_part *part, tn_json *json)
 {
     tn_place place;
-    json_t *made = json_object();
-    char *digits = tn_digits(part->flips, false);
-    json_object_set_new(made, "text", json_string(part->text));
-    json_object_set_new(made, "kind", json_string(part->kind));
-    json_object_set_new(made, "depth", json_integer(part->depth));
-    if (tn_code_place(covered->opened, part->root, &place)) {
-        json_object_set_new(made, "file", json_string(place.path));
-        json_object_set_new(made, "line", json_integer((json_int_t)place.line));
-        json_object_set_new(made, "column", json_integer((json_int_t)place.column));
-    }
-    bool known = !part->of_houses || part->counted;
-    json_object_set_new(made, "flips", !known ? json_null() : digits ? json_string(digits) : NULL);
-    json_object_set_new(made, "of", json_string(part->of_houses ? "houses" : "plans"));
-    json_object_set_new(made, "noticed", json_boolean(part->noticed));
-    free(digits);
-    return made;
+    tn_json_object(json, NULL);
+    tn_json_string(json, "text", part->text);
+    tn_json_string(json, "kind", part->kind);
+    tn_json_count(json, "depth", part->depth);
+    if (tn_code_place(covered->opened, part->root, &place))
+        place_json(json, &place);
+    if (part->of_houses && !part->counted)
+        tn_json_null(json, "flips");
+    else
+        tn_json_digits(json, "flips", part->flips);
+    tn_json_string(json, "of", part->of_houses ? "houses" : "plans");
+    tn_json_bool(json, "noticed", part->noticed);
+    tn_json_object_end(json);
 }
 
-static json_t *form_json(const tn_covered *covered, const tn_form_coverage *form)
+/* Parts come rule by rule; the first of each, at depth 0, has its name. */
+static void rules_json(const tn_covered *covered, tn_json *json)
 {
-    json_t *made = json_object(), *parts = json_array();
-    json_object_set_new(made, "name", json_string(form->name));
-    json_object_set_new(made, "tests", json_integer((json_int_t)form->tests));
-    json_object_set_new(made, "reached", json_integer((json_int_t)form->reached));
-    json_object_set_new(made, "parts", parts);
+    tn_json_list(json, "rules");
+    for (size_t i = 0; i < covered->count;) {
+        tn_json_object(json, NULL);
+        tn_json_string(json, "name", covered->parts[i].name);
+        tn_json_list(json, "parts");
+        do
+            part_json(covered, &covered->parts[i++], json);
+        while (i < covered->count && covered->parts[i].depth > 0);
+        tn_json_list_end(json);
+        tn_json_object_end(json);
+    }
+    tn_json_list_end(json);
+}
+
+static void form_json(const tn_covered *covered, const tn_form_coverage *form, tn_json *json)
+{
+    tn_json_object(json, NULL);
+    tn_json_string(json, "name", form->name);
+    tn_json_count(json, "tests", form->tests);
+    tn_json_count(json, "reached", form->reached);
+    tn_json_list(json, "parts");
     for (size_t i = 0; i < form->count; i++) {
         const tn_form_line *part = &form->parts[i];
-        tn_place place = place_of(covered, part->place);
-        json_t *one = json_object();
-        json_object_set_new(one, "text", json_string(part->text));
-        json_object_set_new(one, "kind", json_string(part->kind));
-        json_object_set_new(one, "depth", json_integer(part->depth));
-        json_object_set_new(one, "file", json_string(place.path));
-        json_object_set_new(one, "line", json_integer((json_int_t)place.line));
-        json_object_set_new(one, "column", json_integer((json_int_t)place.column));
-        json_object_set_new(one, "houses", json_integer((json_int_t)part->houses));
-        json_array_append_new(parts, one);
+        const tn_place place = place_of(covered, part->place);
+        tn_json_object(json, NULL);
+        tn_json_string(json, "text", part->text);
+        tn_json_string(json, "kind", part->kind);
+        tn_json_count(json, "depth", part->depth);
+        place_json(json, &place);
+        tn_json_count(json, "houses", part->houses);
+        tn_json_object_end(json);
     }
-    return made;
+    tn_json_list_end(json);
+    tn_json_object_end(json);
 }
 
-bool tn_covered_json(const tn_covered *covered, tn_buffer *out)
+bool tn_covered_json(const tn_covered *covered, tn_json *json)
 {
-    json_t *root = json_object(), *rules = json_array(), *parts = NULL;
     const tn_library_record *library = covered->library;
-    json_object_set_new(root, "library",
-                        library ? json_string(tn_text(covered->opened->module, library->name)) : json_null());
-    json_object_set_new(root, "trays",
-                        json_pack("[i,i]", library ? (int)library->trays_min : 1,
-                                  library ? (int)library->trays_max : (int)TN_COVERAGE_TRAYS));
-    json_object_set_new(root, "parts", json_integer((json_int_t)covered->count));
-    json_object_set_new(root, "noticed", json_integer((json_int_t)covered->noticed));
-    for (size_t i = 0; i < covered->count; i++) {
-        const tn_covered_part *part = &covered->parts[i];
-        if (part->depth == 0) {
-            json_t *rule = json_object();
-            parts = json_array();
-            json_object_set_new(rule, "name", json_string(part->name));
-            json_object_set_new(rule, "parts", parts);
-            json_array_append_new(rules, rule);
-        }
-        json_array_append_new(parts, part_json(covered, part));
-    }
-    json_object_set_new(root, "rules", rules);
-    json_t *forms = json_array();
+    tn_json_object(json, NULL);
+    tn_json_string(json, "library", library ? tn_text(covered->opened->module, library->name) : NULL);
+    tn_json_list(json, "trays");
+    tn_json_count(json, NULL, library ? library->trays_min : 1);
+    tn_json_count(json, NULL, library ? library->trays_max : TN_COVERAGE_TRAYS);
+    tn_json_list_end(json);
+    tn_json_count(json, "parts", covered->count);
+    tn_json_count(json, "noticed", covered->noticed);
+    rules_json(covered, json);
+    tn_json_list(json, "forms");
     for (size_t i = 0; i < covered->form_count; i++)
-        json_array_append_new(forms, form_json(covered, &covered->forms[i]));
-    json_object_set_new(root, "forms", forms);
-    char *text = json_dumps(root, JSON_COMPACT);
-    bool ok = text && tn_buffer_append(out, text, strlen(text));
-    free(text);
-    json_decref(root);
-    return ok;
+        form_json(covered, &covered->forms[i], json);
+    tn_json_list_end(json);
+    tn_json_object_end(json);
+    return !json->text->failed;
 }

@@ -55,38 +55,35 @@ static bool append_text(tn_buffer *out, const char *text)
     return tn_buffer_append(out, text, strlen(text));
 }
 
-/* The names of the rules that match, each between quotes. */
-static bool append_names(const tn_matched *m, const tn_sifted *plan, const char *between, const char *quote,
-                         tn_buffer *out)
+/* The names of the rules that match, or a dash where there is none. */
+static bool append_names(const tn_matched *m, const tn_sifted *plan, tn_buffer *out)
 {
-    const char *before = "";
+    size_t before = out->size;
     for (size_t i = 0; i < m->count; i++) {
         if (!is_matched(plan, i))
             continue;
-        if (!append_text(out, before) || !append_text(out, quote) || !append_text(out, rule_name(m, i)) ||
-            !append_text(out, quote))
+        if (!append_text(out, out->size > before ? " " : "") || !append_text(out, rule_name(m, i)))
             return false;
-        before = between;
     }
-    return true;
+    return out->size > before || append_text(out, "-");
 }
 
-static bool append_names_or_dash(const tn_matched *m, const tn_sifted *plan, tn_buffer *out)
-{
-    size_t before = out->size;
-    return append_names(m, plan, " ", "", out) && (out->size > before || append_text(out, "-"));
-}
-
-/* Names of rules hold nothing that JSON would escape. */
 static bool append_object(const tn_matched *m, const tn_sifted *plan, tn_buffer *out)
 {
+    tn_json json = tn_json_text(out, TN_JSON_TIGHT);
     tn_buffer line = {0};
-    bool done = tn_plan_write_line(m->schema, plan->trays, plan->length, &line) &&
-                tn_buffer_printf(out, TN_MATCHED_LINE "%" PRIu64 ",\"plan\":", plan->line) &&
-                tn_buffer_append_json(out, line.data ? line.data : "") && append_text(out, ",\"rules\":[") &&
-                append_names(m, plan, ",", "\"", out) && append_text(out, "]}");
+    bool done = tn_plan_write_line(m->schema, plan->trays, plan->length, &line);
+    tn_json_object(&json, NULL);
+    tn_json_count(&json, TN_MATCHED_KEY, plan->line);
+    tn_json_string(&json, "plan", line.data ? line.data : "");
+    tn_json_list(&json, "rules");
+    for (size_t i = 0; i < m->count; i++)
+        if (is_matched(plan, i))
+            tn_json_string(&json, NULL, rule_name(m, i));
+    tn_json_list_end(&json);
+    tn_json_object_end(&json);
     free(line.data);
-    return done;
+    return done && !out->failed;
 }
 
 static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS])
@@ -99,7 +96,7 @@ static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts
     else if (m->format == TN_ANSWER_ANY)
         done = append_text(out, plan->bits[0] ? "1" : "0");
     else if (m->format == TN_ANSWER_NAMES)
-        done = append_names_or_dash(m, plan, out);
+        done = append_names(m, plan, out);
     else
         done = append_object(m, plan, out);
     return done && append_text(out, "\n");

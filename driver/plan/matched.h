@@ -4,8 +4,9 @@
 
 #include "driver/plan/answering.h"
 
-/* What an answer in JSON begins with; the number of the plan's line follows. */
-#define TN_MATCHED_LINE "{\"line\":"
+/* The first member of an answer in JSON, and what the answer so begins with; the number of the plan's line follows. */
+#define TN_MATCHED_KEY "line"
+#define TN_MATCHED_LINE "{\"" TN_MATCHED_KEY "\":"
 
 typedef struct tn_matched {
     const tn_module *module; /* borrowed */

@@ -47,38 +47,47 @@ static bool is_kept(const tn_pruned *p, const tn_sifted *plan)
     return true;
 }
 
-/* The names of what drops the plan, each between quotes. */
-static bool append_reasons(const tn_pruned *p, const tn_sifted *plan, const char *quote, tn_buffer *out)
+/* The names of what drops the plan. */
+static bool append_reasons(const tn_pruned *p, const tn_sifted *plan, tn_buffer *out)
 {
     const char *between = "";
     bool done = true;
     if (length_drops(p, plan)) {
-        done = tn_buffer_printf(out, "%strays%s", quote, quote);
+        done = tn_buffer_printf(out, "trays");
         between = ", ";
     }
     for (size_t i = 0; done && i < p->ready->record->clause_count; i++) {
         if (!drops(p, plan, i))
             continue;
-        done = tn_buffer_printf(out, "%s%s%s%s", between, quote, clause_name(p, i), quote);
+        done = tn_buffer_printf(out, "%s%s", between, clause_name(p, i));
         between = ", ";
     }
     return done;
 }
 
-/* A dropped plan: as plan lines, a comment with the reasons before it, so that the file can be read again; as JSON, the
- * object
- * {"trays": [...], "dropped_by": [...]}. Names hold nothing that JSON would escape. */
+/* {"trays": [...], "dropped_by": [...]} */
+static bool append_dropped_json(const tn_pruned *p, const tn_sifted *plan, tn_buffer *out)
+{
+    tn_json json = tn_json_text(out, TN_JSON_TIGHT);
+    tn_json_object(&json, NULL);
+    tn_plan_write_trays(p->ready->schema, plan->trays, plan->length, &json);
+    tn_json_list(&json, "dropped_by");
+    if (length_drops(p, plan))
+        tn_json_string(&json, NULL, "trays");
+    for (size_t i = 0; i < p->ready->record->clause_count; i++)
+        if (drops(p, plan, i))
+            tn_json_string(&json, NULL, clause_name(p, i));
+    tn_json_list_end(&json);
+    tn_json_object_end(&json);
+    return !out->failed;
+}
+
+/* A dropped plan: as plan lines, a comment with the reasons before it, so that the file can be read again. */
 static bool append_dropped(const tn_pruned *p, const tn_sifted *plan, tn_buffer *out)
 {
     const tn_schema *schema = p->ready->schema;
-    if (p->format == TN_ANSWER_LINES)
-        return tn_buffer_printf(out, "# dropped by ") && append_reasons(p, plan, "", out) &&
-               tn_buffer_append(out, "\n", 1) && tn_plan_write_line(schema, plan->trays, plan->length, out);
-    if (!tn_plan_write_json(schema, plan->trays, plan->length, out))
-        return false;
-    out->size -= out->data[out->size - 1] == '}';
-    return tn_buffer_printf(out, ",\"dropped_by\":[") && append_reasons(p, plan, "\"", out) &&
-           tn_buffer_printf(out, "]}");
+    return tn_buffer_printf(out, "# dropped by ") && append_reasons(p, plan, out) && tn_buffer_append(out, "\n", 1) &&
+           tn_plan_write_line(schema, plan->trays, plan->length, out);
 }
 
 static bool append_kept(const tn_pruned *p, const tn_sifted *plan, tn_buffer *out)
@@ -95,7 +104,10 @@ static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts
     if (!kept && p->dropped < 0)
         return true;
     tn_buffer *out = &texts[kept ? 0 : p->dropped];
-    return (kept ? append_kept(p, plan, out) : append_dropped(p, plan, out)) && tn_buffer_append(out, "\n", 1);
+    bool done = kept                          ? append_kept(p, plan, out)
+                : p->format == TN_ANSWER_JSON ? append_dropped_json(p, plan, out)
+                                              : append_dropped(p, plan, out);
+    return done && tn_buffer_append(out, "\n", 1);
 }
 
 tn_answering tn_pruned_answering(const tn_pruned *pruned)

@@ -13,7 +13,7 @@
 #include "driver/program/keeper.h"
 #include "runtime/base/file.h"
 #include "runtime/base/file_error.h"
-#include "runtime/base/utf8.h"
+#include "runtime/base/json.h"
 #include "runtime/geometry/write.h"
 #include "runtime/place/model/terms.h"
 
@@ -23,7 +23,7 @@
 /* What is written about the individual that a thread is at. */
 typedef struct writing {
     const tn_individual *individual; /* NULL: nobody is asked about */
-    FILE *line;
+    tn_json line;
     bool has_folder;
 } writing;
 
@@ -90,19 +90,13 @@ size_t tn_program_scorer_number(const tn_program_scorer *s, size_t objective)
 
 /* ---- what the program reads */
 
-static void write_measures(FILE *out, const tn_form_facts *facts)
+static void write_measures(tn_json *json, const tn_form_facts *facts)
 {
-    const char *between = "";
-    fputs(", \"measures\": {", out);
-    for (size_t i = 0; i < facts->count; i++) {
-        if (!facts->names[i] || !isfinite(facts->values[i]))
-            continue;
-        fputs(between, out);
-        tn_write_json(out, facts->names[i]);
-        fprintf(out, ": %.17g", facts->values[i]);
-        between = ", ";
-    }
-    fputc('}', out);
+    tn_json_object(json, "measures");
+    for (size_t i = 0; i < facts->count; i++)
+        if (facts->names[i] && isfinite(facts->values[i]))
+            tn_json_number(json, facts->names[i], facts->values[i]);
+    tn_json_object_end(json);
 }
 
 static tn_status write_mesh(const tn_mesh *mesh, const char *path, tn_error *error)
@@ -137,9 +131,8 @@ static tn_status hear(void *context, unsigned thread, const tn_form_facts *facts
     if (status == TN_OK)
         status = write_mesh(facts->mesh, path, error);
     if (status == TN_OK) {
-        fputs(", \"mesh\": ", w->line);
-        tn_write_json(w->line, path);
-        write_measures(w->line, facts);
+        tn_json_string(&w->line, "mesh", path);
+        write_measures(&w->line, facts);
     }
     free(folder);
     free(path);
@@ -180,18 +173,18 @@ static tn_status write_question(tn_program_scorer *s, unsigned thread, tn_indivi
                                 tn_question *question, tn_error *error)
 {
     writing *w = &s->writings[thread];
+    tn_buffer text = {0};
     *question = (tn_question){.id = individual->id};
-    *w = (writing){individual, open_memstream(&texts->line, &question->size), false};
-    if (!w->line) {
-        *w = (writing){0};
-        return tn_fail_memory(error);
-    }
-    fprintf(w->line, "{\"id\": %" PRIu64 ", \"sentence\": ", individual->id);
-    tn_write_json(w->line, individual->sentence);
+    *w = (writing){individual, tn_json_text(&text, TN_JSON_SPACED), false};
+    tn_json_object(&w->line, NULL);
+    tn_json_count(&w->line, "id", individual->id);
+    tn_json_string(&w->line, "sentence", individual->sentence);
     tn_status status = score_problem(s, thread, individual, error);
-    fputs("}\n", w->line);
-    bool written = !ferror(w->line);
-    if ((fclose(w->line) != 0 || !written) && status == TN_OK)
+    tn_json_object_end(&w->line);
+    tn_json_end_line(&w->line);
+    texts->line = text.data;
+    question->size = text.size;
+    if (text.failed && status == TN_OK)
         status = tn_fail_memory(error);
     if (w->has_folder && !(texts->folder = folder_of(s, individual->id)) && status == TN_OK)
         status = tn_fail_memory(error);

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "runtime/base/file_error.h"
+#include "runtime/base/json.h"
 
 #define TOUCHES 8         /* times that a claim is touched before it would be stale */
 #define WRITTEN_WITHIN 5. /* seconds after which a claim that says nothing is of a worker killed while it made it */
@@ -47,19 +48,22 @@ tn_claimant tn_claimant_self(void)
     return me;
 }
 
-/* What a claim says; NULL where out of memory. */
-static char *describe(const tn_claimant *self)
+/* What a claim says. */
+static void describe(const tn_claimant *self, tn_buffer *text)
 {
     char since[sizeof self->since] = "";
     time_t now = time(NULL);
     struct tm parts;
     if (gmtime_r(&now, &parts))
         strftime(since, sizeof since, "%Y-%m-%dT%H:%M:%SZ", &parts);
-    json_t *json = json_pack("{s:s, s:s, s:s, s:I, s:s}", "host", self->host, "boot", self->boot, "space", self->space,
-                             "process", (json_int_t)self->process, "since", since);
-    char *text = json ? json_dumps(json, 0) : NULL;
-    json_decref(json);
-    return text;
+    tn_json json = tn_json_text(text, TN_JSON_SPACED);
+    tn_json_object(&json, NULL);
+    tn_json_string(&json, "host", self->host);
+    tn_json_string(&json, "boot", self->boot);
+    tn_json_string(&json, "space", self->space);
+    tn_json_whole(&json, "process", self->process);
+    tn_json_string(&json, "since", since);
+    tn_json_object_end(&json);
 }
 
 /* ---- whose claim is it? */
@@ -140,16 +144,18 @@ static bool is_gone(const tn_claimant *claimant, const tn_claimant *self)
 /* Makes the claim's file. False where that cannot be; errno says why. */
 static bool make(const char *path, const tn_claimant *self, tn_claim *claim)
 {
-    char *text = describe(self), *own = strdup(path);
-    size_t size = text ? strlen(text) : 0;
-    int file = text && own ? open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
-    bool written = file >= 0 && write(file, text, size) == (ssize_t)size;
-    int reason = text && own ? errno : ENOMEM;
+    tn_buffer text = {0};
+    describe(self, &text);
+    char *own = strdup(path);
+    bool made = own && !text.failed;
+    int file = made ? open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
+    bool written = file >= 0 && write(file, text.data, text.size) == (ssize_t)text.size;
+    int reason = made ? errno : ENOMEM;
     if (file >= 0)
         close(file);
     if (file >= 0 && !written)
         unlink(path);
-    free(text);
+    free(text.data);
     claim->path = written ? own : NULL;
     claim->touched = tn_seconds();
     if (!written)

@@ -28,34 +28,26 @@ static const char *const tasks[TN_TASK_COUNT] = {[TN_TASK_ENUMERATE] = "enumerat
 
 /* ---- writing */
 
-static bool write_member(tn_buffer *text, const char *key, const char *value)
-{
-    return tn_buffer_printf(text, "  \"%s\": ", key) && tn_buffer_append_json(text, value) &&
-           tn_buffer_append(text, ",\n", 2);
-}
-
 /* Left out where it is 0. */
-static bool write_number(tn_buffer *text, const char *key, uint64_t value)
+static void write_number(tn_json *json, const char *key, uint64_t value)
 {
-    return value == 0 || tn_buffer_printf(text, "  \"%s\": %" PRIu64 ",\n", key, value);
+    if (value != 0)
+        tn_json_count(json, key, value);
 }
 
-static bool write_rank(tn_buffer *text, const char *key, const mpz_t rank)
+static void write_shard(const tn_shard_set *set, uint32_t i, tn_json *json)
 {
-    char *digits = mpz_get_str(NULL, 10, rank);
-    bool done = digits && tn_buffer_printf(text, ", \"%s\": \"%s\"", key, digits);
-    free(digits);
-    return done;
-}
-
-static bool write_shard(const tn_shard_set *set, uint32_t i, tn_buffer *text)
-{
-    bool ranks = !tn_shard_set_answers(set);
-    return tn_buffer_printf(text, "    {\"name\": \"%s\"", tn_shard_name_of(set, i).text) &&
-           (ranks ? write_rank(text, "from", set->bounds[i]) && write_rank(text, "to", set->bounds[i + 1])
-                  : tn_manifest_write_piece(&set->inputs.pieces[i], text)) &&
-           (set->task != TN_TASK_SAMPLE || tn_buffer_printf(text, ", \"plans\": %" PRIu64, set->sample.of[i])) &&
-           tn_buffer_printf(text, "}%s\n", i + 1 < set->count ? "," : "");
+    tn_json_object(json, NULL);
+    tn_json_string(json, "name", tn_shard_name_of(set, i).text);
+    if (tn_shard_set_answers(set)) {
+        tn_manifest_write_piece(&set->inputs.pieces[i], json);
+    } else {
+        tn_json_digits(json, "from", set->bounds[i]);
+        tn_json_digits(json, "to", set->bounds[i + 1]);
+    }
+    if (set->task == TN_TASK_SAMPLE)
+        tn_json_count(json, "plans", set->sample.of[i]);
+    tn_json_object_end(json);
 }
 
 bool tn_manifest_seal(tn_buffer *text)
@@ -65,42 +57,70 @@ bool tn_manifest_seal(tn_buffer *text)
     return tn_buffer_printf(text, HASH_BEGIN "%s" HASH_END, hash);
 }
 
-/* What the plans of a library are written as. */
-static bool write_plans(const tn_shard_set *set, tn_buffer *text)
+static void write_sample(const tn_shard_set *set, tn_json *json)
 {
-    bool done =
-        write_member(text, "library_hash", set->library_hash) && write_member(text, "format", formats[set->format]);
-    if (done && set->compressed)
-        done = write_member(text, "compress", "zstd");
-    if (done && set->plan_lines)
-        done = write_member(text, "columns", "plan");
-    if (done && set->task == TN_TASK_SAMPLE) /* numbers of 64 bits are texts: readers of JSON round them */
-        done = tn_buffer_printf(
-            text, "  \"sample\": {\"plans\": %" PRIu64 ", \"seed\": \"%" PRIu64 "\", \"attempts\": %" PRIu64 "},\n",
-            set->sample.plans, set->sample.seed, set->sample.attempts);
-    return done && write_number(text, "row_group", set->row_group);
+    char seed[24]; /* of 64 bits, so a text: readers of JSON round them */
+    snprintf(seed, sizeof seed, "%" PRIu64, set->sample.seed);
+    tn_json_object(json, "sample");
+    tn_json_count(json, "plans", set->sample.plans);
+    tn_json_string(json, "seed", seed);
+    tn_json_count(json, "attempts", set->sample.attempts);
+    tn_json_object_end(json);
 }
 
+/* What the plans of a library are written as. */
+static void write_plans(const tn_shard_set *set, tn_json *json)
+{
+    tn_json_string(json, "library_hash", set->library_hash);
+    tn_json_string(json, "format", formats[set->format]);
+    if (set->compressed)
+        tn_json_string(json, "compress", "zstd");
+    if (set->plan_lines)
+        tn_json_string(json, "columns", "plan");
+    if (set->task == TN_TASK_SAMPLE)
+        write_sample(set, json);
+    write_number(json, "row_group", set->row_group);
+}
+
+static void write_trays(const tn_shard_set *set, tn_json *json)
+{
+    tn_json_list(json, "trays");
+    tn_json_count(json, NULL, set->options.trays_min);
+    tn_json_count(json, NULL, set->options.trays_max);
+    tn_json_list_end(json);
+}
+
+/* A member a line, and of the lists of shards and inputs an item a line; the hash ends the object. */
 bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text)
 {
-    bool answers = tn_shard_set_answers(set);
-    bool done = tn_buffer_printf(text, "{\n  \"tartan_shards\": %d,\n", TN_MANIFEST_VERSION) &&
-                write_member(text, "version", set->version) && write_member(text, "module", TN_MODULE_NAME) &&
-                write_member(text, "module_hash", set->module_hash);
-    if (done && set->task != TN_TASK_ENUMERATE)
-        done = write_member(text, "task", tasks[set->task]);
-    if (done && set->library)
-        done = write_member(text, "library", set->library);
-    done = done && write_member(text, "schema_hash", set->schema_hash) &&
-           write_member(text, "rules_path", set->rules_path) && write_member(text, "command", set->command) &&
-           (answers ? tn_manifest_write_inputs(set, text) : write_plans(set, text));
-    if (done && set->options.override_trays)
-        done = tn_buffer_printf(text, "  \"trays\": [%u, %u],\n", set->options.trays_min, set->options.trays_max);
-    done = done && write_number(text, "max_states", set->options.max_states) &&
-           write_number(text, "max_length", set->options.max_length) && tn_buffer_printf(text, "  \"shards\": [\n");
-    for (uint32_t i = 0; done && i < set->count; i++)
-        done = write_shard(set, i, text);
-    return done && tn_buffer_printf(text, "  ],\n") && tn_manifest_seal(text);
+    tn_json json = tn_json_text(text, TN_JSON_LINES);
+    json.layout.lines = 1;
+    tn_json_object(&json, NULL);
+    tn_json_whole(&json, "tartan_shards", TN_MANIFEST_VERSION);
+    tn_json_string(&json, "version", set->version);
+    tn_json_string(&json, "module", TN_MODULE_NAME);
+    tn_json_string(&json, "module_hash", set->module_hash);
+    if (set->task != TN_TASK_ENUMERATE)
+        tn_json_string(&json, "task", tasks[set->task]);
+    if (set->library)
+        tn_json_string(&json, "library", set->library);
+    tn_json_string(&json, "schema_hash", set->schema_hash);
+    tn_json_string(&json, "rules_path", set->rules_path);
+    tn_json_string(&json, "command", set->command);
+    if (tn_shard_set_answers(set))
+        tn_manifest_write_inputs(set, &json);
+    else
+        write_plans(set, &json);
+    if (set->options.override_trays)
+        write_trays(set, &json);
+    write_number(&json, "max_states", set->options.max_states);
+    write_number(&json, "max_length", set->options.max_length);
+    json.layout.lines = 2;
+    tn_json_list(&json, "shards");
+    for (uint32_t i = 0; i < set->count; i++)
+        write_shard(set, i, &json);
+    tn_json_list_end(&json);
+    return !text->failed && tn_buffer_printf(text, ",\n") && tn_manifest_seal(text);
 }
 
 /* ---- reading */

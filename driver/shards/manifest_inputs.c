@@ -14,38 +14,47 @@ static const char *const answers[TN_ANSWER_FORMAT_COUNT] = {
 
 /* ---- writing */
 
-static bool write_rules(const tn_shard_inputs *inputs, tn_buffer *text)
+static void write_input(const tn_shard_input *input, tn_json *json)
 {
-    bool done = tn_buffer_printf(text, "  \"rules\": [");
-    for (uint32_t i = 0; done && i < inputs->rule_count; i++)
-        done = tn_buffer_printf(text, i ? ", " : "") && tn_buffer_append_json(text, inputs->rules[i]);
-    return done && tn_buffer_printf(text, "],\n");
+    tn_json_object(json, NULL);
+    tn_json_string(json, "path", input->path);
+    tn_json_count(json, "size", input->size);
+    tn_json_list(json, "changed");
+    tn_json_whole(json, NULL, input->seconds);
+    tn_json_whole(json, NULL, input->nanoseconds);
+    tn_json_list_end(json);
+    tn_json_string(json, "format", tn_manifest_formats()[input->format]);
+    tn_json_object_end(json);
 }
 
-static bool write_input(const tn_shard_input *input, bool last, tn_buffer *text)
-{
-    return tn_buffer_printf(text, "    {\"path\": ") && tn_buffer_append_json(text, input->path) &&
-           tn_buffer_printf(
-               text, ", \"size\": %" PRIu64 ", \"changed\": [%" PRId64 ", %" PRId64 "], \"format\": \"%s\"}%s\n",
-               input->size, input->seconds, input->nanoseconds, tn_manifest_formats()[input->format], last ? "" : ",");
-}
-
-bool tn_manifest_write_inputs(const tn_shard_set *set, tn_buffer *text)
+void tn_manifest_write_inputs(const tn_shard_set *set, tn_json *json)
 {
     const tn_shard_inputs *inputs = &set->inputs;
-    bool done = tn_buffer_printf(text, "  \"answer\": \"%s\",\n", answers[inputs->answer]) &&
-                (!inputs->skips || tn_buffer_printf(text, "  \"on_error\": \"skip\",\n")) &&
-                (inputs->rule_count == 0 || write_rules(inputs, text)) && tn_buffer_printf(text, "  \"inputs\": [\n");
-    for (uint32_t i = 0; done && i < inputs->count; i++)
-        done = write_input(&inputs->items[i], i + 1 == inputs->count, text);
-    return done && tn_buffer_printf(text, "  ],\n");
+    const tn_json_layout layout = json->layout;
+    tn_json_string(json, "answer", answers[inputs->answer]);
+    if (inputs->skips)
+        tn_json_string(json, "on_error", "skip");
+    if (inputs->rule_count > 0) {
+        tn_json_list(json, "rules");
+        for (uint32_t i = 0; i < inputs->rule_count; i++)
+            tn_json_string(json, NULL, inputs->rules[i]);
+        tn_json_list_end(json);
+    }
+    json->layout.lines = 2;
+    tn_json_list(json, "inputs");
+    for (uint32_t i = 0; i < inputs->count; i++)
+        write_input(&inputs->items[i], json);
+    tn_json_list_end(json);
+    json->layout = layout;
 }
 
-bool tn_manifest_write_piece(const tn_shard_piece *piece, tn_buffer *text)
+void tn_manifest_write_piece(const tn_shard_piece *piece, tn_json *json)
 {
-    return tn_buffer_printf(text, ", \"input\": %u", piece->input) &&
-           (piece->whole ||
-            tn_buffer_printf(text, ", \"from\": %" PRIu64 ", \"to\": %" PRIu64, piece->part.begin, piece->part.end));
+    tn_json_count(json, "input", piece->input);
+    if (piece->whole)
+        return;
+    tn_json_count(json, "from", piece->part.begin);
+    tn_json_count(json, "to", piece->part.end);
 }
 
 /* ---- reading */

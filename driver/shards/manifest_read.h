@@ -26,7 +26,7 @@ const char *const *tn_manifest_formats(void);
 /* What a set of answers is about: all but its shards; and shard i, which is said in `shard`. (manifest_inputs.c) */
 tn_status tn_manifest_read_inputs(const tn_manifest_reading *r);
 tn_status tn_manifest_read_piece(const tn_manifest_reading *r, uint32_t i, const json_t *shard);
-bool tn_manifest_write_inputs(const tn_shard_set *set, tn_buffer *text);
-bool tn_manifest_write_piece(const tn_shard_piece *piece, tn_buffer *text);
+void tn_manifest_write_inputs(const tn_shard_set *set, tn_json *json);
+void tn_manifest_write_piece(const tn_shard_piece *piece, tn_json *json);
 
 #endif

@@ -50,28 +50,39 @@ tn_status tn_shard_wrong(const tn_shard_set *set, uint32_t shard, tn_error *erro
 
 /* ---- records */
 
-static bool write_complaint(const tn_error *complaint, bool first, tn_buffer *text)
+static void write_complaint(const tn_error *complaint, tn_json *json)
 {
-    return tn_buffer_printf(text, "%s\n  {\"code\": %d, \"line\": %" PRIu64 ", \"column\": %u, \"message\": ",
-                            first ? "" : ",", (int)complaint->code, complaint->line, complaint->column) &&
-           tn_buffer_append_json(text, complaint->message) && tn_buffer_append(text, "}", 1);
+    tn_json_object(json, NULL);
+    tn_json_whole(json, "code", complaint->code);
+    tn_json_count(json, "line", complaint->line);
+    tn_json_count(json, "column", complaint->column);
+    tn_json_string(json, "message", complaint->message);
+    tn_json_object_end(json);
 }
 
-static bool write_read(const tn_shard_read *read, tn_buffer *text)
+static void write_read(const tn_shard_read *read, tn_json *json)
 {
-    bool done = tn_buffer_printf(text, ", \"lines\": %" PRIu64 ", \"unread\": %" PRIu64, read->lines, read->unread);
-    if (!done || read->unread == 0)
-        return done;
-    done = tn_buffer_printf(text, ", \"complaints\": [");
-    for (size_t i = 0; done && i < read->unread && i < TN_COMPLAINTS_KEPT; i++)
-        done = write_complaint(&read->complaints[i], i == 0, text);
-    return done && tn_buffer_append(text, "]", 1);
+    tn_json_count(json, "lines", read->lines);
+    tn_json_count(json, "unread", read->unread);
+    if (read->unread == 0)
+        return;
+    tn_json_list(json, "complaints");
+    for (size_t i = 0; i < read->unread && i < TN_COMPLAINTS_KEPT; i++)
+        write_complaint(&read->complaints[i], json);
+    tn_json_list_end(json);
 }
 
 static bool write_record(const tn_shard_record *record, const tn_shard_read *read, tn_buffer *text)
 {
-    return tn_buffer_printf(text, "{\"bytes\": %" PRIu64 ", \"hash\": \"%s\"", record->bytes, record->hash) &&
-           (!read || write_read(read, text)) && tn_buffer_append(text, "}\n", 2);
+    tn_json json = tn_json_text(text, TN_JSON_SPACED);
+    tn_json_object(&json, NULL);
+    tn_json_count(&json, "bytes", record->bytes);
+    tn_json_string(&json, "hash", record->hash);
+    if (read)
+        write_read(read, &json);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
+    return !text->failed;
 }
 
 tn_status tn_shard_record_write(const tn_shard_set *set, uint32_t shard, const tn_shard_record *record,

@@ -30,31 +30,40 @@ static bool put_base64(tn_buffer *out, const uint8_t *bytes, size_t size)
     return true;
 }
 
-static bool put_vector(tn_buffer *out, const char *key, const double v[3])
+/* Three numbers, to so many digits. */
+static void put_vector(tn_json *json, const char *key, const double v[3], int digits)
 {
-    char text[120];
-    int size = snprintf(text, sizeof text, "\"%s\":[%.9g,%.9g,%.9g],", key, v[0], v[1], v[2]);
-    return tn_buffer_append(out, text, (size_t)size);
+    tn_json_list(json, key);
+    for (int k = 0; k < 3; k++)
+        tn_json_rounded(json, NULL, v[k], digits);
+    tn_json_list_end(json);
+}
+
+static bool put_bytes(tn_json *json, const char *key, const uint8_t *bytes, size_t size)
+{
+    tn_buffer text = {0};
+    bool good = put_base64(&text, bytes, size);
+    if (good)
+        tn_json_bytes(json, key, text.data, text.size);
+    free(text.data);
+    return good;
 }
 
 /* Little-endian, 2 bytes each or 4. */
-static bool put_indices(tn_buffer *out, const char *key, const uint32_t *indices, size_t count, bool wide)
+static bool put_indices(tn_json *json, const char *key, const uint32_t *indices, size_t count, bool wide)
 {
-    char text[16];
     size_t each = wide ? 4 : 2;
     uint8_t *bytes = malloc(each * count + 1);
     for (size_t i = 0; bytes && i < count; i++)
         for (size_t k = 0; k < each; k++)
             bytes[each * i + k] = (uint8_t)(indices[i] >> (8 * k));
-    int size = snprintf(text, sizeof text, ",\"%s\":\"", key);
-    bool good = bytes && tn_buffer_append(out, text, (size_t)size) && put_base64(out, bytes, each * count) &&
-                tn_buffer_append(out, "\"", 1);
+    bool good = bytes && put_bytes(json, key, bytes, each * count);
     free(bytes);
     return good;
 }
 
 /* Each coordinate as a 65,536th of the longest side. */
-static bool put_positions(tn_buffer *out, const tn_mesh *mesh)
+static bool put_positions(tn_json *json, const tn_mesh *mesh)
 {
     double low[3] = {INFINITY, INFINITY, INFINITY}, extent[3] = {0, 0, 0}, longest = 1e-300;
     for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
@@ -69,38 +78,33 @@ static bool put_positions(tn_buffer *out, const tn_mesh *mesh)
         bytes[2 * i] = (uint8_t)place;
         bytes[2 * i + 1] = (uint8_t)(place >> 8);
     }
-    char size[48];
-    snprintf(size, sizeof size, "\"size\":%.9g,\"p\":\"", longest);
-    bool good = bytes && put_vector(out, "low", low) && put_vector(out, "extent", extent) &&
-                tn_buffer_append(out, size, strlen(size)) && put_base64(out, bytes, 6 * mesh->vertex_count) &&
-                tn_buffer_append(out, "\"", 1);
+    put_vector(json, "low", low, 9);
+    put_vector(json, "extent", extent, 9);
+    tn_json_rounded(json, "size", longest, 9);
+    bool good = bytes && put_bytes(json, "p", bytes, 6 * mesh->vertex_count);
     free(bytes);
     return good;
 }
 
-static bool put_guides(tn_buffer *out, const tn_guides *guides)
+static void put_guide(tn_json *json, const tn_guides *guides, const tn_guide *g)
 {
     static const char *const kinds[TN_GUIDE_KIND_COUNT] = {"attractor", "repeller", "arrow", "line", "area"};
-    char text[160];
-    bool good = tn_buffer_append(out, ",\"guides\":[", 11);
-    for (size_t i = 0; i < guides->count && good; i++) {
-        const tn_guide *g = &guides->items[i];
-        int size = snprintf(text, sizeof text, "%s{\"k\":\"%s\",\"s\":\"%s\",\"d\":%d", i ? "," : "", kinds[g->kind],
-                            g->subject == TN_GUIDE_GROUND ? "ground" : "", g->dashed);
-        good = tn_buffer_append(out, text, (size_t)size);
-        size = g->name ? snprintf(text, sizeof text, ",\"n\":\"%s %.4g\"", g->name, g->value) : 0;
-        good = good && tn_buffer_append(out, text, (size_t)size) && tn_buffer_append(out, ",\"p\":[", 6);
-        for (uint32_t p = 0; p < g->count && good; p++) {
-            const double *at = guides->points[g->first + p];
-            size = snprintf(text, sizeof text, "%s[%.5g,%.5g,%.5g]", p ? "," : "", at[0], at[1], at[2]);
-            good = tn_buffer_append(out, text, (size_t)size);
-        }
-        good = good && tn_buffer_append(out, "]}", 2);
-    }
-    return good && tn_buffer_append(out, "]", 1);
+    char label[120];
+    tn_json_object(json, NULL);
+    tn_json_string(json, "k", kinds[g->kind]);
+    tn_json_string(json, "s", g->subject == TN_GUIDE_GROUND ? "ground" : "");
+    tn_json_count(json, "d", g->dashed);
+    snprintf(label, sizeof label, "%s %.4g", g->name ? g->name : "", g->value);
+    if (g->name)
+        tn_json_string(json, "n", label);
+    tn_json_list(json, "p");
+    for (uint32_t p = 0; p < g->count; p++)
+        put_vector(json, NULL, guides->points[g->first + p], 5);
+    tn_json_list_end(json);
+    tn_json_object_end(json);
 }
 
-static tn_status put_form(const tn_run *run, const tn_individual *member, tn_buffer *out, tn_error *error)
+static tn_status put_form(const tn_run *run, const tn_individual *member, tn_json *json, tn_error *error)
 {
     const tn_bred_forms *forms = &run->job->forms;
     tn_mesh mesh = {0};
@@ -109,12 +113,16 @@ static tn_status put_form(const tn_run *run, const tn_individual *member, tn_buf
     if (status == TN_OK)
         status = tn_mesh_triangulate(&mesh, error);
     bool wide = mesh.vertex_count > NARROW_MAX;
-    const char *width = wide ? ",\"wide\":1" : ",\"wide\":0";
-    bool good = status == TN_OK && tn_buffer_append(out, "{", 1) && put_positions(out, &mesh) &&
-                put_indices(out, "t", mesh.corners, 3 * mesh.face_count, wide) &&
-                put_indices(out, "l", mesh.lines, 2 * mesh.line_count, wide) &&
-                tn_buffer_append(out, width, strlen(width)) && put_guides(out, &guides) &&
-                tn_buffer_append(out, "}", 1);
+    tn_json_object(json, NULL);
+    bool good = status == TN_OK && put_positions(json, &mesh) &&
+                put_indices(json, "t", mesh.corners, 3 * mesh.face_count, wide) &&
+                put_indices(json, "l", mesh.lines, 2 * mesh.line_count, wide);
+    tn_json_count(json, "wide", wide);
+    tn_json_list(json, "guides");
+    for (size_t i = 0; i < guides.count; i++)
+        put_guide(json, &guides, &guides.items[i]);
+    tn_json_list_end(json);
+    tn_json_object_end(json);
     tn_mesh_clear(&mesh);
     tn_guides_clear(&guides);
     return status == TN_OK && !good ? tn_fail_memory(error) : status;
@@ -188,13 +196,14 @@ static tn_status put_forms(const tn_run *run, const tn_page *page, size_t count)
 {
     size_t all;
     const tn_individual *const *members = tn_evolution_members(run->evolution, &all);
-    tn_status status = tn_page_written(page, tn_page_html(page, "<script type=\"application/json\" id=\"forms\">["));
-    for (size_t i = 0; i < count && status == TN_OK; i++) {
-        status = tn_page_written(page, tn_page_html(page, i ? ",\n" : ""));
-        if (status == TN_OK)
-            status = put_form(run, members[i], page->text, page->error);
-    }
-    return status == TN_OK ? tn_page_written(page, tn_page_html(page, "]</script>\n")) : status;
+    tn_status status = tn_page_written(page, tn_page_html(page, "<script type=\"application/json\" id=\"forms\">"));
+    tn_json json = tn_json_text(page->text, TN_JSON_TIGHT);
+    json.layout.lines = 1;
+    tn_json_list(&json, NULL);
+    for (size_t i = 0; i < count && status == TN_OK; i++)
+        status = put_form(run, members[i], &json, page->error);
+    tn_json_list_end(&json);
+    return status == TN_OK ? tn_page_written(page, tn_page_html(page, "</script>\n")) : status;
 }
 
 static bool put_cards(const tn_run *run, const tn_page *page, const tn_run_scores *births, size_t count)

@@ -20,7 +20,7 @@ typedef struct tn_solid_tally {
 } tn_solid_tally;
 
 /* Measures the file's own designs and holds them to their requirements; those that fail are reported (E1514) with what
- * was found. The measures are written to `out`, as lines or as the objects of a JSON array. TN_INVALID where one
+ * was found. The measures are written to `out`, as lines or as the items of a list in JSON. TN_INVALID where one
  * failed. */
 tn_status tn_solid_tests_run(tn_opened *opened, uint32_t most, bool json, FILE *out, tn_solid_tally *tally);
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "driver/solid/solid.h"
+#include "runtime/base/json.h"
 #include "runtime/number/run.h"
 
 #define BARELY 1e-9 /* how far a strict comparison of equal values is from holding: no distance to tell anybody */
@@ -11,7 +12,7 @@ typedef struct testing {
     tn_opened *opened;
     const tn_module *module;
     uint32_t solid, most;
-    bool json;
+    tn_json *json; /* NULL: as lines */
     FILE *out;
     double values[TN_SOLID_MEASURED_COUNT];
 } testing;
@@ -32,43 +33,29 @@ static uint64_t asked_of(const tn_module *module, const tn_solid_record *record)
     return asked;
 }
 
-/* A text between quotes; names and expressions have no control characters. */
-static void write_quoted(FILE *out, const char *text)
+static void write_measures_json(const testing *t)
 {
-    fputc('"', out);
-    for (; *text; text++) {
-        if (*text == '"' || *text == '\\')
-            fputc('\\', out);
-        fputc((unsigned char)*text < ' ' ? ' ' : *text, out);
+    const tn_solid_record *record = &t->module->SOLID_records[t->solid];
+    tn_json_object(t->json, NULL);
+    tn_json_string(t->json, "name", tn_text(t->module, record->name));
+    tn_json_object(t->json, "measures");
+    for (uint32_t i = 0; i < record->asked_count; i++) {
+        const tn_solid_measure_record *asked = &t->module->SOLID_MEASURE_records[record->asked_first + i];
+        tn_json_number(t->json, tn_text(t->module, asked->name), value_of(t, asked->function));
     }
-    fputc('"', out);
+    tn_json_object_end(t->json);
+    tn_json_object_end(t->json);
 }
 
 static void write_measures(const testing *t)
 {
     const tn_solid_record *record = &t->module->SOLID_records[t->solid];
-    const char *name = tn_text(t->module, record->name);
-    if (t->json) {
-        fputs("{\"name\":", t->out);
-        write_quoted(t->out, name);
-        fputs(",\"measures\":{", t->out);
-    } else if (record->asked_count) {
-        fprintf(t->out, "%s\n", name);
-    }
+    if (record->asked_count)
+        fprintf(t->out, "%s\n", tn_text(t->module, record->name));
     for (uint32_t i = 0; i < record->asked_count; i++) {
         const tn_solid_measure_record *asked = &t->module->SOLID_MEASURE_records[record->asked_first + i];
-        double value = value_of(t, asked->function);
-        const char *words = tn_text(t->module, asked->name);
-        if (t->json) {
-            fputs(i ? "," : "", t->out);
-            write_quoted(t->out, words);
-            fprintf(t->out, value - value == 0 ? ":%.17g" : ":null", value);
-        } else {
-            fprintf(t->out, "  %-16s %.10g\n", words, value);
-        }
+        fprintf(t->out, "  %-16s %.10g\n", tn_text(t->module, asked->name), value_of(t, asked->function));
     }
-    if (t->json)
-        fputs("}}", t->out);
 }
 
 /* What was found of each measure that the requirement names: "parts is 3, height is 7.5". */
@@ -111,7 +98,10 @@ static tn_status test_design(testing *t, tn_solid_tally *tally)
     tn_built_clear(&built);
     if (status != TN_OK)
         return tn_solid_fail(t->opened, t->solid, &error);
-    write_measures(t);
+    if (t->json)
+        write_measures_json(t);
+    else
+        write_measures(t);
     for (uint32_t i = 0; i < record->requirement_count; i++) {
         bool held = holds(t, record->requirement_first + i);
         tally->passed += held;
@@ -124,14 +114,16 @@ static tn_status test_design(testing *t, tn_solid_tally *tally)
 tn_status tn_solid_tests_run(tn_opened *opened, uint32_t most, bool json, FILE *out, tn_solid_tally *tally)
 {
     tn_status status = TN_OK;
-    bool first = true;
+    tn_json items = tn_json_file(out, TN_JSON_TIGHT);
     for (uint32_t i = 0; i < opened->module->SOLID_count; i++) {
         if (opened->module->SOLID_records[i].flags & TN_SOLID_IMPORTED)
             continue;
-        testing t = {.opened = opened, .module = opened->module, .solid = i, .most = most, .json = json, .out = out};
-        if (json && !first)
-            fputc(',', out);
-        first = false;
+        testing t = {.opened = opened,
+                     .module = opened->module,
+                     .solid = i,
+                     .most = most,
+                     .json = json ? &items : NULL,
+                     .out = out};
         tn_status one = test_design(&t, tally);
         status = status == TN_OK ? one : status;
     }

@@ -130,29 +130,3 @@ void tn_write_shown(FILE *out, const char *text, size_t size)
             write_character(out, character, text + i, step);
     }
 }
-
-void tn_write_json(FILE *out, const char *text)
-{
-    if (!text) {
-        fputs("null", out);
-        return;
-    }
-    fputc('"', out);
-    size_t size = strlen(text);
-    for (size_t i = 0, step; i < size; i += step) {
-        uint32_t character = tn_utf8_read(text + i, size - i, &step);
-        if (character == '"' || character == '\\')
-            fprintf(out, "\\%c", (char)character);
-        else if (character == '\n')
-            fputs("\\n", out);
-        else if (character == '\t')
-            fputs("\\t", out);
-        else if (character == TN_REPLACEMENT)
-            fputs("\xEF\xBF\xBD", out);
-        else if (tn_character_hidden(character))
-            fprintf(out, "\\u%04x", character);
-        else
-            fwrite(text + i, 1, step, out);
-    }
-    fputc('"', out);
-}

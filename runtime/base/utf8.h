@@ -31,7 +31,4 @@ void tn_character_escape(uint32_t character, char text[8]);
 void tn_write_clean(FILE *out, const char *text, size_t size);
 void tn_write_shown(FILE *out, const char *text, size_t size);
 
-/* Writes a JSON string with its quotes; NULL is null. */
-void tn_write_json(FILE *out, const char *text);
-
 #endif

@@ -1,6 +1,6 @@
 /* Checks and writes the settings of an evolution by their table. */
 #include "runtime/genome/settings.h"
-#include "runtime/base/number_text.h"
+#include "runtime/base/buffer.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,25 +1,11 @@
 /* glTF 2.0, binary: a JSON chunk that says what the binary chunk holds. */
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/bytes.h"
+#include "runtime/base/json.h"
 #include "runtime/base/watch.h"
 #include "runtime/geometry/write.h"
-
-typedef struct text {
-    char *bytes;
-    size_t used, size;
-} text;
-
-__attribute__((format(printf, 2, 3))) static void say(text *json, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    int size = vsnprintf(json->bytes + json->used, json->size - json->used, format, args);
-    va_end(args);
-    json->used += (size_t)size < json->size - json->used ? (size_t)size : json->size - json->used - 1;
-}
 
 /* y up: x, z, -y. */
 static void turned(const double *p, float q[3])
@@ -39,69 +25,162 @@ static void put_floats(uint8_t **to, const float *values, int count)
     }
 }
 
-static void say_notes(text *json, const tn_mesh_style *style)
+static void floats(tn_json *json, const char *key, const float values[3])
 {
-    say(json, "{\"asset\":{\"version\":\"2.0\",\"generator\":\"tartan\",\"extras\":{\"notes\":[");
-    for (size_t i = 0; i < style->note_count; i++) {
-        say(json, "%s\"", i ? "," : "");
-        for (const char *c = style->notes[i]; *c; c++)
-            say(json, (*c == '"' || *c == '\\') ? "\\%c" : (unsigned char)*c < ' ' ? " " : "%c", *c);
-        say(json, "\"");
-    }
-    say(json, "]}},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],");
+    tn_json_list(json, key);
+    for (int k = 0; k < 3; k++)
+        tn_json_rounded(json, NULL, (double)values[k], 9); /* enough to tell any float from all others */
+    tn_json_list_end(json);
 }
 
-static void say_primitives(text *json, const tn_mesh_style *style, const size_t *counts, uint32_t groups, bool normals)
+static void say_asset(tn_json *json, const tn_mesh_style *style)
+{
+    tn_json_object(json, "asset");
+    tn_json_string(json, "version", "2.0");
+    tn_json_string(json, "generator", "tartan");
+    tn_json_object(json, "extras");
+    tn_json_list(json, "notes");
+    for (size_t i = 0; i < style->note_count; i++)
+        tn_json_string(json, NULL, style->notes[i]);
+    tn_json_list_end(json);
+    tn_json_object_end(json);
+    tn_json_object_end(json);
+}
+
+/* One scene, with one node, which has the one mesh. */
+static void say_scene(tn_json *json)
+{
+    tn_json_count(json, "scene", 0);
+    tn_json_list(json, "scenes");
+    tn_json_object(json, NULL);
+    tn_json_list(json, "nodes");
+    tn_json_count(json, NULL, 0);
+    tn_json_list_end(json);
+    tn_json_object_end(json);
+    tn_json_list_end(json);
+    tn_json_list(json, "nodes");
+    tn_json_object(json, NULL);
+    tn_json_count(json, "mesh", 0);
+    tn_json_object_end(json);
+    tn_json_list_end(json);
+}
+
+static void say_primitives(tn_json *json, const size_t *counts, uint32_t groups, bool normals)
 {
     uint32_t accessor = normals ? 2 : 1, made = 0;
-    say(json, "\"meshes\":[{\"primitives\":[");
+    tn_json_list(json, "meshes");
+    tn_json_object(json, NULL);
+    tn_json_list(json, "primitives");
     for (uint32_t g = 0; g < groups; g++) {
         if (!counts[g])
             continue;
-        say(json, "%s{\"attributes\":{\"POSITION\":0%s},\"indices\":%u,\"material\":%u}", made ? "," : "",
-            normals ? ",\"NORMAL\":1" : "", accessor + made, made);
-        made++;
+        tn_json_object(json, NULL);
+        tn_json_object(json, "attributes");
+        tn_json_count(json, "POSITION", 0);
+        if (normals)
+            tn_json_count(json, "NORMAL", 1);
+        tn_json_object_end(json);
+        tn_json_count(json, "indices", accessor + made);
+        tn_json_count(json, "material", made++);
+        tn_json_object_end(json);
     }
-    say(json, "]}],\"materials\":[");
-    made = 0;
+    tn_json_list_end(json);
+    tn_json_object_end(json);
+    tn_json_list_end(json);
+}
+
+static void say_material(tn_json *json, const unsigned char rgb[3])
+{
+    tn_json_object(json, NULL);
+    tn_json_bool(json, "doubleSided", true);
+    tn_json_object(json, "pbrMetallicRoughness");
+    tn_json_list(json, "baseColorFactor");
+    for (int k = 0; k < 3; k++)
+        tn_json_rounded(json, NULL, rgb[k] / 255.0, 3);
+    tn_json_count(json, NULL, 1);
+    tn_json_list_end(json);
+    tn_json_count(json, "metallicFactor", 0);
+    tn_json_number(json, "roughnessFactor", 0.9);
+    tn_json_object_end(json);
+    tn_json_object_end(json);
+}
+
+static void say_materials(tn_json *json, const tn_mesh_style *style, const size_t *counts, uint32_t groups)
+{
+    tn_json_list(json, "materials");
     for (uint32_t g = 0; g < groups; g++) {
         unsigned char rgb[3] = {204, 204, 196};
         if (!counts[g])
             continue;
         if (groups > 1)
             tn_mesh_style_colour(style, g, rgb);
-        say(json,
-            "%s{\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorFactor\":[%.3f,%.3f,%.3f,1],"
-            "\"metallicFactor\":0,\"roughnessFactor\":0.9}}",
-            made++ ? "," : "", rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+        say_material(json, rgb);
     }
-    say(json, "],");
+    tn_json_list_end(json);
 }
 
-static void say_accessors(text *json, const tn_mesh *mesh, const float low[3], const float high[3],
+enum { FLOATS = 5126, WORDS = 5125, VERTICES = 34962, CORNERS = 34963 }; /* of OpenGL, which glTF cites */
+
+/* Points, or corners from a byte on; the caller ends it. */
+static void begin_accessor(tn_json *json, size_t view, size_t offset, int type, size_t count)
+{
+    tn_json_object(json, NULL);
+    tn_json_count(json, "bufferView", view);
+    if (type == WORDS)
+        tn_json_count(json, "byteOffset", offset);
+    tn_json_whole(json, "componentType", type);
+    tn_json_count(json, "count", count);
+    tn_json_string(json, "type", type == WORDS ? "SCALAR" : "VEC3");
+}
+
+static void say_accessors(tn_json *json, const tn_mesh *mesh, const float low[3], const float high[3],
                           const size_t *counts, uint32_t groups, bool normals)
 {
-    size_t points = 12 * mesh->vertex_count, indices = 0;
-    say(json,
-        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":%zu,\"type\":\"VEC3\",\"min\":[%.9g,%.9g,%."
-        "9g],\"max\":[%.9g,%.9g,%.9g]}",
-        mesh->vertex_count, low[0], low[1], low[2], high[0], high[1], high[2]);
-    if (normals)
-        say(json, ",{\"bufferView\":1,\"componentType\":5126,\"count\":%zu,\"type\":\"VEC3\"}", mesh->vertex_count);
+    size_t corners = 0;
+    tn_json_list(json, "accessors");
+    begin_accessor(json, 0, 0, FLOATS, mesh->vertex_count);
+    floats(json, "min", low);
+    floats(json, "max", high);
+    tn_json_object_end(json);
+    if (normals) {
+        begin_accessor(json, 1, 0, FLOATS, mesh->vertex_count);
+        tn_json_object_end(json);
+    }
     for (uint32_t g = 0; g < groups; g++) {
         if (!counts[g])
             continue;
-        say(json, ",{\"bufferView\":%d,\"byteOffset\":%zu,\"componentType\":5125,\"count\":%zu,\"type\":\"SCALAR\"}",
-            normals ? 2 : 1, indices, 3 * counts[g]);
-        indices += 12 * counts[g];
+        begin_accessor(json, normals ? 2 : 1, 4 * corners, WORDS, 3 * counts[g]);
+        tn_json_object_end(json);
+        corners += 3 * counts[g];
     }
-    say(json, "],\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu,\"target\":34962}", points);
+    tn_json_list_end(json);
+}
+
+static void say_view(tn_json *json, size_t offset, size_t length, int target)
+{
+    tn_json_object(json, NULL);
+    tn_json_count(json, "buffer", 0);
+    if (offset)
+        tn_json_count(json, "byteOffset", offset);
+    tn_json_count(json, "byteLength", length);
+    tn_json_whole(json, "target", target);
+    tn_json_object_end(json);
+}
+
+static void say_buffers(tn_json *json, const tn_mesh *mesh, bool normals)
+{
+    size_t points = 12 * mesh->vertex_count, corners = 12 * mesh->face_count, offset = normals ? 2 * points : points;
+    tn_json_list(json, "bufferViews");
+    say_view(json, 0, points, VERTICES);
     if (normals)
-        say(json, ",{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu,\"target\":34962}", points, points);
-    size_t offset = normals ? 2 * points : points;
-    say(json,
-        ",{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu,\"target\":34963}],\"buffers\":[{\"byteLength\":%zu}]}",
-        offset, indices, offset + indices);
+        say_view(json, points, points, VERTICES);
+    say_view(json, offset, corners, CORNERS);
+    tn_json_list_end(json);
+    tn_json_list(json, "buffers");
+    tn_json_object(json, NULL);
+    tn_json_count(json, "byteLength", offset + corners);
+    tn_json_object_end(json);
+    tn_json_list_end(json);
 }
 
 static void fill(const tn_mesh *mesh, const double *normals, const size_t *counts, uint32_t groups, uint8_t *binary,
@@ -132,11 +211,12 @@ static void fill(const tn_mesh *mesh, const double *normals, const size_t *count
     }
 }
 
-static tn_status write_chunks(FILE *out, text *json, const uint8_t *binary, size_t size, tn_error *error)
+static tn_status write_chunks(FILE *out, tn_buffer *json, const uint8_t *binary, size_t size, tn_error *error)
 {
-    while (json->used % 4)
-        json->bytes[json->used++] = ' ';
-    size_t total = 12 + 8 + json->used + 8 + size;
+    while (json->size % 4)
+        if (!tn_buffer_append(json, " ", 1))
+            return tn_fail_memory(error);
+    size_t total = 12 + 8 + json->size + 8 + size;
     if (total > UINT32_MAX)
         return tn_fail(error, TN_LIMIT, E_FILE_TOO_LARGE,
                        "the surface is too large for a GLB file, which holds 4 GiB at most");
@@ -144,12 +224,12 @@ static tn_status write_chunks(FILE *out, text *json, const uint8_t *binary, size
     tn_put_u32(header, 0x46546c67); /* "glTF" */
     tn_put_u32(header + 4, 2);
     tn_put_u32(header + 8, (uint32_t)total);
-    tn_put_u32(header + 12, (uint32_t)json->used);
+    tn_put_u32(header + 12, (uint32_t)json->size);
     tn_put_u32(header + 16, 0x4e4f534a); /* "JSON" */
     tn_put_u32(chunk, (uint32_t)size);
     tn_put_u32(chunk + 4, 0x004e4942); /* "BIN" */
     fwrite(header, 1, sizeof header, out);
-    fwrite(json->bytes, 1, json->used, out);
+    fwrite(json->data, 1, json->size, out);
     fwrite(chunk, 1, sizeof chunk, out);
     fwrite(binary, 1, size, out); /* failing shows in the stream's state, which the caller looks at */
     return TN_OK;
@@ -159,29 +239,32 @@ static tn_status write_triangles(const tn_mesh *mesh, const tn_mesh_style *style
                                  tn_error *error)
 {
     uint32_t groups = mesh->face_group ? mesh->group_count : 1;
-    size_t points = 12 * mesh->vertex_count * (normals ? 2 : 1), size = points + 12 * mesh->face_count, notes = 0;
-    for (size_t i = 0; i < style->note_count; i++)
-        notes += 2 * strlen(style->notes[i]) + 4;
-    text json = {.size = 2000 + notes + 700 * (size_t)groups};
-    json.bytes = malloc(json.size + 4);
+    size_t points = 12 * mesh->vertex_count * (normals ? 2 : 1), size = points + 12 * mesh->face_count;
+    tn_buffer text = {0};
     size_t *counts = calloc(groups + 1, sizeof *counts);
     uint8_t *binary = malloc(size + 1);
     tn_status status = TN_OK;
-    if (!json.bytes || !counts || !binary) {
+    if (!counts || !binary) {
         status = tn_fail_memory(error);
     } else {
         float low[3] = {0}, high[3] = {0};
         for (size_t f = 0; f < mesh->face_count; f++)
             counts[mesh->face_group ? mesh->face_group[f] : 0]++;
         fill(mesh, normals, counts, groups, binary, low, high);
-        say_notes(&json, style);
-        say_primitives(&json, style, counts, groups, normals != NULL);
+        tn_json json = tn_json_text(&text, TN_JSON_TIGHT);
+        tn_json_object(&json, NULL);
+        say_asset(&json, style);
+        say_scene(&json);
+        say_primitives(&json, counts, groups, normals != NULL);
+        say_materials(&json, style, counts, groups);
         say_accessors(&json, mesh, low, high, counts, groups, normals != NULL);
-        status = tn_watch_check(mesh->watch, error);
+        say_buffers(&json, mesh, normals != NULL);
+        tn_json_object_end(&json);
+        status = text.failed ? tn_fail_memory(error) : tn_watch_check(mesh->watch, error);
         if (status == TN_OK)
-            status = write_chunks(out, &json, binary, size, error);
+            status = write_chunks(out, &text, binary, size, error);
     }
-    free(json.bytes);
+    free(text.data);
     free(counts);
     free(binary);
     return status;

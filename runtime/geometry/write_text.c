@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "runtime/base/buffer.h"
 #include "runtime/base/int128.h"
-#include "runtime/base/number_text.h"
 
 static const char pairs[] =
     "0001020304050607080910111213141516171819202122232425262728293031323334353637383940414243444546474849"

@@ -156,9 +156,10 @@ tn_status tn_house_read_open(const tn_house_form *form, const char *line, size_t
 /* Appends the house's line. TN_MEMORY. */
 tn_status tn_house_write(const tn_house *house, tn_buffer *out, tn_error *error);
 
-/* Appends the same choices as members of a JSON object, each with a comma before it: ,"section":{CHOICE: VALUE, ...},
- * "functions":[[FUNCTION, ...] of each tray, ...], "faces":[KIND, ...],"tiles":[TILE, ...]. TN_MEMORY. */
-tn_status tn_house_write_members(const tn_house *house, tn_buffer *out, tn_error *error);
+/* Writes the same choices as members of the object that is open: "section": {CHOICE: VALUE, ...},
+ * "functions": [[FUNCTION, ...] of each tray, ...], "faces": [KIND, ...], "tiles": [TILE, ...]. TN_MEMORY; a
+ * text that lacks memory itself says so (`failed`). */
+tn_status tn_house_write_members(const tn_house *house, tn_json *json, tn_error *error);
 
 /* ---- tiles.c */
 

@@ -456,12 +456,12 @@ static tn_status read_member(line_reader *read, const tn_house_form *form, const
     tn_buffer line = {0};
     size_t begin;
     *house = (tn_house){0};
-    tn_status status = tn_json_text(text, size, "house", &line, &begin, error);
+    tn_status status = tn_json_read_text(text, size, "house", &line, &begin, error);
     if (status == TN_OK) {
         status = read(form, line.data ? line.data : "", line.size, max_trays, house, error);
         if (status == TN_INVALID && error && error->column)
-            tn_error_place(error, 0, tn_json_column(text, size, begin, error->column),
-                           tn_json_column(text, size, begin, error->column_end));
+            tn_error_place(error, 0, tn_json_read_column(text, size, begin, error->column),
+                           tn_json_read_column(text, size, begin, error->column_end));
     } else if (status == TN_INVALID) {
         tn_error_help(error, "a house is a house line, or a JSON object with one: {\"house\": \"...\"}");
     }

@@ -3,15 +3,21 @@
 
 #include "runtime/house/house.h"
 
-/* A word of a part: after a blank, or as JSON after a comma, where it is not the first. */
-static void put(tn_buffer *out, bool json, bool *any, const char *text)
+/* Where words go: one of the two. */
+typedef struct words {
+    tn_buffer *line;
+    tn_json *json;
+} words;
+
+/* A word of a part: after a blank, where it is not the first, or an item of the list that is open. */
+static void put(const words *to, bool *any, const char *text)
 {
-    if (*any)
-        tn_buffer_append(out, json ? "," : " ", 1);
-    if (json)
-        tn_buffer_append_json(out, text);
-    else
-        tn_buffer_append(out, text, strlen(text));
+    if (to->json) {
+        tn_json_string(to->json, NULL, text);
+    } else {
+        tn_buffer_append(to->line, " ", *any);
+        tn_buffer_append(to->line, text, strlen(text));
+    }
     *any = true;
 }
 
@@ -24,29 +30,29 @@ static const char *value_of(const tn_house *house, uint32_t choice)
 }
 
 /* The functions of a tray's cells; are there any? */
-static bool put_tray(const tn_house *house, size_t tray, bool json, tn_buffer *out)
+static bool put_tray(const tn_house *house, size_t tray, const words *to)
 {
     bool any = false;
     for (uint32_t i = house->tray_first[tray]; i < house->tray_first[tray + 1]; i++) {
         const tn_cell *cell = &house->cells[i];
-        put(out, json, &any,
+        put(to, &any,
             cell->open ? "void" : tn_text(house->form->module, tn_form_rule(house->form, cell->function)->name));
     }
     return any;
 }
 
 /* What is in the faces that leave a choice; are there any? */
-static bool put_faces(const tn_house *house, bool json, tn_buffer *out)
+static bool put_faces(const tn_house *house, const words *to)
 {
     uint32_t kinds[TN_FACE_KINDS_MAX];
     bool any = false;
     for (size_t i = 0; i < house->face_count; i++)
         if (tn_face_options(house, &house->faces[i], kinds) > 1)
-            put(out, json, &any, tn_form_kind_text(house->form, house->faces[i].kind));
+            put(to, &any, tn_form_kind_text(house->form, house->faces[i].kind));
     return any;
 }
 
-static tn_status put_tiles(const tn_house *house, bool json, tn_buffer *out, bool *any, tn_error *error)
+static tn_status put_tiles(const tn_house *house, const words *to, bool *any, tn_error *error)
 {
     tn_status status = TN_OK;
     *any = false;
@@ -56,7 +62,7 @@ static tn_status put_tiles(const tn_house *house, bool json, tn_buffer *out, boo
         status = tn_tile_variants(house, i, &v, error);
         if (status == TN_OK && v.count > 0) {
             tn_variant_text(house->form, &v.variants[house->cells[i].variant], text);
-            put(out, json, any, text);
+            put(to, any, text);
         }
         tn_variants_clear(&v);
     }
@@ -73,20 +79,21 @@ static void end_part(tn_buffer *out, bool any)
 tn_status tn_house_write(const tn_house *house, tn_buffer *out, tn_error *error)
 {
     const tn_house_form *form = house->form;
+    const words to = {.line = out};
     bool any = false;
     tn_plan_write_line(form->schema, house->trays, house->length, out);
     end_part(out, house->length > 0);
     for (uint32_t i = 0; i < form->record->choice_count; i++)
-        put(out, false, &any, value_of(house, i));
+        put(&to, &any, value_of(house, i));
     end_part(out, any);
     for (size_t t = 0; t < house->length; t++) {
         tn_buffer_printf(out, "%s", t ? " | " : "");
-        if (!put_tray(house, t, false, out))
+        if (!put_tray(house, t, &to))
             tn_buffer_append(out, "-", 1);
     }
     end_part(out, house->length > 0);
-    end_part(out, put_faces(house, false, out));
-    tn_status status = put_tiles(house, false, out, &any, error);
+    end_part(out, put_faces(house, &to));
+    tn_status status = put_tiles(house, &to, &any, error);
     if (!any)
         tn_buffer_append(out, "-", 1);
     return status == TN_OK && out->failed ? tn_fail_memory(error) : status;
@@ -94,27 +101,27 @@ tn_status tn_house_write(const tn_house *house, tn_buffer *out, tn_error *error)
 
 /* ---- JSON */
 
-tn_status tn_house_write_members(const tn_house *house, tn_buffer *out, tn_error *error)
+tn_status tn_house_write_members(const tn_house *house, tn_json *json, tn_error *error)
 {
     const tn_house_form *form = house->form;
-    bool any;
-    tn_buffer_printf(out, ",\"section\":{");
-    for (uint32_t i = 0; i < form->record->choice_count; i++) {
-        tn_buffer_printf(out, "%s", i ? "," : "");
-        tn_buffer_append_json(out, tn_text(form->module, tn_form_choice(form, i)->name));
-        tn_buffer_append(out, ":", 1);
-        tn_buffer_append_json(out, value_of(house, i));
-    }
-    tn_buffer_printf(out, "},\"functions\":[");
+    const words to = {.json = json};
+    bool any = false;
+    tn_json_object(json, "section");
+    for (uint32_t i = 0; i < form->record->choice_count; i++)
+        tn_json_string(json, tn_text(form->module, tn_form_choice(form, i)->name), value_of(house, i));
+    tn_json_object_end(json);
+    tn_json_list(json, "functions");
     for (size_t t = 0; t < house->length; t++) {
-        tn_buffer_printf(out, "%s[", t ? "," : "");
-        put_tray(house, t, true, out);
-        tn_buffer_append(out, "]", 1);
+        tn_json_list(json, NULL);
+        put_tray(house, t, &to);
+        tn_json_list_end(json);
     }
-    tn_buffer_printf(out, "],\"faces\":[");
-    put_faces(house, true, out);
-    tn_buffer_printf(out, "],\"tiles\":[");
-    tn_status status = put_tiles(house, true, out, &any, error);
-    tn_buffer_append(out, "]", 1);
-    return status == TN_OK && out->failed ? tn_fail_memory(error) : status;
+    tn_json_list_end(json);
+    tn_json_list(json, "faces");
+    put_faces(house, &to);
+    tn_json_list_end(json);
+    tn_json_list(json, "tiles");
+    tn_status status = put_tiles(house, &to, &any, error);
+    tn_json_list_end(json);
+    return status;
 }

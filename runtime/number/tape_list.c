@@ -1,7 +1,7 @@
 /* Lists the steps of a tape. */
 #include <stdio.h>
 
-#include "runtime/base/number_text.h"
+#include "runtime/base/buffer.h"
 #include "runtime/module/code.h"
 #include "runtime/number/tape.h"
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/int128.h"
 #include "runtime/base/random.h"
 
 /* The matrix of a turn, row by row: its columns are where right, down and back point. */
@@ -28,12 +29,12 @@ static void unit_of(const tn_module *module, int64_t unit[3])
     unit[2] = kit ? kit->unit_z : program[2];
 }
 
+enum { MILLION = 1000000 }; /* units of a module in an LDU */
+
 /* Cells times a cell's side, as a decimal number without needless digits. */
 static void write_ldu(int64_t cells, int64_t unit, FILE *out)
 {
-    enum { MILLION = 1000000 };
-    __extension__ typedef __int128 wide;
-    wide length = (wide)cells * unit;
+    tn_int128 length = (tn_int128)cells * unit;
     bool negative = length < 0;
     uint64_t whole = (uint64_t)((negative ? -length : length) / MILLION);
     uint32_t rest = (uint32_t)((negative ? -length : length) % MILLION);
@@ -60,6 +61,14 @@ void tn_place_write_at(const tn_module *module, const tn_frame *frame, const cha
     int64_t unit[3];
     unit_of(module, unit);
     write_at(frame, unit, between, out);
+}
+
+void tn_place_at(const tn_module *module, const tn_frame *frame, double at[3])
+{
+    int64_t unit[3];
+    unit_of(module, unit);
+    for (int k = 0; k < 3; k++)
+        at[k] = (double)((tn_int128)frame->at[k] * unit[k]) / MILLION;
 }
 
 /* Every r is left out of the names of parts of connection grammars, as by the published program. */

@@ -19,6 +19,7 @@ void tn_place_write_mpd(const tn_module *module, const tn_placed_model *model, c
 
 /* A frame's place in LDU, as LDraw has it (y points down): three numbers with this between. */
 void tn_place_write_at(const tn_module *module, const tn_frame *frame, const char *between, FILE *out);
+void tn_place_at(const tn_module *module, const tn_frame *frame, double at[3]);
 
 /* Parts by name and colour, in the order of their first: part,colour,number; of a kit also title, mass and price. */
 tn_status tn_place_write_list(const tn_module *module, const tn_placed_model *model, FILE *out, tn_error *error);

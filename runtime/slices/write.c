@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/number_text.h"
+#include "runtime/base/buffer.h"
 #include "runtime/geometry/write.h"
 #include "runtime/geometry/write_text.h"
 

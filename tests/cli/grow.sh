@@ -292,8 +292,10 @@ grep -q 'changes nothing any more' stderr || fail 'rest is not noticed'
 # The statistics' form.
 run grow square.hemls -n 1 --stats json >stats
 cat >expected <<'JSON'
-[{"step": 0, "V": 4, "E": 4, "F": 1, "labels": {"Edge0": 2, "Edge1": 2}, "ages": {"Edge0_0": 2, "Edge1_0": 2}, "face_sides": {"4": 1}, "fitness": {"size": 2, "smoothness": 0, "soft_boundary_nodes": 0, "subdivisions": 1, "symmetry": 1, "undulation": 0}, "measures": {"width": 1, "depth": 1, "height": 0, "area": 1, "volume": 0, "planarity": 0, "worst-planarity": 0, "edge-spread": 0, "smallest-angle": 90, "span": 0, "crossed-faces": 0, "turned-faces": 0, "crossings": 0, "sunlit": 1}},
-{"step": 1, "V": 9, "E": 12, "F": 4, "labels": {"Edge0": 6, "Edge1": 6}, "ages": {"Edge0_0": 6, "Edge1_0": 6}, "face_sides": {"4": 4}, "fitness": {"size": 3, "smoothness": 0, "soft_boundary_nodes": 0, "subdivisions": 0.75, "symmetry": 1, "undulation": 0}, "measures": {"width": 1.5, "depth": 1.5, "height": 0, "area": 2.25, "volume": 0, "planarity": 0, "worst-planarity": 0, "edge-spread": 0, "smallest-angle": 90, "span": 0, "crossed-faces": 0, "turned-faces": 0, "crossings": 0, "sunlit": 1}}]
+[
+{"step": 0, "V": 4, "E": 4, "F": 1, "labels": {"Edge0": 2, "Edge1": 2}, "ages": {"Edge0_0": 2, "Edge1_0": 2}, "face_sides": {"4": 1}, "fitness": {"size": 2, "smoothness": 0, "soft_boundary_nodes": 0, "subdivisions": 1, "symmetry": 1, "undulation": 0}, "measures": {"width": 1, "depth": 1, "height": 0, "area": 1, "volume": 0, "planarity": 0, "worst-planarity": 0, "edge-spread": 0, "smallest-angle": 90, "span": 0, "crossed-faces": 0, "turned-faces": 0, "crossings": 0, "sunlit": 1}},
+{"step": 1, "V": 9, "E": 12, "F": 4, "labels": {"Edge0": 6, "Edge1": 6}, "ages": {"Edge0_0": 6, "Edge1_0": 6}, "face_sides": {"4": 4}, "fitness": {"size": 3, "smoothness": 0, "soft_boundary_nodes": 0, "subdivisions": 0.75, "symmetry": 1, "undulation": 0}, "measures": {"width": 1.5, "depth": 1.5, "height": 0, "area": 2.25, "volume": 0, "planarity": 0, "worst-planarity": 0, "edge-spread": 0, "smallest-angle": 90, "span": 0, "crossed-faces": 0, "turned-faces": 0, "crossings": 0, "sunlit": 1}}
+]
 JSON
 diff -u expected stats
 run grow square.hemls -n 1 --explain -o x.obj

@@ -38,7 +38,8 @@ static const tn_house_form *cottages(void)
 static void write(const tn_house *house, tn_buffer *line)
 {
     tn_buffer members = {0};
-    if (tn_house_write(house, line, NULL) != TN_OK || tn_house_write_members(house, &members, NULL) != TN_OK)
+    tn_json json = tn_json_text(&members, TN_JSON_TIGHT);
+    if (tn_house_write(house, line, NULL) != TN_OK || tn_house_write_members(house, &json, NULL) != TN_OK)
         stop("a house that was read cannot be written");
     free(members.data);
 }

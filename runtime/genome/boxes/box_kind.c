@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/base/buffer.h"
 #include "runtime/base/bytes.h"
-#include "runtime/base/number_text.h"
 #include "runtime/genome/breeding/normal.h"
 #include "runtime/module/values.h"
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/utf8.h"
+#include "runtime/base/json.h"
 
 void tn_tree_clear(tn_tree *tree)
 {
@@ -263,7 +263,8 @@ typedef struct writer {
     const tn_grammar *grammar;
     const tn_event *events;
     const tn_tree *tree;
-    FILE *out;
+    FILE *out;    /* as text, */
+    tn_json json; /* or as JSON */
 } writer;
 
 static void enter_text(void *context, uint32_t node, uint32_t depth)
@@ -276,63 +277,74 @@ static void enter_text(void *context, uint32_t node, uint32_t depth)
 
 bool tn_tree_write_text(const tn_grammar *grammar, const tn_event *events, const tn_tree *tree, FILE *out)
 {
-    writer w = {grammar, events, tree, out};
+    writer w = {.grammar = grammar, .events = events, .tree = tree, .out = out};
     tn_tree_walk(tree, enter_text, NULL, &w);
     return !ferror(out);
 }
 
+/* Numbers of 64 bits are texts: readers of JSON round them. */
+static void json_choice(tn_json *json, const tn_event *event)
+{
+    const struct {
+        const char *key;
+        uint64_t value;
+    } parts[] = {{"codon", event->codon}, {"modulus", event->modulus}, {"choice", event->value}};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        char digits[24];
+        snprintf(digits, sizeof digits, "%" PRIu64, parts[i].value);
+        tn_json_string(json, parts[i].key, digits);
+    }
+}
+
 static void enter_json(void *context, uint32_t node, uint32_t depth)
 {
-    const writer *w = context;
+    writer *w = context;
     const tn_event *event = &w->events[w->tree->nodes[node].event];
     static const char *const kinds[] = {
         [TN_EVENT_AGAIN] = "again", [TN_EVENT_STOP] = "stop", [TN_EVENT_TAKE] = "take", [TN_EVENT_SKIP] = "skip"};
     (void)depth;
-    fputc('{', w->out);
+    tn_json_object(&w->json, NULL);
     switch ((tn_event_kind)event->kind) {
     case TN_EVENT_EXPAND:
-        fputs("\"symbol\":", w->out);
-        tn_write_json(w->out, tn_rule_name(w->grammar, event->symbol));
-        fprintf(w->out, ",\"depth\":%u", event->depth);
+        tn_json_string(&w->json, "symbol", tn_rule_name(w->grammar, event->symbol));
+        tn_json_count(&w->json, "depth", event->depth);
         break;
     case TN_EVENT_TERMINAL:
-        fputs("\"terminal\":", w->out);
-        tn_write_json(w->out, w->grammar->texts + w->grammar->terminals[event->symbol].offset);
+        tn_json_string(&w->json, "terminal", w->grammar->texts + w->grammar->terminals[event->symbol].offset);
         break;
     case TN_EVENT_EDGE:
-        fprintf(w->out, "\"edge\":%" PRIu64, event->value);
+        tn_json_count(&w->json, "edge", event->value);
         if (event->letter)
-            fprintf(w->out, ",\"letter\":\"%c\"", event->letter);
+            tn_json_bytes(&w->json, "letter", (const char[]){(char)event->letter}, 1);
         break;
     case TN_EVENT_REPAIR:
-        fprintf(w->out, "\"repair\":%" PRIu64, event->value);
+        tn_json_count(&w->json, "repair", event->value);
         break;
     default:
-        fprintf(w->out, "\"loop\":\"%s\"", kinds[event->kind]);
+        tn_json_string(&w->json, "loop", kinds[event->kind]);
         break;
     }
     if (event->read != TN_NO_READ)
-        fprintf(w->out, ",\"codon\":\"%" PRIu64 "\",\"modulus\":\"%" PRIu64 "\",\"choice\":\"%" PRIu64 "\"",
-                event->codon, event->modulus, event->value);
+        json_choice(&w->json, event);
     if (event->kind == TN_EVENT_EXPAND)
-        fputs(",\"children\":[", w->out);
+        tn_json_list(&w->json, "children");
 }
 
 static void leave_json(void *context, uint32_t node, uint32_t depth)
 {
-    const writer *w = context;
-    const tn_tree_node *n = &w->tree->nodes[node];
+    writer *w = context;
     (void)depth;
-    fputs(w->events[n->event].kind == TN_EVENT_EXPAND ? "]}" : "}", w->out);
-    if (n->next != TN_TREE_NONE)
-        fputc(',', w->out);
+    if (w->events[w->tree->nodes[node].event].kind == TN_EVENT_EXPAND)
+        tn_json_list_end(&w->json);
+    tn_json_object_end(&w->json);
 }
 
 bool tn_tree_write_json(const tn_grammar *grammar, const tn_event *events, const tn_tree *tree, FILE *out)
 {
-    writer w = {grammar, events, tree, out};
-    fputc('[', out);
+    writer w = {.grammar = grammar, .events = events, .tree = tree, .json = tn_json_file(out, TN_JSON_TIGHT)};
+    tn_json_list(&w.json, NULL);
     tn_tree_walk(tree, enter_json, leave_json, &w);
-    fputc(']', out);
+    tn_json_list_end(&w.json);
+    tn_json_end_line(&w.json);
     return !ferror(out);
 }

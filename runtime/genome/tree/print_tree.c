@@ -2,8 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "runtime/base/buffer.h"
 #include "runtime/base/bytes.h"
-#include "runtime/base/number_text.h"
 #include "runtime/genome/tree/tree_kind.h"
 
 #define COLUMNS 80u /* a line ends at the next chance */

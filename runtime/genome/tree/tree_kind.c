@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/number_text.h"
+#include "runtime/base/buffer.h"
 
 #define NAME "bred"
 

@@ -23,28 +23,40 @@ static void put_wide(tn_buffer *out, tn_int128 number)
     tn_buffer_append(out, digits + at, sizeof digits - at);
 }
 
-static void put_fraction(tn_buffer *out, tn_fraction fraction)
+/* "7" or "7/2" */
+static void put_fraction(tn_json *json, tn_fraction fraction)
 {
-    tn_buffer_append(out, "\"", 1);
-    put_wide(out, fraction.top);
+    tn_buffer text = {0};
+    put_wide(&text, fraction.top);
     if (fraction.bottom != 1) {
-        tn_buffer_append(out, "/", 1);
-        put_wide(out, fraction.bottom);
+        tn_buffer_append(&text, "/", 1);
+        put_wide(&text, fraction.bottom);
     }
-    tn_buffer_append(out, "\"", 1);
+    json->text->failed |= text.failed;
+    tn_json_string(json, NULL, text.data);
+    free(text.data);
 }
 
-static void put_rectangle(tn_buffer *out, const char *name, tn_rectangle r)
+static void put_lengths(tn_json *json, const char *key, const int64_t *lengths, size_t count)
 {
-    tn_buffer_printf(out, ", \"%s\": [%" PRId64 ", %" PRId64 ", %" PRId64 ", %" PRId64 "]", name, r.x0, r.x1, r.y0,
-                     r.y1);
+    tn_json_list(json, key);
+    for (size_t i = 0; i < count; i++)
+        tn_json_whole(json, NULL, lengths[i]);
+    tn_json_list_end(json);
 }
 
-/* Before the items of a list. */
-static void next_line(tn_buffer *out, bool *any)
+static void put_rectangle(tn_json *json, const char *key, tn_rectangle r)
 {
-    tn_buffer_printf(out, "%s\n    ", *any ? "," : "");
-    *any = true;
+    put_lengths(json, key, (const int64_t[]){r.x0, r.x1, r.y0, r.y1}, 4);
+}
+
+static void put_area(tn_json *json, const char *key, tn_int128 area)
+{
+    tn_buffer text = {0};
+    put_wide(&text, area);
+    json->text->failed |= text.failed;
+    tn_json_string(json, key, text.data);
+    free(text.data);
 }
 
 static tn_int128 area_of(tn_rectangle r)
@@ -65,55 +77,59 @@ static const char *storey_of(const tn_house *house, uint32_t storey)
 
 /* ---- lists */
 
-static void put_cells(const tn_house *house, tn_buffer *out)
+static void put_cells(const tn_house *house, tn_json *json)
 {
     const tn_house_form *form = house->form;
-    bool any = false;
+    tn_json_list(json, "cells");
     for (uint32_t i = 0; i < house->cell_count; i++) {
         const tn_cell *cell = &house->cells[i];
-        next_line(out, &any);
-        tn_buffer_printf(out, "{\"id\": %u, \"tray\": %u, \"zone\": ", i, cell->tray);
-        tn_buffer_append_json(out, tn_text(form->module, form->schema->fields[cell->zone].name));
-        tn_buffer_printf(out, ", \"storey\": %u", cell->storey);
-        put_rectangle(out, "rect", cell->at);
-        tn_buffer_printf(out, ", \"function\": ");
-        tn_buffer_append_json(out, function_of(house, cell));
-        put_rectangle(out, "inner", tn_cell_clear(house, i));
-        tn_buffer_append(out, "}", 1);
+        tn_json_object(json, NULL);
+        tn_json_count(json, "id", i);
+        tn_json_count(json, "tray", cell->tray);
+        tn_json_string(json, "zone", tn_text(form->module, form->schema->fields[cell->zone].name));
+        tn_json_count(json, "storey", cell->storey);
+        put_rectangle(json, "rect", cell->at);
+        tn_json_string(json, "function", function_of(house, cell));
+        put_rectangle(json, "inner", tn_cell_clear(house, i));
+        tn_json_object_end(json);
     }
+    tn_json_list_end(json);
 }
 
-static void put_options(const tn_house *house, const tn_face *face, tn_buffer *out)
+static void put_options(const tn_house *house, const tn_face *face, tn_json *json)
 {
     uint32_t kinds[TN_FACE_KINDS_MAX];
     size_t count = tn_face_options(house, face, kinds);
-    tn_buffer_printf(out, ", \"options\": [");
-    for (size_t i = 0; i < count; i++) {
-        tn_buffer_printf(out, "%s", i ? ", " : "");
-        tn_buffer_append_json(out, tn_form_kind_text(house->form, kinds[i]));
-    }
-    tn_buffer_append(out, "]", 1);
+    tn_json_list(json, "options");
+    for (size_t i = 0; i < count; i++)
+        tn_json_string(json, NULL, tn_form_kind_text(house->form, kinds[i]));
+    tn_json_list_end(json);
 }
 
-static void put_faces(const tn_house *house, tn_buffer *out)
+static void put_faces(const tn_house *house, tn_json *json)
 {
     static const char *const sides[] = {"above", "back", "front", "left", "right"};
-    bool any = false;
+    tn_json_list(json, "faces");
     for (size_t i = 0; i < house->face_count; i++) {
         const tn_face *face = &house->faces[i];
-        next_line(out, &any);
-        tn_buffer_printf(out, "{\"id\": %zu, \"a\": %u, \"b\": ", i, face->first);
-        tn_buffer_printf(out, face->second == TN_NO_CELL ? "null" : "%u", face->second);
-        tn_buffer_printf(out, ", \"side\": \"%s\", \"rel\": \"%s\"", sides[face->side],
-                         face->relation == TN_FACE_OUTSIDE ? "outside"
-                         : face->relation == TN_FACE_UNDER ? "above"
-                                                           : "beside");
-        put_rectangle(out, "at", face->at);
-        tn_buffer_printf(out, ", \"kind\": ");
-        tn_buffer_append_json(out, tn_form_kind_text(house->form, face->kind));
-        put_options(house, face, out);
-        tn_buffer_append(out, "}", 1);
+        tn_json_object(json, NULL);
+        tn_json_count(json, "id", i);
+        tn_json_count(json, "a", face->first);
+        if (face->second == TN_NO_CELL)
+            tn_json_null(json, "b");
+        else
+            tn_json_count(json, "b", face->second);
+        tn_json_string(json, "side", sides[face->side]);
+        tn_json_string(json, "rel",
+                       face->relation == TN_FACE_OUTSIDE ? "outside"
+                       : face->relation == TN_FACE_UNDER ? "above"
+                                                         : "beside");
+        put_rectangle(json, "at", face->at);
+        tn_json_string(json, "kind", tn_form_kind_text(house->form, face->kind));
+        put_options(house, face, json);
+        tn_json_object_end(json);
     }
+    tn_json_list_end(json);
 }
 
 /* The areas of a room, to the planes and to the walls; voids do not count. */
@@ -128,62 +144,74 @@ static void room_areas(const tn_house *house, const uint32_t *rooms, uint32_t ro
     }
 }
 
-static void put_room(const tn_house *house, const uint32_t *rooms, uint32_t room, tn_buffer *out)
+static void put_room(const tn_house *house, const uint32_t *rooms, uint32_t room, tn_json *json)
 {
     tn_int128 gross, net;
     room_areas(house, rooms, room, &gross, &net);
-    tn_buffer_printf(out, "{\"function\": ");
-    tn_buffer_append_json(out, function_of(house, &house->cells[room]));
-    tn_buffer_printf(out, ", \"cells\": [");
+    tn_json_object(json, NULL);
+    tn_json_string(json, "function", function_of(house, &house->cells[room]));
+    tn_json_list(json, "cells");
     for (uint32_t i = room; i < house->cell_count; i++)
         if (rooms[i] == room)
-            tn_buffer_printf(out, "%s%u", i == room ? "" : ", ", i);
-    tn_buffer_printf(out, "], \"area\": \"");
-    put_wide(out, gross);
-    tn_buffer_printf(out, "\", \"net\": \"");
-    put_wide(out, net);
-    tn_buffer_printf(out, "\"}");
+            tn_json_count(json, NULL, i);
+    tn_json_list_end(json);
+    put_area(json, "area", gross);
+    put_area(json, "net", net);
+    tn_json_object_end(json);
 }
 
-static void put_solids(const tn_house *house, const tn_solids *solids, tn_buffer *out)
+static void put_rooms(const tn_house *house, const uint32_t *rooms, tn_json *json)
+{
+    tn_json_list(json, "rooms");
+    for (uint32_t i = 0; i < house->cell_count; i++)
+        if (rooms[i] == i)
+            put_room(house, rooms, i, json);
+    tn_json_list_end(json);
+}
+
+static void put_solids(const tn_house *house, const tn_solids *solids, tn_json *json)
 {
     const tn_module *module = house->form->module;
-    bool any = false;
+    tn_json_list(json, "solids");
     for (size_t i = 0; i < solids->box_count; i++) {
         const tn_solid *s = &solids->boxes[i];
-        next_line(out, &any);
-        tn_buffer_printf(out, "{\"kind\": \"%s\", \"of\": %u", tn_solid_kind_text(s->kind), s->of);
-        if (s->kind == TN_SOLID_ITEM) {
-            tn_buffer_printf(out, ", \"name\": ");
-            tn_buffer_append_json(out, tn_text(module, module->TILE_BOX_records[s->item].name));
-        }
-        tn_buffer_printf(out,
-                         ", \"box\": [%" PRId64 ", %" PRId64 ", %" PRId64 ", %" PRId64 ", %" PRId64 ", %" PRId64 "]}",
-                         s->at.x0, s->at.x1, s->at.y0, s->at.y1, s->at.z0, s->at.z1);
+        tn_json_object(json, NULL);
+        tn_json_string(json, "kind", tn_solid_kind_text(s->kind));
+        tn_json_count(json, "of", s->of);
+        if (s->kind == TN_SOLID_ITEM)
+            tn_json_string(json, "name", tn_text(module, module->TILE_BOX_records[s->item].name));
+        put_lengths(json, "box", (const int64_t[]){s->at.x0, s->at.x1, s->at.y0, s->at.y1, s->at.z0, s->at.z1}, 6);
+        tn_json_object_end(json);
     }
+    tn_json_list_end(json);
 }
 
-static void put_roofs(const tn_solids *solids, tn_buffer *out)
+static void put_roof(const tn_solids *solids, const tn_prism *p, tn_json *json)
 {
-    bool any = false;
-    for (size_t i = 0; i < solids->prism_count; i++) {
-        const tn_prism *p = &solids->prisms[i];
-        next_line(out, &any);
-        tn_buffer_printf(out, "{\"of\": %u, \"%s\": [%" PRId64 ", %" PRId64 "], \"base\": %" PRId64 ", ", p->of,
-                         p->across ? "y" : "x", p->from, p->to, p->base);
-        if (p->slab)
-            tn_buffer_printf(out, "\"slab\": %" PRId64 ", ", p->slab);
-        tn_buffer_printf(out, "\"profile\": [");
-        for (size_t k = 0; k < p->point_count; k++) {
-            const tn_roof_point *point = &solids->points[p->point_first + k];
-            tn_buffer_printf(out, "%s[", k ? ", " : "");
-            put_fraction(out, point->y);
-            tn_buffer_printf(out, ", ");
-            put_fraction(out, point->z);
-            tn_buffer_append(out, "]", 1);
-        }
-        tn_buffer_printf(out, "]}");
+    tn_json_object(json, NULL);
+    tn_json_count(json, "of", p->of);
+    put_lengths(json, p->across ? "y" : "x", (const int64_t[]){p->from, p->to}, 2);
+    tn_json_whole(json, "base", p->base);
+    if (p->slab)
+        tn_json_whole(json, "slab", p->slab);
+    tn_json_list(json, "profile");
+    for (size_t k = 0; k < p->point_count; k++) {
+        const tn_roof_point *point = &solids->points[p->point_first + k];
+        tn_json_list(json, NULL);
+        put_fraction(json, point->y);
+        put_fraction(json, point->z);
+        tn_json_list_end(json);
     }
+    tn_json_list_end(json);
+    tn_json_object_end(json);
+}
+
+static void put_roofs(const tn_solids *solids, tn_json *json)
+{
+    tn_json_list(json, "roofs");
+    for (size_t i = 0; i < solids->prism_count; i++)
+        put_roof(solids, &solids->prisms[i], json);
+    tn_json_list_end(json);
 }
 
 /* ---- parts and what they cost */
@@ -205,34 +233,62 @@ static void put_hundredths(tn_buffer *out, const mpz_t hundredths)
     mpz_clear(whole);
 }
 
-static void put_part(const tn_house *house, const tn_cost_line *line, tn_buffer *out)
+static void put_quotient(tn_json *json, const char *key, const mpq_t value)
 {
-    const tn_module *module = house->form->module;
-    tn_buffer_printf(out, "{\"part\": ");
-    tn_buffer_append_json(out, tn_form_part_text(house->form, line->part));
-    tn_buffer_printf(out, ", \"number\": %zu, \"area\": \"", line->count);
-    put_digits(out, mpq_get_str(NULL, 10, line->area));
-    tn_buffer_printf(out, "\", \"volume\": \"");
-    put_digits(out, mpq_get_str(NULL, 10, line->volume));
-    tn_buffer_printf(out, "\"");
-    if (line->material != TN_NO_RECORD) {
-        tn_buffer_printf(out, ", \"material\": ");
-        tn_buffer_append_json(out, tn_text(module, module->MATERIAL_records[line->material].name));
-        tn_buffer_printf(out, ", \"cost\": \"");
-        put_hundredths(out, line->hundredths);
-        tn_buffer_printf(out, "\"");
-    }
-    tn_buffer_append(out, "}", 1);
+    char *digits = mpq_get_str(NULL, 10, value);
+    tn_json_string(json, key, digits);
+    free(digits);
 }
 
-static void put_parts(const tn_house *house, const tn_costs *costs, tn_buffer *out)
+static void put_money(tn_json *json, const char *key, const mpz_t hundredths)
 {
-    bool any = false;
+    tn_buffer text = {0};
+    put_hundredths(&text, hundredths);
+    json->text->failed |= text.failed;
+    tn_json_string(json, key, text.data);
+    free(text.data);
+}
+
+static void put_part(const tn_house *house, const tn_cost_line *line, tn_json *json)
+{
+    const tn_module *module = house->form->module;
+    tn_json_object(json, NULL);
+    tn_json_string(json, "part", tn_form_part_text(house->form, line->part));
+    tn_json_count(json, "number", line->count);
+    put_quotient(json, "area", line->area);
+    put_quotient(json, "volume", line->volume);
+    if (line->material != TN_NO_RECORD) {
+        tn_json_string(json, "material", tn_text(module, module->MATERIAL_records[line->material].name));
+        put_money(json, "cost", line->hundredths);
+    }
+    tn_json_object_end(json);
+}
+
+static void put_parts(const tn_house *house, const tn_costs *costs, tn_json *json)
+{
+    tn_json_list(json, "parts");
     for (size_t i = 0; i < costs->count; i++)
-        if (costs->lines[i].count > 0) {
-            next_line(out, &any);
-            put_part(house, &costs->lines[i], out);
-        }
+        if (costs->lines[i].count > 0)
+            put_part(house, &costs->lines[i], json);
+    tn_json_list_end(json);
+}
+
+/* The whole, with the house's line and what it costs. */
+static void put_house(const tn_house *house, const tn_solids *solids, const char *line, const uint32_t *rooms,
+                      const tn_costs *costs, tn_json *json)
+{
+    tn_json_object(json, NULL);
+    tn_json_string(json, "house", line);
+    put_cells(house, json);
+    put_faces(house, json);
+    put_rooms(house, rooms, json);
+    put_solids(house, solids, json);
+    put_roofs(solids, json);
+    put_parts(house, costs, json);
+    if (tn_form_has_costs(house->form))
+        put_money(json, "cost", costs->hundredths);
+    tn_json_object_end(json);
+    tn_json_end_line(json);
 }
 
 tn_status tn_house_describe(const tn_house *house, const tn_solids *solids, tn_buffer *out, tn_error *error)
@@ -240,38 +296,16 @@ tn_status tn_house_describe(const tn_house *house, const tn_solids *solids, tn_b
     uint32_t *rooms;
     tn_buffer line = {0};
     tn_costs costs = {0};
+    tn_json json = tn_json_text(out, TN_JSON_LINES);
+    json.layout.lines = 2;
     tn_status status = tn_house_rooms(house, &rooms, error);
     if (status != TN_OK)
         return status;
     status = tn_house_write(house, &line, error);
-    tn_buffer_printf(out, "{\n  \"house\": ");
-    tn_buffer_append_json(out, line.data ? line.data : "");
-    tn_buffer_printf(out, ",\n  \"cells\": [");
-    put_cells(house, out);
-    tn_buffer_printf(out, "],\n  \"faces\": [");
-    put_faces(house, out);
-    tn_buffer_printf(out, "],\n  \"rooms\": [");
-    bool any = false;
-    for (uint32_t i = 0; i < house->cell_count; i++)
-        if (rooms[i] == i) {
-            next_line(out, &any);
-            put_room(house, rooms, i, out);
-        }
-    tn_buffer_printf(out, "],\n  \"solids\": [");
-    put_solids(house, solids, out);
-    tn_buffer_printf(out, "],\n  \"roofs\": [");
-    put_roofs(solids, out);
     if (status == TN_OK)
         status = tn_house_costs(house, solids, &costs, error);
-    tn_buffer_printf(out, "],\n  \"parts\": [");
-    put_parts(house, &costs, out);
-    tn_buffer_printf(out, "]");
-    if (status == TN_OK && tn_form_has_costs(house->form)) {
-        tn_buffer_printf(out, ",\n  \"cost\": \"");
-        put_hundredths(out, costs.hundredths);
-        tn_buffer_printf(out, "\"");
-    }
-    tn_buffer_printf(out, "\n}\n");
+    if (status == TN_OK)
+        put_house(house, solids, line.data, rooms, &costs, &json);
     tn_costs_clear(&costs);
     free(rooms);
     free(line.data);

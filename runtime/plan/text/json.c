@@ -6,29 +6,29 @@
 
 #define JSON_DEPTH_MAX 64 /* of members that are skipped */
 
-typedef struct tn_json {
+typedef struct tn_json_reading {
     tn_plan_scanner *scanner;
     const char *text;
     size_t size, at;
     size_t max_trays;
     tn_plan *plan;
     tn_error *error;
-} tn_json;
+} tn_json_reading;
 
-static void skip_blanks(tn_json *json)
+static void skip_blanks(tn_json_reading *json)
 {
     while (json->at < json->size && strchr(" \t\r\n", json->text[json->at]) && json->text[json->at])
         json->at++;
 }
 
 /* The next character after blanks, or 0 at the end. */
-static char peek(tn_json *json)
+static char peek(tn_json_reading *json)
 {
     skip_blanks(json);
     return json->at < json->size ? json->text[json->at] : '\0';
 }
 
-static bool accept(tn_json *json, char c)
+static bool accept(tn_json_reading *json, char c)
 {
     if (peek(json) != c || json->at >= json->size)
         return false;
@@ -36,14 +36,14 @@ static bool accept(tn_json *json, char c)
     return true;
 }
 
-static tn_status refuse_at(tn_json *json, size_t begin, size_t end, const char *message)
+static tn_status refuse_at(tn_json_reading *json, size_t begin, size_t end, const char *message)
 {
     tn_fail(json->error, TN_INVALID, E_PLAN_SYNTAX, "%s", message);
     tn_error_place(json->error, 0, begin + 1, end + 1);
     return TN_INVALID;
 }
 
-static tn_status refuse(tn_json *json, const char *message)
+static tn_status refuse(tn_json_reading *json, const char *message)
 {
     skip_blanks(json);
     return refuse_at(json, json->at, json->at + (json->at < json->size), message);
@@ -60,7 +60,7 @@ static int hex_digit(char c)
 }
 
 /* Four hexadecimal digits at `at`, or -1. */
-static long hex4(const tn_json *json, size_t at)
+static long hex4(const tn_json_reading *json, size_t at)
 {
     long code = 0;
     for (size_t i = at; i < at + 4; i++) {
@@ -95,7 +95,7 @@ static bool append_utf8(tn_buffer *out, long code)
 }
 
 /* \uXXXX, at the u; a pair of surrogates is one character. */
-static tn_status read_unicode(tn_json *json, tn_buffer *out)
+static tn_status read_unicode(tn_json_reading *json, tn_buffer *out)
 {
     size_t begin = json->at - 1;
     long code = hex4(json, json->at + 1);
@@ -111,7 +111,7 @@ static tn_status read_unicode(tn_json *json, tn_buffer *out)
     return append_utf8(out, code) ? TN_OK : tn_fail_memory(json->error);
 }
 
-static tn_status read_escape(tn_json *json, tn_buffer *out)
+static tn_status read_escape(tn_json_reading *json, tn_buffer *out)
 {
     static const char names[] = "\"\\/bfnrt", meanings[] = "\"\\/\b\f\n\r\t";
     char c = ++json->at < json->size ? json->text[json->at] : '\0';
@@ -125,7 +125,7 @@ static tn_status read_escape(tn_json *json, tn_buffer *out)
 }
 
 /* A string into `word`, which points into the text, or, where there are escapes, into the scanner's buffer `slot`. */
-static tn_status read_string(tn_json *json, int slot, tn_word *word)
+static tn_status read_string(tn_json_reading *json, int slot, tn_word *word)
 {
     if (peek(json) != '"')
         return refuse(json, "expected a text in double quotes here");
@@ -171,7 +171,7 @@ static bool word_is(const tn_word *word, const char *text)
 /* ---- members that mean nothing to us */
 
 /* One string, number, true, false, null, or bracket (brackets are matched by depth alone). */
-static tn_status skip_token(tn_json *json, size_t *depth)
+static tn_status skip_token(tn_json_reading *json, size_t *depth)
 {
     char c = peek(json);
     if (c == '"') {
@@ -193,7 +193,7 @@ static tn_status skip_token(tn_json *json, size_t *depth)
     return json->at > begin ? TN_OK : refuse(json, "expected a value here");
 }
 
-static tn_status skip_value(tn_json *json)
+static tn_status skip_value(tn_json_reading *json)
 {
     size_t depth = 0;
     do {
@@ -206,10 +206,10 @@ static tn_status skip_value(tn_json *json)
 
 /* ---- objects */
 
-typedef tn_status tn_json_member(tn_json *json, const tn_word *key, void *context);
+typedef tn_status tn_json_member(tn_json_reading *json, const tn_word *key, void *context);
 
 /* An object, each member's value read by `member`. The key is in slot 0, for `member` to use first. */
-static tn_status read_object(tn_json *json, tn_json_member *member, void *context)
+static tn_status read_object(tn_json_reading *json, tn_json_member *member, void *context)
 {
     if (!accept(json, '{'))
         return refuse(json, "expected an object in braces here");
@@ -228,12 +228,12 @@ static tn_status read_object(tn_json *json, tn_json_member *member, void *contex
     return TN_OK;
 }
 
-static tn_status refuse_key(tn_json *json, const tn_word *key, const char *message)
+static tn_status refuse_key(tn_json_reading *json, const tn_word *key, const char *message)
 {
     return refuse_at(json, key->column - 1, key->column - 1 + key->extent, message);
 }
 
-static bool accept_word(tn_json *json, const char *word)
+static bool accept_word(tn_json_reading *json, const char *word)
 {
     skip_blanks(json);
     size_t size = strlen(word);
@@ -249,7 +249,7 @@ typedef struct tn_json_zone {
     bool has_fill, has_depth, depth_given;
 } tn_json_zone;
 
-static tn_status read_zone_member(tn_json *json, const tn_word *key, void *context)
+static tn_status read_zone_member(tn_json_reading *json, const tn_word *key, void *context)
 {
     tn_json_zone *zone = context;
     if (word_is(key, "fill") && !zone->has_fill) {
@@ -265,7 +265,7 @@ static tn_status read_zone_member(tn_json *json, const tn_word *key, void *conte
     return read_string(json, 2, &zone->depth);
 }
 
-static tn_status read_zone(tn_json *json, uint32_t field, uint32_t *value)
+static tn_status read_zone(tn_json_reading *json, uint32_t field, uint32_t *value)
 {
     tn_json_zone zone = {.has_fill = false};
     size_t begin = json->at;
@@ -283,7 +283,7 @@ static tn_status read_zone(tn_json *json, uint32_t field, uint32_t *value)
     return tn_value_unknown(json->scanner->schema, field, &shown, json->error);
 }
 
-static tn_status read_value(tn_json *json, uint32_t field, uint32_t *value)
+static tn_status read_value(tn_json_reading *json, uint32_t field, uint32_t *value)
 {
     const tn_schema *schema = json->scanner->schema;
     tn_field_kind kind = (tn_field_kind)schema->fields[field].kind;
@@ -317,7 +317,7 @@ static uint32_t find_field(const tn_schema *schema, const tn_word *key)
     return UINT32_MAX;
 }
 
-static tn_status no_such_field(tn_json *json, const tn_word *key)
+static tn_status no_such_field(tn_json_reading *json, const tn_word *key)
 {
     char shown[TN_WORD_SHOWN], fields[200];
     const tn_schema *schema = json->scanner->schema;
@@ -327,7 +327,7 @@ static tn_status no_such_field(tn_json *json, const tn_word *key)
     return tn_word_refuse(key, json->error);
 }
 
-static tn_status read_tray_member(tn_json *json, const tn_word *key, void *context)
+static tn_status read_tray_member(tn_json_reading *json, const tn_word *key, void *context)
 {
     (void)context;
     tn_plan_scanner *scanner = json->scanner;
@@ -345,7 +345,7 @@ static tn_status read_tray_member(tn_json *json, const tn_word *key, void *conte
 }
 
 /* The bytes of the object that starts here, braces included; 0 where it does not end. */
-static size_t object_extent(const tn_json *json)
+static size_t object_extent(const tn_json_reading *json)
 {
     size_t depth = 0;
     for (size_t at = json->at; at < json->size; at++) {
@@ -362,7 +362,7 @@ static size_t object_extent(const tn_json *json)
     return 0;
 }
 
-static tn_status read_tray(tn_json *json)
+static tn_status read_tray(tn_json_reading *json)
 {
     tn_plan_scanner *scanner = json->scanner;
     if (peek(json) != '{')
@@ -388,7 +388,7 @@ static tn_status read_tray(tn_json *json)
     return tn_scanner_add(json->plan, tray, json->max_trays, &place, json->error);
 }
 
-static tn_status read_trays(tn_json *json)
+static tn_status read_trays(tn_json_reading *json)
 {
     if (!accept(json, '['))
         return refuse(json, "the trays are a list in [ ]");
@@ -404,7 +404,7 @@ static tn_status read_trays(tn_json *json)
 
 /* ---- plans */
 
-static tn_status read_rank(tn_json *json)
+static tn_status read_rank(tn_json_reading *json)
 {
     tn_word word;
     tn_buffer *rank = &json->scanner->rank;
@@ -415,7 +415,7 @@ static tn_status read_rank(tn_json *json)
     return status;
 }
 
-static tn_status read_plan_member(tn_json *json, const tn_word *key, void *context)
+static tn_status read_plan_member(tn_json_reading *json, const tn_word *key, void *context)
 {
     bool *found = context;
     if (word_is(key, "rank") && peek(json) == '"')
@@ -431,7 +431,7 @@ static tn_status read_plan_member(tn_json *json, const tn_word *key, void *conte
 tn_status tn_scanner_json(tn_plan_scanner *scanner, const char *text, size_t length, size_t max_trays, tn_plan *plan,
                           tn_error *error)
 {
-    tn_json json = {
+    tn_json_reading json = {
         .scanner = scanner, .text = text, .size = length, .max_trays = max_trays, .plan = plan, .error = error};
     plan->length = 0;
     scanner->rank.size = 0;
@@ -453,7 +453,7 @@ typedef struct tn_json_wanted {
     bool found;
 } tn_json_wanted;
 
-static tn_status read_wanted(tn_json *json, const tn_word *key, void *context)
+static tn_status read_wanted(tn_json_reading *json, const tn_word *key, void *context)
 {
     tn_json_wanted *wanted = context;
     if (!word_is(key, wanted->name))
@@ -467,12 +467,12 @@ static tn_status read_wanted(tn_json *json, const tn_word *key, void *context)
     return status;
 }
 
-tn_status tn_json_text(const char *text, size_t length, const char *name, tn_buffer *out, size_t *column,
-                       tn_error *error)
+tn_status tn_json_read_text(const char *text, size_t length, const char *name, tn_buffer *out, size_t *column,
+                            tn_error *error)
 {
     tn_plan_scanner scanner = {0};
     tn_word place = {0};
-    tn_json json = {.scanner = &scanner, .text = text, .size = length, .error = error};
+    tn_json_reading json = {.scanner = &scanner, .text = text, .size = length, .error = error};
     tn_json_wanted wanted = {.name = name, .out = out, .place = &place};
     tn_status status = read_object(&json, read_wanted, &wanted);
     if (status == TN_OK && (peek(&json) || json.at < json.size))
@@ -487,7 +487,7 @@ tn_status tn_json_text(const char *text, size_t length, const char *name, tn_buf
     return status;
 }
 
-size_t tn_json_column(const char *text, size_t length, size_t begin, size_t column)
+size_t tn_json_read_column(const char *text, size_t length, size_t begin, size_t column)
 {
     size_t at = begin - 1;
     for (size_t read = 1; read < column && at < length && text[at] != '"'; read++)

@@ -185,8 +185,8 @@ bool tn_plan_writer_replaces(const tn_plan_writer *writer);
 tn_status tn_plan_writer_write(tn_plan_writer *writer, const mpz_t rank, const tn_tray *trays, size_t length,
                                tn_error *error);
 
-/* Appends a row: a plan, and a text for each of the options' columns. members: what JSON has besides, as text, with a
- * comma before each; or NULL. */
+/* Appends a row: a plan, and a text for each of the options' columns. members: what JSON has besides, as a writer of
+ * JSON wrote it; or NULL. */
 typedef struct tn_plan_row {
     const tn_tray *trays;
     size_t length;

@@ -24,48 +24,45 @@ bool tn_plan_write_line(const tn_schema *schema, const tn_tray *trays, size_t le
     return true;
 }
 
-static bool append_value(const tn_schema *schema, uint32_t field, tn_tray tray, tn_buffer *out)
+static void write_value(const tn_schema *schema, uint32_t field, tn_tray tray, tn_json *json)
 {
     const tn_value_record *value = tn_tray_value_record(schema, tray, field);
-    const char *name = tn_text(schema->module, value->name), *measure = tn_text(schema->module, value->measure);
+    const char *key = tn_text(schema->module, schema->fields[field].name);
+    const char *measure = tn_text(schema->module, value->measure);
     switch (schema->fields[field].kind) {
     case TN_FIELD_FLAG:
-        return append_text(out, tn_tray_value(schema, tray, field) ? "true" : "false");
+        tn_json_bool(json, key, tn_tray_value(schema, tray, field));
+        break;
     case TN_FIELD_ZONE:
-        return append_text(out, "{\"fill\":") && tn_buffer_append_json(out, name) &&
-               (!*measure || (append_text(out, ",\"depth\":") && tn_buffer_append_json(out, measure))) &&
-               append_text(out, "}");
+        tn_json_object(json, key);
+        tn_json_string(json, "fill", tn_text(schema->module, value->name));
+        if (*measure)
+            tn_json_string(json, "depth", measure);
+        tn_json_object_end(json);
+        break;
     default:
-        return tn_buffer_append_json(out, tn_text(schema->module, value->spelling));
+        tn_json_string(json, key, tn_text(schema->module, value->spelling));
+        break;
     }
 }
 
-static bool append_tray(const tn_schema *schema, tn_tray tray, tn_buffer *out)
+void tn_plan_write_trays(const tn_schema *schema, const tn_tray *trays, size_t length, tn_json *json)
 {
-    if (!append_text(out, "{"))
-        return false;
-    for (uint32_t field = 0; field < schema->field_count; field++) {
-        bool done = (field == 0 || append_text(out, ",")) &&
-                    tn_buffer_append_json(out, tn_text(schema->module, schema->fields[field].name)) &&
-                    append_text(out, ":") && append_value(schema, field, tray, out);
-        if (!done)
-            return false;
-    }
-    return append_text(out, "}");
-}
-
-bool tn_plan_write_trays(const tn_schema *schema, const tn_tray *trays, size_t length, tn_buffer *out)
-{
-    if (!append_text(out, "["))
-        return false;
+    tn_json_list(json, "trays");
     for (size_t k = 0; k < length; k++) {
-        if ((k > 0 && !append_text(out, ",")) || !append_tray(schema, trays[k], out))
-            return false;
+        tn_json_object(json, NULL);
+        for (uint32_t field = 0; field < schema->field_count; field++)
+            write_value(schema, field, trays[k], json);
+        tn_json_object_end(json);
     }
-    return append_text(out, "]");
+    tn_json_list_end(json);
 }
 
 bool tn_plan_write_json(const tn_schema *schema, const tn_tray *trays, size_t length, tn_buffer *out)
 {
-    return append_text(out, "{\"trays\":") && tn_plan_write_trays(schema, trays, length, out) && append_text(out, "}");
+    tn_json json = tn_json_text(out, TN_JSON_TIGHT);
+    tn_json_object(&json, NULL);
+    tn_plan_write_trays(schema, trays, length, &json);
+    tn_json_object_end(&json);
+    return !out->failed;
 }

@@ -7,6 +7,7 @@
 #ifndef TARTAN_PLAN_TEXT_TEXT_H
 #define TARTAN_PLAN_TEXT_TEXT_H
 
+#include "runtime/base/json.h"
 #include "runtime/plan/schema/schema.h"
 
 /* A plan that grows; zero it to begin with, free trays with free(). */
@@ -15,24 +16,6 @@ typedef struct tn_plan {
     size_t length;
     size_t capacity;
 } tn_plan;
-
-/* Text that grows; zero it to begin with, free data with free(). Always ends with a zero byte that is not counted. What
- * many calls write can be asked about once: `failed` stays set after one that was out of memory. */
-typedef struct tn_buffer {
-    char *data;
-    size_t size;
-    size_t capacity;
-    bool failed;
-} tn_buffer;
-
-bool tn_buffer_append(tn_buffer *buffer, const char *text, size_t length);
-
-/* Room for `more` bytes, to be written to data + size by the caller, who adds them to `size`. */
-bool tn_buffer_reserve(tn_buffer *buffer, size_t more);
-/* A JSON string: in quotes, with quotes, backslashes and control characters escaped. */
-bool tn_buffer_append_json(tn_buffer *buffer, const char *text);
-
-bool tn_buffer_printf(tn_buffer *buffer, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Parses one plan line (no newline in it) of at most max_trays trays. An error has its columns; its line is the
  * caller's to set. E0601 where it cannot be read, E0602 for a value that its field does not have, E0603 for a forbidden
@@ -48,12 +31,12 @@ tn_status tn_plan_parse_json(const tn_schema *schema, const char *text, size_t l
 
 /* Appends the text that is member `name` of a JSON object to `out`; *column is where it begins, after its quote. Other
  * members are skipped. E0601, with its columns, where there is no such text, or no object. */
-tn_status tn_json_text(const char *text, size_t length, const char *name, tn_buffer *out, size_t *column,
-                       tn_error *error);
+tn_status tn_json_read_text(const char *text, size_t length, const char *name, tn_buffer *out, size_t *column,
+                            tn_error *error);
 
 /* The column of an object in which `column` of such a text, which begins at column `begin`, is written: escapes take
  * more room there. A character beyond ASCII that is written as an escape counts as one column. */
-size_t tn_json_column(const char *text, size_t length, size_t begin, size_t column);
+size_t tn_json_read_column(const char *text, size_t length, size_t begin, size_t column);
 
 /* The same for many plans: a scanner remembers the trays that it has read, text by text (in bounded memory), and so
  * reads most trays at a glance. It belongs to one thread and borrows the schema. */
@@ -70,7 +53,7 @@ bool tn_plan_write_line(const tn_schema *schema, const tn_tray *trays, size_t le
 bool tn_plan_write_json(const tn_schema *schema, const tn_tray *trays, size_t length,
                         tn_buffer *out); /* {"trays":[...]} */
 
-/* The list of trays alone: [{...}, ...]. */
-bool tn_plan_write_trays(const tn_schema *schema, const tn_tray *trays, size_t length, tn_buffer *out);
+/* The member "trays" of the object that is open: [{...}, ...]. */
+void tn_plan_write_trays(const tn_schema *schema, const tn_tray *trays, size_t length, tn_json *json);
 
 #endif

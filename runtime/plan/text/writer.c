@@ -306,13 +306,17 @@ static bool append_packed(tn_plan_writer *writer, const tn_tray *trays, size_t l
 
 static bool append_json(tn_plan_writer *writer, const char *rank, const tn_plan_row *row)
 {
-    tn_buffer *out = &writer->text;
-    bool done = tn_buffer_printf(out, "{\"rank\":\"%s\"", rank);
-    for (size_t i = 0; done && i < tn_writer_texts(writer); i++)
-        done = tn_buffer_printf(out, ",\"%s\":", writer->rows->names[i]) && tn_buffer_append_json(out, row->texts[i]);
-    return done && append_text(out, ",\"trays\":") &&
-           tn_plan_write_trays(writer->schema, row->trays, row->length, out) &&
-           append_text(out, row->members ? row->members : "") && append_text(out, "}\n");
+    tn_json json = tn_json_text(&writer->text, TN_JSON_TIGHT);
+    tn_json_object(&json, NULL);
+    tn_json_string(&json, "rank", rank);
+    for (size_t i = 0; i < tn_writer_texts(writer); i++)
+        tn_json_string(&json, writer->rows->names[i], row->texts[i]);
+    tn_plan_write_trays(writer->schema, row->trays, row->length, &json);
+    if (row->members)
+        tn_json_written(&json, row->members, strlen(row->members));
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
+    return !writer->text.failed;
 }
 
 static bool append_line(tn_plan_writer *writer, const tn_plan_row *row)

@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
+#include "runtime/base/buffer.h"
 #include "runtime/base/bytes.h"
-#include "runtime/base/number_text.h"
 #include "runtime/base/random.h"
 #include "runtime/geometry/write_text.h"
 

@@ -312,10 +312,13 @@ static tn_status describe(tn_error *error)
 static tn_status write_and_read(tn_error *error)
 {
     tn_buffer line = {0}, members = {0};
+    tn_json json = tn_json_text(&members, TN_JSON_TIGHT);
     tn_house again = {0};
     tn_status status = tn_house_write(&house, &line, error);
     if (status == TN_OK)
-        status = tn_house_write_members(&house, &members, error);
+        status = tn_house_write_members(&house, &json, error);
+    if (status == TN_OK && members.failed)
+        status = tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_house_read(&made.form, line.data, line.size, 8, &again, error);
     tn_house_clear(&again);

@@ -86,7 +86,8 @@ static tn_status cover(void *context, tn_buffer *out, tn_error *error)
     tn_status status = tn_coverage_measure(&rows->opened, &options, &covered);
     if (status == TN_MEMORY)
         tn_fail_memory(error);
-    if (status == TN_OK && !(tn_covered_text(&covered, out) && tn_covered_json(&covered, out)))
+    tn_json json = tn_json_text(out, TN_JSON_TIGHT);
+    if (status == TN_OK && !(tn_covered_text(&covered, out) && tn_covered_json(&covered, &json)))
         status = tn_fail_memory(error);
     tn_covered_clear(&covered);
     return status;

@@ -1,11 +1,12 @@
-/* A text that grows as it is appended to. */
+/* A text that grows as it is appended to, and the shortest text of a number. */
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/plan/text/text.h"
+#include "runtime/base/buffer.h"
 
 /* There is room for the zero byte too. */
 bool tn_buffer_reserve(tn_buffer *buffer, size_t more)
@@ -44,22 +45,13 @@ bool tn_buffer_printf(tn_buffer *buffer, const char *format, ...)
     return done;
 }
 
-bool tn_buffer_append_json(tn_buffer *buffer, const char *text)
+/* 17 digits always tell a number from all others, 15 often. */
+const char *tn_number_text(double number, char text[TN_NUMBER_TEXT_SIZE])
 {
-    bool done = tn_buffer_append(buffer, "\"", 1);
-    while (done && *text) {
-        size_t plain = 0;
-        while ((unsigned char)text[plain] >= 0x20 && text[plain] != '"' && text[plain] != '\\')
-            plain++;
-        done = tn_buffer_append(buffer, text, plain);
-        text += plain;
-        if (!done || !*text)
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, TN_NUMBER_TEXT_SIZE, "%.*g", digits, number);
+        if (strtod(text, NULL) == number)
             break;
-        if ((unsigned char)*text < 0x20)
-            done = tn_buffer_printf(buffer, "\\u%04x", (unsigned)*text);
-        else
-            done = tn_buffer_append(buffer, "\\", 1) && tn_buffer_append(buffer, text, 1);
-        text++;
     }
-    return done && tn_buffer_append(buffer, "\"", 1);
+    return text;
 }
