@@ -57,14 +57,19 @@ done
 
 # What the files above may not have: two models, searches of every kind, steps by parts, requirements that hold and do not.
 cat >"$work/own.kit" <<'END'
-use "bricks"
-space room = box(12 studs, 4 bricks, 12 studs);
-rule row for stud { 3001 | 3003 | 3005 | {} }
-model plain { inside room; start stud at (0, 0, 0) by row; steps 2; require elements >= 1; }
-model best { inside room; start stud at (0, 0, 0) by row; search beam 4; maximize elements; steps part; }
-model cool { inside room; start stud at (0, 0, 0) by row; search anneal 60; minimize elements; }
-model none { inside room; start stud at (0, 0, 0) by row; require elements = 0; }
+unit 10 x 8 x 10;
+connector stud joins tube every 20;
+connector tube joins stud every 20;
+part two "two" { fill 40 x 24 x 20; studs up 2 x 1; tubes down 2 x 1 at (0, -24, 0); mass 2; }
+space room = box(100, 72, 60) and not sphere(20);
+rule wall at stud, tube = (two in 4 [0.5] | two [0.5]);
+model hut { inside room; start stud at (30, 0, 10) by wall; steps 2; require count(two) > 0; }
+model never { inside room; start stud at (30, 0, 10) by wall; require count(two) = 0; }
+model beam { inside box(60, 48, 20); start stud at (20, 0, 0) by wall; minimize elements + cuts; search beam 2; stock two <= 4; steps part; }
+model turned { inside box(80, 48, 20); start stud at (10, 0, 0) by wall; minimize cuts; search anneal 1; symmetry turn 2; }
+model all { inside box(60, 48, 20); start stud at (20, 0, 0) by wall; maximize joints; search exact; }
 END
+"$TARTAN" check "$work/own.kit" || fail 'the kit is wrong'
 for model in '' $(models_of "$work/own.kit") other; do
     agree 5 "$model" "$work/own.kit"
 done
