@@ -7,7 +7,7 @@ TEST_JOBS ?= $(JOBS)
 FUZZ_SECONDS ?= 600
 TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(TEST_JOBS)
 
-.PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale check-sanitizers lint package check-package bench bench-place bench-scale fuzz install uninstall clean
+.PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale check-sanitizers check-arm check-arm-syntax lint package check-package bench bench-place bench-scale fuzz install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
@@ -20,6 +20,8 @@ help:
 	@echo 'make check-report  test the report page in a browser without a screen (chromium)'
 	@echo 'make check-scale  write a library by MPI, GNU parallel and Slurm, where these are installed'
 	@echo 'make check-sanitizers  run every test under AddressSanitizer and UndefinedBehaviorSanitizer (into build-asan/)'
+	@echo 'make check-arm-syntax  pass every C file through a compiler for 64-bit ARM'
+	@echo 'make check-arm   build for 64-bit ARM, test that in an emulator and compare its results with those here (into build-arm/)'
 	@echo 'make lint        look over the sources with clang-tidy'
 	@echo 'make bench       print how fast it is here'
 	@echo 'make bench-place print how fast parts are placed, counted and drawn here'
@@ -70,6 +72,12 @@ check-sanitizers: packages
 	@cmake --build --preset asan -j $(JOBS)
 	@ctest --test-dir build-asan --output-on-failure --timeout 3600 -j $(TEST_JOBS) -LE LONG
 
+check-arm-syntax: build
+	@tools/check-arm-syntax build
+
+check-arm: build
+	@tools/check-arm build
+
 lint: build
 	@tools/lint build
 
@@ -92,4 +100,4 @@ uninstall:
 	@DESTDIR='$(DESTDIR)' cmake -DMANIFEST=build/install_manifest.txt -P cmake/uninstall.cmake
 
 clean:
-	@rm -rf build build-asan build-asan-quick build-fuzz build-package build-parts demo
+	@rm -rf build build-arm build-asan build-asan-quick build-fuzz build-package build-parts demo

@@ -3,11 +3,16 @@
 #include <stdlib.h>
 
 #include "api/base/api.h"
+#include "runtime/place/conditions.h"
+#include "runtime/place/search/search.h"
 #include "runtime/place/write.h"
 
 struct tartan_placement {
     tn_place_rules rules;
     tn_placed_model model;
+    tn_placed_steps steps;
+    bool has_steps; /* the kit's model says in which it is built */
+    uint32_t seed;
     tartan_placed_part *parts;
     tn_watch watch;
 };
@@ -28,6 +33,46 @@ static tartan_status list(tartan_placement *p, tartan_error *error)
     return TARTAN_OK;
 }
 
+/* The rules of the grammar, or of one model of a kit. */
+static tn_status make_rules(const tn_module *module, const char *model, tn_place_rules *rules, tn_error *error)
+{
+    uint32_t chosen;
+    if (module->KIT_count == 0 && !tn_module_has_places(module))
+        return tn_fail(error, TN_INVALID, E_NOT_PLACING,
+                       "the module has no connection grammar and no kit: nothing is placed");
+    if (module->KIT_count == 0 && model)
+        return tn_fail(error, TN_INVALID, E_PLACE_NO_MODEL, "a model is named, and the module has no kit");
+    if (module->KIT_count == 0)
+        return tn_place_rules_make(module, rules, error);
+    tn_status status = tn_kit_model_find(module, model, &chosen, error);
+    return status == TN_OK ? tn_place_rules_of_model(module, chosen, rules, error) : status;
+}
+
+/* Does what was placed meet what its model requires? The first condition that does not hold is the error. */
+static tn_status check_conditions(tartan_placement *p, tn_error *error)
+{
+    const tn_module *module = p->rules.module;
+    const tn_kit_condition_record *unmet = NULL;
+    tn_placed_measures measured;
+    tn_kit_tally tally = {0};
+    uint32_t next = 0;
+    bool required;
+    tn_status status = tn_kit_measure_required(&p->rules, &p->model, &p->watch, &required, &measured, error);
+    if (status == TN_OK && required)
+        unmet = tn_kit_next_unmet(module, p->rules.space, &measured, false, &next, &tally);
+    if (unmet)
+        status = tn_kit_fail_condition(module, unmet, p->rules.space, &measured, true, error);
+    tn_placed_measures_clear(&measured);
+    return status;
+}
+
+static tn_status find_steps(tartan_placement *p, tn_error *error)
+{
+    tn_steps_wish wish;
+    p->has_steps = tn_kit_model_steps(p->rules.space, &wish);
+    return p->has_steps ? tn_placed_steps_make(p->rules.module, &wish, &p->watch, &p->model, &p->steps, error) : TN_OK;
+}
+
 static tartan_status place(const tartan_module *module, const tartan_place_options *options, tartan_placement *p,
                            tartan_error *error)
 {
@@ -36,17 +81,20 @@ static tartan_status place(const tartan_module *module, const tartan_place_optio
                             .step_limit = options->step_limit,
                             .frame_limit = options->frame_limit,
                             .lookahead_limit = options->lookahead_limit,
+                            .search_limit = options->search_limit,
+                            .threads = options->threads,
                             .watch = &p->watch};
     tn_place_fault fault;
     tn_error found;
-    tn_status status = tn_place_rules_make(module->module, &p->rules, &found);
-    if (status == TN_INVALID)
-        return tn_api_refuse(error, TARTAN_INVALID, "the module has no connection grammar: nothing is placed");
+    p->seed = options->seed;
+    tn_status status = make_rules(module->module, options->model, &p->rules, &found);
     if (status == TN_OK)
-        status = tn_place_derive(&p->rules, &own, &p->model, &fault, &found);
-    if (status != TN_OK)
-        return tn_api_fail(&found, error);
-    return p->model.count ? list(p, error) : tn_api_refuse(error, TARTAN_INVALID, "the grammar places no part");
+        status = tn_place_run(&p->rules, &own, &p->model, &fault, &found);
+    if (status == TN_OK)
+        status = check_conditions(p, &found);
+    if (status == TN_OK)
+        status = find_steps(p, &found);
+    return status == TN_OK ? list(p, error) : tn_api_fail(&found, error);
 }
 
 tartan_status tartan_place(const tartan_module *module, const tartan_place_options *given, const tartan_watch *watch,
@@ -76,6 +124,7 @@ void tartan_placement_free(tartan_placement *placement)
     if (!placement)
         return;
     free(placement->parts);
+    tn_placed_steps_clear(&placement->steps);
     tn_placed_model_clear(&placement->model);
     tn_place_rules_clear(&placement->rules);
     free(placement);
@@ -101,22 +150,32 @@ tartan_status tartan_placement_count(const tartan_placement *placement, tartan_p
                                    .tries = c->tries,
                                    .fallbacks = c->fallbacks,
                                    .cells = c->cells,
-                                   .bounds = c->bounds};
+                                   .bounds = c->bounds,
+                                   .looked_at = c->looked_at,
+                                   .proved = c->proved};
     return TN_API_GIVE(tartan_placement_counts, counts, &own, error);
 }
 
 /* ---- as text */
 
-static tn_status write_ldraw(const tn_module *module, const tn_placed_model *model, FILE *out, tn_error *error)
+static tn_status write_ldraw(const tartan_placement *placement, FILE *out, tn_error *error)
 {
     (void)error;
-    tn_place_write_ldraw(module, model, NULL, out);
+    if (placement->rules.space)
+        tn_place_write_header(&placement->rules, placement->seed, out);
+    tn_place_write_ldraw(placement->rules.module, &placement->model, placement->has_steps ? &placement->steps : NULL,
+                         out);
     return TN_OK;
 }
 
+static tn_status write_list(const tartan_placement *placement, FILE *out, tn_error *error)
+{
+    return tn_place_write_list(placement->rules.module, &placement->model, out, error);
+}
+
 static tartan_status write_text(const tartan_placement *placement,
-                                tn_status (*write)(const tn_module *, const tn_placed_model *, FILE *, tn_error *),
-                                char **text, size_t *size, tartan_error *error)
+                                tn_status (*write)(const tartan_placement *, FILE *, tn_error *), char **text,
+                                size_t *size, tartan_error *error)
 {
     char *made = NULL;
     size_t made_size = 0;
@@ -126,7 +185,7 @@ static tartan_status write_text(const tartan_placement *placement,
     FILE *out = open_memstream(&made, &made_size);
     if (!out)
         return tn_api_memory(error);
-    tn_status status = write(placement->rules.module, &placement->model, out, &found);
+    tn_status status = write(placement, out, &found);
     bool failed = ferror(out) != 0;
     failed |= fclose(out) != 0;
     if (status == TN_OK && failed)
@@ -147,5 +206,5 @@ tartan_status tartan_placement_ldraw(const tartan_placement *placement, char **t
 
 tartan_status tartan_placement_list(const tartan_placement *placement, char **text, size_t *size, tartan_error *error)
 {
-    return write_text(placement, tn_place_write_list, text, size, error);
+    return write_text(placement, write_list, text, size, error);
 }

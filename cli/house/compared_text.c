@@ -43,12 +43,6 @@ static bool put_number(tn_buffer *out, const mpz_t number, int width)
     return put;
 }
 
-static int width_of(const mpz_t number, const char *heading)
-{
-    int digits = (int)mpz_sizeinbase(number, 10), wide = digits + (digits - 1) / 3, least = (int)strlen(heading);
-    return wide > least ? wide : least;
-}
-
 static bool put_counts(const tn_compared_houses *c, mpz_t *row, tn_buffer *out)
 {
     uint32_t count = c->high - c->low + 1;
@@ -56,7 +50,7 @@ static bool put_counts(const tn_compared_houses *c, mpz_t *row, tn_buffer *out)
     sum_row(c, 0, count, row);
     bool good = tn_buffer_printf(out, "%8s", "trays");
     for (int i = 0; i < COLUMNS; i++) {
-        widths[i] = width_of(row[i], columns[i]);
+        widths[i] = tn_digits_width(row[i], columns[i]);
         good = good && tn_buffer_printf(out, "  %*s", widths[i], columns[i]);
     }
     for (uint32_t k = 0; good && k <= count; k++) {
@@ -75,7 +69,8 @@ static bool put_edits(const tn_compared_houses *c, tn_buffer *out)
     if (c->edit_count == 0)
         return true;
     for (size_t i = 0; i < c->edit_count; i++) {
-        int wide[] = {width_of(c->edits[i].houses[0], "removes"), width_of(c->edits[i].houses[1], "adds")};
+        int wide[] = {tn_digits_width(c->edits[i].houses[0], "removes"),
+                      tn_digits_width(c->edits[i].houses[1], "adds")};
         name = (int)strlen(c->edits[i].name) > name ? (int)strlen(c->edits[i].name) : name;
         for (int k = 0; k < 2; k++)
             widths[k] = wide[k] > widths[k] ? wide[k] : widths[k];

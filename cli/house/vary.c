@@ -1,5 +1,4 @@
 /* tartan vary: what else a house could be: each other value of one choice with which it stays in its library. */
-#include <gmp.h>
 #include <stdlib.h>
 #include <string.h>
 

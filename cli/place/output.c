@@ -37,33 +37,27 @@ static bool has_shapes(placing *p)
 
 /* ---- steps */
 
-bool tn_place_read_steps(const char *text, bool *layers, size_t *parts)
+bool tn_place_read_steps(const char *text, tn_steps_wish *wish)
 {
     char *end;
-    *layers = strcmp(text, "layer") == 0;
-    *parts = 1;
-    if (*layers || strcmp(text, "part") == 0)
+    *wish = (tn_steps_wish){.layers = strcmp(text, "layer") == 0, .parts = 1};
+    if (wish->layers || strcmp(text, "part") == 0)
         return true;
     unsigned long long count = strtoull(text, &end, 10);
-    *parts = (size_t)count;
+    wish->parts = (size_t)count;
     return isdigit((unsigned char)*text) && !*end && count >= 1 && count <= TN_STEP_PARTS_MAX;
 }
 
 /* What --steps says, or the model; without either, sub-files and sheets are of layers. False where none are asked for.
  */
-static bool choose_steps(placing *p, bool *layers, size_t *parts)
+static bool choose_steps(placing *p, tn_steps_wish *wish)
 {
     const char *asked = p->settings->steps;
-    const tn_kit_model_record *model = p->rules.space;
     bool needed = p->settings->sheet;
     for (size_t i = 0; i < p->settings->outputs.count; i++)
         needed |= tn_place_format(p->settings->outputs.items[i]) == OUT_SUBFILES;
-    *layers = !asked && (!model || model->steps != TN_STEPS_PARTS);
-    *parts = model && model->step_parts ? model->step_parts : 1;
-    if (!asked)
-        return needed || (model && model->steps != TN_STEPS_PLACED);
-    tn_place_read_steps(asked, layers, parts);
-    return true;
+    bool said = tn_kit_model_steps(p->rules.space, wish);
+    return asked ? tn_place_read_steps(asked, wish) : needed || said;
 }
 
 static void warn_of_steps(placing *p)
@@ -86,19 +80,14 @@ static void warn_of_steps(placing *p)
 
 bool tn_place_find_steps(placing *p)
 {
-    tn_placed_measures measures;
     tn_error error;
-    bool layers, by_hand = p->settings->steps != NULL || p->settings->sheet;
-    size_t parts;
-    if (!choose_steps(p, &layers, &parts))
+    tn_steps_wish wish;
+    bool by_hand = p->settings->steps != NULL || p->settings->sheet;
+    if (!choose_steps(p, &wish))
         return true;
     if (!p->rules.space)
         return !by_hand || has_shapes(p);
-    tn_status status = tn_placed_measure(p->rules.module, NULL, &p->model, p->watch, &measures, &error);
-    if (status == TN_OK)
-        status =
-            tn_placed_steps_make(p->rules.module, &measures, layers, parts, p->watch, &p->model, &p->steps, &error);
-    tn_placed_measures_clear(&measures);
+    tn_status status = tn_placed_steps_make(p->rules.module, &wish, p->watch, &p->model, &p->steps, &error);
     p->has_steps = status == TN_OK;
     if (status == TN_OK)
         warn_of_steps(p);
@@ -108,20 +97,6 @@ bool tn_place_find_steps(placing *p)
 }
 
 /* ---- files */
-
-static const char *name_of_model(const placing *p)
-{
-    const tn_module *module = p->rules.module;
-    return tn_text(module, p->rules.space ? p->rules.space->name : module->GRAMMAR_records[0].name);
-}
-
-static void write_header(const placing *p, FILE *out)
-{
-    const tn_module *module = p->rules.module;
-    const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
-    fprintf(out, "0 %s\n0 seed %" PRIu64 ", rules %016" PRIx64 ", %s\n", name_of_model(p), p->settings->seed.value,
-            producer ? (uint64_t)producer->sources_hash : 0, producer ? tn_text(module, producer->version) : "tartan");
-}
 
 static void write_picture(placing *p, const char *path)
 {
@@ -166,11 +141,11 @@ static void write_mesh(placing *p, const char *path)
 static void write_model(const placing *p, out_format format, FILE *out)
 {
     if (format == OUT_SUBFILES)
-        fprintf(out, "0 FILE %s.ldr\n", name_of_model(p));
+        fprintf(out, "0 FILE %s.ldr\n", tn_place_model_name(&p->rules));
     if (p->settings->header || p->rules.space)
-        write_header(p, out);
+        tn_place_write_header(&p->rules, (uint32_t)p->settings->seed.value, out);
     if (format == OUT_SUBFILES)
-        tn_place_write_mpd(p->rules.module, &p->model, &p->steps, name_of_model(p), out);
+        tn_place_write_mpd(p->rules.module, &p->model, &p->steps, tn_place_model_name(&p->rules), out);
     else
         tn_place_write_ldraw(p->rules.module, &p->model, p->has_steps ? &p->steps : NULL, out);
 }

@@ -13,8 +13,8 @@ static bool check_options(tn_job *job)
 {
     const place_settings *s = (const place_settings *)job->settings;
     uint32_t standard = s->program && strcmp(s->program, "-") == 0;
-    bool ldraw = false, picture = false, layers;
-    size_t parts;
+    bool ldraw = false, picture = false;
+    tn_steps_wish wish;
     for (size_t i = 0; i < s->outputs.count; i++) {
         const char *path = s->outputs.items[i];
         standard += strcmp(path, "-") == 0;
@@ -33,7 +33,7 @@ static bool check_options(tn_job *job)
         tn_job_usage(job, "standard output takes one thing only: name a file with -o");
     else if (s->header && !ldraw)
         tn_job_usage(job, "--header is of an .ldr file: name one with -o");
-    else if (s->steps && !tn_place_read_steps(s->steps, &layers, &parts))
+    else if (s->steps && !tn_place_read_steps(s->steps, &wish))
         tn_help(tn_job_diagnostics(job), tn_job_usage(job, "--steps cannot be %.100s", s->steps),
                 "write `--steps part`, `--steps layer`, or how many parts a step has: `--steps 5`");
     else if (s->fitness && s->trace)
@@ -114,28 +114,17 @@ static tn_status make_rules(placing *p, tn_error *error)
     return tn_place_rules_make(module, &p->rules, error);
 }
 
-/* Measuring takes as long as placing: it is left out where nothing asks for it. */
-static bool requires_something(const tn_place_rules *rules)
-{
-    const tn_kit_model_record *model = rules->space;
-    for (uint32_t i = 0; model && i < model->condition_count; i++)
-        if (!(rules->module->KIT_CONDITION_records[model->condition_first + i].flags & TN_CONDITION_TEST))
-            return true;
-    return false;
-}
-
 /* Does what was placed meet what its model requires? */
 static tn_status check_conditions(placing *p)
 {
     tn_placed_measures measured;
     tn_error error;
     tn_kit_tally tally = {0};
-    if (!requires_something(&p->rules))
-        return TN_OK;
-    tn_status status = tn_placed_measure(p->rules.module, p->rules.space, &p->model, p->watch, &measured, &error);
-    if (status == TN_OK)
+    bool required;
+    tn_status status = tn_kit_measure_required(&p->rules, &p->model, p->watch, &required, &measured, &error);
+    if (status == TN_OK && required)
         status = tn_kit_conditions(&p->job->opened, p->chosen, &measured, false, true, &tally);
-    else
+    else if (status != TN_OK)
         tn_job_fail(p->job, &error);
     tn_placed_measures_clear(&measured);
     return status;

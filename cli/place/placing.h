@@ -33,7 +33,7 @@ typedef struct placing {
 out_format tn_place_format(const char *path);
 
 /* Reads what --steps says; false where that is neither part nor layer nor a number of parts. */
-bool tn_place_read_steps(const char *text, bool *layers, size_t *parts);
+bool tn_place_read_steps(const char *text, tn_steps_wish *wish);
 
 /* Finds the steps in which what was placed is built, where they are asked for: its parts are in their order then. Warns
  * of parts that cannot be put in. False where that failed, which is told. */

@@ -128,14 +128,6 @@ static tn_status count_clauses(counts *c, tn_opened *opened, tn_error *error)
     return status;
 }
 
-/* How wide a column of numbers has to be for its largest. */
-static int column_width(const mpz_t largest, const char *heading)
-{
-    int digits = (int)mpz_sizeinbase(largest, 10), heading_width = (int)strlen(heading);
-    int width = digits + (digits - 1) / 3;
-    return width > heading_width ? width : heading_width;
-}
-
 static void write_number(const mpz_t number, int width, FILE *out)
 {
     char *text = tn_digits(number, true);
@@ -146,8 +138,8 @@ static void write_number(const mpz_t number, int width, FILE *out)
 static void write_lengths(const counts *c, FILE *out)
 {
     const length_counts *total = &c->lengths[c->length_count];
-    int generated = column_width(total->generated, "generated"), kept = column_width(total->kept, "kept"),
-        mirror = column_width(total->mirror, "up to mirror");
+    int generated = tn_digits_width(total->generated, "generated"), kept = tn_digits_width(total->kept, "kept"),
+        mirror = tn_digits_width(total->mirror, "up to mirror");
     fprintf(out, "%8s  %*s  %*s", "trays", generated, "generated", kept, "kept");
     if (c->mirror)
         fprintf(out, "  %*s", mirror, "up to mirror");
@@ -173,8 +165,8 @@ static void write_clauses(const counts *c, bool prunes, const char *what, const 
     for (uint32_t i = 0; i < c->clause_count; i++) {
         if ((clause_record(c, i)->kind == TN_CLAUSE_PRUNE) != prunes)
             continue;
-        int name = (int)strlen(clause_name(c, i)), wide = column_width(c->clauses[i].out, out_heading),
-            alone = column_width(c->clauses[i].only, "only by it");
+        int name = (int)strlen(clause_name(c, i)), wide = tn_digits_width(c->clauses[i].out, out_heading),
+            alone = tn_digits_width(c->clauses[i].only, "only by it");
         names = name > names ? name : names;
         outs = wide > outs ? wide : outs;
         onlys = alone > onlys ? alone : onlys;

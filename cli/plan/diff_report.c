@@ -97,13 +97,6 @@ static const char *clause_name(const tn_diff_report *report, const tn_changed_cl
 
 /* ---- text */
 
-static int width_of(const mpz_t number, const char *heading)
-{
-    int digits = (int)mpz_sizeinbase(number, 10), least = (int)strlen(heading);
-    int width = digits + (digits - 1) / 3;
-    return width > least ? width : least;
-}
-
 static tn_status write_number(const mpz_t number, int width, FILE *out, tn_error *error)
 {
     char *text = tn_digits(number, true);
@@ -143,7 +136,7 @@ static tn_status write_counts(const tn_diff_report *report, FILE *out, tn_error 
     fprintf(out, "%8s", "trays");
     for (int part = 0; part < TN_DIFF_PARTS; part++) {
         tn_library_kept(tn_library_diff_part(report->diff, (tn_diff_part)part), TN_ALL_LENGTHS, count);
-        widths[part] = width_of(count, tn_diff_part_names[part]);
+        widths[part] = tn_digits_width(count, tn_diff_part_names[part]);
         fprintf(out, "  %*s", widths[part], tn_diff_part_names[part]);
     }
     mpz_clear(count);
@@ -163,8 +156,8 @@ static tn_status write_clauses(const tn_diff_report *report, FILE *out, tn_error
         return TN_OK;
     for (size_t i = 0; i < count; i++) {
         const tn_changed_clause *clause = tn_library_diff_clause(report->diff, i);
-        int name = (int)strlen(clause_name(report, clause)), wide_removes = width_of(clause->removes, "removes"),
-            wide_adds = width_of(clause->adds, "adds");
+        int name = (int)strlen(clause_name(report, clause)), wide_removes = tn_digits_width(clause->removes, "removes"),
+            wide_adds = tn_digits_width(clause->adds, "adds");
         names = name > names ? name : names;
         removes = wide_removes > removes ? wide_removes : removes;
         adds = wide_adds > adds ? wide_adds : adds;

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/integers.h"
+
 char *tn_digits(const mpz_t number, bool grouped)
 {
     char *plain = mpz_get_str(NULL, 10, number);
@@ -20,4 +22,10 @@ char *tn_digits(const mpz_t number, bool grouped)
         text[used] = '\0';
     free(plain);
     return text;
+}
+
+int tn_digits_width(const mpz_t largest, const char *heading)
+{
+    size_t digits = tn_decimal_digits(largest), wide = digits + (digits - 1) / 3, least = strlen(heading);
+    return (int)(wide > least ? wide : least);
 }

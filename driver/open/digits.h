@@ -9,4 +9,7 @@
  * memory. */
 char *tn_digits(const mpz_t number, bool grouped);
 
+/* How wide a column is that has a heading, and numbers in groups up to this one. */
+int tn_digits_width(const mpz_t largest, const char *heading);
+
 #endif

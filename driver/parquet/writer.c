@@ -8,6 +8,7 @@
 #include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
 #include "runtime/base/file_error.h"
+#include "runtime/base/integers.h"
 
 #define GROUP_DEFAULT 1000000u
 #define PAGE_PLANS 32768u             /* plans of a page at most */
@@ -30,9 +31,7 @@ static void choose_rank(tn_parquet_writing *w, mpz_srcptr ranks)
     mpz_t most;
     mpz_init(most);
     mpz_sub_ui(most, ranks, 1);
-    char *digits = mpz_get_str(NULL, 10, most);
-    w->rank_digits = digits ? (unsigned)strlen(digits) : (unsigned)mpz_sizeinbase(most, 10);
-    free(digits);
+    w->rank_digits = (unsigned)tn_decimal_digits(most);
     mpz_ui_pow_ui(most, 10, w->rank_digits);
     w->rank_bytes = (unsigned)(mpz_sizeinbase(most, 2) / 8 + 1);
     mpz_clear(most);

@@ -59,8 +59,10 @@ tn_status tn_kit_hold(tn_opened *opened, tn_opened *asked, const tn_placed_model
         const tn_span span = span_of(asked->module, i);
         const tn_kit_condition_record condition = {
             .holds = i, .file = file, .begin = span.begin, .end = span.end, .violation = TN_NO_RECORD};
-        if (!tn_kit_holds(opened, asked->module, &condition, "the model", &own, false))
-            status = TN_INVALID;
+        if (tn_kit_condition_holds(asked->module, i, &own))
+            continue;
+        tn_kit_report_unmet(opened, asked->module, &condition, NULL, &own, false);
+        status = TN_INVALID;
     }
     return status;
 }

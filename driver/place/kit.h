@@ -6,14 +6,10 @@
 #include <stdio.h>
 
 #include "driver/place/place.h"
-#include "runtime/place/measure.h"
+#include "runtime/place/conditions.h"
 
 /* The model of this name, or the kit's only one where that is NULL; what is wrong is reported (E1317). */
 tn_status tn_kit_choose(tn_opened *opened, const char *name, uint32_t *model);
-
-typedef struct tn_kit_tally {
-    size_t passed, failed;
-} tn_kit_tally;
 
 /* Reports the conditions of a model that do not hold (E1316), with what was found: its requirements, and where `tests`
  * the expectations of its tests too. placed: by us, so that placing otherwise may help. TN_INVALID where one does not
@@ -21,10 +17,9 @@ typedef struct tn_kit_tally {
 tn_status tn_kit_conditions(tn_opened *opened, uint32_t model, const tn_placed_measures *measured, bool tests,
                             bool placed, tn_kit_tally *tally);
 
-/* Does a condition of a module hold? Where not, that is added to the diagnostics of `opened` (E1316) of `who`, with
- * what was found. */
-bool tn_kit_holds(tn_opened *opened, const tn_module *module, const tn_kit_condition_record *condition, const char *who,
-                  const tn_placed_measures *measured, bool placed);
+/* Reports a condition of a module that does not hold, as tn_kit_fail_condition says it. */
+void tn_kit_report_unmet(tn_opened *opened, const tn_module *module, const tn_kit_condition_record *condition,
+                         const tn_kit_model_record *model, const tn_placed_measures *measured, bool placed);
 
 /* Places every model of a kit, seed 0, and holds each to its requirements and tests. */
 tn_status tn_kit_tests_run(tn_opened *opened, tn_watch *watch, tn_kit_tally *tally);

@@ -95,30 +95,11 @@ static void warn_of_forced(tn_opened *opened, const tn_place_rules *rules, const
     tn_help(list, d, "give the symbol a last alternative that always fits; --trace shows where");
 }
 
-static tn_status report_nothing(tn_opened *opened, const tn_place_rules *rules)
+static void report_nothing(tn_opened *opened, const tn_place_rules *rules, const tn_error *error)
 {
     tn_diagnostics *list = &opened->compilation.diagnostics;
-    tn_diagnostic *d =
-        tn_report(list, E_PLACE_NOTHING, tn_place_alternative_span(rules, rules->symbols[rules->start].first),
-                  "%s comes to its end without placing a part", rules->space ? "the model" : "the grammar");
-    tn_help(list, d, "%s%s",
-            rules->space ? "a part needs room inside of the space where the model starts"
-                         : "a part is placed by 'Place(3001)'",
-            tn_place_needs_search(rules) ? "" : "; --trace shows which alternatives did not fit");
-    return TN_INVALID;
-}
-
-/* A model that is searched for; what was found until a limit stays. */
-static tn_status search_model(tn_opened *opened, const tn_place_rules *rules, const tn_place_options *options,
-                              tn_placed_model *model)
-{
-    tn_error error;
-    tn_status status = tn_place_search(rules, options, model, &error);
-    if (status == TN_OK && model->count == 0)
-        return report_nothing(opened, rules);
-    if (status != TN_OK && status != TN_STOPPED)
-        tn_report_error(&opened->compilation.diagnostics, &error, opened->path, NULL, 0);
-    return status;
+    tn_span span = tn_place_alternative_span(rules, rules->symbols[rules->start].first);
+    tn_help(list, tn_report(list, error->code, span, "%s", error->message), "%s", error->help);
 }
 
 tn_status tn_place_model(tn_opened *opened, const tn_place_rules *rules, const tn_place_options *options,
@@ -126,21 +107,18 @@ tn_status tn_place_model(tn_opened *opened, const tn_place_rules *rules, const t
 {
     tn_error error;
     tn_place_fault fault;
-    tn_diagnostics *list = &opened->compilation.diagnostics;
-    if (tn_place_needs_search(rules))
-        return search_model(opened, rules, options, model);
-    tn_status status = tn_place_derive(rules, options, model, &fault, &error);
-    if (status == TN_OK && model->count == 0)
-        return report_nothing(opened, rules);
+    tn_status status = tn_place_run(rules, options, model, &fault, &error);
     if (status == TN_OK)
         warn_of_forced(opened, rules, model);
     if (status == TN_OK || status == TN_STOPPED)
         return status;
     if (status == TN_INVALID && fault.obstacle.known && !options->keep_filled)
         find_obstacle(rules, options, &fault);
-    if (fault.has_step)
+    if (status == TN_INVALID && error.code == E_PLACE_NOTHING)
+        report_nothing(opened, rules, &error);
+    else if (fault.has_step)
         report_fault(opened, rules, model, &fault, &error);
     else
-        tn_report_error(list, &error, opened->path, NULL, 0);
+        tn_report_error(&opened->compilation.diagnostics, &error, opened->path, NULL, 0);
     return status;
 }

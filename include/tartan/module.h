@@ -37,7 +37,8 @@ TARTAN_API const char *tartan_module_surface_name(const tartan_module *module, s
 TARTAN_API bool tartan_module_has_growth(const tartan_module *module); /* a surface that grows: growth.h */
 TARTAN_API bool
 tartan_module_has_grammar(const tartan_module *module);                /* a grammar of genomes: genome.h, evolution.h */
-TARTAN_API bool tartan_module_has_places(const tartan_module *module); /* a connection grammar: place.h */
+TARTAN_API bool
+tartan_module_has_places(const tartan_module *module); /* a connection grammar, or a model of a kit: place.h */
 TARTAN_API bool tartan_module_has_study(const tartan_module *module);  /* settings of an evolution: evolution.h */
 
 #ifdef __cplusplus

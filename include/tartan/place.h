@@ -1,4 +1,5 @@
-/* Models of parts, placed by the connection grammar of a .pcfg file. */
+/* Models of parts, placed by the connection grammar of a .pcfg file or by a model of a .kit file: what `tartan place`
+ * places. */
 #ifndef TARTAN_PLACE_H
 #define TARTAN_PLACE_H
 
@@ -8,7 +9,7 @@
 extern "C" {
 #endif
 
-/* Zeros are the defaults. */
+/* Zeros are the defaults, which are those of the command. */
 typedef struct tartan_place_options {
     size_t size;
     uint32_t seed;            /* of drawn alternatives */
@@ -16,6 +17,9 @@ typedef struct tartan_place_options {
     uint64_t step_limit;      /* 1,000,000,000 */
     uint64_t frame_limit;     /* frames that are open at a time: 1,000,000 */
     uint64_t lookahead_limit; /* steps of one look ahead: 1,000,000 */
+    const char *model;        /* of a kit; NULL: its only one */
+    uint64_t search_limit;    /* models that a search of a kit's model looks at or gives up: 10,000,000 */
+    uint32_t threads;         /* of a search: one a processor */
 } tartan_place_options;
 TARTAN_SIZED(tartan_place_options)
 
@@ -30,13 +34,16 @@ typedef struct tartan_placed_part {
 
 typedef struct tartan_placement tartan_placement;
 
-/* Places the parts of the module's grammar. `options` and `watch` may be NULL. TARTAN_INVALID: the module has no such
- * grammar, a part has no room, or nothing is placed. TARTAN_LIMIT: an option's. The placement borrows the module. */
+/* Places the parts of the module's grammar, or of one of its kit's models inside of the model's space, by the search
+ * that it asks for. `options` and `watch` may be NULL. TARTAN_INVALID: the module has no such grammar or model, a part
+ * has no room, nothing is placed, or what was placed does not meet what the model requires (`require`; E1316).
+ * TARTAN_LIMIT: an option's. The placement borrows the module. */
 TARTAN_API tartan_status tartan_place(const tartan_module *module, const tartan_place_options *options,
                                       const tartan_watch *watch, tartan_placement **placement, tartan_error *error);
 TARTAN_API void tartan_placement_free(tartan_placement *placement);
 
-/* The parts, in the order in which they were placed. */
+/* The parts, in the order in which they were placed; where the kit's model says in which `steps` it is built, in the
+ * order of building. */
 TARTAN_API const tartan_placed_part *tartan_placement_parts(const tartan_placement *placement, size_t *count);
 
 typedef struct tartan_placement_counts {
@@ -47,13 +54,16 @@ typedef struct tartan_placement_counts {
     uint64_t tries;      /* alternatives that were looked at */
     uint64_t fallbacks;  /* last alternatives that were taken although they did not fit */
     uint64_t cells, bounds;
+    uint64_t looked_at; /* models that a search looked at, which has no other counts than this and parts; or 0 */
+    bool proved;        /* the rules allow no better model than the search found */
 } tartan_placement_counts;
 TARTAN_SIZED(tartan_placement_counts)
 
 TARTAN_API tartan_status tartan_placement_count(const tartan_placement *placement, tartan_placement_counts *counts,
                                                 tartan_error *error);
 
-/* The model as an LDraw file, and the list of its parts as CSV (part,colour,number). Free with tartan_text_free. */
+/* The model as an LDraw file: of a kit with how it was made, and with the model's steps. The list of its parts as CSV:
+ * part,colour,number, of a kit also title, mass and price. Free with tartan_text_free. */
 TARTAN_API tartan_status tartan_placement_ldraw(const tartan_placement *placement, char **text, size_t *size,
                                                 tartan_error *error);
 TARTAN_API tartan_status tartan_placement_list(const tartan_placement *placement, char **text, size_t *size,

@@ -1,4 +1,4 @@
-/* Arrays of whole numbers of any size. */
+/* Whole numbers of any size: arrays of them, and how long they are. */
 #ifndef TARTAN_BASE_INTEGERS_H
 #define TARTAN_BASE_INTEGERS_H
 
@@ -20,6 +20,20 @@ static inline void tn_integers_free(mpz_t *items, size_t count)
     for (size_t i = 0; items && i < count; i++)
         mpz_clear(items[i]);
     free(items);
+}
+
+/* How many decimal digits the number has, without its sign: 1 of 0. mpz_sizeinbase may say one too many. */
+static inline size_t tn_decimal_digits(const mpz_t number)
+{
+    size_t size = mpz_sizeinbase(number, 10);
+    mpz_t least;
+    if (size == 1)
+        return 1;
+    mpz_init(least);
+    mpz_ui_pow_ui(least, 10, size - 1);
+    size -= mpz_cmpabs(number, least) < 0;
+    mpz_clear(least);
+    return size;
 }
 
 #endif

@@ -26,7 +26,7 @@ static double floored_remainder(double a, double b)
 #define SMALLER(X, Y) ((X) != (X) || (X) < (Y) ? (X) : (Y))
 #define LARGER(X, Y) ((X) != (X) || (X) > (Y) ? (X) : (Y))
 #define OVERLAP(X, Y, K) LARGER((K)-__builtin_fabs((X) - (Y)), 0.0)
-#define JUDGED(TEST) ((a != a) | (b != b) ? a + b : (TEST) ? 1.0 : 0.0)
+#define JUDGED(TEST) (((a != a) | (b != b)) ? a + b : (TEST) ? 1.0 : 0.0)
 #define SHORT_AT_MOST(X, Y) ((X) <= (Y) ? 0 : (X) - (Y))
 #define SHORT_BELOW(X, Y) ((X) < (Y) ? 0 : (X) == (Y) || (X) - (Y) < STRICT ? STRICT : (X) - (Y))
 

@@ -34,7 +34,7 @@ static inline double atan2_kernel(double y, double x)
     double rest = tn_double_of(tn_bits_of(first.low + (base_rest + tail)) ^ less);
     double value = whole.high + (whole.low + (quarters * half_pi.low + rest));
     value = tn_double_of(tn_bits_of(value) | (tn_bits_of(y) & SIGN_BIT));
-    return (d >= 0x1p-500) & (d <= 0x1p500) & (n >= d * 0x1p-60) ? value : NOTHING;
+    return ((d >= 0x1p-500) & (d <= 0x1p500) & (n >= d * 0x1p-60)) ? value : NOTHING;
 }
 
 static double atan2_rarely(double y, double x)

@@ -101,7 +101,7 @@ static inline pair logarithm(double x, double more)
 static inline double log_kernel(double x)
 {
     pair l = logarithm(x, 0);
-    return (x >= 0x1p-1022) & (x < INFINITY) ? l.high : NOTHING;
+    return ((x >= 0x1p-1022) & (x < INFINITY)) ? l.high : NOTHING;
 }
 
 static double log_rarely(double x)
@@ -128,7 +128,7 @@ static inline double raised(pair l, double y)
 static inline double pow_kernel(double x, double y)
 {
     double value = raised(logarithm(x, 0), y);
-    return (x >= 0x1p-1022) & (x < INFINITY) & (__builtin_fabs(y) <= 0x1p500) ? value : NOTHING;
+    return ((x >= 0x1p-1022) & (x < INFINITY) & (__builtin_fabs(y) <= 0x1p500)) ? value : NOTHING;
 }
 
 /* 0: not a whole number; 1: odd; 2: even */

@@ -1,11 +1,9 @@
 /* Measures placed models. */
 #include "runtime/place/measure.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/number/run.h"
 #include "runtime/place/balance.h"
 #include "runtime/place/space.h"
 #include "runtime/place/write.h"
@@ -191,10 +189,4 @@ void tn_placed_measures_clear(tn_placed_measures *measured)
     free(measured->floating);
     free(measured->overlaps);
     *measured = (tn_placed_measures){0};
-}
-
-bool tn_kit_condition_holds(const tn_module *module, uint32_t function, const tn_placed_measures *measured)
-{
-    double value = tn_number_run(module->code, module->FUNCTION_records[function].code_begin, measured->terms);
-    return value != 0 && !isnan(value);
 }

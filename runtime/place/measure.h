@@ -24,7 +24,4 @@ tn_status tn_placed_measure_inside(const tn_module *module, uint64_t inside, con
 void tn_placed_sums(const tn_module *module, const uint64_t *used, double terms[TN_PLACED_TERM_COUNT]);
 void tn_placed_measures_clear(tn_placed_measures *measured);
 
-/* Does a condition (a function of kind KIT) hold? */
-bool tn_kit_condition_holds(const tn_module *module, uint32_t function, const tn_placed_measures *measured);
-
 #endif

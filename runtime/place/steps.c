@@ -165,14 +165,15 @@ static tn_status find_order(building *b, tn_placed_steps *steps, tn_error *error
     return status;
 }
 
-static tn_status divide(const building *b, bool layers, size_t parts, tn_placed_steps *steps, tn_error *error)
+static tn_status divide(const building *b, const tn_steps_wish *wish, tn_placed_steps *steps, tn_error *error)
 {
     size_t begin = 0, n = b->order_count;
     steps->ends = calloc(n + 1, sizeof *steps->ends);
     if (!steps->ends)
         return tn_fail_memory(error);
     for (size_t i = 1; i <= n; i++) {
-        bool ends = i == n || (layers ? b->bottom[b->order[i]] != b->bottom[b->order[begin]] : i - begin == parts);
+        bool ends =
+            i == n || (wish->layers ? b->bottom[b->order[i]] != b->bottom[b->order[begin]] : i - begin == wish->parts);
         if (!ends)
             continue;
         steps->ends[steps->count++] = i;
@@ -194,13 +195,19 @@ static tn_status put_in_order(const building *b, tn_placed_model *model, tn_erro
     return TN_OK;
 }
 
-tn_status tn_placed_steps_make(const tn_module *module, const tn_placed_measures *measured, bool layers, size_t parts,
-                               tn_watch *watch, tn_placed_model *model, tn_placed_steps *steps, tn_error *error)
+bool tn_kit_model_steps(const tn_kit_model_record *model, tn_steps_wish *wish)
 {
-    size_t n = model->count, links = measured->joints.link_count;
-    *steps = (tn_placed_steps){0};
+    *wish = (tn_steps_wish){.layers = !model || model->steps != TN_STEPS_PARTS,
+                            .parts = model && model->step_parts ? model->step_parts : 1};
+    return model && model->steps != TN_STEPS_PLACED;
+}
+
+static tn_status make_steps(const tn_module *module, const tn_placed_joints *joints, const tn_steps_wish *wish,
+                            tn_watch *watch, tn_placed_model *model, tn_placed_steps *steps, tn_error *error)
+{
+    size_t n = model->count, links = joints->link_count;
     uint32_t *memory = calloc(4 * n + 2 + 2 * links + 1, sizeof *memory);
-    building b = {.module = module, .model = model, .joints = &measured->joints, .cells = tn_cells_new(watch)};
+    building b = {.module = module, .model = model, .joints = joints, .cells = tn_cells_new(watch)};
     b.bottom = calloc(n + 1, sizeof *b.bottom);
     b.known = calloc(n + 1, sizeof *b.known);
     tn_status status = memory && b.bottom && b.known && b.cells ? TN_OK : tn_fail_memory(error);
@@ -215,13 +222,25 @@ tn_status tn_placed_steps_make(const tn_module *module, const tn_placed_measures
         status = sort_by_height(&b) ? find_order(&b, steps, error) : tn_fail_memory(error);
     }
     if (status == TN_OK)
-        status = divide(&b, layers, parts, steps, error);
+        status = divide(&b, wish, steps, error);
     if (status == TN_OK)
         status = put_in_order(&b, model, error);
     tn_cells_free(b.cells);
     free(b.bottom);
     free(b.known);
     free(memory);
+    return status;
+}
+
+tn_status tn_placed_steps_make(const tn_module *module, const tn_steps_wish *wish, tn_watch *watch,
+                               tn_placed_model *model, tn_placed_steps *steps, tn_error *error)
+{
+    tn_placed_joints joints;
+    *steps = (tn_placed_steps){0};
+    tn_status status = tn_placed_joints_find(module, model, watch, &joints, error);
+    if (status == TN_OK)
+        status = make_steps(module, &joints, wish, watch, model, steps, error);
+    tn_placed_joints_clear(&joints);
     return status;
 }
 

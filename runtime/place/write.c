@@ -85,6 +85,20 @@ static void write_part(const tn_placed_part *part, const int64_t unit[3], bool k
     fputs(".dat\n", out);
 }
 
+const char *tn_place_model_name(const tn_place_rules *rules)
+{
+    const tn_module *module = rules->module;
+    return tn_text(module, rules->space ? rules->space->name : module->GRAMMAR_records[0].name);
+}
+
+void tn_place_write_header(const tn_place_rules *rules, uint32_t seed, FILE *out)
+{
+    const tn_module *module = rules->module;
+    const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
+    fprintf(out, "0 %s\n0 seed %" PRIu32 ", rules %016" PRIx64 ", %s\n", tn_place_model_name(rules), seed,
+            producer ? (uint64_t)producer->sources_hash : 0, producer ? tn_text(module, producer->version) : "tartan");
+}
+
 void tn_place_write_ldraw(const tn_module *module, const tn_placed_model *model, const tn_placed_steps *steps,
                           FILE *out)
 {

@@ -7,6 +7,12 @@
 
 #include "runtime/place/steps.h"
 
+/* What a model is called: of a kit the model's name, of a connection grammar the grammar's. */
+const char *tn_place_model_name(const tn_place_rules *rules);
+
+/* The comments with which a kit's LDraw file begins: its name, and how it was made. */
+void tn_place_write_header(const tn_place_rules *rules, uint32_t seed, FILE *out);
+
 /* One line a part, without a header; a step behind each part, or at the ends of `steps` where that is not NULL. For a
  * connection grammar as the published program writes them: every r is left out of parts' names. For a kit in its own
  * cells. */

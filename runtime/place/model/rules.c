@@ -1,7 +1,9 @@
 /* Decodes the productions of a connection grammar into symbols, alternatives and steps. */
 #include "runtime/place/model/rules.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/module/code.h"
 
@@ -133,6 +135,39 @@ uint32_t tn_place_symbol_of(const tn_place_rules *rules, uint32_t alternative)
             high = middle;
     }
     return low;
+}
+
+/* "tower, wall", as far as there is room. */
+static void list_models(const tn_module *module, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (uint32_t i = 0; i < module->KIT_MODEL_count && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%.60s", i ? ", " : "",
+                                 tn_text(module, module->KIT_MODEL_records[i].name));
+}
+
+tn_status tn_kit_model_find(const tn_module *module, const char *name, uint32_t *model, tn_error *error)
+{
+    char names[300];
+    for (*model = 0; name && *model < module->KIT_MODEL_count; ++*model)
+        if (strcmp(tn_text(module, module->KIT_MODEL_records[*model].name), name) == 0)
+            return TN_OK;
+    *model = 0;
+    if (!name && module->KIT_MODEL_count == 1)
+        return TN_OK;
+    list_models(module, names, sizeof names);
+    if (module->KIT_MODEL_count == 0) {
+        tn_fail(error, TN_INVALID, E_PLACE_NO_MODEL, "the kit has no model to place");
+        tn_error_help(error, "write one: `model tower { inside ring; start stud at (0, 0, 0) by wall; }`");
+    } else if (name) {
+        tn_fail(error, TN_INVALID, E_PLACE_NO_MODEL, "there is no model `%.100s`", name);
+        tn_error_help(error, "there is: %s", names);
+    } else {
+        tn_fail(error, TN_INVALID, E_PLACE_NO_MODEL, "which of its %u models?", (unsigned)module->KIT_MODEL_count);
+        tn_error_help(error, "name one by --model: %s", names);
+    }
+    return TN_INVALID;
 }
 
 tn_status tn_place_rules_of_model(const tn_module *module, uint32_t index, tn_place_rules *rules, tn_error *error)

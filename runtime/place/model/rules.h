@@ -61,6 +61,10 @@ typedef struct tn_place_rules {
 tn_status tn_place_rules_make(const tn_module *module, tn_place_rules *rules, tn_error *error);
 void tn_place_rules_clear(tn_place_rules *rules);
 
+/* The model of this name of a kit, or its only one where that is NULL. TN_INVALID (E1317) where there is none, or where
+ * there are several to choose from, which the help names. */
+tn_status tn_kit_model_find(const tn_module *module, const char *name, uint32_t *model, tn_error *error);
+
 /* The same, to place model `index` of a kit. */
 tn_status tn_place_rules_of_model(const tn_module *module, uint32_t index, tn_place_rules *rules, tn_error *error);
 

@@ -147,3 +147,25 @@ tn_status tn_place_search(const tn_place_rules *rules, const tn_place_options *o
     tn_site_choices_clear(&choices);
     return status;
 }
+
+/* ---- with and without a search */
+
+static tn_status fail_nothing(const tn_place_rules *rules, tn_error *error)
+{
+    tn_fail(error, TN_INVALID, E_PLACE_NOTHING, "%s comes to its end without placing a part",
+            rules->space ? "the model" : "the grammar");
+    tn_error_help(error, "%s%s",
+                  rules->space ? "a part needs room inside of the space where the model starts"
+                               : "a part is placed by 'Place(3001)'",
+                  tn_place_needs_search(rules) ? "" : "; --trace shows which alternatives did not fit");
+    return TN_INVALID;
+}
+
+tn_status tn_place_run(const tn_place_rules *rules, const tn_place_options *options, tn_placed_model *model,
+                       tn_place_fault *fault, tn_error *error)
+{
+    *fault = (tn_place_fault){0};
+    tn_status status = tn_place_needs_search(rules) ? tn_place_search(rules, options, model, error)
+                                                    : tn_place_derive(rules, options, model, fault, error);
+    return status == TN_OK && model->count == 0 ? fail_nothing(rules, error) : status;
+}

@@ -23,4 +23,9 @@ static inline bool tn_place_needs_search(const tn_place_rules *rules)
 tn_status tn_place_search(const tn_place_rules *rules, const tn_place_options *options, tn_placed_model *model,
                           tn_error *error);
 
+/* Places a model as its rules say: by a search where it needs one, else as tn_place_derive does. TN_INVALID (E1314)
+ * where no part is placed; else what these give. *fault is empty after a search. */
+tn_status tn_place_run(const tn_place_rules *rules, const tn_place_options *options, tn_placed_model *model,
+                       tn_place_fault *fault, tn_error *error);
+
 #endif

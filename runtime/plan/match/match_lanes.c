@@ -6,9 +6,9 @@
 
 #if defined(__x86_64__)
 #include <immintrin.h>
+#endif
 
 #include "runtime/base/array.h"
-#endif
 
 /* Room for eight plans, rounded up to chunks, and a chunk of padding after each. An even number of trays is walked: of
  * plans of 4 to 10 trays eight almost always make 10 then, and the loop's end is guessed right. */

@@ -6,9 +6,9 @@
 
 #if defined(__x86_64__)
 #include <immintrin.h>
+#endif
 
 #include "runtime/base/array.h"
-#endif
 
 #define TABLE_BYTES_MAX                                                                                                \
     (UINT64_C(1) << 26) /* of all vectors: past it the narrower tables of match_joint.h are better */

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/integers.h"
 #include "runtime/base/length.h"
 #include "runtime/number/rational.h"
 
@@ -131,7 +132,7 @@ bool tn_amount_write(tn_amount_unit unit, const mpq_t value, tn_buffer *out)
         mpz_mul(scaled, scaled, mpq_numref(converted));
         mpz_divexact(scaled, scaled, mpq_denref(converted));
     }
-    if (decimals >= 0 && (decimals == 0 || mpz_sizeinbase(scaled, 10) <= DIGITS + 1))
+    if (decimals >= 0 && (decimals == 0 || tn_decimal_digits(scaled) <= DIGITS))
         ok = put_decimal(scaled, decimals, true, out);
     else
         ok = put_rational(converted, out);
@@ -147,7 +148,7 @@ bool tn_amount_write_about(tn_amount_unit unit, const mpq_t converted, tn_buffer
     mpz_t scaled, whole;
     mpz_inits(scaled, whole, NULL);
     mpz_tdiv_q(whole, mpq_numref(converted), mpq_denref(converted));
-    int size = mpz_sgn(whole) ? (int)mpz_sizeinbase(whole, 10) : 0,
+    int size = mpz_sgn(whole) ? (int)tn_decimal_digits(whole) : 0,
         decimals = size < SIGNIFICANT ? SIGNIFICANT - size : 0;
     mpz_ui_pow_ui(scaled, 10, (unsigned)decimals);
     mpz_mul(scaled, scaled, mpq_numref(converted));
@@ -178,15 +179,13 @@ bool tn_amount_write_root(tn_amount_unit unit, const mpq_t square, tn_buffer *ou
         mpz_mul(scaled, scaled, mpq_numref(converted));
         mpz_fdiv_q(scaled, scaled, mpq_denref(converted));
         mpz_sqrt(scaled, scaled);
-        if (mpq_sgn(square) == 0 || mpz_sizeinbase(scaled, 10) > DIGITS + 1 || decimals > 200)
+        if (mpq_sgn(square) == 0 || tn_decimal_digits(scaled) > DIGITS || decimals > 200)
             break;
     }
-    while (decimals > 0 && (mpz_sizeinbase(scaled, 10) > DIGITS || mpz_divisible_ui_p(scaled, 10))) {
-        if (mpz_sizeinbase(scaled, 10) <= DIGITS && !mpz_divisible_ui_p(scaled, 10))
-            break;
+    while (decimals > 0 && (tn_decimal_digits(scaled) > DIGITS || mpz_divisible_ui_p(scaled, 10))) {
         unsigned long digit = mpz_fdiv_ui(scaled, 10);
         mpz_fdiv_q_ui(scaled, scaled, 10);
-        if (mpz_sizeinbase(scaled, 10) == DIGITS && digit >= 5)
+        if (tn_decimal_digits(scaled) == DIGITS && digit >= 5)
             mpz_add_ui(scaled, scaled, 1);
         decimals--;
     }

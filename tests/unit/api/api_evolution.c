@@ -91,7 +91,7 @@ static tartan_status score(void *context, unsigned thread, const tartan_sentence
 {
     static const char wanted[] = "3210321032";
     judge *j = context;
-    size_t asked = j->asked += count;
+    size_t asked = atomic_fetch_add(&j->asked, count) + count;
     j->calls++;
     if (thread >= j->threads || count == 0 || count > j->most_at_once)
         return TARTAN_INTERNAL;

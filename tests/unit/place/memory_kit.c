@@ -12,6 +12,7 @@
 #include "compiler/notation.h"
 #include "driver/open/open.h"
 #include "runtime/geometry/mesh.h"
+#include "runtime/place/conditions.h"
 #include "runtime/place/count/count.h"
 #include "runtime/place/search/search.h"
 #include "runtime/place/steps.h"
@@ -65,11 +66,11 @@ static tn_status count_inside(const tn_module *module, tn_error *error)
 }
 
 /* Divides what was placed into steps. */
-static tn_status divide(const tn_module *module, const tn_placed_measures *measured, tn_placed_model *model,
-                        tn_error *error)
+static tn_status divide(const tn_module *module, tn_placed_model *model, tn_error *error)
 {
+    static const tn_steps_wish layers = {.layers = true};
     tn_placed_steps steps;
-    tn_status status = tn_placed_steps_make(module, measured, true, 1, NULL, model, &steps, error);
+    tn_status status = tn_placed_steps_make(module, &layers, NULL, model, &steps, error);
     if (status == TN_OK)
         assert_true(steps.count > 1);
     tn_placed_steps_clear(&steps);
@@ -106,7 +107,7 @@ static tn_status run(void)
     if (status == TN_OK)
         status = count_inside(opened.module, &error);
     if (status == TN_OK)
-        status = divide(opened.module, &measured, &model, &error);
+        status = divide(opened.module, &model, &error);
     tn_placed_measures_clear(&measured);
     tn_placed_model_clear(&model);
     tn_place_rules_clear(&rules);
