@@ -58,9 +58,8 @@ static bool write_shard(const tn_shard_set *set, uint32_t i, tn_buffer *text)
            tn_buffer_printf(text, "}%s\n", i + 1 < set->count ? "," : "");
 }
 
-bool tn_manifest_seal(tn_buffer *text)
+bool tn_manifest_seal(tn_buffer *text, char hash[33])
 {
-    char hash[33];
     tn_hash_bytes(text->data, text->size, hash);
     return tn_buffer_printf(text, HASH_BEGIN "%s" HASH_END, hash);
 }
@@ -81,7 +80,7 @@ static bool write_plans(const tn_shard_set *set, tn_buffer *text)
     return done && write_number(text, "row_group", set->row_group);
 }
 
-bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text)
+bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text, char hash[33])
 {
     bool answers = tn_shard_set_answers(set);
     bool done = tn_buffer_printf(text, "{\n  \"tartan_shards\": %d,\n", TN_MANIFEST_VERSION) &&
@@ -100,7 +99,7 @@ bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text)
            write_number(text, "max_length", set->options.max_length) && tn_buffer_printf(text, "  \"shards\": [\n");
     for (uint32_t i = 0; done && i < set->count; i++)
         done = write_shard(set, i, text);
-    return done && tn_buffer_printf(text, "  ],\n") && tn_manifest_seal(text);
+    return done && tn_buffer_printf(text, "  ],\n") && tn_manifest_seal(text, hash);
 }
 
 /* ---- reading */
@@ -163,11 +162,11 @@ static const char *find_last(const char *text, size_t size, const char *needle)
 
 static tn_status check_seal(const reading *r, const char *text, size_t size)
 {
-    char hash[33], wanted[80];
+    char wanted[80];
     const char *seal = find_last(text, size, HASH_BEGIN);
     if (seal) {
-        tn_hash_bytes(text, (size_t)(seal - text), hash);
-        int length = snprintf(wanted, sizeof wanted, HASH_BEGIN "%s" HASH_END, hash);
+        tn_hash_bytes(text, (size_t)(seal - text), r->set->hash);
+        int length = snprintf(wanted, sizeof wanted, HASH_BEGIN "%s" HASH_END, r->set->hash);
         if ((size_t)length == size - (size_t)(seal - text) && memcmp(seal, wanted, (size_t)length) == 0)
             return TN_OK;
     }
