@@ -1,7 +1,8 @@
-/* Runs a fuzz target on files: replay [-changed=N] [-share=K] [-memory=MEGABYTES] FOLDER|FILE... Folders are read one
- * level deep; at least one file must be found. A target that changes its inputs itself is also run on N changed ones for
- * each file: share K of them, which depend on N and K alone, and no two shares have the same. With -memory the process
- * may not have more of it (which sanitizers do not bear). */
+/* Runs a fuzz target on files: replay [-changed=N] [-share=K] [-memory=MEGABYTES] [-keep=FILE] FOLDER|FILE... Folders
+ * are read one level deep; at least one file must be found. A target that changes its inputs itself is also run on N
+ * changed ones for each file: share K of them, which depend on N and K alone, and no two shares have the same. With
+ * -memory the process may not have more of it (which sanitizers do not bear). With -keep each changed input is written
+ * to FILE before it is run, so that one that ends the process is there. */
 #include <dirent.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -16,9 +17,21 @@
 static size_t replayed;
 
 static unsigned changed_count, share, megabytes;
+static const char *kept; /* where the input is written that is run */
 
 /* A target that has one. */
 __attribute__((weak)) size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed);
+
+static void keep(const uint8_t *bytes, size_t size)
+{
+    FILE *out = kept ? fopen(kept, "wb") : NULL;
+    if (out && (fwrite(bytes, 1, size, out) != size) + fclose(out) == 0)
+        return;
+    if (kept) {
+        perror(kept);
+        exit(1);
+    }
+}
 
 /* Every fourth is made of the file, the others of the one before. */
 static void replay_changed(const uint8_t *bytes, size_t size)
@@ -31,6 +44,7 @@ static void replay_changed(const uint8_t *bytes, size_t size)
             now = size;
         }
         now = LLVMFuzzerCustomMutator(changed, now, room, share * changed_count + i);
+        keep(changed, now);
         LLVMFuzzerTestOneInput(changed, now);
     }
     free(changed);
@@ -89,8 +103,10 @@ static void limit_memory(void)
 
 static bool is_option(const char *word)
 {
+    if (strncmp(word, "-keep=", 6) == 0)
+        kept = word + 6;
     return sscanf(word, "-changed=%u", &changed_count) == 1 || sscanf(word, "-share=%u", &share) == 1 ||
-           sscanf(word, "-memory=%u", &megabytes) == 1;
+           sscanf(word, "-memory=%u", &megabytes) == 1 || kept == word + 6;
 }
 
 int main(int argc, char **argv)
