@@ -142,7 +142,7 @@ static tn_status lay_out(tn_arena *arena, tn_diagnostics *diagnostics, const tn_
 {
     const tn_source *source = &diagnostics->sources->files[from->file];
     const tn_front *front = notation->front;
-    tn_format format = {0};
+    tn_format format = {.tree = from->tree};
     size_t place = 0;
     tn_format_take(&format, arena, source, &from->tokens, front->spell);
     if (tn_arena_failed(arena))

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
@@ -21,10 +20,17 @@
 #define SHOWN_MOST 10u       /* claims, and wrong shards */
 #define COMPLAINTS_MOST 100u /* about plans that could not be read */
 
+/* Shards of `wrong` were said to be so, as many as are shown. */
+static void say_more_wrong(tn_job *job, uint32_t wrong)
+{
+    if (wrong > SHOWN_MOST)
+        tn_job_note(job, "%u more shard%s wrong", wrong - SHOWN_MOST, wrong - SHOWN_MOST == 1 ? " is" : "s are");
+}
+
 /* ---- status */
 
 typedef struct counted {
-    uint32_t there, claimed, stale;
+    uint32_t there, wrong, claimed, stale;
     mpz_t plans;
     uint64_t bytes, unread;
     double stale_after;
@@ -43,31 +49,37 @@ static void show_claim(const tn_shard_set *set, uint32_t shard, const tn_claiman
     fprintf(out, ", touched %.0f s ago%s\n", fmax(by->age, 0), stale ? ": stale" : "");
 }
 
-/* What a shard that is there holds: plans, or answers. */
-static void count_held(const tn_shard_set *set, uint32_t shard, counted *c)
+/* A shard that is there with its record: what it holds, plans or answers. */
+static void count_held(tn_job *job, const tn_shard_set *set, uint32_t shard, counted *c)
 {
     tn_shard_record record;
+    tn_error error;
     mpz_t plans;
-    if (tn_shard_set_answers(set)) {
-        if (tn_shard_record_read(set, shard, &record, NULL) == TN_OK)
-            c->unread += record.unread;
+    tn_status status = tn_shard_done(set, shard, &error);
+    if (status == TN_OK)
+        status = tn_shard_record_read(set, shard, &record, &error);
+    if (status != TN_OK) {
+        if (c->wrong++ < SHOWN_MOST)
+            tn_job_fail(job, &error);
         return;
     }
+    c->there++;
+    c->bytes += record.bytes;
+    c->unread += record.unread;
+    if (tn_shard_set_answers(set))
+        return;
     mpz_init(plans);
     tn_shard_plans(set, shard, plans);
     mpz_add(c->plans, c->plans, plans);
     mpz_clear(plans);
 }
 
-static void count_shard(const tn_shard_set *set, uint32_t shard, counted *c, tn_buffer *claims)
+static void count_shard(tn_job *job, const tn_shard_set *set, uint32_t shard, counted *c, tn_buffer *claims)
 {
-    struct stat known;
     tn_claimant by;
-    char *path = tn_shard_path(set, shard, ""), *claim = tn_shard_path(set, shard, TN_SHARD_CLAIM);
-    if (path && tn_shard_done(set, shard) && stat(path, &known) == 0) {
-        c->there++;
-        c->bytes += (uint64_t)known.st_size;
-        count_held(set, shard, c);
+    char *claim = tn_shard_path(set, shard, TN_SHARD_CLAIM);
+    if (tn_shard_recorded(set, shard)) {
+        count_held(job, set, shard, c);
     } else if (claim && tn_claim_read(claim, &by)) {
         bool stale = fabs(by.age) > c->stale_after;
         c->claimed++;
@@ -75,7 +87,6 @@ static void count_shard(const tn_shard_set *set, uint32_t shard, counted *c, tn_
         if (c->claimed <= SHOWN_MOST)
             tn_buffer_append(claims, (const char *)&(uint32_t){shard}, sizeof shard);
     }
-    free(path);
     free(claim);
 }
 
@@ -157,7 +168,7 @@ static void show_unread(tn_job *job, tn_shards_open *open, const counted *c, FIL
         return;
     fprintf(out, "unread  %" PRIu64 "\n", c->unread);
     for (uint32_t i = 0; status == TN_OK && shown < COMPLAINTS_MOST && i < open->set.count; i++)
-        if (tn_shard_done(&open->set, i))
+        if (tn_shard_recorded(&open->set, i) && tn_shard_done(&open->set, i, NULL) == TN_OK)
             status = show_shard_unread(open, i, &shown, out, &error);
     if (status != TN_OK)
         tn_job_fail(job, &error);
@@ -175,7 +186,8 @@ void tn_shards_status(tn_job *job, tn_shards_open *open)
         return;
     mpz_init(c.plans);
     for (uint32_t i = 0; i < open->set.count; i++)
-        count_shard(&open->set, i, &c, &claims);
+        count_shard(job, &open->set, i, &c, &claims);
+    say_more_wrong(job, c.wrong);
     show_status(&open->set, &c, &claims, output.stream);
     show_unread(job, open, &c, output.stream);
     tn_job_commit(job, &output);
@@ -214,8 +226,7 @@ static void report_wrong(tn_job *job, const checking *c)
         if (tn_shard_check(&c->open->set, &c->open->ready, i, c->watch, &error) != TN_OK)
             tn_job_fail(job, &error);
     }
-    if (said > SHOWN_MOST)
-        tn_job_note(job, "%u more shards are wrong", said - SHOWN_MOST);
+    say_more_wrong(job, said);
 }
 
 static tn_status check_all(tn_job *job, checking *c, tn_error *error)

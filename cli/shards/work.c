@@ -83,15 +83,11 @@ static void tell(tn_job *job, const tn_shards_done *done)
 /* Do all ranks work on the same set? */
 static bool same_set(tn_job *job, const tn_shard_set *set)
 {
-    char hash[33];
     tn_error error;
-    tn_status status = tn_shard_set_hash(set, hash, &error);
-    status = tn_ranks_agree(job->settings->ranks, status, &error);
-    if (status == TN_OK)
-        status = tn_ranks_same(job->settings->ranks, "the shard set", hash, &error);
-    if (status != TN_OK)
-        tn_job_fail(job, &error);
-    return status == TN_OK;
+    if (tn_ranks_same(job->settings->ranks, "the shard set", set->hash, &error) == TN_OK)
+        return true;
+    tn_job_fail(job, &error);
+    return false;
 }
 
 void tn_shards_run_set(tn_job *job, tn_shards_open *open)

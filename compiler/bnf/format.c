@@ -253,23 +253,11 @@ static void put_rule(tn_format *format, size_t first, size_t last)
         put_alternatives(format, body, last, column);
 }
 
-/* The dialect is chosen before the first rule, or guessed; then only genr8 has signs that are braces or brackets. */
-static bool is_genr8(const tn_format *format)
-{
-    for (size_t i = 0; i < format->count && !starts_rule(format, i); i++)
-        if (format->tokens[i].kind == TN_TOKEN_WORD &&
-            tn_bnf_says_genr8(format->tokens[i].text, format->tokens[i].size))
-            return true;
-    for (size_t i = 0; i < format->count; i++)
-        if (format->tokens[i].kind == TN_TOKEN_SIGN && strchr("{[", format->tokens[i].text[0]))
-            return true;
-    return false;
-}
-
 void tn_format_bnf(tn_format *format)
 {
     bool prelude = false; /* what is before is no rule */
-    format->gap_before = is_genr8(format) ? gap_of_tokens : gap_in_text;
+    const tn_bnf_reader *reader = format->tree;
+    format->gap_before = reader->genr8 ? gap_of_tokens : gap_in_text; /* as it was read */
     for (size_t first = 0, last; first < format->count; first = last) {
         bool rule = starts_rule(format, first);
         for (last = first + 1; rule && last < format->count && !starts_rule(format, last);)

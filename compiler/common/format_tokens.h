@@ -38,6 +38,7 @@ typedef size_t tn_format_gap_before(const tn_format *format, size_t i);
 struct tn_format {
     tn_layout layout;
     tn_format_gap_before *gap_before;
+    const void *tree;        /* what the notation's `read` made of the text */
     tn_format_token *tokens; /* followed by one of no text, which has the comments at the end */
     size_t count;
 };

@@ -10,21 +10,30 @@
 #include "driver/shards/record.h"
 #include "runtime/base/file_error.h"
 
+/* Of answers a record says what was read for them, too. */
+static tn_status check_answers(const tn_shard_set *set, uint32_t shard, tn_error *error)
+{
+    tn_shard_read *read = calloc(1, sizeof *read);
+    tn_status status = read ? tn_shard_read_of(set, shard, read, error) : tn_fail_memory(error);
+    free(read);
+    return status;
+}
+
 tn_status tn_shard_check(const tn_shard_set *set, const tn_ready_library *ready, uint32_t shard, tn_watch *watch,
                          tn_error *error)
 {
-    tn_status status = TN_OK;
-    if (tn_shard_done(set, shard))
-        status = tn_shard_same_as_record(set, shard, error);
-    bool plans = !tn_shard_set_answers(set);
-    return status == TN_OK && plans ? tn_shard_read_through(set, ready, shard, watch, error) : status;
+    bool recorded = tn_shard_recorded(set, shard), answers = tn_shard_set_answers(set);
+    tn_status status = recorded ? tn_shard_same_as_record(set, shard, error) : TN_OK;
+    if (status == TN_OK && !answers)
+        return tn_shard_read_through(set, ready, shard, watch, error);
+    return status == TN_OK && recorded ? check_answers(set, shard, error) : status;
 }
 
 tn_status tn_shards_complete(const tn_shard_set *set, tn_error *error)
 {
     uint32_t missing = 0, first = 0;
     for (uint32_t i = set->count; i-- > 0;) {
-        if (!tn_shard_done(set, i)) {
+        if (!tn_shard_recorded(set, i)) {
             missing++;
             first = i;
         }

@@ -114,9 +114,10 @@ bool tn_claim_read(const char *path, tn_claimant *claimant)
     struct stat known;
     struct timespec now;
     *claimant = (tn_claimant){0};
-    if (stat(path, &known) != 0)
+    if (lstat(path, &known) != 0)
         return false;
-    json_t *json = json_load_file(path, 0, NULL); /* NULL where it is being written */
+    bool regular = S_ISREG(known.st_mode);                         /* what is none, such as a pipe, says nothing */
+    json_t *json = regular ? json_load_file(path, 0, NULL) : NULL; /* NULL where it is being written */
     copy_text(json, "host", claimant->host, sizeof claimant->host);
     copy_text(json, "boot", claimant->boot, sizeof claimant->boot);
     copy_text(json, "space", claimant->space, sizeof claimant->space);
@@ -183,7 +184,8 @@ tn_status tn_claim_take(const char *path, const tn_claimant *self, double stale,
         return tn_cannot_write(path, errno, error);
     if (!tn_claim_read(path, &other) || !may_be_taken(&other, self, stale))
         return TN_OK; /* given up just now, or held */
-    unlink(path);
+    if (unlink(path) != 0 && errno != ENOENT)
+        return tn_cannot_write(path, errno, error);
     *taken = make(path, self, claim);
     return *taken || errno == EEXIST ? TN_OK : tn_cannot_write(path, errno, error);
 }

@@ -93,6 +93,8 @@ static tn_status gather_plans(const tn_gathering *g, tn_error *error)
 tn_status tn_shards_gather(const tn_gathering *g, tn_error *error)
 {
     tn_status status = tn_shards_complete(g->set, error);
+    for (uint32_t i = 0; status == TN_OK && i < g->set->count; i++) /* before anything is written */
+        status = tn_shard_done(g->set, i, error);
     if (status != TN_OK)
         return status;
     return tn_shard_set_answers(g->set) ? tn_shards_gather_answers(g, error) : gather_plans(g, error);

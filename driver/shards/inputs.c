@@ -220,7 +220,7 @@ static tn_status count_lines(const tn_shard_set *set, const tn_schema *schema, u
 {
     tn_shard_record record;
     tn_plan_reader *reader;
-    if (tn_shard_done(set, shard) && tn_shard_record_read(set, shard, &record, NULL) == TN_OK) {
+    if (tn_shard_recorded(set, shard) && tn_shard_record_read(set, shard, &record, NULL) == TN_OK) {
         *lines = record.lines;
         return TN_OK;
     }

@@ -50,9 +50,8 @@ static void write_shard(const tn_shard_set *set, uint32_t i, tn_json *json)
     tn_json_object_end(json);
 }
 
-bool tn_manifest_seal(tn_buffer *text)
+bool tn_manifest_seal(tn_buffer *text, char hash[33])
 {
-    char hash[33];
     tn_hash_bytes(text->data, text->size, hash);
     return tn_buffer_printf(text, HASH_BEGIN "%s" HASH_END, hash);
 }
@@ -91,7 +90,7 @@ static void write_trays(const tn_shard_set *set, tn_json *json)
 }
 
 /* A member a line, and of the lists of shards and inputs an item a line; the hash ends the object. */
-bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text)
+bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text, char hash[33])
 {
     tn_json json = tn_json_text(text, TN_JSON_LINES);
     json.layout.lines = 1;
@@ -120,7 +119,7 @@ bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text)
     for (uint32_t i = 0; i < set->count; i++)
         write_shard(set, i, &json);
     tn_json_list_end(&json);
-    return !text->failed && tn_buffer_printf(text, ",\n") && tn_manifest_seal(text);
+    return !text->failed && tn_buffer_printf(text, ",\n") && tn_manifest_seal(text, hash);
 }
 
 /* ---- reading */
@@ -183,11 +182,11 @@ static const char *find_last(const char *text, size_t size, const char *needle)
 
 static tn_status check_seal(const reading *r, const char *text, size_t size)
 {
-    char hash[33], wanted[80];
+    char wanted[80];
     const char *seal = find_last(text, size, HASH_BEGIN);
     if (seal) {
-        tn_hash_bytes(text, (size_t)(seal - text), hash);
-        int length = snprintf(wanted, sizeof wanted, HASH_BEGIN "%s" HASH_END, hash);
+        tn_hash_bytes(text, (size_t)(seal - text), r->set->hash);
+        int length = snprintf(wanted, sizeof wanted, HASH_BEGIN "%s" HASH_END, r->set->hash);
         if ((size_t)length == size - (size_t)(seal - text) && memcmp(seal, wanted, (size_t)length) == 0)
             return TN_OK;
     }

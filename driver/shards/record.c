@@ -1,6 +1,7 @@
 /* Writes and reads the records of shards, and reads shards through. */
 #include "driver/shards/record.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <jansson.h>
 #include <limits.h>
@@ -11,17 +12,20 @@
 #include "driver/open/missing.h"
 #include "driver/shards/hash.h"
 #include "runtime/base/file.h"
+#include "runtime/base/file_error.h"
 #include "runtime/base/integers.h"
 #include "runtime/plan/text/pack.h"
 
 #define RECORD_BYTES (1u << 20) /* the most: complaints about a hundred plans */
+#define RECORD_VERSION 2        /* the first one did not say which it is, nor of which shard */
 
 /* Needs no memory, whose lack would look like a shard that is not there. */
 static bool is_there(const tn_shard_set *set, uint32_t shard, const char *ending)
 {
+    struct stat known;
     char path[PATH_MAX];
     int size = snprintf(path, sizeof path, "%s/%s%s", set->folder, tn_shard_name_of(set, shard).text, ending);
-    return size < PATH_MAX && tn_path_exists(path);
+    return size < PATH_MAX && stat(path, &known) == 0 && S_ISREG(known.st_mode);
 }
 
 bool tn_shard_exists(const tn_shard_set *set, uint32_t shard)
@@ -29,7 +33,7 @@ bool tn_shard_exists(const tn_shard_set *set, uint32_t shard)
     return is_there(set, shard, "");
 }
 
-bool tn_shard_done(const tn_shard_set *set, uint32_t shard)
+bool tn_shard_recorded(const tn_shard_set *set, uint32_t shard)
 {
     return is_there(set, shard, TN_SHARD_RECORD) && tn_shard_exists(set, shard);
 }
@@ -72,10 +76,14 @@ static void write_read(const tn_shard_read *read, tn_json *json)
     tn_json_list_end(json);
 }
 
-static bool write_record(const tn_shard_record *record, const tn_shard_read *read, tn_buffer *text)
+static bool write_record(const tn_shard_set *set, uint32_t shard, const tn_shard_record *record,
+                         const tn_shard_read *read, tn_buffer *text)
 {
     tn_json json = tn_json_text(text, TN_JSON_SPACED);
     tn_json_object(&json, NULL);
+    tn_json_whole(&json, "tartan_record", RECORD_VERSION);
+    tn_json_string(&json, "set", set->hash);
+    tn_json_count(&json, "shard", shard);
     tn_json_count(&json, "bytes", record->bytes);
     tn_json_string(&json, "hash", record->hash);
     if (read)
@@ -91,7 +99,7 @@ tn_status tn_shard_record_write(const tn_shard_set *set, uint32_t shard, const t
     tn_output output;
     tn_buffer text = {0};
     char *beside = tn_shard_path(set, shard, TN_SHARD_RECORD);
-    tn_status status = beside && write_record(record, read, &text) ? TN_OK : tn_fail_memory(error);
+    tn_status status = beside && write_record(set, shard, record, read, &text) ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_output_open(beside, &output, error);
     if (status == TN_OK) {
@@ -102,15 +110,6 @@ tn_status tn_shard_record_write(const tn_shard_set *set, uint32_t shard, const t
     free(text.data);
     free(beside);
     return status;
-}
-
-tn_status tn_shard_record_make(const tn_shard_set *set, uint32_t shard, tn_error *error)
-{
-    tn_shard_record record;
-    char *path = tn_shard_path(set, shard, "");
-    tn_status status = path ? tn_hash_file(path, record.hash, &record.bytes, error) : tn_fail_memory(error);
-    free(path);
-    return status == TN_OK ? tn_shard_record_write(set, shard, &record, NULL, error) : status;
 }
 
 static bool parse_number(const json_t *object, const char *key, uint64_t *number)
@@ -160,7 +159,32 @@ static bool parse_read(const tn_shard_set *set, const json_t *json, tn_shard_rea
     return whole;
 }
 
-/* The JSON of the record; NULL where there is none. */
+static tn_status damaged_record(const tn_shard_set *set, uint32_t shard, tn_error *error)
+{
+    return tn_shard_wrong(set, shard, error, "has a damaged " TN_SHARD_RECORD);
+}
+
+/* Is the record of a version that is known, and of this shard of this set? */
+static tn_status check_owner(const tn_shard_set *set, uint32_t shard, const json_t *json, tn_error *error)
+{
+    const char *owner = json_string_value(json_object_get(json, "set"));
+    uint64_t version = 1, number;
+    if (json_object_get(json, "tartan_record") && !parse_number(json, "tartan_record", &version))
+        return damaged_record(set, shard, error);
+    if (version != RECORD_VERSION)
+        return tn_shard_wrong(set, shard, error,
+                              "has a " TN_SHARD_RECORD " of version %" PRIu64 ", and only version %d is known", version,
+                              RECORD_VERSION);
+    if (!owner || !parse_number(json, "shard", &number))
+        return damaged_record(set, shard, error);
+    if (strcmp(owner, set->hash) != 0)
+        return tn_shard_wrong(set, shard, error, "has the " TN_SHARD_RECORD " of a shard of another set");
+    return number == shard ? TN_OK
+                           : tn_shard_wrong(set, shard, error,
+                                            "has the " TN_SHARD_RECORD " of shard %" PRIu64 " of this set", number);
+}
+
+/* The JSON of the record, which is of this shard. */
 static tn_status load_record(const tn_shard_set *set, uint32_t shard, json_t **json, tn_error *error)
 {
     uint8_t *bytes = NULL;
@@ -170,12 +194,9 @@ static tn_status load_record(const tn_shard_set *set, uint32_t shard, json_t **j
     *json = status == TN_OK ? json_loadb((const char *)bytes, size, 0, NULL) : NULL;
     free(bytes);
     free(path);
-    return status;
-}
-
-static tn_status damaged_record(const tn_shard_set *set, uint32_t shard, tn_error *error)
-{
-    return tn_shard_wrong(set, shard, error, "has a damaged " TN_SHARD_RECORD);
+    if (status != TN_OK)
+        return status;
+    return *json ? check_owner(set, shard, *json, error) : damaged_record(set, shard, error);
 }
 
 tn_status tn_shard_record_read(const tn_shard_set *set, uint32_t shard, tn_shard_record *record, tn_error *error)
@@ -198,6 +219,28 @@ tn_status tn_shard_read_of(const tn_shard_set *set, uint32_t shard, tn_shard_rea
     return status;
 }
 
+static tn_status compare_size(const tn_shard_set *set, uint32_t shard, uint64_t found, uint64_t wanted, tn_error *error)
+{
+    return found == wanted
+               ? TN_OK
+               : tn_shard_wrong(set, shard, error, "has %" PRIu64 " bytes, and had %" PRIu64 " when it was written",
+                                found, wanted);
+}
+
+tn_status tn_shard_done(const tn_shard_set *set, uint32_t shard, tn_error *error)
+{
+    struct stat known;
+    tn_shard_record record;
+    char *path = tn_shard_path(set, shard, "");
+    tn_status status = path ? tn_shard_record_read(set, shard, &record, error) : tn_fail_memory(error);
+    if (status == TN_OK && stat(path, &known) != 0)
+        status = tn_cannot_read(path, errno, error);
+    else if (status == TN_OK)
+        status = compare_size(set, shard, (uint64_t)known.st_size, record.bytes, error);
+    free(path);
+    return status;
+}
+
 tn_status tn_shard_same_as_record(const tn_shard_set *set, uint32_t shard, tn_error *error)
 {
     tn_shard_record record, found;
@@ -205,10 +248,9 @@ tn_status tn_shard_same_as_record(const tn_shard_set *set, uint32_t shard, tn_er
     tn_status status = path ? tn_shard_record_read(set, shard, &record, error) : tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_hash_file(path, found.hash, &found.bytes, error);
-    if (status == TN_OK && found.bytes != record.bytes)
-        status = tn_shard_wrong(set, shard, error, "has %" PRIu64 " bytes, and had %" PRIu64 " when it was written",
-                                found.bytes, record.bytes);
-    else if (status == TN_OK && strcmp(found.hash, record.hash) != 0)
+    if (status == TN_OK)
+        status = compare_size(set, shard, found.bytes, record.bytes, error);
+    if (status == TN_OK && strcmp(found.hash, record.hash) != 0)
         status = tn_shard_wrong(set, shard, error, "was changed after it was written: its hash is another");
     free(path);
     return status;

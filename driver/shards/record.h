@@ -1,7 +1,8 @@
 /* What a shard holds, and whether it is what it should be.
  *
- * A record is a small file beside a shard, with its size and hash. It is derived: where it is missing, it is made again
- * from the shard, after that was read through. A shard with a record is done.
+ * A record is a small file beside a shard. It says which set the shard belongs to, which of its shards it is, and its
+ * size and hash. A shard with such a record is done. A shard without one is written again: nothing else could say
+ * that it is not that of another set.
  */
 #ifndef TARTAN_DRIVER_SHARDS_RECORD_H
 #define TARTAN_DRIVER_SHARDS_RECORD_H
@@ -22,23 +23,24 @@ typedef struct tn_shard_read {
     tn_error complaints[TN_COMPLAINTS_KEPT]; /* about the first that could not be read; lines count from the shard's */
 } tn_shard_read;
 
-/* Is the shard there, with its record? */
-bool tn_shard_done(const tn_shard_set *set, uint32_t shard);
-
-/* Is the shard's own file there? */
+/* Is the shard's own file there? A file is a regular one here: no worker waits for what is no file. */
 bool tn_shard_exists(const tn_shard_set *set, uint32_t shard);
+
+/* Is it there, with a record of any kind? */
+bool tn_shard_recorded(const tn_shard_set *set, uint32_t shard);
+
+/* Is a shard that is there with a record done: is the record of this set and this shard, and is the shard as long as it
+ * says? TN_INVALID (E1706). */
+tn_status tn_shard_done(const tn_shard_set *set, uint32_t shard, tn_error *error);
 
 /* Writes the record of a shard, with what was read for it (NULL: it holds no answers). TN_IO (E0902). */
 tn_status tn_shard_record_write(const tn_shard_set *set, uint32_t shard, const tn_shard_record *record,
                                 const tn_shard_read *read, tn_error *error);
 
-/* Hashes a shard of plans that is there, and writes its record. */
-tn_status tn_shard_record_make(const tn_shard_set *set, uint32_t shard, tn_error *error);
-
-/* Reads what the record says was found. TN_INVALID (E1706) where it is none. */
+/* Reads what the record says was found. TN_INVALID (E1706) as of tn_shard_record_read. */
 tn_status tn_shard_read_of(const tn_shard_set *set, uint32_t shard, tn_shard_read *read, tn_error *error);
 
-/* Reads the record: TN_INVALID (E1706) where it is none. */
+/* Reads the record: TN_INVALID (E1706) where it is none, of another set, of another shard or of another version. */
 tn_status tn_shard_record_read(const tn_shard_set *set, uint32_t shard, tn_shard_record *record, tn_error *error);
 
 /* Is the shard's file that of its record? TN_INVALID (E1706). */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -68,25 +69,32 @@ static tn_status write_shard(running *run, uint32_t shard, tn_claim *claim, tn_e
     return status;
 }
 
-/* A shard that is there without its record: whoever wrote it was killed between the two. */
-static tn_status record_shard(const tn_shards_job *job, uint32_t shard, tn_error *error)
+/* Is nothing there but a file, which a shard and its record replace? What a link leads to may belong to another set. */
+static tn_status check_place(const tn_shard_set *set, uint32_t shard, const char *ending, tn_error *error)
 {
-    tn_status status = tn_shard_read_through(job->set, job->ready, shard, job->watch, error);
-    return status == TN_OK ? tn_shard_record_make(job->set, shard, error) : status;
+    struct stat known;
+    char *path = tn_shard_path(set, shard, ending);
+    tn_status status = path ? TN_OK : tn_fail_memory(error);
+    if (path && lstat(path, &known) == 0 && !S_ISREG(known.st_mode))
+        status = tn_shard_wrong(set, shard, error, "cannot be written: %s is there, and is no regular file",
+                                *ending ? "a " TN_SHARD_RECORD : "something");
+    free(path);
+    return status;
 }
 
-/* What lacks of a claimed shard: the shard, or only its record. Answers are written again for it, which says more of
- * them than the shard does. */
+/* A shard that is claimed. One that is there without its record is written again: its worker was killed between the
+ * two, or it came from elsewhere. */
 static tn_status finish_shard(running *run, uint32_t shard, tn_claim *claim, tn_error *error)
 {
-    const tn_shards_job *job = run->job;
     double begun = tn_seconds();
-    bool exists = tn_shard_exists(job->set, shard);
-    if (exists && tn_shard_done(job->set, shard)) /* by another, while it was being claimed */
-        return TN_OK;
-    bool writes = !exists || tn_shard_set_answers(job->set);
-    tn_status status = writes ? write_shard(run, shard, claim, error) : record_shard(job, shard, error);
-    if (status == TN_OK && writes) {
+    if (tn_shard_recorded(run->job->set, shard)) /* by another, while it was being claimed */
+        return tn_shard_done(run->job->set, shard, error);
+    tn_status status = check_place(run->job->set, shard, "", error);
+    if (status == TN_OK)
+        status = check_place(run->job->set, shard, TN_SHARD_RECORD, error);
+    if (status == TN_OK)
+        status = write_shard(run, shard, claim, error);
+    if (status == TN_OK) {
         run->written++;
         run->longest = fmax(run->longest, tn_seconds() - begun);
     }
@@ -100,13 +108,15 @@ static tn_status do_shard(running *run, uint32_t shard, tn_error *error)
         return TN_OK;
     char *path = tn_shard_path(job->set, shard, TN_SHARD_CLAIM);
     tn_claim claim = {0};
-    bool done = tn_shard_done(job->set, shard), taken = done;
+    bool recorded = tn_shard_recorded(job->set, shard), taken = recorded;
     tn_status status = path ? TN_OK : tn_fail_memory(error);
-    if (path && done)
-        unlink(path); /* left by a worker that was killed behind its last step */
-    else if (path)
+    if (status == TN_OK && recorded)
+        status = tn_shard_done(job->set, shard, error);
+    else if (status == TN_OK)
         status = tn_claim_take(path, &run->self, job->stale, &claim, &taken, error);
-    if (status == TN_OK && taken && !done)
+    if (status == TN_OK && recorded)
+        unlink(path); /* left by a worker that was killed behind its last step */
+    else if (status == TN_OK && taken)
         status = finish_shard(run, shard, &claim, error);
     run->done[shard - job->begin] = status == TN_OK && taken;
     run->held += !taken;
@@ -229,11 +239,16 @@ static tn_status run_all(running *run, tn_crew *crew, passed *now, tn_error *err
     return tn_ranks_agree(run->job->ranks, status, error);
 }
 
+static bool is_done(const tn_shard_set *set, uint32_t shard)
+{
+    return tn_shard_recorded(set, shard) && tn_shard_done(set, shard, NULL) == TN_OK;
+}
+
 static uint32_t count_left(const running *run)
 {
     uint32_t left = 0;
     for (uint32_t i = 0; i < run->job->end - run->job->begin; i++)
-        left += !run->done[i] && !tn_shard_done(run->job->set, run->job->begin + i);
+        left += !run->done[i] && !is_done(run->job->set, run->job->begin + i);
     return left;
 }
 

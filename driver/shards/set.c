@@ -237,7 +237,7 @@ tn_status tn_shard_set_create(tn_shard_set *set, const uint8_t *module, size_t m
     free(set->version);
     set->version = strdup(TARTAN_VERSION);
     tn_status status = refuse_another(set, error);
-    if (status == TN_OK && (!set->version || !tn_manifest_write(set, &text)))
+    if (status == TN_OK && (!set->version || !tn_manifest_write(set, &text, set->hash)))
         status = tn_fail_memory(error);
     if (status == TN_OK)
         status = make_folders(set, error);
@@ -247,16 +247,6 @@ tn_status tn_shard_set_create(tn_shard_set *set, const uint8_t *module, size_t m
         status = write_file(set, TN_MANIFEST_NAME, text.data, text.size, error);
     free(text.data);
     return status;
-}
-
-tn_status tn_shard_set_hash(const tn_shard_set *set, char hex[33], tn_error *error)
-{
-    tn_buffer text = {0};
-    bool written = tn_manifest_write(set, &text);
-    if (written)
-        tn_hash_bytes(text.data, text.size, hex);
-    free(text.data);
-    return written ? TN_OK : tn_fail_memory(error);
 }
 
 /* ---- reading */

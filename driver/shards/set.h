@@ -68,6 +68,7 @@ typedef struct tn_shard_sample {
 typedef struct tn_shard_set {
     tn_shard_task task;
     char *folder;
+    char hash[33];                                           /* of its manifest: sets with the same one are copies */
     char *version;                                           /* of the Tartan that made it */
     char *library;                                           /* its name in the module; NULL where rules are matched */
     char *rules_path;                                        /* as it was named when the set was made */
@@ -89,8 +90,8 @@ typedef struct tn_shard_set {
 tn_status tn_shard_set_divide(tn_shard_set *set, const mpz_t from, const mpz_t to, uint64_t shards, uint64_t plans,
                               tn_error *error);
 
-/* Makes the folder, with the module and, last, the manifest. module_hash and version are filled. TN_INVALID (E1701)
- * where a set is there already. */
+/* Makes the folder, with the module and, last, the manifest. hash, module_hash and version are filled. TN_INVALID
+ * (E1701) where a set is there already. */
 tn_status tn_shard_set_create(tn_shard_set *set, const uint8_t *module, size_t module_size, tn_error *error);
 
 /* Reads and checks the manifest of a folder: TN_INVALID (E1702) where it is none or was changed, (E1703) where another
@@ -111,9 +112,6 @@ static inline bool tn_shard_set_answers(const tn_shard_set *set)
 {
     return set->task == TN_TASK_MATCH || set->task == TN_TASK_PRUNE;
 }
-
-/* A hash of all that the manifest says: two sets with the same one are copies. TN_MEMORY. */
-tn_status tn_shard_set_hash(const tn_shard_set *set, char hex[33], tn_error *error);
 
 /* "FOLDER/NAME", and the path of a shard with an ending behind it ("": none). The caller frees them; NULL where out of
  * memory. */

@@ -91,7 +91,7 @@ grep -q 'E0604' "$scratch/err" || fail "a changed compressed file: $(cat "$scrat
 { cat "$packed" && printf '\x28\xb5\x2f\xfd'; } >"$scratch/more.zst"
 exits 1 "$TARTAN" prune "$sheds" -l any-sheds --trays 0..5 "$scratch/more.zst"
 rm "$packed.record" && head -c 100 "$packed" >"$scratch/cut.zst" && mv "$scratch/cut.zst" "$packed"
-golden compressed_shard_cut "tartan shards run $scratch/set"
+golden compressed_shard_cut "tartan shards check $scratch/set; tartan shards run $scratch/set; tartan shards check $scratch/set"
 
 # ---- edges
 new set --shards 4000 # more than there are plans
@@ -170,11 +170,11 @@ touch -d '-9 seconds' "$claim"
 exits 0 timeout 60 "$TARTAN" shards run "$scratch/set"
 cat_is set
 
-# ---- records are made again, of shards that are whole
+# ---- shards without records are written again
 rm "$scratch/set"/shards/000/*.record
 golden no_records "tartan shards cat $scratch/set"
 run set
-grep -q 'all shards are there already' "$scratch/err" || fail "records: $(cat "$scratch/err")"
+grep -q '3 shards written' "$scratch/err" || fail "records: $(cat "$scratch/err")"
 cat_is set
 
 # ---- a full disk: said with the shard, and nothing half is there
@@ -269,13 +269,13 @@ shard=$scratch/wrong/shards/000/000001.plans
 wrong && truncate -s 100 "$shard"
 golden cut_short "tartan shards check $scratch/wrong; tartan shards cat $scratch/wrong -o $scratch/x.plans; ls $scratch/x.plans 2>&1 | sed 's/.*: No/No/'"
 wrong && rm "$shard.record" && truncate -s 7000 "$shard"
-golden cut_without_record "tartan shards run $scratch/wrong; tartan shards check $scratch/wrong"
+golden cut_without_record "tartan shards check $scratch/wrong; tartan shards run $scratch/wrong; tartan shards check $scratch/wrong"
 wrong && sed -i '3s/.*/odd/' "$shard"
 golden changed_shard "tartan shards check $scratch/wrong"
 wrong && rm "$shard.record" && sed -i '3s/.*/odd/' "$shard"
-golden not_a_plan "tartan shards run $scratch/wrong"
+golden not_a_plan "tartan shards check $scratch/wrong"
 wrong && cp "$scratch/wrong/shards/000/000000.plans" "$shard" && rm "$shard.record"
-golden other_plans "tartan shards run $scratch/wrong"
+golden other_plans "tartan shards check $scratch/wrong"
 wrong && echo '{' >"$shard.record"
 golden bad_record "tartan shards check $scratch/wrong"
 wrong && touch "$scratch/wrong/shards/000/000003.plans" && rm "$shard"

@@ -159,10 +159,10 @@ changed overlapping '/000001/s/"from": [0-9]*/"from": 3/'
 changed past_the_end '/000001/s/"to": [0-9]*/"to": 99999999/'
 changed left_out '/000003/s/"input": 2/"input": 1, "from": 1, "to": 2/'
 changed whole_of_lines '/000000/s/, "from": .*"to": [0-9]*//'
-sed -i 's/{"line"/{"lin"/' "$scratch/set/shards/000/000001.jsonl" && rm "$scratch/set/shards/000/000001.jsonl.record"
-printf '{"bytes": %s, "hash": "%s", "lines": 5, "unread": 0}\n' "$(wc -c <"$scratch/set/shards/000/000001.jsonl")" \
-    "$(xxhsum -H128 <"$scratch/set/shards/000/000001.jsonl" | cut -d' ' -f1)" >"$scratch/set/shards/000/000001.jsonl.record"
+sed -i 's/{"line"/{"lin"/' "$scratch/set/shards/000/000001.jsonl"
+sed -i "s/\"bytes\": [0-9]*, \"hash\": \"[0-9a-f]*\"/\"bytes\": $(wc -c <"$scratch/set/shards/000/000001.jsonl"), \"hash\": \"$(
+    xxhsum -H128 <"$scratch/set/shards/000/000001.jsonl" | cut -d' ' -f1)\"/" "$scratch/set/shards/000/000001.jsonl.record"
 golden not_answers "tartan shards cat $scratch/set | tail -n 1; tartan shards cat $scratch/set -o $scratch/none.json; ls $scratch/none.json 2>&1 | sed 's/.*: No/No/'"
-echo '{"bytes": 1, "hash": "00000000000000000000000000000000", "lines": 1, "unread": 3}' >"$scratch/set/shards/000/000000.jsonl.record"
+sed -i 's/"unread": 0/"unread": 3/' "$scratch/set/shards/000/000000.jsonl.record"
 golden bad_record "tartan shards status $scratch/set; tartan shards check $scratch/set"
 finish

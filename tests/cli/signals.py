@@ -1,11 +1,12 @@
-"""Sends SIGTERM and SIGINT to every command at random moments: signals.py TARTAN SOURCES SCRATCH TIMES [SECONDS]
+"""Sends SIGTERM and SIGINT to commands at random moments: signals.py TARTAN SOURCES SCRATCH TIMES SHARE SEED [SECONDS]
 
-Whatever the moment, the command ends within SECONDS (30), says so, and leaves no half a file: an output is not there, or
+SHARE of all commands are tried, which ones the seed says, or all of them where SHARE is 0. Whatever the moment, the command ends within SECONDS (30), says so, and leaves no half a file: an output is not there, or
 it is what an undisturbed run writes. Prints the longest answer of each command."""
 import os, random, re, shutil, signal, subprocess, sys, time
 
 tartan, sources, scratch = map(os.path.abspath, sys.argv[1:4])
-times, allowed = int(sys.argv[4]), float(sys.argv[5] if len(sys.argv) > 5 else 30)
+times, share, seed = map(int, sys.argv[4:7])
+allowed = float(sys.argv[7] if len(sys.argv) > 7 else 30)
 bench, files, examples = f"{sources}/bench", f"{sources}/tests/cli/files", f"{sources}/examples"
 
 SYSTEM = "A + A + A + A\nA -> A A A A A A A A\nAngle 90\nBranchAngle 90\n"  # one face with eight times more edges a step
@@ -79,13 +80,14 @@ def fresh(name):
 
 
 wrong = []
-with open(f"{scratch}/plans.txt", "wb") as out:
-    subprocess.run([tartan, "sample", f"{bench}/ten.plan", "100000"], stdout=out, check=True)
-with open(f"{scratch}/houses.txt", "wb") as out:
-    subprocess.run([tartan, "sample", LIBRARY, "100000"], stdout=out, check=True)
+chance = random.Random(seed)
+chosen = sorted(chance.sample(range(len(COMMANDS)), share)) if share else range(len(COMMANDS))
+for file, rules in ("plans.txt", f"{bench}/ten.plan"), ("houses.txt", LIBRARY):
+    if any(file in COMMANDS[i][1] for i in chosen):
+        with open(f"{scratch}/{file}", "wb") as out:
+            subprocess.run([tartan, "sample", rules, "100000"], stdout=out, check=True)
 
-chance = random.Random(4711)
-for name, arguments, output in COMMANDS:
+for name, arguments, output in (COMMANDS[i] for i in chosen):
     began = time.monotonic()
     whole = start(arguments, fresh("whole"))
     said = whole.communicate()[1]

@@ -1,4 +1,4 @@
 #!/usr/bin/env bash
-# A hundred interrupts at random moments of each command; SIGNALS=N sends so many.
+# A hundred interrupts at random moments of every command; SIGNALS=N sends so many.
 # Takes long
-SIGNALS=${SIGNALS:-100} exec bash "$(dirname "$0")/signals.sh"
+SIGNALS=${SIGNALS:-100} SHARE=${SHARE:-0} exec bash "$(dirname "$0")/signals.sh"

@@ -42,7 +42,8 @@ static void invert(const tn_grammar *grammar, tn_mapper *mapper, const tn_mappin
 {
     tn_genome genome = {0};
     tn_error error;
-    tn_invert_options inverting = {.max_depth = options->max_depth, .max_items = ITEMS};
+    tn_invert_options inverting = {
+        .max_depth = options->max_depth, .position_independent = options->position_independent, .max_items = ITEMS};
     tn_status status = tn_invert(grammar, sentence, size, &inverting, &genome, &error);
     if (status == TN_INVALID)
         fail("a mapped sentence is not derivable");

@@ -61,7 +61,8 @@ static void show(const tn_grammar *grammar, const tn_mapping *mapping, bool draw
 /* A genome for the sentence maps to the sentence. */
 static void invert(const tn_grammar *grammar, const tn_mapping_options *options, const char *sentence, size_t size)
 {
-    tn_invert_options inverting = {.max_depth = options->max_depth, .max_items = ITEMS};
+    tn_invert_options inverting = {
+        .max_depth = options->max_depth, .position_independent = options->position_independent, .max_items = ITEMS};
     tn_genome genome = {0};
     tn_mapping again;
     tn_mapper *mapper = tn_mapper_new(grammar);

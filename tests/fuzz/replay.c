@@ -1,10 +1,14 @@
-/* Runs a fuzz target on files: replay [-changed=N] [-seed=S] FOLDER|FILE... Folders are read one level deep; at least
- * one file must be found. A target that changes its inputs itself is also run on N changed ones for each file, which
- * depend on N and S alone. */
+/* Runs a fuzz target on files: replay [-changed=N] [-share=K] [-memory=MEGABYTES] [-keep=FILE] FOLDER|FILE... Folders
+ * are read one level deep; at least one file must be found. A target that changes its inputs itself is also run on N
+ * changed ones for each file: share K of them, which depend on N and K alone, and no two shares have the same. With
+ * -memory the process may not have more of it (which sanitizers do not bear). With -keep each changed input is written
+ * to FILE before it is run, so that one that ends the process is there. */
 #include <dirent.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include "runtime/base/file.h"
@@ -12,10 +16,22 @@
 
 static size_t replayed;
 
-static unsigned changed_count, first_seed;
+static unsigned changed_count, share, megabytes;
+static const char *kept; /* where the input is written that is run */
 
 /* A target that has one. */
 __attribute__((weak)) size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed);
+
+static void keep(const uint8_t *bytes, size_t size)
+{
+    FILE *out = kept ? fopen(kept, "wb") : NULL;
+    if (out && (fwrite(bytes, 1, size, out) != size) + fclose(out) == 0)
+        return;
+    if (kept) {
+        perror(kept);
+        exit(1);
+    }
+}
 
 /* Every fourth is made of the file, the others of the one before. */
 static void replay_changed(const uint8_t *bytes, size_t size)
@@ -27,7 +43,8 @@ static void replay_changed(const uint8_t *bytes, size_t size)
             memcpy(changed, bytes, size);
             now = size;
         }
-        now = LLVMFuzzerCustomMutator(changed, now, room, first_seed + i);
+        now = LLVMFuzzerCustomMutator(changed, now, room, share * changed_count + i);
+        keep(changed, now);
         LLVMFuzzerTestOneInput(changed, now);
     }
     free(changed);
@@ -75,11 +92,35 @@ static void replay(const char *path)
     closedir(folder);
 }
 
+static void limit_memory(void)
+{
+    const struct rlimit limit = {(rlim_t)megabytes << 20, (rlim_t)megabytes << 20};
+    if (megabytes > 0 && setrlimit(RLIMIT_AS, &limit) != 0) {
+        perror("-memory");
+        exit(1);
+    }
+}
+
+static bool is_option(const char *word)
+{
+    if (strncmp(word, "-keep=", 6) == 0)
+        kept = word + 6;
+    return sscanf(word, "-changed=%u", &changed_count) == 1 || sscanf(word, "-share=%u", &share) == 1 ||
+           sscanf(word, "-memory=%u", &megabytes) == 1 || kept == word + 6;
+}
+
 int main(int argc, char **argv)
 {
     for (int i = 1; i < argc; i++)
-        if (sscanf(argv[i], "-changed=%u", &changed_count) != 1 && sscanf(argv[i], "-seed=%u", &first_seed) != 1)
+        if (is_option(argv[i]))
+            argv[i] = NULL;
+    limit_memory();
+    for (int i = 1; i < argc; i++)
+        if (argv[i])
             replay(argv[i]);
-    printf("%zu inputs\n", replayed);
+    printf("%zu inputs", replayed);
+    if (LLVMFuzzerCustomMutator)
+        printf(", %zu made of them", replayed * changed_count);
+    printf("\n");
     return replayed == 0;
 }

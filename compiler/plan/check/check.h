@@ -146,7 +146,7 @@ typedef struct tn_checked_rule {
     bool hidden;                /* made of a call, or of a rule of an older schema: the file does not name it */
     bool listed;                /* of a hidden measure: it has a record all the same */
     bool about_plan;            /* has a comparison that speaks of the whole plan */
-    bool failed;                /* of a template: a call of it was wrong inside */
+    bool failed;                /* of a template: a call of it was wrong inside; of a `let`: it uses itself */
     const tn_ast_expr *call;    /* what a hidden rule was made for first, or NULL */
     struct tn_checked_rule *of; /* the template, or rule of an older schema, that a hidden rule was made of */
     tn_checked_sum *sum;        /* of a measure; NULL: already reported */

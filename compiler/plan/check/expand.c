@@ -357,6 +357,8 @@ static bool is_word_value(const tn_rule_expansion *expansion, const tn_ast_expr 
 static tn_ast_expr *expand_name(tn_rule_expansion *expansion, const tn_ast_expr *expr)
 {
     tn_bound_name bound = tn_bound(expansion, expr->name);
+    if (bound.let && !bound.value) /* it uses itself */
+        return broken(expansion, expr);
     if (bound.value && (bound.value->kind == TN_EXPR_FIGURE || (bound.let && is_word_value(expansion, bound.value)))) {
         tn_check *check = expansion->check;
         tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_OR_NUMBER, expr->node.span,
@@ -420,13 +422,27 @@ static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr
     return copy;
 }
 
+static void report_let_circle(tn_check *check, const tn_checked_rule *let)
+{
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_RULE_CYCLE, let->ast->name->node.span, "`let %s` uses itself", let->name);
+    tn_help(check->diagnostics, d, "write out what it means: constants, or values of a field");
+}
+
+/* One that uses itself means nothing, which is said once. */
 tn_ast_expr *tn_let_value(tn_check *check, tn_checked_rule *let)
 {
-    if (let->meaning || let->state)
+    enum { UNSEEN, OPEN, DONE };
+    if (let->state == OPEN && !let->failed)
+        report_let_circle(check, let);
+    let->failed |= let->state == OPEN;
+    if (let->state != UNSEEN)
         return let->meaning;
-    let->state = 1; /* a circle through itself ends here, without a value */
+    let->state = OPEN;
     tn_rule_expansion expansion = {.check = check, .unit = let->unit};
-    let->meaning = expand(&expansion, let->ast->body);
+    tn_ast_expr *meaning = expand(&expansion, let->ast->body);
+    let->meaning = let->failed ? broken(&expansion, let->ast->body) : meaning;
+    let->state = DONE;
     return let->meaning;
 }
 

@@ -36,6 +36,8 @@ bool tn_condition_bound(const tn_rule_expansion *expansion, const tn_ast_cond *c
 
 static void report_not_values(tn_rule_expansion *expansion, const tn_ast_expr *value, const tn_ast_word *use)
 {
+    if (value->kind == TN_EXPR_BROKEN) /* which was reported */
+        return;
     tn_diagnostics *diagnostics = expansion->check->diagnostics;
     tn_diagnostic *d = tn_report(diagnostics, E_BAD_ARGUMENT, value->node.span, "values of a field are needed here");
     tn_note(diagnostics, d, &use->node.span, "`%s` is used in a specifier here", use->text);
@@ -184,7 +186,7 @@ const tn_ast_word *tn_expand_constant(tn_rule_expansion *expansion, tn_ast_expr 
     bool good = constant_kind(value) && tn_check_figure(check, NULL, value, &amount);
     bool whole = good && amount.value && !strchr(amount.value, '/') && strlen(amount.value) < 18 &&
                  (amount.power == 0 || amount.power == 1);
-    if (!constant_kind(value)) {
+    if (!constant_kind(value) && value->kind != TN_EXPR_BROKEN) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_ARGUMENT, value->node.span, "a number is needed here");
         tn_note(check->diagnostics, d, &place, "it is used here");
         tn_help(check->diagnostics, d, "give a number such as `2`, or a length such as `12'` or `3.6m`");

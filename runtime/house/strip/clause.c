@@ -410,6 +410,8 @@ static tn_status lower_clause(tn_strip *strip, tn_strip_clause *clause, const ch
 /* With one slot each, where the automaton with more of them is too large. */
 static tn_status lower_in_limits(tn_strip *strip, tn_strip_clause *clause, const char *name, tn_error *error)
 {
+    tn_error own;
+    error = error ? error : &own;
     tn_status status = lower_clause(strip, clause, name, error);
     if (status == TN_LIMIT && error->code == E_TOO_MANY_STATES && tn_strip_fewer_slots(clause)) {
         *error = (tn_error){0};

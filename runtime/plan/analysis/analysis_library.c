@@ -12,6 +12,8 @@
 
 static tn_status name_clause(const tn_analysed_clauses *c, size_t i, tn_error *error)
 {
+    if (!error)
+        return TN_LIMIT;
     tn_error inner = *error;
     tn_fail(error, inner.status, inner.code, "in the clause `%.80s`: %.360s",
             tn_text(c->analysis->schema->module, c->clauses[i].name), inner.message);

@@ -27,7 +27,7 @@ static tn_status count_with(const tn_library *library, const tn_sparse *base, co
 /* Where, and what to do about it. */
 static void show_limit(const tn_library *library, size_t clause, tn_error *error)
 {
-    if (error->code_offset == TN_NO_OFFSET)
+    if (error && error->code_offset == TN_NO_OFFSET)
         error->code_offset =
             library->schema->module->FUNCTION_records[tn_library_clause(library, clause)->holds].code_begin;
     tn_error_help(error, "give fewer trays with --trays, or raise the limit with --max-states");

@@ -209,10 +209,10 @@ static tn_status run_compare(tn_plan_vm *vm, vm_frame *frame, const tn_instructi
     const tn_sum *sum;
     uint32_t function;
     tn_status status = tn_plan_vm_summed(vm, (uint32_t)op->first, &sum, error);
-    if (status != TN_OK) {
+    if (status != TN_OK && error)
         error->code_offset = frame->offset;
+    if (status != TN_OK)
         return status;
-    }
     bool reversed = frame->reversed;
     if (tn_plan_vm_sum_needs(vm, sum, reversed, &function))
         return add_frame(vm, function, reversed, error);

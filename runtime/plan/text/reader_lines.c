@@ -251,9 +251,9 @@ tn_status tn_plan_lines_next(tn_plan_lines *lines, const tn_plan **plan, tn_erro
                                                            lines->max_length, &lines->plan, error);
         if (status == TN_OK)
             *plan = &lines->plan;
-        else
+        else if (error)
             error->line = lines->line;
-        if (status != TN_OK && error->column == 0)
+        if (status != TN_OK && error && error->column == 0)
             error->column = error->column_end = 1;
         return status;
     }

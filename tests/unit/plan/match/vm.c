@@ -5,7 +5,9 @@
 
 #include <cmocka.h>
 
+#include "runtime/load.h"
 #include "runtime/plan/match/vm.h"
+#include "tests/support/compile_file.h"
 #include "tests/support/test_rule.h"
 
 /* ---- against the brute force */
@@ -235,6 +237,35 @@ static void test_somewhere_needs_a_tray(void **state)
     tn_module_free(module);
 }
 
+/* Nobody has to ask why: a sum that divides by nothing, with and without an error to say so in. */
+static void test_failure_without_error(void **state)
+{
+    (void)state;
+    static const char text[] = "schema s { width = 3m | 4m  zone deep = none | full(1m) }\n"
+                               "rule r = sum(width / deep) > 2\n";
+    tn_compilation compilation;
+    tn_module *module;
+    tn_plan_vm *vm = NULL;
+    tn_error error;
+    const tn_tray trays[] = {0, 1};
+    bool in;
+    assert_int_equal(compile_text("r.plan", text, sizeof text - 1, &(library_folders){0}, &compilation), TN_OK);
+    test_ok(tn_module_load(compilation.module, compilation.module_size, NULL, &module, &error), &error);
+    tn_schema *schema = test_schema_open(module, 0);
+    test_ok(tn_plan_vm_new(schema, 0, &vm, &error), &error);
+    test_ok(tn_plan_vm_plan(vm, trays, 2, &error), &error);
+    const uint32_t holds = module->RULE_records[0].holds;
+    assert_int_equal(tn_plan_vm_holds(vm, holds, &in, &error), TN_INVALID);
+    assert_int_equal(error.code, E_DIVIDED_BY_ZERO);
+    assert_int_not_equal(error.code_offset, TN_NO_OFFSET);
+    test_ok(tn_plan_vm_plan(vm, trays, 2, &error), &error);
+    assert_int_equal(tn_plan_vm_holds(vm, holds, &in, NULL), TN_INVALID);
+    tn_plan_vm_free(vm);
+    tn_schema_free(schema);
+    tn_module_free(module);
+    tn_compilation_clear(&compilation);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -245,6 +276,7 @@ int main(void)
         cmocka_unit_test(test_limits),
         cmocka_unit_test(test_empty_plan),
         cmocka_unit_test(test_somewhere_needs_a_tray),
+        cmocka_unit_test(test_failure_without_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
