@@ -1,6 +1,4 @@
 """Mends files by the program's own diagnostics: what the grammar allows is often wrong in meaning."""
-import os
-
 from program import Wrong, read_json, run
 from tree import Text, at, nodes_at, offset_of, replaced
 
@@ -17,13 +15,13 @@ def errors(path):
     return found
 
 
-def mended(maker, root, folder):
-    """(tree, errors that are left)"""
-    path = os.path.join(folder, "mended.plan")
+def mended(maker, root, path):
+    """(tree, errors that are left); the file at `path` has the tree's text. A tree on which `check` fails is kept as maker.last."""
     for attempt in range(ROUNDS + 1):
         text = Text(root, maker.notation.indents)
         with open(path, "w", encoding="utf-8") as file:
             file.write(text.text)
+        maker.last = root
         found = errors(path)
         if not found or attempt == ROUNDS:
             return root, found
