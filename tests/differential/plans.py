@@ -518,7 +518,7 @@ HOOKS = {"primary": small_question, "parts": neighbour_parts, "call_args": argum
 
 class Plans(Notation):
     start = "items"
-    indents = {"item": 0, "clause": 2, "form_clause": 2, "field": 2, "forbid": 2, "number_item": 2, "any_case": 2, "tile_part": 4}
+    indents = {"item": 0, "clause": 2, "form_clause": 2, "field": 2, "forbid": 2, "number_item": 2, "any_case": 2, "tile_part": 4, "CLOSE_BRACE": 0}
     remade = ("primary", "not", "expression", "condition", "tray_sum", "additive", "spec_item", "specifier", "pattern", "call_args", "clause", "any_case",
               "range", "cells", "sections", "section_items", "form_clause", "tile_part", "number_item", "forbid", "number_case", "doc", "role", "let")
     hooks = HOOKS

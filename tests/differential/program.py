@@ -81,3 +81,10 @@ def json_lines(question, text):
 def same(question, got, want):
     if got != want:
         raise Wrong(question, got, want)
+
+
+def same_lines(question, got, want):
+    """Of long texts the first line that differs is told."""
+    lines = [text.splitlines() + ["the end"] for text in (got, want)]
+    for i, (one, other) in enumerate(zip(*lines)):
+        same(question, f"line {i + 1}: {one}", f"line {i + 1}: {other}")

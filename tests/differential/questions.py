@@ -7,7 +7,7 @@ import shutil
 from fractions import Fraction
 
 from mend import errors
-from program import Refused, Wrong, answer, json_lines, read_json, run, same
+from program import Refused, Wrong, answer, json_lines, read_json, run, same, same_lines
 from source import read_source
 
 LISTED = 3000            # no more plans or houses than this are listed
@@ -16,10 +16,11 @@ LISTED = 3000            # no more plans or houses than this are listed
 class Subject:
     """A file, or one of its libraries, with the answers that several questions need."""
 
-    def __init__(self, path, folder, library=None):
+    def __init__(self, path, folder, library=None, tree=None):
         self.path, self.folder, self.source = path, folder, read_source(path)
         self.item = self.source.by_name[library] if library else None
         self.options = ["--library", library] if library else []
+        self.tree = tree                         # its derivation tree, where it is known
         self._lines = self._counts = None
 
     def ask(self, command, *more, file=None):
@@ -114,7 +115,7 @@ def keeps_its_meaning(subject):
     same("fmt twice", formatted(laid_out), laid_out)
     os.makedirs(os.path.join(subject.folder, "laid-out"), exist_ok=True)
     other = subject.file("laid-out/" + os.path.basename(subject.path), laid_out)
-    same("fmt keeps the meaning", meaning(other), meaning(subject.path))
+    same_lines("fmt keeps the meaning", meaning(other), meaning(subject.path))
 
 
 def formatted(text):
@@ -126,7 +127,7 @@ def formatted(text):
 def meaning(path):
     """The listing of a module, without places: lines, columns, and names that are made of them."""
     listing = answer("disasm", path)
-    listing = re.sub(r"\(?[^\s()]*\.plan:\d+(:\d+)?\)?|^(module|written by|source ).*$", "", listing, flags=re.M)
+    listing = re.sub(r" *\([^\s()]*\.plan:\d+(:\d+)?\)|^(module|written by|source | *;).*$", "", listing, flags=re.M)
     return re.sub(r"(require|prune)@\d+(\.\d+)?", r"\1@", listing)
 
 
@@ -164,7 +165,7 @@ def threads(subject):
 
 def by_measures(subject):
     """Each measure's values and how many plans have which, by `--by`, by `--where` and by `best`."""
-    for measure in subject.measures() if subject.total else []:
+    for measure in subject.measures()[:2] if subject.total else []:
         values = subject.distribution(measure)
         if not values:
             continue
@@ -221,14 +222,14 @@ def values_of_lines(subject, measure):
 
 
 def questions_and_denials(subject):
-    for rule in subject.rules():
+    for rule in subject.rules()[:2]:
         yes, no = subject.where(rule), subject.where(f"not ({rule})")
         same("--where r + --where not r = count", yes + no, subject.total)
 
 
 def written_by_name(subject):
     """A rule by its name, written out, and as a parameter of another."""
-    for name in subject.rules()[-2:]:
+    for name in subject.rules()[-1:]:
         rule = subject.source.by_name[name]
         head = f" using {rule.using}" if rule.using else f" using {subject.using()}"
         body = rule.body()
@@ -312,7 +313,7 @@ def both_engines(subject):
         return
     lines = [line for line in subject.lines if line]
     plans = subject.file("match.plans", "".join(line + "\n" for line in lines))
-    for rule in subject.rules():
+    for rule in subject.rules()[:2]:
         listed = set(subject.listed_where(rule))
         want = "".join("01"[line in listed] for line in lines)
         for engine in ("vm", "dfa"):
@@ -387,8 +388,7 @@ def totals(subject):
 
 
 def without_line(subject, lines):
-    """The file without these lines; `}` at an end stays."""
-    kept = [line if i not in lines else re.sub(r".*?(\}?)$", r"\1", line) for i, line in enumerate(subject.source.text.split("\n"))]
+    kept = [line for i, line in enumerate(subject.source.text.split("\n")) if i not in lines]
     return subject.file("without.plan", "\n".join(kept))
 
 

@@ -17,6 +17,7 @@ from multiprocessing import Pool
 
 import houses
 import plans
+from by_reference import plans_by_reference
 from grammar import read_grammar
 from maker import Maker
 from mend import errors, mended
@@ -27,6 +28,7 @@ from source import read_source
 from tree import Text
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+SHARE = .5               # of the questions are asked of each random file: more files find more than more questions do
 INDENTS = plans.Plans.indents
 KINDS = {"plans": plans.make_file, "houses": houses.make_file}
 GRAMMAR = read_grammar(os.path.join(ROOT, "grammar", "plan.y"))
@@ -39,10 +41,13 @@ class Result:
         self.seed, self.asked, self.accepted, self.refused, self.cases = seed, 0, False, [], []
 
 
-def asked_of(path):
-    """(question, library or None) for all questions about a file."""
+def asked_of(path, chosen=None):
+    """(question, library or None) for all questions about a file; with `chosen`, a random number generator, for some of them."""
     libraries = [item.name for item in read_source(path).of("library")]
-    return [(q, None) for q in OF_FILES] + [(q, name) for name in libraries for q in OF_LIBRARIES]
+    asked = [(q, None) for q in OF_FILES] + [(q, name) for name in libraries for q in OF_LIBRARIES]
+    if chosen is None:
+        return asked
+    return [(plans_by_reference, name) for name in libraries] + [a for a in asked if chosen.random() < SHARE]
 
 
 def ask(question, subject):
@@ -58,12 +63,12 @@ def ask(question, subject):
     return None
 
 
-def ask_all(path, folder, result):
+def ask_all(path, folder, result, tree=None, chosen=None):
     """(question, library, Wrong) of those that differ."""
     found, subjects = [], {}
-    for question, library in asked_of(path):
+    for question, library in asked_of(path, chosen):
         if library not in subjects:
-            subjects[library] = Subject(path, folder, library)
+            subjects[library] = Subject(path, folder, library, tree)
         result.asked += 1
         outcome = ask(question, subjects[library])
         if isinstance(outcome, Wrong):
@@ -90,7 +95,7 @@ def one_seed(job):
                 result.refused.append(left[0]["code"])
                 return result
             result.accepted = True
-            found = ask_all(path, folder, result)
+            found = ask_all(path, folder, result, tree, maker.random)
         if found:
             result.cases.append(smallest(kind, seed, tree, found, path))
     return result
@@ -113,7 +118,7 @@ def still(tree, question, library, wrong, path):
     try:
         if question is not checks and errors(path):
             return None
-        outcome = ask(question, Subject(path, os.path.dirname(path), library))
+        outcome = ask(question, Subject(path, os.path.dirname(path), library, tree))
     except (Wrong, Refused, KeyError, IndexError):         # another difference, or a file without what is asked about
         return None
     return outcome if isinstance(outcome, Wrong) and outcome.question == wrong.question else None
