@@ -16,8 +16,8 @@ LENGTHS = {
 
 WEIGHTS.update({
     "size: NUMBER": plans.MISTAKE, "shape: NAME OPEN arguments CLOSE": 2, "cell_not: CELL OPEN specifier CLOSE": 5, "cell_not: NOT cell_not": .3,
-    "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .2, "cell_and: cell_ands": .1, "sections: section_ors": .2,
-    "section_not: SECTION OPEN section_items CLOSE": 5, "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": 2,
+    "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .1, "cell_and: cell_ands": .1, "sections: section_ors": .2,
+    "section_not: SECTION OPEN section_items CLOSE": 4, "section_not: OPEN sections CLOSE": .3, "section_not: NOT section_not": .5, "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": 2,
     "by_kinds: BY or_names": .4, "walk_by: COMMA BY or_names": .3, "outside_side: %empty": 2, "relation: BESIDE": 2,
 })
 FORM_CLAUSES = {

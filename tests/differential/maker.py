@@ -9,6 +9,7 @@ class Notation:
     a node or None; what has no hook is made by the grammar alone. A production that no table knows has the weight 1."""
     start = None                     # the symbol of a whole file
     indents = {}                     # nonterminals that begin a line, and how far that is indented
+    depths = {}                      # nonterminals that are made at least so deep, however deep they stand
     remade = ()                      # nonterminals that are made anew where the program finds a mistake in them
     hooks = {}
 
@@ -33,6 +34,7 @@ class Maker:
         if self.grammar.is_token(symbol):
             text = self.grammar.literals[symbol]
             return Node(symbol, text=self.notation.token(self, symbol, context) if text is None else text, context=context)
+        depth = max(depth, self.notation.depths.get(symbol, depth))
         hook = self.notation.hooks.get(symbol)
         node = hook(self, depth, context) if hook else None
         return node or self.by_grammar(symbol, depth, context)

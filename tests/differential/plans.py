@@ -3,7 +3,7 @@ from dataclasses import dataclass, replace
 
 import specifiers
 from maker import Notation
-from scope import Scope
+from scope import Field, Scope, body_fields, merged
 from tree import Node, find_all, listed, words
 
 DOCS = ['"a doc"', '"it\'s a \\"quoted\\" word"', '"größer \\\\ 5\'"', '""']
@@ -98,7 +98,7 @@ for head in ("TRAY OPEN specifier CLOSE", "ANY", "SYMMETRIC primary", "MANY OPEN
     SORTS["primary: " + head] = QUESTIONS
 
 # How often a production is chosen where that is not 1. What the grammar takes only in order to say better what is wrong with it is rare.
-MISTAKE = .02
+MISTAKE = .04
 WEIGHTS = {
     "implied: implied IMPLIES disjunction": MISTAKE, "compared: comparable comparison additive": MISTAKE,
     "cond_atom: compare comparison operand": MISTAKE, "range: constant DASH constant": MISTAKE, "value: NUMBER doc role": MISTAKE,
@@ -111,9 +111,9 @@ WEIGHTS = {
     "primary: OPTIONAL OPEN expression CLOSE": .5, "tray_atom: NAME": 4, "tray_signed: DASH tray_signed": .1,
     "tray_atom: OPEN tray_sum CLOSE": .3, "tray_atom: head_number": .4, "cond_not: NOT cond_not": .2, "condition: cond_ors": .2,
     "cond_and: cond_ands": .3, "cond_atom: OPEN condition CLOSE": .2, "cond_atom: compare": 3,
-    "constant: DASH NUMBER": .05, "constant: DASH LENGTH": .02, "constant: DASH AREA": .02, "constant: DASH DECIMAL": .02,
-    "range: constant": .3, "part: ELLIPSIS": MISTAKE, "item: use STRING": MISTAKE, "pattern_tray: spec_items": 2,
-    "any_case: todo_word case": .2, "literal_word: ABSENT": .2, "literal_word: OF_DEPTH": MISTAKE, "value: ELLIPSIS": MISTAKE,
+    "constant: DASH NUMBER": .15, "constant: DASH LENGTH": .05, "constant: DASH AREA": .2, "constant: DASH DECIMAL": .2,
+    "range: constant": .3, "part: ELLIPSIS": MISTAKE, "item: use STRING": .5, "pattern_tray: spec_items": 2,
+    "any_case: todo_word case": .3, "literal_word: ABSENT": .2, "literal_word: OF_DEPTH": MISTAKE, "value: ELLIPSIS": MISTAKE,
     "specifier: %empty": .05, "plan: OPEN_BRACKET HOUSE CLOSE_BRACKET": MISTAKE, "clause: require_word requires": 3, "clause: prune_word prunes": 3,
     "clause: allow_word names": .2, "clause: trays_word range": MISTAKE, "clause_name: CLAUSE_NAME": .5,
     "prunes: prunes COMMA prune": .5, "requires: requires COMMA require": .5,
@@ -399,8 +399,7 @@ def body(maker, depth, place):
     scratch.schemas = dict(place.scope.schemas)
     inside = place.but(scope=scratch, schema="being made", want=None, text=None)
     list_so_far = listed(maker.grammar, "body", fields)
-    from scope import body_fields
-    scratch.schemas["being made"] = list(older or []) + body_fields(list_so_far)
+    scratch.schemas["being made"] = merged(older or [], body_fields(list_so_far))
     more = []
     if maker.chance(.5):
         more.append(maker.make("number_item", 3, inside.but(text=place.scope.fresh(maker.random, "beds"), sort="figure", want="figure")))
@@ -410,22 +409,20 @@ def body(maker, depth, place):
 
 
 def new_fields(maker, place, older):
-    from scope import Field
     random, taken = maker.random, {f.name for f in older or []}
     if place.item == "schema of houses":
         return house_fields(maker, place)
     kinds = random.choice([["length"], ["length", "flag"], ["length", "choice"], ["length", "zone"], ["length", "zone", "flag"], ["choice", "zone"],
                            ["length", "choice", "flag"]])
     names = {"length": "width", "flag": "open", "choice": "colour", "zone": "yard"}
-    made = []
-    for kind in kinds if not older else random.sample(kinds, 1):
+    made = [Field(f.name, f.kind, f.values) for f in older or [] if f.kind in ("choice", "zone", "length") and maker.chance(.4)][:1]
+    for kind in kinds if not older else random.sample(kinds, int(not made or maker.chance(.5))):
         name = names[kind]
         made.append(Field(name if name not in taken else name + "2", kind, []))
     return made
 
 
 def house_fields(maker, place):
-    from scope import Field
     return [Field("width", "length", []), *([Field("open", "flag", [])] if maker.chance(.3) else []), Field("rear", "zone", []), Field("main", "zone", [])]
 
 
@@ -442,7 +439,9 @@ def field(maker, place):
     name_node = maker.make_of("field_head: FIELD_NAME doc role", 1, own)
     if made.kind == "flag":
         return maker.node("field: field_head EQUAL FLAG", name_node)
-    values = listed(maker.grammar, "values", [value(maker, place, made.kind, text) for text in chosen_values(maker, place, made)])
+    new = [text for text in chosen_values(maker, place, made) if text not in made.values and (made.kind != "zone" or text[0] not in dict(made.values))]
+    before = [maker.node("value: ELLIPSIS")] if made.values else []
+    values = listed(maker.grammar, "values", before + [value(maker, place, made.kind, text) for text in new])
     if made.kind == "zone":
         return maker.node("field: zone field_head EQUAL values", maker.make("zone", 1, own), name_node, values)
     return maker.node("field: field_head EQUAL values", name_node, values)
@@ -455,6 +454,8 @@ def chosen_values(maker, place, made):
     if made.kind == "choice":
         return random.sample(NAMES, random.choice([2, 2, 3]))
     depths = DEPTHS_METRES if place.metric else DEPTHS_FEET
+    if made.values:
+        return [("wet", [depths[1]])]
     fills = [("full", random.sample(depths, random.choice([1, 1, 2]))), ("none", [])] + [("half", [depths[0]])] * maker.chance(.2)
     if place.item == "schema of houses" and made.name == "main":
         fills = [("full", random.sample(["3m", "4m"] if place.metric else ["9'", "12'6\""], 1)), ("half", ["3m" if place.metric else "9'6\""])][:random.choice([1, 2])]
@@ -519,6 +520,8 @@ HOOKS = {"primary": small_question, "parts": neighbour_parts, "call_args": argum
 class Plans(Notation):
     start = "items"
     indents = {"item": 0, "clause": 2, "form_clause": 2, "field": 2, "forbid": 2, "number_item": 2, "any_case": 2, "tile_part": 4, "CLOSE_BRACE": 0}
+    depths = {"condition": 3, "part": 1, "cells": 3, "sections": 4, "section_items": 1, "by_kinds": 1, "material_where": 3, "opening_parts": 3,
+              "tile_parts": 5, "reaches": 3, "cases": 4, "trays": 2, "pattern": 2, "specifier": 1}
     remade = ("primary", "not", "expression", "condition", "tray_sum", "additive", "spec_item", "specifier", "pattern", "call_args", "clause", "any_case",
               "range", "cells", "sections", "section_items", "form_clause", "tile_part", "number_item", "forbid", "number_case", "doc", "role", "let")
     hooks = HOOKS

@@ -84,12 +84,17 @@ def tokens(node):
 # ---- schemas
 
 def schema(scope, item):
-    older = after(item.child("from"), "FROM")
-    fields = {f.name: f for f in scope.schemas.get(older, [])}
-    for declared in body_fields(item.child("body")):
-        same = fields.get(declared.name)
-        fields[declared.name] = Field(same.name, same.kind, same.values + declared.values) if same else declared
-    scope.schemas[named(item)] = list(fields.values())
+    older = scope.schemas.get(after(item.child("from"), "FROM"), [])
+    scope.schemas[named(item)] = merged(older, body_fields(item.child("body")))
+
+
+def merged(older, newer):
+    """The fields of a schema from another: `...` stands for the values that a field has."""
+    fields = {f.name: f for f in older}
+    for field in newer:
+        same = fields.get(field.name)
+        fields[field.name] = Field(same.name, same.kind, same.values + field.values) if same else field
+    return list(fields.values())
 
 
 def body_fields(body):

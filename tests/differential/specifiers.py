@@ -19,6 +19,8 @@ def spec_word(maker, text):
         return maker.node("spec_word: comparison", maker.node("comparison: " + OPERATORS[text]))
     if text == "not":
         return maker.node("spec_word: NOT")
+    if ":" in text:
+        return maker.node("spec_word: NUMBER COLON NUMBER", *[maker.word("NUMBER", n) for n in text.split(":")])
     if ".." in text:
         low, high = text.split("..")
         token = token_of(low)
@@ -111,7 +113,8 @@ def cell(maker, place):
     options = [[["any"]]] + [[[random.choice(names)]] for names in ([f.name for f in place.fields("zone")], form.storeys) if names]
     if place.cells == "cell":
         options += [[[random.choice(function)]]] * 4 + [[["not", random.choice(function)]], [[random.choice(function)], [random.choice(function)]], [["void"]]]
-        options += [[["area", random.choice(["<", ">="]), "10m2" if place.metric else "100sf"]]]
+        low, high = ("6m2", "10m2") if place.metric else ("60sf", "100sf")
+        options += [[["area", random.choice(["<", ">="]), high]], [["area", f"{low}..{high}"]]]
     chosen = random.sample(options, random.choice([1, 1, 1, 2]))
     if maker.chance(.15):
         f = random.choice(place.fields())
@@ -128,6 +131,8 @@ def room(maker, place):
         chosen.append([["cells", random.choice(list(OPERATORS)), random.choice("12")]])
     if maker.chance(.2):
         chosen.append([["area", random.choice(list(OPERATORS)), "10m2" if place.metric else "100sf"]])
+    if maker.chance(.1):
+        chosen.append([["glazing", random.choice("<>"), "1:12"]])
     if form.storeys and maker.chance(.15):
         chosen.append([[random.choice(form.storeys)]])
     return chosen
@@ -141,7 +146,7 @@ HOUSE = {"cell": cell, "place": cell, "room": room}
 def literal_tray(maker, depth, place):
     """What differs from the defaults, or a value for each field as in a plan line."""
     fields = [f for f in place.fields() if f.kind != "number"]
-    if not fields or maker.chance(.03):
+    if not fields or maker.chance(.08):
         return None
     line = maker.chance(.3)
     texts = [text for f in fields if line or maker.chance(.6) for text in literal(maker, f, line)]
