@@ -17,6 +17,7 @@ from multiprocessing import Pool
 
 import houses
 import plans
+from by_house_reference import houses_by_reference
 from by_reference import plans_by_reference
 from grammar import read_grammar
 from maker import Maker
@@ -47,7 +48,7 @@ def asked_of(path, chosen=None):
     asked = [(q, None) for q in OF_FILES] + [(q, name) for name in libraries for q in OF_LIBRARIES]
     if chosen is None:
         return asked
-    return [(plans_by_reference, name) for name in libraries] + [a for a in asked if chosen.random() < SHARE]
+    return [(q, name) for name in libraries for q in (plans_by_reference, houses_by_reference)] + [a for a in asked if chosen.random() < SHARE]
 
 
 def ask(question, subject):
