@@ -63,7 +63,16 @@ def without_measures(source):
             if rule not in kept and re.search(rf"(?<![\w-]){re.escape(rule.name)}(?![\w-])", text):
                 kept.append(rule)
                 waiting.append(rule.text)
-    return "".join(i.text for i in source.items if i in kept)
+    return "".join(with_schema(source, i) for i in source.items if i in kept)
+
+
+def with_schema(source, item):
+    """As the reference reads it: without what changes no house, and with the schema that a library is of."""
+    lines = [line for line in item.text.split("\n") if not re.match(r"\s*(number|material|allow)\b", line)]
+    text = re.sub(r'(?<!\d)"(?:\\.|[^"\\])*"|\b(glazed|leafless)\b', "", "\n".join(lines))
+    if item.kind != "library" or item.using or item.older:
+        return text
+    return text.replace("{", f"using {source.about(item)[0]} {{", 1)
 
 
 def plans_of(subject):
