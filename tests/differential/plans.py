@@ -63,6 +63,7 @@ class Place:
 
 # ---- which productions make which sorts; those that are not named make all
 
+PARENTHESES = {"primary: OPEN expression CLOSE"}
 QUESTIONS = {"rule", "part"}
 ONE_FIELD = {"field", "figure"}
 SUMS = {"number", "constant"}
@@ -104,10 +105,14 @@ WEIGHTS = {
     "cond_atom: compare comparison operand": MISTAKE, "range: constant DASH constant": MISTAKE, "value: NUMBER doc role": MISTAKE,
     "primary: BEGINNING": MISTAKE, "primary: END": MISTAKE,
     "doc: STRING": .15, "allow: ALLOW names": .1, "from: FROM NAME": .2, "role: ROLE NAME": .1,
-    "expression: implied": .3, "disjunction: ors": .4, "and: ands": .4, "not: NOT not": .4, "compared: comparable": .5,
+    "expression: implied": .2, "disjunction: ors": .25, "and: ands": .25, "not: NOT not": .3, "compared: comparable": .3,
     "compared: additive IN additive DOTS additive": .2, "signed: DASH signed": .2, "primary: OPEN expression CLOSE": .3,
     "primary: TRAY OPEN specifier CLOSE": 3, "primary: NEIGHBOUR OPEN parts CLOSE": 2, "primary: NAME": .7,
-    "primary: head_number": .7, "primary: SUM OPEN tray_sum CLOSE": 2, "primary: SUM OPEN tray_sum OF expression CLOSE": 2,
+    "primary: head_number": .3, "primary: TRAYS": .4, "additive: additive PLUS term": .3, "additive: additive DASH term": .2,
+    "term: term STAR signed": .2, "term: term SLASH signed": .1, "tray_sum: tray_sum PLUS tray_term": .4, "tray_sum: tray_sum DASH tray_term": .4,
+    "tray_term: tray_term STAR tray_signed": .5, "tray_term: tray_term SLASH tray_signed": .3, "primary: MATCHES OPEN expression CLOSE": 2, "primary: QUANTITY OPEN expression CLOSE": 2,
+    "primary: OCCURRENCES OPEN expression CLOSE": 2, "primary: SUM OPEN tray_sum COMMA condition CLOSE": 2,
+    "primary: SUM OPEN tray_sum OF expression COMMA condition CLOSE": 2, "primary: SUM OPEN tray_sum CLOSE": 2, "primary: SUM OPEN tray_sum OF expression CLOSE": 2,
     "primary: OPTIONAL OPEN expression CLOSE": .5, "tray_atom: NAME": 4, "tray_signed: DASH tray_signed": .1,
     "tray_atom: OPEN tray_sum CLOSE": .3, "tray_atom: head_number": .4, "cond_not: NOT cond_not": .2, "condition: cond_ors": .2,
     "cond_and: cond_ands": .3, "cond_atom: OPEN condition CLOSE": .2, "cond_atom: compare": 3,
@@ -552,17 +557,12 @@ class Plans(Notation):
         if known:
             for i, context in known(maker, place).items():
                 made[i] = context
-        if production.head == "primary":
-            made = [under_number(c, place) for c in made]
+        if place.sort == "number" and production.head == "primary" and production.name not in PARENTHESES:
+            made = [c.but(sort="rule") if s == "expression" and c.sort == "number" else c for s, c in zip(production.symbols, made)]
         return made
 
     def token(self, maker, token, place):
         return TOKENS[token](maker, place)
-
-
-def under_number(context, place):
-    """An expression inside of `quantity(...)` and the like is a question."""
-    return context.but(sort="rule") if context is place and place.sort in ("number",) else context
 
 
 def has_names(place):
@@ -625,10 +625,10 @@ def add_rules(maker, items, place):
         with_params = place.but(item="rule", params=random_params(maker, place))
         add(maker, items, rule, random.choice([2, 3]), with_params)
     for _ in range(random.choice([1, 2, 3])):
-        add(maker, items, rule, random.choice([1, 2, 3, 3, 4]), place.but(item="rule"))
+        add(maker, items, rule, random.choice([2, 3, 3, 4, 5]), place.but(item="rule"))
     for _ in range(random.choice([1, 2])):
         measure = place.but(item="measure", sort="number", dimension=random.choices([0, 1, 2, 3], [5, 3, 2, 1])[0])
-        add(maker, items, "item: measure NAME doc using EQUAL additive", random.choice([2, 3, 4]), measure)
+        add(maker, items, "item: measure NAME doc using EQUAL additive", random.choice([4, 4, 5, 6]), measure)
 
 
 LIBRARY = "item: library_head OPEN_BRACE clauses CLOSE_BRACE"

@@ -59,7 +59,7 @@ def ask(question, subject):
         return wrong
     except Refused as refused:
         if not refused.limit:
-            return Wrong(f"{question.__name__} is refused", refused, "an answer: check accepts the file")
+            return Wrong(f"{question.__name__} is refused, {refused}", refused, "an answer: check accepts the file")
         return refused
     return None
 
