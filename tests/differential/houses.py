@@ -16,15 +16,15 @@ LENGTHS = {
 
 WEIGHTS.update({
     "size: NUMBER": plans.MISTAKE, "shape: NAME OPEN arguments CLOSE": 2, "cell_not: CELL OPEN specifier CLOSE": 5, "cell_not: NOT cell_not": .3,
-    "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .1, "cell_and: cell_ands": .1, "sections: section_ors": .2,
+    "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .1, "cell_and: cell_ands": .1, "sections: section_ors": 1, "section_and: section_ands": 1, "material_where: WHERE sections": 2, "tile_part: stretch_word NAME doc reaches": 4,
     "section_not: SECTION OPEN section_items CLOSE": 4, "section_not: OPEN sections CLOSE": .3, "section_not: NOT section_not": .5, "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": 2,
     "by_kinds: BY or_names": .4, "walk_by: COMMA BY or_names": .3, "outside_side: %empty": 2, "relation: BESIDE": 2,
 })
 FORM_CLAUSES = {
     "storey NAME doc size": 0, "thickness size": 0, "spine NAME": .3, "section EQUAL shapes": .4, "section NAME EQUAL shapes": .8,
-    "forbid_word sections": .3, "void cells": .3, "no cells": .2, "function NAME doc AT cells": 0, "opening NAME doc WIDE size HIGH size opening_parts": 0,
+    "forbid_word sections": 1, "void cells": .3, "no cells": .2, "function NAME doc AT cells": 0, "opening NAME doc WIDE size HIGH size opening_parts": 0,
     "flight NAME doc WIDE size RISE size DOTS size GOING size turn": .2, "face cells relation cells EQUAL kinds": 2.5,
-    "face cells OUTSIDE outside_side EQUAL kinds": 1, "tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE": .25, "allow_word names": .2,
+    "face cells OUTSIDE outside_side EQUAL kinds": 1, "tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE": .5, "allow_word names": .2,
     "material NAME STRING price FOR names material_where": .8,
 }
 CELLS = {"counted", "cells"}

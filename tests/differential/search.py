@@ -40,6 +40,7 @@ class Result:
 
     def __init__(self, seed):
         self.seed, self.asked, self.accepted, self.refused, self.cases = seed, 0, False, [], []
+        self.took = 0                            # seconds of processor time until a difference was found, or all was asked
 
 
 def asked_of(path, chosen=None):
@@ -82,7 +83,7 @@ def ask_all(path, folder, result, tree=None, chosen=None):
 def one_seed(job):
     kind, seed = job
     maker = Maker(GRAMMAR, plans.Plans(), random.Random(f"{kind} {seed}"))
-    result = Result(seed)
+    result, began = Result(seed), sum(os.times()[:4])
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "a.plan")
         tree = KINDS[kind](maker)
@@ -97,6 +98,7 @@ def one_seed(job):
                 return result
             result.accepted = True
             found = ask_all(path, folder, result, tree, maker.random)
+        result.took = sum(os.times()[:4]) - began
         if found:
             result.cases.append(smallest(kind, seed, tree, found, path))
     return result
@@ -134,13 +136,14 @@ def write(path, text):
 
 class Tally:
     def __init__(self):
-        self.tried = self.accepted = self.asked = 0
+        self.tried = self.accepted = self.asked = self.took = 0
         self.refused, self.found = collections.Counter(), collections.Counter()
 
     def add(self, result):
         self.tried += 1
         self.accepted += result.accepted
         self.asked += result.asked
+        self.took += result.took
         self.refused.update(result.refused)
         self.found.update(question for question, _ in result.cases)
 
@@ -157,7 +160,7 @@ def search(options):
     for result in pool.imap(one_seed, jobs) if pool else map(one_seed, jobs):
         tally.add(result)
         for question, case in result.cases:
-            print(f"seed {result.seed}, after {time.monotonic() - started:.0f} s: {question}\n{case}", flush=True)
+            print(f"seed {result.seed}, after {time.monotonic() - started:.0f} s ({tally.took:.0f} of processors): {question}\n{case}", flush=True)
             if options.out:
                 write(os.path.join(options.out, f"{options.kind}-{result.seed}.plan"), case)
         if options.seconds and time.monotonic() - started > options.seconds:
