@@ -14,7 +14,10 @@ agrees() {
 }
 
 agrees 'productions' "$search/reached.py" 400
-agrees 'cases' "$search/search.py" plans "$search"/cases/*.plan
-agrees 'plans' "$search/search.py" plans --seeds 24
-agrees 'houses' "$search/search.py" houses --seeds 16
+shopt -s nullglob
+for case in "$search"/cases/*.plan; do
+    agrees "$(basename "$case")" "$search/search.py" plans "$case"
+done
+agrees 'plans' "$search/search.py" plans --seeds 20
+agrees 'houses' "$search/search.py" houses --seeds 12
 finish

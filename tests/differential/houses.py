@@ -1,10 +1,8 @@
 """Files about houses: a schema with zones, a library of plans, a form, libraries and measures of houses."""
-from dataclasses import replace
-
 import plans
 from plans import AVAILABLE, CONTEXTS, NAMED, QUESTIONS, SORTS, WEIGHTS, Place, add, add_rules, library, pick
 from scope import Form, Scope, form_clause
-from tree import Node, listed
+from tree import Node, listed, wrapped
 
 # want: (in feet, in metres)
 LENGTHS = {
@@ -15,8 +13,8 @@ LENGTHS = {
 }
 
 WEIGHTS.update({
-    "size: NUMBER": plans.MISTAKE, "shape: NAME OPEN arguments CLOSE": 2, "cell_not: CELL OPEN specifier CLOSE": 5, "cell_not: NOT cell_not": .3,
-    "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .1, "cell_and: cell_ands": .1, "sections: section_ors": 1, "section_and: section_ands": 1, "material_where: WHERE sections": 2, "tile_part: stretch_word NAME doc reaches": 4,
+    "size: NUMBER": plans.MISTAKE, "shape: NAME OPEN arguments CLOSE": 2, "cell_not: CELL OPEN specifier CLOSE": 5, "cell_not: NOT cell_not": .2,
+    "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .08, "cell_and: cell_ands": .1, "sections: section_ors": 1, "section_and: section_ands": 1, "material_where: WHERE sections": 2, "tile_part: stretch_word NAME doc reaches": 4,
     "section_not: SECTION OPEN section_items CLOSE": 4, "section_not: OPEN sections CLOSE": .3, "section_not: NOT section_not": .5, "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": 2,
     "by_kinds: BY or_names": .4, "walk_by: COMMA BY or_names": .3, "outside_side: %empty": 2, "relation: BESIDE": 2,
 })
@@ -45,7 +43,8 @@ def fresh(word, **more):
 
 
 def cells(*places, kind="cell"):
-    return lambda maker, place: {i: place.but(cells=kind, sort="cells") for i in places}
+    """What is about everything, where that is wanted, is about `cell(any)`."""
+    return lambda maker, place: {i: place.but(cells="any" if place.want == "everywhere" else kind, sort="cells") for i in places}
 
 
 def joined(*tables):
@@ -216,6 +215,14 @@ def section_item(maker, depth, place):
     return Node(made.symbol, made.production, made.children, context=place)
 
 
+def all_cells(maker, depth, place):
+    if place.cells != "any":
+        return None
+    word = maker.node("spec_word: NAME", maker.word("NAME", "any"))
+    any_cell = maker.node("cell_not: CELL OPEN specifier CLOSE", wrapped(maker.grammar, "specifier", wrapped(maker.grammar, "spec_words", word)))
+    return wrapped(maker.grammar, "cells", any_cell)
+
+
 def form_clauses(maker, depth, place):
     """What every form needs, then whatever the grammar has."""
     inside = being_made(place)
@@ -237,8 +244,9 @@ def being_made(place):
 
 NEEDED = [
     ("storey NAME doc size", None, [1, 1, 2]), ("thickness size", "thickness", [4]),
-    ("opening NAME doc WIDE size HIGH size opening_parts", None, [0, 1, 1, 2]), ("function NAME doc AT cells", None, [1, 2, 2, 3]),
+    ("opening NAME doc WIDE size HIGH size opening_parts", None, [0, 1, 1, 2]), ("function NAME doc AT cells", None, [0, 1, 1, 2]), ("function NAME doc AT cells", "everywhere", [0, 1, 1, 1]),
 ]
+LAST = ("form_clause: face cells relation cells EQUAL kinds", "everywhere")     # so that few faces are walls for want of a line
 
 
 def form_plan(maker):
@@ -247,7 +255,7 @@ def form_plan(maker):
     needed = [(f"form_clause: {text}", want) for text, want, counts in NEEDED for _ in range(random.choice(counts))]
     every = [p.name for p in maker.grammar.rules["form_clause"]]
     more = random.choices(every, [FORM_CLAUSES.get(p.partition(": ")[2], 1) for p in every], k=random.choice([1, 2, 3, 4, 5]))
-    return needed + [(p, None) for p in more]
+    return needed + [(p, None) for p in more] + [LAST] * maker.chance(.6)
 
 
 def thickness(maker, depth, place):
@@ -260,7 +268,7 @@ def thickness(maker, depth, place):
     return maker.node("thickness: " + left[0])
 
 
-plans.HOOKS.update({"shapes": shapes, "section_item": section_item, "form_clauses": form_clauses, "thickness": thickness})
+plans.HOOKS.update({"cells": all_cells, "shapes": shapes, "section_item": section_item, "form_clauses": form_clauses, "thickness": thickness})
 AVAILABLE["primary: SECTION OPEN section_items CLOSE"] = lambda place: place.form and form_of(place).sections
 AVAILABLE["form_clause: forbid_word sections"] = AVAILABLE["material_where: WHERE sections"] = lambda place: form_of(place).sections
 
@@ -271,15 +279,16 @@ HOUSE_LIBRARY = "library_head: library NAME doc using FROM NAME IN NAME"
 
 
 def make_file(maker):
+    """The items of a file about houses."""
     scope, random, items = Scope(), maker.random, []
     place = Place(scope, metric=maker.chance(.5))
     add(maker, items, "item: schema NAME doc from OPEN_BRACE body CLOSE_BRACE", 3, place.but(item="schema of houses"))
     about = place.but(schema=list(scope.schemas)[0])
-    library(maker, items, "library_head: library NAME doc using", 1, about.but(item="library"))
+    library(maker, items, "library_head: library NAME doc using", 1, about.but(item="plans of houses"))
     add(maker, items, "item: form_head OPEN_BRACE form_clauses CLOSE_BRACE", 4, about.but(item="form"))
     house = about.but(form=list(scope.forms)[0])
     add_rules(maker, items, house)
-    library(maker, items, HOUSE_LIBRARY, random.choice([1, 2, 3]), house.but(item="library"))
+    library(maker, items, HOUSE_LIBRARY, random.choice([0, 1, 1, 2, 3]), house.but(item="library"))
     if maker.chance(.4):
         library(maker, items, "library_head: library NAME doc using FROM NAME", 2, house.but(item="library"))
     return listed(maker.grammar, "items", items)

@@ -482,7 +482,8 @@ def value(maker, place, kind, text):
 
 def clauses(maker, depth, place):
     """Every library of plans says first how many trays its plans have."""
-    made = [maker.make("clause", depth, place) for _ in range(maker.random.choice([0, 1, 1, 2, 3]))]
+    counts = [0, 0, 0, 1] if place.item == "plans of houses" else [0, 1, 1, 2]
+    made = [maker.make("clause", depth, place) for _ in range(maker.random.choice(counts))]
     if not place.form and place.text != "from":
         made.insert(0, maker.make_of("clause: trays_word range", 3, place))
     return listed(maker.grammar, "clauses", made)

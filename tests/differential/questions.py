@@ -128,7 +128,7 @@ def meaning(path):
     """The listing of a module, without places: lines, columns, and names that are made of them."""
     listing = answer("disasm", path)
     listing = re.sub(r" *\([^\s()]*\.plan:\d+(:\d+)?\)|^(module|written by|source | *;).*$", "", listing, flags=re.M)
-    listing = re.sub(r"\n\s*\n", "\n", listing)
+    listing = "\n".join(line for line in listing.split("\n") if line.strip())
     return re.sub(r"(require|prune)@\d+(\.\d+)?", r"\1@", listing)
 
 
