@@ -39,6 +39,7 @@ class Place:
     test: str = None                 # what a test is of: rule, library, measure
     argument: tuple = ()             # what the parameters of a call are
     several: bool = False            # whether the file has more than one schema
+    before: tuple = None             # of a `let`: those that stand before it, so that few stand for one another in a circle
 
     def but(self, **changes):
         return replace(self, **changes)
@@ -58,7 +59,8 @@ class Place:
         return [n for n, m in self.scope.measures.items() if m.about in wanted and m.dimension == self.dimension]
 
     def lets(self):
-        return [n for n, (f, d) in self.scope.lets.items() if f is None and d == self.dimension]
+        names = [n for n, (f, d) in self.scope.lets.items() if f is None and d == self.dimension]
+        return names if self.before is None else [n for n in names if n in self.before]
 
 
 # ---- which productions make which sorts; those that are not named make all
@@ -620,7 +622,8 @@ def add_rules(maker, items, place):
     random = maker.random
     rule = "item: rule_head EQUAL expression"
     if maker.chance(.3):
-        let = place.but(item="let", dimension=random.choice([0, 1, 2]), sort="constant")
+        before = None if maker.chance(.05) else tuple(place.scope.lets)
+        let = place.but(item="let", before=before, dimension=random.choice([0, 1, 2]), sort="constant")
         add(maker, items, "item: let NAME EQUAL expression", 1, let)
     if maker.chance(.4):
         with_params = place.but(item="rule", params=random_params(maker, place))
