@@ -55,7 +55,8 @@ def listed(house, subject):
 
 
 def parts(line):
-    """The reference leaves a part empty where the program writes `-`."""
+    """The reference leaves a part empty where the program writes `-`, and writes all lengths in metres."""
+    line = re.sub(r"\b(\d+)mm", lambda length: f"{int(length[1]) / 1000:g}m", line)
     return [[words.strip() or "-" for words in part.split("|")] for part in line.split(";")]
 
 

@@ -394,7 +394,7 @@ def argument(maker, depth, place, kind):
     if kind == "number":
         return maker.make("expression", 0, place.but(sort="constant", dimension=0))
     fields = [f for f in place.fields("length", "choice") if f.name == kind]
-    return maker.make("expression", 1, place.but(sort="values", field=fields[0] if fields else None))
+    return maker.make("expression", 1, place.but(sort="values", dimension=1, field=fields[0] if fields else None))
 
 
 def body(maker, depth, place):
@@ -579,6 +579,7 @@ def has_names(place):
 
 
 AVAILABLE = {
+    "primary: head_number": lambda place: place.sort != "values" or place.field and place.field.kind == "length",
     "primary: NAME": has_names,
     "role: ROLE NAME": lambda place: place.sort in ROLES,
     "primary: NAME OPEN call_args CLOSE": lambda place: place.rules(True),
@@ -625,6 +626,9 @@ def add_rules(maker, items, place):
         before = None if maker.chance(.05) else tuple(place.scope.lets)
         let = place.but(item="let", before=before, dimension=random.choice([0, 1, 2]), sort="constant")
         add(maker, items, "item: let NAME EQUAL expression", 1, let)
+    if maker.chance(.2) and place.fields("length", "choice"):
+        values = place.but(item="let", before=(), sort="values", dimension=1, field=random.choice(place.fields("length", "choice")))
+        add(maker, items, "item: let NAME EQUAL expression", 2, values)
     if maker.chance(.4):
         with_params = place.but(item="rule", params=random_params(maker, place))
         add(maker, items, rule, random.choice([2, 3]), with_params)

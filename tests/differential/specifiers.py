@@ -60,9 +60,12 @@ def items(maker, depth, place):
 # ---- one field: a list of alternatives, each a list of words
 
 def bound_to(maker, f, place):
-    """A name that stands for a value of the field: a parameter, or one that `some` binds."""
+    """A name that stands for values of the field: a parameter, one that `some` binds, or that of a `let`."""
     names = [n for n, of in place.bound + place.params if of == f.name]
-    return maker.random.choice(names) if names and maker.chance(.7) else None
+    if names and maker.chance(.7):
+        return maker.random.choice(names)
+    names = [n for n, (of, dimension) in place.scope.lets.items() if of == f.name or (of is None and dimension == 1 and f.kind == "length")]
+    return maker.random.choice(names) if names and maker.chance(.1) else None
 
 
 def of_length(maker, f, place):
