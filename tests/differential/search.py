@@ -30,6 +30,7 @@ from tree import Text
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SHARE = .5               # of the questions are asked of each random file: more files find more than more questions do
+LATE = {"E1610"}         # of a plan that does not stand up in its form, which is known where plans are gone through: not by `check`
 INDENTS = plans.Plans.indents
 KINDS = {"plans": plans.make_file, "houses": houses.make_file}
 GRAMMAR = read_grammar(os.path.join(ROOT, "grammar", "plan.y"))
@@ -53,13 +54,13 @@ def asked_of(path, chosen=None):
 
 
 def ask(question, subject):
-    """None, or how the answers differ. A refusal that is no limit is a difference: the file is accepted."""
+    """None, or how the answers differ. A refusal that is no limit is a difference, since the file is accepted."""
     try:
         question(subject)
     except Wrong as wrong:
         return wrong
     except Refused as refused:
-        if not refused.limit:
+        if not refused.limit and str(refused) not in LATE:
             return Wrong(f"{question.__name__} is refused, {refused}", refused, "an answer: check accepts the file")
         return refused
     return None
