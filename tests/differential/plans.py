@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 import specifiers
 from maker import Notation
 from scope import Field, Scope, body_fields, merged
-from tree import Node, find_all, listed, words
+from tree import Node, listed
 
 DOCS = ['"a doc"', '"it\'s a \\"quoted\\" word"', '"größer \\\\ 5\'"', '""']
 CODES = ["W001", "W002", "W003", "W004", "W005", "W008"]
@@ -170,8 +170,7 @@ def counted(*conditions, dimension=0):
 
 def condition_sides(*sorts):
     def contexts(maker, place):
-        order = list(sorts)
-        return {i: place.but(sort=s) for i, s in order if s}
+        return {i: place.but(sort=sort) for i, sort in sorts}
     return contexts
 
 

@@ -7,7 +7,7 @@ import shutil
 from fractions import Fraction
 
 from mend import errors
-from program import Refused, Wrong, answer, json_lines, read_json, run, same, same_lines
+from program import Refused, answer, json_lines, read_json, run, same, same_lines
 from source import read_source
 
 LISTED = 3000            # no more plans or houses than this are listed
