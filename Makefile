@@ -5,9 +5,11 @@ CMAKE_FLAGS ?=
 JOBS ?= $(shell nproc)
 TEST_JOBS ?= $(JOBS)
 FUZZ_SECONDS ?= 600
+SECONDS ?= 600
+FIRST ?= $(shell date +%s)
 TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(TEST_JOBS)
 
-.PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale check-sanitizers check-arm check-arm-syntax lint package check-package bench bench-place bench-scale fuzz install uninstall clean
+.PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale check-sanitizers check-arm check-arm-syntax lint package check-package bench bench-place bench-scale fuzz search install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
@@ -27,6 +29,7 @@ help:
 	@echo 'make bench-place print how fast parts are placed, counted and drawn here'
 	@echo 'make bench-scale print how fast shard sets are here (an idle machine with two processors or more)'
 	@echo 'make fuzz        run each fuzz target for FUZZ_SECONDS (600)'
+	@echo 'make search      ask random files every question against every other for SECONDS (600), from the seed FIRST (the time)'
 	@echo 'make install     install below PREFIX (/usr/local), staged into DESTDIR where that is set'
 	@echo 'make uninstall   remove what make install put there'
 	@echo 'make clean       remove what was built'
@@ -92,6 +95,13 @@ bench-scale: build
 
 fuzz: packages
 	@tools/fuzz $(FUZZ_SECONDS)
+
+# Small cases come into build/search.
+search: build
+	@for kind in plans houses; do \
+	    TARTAN=build/tartan python3 -B tests/differential/search.py $$kind --first $(FIRST) --seeds 1000000000 \
+	        --seconds $$(($(SECONDS) / 2)) --jobs $(JOBS) --out build/search || wrong=1; \
+	done; test -z "$$wrong"
 
 install: build
 	@DESTDIR='$(DESTDIR)' cmake --install build

@@ -1,0 +1,48 @@
+"""Questions whose answers the brute force of reference.py works out from the file's derivation tree."""
+from collections import Counter
+from fractions import Fraction
+
+from program import Refused, same
+from questions import how_many
+from reference import UNITS, File, Unknown
+
+
+def plans_by_reference(subject):
+    """Counts, measures and rules of a library of plans."""
+    if subject.tree is None or subject.houses:
+        return
+    try:
+        file = File(subject.tree)
+        kept = file.kept(subject.item.name)
+    except Unknown:
+        return
+    same("count", how_many(subject.counts), len(kept))
+    lengths = Counter(plan.n for plan in kept)
+    same("count by length", {d["length"]: int(d["kept"]) for d in subject.counts["by_length"] if int(d["kept"])}, dict(lengths))
+    for rule in subject.rules():
+        answered(lambda: rule_by_reference(subject, file, kept, rule))
+    for measure in subject.measures() if kept else []:
+        answered(lambda: measure_by_reference(subject, file, kept, measure))
+
+
+def answered(ask):
+    """What the reference does not know, or the program refuses for a limit, is no difference."""
+    try:
+        ask()
+    except Unknown:
+        pass
+    except Refused as refused:
+        if not refused.limit:
+            raise
+
+
+def rule_by_reference(subject, file, kept, rule):
+    want = sum(plan.holds(file.rule(rule)[1]) for plan in kept)
+    same("--where", subject.where(rule), want)
+
+
+def measure_by_reference(subject, file, kept, measure):
+    want = Counter(plan.value(file.sum(measure)) for plan in kept)
+    found = subject.json("count", "--by", measure)
+    unit = UNITS.get(found["unit"].rstrip("23"), 1) ** found["dimension"]
+    same("--by", [(Fraction(d["value"]) * unit, int(d["plans"])) for d in found["distribution"]], sorted(want.items()))

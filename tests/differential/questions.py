@@ -1,0 +1,417 @@
+"""Every question about a file against every other: nothing is worked out but by the program itself.
+
+A question is a function that is given a Subject (a library of the file, or the file alone) and raises Wrong where two answers differ."""
+import os
+import re
+import shutil
+from fractions import Fraction
+
+from mend import errors
+from program import Refused, answer, json_lines, read_json, run, same, same_lines
+from source import read_source
+
+LISTED = 3000            # no more plans or houses than this are listed
+
+
+class Subject:
+    """A file, or one of its libraries, with the answers that several questions need."""
+
+    def __init__(self, path, folder, library=None, tree=None):
+        self.path, self.folder, self.source = path, folder, read_source(path)
+        self.item = self.source.by_name[library] if library else None
+        self.options = ["--library", library] if library else []
+        self.tree = tree                         # its derivation tree, where it is known
+        self._lines = self._counts = None
+
+    def ask(self, command, *more, file=None):
+        return answer(command, file or self.path, *more, *self.options)
+
+    def json(self, command, *more, file=None):
+        return read_json(command, self.ask(command, *more, "--json", file=file))
+
+    def file(self, name, text):
+        path = os.path.join(self.folder, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
+    def edited(self, more):
+        """The file with more items."""
+        return self.file("edited.plan", self.source.text + more)
+
+    @property
+    def houses(self):
+        return self.source.about(self.item)[1] is not None
+
+    @property
+    def counts(self):
+        if self._counts is None:
+            self._counts = self.json("count", *([] if self.houses else ["--mirror"]))
+        return self._counts
+
+    @property
+    def total(self):
+        return how_many(self.counts)
+
+    @property
+    def lines(self):
+        """All plans or houses in the order of their ranks; None where there are too many."""
+        if self._lines is None and self.total <= LISTED:
+            self._lines = self.ask("enumerate").split("\n")[:-1]
+        return self._lines
+
+    def where(self, question, file=None):
+        return how_many(self.json("count", "--where", question, *([] if self.houses else ["--no-effects"]), file=file))
+
+    def listed_where(self, question):
+        return self.ask("enumerate", "--where", question).split("\n")[:-1]
+
+    def rules(self):
+        return self.source.suiting("rule", self.item)
+
+    def measures(self):
+        return self.source.suiting("measure", self.item)
+
+    def using(self):
+        schema, form = self.source.about(self.item)
+        return form or schema
+
+    def distribution(self, measure, file=None):
+        """[(value, how many)]"""
+        found = self.json("count", "--by", measure, file=file)
+        return [(Fraction(d["value"]), int(d["houses" if self.houses else "plans"])) for d in found["distribution"] if "value" in d]
+
+
+def how_many(counts):
+    return int(counts["houses"] if "houses" in counts else counts["kept"])
+
+
+# ---- of the file
+
+def checks(subject):
+    """`check` ends as it should, and says the same as the exit code does."""
+    errors(subject.path)
+
+
+def loads(subject):
+    """What `check` accepts can be built, and loaded again."""
+    built = os.path.join(subject.folder, "built.tnb")
+    answer("build", subject.path, "-o", built)
+    answer("disasm", built)
+    for library in subject.source.of("library"):
+        options = ["--library", library.name, "--json"]
+        try:
+            want = answer("count", subject.path, *options)
+        except Refused as refused:
+            if refused.limit:
+                continue
+            raise
+        same("count of the module", read_json("count", answer("count", built, *options)), read_json("count", want))
+
+
+def keeps_its_meaning(subject):
+    """`fmt` gives a text of the same meaning, and the same text where it is used twice."""
+    laid_out = formatted(subject.source.text)
+    same("fmt twice", formatted(laid_out), laid_out)
+    os.makedirs(os.path.join(subject.folder, "laid-out"), exist_ok=True)
+    other = subject.file("laid-out/" + os.path.basename(subject.path), laid_out)
+    same_lines("fmt keeps the meaning", meaning(other), meaning(subject.path))
+
+
+def formatted(text):
+    code, out, err = run("fmt", "-", text=text)
+    same("fmt refuses what check accepts", err[:200] if code else "", "")
+    return out
+
+
+def meaning(path):
+    """The listing of a module, without places: lines, columns, and names that are made of them."""
+    listing = answer("disasm", path)
+    listing = re.sub(r" *\([^\s()]*\.plan:\d+(:\d+)?\)|^(module|written by|source | *;).*$", "", listing, flags=re.M)
+    listing = "\n".join(line for line in listing.split("\n") if line.strip())
+    return re.sub(r"(require|prune)@\d+(\.\d+)?", r"\1@", listing)
+
+
+def says_json(subject):
+    """Other answers that are JSON."""
+    code, out, err = run("check", subject.path, "--relations", "--json", "--examples")
+    if code != 2 or "E0904" not in err:                          # a file that has nothing to relate
+        read_json("check --relations", out)
+    code, _, err = run("check", subject.path, "--diagnostics=json")
+    read_json("check --diagnostics=json", err or "[]")
+    same("check of a file that is accepted", code, 0)
+    read_json("test --json", run("test", subject.path, "--json")[1] or "[]")
+
+
+# ---- of a library
+
+def counted_ways(subject):
+    by_length = subject.counts["by_length"]
+    lengths = by_length.values() if isinstance(by_length, dict) else [d["kept"] for d in by_length]
+    same("sum by length = count", sum(map(int, lengths)), subject.total)
+    if subject.lines is not None:
+        same("lines of enumerate = count", len(subject.lines), subject.total)
+        same("lines of enumerate, each once", len(set(subject.lines)), subject.total)
+    if subject.total:
+        completed = subject.json("complete", "...")
+        same("complete ... = count", int(completed["houses" if subject.houses else "plans"]), subject.total)
+
+
+def threads(subject):
+    for count in "124":
+        if subject.lines is not None:
+            same(f"enumerate with {count} threads", subject.ask("enumerate", "--threads", count).split("\n")[:-1], subject.lines)
+        if not subject.houses:
+            same(f"count with {count} threads", subject.json("count", "--mirror", "--threads", count), subject.counts)
+
+
+def by_measures(subject):
+    """Each measure's values and how many plans have which, by `--by`, by `--where` and by `best`."""
+    for measure in subject.measures()[:2] if subject.total else []:
+        values = subject.distribution(measure)
+        if not values:
+            continue
+        same("sum of --by = count", sum(n for _, n in values), subject.total)
+        if subject.lines is None:
+            continue
+        groups = [(v, subject.listed_where(equals(subject, measure, v))) for v, _ in some(values)]
+        for (value, lines), (_, count) in zip(groups, some(values)):
+            same(f"--where {measure} = value as --by says", len(lines), count)
+        best_of(subject, measure, "least", groups, len(groups) == len(values))
+        best_of(subject, measure, "most", groups[::-1], len(groups) == len(values))
+
+
+def some(values):
+    return values if len(values) <= 6 else values[:3] + values[-3:]
+
+
+def equals(subject, measure, value):
+    """`measure = value`, in the unit of its dimension."""
+    found = subject.json("count", "--by", measure)
+    unit = {"": "", "ft": "'", "m": "m", "ft2": "sf", "m2": "m2", "ft3": "cf", "m3": "m3"}[found["unit"]]
+    number = f"{abs(value.numerator)}{unit} / {value.denominator}" if value.denominator != 1 else f"{abs(value.numerator)}{unit}"
+    return f"{measure} = {number}" if value >= 0 else f"{measure} + {number} = 0"
+
+
+def best_of(subject, measure, end, groups, complete):
+    wanted = [(value, line) for value, lines in groups[:2 if not complete else None] for line in lines][:5]
+    found = json_lines("best", subject.ask("best", str(len(wanted)), "--" + end, measure, "--format", "json"))
+    got = [(Fraction(b["value"] if "value" in b else b["values"][0]), b["house"] if "house" in b else subject.lines[int(b["rank"])]) for b in found]
+    same(f"best --{end} are the first of the sorted list", got, wanted)
+
+
+def fronts(subject):
+    """Of pareto, by the values of all plans as `--where` lists them."""
+    measures = subject.measures()
+    if len(measures) < 2 or not subject.total or subject.lines is None:
+        return
+    value_of = [values_of_lines(subject, m) for m in measures[:2]]
+    if None in value_of:
+        return
+    pairs = [(value_of[0][line], -value_of[1][line]) for line in subject.lines]
+    front = sorted({p for p in pairs if not any(q != p and q[0] <= p[0] and q[1] <= p[1] for q in set(pairs))})
+    found = subject.json("pareto", "--least", measures[0], "--most", measures[1])["points"]
+    key = "houses" if subject.houses else "plans"
+    got = [(Fraction(p["values"][0]), -Fraction(p["values"][1]), int(p[key])) for p in found]
+    same("pareto", sorted(got), [(*p, pairs.count(p)) for p in front])
+
+
+def values_of_lines(subject, measure):
+    values = subject.distribution(measure)
+    if len(values) > 8:
+        return None
+    return {line: value for value, _ in values for line in subject.listed_where(equals(subject, measure, value))}
+
+
+def questions_and_denials(subject):
+    for rule in subject.rules()[:2]:
+        yes, no = subject.where(rule), subject.where(f"not ({rule})")
+        same("--where r + --where not r = count", yes + no, subject.total)
+
+
+def written_by_name(subject):
+    """A rule by its name, written out, and as a parameter of another."""
+    for name in subject.rules()[-1:]:
+        rule = subject.source.by_name[name]
+        head = f" using {rule.using}" if rule.using else f" using {subject.using()}"
+        body = rule.body()
+        text = f"\nrule handed-on(handed){head} = handed\nrule written-out{head} = ({body})\n"
+        if rule.using is None and len(subject.source.of("schema")) == 1 and not subject.source.of("form"):
+            text = text.replace(head, "")
+        more = numbers_of(name, body, head if head in text else "")
+        file = subject.edited(text + more)
+        if run("check", "--no-analysis", file)[0]:
+            file = subject.edited(text)
+            more = ""
+        by_name = subject.where(name)
+        same("--where written out = by name", subject.where("written-out", file), by_name)
+        same("--where as a parameter = by name", subject.where(f"handed-on({name})", file), by_name)
+        if more and subject.total:
+            for kind in KINDS:
+                same(f"{kind}, written out = by name", subject.distribution(f"out-{kind}", file), subject.distribution(f"named-{kind}", file))
+            same("matches = --where", sum(n for v, n in subject.distribution("named-matches", file) if v), by_name)
+
+
+KINDS = ("matches", "quantity", "occurrences")
+
+
+def numbers_of(name, body, head):
+    return "".join(f"measure out-{kind}{head} = {kind}({body})\nmeasure named-{kind}{head} = {kind}({name})\n" for kind in KINDS)
+
+
+def ranks(subject):
+    if not subject.total:
+        return
+    for rank in sorted({0, subject.total // 3, subject.total // 2, subject.total - 1}):
+        line = subject.ask("unrank", str(rank)).rstrip("\n")
+        if subject.lines is not None:
+            same("unrank as enumerate", line, subject.lines[rank])
+        if not subject.houses and line:
+            same("rank of unrank", int(subject.ask("rank", line)), rank)
+    same("unrank past the last is refused", run("unrank", subject.path, str(subject.total), *subject.options)[0], 1)
+
+
+def samples(subject):
+    if not subject.total:
+        return
+    number = min(5, subject.total)
+    lines = subject.ask("sample", str(number), "--seed", "7").split("\n")[:-1]
+    same("sample, as many as asked", len(set(lines)), number)
+    for line in lines:
+        explained(subject, "a sample", line)
+    if subject.lines is not None:
+        same("samples are listed, in order", lines, [line for line in subject.lines if line in set(lines)])
+
+
+def explained(subject, what, line):
+    if not line:                                                # the plan without trays
+        return
+    code, out, err = run("explain", subject.path, line, "--json", *subject.options)
+    if code:
+        raise Refused(err[:60], code == 4)
+    same(f"{what} is kept, says explain", read_json("explain", out)["kept"], True)
+
+
+def all_explained(subject):
+    """What is listed is kept, says `prune` (of plans) or `explain` (of the first houses)."""
+    if not subject.lines:
+        return
+    if subject.houses:
+        for line in subject.lines[:3] + subject.lines[-3:]:
+            explained(subject, "a house", line)
+        return
+    plans = subject.file("all.plans", "".join(line + "\n" for line in subject.lines if line))
+    for engine in ("vm", "dfa"):
+        try:
+            kept = answer("prune", subject.path, plans, *subject.options, "--engine", engine)
+        except Refused:
+            continue
+        same(f"prune --engine={engine} keeps what is listed", kept.split("\n")[:-1], [line for line in subject.lines if line])
+
+
+def both_engines(subject):
+    """`match` by both engines over all plans of the library, against `--where`."""
+    if subject.houses or not subject.lines:
+        return
+    lines = [line for line in subject.lines if line]
+    plans = subject.file("match.plans", "".join(line + "\n" for line in lines))
+    for rule in subject.rules()[:2]:
+        listed = set(subject.listed_where(rule))
+        want = "".join("01"[line in listed] for line in lines)
+        for engine in ("vm", "dfa"):
+            try:
+                got = answer("match", subject.path, plans, "--rule", rule, "--format", "bits", "--engine", engine)
+            except Refused:
+                continue
+            same(f"match --engine={engine} as --where", got.replace("\n", ""), want)
+
+
+def saved(subject):
+    """Plans that are written in some format and read again."""
+    if subject.houses or not subject.lines:
+        return
+    for ending in ("json", "csv", "sqlite", "bin"):
+        path = os.path.join(subject.folder, "saved." + ending)
+        shutil.rmtree(path, ignore_errors=True)
+        subject.ask("enumerate", "--format", ending, "-o", path)
+        read = answer("prune", subject.path, path, *subject.options).split("\n")[:-1]
+        same(f"written as {ending} and read", read, subject.lines)
+        os.unlink(path)
+
+
+def mirrored(subject):
+    if subject.houses or subject.lines is None:
+        return
+    rank = {line: i for i, line in enumerate(subject.lines)}
+    half = [line for i, line in enumerate(subject.lines) if rank.get(backwards(line), len(rank)) >= i]
+    same("enumerate --mirror", subject.ask("enumerate", "--mirror").split("\n")[:-1], half)
+    same("count --mirror", int(subject.counts["mirror"]), len(half))
+
+
+def backwards(line):
+    return " | ".join(line.split(" | ")[::-1])
+
+
+def clause_lines(subject):
+    """(kind, line number) of the clauses that stand alone on their lines, or None where the library has others."""
+    block = subject.source.by_name[subject.item.name].text
+    begin = subject.source.text[:subject.source.text.index(block)].count("\n")
+    found = [(m[1], begin + i) for i, line in enumerate(block.split("\n")) if (m := re.match(r"\s+(require|prune)\b", line))]
+    named = [r for r in subject.counts["requirements"] if not r["name"].startswith("total")] + subject.counts["rules"]
+    return found if len(found) == len(named) and not subject.item.older else None
+
+
+def effects(subject):
+    """What each clause does, by files without it, and with it alone."""
+    lines = None if subject.houses else clause_lines(subject)
+    if not lines:
+        return
+    for kind, said, name in (("require", "keeps_out", "requirements"), ("prune", "prunes", "rules")):
+        clauses = [c for c in subject.counts[name] if not c["name"].startswith("total")]
+        for clause, (_, line) in zip(clauses, [l for l in lines if l[0] == kind]):
+            without = without_line(subject, [line])
+            if clause["only"] is not None:
+                same("only by it", int(clause["only"]), count_kept(subject, without) - subject.total)
+            others = [l for k, l in lines if l != line and (kind == "require" or k == "prune")] + (totals(subject) if kind == "require" else [])
+            alone = read_json("count", subject.ask("count", "--json", "--no-effects", file=without_line(subject, others)))
+            same(said, int(clause[said]), effect_alone(subject, kind, alone, others, line))
+
+
+def effect_alone(subject, kind, alone, others, line):
+    if kind == "prune":
+        return int(alone["pruned"])
+    return count_kept(subject, without_line(subject, others + [line])) - int(alone["kept"])
+
+
+def totals(subject):
+    block = subject.source.by_name[subject.item.name].text
+    begin = subject.source.text[:subject.source.text.index(block)].count("\n")
+    return [begin + i for i, line in enumerate(block.split("\n")) if re.match(r"\s+total\b", line)]
+
+
+def without_line(subject, lines):
+    kept = [line for i, line in enumerate(subject.source.text.split("\n")) if i not in lines]
+    return subject.file("without.plan", "\n".join(kept))
+
+
+def count_kept(subject, file):
+    return how_many(read_json("count", subject.ask("count", "--json", "--no-effects", file=file)))
+
+
+def compared(subject):
+    """`diff` of the library with and without its last clause, by the lists of both."""
+    lines = None if subject.houses or subject.lines is None else clause_lines(subject)
+    if not lines:
+        return
+    file = without_line(subject, [lines[-1][1]])
+    if count_kept(subject, file) > LISTED:
+        return
+    new = set(subject.ask("enumerate", file=file).split("\n")[:-1])
+    old = set(subject.lines)
+    found = read_json("diff", answer("diff", subject.path, file, "--json", "--no-measures", *subject.options))["total"]
+    same("diff", [int(found[k]) for k in ("removed", "added", "kept")], [len(old - new), len(new - old), len(old & new)])
+
+
+OF_FILES = [loads, keeps_its_meaning, says_json]
+OF_LIBRARIES = [counted_ways, by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, both_engines, fronts, mirrored,
+                effects, compared, threads, saved]

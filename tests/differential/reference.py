@@ -1,0 +1,623 @@
+"""A brute force of the plan language: the table of docs/plan-language.md word for word, over the derivation tree of a file.
+
+It knows productions by their names. What it does not know (a production that came later, a schema from another, houses) raises Unknown,
+and the file is then not asked of it."""
+import itertools
+import operator
+import re
+from fractions import Fraction
+
+from tree import find_all, words
+
+FOOT, METRE = Fraction(3048, 10), Fraction(1000)          # millimetres
+UNITS = {"ft": FOOT, "m": METRE}
+OPERATORS = {"<": operator.lt, "<=": operator.le, "=": operator.eq, "!=": operator.ne, ">=": operator.ge, ">": operator.gt}
+PLANS = 1200                                              # no more plans than this are gone through
+
+
+class Unknown(Exception):
+    """What the reference has no answer to."""
+
+
+def length(text):
+    metric = re.fullmatch(r"(\d+(?:\.\d+)?)(mm|cm|m)", text)
+    if metric:
+        return Fraction(metric[1]) * {"mm": 1, "cm": 10, "m": 1000}[metric[2]]
+    feet = re.fullmatch(r"""(?:(\d+)')?[ -]*(?:(\d+)(?:[ -](\d+)/(\d+))?")?""", text)
+    if not feet:
+        raise Unknown(text)
+    inches = Fraction(feet[2] or 0) + (Fraction(int(feet[3]), int(feet[4])) if feet[3] else 0)
+    return int(feet[1] or 0) * FOOT + inches * FOOT / 12
+
+
+def constant(text):
+    area = re.fullmatch(r"(\d+(?:\.\d+)?)(sf|ft2|m2|cf|ft3|m3)", text)
+    if area:
+        return Fraction(area[1]) * {"sf": FOOT**2, "ft2": FOOT**2, "m2": METRE**2, "cf": FOOT**3, "ft3": FOOT**3, "m3": METRE**3}[area[2]]
+    if re.fullmatch(r"\d+(\.\d+)?%?", text):
+        return Fraction(text.rstrip("%")) / (100 if text.endswith("%") else 1)
+    return length(text)
+
+
+# ---- schemas: a tray is a tuple with a value for each field; a zone's value is (fill, depth)
+
+class Schema:
+    def __init__(self, item):
+        self.name = item.children[1].text
+        if words(item.child("from")):
+            raise Unknown("a schema from another")
+        body = item.child("body")
+        self.fields = [self._field(f) for f in find_all(body, "field")]
+        self.numbers = {words(n)[1]: [self._case(c) for c in find_all(n, "number_case")] for n in find_all(body, "number_item")}
+        self.forbidden = [f.child("specifier") for f in find_all(body, "forbid")]
+        every = itertools.product(*[values for _, _, values in self.fields])
+        self.trays = [t for t in every if not any(self.meets(s, t, {}) for s in self.forbidden)]
+
+    def _field(self, node):
+        name = words(node.child("field_head"))[0]
+        if node.child("FLAG"):
+            return name, "flag", [False, True]
+        values = find_all(node, "value")
+        if node.child("zone"):
+            return name, "zone", [v for value in values for v in fills(value)]
+        texts = [words(v)[0] for v in values]
+        if texts[0][0].isdigit():
+            return name, "length", [length(t) for t in texts]
+        return name, "choice", texts
+
+    def _case(self, node):
+        return node.child("tray_sum"), node.child("specifier")
+
+    def index(self, name):
+        found = [i for i, (n, _, _) in enumerate(self.fields) if n == name]
+        if not found:
+            raise Unknown(f"field {name}")
+        return found[0]
+
+    def number(self, name, tray):
+        for figure, specifier in self.numbers[name]:
+            if specifier is None or self.meets(specifier, tray, {}):
+                return self.figure(figure, tray)
+        raise Unknown("no case of a number")
+
+    # arithmetic over one tray
+
+    def figure(self, node, tray):
+        known = FIGURES.get(node.name)
+        if known:
+            return known(self, node, tray)
+        if len(node.children) == 1 and node.children[0].production:
+            return self.figure(node.children[0], tray)
+        raise Unknown(node.name)
+
+    def named_figure(self, name, tray):
+        if name in self.numbers:
+            return self.number(name, tray)
+        i = self.index(name)
+        value = tray[i]
+        if self.fields[i][1] not in ("length", "zone"):
+            raise Unknown(name)
+        return value[1] if isinstance(value, tuple) else value
+
+    # specifiers
+
+    def meets(self, specifier, tray, values):
+        return all(self.meets_item(item, tray, values) for item in find_all(specifier, "spec_item"))
+
+    def meets_item(self, item, tray, values):
+        return Item(self, tray, values).holds(item)
+
+
+def fills(value):
+    depths = value.child("depths")
+    name = words(value)[0]
+    return [(name, length(words(d)[0])) for d in find_all(depths, "spec_word")] if depths else [(name, Fraction(0))]
+
+
+def two(how):
+    return lambda schema, node, tray: how(schema.figure(node.children[0], tray), schema.figure(node.children[2], tray))
+
+
+def pair(how):
+    return lambda schema, node, tray: how(schema.figure(node.children[2], tray), schema.figure(node.children[4], tray))
+
+
+FIGURES = {
+    "tray_sum: tray_sum PLUS tray_term": two(operator.add), "tray_sum: tray_sum DASH tray_term": two(operator.sub),
+    "tray_term: tray_term STAR tray_signed": two(operator.mul), "tray_term: tray_term SLASH tray_signed": two(operator.truediv),
+    "tray_signed: DASH tray_signed": lambda schema, node, tray: -schema.figure(node.children[1], tray),
+    "tray_atom: NAME": lambda schema, node, tray: schema.named_figure(node.children[0].text, tray),
+    "tray_atom: NAME NAME": lambda schema, node, tray: schema.named_figure(node.children[0].text, tray),
+    "tray_atom: OPEN tray_sum CLOSE": lambda schema, node, tray: schema.figure(node.children[1], tray),
+    "tray_atom: MIN OPEN tray_sum COMMA tray_sum CLOSE": pair(min), "tray_atom: MAX OPEN tray_sum COMMA tray_sum CLOSE": pair(max),
+    "tray_atom: head_number": lambda schema, node, tray: constant(words(node)[0]),
+}
+
+
+class Item:
+    """One item of `tray(...)`: alternatives of words, which are about one field."""
+
+    def __init__(self, schema, tray, values):
+        self.schema, self.tray, self.values, self.field = schema, tray, values, None
+
+    def holds(self, item):
+        return self.any_of(item.child("spec_alternatives"))
+
+    def any_of(self, alternatives):
+        return any([self.one(find_all(a, "spec_word")) for a in find_all(alternatives, "spec_alternative")])
+
+    def one(self, nodes):
+        """[field] [depth] [not] value, or a comparison"""
+        texts = [" ".join(words(n)) for n in nodes]
+        if texts[0] in [n for n, kind, _ in self.schema.fields if kind != "flag"] + list(self.schema.numbers):
+            self.field, nodes, texts = texts[0], nodes[1:], texts[1:]
+        if texts and texts[0] == "not":
+            return not self.one(nodes[1:])
+        if texts and texts[0] == "depth":
+            nodes, texts = nodes[1:], texts[1:]
+        if not nodes:
+            raise Unknown("a field alone")
+        if nodes[0].name.startswith("spec_word: OPEN"):
+            return self.any_of(nodes[0].child("spec_alternatives"))
+        if texts[0] in OPERATORS and len(texts) == 2:
+            return OPERATORS[texts[0]](self.measured(), constant(texts[1]) if texts[1][0].isdigit() else self.values[texts[1]])
+        return all([self.word(node, text) for node, text in zip(nodes, texts)])
+
+    def measured(self):
+        if self.field in self.schema.numbers:
+            return self.schema.number(self.field, self.tray)
+        value = self.value("length")
+        return value[1] if isinstance(value, tuple) else value
+
+    def value(self, kind):
+        """The tray's value in the field that the item is about: the first of that kind where none is named."""
+        if self.field is None:
+            named = [n for n, k, _ in self.schema.fields if k == kind]
+            if not named:
+                raise Unknown(kind)
+            self.field = named[0]
+        return self.tray[self.schema.index(self.field)]
+
+    def word(self, node, text):
+        if text in self.values:
+            field, value = self.values[text]
+            self.field = field
+            return self.tray[self.schema.index(field)] == value
+        if "DOTS" in node.name:
+            low, high = [constant(t) for t in words(node) if t != ".."]
+            return low <= self.measured() <= high
+        if text[0].isdigit():
+            return self.measured() == length(text)
+        return self.named(text)
+
+    def named(self, text):
+        for i, (name, kind, values) in enumerate(self.schema.fields):
+            if self.field not in (None, name):
+                continue
+            if kind == "flag" and name == text:
+                return self.tray[i]
+            if kind == "choice" and text in values or kind == "zone" and text in [fill for fill, _ in values]:
+                self.field = name
+                return (self.tray[i][0] if kind == "zone" else self.tray[i]) == text
+        raise Unknown(text)
+
+
+# ---- expressions of one plan
+
+class Plan:
+    """M(e, i, j): is the stretch a match? H(e, i, j): is there a match in it? `env` has what parameters and bound names stand for."""
+
+    def __init__(self, file, schema, trays):
+        self.file, self.schema, self.trays, self.n, self.memo, self._back = file, schema, trays, len(trays), {}, None
+
+    def holds(self, e):
+        return self.H(e, Env(), 0, self.n)
+
+    def remember(self, how, which, e, env, i, j):
+        key = (which, id(e), env, i, j)
+        if key not in self.memo:
+            self.memo[key] = how(self, e, env, i, j)
+        return self.memo[key]
+
+    def M(self, e, env, i, j):
+        e = core(e)
+        if e.name not in WHOLE:
+            raise Unknown(e.name)
+        return self.remember(WHOLE[e.name], "M", e, env, i, j)
+
+    def H(self, e, env, i, j):
+        e = core(e)
+        return self.remember(SOMEWHERE.get(e.name, somewhere), "H", e, env, i, j)
+
+    def one(self, e, env, t):
+        return self.M(e, env, t, t + 1)
+
+    @property
+    def back(self):
+        if self._back is None:
+            self._back = Plan(self.file, self.schema, self.trays[::-1])
+        return self._back
+
+    # sums
+
+    def value(self, e, env=None, i=0, j=None):
+        e, env, j = core(e), env or Env(), self.n if j is None else j
+        if e.name not in SUMS:
+            raise Unknown(e.name)
+        return SUMS[e.name](self, e, env, i, j)
+
+    def figures(self, node, of, env, i, j):
+        return sum((self.schema.figure(node, self.trays[t]) for t in range(i, j) if of is None or self.one(of, env, t)), Fraction(0))
+
+
+class Env(tuple):
+    """(name, what it stands for) pairs: an (expression, Env), a number, or a (field, value)."""
+
+    def get(self, name):
+        return next((what for known, what in reversed(self) if known == name), None)
+
+    def with_names(self, pairs):
+        return Env(tuple(self) + tuple(pairs))
+
+    def values(self):
+        return {name: what for name, what in self if isinstance(what, tuple) and isinstance(what[0], str)}
+
+
+PARENTHESES = {"primary: OPEN expression CLOSE", "cond_atom: OPEN condition CLOSE"}
+
+
+def core(node):
+    """Without productions of one symbol and without parentheses."""
+    while True:
+        if node.name in PARENTHESES:
+            node = node.children[1]
+        elif node.production and len(node.children) == 1 and node.children[0].production:
+            node = node.children[0]
+        else:
+            return node
+
+
+def somewhere(plan, e, env, i, j):
+    return any(plan.M(e, env, a, b) for a in range(i, j) for b in range(a + 1, j + 1))
+
+
+def kids(*places):
+    return lambda e: [e.children[p] for p in places]
+
+
+def tray(plan, e, env, i, j):
+    return j == i + 1 and plan.schema.meets(e.child("specifier"), plan.trays[i], env.values())
+
+
+def implies(plan, e, env, i, j):
+    return not plan.H(e.children[0], env, i, j) or plan.M(e.children[2], env, i, j)
+
+
+def neighbour(plan, e, env, i, j):
+    """Cuts from i to j; the pairs say where a part may begin and whether one stood before it."""
+    cuts = {(i, False)}
+    for part in find_all(e.child("parts"), "part"):
+        x = core(part)
+        if x.name == "primary: BEGINNING":
+            cuts = cuts if i == 0 else set()
+        elif x.name == "primary: END":
+            cuts = {c for c in cuts if c[0] == plan.n}
+        else:
+            optional = x.name == "primary: OPTIONAL OPEN expression CLOSE"
+            inner = x.children[2] if optional else x
+            cuts = {(b, True) for a, _ in cuts for b in range(a + 1, j + 1) if plan.M(inner, env, a, b)} | (cuts if optional else set())
+    return (j, True) in cuts
+
+
+def symmetric(plan, e, env, i, j):
+    inner = e.children[1]
+    return plan.M(inner, env, i, j) or plan.back.M(inner, env, plan.n - j, plan.n - i)
+
+
+def quantity(plan, e, env, i, j):
+    return sum(plan.one(e.children[2], env, t) for t in range(i, j))
+
+
+def occurrences(plan, e, env, i, j):
+    return sum(any(plan.M(e.children[2], env, t, b) for b in range(t + 1, j + 1)) for t in range(i, j))
+
+
+def asked(number):
+    return lambda plan, e, env, i, j: meets_condition(e.children[-2], env, number(plan, e, env, i, j))
+
+
+def sum_of(plan, e, env, i, j):
+    of = e.child("expression")
+    return plan.figures(e.child("tray_sum"), of, env, i, j)
+
+
+def many(plan, e, env, i, j):
+    return i < j and all(plan.one(e.children[2], env, t) for t in range(i, j))
+
+
+def distance(plan, e, env, i, j):
+    source, to, by = e.children[3], e.children[6], e.children[9]
+    if not (i < j and plan.M(source, env, i, j)):
+        return False
+    stretches = [(a, b) for a in range(plan.n) for b in range(a + 1, plan.n + 1) if plan.M(to, env, a, b)]
+    return all(plan.M(by, env, *((b, i) if b <= i else (j, a) if j <= a else (i, i))) for a, b in stretches)
+
+
+def every_tray(plan, e, env, i, j):
+    return all(not plan.one(e.children[2], env, t) or plan.one(e.children[4], env, t) for t in range(i, j))
+
+
+def quantified(joined, which):
+    def matches(plan, e, env, i, j):
+        names = words(e.children[1])[::2]
+        field = e.children[3].text
+        values = plan.schema.fields[plan.schema.index(field)][2]
+        bindings = [env.with_names((n, (field, v)) for n, v in zip(names, chosen)) for chosen in itertools.product(values, repeat=len(names))]
+        return joined(getattr(plan, which)(e.children[5], b, i, j) for b in bindings)
+    return matches
+
+
+def compared(plan, e, env, i, j):
+    bound = bound_sides(plan, e, env)
+    if bound:
+        return OPERATORS[words(e.children[1])[0]](*bound)
+    return OPERATORS[words(e.children[1])[0]](plan.value(e.children[0], env, i, j), plan.value(e.children[2], env, i, j))
+
+
+def bound_sides(plan, e, env):
+    """The values of `v < w`, where a side is a name that a quantifier binds."""
+    texts = [words(e.children[k]) for k in (0, 2)]
+    sides = [env.get(t[0]) if len(t) == 1 else None for t in texts]
+    sides = [s if isinstance(s, tuple) and isinstance(s[0], str) else None for s in sides]
+    if not any(sides):
+        return None
+    return [s[1] if s else (length(t[0]) if t[0][0].isdigit() else t[0]) for s, t in zip(sides, texts)]
+
+
+def within(plan, e, env, i, j):
+    low, value, high = [plan.value(e.children[k], env, i, j) for k in (2, 0, 4)]
+    return low <= value <= high
+
+
+def open_plan(plan, e, env, i, j):
+    if (i, j) != (0, plan.n):
+        return False
+    pattern = find_all(e.child("pattern"), "pattern_tray")
+
+    def fits(k, t):
+        if k == len(pattern):
+            return t == plan.n
+        if words(pattern[k]) == ["..."]:
+            return any(fits(k + 1, b) for b in range(t, plan.n + 1))
+        if t == plan.n or words(pattern[k]) != ["?"] and not plan.schema.meets(pattern[k], plan.trays[t], env.values()):
+            return False
+        return fits(k + 1, t + 1)
+    return fits(0, 0)
+
+
+def named(which):
+    def matches(plan, e, env, i, j):
+        name = e.children[0].text
+        given = env.get(name)
+        if given is not None:
+            return getattr(plan, which)(given[0], given[1], i, j)
+        return getattr(plan, which)(plan.file.rule(name)[1], Env(), i, j)
+    return matches
+
+
+def called(which):
+    def matches(plan, e, env, i, j):
+        params, body = plan.file.rule(e.children[0].text)
+        arguments = find_all(e.child("call_args"), "expression")
+        inner = Env((name, plan.file.argument(plan, a, kind, env)) for (name, kind), a in zip(params, arguments))
+        return getattr(plan, which)(body, inner, i, j)
+    return matches
+
+
+def join(which, how, *places):
+    return lambda plan, e, env, i, j: how(getattr(plan, which)(e.children[p], env, i, j) for p in places)
+
+
+def negated(place):
+    return lambda plan, e, env, i, j: not plan.H(e.children[place], env, i, j)
+
+
+P = "primary: "
+WHOLE = {
+    P + "TRAY OPEN specifier CLOSE": tray, P + "ANY": lambda plan, e, env, i, j: j == i + 1,
+    "ors: and OR and": join("M", any, 0, 2), "ors: ors OR and": join("M", any, 0, 2),
+    "ands: not AND not": join("M", all, 0, 2), "ands: ands AND not": join("M", all, 0, 2), "not: NOT not": negated(1),
+    "implied: disjunction IMPLIES disjunction": implies, P + "NEIGHBOUR OPEN parts CLOSE": neighbour, P + "SYMMETRIC primary": symmetric,
+    P + "QUANTITY OPEN expression COMMA condition CLOSE": asked(quantity), P + "OCCURRENCES OPEN expression COMMA condition CLOSE": asked(occurrences),
+    P + "SUM OPEN tray_sum COMMA condition CLOSE": asked(sum_of), P + "SUM OPEN tray_sum OF expression COMMA condition CLOSE": asked(sum_of),
+    P + "MANY OPEN expression CLOSE": many, P + "EVERY OPEN expression COMMA expression CLOSE": every_tray,
+    P + "DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE": distance,
+    P + "SOME names IN NAME OPEN expression CLOSE": quantified(any, "M"), P + "EVERY names IN NAME OPEN expression CLOSE": quantified(all, "M"),
+    "comparable: additive comparison additive": compared, "compared: additive IN additive DOTS additive": within,
+    P + "PLAN OPEN_BRACKET pattern CLOSE_BRACKET": open_plan, P + "NAME": named("M"), P + "NAME OPEN call_args CLOSE": called("M"),
+}
+SOMEWHERE = {
+    "ors: and OR and": join("H", any, 0, 2), "ors: ors OR and": join("H", any, 0, 2),
+    "ands: not AND not": join("H", all, 0, 2), "ands: ands AND not": join("H", all, 0, 2),
+    "implied: disjunction IMPLIES disjunction": lambda plan, e, env, i, j: not plan.H(e.children[0], env, i, j) or plan.H(e.children[2], env, i, j),
+    P + "SOME names IN NAME OPEN expression CLOSE": quantified(any, "H"), P + "EVERY names IN NAME OPEN expression CLOSE": quantified(all, "H"),
+    P + "NAME": named("H"), P + "NAME OPEN call_args CLOSE": called("H"),
+}
+for same in ("not: NOT not", P + "QUANTITY OPEN expression COMMA condition CLOSE", P + "OCCURRENCES OPEN expression COMMA condition CLOSE",
+             P + "SUM OPEN tray_sum COMMA condition CLOSE", P + "SUM OPEN tray_sum OF expression COMMA condition CLOSE",
+             P + "EVERY OPEN expression COMMA expression CLOSE", "comparable: additive comparison additive",
+             "compared: additive IN additive DOTS additive"):
+    SOMEWHERE[same] = WHOLE[same]
+WHOLE_PLAN = P + "PLAN OPEN_BRACKET pattern CLOSE_BRACKET"
+SOMEWHERE[WHOLE_PLAN] = lambda plan, e, env, i, j: (i, j) == (0, plan.n) and plan.M(e, env, i, j)
+
+
+# ---- sums
+
+def arithmetic(how, left=0, right=2):
+    return lambda plan, e, env, i, j: how(plan.value(e.children[left], env, i, j), plan.value(e.children[right], env, i, j))
+
+
+def named_sum(plan, e, env, i, j):
+    name = e.children[0].text
+    given = env.get(name)
+    if isinstance(given, Fraction):
+        return given
+    return plan.value(plan.file.sum(name), Env(), i, j)
+
+
+def over(plan, e, env, i, j):
+    divisor = plan.value(e.children[2], env, i, j)
+    if divisor == 0:
+        raise Unknown("division by zero")
+    return plan.value(e.children[0], env, i, j) / divisor
+
+
+SUMS = {
+    "additive: additive PLUS term": arithmetic(operator.add), "additive: additive DASH term": arithmetic(operator.sub),
+    "term: term STAR signed": arithmetic(operator.mul), "term: term SLASH signed": over,
+    "signed: DASH signed": lambda plan, e, env, i, j: -plan.value(e.children[1], env, i, j),
+    P + "TRAYS": lambda plan, e, env, i, j: Fraction(j - i), P + "NAME": named_sum,
+    P + "MATCHES OPEN expression CLOSE": lambda plan, e, env, i, j: Fraction(plan.H(e.children[2], env, 0, plan.n)),
+    P + "QUANTITY OPEN expression CLOSE": lambda plan, e, env, i, j: Fraction(quantity(plan, e, env, i, j)),
+    P + "OCCURRENCES OPEN expression CLOSE": lambda plan, e, env, i, j: Fraction(occurrences(plan, e, env, i, j)),
+    P + "SUM OPEN tray_sum CLOSE": sum_of, P + "SUM OPEN tray_sum OF expression CLOSE": sum_of,
+}
+for token in ("NUMBER", "LENGTH", "AREA", "DECIMAL"):
+    SUMS["head_number: " + token] = lambda plan, e, env, i, j: constant(words(e)[0])
+
+
+# ---- conditions on a number
+
+def meets_condition(node, env, n):
+    c = core(node)
+    if c.name in CONDITIONS:
+        return CONDITIONS[c.name](c, env, n)
+    raise Unknown(c.name)
+
+
+def operand(node, env, n):
+    texts = words(node)
+    if texts[0][0].isdigit():
+        return constant(texts[0])
+    if texts[0] == "-":
+        return -constant(texts[1])
+    given = env.get(texts[0])
+    return n if given is None else given
+
+
+def condition_range(c, env, n):
+    ends = [constant(t) for t in words(c.child("range")) if t[0].isdigit()]
+    if "-" in words(c.child("range")):
+        raise Unknown("a negative range")
+    return ends[0] <= operand(c.children[0], env, n) <= ends[-1]
+
+
+def remainder(c, env, n):
+    value, by, to = operand(c.children[0], env, n), operand(c.children[2], env, n), operand(c.children[4], env, n)
+    return OPERATORS[words(c.children[3])[0]](value % by, to)
+
+
+CONDITIONS = {
+    "cond_ors: cond_and OR cond_and": lambda c, env, n: meets_condition(c.children[0], env, n) or meets_condition(c.children[2], env, n),
+    "cond_ands: cond_not AND cond_not": lambda c, env, n: meets_condition(c.children[0], env, n) and meets_condition(c.children[2], env, n),
+    "cond_not: NOT cond_not": lambda c, env, n: not meets_condition(c.children[1], env, n),
+    "compare: operand comparison operand":
+        lambda c, env, n: OPERATORS[words(c.children[1])[0]](operand(c.children[0], env, n), operand(c.children[2], env, n)),
+    "cond_atom: operand IN range": condition_range, "cond_atom: operand MOD constant comparison operand": remainder,
+}
+CONDITIONS["cond_ors: cond_ors OR cond_and"] = CONDITIONS["cond_ors: cond_and OR cond_and"]
+CONDITIONS["cond_ands: cond_ands AND cond_not"] = CONDITIONS["cond_ands: cond_not AND cond_not"]
+
+
+# ---- a file
+
+class File:
+    """Of one schema, without houses."""
+
+    def __init__(self, root):
+        self.items = find_all(root, "item")
+        first = [i.production.symbols[0] for i in self.items]
+        if first.count("schema") != 1 or "form_head" in first or "use" in first:
+            raise Unknown("several schemas, houses or imports")
+        self.schema = Schema(self.items[first.index("schema")])
+        self.rules, self.sums, self.libraries = {}, {}, {}
+        for item in self.items:
+            self._declare(item)
+
+    def _declare(self, item):
+        kind = item.production.symbols[0]
+        if kind == "rule_head":
+            head = item.child("rule_head")
+            self.rules[head.child("NAME").text] = (words(head.child("params"))[1:-1:2], item.child("expression"))
+        elif kind in ("measure", "let"):
+            self.sums[item.child("NAME").text] = item.child("additive") or item.child("expression")
+        elif kind == "library_head":
+            self.libraries[item.child("library_head").child("NAME").text] = item
+
+    def rule(self, name):
+        if name not in self.rules:
+            raise Unknown(name)
+        params, body = self.rules[name]
+        return [(p, None) for p in params], body
+
+    def sum(self, name):
+        if name not in self.sums:
+            raise Unknown(name)
+        return self.sums[name]
+
+    def argument(self, plan, node, kind, env):
+        """A number, a value of a field, or an expression: what it is written as decides."""
+        inner = core(node)
+        if inner.name.startswith("head_number") or words(inner) and words(inner)[0] in self.sums:
+            texts = words(inner)
+            if len(texts) == 1 and re.fullmatch(r"\d+", texts[0]):
+                return Fraction(texts[0])
+            raise Unknown("a value for a parameter")
+        if inner.name == "primary: NAME" and inner.children[0].text not in self.rules and env.get(inner.children[0].text) is None:
+            raise Unknown("a value for a parameter")
+        return node, env
+
+    def clauses(self, name):
+        """Those of the library that it is made from first."""
+        item = self.libraries[name]
+        texts = words(item.child("library_head"))
+        older = texts[texts.index("from") + 1] if "from" in texts else None
+        return (self.clauses(older) if older else []) + find_all(item.child("clauses"), "clause")
+
+    def lengths(self, name):
+        ranges = [c for c in self.clauses(name) if c.production.symbols[0] == "trays_word"]
+        ends = [int(t) for t in words(ranges[-1].child("range")) if t != ".."]
+        return range(ends[0], ends[-1] + 1)
+
+    def plans(self, name):
+        lengths, each = self.lengths(name), len(self.schema.trays)
+        if sum(each**n for n in lengths) > PLANS:
+            raise Unknown("too many plans")
+        for n in lengths:
+            for trays in itertools.product(self.schema.trays, repeat=n):
+                yield Plan(self, self.schema, trays)
+
+    def kept(self, name):
+        clauses = self.clauses(name)
+        return [p for p in self.plans(name) if all(self.keeps(p, c) for c in clauses)]
+
+    def keeps(self, plan, clause):
+        kind = clause.production.symbols[0]
+        if kind == "require_word":
+            return all(plan.holds(r.children[0]) for r in find_all(clause, "require"))
+        if kind == "prune_word":
+            return not any(plan.holds(p.children[0]) for p in find_all(clause, "prune"))
+        if kind == "total_word":
+            return self.total(plan, clause)
+        return True
+
+    def total(self, plan, clause):
+        named_field = words(clause.child("total_field"))
+        lengths = [n for n, kind, _ in self.schema.fields if kind == "length"]
+        name = named_field[0] if named_field else lengths[0]
+        value = sum((self.schema.named_figure(name, t) for t in plan.trays), Fraction(0))
+        if clause.child("range"):
+            ends = [constant(t) for t in words(clause.child("range")) if t != ".."]
+            return ends[0] <= value <= ends[-1]
+        return OPERATORS[words(clause.child("comparison"))[0]](value, constant(words(clause.child("constant"))[0]))
