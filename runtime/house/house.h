@@ -84,6 +84,10 @@ tn_status tn_house_stand_again(const tn_house_form *form, const tn_tray *trays, 
 /* Nothing but the section is known of such a house: it has no trays, cells and faces. */
 void tn_house_take_section(const tn_house_form *form, const uint32_t *shapes, tn_house *house);
 
+/* The x of the plane at the left of a tray, or, of `length`, at the right of the last one: it is there also if no cell
+ * stands at it. */
+int64_t tn_house_plane_x(const tn_house *house, size_t tray);
+
 /* The lowest cell of a zone (a field) of a tray that its section has and a line `no` takes away, at x = y = 0; false
  * where all are there. */
 bool tn_house_ends(const tn_house *house, uint32_t tray, uint32_t zone, tn_cell *end);

@@ -81,10 +81,22 @@ static tn_status add_tray(tn_house *house, uint32_t tray, int64_t x0, int64_t x1
     return TN_OK;
 }
 
+static int64_t width_of(const tn_house *house, size_t tray)
+{
+    return tn_tray_value_record(house->form->schema, house->trays[tray], house->form->width)->length;
+}
+
+int64_t tn_house_plane_x(const tn_house *house, size_t tray)
+{
+    int64_t x = 0;
+    for (size_t i = 0; i < tray; i++)
+        x += width_of(house, i);
+    return x;
+}
+
 bool tn_house_ends(const tn_house *house, uint32_t tray, uint32_t zone, tn_cell *end)
 {
-    int64_t width = tn_tray_value_record(house->form->schema, house->trays[tray], house->form->width)->length;
-    int64_t depth = depth_of(house, tray, zone);
+    int64_t width = width_of(house, tray), depth = depth_of(house, tray, zone);
     *end = (tn_cell){.tray = tray, .zone = zone, .at = {0, width, 0, depth}, .function = TN_NO_FUNCTION};
     for (uint32_t i = house->tray_first[tray]; i < house->tray_first[tray + 1]; i++)
         end->storey += house->cells[i].zone == zone;
@@ -95,7 +107,7 @@ static tn_status add_cells(tn_house *house, tn_error *error)
 {
     int64_t x = 0;
     for (size_t i = 0; i < house->length; i++) {
-        int64_t width = tn_tray_value_record(house->form->schema, house->trays[i], house->form->width)->length;
+        int64_t width = width_of(house, i);
         tn_status status = add_tray(house, (uint32_t)i, x, x + width, error);
         if (status != TN_OK)
             return status;

@@ -319,10 +319,9 @@ static void begin_plane(const tn_facing *f, uint32_t place, tn_plane_left *plane
 {
     const tn_house *house = f->house;
     uint32_t tray = place > 0 ? place - 1 : 0;
-    const tn_cell *cells = &house->cells[house->tray_first[tray]];
-    plane->cells = cells;
+    plane->cells = house->cells + house->tray_first[tray];
     plane->stretch = (tn_choice_stretch){0};
-    plane->stretch.count = choices_at(house, place > 0 ? cells->at.x1 : cells->at.x0);
+    plane->stretch.count = choices_at(house, tn_house_plane_x(house, place));
 }
 
 static void clear_tray(tn_facing *f)
