@@ -88,6 +88,8 @@ bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *sett
     if (status == TN_OK)
         status = tn_library_new(n->schema, n->record->plans, &settings->plans, &n->opened, &error);
     n->plans = n->opened;
+    if (status == TN_OK)
+        status = tn_houses_check_walls(&n->form, n->record, n->plans, &error);
     if (status != TN_OK)
         tn_job_fail(job, &error);
     return status == TN_OK;

@@ -28,6 +28,11 @@ typedef struct tn_houses tn_houses;
 tn_status tn_houses_new(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
                         uint32_t max_states, tn_houses **houses, tn_error *error);
 
+/* TN_INVALID (E1610) if two trays that are side by side in a plan of the library cannot stand so in the form. Ask this
+ * first: of a library that passes, every plan stands. */
+tn_status tn_houses_check_walls(const tn_house_form *form, const tn_house_library_record *library,
+                                const tn_library *plans, tn_error *error);
+
 /* What is found out by measures: how the houses are spread over the values of the first, the least values of so many
  * houses (measure by measure in their order), or the values that no house betters in one measure without losing in
  * another; or what completes an open plan, and the best that the first measure, if there is one, still can be. */
