@@ -3,6 +3,7 @@
 
 #include "driver/house/survey_parts.h"
 #include "runtime/house/count/houses.h"
+#include "runtime/plan/library/library.h"
 #include "runtime/house/solids.h"
 
 static void warn_functions(const tn_survey *s)

@@ -1,5 +1,5 @@
 /* LDraw's common colours, as its colour table gives them (LDConfig.ldr), to the nearest of 256 steps. */
-#include "runtime/place/colours.h"
+#include "driver/place/colours.h"
 
 #include <stddef.h>
 

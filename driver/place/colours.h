@@ -1,6 +1,6 @@
 /* The colours of LDraw's numbers. */
-#ifndef TARTAN_PLACE_COLOURS_H
-#define TARTAN_PLACE_COLOURS_H
+#ifndef TARTAN_DRIVER_PLACE_COLOURS_H
+#define TARTAN_DRIVER_PLACE_COLOURS_H
 
 #include <stdint.h>
 
