@@ -3,10 +3,10 @@
 #include <stdlib.h>
 
 #include "driver/place/bodies.h"
+#include "driver/place/colours.h"
 #include "driver/place/groups.h"
 #include "driver/place/shape.h"
 #include "runtime/geometry/union/union.h"
-#include "driver/place/colours.h"
 
 /* The bodies as cells of a union, with their parts' groups. */
 static tn_status list_cells(const tn_module *module, const tn_placed_model *model, const tn_bodies *bodies,

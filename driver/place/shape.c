@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "driver/place/bodies.h"
-#include "driver/place/groups.h"
 #include "driver/place/colours.h"
+#include "driver/place/groups.h"
 
 enum { STUD_SIDES = 8, BOX_FACES = 6 };
 static const double ldu = 0.4, stud_radius = 6, stud_height = 4; /* millimetres; LDU */
