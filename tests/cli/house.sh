@@ -27,6 +27,8 @@ golden json_twice "tartan house cottage '{\"house\": \"\", \"house\": \"\"}'"
 golden no_form "tartan house sheds.plan ''"
 golden no_format "tartan house cottage '' -o house.stl"
 golden too_near "tartan house near.plan \"9' open:9' | 9' open:9'6\\\" ; - ; hall | hall\""
+printf "schema s { width = 4'  zone body = room(6') }\nlibrary none using s { trays 0 }\nform f of s { storey low 8' wall 8\" partition 8\" deck 8\" roof 8\" }\nlibrary h from none in f { }\n" >"$scratch/none.plan"
+golden no_cell "tartan house $scratch/none.plan '#0' --library h -o $scratch/none.dxf"
 
 bedrooms="14' room:14' none | 14' room:14' none ; 1 gable(9:12) 1 flat ; bedroom | bedroom ; wall wall wall wall wall wall"
 golden dropped "tartan explain cottage \"$bedrooms\""

@@ -393,6 +393,7 @@ bool tn_sums_cost(const tn_check *check, const tn_ast_expr *sum); /* is it `sum(
 void tn_check_cost(tn_check *check, tn_ast_expr *sum);
 bool tn_means_cost(const tn_check *check, const char *word); /* of houses: `cost` or the like, and there is a form */
 void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum); /* what else it counts is of plans */
+void tn_check_compared_sum(tn_check *check, const tn_checked_sum *sum); /* the same of a comparison's */
 /* A rule that is named: is it about houses of the same form as what names it? */
 void tn_check_same_form(tn_check *check, const tn_ast_expr *name);
 /* The form called so, where it is in scope; NULL: there is none. */

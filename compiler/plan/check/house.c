@@ -248,11 +248,16 @@ static bool asks_house(const tn_ast_expr *expr)
     return asks;
 }
 
+static bool term_asks_house(const tn_checked_term *term)
+{
+    return term->rule ? term->rule->form != NULL : asks_house(term->part);
+}
+
 void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum)
 {
     for (size_t i = 0; i < sum->count; i++) {
         const tn_checked_term *term = &sum->terms[i];
-        if (term->kind >= TN_TERM_CELLS || !(term->rule ? term->rule->form != NULL : asks_house(term->part)))
+        if (term->kind >= TN_TERM_CELLS || !term_asks_house(term))
             continue;
         tn_diagnostic *d =
             tn_report(check->diagnostics, E_HOUSE_CLAUSE, term->span,
@@ -261,6 +266,31 @@ void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum)
             check->diagnostics, d,
             "of houses write `quantity(cell(...))`, `quantity(room(...))`, `sum(area of cell(...))` or `sum(cost)`");
     }
+}
+
+/* `matches` is no number of trays: a comparison asks for it by itself. */
+static void check_compared_trays(tn_check *check, const tn_checked_sum *sum)
+{
+    for (size_t i = 0; i < sum->count; i++) {
+        const tn_checked_term *term = &sum->terms[i];
+        if (term->kind == TN_TERM_MATCHES || !term_asks_house(term))
+            continue;
+        tn_diagnostic *d = tn_report(check->diagnostics, E_HOUSE_CLAUSE, term->span,
+                                     "this is about houses, and the trays that it is so of cannot be counted in a "
+                                     "comparison of sums");
+        tn_help(check->diagnostics, d,
+                "write the condition inside, as in `sum(FIELD of cell(...), n >= 4m)` or `occurrences(..., n > 1)`; "
+                "cells and rooms are counted by `quantity(cell(...))` and `quantity(room(...))`");
+        return;
+    }
+}
+
+void tn_check_compared_sum(tn_check *check, const tn_checked_sum *sum)
+{
+    if (sum->houses)
+        tn_check_house_sum(check, sum);
+    else
+        check_compared_trays(check, sum);
 }
 
 /* ---- records */

@@ -383,10 +383,9 @@ void tn_check_comparison(tn_check *check, tn_ast_expr *expr)
     expr->sum = low;
     expr->high = high;
     expr->whole = low->whole || low->houses;
-    if (low->houses)
-        tn_check_house_sum(check, low);
-    if (range && high->houses)
-        tn_check_house_sum(check, high);
+    tn_check_compared_sum(check, low);
+    if (range)
+        tn_check_compared_sum(check, high);
 }
 
 void tn_check_plan_measure(tn_check *check, tn_checked_rule *measure)

@@ -189,9 +189,14 @@ static void measure(tn_prospect *prospect)
     }
 }
 
-static tn_status missed(const tn_aspect *aspect, const tn_prospect *prospect, tn_error *error)
+static tn_status missed(const tn_house *house, const tn_aspect *aspect, const tn_prospect *prospect, tn_error *error)
 {
     tn_status status;
+    if (house->cell_count == 0) {
+        status = tn_fail(error, TN_INVALID, E_BAD_HOUSE, "the house has no cell, so there is nothing to draw");
+        tn_error_help(error, "models and lists of it are written, though they are empty");
+        return status;
+    }
     if (aspect->kind == TN_ASPECT_PLAN) {
         status = tn_fail(error, TN_INVALID, E_USAGE, "the drawing `%s` would be empty: the house has no room there",
                          prospect->title);
@@ -273,7 +278,7 @@ tn_status tn_prospect_take(const tn_house *house, const tn_solids *solids, const
     if (status == TN_OK)
         status = cut(house, aspect, &blocks, error);
     if (status == TN_OK && misses(house, aspect, &blocks))
-        status = missed(aspect, prospect, error);
+        status = missed(house, aspect, prospect, error);
     if (status == TN_OK) {
         group_blocks(house, grouping, &blocks);
         status = tn_blocks_mesh(&blocks, TN_GROUP_COUNT + (grouping ? grouping->more : 0), &prospect->mesh, error);
