@@ -157,6 +157,16 @@ def counted_ways(subject):
         same("complete ... = count", int(completed["houses" if subject.houses else "plans"]), subject.total)
 
 
+def by_length(subject):
+    """Plans or houses by their number of trays as a measure, and as `count` says it."""
+    if not subject.total:
+        return
+    file = subject.edited(f"\nmeasure number-of-trays using {subject.using()} = trays\n")
+    by_length = subject.counts["by_length"]
+    counts = by_length.items() if isinstance(by_length, dict) else [(d["length"], d["kept"]) for d in by_length]
+    same("--by trays = by length", subject.distribution("number-of-trays", file), sorted((Fraction(t), int(n)) for t, n in counts if int(n)))
+
+
 def threads(subject):
     for count in "124":
         if subject.lines is not None:
@@ -412,6 +422,7 @@ def compared(subject):
     same("diff", [int(found[k]) for k in ("removed", "added", "kept")], [len(old - new), len(new - old), len(old & new)])
 
 
+QUICK = [counted_ways, by_length]              # asked of every library; of those that follow some are chosen
 OF_FILES = [loads, keeps_its_meaning, says_json]
-OF_LIBRARIES = [counted_ways, by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, both_engines, fronts, mirrored,
+OF_LIBRARIES = [by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, both_engines, fronts, mirrored,
                 effects, compared, threads, saved]
