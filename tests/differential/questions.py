@@ -6,6 +6,9 @@ import re
 import shutil
 from fractions import Fraction
 
+from c_interface import c_interface
+from exports import prolog, regex
+from house_files import bills, solids, swings
 from mend import errors
 from program import Refused, answer, json_lines, read_json, run, same, same_lines
 from source import read_source
@@ -422,7 +425,22 @@ def compared(subject):
     same("diff", [int(found[k]) for k in ("removed", "added", "kept")], [len(old - new), len(new - old), len(old & new)])
 
 
+def limits(subject):
+    """What passes a limit ends with 4 and leaves no file, else the answer is the same."""
+    if subject.lines is None:
+        return
+    path = os.path.join(subject.folder, "limited.txt")
+    for limit in (["--max-states", "3"], ["--memory-limit", "1"]):
+        code = run("enumerate", subject.path, "-o", path, *limit, *subject.options)[0]
+        left = os.path.exists(path)
+        same(f"{limit[0]} ends with 0, or with 4 and no file", (code, left) in ((0, True), (4, False)), True)
+        if left:
+            with open(path, encoding="utf-8") as file:
+                same(f"{limit[0]} alters no answer", file.read().split("\n")[:-1], subject.lines)
+            os.unlink(path)
+
+
 QUICK = [counted_ways, by_length]              # asked of every library; of those that follow some are chosen
 OF_FILES = [loads, keeps_its_meaning, says_json]
 OF_LIBRARIES = [by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, both_engines, fronts, mirrored,
-                effects, compared, threads, saved]
+                effects, compared, threads, saved, limits, prolog, regex, c_interface, solids, swings, bills]
