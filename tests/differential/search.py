@@ -29,6 +29,7 @@ from source import read_source
 from tree import Text
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+REFERENCES = [plans_by_reference, houses_by_reference]
 SHARE = .3               # of the questions are asked of each random file: more files find more than more questions do
 SHOWN = 1                # file of each difference is made smaller, which takes longer than to find more
 LATE = {"E1610"}         # of a plan that does not stand up in its form, which is known where plans are gone through: not by `check`
@@ -47,13 +48,19 @@ class Result:
 
 def asked_of(path, chosen=None):
     """(question, library or None) for all questions about a file; with `chosen`, a random number generator, for some of them."""
+    if is_refused(path):
+        return [(checks, None)]
     libraries = [item.name for item in read_source(path).of("library")]
-    first = [(q, name) for q in QUICK for name in libraries]
+    first = [(q, name) for q in QUICK + REFERENCES for name in libraries]
     more = [(q, None) for q in OF_FILES] + [(q, name) for name in libraries for q in OF_LIBRARIES]
-    if chosen is None:
-        return first + more
-    references = [(q, name) for name in libraries for q in (plans_by_reference, houses_by_reference)]
-    return first + references + [a for a in more if chosen.random() < SHARE]
+    return first + [a for a in more if chosen is None or chosen.random() < SHARE]
+
+
+def is_refused(path):
+    try:
+        return bool(errors(path))
+    except Wrong:                                # as `checks` says, too
+        return True
 
 
 def ask(question, subject):
