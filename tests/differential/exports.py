@@ -4,7 +4,7 @@ import re
 import shutil
 import subprocess
 
-from program import Wrong, answer, same
+from program import Refused, Wrong, answer, same
 
 PLANS = 150              # no more of a library's plans are asked of a Prolog program
 WORDS = 300              # and no more texts of a regular expression
@@ -22,7 +22,12 @@ def prolog(subject):
     """Rules and the library as a Prolog program, where SWI-Prolog is installed."""
     if subject.houses or not subject.lines or not shutil.which("swipl"):
         return
-    program = answer("export", subject.path, "--prolog", *subject.options)
+    try:
+        program = answer("export", subject.path, "--prolog", *subject.options)
+    except Refused as refused:
+        if str(refused) == "E0607":              # no rule of the file can be said in Prolog
+            return
+        raise
     lines = [line for line in subject.lines if line][:PLANS]
     rules = [rule for rule in subject.rules() if f"rule_part({atom(rule)}," in program]
     kept = f"trays_of({atom(subject.item.name)}," in program

@@ -120,7 +120,7 @@ WEIGHTS = {
     "tray_atom: OPEN tray_sum CLOSE": .3, "tray_atom: head_number": .4, "cond_not: NOT cond_not": .2, "condition: cond_ors": .2,
     "cond_and: cond_ands": .3, "cond_atom: OPEN condition CLOSE": .2, "cond_atom: compare": 3,
     "constant: DASH NUMBER": .15, "constant: DASH LENGTH": .05, "constant: DASH AREA": .2, "constant: DASH DECIMAL": .2,
-    "range: constant": .3, "part: ELLIPSIS": MISTAKE, "item: use STRING": .5, "pattern_tray: spec_items": 2,
+    "range: constant": .3, "part: ELLIPSIS": MISTAKE, "item: use STRING": 2, "pattern_tray: spec_items": 2,
     "any_case: todo_word case": .3, "literal_word: ABSENT": .2, "literal_word: OF_DEPTH": MISTAKE, "value: ELLIPSIS": MISTAKE,
     "specifier: %empty": .05, "plan: OPEN_BRACKET HOUSE CLOSE_BRACKET": MISTAKE, "clause: require_word requires": 3, "clause: prune_word prunes": 3,
     "clause: allow_word names": .2, "clause: trays_word range": MISTAKE, "clause_name: CLAUSE_NAME": .5,
@@ -206,6 +206,8 @@ def quantified(maker, place):
 
 
 def call(maker, place):
+    if not place.rules(True):
+        return {}
     name = maker.random.choice(place.rules(True))
     params = tuple(kind for _, kind in place.scope.rules[name].params)
     return {0: place.but(want="exact", text=name), 2: place.but(argument=params)}
@@ -360,8 +362,8 @@ def small_question(maker, depth, place):
     """Where no depth is left: mostly a tray, which says more than `any` and is as short."""
     if depth > 0 or place.sort not in QUESTIONS or maker.chance(.3):
         return None
-    leaves = [leaf for leaf in HOUSE_LEAVES if AVAILABLE[leaf](place)]
-    if not leaves or place.counts != "houses" and maker.chance(.2):
+    leaves = [leaf for leaf in HOUSE_LEAVES + WALKS if AVAILABLE[leaf](place)]
+    if not leaves or place.counts != "houses" and maker.chance(.15):
         leaves = ["primary: TRAY OPEN specifier CLOSE"]
     return maker.make_of(maker.random.choice(leaves), 1, place)
 
@@ -496,7 +498,7 @@ def value(maker, place, kind, text):
 
 def clauses(maker, depth, place):
     """Every library of plans says first how many trays its plans have."""
-    counts = [0, 0, 0, 1] if place.item == "plans of houses" else [0, 1, 1, 1, 1, 2] if place.form else [0, 1, 1, 2]
+    counts = [0, 0, 0, 1] if place.item == "plans of houses" else [0, 1, 1, 1, 1, 1, 1, 2] if place.form else [0, 1, 1, 2]
     made = [maker.make("clause", depth, place) for _ in range(maker.random.choice(counts))]
     if not place.form and place.text != "from":
         made.insert(0, maker.make_of("clause: trays_word range", 3, place))
@@ -611,6 +613,7 @@ HOUSE_LEAVES = ["primary: " + leaf for leaf in (
     "CELL OPEN specifier CLOSE", "ROOM OPEN specifier CLOSE", "SECTION OPEN section_items CLOSE", "TOUCH OPEN cells COMMA cells by_kinds CLOSE",
     "APART OPEN cells COMMA FROM cells walk_by CLOSE", "APART OPEN cells COMMA FROM cells COMMA THROUGH cells walk_by CLOSE",
     "APART OPEN cells COMMA FROM cells COMMA BY or_names COMMA THROUGH cells CLOSE")]
+WALKS = ["primary: APART OPEN cells COMMA FROM cells walk_by CLOSE"] * 3     # what is hardest to count: asked more often
 for leaf in HOUSE_LEAVES:
     AVAILABLE[leaf] = lambda place: place.form and place.counts != "plans"
     SORTS[leaf] = QUESTIONS
@@ -693,6 +696,6 @@ def make_file(maker):
     if maker.chance(.3):
         library(maker, items, "library_head: library NAME doc using FROM NAME", 2, first.but(item="library"))
     add_tests(maker, items, first)
-    if maker.chance(.1):
+    if maker.chance(.15):
         items.append(maker.make("item", 3, first))        # whatever the grammar has
     return listed(maker.grammar, "items", items)
