@@ -55,9 +55,9 @@ def listed(house, subject):
 
 
 def parts(line):
-    """The reference leaves a part empty where the program writes `-`, and writes lengths in metres, feet without `-`."""
-    line = re.sub(r"\b(\d+)mm", lambda length: f"{int(length[1]) / 1000:g}m", line)
-    return [[words.strip().replace("'-", "'") or "-" for words in part.split("|")] for part in line.split(";")]
+    """The reference leaves a part empty where the program writes `-`, and writes lengths in metres, and feet and eaves without `-`."""
+    line = re.sub(r"(?<!\d)(\d+)mm", lambda length: f"{int(length[1]) / 1000:g}m", line)
+    return [[words.strip().replace("'-", "'").replace("eaves-", "eaves") or "-" for words in part.split("|")] for part in line.split(";")]
 
 
 def without_measures(source):

@@ -1,6 +1,6 @@
 """Files about houses: a schema with zones, a library of plans, a form, libraries and measures of houses."""
 import plans
-from plans import AVAILABLE, CONTEXTS, NAMED, QUESTIONS, SORTS, WEIGHTS, Place, add, add_rules, library, pick
+from plans import AVAILABLE, CONTEXTS, NAMED, QUESTIONS, SORTS, WEIGHTS, Place, add, add_rules, library, name, pick
 from scope import Form, Scope, form_clause
 from tree import Node, listed, wrapped
 
@@ -14,15 +14,15 @@ LENGTHS = {
 
 WEIGHTS.update({
     "size: NUMBER": plans.MISTAKE, "shape: NAME OPEN arguments CLOSE": 2, "cell_not: CELL OPEN specifier CLOSE": 5, "cell_not: NOT cell_not": .2,
-    "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .08, "cell_and: cell_ands": .1, "sections: section_ors": 1, "section_and: section_ands": 1, "material_where: WHERE sections": 2, "tile_part: stretch_word NAME doc reaches": 4,
-    "section_not: SECTION OPEN section_items CLOSE": 4, "section_not: OPEN sections CLOSE": .3, "section_not: NOT section_not": .5, "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": 2,
-    "by_kinds: BY or_names": .4, "walk_by: COMMA BY or_names": .3, "outside_side: %empty": 2, "relation: BESIDE": 2,
+    "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .08, "cell_and: cell_ands": .1, "sections: section_ors": 1, "section_and: section_ands": 2, "section_ands: section_ands AND section_not": 2, "material_where: WHERE sections": 2, "tile_part: stretch_word NAME doc reaches": 2,
+    "section_not: SECTION OPEN section_items CLOSE": 4, "opening_part: PASSAGE": 8, "opening_part: SILL size": .3, "opening_parts: opening_parts opening_part": 2, "section_not: OPEN sections CLOSE": 1, "section_not: NOT section_not": .5, "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": 4, "primary: TOUCH OPEN cells COMMA cells by_kinds CLOSE": 2,
+    "by_kinds: BY or_names": .4, "walk_by: COMMA BY or_names": .3, "outside_side: %empty": 2, "relation: BESIDE": 8, "relation: UNDER": .2,
 })
 FORM_CLAUSES = {
     "storey NAME doc size": 0, "thickness size": 0, "spine NAME": .3, "section EQUAL shapes": .4, "section NAME EQUAL shapes": .8,
     "forbid_word sections": 1, "void cells": .3, "no cells": .2, "function NAME doc AT cells": 0, "opening NAME doc WIDE size HIGH size opening_parts": 0,
     "flight NAME doc WIDE size RISE size DOTS size GOING size turn": .2, "face cells relation cells EQUAL kinds": 2.5,
-    "face cells OUTSIDE outside_side EQUAL kinds": 1, "tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE": .5, "allow_word names": .2,
+    "face cells OUTSIDE outside_side EQUAL kinds": 1, "tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE": .8, "allow_word names": .2,
     "material NAME STRING price FOR names material_where": .8,
 }
 CELLS = {"counted", "cells"}
@@ -64,17 +64,16 @@ def counted_cells(index, *conditions):
     """Of houses mostly cells and rooms are counted."""
     def contexts(maker, place):
         made = plans.counted(*conditions)(maker, place) if conditions else {}
-        if place.form and maker.chance(.8):
+        if place.form and (place.counts == "houses" or maker.chance(.8)):
             made[index] = place.but(sort="counted")
         return made
     return contexts
 
 
 def added_areas(maker, place):
-    made = plans.summed(maker, place)
-    if made[2].want == "area":
-        made[4] = place.but(sort="cells", cells="cell")
-    return made
+    if place.counts == "houses" or place.form and place.dimension == 2 and maker.chance(.6):
+        return {2: place.but(sort="field", dimension=2, want="area"), 4: place.but(sort="cells", cells="cell")}
+    return plans.summed(maker, place)
 
 
 def asked_areas(maker, place):
@@ -93,7 +92,7 @@ CONTEXTS.update({
     "form_clause: function NAME doc AT cells": joined(fresh("K"), cells(4, kind="place")),
     "form_clause: opening NAME doc WIDE size HIGH size opening_parts": fresh("door", _4="wide", _6="high"),
     "form_clause: flight NAME doc WIDE size RISE size DOTS size GOING size turn": fresh("ladder", _4="flight", _6="low", _8="rise", _10="going", _11="turn"),
-    "form_clause: face cells relation cells EQUAL kinds": joined(cells(1, 3), named(_5="face")),
+    "form_clause: face cells relation cells EQUAL kinds": lambda maker, place: face_between(maker, place),
     "form_clause: face cells OUTSIDE outside_side EQUAL kinds": joined(cells(1), named(_5="outside")),
     "form_clause: tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE": joined(fresh("bed"), named(_4="function", _6="tile")),
     "form_clause: allow_word names": named(_1="code"),
@@ -108,9 +107,9 @@ CONTEXTS.update({
     "primary: CELL OPEN specifier CLOSE": cells(2), "primary: ROOM OPEN specifier CLOSE": cells(2, kind="room"),
     "primary: TRAY OPEN specifier CLOSE": lambda maker, place: {2: place.but(cells=None)},
     "primary: TOUCH OPEN cells COMMA cells by_kinds CLOSE": joined(cells(2, 4), named(_5="face")),
-    "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": joined(cells(2, 5), named(_6="face")),
-    "primary: APART OPEN cells COMMA FROM cells COMMA THROUGH cells walk_by CLOSE": joined(cells(2, 5, 8), named(_9="face")),
-    "primary: APART OPEN cells COMMA FROM cells COMMA BY or_names COMMA THROUGH cells CLOSE": joined(cells(2, 5, 11), named(_8="face")),
+    "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": joined(cells(2, 5), named(_6="walk")),
+    "primary: APART OPEN cells COMMA FROM cells COMMA THROUGH cells walk_by CLOSE": joined(cells(2, 5, 8), named(_9="walk")),
+    "primary: APART OPEN cells COMMA FROM cells COMMA BY or_names COMMA THROUGH cells CLOSE": joined(cells(2, 5, 11), named(_8="walk")),
     "primary: QUANTITY OPEN expression CLOSE": counted_cells(2),
     "primary: QUANTITY OPEN expression COMMA condition CLOSE": counted_cells(2, 4),
     "primary: SUM OPEN tray_sum OF expression CLOSE": added_areas,
@@ -127,13 +126,23 @@ def chosen_section(maker, place):
     return {0: place.but(want="zone"), 1: place.but(want="exact", text=what), 3: place.but(want=what)}
 
 
+def face_between(maker, place):
+    """Often from some cells to all others: walls of which only some have a way through them."""
+    made = cells(1, 3)(maker, place)
+    if maker.chance(.5):
+        made[3] = made[3].but(cells="any")
+    return {**made, 5: place.but(want="way" if place.want == "everywhere" else "face")}
+
+
 def kinds_of(maker, place, ends):
     form = form_of(place)
     return maker.random.choice(ends + form.openings * 2)
 
 
 NAMED.update({
-    "face": lambda maker, place: kinds_of(maker, place, ["wall", "open", "party"]),
+    "way": lambda maker, place: kinds_of(maker, place, ["open"] + form_of(place).passages * 3),
+    "face": lambda maker, place: kinds_of(maker, place, ["wall"] * 4 + ["open", "party"]),
+    "walk": lambda maker, place: maker.random.choice(["open"] + form_of(place).passages * 2),
     "outside": lambda maker, place: kinds_of(maker, place, ["wall"]),
     "function": lambda maker, place: pick(place, maker, form_of(place).functions),
     "part": lambda maker, place: maker.random.choice(["wall", "party", "partition", "deck", "roof"] + form_of(place).openings + form_of(place).items),
@@ -204,23 +213,36 @@ def section_item(maker, depth, place):
     if not sections:
         return None
     choice, values = maker.random.choice(sections)
-    value = maker.random.choice(values)
-    token = "NUMBER" if value.isdigit() else "NAME"
-    node = maker.node("section_alternative: shape", maker.node("shape: " + token, maker.word(token, value)))
-    if maker.chance(.15):
-        node = maker.node("section_alternative: NOT section_alternative", node)
-    for word in reversed(choice):
-        node = maker.node("section_alternative: NAME section_alternative", maker.word("NAME", word), node)
-    made = maker.node("section_item: section_alternatives", listed(maker.grammar, "section_alternatives", [node]))
+    some = maker.random.sample(values, min(len(values), maker.random.choice([1, 1, 1, 2])))
+    nodes = [section_alternative(maker, choice, value) for value in some]
+    made = maker.node("section_item: section_alternatives", listed(maker.grammar, "section_alternatives", nodes))
     return Node(made.symbol, made.production, made.children, context=place)
 
 
-def all_cells(maker, depth, place):
-    if place.cells != "any":
+def section_alternative(maker, choice, value):
+    token = "NUMBER" if value.isdigit() else "NAME"
+    node = maker.node("section_alternative: shape", maker.node("shape: " + token, maker.word(token, value)))
+    if maker.chance(.05):
+        node = maker.node("section_alternative: NOT section_alternative", node)
+    for word in reversed(choice):
+        node = maker.node("section_alternative: NAME section_alternative", maker.word("NAME", word), node)
+    return node
+
+
+def plain_cells(maker, depth, place):
+    """`cell(...)` of one word, as most lines of forms have it: so few that clauses have much to ask about."""
+    if place.cells != "any" and (not place.cells or maker.chance(.25 if place.form == "being made" else .4)):
         return None
-    word = maker.node("spec_word: NAME", maker.word("NAME", "any"))
-    any_cell = maker.node("cell_not: CELL OPEN specifier CLOSE", wrapped(maker.grammar, "specifier", wrapped(maker.grammar, "spec_words", word)))
-    return wrapped(maker.grammar, "cells", any_cell)
+    word = maker.node("spec_word: NAME", maker.word("NAME", maker.random.choice(plain_words(place))))
+    cell = maker.node("cell_not: CELL OPEN specifier CLOSE", wrapped(maker.grammar, "specifier", wrapped(maker.grammar, "spec_words", word)))
+    return wrapped(maker.grammar, "cells", cell)
+
+
+def plain_words(place):
+    if place.cells == "any":
+        return ["any"]
+    form, zones = form_of(place), [f.name for f in place.fields("zone")]
+    return zones + (form.storeys if place.cells == "place" else form.functions * 3 + ["any"] * 3) or ["any"]
 
 
 def form_clauses(maker, depth, place):
@@ -243,8 +265,10 @@ def being_made(place):
 
 
 NEEDED = [
-    ("storey NAME doc size", None, [1, 1, 2]), ("thickness size", "thickness", [4]),
-    ("opening NAME doc WIDE size HIGH size opening_parts", None, [0, 1, 1, 2]), ("function NAME doc AT cells", None, [0, 1, 1, 2]), ("function NAME doc AT cells", "everywhere", [0, 1, 1, 1]),
+    ("storey NAME doc size", None, [1, 1, 1, 2]), ("thickness size", "thickness", [4]),
+    ("opening NAME doc WIDE size HIGH size opening_parts", None, [0, 1, 1, 1, 2]),
+    ("function NAME doc AT cells", "everywhere", [0] + [1] * 9), ("function NAME doc AT cells", None, [0, 1, 1, 1, 1, 1, 2]),
+    ("face cells relation cells EQUAL kinds", None, [0, 1, 1, 1, 1, 1, 1, 2]),
 ]
 LAST = ("form_clause: face cells relation cells EQUAL kinds", "everywhere")     # so that few faces are walls for want of a line
 
@@ -254,8 +278,14 @@ def form_plan(maker):
     random = maker.random
     needed = [(f"form_clause: {text}", want) for text, want, counts in NEEDED for _ in range(random.choice(counts))]
     every = [p.name for p in maker.grammar.rules["form_clause"]]
-    more = random.choices(every, [FORM_CLAUSES.get(p.partition(": ")[2], 1) for p in every], k=random.choice([1, 2, 3, 4, 5]))
-    return needed + [(p, None) for p in more] + [LAST] * maker.chance(.6)
+    more = random.choices(every, [FORM_CLAUSES.get(p.partition(": ")[2], 1) for p in every], k=random.choice([0, 0, 1, 1, 2, 4]))
+    return needed + [(p, None) for p in more] + [LAST] * maker.chance(.85)
+
+
+def kinds(maker, depth, place):
+    """Each once."""
+    names = {name(maker, place) for _ in range(maker.random.choice([1, 1, 1, 2]))}
+    return listed(maker.grammar, "kinds", [maker.word("NAME", text) for text in sorted(names)])
 
 
 def thickness(maker, depth, place):
@@ -268,8 +298,9 @@ def thickness(maker, depth, place):
     return maker.node("thickness: " + left[0])
 
 
-plans.HOOKS.update({"cells": all_cells, "shapes": shapes, "section_item": section_item, "form_clauses": form_clauses, "thickness": thickness})
+plans.HOOKS.update({"cells": plain_cells, "shapes": shapes, "section_item": section_item, "form_clauses": form_clauses, "kinds": kinds, "thickness": thickness})
 AVAILABLE["primary: SECTION OPEN section_items CLOSE"] = lambda place: place.form and form_of(place).sections
+AVAILABLE["size: NUMBER"] = lambda place: place.want in ("short", "sill")                    # 0, where a size may be none
 AVAILABLE["form_clause: forbid_word sections"] = AVAILABLE["material_where: WHERE sections"] = lambda place: form_of(place).sections
 
 
@@ -287,8 +318,8 @@ def make_file(maker):
     library(maker, items, "library_head: library NAME doc using", 1, about.but(item="plans of houses"))
     add(maker, items, "item: form_head OPEN_BRACE form_clauses CLOSE_BRACE", 4, about.but(item="form"))
     house = about.but(form=list(scope.forms)[0])
-    add_rules(maker, items, house)
-    library(maker, items, HOUSE_LIBRARY, random.choice([0, 1, 1, 2, 3]), house.but(item="library"))
+    add_rules(maker, items, house, [1, 2, 2, 3, 4])
+    library(maker, items, HOUSE_LIBRARY, random.choice([0, 0, 0, 0, 1, 1, 2, 3]), house.but(item="library"))
     if maker.chance(.4):
         library(maker, items, "library_head: library NAME doc using FROM NAME", 2, house.but(item="library"))
     return listed(maker.grammar, "items", items)

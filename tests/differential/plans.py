@@ -37,6 +37,7 @@ class Place:
     field: object = None             # the field whose values are made
     cells: str = None                # in a specifier of houses: which kind of specifier
     test: str = None                 # what a test is of: rule, library, measure
+    counts: str = None               # of a measure of houses: whether it counts parts of plans or of houses, which it cannot both
     argument: tuple = ()             # what the parameters of a call are
     several: bool = False            # whether the file has more than one schema
     before: tuple = None             # of a `let`: those that stand before it, so that few stand for one another in a circle
@@ -105,7 +106,7 @@ MISTAKE = .04
 WEIGHTS = {
     "implied: implied IMPLIES disjunction": MISTAKE, "compared: comparable comparison additive": MISTAKE,
     "cond_atom: compare comparison operand": MISTAKE, "range: constant DASH constant": MISTAKE, "value: NUMBER doc role": MISTAKE,
-    "primary: BEGINNING": MISTAKE, "primary: END": MISTAKE,
+    "primary: ANY": .4, "primary: BEGINNING": MISTAKE, "primary: END": MISTAKE,
     "doc: STRING": .15, "allow: ALLOW names": .1, "from: FROM NAME": .2, "role: ROLE NAME": .1,
     "expression: implied": .2, "disjunction: ors": .25, "and: ands": .25, "not: NOT not": .3, "compared: comparable": .3,
     "compared: additive IN additive DOTS additive": .2, "signed: DASH signed": .2, "primary: OPEN expression CLOSE": .3,
@@ -119,7 +120,7 @@ WEIGHTS = {
     "tray_atom: OPEN tray_sum CLOSE": .3, "tray_atom: head_number": .4, "cond_not: NOT cond_not": .2, "condition: cond_ors": .2,
     "cond_and: cond_ands": .3, "cond_atom: OPEN condition CLOSE": .2, "cond_atom: compare": 3,
     "constant: DASH NUMBER": .15, "constant: DASH LENGTH": .05, "constant: DASH AREA": .2, "constant: DASH DECIMAL": .2,
-    "range: constant": .3, "part: ELLIPSIS": MISTAKE, "item: use STRING": .5, "pattern_tray: spec_items": 2,
+    "range: constant": .3, "part: ELLIPSIS": MISTAKE, "item: use STRING": 2, "pattern_tray: spec_items": 2,
     "any_case: todo_word case": .3, "literal_word: ABSENT": .2, "literal_word: OF_DEPTH": MISTAKE, "value: ELLIPSIS": MISTAKE,
     "specifier: %empty": .05, "plan: OPEN_BRACKET HOUSE CLOSE_BRACKET": MISTAKE, "clause: require_word requires": 3, "clause: prune_word prunes": 3,
     "clause: allow_word names": .2, "clause: trays_word range": MISTAKE, "clause_name: CLAUSE_NAME": .5,
@@ -182,8 +183,6 @@ def comparison_sides(maker, place):
 
 
 def summed(maker, place):
-    if place.form and place.dimension == 2 and maker.chance(.6):
-        return {2: place.but(sort="figure", want="area")}
     return {2: place.but(sort="figure", want="figure")}
 
 
@@ -207,6 +206,8 @@ def quantified(maker, place):
 
 
 def call(maker, place):
+    if not place.rules(True):
+        return {}
     name = maker.random.choice(place.rules(True))
     params = tuple(kind for _, kind in place.scope.rules[name].params)
     return {0: place.but(want="exact", text=name), 2: place.but(argument=params)}
@@ -255,7 +256,7 @@ CONTEXTS = {
     "item: let NAME EQUAL expression": head("const"), "item: measure NAME doc using EQUAL additive": head("m"),
     "rule_head: rule NAME params doc using allow": head("r"), "library_head: library NAME doc using": head("l"),
     "library_head: library NAME doc using FROM NAME":
-        lambda maker, place: {**head("l")(maker, place), 5: place.but(want="library")},
+        lambda maker, place: {**head("l")(maker, place), 3: place.but(want="using-schema"), 5: place.but(want="library")},
     "library_head: library NAME doc using FROM NAME IN NAME":
         lambda maker, place: {**head("h")(maker, place), 3: place.but(want="using-schema"), 5: place.but(want="plans"),
                               7: place.but(want="exact", text=place.form)},
@@ -299,7 +300,7 @@ def expression_name(maker, place):
 
 def figure_name(maker, place):
     if place.want == "area":
-        return pick(place, maker, ["area", "area", "cost"] if place.dimension == 0 else ["area"])
+        return pick(place, maker, ["cost"] if place.dimension == 0 else ["area"])
     return pick(place, maker, [f.name for f in place.fields(*(("number",) if place.dimension == 0 else ("length", "zone")))])
 
 
@@ -361,7 +362,9 @@ def small_question(maker, depth, place):
     """Where no depth is left: mostly a tray, which says more than `any` and is as short."""
     if depth > 0 or place.sort not in QUESTIONS or maker.chance(.3):
         return None
-    leaves = HOUSE_LEAVES if place.form and maker.chance(.8) else ["primary: TRAY OPEN specifier CLOSE"]
+    leaves = [leaf for leaf in HOUSE_LEAVES + WALKS if AVAILABLE[leaf](place)]
+    if not leaves or place.counts != "houses" and maker.chance(.15):
+        leaves = ["primary: TRAY OPEN specifier CLOSE"]
     return maker.make_of(maker.random.choice(leaves), 1, place)
 
 
@@ -407,9 +410,10 @@ def body(maker, depth, place):
     list_so_far = listed(maker.grammar, "body", fields)
     scratch.schemas["being made"] = merged(older or [], body_fields(list_so_far))
     more = []
-    if maker.chance(.5):
+    share = .2 if place.item == "schema of houses" else 1        # a file about houses is about other things
+    if maker.chance(.5 * share):
         more.append(maker.make("number_item", 3, inside.but(text=place.scope.fresh(maker.random, "beds"), sort="figure", want="figure")))
-    if maker.chance(.3):
+    if maker.chance(.3 * share):
         more.append(maker.make("forbid", 3, inside))
     return listed(maker.grammar, "body", fields + more)
 
@@ -456,17 +460,28 @@ def field(maker, place):
 def chosen_values(maker, place, made):
     random = maker.random
     if made.kind == "length":
-        return random.sample(METRES if place.metric else FEET, random.choice([1, 2, 2, 3]))
+        few = [1, 1, 1, 2] if place.item == "schema of houses" else [1, 2, 2, 3]
+        return random.sample(METRES if place.metric else FEET, random.choice(few))
     if made.kind == "choice":
         return random.sample(NAMES, random.choice([2, 2, 3]))
     depths = DEPTHS_METRES if place.metric else DEPTHS_FEET
     if made.values:
         return [("wet", [depths[1]])]
-    fills = [("full", random.sample(depths, random.choice([1, 1, 2]))), ("none", [])] + [("half", [depths[0]])] * maker.chance(.2)
-    if place.item == "schema of houses" and made.name == "main":
-        fills = [("full", random.sample(["3m", "4m"] if place.metric else ["9'", "12'6\""], 1)), ("half", ["3m" if place.metric else "9'6\""])][:random.choice([1, 2])]
+    if place.item == "schema of houses":
+        fills = house_fills(random, place, made.name)
+    else:
+        fills = [("full", random.sample(depths, random.choice([1, 1, 2]))), ("none", [])] + [("half", [depths[0]])] * maker.chance(.2)
     random.shuffle(fills)
     return fills
+
+
+def house_fills(random, place, name):
+    """Every tray has a main zone; most have another."""
+    depths = ["2m", "2.5m", "3m", "4m"] if place.metric else ["6'", "7'-9\"", "9'6\"", "12'6\""]
+    if name == "main":
+        return [("full", [random.choice(depths)]), ("half", [depths[2]])][:random.choice([1, 1, 2])]
+    rear = [("full", [depths[0]]), ("half", ["500mm" if place.metric else "2'"] if random.random() < .1 else [depths[1]]), ("none", [])]
+    return random.sample(rear, random.choice([1, 1, 2, 2, 3]))
 
 
 def value(maker, place, kind, text):
@@ -483,7 +498,7 @@ def value(maker, place, kind, text):
 
 def clauses(maker, depth, place):
     """Every library of plans says first how many trays its plans have."""
-    counts = [0, 0, 0, 1] if place.item == "plans of houses" else [0, 1, 1, 2]
+    counts = [0, 0, 0, 1] if place.item == "plans of houses" else [0, 1, 1, 1, 1, 1, 1, 2] if place.form else [0, 1, 1, 2]
     made = [maker.make("clause", depth, place) for _ in range(maker.random.choice(counts))]
     if not place.form and place.text != "from":
         made.insert(0, maker.make_of("clause: trays_word range", 3, place))
@@ -494,7 +509,7 @@ def trays_range(maker, depth, place):
     if place.want != "trays":
         return None
     low = maker.random.choice([0, 1, 1, 1, 2])
-    high = max(low, maker.random.choice([1, 2, 2, 3]))
+    high = max(low, maker.random.choice([1, 2, 2, 2, 3] if place.item == "plans of houses" else [1, 2, 2, 3]))
     number_node = lambda n: maker.node("constant: NUMBER", maker.word("NUMBER", str(n)))
     if low == high:
         return maker.node("range: constant", number_node(low))
@@ -530,7 +545,7 @@ class Plans(Notation):
     depths = {"condition": 3, "part": 1, "cells": 3, "sections": 4, "section_items": 1, "by_kinds": 1, "material_where": 3, "opening_parts": 3,
               "tile_parts": 5, "reaches": 3, "cases": 4, "trays": 2, "pattern": 2, "specifier": 1}
     remade = ("primary", "not", "expression", "condition", "tray_sum", "additive", "spec_item", "specifier", "pattern", "call_args", "clause", "any_case",
-              "range", "cells", "sections", "section_items", "form_clause", "tile_part", "number_item", "forbid", "number_case", "doc", "role", "let")
+              "range", "cells", "sections", "section_items", "kinds", "tile_part", "number_item", "forbid", "number_case", "doc", "role", "let")
     hooks = HOOKS
 
     def weight(self, production, place):
@@ -598,9 +613,15 @@ HOUSE_LEAVES = ["primary: " + leaf for leaf in (
     "CELL OPEN specifier CLOSE", "ROOM OPEN specifier CLOSE", "SECTION OPEN section_items CLOSE", "TOUCH OPEN cells COMMA cells by_kinds CLOSE",
     "APART OPEN cells COMMA FROM cells walk_by CLOSE", "APART OPEN cells COMMA FROM cells COMMA THROUGH cells walk_by CLOSE",
     "APART OPEN cells COMMA FROM cells COMMA BY or_names COMMA THROUGH cells CLOSE")]
+WALKS = ["primary: APART OPEN cells COMMA FROM cells walk_by CLOSE"] * 3     # what is hardest to count: asked more often
 for leaf in HOUSE_LEAVES:
-    AVAILABLE[leaf] = lambda place: place.form
+    AVAILABLE[leaf] = lambda place: place.form and place.counts != "plans"
     SORTS[leaf] = QUESTIONS
+for leaf in ("TRAY OPEN specifier CLOSE", "ANY", "SUM OPEN tray_sum CLOSE", "MATCHES OPEN expression CLOSE", "OCCURRENCES OPEN expression CLOSE", "PLAN OPEN_BRACKET pattern CLOSE_BRACKET"):
+    AVAILABLE["primary: " + leaf] = lambda place: place.counts != "houses"
+AVAILABLE["primary: SUM OPEN tray_sum OF expression CLOSE"] = lambda place: place.counts != "houses" or place.dimension == 2
+for clause in ("trays_word range", "total_word total_field range doc", "total_word total_field comparison constant doc"):
+    AVAILABLE["clause: " + clause] = lambda place: not place.form
 
 
 # ---- a file
@@ -618,7 +639,7 @@ def random_params(maker, place):
     return tuple((name, maker.random.choice(kinds)) for name in ["a", "b", "k"][:maker.random.choice([1, 2])])
 
 
-def add_rules(maker, items, place):
+def add_rules(maker, items, place, depths=(2, 3, 3, 4, 5)):
     random = maker.random
     rule = "item: rule_head EQUAL expression"
     if maker.chance(.3):
@@ -632,9 +653,11 @@ def add_rules(maker, items, place):
         with_params = place.but(item="rule", params=random_params(maker, place))
         add(maker, items, rule, random.choice([2, 3]), with_params)
     for _ in range(random.choice([1, 2, 3])):
-        add(maker, items, rule, random.choice([2, 3, 3, 4, 5]), place.but(item="rule"))
+        add(maker, items, rule, random.choice(depths), place.but(item="rule"))
     for _ in range(random.choice([1, 2])):
-        measure = place.but(item="measure", sort="number", dimension=random.choices([0, 1, 2, 3], [5, 3, 2, 1])[0])
+        counts = random.choice(["houses", "houses", "plans"]) if place.form else None
+        dimension = random.choices([0, 2] if counts == "houses" else [0, 1, 2, 3], [5, 2] if counts == "houses" else [5, 3, 2, 1])[0]
+        measure = place.but(item="measure", sort="number", counts=counts, dimension=dimension)
         add(maker, items, "item: measure NAME doc using EQUAL additive", random.choice([4, 4, 5, 6]), measure)
 
 
@@ -673,6 +696,6 @@ def make_file(maker):
     if maker.chance(.3):
         library(maker, items, "library_head: library NAME doc using FROM NAME", 2, first.but(item="library"))
     add_tests(maker, items, first)
-    if maker.chance(.1):
+    if maker.chance(.15):
         items.append(maker.make("item", 3, first))        # whatever the grammar has
     return listed(maker.grammar, "items", items)

@@ -6,6 +6,9 @@ import re
 import shutil
 from fractions import Fraction
 
+from c_interface import c_interface
+from exports import prolog, regex
+from house_files import bills, solids, swings
 from mend import errors
 from program import Refused, answer, json_lines, read_json, run, same, same_lines
 from source import read_source
@@ -155,6 +158,16 @@ def counted_ways(subject):
     if subject.total:
         completed = subject.json("complete", "...")
         same("complete ... = count", int(completed["houses" if subject.houses else "plans"]), subject.total)
+
+
+def by_length(subject):
+    """Plans or houses by their number of trays as a measure, and as `count` says it."""
+    if not subject.total:
+        return
+    file = subject.edited(f"\nmeasure number-of-trays using {subject.using()} = trays\n")
+    by_length = subject.counts["by_length"]
+    counts = by_length.items() if isinstance(by_length, dict) else [(d["length"], d["kept"]) for d in by_length]
+    same("--by trays = by length", subject.distribution("number-of-trays", file), sorted((Fraction(t), int(n)) for t, n in counts if int(n)))
 
 
 def threads(subject):
@@ -412,6 +425,25 @@ def compared(subject):
     same("diff", [int(found[k]) for k in ("removed", "added", "kept")], [len(old - new), len(new - old), len(old & new)])
 
 
+def limits(subject):
+    """A limit ends with 4: what was written until then stays, in whole lines. What does not pass it is written as ever."""
+    if subject.lines is None:
+        return
+    path = os.path.join(subject.folder, "limited.txt")
+    for limit in (["--max-states", "3"], ["--memory-limit", "1"]):
+        code = run("enumerate", subject.path, "-o", path, *limit, *subject.options)[0]
+        same(f"{limit[0]} ends with 0 or 4", code in (0, 4), True)
+        written = ""
+        if os.path.exists(path):
+            with open(path, encoding="utf-8") as file:
+                written = file.read()
+            os.unlink(path)
+        whole = "".join(line + "\n" for line in subject.lines)
+        same(f"{limit[0]} alters no answer", written if code == 0 else whole.startswith(written), whole if code == 0 else True)
+        same(f"{limit[0]} leaves whole lines", written[-1:] in ("", "\n"), True)
+
+
+QUICK = [counted_ways, by_length]              # asked of every library; of those that follow some are chosen
 OF_FILES = [loads, keeps_its_meaning, says_json]
-OF_LIBRARIES = [counted_ways, by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, both_engines, fronts, mirrored,
-                effects, compared, threads, saved]
+OF_LIBRARIES = [by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, both_engines, fronts, mirrored,
+                effects, compared, threads, saved, limits, prolog, regex, c_interface, solids, swings, bills]

@@ -36,6 +36,7 @@ class Form:
     storeys: list = default(default_factory=list)
     functions: list = default(default_factory=list)
     openings: list = default(default_factory=list)
+    passages: list = default(default_factory=list)   # those of the openings through which one walks
     flights: list = default(default_factory=list)
     sections: list = default(default_factory=list)   # (words of a choice, values)
     items: list = default(default_factory=list)
@@ -151,6 +152,8 @@ def form_clause(made, clause):
     first = clause.children[0].symbol
     if first in lists:
         lists[first].append(named(clause))
+    if first == "opening" and "passage" in words(clause):
+        made.passages.append(named(clause))
     elif first == "section":
         choice = words(clause)[1:words(clause).index("=")]
         made.sections.append((choice, [words(s)[0] for s in find_all(clause, "shape")]))

@@ -4,8 +4,8 @@
     search.py plans|houses [--seeds N] [--first K] [--seconds S] [--jobs N] [--out FOLDER] [FILE ...]
 
 TARTAN names the command that is searched. A seed gives the same files, questions and small cases with any --jobs; --seconds only decides
-how many seeds are tried. A file in which two answers differ is made smaller for as long as the same question differs; the small case is
-printed, and written to --out. With FILEs, all questions are asked of these. Ends with 1 if there was a difference."""
+how many seeds are tried. The first files in which the answers to a question differ are made smaller for as long as they do; the small cases
+are printed, and written to --out. With FILEs, all questions are asked of these. Ends with 1 if there was a difference."""
 import argparse
 import collections
 import os
@@ -23,13 +23,15 @@ from grammar import read_grammar
 from maker import Maker
 from mend import errors, mended
 from program import Refused, Wrong
-from questions import OF_FILES, OF_LIBRARIES, Subject, checks
+from questions import OF_FILES, OF_LIBRARIES, QUICK, Subject, checks
 from shrink import shrunk
 from source import read_source
 from tree import Text
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-SHARE = .5               # of the questions are asked of each random file: more files find more than more questions do
+REFERENCES = [plans_by_reference, houses_by_reference]
+SHARE = .3               # of the questions are asked of each random file: more files find more than more questions do
+SHOWN = 1                # file of each difference is made smaller, which takes longer than to find more
 LATE = {"E1610"}         # of a plan that does not stand up in its form, which is known where plans are gone through: not by `check`
 INDENTS = plans.Plans.indents
 KINDS = {"plans": plans.make_file, "houses": houses.make_file}
@@ -40,17 +42,25 @@ class Result:
     """What came of one seed."""
 
     def __init__(self, seed):
-        self.seed, self.asked, self.accepted, self.refused, self.cases = seed, 0, False, [], []
+        self.seed, self.asked, self.accepted, self.refused, self.differ = seed, 0, False, [], []
         self.took = 0                            # seconds of processor time until a difference was found, or all was asked
 
 
 def asked_of(path, chosen=None):
     """(question, library or None) for all questions about a file; with `chosen`, a random number generator, for some of them."""
+    if is_refused(path):
+        return [(checks, None)]
     libraries = [item.name for item in read_source(path).of("library")]
-    asked = [(q, None) for q in OF_FILES] + [(q, name) for name in libraries for q in OF_LIBRARIES]
-    if chosen is None:
-        return asked
-    return [(q, name) for name in libraries for q in (plans_by_reference, houses_by_reference)] + [a for a in asked if chosen.random() < SHARE]
+    first = [(q, name) for q in QUICK + REFERENCES for name in libraries]
+    more = [(q, None) for q in OF_FILES] + [(q, name) for name in libraries for q in OF_LIBRARIES]
+    return first + [a for a in more if chosen is None or chosen.random() < SHARE]
+
+
+def is_refused(path):
+    try:
+        return bool(errors(path))
+    except Wrong:                                # as `checks` says, too
+        return True
 
 
 def ask(question, subject):
@@ -82,38 +92,41 @@ def ask_all(path, folder, result, tree=None, chosen=None):
 
 
 def one_seed(job):
-    kind, seed = job
-    maker = Maker(GRAMMAR, plans.Plans(), random.Random(f"{kind} {seed}"))
-    result, began = Result(seed), sum(os.times()[:4])
+    """What pool and parent share: no trees."""
     with tempfile.TemporaryDirectory() as folder:
+        return tried(*job, folder)[0]
+
+
+def tried(kind, seed, folder):
+    """(result, tree, [(question, library, Wrong)] that differ) of a seed."""
+    maker = Maker(GRAMMAR, plans.Plans(), random.Random(f"{kind} {seed}"))
+    result, began, path = Result(seed), sum(os.times()[:4]), os.path.join(folder, "a.plan")
+    try:
+        tree, left = mended(maker, KINDS[kind](maker), path)
+    except Wrong as wrong:
+        tree, found = maker.last, [(checks, None, wrong)]
+    else:
+        if left:
+            result.refused.append(left[0]["code"])
+            return result, tree, []
+        result.accepted = True
+        found = ask_all(path, folder, result, tree, maker.random)
+    result.took = sum(os.times()[:4]) - began
+    result.differ = sorted({wrong.question for _, _, wrong in found})
+    return result, tree, found
+
+
+def small_case(kind, seed, which):
+    """The text of a seed's file made smaller, for as long as the answers to this question differ."""
+    with tempfile.TemporaryDirectory() as folder:
+        result, tree, found = tried(kind, seed, folder)
         path = os.path.join(folder, "a.plan")
-        tree = KINDS[kind](maker)
-        try:
-            tree, left = mended(maker, tree, path)
-        except Wrong as wrong:
-            found = [(checks, None, wrong)]
-            tree = maker.last
-        else:
-            if left:
-                result.refused.append(left[0]["code"])
-                return result
-            result.accepted = True
-            found = ask_all(path, folder, result, tree, maker.random)
-        result.took = sum(os.times()[:4]) - began
-        if found:
-            result.cases.append(smallest(kind, seed, tree, found, path))
-    return result
-
-
-def smallest(kind, seed, tree, found, path):
-    """(question, text) of the first difference, made smaller."""
-    question, library, wrong = found[0]
-    tree, wrong = shrunk(GRAMMAR, tree, wrong, lambda smaller: still(smaller, question, library, wrong, path), INDENTS)
-    others = sorted({w.question for _, _, w in found} - {wrong.question})
-    said = [f"{kind}, seed {seed}: {wrong.question}", f"answered: {wrong.got[:300]}", f"should be: {wrong.want[:300]}"]
+        question, library, wrong = next(f for f in found if f[2].question == which)
+        tree, wrong = shrunk(GRAMMAR, tree, wrong, lambda smaller: still(smaller, question, library, wrong, path), INDENTS)
+    others = [name for name in result.differ if name != which]
+    said = [f"{kind}, seed {seed}: {which}", f"answered: {wrong.got[:300]}", f"should be: {wrong.want[:300]}"]
     said += ["of this file also: " + ", ".join(others)] if others else []
-    comments = "".join("# " + line.replace("\n", " ") + "\n" for line in said)
-    return wrong.question, comments + Text(tree, INDENTS).text
+    return "".join("# " + line.replace("\n", " ") + "\n" for line in said) + Text(tree, INDENTS).text
 
 
 def still(tree, question, library, wrong, path):
@@ -137,7 +150,7 @@ def write(path, text):
 
 class Tally:
     def __init__(self):
-        self.tried = self.accepted = self.asked = self.took = 0
+        self.tried = self.accepted = self.asked = self.took = self.differ = 0
         self.refused, self.found = collections.Counter(), collections.Counter()
 
     def add(self, result):
@@ -146,12 +159,20 @@ class Tally:
         self.asked += result.asked
         self.took += result.took
         self.refused.update(result.refused)
-        self.found.update(question for question, _ in result.cases)
+        self.found.update(result.differ)
+        self.differ += bool(result.differ)
 
     def __str__(self):
-        said = f"{self.tried} files, {self.accepted} of them accepted, {self.asked} questions, {sum(self.found.values())} files with a difference"
+        said = f"{self.tried} files, {self.accepted} of them accepted, {self.asked} questions, {self.differ} files with a difference"
         refused = ", ".join(f"{code} {n}" for code, n in sorted(self.refused.items()))
-        return said + (f"; refused: {refused}" if refused else "")
+        found = ", ".join(f"{question} {n}" for question, n in sorted(self.found.items()))
+        return said + (f" ({found})" if found else "") + (f"; refused: {refused}" if refused else "")
+
+
+def show(options, seed, case):
+    print(case, flush=True)
+    if options.out:
+        write(os.path.join(options.out, f"{options.kind}-{seed}.plan"), case)
 
 
 def search(options):
@@ -160,10 +181,12 @@ def search(options):
     pool = Pool(options.jobs) if options.jobs > 1 else None
     for result in pool.imap(one_seed, jobs) if pool else map(one_seed, jobs):
         tally.add(result)
-        for question, case in result.cases:
-            print(f"seed {result.seed}, after {time.monotonic() - started:.0f} s ({tally.took:.0f} of processors): {question}\n{case}", flush=True)
-            if options.out:
-                write(os.path.join(options.out, f"{options.kind}-{result.seed}.plan"), case)
+        new = [question for question in result.differ if tally.found[question] <= SHOWN]
+        if result.differ:
+            spent = f"after {time.monotonic() - started:.0f} s ({tally.took:.0f} of processors)"
+            print(f"seed {result.seed}, {spent}: {', '.join(result.differ)}", flush=True)
+        if new:
+            show(options, result.seed, small_case(options.kind, result.seed, new[0]))
         if options.seconds and time.monotonic() - started > options.seconds:
             break
     if pool:

@@ -1,7 +1,7 @@
 """Makes a case smaller: on its derivation tree, so that every smaller text is one of the grammar, whatever the notation."""
 from tree import Node, Text, replaced, walk, wrapped
 
-TRIES = 600
+TRIES = 300
 
 
 class Shortest:

@@ -46,7 +46,7 @@ def item(maker, alternatives, place):
 
 def items(maker, depth, place):
     """Some fields of the schema, each as its kind may be asked for. A share is left to the grammar alone."""
-    if maker.chance(.04):
+    if maker.chance(.02 if place.form else .04):
         return None
     if place.cells and place.form:
         return listed(maker.grammar, "spec_items", [item(maker, alternatives, place) for alternatives in HOUSE[place.cells](maker, place)])
@@ -117,7 +117,7 @@ def cell(maker, place):
     if place.cells == "cell":
         options += [[[random.choice(function)]]] * 4 + [[["not", random.choice(function)]], [[random.choice(function)], [random.choice(function)]], [["void"]]]
         low, high = ("6m2", "10m2") if place.metric else ("60sf", "100sf")
-        options += [[["area", random.choice(["<", ">="]), high]], [["area", f"{low}..{high}"]]]
+        options += [[["area", random.choice(["<", ">="]), random.choice([low, high])]]]
     chosen = random.sample(options, random.choice([1, 1, 1, 2]))
     if maker.chance(.15):
         f = random.choice(place.fields())
@@ -134,7 +134,7 @@ def room(maker, place):
         chosen.append([["cells", random.choice(list(OPERATORS)), random.choice("12")]])
     if maker.chance(.2):
         chosen.append([["area", random.choice(list(OPERATORS)), "10m2" if place.metric else "100sf"]])
-    if maker.chance(.1):
+    if maker.chance(.03):
         chosen.append([["glazing", random.choice("<>"), "1:12"]])
     if form.storeys and maker.chance(.15):
         chosen.append([[random.choice(form.storeys)]])
