@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import sys
 
-from program import TARTAN, Wrong, read_json, same
+from program import TARTAN, Wrong, environment, read_json, same
 
 ANY_LENGTH = 2**32 - 1
 SEED, DRAWN = 7, 5
@@ -122,7 +122,7 @@ def c_interface(subject):
 def asked(path, subject, rule, lines):
     """The answers; None where the library is one that no other program can load, or refuses what takes too many states."""
     command = [sys.executable, "-B", os.path.abspath(__file__), path, subject.path, subject.item.name, rule]
-    done = subprocess.run(command, input="\n".join(lines), capture_output=True, text=True, encoding="utf-8", timeout=120)
+    done = subprocess.run(command, input="\n".join(lines), capture_output=True, text=True, encoding="utf-8", timeout=120, env=environment())
     if "runtime does not come first" in done.stderr:
         return None
     if done.returncode:

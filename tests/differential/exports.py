@@ -4,7 +4,7 @@ import re
 import shutil
 import subprocess
 
-from program import Refused, Wrong, answer, same
+from program import Refused, Wrong, answer, environment, same
 
 PLANS = 150              # no more of a library's plans are asked of a Prolog program
 WORDS = 300              # and no more texts of a regular expression
@@ -45,7 +45,8 @@ def consulted(subject, program, rules, lines, kept):
     plans = "".join(f"plan({i}, {term(line)}).\n" for i, line in enumerate(lines)) or "plan(_, _) :- fail.\n"
     path = subject.file("rules.pl", program)
     run = subject.file("run.pl", f"{plans}run :- forall(plan(_, P), (true{decide}, nl)).\n")
-    done = subprocess.run(["swipl", "-q", "-f", path, "-l", run, "-g", "run", "-g", "halt"], capture_output=True, text=True, timeout=120)
+    done = subprocess.run(["swipl", "-q", "-f", path, "-l", run, "-g", "run", "-g", "halt"], capture_output=True, text=True, encoding="utf-8", timeout=120,
+                          env=environment())
     same("SWI-Prolog says nothing", (done.returncode, done.stderr[:300]), (0, ""))
     return done.stdout.splitlines()
 

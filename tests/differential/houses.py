@@ -14,8 +14,11 @@ LENGTHS = {
 
 WEIGHTS.update({
     "size: NUMBER": plans.MISTAKE, "shape: NAME OPEN arguments CLOSE": 2, "cell_not: CELL OPEN specifier CLOSE": 5, "cell_not: NOT cell_not": .2,
-    "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .08, "cell_and: cell_ands": .1, "sections: section_ors": 1, "section_and: section_ands": 2, "section_ands: section_ands AND section_not": 2, "material_where: WHERE sections": 2, "tile_part: stretch_word NAME doc reaches": 2,
-    "section_not: SECTION OPEN section_items CLOSE": 4, "opening_part: PASSAGE": 8, "opening_part: SILL size": .3, "opening_parts: opening_parts opening_part": 2, "section_not: OPEN sections CLOSE": 1, "section_not: NOT section_not": .5, "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": 4, "primary: TOUCH OPEN cells COMMA cells by_kinds CLOSE": 2,
+    "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .08, "cell_and: cell_ands": .1, "sections: section_ors": 1, "section_and: section_ands": 2, "section_ands: section_ands AND section_not": 2,
+    "material_where: WHERE sections": 2, "tile_part: stretch_word NAME doc reaches": 2,
+    "section_not: SECTION OPEN section_items CLOSE": 4, "opening_part: PASSAGE": 8, "opening_part: SILL size": .3, "opening_parts: opening_parts opening_part": 2,
+    "section_not: OPEN sections CLOSE": 1, "section_not: NOT section_not": .5,
+    "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": 4, "primary: TOUCH OPEN cells COMMA cells by_kinds CLOSE": 2,
     "by_kinds: BY or_names": .4, "walk_by: COMMA BY or_names": .3, "outside_side: %empty": 2, "relation: BESIDE": 8, "relation: UNDER": .2,
 })
 FORM_CLAUSES = {

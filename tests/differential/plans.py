@@ -617,7 +617,8 @@ WALKS = ["primary: APART OPEN cells COMMA FROM cells walk_by CLOSE"] * 3     # w
 for leaf in HOUSE_LEAVES:
     AVAILABLE[leaf] = lambda place: place.form and place.counts != "plans"
     SORTS[leaf] = QUESTIONS
-for leaf in ("TRAY OPEN specifier CLOSE", "ANY", "SUM OPEN tray_sum CLOSE", "MATCHES OPEN expression CLOSE", "OCCURRENCES OPEN expression CLOSE", "PLAN OPEN_BRACKET pattern CLOSE_BRACKET"):
+for leaf in ("TRAY OPEN specifier CLOSE", "ANY", "SUM OPEN tray_sum CLOSE", "MATCHES OPEN expression CLOSE", "OCCURRENCES OPEN expression CLOSE",
+             "PLAN OPEN_BRACKET pattern CLOSE_BRACKET"):
     AVAILABLE["primary: " + leaf] = lambda place: place.counts != "houses"
 AVAILABLE["primary: SUM OPEN tray_sum OF expression CLOSE"] = lambda place: place.counts != "houses" or place.dimension == 2
 for clause in ("trays_word range", "total_word total_field range doc", "total_word total_field comparison constant doc"):
