@@ -18,6 +18,6 @@ shopt -s nullglob
 for case in "$search"/cases/*.plan; do
     agrees "$(basename "$case")" "$search/search.py" plans "$case"
 done
-agrees 'plans' "$search/search.py" plans --seeds 20
-agrees 'houses' "$search/search.py" houses --seeds 12
+agrees 'plans' "$search/search.py" plans --seeds 36
+agrees 'houses' "$search/search.py" houses --seeds 40
 finish
