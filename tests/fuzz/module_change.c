@@ -303,6 +303,8 @@ static uint8_t another_opcode(fuzz_dice *dice, uint8_t was, bool alike)
     for (int tries = 0; tries < 200; tries++) {
         uint8_t opcode = (uint8_t)roll(dice, TN_OPCODE_COUNT);
         const tn_opcode_info *other = tn_opcode_describe(opcode);
+        if (!other) /* a number that no row has */
+            continue;
         bool fits = other->operands == info->operands && other->pops == info->pops && other->pushes == info->pushes;
         if (opcode != was && other->code == info->code && (fits || !alike))
             return opcode;
