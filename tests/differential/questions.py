@@ -404,7 +404,9 @@ def totals(subject):
 
 
 def without_line(subject, lines):
-    kept = [line for i, line in enumerate(subject.source.text.split("\n")) if i not in lines]
+    """The file without these lines, and without its tests, which may name the clauses there."""
+    text = re.sub(r"^test\b.*?^}", lambda test: "\n" * test[0].count("\n"), subject.source.text, flags=re.M | re.S)
+    kept = [line for i, line in enumerate(text.split("\n")) if i not in lines]
     return subject.file("without.plan", "\n".join(kept))
 
 
