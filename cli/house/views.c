@@ -107,11 +107,11 @@ static int64_t clear_of_walls(const tn_house *house, tn_aspect_kind kind, int64_
 static size_t add_sheet(const tn_house *house, const tn_aspect *usual, tn_aspect *aspects, size_t room)
 {
     size_t count = 0;
-    int64_t low = INT64_MAX, high = INT64_MIN, width = 0;
+    int64_t low = 0, high = 0, width = 0;
     for (size_t i = 0; i < house->cell_count; i++) {
         const tn_rectangle *at = &house->cells[i].at;
-        low = at->y0 < low ? at->y0 : low;
-        high = at->y1 > high ? at->y1 : high;
+        low = i == 0 || at->y0 < low ? at->y0 : low;
+        high = i == 0 || at->y1 > high ? at->y1 : high;
         width = at->x1 > width ? at->x1 : width;
     }
     for (uint32_t k = 0; k < house->form->record->storey_count && count + 8 < room; k++) {
