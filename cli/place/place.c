@@ -130,6 +130,15 @@ static tn_status check_conditions(placing *p)
     return status;
 }
 
+/* The statement by which a model is placed in another way than by deriving it. */
+static const char *search_reason(const tn_kit_model_record *model)
+{
+    return model->search != TN_SEARCH_GREEDY     ? "search"
+           : model->symmetry != TN_SYMMETRY_NONE ? "symmetry"
+           : model->stock_count > 0              ? "stock"
+                                                 : "order breadth";
+}
+
 /* A search looks at many models: what one derivation did is not asked for. */
 static bool check_search(placing *p)
 {
@@ -137,8 +146,10 @@ static bool check_search(placing *p)
     const char *option = s->trace ? "--trace" : s->program ? "--program" : s->engine ? "--engine" : NULL;
     bool search = tn_place_needs_search(&p->rules);
     if (search && option) {
-        tn_diagnostic *d = tn_job_usage(p->job, "%s is of models that are placed without a search", option);
-        tn_help(tn_job_diagnostics(p->job), d, "leave out `search`, `symmetry` and `stock` in the model to see it");
+        const char *reason = search_reason(p->rules.space);
+        tn_diagnostic *d = tn_job_usage(
+            p->job, "%s is of models that are derived from the start on, and this one has `%s`", option, reason);
+        tn_help(tn_job_diagnostics(p->job), d, "leave `%s` out of the model to see it", reason);
     } else if (!search && (s->search_limit.given || s->threads.given)) {
         tn_job_usage(p->job, "--%s is of a search, and the model has none",
                      s->search_limit.given ? "search-limit" : "threads");

@@ -116,11 +116,52 @@ static void unknown_term(tn_diagnostics *diagnostics, const tn_expression_scope 
         help_with_names(diagnostics, d, e->name, scope->what, scope->names, scope->count);
 }
 
+const char *tn_function_elsewhere(tn_words words, const char *name)
+{
+    static const struct { /* needs: what the text calls */
+        const char *name, *needs, *text;
+    } others[] = {
+        {"asin", "atan2", "atan2(a, sqrt(1 - a * a))"},
+        {"arcsin", "atan2", "atan2(a, sqrt(1 - a * a))"},
+        {"acos", "atan2", "atan2(sqrt(1 - a * a), a)"},
+        {"arccos", "atan2", "atan2(sqrt(1 - a * a), a)"},
+        {"atan", "atan2", "atan2(a, 1)"},
+        {"arctan", "atan2", "atan2(a, 1)"},
+        {"sinh", "exp", "(exp(a) - exp(-a)) / 2"},
+        {"cosh", "exp", "(exp(a) + exp(-a)) / 2"},
+        {"ln", "log", "log(a)"},
+        {"log10", "log", "log(a) / log(10)"},
+        {"log2", "log", "log(a) / log(2)"},
+        {"exp2", "pow", "pow(2, a)"},
+        {"power", "pow", "pow(a, b)"},
+        {"cbrt", "pow", "pow(a, 1 / 3)"},
+        {"sqr", "square", "square(a)"},
+        {"hypot", "square", "sqrt(square(a) + square(b))"},
+        {"length", "square", "sqrt(square(a) + square(b))"},
+        {"ceil", "floor", "-floor(-a)"},
+        {"round", "floor", "floor(a + 0.5)"},
+        {"fract", "floor", "a - floor(a)"},
+        {"mod", "floor", "a % b"},
+        {"fmod", "floor", "a % b"},
+        {"lerp", "mix", "mix(a, b, c)"},
+    };
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        if (strcmp(others[i].name, name) == 0)
+            return tn_function_named(words, others[i].needs, strlen(others[i].needs)) ? others[i].text : "";
+    }
+    return NULL;
+}
+
 static void unknown_function(tn_diagnostics *diagnostics, const tn_expression_scope *scope, const tn_expression *e)
 {
     const char *names[TN_OPERATION_COUNT];
     tn_diagnostic *d = tn_report(diagnostics, scope->unknown, e->name_span, "there is no function `%.100s`", e->name);
-    help_with_names(diagnostics, d, e->name, "function", names, tn_function_names(scope->words, names));
+    const char *meant = tn_function_elsewhere(scope->words, e->name);
+    if (meant && *meant)
+        tn_help(diagnostics, d, "write `%s`", meant);
+    else
+        help_with_names(diagnostics, d, meant ? "" : e->name, "function", names,
+                        tn_function_names(scope->words, names));
 }
 
 static void check_function(tn_diagnostics *diagnostics, const tn_expression_scope *scope, tn_expression *e)

@@ -47,6 +47,10 @@ typedef struct tn_expression_scope {
     tn_code unknown, wrong;             /* codes of errors: a name that is not there, anything else */
 } tn_expression_scope;
 
+/* How a function that other languages have is written by these words: of the arguments a and b. Empty: it cannot be.
+ * NULL: no other language is known to have a function of this name. */
+const char *tn_function_elsewhere(tn_words words, const char *name);
+
 /* Does a name mean something in expressions, so that nothing else should be called so? */
 bool tn_expression_reserves(const tn_expression_scope *scope, const char *name);
 

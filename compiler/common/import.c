@@ -7,6 +7,7 @@
 
 #include "compiler/common/limits.h"
 #include "compiler/common/notation.h"
+#include "runtime/base/utf8.h"
 
 enum { REACH_WORDS = (TN_FILES_MAX + 63) / 64 };
 
@@ -41,6 +42,17 @@ const char *tn_path_stem(const char *path, size_t *length)
 static const char *copy(tn_importer *importer, const char *text)
 {
     return tn_arena_copy(importer->arena, text, strlen(text));
+}
+
+/* A path as modules hold it, in UTF-8: of bytes that are none each becomes a question mark. */
+static const char *copy_path(tn_importer *importer, const char *path)
+{
+    size_t length = strlen(path), size;
+    char *made = tn_arena_copy(importer->arena, path, length);
+    for (size_t at = 0; made && at < length; at += size)
+        if (tn_utf8_read(path + at, length - at, &size) == TN_REPLACEMENT && size == 1)
+            made[at] = '?';
+    return made;
 }
 
 /* ---- what is wrong */
@@ -160,7 +172,7 @@ static tn_unit *new_unit(tn_importer *importer, const tn_input *input, uint32_t 
     *unit = (tn_unit){.file = file,
                       .extension = copy(importer, extension ? extension : tn_path_extension(name)),
                       .identity = copy(importer, input->identity ? input->identity : name),
-                      .recorded = copy(importer, input->recorded ? input->recorded : name),
+                      .recorded = copy_path(importer, input->recorded ? input->recorded : name),
                       .loading = true,
                       .reach = TN_NEW_ARRAY(importer->arena, uint64_t, REACH_WORDS)};
     return unit->extension && unit->identity && unit->recorded && unit->reach ? unit : NULL;

@@ -10,6 +10,7 @@ typedef struct check {
     tn_arena *arena;
     tn_diagnostics *diagnostics;
     const tn_imports *imports;
+    const tn_resolver *resolver; /* NULL: none */
     tn_checked_fields *checked;
     const tn_field_definition *here; /* whose body is checked; NULL: of a box */
     uint32_t unit;
@@ -87,11 +88,32 @@ static const char *nearest(const check *c, const char *wrong, bool function)
     return tn_nearest(wrong, names, count);
 }
 
+/* Does the standard library's file of shapes define this function? */
+static bool is_shape(const check *c, const char *name)
+{
+    char wanted[TN_NAME_MAX + 8] = "\nfn ";
+    const tn_request request = {
+        .path = "shapes", .extension = ".field", .user = c->diagnostics->sources->files[0].path};
+    char meant[TN_MEANT_SIZE] = "";
+    tn_input found;
+    tn_error error;
+    if (!c->resolver || !c->resolver->resolve || strlen(name) > TN_NAME_MAX ||
+        c->resolver->resolve(c->resolver->context, &request, &found, meant, &error) != TN_OK)
+        return false;
+    strcat(strcat(wanted, name), "(");
+    return memmem(found.text, found.size, wanted, strlen(wanted)) != NULL;
+}
+
 static void unknown(check *c, const tn_expression *e, bool function)
 {
     const char *what = function ? "function" : "number or surface", *near = nearest(c, e->name, function);
+    const char *elsewhere = function ? tn_function_elsewhere(TN_WORDS_FIELD, e->name) : NULL;
     tn_diagnostic *d = tn_report(c->diagnostics, E_FIELD_NAME, e->name_span, "there is no %s `%.100s`", what, e->name);
-    if (near)
+    if (elsewhere)
+        tn_help(c->diagnostics, d, "write `%s`", elsewhere);
+    else if (function && is_shape(c, e->name))
+        tn_help(c->diagnostics, d, "add `use \"shapes\"` at the top");
+    else if (near)
         tn_suggest(c->diagnostics, d, "%s", near);
     else if (function)
         tn_help(c->diagnostics, d, "define it: `fn %.60s(x, y, z) = ...`; docs/field-language.md lists what there is",
@@ -335,9 +357,11 @@ static void warn_of_unused(const check *c)
     }
 }
 
-bool tn_check_field(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, tn_checked_fields *checked)
+bool tn_check_field(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports,
+                    const tn_resolver *resolver, tn_checked_fields *checked)
 {
-    check c = {.arena = arena, .diagnostics = diagnostics, .imports = imports, .checked = checked};
+    check c = {
+        .arena = arena, .diagnostics = diagnostics, .imports = imports, .resolver = resolver, .checked = checked};
     *checked = (tn_checked_fields){0};
     gather(&c);
     if (tn_arena_failed(arena))

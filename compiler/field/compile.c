@@ -54,7 +54,7 @@ static tn_status compile(tn_compilation *c, const tn_compile_options *options, t
         const tn_field_file *file = imports.units[u]->tree;
         damaged = damaged || !file || file->damaged;
     }
-    if (!damaged && (!checked || !tn_check_field(c->arena, diagnostics, &imports, checked)))
+    if (!damaged && (!checked || !tn_check_field(c->arena, diagnostics, &imports, &options->resolver, checked)))
         return tn_fail_memory(error);
     if (tn_arena_failed(c->arena) || diagnostics->failed)
         return tn_fail_memory(error);

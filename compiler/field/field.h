@@ -106,11 +106,12 @@ typedef struct tn_checked_fields {
     uint32_t unit;
 } tn_checked_fields;
 
-/* Looks all names up and says what is wrong. False where out of memory. Afterwards, where there were no errors, of each
- * expression `op` is: TN_OP_COORDINATE (of which `term` is the axis), TN_OP_TERM (of which it is the parameter),
- * TN_OPCODE_COUNT (the definition; or of `at` none), TN_OP_MESH_DISTANCE, an operation's or TN_OP_NUMBER. */
+/* Looks all names up and says what is wrong; the resolver (NULL: none) is asked for the library's shapes. False where
+ * out of memory. Afterwards, where there were no errors, of each expression `op` is: TN_OP_COORDINATE (of which `term`
+ * is the axis), TN_OP_TERM (of which it is the parameter), TN_OPCODE_COUNT (the definition; or of `at` none),
+ * TN_OP_MESH_DISTANCE, an operation's or TN_OP_NUMBER. */
 bool tn_check_field(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports,
-                    tn_checked_fields *checked);
+                    const tn_resolver *resolver, tn_checked_fields *checked);
 
 bool tn_field_is_at(const tn_expression *e);
 

@@ -217,6 +217,59 @@ static void check_all(tn_kit *kit, const tn_kit_file *own)
     }
 }
 
+/* ---- rules that nothing uses */
+
+typedef struct used_rules {
+    tn_kit_rule *first, *last;
+} used_rules;
+
+static void use_rule(const tn_kit *kit, used_rules *used, const char *name)
+{
+    tn_kit_rule *rule = tn_names_get(&kit->rules, name);
+    if (!rule || rule->used)
+        return;
+    rule->used = true;
+    if (used->last)
+        used->last->next_used = rule;
+    else
+        used->first = rule;
+    used->last = rule;
+}
+
+/* Those that go on at what an alternative places. */
+static void use_next_rules(const tn_kit *kit, used_rules *used, const tn_kit_node *alternative)
+{
+    for (const tn_kit_node *one = alternative->inner.first; one; one = one->next) {
+        if (one->kind == TN_KIT_PLACES)
+            use_next_rules(kit, used, one);
+        for (const tn_kit_node *named = one->outer.first; one->kind == TN_KIT_PLACED && named; named = named->next)
+            use_rule(kit, used, named->name.text);
+    }
+}
+
+/* A file without models is made to be used by others. */
+static void warn_of_unused(const tn_kit *kit, const tn_kit_file *own)
+{
+    used_rules used = {0};
+    for (const tn_kit_model *model = kit->model_list.first; model; model = model->next)
+        for (const tn_kit_node *node = model->node->inner.first; node; node = node->next)
+            if (node->kind == TN_KIT_START || node->kind == TN_KIT_STANDS)
+                use_rule(kit, &used, node->other.text);
+    for (const tn_kit_rule *rule = used.first; rule; rule = rule->next_used)
+        for (const tn_kit_node *one = rule->node->inner.first; one; one = one->next)
+            use_next_rules(kit, &used, one);
+    for (const tn_kit_node *node = own->first; kit->model_list.first && node; node = node->next) {
+        const tn_kit_rule *rule = node->kind == TN_KIT_RULE ? tn_names_get(&kit->rules, node->name.text) : NULL;
+        if (!rule || rule->used)
+            continue;
+        tn_diagnostic *d = tn_report(kit->diagnostics, W_KIT_UNUSED_RULE, node->name.span,
+                                     "no model comes to rule %.100s", node->name.text);
+        tn_help(kit->diagnostics, d,
+                "a rule is named by a model's `start ... by %.60s`, or goes on at a part: `with %.60s`",
+                node->name.text, node->name.text);
+    }
+}
+
 bool tn_check_kit(tn_kit *kit, const tn_imports *imports)
 {
     tn_names *tables[] = {&kit->lengths, &kit->types, &kit->parts, &kit->spaces, &kit->rules, &kit->models};
@@ -240,5 +293,7 @@ bool tn_check_kit(tn_kit *kit, const tn_imports *imports)
                       "there is nothing in this kit");
         tn_help(kit->diagnostics, d, "begin with `use \"bricks\";`, a rule and a model");
     }
+    if (!kit->damaged && kit->diagnostics->error_count == errors)
+        warn_of_unused(kit, own);
     return !kit->damaged && kit->diagnostics->error_count == errors && !tn_arena_failed(kit->arena);
 }

@@ -64,6 +64,8 @@ typedef struct tn_kit_space {
 typedef struct tn_kit_rule {
     const tn_kit_node *node;
     struct tn_kit_rule *next;
+    struct tn_kit_rule *next_used; /* in the list of those that models use */
+    bool used;                     /* is in it */
 } tn_kit_rule;
 
 /* A space at hand: a condition on x, y and z, and a box that holds it. */

@@ -97,6 +97,34 @@ static void take_parts(tn_kit *kit, const tn_kit_node *node, const tn_ldraw *ldr
     parts->last = taken.last;
 }
 
+/* Where files beside a model are looked for. */
+typedef struct model_place {
+    const tn_attachments *attachments;
+    const char *path; /* of the model */
+} model_place;
+
+/* What cannot be had is no file: then the name is that of a part. */
+static tn_status find_beside(void *context, const char *name, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    const model_place *place = context;
+    const tn_request request = {name, "", place->path};
+    tn_status status = place->attachments->bytes(place->attachments->context, &request, bytes, size, error);
+    return status == TN_MEMORY ? status : TN_OK;
+}
+
+/* The path of the model that a kit names. */
+static const char *model_path(tn_kit *kit, const tn_request *request)
+{
+    const char *slash = request->path[0] == '/' ? NULL : strrchr(request->user, '/');
+    size_t folder = slash ? (size_t)(slash + 1 - request->user) : 0, size = strlen(request->path) + 1;
+    char *path = TN_NEW_ARRAY(kit->arena, char, folder + size);
+    if (!path)
+        return request->path; /* the arena remembers */
+    memcpy(path, request->user, folder);
+    memcpy(path + folder, request->path, size);
+    return path;
+}
+
 static void read_parts(tn_kit *kit, const tn_kit_node *node, tn_kit_parts *parts)
 {
     uint8_t *bytes = NULL;
@@ -104,12 +132,14 @@ static void read_parts(tn_kit *kit, const tn_kit_node *node, tn_kit_parts *parts
     tn_ldraw ldraw = {0};
     tn_error error = {0};
     const tn_request request = tn_kit_request(kit, node);
+    model_place place = {kit->attachments, model_path(kit, &request)};
     double unit[3];
     for (int k = 0; k < 3; k++)
         unit[k] = (double)kit->unit[k] / 1e6;
     tn_status status = kit->attachments->bytes(kit->attachments->context, &request, &bytes, &size, &error);
     if (status == TN_OK)
-        status = tn_ldraw_read((const char *)bytes, size, unit, kit->turns, &ldraw, &error);
+        status = tn_ldraw_read((const char *)bytes, size, unit, kit->turns, &(tn_ldraw_files){find_beside, &place},
+                               &ldraw, &error);
     free(bytes);
     if (status == TN_OK && ldraw.model.count + ldraw.tilted + ldraw.beside == 0)
         status = tn_fail(&error, TN_INVALID, TN_CODE_NONE, "it has no parts");

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "compiler/common/import.h"
 #include "driver/open/attached.h"
 #include "driver/open/files.h"
 #include "driver/open/stdlib_dirs.h"
@@ -47,6 +48,23 @@ typedef struct asked {
     size_t more_count;
 } asked;
 
+/* What is wrong with a file of another kind is said in the words of plans: it says why. */
+static void note_what_it_is_read_as(tn_opened *opened)
+{
+    tn_diagnostics *list = &opened->compilation.diagnostics;
+    const char *extension = tn_path_extension(opened->path);
+    char endings[200] = "";
+    if (list->count == 0 || !*extension || tn_notation_of(opened->path, "", 0))
+        return;
+    for (size_t i = 0; i < tn_notation_count; i++) {
+        size_t size = strlen(endings);
+        if (tn_notation_is_main(&tn_notations[i]))
+            snprintf(endings + size, sizeof endings - size, "%s%s", size ? ", " : "", tn_notations[i].extension);
+    }
+    tn_note(list, &list->items[0], NULL,
+            "no notation has the ending %.20s: the file is read as rules of plans; there are %s", extension, endings);
+}
+
 /* Compiles what lies in a file, or would: that it uses files itself is to be expected. */
 static tn_status compile_file(tn_opened *opened, const char *text, size_t size, const asked *how)
 {
@@ -65,6 +83,8 @@ static tn_status compile_file(tn_opened *opened, const char *text, size_t size, 
                                       .more = how->more,
                                       .more_count = how->more_count};
         status = compile(tn_notation_or_first(opened->path, text, size), &input, &options, opened);
+        if (status == TN_INVALID)
+            note_what_it_is_read_as(opened);
     } else {
         tn_fail_memory(&error);
         status = refuse(opened, &error);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "driver/open/missing.h"
 #include "driver/place/drawn.h"
 #include "driver/place/place.h"
 #include "runtime/base/file.h"
@@ -264,6 +265,18 @@ tn_status tn_drawn_kit(const tn_module *module, const tn_placed_model *model, co
 
 /* ---- reading */
 
+/* context: where the path of the text is. */
+static tn_status find_beside(void *context, const char *name, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    const char *const *text = context;
+    char *path = tn_path_beside(*text, name, "");
+    if (!path)
+        return tn_fail_memory(error);
+    tn_status status = tn_path_exists(path) ? tn_file_read(path, TN_DRAWN_BYTES, bytes, size, error) : TN_OK;
+    free(path);
+    return status;
+}
+
 tn_status tn_drawn_read(const char *path, const tn_module *module, tn_ldraw *ldraw, tn_error *error)
 {
     uint8_t *bytes;
@@ -274,7 +287,8 @@ tn_status tn_drawn_read(const char *path, const tn_module *module, tn_ldraw *ldr
     if (status != TN_OK)
         return status;
     tn_place_unit(module, unit);
-    status = tn_ldraw_read((const char *)bytes, size, unit, tn_place_turns(module), ldraw, error);
+    const tn_ldraw_files beside = {find_beside, &path};
+    status = tn_ldraw_read((const char *)bytes, size, unit, tn_place_turns(module), &beside, ldraw, error);
     free(bytes);
     if (status == TN_INVALID) {
         tn_error found = *error;

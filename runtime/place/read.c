@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "runtime/base/array.h"
 
@@ -22,7 +23,9 @@ typedef struct reference {
 
 typedef struct subfile {
     char *name;          /* NULL: the model has none */
+    const char *beside;  /* the file beside the text that it is in; NULL: it is in the text */
     size_t first, count; /* references */
+    bool whole;          /* it is a text of its own, which may begin with a line 0 FILE */
     bool open;           /* it is being put in place */
 } subfile;
 
@@ -34,7 +37,8 @@ typedef struct reader {
     size_t reference_count, reference_capacity;
     subfile *files;
     size_t file_count, file_capacity;
-    size_t visited; /* references, each as often as its file is put in place */
+    const char *beside; /* the file that is being read, as in subfiles */
+    size_t visited;     /* references, each as often as its file is put in place */
     tn_error *error;
 } reader;
 
@@ -42,7 +46,8 @@ typedef struct reader {
 
 static tn_status wrong_line(reader *r, size_t line, const char *what)
 {
-    return tn_fail(r->error, TN_INVALID, E_LDRAW_LINE, "line %zu: %s", line, what);
+    return tn_fail(r->error, TN_INVALID, E_LDRAW_LINE, "%.200s%sline %zu: %s", r->beside ? r->beside : "",
+                   r->beside ? ", " : "", line, what);
 }
 
 static char *skip_blanks(char *text)
@@ -52,14 +57,14 @@ static char *skip_blanks(char *text)
     return text;
 }
 
-/* The rest of a line, in small letters, with / for \, without blanks at its end. */
+/* The rest of a line, with / for \, without blanks at its end. */
 static char *take_name(char *text)
 {
     size_t size = strlen(text);
     while (size > 0 && isspace((unsigned char)text[size - 1]))
         text[--size] = '\0';
     for (char *c = text; *c; c++)
-        *c = *c == '\\' ? '/' : (char)tolower((unsigned char)*c);
+        *c = *c == '\\' ? '/' : *c;
     return text;
 }
 
@@ -90,7 +95,7 @@ static tn_status begin_file(reader *r, char *name)
 {
     if (!tn_array_reserve(&r->files, &r->file_capacity, r->file_count, 1, sizeof *r->files))
         return tn_fail_memory(r->error);
-    r->files[r->file_count++] = (subfile){.name = name, .first = r->reference_count};
+    r->files[r->file_count++] = (subfile){.name = name, .beside = r->beside, .first = r->reference_count};
     return TN_OK;
 }
 
@@ -98,21 +103,26 @@ static tn_status read_line(reader *r, char *text, size_t line)
 {
     text = skip_blanks(text);
     if (strncmp(text, "0 FILE ", 7) == 0) {
-        subfile *first = &r->files[0];
-        if (r->file_count == 1 && first->count == 0 && !first->name) {
-            first->name = take_name(skip_blanks(text + 7)); /* the model itself */
-            return TN_OK;
-        }
-        return begin_file(r, take_name(skip_blanks(text + 7)));
+        subfile *last = &r->files[r->file_count - 1];
+        char *name = take_name(skip_blanks(text + 7));
+        bool first = last->whole && last->count == 0;
+        last->whole &= !first;
+        if (!first)
+            return begin_file(r, name);
+        last->name = last->name ? last->name : name;
+        return TN_OK;
     }
     if (text[0] == '1' && (text[1] == ' ' || text[1] == '\t'))
         return read_reference(r, text + 1, line);
     return TN_OK;
 }
 
-static tn_status read_lines(reader *r, char *text)
+/* name: of the sub-file that the text is; NULL: it is the model. */
+static tn_status read_lines(reader *r, char *text, char *name)
 {
-    tn_status status = begin_file(r, NULL);
+    tn_status status = begin_file(r, name);
+    if (status == TN_OK)
+        r->files[r->file_count - 1].whole = true;
     for (size_t line = 1; text && status == TN_OK; line++) {
         char *next = strchr(text, '\n');
         if (next)
@@ -205,6 +215,12 @@ static void compose(const double outer[NUMBERS], const double inner[NUMBERS], do
     }
 }
 
+static tn_status wrong_reference(reader *r, const subfile *file, size_t line, const char *what)
+{
+    r->beside = file->beside;
+    return wrong_line(r, line, what);
+}
+
 /* Recursion is as deep as sub-files nest, at most DEPTH_MAX. */
 static tn_status place_file(reader *r, subfile *file, const double at[NUMBERS], int32_t colour, int depth)
 {
@@ -223,7 +239,8 @@ static tn_status place_file(reader *r, subfile *file, const double at[NUMBERS], 
         if (!sub)
             status = add_part(r, from, placed, own);
         else if (sub->open || depth == DEPTH_MAX)
-            status = wrong_line(r, from->line, "this sub-file contains itself, or too many others in one another");
+            status = wrong_reference(r, file, from->line,
+                                     "this sub-file contains itself, or too many others in one another");
         else
             status = place_file(r, sub, placed, own, depth + 1);
     }
@@ -231,32 +248,53 @@ static tn_status place_file(reader *r, subfile *file, const double at[NUMBERS], 
     return status;
 }
 
-static void cut_ending(char *name)
+/* ---- names */
+
+static bool ends_in(const char *name, const char *ending)
 {
-    size_t size = name ? strlen(name) : 0;
-    if (size > 4 && strcmp(name + size - 4, ".dat") == 0)
-        name[size - 4] = '\0';
+    size_t size = strlen(name), length = strlen(ending);
+    return size > length && strcasecmp(name + size - length, ending) == 0;
+}
+
+/* In small letters, without .dat. */
+static void make_plain(char *name)
+{
+    if (!name)
+        return;
+    if (ends_in(name, ".dat"))
+        name[strlen(name) - 4] = '\0';
+    for (char *c = name; *c; c++)
+        *c = (char)tolower((unsigned char)*c);
 }
 
 static int by_name(const void *a, const void *b)
 {
     const reference *const *one = a, *const *other = b;
-    return strcmp((*one)->name, (*other)->name);
+    return strcasecmp((*one)->name, (*other)->name);
 }
 
-/* Names lose their ending, and equal ones become one text: parts are counted by it. */
+/* References from `first` on, by their names. NULL where out of memory. */
+static reference **sort_references(const reader *r, size_t first)
+{
+    size_t count = r->reference_count - first;
+    reference **sorted = malloc((count + 1) * sizeof *sorted);
+    for (size_t i = 0; sorted && i < count; i++)
+        sorted[i] = &r->references[first + i];
+    if (sorted)
+        qsort(sorted, count, sizeof *sorted, by_name);
+    return sorted;
+}
+
+/* Equal names become one text: parts are counted by it. */
 static tn_status share_names(reader *r)
 {
-    reference **sorted = malloc((r->reference_count + 1) * sizeof *sorted);
+    for (size_t i = 0; i < r->file_count; i++)
+        make_plain(r->files[i].name);
+    for (size_t i = 0; i < r->reference_count; i++)
+        make_plain(r->references[i].name);
+    reference **sorted = sort_references(r, 0);
     if (!sorted)
         return tn_fail_memory(r->error);
-    for (size_t i = 0; i < r->file_count; i++)
-        cut_ending(r->files[i].name);
-    for (size_t i = 0; i < r->reference_count; i++) {
-        cut_ending(r->references[i].name);
-        sorted[i] = &r->references[i];
-    }
-    qsort(sorted, r->reference_count, sizeof *sorted, by_name);
     for (size_t i = 1; i < r->reference_count; i++)
         if (strcmp(sorted[i]->name, sorted[i - 1]->name) == 0)
             sorted[i]->name = sorted[i - 1]->name;
@@ -268,8 +306,19 @@ static tn_status share_names(reader *r)
 static int by_file_name(const void *a, const void *b)
 {
     const subfile *const *one = a, *const *other = b;
-    int order = strcmp((*one)->name, (*other)->name);
+    int order = strcasecmp((*one)->name, (*other)->name);
     return order != 0 ? order : (*one > *other) - (*one < *other);
+}
+
+/* The sub-files by their names: all but the model, which cannot be one. NULL where out of memory. */
+static subfile **sort_files(const reader *r)
+{
+    subfile **sorted = malloc(r->file_count * sizeof *sorted);
+    for (size_t i = 1; sorted && i < r->file_count; i++)
+        sorted[i - 1] = &r->files[i];
+    if (sorted)
+        qsort(sorted, r->file_count - 1, sizeof *sorted, by_file_name);
+    return sorted;
 }
 
 /* The first of sorted files with a name; 0: there is none. */
@@ -278,41 +327,93 @@ static uint32_t find_file(const reader *r, subfile *const *sorted, size_t count,
     size_t low = 0, high = count;
     while (low < high) {
         size_t middle = low + (high - low) / 2;
-        if (strcmp(sorted[middle]->name, name) < 0)
+        if (strcasecmp(sorted[middle]->name, name) < 0)
             low = middle + 1;
         else
             high = middle;
     }
-    return low < count && strcmp(sorted[low]->name, name) == 0 ? (uint32_t)(sorted[low] - r->files) : 0;
+    return low < count && strcasecmp(sorted[low]->name, name) == 0 ? (uint32_t)(sorted[low] - r->files) : 0;
 }
 
-/* Which sub-file each reference names. The model itself cannot be one. */
+/* Which sub-file each reference names. */
 static tn_status find_files(reader *r)
 {
-    subfile **sorted = malloc(r->file_count * sizeof *sorted);
-    size_t count = 0;
+    subfile **sorted = sort_files(r);
     if (!sorted)
         return tn_fail_memory(r->error);
-    for (size_t i = 1; i < r->file_count; i++)
-        sorted[count++] = &r->files[i];
-    qsort(sorted, count, sizeof *sorted, by_file_name);
     for (size_t i = 0; i < r->reference_count; i++)
-        r->references[i].file = find_file(r, sorted, count, r->references[i].name);
+        r->references[i].file = find_file(r, sorted, r->file_count - 1, r->references[i].name);
     free(sorted);
     return TN_OK;
 }
 
-tn_status tn_ldraw_read(const char *text, size_t size, const double unit[3], uint32_t turns, tn_ldraw *ldraw,
-                        tn_error *error)
+/* ---- texts */
+
+/* Reads a copy of a text; name: of the sub-file that it is, in a text that was read before. */
+static tn_status read_text(reader *r, const char *text, size_t size, char *name)
+{
+    tn_ldraw *ldraw = r->ldraw;
+    char *copy = tn_array_resize(&ldraw->texts, ldraw->text_count + 1, sizeof *ldraw->texts) ? malloc(size + 1) : NULL;
+    if (!copy)
+        return tn_fail_memory(r->error);
+    ldraw->texts[ldraw->text_count++] = copy;
+    memcpy(copy, text, size);
+    copy[size] = '\0';
+    r->beside = name;
+    return read_lines(r, copy, name);
+}
+
+/* Parts are .dat files, and an empty folder name leads out of where the text lies. */
+static bool may_lie_beside(const char *name)
+{
+    return (ends_in(name, ".ldr") || ends_in(name, ".mpd")) && name[0] != '/' && !strstr(name, "..");
+}
+
+static tn_status read_beside(reader *r, const tn_ldraw_files *beside, char *name)
+{
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    tn_status status = beside->find(beside->context, name, &bytes, &size, r->error);
+    if (status == TN_OK && bytes)
+        status = read_text(r, (const char *)bytes, size, name);
+    free(bytes);
+    return status;
+}
+
+/* Reads the files that references from *done on name, each once. */
+static tn_status read_named(reader *r, const tn_ldraw_files *beside, size_t *done)
+{
+    size_t count = r->reference_count - *done, known = r->file_count - 1;
+    reference **references = sort_references(r, *done);
+    subfile **files = sort_files(r);
+    char **names = malloc((count + 1) * sizeof *names); /* references move while files are read */
+    size_t name_count = 0;
+    tn_status status = references && files && names ? TN_OK : tn_fail_memory(r->error);
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        char *name = references[i]->name;
+        bool again = i > 0 && strcasecmp(references[i - 1]->name, name) == 0;
+        if (!again && may_lie_beside(name) && !find_file(r, files, known, name))
+            names[name_count++] = name;
+    }
+    *done = r->reference_count;
+    for (size_t i = 0; status == TN_OK && i < name_count; i++)
+        status = read_beside(r, beside, names[i]);
+    free(references);
+    free(files);
+    free(names);
+    return status;
+}
+
+tn_status tn_ldraw_read(const char *text, size_t size, const double unit[3], uint32_t turns,
+                        const tn_ldraw_files *beside, tn_ldraw *ldraw, tn_error *error)
 {
     static const double here[NUMBERS] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
     reader r = {.ldraw = ldraw, .unit = unit, .turns = turns, .error = error};
-    *ldraw = (tn_ldraw){.text = malloc(size + 1)};
-    if (!ldraw->text)
-        return tn_fail_memory(error);
-    memcpy(ldraw->text, text, size);
-    ldraw->text[size] = '\0';
-    tn_status status = read_lines(&r, ldraw->text);
+    size_t done = 0;
+    *ldraw = (tn_ldraw){0};
+    tn_status status = read_text(&r, text, size, NULL);
+    while (status == TN_OK && beside && done < r.reference_count)
+        status = read_named(&r, beside, &done);
     if (status == TN_OK)
         status = share_names(&r);
     if (status == TN_OK)
@@ -327,6 +428,8 @@ tn_status tn_ldraw_read(const char *text, size_t size, const double unit[3], uin
 void tn_ldraw_clear(tn_ldraw *ldraw)
 {
     tn_placed_model_clear(&ldraw->model);
-    free(ldraw->text);
+    for (size_t i = 0; i < ldraw->text_count; i++)
+        free(ldraw->texts[i]);
+    free(ldraw->texts);
     *ldraw = (tn_ldraw){0};
 }

@@ -18,6 +18,13 @@ golden no_analysis "tartan check --werror --no-analysis $scratch/odd.plan"
 golden no_relations_without_analysis 'tartan check sheds.plan --relations --no-analysis'
 golden examples_without_relations 'tartan check sheds.plan --examples'
 golden several_files "tartan check sheds.plan rows.plan --count"
+printf '# a tape\n_0 const 2.95\n_1 var-x\n_2 mul _1 _0\n' >"$scratch/tape.vm"
+golden other_ending "tartan check $scratch/tape.vm"
+# A name that is not UTF-8 is written so into modules that they can be read.
+printf 'schema s { door = flag }\nrule r = tray(door)\n' >"$scratch/"$'h\xfctte.plan'
+exits 0 "$TARTAN" check "$scratch/"$'h\xfctte.plan'
+exits 0 "$TARTAN" build "$scratch/"$'h\xfctte.plan' -o "$scratch/named.tnb"
+"$TARTAN" disasm "$scratch/named.tnb" | grep -q 'h?tte.plan' || fail 'a module does not name its source'
 golden library_alone "tartan check sheds.plan --library rows"
 golden relations_and_count "tartan check sheds.plan --relations --count"
 

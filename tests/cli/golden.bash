@@ -1,6 +1,7 @@
 # For the shell tests: compares what commands print with golden files. A test sources this after setting `name`; its goldens lie in
 # tests/cli/NAME/, its scratch folder is $scratch, and rule files are in $files. TARTAN_UPDATE=1 writes the goldens anew.
 set -euo pipefail
+: "${TARTAN:?the binary to test}"
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 files=$here/files
 goldens=$here/$name

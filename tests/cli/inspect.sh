@@ -44,6 +44,36 @@ for one in colour short nameless empty itself many; do
     golden $one "tartan inspect $scratch/$one.ldr --kit bricks"
 done
 
+# Sub-files that lie beside a model are read, also of one another; what a text holds itself comes first, and nothing is read from elsewhere.
+mkdir "$scratch/beside" "$scratch/beside/inner"
+cat >"$scratch/beside/outer.ldr" <<'X'
+1 4 0 0 0 1 0 0 0 1 0 0 0 1 Wing.ldr
+1 1 80 0 0 1 0 0 0 1 0 0 0 1 Wing.ldr
+1 2 160 0 0 1 0 0 0 1 0 0 0 1 own.ldr
+1 2 200 0 0 1 0 0 0 1 0 0 0 1 inner\gate.mpd
+1 2 300 0 0 1 0 0 0 1 0 0 0 1 ../far.ldr
+1 2 400 0 0 1 0 0 0 1 0 0 0 1 nowhere.ldr
+0 FILE own.ldr
+1 16 0 0 0 1 0 0 0 1 0 0 0 1 3005.dat
+X
+echo '1 16 0 0 0 1 0 0 0 1 0 0 0 1 3001.dat' | tee "$scratch/far.ldr" "$scratch/beside/own.ldr" >/dev/null
+printf '1 16 0 0 0 1 0 0 0 1 0 0 0 1 3001.dat\n1 16 0 -24 0 1 0 0 0 1 0 0 0 1 tip.ldr\n' >"$scratch/beside/Wing.ldr"
+echo '1 16 0 0 0 1 0 0 0 1 0 0 0 1 3003.DAT' >"$scratch/beside/tip.ldr"
+printf '0 FILE gate.ldr\n1 16 0 0 0 1 0 0 0 1 0 0 0 1 post.ldr\n0 FILE post.ldr\n1 16 0 0 0 1 0 0 0 1 0 0 0 1 3004.dat\n' >"$scratch/beside/inner/gate.mpd"
+golden beside "tartan inspect $scratch/beside/outer.ldr --kit bricks"
+cat >"$scratch/beside/stands.kit" <<'X'
+use "bricks";
+rule none at stud = 3005 stop;
+model pair { inside box(400, 200, 200) at (0, -24, 0); start "pair.ldr" by none; }
+X
+printf '1 4 0 0 0 1 0 0 0 1 0 0 0 1 wing.ldr\n' >"$scratch/beside/pair.ldr"
+cp "$scratch/beside/Wing.ldr" "$scratch/beside/wing.ldr"
+golden beside_kit "cd $scratch/beside && tartan place stands.kit -o - | grep ^1"
+printf '1 4 0 0 0 1 0 0 0 1 0 0 0 1 again.ldr\n' >"$scratch/beside/again.ldr"
+golden beside_itself "tartan inspect $scratch/beside/again.ldr --kit bricks"
+printf '0 a wing\n1 16 0 0 0 1 0 0 0 1 0 0 0 3001.dat\n' >"$scratch/beside/Wing.ldr"
+golden beside_wrong "tartan inspect $scratch/beside/outer.ldr --kit bricks"
+
 # Of what was placed: the same figures, no overlaps, and its conditions hold; the pictures are the same twice.
 cd "$scratch"
 for kit in tower gatehouse; do

@@ -17,6 +17,7 @@ model one { inside room; start stud at (0, 0, 0) by drawn; minimize elements; se
 model greedy { inside room; start stud at (0, 0, 0) by drawn; }
 model no { inside room; start stud at (0, 0, 0) by all; require elements < 30; minimize elements; search anneal 50; }
 model image { inside room; start stud at (0, 0, 0) by skewed; symmetry mirror x; }
+model even { inside room; start stud at (0, 0, 0) by all; order breadth; }
 model empty { inside box(20, 8, 20); start stud at (0, 0, 0) by all; search exact; }
 model small { inside box(2 studs, 1 brick, 3 studs); start stud at (0.5 studs, 0, 0) by all; stock 3005 <= 4, 3001 <= 0; minimize elements; search exact; }
 X
@@ -26,6 +27,9 @@ place() {
 }
 golden figures "tartan place $scratch/box.kit -m beam --stats; tartan place $scratch/box.kit -m beam --stats json; tartan place $scratch/box.kit -m small --stats"
 golden trace "tartan place $scratch/box.kit -m beam --trace"
+for model in even image small; do
+    golden trace_$model "tartan place $scratch/box.kit -m $model --trace"
+done
 golden program "tartan place $scratch/box.kit -m beam --program -"
 golden no_search "tartan place $scratch/box.kit -m greedy --threads 2"
 golden unmet "tartan place $scratch/box.kit -m no -o $scratch/unmet.ldr"

@@ -138,4 +138,12 @@ golden sharp_crossing "tartan mesh primitives --surface klein --grid 30 --sharp 
 "$TARTAN" mesh block.field --times --stats json | grep -q '"seconds": {"samples": 0' || fail "no times"
 exits 2 "$TARTAN" mesh table --sharp
 golden up_3mf "tartan mesh $scratch/unit.field -o $scratch/x.3mf --up y"
+# What is written for a function of another language can be written.
+count=0
+while read -r text; do
+    printf 'surface s = %s + z\n' "${text//\"/}" | sed -E 's/\<a\>/x/g; s/\<b\>/y/g; s/\<c\>/z/g' >"$scratch/written.field"
+    exits 0 "$TARTAN" check "$scratch/written.field"
+    count=$((count + 1))
+done < <(sed -nE 's/^        \{"[a-z0-9]+", "[a-z0-9]+", (".*")\},$/\1/p' "$here/../../compiler/common/expression.c")
+[ $count -gt 20 ] || fail "only $count functions of other languages"
 finish

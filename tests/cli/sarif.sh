@@ -8,18 +8,6 @@ cat >"$scratch/validate.py" <<'PY'
 """What SARIF 2.1.0 (OASIS, sections 3.13 to 3.58) requires of the objects that are written here."""
 import json, sys
 
-log = json.load(open(sys.argv[1], encoding="utf-8"))
-assert set(log) == {"$schema", "version", "runs"} and log["version"] == "2.1.0"
-assert log["$schema"].endswith("sarif-2.1.0.json")
-[run] = log["runs"]
-driver = run["tool"]["driver"]
-assert driver["name"] == "tartan" and driver["version"]
-assert run["columnKind"] in ("utf16CodeUnits", "unicodeCodePoints")
-ids = [rule["id"] for rule in driver["rules"]]
-assert len(set(ids)) == len(ids)
-for rule in driver["rules"]:
-    assert rule["shortDescription"]["text"] and rule["defaultConfiguration"]["level"] in ("error", "warning")
-
 
 def region(r):
     assert all(isinstance(r[k], int) and r[k] >= 1 for k in ("startLine", "startColumn", "endLine", "endColumn")), r
@@ -33,7 +21,7 @@ def location(place):
     region(physical["region"])
 
 
-for result in run["results"]:
+def check_result(result, ids):
     assert result["message"]["text"]
     assert result["level"] in ("none", "note", "warning", "error")
     assert ids[result["ruleIndex"]] == result["ruleId"]
@@ -50,18 +38,41 @@ for result in run["results"]:
             for replacement in change["replacements"]:
                 region(replacement["deletedRegion"])
                 assert isinstance(replacement["insertedContent"]["text"], str)
-print(len(run["results"]), len(ids))
+
+
+def check(path):
+    log = json.load(open(path, encoding="utf-8"))
+    assert set(log) == {"$schema", "version", "runs"} and log["version"] == "2.1.0"
+    assert log["$schema"].endswith("sarif-2.1.0.json")
+    [run] = log["runs"]
+    driver = run["tool"]["driver"]
+    assert driver["name"] == "tartan" and driver["version"]
+    assert run["columnKind"] in ("utf16CodeUnits", "unicodeCodePoints")
+    ids = [rule["id"] for rule in driver["rules"]]
+    assert len(set(ids)) == len(ids)
+    for rule in driver["rules"]:
+        assert rule["shortDescription"]["text"] and rule["defaultConfiguration"]["level"] in ("error", "warning")
+    for result in run["results"]:
+        check_result(result, ids)
+    print(len(run["results"]), len(ids))
+
+
+for path in sys.argv[1:]:
+    try:
+        check(path)
+    except Exception as wrong:
+        sys.exit(f"{path}: {wrong!r}")
 PY
-valid() { python3 "$scratch/validate.py" "$1" || fail "$1 is not valid"; }
+valid() { python3 "$scratch/validate.py" "$@" || fail "these are not all valid: $*"; }
 
 cp tests/diagnostics/* "$scratch" 2>/dev/null || true
 (cd "$scratch" && "$TARTAN" check ./*.plan --sarif all.sarif >/dev/null 2>&1) || true
 counted=$(valid "$scratch/all.sarif")
 [ "${counted% *}" -gt 300 ] || fail "only $counted findings and codes"
 for file in "$scratch"/*.hemls "$scratch"/*.bnf "$scratch"/*.field "$scratch"/*.solid; do
-    "$TARTAN" check "$file" --sarif "$scratch/one.sarif" >/dev/null 2>&1 || true
-    valid "$scratch/one.sarif" >/dev/null
+    "$TARTAN" check "$file" --sarif "$file.sarif" >/dev/null 2>&1 || true
 done
+valid "$scratch"/*.{hemls,bnf,field,solid}.sarif >/dev/null
 
 printf 'schema s "\303\251t\303\251" { w = 1m | 2m }  rule a = tray(3m)\n' >"$scratch/a b\303\251.plan"
 printf 'schema s "\303\251t\303\251" { w = 1m | 2m }  rule a = tray(3m)\n' >"$scratch/accents.plan"

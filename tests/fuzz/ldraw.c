@@ -45,7 +45,7 @@ static void write_and_read(const tn_placed_model *model, const double unit[3])
         return;
     tn_place_write_ldraw(NULL, model, NULL, out);
     fclose(out);
-    if (tn_ldraw_read(text, size, unit, 24, &again, &error) != TN_OK)
+    if (tn_ldraw_read(text, size, unit, 24, NULL, &again, &error) != TN_OK)
         fail("what was written cannot be read");
     compare(model, &again.model);
     tn_ldraw_clear(&again);
@@ -57,7 +57,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static const double unit[3] = {10, 8, 10}; /* of files without a kit */
     tn_ldraw ldraw;
     tn_error error = {0};
-    tn_status status = tn_ldraw_read((const char *)data, size, unit, 24, &ldraw, &error);
+    tn_status status = tn_ldraw_read((const char *)data, size, unit, 24, NULL, &ldraw, &error);
     if (status != TN_OK && error.message[0] == '\0')
         fail("failed without an error");
     if (status == TN_OK && ldraw.model.count < 10000 && is_plain(&ldraw.model))

@@ -125,6 +125,20 @@ void tn_check_let(tn_check *check, const tn_ast_expr *value)
             "write `let wide = 4.8m` or `let wet = bath or kitchen`; a rule is named by `rule NAME = ...`");
 }
 
+/* Says which use themselves, whether or not anything uses them. */
+static void check_lets(tn_check *check)
+{
+    for (size_t u = 0; check->has_lets && u < check->imports->count; u++) {
+        const tn_ast_file *file = check->imports->units[u]->tree;
+        for (TN_EACH(tn_ast_top, item, file->items)) {
+            const tn_checked_name *name =
+                item->kind == TN_ITEM_LET ? tn_names_get(&check->names, ((const tn_ast_rule *)item)->name->text) : NULL;
+            if (name && name->rule && name->rule->is_let)
+                tn_let_value(check, name->rule);
+        }
+    }
+}
+
 void tn_check_settle(tn_check *check)
 {
     tn_checked *result = check->result;
@@ -154,8 +168,9 @@ tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const t
     for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
         tn_check_numbers(&check, result->schemas[i]);
     static void (*const steps[])(tn_check *) = {
-        tn_check_forms, find_schemas,    tn_check_older_measures, tn_check_settle, tn_check_libraries,
-        tn_check_asked, tn_check_unused, tn_check_number_records, tn_check_tests,  tn_check_allowances};
+        check_lets,         tn_check_forms, find_schemas,    tn_check_older_measures, tn_check_settle,
+        tn_check_libraries, tn_check_asked, tn_check_unused, tn_check_number_records, tn_check_tests,
+        tn_check_allowances};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !tn_arena_failed(arena); i++)
         steps[i](&check);
     return tn_arena_failed(arena) ? TN_MEMORY : TN_OK;

@@ -8,49 +8,122 @@
 #define PROBES 256u
 #define PROBE_LENGTH_MAX 6u
 
+/* Rules of one meaning have one automaton: what is found of it holds for all of them. */
+typedef struct meanings {
+    size_t count;
+    size_t *of;        /* [rules] */
+    size_t *first;     /* [count] the first rule of each */
+    bool *own, *named; /* [count] some rule of it is */
+} meanings;
+
 typedef struct probes {
     size_t count, words;
-    uint64_t *matches; /* [rules][words] */
+    uint64_t *matches; /* [meanings][words] */
 } probes;
+
+/* ---- meanings */
+
+static uint64_t hash_of(const tn_dfa *dfa)
+{
+    uint64_t hash = tn_mix64(dfa->states ^ (uint64_t)dfa->columns << 32);
+    for (size_t i = 0; i < (size_t)dfa->states * dfa->columns; i++)
+        hash = tn_mix64(hash ^ dfa->delta[i]);
+    for (uint32_t i = 0; i < dfa->states; i++)
+        hash = tn_mix64(hash ^ dfa->accept[i]);
+    return hash;
+}
+
+/* A rule past the limit has a meaning of its own. */
+static void add_meaning(const tn_plan_analysis *analysis, meanings *m, size_t *table, size_t size, size_t rule)
+{
+    const tn_dfa *dfa = analysis->rules[rule].dfa;
+    size_t slot = dfa ? (size_t)hash_of(dfa) & (size - 1) : 0, found = m->count;
+    while (dfa && table[slot] && !tn_dfa_equal(analysis->rules[m->first[table[slot] - 1]].dfa, dfa))
+        slot = (slot + 1) & (size - 1);
+    if (dfa && table[slot])
+        found = table[slot] - 1;
+    else
+        m->first[m->count++] = rule;
+    if (dfa)
+        table[slot] = found + 1;
+    m->of[rule] = found;
+    m->own[found] |= analysis->rules[rule].own;
+    m->named[found] |= analysis->rules[rule].named;
+}
+
+static void clear_meanings(meanings *m)
+{
+    free(m->of);
+    free(m->first);
+    free(m->own);
+    free(m->named);
+}
+
+static tn_status find_meanings(const tn_plan_analysis *analysis, meanings *m, tn_error *error)
+{
+    size_t n = analysis->rule_count, size = 2;
+    while (size < 2 * n)
+        size *= 2;
+    size_t *table = calloc(size, sizeof *table);
+    *m = (meanings){.of = calloc(n + 1, sizeof *m->of),
+                    .first = calloc(n + 1, sizeof *m->first),
+                    .own = calloc(n + 1, sizeof *m->own),
+                    .named = calloc(n + 1, sizeof *m->named)};
+    bool there = table && m->of && m->first && m->own && m->named;
+    for (size_t r = 0; there && r < n; r++)
+        add_meaning(analysis, m, table, size, r);
+    free(table);
+    return there ? TN_OK : tn_fail_memory(error);
+}
 
 /* ---- probing */
 
-static void probe(const tn_plan_analysis *analysis, probes *p, const uint32_t *word, size_t length)
+static void probe(const tn_plan_analysis *analysis, const meanings *m, probes *p, const uint32_t *word, size_t length)
 {
     if (length == 0)
         return;
     size_t at = p->count++;
-    for (size_t r = 0; r < analysis->rule_count; r++)
-        if (analysis->rules[r].dfa && tn_dfa_accepts(analysis->rules[r].dfa, word, length))
-            p->matches[r * p->words + at / 64] |= UINT64_C(1) << (at % 64);
+    for (size_t i = 0; i < m->count; i++) {
+        const tn_dfa *dfa = analysis->rules[m->first[i]].dfa;
+        if (dfa && tn_dfa_accepts(dfa, word, length))
+            p->matches[i * p->words + at / 64] |= UINT64_C(1) << (at % 64);
+    }
 }
 
-/* Probes with each rule's shortest plans and with random ones. */
-static tn_status probe_all(const tn_plan_analysis *analysis, probes *p, tn_error *error)
+/* Probes with the shortest plans of each meaning and with random ones. */
+static tn_status probe_all(const tn_plan_analysis *analysis, const meanings *m, probes *p, tn_error *error)
 {
-    *p = (probes){.words = (2 * analysis->rule_count + PROBES) / 64 + 1};
-    p->matches = calloc(analysis->rule_count * p->words + 1, sizeof *p->matches);
+    *p = (probes){.words = (2 * m->count + PROBES) / 64 + 1};
+    p->matches = calloc(m->count * p->words + 1, sizeof *p->matches);
     if (!p->matches)
         return tn_fail_memory(error);
-    for (size_t r = 0; r < analysis->rule_count; r++) {
-        probe(analysis, p, analysis->rules[r].match.data, analysis->rules[r].match.size);
-        probe(analysis, p, analysis->rules[r].reject.data, analysis->rules[r].reject.size);
+    for (size_t i = 0; i < m->count; i++) {
+        const tn_plan_analysed_rule *rule = &analysis->rules[m->first[i]];
+        probe(analysis, m, p, rule->match.data, rule->match.size);
+        probe(analysis, m, p, rule->reject.data, rule->reject.size);
     }
     for (uint32_t i = 0; i < PROBES; i++) {
         uint32_t word[PROBE_LENGTH_MAX], length = i % PROBE_LENGTH_MAX + 1;
         for (uint32_t k = 0; k < length; k++)
             word[k] = (uint32_t)(tn_random64(0, i, k) % analysis->classes->count);
-        probe(analysis, p, word, length);
+        probe(analysis, m, p, word, length);
     }
     return TN_OK;
 }
 
 /* ---- pairs */
 
-/* Is there a plan on which the two rules answer so? */
-static tn_status exists(const tn_plan_analysis *analysis, const probes *p, const size_t pair[2], const bool wanted[2],
-                        bool *found, tn_error *error)
+typedef struct comparing {
+    tn_plan_analysis *analysis;
+    const meanings *meanings;
+    const probes *probes;
+    uint8_t *relations; /* [meanings][meanings] */
+} comparing;
+
+/* Is there a plan on which rules of the two meanings answer so? */
+static tn_status exists(const comparing *c, const size_t pair[2], const bool wanted[2], bool *found, tn_error *error)
 {
+    const probes *p = c->probes;
     for (size_t w = 0; w < p->words; w++) {
         uint64_t a = p->matches[pair[0] * p->words + w], b = p->matches[pair[1] * p->words + w];
         if ((wanted[0] ? a : ~a) & (wanted[1] ? b : ~b) & (a | b)) {
@@ -58,9 +131,12 @@ static tn_status exists(const tn_plan_analysis *analysis, const probes *p, const
             return TN_OK;
         }
     }
-    tn_search_part parts[2] = {{analysis->rules[pair[0]].dfa, wanted[0]}, {analysis->rules[pair[1]].dfa, wanted[1]}};
+    const tn_plan_analysed_rule *rules = c->analysis->rules;
+    const size_t *first = c->meanings->first;
+    tn_search_part parts[2] = {{rules[first[pair[0]]].dfa, wanted[0]}, {rules[first[pair[1]]].dfa, wanted[1]}};
     tn_key word;
-    tn_status status = tn_plan_analysis_search(analysis, parts, 2, 1, UINT32_MAX, "comparison", 0, &word, found, error);
+    tn_status status =
+        tn_plan_analysis_search(c->analysis, parts, 2, 1, UINT32_MAX, "comparison", 0, &word, found, error);
     free(word.data);
     return status;
 }
@@ -74,16 +150,16 @@ static tn_rule_relation relation_of(bool both, bool only_first, bool only_second
     return only_first && only_second ? TN_RULES_OVERLAP : only_first ? TN_RULES_CONTAINS : TN_RULES_INSIDE;
 }
 
-static tn_status compare(const tn_plan_analysis *analysis, const probes *p, const size_t pair[2],
-                         tn_rule_relation *relation, tn_error *error)
+static tn_status compare(const comparing *c, const size_t pair[2], tn_rule_relation *relation, tn_error *error)
 {
     static const bool wanted[3][2] = {{true, true}, {true, false}, {false, true}};
+    const tn_plan_analysed_rule *rules = c->analysis->rules;
     bool found[3];
     *relation = TN_RULES_UNKNOWN;
-    if (!analysis->rules[pair[0]].dfa || !analysis->rules[pair[1]].dfa)
+    if (!rules[c->meanings->first[pair[0]]].dfa || !rules[c->meanings->first[pair[1]]].dfa)
         return TN_OK;
     for (int i = 0; i < 3; i++) {
-        tn_status status = exists(analysis, p, pair, wanted[i], &found[i], error);
+        tn_status status = exists(c, pair, wanted[i], &found[i], error);
         if (status != TN_OK)
             return status == TN_LIMIT ? TN_OK : status;
     }
@@ -96,41 +172,54 @@ static tn_rule_relation turned(tn_rule_relation relation)
     return relation == TN_RULES_INSIDE ? TN_RULES_CONTAINS : relation == TN_RULES_CONTAINS ? TN_RULES_INSIDE : relation;
 }
 
-typedef struct comparing {
-    tn_plan_analysis *analysis;
-    const probes *probes;
-} comparing;
-
-/* A rule and those behind it: all pairs with at least one rule of the named file, and of those that are shown. */
-static tn_status compare_rule(void *context, unsigned thread, size_t i, tn_error *error)
+/* A meaning and those behind it, if rules of both are related. */
+static tn_status compare_meaning(void *context, unsigned thread, size_t i, tn_error *error)
 {
     const comparing *c = context;
-    tn_plan_analysis *analysis = c->analysis;
-    size_t n = analysis->rule_count;
+    const meanings *m = c->meanings;
     tn_status status = TN_OK;
     (void)thread;
-    for (size_t j = i; status == TN_OK && j < n; j++) {
-        const tn_plan_analysed_rule *a = &analysis->rules[i], *b = &analysis->rules[j];
-        tn_rule_relation relation = TN_RULES_EQUAL;
-        if (!a->own && !(a->named && b->named))
+    for (size_t j = i + 1; status == TN_OK && j < m->count; j++) {
+        tn_rule_relation relation;
+        if (!m->own[i] && !m->own[j] && !(m->named[i] && m->named[j]))
             continue;
-        if (i != j)
-            status = compare(analysis, c->probes, (size_t[2]){i, j}, &relation, error);
-        analysis->relations[i * n + j] = (uint8_t)relation;
-        analysis->relations[j * n + i] = (uint8_t)turned(relation);
+        status = compare(c, (size_t[2]){i, j}, &relation, error);
+        c->relations[i * m->count + j] = (uint8_t)relation;
+        c->relations[j * m->count + i] = (uint8_t)turned(relation);
     }
     return status;
 }
 
+/* All pairs with at least one rule of the named file, and of those that are shown. Own rules come first. */
+static void relate_rules(tn_plan_analysis *analysis, const comparing *c)
+{
+    const meanings *m = c->meanings;
+    size_t n = analysis->rule_count;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = i; j < n; j++) {
+            const tn_plan_analysed_rule *a = &analysis->rules[i], *b = &analysis->rules[j];
+            size_t x = m->of[i], y = m->of[j];
+            if (!a->own && !(a->named && b->named))
+                continue;
+            analysis->relations[i * n + j] = x == y ? TN_RULES_EQUAL : c->relations[x * m->count + y];
+            analysis->relations[j * n + i] = x == y ? TN_RULES_EQUAL : c->relations[y * m->count + x];
+        }
+    }
+}
+
 /* Each by itself, so that the order in which threads take them changes nothing. */
-static tn_status compare_all(tn_plan_analysis *analysis, const probes *p, tn_error *error)
+static tn_status compare_all(tn_plan_analysis *analysis, const meanings *m, const probes *p, tn_error *error)
 {
     size_t n = analysis->rule_count;
-    comparing c = {analysis, p};
+    comparing c = {analysis, m, p, calloc(m->count * m->count + 1, 1)};
     analysis->relations = calloc(n * n + 1, sizeof *analysis->relations);
-    if (!analysis->relations)
-        return tn_fail_memory(error);
-    return tn_crew_run(analysis->crew, n, 1, compare_rule, &c, error);
+    tn_status status = c.relations && analysis->relations
+                           ? tn_crew_run(analysis->crew, m->count, 1, compare_meaning, &c, error)
+                           : tn_fail_memory(error);
+    if (status == TN_OK)
+        relate_rules(analysis, &c);
+    free(c.relations);
+    return status;
 }
 
 static tn_rule_relation related(const tn_plan_analysis *analysis, size_t i, size_t j)
@@ -256,13 +345,17 @@ static tn_status find_pairs(tn_plan_analysis *analysis, tn_error *error)
 
 tn_status tn_plan_analysis_rules(tn_plan_analysis *analysis, tn_error *error)
 {
+    meanings m = {0};
     probes p = {0};
     tn_status status = find_extremes(analysis, error);
     if (status == TN_OK)
-        status = probe_all(analysis, &p, error);
+        status = find_meanings(analysis, &m, error);
     if (status == TN_OK)
-        status = compare_all(analysis, &p, error);
+        status = probe_all(analysis, &m, &p, error);
+    if (status == TN_OK)
+        status = compare_all(analysis, &m, &p, error);
     free(p.matches);
+    clear_meanings(&m);
     return status == TN_OK ? find_pairs(analysis, error) : status;
 }
 
