@@ -13,10 +13,10 @@ for command in $commands; do
     grep -q "tartan.-$command" <<<"$overview" || fail "tartan(1) does not name $command"
     page=$("$TARTAN" help --man "$command")
     for section in NAME SYNOPSIS DESCRIPTION OPTIONS EXAMPLE; do
-        grep -q "^\.SH $section\$" <<<"$page" || fail "tartan-$command(1) has no $section"
+        [[ $page == *$'\n.SH '"$section"$'\n'* ]] || fail "tartan-$command(1) has no $section"
     done
     for option in $("$TARTAN" help "$command" | grep -oE '^ +(-[a-zA-Z], )?--[a-z-]+' | grep -oE -- '--[a-z-]+'); do
-        grep -qF -- "${option//-/\\-}\\fR" <<<"$page" || fail "tartan-$command(1) lacks $option"
+        [[ $page == *"${option//-/\\-}\\fR"* ]] || fail "tartan-$command(1) lacks $option"
     done
     if grep -vE '^\.(TH|SH|TP|PP|br|nf|fi|B|BR|I)( |$)' <<<"$page" | grep -E "^['.]"; then
         fail "tartan-$command(1) has text that roff would take for a macro"
@@ -43,7 +43,7 @@ while IFS='|' read -r name source summary; do
     grep -q "tartan.-$name (5)" <<<"$overview" || fail "tartan(1) does not name tartan-$name(5)"
     while read -r title; do
         title=${title//-/\\-}
-        grep -qF ".SH ${title//\'/\\(aq}" <<<"$page" || fail "tartan-$name(5) lacks the section $title"
+        [[ $page == *".SH ${title//\'/\\(aq}"* ]] || fail "tartan-$name(5) lacks the section $title"
     done < <(sed -n '/^```/,/^```/d;s/^## \([^`(]*\).*/\1/p' "docs/$source")
     if grep -qF '](' <<<"$page"; then
         fail "tartan-$name(5) has a link left"

@@ -12,7 +12,7 @@ def plans_by_reference(subject):
     if subject.tree is None or subject.houses:
         return
     try:
-        file = File(subject.tree)
+        file = File(subject.tree, subject.source.about(subject.item)[0])
         kept = file.kept(subject.item.name)
     except Unknown:
         return

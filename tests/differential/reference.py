@@ -1,7 +1,7 @@
 """A brute force of the plan language: the table of docs/plan-language.md word for word, over the derivation tree of a file.
 
-It knows productions by their names. What it does not know (a production that came later, a schema from another, houses) raises Unknown,
-and the file is then not asked of it."""
+It knows productions by their names. What it does not know (a production that came later, a rule of a file that is used,
+houses) raises Unknown, and that is then not asked of it."""
 import itertools
 import operator
 import re
@@ -39,17 +39,30 @@ def constant(text):
     return length(text)
 
 
+def signed(node):
+    """A constant, which may have a minus before it."""
+    texts = words(node)
+    return -constant(texts[1]) if texts[0] == "-" else constant(texts[0])
+
+
 # ---- schemas: a tray is a tuple with a value for each field; a zone's value is (fill, depth)
 
 class Schema:
-    def __init__(self, item):
+    """Of the items of a file: a schema has the fields, numbers and forbidden trays of the one that it is made from first."""
+
+    def __init__(self, item, schemas):
         self.name = item.children[1].text
-        if words(item.child("from")):
-            raise Unknown("a schema from another")
+        older = words(item.child("from"))
+        if older and older[1] not in schemas:
+            raise Unknown(f"schema {older[1]}")
+        before = Schema(schemas[older[1]], schemas) if older else None
         body = item.child("body")
-        self.fields = [self._field(f) for f in find_all(body, "field")]
+        self.fields = merged(before.fields if before else [], [self._field(f) for f in find_all(body, "field")])
         self.numbers = {words(n)[1]: [self._case(c) for c in find_all(n, "number_case")] for n in find_all(body, "number_item")}
-        self.forbidden = [f.child("specifier") for f in find_all(body, "forbid")]
+        if before and set(before.numbers) & set(self.numbers):
+            raise Unknown("a number with more cases")
+        self.numbers.update(before.numbers if before else {})
+        self.forbidden = (before.forbidden if before else []) + [f.child("specifier") for f in find_all(body, "forbid")]
         every = itertools.product(*[values for _, _, values in self.fields])
         self.trays = [t for t in every if not any(self.meets(s, t, {}) for s in self.forbidden)]
 
@@ -59,9 +72,9 @@ class Schema:
             return name, "flag", [False, True]
         values = find_all(node, "value")
         if node.child("zone"):
-            return name, "zone", [v for value in values for v in fills(value)]
-        texts = [words(v)[0] for v in values]
-        if texts[0][0].isdigit():
+            return name, "zone", [v for value in values if words(value)[0] != "..." for v in fills(value)]
+        texts = [words(v)[0] for v in values if words(v)[0] != "..."]
+        if texts and texts[0][0].isdigit():
             return name, "length", [length(t) for t in texts]
         return name, "choice", texts
 
@@ -108,10 +121,24 @@ class Schema:
         return Item(self, tray, values).holds(item)
 
 
+def merged(older, newer):
+    """A field that an older schema has too keeps its kind and place, and has its values first."""
+    added = {name: values for name, _, values in newer}
+    known = [name for name, _, _ in older]
+    return [(name, kind, values + [v for v in added.get(name, []) if v not in values]) for name, kind, values in older] + \
+        [field for field in newer if field[0] not in known]
+
+
 def fills(value):
     depths = value.child("depths")
     name = words(value)[0]
     return [(name, length(words(d)[0])) for d in find_all(depths, "spec_word")] if depths else [(name, Fraction(0))]
+
+
+def divided(value, by):
+    if by == 0:
+        raise Unknown("division by zero")
+    return value / by
 
 
 def two(how):
@@ -124,7 +151,7 @@ def pair(how):
 
 FIGURES = {
     "tray_sum: tray_sum PLUS tray_term": two(operator.add), "tray_sum: tray_sum DASH tray_term": two(operator.sub),
-    "tray_term: tray_term STAR tray_signed": two(operator.mul), "tray_term: tray_term SLASH tray_signed": two(operator.truediv),
+    "tray_term: tray_term STAR tray_signed": two(operator.mul), "tray_term: tray_term SLASH tray_signed": two(divided),
     "tray_signed: DASH tray_signed": lambda schema, node, tray: -schema.figure(node.children[1], tray),
     "tray_atom: NAME": lambda schema, node, tray: schema.named_figure(node.children[0].text, tray),
     "tray_atom: NAME NAME": lambda schema, node, tray: schema.named_figure(node.children[0].text, tray),
@@ -160,7 +187,9 @@ class Item:
         if nodes[0].name.startswith("spec_word: OPEN"):
             return self.any_of(nodes[0].child("spec_alternatives"))
         if texts[0] in OPERATORS and len(texts) == 2:
-            return OPERATORS[texts[0]](self.measured(), constant(texts[1]) if texts[1][0].isdigit() else self.values[texts[1]])
+            given = self.values.get(texts[1])
+            text = given[1] if given and given[0] == AS_WRITTEN else texts[1]
+            return OPERATORS[texts[0]](self.measured(), constant(text) if text[0].isdigit() else given[1])
         return all([self.word(node, text) for node, text in zip(nodes, texts)])
 
     def measured(self):
@@ -181,6 +210,8 @@ class Item:
     def word(self, node, text):
         if text in self.values:
             field, value = self.values[text]
+            if field == AS_WRITTEN:
+                return self.measured() == length(value) if value[0].isdigit() else self.named(value)
             self.field = field
             return self.tray[self.schema.index(field)] == value
         if "DOTS" in node.name:
@@ -250,8 +281,11 @@ class Plan:
         return sum((self.schema.figure(node, self.trays[t]) for t in range(i, j) if of is None or self.one(of, env, t)), Fraction(0))
 
 
+AS_WRITTEN = " "          # in place of a field: the value is a text, which means what it would where the name stands
+
+
 class Env(tuple):
-    """(name, what it stands for) pairs: an (expression, Env), a number, or a (field, value)."""
+    """(name, what it stands for) pairs: an (expression, Env), a number, a (field, value), or (AS_WRITTEN, text)."""
 
     def get(self, name):
         return next((what for known, what in reversed(self) if known == name), None)
@@ -371,7 +405,8 @@ def bound_sides(plan, e, env):
     sides = [s if isinstance(s, tuple) and isinstance(s[0], str) else None for s in sides]
     if not any(sides):
         return None
-    return [s[1] if s else (length(t[0]) if t[0][0].isdigit() else t[0]) for s, t in zip(sides, texts)]
+    texts = [[s[1]] if s and s[0] == AS_WRITTEN else t for s, t in zip(sides, texts)]
+    return [s[1] if s and s[0] != AS_WRITTEN else (length(t[0]) if t[0][0].isdigit() else t[0]) for s, t in zip(sides, texts)]
 
 
 def within(plan, e, env, i, j):
@@ -467,10 +502,7 @@ def named_sum(plan, e, env, i, j):
 
 
 def over(plan, e, env, i, j):
-    divisor = plan.value(e.children[2], env, i, j)
-    if divisor == 0:
-        raise Unknown("division by zero")
-    return plan.value(e.children[0], env, i, j) / divisor
+    return divided(plan.value(e.children[0], env, i, j), plan.value(e.children[2], env, i, j))
 
 
 SUMS = {
@@ -507,9 +539,7 @@ def operand(node, env, n):
 
 
 def condition_range(c, env, n):
-    ends = [constant(t) for t in words(c.child("range")) if t[0].isdigit()]
-    if "-" in words(c.child("range")):
-        raise Unknown("a negative range")
+    ends = [signed(n) for n in find_all(c.child("range"), "constant")]
     return ends[0] <= operand(c.children[0], env, n) <= ends[-1]
 
 
@@ -533,14 +563,14 @@ CONDITIONS["cond_ands: cond_ands AND cond_not"] = CONDITIONS["cond_ands: cond_no
 # ---- a file
 
 class File:
-    """Of one schema, without houses."""
+    """What a file says about one of its schemas."""
 
-    def __init__(self, root):
+    def __init__(self, root, schema):
         self.items = find_all(root, "item")
-        first = [i.production.symbols[0] for i in self.items]
-        if first.count("schema") != 1 or "form_head" in first or "use" in first:
-            raise Unknown("several schemas, houses or imports")
-        self.schema = Schema(self.items[first.index("schema")])
+        schemas = {i.child("NAME").text: i for i in self.items if i.production.symbols[0] == "schema"}
+        if schema not in schemas:
+            raise Unknown(f"schema {schema}")
+        self.schema = Schema(schemas[schema], schemas)
         self.rules, self.sums, self.libraries = {}, {}, {}
         for item in self.items:
             self._declare(item)
@@ -569,14 +599,21 @@ class File:
     def argument(self, plan, node, kind, env):
         """A number, a value of a field, or an expression: what it is written as decides."""
         inner = core(node)
-        if inner.name.startswith("head_number") or words(inner) and words(inner)[0] in self.sums:
-            texts = words(inner)
-            if len(texts) == 1 and re.fullmatch(r"\d+", texts[0]):
-                return Fraction(texts[0])
-            raise Unknown("a value for a parameter")
-        if inner.name == "primary: NAME" and inner.children[0].text not in self.rules and env.get(inner.children[0].text) is None:
-            raise Unknown("a value for a parameter")
-        return node, env
+        texts = words(inner)
+        known = env.get(texts[0]) if texts else None
+        if len(texts) != 1 or known is not None and not isinstance(known, (Fraction, tuple)):
+            return node, env
+        if isinstance(known, Fraction) or known is not None and isinstance(known[0], str):
+            return known
+        if re.fullmatch(r"\d+", texts[0]):
+            return Fraction(texts[0])
+        if inner.name.startswith("head_number"):
+            return AS_WRITTEN, texts[0]
+        if inner.name != "primary: NAME" or texts[0] in self.rules or known is not None:
+            return node, env
+        if texts[0] in self.sums:
+            raise Unknown("a name for a parameter")
+        return AS_WRITTEN, texts[0]
 
     def clauses(self, name):
         """Those of the library that it is made from first."""
@@ -618,6 +655,6 @@ class File:
         name = named_field[0] if named_field else lengths[0]
         value = sum((self.schema.named_figure(name, t) for t in plan.trays), Fraction(0))
         if clause.child("range"):
-            ends = [constant(t) for t in words(clause.child("range")) if t != ".."]
+            ends = [signed(n) for n in find_all(clause.child("range"), "constant")]
             return ends[0] <= value <= ends[-1]
-        return OPERATORS[words(clause.child("comparison"))[0]](value, constant(words(clause.child("constant"))[0]))
+        return OPERATORS[words(clause.child("comparison"))[0]](value, signed(clause.child("constant")))
