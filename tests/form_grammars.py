@@ -2,7 +2,7 @@
 genr8-dividing divides, genr8-quads has plane faces of four sides that do not run through each other."""
 import collections, json, math, os, subprocess, sys, tempfile
 
-SENTENCES = 200
+SENTENCES = int(os.environ.get("TARTAN_SENTENCES", "60"))
 FOLDER = tempfile.mkdtemp()
 
 

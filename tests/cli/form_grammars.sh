@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the standard library's grammars of forms promise holds of 200 sentences each; Genr8's own systems are sentences of one.
+# What the standard library's grammars of forms promise holds of 60 sentences each; Genr8's own systems are sentences of one.
 # Slow under sanitizers.
 set -euo pipefail
 python3 -B tests/form_grammars.py

@@ -8,7 +8,7 @@ name=house_roofs
 tests=$(cd "$here/.." && pwd)
 cd "$scratch"
 
-for seed in ${TARTAN_SEEDS:-1 2 3 4 5 6 7 14}; do
+for seed in ${TARTAN_SEEDS:-1 2 6 14}; do
     python3 -B "$tests/house_roofs.py" "$seed" >form.plan
     "$TARTAN" sample form.plan 2 --library all --plan '#70' --seed "$seed" >lines
     is "houses of form $seed" "$(wc -l <lines)" 2
