@@ -22,7 +22,8 @@ void tn_job_draw_surface(tn_job *job, const tn_drawn_surface *surface, const tn_
     char note[240];
     tn_status status = tn_open_field_of(job, surface->name, &open, &error);
     if (status == TN_OK) {
-        tn_contour_options options = {.threads = (unsigned)picture->threads, .sharp = surface->sharp};
+        tn_contour_options options = {
+            .threads = (unsigned)picture->threads, .sharp = surface->sharp, .between = true};
         tn_field_grid samples = tn_field_grid_of(&open.field, surface->grid);
         status = tn_contour_new(&open.field, &samples, &options, &contour, &error);
     }

@@ -212,6 +212,7 @@ static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_forma
                                   .open = s->open,
                                   .jumps_open = s->jumps == 1,
                                   .sharp = s->sharp,
+                                  .between = true,
                                   .samples = s->max_samples.value,
                                   .triangles = s->max_triangles.value};
     tn_field_grid grid = tn_field_grid_of(&open->field, (uint32_t)s->grid.value);

@@ -152,5 +152,14 @@ is 'a subdivided ball' "$("$TARTAN" mesh ball.field --grid 12 --subdivide 1 | gr
 is 'a subdivided table' "$("$TARTAN" mesh table --subdivide 1 | grep triangles)" \
     "triangles  $((4 * $("$TARTAN" mesh table | sed -n 's/^triangles *//p')))"
 golden keeps_more "tartan mesh $scratch/ball.field --grid 12 --decimate 1 -o $scratch/least.obj"
+
+# ---- between the samples
+printf 'surface wall = max(abs(x - 0.1) - 0.001, max(abs(y), abs(z)) - 3)\nsurface fin = min(wall, square(x - 5) + y*y + z*z - 1)\n' >thin.field
+printf 'surface none = x*x + 1\nsurface sheet = x*x + y*y - 1\nbox (-2, -2, -0.01)..(2, 2, 0.01)\n' >sheet.field
+golden between "tartan mesh $scratch/thin.field --surface wall -o $scratch/wall.obj"
+golden fin "tartan mesh $scratch/thin.field --surface fin --grid 20"
+golden proven_empty "tartan mesh $scratch/sheet.field --surface none"
+golden thin_box "tartan mesh $scratch/sheet.field"
+exits 1 "$TARTAN" draw thin.field --surface wall -o wall.png
 golden up_3mf "tartan mesh $scratch/unit.field -o $scratch/x.3mf --up y"
 finish
