@@ -8,8 +8,8 @@
 
 /* How often a layer of blocks may ask for bounds: beside large grids about as long as sampling takes. Where nothing at
  * all was found, more: then it is to be proven that there is nothing. */
-#define ASKED_LEAST 20000u
-#define EMPTY_SHARE 10u
+#define ASKED_LEAST 8000u
+#define EMPTY_SHARE 20u
 /* Halvings of one cell. A wall is come to in as many as its thickness has leading zeros, as a share of the cell. */
 #define HALVINGS 40u
 #define PIECES_MAX (8 * HALVINGS)
@@ -235,7 +235,7 @@ tn_status tn_contour_missed(tn_contouring *c, tn_error *error)
 {
     const uint32_t *n = c->grid->count;
     looking l = {.c = c, .layers = (n[2] + TN_BLOCK - 1) / TN_BLOCK};
-    l.asked_most = (ASKED_LEAST + (uint64_t)n[0] * n[1] / 2) * (c->out->inside ? 1 : EMPTY_SHARE);
+    l.asked_most = (ASKED_LEAST + (uint64_t)n[0] * n[1] / 8) * (c->out->inside ? 1 : EMPTY_SHARE);
     l.registers = calloc(c->threads, sizeof *l.registers);
     l.found = calloc(l.layers, sizeof *l.found);
     tn_status status = l.registers && l.found ? TN_OK : tn_fail_memory(error);
