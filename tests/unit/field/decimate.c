@@ -104,8 +104,8 @@ static void check(const form *f, const tn_field *field, bool sharp)
                     near(after.volume, before.volume, share);
         if (!good)
             fail_msg("%s\n%s to %zu: %zu triangles of %zu, %zu turned, area %g of %g, volume %g of %g", f->text,
-                     sharp ? "sharp" : "plain", targets[i], mesh.face_count, contour.mesh.face_count, turned, after.area,
-                     before.area, after.volume, before.volume);
+                     sharp ? "sharp" : "plain", targets[i], mesh.face_count, contour.mesh.face_count, turned,
+                     after.area, before.area, after.volume, before.volume);
     }
     tn_mesh_clear(&mesh);
     tn_contour_clear(&contour);
