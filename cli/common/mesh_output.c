@@ -18,7 +18,16 @@ tn_out_format tn_out_format_of(const char *path)
     return TN_OUT_NONE;
 }
 
-tn_status tn_out_rework(const tn_out_changes *changes, tn_out_format format, tn_mesh *mesh, tn_error *error)
+static tn_status decimate(tn_job *job, size_t faces, tn_mesh *mesh, tn_error *error)
+{
+    tn_status status = tn_openmesh_decimate(mesh, faces, error);
+    if (status == TN_OK && mesh->face_count > faces + 1) /* collapses take two at a time */
+        tn_job_note(job, "the mesh keeps %zu triangles: with fewer it would fold", mesh->face_count);
+    return status;
+}
+
+tn_status tn_out_rework(tn_job *job, const tn_out_changes *changes, tn_out_format format, tn_mesh *mesh,
+                        tn_error *error)
 {
     tn_status status = TN_OK;
     if (changes->subdivide.given)
@@ -26,7 +35,7 @@ tn_status tn_out_rework(const tn_out_changes *changes, tn_out_format format, tn_
     if (status == TN_OK && changes->smooth.given)
         status = tn_openmesh_smooth(mesh, (unsigned)changes->smooth.value, error);
     if (status == TN_OK && changes->decimate.given)
-        status = tn_openmesh_decimate(mesh, (size_t)changes->decimate.value, error);
+        status = decimate(job, (size_t)changes->decimate.value, mesh, error);
     if (status == TN_OK && (changes->triangulate || format == TN_OUT_GLB || format == TN_OUT_STL ||
                             format == TN_OUT_3MF || (format == TN_OUT_DXF && !mesh->lines)))
         status = tn_mesh_triangulate(mesh, error);

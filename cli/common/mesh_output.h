@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_COMMON_MESH_OUTPUT_H
 #define TARTAN_CLI_COMMON_MESH_OUTPUT_H
 
-#include "cli/common/options.h"
+#include "cli/common/job.h"
 #include "runtime/geometry/write.h"
 
 /* What -o writes; the order of the words of `tartan grow --format`, which knows those up to PDF. */
@@ -32,8 +32,10 @@ typedef struct tn_out_changes {
     bool triangulate;
 } tn_out_changes;
 
-/* Does these in this order, and what the format needs. */
-tn_status tn_out_rework(const tn_out_changes *changes, tn_out_format format, tn_mesh *mesh, tn_error *error);
+/* Does these in this order, and what the format needs; TN_OUT_NONE needs nothing. Says so where more triangles are left
+ * than were asked for. */
+tn_status tn_out_rework(tn_job *job, const tn_out_changes *changes, tn_out_format format, tn_mesh *mesh,
+                        tn_error *error);
 
 tn_status tn_out_mesh(const tn_mesh *mesh, tn_out_format format, const tn_mesh_style *style, FILE *out,
                       tn_error *error);

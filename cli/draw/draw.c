@@ -99,6 +99,7 @@ static bool check_use(tn_job *job)
         {s->surface != NULL, TN_OF_FIELDS, "surface"},
         {s->grid.given, TN_OF_FIELDS, "grid"},
         {s->sharp, TN_OF_FIELDS, "sharp"},
+        {s->open, TN_OF_FIELDS, "open"},
     };
     if (!tn_job_check_uses(job, uses, sizeof uses / sizeof *uses))
         return false;
@@ -142,7 +143,7 @@ static void draw_field(tn_job *job)
                                .title = s->title,
                                .dpi = (uint32_t)s->dpi.value,
                                .threads = (int)s->plans.threads.value};
-    tn_drawn_surface surface = {s->surface, (uint32_t)s->grid.value, s->sharp};
+    tn_drawn_surface surface = {s->surface, (uint32_t)s->grid.value, s->sharp, s->open};
     tn_job_draw_surface(job, &surface, &picture, s->output);
 }
 
@@ -263,6 +264,7 @@ static const tn_option options[] = {
     NUMBER("grid", 'n', "N", grid, 2, 8192,
            "of fields: samples on the longest side of the box (default: what the file says, or 50)"),
     FLAG("sharp", 0, sharp, "of fields: make edges and corners of the form sharp"),
+    FLAG("open", 0, open, "of fields: end the form at the box instead of closing it there, so that one sees into it"),
     TEXT("solid", 0, "NAME", solid, "which design of boxes of the file; may be left out where it has only one"),
     FLAG("sheet", 0, sheet, "of a design of boxes: plan, elevations and a view on one sheet"),
     FLAG("before", 0, before, "of a design of boxes: as it is written beside what is built, so that squashing is seen"),

@@ -17,7 +17,7 @@ typedef struct tn_draw_settings {
     tn_option_number best, sample, scale, columns, dpi, max_plans;
     /* of forms */
     const char *solid, *surface;
-    bool sheet, before, exploded, sharp;
+    bool sheet, before, exploded, sharp, open;
     tn_option_real azimuth, elevation;
     tn_option_number width, max_boxes, grid;
 } tn_draw_settings;

@@ -99,7 +99,13 @@ static bool make_job(tn_evolution_session *e, const tn_evolution_study *study, t
                                         .says_seed = settings->seed.given,
                                         .seed = settings->seed.value,
                                         .run_programs = settings->run_programs,
-                                        .remembers = e->remembers};
+                                        .remembers = e->remembers,
+                                        .draws_open = settings->open};
+    if (settings->open && tn_evolution_study_use(study) != TN_USE_TREES) {
+        tn_diagnostic *d = tn_job_usage(e->command, "--open is about fields, and this study breeds something else");
+        tn_help(tn_job_diagnostics(e->command), d, "leave it out");
+        return false;
+    }
     e->generations =
         (uint32_t)(settings->generations.given ? settings->generations.value : study->of[TN_SET_GENERATIONS].first);
     if (tn_evolution_job_make(study, path, e->command->opened.module, &options, &e->job, error) != TN_OK) {

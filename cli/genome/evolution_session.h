@@ -17,6 +17,8 @@
              "with --resume: from here on another target, weight, rate or surroundings, as \"length-weight 0.01\", "   \
              "\"mutation codons 0.05\" or \"gravity 0 0 -0.2\"; may be repeated"),                                     \
         NUMBER("seed", 's', "S", seed, 0, 0, "another seed than the study's"), OPTION_THREADS(threads),                \
+        FLAG("open", 0, open,                                                                                          \
+             "of fields: draw forms that reach the box open there, so that one sees into them, instead of closed"),    \
         FLAG("run-programs", 0, run_programs, "let the study run the program that it names for scores"),               \
         FLAG("ponyge", 0, ponyge, "the file has parameters of PonyGE2, `POPULATION_SIZE: 500` a line"),                \
         FLAG("durable", 0, durable, "sync every generation to the disk, against loss of power")
@@ -24,7 +26,7 @@
 typedef struct tn_session_settings {
     tn_settings common;
     const char *output; /* the run's folder */
-    bool resume, durable, rescore, ponyge, run_programs;
+    bool resume, durable, rescore, ponyge, run_programs, open;
     tn_option_number generations, seed, threads;
     tn_option_list changes;
 } tn_session_settings;

@@ -179,7 +179,7 @@ static void write_surface(tn_job *job, const tn_growth *growth, tn_out_format fo
     describe(job, growth, note, sizeof note);
     tn_status status = tn_surface_mesh(growth, &options, &mesh, &error);
     if (status == TN_OK)
-        status = tn_out_rework(&changes, format, &mesh, &error);
+        status = tn_out_rework(job, &changes, format, &mesh, &error);
     if (status == TN_OK && tn_job_output(job, path, &output)) {
         const char *notes = note;
         tn_mesh_style style = {

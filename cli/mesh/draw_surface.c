@@ -22,7 +22,8 @@ void tn_job_draw_surface(tn_job *job, const tn_drawn_surface *surface, const tn_
     char note[240];
     tn_status status = tn_open_field_of(job, surface->name, &open, &error);
     if (status == TN_OK) {
-        tn_contour_options options = {.threads = (unsigned)picture->threads, .sharp = surface->sharp};
+        tn_contour_options options = {
+            .threads = (unsigned)picture->threads, .sharp = surface->sharp, .open = surface->open, .between = true};
         tn_field_grid samples = tn_field_grid_of(&open.field, surface->grid);
         status = tn_contour_new(&open.field, &samples, &options, &contour, &error);
     }
@@ -36,6 +37,7 @@ void tn_job_draw_surface(tn_job *job, const tn_drawn_surface *surface, const tn_
         whole.title = picture->title ? picture->title : title_of(&open.field);
         whole.caption = note;
         whole.normals = normals;
+        whole.open = surface->open;
         whole.watch = job->opened.module->watch;
         status = tn_mesh_draw(&contour.mesh, &whole, &(tn_picture){.path = output}, &error);
     }

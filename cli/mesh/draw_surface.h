@@ -10,6 +10,7 @@ typedef struct tn_drawn_surface {
     const char *name; /* NULL: the last of the file */
     uint32_t grid;    /* samples, 0: what the file says */
     bool sharp;       /* with sharp edges */
+    bool open;        /* it ends at the box */
 } tn_drawn_surface;
 
 /* Meshes the surface and draws it as `picture` says: without a title, by its own text, and with a line at its foot.

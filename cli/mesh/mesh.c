@@ -110,8 +110,8 @@ void tn_mesh_write(tn_job *job, tn_mesh *mesh, const tn_mesh_file *file)
     double *normals = NULL;
     tn_output output;
     tn_error error;
-    tn_status status = tn_out_rework(&s->changes, file->format, mesh, &error);
-    if (status == TN_OK && s->normals && file->field)
+    tn_status status = TN_OK;
+    if (s->normals && file->field)
         status = tn_field_normals(file->field, mesh, file->spacing, &normals, &error);
     style.vertex_normals = normals;
     if (status == TN_OK && tn_job_output(job, s->output, &output)) {
@@ -163,6 +163,22 @@ static void warn_of_specks(tn_job *job, const tn_mesh_measures *m)
                     m->parts, m->small_part[0], m->small_part[1], m->small_part[2]);
 }
 
+/* Warns of parts that the grid is too coarse for, then reworks the mesh as the options say: what is measured, is what
+ * is written. */
+static tn_status finish_mesh(tn_job *job, tn_out_format format, tn_contour *contour, tn_mesh_measures *measures,
+                             tn_error *error)
+{
+    const tn_out_changes *changes = &tn_mesh_settings_of(job)->changes;
+    tn_status status = tn_mesh_measure(&contour->mesh, 2 * contour->spacing, measures, error);
+    if (status != TN_OK)
+        return status;
+    warn_of_specks(job, measures);
+    if (!changes->subdivide.given && !changes->smooth.given && !changes->decimate.given)
+        return TN_OK;
+    status = tn_out_rework(job, changes, format, &contour->mesh, error);
+    return status == TN_OK ? tn_mesh_measure(&contour->mesh, 0, measures, error) : status;
+}
+
 static void warn_of_crossings(tn_job *job, uint64_t crossings)
 {
     if (crossings)
@@ -196,6 +212,7 @@ static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_forma
                                   .open = s->open,
                                   .jumps_open = s->jumps == 1,
                                   .sharp = s->sharp,
+                                  .between = true,
                                   .samples = s->max_samples.value,
                                   .triangles = s->max_triangles.value};
     tn_field_grid grid = tn_field_grid_of(&open->field, (uint32_t)s->grid.value);
@@ -204,8 +221,10 @@ static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_forma
     asked_stats asked = {0};
     options.every_sample = options.interpret;
     tn_status status = tn_contour_new(&open->field, &grid, &options, &contour, error);
-    if (status == TN_OK)
-        status = tn_mesh_measure(&contour.mesh, 2 * contour.spacing, &measures, error);
+    if (status == TN_OK) {
+        tn_job_warn_of_contour(job, &contour, "there the mesh is a wall between samples; --jumps open leaves it out");
+        status = finish_mesh(job, format, &contour, &measures, error);
+    }
     if (status == TN_OK && s->bounds)
         status = prove_volume(open, &grid, asked.proven, error);
     if (status == TN_OK && s->sharp)
@@ -213,8 +232,6 @@ static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_forma
     if (status == TN_OK && s->thickness)
         status = measure_walls(&contour.mesh, asked.thickness, error);
     if (status == TN_OK) {
-        tn_job_warn_of_contour(job, &contour, "there the mesh is a wall between samples; --jumps open leaves it out");
-        warn_of_specks(job, &measures);
         warn_of_crossings(job, asked.crossings);
         if (s->stats || s->bounds || s->thickness || s->times || !s->output)
             write_stats(job, open, &contour, &measures, &asked);
@@ -296,7 +313,7 @@ static const tn_option options[] = {
     NUMBER("subdivide", 0, "N", changes.subdivide, 1, 8, "subdivide the finished mesh N times (Loop)"),
     NUMBER("smooth", 0, "N", changes.smooth, 1, 10000, "smooth the finished mesh N times (Laplace; the outline stays)"),
     NUMBER("decimate", 0, "FACES", changes.decimate, 1, UINT32_MAX,
-           "reduce the finished mesh to about FACES triangles"),
+           "reduce the finished mesh to about FACES triangles, or to as few as do not fold"),
     NUMBER("max-samples", 0, "N", max_samples, 8, 1ull << 36, "the most samples of a grid (default 2000000000)"),
     NUMBER("max-triangles", 0, "N", max_triangles, 1, UINT32_MAX / 3,
            "the most triangles of a mesh (default 100000000)"),

@@ -38,7 +38,7 @@ typedef struct tn_mesh_file {
     double spacing;        /* of its grid */
 } tn_mesh_file;
 
-/* Reworks a mesh as the options say, and writes it to -o. */
+/* Writes a mesh to -o. */
 void tn_mesh_write(tn_job *job, tn_mesh *mesh, const tn_mesh_file *file);
 
 /* Meshes a design of boxes of the file that is open, and reports what fails. */

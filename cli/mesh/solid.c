@@ -123,6 +123,8 @@ void tn_job_mesh_solid(tn_job *job, tn_out_format format)
         status = settings->cells || format == TN_OUT_SCAD
                      ? make_cells(job, solid, &built, &u, &error)
                      : make_union(job, solid, &built, format == TN_OUT_DXF, &u, &error);
+    if (status == TN_OK)
+        status = tn_out_rework(job, &settings->changes, format, &u.mesh, &error);
     if (status == TN_OK && (settings->stats || !settings->output))
         write_stats(job, solid, &built, &u);
     if (status == TN_OK && settings->output)

@@ -90,9 +90,13 @@ static void warn_of_cut(tn_job *job, const tn_contour *contour)
 void tn_job_warn_of_contour(tn_job *job, const tn_contour *c, const char *jumps)
 {
     if (!c->inside)
-        tn_job_warn(job, W_FIELD_EMPTY, "inside is where the field is below 0",
-                    "nothing of the box is inside, at this grid");
-    else if (!c->outside)
+        tn_job_warn(job, W_FIELD_EMPTY, "inside is where the field is below 0", "nothing of the box is inside%s",
+                    c->empty ? "" : ", at this grid");
+    if (c->missed)
+        tn_job_warn(job, W_FIELD_COARSE, "take a finer --grid to have them whole",
+                    "parts of the form lie between the samples, in %" PRIu64 " cells; (%.6g, %.6g, %.6g) is inside",
+                    c->missed, c->missed_at[0], c->missed_at[1], c->missed_at[2]);
+    if (!c->outside)
         tn_job_warn(job, W_FIELD_FULL, "inside is where the field is below 0; turn its sign round for the rest",
                     "all of the box is inside");
     else

@@ -127,7 +127,7 @@ static void write_mesh(placing *p, const char *path)
         return;
     tn_status status = tn_placed_mesh(p->rules.module, &p->model, &mesh, &palette, &error);
     if (status == TN_OK)
-        status = tn_out_rework(&none, format, &mesh, &error);
+        status = tn_out_rework(p->job, &none, format, &mesh, &error);
     const tn_mesh_style style = {.unit = TN_MESH_UNIT_MM, .colours = (const unsigned char(*)[3])palette};
     if (status == TN_OK)
         status = tn_out_mesh(&mesh, format, &style, output.stream, &error);

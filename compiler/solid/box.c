@@ -23,10 +23,15 @@ static double *high(tn_box_record *box, int axis)
     return axis == 0 ? &box->high_x : axis == 1 ? &box->high_y : &box->high_z;
 }
 
-static void check_order(tn_solid_check *check, tn_box_record *box, const tn_solid_part *part, int axis)
+/* The faces of a box, low and high ones. */
+typedef struct faces {
+    tn_solid_place low[3], high[3];
+} faces;
+
+static void check_order(tn_solid_check *check, const faces *of, const tn_solid_part *part, int axis)
 {
     static const char names[] = "xyz";
-    double from = *low(box, axis), to = *high(box, axis);
+    double from = of->low[axis].written, to = of->high[axis].written;
     if (from > to) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_SOLID_RANGE, part->span,
                                      "in %c, this box goes from %.15g down to %.15g", names[axis], from, to);
@@ -41,14 +46,14 @@ static void check_order(tn_solid_check *check, tn_box_record *box, const tn_soli
     }
 }
 
-static void faces_of_corners(tn_solid_check *check, tn_box_record *box, const tn_solid_part *part)
+static void faces_of_corners(tn_solid_check *check, faces *of, const tn_solid_part *part)
 {
     bool flat = check->solid->flags & TN_SOLID_FLAT;
     for (int axis = 0; axis < (flat ? 2 : 3); axis++) {
-        *low(box, axis) = tn_solid_value(check, &part->a.at[axis]);
-        *high(box, axis) = tn_solid_value(check, &part->b.at[axis]);
+        tn_solid_corner(check, &part->a.at[axis], &of->low[axis]);
+        tn_solid_corner(check, &part->b.at[axis], &of->high[axis]);
         if (!check->solid->wrong)
-            check_order(check, box, part, axis);
+            check_order(check, of, part, axis);
     }
 }
 
@@ -65,49 +70,48 @@ static void check_size(tn_solid_check *check, const tn_solid_number *size, int a
     check->solid->wrong = true;
 }
 
-static void faces_of_centre(tn_solid_check *check, tn_box_record *box, const tn_solid_part *at,
-                            const tn_solid_part *size)
+static void faces_of_centre(tn_solid_check *check, faces *of, const tn_solid_part *at, const tn_solid_part *size)
 {
     bool flat = check->solid->flags & TN_SOLID_FLAT;
     for (int axis = 0; axis < (flat ? 2 : 3); axis++) {
         check_size(check, &size->a.at[axis], axis);
-        if (!tn_solid_face(check, &at->a.at[axis], &size->a.at[axis], -1, low(box, axis)) ||
-            !tn_solid_face(check, &at->a.at[axis], &size->a.at[axis], 1, high(box, axis)))
+        if (!tn_solid_face(check, &at->a.at[axis], &size->a.at[axis], -1, &of->low[axis]) ||
+            !tn_solid_face(check, &at->a.at[axis], &size->a.at[axis], 1, &of->high[axis]))
             return;
     }
 }
 
-static void make_flat(const tn_solid_check *check, tn_box_record *box)
+static void make_flat(tn_solid_check *check, faces *of)
 {
-    if (!(check->solid->flags & TN_SOLID_FLAT))
+    if (!(check->solid->flags & TN_SOLID_FLAT) || !(check->solid->depth > 0)) /* what is wrong is reported */
         return;
-    box->low_z = -check->solid->depth / 2;
-    box->high_z = check->solid->depth / 2;
+    const tn_solid_number *depth = &check->solid->settings[TN_SOLID_SETS_FLAT]->number[0];
+    tn_solid_face(check, NULL, depth, -1, &of->low[2]);
+    tn_solid_face(check, NULL, depth, 1, &of->high[2]);
 }
 
-/* ---- the grid of `unit` */
-
-static void move_to_grid(tn_solid_check *check, const tn_solid_item *item, double *face, double a, double b)
+static void warn_of_move(tn_solid_check *check, const tn_solid_item *item, const tn_solid_place *face)
 {
-    double moved = floor(*face * b / a + 0.5) * a / b, by = fabs(moved - *face);
-    if (by > 0) {
-        tn_diagnostic *d = tn_report(check->diagnostics, W_MOVED_BY_UNIT, item->span,
-                                     "a face of this box moves by %.6g, from %.15g to %.15g", by, *face, moved);
-        tn_help(check->diagnostics, d, "the unit of this design is %.15g: write %.15g, or leave `unit` out", a / b,
-                moved);
-    }
-    *face = moved;
+    const tn_face_unit *unit = &check->solid->unit;
+    if (face->at == face->written)
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, W_MOVED_BY_UNIT, item->span,
+                                 "a face of this box moves by %.6g, from %.15g to %.15g",
+                                 fabs(face->at - face->written), face->written, face->at);
+    tn_help(check->diagnostics, d, "the unit of this design is %.15g: write %.15g, or leave `unit` out",
+            (double)unit->top / (double)unit->bottom, face->at);
 }
 
-static void use_grid(tn_solid_check *check, const tn_solid_item *item, tn_box_record *box)
+/* The faces are those of the grid, if the design has one. */
+static void take_faces(tn_solid_check *check, const tn_solid_item *item, const faces *of, tn_box_record *box)
 {
-    const tn_solid_item *unit = check->solid->settings[TN_SOLID_SETS_UNIT];
-    if (!unit || check->solid->wrong)
-        return;
-    double a = tn_solid_value(check, &unit->number[0]), b = tn_solid_value(check, &unit->number[1]);
-    for (int axis = 0; axis < 3 && a > 0 && b > 0; axis++) {
-        move_to_grid(check, item, low(box, axis), a, b);
-        move_to_grid(check, item, high(box, axis), a, b);
+    for (int axis = 0; axis < 3; axis++) {
+        *low(box, axis) = of->low[axis].at;
+        *high(box, axis) = of->high[axis].at;
+        if (check->solid->wrong)
+            continue;
+        warn_of_move(check, item, &of->low[axis]);
+        warn_of_move(check, item, &of->high[axis]);
     }
 }
 
@@ -241,12 +245,13 @@ void tn_check_box(tn_solid_check *check, const tn_solid_item *item)
     bool before = check->solid->wrong;
     check->solid->wrong = false;
     if (says_where(check, item, &p)) {
+        faces of = {0};
         if (p.of[TN_SOLID_FROM])
-            faces_of_corners(check, &box, p.of[TN_SOLID_FROM]);
+            faces_of_corners(check, &of, p.of[TN_SOLID_FROM]);
         else
-            faces_of_centre(check, &box, p.of[TN_SOLID_AT], p.of[TN_SOLID_SIZE]);
-        make_flat(check, &box);
-        use_grid(check, item, &box);
+            faces_of_centre(check, &of, p.of[TN_SOLID_AT], p.of[TN_SOLID_SIZE]);
+        make_flat(check, &of);
+        take_faces(check, item, &of, &box);
         const tn_solid_part *clip =
             p.of[TN_SOLID_CLIP_NORMAL] ? p.of[TN_SOLID_CLIP_NORMAL] : p.of[TN_SOLID_CLIP_ANGLES];
         if (clip && !check->solid->wrong)
@@ -274,14 +279,15 @@ void tn_check_genes(tn_solid_check *check, const tn_solid_item *item)
         return;
     }
     tn_box_record box = {.flags = TN_BOX_CLIPPED | (item->parts ? TN_BOX_RIGID : 0)};
+    faces of = {0};
     for (int axis = 0; axis < 3; axis++) {
         int outward = gene[3 + axis]->negative ? -1 : 1;
-        if (!tn_solid_face(check, gene[axis], gene[3 + axis], -outward, low(&box, axis)) ||
-            !tn_solid_face(check, gene[axis], gene[3 + axis], outward, high(&box, axis)))
+        if (!tn_solid_face(check, gene[axis], gene[3 + axis], -outward, &of.low[axis]) ||
+            !tn_solid_face(check, gene[axis], gene[3 + axis], outward, &of.high[axis]))
             return;
     }
-    make_flat(check, &box);
-    use_grid(check, item, &box);
+    make_flat(check, &of);
+    take_faces(check, item, &of, &box);
     double angle = check->solid->flags & TN_SOLID_FLAT ? 90 : tn_solid_value(check, gene[7]);
     plane_of_angles(&box, tn_solid_value(check, gene[6]), angle, tn_solid_value(check, gene[8]));
     add(check, item, box);

@@ -68,16 +68,6 @@ static void take_model(tn_solid_check *check, const tn_solid_item *item)
     check->solid->wrong = true;
 }
 
-static void take_unit(tn_solid_check *check, const tn_solid_item *item)
-{
-    double a = tn_solid_value(check, &item->number[0]), b = tn_solid_value(check, &item->number[1]);
-    if (check->solid->wrong || (a > 0 && b > 0))
-        return;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_SOLID_NUMBER, item->span, "a unit is above 0");
-    tn_help(check->diagnostics, d, "write `unit 1/1024;`");
-    check->solid->wrong = true;
-}
-
 static void take_flat(tn_solid_check *check, const tn_solid_item *item)
 {
     check->solid->flags |= TN_SOLID_FLAT;
@@ -106,7 +96,7 @@ static void apply_setting(tn_solid_check *check, const tn_solid_item *item)
         check->solid->flags |= TN_SOLID_PENETRATION;
         break;
     case TN_SOLID_SETS_UNIT:
-        take_unit(check, item);
+        tn_solid_take_unit(check, item);
         break;
     case TN_SOLID_SETS_MODEL:
         take_model(check, item);
@@ -298,6 +288,7 @@ static void take_base(tn_solid_check *check, const tn_checked_solids *solids)
         check->solid->flags = found->flags;
         check->solid->model = found->model;
         check->solid->depth = found->depth;
+        check->solid->unit = found->unit;
         memcpy(check->solid->settings, found->settings, sizeof found->settings);
         check->solid->wrong |= found->wrong;
         return;

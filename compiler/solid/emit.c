@@ -107,6 +107,8 @@ static void emit_design(emitting *e, const tn_checked_solid *solid)
                               .flags = solid->flags | (solid->imported ? TN_SOLID_IMPORTED : 0),
                               .model = solid->model,
                               .depth = solid->depth,
+                              .unit_top = solid->unit.top,
+                              .unit_bottom = solid->unit.bottom,
                               .box_first = (uint32_t)tn_builder_count(b, TN_SECTION_BOX),
                               .asked_first = (uint32_t)tn_builder_count(b, TN_SECTION_SOLID_MEASURE),
                               .requirement_first = (uint32_t)tn_builder_count(b, TN_SECTION_REQUIREMENT),

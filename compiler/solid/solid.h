@@ -10,6 +10,7 @@
 #include "compiler/common/import.h"
 #include "compiler/common/listing.h"
 #include "compiler/hemls/hemls.h"
+#include "runtime/solid/exact.h"
 #include "runtime/solid/measured.h"
 
 /* ---- syntax */
@@ -148,6 +149,7 @@ typedef struct tn_checked_solid {
     uint32_t box_count;            /* with those of its base */
     uint32_t flags, model;
     double depth;
+    tn_face_unit unit;                                     /* what faces are whole numbers of; 0 / 0 without one */
     const tn_solid_item *settings[TN_SOLID_SETTING_COUNT]; /* its own, or its base's */
     bool imported;
     bool wrong; /* something of it was complained of */
@@ -176,8 +178,20 @@ void tn_check_genes(tn_solid_check *check, const tn_solid_item *item);
 /* The value of a number in units of the design, rounded once; wrong ones are reported, and 0. */
 double tn_solid_value(tn_solid_check *check, const tn_solid_number *number);
 
-/* a + b * weight / 2 with weight -1, 0 or 1, worked out exactly and rounded once; false where it cannot be held. */
-bool tn_solid_face(tn_solid_check *check, const tn_solid_number *a, const tn_solid_number *b, int weight, double *face);
+/* Takes `unit a/b`; wrong ones are reported. */
+void tn_solid_take_unit(tn_solid_check *check, const tn_solid_item *item);
+
+/* A face: as it is written, and where the grid of `unit` puts it, each rounded once. */
+typedef struct tn_solid_place {
+    double written, at;
+} tn_solid_place;
+
+/* The face that a number says; wrong ones are reported, and 0. */
+void tn_solid_corner(tn_solid_check *check, const tn_solid_number *number, tn_solid_place *face);
+
+/* a + b * weight / 2 with weight -1, 0 or 1, worked out exactly; a: NULL for 0. False where it cannot be held. */
+bool tn_solid_face(tn_solid_check *check, const tn_solid_number *a, const tn_solid_number *b, int weight,
+                   tn_solid_place *face);
 
 /* What expressions of designs speak of. */
 extern const tn_expression_scope tn_solid_scope;

@@ -130,6 +130,7 @@ tn_status tn_design_scorer_take_genes(tn_design_scorer *s, const tn_box_breeding
         if (s->skeleton.boxes[i].rigid)
             s->skeleton.boxes[rigid++] = s->skeleton.boxes[i];
     s->skeleton.box_count = rigid;
+    s->skeleton.unit = (tn_face_unit){0}; /* genes are decimals, and a bred design has no `unit` (skeleton.c) */
     s->breeding = breeding;
     return status;
 }

@@ -79,6 +79,7 @@ typedef struct tn_evolution_job_options {
     const char *stored_seeds; /* the text of the seeds' file, where it is known already; or NULL */
     bool run_programs;        /* the study's program may be run */
     bool remembers;           /* whoever was born can be chosen as a parent later */
+    bool draws_open;          /* pictures of fields show forms that end at the box */
 } tn_evolution_job_options;
 
 /* Makes the job of a study at `path` (data files lie relative to it), with the module of it and of its grammar, if it

@@ -53,7 +53,7 @@ static tn_status take_parents(tn_evolution_job *job, const char *path, const cha
     return TN_OK;
 }
 
-static tn_status make_fields(tn_evolution_job *job, const char *path, tn_error *error)
+static tn_status make_fields(tn_evolution_job *job, const char *path, bool draws_open, tn_error *error)
 {
     bool separately = job->settings.select.selection == TN_SELECT_NSGA2;
     uint32_t each = UINT32_MAX;
@@ -64,6 +64,8 @@ static tn_status make_fields(tn_evolution_job *job, const char *path, tn_error *
         return status;
     job->forms = (tn_bred_forms){
         job->fields, "surface", ".png", tn_field_scorer_draw, tn_field_scorer_objective, tn_field_scorer_mesh};
+    if (draws_open)
+        tn_field_scorer_draw_open(job->fields);
     job->evaluator = tn_field_scorer_evaluator(job->fields);
     job->scored = job->study.of[TN_SET_FITNESS].written || job->study.of[TN_SET_LIKENESS].written ||
                   job->study.of[TN_SET_PROGRAM].written;
@@ -123,7 +125,7 @@ tn_status tn_evolution_forms(tn_evolution_job *job, const char *path, const tn_e
     tn_status status = fields ? take_parents(job, path, options->stored_seeds, error)
                               : take_skeleton(job, path, options->stored_seeds, error);
     if (status == TN_OK && !options->only_replay)
-        return fields ? make_fields(job, path, error) : make_boxes(job, path, error);
+        return fields ? make_fields(job, path, options->draws_open, error) : make_boxes(job, path, error);
     job->evaluator = (tn_evaluator){
         .objectives = options->objectives, .evaluate = tn_never_evaluate, .cases = tn_evolution_held_cases(job)};
     return status;

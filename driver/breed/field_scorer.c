@@ -45,6 +45,7 @@ struct tn_field_scorer {
     double weights[TN_OBJECTIVES_MAX];
     size_t target_count;
     bool separately;
+    bool draws_open; /* pictures show surfaces that end at the box */
     tn_form_listener listener;
 };
 
@@ -111,6 +112,11 @@ void tn_field_scorer_tell(tn_field_scorer *scorer, tn_form_listener listener)
     scorer->listener = listener;
 }
 
+void tn_field_scorer_draw_open(tn_field_scorer *scorer)
+{
+    scorer->draws_open = true;
+}
+
 bool tn_field_scorer_wants(const tn_field_scorer *scorer)
 {
     return scorer->goals.count + scorer->target_count > 0;
@@ -132,9 +138,9 @@ static void form_clear(form *f)
 }
 
 /* What a form is made for. */
-typedef enum purpose { TO_LOOK, TO_SCORE, TO_DRAW } purpose;
+typedef enum purpose { TO_LOOK, TO_SCORE, TO_DRAW, TO_DRAW_OPEN } purpose;
 
-/* Compiles a sentence and meshes its surface (TO_LOOK: only looks whether there is one; TO_DRAW: with sharp edges).
+/* Compiles a sentence and meshes its surface (TO_LOOK: only looks whether there is one; to draw: with sharp edges).
  * Clear the form in any case. */
 static tn_status make_form(const char *sentence, size_t size, purpose what, form *f, tn_error *error)
 {
@@ -148,10 +154,12 @@ static tn_status make_form(const char *sentence, size_t size, purpose what, form
     if (status != TN_OK)
         return status;
     tn_field_grid grid = tn_field_grid_of(&f->field, 0);
+    bool draws = what >= TO_DRAW;
     tn_contour_options options = {.threads = 1,
                                   .survey = what == TO_LOOK,
-                                  .sharp = what == TO_DRAW,
-                                  .triangles = what == TO_DRAW ? 3 * TN_BRED_TRIANGLES : TN_BRED_TRIANGLES};
+                                  .sharp = draws,
+                                  .open = what == TO_DRAW_OPEN,
+                                  .triangles = draws ? 3 * TN_BRED_TRIANGLES : TN_BRED_TRIANGLES};
     status = tn_contour_new(&f->field, &grid, &options, &f->contour, error);
     if (status != TN_OK)
         return status;
@@ -257,7 +265,13 @@ const char *tn_field_scorer_objective(const void *scorer, size_t i)
 
 /* ---- pictures */
 
+static purpose drawing(const tn_field_scorer *s)
+{
+    return s->draws_open ? TO_DRAW_OPEN : TO_DRAW;
+}
+
 typedef struct forms {
+    const tn_field_scorer *scorer;
     const char *const *sentences;
     form *items;
     double **normals;
@@ -268,7 +282,7 @@ static tn_status make_one(void *context, unsigned thread, size_t item, tn_error 
     (void)thread;
     forms *f = context;
     form *made = &f->items[item];
-    tn_status status = make_form(f->sentences[item], strlen(f->sentences[item]), TO_DRAW, made, error);
+    tn_status status = make_form(f->sentences[item], strlen(f->sentences[item]), drawing(f->scorer), made, error);
     if (status != TN_OK)
         return status;
     return tn_field_normals(&made->field, &made->contour.mesh, made->contour.spacing, &f->normals[item], error);
@@ -277,8 +291,8 @@ static tn_status make_one(void *context, unsigned thread, size_t item, tn_error 
 tn_status tn_field_scorer_draw(const void *scorer, const char *const *sentences, const char *const *labels,
                                size_t count, const char *title, const char *path, tn_error *error)
 {
-    (void)scorer;
-    forms f = {sentences, calloc(count + 1, sizeof *f.items), calloc(count + 1, sizeof *f.normals)};
+    const tn_field_scorer *s = scorer;
+    forms f = {s, sentences, calloc(count + 1, sizeof *f.items), calloc(count + 1, sizeof *f.normals)};
     const tn_mesh **meshes = calloc(count + 1, sizeof *meshes);
     tn_crew *crew = tn_crew_new(0, NULL);
     tn_status status = f.items && f.normals && meshes && crew ? TN_OK : tn_fail_memory(error);
@@ -286,7 +300,7 @@ tn_status tn_field_scorer_draw(const void *scorer, const char *const *sentences,
         status = tn_crew_run(crew, count, 1, make_one, &f, error);
     for (size_t i = 0; i < count && status == TN_OK; i++)
         meshes[i] = &f.items[i].contour.mesh;
-    const tn_meshes_picture picture = {.title = title, .labels = labels, .normals = f.normals};
+    const tn_meshes_picture picture = {.title = title, .labels = labels, .normals = f.normals, .open = s->draws_open};
     if (status == TN_OK)
         status = tn_meshes_draw(meshes, count, &picture, &(tn_picture){.path = path}, error);
     for (size_t i = 0; f.items && i < count; i++)
@@ -305,9 +319,9 @@ tn_status tn_field_scorer_mesh(const void *scorer, const char *sentence, tn_mesh
                                tn_error *error)
 {
     form f;
-    (void)scorer, (void)guides;
+    (void)guides;
     *mesh = (tn_mesh){0};
-    tn_status status = make_form(sentence, strlen(sentence), TO_DRAW, &f, error);
+    tn_status status = make_form(sentence, strlen(sentence), drawing(scorer), &f, error);
     if (status == TN_OK)
         status = tn_mesh_copy(&f.contour.mesh, mesh, error);
     form_clear(&f);

@@ -23,6 +23,9 @@ void tn_field_scorer_free(tn_field_scorer *scorer);
  * there are goals or not. */
 void tn_field_scorer_tell(tn_field_scorer *scorer, tn_form_listener listener);
 
+/* From here on pictures show surfaces that end at the box, instead of being closed there. */
+void tn_field_scorer_draw_open(tn_field_scorer *scorer);
+
 /* Is anything wanted of a surface? */
 bool tn_field_scorer_wants(const tn_field_scorer *scorer);
 

@@ -37,7 +37,7 @@ enum {
 /* What was found on the way. */
 typedef struct tartan_field_findings {
     size_t size;
-    bool inside, outside;        /* is any sample inside, and any outside? */
+    bool inside, outside;        /* is any sample inside, once the box has closed the form, and was any outside? */
     uint32_t cut;                /* which sides of the box cut what is inside */
     uint64_t no_values;          /* samples where the field has no value: they are outside */
     uint64_t jumps;              /* vertices where the field jumps over 0 */

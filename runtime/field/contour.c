@@ -117,6 +117,8 @@ tn_status tn_contour_new(const tn_field *field, const tn_field_grid *grid, const
     for (int i = 0; i < 3 && status == TN_OK; i += i == 0 && options->survey ? 2 : 1) {
         double begun = now();
         status = stages[i == 2 && options->sharp ? 3 : i](&c, error);
+        if (status == TN_OK && i == 0 && options->between)
+            status = tn_contour_missed(&c, error);
         contour->seconds[i] = now() - begun;
     }
     if (status == TN_OK)

@@ -16,6 +16,7 @@ typedef struct tn_contour_options {
     bool open;          /* the mesh ends at the box */
     bool jumps_open;    /* leave out triangles that touch a jump */
     bool sharp;         /* sharp edges and corners: points are added, and triangles may cross */
+    bool between;       /* look for parts of the form that lie between samples */
     bool survey;        /* no mesh: only what the samples say, and whether it would pass a limit */
     uint64_t samples;   /* the most, 0: TN_SAMPLES_MAX */
     uint64_t triangles; /* the most, 0: TN_TRIANGLES_MAX */
@@ -32,12 +33,17 @@ typedef struct tn_contour {
     uint64_t no_values;          /* samples without a value */
     double jump[3], no_value[3]; /* the first of each */
     unsigned cut;                /* sides of the box that cut it: bit 2 * axis + (1 where high) */
-    bool inside, outside;        /* is any sample before the box is closed? */
+    bool inside;                 /* is any sample, once the box is closed? */
+    bool outside;                /* was any before? */
+    uint64_t missed;             /* `between`: cells with something inside but no such sample in or next to them */
+    double missed_at[3];         /* inside, in the first of these */
+    bool empty;                  /* `between`: it is proven that nothing is inside */
     double spacing;              /* the largest */
     double seconds[3];           /* that signs, vertices and triangles took */
 } tn_contour;
 
-/* Clear the contour in any case. TN_LIMIT (E1414, E1415) where it passes a limit; TN_MEMORY. */
+/* Clear the contour in any case. TN_LIMIT (E1414, E1415) where it passes a limit; TN_MEMORY; with `between`, TN_INVALID
+ * (E1417) where there is a form, but no sample of it. */
 tn_status tn_contour_new(const tn_field *field, const tn_field_grid *grid, const tn_contour_options *options,
                          tn_contour *contour, tn_error *error);
 void tn_contour_clear(tn_contour *contour);

@@ -53,7 +53,7 @@ tn_field_grid tn_field_grid_of(const tn_field *field, uint32_t samples)
         longest = fmax(longest, grid.high[axis] - grid.low[axis]);
     for (int axis = 0; axis < 3; axis++) {
         double cells = round((grid.high[axis] - grid.low[axis]) / (longest / (samples - 1)));
-        grid.count[axis] = cells < 1 ? 2 : (uint32_t)cells + 1;
+        grid.count[axis] = cells < 2 ? 3 : (uint32_t)cells + 1; /* some between the faces, where all may be outside */
     }
     return grid;
 }

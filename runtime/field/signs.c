@@ -24,7 +24,7 @@ typedef struct signs {
     uint8_t *coarse;       /* what is proven of each coarse block of the layer at hand, [threads] of them */
     uint64_t *no_values;   /* [layers of blocks] */
     double (*no_value)[3]; /* the first of each layer */
-    uint8_t *seen;         /* [layers]: 1 inside, 2 outside */
+    bool *outside;         /* [layers]: is any sample? */
 } signs;
 
 enum { UNKNOWN = 0, INSIDE = 1, OUTSIDE = 2 };
@@ -102,7 +102,7 @@ static void take_row(signs *s, const double *values, const uint32_t first[3], ui
         if (y >= c->grid->count[1] || z >= c->grid->count[2])
             continue;
         uint64_t bits = bits_of(inside + line * TN_BLOCK) & all;
-        s->seen[layer] |= (bits ? INSIDE : 0) | (bits != all ? OUTSIDE : 0);
+        s->outside[layer] |= bits != all;
         if (some_have_none)
             note_no_values(s, values + line * TN_BLOCK, (uint32_t[3]){first[0], y, z}, count, layer);
         uint64_t *row = c->signs + ((size_t)z * c->grid->count[1] + y) * c->words;
@@ -131,7 +131,7 @@ static uint32_t prove_blocks(signs *s, worker *w, uint32_t by, uint32_t layer, c
             known[bx] = (uint8_t)prove(c, w, first, TN_BLOCK);
         if (known[bx] == INSIDE)
             fill_block(c, first);
-        s->seen[layer] |= known[bx];
+        s->outside[layer] |= known[bx] == OUTSIDE;
         unknown += known[bx] == UNKNOWN;
     }
     return unknown;
@@ -182,7 +182,7 @@ static tn_status do_layer(void *context, unsigned thread, size_t item, tn_error 
     return TN_OK;
 }
 
-/* Samples on the faces of the box are outside; that closes what would leave it. */
+/* Samples on the faces of the box are outside; that closes what would leave it. Says whether any is inside then. */
 static void close_box(tn_contouring *c)
 {
     const uint32_t *n = c->grid->count;
@@ -206,6 +206,8 @@ static void close_box(tn_contouring *c)
             if (!c->options->open)
                 memset(row, 0, c->words * sizeof *row);
         }
+    for (size_t i = 0; i < (size_t)n[1] * n[2] * c->words && !c->out->inside; i++)
+        c->out->inside = c->signs[i] != 0;
 }
 
 static void sum_up(signs *s)
@@ -215,8 +217,7 @@ static void sum_up(signs *s)
         if (out->no_values == 0 && s->no_values[layer])
             memcpy(out->no_value, s->no_value[layer], sizeof out->no_value);
         out->no_values += s->no_values[layer];
-        out->inside = out->inside || (s->seen[layer] & INSIDE);
-        out->outside = out->outside || (s->seen[layer] & OUTSIDE);
+        out->outside = out->outside || s->outside[layer];
     }
 }
 
@@ -243,8 +244,8 @@ tn_status tn_contour_signs(tn_contouring *c, tn_error *error)
     s.coarse = calloc((size_t)c->threads * 2, s.blocks[0]);
     s.no_values = calloc(s.blocks[2], sizeof *s.no_values);
     s.no_value = calloc(s.blocks[2], sizeof *s.no_value);
-    s.seen = calloc(s.blocks[2], sizeof *s.seen);
-    bool room = s.workers && s.coarse && s.no_values && s.no_value && s.seen;
+    s.outside = calloc(s.blocks[2], sizeof *s.outside);
+    bool room = s.workers && s.coarse && s.no_values && s.no_value && s.outside;
     tn_status status = room ? make_workers(&s, error) : tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_crew_run(c->crew, s.blocks[2], 1, do_layer, &s, error);
@@ -260,6 +261,6 @@ tn_status tn_contour_signs(tn_contouring *c, tn_error *error)
     free(s.coarse);
     free(s.no_values);
     free(s.no_value);
-    free(s.seen);
+    free(s.outside);
     return status;
 }

@@ -6,10 +6,14 @@
 #include <xxhash.h>
 
 #include "runtime/base/select_nth.h"
+#include "runtime/numeric/numeric.h"
 
 #define LEAF_TRIANGLES 4u
 #define TREE_DEPTH_MAX 64
 #define TOUCH 1e-9
+#define PI 3.14159265358979323846
+/* A point of an edge is off by rounding: a few units in the last place of the largest coordinate. */
+#define SAME 1e-14
 /* The clearance grid has this many cells a side: 32^3 doubles are 256 KiB, and most vertices of a growing surface are
  * further from a boundary than a cell is wide. */
 #define GRID 32
@@ -29,6 +33,7 @@ struct tn_boundary_mesh {
     node *nodes;
     uint32_t node_count;
     bool solid;
+    double touch; /* places this close are the same */
     double low[3], cell[3];
     double *clearance; /* [GRID^3] signed distance at the cell's centre */
 };
@@ -152,6 +157,14 @@ static void turn_outwards(tn_boundary_mesh *mesh)
         mesh->normal[i] = tn_scale(mesh->normal[i], -1);
 }
 
+static double largest_coordinate(const node *box)
+{
+    double most = 0;
+    for (int k = 0; k < 3; k++)
+        most = tn_larger(most, tn_larger(fabs(box->low[k]), fabs(box->high[k])));
+    return most;
+}
+
 static tn_status build_clearance(tn_boundary_mesh *mesh, tn_error *error)
 {
     double *clearance = malloc(sizeof *clearance * GRID * GRID * GRID);
@@ -227,6 +240,7 @@ tn_status tn_boundary_mesh_new(const double *positions, size_t vertex_count, con
     if (status == TN_OK) {
         turn_outwards(mesh);
         build(mesh, 0, mesh->count);
+        mesh->touch = SAME * largest_coordinate(&mesh->nodes[0]);
         status = build_clearance(mesh, error);
     }
     if (status != TN_OK) {
@@ -254,15 +268,16 @@ static tn_vector nearest_on_segment(tn_vector a, tn_vector b, tn_vector x)
     return tn_along(a, d, t < 0 ? 0 : t > 1 ? 1 : t);
 }
 
-/* Within the triangle's prism the foot of the perpendicular; otherwise the nearest point of the three edges. */
-static tn_vector nearest_on_triangle(const tn_vector c[3], tn_vector n, tn_vector x)
+/* Within the triangle's prism (*inner) the foot of the perpendicular; otherwise the nearest point of the three edges.
+ */
+static tn_vector nearest_on_triangle(const tn_vector c[3], tn_vector n, tn_vector x, bool *inner)
 {
-    bool within = true;
-    for (int k = 0; k < 3 && within; k++) {
+    *inner = true;
+    for (int k = 0; k < 3 && *inner; k++) {
         tn_vector along = tn_sub(c[(k + 1) % 3], c[k]);
-        within = tn_dot(tn_cross(along, tn_sub(x, c[k])), n) >= 0;
+        *inner = tn_dot(tn_cross(along, tn_sub(x, c[k])), n) >= 0;
     }
-    if (within)
+    if (*inner)
         return tn_along(x, n, -tn_dot(tn_sub(x, c[0]), n));
     tn_vector best = c[0];
     double best2 = INFINITY;
@@ -276,31 +291,85 @@ static tn_vector nearest_on_triangle(const tn_vector c[3], tn_vector n, tn_vecto
     return best;
 }
 
+/* The triangle's normal by its winding, which points inwards where the solid is wound inside out. */
+static tn_vector wound_normal(const tn_vector c[3])
+{
+    return tn_normalised(tn_cross(tn_sub(c[1], c[0]), tn_sub(c[2], c[0])));
+}
+
 typedef struct nearest_search {
     tn_vector point;
     double distance2;
-    double height; /* over the plane of the triangle that decides the sign */
+    uint32_t triangle; /* that has the point, */
+    bool inner;        /* on none of its edges */
 } nearest_search;
 
-/* Where several triangles share the nearest point (an edge, a vertex), the one whose plane is furthest from x tells on
- * which side x is; the plane of another may pass on x's other side. */
 static void consider(const tn_boundary_mesh *mesh, uint32_t triangle, tn_vector x, nearest_search *search)
 {
     const tn_vector *c = &mesh->corner[3 * (size_t)triangle];
-    tn_vector n = mesh->normal[triangle], geometric = tn_normalised(tn_cross(tn_sub(c[1], c[0]), tn_sub(c[2], c[0])));
-    tn_vector p = nearest_on_triangle(c, geometric, x), d = tn_sub(x, p);
-    double d2 = tn_dot(d, d), height = tn_dot(tn_sub(x, c[0]), n);
-    double same = 1e-10 * search->distance2 + 1e-24;
-    if (d2 < search->distance2 - same) {
-        *search = (nearest_search){p, d2, height};
-    } else if (d2 <= search->distance2 + same) {
-        if (fabs(height) > fabs(search->height))
-            search->height = height;
-        if (d2 < search->distance2) {
-            search->distance2 = d2;
-            search->point = p;
+    bool inner;
+    tn_vector p = nearest_on_triangle(c, wound_normal(c), x, &inner), d = tn_sub(x, p);
+    double d2 = tn_dot(d, d);
+    if (d2 < search->distance2)
+        *search = (nearest_search){p, d2, triangle, inner};
+}
+
+/* The angle that a triangle fills at a point of it; at one of its edges half a turn, 0 where the point is none of its
+ * own. */
+static double angle_at(const tn_vector c[3], tn_vector p, double touch)
+{
+    bool inner;
+    for (int k = 0; k < 3; k++) {
+        if (tn_norm(tn_sub(p, c[k])) > touch)
+            continue;
+        tn_vector u = tn_sub(c[(k + 1) % 3], c[k]), v = tn_sub(c[(k + 2) % 3], c[k]);
+        return tn_atan2(tn_norm(tn_cross(u, v)), tn_dot(u, v));
+    }
+    for (int k = 0; k < 3; k++)
+        if (tn_norm(tn_sub(p, nearest_on_segment(c[k], c[(k + 1) % 3], p))) <= touch)
+            return PI;
+    return tn_norm(tn_sub(p, nearest_on_triangle(c, wound_normal(c), p, &inner))) <= touch ? 2 * PI : 0;
+}
+
+/* The sum of the normals of all triangles that meet in p, each times its angle there: the angle-weighted pseudonormal
+ * (Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal", 2005). No plane of one
+ * of these triangles says on which side of an edge or corner a place is: a sharp one has some pass on either side. */
+static tn_vector pseudonormal(const tn_boundary_mesh *mesh, tn_vector p)
+{
+    double touch = mesh->touch;
+    tn_vector sum = {0, 0, 0};
+    uint32_t stack[TREE_DEPTH_MAX];
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+        uint32_t at = stack[--top];
+        const node *here = &mesh->nodes[at];
+        if (box_distance2(here, p) > touch * touch)
+            continue;
+        if (!here->count) {
+            stack[top++] = here->first;
+            stack[top++] = at + 1;
+        }
+        for (uint32_t i = 0; i < here->count; i++) {
+            uint32_t triangle = mesh->order[here->first + i];
+            double angle = angle_at(&mesh->corner[3 * (size_t)triangle], p, touch);
+            sum = tn_along(sum, mesh->normal[triangle], angle);
         }
     }
+    return sum;
+}
+
+/* Is x behind the nearest point that was found? */
+static bool is_inside(const tn_boundary_mesh *mesh, tn_vector x, const nearest_search *found)
+{
+    const tn_vector *c = &mesh->corner[3 * (size_t)found->triangle];
+    if (found->inner)
+        return tn_dot(tn_sub(x, c[0]), mesh->normal[found->triangle]) < 0;
+    tn_vector p = found->point;
+    for (int k = 0; k < 3; k++)
+        if (tn_norm(tn_sub(p, c[k])) <= mesh->touch)
+            p = c[k];
+    return tn_dot(tn_sub(x, p), pseudonormal(mesh, p)) < 0;
 }
 
 double tn_boundary_mesh_distance(const tn_boundary_mesh *mesh, tn_vector x, tn_vector *nearest)
@@ -330,7 +399,7 @@ double tn_boundary_mesh_distance(const tn_boundary_mesh *mesh, tn_vector x, tn_v
     if (nearest)
         *nearest = search.point;
     double d = sqrt(search.distance2);
-    return mesh->solid && search.height < 0 ? -d : d;
+    return mesh->solid && is_inside(mesh, x, &search) ? -d : d;
 }
 
 bool tn_boundary_mesh_clear(const tn_boundary_mesh *mesh, tn_vector x, double reach, int *sign)

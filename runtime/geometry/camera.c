@@ -22,14 +22,18 @@ tn_vector tn_eye_sees(const tn_eye *eye, tn_vector place)
     return (tn_vector){tn_dot(place, eye->right), tn_dot(place, eye->up), tn_dot(place, eye->towards)};
 }
 
-double tn_eye_light(const tn_eye *eye, tn_vector normal)
+static double light_of_lamp(const tn_eye *eye, tn_vector normal)
 {
     tn_vector lamp = tn_normalised(tn_add(tn_add(eye->towards, tn_scale(eye->up, 0.9)), tn_scale(eye->right, -0.6)));
-    double facing = tn_dot(normal, eye->towards) < 0 ? -1 : 1;
-    return 0.35 + 0.65 * fmax(0, facing * tn_dot(normal, lamp));
+    return 0.35 + 0.65 * fmax(0, tn_dot(normal, lamp));
+}
+
+double tn_eye_light(const tn_eye *eye, tn_vector normal)
+{
+    return light_of_lamp(eye, tn_dot(normal, eye->towards) < 0 ? tn_scale(normal, -1) : normal);
 }
 
 double tn_eye_light_around(const tn_eye *eye, tn_vector normal)
 {
-    return 0.7 * tn_eye_light(eye, normal) + 0.3 * fabs(tn_dot(normal, eye->towards));
+    return 0.7 * light_of_lamp(eye, normal) + 0.3 * fabs(tn_dot(normal, eye->towards));
 }

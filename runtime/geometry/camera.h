@@ -26,7 +26,8 @@ tn_vector tn_eye_sees(const tn_eye *eye, tn_vector place);
 /* How light a surface is, 0 dark to 1: by a lamp over the eye's left shoulder. Both of its sides are lit. */
 double tn_eye_light(const tn_eye *eye, tn_vector normal);
 
-/* The same for closed forms, which turn away from the lamp: some of the light comes from the eye. */
+/* The same for smooth forms, which turn away from the lamp: some of the light comes from the eye, and only the side
+ * that the normal points to is lit. */
 double tn_eye_light_around(const tn_eye *eye, tn_vector normal);
 
 #endif

@@ -6,6 +6,8 @@
 
 #define FINE 2u             /* points along a pixel's side */
 #define SMOOTH_COSINE 0.766 /* of 40 degrees */
+/* A triangle that is less high than this share of its longest side says little of how the surface lies there. */
+#define THIN 0.05
 
 typedef struct buffer {
     uint32_t width, height; /* points */
@@ -108,23 +110,57 @@ static void look(const tn_mesh *mesh, const double *normals, const tn_eye *eye, 
     }
 }
 
-/* The light of a corner is by the vertex's normal, unless the surface has an edge there. */
-static void paint(const tn_mesh *mesh, const double *normals, const tn_eye *eye, const corner *seen, buffer *to)
+static double longest_side(const tn_vector at[3])
+{
+    double most = 0;
+    for (int k = 0; k < 3; k++)
+        most = tn_larger(most, tn_norm(tn_sub(at[(k + 1) % 3], at[k])));
+    return most;
+}
+
+/* A triangle as it is painted. */
+typedef struct facet {
+    tn_vector normals[3]; /* of its vertices */
+    tn_vector face;       /* its own, of unit length */
+    bool thin;            /* only those of the vertices say how it lies */
+    bool behind;          /* it is seen from behind */
+} facet;
+
+static facet facet_of(const tn_mesh *mesh, const double *normals, const tn_eye *eye, size_t f)
+{
+    const uint32_t *corners = mesh->corners + mesh->face_first[f];
+    facet one;
+    tn_vector at[3], sum = {0, 0, 0};
+    for (int k = 0; k < 3; k++) {
+        at[k] = tn_vector_at(mesh->positions + 3 * (size_t)corners[k]);
+        one.normals[k] = tn_vector_at(normals + 3 * (size_t)corners[k]);
+        sum = tn_add(sum, one.normals[k]);
+    }
+    tn_vector face = tn_cross(tn_sub(at[1], at[0]), tn_sub(at[2], at[0]));
+    double longest = longest_side(at);
+    one.thin = tn_norm(face) < THIN * longest * longest && tn_norm(sum) > 0;
+    one.face = tn_normalised(face);
+    one.behind = !(tn_dot(one.thin ? sum : one.face, eye->towards) > 0);
+    return one;
+}
+
+/* The light of a corner is by the vertex's normal, unless the surface has an edge there. What is seen from behind has
+ * normals that look the other way. */
+static void paint(const tn_mesh *mesh, const double *normals, const tn_eye *eye, const corner *seen, bool open,
+                  buffer *to)
 {
     for (size_t f = 0; f < mesh->face_count; f++) {
         const uint32_t *corners = mesh->corners + mesh->face_first[f];
-        tn_vector at[3];
+        const facet one = facet_of(mesh, normals, eye, f);
         corner c[3];
-        for (int k = 0; k < 3; k++)
-            at[k] = tn_vector_at(mesh->positions + 3 * (size_t)corners[k]);
-        tn_vector face = tn_cross(tn_sub(at[1], at[0]), tn_sub(at[2], at[0]));
-        if (!(tn_dot(face, eye->towards) > 0))
+        if (one.behind && !open)
             continue;
-        double least = SMOOTH_COSINE * tn_norm(face);
         for (int k = 0; k < 3; k++) {
+            bool edge = !one.thin && tn_dot(one.normals[k], one.face) < SMOOTH_COSINE;
+            tn_vector normal = edge ? one.face : one.normals[k];
             c[k] = seen[corners[k]];
-            if (tn_dot(tn_vector_at(normals + 3 * (size_t)corners[k]), face) < least)
-                c[k].light = tn_eye_light_around(eye, tn_normalised(face));
+            if (edge || one.behind)
+                c[k].light = tn_eye_light_around(eye, one.behind ? tn_scale(normal, -1) : normal);
         }
         fill_triangle(to, c);
     }
@@ -165,7 +201,7 @@ tn_status tn_mesh_render(const tn_mesh *mesh, const double *normals, const tn_ey
         to.depth[i] = -INFINITY;
     if (room) {
         look(mesh, normals, eye, frame, seen);
-        paint(mesh, normals, eye, seen, &to);
+        paint(mesh, normals, eye, seen, frame->open, &to);
     }
     for (uint32_t y = 0; room && y < frame->height; y++)
         for (uint32_t x = 0; x < frame->width; x++)

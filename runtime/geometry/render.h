@@ -9,11 +9,12 @@ typedef struct tn_render_frame {
     uint32_t width, height; /* pixels */
     double left, top;       /* of the picture, in the eye's units: the top is the larger number */
     double pixel;           /* its side */
+    bool open;              /* the mesh has rims: its triangles are seen from behind, too */
 } tn_render_frame;
 
-/* Paints a closed mesh of triangles, of which those that look away are hidden by the others: image[y][x] is 0xAARRGGBB, alpha already multiplied in, the first row at the top; what
- * nothing covers is left transparent. Normals of vertices are rounded over edges flatter than 40 degrees. The caller
- * frees *image. TN_MEMORY. */
+/* Paints a mesh of triangles, of which those that look away are hidden by the others if it is closed: image[y][x] is
+ * 0xAARRGGBB, alpha already multiplied in, the first row at the top; what nothing covers is left transparent. Normals
+ * of vertices are rounded over edges flatter than 40 degrees. The caller frees *image. TN_MEMORY. */
 tn_status tn_mesh_render(const tn_mesh *mesh, const double *normals, const tn_eye *eye, const tn_render_frame *frame,
                          uint32_t **image, tn_error *error);
 

@@ -7,6 +7,7 @@ extern "C" {
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -107,6 +108,144 @@ public:
 private:
     const tn_mesh *mesh;
     bool stopped = false;
+};
+
+/* Errors by quadrics; of equal ones, as they all are within a plane, short sides go first, so that no slivers are left
+ * that nothing can be done with later. */
+class short_first : public OpenMesh::Decimater::ModQuadricT<tri_mesh>
+{
+  public:
+    typedef OpenMesh::Decimater::ModHandleT<short_first> Handle;
+
+    explicit short_first(tri_mesh &mesh) : ModQuadricT(mesh)
+    {
+        double area = 0;
+        for (auto face : mesh.faces())
+            area += mesh.calc_sector_area(mesh.halfedge_handle(face));
+        weight = SHARE * area / static_cast<double>(std::max<size_t>(mesh.n_faces(), 1));
+    }
+
+    float collapse_priority(const CollapseInfo &c) override
+    {
+        float error = ModQuadricT::collapse_priority(c);
+        return error < 0 ? error : error + static_cast<float>(weight * (c.p1 - c.p0).sqrnorm());
+    }
+
+  private:
+    static constexpr double SHARE = 1e-6; /* of a triangle that is as far off as a side is long */
+    double weight;                        /* an error is an area times the square of a distance */
+};
+
+/* Refuses collapses that fold a surface. Errors of quadrics see only how far planes are: within a plane, and where
+ * triangles have next to no area, all of them are 0, whichever way round a triangle lies. */
+class no_folds : public OpenMesh::Decimater::ModBaseT<tri_mesh>
+{
+  public:
+    explicit no_folds(tri_mesh &mesh) : ModBaseT(mesh, true)
+    {
+        mesh.add_property(facing);
+    }
+    ~no_folds() override
+    {
+        mesh().remove_property(facing);
+    }
+    typedef OpenMesh::Decimater::ModHandleT<no_folds> Handle;
+
+    void initialize() override
+    {
+        for (auto face : mesh().faces())
+            mesh().property(facing, face) = first_facing(face);
+    }
+
+    float collapse_priority(const CollapseInfo &c) override
+    {
+        for (auto face : mesh().vf_range(c.v0))
+            if (face != c.fl && face != c.fr && !stays(face, c))
+                return ILLEGAL_COLLAPSE;
+        return keeps_rim(c) ? LEGAL_COLLAPSE : ILLEGAL_COLLAPSE;
+    }
+
+    void postprocess_collapse(const CollapseInfo &c) override
+    {
+        for (auto face : mesh().vf_range(c.v1)) {
+            triangle now = measure(face);
+            if (now.height() >= slim)
+                mesh().property(facing, face) = now.normal.normalized();
+        }
+    }
+
+  private:
+    typedef tri_mesh::Point point;
+    OpenMesh::FPropHandleT<point> facing; /* the normal of each triangle when it last had a certain one */
+
+    static constexpr double turn = 0.5;      /* cosine of how far a triangle may turn from that */
+    static constexpr double slim = 0.01;     /* a triangle is at least this high, as a share of its longest side */
+    static constexpr double straight = 0.97; /* cosine of how much a rim may bend where a vertex of it goes */
+
+    struct triangle {
+        point normal; /* twice its area long */
+        double longest;
+        double height() const
+        {
+            return longest > 0 ? normal.norm() / (longest * longest) : 0;
+        }
+    };
+
+    static triangle measure(const point &a, const point &b, const point &c)
+    {
+        double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+        return {OpenMesh::cross(b - a, c - a), longest};
+    }
+
+    /* With one of its corners elsewhere. */
+    triangle measure(tri_mesh::FaceHandle face, tri_mesh::VertexHandle moved, const point &to)
+    {
+        point at[3];
+        int i = 0;
+        for (auto corner : mesh().fv_range(face))
+            at[i++] = corner == moved ? to : mesh().point(corner);
+        return measure(at[0], at[1], at[2]);
+    }
+
+    triangle measure(tri_mesh::FaceHandle face)
+    {
+        return measure(face, tri_mesh::VertexHandle(), point());
+    }
+
+    /* Triangles that are lines say nothing: they look as their neighbours do. */
+    point first_facing(tri_mesh::FaceHandle face)
+    {
+        triangle own = measure(face);
+        if (own.height() < slim)
+            for (auto beside : mesh().ff_range(face))
+                own.normal += measure(beside).normal;
+        double length = own.normal.norm();
+        return length > 0 ? own.normal / length : point(0, 0, 0);
+    }
+
+    bool stays(tri_mesh::FaceHandle face, const CollapseInfo &c)
+    {
+        triangle before = measure(face), after = measure(face, c.v0, c.p1);
+        double length = after.normal.norm();
+        return after.height() >= std::min(slim, before.height()) && length > 0 &&
+               OpenMesh::dot(after.normal, mesh().property(facing, face)) >= turn * length;
+    }
+
+    /* A vertex of a rim leaves it only where it is about straight. */
+    bool keeps_rim(const CollapseInfo &c)
+    {
+        for (auto out : mesh().voh_range(c.v0)) {
+            auto before = mesh().opposite_halfedge_handle(out);
+            bool rim = mesh().is_boundary(out) || mesh().is_boundary(before);
+            tri_mesh::VertexHandle other = mesh().to_vertex_handle(out);
+            if (!rim || other == c.v1)
+                continue;
+            point one = c.p0 - mesh().point(other), next = c.p1 - c.p0;
+            if (OpenMesh::dot(one, next) < straight * one.norm() * next.norm())
+                return false;
+        }
+        return true;
+    }
 };
 
 bool all_triangles(const tn_mesh *mesh)
@@ -287,9 +426,11 @@ extern "C" tn_status tn_openmesh_decimate(tn_mesh *mesh, size_t faces, tn_error 
         if (!into(mesh, false, m))
             return no_surface(error);
         OpenMesh::Decimater::DecimaterT<tri_mesh> tool(m);
-        OpenMesh::Decimater::ModQuadricT<tri_mesh>::Handle quadric;
+        short_first::Handle quadric;
+        no_folds::Handle folds;
         tool.add(quadric);
         tool.module(quadric).unset_max_err();
+        tool.add(folds);
         if (!tool.initialize())
             return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the mesh cannot be decimated");
         patience waits(mesh);

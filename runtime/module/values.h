@@ -137,6 +137,7 @@ enum { TN_ROOF_OPEN = 1, TN_ROOF_ACROSS = 2 };
 /* ---- solids */
 
 #define TN_SOLID_COORDINATE_MAX 1e9  /* of a box's faces and sizes */
+#define TN_SOLID_UNIT_MAX 1000000000000000 /* of the two numbers whose quotient is a design's unit */
 #define TN_SOLID_BOXES_MAX 10000000u /* of one design, as it is written */
 
 /* Flags of a design. */

@@ -51,15 +51,17 @@ static double left_of(const page *p)
 
 /* ---- pixels */
 
-static tn_status paint_pixels(cairo_t *cr, const tn_mesh *mesh, const double *given, const page *p, uint32_t dpi,
+static tn_status paint_pixels(cairo_t *cr, const tn_mesh *mesh, const tn_mesh_picture *picture, const page *p,
                               tn_error *error)
 {
-    double pixel = 72.0 / dpi; /* in points */
+    const double *given = picture->normals;
+    double pixel = 72.0 / (picture->dpi ? picture->dpi : DPI); /* in points */
     tn_render_frame frame = {.width = (uint32_t)ceil(p->size[0] / pixel),
                              .height = (uint32_t)ceil(p->size[1] / pixel),
                              .left = p->low[0] - left_of(p) / p->scale,
                              .top = p->high[1] + p->top / p->scale,
-                             .pixel = pixel / p->scale};
+                             .pixel = pixel / p->scale,
+                             .open = picture->open};
     double *normals = NULL;
     uint32_t *image = NULL;
     tn_status status = given ? TN_OK : tn_mesh_normals(mesh, &normals, error);
@@ -96,7 +98,7 @@ static tn_status look_at(const tn_mesh *mesh, const tn_mesh_picture *picture, tn
     for (size_t f = 0; f <= mesh->face_count; f++)
         sight->first[f] = (uint32_t)(3 * f);
     sight->face_count = (uint32_t)mesh->face_count;
-    sight->closed = true;
+    sight->closed = !picture->open;
     sight->threads = picture->threads;
     sight->watch = picture->watch;
     return TN_OK;
@@ -142,7 +144,7 @@ static tn_status draw_pixels(const tn_mesh *mesh, const tn_mesh_picture *picture
     if (status != TN_OK)
         return status;
     cairo_t *cr = tn_canvas_context(canvas);
-    status = paint_pixels(cr, mesh, picture->normals, &p, picture->dpi ? picture->dpi : DPI, error);
+    status = paint_pixels(cr, mesh, picture, &p, error);
     if (status == TN_OK) {
         write_words(cr, &p, picture);
         status = tn_canvas_commit(canvas, error);

@@ -15,10 +15,12 @@ typedef struct tn_mesh_picture {
     const char *caption;    /* a line at the foot: how it was made; or NULL */
     uint32_t dpi;           /* of a PNG; 0: 150 */
     int threads;            /* 0: all processors */
+    bool open;              /* the mesh may have rims, and is seen from behind, too */
     struct tn_watch *watch; /* or NULL */
 } tn_mesh_picture;
 
-/* Draws a closed mesh of triangles. E0820 where a vector picture would be too large; otherwise as tn_canvas_open. */
+/* Draws a mesh of triangles, a closed one unless `open`. E0820 where a vector picture would be too large; otherwise as
+ * tn_canvas_open. */
 tn_status tn_mesh_draw(const tn_mesh *mesh, const tn_mesh_picture *picture, tn_picture *to, tn_error *error);
 
 #endif

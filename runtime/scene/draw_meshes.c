@@ -71,6 +71,7 @@ typedef struct batch {
     double *const *normals; /* or NULL */
     const extent *extents;
     const sheet *s;
+    bool open;
     uint32_t side;                 /* of an image, in pixels */
     double largest;                /* side of what is drawn */
     uint32_t *images[BATCH_CELLS]; /* owned */
@@ -86,7 +87,8 @@ static tn_status make_image(void *context, unsigned thread, size_t item, tn_erro
                              .height = b->side,
                              .left = (e->low[0] + e->high[0]) / 2 - b->s->cell / scale / 2,
                              .top = (e->low[1] + e->high[1]) / 2 + b->s->cell / scale / 2,
-                             .pixel = pixel / scale};
+                             .pixel = pixel / scale,
+                             .open = b->open};
     double *normals = NULL;
     tn_status status = b->normals ? TN_OK : tn_mesh_normals(b->meshes[item], &normals, error);
     if (status == TN_OK)
@@ -133,6 +135,7 @@ static tn_status draw_cells(cairo_t *cr, const tn_mesh *const *meshes, const ext
                    .normals = picture->normals ? picture->normals + first : NULL,
                    .extents = extents + first,
                    .s = s,
+                   .open = picture->open,
                    .side = side,
                    .largest = largest};
         size_t here = count - first < BATCH_CELLS ? count - first : BATCH_CELLS;

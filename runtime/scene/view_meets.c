@@ -11,9 +11,10 @@
 #include "runtime/base/array.h"
 #include "runtime/scene/view_parts.h"
 
-#define GRID 1e6 /* points nearer than this share of the form are one */
+#define GRID 1e6     /* points nearer than this share of the form are one */
+#define BESIDE 1e-4F /* of a line's direction: beside it */
 
-/* An end of a seam, or a corner of which a side is no line. */
+/* An end of a seam, or a corner. */
 typedef struct meeting_place {
     int32_t at[3];
     float sides[2][2]; /* from there on, of unit length; of a seam the first alone */
@@ -70,18 +71,45 @@ static float cross(const float *a, const float *b)
     return a[0] * b[1] - a[1] * b[0];
 }
 
-/* Would the filling of the corner reach far into a line in this direction, which runs beside it? One that runs inside
- * is hidden. *tangent: of the angle from the line to the filling, which is at its left where that is positive. */
-static bool reaches(const meeting_place *corner, const float *line, float *tangent)
+/* Does this direction run inside the corner? */
+static bool is_inside(const meeting_place *corner, const float *line)
 {
     const float *a = corner->sides[0], *b = corner->sides[1];
     float turn = cross(a, b), from_a = cross(a, line), to_b = cross(line, b);
-    bool inside = turn > 0 ? from_a > 0 && to_b > 0 : from_a < 0 && to_b < 0;
+    return turn > 0 ? from_a > 0 && to_b > 0 : from_a < 0 && to_b < 0;
+}
+
+/* Would the filling of the corner reach far into a line in this direction, which runs beside it? *tangent: of the angle
+ * from the line to the filling, which is at its left where that is positive. */
+static bool reaches(const meeting_place *corner, const float *line, float *tangent)
+{
+    const float *a = corner->sides[0], *b = corner->sides[1];
     bool is_b = dot(b, line) > dot(a, line);
     const float *nearest = is_b ? b : a;
     float cosine = dot(nearest, line);
     *tangent = cross(line, nearest) / fmaxf(cosine, 1e-9f);
-    return corner->bare[is_b] && !inside && cosine > TN_SHARP;
+    return corner->bare[is_b] && !is_inside(corner, line) && cosine > TN_SHARP;
+}
+
+/* The places that are those of a line's end: from the first on. */
+typedef struct company {
+    size_t first, end;
+} company;
+
+/* Is the side of the line covered by a face that is painted after it? side: 1 at its left, -1 at its right. */
+static bool is_covered(const meeting_places *m, const company *here, const meeting_place *line, float side)
+{
+    const float *d = line->sides[0], aside[2] = {d[0] - side * BESIDE * d[1], d[1] + side * BESIDE * d[0]};
+    for (size_t i = here->first; i < here->end; i++)
+        if (m->items[i].is_corner && m->items[i].shape > line->shape && is_inside(&m->items[i], aside))
+            return true;
+    return false;
+}
+
+/* A line that is covered at both sides is hidden, though it may run beside each of the pieces that hide it. */
+static bool is_hidden(const meeting_places *m, const company *here, const meeting_place *line)
+{
+    return is_covered(m, here, line, 1) && is_covered(m, here, line, -1);
 }
 
 static tn_status mend(meeting_places *m, const meeting_place *corner, const meeting_place *line, double length,
@@ -101,7 +129,7 @@ static tn_status mend(meeting_places *m, const meeting_place *corner, const meet
     return TN_OK;
 }
 
-static tn_status meet(meeting_places *m, const meeting_place *line, double length, tn_error *error)
+static company find_company(const meeting_places *m, const meeting_place *line)
 {
     size_t low = 0, high = m->count;
     while (low < high) {
@@ -111,12 +139,21 @@ static tn_status meet(meeting_places *m, const meeting_place *line, double lengt
         else
             high = middle;
     }
+    while (high < m->count && compare_places(&m->items[high], line) == 0)
+        high++;
+    return (company){low, high};
+}
+
+static tn_status meet(meeting_places *m, const meeting_place *line, double length, tn_error *error)
+{
+    const company here = find_company(m, line);
+    bool hidden = is_hidden(m, &here, line);
     tn_status status = TN_OK;
-    for (; status == TN_OK && low < m->count && compare_places(&m->items[low], line) == 0; low++) {
-        const meeting_place *place = &m->items[low];
+    for (size_t i = here.first; status == TN_OK && i < here.end; i++) {
+        const meeting_place *place = &m->items[i];
         float *sharpest = &m->view->sharpest[place->end];
         if (place->is_corner)
-            status = mend(m, place, line, length, error);
+            status = hidden ? TN_OK : mend(m, place, line, length, error);
         else
             *sharpest = fmaxf(*sharpest, fminf(dot(place->sides[0], line->sides[0]), 1));
     }
@@ -144,8 +181,7 @@ static void add_corner(meeting_places *m, size_t before, size_t corner, size_t n
     place.bare[0] = !is_line(m->view, corner);
     place.bare[1] = !is_line(m->view, before);
     put_direction(m, corner, before, place.sides[1]);
-    if (place.bare[0] || place.bare[1])
-        m->items[m->count++] = place;
+    m->items[m->count++] = place;
 }
 
 static tn_status add_line(meeting_places *m, size_t corner, size_t next, tn_error *error)
@@ -223,7 +259,7 @@ tn_status tn_view_find_meets(tn_view *view, const float *depths, tn_error *error
     size_t corners, others = count_sides(view, &corners);
     if (others == 0)
         return TN_OK;
-    meeting_places m = {.view = view, .depths = depths, .items = malloc(4 * others * sizeof *m.items)};
+    meeting_places m = {.view = view, .depths = depths, .items = malloc((corners + 2 * others) * sizeof *m.items)};
     m.unit = fmax(fmax(view->high[0] - view->low[0], view->high[1] - view->low[1]), 1e-300) / GRID;
     view->sharpest = malloc(2 * corners * sizeof *view->sharpest);
     tn_status status = m.items && view->sharpest ? TN_OK : tn_fail_memory(error);

@@ -3,7 +3,6 @@
  * Boxes only shrink, so that the pairs that overlap as written are all that can ever need it. They are found by
  * a tree of boxes and taken in the chapter's order; only the boxes as written are stored, and an image is made when it
  * is compared. */
-#include <math.h>
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
@@ -24,23 +23,59 @@ typedef struct pairs {
     bool failed;
 } pairs;
 
-static bool overlap(const tn_solid_box *p, const tn_solid_box *q)
+/* ---- blocks */
+
+/* A box's faces as whole numbers (exact.h): what is decided here is decided exactly. */
+typedef struct block {
+    tn_wide low[3], high[3];
+    bool rigid, void_;
+} block;
+
+static bool less(tn_wide a, tn_wide b)
+{
+    return tn_wide_compare(a, b) < 0;
+}
+
+static bool overlap(const block *p, const block *q)
 {
     bool all = !p->void_ && !q->void_;
     for (int k = 0; k < 3; k++)
-        all = all && p->low[k] < q->high[k] && q->low[k] < p->high[k];
+        all = all && less(p->low[k], q->high[k]) && less(q->low[k], p->high[k]);
     return all;
 }
 
-static void mirror(tn_solid_box *box, uint32_t image)
+static void mirror(block *one, uint32_t image)
 {
     for (int k = 0; k < 3; k++) {
         if (!(image >> k & 1))
             continue;
-        double low = box->low[k];
-        box->low[k] = -box->high[k];
-        box->high[k] = -low;
-        box->normal[k] = -box->normal[k];
+        tn_wide low = one->low[k];
+        one->low[k] = tn_wide_negate(one->high[k]);
+        one->high[k] = tn_wide_negate(low);
+    }
+}
+
+static block block_of(const tn_design *design, uint32_t i)
+{
+    const tn_solid_box *box = &design->boxes[i];
+    block one = {.rigid = box->rigid, .void_ = box->void_};
+    for (int k = 0; k < 3; k++) {
+        one.low[k] = tn_face_units(&design->unit, box->low[k]);
+        one.high[k] = tn_face_units(&design->unit, box->high[k]);
+    }
+    return one;
+}
+
+/* Faces that are the same become the same double. */
+static void take_back(tn_design *design, const block *blocks)
+{
+    for (uint32_t i = 0; i < design->box_count; i++) {
+        tn_solid_box *box = &design->boxes[i];
+        box->void_ = blocks[i].void_;
+        for (int k = 0; k < 3; k++) {
+            box->low[k] = tn_face_value(&design->unit, blocks[i].low[k]);
+            box->high[k] = tn_face_value(&design->unit, blocks[i].high[k]);
+        }
     }
 }
 
@@ -67,56 +102,59 @@ static int in_order(const void *a, const void *b)
     return x->image < y->image ? -1 : x->image > y->image;
 }
 
-static void take(pairs *found, const tn_design *design, uint32_t a, uint32_t b, const tn_solid_box *image_of_b,
-                 uint32_t stage, uint32_t image)
+/* Of the box in its image. */
+static tn_box_bounds bounds_of(const tn_solid_box *box, uint32_t image)
 {
-    bool once = a < b || (image && a == b && (image & (image - 1)) == 0);
-    if (once && overlap(&design->boxes[a], image_of_b))
-        add_pair(found, (pair){stage, b, a, image});
-}
-
-static tn_box_bounds bounds_of(const tn_solid_box *box)
-{
-    return (tn_box_bounds){{box->low[0], box->low[1], box->low[2]}, {box->high[0], box->high[1], box->high[2]}};
+    tn_box_bounds bounds;
+    for (int k = 0; k < 3; k++) {
+        bool turned = image >> k & 1;
+        bounds.low[k] = turned ? -box->high[k] : box->low[k];
+        bounds.high[k] = turned ? -box->low[k] : box->high[k];
+    }
+    return bounds;
 }
 
 /* All i <= j whose boxes overlap, box j in its image. */
-static void match(pairs *found, const tn_design *design, const tn_box_tree *tree, uint32_t stage, uint32_t image)
+static void match(pairs *found, const tn_design *design, const block *blocks, const tn_box_tree *tree, uint32_t stage,
+                  uint32_t image)
 {
     tn_box_search search;
     for (uint32_t b = 0, a; b < design->box_count && !found->failed; b++) {
-        tn_solid_box other = design->boxes[b];
+        block other = blocks[b];
+        tn_box_bounds bounds = bounds_of(&design->boxes[b], image);
         mirror(&other, image);
-        tn_box_bounds bounds = bounds_of(&other);
         tn_box_tree_search(tree, &bounds, &search);
-        while (tn_box_search_next(&search, &a))
-            take(found, design, a, b, &other, stage, image);
+        while (tn_box_search_next(&search, &a)) {
+            bool once = a < b || (image && a == b && (image & (image - 1)) == 0);
+            if (once && overlap(&blocks[a], &other))
+                add_pair(found, (pair){stage, b, a, image});
+        }
     }
 }
 
-static void match_all(pairs *found, const tn_design *design, const tn_box_tree *tree)
+static void match_all(pairs *found, const tn_design *design, const block *blocks, const tn_box_tree *tree)
 {
-    match(found, design, tree, 0, 0);
+    match(found, design, blocks, tree, 0, 0);
     for (uint32_t axis = 0, group = 0; axis < 3; axis++) {
         uint32_t flag = 1u << axis;
         if (!(design->flags & flag))
             continue;
         for (uint32_t g = 0; g <= group; g++)
             if ((g & group) == g)
-                match(found, design, tree, 1 + axis, g | flag);
+                match(found, design, blocks, tree, 1 + axis, g | flag);
         group |= flag;
     }
 }
 
-static tn_status find_pairs(const tn_design *design, pairs *found, tn_error *error)
+static tn_status find_pairs(const tn_design *design, const block *blocks, pairs *found, tn_error *error)
 {
     tn_box_tree tree = {0};
     tn_box_bounds *bounds = malloc((design->box_count + 1u) * sizeof *bounds);
     for (uint32_t i = 0; bounds && i < design->box_count; i++)
-        bounds[i] = bounds_of(&design->boxes[i]);
+        bounds[i] = bounds_of(&design->boxes[i], 0);
     tn_status status = bounds ? tn_box_tree_make(bounds, design->box_count, &tree, error) : tn_fail_memory(error);
     if (status == TN_OK)
-        match_all(found, design, &tree);
+        match_all(found, design, blocks, &tree);
     tn_box_tree_clear(&tree);
     free(bounds);
     if (status == TN_OK && found->failed)
@@ -129,56 +167,70 @@ static tn_status find_pairs(const tn_design *design, pairs *found, tn_error *err
 /* ---- squashing a pair */
 
 typedef struct meeting {
-    tn_solid_box *p, *q;
+    block *p, *q;
     const pair *of;
+    const tn_face_unit *unit;
     tn_history *history;
     bool failed;
 } meeting;
 
-static double twice_centre(const tn_solid_box *box, int axis)
+static tn_wide twice_centre(const block *one, int axis)
 {
-    return box->low[axis] + box->high[axis];
+    return tn_wide_add(one->low[axis], one->high[axis]);
 }
 
-static void note(meeting *m, const tn_solid_box *box, int axis, bool high, double before, double after)
+static void note(meeting *m, const block *one, int axis, bool high, tn_wide before, tn_wide after)
 {
     tn_history *history = m->history;
-    bool told = m->of->i == m->of->j && box != m->p; /* an image of its own is squashed as the box is */
-    if (!history || m->failed || told || (before == after && !box->void_))
+    bool told = m->of->i == m->of->j && one != m->p; /* an image of its own is squashed as the box is */
+    if (!history || m->failed || told || (tn_wide_compare(before, after) == 0 && !one->void_))
         return;
     m->failed = !tn_array_reserve(&history->items, &history->capacity, history->count, 1, sizeof *history->items);
     if (m->failed)
         return;
-    bool first = box == m->p, turned = !first && m->of->image >> axis & 1; /* the second is told as it is written */
+    bool first = one == m->p, turned = !first && m->of->image >> axis & 1; /* the second is told as it is written */
+    double from = tn_face_value(m->unit, before), to = tn_face_value(m->unit, after);
     history->items[history->count++] = (tn_squash){.box = first ? m->of->i : m->of->j,
                                                    .by = first ? m->of->j : m->of->i,
                                                    .image = (uint8_t)m->of->image,
                                                    .axis = (uint8_t)axis,
                                                    .high = high != turned,
-                                                   .whole = box->void_,
-                                                   .before = turned ? -before : before,
-                                                   .after = turned ? -after : after};
+                                                   .whole = one->void_,
+                                                   .before = turned ? -from : from,
+                                                   .after = turned ? -to : to};
 }
 
-static void move_face(meeting *m, tn_solid_box *box, int axis, bool high, double to)
+static void move_face(meeting *m, block *one, int axis, bool high, tn_wide to)
 {
-    double *face = high ? &box->high[axis] : &box->low[axis], before = *face;
+    tn_wide *face = high ? &one->high[axis] : &one->low[axis], before = *face;
     *face = to;
-    box->void_ |= !(box->high[axis] > box->low[axis]);
-    note(m, box, axis, high, before, to);
+    one->void_ |= !less(one->low[axis], one->high[axis]);
+    note(m, one, axis, high, before, to);
+}
+
+/* What the axes are ordered by, the least first: how far the boxes reach into each other, or how near their centres
+ * are. */
+static tn_wide key_of(const block *p, const block *q, bool penetration, int axis)
+{
+    if (penetration) {
+        tn_wide high = less(p->high[axis], q->high[axis]) ? p->high[axis] : q->high[axis];
+        tn_wide low = less(p->low[axis], q->low[axis]) ? q->low[axis] : p->low[axis];
+        return tn_wide_subtract(high, low);
+    }
+    tn_wide between = tn_wide_subtract(twice_centre(p, axis), twice_centre(q, axis));
+    return tn_wide_sign(between) < 0 ? between : tn_wide_negate(between);
 }
 
 /* The axes, the one to squash along first; equal ones in the order x, y, z. */
-static void order_axes(const tn_solid_box *p, const tn_solid_box *q, bool penetration, int axes[3])
+static void order_axes(const block *p, const block *q, bool penetration, int axes[3])
 {
-    double key[3];
+    tn_wide key[3];
     for (int k = 0; k < 3; k++) {
         axes[k] = k;
-        key[k] = penetration ? fmin(p->high[k], q->high[k]) - fmax(p->low[k], q->low[k])
-                             : -fabs(twice_centre(p, k) - twice_centre(q, k));
+        key[k] = key_of(p, q, penetration, k);
     }
     for (int i = 1; i < 3; i++)
-        for (int k = i; k > 0 && key[axes[k]] < key[axes[k - 1]]; k--) {
+        for (int k = i; k > 0 && less(key[axes[k]], key[axes[k - 1]]); k--) {
             int other = axes[k];
             axes[k] = axes[k - 1];
             axes[k - 1] = other;
@@ -186,32 +238,33 @@ static void order_axes(const tn_solid_box *p, const tn_solid_box *q, bool penetr
 }
 
 /* One is rigid: the other goes back to its face, on the first axis on which it sticks out on its own side. */
-static void yield_to(meeting *m, const tn_solid_box *rigid, tn_solid_box *box, const int axes[3], int count)
+static void yield_to(meeting *m, const block *rigid, block *one, const int axes[3], int count)
 {
     for (int i = 0; i < count; i++) {
-        int k = axes[i];
-        double own = twice_centre(box, k), its = twice_centre(rigid, k);
-        bool below = own < its || (own == its && box == m->p);
-        if (below ? box->low[k] < rigid->low[k] : box->high[k] > rigid->high[k]) {
-            move_face(m, box, k, below, below ? rigid->low[k] : rigid->high[k]);
+        int k = axes[i], order = tn_wide_compare(twice_centre(one, k), twice_centre(rigid, k));
+        bool below = order < 0 || (order == 0 && one == m->p);
+        if (below ? less(one->low[k], rigid->low[k]) : less(rigid->high[k], one->high[k])) {
+            move_face(m, one, k, below, below ? rigid->low[k] : rigid->high[k]);
             return;
         }
     }
-    box->void_ = true;
-    note(m, box, axes[0], true, box->high[axes[0]], box->low[axes[0]]);
+    one->void_ = true;
+    note(m, one, axes[0], true, one->high[axes[0]], one->low[axes[0]]);
 }
 
 /* Both give way: they meet halfway, and between their centres where one is inside the other. */
 static void share(meeting *m, int axis, bool own_image)
 {
-    tn_solid_box *p = m->p, *q = m->q;
-    double a = twice_centre(p, axis), b = twice_centre(q, axis);
-    bool p_low = a == b ? !own_image : a < b; /* an image of its own: the box as written takes the high side */
-    tn_solid_box *u = p_low ? p : q, *v = p_low ? q : p;
-    double middle = (u->high[axis] + v->low[axis]) / 2;
-    double low = (u->low[axis] + u->high[axis]) / 2, high = (v->low[axis] + v->high[axis]) / 2;
-    if (!(low <= middle && middle <= high))
-        middle = middle > low ? fmin(middle, high) : fmin(low, high);
+    block *p = m->p, *q = m->q;
+    int order = tn_wide_compare(twice_centre(p, axis), twice_centre(q, axis));
+    bool p_low = order == 0 ? !own_image : order < 0; /* an image of its own: the box as written takes the high side */
+    block *u = p_low ? p : q, *v = p_low ? q : p;
+    tn_wide twice = tn_wide_add(u->high[axis], v->low[axis]), low = twice_centre(u, axis), high = twice_centre(v, axis);
+    if (less(twice, low))
+        twice = low;
+    else if (less(high, twice))
+        twice = high;
+    tn_wide middle = tn_wide_half(twice);
     move_face(m, u, axis, true, middle);
     move_face(m, v, axis, false, middle);
 }
@@ -231,25 +284,43 @@ static void meet(meeting *m, bool penetration)
         share(m, axes[0], own_image);
 }
 
+/* ---- all of them */
+
+/* Takes the pairs in their order. */
+static bool squash_all(const tn_design *design, const pairs *found, block *blocks, tn_history *history)
+{
+    meeting m = {.unit = &design->unit, .history = history};
+    for (size_t k = 0; k < found->count && !m.failed; k++) {
+        const pair *one = &found->items[k];
+        block other = blocks[one->j];
+        mirror(&other, one->image);
+        m.p = &blocks[one->i];
+        m.q = &other;
+        m.of = one;
+        if (!overlap(m.p, m.q))
+            continue;
+        meet(&m, design->flags & TN_SOLID_PENETRATION);
+        if (one->i == one->j) /* the image is what the box as written implies */
+            continue;
+        mirror(&other, one->image);
+        blocks[one->j] = other;
+    }
+    return !m.failed;
+}
+
 tn_status tn_design_correct(tn_design *design, tn_history *history, tn_error *error)
 {
     pairs found = {0};
-    bool penetration = design->flags & TN_SOLID_PENETRATION, failed = false;
-    tn_status status = find_pairs(design, &found, error);
-    for (size_t k = 0; k < found.count && status == TN_OK && !failed; k++) {
-        const pair *one = &found.items[k];
-        tn_solid_box *p = &design->boxes[one->i], q = design->boxes[one->j];
-        mirror(&q, one->image);
-        if (!overlap(p, &q))
-            continue;
-        meeting m = {.p = p, .q = &q, .of = one, .history = history};
-        meet(&m, penetration);
-        failed = m.failed;
-        if (one->i == one->j) /* the image is what the box as written implies */
-            continue;
-        mirror(&q, one->image);
-        design->boxes[one->j] = q;
+    block *blocks = malloc((design->box_count + 1u) * sizeof *blocks);
+    for (uint32_t i = 0; blocks && i < design->box_count; i++)
+        blocks[i] = block_of(design, i);
+    tn_status status = blocks ? find_pairs(design, blocks, &found, error) : tn_fail_memory(error);
+    if (status == TN_OK && found.count) {
+        if (!squash_all(design, &found, blocks, history))
+            status = tn_fail_memory(error);
+        take_back(design, blocks);
     }
+    free(blocks);
     free(found.items);
-    return status == TN_OK && failed ? tn_fail_memory(error) : status;
+    return status;
 }

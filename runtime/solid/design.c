@@ -7,7 +7,8 @@
 tn_status tn_design_read(const tn_module *module, uint32_t solid, tn_design *design, tn_error *error)
 {
     const tn_solid_record *record = &module->SOLID_records[solid];
-    *design = (tn_design){.box_count = record->box_count, .flags = record->flags};
+    *design = (tn_design){
+        .box_count = record->box_count, .flags = record->flags, .unit = {record->unit_top, record->unit_bottom}};
     design->boxes = calloc(record->box_count + 1u, sizeof *design->boxes);
     if (!design->boxes)
         return tn_fail_memory(error);

@@ -10,6 +10,7 @@
 #include "runtime/base/error.h"
 #include "runtime/geometry/union/cut_box.h"
 #include "runtime/module/module.h"
+#include "runtime/solid/exact.h"
 
 typedef struct tn_solid_box {
     double low[3], high[3];
@@ -20,7 +21,8 @@ typedef struct tn_solid_box {
 typedef struct tn_design {
     tn_solid_box *boxes; /* owned */
     uint32_t box_count;
-    uint32_t flags; /* TN_SOLID_SYMMETRY_X and so on */
+    uint32_t flags;     /* TN_SOLID_SYMMETRY_X and so on */
+    tn_face_unit unit;  /* of its faces as written */
 } tn_design;
 
 /* A box that another squashed: the face across `axis` went from `before` to `after`. */
@@ -45,7 +47,8 @@ void tn_design_clear(tn_design *design);
 void tn_history_clear(tn_history *history);
 
 /* Squashes overlapping boxes, in the chapter's order: each with those before it, then, for each plane of symmetry, with
- * their images. What happens is added to the history, unless that is NULL. Afterwards no two overlap. */
+ * their images. All of it is decided by the numbers as they were written (exact.h), not by the doubles. What happens is
+ * added to the history, unless that is NULL. Afterwards no two overlap. */
 tn_status tn_design_correct(tn_design *design, tn_history *history, tn_error *error);
 
 /* Images of each box, itself among them: 1, 2, 4 or 8. */

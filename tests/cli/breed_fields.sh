@@ -72,6 +72,20 @@ cmp -s hand/run.sqlite hand2/run.sqlite || fail "choices are not made again"
 
 printf "3@1.5\n\n" | "$TARTAN" breed hand.study -o hand3 2>&1 | grep -q "is not a choice.*(0 to 1)" || fail "a weight above 1 is taken"
 
+# ---- open at the box: other pictures of the same run
+printf 'surface pipe = x*x + y*y - 9\n' > pipe.field
+printf 'evolution { parent "pipe.field"; population 4; grid 16 }\n' > pipe.study
+for as in closed open; do
+    printf '1 2\n\n' | "$TARTAN" breed pipe.study -o $as $([ $as = closed ] || echo --open) > /dev/null 2>&1 || fail "cannot breed $as forms"
+done
+cmp -s closed/run.sqlite open/run.sqlite || fail "--open changes a run"
+for picture in sheet-0001.png sheet.html; do
+    ! cmp -s closed/$picture open/$picture || fail "--open changes nothing of $picture"
+done
+printf 'evolution { design "slab.solid"; population 4 }\n' > slab.study
+printf 'solid slab { box a from (0, 0, 0) to (1, 1, 1); box b from (1, 0, 0) to (2, 2, 1); }\n' > slab.solid
+"$TARTAN" breed slab.study -o slab --open < /dev/null 2>&1 | grep -q "open is about fields" || fail "designs of boxes are bred open"
+
 # ---- what scores depend on
 sed -i 's/radius = 3/radius = 4/' ring.field
 "$TARTAN" evolve rings.study -o one --resume -g 8 > changed.txt 2>&1 && fail "a changed parent is not noticed"

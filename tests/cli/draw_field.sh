@@ -22,6 +22,16 @@ is 'one behind the other' "$(size side.png)" '300 318'
 "$TARTAN" build ball.field -o ball.tnb
 "$TARTAN" draw ball.tnb -o module.png
 cmp module.png a.png || fail 'the module is drawn otherwise'
+# Open at the box: one sees into the form, by pixels as by outlines; where the box cuts nothing, it is the same picture.
+printf 'surface pipe = x*x + y*y - 9 grid 30\n' >pipe.field
+for format in png svg; do
+    "$TARTAN" draw pipe.field -o closed.$format 2>/dev/null
+    "$TARTAN" draw pipe.field --open -o open.$format 2>/dev/null || fail "no open $format is drawn"
+    ! cmp -s closed.$format open.$format || fail "--open changes nothing of the $format"
+    "$TARTAN" draw ball.field --open -o o.$format
+    [ $format = svg ] || cmp o.$format a.$format || fail "--open changes a form that the box does not cut"
+done
+golden open "tartan draw table --open -o $scratch/x.png"
 golden rule "tartan draw $scratch/ball.field --rule x -o $scratch/x.png"
 golden azimuth "tartan draw sheds.plan --sample 3 --azimuth 3 -o $scratch/x.png"
 golden name "tartan draw $scratch/ball.field -o $scratch/x.obj"

@@ -94,7 +94,7 @@ for format in obj ply stl off om glb 3mf; do
     "$TARTAN" mesh ball.field --grid 20 -o a.$format && "$TARTAN" mesh ball.tnb --grid 20 -o b.$format
     cmp a.$format b.$format || fail "the module gives another $format"
     printf 'abs(distance("a.%s")) - 0.3\n' "$format" >again.field
-    [ "$format" = glb ] || [ "$format" = 3mf ] || exits 0 "$TARTAN" mesh again.field --grid 10
+    [ "$format" = glb ] || [ "$format" = 3mf ] || exits 0 "$TARTAN" mesh again.field --grid 30
 done
 
 # A 3MF is a sound archive with the mesh and its unit; of a design of boxes with --cells, each box is an object.
@@ -137,6 +137,30 @@ golden sharp "tartan mesh $scratch/block.field --sharp"
 golden sharp_crossing "tartan mesh primitives --surface klein --grid 30 --sharp --stats json"
 "$TARTAN" mesh block.field --times --stats json | grep -q '"seconds": {"samples": 0' || fail "no times"
 exits 2 "$TARTAN" mesh table --sharp
+
+# ---- reworked meshes: what is measured is what is written; decimated, a block keeps all of it
+"$TARTAN" mesh block.field --sharp --decimate 200 --stats json -o few.obj >few.json || fail "a block is not decimated"
+python3 - few.json few.obj <<'PYTHON' || fail "a decimated block is not the block"
+import json, sys
+m, lines = json.load(open(sys.argv[1])), open(sys.argv[2]).read().splitlines()
+assert m["triangles"] == 200 == sum(line.startswith("f ") for line in lines), m["triangles"]
+assert m["vertices"] == sum(line.startswith("v ") for line in lines)
+assert abs(m["volume"] - 8 * 4.1 * 3.2 * 2.3) < 1e-6 and abs(m["area"] - 8 * (4.1 * 3.2 + 3.2 * 2.3 + 2.3 * 4.1)) < 1e-6
+PYTHON
+is 'a subdivided ball' "$("$TARTAN" mesh ball.field --grid 12 --subdivide 1 | grep triangles)" \
+    "triangles  $((4 * $("$TARTAN" mesh ball.field --grid 12 | sed -n 's/^triangles *//p')))"
+is 'a subdivided table' "$("$TARTAN" mesh table --subdivide 1 | grep triangles)" \
+    "triangles  $((4 * $("$TARTAN" mesh table | sed -n 's/^triangles *//p')))"
+golden keeps_more "tartan mesh $scratch/ball.field --grid 12 --decimate 1 -o $scratch/least.obj"
+
+# ---- between the samples
+printf 'surface wall = max(abs(x - 0.1) - 0.001, max(abs(y), abs(z)) - 3)\nsurface fin = min(wall, square(x - 5) + y*y + z*z - 1)\n' >thin.field
+printf 'surface none = x*x + 1\nsurface sheet = x*x + y*y - 1\nbox (-2, -2, -0.01)..(2, 2, 0.01)\n' >sheet.field
+golden between "tartan mesh $scratch/thin.field --surface wall -o $scratch/wall.obj"
+golden fin "tartan mesh $scratch/thin.field --surface fin --grid 20"
+golden proven_empty "tartan mesh $scratch/sheet.field --surface none"
+golden thin_box "tartan mesh $scratch/sheet.field"
+exits 1 "$TARTAN" draw thin.field --surface wall -o wall.png
 golden up_3mf "tartan mesh $scratch/unit.field -o $scratch/x.3mf --up y"
 # What is written for a function of another language can be written.
 count=0

@@ -106,17 +106,39 @@ static inline tn_int128 tn_wide_quotient(tn_wide a, tn_wide b, bool *exact)
     return (tn_int128)quotient;
 }
 
-/* numerator / denominator as the nearest double, ties to even; the denominator is above 0. */
-static inline double tn_ratio(tn_int128 numerator, tn_int128 denominator)
+/* Below 0, 0 or above 0 as a is less than b, equal to it or more. */
+static inline int tn_wide_compare(tn_wide a, tn_wide b)
+{
+    return tn_wide_sign(tn_wide_subtract(a, b));
+}
+
+/* Half of it, rounded down. */
+static inline tn_wide tn_wide_half(tn_wide a)
+{
+    uint64_t fill = a.limb[3] & (UINT64_C(1) << 63);
+    for (int i = 0; i < 3; i++)
+        a.limb[i] = a.limb[i] >> 1 | a.limb[i + 1] << 63;
+    a.limb[3] = a.limb[3] >> 1 | fill;
+    return a;
+}
+
+/* numerator / denominator as the nearest double, ties to even; the denominator is above 0, and the quotient is below
+ * 2^127. */
+static inline double tn_wide_ratio(tn_wide numerator, tn_wide denominator)
 {
     enum { BITS = 64 }; /* of the quotient at least: more than a double holds */
-    bool exact, negative = numerator < 0;
-    tn_wide a = tn_wide_of(negative ? -numerator : numerator), b = tn_wide_of(denominator);
-    int shift = BITS + (int)tn_wide_bits(b) - (int)tn_wide_bits(a);
+    bool exact, negative = tn_wide_sign(numerator) < 0;
+    tn_wide a = negative ? tn_wide_negate(numerator) : numerator;
+    int shift = BITS + (int)tn_wide_bits(denominator) - (int)tn_wide_bits(a);
     shift = shift < 0 ? 0 : shift;
-    tn_uint128 quotient = (tn_uint128)tn_wide_quotient(tn_wide_shifted(a, (unsigned)shift), b, &exact);
+    tn_uint128 quotient = (tn_uint128)tn_wide_quotient(tn_wide_shifted(a, (unsigned)shift), denominator, &exact);
     double value = ldexp((double)(quotient | !exact), -shift); /* what is left over only breaks ties */
     return negative ? -value : value;
+}
+
+static inline double tn_ratio(tn_int128 numerator, tn_int128 denominator)
+{
+    return tn_wide_ratio(tn_wide_of(numerator), tn_wide_of(denominator));
 }
 
 #endif

@@ -67,11 +67,56 @@ static void test_area(void **state)
     free(image);
 }
 
+/* One triangle with normals that all point up, or none. */
+static uint32_t *render_one(const double positions[9], double up, bool open)
+{
+    uint32_t first[] = {0, 3}, corners[] = {0, 1, 2}, *image;
+    double copy[9], normals[9] = {0, 0, up, 0, 0, up, 0, 0, up};
+    tn_render_frame whole = frame;
+    tn_error error;
+    whole.open = open;
+    memcpy(copy, positions, sizeof copy);
+    tn_mesh mesh = {.positions = copy, .vertex_count = 3, .face_first = first, .corners = corners, .face_count = 1};
+    assert_int_equal(tn_mesh_render(&mesh, normals, &above, &whole, &image, &error), TN_OK);
+    return image;
+}
+
+/* Of a closed mesh what looks away is not painted; of an open one it is, as it is lit from this side. */
+static void test_behind(void **state)
+{
+    (void)state;
+    static const double front[] = {0, 0, 0, 30, 0, 18, 0, 30, 0}, back[] = {0, 0, 0, 0, 30, 0, 30, 0, 18};
+    uint32_t *wanted = render_one(front, 0, false), *closed = render_one(back, 0, false),
+             *open = render_one(back, 0, true), *same = render_one(front, 0, true);
+    for (size_t i = 0; i < SIDE * SIDE; i++)
+        assert_int_equal(closed[i], 0);
+    assert_int_not_equal(pixel(wanted, 5, 5), 0);
+    assert_memory_equal(open, wanted, SIDE * SIDE * sizeof *open);
+    assert_memory_equal(same, wanted, SIDE * SIDE * sizeof *same);
+    free(wanted);
+    free(closed);
+    free(open);
+    free(same);
+}
+
+/* A triangle that is nearly a line is lit as the surface is there, and not as it lies itself. */
+static void test_thin(void **state)
+{
+    (void)state;
+    static const double flat[] = {1, 10, 0, 39, 10, 0, 19, 30, 0}, thin[] = {1, 20, 0, 39, 20, 0, 19, 21.3, 1.3};
+    uint32_t *wanted = render_one(flat, 1, false), *found = render_one(thin, 1, false);
+    assert_int_equal(pixel(found, 19, 20), pixel(wanted, 19, 20));
+    free(wanted);
+    free(found);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_nearer_hides_farther),
         cmocka_unit_test(test_area),
+        cmocka_unit_test(test_behind),
+        cmocka_unit_test(test_thin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
