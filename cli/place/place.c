@@ -200,7 +200,8 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS place_settings
 #define WRITES                                                                                                         \
     (TN_WRITES_STANDARD | TN_WRITES_PICTURES | TN_WRITES(LDR) | TN_WRITES(MPD) | TN_WRITES(CSV) | TN_WRITES(OBJ) |     \
-     TN_WRITES(PLY) | TN_WRITES(STL) | TN_WRITES(OFF) | TN_WRITES(OM) | TN_WRITES(GLB) | TN_WRITES(3MF))
+     TN_WRITES(PLY) | TN_WRITES(STL) | TN_WRITES(OFF) | TN_WRITES(OM) | TN_WRITES(GLB) | TN_WRITES(3MF) |              \
+     TN_WRITES(DXF))
 static const tn_option options[] = {
     OUTPUTS(
         outputs, WRITES,
