@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""Reads a house's files with programs of its own, and holds them to each other: house_files.py FOLDER [READER] (FOLDER as `tartan house -o
-FOLDER/` writes it). READER is ifc_read.cc, made: it has to find the same products with the same volumes in the IFC.
+"""Reads a house's files with programs of its own, and holds them to each other: house_files.py FOLDER [READER] [--title TEXT] (FOLDER as
+`tartan house -o FOLDER/` writes it). READER is ifc_read.cc, made: it has to find the same products with the same volumes in the IFC. TEXT is
+what the house is called.
 
 The IFC is parsed as STEP; each instance has to have as many attributes as IFC4 gives its entity, of their types (ISO 16739-1:2018, inherited ones
 included), each reference has to lead to an instance of an entity that may stand there, and identifiers are unique. Volumes and numbers
-of parts are those of the JSON. The DXF is read as groups, and by ezdxf where that is installed; the IFC is validated by IfcOpenShell where that is installed."""
+of parts are those of the JSON, and so are names, letter by letter; every door hangs and swings as the plans in the DXF draw it. The DXF is
+read as groups, and by ezdxf where that is installed; the IFC is validated by IfcOpenShell where that is installed."""
+import argparse
 import csv
 import importlib.util
 import json
@@ -33,7 +36,8 @@ TYPES = {
 }
 NUMBER = r"-?\d+(\.\d*(E[+-]?\d+)?)?"
 WRITTEN = {
-    "S": r"'([^']|'')*'", "E": r"\.[A-Z0-9_]+\.", "R": r"-?\d+\.\d*(E[+-]?\d+)?", "I": r"-?\d+", "N": r"#\d+", "A": r"\(#\d+(,#\d+)*\)",
+    "S": r"'([ -&(-\[\]-~]|''|\\\\|\\X2\\([0-9A-F]{4})+\\X0\\|\\X4\\([0-9A-F]{8})+\\X0\\)*'",
+    "E": r"\.[A-Z0-9_]+\.", "R": r"-?\d+\.\d*(E[+-]?\d+)?", "I": r"-?\d+", "N": r"#\d+", "A": r"\(#\d+(,#\d+)*\)",
     "V": rf"\({NUMBER}(,{NUMBER})*\)", "D": r"\*",
 }
 # (entity, attribute) -> the values of its enumeration that houses have
@@ -95,6 +99,25 @@ def read_ifc(path):
 
 def references(argument):
     return [int(n) for n in re.findall(r"#(\d+)", re.sub(r"'[^']*'", "", argument))]
+
+
+def spelt(argument):
+    """What an IFC string says. A surrogate is no character of its own there (ISO 10303-21, 6.4.3)."""
+    def written(found):
+        digits, width = found.group(2), 4 if found.group(1) == "2" else 8
+        numbers = [int(digits[i:i + width], 16) for i in range(0, len(digits), width)]
+        check(f"{argument}: characters of Unicode", not any(0xD800 <= n < 0xE000 for n in numbers))
+        check(f"{argument}: no shorter run does", width == 4 or all(n > 0xFFFF for n in numbers))
+        return "".join(map(chr, numbers))
+
+    check(f"{argument} is a string", re.fullmatch(WRITTEN["S"], argument))
+    parts = re.split(r"\\X([24])\\([0-9A-F]+)\\X0\\", argument[1:-1])
+    for i in range(0, len(parts), 3):
+        parts[i] = parts[i].replace("''", "'").replace("\\\\", "\\")
+    for i in range(1, len(parts), 3):
+        parts[i + 1] = written(re.match(r"(.)(.*)", parts[i] + parts[i + 1]))
+        parts[i] = ""
+    return "".join(parts)
 
 
 def check_ifc(made):
@@ -180,10 +203,15 @@ def compare(made, house):
     check("walls less openings", solid == sum(box(s) for s in house["solids"] if s["kind"] in ("outside", "party", "partition")))
     rest = sum(volume_of(made, n) for name in ("IFCCOLUMN", "IFCSLAB", "IFCFURNITURE", "IFCSTAIR") for n in of(name))
     check("other boxes", rest == sum(box(s) for s in house["solids"] if s["kind"] not in ("outside", "party", "partition")))
-    materials = [made[n][1][0].strip("'") for n in of("IFCMATERIAL")]
+    materials = [spelt(made[n][1][0]) for n in of("IFCMATERIAL")]
     check("each material once", len(materials) == len(set(materials)))
     wanted = {p["material"] for p in house["parts"] if p.get("material") and int(p["number"])}
     check(f"materials {wanted - set(materials)}", wanted <= set(materials))
+    named = lambda *names: Counter(spelt(made[n][1][2]) for name in names for n in of(name))
+    check("rooms have their names", named("IFCSPACE") == Counter(r["function"] for r in house["rooms"]))
+    check("doors and windows have theirs", named("IFCDOOR", "IFCWINDOW") == Counter(f["kind"] for f in openings if has_leaf(f["kind"])))
+    check("things have theirs", named("IFCFURNITURE") == Counter(s["name"] for s in house["solids"] if s["kind"] == "item"))
+    check("the project says the house", spelt(made[of("IFCPROJECT")[0]][1][3]) == house["house"])
     roofs = sum(map(volume_of_roof, house["roofs"]))
     check("roofs", abs(sum(volume_of(made, n) for n in of("IFCROOF")) - roofs / 10**18) < 1)  # mm3: points are rounded to 1e-6 nm
 
@@ -200,9 +228,130 @@ def read_again(reader, path, made):
         check(f"{reader}: {name} hold {float(volume)}, not {float(wanted)}", abs(volume - wanted) <= wanted / 10**6 + F(1, 10**3))
 
 
-def check_dxf(path):
+# ---- where doors hang
+
+
+def box_of(made, product):
+    """The box of a product in the house: its two corners, and the directions of its x and y axes. Its shape is one extruded rectangle."""
+    args = made[product][1]
+    solid = made[references(made[references(made[references(args[6])[0]][1][2])[0]][1][3])[0]][1]
+    profile = made[references(solid[0])[0]][1]
+    middle = numbers_of(made, references(made[references(profile[2])[0]][1][0])[0])
+    wide, deep, high = F(profile[3]), F(profile[4]), F(solid[3])
+    low = [middle[0] - wide / 2, middle[1] - deep / 2, F(0)]
+    at, x, y = placed(made, references(args[5])[0])
+    ends = [[at[k] + (low[0] + i * wide) * x[k] + (low[1] + i * deep) * y[k] + (k == 2) * (low[2] + i * high) for k in range(3)] for i in (0, 1)]
+    return [min(a, b) for a, b in zip(*ends)], [max(a, b) for a, b in zip(*ends)], x, y, at
+
+
+def numbers_of(made, instance):
+    return [F(n) for n in made[instance][1][0].strip("()").split(",")]
+
+
+def placed(made, placement):
+    """The origin, x and y of a placement in the house; z is up."""
+    within, axes = made[placement][1]
+    point, _, along = made[references(axes)[0]][1]
+    at, x = numbers_of(made, references(point)[0]), numbers_of(made, references(along)[0]) if along != "$" else [F(1), F(0), F(0)]
+    y = [-x[1], x[0], F(0)]
+    if within == "$":
+        return at, x, y
+    origin, u, v = placed(made, references(within)[0])
+    turned = lambda d: [d[0] * u[k] + d[1] * v[k] + (k == 2) * d[2] for k in range(3)]
+    return [o + t for o, t in zip(origin, turned(at))], turned(x), turned(y)
+
+
+def leaves_of(made, door, opening):
+    """The leaves of a door: hinge, tip where it is open, and tip where it is shut, on the side of the wall to which it swings. By IFC, hinges
+    are at the left or right of who looks along the y axis of the door, which opens to there."""
+    low, high, x, y, at = box_of(made, door)
+    wide, kind = F(made[door][1][9]), made[door][1][11].strip(".")
+    ends = {"SINGLE_SWING_LEFT": [(F(0), wide)], "SINGLE_SWING_RIGHT": [(wide, F(0))],
+            "DOUBLE_DOOR_SINGLE_SWING": [(F(0), wide / 2), (wide, wide / 2)]}.get(kind, [])
+    check(f"{kind} is how a door opens", ends)
+    hole = box_of(made, opening)
+    axis = 0 if y[0] else 1
+    check("what fills an opening is as wide and high as it", all(low[k] == hole[0][k] and high[k] == hole[1][k] for k in range(3) if k != axis))
+    check("and in its wall", hole[0][axis] <= low[axis] < high[axis] <= hole[1][axis])
+    side = (hole[1] if y[axis] > 0 else hole[0])[axis]
+    for hinge, shut in ends:
+        foot = [side if k == axis else at[k] + hinge * x[k] for k in range(2)]
+        yield tuple(foot), tuple(c + abs(shut - hinge) * d for c, d in zip(foot, y)), tuple(c + (shut - hinge) * d for c, d in zip(foot, x))
+
+
+def drawn_leaves(drawing):
+    """The same of a plan: a quarter of a circle about the hinge, and a line from there to one of its ends."""
+    lines = [((F(e["10"]), F(e["20"])), (F(e["11"]), F(e["21"]))) for e in drawing if (e["0"], e["8"]) == ("LINE", "DOORS")]
+    quarter = {0: (1, 0), 90: (0, 1), 180: (-1, 0), 270: (0, -1)}
+    for arc in (e for e in drawing if (e["0"], e["8"]) == ("ARC", "DOORS")):
+        hinge = F(arc["10"]), F(arc["20"])
+        ends = [tuple(c + F(arc["40"]) * d for c, d in zip(hinge, quarter[int(float(arc[code]))])) for code in ("50", "51")]
+        drawn = [i for i in (0, 1) if any(near(a, hinge) and near(b, ends[i]) for a, b in lines)]
+        check("a leaf is drawn open", len(drawn) == 1)
+        yield hinge, ends[drawn[0] if drawn else 0], ends[1 - (drawn[0] if drawn else 0)]
+
+
+def near(a, b):
+    return all(abs(c - d) < F(1, 1000) for c, d in zip(a, b))                     # a micrometre
+
+
+def drawings_of(groups):
+    """The drawings in a DXF file, by their titles: each is a list of entities, group by group."""
+    begin = next(i for i, group in enumerate(groups) if group == ("2", "ENTITIES"))
+    found, drawing = {}, []
+    for code, value in groups[begin + 1:]:
+        if code == "0" and drawing and drawing[-1]["8"] == "TITLES":
+            found[unescaped(drawing[-1]["1"])] = drawing
+            drawing = []
+        if code == "0" and value == "ENDSEC":
+            break
+        if code == "0":
+            drawing.append({"8": None})
+        drawing[-1][code] = value
+    return found
+
+
+def check_doors(made, house, groups):
+    """On the plan of each storey, as the model says. The plans are moved to where the house stands by the ends of its walls."""
+    plans = drawings_of(groups)
+    contained = {to: references(args[5])[0] for name, args in made.values() if name == "IFCRELCONTAINEDINSPATIALSTRUCTURE" for to in references(args[4])}
+    filled = {references(args[5])[0]: references(args[4])[0] for name, args in made.values() if name == "IFCRELFILLSELEMENT"}
+    for storey, (name, args) in made.items():
+        if name != "IFCBUILDINGSTOREY":
+            continue
+        inside = [n for n in contained if contained[n] == storey and made[n][0] in ("IFCWALL", "IFCCOLUMN")]
+        plan = plans.get("plan, " + spelt(args[2]))
+        check(f"a plan of {args[2]}", plan)
+        if not inside or not plan:
+            continue
+        cut = [e for e in plan if (e["0"], e["8"]) == ("LINE", "WALLS-CUT")]
+        corner = [min(F(e[code]) for e in cut for code in codes) for codes in (("10", "11"), ("20", "21"))]
+        moved = [min(box_of(made, n)[0][k] for n in inside) - corner[k] for k in range(2)]
+        drawn = [tuple(tuple(c + m for c, m in zip(point, moved)) for point in leaf) for leaf in drawn_leaves(plan)]
+        doors = [n for n in contained if contained[n] == storey and made[n][0] == "IFCDOOR"]
+        hung = [leaf for n in doors for leaf in leaves_of(made, n, filled[n])]
+        check(f"{len(hung)} leaves in {args[2]}, and {len(drawn)} drawn", len(hung) == len(drawn))
+        for leaf in hung:
+            same = [other for other in drawn if all(map(near, leaf, other))]
+            check(f"a leaf in {args[2]} at {[float(c) for c in leaf[0]]} hangs as it is drawn", len(same) == 1)
+    for window in (n for n, (name, _) in made.items() if name == "IFCWINDOW"):
+        low, high, x, _, _ = box_of(made, window)
+        check("a window is as wide as it says, along its x axis", high[0 if x[0] else 1] - low[0 if x[0] else 1] == F(made[window][1][9]))
+
+
+def unescaped(text):
+    """What a DXF text of a release before 2007 says."""
+    check(f"{text} is ASCII, with numbers for other letters", re.fullmatch(r"([ -\[\]_-~]|\^ |\\U\+[0-9A-F]{4})*", text))
+    units = re.sub(r"\\U\+([0-9A-F]{4})", lambda found: chr(int(found.group(1), 16)), text.replace("^ ", "^"))
+    return units.encode("utf-16-le", "surrogatepass").decode("utf-16-le")
+
+
+def read_dxf(path):
     lines = open(path, encoding="ascii").read().split("\n")
-    groups = list(zip(lines[0:-1:2], lines[1::2]))
+    return list(zip(lines[0:-1:2], lines[1::2]))
+
+
+def check_dxf(path, groups, house):
     check("codes are numbers", all(code.strip().isdigit() for code, _ in groups))
     check("ends", groups[-1] == ("0", "EOF"))
     layers, at, known, used = [], None, set(), Counter()
@@ -214,14 +363,23 @@ def check_dxf(path):
         elif code == "8":
             used[value] += 1
     check(f"layers {set(used) - known}", set(used) <= known)
+    said = {unescaped(e["1"]) for drawing in drawings_of(groups).values() for e in drawing if e.get("8") == "NAMES"}
+    names = {text for text in said if not re.fullmatch(r"[\d.]+ (sf|m2)", text)}
+    rooms = {re.sub("[-_]", " ", r["function"]) for r in house["rooms"]}
+    check(f"names {names} are of the rooms {rooms}", names and all(any(room.startswith(name) for room in rooms) for name in names))
     for layer in ("WALLS", "FLOORS", "WALLS-CUT", "FLOORS-CUT", "HATCH", "DIMENSIONS", "NAMES", "TITLES"):
         check(f"something is on {layer}", used[layer])
     try:
         import ezdxf
+        from ezdxf import recover
     except ImportError:
         return
     auditor = ezdxf.readfile(path).audit()
     check("ezdxf finds nothing", not auditor.errors and not auditor.fixes)
+    document, _ = recover.readfile(path)  # which reads letters by their numbers
+    whole = lambda text: text.encode("utf-16-le", "surrogatepass").decode("utf-16-le")
+    read = {whole(entity.dxf.text) for entity in document.modelspace().query("TEXT")}
+    check("ezdxf reads the same names", said <= {text.replace("^ ", "^") for text in read})
 
 
 def validate(path):
@@ -290,14 +448,23 @@ def check_parts(path, house):
     check("every part is in the table", {p for p in number if number[p]} == {r["part"] for r in rows} - {"total"})
 
 
-folder = sys.argv[1]
+parser = argparse.ArgumentParser()
+parser.add_argument("folder")
+parser.add_argument("reader", nargs="?")
+parser.add_argument("--title")
+options = parser.parse_args()
+folder = options.folder
 made = read_ifc(folder + "/house.ifc")
 check_ifc(made)
 house = json.load(open(folder + "/house.json"))
 compare(made, house)
 check_parts(folder + "/house.parts.csv", house)
-check_dxf(folder + "/house.dxf")
+groups = read_dxf(folder + "/house.dxf")
+check_dxf(folder + "/house.dxf", groups, house)
+check_doors(made, house, groups)
+title = [spelt(args[2]) for name, args in made.values() if name in ("IFCPROJECT", "IFCBUILDING")]
+check(f"the house is called {title[0]}", options.title is None or title == [options.title] * 2)
 validate(folder + "/house.ifc")
-if len(sys.argv) > 2:
-    read_again(sys.argv[2], folder + "/house.ifc", made)
+if options.reader:
+    read_again(options.reader, folder + "/house.ifc", made)
 print("\n".join(failures[:20]) or "fine")

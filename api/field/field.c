@@ -107,6 +107,8 @@ static tartan_status make(surface *s, const tartan_field_options *options, tarta
         status = tn_api_mesh(&contour.mesh, mesh, error);
         contour.mesh = (tn_mesh){0};
     }
+    if (status == TARTAN_OK)
+        (*mesh)->unit = (tn_mesh_unit)s->field.record->unit;
     tn_contour_clear(&contour);
     return status;
 }

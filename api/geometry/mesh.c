@@ -12,7 +12,7 @@ tartan_status tn_api_mesh(tn_mesh *made, tartan_mesh **mesh, tartan_error *error
         tn_mesh_clear(made);
         return tn_api_memory(error);
     }
-    held->mesh = *made;
+    *held = (tartan_mesh){.mesh = *made};
     *mesh = held;
     return TARTAN_OK;
 }

@@ -4,9 +4,11 @@
 
 #include "api/base/api.h"
 #include "runtime/geometry/boundary_file.h"
+#include "runtime/geometry/write.h"
 
 struct tartan_mesh {
     tn_mesh mesh;
+    tn_mesh_unit unit; /* what a unit of length is, for formats that say it */
 };
 
 /* A mesh under its public type, which takes it over in any case. */

@@ -145,8 +145,11 @@ tartan_status tartan_mesh_write(const tartan_mesh *mesh, tartan_mesh_format form
         return status;
     if (format == TARTAN_DXF && !mesh->mesh.lines)
         return tn_api_refuse(error, TARTAN_INVALID, "a DXF holds lines, and the mesh has none");
-    const tn_mesh_style own = {
-        .notes = &style.note, .note_count = style.note != NULL, .normals = style.normals, .y_up = style.y_up};
+    const tn_mesh_style own = {.notes = &style.note,
+                               .note_count = style.note != NULL,
+                               .normals = style.normals,
+                               .y_up = style.y_up,
+                               .unit = mesh->unit};
     if (write_mesh(&mesh->mesh, format, &own, &watch, &made, &made_size, &found) != TN_OK)
         return tn_api_fail(&found, error);
     *bytes = made;

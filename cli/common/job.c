@@ -303,6 +303,17 @@ bool tn_job_draws(const char *path)
     return path && strrchr(path, '.') && tn_canvas_format_of(path, &format, &error) == TN_OK;
 }
 
+bool tn_job_writes(tn_job *job, const char *what, const char *path, tn_file_formats writes)
+{
+    char command[80];
+    tn_error error;
+    snprintf(command, sizeof command, "the output of `tartan %.40s`", job->settings->command->name);
+    if (!path || tn_file_ending_check(what ? what : command, path, writes, &error) == TN_OK)
+        return true;
+    tn_job_fail(job, &error);
+    return false;
+}
+
 bool tn_job_takes_text(tn_job *job, const char *path)
 {
     if (!tn_job_draws(path))

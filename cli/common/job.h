@@ -92,6 +92,11 @@ int tn_exit_code(tn_status status);
 /* Is the path (NULL: standard output) the name of a picture: .svg, .png or .pdf? */
 bool tn_job_draws(const char *path);
 
+/* Is the path (NULL: standard output) the name of something that is written so, by the command as it is asked?
+ * Otherwise wrong usage is recorded, with the endings that there are. For what the table of options cannot tell. what:
+ * is written, "a list of plans"; NULL: the output of the command. */
+bool tn_job_writes(tn_job *job, const char *what, const char *path, tn_file_formats writes);
+
 /* Is the path of a text output (NULL: standard output) not the name of a picture? Otherwise wrong usage is recorded. */
 bool tn_job_takes_text(tn_job *job, const char *path);
 

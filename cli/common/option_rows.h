@@ -56,6 +56,17 @@
         OPTION_ROW(NAME, LETTER, ARGUMENT, FIELD, tn_option_real, TN_OPTION_REAL, HELP)                                \
     }
 
+/* The file that a command writes, in formats of the set WRITES (endings.h); several files; other files. */
+#define OUTPUT(FIELD, WRITES, HELP) WRITTEN("output", 'o', "FILE", FIELD, WRITES, HELP)
+#define OUTPUTS(FIELD, WRITES, HELP)                                                                                   \
+    {                                                                                                                  \
+        OPTION_ROW("output", 'o', "FILE", FIELD, tn_option_list, TN_OPTION_LIST, HELP), .writes = WRITES               \
+    }
+#define WRITTEN(NAME, LETTER, ARGUMENT, FIELD, WRITES, HELP)                                                           \
+    {                                                                                                                  \
+        OPTION_ROW(NAME, LETTER, ARGUMENT, FIELD, const char *, TN_OPTION_TEXT, HELP), .writes = WRITES                \
+    }
+
 /* FIELD keeps the names and words of all such options of the command, in their order. */
 #define WISH(NAME, FIELD, HELP)                                                                                        \
     {                                                                                                                  \
@@ -66,11 +77,12 @@
 #define OPTION_LDRAW                                                                                                   \
     TEXT("ldraw", 0, "DIR", common.ldraw,                                                                              \
          "the LDraw library of which kits take parts (default: the folder that LDRAWDIR names, or /usr/share/ldraw)")
-#define OPTION_OUTPUT                                                                                                  \
-    TEXT("output", 'o', "FILE", output, "write to FILE (beside it, then renamed over it); - is standard output")
+#define OPTION_OUTPUT(WRITES)                                                                                          \
+    OUTPUT(output, WRITES, "write to FILE (beside it, then renamed over it); - is standard output")
 #define OPTION_OUTPUT_OR_PICTURE                                                                                       \
-    TEXT("output", 'o', "FILE", output,                                                                                \
-         "write to FILE (beside it, then renamed over it); - is standard output; .svg, .png and .pdf make a picture")
+    OUTPUT(output, TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES_PICTURES,                                              \
+           "write to FILE (beside it, then renamed over it); - is standard output; .svg, .png and .pdf make a "        \
+           "picture, .json is JSON")
 
 /* The field: where the command keeps it. */
 #define OPTION_MAX_BOXES(FIELD)                                                                                        \

@@ -422,6 +422,74 @@ static tn_status check_operands(parse *p)
     return TN_OK;
 }
 
+/* ---- names of files */
+
+static tn_status disagrees(parse *p, const char *word, const char *path)
+{
+    tn_status status =
+        tn_fail(p->error, TN_INVALID, E_USAGE, "--format %s is not what %.200s is the name of", word, path);
+    tn_error_help(p->error, "leave out --format, or give the name another ending");
+    return status;
+}
+
+/* The word of a choice that was made, as in the command's table. */
+static const char *chosen_word(const tn_option *option, int index, char *word, size_t size)
+{
+    const char *at = option->choices;
+    for (; index > 0; index--)
+        at = strchr(at, '|') + 1;
+    snprintf(word, size, "%.*s", (int)strcspn(at, "|"), at);
+    return word;
+}
+
+/* What the ending promises is written, where the command has a choice of formats; one that says otherwise is wrong. */
+static tn_status take_format(parse *p, const char *path, tn_file_format format)
+{
+    char chosen[32];
+    const char *word = tn_file_format_word(format);
+    const tn_option *json = find_long(p->command, "json", strlen("json")),
+                    *choice = find_long(p->command, "format", strlen("format"));
+    if (json && json->kind == TN_OPTION_FLAG && format == TN_FILE_JSON)
+        *(bool *)place_of(p->settings, json) = true;
+    if (!choice || format == TN_FILE_OTHER || choice->kind != TN_OPTION_CHOICE)
+        return TN_OK;
+    int *index = place_of(p->settings, choice), of_ending = choice_index(choice->choices, word);
+    if (*index == 0 && of_ending > 0)
+        *index = of_ending;
+    if (*index == 0 || *index == of_ending)
+        return TN_OK;
+    return disagrees(p, chosen_word(choice, *index, chosen, sizeof chosen), path);
+}
+
+static tn_status check_file(parse *p, const tn_option *option, const char *path)
+{
+    char what[80];
+    const tn_option *choice = find_long(p->command, "format", strlen("format"));
+    bool said = choice && tn_option_given(choice, p->settings);
+    snprintf(what, sizeof what, "the output of `tartan %.40s`", p->command->name);
+    tn_status status = tn_file_ending_check(what, path, option->writes | (said ? TN_WRITES_ASKED : 0), p->error);
+    return status == TN_OK && strcmp(path, "-") != 0 ? take_format(p, path, tn_file_format_of(path)) : status;
+}
+
+/* The files that are to be written. */
+static tn_status check_files(parse *p)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < p->command->option_count; i++) {
+        const tn_option *option = &p->command->options[i];
+        if (!option->writes || !tn_option_given(option, p->settings))
+            continue;
+        if (option->kind == TN_OPTION_TEXT) {
+            status = check_file(p, option, *(const char **)place_of(p->settings, option));
+            continue;
+        }
+        const tn_option_list *list = place_of(p->settings, option);
+        for (size_t k = 0; status == TN_OK && k < list->count; k++)
+            status = check_file(p, option, list->items[k]);
+    }
+    return status;
+}
+
 tn_status tn_options_parse(const tn_command *command, int count, char **words, tn_settings *settings, tn_error *error)
 {
     parse p = {command, count, words, 0, settings, error};
@@ -444,7 +512,10 @@ tn_status tn_options_parse(const tn_command *command, int count, char **words, t
         if (status != TN_OK)
             return status;
     }
-    return settings->help ? TN_OK : check_operands(&p);
+    if (settings->help)
+        return TN_OK;
+    tn_status status = check_operands(&p);
+    return status == TN_OK ? check_files(&p) : status;
 }
 
 int tn_options_diagnostics(int count, char *const *words)

@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-#include "runtime/base/error.h"
+#include "cli/common/endings.h"
 
 typedef struct tn_option_list {
     const char **items;
@@ -54,6 +54,9 @@ typedef struct tn_option {
     size_t offset;       /* in the command's settings */
     const char *choices; /* "text|json" */
     uint64_t low, high;  /* bounds; high 0: none */
+    /* Of a file that is written, in which formats: its name is checked, and where its ending promises one, that is what
+     * --format or --json say. 0: none of these. */
+    tn_file_formats writes;
 } tn_option;
 
 /* What every command is told. A command's own options are a struct that begins with this one, declared in the command's

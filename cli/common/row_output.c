@@ -1,30 +1,20 @@
 /* Writes rows in the format that the options ask for. */
 #include "cli/common/row_output.h"
 
-#include <string.h>
-
 #include "driver/parquet/parquet.h"
 #include "runtime/plan/store/sqlite.h"
-
-static bool is_parquet(const tn_written_settings *settings)
-{
-    static const char ending[] = ".parquet";
-    size_t size = settings->output ? strlen(settings->output) : 0;
-    return settings->format == TN_FORMAT_PARQUET ||
-           (settings->format == TN_FORMAT_AUTO && size >= sizeof ending &&
-            strcmp(settings->output + size - (sizeof ending - 1), ending) == 0);
-}
 
 bool tn_job_row_writer(tn_job *job, const tn_written_settings *settings, const tn_row_source *source,
                        tn_plan_writer **writer)
 {
-    if (!tn_job_takes_text(job, settings->output))
+    if (!tn_job_writes(job, source->rows ? "a list of houses" : "a list of plans", settings->output,
+                       source->rows ? TN_WRITES_ROWS & ~(TN_WRITES(BIN) | TN_WRITES(PARQUET)) : TN_WRITES_ROWS))
         return false;
     if (settings->csv_safe && settings->format != TN_FORMAT_CSV) {
         tn_job_usage(job, "--csv-safe is about --format csv");
         return false;
     }
-    if ((settings->plan_lines || settings->row_group.given) && !is_parquet(settings)) {
+    if ((settings->plan_lines || settings->row_group.given) && settings->format != TN_FORMAT_PARQUET) {
         tn_help(tn_job_diagnostics(job), tn_job_usage(job, "--plan-lines and --row-group are about Parquet"),
                 "write to a file that ends in .parquet, or give --format parquet");
         return false;

@@ -20,8 +20,8 @@ typedef struct tn_written_settings {
 
 #define OPTION_PLAN_FORMAT                                                                                             \
     CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite|parquet",                          \
-           "what to write: lines, json, csv, bin, sqlite or parquet (default: sqlite for .sqlite and .db, parquet "    \
-           "for .parquet, otherwise lines)")
+           "what to write: lines, json, csv, bin, sqlite or parquet (default: what the name behind -o ends in, "       \
+           "otherwise lines)")
 #define OPTION_COLUMNS                                                                                                 \
     FLAG("columns", 0, written.columns,                                                                                \
          "in CSV a row for each tray, with a column for each field; in a database such rows in a second table")
@@ -31,10 +31,12 @@ typedef struct tn_written_settings {
 #define OPTION_ROW_GROUP                                                                                               \
     NUMBER("row-group", 0, "N", written.row_group, 1, UINT32_MAX, "in Parquet, plans of a row group (default 1000000)")
 #define OPTION_PLAN_LINES FLAG("plan-lines", 0, written.plan_lines, "in Parquet, add a column of plan lines")
+#define TN_WRITES_ROWS                                                                                                 \
+    (TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES(CSV) | TN_WRITES(BIN) | TN_WRITES(SQLITE) | TN_WRITES(PARQUET))
 #define OPTION_PLAN_OUTPUT                                                                                             \
-    TEXT("output", 'o', "FILE", written.output,                                                                        \
-         "write to FILE instead of standard output; .sqlite and .db make a database, and .parquet "                    \
-         "makes Parquet")
+    OUTPUT(written.output, TN_WRITES_ROWS,                                                                             \
+           "write to FILE instead of standard output, as its ending says: .json, .csv, .bin, .sqlite and .db, "        \
+           ".parquet; otherwise as lines")
 
 /* What is written, besides what the options say. */
 typedef struct tn_row_source {

@@ -45,12 +45,8 @@ static bool check_best(tn_job *job)
 static bool check_options(tn_job *job)
 {
     const tn_draw_settings *settings = settings_of(job);
-    tn_canvas_format format;
-    tn_error error;
     if (!settings->output)
         tn_job_usage(job, "say which picture to draw: -o FILE.svg, FILE.png or FILE.pdf");
-    else if (tn_canvas_format_of(settings->output, &format, &error) != TN_OK)
-        tn_job_fail(job, &error);
     else if (settings->rules.count && (is_sampled(settings) || settings->common.operands.count > 1))
         tn_job_usage(job, "draw either rules or plans, not both");
     else if (is_sampled(settings) && settings->common.operands.count > 1)
@@ -239,7 +235,7 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS tn_draw_settings
 static const tn_option options[] = {
-    TEXT("output", 'o', "FILE", output, "the picture: .svg, .png or .pdf"),
+    OUTPUT(output, TN_WRITES_PICTURES, "the picture: .svg, .png or .pdf"),
     LIST("rule", 'r', "NAME", rules, "draw this rule instead of plans; may be repeated"),
     OPTIONS_LIBRARY,
     NUMBER("sample", 0, "N", sample, 1, TN_SAMPLE_MAX, "draw N plans sampled from the library"),

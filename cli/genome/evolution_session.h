@@ -8,7 +8,8 @@
 
 /* The options of all of them; what the number of generations means is told by each. */
 #define OPTIONS_RUN(generations_help)                                                                                  \
-    TEXT("output", 'o', "DIR", output, "the run's folder (default: the study's name with .run instead of .study)"),    \
+    WRITTEN("output", 'o', "DIR", output, TN_WRITES_FOLDER,                                                            \
+            "the run's folder (default: the study's name with .run instead of .study)"),                               \
         FLAG("resume", 0, resume, "continue the run in the folder, if there is one"),                                  \
         FLAG("rescore", 0, rescore,                                                                                    \
              "with --resume, where files that scores depend on have changed: score all members again"),                \

@@ -270,7 +270,8 @@ static bool check_options(tn_job *job)
     const char *dot = s->output ? strrchr(s->output, '.') : NULL;
     if (dot && tn_canvas_format_of(s->output, &format, &error) == TN_OK) {
         tn_diagnostic *d = tn_job_usage(job, "-o is where the text goes, and %.200s is a picture's name", s->output);
-        tn_help(tn_job_diagnostics(job), d, "--tree %.200s draws the derivation there", s->output);
+        tn_help(tn_job_diagnostics(job), d,
+                "--tree %.200s draws the derivation there; text has another ending, or none", s->output);
         return false;
     }
     bool picture = s->tree && strcmp(s->tree, "text") != 0 && strcmp(s->tree, "json") != 0;
@@ -386,7 +387,7 @@ static const tn_option options[] = {
     CHOICE("format", 'f', "FORMAT", format, "text|json", "text (the default), or json: one object a line"),
     TEXT("tree", 0, "HOW", tree, "show the derivation: text, json, or a picture's file name (.svg, .png, .pdf)"),
     FLAG("trace", 0, trace, "show what each codon chose"),
-    OPTION_OUTPUT,
+    OPTION_OUTPUT(TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES_PICTURES),
 };
 
 const tn_command tn_command_map = {

@@ -278,7 +278,7 @@ static int run(const tn_command *command, const tn_settings *common)
 static const tn_option options[] = {
     NUMBER("in-place-of", 0, "ID", in_place_of, 0, UINT64_MAX - 1,
            "insert: what is inserted was made from this member, and takes its place (default: that of the worst)"),
-    OPTION_OUTPUT,
+    OPTION_OUTPUT(TN_WRITES_TEXT),
 };
 
 const tn_command tn_command_runs = {

@@ -394,9 +394,11 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS tn_grow_settings
 static const tn_option options[] = {
-    TEXT("output", 'o', "FILE", output,
-         "the surface: .obj, .ply, .stl, .off, .om, .glb, its edges: .dxf, or a picture: .svg, .png, .pdf; - is "
-         "standard output"),
+    OUTPUT(output,
+           TN_WRITES_PICTURES | TN_WRITES(OBJ) | TN_WRITES(PLY) | TN_WRITES(STL) | TN_WRITES(OFF) | TN_WRITES(OM) |
+               TN_WRITES(GLB) | TN_WRITES(DXF) | TN_WRITES_ASKED,
+           "the surface: .obj, .ply, .stl, .off, .om, .glb, its edges: .dxf, or a picture: .svg, .png, .pdf; - is "
+           "standard output"),
     CHOICE("format", 'f', "FORMAT", format, TN_GROW_FORMATS, "what is written, where the name of FILE does not say it"),
     TEXT("steps", 'n', "N", said.steps, "how many derivation steps (default: the study's, or 4)"),
     TEXT("until", 0, "faces=N", until,

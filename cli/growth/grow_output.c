@@ -2,7 +2,6 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "cli/growth/grow.h"
 #include "runtime/growth/surface.h"
@@ -73,17 +72,6 @@ static bool check_use(tn_job *job, tn_out_format format)
     return true;
 }
 
-/* Is this the name of a moving picture of a kind that is not written, rather than of a folder? */
-static bool moves_otherwise(const char *path)
-{
-    static const char *const kinds[] = {"gif", "apng", "webp", "mp4", "webm", "mov", "avi"};
-    const char *dot = strrchr(path, '.');
-    for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
-        if (strcasecmp(dot + 1, kinds[i]) == 0)
-            return true;
-    return false;
-}
-
 /* A turn is one picture from each side, as PNG. */
 static bool check_turn(tn_job *job, tn_out_format format)
 {
@@ -110,7 +98,7 @@ bool tn_grow_format_of(tn_job *job, tn_out_format *format)
     if (*format == TN_OUT_NONE)
         *format = tn_out_format_of(path);
     if (settings->turn.given && *format == TN_OUT_NONE && strcmp(path, "-") != 0)
-        return check_turn(job, moves_otherwise(path) ? TN_OUT_NONE : TN_OUT_PNG);
+        return check_turn(job, TN_OUT_PNG);
     if (*format == TN_OUT_NONE || *format > TN_OUT_PDF) {
         tn_diagnostic *d = tn_job_usage(job, "%s does not say what is to be written", path);
         tn_help(tn_job_diagnostics(job), d,

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "runtime/base/utf8.h"
 #include "runtime/geometry/write.h"
 #include "runtime/house/export/export.h"
 #include "runtime/house/picture/draw.h"
@@ -135,9 +136,9 @@ static tn_status name_groups(const tn_house_form *form, tn_mesh *mesh, tn_error 
         return tn_fail_memory(error);
     for (uint32_t i = 0; i < mesh->group_count; i++) {
         uint32_t material = form->record->material_first + i - TN_SOLID_COUNT;
-        snprintf(mesh->group_names[i], sizeof mesh->group_names[i], "%s",
-                 i < TN_SOLID_COUNT ? tn_solid_kind_text((tn_solid_kind)i)
-                                    : tn_text(form->module, form->module->MATERIAL_records[material].name));
+        tn_utf8_copy(i < TN_SOLID_COUNT ? tn_solid_kind_text((tn_solid_kind)i)
+                                        : tn_text(form->module, form->module->MATERIAL_records[material].name),
+                     sizeof mesh->group_names[i], mesh->group_names[i]);
     }
     return TN_OK;
 }

@@ -115,12 +115,16 @@ static int run(const tn_command *command, const tn_settings *settings)
 }
 
 #define SETTINGS house_settings
+#define WRITES                                                                                                         \
+    (TN_WRITES_STANDARD | TN_WRITES_PICTURES | TN_WRITES(JSON) | TN_WRITES(CSV) | TN_WRITES(OBJ) | TN_WRITES(PLY) |    \
+     TN_WRITES(GLB) | TN_WRITES(IFC) | TN_WRITES(DXF) | TN_WRITES_FOLDER)
 static const tn_option options[] = {
-    LIST("output", 'o', "FILE", outputs.files,
-         "write to FILE, whose name says the format: .json, .csv, .obj, .ply, .glb, .ifc, .dxf, .svg, .pdf or .png; a "
-         "folder (with "
-         "a "
-         "/ at its end) gets all of them; may be repeated"),
+    OUTPUTS(
+        outputs.files, WRITES,
+        "write to FILE, whose name says the format: .json, .csv, .obj, .ply, .glb, .ifc, .dxf, .svg, .pdf or .png; a "
+        "folder (with "
+        "a "
+        "/ at its end) gets all of them; may be repeated"),
     LIST("view", 0, "VIEW", outputs.views,
          "what is drawn: plan:STOREY, section:x=LENGTH, section:y=LENGTH, elevation:SIDE, axonometric or sheet (all of "
          "these, the default); may be repeated"),

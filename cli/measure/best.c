@@ -183,16 +183,6 @@ static void find_best(tn_job *job, const tn_ready_library *ready, uint64_t wante
     tn_best_search_close(&search);
 }
 
-static bool names_rows(const char *path)
-{
-    static const char *const endings[] = {".sqlite", ".sqlite3", ".db", ".parquet"};
-    const char *ending = path ? strrchr(path, '.') : NULL;
-    for (size_t i = 0; ending && i < sizeof endings / sizeof *endings; i++)
-        if (strcmp(ending, endings[i]) == 0)
-            return true;
-    return false;
-}
-
 /* Houses are written as lines or JSON, or drawn; what else plans may be told is wrong usage. */
 static void find_houses(tn_job *job, uint64_t wanted)
 {
@@ -204,10 +194,12 @@ static void find_houses(tn_job *job, uint64_t wanted)
         tn_job_usage(job, "--mirror is about plans, not about houses");
         return;
     }
-    if (!lines || names_rows(settings->written.output)) {
+    if (!tn_job_writes(job, "a list of the best houses", settings->written.output,
+                       TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES_PICTURES))
+        return;
+    if (!lines) {
         tn_diagnostic *d =
-            tn_job_usage(job, "the best houses are written as lines or JSON, or drawn: leave out %s%.100s",
-                         lines ? "-o " : "this --format", lines ? settings->written.output : "");
+            tn_job_usage(job, "the best houses are written as lines or JSON, or drawn: leave out this --format");
         tn_help(tn_job_diagnostics(job), d, "-o NAME.svg, NAME.png or NAME.pdf draws them");
         return;
     }
@@ -260,8 +252,10 @@ static const tn_option options[] = {
     FLAG("mirror", 0, mirror, "leave out a plan whose mirror image is kept and of lower rank"),
     TEXT("plan", 0, "PLAN", plan, "the best houses on one plan: a plan line, or # and its rank"),
     OPTION_PLAN_FORMAT,
-    TEXT("output", 'o', "FILE", written.output,
-         "write to FILE instead of standard output; .sqlite and .db make a database, .svg, .png and .pdf a picture"),
+    OUTPUT(
+        written.output, TN_WRITES_ROWS | TN_WRITES_PICTURES,
+        "write to FILE instead of standard output, as its ending says: .json, .csv, .bin, .sqlite and .db, .parquet, "
+        "or .svg, .png and .pdf, a picture; otherwise as lines"),
     OPTIONS_LIBRARY_LIMITS,
 };
 

@@ -7,9 +7,9 @@
 
 #include "cli/common/option_rows.h"
 #include "cli/common/subject.h"
-#include "runtime/geometry/crossing.h"
 #include "runtime/field/normals.h"
 #include "runtime/field/volume.h"
+#include "runtime/geometry/crossing.h"
 
 /* ---- writing */
 
@@ -39,12 +39,6 @@ static bool check_format(tn_job *job, tn_out_format *format)
     if (!s->output)
         return true;
     *format = format_of(s);
-    if (*format == TN_OUT_NONE) {
-        tn_diagnostic *d = tn_job_usage(job, "%s does not say which mesh is to be written", s->output);
-        tn_help(tn_job_diagnostics(job), d,
-                "end its name in .obj, .ply, .stl, .off, .om, .glb, .3mf, .scad or .dxf, or say --format");
-        return false;
-    }
     bool normals = *format == TN_OUT_OBJ || *format == TN_OUT_PLY || *format == TN_OUT_GLB;
     if ((s->normals && !normals) || (s->up && (*format == TN_OUT_GLB || *format == TN_OUT_3MF))) {
         tn_diagnostic *d =
@@ -279,8 +273,10 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS tn_mesh_settings
 
 static const tn_option options[] = {
-    TEXT("output", 'o', "FILE", output,
-         "the mesh: .obj, .ply, .stl, .off, .om, .glb, .3mf, .scad or .dxf; - is standard output"),
+    OUTPUT(output,
+           TN_WRITES(OBJ) | TN_WRITES(PLY) | TN_WRITES(STL) | TN_WRITES(OFF) | TN_WRITES(OM) | TN_WRITES(GLB) |
+               TN_WRITES(3MF) | TN_WRITES(SCAD) | TN_WRITES(DXF),
+           "the mesh: .obj, .ply, .stl, .off, .om, .glb, .3mf, .scad or .dxf; - is standard output"),
     CHOICE("format", 'f', "FORMAT", format, FORMAT_WORDS, "what is written, where the name of FILE does not say it"),
     TEXT("surface", 's', "NAME", surface, "which surface of the file (default: the last)"),
     TEXT("solid", 0, "NAME", solid, "which design of the file; may be left out where the file has only one"),

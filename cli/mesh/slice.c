@@ -237,8 +237,8 @@ static int run(const tn_command *command, const tn_settings *common)
 
 static const tn_option options[] = {
     REAL("layer", 'l', "HEIGHT", layer, "how high a layer is, in the unit of the file"),
-    TEXT("output", 'o', "FILE", output,
-         "the slices: .svg, .dxf or .cli; a folder gets a file for each layer; - is standard output"),
+    OUTPUT(output, TN_WRITES(SVG) | TN_WRITES(DXF) | TN_WRITES(CLI) | TN_WRITES_FOLDER,
+           "the slices: .svg, .dxf or .cli; a folder gets a file for each layer; - is standard output"),
     CHOICE("format", 'f', "FORMAT", format, "auto|svg|dxf|cli", "what is written, where the name does not say it"),
     TEXT("surface", 's', "NAME", surface, "which surface of the file (default: the last)"),
     TEXT("solid", 0, "NAME", solid, "which design of the file; may be left out where the file has only one"),

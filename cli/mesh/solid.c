@@ -103,7 +103,10 @@ static tn_status write_mesh(tn_job *job, uint32_t solid, tn_mesh *mesh, tn_out_f
         return status;
     tn_mesh_note(job, job->opened.module->SOLID_records[solid].name, note, sizeof note);
     tn_solid_turn_up(mesh);
-    tn_mesh_write(job, mesh, &(tn_mesh_file){.format = format, .note = note});
+    tn_mesh_write(job, mesh,
+                  &(tn_mesh_file){.format = format,
+                                  .note = note,
+                                  .unit = (tn_mesh_unit)job->opened.module->SOLID_records[solid].model});
     return TN_OK;
 }
 

@@ -143,8 +143,7 @@ void tn_job_enumerate_kit(tn_job *job, const tn_count_kit_options *options, cons
     tn_error error = {0};
     enumeration e;
     bool *wanted;
-    if (!begin(job, options, range, path, &e) || !tn_job_takes_text(job, path) ||
-        !tn_job_kit_parts(job, options, &wanted))
+    if (!begin(job, options, range, path, &e) || !tn_job_kit_parts(job, options, &wanted))
         return;
     if ((!options->inside || tn_job_kit_space(job, options->inside, &rules)) && tn_job_output(job, path, &output)) {
         const tn_building_list asked = {.rules = &rules,

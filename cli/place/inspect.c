@@ -246,7 +246,7 @@ static const tn_option options[] = {
     TEXT("model", 'm', "NAME", model, "hold it to what this model of the kit requires; its space is what `fill` is of"),
     TEXT("require", 'r', "CONDITIONS", require,
          "conditions as in a kit, `components = 1, floating = 0`: exit code 1 where one fails"),
-    TEXT("output", 'o', "FILE", output, "draw it, by the file's ending .svg, .png or .pdf: red parts overlap or float"),
+    OUTPUT(output, TN_WRITES_PICTURES, "draw it, by the file's ending .svg, .png or .pdf: red parts overlap or float"),
     FLAG("json", 0, json, "write JSON, with the parts that there is something to say about"),
     OPTION_LDRAW,
     OPTION_WERROR,

@@ -20,7 +20,7 @@ out_format tn_place_format(const char *path)
         return OUT_SUBFILES;
     tn_out_format format = tn_out_format_of(path);
     bool picture = format == TN_OUT_SVG || format == TN_OUT_PNG || format == TN_OUT_PDF;
-    return format == TN_OUT_NONE ? OUT_NONE : picture ? OUT_PICTURE : OUT_MESH;
+    return picture ? OUT_PICTURE : OUT_MESH;
 }
 
 /* Pictures and meshes show the parts of a kit. */

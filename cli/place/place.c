@@ -20,14 +20,6 @@ static bool check_options(tn_job *job)
         standard += strcmp(path, "-") == 0;
         ldraw |= tn_place_format(path) == OUT_LDRAW;
         picture |= tn_place_format(path) == OUT_PICTURE;
-        if (tn_place_format(path) != OUT_NONE)
-            continue;
-        tn_diagnostic *d = tn_job_usage(job, "the name %.200s does not say which format to write", path);
-        tn_help(tn_job_diagnostics(job), d,
-                "end its name in .ldr (a model), .mpd (a model with a sub-file for each step), .csv (a list of its "
-                "parts), .svg, .png or .pdf (a picture), "
-                "or .obj, .ply, .stl or .glb (a mesh)");
-        return false;
     }
     if (standard + (s->trace || s->stats) > 1)
         tn_job_usage(job, "standard output takes one thing only: name a file with -o");
@@ -217,15 +209,21 @@ static int run(const tn_command *command, const tn_settings *common)
 }
 
 #define SETTINGS place_settings
+#define WRITES                                                                                                         \
+    (TN_WRITES_STANDARD | TN_WRITES_PICTURES | TN_WRITES(LDR) | TN_WRITES(MPD) | TN_WRITES(CSV) | TN_WRITES(OBJ) |     \
+     TN_WRITES(PLY) | TN_WRITES(STL) | TN_WRITES(OFF) | TN_WRITES(OM) | TN_WRITES(GLB) | TN_WRITES(3MF) |              \
+     TN_WRITES(DXF))
 static const tn_option options[] = {
-    LIST("output", 'o', "FILE", outputs,
-         "write to FILE (beside it, then renamed over it), by its ending: .ldr a model, .csv a list of its parts; - is "
-         "a model on standard output; of a kit also .mpd, with a sub-file for each step, a picture (.svg, .png, .pdf) "
-         "or a mesh (.obj, .ply, .stl, .glb "
-         "...)"),
+    OUTPUTS(
+        outputs, WRITES,
+        "write to FILE (beside it, then renamed over it), by its ending: .ldr a model, .csv a list of its parts; - is "
+        "a model on standard output; of a kit also .mpd, with a sub-file for each step, a picture (.svg, .png, .pdf) "
+        "or a mesh (.obj, .ply, .stl, .glb "
+        "...)"),
     NUMBER("seed", 's', "N", seed, 0, UINT32_MAX, "which random choices: the same seed gives the same (default 0)"),
     TEXT("model", 'm', "NAME", model, "which model of the kit; may be left out where it has only one"),
-    TEXT("program", 0, "FILE", program, "write the steps that were taken to FILE, separated by blanks"),
+    WRITTEN("program", 0, "FILE", program, TN_WRITES_TEXT,
+            "write the steps that were taken to FILE, separated by blanks"),
     TEXT("fitness", 0, "EXPR", fitness,
          "of a connection grammar: take the alternative for which this is at least 1, or largest: `elements <= 30`"),
     TEXT("steps", 0, "STEPS", steps,

@@ -15,7 +15,7 @@ typedef struct place_settings {
     bool trace, header, keep_partial, sheet;
 } place_settings;
 
-typedef enum out_format { OUT_LDRAW, OUT_SUBFILES, OUT_LIST, OUT_PICTURE, OUT_MESH, OUT_NONE } out_format;
+typedef enum out_format { OUT_LDRAW, OUT_SUBFILES, OUT_LIST, OUT_PICTURE, OUT_MESH } out_format;
 
 typedef struct placing {
     tn_job *job;

@@ -141,17 +141,6 @@ void tn_job_compare(tn_job *job, const tn_compared *compared, const tn_compare_o
     tn_library_diff_free(diff);
 }
 
-static bool check_options(tn_job *job)
-{
-    tn_canvas_format format;
-    tn_error error;
-    if (!settings_of(job)->compare.output ||
-        tn_canvas_format_of(settings_of(job)->compare.output, &format, &error) == TN_OK)
-        return true;
-    tn_job_fail(job, &error);
-    return false;
-}
-
 /* Is the library that is named one of houses, in either file? */
 static bool is_about_houses(const tn_job jobs[2], const char *name)
 {
@@ -198,7 +187,7 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_job jobs[2];
     tn_job_begin(&jobs[0], common);
     tn_job_begin(&jobs[1], common);
-    if (check_options(&jobs[0]) && tn_job_open_plans(&jobs[0], paths[0], &settings->plans) &&
+    if (tn_job_open_plans(&jobs[0], paths[0], &settings->plans) &&
         tn_job_open_plans(&jobs[1], paths[1], &settings->plans)) {
         if (is_about_houses(jobs, settings->plans.library))
             compare_houses(jobs);
@@ -216,8 +205,8 @@ static const tn_option options[] = {
     NUMBER("seed", 's', "S", compare.seed, 0, 0, "which random ones (default 0)"),
     FLAG("json", 0, compare.json, "write JSON, every count as a string of digits"),
     FLAG("no-measures", 0, compare.without_measures, "leave out how measures change, which takes most of the time"),
-    TEXT("output", 'o', "FILE", compare.output,
-         "also draw the plans shown, removed, added and kept: .svg, .png or .pdf"),
+    OUTPUT(compare.output, TN_WRITES_PICTURES,
+           "also draw the plans shown, removed, added and kept: .svg, .png or .pdf"),
     TEXT("title", 0, "TEXT", compare.title, "the picture's title"),
     NUMBER("max-houses", 0, "N", max_houses, 1, 0, "the most houses that are compared one by one (default 1000000)"),
     OPTIONS_LIBRARY_LIMITS,

@@ -233,7 +233,8 @@ static void enumerate_kit(tn_job *job)
     const tn_building_range range = {s->from, s->to, s->limit};
     tn_count_kit_options kit = s->kit;
     int format = s->written.format;
-    if (asks_library(job))
+    if (asks_library(job) || !tn_job_writes(job, "a list of buildings", s->written.output,
+                                            TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES(MPD) | TN_WRITES(LDR)))
         return;
     if (format != TN_FORMAT_AUTO && format != TN_FORMAT_LINES && format != TN_FORMAT_JSON) {
         tn_diagnostic *d = tn_job_usage(job, "buildings are written as lines or as JSON");
@@ -279,7 +280,10 @@ static const tn_option options[] = {
     OPTION_CSV_SAFE,
     OPTION_PLAN_LINES,
     OPTION_ROW_GROUP,
-    OPTION_PLAN_OUTPUT,
+    OUTPUT(
+        written.output, TN_WRITES_ROWS | TN_WRITES(MPD) | TN_WRITES(LDR),
+        "write to FILE instead of standard output, as its ending says: .json, .csv, .bin, .sqlite and .db, .parquet; "
+        "of a kit .json, or .mpd, with a sub-file for each building; otherwise as lines"),
     FLAG("resume", 0, written.resume, "continue a database that was interrupted; no plan is left out or written twice"),
     OPTION_LDRAW,
     OPTIONS_LIBRARY_LIMITS,

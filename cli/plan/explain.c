@@ -234,32 +234,60 @@ static void explain_text(explaining *e, const char *text)
     free(plan.trays);
 }
 
+/* The next plan of a file; NULL at its end, and where one cannot be read, which is recorded. */
+static const tn_plan *next_plan(explaining *e, tn_plan_reader *reader, const tn_plans_source *source)
+{
+    const tn_plan *plan = NULL;
+    tn_error error;
+    size_t size = 0;
+    if (tn_plan_reader_next(reader, &plan, &error) == TN_OK)
+        return plan;
+    const char *text = tn_plan_reader_text(reader, &size);
+    tn_job_bad_plan(e->job, source, &error, text, size);
+    return NULL;
+}
+
+/* The only plan of a file, for a picture. */
+static void explain_only(explaining *e, tn_plan_reader *reader, const tn_plans_source *source)
+{
+    const tn_plan *plan = next_plan(e, reader, source);
+    if (!plan) {
+        if (e->job->exit_code == TN_EXIT_DONE)
+            tn_job_usage(e->job, "there is no plan in %.200s to be drawn", source->path);
+        return;
+    }
+    size_t length = plan->length;
+    tn_tray *trays = malloc((length + 1) * sizeof *trays);
+    if (!trays) {
+        fail_memory(e->job);
+        return;
+    }
+    memcpy(trays, plan->trays, length * sizeof *trays);
+    if (next_plan(e, reader, source))
+        tn_help(tn_job_diagnostics(e->job),
+                tn_job_usage(e->job, "a picture shows one plan, and %.200s holds more", source->path),
+                "give the plan itself, or leave out -o");
+    else if (e->job->exit_code == TN_EXIT_DONE)
+        explain_plan(e, trays, length);
+    free(trays);
+}
+
 /* Every plan of a file, kept apart by a line that says which it is. */
 static void explain_file(explaining *e, const char *path)
 {
     tn_plan_reader *reader;
-    const tn_plan *plan = NULL;
-    tn_error error;
+    const tn_plan *plan;
     const tn_plans_source source = {path, &e->settings->input, &e->settings->plans};
     if (!tn_job_reader(e->job, e->schema, &source, &reader))
         return;
-    for (size_t count = 0; e->job->exit_code == TN_EXIT_DONE; count++) {
-        tn_status status = tn_plan_reader_next(reader, &plan, &error);
-        if (status == TN_OK && !plan)
-            break;
-        size_t size = 0;
-        const char *text = status == TN_OK ? NULL : tn_plan_reader_text(reader, &size);
-        if (status != TN_OK) {
-            tn_job_bad_plan(e->job, &source, &error, text, size);
-            break;
-        }
-        if (e->settings->output && count > 0) {
-            tn_job_usage(e->job, "a picture shows one plan, and %.200s holds more", path);
-            break;
-        }
-        if (!e->settings->json && !e->settings->output)
+    if (e->settings->output)
+        explain_only(e, reader, &source);
+    for (size_t count = 0; !e->settings->output && (plan = next_plan(e, reader, &source)); count++) {
+        if (!e->settings->json)
             fprintf(e->output.stream, "%s%s:%" PRIu64 ": ", count ? "\n" : "", path, tn_plan_reader_line(reader));
         explain_plan(e, plan->trays, plan->length);
+        if (e->job->exit_code != TN_EXIT_DONE)
+            break;
     }
     tn_plan_reader_free(reader);
 }
@@ -267,14 +295,10 @@ static void explain_file(explaining *e, const char *path)
 static bool check_options(tn_job *job)
 {
     const explain_settings *settings = settings_of(job);
-    tn_canvas_format format;
-    tn_error error;
     if ((settings->common.operands.count > 1) == (settings->plan_file != NULL))
         tn_job_usage(job, "say which plan: a plan line, #RANK, or --plan FILE");
     else if (settings->output && settings->json)
         tn_job_usage(job, "either a picture (-o) or --json, not both");
-    else if (settings->output && tn_canvas_format_of(settings->output, &format, &error) != TN_OK)
-        tn_job_fail(job, &error);
     else
         return true;
     return false;
@@ -305,16 +329,12 @@ static void explain(tn_job *job)
 static void draw_solid(tn_job *job)
 {
     const explain_settings *settings = settings_of(job);
-    tn_canvas_format format;
-    tn_error error;
     const tn_solid_drawing drawing = {.views = TN_SOLID_HISTORY,
                                       .camera = tn_camera_default(),
                                       .dpi = (uint32_t)settings->dpi.value,
                                       .most = (uint32_t)settings->max_boxes.value};
     if (settings->json)
         tn_job_usage(job, "either a picture (-o) or --json, not both");
-    else if (tn_canvas_format_of(settings->output, &format, &error) != TN_OK)
-        tn_job_fail(job, &error);
     else
         tn_job_draw_solid(job, settings->solid, &drawing, settings->output);
 }
@@ -350,6 +370,16 @@ static void explain_for_houses(tn_job *job, const char *text)
     free(plan);
 }
 
+/* What is said of a house is not drawn. */
+static bool is_drawn(tn_job *job)
+{
+    if (!settings_of(job)->output)
+        return false;
+    tn_help(tn_job_diagnostics(job), tn_job_usage(job, "why a house is kept or dropped is not drawn: leave out -o"),
+            "`tartan house FILE HOUSE -o NAME.svg` draws the house");
+    return true;
+}
+
 static void explain_plan_or_house(tn_job *job)
 {
     const explain_settings *settings = settings_of(job);
@@ -357,11 +387,16 @@ static void explain_plan_or_house(tn_job *job)
     const char *library = settings->plans.library;
     bool of_houses = library && tn_house_library_find(job->opened.module, library) != TN_NO_RECORD;
     const char *colon = text[0] == '#' && job->opened.module->HOUSE_LIBRARY_count > 0 ? strchr(text, ':') : NULL;
-    if (tn_is_house_line(text))
+    bool house = tn_is_house_line(text),
+         for_houses = (colon && colon[1] == '\0') || (of_houses && *text && text[0] != '#'),
+         numbered = colon || (of_houses && text[0] == '#');
+    if ((house || for_houses || numbered) && is_drawn(job))
+        return;
+    if (house)
         explain_house(job, text);
-    else if ((colon && colon[1] == '\0') || (of_houses && *text && text[0] != '#'))
+    else if (for_houses)
         explain_for_houses(job, text);
-    else if (colon || (of_houses && text[0] == '#'))
+    else if (numbered)
         explain_numbered(job, text);
     else
         explain(job);
@@ -393,7 +428,7 @@ static const tn_option options[] = {
     OPTION_WHERE,
     FLAG("full", 0, full, "every clause and every part, not only what decides"),
     FLAG("json", 0, json, "write JSON, everything in it"),
-    TEXT("output", 'o', "FILE", output, "draw it instead: .svg, .png or .pdf"),
+    OUTPUT(output, TN_WRITES_PICTURES, "draw it instead: .svg, .png or .pdf"),
     NUMBER("nearest", 0, "N", nearest, 0, 1000, "how many of the nearest kept plans to show (default 3)"),
     NUMBER("dpi", 0, "N", dpi, 10, 2400, "pixels an inch of a PNG (default 150)"),
     OPTION_INPUT_FORMAT,

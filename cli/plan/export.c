@@ -196,6 +196,16 @@ static bool check_rules(tn_job *job)
     return false;
 }
 
+/* What is written is in the notation that was asked for. */
+static bool check_output(tn_job *job)
+{
+    const export_settings *s = settings_of(job);
+    return s->prolog  ? tn_job_writes(job, "a Prolog program", s->output, TN_WRITES_TEXT | TN_WRITES(PROLOG))
+           : s->regex ? tn_job_writes(job, "a pattern", s->output, TN_WRITES_TEXT)
+           : s->pcfg  ? tn_job_writes(job, "a connection grammar", s->output, TN_WRITES_TEXT | TN_WRITES(PCFG))
+                      : tn_job_writes(job, "a kit", s->output, TN_WRITES_TEXT | TN_WRITES(KIT));
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
@@ -204,12 +214,11 @@ static int run(const tn_command *command, const tn_settings *common)
     const tn_export_drawn_options drawn = {settings->kit, settings->init, settings->output};
     tn_job job;
     tn_job_begin(&job, common);
-    if (!check_drawn(&job))
+    if (!check_drawn(&job) || !(tn_path_is_drawn(path) || check_rules(&job)) || !check_output(&job))
         return tn_job_end(&job);
     if (tn_path_is_drawn(path))
         tn_job_export_drawn(&job, &drawn, path);
-    else if (check_rules(&job) &&
-             (settings->pcfg ? tn_job_open(&job, path) : tn_job_open_plans(&job, path, &settings->plans)))
+    else if ((settings->pcfg ? tn_job_open(&job, path) : tn_job_open_plans(&job, path, &settings->plans)))
         (settings->pcfg ? export_kit : export)(&job);
     return tn_job_end(&job);
 }
@@ -227,7 +236,7 @@ static const tn_option options[] = {
     TEXT("model", 'm', "NAME", model, "the model of --pcfg; may be left out where the kit has only one"),
     OPTIONS_LIBRARY,
     OPTION_LDRAW,
-    OPTION_OUTPUT,
+    OPTION_OUTPUT(TN_WRITES_TEXT | TN_WRITES(PROLOG) | TN_WRITES(PCFG) | TN_WRITES(KIT)),
     OPTION_MAX_STATES,
 };
 

@@ -22,7 +22,7 @@ bool tn_new_set_named(tn_job *job, const char *folder, const char *path)
         tn_help(list, tn_job_usage(job, "the name of the rule file is not UTF-8 text, and a manifest holds only that"),
                 "rename the file");
     else
-        return true;
+        return tn_job_writes(job, "a shard set", folder, TN_WRITES_FOLDER);
     return false;
 }
 
@@ -30,6 +30,8 @@ bool tn_new_set_fits(tn_job *job, const tn_new_set *what)
 {
     const tn_written_settings *written = what->written;
     tn_diagnostics *list = tn_job_diagnostics(job);
+    if (!tn_new_set_named(job, written->output, what->path))
+        return false;
     if (written->format == TN_FORMAT_SQLITE)
         tn_help(list, tn_job_usage(job, "a shard is no database"),
                 "choose another --format; `tartan shards merge SET -o FILE.sqlite` makes one database of all shards");
@@ -38,7 +40,7 @@ bool tn_new_set_fits(tn_job *job, const tn_new_set *what)
     else if (written->format != TN_FORMAT_PARQUET && (written->plan_lines || written->row_group.given))
         tn_help(list, tn_job_usage(job, "--plan-lines and --row-group are about Parquet"), "add --format parquet");
     else
-        return tn_new_set_named(job, written->output, what->path);
+        return true;
     return false;
 }
 

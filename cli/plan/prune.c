@@ -40,8 +40,7 @@ static bool compile_clauses(pruning *p)
                                       .max_length = tn_job_max_length(&settings->plans)};
     tn_answer_format format = settings->format == FORMAT_JSON ? TN_ANSWER_JSON : TN_ANSWER_LINES;
     tn_error error;
-    tn_status status =
-        tn_pruned_new(p->job->opened.module, &p->ready, &lengths, &options, format, &p->pruned, &error);
+    tn_status status = tn_pruned_new(p->job->opened.module, &p->ready, &lengths, &options, format, &p->pruned, &error);
     if (status != TN_OK)
         tn_job_fail(p->job, &error);
     return status == TN_OK;
@@ -104,10 +103,10 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS prune_settings
 static const tn_option options[] = {
     OPTIONS_LIBRARY,
-    TEXT("dropped", 'd', "FILE", dropped,
-         "write the plans that are dropped to FILE, each with the clauses that drop it"),
+    WRITTEN("dropped", 'd', "FILE", dropped, TN_WRITES_TEXT | TN_WRITES(JSON),
+            "write the plans that are dropped to FILE, each with the clauses that drop it"),
     CHOICE("format", 'f', "FORMAT", format, "lines|json", "write plan lines (default) or JSON lines"),
-    OPTION_OUTPUT,
+    OPTION_OUTPUT(TN_WRITES_TEXT | TN_WRITES(JSON)),
     OPTION_INPUT_FORMAT,
     OPTION_ON_ERROR,
     OPTION_TRAYS,

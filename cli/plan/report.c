@@ -251,10 +251,11 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS report_settings
 static const tn_option options[] = {
-    TEXT("output", 'o', "FOLDER", output,
-         "write FOLDER/index.html, or a page whose name ends in .html; the folder is made where it is not there; of a "
-         "kit, "
-         "- or nothing is standard output"),
+    WRITTEN(
+        "output", 'o', "FOLDER", output, TN_WRITES(HTML) | TN_WRITES_FOLDER | TN_WRITES_STANDARD,
+        "write FOLDER/index.html, or a page whose name ends in .html; the folder is made where it is not there; of a "
+        "kit, "
+        "- or nothing is standard output"),
     NUMBER("sample", 0, "N", sample, 1, SAMPLES_MAX,
            "show N plans that are kept, and of N that are generated those that are dropped (default 24); or N houses "
            "(default 6)"),

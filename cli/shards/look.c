@@ -181,8 +181,9 @@ void tn_shards_status(tn_job *job, tn_shards_open *open)
     counted c = {0};
     tn_buffer claims = {0};
     tn_output output;
-    if (!tn_shards_stale(job, &c.stale_after) ||
-        !tn_job_output(job, tn_shards_settings_of(job)->written.output, &output))
+    const char *path = tn_shards_settings_of(job)->written.output;
+    if (!tn_shards_stale(job, &c.stale_after) || !tn_job_writes(job, "the state of a set", path, TN_WRITES_TEXT) ||
+        !tn_job_output(job, path, &output))
         return;
     mpz_init(c.plans);
     for (uint32_t i = 0; i < open->set.count; i++)
@@ -246,7 +247,8 @@ static void tell(tn_job *job, const tn_shard_set *set)
 {
     mpz_t plans;
     tn_output output;
-    if (!tn_job_output(job, tn_shards_settings_of(job)->written.output, &output))
+    const char *path = tn_shards_settings_of(job)->written.output;
+    if (!tn_job_writes(job, "the state of a set", path, TN_WRITES_TEXT) || !tn_job_output(job, path, &output))
         return;
     mpz_init(plans);
     fprintf(output.stream, "all %u shards are there and whole", set->count);

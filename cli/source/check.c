@@ -352,10 +352,12 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS check_settings
 static const tn_option options[] = {
     FLAG("no-analysis", 0, no_analysis, "say only what is wrong with the text: nothing about what the rules mean"),
-    FLAG("relations", 0, relations, "print how the plans that each two rules match, and the houses of two clauses, lie to one another"),
-    FLAG("examples", 0, examples, "with --relations: the shortest plan, or the first house, that both match, that only one does"),
+    FLAG("relations", 0, relations,
+         "print how the plans that each two rules match, and the houses of two clauses, lie to one another"),
+    FLAG("examples", 0, examples,
+         "with --relations: the shortest plan, or the first house, that both match, that only one does"),
     FLAG("json", 0, json, "with --relations or --test: write JSON"),
-    TEXT("output", 'o', "FILE", output, "with --relations: write to FILE"),
+    OUTPUT(output, TN_WRITES_TEXT | TN_WRITES(JSON), "with --relations: write to FILE"),
     FLAG("figures", 0, figures,
          "say of a grammar how deep its sentences are, how many there are, and how fast they grow"),
     FLAG("test", 0, with_tests, "also run the file's tests, as `tartan test` does"),

@@ -99,7 +99,7 @@ static const tn_option options[] = {
     LIST("rule", 'r', "NAME", rules, "list only this rule and the functions it needs; may be repeated"),
     FLAG("tape", 0, tape, "list what the code of fields is lowered to: steps on rows of numbers"),
     OPTION_LDRAW,
-    OPTION_OUTPUT,
+    OPTION_OUTPUT(TN_WRITES_TEXT),
 };
 
 const tn_command tn_command_disasm = {

@@ -97,7 +97,7 @@ static void write_columns(const tn_parquet_writing *w, tn_thrift_out *t)
         write_number(t, "total", TN_PARQUET_INT64);
     for (uint32_t f = 0; f < w->schema->field_count; f++) {
         char name[TN_COLUMN_NAME_SIZE];
-        tn_parquet_name(w->schema, f, name);
+        tn_field_column(w->schema, f, TN_COLUMNS_PARQUET, name);
         write_list(t, name);
     }
     if (w->has_lines)
@@ -175,7 +175,7 @@ static void write_path(const tn_parquet_writing *w, unsigned column, tn_thrift_o
     char name[TN_COLUMN_NAME_SIZE] = "plan";
     bool is_list = column >= first && column - first < w->schema->field_count;
     if (is_list)
-        tn_parquet_name(w->schema, column - first, name);
+        tn_field_column(w->schema, column - first, TN_COLUMNS_PARQUET, name);
     else if (column < first)
         strcpy(name, column == 0 ? "rank" : column == 1 ? "length" : "total");
     tn_thrift_list(t, 3, TN_THRIFT_BINARY, is_list ? 3 : 1);

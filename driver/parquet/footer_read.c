@@ -80,7 +80,7 @@ static tn_read_column *find_column(tn_plan_reader *reader, const node *read)
     if (is_named(read, "plan"))
         return tn_line_column(r);
     for (uint32_t f = 0; f < reader->schema->field_count; f++) {
-        tn_parquet_name(reader->schema, f, name);
+        tn_field_column(reader->schema, f, TN_COLUMNS_PARQUET, name);
         if (is_named(read, name))
             return &r->columns[f];
     }

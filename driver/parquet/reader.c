@@ -63,7 +63,7 @@ static tn_status choose_columns(tn_plan_reader *reader, tn_error *error)
     char name[TN_COLUMN_NAME_SIZE];
     for (uint32_t f = 0; f < reader->schema->field_count; f++) {
         const tn_leaf *leaf = &r->columns[f].leaf;
-        tn_parquet_name(reader->schema, f, name);
+        tn_field_column(reader->schema, f, TN_COLUMNS_PARQUET, name);
         if (!leaf->known && lines->leaf.known)
             r->by_lines = true;
         else if (!leaf->known)

@@ -2,7 +2,7 @@
 #ifndef TARTAN_DRIVER_PARQUET_READING_H
 #define TARTAN_DRIVER_PARQUET_READING_H
 
-#include "driver/parquet/columns.h"
+#include "runtime/plan/text/field_columns.h"
 #include "driver/parquet/encoding.h"
 #include "driver/parquet/page.h"
 #include "runtime/plan/text/reader.h"

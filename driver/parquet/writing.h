@@ -2,7 +2,7 @@
 #ifndef TARTAN_DRIVER_PARQUET_WRITING_H
 #define TARTAN_DRIVER_PARQUET_WRITING_H
 
-#include "driver/parquet/columns.h"
+#include "runtime/plan/text/field_columns.h"
 #include "driver/parquet/encoding.h"
 #include "driver/parquet/numbers.h"
 #include "runtime/plan/text/writer.h"

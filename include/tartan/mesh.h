@@ -56,7 +56,7 @@ TARTAN_API tartan_status tartan_mesh_decimate(tartan_mesh *mesh, size_t faces, t
 typedef enum tartan_mesh_format {
     TARTAN_OBJ, /* text */
     TARTAN_PLY, /* binary, doubles */
-    TARTAN_GLB, /* glTF 2.0: y up, floats, triangles */
+    TARTAN_GLB, /* glTF 2.0: y up, floats, triangles; in metres where a field says what its unit is */
     TARTAN_DXF, /* lines only, release 12 */
     TARTAN_STL, /* binary, floats, triangles */
     TARTAN_OFF, /* text */

@@ -26,6 +26,18 @@ uint32_t tn_utf8_read(const char *text, size_t left, size_t *size)
     return character;
 }
 
+void tn_utf8_copy(const char *text, size_t room, char *to)
+{
+    size_t left = strlen(text), used = 0, size;
+    for (; used < left; used += size) {
+        tn_utf8_read(text + used, left - used, &size);
+        if (used + size >= room)
+            break;
+    }
+    memcpy(to, text, used);
+    to[used] = '\0';
+}
+
 /* Are the next eight bytes all of ASCII? Most of most texts is. */
 static bool is_plain(const char *text)
 {

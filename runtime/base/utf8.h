@@ -15,6 +15,9 @@ uint32_t tn_utf8_read(const char *text, size_t left, size_t *size);
 /* Is the text UTF-8, without surrogates or overlong forms? Zero bytes are allowed. */
 bool tn_is_utf8(const char *text, size_t size);
 
+/* Copies as many whole characters as there is room for, and a zero byte. */
+void tn_utf8_copy(const char *text, size_t room, char *to);
+
 /* Columns that a character takes on a terminal: 0 for combining marks, 2 for wide East Asian characters and pictures.
  */
 unsigned tn_character_width(uint32_t character);

@@ -75,6 +75,18 @@ static tn_status new_image(tn_canvas *canvas, const tn_canvas_options *options, 
     return TN_OK;
 }
 
+/* What fills a page takes work and room by its size. */
+static tn_status check_page(double width, double height, tn_error *error)
+{
+    if (width <= TN_CANVAS_SIDE_MAX && height <= TN_CANVAS_SIDE_MAX)
+        return TN_OK;
+    tn_status status = tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE,
+                               "the picture would be %.0f x %.0f mm large; the limit is %.0f a side", width * 25.4 / 72,
+                               height * 25.4 / 72, TN_CANVAS_SIDE_MAX * 25.4 / 72);
+    tn_error_help(error, "draw less of it, or to a smaller scale");
+    return status;
+}
+
 static void new_pdf(tn_canvas *canvas, const tn_canvas_options *options)
 {
     canvas->surface = cairo_pdf_surface_create_for_stream(write_stream, canvas, options->width, options->height);
@@ -103,15 +115,14 @@ static tn_status cairo_failed(tn_canvas *canvas, cairo_status_t status, tn_error
 
 static tn_status start(tn_canvas *canvas, const tn_canvas_options *options, tn_error *error)
 {
-    if (canvas->format == TN_CANVAS_PNG) {
-        tn_status status = new_image(canvas, options, error);
-        if (status != TN_OK)
-            return status;
-    } else if (canvas->format == TN_CANVAS_PDF) {
+    tn_status made = canvas->format == TN_CANVAS_PNG ? new_image(canvas, options, error)
+                                                     : check_page(options->width, options->height, error);
+    if (made != TN_OK)
+        return made;
+    if (canvas->format == TN_CANVAS_PDF)
         new_pdf(canvas, options);
-    } else {
+    else if (canvas->format == TN_CANVAS_SVG)
         canvas->surface = cairo_svg_surface_create_for_stream(write_text, canvas, options->width, options->height);
-    }
     canvas->context = cairo_create(canvas->surface);
     begin_page(canvas);
     cairo_status_t status = cairo_status(canvas->context);
@@ -216,6 +227,9 @@ tn_status tn_canvas_page(tn_canvas *canvas, double width, double height, tn_erro
 {
     if (canvas->format != TN_CANVAS_PDF)
         return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "only a PDF has more than one page");
+    tn_status fits = check_page(width, height, error);
+    if (fits != TN_OK)
+        return fits;
     cairo_show_page(canvas->context);
     cairo_pdf_surface_set_size(canvas->surface, width, height);
     begin_page(canvas);

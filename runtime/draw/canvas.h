@@ -16,13 +16,16 @@ typedef struct tn_canvas tn_canvas;
 /* The most pixels of a PNG: 4 bytes each while it is drawn. A side is limited to 32,767 by cairo. */
 #define TN_CANVAS_PIXELS_MAX UINT64_C(100000000)
 
+/* The longest side of a page, in points: 70 metres. */
+#define TN_CANVAS_SIDE_MAX 200000.0
+
 typedef struct tn_canvas_options {
     double width, height; /* of the first page, in points */
     uint32_t dpi;         /* of a PNG; 0: 150 */
     const char *title;    /* for the file's metadata; or NULL */
 } tn_canvas_options;
 
-/* Starts a picture. E0902 where the file cannot be written, E0820 where a PNG would be too large. */
+/* Starts a picture. E0902 where the file cannot be written, E0820 where its page or its PNG would be too large. */
 tn_status tn_canvas_new(const char *path, tn_canvas_format format, const tn_canvas_options *options, tn_canvas **canvas,
                         tn_error *error);
 

@@ -24,8 +24,8 @@ typedef struct tn_mesh_style {
     bool normals;
     const double *vertex_normals;      /* [vertex_count][3]; NULL: the faces' means (tn_mesh_normals) */
     bool y_up;                         /* turn z up to y up (GLB always is, 3MF never) */
-    tn_mesh_unit unit;                 /* only 3MF says it */
-    const unsigned char (*colours)[3]; /* [group_count] of PLY and GLB; NULL: tn_group_colour */
+    tn_mesh_unit unit;                 /* 3MF says it, GLB is made metres; others have numbers alone */
+    const unsigned char (*colours)[3]; /* [group_count] of PLY, GLB and 3MF, in sRGB; NULL: tn_group_colour */
 } tn_mesh_style;
 
 /* The colour of a group in the style. */
@@ -40,12 +40,12 @@ tn_status tn_mesh_write_obj(const tn_mesh *mesh, const tn_mesh_style *style, FIL
 /* Binary, little-endian, doubles; faces have a colour where there are groups, lines are the element `edge`. */
 tn_status tn_mesh_write_ply(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
 
-/* glTF 2.0 in one file: metres and y up by its specification, floats; faces are triangles; a primitive and a material
- * for each group. */
+/* glTF 2.0 in one file: metres (one where there is no unit) and y up by its specification, floats; faces are triangles;
+ * a primitive and a material for each group. */
 tn_status tn_mesh_write_glb(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
 
-/* 3MF: millimetres where there is no unit; an object for each group of faces. Faces are triangles. TN_LIMIT (E0804)
- * from 4 GB on. */
+/* 3MF: millimetres where there is no unit; one object, or, where the style has no colours, one for each group of faces.
+ * Faces are triangles. TN_LIMIT (E0804) from 4 GB on. */
 tn_status tn_mesh_write_3mf(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
 
 /* DXF, release 12, a layer for each group. A mesh with lines: these as polylines; where exactly two lines of a layer

@@ -1,5 +1,7 @@
 /* 3MF, by the core specification of the 3MF Consortium (version 1.3): a ZIP archive of three parts, here stored as they
- * are. Millimetres or another unit, z up. Each group of faces is an object of its own. */
+ * are. Millimetres or another unit, z up. Faces with colours are one object, each triangle of the base material (3.4.2)
+ * that is its group's colour: the core has no other colours, and programs that know no extension show these. Without
+ * colours, each group of faces is an object of its own. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -107,26 +109,28 @@ static void add_plain(tn_text_out *out, const char *text)
     }
 }
 
-/* The faces of one group, with the vertices that they have, numbered anew. */
-static void add_object(tn_text_out *out, const tn_mesh *mesh, uint32_t group, uint32_t *number)
+#define ALL UINT32_MAX /* groups */
+#define MATERIALS "1"  /* the id of the base materials */
+
+static uint32_t object_id(uint32_t group)
+{
+    return group == ALL ? 2 : group + 1;
+}
+
+static bool is_of(const tn_mesh *mesh, size_t face, uint32_t group)
+{
+    return group == ALL || !mesh->face_group || mesh->face_group[face] == group;
+}
+
+/* The vertices that the faces of a group have, numbered anew. */
+static void add_vertices(tn_text_out *out, const tn_mesh *mesh, uint32_t group, uint32_t *number)
 {
     uint32_t count = 0;
     for (size_t v = 0; v < mesh->vertex_count; v++)
         number[v] = UINT32_MAX;
-    tn_text_add(out, "<object id=\"");
-    tn_text_whole(out, group + 1);
-    tn_text_add(out, "\" type=\"model\"");
-    if (mesh->group_names) {
-        tn_text_add(out, " name=\"");
-        add_plain(out, mesh->group_names[group]);
-        tn_text_add(out, "\"");
-    }
-    tn_text_add(out, "><mesh><vertices>\n");
     for (size_t i = 0; i < mesh->face_first[mesh->face_count]; i++) {
         uint32_t v = mesh->corners[i];
-        if (mesh->face_group && mesh->face_group[i / 3] != group)
-            continue;
-        if (number[v] != UINT32_MAX)
+        if (!is_of(mesh, i / 3, group) || number[v] != UINT32_MAX)
             continue;
         number[v] = count++;
         static const char *const before[3] = {"<vertex x=\"", "\" y=\"", "\" z=\""};
@@ -137,26 +141,77 @@ static void add_object(tn_text_out *out, const tn_mesh *mesh, uint32_t group, ui
         tn_text_add(out, "\"/>\n");
         tn_text_flush(out, false);
     }
-    tn_text_add(out, "</vertices><triangles>\n");
+}
+
+static void add_triangles(tn_text_out *out, const tn_mesh *mesh, uint32_t group, const uint32_t *number)
+{
     for (size_t f = 0; f < mesh->face_count; f++) {
-        if (mesh->face_group && mesh->face_group[f] != group)
+        if (!is_of(mesh, f, group))
             continue;
         static const char *const before[3] = {"<triangle v1=\"", "\" v2=\"", "\" v3=\""};
         for (size_t k = 0; k < 3; k++) {
             tn_text_add(out, before[k]);
             tn_text_whole(out, number[mesh->corners[3 * f + k]]);
         }
+        if (group == ALL) {
+            tn_text_add(out, "\" pid=\"" MATERIALS "\" p1=\"");
+            tn_text_whole(out, mesh->face_group[f]);
+        }
         tn_text_add(out, "\"/>\n");
         tn_text_flush(out, false);
     }
+}
+
+static void add_object(tn_text_out *out, const tn_mesh *mesh, uint32_t group, uint32_t *number)
+{
+    tn_text_add(out, "<object id=\"");
+    tn_text_whole(out, object_id(group));
+    tn_text_add(out, "\" type=\"model\"");
+    if (group == ALL) {
+        tn_text_add(out, " pid=\"" MATERIALS "\" pindex=\"0\"");
+    } else if (mesh->group_names) {
+        tn_text_add(out, " name=\"");
+        add_plain(out, mesh->group_names[group]);
+        tn_text_add(out, "\"");
+    }
+    tn_text_add(out, "><mesh><vertices>\n");
+    add_vertices(out, mesh, group, number);
+    tn_text_add(out, "</vertices><triangles>\n");
+    add_triangles(out, mesh, group, number);
     tn_text_add(out, "</triangles></mesh></object>\n");
+}
+
+static void add_materials(tn_text_out *out, const tn_mesh *mesh, const tn_mesh_style *style)
+{
+    tn_text_add(out, "<basematerials id=\"" MATERIALS "\">\n");
+    for (uint32_t group = 0; group < mesh->group_count; group++) {
+        unsigned char rgb[3];
+        char colour[64];
+        tn_mesh_style_colour(style, group, rgb);
+        tn_text_add(out, "<base name=\"");
+        add_plain(out, mesh->group_names ? mesh->group_names[group] : "colour");
+        snprintf(colour, sizeof colour, "\" displaycolor=\"#%02X%02X%02X\"/>\n", rgb[0], rgb[1], rgb[2]);
+        tn_text_add(out, colour);
+        tn_text_flush(out, false);
+    }
+    tn_text_add(out, "</basematerials>\n");
+}
+
+/* Where an object is put. */
+static void add_item(tn_text_out *out, uint32_t group)
+{
+    tn_text_add(out, "<item objectid=\"");
+    tn_text_whole(out, object_id(group));
+    tn_text_add(out, "\"/>\n");
+    tn_text_flush(out, false);
 }
 
 static void add_model(tn_text_out *out, const tn_mesh *mesh, const tn_mesh_style *style, uint32_t *number, bool *any)
 {
     static const char *const units[TN_MESH_UNIT_COUNT] = {"millimeter", "millimeter", "centimeter",
                                                           "meter",      "inch",       "foot"};
-    uint32_t objects = mesh->face_group ? mesh->group_count : 1;
+    bool coloured = mesh->face_group && style->colours;
+    uint32_t objects = mesh->face_group && !coloured ? mesh->group_count : 1;
     tn_text_add(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"");
     tn_text_add(out, units[style->unit]);
     tn_text_add(out, "\" xml:lang=\"en-US\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n");
@@ -167,19 +222,16 @@ static void add_model(tn_text_out *out, const tn_mesh *mesh, const tn_mesh_style
     }
     tn_text_add(out, style->note_count ? "</metadata>\n<resources>\n" : "<resources>\n");
     for (size_t f = 0; f < mesh->face_count; f++) /* an object has a face at least */
-        any[mesh->face_group ? mesh->face_group[f] : 0] = true;
+        any[mesh->face_group && !coloured ? mesh->face_group[f] : 0] = true;
+    if (coloured)
+        add_materials(out, mesh, style);
     for (uint32_t group = 0; group < objects; group++)
         if (any[group])
-            add_object(out, mesh, group, number);
+            add_object(out, mesh, coloured ? ALL : group, number);
     tn_text_add(out, "</resources><build>\n");
-    for (uint32_t group = 0; group < objects; group++) {
-        if (!any[group])
-            continue;
-        tn_text_add(out, "<item objectid=\"");
-        tn_text_whole(out, group + 1);
-        tn_text_add(out, "\"/>\n");
-        tn_text_flush(out, false);
-    }
+    for (uint32_t group = 0; group < objects; group++)
+        if (any[group])
+            add_item(out, coloured ? ALL : group);
     tn_text_add(out, "</build></model>\n");
     tn_text_flush(out, true);
 }

@@ -6,13 +6,28 @@
 #include "runtime/base/json.h"
 #include "runtime/base/watch.h"
 #include "runtime/geometry/write.h"
+#include "runtime/numeric/numeric.h"
 
 /* y up: x, z, -y. */
-static void turned(const double *p, float q[3])
+static void turned(const double *p, double scale, float q[3])
 {
-    q[0] = (float)p[0];
-    q[1] = (float)p[2];
-    q[2] = (float)-p[1];
+    q[0] = (float)(scale * p[0]);
+    q[1] = (float)(scale * p[2]);
+    q[2] = (float)(scale * -p[1]);
+}
+
+/* glTF is in metres (3.4). */
+static double metres(tn_mesh_unit unit)
+{
+    static const double factors[TN_MESH_UNIT_COUNT] = {1, 0.001, 0.01, 1, 0.0254, 0.3048};
+    return factors[unit];
+}
+
+/* Colours of materials are linear (3.9.2): the amount of light that a value of sRGB stands for (IEC 61966-2-1). */
+static double linear(unsigned char value)
+{
+    double v = value / 255.0;
+    return v <= 0.04045 ? v / 12.92 : tn_pow((v + 0.055) / 1.055, 2.4);
 }
 
 static void put_floats(uint8_t **to, const float *values, int count)
@@ -96,7 +111,7 @@ static void say_material(tn_json *json, const unsigned char rgb[3])
     tn_json_object(json, "pbrMetallicRoughness");
     tn_json_list(json, "baseColorFactor");
     for (int k = 0; k < 3; k++)
-        tn_json_rounded(json, NULL, rgb[k] / 255.0, 3);
+        tn_json_rounded(json, NULL, linear(rgb[k]), 6);
     tn_json_count(json, NULL, 1);
     tn_json_list_end(json);
     tn_json_count(json, "metallicFactor", 0);
@@ -183,13 +198,13 @@ static void say_buffers(tn_json *json, const tn_mesh *mesh, bool normals)
     tn_json_list_end(json);
 }
 
-static void fill(const tn_mesh *mesh, const double *normals, const size_t *counts, uint32_t groups, uint8_t *binary,
-                 float low[3], float high[3])
+static void fill(const tn_mesh *mesh, double scale, const double *normals, const size_t *counts, uint32_t groups,
+                 uint8_t *binary, float low[3], float high[3])
 {
     uint8_t *to = binary;
     for (size_t v = 0; v < mesh->vertex_count && !tn_watch_stopped_at(mesh->watch, v); v++) {
         float q[3];
-        turned(mesh->positions + 3 * v, q);
+        turned(mesh->positions + 3 * v, scale, q);
         for (int k = 0; k < 3; k++) {
             low[k] = v && low[k] < q[k] ? low[k] : q[k];
             high[k] = v && high[k] > q[k] ? high[k] : q[k];
@@ -198,7 +213,7 @@ static void fill(const tn_mesh *mesh, const double *normals, const size_t *count
     }
     for (size_t v = 0; normals && v < mesh->vertex_count && !tn_watch_stopped_at(mesh->watch, v); v++) {
         float q[3];
-        turned(normals + 3 * v, q);
+        turned(normals + 3 * v, 1, q);
         put_floats(&to, q, 3);
     }
     for (uint32_t g = 0; g < groups; g++) {
@@ -250,7 +265,7 @@ static tn_status write_triangles(const tn_mesh *mesh, const tn_mesh_style *style
         float low[3] = {0}, high[3] = {0};
         for (size_t f = 0; f < mesh->face_count; f++)
             counts[mesh->face_group ? mesh->face_group[f] : 0]++;
-        fill(mesh, normals, counts, groups, binary, low, high);
+        fill(mesh, metres(style->unit), normals, counts, groups, binary, low, high);
         tn_json json = tn_json_text(&text, TN_JSON_TIGHT);
         tn_json_object(&json, NULL);
         say_asset(&json, style);

@@ -31,26 +31,49 @@ void tn_view_face_colour(cairo_t *cr, const tn_seen_face *face)
                          light * (0.4 + 0.6 * rgb[2] / 255.0));
 }
 
-static void outline(cairo_t *cr, const tn_view *view, const tn_seen_face *face)
+/* Paths are in points of the page, y downwards: an SVG with coordinates of the model and a matrix that makes them small
+ * loses its thin lines in browsers. */
+typedef struct tn_brush {
+    cairo_t *cr;
+    const tn_view *view;
+    double scale;
+} tn_brush;
+
+static void move_to(const tn_brush *brush, double x, double y)
 {
-    cairo_new_sub_path(cr);
+    cairo_move_to(brush->cr, x * brush->scale, -y * brush->scale);
+}
+
+static void line_to(const tn_brush *brush, double x, double y)
+{
+    cairo_line_to(brush->cr, x * brush->scale, -y * brush->scale);
+}
+
+static void set_width(const tn_brush *brush, double width)
+{
+    cairo_set_line_width(brush->cr, width * brush->scale);
+}
+
+static void outline(const tn_brush *brush, const tn_seen_face *face)
+{
+    cairo_new_sub_path(brush->cr);
     for (uint32_t c = face->first; c < face->first + face->size; c++)
-        cairo_line_to(cr, (double)view->points[c][0], (double)view->points[c][1]);
-    cairo_close_path(cr);
+        line_to(brush, (double)brush->view->points[c][0], (double)brush->view->points[c][1]);
+    cairo_close_path(brush->cr);
 }
 
 /* Strokes the sides of one kind, from one corner on; returns the next corner. */
-static uint32_t stroke_run(cairo_t *cr, const tn_view *view, const tn_seen_face *face, uint32_t i)
+static uint32_t stroke_run(const tn_brush *brush, const tn_seen_face *face, uint32_t i)
 {
-    const uint16_t *edges = view->edges + face->first;
-    const float(*points)[2] = (const float(*)[2])(view->points + face->first);
+    const uint16_t *edges = brush->view->edges + face->first;
+    const float(*points)[2] = (const float(*)[2])(brush->view->points + face->first);
     uint16_t edge = edges[i];
-    cairo_move_to(cr, (double)points[i][0], (double)points[i][1]);
+    move_to(brush, (double)points[i][0], (double)points[i][1]);
     for (; i < face->size && edges[i] == edge; i++) {
         const float *next = points[(i + 1) % face->size];
-        cairo_line_to(cr, (double)next[0], (double)next[1]);
+        line_to(brush, (double)next[0], (double)next[1]);
     }
-    cairo_stroke(cr);
+    cairo_stroke(brush->cr);
     return i;
 }
 
@@ -65,8 +88,8 @@ static void set_fill(cairo_t *cr, const tn_seen_face *face, const tn_view_place 
         tn_view_face_colour(cr, face);
 }
 
-/* How far seams keep away from lines at their ends: `line` is half as wide as these are, `stroke` half as wide as a
- * seam is. */
+/* How far seams keep away from lines at their ends, in units of the model: `line` is half as wide as these are,
+ * `stroke` half as wide as a seam is. */
 typedef struct clearance {
     double line, stroke;
 } clearance;
@@ -86,8 +109,9 @@ static double left_out(const tn_view *view, size_t end, double length, const cle
 }
 
 /* Seams that follow one another are one stroke, unless lines end where they meet. */
-static void draw_seams(cairo_t *cr, const tn_view *view, const tn_seen_face *face, const clearance *clear)
+static void draw_seams(const tn_brush *brush, const tn_seen_face *face, const clearance *clear)
 {
+    const tn_view *view = brush->view;
     const float(*points)[2] = (const float(*)[2])(view->points + face->first);
     bool goes_on = false;
     for (uint32_t i = 0; i < face->size; i++) {
@@ -101,23 +125,23 @@ static void draw_seams(cairo_t *cr, const tn_view *view, const tn_seen_face *fac
         double length = hypot(along[0], along[1]), from = left_out(view, end, length, clear),
                to = left_out(view, end + 1, length, clear);
         if (!goes_on || from > 0)
-            cairo_move_to(cr, (double)a[0] + from * along[0], (double)a[1] + from * along[1]);
-        cairo_line_to(cr, (double)b[0] - to * along[0], (double)b[1] - to * along[1]);
+            move_to(brush, (double)a[0] + from * along[0], (double)a[1] + from * along[1]);
+        line_to(brush, (double)b[0] - to * along[0], (double)b[1] - to * along[1]);
         goes_on = to == 0;
     }
-    cairo_stroke(cr);
+    cairo_stroke(brush->cr);
 }
 
-static void draw_edges(cairo_t *cr, const tn_view *view, const tn_seen_face *face, double fade)
+static void draw_edges(const tn_brush *brush, const tn_seen_face *face, double fade)
 {
     for (uint32_t i = 0; i < face->size;) {
-        uint16_t edge = view->edges[face->first + i];
+        uint16_t edge = brush->view->edges[face->first + i];
         if (edge == TN_EDGE_NONE || edge == TN_EDGE_JOINED) {
             i++;
             continue;
         }
-        set_edge_colour(cr, edge, fade);
-        i = stroke_run(cr, view, face, i);
+        set_edge_colour(brush->cr, edge, fade);
+        i = stroke_run(brush, face, i);
     }
 }
 
@@ -136,71 +160,73 @@ static size_t first_mend(const tn_view *view, uint32_t corner)
 }
 
 /* Adds to the path that half of a line into which the face and its seams reach, as far as they do. */
-static void trace_mend(cairo_t *cr, const tn_view *view, const tn_mend *mend, const clearance *clear)
+static void trace_mend(const tn_brush *brush, const tn_mend *mend, const clearance *clear)
 {
+    const float *corner = brush->view->points[mend->corner];
     double along[2] = {(double)mend->along[0], (double)mend->along[1]}, tangent = (double)mend->tangent,
            reach = fmin((clear->line + clear->stroke) / fmax(fabs(tangent), 1e-9), (double)mend->length),
-           aside = copysign(clear->line / 2, tangent), x = (double)view->points[mend->corner][0] - aside * along[1],
-           y = (double)view->points[mend->corner][1] + aside * along[0];
-    cairo_move_to(cr, x, y);
-    cairo_line_to(cr, x + reach * along[0], y + reach * along[1]);
+           aside = copysign(clear->line / 2, tangent), x = (double)corner[0] - aside * along[1],
+           y = (double)corner[1] + aside * along[0];
+    move_to(brush, x, y);
+    line_to(brush, x + reach * along[0], y + reach * along[1]);
 }
 
 /* Draws such halves again, those of one colour at a time. */
-static void draw_mends(cairo_t *cr, const tn_view *view, const tn_seen_face *face, const clearance *clear, double fade)
+static void draw_mends(const tn_brush *brush, const tn_seen_face *face, const clearance *clear, double fade)
 {
-    const tn_mend *mends = view->mends;
-    size_t i = first_mend(view, face->first), end = first_mend(view, face->first + face->size);
+    const tn_mend *mends = brush->view->mends;
+    size_t i = first_mend(brush->view, face->first), end = first_mend(brush->view, face->first + face->size);
     for (; i < end; i++) {
-        trace_mend(cr, view, &mends[i], clear);
+        trace_mend(brush, &mends[i], clear);
         if (i + 1 < end && mends[i + 1].edge == mends[i].edge)
             continue;
-        set_edge_colour(cr, mends[i].edge, fade);
-        cairo_stroke(cr);
+        set_edge_colour(brush->cr, mends[i].edge, fade);
+        cairo_stroke(brush->cr);
     }
 }
 
 /* Fills faces of one plane as one shape, then draws their edges, runs of one colour at a time. Where they were cut, a
  * hairline of their own colour closes the seam that smoothed edges would leave. It does not reach into lines, which the
  * face on their other side may have drawn before. */
-static void paint_faces(cairo_t *cr, const tn_view *view, const tn_seen_face *faces, size_t count,
-                        const tn_view_place *place, double seam)
+static void paint_faces(const tn_brush *brush, const tn_seen_face *faces, size_t count, const tn_view_place *place,
+                        double seam)
 {
+    cairo_t *cr = brush->cr;
     const clearance clear = {place->line / place->scale / 2, seam / 2};
     cairo_new_path(cr); /* text leaves a point behind */
     for (size_t f = 0; f < count; f++)
-        outline(cr, view, &faces[f]);
+        outline(brush, &faces[f]);
     set_fill(cr, faces, place);
     cairo_set_fill_rule(cr, count > 1 ? CAIRO_FILL_RULE_WINDING : CAIRO_FILL_RULE_EVEN_ODD);
     cairo_fill(cr);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
-    cairo_set_line_width(cr, seam);
+    set_width(brush, seam);
     for (size_t f = 0; f < count; f++)
-        draw_seams(cr, view, &faces[f], &clear);
-    cairo_set_line_width(cr, clear.line);
+        draw_seams(brush, &faces[f], &clear);
+    set_width(brush, clear.line);
     for (size_t f = 0; f < count; f++)
-        draw_mends(cr, view, &faces[f], &clear, place->fade);
+        draw_mends(brush, &faces[f], &clear, place->fade);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-    cairo_set_line_width(cr, 2 * clear.line);
+    set_width(brush, 2 * clear.line);
     for (size_t f = 0; f < count; f++)
-        draw_edges(cr, view, &faces[f], place->fade);
+        draw_edges(brush, &faces[f], place->fade);
 }
 
-/* As wide as a seam can be seen: a pixel at least where there are pixels. */
+/* As wide as a seam can be seen, in units of the model: a pixel at least where there are pixels. */
 static double seam_width(cairo_t *cr, const tn_view_place *place)
 {
     double pixel[2] = {1, 0};
     cairo_device_to_user_distance(cr, &pixel[0], &pixel[1]);
     bool has_pixels = cairo_surface_get_type(cairo_get_target(cr)) == CAIRO_SURFACE_TYPE_IMAGE;
-    return fmax(HAIRLINE / place->scale, has_pixels ? hypot(pixel[0], pixel[1]) : 0);
+    return fmax(HAIRLINE, has_pixels ? hypot(pixel[0], pixel[1]) : 0) / place->scale;
 }
 
 void tn_view_paint(const tn_canvas *canvas, const tn_view *view, const tn_view_place *place)
 {
     cairo_t *cr = tn_canvas_context(canvas);
+    const tn_brush brush = {cr, view, place->scale};
     cairo_save(cr);
     cairo_translate(cr, place->x, place->y);
-    cairo_scale(cr, place->scale, -place->scale);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
     double seam = seam_width(cr, place);
@@ -209,7 +235,7 @@ void tn_view_paint(const tn_canvas *canvas, const tn_view *view, const tn_view_p
             break;
         for (end = f + 1; end < view->face_count && view->faces[end].joined;)
             end++;
-        paint_faces(cr, view, view->faces + f, end - f, place, seam);
+        paint_faces(&brush, view->faces + f, end - f, place, seam);
     }
     cairo_restore(cr);
 }

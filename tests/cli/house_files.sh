@@ -8,10 +8,10 @@ walk="$walk ; 1 shed(back,4:12) 2 gable(12:12) 1 shed(front,4:12) shingle ; entr
 walk="$walk | kitchen dining bedroom seat ; glass open glass ; long-table.back window-seat.front bath-room.back shelves.back line-kitchen.back table.back bed.back window-seat.front"
 hut="14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; counter.back"
 
-# made FILE HOUSE: writes the files that are looked at.
+# made FILE HOUSE FOLDER OPTION...: writes the files that are looked at.
 made() {
     mkdir -p "$scratch/$3"
-    "$TARTAN" house "$1" "$2" -o "$scratch/$3/house.json" -o "$scratch/$3/house.ifc" -o "$scratch/$3/house.dxf" -o "$scratch/$3/house.parts.csv"
+    "$TARTAN" house "$1" "$2" "${@:4}" -o "$scratch/$3/house.json" -o "$scratch/$3/house.ifc" -o "$scratch/$3/house.dxf" -o "$scratch/$3/house.parts.csv"
 }
 python=python3
 /usr/bin/python3 -c 'import ezdxf' 2>/dev/null && python=/usr/bin/python3 # another Python may come first, without the package
@@ -30,6 +30,24 @@ is 'a house with flights' "$($python "$here/../house_files.py" "$scratch/climbed
 made "$files/gallery.plan" "$("$TARTAN" sample "$files/gallery.plan" 1 --library inns --seed 2)" gallery
 is 'a gallery' "$($python "$here/../house_files.py" "$scratch/gallery" "${reader[@]}")" fine
 is 'a hut' "$($python "$here/../house_files.py" "$scratch/hut" "${reader[@]}")" fine
+letters=$("$TARTAN" sample "$files/letters.plan" 1 --library häuser --where 'quantity(tray(gang), n > 1)' --seed 3)
+title="it's \\ küche 寝室 𐤀 \"x\""
+made "$files/letters.plan" "$letters" letters --title "$title"
+is 'letters of many alphabets' "$($python "$here/../house_files.py" "$scratch/letters" "${reader[@]}" --title "$title")" fine
+
+# Doors of every kind, that hang on either side, in walls of both directions.
+for library in row-houses apartments; do
+    "$TARTAN" sample $library 1 --library $library --seed 5 >"$scratch/houses"
+    while read -r house; do
+        made $library "$house" doors
+        is "a house of $library" "$($python "$here/../house_files.py" "$scratch/doors")" fine
+        cat "$scratch/doors/house.ifc" >>"$scratch/models"
+    done <"$scratch/houses"
+done
+cat "$scratch/letters/house.ifc" >>"$scratch/models"
+for operation in SINGLE_SWING_LEFT SINGLE_SWING_RIGHT DOUBLE_DOOR_SINGLE_SWING; do
+    grep -q "IFCDOOR.*$operation" "$scratch/models" || fail "no door is $operation"
+done
 cmp "$scratch/walk/house.ifc" "$scratch/again/house.ifc" || fail 'two models of one house differ'
 cmp "$scratch/walk/house.dxf" "$scratch/again/house.dxf" || fail 'two drawings of one house differ'
 is 'a wrong view leaves no drawing' "$("$TARTAN" house cottage "$hut" --view plan:attic -o "$scratch/none.dxf" 2>/dev/null || ls "$scratch/none.dxf" 2>&1 | wc -l)" 1

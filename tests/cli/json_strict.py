@@ -249,6 +249,9 @@ writes("format", "best", plans, "2", "-l", "base", "--most", "ends", "--then-lea
 writes("json", "pareto", plans, "-l", "base", "--most", "ends", "--least", "wide-ones", "--json", inches=WIDE)
 writes("json", "complete", plans, "? | 7'-9\"", "-l", "base", "--json", inches=WIDE)
 writes("json", "complete", plans, "? | 7'-9\"", "-l", "base", "--least", "ends", "--json", inches=WIDE)
+for words in (["count"], ["enumerate"], ["sample", "3"], ["best", "2", "--most", "ends"], ["pareto", "--most", "ends", "--least", "wide-ones"],
+              ["complete", "? | 7'-9\""]):  # by the ending alone
+    files("output", NAME + b"-made.json", words[0], plans, *words[1:], "-l", "base", "-o", NAME + b"-made.json")
 writes("json", "unrank", plans, "9", "-l", "base", "--json", inches="\"")
 for task in (["-l", "base", "--format", "json"], ["--task", "match", "--input", lines, "--rule", "wide", "--format", "json"],
              ["--task", "prune", "-l", "base", "--input", lines, "--format", "json"], ["-l", "base", "--sample", "3", "--format", "json"]):

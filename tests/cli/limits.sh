@@ -27,4 +27,43 @@ golden match "printf '%s\\n' \"$plan | $plan\" | tartan match blow-up.plan --rul
 golden ward_count 'tartan count ward-strip.plan --max-states 45000'
 golden ward_check 'tartan check ward-strip.plan --max-states 45000'
 golden ward_coverage 'tartan test ward-strip.plan --coverage --max-states 45000'
+
+# Pictures end at a limit of their size, whatever the lengths.
+cat >"$scratch/thin.plan" <<'PLAN'
+schema strip {
+  width role length = 0.00000001m | 3m
+  zone room role band = slab(8m) role solid
+}
+rule thin = tray(0.00000001m)
+library strips using strip { trays 1..2  prune thin and not tray(slab) }
+measure plans-width = sum(width)
+PLAN
+for rank in 0 1 3; do
+    (ulimit -f 2000; timeout 60 "$TARTAN" explain "$scratch/thin.plan" "#$rank" -o "$scratch/thin.svg") || fail "no picture of plan $rank"
+done
+(ulimit -f 2000; timeout 60 "$TARTAN" draw "$scratch/thin.plan" --sample 3 -o "$scratch/thin.svg") || fail 'no picture of narrow plans'
+(ulimit -f 2000; timeout 60 "$TARTAN" draw "$scratch/thin.plan" --rule thin -o "$scratch/thin.svg") || fail 'no picture of a rule about a narrow tray'
+cat >"$scratch/vast.plan" <<'PLAN'
+schema strip {
+  width role length = 3000m | 3m
+  zone room role band = hall(2000m) role void
+}
+form vast of strip {
+  storey ground 3m
+  storey upper 3m
+  wall 200mm
+  partition 100mm
+  deck 300mm
+  roof 200mm
+  section room storeys = 2
+  section room roof = flat
+  function sit at cell(room)
+  face cell(any) under cell(any) = stair
+  face cell(any) outside = wall
+}
+library strips using strip { trays 1 }
+library halls from strips in vast { }
+PLAN
+golden vast "tartan house $scratch/vast.plan '#0' --library halls --view plan:ground --scale 1 -o $scratch/vast.svg"
+(ulimit -f 20000; timeout 100 "$TARTAN" house "$scratch/vast.plan" '#0' --library halls --view plan:ground -o "$scratch/vast.dxf" -o "$scratch/vast.svg") || fail 'no drawings of a vast house'
 finish

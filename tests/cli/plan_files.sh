@@ -33,6 +33,33 @@ golden forbidden "tartan match $scratch/forbids.plan $scratch/forbidden $skip"
 printf '3m -\n3m - | 3m - | 3m -\n' >"$scratch/long"
 golden too_long "$match/long $skip --max-length 2"
 
+# Fields that are called like other columns: no two columns have one name, and every format is read back
+cat >"$scratch/names.plan" <<'PLAN'
+schema odd {
+  rank   = 3m | 6m
+  tray   = a | b
+  plan   = x | y
+  length = flag
+  total  = flag
+  number = flag
+  plan_2 = flag
+  Plan   = flag
+}
+library all { trays 0..2 }
+PLAN
+names=$scratch/names.plan
+"$TARTAN" enumerate "$names" --limit 300 -o "$scratch/names.plans"
+for format in csv parquet sqlite json; do
+    for columns in '' --columns; do
+        [ "$format$columns" = parquet--columns ] || [ "$format$columns" = json--columns ] && continue
+        file=$scratch/names$columns.$format
+        "$TARTAN" enumerate "$names" --limit 300 $columns -o "$file" || fail "$file is not written"
+        "$TARTAN" prune "$names" "$file" | cmp -s - "$scratch/names.plans" || fail "$file is not read back"
+        [ "$format" != csv ] || is "two columns of $file" "$(head -n 1 "$file" | tr , '\n' | sort -f | uniq -di)" ''
+    done
+done
+is 'columns of fields' "$(head -n 1 "$scratch/names--columns.csv")" 'rank,tray,rank_2,tray_2,plan_3,length,total,number,plan_2,Plan_4'
+
 # E0604: no known format, damaged, or of another schema
 printf '\x7fELF\0\0' >"$scratch/junk"
 golden junk "$match/junk"

@@ -7,7 +7,8 @@
 #include "runtime/house/export/export.h"
 
 #define LETTERING_NM 100e6 /* 2 mm high at 1:50 */
-#define HATCH_NM 60e6      /* between lines */
+#define HATCH_NM 60e6      /* between lines; more where a drawing would have more than HATCH_MOST of them */
+#define HATCH_MOST 10000
 #define GAP_NM 3e9
 #define HEIGHT_MM 20000.0 /* that a viewer shows first */
 #define TOLERANCE_NM 1000.0
@@ -76,8 +77,7 @@ static void text(tn_dxf *dxf, int layer, double u, double v, double high, bool u
     begin(dxf, "TEXT", "AcDbText", layer);
     point(dxf, 10, u, v);
     fprintf(dxf->out, "40\n%.6f\n1\n", high / 1e6);
-    for (const char *c = words; *c; c++)
-        putc(*c >= ' ' && *c <= '~' ? *c : '?', dxf->out);
+    tn_dxf_text(dxf->out, words);
     fprintf(dxf->out, "\n50\n%d.0\n72\n1\n", upright ? 90 : 0);
     point(dxf, 11, u, v);
     fputs("100\nAcDbText\n73\n2\n", dxf->out);
@@ -101,20 +101,20 @@ static void mark(tn_dxf *dxf, const tn_mark *m)
 
 /* ---- what was cut */
 
-/* Lines at 45 degrees across a polygon, on a grid that all polygons share. */
-static void hatch(tn_dxf *dxf, const tn_cut_face *face)
+/* Lines at 45 degrees across a polygon, on a grid that all polygons of the drawing share. */
+static void hatch(tn_dxf *dxf, const tn_cut_face *face, double apart)
 {
     double low = INFINITY, high = -INFINITY;
     for (int i = 0; i < 4; i++) {
         low = fmin(low, face->at[i][1] - face->at[i][0]);
         high = fmax(high, face->at[i][1] - face->at[i][0]);
     }
-    for (double k = ceil(low / HATCH_NM); k * HATCH_NM < high; k++) {
+    for (double k = ceil(low / apart); k * apart < high; k++) {
         double ends[2][2];
         int found = 0;
         for (int i = 0; i < 4 && found < 2; i++) {
             const double *a = face->at[i], *b = face->at[(i + 1) % 4];
-            double over_a = a[1] - a[0] - k * HATCH_NM, over_b = b[1] - b[0] - k * HATCH_NM;
+            double over_a = a[1] - a[0] - k * apart, over_b = b[1] - b[0] - k * apart;
             if ((over_a < 0) == (over_b < 0))
                 continue;
             double t = over_a / (over_a - over_b);
@@ -143,7 +143,8 @@ static tn_status write_prospect(tn_dxf *dxf, const tn_prospect *p, tn_error *err
     tn_seen_line *lines;
     size_t count;
     tn_status status = tn_mesh_visible(&p->mesh, &eye, TOLERANCE_NM, &lines, &count, error);
-    double depth = cut_depth(p, lines, count);
+    double depth = cut_depth(p, lines, count),
+           apart = fmax(HATCH_NM, (p->high[0] - p->low[0] + p->high[1] - p->low[1]) / HATCH_MOST);
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         const double *a = lines[i].from, *b = lines[i].to;
         int group = (int)p->mesh.face_group[lines[i].face];
@@ -151,7 +152,7 @@ static tn_status write_prospect(tn_dxf *dxf, const tn_prospect *p, tn_error *err
     }
     for (size_t i = 0; status == TN_OK && i < p->cut_count; i++)
         if (p->cuts[i].kind != TN_SOLID_PANE && p->cuts[i].kind != TN_SOLID_LEAF)
-            hatch(dxf, &p->cuts[i]);
+            hatch(dxf, &p->cuts[i], apart);
     for (size_t i = 0; status == TN_OK && i < p->marks.count; i++)
         mark(dxf, &p->marks.items[i]);
     free(lines);

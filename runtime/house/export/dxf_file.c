@@ -1,6 +1,10 @@
 /* Writes the parts of a DXF file that are the same for all drawings. */
 #include "runtime/house/export/dxf_file.h"
 
+#include <string.h>
+
+#include "runtime/base/utf8.h"
+
 /* Handles: each table, block and object has one, and entities those from FIRST_ENTITY on, below HANDLE_SEED. */
 enum {
     VPORT_TABLE = 0x10,
@@ -131,7 +135,8 @@ static void write_block(FILE *out, const char *name, uint32_t record, uint32_t h
 void tn_dxf_begin(FILE *out, const tn_dxf_layer *layers, size_t count, double width, double height)
 {
     fprintf(out,
-            "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1015\n9\n$HANDSEED\n5\n%X\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n"
+            "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1015\n9\n$DWGCODEPAGE\n3\nANSI_1252\n9\n$HANDSEED\n5\n%X\n9\n$"
+            "INSUNITS\n70\n4\n0\nENDSEC\n"
             "0\nSECTION\n2\nCLASSES\n0\nENDSEC\n",
             (unsigned)HANDLE_SEED);
     write_tables(out, layers, count, width, height);
@@ -145,6 +150,22 @@ void tn_dxf_entity(FILE *out, const char *entity, uint32_t handle, const char *l
 {
     fprintf(out, "0\n%s\n5\n%X\n330\n%X\n100\nAcDbEntity\n8\n%s\n", entity, (unsigned)FIRST_ENTITY + handle,
             (unsigned)MODEL_RECORD, layer);
+}
+
+/* A caret begins a control character, and stands for itself before a blank. A backslash begins a number. */
+void tn_dxf_text(FILE *out, const char *text)
+{
+    for (size_t left = strlen(text), size; left > 0; text += size, left -= size) {
+        uint32_t c = tn_utf8_read(text, left, &size), above = c - 0x10000;
+        if (c == '^')
+            fputs("^ ", out);
+        else if (c >= ' ' && c <= '~' && c != '\\')
+            putc((int)c, out);
+        else if (c <= UINT16_MAX)
+            fprintf(out, "\\U+%04X", (unsigned)c);
+        else
+            fprintf(out, "\\U+%04X\\U+%04X", (unsigned)(0xD800 | above >> 10), (unsigned)(0xDC00 | (above & 0x3FF)));
+    }
 }
 
 static void begin_dictionary(FILE *out, uint32_t handle, uint32_t owner)

@@ -21,4 +21,8 @@ void tn_dxf_end(FILE *out);
 /* What each entity begins with. handle: its number among entities, from 0. */
 void tn_dxf_entity(FILE *out, const char *entity, uint32_t handle, const char *layer);
 
+/* A text, in ASCII. Releases before 2007, whose files are in the code page of some computer, have all other characters
+ * by their numbers in UTF-16. */
+void tn_dxf_text(FILE *out, const char *text);
+
 #endif

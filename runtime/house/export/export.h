@@ -13,7 +13,7 @@
 tn_status tn_house_write_ifc(const tn_house *house, const tn_solids *solids, const char *name, FILE *out,
                              tn_error *error);
 
-/* DXF, release 12, in millimetres: the drawings side by side, hidden lines removed, a layer for each kind of line.
+/* DXF, release 2000, in millimetres: the drawings side by side, hidden lines removed, a layer for each kind of line.
  * Errors as tn_prospect_take. */
 tn_status tn_house_write_dxf(const tn_house *house, const tn_solids *solids, const tn_aspect *aspects, size_t count,
                              FILE *out, tn_error *error);

@@ -45,13 +45,28 @@ static void aggregate_one(tn_stepfile *step, unsigned whole, unsigned part, cons
     aggregate(step, whole, list, kind, 0);
 }
 
-/* A storey with its rooms and parts; returns it. */
-static unsigned put_storey(tn_ifc *ifc, uint32_t storey, unsigned building)
+/* How the doors of the storey at hand hang. */
+static tn_status hang_doors(tn_ifc *ifc, tn_error *error)
+{
+    tn_taken taken = {0};
+    tn_status status = tn_taken_find(ifc->house, ifc->storey, &taken, error);
+    tn_swings_clear(&ifc->doors);
+    if (status == TN_OK)
+        status = tn_swings_find(ifc->house, ifc->storey, &taken, &ifc->doors, error);
+    tn_taken_clear(&taken);
+    return status;
+}
+
+/* A storey with its rooms and parts; *made: itself. */
+static tn_status put_storey(tn_ifc *ifc, uint32_t storey, unsigned building, unsigned *made, tn_error *error)
 {
     tn_stepfile *step = &ifc->step;
     double level = (double)ifc->house->form->level[storey];
     ifc->placement = tn_stepfile_placement(step, building, 0, 0, level);
     ifc->storey = storey;
+    tn_status status = hang_doors(ifc, error);
+    if (status != TN_OK)
+        return status;
     unsigned self = tn_stepfile_add(
         step, "IFCBUILDINGSTOREY('%s',$,'%s',$,$,#%u,$,$,.ELEMENT.,%s)", tn_stepfile_guid(step, "storey", storey).text,
         tn_stepfile_text(storey_name(ifc->house, storey)).text, ifc->placement, tn_stepfile_mm(level).text);
@@ -68,18 +83,41 @@ static unsigned put_storey(tn_ifc *ifc, uint32_t storey, unsigned building)
     ifc->failed |= spaces.text.failed || parts.text.failed;
     tn_stepfile_list_clear(&spaces);
     tn_stepfile_list_clear(&parts);
-    return self;
+    *made = self;
+    return TN_OK;
 }
 
-static void put_project(tn_ifc *ifc, const char *name, const char *line)
+static tn_status put_storeys(tn_ifc *ifc, unsigned building, unsigned place, tn_error *error)
+{
+    tn_stepfile_list storeys = {0};
+    tn_status status = TN_OK;
+    for (uint32_t k = 0; status == TN_OK && k < ifc->house->form->record->storey_count; k++) {
+        unsigned storey = 0;
+        if (!tn_house_has_storey(ifc->house, k))
+            continue;
+        status = put_storey(ifc, k, place, &storey, error);
+        tn_stepfile_list_add(&storeys, storey);
+    }
+    const char *list = tn_stepfile_list_text(&storeys);
+    if (list)
+        aggregate(&ifc->step, building, list, "storeys of building", 0);
+    ifc->failed |= storeys.text.failed;
+    tn_stepfile_list_clear(&storeys);
+    return status;
+}
+
+static tn_status put_project(tn_ifc *ifc, const char *name, const char *line, tn_error *error)
 {
     tn_stepfile *step = &ifc->step;
     unsigned units = put_basis(step);
-    tn_stepfile_name title = tn_stepfile_text(name), said = tn_stepfile_text(line);
+    tn_stepfile_name title = tn_stepfile_text(name);
+    tn_buffer said = {0};
+    ifc->failed |= !tn_stepfile_put_text(&said, line);
     unsigned context = step->context - 1;
     unsigned project =
         tn_stepfile_add(step, "IFCPROJECT('%s',$,'%s','%s',$,$,$,(#%u),#%u)", tn_stepfile_guid(step, "project", 0).text,
-                        title.text, said.text, context, units);
+                        title.text, said.data ? said.data : "", context, units);
+    free(said.data);
     unsigned ground = tn_stepfile_placement(step, 0, 0, 0, 0);
     unsigned site = tn_stepfile_add(step, "IFCSITE('%s',$,'site',$,$,#%u,$,$,.ELEMENT.,$,$,$,$,$)",
                                     tn_stepfile_guid(step, "site", 0).text, ground);
@@ -88,16 +126,10 @@ static void put_project(tn_ifc *ifc, const char *name, const char *line)
                                         tn_stepfile_guid(step, "building", 0).text, title.text, place);
     aggregate_one(step, project, site, "site of project");
     aggregate_one(step, site, building, "building of site");
-    tn_stepfile_list storeys = {0};
-    for (uint32_t k = 0; k < ifc->house->form->record->storey_count; k++)
-        if (tn_house_has_storey(ifc->house, k))
-            tn_stepfile_list_add(&storeys, put_storey(ifc, k, place));
-    const char *list = tn_stepfile_list_text(&storeys);
-    if (list)
-        aggregate(step, building, list, "storeys of building", 0);
-    ifc->failed |= storeys.text.failed;
-    tn_stepfile_list_clear(&storeys);
-    tn_ifc_materials(ifc);
+    tn_status status = put_storeys(ifc, building, place, error);
+    if (status == TN_OK)
+        tn_ifc_materials(ifc);
+    return status == TN_OK && (ifc->failed || step->text.failed) ? tn_fail_memory(error) : status;
 }
 
 static void write_file(const tn_stepfile *step, const char *name, FILE *out)
@@ -128,12 +160,10 @@ tn_status tn_house_write_ifc(const tn_house *house, const tn_solids *solids, con
         XXH128_hash_t hash = XXH3_128bits(line.data, line.size);
         snprintf(ifc.step.seed, sizeof ifc.step.seed, "%016" PRIx64 "%016" PRIx64, (uint64_t)hash.high64,
                  (uint64_t)hash.low64);
-        put_project(&ifc, name, line.data);
-        if (ifc.failed || ifc.step.text.failed)
-            status = tn_fail_memory(error);
-        else
-            write_file(&ifc.step, name, out);
+        status = put_project(&ifc, name, line.data, error);
     }
+    if (status == TN_OK)
+        write_file(&ifc.step, name, out);
     tn_ifc_clear(&ifc);
     free(line.data);
     return status;

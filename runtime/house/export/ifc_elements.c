@@ -34,6 +34,13 @@ static unsigned place(tn_ifc *ifc, const tn_box *b)
     return tn_stepfile_placement(&ifc->step, ifc->placement, (double)b->x0, (double)b->y0, (double)b->z0 - floor);
 }
 
+/* The same, within the placement of a part whose box is `outer`, which is not turned. */
+static unsigned place_within(tn_ifc *ifc, unsigned within, const tn_box *outer, const tn_box *b)
+{
+    return tn_stepfile_placement(&ifc->step, within, (double)(b->x0 - outer->x0), (double)(b->y0 - outer->y0),
+                                 (double)(b->z0 - outer->z0));
+}
+
 static unsigned shape(tn_ifc *ifc, const tn_box *b)
 {
     return tn_stepfile_box(&ifc->step, (double)(b->x1 - b->x0), (double)(b->y1 - b->y0), (double)(b->z1 - b->z0));
@@ -83,28 +90,68 @@ static bool is_wall(tn_solid_kind kind)
     return kind == TN_SOLID_OUTSIDE || kind == TN_SOLID_PARTY || kind == TN_SOLID_PARTITION;
 }
 
-/* The leaf or pane of an opening, which it fills. */
-static void fill(tn_ifc *ifc, uint32_t face, unsigned opening, const tn_box *hole, tn_stepfile_list *list)
+static const tn_swing *swing_of(const tn_ifc *ifc, uint32_t face)
 {
-    tn_stepfile *step = &ifc->step;
-    const tn_house_form *form = ifc->house->form;
-    const tn_opening_record *o = tn_form_opening(form, ifc->house->faces[face].kind);
-    const tn_rectangle *wall = &ifc->house->faces[face].at;
-    bool door = o->flags & TN_PASSAGE, along_x = wall->y0 == wall->y1;
+    for (size_t i = 0; i < ifc->doors.count; i++)
+        if (ifc->doors.items[i].of == face)
+            return &ifc->doors.items[i];
+    return NULL;
+}
+
+/* How often what fills an opening is turned by a right angle, counter-clockwise, so that its x axis is along the wall
+ * and it opens in the direction of its y axis: a door as it swings, a window into the first room of its face. */
+static int turns_of(const tn_house *house, const tn_face *face, const tn_swing *door)
+{
+    const tn_rectangle *room = &house->cells[face->first].at;
+    bool in_y = face->at.x0 == face->at.x1, up = door   ? door->leaves[0].side > 0
+                                                 : in_y ? room->x0 >= face->at.x0
+                                                        : room->y0 >= face->at.y0;
+    if (in_y)
+        return up ? 3 : 1;
+    return up ? 0 : 2;
+}
+
+/* IfcDoorTypeOperationEnum: the hinges are at the left or right for who looks in the direction of the y axis. */
+static const char *operation(const tn_swing *door, int turns)
+{
+    bool low = door->leaves[0].hinge < door->leaves[0].shut, left = low == (turns < 2);
+    return door->count == 2 ? "DOUBLE_DOOR_SINGLE_SWING" : left ? "SINGLE_SWING_LEFT" : "SINGLE_SWING_RIGHT";
+}
+
+/* In the middle of its opening, as thick as `thick` or as the wall. */
+static tn_box leaf_of(const tn_box *hole, bool in_y, int64_t thick)
+{
     tn_box at = *hole;
-    int64_t thick = door ? TN_LEAF_NM : TN_PANE_NM;
-    int64_t *low = along_x ? &at.y0 : &at.x0, *high = along_x ? &at.y1 : &at.x1, over = (*high - *low - thick) / 2;
+    int64_t *low = in_y ? &at.x0 : &at.y0, *high = in_y ? &at.x1 : &at.y1, over = (*high - *low - thick) / 2;
     *low += over > 0 ? over : 0;
     *high -= over > 0 ? over : 0;
-    unsigned where = place(ifc, &at), body = shape(ifc, &at);
-    unsigned part = tn_stepfile_add(step, "%s('%s',$,'%s',$,$,#%u,#%u,$,%s,%s,.%s.,%s,$)",
-                                    door ? "IFCDOOR" : "IFCWINDOW", tn_stepfile_guid(step, "filling", face).text,
-                                    tn_stepfile_text(tn_text(form->module, o->name)).text, where, body,
+    return at;
+}
+
+/* The leaf or pane of an opening, which it fills. where: the placement of the opening. */
+static void fill(tn_ifc *ifc, uint32_t number, unsigned opening, unsigned where, const tn_box *hole,
+                 tn_stepfile_list *list)
+{
+    tn_stepfile *step = &ifc->step;
+    const tn_face *face = &ifc->house->faces[number];
+    const tn_opening_record *o = tn_form_opening(ifc->house->form, face->kind);
+    const tn_swing *door = swing_of(ifc, number);
+    bool in_y = face->at.x0 == face->at.x1;
+    int turns = turns_of(ifc->house, face, door);
+    tn_box at = leaf_of(hole, in_y, door ? TN_LEAF_NM : TN_PANE_NM);
+    double x = (double)(turns == 1 || turns == 2 ? at.x1 : at.x0), y = (double)(turns > 1 ? at.y1 : at.y0),
+           along = (double)(in_y ? at.y1 - at.y0 : at.x1 - at.x0),
+           across = (double)(in_y ? at.x1 - at.x0 : at.y1 - at.y0);
+    unsigned place = tn_stepfile_turned(step, where, x - (double)hole->x0, y - (double)hole->y0, turns),
+             body = tn_stepfile_box(step, along, across, (double)(at.z1 - at.z0));
+    unsigned part = tn_stepfile_add(step, "%s('%s',$,'%s',$,$,#%u,#%u,$,%s,%s,.%s.,.%s.,$)",
+                                    door ? "IFCDOOR" : "IFCWINDOW", tn_stepfile_guid(step, "filling", number).text,
+                                    tn_stepfile_text(tn_text(ifc->house->form->module, o->name)).text, place, body,
                                     tn_stepfile_mm((double)o->high).text, tn_stepfile_mm((double)o->wide).text,
-                                    door ? "DOOR" : "WINDOW", door ? ".SINGLE_SWING_LEFT." : ".SINGLE_PANEL.");
-    tn_stepfile_add(step, "IFCRELFILLSELEMENT('%s',$,$,$,#%u,#%u)", tn_stepfile_guid(step, "fills", face).text, opening,
-                    part);
-    keep(ifc, &(tn_solid){.kind = door ? TN_SOLID_LEAF : TN_SOLID_PANE, .of = face}, part, list);
+                                    door ? "DOOR" : "WINDOW", door ? operation(door, turns) : "SINGLE_PANEL");
+    tn_stepfile_add(step, "IFCRELFILLSELEMENT('%s',$,$,$,#%u,#%u)", tn_stepfile_guid(step, "fills", number).text,
+                    opening, part);
+    keep(ifc, &(tn_solid){.kind = door ? TN_SOLID_LEAF : TN_SOLID_PANE, .of = number}, part, list);
 }
 
 /* The wall of a face as one box, and the opening that is cut out of it. `first` is the first of its boxes. */
@@ -133,13 +180,13 @@ static void put_wall(tn_ifc *ifc, size_t first, tn_stepfile_list *list)
     put_volume(ifc, wall, "Qto_WallBaseQuantities", volume);
     if (!open)
         return;
-    unsigned at = place(ifc, &hole), cut = shape(ifc, &hole);
+    unsigned at = place_within(ifc, where, &all, &hole), cut = shape(ifc, &hole);
     unsigned opening = tn_stepfile_add(step, "IFCOPENINGELEMENT('%s',$,$,$,$,#%u,#%u,$,.OPENING.)",
                                        tn_stepfile_guid(step, "opening", s->of).text, at, cut);
     tn_stepfile_add(step, "IFCRELVOIDSELEMENT('%s',$,$,$,#%u,#%u)", tn_stepfile_guid(step, "voids", s->of).text, wall,
                     opening);
     if (tn_house_is_filled(ifc->house, &ifc->house->faces[s->of]))
-        fill(ifc, s->of, opening, &hole, list);
+        fill(ifc, s->of, opening, at, &hole, list);
 }
 
 /* ---- other boxes */
@@ -149,27 +196,21 @@ static void put_box(tn_ifc *ifc, const tn_solid *s, unsigned number, tn_stepfile
     tn_stepfile *step = &ifc->step;
     const tn_module *module = ifc->house->form->module;
     unsigned where = place(ifc, &s->at), body = shape(ifc, &s->at);
-    char head[128];
-    snprintf(head, sizeof head, "'%s',$,'%.60s',$,$,#%u,#%u,$", tn_stepfile_guid(step, "box", number).text,
-             s->kind == TN_SOLID_ITEM ? tn_stepfile_text(tn_text(module, module->TILE_BOX_records[s->item].name)).text
-                                      : tn_solid_kind_text(s->kind),
-             where, body);
-    unsigned part;
-    switch (s->kind) {
-    case TN_SOLID_POST:
-        part = tn_stepfile_add(step, "IFCCOLUMN(%s,.COLUMN.)", head);
-        put_volume(ifc, part, "Qto_ColumnBaseQuantities", volume_of(&s->at));
-        break;
-    case TN_SOLID_ITEM:
-        part = tn_stepfile_add(step, "IFCFURNITURE(%s,.NOTDEFINED.)", head);
-        break;
-    default:
-        part = tn_stepfile_add(step, "IFCSLAB(%s,.%s.)", head,
-                               s->kind == TN_SOLID_ROOFDECK ? "ROOF"
-                               : s->of == 0                 ? "BASESLAB"
-                                                            : "FLOOR");
-        put_volume(ifc, part, "Qto_SlabBaseQuantities", volume_of(&s->at));
-    }
+    bool item = s->kind == TN_SOLID_ITEM, post = s->kind == TN_SOLID_POST;
+    const char *name = item ? tn_text(module, module->TILE_BOX_records[s->item].name) : tn_solid_kind_text(s->kind);
+    const char *type = item                           ? "NOTDEFINED"
+                       : post                         ? "COLUMN"
+                       : s->kind == TN_SOLID_ROOFDECK ? "ROOF"
+                       : s->of == 0                   ? "BASESLAB"
+                                                      : "FLOOR";
+    unsigned part =
+        tn_stepfile_add(step, "%s('%s',$,'%s',$,$,#%u,#%u,$,.%s.)",
+                        item   ? "IFCFURNITURE"
+                        : post ? "IFCCOLUMN"
+                               : "IFCSLAB",
+                        tn_stepfile_guid(step, "box", number).text, tn_stepfile_text(name).text, where, body, type);
+    if (!item)
+        put_volume(ifc, part, post ? "Qto_ColumnBaseQuantities" : "Qto_SlabBaseQuantities", volume_of(&s->at));
     keep(ifc, s, part, list);
 }
 

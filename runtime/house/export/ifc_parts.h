@@ -3,6 +3,7 @@
 #define TARTAN_HOUSE_IFC_PARTS_H
 
 #include "runtime/house/export/step.h"
+#include "runtime/house/model/swings.h"
 
 typedef struct tn_ifc {
     tn_stepfile step;
@@ -13,6 +14,7 @@ typedef struct tn_ifc {
     unsigned *spaces;   /* [cell] the space of the room that begins there; owned */
     unsigned placement; /* of the storey at hand */
     uint32_t storey;
+    tn_swings doors; /* of the storey at hand; owned */
     tn_stepfile_list
         *made;   /* parts of each kind that the form has no material for, then those of each material; owned */
     bool failed; /* out of memory */

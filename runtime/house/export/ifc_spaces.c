@@ -10,6 +10,7 @@ void tn_ifc_clear(tn_ifc *ifc)
     free(ifc->rooms);
     free(ifc->walls);
     free(ifc->spaces);
+    tn_swings_clear(&ifc->doors);
     for (uint32_t i = 0; ifc->made && i < TN_SOLID_COUNT + ifc->house->form->record->material_count; i++)
         tn_stepfile_list_clear(&ifc->made[i]);
     free(ifc->made);

@@ -11,6 +11,8 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "runtime/base/utf8.h"
+
 void tn_stepfile_clear(tn_stepfile *step)
 {
     free(step->text.data);
@@ -61,17 +63,69 @@ tn_stepfile_id tn_stepfile_guid(const tn_stepfile *step, const char *kind, unsig
     return id;
 }
 
+/* A text as it is encoded (ISO 10303-21, 6.4.3). open: the digits of a character in the run of hexadecimal ones at
+ * hand, 0 outside of one. */
+typedef struct encoding {
+    char *to;
+    size_t size;
+    int open;
+} encoding;
+
+enum {
+    CHARACTER_ROOM = 24, /* a run closed, another opened with one character and closed, a zero byte */
+    MOST_OF_BYTE = 12    /* a byte that is no character is a run of one: \X2\FFFD\X0\ */
+};
+
+/* Ends a run, begins another, or goes on. */
+static void turn(encoding *e, int digits)
+{
+    if (e->open == digits)
+        return;
+    e->size += (size_t)sprintf(e->to + e->size, "%s%s", e->open ? "\\X0\\" : "",
+                               digits == 4   ? "\\X2\\"
+                               : digits == 8 ? "\\X4\\"
+                                             : "");
+    e->open = digits;
+}
+
+static void encode_character(encoding *e, uint32_t character)
+{
+    if (character >= ' ' && character <= '~') {
+        turn(e, 0);
+        if (character == '\'' || character == '\\')
+            e->to[e->size++] = (char)character;
+        e->to[e->size++] = (char)character;
+    } else {
+        turn(e, character > UINT16_MAX ? 8 : 4);
+        e->size += (size_t)sprintf(e->to + e->size, "%0*" PRIX32, e->open, character);
+    }
+}
+
+/* As many whole characters as there is room for, and a zero byte; returns the length. */
+static size_t encode_text(const char *text, size_t room, char *to)
+{
+    encoding e = {to, 0, 0};
+    for (size_t left = strlen(text), step; left && e.size + CHARACTER_ROOM <= room; text += step, left -= step)
+        encode_character(&e, tn_utf8_read(text, left, &step));
+    turn(&e, 0);
+    to[e.size] = '\0';
+    return e.size;
+}
+
 tn_stepfile_name tn_stepfile_text(const char *text)
 {
     tn_stepfile_name name;
-    size_t size = 0;
-    for (; *text && size + 2 < sizeof name.text; text++) {
-        if (*text == '\'' || *text == '\\')
-            name.text[size++] = *text;
-        name.text[size++] = (char)(*text >= ' ' && *text <= '~' ? *text : '?');
-    }
-    name.text[size] = '\0';
+    encode_text(text, sizeof name.text, name.text);
     return name;
+}
+
+bool tn_stepfile_put_text(tn_buffer *to, const char *text)
+{
+    size_t room = MOST_OF_BYTE * strlen(text) + CHARACTER_ROOM;
+    if (!tn_buffer_reserve(to, room))
+        return false;
+    to->size += encode_text(text, room, to->data + to->size);
+    return true;
 }
 
 /* ---- lists */
@@ -103,6 +157,16 @@ unsigned tn_stepfile_placement(tn_stepfile *step, unsigned within, double x, dou
     unsigned axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,$,$)", point);
     if (within == 0)
         return tn_stepfile_add(step, "IFCLOCALPLACEMENT($,#%u)", axes);
+    return tn_stepfile_add(step, "IFCLOCALPLACEMENT(#%u,#%u)", within, axes);
+}
+
+unsigned tn_stepfile_turned(tn_stepfile *step, unsigned within, double x, double y, int turns)
+{
+    static const char *const directions[] = {"1.,0.", "0.,1.", "-1.,0.", "0.,-1."};
+    unsigned point =
+        tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s,0.))", tn_stepfile_mm(x).text, tn_stepfile_mm(y).text);
+    unsigned along = tn_stepfile_add(step, "IFCDIRECTION((%s,0.))", directions[turns]);
+    unsigned axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,#%u,#%u)", point, step->z, along);
     return tn_stepfile_add(step, "IFCLOCALPLACEMENT(#%u,#%u)", within, axes);
 }
 

@@ -31,11 +31,15 @@ typedef struct tn_stepfile_id {
 } tn_stepfile_id;
 tn_stepfile_id tn_stepfile_guid(const tn_stepfile *step, const char *kind, unsigned number);
 
-/* A text without what STEP does not allow in one, its quotes doubled; as long as there is room. */
+/* A label as STEP writes it between quotes: in ASCII, others of Unicode's characters by their numbers; as many whole
+ * characters as there is room for, 100 at least. */
 typedef struct tn_stepfile_name {
-    char text[512];
+    char text[1224];
 } tn_stepfile_name;
 tn_stepfile_name tn_stepfile_text(const char *text);
+
+/* Appends a text of any length, written so. */
+bool tn_stepfile_put_text(tn_buffer *to, const char *text);
 
 /* A list `(#1,#2)` that grows. */
 typedef struct tn_stepfile_list {
@@ -48,6 +52,9 @@ void tn_stepfile_list_clear(tn_stepfile_list *list);
 
 /* A placement at a point, its axes those of `within`. */
 unsigned tn_stepfile_placement(tn_stepfile *step, unsigned within, double x, double y, double z);
+
+/* One whose x axis is turned about z, by so many right angles (0 to 3) counter-clockwise. */
+unsigned tn_stepfile_turned(tn_stepfile *step, unsigned within, double x, double y, int turns);
 
 /* The shape of a part: a box of that size, from the origin of its placement. */
 unsigned tn_stepfile_box(tn_stepfile *step, double wide, double deep, double high);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "runtime/base/length_style.h"
+#include "runtime/base/utf8.h"
 
 #define PLAN_CUT_NM INT64_C(1219200000) /* 4' */
 #define INTO_NM 1000.0                  /* less than one sees */
@@ -72,12 +73,14 @@ static void write_title(const tn_house *house, const tn_aspect *aspect, char *te
                                         [TN_HOUSE_LEFT] = "left",
                                         [TN_HOUSE_RIGHT] = "right"};
     const tn_house_form *form = house->form;
-    char at[64];
+    char at[64], name[51];
     write_place(aspect->at < 0 ? -aspect->at : aspect->at, tn_house_length_style(house), at, sizeof at);
     switch (aspect->kind) {
     case TN_ASPECT_PLAN:
-        snprintf(text, size, "plan, %.50s",
-                 tn_text(form->module, form->module->STOREY_records[form->record->storey_first + aspect->storey].name));
+        tn_utf8_copy(
+            tn_text(form->module, form->module->STOREY_records[form->record->storey_first + aspect->storey].name),
+            sizeof name, name);
+        snprintf(text, size, "plan, %s", name);
         return;
     case TN_ASPECT_SECTION_X:
     case TN_ASPECT_SECTION_Y:

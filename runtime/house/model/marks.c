@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/base/utf8.h"
 #include "runtime/house/solids.h"
 
 void tn_marks_clear(tn_marks *marks)
@@ -36,13 +37,16 @@ void tn_marks_text(tn_marks *marks, tn_mark_layer layer, double u, double v, dou
                    const char *text)
 {
     tn_mark mark = {TN_MARK_TEXT, layer, u, v, u, v, high, upright, ""};
-    snprintf(mark.text, sizeof mark.text, "%s", text);
+    tn_utf8_copy(text, sizeof mark.text, mark.text);
     add(marks, mark);
 }
 
 double tn_mark_width(const char *text)
 {
-    return 0.62 * (double)strlen(text); /* letters and digits of a sans serif, on the mean, with a little room */
+    unsigned columns = 0;
+    for (size_t left = strlen(text), size; left > 0; text += size, left -= size)
+        columns += tn_character_width(tn_utf8_read(text, left, &size));
+    return 0.62 * columns; /* letters and digits of a sans serif, on the mean, with a little room */
 }
 
 void tn_marks_dimension(tn_marks *marks, const tn_house *house, double from, double to, double at, bool upright,
@@ -87,9 +91,10 @@ typedef struct tn_level {
 
 static void put_level(tn_marks *marks, const tn_house *house, double u, double lettering, const tn_level *level)
 {
-    char text[sizeof marks->items->text], length[64];
+    char text[sizeof marks->items->text], name[31], length[64];
     tn_length_write_style(level->said, tn_house_length_style(house), length, sizeof length);
-    snprintf(text, sizeof text, "%.30s%s%.15s", level->name, level->name[0] ? " " : "", length);
+    tn_utf8_copy(level->name, sizeof name, name);
+    snprintf(text, sizeof text, "%s%s%.15s", name, name[0] ? " " : "", length);
     double wide = tn_mark_width(text) * lettering;
     tn_marks_line(marks, TN_MARK_DIMENSION, u - wide - lettering, level->v, u, level->v);
     tn_marks_text(marks, TN_MARK_DIMENSION, u - lettering - wide / 2, level->v + 0.7 * lettering, lettering, false,

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "runtime/base/length_style.h"
+#include "runtime/base/utf8.h"
 #include "runtime/house/model/marks_parts.h"
 
 #define SQUARE_FOOT_NM2 ((double)TN_FOOT_NM * (double)TN_FOOT_NM)
@@ -11,7 +12,7 @@
 /* Words with blanks between them. */
 static void write_name(const tn_house *house, const tn_cell *cell, char *text, size_t size)
 {
-    snprintf(text, size, "%s", tn_text(house->form->module, tn_form_rule(house->form, cell->function)->name));
+    tn_utf8_copy(tn_text(house->form->module, tn_form_rule(house->form, cell->function)->name), size, text);
     for (char *c = text; *c; c++)
         *c = (char)(*c == '-' || *c == '_' ? ' ' : *c);
 }

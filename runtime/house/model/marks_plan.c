@@ -1,5 +1,4 @@
-/* Draws the marks of a plan: stairs, spaces that are open to below, dimensions; with them how doors swing, and names.
- */
+/* Draws the marks of a plan: how doors swing, stairs, spaces that are open to below, dimensions; with them names. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +7,8 @@
 #include "runtime/house/model/marks_parts.h"
 #include "runtime/house/model/model.h"
 
-#define TREAD_NM 254000000.0 /* 10" */
+#define TREAD_NM 254000000.0 /* 10"; more where a stair is so long that it would have more than TREADS_MOST */
+#define TREADS_MOST 1000
 
 /* Treads across a stair, and a line up its middle. It goes the same way on both storeys: their cells are equal, though
  * the walls around them may not be. */
@@ -17,8 +17,9 @@ static void put_stair(const tn_house *house, uint32_t cell, tn_marks *marks)
     tn_rectangle whole = house->cells[cell].at, r = tn_cell_clear(house, cell);
     bool along_x = whole.x1 - whole.x0 > whole.y1 - whole.y0;
     double x0 = (double)r.x0, x1 = (double)r.x1, y0 = (double)r.y0, y1 = (double)r.y1;
-    double low = along_x ? x0 : y0, high = along_x ? x1 : y1, tip = TREAD_NM * 0.6;
-    for (double at = low + TREAD_NM; at < high; at += TREAD_NM)
+    double low = along_x ? x0 : y0, high = along_x ? x1 : y1, tip = TREAD_NM * 0.6,
+           tread = fmax(TREAD_NM, (high - low) / TREADS_MOST);
+    for (double at = low + tread; at < high; at += tread)
         tn_marks_line(marks, TN_MARK_STAIR, along_x ? at : x0, along_x ? y0 : at, along_x ? at : x1, along_x ? y1 : at);
     double mx = (x0 + x1) / 2, my = (y0 + y1) / 2;
     tn_marks_line(marks, TN_MARK_STAIR, along_x ? x0 : mx, along_x ? my : y0, along_x ? x1 : mx, along_x ? my : y1);
@@ -49,6 +50,17 @@ static tn_status put_flight(const tn_house *house, const tn_face *face, tn_marks
     return status;
 }
 
+static void put_leaf(tn_marks *marks, const tn_door_leaf *leaf)
+{
+    double wide = fabs(leaf->shut - leaf->hinge), tip = leaf->face + leaf->side * wide;
+    double h[2] = {leaf->hinge, leaf->face}, s[2] = {leaf->shut, leaf->face}, t[2] = {leaf->hinge, tip};
+    int u = leaf->in_y ? 1 : 0, v = 1 - u;
+    double turn = (s[u] - h[u]) * (t[v] - h[v]) - (s[v] - h[v]) * (t[u] - h[u]);
+    const double *from = turn > 0 ? s : t; /* quarters go counter-clockwise */
+    tn_marks_line(marks, TN_MARK_DOOR, h[u], h[v], t[u], t[v]);
+    tn_marks_arc(marks, TN_MARK_DOOR, h[u], h[v], from[u], from[v]);
+}
+
 static void put_void(tn_rectangle r, tn_marks *marks)
 {
     double x0 = (double)r.x0, x1 = (double)r.x1, y0 = (double)r.y0, y1 = (double)r.y1;
@@ -56,9 +68,11 @@ static void put_void(tn_rectangle r, tn_marks *marks)
     tn_marks_line(marks, TN_MARK_VOID, x0, y1, x1, y0);
 }
 
-static tn_status put_symbols(const tn_house *house, uint32_t storey, tn_taken *taken, tn_marks *marks, tn_error *error)
+static tn_status put_symbols(const tn_house *house, uint32_t storey, const tn_swings *doors, tn_marks *marks,
+                             tn_error *error)
 {
     tn_status status = TN_OK;
+    size_t door = 0;
     for (uint32_t i = 0; i < house->face_count; i++) {
         const tn_face *face = &house->faces[i];
         if (face->relation == TN_FACE_UNDER && face->kind == TN_FACE_STAIR) {
@@ -68,8 +82,10 @@ static tn_status put_symbols(const tn_house *house, uint32_t storey, tn_taken *t
         } else if (face->relation == TN_FACE_UNDER && tn_form_flight(house->form, face->kind)) {
             if (status == TN_OK && face->storey == storey)
                 status = put_flight(house, face, marks, error);
-        } else if (status == TN_OK && face->storey == storey && face->relation != TN_FACE_UNDER) {
-            status = tn_marks_door(house, face, taken, marks, error);
+        } else if (door < doors->count && doors->items[door].of == i) {
+            for (int k = 0; k < doors->items[door].count; k++)
+                put_leaf(marks, &doors->items[door].leaves[k]);
+            door++;
         }
     }
     for (uint32_t i = 0; i < house->cell_count; i++)
@@ -132,13 +148,17 @@ static bool put_dimensions(const tn_house *house, uint32_t storey, double letter
 tn_status tn_marks_plan(const tn_house *house, uint32_t storey, double lettering, tn_marks *marks, tn_error *error)
 {
     tn_taken taken = {0};
+    tn_swings doors = {0};
     tn_status status = tn_taken_find(house, storey, &taken, error);
     if (status == TN_OK)
-        status = put_symbols(house, storey, &taken, marks, error);
+        status = tn_swings_find(house, storey, &taken, &doors, error);
+    if (status == TN_OK)
+        status = put_symbols(house, storey, &doors, marks, error);
     if (status == TN_OK && (!put_dimensions(house, storey, lettering, marks) || marks->failed))
         status = tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_marks_names(house, storey, lettering, &taken, marks, error);
+    tn_swings_clear(&doors);
     tn_taken_clear(&taken);
     return status;
 }

@@ -21,6 +21,7 @@
 #define INDENT 10.0
 #define GAP 12.0
 #define TRAY_MIN 14.0    /* the narrowest tray, in points: marks stay visible */
+#define TRAY_MAX 1440.0  /* the widest and deepest, where another is so narrow that TRAY_MIN would ask for more */
 #define PLAN_WIDTH 420.0 /* about how wide the plan is */
 #define BAR_INSET 1.6
 #define CAPTION_ROOM 12.0 /* above a plan to compare with */
@@ -64,10 +65,11 @@ static double tray_at(const picture *p, size_t i)
 
 static void measure_to_scale(picture *p)
 {
-    int64_t narrowest = INT64_MAX;
+    int64_t narrowest = INT64_MAX, widest = 1;
     for (size_t i = 0; i < p->plan->length; i++) {
         int64_t length = tn_tray_value_record(p->schema, p->plan->trays[i], p->roles.length)->length;
         narrowest = length > 0 && length < narrowest ? length : narrowest;
+        widest = length > widest ? length : widest;
     }
     tn_draw_measure(&p->roles, p->plan, &p->extent);
     for (size_t i = 0; i < p->drawn->near_count; i++)
@@ -75,7 +77,8 @@ static void measure_to_scale(picture *p)
     p->scale = p->extent.width > 0 ? PLAN_WIDTH / p->extent.width : 1e-9;
     p->scale = fmin(p->scale, 72.0 / 3657600000.0 * 1.2); /* a 12' tray is at most 1.2 inches */
     if (narrowest != INT64_MAX)
-        p->scale = fmax(p->scale, TRAY_MIN / (double)narrowest);
+        p->scale = fmax(p->scale, fmin(TRAY_MIN / (double)narrowest,
+                                       TRAY_MAX / fmax((double)widest, p->extent.above + p->extent.below)));
     p->plan_width = fmax(p->extent.width * p->scale, 40);
     p->plan_height =
         (p->extent.above + p->extent.below) * p->scale + tn_draw_dimension_room(&p->extent) + 2 * TN_MARK_ROOM;

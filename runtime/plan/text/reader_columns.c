@@ -5,10 +5,18 @@
 
 #include "runtime/base/nearest.h"
 #include "runtime/plan/text/csv.h"
+#include "runtime/plan/text/field_columns.h"
 
+/* By the name of its column; or else by its own, as other programs call it. */
 static uint32_t field_named(const tn_plan_reader *reader, const tn_csv_field *name)
 {
     const tn_schema *schema = reader->schema;
+    char column[TN_COLUMN_NAME_SIZE];
+    for (uint32_t f = 0; f < schema->field_count; f++) {
+        tn_field_column(schema, f, TN_COLUMNS_CSV, column);
+        if (tn_csv_named(name, column))
+            return f;
+    }
     for (uint32_t f = 0; f < schema->field_count; f++)
         if (tn_csv_named(name, tn_text(schema->module, schema->fields[f].name)))
             return f;

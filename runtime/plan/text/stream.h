@@ -11,8 +11,7 @@
 #include "runtime/plan/text/text.h"
 
 typedef enum tn_plan_format {
-    TN_FORMAT_AUTO,    /* reading: found out from the first bytes; writing: SQLite for .sqlite and .db, Parquet for
-                      .parquet, else plan lines */
+    TN_FORMAT_AUTO,    /* reading: found out from the first bytes; writing: plan lines */
     TN_FORMAT_LINES,   /* plan lines */
     TN_FORMAT_JSON,    /* JSON lines */
     TN_FORMAT_CSV,     /* a header, then a row a plan */

@@ -8,6 +8,7 @@
 #include "runtime/base/bytes.h"
 #include "runtime/base/file_error.h"
 #include "runtime/base/part.h"
+#include "runtime/plan/text/field_columns.h"
 #include "runtime/plan/text/pack.h"
 
 #define BATCH_DEFAULT 100000u
@@ -105,8 +106,11 @@ static bool columns_header(tn_plan_writer *writer)
 {
     const tn_schema *schema = writer->schema;
     bool done = append_text(&writer->text, "rank,tray");
-    for (uint32_t f = 0; done && f < schema->field_count; f++)
-        done = append_cell(writer, &writer->text, tn_text(schema->module, schema->fields[f].name));
+    for (uint32_t f = 0; done && f < schema->field_count; f++) {
+        char name[TN_COLUMN_NAME_SIZE];
+        tn_field_column(schema, f, TN_COLUMNS_CSV, name);
+        done = append_cell(writer, &writer->text, name);
+    }
     return done && append_text(&writer->text, "\n");
 }
 
@@ -204,22 +208,14 @@ static tn_status open_file(tn_plan_writer *writer, const tn_writer_options *opti
     return done ? flush_much(writer, error) : tn_fail_memory(error);
 }
 
-static bool ends_in(const char *path, const char *ending)
-{
-    size_t size = strlen(path), ending_size = strlen(ending);
-    return size > ending_size && strcmp(path + size - ending_size, ending) == 0;
-}
-
 static tn_status open_writer(tn_plan_writer *writer, const char *path, const tn_writer_options *options,
                              tn_error *error)
 {
     writer->path = strdup(path);
     if (!writer->path)
         return tn_fail_memory(error);
-    if (writer->format == TN_FORMAT_AUTO) {
-        bool sqlite = ends_in(path, ".sqlite") || ends_in(path, ".sqlite3") || ends_in(path, ".db");
-        writer->format = sqlite ? TN_FORMAT_SQLITE : ends_in(path, ".parquet") ? TN_FORMAT_PARQUET : TN_FORMAT_LINES;
-    }
+    if (writer->format == TN_FORMAT_AUTO)
+        writer->format = TN_FORMAT_LINES;
     if (writer->columns && writer->format != TN_FORMAT_CSV && writer->format != TN_FORMAT_SQLITE) {
         tn_fail(error, TN_INVALID, E_USAGE, "columns are for CSV and databases");
         tn_error_help(error, "--format csv, or write to a file that ends in .sqlite");

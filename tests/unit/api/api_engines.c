@@ -83,6 +83,40 @@ static void meshes_a_ball(void **state)
     tartan_module_free(module);
 }
 
+/* How far a ball of radius 1 reaches in a GLB file, which is in metres, where the file's first line says its unit. */
+static double reach_in_glb(const char *unit)
+{
+    static const char max[] = "\"max\":[";
+    char text[sizeof field_text + 32];
+    snprintf(text, sizeof text, "%s%s", unit, field_text);
+    tartan_module *module = compile("ball.field", text);
+    tartan_field_options options = tartan_field_options_init();
+    tartan_mesh *mesh = NULL;
+    void *bytes = NULL;
+    size_t size = 0;
+    tartan_error error;
+    options.surface = "ball";
+    assert_int_equal(tartan_field_mesh(module, &options, NULL, &mesh, NULL, &error), TARTAN_OK);
+    assert_int_equal(tartan_mesh_write(mesh, TARTAN_GLB, NULL, NULL, &bytes, &size, &error), TARTAN_OK);
+    const char *at = memmem(bytes, size, max, strlen(max));
+    assert_non_null(at);
+    double reach = strtod(at + strlen(max), NULL);
+    free(bytes);
+    tartan_mesh_free(mesh);
+    tartan_module_free(module);
+    return reach;
+}
+
+static void writes_metres(void **state)
+{
+    (void)state;
+    double plain = reach_in_glb("");
+    assert_true(plain > 0.9 && plain < 1.1);
+    assert_true(fabs(reach_in_glb("unit m\n") - plain) < 1e-6);
+    assert_true(fabs(reach_in_glb("unit mm\n") - plain / 1000) < 1e-9);
+    assert_true(fabs(reach_in_glb("unit ft\n") - plain * 0.3048) < 1e-6);
+}
+
 static void refuses_wrong_fields(void **state)
 {
     (void)state;
@@ -325,13 +359,10 @@ static void files_and_pictures_can_be_stopped(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(meshes_a_ball),
-        cmocka_unit_test(refuses_wrong_fields),
-        cmocka_unit_test(meshes_are_read_by_the_callers_function),
-        cmocka_unit_test(places_bricks),
-        cmocka_unit_test(refuses_wrong_placing),
-        cmocka_unit_test(reads_a_run),
-        cmocka_unit_test(files_and_pictures_can_be_stopped),
+        cmocka_unit_test(meshes_a_ball),        cmocka_unit_test(writes_metres),
+        cmocka_unit_test(refuses_wrong_fields), cmocka_unit_test(meshes_are_read_by_the_callers_function),
+        cmocka_unit_test(places_bricks),        cmocka_unit_test(refuses_wrong_placing),
+        cmocka_unit_test(reads_a_run),          cmocka_unit_test(files_and_pictures_can_be_stopped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

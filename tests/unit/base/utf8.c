@@ -94,6 +94,27 @@ static void test_cleaning(void **state)
     expect_clean("\xFFz", "\xEF\xBF\xBDz");
 }
 
+static void expect_copy(const char *text, size_t room, const char *wanted)
+{
+    char copy[8];
+    memset(copy, 'x', sizeof copy);
+    tn_utf8_copy(text, room, copy);
+    assert_string_equal(copy, wanted);
+}
+
+static void test_copying(void **state)
+{
+    (void)state;
+    expect_copy("abc", 8, "abc");
+    expect_copy("abc", 4, "abc");
+    expect_copy("abc", 3, "ab");
+    expect_copy("a\xC3\xA9z", 4, "a\xC3\xA9");
+    expect_copy("a\xC3\xA9z", 3, "a");
+    expect_copy("\xF0\x90\xA4\x80", 5, "\xF0\x90\xA4\x80");
+    expect_copy("\xF0\x90\xA4\x80", 4, "");
+    expect_copy("a", 1, "");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -101,6 +122,7 @@ int main(void)
         cmocka_unit_test(test_what_is_not_utf8),
         cmocka_unit_test(test_widths),
         cmocka_unit_test(test_cleaning),
+        cmocka_unit_test(test_copying),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

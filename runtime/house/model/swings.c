@@ -1,8 +1,10 @@
-/* Draws how doors swing on a plan: clear of what stands in the rooms, where they can. */
+/* How doors hang and swing: clear of what stands in the rooms, where they can. */
+#include "runtime/house/model/swings.h"
+
 #include <math.h>
 #include <stdlib.h>
 
-#include "runtime/house/model/marks_parts.h"
+#include "runtime/base/array.h"
 #include "runtime/house/model/model.h"
 
 #define DOUBLE_LEAF_NM INT64_C(1220000000) /* 4': wider doors have two leaves */
@@ -61,24 +63,6 @@ void tn_taken_clear(tn_taken *taken)
 
 /* ---- leaves */
 
-/* A leaf that hangs at `hinge` and closes towards `shut`, both along a wall; it swings to `side` (1 or -1) of the place
- * `face` across it. in_y: the wall runs along y. */
-typedef struct tn_swing {
-    double hinge, shut, face, side;
-    bool in_y;
-} tn_swing;
-
-static void put_leaf(tn_marks *marks, const tn_swing *leaf)
-{
-    double wide = fabs(leaf->shut - leaf->hinge), tip = leaf->face + leaf->side * wide;
-    double h[2] = {leaf->hinge, leaf->face}, s[2] = {leaf->shut, leaf->face}, t[2] = {leaf->hinge, tip};
-    int u = leaf->in_y ? 1 : 0, v = 1 - u;
-    double turn = (s[u] - h[u]) * (t[v] - h[v]) - (s[v] - h[v]) * (t[u] - h[u]);
-    const double *from = turn > 0 ? s : t; /* quarters go counter-clockwise */
-    tn_marks_line(marks, TN_MARK_DOOR, h[u], h[v], t[u], t[v]);
-    tn_marks_arc(marks, TN_MARK_DOOR, h[u], h[v], from[u], from[v]);
-}
-
 /* How far a stretch is from a place, seen in a direction; `far`: where it ends. */
 static double ahead(double low, double high, double from, double direction, double *far)
 {
@@ -88,7 +72,7 @@ static double ahead(double low, double high, double from, double direction, doub
 }
 
 /* Does its quarter of a circle meet one of them? */
-static bool meets(const tn_swing *leaf, const tn_rectangles *taken)
+static bool meets(const tn_door_leaf *leaf, const tn_rectangles *taken)
 {
     double wide = fabs(leaf->shut - leaf->hinge), along_far, across_far;
     for (size_t i = 0; i < taken->count; i++) {
@@ -103,7 +87,7 @@ static bool meets(const tn_swing *leaf, const tn_rectangles *taken)
     return false;
 }
 
-static tn_status take_swing(const tn_swing *leaf, tn_taken *taken, tn_error *error)
+static tn_status take_swing(const tn_door_leaf *leaf, tn_taken *taken, tn_error *error)
 {
     double wide = fabs(leaf->shut - leaf->hinge), tip = leaf->face + leaf->side * wide;
     int64_t a0 = (int64_t)fmin(leaf->hinge, leaf->shut), a1 = a0 + (int64_t)wide, b0 = (int64_t)fmin(leaf->face, tip),
@@ -114,29 +98,23 @@ static tn_status take_swing(const tn_swing *leaf, tn_taken *taken, tn_error *err
 
 /* ---- doors */
 
-/* How a door can swing: one leaf or two. */
-typedef struct tn_way {
-    tn_swing leaves[2];
-    int count;
-} tn_way;
-
 /* Into a room of the face, hung at the lower end of its wall or (late) at the higher one. */
-static tn_way way_of(const tn_face *face, const tn_box *hole, const tn_cell *room, bool late)
+static tn_swing way_of(const tn_face *face, const tn_box *hole, const tn_cell *room, bool late)
 {
     bool in_y = face->at.x0 == face->at.x1;
     double from = (double)(in_y ? hole->y0 : hole->x0), to = (double)(in_y ? hole->y1 : hole->x1);
     bool low = in_y ? room->at.x1 <= face->at.x0 : room->at.y1 <= face->at.y0;
     double at = (double)(in_y ? (low ? hole->x0 : hole->x1) : (low ? hole->y0 : hole->y1)), side = low ? -1 : 1;
-    tn_way way = {{{late ? to : from, late ? from : to, at, side, in_y}}, 1};
+    tn_swing way = {.leaves = {{late ? to : from, late ? from : to, at, side, in_y}}, .count = 1};
     if (to - from > (double)DOUBLE_LEAF_NM) {
-        way.leaves[0] = (tn_swing){from, (from + to) / 2, at, side, in_y};
-        way.leaves[1] = (tn_swing){to, (from + to) / 2, at, side, in_y};
+        way.leaves[0] = (tn_door_leaf){from, (from + to) / 2, at, side, in_y};
+        way.leaves[1] = (tn_door_leaf){to, (from + to) / 2, at, side, in_y};
         way.count = 2;
     }
     return way;
 }
 
-static bool is_clear(const tn_way *way, const tn_rectangles *taken)
+static bool is_clear(const tn_swing *way, const tn_rectangles *taken)
 {
     bool clear = true;
     for (int i = 0; i < way->count; i++)
@@ -145,11 +123,11 @@ static bool is_clear(const tn_way *way, const tn_rectangles *taken)
 }
 
 /* The first that meets nothing; else the first that meets no furniture; else the first. */
-static tn_way choose_way(const tn_house *house, const tn_face *face, const tn_box *hole, const tn_taken *taken)
+static tn_swing choose_way(const tn_house *house, const tn_face *face, const tn_box *hole, const tn_taken *taken)
 {
     const tn_cell *first = &house->cells[face->first],
                   *second = face->second == TN_NO_CELL ? NULL : &house->cells[face->second];
-    tn_way ways[4] = {way_of(face, hole, first, false), way_of(face, hole, first, true)};
+    tn_swing ways[4] = {way_of(face, hole, first, false), way_of(face, hole, first, true)};
     int count = 2;
     for (int late = 0; second && !second->open && late < 2; late++)
         ways[count++] = way_of(face, hole, second, late);
@@ -163,17 +141,33 @@ static tn_way choose_way(const tn_house *house, const tn_face *face, const tn_bo
     return ways[0];
 }
 
-tn_status tn_marks_door(const tn_house *house, const tn_face *face, tn_taken *taken, tn_marks *marks, tn_error *error)
+static bool is_hung(const tn_house *house, const tn_face *face, uint32_t storey)
 {
-    tn_box hole;
+    return face->storey == storey && face->relation != TN_FACE_UNDER && tn_house_is_filled(house, face) &&
+           tn_form_opening(house->form, face->kind)->flags & TN_PASSAGE;
+}
+
+tn_status tn_swings_find(const tn_house *house, uint32_t storey, tn_taken *taken, tn_swings *swings, tn_error *error)
+{
     tn_status status = TN_OK;
-    if (!tn_house_hole(house, face, &hole) || !tn_house_is_filled(house, face) ||
-        !(tn_form_opening(house->form, face->kind)->flags & TN_PASSAGE))
-        return TN_OK;
-    tn_way way = choose_way(house, face, &hole, taken);
-    for (int i = 0; status == TN_OK && i < way.count; i++) {
-        put_leaf(marks, &way.leaves[i]);
-        status = take_swing(&way.leaves[i], taken, error);
+    for (uint32_t i = 0; status == TN_OK && i < house->face_count; i++) {
+        tn_box hole;
+        const tn_face *face = &house->faces[i];
+        if (!is_hung(house, face, storey) || !tn_house_hole(house, face, &hole))
+            continue;
+        tn_swing way = choose_way(house, face, &hole, taken);
+        way.of = i;
+        for (int k = 0; status == TN_OK && k < way.count; k++)
+            status = take_swing(&way.leaves[k], taken, error);
+        if (!tn_array_reserve_from(&swings->items, &swings->room, 16, swings->count, 1, sizeof *swings->items))
+            return tn_fail_memory(error);
+        swings->items[swings->count++] = way;
     }
     return status;
+}
+
+void tn_swings_clear(tn_swings *swings)
+{
+    free(swings->items);
+    *swings = (tn_swings){0};
 }

@@ -1,5 +1,5 @@
 /* Names the columns of fields. */
-#include "driver/parquet/columns.h"
+#include "runtime/plan/text/field_columns.h"
 
 #include <stdio.h>
 #include <strings.h>
@@ -9,11 +9,12 @@ static const char *field_name(const tn_schema *schema, uint32_t field)
     return tn_text(schema->module, schema->fields[field].name);
 }
 
-static bool is_own(const char *name)
+static bool is_own(const char *name, tn_column_file file)
 {
-    static const char *const own[] = {"rank", "length", "total", "plan"};
-    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
-        if (strcasecmp(name, own[i]) == 0)
+    static const char *const own[TN_COLUMN_FILES][4] = {[TN_COLUMNS_CSV] = {"rank", "tray", "plan"},
+                                                        [TN_COLUMNS_PARQUET] = {"rank", "length", "total", "plan"}};
+    for (size_t i = 0; i < 4 && own[file][i]; i++)
+        if (strcasecmp(name, own[file][i]) == 0)
             return true;
     return false;
 }
@@ -27,10 +28,10 @@ static unsigned fields_called(const tn_schema *schema, uint32_t end, const char 
     return count;
 }
 
-void tn_parquet_name(const tn_schema *schema, uint32_t field, char name[TN_COLUMN_NAME_SIZE])
+void tn_field_column(const tn_schema *schema, uint32_t field, tn_column_file file, char name[TN_COLUMN_NAME_SIZE])
 {
     const char *plain = field_name(schema, field);
-    unsigned before = fields_called(schema, field, plain) + is_own(plain);
+    unsigned before = fields_called(schema, field, plain) + is_own(plain, file);
     snprintf(name, TN_COLUMN_NAME_SIZE, "%s", plain);
     for (unsigned number = 2; before > 0; number++) {
         snprintf(name, TN_COLUMN_NAME_SIZE, "%s_%u", plain, number);
