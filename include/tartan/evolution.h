@@ -96,7 +96,7 @@ typedef struct tartan_evolution_options {
     uint32_t population; /* 2 to TARTAN_POPULATION_MAX (500) */
     tartan_initialisation initialisation;
     uint32_t codons;                /* of a RANDOM genome (200) */
-    uint32_t depth_low, depth_high; /* of first trees (2, 10) */
+    uint32_t depth_low, depth_high; /* of first trees, where the grammar has such (2, 10) */
     double tail;                    /* further codons of a first tree, in its own length; negative: none (0.5) */
     const tartan_genome *seeds;     /* first genomes; copied */
     size_t seed_count;

@@ -95,7 +95,7 @@ X
 "$TARTAN" evolve --ponyge tool/parameters/plane.txt -o plane > plane.txt 2> err.txt || fail "does not read parameters: $(cat err.txt)"
 grep -q 'do not apply: CACHE, VERBOSE$' err.txt || fail "does not list what does not apply: $(cat err.txt)"
 sqlite3 plane/run.sqlite "SELECT value FROM meta WHERE key='identity'" > identity.txt 2> /dev/null
-for line in 'population 40' 'crossover two-point 0.8' 'mutation genome 2' 'selection tournament 3' 'initialise pi-grow' 'depth 2..6' 'codon-limit 1000' 'error mae' 'seed 12'; do
+for line in 'population 40' 'crossover two-point 0.8' 'mutation genome 2' 'selection tournament 3' 'initialise pi-grow' 'depth 3..6' 'codon-limit 1000' 'error mae' 'seed 12'; do
   [ ! -s identity.txt ] || grep -qx "$line" identity.txt || fail "the parameters do not say $line: $(cat identity.txt)"
 done
 "$TARTAN" evolve --ponyge tool/parameters/plane.txt -o short -g 3 > /dev/null 2>&1 && "$TARTAN" evolve --ponyge tool/parameters/plane.txt -o short --resume > /dev/null 2>&1
@@ -115,7 +115,7 @@ printf 'evolution {\n grammar "blocks.pybnf"\n match "x"\n}\n' > blocks.study
 printf '<p> ::= {::}x{::}\n' > blocks.pybnf
 "$TARTAN" check blocks.study > /dev/null 2> err.txt && fail "takes a grammar of Python programs"
 grep -q 'blocks.study:2:10: error\[E1263\].*only PonyGE2' err.txt || fail "does not say why such a grammar is refused: $(cat err.txt)"
-printf 'TARGET: abc\nCROSSOVER: mine.own\n' > own.txt
+printf 'TARGET: abc\nCROSSOVER: mine.own\nFITNESS_FUNCTION: string_match\nGRAMMAR_FILE: words.bnf\n' > own.txt
 "$TARTAN" evolve --ponyge own.txt > /dev/null 2> err.txt && fail "takes an operator that is not there"
 grep -q '^own.txt:2:1: error\[E1232\].*mine.own' err.txt || fail "does not name the operator: $(cat err.txt)"
 "$TARTAN" evolve --ponyge classes.study > /dev/null 2> err.txt && fail "takes a study for parameters"
