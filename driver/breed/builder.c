@@ -340,6 +340,31 @@ const char *tn_design_scorer_objective(const void *scorer, size_t i)
     return i < s->wish_count ? s->wishes[i].name : s->more.items[i - s->wish_count].text;
 }
 
+tn_status tn_design_scorer_unmet(const void *scorer, const char *sentence, char **text, tn_error *error)
+{
+    const tn_design_scorer *s = scorer;
+    const tn_module *module = s->opened.module;
+    double values[TN_SOLID_MEASURED_COUNT] = {0};
+    tn_opened opened = {0};
+    tn_built built;
+    size_t size;
+    *text = NULL;
+    tn_status status = build(sentence, strlen(sentence), &opened, &built, error);
+    if (status == TN_OK)
+        status = tn_built_measure(&built, s->asked, values, error);
+    FILE *out = status == TN_OK ? open_memstream(text, &size) : NULL;
+    const tn_unmet_found found = {module, tn_solid_measured_names, TN_SOLID_MEASURED_COUNT, values};
+    for (uint32_t i = 0; out && i < s->record->requirement_count; i++) {
+        const tn_requirement_record *r = &module->REQUIREMENT_records[s->record->requirement_first + i];
+        tn_unmet_write(out, &found, &(tn_unmet_requirement){r->violation, r->file, r->begin, r->end});
+    }
+    if (status == TN_OK && (!out || fclose(out) != 0))
+        status = tn_fail_memory(error);
+    tn_built_clear(&built);
+    tn_close(&opened);
+    return status;
+}
+
 /* ---- pictures */
 
 tn_status tn_design_scorer_draw(const void *scorer, const char *const *sentences, const char *const *labels,

@@ -52,6 +52,7 @@ static const choice errors[] = {{"rmse", "rmse"},
                                 {"inverse_f1_score", "f1"},
                                 {0}};
 static const choice points[] = {{"True", "used"}, {"False", "anywhere"}, {0}};
+static const choice copies[] = {{"True", "again"}, {"False", "kept"}, {0}};
 
 /* What holds where a parameter is not there is what PonyGE2's algorithm/parameters.py says (revision f3371717); NULL:
  * nothing is written then. */
@@ -91,6 +92,7 @@ static const row rows[] = {
     {"SELECTION", WORD, "selection", .standard = "tournament", .choices = selections},
     {"REPLACEMENT", WORD, "replacement", .standard = "generational", .choices = replacements},
     {"WITHIN_USED", WORD, "points", .standard = "True", .choices = points},
+    {"MUTATE_DUPLICATES", WORD, "copies", .standard = "False", .choices = copies},
     {"MIN_INIT_TREE_DEPTH", .manner = PART},
     {"CROSSOVER_PROBABILITY", PART, .standard = "0.75"},
     {"MUTATION_PROBABILITY", .manner = PART},

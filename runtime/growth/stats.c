@@ -253,15 +253,20 @@ const char *tn_fitness_term_name(tn_measured term)
     return names[term];
 }
 
-double tn_named_value(const tn_named_goal *goal, const tn_fitness *fitness)
+void tn_fitness_terms(const tn_fitness *fitness, double terms[TN_MEASURED_COUNT])
 {
-    double terms[TN_MEASURED_COUNT];
     for (uint32_t i = 0; i < TN_FITNESS_TERM_COUNT; i++)
         terms[i] = tn_fitness_value(fitness, (tn_measured)i);
     terms[TN_MEASURED_VERTICES] = fitness->vertices;
     terms[TN_MEASURED_EDGES] = fitness->edges;
     terms[TN_MEASURED_FACES] = fitness->faces;
     memcpy(terms + TN_MEASURED_WIDTH, fitness->further, sizeof fitness->further);
+}
+
+double tn_named_value(const tn_named_goal *goal, const tn_fitness *fitness)
+{
+    double terms[TN_MEASURED_COUNT];
+    tn_fitness_terms(fitness, terms);
     return tn_number_run(goal->code, goal->offset, terms);
 }
 

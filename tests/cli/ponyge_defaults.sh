@@ -32,6 +32,7 @@ SELECTION:             operators.selection.tournament
 TOURNAMENT_SIZE:       2
 SELECTION_PROPORTION:  0.5
 WITHIN_USED:           True
+MUTATE_DUPLICATES:     False
 CROSSOVER:             "operators.crossover.variable_onepoint"
 CROSSOVER_PROBABILITY: 0.75
 MUTATION:              operators.mutation.int_flip_per_codon
@@ -67,6 +68,7 @@ elites 5
 replacement generational
 max-depth 90
 wraps 0
+copies kept
 X
 
 # ---- where ramped depths begin, the grammar says, or MIN_INIT_TREE_DEPTH; elites are a hundredth, at least one
