@@ -27,6 +27,15 @@ printf '<a> ::= Edge { + Edge } ;\n' > edges.bnf
 "$TARTAN" fmt edges.bnf > /dev/null 2>&1 || fail "a grammar of a guessed dialect is not laid out"
 grep -q '^<a> ::= Edge { + Edge } ;$' edges.bnf || fail "a guessed dialect is laid out otherwise: $(cat edges.bnf)"
 
+# ---- libGE's escaped quotes: text where another quote closes it; what was read before is read as before
+quoted() { printf '%s\n' "$1" '<b> ::= y | z' > quotes.bnf; "$TARTAN" map quotes.bnf --genome '0 1 1' 2> err.txt | tail -n 1; }
+[ "$(quoted '<a> ::= "say(\""<b>"\")"')" = 'say("z")' ] || fail "an escaped double quote is no text: $(cat err.txt)"
+[ "$(quoted "<a> ::= 'it\\'s '<b>")" = "it's z" ] || fail "an escaped single quote is no text: $(cat err.txt)"
+[ "$(quoted '<a> ::= "\\"<b>"|"')" = '\z|' ] || fail "a text does not end behind an escaped backslash: $(cat err.txt)"
+[ "$(quoted '<a> ::= "x" <b> "\"|\"" | v')" = 'x z "|"' ] || fail "a bar between escaped quotes ends an alternative: $(cat err.txt)"
+"$TARTAN" fmt quotes.bnf && [ "$(head -n 1 quotes.bnf)" = '<a> ::= "x" <b> "\"|\"" | v' ] || fail "escaped quotes are laid out otherwise"
+[ -z "$(quoted '<a> ::= "x\" <b>')" ] && grep -q 'E1211\|single backslash' err.txt || fail "a lone backslash before the last quote is no error: $(cat err.txt)"
+
 # ---- grammars of Python programs are refused with the reason, as themselves and in a study
 printf '<p> ::= def f():{:<s>:}\n<s> ::= return 1\n' > program.pybnf
 "$TARTAN" check program.pybnf 2> err.txt && fail "takes a grammar of Python programs"
