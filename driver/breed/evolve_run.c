@@ -491,7 +491,9 @@ bool tn_run_exhausted(tn_run *run)
         return false;
     if (!run->sentences && tn_count_sentences(run->job->grammar, &run->job->settings.mapping, SENTENCES_MOST,
                                               &run->sentences, &error) != TN_OK)
-        run->sentences = SIZE_MAX; /* without memory for that, as many as one likes */
+        run->sentences = 0; /* without memory for that, as many as one likes */
+    if (!run->sentences)
+        run->sentences = SIZE_MAX; /* why there are none is said otherwise */
     return tn_evolution_known(run->evolution) == run->sentences;
 }
 
