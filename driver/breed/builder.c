@@ -185,7 +185,7 @@ static double lacking(const tn_design_scorer *s, const double *values)
 /* Distances are shares of their targets, as those of grown surfaces are. */
 static void score_goals(const tn_design_scorer *s, const double *values, tn_score *score, char message[200])
 {
-    double lacks = lacking(s, values), total = lacks;
+    double lacks = lacking(s, values), total = TN_REQUIREMENT_WEIGHT * lacks;
     for (size_t i = 0; i < s->wish_count; i++) {
         const wish *w = &s->wishes[i];
         double part = tn_goal_share(value_of(s, w->function, values), w->target, w->weight);

@@ -16,6 +16,7 @@
 #include "runtime/growth/study.h"
 #include "runtime/growth/surface.h"
 #include "runtime/mesh/openmesh.h"
+#include "runtime/number/run.h"
 
 struct tn_grower {
     char *path;       /* of the study */
@@ -162,7 +163,8 @@ static const char *name_of(const tn_grower *g, uint32_t goal)
 /* An expression may have no value for a surface: a division by its undulation, where it is flat. */
 static void score_goals(const tn_grower *g, const tn_fitness *fitness, tn_score *score, char message[200])
 {
-    double side = g->study.options.start_length, lacking = tn_fitness_lacking(fitness, &g->study.goal), total = lacking;
+    double side = g->study.options.start_length, lacking = tn_fitness_lacking(fitness, &g->study.goal),
+           total = TN_REQUIREMENT_WEIGHT * lacking;
     if (!isfinite(lacking)) {
         score->state = TN_SCORE_FAILED;
         snprintf(message, 200, "a requirement has no value for this surface");

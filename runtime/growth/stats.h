@@ -84,7 +84,7 @@ double tn_fitness_part(const tn_fitness *fitness, const tn_fitness_goal *goals, 
 
 /* The sum over wanted terms and expressions of weight * |value - target| / max(|target|, unit), to be made small; the
  * unit is 1, or the seed's side for the size. With `raw`: the sum of weight * value. What the requirements lack is
- * added. */
+ * added, TN_REQUIREMENT_WEIGHT times. */
 double tn_fitness_total(const tn_fitness *fitness, const tn_fitness_goal *goals, double start_length);
 
 #endif

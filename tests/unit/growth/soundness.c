@@ -220,7 +220,7 @@ static void test_requirements(void **state)
                  cases[i].text);
         grow(&g, text, 0);
         assert_true(fabs(tn_fitness_lacking(&g.fitness, &g.study.goal) - cases[i].lacking) < 1e-9);
-        assert_true(fabs(tn_fitness_total(&g.fitness, &g.study.goal, 1) - (cases[i].lacking + 1.5)) < 1e-9);
+        assert_true(fabs(tn_fitness_total(&g.fitness, &g.study.goal, 1) - (10 * cases[i].lacking + 1.5)) < 1e-9);
         is(&g, TN_MEASURED_CROSSINGS, 0);
         uproot(&g);
     }
