@@ -1,6 +1,6 @@
-/* Places a rule file through the C interface, as a program outside would: place_interface STDLIB SEED MODEL FILE
+/* Places a rule file through the C interface, as a program outside would: place_interface STDLIB SEED MODEL FILE [LIMIT]
  * Prints the LDraw file, then the list of parts; where that fails, the number of the diagnostic, and ends with 1. MODEL may be
- * empty. tests/cli/place_interface.sh holds this to what the command writes. */
+ * empty; LIMIT is that of a search. tests/cli/place_interface.sh holds this to what the command writes. */
 #include "include/tartan/tartan.h"
 
 #include <inttypes.h>
@@ -49,18 +49,20 @@ int main(int argc, char **argv)
     tartan_error error = {0};
     tartan_module *module = NULL;
     tartan_placement *placement = NULL;
-    if (argc != 5) {
-        fputs("usage: place_interface STDLIB SEED MODEL FILE\n", stderr);
+    if (argc != 5 && argc != 6) {
+        fputs("usage: place_interface STDLIB SEED MODEL FILE [LIMIT]\n", stderr);
         return 2;
     }
     tartan_place_options options = tartan_place_options_init();
     options.seed = (uint32_t)strtoul(argv[2], NULL, 10);
     options.model = argv[3][0] ? argv[3] : NULL;
+    options.search_limit = argc == 6 ? strtoull(argv[5], NULL, 10) : 0;
     tartan_status status = compile(argv[4], argv[1], &module, &error);
     if (status == TARTAN_OK)
         status = tartan_place(module, &options, NULL, &placement, &error);
-    if (status == TARTAN_OK)
-        status = print(placement, &error);
+    tartan_error ignored = {0};
+    if (placement)
+        status = print(placement, &ignored) == TARTAN_OK ? status : TARTAN_INTERNAL;
     if (status != TARTAN_OK)
         printf("E%04" PRIu32 "\n", error.code);
     tartan_placement_free(placement);

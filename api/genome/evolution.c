@@ -99,7 +99,7 @@ static tartan_status make(const tartan_module *module, const tartan_evolution_op
         return status;
     if (tn_grammar_new(module->module, 0, &evolution->grammar, &found) != TN_OK)
         return tn_api_fail(&found, error);
-    status = tn_api_evolution_settings(&options, evolution, error);
+    status = tn_api_evolution_settings(module->module, &options, evolution, error);
     evolution->evaluator = (tn_evaluator){.context = evolution,
                                           .objectives = options.objectives ? options.objectives : 1,
                                           .evaluate_many = evaluate_many,

@@ -47,8 +47,8 @@ struct tartan_evolution {
 tartan_generation tn_api_generation(const tn_generation_stats *stats);
 
 /* The caller's options as the engine's, checked; `evolution` has its grammar. */
-tartan_status tn_api_evolution_settings(const tartan_evolution_options *options, tartan_evolution *evolution,
-                                        tartan_error *error);
+tartan_status tn_api_evolution_settings(const tn_module *module, const tartan_evolution_options *options,
+                                        tartan_evolution *evolution, tartan_error *error);
 
 /* An evolution without an engine's generation. */
 tartan_status tn_api_evolution_make(const tartan_module *module, const tartan_evolution_options *options,

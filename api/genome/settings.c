@@ -56,6 +56,10 @@ static void fill(const tn_evolution_study *s, tartan_evolution_options *o)
     o->tree_depth = s->of[TN_SET_TREE_DEPTH].written ? whole(s, TN_SET_TREE_DEPTH) : 0;
     o->elites = whole(s, TN_SET_ELITES);
     o->no_elites = o->elites == 0;
+    o->keep_copies = s->of[TN_SET_COPIES].choice == 1;
+    o->islands = whole(s, TN_SET_ISLANDS);
+    o->migrants = whole(s, TN_SET_MIGRATE);
+    o->migrate_every = (uint32_t)s->of[TN_SET_MIGRATE].second;
     o->steady_state = s->of[TN_SET_REPLACEMENT].choice == TN_REPLACE_STEADY;
 }
 
@@ -103,6 +107,9 @@ static tartan_status check_choices(const tartan_evolution_options *o, tartan_err
     if (o->depth_low && o->depth_high && o->depth_low > o->depth_high)
         return tn_api_refuse(error, TARTAN_INVALID, "first trees cannot be between %u and %u deep",
                              (unsigned)o->depth_low, (unsigned)o->depth_high);
+    if (o->depth_low > TN_FIRST_DEPTH_MAX || o->depth_high > TN_FIRST_DEPTH_MAX)
+        return tn_api_refuse(error, TARTAN_INVALID, "first trees can be %u deep, not %u", TN_FIRST_DEPTH_MAX,
+                             (unsigned)(o->depth_high ? o->depth_high : o->depth_low));
     if (o->objectives > 1 && o->selection != TARTAN_SELECT_DEFAULT && o->selection != TARTAN_SELECT_NSGA2)
         return tn_api_refuse(error, TARTAN_INVALID, "several objectives are weighed by TARTAN_SELECT_NSGA2 only");
     if (o->seed_count && !o->seeds)
@@ -155,6 +162,10 @@ static void translate(const tartan_evolution_options *o, tn_evolution_settings *
     set(o->elites, &s->elites);
     if (o->no_elites)
         s->elites = 0;
+    s->keeps_copies = o->keep_copies;
+    s->islands = o->islands ? o->islands : 1;
+    s->migrants = o->migrants ? o->migrants : 1;
+    s->every = o->migrate_every ? o->migrate_every : 10;
     s->replacement = o->steady_state ? TN_REPLACE_STEADY : TN_REPLACE_GENERATION;
     s->threads = o->threads > TARTAN_THREADS_MAX ? TARTAN_THREADS_MAX : o->threads;
 }
@@ -181,8 +192,24 @@ static tartan_status take_seeds(const tartan_evolution_options *o, tartan_evolut
     return TARTAN_OK;
 }
 
-tartan_status tn_api_evolution_settings(const tartan_evolution_options *o, tartan_evolution *evolution,
-                                        tartan_error *error)
+/* What a study says of mapping is not among the options: it holds where these say nothing. */
+static void follow_study(const tn_module *module, tn_mapping_options *mapping)
+{
+    tn_evolution_study study;
+    if (!tn_evolution_study_of(module, &study))
+        return;
+    const tn_setting_value *of = study.of;
+    if (of[TN_SET_MAX_DEPTH].written)
+        mapping->max_depth = whole(&study, TN_SET_MAX_DEPTH);
+    if (of[TN_SET_WRAPS].written)
+        mapping->wraps = whole(&study, TN_SET_WRAPS);
+    if (of[TN_SET_MAPPING].written)
+        mapping->position_independent = of[TN_SET_MAPPING].choice == 1;
+    mapping->max_steps = (uint64_t)of[TN_SET_MAX_STEPS].first;
+}
+
+tartan_status tn_api_evolution_settings(const tn_module *module, const tartan_evolution_options *o,
+                                        tartan_evolution *evolution, tartan_error *error)
 {
     if (!o->evaluate)
         return tn_api_missing(error, "function that evaluates");
@@ -197,6 +224,8 @@ tartan_status tn_api_evolution_settings(const tartan_evolution_options *o, tarta
     evolution->evaluate_cases = o->evaluate_cases;
     evolution->context = o->context;
     status = tn_api_map_options(evolution->grammar, o->mapping, &evolution->settings.mapping, error);
+    if (!o->mapping)
+        follow_study(module, &evolution->settings.mapping);
     evolution->settings.mapping.record = false;
     return status == TARTAN_OK ? take_seeds(o, evolution, error) : status;
 }

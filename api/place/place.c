@@ -12,6 +12,7 @@ struct tartan_placement {
     tn_placed_model model;
     tn_placed_steps steps;
     bool has_steps; /* the kit's model says in which it is built */
+    bool complete;  /* it can be handed out */
     uint32_t seed;
     tartan_placed_part *parts;
     tn_watch watch;
@@ -73,6 +74,12 @@ static tn_status find_steps(tartan_placement *p, tn_error *error)
     return p->has_steps ? tn_placed_steps_make(p->rules.module, &wish, &p->watch, &p->model, &p->steps, error) : TN_OK;
 }
 
+/* A search that ends early leaves the best model that it has looked at. */
+static bool is_best_so_far(const tartan_placement *p, tn_status status)
+{
+    return p->model.counts.looked_at > 0 && p->model.count > 0 && (status == TN_LIMIT || status == TN_STOPPED);
+}
+
 static tartan_status place(const tartan_module *module, const tartan_place_options *options, tartan_placement *p,
                            tartan_error *error)
 {
@@ -85,16 +92,24 @@ static tartan_status place(const tartan_module *module, const tartan_place_optio
                             .threads = options->threads,
                             .watch = &p->watch};
     tn_place_fault fault;
-    tn_error found;
+    tn_error found, ended;
     p->seed = options->seed;
     tn_status status = make_rules(module->module, options->model, &p->rules, &found);
     if (status == TN_OK)
         status = tn_place_run(&p->rules, &own, &p->model, &fault, &found);
+    bool cut_short = is_best_so_far(p, status);
+    if (cut_short) {
+        ended = found;
+        p->watch = (tn_watch){0}; /* it has been heard */
+        status = TN_OK;
+    }
     if (status == TN_OK)
         status = check_conditions(p, &found);
     if (status == TN_OK)
         status = find_steps(p, &found);
-    return status == TN_OK ? list(p, error) : tn_api_fail(&found, error);
+    tartan_status result = status == TN_OK ? list(p, error) : tn_api_fail(cut_short ? &ended : &found, error);
+    p->complete = result == TARTAN_OK;
+    return p->complete && cut_short ? tn_api_fail(&ended, error) : result;
 }
 
 tartan_status tartan_place(const tartan_module *module, const tartan_place_options *given, const tartan_watch *watch,
@@ -112,7 +127,7 @@ tartan_status tartan_place(const tartan_module *module, const tartan_place_optio
     status = tn_api_watch(watch, &made->watch, error);
     if (status == TARTAN_OK)
         status = place(module, &options, made, error);
-    if (status == TARTAN_OK)
+    if (made->complete)
         *placement = made;
     else
         tartan_placement_free(made);

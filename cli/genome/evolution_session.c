@@ -128,6 +128,18 @@ static bool make_job(tn_evolution_session *e, const tn_evolution_study *study, t
     return false;
 }
 
+static void warn_of_open_mesh(tn_evolution_session *e)
+{
+    const char *mesh = e->job.grower ? tn_grower_open_mesh(e->job.grower) : NULL;
+    if (!mesh || !tn_ranks_lead(e->settings->common.ranks))
+        return;
+    tn_diagnostics *list = tn_job_diagnostics(e->command);
+    tn_diagnostic *d = tn_report_bare(
+        list, TN_WARNING, W_OPEN_BOUNDARY,
+        "the boundary mesh %.200s is open, or has edges of more than two faces: nothing is inside it", mesh);
+    tn_help(list, d, "close it, or leave `inside` out: it stops what crosses it from either side");
+}
+
 /* With several ranks, together. */
 static bool begin(tn_evolution_session *e, const tn_evolution_study *study, const char *dir, tn_error *error)
 {
@@ -224,6 +236,8 @@ static bool open_session(tn_job *command, const tn_session_settings *settings, b
     }
     bool ready = dir && wants_what_can_be(command, settings) && open_study(e, path, &study, &error) &&
                  make_job(e, &study, &error);
+    if (ready)
+        warn_of_open_mesh(e);
     bool begun = tn_job_agree(command, ready) && begin(e, &study, dir, &error);
     free(own);
     return begun;

@@ -39,6 +39,8 @@ typedef struct tn_evolution_session {
     tn_run run;
     uint32_t generations; /* to be bred, after the first */
     bool remembers;
+    bool exhausted; /* it ended because there is nothing left to be scored */
+    bool written;   /* best/ and the rest are those of its last generation */
     char *parameters_study; /* owned: the name of the study that parameters became, or NULL */
 } tn_evolution_session;
 

@@ -50,10 +50,36 @@ static void warn_of_failures(tn_evolution_session *e)
 
 /* Is there another generation to breed? Several ranks give the same answer: an interrupt ends the step of all of them.
  */
-static bool goes_on(const tn_evolution_session *e)
+static bool goes_on(tn_evolution_session *e)
 {
-    bool wanted = e->run.generations <= e->generations && !tn_run_reached(&e->run);
+    bool exhausted = tn_run_exhausted(&e->run), left = e->run.generations <= e->generations;
+    bool wanted = left && !exhausted && !tn_run_reached(&e->run);
+    e->exhausted = left && exhausted;
     return wanted && (tn_ranks_several(e->job.settings.ranks) || !tn_interrupted());
+}
+
+/* The best by its score may lack what is required: then the score says little. */
+static void warn_of_unmet(tn_evolution_session *e)
+{
+    const tn_bred_forms *forms = &e->job.forms;
+    size_t count;
+    const tn_individual *const *members = tn_evolution_members(e->run.evolution, &count);
+    char *text = NULL;
+    tn_error error;
+    if (!forms->unmet || !count || members[0]->score.state != TN_SCORED ||
+        forms->unmet(forms->context, members[0]->sentence, &text, &error) != TN_OK || !text[0]) {
+        free(text);
+        return;
+    }
+    tn_diagnostics *list = tn_job_diagnostics(e->command);
+    tn_diagnostic *d =
+        tn_report_bare(list, TN_WARNING, W_BEST_LACKS, "the best %s does not meet what is required of it", forms->what);
+    for (char *line = text, *end; (end = strchr(line, '\n')); line = end + 1)
+        tn_note(list, d, NULL, "%.*s", (int)(end - line), line);
+    if (e->job.settings.select.selection != TN_SELECT_NSGA2)
+        tn_help(list, d, "with `selection nsga2`, what meets more of it is always better");
+    free(text);
+    tn_job_show(e->command);
 }
 
 static tn_status breed_all(tn_evolution_session *e, tn_error *error)
@@ -97,6 +123,9 @@ static void evolve(tn_evolution_session *e)
         status = TN_OK; /* within a generation, which is not kept */
     if (status == TN_OK && e->run.generations && !interrupted && tn_ranks_lead(ranks))
         status = tn_run_results(&e->run, &error);
+    e->written = status == TN_OK && !interrupted;
+    if (e->written && e->run.generations && tn_ranks_lead(ranks))
+        warn_of_unmet(e);
     e->command->said = !tn_ranks_lead(ranks); /* what is missing: the first says it */
     if (status != TN_OK) {
         tn_job_fail(e->command, &error);
@@ -201,13 +230,24 @@ static void summarise(const tn_evolution_session *e, FILE *out)
         tell_test(e, members[0], out);
     }
     tell_first(e, out);
-    fprintf(out, "results are in %s\n", e->run.dir);
+    fprintf(out, e->written ? "results are in %s\n" : "the run so far is in %s/run.sqlite\n", e->run.dir);
+}
+
+/* It ended before its last generation. */
+static void tell_exhausted(tn_evolution_session *e)
+{
+    if (e->exhausted)
+        tn_job_note(e->command,
+                    "the grammar has %zu sentences, and all have been scored: more generations find nothing new",
+                    e->run.sentences);
 }
 
 static void evolve_and_tell(tn_evolution_session *e)
 {
     tn_output output;
     evolve(e);
+    if (tn_ranks_lead(e->job.settings.ranks))
+        tell_exhausted(e);
     if (tn_ranks_lead(e->job.settings.ranks) && tn_job_output(e->command, NULL, &output)) {
         summarise(e, output.stream);
         tn_job_commit(e->command, &output);

@@ -372,6 +372,18 @@ static tn_status prepare(run_state *run, tn_error *error)
     return tn_growth_new(run->system, &run->study.environment, &run->study.options, &run->growth, error);
 }
 
+static void warn_of_open_boundaries(const run_state *run)
+{
+    const tn_module *module = run->job->opened.module;
+    tn_diagnostics *list = tn_job_diagnostics(run->job);
+    for (uint32_t i = 0; (i = tn_study_open_boundary(&run->study, i)) < module->BOUNDARY_count; i++) {
+        const tn_boundary_record *r = &module->BOUNDARY_records[i];
+        tn_diagnostic *d = tn_report(list, W_OPEN_BOUNDARY, (tn_span){r->file, r->begin, r->end},
+                                     "this mesh is open, or has edges of more than two faces: nothing is inside it");
+        tn_help(list, d, "close it, or leave `inside` out: it stops what crosses it from either side");
+    }
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
@@ -381,6 +393,8 @@ static int run(const tn_command *command, const tn_settings *common)
     run_state state = {.job = &job, .settings = tn_grow_settings_of(&job)};
     if (tn_grow_format_of(&job, &state.format) && read_until(&state) && read_overlay(&state) && tn_grow_open(&job)) {
         tn_status status = prepare(&state, &error);
+        if (status == TN_OK)
+            warn_of_open_boundaries(&state);
         if (status == TN_OK)
             status = grow(&state, &error);
         if (status == TN_OK)

@@ -19,6 +19,9 @@ tn_bnf_item *tn_bnf_item_new(tn_bnf_reader *reader, tn_bnf_kind kind, tn_span sp
     return item;
 }
 
+const char tn_bnf_token_help[] =
+    "in the genr8 dialect all tokens are separated by blanks; quote what is to be text: 'x'";
+
 tn_bnf_item *tn_bnf_lone_quote(tn_bnf_reader *reader, tn_span span, tn_bnf_text text)
 {
     char quote = text.text[0], other = quote == '"' ? '\'' : '"';
@@ -27,6 +30,13 @@ tn_bnf_item *tn_bnf_lone_quote(tn_bnf_reader *reader, tn_span span, tn_bnf_text 
     tn_help(reader->diagnostics, diagnostic,
             "to write the sign itself, put it between quotes of the other kind: %c%c%c", other, quote, other);
     return tn_bnf_item_new(reader, TN_BNF_PLAIN, span, text);
+}
+
+void tn_bnf_open_quote(tn_bnf_reader *reader, tn_span span)
+{
+    tn_diagnostic *diagnostic =
+        tn_report(reader->diagnostics, E_GRAMMAR_TOKEN, span, "a quote is not closed before the next blank");
+    tn_help(reader->diagnostics, diagnostic, "%s", tn_bnf_token_help);
 }
 
 tn_bnf_item *tn_bnf_group_new(tn_bnf_reader *reader, tn_bnf_kind kind, tn_span span, tn_bnf_items body)

@@ -121,6 +121,11 @@ void tn_bnf_directive(tn_bnf_reader *reader, tn_span span, tn_bnf_text line);
 void tn_bnf_stray(tn_bnf_reader *reader, tn_span span);
 tn_bnf_item *tn_bnf_item_new(tn_bnf_reader *reader, tn_bnf_kind kind, tn_span span, tn_bnf_text text);
 tn_bnf_item *tn_bnf_lone_quote(tn_bnf_reader *reader, tn_span span, tn_bnf_text text);
+
+/* genr8: reports a token that begins with a quote and does not end with it, where it is read, so that laying out such a
+ * file does not pair it with a quote of another line. */
+void tn_bnf_open_quote(tn_bnf_reader *reader, tn_span span);
+extern const char tn_bnf_token_help[];
 tn_bnf_item *tn_bnf_group_new(tn_bnf_reader *reader, tn_bnf_kind kind, tn_span span, tn_bnf_items body);
 tn_bnf_items tn_bnf_append(tn_bnf_items items, tn_bnf_item *item);
 tn_bnf_alternative *tn_bnf_alternative_new(tn_bnf_reader *reader, tn_span span, tn_bnf_items items);

@@ -23,13 +23,20 @@ static void skip_line(survey *s)
         s->at++;
 }
 
-/* Behind the other quote on this line; behind this one, where there is none. */
-static void skip_quoted(survey *s)
+/* Where the quoted text that begins here ends; behind the quote alone, where it has no other on its line. */
+static size_t quoted_end(const survey *s, bool escapes)
 {
     size_t end = s->at + 1;
     while (end < s->size && s->text[end] != '\n' && s->text[end] != s->text[s->at])
-        end++;
-    s->at = end < s->size && s->text[end] == s->text[s->at] ? end + 1 : s->at + 1;
+        end += escapes && s->text[end] == '\\' && end + 1 < s->size && s->text[end + 1] != '\n' ? 2 : 1;
+    return end < s->size && s->text[end] == s->text[s->at] ? end + 1 : s->at + 1;
+}
+
+/* As the lexer: with `\"` for a quote where that makes it longer. */
+static void skip_quoted(survey *s)
+{
+    size_t plain = quoted_end(s, false), escaped = quoted_end(s, true);
+    s->at = escaped > plain ? escaped : plain;
 }
 
 static void judge_word(survey *s, size_t begin)

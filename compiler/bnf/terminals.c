@@ -306,22 +306,21 @@ static void make_ge(tn_bnf_reader *reader, tn_bnf_alternative *alternative)
 static void bad_token(tn_bnf_reader *reader, const tn_bnf_item *item, const char *what)
 {
     tn_diagnostic *diagnostic = tn_report(reader->diagnostics, E_GRAMMAR_TOKEN, item->span, "%s", what);
-    tn_help(reader->diagnostics, diagnostic,
-            "in the genr8 dialect all tokens are separated by blanks; quote what is to be text: 'x'");
+    tn_help(reader->diagnostics, diagnostic, "%s", tn_bnf_token_help);
 }
 
 static void check_token(tn_bnf_reader *reader, const tn_bnf_item *item)
 {
     tn_bnf_text text = item->text;
     const char *open = memchr(text.text, '<', text.length);
+    if (text.text[0] == '\'' || text.text[0] == '"')
+        return; /* has been reported (tn_bnf_open_quote) */
     if (memchr(text.text, '{', text.length) || memchr(text.text, '}', text.length) ||
         memchr(text.text, '[', text.length) || memchr(text.text, ']', text.length) ||
         memchr(text.text, '|', text.length))
         bad_token(reader, item, "a brace, bracket or bar sticks to other text");
     else if (open && memchr(open, '>', text.length - (size_t)(open - text.text)) && text.length > 2)
         bad_token(reader, item, "a non-terminal sticks to other text");
-    else if (text.text[0] == '\'' || text.text[0] == '"')
-        bad_token(reader, item, "a quote is not closed before the next blank");
 }
 
 static void check_edge(tn_bnf_reader *reader, const tn_bnf_item *item)

@@ -1,6 +1,7 @@
 /* Builds trees of expressions, looks their names up, and makes their code. */
 #include "compiler/common/expression.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -280,14 +281,72 @@ bool tn_expression_is_condition(const tn_expression *expression)
     return joins;
 }
 
-static void add_shortfall(tn_formula *formula, const tn_expression *e, bool wanted)
+static bool names_a_term(const tn_expression *e)
+{
+    bool names = e->op == TN_OP_TERM;
+    for (const tn_expression *operand = e->first; operand && !names; operand = operand->next)
+        names = names_a_term(operand);
+    return names;
+}
+
+#define UNIT_MOST 1e300 /* an endless distance stays endless, also as a share of an endless bound */
+
+/* Divides the distance on the stack by the bound's size, or by 1 where that is smaller. */
+static void add_share(tn_formula *formula, const tn_expression *bound)
+{
+    double number;
+    if (constant(bound, &number)) {
+        number = fmin(fmax(fabs(number), 1), UNIT_MOST);
+        if (number == 1)
+            return;
+        tn_formula_number(formula, number);
+    } else {
+        add_value(formula, bound);
+        tn_formula_operation(formula, TN_OP_ABSOLUTE, 1);
+        tn_formula_number(formula, 1);
+        tn_formula_operation(formula, TN_OP_MOST, 2);
+        tn_formula_number(formula, UNIT_MOST);
+        tn_formula_operation(formula, TN_OP_LEAST, 2);
+    }
+    tn_formula_operation(formula, TN_OP_DIVIDE, 2);
+}
+
+static void add_distance(tn_formula *formula, tn_opcode distance, const tn_expression *left, const tn_expression *right,
+                         const tn_expression *bound)
+{
+    add_value(formula, left);
+    add_value(formula, right);
+    tn_formula_operation(formula, distance, 2);
+    add_share(formula, bound);
+}
+
+/* Of two sides the bound is the right one, unless the left alone is a number, as in 25 <= angle. `a in b..c` is a >= b
+ * and a <= c, so that each is a share of its own bound. */
+static void add_shares(tn_formula *formula, const tn_expression *e, tn_opcode distance, bool wanted)
+{
+    const tn_expression *left = e->first, *right = left->next;
+    if (e->op != TN_OP_IS_BETWEEN) {
+        add_distance(formula, distance, left, right, names_a_term(right) && !names_a_term(left) ? left : right);
+        return;
+    }
+    add_distance(formula, wanted ? TN_OP_SHORT_OF_AT_LEAST : TN_OP_SHORT_OF_BELOW, left, right, right);
+    add_distance(formula, wanted ? TN_OP_SHORT_OF_AT_MOST : TN_OP_SHORT_OF_ABOVE, left, e->last, e->last);
+    tn_formula_operation(formula, wanted ? TN_OP_ADD : TN_OP_LEAST, 2);
+}
+
+static void add_shortfall(tn_formula *formula, const tn_expression *e, bool wanted, bool shares)
 {
     for (size_t i = 0; i < sizeof shortfalls / sizeof *shortfalls; i++) {
         if (shortfalls[i].comparison != e->op)
             continue;
+        tn_opcode distance = wanted ? shortfalls[i].holds : shortfalls[i].fails;
+        if (shares) {
+            add_shares(formula, e, distance, wanted);
+            return;
+        }
         for (const tn_expression *operand = e->first; operand; operand = operand->next)
             add_value(formula, operand);
-        tn_formula_operation(formula, wanted ? shortfalls[i].holds : shortfalls[i].fails, e->operand_count);
+        tn_formula_operation(formula, distance, e->operand_count);
         return;
     }
     add_value(formula, e); /* no condition */
@@ -296,23 +355,23 @@ static void add_shortfall(tn_formula *formula, const tn_expression *e, bool want
 }
 
 /* Of the expression, or of its opposite where it is not wanted. */
-static void add_violation(tn_formula *formula, const tn_expression *e, bool wanted)
+static void add_violation(tn_formula *formula, const tn_expression *e, bool wanted, bool shares)
 {
     if (e->op == TN_OP_IS_NOT) {
-        add_violation(formula, e->first, !wanted);
+        add_violation(formula, e->first, !wanted, shares);
     } else if (e->op == TN_OP_IS_BOTH || e->op == TN_OP_IS_EITHER) {
-        add_violation(formula, e->first, wanted);
-        add_violation(formula, e->last, wanted);
+        add_violation(formula, e->first, wanted, shares);
+        add_violation(formula, e->last, wanted, shares);
         tn_formula_operation(formula, (e->op == TN_OP_IS_BOTH) == wanted ? TN_OP_ADD : TN_OP_LEAST, 2);
     } else {
-        add_shortfall(formula, e, wanted);
+        add_shortfall(formula, e, wanted, shares);
     }
 }
 
-tn_status tn_expression_violation(const tn_expression *expression, tn_formula *formula, tn_error *error)
+tn_status tn_expression_violation(const tn_expression *expression, bool shares, tn_formula *formula, tn_error *error)
 {
     tn_formula_begin(formula);
-    add_violation(formula, expression, true);
+    add_violation(formula, expression, true, shares);
     return tn_formula_end(formula, error);
 }
 

@@ -66,8 +66,10 @@ bool tn_expression_is_condition(const tn_expression *expression);
 /* The code of how far the expression, taken for a condition, is from holding: 0 where it holds, else above 0, and no
  * value where it has none. Of a <= b it is max(0, a - b), of a = b |a - b|, of `and` the sum, of `or` the least; `not`
  * is pushed inward, to the opposite comparisons; a strict comparison that fails, and `!=`, give at least 1e-9. What is
- * no condition holds where it is not 0. For searching, which wants a slope. */
-tn_status tn_expression_violation(const tn_expression *expression, tn_formula *formula, tn_error *error);
+ * no condition holds where it is not 0. For searching, which wants a slope. With `shares`, the distance of a comparison
+ * is a share of its bound's size, or of 1 where that is larger, so that degrees, counts and lengths can be added to one
+ * another and to goals; the bound is the side that is a number, or the right one. */
+tn_status tn_expression_violation(const tn_expression *expression, bool shares, tn_formula *formula, tn_error *error);
 
 /* Adds the formula to a module as a function of this kind and name, and returns its index. */
 uint32_t tn_formula_emit(tn_builder *builder, tn_function_kind kind, const char *name, const tn_formula *formula);

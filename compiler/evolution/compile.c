@@ -100,8 +100,18 @@ static tn_status count_data(const char *text, size_t size, size_t counts[TN_BNF_
     return status;
 }
 
+/* In the data, where the error has its place there; otherwise where they are named. */
+static void report_data(tn_compilation *c, const tn_setting_value *fit, const char *path, const tn_error *why)
+{
+    tn_diagnostic *d = tn_report_error(&c->diagnostics, why, path, NULL, 0);
+    if (!d || why->line)
+        return;
+    d->has_span = true;
+    d->span = (tn_span){fit->file, fit->begin, fit->end};
+}
+
 /* Settings that the study does not write are written by the data that it fits; with those that it does, they are a part
- * of the run from here on. Data that cannot be read are reported where they are read to be fitted. */
+ * of the run from here on. Data that cannot be read are an error here: the grammar needs them. */
 static tn_status note_data(tn_compilation *c, const tn_source *grammar, tn_evolution_study *study, tn_error *error)
 {
     const tn_setting_value *fit = &study->of[TN_SET_FIT];
@@ -113,11 +123,15 @@ static tn_status note_data(tn_compilation *c, const tn_source *grammar, tn_evolu
         return TN_OK;
     char *path = tn_file_beside(own->path, fit->text);
     tn_status status = path ? tn_file_read(path, DATA_BYTES_MAX, &bytes, &size, &why) : TN_MEMORY;
-    free(path);
     if (status == TN_OK) {
         status = count_data((const char *)bytes, size, counts, &why);
         free(bytes);
     }
+    if (status != TN_OK && status != TN_MEMORY) {
+        report_data(c, fit, path, &why);
+        counts[0] = counts[1] = counts[2] = 1; /* so that the grammar does not miss them, too */
+    }
+    free(path);
     for (size_t i = 0; i < TN_BNF_DATA; i++) {
         tn_setting_value value = {
             .written = 1, .first = (double)counts[i], .file = fit->file, .begin = fit->begin, .end = fit->end};

@@ -345,7 +345,7 @@ static uint32_t emit_function(emitting *e, const tn_expression *expression)
 static uint32_t emit_violation(emitting *e, const tn_expression *expression)
 {
     if (e->status == TN_OK)
-        e->status = tn_expression_violation(expression, &e->formula, e->error);
+        e->status = tn_expression_violation(expression, false, &e->formula, e->error);
     return e->status == TN_OK ? tn_formula_emit(e->builder, TN_FUNCTION_KIT, NULL, &e->formula) : 0;
 }
 

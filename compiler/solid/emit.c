@@ -15,7 +15,7 @@ typedef struct emitting {
 static uint32_t emit_function(emitting *e, const char *name, const tn_expression *expression, bool violation)
 {
     if (e->status == TN_OK)
-        e->status = violation ? tn_expression_violation(expression, &e->formula, e->error)
+        e->status = violation ? tn_expression_violation(expression, true, &e->formula, e->error)
                               : tn_expression_code(expression, &e->formula, e->error);
     return e->status == TN_OK ? tn_formula_emit(e->builder, TN_FUNCTION_SOLID_MEASURE, name, &e->formula) : 0;
 }

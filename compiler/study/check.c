@@ -325,6 +325,8 @@ static void check_whole(check *c, const tn_imports *imports, bool damaged)
     if (study->force_count > TN_SURROUNDINGS_MAX || study->boundary_count > TN_SURROUNDINGS_MAX)
         tn_report(c->diagnostics, E_TOO_MANY, study->span,
                   "this study has more forces or boundaries than the limit of %u", TN_SURROUNDINGS_MAX);
+    else if (c->diagnostics->error_count == 0)
+        tn_check_boundaries(c->diagnostics, study->boundaries, study->boundary_count);
     if (study->goal_count > TN_EXPRESSIONS_MAX || study->requirement_count > TN_EXPRESSIONS_MAX)
         tn_report(c->diagnostics, E_TOO_MANY, study->span,
                   "this study has more goals or requirements than the limit of %u", TN_EXPRESSIONS_MAX);

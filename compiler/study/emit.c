@@ -127,7 +127,7 @@ static tn_status emit_goal(tn_builder *builder, tn_formula *formula, const tn_st
 static tn_status emit_requirement(tn_builder *builder, tn_formula *formula, const tn_study_item *requirement,
                                   tn_error *error)
 {
-    tn_status status = tn_expression_violation(requirement->expression, formula, error);
+    tn_status status = tn_expression_violation(requirement->expression, true, formula, error);
     if (status != TN_OK)
         return status;
     uint32_t violation = tn_formula_emit(builder, TN_FUNCTION_MEASURE, NULL, formula);

@@ -111,6 +111,9 @@ typedef struct tn_checked_study {
     tn_span span;
 } tn_checked_study;
 
+/* Reports boundaries that no point keeps to at once. Meshes are not looked at. */
+void tn_check_boundaries(tn_diagnostics *diagnostics, const tn_study_item *const *boundaries, uint32_t count);
+
 /* Checks the studies among the units. False where there were errors. */
 bool tn_check_study(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, tn_checked_study *study);
 

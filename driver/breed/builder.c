@@ -186,7 +186,7 @@ static double lacking(const tn_design_scorer *s, const double *values)
 /* Distances are shares of their targets, as those of grown surfaces are. */
 static void score_goals(const tn_design_scorer *s, const double *values, tn_score *score, char message[200])
 {
-    double lacks = lacking(s, values), total = lacks;
+    double lacks = lacking(s, values), total = TN_REQUIREMENT_WEIGHT * lacks;
     for (size_t i = 0; i < s->wish_count; i++) {
         const wish *w = &s->wishes[i];
         double part = tn_goal_share(value_of(s, w->function, values), w->target, w->weight);
@@ -339,6 +339,31 @@ const char *tn_design_scorer_objective(const void *scorer, size_t i)
 {
     const tn_design_scorer *s = scorer;
     return i < s->wish_count ? s->wishes[i].name : s->more.items[i - s->wish_count].text;
+}
+
+tn_status tn_design_scorer_unmet(const void *scorer, const char *sentence, char **text, tn_error *error)
+{
+    const tn_design_scorer *s = scorer;
+    const tn_module *module = s->opened.module;
+    double values[TN_SOLID_MEASURED_COUNT] = {0};
+    tn_opened opened = {0};
+    tn_built built;
+    size_t size;
+    *text = NULL;
+    tn_status status = build(sentence, strlen(sentence), &opened, &built, error);
+    if (status == TN_OK)
+        status = tn_built_measure(&built, s->asked, values, error);
+    FILE *out = status == TN_OK ? open_memstream(text, &size) : NULL;
+    const tn_unmet_found found = {module, tn_solid_measured_names, TN_SOLID_MEASURED_COUNT, values};
+    for (uint32_t i = 0; out && i < s->record->requirement_count; i++) {
+        const tn_requirement_record *r = &module->REQUIREMENT_records[s->record->requirement_first + i];
+        tn_unmet_write(out, &found, &(tn_unmet_requirement){r->violation, r->file, r->begin, r->end});
+    }
+    if (status == TN_OK && (!out || fclose(out) != 0))
+        status = tn_fail_memory(error);
+    tn_built_clear(&built);
+    tn_close(&opened);
+    return status;
 }
 
 /* ---- pictures */

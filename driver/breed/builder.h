@@ -52,4 +52,7 @@ tn_status tn_design_scorer_inputs(const tn_design_scorer *scorer, char **inputs,
 tn_status tn_design_scorer_mesh(const void *scorer, const char *sentence, tn_mesh *mesh, tn_guides *guides,
                                 tn_error *error);
 
+/* What is required and a sentence's design does not meet, as tn_grower_unmet says it. */
+tn_status tn_design_scorer_unmet(const void *scorer, const char *sentence, char **text, tn_error *error);
+
 #endif

@@ -36,6 +36,8 @@ typedef struct tn_bred_forms {
     const char *(*objective)(const void *context, size_t i);
     /* A form as a mesh, z up, and what explains it (guides); NULL: there is none. The caller clears both. */
     tn_status (*mesh)(const void *context, const char *sentence, tn_mesh *mesh, tn_guides *guides, tn_error *error);
+    /* As tn_grower_unmet; NULL: nothing can be required. */
+    tn_status (*unmet)(const void *context, const char *sentence, char **text, tn_error *error);
 } tn_bred_forms;
 
 /* What is evolved. Zero it to begin with; clear it in any case. */
@@ -103,7 +105,7 @@ typedef struct tn_finding {
     char text[520]; /* both, as the database has them */
 } tn_finding;
 
-#define TN_FINDINGS_MAX 2u
+#define TN_FINDINGS_MAX 3u
 
 typedef struct tn_first_look {
     tn_finding items[TN_FINDINGS_MAX];
@@ -113,6 +115,8 @@ typedef struct tn_first_look {
 typedef struct tn_run {
     tn_evolution_job *job; /* borrowed */
     char *dir;
+    bool locked; /* nobody else writes the folder: `lock` is its descriptor */
+    int lock;
     tn_run_store *store; /* NULL on ranks but the first, which alone writes */
     tn_evolution *evolution;
     uint32_t generations; /* done */
@@ -122,6 +126,8 @@ typedef struct tn_run {
     size_t change_count, new_changes;
     tn_run_event *waiting; /* what was stored to be done by hand before the next generation */
     size_t waiting_count;
+    bool idle;             /* the newest generation brought no sentence that had no score yet */
+    size_t sentences;      /* of the grammar, once they were counted; SIZE_MAX: many */
     tn_rescored *rescored; /* by those */
     size_t rescored_count;
     tn_error
@@ -170,6 +176,10 @@ tn_status tn_run_leave(const char *dir, const char *kind, const char *file, uint
 
 /* Is the best score as good as `stop` asks for? */
 bool tn_run_reached(const tn_run *run);
+
+/* Has every sentence of the grammar (run->sentences) been scored? It is said after a generation that brought none that
+ * is new; only then are they counted. */
+bool tn_run_exhausted(tn_run *run);
 
 /* Writes best/, stats.csv and fitness.svg: where several ranks made the run, by the first. */
 tn_status tn_run_results(tn_run *run, tn_error *error);

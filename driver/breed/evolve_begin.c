@@ -1,10 +1,12 @@
 /* Begins a run in a folder, or opens the one that is there and sees that it is of the same study, grammar and inputs.
  */
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include "driver/breed/evolve.h"
@@ -181,12 +183,30 @@ static tn_status open_or_begin(tn_run *run, const char *path, const tn_run_optio
     return status == TN_OK ? same_grammar(run, texts->grammar_text, error) : status;
 }
 
+tn_status tn_run_lock(tn_run *run, tn_error *error)
+{
+    run->lock = open(run->dir, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (run->lock < 0)
+        return TN_OK; /* what is wrong with it is said where its database is opened */
+    run->locked = flock(run->lock, LOCK_EX | LOCK_NB) == 0;
+    bool taken = !run->locked && errno == EWOULDBLOCK;
+    if (!run->locked)
+        close(run->lock);
+    if (!taken)
+        return TN_OK;
+    tn_fail(error, TN_IO, E_RUN_IN_USE, "another command is writing the run in %.200s", run->dir);
+    tn_error_help(error, "wait until it has ended, or write to another folder: -o DIR");
+    return TN_IO;
+}
+
 /* Rank 0's part: the folder and its database. */
 static tn_status begin_store(tn_run *run, const char *dir, const tn_run_options *options, const tn_run_texts *texts,
                              bool *goes_on, tn_error *error)
 {
     char *path = tn_run_database(dir);
     tn_status status = path ? tn_folder_make(dir, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_run_lock(run, error);
     if (status == TN_OK)
         status = open_or_begin(run, path, options, texts, goes_on, error);
     free(path);

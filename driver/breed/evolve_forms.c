@@ -63,7 +63,7 @@ static tn_status make_fields(tn_evolution_job *job, const char *path, bool draws
     if (status != TN_OK)
         return status;
     job->forms = (tn_bred_forms){
-        job->fields, "surface", ".png", tn_field_scorer_draw, tn_field_scorer_objective, tn_field_scorer_mesh};
+        job->fields, "surface", ".png", tn_field_scorer_draw, tn_field_scorer_objective, tn_field_scorer_mesh, NULL};
     if (draws_open)
         tn_field_scorer_draw_open(job->fields);
     job->evaluator = tn_field_scorer_evaluator(job->fields);
@@ -110,8 +110,13 @@ static tn_status make_boxes(tn_evolution_job *job, const char *path, tn_error *e
         status = tn_design_scorer_take_genes(job->designs, tn_skeleton_breeding(job->skeleton), error);
     if (status != TN_OK)
         return status;
-    job->forms = (tn_bred_forms){
-        job->designs, "form", ".svg", tn_design_scorer_draw, tn_design_scorer_objective, tn_design_scorer_mesh};
+    job->forms = (tn_bred_forms){job->designs,
+                                 "form",
+                                 ".svg",
+                                 tn_design_scorer_draw,
+                                 tn_design_scorer_objective,
+                                 tn_design_scorer_mesh,
+                                 tn_design_scorer_unmet};
     job->evaluator = tn_design_scorer_evaluator(job->designs);
     job->scored = tn_design_scorer_wants(job->designs) || job->study.of[TN_SET_PROGRAM].written;
     return TN_OK;

@@ -79,6 +79,7 @@ static void translate(const tn_evolution_study *s, const tn_grammar *grammar, co
     out->tail = s->of[TN_SET_TAIL].first;
     translate_operators(s, out);
     out->elites = whole(s, TN_SET_ELITES);
+    out->keeps_copies = s->of[TN_SET_COPIES].choice == 1;
     out->islands = whole(s, TN_SET_ISLANDS);
     out->migrants = whole(s, TN_SET_MIGRATE);
     out->every = (uint32_t)s->of[TN_SET_MIGRATE].second;
@@ -234,7 +235,8 @@ static tn_status make_grower(tn_evolution_job *job, const char *path, tn_error *
     if (status == TN_OK)
         status = tn_grower_new(job->blamed_path, weighs_separately(job), is_asked(job), job->settings.threads,
                                &job->grower, error);
-    job->forms = (tn_bred_forms){job->grower, "surface", ".svg", tn_grower_draw, tn_grower_objective, tn_grower_mesh};
+    job->forms = (tn_bred_forms){
+        job->grower, "surface", ".svg", tn_grower_draw, tn_grower_objective, tn_grower_mesh, tn_grower_unmet};
     return status == TN_OK ? tn_grower_inputs(job->grower, &job->inputs, error) : status;
 }
 
@@ -243,8 +245,13 @@ static tn_status make_designs(tn_evolution_job *job, const char *path, tn_error 
     tn_status status = find_data(job, TN_SET_BUILD, path, error);
     if (status == TN_OK)
         status = tn_design_scorer_new(job->blamed_path, weighs_separately(job), is_asked(job), &job->designs, error);
-    job->forms = (tn_bred_forms){
-        job->designs, "form", ".svg", tn_design_scorer_draw, tn_design_scorer_objective, tn_design_scorer_mesh};
+    job->forms = (tn_bred_forms){job->designs,
+                                 "form",
+                                 ".svg",
+                                 tn_design_scorer_draw,
+                                 tn_design_scorer_objective,
+                                 tn_design_scorer_mesh,
+                                 tn_design_scorer_unmet};
     return status == TN_OK ? tn_design_scorer_inputs(job->designs, &job->inputs, error) : status;
 }
 
@@ -279,7 +286,7 @@ static tn_status make_placer(tn_evolution_job *job, const char *path, tn_error *
     tn_status status = find_data(job, TN_SET_PLACE, path, error);
     if (status == TN_OK)
         status = tn_placer_new(job->blamed_path, weighs_separately(job), is_asked(job), &job->placer, error);
-    job->forms = (tn_bred_forms){job->placer, "model", ".svg", tn_placer_draw, tn_placer_objective, NULL};
+    job->forms = (tn_bred_forms){job->placer, "model", ".svg", tn_placer_draw, tn_placer_objective, NULL, tn_placer_unmet};
     return status == TN_OK ? add_kit(tn_placer_kit(job->placer), &job->inputs, error) : status;
 }
 

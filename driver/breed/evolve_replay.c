@@ -69,8 +69,11 @@ static tn_status open_stored(const char *dir, bool read_only, uint64_t until, tn
     tn_evolution_job_options options = {.only_replay = true, .says_seed = true};
     char *seeds = NULL, *path = tn_run_database(dir);
     *run = (tn_run){.job = job, .dir = strdup(dir)};
-    tn_status status =
-        path && run->dir ? tn_run_store_open(path, false, read_only, &run->store, error) : tn_fail_memory(error);
+    tn_status status = path && run->dir ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK && !read_only)
+        status = tn_run_lock(run, error);
+    if (status == TN_OK)
+        status = tn_run_store_open(path, false, read_only, &run->store, error);
     free(path);
     if (status == TN_OK)
         status = tn_run_same_arithmetic(run, error);

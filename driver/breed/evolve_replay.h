@@ -4,6 +4,10 @@
 
 #include "driver/breed/evolve.h"
 
+/* Until the run is cleared, nobody else writes its folder, which is there. TN_IO (E1256) where somebody does. What no
+ * file system can lock is not locked. */
+tn_status tn_run_lock(tn_run *run, tn_error *error);
+
 /* TN_INVALID (E1252) where the run was made with other elementary functions. */
 tn_status tn_run_same_arithmetic(const tn_run *run, tn_error *error);
 

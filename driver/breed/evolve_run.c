@@ -15,6 +15,7 @@
 #include "driver/hand/choice.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
+#include "runtime/genome/mapping/sentences.h"
 #include "runtime/numeric/numeric.h"
 
 char *tn_run_database(const char *dir)
@@ -27,6 +28,8 @@ void tn_run_clear(tn_run *run)
 {
     tn_evolution_free(run->evolution);
     tn_run_store_free(run->store);
+    if (run->locked)
+        close(run->lock);
     tn_run_events_free(run->changes, run->change_count);
     tn_run_events_free(run->waiting, run->waiting_count);
     free(run->rescored);
@@ -302,6 +305,15 @@ static bool tells_only(const char *kind)
     return strcmp(kind, "warning") == 0 || strcmp(kind, "left") == 0;
 }
 
+/* Together: the next generation. Was there anything to be scored? */
+static tn_status step(tn_run *run, tn_status status, tn_error *error)
+{
+    uint64_t before = run->generations ? tn_evolution_stats(run->evolution).evaluations : 0;
+    status = tn_evolution_step_after(run->evolution, status, error);
+    run->idle = status == TN_OK && tn_evolution_stats(run->evolution).evaluations == before;
+    return status;
+}
+
 /* Together: one stored generation, made again and compared with what is stored. */
 static tn_status repeat_step(tn_run *run, const tn_run_history *history, size_t *at, tn_error *error)
 {
@@ -320,7 +332,7 @@ static tn_status repeat_step(tn_run *run, const tn_run_history *history, size_t 
     tn_evolution_recall(run->evolution, tn_run_scores_recall, &scores);
     tn_evolution_recall_parents(run->evolution, tn_run_scores_recall_parents);
     if (status == TN_OK)
-        status = tn_evolution_step(run->evolution, error);
+        status = step(run, TN_OK, error);
     if (status == TN_OK && run->store)
         status = tn_run_store_check(run->store, run->evolution, error);
     tn_evolution_recall(run->evolution, NULL, NULL);
@@ -454,7 +466,7 @@ tn_status tn_run_step(tn_run *run, const tn_chosen *chosen, size_t chosen_count,
     char *text = NULL;
     tn_status status = chosen ? choose(run, chosen, chosen_count, &text, error) : TN_OK;
     if (status == TN_OK)
-        status = tn_evolution_step_after(run->evolution, fared(run, error), error);
+        status = step(run, fared(run, error), error);
     if (status == TN_OK)
         status = check_program(run, error);
     if (status == TN_OK && run->store)
@@ -466,6 +478,23 @@ tn_status tn_run_step(tn_run *run, const tn_chosen *chosen, size_t chosen_count,
     }
     free(text);
     return status;
+}
+
+#define SENTENCES_MOST                                                                                                 \
+    20000u /* of a grammar that is taken for small; counting as many derivations takes some 0.1 s                      \
+            */
+
+bool tn_run_exhausted(tn_run *run)
+{
+    tn_error error;
+    if (!run->job->grammar || !run->idle)
+        return false;
+    if (!run->sentences && tn_count_sentences(run->job->grammar, &run->job->settings.mapping, SENTENCES_MOST,
+                                              &run->sentences, &error) != TN_OK)
+        run->sentences = 0; /* without memory for that, as many as one likes */
+    if (!run->sentences)
+        run->sentences = SIZE_MAX; /* why there are none is said otherwise */
+    return tn_evolution_known(run->evolution) == run->sentences;
 }
 
 bool tn_run_reached(const tn_run *run)

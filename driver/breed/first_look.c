@@ -1,4 +1,5 @@
-/* Looks for first generations with few different sentences, or with none that names a column of the data. */
+/* Looks for first generations with few different sentences, or with none that names a column of the data; and for data
+ * without names. */
 #include <stdio.h>
 
 #include "driver/breed/evolve_replay.h"
@@ -149,9 +150,26 @@ static tn_status look_for_columns(const tn_run *run, tn_first_look *look, tn_err
     return TN_OK;
 }
 
+/* A line of numbers is no line of names, whatever was meant. */
+static void look_for_names(const tn_run *run, tn_first_look *look)
+{
+    if (!run->job->problem || !run->job->study.of[TN_SET_FIT].written || !tn_problem_unnamed(run->job->problem))
+        return;
+    char names[200];
+    name_columns(run->job->problem, names, sizeof names);
+    tn_finding *finding = add(look, W_NO_HEADER);
+    snprintf(finding->message, sizeof finding->message,
+             "the data have no line of names: their first line is numbers, and is fitted, too");
+    snprintf(finding->help, sizeof finding->help,
+             "the columns are called %s and, what is wanted, `y`; write a first line with their names, or one that "
+             "begins with # if these are numbers",
+             names);
+}
+
 tn_status tn_run_first_look(const tn_run *run, tn_first_look *look, tn_error *error)
 {
     *look = (tn_first_look){0};
+    look_for_names(run, look);
     tn_status status = look_for_few(run, look, error);
     if (status == TN_OK)
         status = look_for_columns(run, look, error);

@@ -1,4 +1,4 @@
-/* Reads, computes and changes the goals that a study writes itself. */
+/* Reads, computes and changes the goals that a study writes itself, and says which requirements are not met. */
 #include "driver/breed/goals.h"
 
 #include <math.h>
@@ -97,4 +97,44 @@ bool tn_goals_adjust(tn_goals *goals, const char *change)
         return true;
     }
     return false;
+}
+
+/* ---- requirements */
+
+#define SHOWN 120 /* bytes of a requirement */
+
+/* Its words in one line. */
+static void quote(FILE *out, const tn_module *module, const tn_unmet_requirement *r)
+{
+    const char *text = tn_text(module, module->SOURCE_records[r->file].text);
+    size_t line = 1, length = r->end - r->begin, shown = length < SHOWN ? length : SHOWN;
+    for (size_t i = 0; i < r->begin; i++)
+        line += text[i] == '\n';
+    while (shown < length && shown > 0 && ((unsigned char)text[r->begin + shown] & 0xC0) == 0x80)
+        shown--; /* whole letters */
+    fputc('`', out);
+    for (size_t i = 0; i < shown; i++)
+        fputc((unsigned char)text[r->begin + i] < ' ' ? ' ' : text[r->begin + i], out);
+    fprintf(out, "%s` (line %zu)", shown < length ? "..." : "", line);
+}
+
+static void list_found(FILE *out, const tn_unmet_found *found, uint64_t asked)
+{
+    const char *between = ": ";
+    for (size_t i = 0; i < found->count && i < 64; i++) {
+        if (!(asked >> i & 1))
+            continue;
+        fprintf(out, "%s%s is %.6g", between, found->names[i], found->values[i]);
+        between = ", ";
+    }
+}
+
+void tn_unmet_write(FILE *out, const tn_unmet_found *found, const tn_unmet_requirement *r)
+{
+    const tn_module *module = found->module;
+    if (tn_number_run(module->code, module->FUNCTION_records[r->violation].code_begin, found->values) == 0)
+        return;
+    quote(out, module, r);
+    list_found(out, found, tn_number_asked(module, r->violation));
+    fputc('\n', out);
 }

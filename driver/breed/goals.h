@@ -3,6 +3,8 @@
 #ifndef TARTAN_DRIVER_BREED_GOALS_H
 #define TARTAN_DRIVER_BREED_GOALS_H
 
+#include <stdio.h>
+
 #include "runtime/genome/settings.h"
 #include "runtime/number/formula.h"
 
@@ -32,5 +34,23 @@ double tn_goal_share(double value, double target, double weight);
 
 /* Does "volume target 3 weight 2" change one of the goals, as their lines write them? Then it has. */
 bool tn_goals_adjust(tn_goals *goals, const char *change);
+
+/* ---- what a bred form does not meet of what is required of it, in words */
+
+/* The measures that requirements speak of, and what was found of them, by their numbers. */
+typedef struct tn_unmet_found {
+    const tn_module *module; /* that holds the requirements, and their source */
+    const char *const *names;
+    size_t count;
+    const double *values;
+} tn_unmet_found;
+
+/* A requirement's function of how far it is from holding, and where it is written. */
+typedef struct tn_unmet_requirement {
+    uint32_t violation, file, begin, end;
+} tn_unmet_requirement;
+
+/* Writes a line, "`require angle >= 25` (line 7): angle is 12.4", unless the requirement is met. */
+void tn_unmet_write(FILE *out, const tn_unmet_found *found, const tn_unmet_requirement *requirement);
 
 #endif

@@ -8,6 +8,7 @@
 #include <strings.h>
 
 #include "driver/breed/change.h"
+#include "driver/breed/goals.h"
 #include "driver/breed/inputs.h"
 #include "runtime/growth/environment/surroundings.h"
 #include "runtime/growth/picture/draw.h"
@@ -15,6 +16,7 @@
 #include "runtime/growth/study.h"
 #include "runtime/growth/surface.h"
 #include "runtime/mesh/openmesh.h"
+#include "runtime/number/run.h"
 
 struct tn_grower {
     char *path;       /* of the study */
@@ -97,6 +99,13 @@ bool tn_grower_wants(const tn_grower *grower)
     return grower->goal_count || grower->study.goal.required_count;
 }
 
+const char *tn_grower_open_mesh(const tn_grower *g)
+{
+    uint32_t i = tn_study_open_boundary(&g->study, 0);
+    return i < g->opened.module->BOUNDARY_count ? tn_text(g->opened.module, g->opened.module->BOUNDARY_records[i].mesh)
+                                                : NULL;
+}
+
 tn_status tn_grower_inputs(const tn_grower *g, char **inputs, tn_error *error)
 {
     tn_status status = tn_inputs_add_sources(inputs, "grow", g->opened.module, UINT32_MAX, error);
@@ -154,7 +163,8 @@ static const char *name_of(const tn_grower *g, uint32_t goal)
 /* An expression may have no value for a surface: a division by its undulation, where it is flat. */
 static void score_goals(const tn_grower *g, const tn_fitness *fitness, tn_score *score, char message[200])
 {
-    double side = g->study.options.start_length, lacking = tn_fitness_lacking(fitness, &g->study.goal), total = lacking;
+    double side = g->study.options.start_length, lacking = tn_fitness_lacking(fitness, &g->study.goal),
+           total = TN_REQUIREMENT_WEIGHT * lacking;
     if (!isfinite(lacking)) {
         score->state = TN_SCORE_FAILED;
         snprintf(message, 200, "a requirement has no value for this surface");
@@ -179,14 +189,13 @@ static void score_goals(const tn_grower *g, const tn_fitness *fitness, tn_score 
 
 static tn_status tell(const tn_grower *g, unsigned thread, const tn_fitness *fitness, tn_error *error)
 {
-    double values[TN_MEASURED_COUNT] = {fitness->size,         fitness->smoothness, fitness->soft_boundary_nodes,
-                                        fitness->subdivisions, fitness->symmetry,   fitness->undulation,
-                                        fitness->vertices,     fitness->edges,      fitness->faces};
+    double values[TN_MEASURED_COUNT];
     tn_mesh mesh = {0};
     if (!g->listener.hear)
         return TN_OK;
+    tn_fitness_terms(fitness, values);
     for (unsigned i = TN_MEASURED_WIDTH; i < TN_MEASURED_COUNT; i++)
-        values[i] = g->study.goal.asked >> i & 1 ? fitness->further[i - TN_MEASURED_WIDTH] : NAN;
+        values[i] = g->study.goal.asked >> i & 1 ? values[i] : NAN;
     tn_status status = tn_surface_mesh(g->growths[thread], &(tn_surface_options){0}, &mesh, error);
     if (status == TN_OK)
         status = tn_form_listener_tell(&g->listener, thread,
@@ -195,22 +204,31 @@ static tn_status tell(const tn_grower *g, unsigned thread, const tn_fitness *fit
     return status;
 }
 
+/* Grows a sentence and measures what the study speaks of. */
+static tn_status measure(const tn_grower *g, const char *sentence, size_t size, tn_growth **growth, tn_fitness *fitness,
+                         tn_error *error)
+{
+    rules compiled;
+    tn_status status = grow(g, sentence, size, &compiled, growth, error);
+    if (status == TN_OK) {
+        *fitness = tn_fitness_measure(*growth);
+        status = tn_soundness_measure(*growth, &g->study.measuring, g->study.goal.asked, fitness, error);
+    }
+    rules_clear(&compiled);
+    return status;
+}
+
 static tn_status score_growth(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
                               char message[200], tn_error *error)
 {
     const tn_grower *g = context;
     tn_error own = {0};
-    rules compiled;
-    tn_status status = grow(g, sentence, size, &compiled, &g->growths[thread], &own);
-    if (status == TN_OK) {
-        tn_fitness fitness = tn_fitness_measure(g->growths[thread]);
-        status = tn_soundness_measure(g->growths[thread], &g->study.measuring, g->study.goal.asked, &fitness, &own);
-        if (status == TN_OK)
-            score_goals(g, &fitness, score, message);
-        if (status == TN_OK && score->state == TN_SCORED)
-            status = tell(g, thread, &fitness, &own);
-    }
-    rules_clear(&compiled);
+    tn_fitness fitness;
+    tn_status status = measure(g, sentence, size, &g->growths[thread], &fitness, &own);
+    if (status == TN_OK)
+        score_goals(g, &fitness, score, message);
+    if (status == TN_OK && score->state == TN_SCORED)
+        status = tell(g, thread, &fitness, &own);
     return status == TN_OK ? TN_OK : tn_score_refuse(status, &own, score, message, error);
 }
 
@@ -290,6 +308,31 @@ const char *tn_grower_objective(const void *grower, size_t i)
 {
     const tn_grower *g = grower;
     return name_of(g, g->goals[i]);
+}
+
+tn_status tn_grower_unmet(const void *grower, const char *sentence, char **text, tn_error *error)
+{
+    const tn_grower *g = grower;
+    const tn_module *module = g->opened.module;
+    double values[TN_MEASURED_COUNT];
+    tn_growth *growth = NULL;
+    tn_fitness fitness;
+    size_t size;
+    *text = NULL;
+    tn_status status = measure(g, sentence, strlen(sentence), &growth, &fitness, error);
+    FILE *out = status == TN_OK ? open_memstream(text, &size) : NULL;
+    if (out) {
+        tn_fitness_terms(&fitness, values);
+        const tn_unmet_found found = {module, tn_names_MEASURED, TN_MEASURED_COUNT, values};
+        for (size_t i = 0; i < module->GROWTH_REQUIREMENT_count; i++) {
+            const tn_growth_requirement_record *r = &module->GROWTH_REQUIREMENT_records[i];
+            tn_unmet_write(out, &found, &(tn_unmet_requirement){r->violation, r->file, r->begin, r->end});
+        }
+    }
+    if (status == TN_OK && (!out || fclose(out) != 0))
+        status = tn_fail_memory(error);
+    tn_growth_free(growth);
+    return status;
 }
 
 /* ---- pictures */

@@ -41,4 +41,11 @@ tn_status tn_grower_inputs(const tn_grower *grower, char **inputs, tn_error *err
 /* A sentence's form as a mesh, z up, which the caller clears with the guides that are added to it. */
 tn_status tn_grower_mesh(const void *grower, const char *sentence, tn_mesh *mesh, tn_guides *guides, tn_error *error);
 
+/* What the study requires and a sentence's surface does not meet, a line each; "" where it meets all. The caller frees
+ * it. */
+tn_status tn_grower_unmet(const void *grower, const char *sentence, char **text, tn_error *error);
+
+/* The first mesh that surfaces are to stay inside of, and which has no inside; or NULL. */
+const char *tn_grower_open_mesh(const tn_grower *grower);
+
 #endif

@@ -11,6 +11,7 @@
 #include "driver/open/files.h"
 #include "driver/place/kit.h"
 #include "driver/place/shape.h"
+#include "runtime/place/conditions.h"
 #include "runtime/place/search/score.h"
 
 struct tn_placer {
@@ -209,8 +210,8 @@ static tn_status score_rules(void *context, unsigned thread, const char *sentenc
         status = measure(&made, &found, &own);
     bool valued = status == TN_OK && isfinite(found.value) && isfinite(found.violation);
     if (valued && p->hear)
-        status = p->hear(p->hearing, thread,
-                         &(tn_placed_facts){made.opened.module, &made.model, made.measures.terms}, &own);
+        status =
+            p->hear(p->hearing, thread, &(tn_placed_facts){made.opened.module, &made.model, made.measures.terms}, &own);
     clear_placed(&made);
     if (status != TN_OK)
         return tn_score_refuse(status, &own, score, message, error);
@@ -236,6 +237,32 @@ const char *tn_placer_objective(const void *placer, size_t i)
 }
 
 /* ---- what a person sees */
+
+tn_status tn_placer_unmet(const void *placer, const char *sentence, char **text, tn_error *error)
+{
+    const tn_kit_condition_record *condition;
+    tn_kit_tally tally = {0};
+    tn_model_score score;
+    placed made;
+    size_t size;
+    uint32_t i = 0;
+    *text = NULL;
+    tn_status status = make(placer, sentence, strlen(sentence), &made, error);
+    if (status == TN_OK)
+        status = measure(&made, &score, error);
+    FILE *out = status == TN_OK ? open_memstream(text, &size) : NULL;
+    const tn_module *module = made.opened.module;
+    const tn_kit_model_record *model = out ? &module->KIT_MODEL_records[0] : NULL;
+    while (out && (condition = tn_kit_next_unmet(module, model, &made.measures, false, &i, &tally))) {
+        tn_error why = {0};
+        tn_kit_fail_condition(module, condition, model, &made.measures, false, &why);
+        fprintf(out, "%s\n", why.message);
+    }
+    if (status == TN_OK && (!out || fclose(out) != 0))
+        status = tn_fail_memory(error);
+    clear_placed(&made);
+    return status;
+}
 
 tn_status tn_placer_text(const tn_placer *p, const char *sentence, char **text, tn_error *error)
 {

@@ -41,6 +41,10 @@ const char *tn_placer_objective(const void *placer, size_t i);
 tn_status tn_placer_draw(const void *placer, const char *const *sentences, const char *const *labels, size_t count,
                          const char *title, const char *path, tn_error *error);
 
+/* What the kit's model requires and that of a sentence does not meet, a line each; "" where it meets all. The caller
+ * frees it. */
+tn_status tn_placer_unmet(const void *placer, const char *sentence, char **text, tn_error *error);
+
 /* The whole kit with the rules of a sentence, for a file that lies elsewhere. The caller frees it. */
 tn_status tn_placer_text(const tn_placer *placer, const char *sentence, char **text, tn_error *error);
 

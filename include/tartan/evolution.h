@@ -96,7 +96,7 @@ typedef struct tartan_evolution_options {
     uint32_t population; /* 2 to TARTAN_POPULATION_MAX (500) */
     tartan_initialisation initialisation;
     uint32_t codons;                /* of a RANDOM genome (200) */
-    uint32_t depth_low, depth_high; /* of first trees (2, 10) */
+    uint32_t depth_low, depth_high; /* of first trees, where the grammar has such; up to 10,000 (2, 10) */
     double tail;                    /* further codons of a first tree, in its own length; negative: none (0.5) */
     const tartan_genome *seeds;     /* first genomes; copied */
     size_t seed_count;
@@ -114,9 +114,13 @@ typedef struct tartan_evolution_options {
     uint32_t elites;      /* the best that stay as they are (1) */
     bool no_elites;
     bool steady_state;                     /* each child takes the worst one's place, if it is better */
-    const tartan_map_options *mapping;     /* (the grammar's own); copied */
+    const tartan_map_options *mapping;     /* (as the module's study and its grammar say); copied */
     tartan_evaluate_cases *evaluate_cases; /* must be there for selection by cases, and only then */
     size_t cases;                          /* how many there are, at least 1 then; members * cases up to 2^27 */
+    bool keep_copies; /* a child may have the sentence of another of its generation; otherwise it is bred again, from
+                         the same parents, a few times */
+    uint32_t islands; /* equal parts of the population, which breed by themselves (1) */
+    uint32_t migrants, migrate_every; /* how many of each island's best move on, after how many generations (1, 10) */
 } tartan_evolution_options;
 TARTAN_SIZED(tartan_evolution_options)
 

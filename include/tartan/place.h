@@ -37,7 +37,9 @@ typedef struct tartan_placement tartan_placement;
 /* Places the parts of the module's grammar, or of one of its kit's models inside of the model's space, by the search
  * that it asks for. `options` and `watch` may be NULL. TARTAN_INVALID: the module has no such grammar or model, a part
  * has no room, nothing is placed, or what was placed does not meet what the model requires (`require`; E1316).
- * TARTAN_LIMIT: an option's. The placement borrows the module. */
+ * TARTAN_LIMIT: an option's. Where a search passes `search_limit` (TARTAN_LIMIT) or the watch ends it (TARTAN_STOPPED)
+ * and the best model that it has looked at meets what is required, that is the placement, as `tartan place` writes it;
+ * otherwise *placement stays as it is. Free it in any case. The placement borrows the module. */
 TARTAN_API tartan_status tartan_place(const tartan_module *module, const tartan_place_options *options,
                                       const tartan_watch *watch, tartan_placement **placement, tartan_error *error);
 TARTAN_API void tartan_placement_free(tartan_placement *placement);

@@ -253,15 +253,20 @@ const char *tn_fitness_term_name(tn_measured term)
     return names[term];
 }
 
-double tn_named_value(const tn_named_goal *goal, const tn_fitness *fitness)
+void tn_fitness_terms(const tn_fitness *fitness, double terms[TN_MEASURED_COUNT])
 {
-    double terms[TN_MEASURED_COUNT];
     for (uint32_t i = 0; i < TN_FITNESS_TERM_COUNT; i++)
         terms[i] = tn_fitness_value(fitness, (tn_measured)i);
     terms[TN_MEASURED_VERTICES] = fitness->vertices;
     terms[TN_MEASURED_EDGES] = fitness->edges;
     terms[TN_MEASURED_FACES] = fitness->faces;
     memcpy(terms + TN_MEASURED_WIDTH, fitness->further, sizeof fitness->further);
+}
+
+double tn_named_value(const tn_named_goal *goal, const tn_fitness *fitness)
+{
+    double terms[TN_MEASURED_COUNT];
+    tn_fitness_terms(fitness, terms);
     return tn_number_run(goal->code, goal->offset, terms);
 }
 
@@ -288,7 +293,7 @@ double tn_fitness_part(const tn_fitness *fitness, const tn_fitness_goal *goals, 
 
 double tn_fitness_total(const tn_fitness *fitness, const tn_fitness_goal *goals, double start_length)
 {
-    double total = tn_fitness_lacking(fitness, goals);
+    double total = TN_REQUIREMENT_WEIGHT * tn_fitness_lacking(fitness, goals);
     for (uint32_t goal = 0; goal < TN_FITNESS_TERM_COUNT + goals->named_count; goal++)
         total += tn_fitness_part(fitness, goals, goal, start_length);
     return total;

@@ -67,12 +67,16 @@ typedef struct tn_named_goal {
 } tn_named_goal;
 
 double tn_fitness_value(const tn_fitness *fitness, tn_measured term);
+
+/* All that expressions speak of; terms that were not measured are what they are in `fitness`. */
+void tn_fitness_terms(const tn_fitness *fitness, double terms[TN_MEASURED_COUNT]);
 const char *tn_fitness_term_name(tn_measured term);
 
 /* The value of a named expression; not finite where it has none. */
 double tn_named_value(const tn_named_goal *goal, const tn_fitness *fitness);
 
-/* How far the requirements are from holding, together: 0 where all hold; not finite where one has no value. */
+/* How far the requirements are from holding, together, each distance as a share of its bound's size or of 1: 0 where
+ * all hold; not finite where one has no value. */
 double tn_fitness_lacking(const tn_fitness *fitness, const tn_fitness_goal *goals);
 
 /* What one goal adds to the sum: `goal` counts the terms, then the named ones. 0 where the term is not wanted. */
@@ -80,7 +84,7 @@ double tn_fitness_part(const tn_fitness *fitness, const tn_fitness_goal *goals, 
 
 /* The sum over wanted terms and expressions of weight * |value - target| / max(|target|, unit), to be made small; the
  * unit is 1, or the seed's side for the size. With `raw`: the sum of weight * value. What the requirements lack is
- * added. */
+ * added, TN_REQUIREMENT_WEIGHT times. */
 double tn_fitness_total(const tn_fitness *fitness, const tn_fitness_goal *goals, double start_length);
 
 #endif

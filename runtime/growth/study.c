@@ -27,6 +27,15 @@ uint64_t tn_study_meshes_hash(const tn_study *study)
     return hash;
 }
 
+uint32_t tn_study_open_boundary(const tn_study *study, uint32_t from)
+{
+    uint32_t i = from, count = study->environment.boundary_count;
+    while (i < count && !(study->boundaries[i].mesh && study->boundaries[i].inside &&
+                          !tn_boundary_mesh_is_solid(study->boundaries[i].mesh)))
+        i++;
+    return i;
+}
+
 static void read_settings(const tn_study_record *record, tn_study *study)
 {
     tn_growth_options *o = &study->options;

@@ -1,10 +1,12 @@
 /* OpenMesh behind its C face: files, smoothing, subdividing, decimating. */
 extern "C" {
 #include "runtime/base/file.h"
+#include "runtime/mesh/obj_lines.h"
 #include "runtime/mesh/openmesh.h"
 }
 
 #include <fcntl.h>
+#include <strings.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -304,6 +306,12 @@ template <class mesh_type, class subdivider> tn_status subdivide(tn_mesh *mesh, 
     return status == TN_OK ? replace(m, mesh, error) : status;
 }
 
+bool is_obj(const char *path)
+{
+    const char *dot = std::strrchr(path, '.');
+    return dot && strcasecmp(dot, ".obj") == 0;
+}
+
 } // namespace
 
 extern "C" tn_status tn_openmesh_read(const char *path, tn_mesh *mesh, tn_error *error)
@@ -314,8 +322,10 @@ extern "C" tn_status tn_openmesh_read(const char *path, tn_mesh *mesh, tn_error 
         OpenMesh::IO::Options options;
         int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* for its state alone */
         tn_file_state before = tn_file_state_of(file);
-        bool read = OpenMesh::IO::read_mesh(m, path, options);
-        tn_status same = tn_file_state_same(&before, file, path, error);
+        tn_status same = is_obj(path) ? tn_obj_check(path, error) : TN_OK;
+        bool read = same == TN_OK && OpenMesh::IO::read_mesh(m, path, options);
+        if (same == TN_OK)
+            same = tn_file_state_same(&before, file, path, error);
         if (file >= 0)
             close(file);
         if (same != TN_OK)

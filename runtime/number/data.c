@@ -2,6 +2,7 @@
 #include "runtime/number/data.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,28 +42,57 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-static tn_status read_field(tn_data *t, const char *line, size_t begin, size_t end, size_t column, size_t number,
-                            tn_error *error)
+static void trim(const char *line, size_t *begin, size_t *end)
 {
-    while (begin < end && is_blank(line[begin]))
-        begin++;
-    while (end > begin && is_blank(line[end - 1]))
-        end--;
-    if (t->points == 0 && column == t->width) {
-        if (column == TN_DATA_COLUMNS_MAX || begin == end)
-            return bad_field(error, number, begin, end, "the first line names the columns, at most 1000 of them");
-        t->names[column] = strndup(line + begin, end - begin);
-        t->width = column + 1;
-        return t->names[column] ? TN_OK : tn_fail_memory(error);
-    }
+    while (*begin < *end && is_blank(line[*begin]))
+        ++*begin;
+    while (*end > *begin && is_blank(line[*end - 1]))
+        --*end;
+}
+
+static bool read_number(const char *line, size_t begin, size_t end, double *value)
+{
     char digits[64], *stop;
     if (end - begin >= sizeof digits)
-        return bad_field(error, number, begin, end, "the number is too long");
+        return false;
     memcpy(digits, line + begin, end - begin);
     digits[end - begin] = '\0';
-    double value = strtod(digits, &stop);
-    if (stop == digits || *stop || !isfinite(value))
-        return bad_field(error, number, begin, end, "this is not a number");
+    *value = strtod(digits, &stop);
+    return stop != digits && !*stop && isfinite(*value);
+}
+
+static tn_status name_column(tn_data *t, const char *name, size_t size, tn_error *error)
+{
+    t->names[t->width] = strndup(name, size);
+    return t->names[t->width++] ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status not_a_number(const tn_data *t, const char *line, size_t begin, size_t end, size_t column,
+                              size_t number, tn_error *error)
+{
+    char what[160];
+    if (begin == end)
+        snprintf(what, sizeof what, "the column `%.60s` has no number here", t->names[column]);
+    else
+        snprintf(what, sizeof what, "`%.*s` in the column `%.60s` is not a number",
+                 (int)(end - begin < 40 ? end - begin : 40), line + begin, t->names[column]);
+    bad_field(error, number, begin, end, what);
+    if (memchr(line + begin, ',', end - begin))
+        tn_error_help(error, "numbers have a point, as 1.5");
+    return TN_INVALID;
+}
+
+static tn_status read_field(tn_data *t, const char *line, size_t begin, size_t end, size_t column, size_t number,
+                            bool names, tn_error *error)
+{
+    double value;
+    trim(line, &begin, &end);
+    if (names && (column == TN_DATA_COLUMNS_MAX || begin == end))
+        return bad_field(error, number, begin, end, "the first line names the columns, at most 1000 of them");
+    if (names)
+        return name_column(t, line + begin, end - begin, error);
+    if (!read_number(line, begin, end, &value))
+        return not_a_number(t, line, begin, end, column, number, error);
     return keep_number(t, column, value) ? TN_OK : tn_fail_memory(error);
 }
 
@@ -98,7 +128,7 @@ static tn_status read_line(tn_data *t, const char *line, size_t length, size_t n
         size_t end = end_of_field(line, begin, length, separator);
         if (!names && column >= t->width)
             return bad_field(error, number, begin, end, "the line has more fields than the first");
-        tn_status status = read_field(t, line, begin, end, column, number, error);
+        tn_status status = read_field(t, line, begin, end, column, number, names, error);
         if (status != TN_OK)
             return status;
         if (end == length)
@@ -111,24 +141,75 @@ static tn_status read_line(tn_data *t, const char *line, size_t length, size_t n
     return TN_OK;
 }
 
+static char separator_of(const char *line, size_t length)
+{
+    return memchr(line, ',', length) ? ',' : memchr(line, ';', length) ? ';' : ' ';
+}
+
+/* How many fields a line of numbers has; 0 where something else is in it. */
+static size_t count_numbers(const char *line, size_t length, char separator)
+{
+    size_t count = 0, begin = separator == ' ' ? begin_of_next(line, 0, length, separator) : 0;
+    while (separator == ' ' && length > begin && is_blank(line[length - 1]))
+        length--;
+    for (size_t end;; begin = begin_of_next(line, end, length, separator)) {
+        double value;
+        end = end_of_field(line, begin, length, separator);
+        size_t from = begin, to = end;
+        trim(line, &from, &to);
+        if (!read_number(line, from, to, &value))
+            return 0;
+        count++;
+        if (end == length)
+            return count;
+    }
+}
+
+static tn_status call_columns(tn_data *t, size_t count, tn_error *error)
+{
+    tn_status status = TN_OK;
+    t->unnamed = true;
+    for (size_t i = 0; i < count && status == TN_OK; i++) {
+        char name[24];
+        int size = i + 1 < count ? snprintf(name, sizeof name, "x%zu", i) : snprintf(name, sizeof name, "y");
+        status = name_column(t, name, (size_t)size, error);
+    }
+    return status;
+}
+
+/* The first line that is not empty: names, or the first numbers, which are read as any then. */
+static tn_status begin_table(tn_data *t, const char *line, size_t length, size_t number, bool *names, tn_error *error)
+{
+    char separator = separator_of(line, length);
+    size_t numbers = line[0] == '#' ? 0 : count_numbers(line, length, separator);
+    *names = numbers == 0;
+    if (numbers > TN_DATA_COLUMNS_MAX)
+        return bad_field(error, number, 0, length, "there are more than 1000 columns");
+    return numbers ? call_columns(t, numbers, error) : read_line(t, line, length, number, separator, true, error);
+}
+
 tn_status tn_data_read(const char *text, size_t size, tn_data *t, tn_error *error)
 {
     tn_status status = TN_OK;
     size_t number = 0;
-    char separator = ' ';
-    bool names = true;
+    char separator = 0, of_names = ' '; /* separator: of the numbers, once there are some */
     *t = (tn_data){0};
     for (size_t at = 0; status == TN_OK && at < size; at++) {
-        const char *end = memchr(text + at, '\n', size - at);
-        size_t length = end ? (size_t)(end - text) - at : size - at;
+        const char *line = text + at, *end = memchr(line, '\n', size - at);
+        size_t length = end ? (size_t)(end - line) : size - at;
+        bool names = false;
         number++;
-        if (names)
-            separator = memchr(text + at, ',', length) ? ',' : memchr(text + at, ';', length) ? ';' : ' ';
-        if (length && !(length == 1 && text[at] == '\r')) {
-            status = read_line(t, text + at, length, number, separator, names, error);
-            names = false;
-        }
         at += length;
+        if (length == 0 || (length == 1 && line[0] == '\r'))
+            continue;
+        if (t->width == 0) {
+            of_names = separator_of(line, length);
+            status = begin_table(t, line, length, number, &names, error);
+        }
+        if (!separator && !names)
+            separator = of_names != ' ' && memchr(line, of_names, length) ? of_names : separator_of(line, length);
+        if (status == TN_OK && !names)
+            status = read_line(t, line, length, number, separator, false, error);
     }
     if (status == TN_OK && (t->width < 2 || t->points == 0))
         status =

@@ -2,6 +2,7 @@
 #ifndef TARTAN_NUMBER_DATA_H
 #define TARTAN_NUMBER_DATA_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "runtime/base/error.h"
@@ -13,10 +14,13 @@ typedef struct tn_data {
     char *names[TN_DATA_COLUMNS_MAX];     /* owned */
     double *columns[TN_DATA_COLUMNS_MAX]; /* owned: [column][point] */
     size_t width, points, capacity;
+    bool unnamed; /* there was no line of names: the columns are called x0, x1 and so on, the last one y */
 } tn_data;
 
-/* Reads a first line of names, then lines of numbers. Fields are separated by commas; where the first line has none, by
- * semicolons or else by blanks. A `#` before the names is left out. E1243 with the place. */
+/* Reads a first line of names, then lines of numbers. Fields are separated by commas; where a line has none, by
+ * semicolons or else by blanks; the lines of numbers as the first of them, or as the names where that has what
+ * separates those. A `#` before the names is left out. A first line of numbers without it is no line of names. E1243
+ * with the place. */
 tn_status tn_data_read(const char *text, size_t size, tn_data *table, tn_error *error);
 void tn_data_clear(tn_data *table);
 

@@ -84,3 +84,42 @@ golden damaged "cd $scratch && tartan evolve hello.study -o damaged --resume"
 printf '3 3 1\n\n' | "$TARTAN" breed hello.study -o chosen >/dev/null
 golden chosen "cd $scratch && tartan runs show chosen"
 finish
+
+# ---- data: a wrong number is at its place, also where the grammar counts the columns; names and numbers that are separated otherwise are
+# read, and a first line of numbers is no line of names
+study numbers '  grammar "vars.bnf"; fit "numbers.csv"'
+printf '<e> ::= x[:, <i>]\n<i> ::= GE_RANGE:dataset_n_vars\n' >vars.bnf
+printf 'x0,y\n1,abc\n2,3\n' >numbers.csv
+study absent '  grammar "vars.bnf"; fit "none.csv"'
+study gap '  grammar "arithmetic"; fit "gap.csv"'
+printf 'x0;y\n1;\n' >gap.csv
+study decimal '  grammar "arithmetic"; fit "decimal.csv"'
+printf 'x0;y\n1,5;2\n' >decimal.csv
+study spaced '  grammar "arithmetic"; fit "spaced.csv"; population 10; generations 1; stop 1000'
+printf '# x0 x1 y\n1,2,3\n2,3,5\n4,1,5\n' >spaced.csv
+study headless '  grammar "arithmetic"; fit "headless.csv"; population 10; generations 1; stop 1000; seed 3'
+printf '1,2\n3,4\n5,6\n' >headless.csv
+for wrong in numbers absent gap decimal; do
+    golden "data_$wrong" "cd $scratch && tartan evolve $wrong.study"
+done
+golden data_spaced "cd $scratch && tartan evolve spaced.study | grep -c ^best:"
+golden data_headless "cd $scratch && tartan evolve headless.study | grep -c ^best:"
+
+# ---- what is said at the end: the best lacks what is required; all sentences have been scored
+printf 'rules "square"\nsteps 2\nfitness height target 0.4\nrequire faces >= 1000 and crossings = 0\n' >large.growth.study
+study lacking '  grammar "genr8-quads"; grow "large.growth.study"; population 6; generations 1'
+printf 'solid goal { fitness volume target 3; require height >= 900; box all from (0, 0, 0) to (1, 1, 1); }\n' >tall.solid
+study lower '  grammar "boxes"; build "tall.solid"; population 6; generations 1; initialise pi-grow'
+printf 'use "bricks";\nrule bred at stud, tube = 3005;\nmodel room { inside box(2 studs, 1 brick, 2 studs); start stud at (10, 0, 10) by bred; require elements = 7; }\n' >seven.kit
+study fewer '  grammar "kit-rules"; place "seven.kit"; population 6; generations 1'
+printf '<a> ::= <b><b>\n<b> ::= p | q | r\n' >nine.bnf
+study nine '  grammar "nine.bnf"; match "pqr"; population 10; generations 30'
+for lacks in lacking lower fewer; do
+    golden "lacks_$lacks" "cd $scratch && tartan evolve $lacks.study 2>&1 >/dev/null | grep -v '^  *[0-9]* |'"
+done
+golden exhausted "cd $scratch && tartan evolve nine.study | head -n 1 | cut -d, -f 2"
+golden exhausted_again "cd $scratch && cp nine.run/run.sqlite before && tartan evolve nine.study --resume -g 40 | head -n 1 | cut -d, -f 2 && cmp before nine.run/run.sqlite"
+if command -v flock >/dev/null; then # the run's folder is locked as a command that writes it locks it
+    golden in_use "cd $scratch && flock nine.run \"\$TARTAN\" evolve nine.study --resume"
+    golden in_use_insert "cd $scratch && echo pp >pp && flock nine.run \"\$TARTAN\" runs insert nine.run pp"
+fi

@@ -27,6 +27,9 @@ golden plain "cp $scratch/wild.bnf $scratch/grammar; tartan fmt --notation bnf $
 printf '<a> ::= it'"'"'s\n' >"$scratch/broken.bnf"
 cp "$scratch/broken.bnf" "$scratch/kept.bnf"
 golden broken_bnf "tartan fmt $scratch/broken.bnf"
+# Quotes that have no partner before the next blank would find one of another line, and hide what tells the dialect.
+printf '<a> ::= Edge '"'"' { x\n  } '"'"' y\n' >"$scratch/quotes.bnf"
+golden open_quotes_bnf "tartan fmt $scratch/quotes.bnf"
 cmp -s "$scratch/broken.bnf" "$scratch/kept.bnf" || fail 'a grammar with errors was changed'
 # Replaced as a whole: the file that was there is another one, and nothing is left beside it.
 ln "$scratch/wild.study" "$scratch/old.study"

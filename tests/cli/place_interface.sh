@@ -73,6 +73,24 @@ END
 for model in '' $(models_of "$work/own.kit") other; do
     agree 5 "$model" "$work/own.kit"
 done
+# A search that passes its limit leaves the best model until then, and the number of the limit, or that number alone.
+cut=0
+limited() { # MODEL LIMIT
+    local said=0
+    rm -f "$work/model.ldr" "$work/list.csv"
+    "$TARTAN" place "$work/own.kit" --seed 5 --model "$1" --search-limit "$2" -o "$work/model.ldr" -o "$work/list.csv" >"$work/out" 2>"$work/errors" || said=$?
+    [ $said -eq 0 ] || [ $said -eq 4 ] || fail "$1 with the limit $2 ends with $said"
+    { [ ! -e "$work/model.ldr" ] || cat "$work/model.ldr" "$work/list.csv"; grep -oE 'error\[E[0-9]+\]' "$work/errors" | head -n 1 | grep -oE 'E[0-9]+'; } >"$work/command" || true
+    [ $said -eq 0 ] || [ ! -e "$work/model.ldr" ] || cut=$((cut + 1))
+    "$program" stdlib 5 "$1" "$work/own.kit" "$2" >"$work/interface" || true
+    cmp "$work/command" "$work/interface" || fail "$1 with the limit $2: the command gives $(cat "$work/command") and the interface $(cat "$work/interface")"
+}
+for limit in 1 2 5 20; do
+    for model in beam turned all; do
+        limited "$model" "$limit"
+    done
+done
+[ $cut -ge 2 ] || fail "hardly any search left a model when it passed its limit"
 printf "Wall -> 'FillRect(2,2,2)' 'Place(1)' 'FillRect(2,2,2)'\n" >"$work/full.pcfg"
 agree 0 '' "$work/full.pcfg"
 printf "Wall -> 'Move(1,0,0)'\n" >"$work/nothing.pcfg"

@@ -27,6 +27,15 @@ printf '<a> ::= Edge { + Edge } ;\n' > edges.bnf
 "$TARTAN" fmt edges.bnf > /dev/null 2>&1 || fail "a grammar of a guessed dialect is not laid out"
 grep -q '^<a> ::= Edge { + Edge } ;$' edges.bnf || fail "a guessed dialect is laid out otherwise: $(cat edges.bnf)"
 
+# ---- libGE's escaped quotes: text where another quote closes it; what was read before is read as before
+quoted() { printf '%s\n' "$1" '<b> ::= y | z' > quotes.bnf; "$TARTAN" map quotes.bnf --genome '0 1 1' 2> err.txt | tail -n 1; }
+[ "$(quoted '<a> ::= "say(\""<b>"\")"')" = 'say("z")' ] || fail "an escaped double quote is no text: $(cat err.txt)"
+[ "$(quoted "<a> ::= 'it\\'s '<b>")" = "it's z" ] || fail "an escaped single quote is no text: $(cat err.txt)"
+[ "$(quoted '<a> ::= "\\"<b>"|"')" = '\z|' ] || fail "a text does not end behind an escaped backslash: $(cat err.txt)"
+[ "$(quoted '<a> ::= "x" <b> "\"|\"" | v')" = 'x z "|"' ] || fail "a bar between escaped quotes ends an alternative: $(cat err.txt)"
+"$TARTAN" fmt quotes.bnf && [ "$(head -n 1 quotes.bnf)" = '<a> ::= "x" <b> "\"|\"" | v' ] || fail "escaped quotes are laid out otherwise"
+[ -z "$(quoted '<a> ::= "x\" <b>')" ] && grep -q 'E1211\|single backslash' err.txt || fail "a lone backslash before the last quote is no error: $(cat err.txt)"
+
 # ---- grammars of Python programs are refused with the reason, as themselves and in a study
 printf '<p> ::= def f():{:<s>:}\n<s> ::= return 1\n' > program.pybnf
 "$TARTAN" check program.pybnf 2> err.txt && fail "takes a grammar of Python programs"
@@ -95,7 +104,7 @@ X
 "$TARTAN" evolve --ponyge tool/parameters/plane.txt -o plane > plane.txt 2> err.txt || fail "does not read parameters: $(cat err.txt)"
 grep -q 'do not apply: CACHE, VERBOSE$' err.txt || fail "does not list what does not apply: $(cat err.txt)"
 sqlite3 plane/run.sqlite "SELECT value FROM meta WHERE key='identity'" > identity.txt 2> /dev/null
-for line in 'population 40' 'crossover two-point 0.8' 'mutation genome 2' 'selection tournament 3' 'initialise pi-grow' 'depth 2..6' 'codon-limit 1000' 'error mae' 'seed 12'; do
+for line in 'population 40' 'crossover two-point 0.8' 'mutation genome 2' 'selection tournament 3' 'initialise pi-grow' 'depth 3..6' 'codon-limit 1000' 'error mae' 'seed 12'; do
   [ ! -s identity.txt ] || grep -qx "$line" identity.txt || fail "the parameters do not say $line: $(cat identity.txt)"
 done
 "$TARTAN" evolve --ponyge tool/parameters/plane.txt -o short -g 3 > /dev/null 2>&1 && "$TARTAN" evolve --ponyge tool/parameters/plane.txt -o short --resume > /dev/null 2>&1
@@ -115,7 +124,7 @@ printf 'evolution {\n grammar "blocks.pybnf"\n match "x"\n}\n' > blocks.study
 printf '<p> ::= {::}x{::}\n' > blocks.pybnf
 "$TARTAN" check blocks.study > /dev/null 2> err.txt && fail "takes a grammar of Python programs"
 grep -q 'blocks.study:2:10: error\[E1263\].*only PonyGE2' err.txt || fail "does not say why such a grammar is refused: $(cat err.txt)"
-printf 'TARGET: abc\nCROSSOVER: mine.own\n' > own.txt
+printf 'TARGET: abc\nCROSSOVER: mine.own\nFITNESS_FUNCTION: string_match\nGRAMMAR_FILE: words.bnf\n' > own.txt
 "$TARTAN" evolve --ponyge own.txt > /dev/null 2> err.txt && fail "takes an operator that is not there"
 grep -q '^own.txt:2:1: error\[E1232\].*mine.own' err.txt || fail "does not name the operator: $(cat err.txt)"
 "$TARTAN" evolve --ponyge classes.study > /dev/null 2> err.txt && fail "takes a study for parameters"

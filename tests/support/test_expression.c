@@ -242,28 +242,52 @@ static double least(double a, double b)
     return isnan(a) || isnan(b) ? NAN : a < b ? a : b;
 }
 
-double test_expression_violation(const test_expression *e, const double *terms, bool wanted)
+static bool names_a_term(const test_expression *e)
+{
+    bool names = e->kind == TEST_TERM;
+    for (uint32_t i = 0; i < e->count; i++)
+        names |= names_a_term(e->operands[i]);
+    return names;
+}
+
+/* Of a distance between the first operand of a comparison and the one at `right`. */
+static double share(const test_expression *e, const double *x, uint32_t right, double distance)
+{
+    bool left = e->count == 2 && names_a_term(e->operands[1]) && !names_a_term(e->operands[0]);
+    double size = fabs(left ? x[0] : x[right]);
+    return distance / (size > 1e300 ? 1e300 : size > 1 ? size : 1);
+}
+
+double test_expression_violation(const test_expression *e, const double *terms, bool wanted, bool shares)
 {
     double x[3] = {0};
     if (is(e, "not"))
-        return test_expression_violation(e->operands[0], terms, !wanted);
+        return test_expression_violation(e->operands[0], terms, !wanted, shares);
     if (is(e, "and") || is(e, "or")) {
-        double a = test_expression_violation(e->operands[0], terms, wanted),
-               b = test_expression_violation(e->operands[1], terms, wanted);
+        double a = test_expression_violation(e->operands[0], terms, wanted, shares),
+               b = test_expression_violation(e->operands[1], terms, wanted, shares);
         return is(e, "and") == wanted ? a + b : least(a, b);
     }
     if (binding(e) != COMPARISON)
         return apart(test_expression_value(e, terms, false), 0, !wanted);
     for (uint32_t i = 0; i < e->count; i++)
         x[i] = test_expression_value(e->operands[i], terms, false);
-    if (is(e, "in"))
-        return wanted ? over(x[1], x[0], false) + over(x[0], x[2], false)
-                      : least(over(x[0], x[1], true), over(x[2], x[0], true));
-    if (is(e, "=") || is(e, "!="))
-        return apart(x[0], x[1], is(e, "=") == wanted);
-    bool strict = is(e, "<") || is(e, ">"), lower = is(e, "<") || is(e, "<=");
-    strict = strict == wanted; /* the opposite of `<` is `>=` */
-    return lower == wanted ? over(x[0], x[1], strict) : over(x[1], x[0], strict);
+    if (is(e, "in")) {
+        double low = wanted ? over(x[1], x[0], false) : over(x[0], x[1], true),
+               high = wanted ? over(x[0], x[2], false) : over(x[2], x[0], true);
+        low = shares ? share(e, x, 1, low) : low;
+        high = shares ? share(e, x, 2, high) : high;
+        return wanted ? low + high : least(low, high);
+    }
+    double distance;
+    if (is(e, "=") || is(e, "!=")) {
+        distance = apart(x[0], x[1], is(e, "=") == wanted);
+    } else {
+        bool strict = is(e, "<") || is(e, ">"), lower = is(e, "<") || is(e, "<=");
+        strict = strict == wanted; /* the opposite of `<` is `>=` */
+        distance = lower == wanted ? over(x[0], x[1], strict) : over(x[1], x[0], strict);
+    }
+    return shares ? share(e, x, 1, distance) : distance;
 }
 
 bool test_same(double a, double b)

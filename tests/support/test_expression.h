@@ -41,8 +41,8 @@ void test_expression_write(const test_expression *expression, const char *const 
 
 double test_expression_value(const test_expression *expression, const double *terms, bool protected);
 
-/* How far it is from holding, or from failing where it is not wanted. */
-double test_expression_violation(const test_expression *expression, const double *terms, bool wanted);
+/* How far it is from holding, or from failing where it is not wanted; with `shares`, in the sizes of bounds. */
+double test_expression_violation(const test_expression *expression, const double *terms, bool wanted, bool shares);
 
 /* The same bits, or no value both? */
 bool test_same(double a, double b);

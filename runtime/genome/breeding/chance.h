@@ -11,7 +11,10 @@ typedef enum tn_purpose {
     TN_PURPOSE_INITIALISE = 1, /* number: the individual */
     TN_PURPOSE_BIRTH,          /* number: the pair of parents */
     TN_PURPOSE_SELECT,         /* number: the pair of parents */
+    TN_PURPOSE_AGAIN,          /* number: the individual of the first generation or the pair, and the attempt */
 } tn_purpose;
+
+#define TN_ATTEMPTS_MAX 8u
 
 typedef struct tn_chance {
     uint64_t seed, stream, index;
@@ -20,6 +23,14 @@ typedef struct tn_chance {
 static inline tn_chance tn_chance_for(uint64_t seed, tn_purpose purpose, uint64_t generation, uint64_t number)
 {
     return (tn_chance){seed, (uint64_t)purpose << 60 | (generation & 0x3FFFFFFF) << 30 | (number & 0x3FFFFFFF), 0};
+}
+
+/* Attempt 0 draws as above, later ones as many streams farther; at most TN_ATTEMPTS_MAX. */
+static inline tn_chance tn_chance_again(uint64_t seed, tn_purpose purpose, uint64_t generation, uint64_t number,
+                                        unsigned attempt)
+{
+    return attempt == 0 ? tn_chance_for(seed, purpose, generation, number)
+                        : tn_chance_for(seed, TN_PURPOSE_AGAIN, generation, number * TN_ATTEMPTS_MAX + attempt - 1);
 }
 
 static inline uint64_t tn_chance_next(tn_chance *chance)

@@ -171,7 +171,7 @@ static tn_status replace_chosen(tn_evolution *e, tn_status status, tn_error *err
     if (status != TN_OK)
         return status;
     tn_evolution_take_places(e, e->settings.population - stay);
-    status = tn_evolution_make(e, false, error);
+    status = tn_evolution_make(e, false, stay, error);
     status = tn_evolution_score(e, status, e->born, e->born_count, error);
     if (status != TN_OK)
         return status;
@@ -199,6 +199,19 @@ static void replace_on_island(tn_evolution *e, size_t number, bool survivors)
     tn_island_keep_best(e, island, e->pool, count, size < count ? size : count);
 }
 
+/* Puts those into the pool that stay, whatever is born: the elites of each island, or where parents compete with their
+ * children, all. */
+static size_t pool_staying(tn_evolution *e, bool survivors)
+{
+    size_t count = 0;
+    for (size_t number = 0; number < e->island_count; number++) {
+        const tn_island *island = &e->islands[number];
+        for (size_t i = 0; i < island->count && (survivors || i < e->settings.elites); i++)
+            e->pool[count++] = island->members[island->merits[i].index];
+    }
+    return count;
+}
+
 static tn_status replace_generation(tn_evolution *e, tn_status status, tn_error *error)
 {
     size_t n = e->settings.population;
@@ -207,7 +220,7 @@ static tn_status replace_generation(tn_evolution *e, tn_status status, tn_error 
     tn_evolution_take_places(e, n - elites * e->island_count);
     status = tn_evolution_find_cases(e, status, error);
     if (status == TN_OK)
-        status = tn_evolution_make(e, false, error);
+        status = tn_evolution_make(e, false, pool_staying(e, survivors), error);
     status = tn_evolution_score(e, status, e->born, e->born_count, error);
     for (size_t i = 0; status == TN_OK && i < e->island_count; i++)
         replace_on_island(e, i, survivors);
@@ -221,12 +234,12 @@ static tn_status replace_steady(tn_evolution *e, tn_status status, tn_error *err
     for (size_t number = 0; number < tn_evolution_pairs(e); number++) {
         const tn_brood pair = tn_evolution_pair(e, number);
         tn_island *island = &e->islands[pair.island];
+        memcpy(e->pool, island->members, island->count * sizeof *e->pool);
         if (status == TN_OK)
-            status = tn_evolution_make_pair(e, number, error);
+            status = tn_evolution_make_pair(e, number, island->count, error);
         status = tn_evolution_score(e, status, e->born + pair.first, pair.count, error);
         if (status != TN_OK)
             return status;
-        memcpy(e->pool, island->members, island->count * sizeof *e->pool);
         memcpy(e->pool + island->count, e->born + pair.first, pair.count * sizeof *e->pool);
         size_t count = island->count + pair.count, size = tn_island_size(e);
         tn_island_keep_best(e, island, e->pool, count, size < count ? size : count);
@@ -239,7 +252,7 @@ static tn_status first_generation(tn_evolution *e, tn_status status, tn_error *e
 {
     tn_evolution_take_places(e, e->settings.population);
     if (status == TN_OK)
-        status = tn_evolution_make(e, true, error);
+        status = tn_evolution_make(e, true, 0, error);
     status = tn_evolution_score(e, status, e->born, e->born_count, error);
     for (size_t i = 0; status == TN_OK && i < e->island_count; i++) {
         memcpy(e->pool, e->born + i * e->births_each, e->births_each * sizeof *e->pool);

@@ -95,14 +95,16 @@ typedef struct tn_evolution_settings {
     uint32_t migrants,
         every; /* how many of each island's best move to the next one, every so many generations (0: never) */
     const tn_genome_kind *kind; /* of other genomes than codons, or NULL; borrowed */
-    bool remembers;             /* every genome that was ever born can be chosen as a parent, by its id */
-    unsigned threads;           /* 0: as many as there are */
-    tn_watch *watch;            /* borrowed, or NULL: a step gives up (TN_STOPPED) once this says so */
-    const tn_ranks *ranks;      /* borrowed, or NULL: those that breed the same run, and share its evaluations */
+    bool keeps_copies;     /* a child may have the sentence of another of its generation; otherwise it is bred again */
+    bool remembers;        /* every genome that was ever born can be chosen as a parent, by its id */
+    unsigned threads;      /* 0: as many as there are */
+    tn_watch *watch;       /* borrowed, or NULL: a step gives up (TN_STOPPED) once this says so */
+    const tn_ranks *ranks; /* borrowed, or NULL: those that breed the same run, and share its evaluations */
 } tn_evolution_settings;
 
 #define TN_POPULATION_MAX 1000000u
-#define TN_CACHE_MAX (1u << 22) /* phenotypes whose scores are kept; then all are forgotten */
+#define TN_FIRST_DEPTH_MAX 10000u /* of first trees */
+#define TN_CACHE_MAX (1u << 22)   /* phenotypes whose scores are kept; then all are forgotten */
 
 /* A paper's or PonyGE2's usual settings. */
 tn_evolution_settings tn_evolution_settings_default(void);
@@ -213,6 +215,9 @@ void tn_evolution_vary(tn_evolution *evolution, const tn_vary_options *vary);
 /* The members, the best first; and those born in the last step, in order of their ids. Valid until the next step. */
 const tn_individual *const *tn_evolution_members(const tn_evolution *evolution, size_t *count);
 const tn_individual *const *tn_evolution_born(const tn_evolution *evolution, size_t *count);
+
+/* How many different sentences have scores: those that were ever scored, or scored again since targets changed. */
+size_t tn_evolution_known(const tn_evolution *evolution);
 
 /* The number of the newest generation; that after the first step is 0. */
 uint32_t tn_evolution_generation(const tn_evolution *evolution);

@@ -78,10 +78,11 @@ static tn_status seed_genome(const tn_genome *seed, tn_genome *genome, tn_error 
     return TN_OK;
 }
 
-static tn_status first_genome(tn_evolution *e, unsigned thread, size_t i, tn_individual *individual, tn_error *error)
+tn_status tn_evolution_first_genome(tn_evolution *e, unsigned thread, size_t i, unsigned attempt,
+                                    tn_individual *individual, tn_error *error)
 {
     const tn_evolution_settings *s = &e->settings;
-    tn_chance chance = tn_chance_for(s->seed, TN_PURPOSE_INITIALISE, 0, i);
+    tn_chance chance = tn_chance_again(s->seed, TN_PURPOSE_INITIALISE, 0, i, attempt);
     tn_birth birth = {TN_BIRTH_SEED, {TN_NO_PARENT, TN_NO_PARENT}};
     tn_status status = i < s->seed_count
                            ? seed_genome(&s->seeds[i], &individual->genome, error)
@@ -120,12 +121,12 @@ static bool selects_by_cases(const tn_evolution *e)
            e->settings.select.selection == TN_SELECT_EPSILON_LEXICASE;
 }
 
-/* The children of one pair of parents; the last child of an odd number goes without its sibling. */
-static tn_status breed_pair(tn_evolution *e, unsigned thread, size_t pair, tn_error *error)
+tn_status tn_evolution_breed_pair(tn_evolution *e, unsigned thread, size_t pair, unsigned attempt,
+                                  tn_individual *const children[2], tn_error *error)
 {
     const tn_brood place = tn_evolution_pair(e, pair);
     tn_chance selecting = tn_chance_for(e->settings.seed, TN_PURPOSE_SELECT, e->generation, pair);
-    tn_chance breeding = tn_chance_for(e->settings.seed, TN_PURPOSE_BIRTH, e->generation, pair);
+    tn_chance breeding = tn_chance_again(e->settings.seed, TN_PURPOSE_BIRTH, e->generation, pair, attempt);
     uint64_t known[2] = {TN_NO_PARENT, TN_NO_PARENT};
     tn_chosen_parent from[2];
     tn_parent parents[2];
@@ -137,14 +138,13 @@ static tn_status breed_pair(tn_evolution *e, unsigned thread, size_t pair, tn_er
                                  from[i].weight};
     }
     tn_genome spare = {0};
-    tn_individual **born = e->born + place.first;
-    tn_genome *children[2] = {&born[0]->genome, place.count == 1 ? &spare : &born[1]->genome};
+    tn_genome *genomes[2] = {&children[0]->genome, children[1] ? &children[1]->genome : &spare};
     uint8_t kinds[2];
-    tn_status status = e->kind->breed(e->workplaces[thread], &breeding, parents, children, kinds, error);
-    for (size_t i = 0; i < place.count; i++) {
-        born[i]->kind = kinds[i];
-        born[i]->parents[0] = from[i].id;
-        born[i]->parents[1] = from[1 - i].id;
+    tn_status status = e->kind->breed(e->workplaces[thread], &breeding, parents, genomes, kinds, error);
+    for (size_t i = 0; i < 2 && children[i]; i++) {
+        children[i]->kind = kinds[i];
+        children[i]->parents[0] = from[i].id;
+        children[i]->parents[1] = from[1 - i].id;
     }
     tn_genome_clear(&spare);
     return status;
@@ -153,10 +153,11 @@ static tn_status breed_pair(tn_evolution *e, unsigned thread, size_t pair, tn_er
 static tn_status make(tn_evolution *e, unsigned thread, bool first, size_t pair, tn_error *error)
 {
     const tn_brood place = tn_evolution_pair(e, pair);
-    tn_status status = first ? TN_OK : breed_pair(e, thread, pair, error);
+    tn_individual *children[2] = {e->born[place.first], place.count == 1 ? NULL : e->born[place.first + 1]};
+    tn_status status = first ? TN_OK : tn_evolution_breed_pair(e, thread, pair, 0, children, error);
     for (size_t i = place.first; i < place.first + place.count && status == TN_OK; i++) {
         if (first)
-            status = first_genome(e, thread, i, e->born[i], error);
+            status = tn_evolution_first_genome(e, thread, i, 0, e->born[i], error);
         if (status == TN_OK)
             status = tn_evolution_write(e, thread, e->born[i], error);
     }
@@ -173,14 +174,18 @@ static tn_status next_item(void *context, unsigned thread, size_t item, tn_error
     return make(context, thread, false, item, error);
 }
 
-tn_status tn_evolution_make(tn_evolution *e, bool first, tn_error *error)
+tn_status tn_evolution_make(tn_evolution *e, bool first, size_t staying, tn_error *error)
 {
+    size_t pairs = tn_evolution_pairs(e);
     e->births += e->born_count;
-    tn_status status = tn_crew_run(e->crew, tn_evolution_pairs(e), 8, first ? first_item : next_item, e, error);
+    tn_status status = tn_crew_run(e->crew, pairs, 8, first ? first_item : next_item, e, error);
+    if (status == TN_OK)
+        status = tn_evolution_breed_copies_again(e, first, 0, first ? e->born_count : pairs, staying, error);
     return status == TN_OK ? tn_evolution_keep_born(e, error) : status;
 }
 
-tn_status tn_evolution_make_pair(tn_evolution *e, size_t pair, tn_error *error)
+tn_status tn_evolution_make_pair(tn_evolution *e, size_t pair, size_t staying, tn_error *error)
 {
-    return make(e, 0, false, pair, error);
+    tn_status status = make(e, 0, false, pair, error);
+    return status == TN_OK ? tn_evolution_breed_copies_again(e, false, pair, pair + 1, staying, error) : status;
 }

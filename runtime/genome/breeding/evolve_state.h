@@ -5,6 +5,7 @@
  * evolve_person.c takes individuals that a person inserts, and takes others out
  * evolve_island.c keeps its islands
  * evolve_birth.c  makes genomes and their sentences
+ * evolve_copies.c makes others where one is a copy
  * evolve_score.c  gives them their scores
  * evolve_cases.c  gives them their errors in single cases
  * evolve_share.c  shares that among several processes
@@ -103,8 +104,21 @@ typedef struct tn_brood {
 size_t tn_evolution_pairs(const tn_evolution *evolution);
 tn_brood tn_evolution_pair(const tn_evolution *evolution, size_t pair);
 
-/* Makes all to be born, with their sentences, in pairs, by all threads. */
-tn_status tn_evolution_make(tn_evolution *evolution, bool first, tn_error *error);
+/* Makes all to be born, with their sentences, in pairs, by all threads. `staying`: how many of the pool, from its first
+ * on, are in the next generation, too, so that none of those born should have their sentences. */
+tn_status tn_evolution_make(tn_evolution *evolution, bool first, size_t staying, tn_error *error);
+
+/* One genome of the first generation, and the children of one pair of parents (the second child may be NULL), without
+ * sentences. The parents are the same in each attempt, the other draws are not. */
+tn_status tn_evolution_first_genome(tn_evolution *evolution, unsigned thread, size_t number, unsigned attempt,
+                                    tn_individual *individual, tn_error *error);
+tn_status tn_evolution_breed_pair(tn_evolution *evolution, unsigned thread, size_t pair, unsigned attempt,
+                                  tn_individual *const children[2], tn_error *error);
+
+/* Of the pairs [begin, end), or of the first generation's individuals: breeds those again that have the sentence of
+ * another before them, or of the first `staying` of the pool. Who has none in a few attempts that is new is a copy. */
+tn_status tn_evolution_breed_copies_again(tn_evolution *evolution, bool first, size_t begin, size_t end, size_t staying,
+                                          tn_error *error);
 
 /* Turns an individual's genome into its sentence. */
 tn_status tn_evolution_write(tn_evolution *evolution, unsigned thread, tn_individual *individual, tn_error *error);
@@ -127,8 +141,8 @@ const tn_genome *tn_evolution_chosen_genome(const tn_evolution *evolution, const
  * back. Returns how many in *count. */
 tn_status tn_evolution_bring_back(tn_evolution *evolution, size_t *count, tn_error *error);
 
-/* Makes the children of one pair, with their sentences. */
-tn_status tn_evolution_make_pair(tn_evolution *evolution, size_t pair, tn_error *error);
+/* Makes the children of one pair, with their sentences; `staying` as above. */
+tn_status tn_evolution_make_pair(tn_evolution *evolution, size_t pair, size_t staying, tn_error *error);
 
 /* The individuals that wait for their scores, in batches for the evaluator. */
 typedef struct tn_scoring {

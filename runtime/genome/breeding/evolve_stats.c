@@ -16,6 +16,11 @@ const tn_individual *const *tn_evolution_born(const tn_evolution *e, size_t *cou
     return (const tn_individual *const *)e->born;
 }
 
+size_t tn_evolution_known(const tn_evolution *e)
+{
+    return e->cache.count;
+}
+
 uint32_t tn_evolution_generation(const tn_evolution *e)
 {
     return e->generation;

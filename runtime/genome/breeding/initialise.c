@@ -18,6 +18,7 @@ typedef struct step {
 
 typedef struct node {
     uint32_t rule, depth;
+    bool reaches; /* may a branch from here get as deep as one must? */
     size_t steps, steps_end;
 } node;
 
@@ -32,8 +33,8 @@ typedef struct planter {
     size_t step_count, step_capacity;
     uint32_t *pending; /* nodes to be expanded */
     size_t pending_count, pending_capacity;
-    size_t recursive_pending; /* how many of them can be deep */
-    uint32_t deepest;         /* level reached so far */
+    size_t reaching;  /* how many of them can get as deep as a branch must */
+    uint32_t deepest; /* level reached so far, terminals counted where the dialect counts them */
     bool failed;
 } planter;
 
@@ -63,15 +64,30 @@ static void add_step(planter *p, bool is_child, uint64_t value)
         p->steps[p->step_count++] = (step){is_child, value};
 }
 
+/* Until a branch is as deep as one must be, some pending node can still reach that depth: the last such node chooses a
+ * production that keeps it so (find_way). */
+static bool is_deep_enough(const planter *p)
+{
+    return p->deepest >= p->options->least;
+}
+
+static bool can_reach(const planter *p, uint32_t rule, uint32_t depth)
+{
+    const tn_tree_options *o = p->options;
+    return o->least && depth <= o->depth &&
+           tn_depths_within(o->depths, rule, o->least > depth ? o->least - depth + 1 : 1, o->depth - depth + 1);
+}
+
 static void add_child(planter *p, uint32_t rule, uint32_t depth)
 {
+    uint32_t level = p->grammar->dialect == TN_DIALECT_GE ? depth + 1 : depth;
     if (!room(p, &p->nodes, &p->node_capacity, p->node_count, sizeof *p->nodes) ||
         !room(p, &p->pending, &p->pending_capacity, p->pending_count, sizeof *p->pending))
         return;
-    p->nodes[p->node_count] = (node){rule, depth, 0, 0};
+    p->deepest = level > p->deepest ? level : p->deepest;
+    p->nodes[p->node_count] = (node){rule, depth, !is_deep_enough(p) && can_reach(p, rule, depth), 0, 0};
     p->pending[p->pending_count++] = (uint32_t)p->node_count;
-    p->recursive_pending += p->analysis->recursive[rule];
-    p->deepest = depth > p->deepest ? depth : p->deepest;
+    p->reaching += p->nodes[p->node_count].reaches;
     add_step(p, true, p->node_count++);
 }
 
@@ -96,25 +112,6 @@ static uint32_t shallowest(const planter *p, uint32_t rule, uint32_t depth)
     return best;
 }
 
-static uint32_t choose(planter *p, uint32_t rule, uint32_t depth, bool deep)
-{
-    const tn_rule *r = &p->grammar->rules[rule];
-    for (int pass = deep ? 0 : 1; pass < 2; pass++) { /* recursive ones first where depth is wanted */
-        uint64_t count = 0, chosen;
-        for (uint32_t i = r->first; i < r->first + r->count; i++)
-            count += fits(p, i, depth) && (pass || p->analysis->endless[i]);
-        if (!count)
-            continue;
-        chosen = tn_chance_below(p->chance, count);
-        for (uint32_t i = r->first;; i++)
-            if (fits(p, i, depth) && (pass || p->analysis->endless[i]) && chosen-- == 0)
-                return i;
-    }
-    return shallowest(p, rule, depth);
-}
-
-/* ---- expanding it: its loops and options are decided at once */
-
 /* May the words [at, end) be written at this depth? */
 static bool body_fits(const planter *p, uint32_t at, uint32_t end, uint32_t depth)
 {
@@ -131,6 +128,68 @@ static bool body_fits(const planter *p, uint32_t at, uint32_t end, uint32_t dept
     return true;
 }
 
+/* The word of a non-terminal by which the production gets as deep as a branch must, one that is written in any case
+ * where there is one; TN_NO_RECORD where there is none. */
+static uint32_t find_way(const planter *p, uint32_t production, uint32_t depth)
+{
+    const tn_grammar *g = p->grammar;
+    uint32_t found = TN_NO_RECORD, closed = 0, group = 0; /* ends of a group that cannot be written, and of any group */
+    for (uint32_t at = g->productions[production].words; TN_WORD_OP(g->words[at]) != TN_WORD_DONE; at++) {
+        tn_word_op op = TN_WORD_OP(g->words[at]);
+        uint32_t argument = TN_WORD_ARGUMENT(g->words[at]), end = at + 1 + argument;
+        if (op == TN_WORD_REPEAT || op == TN_WORD_MAYBE) {
+            group = end > group ? end : group;
+            if (at >= closed && !body_fits(p, at + 1, end, depth))
+                closed = end;
+        } else if (op == TN_WORD_RULE && at >= closed && can_reach(p, argument, depth + 1)) {
+            if (at >= group)
+                return at;
+            found = found == TN_NO_RECORD ? at : found;
+        }
+    }
+    return found;
+}
+
+/* What is asked of a production besides that it fits. */
+typedef enum demand {
+    WAY = 1,       /* that a branch can get deep enough by it */
+    RECURSION = 2, /* that it leads back to its rule */
+} demand;
+
+static bool meets(const planter *p, uint32_t production, uint32_t depth, unsigned demands)
+{
+    return fits(p, production, depth) && (!(demands & RECURSION) || p->analysis->endless[production]) &&
+           (!(demands & WAY) || find_way(p, production, depth) != TN_NO_RECORD);
+}
+
+/* One of the productions that meet the demands, each as likely; TN_NO_RECORD where there is none. */
+static uint32_t draw(planter *p, uint32_t rule, uint32_t depth, unsigned demands)
+{
+    const tn_rule *r = &p->grammar->rules[rule];
+    uint64_t count = 0;
+    for (uint32_t i = r->first; i < r->first + r->count; i++)
+        count += meets(p, i, depth, demands);
+    if (!count)
+        return TN_NO_RECORD;
+    uint64_t chosen = tn_chance_below(p->chance, count);
+    for (uint32_t i = r->first;; i++)
+        if (meets(p, i, depth, demands) && chosen-- == 0)
+            return i;
+}
+
+/* Where not all that is asked can be had, getting deep enough comes first. */
+static uint32_t choose(planter *p, uint32_t rule, uint32_t depth, unsigned demands)
+{
+    const unsigned tries[] = {demands, demands & WAY, 0};
+    uint32_t found = TN_NO_RECORD;
+    for (size_t i = 0; i < sizeof tries / sizeof *tries && found == TN_NO_RECORD; i++)
+        if (i == 0 || tries[i] != tries[i - 1])
+            found = draw(p, rule, depth, tries[i]);
+    return found == TN_NO_RECORD ? shallowest(p, rule, depth) : found;
+}
+
+/* ---- expanding it: its loops and options are decided at once */
+
 typedef struct open_loop {
     uint32_t at, rounds;
 } open_loop;
@@ -139,9 +198,10 @@ static void expand(planter *p, uint32_t index)
 {
     const tn_grammar *g = p->grammar;
     uint32_t rule = p->nodes[index].rule, depth = p->nodes[index].depth;
-    bool starved = p->options->method == TN_TREE_PI_GROW && p->recursive_pending == 0 && p->deepest < p->options->depth;
+    bool last = p->nodes[index].reaches && p->reaching == 0 && !is_deep_enough(p);
     uint32_t production =
-        choose(p, rule, depth, p->options->method == TN_TREE_FULL || (starved && p->analysis->recursive[rule]));
+        choose(p, rule, depth, (last ? WAY : 0) | (p->options->method == TN_TREE_FULL ? RECURSION : 0));
+    uint32_t way = last ? find_way(p, production, depth) : TN_NO_RECORD;
     open_loop loops[TN_GROUP_DEPTH];
     size_t open = 0;
     bool bound[TN_EDGE_LETTERS] = {false};
@@ -176,6 +236,8 @@ static void expand(planter *p, uint32_t index)
             value = codon(p);
             if (!body_fits(p, loop->at + 1, end, depth))
                 value -= value % modulus;
+            else if (loop->rounds == 0 && way > loop->at && way < end)
+                value |= 1; /* modulus 2: the loop is entered */
             add_step(p, false, value);
             bool goes_on = value % modulus > loop->rounds;
             at = goes_on ? loop->at : end;
@@ -187,6 +249,8 @@ static void expand(planter *p, uint32_t index)
             value = codon(p);
             if (!body_fits(p, at + 1, at + 1 + argument, depth))
                 value &= ~UINT64_C(1);
+            else if (way > at && way < at + 1 + argument)
+                value |= 1;
             add_step(p, false, value);
             at += value & 1 ? 0 : argument;
             break;
@@ -201,14 +265,15 @@ static void expand(planter *p, uint32_t index)
 
 /* ---- the whole tree */
 
+/* In random order, too, as long as no branch is deep enough: the one that must be may be any. */
 static uint32_t take_pending(planter *p)
 {
     size_t place = p->pending_count - 1;
-    if (p->options->method == TN_TREE_PI_GROW)
+    if (p->options->method == TN_TREE_PI_GROW || !is_deep_enough(p))
         place = (size_t)tn_chance_below(p->chance, p->pending_count);
     uint32_t index = p->pending[place];
     p->pending[place] = p->pending[--p->pending_count];
-    p->recursive_pending -= p->analysis->recursive[p->nodes[index].rule];
+    p->reaching -= p->nodes[index].reaches;
     return index;
 }
 

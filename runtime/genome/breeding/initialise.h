@@ -9,6 +9,7 @@
 #include "runtime/genome/breeding/chance.h"
 #include "runtime/genome/mapping/genome.h"
 #include "runtime/grammar/analysis.h"
+#include "runtime/grammar/depths.h"
 
 typedef enum tn_tree_method {
     TN_TREE_GROW,    /* any production that still fits */
@@ -26,11 +27,14 @@ typedef enum tn_tree_places {
 
 typedef struct tn_tree_options {
     tn_tree_method method;
-    uint32_t depth;       /* levels, at least as many as the grammar needs: fewer count as that */
-    uint32_t max_depth;   /* of mapping */
-    uint64_t codon_limit; /* codons are below it */
-    double tail;          /* random codons behind the tree's, as a share of them */
-    size_t max_codons;    /* a tree that needs more is cut there, and does not lead to itself */
+    uint32_t depth; /* levels, at least as many as the grammar needs: fewer count as that */
+    uint32_t least; /* levels that a branch must reach, where the grammar has a tree that deep and no deeper than
+                       `depth`; 0: none must */
+    const tn_depths *depths; /* of the grammar, up to `depth`, where `least` is not 0; borrowed */
+    uint32_t max_depth;      /* of mapping */
+    uint64_t codon_limit;    /* codons are below it */
+    double tail;             /* random codons behind the tree's, as a share of them */
+    size_t max_codons;       /* a tree that needs more is cut there, and does not lead to itself */
     tn_tree_places places;
 } tn_tree_options;
 

@@ -39,6 +39,7 @@ struct tn_problem {
     tn_fit_options options;
     size_t batch;
     workplace *places; /* by thread */
+    bool unnamed;      /* its columns have names of ours */
 };
 
 static void data_clear(data *d, size_t variables)
@@ -174,6 +175,8 @@ tn_status tn_problem_fit_csv(const char *text, size_t size, const tn_fit_options
     if (status == TN_OK)
         status = tn_problem_fit((const char *const *)table->names, (const double *const *)table->columns,
                                 table->width - 1, table->points, options, problem, error);
+    if (status == TN_OK)
+        (*problem)->unnamed = table->unnamed;
     tn_data_clear(table);
     free(table);
     return status;
@@ -217,6 +220,11 @@ tn_status tn_problem_hold_csv(tn_problem *p, const char *text, size_t size, tn_e
     tn_data_clear(table);
     free(table);
     return status;
+}
+
+bool tn_problem_unnamed(const tn_problem *p)
+{
+    return p->unnamed;
 }
 
 bool tn_problem_holds(const tn_problem *p)

@@ -26,6 +26,9 @@ tn_status tn_problem_fit(const char *const *names, const double *const *columns,
 tn_status tn_problem_fit_csv(const char *text, size_t size, const tn_fit_options *options, tn_problem **problem,
                              tn_error *error);
 
+/* Did the data have no line of names? */
+bool tn_problem_unnamed(const tn_problem *problem);
+
 /* Data of the same columns that nothing is scored by, for testing what was found. E1243. */
 tn_status tn_problem_hold_csv(tn_problem *problem, const char *text, size_t size, tn_error *error);
 bool tn_problem_holds(const tn_problem *problem);

@@ -107,6 +107,56 @@ static void test_threads(void **state)
     }
 }
 
+/* ---- copies */
+
+/* How many members of twelve generations have the sentence of another one of theirs. */
+static size_t count_copies(int variant, bool kept)
+{
+    setup s = prepare(variant);
+    tn_evolution *evolution;
+    size_t copies = 0;
+    s.settings.keeps_copies = kept;
+    s.settings.mapping.wraps = 2;
+    assert_int_equal(tn_evolution_new(s.grammar, &s.settings, &s.evaluator, &evolution, NULL), TN_OK);
+    for (int g = 0; g < 12; g++) {
+        assert_int_equal(tn_evolution_step(evolution, NULL), TN_OK);
+        tn_generation_stats stats = tn_evolution_stats(evolution);
+        copies += s.settings.population - stats.no_sentence - stats.distinct;
+    }
+    tn_evolution_free(evolution);
+    clear(&s);
+    return copies;
+}
+
+/* Of this grammar there are always others to be had, and mostly found; how parents are replaced or selected
+ * makes no difference. */
+static void test_copies(void **state)
+{
+    (void)state;
+    for (int variant = 0; variant < 20; variant++) {
+        size_t again = count_copies(variant, false), kept = count_copies(variant, true);
+        if (again * 2 > kept + 6)
+            fail_msg("variant %d: %zu copies, %zu where they are kept", variant, again, kept);
+    }
+}
+
+/* A grammar without another sentence has copies, and is not tried without end. */
+static void test_only_copies(void **state)
+{
+    (void)state;
+    setup s = prepare(0);
+    tn_grammar *one = test_grammar("<a> ::= <b> | <b>\n<b> ::= x\n");
+    tn_evolution *evolution;
+    assert_int_equal(tn_evolution_new(one, &s.settings, &s.evaluator, &evolution, NULL), TN_OK);
+    for (int g = 0; g < 3; g++)
+        assert_int_equal(tn_evolution_step(evolution, NULL), TN_OK);
+    assert_int_equal(tn_evolution_stats(evolution).distinct, 1);
+    assert_int_equal(tn_evolution_known(evolution), 1);
+    tn_evolution_free(evolution);
+    tn_grammar_free(one);
+    clear(&s);
+}
+
 /* ---- replay: the same run with scores recalled and an evaluator that must not be asked */
 
 typedef struct memory {
@@ -278,8 +328,10 @@ static void test_csv(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_threads), cmocka_unit_test(test_replay), cmocka_unit_test(test_better),
-        cmocka_unit_test(test_choice),  cmocka_unit_test(test_nsga2),  cmocka_unit_test(test_constrained_domination),
+        cmocka_unit_test(test_threads),     cmocka_unit_test(test_copies),
+        cmocka_unit_test(test_only_copies), cmocka_unit_test(test_replay),
+        cmocka_unit_test(test_better),      cmocka_unit_test(test_choice),
+        cmocka_unit_test(test_nsga2),       cmocka_unit_test(test_constrained_domination),
         cmocka_unit_test(test_csv),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

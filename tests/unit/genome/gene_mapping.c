@@ -3,6 +3,7 @@
 #include <jansson.h>
 
 #include "runtime/genome/mapping/mapper.h"
+#include "runtime/genome/mapping/sentences.h"
 #include "tests/support/test_grammar.h"
 
 #define DATA TARTAN_SOURCE_DIR "/tests/data/gene/"
@@ -333,13 +334,50 @@ static void test_long_texts_are_bounded(void **state)
     tn_grammar_free(g);
 }
 
+/* ---- few sentences */
+
+static size_t sentences_of(tn_grammar *g, size_t most)
+{
+    tn_mapping_options options = tn_mapping_options_of(g);
+    size_t count;
+    assert_int_equal(tn_count_sentences(g, &options, most, &count, NULL), TN_OK);
+    tn_grammar_free(g);
+    return count;
+}
+
+static void test_sentences(void **state)
+{
+    (void)state;
+    assert_int_equal(sentences_of(test_grammar("<a> ::= x\n"), 1), 1);
+    assert_int_equal(sentences_of(test_grammar("<a> ::= x | y | <b>\n<b> ::= x | z\n"), 4), 3); /* x in two ways */
+    assert_int_equal(sentences_of(test_grammar("<a> ::= x | y | <b>\n<b> ::= x | z\n"), 3), SIZE_MAX);
+    assert_int_equal(sentences_of(test_grammar("<a> ::= <d><d><d>\n<d> ::= GE_RANGE:7\n"), 1000), 343);
+    assert_int_equal(sentences_of(test_grammar("%single-choice skip\n<a> ::= <b><b>\n<b> ::= <c>\n<c> ::= p | q\n"), 9),
+                     4);
+    assert_int_equal(sentences_of(test_grammar_file(TARTAN_SOURCE_DIR "/stdlib/genr8-quads.bnf"), 1000), 120);
+    assert_int_equal(sentences_of(test_grammar("<a> ::= <a>x | y\n"), 1000), SIZE_MAX); /* the first one has no end */
+    assert_int_equal(sentences_of(test_grammar("<a> ::= y | <a>x\n"), 1000), SIZE_MAX);
+    assert_int_equal(sentences_of(test_grammar("%max-depth 4\n<a> ::= y | <a>x\n"), 1000),
+                     3); /* the others are too deep */
+    /* one edge type of two, then of as many as there are; an option; a loop has no end */
+    assert_int_equal(sentences_of(test_grammar("%dialect genr8\n%repair off\n<a> ::= Edge Edge\n"), 100), 10);
+    assert_int_equal(sentences_of(test_grammar("%dialect genr8\n%repair off\n<a> ::= x [ <b> ]\n<b> ::= y | z\n"), 9),
+                     3);
+    assert_int_equal(sentences_of(test_grammar("%dialect genr8\n%repair off\n<a> ::= { x }\n"), 1000), SIZE_MAX);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ge_rows),           cmocka_unit_test(test_genr8_rows),
-        cmocka_unit_test(test_all_rows),          cmocka_unit_test(test_worked_example),
-        cmocka_unit_test(test_small_cases),       cmocka_unit_test(test_genr8_cases),
-        cmocka_unit_test(test_repair_is_bounded), cmocka_unit_test(test_long_texts_are_bounded),
+        cmocka_unit_test(test_sentences),
+        cmocka_unit_test(test_ge_rows),
+        cmocka_unit_test(test_genr8_rows),
+        cmocka_unit_test(test_all_rows),
+        cmocka_unit_test(test_worked_example),
+        cmocka_unit_test(test_small_cases),
+        cmocka_unit_test(test_genr8_cases),
+        cmocka_unit_test(test_repair_is_bounded),
+        cmocka_unit_test(test_long_texts_are_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

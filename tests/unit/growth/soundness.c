@@ -208,9 +208,11 @@ static void test_requirements(void **state)
         double lacking;
     } cases[] = {{"require area <= 1", 0},
                  {"require area <= 0.25", 0.75},
-                 {"require width = 3 and depth >= 1.5", 2.5},
-                 {"require width = 3 or depth >= 1.5", 0.5},
-                 {"require faces >= 20 require edges in 100..200", 64}};
+                 {"require width = 3 and depth >= 1.5", 2.0 / 3 + 0.5 / 1.5},
+                 {"require 3 = width or depth >= 1.5", 0.5 / 1.5},
+                 {"require 3 <= width", 2.0 / 3},
+                 {"require not (width < 2 * 1.5)", 2.0 / 3},
+                 {"require faces >= 20 require edges in 100..200", 0.2 + 0.6}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         grown g;
         char text[200];
@@ -218,7 +220,7 @@ static void test_requirements(void **state)
                  cases[i].text);
         grow(&g, text, 0);
         assert_true(fabs(tn_fitness_lacking(&g.fitness, &g.study.goal) - cases[i].lacking) < 1e-9);
-        assert_true(fabs(tn_fitness_total(&g.fitness, &g.study.goal, 1) - (cases[i].lacking + 1.5)) < 1e-9);
+        assert_true(fabs(tn_fitness_total(&g.fitness, &g.study.goal, 1) - (10 * cases[i].lacking + 1.5)) < 1e-9);
         is(&g, TN_MEASURED_CROSSINGS, 0);
         uproot(&g);
     }

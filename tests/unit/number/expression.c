@@ -111,9 +111,9 @@ static tn_expression *build(tn_arena *arena, const test_expression *e)
 }
 
 static void check_violation(const test_expression *tree, const tn_formula *value, const tn_formula *violation,
-                            const double *terms)
+                            const double *terms, bool shares)
 {
-    double got = tn_number_run(violation->code, 0, terms), wanted = test_expression_violation(tree, terms, true),
+    double got = tn_number_run(violation->code, 0, terms), wanted = test_expression_violation(tree, terms, true, shares),
            truth = tn_number_run(value->code, 0, terms);
     if (!test_same(got, wanted)) {
         test_expression_write(tree, tn_names_MEASURED, stderr);
@@ -137,12 +137,12 @@ static void test_violations(void **state)
         const tn_expression *expression = build(arena, tree);
         double terms[TEST_TERMS];
         assert_int_equal(tn_expression_code(expression, &value, NULL), TN_OK);
-        assert_int_equal(tn_expression_violation(expression, &violation, NULL), TN_OK);
+        assert_int_equal(tn_expression_violation(expression, round % 2, &violation, NULL), TN_OK);
         assert_true(value.depth <= expression->height && violation.depth <= expression->height + 1);
         for (size_t point = 0; point < 20; point++) {
             for (size_t t = 0; t < TEST_TERMS; t++)
                 terms[t] = test_number(&random);
-            check_violation(tree, &value, &violation, terms);
+            check_violation(tree, &value, &violation, terms, round % 2);
         }
         test_expression_free(tree);
         tn_arena_free(arena);
