@@ -1,46 +1,35 @@
-"""Every question about a file against every other: nothing is worked out but by the program itself.
+"""Every question about plans and houses against every other: nothing is worked out but by the program itself.
 
-A question is a function that is given a Subject (a library of the file, or the file alone) and raises Wrong where two answers differ."""
+A question is a function that is given a PlanSubject and raises Wrong where two answers differ."""
 import os
 import re
 import shutil
 from fractions import Fraction
 
+import file_questions
 from c_interface import c_interface
 from exports import prolog, regex
 from house_files import bills, solids, swings
-from mend import errors
-from program import Refused, answer, json_lines, read_json, run, same, same_lines
-from source import read_source
+from program import Refused, answer, json_lines, read_json, run, same
+from source import Source
+from subject import Subject
 
 LISTED = 3000            # no more plans or houses than this are listed
 
 
-class Subject:
-    """A file, or one of its libraries, with the answers that several questions need."""
+class PlanSubject(Subject):
+    """A file about plans or houses, or one of its libraries."""
 
-    def __init__(self, path, folder, library=None, tree=None):
-        self.path, self.folder, self.source = path, folder, read_source(path)
-        self.item = self.source.by_name[library] if library else None
-        self.options = ["--library", library] if library else []
-        self.tree = tree                         # its derivation tree, where it is known
+    def __init__(self, path, folder, part=None, tree=None):
+        super().__init__(path, folder, part, tree)
+        self.source = Source(self.text)
+        self.item = self.source.by_name[part] if part else None
+        self.options = ["--library", part] if part else []
         self._lines = self._counts = None
-
-    def ask(self, command, *more, file=None):
-        return answer(command, file or self.path, *more, *self.options)
-
-    def json(self, command, *more, file=None):
-        return read_json(command, self.ask(command, *more, "--json", file=file))
-
-    def file(self, name, text):
-        path = os.path.join(self.folder, name)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-        return path
 
     def edited(self, more):
         """The file with more items."""
-        return self.file("edited.plan", self.source.text + more)
+        return self.file("edited.plan", self.text + more)
 
     @property
     def houses(self):
@@ -91,16 +80,9 @@ def how_many(counts):
 
 # ---- of the file
 
-def checks(subject):
-    """`check` ends as it should, and says the same as the exit code does."""
-    errors(subject.path)
-
-
 def loads(subject):
-    """What `check` accepts can be built, and loaded again."""
-    built = os.path.join(subject.folder, "built.tnb")
-    answer("build", subject.path, "-o", built)
-    answer("disasm", built)
+    """A module gives the counts that its source gives."""
+    built = file_questions.loads(subject)
     for library in subject.source.of("library"):
         options = ["--library", library.name, "--json"]
         try:
@@ -112,38 +94,13 @@ def loads(subject):
         same("count of the module", read_json("count", answer("count", built, *options)), read_json("count", want))
 
 
-def keeps_its_meaning(subject):
-    """`fmt` gives a text of the same meaning, and the same text where it is used twice."""
-    laid_out = formatted(subject.source.text)
-    same("fmt twice", formatted(laid_out), laid_out)
-    os.makedirs(os.path.join(subject.folder, "laid-out"), exist_ok=True)
-    other = subject.file("laid-out/" + os.path.basename(subject.path), laid_out)
-    same_lines("fmt keeps the meaning", meaning(other), meaning(subject.path))
-
-
-def formatted(text):
-    code, out, err = run("fmt", "-", text=text)
-    same("fmt refuses what check accepts", err[:200] if code else "", "")
-    return out
-
-
-def meaning(path):
-    """The listing of a module, without places: lines, columns, and names that are made of them."""
-    listing = answer("disasm", path)
-    listing = re.sub(r" *\([^\s()]*\.plan:\d+(:\d+)?\)|^(module|written by|source | *;).*$", "", listing, flags=re.M)
-    listing = "\n".join(line for line in listing.split("\n") if line.strip())
-    return re.sub(r"(require|prune)@\d+(\.\d+)?", r"\1@", listing)
-
-
 def says_json(subject):
     """Other answers that are JSON."""
     code, out, err = run("check", subject.path, "--relations", "--json", "--examples")
     nothing = code == 2 and "E0904" in err                       # there is nothing to relate
     if not nothing and code != 4:                                # or a library passes a limit
         read_json("check --relations", out)
-    code, _, err = run("check", subject.path, "--diagnostics=json")
-    read_json("check --diagnostics=json", err or "[]")
-    same("check of a file that is accepted", code, 0)
+    file_questions.says_json(subject)
     read_json("test --json", run("test", subject.path, "--json")[1] or "[]")
 
 
@@ -447,6 +404,6 @@ def limits(subject):
 
 
 QUICK = [counted_ways, by_length]              # asked of every library; of those that follow some are chosen
-OF_FILES = [loads, keeps_its_meaning, says_json]
+OF_FILES = [loads, file_questions.keeps_its_meaning, says_json]
 OF_LIBRARIES = [by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, both_engines, fronts, mirrored,
                 effects, compared, threads, saved, limits, prolog, regex, c_interface, solids, swings, bills]
