@@ -17,7 +17,6 @@ from subject import Subject
 
 SAMPLES = 17             # no grid of a random file has more on a side here
 PLACES = 60              # so many places are asked for the value there
-METRES = {None: 1, "mm": .001, "cm": .01, "m": 1, "in": .0254, "ft": .3048}
 FORMATS = ("obj", "ply", "off", "stl", "glb", "3mf", "om")
 HALVING = 2.0**-24       # of a cell: a vertex has both signs so near
 LIMIT = 1 / 4096         # and keeps so far from samples, and is moved for that
@@ -223,13 +222,12 @@ def same_bytes(subject):
 
 
 def formats(subject):
-    """What other formats hold is what a PLY holds, but for the digits of floats; a GLB is in metres and has y up."""
-    want = subject.own_mesh
-    for ending in ("obj", "off", "glb", "3mf", "stl"):
+    """What other formats hold is what a PLY holds, but for the digits of floats. A GLB has y up, and is in metres."""
+    want, metres = subject.own_mesh, subject.fields.unit in (None, "m")
+    for ending in ["obj", "off", "3mf", "stl"] + ["glb"] * metres:
         subject.mesh_file("asked." + ending)
-        scale = METRES[subject.fields.unit] if ending == "glb" else 1
         same_mesh(ending, read_mesh(os.path.join(subject.folder, "asked." + ending)), want,
-                  lambda v: (scale * v[0], scale * v[2], -scale * v[1]) if ending == "glb" else v)
+                  lambda v: (v[0], v[2], -v[1]) if ending == "glb" else v)
 
 
 def of_module(subject):
