@@ -64,6 +64,7 @@ class FieldSubject(Subject):
         text = "".join(" ".join(map(repr, place)) + "\n" for place in places)
         lines = answer("mesh", file or self.path, *options, "--points", "-", text=text).splitlines()
         same("a line for each place", len(lines), len(places))
+        same("what has no value has no sign", [line for line in lines if "-nan" in line][:1], [])
         words = [line.split() for line in lines]
         return [(float(w[0]), tuple(map(float, w[1:4])), w[4]) for w in words]
 
@@ -129,7 +130,8 @@ def written_out(subject):
     """The surface as a function, by its name, as it is written in parentheses, at its own coordinates, with its numbers named."""
     body = subject.fields.surfaces[subject.part].body
     named, lets = numbers_named(body)
-    twin = subject.twin(f"fn as_function(x, y, z) = {body.text}\nsurface by_function = as_function(x, y, z)\n"
+    by_function = "x, y, z" if not any(part.kind == "at" for part in body.all()) else "a, b, c"      # x of the function is not the coordinate
+    twin = subject.twin(f"fn as_function({by_function}) = {body.text}\nsurface by_function = as_function(x, y, z)\n"
                         f"surface in_place = ({body.text})\nsurface at_home = ({subject.part}) at (x, y, z)\nsurface by_name = {subject.part}\n"
                         f"fn reversed_(z, y, x) = {subject.part} at (x, y, z)\nsurface back = reversed_(z, y, x)\n"
                         f"{lets}surface named = {named}\n")

@@ -92,9 +92,10 @@ READERS = {".obj": read_obj, ".ply": read_ply, ".off": read_off, ".stl": read_st
 def same_mesh(question, got, want, change=lambda vertex: vertex):
     """The same triangles in the same order, with corners that are those of the other, changed, but for the digits of floats."""
     same(f"triangles of {question}", len(got.triangles), len(want.triangles))
+    beside = 1e-6 * max((abs(c) for vertex in want.vertices for c in vertex), default=0)
     for one, other in zip(got.triangles, want.triangles):
         for a, b in zip(got.corners(one), map(change, want.corners(other))):
-            if max(abs(p - q) for p, q in zip(a, b)) > 1e-6 * max(map(abs, b)):
+            if max(abs(p - q) for p, q in zip(a, b)) > beside:
                 raise Wrong(f"corners of {question}", a, b)
 
 
