@@ -25,11 +25,13 @@ agrees 'productions' "$search/reached.py" 400
 shopt -s nullglob
 small plans .plan
 small fields .field
+small solids .solid
 while read -r kind seeds; do
     agrees "$kind" "$search/search.py" "$kind" --seeds "$seeds"
 done <<'SHARES'
 plans 30
 houses 32
 fields 12
+solids 12
 SHARES
 finish

@@ -5,6 +5,7 @@ import math
 import os
 import random
 import re
+import shutil
 import sys
 import xml.etree.ElementTree as xml
 
@@ -12,6 +13,7 @@ from field_reader import read_fields
 from field_values import box_of, value_at
 from file_questions import content, keeps_its_meaning, loads, says_json
 from mesh_files import is_closed, measured, read_mesh, same_mesh, volume
+from mend import errors
 from program import Wrong, answer, read_json, run, same
 from subject import Subject
 
@@ -408,6 +410,27 @@ def pictures(subject):
     same("a PNG begins as one", content(paths[0])[:8], b"\x89PNG\r\n\x1a\n")
 
 
+def bred(subject):
+    """A run is the same with any number of threads. The parent that it begins with has the same values, and each child can be checked."""
+    name = os.path.basename(subject.path)
+    study = subject.file("bred.study", f'evolution {{\n  parent "{name}:{subject.part}"\n  parent "torus" weight 0.4\n  population 6\n  generations 2\n'
+                                       "  grid 7\n  mutation-rate 0.5\n  nudge 3\n  fitness volume target 20\n}\n")
+    folders = [os.path.join(subject.folder, f"run-{threads}") for threads in "13"]
+    for threads, folder in zip("13", folders):
+        shutil.rmtree(folder, ignore_errors=True)
+        code, _, err = run("evolve", study, "-o", folder, "--threads", threads, "--seed", "5")
+        if code == 1 and "distance" in err and 'distance("' in subject.text:          # a surface that measures it cannot be a parent
+            return
+        same("evolve ends with", (code, err[:200] if code else ""), (0, ""))
+    same("a run with 3 threads", *(content(os.path.join(folder, "run.sqlite")) == content(os.path.join(folders[0], "run.sqlite")) for folder in folders))
+    for member in ("0", "9"):
+        path = subject.file("replayed.field", answer("runs", "replay", folders[0], member))
+        same("an individual that is replayed has errors", errors(path), [])
+        if member == "0":
+            got = answer("mesh", path, "--points", "-", text="".join(" ".join(map(repr, place)) + "\n" for place in subject.places))
+            agree("the first parent", [float(line.split()[0]) for line in got.splitlines()], [value for value, _, _ in subject.values(subject.places)])
+
+
 def limits(subject):
     """A limit that is passed ends with 4 and leaves no file; one that is not changes nothing."""
     path = os.path.join(subject.folder, "limited.ply")
@@ -423,4 +446,5 @@ def limits(subject):
 
 QUICK = [values]
 OF_FIELDS = [loads, keeps_its_meaning, says_json]
-OF_SURFACES = [gradients, written_out, closed, same_bytes, formats, of_module, measures_agree, moved, sharp, open_jumps, by_oracle, slices, pictures, limits]
+OF_SURFACES = [gradients, written_out, closed, same_bytes, formats, of_module, measures_agree, moved, sharp, open_jumps, by_oracle, slices, pictures, bred,
+               limits]
