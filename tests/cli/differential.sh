@@ -29,9 +29,9 @@ small solids .solid
 while read -r kind seeds; do
     agrees "$kind" "$search/search.py" "$kind" --seeds "$seeds"
 done <<'SHARES'
-plans 30
-houses 32
-fields 12
-solids 12
+plans 24
+houses 24
+fields 8
+solids 8
 SHARES
 finish

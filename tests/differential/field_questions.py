@@ -9,6 +9,7 @@ import shutil
 import sys
 import xml.etree.ElementTree as xml
 
+from field_interface import by_c_interface
 from field_reader import read_fields
 from field_values import box_of, value_at
 from file_questions import content, keeps_its_meaning, loads, says_json
@@ -442,9 +443,11 @@ def limits(subject):
         same(f"{' '.join(limit)} leaves a file", os.path.exists(path), not passed)
         if not passed:
             os.unlink(path)
+    code, _, _ = run("mesh", subject.path, *subject.options, "--grid", "40", "-o", path, "--memory-limit", "1")
+    same("--memory-limit ends with 0 or 4, and leaves a file with 0 alone", (code in (0, 4), os.path.exists(path)), (True, code == 0))
 
 
 QUICK = [values]
 OF_FIELDS = [loads, keeps_its_meaning, says_json]
 OF_SURFACES = [gradients, written_out, closed, same_bytes, formats, of_module, measures_agree, moved, sharp, open_jumps, by_oracle, slices, pictures, bred,
-               limits]
+               limits, by_c_interface]

@@ -165,7 +165,7 @@ def hull(maker, depth, place):
     return of_two(maker, "MINUS", made, number(maker, maker.random.choice(["0.25", "0.5"])))
 
 
-SHAPES = [ball, ball, block, block, joined, joined, wavy, placed, raised, raised, raised, known, hull]
+SHAPES = [ball, ball, block, block, joined, joined, wavy, placed, raised, raised, raised, raised, known, hull]
 FLAT = [ball, ball, block, known, wavy]
 
 
@@ -204,7 +204,7 @@ def surface(maker, place):
 
 
 def box(maker, place):
-    ends = maker.random.choice([("-4", "4"), ("-3", "3"), ("-4", "4"), ("-2.5", "3"), ("-7", "7")])
+    ends = maker.random.choice([("-4", "4"), ("-3", "3"), ("-4", "4"), ("-2.5", "3"), ("-7", "7"), ("0.5", "9")])
     return {2: place.but(sort="number", want="corner", text=ends[0]), 6: place.but(sort="number", want="corner", text=ends[1])}
 
 
@@ -228,9 +228,12 @@ def parameters(maker, depth, place):
 
 
 def corners(maker, depth, place):
+    """Of a box: mostly of a cube, else one axis is longer or shorter."""
     if place.want != "corner":
         return arguments(maker, depth, place)
-    ends = [place.text, place.text, maker.random.choice([place.text, place.text, place.text + ".5" if "." not in place.text else place.text])]
+    ends = [place.text] * 3
+    if maker.chance(.4):
+        ends[maker.random.randrange(3)] = place.text.rstrip("0123456789.") + maker.random.choice(["1", "2.5", "5", "8"])
     made = [maker.node("expression: MINUS expression", number(maker, end[1:])) if end[0] == "-" else number(maker, end) for end in ends]
     return listed(maker.grammar, "arguments", made)
 
@@ -249,7 +252,7 @@ def used_name(maker, place):
 TOKENS = {
     "NAME": used_name,
     "NUMBER": lambda maker, place: maker.random.choice(["9", "9", "12", "17", "7", "14"]) if place.want == "grid"
-        else maker.random.choice(["1", "2", "3", "0.5", "1.25", "2", "0", ".5", "2e-1", "10", "0.1", "1e3"]),
+        else maker.random.choice(["1", "2", "3", "0.5", "1.25", "2", "0", ".5", "2e-1", "10", "0.1", "1e3", "0.7853981633974483", "1e-300", "1e300"]),
     "STRING": lambda maker, place: maker.random.choice({"use": ['"parts.field"', '"shapes"'], "mesh": ['"hull.obj"']}.get(place.want, DOCS)),
 }
 
@@ -306,7 +309,7 @@ def statements(maker):
     wanted = ["use"] * maker.chance(.25) + ["let"] * random.choice([0, 0, 1, 2]) + ["fn"] * random.choice([0, 1, 1, 2]) + \
         ["surface"] * random.choice([1, 1, 2, 2, 3]) + ["box"] * maker.chance(.7) + ["unit"] * maker.chance(.3) + ["grid"]
     for word in wanted:
-        node = maker.make_of(STATEMENTS[word], random.choice([2, 3, 3]), place)
+        node = maker.make_of(STATEMENTS[word], random.choice([2, 3, 4, 5]), place)
         declare(scope, word, node)
         made.append(node)
     if maker.chance(.2):
