@@ -158,10 +158,16 @@ def some(values):
 
 def equals(subject, measure, value):
     """`measure = value`, in the unit of its dimension."""
-    found = subject.json("count", "--by", measure)
-    unit = {"": "", "ft": "'", "m": "m", "ft2": "sf", "m2": "m2", "ft3": "cf", "m3": "m3"}[found["unit"]]
-    number = f"{abs(value.numerator)}{unit} / {value.denominator}" if value.denominator != 1 else f"{abs(value.numerator)}{unit}"
+    number = number_of(abs(value), unit_of(subject, measure))
     return f"{measure} = {number}" if value >= 0 else f"{measure} + {number} = 0"
+
+
+def unit_of(subject, measure):
+    return {"": "", "ft": "'", "m": "m", "ft2": "sf", "m2": "m2", "ft3": "cf", "m3": "m3"}[subject.json("count", "--by", measure)["unit"]]
+
+
+def number_of(value, unit):
+    return f"{value.numerator}{unit} / {value.denominator}" if value.denominator != 1 else f"{value.numerator}{unit}"
 
 
 def best_of(subject, measure, end, groups, complete):
@@ -385,6 +391,39 @@ def compared(subject):
     same("diff", [int(found[k]) for k in ("removed", "added", "kept")], [len(old - new), len(new - old), len(old & new)])
 
 
+def tested(subject):
+    """Tests that name houses: those whose expectations are right pass, and those whose expectations are wrong fail."""
+    if not subject.houses or not subject.lines:
+        return
+    lines = [subject.lines[i] for i in sorted({0, len(subject.lines) // 2, len(subject.lines) - 1})]
+    right = {subject.item.name: [f"keep [{line}]" for line in lines]}
+    wrong = {subject.item.name: [f"drop [{line}]" for line in lines]}
+    for rule in subject.rules()[:2]:
+        listed = set(subject.listed_where(rule))
+        words = [("match", "reject") if line in listed else ("reject", "match") for line in lines]
+        right[rule], wrong[rule] = ([f"{pair[i]} [{line}]" for pair, line in zip(words, lines)] for i in (0, 1))
+    for measure in subject.measures()[:2]:
+        found = json_lines("best", subject.ask("best", "3", "--least", measure, "--format", "json"))
+        values = [(b["house"], Fraction(b["value"] if "value" in b else b["values"][0])) for b in found]
+        unit = unit_of(subject, measure)
+        right[measure], wrong[measure] = ([f"value [{house}] = {number_of(value + more, unit)}" for house, value in values if value >= 0] for more in (0, 1))
+    before = outcomes(subject.path)
+    for what, tests, place in (("right", right, 0), ("wrong", wrong, 1)):
+        tests = {name: cases for name, cases in tests.items() if cases}
+        text = "".join(f"\ntest {name} {{\n" + "".join(f"  {case}\n" for case in cases) + "}\n" for name, cases in tests.items())
+        same(f"tests of houses that are {what}", outcomes(subject.edited(text)), tuple(b + (i == place) * sum(map(len, tests.values()))
+                                                                                       for i, b in enumerate(before)))
+
+
+def outcomes(file):
+    """(how many tests pass, how many fail)"""
+    code, out, err = run("test", file, "--json")
+    if not out:
+        raise Refused(re.search(r"error\[(E\d+)\]", err)[1], code == 4)
+    found = read_json("test --json", out)
+    return found["passed"], found["failed"]
+
+
 def limits(subject):
     """A limit ends with 4: what was written until then stays, in whole lines. What does not pass it is written as ever."""
     if subject.lines is None:
@@ -406,4 +445,4 @@ def limits(subject):
 QUICK = [counted_ways, by_length]              # asked of every library; of those that follow some are chosen
 OF_FILES = [loads, file_questions.keeps_its_meaning, says_json]
 OF_LIBRARIES = [by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, both_engines, fronts, mirrored,
-                effects, compared, threads, saved, limits, prolog, regex, c_interface, solids, swings, bills]
+                effects, compared, threads, saved, limits, prolog, regex, c_interface, solids, swings, bills, tested]

@@ -56,12 +56,14 @@ class SolidSubject(Subject):
         """All measures of a design in a file with this design more; of what the file alone says nothing is asked."""
         path = self.file("twin.solid", self.text + text.replace("}", f"  measure {', '.join(MEASURES)};\n}}", 1))
         code, out, err = run("test", "--json", path)
-        found = [s["measures"] for s in read_json("test", out)["solids"] if s["name"] == name]
+        found = [s["measures"] for s in read_json("test", out).get("solids", []) if s["name"] == name]
         if not found and code == 1 and f"error[{NOTHING}]" in err:
             return None
         if not found:
             raise Refused(re.search(r"error\[(E\d+)\]", err)[1], code == 4)
-        return found[0]
+        made = {measure: found[0][measure] for measure in MEASURES}
+        same("measures without a value", [measure for measure, value in made.items() if value is None], [])
+        return made
 
     def design_of(self, boxes, *without, axes=None):
         """The text of a design with these boxes and the settings of this one."""
