@@ -12,7 +12,7 @@ import xml.etree.ElementTree as xml
 from field_interface import by_c_interface
 from field_reader import read_fields
 from field_values import box_of, value_at
-from file_questions import content, keeps_its_meaning, loads, says_json
+from file_questions import content, keeps_its_meaning, loads, says_json, scattered
 from mesh_files import is_closed, measured, read_mesh, same_mesh, volume
 from mend import errors
 from program import Wrong, answer, read_json, run, same
@@ -21,7 +21,7 @@ from subject import Subject
 SAMPLES = 17             # no grid of a random file has more on a side here
 PLACES = 60              # so many places are asked for the value there
 FORMATS = ("obj", "ply", "off", "stl", "glb", "3mf", "om")
-HALVING = 2.0**-24       # of a cell: a vertex has both signs so near
+HALVING = 2.0**-24       # of a cell: what is left between both signs after 24 halvings
 LIMIT = 1 / 4096         # and keeps so far from samples, and is moved for that
 ORACLES = os.environ.get("TARTAN_ORACLES", "")
 
@@ -188,12 +188,20 @@ def vertices_at_signs(subject, mesh):
         place, axis, share = edge_of(axes, vertex)
         found[place, axis] = vertex
         if LIMIT * 1.001 < share < 1 - LIMIT * 1.001:
-            width = 1.5 * HALVING * (axes[axis][place[axis] + 1] - axes[axis][place[axis]])
-            near += [tuple(c + (d if i == axis else 0) for i, c in enumerate(vertex)) for d in (-width, width)]
+            near += halvings(axes, place, axis, share)
     same("vertices, one on each edge", len(found), len(mesh.vertices))
     same("vertices on edges whose ends differ", sorted(set(found) ^ crossed)[:3], [])
     words = [word for _, _, word in subject.values(near)] if near else []
-    same("signs beside a vertex differ", [near[2 * i] for i in range(len(near) // 2) if words[2 * i] == words[2 * i + 1]][:2], [])
+    wrong = [near[i + 1] for i in range(0, len(near), 4) if len(set(words[i:i + 4])) == 1]
+    same("signs beside a vertex differ", wrong[:2], [])
+
+
+def halvings(axes, place, axis, share):
+    """The ends of the last bracket in which a vertex was sought, and of its neighbours, of which it may be an end."""
+    whole, low = math.floor(share / HALVING), axes[axis][place[axis]]
+    width = axes[axis][place[axis] + 1] - low
+    along = [low + k * HALVING * width for k in range(whole - 1, whole + 3)]
+    return [tuple(v if i == axis else axes[i][place[i]] for i in range(3)) for v in along]
 
 
 def step(place, axis):
@@ -450,6 +458,6 @@ def limits(subject):
 
 
 QUICK = [values]
-OF_FIELDS = [loads, keeps_its_meaning, says_json]
+OF_FIELDS = [loads, keeps_its_meaning, scattered, says_json]
 OF_SURFACES = [gradients, written_out, closed, same_bytes, formats, of_module, measures_agree, moved, sharp, open_jumps, by_oracle, slices, pictures, bred,
                limits, by_c_interface]

@@ -2,10 +2,12 @@
 
 A question is a function that is given a Subject and raises Wrong where two answers differ."""
 import os
+import random
 import re
 
 from mend import errors
 from program import answer, read_json, run, same, same_lines
+from tree import words
 
 
 def checks(subject):
@@ -53,10 +55,27 @@ def meaning(path):
     return re.sub(r"(require|prune)@\d+(\.\d+)?", r"\1@", listing)
 
 
+def scattered(subject):
+    """Of notations in which line ends mean nothing: the file's words with other blanks between them, line ends and comments, mean the same,
+    also when `fmt` has laid them out; it keeps every comment, in order."""
+    if subject.tree is None:
+        return
+    chosen, before, gaps = random.Random(subject.text), meaning(subject.path), []
+    for _ in words(subject.tree):
+        gaps.append(chosen.choices([" ", "\n", f" # remark {len(gaps)}\n", f"\n\n# note {len(gaps)}\n", "\t  "], [12, 2, 1, 1, 2])[0])
+    comments = re.findall(r"# \w+ \d+", "".join(gaps))
+    try:
+        subject.file(os.path.basename(subject.path), "".join(word + gap for word, gap in zip(words(subject.tree), gaps)))
+        same_lines("other blanks and comments keep the meaning", meaning(subject.path), before)
+        laid_out = formatted(subject.path)
+        same("fmt keeps comments", re.findall(r"# \w+ \d+", laid_out), comments)
+        same("fmt of comments twice", formatted(subject.path), laid_out)
+        same_lines("fmt keeps the meaning of what has comments", meaning(subject.path), before)
+    finally:
+        subject.file(os.path.basename(subject.path), subject.text)
+
+
 def says_json(subject):
     code, _, err = run("check", subject.path, "--diagnostics=json")
     read_json("check --diagnostics=json", err or "[]")
     same("check of a file that is accepted", code, 0)
-
-
-OF_FILES = [loads, keeps_its_meaning, says_json]

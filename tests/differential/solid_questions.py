@@ -11,7 +11,7 @@ from fractions import Fraction
 
 import mesh_files
 from field_questions import layers, parses
-from file_questions import content, keeps_its_meaning, loads, says_json
+from file_questions import content, keeps_its_meaning, loads, says_json, scattered
 from mesh_files import Mesh, close, is_closed, measured, read_mesh, same_mesh
 from program import Refused, Wrong, answer, read_json, run, same
 from solid_reader import Box, read_solids, value_of
@@ -478,6 +478,6 @@ def limits(subject):
 
 
 QUICK = [measures_by_reference]
-OF_SOLIDS = [loads, keeps_its_meaning, says_json]
+OF_SOLIDS = [loads, keeps_its_meaning, scattered, says_json]
 OF_DESIGNS = [history, by_oracle, requirements, written_out, moved, scaled, turned, split, on_grid, closed, cells, formats, of_module, slices, pictures,
               limits]
