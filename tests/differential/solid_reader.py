@@ -9,7 +9,7 @@ from kind import ROOT
 TOKEN = re.compile(r"""(?:\s|\#[^\n]*)*(?:(?P<length>\d+(?:\.\d+)?(?:mm|cm|m)\b|\d+'(?:-?\d+(?:\.\d+)?")?|\d+")|(?P<number>\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)
                        |(?P<word>[A-Za-z_]\w*(?:-+\w+)*)|(?P<text>"(?:\\.|[^"\\])*")|(?P<sign>\.\.|<=|>=|!=|[-+*/,;(){}=<>]))""", re.X)
 METRES = {"mm": Fraction(1, 1000), "cm": Fraction(1, 100), "m": Fraction(1)}
-LEVELS = [{"or"}, {"and"}, {"not"}, {"<", "<=", "=", "!=", ">=", ">", "in"}, {"+", "-"}, {"*", "/"}]
+LEVELS = [{"or"}, {"and"}, {"<", "<=", "=", "!=", ">=", ">", "in"}, {"+", "-"}, {"*", "/"}]
 
 
 class Box:
@@ -51,6 +51,7 @@ class Design:
         self.name, self.base = name, base
         self.boxes = list(base.boxes) if base else []
         self.settings = dict(base.settings) if base else {}
+        self.model, self.depth = (base.model, base.depth) if base else (None, None)
         self.measures, self.requirements = [], list(base.requirements) if base else []
 
     def settings_text(self, *without):
@@ -102,8 +103,22 @@ class Reader:
         design = self.designs[name] = Design(name, base)
         self.own.append(name)
         self.next()
+        self.settings(design)
         while not self.take("}"):
             self.statement(design)
+
+    def settings(self, design):
+        """Of what kind numbers are, and how deep a flat design is, which its boxes need to know wherever it stands."""
+        begin = self.at
+        for word in ("model", "flat"):
+            self.at = begin
+            while self.peek() not in ("}", word):
+                self.next()
+            if self.take("model"):
+                design.model = self.next()
+            elif self.take("flat"):
+                design.depth = self.number(design)
+        self.at = begin
 
     def statement(self, design):
         begin, word = self.tokens[self.at][2], self.next()
@@ -157,7 +172,7 @@ class Reader:
             self.take(",")
         low = [c - abs(s) / 2 for c, s in zip(numbers[:3], numbers[3:6])]
         high = [c + abs(s) / 2 for c, s in zip(numbers[:3], numbers[3:6])]
-        plane = ("angles", numbers[6], 90 if "flat" in design.settings else numbers[7], numbers[8])
+        plane = ("angles", numbers[6], 90 if design.depth is not None else numbers[7], numbers[8])
         return flattened(design, Box(f"gene-{len(design.boxes) + 1}", low, high, plane, self.take("rigid"), True))
 
     def vector(self, design):
@@ -174,7 +189,7 @@ class Reader:
         self.at += 1
         if kind == "number":
             return sign * Fraction(text)
-        return sign * metres_of(text) / METRES[re.search(r"\b(mm|cm|m)\b", design.settings["model"])[1]]
+        return sign * metres_of(text) / METRES[design.model]
 
     # ---- expressions: (operation, operands...), numbers and names
 
@@ -193,23 +208,21 @@ class Reader:
     def level(self, level):
         if level == len(LEVELS):
             return self.signed()
-        if "not" in LEVELS[level]:
-            return ("not", self.level(level)) if self.take("not") else self.level(level + 1)
         left = self.level(level + 1)
         while self.peek() in LEVELS[level]:
             sign = self.next()
-            right = self.level(level + 1)
-            if sign == "in":
-                self.next()
-                right = (right, self.level(level + 1))
-                left = ("in", left, *right)
+            if sign == "in":                             # what stands between `in` and `..` is whole
+                middle, _ = self.level(0), self.next()
+                left = (sign, left, middle, self.level(level + 1))
             else:
-                left = (sign, left, right)
+                left = (sign, left, self.level(level + 1))
         return left
 
     def signed(self):
         if self.take("-"):
             return "negative", self.signed()
+        if self.take("not"):                             # of all behind it that binds more tightly, wherever it stands
+            return "not", self.level(2)
         kind, text = self.tokens[self.at][:2]
         self.at += 1
         if kind == "number":
@@ -229,9 +242,8 @@ class Reader:
 
 def flattened(design, box):
     """In a flat design, from half its depth below 0 to half its depth above."""
-    if "flat" in design.settings:
-        depth = Fraction(re.search(r"[\d.e+-]*\d", design.settings["flat"][4:])[0])
-        box.low, box.high = [*box.low[:2], -depth / 2], [*box.high[:2], depth / 2]
+    if design.depth is not None:
+        box.low, box.high = [*box.low[:2], -design.depth / 2], [*box.high[:2], design.depth / 2]
     return box
 
 
