@@ -419,21 +419,29 @@ def pictures(subject):
     same("a PNG begins as one", content(paths[0])[:8], b"\x89PNG\r\n\x1a\n")
 
 
+def evolved(subject, study):
+    """The folder of a run of the study, which is the same with another number of threads; None where a parent measures a distance."""
+    folders = [os.path.join(subject.folder, f"run-{threads}") for threads in "13"]
+    for threads, folder in zip("13", folders):
+        shutil.rmtree(folder, ignore_errors=True)
+        code, _, err = run("evolve", study, "-o", folder, "--threads", threads, "--seed", "5")
+        if code == 1 and "distance" in err and 'distance("' in subject.text:
+            return None
+        same("evolve ends with", (code, err[:200] if code else ""), (0, ""))
+    same("a run with 3 threads", *(content(os.path.join(folder, "run.sqlite")) == content(os.path.join(folders[0], "run.sqlite")) for folder in folders))
+    return folders[0]
+
+
 def bred(subject):
     """A run is the same with any number of threads. The parent that it begins with has the same values, and each child can be checked."""
     name = os.path.basename(subject.path)
     study = subject.file("bred.study", f'evolution {{\n  parent "{name}:{subject.part}"\n  parent "torus" weight 0.4\n  population 6\n  generations 2\n'
                                        "  grid 7\n  mutation-rate 0.5\n  nudge 3\n  fitness volume target 20\n}\n")
-    folders = [os.path.join(subject.folder, f"run-{threads}") for threads in "13"]
-    for threads, folder in zip("13", folders):
-        shutil.rmtree(folder, ignore_errors=True)
-        code, _, err = run("evolve", study, "-o", folder, "--threads", threads, "--seed", "5")
-        if code == 1 and "distance" in err and 'distance("' in subject.text:          # a surface that measures it cannot be a parent
-            return
-        same("evolve ends with", (code, err[:200] if code else ""), (0, ""))
-    same("a run with 3 threads", *(content(os.path.join(folder, "run.sqlite")) == content(os.path.join(folders[0], "run.sqlite")) for folder in folders))
+    folder = evolved(subject, study)
+    if folder is None:
+        return
     for member in ("0", "9"):
-        path = subject.file("replayed.field", answer("runs", "replay", folders[0], member))
+        path = subject.file("replayed.field", answer("runs", "replay", folder, member))
         same("an individual that is replayed has errors", errors(path), [])
         if member == "0":
             got = answer("mesh", path, "--points", "-", text="".join(" ".join(map(repr, place)) + "\n" for place in subject.places))

@@ -10,8 +10,9 @@ import sys
 from fractions import Fraction
 
 import mesh_files
-from field_questions import layers, parses
+from field_questions import evolved, layers, parses
 from file_questions import content, keeps_its_meaning, loads, says_json, scattered
+from mend import errors
 from mesh_files import Mesh, close, is_closed, measured, read_mesh, same_mesh
 from program import Refused, Wrong, answer, read_json, run, same
 from solid_reader import Box, read_solids, value_of
@@ -464,6 +465,18 @@ def pictures(subject):
 
 
 @left
+def bred(subject):
+    """A run is the same with any number of threads, and each design that it makes can be checked."""
+    subject.file("skeleton.solid", subject.design_of(subject.design.boxes, "unit", "model"))
+    study = subject.file("bred.study", 'evolution {\n  design "skeleton.solid"\n  region "(-4, -4, -4)..(4, 4, 4)"\n  sizes 0.5..4\n  boxes 1..8\n'
+                                       "  population 6\n  generations 2\n  split 0.3\n  delete 0.3\n  fitness volume target 10\n}\n")
+    folder = evolved(subject, study)
+    for member in ("0", "9", "14"):
+        path = subject.file("replayed.solid", answer("runs", "replay", folder, member))
+        same("a design that is replayed has errors", errors(path), [])
+
+
+@left
 def limits(subject):
     """A limit that is passed ends with 4 and leaves no file."""
     path, count = os.path.join(subject.folder, "limited.obj"), subject.measured["boxes"]
@@ -479,5 +492,5 @@ def limits(subject):
 
 QUICK = [measures_by_reference]
 OF_SOLIDS = [loads, keeps_its_meaning, scattered, says_json]
-OF_DESIGNS = [history, by_oracle, requirements, written_out, moved, scaled, turned, split, on_grid, closed, cells, formats, of_module, slices, pictures,
+OF_DESIGNS = [history, by_oracle, requirements, written_out, moved, scaled, turned, split, on_grid, closed, cells, formats, of_module, slices, pictures, bred,
               limits]
