@@ -289,6 +289,21 @@ def sharp(subject):
     same("--sharp with 4 threads", subject.mesh_file("asked.obj", "--sharp", "--threads", "4") == subject.mesh_file("asked.obj", "--sharp"), True)
 
 
+def reworked(subject):
+    """Subdivided, each triangle is four; smoothed, the triangles are the same; both are closed. With y up, vertices are turned; normals are
+    as long as 1, or none."""
+    mesh = subject.own_mesh
+    finer, smoother = subject.mesh("--subdivide", "1"), subject.mesh("--smooth", "2")
+    is_closed("--subdivide", finer)
+    same("triangles of --subdivide", len(finer.triangles), 4 * len(mesh.triangles))
+    same("triangles of --smooth", smoother.triangles == mesh.triangles, True)
+    same_mesh("--up y", subject.mesh("--up", "y"), mesh, lambda v: (v[0], v[2], -v[1]))
+    lines = [line.split() for line in subject.mesh_file("asked.obj", "--normals").decode().splitlines()]
+    lengths = [math.hypot(*map(float, words[1:])) for words in lines if words[:1] == ["vn"]]
+    same("a normal for each vertex", len(lengths), len(mesh.vertices))
+    same("normals that are not as long as 1", [n for n in lengths if not (abs(n - 1) < 1e-5 or n == 0)][:2], [])
+
+
 def open_jumps(subject):
     """What `--jumps open` leaves out is some of the triangles."""
     whole, left = triangles_of(subject.own_mesh), triangles_of(subject.mesh("--jumps", "open"))
@@ -467,5 +482,5 @@ def limits(subject):
 
 QUICK = [values]
 OF_FIELDS = [loads, keeps_its_meaning, scattered, says_json]
-OF_SURFACES = [gradients, written_out, closed, same_bytes, formats, of_module, measures_agree, moved, sharp, open_jumps, by_oracle, slices, pictures, bred,
+OF_SURFACES = [gradients, written_out, closed, same_bytes, formats, of_module, measures_agree, moved, sharp, reworked, open_jumps, by_oracle, slices, pictures, bred,
                limits, by_c_interface]
