@@ -27,7 +27,7 @@ small plans .plan
 small fields .field
 small solids .solid
 while read -r kind seeds; do
-    agrees "$kind" "$search/search.py" "$kind" --seeds "$seeds"
+    agrees "$kind" "$search/search.py" "$kind" --seeds "$seeds" --jobs 2
 done <<'SHARES'
 plans 24
 houses 24
