@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "cli/growth/grow.h"
+#include "runtime/base/bytes.h"
 #include "runtime/base/json.h"
 
 static void write_fitness(tn_json *json, const tn_fitness_goal *goal, const tn_fitness *fitness)
@@ -100,11 +101,14 @@ static void write_table(FILE *out, const tn_growth_system *system, const tn_stud
         if (s->fitness.soft_boundary_nodes > 0)
             fprintf(out, ", %.0f past soft boundaries", s->fitness.soft_boundary_nodes);
         for (uint32_t n = 0; n < study->goal.named_count; n++)
-            fprintf(out, ", %s %.6g", study->goal.named[n].name, tn_named_value(&study->goal.named[n], &s->fitness));
+            fprintf(out, ", %s %.6g", study->goal.named[n].name,
+                    tn_without_sign(tn_named_value(&study->goal.named[n], &s->fitness)));
         if (study->goal.required_count)
-            fprintf(out, ", %.6g from what is required", tn_fitness_lacking(&s->fitness, &study->goal));
+            fprintf(out, ", %.6g from what is required",
+                    tn_without_sign(tn_fitness_lacking(&s->fitness, &study->goal)));
         if (study->has_goal)
-            fprintf(out, ", fitness %.6g", tn_fitness_total(&s->fitness, &study->goal, study->options.start_length));
+            fprintf(out, ", fitness %.6g",
+                    tn_without_sign(tn_fitness_total(&s->fitness, &study->goal, study->options.start_length)));
         fputc('\n', out);
     }
 }

@@ -5,6 +5,7 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/mesh/mesh.h"
+#include "runtime/base/bytes.h"
 #include "runtime/base/file.h"
 #include "runtime/base/file_error.h"
 
@@ -46,8 +47,8 @@ static void write_lines(tn_job *job, const tn_open_field *open, FILE *in, double
             return;
         }
         double value = tn_tape_gradient(&field->samples, place, &field->distances, registers, gradient);
-        printf("%.17g %.17g %.17g %.17g %s\n", value, gradient[0], gradient[1], gradient[2],
-               value < 0 ? "inside" : "outside");
+        printf("%.17g %.17g %.17g %.17g %s\n", tn_without_sign(value), tn_without_sign(gradient[0]),
+               tn_without_sign(gradient[1]), tn_without_sign(gradient[2]), value < 0 ? "inside" : "outside");
     }
     if (ferror(in)) {
         tn_cannot_read(path, errno, &error);

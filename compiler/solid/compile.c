@@ -8,11 +8,13 @@ static const char solid_files[] = ".solid";
 /* What importing needs to know of a file. */
 static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *unit, tn_use **uses, size_t *use_count)
 {
-    tn_solid_file *file = tn_parse_solid(arena, diagnostics, unit->file, NULL);
+    tn_tokens tokens = {.arena = arena};
+    tn_solid_file *file = tn_parse_solid(arena, diagnostics, unit->file, &tokens);
     size_t count = 0;
     *use_count = 0;
     if (!file)
         return false;
+    tn_solid_name_measures(arena, &diagnostics->sources->files[unit->file], &tokens, file);
     unit->tree = file;
     for (const tn_solid_use *use = file->uses.first; use; use = use->next)
         count++;

@@ -20,14 +20,6 @@ static uint32_t emit_function(emitting *e, const char *name, const tn_expression
     return e->status == TN_OK ? tn_formula_emit(e->builder, TN_FUNCTION_SOLID_MEASURE, name, &e->formula) : 0;
 }
 
-/* The words of an expression, as the file has them, for what is printed. */
-static tn_string words(emitting *e, tn_span span)
-{
-    const char *text = e->sources->files[span.file].text + span.begin;
-    size_t size = span.end - span.begin;
-    return tn_builder_string_n(e->builder, text, size < TN_NAME_MAX ? size : TN_NAME_MAX);
-}
-
 static void emit_box(emitting *e, const tn_checked_box *box)
 {
     tn_box_record record = box->record;
@@ -42,8 +34,10 @@ static void emit_item(emitting *e, const tn_solid_item *item)
         tn_span at = entry->span;
         if (item->kind == TN_SOLID_ASKS) {
             uint32_t function = emit_function(e, NULL, entry->expression, false);
-            tn_builder_add_SOLID_MEASURE(e->builder,
-                                         &(tn_solid_measure_record){words(e, at), function, at.file, at.begin, at.end});
+            size_t size = strnlen(entry->words, TN_NAME_MAX);
+            tn_solid_measure_record record = {tn_builder_string_n(e->builder, entry->words, size), function, at.file,
+                                              at.begin, at.end};
+            tn_builder_add_SOLID_MEASURE(e->builder, &record);
         } else if (item->kind == TN_SOLID_REQUIRES) {
             uint32_t holds = emit_function(e, NULL, entry->expression, false);
             uint32_t violation = emit_function(e, NULL, entry->expression, true);

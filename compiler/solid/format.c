@@ -1,4 +1,6 @@
 /* Laying out .solid files: a statement a line; one that is too long goes on where its next part begins. */
+#include <string.h>
+
 #include "compiler/common/format_statements.h"
 #include "compiler/solid/solid.h"
 
@@ -33,4 +35,38 @@ static bool ends_statement(const tn_format *format, size_t i)
 void tn_format_solid(tn_format *format)
 {
     tn_format_statements(format, &(tn_statement_format){gap_before, at_part, ends_statement});
+}
+
+/* Tokens [first, last) on one line, without their comments. */
+static const char *line_of(const tn_format *format, tn_arena *arena, size_t first, size_t last)
+{
+    size_t size = 0;
+    for (size_t i = first; i < last; i++)
+        size += 1 + format->tokens[i].size;
+    char *line = TN_NEW_ARRAY(arena, char, size + 1), *at = line;
+    for (size_t i = first; line && i < last; i++) {
+        if (i > first && gap_before(format, i))
+            *at++ = ' ';
+        memcpy(at, format->tokens[i].text, format->tokens[i].size);
+        at += format->tokens[i].size;
+    }
+    return line;
+}
+
+void tn_solid_name_measures(tn_arena *arena, const tn_source *source, const tn_tokens *tokens, tn_solid_file *file)
+{
+    tn_format format = {0};
+    size_t i = 0;
+    tn_format_take(&format, arena, source, tokens, tn_format_small_letters);
+    for (const tn_solid_design *design = file->first; design && !tn_arena_failed(arena); design = design->next)
+        for (const tn_solid_item *item = design->first; item; item = item->next)
+            for (tn_solid_entry *entry = item->entries.first; entry && item->kind == TN_SOLID_ASKS;
+                 entry = entry->next) {
+                while (i < format.count && format.tokens[i].offset < entry->span.begin)
+                    i++;
+                size_t first = i;
+                while (i < format.count && format.tokens[i].offset < entry->span.end)
+                    i++;
+                entry->words = line_of(&format, arena, first, i);
+            }
 }

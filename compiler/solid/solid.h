@@ -55,6 +55,7 @@ typedef struct tn_solid_part {
 typedef struct tn_solid_entry {
     tn_span span;
     tn_expression *expression;
+    const char *words; /* of what is measured: the expression as it is laid out, set by tn_solid_name_measures */
     tn_solid_number number;
     uint32_t axis;
     struct tn_solid_entry *next;
@@ -205,6 +206,10 @@ tn_status tn_emit_solids(tn_builder *builder, const tn_sources *sources, const t
 
 /* Lays out a .solid file. */
 void tn_format_solid(tn_format *format);
+
+/* Gives each expression that is measured its words, which are its name where it is printed: with the blanks of the
+ * layout, so that a name does not hang on how the file is laid out. Out of memory is the arena's to remember. */
+void tn_solid_name_measures(tn_arena *arena, const tn_source *source, const tn_tokens *tokens, tn_solid_file *file);
 
 /* Lists designs with their statements. */
 void tn_solid_list(tn_listing *listing);

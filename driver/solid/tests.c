@@ -1,8 +1,8 @@
 /* Measures designs, and holds them to what they require. */
 #include <stdlib.h>
-#include <string.h>
 
 #include "driver/solid/solid.h"
+#include "runtime/base/bytes.h"
 #include "runtime/base/json.h"
 #include "runtime/number/run.h"
 
@@ -15,6 +15,8 @@ typedef struct testing {
     tn_json *json; /* NULL: as lines */
     FILE *out;
     double values[TN_SOLID_MEASURED_COUNT];
+    const tn_solid_measure_record **listed; /* what the design asks for, each once; owned */
+    size_t listed_count;
 } testing;
 
 static double value_of(const testing *t, uint32_t function)
@@ -33,29 +35,42 @@ static uint64_t asked_of(const tn_module *module, const tn_solid_record *record)
     return asked;
 }
 
-static void write_measures_json(const testing *t)
+/* A design and the one that it begins with may both ask for a measure: names are keys. Equal texts are one string of
+ * the module. */
+static tn_status list_measures(testing *t, tn_error *error)
 {
     const tn_solid_record *record = &t->module->SOLID_records[t->solid];
-    tn_json_object(t->json, NULL);
-    tn_json_string(t->json, "name", tn_text(t->module, record->name));
-    tn_json_object(t->json, "measures");
-    for (uint32_t i = 0; i < record->asked_count; i++) {
+    bool *seen = calloc(t->module->strings_size + 1, sizeof *seen);
+    t->listed = malloc((record->asked_count + 1) * sizeof(const tn_solid_measure_record *));
+    for (uint32_t i = 0; seen && t->listed && i < record->asked_count; i++) {
         const tn_solid_measure_record *asked = &t->module->SOLID_MEASURE_records[record->asked_first + i];
-        tn_json_number(t->json, tn_text(t->module, asked->name), value_of(t, asked->function));
+        if (!seen[asked->name])
+            t->listed[t->listed_count++] = asked;
+        seen[asked->name] = true;
     }
+    bool fine = seen && t->listed;
+    free(seen);
+    return fine ? TN_OK : tn_fail_memory(error);
+}
+
+static void write_measures_json(const testing *t)
+{
+    tn_json_object(t->json, NULL);
+    tn_json_string(t->json, "name", tn_text(t->module, t->module->SOLID_records[t->solid].name));
+    tn_json_object(t->json, "measures");
+    for (size_t i = 0; i < t->listed_count; i++)
+        tn_json_number(t->json, tn_text(t->module, t->listed[i]->name), value_of(t, t->listed[i]->function));
     tn_json_object_end(t->json);
     tn_json_object_end(t->json);
 }
 
 static void write_measures(const testing *t)
 {
-    const tn_solid_record *record = &t->module->SOLID_records[t->solid];
-    if (record->asked_count)
-        fprintf(t->out, "%s\n", tn_text(t->module, record->name));
-    for (uint32_t i = 0; i < record->asked_count; i++) {
-        const tn_solid_measure_record *asked = &t->module->SOLID_MEASURE_records[record->asked_first + i];
-        fprintf(t->out, "  %-16s %.10g\n", tn_text(t->module, asked->name), value_of(t, asked->function));
-    }
+    if (t->listed_count)
+        fprintf(t->out, "%s\n", tn_text(t->module, t->module->SOLID_records[t->solid].name));
+    for (size_t i = 0; i < t->listed_count; i++)
+        fprintf(t->out, "  %-16s %.10g\n", tn_text(t->module, t->listed[i]->name),
+                tn_without_sign(value_of(t, t->listed[i]->function)));
 }
 
 /* What was found of each measure that the requirement names: "parts is 3, height is 7.5". */
@@ -67,7 +82,7 @@ static void write_found(const testing *t, uint32_t function, char *text, size_t 
     for (int i = 0; i < TN_SOLID_MEASURED_COUNT && used < size; i++)
         if (asked >> i & 1)
             used += (size_t)snprintf(text + used, size - used, "%s%s is %.10g", used ? ", " : "",
-                                     tn_solid_measured_names[i], t->values[i]);
+                                     tn_solid_measured_names[i], tn_without_sign(t->values[i]));
 }
 
 static bool holds(const testing *t, uint32_t index)
@@ -80,8 +95,8 @@ static bool holds(const testing *t, uint32_t index)
     write_found(t, r->holds, found, sizeof found);
     tn_diagnostics *list = &t->opened->compilation.diagnostics;
     tn_diagnostic *d =
-        tn_report(list, E_REQUIREMENT_FAILED, (tn_span){r->file, r->begin, r->end}, "`%.100s` does not meet this: %s",
-                  tn_text(t->module, t->module->SOLID_records[t->solid].name), found);
+        tn_report(list, E_REQUIREMENT_FAILED, (tn_span){r->file, r->begin, r->end}, "`%.100s` does not meet this%s%s",
+                  tn_text(t->module, t->module->SOLID_records[t->solid].name), *found ? ": " : "", found);
     if (lacks - lacks == 0 && lacks > BARELY)
         tn_note(list, d, NULL, "it is %.10g away from holding", lacks);
     return false;
@@ -96,6 +111,8 @@ static tn_status test_design(testing *t, tn_solid_tally *tally)
     if (status == TN_OK)
         status = tn_built_measure(&built, asked_of(t->module, record), t->values, &error);
     tn_built_clear(&built);
+    if (status == TN_OK)
+        status = list_measures(t, &error);
     if (status != TN_OK)
         return tn_solid_fail(t->opened, t->solid, &error);
     if (t->json)
@@ -125,6 +142,7 @@ tn_status tn_solid_tests_run(tn_opened *opened, uint32_t most, bool json, FILE *
                      .json = json ? &items : NULL,
                      .out = out};
         tn_status one = test_design(&t, tally);
+        free(t.listed);
         status = status == TN_OK ? one : status;
     }
     return status;

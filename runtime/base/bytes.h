@@ -39,6 +39,12 @@ static inline double tn_double_of(uint64_t bits)
     return both.value;
 }
 
+/* For printing: what is no number has a sign on some machines and none on others, and is `nan` on all. */
+static inline double tn_without_sign(double value)
+{
+    return value == value ? value : tn_double_of(0x7FF8000000000000u);
+}
+
 static inline void tn_put_u32(uint8_t *bytes, uint32_t value)
 {
     for (int i = 0; i < 4; i++)

@@ -196,9 +196,9 @@ static tn_status keep(tn_view *view, const prospect *seen, const tn_painting *pa
     *depths = malloc((corners + 1) * sizeof **depths);
     if (!view->faces || !view->points || !view->edges || !*depths)
         return tn_fail_memory(error);
-    for (int k = 0; k < 2; k++) {
-        view->low[k] = INFINITY;
-        view->high[k] = -INFINITY;
+    for (int k = 0; k < 2; k++) { /* where there is nothing to see, the frame is about 0 */
+        view->low[k] = painting->patch_count ? INFINITY : 0;
+        view->high[k] = painting->patch_count ? -INFINITY : 0;
     }
     view->by_depth = painting->by_depth;
     for (size_t i = 0; i < painting->patch_count; i++)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Random files, made from the grammar of plans: every question against every other, and against brute forces (tests/differential). This is a
-# fixed share; `make search` goes on with other seeds. Small cases of faults that were mended lie in tests/differential/cases.
+# Random files, made from the grammars of notations: every question against every other, and against brute forces (tests/differential). This
+# is a fixed share; `make search` goes on with other seeds. Small cases of faults that were mended lie in tests/differential/cases.
 # Slow under sanitizers.
 name=differential
 . "$(dirname "$0")/golden.bash"
@@ -13,11 +13,25 @@ agrees() {
     python3 -B "$@" || fail "$what: answers differ"
 }
 
+# small KIND SUFFIX: the small cases of a kind.
+small() {
+    local case
+    for case in "$search"/cases/*"$2"; do
+        agrees "$(basename "$case")" "$search/search.py" "$1" "$case"
+    done
+}
+
 agrees 'productions' "$search/reached.py" 400
 shopt -s nullglob
-for case in "$search"/cases/*.plan; do
-    agrees "$(basename "$case")" "$search/search.py" plans "$case"
-done
-agrees 'plans' "$search/search.py" plans --seeds 36
-agrees 'houses' "$search/search.py" houses --seeds 40
+small plans .plan
+small fields .field
+small solids .solid
+while read -r kind seeds; do
+    agrees "$kind" "$search/search.py" "$kind" --seeds "$seeds" --jobs 2
+done <<'SHARES'
+plans 24
+houses 24
+fields 8
+solids 8
+SHARES
 finish

@@ -13,6 +13,12 @@ for format in png svg pdf; do
     "$TARTAN" draw ball.field --azimuth 90 --elevation 0 -o c.$format
     ! cmp -s a.$format c.$format || fail "the $format is the same from another side"
 done
+# Nothing inside is a picture of nothing, with its title.
+echo 'surface none = 0.5' >none.field
+for format in png svg pdf; do
+    exits 0 "$TARTAN" draw none.field -o none.$format
+done
+grep -q '<svg' none.svg || fail 'a picture of nothing is no SVG'
 # As large as was asked for: 300 points at 72 dpi. From the front, two balls are twice as wide as one.
 "$TARTAN" draw ball.field --width 300 --dpi 72 --elevation 0 --azimuth -90 --title '' -o wide.png
 "$TARTAN" draw ball.field --width 300 --dpi 72 --elevation 0 --azimuth 0 --title '' -o side.png

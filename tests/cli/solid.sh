@@ -26,6 +26,20 @@ status=0
 [ "$status" = 1 ] || fail "a requirement that is not met gives $status"
 grep -q 'error\[E1514\].*parts is 3' err || fail "it does not say what was found: $(cat err)"
 "$TARTAN" test --json table | python3 -c 'import json, sys; assert json.load(sys.stdin)["solids"][0]["measures"]["parts"] == 1' || fail 'test --json'
+# What is asked for twice, by a design and the one that it begins with, is listed once; what has no value has no sign either. A requirement
+# that names no measure has nothing to tell of.
+cat >twice.solid <<'END'
+solid first { box all at (0, 0, 0) size (1, 1, 1); measure sqrt(-1), volume; measure volume; }
+solid then from first { measure volume, area; require sqrt(-1) < 2; }
+END
+[ "$("$TARTAN" test twice.solid 2>err | tr -s ' \n' ' ')" = 'first sqrt(-1) nan volume 1 then sqrt(-1) nan volume 1 area 6 0 passed, 1 failed ' ] ||
+    fail 'measures that are asked for twice are not listed once'
+[ "$("$TARTAN" test --json twice.solid 2>/dev/null | grep -o '"volume"' | wc -l)" = 2 ] || fail 'measures that are asked for twice are two keys'
+# A measure's name is its words, however they are laid out.
+printf 'solid wide { box all at (0, 0, 0) size (1, 1, 1); measure volume  # what it takes\n/area , width IN 0 .. 2, min( - width,1 ); }' >wide.solid
+[ "$("$TARTAN" test wide.solid | tr -s ' \n' ' ')" = 'wide volume / area 0.1666666667 width in 0..2 1 min(-width, 1) -1 0 passed, 0 failed ' ] ||
+    fail "names of measures hang on the layout: $("$TARTAN" test wide.solid)"
+grep -q '`then` does not meet this$' err || fail "a requirement without measures: $(cat err)"
 "$TARTAN" explain table | grep -qx 'leg  by top  high y  7.4 -> 7' || fail 'explain does not say what the top does to the leg'
 "$TARTAN" explain --json table | python3 -c 'import json, sys; assert json.load(sys.stdin)[0]["box"] == "leg"' || fail 'explain --json'
 

@@ -3,7 +3,7 @@ from collections import Counter
 from fractions import Fraction
 
 from program import Refused, same
-from questions import how_many
+from plan_questions import how_many
 from reference import UNITS, File, Unknown
 
 

@@ -106,7 +106,7 @@ def productions(body):
     for at, piece in enumerate(words):
         if piece in "|;":
             if head and "error" not in symbols:
-                rules[head].append(Production(head, [s for s in symbols if s[0] != "%"]))
+                rules[head].append(Production(head, symbols))
             symbols = []
             head = head if piece == "|" else None
         elif piece == ":":
@@ -114,6 +114,6 @@ def productions(body):
         elif words[at + 1] == ":":
             head, symbols = piece, []
             rules.setdefault(head, [])
-        else:
+        elif piece[0] != "%" and words[at - 1] != "%prec":
             symbols.append(piece)
     return rules

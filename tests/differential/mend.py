@@ -54,7 +54,7 @@ def place_of(maker, root, text, error, attempt):
     end = min(max(begin + 1, offset_of(text.text, error["end_line"], error["end_column"])), len(text.text) - 1)
     around = nodes_at(text, begin, end)
     places = [path for path in around if may_be_remade(maker, at(root, path))]
-    return places[min(attempt // 3, len(places) - 1)] if places else around[0]
+    return places[min(attempt // 3, len(places) - 1)] if places else (around or [()])[0]
 
 
 def may_be_remade(maker, node):

@@ -1,40 +1,32 @@
 #!/usr/bin/env python3
 """Makes random files from the grammars and asks every question against every other.
 
-    search.py plans|houses [--seeds N] [--first K] [--seconds S] [--jobs N] [--out FOLDER] [FILE ...]
+    search.py KIND [--seeds N] [--first K] [--seconds S] [--jobs N] [--out FOLDER] [FILE ...]
 
-TARTAN names the command that is searched. A seed gives the same files, questions and small cases with any --jobs; --seconds only decides
+KIND is one of those in kinds.py. TARTAN names the command that is searched. A seed gives the same files, questions and small cases with any --jobs; --seconds only decides
 how many seeds are tried. The first files in which the answers to a question differ are made smaller for as long as they do; the small cases
 are printed, and written to --out. With FILEs, all questions are asked of these. Ends with 1 if there was a difference."""
 import argparse
 import collections
+import glob
 import os
 import random
+import shutil
 import sys
 import tempfile
 import time
 from multiprocessing import Pool
 
-import houses
-import plans
-from by_house_reference import houses_by_reference
-from by_reference import plans_by_reference
-from grammar import read_grammar
+from file_questions import checks
+from kinds import KINDS
 from maker import Maker
 from mend import errors, mended
 from program import Refused, Wrong
-from questions import OF_FILES, OF_LIBRARIES, QUICK, Subject, checks
 from shrink import shrunk
-from source import read_source
 from tree import Text
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-REFERENCES = [plans_by_reference, houses_by_reference]
 SHARE = .3               # of the questions are asked of each random file: more files find more than more questions do
 SHOWN = 1                # file of each difference is made smaller, which takes longer than to find more
-INDENTS = plans.Plans.indents
-KINDS = {"plans": plans.make_file, "houses": houses.make_file}
-GRAMMAR = read_grammar(os.path.join(ROOT, "grammar", "plan.y"))
 
 
 class Result:
@@ -45,14 +37,12 @@ class Result:
         self.took = 0                            # seconds of processor time until a difference was found, or all was asked
 
 
-def asked_of(path, chosen=None):
-    """(question, library or None) for all questions about a file; with `chosen`, a random number generator, for some of them."""
+def asked_of(kind, path, chosen=None):
+    """(question, part or None) for all questions about a file; with `chosen`, a random number generator, for some of them."""
     if is_refused(path):
         return [(checks, None)]
-    libraries = [item.name for item in read_source(path).of("library")]
-    first = [(q, name) for q in QUICK + REFERENCES for name in libraries]
-    more = [(q, None) for q in OF_FILES] + [(q, name) for name in libraries for q in OF_LIBRARIES]
-    return first + [a for a in more if chosen is None or chosen.random() < SHARE]
+    always, more = kind.questions(path)
+    return always + [a for a in more if chosen is None or chosen.random() < SHARE]
 
 
 def is_refused(path):
@@ -75,16 +65,16 @@ def ask(question, subject):
     return None
 
 
-def ask_all(path, folder, result, tree=None, chosen=None):
-    """(question, library, Wrong) of those that differ."""
+def ask_all(kind, path, folder, result, tree=None, chosen=None):
+    """(question, part, Wrong) of those that differ."""
     found, subjects = [], {}
-    for question, library in asked_of(path, chosen):
-        if library not in subjects:
-            subjects[library] = Subject(path, folder, library, tree)
+    for question, part in asked_of(kind, path, chosen):
+        if part not in subjects:
+            subjects[part] = kind.subject(path, folder, part, tree)
         result.asked += 1
-        outcome = ask(question, subjects[library])
+        outcome = ask(question, subjects[part])
         if isinstance(outcome, Wrong):
-            found.append((question, library, outcome))
+            found.append((question, part, outcome))
         elif outcome:
             result.refused.append(str(outcome))
     return found
@@ -92,16 +82,23 @@ def ask_all(path, folder, result, tree=None, chosen=None):
 
 def one_seed(job):
     """What pool and parent share: no trees."""
+    name, seed = job
     with tempfile.TemporaryDirectory() as folder:
-        return tried(*job, folder)[0]
+        return tried(KINDS[name], seed, folder)[0]
+
+
+def path_in(folder, kind):
+    return os.path.join(folder, "a" + kind.suffix)
 
 
 def tried(kind, seed, folder):
-    """(result, tree, [(question, library, Wrong)] that differ) of a seed."""
-    maker = Maker(GRAMMAR, plans.Plans(), random.Random(f"{kind} {seed}"))
-    result, began, path = Result(seed), sum(os.times()[:4]), os.path.join(folder, "a.plan")
+    """(result, tree, [(question, part, Wrong)] that differ) of a seed."""
+    maker = Maker(kind.grammar, kind.notation, random.Random(f"{kind.name} {seed}"))
+    result, began, path = Result(seed), sum(os.times()[:4]), path_in(folder, kind)
+    for name, text in kind.beside(maker.random).items():
+        write(os.path.join(folder, name), text)
     try:
-        tree, left = mended(maker, KINDS[kind](maker), path)
+        tree, left = mended(maker, kind.make_file(maker), path)
     except Wrong as wrong:
         tree, found = maker.last, [(checks, None, wrong)]
     else:
@@ -109,7 +106,7 @@ def tried(kind, seed, folder):
             result.refused.append(left[0]["code"])
             return result, tree, []
         result.accepted = True
-        found = ask_all(path, folder, result, tree, maker.random)
+        found = ask_all(kind, path, folder, result, tree, maker.random)
     result.took = sum(os.times()[:4]) - began
     result.differ = sorted({wrong.question for _, _, wrong in found})
     return result, tree, found
@@ -117,24 +114,26 @@ def tried(kind, seed, folder):
 
 def small_case(kind, seed, which):
     """The text of a seed's file made smaller, for as long as the answers to this question differ."""
+    indents = kind.notation.indents
     with tempfile.TemporaryDirectory() as folder:
         result, tree, found = tried(kind, seed, folder)
-        path = os.path.join(folder, "a.plan")
-        question, library, wrong = next(f for f in found if f[2].question == which)
-        tree, wrong = shrunk(GRAMMAR, tree, wrong, lambda smaller: still(smaller, question, library, wrong, path), INDENTS)
+        first = next(f for f in found if f[2].question == which)
+        tree, wrong = shrunk(kind.grammar, tree, first[2], lambda smaller: still(kind, smaller, first, folder), indents)
     others = [name for name in result.differ if name != which]
-    said = [f"{kind}, seed {seed}: {which}", f"answered: {wrong.got[:300]}", f"should be: {wrong.want[:300]}"]
+    said = [f"{kind.name}, seed {seed}: {which}", f"answered: {wrong.got[:300]}", f"should be: {wrong.want[:300]}"]
     said += ["of this file also: " + ", ".join(others)] if others else []
-    return "".join("# " + line.replace("\n", " ") + "\n" for line in said) + Text(tree, INDENTS).text
+    return "".join("# " + line.replace("\n", " ") + "\n" for line in said) + Text(tree, indents).text
 
 
-def still(tree, question, library, wrong, path):
+def still(kind, tree, first, folder):
     """Wrong where the same question differs of the smaller file, too; else None."""
-    write(path, Text(tree, INDENTS).text)
+    question, part, wrong = first
+    path = path_in(folder, kind)
+    write(path, Text(tree, kind.notation.indents).text)
     try:
         if question is not checks and errors(path):
             return None
-        outcome = ask(question, Subject(path, os.path.dirname(path), library, tree))
+        outcome = ask(question, kind.subject(path, folder, part, tree))
     except (Wrong, Refused, KeyError, IndexError):         # another difference, or a file without what is asked about
         return None
     return outcome if isinstance(outcome, Wrong) and outcome.question == wrong.question else None
@@ -171,7 +170,7 @@ class Tally:
 def show(options, seed, case):
     print(case, flush=True)
     if options.out:
-        write(os.path.join(options.out, f"{options.kind}-{seed}.plan"), case)
+        write(os.path.join(options.out, f"{options.kind}-{seed}{KINDS[options.kind].suffix}"), case)
 
 
 def search(options):
@@ -185,7 +184,7 @@ def search(options):
             spent = f"after {time.monotonic() - started:.0f} s ({tally.took:.0f} of processors)"
             print(f"seed {result.seed}, {spent}: {', '.join(result.differ)}", flush=True)
         if new:
-            show(options, result.seed, small_case(options.kind, result.seed, new[0]))
+            show(options, result.seed, small_case(KINDS[options.kind], result.seed, new[0]))
         if options.seconds and time.monotonic() - started > options.seconds:
             break
     if pool:
@@ -194,17 +193,26 @@ def search(options):
     return sum(tally.found.values())
 
 
-def check_files(files):
+def check_files(kind, files):
     wrong, asked = 0, 0
     for path in files:
         result = Result(path)
         with tempfile.TemporaryDirectory() as folder:
-            for question, library, found in ask_all(path, folder, result):
-                print(f"{path}, {library}, {question.__name__}: {found.question}\n  answered: {found.got[:300]}\n  should be: {found.want[:300]}")
+            for question, part, found in ask_all(kind, copied(kind, path, folder), folder, result):
+                print(f"{path}, {part}, {question.__name__}: {found.question}\n  answered: {found.got[:300]}\n  should be: {found.want[:300]}")
                 wrong += 1
         asked += result.asked
     print(f"{len(files)} files, {asked} questions, {wrong} differences")
     return wrong
+
+
+def copied(kind, path, folder):
+    """The file in a folder of its own, with what lies beside it: what the kind puts there, and files of the same name but for the ending."""
+    for name, text in kind.beside(random.Random(0)).items():
+        write(os.path.join(folder, name), text)
+    for other in glob.glob(glob.escape(os.path.splitext(path)[0]) + ".*"):
+        shutil.copy(other, folder)
+    return os.path.join(folder, os.path.basename(path))
 
 
 def main():
@@ -219,7 +227,7 @@ def main():
     options = parser.parse_args()
     if options.out:
         os.makedirs(options.out, exist_ok=True)
-    sys.exit(1 if (check_files(options.files) if options.files else search(options)) else 0)
+    sys.exit(1 if (check_files(KINDS[options.kind], options.files) if options.files else search(options)) else 0)
 
 
 if __name__ == "__main__":

@@ -117,6 +117,14 @@ static void test_other_notations(void **state)
     compile_with_failures(
         "b.kit", "unit 10 x 8 x 10;\nconnector a joins b;\npart p { fill 4 x 8 x 9; c up; }\nrule r at a = q;\n",
         false);
+    compile_with_failures(
+        "a.solid",
+        "solid one { symmetry x; box b at (1, 1, 1) size (1, 2, 1) clip normal (1, 1, 0) through (1, 1, "
+        "0); measure volume  / area, parts; require parts = 1; fitness volume target 3; }\n"
+        "solid two from one { genes (0, 0, 0, 1, 1, 1, 0, 0, 0) rigid; measure volume; }\n",
+        true);
+    compile_with_failures("a.field", "let r = 2\nfn f(a) = a*a\nsurface s = f(x) + f(y) at (x, z, y) - r\ngrid 9\n",
+                          true);
     compile_with_failures("a.bnf", "<e> ::= <e> + <v> | <v>\n<v> ::= x | y\n", true);
     compile_with_failures("b.bnf", "%dialct ge\n<e> ::= <f>\n", false);
     compile_with_failures("c.study", "evolution { grammar \"words\"; match \"hello\"; population 20 }\n", true);

@@ -1,46 +1,35 @@
-"""Every question about a file against every other: nothing is worked out but by the program itself.
+"""Every question about plans and houses against every other: nothing is worked out but by the program itself.
 
-A question is a function that is given a Subject (a library of the file, or the file alone) and raises Wrong where two answers differ."""
+A question is a function that is given a PlanSubject and raises Wrong where two answers differ."""
 import os
 import re
 import shutil
 from fractions import Fraction
 
+import file_questions
 from c_interface import c_interface
 from exports import prolog, regex
 from house_files import bills, solids, swings
-from mend import errors
-from program import Refused, answer, json_lines, read_json, run, same, same_lines
-from source import read_source
+from program import Refused, answer, json_lines, read_json, run, same
+from source import Source
+from subject import Subject
 
 LISTED = 3000            # no more plans or houses than this are listed
 
 
-class Subject:
-    """A file, or one of its libraries, with the answers that several questions need."""
+class PlanSubject(Subject):
+    """A file about plans or houses, or one of its libraries."""
 
-    def __init__(self, path, folder, library=None, tree=None):
-        self.path, self.folder, self.source = path, folder, read_source(path)
-        self.item = self.source.by_name[library] if library else None
-        self.options = ["--library", library] if library else []
-        self.tree = tree                         # its derivation tree, where it is known
+    def __init__(self, path, folder, part=None, tree=None):
+        super().__init__(path, folder, part, tree)
+        self.source = Source(self.text)
+        self.item = self.source.by_name[part] if part else None
+        self.options = ["--library", part] if part else []
         self._lines = self._counts = None
-
-    def ask(self, command, *more, file=None):
-        return answer(command, file or self.path, *more, *self.options)
-
-    def json(self, command, *more, file=None):
-        return read_json(command, self.ask(command, *more, "--json", file=file))
-
-    def file(self, name, text):
-        path = os.path.join(self.folder, name)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-        return path
 
     def edited(self, more):
         """The file with more items."""
-        return self.file("edited.plan", self.source.text + more)
+        return self.file("edited.plan", self.text + more)
 
     @property
     def houses(self):
@@ -91,16 +80,9 @@ def how_many(counts):
 
 # ---- of the file
 
-def checks(subject):
-    """`check` ends as it should, and says the same as the exit code does."""
-    errors(subject.path)
-
-
 def loads(subject):
-    """What `check` accepts can be built, and loaded again."""
-    built = os.path.join(subject.folder, "built.tnb")
-    answer("build", subject.path, "-o", built)
-    answer("disasm", built)
+    """A module gives the counts that its source gives."""
+    built = file_questions.loads(subject)
     for library in subject.source.of("library"):
         options = ["--library", library.name, "--json"]
         try:
@@ -112,38 +94,13 @@ def loads(subject):
         same("count of the module", read_json("count", answer("count", built, *options)), read_json("count", want))
 
 
-def keeps_its_meaning(subject):
-    """`fmt` gives a text of the same meaning, and the same text where it is used twice."""
-    laid_out = formatted(subject.source.text)
-    same("fmt twice", formatted(laid_out), laid_out)
-    os.makedirs(os.path.join(subject.folder, "laid-out"), exist_ok=True)
-    other = subject.file("laid-out/" + os.path.basename(subject.path), laid_out)
-    same_lines("fmt keeps the meaning", meaning(other), meaning(subject.path))
-
-
-def formatted(text):
-    code, out, err = run("fmt", "-", text=text)
-    same("fmt refuses what check accepts", err[:200] if code else "", "")
-    return out
-
-
-def meaning(path):
-    """The listing of a module, without places: lines, columns, and names that are made of them."""
-    listing = answer("disasm", path)
-    listing = re.sub(r" *\([^\s()]*\.plan:\d+(:\d+)?\)|^(module|written by|source | *;).*$", "", listing, flags=re.M)
-    listing = "\n".join(line for line in listing.split("\n") if line.strip())
-    return re.sub(r"(require|prune)@\d+(\.\d+)?", r"\1@", listing)
-
-
 def says_json(subject):
     """Other answers that are JSON."""
     code, out, err = run("check", subject.path, "--relations", "--json", "--examples")
     nothing = code == 2 and "E0904" in err                       # there is nothing to relate
     if not nothing and code != 4:                                # or a library passes a limit
         read_json("check --relations", out)
-    code, _, err = run("check", subject.path, "--diagnostics=json")
-    read_json("check --diagnostics=json", err or "[]")
-    same("check of a file that is accepted", code, 0)
+    file_questions.says_json(subject)
     read_json("test --json", run("test", subject.path, "--json")[1] or "[]")
 
 
@@ -201,10 +158,16 @@ def some(values):
 
 def equals(subject, measure, value):
     """`measure = value`, in the unit of its dimension."""
-    found = subject.json("count", "--by", measure)
-    unit = {"": "", "ft": "'", "m": "m", "ft2": "sf", "m2": "m2", "ft3": "cf", "m3": "m3"}[found["unit"]]
-    number = f"{abs(value.numerator)}{unit} / {value.denominator}" if value.denominator != 1 else f"{abs(value.numerator)}{unit}"
+    number = number_of(abs(value), unit_of(subject, measure))
     return f"{measure} = {number}" if value >= 0 else f"{measure} + {number} = 0"
+
+
+def unit_of(subject, measure):
+    return {"": "", "ft": "'", "m": "m", "ft2": "sf", "m2": "m2", "ft3": "cf", "m3": "m3"}[subject.json("count", "--by", measure)["unit"]]
+
+
+def number_of(value, unit):
+    return f"{value.numerator}{unit} / {value.denominator}" if value.denominator != 1 else f"{value.numerator}{unit}"
 
 
 def best_of(subject, measure, end, groups, complete):
@@ -428,6 +391,39 @@ def compared(subject):
     same("diff", [int(found[k]) for k in ("removed", "added", "kept")], [len(old - new), len(new - old), len(old & new)])
 
 
+def tested(subject):
+    """Tests that name houses: those whose expectations are right pass, and those whose expectations are wrong fail."""
+    if not subject.houses or not subject.lines:
+        return
+    lines = [subject.lines[i] for i in sorted({0, len(subject.lines) // 2, len(subject.lines) - 1})]
+    right = {subject.item.name: [f"keep [{line}]" for line in lines]}
+    wrong = {subject.item.name: [f"drop [{line}]" for line in lines]}
+    for rule in subject.rules()[:2]:
+        listed = set(subject.listed_where(rule))
+        words = [("match", "reject") if line in listed else ("reject", "match") for line in lines]
+        right[rule], wrong[rule] = ([f"{pair[i]} [{line}]" for pair, line in zip(words, lines)] for i in (0, 1))
+    for measure in subject.measures()[:2]:
+        found = json_lines("best", subject.ask("best", "3", "--least", measure, "--format", "json"))
+        values = [(b["house"], Fraction(b["value"] if "value" in b else b["values"][0])) for b in found]
+        unit = unit_of(subject, measure)
+        right[measure], wrong[measure] = ([f"value [{house}] = {number_of(value + more, unit)}" for house, value in values if value >= 0] for more in (0, 1))
+    before = outcomes(subject.path)
+    for what, tests, place in (("right", right, 0), ("wrong", wrong, 1)):
+        tests = {name: cases for name, cases in tests.items() if cases}
+        text = "".join(f"\ntest {name} {{\n" + "".join(f"  {case}\n" for case in cases) + "}\n" for name, cases in tests.items())
+        same(f"tests of houses that are {what}", outcomes(subject.edited(text)), tuple(b + (i == place) * sum(map(len, tests.values()))
+                                                                                       for i, b in enumerate(before)))
+
+
+def outcomes(file):
+    """(how many tests pass, how many fail)"""
+    code, out, err = run("test", file, "--json")
+    if not out:
+        raise Refused(re.search(r"error\[(E\d+)\]", err)[1], code == 4)
+    found = read_json("test --json", out)
+    return found["passed"], found["failed"]
+
+
 def limits(subject):
     """A limit ends with 4: what was written until then stays, in whole lines. What does not pass it is written as ever."""
     if subject.lines is None:
@@ -447,6 +443,6 @@ def limits(subject):
 
 
 QUICK = [counted_ways, by_length]              # asked of every library; of those that follow some are chosen
-OF_FILES = [loads, keeps_its_meaning, says_json]
+OF_FILES = [loads, file_questions.keeps_its_meaning, says_json]
 OF_LIBRARIES = [by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, both_engines, fronts, mirrored,
-                effects, compared, threads, saved, limits, prolog, regex, c_interface, solids, swings, bills]
+                effects, compared, threads, saved, limits, prolog, regex, c_interface, solids, swings, bills, tested]

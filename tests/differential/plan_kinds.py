@@ -1,0 +1,33 @@
+"""Files of plans and of houses, which share a grammar."""
+import houses
+import plans
+from by_house_reference import houses_by_reference
+from by_reference import plans_by_reference
+from kind import Kind
+from plan_questions import OF_FILES, OF_LIBRARIES, QUICK, PlanSubject
+from source import read_source
+
+
+class PlanKind(Kind):
+    grammar_file, suffix, notation = "plan.y", ".plan", plans.Plans()
+    not_reached = {
+        "file: ONE_EXPRESSION expression": "the command line's, not a file's",
+        "file: ONE_PATTERN pattern": "the command line's, not a file's",
+        "file: items": "the start is `items`",
+        "value: NUMBER doc role": "taken by the grammar in order to say that a number has no unit",
+    }
+
+    def __init__(self, name, make_file):
+        self.name, self.make_file = name, make_file
+
+    def subject(self, path, folder, part, tree):
+        return PlanSubject(path, folder, part, tree)
+
+    def questions(self, path):
+        libraries = [item.name for item in read_source(path).of("library")]
+        always = [(q, name) for q in QUICK + [plans_by_reference, houses_by_reference] for name in libraries]
+        return always, [(q, None) for q in OF_FILES] + [(q, name) for name in libraries for q in OF_LIBRARIES]
+
+
+PLANS = PlanKind("plans", plans.make_file)
+HOUSES = PlanKind("houses", houses.make_file)
