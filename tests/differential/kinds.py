@@ -1,9 +1,10 @@
 """The kinds of files that are searched, a row each. As a program it prints their names."""
 from fields import FIELDS
 from kits import KITS
+from pcfg import PCFG
 from plan_kinds import HOUSES, PLANS
 
-KINDS = {kind.name: kind for kind in (PLANS, HOUSES, FIELDS, KITS)}
+KINDS = {kind.name: kind for kind in (PLANS, HOUSES, FIELDS, KITS, PCFG)}
 
 if __name__ == "__main__":
     print(*KINDS)

@@ -7,7 +7,7 @@ import re
 import xml.etree.ElementTree as xml
 from collections import Counter
 
-from c_place import placed_by_interface
+from c_place import SEED, placed_by_interface
 from file_questions import content, keeps_its_meaning, loads, says_json
 from kit_counts import OF_COUNTS
 from kit_model import MOST, SIGNS, TURNS, Greedy, Standing, cells_at, has_files, joined_pairs, measures, plus, product, read_ldraw, room_of, turned, value_of
@@ -57,6 +57,11 @@ class KitSubject(Subject):
         same("place ends with", code, 1)
         return error[1], None
 
+    def ends_in(self):
+        """(what is said, the text) as the interface is asked."""
+        said, data = self.place("--seed", str(SEED))
+        return said, data and data.decode()
+
     @functools.cached_property
     def free(self):
         """The file without what this model requires."""
@@ -99,7 +104,7 @@ class KitSubject(Subject):
     @property
     def plain(self):
         """Is the model placed step by step, by an engine that can be named?"""
-        return not (self.searched or self.model.symmetry or self.model.stock)
+        return not (self.searched or self.model.symmetry or self.model.stock or self.model.order == "breadth")
 
 
 def read_kit(path):
