@@ -1,11 +1,12 @@
 """The kinds of files that are searched, a row each. As a program it prints their names."""
 from fields import FIELDS
 from grammars import GRAMMARS
+from hemls import HEMLS
 from kits import KITS
 from pcfg import PCFG
 from plan_kinds import HOUSES, PLANS
 
-KINDS = {kind.name: kind for kind in (PLANS, HOUSES, FIELDS, KITS, PCFG, GRAMMARS)}
+KINDS = {kind.name: kind for kind in (PLANS, HOUSES, FIELDS, KITS, PCFG, GRAMMARS, HEMLS)}
 
 if __name__ == "__main__":
     print(*KINDS)
