@@ -18,6 +18,7 @@ class Place:
     timed: bool                      # do edges have ages?
     weighted: bool = None            # has a rule's choice weights, or conditions?
     want: str = None
+    sound: bool = False              # is the file to be in order at once?
 
     def but(self, **changes):
         return replace(self, **changes)
@@ -57,7 +58,7 @@ def successor(maker, place):
             words += branches(maker, place)
         way = random.choices("+-&^\\/", k=random.randint(1, 2)) if maker.chance(.25) else []
         words += [*way, *["~"] * maker.chance(.1), edge(maker, place), *[BACK[turn] for turn in reversed(way)]]
-    if maker.chance(MISTAKE):
+    if not place.sound and maker.chance(MISTAKE):
         words.insert(random.randrange(len(words) + 1), random.choice(["+", "~", "]", "<"]))
     return words
 
@@ -85,13 +86,14 @@ NUMBERS = {"angle": ["90", "90", "60", "45", "30", "22.5", "36"], "branch angle"
 
 class Systems(Notation):
     start = "file"
+    depths = {"bound": 1}
     remade = ("line", "symbols", "alternative")
     hooks = {"symbols": symbols}
 
     def weight(self, production, context):
         if production.head == "choice":
             return float((production.name == "choice: %empty") if context.weighted is None else ("WEIGHT" in production.symbols) == context.weighted and bool(production.symbols))
-        return {"bound: MINUS NUMBER": .15, "alternatives: alternatives alternative": 1 if context.weighted is not None else MISTAKE}.get(production.name, 1)
+        return {"bound: MINUS NUMBER": .5, "alternatives: alternatives alternative": 1 if context.weighted is not None else MISTAKE}.get(production.name, 1)
 
     def contexts(self, maker, production, context):
         return [context.but(want=CONTEXTS.get(production.name, {}).get(i)) for i in range(len(production.symbols))]
@@ -114,15 +116,15 @@ class SystemKind(Kind):
         return [(q, None) for q in QUICK], [(q, None) for q in OF_SYSTEMS]
 
 
-def system(maker):
+def system(maker, sound=False):
     random = maker.random
     labels = tuple(random.choice([["A", "B", "C"], ["Edge0", "Edge1", "Edge2"]])[:random.randint(1, 3)])
-    place = Place(labels, maker.chance(.3))
+    place = Place(labels, maker.chance(.3), sound=sound)
     lines = [maker.make_of("line: symbols", 1, place)]
     for _ in range(random.choice([1, 2, 2, 3])):
         weighted = random.choice([None, None, True, False] if place.timed else [None, None, None, True])
         lines.append(maker.make_of("line: symbols alternatives", 3, place.but(weighted=weighted)))
-    lines += [maker.make_of(f"line: {word} NUMBER", 1, place) for word, share in (("ANGLE", .9), ("BRANCH_ANGLE", .8)) if maker.chance(share)]
+    lines += [maker.make_of(f"line: {word} NUMBER", 1, place) for word, share in (("ANGLE", 1 if sound else .9), ("BRANCH_ANGLE", .8)) if maker.chance(share)]
     lines += [maker.node(f"line: {word}") for word, share in (("SYNC", .4), ("EVEN", .2)) if maker.chance(share)]
     node = maker.node("lines: %empty")
     if maker.chance(.1):

@@ -5,8 +5,9 @@ from hemls import HEMLS
 from kits import KITS
 from pcfg import PCFG
 from plan_kinds import HOUSES, PLANS
+from studies import STUDIES
 
-KINDS = {kind.name: kind for kind in (PLANS, HOUSES, FIELDS, KITS, PCFG, GRAMMARS, HEMLS)}
+KINDS = {kind.name: kind for kind in (PLANS, HOUSES, FIELDS, KITS, PCFG, GRAMMARS, HEMLS, STUDIES)}
 
 if __name__ == "__main__":
     print(*KINDS)
