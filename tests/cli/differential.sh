@@ -25,11 +25,17 @@ agrees 'productions' "$search/reached.py" 400
 shopt -s nullglob
 small plans .plan
 small fields .field
+small kits .kit
 while read -r kind seeds; do
     agrees "$kind" "$search/search.py" "$kind" --seeds "$seeds"
 done <<'SHARES'
 plans 30
 houses 32
 fields 12
+kits 8
+pcfg 8
+grammars 8
+hemls 8
+studies 8
 SHARES
 finish

@@ -12,6 +12,8 @@ from program import TARTAN, environment, same
 
 
 SEED = 5
+LIMITS = {"part-limit": 1500, "step-limit": 200000, "frame-limit": 1000, "lookahead-limit": 20000}
+OPTIONS = [word for name, value in LIMITS.items() for word in (f"--{name}", str(value))]
 
 
 class CompileOptions(ctypes.Structure):
@@ -30,7 +32,8 @@ def placed(library, stdlib, file, model):
     c, error = ctypes.CDLL(library), Error()
     folders = (ctypes.c_char_p * 1)(stdlib.encode())
     compiling = CompileOptions(ctypes.sizeof(CompileOptions), folders=folders, folder_count=1)
-    placing = PlaceOptions(ctypes.sizeof(PlaceOptions), model=model.encode() or None, part_limit=1500, seed=SEED)
+    placing = PlaceOptions(ctypes.sizeof(PlaceOptions), model=model.encode() or None, seed=SEED,
+                           **{name.replace("-", "_"): value for name, value in LIMITS.items()})
     module, placement, text, size = ctypes.c_void_p(), ctypes.c_void_p(), ctypes.c_void_p(), ctypes.c_size_t()
     failed = c.tartan_compile_file(file.encode(), ctypes.byref(compiling), ctypes.byref(module), ctypes.byref(error)) or \
         c.tartan_place(module, ctypes.byref(placing), None, ctypes.byref(placement), ctypes.byref(error)) or \

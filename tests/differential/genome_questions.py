@@ -1,11 +1,12 @@
 """Every question about a grammar of genomes against every other, and against a mapper in Python (genome_reader.py)."""
 import functools
+import itertools
 import os
 import random
 import re
 import xml.etree.ElementTree as xml
 
-from file_questions import keeps_its_meaning, loads, says_json
+from file_questions import content, keeps_its_meaning, loads, says_json
 from genome_reader import Grammar, Mapped, NotValid, derivations, has_name, sentences
 from program import Wrong, answer, json_lines, read_json, run, same
 from subject import Subject
@@ -171,5 +172,47 @@ def limits(subject):
             same("a genome with less steps", short, whole)
 
 
+# ---- breeding
+
+def bred(subject):
+    """A run is the same with any number of threads and where it was interrupted; its individuals are what their genomes map to, and have the
+    score that docs/evolution.md says."""
+    chosen, wanted = random.Random(subject.text), random.Random(subject.text).choice(["x+7", "xxy", "7"])
+    settings = [chosen.choice(["selection tournament 2", "selection tournament 4", ""]), chosen.choice(["crossover subtree 0.8", "crossover one-point 0.5", ""]),
+                chosen.choice(["mutation codons 0.05", ""]), f"seed {chosen.randint(0, 99)}"]
+    study = subject.file("bred.study", "evolution {\n  grammar \"%s\"\n  match \"%s\"\n  population 8\n  generations 3\n  %s\n}\n" % (
+        os.path.basename(subject.path), wanted, "\n  ".join(settings)))
+    runs = [os.path.join(subject.folder, name) for name in ("one.run", "two.run", "three.run")]
+    code, _, err = run("evolve", study, "-o", runs[0], "--threads", "1")
+    if code == 1 and "--max" not in err and "E12" in err:
+        return                                   # a setting that does not go with the grammar
+    same("evolve ends with", code, 0)
+    answer("evolve", study, "-o", runs[1], "--threads", "4")
+    answer("evolve", study, "-o", runs[2], "--generations", "1")
+    answer("evolve", study, "-o", runs[2], "--resume", "--generations", "3")
+    for name in ("run.sqlite", "stats.csv", "fitness.svg"):
+        first = content(os.path.join(runs[0], name))
+        same(f"{name} with 4 threads", content(os.path.join(runs[1], name)) == first, True)
+        same(f"{name} of a run that was interrupted", content(os.path.join(runs[2], name)) == first, True)
+    for number in (0, 3, 9, 12):
+        replayed(subject, runs[0], number, wanted)
+
+
+def replayed(subject, folder, number, wanted):
+    code, out, _ = run("runs", "replay", folder, str(number))
+    found = re.match(r"# individual \d+[^\n]*?(?:, score (\S+))?\n# genome: ([^\n]*)\n(.*)\n", out, re.S)
+    if code or not found:
+        return
+    genome = [int(codon) for codon in found[2].split()]
+    try:
+        sentence = Mapped(subject.grammar, genome, anywhere=subject.anywhere).sentence
+    except NotValid:
+        return
+    same(f"individual {number} is what its genome maps to", found[3], sentence)
+    if found[1] and sentence.isascii():
+        score = sum(1 - (1 / (1 + abs(ord(a) - ord(b))) if a and b else 0) for a, b in itertools.zip_longest(sentence, wanted, fillvalue=""))
+        same(f"score of {sentence!r}", abs(float(found[1]) - score) <= 1e-4 * max(1, score), True)
+
+
 QUICK = [mapping]
-OF_GRAMMARS = [loads, keeps_its_meaning, says_json, otherwise, one_by_one, trees, inverted, belongs, counted, limits]
+OF_GRAMMARS = [loads, keeps_its_meaning, says_json, otherwise, one_by_one, trees, inverted, belongs, counted, limits, bred]

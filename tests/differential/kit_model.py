@@ -246,7 +246,18 @@ def measures(kit, parts, room=None):
     }
     if room:
         terms["fill"] = len(filled) / len(room)
+    if crowded(pairs):
+        terms = {name: value for name, value in terms.items() if name not in OF_JOINTS}
     return {name: float(value) for name, value in terms.items()} | {("count", name): float(n) for name, n in Counter(s.name for s in parts).items()}
+
+
+OF_JOINTS = {"joints", "open", "components", "cuts", "floating"}
+
+
+def crowded(pairs):
+    """Do more than two connectors meet at one place? Which of them are joined then is not said."""
+    ends = Counter(end for i, a, k, b in pairs for end in ((i, a), (k, b)))
+    return any(count > 1 for count in ends.values())
 
 
 def balance(kit, parts, boxes, ground):

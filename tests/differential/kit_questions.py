@@ -7,7 +7,7 @@ import re
 import xml.etree.ElementTree as xml
 from collections import Counter
 
-from c_place import SEED, placed_by_interface
+from c_place import OPTIONS, SEED, placed_by_interface
 from file_questions import content, keeps_its_meaning, loads, says_json
 from kit_counts import OF_COUNTS
 from kit_model import MOST, SIGNS, TURNS, Greedy, Standing, cells_at, has_files, joined_pairs, measures, plus, product, read_ldraw, room_of, turned, value_of
@@ -59,7 +59,7 @@ class KitSubject(Subject):
 
     def ends_in(self):
         """(what is said, the text) as the interface is asked."""
-        said, data = self.place("--seed", str(SEED))
+        said, data = self.place("--seed", str(SEED), *OPTIONS[2:])
         return said, data and data.decode()
 
     @functools.cached_property

@@ -515,7 +515,7 @@ def connector(maker, place, kind, joined):
 
 
 def part(maker, place, before):
-    name = place.scope.fresh(maker.random, ["post", "7", "3070b", "beam", "a part", "long-one"])
+    name = place.scope.fresh(maker.random, ["post", "7", "3070b", "Beam", "a part", "long-one"])
     size = tuple(maker.random.choice(c) for c in ([2, 2, 2, 4, 4, 6, 1], [1, 1, 2, 3], [2, 2, 2, 4, 1]))
     inner = place.but(size=size)
     named, doc = part_name(maker, 1, place.but(want="new", text=name)), maker.make("doc", 1, place)

@@ -8,7 +8,7 @@ import random
 import re
 from collections import Counter
 
-from c_place import SEED as NUMBER, placed_by_interface
+from c_place import OPTIONS, SEED as NUMBER, placed_by_interface
 from file_questions import content, keeps_its_meaning, loads, says_json
 from program import answer, read_json, run, same
 from subject import Subject
@@ -33,7 +33,7 @@ class GrammarSubject(Subject):
 
     def ends_in(self):
         """(what is said, the text) as the interface is asked."""
-        code, text, said = self.place(limits=["--part-limit", "1500"])
+        code, text, said = self.place(limits=OPTIONS)
         return "limit" if code == 4 else None if code == 0 else re.search(r"error\[(E\d+)\]", said)[1], text
 
     @functools.cached_property
