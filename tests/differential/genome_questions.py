@@ -7,7 +7,7 @@ import re
 import xml.etree.ElementTree as xml
 
 from file_questions import content, keeps_its_meaning, loads, says_json
-from genome_reader import Grammar, Mapped, NotValid, derivations, has_name, sentences
+from genome_reader import Grammar, Mapped, NotValid, derivations, sentences
 from program import Wrong, answer, json_lines, read_json, run, same
 from subject import Subject
 

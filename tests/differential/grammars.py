@@ -77,9 +77,6 @@ class Grammars(Notation):
             return 0
         return WEIGHTS.get(production.name, 1)
 
-    def contexts(self, maker, production, context):
-        return [context] * len(production.symbols)
-
     def token(self, maker, token, context):
         return TOKENS[token](maker, context)
 

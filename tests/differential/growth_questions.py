@@ -7,7 +7,7 @@ import sys
 
 from file_questions import content, keeps_its_meaning, loads, says_json
 from mesh_files import read_mesh
-from program import Wrong, answer, read_json, run, same
+from program import answer, read_json, run, same
 from subject import Subject
 
 STEPS, EDGES = "3", "1500"

@@ -155,7 +155,8 @@ def listed_in_part(subject):
     path = os.path.join(subject.folder, "buildings.mpd")
     answer("enumerate", subject.path, *options, "-o", path)
     parts = Counter(re.findall(r"^1 \d+ (.*\.dat)$", content(path).decode(), re.M))
-    want = Counter(" ".join([*(f"{float(c * u):g}" for c, u in zip(s.at, kit.unit)), *map(str, s.matrix), s.name + ".dat"]) for line in lines for s in building_of(line, kit))
+    standing = [s for line in lines for s in building_of(line, kit)]
+    want = Counter(" ".join([*(f"{float(c * u):g}" for c, u in zip(s.at, kit.unit)), *map(str, s.matrix), s.name + ".dat"]) for s in standing)
     same("buildings as sub-files", parts, want)
 
 

@@ -4,7 +4,7 @@ import math
 from collections import Counter, defaultdict, deque
 from fractions import Fraction
 
-from kit_reader import AXES, SIZES, beside
+from kit_reader import SIZES, beside
 
 TURNS = [(1, 0, 0, 0, 1, 0, 0, 0, 1), (0, 0, -1, 0, 1, 0, 1, 0, 0), (-1, 0, 0, 0, 1, 0, 0, 0, -1), (0, 0, 1, 0, 1, 0, -1, 0, 0)]
 MOST = 4000              # parts that are placed here

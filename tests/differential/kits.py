@@ -265,7 +265,7 @@ def new(maker, place, choices):
     return exact(place, place.scope.fresh(maker.random, choices))
 
 
-def kinds_of(maker, place, few=True):
+def kinds_of(maker, place):
     """Where a rule is: a connector or several."""
     known = list(place.scope.joins) or ["stud"]
     return tuple(maker.random.sample(known, maker.random.choice([1, min(2, len(known)), len(known), len(known)])))

@@ -83,9 +83,6 @@ class Grammars(Notation):
     remade = ("alternative", "alternatives", "line")
     hooks = {"alternative": alternative, "alternatives": alternatives}
 
-    def contexts(self, maker, production, context):
-        return [context] * len(production.symbols)
-
     def token(self, maker, token, context):
         return context.head or context.symbols[0]
 

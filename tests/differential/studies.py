@@ -6,9 +6,8 @@ from hemls import HEMLS, system
 from kind import Kind
 from maker import Maker, Notation
 from study_questions import OF_STUDIES, QUICK, StudySubject
-from tree import Text, listed
+from tree import Text
 
-MISTAKE = .02
 TERMS = ["size", "smoothness", "soft-boundary", "subdivisions", "symmetry", "undulation", "vertices", "edges", "faces", "width", "depth", "height", "area",
          "volume", "planarity", "worst-planarity", "edge-spread", "smallest-angle", "span", "crossed-faces", "turned-faces", "crossings", "sunlit"]
 FUNCTIONS = {"abs": 1, "sqrt": 1, "square": 1, "min": 2, "max": 2, "exp": 1, "log": 1, "sin": 1, "cos": 1, "tanh": 1}
@@ -140,7 +139,6 @@ STATEMENTS = {
 
 class StudyKind(Kind):
     name, grammar_file, suffix, notation = "studies", "study.y", ".study", Studies()
-    not_reached = {}
 
     def make_file(self, maker):
         place = Place(Scope())

@@ -4,8 +4,6 @@ import re
 
 TOKEN = re.compile(r"""(?:\s|\#[^\n]*)*(?:(?P<word>[A-Za-z_]\w*(?:-+\w+)*)|(?P<number>[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)|(?P<text>"(?:\\.|[^"\\])*")
                        |(?P<sign>\.\.|<=|>=|!=|[-+*/,()=<>]))""", re.X)
-HEADS = {"use", "title", "rules", "steps", "scale", "start", "start-length", "seed", "branch-angle", "branch-length", "edge-limit", "fixed-centre",
-         "fixed-perimeter", "facing", "mirror", "gravity", "attractor", "repeller", "boundary", "fitness", "require", "sun"}
 
 
 class Study:
