@@ -269,6 +269,8 @@ static tn_status change_cells(tn_world *world, const tn_put *put, bool fill, tn_
             const tn_frame *image = &images[k / kind->record->box_count];
             tn_cell_box turned = tn_kind_box(kind, image->heading, (uint32_t)(k % kind->record->box_count));
             tn_cell_box box = tn_box_from(&turned, image->at);
+            if (fill && put->choice == c->standing)
+                world->stands_over |= tn_cells_any(world->cells, &box);
             if (fill)
                 status = tn_cells_fill(world->cells, &box, error);
             else
@@ -298,7 +300,12 @@ tn_status tn_world_start(tn_world *world, tn_error *error)
     const tn_site_choices *c = world->choices;
     const tn_put put = {.choice = c->standing};
     tn_status status = TN_OK;
-    if (c->standing != TN_NONE_STANDS && !tn_world_fits(world, c->standing, &put.at)) {
+    bool room = c->standing == TN_NONE_STANDS || tn_world_fits(world, c->standing, &put.at);
+    if (room && c->standing != TN_NONE_STANDS)
+        status = stand(world, &put, error);
+    if (status != TN_OK)
+        return status;
+    if (!room || world->stands_over) {
         status = tn_cells_status(world->cells, error);
         if (status != TN_OK)
             return status;
@@ -308,11 +315,7 @@ tn_status tn_world_start(tn_world *world, tn_error *error)
                       "its stock");
         return TN_INVALID;
     }
-    if (c->standing != TN_NONE_STANDS)
-        status = stand(world, &put, error);
-    return status == TN_OK
-               ? open_sites(world, &c->sites[c->start_first], c->site_count - c->start_first, &put.at, error)
-               : status;
+    return open_sites(world, &c->sites[c->start_first], c->site_count - c->start_first, &put.at, error);
 }
 
 tn_status tn_world_put(tn_world *world, uint32_t choice, const tn_frame *at, tn_error *error)

@@ -34,6 +34,7 @@ typedef struct tn_world {
     uint64_t *used; /* [kind]: parts that stand */
     uint64_t part_count, part_limit; /* with images */
     uint64_t seed;
+    bool stands_over; /* of the parts with which the model starts one lies in another */
 } tn_world;
 
 /* An empty world: of the options, seed, part_limit and watch. TN_MEMORY or TN_OK; clear it in any case. */
