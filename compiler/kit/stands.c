@@ -1,6 +1,7 @@
 /* Models that a kit names: their parts are those of the kit, and stand where the file has them. */
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "compiler/kit/kit.h"
 #include "runtime/place/cells.h"
@@ -33,6 +34,9 @@ static bool is_right(tn_kit *kit, const tn_kit_node *node, const tn_ldraw *ldraw
 static const tn_kit_part *part_of(tn_kit *kit, const tn_kit_node *node, const char *name)
 {
     const tn_kit_part *part = tn_names_get(&kit->parts, name);
+    for (const tn_kit_part *other = kit->part_list.first; other && !part; other = other->next)
+        if (strcasecmp(other->node->name.text, name) == 0)
+            part = other; /* names of LDraw files are the same in capitals or not */
     if (part)
         return part;
     tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_STANDS, node->doc.span,

@@ -20,7 +20,7 @@ typedef struct tn_drawn_changes {
 } tn_drawn_changes;
 
 /* Reads a model from a file, in cells of the module's kit. As tn_ldraw_read and tn_file_read; E1314 where it has no
- * parts. */
+ * parts. Those that the kit has are called as there, with the module's text. */
 tn_status tn_drawn_read(const char *path, const tn_module *module, tn_ldraw *ldraw, tn_error *error);
 
 /* Writes an LDraw text as a connection grammar, as the published program's ldr2pcfg does: one rule `Init`, in which
@@ -33,8 +33,8 @@ tn_status tn_drawn_pcfg(const char *text, size_t size, const char *init, FILE *o
 
 /* Writes a model as a .kit file with a model `drawn`, which uses the kit that `use` names: one alternative places all
  * of its parts. module: of that kit. Where no part stands unturned, all are turned. *text: the caller's to free. It was
- * compiled as what would lie at `path`, and placed the same parts: E1361 where it does not, as where parts overlap.
- * E1314 where the kit has none of the parts, TN_LIMIT (E1313) for more than 10,000. */
+ * compiled as what would lie at `path`, and placed the same parts: E1361 where it does not, as where parts overlap, or
+ * all lie on their side. E1314 where the kit has none of the parts, TN_LIMIT (E1313) for more than 10,000. */
 tn_status tn_drawn_kit(const tn_module *module, const tn_placed_model *model, const char *use, const char *path,
                        char **text, tn_drawn_changes *changes, tn_error *error);
 

@@ -46,6 +46,11 @@ static tn_status take_parts(drawing_kit *d, const tn_placed_model *model)
                        PARTS_MAX);
     if (d->model.count > 0)
         return TN_OK;
+    if (d->changes->tilted) {
+        tn_fail(d->error, TN_INVALID, E_DRAWN, "all parts of the model that the kit has lie on their side");
+        tn_error_help(d->error, "an alternative of a rule turns parts about the vertical alone");
+        return TN_INVALID;
+    }
     tn_fail(d->error, TN_INVALID, E_PLACE_NOTHING, "the kit has none of the model's parts");
     tn_error_help(d->error, "name the kit that has them: `--kit bricks`");
     return TN_INVALID;
@@ -277,6 +282,21 @@ static tn_status find_beside(void *context, const char *name, uint8_t **bytes, s
     return status;
 }
 
+/* Parts that the kit has are called as there. The file's parts of one kind share the text of their name. */
+static void name_parts(const tn_module *module, tn_placed_model *model)
+{
+    const char *before = NULL, *called = NULL;
+    for (size_t i = 0; i < model->count; i++) {
+        const char *name = model->parts[i].name;
+        if (name != before) {
+            const tn_kit_part_record *kind = tn_kit_part_meant(module, name);
+            called = kind ? tn_text(module, kind->name) : name;
+        }
+        before = name;
+        model->parts[i].name = called;
+    }
+}
+
 tn_status tn_drawn_read(const char *path, const tn_module *module, tn_ldraw *ldraw, tn_error *error)
 {
     uint8_t *bytes;
@@ -295,6 +315,8 @@ tn_status tn_drawn_read(const char *path, const tn_module *module, tn_ldraw *ldr
         tn_fail(error, status, E_LDRAW_LINE, "%.200s, %s", path, found.message);
         tn_error_help(error, "a part is written `1 COLOUR X Y Z A B C D E F G H I NAME.dat`");
     }
+    if (status == TN_OK)
+        name_parts(module, &ldraw->model);
     if (status == TN_OK && ldraw->model.count == 0 && ldraw->tilted + ldraw->beside == 0) {
         tn_fail(error, TN_INVALID, E_PLACE_NOTHING, "%.200s has no parts", path);
         tn_error_help(error, "a model is an LDraw file, .ldr or .mpd");

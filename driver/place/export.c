@@ -23,7 +23,7 @@ static tn_status check_step(const tn_step *step, const char *symbol, tn_error *e
 {
     if (step->kind == TN_STEP_BLOCK && ((step->b[0] - step->a[0]) % 2 || (step->b[2] - step->a[2]) % 2))
         return refuse(error, "connection grammars fill an even number of cells across", symbol,
-                      "halve the kit's unit across");
+                      "make the part an even number of cells wide and deep");
     if (step->kind == TN_STEP_PART && strpbrk(step->text, "r'\"()"))
         return refuse(error, "connection grammars cannot name this part", step->text,
                       "leave r, quotes and parentheses out of its name");
@@ -33,13 +33,19 @@ static tn_status check_step(const tn_step *step, const char *symbol, tn_error *e
 static tn_status check_rules(const tn_place_rules *rules, tn_error *error)
 {
     tn_status status = TN_OK;
+    double unit[3];
+    tn_place_unit(rules->module, unit);
     if (tn_place_turns(rules->module) > TN_UPRIGHT_TURNS)
         return refuse(error, "connection grammars turn parts about the vertical only",
                       tn_text(rules->module, rules->space->name), "leave `turns 24` out of the kit's unit");
+    if (unit[0] != 10 || unit[1] != 8)
+        return refuse(error, "a cell of connection grammars is 10 x 8 x 10 LDU",
+                      tn_text(rules->module, rules->space->name), "write `unit 10 x 8 x 10;` in the kit");
     if (tn_place_needs_search(rules))
-        return refuse(
-            error, "connection grammars have no search, images or stock", tn_text(rules->module, rules->space->name),
-            "leave `search`, `symmetry` and `stock` out of the model, or write an .ldr file by `tartan place`");
+        return refuse(error, "connection grammars have no search, images, stock or order",
+                      tn_text(rules->module, rules->space->name),
+                      "leave `search`, `symmetry`, `stock` and `order breadth` out of the model, or write an .ldr file "
+                      "by `tartan place`");
     for (uint32_t s = 0; s < rules->symbol_count && status == TN_OK; s++) {
         const tn_place_symbol *symbol = &rules->symbols[s];
         for (uint32_t a = 0; a < symbol->count && status == TN_OK; a++) {
@@ -144,7 +150,7 @@ static tn_status write_blocked(const grid *g, FILE *out, tn_error *error)
                     continue;
                 if (!cover(g, x, y, z, &box))
                     return refuse(error, "connection grammars fill an even number of cells across",
-                                  "a gap of the space is one cell wide", "make it wider, or halve the unit across");
+                                  "a gap of the space is one cell wide", "make it wider");
                 write_box(g, &box, out);
             }
         }

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "runtime/base/array.h"
 
@@ -20,6 +21,15 @@ const tn_kit_part_record *tn_kit_part_named(const tn_module *module, const char 
         if (strcmp(tn_text(module, module->KIT_PART_records[i].name), name) == 0)
             return &module->KIT_PART_records[i];
     return NULL;
+}
+
+const tn_kit_part_record *tn_kit_part_meant(const tn_module *module, const char *name)
+{
+    const tn_kit_part_record *found = tn_kit_part_named(module, name);
+    for (uint32_t i = 0; i < module->KIT_PART_count && !found; i++)
+        if (strcasecmp(tn_text(module, module->KIT_PART_records[i].name), name) == 0)
+            found = &module->KIT_PART_records[i];
+    return found;
 }
 
 tn_cell_box tn_part_box_at(const tn_part_box_record *box, const tn_frame *frame)

@@ -32,6 +32,9 @@ void tn_placed_joints_clear(tn_placed_joints *joints);
 /* The part of a kit by its name; NULL where it has none. */
 const tn_kit_part_record *tn_kit_part_named(const tn_module *module, const char *name);
 
+/* The part that an LDraw file means, in which names are the same in capitals or not; NULL where the kit has none. */
+const tn_kit_part_record *tn_kit_part_meant(const tn_module *module, const char *name);
+
 /* Do connectors of two types join that are turned about their axis so that what is beside it (tn_axis_beside) points
  * there? */
 bool tn_connectors_turn(const tn_module *module, uint32_t a, uint32_t b, tn_axis beside_a, tn_axis beside_b);

@@ -26,6 +26,7 @@ shopt -s nullglob
 small plans .plan
 small fields .field
 small solids .solid
+small kits .kit
 while read -r kind seeds; do
     agrees "$kind" "$search/search.py" "$kind" --seeds "$seeds" --jobs 2
 done <<'SHARES'
@@ -33,5 +34,10 @@ plans 24
 houses 24
 fields 8
 solids 8
+kits 8
+pcfg 8
+grammars 8
+hemls 6
+studies 6
 SHARES
 finish

@@ -116,5 +116,16 @@ golden required "tartan inspect $scratch/two.ldr --kit bricks --require 'compone
 golden required_not "tartan inspect $scratch/two.ldr --kit bricks --require 'components = 1, count(3004) > 0 or height > 48, mass in 1..2' | tail -n 1"
 golden required_unknown "tartan inspect $scratch/two.ldr --kit bricks --require 'count(3006) = 1'"
 golden required_wrong "tartan inspect $scratch/two.ldr --kit bricks --require 'components ='"
+# Names in LDraw files are the same in capitals or not; what is made of them has the kit's.
+cat >"$scratch/capitals.kit" <<'K'
+unit 10 x 8 x 10;
+connector stud joins tube;
+connector tube joins stud;
+part Beam { fill 20 x 24 x 20; stud up; tube down at (0, -24, 0); }
+rule up at stud = Beam;
+model taller { inside model("capitals.ldr") or box(20, 120, 20); start "capitals.ldr" by up; }
+K
+printf '1 1 0 -24 0 1 0 0 0 1 0 0 0 1 BEAM.DAT\n1 1 0 -48 0 1 0 0 0 1 0 0 0 1 Beam.dat\n' >"$scratch/capitals.ldr"
+golden capitals "tartan inspect $scratch/capitals.ldr --kit $scratch/capitals.kit --require 'count(Beam) = 2, joints = 1' | head -n 1; tartan export $scratch/capitals.ldr --kit $scratch/capitals.kit | grep -c Beam; tartan place $scratch/capitals.kit --model taller"
 golden required_json "tartan inspect $scratch/two.ldr --kit bricks --json --require 'components = 2' --diagnostics json"
 exit $((failures > 0))

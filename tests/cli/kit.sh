@@ -49,6 +49,16 @@ done
 golden export "tartan export $scratch/small.kit --pcfg --model post"
 golden export_draws "tartan export $scratch/tower.kit --pcfg"
 golden export_gap "tartan export $scratch/gap.kit --pcfg"
+# Places in connection grammars count half studs and plates, whatever a kit's cells are.
+cat >"$scratch/wide.kit" <<'K'
+unit 20 x 24 x 20;
+connector stud joins tube;
+connector tube joins stud;
+part post { fill 40 x 24 x 40; tube down at (0, -24, 0); }
+rule up at stud = post;
+model wide { inside box(80, 24, 80); start stud at (20, 0, 20) by up; }
+K
+golden export_unit "tartan export $scratch/wide.kit --pcfg"
 golden export_pcfg "tartan export ../../../examples/brick-wall/wall.pcfg --pcfg"
 golden export_both "tartan export $scratch/small.kit --pcfg --prolog"
 

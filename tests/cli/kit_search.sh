@@ -37,6 +37,13 @@ golden image "tartan place $scratch/box.kit -m image"
 golden empty "tartan place $scratch/box.kit -m empty"
 golden export "tartan export $scratch/box.kit --pcfg -m beam"
 golden limit "tartan place $scratch/box.kit -m anneal --search-limit 1500 -o $scratch/limit.ldr; echo exit \$?; grep -c ^1 $scratch/limit.ldr"
+# Images count: a pair is two parts.
+cat >"$scratch/pair.kit" <<'K'
+use "bricks";
+rule on at tube, stud = 3070b;
+model pair { start stud at (-10, 0, 10) by on; symmetry mirror x; inside box(60, 24, 80); }
+K
+golden parts_images "tartan place $scratch/pair.kit --part-limit 1; tartan place $scratch/pair.kit --part-limit 2"
 golden parts "tartan place $scratch/box.kit -m anneal --part-limit 20"
 [ ! -e unmet.ldr ] || fail 'a model that misses its requirements was written'
 

@@ -17,5 +17,8 @@ golden placed "tartan place $scratch/one.kit --model one -o $scratch/one.ldr && 
 golden searched "tartan place $scratch/one.kit --model searched --stats"
 golden counted "tartan count $scratch/one.kit --parts 2 --json && tartan count $scratch/one.kit --parts 3 --json"
 golden export "tartan export $scratch/one.kit --pcfg --model one"
+# Parts that all lie on their side are not said to be missing.
+printf '1 4 0 0 0 0 1 0 0 0 1 1 0 0 elbow.dat\n' >"$scratch/lies.ldr"
+golden lies "tartan export $scratch/lies.ldr --kit $scratch/one.kit"
 golden api "tartan place $scratch/one.kit --model one -o - | grep '^1' | cut -d' ' -f6- | sort | uniq -c"
 exit $((failures > 0))

@@ -13,11 +13,14 @@ class Kind:
     grammar_file = None              # below grammar/
     suffix = None                    # of its files
     notation = None                  # what is known of it beside its grammar (maker.Notation)
+    literals = {}                    # texts of tokens that are always written the same, where the grammar file does not say so
     not_reached = {}                 # productions that no file has, and why
 
     @functools.cached_property
     def grammar(self):
-        return read_grammar(os.path.join(ROOT, "grammar", self.grammar_file))
+        grammar = read_grammar(os.path.join(ROOT, "grammar", self.grammar_file))
+        grammar.literals.update(self.literals)
+        return grammar
 
     def make_file(self, maker):
         """A random derivation tree of a whole file."""

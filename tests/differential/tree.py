@@ -82,7 +82,7 @@ def list_productions(grammar, symbol):
 
 # ---- as text
 
-CLOSE_UP_BEFORE, CLOSE_UP_AFTER = set("),]"), set("([")
+CLOSE_UP_BEFORE, CLOSE_UP_AFTER = set("),]\n"), set("([")
 
 
 class Text:

@@ -8,13 +8,13 @@
 #include "runtime/base/random.h"
 #include "runtime/place/search/kinds.h"
 
-enum { DRAWN_MAX = 64, PUTS_MAX = 1000000 };
+enum { DRAWN_MAX = 64, PARTS_MAX = 1000000 };
 
 tn_status tn_world_make(const tn_site_choices *choices, const tn_place_options *options, tn_world *world,
                         tn_error *error)
 {
     *world = (tn_world){
-        .choices = choices, .seed = options->seed, .put_limit = options->part_limit ? options->part_limit : PUTS_MAX};
+        .choices = choices, .seed = options->seed, .part_limit = options->part_limit ? options->part_limit : PARTS_MAX};
     world->cells = tn_cells_new(options->watch);
     world->used = calloc((size_t)choices->kind_count + 1, sizeof *world->used);
     if (!world->cells || !world->used)
@@ -264,10 +264,13 @@ static tn_status change_cells(tn_world *world, const tn_put *put, bool fill, tn_
         tn_frame frame = tn_frame_from(&put->at, &part->frame);
         size_t count = tn_part_images(c, part->kind, &frame, images);
         world->used[part->kind] += fill ? count : -count;
+        world->part_count += fill ? count : -count;
         for (size_t k = 0; k < count * kind->record->box_count && status == TN_OK; k++) {
             const tn_frame *image = &images[k / kind->record->box_count];
             tn_cell_box turned = tn_kind_box(kind, image->heading, (uint32_t)(k % kind->record->box_count));
             tn_cell_box box = tn_box_from(&turned, image->at);
+            if (fill && put->choice == c->standing)
+                world->stands_over |= tn_cells_any(world->cells, &box);
             if (fill)
                 status = tn_cells_fill(world->cells, &box, error);
             else
@@ -280,16 +283,16 @@ static tn_status change_cells(tn_world *world, const tn_put *put, bool fill, tn_
 static tn_status stand(tn_world *world, const tn_put *put, tn_error *error)
 {
     tn_standing *plan = &world->plan;
-    if (plan->put_count == world->put_limit) {
-        tn_fail(error, TN_LIMIT, E_PLACE_LIMIT, "the search passes the limit of %llu parts",
-                (unsigned long long)world->put_limit);
-        tn_error_help(error, "raise the limit with --part-limit, or make the space smaller");
-        return TN_LIMIT;
-    }
     if (!tn_array_reserve(&plan->puts, &plan->put_capacity, plan->put_count, 1, sizeof *plan->puts))
         return tn_fail_memory(error);
     plan->puts[plan->put_count++] = *put;
-    return change_cells(world, put, true, error);
+    tn_status status = change_cells(world, put, true, error);
+    if (status != TN_OK || world->part_count <= world->part_limit)
+        return status;
+    tn_fail(error, TN_LIMIT, E_PLACE_LIMIT, "the search passes the limit of %llu parts",
+            (unsigned long long)world->part_limit);
+    tn_error_help(error, "raise the limit with --part-limit, or make the space smaller");
+    return TN_LIMIT;
 }
 
 tn_status tn_world_start(tn_world *world, tn_error *error)
@@ -297,7 +300,12 @@ tn_status tn_world_start(tn_world *world, tn_error *error)
     const tn_site_choices *c = world->choices;
     const tn_put put = {.choice = c->standing};
     tn_status status = TN_OK;
-    if (c->standing != TN_NONE_STANDS && !tn_world_fits(world, c->standing, &put.at)) {
+    bool room = c->standing == TN_NONE_STANDS || tn_world_fits(world, c->standing, &put.at);
+    if (room && c->standing != TN_NONE_STANDS)
+        status = stand(world, &put, error);
+    if (status != TN_OK)
+        return status;
+    if (!room || world->stands_over) {
         status = tn_cells_status(world->cells, error);
         if (status != TN_OK)
             return status;
@@ -307,11 +315,7 @@ tn_status tn_world_start(tn_world *world, tn_error *error)
                       "its stock");
         return TN_INVALID;
     }
-    if (c->standing != TN_NONE_STANDS)
-        status = stand(world, &put, error);
-    return status == TN_OK
-               ? open_sites(world, &c->sites[c->start_first], c->site_count - c->start_first, &put.at, error)
-               : status;
+    return open_sites(world, &c->sites[c->start_first], c->site_count - c->start_first, &put.at, error);
 }
 
 tn_status tn_world_put(tn_world *world, uint32_t choice, const tn_frame *at, tn_error *error)

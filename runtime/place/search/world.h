@@ -32,7 +32,9 @@ typedef struct tn_world {
     tn_space *space;
     tn_standing plan;
     uint64_t *used; /* [kind]: parts that stand */
-    uint64_t seed, put_limit;
+    uint64_t part_count, part_limit; /* with images */
+    uint64_t seed;
+    bool stands_over; /* of the parts with which the model starts one lies in another */
 } tn_world;
 
 /* An empty world: of the options, seed, part_limit and watch. TN_MEMORY or TN_OK; clear it in any case. */
