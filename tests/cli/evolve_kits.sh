@@ -49,7 +49,7 @@ cmp -s one/run.sqlite parted/run.sqlite || fail 'resuming breeds other rules'
 best=$(sed -n '2s/1.kit,\([0-9]*\),.*/\1/p' one/best/scores.csv) score=$(sed -n '2s/.*,//p' one/best/scores.csv)
 "$TARTAN" runs replay one "$best" >replayed || fail 'rules cannot be replayed'
 grep -q '^rule bred at stud, tube = ' replayed || fail 'what is replayed is no rule'
-[ -z "$("$TARTAN" check one/best/1.kit 2>&1)" ] || fail 'the best kit has errors or warnings'
+is 'codes of the best kit' "$("$TARTAN" check one/best/1.kit 2>&1 | grep -oE '(error|warning)\[[EW][0-9]+\]' || true)" 'warning[W193]' # nothing comes to `kept'
 is 'rules of the name' "$(grep -c '^rule bred' one/best/1.kit)" 1
 grep -q '^rule kept' one/best/1.kit || fail 'another rule is gone'
 is 'parts of the best' "$("$TARTAN" place one/best/1.kit | head -n 1)" "$score parts"
