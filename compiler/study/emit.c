@@ -49,6 +49,8 @@ static void emit_settings(tn_builder *builder, const tn_checked_study *study)
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
         if (study->settings[flags[i].kind])
             record.flags |= flags[i].flag;
+    if (study->requirement_count > 0)
+        record.flags |= TN_STUDY_SHARES;
     tn_builder_add_STUDY(builder, &record);
 }
 

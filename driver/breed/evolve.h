@@ -40,6 +40,9 @@ typedef struct tn_bred_forms {
     tn_status (*unmet)(const void *context, const char *sentence, char **text, tn_error *error);
 } tn_bred_forms;
 
+/* Those of designs of boxes, whether grammars write them or genes are them. The scorer is borrowed. */
+tn_bred_forms tn_bred_designs(const tn_design_scorer *designs);
+
 /* What is evolved. Zero it to begin with; clear it in any case. */
 typedef struct tn_evolution_job {
     tn_evolution_study study; /* texts borrowed from where it was read */

@@ -74,6 +74,17 @@ static tn_status make_fields(tn_evolution_job *job, const char *path, bool draws
 
 /* ---- designs of boxes */
 
+tn_bred_forms tn_bred_designs(const tn_design_scorer *designs)
+{
+    return (tn_bred_forms){designs,
+                           "form",
+                           ".svg",
+                           tn_design_scorer_draw,
+                           tn_design_scorer_objective,
+                           tn_design_scorer_mesh,
+                           tn_design_scorer_unmet};
+}
+
 static tn_status take_skeleton(tn_evolution_job *job, const char *path, const char *stored, tn_error *error)
 {
     size_t seeds;
@@ -110,13 +121,7 @@ static tn_status make_boxes(tn_evolution_job *job, const char *path, tn_error *e
         status = tn_design_scorer_take_genes(job->designs, tn_skeleton_breeding(job->skeleton), error);
     if (status != TN_OK)
         return status;
-    job->forms = (tn_bred_forms){job->designs,
-                                 "form",
-                                 ".svg",
-                                 tn_design_scorer_draw,
-                                 tn_design_scorer_objective,
-                                 tn_design_scorer_mesh,
-                                 tn_design_scorer_unmet};
+    job->forms = tn_bred_designs(job->designs);
     job->evaluator = tn_design_scorer_evaluator(job->designs);
     job->scored = tn_design_scorer_wants(job->designs) || job->study.of[TN_SET_PROGRAM].written;
     return TN_OK;

@@ -245,13 +245,7 @@ static tn_status make_designs(tn_evolution_job *job, const char *path, tn_error 
     tn_status status = find_data(job, TN_SET_BUILD, path, error);
     if (status == TN_OK)
         status = tn_design_scorer_new(job->blamed_path, weighs_separately(job), is_asked(job), &job->designs, error);
-    job->forms = (tn_bred_forms){job->designs,
-                                 "form",
-                                 ".svg",
-                                 tn_design_scorer_draw,
-                                 tn_design_scorer_objective,
-                                 tn_design_scorer_mesh,
-                                 tn_design_scorer_unmet};
+    job->forms = tn_bred_designs(job->designs);
     return status == TN_OK ? tn_design_scorer_inputs(job->designs, &job->inputs, error) : status;
 }
 

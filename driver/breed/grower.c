@@ -164,7 +164,7 @@ static const char *name_of(const tn_grower *g, uint32_t goal)
 static void score_goals(const tn_grower *g, const tn_fitness *fitness, tn_score *score, char message[200])
 {
     double side = g->study.options.start_length, lacking = tn_fitness_lacking(fitness, &g->study.goal),
-           total = TN_REQUIREMENT_WEIGHT * lacking;
+           total = g->study.goal.requirement_weight * lacking;
     if (!isfinite(lacking)) {
         score->state = TN_SCORE_FAILED;
         snprintf(message, 200, "a requirement has no value for this surface");

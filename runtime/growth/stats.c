@@ -293,7 +293,7 @@ double tn_fitness_part(const tn_fitness *fitness, const tn_fitness_goal *goals, 
 
 double tn_fitness_total(const tn_fitness *fitness, const tn_fitness_goal *goals, double start_length)
 {
-    double total = TN_REQUIREMENT_WEIGHT * tn_fitness_lacking(fitness, goals);
+    double total = goals->requirement_weight * tn_fitness_lacking(fitness, goals);
     for (uint32_t goal = 0; goal < TN_FITNESS_TERM_COUNT + goals->named_count; goal++)
         total += tn_fitness_part(fitness, goals, goal, start_length);
     return total;

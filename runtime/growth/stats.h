@@ -56,6 +56,7 @@ typedef struct tn_fitness_goal {
     uint32_t named_count;
     struct tn_named_goal *required; /* how far each requirement is from holding; owned by the study; no names */
     uint32_t required_count;
+    double requirement_weight; /* of what they lack, in the sum */
     uint64_t asked; /* a bit for each tn_measured that an expression or requirement needs */
 } tn_fitness_goal;
 
@@ -84,7 +85,7 @@ double tn_fitness_part(const tn_fitness *fitness, const tn_fitness_goal *goals, 
 
 /* The sum over wanted terms and expressions of weight * |value - target| / max(|target|, unit), to be made small; the
  * unit is 1, or the seed's side for the size. With `raw`: the sum of weight * value. What the requirements lack is
- * added, TN_REQUIREMENT_WEIGHT times. */
+ * added, requirement_weight times. */
 double tn_fitness_total(const tn_fitness *fitness, const tn_fitness_goal *goals, double start_length);
 
 #endif

@@ -56,6 +56,7 @@ static void read_settings(const tn_study_record *record, tn_study *study)
     o->facing = record->flags & TN_STUDY_FACING;
     o->mirror = record->flags & TN_STUDY_MIRROR;
     study->goal.raw = record->flags & TN_STUDY_RAW_FITNESS;
+    study->goal.requirement_weight = record->flags & TN_STUDY_SHARES ? TN_REQUIREMENT_WEIGHT : 1;
 }
 
 /* Beside what was opened, or where the study lay when it was compiled. */

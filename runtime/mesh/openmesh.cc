@@ -260,7 +260,9 @@ bool all_triangles(const tn_mesh *mesh)
 
 tn_status no_surface(tn_error *error)
 {
-    return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the mesh is not a surface: some edge has more than two faces");
+    tn_fail(error, TN_INVALID, E_MESH_NO_SURFACE, "the mesh is not a surface: some edge has more than two faces");
+    tn_error_help(error, "OBJ and PLY files take such meshes as they are; what reworks a mesh does not");
+    return TN_INVALID;
 }
 
 /* Runs what may throw; C code gets a status instead. */

@@ -77,7 +77,8 @@ typedef enum tn_comparison { TN_ALWAYS, TN_AGE_BELOW, TN_AGE_ABOVE, TN_AGE_EQUAL
 #define TN_STUDY_FACING 4u
 #define TN_STUDY_MIRROR 8u
 #define TN_STUDY_RAW_FITNESS 16u
-#define TN_STUDY_FLAGS 31u
+#define TN_STUDY_SHARES 32u /* requirements are shares of their bounds, which weigh more than goals do */
+#define TN_STUDY_FLAGS 63u
 
 /* ---- houses (docs/houses.md) */
 

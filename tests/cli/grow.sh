@@ -24,6 +24,15 @@ for format in obj ply stl off om glb; do
     cmp "four.$format" piped
     [ ! -s stderr ] || fail "writing $format says something"
 done
+
+# Two edges between the same vertices: what is no surface is written where the format takes any faces, and refused with a number elsewhere.
+printf 'A + A + A\nA -> [+ A] [& A] ~ A B\nB -> [/ \\ A] - & A ^ + [^ A] B\nAngle 36\nBranchAngle 180\n' >twice.hemls
+for format in obj ply; do run grow twice.hemls -n 2 -o "twice.$format"; done
+for format in stl off om; do
+    "$TARTAN" grow twice.hemls -n 2 -o "twice.$format" 2>said && fail "$format takes a mesh that is no surface"
+    grep -q 'error\[E0845\]' said || { cat said; fail "$format: the error has no number"; }
+    [ ! -e "twice.$format" ] || fail "$format is half written"
+done
 if command -v assimp >/dev/null; then
     for format in obj ply stl off glb; do
         assimp info "four.$format" >info || fail "assimp cannot read $format"

@@ -3,6 +3,7 @@ import os
 import re
 from fractions import Fraction
 
+from conditions import Conditions
 from kind import ROOT
 
 TOKEN = re.compile(r"""(?:\s|\#[^\n]*)*(?:(?P<code>\d+[A-Za-z][A-Za-z0-9]*)|(?P<number>\d+(?:\.\d+)?)
@@ -39,7 +40,7 @@ class Model:
         self.stock, self.lines = {}, []
 
 
-class Kit:
+class Kit(Conditions):
     def __init__(self, path):
         self.unit, self.turns, self.lengths, self.joins, self.kinds = None, 4, {}, set(), {}
         self.parts, self.spaces, self.rules, self.models, self.tests, self.statements = {}, {}, {}, {}, [], []
@@ -402,36 +403,6 @@ class Kit:
         while self.take(","):
             made.append(self.expression())
         return made
-
-    def expression(self):
-        return self.chain(self.both, "or")
-
-    def both(self):
-        return self.chain(self.denied, "and")
-
-    def denied(self):
-        return ("not", self.denied()) if self.take("not") else self.compared()
-
-    def compared(self):
-        left = self.sum()
-        if self.take("in"):
-            low = self.sum()
-            self.next()
-            return ("in", left, low, self.sum())
-        sign = self.take("=", "<", "<=", ">=", ">", "!=")
-        return (sign, left, self.sum()) if sign else left
-
-    def sum(self):
-        return self.chain(self.product, "+", "-")
-
-    def product(self):
-        return self.chain(self.signed, "*", "/")
-
-    def chain(self, operand, *signs):
-        left = operand()
-        while sign := self.take(*signs):
-            left = (sign, left, operand())
-        return left
 
     def signed(self):
         if self.take("-"):

@@ -2,15 +2,17 @@
 import math
 import re
 
+from conditions import Conditions
+
 TOKEN = re.compile(r"""(?:\s|\#[^\n]*)*(?:(?P<word>[A-Za-z_]\w*(?:-+\w+)*)|(?P<number>[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)|(?P<text>"(?:\\.|[^"\\])*")
                        |(?P<sign>\.\.|<=|>=|!=|[-+*/,()=<>]))""", re.X)
 
 
-class Study:
+class Study(Conditions):
     """`statements` has (word, text) of each; `settings` numbers by word; forces, boundaries and goals as they are needed."""
 
     def __init__(self, text):
-        self.text, self.at, self.expression = text, 0, False
+        self.text, self.at, self.in_expression = text, 0, False
         self.statements, self.settings, self.forces, self.walls, self.goals, self.requirements, self.flags = [], {}, [], [], [], [], set()
         self.kind = self.token = None
         self.advance()
@@ -26,7 +28,7 @@ class Study:
             self.kind, self.token = None, ""
             return
         self.kind, self.token, self.begin, self.at = found.lastgroup, found[found.lastgroup], found.start(found.lastgroup), found.end()
-        if self.expression and self.kind == "number" and self.token[0] in "+-":
+        if self.in_expression and self.kind == "number" and self.token[0] in "+-":
             self.kind, self.token, self.at = "sign", self.token[0], self.begin + 1
 
     def next(self):
@@ -51,7 +53,7 @@ class Study:
 
     def statement(self):
         begin, word = self.begin, self.token.lower()
-        self.expression = word == "require"
+        self.in_expression = word == "require"
         self.advance()
         if word in ("use", "title", "rules", "distance-to"):
             self.settings[word] = self.next()[1:-1]
@@ -69,12 +71,12 @@ class Study:
         elif word == "fitness":
             self.goal()
         elif word == "require":
-            self.requirements.append(self.either())
+            self.requirements.append(self.expression())
         elif word in ("fixed-centre", "fixed-perimeter", "facing", "mirror"):
             self.flags.add(word)
         else:
             self.settings[word] = self.number()
-        self.expression = False
+        self.in_expression = False
         self.statements.append((word, self.text[begin:self.before].strip()))
 
     def force(self, word):
@@ -107,51 +109,21 @@ class Study:
             return
         name, expression, parts = self.next(), None, {"target": 0.0, "weight": 1.0}
         if self.token == "=":
-            self.expression = True
+            self.in_expression = True
             self.advance()
-            expression = self.either()
-            self.expression = False
+            expression = self.expression()
+            self.in_expression = False
         while part := self.take("target", "weight"):
             parts[part] = self.number()
         self.goals.append((name, expression, parts["target"], parts["weight"]))
 
     # ---- expressions
 
-    def either(self):
-        return self.chain(self.both, "or")
-
-    def both(self):
-        return self.chain(self.denied, "and")
-
-    def denied(self):
-        return ("not", self.denied()) if self.take("not") else self.compared()
-
-    def compared(self):
-        left = self.sum()
-        if self.take("in"):
-            low = self.sum()
-            self.next()
-            return ("in", left, low, self.sum())
-        sign = self.take("=", "<", "<=", ">=", ">", "!=")
-        return (sign, left, self.sum()) if sign else left
-
-    def sum(self):
-        return self.chain(self.product, "+", "-")
-
-    def product(self):
-        return self.chain(self.signed, "*", "/")
-
-    def chain(self, operand, *signs):
-        left = operand()
-        while sign := self.take(*signs):
-            left = (sign, left, operand())
-        return left
-
     def signed(self):
         if self.take("-"):
             return ("negative", self.signed())
         if self.take("("):
-            inner = self.either()
+            inner = self.expression()
             self.next()
             return inner
         if self.kind == "number":
@@ -159,9 +131,9 @@ class Study:
         name = self.next().lower()
         if not self.take("("):
             return name
-        parts = [self.either()]
+        parts = [self.expression()]
         while self.take(","):
-            parts.append(self.either())
+            parts.append(self.expression())
         self.next()
         return (name, *parts)
 
