@@ -9,7 +9,6 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/common/memory_guard.h"
-#include "runtime/base/picture.h"
 #include "runtime/ranks/ranks.h"
 
 int tn_exit_code(tn_status status)
@@ -298,9 +297,7 @@ int tn_job_end(tn_job *job)
 
 bool tn_job_draws(const char *path)
 {
-    tn_canvas_format format;
-    tn_error error;
-    return path && strrchr(path, '.') && tn_canvas_format_of(path, &format, &error) == TN_OK;
+    return path && TN_WRITES_PICTURES >> tn_file_format_of(path) & 1;
 }
 
 bool tn_job_writes(tn_job *job, const char *what, const char *path, tn_file_formats writes)

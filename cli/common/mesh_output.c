@@ -2,20 +2,18 @@
 #include "cli/common/mesh_output.h"
 
 #include <stdlib.h>
-#include <string.h>
-#include <strings.h>
 
+#include "cli/common/endings.h"
 #include "runtime/mesh/openmesh.h"
 
 tn_out_format tn_out_format_of(const char *path)
 {
-    static const char *const words[TN_OUT_FORMAT_COUNT] = {"",    "obj", "ply", "stl", "off",  "om", "glb",
-                                                           "dxf", "svg", "png", "pdf", "scad", "3mf"};
-    const char *dot = strrchr(path, '.');
-    for (int f = TN_OUT_OBJ; dot && f < TN_OUT_FORMAT_COUNT; f++)
-        if (strcasecmp(dot + 1, words[f]) == 0)
-            return (tn_out_format)f;
-    return TN_OUT_NONE;
+    static const tn_out_format formats[TN_FILE_FORMATS + 1] = {
+        [TN_FILE_OBJ] = TN_OUT_OBJ, [TN_FILE_PLY] = TN_OUT_PLY,   [TN_FILE_STL] = TN_OUT_STL,
+        [TN_FILE_OFF] = TN_OUT_OFF, [TN_FILE_OM] = TN_OUT_OM,     [TN_FILE_GLB] = TN_OUT_GLB,
+        [TN_FILE_DXF] = TN_OUT_DXF, [TN_FILE_SVG] = TN_OUT_SVG,   [TN_FILE_PNG] = TN_OUT_PNG,
+        [TN_FILE_PDF] = TN_OUT_PDF, [TN_FILE_SCAD] = TN_OUT_SCAD, [TN_FILE_3MF] = TN_OUT_3MF};
+    return formats[tn_file_format_of(path)];
 }
 
 static tn_status decimate(tn_job *job, size_t faces, tn_mesh *mesh, tn_error *error)

@@ -5,9 +5,9 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <unistd.h>
 
+#include "cli/common/endings.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
 #include "runtime/base/json.h"
@@ -93,8 +93,8 @@ static uint64_t rank_of(const char *digits, uint64_t otherwise)
 static bool begin(tn_job *job, const tn_count_kit_options *options, const tn_building_range *range, const char *path,
                   enumeration *e)
 {
-    const char *dot = path ? strrchr(path, '.') : NULL;
-    bool subfiles = dot && (strcasecmp(dot, ".mpd") == 0 || strcasecmp(dot, ".ldr") == 0);
+    tn_file_format format = path ? tn_file_format_of(path) : TN_FILE_OTHER;
+    bool subfiles = format == TN_FILE_MPD || format == TN_FILE_LDR;
     *e = (enumeration){.module = job->opened.module,
                        .format = subfiles        ? AS_SUBFILES
                                  : options->json ? AS_JSON

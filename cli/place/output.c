@@ -3,24 +3,22 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
+#include "cli/common/endings.h"
 #include "cli/common/mesh_output.h"
 #include "cli/place/placing.h"
 #include "driver/place/shape.h"
 
 out_format tn_place_format(const char *path)
 {
-    const char *dot = strrchr(path, '.');
-    if (strcmp(path, "-") == 0 || (dot && strcasecmp(dot, ".ldr") == 0))
+    tn_file_format format = tn_file_format_of(path);
+    if (strcmp(path, "-") == 0 || format == TN_FILE_LDR)
         return OUT_LDRAW;
-    if (dot && strcasecmp(dot, ".csv") == 0)
+    if (format == TN_FILE_CSV)
         return OUT_LIST;
-    if (dot && strcasecmp(dot, ".mpd") == 0)
+    if (format == TN_FILE_MPD)
         return OUT_SUBFILES;
-    tn_out_format format = tn_out_format_of(path);
-    bool picture = format == TN_OUT_SVG || format == TN_OUT_PNG || format == TN_OUT_PDF;
-    return picture ? OUT_PICTURE : OUT_MESH;
+    return TN_WRITES_PICTURES >> format & 1 ? OUT_PICTURE : OUT_MESH;
 }
 
 /* Pictures and meshes show the parts of a kit. */

@@ -1,9 +1,9 @@
 /* tartan report: a library, or a kit, as an HTML page. */
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 
+#include "cli/common/endings.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
 #include "cli/common/progress.h"
@@ -39,8 +39,7 @@ typedef struct page_path {
 
 static bool is_page(const char *path)
 {
-    const char *dot = strrchr(path, '.');
-    return dot && (strcasecmp(dot, ".html") == 0 || strcasecmp(dot, ".htm") == 0);
+    return tn_file_format_of(path) == TN_FILE_HTML;
 }
 
 /* What -o names: a page, or a folder for index.html. */
