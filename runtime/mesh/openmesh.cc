@@ -56,16 +56,18 @@ class silence
     }
 };
 
+OpenMesh::Vec3d placed(const double *p, bool y_up)
+{
+    return y_up ? OpenMesh::Vec3d(p[0], p[2], -p[1]) : OpenMesh::Vec3d(p[0], p[1], p[2]);
+}
+
 template <class mesh_type> bool into(const tn_mesh *from, bool y_up, mesh_type &to)
 {
     std::vector<typename mesh_type::VertexHandle> vertices, face;
     vertices.reserve(from->vertex_count);
     to.reserve(from->vertex_count, from->face_first[from->face_count], from->face_count);
-    for (size_t v = 0; v < from->vertex_count; v++) {
-        const double *p = from->positions + 3 * v;
-        vertices.push_back(
-            to.add_vertex(y_up ? OpenMesh::Vec3d(p[0], p[2], -p[1]) : OpenMesh::Vec3d(p[0], p[1], p[2])));
-    }
+    for (size_t v = 0; v < from->vertex_count; v++)
+        vertices.push_back(to.add_vertex(placed(from->positions + 3 * v, y_up)));
     for (size_t f = 0; f < from->face_count; f++) {
         face.clear();
         for (uint32_t c = from->face_first[f]; c < from->face_first[f + 1]; c++)
@@ -74,6 +76,18 @@ template <class mesh_type> bool into(const tn_mesh *from, bool y_up, mesh_type &
             return false; /* not a surface there: an edge with a third face, or a face turned the wrong way */
     }
     return true;
+}
+
+/* Each face with vertices of its own: all that an STL file tells, and what OpenMesh takes of any mesh. */
+template <class mesh_type> void into_apart(const tn_mesh *from, bool y_up, mesh_type &to)
+{
+    std::vector<typename mesh_type::VertexHandle> face;
+    for (size_t f = 0; f < from->face_count; f++) {
+        face.clear();
+        for (uint32_t c = from->face_first[f]; c < from->face_first[f + 1]; c++)
+            face.push_back(to.add_vertex(placed(from->positions + 3 * (size_t)from->corners[c], y_up)));
+        to.add_face(face);
+    }
 }
 
 template <class mesh_type> tn_status out_of(const mesh_type &from, tn_mesh *to, tn_error *error)
@@ -261,7 +275,7 @@ bool all_triangles(const tn_mesh *mesh)
 tn_status no_surface(tn_error *error)
 {
     tn_fail(error, TN_INVALID, E_MESH_NO_SURFACE, "the mesh is not a surface: some edge has more than two faces");
-    tn_error_help(error, "OBJ and PLY files take such meshes as they are; what reworks a mesh does not");
+    tn_error_help(error, "OBJ, PLY and STL files take such meshes as they are; what reworks a mesh does not");
     return TN_INVALID;
 }
 
@@ -359,8 +373,13 @@ extern "C" tn_status tn_openmesh_write(const tn_mesh *mesh, tn_openmesh_format f
     *size = 0;
     return guarded(error, [&] {
         poly_mesh m;
-        if (!into(mesh, y_up, m))
+        bool surface = into(mesh, y_up, m);
+        if (!surface && format != TN_OPENMESH_STL)
             return no_surface(error);
+        if (!surface) {
+            m.clear();
+            into_apart(mesh, y_up, m);
+        }
         OpenMesh::IO::Options options;
         if (format != TN_OPENMESH_OFF)
             options += OpenMesh::IO::Options::Binary;

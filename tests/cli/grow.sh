@@ -25,13 +25,17 @@ for format in obj ply stl off om glb; do
     [ ! -s stderr ] || fail "writing $format says something"
 done
 
-# Two edges between the same vertices: what is no surface is written where the format takes any faces, and refused with a number elsewhere.
-printf 'A + A + A\nA -> [+ A] [& A] ~ A B\nB -> [/ \\ A] - & A ^ + [^ A] B\nAngle 36\nBranchAngle 180\n' >twice.hemls
-for format in obj ply; do run grow twice.hemls -n 2 -o "twice.$format"; done
-for format in stl off om; do
-    "$TARTAN" grow twice.hemls -n 2 -o "twice.$format" 2>said && fail "$format takes a mesh that is no surface"
-    grep -q 'error\[E0845\]' said || { cat said; fail "$format: the error has no number"; }
-    [ ! -e "twice.$format" ] || fail "$format is half written"
+# Cut into triangles, two faces of this mesh share a diagonal: files that take any triangles hold them, and what reworks
+# a mesh refuses it with a number.
+printf 'A + A + A\nA -> [+ A] [& A] ~ A B\nB -> [/ \\ A] - & A ^ + [^ A] B\nAngle 36\nBranchAngle 180\n' >shared.hemls
+for format in obj ply stl; do run grow shared.hemls -n 3 --triangulate -o "shared.$format"; done
+triangles=$(grep -c '^f ' shared.obj)
+[ "$(stat -c %s shared.stl)" = $((84 + 50 * triangles)) ] || fail "the STL file does not hold $triangles triangles"
+for options in '-f off --triangulate' '-f om --triangulate' '-f stl --decimate 10'; do
+    # shellcheck disable=SC2086 # words of options
+    "$TARTAN" grow shared.hemls -n 3 $options -o refused 2>said && fail "$options takes a mesh that is no surface"
+    grep -q 'error\[E0845\]' said || { cat said; fail "$options: the error has no number"; }
+    [ ! -e refused ] || fail "$options: the file is half written"
 done
 if command -v assimp >/dev/null; then
     for format in obj ply stl off glb; do
