@@ -1,6 +1,5 @@
 # Manual pages and completion for shells. The binary writes tartan(1), a page a command and the completion from its own tables;
 # tools/manual-page makes a page a notation of that notation's page of docs.
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(TARTAN_WRITTEN ${PROJECT_BINARY_DIR}/written)
 file(MAKE_DIRECTORY ${TARTAN_WRITTEN})
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cli/common/commands.def compiler/notations.def)

@@ -4,5 +4,5 @@
 # Slow under sanitizers.
 name=endings
 . "$(dirname "$0")/golden.bash"
-is 'files of every ending' "$(python3 "$here/../endings.py" "$TARTAN")" fine
+is 'files of every ending' "$(python3 "$here/../endings.py" "$TARTAN" 4)" fine
 finish
