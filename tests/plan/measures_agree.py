@@ -1,12 +1,14 @@
-"""Questions about measures have to agree with one another: measures_agree.py TARTAN SOURCES
+"""Questions about measures have to agree with one another: measures_agree.py TARTAN SOURCES [FIRST LAST]
 
 Each is answered by code of its own, so that one checks the other: the best plans are the first of the distribution; no plan
 is better than the best, or than a point of the front (counted over the whole library, not sampled); the choices of an open
-plan add up; a narrowed library has the plans that the distribution says. The bytes are the same with one thread and with four."""
+plan add up; a narrowed library has the plans that the distribution says. The bytes are the same with one thread and with four.
+Cases FIRST to before LAST are asked (all, if none is given)."""
 import json, subprocess, sys
 from fractions import Fraction
 
 tartan, sources = sys.argv[1:3]
+first, last = (int(word) for word in sys.argv[3:5]) if len(sys.argv) > 4 else (0, None)
 wrong = []
 
 # File, library, its trays, two measures, an open plan.
@@ -86,7 +88,7 @@ def check_open(subject, pattern):
     check(kept_of(subject, f"plan [{pattern}]") == plans, f"complete {subject[2]} {pattern}: another number than --where")
 
 
-for file, name, trays, low, high, pattern in CASES:
+for file, name, trays, low, high, pattern in CASES[first:last]:
     subject = (file, "-l", name, "--trays", trays)
     units = []
     for measure in low, high:

@@ -1,11 +1,12 @@
-"""A part written out inside a number means what a rule of that name means: written_out.py TARTAN
+"""A part written out inside a number means what a rule of that name means: written_out.py TARTAN [SHARE]
 
 Every kind of expression stands inside every kind of number, in a measure and in a comparison, and so do numbers inside the
 parts of other expressions: a library is counted by the difference of both, and by which plans a comparison of each keeps.
-The schema is the second of its file, and what is emitted for conditions must not make it the first."""
+The schema is the second of its file, and what is emitted for conditions must not make it the first. Every SHAREth is counted (1, all, if none is given)."""
 import json, os, re, subprocess, sys, tempfile
 
 tartan = sys.argv[1]
+share = int(sys.argv[2]) if len(sys.argv) > 2 else 1
 
 SCHEMA = """schema first { size = 1m | 2m }
 schema s { width = 4' | 8'  open = flag  zone yard = deep(6') | none }
@@ -66,11 +67,11 @@ def meant(folder, number):
 def main():
     wrong, limits, tried, of = [], 0, 0, 0
     with tempfile.TemporaryDirectory() as folder:
-        for number in NUMBERS:
+        for k, number in enumerate(NUMBERS):
             good, count = meant(folder, number)
             tried, of = tried + len(good), of + count
             text = "\n".join([SCHEMA, *(line for i, e in enumerate(good) for line in rules_of(i, number, e)), "library l using s { trays 1..2 }"])
-            for i, expression in enumerate(good):
+            for i, expression in list(enumerate(good))[k % share::share]:
                 by = run(folder, text, "count", "--by", f"apart-{i}", "--json")
                 if by.returncode == 4:
                     limits += 1
