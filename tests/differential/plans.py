@@ -120,7 +120,7 @@ WEIGHTS = {
     "tray_atom: OPEN tray_sum CLOSE": .3, "tray_atom: head_number": .4, "cond_not: NOT cond_not": .2, "condition: cond_ors": .2,
     "cond_and: cond_ands": .3, "cond_atom: OPEN condition CLOSE": .2, "cond_atom: compare": 3,
     "constant: DASH NUMBER": .15, "constant: DASH LENGTH": .05, "constant: DASH AREA": .2, "constant: DASH DECIMAL": .2,
-    "range: constant": .3, "part: ELLIPSIS": MISTAKE, "item: use STRING": 2, "pattern_tray: spec_items": 2,
+    "range: constant": .3, "part: ELLIPSIS": .2, "item: use STRING": 2, "pattern_tray: spec_items": 2,
     "any_case: todo_word case": .3, "literal_word: ABSENT": .2, "literal_word: OF_DEPTH": MISTAKE, "value: ELLIPSIS": MISTAKE,
     "specifier: %empty": .05, "plan: OPEN_BRACKET HOUSE CLOSE_BRACKET": MISTAKE, "clause: require_word requires": 3, "clause: prune_word prunes": 3,
     "clause: allow_word names": .2, "clause: trays_word range": MISTAKE, "clause_name: CLAUSE_NAME": .5,

@@ -336,6 +336,8 @@ def neighbour(plan, e, env, i, j):
             cuts = cuts if i == 0 else set()
         elif x.name == "primary: END":
             cuts = {c for c in cuts if c[0] == plan.n}
+        elif x.name == "part: ELLIPSIS":
+            cuts |= {(b, True) for a, _ in cuts for b in range(a + 1, j + 1)}
         else:
             optional = x.name == "primary: OPTIONAL OPEN expression CLOSE"
             inner = x.children[2] if optional else x
