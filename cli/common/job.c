@@ -39,9 +39,23 @@ static void worsen(tn_job *job, int exit_code)
         job->exit_code = exit_code;
 }
 
+static void show_work(void *context, const char *work)
+{
+    tn_job *job = context;
+    tn_job_show(job);
+    tn_progress_watch(&job->progress, work, tn_interrupt_waiting());
+}
+
+static void end_work(void *context)
+{
+    tn_job *job = context;
+    tn_progress_unwatch(&job->progress, tn_interrupt_waiting());
+}
+
 void tn_job_begin(tn_job *job, const tn_settings *settings)
 {
     *job = (tn_job){.settings = settings};
+    job->session = (tn_session){.opened = &job->opened, .listener = {show_work, end_work, job}};
     tn_diagnostics_init(&job->opened.compilation.diagnostics, &job->opened.compilation.sources);
 }
 
@@ -70,6 +84,27 @@ void tn_job_status(tn_job *job, tn_status status)
 {
     worsen(job, tn_exit_code(status));
     job->stopped |= status == TN_STOPPED;
+}
+
+/* Is what was said last that the question makes no sense? */
+static bool makes_no_sense(const tn_diagnostics *list)
+{
+    tn_code code = list->count > 0 ? list->items[list->count - 1].code : TN_CODE_NONE;
+    return code == E_USAGE || code == E_PART_ABSENT;
+}
+
+bool tn_job_answered(tn_job *job, tn_status status)
+{
+    if (status == TN_INVALID && makes_no_sense(tn_job_diagnostics(job)))
+        worsen(job, TN_EXIT_USAGE);
+    else
+        tn_job_status(job, status);
+    return status == TN_OK;
+}
+
+void tn_job_bad_text(tn_job *job, tn_error *error, const char *name, const char *text)
+{
+    tn_job_answered(job, tn_session_bad_text(&job->session, error, name, text));
 }
 
 tn_diagnostics *tn_job_diagnostics(tn_job *job)
@@ -221,6 +256,7 @@ static void close_file(tn_job *job)
     const tn_sources *sources = &job->opened.compilation.sources;
     for (size_t i = 0; job->read && i < sources->count; i++)
         tn_files_read_add(job->read, sources->files[i].path);
+    tn_session_forget(&job->session);
     tn_close(&job->opened);
 }
 

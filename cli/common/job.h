@@ -6,8 +6,10 @@
 #ifndef TARTAN_CLI_COMMON_JOB_H
 #define TARTAN_CLI_COMMON_JOB_H
 
+#include "ask/session.h"
 #include "cli/common/files_read.h"
 #include "cli/common/options.h"
+#include "cli/common/progress.h"
 #include "driver/open/findings.h"
 #include "driver/open/open.h"
 #include "runtime/base/file.h"
@@ -32,6 +34,8 @@ typedef struct tn_job {
     tn_listener *listener;      /* or NULL */
     struct tn_files_read *read; /* or NULL: the names of all files that are read are added to it */
     tn_opened opened;
+    tn_session session; /* of that file */
+    tn_progress progress;
     bool open;
     int exit_code;           /* the gravest so far */
     bool reader_gone;        /* standard output's reader went away: end quietly */
@@ -66,6 +70,12 @@ void tn_job_fail(tn_job *job, const tn_error *error);
 
 /* Takes note of a status whose diagnostic is there already. */
 void tn_job_status(tn_job *job, tn_status status);
+
+/* Takes note of what a question came to (ask/session.h); true for TN_OK. */
+bool tn_job_answered(tn_job *job, tn_status status);
+
+/* Records an error about a text of the command line; `name` is what the text is called in the usage. */
+void tn_job_bad_text(tn_job *job, tn_error *error, const char *name, const char *text);
 
 /* Records wrong usage, found after the options were read. */
 tn_diagnostic *tn_job_usage(tn_job *job, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -21,14 +21,15 @@ static tn_status find_measures(tn_best_houses *s, tn_error *error)
     tn_status status = TN_OK;
     for (uint32_t k = 0; status == TN_OK && k < s->wishes->count; k++) {
         uint32_t measure;
-        status = tn_house_measure_choose(&s->n.job->opened, s->wishes->names[k], s->n.record->form, &measure);
-        tn_job_status(s->n.job, status);
+        status =
+            tn_house_measure_choose(&tn_numbered_job(&s->n)->opened, s->wishes->names[k], s->n.record->form, &measure);
+        tn_job_status(tn_numbered_job(&s->n), status);
         if (status != TN_OK)
             return status;
         tn_house_measured of = tn_house_measured_of(module, measure);
         status = tn_house_weights_new(&s->n.form, of, &s->weights[k], error);
         if (status != TN_OK)
-            tn_job_fail(s->n.job, error);
+            tn_job_fail(tn_numbered_job(&s->n), error);
         s->units[k] = tn_amount_unit_of(s->n.schema, module->SUM_records[of.sum].power);
         s->measures.of[k] = s->weights[k];
         s->measures.most[k] = s->wishes->most[k];
@@ -58,12 +59,12 @@ bool tn_best_houses_begin(tn_best_houses *s, tn_job *job, const tn_house_setting
     tn_error error = {0};
     *s = (tn_best_houses){.wishes = wishes};
     mpz_init(s->count);
-    if (!tn_numbered_open(&s->n, job, settings))
+    if (!tn_job_numbered(job, &s->n, settings))
         return false;
     tn_status status =
         wishes->plan ? tn_numbered_plan(&s->n, wishes->plan, settings->max_length, &s->plan, &error) : TN_OK;
     if (status != TN_OK) {
-        tn_numbered_bad_text(job, &error, "PLAN", wishes->plan);
+        tn_job_bad_text(job, &error, "PLAN", wishes->plan);
         return false;
     }
     if (find_measures(s, &error) != TN_OK)
@@ -196,13 +197,13 @@ static bool write_found(tn_best_houses *s, tn_status write(tn_best_houses *s, tn
 {
     tn_error error = {0};
     tn_output out;
-    if (!tn_job_output(s->n.job, s->wishes->output, &out))
+    if (!tn_job_output(tn_numbered_job(&s->n), s->wishes->output, &out))
         return false;
     s->out = out.stream;
     tn_status status = write(s, &error);
     if (status != TN_OK)
-        tn_job_fail(s->n.job, &error);
-    tn_job_close(s->n.job, &out, status == TN_OK);
+        tn_job_fail(tn_numbered_job(&s->n), &error);
+    tn_job_close(tn_numbered_job(&s->n), &out, status == TN_OK);
     return status == TN_OK;
 }
 

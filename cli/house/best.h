@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_HOUSE_BEST_H
 #define TARTAN_CLI_HOUSE_BEST_H
 
-#include "cli/house/numbered.h"
+#include "cli/house/houses.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/measure/complete.h"
 

@@ -3,7 +3,7 @@
 #define TARTAN_CLI_HOUSE_BEST_PARTS_H
 
 #include "cli/house/best.h"
-#include "cli/house/numbered_parts.h"
+#include "cli/house/houses.h"
 #include "runtime/house/count/best.h"
 
 /* The measures made ready, and what was found. */

@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_HOUSE_COMPARED_H
 #define TARTAN_CLI_HOUSE_COMPARED_H
 
-#include "cli/house/numbered_parts.h"
+#include "cli/house/houses.h"
 #include "runtime/plan/library/diff.h"
 
 #define TN_COMPARED_ONE_BY_ONE UINT64_C(1000000) /* houses; some minutes */

@@ -26,7 +26,7 @@ void tn_jobs_compare_houses(tn_job jobs[2], const char *const *paths, const tn_h
                                              comparing->one_by_one ? comparing->one_by_one : TN_COMPARED_ONE_BY_ONE};
     tn_compared_houses c = {.sides = {{.path = paths[0]}, {.path = paths[1]}}};
     tn_error error;
-    if (tn_numbered_open(&c.sides[0].n, &jobs[0], settings) && tn_numbered_open(&c.sides[1].n, &jobs[1], settings)) {
+    if (tn_job_numbered(&jobs[0], &c.sides[0].n, settings) && tn_job_numbered(&jobs[1], &c.sides[1].n, settings)) {
         if (tn_houses_compare(&c, &options, &error) == TN_OK)
             write_compared(&jobs[1], &c, comparing->json);
         else

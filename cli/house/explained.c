@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "cli/house/explained_parts.h"
-#include "cli/house/numbered.h"
+#include "cli/house/houses.h"
 #include "runtime/base/utf8.h"
 
 bool tn_is_house_line(const char *text)
@@ -30,7 +30,7 @@ static bool choose(tn_house_explaining *e, const char *library, uint32_t *form)
         *form = e->library->form;
         return true;
     }
-    tn_report_no_houses(e->job, library);
+    tn_job_answered(e->job, tn_say_no_houses(&(e->job)->session, library));
     return false;
 }
 

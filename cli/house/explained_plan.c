@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "cli/house/change_text.h"
+#include "cli/house/houses.h"
 #include "cli/house/judged.h"
-#include "cli/house/numbered_parts.h"
 #include "runtime/base/utf8.h"
 #include "runtime/house/bare.h"
 #include "runtime/house/solids.h"
@@ -132,10 +132,10 @@ void tn_job_explain_plan(tn_job *job, const tn_house_settings *settings, const c
     tn_error error = {0};
     tn_plan plan = {0};
     tn_output out;
-    if (tn_numbered_open(&e.n, job, settings)) {
+    if (tn_job_numbered(job, &e.n, settings)) {
         tn_status status = tn_numbered_plan(&e.n, text, settings->max_length, &plan, &error);
         if (status != TN_OK)
-            tn_numbered_bad_text(job, &error, "PLAN", text);
+            tn_job_bad_text(job, &error, "PLAN", text);
         else if (explain(&e, &plan, &error) != TN_OK)
             tn_job_fail(job, &error);
         else if (tn_job_output(job, NULL, &out)) {
@@ -157,7 +157,7 @@ bool tn_job_house_line(tn_job *job, const tn_house_settings *settings, const cha
     tn_numbered n;
     tn_house house = {0};
     tn_error error = {0};
-    bool good = tn_numbered_open(&n, job, settings);
+    bool good = tn_job_numbered(job, &n, settings);
     if (good) {
         tn_status status = tn_numbered_house(&n, number, &house, &error);
         if (status == TN_OK)

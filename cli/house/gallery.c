@@ -153,7 +153,7 @@ static tn_status draw(const tn_numbered *n, const collection *c, const tn_house_
                                                       : tn_text(n->form.module, form->doc ? form->doc : form->name),
                                 .notes = &note,
                                 .note_count = 1};
-    tn_job_show(n->job);
+    tn_job_show(tn_numbered_job(n));
     tn_status status = tn_house_gallery_draw(&gallery, &(tn_picture){.path = sheet->output, .dpi = sheet->dpi}, error);
     free(houses);
     return status;
@@ -170,13 +170,13 @@ static void draw_collected(tn_numbered *n, collection *c, const tn_house_sheet *
         status = c->search ? collect_all_best(c, &error)
                            : tn_numbered_sample(n, NULL, sheet->wanted, sheet->seed, collect_drawn, c, &error);
     snprintf(note, sizeof note, "%zu house%s of %.100s%s; all to one scale", c->count, c->count == 1 ? "" : "s",
-             tn_text(n->job->opened.module, n->record->name), what);
+             tn_text(tn_numbered_job(n)->opened.module, n->record->name), what);
     if (status == TN_OK && c->count > 0)
         status = draw(n, c, sheet, note, &error);
     if (status == TN_OK)
         tn_numbered_say_few(n, sheet->best && sheet->best->plan, c->count, sheet->wanted > 0 ? sheet->wanted : 1);
     else
-        tn_job_fail(n->job, &error);
+        tn_job_fail(tn_numbered_job(n), &error);
     for (size_t i = 0; c->items && i < c->count; i++) {
         tn_solids_clear(&c->items[i].solids);
         tn_house_clear(&c->items[i].house);
@@ -190,7 +190,7 @@ static void draw_sample(tn_job *job, const tn_house_settings *settings, const tn
     collection c = {0};
     char what[NOTE_SIZE];
     snprintf(what, sizeof what, ", drawn with seed %" PRIu64, sheet->seed);
-    if (tn_numbered_open(&n, job, settings))
+    if (tn_job_numbered(job, &n, settings))
         draw_collected(&n, &c, sheet, what);
     tn_numbered_close(&n);
 }

@@ -3,7 +3,7 @@
 
 #include "cli/common/option_rows.h"
 #include "cli/house/files.h"
-#include "cli/house/numbered.h"
+#include "cli/house/houses.h"
 
 typedef struct house_settings {
     tn_settings common;

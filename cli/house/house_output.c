@@ -8,7 +8,7 @@
 bool tn_house_rows_open(tn_house_rows *w, const tn_numbered *n, const tn_written_settings *settings, const char *made)
 {
     static const tn_row_columns columns = {"houses", {"plan_rank", "variant", "house"}, 3};
-    tn_job *job = n->job;
+    tn_job *job = tn_numbered_job(n);
     tn_made described;
     *w = (tn_house_rows){.n = n, .json = settings->format == TN_FORMAT_JSON};
     tn_made_describe_houses(&job->opened, n->plans, tn_text(n->form.module, n->record->name),
@@ -60,7 +60,7 @@ tn_status tn_house_rows_write(tn_house_rows *w, const tn_house *house, const mpz
 void tn_house_rows_close(tn_house_rows *w)
 {
     if (w->writer)
-        tn_job_rows_close(w->n->job, w->writer);
+        tn_job_rows_close(tn_numbered_job(w->n), w->writer);
     free(w->line.data);
     free(w->members.data);
     *w = (tn_house_rows){0};

@@ -3,7 +3,7 @@
 #define TARTAN_CLI_HOUSE_HOUSE_OUTPUT_H
 
 #include "cli/common/row_output.h"
-#include "cli/house/numbered_parts.h"
+#include "cli/house/houses.h"
 
 typedef struct tn_house_rows {
     const tn_numbered *n;

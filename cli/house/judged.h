@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_HOUSE_JUDGED_H
 #define TARTAN_CLI_HOUSE_JUDGED_H
 
-#include "cli/house/numbered.h"
+#include "cli/house/houses.h"
 #include "driver/house/judge.h"
 
 typedef enum tn_house_answer { TN_HOUSE_NAMES, TN_HOUSE_JSON, TN_HOUSE_BITS, TN_HOUSE_ANY } tn_house_answer;

@@ -168,7 +168,7 @@ static void interrupted(tn_job *job, house_list *list)
 
 static void say_none(const tn_numbered *n, bool on_plan, const house_list *list)
 {
-    tn_job *job = n->job;
+    tn_job *job = tn_numbered_job(n);
     bool past = list->written == 0 && mpz_cmp(list->next, list->before) >= 0;
     if (!past || list->bounded || (list->range->limited && list->range->limit == 0))
         return;
@@ -222,7 +222,7 @@ static void resume(tn_job *job, house_list *list)
 
 static void list_all(tn_numbered *n, const tn_plan *plan, house_list *list)
 {
-    tn_job *job = n->job;
+    tn_job *job = tn_numbered_job(n);
     bool stop = false;
     tn_error error;
     tn_progress_begin(&list->progress, "houses", (double)list->written,
@@ -262,9 +262,9 @@ static void write_list(tn_numbered *n, const tn_plan *plan, house_list *list, co
     tn_error error;
     if (!made) {
         tn_fail_memory(&error);
-        tn_job_fail(n->job, &error);
+        tn_job_fail(tn_numbered_job(n), &error);
     } else if (tn_house_rows_open(&list->out, n, written, made)) {
-        resume(n->job, list);
+        resume(tn_numbered_job(n), list);
         list_all(n, plan, list);
     }
     tn_house_rows_close(&list->out);
@@ -277,10 +277,10 @@ void tn_job_list_houses(tn_job *job, const tn_house_settings *settings, const ch
     house_list list;
     tn_error error = {0};
     tn_plan on = {0};
-    if (begin(job, &list, range) && tn_numbered_open(&n, job, settings)) {
+    if (begin(job, &list, range) && tn_job_numbered(job, &n, settings)) {
         char *made = describe(settings, range, plan);
         if (plan && tn_numbered_plan(&n, plan, settings->max_length, &on, &error) != TN_OK)
-            tn_numbered_bad_text(job, &error, "PLAN", plan);
+            tn_job_bad_text(job, &error, "PLAN", plan);
         else
             write_list(&n, plan ? &on : NULL, &list, written, made);
         free(made);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/house/numbered_parts.h"
+#include "cli/house/houses.h"
 #include "driver/open/findings.h"
 #include "runtime/base/integers.h"
 
@@ -182,9 +182,9 @@ static void say_unknown(relating *r)
     const tn_house_library_record *record = r->n.record;
     tn_span place = {record->file, record->begin, record->end};
     tn_error_help(&r->limit, "--max-states N allows more; a library on plans of fewer trays takes fewer");
-    tn_diagnostic *d = tn_finding_limit(&r->n.job->opened, &r->limit, &place);
-    tn_note(tn_job_diagnostics(r->n.job), d, NULL, "so %zu of %zu pairs of clauses are not related", r->unknown,
-            r->related->count * (r->related->count - 1) / 2);
+    tn_diagnostic *d = tn_finding_limit(&tn_numbered_job(&r->n)->opened, &r->limit, &place);
+    tn_note(tn_job_diagnostics(tn_numbered_job(&r->n)), d, NULL, "so %zu of %zu pairs of clauses are not related",
+            r->unknown, r->related->count * (r->related->count - 1) / 2);
 }
 
 bool tn_job_relate_houses(tn_job *job, const tn_house_settings *settings, bool examples, tn_related_houses *related)
@@ -193,7 +193,7 @@ bool tn_job_relate_houses(tn_job *job, const tn_house_settings *settings, bool e
     tn_error error;
     *related = (tn_related_houses){0};
     tn_status status = TN_INVALID;
-    if (tn_numbered_open(&r.n, job, settings)) {
+    if (tn_job_numbered(job, &r.n, settings)) {
         if (!r.n.max_states)
             r.n.max_states = TN_RELATED_STATES;
         status = make_room(&r) ? relate(&r, &error) : tn_fail_memory(&error);

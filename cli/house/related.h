@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_HOUSE_RELATED_H
 #define TARTAN_CLI_HOUSE_RELATED_H
 
-#include "cli/house/numbered.h"
+#include "cli/house/houses.h"
 #include "runtime/plan/analysis/analysis.h"
 
 /* The states of a pair of clauses, where nobody says another limit: some seconds. */

@@ -92,7 +92,7 @@ bool tn_job_report_houses(tn_job *job, const tn_house_settings *settings, size_t
     tn_error error;
     tn_reported_houses r = {.page = {.opened = &job->opened, .seed = seed}};
     bool good = false;
-    if (tn_numbered_open(&n, job, settings)) {
+    if (tn_job_numbered(job, &n, settings)) {
         r.page.form = &n.form;
         r.page.library = n.record;
         tn_status status = count(&n, &r, &error);

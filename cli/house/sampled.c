@@ -200,7 +200,7 @@ static void write_sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uin
     bool open = tn_house_rows_open(&w.out, n, written, made);
     tn_status status = open ? tn_numbered_sample(n, plan, wanted, seed, write_house, &w, &error) : TN_OK;
     if (status != TN_OK)
-        tn_job_fail(n->job, &error);
+        tn_job_fail(tn_numbered_job(n), &error);
     tn_house_rows_close(&w.out);
     if (open && status == TN_OK)
         tn_numbered_say_few(n, plan != NULL, w.written, wanted);
@@ -212,9 +212,9 @@ void tn_job_sample_houses(tn_job *job, const tn_house_settings *settings, const 
     tn_numbered n = {0};
     tn_error error = {0};
     tn_plan on = {0};
-    if (tn_numbered_open(&n, job, settings)) {
+    if (tn_job_numbered(job, &n, settings)) {
         if (plan && tn_numbered_plan(&n, plan, settings->max_length, &on, &error) != TN_OK)
-            tn_numbered_bad_text(job, &error, "PLAN", plan);
+            tn_job_bad_text(job, &error, "PLAN", plan);
         else
             write_sample(&n, plan ? &on : NULL, wanted, seed, written);
     }

@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_HOUSE_SAMPLED_H
 #define TARTAN_CLI_HOUSE_SAMPLED_H
 
-#include "cli/house/numbered_parts.h"
+#include "cli/house/houses.h"
 
 /* What is done with a house that is drawn, of that rank: among all, or among those on the plan; variant: always among
  * those on its plan. It may take the house, and leaves an empty one then. */

@@ -4,7 +4,7 @@
 
 #include "cli/common/option_rows.h"
 #include "cli/house/change_text.h"
-#include "cli/house/numbered_parts.h"
+#include "cli/house/houses.h"
 #include "runtime/base/nearest.h"
 #include "runtime/house/schedule/cost.h"
 
@@ -184,7 +184,7 @@ static void vary_house(tn_job *job, tn_numbered *n, const vary_settings *setting
     tn_output out;
     tn_status status = read_house(n, text, max_trays, &house, &error);
     if (status != TN_OK) {
-        tn_numbered_bad_text(job, &error, "HOUSE", text);
+        tn_job_bad_text(job, &error, "HOUSE", text);
     } else if (tn_job_output(job, settings->output, &out)) {
         varying v = {.n = n, .house = &house, .out = out.stream, .json = settings->json};
         v.unit = tn_house_area_unit(&n->form, &v.unit_nm2);
@@ -213,7 +213,7 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_numbered n;
     tn_job_begin(&job, common);
     if (tn_job_open(&job, common->operands.items[0])) {
-        if (tn_numbered_open(&n, &job, &houses))
+        if (tn_job_numbered(&job, &n, &houses))
             vary_house(&job, &n, settings, max_trays);
         tn_numbered_close(&n);
     }

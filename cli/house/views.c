@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "cli/house/files.h"
-#include "cli/house/numbered.h"
+#include "cli/house/houses.h"
 #include "runtime/base/length.h"
 #include "runtime/base/nearest.h"
 

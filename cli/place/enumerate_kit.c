@@ -90,19 +90,18 @@ static uint64_t rank_of(const char *digits, uint64_t otherwise)
     return errno == ERANGE ? UINT64_MAX : rank;
 }
 
-static bool begin(tn_job *job, const tn_count_kit_options *options, const tn_building_range *range, const char *path,
-                  enumeration *e)
+static bool begin(tn_job *job, bool json, const tn_building_range *range, const char *path, enumeration *e)
 {
     tn_file_format format = path ? tn_file_format_of(path) : TN_FILE_OTHER;
     bool subfiles = format == TN_FILE_MPD || format == TN_FILE_LDR;
     *e = (enumeration){.module = job->opened.module,
-                       .format = subfiles        ? AS_SUBFILES
-                                 : options->json ? AS_JSON
-                                                 : AS_LINES,
+                       .format = subfiles ? AS_SUBFILES
+                                 : json   ? AS_JSON
+                                          : AS_LINES,
                        .from = rank_of(range->from, 0),
                        .to = rank_of(range->to, UINT64_MAX),
                        .most = range->limit.given ? range->limit.value : UINT64_MAX};
-    if (subfiles && options->json) {
+    if (subfiles && json) {
         tn_job_usage(job, "%.200s has a sub-file for each building: leave out --format", path);
         return false;
     }
@@ -135,17 +134,19 @@ static void end(tn_job *job, const enumeration *e)
     }
 }
 
-void tn_job_enumerate_kit(tn_job *job, const tn_count_kit_options *options, const tn_building_range *range,
+void tn_job_enumerate_kit(tn_job *job, const tn_kit_options *options, bool json, const tn_building_range *range,
                           const char *path)
 {
     tn_place_rules rules = {.module = job->opened.module};
     tn_output output;
     tn_error error = {0};
     enumeration e;
+    const tn_kit_asked what = tn_kit_options_ask(options);
     bool *wanted;
-    if (!begin(job, options, range, path, &e) || !tn_job_kit_parts(job, options, &wanted))
+    if (!begin(job, json, range, path, &e) || !tn_job_answered(job, tn_kit_asked_parts(&job->session, &what, &wanted)))
         return;
-    if ((!options->inside || tn_job_kit_space(job, options->inside, &rules)) && tn_job_output(job, path, &output)) {
+    bool spaced = !options->inside || tn_job_answered(job, tn_kit_asked_space(&job->session, options->inside, &rules));
+    if (spaced && tn_job_output(job, path, &output)) {
         const tn_building_list asked = {.rules = &rules,
                                         .wanted = wanted,
                                         .parts = (uint32_t)options->parts.value,
@@ -165,7 +166,7 @@ void tn_job_enumerate_kit(tn_job *job, const tn_count_kit_options *options, cons
         if (kept)
             end(job, &e);
     }
-    if (options->inside)
+    if (options->inside && spaced)
         tn_place_rules_clear(&rules);
     free(wanted);
 }

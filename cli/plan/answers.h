@@ -2,16 +2,12 @@
 #ifndef TARTAN_CLI_PLAN_ANSWERS_H
 #define TARTAN_CLI_PLAN_ANSWERS_H
 
+#include "ask/requests.h"
 #include "cli/plan/library_job.h"
 #include "driver/plan/tests.h"
 
-/* How counts are printed: all zero as `tartan count` does without options. */
-typedef struct tn_count_options {
-    bool json, mirror, no_effects;
-} tn_count_options;
-
-/* Writes what `tartan count` prints of a library; path: NULL is standard output. */
-void tn_job_count(tn_job *job, const tn_ready_library *ready, const tn_count_options *options, const char *path);
+/* Asks how many there are and writes the answer; path: NULL is standard output. */
+void tn_job_count(tn_job *job, const tn_count_request *request, bool json, const char *path);
 
 /* How two libraries are compared: all zero as `tartan diff` does without options. */
 typedef struct tn_compare_options {

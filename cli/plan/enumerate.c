@@ -18,7 +18,7 @@ typedef struct enumerate_settings {
     const char *from, *to, *plan;
     tn_option_number limit;
     bool mirror;
-    tn_count_kit_options kit;
+    tn_kit_options kit;
 } enumerate_settings;
 
 static const enumerate_settings *settings_of(const tn_job *job)
@@ -231,7 +231,6 @@ static void enumerate_kit(tn_job *job)
 {
     const enumerate_settings *s = settings_of(job);
     const tn_building_range range = {s->from, s->to, s->limit};
-    tn_count_kit_options kit = s->kit;
     int format = s->written.format;
     if (asks_library(job) || !tn_job_writes(job, "a list of buildings", s->written.output,
                                             TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES(MPD) | TN_WRITES(LDR)))
@@ -241,8 +240,7 @@ static void enumerate_kit(tn_job *job)
         tn_help(tn_job_diagnostics(job), d, "-o FILE.mpd writes a sub-file for each");
         return;
     }
-    kit.json = format == TN_FORMAT_JSON;
-    tn_job_enumerate_kit(job, &kit, &range, s->written.output);
+    tn_job_enumerate_kit(job, &s->kit, format == TN_FORMAT_JSON, &range, s->written.output);
 }
 
 static int run(const tn_command *command, const tn_settings *common)

@@ -101,6 +101,20 @@ tn_library_options tn_job_library_options(const tn_plan_settings *plans)
                                 .threads = tn_job_threads(plans)};
 }
 
+tn_library_asked tn_job_asked(const tn_plan_settings *plans)
+{
+    return (tn_library_asked){.library = plans->library,
+                              .where = {plans->wheres.items, plans->wheres.count},
+                              .has_trays = plans->trays.given,
+                              .trays = {plans->trays.low, plans->trays.high},
+                              .has_max_length = plans->max_length.given,
+                              .max_length = plans->max_length.value,
+                              .has_max_states = plans->max_states.given,
+                              .max_states = plans->max_states.value,
+                              .has_threads = plans->threads.given,
+                              .threads = plans->threads.value};
+}
+
 bool tn_job_of_houses(const tn_job *job, const tn_plan_settings *plans)
 {
     return plans->library && tn_house_library_find(job->opened.module, plans->library) != TN_NO_RECORD;

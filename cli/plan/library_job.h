@@ -2,9 +2,10 @@
 #ifndef TARTAN_CLI_PLAN_LIBRARY_JOB_H
 #define TARTAN_CLI_PLAN_LIBRARY_JOB_H
 
+#include "ask/requests.h"
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
-#include "cli/house/numbered.h"
+#include "cli/house/houses.h"
 #include "driver/plan/library.h"
 
 /* The options of commands about plans: which library, and what the work may take. Commands embed it as `plans`. */
@@ -57,6 +58,9 @@ bool tn_job_of_houses(const tn_job *job, const tn_plan_settings *plans);
 
 /* What the options say of a library's plans and of the work that it may take. */
 tn_library_options tn_job_library_options(const tn_plan_settings *plans);
+
+/* The same as part of a request. */
+tn_library_asked tn_job_asked(const tn_plan_settings *plans);
 
 /* The same for libraries of houses. */
 tn_house_settings tn_job_houses(const tn_plan_settings *plans);

@@ -4,7 +4,7 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
-#include "cli/house/numbered.h"
+#include "cli/house/houses.h"
 #include "cli/plan/new_set.h"
 #include "cli/plan/plan_output.h"
 #include "cli/plan/sampled.h"

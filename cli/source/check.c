@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/count.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
@@ -183,33 +184,29 @@ static void compare(tn_job *job, const tn_ready_library *after)
 }
 
 /* Makes the library that is counted or compared, so that checking can take from it what it needs of it. */
-static bool make_library(tn_job *job, tn_ready_library *ready)
+static bool make_library(tn_job *job, const tn_ready_library **ready)
 {
     const check_settings *settings = settings_of(job);
-    const tn_library_options options = {.max_states = (uint32_t)settings->plans.max_states.value,
-                                        .threads = tn_job_threads(&settings->plans)};
-    *ready = (tn_ready_library){0};
-    if (!settings->with_counts && !settings->before)
-        return true;
-    tn_status status = tn_library_ready(&job->opened, settings->plans.library, &options, ready);
-    tn_job_status(job, status);
-    return status == TN_OK;
+    const tn_library_asked asked = tn_job_asked(&settings->plans);
+    const tn_library_options options = tn_asked_options(&asked);
+    *ready = NULL;
+    return (!settings->with_counts && !settings->before) ||
+           tn_job_answered(job, tn_session_library(&job->session, asked.library, &options, ready));
 }
 
 static void answer(tn_job *job)
 {
     const check_settings *settings = settings_of(job);
-    tn_ready_library ready;
+    const tn_ready_library *ready;
     bool made = make_library(job, &ready);
     if (!settings->no_analysis)
-        analyse(job, settings->with_counts ? ready.library : NULL);
+        analyse(job, settings->with_counts && made ? ready->library : NULL);
     if (settings->with_tests)
         run_tests(job);
     if (made && settings->with_counts)
-        tn_job_count(job, &ready, &(tn_count_options){0}, NULL);
+        tn_job_count(job, &(tn_count_request){.subject = tn_job_asked(&settings->plans)}, false, NULL);
     if (made && settings->before)
-        compare(job, &ready);
-    tn_library_close(&ready);
+        compare(job, ready);
 }
 
 static bool takes_standard_input(const tn_option_list *operands)

@@ -22,19 +22,25 @@ signal.signal(signal.SIGINT, signal.SIG_DFL)
 os.execv(sys.argv[1], sys.argv[1:])' "$@"
 }
 
+replaced() { # FILE TEXT: at once, so that nobody reads half of it
+    # shellcheck disable=SC2059 # the text has escapes
+    printf "$2" >"$scratch/new"
+    mv "$scratch/new" "$scratch/$1"
+}
+
 watched() { # COMMAND: begins to watch
     : >"$scratch/said" # there before the command begins
     hearing "$TARTAN" "$1" --watch "$scratch/own.plan" >"$scratch/said" 2>&1 &
     pid=$!
     says 1 'waiting for a change of 2 files'
-    printf 'use "base.plan"\nlibrary l { trays 2..3 prune thin }\n' >"$scratch/own.plan"
+    replaced own.plan 'use "base.plan"\nlibrary l { trays 2..3 prune thin }\n'
     says 1 'own.plan has changed'
     says 2 'waiting for a change'
-    printf 'schema s { w = 1m | 2m }\nrule thin = tray(3m)\n' >"$scratch/new" && mv "$scratch/new" "$scratch/base.plan"
+    replaced base.plan 'schema s { w = 1m | 2m }\nrule thin = tray(3m)\n'
     says 1 'base.plan has changed'
     says 1 'error\[E0303\]'
     says 3 'waiting for a change'
-    printf 'schema s { w = 1m | 2m }\nrule thin = tray(1m)\n' >"$scratch/base.plan"
+    replaced base.plan 'schema s { w = 1m | 2m }\nrule thin = tray(1m)\n'
     says 2 'base.plan has changed'
     says 4 'waiting for a change'
     kill -INT $pid

@@ -1,35 +1,24 @@
-/* Houses by number: counting those of a library, and `#P:V`, variant V of the plan of rank P. */
-#ifndef TARTAN_CLI_HOUSE_NUMBERED_H
-#define TARTAN_CLI_HOUSE_NUMBERED_H
+/* What commands do with libraries of houses. */
+#ifndef TARTAN_CLI_HOUSE_HOUSES_H
+#define TARTAN_CLI_HOUSE_HOUSES_H
 
+#include "ask/numbered.h"
 #include "cli/common/job.h"
-#include "driver/measure/spread.h"
 #include "runtime/geometry/camera.h"
-#include "runtime/house/house.h"
-#include "runtime/plan/library/library.h"
 
-/* What the options say of the library of houses and of its plans. */
-typedef struct tn_house_settings {
-    const char *library; /* NULL: the only one */
-    size_t max_length;
-    tn_library_options plans;
-    const char *const *wheres; /* the further requirements with which the file was opened */
-    size_t where_count;
-} tn_house_settings;
+/* Opens a library of houses for a command; close it in any case. False: what was wrong is recorded. */
+static inline bool tn_job_numbered(tn_job *job, tn_numbered *n, const tn_house_settings *settings)
+{
+    return tn_job_answered(job, tn_numbered_open(n, &job->session, settings));
+}
+
+/* The command that opened it. */
+static inline tn_job *tn_numbered_job(const tn_numbered *n)
+{
+    return n->session->listener.context;
+}
 
 struct tn_written_settings;
-
-/* What is counted: the houses of the library, or those on one plan (a plan line or #P; NULL: all plans). */
-typedef struct tn_house_counting {
-    const char *plan;
-    bool clauses;                                                      /* and what each clause keeps out */
-    const char *by;                                                    /* a measure that they are counted by, or NULL */
-    void (*show)(tn_job *job, tn_spread *spread, const void *context); /* what is made of that */
-    const void *context;
-    bool json;
-    const char *output;
-} tn_house_counting;
-void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const tn_house_counting *counting);
 
 /* Writes different houses of the library, or of those on one plan, in the order of their ranks: each is drawn with the
  * same probability. */
@@ -91,17 +80,11 @@ void tn_jobs_compare_houses(tn_job jobs[2], const char *const *paths, const tn_h
 /* Writes the name #P:V of a house; of_all: #R, its rank among all houses of the library. */
 void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const char *line, bool of_all);
 
-/* Is the text #P:V, P:V or #R? */
-bool tn_is_house_number(const char *text);
-
 /* Calls `use` with the house of that name; of digits alone: of that rank among all of the library's. */
 typedef void tn_house_use(tn_job *job, const tn_house *house);
 void tn_job_use_house(tn_job *job, const tn_house_settings *settings, const char *number, tn_house_use *use);
 
 /* Writes such a house: its line, or a JSON object. */
 void tn_job_unrank_house(tn_job *job, const tn_house_settings *settings, const char *number, bool json);
-
-/* Records that no library of houses has this name, with what was meant; NULL: that the file has none, or several. */
-void tn_report_no_houses(tn_job *job, const char *name);
 
 #endif

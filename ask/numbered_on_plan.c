@@ -2,9 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/common/interrupt.h"
-#include "cli/common/progress.h"
-#include "cli/house/numbered_parts.h"
+#include "ask/numbered.h"
 
 void tn_numbered_forget_ranks(tn_numbered *n)
 {
@@ -67,10 +65,9 @@ tn_status tn_numbered_find(tn_numbered *n, tn_houses *among, mpz_t number, tn_tr
     tn_status status = rank(n, among, NULL, 0, error);
     if (status != TN_OK)
         return status;
-    tn_progress progress;
-    tn_progress_watch(&progress, "looking for the plan", tn_interrupt_waiting());
+    tn_session_begins(n->session, "looking for the plan");
     status = tn_house_ranks_find(n->ranked.ranks, number, trays, length, error);
-    tn_progress_unwatch(&progress, tn_interrupt_waiting());
+    tn_session_ends(n->session);
     return status;
 }
 

@@ -1,12 +1,23 @@
-/* A library of houses, made ready with the library of its plans. Internal to cli/house. */
-#ifndef TARTAN_CLI_HOUSE_NUMBERED_PARTS_H
-#define TARTAN_CLI_HOUSE_NUMBERED_PARTS_H
+/* A library of houses, made ready with the library of its plans: counted together or plan by plan, and houses by
+ * number: `#P:V`, variant V of the plan of rank P, or `#R`, the house of rank R. */
+#ifndef TARTAN_ASK_NUMBERED_H
+#define TARTAN_ASK_NUMBERED_H
 
-#include "cli/house/numbered.h"
+#include "ask/session.h"
 #include "driver/house/judge.h"
+#include "runtime/house/house.h"
 #include "runtime/house/rank/rank.h"
 #include "runtime/house/variant/variant.h"
 #include "runtime/plan/library/library.h"
+
+/* What is asked of the library of houses and of its plans. */
+typedef struct tn_house_settings {
+    const char *library; /* NULL: the only one */
+    size_t max_length;
+    tn_library_options plans;
+    const char *const *wheres; /* the further requirements with which the file was opened */
+    size_t where_count;
+} tn_house_settings;
 
 /* The houses that were asked for last by number. counted: NULL, or those on one plan alone, which is this one. */
 typedef struct tn_numbered_ranked {
@@ -18,7 +29,7 @@ typedef struct tn_numbered_ranked {
 } tn_numbered_ranked;
 
 typedef struct tn_numbered {
-    tn_job *job;
+    tn_session *session;
     const tn_house_library_record *record;
     tn_schema *schema;
     tn_house_form form;
@@ -32,8 +43,12 @@ typedef struct tn_numbered {
     uint32_t max_states;
 } tn_numbered;
 
-/* Close it in any case. False: what was wrong is recorded. */
-bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *settings);
+/* Close it in any case. What was wrong is said. */
+tn_status tn_numbered_open(tn_numbered *n, tn_session *session, const tn_house_settings *settings);
+
+/* Says that no library of houses has this name, with what was meant; NULL: that the file has none, or several. Returns
+ * TN_INVALID. */
+tn_status tn_say_no_houses(tn_session *session, const char *name);
 void tn_numbered_close(tn_numbered *n);
 
 /* The same form with other clauses, in another copy of its module, or on other plans with the same trays; all are
@@ -49,11 +64,10 @@ tn_status tn_numbered_lengths(tn_numbered *n, uint32_t low, uint32_t high, mpz_t
  * clause. */
 tn_status tn_numbered_clauses(tn_numbered *n, mpz_t *kept_out, mpz_t *alone, tn_error *error);
 
-/* Counts houses together; on a terminal it says for how long. Free them with tn_houses_free. */
+/* Counts houses together. Free them with tn_houses_free. */
 tn_status tn_numbered_of(tn_numbered *n, const tn_houses_what *what, tn_houses **houses, tn_error *error);
 
-/* The plan of a rank among these (tn_houses_find), saying so on a terminal where that takes long, as it does the first
- * time. */
+/* The plan of a rank among these (tn_houses_find), which takes long the first time. */
 tn_status tn_numbered_find(tn_numbered *n, tn_houses *among, mpz_t rank, tn_tray *trays, uint32_t *length,
                            tn_error *error);
 
@@ -84,6 +98,13 @@ tn_status tn_numbered_number(tn_numbered *n, const tn_house *house, mpz_t varian
 
 /* The name #P:V of a house: the rank of its plan, and its number there. TN_INVALID (E1618) as above. */
 tn_status tn_numbered_name(tn_numbered *n, const tn_house *house, mpz_t plan, mpz_t variant, tn_error *error);
+
+/* The same of a house's line; of_all: `variant` becomes its rank among all houses of the library. */
+tn_status tn_numbered_name_line(tn_numbered *n, const char *line, size_t max_length, bool of_all, mpz_t plan,
+                                mpz_t variant, tn_error *error);
+
+/* Is the text #P:V, P:V or #R? */
+bool tn_is_house_number(const char *text);
 
 /* Are there so few plans that one may as well go through them? What is said of each of them is then known, too. */
 #define TN_HOUSE_PLANS_FEW 1000u
@@ -123,11 +144,5 @@ tn_status tn_numbered_locate(tn_numbered *n, const mpz_t rank, mpz_t plan, mpz_t
 
 /* The house of #P:V or #R. Clear *house in any case. */
 tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house, tn_error *error);
-
-/* Counts the houses by a measure, and shows that. */
-void tn_numbered_count_by(tn_numbered *n, const tn_house_settings *settings, const tn_house_counting *counting);
-
-/* Records an error about a text of the command line. */
-void tn_numbered_bad_text(tn_job *job, tn_error *error, const char *name, const char *text);
 
 #endif

@@ -1,5 +1,5 @@
 /* Opens a library of houses, and goes through its plans. */
-#include "cli/house/numbered_parts.h"
+#include "ask/numbered.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -7,80 +7,89 @@
 
 #include "runtime/base/nearest.h"
 
-/* A name that is one of plans, or near to one of houses; false where it is neither. */
-static bool report_other(tn_job *job, const char *name)
+/* The library of houses that stands on the plans of that name, or NULL. */
+static const char *on_plans(const tn_module *module, const char *name)
 {
-    const tn_module *module = job->opened.module;
-    const char *near = NULL, *names[1];
-    tn_diagnostic *d = NULL;
-    for (uint32_t i = 0; i < module->LIBRARY_count && !d; i++)
-        if (strcmp(tn_text(module, module->LIBRARY_records[i].name), name) == 0)
-            d = tn_job_usage(job, "`%.80s` is a library about plans, and one about houses is needed here", name);
-    for (uint32_t i = 0; i < module->HOUSE_LIBRARY_count && !near; i++) {
+    for (uint32_t i = 0; i < module->HOUSE_LIBRARY_count; i++) {
         const tn_house_library_record *library = &module->HOUSE_LIBRARY_records[i];
-        names[0] = tn_text(module, library->name);
-        bool on_them = strcmp(tn_text(module, module->LIBRARY_records[library->plans].name), name) == 0;
-        near = d ? (on_them ? names[0] : NULL) : tn_nearest(name, names, 1);
+        if (strcmp(tn_text(module, module->LIBRARY_records[library->plans].name), name) == 0)
+            return tn_text(module, library->name);
     }
-    if (d && near)
-        tn_help(tn_job_diagnostics(job), d, "`%s` has the houses on its plans", near);
-    else if (d)
-        tn_help(tn_job_diagnostics(job), d, "a library of houses is `library NAME from %.80s in FORM { ... }`", name);
-    else if (near)
-        tn_help(tn_job_diagnostics(job),
-                tn_job_usage(job, "%.200s has no library of houses `%.80s`", job->opened.path, name),
-                "did you mean `%s`?", near);
-    return d || near;
+    return NULL;
 }
 
-static void list_libraries(const tn_module *module, char *text, size_t size)
+static bool is_of_plans(const tn_module *module, const char *name)
+{
+    for (uint32_t i = 0; i < module->LIBRARY_count; i++)
+        if (strcmp(tn_text(module, module->LIBRARY_records[i].name), name) == 0)
+            return true;
+    return false;
+}
+
+static tn_status say_of_plans(tn_session *session, const char *name)
+{
+    const char *houses = on_plans(session->opened->module, name);
+    char help[240];
+    if (houses)
+        snprintf(help, sizeof help, "`%.200s` has the houses on its plans", houses);
+    else
+        snprintf(help, sizeof help, "a library of houses is `library NAME from %.80s in FORM { ... }`", name);
+    return tn_session_refuse(session, help, "`%.80s` is a library about plans, and one about houses is needed here",
+                             name);
+}
+
+/* The names of the libraries of houses (malloc), or NULL. */
+static const char **house_libraries(const tn_module *module)
 {
     const char **names = calloc(module->HOUSE_LIBRARY_count + 1, sizeof *names);
     for (uint32_t i = 0; names && i < module->HOUSE_LIBRARY_count; i++)
         names[i] = tn_text(module, module->HOUSE_LIBRARY_records[i].name);
-    tn_word_list(names, names ? module->HOUSE_LIBRARY_count : 0, text, size);
+    return names;
+}
+
+tn_status tn_say_no_houses(tn_session *session, const char *name)
+{
+    const tn_module *module = session->opened->module;
+    const char *path = session->opened->path;
+    size_t count = module->HOUSE_LIBRARY_count;
+    char all[240] = "", help[320];
+    if (name && is_of_plans(module, name))
+        return say_of_plans(session, name);
+    const char **names = house_libraries(module);
+    const char *near = name && names ? tn_nearest(name, names, count) : NULL;
+    tn_word_list(names, names ? count : 0, all, sizeof all);
+    if (near)
+        snprintf(help, sizeof help, "did you mean `%.200s`?", near);
+    else if (count > 0)
+        snprintf(help, sizeof help, name ? "it has %s" : "say which, with --library NAME: %s", all);
+    else
+        snprintf(help, sizeof help, "a library of houses is `library NAME from PLANS in FORM { ... }`");
     free(names);
-}
-
-void tn_report_no_houses(tn_job *job, const char *name)
-{
-    bool any = job->opened.module->HOUSE_LIBRARY_count > 0;
-    char all[240];
-    tn_diagnostic *d;
-    if (name && report_other(job, name))
-        return;
-    list_libraries(job->opened.module, all, sizeof all);
     if (name)
-        d = tn_job_usage(job, "%.200s has no library of houses `%.80s`", job->opened.path, name);
-    else
-        d = tn_job_usage(job, any ? "%.200s has several libraries of houses" : "%.200s has no library of houses",
-                         job->opened.path);
-    if (any)
-        tn_help(tn_job_diagnostics(job), d, name ? "it has %s" : "say which, with --library NAME: %s", all);
-    else
-        tn_help(tn_job_diagnostics(job), d, "a library of houses is `library NAME from PLANS in FORM { ... }`");
+        return tn_session_refuse(session, help, "%.200s has no library of houses `%.80s`", path, name);
+    return tn_session_refuse(
+        session, help, count > 0 ? "%.200s has several libraries of houses" : "%.200s has no library of houses", path);
 }
 
-static bool choose(tn_numbered *n, const char *name)
+static tn_status choose(tn_numbered *n, const char *name)
 {
-    const tn_module *module = n->job->opened.module;
+    const tn_module *module = n->session->opened->module;
     uint32_t found = tn_house_library_find(module, name);
-    if (found != TN_NO_RECORD) {
-        n->record = &module->HOUSE_LIBRARY_records[found];
-        return true;
-    }
-    tn_report_no_houses(n->job, name);
-    return false;
+    if (found == TN_NO_RECORD)
+        return tn_say_no_houses(n->session, name);
+    n->record = &module->HOUSE_LIBRARY_records[found];
+    return TN_OK;
 }
 
-bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *settings)
+tn_status tn_numbered_open(tn_numbered *n, tn_session *session, const tn_house_settings *settings)
 {
     tn_error error;
-    *n = (tn_numbered){.job = job, .max_states = settings->plans.max_states};
-    if (!choose(n, settings->library))
-        return false;
-    const tn_module *module = job->opened.module;
-    tn_status status = tn_schema_new(module, module->FORM_records[n->record->form].schema, 0, &n->schema, &error);
+    *n = (tn_numbered){.session = session, .max_states = settings->plans.max_states};
+    tn_status status = choose(n, settings->library);
+    if (status != TN_OK)
+        return status;
+    const tn_module *module = session->opened->module;
+    status = tn_schema_new(module, module->FORM_records[n->record->form].schema, 0, &n->schema, &error);
     if (status == TN_OK) {
         tn_form_ready(module, n->record->form, n->schema, &n->form);
         status = tn_house_variants_new(&n->form, n->record, 0, &n->variants, &error);
@@ -90,9 +99,7 @@ bool tn_numbered_open(tn_numbered *n, tn_job *job, const tn_house_settings *sett
     n->plans = n->opened;
     if (status == TN_OK)
         status = tn_houses_check_walls(&n->form, n->record, n->plans, &error);
-    if (status != TN_OK)
-        tn_job_fail(job, &error);
-    return status == TN_OK;
+    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }
 
 void tn_numbered_close(tn_numbered *n)
@@ -155,17 +162,6 @@ tn_status tn_numbered_judge(tn_numbered *n, const tn_house *house, tn_error *err
     if (status == TN_OK)
         status = tn_house_rules_keep(n->rules, n->record, &kept, error);
     return status == TN_OK && !kept ? report_contradiction(n, house, error) : status;
-}
-
-void tn_numbered_bad_text(tn_job *job, tn_error *error, const char *name, const char *text)
-{
-    if (error->status != TN_INVALID) {
-        tn_job_fail(job, error);
-        return;
-    }
-    tn_error_place(error, error->column ? 1 : 0, error->column, error->column_end);
-    tn_report_error(tn_job_diagnostics(job), error, name, text, strlen(text));
-    tn_job_status(job, error->status);
 }
 
 /* ---- plans by rank */
@@ -281,20 +277,21 @@ tn_status tn_numbered_plans_until(tn_numbered *n, tn_plan_visit *visit, void *co
 
 void tn_numbered_say_few(const tn_numbered *n, bool on_plan, uint64_t found, uint64_t wanted)
 {
-    const char *name = tn_text(n->job->opened.module, n->record->name);
+    const char *name = tn_text(n->session->opened->module, n->record->name);
     if (found >= wanted)
         return;
     if (found > 0)
-        tn_job_note(n->job,
-                    "the library holds %" PRIu64 " house%s%s, fewer than the %" PRIu64 " asked for: these are all",
-                    found, found == 1 ? "" : "s", on_plan ? " on this plan" : "", wanted);
+        tn_session_note(n->session,
+                        "the library holds %" PRIu64 " house%s%s, fewer than the %" PRIu64 " asked for: these are all",
+                        found, found == 1 ? "" : "s", on_plan ? " on this plan" : "", wanted);
     else if (on_plan)
-        tn_job_note(n->job,
-                    "the library has no house on this plan: `tartan explain` with the plan and --library %s says why",
-                    name);
+        tn_session_note(
+            n->session,
+            "the library has no house on this plan: `tartan explain` with the plan and --library %s says why", name);
     else
-        tn_job_note(n->job,
-                    "the library holds no house: `tartan count` with --library %s and --clauses says what each clause "
-                    "keeps out, `tartan explain` with '#0:' what is wrong with the first plan",
-                    name);
+        tn_session_note(
+            n->session,
+            "the library holds no house: `tartan count` with --library %s and --clauses says what each clause "
+            "keeps out, `tartan explain` with '#0:' what is wrong with the first plan",
+            name);
 }

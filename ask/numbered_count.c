@@ -2,9 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/house/numbered_parts.h"
+#include "ask/numbered_count.h"
 #include "runtime/base/integers.h"
-#include "runtime/base/json.h"
 
 /* What was counted. */
 typedef struct house_tally {
@@ -324,59 +323,61 @@ tn_status tn_numbered_clauses(tn_numbered *n, mpz_t *kept_out, mpz_t *alone, tn_
     return status;
 }
 
-/* ---- writing */
+/* ---- the answer */
 
-enum { LABEL_WIDTH = 24, COUNT_WIDTH = 24 };
-
-static size_t widest(size_t width, const char *name)
+static tn_status name_of(const char *text, char **name, tn_error *error)
 {
-    size_t size = strlen(name) + 3; /* indented by two, and a blank after it */
-    return size > width ? size : width;
+    *name = strdup(text);
+    return *name ? TN_OK : tn_fail_memory(error);
 }
 
-/* Of the labels of the text: of the values and the clauses that are counted each, or more. */
-static int label_width(const tn_numbered *n)
-{
-    const tn_module *module = n->form.module;
-    size_t width = LABEL_WIDTH;
-    for (uint32_t i = 0; i < n->form.record->choice_count; i++) {
-        const tn_choice_record *choice = tn_form_choice(&n->form, i);
-        for (uint32_t k = 0; k < choice->shape_count && choice->shape_count > 1; k++)
-            width = widest(width, tn_text(module, module->SHAPE_records[choice->shape_first + k].spelling));
-    }
-    for (uint32_t i = 0; i < n->record->clause_count; i++)
-        width = widest(width, tn_text(module, module->HOUSE_CLAUSE_records[n->record->clause_first + i].name));
-    return (int)width;
-}
+/* So many numbers, each with a name that is not there yet. */
+#define NEW_MAP(OF, LIST, COUNT, ERROR) tn_message_list(&tn_message_##OF, (COUNT), (tn_list *)&(LIST), (ERROR))
 
-static void write_lengths(const tn_numbered *n, const house_tally *tally, FILE *out)
+static tn_status give_lengths(const house_tally *tally, tn_counted_houses *counted, tn_error *error)
 {
-    int labels = label_width(n);
-    for (uint32_t i = 0; i <= tally->high - tally->low; i++) {
+    size_t there = 0, next = 0;
+    char length[16];
+    for (uint32_t i = 0; i <= tally->high - tally->low; i++)
+        there += mpz_sgn(tally->lengths[i]) != 0;
+    tn_status status = NEW_MAP(named_big, counted->by_length, there, error);
+    for (uint32_t i = 0; status == TN_OK && next < there; i++) {
         if (mpz_sgn(tally->lengths[i]) == 0)
             continue;
-        char label[40];
-        snprintf(label, sizeof label, "  of %u tray%s", tally->low + i, tally->low + i == 1 ? "" : "s");
-        gmp_fprintf(out, "%-*s%Zd\n", labels, label, tally->lengths[i]);
+        snprintf(length, sizeof length, "%u", tally->low + i);
+        mpz_set(counted->by_length.items[next].value, tally->lengths[i]);
+        status = name_of(length, &counted->by_length.items[next++].name, error);
     }
+    return status;
 }
 
-/* Choices that leave nothing to choose are left out. */
-static void write_sections(const tn_numbered *n, const house_tally *tally, FILE *out)
+static tn_status give_choice(const tn_numbered *n, const tn_choice_record *choice, const mpz_t *values,
+                             tn_named_bigs *given, tn_error *error)
 {
-    int labels = label_width(n);
     const tn_module *module = n->form.module;
-    const mpz_t *value = (const mpz_t *)tally->values;
-    for (uint32_t i = 0; i < n->form.record->choice_count; i++) {
-        const tn_choice_record *choice = tn_form_choice(&n->form, i);
-        if (choice->shape_count > 1)
-            fprintf(out, "%s\n", tn_text(module, choice->name));
-        for (uint32_t k = 0; k < choice->shape_count; k++, value++) {
-            const char *name = tn_text(module, module->SHAPE_records[choice->shape_first + k].spelling);
-            if (choice->shape_count > 1)
-                gmp_fprintf(out, "  %-*s %Zd\n", labels - 3, name, *value);
-        }
+    tn_status status = name_of(tn_text(module, choice->name), &given->name, error);
+    if (status == TN_OK)
+        status = NEW_MAP(named_big, given->values, choice->shape_count, error);
+    for (uint32_t k = 0; status == TN_OK && k < choice->shape_count; k++) {
+        const tn_shape_record *shape = &module->SHAPE_records[choice->shape_first + k];
+        mpz_set(given->values.items[k].value, values[k]);
+        status = name_of(tn_text(module, shape->spelling), &given->values.items[k].name, error);
     }
+    return status;
+}
+
+static tn_status give_sections(const tn_numbered *n, const house_tally *tally, tn_counted_houses *counted,
+                               tn_error *error)
+{
+    uint32_t count = n->form.record->choice_count;
+    const mpz_t *values = (const mpz_t *)tally->values;
+    tn_status status = NEW_MAP(named_bigs, counted->by_section, count, error);
+    for (uint32_t i = 0; status == TN_OK && i < count; i++) {
+        const tn_choice_record *choice = tn_form_choice(&n->form, i);
+        status = give_choice(n, choice, values, &counted->by_section.items[i], error);
+        values += choice->shape_count;
+    }
+    return status;
 }
 
 /* States, where all was counted with them. */
@@ -388,173 +389,76 @@ static bool knows_states(const tn_numbered *n, const house_tally *tally)
     return known;
 }
 
-static void write_states(const tn_numbered *n, const house_tally *tally, FILE *out)
+static const char *clause_name(const tn_numbered *n, uint32_t i)
 {
-    int labels = label_width(n);
     const tn_module *module = n->form.module;
-    const tn_house_clause_record *clauses = module->HOUSE_CLAUSE_records + n->record->clause_first;
+    return tn_text(module, module->HOUSE_CLAUSE_records[n->record->clause_first + i].name);
+}
+
+static tn_status give_states(const tn_numbered *n, const house_tally *tally, tn_counted_houses *counted,
+                             tn_error *error)
+{
     uint32_t count = n->record->clause_count;
-    fprintf(out, "%-*s%s\n  %-*s%llu\n", labels, "clause by itself", "states", labels - 2, "none",
-            (unsigned long long)tally->asking[count]);
-    for (uint32_t i = 0; i < count; i++)
-        fprintf(out, "  %-*s %llu\n", labels - 3, tn_text(module, clauses[i].name),
-                (unsigned long long)tally->asking[i]);
-    fprintf(out, "  %-*s%llu\n", labels - 2, "all of them", (unsigned long long)tally->states);
-}
-
-static void write_clauses(const tn_numbered *n, const house_tally *tally, FILE *out)
-{
-    int labels = label_width(n);
-    const tn_module *module = n->form.module;
-    const tn_house_clause_record *clauses = module->HOUSE_CLAUSE_records + n->record->clause_first;
-    mpz_srcptr allowed = tally->kept_out[n->record->clause_count];
-    gmp_fprintf(out, "%-*s%Zd\n%-*s%-*s%s\n", labels, "without clauses", allowed, labels, "clause", COUNT_WIDTH,
-                "keeps out", "only by it");
-    for (uint32_t i = 0; i < n->record->clause_count; i++)
-        gmp_fprintf(out, "  %-*s %-*Zd %Zd\n", labels - 3, tn_text(module, clauses[i].name), COUNT_WIDTH - 1,
-                    tally->kept_out[i], tally->alone[i]);
-    if (knows_states(n, tally))
-        write_states(n, tally, out);
-}
-
-static void write_text(const tn_numbered *n, const house_tally *tally, FILE *out)
-{
-    int labels = label_width(n);
-    gmp_fprintf(out, "%-*s%Zd\n", labels, "plans", tally->plans);
-    if (!tally->with_unsaid)
-        gmp_fprintf(out, "%-*s%Zd\n%-*s%Zd\n%-*s%Zd\n", labels, "with a house", tally->with.plans, labels,
-                    "with sections", tally->with.sections, labels, "with functions", tally->with.functions);
-    if (!tally->faced_unsaid)
-        gmp_fprintf(out, "%-*s%Zd\n", labels, "with openings", tally->faced);
-    gmp_fprintf(out, "%-*s%Zd\n", labels, "houses", tally->houses);
-    write_lengths(n, tally, out);
-    write_sections(n, tally, out);
-    if (tally->kept_out)
-        write_clauses(n, tally, out);
-}
-
-/* ---- as JSON */
-
-static void lengths_json(const house_tally *tally, tn_json *json)
-{
-    tn_json_object(json, "by_length");
-    for (uint32_t i = 0; i <= tally->high - tally->low; i++) {
-        char length[16];
-        snprintf(length, sizeof length, "%u", tally->low + i);
-        if (mpz_sgn(tally->lengths[i]) != 0)
-            tn_json_digits(json, length, tally->lengths[i]);
+    counted->has_states_of_none = counted->has_states_of = true;
+    counted->states_of_none = tally->asking[count];
+    tn_status status = NEW_MAP(named_count, counted->states_of, count, error);
+    for (uint32_t i = 0; status == TN_OK && i < count; i++) {
+        counted->states_of.items[i].value = tally->asking[i];
+        status = name_of(clause_name(n, i), &counted->states_of.items[i].name, error);
     }
-    tn_json_object_end(json);
-}
-
-static void sections_json(const tn_numbered *n, const house_tally *tally, tn_json *json)
-{
-    const tn_module *module = n->form.module;
-    const mpz_t *value = (const mpz_t *)tally->values;
-    tn_json_object(json, "by_section");
-    for (uint32_t i = 0; i < n->form.record->choice_count; i++) {
-        const tn_choice_record *choice = tn_form_choice(&n->form, i);
-        tn_json_object(json, tn_text(module, choice->name));
-        for (uint32_t k = 0; k < choice->shape_count; k++, value++)
-            tn_json_digits(json, tn_text(module, module->SHAPE_records[choice->shape_first + k].spelling), *value);
-        tn_json_object_end(json);
-    }
-    tn_json_object_end(json);
-}
-
-static void states_json(const tn_numbered *n, const house_tally *tally, tn_json *json)
-{
-    const tn_house_clause_record *clauses = n->form.module->HOUSE_CLAUSE_records + n->record->clause_first;
-    tn_json_count(json, "states_of_none", tally->asking[n->record->clause_count]);
-    tn_json_object(json, "states_of");
-    for (uint32_t i = 0; i < n->record->clause_count; i++)
-        tn_json_count(json, tn_text(n->form.module, clauses[i].name), tally->asking[i]);
-    tn_json_object_end(json);
-}
-
-static void clauses_json(const tn_numbered *n, const house_tally *tally, tn_json *json)
-{
-    const tn_house_clause_record *clauses = n->form.module->HOUSE_CLAUSE_records + n->record->clause_first;
-    tn_json_digits(json, "without_clauses", tally->kept_out[n->record->clause_count]);
-    for (int alone = 0; alone < 2; alone++) {
-        tn_json_object(json, alone ? "only" : "kept_out");
-        for (uint32_t i = 0; i < n->record->clause_count; i++)
-            tn_json_digits(json, tn_text(n->form.module, clauses[i].name), (alone ? tally->alone : tally->kept_out)[i]);
-        tn_json_object_end(json);
-    }
-    if (knows_states(n, tally))
-        states_json(n, tally, json);
-}
-
-static void write_json(const tn_numbered *n, const house_tally *tally, FILE *out)
-{
-    tn_json json = tn_json_file(out, TN_JSON_TIGHT);
-    tn_json_object(&json, NULL);
-    tn_json_string(&json, "library", tn_text(n->form.module, n->record->name));
-    tn_json_digits(&json, "plans", tally->plans);
-    if (!tally->with_unsaid) {
-        tn_json_digits(&json, "plans_with_houses", tally->with.plans);
-        tn_json_digits(&json, "with_sections", tally->with.sections);
-        tn_json_digits(&json, "zoned", tally->with.functions);
-    }
-    if (!tally->each)
-        tn_json_count(&json, "states", tally->states);
-    if (!tally->faced_unsaid)
-        tn_json_digits(&json, "faced", tally->faced);
-    tn_json_digits(&json, "houses", tally->houses);
-    lengths_json(tally, &json);
-    sections_json(n, tally, &json);
-    if (tally->kept_out)
-        clauses_json(n, tally, &json);
-    tn_json_object_end(&json);
-    tn_json_end_line(&json);
-}
-
-/* ---- the command */
-
-static tn_status count_houses(tn_numbered *n, const char *text, bool clauses, size_t max_length, house_tally *tally,
-                              tn_error *error)
-{
-    tn_plan plan = {0};
-    tn_status status = text ? tn_numbered_plan(n, text, max_length, &plan, error) : TN_OK;
-    tally->with_wanted = true;
-    if (status == TN_OK)
-        status = tally_all(n, text ? &plan : NULL, tally, error);
-    if (status == TN_OK && clauses)
-        status = tally_clauses(n, text ? &plan : NULL, tally, error);
-    free(plan.trays);
     return status;
 }
 
-void tn_job_count_houses(tn_job *job, const tn_house_settings *settings, const tn_house_counting *counting)
+static tn_status give_clauses(const tn_numbered *n, const house_tally *tally, tn_counted_houses *counted,
+                              tn_error *error)
 {
-    tn_numbered n;
-    house_tally tally = {0};
-    tn_error error = {0};
-    tn_output out;
-    if (!tn_numbered_open(&n, job, settings)) {
-        tn_numbered_close(&n);
-        return;
-    }
-    if (counting->by) {
-        tn_numbered_count_by(&n, settings, counting);
-        tn_numbered_close(&n);
-        return;
-    }
-    tn_status status = tally_new(&n, &tally) ? TN_OK : tn_fail_memory(&error);
+    uint32_t count = n->record->clause_count;
+    counted->has_without_clauses = counted->has_kept_out = counted->has_only = true;
+    mpz_set(counted->without_clauses, tally->kept_out[count]);
+    tn_status status = NEW_MAP(named_big, counted->kept_out, count, error);
     if (status == TN_OK)
-        status = count_houses(&n, counting->plan, counting->clauses, settings->max_length, &tally, &error);
-    if (status != TN_OK) {
-        tn_numbered_bad_text(job, &error, "PLAN", counting->plan ? counting->plan : "");
-    } else if (tn_job_output(job, counting->output, &out)) {
-        if (counting->json)
-            write_json(&n, &tally, out.stream);
-        else
-            write_text(&n, &tally, out.stream);
-        tn_job_commit(job, &out);
-        if (mpz_sgn(tally.houses) == 0 && !counting->clauses)
-            tn_numbered_say_few(&n, counting->plan != NULL, 0, 1);
+        status = NEW_MAP(named_big, counted->only, count, error);
+    for (uint32_t i = 0; status == TN_OK && i < count; i++) {
+        mpz_set(counted->kept_out.items[i].value, tally->kept_out[i]);
+        mpz_set(counted->only.items[i].value, tally->alone[i]);
+        status = name_of(clause_name(n, i), &counted->kept_out.items[i].name, error);
+        if (status == TN_OK)
+            status = name_of(clause_name(n, i), &counted->only.items[i].name, error);
     }
-    tally_free(&n, &tally);
-    tn_numbered_close(&n);
+    return status == TN_OK && knows_states(n, tally) ? give_states(n, tally, counted, error) : status;
+}
+
+static tn_status give(const tn_numbered *n, const house_tally *tally, tn_counted_houses *counted, tn_error *error)
+{
+    counted->library = tn_text(n->form.module, n->record->name);
+    mpz_set(counted->plans, tally->plans);
+    mpz_set(counted->houses, tally->houses);
+    counted->has_plans_with_houses = counted->has_with_sections = counted->has_zoned = !tally->with_unsaid;
+    mpz_set(counted->plans_with_houses, tally->with.plans);
+    mpz_set(counted->with_sections, tally->with.sections);
+    mpz_set(counted->zoned, tally->with.functions);
+    counted->has_states = !tally->each;
+    counted->states = tally->states;
+    counted->has_faced = !tally->faced_unsaid;
+    mpz_set(counted->faced, tally->faced);
+    tn_status status = give_lengths(tally, counted, error);
+    if (status == TN_OK)
+        status = give_sections(n, tally, counted, error);
+    return status == TN_OK && tally->kept_out ? give_clauses(n, tally, counted, error) : status;
+}
+
+tn_status tn_numbered_count(tn_numbered *n, const tn_plan *plan, bool clauses, tn_counted_houses *counted,
+                            tn_error *error)
+{
+    house_tally tally;
+    tn_status status = tally_new(n, &tally) ? TN_OK : tn_fail_memory(error);
+    tally.with_wanted = true;
+    if (status == TN_OK)
+        status = tally_all(n, plan, &tally, error);
+    if (status == TN_OK && clauses)
+        status = tally_clauses(n, plan, &tally, error);
+    if (status == TN_OK)
+        status = give(n, &tally, counted, error);
+    tally_free(n, &tally);
+    return status;
 }

@@ -1,0 +1,75 @@
+/* Counts the houses of a library, or those on one plan. */
+#include <stdlib.h>
+
+#include "ask/count.h"
+#include "ask/numbered_count.h"
+
+static tn_status count_by(tn_numbered *n, const tn_count_request *request, const tn_plan *plan, tn_reply *answer)
+{
+    tn_session *session = n->session;
+    tn_error error;
+    uint32_t measure;
+    tn_status status = tn_house_measure_choose(session->opened, request->by, n->record->form, &measure);
+    if (status != TN_OK)
+        return status;
+    tn_spread *spread = calloc(1, sizeof *spread);
+    if (!spread) {
+        tn_fail_memory(&error);
+        return tn_session_fail(session, &error);
+    }
+    tn_session_begins(session, "counting by the measure");
+    status = tn_numbered_spread(n, plan, measure, spread, &error);
+    tn_session_ends(session);
+    if (status == TN_OK)
+        return tn_reply_spread(session, request, spread, answer);
+    tn_spread_clear(spread);
+    free(spread);
+    return tn_session_fail(session, &error);
+}
+
+static tn_status count_all(tn_numbered *n, const tn_count_request *request, const tn_plan *plan, tn_reply *answer)
+{
+    tn_error error;
+    tn_status status = tn_reply_new(&tn_message_counted_houses, answer, &error);
+    if (status == TN_OK)
+        status = tn_numbered_count(n, plan, request->clauses, answer->value, &error);
+    if (status != TN_OK)
+        return tn_session_fail(n->session, &error);
+    const tn_counted_houses *counted = answer->value;
+    if (mpz_sgn(counted->houses) == 0 && !request->clauses)
+        tn_numbered_say_few(n, plan != NULL, 0, 1);
+    return TN_OK;
+}
+
+static tn_status count(tn_numbered *n, const tn_count_request *request, tn_reply *answer)
+{
+    tn_plan plan = {0};
+    tn_error error = {0};
+    tn_status status = TN_OK;
+    if (request->plan)
+        status = tn_numbered_plan(n, request->plan, tn_asked_length(&request->subject), &plan, &error);
+    if (status != TN_OK)
+        status = tn_session_bad_text(n->session, &error, "PLAN", request->plan);
+    else if (request->by)
+        status = count_by(n, request, request->plan ? &plan : NULL, answer);
+    else
+        status = count_all(n, request, request->plan ? &plan : NULL, answer);
+    free(plan.trays);
+    return status;
+}
+
+tn_status tn_count_houses(tn_session *session, const tn_count_request *request, tn_reply *answer)
+{
+    const tn_library_asked *asked = &request->subject;
+    const tn_house_settings settings = {.library = asked->library,
+                                        .max_length = tn_asked_length(asked),
+                                        .plans = tn_asked_options(asked),
+                                        .wheres = asked->where.items,
+                                        .where_count = asked->where.count};
+    tn_numbered n;
+    tn_status status = tn_numbered_open(&n, session, &settings);
+    if (status == TN_OK)
+        status = count(&n, request, answer);
+    tn_numbered_close(&n);
+    return status;
+}

@@ -1,0 +1,358 @@
+/* Messages by their tables: made, freed, written as JSON and read from it. */
+#include "ask/message.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "driver/measure/spread.h"
+#include "runtime/base/nearest.h"
+
+static void *at(void *value, size_t offset)
+{
+    return (char *)value + offset;
+}
+
+static const void *look(const void *value, size_t offset)
+{
+    return (const char *)value + offset;
+}
+
+static bool is_said(const tn_message_member *m, const void *value)
+{
+    switch (m->presence) {
+    case TN_OPTIONAL:
+    case TN_NULLABLE:
+        return *(const bool *)look(value, m->has);
+    case TN_UNSAID:
+        return false;
+    default:
+        return true;
+    }
+}
+
+/* ---- made and freed */
+
+void tn_message_init(const tn_message *message, void *value)
+{
+    memset(value, 0, message->size);
+    for (size_t i = 0; i < message->member_count; i++) {
+        const tn_message_member *m = &message->members[i];
+        void *member = at(value, m->offset);
+        if (m->kind == TN_MESSAGE_BIG)
+            mpz_init(*(mpz_t *)member);
+        else if (m->kind == TN_MESSAGE_EXACT)
+            mpq_init(*(mpq_t *)member);
+        else if (m->kind == TN_MESSAGE_NESTED || m->kind == TN_MESSAGE_PART)
+            tn_message_init(m->of, member);
+    }
+}
+
+static void clear_list(const tn_message *message, tn_list *list)
+{
+    for (size_t i = 0; i < list->count; i++)
+        tn_message_clear(message, (char *)list->items + i * message->size);
+    free(list->items);
+}
+
+static void clear_exacts(tn_exacts *exacts)
+{
+    for (size_t i = 0; i < exacts->count; i++)
+        mpq_clear(exacts->items[i]);
+    free(exacts->items);
+}
+
+static void clear_spread(tn_spread *spread)
+{
+    if (spread)
+        tn_spread_clear(spread);
+    free(spread);
+}
+
+static void clear_member(const tn_message_member *m, void *member)
+{
+    switch (m->kind) {
+    case TN_MESSAGE_OWNED:
+        free(*(char **)member);
+        break;
+    case TN_MESSAGE_TEXTS:
+        free(((tn_texts *)member)->items);
+        break;
+    case TN_MESSAGE_BIG:
+        mpz_clear(*(mpz_t *)member);
+        break;
+    case TN_MESSAGE_EXACT:
+        mpq_clear(*(mpq_t *)member);
+        break;
+    case TN_MESSAGE_EXACTS:
+        clear_exacts(member);
+        break;
+    case TN_MESSAGE_NESTED:
+    case TN_MESSAGE_PART:
+        tn_message_clear(m->of, member);
+        break;
+    case TN_MESSAGE_LIST:
+    case TN_MESSAGE_MAP:
+        clear_list(m->of, member);
+        break;
+    case TN_MESSAGE_SPREAD:
+        clear_spread(*(tn_spread **)member);
+        break;
+    case TN_MESSAGE_TEXT:
+    case TN_MESSAGE_FLAG:
+    case TN_MESSAGE_COUNT:
+        break;
+    }
+}
+
+void tn_message_clear(const tn_message *message, void *value)
+{
+    for (size_t i = 0; i < message->member_count; i++)
+        clear_member(&message->members[i], at(value, message->members[i].offset));
+    memset(value, 0, message->size);
+}
+
+tn_status tn_message_list(const tn_message *message, size_t count, tn_list *list, tn_error *error)
+{
+    list->items = calloc(count + 1, message->size);
+    if (!list->items)
+        return tn_fail_memory(error);
+    list->count = count;
+    for (size_t i = 0; i < count; i++)
+        tn_message_init(message, (char *)list->items + i * message->size);
+    return TN_OK;
+}
+
+/* ---- written */
+
+static void write_members(const tn_message *message, const void *value, tn_json *json);
+
+static void write_exact(const char *key, mpq_srcptr number, tn_json *json)
+{
+    char *text = mpq_get_str(NULL, 10, number);
+    tn_json_string(json, key, text);
+    free(text);
+}
+
+static void write_list(const tn_message_member *m, const tn_list *list, tn_json *json)
+{
+    tn_json_list(json, m->name);
+    for (size_t i = 0; i < list->count; i++)
+        tn_message_write(m->of, (const char *)list->items + i * m->of->size, NULL, json);
+    tn_json_list_end(json);
+}
+
+static void write_value(const tn_message_member *m, const char *key, const void *member, tn_json *json);
+
+static void write_map(const tn_message_member *m, const char *key, const tn_list *list, tn_json *json)
+{
+    const tn_message_member *name = &m->of->members[0], *what = &m->of->members[1];
+    tn_json_object(json, key);
+    for (size_t i = 0; i < list->count; i++) {
+        const char *item = (const char *)list->items + i * m->of->size;
+        write_value(what, *(const char *const *)look(item, name->offset), look(item, what->offset), json);
+    }
+    tn_json_object_end(json);
+}
+
+static void write_value(const tn_message_member *m, const char *key, const void *member, tn_json *json)
+{
+    const tn_texts *texts = member;
+    const tn_exacts *exacts = member;
+    switch (m->kind) {
+    case TN_MESSAGE_TEXT:
+    case TN_MESSAGE_OWNED:
+        tn_json_string(json, key, *(const char *const *)member);
+        break;
+    case TN_MESSAGE_TEXTS:
+        tn_json_list(json, key);
+        for (size_t i = 0; i < texts->count; i++)
+            tn_json_string(json, NULL, texts->items[i]);
+        tn_json_list_end(json);
+        break;
+    case TN_MESSAGE_FLAG:
+        tn_json_bool(json, key, *(const bool *)member);
+        break;
+    case TN_MESSAGE_COUNT:
+        tn_json_count(json, key, *(const uint64_t *)member);
+        break;
+    case TN_MESSAGE_BIG:
+        tn_json_digits(json, key, (mpz_srcptr)member);
+        break;
+    case TN_MESSAGE_EXACT:
+        write_exact(key, (mpq_srcptr)member, json);
+        break;
+    case TN_MESSAGE_EXACTS:
+        tn_json_list(json, key);
+        for (size_t i = 0; i < exacts->count; i++)
+            write_exact(NULL, exacts->items[i], json);
+        tn_json_list_end(json);
+        break;
+    case TN_MESSAGE_NESTED:
+        tn_message_write(m->of, member, key, json);
+        break;
+    case TN_MESSAGE_PART:
+        write_members(m->of, member, json);
+        break;
+    case TN_MESSAGE_LIST:
+        write_list(m, member, json);
+        break;
+    case TN_MESSAGE_MAP:
+        write_map(m, key, member, json);
+        break;
+    case TN_MESSAGE_SPREAD:
+        break;
+    }
+}
+
+static void write_members(const tn_message *message, const void *value, tn_json *json)
+{
+    for (size_t i = 0; i < message->member_count; i++) {
+        const tn_message_member *m = &message->members[i];
+        if (is_said(m, value))
+            write_value(m, m->name, look(value, m->offset), json);
+        else if (m->presence == TN_NULLABLE)
+            tn_json_null(json, m->name);
+    }
+}
+
+void tn_message_write(const tn_message *message, const void *value, const char *key, tn_json *json)
+{
+    tn_json_object(json, key);
+    write_members(message, value, json);
+    tn_json_object_end(json);
+}
+
+/* ---- read */
+
+static const char *wanted(tn_message_kind kind)
+{
+    switch (kind) {
+    case TN_MESSAGE_TEXTS:
+        return "a list of texts";
+    case TN_MESSAGE_FLAG:
+        return "true or false";
+    case TN_MESSAGE_COUNT:
+        return "a whole number from 0";
+    case TN_MESSAGE_NESTED:
+        return "an object";
+    default:
+        return "a text";
+    }
+}
+
+static tn_status read_texts(json_t *list, tn_texts *texts, tn_error *error)
+{
+    texts->items = calloc(json_array_size(list) + 1, sizeof *texts->items);
+    if (!texts->items)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        texts->items[i] = json_string_value(json_array_get(list, i));
+        if (!texts->items[i])
+            return TN_INVALID;
+        texts->count = i + 1;
+    }
+    return TN_OK;
+}
+
+/* TN_INVALID without a sentence if the value is of another type. */
+static tn_status read_value(const tn_message_member *m, json_t *from, void *member, tn_error *error)
+{
+    switch (m->kind) {
+    case TN_MESSAGE_TEXT:
+        *(const char **)member = json_string_value(from);
+        return json_is_string(from) ? TN_OK : TN_INVALID;
+    case TN_MESSAGE_TEXTS:
+        return json_is_array(from) ? read_texts(from, member, error) : TN_INVALID;
+    case TN_MESSAGE_FLAG:
+        *(bool *)member = json_is_true(from);
+        return json_is_boolean(from) ? TN_OK : TN_INVALID;
+    case TN_MESSAGE_COUNT:
+        *(uint64_t *)member = json_is_integer(from) ? (uint64_t)json_integer_value(from) : 0;
+        return json_is_integer(from) && json_integer_value(from) >= 0 ? TN_OK : TN_INVALID;
+    case TN_MESSAGE_NESTED:
+        return json_is_object(from) ? tn_message_read(m->of, from, member, error) : TN_INVALID;
+    default: /* no request has others */
+        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "requests have no member of this kind: %s", m->name);
+    }
+}
+
+static tn_status read_member(const tn_message *message, const tn_message_member *m, json_t *object, void *value,
+                             tn_error *error)
+{
+    if (m->kind == TN_MESSAGE_PART) {
+        for (size_t i = 0; i < m->of->member_count; i++) {
+            tn_status status = read_member(message, &m->of->members[i], object, at(value, m->offset), error);
+            if (status != TN_OK)
+                return status;
+        }
+        return TN_OK;
+    }
+    json_t *from = json_object_get(object, m->name);
+    if (!from || json_is_null(from))
+        return m->presence == TN_PRESENT
+                   ? tn_fail(error, TN_INVALID, E_USAGE, "a %s needs `%s`: %s", message->name, m->name, m->doc)
+                   : TN_OK;
+    if (m->presence == TN_OPTIONAL)
+        *(bool *)at(value, m->has) = true;
+    error->message[0] = '\0';
+    tn_status status = read_value(m, from, at(value, m->offset), error);
+    if (status == TN_INVALID && !error->message[0])
+        tn_fail(error, TN_INVALID, E_USAGE, "`%s` is %s: %s", m->name, wanted(m->kind), m->doc);
+    return status;
+}
+
+/* The names of a message's members, those of its parts too; how many there are. names: NULL, or room for all. */
+static size_t name_members(const tn_message *message, const char **names)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < message->member_count; i++) {
+        const tn_message_member *m = &message->members[i];
+        if (m->kind == TN_MESSAGE_PART) {
+            count += name_members(m->of, names ? names + count : NULL);
+            continue;
+        }
+        if (names)
+            names[count] = m->name;
+        count++;
+    }
+    return count;
+}
+
+static tn_status refuse_unknown(const tn_message *message, const char *key, const char *const *names, size_t count,
+                                tn_error *error)
+{
+    const char *near = tn_nearest(key, names, count);
+    tn_fail(error, TN_INVALID, E_USAGE, "a %s has no `%.80s`", message->name, key);
+    if (near)
+        tn_error_help(error, "did you mean `%s`?", near);
+    return TN_INVALID;
+}
+
+static tn_status check_keys(const tn_message *message, json_t *object, tn_error *error)
+{
+    size_t count = name_members(message, NULL);
+    const char **names = calloc(count + 1, sizeof *names), *key;
+    json_t *value;
+    if (!names)
+        return tn_fail_memory(error);
+    name_members(message, names);
+    tn_status status = TN_OK;
+    json_object_foreach(object, key, value)
+    {
+        bool known = false;
+        for (size_t i = 0; i < count; i++)
+            known |= strcmp(names[i], key) == 0;
+        if (!known && status == TN_OK)
+            status = refuse_unknown(message, key, names, count, error);
+    }
+    free(names);
+    return status;
+}
+
+tn_status tn_message_read(const tn_message *message, json_t *object, void *value, tn_error *error)
+{
+    tn_status status = check_keys(message, object, error);
+    for (size_t i = 0; i < message->member_count && status == TN_OK; i++)
+        status = read_member(message, &message->members[i], object, value, error);
+    return status;
+}

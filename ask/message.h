@@ -1,0 +1,91 @@
+/* Requests and answers as messages: structs whose members a table describes, so that one reader and one writer of JSON
+ * do for all.
+ *
+ * requests.def has the members, and requests.h the structs that they make. A message's texts are borrowed, from the
+ * request or from the file that is asked about, unless they are TN_MESSAGE_OWNED. */
+#ifndef TARTAN_ASK_MESSAGE_H
+#define TARTAN_ASK_MESSAGE_H
+
+#include <gmp.h>
+#include <jansson.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "runtime/base/error.h"
+#include "runtime/base/json.h"
+
+typedef enum tn_message_kind {
+    TN_MESSAGE_TEXT,   /* const char *, borrowed */
+    TN_MESSAGE_OWNED,  /* char *, to be freed */
+    TN_MESSAGE_TEXTS,  /* tn_texts */
+    TN_MESSAGE_FLAG,   /* bool */
+    TN_MESSAGE_COUNT,  /* uint64_t */
+    TN_MESSAGE_BIG,    /* mpz_t; in JSON a string of digits */
+    TN_MESSAGE_EXACT,  /* mpq_t; in JSON a string, "7/2" */
+    TN_MESSAGE_EXACTS, /* tn_exacts */
+    TN_MESSAGE_NESTED, /* another message */
+    TN_MESSAGE_PART,   /* another message, whose members stand among this one's */
+    TN_MESSAGE_LIST,   /* tn_list of messages */
+    TN_MESSAGE_MAP,    /* the same; in JSON an object: of each message the first member is the key, and the second the
+                          value */
+    TN_MESSAGE_SPREAD, /* tn_spread *, owned: what pictures and tables are made of, and no part of JSON */
+} tn_message_kind;
+
+typedef enum tn_message_presence {
+    TN_PRESENT,   /* always there; a request without it is wrong */
+    TN_DEFAULTED, /* of a request: zero, NULL or none unless it is given */
+    TN_OPTIONAL,  /* only if has_NAME says so */
+    TN_NULLABLE,  /* null unless has_NAME says so */
+    TN_UNSAID,    /* always there, but no part of JSON */
+} tn_message_presence;
+
+typedef struct tn_texts {
+    const char **items;
+    size_t count;
+} tn_texts;
+
+typedef struct tn_exacts {
+    mpq_t *items;
+    size_t count;
+} tn_exacts;
+
+/* Of messages of one type; requests.h has a type of the same layout for each. */
+typedef struct tn_list {
+    void *items;
+    size_t count;
+} tn_list;
+
+typedef struct tn_message_member {
+    const char *name;
+    tn_message_kind kind;
+    tn_message_presence presence;
+    size_t offset;
+    size_t has;                  /* the offset of has_NAME, if it is TN_OPTIONAL or TN_NULLABLE */
+    const struct tn_message *of; /* of messages: their type */
+    const char *unit;            /* "" if it has none */
+    const char *doc;             /* one sentence */
+} tn_message_member;
+
+typedef struct tn_message {
+    const char *name, *doc;
+    size_t size;
+    const tn_message_member *members;
+    size_t member_count;
+} tn_message;
+
+/* Zeros and empty lists. Clear it. */
+void tn_message_init(const tn_message *message, void *value);
+void tn_message_clear(const tn_message *message, void *value);
+
+/* `count` more such messages in the list, which is empty. */
+tn_status tn_message_list(const tn_message *message, size_t count, tn_list *list, tn_error *error);
+
+/* Writes the message as an object. */
+void tn_message_write(const tn_message *message, const void *value, const char *key, tn_json *json);
+
+/* Reads an object into a message that was initialised, and borrows its texts. TN_INVALID names what it does not know,
+ * what is missing and what is of another type. */
+tn_status tn_message_read(const tn_message *message, json_t *object, void *value, tn_error *error);
+
+#endif

@@ -1,0 +1,215 @@
+/* Houses by their ranks and by the numbers on their plans, and the other way round. */
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "ask/numbered.h"
+
+/* ---- all houses */
+
+tn_status tn_numbered_of(tn_numbered *n, const tn_houses_what *what, tn_houses **houses, tn_error *error)
+{
+    tn_session_begins(n->session, "counting houses");
+    tn_status status = tn_houses_of(&n->form, n->record, n->plans, what, n->max_states, houses, error);
+    tn_session_ends(n->session);
+    return status;
+}
+
+tn_status tn_numbered_all(tn_numbered *n, tn_error *error)
+{
+    const tn_houses_what all = {0};
+    return n->all ? TN_OK : tn_numbered_of(n, &all, &n->all, error);
+}
+
+/* rest: the rank, of which the houses before its plan are taken. */
+static tn_status locate(tn_numbered *n, mpz_t rest, mpz_t plan, tn_error *error)
+{
+    uint32_t length = 0;
+    tn_tray *trays = tn_numbered_tray_room(n, error);
+    if (!trays)
+        return TN_MEMORY;
+    tn_status status = tn_numbered_find(n, n->all, rest, trays, &length, error);
+    if (status == TN_OK && !tn_library_rank(n->plans, trays, length, plan))
+        status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a house stands on a plan that is not in the library");
+    free(trays);
+    return status;
+}
+
+tn_status tn_numbered_locate(tn_numbered *n, const mpz_t rank, mpz_t plan, mpz_t before, tn_error *error)
+{
+    tn_status status = TN_OK;
+    tn_houses_count(n->all, TN_ALL_LENGTHS, before);
+    tn_library_kept(n->plans, TN_ALL_LENGTHS, plan);
+    if (mpz_cmp(rank, before) < 0) {
+        mpz_t rest;
+        mpz_init_set(rest, rank);
+        status = locate(n, rest, plan, error);
+        mpz_sub(before, rank, rest);
+        mpz_clear(rest);
+    }
+    return status;
+}
+
+static bool at_most(const tn_numbered *n, unsigned long plans)
+{
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(n->plans, TN_ALL_LENGTHS, kept);
+    bool few = mpz_cmp_ui(kept, plans) <= 0;
+    mpz_clear(kept);
+    return few;
+}
+
+bool tn_numbered_few(const tn_numbered *n)
+{
+    return at_most(n, TN_HOUSE_PLANS_FEW);
+}
+
+bool tn_numbered_countable(const tn_numbered *n)
+{
+    return at_most(n, TN_HOUSE_PLANS_MAX);
+}
+
+/* ---- names */
+
+static tn_status rank_plan(const tn_numbered *n, const tn_house *house, mpz_t plan, tn_error *error)
+{
+    if (tn_library_rank(n->plans, house->trays, house->length, plan))
+        return TN_OK;
+    tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library does not hold the plan of this house");
+    tn_error_help(error, "`tartan explain` says which clauses drop it");
+    return TN_INVALID;
+}
+
+tn_status tn_numbered_name(tn_numbered *n, const tn_house *house, mpz_t plan, mpz_t variant, tn_error *error)
+{
+    tn_status status = rank_plan(n, house, plan, error);
+    return status == TN_OK ? tn_numbered_number(n, house, variant, error) : status;
+}
+
+tn_status tn_numbered_name_line(tn_numbered *n, const char *line, size_t max_length, bool of_all, mpz_t plan,
+                                mpz_t variant, tn_error *error)
+{
+    tn_house house;
+    tn_status status = tn_house_read(&n->form, line, strlen(line), max_length, &house, error);
+    if (status == TN_OK)
+        status = rank_plan(n, &house, plan, error);
+    if (status == TN_OK && of_all)
+        status = tn_numbered_all(n, error);
+    if (status == TN_OK)
+        status = tn_numbered_number(n, &house, variant, error);
+    if (status == TN_OK && of_all) {
+        status = tn_houses_before(n->all, house.trays, (uint32_t)house.length, plan, error);
+        mpz_add(variant, variant, plan);
+    }
+    tn_house_clear(&house);
+    return status;
+}
+
+bool tn_is_house_number(const char *text)
+{
+    size_t digits = strspn(text, "0123456789");
+    return text[0] == '#' || (digits > 0 && text[digits] == ':');
+}
+
+typedef struct tn_house_search {
+    mpz_t left; /* houses before the wanted one, on the plans to come */
+    tn_house *house;
+    bool found;
+} tn_house_search;
+
+static tn_status search_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
+                             tn_error *error)
+{
+    tn_house_search *s = context;
+    tn_house_counts counts;
+    tn_house_counts_init(&counts);
+    tn_status status = tn_house_variants_count(n->variants, trays, length, &counts, error);
+    *stop = s->found = status == TN_OK && mpz_cmp(s->left, counts.houses) < 0;
+    if (s->found)
+        status = tn_numbered_at(n, trays, length, s->left, s->house, error);
+    else
+        mpz_sub(s->left, s->left, counts.houses);
+    tn_house_counts_clear(&counts);
+    return status;
+}
+
+/* Plan by plan, the houses before it are counted. */
+static tn_status search_plans(tn_numbered *n, const mpz_t rank, tn_house *house, tn_error *error)
+{
+    tn_house_search s = {.house = house};
+    mpz_init_set(s.left, rank);
+    tn_status status = tn_numbered_plans(n, search_plan, &s, error);
+    if (status == TN_OK && !s.found) {
+        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the library has fewer houses than that");
+        tn_error_help(error, "`tartan count` says how many; ranks count from 0");
+    }
+    mpz_clear(s.left);
+    return status;
+}
+
+static tn_status find_house(tn_numbered *n, const mpz_t rank, tn_house *house, tn_error *error)
+{
+    uint32_t length = 0;
+    mpz_t rest;
+    tn_tray *trays = tn_numbered_tray_room(n, error);
+    if (!trays)
+        return TN_MEMORY;
+    mpz_init_set(rest, rank);
+    tn_status status = tn_numbered_find(n, n->all, rest, trays, &length, error);
+    if (status == TN_OK)
+        status = tn_numbered_at(n, trays, length, rest, house, error);
+    mpz_clear(rest);
+    free(trays);
+    return status;
+}
+
+/* The house that `rank` others come before. */
+static tn_status house_of_rank(tn_numbered *n, const mpz_t rank, tn_house *house, tn_error *error)
+{
+    tn_status status = tn_numbered_all(n, error);
+    if (status == TN_OK)
+        return find_house(n, rank, house, error);
+    return status == TN_LIMIT && tn_numbered_countable(n) ? search_plans(n, rank, house, error) : status;
+}
+
+static tn_status house_of_digits(tn_numbered *n, const char *digits, tn_house *house, tn_error *error)
+{
+    mpz_t rank;
+    if (!*digits || digits[strspn(digits, "0123456789")]) {
+        tn_status status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "`#%.60s` names no house", digits);
+        tn_error_help(error, "a house is #P:V, the plan's rank and its place among the houses on that plan, or #R, its "
+                             "rank among all houses");
+        return status;
+    }
+    mpz_init_set_str(rank, digits, 10);
+    tn_status status = house_of_rank(n, rank, house, error);
+    mpz_clear(rank);
+    return status;
+}
+
+tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house, tn_error *error)
+{
+    number += number[0] == '#';
+    const char *colon = strchr(number, ':');
+    mpz_t variant;
+    uint32_t length = 0;
+    *house = (tn_house){0};
+    if (!colon)
+        return house_of_digits(n, number, house, error);
+    tn_tray *trays = tn_numbered_tray_room(n, error);
+    if (!trays)
+        return TN_MEMORY;
+    mpz_init(variant);
+    tn_status status = tn_numbered_plan_of_rank(n, number, (size_t)(colon - number), trays, &length, error);
+    if (status == TN_OK && (!colon[1] || strspn(colon + 1, "0123456789") != strlen(colon + 1) ||
+                            mpz_set_str(variant, colon + 1, 10) != 0)) {
+        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "a variant is a whole number from 0, not `%.60s`", colon + 1);
+        tn_error_help(error, "a house is #P:V: the plan's rank, and its place among the houses on that plan");
+    }
+    if (status == TN_OK)
+        status = tn_numbered_at(n, trays, length, variant, house, error);
+    mpz_clear(variant);
+    free(trays);
+    return status;
+}

@@ -1,0 +1,119 @@
+/* The tables of requests, answers and questions. */
+#include "ask/requests.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/nearest.h"
+
+/* ---- messages */
+
+#define HAS_PRESENT(OWNER, NAME) 0
+#define HAS_UNSAID(OWNER, NAME) 0
+#define HAS_DEFAULTED(OWNER, NAME) 0
+#define HAS_OPTIONAL(OWNER, NAME) offsetof(tn_##OWNER, has_##NAME)
+#define HAS_NULLABLE(OWNER, NAME) offsetof(tn_##OWNER, has_##NAME)
+
+#define TN_MESSAGE(NAME, DOC) static const tn_message_member NAME##_members[] = {
+#define TN_FIELD(OWNER, PRESENCE, KIND, NAME, UNIT, DOC)                                                               \
+    {#NAME, TN_MESSAGE_##KIND, TN_##PRESENCE, offsetof(tn_##OWNER, NAME), HAS_##PRESENCE(OWNER, NAME), NULL, UNIT, DOC},
+#define TN_OF(OWNER, PRESENCE, KIND, OF, NAME, DOC)                                                                    \
+    {#NAME,                                                                                                            \
+     TN_MESSAGE_##KIND,                                                                                                \
+     TN_##PRESENCE,                                                                                                    \
+     offsetof(tn_##OWNER, NAME),                                                                                       \
+     HAS_##PRESENCE(OWNER, NAME),                                                                                      \
+     &tn_message_##OF,                                                                                                 \
+     "",                                                                                                               \
+     DOC},
+#define TN_END(NAME)                                                                                                   \
+    }                                                                                                                  \
+    ;
+#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)
+#include "ask/requests.def"
+#undef TN_MESSAGE
+#undef TN_FIELD
+#undef TN_OF
+#undef TN_END
+#undef TN_QUESTION
+
+#define TN_MESSAGE(NAME, DOC)                                                                                          \
+    const tn_message tn_message_##NAME = {#NAME, DOC, sizeof(tn_##NAME), NAME##_members,                               \
+                                          sizeof NAME##_members / sizeof *NAME##_members};
+#define TN_FIELD(OWNER, PRESENCE, KIND, NAME, UNIT, DOC)
+#define TN_OF(OWNER, PRESENCE, KIND, OF, NAME, DOC)
+#define TN_END(NAME)
+#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)
+#include "ask/requests.def"
+#undef TN_MESSAGE
+#undef TN_QUESTION
+
+static const tn_message *const messages[] = {
+#define TN_MESSAGE(NAME, DOC) &tn_message_##NAME,
+#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)
+#include "ask/requests.def"
+#undef TN_MESSAGE
+#undef TN_QUESTION
+};
+
+const tn_message *tn_message_named(const char *name)
+{
+    for (size_t i = 0; i < sizeof messages / sizeof *messages; i++)
+        if (strcmp(messages[i]->name, name) == 0)
+            return messages[i];
+    return NULL;
+}
+
+/* ---- questions */
+
+#define TN_MESSAGE(NAME, DOC)
+#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)                                                                       \
+    static tn_status ask_##NAME(tn_session *session, const void *request, tn_reply *answer)                            \
+    {                                                                                                                  \
+        return tn_ask_##NAME(session, request, answer);                                                                \
+    }
+#include "ask/requests.def"
+#undef TN_QUESTION
+
+const tn_request_kind tn_request_kinds[] = {
+#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC) {#NAME, &tn_message_##REQUEST, ANSWERS, DOC, ask_##NAME},
+#include "ask/requests.def"
+#undef TN_QUESTION
+};
+const size_t tn_request_kind_count = sizeof tn_request_kinds / sizeof *tn_request_kinds;
+
+tn_status tn_request_kind_named(const char *name, const tn_request_kind **question, tn_error *error)
+{
+    const char *names[sizeof tn_request_kinds / sizeof *tn_request_kinds];
+    for (size_t i = 0; i < tn_request_kind_count; i++) {
+        names[i] = tn_request_kinds[i].name;
+        *question = &tn_request_kinds[i];
+        if (strcmp(names[i], name) == 0)
+            return TN_OK;
+    }
+    const char *near = tn_nearest(name, names, tn_request_kind_count);
+    tn_fail(error, TN_INVALID, E_USAGE, "there is no question `%.80s`", name);
+    if (near)
+        tn_error_help(error, "did you mean `%s`?", near);
+    return TN_INVALID;
+}
+
+/* ---- answers */
+
+tn_status tn_reply_new(const tn_message *message, tn_reply *answer, tn_error *error)
+{
+    void *value = malloc(message->size);
+    if (!value)
+        return tn_fail_memory(error);
+    tn_message_init(message, value);
+    *answer = (tn_reply){message, value};
+    return TN_OK;
+}
+
+void tn_reply_clear(tn_reply *answer)
+{
+    if (answer->message)
+        tn_message_clear(answer->message, answer->value);
+    free(answer->value);
+    *answer = (tn_reply){0};
+}

@@ -1,0 +1,97 @@
+/* The questions as functions, and their requests and answers as structs: what requests.def says. */
+#ifndef TARTAN_ASK_REQUESTS_H
+#define TARTAN_ASK_REQUESTS_H
+
+#include "ask/message.h"
+#include "ask/session.h"
+#include "driver/measure/spread.h"
+
+#define TN_TYPE_TEXT const char *
+#define TN_TYPE_OWNED char *
+#define TN_TYPE_TEXTS tn_texts
+#define TN_TYPE_FLAG bool
+#define TN_TYPE_COUNT uint64_t
+#define TN_TYPE_BIG mpz_t
+#define TN_TYPE_EXACT mpq_t
+#define TN_TYPE_EXACTS tn_exacts
+#define TN_TYPE_SPREAD tn_spread *
+
+#define TN_OF_NESTED(OF, NAME) tn_##OF NAME;
+#define TN_OF_PART(OF, NAME) tn_##OF NAME;
+#define TN_OF_LIST(OF, NAME)                                                                                           \
+    struct {                                                                                                           \
+        tn_##OF *items;                                                                                                \
+        size_t count;                                                                                                  \
+    } NAME;
+#define TN_OF_MAP(OF, NAME) TN_OF_LIST(OF, NAME)
+
+#define TN_HAS_PRESENT(NAME)
+#define TN_HAS_UNSAID(NAME)
+#define TN_HAS_DEFAULTED(NAME)
+#define TN_HAS_OPTIONAL(NAME) bool has_##NAME;
+#define TN_HAS_NULLABLE(NAME) bool has_##NAME;
+
+/* The structs, and how each is described. */
+#define TN_MESSAGE(NAME, DOC) typedef struct tn_##NAME {
+#define TN_FIELD(OWNER, PRESENCE, KIND, NAME, UNIT, DOC) TN_HAS_##PRESENCE(NAME) TN_TYPE_##KIND NAME;
+#define TN_OF(OWNER, PRESENCE, KIND, OF, NAME, DOC) TN_HAS_##PRESENCE(NAME) TN_OF_##KIND(OF, NAME)
+#define TN_END(NAME)                                                                                                   \
+    }                                                                                                                  \
+    tn_##NAME;                                                                                                         \
+    extern const tn_message tn_message_##NAME;
+#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)
+#include "ask/requests.def"
+#undef TN_MESSAGE
+#undef TN_FIELD
+#undef TN_OF
+#undef TN_END
+#undef TN_QUESTION
+
+/* An answer: a message of one of the types that its question may be answered with. */
+typedef struct tn_reply {
+    const tn_message *message; /* NULL: there is none */
+    void *value;               /* owned */
+} tn_reply;
+
+/* An empty message of the type as the answer. */
+tn_status tn_reply_new(const tn_message *message, tn_reply *answer, tn_error *error);
+void tn_reply_clear(tn_reply *answer);
+
+/* The answer as that type, or NULL if it is of another one. */
+#define TN_REPLY(NAME, ANSWER)                                                                                         \
+    ((ANSWER)->message == &tn_message_##NAME ? (tn_##NAME *)(ANSWER)->value : (tn_##NAME *)NULL)
+
+/* tn_ask_count and so on: each question as a function. What is wrong is said as session.h tells. Clear the answer in
+ * any case. */
+#define TN_MESSAGE(NAME, DOC)
+#define TN_FIELD(OWNER, PRESENCE, KIND, NAME, UNIT, DOC)
+#define TN_OF(OWNER, PRESENCE, KIND, OF, NAME, DOC)
+#define TN_END(NAME)
+#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)                                                                       \
+    tn_status tn_ask_##NAME(tn_session *session, const tn_##REQUEST *request, tn_reply *answer);
+#include "ask/requests.def"
+#undef TN_MESSAGE
+#undef TN_FIELD
+#undef TN_OF
+#undef TN_END
+#undef TN_QUESTION
+
+/* The same for whoever has a question's name. */
+typedef struct tn_request_kind {
+    const char *name;
+    const tn_message *request;
+    const char *answers; /* the names of their types, with blanks between them */
+    const char *doc;
+    tn_status (*ask)(tn_session *session, const void *request, tn_reply *answer);
+} tn_request_kind;
+
+extern const tn_request_kind tn_request_kinds[];
+extern const size_t tn_request_kind_count;
+
+/* The question of that name; TN_INVALID (E_USAGE) with what may have been meant if there is none. */
+tn_status tn_request_kind_named(const char *name, const tn_request_kind **question, tn_error *error);
+
+/* The message of that name; NULL if there is none. */
+const tn_message *tn_message_named(const char *name);
+
+#endif

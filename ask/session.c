@@ -1,0 +1,99 @@
+/* What a session says and keeps. */
+#include "ask/session.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static tn_diagnostics *said(tn_session *session)
+{
+    return &session->opened->compilation.diagnostics;
+}
+
+void tn_session_forget(tn_session *session)
+{
+    tn_library_close(&session->library);
+    session->library = (tn_ready_library){0};
+}
+
+tn_status tn_session_fail(tn_session *session, const tn_error *error)
+{
+    if (error->status != TN_STOPPED)
+        tn_finding_error(session->opened, error);
+    return error->status;
+}
+
+tn_status tn_session_bad_text(tn_session *session, tn_error *error, const char *name, const char *text)
+{
+    if (error->status != TN_INVALID)
+        return tn_session_fail(session, error);
+    tn_error_place(error, error->column ? 1 : 0, error->column, error->column_end);
+    tn_report_error(said(session), error, name, text, strlen(text));
+    return error->status;
+}
+
+tn_status tn_session_refuse(tn_session *session, const char *help, const char *format, ...)
+{
+    char text[480];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    tn_diagnostic *d = tn_report_bare(said(session), TN_ERROR, E_USAGE, "%s", text);
+    if (help)
+        tn_help(said(session), d, "%s", help);
+    return TN_INVALID;
+}
+
+void tn_session_note(tn_session *session, const char *format, ...)
+{
+    char text[480];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    tn_report_bare(said(session), TN_NOTE, TN_CODE_NONE, "%s", text);
+}
+
+void tn_session_begins(const tn_session *session, const char *work)
+{
+    if (session->listener.begins)
+        session->listener.begins(session->listener.context, work);
+}
+
+void tn_session_ends(const tn_session *session)
+{
+    if (session->listener.ends)
+        session->listener.ends(session->listener.context);
+}
+
+/* ---- the library that is kept */
+
+static bool same_options(const tn_library_options *a, const tn_library_options *b)
+{
+    return a->max_states == b->max_states && a->override_trays == b->override_trays && a->trays_min == b->trays_min &&
+           a->trays_max == b->trays_max && a->max_length == b->max_length && a->threads == b->threads;
+}
+
+static bool is_kept(const tn_session *session, const char *name, const tn_library_options *options)
+{
+    if (!session->library.library || !same_options(&session->options, options))
+        return false;
+    return name ? strcmp(name, tn_text(session->opened->module, session->library.record->name)) == 0
+                : session->only_one;
+}
+
+tn_status tn_session_library(tn_session *session, const char *name, const tn_library_options *options,
+                             const tn_ready_library **ready)
+{
+    *ready = &session->library;
+    if (is_kept(session, name, options))
+        return TN_OK;
+    tn_session_forget(session);
+    session->options = *options;
+    session->only_one = !name;
+    tn_session_begins(session, "clauses combined");
+    tn_status status = tn_library_ready(session->opened, name, options, &session->library);
+    tn_session_ends(session);
+    return status;
+}

@@ -1,0 +1,57 @@
+/* A rule file that is asked questions, one after another.
+ *
+ * A session borrows the file that is open. What is wrong, and what there is to know besides an answer, goes to the
+ * diagnostics of that file; every question returns the status of what it says there. What does not change between
+ * questions is kept: the automaton of the library that was asked about last. A session belongs to one thread. */
+#ifndef TARTAN_ASK_SESSION_H
+#define TARTAN_ASK_SESSION_H
+
+#include "driver/plan/library.h"
+
+struct tn_reply;
+
+/* Whoever asks is told what goes on; each function may be NULL. */
+typedef struct tn_session_listener {
+    void (*begins)(void *context, const char *work); /* work that may take long: "counting houses" */
+    void (*ends)(void *context);                     /* that work */
+    void *context;
+} tn_session_listener;
+
+typedef struct tn_session {
+    tn_opened *opened; /* borrowed */
+    tn_session_listener listener;
+
+    /* Called with an answer whose first part stands, before the rest of it is worked out; NULL: nobody waits for it. */
+    void (*so_far)(void *context, const struct tn_reply *answer);
+    void *so_far_context;
+
+    tn_ready_library library; /* made ready last, if library.library is not NULL */
+    tn_library_options options;
+    bool only_one; /* it was asked for without a name */
+} tn_session;
+
+/* Frees what is kept, which is before the file is closed. The session can be used again. */
+void tn_session_forget(tn_session *session);
+
+/* Says that the question failed so, and returns the status. The code E_USAGE: what is asked makes no sense. */
+tn_status tn_session_fail(tn_session *session, const tn_error *error);
+
+/* The same for a text of the request, in which the error has its place; `name` is what the text is called. */
+tn_status tn_session_bad_text(tn_session *session, tn_error *error, const char *name, const char *text);
+
+/* TN_INVALID with E_USAGE: what is asked makes no sense. `help` (may be NULL) says what does. */
+tn_status tn_session_refuse(tn_session *session, const char *help, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Adds a note to what is said. */
+void tn_session_note(tn_session *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Tells the listener. */
+void tn_session_begins(const tn_session *session, const char *work);
+void tn_session_ends(const tn_session *session);
+
+/* A library of plans, ready; NULL as a name: the only one. It is the session's. */
+tn_status tn_session_library(tn_session *session, const char *name, const tn_library_options *options,
+                             const tn_ready_library **ready);
+
+#endif
