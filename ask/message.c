@@ -1,6 +1,7 @@
 /* Messages by their tables: made, freed, written as JSON and read from it. */
 #include "ask/message.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -254,6 +255,14 @@ static tn_status read_texts(json_t *list, tn_texts *texts, tn_error *error)
     return TN_OK;
 }
 
+static tn_status in_bounds(const tn_message_member *m, uint64_t number, tn_error *error)
+{
+    if ((number >= m->least && number <= m->most) || m->most == 0)
+        return TN_OK;
+    return tn_fail(error, TN_INVALID, E_USAGE, "`%s` is from %" PRIu64 " to %" PRIu64 ", not %" PRIu64, m->name,
+                   m->least, m->most, number);
+}
+
 /* TN_INVALID without a sentence if the value is of another type. */
 static tn_status read_value(const tn_message_member *m, json_t *from, void *member, tn_error *error)
 {
@@ -268,7 +277,8 @@ static tn_status read_value(const tn_message_member *m, json_t *from, void *memb
         return json_is_boolean(from) ? TN_OK : TN_INVALID;
     case TN_MESSAGE_COUNT:
         *(uint64_t *)member = json_is_integer(from) ? (uint64_t)json_integer_value(from) : 0;
-        return json_is_integer(from) && json_integer_value(from) >= 0 ? TN_OK : TN_INVALID;
+        return json_is_integer(from) && json_integer_value(from) >= 0 ? in_bounds(m, *(uint64_t *)member, error)
+                                                                      : TN_INVALID;
     case TN_MESSAGE_NESTED:
         return json_is_object(from) ? tn_message_read(m->of, from, member, error) : TN_INVALID;
     default: /* no request has others */

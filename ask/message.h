@@ -63,6 +63,7 @@ typedef struct tn_message_member {
     size_t offset;
     size_t has;                  /* the offset of has_NAME, if it is TN_OPTIONAL or TN_NULLABLE */
     const struct tn_message *of; /* of messages: their type */
+    uint64_t least, most;        /* of numbers of requests; both are 0 otherwise */
     const char *unit;            /* "" if it has none */
     const char *doc;             /* one sentence */
 } tn_message_member;

@@ -15,17 +15,33 @@
 #define HAS_NULLABLE(OWNER, NAME) offsetof(tn_##OWNER, has_##NAME)
 
 #define TN_MESSAGE(NAME, DOC) static const tn_message_member NAME##_members[] = {
+#define TN_NUMBER(OWNER, PRESENCE, NAME, LEAST, MOST, UNIT, DOC)                                                       \
+    {.name = #NAME,                                                                                                    \
+     .kind = TN_MESSAGE_COUNT,                                                                                         \
+     .presence = TN_##PRESENCE,                                                                                        \
+     .offset = offsetof(tn_##OWNER, NAME),                                                                             \
+     .has = HAS_##PRESENCE(OWNER, NAME),                                                                               \
+     .least = LEAST,                                                                                                   \
+     .most = MOST,                                                                                                     \
+     .unit = UNIT,                                                                                                     \
+     .doc = DOC},
 #define TN_FIELD(OWNER, PRESENCE, KIND, NAME, UNIT, DOC)                                                               \
-    {#NAME, TN_MESSAGE_##KIND, TN_##PRESENCE, offsetof(tn_##OWNER, NAME), HAS_##PRESENCE(OWNER, NAME), NULL, UNIT, DOC},
+    {.name = #NAME,                                                                                                    \
+     .kind = TN_MESSAGE_##KIND,                                                                                        \
+     .presence = TN_##PRESENCE,                                                                                        \
+     .offset = offsetof(tn_##OWNER, NAME),                                                                             \
+     .has = HAS_##PRESENCE(OWNER, NAME),                                                                               \
+     .unit = UNIT,                                                                                                     \
+     .doc = DOC},
 #define TN_OF(OWNER, PRESENCE, KIND, OF, NAME, DOC)                                                                    \
-    {#NAME,                                                                                                            \
-     TN_MESSAGE_##KIND,                                                                                                \
-     TN_##PRESENCE,                                                                                                    \
-     offsetof(tn_##OWNER, NAME),                                                                                       \
-     HAS_##PRESENCE(OWNER, NAME),                                                                                      \
-     &tn_message_##OF,                                                                                                 \
-     "",                                                                                                               \
-     DOC},
+    {.name = #NAME,                                                                                                    \
+     .kind = TN_MESSAGE_##KIND,                                                                                        \
+     .presence = TN_##PRESENCE,                                                                                        \
+     .offset = offsetof(tn_##OWNER, NAME),                                                                             \
+     .has = HAS_##PRESENCE(OWNER, NAME),                                                                               \
+     .of = &tn_message_##OF,                                                                                           \
+     .unit = "",                                                                                                       \
+     .doc = DOC},
 #define TN_END(NAME)                                                                                                   \
     }                                                                                                                  \
     ;
@@ -33,6 +49,7 @@
 #include "ask/requests.def"
 #undef TN_MESSAGE
 #undef TN_FIELD
+#undef TN_NUMBER
 #undef TN_OF
 #undef TN_END
 #undef TN_QUESTION
@@ -41,6 +58,7 @@
     const tn_message tn_message_##NAME = {#NAME, DOC, sizeof(tn_##NAME), NAME##_members,                               \
                                           sizeof NAME##_members / sizeof *NAME##_members};
 #define TN_FIELD(OWNER, PRESENCE, KIND, NAME, UNIT, DOC)
+#define TN_NUMBER(OWNER, PRESENCE, NAME, LEAST, MOST, UNIT, DOC)
 #define TN_OF(OWNER, PRESENCE, KIND, OF, NAME, DOC)
 #define TN_END(NAME)
 #define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)
@@ -116,4 +134,10 @@ void tn_reply_clear(tn_reply *answer)
         tn_message_clear(answer->message, answer->value);
     free(answer->value);
     *answer = (tn_reply){0};
+}
+
+tn_json_layout tn_reply_layout(const tn_reply *answer)
+{
+    bool lines = TN_REPLY(counted_plans, answer) || TN_REPLY(counted_values, answer);
+    return lines ? TN_JSON_LINES : TN_JSON_TIGHT;
 }

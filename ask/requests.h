@@ -34,6 +34,7 @@
 /* The structs, and how each is described. */
 #define TN_MESSAGE(NAME, DOC) typedef struct tn_##NAME {
 #define TN_FIELD(OWNER, PRESENCE, KIND, NAME, UNIT, DOC) TN_HAS_##PRESENCE(NAME) TN_TYPE_##KIND NAME;
+#define TN_NUMBER(OWNER, PRESENCE, NAME, LEAST, MOST, UNIT, DOC) TN_HAS_##PRESENCE(NAME) uint64_t NAME;
 #define TN_OF(OWNER, PRESENCE, KIND, OF, NAME, DOC) TN_HAS_##PRESENCE(NAME) TN_OF_##KIND(OF, NAME)
 #define TN_END(NAME)                                                                                                   \
     }                                                                                                                  \
@@ -43,6 +44,7 @@
 #include "ask/requests.def"
 #undef TN_MESSAGE
 #undef TN_FIELD
+#undef TN_NUMBER
 #undef TN_OF
 #undef TN_END
 #undef TN_QUESTION
@@ -57,6 +59,9 @@ typedef struct tn_reply {
 tn_status tn_reply_new(const tn_message *message, tn_reply *answer, tn_error *error);
 void tn_reply_clear(tn_reply *answer);
 
+/* How its JSON is laid out. */
+tn_json_layout tn_reply_layout(const tn_reply *answer);
+
 /* The answer as that type, or NULL if it is of another one. */
 #define TN_REPLY(NAME, ANSWER)                                                                                         \
     ((ANSWER)->message == &tn_message_##NAME ? (tn_##NAME *)(ANSWER)->value : (tn_##NAME *)NULL)
@@ -65,6 +70,7 @@ void tn_reply_clear(tn_reply *answer);
  * any case. */
 #define TN_MESSAGE(NAME, DOC)
 #define TN_FIELD(OWNER, PRESENCE, KIND, NAME, UNIT, DOC)
+#define TN_NUMBER(OWNER, PRESENCE, NAME, LEAST, MOST, UNIT, DOC)
 #define TN_OF(OWNER, PRESENCE, KIND, OF, NAME, DOC)
 #define TN_END(NAME)
 #define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)                                                                       \
@@ -72,6 +78,7 @@ void tn_reply_clear(tn_reply *answer);
 #include "ask/requests.def"
 #undef TN_MESSAGE
 #undef TN_FIELD
+#undef TN_NUMBER
 #undef TN_OF
 #undef TN_END
 #undef TN_QUESTION

@@ -115,13 +115,16 @@ static tn_status open_with_files(const tn_notation *notation, tn_input *input, c
 }
 
 static tartan_status open_text(const char *path, const char *text, size_t size, tartan_compile_options *options,
-                               tn_opened *opened, tartan_error *error)
+                               const tn_questions *asking, tn_opened *opened, tartan_error *error)
 {
     tn_watch watch;
     tn_input input = {.text = text, .size = size, .name = path};
     const tn_notation *notation = tn_notation_or_first(path, text, size);
     tn_compile_options own = {
-        .resolver = {resolve, options}, .warnings_are_errors = options->warnings_are_errors, .watch = &watch};
+        .resolver = {resolve, options},
+        .questions = asking,
+        .warnings_are_errors = options->warnings_are_errors,
+        .watch = &watch};
     tartan_status status = tn_api_watch(options->watch, &watch, error);
     if (status != TARTAN_OK)
         return status;
@@ -149,7 +152,7 @@ static tartan_status take(const char *path, const tartan_compile_options *given,
 }
 
 tartan_status tn_api_open(const char *path, const char *text, size_t size, const tartan_compile_options *given,
-                          tn_opened *opened, tartan_error *error)
+                          const tn_questions *asking, tn_opened *opened, tartan_error *error)
 {
     tartan_compile_options options;
     tartan_status status = take(path, given, &options, error);
@@ -161,7 +164,7 @@ tartan_status tn_api_open(const char *path, const char *text, size_t size, const
         return tn_api_missing(error, "text");
     if (tn_module_has_magic(text, size))
         return tn_api_refuse(error, TARTAN_INVALID, "%.200s is a module, not a rule file", path);
-    return open_text(path, size ? text : "", size, &options, opened, error);
+    return open_text(path, size ? text : "", size, &options, asking, opened, error);
 }
 
 tartan_status tn_api_open_file(const char *path, const tartan_compile_options *given, tn_opened *opened,
@@ -177,7 +180,7 @@ tartan_status tn_api_open_file(const char *path, const tartan_compile_options *g
         return status;
     if (tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, &found) != TN_OK)
         return tn_api_fail(&found, error);
-    status = tn_api_open(path, (const char *)bytes, size, given, opened, error);
+    status = tn_api_open(path, (const char *)bytes, size, given, NULL, opened, error);
     free(bytes);
     return status;
 }
@@ -199,7 +202,7 @@ tartan_status tartan_compile_text(const char *path, const char *text, size_t siz
                                   const tartan_compile_options *options, tartan_module **module, tartan_error *error)
 {
     tn_opened opened;
-    return keep_module(tn_api_open(path, text, size, options, &opened, error), &opened, module, error);
+    return keep_module(tn_api_open(path, text, size, options, NULL, &opened, error), &opened, module, error);
 }
 
 tartan_status tartan_compile_file(const char *path, const tartan_compile_options *options, tartan_module **module,

@@ -5,9 +5,10 @@
 #include "api/base/api.h"
 #include "driver/open/open.h"
 
-/* As tartan_compile_text and tartan_compile_file, and keeps what was opened. Close it in any case. */
+/* As tartan_compile_text and tartan_compile_file, and keeps what was opened. Close it in any case. `asking` (may be
+ * NULL): what is asked beyond what a .plan file says. */
 tartan_status tn_api_open(const char *path, const char *text, size_t size, const tartan_compile_options *options,
-                          tn_opened *opened, tartan_error *error);
+                          const tn_questions *asking, tn_opened *opened, tartan_error *error);
 tartan_status tn_api_open_file(const char *path, const tartan_compile_options *options, tn_opened *opened,
                                tartan_error *error);
 

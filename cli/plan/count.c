@@ -65,11 +65,9 @@ static void show_so_far(void *context, const tn_reply *answer)
     fflush(s->output.stream);
 }
 
-/* Plans and distributions have an item on each line. */
 static void write_json(const tn_reply *answer, FILE *out)
 {
-    bool lines = TN_REPLY(counted_plans, answer) || TN_REPLY(counted_values, answer);
-    tn_json json = tn_json_file(out, lines ? TN_JSON_LINES : TN_JSON_TIGHT);
+    tn_json json = tn_json_file(out, tn_reply_layout(answer));
     tn_message_write(answer->message, answer->value, NULL, &json);
     tn_json_end_line(&json);
 }

@@ -5,6 +5,7 @@
  *   module.h     compiled rule files
  *   compile.h    rule files into modules, and their layout
  *   source.h     rule files with their source: tests, coverage, reports
+ *   ask.h        questions about rule files, as JSON
  *   plan.h       plans, rules that match them, libraries of them
  *   measure.h    measures of libraries: how plans are spread, the best of them, open plans
  *   analysis.h   why a rule matches, what rules mean, how libraries differ
@@ -26,7 +27,7 @@
  *   libtartan-draw     draw
  *   libtartan-store    run
  *
- * compile.h and source.h are in libtartan alone. Each has a pkg-config file of its name (tartan, tartan-runtime) and is
+ * compile.h, source.h and ask.h are in libtartan alone. Each has a pkg-config file of its name (tartan, tartan-runtime) and is
  * a target of the CMake package (find_package(tartan): tartan::tartan, tartan::tartan-runtime).
  *
  * Ownership. What a function hands out through a `**` argument is the caller's, to be freed with the _free function of
@@ -53,6 +54,7 @@
 #define TARTAN_TARTAN_H
 
 #include "analysis.h"
+#include "ask.h"
 #include "base.h"
 #include "compile.h"
 #include "draw.h"
