@@ -249,9 +249,10 @@ def ask(words, ending, folder):
         return None
 
 
-def asked_of(number, words):
+def asked_of(number, words, folder):
     """The endings to try: those that the command says it writes, and a share of the others."""
-    said = tartan(*words, "-o", "made.nonsense").stderr.decode()
+    with tempfile.TemporaryDirectory(dir=folder) as empty:
+        said = tartan(*words, "-o", "made.nonsense", folder=empty).stderr.decode()
     named = set(re.findall(r"\.(\w+)", said))
     return [ending for k, ending in enumerate(known_endings()) if ending in named or (number + k) % SHARE == 0]
 
@@ -281,7 +282,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
         prepare(folder)
         commands = [line.replace("{}", folder).split() for line in lines]
-        endings = pool.map(asked_of, range(len(commands)), commands)
+        endings = pool.map(lambda number: asked_of(number, commands[number], folder), range(len(commands)))
         asked = [(line, words, ending) for line, words, some in zip(lines, commands, endings) for ending in some]
         for (line, _, ending), wrong in zip(asked, pool.map(lambda a: ask(a[1], a[2], folder), asked)):
             if wrong:

@@ -48,10 +48,11 @@ def formatted(path):
 
 
 def meaning(path):
-    """The listing of a module, without places: lines, columns, and names that are made of them."""
+    """The listing of a module, without places: lines, columns, and names that are made of them; and without blanks, as names of calls are
+    made of their texts."""
     listing = answer("disasm", path)
     listing = re.sub(r" *\([^\s()]*\.[a-z]+:\d+(:\d+)?\)|^(module|written by|source | *;).*$", "", listing, flags=re.M)
-    listing = "\n".join(line for line in listing.split("\n") if line.strip())
+    listing = "\n".join(re.sub(r"\s", "", line) for line in listing.split("\n") if line.strip())
     return re.sub(r"(require|prune)@\d+(\.\d+)?", r"\1@", listing)
 
 

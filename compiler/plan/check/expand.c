@@ -204,6 +204,41 @@ static tn_ast_expr *decide(tn_rule_expansion *expansion, const tn_ast_expr *expr
 
 /* ---- calls */
 
+/* Where a stretch of blanks and remarks ends. */
+static const char *past_blanks(const char *text, const char *end)
+{
+    while (text < end && (strchr(" \t\r\n\f\v", *text) || *text == '#')) {
+        if (*text == '#')
+            while (text < end && *text != '\n' && *text != '\r')
+                text++;
+        else
+            text++;
+    }
+    return text;
+}
+
+/* What a call is named after: its text with blanks only where `fmt` has them between words, so that laying a file out changes no name. */
+static char *call_name(tn_check *check, const tn_ast_expr *call)
+{
+    const char *text = check->diagnostics->sources->files[call->node.span.file].text;
+    const char *from = text + call->node.span.begin, *end = text + call->node.span.end;
+    char name[TN_NAME_MAX];
+    size_t size = 0;
+    bool quoted = false;
+    while (from < end && size + 3 <= sizeof name) {
+        const char *next = quoted ? from : past_blanks(from, end);
+        bool parts = next > from && size > 0 && !strchr("(.", name[size - 1]) && !strchr("),.", *next);
+        if (parts)
+            name[size++] = ' ';
+        quoted ^= *next == '"' && (quoted || (size > 0 && strchr(" (,", name[size - 1])));
+        name[size++] = *next;
+        if (!quoted && *next == ',' && next + 1 < end && past_blanks(next + 1, end) == next + 1)
+            name[size++] = ' ';
+        from = next + 1;
+    }
+    return tn_arena_copy(check->arena, name, size);
+}
+
 static tn_checked_rule *new_rule(tn_rule_expansion *expansion, const tn_ast_expr *call, tn_checked_rule *of)
 {
     tn_check *check = expansion->check;
@@ -214,12 +249,8 @@ static tn_checked_rule *new_rule(tn_rule_expansion *expansion, const tn_ast_expr
         return NULL;
     *ast = *of->ast;
     ast->params = tn_ast_empty();
-    const char *source = check->diagnostics->sources->files[call->node.span.file].text;
-    size_t size = call->node.span.end - call->node.span.begin;
     *rule = (tn_checked_rule){.ast = ast,
-                              .name = of->is_template ? tn_arena_copy(check->arena, source + call->node.span.begin,
-                                                                      size < TN_NAME_MAX ? size : TN_NAME_MAX)
-                                                      : of->name,
+                              .name = of->is_template ? call_name(check, call) : of->name,
                               .unit = of->unit,
                               .schema = check->schema,
                               .form = of->form,
