@@ -66,7 +66,7 @@
 #undef TN_MESSAGE
 #undef TN_QUESTION
 
-static const tn_message *const messages[] = {
+const tn_message *const tn_messages[] = {
 #define TN_MESSAGE(NAME, DOC) &tn_message_##NAME,
 #define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)
 #include "ask/requests.def"
@@ -74,11 +74,13 @@ static const tn_message *const messages[] = {
 #undef TN_QUESTION
 };
 
+const size_t tn_message_count = sizeof tn_messages / sizeof *tn_messages;
+
 const tn_message *tn_message_named(const char *name)
 {
-    for (size_t i = 0; i < sizeof messages / sizeof *messages; i++)
-        if (strcmp(messages[i]->name, name) == 0)
-            return messages[i];
+    for (size_t i = 0; i < tn_message_count; i++)
+        if (strcmp(tn_messages[i]->name, name) == 0)
+            return tn_messages[i];
     return NULL;
 }
 

@@ -98,6 +98,10 @@ extern const size_t tn_request_kind_count;
 /* The question of that name; TN_INVALID (E_USAGE) with what may have been meant if there is none. */
 tn_status tn_request_kind_named(const char *name, const tn_request_kind **question, tn_error *error);
 
+/* All messages, in the order of the table. */
+extern const tn_message *const tn_messages[];
+extern const size_t tn_message_count;
+
 /* The message of that name; NULL if there is none. */
 const tn_message *tn_message_named(const char *name);
 

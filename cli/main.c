@@ -3,6 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "ask/describe.h"
 #include "cli/common/completion.h"
 #include "cli/common/help.h"
 #include "cli/common/job.h"
@@ -65,6 +66,26 @@ static int completion(const char *name)
     return tn_program_refuse(&settings, &error);
 }
 
+/* The questions described for programs (the build installs it). */
+static int requests(const char *form)
+{
+    if (form && strcmp(form, "schema") == 0) {
+        tn_describe_schema(stdout);
+    } else if (form && strcmp(form, "types") == 0) {
+        tn_describe_types(stdout);
+    } else if (form && strcmp(form, "page") == 0) {
+        tn_describe_page(stdout);
+    } else {
+        const tn_settings settings = {0};
+        tn_error error;
+        tn_fail(&error, TN_INVALID, E_USAGE, "requests are described as schema, types or page%s%.60s",
+                form ? ", not as " : "", form ? form : "");
+        tn_error_help(&error, "tartan help --requests schema");
+        return tn_program_refuse(&settings, &error);
+    }
+    return tn_program_printed();
+}
+
 int main(int argc, char **argv)
 {
     tn_program_begin();
@@ -78,6 +99,8 @@ int main(int argc, char **argv)
     if (strcmp(name, "help") == 0) {
         if (argc > 2 && strcmp(argv[2], "--completion") == 0)
             return completion(argc > 3 ? argv[3] : NULL);
+        if (argc > 2 && strcmp(argv[2], "--requests") == 0)
+            return requests(argc > 3 ? argv[3] : NULL);
         bool manual = argc > 2 && strcmp(argv[2], "--man") == 0;
         return help(argc > 2 + manual ? argv[2 + manual] : NULL, manual);
     }

@@ -46,6 +46,9 @@ tartan_page(plans plan-files.md "the formats of files of plans")
 tartan_writes(bash/tartan ${CMAKE_INSTALL_DATADIR}/bash-completion/completions --completion bash)
 tartan_writes(zsh/_tartan ${CMAKE_INSTALL_DATADIR}/zsh/site-functions --completion zsh)
 tartan_writes(fish/tartan.fish ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d --completion fish)
+# The questions, for programs that ask them.
+tartan_writes(requests.schema.json ${CMAKE_INSTALL_DATADIR}/tartan --requests schema)
+tartan_writes(requests.d.ts ${CMAKE_INSTALL_DATADIR}/tartan --requests types)
 file(MAKE_DIRECTORY ${TARTAN_WRITTEN}/bash ${TARTAN_WRITTEN}/zsh ${TARTAN_WRITTEN}/fish)
 
 add_custom_command(OUTPUT ${TARTAN_PRINTED} DEPENDS tartan ${TARTAN_PRINTING} COMMENT "Writing manual pages and completions" VERBATIM)

@@ -41,6 +41,23 @@ static tartan_status load(const tartan_module *module, tartan_error *error)
     return status;
 }
 
+static tartan_status ask(const tartan_module *module, tartan_error *error)
+{
+    (void)module;
+    static const char *const requests[] = {"{}", "{\"by\": \"long\"}",
+                                           "{\"where\": [\"trays = 2\"], \"mirror\": true}"};
+    tartan_session *session = NULL;
+    tartan_status status = tartan_session_open("box.plan", text, sizeof text - 1, NULL, &session, error);
+    for (size_t i = 0; i < sizeof requests / sizeof *requests && status == TARTAN_OK; i++) {
+        char *answer = NULL;
+        status = tartan_ask(session, "count", requests[i], NULL, NULL, NULL, &answer, error);
+        assert_true(!answer == (status != TARTAN_OK));
+        tartan_text_free(answer);
+    }
+    tartan_session_free(session);
+    return status;
+}
+
 static tartan_status match(const tartan_module *module, tartan_error *error)
 {
     tartan_rules *rules = NULL;
@@ -140,7 +157,7 @@ static tartan_status measure(const tartan_module *module, tartan_error *error)
 
 static void fails_cleanly(void **state)
 {
-    static operation *const operations[] = {compile, load, match, walk, measure};
+    static operation *const operations[] = {compile, load, ask, match, walk, measure};
     for (size_t i = 0; i < sizeof operations / sizeof *operations; i++) {
         size_t failures = 0;
         for (int all_after = 0; all_after < 2; all_after++) {

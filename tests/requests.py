@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""Holds what commands write with --json to the schema of answers: requests.py TARTAN SCHEMA
+
+An answer follows the schema of its question; and the schema is no blank: an answer with a member less, another member, or a number in
+place of digits does not follow it."""
+import copy
+import json
+import subprocess
+import sys
+
+import jsonschema
+
+tartan = sys.argv[1]
+with open(sys.argv[2], encoding="utf-8") as file:
+    schema = json.load(file)
+
+# The command line's question, and its words.
+ASKED = {
+    "count": [
+        "count cottage --library cottage-rows", "count lahave-houses", "count lahave-houses --mirror --no-effects --trays 4..5",
+        "count lahave-houses --by cost --trays 4..5", "count lahave-houses --by cost --trays 4..5 --bins 6", "count cottage --library cottages",
+        "count cottage --library cottages --clauses --plan #10", "count cottage --library cottages --plan #10 --by floor-area",
+        "count bricks --parts 2", "count bricks --parts 2 --fixed", "count lahave-houses --by cost --where trays=4 --where trays=5",
+    ],
+}
+wrong = []
+
+
+def answers_of(question):
+    return jsonschema.Draft202012Validator({"$defs": schema["$defs"], **schema["answers"][question]})
+
+
+def spoiled(answer):
+    """Answers that are not as the schema says."""
+    yield {**answer, "another": 1}
+    for key in answer:
+        less = copy.deepcopy(answer)
+        del less[key]
+        yield less
+        break
+    for key, value in answer.items():
+        if isinstance(value, str) and value.isdigit():
+            yield {**answer, key: int(value)}
+        if isinstance(value, list) and value and isinstance(value[0], dict):
+            yield {**answer, key: [{**value[0], "another": "1"}]}
+
+
+def main():
+    jsonschema.Draft202012Validator.check_schema(schema)
+    if set(schema["requests"]) != set(ASKED):
+        wrong.append(f"questions that are not asked here: {set(schema['requests']) ^ set(ASKED)}")
+    for question, lines in ASKED.items():
+        validator = answers_of(question)
+        for line in lines:
+            done = subprocess.run([tartan, *line.split(" "), "--json"], capture_output=True, text=True, check=False)
+            if done.returncode:
+                wrong.append(f"{line}: {done.stderr}")
+                continue
+            answer = json.loads(done.stdout)
+            wrong.extend(f"{line}: {error.json_path}: {error.message[:200]}" for error in validator.iter_errors(answer))
+            wrong.extend(f"{line}: the schema takes {str(bad)[:200]}" for bad in spoiled(answer) if validator.is_valid(bad))
+    print("\n".join(wrong) or "fine")
+
+
+main()

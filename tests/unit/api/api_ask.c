@@ -1,0 +1,189 @@
+/* Questions through the C interface: what sessions keep, notes, imports by the caller's own resolver, cancelling, and
+ * misuse. tests/cli/ask_interface.sh holds the answers to those of the commands. */
+#include "include/tartan/tartan.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const char text[] = "schema box { width = 1m | 2m  lid = flag }\n"
+                           "rule pair = neighbour(tray(lid), tray(lid))\n"
+                           "measure long \"length\" = sum(width)\n"
+                           "library rows using box { trays 1..3 prune pair }\n";
+
+static tartan_session *session_of(const char *rules, const tartan_compile_options *options)
+{
+    tartan_session *session = NULL;
+    tartan_error error;
+    if (tartan_session_open("box.plan", rules, strlen(rules), options, &session, &error) != TARTAN_OK)
+        fail_msg("%s", error.message);
+    return session;
+}
+
+/* The member of the answer that begins so, is there. */
+static void answers(tartan_session *session, const char *request, const char *member)
+{
+    char *answer = NULL;
+    tartan_error error;
+    if (tartan_ask(session, "count", request, NULL, NULL, NULL, &answer, &error) != TARTAN_OK)
+        fail_msg("%s: %s", request ? request : "no request", error.message);
+    if (!strstr(answer, member))
+        fail_msg("%s: no %s in %s", request ? request : "no request", member, answer);
+    tartan_text_free(answer);
+}
+
+static void refuses(tartan_session *session, const char *question, const char *request, const char *message)
+{
+    char *answer = NULL;
+    tartan_error error = {0};
+    assert_int_equal(tartan_ask(session, question, request, NULL, NULL, NULL, &answer, &error), TARTAN_INVALID);
+    assert_string_equal(error.message, message);
+    assert_null(answer);
+}
+
+/* Each question is answered as if it were the first. */
+static void answers_one_after_another(void **state)
+{
+    (void)state;
+    tartan_session *session = session_of(text, NULL);
+    for (int round = 0; round < 2; round++) {
+        answers(session, NULL, "\"kept\": \"56\"");
+        answers(session, "{\"trays\": {\"from\": 1, \"to\": 1}}", "\"kept\": \"4\"");
+        answers(session, "{\"where\": [\"trays = 2\"]}", "\"kept\": \"12\"");
+        answers(session, "{\"where\": [\"trays = 2\", \"tray(lid)\"]}", "\"kept\": \"8\"");
+        answers(session, "{\"by\": \"long\"}", "\"most\": \"6\"");
+        answers(session, "{\"library\": \"rows\", \"mirror\": true}", "\"mirror\": \"37\"");
+        refuses(session, "count", "{\"library\": \"row\"}", "box.plan has no library `row`");
+        refuses(session, "count", "{\"where\": [\"tray(lit)\"]}",
+                "`lit` is neither a field nor a value of schema `box`");
+    }
+    tartan_session_free(session);
+}
+
+static void count_notes(void *context, const tartan_diagnostic *diagnostic)
+{
+    *(size_t *)context += diagnostic->severity == TARTAN_NOTE;
+}
+
+static void tells_notes(void **state)
+{
+    (void)state;
+    size_t notes = 0;
+    char *answer = NULL;
+    tartan_error error;
+    tartan_session *session = NULL;
+    const char *folders[] = {TARTAN_SOURCE_DIR "/stdlib"};
+    tartan_compile_options options = tartan_compile_options_init();
+    options.folders = folders;
+    options.folder_count = 1;
+    const char *path = TARTAN_SOURCE_DIR "/stdlib/cottage.plan";
+    assert_int_equal(tartan_session_open(path, NULL, 0, &options, &session, &error), TARTAN_OK);
+    const char *none = "{\"library\": \"cottages\", \"plan\": \"#10\", \"where\": [\"not cell()\"]}";
+    assert_int_equal(tartan_ask(session, "count", none, NULL, count_notes, &notes, &answer, &error), TARTAN_OK);
+    assert_non_null(strstr(answer, "\"houses\":\"0\""));
+    assert_int_equal(notes, 1);
+    tartan_text_free(answer);
+    tartan_session_free(session);
+}
+
+static tartan_status resolve(void *context, const tartan_use *use, tartan_text *found, tartan_error *error)
+{
+    (void)error;
+    ++*(unsigned *)context;
+    assert_string_equal(use->path, "base.plan");
+    found->text = text;
+    found->size = sizeof text - 1;
+    return TARTAN_OK;
+}
+
+/* A question with requirements of its own compiles the text again, and asks for what it uses again; the same ones do
+ * not. */
+static void compiles_again_for_requirements(void **state)
+{
+    (void)state;
+    unsigned asked = 0;
+    tartan_compile_options options = tartan_compile_options_init();
+    options.resolve = resolve;
+    options.resolve_context = &asked;
+    tartan_session *session = session_of("use \"base.plan\"\nlibrary more using box from rows { }\n", &options);
+    assert_int_equal(asked, 1);
+    answers(session, "{\"library\": \"more\"}", "\"kept\": \"56\"");
+    assert_int_equal(asked, 1);
+    for (int round = 0; round < 3; round++) {
+        answers(session, "{\"library\": \"more\", \"where\": [\"trays = 3\"]}", "\"kept\": \"40\"");
+        assert_int_equal(asked, 2);
+    }
+    answers(session, "{\"library\": \"rows\", \"where\": [\"trays = 3\"]}", "\"kept\": \"40\"");
+    assert_int_equal(asked, 3);
+    tartan_session_free(session);
+}
+
+static bool refuse(void *context, double done, double total)
+{
+    (void)done, (void)total;
+    ++*(unsigned *)context;
+    return false;
+}
+
+static void can_be_stopped(void **state)
+{
+    (void)state;
+    unsigned asked = 0;
+    char *answer = NULL;
+    tartan_error error;
+    tartan_watch watch = tartan_watch_init();
+    tartan_session *session = session_of(text, NULL);
+    watch.go_on = refuse;
+    watch.context = &asked;
+    assert_int_equal(tartan_ask(session, "count", NULL, &watch, NULL, NULL, &answer, &error), TARTAN_STOPPED);
+    assert_string_equal(error.message, "stopped before it was done");
+    assert_true(asked > 0);
+    assert_null(answer);
+    answers(session, NULL, "\"kept\": \"56\"");
+    tartan_session_free(session);
+}
+
+static void refuses_misuse(void **state)
+{
+    (void)state;
+    char *answer = NULL;
+    tartan_session *session = NULL;
+    tartan_error error = {0};
+    assert_int_equal(tartan_session_open(NULL, text, 1, NULL, &session, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_session_open("box.plan", text, sizeof text - 1, NULL, NULL, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_session_open("box.plan", "rule", 4, NULL, &session, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_session_open("gone.plan", NULL, 0, NULL, &session, &error), TARTAN_IO);
+    assert_null(session);
+    session = session_of(text, NULL);
+    assert_int_equal(tartan_ask(NULL, "count", NULL, NULL, NULL, NULL, &answer, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_ask(session, NULL, NULL, NULL, NULL, NULL, &answer, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_ask(session, "count", NULL, NULL, NULL, NULL, NULL, &error), TARTAN_INVALID);
+    refuses(session, "counts", NULL, "there is no question `counts`");
+    refuses(session, "count", "{", "the request is no JSON object: string or '}' expected near end of file");
+    refuses(session, "count", "{\"by\": \"long\", \"by\": \"long\"}",
+            "the request is no JSON object: duplicate object key near '\"by\"'");
+    refuses(session, "count", "{\"bye\": \"long\"}", "a count_request has no `bye`");
+    refuses(session, "count", "{\"by\": null, \"where\": [1]}",
+            "`where` is a list of texts: only plans, or houses, that meet these requirements too, in the words of the "
+            "file");
+    assert_null(answer);
+    tartan_session_free(session);
+    tartan_session_free(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(answers_one_after_another),
+        cmocka_unit_test(tells_notes),
+        cmocka_unit_test(compiles_again_for_requirements),
+        cmocka_unit_test(can_be_stopped),
+        cmocka_unit_test(refuses_misuse),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
