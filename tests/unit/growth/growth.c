@@ -295,8 +295,8 @@ static void test_limits_stop_a_step(void **state)
         status = tn_growth_step(g.growth, &error);
     assert_int_equal(status, TN_LIMIT);
     assert_int_equal(error.code, E_MEMORY_LIMIT);
-#ifndef __SANITIZE_ADDRESS__ /* which keeps what was freed for a while */
-    assert_true(tn_memory_used() <= watch.memory_limit);
+#ifndef __SANITIZE_ADDRESS__ /* which keeps what was freed for a while; an emulator holds memory of its own */
+    assert_true(getenv("TARTAN_TESTS_EMULATED") || tn_memory_used() <= watch.memory_limit);
 #endif
     g.study.options.watch = NULL;
     uproot(&g);
