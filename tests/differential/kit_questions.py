@@ -17,7 +17,7 @@ from program import Wrong, answer, read_json, run, same
 from subject import Subject
 
 LIMIT, SEARCH_LIMIT = ["--part-limit", "1500"], ["--search-limit", "400"]
-NOTHING, MISSED, BLOCKED = "E1314", "E1316", "E1341"
+NOTHING, MISSED, NO_ROOM, BLOCKED = "E1314", "E1316", "E1310", "E1341"  # of what stands, the last two: E1341 of a search
 MILLIMETRES = .4
 
 
@@ -159,7 +159,7 @@ def by_rules(subject):
         return
     said, text = subject.place(file=subject.free)
     if not greedy.parts or greedy.blocked:
-        same("a model without parts", said, BLOCKED if greedy.blocked else NOTHING)
+        same("a model without parts", said in (NO_ROOM, BLOCKED) if greedy.blocked else said == NOTHING, True)
         return
     want = [ldraw(kit, standing) for standing in greedy.parts]
     got = lines_of(text) if text else [said]
