@@ -7,6 +7,7 @@ import shutil
 from fractions import Fraction
 
 import file_questions
+from c_ask import c_ask
 from c_interface import c_interface
 from exports import prolog, regex
 from house_files import bills, solids, swings
@@ -445,4 +446,4 @@ def limits(subject):
 QUICK = [counted_ways, by_length]              # asked of every library; of those that follow some are chosen
 OF_FILES = [loads, file_questions.keeps_its_meaning, says_json]
 OF_LIBRARIES = [by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, both_engines, fronts, mirrored,
-                effects, compared, threads, saved, limits, prolog, regex, c_interface, solids, swings, bills, tested]
+                effects, compared, threads, saved, limits, prolog, regex, c_interface, c_ask, solids, swings, bills, tested]

@@ -1,0 +1,82 @@
+"""tartan_ask of the C interface by ctypes, against what commands write with --json: the same bytes, or the same sentence where both refuse. All
+requests are asked of one session. A crash of the library is one of the process that asks it: c_ask.py LIBTARTAN FILE, which reads
+[question, request] as lines of JSON and prints answers so."""
+import ctypes
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+from c_interface import Error
+from program import TARTAN, Wrong, environment, run, same
+
+
+class Session:
+    def __init__(self, path, file):
+        self.c, self.session, error = ctypes.CDLL(path), ctypes.c_void_p(), Error()
+        if self.c.tartan_session_open(file.encode(), None, ctypes.c_size_t(0), None, ctypes.byref(self.session), ctypes.byref(error)):
+            sys.exit("not opened: " + error.message.decode())
+
+    def ask(self, question, request):
+        answer, error = ctypes.c_void_p(), Error()
+        if self.c.tartan_ask(self.session, question.encode(), json.dumps(request).encode(), None, None, None, ctypes.byref(answer), ctypes.byref(error)):
+            return "error: " + error.message.decode()
+        text = ctypes.string_at(answer).decode()
+        self.c.tartan_text_free(answer)
+        return text
+
+
+# ---- the question
+
+def as_words(request):
+    """The options of the command."""
+    for key, value in request.items():
+        for one in value if isinstance(value, list) else [value]:
+            yield "--" + key.replace("_", "-")
+            yield from [] if one is True else [str(one)]
+
+
+def by_command(subject, request):
+    words = [word for word in as_words(request) if word != "--values"]
+    code, out, err = run("count", subject.path, *words, "--json")
+    said = re.search(r"^(?:.*?: )?error(?:\[E\d+\])?: (.*)$", err, re.M)
+    return out if code == 0 else "error: " + (said.group(1) if said else err)
+
+
+def requests_of(subject):
+    library, measures, rules = subject.item.name, subject.measures()[:2], subject.rules()[:1]
+    yield {"library": library}
+    yield from ({"library": library, "by": measure, "values": True} for measure in measures)
+    yield from ({"library": library, "by": measure, "bins": 3} for measure in measures[:1])
+    for rule in rules:
+        yield {"library": library, "where": [rule]}
+        yield {"library": library, "where": [rule, f"not {rule}"]}
+    yield {"library": library, "clauses": True} if subject.houses else {"library": library, "mirror": True, "no_effects": True}
+    yield {"library": library, "max_states": 2}
+    yield {"library": library}
+
+
+def c_ask(subject):
+    path = os.path.join(os.path.dirname(shutil.which(TARTAN) or ""), "libtartan.so")
+    if not os.path.exists(path) or "\nuse " in "\n" + subject.source.text:
+        return
+    requests = list(requests_of(subject))
+    lines = "".join(json.dumps(["count", request]) + "\n" for request in requests)
+    done = subprocess.run([sys.executable, "-B", os.path.abspath(__file__), path, subject.path], input=lines, capture_output=True, text=True,
+                          encoding="utf-8", timeout=300, env=environment())
+    if done.returncode:
+        raise Wrong("tartan_ask ends", f"{done.returncode}: {done.stderr[-300:]}", "0")
+    for request, line in zip(requests, done.stdout.splitlines(), strict=True):
+        same(f"tartan_ask count {json.dumps(request)}", json.loads(line), by_command(subject, request))
+
+
+def main():
+    session = Session(*sys.argv[1:3])
+    for line in sys.stdin:
+        print(json.dumps(session.ask(*json.loads(line))))
+
+
+if __name__ == "__main__":
+    main()
