@@ -37,6 +37,16 @@ static const tn_message_member *valued(const tn_message_member *map)
     return &map->of->members[1];
 }
 
+/* Does some message have a member of this kind that is of this one? */
+static bool is_used_as(const tn_message *message, tn_message_kind kind)
+{
+    for (size_t i = 0; i < tn_message_count; i++)
+        for (size_t k = 0; k < tn_messages[i]->member_count; k++)
+            if (tn_messages[i]->members[k].of == message && tn_messages[i]->members[k].kind == kind)
+                return true;
+    return false;
+}
+
 /* ---- JSON Schema */
 
 static void write_reference(tn_json *json, const char *key, const tn_message *message)
@@ -217,7 +227,8 @@ void tn_describe_schema(FILE *out)
     write_questions(&json, false);
     tn_json_object(&json, "$defs");
     for (size_t i = 0; i < tn_message_count; i++)
-        write_definition(&json, tn_messages[i]);
+        if (!is_used_as(tn_messages[i], TN_MESSAGE_PART) && !is_used_as(tn_messages[i], TN_MESSAGE_MAP))
+            write_definition(&json, tn_messages[i]);
     tn_json_object_end(&json);
     tn_json_object_end(&json);
     tn_json_end_line(&json);
@@ -304,7 +315,8 @@ void tn_describe_types(FILE *out)
           "\"7/2\".\n\n",
           out);
     for (size_t i = 0; i < tn_message_count; i++)
-        write_interface(tn_messages[i], out);
+        if (!is_used_as(tn_messages[i], TN_MESSAGE_MAP)) /* which is written as a Record */
+            write_interface(tn_messages[i], out);
     fputs("/** What each question is asked with, and answered with. */\nexport interface Questions {\n", out);
     for (size_t i = 0; i < tn_request_kind_count; i++) {
         const tn_request_kind *kind = &tn_request_kinds[i];
@@ -378,17 +390,6 @@ static void write_table(const tn_message *message, FILE *out)
     write_rows(message, out);
 }
 
-static bool is_part(const tn_message *message)
-{
-    for (size_t i = 0; i < tn_message_count; i++)
-        for (size_t k = 0; k < tn_messages[i]->member_count; k++) {
-            const tn_message_member *m = &tn_messages[i]->members[k];
-            if (m->of == message && (m->kind == TN_MESSAGE_PART || m->kind == TN_MESSAGE_MAP))
-                return true;
-        }
-    return false;
-}
-
 void tn_describe_page(FILE *out)
 {
     fputs(
@@ -411,6 +412,6 @@ void tn_describe_page(FILE *out)
         fprintf(out, " | %s |\n", kind->doc);
     }
     for (size_t i = 0; i < tn_message_count; i++)
-        if (!is_part(tn_messages[i]))
+        if (!is_used_as(tn_messages[i], TN_MESSAGE_PART) && !is_used_as(tn_messages[i], TN_MESSAGE_MAP))
             write_table(tn_messages[i], out);
 }
