@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "cli/house/numbered_parts.h"
+#include "ask/numbered.h"
 #include "tests/support/test_house.h"
 
 static const char text[] = "schema hut { width role length = 8' zone body role band = room(10') }\n"
@@ -28,6 +28,7 @@ static void test_contradiction(void **state)
     test_house made;
     tn_error error = {0};
     tn_numbered opened, n;
+    tn_session session = {0};
     tn_library *plans;
     tn_house house;
     const tn_library_options options = {0};
@@ -36,7 +37,7 @@ static void test_contradiction(void **state)
     mpz_init(number);
     test_house_compile(&made, text);
     assert_int_equal(tn_library_new(made.schema, made.some->plans, &options, &plans, &error), TN_OK);
-    opened = (tn_numbered){.schema = made.schema, .form = made.form};
+    opened = (tn_numbered){.session = &session, .schema = made.schema, .form = made.form};
     assert_int_equal(tn_numbered_other(&opened, made.module, made.all, plans, &n, &error), TN_OK);
     for (unsigned long i = 0; i < 2; i++) {
         mpz_set_ui(number, i);

@@ -54,10 +54,11 @@ static tn_status compare(void *context, tn_buffer *out, tn_error *error)
     static const tn_compared_options options = {.shown = 2, .seed = 1, .one_by_one = 1000};
     compared_pair *pair = context;
     tn_compared_houses c = {.sides = {{.path = "old.plan"}, {.path = "new.plan"}}};
+    tn_session session = {0};
     tn_status status = TN_OK;
     for (int i = 0; i < 2; i++) {
         test_house *one = &pair->houses[i];
-        const tn_numbered opened = {.schema = one->schema, .form = one->form};
+        const tn_numbered opened = {.session = &session, .schema = one->schema, .form = one->form};
         if (status == TN_OK)
             status = tn_numbered_other(&opened, one->module, one->all, pair->plans[i], &c.sides[i].n, error);
     }
