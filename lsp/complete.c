@@ -19,7 +19,7 @@ bool tn_cursor_is_word(const tn_lsp_cursor *c, size_t i, uint64_t places, uint32
     if (i >= c->count || c->tokens[i].kind != TN_TOKEN_WORD)
         return false;
     tn_span span = c->tokens[i].span;
-    return tn_plan_word_find(c->text + span.begin, span.end - span.begin, places, uses) != NULL;
+    return tn_vocabulary_find(&tn_plan_words, c->text + span.begin, span.end - span.begin, places, uses) != NULL;
 }
 
 char *tn_cursor_word(const tn_lsp_cursor *c, size_t i)
@@ -40,8 +40,8 @@ void tn_offer(tn_lsp_cursor *c, const char *label, int kind, const char *detail,
 void tn_offer_words(tn_lsp_cursor *c, uint64_t places)
 {
     c->places |= places;
-    for (size_t i = 0; i < tn_plan_word_count; i++) {
-        const tn_plan_word *word = &tn_plan_words[i];
+    for (size_t i = 0; i < c->words->count; i++) {
+        const tn_vocabulary_word *word = &c->words->words[i];
         if ((word->places & places) && word->use != TN_AS_SPELLING)
             tn_offer(c, word->text, KIND_KEYWORD, word->sentence, "2");
     }
@@ -289,12 +289,13 @@ static void complete_top(tn_lsp_cursor *c)
 
 static void complete_files(tn_lsp_cursor *c, const tn_workspace *workspace)
 {
+    const char *extension = c->analysis->compilation.notation->extension;
     for (size_t i = 0; i < workspace->stdlib.count; i++) {
         DIR *folder = opendir(workspace->stdlib.dirs[i]);
         for (struct dirent *entry; folder && (entry = readdir(folder));) {
             size_t size = strlen(entry->d_name);
-            size_t tail = strlen(TN_NOTATION(plan)->extension);
-            if (size <= tail || strcmp(entry->d_name + size - tail, TN_NOTATION(plan)->extension) != 0)
+            size_t tail = strlen(extension);
+            if (size <= tail || strcmp(entry->d_name + size - tail, extension) != 0)
                 continue;
             char *name = strndup(entry->d_name, size - tail);
             if (name)
@@ -374,7 +375,7 @@ static void find_context(tn_lsp_cursor *c)
     }
 }
 
-static void complete(tn_lsp_cursor *c)
+static void complete_plan(tn_lsp_cursor *c)
 {
     size_t bracket = c->depth ? c->brackets[c->depth - 1] : 0;
     size_t outer = c->depth;
@@ -405,6 +406,16 @@ static void complete(tn_lsp_cursor *c)
         complete_top(c);
 }
 
+static void complete(tn_lsp_cursor *c)
+{
+    if (c->words->places) {
+        tn_offer_words(c, tn_vocabulary_places(c->words, c->text, c->tokens, c->count));
+        return;
+    }
+    find_context(c);
+    complete_plan(c);
+}
+
 /* The same label once. */
 static json_t *without_repeats(json_t *list)
 {
@@ -429,6 +440,7 @@ static tn_lsp_cursor *cursor_new(const tn_document *document, const tn_file_anal
     if (!c)
         return NULL;
     c->analysis = analysis;
+    c->words = analysis->compilation.notation->front->words;
     c->text = document->text;
     c->tokens = analysis->tokens.items;
     c->list = json_array();
@@ -441,8 +453,7 @@ json_t *tn_lsp_completion(tn_workspace *workspace, tn_document *document, tn_fil
     bool quoted;
     if (!c)
         return NULL;
-    if (analysis->compilation.notation == TN_NOTATION(plan) && find_tokens(c, offset, &quoted)) {
-        find_context(c);
+    if (c->words && find_tokens(c, offset, &quoted)) {
         if (!quoted)
             complete(c);
         else if (c->count > 0 && tn_cursor_is(c, c->count - 1, "use"))
@@ -471,26 +482,24 @@ static const tn_token *token_at(const tn_tokens *tokens, size_t offset)
  * for a name says nothing elsewhere. */
 const char *tn_lsp_word(tn_document *document, tn_file_analysis *analysis, size_t offset, tn_span *span)
 {
-    bool plan = analysis->compilation.notation == TN_NOTATION(plan);
-    const tn_token *token = plan ? token_at(&analysis->tokens, offset) : NULL;
+    bool words = analysis->compilation.notation->front->words != NULL;
+    const tn_token *token = words ? token_at(&analysis->tokens, offset) : NULL;
     tn_lsp_cursor *c = token ? cursor_new(document, analysis) : NULL;
     bool quoted;
     if (!c)
         return NULL;
-    if (find_tokens(c, token->span.begin, &quoted)) {
-        find_context(c);
+    if (find_tokens(c, token->span.begin, &quoted))
         complete(c);
-    }
     *span = token->span;
     const char *text = document->text + span->begin;
     size_t size = span->end - span->begin;
     uint32_t uses = token->kind == TN_TOKEN_WORD ? TN_AS_KEYWORDS : TN_AS_NAMES;
     uint32_t calls = text[size] == '(' ? TN_AS_CALL | TN_AS_SPELLING : ~(uint32_t)(TN_AS_CALL | TN_AS_SPELLING);
-    const tn_plan_word *word = tn_plan_word_find(text, size, c->places, uses & calls);
+    const tn_vocabulary_word *word = tn_vocabulary_find(c->words, text, size, c->places, uses & calls);
     if (!word)
-        word = tn_plan_word_find(text, size, c->places, uses);
+        word = tn_vocabulary_find(c->words, text, size, c->places, uses);
     if (!word && token->kind == TN_TOKEN_WORD)
-        word = tn_plan_word_find(text, size, TN_ANYWHERE, uses);
+        word = tn_vocabulary_find(c->words, text, size, TN_ANYWHERE, uses);
     json_decref(c->list);
     free(c);
     return word ? word->sentence : NULL;

@@ -22,6 +22,7 @@ enum { DEPTH_MAX = 1024 }; /* brackets around the cursor that are told apart */
 typedef struct tn_lsp_cursor {
     const tn_file_analysis *analysis;
     const char *text;
+    const tn_vocabulary *words; /* of the notation */
     const tn_token *tokens;
     size_t count; /* tokens before the cursor; not the word that it is in or just behind */
     size_t item;  /* the word that starts the item; `count` where there is none */

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Holds what knows words to their table: words.py TARTAN FOLDER [ROWS]. The rows are those of compiler/plan/syntax/words.def, and ROWS.
+"""Holds what knows words to their table: words.py TARTAN FOLDER [ROWS]. With ROWS it asks about .plan alone, and of
+these rows, too.
 
-The folder's .plan files are laid out and have each word in each of its meanings. Of every word in them this asks: does the formatter
+The folder's files are laid out and have each word in each of its meanings. Of every word in them this asks: does the formatter
 put no blank before its parenthesis, do editors offer it there and say its sentence, and is it suggested where it is misspelled? Says
 what does not follow the table. What is made from the table, `tools/words --check` compares."""
 import json, os, re, shutil, subprocess, sys, tempfile
@@ -20,7 +21,7 @@ class Server:
         self.document, self.text, self.number = {"uri": "file://" + os.path.abspath(path)}, text, 0
         self.ask("initialize", {"capabilities": {}})
         self.send(method="initialized", params={})
-        self.send(method="textDocument/didOpen", params={"textDocument": dict(self.document, languageId="plan", version=1, text=text)})
+        self.send(method="textDocument/didOpen", params={"textDocument": dict(self.document, languageId=path.rsplit(".", 1)[1], version=1, text=text)})
 
     def send(self, **message):
         body = json.dumps(dict(message, jsonrpc="2.0")).encode()
@@ -63,8 +64,10 @@ def occurrences(text, known):
 def consistent(table):
     """A keyword has to be read where it may stand."""
     top = {"RULES", "OPENING", "WALK", "LATER"}
+    by_place = any(table.reads.values())
     for row in table.words:
-        if not row.places or (row.token == "NAME") != (row.use in ("NAMED", "VALUE")) or (row.token == "NAME") != (not row.read):
+        name, is_read = row.token == "NAME", bool(row.read) if by_place else row.token != "NAME"
+        if not row.places or name != (row.use in ("NAMED", "VALUE")) or name == is_read:
             yield "the row of `%s` says two things" % row.text
         for place in row.places if row.read else ():
             read = table.reads[place]
@@ -72,11 +75,15 @@ def consistent(table):
                 yield "`%s` may stand in %s, and the lexer does not read it there" % (row.text, place)
 
 
-def layout(tartan, text, places, table):
+def laid_out(tartan, notation, text):
+    return run(tartan, "fmt", "--notation", notation, "-", text=text)[0]
+
+
+def layout(tartan, notation, text, places, table):
     for offset, word in places:
         end = offset + len(word)
-        if text[end] == "(" and any(row.use in ("CALL", "SPELLING") for row in table.rows(word)):
-            if run(tartan, "fmt", "--notation", "plan", "-", text=text[:end] + " " + text[end:])[0] != text:
+        if text[end:end + 1] == "(" and any(row.use in ("CALL", "SPELLING") for row in table.rows(word)):
+            if laid_out(tartan, notation, text[:end] + " " + text[end:]) != text:
                 yield "fmt leaves the blank in `%s (`" % word
 
 
@@ -123,26 +130,32 @@ def suggested(tartan, scratch, seen):
             yield "`%s` is not suggested for `%s` (%s)" % (row.text, slip(row.text), ", ".join(sorted(row.places)))
 
 
-def main(tartan, folder, rows=None):
-    table = words.Table([words.read(os.path.join(ROOT, "compiler/plan/syntax/words.def"))] + ([words.read(rows)] if rows else []))
-    paths = [os.path.join(folder, name) for name in sorted(os.listdir(folder)) if name.endswith(".plan")]
+def follows(tartan, notation, table, folder):
+    paths = [os.path.join(folder, name) for name in sorted(os.listdir(folder)) if name.endswith("." + notation)]
     wrong, seen = list(consistent(table)), {}
     for path in paths:
         text = words.read(path)
-        if run(tartan, "fmt", "--notation", "plan", "-", text=text)[0] != text:
+        if laid_out(tartan, notation, text) != text:
             wrong.append("%s is not laid out" % path)
         places = list(occurrences(text, {row.text for row in table.words}))
-        wrong += layout(tartan, text, places, table)
+        wrong += layout(tartan, notation, text, places, table)
         wrong += editors(tartan, path, text, places, table, seen)
-    wrong += ["nobody says what `%s` is, or no file has it (%s)" % (row.text, ", ".join(sorted(row.places)))
+    wrong += ["nobody says what `%s` of .%s is, or no file has it (%s)" % (row.text, notation, ", ".join(sorted(row.places)))
               for row in table.words if row not in seen and row.use != "SPELLING"]
     if wrong:
-        print("\n".join(wrong))
-        sys.exit(1)
+        return wrong
     with tempfile.TemporaryDirectory() as scratch:
         for path in paths:
             shutil.copy(path, scratch)
-        wrong += suggested(tartan, scratch, seen)
+        return list(suggested(tartan, scratch, seen))
+
+
+def main(tartan, folder, rows=None):
+    wrong = []
+    for name, path, _, _ in words.NOTATIONS:
+        texts = [words.read(os.path.join(ROOT, path))] + ([words.read(rows)] if rows and name == "plan" else [])
+        if name == "plan" or not rows:
+            wrong += follows(tartan, name, words.Table(texts), folder)
     print("\n".join(wrong))
     sys.exit(bool(wrong))
 

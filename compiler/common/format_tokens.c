@@ -24,6 +24,13 @@ bool tn_format_is_any(const tn_format *format, size_t i, const char *const *text
     return false;
 }
 
+bool tn_format_is_word(const tn_format *format, size_t i, const tn_vocabulary *words, uint64_t places, uint32_t uses)
+{
+    const tn_format_token *token = &format->tokens[i];
+    return token->kind == TN_TOKEN_WORD &&
+           tn_vocabulary_find(words, token->text, token->size, places, uses & TN_AS_KEYWORDS) != NULL;
+}
+
 static bool opens(const tn_format *format, size_t i)
 {
     return tn_format_is(format, i, "(") || tn_format_is(format, i, "[");

@@ -8,6 +8,7 @@
 #include "compiler/common/limits.h"
 #include "compiler/common/source.h"
 #include "compiler/common/token.h"
+#include "compiler/common/words.h"
 
 typedef struct tn_format_comment {
     const char *text;
@@ -62,6 +63,8 @@ bool tn_format_match_brackets(tn_format *format, size_t *place);
 bool tn_format_is(const tn_format *format, size_t i, const char *text);
 /* Is it one of these? The list ends in NULL. */
 bool tn_format_is_any(const tn_format *format, size_t i, const char *const *texts);
+/* Is token i a word of the language that stands in one of these places, and is one of these uses there? */
+bool tn_format_is_word(const tn_format *format, size_t i, const tn_vocabulary *words, uint64_t places, uint32_t uses);
 
 /* The columns that tokens [first, last) take on one line; TN_FORMAT_TOO_WIDE where they do not fit any, or have
  * comments between them. A comment before the first counts, one after the last does not. */

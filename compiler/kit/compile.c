@@ -2,6 +2,7 @@
 #include "compiler/common/emit_sources.h"
 #include "compiler/common/notation.h"
 #include "compiler/kit/kit.h"
+#include "compiler/kit/words.h"
 
 static const char kit_files[] = ".kit";
 
@@ -96,6 +97,7 @@ const tn_front tn_front_kit = {
     .compile = compile,
     .made = made,
     .list = tn_kit_list,
+    .words = &tn_kit_words,
     .lay_out = tn_format_kit,
     .spell = tn_format_small_letters,
     .nests = true,

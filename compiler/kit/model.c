@@ -3,6 +3,7 @@
 
 #include "compiler/common/limits.h"
 #include "compiler/kit/kit.h"
+#include "compiler/kit/words.h"
 
 const tn_expression_scope tn_kit_scope = {
     .names = tn_placed_terms,
@@ -13,6 +14,7 @@ const tn_expression_scope tn_kit_scope = {
     .split = "write several: they are joined by a comma",
     .unknown = E_KIT_TERM,
     .wrong = E_KIT_EXPRESSION,
+    .vocabulary = &tn_kit_words,
 };
 
 /* ---- conditions */

@@ -12,12 +12,9 @@ enum {
     DOC_GAP = 2,      /* blanks between a test case and its text */
 };
 
-/* Is the token a word of the language that stands in one of these places, and is one of these uses there? */
 static bool is_word(const tn_format *format, size_t i, uint64_t places, uint32_t uses)
 {
-    const tn_format_token *token = &format->tokens[i];
-    return token->kind == TN_TOKEN_WORD &&
-           tn_plan_word_find(token->text, token->size, places, uses & TN_AS_KEYWORDS) != NULL;
+    return tn_format_is_word(format, i, &tn_plan_words, places, uses);
 }
 
 /* Does a bracket stand directly at the word before it? */

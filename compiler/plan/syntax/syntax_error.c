@@ -178,7 +178,7 @@ static const char *nearest_of(const tn_parse *parse, tn_span span, uint64_t plac
 {
     enum { WORDS_MAX = 96 };
     const char *words[WORDS_MAX];
-    return nearest(parse, span, words, tn_plan_words_list(places, uses, words, WORDS_MAX));
+    return nearest(parse, span, words, tn_vocabulary_list(&tn_plan_words, places, uses, words, WORDS_MAX));
 }
 
 /* The word of the language that a misspelled one is nearest to, among those that could stand here. */
@@ -284,7 +284,8 @@ static bool report_misspelled_call(tn_parse *parse, const tn_syntax_found *found
         (!values && !tn_token_is_word(found->name, TN_AT(DISTANCE) | TN_AT(MEETING), TN_AS_MARK)))
         return false;
     tn_span word = called(parse, found->span);
-    if (tn_plan_word_find(parse->text + word.begin, word.end - word.begin, TN_ANYWHERE, TN_AS_KEYWORDS) ||
+    if (tn_vocabulary_find(&tn_plan_words, parse->text + word.begin, word.end - word.begin, TN_ANYWHERE,
+                           TN_AS_KEYWORDS) ||
         declares_rule(parse, word))
         return false;
     const char *near = nearest_of(parse, word, TN_AT(RULE), TN_AS_CALL);

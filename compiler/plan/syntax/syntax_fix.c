@@ -21,7 +21,8 @@ bool tn_is_keyword(const char *token)
 
 bool tn_token_is_word(const char *token, uint64_t places, uint32_t uses)
 {
-    return tn_is_keyword(token) && tn_plan_word_find(token + 1, strcspn(token + 1, "`"), places, uses) != NULL;
+    return tn_is_keyword(token) &&
+           tn_vocabulary_find(&tn_plan_words, token + 1, strcspn(token + 1, "`"), places, uses) != NULL;
 }
 
 bool tn_starts_expression(const char *found)
@@ -60,8 +61,8 @@ static bool followed_by_equals(const tn_parse *parse)
 {
     tn_span span = parse->last_span;
     size_t at = span.end;
-    const tn_plan_word *word =
-        tn_plan_word_find(parse->text + span.begin, span.end - span.begin, TN_AT(ITEM), TN_AS_KEYWORDS);
+    const tn_vocabulary_word *word = tn_vocabulary_find(&tn_plan_words, parse->text + span.begin, span.end - span.begin,
+                                                        TN_AT(ITEM), TN_AS_KEYWORDS);
     if (!word || !(word->read & TN_READ_LATER))
         return false;
     while (at < parse->size && parse->text[at] == ' ')
@@ -75,8 +76,8 @@ static bool opens_call(const tn_parse *parse)
     uint32_t end = parse->span_before.begin, begin = end;
     while (begin > 0 && (isalnum((unsigned char)parse->text[begin - 1]) || parse->text[begin - 1] == '-'))
         begin--;
-    return end > begin &&
-           !tn_plan_word_find(parse->text + begin, end - begin, TN_AT(RULE) | TN_AT(CONDITION), TN_AS_KEYWORDS);
+    return end > begin && !tn_vocabulary_find(&tn_plan_words, parse->text + begin, end - begin,
+                                              TN_AT(RULE) | TN_AT(CONDITION), TN_AS_KEYWORDS);
 }
 
 /* Does a digit come directly after the token at hand? */
@@ -288,7 +289,8 @@ static const char *schema_fix(const tn_parse *parse, const char *found, const tn
 static bool comes_after_heading(const tn_parse *parse)
 {
     tn_span span = parse->span_before;
-    return tn_plan_word_find(parse->text + span.begin, span.end - span.begin, TN_AT(ITEM), TN_AS_HEAD) != NULL;
+    return tn_vocabulary_find(&tn_plan_words, parse->text + span.begin, span.end - span.begin, TN_AT(ITEM),
+                              TN_AS_HEAD) != NULL;
 }
 
 /* A likely fix, from what was found and what could have stood there; NULL where none is known. */
