@@ -56,6 +56,13 @@ static size_t gap_before(const tn_format *format, size_t i)
     return tn_format_is(format, i, "(") && takes_bracket(format, i - 1) ? 0 : 1;
 }
 
+/* What comes behind an expression or a name: a text, or a word such as `as`. */
+static bool at_part(const tn_format *format, size_t i)
+{
+    return format->tokens[i].kind == TN_TOKEN_STRING ||
+           is_word(format, i, TN_AT(HEAD) | TN_AT(CLAUSE_END), TN_AS_HEAD | TN_AS_MARK);
+}
+
 typedef void put_run(tn_format *format, const size_t *starts, size_t count);
 
 static bool starts_item(const tn_format *format, size_t i)
@@ -120,11 +127,6 @@ static size_t find(const tn_format *format, size_t first, size_t last, const cha
     return first;
 }
 
-static bool at_head_part(const tn_format *format, size_t i)
-{
-    return format->tokens[i].kind == TN_TOKEN_STRING || is_word(format, i, TN_AT(HEAD), TN_AS_HEAD | TN_AS_MARK);
-}
-
 static bool at_comma(const tn_format *format, size_t i)
 {
     return tn_format_is(format, i, ",");
@@ -161,7 +163,7 @@ static void put_field(tn_format *format, size_t first, size_t last, size_t name_
         tn_format_flat(format, name + 1, last);
         return;
     }
-    tn_format_fill(format, name + 1, equal + 1, at_head_part, false, BODY + CONTINUED, 0);
+    tn_format_fill(format, name + 1, equal + 1, at_part, false, BODY + CONTINUED, 0);
     if (equal > name + 1)
         tn_layout_line(&format->layout, BODY + CONTINUED);
     else
@@ -203,7 +205,7 @@ static void put_clauses(tn_format *format, const size_t *starts, size_t count)
 static void put_tile(tn_format *format, size_t first, size_t last)
 {
     size_t open = find(format, first, last, "{"), close = last - 1;
-    tn_format_fill(format, first, open + 1, at_head_part, false, BODY + CONTINUED, 0);
+    tn_format_fill(format, first, open + 1, at_part, false, BODY + CONTINUED, 0);
     for (size_t i = open + 1, next; i < close; i = next) {
         next = next_start(format, i, close, starts_tile_part);
         format->tokens[i].blank &= i > open + 1; /* none after the opening brace */
@@ -317,7 +319,7 @@ static void put_body(tn_format *format, size_t open, size_t close, tn_format_spl
 static void put_block(tn_format *format, size_t first, size_t last, tn_format_split *begins, put_run *put)
 {
     size_t open = find(format, first, last, "{"), close = last - 1;
-    tn_format_fill(format, first, open + 1, at_head_part, false, CONTINUED, 0);
+    tn_format_fill(format, first, open + 1, at_part, false, CONTINUED, 0);
     bool empty = close == open + 1 && !format->tokens[close].comment_count && !format->tokens[open].remark.text;
     if (empty) {
         tn_format_put(format, close, 0);
@@ -345,7 +347,7 @@ static bool is_short_rule(const tn_format *format, size_t first, size_t last)
 static void put_rule(tn_format *format, size_t first, size_t last)
 {
     size_t equal = find(format, first, last, "=");
-    tn_format_fill(format, first, equal + 1, at_head_part, false, CONTINUED, 0);
+    tn_format_fill(format, first, equal + 1, at_part, false, CONTINUED, 0);
     tn_layout_line(&format->layout, BODY);
     tn_format_expression(format, equal + 1, last, 0);
 }
@@ -372,6 +374,7 @@ void tn_format_plan(tn_format *format)
 {
     bool tall = false; /* the item before takes several lines */
     format->gap_before = gap_before;
+    format->at_part = at_part;
     for (size_t first = 0, last; first < format->count; first = last) {
         last = next_start(format, first, format->count, starts_item);
         bool one_line = tn_format_is(format, first, "use") ||
