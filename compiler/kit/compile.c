@@ -2,7 +2,6 @@
 #include "compiler/common/emit_sources.h"
 #include "compiler/common/notation.h"
 #include "compiler/kit/kit.h"
-#include "compiler/kit/words.h"
 
 static const char kit_files[] = ".kit";
 
@@ -90,6 +89,18 @@ static bool made(const tn_module *module)
 {
     return module->KIT_count > 0;
 }
+
+static const tn_vocabulary_word words[] = {
+#define WORD(TEXT, TOKEN, PLACES, USE, SENTENCE) {TEXT, SENTENCE, PLACES, USE, 0},
+#include "compiler/kit/words.def"
+};
+
+static const tn_vocabulary_place places[] = {
+#define PLACE(ID, BLOCK, HEADS, WHERE) {BLOCK, HEADS},
+#include "compiler/kit/words.def"
+};
+
+const tn_vocabulary tn_kit_words = {words, sizeof words / sizeof *words, places, sizeof places / sizeof *places};
 
 extern const tn_front tn_front_kit;
 const tn_front tn_front_kit = {

@@ -1,7 +1,6 @@
 /* Laying out .kit files: a statement a line; one that is too long goes on where its next part begins. */
 #include "compiler/common/format_statements.h"
 #include "compiler/kit/kit.h"
-#include "compiler/kit/words.h"
 
 /* box( and count(. */
 static bool is_call(const tn_format *format, size_t i)

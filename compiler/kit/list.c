@@ -1,6 +1,5 @@
 /* Lists what a .kit file has: its definitions, and in models and parts what they say. */
 #include "compiler/kit/kit.h"
-#include "compiler/kit/words.h"
 
 static bool is_any(const tn_listing *listing, size_t i, const char *const *words)
 {

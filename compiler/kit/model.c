@@ -3,7 +3,6 @@
 
 #include "compiler/common/limits.h"
 #include "compiler/kit/kit.h"
-#include "compiler/kit/words.h"
 
 const tn_expression_scope tn_kit_scope = {
     .names = tn_placed_terms,
