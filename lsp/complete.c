@@ -14,12 +14,12 @@ bool tn_cursor_is(const tn_lsp_cursor *c, size_t i, const char *text)
     return strlen(text) == span.end - span.begin && strncasecmp(c->text + span.begin, text, strlen(text)) == 0;
 }
 
-bool tn_cursor_is_any(const tn_lsp_cursor *c, size_t i, const char *const *texts)
+bool tn_cursor_is_word(const tn_lsp_cursor *c, size_t i, uint64_t places, uint32_t uses)
 {
-    for (; *texts; texts++)
-        if (tn_cursor_is(c, i, *texts))
-            return true;
-    return false;
+    if (i >= c->count || c->tokens[i].kind != TN_TOKEN_WORD)
+        return false;
+    tn_span span = c->tokens[i].span;
+    return tn_vocabulary_find(&tn_plan_words, c->text + span.begin, span.end - span.begin, places, uses) != NULL;
 }
 
 char *tn_cursor_word(const tn_lsp_cursor *c, size_t i)
@@ -37,10 +37,14 @@ void tn_offer(tn_lsp_cursor *c, const char *label, int kind, const char *detail,
     json_array_append_new(c->list, item);
 }
 
-void tn_offer_words(tn_lsp_cursor *c, const char *const *words)
+void tn_offer_words(tn_lsp_cursor *c, uint64_t places)
 {
-    for (; *words; words++)
-        tn_offer(c, *words, KIND_KEYWORD, NULL, "2");
+    c->places |= places;
+    for (size_t i = 0; i < c->words->count; i++) {
+        const tn_vocabulary_word *word = &c->words->words[i];
+        if ((word->places & places) && word->use != TN_AS_SPELLING)
+            tn_offer(c, word->text, KIND_KEYWORD, word->sentence, "2");
+    }
 }
 
 static void offer_symbols(tn_lsp_cursor *c, tn_symbol_kind kind, int shown)
@@ -124,11 +128,10 @@ void tn_offer_declared(tn_lsp_cursor *c, const tn_symbol *schema, const tn_symbo
 
 static void complete_tray(tn_lsp_cursor *c, bool literal)
 {
-    static const char *const words[] = {"not", "or", NULL}, *const literal_words[] = {"not", NULL};
     const tn_symbol *schema = schema_here(c), *field = schema ? tn_cursor_field(c, schema) : NULL;
     for (const tn_symbol *s = schema; s; s = s->schema)
         tn_offer_declared(c, s, field);
-    tn_offer_words(c, literal ? literal_words : words);
+    tn_offer_words(c, literal ? TN_AT(PLAN) : TN_AT(TRAY));
 }
 
 /* ---- codes of warnings */
@@ -164,55 +167,68 @@ static void offer_fields(tn_lsp_cursor *c, const char *group)
 
 static void complete_expression(tn_lsp_cursor *c)
 {
-    static const char *const words[] = {
-        "tray",  "cell",  "room",        "section",  "touch", "apart", "any",     "neighbour", "symmetric", "quantity",
-        "sum",   "many",  "occurrences", "distance", "and",   "or",    "not",     "optional",  "beginning", "end",
-        "using", "allow", "implies",     "every",    "some",  "plan",  "matches", "trays",     NULL};
     offer_symbols(c, TN_SYMBOL_RULE, KIND_FUNCTION);
     offer_symbols(c, TN_SYMBOL_MEASURE, KIND_VALUE);
-    tn_offer_words(c, words);
+    tn_offer_words(c, TN_AT(RULE));
+}
+
+/* Does the word or the sign stand behind this bracket, in no further one? */
+static bool stands_behind(const tn_lsp_cursor *c, size_t bracket, const char *text)
+{
+    for (size_t i = bracket + 1, depth = 0; i < c->count; i++) {
+        depth += tn_cursor_is(c, i, "(");
+        depth -= depth > 0 && tn_cursor_is(c, i, ")");
+        if (depth == 0 && tn_cursor_is(c, i, text))
+            return true;
+    }
+    return false;
+}
+
+/* Is the cursor in what `sum(` adds up: in its parenthesis, or in further ones inside? */
+static bool in_tally(const tn_lsp_cursor *c)
+{
+    for (size_t i = c->depth; i-- > 0;) {
+        if (tn_cursor_is(c, c->brackets[i] - 1, "sum"))
+            return true;
+        if (tn_cursor_is_word(c, c->brackets[i] - 1, TN_AT(RULE), TN_AS_KEYWORDS))
+            return false;
+    }
+    return false;
 }
 
 static void complete_in_call(tn_lsp_cursor *c, size_t bracket)
 {
-    static const char *const counted[] = {"quantity", "occurrences", "sum", NULL};
-    static const char *const condition[] = {"and", "or", "not", "in", "mod", NULL};
-    static const char *const distance[] = {"from", "to", "by", NULL};
-    bool comma = false;
-    for (size_t i = bracket + 1, depth = 0; i < c->count; i++) {
-        depth += tn_cursor_is(c, i, "(");
-        depth -= depth > 0 && tn_cursor_is(c, i, ")");
-        comma |= depth == 0 && tn_cursor_is(c, i, ",");
-    }
-    if (bracket > 0 && tn_cursor_is_any(c, bracket - 1, counted) && comma) {
-        tn_offer_words(c, condition);
+    bool counted = tn_cursor_is(c, bracket - 1, "quantity") || tn_cursor_is(c, bracket - 1, "occurrences") ||
+                   tn_cursor_is(c, bracket - 1, "sum");
+    if (counted && stands_behind(c, bracket, ",")) {
+        tn_offer_words(c, TN_AT(CONDITION));
         return;
     }
-    if (bracket > 0 && tn_cursor_is(c, bracket - 1, "sum") && bracket + 1 == c->count) {
+    if (in_tally(c) && !stands_behind(c, bracket, "of")) {
+        tn_offer_words(c, TN_AT(TALLY));
         offer_fields(c, "1");
         return;
     }
-    if (bracket > 0 && tn_cursor_is(c, bracket - 1, "distance"))
-        tn_offer_words(c, distance);
+    if (tn_cursor_is(c, bracket - 1, "distance"))
+        tn_offer_words(c, TN_AT(DISTANCE));
+    if (tn_cursor_is(c, bracket - 1, "touch") || tn_cursor_is(c, bracket - 1, "apart"))
+        tn_offer_words(c, TN_AT(MEETING));
     complete_expression(c);
 }
 
 static void complete_clause_names(tn_lsp_cursor *c)
 {
-    static const char *const words[] = {"total", "trays", NULL};
     offer_symbols(c, TN_SYMBOL_CLAUSE, KIND_VALUE);
     offer_symbols(c, TN_SYMBOL_RULE, KIND_FUNCTION);
     offer_symbols(c, TN_SYMBOL_MEASURE, KIND_VALUE);
-    tn_offer_words(c, words);
+    tn_offer_words(c, TN_AT(REASON));
 }
 
 static void complete_library(tn_lsp_cursor *c)
 {
-    static const char *const clauses[] = {"trays", "total", "require", "prune", "allow", NULL};
-    static const char *const as[] = {"as", NULL};
-    tn_offer_words(c, clauses);
+    tn_offer_words(c, TN_AT(CLAUSE));
     if (tn_cursor_is(c, c->clause, "require") || tn_cursor_is(c, c->clause, "prune")) {
-        tn_offer_words(c, as);
+        tn_offer_words(c, TN_AT(CLAUSE_END));
         complete_expression(c);
     } else if (tn_cursor_is(c, c->clause, "allow")) {
         tn_complete_codes(c);
@@ -223,31 +239,27 @@ static void complete_library(tn_lsp_cursor *c)
 
 static void complete_schema(tn_lsp_cursor *c)
 {
-    static const char *const words[] = {"zone", "forbid", "flag", "role", "number", "where", NULL};
-    static const char *const roles[] = {"length", "level", "public-end", "great-hall", "band",   "text",
-                                        "tone",   "hatch", "solid",      "void",       "absent", NULL};
-    tn_offer_words(c, c->count > 0 && tn_cursor_is(c, c->count - 1, "role") ? roles : words);
+    bool role = c->count > 0 && tn_cursor_is(c, c->count - 1, "role");
+    tn_offer_words(c, role ? TN_AT(ROLE) : TN_AT(SCHEMA) | TN_AT(FIELD));
 }
 
 static void complete_test(tn_lsp_cursor *c)
 {
-    static const char *const rule_words[] = {"match", "reject", "todo", NULL}, *const library_words[] = {"keep", "drop",
-                                                                                                         "by", NULL};
     char *subject = c->item + 1 < c->count ? tn_cursor_word(c, c->item + 1) : NULL;
     const tn_symbol *symbol = subject ? tn_names_get(&c->analysis->index.names, subject) : NULL;
     free(subject);
-    bool by = false;
+    bool library = symbol && symbol->kind == TN_SYMBOL_LIBRARY, by = false;
     for (size_t i = c->clause; i < c->count; i++)
         by |= tn_cursor_is(c, i, "by");
     if (by)
         complete_clause_names(c);
-    tn_offer_words(c, symbol && symbol->kind == TN_SYMBOL_LIBRARY ? library_words : rule_words);
+    tn_offer_words(c, library                                       ? TN_AT(CASE_OF_LIBRARY) | TN_AT(CASE_END)
+                      : symbol && symbol->kind == TN_SYMBOL_MEASURE ? TN_AT(CASE_OF_MEASURE)
+                                                                    : TN_AT(CASE_OF_RULE));
 }
 
 static void complete_top(tn_lsp_cursor *c)
 {
-    static const char *const items[] = {"use", "schema", "rule", "measure", "let", "library", "form", "test", NULL};
-    static const char *const head[] = {"using", "from", "in", "of", "allow", NULL};
     size_t last = c->count - 1;
     if (c->count > 0 && tn_cursor_is(c, last, "using")) {
         offer_symbols(c, TN_SYMBOL_SCHEMA, KIND_STRUCT);
@@ -270,19 +282,20 @@ static void complete_top(tn_lsp_cursor *c)
         if ((tn_cursor_is(c, c->item, "rule") || tn_cursor_is(c, c->item, "measure")) && body)
             complete_expression(c);
         else if (c->item + 1 < c->count)
-            tn_offer_words(c, head);
-        tn_offer_words(c, items);
+            tn_offer_words(c, TN_AT(HEAD));
+        tn_offer_words(c, TN_AT(ITEM));
     }
 }
 
 static void complete_files(tn_lsp_cursor *c, const tn_workspace *workspace)
 {
+    const char *extension = c->analysis->compilation.notation->extension;
     for (size_t i = 0; i < workspace->stdlib.count; i++) {
         DIR *folder = opendir(workspace->stdlib.dirs[i]);
         for (struct dirent *entry; folder && (entry = readdir(folder));) {
             size_t size = strlen(entry->d_name);
-            size_t tail = strlen(TN_NOTATION(plan)->extension);
-            if (size <= tail || strcmp(entry->d_name + size - tail, TN_NOTATION(plan)->extension) != 0)
+            size_t tail = strlen(extension);
+            if (size <= tail || strcmp(entry->d_name + size - tail, extension) != 0)
                 continue;
             char *name = strndup(entry->d_name, size - tail);
             if (name)
@@ -316,16 +329,24 @@ static bool find_tokens(tn_lsp_cursor *c, size_t offset, bool *quoted)
     return true;
 }
 
+/* Does the token start a line of what the braces hold? `section(` is a part of one. */
+static bool starts_line(const tn_lsp_cursor *c, size_t i)
+{
+    if (tn_cursor_is(c, c->item, "form"))
+        return tn_cursor_is_word(c, i, TN_AT(FORM), TN_AS_KEYWORDS) &&
+               !(tn_cursor_is_word(c, i, TN_AT(SECTIONS), TN_AS_CALL) && tn_cursor_is(c, i + 1, "("));
+    return tn_cursor_is_word(c, i,
+                             tn_cursor_is(c, c->item, "test")     ? TN_AT_CASES
+                             : tn_cursor_is(c, c->item, "schema") ? TN_AT(SCHEMA)
+                                                                  : TN_AT(CLAUSE),
+                             TN_AS_KEYWORDS);
+}
+
 static void find_context(tn_lsp_cursor *c)
 {
-    static const char *const items[] = {"use", "schema", "rule", "measure", "let", "library", "form", "test", NULL};
-    static const char *const clauses[] = {"trays",  "total", "require", "prune", "allow",  "match",
-                                          "reject", "keep",  "drop",    "zone",  "forbid", NULL};
-    static const char *const of_form[] = {"storey", "spine",    "section", "function", "opening", "flight",
-                                          "face",   "material", "allow",   "forbid",   "tile",    NULL};
     c->item = c->clause = c->count;
     for (size_t i = 0; i < c->count; i++) {
-        if (c->tokens[i].kind == TN_TOKEN_WORD && tn_cursor_is_any(c, i, items)) {
+        if (tn_cursor_is_word(c, i, TN_AT(ITEM), TN_AS_KEYWORDS)) {
             c->item = i;
             c->clause = c->count;
             c->depth = 0;
@@ -347,15 +368,14 @@ static void find_context(tn_lsp_cursor *c)
             c->brackets[c->depth++] = i;
         } else if ((tn_cursor_is(c, i, ")") || tn_cursor_is(c, i, "]")) && c->depth > 0) {
             c->depth--;
-        } else if (c->in_braces && c->tokens[i].kind == TN_TOKEN_WORD &&
-                   tn_cursor_is_any(c, i, tn_cursor_is(c, c->item, "form") ? of_form : clauses)) {
+        } else if (c->in_braces && starts_line(c, i)) {
             c->clause = i;
             c->depth = 0;
         }
     }
 }
 
-static void complete(tn_lsp_cursor *c)
+static void complete_plan(tn_lsp_cursor *c)
 {
     size_t bracket = c->depth ? c->brackets[c->depth - 1] : 0;
     size_t outer = c->depth;
@@ -370,6 +390,8 @@ static void complete(tn_lsp_cursor *c)
         tn_complete_section(c, bracket);
     else if (outer > 0)
         complete_tray(c, false);
+    else if (c->depth && c->in_braces && tn_cursor_is(c, c->item, "form"))
+        tn_complete_form(c);
     else if (c->depth && !tn_cursor_is(c, c->item, "schema"))
         complete_in_call(c, bracket);
     else if (c->in_braces && tn_cursor_is(c, c->item, "library"))
@@ -382,6 +404,16 @@ static void complete(tn_lsp_cursor *c)
         complete_test(c);
     else
         complete_top(c);
+}
+
+static void complete(tn_lsp_cursor *c)
+{
+    if (c->words->places) {
+        tn_offer_words(c, tn_vocabulary_places(c->words, c->text, c->tokens, c->count));
+        return;
+    }
+    find_context(c);
+    complete_plan(c);
 }
 
 /* The same label once. */
@@ -402,18 +434,26 @@ static json_t *without_repeats(json_t *list)
     return kept;
 }
 
-json_t *tn_lsp_completion(tn_workspace *workspace, tn_document *document, tn_file_analysis *analysis, size_t offset)
+static tn_lsp_cursor *cursor_new(const tn_document *document, const tn_file_analysis *analysis)
 {
     tn_lsp_cursor *c = calloc(1, sizeof *c);
-    bool quoted;
     if (!c)
         return NULL;
     c->analysis = analysis;
+    c->words = analysis->compilation.notation->front->words;
     c->text = document->text;
     c->tokens = analysis->tokens.items;
     c->list = json_array();
-    if (find_tokens(c, offset, &quoted)) {
-        find_context(c);
+    return c;
+}
+
+json_t *tn_lsp_completion(tn_workspace *workspace, tn_document *document, tn_file_analysis *analysis, size_t offset)
+{
+    tn_lsp_cursor *c = cursor_new(document, analysis);
+    bool quoted;
+    if (!c)
+        return NULL;
+    if (c->words && find_tokens(c, offset, &quoted)) {
         if (!quoted)
             complete(c);
         else if (c->count > 0 && tn_cursor_is(c, c->count - 1, "use"))
@@ -422,4 +462,45 @@ json_t *tn_lsp_completion(tn_workspace *workspace, tn_document *document, tn_fil
     json_t *list = without_repeats(c->list);
     free(c);
     return list;
+}
+
+/* ---- what words say */
+
+/* The word or name that the cursor is in; NULL where it is in none. */
+static const tn_token *token_at(const tn_tokens *tokens, size_t offset)
+{
+    for (size_t i = 0; i < tokens->count; i++) {
+        const tn_token *token = &tokens->items[i];
+        if (token->span.begin <= offset && offset <= token->span.end &&
+            (token->kind == TN_TOKEN_WORD || token->kind == TN_TOKEN_NAME))
+            return token;
+    }
+    return NULL;
+}
+
+/* What could stand where the word does tells which of its rows it is, and whether `(` follows; one that the lexer takes
+ * for a name says nothing elsewhere. */
+const char *tn_lsp_word(tn_document *document, tn_file_analysis *analysis, size_t offset, tn_span *span)
+{
+    bool words = analysis->compilation.notation->front->words != NULL;
+    const tn_token *token = words ? token_at(&analysis->tokens, offset) : NULL;
+    tn_lsp_cursor *c = token ? cursor_new(document, analysis) : NULL;
+    bool quoted;
+    if (!c)
+        return NULL;
+    if (find_tokens(c, token->span.begin, &quoted))
+        complete(c);
+    *span = token->span;
+    const char *text = document->text + span->begin;
+    size_t size = span->end - span->begin;
+    uint32_t uses = token->kind == TN_TOKEN_WORD ? TN_AS_KEYWORDS : TN_AS_NAMES;
+    uint32_t calls = text[size] == '(' ? TN_AS_CALL | TN_AS_SPELLING : ~(uint32_t)(TN_AS_CALL | TN_AS_SPELLING);
+    const tn_vocabulary_word *word = tn_vocabulary_find(c->words, text, size, c->places, uses & calls);
+    if (!word)
+        word = tn_vocabulary_find(c->words, text, size, c->places, uses);
+    if (!word && token->kind == TN_TOKEN_WORD)
+        word = tn_vocabulary_find(c->words, text, size, TN_ANYWHERE, uses);
+    json_decref(c->list);
+    free(c);
+    return word ? word->sentence : NULL;
 }

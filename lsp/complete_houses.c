@@ -30,19 +30,15 @@ static void offer_parts(tn_lsp_cursor *c, tn_symbol_kind kind, int shown)
  * so that their cells have none yet (E1607). */
 static bool before_functions(const tn_lsp_cursor *c, size_t bracket)
 {
-    static const char *const such[] = {"at", "void", "no", NULL};
-    static const char *const others[] = {"storey",  "spine", "section", "forbid",   "function", "opening",
-                                         "flight",  "face",  "tile",    "material", "beside",   "along",
-                                         "outside", "under", "across",  "allow",    NULL};
     size_t depth = 0;
     for (size_t i = bracket; tn_cursor_is(c, c->item, "form") && i-- > c->item;) {
         if (tn_cursor_is(c, i, ")"))
             depth++;
         else if (tn_cursor_is(c, i, "(") && depth > 0)
             depth--;
-        else if (depth == 0 && tn_cursor_is_any(c, i, such))
+        else if (depth == 0 && (tn_cursor_is(c, i, "at") || tn_cursor_is(c, i, "void") || tn_cursor_is(c, i, "no")))
             return true;
-        else if (depth == 0 && tn_cursor_is_any(c, i, others))
+        else if (depth == 0 && tn_cursor_is_word(c, i, TN_AT(FORM) | TN_AT(FACE), TN_AS_KEYWORDS))
             return false;
     }
     return false;
@@ -50,20 +46,19 @@ static bool before_functions(const tn_lsp_cursor *c, size_t bracket)
 
 void tn_complete_cell(tn_lsp_cursor *c, size_t bracket, bool room)
 {
-    static const char *const words[] = {"any", "area", "not", "or", NULL};
-    static const char *const room_words[] = {"cells", "by", "glazing", NULL};
     const tn_symbol *form = form_here(c), *field = form ? tn_cursor_field(c, form->schema) : NULL;
     offer_parts(c, TN_SYMBOL_STOREY, KIND_VALUE);
     if (!before_functions(c, bracket)) {
         offer_parts(c, TN_SYMBOL_FUNCTION, KIND_FUNCTION);
-        tn_offer(c, "void", KIND_KEYWORD, NULL, "2");
+        tn_offer_words(c, TN_AT(CELL_BUILT));
     }
     for (const tn_symbol *s = form ? form->schema : NULL; s; s = s->schema)
         tn_offer_declared(c, s, field);
-    tn_offer_words(c, words);
     if (room) {
         offer_parts(c, TN_SYMBOL_OPENING, KIND_VALUE);
-        tn_offer_words(c, room_words);
+        tn_offer_words(c, TN_AT(ROOM));
+    } else {
+        tn_offer_words(c, TN_AT(CELL));
     }
 }
 
@@ -93,7 +88,6 @@ static void complete_choice(tn_lsp_cursor *c, const tn_ast_form_clause *choice, 
 
 void tn_complete_section(tn_lsp_cursor *c, size_t bracket)
 {
-    static const char *const words[] = {"or", NULL};
     const tn_symbol *form = form_here(c);
     if (!form)
         return;
@@ -101,52 +95,42 @@ void tn_complete_section(tn_lsp_cursor *c, size_t bracket)
         if (clause->part == TN_PART_SECTION)
             complete_choice(c, clause, bracket + 1);
     if (c->count > bracket + 2)
-        tn_offer_words(c, words);
+        tn_offer_words(c, TN_AT(SECTION));
 }
 
 static void complete_kinds(tn_lsp_cursor *c)
 {
-    static const char *const kinds[] = {"wall", "party", "open", "floor", "stair", NULL};
     offer_parts(c, TN_SYMBOL_OPENING, KIND_VALUE);
-    tn_offer_words(c, kinds);
+    tn_offer_words(c, TN_AT(KIND));
 }
 
 void tn_complete_form(tn_lsp_cursor *c)
 {
-    static const char *const clauses[] = {"storey",  "spine",  "wall", "partition", "deck",     "roof",
-                                          "section", "forbid", "void", "no",        "function", "opening",
-                                          "flight",  "face",   "tile", "material",  "allow",    NULL};
-    static const char *const faces[] = {"cell", "beside", "along", "across", "under", "outside",
-                                        "back", "front",  "left",  "right",  NULL};
-    static const char *const tiles[] = {"for",  "against", "or",   "wide",  "deep", "item", "keep",
-                                        "left", "right",   "back", "front", "up",   NULL};
-    static const char *const openings[] = {"wide", "high", "sill", "clear", "passage", "glazed", "leafless", NULL};
-    static const char *const flights[] = {"wide", "rise", "going", "turn", "half", "quarter", NULL};
-    static const char *const sections[] = {"storeys", "roof",  "flat", "shed",   "gable",
-                                           "vault",   "eaves", "open", "across", NULL};
-    static const char *const materials[] = {"price", "per", "each", "sf", "m2", "cf", "m3", "for", "where", NULL};
-    static const char *const at[] = {"at", "cell", NULL};
     if (c->braces > 1 || tn_cursor_is(c, c->clause, "tile")) {
         offer_parts(c, TN_SYMBOL_FUNCTION, KIND_FUNCTION);
         complete_kinds(c);
-        tn_offer_words(c, tiles);
+        tn_offer_words(c, TN_AT(TILE) | TN_AT(TILE_LINE));
     } else if (tn_cursor_is(c, c->clause, "face")) {
         complete_kinds(c);
-        tn_offer_words(c, faces);
+        tn_offer_words(c, TN_AT(FACE) | TN_AT(CELLS));
     } else if (tn_cursor_is(c, c->clause, "material")) {
         offer_parts(c, TN_SYMBOL_OPENING, KIND_VALUE);
-        tn_offer_words(c, materials);
+        tn_offer_words(c, TN_AT(MATERIAL) | TN_AT(SECTIONS));
     } else if (tn_cursor_is(c, c->clause, "allow")) {
         tn_complete_codes(c);
     } else if (tn_cursor_is(c, c->clause, "opening")) {
-        tn_offer_words(c, openings);
+        tn_offer_words(c, TN_AT(OPENING));
     } else if (tn_cursor_is(c, c->clause, "flight")) {
-        tn_offer_words(c, flights);
+        tn_offer_words(c, TN_AT(FLIGHT));
     } else if (tn_cursor_is(c, c->clause, "section")) {
-        tn_offer_words(c, sections);
+        tn_offer_words(c, TN_AT(CHOICE));
+    } else if (tn_cursor_is(c, c->clause, "forbid")) {
+        tn_offer_words(c, TN_AT(SECTIONS));
     } else if (tn_cursor_is(c, c->clause, "function")) {
-        tn_offer_words(c, at);
+        tn_offer_words(c, TN_AT(FUNCTION) | TN_AT(CELLS));
+    } else if (tn_cursor_is(c, c->clause, "void") || tn_cursor_is(c, c->clause, "no")) {
+        tn_offer_words(c, TN_AT(CELLS));
     }
     if (c->braces == 1)
-        tn_offer_words(c, clauses);
+        tn_offer_words(c, TN_AT(FORM));
 }

@@ -2,6 +2,7 @@
 #ifndef TARTAN_LSP_COMPLETE_PARTS_H
 #define TARTAN_LSP_COMPLETE_PARTS_H
 
+#include "compiler/plan/syntax/words.h"
 #include "lsp/features.h"
 
 /* CompletionItemKind of the protocol. */
@@ -21,6 +22,7 @@ enum { DEPTH_MAX = 1024 }; /* brackets around the cursor that are told apart */
 typedef struct tn_lsp_cursor {
     const tn_file_analysis *analysis;
     const char *text;
+    const tn_vocabulary *words; /* of the notation */
     const tn_token *tokens;
     size_t count; /* tokens before the cursor; not the word that it is in or just behind */
     size_t item;  /* the word that starts the item; `count` where there is none */
@@ -29,6 +31,7 @@ typedef struct tn_lsp_cursor {
     size_t clause;              /* the last word at the level of the braces that starts a clause, field or case */
     size_t brackets[DEPTH_MAX]; /* open ones */
     size_t depth;
+    uint64_t places; /* where a word of the language may stand here */
     json_t *list;
 } tn_lsp_cursor;
 
@@ -36,14 +39,15 @@ typedef struct tn_lsp_cursor {
 
 /* Is token i this word? */
 bool tn_cursor_is(const tn_lsp_cursor *c, size_t i, const char *text);
-bool tn_cursor_is_any(const tn_lsp_cursor *c, size_t i, const char *const *texts); /* the list ends in NULL */
-char *tn_cursor_word(const tn_lsp_cursor *c, size_t i);                            /* a copy for the caller; or NULL */
+/* Is it a word of the language that stands in one of these places, and is one of these uses there? */
+bool tn_cursor_is_word(const tn_lsp_cursor *c, size_t i, uint64_t places, uint32_t uses);
+char *tn_cursor_word(const tn_lsp_cursor *c, size_t i); /* a copy for the caller; or NULL */
 /* The field of the schema that the part at the cursor begins with, or NULL. */
 const tn_symbol *tn_cursor_field(const tn_lsp_cursor *c, const tn_symbol *schema);
 
 /* Offers one more; those of an earlier group come first. */
 void tn_offer(tn_lsp_cursor *c, const char *label, int kind, const char *detail, const char *group);
-void tn_offer_words(tn_lsp_cursor *c, const char *const *words);
+void tn_offer_words(tn_lsp_cursor *c, uint64_t places); /* that stand in these places */
 /* What a schema declares; of the field alone, where there is one. */
 void tn_offer_declared(tn_lsp_cursor *c, const tn_symbol *schema, const tn_symbol *field);
 void tn_complete_codes(tn_lsp_cursor *c); /* of warnings */

@@ -23,6 +23,9 @@ json_t *tn_lsp_rename(tn_workspace *workspace, tn_document *document, tn_file_an
                       const char *name, const char **reason);
 
 json_t *tn_lsp_completion(tn_workspace *workspace, tn_document *document, tn_file_analysis *analysis, size_t offset);
+/* What the word of the language that the cursor is in says there, with its stretch in *span; NULL where there is none.
+ */
+const char *tn_lsp_word(tn_document *document, tn_file_analysis *analysis, size_t offset, tn_span *span);
 json_t *tn_lsp_format(tn_document *document);
 
 /* Quick fixes for what is wrong in [begin, end). */

@@ -46,11 +46,24 @@ static json_t *text_of(const tn_document *document, tn_file_analysis *analysis, 
     return text;
 }
 
+/* A word of the language, and its sentence. */
+static json_t *hover_word(tn_document *document, tn_file_analysis *analysis, size_t offset)
+{
+    tn_span span;
+    const char *sentence = tn_lsp_word(document, analysis, offset, &span);
+    if (!sentence)
+        return json_null();
+    int size = (int)(span.end - span.begin);
+    return json_pack("{s:{s:s,s:o},s:o}", "contents", "kind", "markdown", "value",
+                     json_sprintf("`%.*s`: %s", size, document->text + span.begin, sentence), "range",
+                     tn_analysis_range(analysis, span));
+}
+
 json_t *tn_lsp_hover(tn_document *document, tn_file_analysis *analysis, size_t offset)
 {
     const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
     if (!found)
-        return json_null();
+        return hover_word(document, analysis, offset);
     return json_pack("{s:{s:s,s:o},s:o}", "contents", "kind", "markdown", "value",
                      text_of(document, analysis, found->symbol), "range", tn_analysis_range(analysis, found->span));
 }

@@ -153,12 +153,24 @@ const char *tn_function_elsewhere(tn_words words, const char *name)
     return NULL;
 }
 
+/* The word of the notation that is written as a function is and that this one was likely meant to be; or NULL. */
+static const char *meant_word(const tn_expression_scope *scope, const char *name)
+{
+    enum { CALLS_MAX = 32 };
+    const char *calls[CALLS_MAX];
+    size_t count =
+        scope->vocabulary ? tn_vocabulary_list(scope->vocabulary, TN_ANYWHERE, TN_AS_CALL, calls, CALLS_MAX) : 0;
+    return tn_nearest(name, calls, count);
+}
+
 static void unknown_function(tn_diagnostics *diagnostics, const tn_expression_scope *scope, const tn_expression *e)
 {
     const char *names[TN_OPERATION_COUNT];
     tn_diagnostic *d = tn_report(diagnostics, scope->unknown, e->name_span, "there is no function `%.100s`", e->name);
-    const char *meant = tn_function_elsewhere(scope->words, e->name);
-    if (meant && *meant)
+    const char *meant = tn_function_elsewhere(scope->words, e->name), *word = meant_word(scope, e->name);
+    if (word)
+        tn_suggest(diagnostics, d, "%s", word);
+    else if (meant && *meant)
         tn_help(diagnostics, d, "write `%s`", meant);
     else
         help_with_names(diagnostics, d, meant ? "" : e->name, "function", names,

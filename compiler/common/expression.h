@@ -8,6 +8,7 @@
 
 #include "compiler/common/arena.h"
 #include "compiler/common/diagnostic.h"
+#include "compiler/common/words.h"
 #include "runtime/module/builder.h"
 #include "runtime/number/formula.h"
 
@@ -45,6 +46,7 @@ typedef struct tn_expression_scope {
     const char *examples[TN_ARITY_MAX]; /* arguments of a function of one, two, three */
     const char *split;                  /* help where an expression nests too deep */
     tn_code unknown, wrong;             /* codes of errors: a name that is not there, anything else */
+    const tn_vocabulary *vocabulary;    /* of the notation: some of its words are written as functions are; or NULL */
 } tn_expression_scope;
 
 /* How a function that other languages have is written by these words: of the arguments a and b. Empty: it cannot be.

@@ -24,6 +24,13 @@ bool tn_format_is_any(const tn_format *format, size_t i, const char *const *text
     return false;
 }
 
+bool tn_format_is_word(const tn_format *format, size_t i, const tn_vocabulary *words, uint64_t places, uint32_t uses)
+{
+    const tn_format_token *token = &format->tokens[i];
+    return token->kind == TN_TOKEN_WORD &&
+           tn_vocabulary_find(words, token->text, token->size, places, uses & TN_AS_KEYWORDS) != NULL;
+}
+
 static bool opens(const tn_format *format, size_t i)
 {
     return tn_format_is(format, i, "(") || tn_format_is(format, i, "[");
@@ -85,12 +92,6 @@ void tn_format_flat(tn_format *format, size_t first, size_t last)
 }
 
 /* ---- splitting */
-
-static bool at_part(const tn_format *format, size_t i)
-{
-    static const char *const words[] = {"as", "using", "allow", "from", NULL};
-    return format->tokens[i].kind == TN_TOKEN_STRING || tn_format_is_any(format, i, words);
-}
 
 static bool at_or(const tn_format *format, size_t i)
 {
@@ -259,8 +260,8 @@ void tn_format_expression(tn_format *format, size_t first, size_t last, size_t t
         return;
     if (fits(format, first, last, 0, tail))
         tn_format_flat(format, first, last);
-    else if (can_split(format, first, last, at_part))
-        tn_format_fill(format, first, last, at_part, false, column + HANGING_INDENT, tail);
+    else if (can_split(format, first, last, format->at_part))
+        tn_format_fill(format, first, last, format->at_part, false, column + HANGING_INDENT, tail);
     else if (can_split(format, first, last, at_or))
         tn_format_fill(format, first, last, at_or, false, column, tail);
     else if (can_split(format, first, last, at_and))

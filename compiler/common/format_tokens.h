@@ -8,6 +8,7 @@
 #include "compiler/common/limits.h"
 #include "compiler/common/source.h"
 #include "compiler/common/token.h"
+#include "compiler/common/words.h"
 
 typedef struct tn_format_comment {
     const char *text;
@@ -35,11 +36,15 @@ typedef struct tn_format tn_format;
 /* The blanks between token i and the one before it, on one line. */
 typedef size_t tn_format_gap_before(const tn_format *format, size_t i);
 
+/* May a new line begin at token i? How a stretch can be split. */
+typedef bool tn_format_split(const tn_format *format, size_t i);
+
 struct tn_format {
     tn_layout layout;
     tn_format_gap_before *gap_before;
-    const void *tree;        /* what the notation's `read` made of the text */
-    tn_format_token *tokens; /* followed by one of no text, which has the comments at the end */
+    tn_format_split *at_part; /* the weakest splits of expressions, weaker than their operators */
+    const void *tree;         /* what the notation's `read` made of the text */
+    tn_format_token *tokens;  /* followed by one of no text, which has the comments at the end */
     size_t count;
 };
 
@@ -62,6 +67,8 @@ bool tn_format_match_brackets(tn_format *format, size_t *place);
 bool tn_format_is(const tn_format *format, size_t i, const char *text);
 /* Is it one of these? The list ends in NULL. */
 bool tn_format_is_any(const tn_format *format, size_t i, const char *const *texts);
+/* Is token i a word of the language that stands in one of these places, and is one of these uses there? */
+bool tn_format_is_word(const tn_format *format, size_t i, const tn_vocabulary *words, uint64_t places, uint32_t uses);
 
 /* The columns that tokens [first, last) take on one line; TN_FORMAT_TOO_WIDE where they do not fit any, or have
  * comments between them. A comment before the first counts, one after the last does not. */
@@ -71,9 +78,6 @@ size_t tn_format_width(const tn_format *format, size_t first, size_t last);
 void tn_format_put(tn_format *format, size_t i, size_t gap);
 /* Puts tokens [first, last) on this line. */
 void tn_format_flat(tn_format *format, size_t first, size_t last);
-
-/* How a stretch can be split. */
-typedef bool tn_format_split(const tn_format *format, size_t i);
 
 /* Lays out tokens [first, last) from the cursor on, on one line where `tail` more columns fit after it; otherwise at
  * its weakest operators, then inside its brackets. */

@@ -10,6 +10,7 @@
 #include "compiler/common/format_tokens.h"
 #include "compiler/common/listing.h"
 #include "compiler/common/token.h"
+#include "compiler/common/words.h"
 #include "runtime/module/module.h"
 
 /* A text read for its tokens: what formatting and editors need. */
@@ -36,6 +37,8 @@ typedef struct tn_front {
 
     /* Lists what the text has, from its tokens. NULL: it is listed from what was compiled, where that is a plan's. */
     void (*list)(tn_listing *listing);
+
+    const tn_vocabulary *words; /* what editors offer and explain; NULL: no table of them is there */
 
     /* ---- laying out (compiler/format.h) */
     void (*lay_out)(tn_format *format);

@@ -126,12 +126,36 @@ static bool behind_stray(const tn_growth_parse *parse, uint32_t begin)
     return true;
 }
 
+/* A misspelled word is a name to the parser, which then stumbles over what follows: `filll 20`. Does only white space
+ * lie between such a name and this place? */
+static bool behind_misspelled(const tn_growth_parse *parse, tn_span place)
+{
+    if (!parse->named || parse->meant || parse->name_span.end > place.begin)
+        return false;
+    for (uint32_t i = parse->name_span.end; i < place.begin; i++)
+        if (!isspace((unsigned char)parse->text[i]))
+            return false;
+    return true;
+}
+
+static void report_misspelled(tn_growth_parse *parse)
+{
+    tn_span span = parse->name_span;
+    tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, span, "`%.*s` is not expected here",
+                                 (int)(span.end - span.begin), parse->text + span.begin);
+    tn_suggest(parse->diagnostics, d, "%s", parse->named);
+}
+
 void tn_growth_syntax_error(tn_growth_parse *parse, tn_span span, const char *found, const char *const *expected,
                             size_t count, const char *help)
 {
     char list[400] = "", here[100], meant[100];
     if (parse->reported || behind_stray(parse, span.begin))
         return;
+    if (behind_misspelled(parse, span)) {
+        report_misspelled(parse);
+        return;
+    }
     bool named = count == 1 && strcmp(expected[0], "a name") == 0 && isalpha((unsigned char)parse->text[span.begin]);
     size_t used = 0, size = span.end > span.begin ? span.end - span.begin : 0;
     for (size_t i = 0; i < count && count <= 6 && used < sizeof list; i++)

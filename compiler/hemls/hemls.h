@@ -105,6 +105,8 @@ typedef struct tn_growth_parse {
     uint32_t stray_end;   /* where the last stray character ended: a run of them is reported once */
     int last_token, token_before;
     const char *meant; /* what an unknown word was probably meant to be, or NULL */
+    const char *named; /* the same of the last name, where the lexer remembers it; or NULL */
+    tn_span name_span;
     bool evolves;      /* the last unknown word is a setting of an evolution */
     bool asks;         /* of a .kit text: it is conditions alone */
     bool reported;     /* the line at hand was complained of already */

@@ -7,6 +7,7 @@
 
 #include "compiler/common/expression.h"
 #include "compiler/common/import.h"
+#include "compiler/common/words.h"
 #include "compiler/hemls/hemls.h"
 
 typedef struct tn_kit_text {
@@ -129,5 +130,17 @@ static inline bool tn_kit_given(const tn_kit_length *length)
 {
     return length->span.end > length->span.begin;
 }
+
+/* ---- words: sets of the places of words.def, as TN_KIT_AT(RULE) | TN_KIT_AT(SPACE) */
+
+enum tn_kit_place {
+#define PLACE(ID, BLOCK, HEADS, WHERE) TN_KIT_PLACE_##ID,
+#include "compiler/kit/words.def"
+    TN_KIT_PLACE_COUNT
+};
+_Static_assert(TN_KIT_PLACE_COUNT < 64, "a set of places has a bit for each");
+#define TN_KIT_AT(ID) (UINT64_C(1) << TN_KIT_PLACE_##ID)
+
+extern const tn_vocabulary tn_kit_words;
 
 #endif

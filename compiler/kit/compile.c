@@ -90,12 +90,25 @@ static bool made(const tn_module *module)
     return module->KIT_count > 0;
 }
 
+static const tn_vocabulary_word words[] = {
+#define WORD(TEXT, TOKEN, PLACES, USE, SENTENCE) {TEXT, SENTENCE, PLACES, USE, 0},
+#include "compiler/kit/words.def"
+};
+
+static const tn_vocabulary_place places[] = {
+#define PLACE(ID, BLOCK, HEADS, WHERE) {BLOCK, HEADS},
+#include "compiler/kit/words.def"
+};
+
+const tn_vocabulary tn_kit_words = {words, sizeof words / sizeof *words, places, sizeof places / sizeof *places};
+
 extern const tn_front tn_front_kit;
 const tn_front tn_front_kit = {
     .read = read,
     .compile = compile,
     .made = made,
     .list = tn_kit_list,
+    .words = &tn_kit_words,
     .lay_out = tn_format_kit,
     .spell = tn_format_small_letters,
     .nests = true,

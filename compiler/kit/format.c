@@ -5,8 +5,8 @@
 /* box( and count(. */
 static bool is_call(const tn_format *format, size_t i)
 {
-    return tn_format_is(format, i, "(") &&
-           (format->tokens[i - 1].kind == TN_TOKEN_NAME || tn_format_is(format, i - 1, "count"));
+    return tn_format_is(format, i, "(") && (format->tokens[i - 1].kind == TN_TOKEN_NAME ||
+                                            tn_format_is_word(format, i - 1, &tn_kit_words, TN_ANYWHERE, TN_AS_CALL));
 }
 
 /* Does the brace at i, or the one that ends there, hold statements and not parts? */
@@ -15,8 +15,7 @@ static bool is_block(const tn_format *format, size_t i)
     size_t open = tn_format_is(format, i, "}") ? format->tokens[i].match : i;
     while (open > 0 && !tn_format_is(format, open - 1, ";") && !tn_format_is(format, open - 1, "}"))
         open--;
-    return tn_format_is(format, open, "part") || tn_format_is(format, open, "model") ||
-           tn_format_is(format, open, "test");
+    return tn_vocabulary_head_block(&tn_kit_words, format->tokens[open].text, format->tokens[open].size);
 }
 
 /* Behind the brace that opens a list of parts, or before the one that closes it. */
@@ -54,12 +53,12 @@ static size_t bracket_around(const tn_format *format, size_t i)
 /* Where a statement that is too long goes on in the next line. */
 static bool at_part(const tn_format *format, size_t i)
 {
-    static const char *const words[] = {"|", "and", "or", "by", NULL};
     bool behind_comma = i > 0 && tn_format_is(format, i - 1, ",");
     size_t around = bracket_around(format, i);
     if (around != i)
         return behind_comma && tn_format_is(format, around, "{"); /* a list of parts */
-    return behind_comma || tn_format_is_any(format, i, words);
+    return behind_comma || tn_format_is(format, i, "|") || tn_format_is(format, i, "by") ||
+           tn_format_is_word(format, i, &tn_kit_words, TN_KIT_AT(SPACE), TN_AS_INFIX);
 }
 
 static bool ends_statement(const tn_format *format, size_t i)

@@ -18,13 +18,14 @@ static size_t end_of(const tn_listing *listing, size_t i, const char *const *end
 
 void tn_kit_list(tn_listing *listing)
 {
-    static const char *const lines[] = {"length", "connector", "space", "rule", NULL};
-    static const char *const blocks[] = {"part", "model", "test", NULL};
     static const char *const line_ends[] = {";", NULL}, *const block_ends[] = {"}", NULL};
     for (size_t i = 0, end; i < listing->count; i = end + 1) {
-        bool block = is_any(listing, i, blocks);
+        const char *word = listing->text + listing->tokens[i].span.begin;
+        size_t size = listing->tokens[i].span.end - listing->tokens[i].span.begin;
+        bool block = tn_vocabulary_head_block(&tn_kit_words, word, size);
+        bool line = tn_vocabulary_find(&tn_kit_words, word, size, TN_KIT_AT(STATEMENT), TN_AS_HEAD) != NULL;
         end = end_of(listing, i, block ? block_ends : line_ends);
-        if (i + 1 >= listing->count || (!block && !is_any(listing, i, lines)))
+        if (i + 1 >= listing->count || (!block && !line))
             continue;
         tn_listing_kind kind = block                               ? TN_LISTING_BLOCK
                                : tn_listing_is(listing, i, "rule") ? TN_LISTING_RULE

@@ -13,6 +13,7 @@ const tn_expression_scope tn_kit_scope = {
     .split = "write several: they are joined by a comma",
     .unknown = E_KIT_TERM,
     .wrong = E_KIT_EXPRESSION,
+    .vocabulary = &tn_kit_words,
 };
 
 /* ---- conditions */

@@ -4,6 +4,7 @@
 #include "compiler/plan/emit/emit.h"
 #include "compiler/plan/format_clauses.h"
 #include "compiler/plan/syntax/parse.h"
+#include "compiler/plan/syntax/words.h"
 
 /* What `use` needs to know of a file. */
 static bool parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *unit, tn_use **uses, size_t *use_count)
@@ -75,6 +76,7 @@ extern const tn_front tn_front_plan;
 const tn_front tn_front_plan = {
     .read = read,
     .compile = compile,
+    .words = &tn_plan_words,
     .made = made,
     .lay_out = tn_format_plan,
     .spell = tn_format_small_letters,

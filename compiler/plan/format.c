@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "compiler/plan/format_clauses.h"
+#include "compiler/plan/syntax/words.h"
 
 enum {
     BODY = 2,         /* indents */
@@ -11,13 +12,15 @@ enum {
     DOC_GAP = 2,      /* blanks between a test case and its text */
 };
 
+static bool is_word(const tn_format *format, size_t i, uint64_t places, uint32_t uses)
+{
+    return tn_format_is_word(format, i, &tn_plan_words, places, uses);
+}
+
 /* Does a bracket stand directly at the word before it? */
 static bool takes_bracket(const tn_format *format, size_t i)
 {
-    static const char *const calls[] = {"cell",     "room",     "touch",       "apart", "section",  "tray", "neighbour",
-                                        "neighbor", "quantity", "occurrences", "sum",   "distance", "many", "optional",
-                                        "every",    "matches",  "min",         "max",   NULL};
-    return format->tokens[i].kind == TN_TOKEN_NAME || tn_format_is_any(format, i, calls);
+    return format->tokens[i].kind == TN_TOKEN_NAME || is_word(format, i, TN_ANYWHERE, TN_AS_CALL | TN_AS_SPELLING);
 }
 
 /* Does the token stand in the brackets of a plan? */
@@ -33,14 +36,13 @@ static bool is_in_plan(const tn_format *format, size_t i)
 /* Is the token a minus that belongs to what follows, not one between two numbers, nor what a tray does not have? */
 static bool is_sign(const tn_format *format, size_t i)
 {
-    static const char *const operands[] = {")", "trays", "any", NULL};
     if (!tn_format_is(format, i, "-") || i == 0)
         return tn_format_is(format, i, "-");
     if (is_in_plan(format, i))
         return false;
     tn_token_kind before = format->tokens[i - 1].kind;
     return before != TN_TOKEN_NAME && before != TN_TOKEN_NUMBER && before != TN_TOKEN_LENGTH &&
-           !tn_format_is_any(format, i - 1, operands);
+           !tn_format_is(format, i - 1, ")") && !is_word(format, i - 1, TN_AT(RULE), TN_AS_OPERAND);
 }
 
 /* The blanks between token i and the one before it. */
@@ -54,59 +56,54 @@ static size_t gap_before(const tn_format *format, size_t i)
     return tn_format_is(format, i, "(") && takes_bracket(format, i - 1) ? 0 : 1;
 }
 
+/* What comes behind an expression or a name: a text, or a word such as `as`. */
+static bool at_part(const tn_format *format, size_t i)
+{
+    return format->tokens[i].kind == TN_TOKEN_STRING ||
+           is_word(format, i, TN_AT(HEAD) | TN_AT(CLAUSE_END), TN_AS_HEAD | TN_AS_MARK);
+}
+
 typedef void put_run(tn_format *format, const size_t *starts, size_t count);
 
 static bool starts_item(const tn_format *format, size_t i)
 {
-    static const char *const words[] = {"use", "schema", "rule", "library", "form", "test", "measure", "let"};
-    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        if (format->tokens[i].kind == TN_TOKEN_WORD && tn_format_is(format, i, words[k]))
-            return true;
-    return false;
+    return is_word(format, i, TN_AT(ITEM), TN_AS_KEYWORDS);
 }
 
 static bool starts_field(const tn_format *format, size_t i)
 {
-    const tn_format_token *tokens = format->tokens;
-    bool zone = i > 0 && (tn_format_is(format, i - 1, "zone") || tn_format_is(format, i - 1, "number"));
-    return (tokens[i].kind == TN_TOKEN_FIELD && !zone) || tn_format_is(format, i, "zone") ||
-           tn_format_is(format, i, "forbid") || (tn_format_is(format, i, "number") && tokens[i].kind == TN_TOKEN_WORD);
+    bool headed = i > 0 && is_word(format, i - 1, TN_AT(SCHEMA), TN_AS_HEAD);
+    return (format->tokens[i].kind == TN_TOKEN_FIELD && !headed) || is_word(format, i, TN_AT(SCHEMA), TN_AS_KEYWORDS);
 }
 
 /* `trays` counts trays in sums, too: the clause is the one before a number. */
 static bool starts_clause(const tn_format *format, size_t i)
 {
-    static const char *const words[] = {"total", "require", "prune", "allow", NULL};
-    return tn_format_is_any(format, i, words) ||
-           (tn_format_is(format, i, "trays") && format->tokens[i + 1].kind == TN_TOKEN_NUMBER);
+    return is_word(format, i, TN_AT(CLAUSE), TN_AS_KEYWORDS) &&
+           (!is_word(format, i, TN_AT(RULE), TN_AS_OPERAND) || format->tokens[i + 1].kind == TN_TOKEN_NUMBER);
 }
 
 /* A line of a form; `section(` is a part of one. */
 static bool starts_part(const tn_format *format, size_t i)
 {
-    static const char *const words[] = {"storey",  "spine",  "wall", "partition", "deck",     "roof",
-                                        "section", "forbid", "void", "no",        "function", "opening",
-                                        "flight",  "face",   "tile", "material",  "allow",    NULL};
-    return format->tokens[i].kind == TN_TOKEN_WORD && tn_format_is_any(format, i, words) &&
-           !(tn_format_is(format, i, "section") && tn_format_is(format, i + 1, "("));
+    return is_word(format, i, TN_AT(FORM), TN_AS_KEYWORDS) &&
+           !(is_word(format, i, TN_AT(SECTIONS), TN_AS_CALL) && tn_format_is(format, i + 1, "("));
 }
 
 static bool starts_tile_part(const tn_format *format, size_t i)
 {
-    static const char *const words[] = {"against", "wide", "deep", "item", "keep", NULL};
-    return format->tokens[i].kind == TN_TOKEN_WORD && tn_format_is_any(format, i, words);
+    return is_word(format, i, TN_AT(TILE), TN_AS_KEYWORDS);
 }
 
 static bool at_part_break(const tn_format *format, size_t i)
 {
-    static const char *const words[] = {"at", "and", "or", "=", "|", NULL};
-    return tn_format_is_any(format, i, words);
+    return tn_format_is(format, i, "=") || tn_format_is(format, i, "|") ||
+           is_word(format, i, TN_AT(FUNCTION) | TN_AT(CELLS) | TN_AT(SECTIONS), TN_AS_INFIX);
 }
 
 static bool is_expectation(const tn_format *format, size_t i)
 {
-    return tn_format_is(format, i, "match") || tn_format_is(format, i, "reject") || tn_format_is(format, i, "keep") ||
-           tn_format_is(format, i, "drop") || tn_format_is(format, i, "todo") || tn_format_is(format, i, "value");
+    return is_word(format, i, TN_AT_CASES, TN_AS_KEYWORDS);
 }
 
 /* The first of the words before a plan. */
@@ -130,12 +127,6 @@ static size_t find(const tn_format *format, size_t first, size_t last, const cha
     return first;
 }
 
-static bool at_head_part(const tn_format *format, size_t i)
-{
-    return format->tokens[i].kind == TN_TOKEN_STRING || tn_format_is(format, i, "using") ||
-           tn_format_is(format, i, "from") || tn_format_is(format, i, "allow");
-}
-
 static bool at_comma(const tn_format *format, size_t i)
 {
     return tn_format_is(format, i, ",");
@@ -151,10 +142,7 @@ static bool at_bar(const tn_format *format, size_t i)
 /* The name's column and width: `zone wall` is five columns in. */
 static size_t field_name(const tn_format *format, size_t first)
 {
-    return tn_format_is(format, first, "zone") ||
-                   (tn_format_is(format, first, "number") && format->tokens[first].kind == TN_TOKEN_WORD)
-               ? first + 1
-               : first;
+    return is_word(format, first, TN_AT(SCHEMA), TN_AS_HEAD) ? first + 1 : first;
 }
 
 static void put_forbid(tn_format *format, size_t first, size_t last)
@@ -175,7 +163,7 @@ static void put_field(tn_format *format, size_t first, size_t last, size_t name_
         tn_format_flat(format, name + 1, last);
         return;
     }
-    tn_format_fill(format, name + 1, equal + 1, at_head_part, false, BODY + CONTINUED, 0);
+    tn_format_fill(format, name + 1, equal + 1, at_part, false, BODY + CONTINUED, 0);
     if (equal > name + 1)
         tn_layout_line(&format->layout, BODY + CONTINUED);
     else
@@ -217,7 +205,7 @@ static void put_clauses(tn_format *format, const size_t *starts, size_t count)
 static void put_tile(tn_format *format, size_t first, size_t last)
 {
     size_t open = find(format, first, last, "{"), close = last - 1;
-    tn_format_fill(format, first, open + 1, at_head_part, false, BODY + CONTINUED, 0);
+    tn_format_fill(format, first, open + 1, at_part, false, BODY + CONTINUED, 0);
     for (size_t i = open + 1, next; i < close; i = next) {
         next = next_start(format, i, close, starts_tile_part);
         format->tokens[i].blank &= i > open + 1; /* none after the opening brace */
@@ -331,7 +319,7 @@ static void put_body(tn_format *format, size_t open, size_t close, tn_format_spl
 static void put_block(tn_format *format, size_t first, size_t last, tn_format_split *begins, put_run *put)
 {
     size_t open = find(format, first, last, "{"), close = last - 1;
-    tn_format_fill(format, first, open + 1, at_head_part, false, CONTINUED, 0);
+    tn_format_fill(format, first, open + 1, at_part, false, CONTINUED, 0);
     bool empty = close == open + 1 && !format->tokens[close].comment_count && !format->tokens[open].remark.text;
     if (empty) {
         tn_format_put(format, close, 0);
@@ -359,7 +347,7 @@ static bool is_short_rule(const tn_format *format, size_t first, size_t last)
 static void put_rule(tn_format *format, size_t first, size_t last)
 {
     size_t equal = find(format, first, last, "=");
-    tn_format_fill(format, first, equal + 1, at_head_part, false, CONTINUED, 0);
+    tn_format_fill(format, first, equal + 1, at_part, false, CONTINUED, 0);
     tn_layout_line(&format->layout, BODY);
     tn_format_expression(format, equal + 1, last, 0);
 }
@@ -386,6 +374,7 @@ void tn_format_plan(tn_format *format)
 {
     bool tall = false; /* the item before takes several lines */
     format->gap_before = gap_before;
+    format->at_part = at_part;
     for (size_t first = 0, last; first < format->count; first = last) {
         last = next_start(format, first, format->count, starts_item);
         bool one_line = tn_format_is(format, first, "use") ||

@@ -6,6 +6,7 @@
 #include "compiler/common/limits.h"
 #include "compiler/plan/check/form.h"
 #include "compiler/plan/syntax/slip.h"
+#include "compiler/plan/syntax/words.h"
 #include "runtime/base/nearest.h"
 
 /* ---- collecting */
@@ -407,12 +408,13 @@ const tn_checked_name *tn_check_name(tn_check *check, const tn_ast_word *word, t
 /* A misspelled word of the language that `(` follows reads as a call: `trai(4')`. */
 static bool report_misspelled(tn_check *check, const tn_ast_word *word)
 {
-    static const char *const words[] = {"tray",        "neighbour", "many", "optional", "quantity",
-                                        "occurrences", "distance",  "sum",  "every",    "matches"};
+    enum { WORDS_MAX = 64 };
+    const char *words[WORDS_MAX];
     if (tn_names_get(&check->names, word->text) || tn_slip_find(TN_SLIP_RULE, word->text, strlen(word->text)))
         return false;
     const char *near = nearest_name(check, word->text, TN_WANT_RULE);
-    const char *meant = near ? NULL : tn_nearest(word->text, words, sizeof words / sizeof *words);
+    size_t count = tn_vocabulary_list(&tn_plan_words, TN_AT(RULE), TN_AS_CALL, words, WORDS_MAX);
+    const char *meant = near ? NULL : tn_nearest(word->text, words, count);
     if (!meant)
         return false;
     tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_RULE, word->node.span,

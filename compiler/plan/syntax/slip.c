@@ -1,8 +1,17 @@
-/* The table of words that other notations have, and English. */
+/* The tables of words: those of the language, and those that other notations have, and English. */
 #include "compiler/plan/syntax/slip.h"
 
 #include <string.h>
 #include <strings.h>
+
+#include "compiler/plan/syntax/words.h"
+
+static const tn_vocabulary_word rows[] = {
+#define WORD(TEXT, TOKEN, READ, PLACES, USE, SENTENCE) {TEXT, SENTENCE, PLACES, USE, READ},
+#include "compiler/plan/syntax/words.def"
+};
+
+const tn_vocabulary tn_plan_words = {rows, sizeof rows / sizeof *rows, NULL, 0};
 
 static const tn_slip slips[] = {
     {TN_SLIP_RULE, "xor|either", "one of two, and not both, is written `(a or b) and not (a and b)`", NULL},

@@ -9,44 +9,64 @@
 #include "compiler/plan/syntax/slip.h"
 #include "compiler/plan/syntax/syntax_example.h"
 #include "compiler/plan/syntax/syntax_fix.h"
+#include "compiler/plan/syntax/words.h"
 #include "runtime/base/nearest.h"
 
-enum { GROUP_MAX = 32 };
+enum { SIGNS_MAX = 16 };
 
-/* Groups of tokens that one phrase names: a group is used where its first two tokens are both expected, and then covers
- * all of its tokens. */
+/* Groups of tokens that one phrase names: a group is used where both its signals are expected, the first of them not
+ * yet named, and then covers the words that stand in these places and are one of these uses there, and its signs. */
 static const struct {
-    const char *phrase;
-    const char *tokens[GROUP_MAX];
+    const char *phrase, *signals[2];
+    uint64_t places;
+    uint32_t uses;
+    const char *signs[SIGNS_MAX]; /* tokens that are no words */
 } groups[] = {
     {"a rule expression",
-     {"`tray`",  "`neighbour`",      "`any`",      "a name",     "`not`",       "`symmetric`", "`quantity`", "`sum`",
-      "`many`",  "`occurrences`",    "`optional`", "`distance`", "`beginning`", "`end`",       "`(`",        "`trays`",
-      "an area", "a decimal number", "`matches`",  "`some`",     "`every`",     "`plan`",      "a number",   "a length",
-      "`-`",     "`cell`",           "`room`",     "`section`",  "`touch`",     "`apart`"}},
+     {"`tray`", "`neighbour`"},
+     TN_AT(RULE),
+     TN_AS_STARTS,
+     {"a name", "`(`", "an area", "a decimal number", "a number", "a length", "`-`"}},
     {"an operator such as `and`, `or` or `>`",
-     {"`and`", "`+`", "`or`", "`implies`", "`in`", "`*`", "`/`", "`-`", "`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
-    {"`+`, `-`, `*` or `/`", {"`+`", "`*`", "`/`", "`-`"}},
+     {"`and`", "`+`"},
+     TN_AT(RULE),
+     TN_AS_INFIX,
+     {"`+`", "`*`", "`/`", "`-`", "`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
+    {"`+`, `-`, `*` or `/`", {"`+`", "`*`"}, 0, 0, {"`+`", "`*`", "`/`", "`-`"}},
     {"a condition such as `n > 1`",
-     {"`-`", "`(`", "`not`", "a number", "a name", "a length", "an area", "a decimal number"}},
-    {"a variable or a number", {"`-`", "a name", "a number", "a length", "an area", "a decimal number"}},
-    {"a number", {"`-`", "a number", "a length", "an area", "a decimal number"}},
-    {"`flag` or a value", {"`flag`", "`...`", "a length", "a name", "a number"}},
+     {"`-`", "`(`"},
+     TN_AT(CONDITION),
+     TN_AS_PREFIX,
+     {"`-`", "`(`", "a number", "a name", "a length", "an area", "a decimal number"}},
+    {"a variable or a number",
+     {"`-`", "a name"},
+     0,
+     0,
+     {"`-`", "a name", "a number", "a length", "an area", "a decimal number"}},
+    {"a number", {"`-`", "a number"}, 0, 0, {"`-`", "a number", "a length", "an area", "a decimal number"}},
+    {"`flag` or a value", {"`flag`", "`...`"}, 0, 0, {"`flag`", "`...`", "a length", "a name", "a number"}},
     {"a value",
-     {"a length", "a name", "a number", "an area", "a decimal number", "`in`", "`(`", "`not`", "`<`", "`<=`", "`=`",
-      "`!=`", "`>=`", "`>`", "`-` for what is absent", "`:` before a depth"}},
-    {"a comparison such as `>`", {"`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
+     {"a length", "a name"},
+     TN_AT(TRAY),
+     TN_AS_PREFIX,
+     {"a length", "a name", "a number", "an area", "a decimal number", "`in`", "`(`", "`<`", "`<=`", "`=`", "`!=`",
+      "`>=`", "`>`", "`-` for what is absent", "`:` before a depth"}},
+    {"a comparison such as `>`", {"`<`", "`<=`"}, 0, 0, {"`<`", "`<=`", "`=`", "`!=`", "`>=`", "`>`"}},
     {"the next `rule`, `schema`, `library`, `form`, `test` or `use`",
-     {"`rule`", "`schema`", "`library`", "`form`", "`test`", "`use`", "`measure`", "`let`", "an expression",
-      "an open plan", "the end of the file"}},
+     {"`rule`", "`schema`"},
+     TN_AT(ITEM),
+     TN_AS_KEYWORDS,
+     {"an expression", "an open plan", "the end of the file"}},
     {"a line of a form (`storey`, `section`, `function`, `face`, `tile` ...)",
-     {"`storey`", "`spine`", "`wall`", "`partition`", "`deck`", "`roof`", "`section`", "`forbid`", "`void`", "`no`",
-      "`function`", "`opening`", "`flight`", "`face`", "`tile`", "`material`", "`allow`"}},
-    {"a length or 0", {"a length", "a number"}},
-    {"`trays`, `total`, `require`, `prune` or `allow`", {"`trays`", "`prune`", "`total`", "`require`", "`allow`"}},
-    {"`match`, `reject`, `keep`, `drop` or `todo`", {"`todo`", "`match`", "`keep`", "`reject`", "`drop`", "`value`"}},
-    {"`match`, `reject`, `keep` or `drop`", {"`match`", "`keep`", "`reject`", "`drop`"}},
-    {"a field (`name = values`)", {"a field", "`forbid`", "`zone`", "`number`"}},
+     {"`storey`", "`spine`"},
+     TN_AT(FORM),
+     TN_AS_KEYWORDS,
+     {NULL}},
+    {"a length or 0", {"a length", "a number"}, 0, 0, {"a length", "a number"}},
+    {"`trays`, `total`, `require`, `prune` or `allow`", {"`trays`", "`prune`"}, TN_AT(CLAUSE), TN_AS_KEYWORDS, {NULL}},
+    {"`match`, `reject`, `keep`, `drop` or `todo`", {"`todo`", "`match`"}, TN_AT_CASES, TN_AS_KEYWORDS, {NULL}},
+    {"`match`, `reject`, `keep` or `drop`", {"`match`", "`keep`"}, TN_AT_CASES, TN_AS_KEYWORDS, {NULL}},
+    {"a field (`name = values`)", {"a field", "`forbid`"}, TN_AT(SCHEMA), TN_AS_KEYWORDS, {"a field"}},
 };
 
 static void add_phrase(char *text, size_t size, const char *phrase, size_t *said)
@@ -56,19 +76,26 @@ static void add_phrase(char *text, size_t size, const char *phrase, size_t *said
     (*said)++;
 }
 
+static bool covers(size_t group, const char *token)
+{
+    const char *const *signs = groups[group].signs;
+    for (size_t i = 0; i < SIGNS_MAX && signs[i]; i++)
+        if (strcmp(token, signs[i]) == 0)
+            return true;
+    return tn_token_is_word(token, groups[group].places, groups[group].uses);
+}
+
 static size_t say_groups(tn_expected *e, char *text, size_t size)
 {
     size_t said = 0;
     for (size_t g = 0; g < sizeof groups / sizeof *groups; g++) {
-        const char *const *tokens = groups[g].tokens;
         bool open = false;
         for (size_t i = 0; i < e->count; i++)
-            open |= !e->said[i] && strcmp(e->tokens[i], tokens[0]) == 0;
-        if (!open || !tn_expects(e, tokens[1]))
+            open |= !e->said[i] && strcmp(e->tokens[i], groups[g].signals[0]) == 0;
+        if (!open || !tn_expects(e, groups[g].signals[1]))
             continue;
-        for (size_t t = 0; t < GROUP_MAX && tokens[t]; t++)
-            for (size_t i = 0; i < e->count; i++)
-                e->said[i] |= strcmp(e->tokens[i], tokens[t]) == 0;
+        for (size_t i = 0; i < e->count; i++)
+            e->said[i] |= covers(g, e->tokens[i]);
         add_phrase(text, size, groups[g].phrase, &said);
     }
     return said;
@@ -146,6 +173,14 @@ static const char *nearest(const tn_parse *parse, tn_span span, const char *cons
     return tn_nearest(word, words, count);
 }
 
+/* The same among the words that stand in one of these places and are one of these uses there. */
+static const char *nearest_of(const tn_parse *parse, tn_span span, uint64_t places, uint32_t uses)
+{
+    enum { WORDS_MAX = 96 };
+    const char *words[WORDS_MAX];
+    return nearest(parse, span, words, tn_vocabulary_list(&tn_plan_words, places, uses, words, WORDS_MAX));
+}
+
 /* The word of the language that a misspelled one is nearest to, among those that could stand here. */
 static bool nearest_word(const tn_parse *parse, tn_span span, const tn_expected *e, char *meant, size_t size)
 {
@@ -166,25 +201,32 @@ static bool nearest_word(const tn_parse *parse, tn_span span, const tn_expected 
     return near && !same;
 }
 
+/* What a name was likely meant to be, by what it stands before. */
+static const char *meant_before(const tn_parse *parse, const tn_syntax_found *found, const tn_expected *e)
+{
+    bool expression = tn_expects(e, "`and`"), call = strcmp(found->name, "`(`") == 0;
+    if (expression && call)
+        return nearest_of(parse, found->after, TN_AT(RULE), TN_AS_PREFIX | TN_AS_CALL);
+    if (call)
+        return nearest_of(parse, found->after, TN_AT(TALLY), TN_AS_CALL);
+    if (expression && strcmp(found->name, "`[`") == 0)
+        return nearest_of(parse, found->after, TN_AT(RULE), TN_AS_MARK);
+    if (tn_expects(e, "`of`"))
+        return nearest_of(parse, found->after, TN_AT(TALLY), TN_AS_INFIX);
+    return expression || tn_expects(e, "`in`") ? nearest_of(parse, found->after, TN_AT(RULE), TN_AS_PREFIX) : NULL;
+}
+
 /* A misspelled word of the language is a name to the parser, which then stumbles over what follows: `trai(4')`. */
 static bool report_misspelled(tn_parse *parse, const tn_syntax_found *found, const tn_expected *e)
 {
-    static const char *const words[] = {"not",      "symmetric",   "tray",     "neighbour", "many", "optional",
-                                        "quantity", "occurrences", "distance", "sum",       "of"};
-    enum { WORDS = sizeof words / sizeof *words, PREFIXES = 2, CALLS = 10 };
-    const tn_slip *slip = tn_expects(e, "`and`") ? find_slip(parse, TN_SLIP_RULE, found->after) : NULL;
-    bool expression = tn_expects(e, "`and`"), call = expression && strcmp(found->name, "`(`") == 0;
-    const char *near = NULL;
-    if (found->after.end == found->after.begin || (parse->mode != TN_LEX_TOP && parse->mode != TN_LEX_TRAY_SUM))
+    bool sums = parse->mode == TN_LEX_TRAY_SUM || (parse->mode == TN_LEX_SCHEMA && parse->in_number);
+    bool opens =
+        parse->mode == TN_LEX_LITERAL && strcmp(found->name, "`[`") == 0; /* the bracket has changed the mode */
+    if (found->after.end == found->after.begin || (parse->mode != TN_LEX_TOP && !sums && !opens))
         return false;
-    if (slip)
-        near = NULL;
-    else if (call)
-        near = nearest(parse, found->after, words, CALLS);
-    else if (tn_expects(e, "`of`"))
-        near = nearest(parse, found->after, words + CALLS, WORDS - CALLS);
-    else if (expression || tn_expects(e, "`in`"))
-        near = nearest(parse, found->after, words, PREFIXES);
+    const tn_slip *slip = tn_expects(e, "`and`") ? find_slip(parse, TN_SLIP_RULE, found->after) : NULL;
+    const char *near = slip ? NULL : meant_before(parse, found, e);
+    bool call = strcmp(found->name, "`(`") == 0 && (near || tn_expects(e, "`and`"));
     if (!near && !call && !slip)
         return false;
     int size = (int)(found->after.end - found->after.begin);
@@ -199,8 +241,59 @@ static bool report_misspelled(tn_parse *parse, const tn_syntax_found *found, con
         tn_suggest(parse->diagnostics, d, "%s", near);
     else
         tn_help(parse->diagnostics, d,
-                "a rule is named without parentheses; `(` follows `tray`, `neighbour`, `many`, `optional`, `quantity`, "
-                "`occurrences`, `sum` and `distance`");
+                "a rule is named without parentheses; `(` follows words such as `tray`, `neighbour` and `sum`");
+    return true;
+}
+
+/* The word before the parenthesis in which a byte stands; empty where there is none. */
+static tn_span called(const tn_parse *parse, tn_span place)
+{
+    size_t at = place.begin, closed = 0;
+    while (at-- > 0 && parse->text[at] != '{' && parse->text[at] != '}') {
+        closed += parse->text[at] == ')';
+        if (parse->text[at] == '(' && closed-- == 0) {
+            size_t begin = at;
+            while (begin > 0 && (isalnum((unsigned char)parse->text[begin - 1]) || parse->text[begin - 1] == '-'))
+                begin--;
+            return (tn_span){place.file, (uint32_t)begin, (uint32_t)at};
+        }
+    }
+    return (tn_span){place.file, place.begin, place.begin};
+}
+
+/* Does the file have a rule of that name? */
+static bool declares_rule(const tn_parse *parse, tn_span name)
+{
+    size_t size = name.end - name.begin;
+    for (const char *at = strstr(parse->text, "rule"); at; at = strstr(at + 1, "rule")) {
+        const char *word = at + strlen("rule");
+        word += strspn(word, " \t");
+        if (strncmp(word, parse->text + name.begin, size) == 0 && !isalnum((unsigned char)word[size]) &&
+            word[size] != '-')
+            return true;
+    }
+    return false;
+}
+
+/* `romo(hall, by door)`, `sectino(body roof flat)`: what stands in the parentheses can stand in none of a rule's. */
+static bool report_misspelled_call(tn_parse *parse, const tn_syntax_found *found)
+{
+    bool values = found->after.end > found->after.begin &&
+                  (strcmp(found->name, "a name") == 0 || strcmp(found->name, "a length") == 0);
+    if (parse->mode != TN_LEX_TOP ||
+        (!values && !tn_token_is_word(found->name, TN_AT(DISTANCE) | TN_AT(MEETING), TN_AS_MARK)))
+        return false;
+    tn_span word = called(parse, found->span);
+    if (tn_vocabulary_find(&tn_plan_words, parse->text + word.begin, word.end - word.begin, TN_ANYWHERE,
+                           TN_AS_KEYWORDS) ||
+        declares_rule(parse, word))
+        return false;
+    const char *near = nearest_of(parse, word, TN_AT(RULE), TN_AS_CALL);
+    if (!near)
+        return false;
+    tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, word, "the language has no `%.*s(...)`",
+                                 (int)(word.end - word.begin), parse->text + word.begin);
+    tn_suggest(parse->diagnostics, d, "%s", near);
     return true;
 }
 
@@ -210,6 +303,19 @@ static bool is_quantifier(const tn_parse *parse, tn_span word)
     size_t size = word.end - word.begin;
     return parse->mode == TN_LEX_TOP &&
            ((size == 4 && strncasecmp(text, "some", 4) == 0) || (size == 5 && strncasecmp(text, "every", 5) == 0));
+}
+
+/* `soem v in FIELD (...)`; is it that, with two names beside each other? */
+static bool report_misspelled_quantifier(tn_parse *parse, tn_span first, tn_span second)
+{
+    const char *rest = parse->text + second.end + strspn(parse->text + second.end, " \t");
+    const char *near = nearest_of(parse, first, TN_AT(RULE), TN_AS_MARK);
+    if (!near || strncasecmp(rest, "in", 2) != 0 || isalnum((unsigned char)rest[2]))
+        return false;
+    tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, first, "`%.*s` is not a word of the language",
+                                 (int)(first.end - first.begin), parse->text + first.begin);
+    tn_suggest(parse->diagnostics, d, "%s", near);
+    return true;
 }
 
 /* `some v (...)`: without its field. */
@@ -229,6 +335,8 @@ static bool report_two_words(tn_parse *parse, const tn_syntax_found *found, cons
         return false;
     if (is_quantifier(parse, first))
         return report_quantifier(parse, tn_span_join(first, second));
+    if (parse->mode == TN_LEX_TOP && report_misspelled_quantifier(parse, first, second))
+        return true;
     if (parse->mode == TN_LEX_TOP ? !tn_expects(e, "`and`") : parse->mode != TN_LEX_SCHEMA || !tn_expects(e, "`|`"))
         return false;
     char meant[40];
@@ -365,8 +473,9 @@ void tn_syntax_error(tn_parse *parse, const tn_syntax_found *found, const char *
     if (parse->quiet_now || (parse->virtual_brace && span.begin == span.end))
         return; /* what led to this was reported */
     tn_expected e = {.tokens = expected, .count = count < 96 ? count : 96};
-    if (report_misspelled(parse, found, &e) || report_two_words(parse, found, &e) ||
-        report_decimal_comma(parse, found, &e) || report_colour(parse, &e) || report_rank(parse, &e))
+    if (report_misspelled(parse, found, &e) || report_misspelled_call(parse, found) ||
+        report_two_words(parse, found, &e) || report_decimal_comma(parse, found, &e) || report_colour(parse, &e) ||
+        report_rank(parse, &e))
         return;
     char list[800], words[800], here[120];
     say_expected(expected, count, list, sizeof list);

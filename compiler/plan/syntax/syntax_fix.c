@@ -4,6 +4,8 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "compiler/plan/syntax/words.h"
+
 bool tn_expects(const tn_expected *e, const char *token)
 {
     for (size_t i = 0; i < e->count; i++)
@@ -17,15 +19,15 @@ bool tn_is_keyword(const char *token)
     return token[0] == '`' && token[1] >= 'a' && token[1] <= 'z';
 }
 
+bool tn_token_is_word(const char *token, uint64_t places, uint32_t uses)
+{
+    return tn_is_keyword(token) &&
+           tn_vocabulary_find(&tn_plan_words, token + 1, strcspn(token + 1, "`"), places, uses) != NULL;
+}
+
 bool tn_starts_expression(const char *found)
 {
-    static const char *const words[] = {"`tray`",        "`neighbour`", "`any`",     "`not`",
-                                        "`symmetric`",   "`quantity`",  "`sum`",     "`many`",
-                                        "`occurrences`", "`optional`",  "`distance`"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcmp(found, words[i]) == 0)
-            return true;
-    return false;
+    return tn_token_is_word(found, TN_AT(RULE), TN_AS_STARTS);
 }
 
 static bool is_arithmetic(const char *found)
@@ -54,13 +56,14 @@ static bool comes_after_number(const tn_parse *parse)
     return span.end > span.begin && parse->text[span.begin] >= '0' && parse->text[span.begin] <= '9';
 }
 
-/* Is what stands at hand `measure` or `let`, and `=` comes next? */
+/* Is what stands at hand a word like `measure`, which is one only before a name, and `=` comes next? */
 static bool followed_by_equals(const tn_parse *parse)
 {
     tn_span span = parse->last_span;
-    size_t size = span.end - span.begin, at = span.end;
-    const char *word = parse->text + span.begin;
-    if (!(size == 7 && memcmp(word, "measure", 7) == 0) && !(size == 3 && memcmp(word, "let", 3) == 0))
+    size_t at = span.end;
+    const tn_vocabulary_word *word = tn_vocabulary_find(&tn_plan_words, parse->text + span.begin, span.end - span.begin,
+                                                        TN_AT(ITEM), TN_AS_KEYWORDS);
+    if (!word || !(word->read & TN_READ_LATER))
         return false;
     while (at < parse->size && parse->text[at] == ' ')
         at++;
@@ -70,15 +73,11 @@ static bool followed_by_equals(const tn_parse *parse)
 /* Does the `(` before the token at hand follow a name of the author's? */
 static bool opens_call(const tn_parse *parse)
 {
-    static const char *const words[] = {"tray",     "neighbour", "neighbor", "quantity", "occurrences", "sum",
-                                        "distance", "many",      "optional", "every",    "matches",     "not"};
     uint32_t end = parse->span_before.begin, begin = end;
     while (begin > 0 && (isalnum((unsigned char)parse->text[begin - 1]) || parse->text[begin - 1] == '-'))
         begin--;
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strlen(words[i]) == end - begin && memcmp(words[i], parse->text + begin, end - begin) == 0)
-            return false;
-    return end > begin;
+    return end > begin && !tn_vocabulary_find(&tn_plan_words, parse->text + begin, end - begin,
+                                              TN_AT(RULE) | TN_AT(CONDITION), TN_AS_KEYWORDS);
 }
 
 /* Does a digit come directly after the token at hand? */
@@ -286,11 +285,12 @@ static const char *schema_fix(const tn_parse *parse, const char *found, const tn
     return NULL;
 }
 
-/* A word of the language that a name of the author's has to follow. */
+/* Does the token at hand come after a word that starts an item, and that a name of the author's has to follow? */
 static bool comes_after_heading(const tn_parse *parse)
 {
-    return comes_after(parse, "rule") || comes_after(parse, "library") || comes_after(parse, "schema") ||
-           comes_after(parse, "measure") || comes_after(parse, "let") || comes_after(parse, "form");
+    tn_span span = parse->span_before;
+    return tn_vocabulary_find(&tn_plan_words, parse->text + span.begin, span.end - span.begin, TN_AT(ITEM),
+                              TN_AS_HEAD) != NULL;
 }
 
 /* A likely fix, from what was found and what could have stood there; NULL where none is known. */
@@ -342,7 +342,7 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
     if (tn_expects(e, "`from`") && parse->schema_head)
         return "a schema is made from another by `schema NAME from OLDER { ... }`";
     if (e->count == 1 && tn_expects(e, "a name") && comes_after_heading(parse))
-        return "a name of yours follows this word: `rule NAME = ...`, `library NAME { ... }`";
+        return "a name of yours follows this word: `rule NAME = ...`, `library NAME { ... }`, `test NAME { ... }`";
     if (e->count == 1 && tn_expects(e, "a text in quotes") && comes_after(parse, "use"))
         return "the name of a file stands in quotes: `use \"NAME\"`";
     if (e->count == 2 && tn_expects(e, "`)`") && tn_expects(e, "`,`") && strcmp(found, "a name") == 0)
@@ -353,6 +353,9 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
         return "a condition compares: `n > 1`, `n in 2..4`, `n mod 3 = 1`";
     if (tn_expects(e, "`match`") && tn_expects(e, "`keep`"))
         return "a case is written `match [a b | c]`";
+    if (tn_expects(e, "`prune`") && tn_expects(e, "`and`") && tn_starts_expression(found))
+        return "expressions are joined by `and` or `or`, clauses of a library by `,`; what a tray is stands in "
+               "`tray(...)`";
     if (tn_expects(e, "`prune`") && tn_expects(e, "`require`"))
         return "a library says `trays 4..9`, `total FIELD 10m..20m`, `require RULE`, `prune RULE` or `allow W001`; "
                "what a "

@@ -64,12 +64,11 @@ library l { prune great-hall }
 
 test('every word of the language that the lexer knows has a colour', async () => {
     const grammar = await loadGrammar();
-    const lexer = fs.readFileSync(path.join(root, '..', '..', 'grammar', 'plan.l'), 'utf8');
-    const words = [...lexer.matchAll(/\{"([a-z]+)", TN_PLAN_/g)].map((match) => match[1]);
-    assert.ok(words.length > 40);
-    for (const word of words) {
-        const [token] = tokens(grammar, ['use', 'schema', 'rule', 'library', 'test'].includes(word) ? `${word} x` : ` x = ${word} `)
-            .filter(([text]) => text === word);
+    const table = fs.readFileSync(path.join(root, '..', '..', 'compiler', 'plan', 'syntax', 'words.def'), 'utf8');
+    const rows = [...table.matchAll(/^WORD\("([a-z]+)", (\w+), .*?TN_AT\((\w+)\)/gm)].filter((row) => row[2] !== 'NAME');
+    assert.ok(rows.length > 100);
+    for (const [, word, , place] of rows) {
+        const [token] = tokens(grammar, place === 'ITEM' ? `${word} x` : ` x = ${word} `).filter(([text]) => text === word);
         assert.ok(token && !token[1].startsWith('variable'), word);
     }
 });
