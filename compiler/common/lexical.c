@@ -191,9 +191,12 @@ double tn_decimal_value(const char *text, size_t size)
     for (i += has_sign ? 2 : 1; i < size && exponent < EXPONENT_MAX; i++)
         exponent = exponent * 10 + (text[i] - '0');
     power += negative ? -exponent : exponent;
-    double value = (double)mantissa, scale = 1;
-    for (int64_t n = power < 0 ? -power : power; n > 0 && scale < 1e290; n--)
-        scale *= 10;
-    value = power < 0 ? value / scale : value * scale;
+    double value = (double)mantissa;
+    for (int64_t n = power < 0 ? -power : power; n > 0;) { /* in steps, as a scale past 1e308 would be infinite */
+        double scale = 1;
+        for (; n > 0 && scale < 1e290; n--)
+            scale *= 10;
+        value = power < 0 ? value / scale : value * scale;
+    }
     return size && text[0] == '-' ? -value : value;
 }
