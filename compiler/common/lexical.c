@@ -2,6 +2,8 @@
 #include "compiler/common/lexical.h"
 
 #include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/length.h"
@@ -159,23 +161,26 @@ size_t tn_character_size(const char *text, size_t size)
     return count;
 }
 
-#define DIGITS_MAX 17 /* that make a difference to a double */
+/* As many digits as any tie between two doubles has, and one for all behind them. */
+#define DIGITS_MAX 770
 #define EXPONENT_MAX 10000
 
-/* The whole number that decides a double's bits, and the power of ten that it is to be multiplied with; returns where
- * the exponent begins. */
-static size_t read_mantissa(const char *text, size_t size, uint64_t *mantissa, int64_t *power)
+/* The significant digits as a whole number, and the power of ten that it is to be multiplied with; returns where the
+ * exponent begins. */
+static size_t read_digits(const char *text, size_t size, char *digits, size_t *count, int64_t *power)
 {
-    size_t i = size && (text[0] == '-' || text[0] == '+'), digits = 0;
+    size_t i = size && (text[0] == '-' || text[0] == '+');
     bool fraction = false;
     for (; i < size && text[i] != 'e' && text[i] != 'E'; i++) {
         if (text[i] == '.') {
             fraction = true;
-        } else if (digits < DIGITS_MAX) {
-            *mantissa = *mantissa * 10 + (uint64_t)(text[i] - '0');
-            digits += *mantissa > 0;
+        } else if (*count < DIGITS_MAX) {
+            if (*count > 0 || text[i] != '0')
+                digits[(*count)++] = text[i];
             *power -= fraction;
         } else {
+            if (text[i] != '0')
+                digits[DIGITS_MAX - 1] = '1'; /* above the tie that the digits before may be */
             *power += !fraction;
         }
     }
@@ -184,19 +189,16 @@ static size_t read_mantissa(const char *text, size_t size, uint64_t *mantissa, i
 
 double tn_decimal_value(const char *text, size_t size)
 {
-    uint64_t mantissa = 0;
+    char digits[DIGITS_MAX + 32];
+    size_t count = 0;
     int64_t power = 0, exponent = 0;
-    size_t i = read_mantissa(text, size, &mantissa, &power);
+    size_t i = read_digits(text, size, digits, &count, &power);
     bool negative = i + 1 < size && text[i + 1] == '-', has_sign = negative || (i + 1 < size && text[i + 1] == '+');
     for (i += has_sign ? 2 : 1; i < size && exponent < EXPONENT_MAX; i++)
         exponent = exponent * 10 + (text[i] - '0');
     power += negative ? -exponent : exponent;
-    double value = (double)mantissa;
-    for (int64_t n = power < 0 ? -power : power; n > 0;) { /* in steps, as a scale past 1e308 would be infinite */
-        double scale = 1;
-        for (; n > 0 && scale < 1e290; n--)
-            scale *= 10;
-        value = power < 0 ? value / scale : value * scale;
-    }
+    /* strtod rounds correctly; without a point, no locale has a say */
+    snprintf(digits + count, sizeof digits - count, "%se%lld", count ? "" : "0", (long long)power);
+    double value = strtod(digits, NULL);
     return size && text[0] == '-' ? -value : value;
 }
