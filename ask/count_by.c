@@ -106,6 +106,17 @@ static tn_status give(const tn_spread *spread, tn_counted_values *counted, tn_er
     return status == TN_OK && spread->d.count > 0 ? give_statistics(&spread->bins, counted, error) : status;
 }
 
+tn_spread *tn_spread_room(tn_session *session)
+{
+    tn_error error;
+    tn_spread *spread = calloc(1, sizeof *spread);
+    if (!spread) {
+        tn_fail_memory(&error);
+        tn_session_fail(session, &error);
+    }
+    return spread;
+}
+
 static void free_spread(tn_spread *spread)
 {
     tn_spread_clear(spread);
@@ -133,20 +144,17 @@ tn_status tn_reply_spread(tn_session *session, const tn_count_request *request, 
 
 tn_status tn_count_plans_by(tn_session *session, const tn_count_request *request, tn_reply *answer)
 {
-    const tn_library_options options = tn_asked_options(&request->subject);
     const tn_ready_library *ready;
     uint32_t index;
     tn_error error;
-    tn_status status = tn_session_library(session, request->subject.library, &options, &ready);
+    tn_status status = tn_session_library(session, &request->subject, &ready);
     if (status == TN_OK)
         status = tn_measure_choose(session->opened, request->by, ready->record->schema, &index);
     if (status != TN_OK)
         return status;
-    tn_spread *spread = calloc(1, sizeof *spread);
-    if (!spread) {
-        tn_fail_memory(&error);
-        return tn_session_fail(session, &error);
-    }
+    tn_spread *spread = tn_spread_room(session);
+    if (!spread)
+        return TN_MEMORY;
     tn_session_begins(session, "counting by the measure");
     status = tn_spread_make(spread, ready, index, &error);
     tn_session_ends(session);

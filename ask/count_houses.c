@@ -12,11 +12,9 @@ static tn_status count_by(tn_numbered *n, const tn_count_request *request, const
     tn_status status = tn_house_measure_choose(session->opened, request->by, n->record->form, &measure);
     if (status != TN_OK)
         return status;
-    tn_spread *spread = calloc(1, sizeof *spread);
-    if (!spread) {
-        tn_fail_memory(&error);
-        return tn_session_fail(session, &error);
-    }
+    tn_spread *spread = tn_spread_room(session);
+    if (!spread)
+        return TN_MEMORY;
     tn_session_begins(session, "counting by the measure");
     status = tn_numbered_spread(n, plan, measure, spread, &error);
     tn_session_ends(session);
@@ -60,12 +58,7 @@ static tn_status count(tn_numbered *n, const tn_count_request *request, tn_reply
 
 tn_status tn_count_houses(tn_session *session, const tn_count_request *request, tn_reply *answer)
 {
-    const tn_library_asked *asked = &request->subject;
-    const tn_house_settings settings = {.library = asked->library,
-                                        .max_length = tn_asked_length(asked),
-                                        .plans = tn_asked_options(asked),
-                                        .wheres = asked->where.items,
-                                        .where_count = asked->where.count};
+    const tn_house_settings settings = tn_asked_houses(&request->subject);
     tn_numbered n;
     tn_status status = tn_numbered_open(&n, session, &settings);
     if (status == TN_OK)

@@ -2,15 +2,23 @@
 #include <stdlib.h>
 
 #include "ask/count.h"
-#include "ask/kit.h"
 #include "runtime/place/count/count.h"
+
+tn_kit_asked tn_count_kit_asked(const tn_count_request *request)
+{
+    return (tn_kit_asked){.parts = (uint32_t)request->parts,
+                          .kinds = request->part.items,
+                          .kind_count = request->part.count,
+                          .inside = request->inside,
+                          .fixed = request->fixed};
+}
 
 /* Which parts lie on the lattice, the model that is named says. */
 static tn_status count(tn_session *session, const tn_count_request *r, const tn_place_rules *rules, const bool *wanted,
                        tn_building_counts *counts, tn_error *error)
 {
     uint32_t parts = (uint32_t)r->parts;
-    unsigned threads = tn_asked_options(&r->subject).threads;
+    unsigned threads = tn_asked_threads(&r->subject);
     tn_watch *watch = session->opened->module->watch;
     tn_session_begins(session, "buildings counted");
     tn_status status = r->inside ? tn_count_inside(rules, wanted, parts, threads, watch, &counts->fixed, error)
@@ -33,11 +41,7 @@ static void give(const tn_count_request *r, const tn_building_counts *counts, tn
 
 tn_status tn_count_kit(tn_session *session, const tn_count_request *request, tn_reply *answer)
 {
-    const tn_kit_asked asked = {.parts = request->has_parts ? (uint32_t)request->parts : 0,
-                                .kinds = request->part.items,
-                                .kind_count = request->part.count,
-                                .inside = request->inside,
-                                .fixed = request->fixed};
+    const tn_kit_asked asked = tn_count_kit_asked(request);
     tn_place_rules rules = {.module = session->opened->module};
     tn_building_counts counts;
     tn_error error;

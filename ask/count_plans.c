@@ -134,10 +134,9 @@ static tn_status count_clauses(const counting *c, tn_error *error)
 
 tn_status tn_count_plans(tn_session *session, const tn_count_request *request, tn_reply *answer)
 {
-    const tn_library_options options = tn_asked_options(&request->subject);
     counting c = {.session = session, .mirror = request->mirror};
     tn_error error;
-    tn_status status = tn_session_library(session, request->subject.library, &options, &c.ready);
+    tn_status status = tn_session_library(session, &request->subject, &c.ready);
     if (status != TN_OK)
         return status;
     status = tn_reply_new(&tn_message_counted_plans, answer, &error);

@@ -6,6 +6,18 @@
 #include "driver/place/kit.h"
 #include "runtime/place/joints.h"
 
+tn_status tn_kit_none_asked(tn_session *session, const tn_kit_asked *asked)
+{
+    const char *option = asked->parts        ? "parts"
+                         : asked->fixed      ? "fixed"
+                         : asked->inside     ? "inside"
+                         : asked->kind_count ? "part"
+                                             : NULL;
+    return option ? tn_session_refuse(session, NULL, "--%s is about a kit, and %.200s is none", option,
+                                      session->opened->path)
+                  : TN_OK;
+}
+
 static tn_status unknown_part(tn_session *session, const char *name)
 {
     const tn_module *module = session->opened->module;

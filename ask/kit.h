@@ -15,6 +15,9 @@ typedef struct tn_kit_asked {
     bool fixed;
 } tn_kit_asked;
 
+/* TN_INVALID, and says it, if something is asked that only kits answer: the file is none. */
+tn_status tn_kit_none_asked(tn_session *session, const tn_kit_asked *asked);
+
 /* Checks what is asked of a kit and finds which of its parts are wanted: *wanted is [part of the kit], or NULL for all;
  * the caller frees it. */
 tn_status tn_kit_asked_parts(tn_session *session, const tn_kit_asked *asked, bool **wanted);

@@ -7,6 +7,15 @@
 
 #include "runtime/base/nearest.h"
 
+tn_house_settings tn_asked_houses(const tn_library_asked *asked)
+{
+    return (tn_house_settings){.library = asked->library,
+                               .max_length = tn_asked_length(asked),
+                               .plans = tn_asked_options(asked),
+                               .wheres = asked->where.items,
+                               .where_count = asked->where.count};
+}
+
 /* The library of houses that stands on the plans of that name, or NULL. */
 static const char *on_plans(const tn_module *module, const char *name)
 {

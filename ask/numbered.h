@@ -19,6 +19,9 @@ typedef struct tn_house_settings {
     size_t where_count;
 } tn_house_settings;
 
+/* The same of a request. */
+tn_house_settings tn_asked_houses(const tn_library_asked *asked);
+
 /* The houses that were asked for last by number. counted: NULL, or those on one plan alone, which is this one. */
 typedef struct tn_numbered_ranked {
     const tn_houses *among;

@@ -45,33 +45,16 @@
 #define TN_END(NAME)                                                                                                   \
     }                                                                                                                  \
     ;
-#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)
 #include "ask/requests.def"
-#undef TN_MESSAGE
-#undef TN_FIELD
-#undef TN_NUMBER
-#undef TN_OF
-#undef TN_END
-#undef TN_QUESTION
 
 #define TN_MESSAGE(NAME, DOC)                                                                                          \
     const tn_message tn_message_##NAME = {#NAME, DOC, sizeof(tn_##NAME), NAME##_members,                               \
                                           sizeof NAME##_members / sizeof *NAME##_members};
-#define TN_FIELD(OWNER, PRESENCE, KIND, NAME, UNIT, DOC)
-#define TN_NUMBER(OWNER, PRESENCE, NAME, LEAST, MOST, UNIT, DOC)
-#define TN_OF(OWNER, PRESENCE, KIND, OF, NAME, DOC)
-#define TN_END(NAME)
-#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)
 #include "ask/requests.def"
-#undef TN_MESSAGE
-#undef TN_QUESTION
 
 const tn_message *const tn_messages[] = {
 #define TN_MESSAGE(NAME, DOC) &tn_message_##NAME,
-#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)
 #include "ask/requests.def"
-#undef TN_MESSAGE
-#undef TN_QUESTION
 };
 
 const size_t tn_message_count = sizeof tn_messages / sizeof *tn_messages;
@@ -86,19 +69,16 @@ const tn_message *tn_message_named(const char *name)
 
 /* ---- questions */
 
-#define TN_MESSAGE(NAME, DOC)
 #define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)                                                                       \
-    static tn_status ask_##NAME(tn_session *session, const void *request, tn_reply *answer)                            \
+    static tn_status ask_##NAME(struct tn_session *session, const void *request, tn_reply *answer)                     \
     {                                                                                                                  \
         return tn_ask_##NAME(session, request, answer);                                                                \
     }
 #include "ask/requests.def"
-#undef TN_QUESTION
 
 const tn_request_kind tn_request_kinds[] = {
 #define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC) {#NAME, &tn_message_##REQUEST, ANSWERS, DOC, ask_##NAME},
 #include "ask/requests.def"
-#undef TN_QUESTION
 };
 const size_t tn_request_kind_count = sizeof tn_request_kinds / sizeof *tn_request_kinds;
 

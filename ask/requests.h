@@ -3,8 +3,9 @@
 #define TARTAN_ASK_REQUESTS_H
 
 #include "ask/message.h"
-#include "ask/session.h"
 #include "driver/measure/spread.h"
+
+struct tn_session;
 
 #define TN_TYPE_TEXT const char *
 #define TN_TYPE_OWNED char *
@@ -40,14 +41,7 @@
     }                                                                                                                  \
     tn_##NAME;                                                                                                         \
     extern const tn_message tn_message_##NAME;
-#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)
 #include "ask/requests.def"
-#undef TN_MESSAGE
-#undef TN_FIELD
-#undef TN_NUMBER
-#undef TN_OF
-#undef TN_END
-#undef TN_QUESTION
 
 /* An answer: a message of one of the types that its question may be answered with. */
 typedef struct tn_reply {
@@ -68,20 +62,9 @@ tn_json_layout tn_reply_layout(const tn_reply *answer);
 
 /* tn_ask_count and so on: each question as a function. What is wrong is said as session.h tells. Clear the answer in
  * any case. */
-#define TN_MESSAGE(NAME, DOC)
-#define TN_FIELD(OWNER, PRESENCE, KIND, NAME, UNIT, DOC)
-#define TN_NUMBER(OWNER, PRESENCE, NAME, LEAST, MOST, UNIT, DOC)
-#define TN_OF(OWNER, PRESENCE, KIND, OF, NAME, DOC)
-#define TN_END(NAME)
 #define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)                                                                       \
-    tn_status tn_ask_##NAME(tn_session *session, const tn_##REQUEST *request, tn_reply *answer);
+    tn_status tn_ask_##NAME(struct tn_session *session, const tn_##REQUEST *request, tn_reply *answer);
 #include "ask/requests.def"
-#undef TN_MESSAGE
-#undef TN_FIELD
-#undef TN_NUMBER
-#undef TN_OF
-#undef TN_END
-#undef TN_QUESTION
 
 /* The same for whoever has a question's name. */
 typedef struct tn_request_kind {
@@ -89,7 +72,7 @@ typedef struct tn_request_kind {
     const tn_message *request;
     const char *answers; /* the names of their types, with blanks between them */
     const char *doc;
-    tn_status (*ask)(tn_session *session, const void *request, tn_reply *answer);
+    tn_status (*ask)(struct tn_session *session, const void *request, tn_reply *answer);
 } tn_request_kind;
 
 extern const tn_request_kind tn_request_kinds[];

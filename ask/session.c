@@ -5,6 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "runtime/base/crew.h"
+#include "runtime/plan/match/vm.h"
+
 static tn_diagnostics *said(tn_session *session)
 {
     return &session->opened->compilation.diagnostics;
@@ -34,12 +37,10 @@ tn_status tn_session_bad_text(tn_session *session, tn_error *error, const char *
 
 tn_status tn_session_refuse(tn_session *session, const char *help, const char *format, ...)
 {
-    char text[480];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    tn_diagnostic *d = tn_report_bare_list(said(session), TN_ERROR, E_USAGE, format, args);
     va_end(args);
-    tn_diagnostic *d = tn_report_bare(said(session), TN_ERROR, E_USAGE, "%s", text);
     if (help)
         tn_help(said(session), d, "%s", help);
     return TN_INVALID;
@@ -47,12 +48,10 @@ tn_status tn_session_refuse(tn_session *session, const char *help, const char *f
 
 void tn_session_note(tn_session *session, const char *format, ...)
 {
-    char text[480];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    tn_report_bare_list(said(session), TN_NOTE, TN_CODE_NONE, format, args);
     va_end(args);
-    tn_report_bare(said(session), TN_NOTE, TN_CODE_NONE, "%s", text);
 }
 
 void tn_session_begins(const tn_session *session, const char *work)
@@ -65,6 +64,28 @@ void tn_session_ends(const tn_session *session)
 {
     if (session->listener.ends)
         session->listener.ends(session->listener.context);
+}
+
+/* ---- what is asked of a library */
+
+unsigned tn_asked_threads(const tn_library_asked *asked)
+{
+    return asked->has_threads ? (unsigned)asked->threads : tn_crew_default();
+}
+
+size_t tn_asked_length(const tn_library_asked *asked)
+{
+    return asked->has_max_length ? (size_t)asked->max_length : TN_VM_LENGTH_DEFAULT;
+}
+
+tn_library_options tn_asked_options(const tn_library_asked *asked)
+{
+    return (tn_library_options){.max_states = (uint32_t)asked->max_states,
+                                .override_trays = asked->has_trays,
+                                .trays_min = (uint32_t)asked->trays.from,
+                                .trays_max = (uint32_t)asked->trays.to,
+                                .max_length = (uint32_t)asked->max_length,
+                                .threads = tn_asked_threads(asked)};
 }
 
 /* ---- the library that is kept */
@@ -83,17 +104,17 @@ static bool is_kept(const tn_session *session, const char *name, const tn_librar
                 : session->only_one;
 }
 
-tn_status tn_session_library(tn_session *session, const char *name, const tn_library_options *options,
-                             const tn_ready_library **ready)
+tn_status tn_session_library(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready)
 {
+    const tn_library_options options = tn_asked_options(asked);
     *ready = &session->library;
-    if (is_kept(session, name, options))
+    if (is_kept(session, asked->library, &options))
         return TN_OK;
     tn_session_forget(session);
-    session->options = *options;
-    session->only_one = !name;
+    session->options = options;
+    session->only_one = !asked->library;
     tn_session_begins(session, "clauses combined");
-    tn_status status = tn_library_ready(session->opened, name, options, &session->library);
+    tn_status status = tn_library_ready(session->opened, asked->library, &options, &session->library);
     tn_session_ends(session);
     return status;
 }

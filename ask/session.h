@@ -6,9 +6,8 @@
 #ifndef TARTAN_ASK_SESSION_H
 #define TARTAN_ASK_SESSION_H
 
+#include "ask/requests.h"
 #include "driver/plan/library.h"
-
-struct tn_reply;
 
 /* Whoever asks is told what goes on; each function may be NULL. */
 typedef struct tn_session_listener {
@@ -22,7 +21,7 @@ typedef struct tn_session {
     tn_session_listener listener;
 
     /* Called with an answer whose first part stands, before the rest of it is worked out; NULL: nobody waits for it. */
-    void (*so_far)(void *context, const struct tn_reply *answer);
+    void (*so_far)(void *context, const tn_reply *answer);
     void *so_far_context;
 
     tn_ready_library library; /* made ready last, if library.library is not NULL */
@@ -50,8 +49,13 @@ void tn_session_note(tn_session *session, const char *format, ...) __attribute__
 void tn_session_begins(const tn_session *session, const char *work);
 void tn_session_ends(const tn_session *session);
 
-/* A library of plans, ready; NULL as a name: the only one. It is the session's. */
-tn_status tn_session_library(tn_session *session, const char *name, const tn_library_options *options,
-                             const tn_ready_library **ready);
+/* The library of plans that is asked about, ready. It is the session's. */
+tn_status tn_session_library(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready);
+
+/* What a request says of a library's plans and of the work that it may take; how many threads may do it, and the
+ * longest plan that it accepts. */
+tn_library_options tn_asked_options(const tn_library_asked *asked);
+unsigned tn_asked_threads(const tn_library_asked *asked);
+size_t tn_asked_length(const tn_library_asked *asked);
 
 #endif

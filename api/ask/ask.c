@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "api/compiler/compile.h"
-#include "ask/requests.h"
+#include "ask/session.h"
 #include "include/tartan/ask.h"
 #include "runtime/base/file.h"
 

@@ -129,35 +129,30 @@ void tn_job_fail(tn_job *job, const tn_error *error)
 
 tn_diagnostic *tn_job_usage(tn_job *job, const char *format, ...)
 {
-    char text[480];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    tn_diagnostic *d = tn_report_bare_list(tn_job_diagnostics(job), TN_ERROR, E_USAGE, format, args);
     va_end(args);
     worsen(job, TN_EXIT_USAGE);
-    return tn_report_bare(tn_job_diagnostics(job), TN_ERROR, E_USAGE, "%s", text);
+    return d;
 }
 
 void tn_job_note(tn_job *job, const char *format, ...)
 {
-    char text[480];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    tn_report_bare_list(tn_job_diagnostics(job), TN_NOTE, TN_CODE_NONE, format, args);
     va_end(args);
-    tn_report_bare(tn_job_diagnostics(job), TN_NOTE, TN_CODE_NONE, "%s", text);
 }
 
 void tn_job_interrupted(tn_job *job, const char *format, ...)
 {
-    char text[480];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    tn_report_bare_list(tn_job_diagnostics(job), TN_NOTE, TN_CODE_NONE, format, args);
     va_end(args);
     tn_job_status(job, TN_STOPPED);
     job->said = true;
-    tn_job_note(job, "%s", text);
 }
 
 static void say_what_was_passed(tn_job *job)

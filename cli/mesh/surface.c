@@ -63,12 +63,10 @@ void tn_open_field_close(tn_open_field *open)
 
 void tn_job_warn(tn_job *job, tn_code code, const char *help, const char *format, ...)
 {
-    char text[300];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
+    tn_diagnostic *d = tn_report_bare_list(tn_job_diagnostics(job), TN_WARNING, code, format, arguments);
     va_end(arguments);
-    tn_diagnostic *d = tn_report_bare(tn_job_diagnostics(job), TN_WARNING, code, "%s", text);
     tn_help(tn_job_diagnostics(job), d, "%s", help);
 }
 

@@ -30,7 +30,4 @@ static inline tn_kit_asked tn_kit_options_ask(const tn_kit_options *options)
                           .fixed = options->fixed};
 }
 
-/* Is something asked that only kits answer? Then that is told. */
-bool tn_job_asks_kit(tn_job *job, const tn_kit_options *options);
-
 #endif

@@ -227,6 +227,12 @@ static bool asks_library(tn_job *job)
     return option != NULL;
 }
 
+static bool asks_kit(tn_job *job)
+{
+    const tn_kit_asked asked = tn_kit_options_ask(&settings_of(job)->kit);
+    return !tn_job_answered(job, tn_kit_none_asked(&job->session, &asked));
+}
+
 static void enumerate_kit(tn_job *job)
 {
     const enumerate_settings *s = settings_of(job);
@@ -253,7 +259,7 @@ static int run(const tn_command *command, const tn_settings *common)
     bool open = check_options(&job) && tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
     if (open && job.opened.module->KIT_count > 0)
         enumerate_kit(&job);
-    else if (open && tn_job_asks_kit(&job, &settings->kit))
+    else if (open && asks_kit(&job))
         open = false; /* has been said */
     else if (open && is_about_houses(&job))
         enumerate_houses(&job);

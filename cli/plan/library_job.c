@@ -7,17 +7,17 @@
 #include "cli/common/progress.h"
 #include "driver/house/judge.h"
 #include "driver/open/digits.h"
-#include "runtime/base/crew.h"
-#include "runtime/plan/match/vm.h"
 
 unsigned tn_job_threads(const tn_plan_settings *plans)
 {
-    return plans->threads.given ? (unsigned)plans->threads.value : tn_crew_default();
+    const tn_library_asked asked = tn_job_asked(plans);
+    return tn_asked_threads(&asked);
 }
 
 size_t tn_job_max_length(const tn_plan_settings *plans)
 {
-    return plans->max_length.given ? (size_t)plans->max_length.value : TN_VM_LENGTH_DEFAULT;
+    const tn_library_asked asked = tn_job_asked(plans);
+    return tn_asked_length(&asked);
 }
 
 void tn_job_rank(const char *text, const mpz_t otherwise, mpz_t number)
@@ -93,12 +93,8 @@ bool tn_job_library(tn_job *job, const char *path, const tn_plan_settings *plans
 
 tn_library_options tn_job_library_options(const tn_plan_settings *plans)
 {
-    return (tn_library_options){.max_states = (uint32_t)plans->max_states.value,
-                                .override_trays = plans->trays.given,
-                                .trays_min = (uint32_t)plans->trays.low,
-                                .trays_max = (uint32_t)plans->trays.high,
-                                .max_length = (uint32_t)plans->max_length.value,
-                                .threads = tn_job_threads(plans)};
+    const tn_library_asked asked = tn_job_asked(plans);
+    return tn_asked_options(&asked);
 }
 
 tn_library_asked tn_job_asked(const tn_plan_settings *plans)
@@ -122,11 +118,8 @@ bool tn_job_of_houses(const tn_job *job, const tn_plan_settings *plans)
 
 tn_house_settings tn_job_houses(const tn_plan_settings *plans)
 {
-    return (tn_house_settings){.library = plans->library,
-                               .max_length = tn_job_max_length(plans),
-                               .plans = tn_job_library_options(plans),
-                               .wheres = plans->wheres.items,
-                               .where_count = plans->wheres.count};
+    const tn_library_asked asked = tn_job_asked(plans);
+    return tn_asked_houses(&asked);
 }
 
 bool tn_job_opened_library(tn_job *job, const tn_plan_settings *plans, tn_ready_library *ready)

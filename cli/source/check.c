@@ -2,7 +2,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/count.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
@@ -188,10 +187,9 @@ static bool make_library(tn_job *job, const tn_ready_library **ready)
 {
     const check_settings *settings = settings_of(job);
     const tn_library_asked asked = tn_job_asked(&settings->plans);
-    const tn_library_options options = tn_asked_options(&asked);
     *ready = NULL;
     return (!settings->with_counts && !settings->before) ||
-           tn_job_answered(job, tn_session_library(&job->session, asked.library, &options, ready));
+           tn_job_answered(job, tn_session_library(&job->session, &asked, ready));
 }
 
 static void answer(tn_job *job)

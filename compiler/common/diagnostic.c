@@ -98,11 +98,18 @@ tn_diagnostic *tn_report(tn_diagnostics *list, tn_code code, tn_span span, const
 
 tn_diagnostic *tn_report_bare(tn_diagnostics *list, tn_severity severity, uint32_t code, const char *format, ...)
 {
-    tn_diagnostic *item = add(list, severity, code);
     va_list args;
     va_start(args, format);
-    item->message = print(list, format, args);
+    tn_diagnostic *item = tn_report_bare_list(list, severity, code, format, args);
     va_end(args);
+    return item;
+}
+
+tn_diagnostic *tn_report_bare_list(tn_diagnostics *list, tn_severity severity, uint32_t code, const char *format,
+                                   va_list args)
+{
+    tn_diagnostic *item = add(list, severity, code);
+    item->message = print(list, format, args);
     return item;
 }
 

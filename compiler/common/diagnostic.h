@@ -68,6 +68,10 @@ tn_diagnostic *tn_report(tn_diagnostics *list, tn_code code, tn_span span, const
 tn_diagnostic *tn_report_bare(tn_diagnostics *list, tn_severity severity, uint32_t code, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
+/* The same with the arguments as a list. */
+tn_diagnostic *tn_report_bare_list(tn_diagnostics *list, tn_severity severity, uint32_t code, const char *format,
+                                   va_list args) __attribute__((format(printf, 4, 0)));
+
 /* From an error of the runtime: message, help and code. Where it has a place, input_path names the input that it is in
  * and input_text is the line (input_size bytes, without its line end); both may be NULL. */
 tn_diagnostic *tn_report_error(tn_diagnostics *list, const tn_error *error, const char *input_path,
