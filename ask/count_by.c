@@ -5,8 +5,6 @@
 #include "ask/count.h"
 #include "runtime/number/rational.h"
 
-enum { BINS_MAX = 100000 };
-
 static tn_status refuse_step(tn_session *session, const char *step, const tn_bins *bins)
 {
     const char *unit = tn_amount_unit_name(bins->unit);
@@ -27,9 +25,9 @@ static tn_status choose_bins(tn_session *session, const tn_count_request *reques
         return TN_OK;
     if (!step)
         tn_bins_few(bins, request->has_bins ? (unsigned long)request->bins : TN_BINS_DEFAULT);
-    return tn_bins_at_most(bins, BINS_MAX)
+    return tn_bins_at_most(bins, TN_BINS_MAX)
                ? TN_OK
-               : tn_session_refuse(session, "give a greater one", "the step makes more than %d bins", BINS_MAX);
+               : tn_session_refuse(session, "give a greater one", "the step makes more than %u bins", TN_BINS_MAX);
 }
 
 static size_t count_rows(const tn_bins *bins)

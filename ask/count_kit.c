@@ -2,7 +2,6 @@
 #include <stdlib.h>
 
 #include "ask/count.h"
-#include "runtime/place/count/count.h"
 
 tn_kit_asked tn_count_kit_asked(const tn_count_request *request)
 {

@@ -59,8 +59,8 @@ tn_status tn_kit_asked_parts(tn_session *session, const tn_kit_asked *asked, boo
     if (asked->parts == 0)
         return tn_session_refuse(session, "say how many: --parts 3",
                                  "of a kit, buildings of so many parts are counted");
-    if (asked->parts > TN_KIT_PARTS_MAX)
-        return tn_session_refuse(session, NULL, "buildings have at most %u parts here", TN_KIT_PARTS_MAX);
+    if (asked->parts > TN_COUNT_PARTS_MAX)
+        return tn_session_refuse(session, NULL, "buildings have at most %d parts here", TN_COUNT_PARTS_MAX);
     if (asked->inside && asked->fixed)
         return tn_session_refuse(
             session, NULL,

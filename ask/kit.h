@@ -3,9 +3,8 @@
 #define TARTAN_ASK_KIT_H
 
 #include "ask/session.h"
+#include "runtime/place/count/count.h"
 #include "runtime/place/model/rules.h"
-
-#define TN_KIT_PARTS_MAX 32u /* of a building */
 
 typedef struct tn_kit_asked {
     uint32_t parts;           /* of each building; 0: none were said */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "runtime/base/nearest.h"
+#include "runtime/place/count/count.h"
 
 /* ---- messages */
 

@@ -7,6 +7,9 @@
 
 struct tn_session;
 
+/* The most bins that values are put into. */
+#define TN_BINS_MAX 100000u
+
 #define TN_TYPE_TEXT const char *
 #define TN_TYPE_OWNED char *
 #define TN_TYPE_TEXTS tn_texts

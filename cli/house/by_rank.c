@@ -1,4 +1,5 @@
 /* Writes the rank of a house, and the house of a rank. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

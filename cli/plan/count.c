@@ -169,7 +169,7 @@ static const tn_option options[] = {
     FLAG("json", 0, json, "write JSON, every count as a string of digits"),
     TEXT("by", 0, "MEASURE", by, "how the plans are spread over the values of MEASURE, exactly"),
     TEXT("step", 0, "S", step, "with --by: show bins of S, in the measure's unit"),
-    NUMBER("bins", 0, "N", bins, 1, 100000, "with --by: show at most N bins"),
+    NUMBER("bins", 0, "N", bins, 1, TN_BINS_MAX, "with --by: show at most N bins"),
     FLAG("no-effects", 0, no_effects, "leave out what each clause does, which may take far longer than the counts"),
     TEXT("plan", 0, "PLAN", plan, "count the houses on one plan: a plan line, or # and its rank"),
     FLAG("clauses", 0, clauses, "of houses: also count how many of all houses each clause keeps out"),

@@ -2,6 +2,7 @@
 #include "cli/plan/count_text.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -273,29 +273,51 @@ static bool expand_range(tn_bnf_reader *reader, tn_bnf_rule *rule, const tn_bnf_
     return true;
 }
 
-/* Warns about text that looks like something else. In quotes it is certainly text. */
-static void warn_of_text(tn_bnf_reader *reader, const tn_bnf_item *item, bool begins_line)
+/* Warns about text that looks like something else. In quotes it is certainly text. line_ends: before it. */
+static void warn_of_text(tn_bnf_reader *reader, const tn_bnf_item *item, size_t line_ends)
 {
     if (item->kind != TN_BNF_PLAIN)
         return;
-    const char *looks = memmem(item->text.text, item->text.length, "::=", 3) ? "rule"
-                        : begins_line && tn_bnf_names_directive(item->text)  ? "directive"
-                                                                             : NULL;
+    const char *looks = memmem(item->text.text, item->text.length, "::=", 3)  ? "rule"
+                        : line_ends > 0 && tn_bnf_names_directive(item->text) ? "directive"
+                        : line_ends > 1                                       ? "note"
+                                                                              : NULL;
     if (!looks)
         return;
     tn_diagnostic *diagnostic = tn_report(reader->diagnostics, W_GRAMMAR_TEXT, item->span,
                                           "this looks like a %s, but is text of the rule above", looks);
-    tn_help(reader->diagnostics, diagnostic,
+    tn_help(reader->diagnostics, diagnostic, "%s",
             *looks == 'r'
                 ? "a rule is written `<name> ::= one | other`, no blanks in its name; quote what is to be text"
-                : "directives stand above the first rule; quote what is to be text");
+            : *looks == 'd' ? "directives stand above the first rule; quote what is to be text"
+                            : "a line of remarks begins with `#`; quote what is to be text");
 }
 
+static size_t count_line_ends(const tn_bnf_item *item)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < item->text.length; i++)
+        count += item->text.text[i] == '\n' ||
+                 (item->text.text[i] == '\r' && (i + 1 == item->text.length || item->text.text[i + 1] != '\n'));
+    return count;
+}
+
+/* An empty line begins a note, which goes on to the end of the alternative: some keep notes behind the last rule. */
 static void make_ge(tn_bnf_reader *reader, tn_bnf_alternative *alternative)
 {
-    const tn_bnf_item *before = NULL;
-    for (tn_bnf_item *item = alternative->items.first; item; before = item, item = item->next)
-        warn_of_text(reader, item, before && before->kind == TN_BNF_NEWLINE);
+    size_t line_ends = 0;
+    bool begun = false, noted = false;
+    for (tn_bnf_item *item = alternative->items.first; item; item = item->next) {
+        if (item->kind == TN_BNF_NEWLINE) {
+            line_ends += count_line_ends(item);
+            continue;
+        }
+        bool note = begun && !noted && line_ends > 1;
+        warn_of_text(reader, item, note ? line_ends : line_ends > 0);
+        noted |= note;
+        begun = true;
+        line_ends = 0;
+    }
     for (tn_bnf_item *item = alternative->items.first; item; item = item->next)
         if (is_piece(item))
             merge_pieces(reader, item);
@@ -335,7 +357,7 @@ static void make_genr8(tn_bnf_reader *reader, tn_bnf_items items)
     for (tn_bnf_item *item = items.first; item; item = item->next) {
         if (item->kind == TN_BNF_PLAIN)
             check_token(reader, item);
-        warn_of_text(reader, item, true);
+        warn_of_text(reader, item, 1);
         if (is_piece(item)) {
             check_edge(reader, item);
             item->kind = TN_BNF_TERMINAL;
