@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/house/change_text.h"
+#include "driver/house/change_text.h"
 #include "cli/house/explained_parts.h"
 
 enum { NEAREST_MAX = 5 };

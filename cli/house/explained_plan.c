@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/house/change_text.h"
+#include "driver/house/change_text.h"
 #include "cli/house/houses.h"
 #include "cli/house/judged.h"
 #include "runtime/base/utf8.h"

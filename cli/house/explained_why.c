@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/house/change_text.h"
+#include "driver/house/change_text.h"
 #include "cli/house/explained_parts.h"
 #include "runtime/house/rule/witness.h"
 #include "runtime/house/schedule/cost.h"

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cli/house/best_parts.h"
-#include "cli/house/change_text.h"
+#include "driver/house/change_text.h"
 #include "cli/house/sampled.h"
 #include "driver/open/digits.h"
 #include "runtime/house/picture/draw.h"

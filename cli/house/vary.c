@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
-#include "cli/house/change_text.h"
+#include "driver/house/change_text.h"
 #include "cli/house/houses.h"
 #include "runtime/base/nearest.h"
 #include "runtime/house/schedule/cost.h"

@@ -16,13 +16,14 @@ for cases in fixtures paper_cases; do
     python3 "$oracle/to_plan.py" "$oracle/$cases.jsonl" "$out"
     "$TARTAN" build "$out/rules.plan" -o "$out/rules.tnb" 2>/dev/null
     for expect in "$out"/r*.expect; do
-        name=$(basename "$expect" .expect)
+        name=${expect##*/} name=${name%.expect}
+        wanted=$(<"$expect")
         for engine in vm dfa; do
-            if ! "$TARTAN" match "$out/rules.tnb" --rule "$name" --threads 1 --engine="$engine" --format bits "$out/$name.plans" >"$out/got" ||
-                ! cmp -s "$out/got" "$expect"; then
+            if ! got=$("$TARTAN" match "$out/rules.tnb" --rule "$name" --threads 1 --engine="$engine" --format bits "$out/$name.plans") ||
+                [ "$got" != "$wanted" ]; then
                 echo "$cases, rule $name, --engine=$engine: not as the reference decides:"
                 grep -n "^rule $name " "$out/rules.plan"
-                paste -d ' ' "$expect" "$out/got" "$out/$name.plans" | awk '$1 != $2' | head -n 3
+                paste -d ' ' "$expect" <(printf '%s\n' "$got") "$out/$name.plans" | awk '$1 != $2' | head -n 3
                 failures=$((failures + 1))
             fi
         done
@@ -37,7 +38,7 @@ prolog() { # FOLDER
         echo "decide(R, P) :- ( call(R, P) -> writeln(1) ; writeln(0) )."
         echo "run :- forall(case(R, P), decide(R, P))."
         for expect in "$1"/r*.expect; do
-            name=$(basename "$expect" .expect)
+            name=${expect##*/} name=${name%.expect}
             head -n 100 "$1/$name.plans" | awk -v q="'" -v rule="$name" 'function atom(t) { gsub(q, q q, t); return q t q }
                 { n = split($0, trays, / \| /); line = ""
                   for (i = 1; i <= n; i++) {

@@ -1,5 +1,5 @@
 /* Names cells, faces, changes and areas of houses. */
-#include "cli/house/change_text.h"
+#include "driver/house/change_text.h"
 
 #include <stdio.h>
 

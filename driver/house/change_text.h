@@ -1,6 +1,6 @@
-/* How commands name cells, faces, changes and areas of houses. */
-#ifndef TARTAN_CLI_HOUSE_CHANGE_TEXT_H
-#define TARTAN_CLI_HOUSE_CHANGE_TEXT_H
+/* How cells, faces, changes and areas of houses are named. */
+#ifndef TARTAN_DRIVER_HOUSE_CHANGE_TEXT_H
+#define TARTAN_DRIVER_HOUSE_CHANGE_TEXT_H
 
 #include "runtime/house/variant/change.h"
 
