@@ -4,8 +4,6 @@
 
 #include "ask/count.h"
 
-#define NEW_LIST(OF, LIST, COUNT, ERROR) tn_message_list(&tn_message_##OF, (COUNT), (tn_list *)&(LIST), (ERROR))
-
 typedef struct counting {
     tn_session *session;
     const tn_ready_library *ready;
@@ -57,7 +55,7 @@ static tn_status count_lengths(const counting *c, tn_error *error)
 {
     uint32_t low = tn_library_min(c->ready->library), high = tn_library_max(c->ready->library);
     size_t count = (size_t)high - low + 1;
-    tn_status status = NEW_LIST(plans_of_length, c->counted->by_length, count, error);
+    tn_status status = TN_NEW_LIST(plans_of_length, c->counted->by_length, count, error);
     for (size_t i = 0; status == TN_OK && i < count; i++)
         status = count_length(c, low + (uint32_t)i, &c->counted->by_length.items[i], error);
     return status == TN_OK ? count_all(c, error) : status;
@@ -120,9 +118,9 @@ static tn_status count_clauses(const counting *c, tn_error *error)
     uint32_t count = c->ready->record->clause_count, rules = 0, rule = 0, requirement = 0;
     for (uint32_t i = 0; i < count; i++)
         rules += is_rule(c, i);
-    tn_status status = NEW_LIST(rule_effect, counted->rules, rules, error);
+    tn_status status = TN_NEW_LIST(rule_effect, counted->rules, rules, error);
     if (status == TN_OK)
-        status = NEW_LIST(requirement_effect, counted->requirements, count - rules, error);
+        status = TN_NEW_LIST(requirement_effect, counted->requirements, count - rules, error);
     tn_session_begins(c->session, "clauses counted");
     for (uint32_t i = 0; status == TN_OK && i < count; i++)
         status = is_rule(c, i) ? count_rule(c, i, &counted->rules.items[rule++], error)

@@ -47,6 +47,13 @@ static bool is_used_as(const tn_message *message, tn_message_kind kind)
     return false;
 }
 
+/* Is it written as a whole, and not only as part of others? */
+static bool is_whole(const tn_message *message)
+{
+    return is_used_as(message, TN_MESSAGE_NESTED) || is_used_as(message, TN_MESSAGE_LIST) ||
+           (!is_used_as(message, TN_MESSAGE_PART) && !is_used_as(message, TN_MESSAGE_MAP));
+}
+
 /* ---- JSON Schema */
 
 static void write_reference(tn_json *json, const char *key, const tn_message *message)
@@ -69,7 +76,8 @@ static void write_pattern(tn_json *json, const char *pattern)
 static void write_number(tn_json *json, const tn_message_member *m)
 {
     tn_json_string(json, "type", "integer");
-    tn_json_count(json, "minimum", m->least);
+    if (m->kind == TN_MESSAGE_COUNT)
+        tn_json_count(json, "minimum", m->least);
     if (m->most)
         tn_json_count(json, "maximum", m->most);
 }
@@ -97,12 +105,14 @@ static void write_kind(tn_json *json, const tn_message_member *m)
         tn_json_string(json, "type", "string");
         break;
     case TN_MESSAGE_TEXTS:
+    case TN_MESSAGE_OWNEDS:
         write_items(json, NULL);
         break;
     case TN_MESSAGE_FLAG:
         tn_json_string(json, "type", "boolean");
         break;
     case TN_MESSAGE_COUNT:
+    case TN_MESSAGE_WHOLE:
         write_number(json, m);
         break;
     case TN_MESSAGE_BIG:
@@ -129,14 +139,15 @@ static void write_kind(tn_json *json, const tn_message_member *m)
         break;
     case TN_MESSAGE_PART:
     case TN_MESSAGE_SPREAD:
+    case TN_MESSAGE_REASONS:
         break;
     }
 }
 
-static void write_member(tn_json *json, const tn_message_member *m)
+static void write_member(tn_json *json, const char *key, const tn_message_member *m)
 {
     bool nullable = m->presence == TN_NULLABLE;
-    tn_json_object(json, m->name);
+    tn_json_object(json, key);
     tn_json_string(json, "description", m->doc);
     if (nullable) {
         tn_json_list(json, "anyOf");
@@ -160,7 +171,7 @@ static void write_members(tn_json *json, const tn_message *message)
         if (m->kind == TN_MESSAGE_PART)
             write_members(json, m->of);
         else if (is_said(m))
-            write_member(json, m);
+            write_member(json, message->tuple ? NULL : m->name, m);
     }
 }
 
@@ -175,10 +186,19 @@ static void write_required(tn_json *json, const tn_message *message)
     }
 }
 
-static void write_definition(tn_json *json, const tn_message *message)
+/* Members of the schema that is open. */
+static void write_tuple(tn_json *json, const tn_message *message)
 {
-    tn_json_object(json, message->name);
-    tn_json_string(json, "description", message->doc);
+    tn_json_string(json, "type", "array");
+    tn_json_list(json, "prefixItems");
+    write_members(json, message);
+    tn_json_list_end(json);
+    tn_json_bool(json, "items", false);
+    tn_json_count(json, "minItems", message->member_count);
+}
+
+static void write_object(tn_json *json, const tn_message *message)
+{
     tn_json_string(json, "type", "object");
     tn_json_object(json, "properties");
     write_members(json, message);
@@ -187,6 +207,16 @@ static void write_definition(tn_json *json, const tn_message *message)
     write_required(json, message);
     tn_json_list_end(json);
     tn_json_bool(json, "additionalProperties", false);
+}
+
+static void write_definition(tn_json *json, const tn_message *message)
+{
+    tn_json_object(json, message->name);
+    tn_json_string(json, "description", message->doc);
+    if (message->tuple)
+        write_tuple(json, message);
+    else
+        write_object(json, message);
     tn_json_object_end(json);
 }
 
@@ -227,7 +257,7 @@ void tn_describe_schema(FILE *out)
     write_questions(&json, false);
     tn_json_object(&json, "$defs");
     for (size_t i = 0; i < tn_message_count; i++)
-        if (!is_used_as(tn_messages[i], TN_MESSAGE_PART) && !is_used_as(tn_messages[i], TN_MESSAGE_MAP))
+        if (is_whole(tn_messages[i]))
             write_definition(&json, tn_messages[i]);
     tn_json_object_end(&json);
     tn_json_object_end(&json);
@@ -253,9 +283,11 @@ static void write_type(const tn_message_member *m, FILE *out)
         fputs("boolean", out);
         break;
     case TN_MESSAGE_COUNT:
+    case TN_MESSAGE_WHOLE:
         fputs("number", out);
         break;
     case TN_MESSAGE_TEXTS:
+    case TN_MESSAGE_OWNEDS:
     case TN_MESSAGE_EXACTS:
         fputs("string[]", out);
         break;
@@ -282,6 +314,17 @@ static void write_property(const tn_message_member *m, FILE *out)
             is_required(m) ? "" : "?");
     write_type(m, out);
     fputs(m->presence == TN_NULLABLE ? " | null;\n" : ";\n", out);
+}
+
+static void write_tuple_type(const tn_message *message, FILE *out)
+{
+    fprintf(out, "/** %s */\nexport type ", message->doc);
+    write_type_name(message->name, out);
+    for (size_t i = 0; i < message->member_count; i++) {
+        fprintf(out, "%s%s: ", i ? ", " : " = [", message->members[i].name);
+        write_type(&message->members[i], out);
+    }
+    fputs("];\n\n", out);
 }
 
 static void write_interface(const tn_message *message, FILE *out)
@@ -315,7 +358,9 @@ void tn_describe_types(FILE *out)
           "\"7/2\".\n\n",
           out);
     for (size_t i = 0; i < tn_message_count; i++)
-        if (!is_used_as(tn_messages[i], TN_MESSAGE_MAP)) /* which is written as a Record */
+        if (tn_messages[i]->tuple)
+            write_tuple_type(tn_messages[i], out);
+        else if (!is_used_as(tn_messages[i], TN_MESSAGE_MAP)) /* which is written as a Record */
             write_interface(tn_messages[i], out);
     fputs("/** What each question is asked with, and answered with. */\nexport interface Questions {\n", out);
     for (size_t i = 0; i < tn_request_kind_count; i++) {
@@ -349,8 +394,10 @@ static void write_row_kind(const tn_message_member *m, FILE *out)
         [TN_MESSAGE_TEXT] = "text",
         [TN_MESSAGE_OWNED] = "text",
         [TN_MESSAGE_TEXTS] = "texts",
+        [TN_MESSAGE_OWNEDS] = "texts",
         [TN_MESSAGE_FLAG] = "true or false",
         [TN_MESSAGE_COUNT] = "number",
+        [TN_MESSAGE_WHOLE] = "number",
         [TN_MESSAGE_BIG] = "digits",
         [TN_MESSAGE_EXACT] = "fraction",
         [TN_MESSAGE_EXACTS] = "fractions",
@@ -385,8 +432,8 @@ static void write_rows(const tn_message *message, FILE *out)
 
 static void write_table(const tn_message *message, FILE *out)
 {
-    fprintf(out, "\n### %s\n\n%c%s.\n\n| member | is | of | |\n| --- | --- | --- | --- |\n", message->name,
-            message->doc[0] - 'a' + 'A', message->doc + 1);
+    fprintf(out, "\n### %s\n\n%c%s%s.\n\n| member | is | of | |\n| --- | --- | --- | --- |\n", message->name,
+            message->doc[0] - 'a' + 'A', message->doc + 1, message->tuple ? "; a list of these" : "");
     write_rows(message, out);
 }
 
@@ -412,6 +459,6 @@ void tn_describe_page(FILE *out)
         fprintf(out, " | %s |\n", kind->doc);
     }
     for (size_t i = 0; i < tn_message_count; i++)
-        if (!is_used_as(tn_messages[i], TN_MESSAGE_PART) && !is_used_as(tn_messages[i], TN_MESSAGE_MAP))
+        if (is_whole(tn_messages[i]))
             write_table(tn_messages[i], out);
 }

@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/explain.h"
 #include "driver/measure/spread.h"
+#include "runtime/base/array.h"
 #include "runtime/base/nearest.h"
 
 static void *at(void *value, size_t offset)
@@ -62,6 +64,13 @@ static void clear_exacts(tn_exacts *exacts)
     free(exacts->items);
 }
 
+static void clear_owneds(tn_owneds *texts)
+{
+    for (size_t i = 0; i < texts->count; i++)
+        free(texts->items[i]);
+    free(texts->items);
+}
+
 static void clear_spread(tn_spread *spread)
 {
     if (spread)
@@ -77,6 +86,9 @@ static void clear_member(const tn_message_member *m, void *member)
         break;
     case TN_MESSAGE_TEXTS:
         free(((tn_texts *)member)->items);
+        break;
+    case TN_MESSAGE_OWNEDS:
+        clear_owneds(member);
         break;
     case TN_MESSAGE_BIG:
         mpz_clear(*(mpz_t *)member);
@@ -98,9 +110,13 @@ static void clear_member(const tn_message_member *m, void *member)
     case TN_MESSAGE_SPREAD:
         clear_spread(*(tn_spread **)member);
         break;
+    case TN_MESSAGE_REASONS:
+        tn_plan_reasons_free(*(tn_plan_reasons **)member);
+        break;
     case TN_MESSAGE_TEXT:
     case TN_MESSAGE_FLAG:
     case TN_MESSAGE_COUNT:
+    case TN_MESSAGE_WHOLE:
         break;
     }
 }
@@ -123,6 +139,33 @@ tn_status tn_message_list(const tn_message *message, size_t count, tn_list *list
     return TN_OK;
 }
 
+/* Room for one more: there is room for a power of two, which needs no number of its own. `items` points to the array's
+ * pointer. */
+static tn_status grow(void *items, size_t count, size_t size, tn_error *error)
+{
+    bool full = (count & (count - 1)) == 0;
+    return !full || tn_array_resize(items, count ? 2 * count : 1, size) ? TN_OK : tn_fail_memory(error);
+}
+
+void *tn_message_add(const tn_message *message, tn_list *list, tn_error *error)
+{
+    if (grow(&list->items, list->count, message->size, error) != TN_OK)
+        return NULL;
+    void *added = (char *)list->items + list->count++ * message->size;
+    tn_message_init(message, added);
+    return added;
+}
+
+tn_status tn_owneds_add(tn_owneds *texts, char *text, tn_error *error)
+{
+    tn_status status = text ? grow(&texts->items, texts->count, sizeof *texts->items, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        texts->items[texts->count++] = text;
+    else
+        free(text);
+    return status;
+}
+
 /* ---- written */
 
 static void write_members(const tn_message *message, const void *value, tn_json *json);
@@ -132,6 +175,14 @@ static void write_exact(const char *key, mpq_srcptr number, tn_json *json)
     char *text = mpq_get_str(NULL, 10, number);
     tn_json_string(json, key, text);
     free(text);
+}
+
+static void write_texts(const char *key, const char *const *items, size_t count, tn_json *json)
+{
+    tn_json_list(json, key);
+    for (size_t i = 0; i < count; i++)
+        tn_json_string(json, NULL, items[i]);
+    tn_json_list_end(json);
 }
 
 static void write_list(const tn_message_member *m, const tn_list *list, tn_json *json)
@@ -165,16 +216,19 @@ static void write_value(const tn_message_member *m, const char *key, const void 
         tn_json_string(json, key, *(const char *const *)member);
         break;
     case TN_MESSAGE_TEXTS:
-        tn_json_list(json, key);
-        for (size_t i = 0; i < texts->count; i++)
-            tn_json_string(json, NULL, texts->items[i]);
-        tn_json_list_end(json);
+        write_texts(key, texts->items, texts->count, json);
+        break;
+    case TN_MESSAGE_OWNEDS:
+        write_texts(key, (const char *const *)((const tn_owneds *)member)->items, texts->count, json);
         break;
     case TN_MESSAGE_FLAG:
         tn_json_bool(json, key, *(const bool *)member);
         break;
     case TN_MESSAGE_COUNT:
         tn_json_count(json, key, *(const uint64_t *)member);
+        break;
+    case TN_MESSAGE_WHOLE:
+        tn_json_whole(json, key, *(const int64_t *)member);
         break;
     case TN_MESSAGE_BIG:
         tn_json_digits(json, key, (mpz_srcptr)member);
@@ -201,6 +255,7 @@ static void write_value(const tn_message_member *m, const char *key, const void 
         write_map(m, key, member, json);
         break;
     case TN_MESSAGE_SPREAD:
+    case TN_MESSAGE_REASONS:
         break;
     }
 }
@@ -209,18 +264,25 @@ static void write_members(const tn_message *message, const void *value, tn_json 
 {
     for (size_t i = 0; i < message->member_count; i++) {
         const tn_message_member *m = &message->members[i];
+        const char *key = message->tuple ? NULL : m->name;
         if (is_said(m, value))
-            write_value(m, m->name, look(value, m->offset), json);
+            write_value(m, key, look(value, m->offset), json);
         else if (m->presence == TN_NULLABLE)
-            tn_json_null(json, m->name);
+            tn_json_null(json, key);
     }
 }
 
 void tn_message_write(const tn_message *message, const void *value, const char *key, tn_json *json)
 {
-    tn_json_object(json, key);
+    if (message->tuple)
+        tn_json_list(json, key);
+    else
+        tn_json_object(json, key);
     write_members(message, value, json);
-    tn_json_object_end(json);
+    if (message->tuple)
+        tn_json_list_end(json);
+    else
+        tn_json_object_end(json);
 }
 
 /* ---- read */

@@ -19,8 +19,10 @@ typedef enum tn_message_kind {
     TN_MESSAGE_TEXT,   /* const char *, borrowed */
     TN_MESSAGE_OWNED,  /* char *, to be freed */
     TN_MESSAGE_TEXTS,  /* tn_texts */
+    TN_MESSAGE_OWNEDS, /* tn_owneds */
     TN_MESSAGE_FLAG,   /* bool */
     TN_MESSAGE_COUNT,  /* uint64_t */
+    TN_MESSAGE_WHOLE,  /* int64_t */
     TN_MESSAGE_BIG,    /* mpz_t; in JSON a string of digits */
     TN_MESSAGE_EXACT,  /* mpq_t; in JSON a string, "7/2" */
     TN_MESSAGE_EXACTS, /* tn_exacts */
@@ -29,7 +31,9 @@ typedef enum tn_message_kind {
     TN_MESSAGE_LIST,   /* tn_list of messages */
     TN_MESSAGE_MAP,    /* the same; in JSON an object: of each message the first member is the key, and the second the
                           value */
-    TN_MESSAGE_SPREAD, /* tn_spread *, owned: what pictures and tables are made of, and no part of JSON */
+    /* What pictures and tables are made of, owned, and no part of JSON: */
+    TN_MESSAGE_SPREAD,  /* tn_spread * */
+    TN_MESSAGE_REASONS, /* tn_plan_reasons * */
 } tn_message_kind;
 
 typedef enum tn_message_presence {
@@ -44,6 +48,12 @@ typedef struct tn_texts {
     const char **items;
     size_t count;
 } tn_texts;
+
+/* Texts that are freed with the message. */
+typedef struct tn_owneds {
+    char **items;
+    size_t count;
+} tn_owneds;
 
 typedef struct tn_exacts {
     mpq_t *items;
@@ -70,6 +80,7 @@ typedef struct tn_message_member {
 
 typedef struct tn_message {
     const char *name, *doc;
+    bool tuple; /* in JSON a list of its members' values */
     size_t size;
     const tn_message_member *members;
     size_t member_count;
@@ -79,10 +90,16 @@ typedef struct tn_message {
 void tn_message_init(const tn_message *message, void *value);
 void tn_message_clear(const tn_message *message, void *value);
 
-/* `count` more such messages in the list, which is empty. */
+/* `count` such messages in the list, which is empty. */
 tn_status tn_message_list(const tn_message *message, size_t count, tn_list *list, tn_error *error);
 
-/* Writes the message as an object. */
+/* One more such message at the end of a list that holds only such that were added so; NULL: out of memory. */
+void *tn_message_add(const tn_message *message, tn_list *list, tn_error *error);
+
+/* Takes the text (malloc) into the list, also if that fails. NULL is TN_MEMORY. */
+tn_status tn_owneds_add(tn_owneds *texts, char *text, tn_error *error);
+
+/* Writes the message as an object, a tuple as a list. */
 void tn_message_write(const tn_message *message, const void *value, const char *key, tn_json *json);
 
 /* Reads an object into a message that was initialised, and borrows its texts. TN_INVALID names what it does not know,

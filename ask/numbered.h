@@ -109,6 +109,9 @@ tn_status tn_numbered_name_line(tn_numbered *n, const char *line, size_t max_len
 /* Is the text #P:V, P:V or #R? */
 bool tn_is_house_number(const char *text);
 
+/* Is the text a house line, and not a plan? */
+bool tn_is_house_line(const char *text);
+
 /* Are there so few plans that one may as well go through them? What is said of each of them is then known, too. */
 #define TN_HOUSE_PLANS_FEW 1000u
 bool tn_numbered_few(const tn_numbered *n);

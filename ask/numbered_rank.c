@@ -112,6 +112,11 @@ bool tn_is_house_number(const char *text)
     return text[0] == '#' || (digits > 0 && text[digits] == ':');
 }
 
+bool tn_is_house_line(const char *text)
+{
+    return strchr(text, ';') != NULL;
+}
+
 typedef struct tn_house_search {
     mpz_t left; /* houses before the wanted one, on the plans to come */
     tn_house *house;

@@ -48,9 +48,11 @@
     ;
 #include "ask/requests.def"
 
-#define TN_MESSAGE(NAME, DOC)                                                                                          \
-    const tn_message tn_message_##NAME = {#NAME, DOC, sizeof(tn_##NAME), NAME##_members,                               \
-                                          sizeof NAME##_members / sizeof *NAME##_members};
+#define DEFINE(NAME, DOC, TUPLE)                                                                                       \
+    const tn_message tn_message_##NAME = {                                                                             \
+        #NAME, DOC, TUPLE, sizeof(tn_##NAME), NAME##_members, sizeof NAME##_members / sizeof *NAME##_members};
+#define TN_MESSAGE(NAME, DOC) DEFINE(NAME, DOC, false)
+#define TN_TUPLE(NAME, DOC) DEFINE(NAME, DOC, true)
 #include "ask/requests.def"
 
 const tn_message *const tn_messages[] = {

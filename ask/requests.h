@@ -10,15 +10,22 @@ struct tn_session;
 /* The most bins that values are put into. */
 #define TN_BINS_MAX 100000u
 
+/* The most of the nearest plans that are looked for, and how many are unless more are asked for. */
+#define TN_NEAREST_MAX 1000u
+#define TN_NEAREST_DEFAULT 3u
+
 #define TN_TYPE_TEXT const char *
 #define TN_TYPE_OWNED char *
 #define TN_TYPE_TEXTS tn_texts
+#define TN_TYPE_OWNEDS tn_owneds
 #define TN_TYPE_FLAG bool
 #define TN_TYPE_COUNT uint64_t
+#define TN_TYPE_WHOLE int64_t
 #define TN_TYPE_BIG mpz_t
 #define TN_TYPE_EXACT mpq_t
 #define TN_TYPE_EXACTS tn_exacts
 #define TN_TYPE_SPREAD tn_spread *
+#define TN_TYPE_REASONS struct tn_plan_reasons *
 
 #define TN_OF_NESTED(OF, NAME) tn_##OF NAME;
 #define TN_OF_PART(OF, NAME) tn_##OF NAME;
@@ -36,15 +43,22 @@ struct tn_session;
 #define TN_HAS_NULLABLE(NAME) bool has_##NAME;
 
 /* The structs, and how each is described. */
-#define TN_MESSAGE(NAME, DOC) typedef struct tn_##NAME {
+#define TN_MESSAGE(NAME, DOC) typedef struct tn_##NAME tn_##NAME;
+#include "ask/requests.def"
+
+#define TN_MESSAGE(NAME, DOC) struct tn_##NAME {
 #define TN_FIELD(OWNER, PRESENCE, KIND, NAME, UNIT, DOC) TN_HAS_##PRESENCE(NAME) TN_TYPE_##KIND NAME;
 #define TN_NUMBER(OWNER, PRESENCE, NAME, LEAST, MOST, UNIT, DOC) TN_HAS_##PRESENCE(NAME) uint64_t NAME;
 #define TN_OF(OWNER, PRESENCE, KIND, OF, NAME, DOC) TN_HAS_##PRESENCE(NAME) TN_OF_##KIND(OF, NAME)
 #define TN_END(NAME)                                                                                                   \
     }                                                                                                                  \
-    tn_##NAME;                                                                                                         \
+    ;                                                                                                                  \
     extern const tn_message tn_message_##NAME;
 #include "ask/requests.def"
+
+/* `count` messages of a type in a list that a message has; one more of them (tn_message_add). */
+#define TN_NEW_LIST(OF, LIST, COUNT, ERROR) tn_message_list(&tn_message_##OF, (COUNT), (tn_list *)&(LIST), (ERROR))
+#define TN_ADD(OF, LIST, ERROR) ((tn_##OF *)tn_message_add(&tn_message_##OF, (tn_list *)&(LIST), (ERROR)))
 
 /* An answer: a message of one of the types that its question may be answered with. */
 typedef struct tn_reply {

@@ -3,8 +3,10 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "ask/explain.h"
 #include "runtime/base/crew.h"
 #include "runtime/plan/match/vm.h"
 
@@ -13,10 +15,17 @@ static tn_diagnostics *said(tn_session *session)
     return &session->opened->compilation.diagnostics;
 }
 
-void tn_session_forget(tn_session *session)
+static void forget_library(tn_session *session)
 {
     tn_library_close(&session->library);
     session->library = (tn_ready_library){0};
+}
+
+void tn_session_forget(tn_session *session)
+{
+    forget_library(session);
+    tn_plan_explainer_free(session->explainer);
+    session->explainer = NULL;
 }
 
 tn_status tn_session_fail(tn_session *session, const tn_error *error)
@@ -43,6 +52,24 @@ tn_status tn_session_refuse(tn_session *session, const char *help, const char *f
     va_end(args);
     if (help)
         tn_help(said(session), d, "%s", help);
+    return TN_INVALID;
+}
+
+tn_status tn_session_no_rank(tn_session *session, const tn_library *library, const tn_library_record *record,
+                             const char *rank)
+{
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(library, TN_ALL_LENGTHS, kept);
+    char *digits = mpz_get_str(NULL, 10, kept);
+    tn_diagnostic *past = tn_report_bare(said(session), TN_ERROR, E_NOT_IN_LIBRARY, "`%s` has no plan of rank %.80s",
+                                         tn_text(session->opened->module, record->name), rank);
+    if (mpz_sgn(kept) == 0)
+        tn_help(said(session), past, "it holds no plans");
+    else
+        tn_help(said(session), past, "it holds %s plans; ranks start at 0", digits ? digits : "?");
+    free(digits);
+    mpz_clear(kept);
     return TN_INVALID;
 }
 
@@ -110,7 +137,7 @@ tn_status tn_session_library(tn_session *session, const tn_library_asked *asked,
     *ready = &session->library;
     if (is_kept(session, asked->library, &options))
         return TN_OK;
-    tn_session_forget(session);
+    forget_library(session);
     session->options = options;
     session->only_one = !asked->library;
     tn_session_begins(session, "clauses combined");

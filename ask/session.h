@@ -2,7 +2,8 @@
  *
  * A session borrows the file that is open. What is wrong, and what there is to know besides an answer, goes to the
  * diagnostics of that file; every question returns the status of what it says there. What does not change between
- * questions is kept: the automaton of the library that was asked about last. A session belongs to one thread. */
+ * questions is kept: the automaton of the library that was asked about last, and what plans were explained with. A
+ * session belongs to one thread. */
 #ifndef TARTAN_ASK_SESSION_H
 #define TARTAN_ASK_SESSION_H
 
@@ -27,6 +28,8 @@ typedef struct tn_session {
     tn_ready_library library; /* made ready last, if library.library is not NULL */
     tn_library_options options;
     bool only_one; /* it was asked for without a name */
+
+    struct tn_plan_explainer *explainer; /* of the plan that was explained last, or NULL */
 } tn_session;
 
 /* Frees what is kept, which is before the file is closed. The session can be used again. */
@@ -41,6 +44,10 @@ tn_status tn_session_bad_text(tn_session *session, tn_error *error, const char *
 /* TN_INVALID with E_USAGE: what is asked makes no sense. `help` (may be NULL) says what does. */
 tn_status tn_session_refuse(tn_session *session, const char *help, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/* Says that the library has no plan of that rank, and how many it has. Returns TN_INVALID. */
+tn_status tn_session_no_rank(tn_session *session, const tn_library *library, const tn_library_record *record,
+                             const char *rank);
 
 /* Adds a note to what is said. */
 void tn_session_note(tn_session *session, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -14,13 +14,17 @@ tartan = sys.argv[1]
 with open(sys.argv[2], encoding="utf-8") as file:
     schema = json.load(file)
 
-# The command line's question, and its words.
+# The command line's question, and its words; _ is a blank in one of them.
 ASKED = {
     "count": [
         "count cottage --library cottage-rows", "count lahave-houses", "count lahave-houses --mirror --no-effects --trays 4..5",
         "count lahave-houses --by cost --trays 4..5", "count lahave-houses --by cost --trays 4..5 --bins 6", "count cottage --library cottages",
         "count cottage --library cottages --clauses --plan #10", "count cottage --library cottages --plan #10 --by floor-area",
         "count bricks --parts 2", "count bricks --parts 2 --fixed", "count lahave-houses --by cost --where trays=4 --where trays=5",
+    ],
+    "explain": [
+        "explain terrace #1000", "explain terrace 4m_one_end_left_eaves_-_none --where trays=1", "explain terrace 4m_one_end_left_eaves_-_none --rule step",
+        "explain cottage #10", "explain cottage #10:3", "explain cottage #10: --library cottages",
     ],
 }
 wrong = []
@@ -52,7 +56,7 @@ def main():
     for question, lines in ASKED.items():
         validator = answers_of(question)
         for line in lines:
-            done = subprocess.run([tartan, *line.split(" "), "--json"], capture_output=True, text=True, check=False)
+            done = subprocess.run([tartan, *(word.replace("_", " ") for word in line.split(" ")), "--json"], capture_output=True, text=True, check=False)
             if done.returncode:
                 wrong.append(f"{line}: {done.stderr}")
                 continue

@@ -107,6 +107,13 @@ void tn_job_bad_text(tn_job *job, tn_error *error, const char *name, const char 
     tn_job_answered(job, tn_session_bad_text(&job->session, error, name, text));
 }
 
+void tn_job_write_json(const tn_reply *answer, FILE *out)
+{
+    tn_json json = tn_json_file(out, tn_reply_layout(answer));
+    tn_message_write(answer->message, answer->value, NULL, &json);
+    tn_json_end_line(&json);
+}
+
 tn_diagnostics *tn_job_diagnostics(tn_job *job)
 {
     return &job->opened.compilation.diagnostics;

@@ -74,6 +74,9 @@ void tn_job_status(tn_job *job, tn_status status);
 /* Takes note of what a question came to (ask/session.h); true for TN_OK. */
 bool tn_job_answered(tn_job *job, tn_status status);
 
+/* Writes an answer as JSON. */
+void tn_job_write_json(const tn_reply *answer, FILE *out);
+
 /* Records an error about a text of the command line; `name` is what the text is called in the usage. */
 void tn_job_bad_text(tn_job *job, tn_error *error, const char *name, const char *text);
 

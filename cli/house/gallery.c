@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "cli/house/best_parts.h"
-#include "driver/house/change_text.h"
 #include "cli/house/sampled.h"
+#include "driver/house/change_text.h"
 #include "driver/open/digits.h"
 #include "runtime/house/picture/draw.h"
 #include "runtime/house/schedule/cost.h"

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
-#include "driver/house/change_text.h"
 #include "cli/house/houses.h"
+#include "driver/house/change_text.h"
 #include "runtime/base/nearest.h"
 #include "runtime/house/schedule/cost.h"
 

@@ -65,17 +65,10 @@ static void show_so_far(void *context, const tn_reply *answer)
     fflush(s->output.stream);
 }
 
-static void write_json(const tn_reply *answer, FILE *out)
-{
-    tn_json json = tn_json_file(out, tn_reply_layout(answer));
-    tn_message_write(answer->message, answer->value, NULL, &json);
-    tn_json_end_line(&json);
-}
-
 static void write_answer(const showing *s, const tn_reply *answer, FILE *out)
 {
     if (s->json)
-        write_json(answer, out);
+        tn_job_write_json(answer, out);
     else if (TN_REPLY(counted_values, answer))
         tn_count_spread_text(TN_REPLY(counted_values, answer), out);
     else if (TN_REPLY(counted_houses, answer))

@@ -3,13 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/explain.h"
 #include "cli/common/option_rows.h"
 #include "cli/house/judged.h"
-#include "cli/plan/chosen_rules.h"
+#include "cli/plan/explain_text.h"
 #include "cli/plan/library_job.h"
 #include "cli/plan/plan_input.h"
 #include "cli/solid/solid.h"
-#include "driver/plan/explain.h"
 #include "runtime/base/picture.h"
 #include "runtime/base/utf8.h"
 
@@ -29,268 +29,167 @@ static const explain_settings *settings_of(const tn_job *job)
     return (const explain_settings *)job->settings;
 }
 
-#define NEAREST_DEFAULT 3
-
-/* What is explained, and against what. */
+/* What is explained, and where to. */
 typedef struct explaining {
     tn_job *job;
     const explain_settings *settings;
-    const tn_library_record *record; /* or NULL: rules by themselves */
-    tn_chosen_rules rules;
-    tn_schema *schema;
-    tn_library *library;    /* for ranks; NULL where they are not asked for, or it passed a limit */
-    tn_near_finder *finder; /* NULL where nobody asked, or a clause passed a limit */
-    bool tried_library, tried_nearest;
+    tn_explain_request request;
     tn_output output;
 } explaining;
 
-static void fail_memory(tn_job *job)
+static tn_explain_request request_of(const explain_settings *s)
 {
-    tn_error error;
-    tn_fail_memory(&error);
-    tn_job_fail(job, &error);
+    return (tn_explain_request){.subject = tn_job_asked(&s->plans),
+                                .rules = {s->rules.items, s->rules.count},
+                                .has_nearest = s->nearest.given,
+                                .nearest = s->nearest.value};
 }
 
-/* The library that --library names, or the only one; without any, or with --rule, rules by themselves. */
-static bool choose(explaining *e)
+/* ---- written */
+
+/* Of a plan; NULL: a house is explained. */
+static const tn_plan_reasons *reasons_of(const tn_reply *answer)
 {
-    tn_opened *opened = &e->job->opened;
-    uint32_t schema, library = UINT32_MAX;
-    tn_error error;
-    bool rules = e->settings->rules.count > 0;
-    if (!rules && !e->settings->plans.library && opened->module->LIBRARY_count > 0) {
-        tn_status status = tn_library_choose(opened, NULL, &library);
-        tn_job_status(e->job, status);
-        if (status != TN_OK)
-            return false;
-        schema = opened->module->LIBRARY_records[library].schema;
-    } else if (!rules && e->settings->plans.library) {
-        tn_status status = tn_schema_choose(opened, e->settings->plans.library, &schema, &library);
-        tn_job_status(e->job, status);
-        if (status != TN_OK)
-            return false;
-    } else {
-        static const char otherwise[] = "name one of those it uses with --rule";
-        if (!tn_job_choose_rules(e->job, &e->settings->rules, otherwise, &e->rules))
-            return false;
-        schema = e->rules.schema;
-    }
-    e->record = library == UINT32_MAX ? NULL : &opened->module->LIBRARY_records[library];
-    if (tn_schema_new(opened->module, schema, 0, &e->schema, &error) == TN_OK)
-        return true;
-    tn_job_fail(e->job, &error);
-    return false;
+    const tn_explained_plan *by_library = TN_REPLY(explained_plan, answer);
+    const tn_explained_by_rules *by_rules = TN_REPLY(explained_by_rules, answer);
+    return by_library ? by_library->reasons : by_rules ? by_rules->reasons : NULL;
 }
 
-/* A limit that is passed while finding out what can be done without. */
-static void note_limit(explaining *e, const tn_error *error, const char *consequence)
+static bool make_text(const explaining *e, const tn_reply *answer, tn_buffer *text)
 {
-    tn_diagnostic *note = tn_finding_note(&e->job->opened, error);
-    tn_note(tn_job_diagnostics(e->job), note, NULL, "%s", consequence);
-}
-
-static uint32_t library_index(const explaining *e)
-{
-    return (uint32_t)(e->record - e->job->opened.module->LIBRARY_records);
-}
-
-/* The library's automaton, for ranks: made once, and done without where it passes a limit. */
-static void make_library(explaining *e)
-{
-    tn_error error;
-    if (e->tried_library || !e->record)
-        return;
-    e->tried_library = true;
-    tn_library_options options = {.max_states = (uint32_t)e->settings->plans.max_states.value,
-                                  .max_length = (uint32_t)e->settings->plans.max_length.value};
-    tn_status status = tn_library_new(e->schema, library_index(e), &options, &e->library, &error);
-    if (status == TN_LIMIT)
-        note_limit(e, &error, "so ranks are not known");
-    else if (status != TN_OK)
-        tn_job_fail(e->job, &error);
-}
-
-static void make_nearest(explaining *e)
-{
-    tn_error error;
-    if (e->tried_nearest)
-        return;
-    e->tried_nearest = true;
-    const tn_near_options options = {.max_states = (uint32_t)e->settings->plans.max_states.value};
-    tn_status status = tn_near_finder_new(e->schema, library_index(e), &options, &e->finder, &error);
-    if (status == TN_LIMIT)
-        note_limit(e, &error, "so nearest plans are not known");
-    else if (status != TN_OK)
-        tn_job_fail(e->job, &error);
-}
-
-static void find_near(explaining *e, tn_explained *explained)
-{
-    tn_error error;
-    size_t most = e->settings->nearest.given ? (size_t)e->settings->nearest.value : NEAREST_DEFAULT;
-    if (most == 0 || !e->record || explained->kept)
-        return;
-    make_nearest(e);
-    if (!e->finder)
-        return;
-    tn_status status = tn_explained_near(explained, e->finder, most, &error);
-    if (status == TN_LIMIT)
-        tn_finding_note(&e->job->opened, &error);
-    else if (status != TN_OK)
-        tn_job_fail(e->job, &error);
-}
-
-/* JSON keeps its bytes; what people read does not reach the terminal as it is. */
-static void write_text(const explain_settings *settings, const tn_buffer *text, FILE *out)
-{
-    if (settings->json)
-        fwrite(text->data, 1, text->size, out);
+    bool full = e->settings->full;
+    const tn_plan_reasons *reasons = reasons_of(answer);
+    if (reasons)
+        return tn_explained_text(&reasons->explained, full, text);
+    if (TN_REPLY(explained_house, answer))
+        tn_explain_house_text(TN_REPLY(explained_house, answer), full, text);
+    else if (TN_REPLY(explained_house_by_rules, answer))
+        tn_explain_house_rules_text(TN_REPLY(explained_house_by_rules, answer), text);
     else
-        tn_write_shown(out, text->data, text->size);
+        tn_explain_cells_text(TN_REPLY(explained_cells, answer), text);
+    return !text->failed;
 }
 
-static void write_explained(explaining *e, const tn_explained *explained)
+/* What people read does not reach the terminal as it is. */
+static void write_text(explaining *e, const tn_reply *answer)
 {
-    tn_error error;
     tn_buffer text = {0};
-    const explain_settings *settings = e->settings;
-    if (settings->output) {
-        tn_picture to = {.path = settings->output, .dpi = (uint32_t)settings->dpi.value};
-        if (tn_explained_draw(explained, settings->full, &to, &error) != TN_OK)
-            tn_job_fail(e->job, &error);
-    } else if (!(settings->json ? tn_explained_json(explained, &text)
-                                : tn_explained_text(explained, settings->full, &text))) {
-        fail_memory(e->job);
-    } else {
-        write_text(settings, &text, e->output.stream);
-    }
+    if (make_text(e, answer, &text))
+        tn_write_shown(e->output.stream, text.data, text.size);
+    else
+        tn_job_fail(e->job, &(tn_error){.status = TN_MEMORY});
     free(text.data);
 }
 
-static void explain_plan(explaining *e, const tn_tray *trays, size_t length)
+/* What is said of a house is not drawn. */
+static void refuse_picture(tn_job *job)
 {
-    tn_explained explained;
+    tn_help(tn_job_diagnostics(job), tn_job_usage(job, "why a house is kept or dropped is not drawn: leave out -o"),
+            "`tartan house FILE HOUSE -o NAME.svg` draws the house");
+}
+
+static void draw(explaining *e, const tn_plan_reasons *reasons)
+{
+    const explain_settings *settings = e->settings;
+    tn_picture to = {.path = settings->output, .dpi = (uint32_t)settings->dpi.value};
     tn_error error;
-    size_t longest =
-        e->settings->plans.max_length.given ? (size_t)e->settings->plans.max_length.value : TN_EXPLAIN_LENGTH_DEFAULT;
-    tn_status status = tn_explained_make(&explained, &e->job->opened, e->schema, e->record, e->rules.indices,
-                                         e->rules.count, trays, length, longest, &error);
-    if (e->settings->json || e->settings->full) /* ranks take several times as long as all the rest */
-        make_library(e);
-    explained.automaton = e->library;
-    if (status == TN_OK)
-        find_near(e, &explained);
-    else
+    if (!reasons)
+        refuse_picture(e->job);
+    else if (tn_explained_draw(&reasons->explained, settings->full, &to, &error) != TN_OK)
         tn_job_fail(e->job, &error);
-    if (status == TN_OK && e->job->exit_code == TN_EXIT_DONE)
-        write_explained(e, &explained);
-    tn_explained_clear(&explained);
 }
 
-static void explain_rank(explaining *e, const char *digits)
+/* heading: of what is written, or "". Ranks take several times as long as all the rest: they are shown if all is. */
+static void explain_one(explaining *e, const char *heading)
 {
-    mpz_t rank;
-    uint32_t length;
-    if (!*digits || strspn(digits, "0123456789") != strlen(digits)) {
-        tn_job_usage(e->job, "a rank is # and a whole number from 0, not `#%.60s`", digits);
-        return;
+    tn_reply answer;
+    const explain_settings *settings = e->settings;
+    e->request.no_ranks = !settings->json && !settings->full;
+    if (tn_job_answered(e->job, tn_ask_explain(&e->job->session, &e->request, &answer))) {
+        if (settings->output)
+            draw(e, reasons_of(&answer));
+        else if (settings->json)
+            tn_job_write_json(&answer, e->output.stream);
+        else if (fputs(heading, e->output.stream) >= 0)
+            write_text(e, &answer);
     }
-    if (!e->record) {
-        tn_job_usage(e->job, "#%.60s is a plan's rank in a library, and rules alone are explained here", digits);
-        return;
-    }
-    make_library(e);
-    if (!e->library) {
-        tn_job_status(e->job, TN_LIMIT);
-        return;
-    }
-    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(e->library) + 1));
-    mpz_init_set_str(rank, digits, 10);
-    if (!trays)
-        fail_memory(e->job);
-    else if (tn_library_unrank(e->library, rank, trays, &length))
-        explain_plan(e, trays, length);
-    else
-        tn_job_no_rank(e->job, e->library, e->record, digits);
-    mpz_clear(rank);
-    free(trays);
+    tn_reply_clear(&answer);
 }
 
-static void explain_text(explaining *e, const char *text)
-{
-    size_t longest = tn_job_max_length(&e->settings->plans);
-    tn_plan plan = {0};
-    tn_error error;
-    tn_status status = text[strspn(text, " ")] == '{'
-                           ? tn_plan_parse_json(e->schema, text, strlen(text), longest, &plan, &error)
-                           : tn_plan_parse_line(e->schema, text, strlen(text), longest, &plan, &error);
-    if (status == TN_OK) {
-        explain_plan(e, plan.trays, plan.length);
-    } else {
-        tn_error_place(&error, 1, error.column, error.column_end);
-        tn_report_error(tn_job_diagnostics(e->job), &error, "PLAN", text, strlen(text));
-        tn_job_status(e->job, status);
-    }
-    free(plan.trays);
-}
+/* ---- the plans of a file */
 
-/* The next plan of a file; NULL at its end, and where one cannot be read, which is recorded. */
-static const tn_plan *next_plan(explaining *e, tn_plan_reader *reader, const tn_plans_source *source)
+/* The next plan of a file as its line (malloc); NULL at its end, and where one cannot be read, which is recorded. */
+static char *next_plan(explaining *e, tn_plan_reader *reader, const tn_schema *schema, const tn_plans_source *source)
 {
     const tn_plan *plan = NULL;
     tn_error error;
     size_t size = 0;
-    if (tn_plan_reader_next(reader, &plan, &error) == TN_OK)
-        return plan;
-    const char *text = tn_plan_reader_text(reader, &size);
-    tn_job_bad_plan(e->job, source, &error, text, size);
-    return NULL;
+    tn_buffer line = {0};
+    if (tn_plan_reader_next(reader, &plan, &error) != TN_OK) {
+        const char *text = tn_plan_reader_text(reader, &size);
+        tn_job_bad_plan(e->job, source, &error, text, size);
+    } else if (plan) {
+        tn_plan_write_line(schema, plan->trays, plan->length, &line);
+        tn_buffer_append(&line, "", 1);
+        if (line.failed)
+            tn_job_fail(e->job, &(tn_error){.status = TN_MEMORY});
+    }
+    return line.data;
 }
 
 /* The only plan of a file, for a picture. */
-static void explain_only(explaining *e, tn_plan_reader *reader, const tn_plans_source *source)
+static void explain_only(explaining *e, tn_plan_reader *reader, const tn_schema *schema, const tn_plans_source *source)
 {
-    const tn_plan *plan = next_plan(e, reader, source);
-    if (!plan) {
-        if (e->job->exit_code == TN_EXIT_DONE)
-            tn_job_usage(e->job, "there is no plan in %.200s to be drawn", source->path);
-        return;
-    }
-    size_t length = plan->length;
-    tn_tray *trays = malloc((length + 1) * sizeof *trays);
-    if (!trays) {
-        fail_memory(e->job);
-        return;
-    }
-    memcpy(trays, plan->trays, length * sizeof *trays);
-    if (next_plan(e, reader, source))
+    char *plan = next_plan(e, reader, schema, source);
+    char *second = plan ? next_plan(e, reader, schema, source) : NULL;
+    if (second) {
         tn_help(tn_job_diagnostics(e->job),
                 tn_job_usage(e->job, "a picture shows one plan, and %.200s holds more", source->path),
                 "give the plan itself, or leave out -o");
-    else if (e->job->exit_code == TN_EXIT_DONE)
-        explain_plan(e, trays, length);
-    free(trays);
+    } else if (e->job->exit_code == TN_EXIT_DONE) {
+        e->request.plan = plan;
+        if (plan)
+            explain_one(e, "");
+        else
+            tn_job_usage(e->job, "there is no plan in %.200s to be drawn", source->path);
+    }
+    free(second);
+    free(plan);
 }
 
 /* Every plan of a file, kept apart by a line that says which it is. */
-static void explain_file(explaining *e, const char *path)
+static void explain_each(explaining *e, tn_plan_reader *reader, const tn_schema *schema, const tn_plans_source *source)
 {
-    tn_plan_reader *reader;
-    const tn_plan *plan;
-    const tn_plans_source source = {path, &e->settings->input, &e->settings->plans};
-    if (!tn_job_reader(e->job, e->schema, &source, &reader))
-        return;
-    if (e->settings->output)
-        explain_only(e, reader, &source);
-    for (size_t count = 0; !e->settings->output && (plan = next_plan(e, reader, &source)); count++) {
-        if (!e->settings->json)
-            fprintf(e->output.stream, "%s%s:%" PRIu64 ": ", count ? "\n" : "", path, tn_plan_reader_line(reader));
-        explain_plan(e, plan->trays, plan->length);
+    tn_buffer heading = {0};
+    char *plan;
+    for (size_t count = 0; (plan = next_plan(e, reader, schema, source)); count++) {
+        heading.size = 0;
+        tn_buffer_printf(&heading, "%s%s:%" PRIu64 ": ", count ? "\n" : "", source->path, tn_plan_reader_line(reader));
+        e->request.plan = plan;
+        explain_one(e, heading.failed ? "" : heading.data);
+        free(plan);
         if (e->job->exit_code != TN_EXIT_DONE)
             break;
     }
+    free(heading.data);
+}
+
+static void explain_file(explaining *e)
+{
+    tn_plan_reader *reader;
+    const tn_schema *schema;
+    const tn_plans_source source = {e->settings->plan_file, &e->settings->input, &e->settings->plans};
+    if (!tn_job_answered(e->job, tn_explain_schema(&e->job->session, &e->request, &schema)) ||
+        !tn_job_reader(e->job, schema, &source, &reader))
+        return;
+    if (e->settings->output)
+        explain_only(e, reader, schema, &source);
+    else
+        explain_each(e, reader, schema, &source);
     tn_plan_reader_free(reader);
 }
+
+/* ---- the command */
 
 static bool check_options(tn_job *job)
 {
@@ -302,27 +201,6 @@ static bool check_options(tn_job *job)
     else
         return true;
     return false;
-}
-
-static void explain(tn_job *job)
-{
-    const explain_settings *settings = settings_of(job);
-    explaining e = {.job = job, .settings = settings};
-    const char *text = settings->common.operands.count > 1 ? settings->common.operands.items[1] : NULL;
-    if (choose(&e) && tn_job_output(job, NULL, &e.output)) {
-        tn_job_show(job);
-        if (!text)
-            explain_file(&e, settings->plan_file);
-        else if (text[0] == '#')
-            explain_rank(&e, text + 1);
-        else
-            explain_text(&e, text);
-        tn_job_commit(job, &e.output);
-    }
-    tn_near_finder_free(e.finder);
-    tn_library_free(e.library);
-    tn_schema_free(e.schema);
-    tn_chosen_rules_clear(&e.rules);
 }
 
 /* How the boxes of a design were squashed, step by step. */
@@ -339,67 +217,33 @@ static void draw_solid(tn_job *job)
         tn_job_draw_solid(job, settings->solid, &drawing, settings->output);
 }
 
-static void explain_house(tn_job *job, const char *line)
+/* A house line, or the name of a house: #P:V, or #R if --library names a library of houses. */
+static bool is_house(const tn_job *job, const char *text)
 {
-    const explain_settings *settings = settings_of(job);
-    tn_job_explain_house(job, settings->plans.library, &settings->rules, line, settings->full, settings->json,
-                         tn_job_max_length(&settings->plans));
-}
-
-/* A house by its name, #R or #P:V. */
-static void explain_numbered(tn_job *job, const char *number)
-{
-    const tn_house_settings houses = tn_job_houses(&settings_of(job)->plans);
-    tn_buffer line = {0};
-    if (tn_job_house_line(job, &houses, number, &line))
-        explain_house(job, line.data);
-    free(line.data);
-}
-
-/* A plan for houses, by its line or as #P: with no house behind the colon. */
-static void explain_for_houses(tn_job *job, const char *text)
-{
-    const explain_settings *settings = settings_of(job);
-    const tn_house_settings houses = tn_job_houses(&settings->plans);
-    size_t size = strlen(text) - (text[0] == '#');
-    char *plan = strndup(text, size);
-    if (plan)
-        tn_job_explain_plan(job, &houses, plan, settings->json);
-    else
-        tn_job_fail(job, &(tn_error){.status = TN_MEMORY});
-    free(plan);
-}
-
-/* What is said of a house is not drawn. */
-static bool is_drawn(tn_job *job)
-{
-    if (!settings_of(job)->output)
-        return false;
-    tn_help(tn_job_diagnostics(job), tn_job_usage(job, "why a house is kept or dropped is not drawn: leave out -o"),
-            "`tartan house FILE HOUSE -o NAME.svg` draws the house");
-    return true;
-}
-
-static void explain_plan_or_house(tn_job *job)
-{
-    const explain_settings *settings = settings_of(job);
-    const char *text = settings->common.operands.count > 1 ? settings->common.operands.items[1] : "";
-    const char *library = settings->plans.library;
-    bool of_houses = library && tn_house_library_find(job->opened.module, library) != TN_NO_RECORD;
     const char *colon = text[0] == '#' && job->opened.module->HOUSE_LIBRARY_count > 0 ? strchr(text, ':') : NULL;
-    bool house = tn_is_house_line(text),
-         for_houses = (colon && colon[1] == '\0') || (of_houses && *text && text[0] != '#'),
-         numbered = colon || (of_houses && text[0] == '#');
-    if ((house || for_houses || numbered) && is_drawn(job))
+    if (colon)
+        return colon[1] != '\0';
+    return tn_is_house_line(text) || (text[0] == '#' && tn_job_of_houses(job, &settings_of(job)->plans));
+}
+
+static void explain_text(explaining *e, const char *text)
+{
+    *(is_house(e->job, text) ? &e->request.house : &e->request.plan) = text;
+    explain_one(e, "");
+}
+
+static void explain(tn_job *job)
+{
+    const explain_settings *settings = settings_of(job);
+    explaining e = {.job = job, .settings = settings, .request = request_of(settings)};
+    if (!tn_job_output(job, NULL, &e.output))
         return;
-    if (house)
-        explain_house(job, text);
-    else if (for_houses)
-        explain_for_houses(job, text);
-    else if (numbered)
-        explain_numbered(job, text);
+    tn_job_show(job);
+    if (settings->plan_file)
+        explain_file(&e);
     else
-        explain(job);
+        explain_text(&e, settings->common.operands.items[1]);
+    tn_job_commit(job, &e.output);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
@@ -414,8 +258,9 @@ static int run(const tn_command *command, const tn_settings *common)
     else if (open && job.opened.module->SOLID_count)
         tn_job_explain_solid(&job, settings_of(&job)->solid, (uint32_t)settings_of(&job)->max_boxes.value,
                              settings_of(&job)->json);
-    else if ((open || !alone) && check_options(&job) && tn_job_open(&job, common->operands.items[0]))
-        explain_plan_or_house(&job);
+    else if ((open || !alone) && check_options(&job) &&
+             tn_job_open_plans(&job, common->operands.items[0], &settings_of(&job)->plans))
+        explain(&job);
     return tn_job_end(&job);
 }
 
@@ -429,7 +274,7 @@ static const tn_option options[] = {
     FLAG("full", 0, full, "every clause and every part, not only what decides"),
     FLAG("json", 0, json, "write JSON, everything in it"),
     OUTPUT(output, TN_WRITES_PICTURES, "draw it instead: .svg, .png or .pdf"),
-    NUMBER("nearest", 0, "N", nearest, 0, 1000, "how many of the nearest kept plans to show (default 3)"),
+    NUMBER("nearest", 0, "N", nearest, 0, TN_NEAREST_MAX, "how many of the nearest kept plans to show (default 3)"),
     NUMBER("dpi", 0, "N", dpi, 10, 2400, "pixels an inch of a PNG (default 150)"),
     OPTION_INPUT_FORMAT,
     OPTION_MAX_LENGTH,

@@ -133,21 +133,3 @@ bool tn_job_library_schema(tn_job *job, const char *path, const tn_plan_settings
     *ready = (tn_ready_library){0};
     return tn_job_open_plans(job, path, plans) && ready_library(job, plans, NULL, ready);
 }
-
-void tn_job_no_rank(tn_job *job, const tn_library *library, const tn_library_record *record, const char *rank)
-{
-    mpz_t kept;
-    mpz_init(kept);
-    tn_library_kept(library, TN_ALL_LENGTHS, kept);
-    char *digits = mpz_get_str(NULL, 10, kept);
-    tn_diagnostics *list = tn_job_diagnostics(job);
-    tn_diagnostic *past = tn_report_bare(list, TN_ERROR, E_NOT_IN_LIBRARY, "`%s` has no plan of rank %.80s",
-                                         tn_text(job->opened.module, record->name), rank);
-    if (mpz_sgn(kept) == 0)
-        tn_help(list, past, "it holds no plans");
-    else
-        tn_help(list, past, "it holds %s plans; ranks start at 0", digits ? digits : "?");
-    tn_job_status(job, TN_INVALID);
-    free(digits);
-    mpz_clear(kept);
-}

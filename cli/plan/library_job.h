@@ -81,7 +81,4 @@ void tn_job_rank(const char *text, const mpz_t otherwise, mpz_t number);
  * are the wrong way round, which is recorded as wrong usage; a note says where the library has no such rank. */
 bool tn_job_range(tn_job *job, const tn_library *library, const char *from, const char *to, mpz_t begin, mpz_t end);
 
-/* Records that the library has no plan of that rank, and how many it has. */
-void tn_job_no_rank(tn_job *job, const tn_library *library, const tn_library_record *record, const char *rank);
-
 #endif

@@ -1,7 +1,7 @@
 /* tartan match: which rules each plan matches. */
+#include "ask/chosen_rules.h"
 #include "cli/common/option_rows.h"
 #include "cli/house/judged.h"
-#include "cli/plan/chosen_rules.h"
 #include "cli/plan/library_job.h"
 #include "cli/plan/plan_input.h"
 #include "driver/plan/matched.h"
@@ -32,8 +32,10 @@ typedef struct matching {
 
 static bool choose_rules(matching *m)
 {
-    return tn_job_choose_rules(m->job, &settings_of(m->job)->rules,
-                               "name one of those it uses with --rule, or filter with `tartan prune`", &m->rules);
+    const tn_option_list *rules = &settings_of(m->job)->rules;
+    static const char otherwise[] = "name one of those it uses with --rule, or filter with `tartan prune`";
+    return tn_job_answered(
+        m->job, tn_session_rules(&m->job->session, &(tn_texts){rules->items, rules->count}, otherwise, &m->rules));
 }
 
 static bool compile_rules(matching *m)

@@ -50,7 +50,7 @@ static void unrank(tn_job *job, const tn_ready_library *ready, const char *text)
     if (tn_library_unrank(ready->library, rank, trays, &length))
         write_plan(job, ready, trays, length);
     else
-        tn_job_no_rank(job, ready->library, ready->record, text);
+        tn_job_answered(job, tn_session_no_rank(&job->session, ready->library, ready->record, text));
     mpz_clear(rank);
     free(trays);
 }

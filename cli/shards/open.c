@@ -57,11 +57,12 @@ static tn_status ready_clauses(tn_job *job, tn_shards_open *open, const tn_rules
 bool tn_shards_ready_answers(tn_job *job, tn_shards_open *open)
 {
     const tn_shard_set *set = &open->set;
-    const tn_option_list asked = {(void *)set->inputs.rules, set->inputs.rule_count};
+    const tn_texts asked = {(void *)set->inputs.rules, set->inputs.rule_count};
     const tn_rules_options options = {.max_states = set->options.max_states, .max_length = set->options.max_length};
     bool matches = set->task == TN_TASK_MATCH;
     tn_error error;
-    if (matches && !tn_job_choose_rules(job, &asked, "name one of those it uses with --rule", &open->rules))
+    if (matches && !tn_job_answered(job, tn_session_rules(&job->session, &asked,
+                                                          "name one of those it uses with --rule", &open->rules)))
         return false;
     if (!matches) {
         tn_status chosen = tn_library_ready(&job->opened, set->library, NULL, &open->ready);

@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_SHARDS_SHARDS_H
 #define TARTAN_CLI_SHARDS_SHARDS_H
 
-#include "cli/plan/chosen_rules.h"
+#include "ask/chosen_rules.h"
 #include "cli/plan/plan_input.h"
 #include "cli/plan/plan_output.h"
 #include "driver/plan/matched.h"

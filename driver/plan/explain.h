@@ -52,9 +52,6 @@ bool tn_explained_text(const tn_explained *explained, bool full, tn_buffer *out)
 /* One rule's part of the text, indented: for the failures of tests. */
 bool tn_explained_rule_text(const tn_explained *explained, const tn_explained_rule *rule, bool full, tn_buffer *out);
 
-/* As one JSON object. */
-bool tn_explained_json(const tn_explained *explained, tn_buffer *out);
-
 /* As a picture: the plan, and under it a row for each part with the trays that it matched in green, those that it
  * lacked in red. Errors as in tn_canvas_begin. */
 tn_status tn_explained_draw(const tn_explained *explained, bool full, tn_picture *to, tn_error *error);
@@ -68,7 +65,7 @@ typedef struct tn_explain_rows {
 bool tn_explain_rows_make(const tn_explanation *why, bool full, tn_explain_rows *rows);
 void tn_explain_rows_clear(tn_explain_rows *rows);
 
-/* ---- pieces that the text and the JSON share (explain_words.c) */
+/* ---- pieces that the text and whoever makes a message of it share (explain_words.c) */
 
 /* "tray 3", "trays 2-3, 5". */
 void tn_words_stretches(const tn_explanation *why, const tn_why *node, tn_buffer *out);

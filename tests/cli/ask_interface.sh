@@ -14,18 +14,19 @@ requests=()
 as() {
     requests+=("$1")
     shift
-    "$TARTAN" count "$file" "$@" --json >"$scratch/one" 2>"$scratch/said" ||
+    "$TARTAN" "$question" "$file" "$@" --json >"$scratch/one" 2>"$scratch/said" ||
         sed -nE '0,/^(.*: )?error(\[E[0-9]+\])?: /s/^(.*: )?error(\[E[0-9]+\])?: (.*)$/error \3/p' "$scratch/said" | head -n 1 >"$scratch/one"
     cat "$scratch/one" >>"$scratch/wanted"
 }
 # asked: all requests since the last one, of one session.
 asked() {
-    "$program" stdlib "$file" count "${requests[@]}" >"$scratch/got"
+    "$program" stdlib "$file" "$question" "${requests[@]}" >"$scratch/got"
     diff "$scratch/wanted" "$scratch/got" || fail "$file: the command and the interface differ"
     requests=()
     : >"$scratch/wanted"
 }
 
+question=count
 file=stdlib/lahave-houses.plan
 as '{}'
 as '{"mirror": true, "no_effects": true, "trays": {"from": 4, "to": 5}}' --mirror --no-effects --trays 4..5
@@ -60,6 +61,29 @@ as '{}'
 as '{"parts": 2, "by": "cost"}' --parts 2 --by cost
 asked
 
+question=explain
+file=stdlib/terrace.plan
+plan=$("$TARTAN" unrank "$file" 1000)
+as '{"plan": "#1000"}' '#1000'
+as "{\"plan\": \"$plan\", \"where\": [\"trays = 1\"]}" "$plan" --where 'trays = 1'
+as "{\"plan\": \"$plan\", \"rules\": [\"step\", \"unhanded\"]}" "$plan" --rule step --rule unhanded
+as "{\"plan\": \"${plan#* | }\", \"nearest\": 7}" "${plan#* | }" --nearest 7
+as "{\"plan\": \"${plan#* | }\"}" "${plan#* | }"
+as '{"plan": "#99999999999999999"}' '#99999999999999999'
+as '{"plan": "#1000", "rules": ["unhanded"]}' '#1000' --rule unhanded
+as '{"plan": "4m one | no"}' '4m one | no'
+as '{"plan": "#1000", "max_states": 3}' '#1000' --max-states 3
+asked
+
+file=stdlib/cottage.plan
+as '{"house": "#10:3"}' '#10:3'
+as '{"house": "#500", "library": "cottages"}' '#500' --library cottages
+as '{"house": "#500", "library": "cottages", "where": ["trays = 3"]}' '#500' --library cottages --where 'trays = 3'
+as '{"plan": "#10:"}' '#10:'
+as '{"plan": "#10", "library": "cottage-rows"}' '#10' --library cottage-rows
+as '{"house": "a; b"}' 'a; b'
+asked
+
 # What only requests can get wrong.
 wrong() { # REQUEST MESSAGE
     is "$1" "$("$program" stdlib stdlib/terrace.plan count "$1")" "error $2"
@@ -73,5 +97,12 @@ wrong '{"trays": {"from": 4}}' 'a tray_range needs `to`: the most trays'
 wrong '{"trays": 4}' '`trays` is an object: how many trays a plan has, instead of what the library says'
 wrong '{"bins": -3}' '`bins` is a whole number from 0: with `by`: at most so many bins'
 wrong '[]' 'the request is no JSON object: it is another value'
+wrong_to_explain() { # REQUEST MESSAGE
+    is "$1" "$("$program" stdlib stdlib/cottage.plan explain "$1")" "error $2"
+}
+wrong_to_explain '{}' 'say which plan or which house is explained: one of them'
+wrong_to_explain '{"plan": "#1", "house": "#1:1"}' 'say which plan or which house is explained: one of them'
+wrong_to_explain '{"plan": "#1", "trays": {"from": 1, "to": 2}}' '--trays is for all plans of a library, and one is explained'
+wrong_to_explain '{"house": "#1:1", "nearest": 2}' '--nearest is about plans that a library of plans drops'
 is 'another question' "$("$program" stdlib stdlib/terrace.plan cuont '{}')" 'error there is no question `cuont`'
 finish

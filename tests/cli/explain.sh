@@ -14,6 +14,7 @@ golden rules_alone "tartan explain parts.plan 'low red 1m | high grey 1m | low g
 golden rules_unmatched "tartan explain parts.plan 'high grey 1m | low blue 1m | high grey 1m' --full"
 golden steps "tartan explain steps.plan '2m x'"
 golden steps_kept "tartan explain steps.plan '2m y' --full"
+golden where "tartan explain sheds.plan '3m door | 6m -' --library sheds --where 'trays = 3' --nearest 1"
 golden json "tartan explain sheds.plan '6m - | 3m -' --library sheds --json"
 golden file "printf '3m door\n6m -\n' | tartan explain sheds.plan --plan - --library sheds --nearest 0"
 golden bad_plan "tartan explain sheds.plan '3m dor' --library sheds"

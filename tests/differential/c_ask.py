@@ -31,21 +31,34 @@ class Session:
 # ---- the question
 
 def as_words(request):
-    """The options of the command."""
+    """The operand of the command, and its options."""
+    yield from (request[key] for key in ("plan", "house") if key in request)
     for key, value in request.items():
+        if key in ("plan", "house"):
+            continue
         for one in value if isinstance(value, list) else [value]:
             yield "--" + key.replace("_", "-")
             yield from [] if one is True else [str(one)]
 
 
-def by_command(subject, request):
+def by_command(subject, question, request):
     words = [word for word in as_words(request) if word != "--values"]
-    code, out, err = run("count", subject.path, *words, "--json")
+    code, out, err = run(question, subject.path, *words, "--json")
     said = re.search(r"^(?:.*?: )?error(?:\[E\d+\])?: (.*)$", err, re.M)
     return out if code == 0 else "error: " + (said.group(1) if said else err)
 
 
-def requests_of(subject):
+def explained(subject):
+    library, rules = subject.item.name, subject.rules()[:1]
+    for line in [line for line in (subject.lines or [])[-2:] if line]:
+        asked = {"house" if subject.houses else "plan": line, "library": library}
+        yield asked
+        yield from ({**asked, "where": [f"not {rule}"]} for rule in rules)
+    yield {"house" if subject.houses else "plan": "#0", "library": library}
+    yield {"plan": "no plan", "library": library}
+
+
+def counted(subject):
     library, measures, rules = subject.item.name, subject.measures()[:2], subject.rules()[:1]
     yield {"library": library}
     yield from ({"library": library, "by": measure, "values": True} for measure in measures)
@@ -62,14 +75,14 @@ def c_ask(subject):
     path = os.path.join(os.path.dirname(shutil.which(TARTAN) or ""), "libtartan.so")
     if not os.path.exists(path) or "\nuse " in "\n" + subject.source.text:
         return
-    requests = list(requests_of(subject))
-    lines = "".join(json.dumps(["count", request]) + "\n" for request in requests)
+    requests = [("count", request) for request in counted(subject)] + [("explain", request) for request in explained(subject)]
+    lines = "".join(json.dumps(asked) + "\n" for asked in requests)
     done = subprocess.run([sys.executable, "-B", os.path.abspath(__file__), path, subject.path], input=lines, capture_output=True, text=True,
                           encoding="utf-8", timeout=300, env=environment())
     if done.returncode:
         raise Wrong("tartan_ask ends", f"{done.returncode}: {done.stderr[-300:]}", "0")
-    for request, line in zip(requests, done.stdout.splitlines(), strict=True):
-        same(f"tartan_ask count {json.dumps(request)}", json.loads(line), by_command(subject, request))
+    for (question, request), line in zip(requests, done.stdout.splitlines(), strict=True):
+        same(f"tartan_ask {question} {json.dumps(request)}", json.loads(line), by_command(subject, question, request))
 
 
 def main():

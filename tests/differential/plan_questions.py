@@ -261,13 +261,23 @@ def samples(subject):
         same("samples are listed, in order", lines, [line for line in subject.lines if line in set(lines)])
 
 
-def explained(subject, what, line):
+def explained(subject, what, line, kept=True, *options):
     if not line:                                                # the plan without trays
         return
-    code, out, err = run("explain", subject.path, line, "--json", *subject.options)
+    code, out, err = run("explain", subject.path, line, "--json", *subject.options, *options)
     if code:
         raise Refused(err[:60], code == 4)
-    same(f"{what} is kept, says explain", read_json("explain", out)["kept"], True)
+    same(f"{what} is kept, says explain", read_json("explain", out)["kept"], kept)
+
+
+def explained_where(subject):
+    """With a further requirement, `explain` keeps what is listed with it."""
+    if not subject.lines:
+        return
+    for rule in subject.rules()[:1]:
+        listed = set(subject.listed_where(rule))
+        for line in sorted({*subject.lines[:2], *subject.lines[-2:], *sorted(listed)[:2]}):
+            explained(subject, f"what is listed where {rule}", line, line in listed, "--where", rule)
 
 
 def all_explained(subject):
@@ -445,5 +455,5 @@ def limits(subject):
 
 QUICK = [counted_ways, by_length]              # asked of every library; of those that follow some are chosen
 OF_FILES = [loads, file_questions.keeps_its_meaning, says_json]
-OF_LIBRARIES = [by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, both_engines, fronts, mirrored,
+OF_LIBRARIES = [by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, explained_where, both_engines, fronts, mirrored,
                 effects, compared, threads, saved, limits, prolog, regex, c_interface, c_ask, solids, swings, bills, tested]

@@ -178,7 +178,6 @@ static void show_explained(const tn_explained *explained)
     tn_picture picture = {0};
     tn_explained_text(explained, true, &text);
     tn_explained_text(explained, false, &text);
-    tn_explained_json(explained, &text);
     if (fuzz_draws(explained->opened->module))
         tn_explained_draw(explained, true, &picture, NULL);
     fuzz_drawn(&picture);

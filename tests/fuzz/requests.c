@@ -1,5 +1,5 @@
-/* Requests of any bytes, to three files: each is answered or refused, an answer is JSON, and what was asked before
- * changes no answer. */
+/* Requests of any bytes, of each question, to three files: each is answered or refused, an answer is JSON, and what was
+ * asked before changes no answer. */
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,11 +36,11 @@ static bool takes_long(const char *request)
 }
 
 /* The answer, which the caller frees, or NULL. */
-static char *ask(tartan_session *session, const char *request)
+static char *ask(tartan_session *session, const char *question, const char *request)
 {
     char *answer = NULL;
     tartan_error error = {0};
-    tartan_status status = tartan_ask(session, "count", request, NULL, NULL, NULL, &answer, &error);
+    tartan_status status = tartan_ask(session, question, request, NULL, NULL, NULL, &answer, &error);
     if ((status == TARTAN_OK) != (answer != NULL))
         fail("neither answered nor refused", request);
     if (status != TARTAN_OK && !error.message[0])
@@ -59,20 +59,22 @@ static void check_json(const char *answer, const char *request)
     json_decref(json);
 }
 
-static void check(const char *path, const char *text, const char *request)
+static void check(const char *path, const char *text, const char *question, const char *request)
 {
     tartan_session *session = NULL;
     tartan_error error;
     if (tartan_session_open(path, text, strlen(text), NULL, &session, &error) != TARTAN_OK)
         fail(error.message, path);
-    char *first = ask(session, request);
-    char *other = ask(session, "{\"no_effects\": true}");
-    char *again = ask(session, request);
+    char *first = ask(session, question, request);
+    char *other = ask(session, "count", "{\"no_effects\": true}");
+    char *another = ask(session, "explain", "{\"plan\": \"1m lid\"}");
+    char *again = ask(session, question, request);
     check_json(first, request);
     if (!first != !again || (first && strcmp(first, again) != 0))
         fail("another answer the second time", request);
     tartan_text_free(first);
     tartan_text_free(other);
+    tartan_text_free(another);
     tartan_text_free(again);
     tartan_session_free(session);
 }
@@ -84,8 +86,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     memcpy(request, data, size);
     request[size] = '\0';
-    for (size_t i = 0; i < sizeof files / sizeof *files && !takes_long(request); i++)
-        check(files[i].path, files[i].text, request);
+    for (size_t i = 0; i < sizeof files / sizeof *files && !takes_long(request); i++) {
+        check(files[i].path, files[i].text, "count", request);
+        check(files[i].path, files[i].text, "explain", request);
+    }
     free(request);
     return 0;
 }

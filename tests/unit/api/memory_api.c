@@ -44,13 +44,18 @@ static tartan_status load(const tartan_module *module, tartan_error *error)
 static tartan_status ask(const tartan_module *module, tartan_error *error)
 {
     (void)module;
-    static const char *const requests[] = {"{}", "{\"by\": \"long\"}",
-                                           "{\"where\": [\"trays = 2\"], \"mirror\": true}"};
+    static const struct {
+        const char *question, *request;
+    } asked[] = {{"count", "{}"},
+                 {"count", "{\"by\": \"long\"}"},
+                 {"count", "{\"where\": [\"trays = 2\"], \"mirror\": true}"},
+                 {"explain", "{\"plan\": \"#1\"}"},
+                 {"explain", "{\"plan\": \"1m lid | 2m lid\", \"nearest\": 2}"}};
     tartan_session *session = NULL;
     tartan_status status = tartan_session_open("box.plan", text, sizeof text - 1, NULL, &session, error);
-    for (size_t i = 0; i < sizeof requests / sizeof *requests && status == TARTAN_OK; i++) {
+    for (size_t i = 0; i < sizeof asked / sizeof *asked && status == TARTAN_OK; i++) {
         char *answer = NULL;
-        status = tartan_ask(session, "count", requests[i], NULL, NULL, NULL, &answer, error);
+        status = tartan_ask(session, asked[i].question, asked[i].request, NULL, NULL, NULL, &answer, error);
         assert_true(!answer == (status != TARTAN_OK));
         tartan_text_free(answer);
     }

@@ -65,8 +65,7 @@ static tn_status explain(void *context, tn_buffer *out, tn_error *error)
     if (status == TN_OK)
         status = tn_explained_near(&explained, finder, 3, error);
     explained.automaton = rows->ready.library;
-    if (status == TN_OK && !(tn_explained_text(&explained, false, out) && tn_explained_text(&explained, true, out) &&
-                             tn_explained_json(&explained, out)))
+    if (status == TN_OK && !(tn_explained_text(&explained, false, out) && tn_explained_text(&explained, true, out)))
         status = tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_explained_draw(&explained, true, &picture, error);

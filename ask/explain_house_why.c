@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/explain.h"
 #include "driver/house/change_text.h"
-#include "cli/house/explained_parts.h"
 #include "runtime/house/rule/witness.h"
 #include "runtime/house/schedule/cost.h"
 #include "runtime/house/solids.h"
@@ -15,8 +15,7 @@ enum { TEXT_MAX = 4096 };
 
 typedef struct answering {
     tn_house_explaining *e;
-    size_t found;
-    bool begun;
+    tn_list *why; /* of tn_asked_of_house; what is found is of the last of them */
 } answering;
 
 /* The question as its author wrote it, on one line; the word of its kind where there is no source. */
@@ -24,11 +23,11 @@ static void question_text(const tn_house_explaining *e, uint32_t offset, char *t
 {
     tn_span span;
     size_t used = 0;
-    if (!e->job->opened.compiled || !tn_code_span(&e->job->opened, offset, &span)) {
+    if (!e->session->opened->compiled || !tn_code_span(e->session->opened, offset, &span)) {
         snprintf(text, size, "a question of the file");
         return;
     }
-    const char *source = e->job->opened.compilation.sources.files[span.file].text;
+    const char *source = e->session->opened->compilation.sources.files[span.file].text;
     for (uint32_t i = span.begin; i < span.end && used + 1 < size; i++) {
         bool blank = strchr(" \t\r\n", source[i]) != NULL;
         if (!blank || (used > 0 && text[used - 1] != ' '))
@@ -102,13 +101,10 @@ static bool append_amount(tn_amount_unit unit, mpq_t value, tn_buffer *out)
     return tn_amount_write_about(unit, value, out);
 }
 
-static void append_found(answering *a, const char *text)
+static tn_status append_found(answering *a, const char *text, tn_error *error)
 {
-    if (a->e->json)
-        tn_json_string(a->e->json, NULL, text);
-    else
-        tn_buffer_printf(&a->e->text, "%s %s", a->found ? ";" : "", text);
-    a->found++;
+    tn_asked_of_house *questions = a->why->items;
+    return tn_owneds_add(&questions[a->why->count - 1].found, strdup(text), error);
 }
 
 /* What a comparison finds: the number of the house and the one that is compared with it, costs to the cent. */
@@ -137,7 +133,7 @@ static tn_status append_numbers(answering *a, uint32_t offset, tn_error *error)
     if (status == TN_OK && said.failed)
         status = tn_fail_memory(error);
     if (status == TN_OK)
-        append_found(a, said.data);
+        status = append_found(a, said.data, error);
     free(said.data);
     free(left.data);
     free(right.data);
@@ -145,52 +141,39 @@ static tn_status append_numbers(answering *a, uint32_t offset, tn_error *error)
     return status;
 }
 
-static void end_question(answering *a)
+static tn_status begin_question(answering *a, uint32_t offset, tn_error *error)
 {
-    if (!a->begun)
-        return;
-    if (a->e->json) {
-        tn_json_list_end(a->e->json);
-        tn_json_object_end(a->e->json);
-    } else {
-        tn_buffer_printf(&a->e->text, "%s", a->found == 0 ? " nothing\n" : "\n");
-    }
+    char text[TEXT_MAX] = "";
+    tn_asked_of_house *asked = tn_message_add(&tn_message_asked_of_house, a->why, error);
+    if (!asked)
+        return TN_MEMORY;
+    question_text(a->e, offset, text, sizeof text);
+    asked->question = strdup(text);
+    return asked->question ? TN_OK : tn_fail_memory(error);
 }
 
-static tn_status write_found(void *context, const tn_witness *found, tn_error *error)
+static tn_status see_found(void *context, const tn_witness *found, tn_error *error)
 {
     answering *a = context;
     char text[TEXT_MAX] = "";
     if (found->first != TN_NO_CELL) {
         found_text(&a->e->house, found, text, sizeof text);
-        append_found(a, text);
-        return TN_OK;
+        return append_found(a, text, error);
     }
-    end_question(a);
-    question_text(a->e, found->offset, text, sizeof text);
-    if (a->e->json) {
-        tn_json_object(a->e->json, NULL);
-        tn_json_string(a->e->json, "question", text);
-        tn_json_list(a->e->json, "found");
-    } else {
-        tn_buffer_printf(&a->e->text, "    %s:", text);
-    }
-    a->begun = true;
-    a->found = 0;
-    return tn_code_compares_house((tn_opcode)found->opcode) ? append_numbers(a, found->offset, error) : TN_OK;
+    tn_status status = begin_question(a, found->offset, error);
+    return status == TN_OK && tn_code_compares_house((tn_opcode)found->opcode) ? append_numbers(a, found->offset, error)
+                                                                               : status;
 }
 
-tn_status tn_explain_why(tn_house_explaining *e, uint32_t function, tn_error *error)
+tn_status tn_explain_found(tn_house_explaining *e, uint32_t function, tn_list *why, tn_error *error)
 {
-    answering a = {.e = e};
-    tn_status status = tn_house_rules_witness(e->judge.rules, function, write_found, &a, error);
-    end_question(&a);
-    return status;
+    answering a = {e, why};
+    return tn_house_rules_witness(e->judge.rules, function, see_found, &a, error);
 }
 
 /* ---- tiles */
 
-static tn_status write_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile, tn_error *error)
+static tn_status add_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile, tn_bare_cell *bare, tn_error *error)
 {
     const tn_tile_record *record = &e->judge.module->TILE_records[tile];
     tn_tile_failure failure;
@@ -199,98 +182,71 @@ static tn_status write_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile
     if (status != TN_OK)
         return status;
     tn_tile_failure_text(&e->judge.form, tile, &failure, tn_house_length_style(&e->house), text, sizeof text);
-    const char *name = tn_text(e->judge.module, record->name);
-    if (!e->json) {
-        tn_buffer_printf(&e->text, "    %s: %s\n", name, text);
-        return TN_OK;
-    }
-    tn_json_object(e->json, NULL);
-    tn_json_string(e->json, "tile", name);
-    tn_json_string(e->json, "why", text);
-    tn_json_object_end(e->json);
-    return TN_OK;
+    tn_failing_tile *to = TN_ADD(failing_tile, bare->tiles, error);
+    if (!to)
+        return TN_MEMORY;
+    to->tile = tn_text(e->judge.module, record->name);
+    to->why = strdup(text);
+    return to->why ? TN_OK : tn_fail_memory(error);
 }
 
-static tn_status write_bare(tn_house_explaining *e, uint32_t cell, tn_error *error)
+static tn_status add_bare(tn_house_explaining *e, uint32_t cell, tn_list *list, tn_error *error)
 {
     const tn_form_record *form = e->judge.form.record;
     char text[96];
-    tn_status status = TN_OK;
     tn_cell_text(&e->house, cell, text, sizeof text);
-    if (e->json) {
-        tn_json_object(e->json, NULL);
-        tn_json_string(e->json, "cell", text);
-        tn_json_list(e->json, "tiles");
-    } else {
-        tn_buffer_printf(&e->text, "- no tile stands in %s, so this is no house of any library\n", text);
-    }
+    tn_bare_cell *bare = tn_message_add(&tn_message_bare_cell, list, error);
+    if (!bare)
+        return TN_MEMORY;
+    bare->usable = true;
+    bare->cell = strdup(text);
+    tn_status status = bare->cell ? TN_OK : tn_fail_memory(error);
     for (uint32_t t = form->tile_first; status == TN_OK && t < form->tile_first + form->tile_count; t++)
         if (tn_tile_is_for(&e->house, cell, t))
-            status = write_tile(e, cell, t, error);
-    if (e->json) {
-        tn_json_list_end(e->json);
-        tn_json_object_end(e->json);
-    }
+            status = add_tile(e, cell, t, bare, error);
     return status;
 }
 
-tn_status tn_explain_next_bare(const tn_house_explaining *e, uint32_t *cell, tn_error *error)
+static tn_status is_bare(const tn_house_explaining *e, uint32_t cell, bool *bare, tn_error *error)
+{
+    tn_variants tiles;
+    tn_status status = tn_tile_variants(&e->house, cell, &tiles, error);
+    *bare = status == TN_OK && tiles.wanted && tiles.count == 0;
+    tn_variants_clear(&tiles);
+    return status;
+}
+
+tn_status tn_explain_bare(tn_house_explaining *e, tn_list *list, tn_error *error)
 {
     tn_status status = TN_OK;
-    for (; *cell < e->house.cell_count; ++*cell) {
-        tn_variants tiles;
-        status = tn_tile_variants(&e->house, *cell, &tiles, error);
-        bool bare = status == TN_OK && tiles.wanted && tiles.count == 0;
-        tn_variants_clear(&tiles);
-        if (bare || status != TN_OK)
-            return status;
+    for (uint32_t cell = 0; status == TN_OK && cell < e->house.cell_count; cell++) {
+        bool bare = false;
+        status = is_bare(e, cell, &bare, error);
+        if (status == TN_OK && bare)
+            status = add_bare(e, cell, list, error);
     }
-    return status;
-}
-
-tn_status tn_explain_tiles(tn_house_explaining *e, tn_error *error)
-{
-    uint32_t cell = 0;
-    if (e->json)
-        tn_json_list(e->json, "bare");
-    tn_status status = tn_explain_next_bare(e, &cell, error);
-    while (status == TN_OK && cell < e->house.cell_count) {
-        status = write_bare(e, cell++, error);
-        if (status == TN_OK)
-            status = tn_explain_next_bare(e, &cell, error);
-    }
-    if (e->json)
-        tn_json_list_end(e->json);
     return status;
 }
 
 /* ---- openings behind lower roofs */
 
-void tn_explain_behind_roofs(tn_house_explaining *e)
+tn_status tn_explain_covered(tn_house_explaining *e, tn_list *list, tn_error *error)
 {
-    tn_behind_roof behind;
-    bool any = false;
-    if (e->json)
-        tn_json_list(e->json, "behind_roofs");
     for (uint32_t i = 0; i < e->house.face_count; i++) {
         char face[256], why[200];
+        tn_behind_roof behind;
         if (!tn_face_behind_roof(&e->house, &e->house.faces[i], TN_NO_RECORD, &behind))
             continue;
-        const char *opening = tn_form_kind_text(&e->judge.form, behind.kind);
+        tn_covered_opening *to = tn_message_add(&tn_message_covered_opening, list, error);
+        if (!to)
+            return TN_MEMORY;
         tn_face_text(&e->house, i, face, sizeof face);
         tn_behind_roof_text(&e->house, &behind, why, sizeof why);
-        if (e->json) {
-            tn_json_object(e->json, NULL);
-            tn_json_string(e->json, "face", face);
-            tn_json_string(e->json, "opening", opening);
-            tn_json_string(e->json, "why", why);
-            tn_json_object_end(e->json);
-        } else {
-            tn_buffer_printf(&e->text, "%s    %s: `%s` does not fit, as %s\n", any ? "" : "behind lower roofs:\n", face,
-                             opening, why);
-        }
-        any = true;
+        to->opening = tn_form_kind_text(&e->judge.form, behind.kind);
+        to->face = strdup(face);
+        to->why = strdup(why);
+        if (!to->face || !to->why)
+            return tn_fail_memory(error);
     }
-    if (e->json)
-        tn_json_list_end(e->json);
+    return TN_OK;
 }

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/explain.h"
 #include "driver/house/change_text.h"
-#include "cli/house/explained_parts.h"
 
 enum { NEAREST_MAX = 5 };
 
@@ -12,40 +12,35 @@ enum { NEAREST_MAX = 5 };
 
 typedef struct nearing {
     tn_house_explaining *e;
-    size_t count;
+    tn_explained_house *explained;
 } nearing;
 
-static void write_change(tn_house_explaining *e, const char *heading, const tn_change_words *w)
+static tn_status set_words(const tn_change_words *w, char **where, char **from, char **to, tn_error *error)
 {
-    tn_buffer_printf(&e->text, "%s    %s: %s for %s\n", heading, w->where, w->to, w->from);
+    *where = strdup(w->where);
+    *from = strdup(w->from);
+    *to = strdup(w->to);
+    return *where && *from && *to ? TN_OK : tn_fail_memory(error);
 }
 
-/* Members of the object that is open. */
-static void write_change_json(tn_json *json, const tn_change_words *w)
-{
-    tn_json_string(json, "where", w->where);
-    tn_json_string(json, "from", w->from);
-    tn_json_string(json, "to", w->to);
-}
-
-static tn_status write_near(void *context, const tn_house_change *change, const tn_house *changed, tn_error *error)
+static tn_status see_near(void *context, const tn_house_change *change, const tn_house *changed, tn_error *error)
 {
     nearing *n = context;
     tn_change_words w;
     tn_buffer line = {0};
-    if (n->count++ >= NEAREST_MAX)
-        return TN_OK;
-    tn_change_text(&n->e->house, change, &w);
-    if (!n->e->json) {
-        write_change(n->e, n->count == 1 ? "kept with one change:\n" : "", &w);
+    if (n->explained->nearest.count == NEAREST_MAX) {
+        n->explained->more++;
         return TN_OK;
     }
-    tn_status status = tn_house_write(changed, &line, error);
-    tn_json_object(n->e->json, NULL);
-    write_change_json(n->e->json, &w);
-    tn_json_string(n->e->json, "house", line.data);
-    tn_json_object_end(n->e->json);
-    free(line.data);
+    tn_nearest_house *near = TN_ADD(nearest_house, n->explained->nearest, error);
+    if (!near)
+        return TN_MEMORY;
+    tn_change_text(&n->e->house, change, &w);
+    near->has_where = near->has_from = near->has_to = true;
+    tn_status status = set_words(&w, &near->where, &near->from, &near->to, error);
+    if (status == TN_OK)
+        status = tn_house_write(changed, &line, error);
+    near->house = line.data;
     return status;
 }
 
@@ -173,19 +168,15 @@ static tn_status expand(beam *b, size_t parent, tn_error *error)
 }
 
 /* The changes that lead to a node, the first first. */
-static void write_steps(const beam *b, size_t node)
+static tn_status add_steps(const beam *b, size_t node, tn_nearest_house *near, tn_error *error)
 {
-    if (b->nodes[node].parent != 0)
-        write_steps(b, b->nodes[node].parent);
-    bool first = b->nodes[node].parent == 0;
-    tn_house_explaining *e = b->e;
-    if (e->json) {
-        tn_json_object(e->json, NULL);
-        write_change_json(e->json, &b->nodes[node].words);
-        tn_json_object_end(e->json);
-    } else {
-        write_change(e, first ? "kept with these changes together:\n" : "", &b->nodes[node].words);
+    if (b->nodes[node].parent != 0) {
+        tn_status status = add_steps(b, b->nodes[node].parent, near, error);
+        if (status != TN_OK)
+            return status;
     }
+    tn_house_step *step = TN_ADD(house_step, near->changes, error);
+    return step ? set_words(&b->nodes[node].words, &step->where, &step->from, &step->to, error) : TN_MEMORY;
 }
 
 /* *depth: how many changes lead to the kept house that is found first in its level, or 0. */
@@ -209,19 +200,14 @@ static tn_status search(beam *b, int *depth, tn_error *error)
     return status;
 }
 
-static void write_found(const beam *b)
+static tn_status add_found(const beam *b, tn_explained_house *explained, tn_error *error)
 {
-    tn_json *json = b->e->json;
-    if (!json) {
-        write_steps(b, b->first);
-        return;
-    }
-    tn_json_object(json, NULL);
-    tn_json_list(json, "changes");
-    write_steps(b, b->first);
-    tn_json_list_end(json);
-    tn_json_string(json, "house", b->nodes[b->first].line);
-    tn_json_object_end(json);
+    tn_nearest_house *near = TN_ADD(nearest_house, explained->nearest, error);
+    if (!near)
+        return TN_MEMORY;
+    near->has_changes = true;
+    near->house = strdup(b->nodes[b->first].line);
+    return near->house ? add_steps(b, b->first, near, error) : tn_fail_memory(error);
 }
 
 static void clear_beam(beam *b)
@@ -231,7 +217,7 @@ static void clear_beam(beam *b)
 }
 
 /* Some houses are found sooner where the section is left alone, others where it is changed first: both are tried. */
-static tn_status explain_several(tn_house_explaining *e, bool *found, tn_error *error)
+static tn_status find_several(tn_house_explaining *e, tn_explained_house *explained, tn_error *error)
 {
     beam *both = calloc(2, sizeof *both);
     int depth[2] = {0};
@@ -241,30 +227,18 @@ static tn_status explain_several(tn_house_explaining *e, bool *found, tn_error *
         both[i].few_sections = i == 0;
         status = search(&both[i], &depth[i], error);
     }
-    *found = status == TN_OK && (depth[0] > 0 || depth[1] > 0);
     bool second = depth[0] == 0 || (depth[1] > 0 && depth[1] < depth[0]);
-    if (*found)
-        write_found(&both[second]);
+    if (status == TN_OK && (depth[0] > 0 || depth[1] > 0))
+        status = add_found(&both[second], explained, error);
     for (int i = 0; both && i < 2; i++)
         clear_beam(&both[i]);
     free(both);
     return status;
 }
 
-tn_status tn_explain_nearest(tn_house_explaining *e, tn_error *error)
+tn_status tn_explain_nearest(tn_house_explaining *e, tn_explained_house *explained, tn_error *error)
 {
-    nearing n = {.e = e};
-    bool found = false;
-    if (e->json)
-        tn_json_list(e->json, "nearest");
-    tn_status status = tn_house_changes(&e->house, e->judge.rules, e->library, TN_NO_CELL, write_near, &n, error);
-    if (status == TN_OK && n.count == 0)
-        status = explain_several(e, &found, error);
-    if (e->json)
-        tn_json_list_end(e->json);
-    else if (status == TN_OK && n.count > NEAREST_MAX)
-        tn_buffer_printf(&e->text, "    and %zu more\n", n.count - NEAREST_MAX);
-    else if (status == TN_OK && n.count == 0 && !found)
-        tn_buffer_printf(&e->text, "no house that differs by a few choices was found to be kept\n");
-    return status;
+    nearing n = {e, explained};
+    tn_status status = tn_house_changes(&e->house, e->judge.rules, e->library, TN_NO_CELL, see_near, &n, error);
+    return status == TN_OK && explained->nearest.count == 0 ? find_several(e, explained, error) : status;
 }
