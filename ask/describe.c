@@ -146,7 +146,7 @@ static void write_kind(tn_json *json, const tn_message_member *m)
 
 static void write_member(tn_json *json, const char *key, const tn_message_member *m)
 {
-    bool nullable = m->presence == TN_NULLABLE;
+    bool nullable = m->presence == TN_NULLABLE || m->presence == TN_SOMETIMES;
     tn_json_object(json, key);
     tn_json_string(json, "description", m->doc);
     if (nullable) {
@@ -171,7 +171,7 @@ static void write_members(tn_json *json, const tn_message *message)
         if (m->kind == TN_MESSAGE_PART)
             write_members(json, m->of);
         else if (is_said(m))
-            write_member(json, message->tuple ? NULL : m->name, m);
+            write_member(json, message->form == TN_MESSAGE_TUPLE ? NULL : m->name, m);
     }
 }
 
@@ -213,10 +213,17 @@ static void write_definition(tn_json *json, const tn_message *message)
 {
     tn_json_object(json, message->name);
     tn_json_string(json, "description", message->doc);
-    if (message->tuple)
-        write_tuple(json, message);
-    else
+    switch (message->form) {
+    case TN_MESSAGE_OBJECT:
         write_object(json, message);
+        break;
+    case TN_MESSAGE_TUPLE:
+        write_tuple(json, message);
+        break;
+    case TN_MESSAGE_LISTING:
+        write_kind(json, &message->members[0]);
+        break;
+    }
     tn_json_object_end(json);
 }
 
@@ -313,7 +320,16 @@ static void write_property(const tn_message_member *m, FILE *out)
     fprintf(out, "  /** %s%s%s%s */\n  %s%s: ", m->doc, *m->unit ? " (" : "", m->unit, *m->unit ? ")" : "", m->name,
             is_required(m) ? "" : "?");
     write_type(m, out);
-    fputs(m->presence == TN_NULLABLE ? " | null;\n" : ";\n", out);
+    fputs(m->presence == TN_NULLABLE || m->presence == TN_SOMETIMES ? " | null;\n" : ";\n", out);
+}
+
+static void write_listing_type(const tn_message *message, FILE *out)
+{
+    fprintf(out, "/** %s */\nexport type ", message->doc);
+    write_type_name(message->name, out);
+    fputs(" = ", out);
+    write_type(&message->members[0], out);
+    fputs(";\n\n", out);
 }
 
 static void write_tuple_type(const tn_message *message, FILE *out)
@@ -358,7 +374,9 @@ void tn_describe_types(FILE *out)
           "\"7/2\".\n\n",
           out);
     for (size_t i = 0; i < tn_message_count; i++)
-        if (tn_messages[i]->tuple)
+        if (tn_messages[i]->form == TN_MESSAGE_LISTING)
+            write_listing_type(tn_messages[i], out);
+        else if (tn_messages[i]->form == TN_MESSAGE_TUPLE)
             write_tuple_type(tn_messages[i], out);
         else if (!is_used_as(tn_messages[i], TN_MESSAGE_MAP)) /* which is written as a Record */
             write_interface(tn_messages[i], out);
@@ -412,7 +430,7 @@ static void write_row_kind(const tn_message_member *m, FILE *out)
         write_row_kind(valued(m), out);
     else if (m->of)
         write_link(m->of, out);
-    if (m->presence == TN_NULLABLE)
+    if (m->presence == TN_NULLABLE || m->presence == TN_SOMETIMES)
         fputs(", or null", out);
 }
 
@@ -433,7 +451,10 @@ static void write_rows(const tn_message *message, FILE *out)
 static void write_table(const tn_message *message, FILE *out)
 {
     fprintf(out, "\n### %s\n\n%c%s%s.\n\n| member | is | of | |\n| --- | --- | --- | --- |\n", message->name,
-            message->doc[0] - 'a' + 'A', message->doc + 1, message->tuple ? "; a list of these" : "");
+            message->doc[0] - 'a' + 'A', message->doc + 1,
+            message->form == TN_MESSAGE_TUPLE     ? "; a list of these"
+            : message->form == TN_MESSAGE_LISTING ? "; this list"
+                                                  : "");
     write_rows(message, out);
 }
 

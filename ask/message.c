@@ -24,6 +24,7 @@ static bool is_said(const tn_message_member *m, const void *value)
 {
     switch (m->presence) {
     case TN_OPTIONAL:
+    case TN_SOMETIMES:
     case TN_NULLABLE:
         return *(const bool *)look(value, m->has);
     case TN_UNSAID:
@@ -185,9 +186,9 @@ static void write_texts(const char *key, const char *const *items, size_t count,
     tn_json_list_end(json);
 }
 
-static void write_list(const tn_message_member *m, const tn_list *list, tn_json *json)
+static void write_list(const tn_message_member *m, const char *key, const tn_list *list, tn_json *json)
 {
-    tn_json_list(json, m->name);
+    tn_json_list(json, key);
     for (size_t i = 0; i < list->count; i++)
         tn_message_write(m->of, (const char *)list->items + i * m->of->size, NULL, json);
     tn_json_list_end(json);
@@ -249,7 +250,7 @@ static void write_value(const tn_message_member *m, const char *key, const void 
         write_members(m->of, member, json);
         break;
     case TN_MESSAGE_LIST:
-        write_list(m, member, json);
+        write_list(m, key, member, json);
         break;
     case TN_MESSAGE_MAP:
         write_map(m, key, member, json);
@@ -264,7 +265,7 @@ static void write_members(const tn_message *message, const void *value, tn_json 
 {
     for (size_t i = 0; i < message->member_count; i++) {
         const tn_message_member *m = &message->members[i];
-        const char *key = message->tuple ? NULL : m->name;
+        const char *key = message->form == TN_MESSAGE_TUPLE ? NULL : m->name;
         if (is_said(m, value))
             write_value(m, key, look(value, m->offset), json);
         else if (m->presence == TN_NULLABLE)
@@ -274,15 +275,21 @@ static void write_members(const tn_message *message, const void *value, tn_json 
 
 void tn_message_write(const tn_message *message, const void *value, const char *key, tn_json *json)
 {
-    if (message->tuple)
-        tn_json_list(json, key);
-    else
+    switch (message->form) {
+    case TN_MESSAGE_OBJECT:
         tn_json_object(json, key);
-    write_members(message, value, json);
-    if (message->tuple)
-        tn_json_list_end(json);
-    else
+        write_members(message, value, json);
         tn_json_object_end(json);
+        break;
+    case TN_MESSAGE_TUPLE:
+        tn_json_list(json, key);
+        write_members(message, value, json);
+        tn_json_list_end(json);
+        break;
+    case TN_MESSAGE_LISTING:
+        write_value(&message->members[0], key, look(value, message->members[0].offset), json);
+        break;
+    }
 }
 
 /* ---- read */

@@ -40,6 +40,7 @@ typedef enum tn_message_presence {
     TN_PRESENT,   /* always there; a request without it is wrong */
     TN_DEFAULTED, /* of a request: zero, NULL or none unless it is given */
     TN_OPTIONAL,  /* only if has_NAME says so */
+    TN_SOMETIMES, /* of an owned text: the same, and null if it is NULL */
     TN_NULLABLE,  /* null unless has_NAME says so */
     TN_UNSAID,    /* always there, but no part of JSON */
 } tn_message_presence;
@@ -71,16 +72,23 @@ typedef struct tn_message_member {
     tn_message_kind kind;
     tn_message_presence presence;
     size_t offset;
-    size_t has;                  /* the offset of has_NAME, if it is TN_OPTIONAL or TN_NULLABLE */
+    size_t has;                  /* the offset of has_NAME, if it is TN_OPTIONAL, TN_SOMETIMES or TN_NULLABLE */
     const struct tn_message *of; /* of messages: their type */
     uint64_t least, most;        /* of numbers of requests; both are 0 otherwise */
     const char *unit;            /* "" if it has none */
     const char *doc;             /* one sentence */
 } tn_message_member;
 
+/* What it is in JSON. */
+typedef enum tn_message_form {
+    TN_MESSAGE_OBJECT,
+    TN_MESSAGE_TUPLE,   /* a list of its members' values */
+    TN_MESSAGE_LISTING, /* the value of its one member, a list */
+} tn_message_form;
+
 typedef struct tn_message {
     const char *name, *doc;
-    bool tuple; /* in JSON a list of its members' values */
+    tn_message_form form;
     size_t size;
     const tn_message_member *members;
     size_t member_count;
@@ -99,7 +107,7 @@ void *tn_message_add(const tn_message *message, tn_list *list, tn_error *error);
 /* Takes the text (malloc) into the list, also if that fails. NULL is TN_MEMORY. */
 tn_status tn_owneds_add(tn_owneds *texts, char *text, tn_error *error);
 
-/* Writes the message as an object, a tuple as a list. */
+/* Writes the message in its form. */
 void tn_message_write(const tn_message *message, const void *value, const char *key, tn_json *json);
 
 /* Reads an object into a message that was initialised, and borrows its texts. TN_INVALID names what it does not know,

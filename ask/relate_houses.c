@@ -1,12 +1,14 @@
 /* Relates the clauses of a library of houses: how many houses match each of two, and how many both? */
-#include "cli/house/related.h"
-
 #include <stdlib.h>
-#include <string.h>
 
-#include "cli/house/houses.h"
+#include "ask/numbered.h"
+#include "ask/relations.h"
 #include "driver/open/findings.h"
+#include "runtime/base/crew.h"
 #include "runtime/base/integers.h"
+
+/* What two clauses make of a house. */
+typedef enum pair_part { BOTH, ONLY_A, ONLY_B } pair_part;
 
 typedef struct relating {
     tn_numbered n;
@@ -14,7 +16,6 @@ typedef struct relating {
     bool *counted;  /* [clause] that is known */
     bool *passed;   /* [clause] that passes the limit */
     bool examples;
-    tn_related_houses *related;
     tn_error limit; /* the first */
     size_t unknown;
 } relating;
@@ -93,12 +94,12 @@ static tn_status count_clause(relating *r, size_t i, tn_error *error)
     return status;
 }
 
-static tn_status count_kind(const relating *r, size_t i, size_t j, tn_related_kind kind, mpz_t houses, tn_error *error)
+static tn_status count_kind(const relating *r, size_t i, size_t j, pair_part part, mpz_t houses, char **example,
+                            tn_error *error)
 {
     tn_house_clause_record clauses[2] = {*clause_of(r, i), *clause_of(r, j)};
-    clauses[0].kind = kind == TN_RELATED_ONLY_B ? TN_CLAUSE_PRUNE : TN_CLAUSE_REQUIRE;
-    clauses[1].kind = kind == TN_RELATED_ONLY_A ? TN_CLAUSE_PRUNE : TN_CLAUSE_REQUIRE;
-    char **example = &r->related->examples[(i * r->related->count + j) * TN_RELATED_KINDS + kind];
+    clauses[0].kind = part == ONLY_B ? TN_CLAUSE_PRUNE : TN_CLAUSE_REQUIRE;
+    clauses[1].kind = part == ONLY_A ? TN_CLAUSE_PRUNE : TN_CLAUSE_REQUIRE;
     return count_kept(r, clauses, 2, houses, r->examples ? example : NULL, error);
 }
 
@@ -112,109 +113,106 @@ static tn_rule_relation relation_of(const mpz_t a, const mpz_t b, const mpz_t bo
     return inside ? TN_RULES_INSIDE : contains ? TN_RULES_CONTAINS : TN_RULES_OVERLAP;
 }
 
-static tn_rule_relation turned(tn_rule_relation relation)
-{
-    return relation == TN_RULES_INSIDE ? TN_RULES_CONTAINS : relation == TN_RULES_CONTAINS ? TN_RULES_INSIDE : relation;
-}
-
-static tn_status relate_pair(relating *r, size_t i, size_t j, tn_rule_relation *relation, tn_error *error)
+static tn_status relate_counted(const relating *r, size_t i, size_t j, tn_related_pair *pair, tn_error *error)
 {
     mpz_t both, only;
     mpz_inits(both, only, NULL);
-    tn_status status = count_clause(r, i, error);
+    tn_status status = count_kind(r, i, j, BOTH, both, &pair->both, error);
     if (status == TN_OK)
-        status = count_clause(r, j, error);
-    if (status == TN_OK)
-        status = count_kind(r, i, j, TN_RELATED_BOTH, both, error);
-    if (status == TN_OK)
-        *relation = relation_of(r->matched[i], r->matched[j], both);
+        pair->relation = tn_relation_word(relation_of(r->matched[i], r->matched[j], both));
     if (status == TN_OK && r->examples && mpz_cmp(r->matched[i], both) > 0)
-        status = count_kind(r, i, j, TN_RELATED_ONLY_A, only, error);
+        status = count_kind(r, i, j, ONLY_A, only, &pair->only_a, error);
     if (status == TN_OK && r->examples && mpz_cmp(r->matched[j], both) > 0)
-        status = count_kind(r, i, j, TN_RELATED_ONLY_B, only, error);
+        status = count_kind(r, i, j, ONLY_B, only, &pair->only_b, error);
     mpz_clears(both, only, NULL);
     return status;
 }
 
-static tn_status relate(relating *r, tn_error *error)
+static tn_status relate_pair(relating *r, size_t i, size_t j, tn_related_pair *pair, tn_error *error)
 {
-    size_t count = r->related->count;
-    tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && i < count; i++) {
-        r->related->relations[i * count + i] = TN_RULES_EQUAL;
-        for (size_t j = i + 1; status == TN_OK && j < count; j++) {
-            tn_rule_relation relation = TN_RULES_UNKNOWN;
-            status = relate_pair(r, i, j, &relation, error);
-            if (status == TN_LIMIT && r->unknown++ == 0)
-                r->limit = *error;
-            status = status == TN_LIMIT ? TN_OK : status;
-            r->related->relations[i * count + j] = relation;
-            r->related->relations[j * count + i] = turned(relation);
-        }
-    }
+    const tn_module *module = r->n.form.module;
+    pair->a = tn_text(module, clause_of(r, i)->name);
+    pair->b = tn_text(module, clause_of(r, j)->name);
+    pair->relation = tn_relation_word(TN_RULES_UNKNOWN);
+    pair->has_both = pair->has_only_a = pair->has_only_b = r->examples;
+    tn_status status = count_clause(r, i, error);
+    if (status == TN_OK)
+        status = count_clause(r, j, error);
+    if (status == TN_OK)
+        status = relate_counted(r, i, j, pair, error);
+    if (status == TN_LIMIT && r->unknown++ == 0)
+        r->limit = *error;
+    return status == TN_LIMIT ? TN_OK : status;
+}
+
+static tn_status relate(relating *r, tn_related *related, tn_error *error)
+{
+    size_t count = r->n.record->clause_count, pair = 0;
+    tn_status status = TN_NEW_LIST(related_pair, related->relations, count * (count - (count > 0)) / 2, error);
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = i + 1; status == TN_OK && j < count; j++)
+            status = relate_pair(r, i, j, &related->relations.items[pair++], error);
     return status;
 }
 
 /* ---- all of it */
 
-static bool make_room(relating *r)
+static tn_status begin(relating *r, tn_related *related, tn_error *error)
 {
-    tn_related_houses *related = r->related;
+    const tn_module *module = r->n.form.module;
     size_t count = r->n.record->clause_count;
-    related->library = tn_text(r->n.form.module, r->n.record->name);
-    related->count = count;
-    related->names = calloc(count + 1, sizeof *related->names);
-    related->relations = calloc(count * count + 1, sizeof *related->relations);
-    related->examples = calloc(count * count * TN_RELATED_KINDS + 1, sizeof *related->examples);
+    related->has_library = related->has_clauses = true;
+    related->library = tn_text(module, r->n.record->name);
+    related->clauses.items = calloc(count + 1, sizeof *related->clauses.items);
     r->matched = tn_integers_new(count);
     r->counted = calloc(count + 1, sizeof *r->counted);
     r->passed = calloc(count + 1, sizeof *r->passed);
-    if (!related->names || !related->relations || !related->examples || !r->matched || !r->counted || !r->passed)
-        return false;
+    if (!related->clauses.items || !r->matched || !r->counted || !r->passed)
+        return tn_fail_memory(error);
+    related->clauses.count = count;
     for (size_t i = 0; i < count; i++)
-        related->names[i] = tn_text(r->n.form.module, clause_of(r, i)->name);
-    return true;
+        related->clauses.items[i] = tn_text(module, clause_of(r, i)->name);
+    return TN_OK;
 }
 
 /* The limit that the first pair passed. */
 static void say_unknown(relating *r)
 {
     const tn_house_library_record *record = r->n.record;
+    size_t count = record->clause_count;
     tn_span place = {record->file, record->begin, record->end};
+    tn_opened *opened = r->n.session->opened;
     tn_error_help(&r->limit, "--max-states N allows more; a library on plans of fewer trays takes fewer");
-    tn_diagnostic *d = tn_finding_limit(&tn_numbered_job(&r->n)->opened, &r->limit, &place);
-    tn_note(tn_job_diagnostics(tn_numbered_job(&r->n)), d, NULL, "so %zu of %zu pairs of clauses are not related",
-            r->unknown, r->related->count * (r->related->count - 1) / 2);
+    tn_diagnostic *d = tn_finding_limit(opened, &r->limit, &place);
+    tn_note(&opened->compilation.diagnostics, d, NULL, "so %zu of %zu pairs of clauses are not related", r->unknown,
+            count * (count - 1) / 2);
 }
 
-bool tn_job_relate_houses(tn_job *job, const tn_house_settings *settings, bool examples, tn_related_houses *related)
+tn_status tn_relate_houses(tn_session *session, const tn_relations_request *request,
+                           const tn_house_library_record *library, tn_related *related)
 {
-    relating r = {.examples = examples, .related = related};
+    relating r = {.examples = request->examples};
+    const tn_house_settings settings = {
+        .library = tn_text(session->opened->module, library->name),
+        .plans = {.max_states = (uint32_t)request->max_states,
+                  .threads = request->has_threads ? (unsigned)request->threads : tn_crew_default()},
+    };
     tn_error error;
-    *related = (tn_related_houses){0};
-    tn_status status = TN_INVALID;
-    if (tn_job_numbered(job, &r.n, settings)) {
+    tn_status status = tn_numbered_open(&r.n, session, &settings);
+    if (status == TN_OK) {
         if (!r.n.max_states)
             r.n.max_states = TN_RELATED_STATES;
-        status = make_room(&r) ? relate(&r, &error) : tn_fail_memory(&error);
+        status = begin(&r, related, &error);
+        if (status == TN_OK)
+            status = relate(&r, related, &error);
         if (status != TN_OK)
-            tn_job_fail(job, &error);
-        if (status == TN_OK && r.unknown)
+            tn_session_fail(session, &error);
+        else if (r.unknown)
             say_unknown(&r);
+        tn_integers_free(r.matched, library->clause_count);
     }
-    tn_integers_free(r.matched, related->count);
     tn_numbered_close(&r.n);
     free(r.counted);
     free(r.passed);
-    return status == TN_OK;
-}
-
-void tn_related_houses_clear(tn_related_houses *related)
-{
-    for (size_t i = 0; related->examples && i < related->count * related->count * TN_RELATED_KINDS; i++)
-        free(related->examples[i]);
-    free(related->examples);
-    free(related->relations);
-    free(related->names);
-    *related = (tn_related_houses){0};
+    return status;
 }

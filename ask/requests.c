@@ -13,6 +13,7 @@
 #define HAS_UNSAID(OWNER, NAME) 0
 #define HAS_DEFAULTED(OWNER, NAME) 0
 #define HAS_OPTIONAL(OWNER, NAME) offsetof(tn_##OWNER, has_##NAME)
+#define HAS_SOMETIMES(OWNER, NAME) offsetof(tn_##OWNER, has_##NAME)
 #define HAS_NULLABLE(OWNER, NAME) offsetof(tn_##OWNER, has_##NAME)
 
 #define TN_MESSAGE(NAME, DOC) static const tn_message_member NAME##_members[] = {
@@ -48,11 +49,12 @@
     ;
 #include "ask/requests.def"
 
-#define DEFINE(NAME, DOC, TUPLE)                                                                                       \
+#define DEFINE(NAME, DOC, FORM)                                                                                        \
     const tn_message tn_message_##NAME = {                                                                             \
-        #NAME, DOC, TUPLE, sizeof(tn_##NAME), NAME##_members, sizeof NAME##_members / sizeof *NAME##_members};
-#define TN_MESSAGE(NAME, DOC) DEFINE(NAME, DOC, false)
-#define TN_TUPLE(NAME, DOC) DEFINE(NAME, DOC, true)
+        #NAME, DOC, FORM, sizeof(tn_##NAME), NAME##_members, sizeof NAME##_members / sizeof *NAME##_members};
+#define TN_MESSAGE(NAME, DOC) DEFINE(NAME, DOC, TN_MESSAGE_OBJECT)
+#define TN_TUPLE(NAME, DOC) DEFINE(NAME, DOC, TN_MESSAGE_TUPLE)
+#define TN_LISTING(NAME, DOC) DEFINE(NAME, DOC, TN_MESSAGE_LISTING)
 #include "ask/requests.def"
 
 const tn_message *const tn_messages[] = {
@@ -123,6 +125,6 @@ void tn_reply_clear(tn_reply *answer)
 
 tn_json_layout tn_reply_layout(const tn_reply *answer)
 {
-    bool lines = TN_REPLY(counted_plans, answer) || TN_REPLY(counted_values, answer);
+    bool lines = TN_REPLY(counted_plans, answer) || TN_REPLY(counted_values, answer) || TN_REPLY(relations, answer);
     return lines ? TN_JSON_LINES : TN_JSON_TIGHT;
 }

@@ -40,6 +40,7 @@ struct tn_session;
 #define TN_HAS_UNSAID(NAME)
 #define TN_HAS_DEFAULTED(NAME)
 #define TN_HAS_OPTIONAL(NAME) bool has_##NAME;
+#define TN_HAS_SOMETIMES(NAME) bool has_##NAME;
 #define TN_HAS_NULLABLE(NAME) bool has_##NAME;
 
 /* The structs, and how each is described. */

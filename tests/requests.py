@@ -26,6 +26,7 @@ ASKED = {
         "explain terrace #1000", "explain terrace 4m_one_end_left_eaves_-_none --where trays=1", "explain terrace 4m_one_end_left_eaves_-_none --rule step",
         "explain cottage #10", "explain cottage #10:3", "explain cottage #10: --library cottages",
     ],
+    "relations": ["check terrace --relations", "check cottage --relations --max-states 40", "check cottage --relations --examples --max-states 40"],
 }
 wrong = []
 
@@ -36,6 +37,10 @@ def answers_of(question):
 
 def spoiled(answer):
     """Answers that are not as the schema says."""
+    if isinstance(answer, list):
+        less = {key: value for key, value in answer[0].items() if not isinstance(value, list)}
+        yield from ([bad, *answer[1:]] for bad in (1, less, {**answer[0], "another": 1}))
+        return
     yield {**answer, "another": 1}
     for key in answer:
         less = copy.deepcopy(answer)

@@ -1,18 +1,10 @@
-/* The relations of a file's rules, and of the clauses of its libraries of houses, to one another, as `check
- * --relations` prints them. */
-#ifndef TARTAN_CLI_PLAN_RELATIONS_H
-#define TARTAN_CLI_PLAN_RELATIONS_H
+/* The relations of a file's rules, and of the clauses of its libraries of houses, as `check --relations` shows them. */
+#ifndef TARTAN_CLI_PLAN_RELATIONS_TEXT_H
+#define TARTAN_CLI_PLAN_RELATIONS_TEXT_H
 
-#include "cli/house/related.h"
-#include "driver/plan/analysis.h"
+#include "ask/requests.h"
 
-typedef struct tn_relations_options {
-    bool json;
-    bool examples; /* with the shortest plans that show each relation */
-} tn_relations_options;
-
-/* Writes a matrix for each schema, and for each library of houses. */
-tn_status tn_relations_write(const tn_plan_analyses *analyses, const tn_related_houses *houses, size_t house_count,
-                             const tn_relations_options *options, FILE *out, tn_error *error);
+/* A matrix for each schema, and for each library of houses; then the examples, if there are any. */
+void tn_relations_text(const tn_relations *relations, FILE *out);
 
 #endif

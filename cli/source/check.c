@@ -7,11 +7,12 @@
 #include "cli/common/option_rows.h"
 #include "cli/common/progress.h"
 #include "cli/plan/answers.h"
-#include "cli/plan/relations.h"
+#include "cli/plan/relations_text.h"
 #include "cli/solid/solid.h"
 #include "cli/source/fix.h"
 #include "cli/source/sarif.h"
 #include "driver/grammar/grammar_report.h"
+#include "driver/plan/analysis.h"
 
 typedef struct check_settings {
     tn_settings common;
@@ -72,67 +73,27 @@ static void report_solids(tn_job *job)
         test_solids(job);
 }
 
-static bool is_own_library(const tn_module *module, size_t i)
-{
-    return !(module->HOUSE_LIBRARY_records[i].flags & TN_IMPORTED);
-}
-
-static bool has_house_library(const tn_module *module)
-{
-    for (size_t i = 0; i < module->HOUSE_LIBRARY_count; i++)
-        if (is_own_library(module, i))
-            return true;
-    return false;
-}
-
-/* Relates the clauses of the file's libraries of houses. The caller clears them and frees the array, also after a
- * failure, which is recorded. */
-static bool relate_houses(tn_job *job, tn_related_houses **related, size_t *count)
+/* Analyses the rules, too. */
+static void relate(tn_job *job)
 {
     const check_settings *settings = settings_of(job);
-    const tn_module *module = job->opened.module;
-    tn_error error;
-    *count = 0;
-    *related = calloc(module->HOUSE_LIBRARY_count + 1, sizeof **related);
-    if (!*related) {
-        tn_fail_memory(&error);
-        tn_job_fail(job, &error);
-        return false;
-    }
-    for (size_t i = 0; i < module->HOUSE_LIBRARY_count; i++) {
-        const tn_house_settings houses = {
-            .library = tn_text(module, module->HOUSE_LIBRARY_records[i].name),
-            .plans = {.max_states = (uint32_t)settings->plans.max_states.value,
-                      .threads = tn_job_threads(&settings->plans)},
-        };
-        if (is_own_library(module, i) &&
-            !tn_job_relate_houses(job, &houses, settings->examples, &(*related)[(*count)++]))
-            return false;
-    }
-    return true;
-}
-
-static void write_relations(tn_job *job, const tn_plan_analyses *analyses)
-{
-    tn_relations_options options = {.json = settings_of(job)->json, .examples = settings_of(job)->examples};
+    const tn_relations_request request = {.examples = settings->examples,
+                                          .has_max_states = settings->plans.max_states.given,
+                                          .max_states = settings->plans.max_states.value,
+                                          .has_threads = settings->plans.threads.given,
+                                          .threads = settings->plans.threads.value};
+    tn_reply answer;
     tn_output output;
-    tn_error error;
-    tn_related_houses *houses = NULL;
-    size_t count = 0;
-    tn_progress progress;
-    tn_progress_watch(&progress, "relating the clauses", tn_interrupt_waiting());
-    bool related = relate_houses(job, &houses, &count);
-    tn_progress_unwatch(&progress, tn_interrupt_waiting());
+    bool answered = tn_job_answered(job, tn_ask_relations(&job->session, &request, &answer));
     tn_job_show(job);
-    if (related && tn_job_output(job, settings_of(job)->output, &output)) {
-        tn_status status = tn_relations_write(analyses, houses, count, &options, output.stream, &error);
-        if (status != TN_OK)
-            tn_job_fail(job, &error);
-        tn_job_close(job, &output, status == TN_OK);
+    if (answered && tn_job_output(job, settings->output, &output)) {
+        if (settings->json)
+            tn_job_write_json(&answer, output.stream);
+        else
+            tn_relations_text(TN_REPLY(relations, &answer), output.stream);
+        tn_job_commit(job, &output);
     }
-    for (size_t i = 0; i < count; i++)
-        tn_related_houses_clear(&houses[i]);
-    free(houses);
+    tn_reply_clear(&answer);
 }
 
 /* library: the one that is counted too, or NULL. */
@@ -148,8 +109,6 @@ static void analyse(tn_job *job, const tn_library *library)
     tn_status status = tn_plan_analyse(&job->opened, &options, &analyses);
     tn_progress_unwatch(&progress, tn_interrupt_waiting());
     tn_job_status(job, status);
-    if (status == TN_OK && settings->relations)
-        write_relations(job, &analyses);
     tn_plan_analyses_free(&analyses);
 }
 
@@ -252,8 +211,8 @@ static void check(tn_job *job, const char *path)
     const tn_module *module = job->opened.module;
     if (settings->figures && !tn_module_has_grammar(module))
         tn_job_usage(job, "--figures is about grammars, and %.200s is not one", path);
-    else if (settings->relations && module->RULE_count == 0 && !has_house_library(module))
-        tn_job_usage(job, "--relations is about rules of plans and libraries of houses, and %.200s has none", path);
+    else if (settings->relations)
+        relate(job);
     else if (tn_module_has_grammar(module))
         report_grammar(job);
     else if (tn_notation_of_module(module) == TN_NOTATION(pcfg))

@@ -14,7 +14,7 @@ requests=()
 as() {
     requests+=("$1")
     shift
-    "$TARTAN" "$question" "$file" "$@" --json >"$scratch/one" 2>"$scratch/said" ||
+    "$TARTAN" "${command[@]}" "$file" "$@" --json >"$scratch/one" 2>"$scratch/said" ||
         sed -nE '0,/^(.*: )?error(\[E[0-9]+\])?: /s/^(.*: )?error(\[E[0-9]+\])?: (.*)$/error \3/p' "$scratch/said" | head -n 1 >"$scratch/one"
     cat "$scratch/one" >>"$scratch/wanted"
 }
@@ -26,7 +26,7 @@ asked() {
     : >"$scratch/wanted"
 }
 
-question=count
+question=count command=(count)
 file=stdlib/lahave-houses.plan
 as '{}'
 as '{"mirror": true, "no_effects": true, "trays": {"from": 4, "to": 5}}' --mirror --no-effects --trays 4..5
@@ -61,7 +61,7 @@ as '{}'
 as '{"parts": 2, "by": "cost"}' --parts 2 --by cost
 asked
 
-question=explain
+question=explain command=(explain)
 file=stdlib/terrace.plan
 plan=$("$TARTAN" unrank "$file" 1000)
 as '{"plan": "#1000"}' '#1000'
@@ -82,6 +82,18 @@ as '{"house": "#500", "library": "cottages", "where": ["trays = 3"]}' '#500' --l
 as '{"plan": "#10:"}' '#10:'
 as '{"plan": "#10", "library": "cottage-rows"}' '#10' --library cottage-rows
 as '{"house": "a; b"}' 'a; b'
+asked
+
+question=relations command=(check --relations)
+file=stdlib/terrace.plan
+as '{}'
+as '{"examples": true, "threads": 2}' --examples --threads 2
+asked
+file=stdlib/cottage.plan
+as '{"max_states": 40, "examples": true}' --max-states 40 --examples
+asked
+file=stdlib/bricks.kit
+as '{}'
 asked
 
 # What only requests can get wrong.

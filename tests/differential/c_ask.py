@@ -41,9 +41,12 @@ def as_words(request):
             yield from [] if one is True else [str(one)]
 
 
+COMMANDS = {"relations": ["check", "--relations"]}                 # others have the question's name
+
+
 def by_command(subject, question, request):
     words = [word for word in as_words(request) if word != "--values"]
-    code, out, err = run(question, subject.path, *words, "--json")
+    code, out, err = run(*COMMANDS.get(question, [question]), subject.path, *words, "--json")
     said = re.search(r"^(?:.*?: )?error(?:\[E\d+\])?: (.*)$", err, re.M)
     return out if code == 0 else "error: " + (said.group(1) if said else err)
 
@@ -76,6 +79,7 @@ def c_ask(subject):
     if not os.path.exists(path) or "\nuse " in "\n" + subject.source.text:
         return
     requests = [("count", request) for request in counted(subject)] + [("explain", request) for request in explained(subject)]
+    requests += [("relations", {"max_states": 50, "examples": True})]
     lines = "".join(json.dumps(asked) + "\n" for asked in requests)
     done = subprocess.run([sys.executable, "-B", os.path.abspath(__file__), path, subject.path], input=lines, capture_output=True, text=True,
                           encoding="utf-8", timeout=300, env=environment())

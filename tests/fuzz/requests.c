@@ -54,8 +54,8 @@ static void check_json(const char *answer, const char *request)
 {
     json_error_t wrong;
     json_t *json = answer ? json_loads(answer, JSON_REJECT_DUPLICATES, &wrong) : NULL;
-    if (answer && !json_is_object(json))
-        fail("the answer is no JSON object", request);
+    if (answer && !json)
+        fail("the answer is no JSON", request);
     json_decref(json);
 }
 
@@ -89,6 +89,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (size_t i = 0; i < sizeof files / sizeof *files && !takes_long(request); i++) {
         check(files[i].path, files[i].text, "count", request);
         check(files[i].path, files[i].text, "explain", request);
+        check(files[i].path, files[i].text, "relations", request);
     }
     free(request);
     return 0;

@@ -50,7 +50,8 @@ static tartan_status ask(const tartan_module *module, tartan_error *error)
                  {"count", "{\"by\": \"long\"}"},
                  {"count", "{\"where\": [\"trays = 2\"], \"mirror\": true}"},
                  {"explain", "{\"plan\": \"#1\"}"},
-                 {"explain", "{\"plan\": \"1m lid | 2m lid\", \"nearest\": 2}"}};
+                 {"explain", "{\"plan\": \"1m lid | 2m lid\", \"nearest\": 2}"},
+                 {"relations", "{\"examples\": true}"}};
     tartan_session *session = NULL;
     tartan_status status = tartan_session_open("box.plan", text, sizeof text - 1, NULL, &session, error);
     for (size_t i = 0; i < sizeof asked / sizeof *asked && status == TARTAN_OK; i++) {
