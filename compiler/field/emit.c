@@ -24,15 +24,41 @@ typedef struct emit {
 
 /* ---- what all surfaces share */
 
+static uint32_t arity_of(const tn_field_node *node)
+{
+    return node->op == TN_OP_NUMBER || node->op == TN_OP_COORDINATE ? 0 : tn_code_effect((uint8_t)node->op).pops;
+}
+
+/* What a node is made of stands before it. */
+static bool has_coordinate(const emit *e, uint32_t node)
+{
+    bool *used = TN_NEW_ARRAY(e->arena, bool, (size_t)node + 1);
+    if (!used)
+        return false;
+    used[node] = true;
+    for (uint32_t i = node + 1; i-- > 0;) {
+        const tn_field_node *it = &e->nodes.items[i];
+        if (used[i] && (it->op == TN_OP_COORDINATE || it->op == TN_OP_MESH_DISTANCE))
+            return true;
+        for (uint32_t k = 0; used[i] && k < arity_of(it); k++)
+            used[it->in[k]] = true;
+    }
+    return false;
+}
+
 static double constant(emit *e, const tn_expression *of, const char *what, const char *help)
 {
     uint32_t node = tn_field_expand(&e->nodes, of);
     bool known = e->nodes.fits == TN_FIELD_FITS && e->nodes.count > node && e->nodes.items[node].op == TN_OP_NUMBER;
     if (known)
         return e->nodes.items[node].number;
-    tn_diagnostic *d = tn_report(e->diagnostics, E_FIELD_CONSTANT, of->span,
-                                 "%s is a number, but this depends on the point where it is computed", what);
-    tn_help(e->diagnostics, d, "%s", help);
+    bool fits = e->nodes.fits == TN_FIELD_FITS && e->nodes.count > node;
+    bool none = fits && !has_coordinate(e, node);
+    tn_diagnostic *d = tn_report(e->diagnostics, E_FIELD_CONSTANT, of->span, "%s is a number, but this %s", what,
+                                 none ? "has no value: a part of it is not defined, or is too large"
+                                      : "depends on the point where it is computed");
+    if (!none)
+        tn_help(e->diagnostics, d, "%s", help);
     e->wrong = true;
     return 0;
 }
@@ -163,11 +189,6 @@ typedef struct code {
     uint32_t *uses, *height, *local; /* of each node; local: one more than its number, where it is kept */
     uint32_t local_count;
 } code;
-
-static uint32_t arity_of(const tn_field_node *node)
-{
-    return node->op == TN_OP_NUMBER || node->op == TN_OP_COORDINATE ? 0 : tn_code_effect((uint8_t)node->op).pops;
-}
 
 /* Recursion is as deep as a part that is not kept: INLINE_MAX. */
 static void add_node(code *c, uint32_t index, bool whole)

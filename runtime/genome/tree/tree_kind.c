@@ -1,11 +1,13 @@
 /* Breeds trees of fields for evolution. */
 #include "runtime/genome/tree/tree_kind.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/buffer.h"
+#include "runtime/module/values.h"
 
 #define NAME "bred"
 
@@ -120,14 +122,28 @@ static void name_surface(const tn_tree_breeding *of, char name[24])
         snprintf(name, 24, NAME "_%u", i);
 }
 
+/* The language takes no numbers past TN_COORDINATE_MAX, but quotients of its numbers pass it: a power of two divides
+ * without rounding. */
+static void print_constant(const tn_gene_constant *constant, FILE *out)
+{
+    char number[TN_NUMBER_TEXT_SIZE];
+    int exponent = 0;
+    double value = constant->value;
+    bool large = fabs(value) > TN_COORDINATE_MAX;
+    if (large)
+        value = frexp(value, &exponent);
+    fprintf(out, "let %s = %s", constant->name, tn_number_text(value, number));
+    if (large)
+        fprintf(out, " / %s", tn_number_text(ldexp(1, -exponent), number));
+    fputc('\n', out);
+}
+
 static void print(const workplace *w, const tn_gene_tree *tree, FILE *out)
 {
     const tn_tree_breeding *of = w->of;
-    for (uint32_t i = 0; i < of->constant_count; i++) {
-        char number[TN_NUMBER_TEXT_SIZE];
+    for (uint32_t i = 0; i < of->constant_count; i++)
         if (uses(tree, i))
-            fprintf(out, "let %s = %s\n", of->constants[i].name, tn_number_text(of->constants[i].value, number));
-    }
+            print_constant(&of->constants[i], out);
     char name[24];
     name_surface(of, name);
     int column = fprintf(out, "surface %s = ", name);
