@@ -30,8 +30,8 @@ small kits .kit
 while read -r kind seeds; do
     agrees "$kind" "$search/search.py" "$kind" --seeds "$seeds" --jobs 2
 done <<'SHARES'
-plans 18
-houses 18
+plans 12
+houses 12
 fields 6
 solids 6
 kits 6

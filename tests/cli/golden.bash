@@ -18,23 +18,20 @@ fail() {
 # golden FILE COMMAND: runs the command line in the folder of rule files, with tartan for $TARTAN; the golden holds the command, what it
 # wrote to standard output and (after a line "[stderr]") to standard error, and its exit code.
 golden() {
-    local file=$goldens/$1.golden got=$scratch/golden command=$2 code=0
+    local file=$goldens/$1.golden command=$2 code=0 out err got expected=
     (cd "$files" && tartan() { "$TARTAN" "$@"; } && eval "$command") >"$scratch/out" 2>"$scratch/err" </dev/null || code=$?
-    {
-        printf '$ %s\n' "$command"
-        cat "$scratch/out"
-        if [ -s "$scratch/err" ]; then
-            echo '[stderr]'
-            cat "$scratch/err"
-        fi
-        printf '[exit %s]\n' "$code"
-    } | sed "s|$scratch|SCRATCH|g" >"$got"
+    # In the shell itself: programs that do it would take longer than most commands.
+    IFS= read -r -d '' out <"$scratch/out" || true
+    IFS= read -r -d '' err <"$scratch/err" || true
+    got="\$ $command"$'\n'"$out${err:+"[stderr]"$'\n'"$err"}[exit $code]"$'\n'
+    got=${got//"$scratch"/SCRATCH}
+    [ ! -e "$file" ] || IFS= read -r -d '' expected <"$file" || true
     if [ "${TARTAN_UPDATE:-}" = 1 ]; then
         mkdir -p "$goldens"
-        cp "$got" "$file"
-    elif ! cmp -s "$file" "$got"; then
+        printf '%s' "$got" >"$file"
+    elif [ "$got" != "$expected" ]; then
         fail "$1 is not as expected:"
-        diff -u "$file" "$got" || true
+        diff -u "$file" - <<<"${got%$'\n'}" || true
     fi
 }
 

@@ -5,5 +5,5 @@
 # Slow under sanitizers.
 set -euo pipefail
 [ -n "${TARTAN_ORACLES:-}" ] && [ -e "$TARTAN_ORACLES/house/house.py" ] || exit 77
-python3 -B tests/house_oracle.py "$TARTAN" "$TARTAN_ORACLES" 4
+python3 -B tests/house_oracle.py "$TARTAN" "$TARTAN_ORACLES" 3
 python3 -B tests/house_lower_forms.py "$TARTAN" "$TARTAN_ORACLES" 2

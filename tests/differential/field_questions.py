@@ -83,7 +83,7 @@ class FieldSubject(Subject):
         """The samples' coordinates on each axis."""
         low, high = box_of(self.fields)
         longest = max(h - l for l, h in zip(low, high))
-        counts = [max(2, math.floor((h - l) / (longest / (self.samples - 1)) + .5) + 1) for l, h in zip(low, high)]
+        counts = [max(3, math.floor((h - l) / (longest / (self.samples - 1)) + .5) + 1) for l, h in zip(low, high)]
         return [[(l * (n - 1 - i) + h * i) / (n - 1) for i in range(n)] for l, h, n in zip(low, high, counts)]
 
     def twin(self, more, settings=None):

@@ -105,13 +105,19 @@ class Squashed:
                 raise Unknown()
         return sorted(range(3), key=lambda a: keys[a])
 
-    @staticmethod
-    def give_way(rigid, other, axes, later):
+    def below(self, p, q, a):
+        """Is the centre of p below that of q? None: they are the same."""
+        difference = p.centre(a) - q.centre(a)
+        if abs(difference) < CLOSE and not self.lattice:
+            raise Unknown()
+        return difference < 0 if difference else None
+
+    def give_way(self, rigid, other, axes, later):
         """The other goes back to the rigid one's faces, on the first axis on which it sticks out on its own side; of equal centres the one
         that is written later is the upper."""
         for a in axes:
-            centre, fixed = other.centre(a), rigid.centre(a)
-            below = centre < fixed or centre == fixed and not later
+            below = self.below(other, rigid, a)
+            below = not later if below is None else below
             if below and other.low[a] < rigid.low[a]:
                 other.high[a] = rigid.low[a]
                 return
@@ -120,10 +126,10 @@ class Squashed:
                 return
         other.high = other.low[:]
 
-    @staticmethod
-    def share(p, q, a, own):
+    def share(self, p, q, a, own):
         """Both give up half of what they share, but not more than up to their centres."""
-        first = p.centre(a) < q.centre(a) or p.centre(a) == q.centre(a) and not own
+        below = self.below(p, q, a)
+        first = not own if below is None else below
         low, high = (p, q) if first else (q, p)
         middle = rounded((low.high[a] + high.low[a]) / 2)
         middle = min(max(middle, rounded(low.centre(a))), rounded(high.centre(a)))
