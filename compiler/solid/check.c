@@ -217,7 +217,7 @@ static void check_goal(tn_solid_check *check, const tn_solid_item *item)
 
 static const tn_checked_box *box_before(const tn_checked_solid *solid, const char *name)
 {
-    for (; solid; solid = solid->base)
+    for (; solid; solid = solid->anew ? NULL : solid->base)
         for (const tn_checked_box *box = solid->first; box; box = box->next)
             if (box->item->name.text && strcmp(box->item->name.text, name) == 0)
                 return box;
@@ -249,10 +249,43 @@ static void take_items(tn_solid_check *check)
     }
 }
 
+static bool sets(const tn_checked_solid *solid, int kind)
+{
+    return solid->settings[kind] && solid->settings[kind] != solid->base->settings[kind];
+}
+
+/* The boxes of a base as the design's own settings have them. */
+static void take_boxes_anew(tn_solid_check *check, const tn_checked_solid *base)
+{
+    tn_diagnostics *list = check->diagnostics;
+    if (base->base)
+        take_boxes_anew(check, base->base);
+    for (const tn_solid_item *item = base->design->first; item; item = item->next) {
+        size_t errors = list->error_count;
+        if (item->kind == TN_SOLID_BOX)
+            tn_check_box(check, item);
+        else if (item->kind == TN_SOLID_GENES)
+            tn_check_genes(check, item);
+        if (list->error_count > errors && list->count > 0)
+            tn_note(list, &list->items[list->count - 1], &check->solid->design->name.span, "`%.100s` is made from this",
+                    check->solid->design->name.text);
+    }
+}
+
+/* What `flat` and `unit` do to boxes they do to those of the base, too. */
+static void take_base_boxes(tn_solid_check *check)
+{
+    tn_checked_solid *solid = check->solid;
+    if (!solid->base || solid->wrong || (!sets(solid, TN_SOLID_SETS_FLAT) && !sets(solid, TN_SOLID_SETS_UNIT)))
+        return;
+    solid->anew = true;
+    take_boxes_anew(check, solid->base);
+}
+
 static void count_boxes(tn_solid_check *check)
 {
     tn_checked_solid *solid = check->solid;
-    solid->box_count = solid->base ? solid->base->box_count : 0;
+    solid->box_count = solid->base && !solid->anew ? solid->base->box_count : 0;
     for (const tn_checked_box *box = solid->first; box; box = box->next)
         solid->box_count++;
     if (solid->wrong || check->damaged)
@@ -314,6 +347,7 @@ static void take_design(tn_solid_check *check, tn_checked_solids *solids, const 
               "give one of them another name");
     take_base(check, solids);
     take_settings(check);
+    take_base_boxes(check);
     take_items(check);
     count_boxes(check);
     TN_CHAIN(solids, solid);

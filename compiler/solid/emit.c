@@ -74,7 +74,7 @@ static void emit_goal(emitting *e, const tn_solid_item *item)
  */
 static void emit_boxes(emitting *e, const tn_checked_solid *solid)
 {
-    if (solid->base)
+    if (solid->base && !solid->anew)
         emit_boxes(e, solid->base);
     for (const tn_checked_box *box = solid->first; box; box = box->next)
         emit_box(e, box);

@@ -147,6 +147,7 @@ typedef struct tn_checked_solid {
     const tn_solid_design *design;
     struct tn_checked_solid *base; /* whose boxes and conditions come first, or NULL */
     tn_checked_box *first, *last;  /* its own */
+    bool anew;                     /* those of its base are among them, since its settings change them */
     uint32_t box_count;            /* with those of its base */
     uint32_t flags, model;
     double depth;

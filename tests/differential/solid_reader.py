@@ -1,4 +1,5 @@
 """Reads .solid files: boxes with their faces and planes, settings, and expressions as trees. Its numbers are exact."""
+import copy
 import math
 import os
 import re
@@ -104,6 +105,8 @@ class Reader:
         self.own.append(name)
         self.next()
         self.settings(design)
+        if base and design.depth != base.depth:
+            design.boxes = [flattened(design, copy.copy(box)) for box in base.boxes]
         while not self.take("}"):
             self.statement(design)
 
@@ -172,7 +175,7 @@ class Reader:
             self.take(",")
         low = [c - abs(s) / 2 for c, s in zip(numbers[:3], numbers[3:6])]
         high = [c + abs(s) / 2 for c, s in zip(numbers[:3], numbers[3:6])]
-        plane = ("angles", numbers[6], 90 if design.depth is not None else numbers[7], numbers[8])
+        plane = ("angles", *numbers[6:9])
         return flattened(design, Box(f"gene-{len(design.boxes) + 1}", low, high, plane, self.take("rigid"), True))
 
     def vector(self, design):
@@ -241,8 +244,10 @@ class Reader:
 
 
 def flattened(design, box):
-    """In a flat design, from half its depth below 0 to half its depth above."""
+    """In a flat design, from half its depth below 0 to half its depth above; the planes of genes are upright."""
     if design.depth is not None:
+        if box.genes:
+            box.plane = ("angles", box.plane[1], 90, box.plane[3])
         box.low, box.high = [*box.low[:2], -design.depth / 2], [*box.high[:2], design.depth / 2]
     return box
 
