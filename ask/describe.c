@@ -31,6 +31,12 @@ static bool is_required(const tn_message_member *m)
     return m->presence == TN_PRESENT || m->presence == TN_NULLABLE;
 }
 
+/* Do its members stand among those of the message that has it? */
+static bool is_inlined(const tn_message_member *m)
+{
+    return m->kind == TN_MESSAGE_PART || m->kind == TN_MESSAGE_WRITTEN;
+}
+
 /* What a map goes to. */
 static const tn_message_member *valued(const tn_message_member *map)
 {
@@ -51,7 +57,8 @@ static bool is_used_as(const tn_message *message, tn_message_kind kind)
 static bool is_whole(const tn_message *message)
 {
     return is_used_as(message, TN_MESSAGE_NESTED) || is_used_as(message, TN_MESSAGE_LIST) ||
-           (!is_used_as(message, TN_MESSAGE_PART) && !is_used_as(message, TN_MESSAGE_MAP));
+           (!is_used_as(message, TN_MESSAGE_PART) && !is_used_as(message, TN_MESSAGE_WRITTEN) &&
+            !is_used_as(message, TN_MESSAGE_MAP));
 }
 
 /* ---- JSON Schema */
@@ -137,7 +144,14 @@ static void write_kind(tn_json *json, const tn_message_member *m)
         write_kind(json, valued(m));
         tn_json_object_end(json);
         break;
+    case TN_MESSAGE_TRAYS:
+        tn_json_string(json, "type", "array");
+        tn_json_object(json, "items");
+        tn_json_string(json, "type", "object");
+        tn_json_object_end(json);
+        break;
     case TN_MESSAGE_PART:
+    case TN_MESSAGE_WRITTEN:
     case TN_MESSAGE_SPREAD:
     case TN_MESSAGE_REASONS:
         break;
@@ -168,7 +182,7 @@ static void write_members(tn_json *json, const tn_message *message)
 {
     for (size_t i = 0; i < message->member_count; i++) {
         const tn_message_member *m = &message->members[i];
-        if (m->kind == TN_MESSAGE_PART)
+        if (is_inlined(m))
             write_members(json, m->of);
         else if (is_said(m))
             write_member(json, message->form == TN_MESSAGE_TUPLE ? NULL : m->name, m);
@@ -179,7 +193,7 @@ static void write_required(tn_json *json, const tn_message *message)
 {
     for (size_t i = 0; i < message->member_count; i++) {
         const tn_message_member *m = &message->members[i];
-        if (m->kind == TN_MESSAGE_PART)
+        if (is_inlined(m))
             write_required(json, m->of);
         else if (is_said(m) && is_required(m))
             tn_json_string(json, NULL, m->name);
@@ -303,6 +317,9 @@ static void write_type(const tn_message_member *m, FILE *out)
         write_type_name(m->of->name, out);
         fputs(m->kind == TN_MESSAGE_LIST ? "[]" : "", out);
         break;
+    case TN_MESSAGE_TRAYS:
+        fputs("Record<string, string | boolean | { fill: string; depth?: string }>[]", out);
+        break;
     case TN_MESSAGE_MAP:
         fputs("Record<string, ", out);
         write_type(valued(m), out);
@@ -349,7 +366,7 @@ static void write_interface(const tn_message *message, FILE *out)
     fprintf(out, "/** %s */\nexport interface ", message->doc);
     write_type_name(message->name, out);
     for (size_t i = 0; i < message->member_count; i++) {
-        if (message->members[i].kind != TN_MESSAGE_PART)
+        if (!is_inlined(&message->members[i]))
             continue;
         fputs(extends, out);
         write_type_name(message->members[i].of->name, out);
@@ -357,7 +374,7 @@ static void write_interface(const tn_message *message, FILE *out)
     }
     fputs(" {\n", out);
     for (size_t i = 0; i < message->member_count; i++)
-        if (message->members[i].kind != TN_MESSAGE_PART)
+        if (!is_inlined(&message->members[i]))
             write_property(&message->members[i], out);
     fputs("}\n\n", out);
 }
@@ -413,6 +430,7 @@ static void write_row_kind(const tn_message_member *m, FILE *out)
         [TN_MESSAGE_OWNED] = "text",
         [TN_MESSAGE_TEXTS] = "texts",
         [TN_MESSAGE_OWNEDS] = "texts",
+        [TN_MESSAGE_TRAYS] = "list of objects",
         [TN_MESSAGE_FLAG] = "true or false",
         [TN_MESSAGE_COUNT] = "number",
         [TN_MESSAGE_WHOLE] = "number",
@@ -438,7 +456,7 @@ static void write_rows(const tn_message *message, FILE *out)
 {
     for (size_t i = 0; i < message->member_count; i++) {
         const tn_message_member *m = &message->members[i];
-        if (m->kind == TN_MESSAGE_PART) {
+        if (is_inlined(m)) {
             write_rows(m->of, out);
         } else if (is_said(m)) {
             fprintf(out, "| `%s`%s | ", m->name, is_required(m) ? "" : " (may be left out)");

@@ -4,6 +4,7 @@
 
 #include "ask/chosen_rules.h"
 #include "ask/explain.h"
+#include "ask/numbered.h"
 
 /* What plans are explained with, kept from one to the next. */
 typedef struct tn_plan_explainer {
@@ -182,7 +183,7 @@ static tn_status plan_of_rank(tn_session *session, tn_plan_explainer *explainer,
     tn_error error;
     mpz_t rank;
     uint32_t length;
-    if (!*digits || strspn(digits, "0123456789") != strlen(digits))
+    if (!tn_is_rank(digits))
         return tn_session_refuse(session, NULL, "a rank is # and a whole number from 0, not `#%.60s`", digits);
     if (!explainer->record)
         return tn_session_refuse(session, NULL,
@@ -208,18 +209,8 @@ static tn_status read_plan(tn_session *session, tn_plan_explainer *explainer, co
                            tn_plan *plan)
 {
     const char *text = request->plan;
-    size_t longest = tn_asked_length(&request->subject), size = strlen(text);
-    tn_error error;
-    if (text[0] == '#')
-        return plan_of_rank(session, explainer, text + 1, plan);
-    tn_status status = text[strspn(text, " ")] == '{'
-                           ? tn_plan_parse_json(explainer->schema, text, size, longest, plan, &error)
-                           : tn_plan_parse_line(explainer->schema, text, size, longest, plan, &error);
-    if (status == TN_OK)
-        return TN_OK;
-    tn_error_place(&error, 1, error.column, error.column_end);
-    tn_report_error(&session->opened->compilation.diagnostics, &error, "PLAN", text, size);
-    return status;
+    return text[0] == '#' ? plan_of_rank(session, explainer, text + 1, plan)
+                          : tn_session_plan(session, explainer->schema, text, tn_asked_length(&request->subject), plan);
 }
 
 /* ---- messages */

@@ -83,6 +83,7 @@ static void clear_member(const tn_message_member *m, void *member)
 {
     switch (m->kind) {
     case TN_MESSAGE_OWNED:
+    case TN_MESSAGE_WRITTEN:
         free(*(char **)member);
         break;
     case TN_MESSAGE_TEXTS:
@@ -118,6 +119,7 @@ static void clear_member(const tn_message_member *m, void *member)
     case TN_MESSAGE_FLAG:
     case TN_MESSAGE_COUNT:
     case TN_MESSAGE_WHOLE:
+    case TN_MESSAGE_TRAYS:
         break;
     }
 }
@@ -211,6 +213,7 @@ static void write_value(const tn_message_member *m, const char *key, const void 
 {
     const tn_texts *texts = member;
     const tn_exacts *exacts = member;
+    const char *text;
     switch (m->kind) {
     case TN_MESSAGE_TEXT:
     case TN_MESSAGE_OWNED:
@@ -255,6 +258,11 @@ static void write_value(const tn_message_member *m, const char *key, const void 
     case TN_MESSAGE_MAP:
         write_map(m, key, member, json);
         break;
+    case TN_MESSAGE_WRITTEN:
+        text = *(const char *const *)member;
+        tn_json_written(json, text, text ? strlen(text) : 0);
+        break;
+    case TN_MESSAGE_TRAYS:
     case TN_MESSAGE_SPREAD:
     case TN_MESSAGE_REASONS:
         break;
@@ -293,6 +301,11 @@ void tn_message_write(const tn_message *message, const void *value, const char *
 }
 
 /* ---- read */
+
+static const char *article(const char *name)
+{
+    return strchr("aeiou", name[0]) ? "an" : "a";
+}
 
 static const char *wanted(tn_message_kind kind)
 {
@@ -368,9 +381,9 @@ static tn_status read_member(const tn_message *message, const tn_message_member 
     }
     json_t *from = json_object_get(object, m->name);
     if (!from || json_is_null(from))
-        return m->presence == TN_PRESENT
-                   ? tn_fail(error, TN_INVALID, E_USAGE, "a %s needs `%s`: %s", message->name, m->name, m->doc)
-                   : TN_OK;
+        return m->presence == TN_PRESENT ? tn_fail(error, TN_INVALID, E_USAGE, "%s %s needs `%s`: %s",
+                                                   article(message->name), message->name, m->name, m->doc)
+                                         : TN_OK;
     if (m->presence == TN_OPTIONAL)
         *(bool *)at(value, m->has) = true;
     error->message[0] = '\0';
@@ -401,7 +414,7 @@ static tn_status refuse_unknown(const tn_message *message, const char *key, cons
                                 tn_error *error)
 {
     const char *near = tn_nearest(key, names, count);
-    tn_fail(error, TN_INVALID, E_USAGE, "a %s has no `%.80s`", message->name, key);
+    tn_fail(error, TN_INVALID, E_USAGE, "%s %s has no `%.80s`", article(message->name), message->name, key);
     if (near)
         tn_error_help(error, "did you mean `%s`?", near);
     return TN_INVALID;

@@ -16,21 +16,24 @@
 #include "runtime/base/json.h"
 
 typedef enum tn_message_kind {
-    TN_MESSAGE_TEXT,   /* const char *, borrowed */
-    TN_MESSAGE_OWNED,  /* char *, to be freed */
-    TN_MESSAGE_TEXTS,  /* tn_texts */
-    TN_MESSAGE_OWNEDS, /* tn_owneds */
-    TN_MESSAGE_FLAG,   /* bool */
-    TN_MESSAGE_COUNT,  /* uint64_t */
-    TN_MESSAGE_WHOLE,  /* int64_t */
-    TN_MESSAGE_BIG,    /* mpz_t; in JSON a string of digits */
-    TN_MESSAGE_EXACT,  /* mpq_t; in JSON a string, "7/2" */
-    TN_MESSAGE_EXACTS, /* tn_exacts */
-    TN_MESSAGE_NESTED, /* another message */
-    TN_MESSAGE_PART,   /* another message, whose members stand among this one's */
-    TN_MESSAGE_LIST,   /* tn_list of messages */
-    TN_MESSAGE_MAP,    /* the same; in JSON an object: of each message the first member is the key, and the second the
-                          value */
+    TN_MESSAGE_TEXT,    /* const char *, borrowed */
+    TN_MESSAGE_OWNED,   /* char *, to be freed */
+    TN_MESSAGE_TEXTS,   /* tn_texts */
+    TN_MESSAGE_OWNEDS,  /* tn_owneds */
+    TN_MESSAGE_FLAG,    /* bool */
+    TN_MESSAGE_COUNT,   /* uint64_t */
+    TN_MESSAGE_WHOLE,   /* int64_t */
+    TN_MESSAGE_BIG,     /* mpz_t; in JSON a string of digits */
+    TN_MESSAGE_EXACT,   /* mpq_t; in JSON a string, "7/2" */
+    TN_MESSAGE_EXACTS,  /* tn_exacts */
+    TN_MESSAGE_NESTED,  /* another message */
+    TN_MESSAGE_PART,    /* another message, whose members stand among this one's */
+    TN_MESSAGE_LIST,    /* tn_list of messages */
+    TN_MESSAGE_MAP,     /* the same; in JSON an object: of each message the first member is the key, and the second the
+                           value */
+    TN_MESSAGE_WRITTEN, /* char *, to be freed: members of another message, written as JSON already (never spread over
+                           lines) */
+    TN_MESSAGE_TRAYS,   /* the trays of a plan, among members that are written already */
     /* What pictures and tables are made of, owned, and no part of JSON: */
     TN_MESSAGE_SPREAD,  /* tn_spread * */
     TN_MESSAGE_REASONS, /* tn_plan_reasons * */

@@ -109,6 +109,9 @@ tn_status tn_numbered_name_line(tn_numbered *n, const char *line, size_t max_len
 /* Is the text #P:V, P:V or #R? */
 bool tn_is_house_number(const char *text);
 
+/* Is it a whole number, of any size? */
+bool tn_is_rank(const char *text);
+
 /* Is the text a house line, and not a plan? */
 bool tn_is_house_line(const char *text);
 

@@ -112,6 +112,11 @@ bool tn_is_house_number(const char *text)
     return text[0] == '#' || (digits > 0 && text[digits] == ':');
 }
 
+bool tn_is_rank(const char *text)
+{
+    return *text && strspn(text, "0123456789") == strlen(text);
+}
+
 bool tn_is_house_line(const char *text)
 {
     return strchr(text, ';') != NULL;

@@ -24,11 +24,13 @@ struct tn_session;
 #define TN_TYPE_BIG mpz_t
 #define TN_TYPE_EXACT mpq_t
 #define TN_TYPE_EXACTS tn_exacts
+#define TN_TYPE_TRAYS char *
 #define TN_TYPE_SPREAD tn_spread *
 #define TN_TYPE_REASONS struct tn_plan_reasons *
 
 #define TN_OF_NESTED(OF, NAME) tn_##OF NAME;
 #define TN_OF_PART(OF, NAME) tn_##OF NAME;
+#define TN_OF_WRITTEN(OF, NAME) char *NAME;
 #define TN_OF_LIST(OF, NAME)                                                                                           \
     struct {                                                                                                           \
         tn_##OF *items;                                                                                                \

@@ -93,6 +93,21 @@ void tn_session_ends(const tn_session *session)
         session->listener.ends(session->listener.context);
 }
 
+tn_status tn_session_plan(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
+                          tn_plan *plan)
+{
+    tn_error error;
+    size_t size = strlen(text);
+    tn_status status = text[strspn(text, " ")] == '{'
+                           ? tn_plan_parse_json(schema, text, size, max_length, plan, &error)
+                           : tn_plan_parse_line(schema, text, size, max_length, plan, &error);
+    if (status == TN_OK)
+        return TN_OK;
+    tn_error_place(&error, 1, error.column, error.column_end);
+    tn_report_error(said(session), &error, "PLAN", text, size);
+    return status;
+}
+
 /* ---- what is asked of a library */
 
 unsigned tn_asked_threads(const tn_library_asked *asked)

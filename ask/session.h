@@ -9,6 +9,7 @@
 
 #include "ask/requests.h"
 #include "driver/plan/library.h"
+#include "runtime/plan/text/text.h"
 
 /* Whoever asks is told what goes on; each function may be NULL. */
 typedef struct tn_session_listener {
@@ -58,6 +59,10 @@ void tn_session_ends(const tn_session *session);
 
 /* The library of plans that is asked about, ready. It is the session's. */
 tn_status tn_session_library(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready);
+
+/* Reads a plan of a request, a plan line or JSON. The caller frees its trays, also after a failure, which is said. */
+tn_status tn_session_plan(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
+                          tn_plan *plan);
 
 /* What a request says of a library's plans and of the work that it may take; how many threads may do it, and the
  * longest plan that it accepts. */

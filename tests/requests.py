@@ -14,6 +14,8 @@ tartan = sys.argv[1]
 with open(sys.argv[2], encoding="utf-8") as file:
     schema = json.load(file)
 
+HOUSE = ("14'_room:14'_none_|_14'_room:14'_porch:5'_|_14'_room:14'_porch:5'_;_1_gable(9:12)_1_flat_;_living_|_kitchen_porch-deck_|_bedroom_porch-deck_;"
+         "_window_window_open_window_window_window_window_window_;_counter.back_bed.right.m")
 # The command line's question, and its words; _ is a blank in one of them.
 ASKED = {
     "count": [
@@ -26,6 +28,11 @@ ASKED = {
         "explain terrace #1000", "explain terrace 4m_one_end_left_eaves_-_none --where trays=1", "explain terrace 4m_one_end_left_eaves_-_none --rule step",
         "explain cottage #10", "explain cottage #10:3", "explain cottage #10: --library cottages",
     ],
+    "rank": [
+        "rank terrace 4m_one_end_left_eaves_-_none_|_4m_one_mid_left_eaves_-_none_|_6m_one_mid_right_eaves_-_garden:2m_|_8m_one_mid_left_eaves_passage_"
+        "garden:4m_|_8m_one_end_right_eaves_-_none", f"rank cottage {HOUSE}", f"rank cottage {HOUSE} --of-all",
+    ],
+    "unrank": ["unrank terrace 1000", "unrank cottage #10:3", "unrank cottage 77 --library cottages", "unrank lahave-houses 0 --trays 4..4"],
     "relations": ["check terrace --relations", "check cottage --relations --max-states 40", "check cottage --relations --examples --max-states 40"],
 }
 wrong = []
@@ -50,7 +57,7 @@ def spoiled(answer):
     for key, value in answer.items():
         if isinstance(value, str) and value.isdigit():
             yield {**answer, key: int(value)}
-        if isinstance(value, list) and value and isinstance(value[0], dict):
+        if isinstance(value, list) and value and isinstance(value[0], dict) and key != "trays":   # whose keys are the fields of a schema
             yield {**answer, key: [{**value[0], "another": "1"}]}
 
 

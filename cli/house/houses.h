@@ -77,14 +77,4 @@ typedef struct tn_house_comparing {
 void tn_jobs_compare_houses(tn_job jobs[2], const char *const *paths, const tn_house_settings *settings,
                             const tn_house_comparing *comparing);
 
-/* Writes the name #P:V of a house; of_all: #R, its rank among all houses of the library. */
-void tn_job_rank_house(tn_job *job, const tn_house_settings *settings, const char *line, bool of_all);
-
-/* Calls `use` with the house of that name; of digits alone: of that rank among all of the library's. */
-typedef void tn_house_use(tn_job *job, const tn_house *house);
-void tn_job_use_house(tn_job *job, const tn_house_settings *settings, const char *number, tn_house_use *use);
-
-/* Writes such a house: its line, or a JSON object. */
-void tn_job_unrank_house(tn_job *job, const tn_house_settings *settings, const char *number, bool json);
-
 #endif

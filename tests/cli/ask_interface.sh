@@ -84,6 +84,32 @@ as '{"plan": "#10", "library": "cottage-rows"}' '#10' --library cottage-rows
 as '{"house": "a; b"}' 'a; b'
 asked
 
+question=rank command=(rank)
+file=stdlib/terrace.plan
+as "{\"plan\": \"$plan\"}" "$plan"
+as "{\"plan\": \"$plan\", \"where\": [\"trays = 1\"]}" "$plan" --where 'trays = 1'
+as "{\"plan\": \"${plan#* | }\"}" "${plan#* | }"
+as '{"plan": "4m one | no"}' '4m one | no'
+as "{\"plan\": \"$plan\", \"of_all\": true}" "$plan" --of-all
+asked
+file=stdlib/cottage.plan
+house=$("$TARTAN" unrank "$file" '#10:77')
+as "{\"house\": \"$house\"}" "$house"
+as "{\"house\": \"$house\", \"of_all\": true}" "$house" --of-all
+as "{\"house\": \"$house\", \"library\": \"cottage\"}" "$house" --library cottage
+as '{"house": "a; b"}' 'a; b'
+asked
+
+question=unrank command=(unrank)
+as '{"rank": "#10:77"}' '#10:77'
+as '{"rank": "77", "library": "cottages"}' 77 --library cottages
+as '{"rank": "7"}' 7
+as '{"rank": "99999999999"}' 99999999999
+as '{"rank": "#99999999999:1"}' '#99999999999:1'
+as '{"rank": "1", "trays": {"from": 2, "to": 2}}' 1 --trays 2..2
+as '{"rank": "one"}' one
+asked
+
 question=relations command=(check --relations)
 file=stdlib/terrace.plan
 as '{}'
@@ -109,6 +135,8 @@ wrong '{"trays": {"from": 4}}' 'a tray_range needs `to`: the most trays'
 wrong '{"trays": 4}' '`trays` is an object: how many trays a plan has, instead of what the library says'
 wrong '{"bins": -3}' '`bins` is a whole number from 0: with `by`: at most so many bins'
 wrong '[]' 'the request is no JSON object: it is another value'
+is 'no rank' "$("$program" stdlib stdlib/terrace.plan unrank '{}')" 'error an unrank_request needs `rank`: a whole number from 0; of houses also the name of one, such as #10:3'
+is 'no plan' "$("$program" stdlib stdlib/terrace.plan rank '{}')" "error say whose number is asked for: a plan's or a house's"
 wrong_to_explain() { # REQUEST MESSAGE
     is "$1" "$("$program" stdlib stdlib/cottage.plan explain "$1")" "error $2"
 }

@@ -32,9 +32,10 @@ class Session:
 
 def as_words(request):
     """The operand of the command, and its options."""
-    yield from (request[key] for key in ("plan", "house") if key in request)
+    operands = ("plan", "house", "rank")
+    yield from (request[key] for key in operands if key in request)
     for key, value in request.items():
-        if key in ("plan", "house"):
+        if key in operands:
             continue
         for one in value if isinstance(value, list) else [value]:
             yield "--" + key.replace("_", "-")
@@ -61,6 +62,15 @@ def explained(subject):
     yield {"plan": "no plan", "library": library}
 
 
+def numbered(subject):
+    """A plan or a house by its number, and the other way round."""
+    library, count = subject.item.name, len(subject.lines or [])
+    for rank in {0, count - 1, count} if subject.lines else ():
+        yield "unrank", {"rank": str(rank), "library": library}
+        if rank < count and subject.lines[rank]:
+            yield "rank", {"house" if subject.houses else "plan": subject.lines[rank], "library": library}
+
+
 def counted(subject):
     library, measures, rules = subject.item.name, subject.measures()[:2], subject.rules()[:1]
     yield {"library": library}
@@ -79,7 +89,7 @@ def c_ask(subject):
     if not os.path.exists(path) or "\nuse " in "\n" + subject.source.text:
         return
     requests = [("count", request) for request in counted(subject)] + [("explain", request) for request in explained(subject)]
-    requests += [("relations", {"max_states": 50, "examples": True})]
+    requests += [*numbered(subject), ("relations", {"max_states": 50, "examples": True})]
     lines = "".join(json.dumps(asked) + "\n" for asked in requests)
     done = subprocess.run([sys.executable, "-B", os.path.abspath(__file__), path, subject.path], input=lines, capture_output=True, text=True,
                           encoding="utf-8", timeout=300, env=environment())

@@ -220,7 +220,7 @@ def requirements(subject):
 
 def holds(tree, values):
     value = value_of(tree, values)
-    return value == value and value != 0
+    return math.isfinite(value) and value != 0
 
 
 def nudged(values, by):

@@ -23,6 +23,8 @@ static const struct {
      "part a { fill 20 x 24 x 20; stud up; tube down at (0, -24, 0); }\n"},
 };
 
+static const char *const questions[] = {"count", "explain", "rank", "unrank", "relations"};
+
 static void fail(const char *what, const char *request)
 {
     fprintf(stderr, "requests: %s: %s\n", what, request);
@@ -87,9 +89,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     memcpy(request, data, size);
     request[size] = '\0';
     for (size_t i = 0; i < sizeof files / sizeof *files && !takes_long(request); i++) {
-        check(files[i].path, files[i].text, "count", request);
-        check(files[i].path, files[i].text, "explain", request);
-        check(files[i].path, files[i].text, "relations", request);
+        for (size_t q = 0; q < sizeof questions / sizeof *questions; q++)
+            check(files[i].path, files[i].text, questions[q], request);
     }
     free(request);
     return 0;

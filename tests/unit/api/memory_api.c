@@ -51,6 +51,8 @@ static tartan_status ask(const tartan_module *module, tartan_error *error)
                  {"count", "{\"where\": [\"trays = 2\"], \"mirror\": true}"},
                  {"explain", "{\"plan\": \"#1\"}"},
                  {"explain", "{\"plan\": \"1m lid | 2m lid\", \"nearest\": 2}"},
+                 {"rank", "{\"plan\": \"2m lid | 1m -\"}"},
+                 {"unrank", "{\"rank\": \"2\"}"},
                  {"relations", "{\"examples\": true}"}};
     tartan_session *session = NULL;
     tartan_status status = tartan_session_open("box.plan", text, sizeof text - 1, NULL, &session, error);
