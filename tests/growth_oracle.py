@@ -133,6 +133,13 @@ class Careful(ref.Growth):
             raise Fragile
         return H, L, U, length
 
+    def move(self, x, d):
+        """Along a boundary, rounding says whether a vertex meets it."""
+        to = ref.add(x, d)
+        if any(abs(wall.sd(x)) < 1e-9 and abs(wall.sd(to)) < 1e-9 for wall in self.hard_walls()):
+            raise Fragile
+        return super().move(x, d)
+
     def compatible(self, p, q):
         if p.label == q.label and self.df[p.dart] == self.df[q.dart] and self.dv[p.dart] != self.dv[q.dart]:
             way = ref.sub(self.pos[self.dv[q.dart]], self.pos[self.dv[p.dart]])

