@@ -1,5 +1,6 @@
 /* An engine that a build adds from outside: its records and code are read, verified and listed like those of any other,
- * by the rows of tests/toy/engine.def and the few lines of tests/toy/engine.c. */
+ * by the rows of tests/toy/engine.def and the few lines of tests/toy/engine.c. And a question (requests.def,
+ * question.c): it is asked by its name, with a request and an answer in JSON. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "ask/requests.h"
 #include "runtime/base/bytes.h"
 #include "runtime/genome/settings.h"
 #include "runtime/load.h"
@@ -118,9 +120,44 @@ static void test_numbers_without_a_row_are_refused(void **state)
     refuse_built(builder, TN_OP_STOP, "setting 0 is unknown");
 }
 
+static tn_status ask(const char *request, tn_buffer *answer, tn_error *error)
+{
+    const tn_request_kind *kind;
+    tn_twice_request asked;
+    tn_reply reply = {0};
+    json_t *json = json_loads(request, 0, NULL);
+    tn_json out = tn_json_text(answer, TN_JSON_TIGHT);
+    assert_int_equal(tn_request_kind_named("twice", &kind, error), TN_OK);
+    assert_ptr_equal(kind->request, &tn_message_twice_request);
+    tn_message_init(kind->request, &asked);
+    tn_status status = tn_message_read(kind->request, json, &asked, error);
+    if (status == TN_OK)
+        status = kind->ask(NULL, &asked, &reply);
+    if (status == TN_OK)
+        tn_message_write(reply.message, reply.value, NULL, &out);
+    tn_reply_clear(&reply);
+    json_decref(json);
+    return status;
+}
+
+static void test_it_is_asked(void **state)
+{
+    (void)state;
+    tn_buffer answer = {0};
+    tn_error error = {0};
+    assert_int_equal(ask("{\"number\": 21}", &answer, &error), TN_OK);
+    assert_string_equal(answer.data, "{\"number\":42}");
+    assert_int_equal(ask("{\"number\": 1001}", &answer, &error), TN_INVALID);
+    assert_string_equal(error.message, "`number` is from 0 to 1000, not 1001");
+    assert_int_equal(ask("{\"nunber\": 3}", &answer, &error), TN_INVALID);
+    assert_string_equal(error.help, "did you mean `number`?");
+    free(answer.data);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_it_is_listed), cmocka_unit_test(test_it_is_verified),
-                                       cmocka_unit_test(test_numbers_without_a_row_are_refused)};
+                                       cmocka_unit_test(test_numbers_without_a_row_are_refused),
+                                       cmocka_unit_test(test_it_is_asked)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
