@@ -10,6 +10,7 @@
 typedef struct tn_plan_explainer {
     const tn_library_record *record; /* NULL: rules by themselves */
     tn_chosen_rules rules;
+    uint32_t schema_index; /* of the SCHEMA record */
     tn_schema *schema;
     tn_library *library;    /* for ranks; NULL: nobody asked, or it passed a limit, */
     tn_error limit;         /* which is this one */
@@ -41,8 +42,7 @@ void tn_plan_reasons_free(tn_plan_reasons *reasons)
 /* ---- what is explained against */
 
 /* The library that is named, or the only one; without any, or if rules are named, rules by themselves. */
-static tn_status choose(tn_session *session, const tn_explain_request *request, tn_plan_explainer *made,
-                        uint32_t *schema)
+static tn_status choose(tn_session *session, const tn_explain_request *request, tn_plan_explainer *made)
 {
     tn_opened *opened = session->opened;
     const char *name = request->subject.library;
@@ -51,12 +51,12 @@ static tn_status choose(tn_session *session, const tn_explain_request *request, 
     bool rules = request->rules.count > 0;
     if (!rules && !name && opened->module->LIBRARY_count > 0) {
         status = tn_library_choose(opened, NULL, &library);
-        *schema = status == TN_OK ? opened->module->LIBRARY_records[library].schema : 0;
+        made->schema_index = status == TN_OK ? opened->module->LIBRARY_records[library].schema : 0;
     } else if (!rules && name) {
-        status = tn_schema_choose(opened, name, schema, &library);
+        status = tn_schema_choose(opened, name, &made->schema_index, &library);
     } else {
         status = tn_session_rules(session, &request->rules, "name one of those it uses with --rule", &made->rules);
-        *schema = made->rules.schema;
+        made->schema_index = made->rules.schema;
     }
     made->record = library == UINT32_MAX ? NULL : &opened->module->LIBRARY_records[library];
     return status;
@@ -70,33 +70,42 @@ static bool are_alike(const tn_plan_explainer *a, const tn_plan_explainer *b)
             memcmp(a->rules.indices, b->rules.indices, a->rules.count * sizeof *a->rules.indices) == 0);
 }
 
-/* The session's, made anew if something else was explained before. */
-static tn_status make_ready(tn_session *session, const tn_explain_request *request, tn_plan_explainer **explainer)
+static tn_status new_explainer(tn_session *session, const tn_explain_request *request, tn_plan_explainer **made)
 {
     tn_error error;
-    uint32_t schema = 0;
-    tn_plan_explainer *made = calloc(1, sizeof *made);
-    if (!made) {
+    *made = calloc(1, sizeof **made);
+    if (!*made) {
         tn_fail_memory(&error);
         return tn_session_fail(session, &error);
     }
-    made->max_states = (uint32_t)request->subject.max_states;
-    made->max_length = (uint32_t)request->subject.max_length;
-    tn_status status = choose(session, request, made, &schema);
-    if (status == TN_OK && session->explainer && are_alike(session->explainer, made)) {
-        tn_plan_explainer_free(made);
-    } else if (status != TN_OK) {
-        tn_plan_explainer_free(made);
-        return status;
-    } else {
+    (*made)->max_states = (uint32_t)request->subject.max_states;
+    (*made)->max_length = (uint32_t)request->subject.max_length;
+    return choose(session, request, *made);
+}
+
+static tn_status make_schema(tn_session *session, tn_plan_explainer *made)
+{
+    tn_error error;
+    tn_status status = tn_schema_new(session->opened->module, made->schema_index, 0, &made->schema, &error);
+    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
+}
+
+/* The session's, made anew if something else was explained before. */
+static tn_status make_ready(tn_session *session, const tn_explain_request *request, tn_plan_explainer **explainer)
+{
+    tn_plan_explainer *made;
+    tn_status status = new_explainer(session, request, &made);
+    bool kept = status == TN_OK && session->explainer && are_alike(session->explainer, made);
+    if (status == TN_OK && !kept)
+        status = make_schema(session, made);
+    if (status == TN_OK && !kept) {
         tn_plan_explainer_free(session->explainer);
         session->explainer = made;
+    } else {
+        tn_plan_explainer_free(made);
     }
     *explainer = session->explainer;
-    if (session->explainer->schema)
-        return TN_OK;
-    status = tn_schema_new(session->opened->module, schema, 0, &session->explainer->schema, &error);
-    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
+    return status;
 }
 
 tn_status tn_explain_schema(tn_session *session, const tn_explain_request *request, const tn_schema **schema)
