@@ -88,33 +88,55 @@ static const char *nearest(const check *c, const char *wrong, bool function)
     return tn_nearest(wrong, names, count);
 }
 
-/* Does the standard library's file of shapes define this function? */
-static bool is_shape(const check *c, const char *name)
+/* The standard library's file of shapes, which nobody has used; false if it is not there. */
+static bool find_shapes(const check *c, tn_input *found)
 {
-    char wanted[TN_NAME_MAX + 8] = "\nfn ";
     const tn_request request = {
         .path = "shapes", .extension = ".field", .user = c->diagnostics->sources->files[0].path};
     char meant[TN_MEANT_SIZE] = "";
-    tn_input found;
     tn_error error;
-    if (!c->resolver || !c->resolver->resolve || strlen(name) > TN_NAME_MAX ||
-        c->resolver->resolve(c->resolver->context, &request, &found, meant, &error) != TN_OK)
-        return false;
-    strcat(strcat(wanted, name), "(");
-    return memmem(found.text, found.size, wanted, strlen(wanted)) != NULL;
+    return c->resolver && c->resolver->resolve &&
+           c->resolver->resolve(c->resolver->context, &request, found, meant, &error) == TN_OK;
+}
+
+/* The function there of that name, or of one that is near to it; NULL: none. */
+static const char *shape_near(const check *c, const char *name)
+{
+    static const char word[] = "\nfn ";
+    enum { MOST = 100 };
+    const char *names[MOST];
+    size_t count = 0, size = sizeof word - 1;
+    tn_input found;
+    if (!find_shapes(c, &found))
+        return NULL;
+    const char *at = found.text, *end = found.text + found.size;
+    while (count < MOST && (at = memmem(at, (size_t)(end - at), word, size))) {
+        at += size;
+        const char *after = memchr(at, '(', (size_t)(end - at));
+        names[count] = after ? tn_arena_copy(c->arena, at, (size_t)(after - at)) : NULL;
+        if (!names[count])
+            break;
+        if (strcmp(names[count], name) == 0)
+            return names[count];
+        count++;
+    }
+    return tn_nearest(name, names, count);
 }
 
 static void unknown(check *c, const tn_expression *e, bool function)
 {
     const char *what = function ? "function" : "number or surface", *near = nearest(c, e->name, function);
     const char *elsewhere = function ? tn_function_elsewhere(TN_WORDS_FIELD, e->name) : NULL;
+    const char *shape = function ? shape_near(c, e->name) : NULL;
     tn_diagnostic *d = tn_report(c->diagnostics, E_FIELD_NAME, e->name_span, "there is no %s `%.100s`", what, e->name);
     if (elsewhere)
         tn_help(c->diagnostics, d, "write `%s`", elsewhere);
-    else if (function && is_shape(c, e->name))
+    else if (shape && strcmp(shape, e->name) == 0)
         tn_help(c->diagnostics, d, "add `use \"shapes\"` at the top");
     else if (near)
         tn_suggest(c->diagnostics, d, "%s", near);
+    else if (shape)
+        tn_help(c->diagnostics, d, "did you mean `%s`? that needs `use \"shapes\"` at the top", shape);
     else if (function)
         tn_help(c->diagnostics, d, "define it: `fn %.60s(x, y, z) = ...`; docs/field-language.md lists what there is",
                 e->name);
