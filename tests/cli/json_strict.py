@@ -253,6 +253,7 @@ for words in (["count"], ["enumerate"], ["sample", "3"], ["best", "2", "--most",
               ["complete", "? | 7'-9\""]):  # by the ending alone
     files("output", NAME + b"-made.json", words[0], plans, *words[1:], "-l", "base", "-o", NAME + b"-made.json")
 writes("json", "unrank", plans, "9", "-l", "base", "--json", inches="\"")
+writes("json", "rank", plans, run("unrank", plans, "9", "-l", "base").stdout.decode().rstrip("\n"), "-l", "base", "--json")
 for task in (["-l", "base", "--format", "json"], ["--task", "match", "--input", lines, "--rule", "wide", "--format", "json"],
              ["--task", "prune", "-l", "base", "--input", lines, "--format", "json"], ["-l", "base", "--sample", "3", "--format", "json"]):
     shards = NAME + b"-" + str(len(tried) + len(os.listdir())).encode()
@@ -288,6 +289,7 @@ writes("json", "pareto", houses, "-l", "h", "--least", "rooms", "--most", "open-
 writes("json", "complete", houses, "6'2\"", "-l", "h", "--json", inches="6'2\"")
 writes("json", "complete", houses, "6'2\"", "-l", "h", "--least", "rooms", "--json", inches="6'2\"")
 writes("json", "unrank", houses, "#0:0", "-l", "h", "--json", inches=HOUSE)
+writes("json", "rank", houses, run("unrank", houses, "#0:0", "-l", "h").stdout.decode().rstrip("\n"), "-l", "h", "--json")
 writes("json", "vary", houses, HOUSE, "--library", "h", "--json", inches=CHANGED)
 files("output", NAME + b".json", "house", houses, HOUSE, "-o", NAME + b".json", inches=HOUSE)
 glb("output", "house", houses, HOUSE)
