@@ -138,36 +138,20 @@ static tn_status explain_line(tn_session *session, const tn_explain_request *req
     return status;
 }
 
-/* The line of the house of a name (malloc). */
-static tn_status line_of(tn_session *session, const tn_explain_request *request, char **line)
+static tn_status write_line(void *line, const tn_house *house, tn_error *error)
 {
-    const tn_house_settings settings = tn_asked_houses(&request->subject);
-    tn_numbered n;
-    tn_house house = {0};
-    tn_buffer text = {0};
-    tn_error error = {0};
-    tn_status status = tn_numbered_open(&n, session, &settings);
-    if (status == TN_OK) {
-        status = tn_numbered_house(&n, request->house, &house, &error);
-        if (status == TN_OK)
-            status = tn_house_write(&house, &text, &error);
-        if (status != TN_OK)
-            tn_session_fail(session, &error);
-    }
-    tn_house_clear(&house);
-    tn_numbered_close(&n);
-    *line = text.data;
-    return status;
+    return tn_house_write(house, line, error);
 }
 
 tn_status tn_explain_house(tn_session *session, const tn_explain_request *request, tn_reply *answer)
 {
-    char *line = NULL;
+    const tn_house_settings settings = tn_asked_houses(&request->subject);
+    tn_buffer line = {0};
     if (!tn_is_house_number(request->house))
         return explain_line(session, request, request->house, answer);
-    tn_status status = line_of(session, request, &line);
+    tn_status status = tn_session_house(session, &settings, request->house, write_line, &line);
     if (status == TN_OK)
-        status = explain_line(session, request, line, answer);
-    free(line);
+        status = explain_line(session, request, line.data, answer);
+    free(line.data);
     return status;
 }

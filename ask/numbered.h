@@ -154,4 +154,9 @@ tn_status tn_numbered_locate(tn_numbered *n, const mpz_t rank, mpz_t plan, mpz_t
 /* The house of #P:V or #R. Clear *house in any case. */
 tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house, tn_error *error);
 
+/* Opens the library and calls `use` with that house. What is wrong, also what `use` returns, is said. */
+typedef tn_status tn_house_use(void *context, const tn_house *house, tn_error *error);
+tn_status tn_session_house(tn_session *session, const tn_house_settings *settings, const char *number,
+                           tn_house_use *use, void *context);
+
 #endif

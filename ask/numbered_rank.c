@@ -223,3 +223,22 @@ tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house,
     free(trays);
     return status;
 }
+
+tn_status tn_session_house(tn_session *session, const tn_house_settings *settings, const char *number,
+                           tn_house_use *use, void *context)
+{
+    tn_numbered n;
+    tn_house house = {0};
+    tn_error error = {0};
+    tn_status status = tn_numbered_open(&n, session, settings);
+    if (status == TN_OK) {
+        status = tn_numbered_house(&n, number, &house, &error);
+        if (status == TN_OK)
+            status = use(context, &house, &error);
+        if (status != TN_OK)
+            tn_session_fail(session, &error);
+    }
+    tn_house_clear(&house);
+    tn_numbered_close(&n);
+    return status;
+}

@@ -167,8 +167,9 @@ static tn_status unrank_plan(tn_session *session, const tn_unrank_request *reque
 
 /* ---- the house of a number */
 
-static tn_status set_house(const tn_house *house, tn_reply *answer, tn_error *error)
+static tn_status set_house(void *context, const tn_house *house, tn_error *error)
 {
+    tn_reply *answer = context;
     tn_buffer line = {0}, members = {0};
     tn_status status = tn_reply_new(&tn_message_unranked_house, answer, error);
     if (status != TN_OK)
@@ -189,20 +190,7 @@ static tn_status set_house(const tn_house *house, tn_reply *answer, tn_error *er
 static tn_status unrank_house(tn_session *session, const tn_unrank_request *request, tn_reply *answer)
 {
     const tn_house_settings settings = tn_asked_houses(&request->subject);
-    tn_numbered n;
-    tn_house house = {0};
-    tn_error error = {0};
-    tn_status status = tn_numbered_open(&n, session, &settings);
-    if (status == TN_OK) {
-        status = tn_numbered_house(&n, request->rank, &house, &error);
-        if (status == TN_OK)
-            status = set_house(&house, answer, &error);
-        if (status != TN_OK)
-            tn_session_fail(session, &error);
-    }
-    tn_house_clear(&house);
-    tn_numbered_close(&n);
-    return status;
+    return tn_session_house(session, &settings, request->rank, set_house, answer);
 }
 
 tn_status tn_ask_unrank(tn_session *session, const tn_unrank_request *request, tn_reply *answer)

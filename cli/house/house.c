@@ -94,20 +94,12 @@ static void read_line(tn_job *job, const char *line)
     tn_schema_free(schema);
 }
 
-/* The house of that name; of digits alone: of that rank among all of the library's. */
-static void write_numbered(tn_job *job, const tn_house_settings *settings, const char *number)
+/* What is wrong with the files is recorded. */
+static tn_status write_numbered(void *job, const tn_house *house, tn_error *error)
 {
-    tn_numbered n;
-    tn_error error = {0};
-    if (tn_job_numbered(job, &n, settings)) {
-        tn_house house;
-        if (tn_numbered_house(&n, number, &house, &error) == TN_OK)
-            write_files(job, &house);
-        else
-            tn_job_fail(job, &error);
-        tn_house_clear(&house);
-    }
-    tn_numbered_close(&n);
+    (void)error;
+    write_files(job, house);
+    return TN_OK;
 }
 
 static int run(const tn_command *command, const tn_settings *settings)
@@ -123,7 +115,7 @@ static int run(const tn_command *command, const tn_settings *settings)
             .max_length = max_trays(&job),
             .plans = {.max_states = (uint32_t)own->max_states.value, .max_length = (uint32_t)max_trays(&job)}};
         if (tn_is_house_number(text))
-            write_numbered(&job, &houses, text);
+            tn_job_answered(&job, tn_session_house(&job.session, &houses, text, write_numbered, &job));
         else
             read_line(&job, text);
     }
