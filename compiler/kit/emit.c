@@ -302,6 +302,8 @@ static void emit_start(emitting *e, const tn_kit_model *model)
                                           .side = tn_kit_side_of(e->kit, axis)});
         step(e, node->span, TN_OP_PUSH, 0, 0);
         tn_kit_start_turn(e->kit, node, &turns);
+        if (axis == TN_AXIS_DOWN && e->kit->turns == TN_TURNS)
+            turns = (4 - turns) % 4; /* `turn` is about the vertical, and this one's bearing stands on its head */
         move(e, node->span, at, tn_turn_after(tn_kit_bearing(e->kit, axis), turns));
         step(e, node->span, TN_OP_DERIVE, index, 0);
         step(e, node->span, TN_OP_POP, 0, 0);

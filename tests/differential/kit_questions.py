@@ -277,8 +277,6 @@ def compared(subject, what, text, change, place, matrix):
         way = next(name for name, v in AXES.items() if v == turned(matrix, axis))
         turn = f" turn {turn % 4}" if axis[1] and turn % 4 else f" turn {turn}" if not axis[1] and turn - (matrix != TURNS[0]) else ""
         lines.append(f"start {kind} {way} at ({written(subject, (at[0], -at[1], at[2]))}){turn} by {rule}")
-    if any(axis[1] > 0 and turn for _, axis, _, turn, _ in subject.model.starts) and what == "turned":
-        return                               # about an axis that points down a turn goes the other way
     file = subject.with_lines("".join(f"  {line};\n" for line in lines), "changed")
     said, data = subject.place(file=file)
     got = [s.key() for s in read_ldraw(data.decode(), subject.kit)] if data else said
