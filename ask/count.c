@@ -1,8 +1,6 @@
 /* count: how many plans, houses or buildings there are. */
 #include "ask/count.h"
 
-#include "driver/house/judge.h"
-
 /* What only libraries of plans and houses are asked, or NULL. */
 static const char *asks_library(const tn_count_request *r)
 {
@@ -22,9 +20,7 @@ static const char *asks_library(const tn_count_request *r)
 /* With a plan or clauses, or if the library named is one of houses. */
 static bool counts_houses(const tn_session *session, const tn_count_request *r)
 {
-    const char *library = r->subject.library;
-    return r->plan || r->clauses ||
-           (library && tn_house_library_find(session->opened->module, library) != TN_NO_RECORD);
+    return r->plan || r->clauses || tn_session_of_houses(session, &r->subject);
 }
 
 tn_status tn_ask_count(tn_session *session, const tn_count_request *request, tn_reply *answer)

@@ -64,15 +64,10 @@ static tn_status give_rows(const tn_spread *spread, bool of_houses, tn_counted_v
 
 static tn_status give_quartiles(const tn_bins *bins, tn_exacts *quartiles, tn_error *error)
 {
-    quartiles->items = calloc(3, sizeof *quartiles->items);
-    if (!quartiles->items)
-        return tn_fail_memory(error);
-    for (; quartiles->count < 3; quartiles->count++) {
-        mpq_init(quartiles->items[quartiles->count]);
-        tn_bins_value(bins, tn_distribution_quartile(bins->d, (unsigned)quartiles->count + 1),
-                      quartiles->items[quartiles->count]);
-    }
-    return TN_OK;
+    tn_status status = tn_exacts_room(quartiles, 3, error);
+    for (unsigned i = 0; status == TN_OK && i < 3; i++)
+        tn_bins_value(bins, tn_distribution_quartile(bins->d, i + 1), quartiles->items[i]);
+    return status;
 }
 
 static tn_status give_statistics(const tn_bins *bins, tn_counted_values *counted, tn_error *error)

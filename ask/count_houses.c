@@ -39,30 +39,14 @@ static tn_status count_all(tn_numbered *n, const tn_count_request *request, cons
     return TN_OK;
 }
 
-static tn_status count(tn_numbered *n, const tn_count_request *request, tn_reply *answer)
-{
-    tn_plan plan = {0};
-    tn_error error = {0};
-    tn_status status = TN_OK;
-    if (request->plan)
-        status = tn_numbered_plan(n, request->plan, tn_asked_length(&request->subject), &plan, &error);
-    if (status != TN_OK)
-        status = tn_session_bad_text(n->session, &error, "PLAN", request->plan);
-    else if (request->by)
-        status = count_by(n, request, request->plan ? &plan : NULL, answer);
-    else
-        status = count_all(n, request, request->plan ? &plan : NULL, answer);
-    free(plan.trays);
-    return status;
-}
-
 tn_status tn_count_houses(tn_session *session, const tn_count_request *request, tn_reply *answer)
 {
-    const tn_house_settings settings = tn_asked_houses(&request->subject);
     tn_numbered n;
-    tn_status status = tn_numbered_open(&n, session, &settings);
+    tn_plan on;
+    tn_status status = tn_numbered_open_on(&n, session, &request->subject, request->plan, &on);
     if (status == TN_OK)
-        status = count(&n, request, answer);
+        status = (request->by ? count_by : count_all)(&n, request, request->plan ? &on : NULL, answer);
+    free(on.trays);
     tn_numbered_close(&n);
     return status;
 }

@@ -154,6 +154,8 @@ static void write_kind(tn_json *json, const tn_message_member *m)
     case TN_MESSAGE_WRITTEN:
     case TN_MESSAGE_SPREAD:
     case TN_MESSAGE_REASONS:
+    case TN_MESSAGE_FRONT:
+    case TN_MESSAGE_CHOICES:
         break;
     }
 }

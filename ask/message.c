@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/best.h"
 #include "ask/explain.h"
 #include "driver/measure/spread.h"
 #include "runtime/base/array.h"
@@ -115,6 +116,12 @@ static void clear_member(const tn_message_member *m, void *member)
     case TN_MESSAGE_REASONS:
         tn_plan_reasons_free(*(tn_plan_reasons **)member);
         break;
+    case TN_MESSAGE_FRONT:
+        tn_plan_front_free(*(tn_plan_front **)member);
+        break;
+    case TN_MESSAGE_CHOICES:
+        tn_choices_free(*(tn_choices **)member);
+        break;
     case TN_MESSAGE_TEXT:
     case TN_MESSAGE_FLAG:
     case TN_MESSAGE_COUNT:
@@ -157,6 +164,16 @@ void *tn_message_add(const tn_message *message, tn_list *list, tn_error *error)
     void *added = (char *)list->items + list->count++ * message->size;
     tn_message_init(message, added);
     return added;
+}
+
+tn_status tn_exacts_room(tn_exacts *exacts, size_t count, tn_error *error)
+{
+    exacts->items = calloc(count + 1, sizeof *exacts->items);
+    if (!exacts->items)
+        return tn_fail_memory(error);
+    for (; exacts->count < count; exacts->count++)
+        mpq_init(exacts->items[exacts->count]);
+    return TN_OK;
 }
 
 tn_status tn_owneds_add(tn_owneds *texts, char *text, tn_error *error)
@@ -265,6 +282,8 @@ static void write_value(const tn_message_member *m, const char *key, const void 
     case TN_MESSAGE_TRAYS:
     case TN_MESSAGE_SPREAD:
     case TN_MESSAGE_REASONS:
+    case TN_MESSAGE_FRONT:
+    case TN_MESSAGE_CHOICES:
         break;
     }
 }
@@ -318,6 +337,8 @@ static const char *wanted(tn_message_kind kind)
         return "a whole number from 0";
     case TN_MESSAGE_NESTED:
         return "an object";
+    case TN_MESSAGE_LIST:
+        return "a list of objects";
     default:
         return "a text";
     }
@@ -335,6 +356,17 @@ static tn_status read_texts(json_t *list, tn_texts *texts, tn_error *error)
         texts->count = i + 1;
     }
     return TN_OK;
+}
+
+static tn_status read_list(const tn_message *of, json_t *from, tn_list *list, tn_error *error)
+{
+    tn_status status = tn_message_list(of, json_array_size(from), list, error);
+    for (size_t i = 0; status == TN_OK && i < list->count; i++) {
+        json_t *item = json_array_get(from, i);
+        status =
+            json_is_object(item) ? tn_message_read(of, item, (char *)list->items + i * of->size, error) : TN_INVALID;
+    }
+    return status;
 }
 
 static tn_status in_bounds(const tn_message_member *m, uint64_t number, tn_error *error)
@@ -363,6 +395,8 @@ static tn_status read_value(const tn_message_member *m, json_t *from, void *memb
                                                                       : TN_INVALID;
     case TN_MESSAGE_NESTED:
         return json_is_object(from) ? tn_message_read(m->of, from, member, error) : TN_INVALID;
+    case TN_MESSAGE_LIST:
+        return json_is_array(from) ? read_list(m->of, from, member, error) : TN_INVALID;
     default: /* no request has others */
         return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "requests have no member of this kind: %s", m->name);
     }

@@ -37,6 +37,8 @@ typedef enum tn_message_kind {
     /* What pictures and tables are made of, owned, and no part of JSON: */
     TN_MESSAGE_SPREAD,  /* tn_spread * */
     TN_MESSAGE_REASONS, /* tn_plan_reasons * */
+    TN_MESSAGE_FRONT,   /* tn_plan_front * */
+    TN_MESSAGE_CHOICES, /* tn_choices * */
 } tn_message_kind;
 
 typedef enum tn_message_presence {
@@ -106,6 +108,9 @@ tn_status tn_message_list(const tn_message *message, size_t count, tn_list *list
 
 /* One more such message at the end of a list that holds only such that were added so; NULL: out of memory. */
 void *tn_message_add(const tn_message *message, tn_list *list, tn_error *error);
+
+/* Room for `count` numbers, which are 0, in an empty list. */
+tn_status tn_exacts_room(tn_exacts *exacts, size_t count, tn_error *error);
 
 /* Takes the text (malloc) into the list, also if that fails. NULL is TN_MEMORY. */
 tn_status tn_owneds_add(tn_owneds *texts, char *text, tn_error *error);

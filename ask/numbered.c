@@ -231,6 +231,19 @@ tn_status tn_numbered_plan(tn_numbered *n, const char *text, size_t max_length, 
     return status;
 }
 
+tn_status tn_numbered_open_on(tn_numbered *n, tn_session *session, const tn_library_asked *asked, const char *text,
+                              tn_plan *plan)
+{
+    const tn_house_settings settings = tn_asked_houses(asked);
+    tn_error error = {0};
+    *plan = (tn_plan){0};
+    tn_status status = tn_numbered_open(n, session, &settings);
+    if (status != TN_OK || !text)
+        return status;
+    status = tn_numbered_plan(n, text, settings.max_length, plan, &error);
+    return status == TN_OK ? TN_OK : tn_session_bad_text(session, &error, "PLAN", text);
+}
+
 static tn_status too_many_plans(const mpz_t plans, tn_error *error)
 {
     char *digits = mpz_get_str(NULL, 10, plans);

@@ -49,6 +49,10 @@ typedef struct tn_numbered {
 /* Close it in any case. What was wrong is said. */
 tn_status tn_numbered_open(tn_numbered *n, tn_session *session, const tn_house_settings *settings);
 
+/* The same of a request, with the plan (NULL: none) that it is about: the caller frees its trays in any case, too. */
+tn_status tn_numbered_open_on(tn_numbered *n, tn_session *session, const tn_library_asked *asked, const char *text,
+                              tn_plan *plan);
+
 /* Says that no library of houses has this name, with what was meant; NULL: that the file has none, or several. Returns
  * TN_INVALID. */
 tn_status tn_say_no_houses(tn_session *session, const char *name);
@@ -153,6 +157,16 @@ tn_status tn_numbered_locate(tn_numbered *n, const mpz_t rank, mpz_t plan, mpz_t
 
 /* The house of #P:V or #R. Clear *house in any case. */
 tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house, tn_error *error);
+
+/* What is done with a house that is drawn, of that rank: among all, or among those on the plan; variant: always among
+ * those on its plan. It may take the house, and leaves an empty one then. */
+typedef tn_status tn_sampled_house(void *context, tn_house *house, const mpz_t rank, const mpz_t variant,
+                                   tn_error *error);
+
+/* Calls `use` with `wanted` different houses of the library, or of those on one plan (NULL: all plans), each drawn with
+ * the same probability, in the order of their ranks; with all if there are fewer. */
+tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, tn_sampled_house *use,
+                             void *context, tn_error *error);
 
 /* Opens the library and calls `use` with that house. What is wrong, also what `use` returns, is said. */
 typedef tn_status tn_house_use(void *context, const tn_house *house, tn_error *error);

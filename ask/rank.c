@@ -2,14 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/found.h"
 #include "ask/numbered.h"
 #include "driver/plan/clauses.h"
 #include "runtime/plan/text/text.h"
-
-static bool of_houses(const tn_session *session, const tn_library_asked *asked)
-{
-    return asked->library && tn_house_library_find(session->opened->module, asked->library) != TN_NO_RECORD;
-}
 
 /* ---- the number of a plan */
 
@@ -117,8 +113,7 @@ tn_status tn_ask_rank(tn_session *session, const tn_rank_request *request, tn_re
     if (request->house)
         return rank_house(session, request, answer);
     if (request->of_all)
-        return tn_session_refuse(session,
-                                 "the number of a plan is its rank among all plans: leave --of-all out",
+        return tn_session_refuse(session, "the number of a plan is its rank among all plans: leave --of-all out",
                                  "--of-all is about a house, and this is a plan");
     return rank_plan(session, request, answer);
 }
@@ -128,17 +123,9 @@ tn_status tn_ask_rank(tn_session *session, const tn_rank_request *request, tn_re
 static tn_status set_plan(const tn_schema *schema, const tn_tray *trays, uint32_t length, tn_reply *answer,
                           tn_error *error)
 {
-    tn_buffer line = {0}, members = {0};
     tn_status status = tn_reply_new(&tn_message_unranked_plan, answer, error);
-    if (status != TN_OK)
-        return status;
     tn_unranked_plan *plan = answer->value;
-    tn_json json = tn_json_text(&members, TN_JSON_TIGHT);
-    tn_plan_write_trays(schema, trays, length, &json);
-    bool written = tn_plan_write_line(schema, trays, length, &line) && tn_buffer_append(&line, "", 1);
-    plan->line = line.data;
-    plan->members = members.data;
-    return written && !members.failed ? TN_OK : tn_fail_memory(error);
+    return status == TN_OK ? tn_found_plan_texts(schema, trays, length, &plan->line, &plan->members, error) : status;
 }
 
 static tn_status unrank_plan(tn_session *session, const tn_unrank_request *request, tn_reply *answer)
@@ -170,21 +157,9 @@ static tn_status unrank_plan(tn_session *session, const tn_unrank_request *reque
 static tn_status set_house(void *context, const tn_house *house, tn_error *error)
 {
     tn_reply *answer = context;
-    tn_buffer line = {0}, members = {0};
     tn_status status = tn_reply_new(&tn_message_unranked_house, answer, error);
-    if (status != TN_OK)
-        return status;
     tn_unranked_house *to = answer->value;
-    tn_json json = tn_json_text(&members, TN_JSON_TIGHT);
-    status = tn_house_write(house, &line, error);
-    to->line = line.data;
-    if (status == TN_OK) {
-        tn_json_string(&json, "house", line.data);
-        tn_plan_write_trays(house->form->schema, house->trays, house->length, &json);
-        status = tn_house_write_members(house, &json, error);
-    }
-    to->members = members.data;
-    return status == TN_OK && members.failed ? tn_fail_memory(error) : status;
+    return status == TN_OK ? tn_found_house_texts(house, &to->line, &to->members, error) : status;
 }
 
 static tn_status unrank_house(tn_session *session, const tn_unrank_request *request, tn_reply *answer)
@@ -200,6 +175,6 @@ tn_status tn_ask_unrank(tn_session *session, const tn_unrank_request *request, t
     *answer = (tn_reply){0};
     if (!digits && !tn_is_house_number(rank))
         return tn_session_refuse(session, NULL, "a rank is a whole number from 0, not `%.60s`", rank);
-    return digits && !of_houses(session, &request->subject) ? unrank_plan(session, request, answer)
-                                                            : unrank_house(session, request, answer);
+    return digits && !tn_session_of_houses(session, &request->subject) ? unrank_plan(session, request, answer)
+                                                                       : unrank_house(session, request, answer);
 }

@@ -125,6 +125,10 @@ void tn_reply_clear(tn_reply *answer)
 
 tn_json_layout tn_reply_layout(const tn_reply *answer)
 {
-    bool lines = TN_REPLY(counted_plans, answer) || TN_REPLY(counted_values, answer) || TN_REPLY(relations, answer);
-    return lines ? TN_JSON_LINES : TN_JSON_TIGHT;
+    const tn_message *const lines[] = {&tn_message_counted_plans, &tn_message_counted_values, &tn_message_relations,
+                                       &tn_message_found_front,   &tn_message_completed,      &tn_message_completed_by};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        if (answer->message == lines[i])
+            return TN_JSON_LINES;
+    return TN_JSON_TIGHT;
 }

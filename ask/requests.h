@@ -10,6 +10,13 @@ struct tn_session;
 /* The most bins that values are put into. */
 #define TN_BINS_MAX 100000u
 
+/* The most plans or houses of an answer, and how many of an enumeration are unless more are asked for. */
+#define TN_ROWS_MAX 1000000u
+#define TN_ROWS_DEFAULT 1000u
+
+/* How many of the best are found unless more are asked for. */
+#define TN_BEST_DEFAULT 10u
+
 /* The most of the nearest plans that are looked for, and how many are unless more are asked for. */
 #define TN_NEAREST_MAX 1000u
 #define TN_NEAREST_DEFAULT 3u
@@ -27,6 +34,8 @@ struct tn_session;
 #define TN_TYPE_TRAYS char *
 #define TN_TYPE_SPREAD tn_spread *
 #define TN_TYPE_REASONS struct tn_plan_reasons *
+#define TN_TYPE_FRONT struct tn_plan_front *
+#define TN_TYPE_CHOICES struct tn_choices *
 
 #define TN_OF_NESTED(OF, NAME) tn_##OF NAME;
 #define TN_OF_PART(OF, NAME) tn_##OF NAME;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "ask/explain.h"
+#include "driver/house/judge.h"
 #include "runtime/base/crew.h"
 #include "runtime/plan/match/vm.h"
 
@@ -109,6 +110,11 @@ tn_status tn_session_plan(tn_session *session, const tn_schema *schema, const ch
 }
 
 /* ---- what is asked of a library */
+
+bool tn_session_of_houses(const tn_session *session, const tn_library_asked *asked)
+{
+    return asked->library && tn_house_library_find(session->opened->module, asked->library) != TN_NO_RECORD;
+}
 
 unsigned tn_asked_threads(const tn_library_asked *asked)
 {

@@ -26,6 +26,9 @@ typedef struct tn_session {
     void (*so_far)(void *context, const tn_reply *answer);
     void *so_far_context;
 
+    /* Takes the plans or houses that are found (found.h); NULL: they are put into the answer. */
+    const struct tn_taker *taker;
+
     tn_ready_library library; /* made ready last, if library.library is not NULL */
     tn_library_options options;
     bool only_one; /* it was asked for without a name */
@@ -59,6 +62,9 @@ void tn_session_ends(const tn_session *session);
 
 /* The library of plans that is asked about, ready. It is the session's. */
 tn_status tn_session_library(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready);
+
+/* Is the library that is asked about by name one of houses? */
+bool tn_session_of_houses(const tn_session *session, const tn_library_asked *asked);
 
 /* Reads a plan of a request, a plan line or JSON. The caller frees its trays, also after a failure, which is said. */
 tn_status tn_session_plan(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,

@@ -3,7 +3,6 @@
 
 An answer follows the schema of its question; and the schema is no blank: an answer with a member less, another member, or a number in
 place of digits does not follow it."""
-import copy
 import json
 import subprocess
 import sys
@@ -33,7 +32,21 @@ ASKED = {
         "garden:4m_|_8m_one_end_right_eaves_-_none", f"rank cottage {HOUSE}", f"rank cottage {HOUSE} --of-all",
     ],
     "unrank": ["unrank terrace 1000", "unrank cottage #10:3", "unrank cottage 77 --library cottages", "unrank lahave-houses 0 --trays 4..4"],
+    "pareto": ["pareto lahave-houses --trays 4..4 --least cost --most area", "pareto cottage --plan #3 --least floor-area --most bedrooms"],
+    "complete": [
+        "complete terrace ?_|_..._|_?", "complete terrace ?_|_end", "complete lahave-houses ?_|_great_|_..._|_? --trays 4..4 --least cost",
+        "complete cottage ..._|_? --library cottages",
+    ],
     "relations": ["check terrace --relations", "check cottage --relations --max-states 40", "check cottage --relations --examples --max-states 40"],
+}
+# Questions whose answers are lists: the command writes a line of JSON for each, which follows the type of a row.
+ROWS = {
+    "sample": [("found_plan", "sample terrace 3"), ("found_house", "sample cottage 2 --library cottages"), ("found_house", "sample cottage 2 --plan #10")],
+    "enumerate": [("found_plan", "enumerate terrace --from 1000 --limit 3"), ("found_house", "enumerate cottage --library cottages --from 77 --limit 2")],
+    "best": [
+        ("found_plan", "best lahave-houses 3 --trays 4..4 --least cost"), ("found_plan", "best lahave-houses 3 --trays 4..4 --least cost --then-most area"),
+        ("best_house", "best cottage 2 --library cottages --least floor-area"), ("best_house", "best cottage 2 --plan #3 --least floor-area --then-most bedrooms"),
+    ],
 }
 wrong = []
 
@@ -49,11 +62,6 @@ def spoiled(answer):
         yield from ([bad, *answer[1:]] for bad in (1, less, {**answer[0], "another": 1}))
         return
     yield {**answer, "another": 1}
-    for key in answer:
-        less = copy.deepcopy(answer)
-        del less[key]
-        yield less
-        break
     for key, value in answer.items():
         if isinstance(value, str) and value.isdigit():
             yield {**answer, key: int(value)}
@@ -61,20 +69,40 @@ def spoiled(answer):
             yield {**answer, key: [{**value[0], "another": "1"}]}
 
 
+def answers(line, *options):
+    """What the command writes, or None: it refused, which is wrong."""
+    done = subprocess.run([tartan, *(word.replace("_", " ") for word in line.split(" ")), *options], capture_output=True, text=True, check=False)
+    if done.returncode:
+        wrong.append(f"{line}: {done.stderr}")
+        return None
+    return done.stdout
+
+
+def check(line, validator, answer):
+    less = [{k: v for k, v in answer.items() if k != key} for key in answer] if isinstance(answer, dict) else []
+    if less and all(validator.is_valid(bad) for bad in less):
+        wrong.append(f"{line}: the schema takes it with any member less")
+    wrong.extend(f"{line}: {error.json_path}: {error.message[:200]}" for error in validator.iter_errors(answer))
+    wrong.extend(f"{line}: the schema takes {str(bad)[:200]}" for bad in spoiled(answer) if validator.is_valid(bad))
+
+
 def main():
     jsonschema.Draft202012Validator.check_schema(schema)
-    if set(schema["requests"]) != set(ASKED):
-        wrong.append(f"questions that are not asked here: {set(schema['requests']) ^ set(ASKED)}")
+    if set(schema["requests"]) != set(ASKED) | set(ROWS):
+        wrong.append(f"questions that are not asked here: {set(schema['requests']) ^ (set(ASKED) | set(ROWS))}")
     for question, lines in ASKED.items():
         validator = answers_of(question)
         for line in lines:
-            done = subprocess.run([tartan, *(word.replace("_", " ") for word in line.split(" ")), "--json"], capture_output=True, text=True, check=False)
-            if done.returncode:
-                wrong.append(f"{line}: {done.stderr}")
-                continue
-            answer = json.loads(done.stdout)
-            wrong.extend(f"{line}: {error.json_path}: {error.message[:200]}" for error in validator.iter_errors(answer))
-            wrong.extend(f"{line}: the schema takes {str(bad)[:200]}" for bad in spoiled(answer) if validator.is_valid(bad))
+            said = answers(line, "--json")
+            if said:
+                check(line, validator, json.loads(said))
+    for question, lines in ROWS.items():
+        for kind, line in lines:
+            said = answers(line, "--format", "json")
+            for row in (said or "").splitlines():
+                check(line, jsonschema.Draft202012Validator({"$defs": schema["$defs"], "$ref": f"#/$defs/{kind}"}), json.loads(row))
+            if said == "":
+                wrong.append(f"{line}: nothing was found")
     print("\n".join(wrong) or "fine")
 
 

@@ -20,8 +20,8 @@ struct tartan_session {
     tartan_compile_options options; /* with folders of our own */
     char **folders;
     asked_file whole;    /* as it was written */
-    asked_file narrowed; /* with further requirements, */
-    char *narrowed_by;   /* which are these, one a line behind the library's name */
+    asked_file narrowed; /* with further requirements or an open plan, */
+    char *narrowed_by;   /* which are these, one a line behind the library's name and the open plan */
 };
 
 /* ---- opened */
@@ -137,11 +137,17 @@ static const tn_library_asked *library_of(const tn_message *message, const void 
     return NULL;
 }
 
+/* The open plan that a request is about, or NULL. */
+static const char *pattern_of(const tn_message *message, const void *request)
+{
+    return message == &tn_message_complete_request ? ((const tn_complete_request *)request)->pattern : NULL;
+}
+
 /* (malloc) */
-static char *key_of(const tn_library_asked *asked)
+static char *key_of(const tn_library_asked *asked, const char *pattern)
 {
     tn_buffer key = {0};
-    tn_buffer_printf(&key, "%s", asked->library ? asked->library : "");
+    tn_buffer_printf(&key, "%s\n%s", asked->library ? asked->library : "", pattern ? pattern : "");
     for (size_t i = 0; i < asked->where.count; i++)
         tn_buffer_printf(&key, "\n%s", asked->where.items[i]);
     if (key.failed) {
@@ -152,14 +158,14 @@ static char *key_of(const tn_library_asked *asked)
 }
 
 /* The file as the request wants it: compiled again only if other requirements were asked for before. */
-static tartan_status choose_file(tartan_session *session, const tn_library_asked *asked, tartan_report *report,
-                                 void *context, asked_file **file, tartan_error *error)
+static tartan_status choose_file(tartan_session *session, const tn_library_asked *asked, const char *pattern,
+                                 tartan_report *report, void *context, asked_file **file, tartan_error *error)
 {
     *file = &session->whole;
-    if (!asked || asked->where.count == 0)
+    if (!asked || (asked->where.count == 0 && !pattern))
         return TARTAN_OK;
     *file = &session->narrowed;
-    char *key = key_of(asked);
+    char *key = key_of(asked, pattern);
     if (!key)
         return tn_api_memory(error);
     if (session->narrowed.open && strcmp(session->narrowed_by, key) == 0) {
@@ -167,7 +173,7 @@ static tartan_status choose_file(tartan_session *session, const tn_library_asked
         return TARTAN_OK;
     }
     const tn_questions asking = {
-        .library = asked->library, .wheres = asked->where.items, .where_count = asked->where.count};
+        .library = asked->library, .wheres = asked->where.items, .where_count = asked->where.count, .pattern = pattern};
     close_file(&session->narrowed);
     free(session->narrowed_by);
     session->narrowed_by = key;
@@ -260,7 +266,8 @@ tartan_status tartan_ask(tartan_session *session, const char *question, const ch
     if (read_request(&a, question, request, &found) != TN_OK)
         status = tn_api_fail(&found, error);
     if (status == TARTAN_OK)
-        status = choose_file(session, library_of(a.kind->request, a.request), report, report_context, &file, error);
+        status = choose_file(session, library_of(a.kind->request, a.request), pattern_of(a.kind->request, a.request),
+                             report, report_context, &file, error);
     if (status == TARTAN_OK)
         status = ask(file, &a, &watch, report, report_context, answer, error);
     clear(&a);

@@ -16,7 +16,7 @@ static const tn_draw_settings *settings_of(const tn_job *job)
 
 static bool is_sampled(const tn_draw_settings *settings)
 {
-    return settings->sample.given || settings->sampled.per_length.given;
+    return settings->sample.given || settings->per_length.given;
 }
 
 static bool from_library(const tn_draw_settings *settings)
@@ -51,8 +51,7 @@ static bool check_options(tn_job *job)
         tn_job_usage(job, "draw either rules or plans, not both");
     else if (is_sampled(settings) && settings->common.operands.count > 1)
         tn_job_usage(job, "draw either a file of plans or a --sample, not both");
-    else if (!is_sampled(settings) &&
-             (settings->sampled.seed.given || settings->sampled.length.given || settings->sampled.diverse))
+    else if (!is_sampled(settings) && (settings->seed.given || settings->length.given || settings->diverse))
         tn_job_usage(job, "--seed, --length and --diverse say what is sampled: give --sample N too");
     else if (!from_library(settings) && settings->plans.trays.given)
         tn_job_usage(job, "--trays says which plans are taken from the library: give --sample N or --best N too");
@@ -79,7 +78,7 @@ static bool check_use(tn_job *job)
         {s->plans.library != NULL, TN_OF_PLANS, "library"},
         {s->sample.given, TN_OF_PLANS, "sample"},
         {s->best.given, TN_OF_PLANS, "best"},
-        {s->sampled.per_length.given, TN_OF_PLANS, "per-length"},
+        {s->per_length.given, TN_OF_PLANS, "per-length"},
         {s->paper != NULL, TN_OF_PLANS, "paper"},
         {s->scale.given, TN_OF_PLANS, "scale"},
         {s->max_plans.given, TN_OF_PLANS, "max-plans"},
@@ -159,9 +158,9 @@ static bool refuses_for_houses(tn_job *job)
         {s->rules.count > 0, "--rule", "rules about houses have no picture; `tartan report` lists them"},
         {s->common.operands.count > 1, "a file of plans",
          "--sample N draws N houses of the library, and `tartan house FILE HOUSE -o NAME.svg` one"},
-        {s->sampled.length.given, "--length", of_trays},
-        {s->sampled.per_length.given, "--per-length", of_trays},
-        {s->sampled.diverse, "--diverse", "leave it out: each house of the library is drawn as likely as each"},
+        {s->length.given, "--length", of_trays},
+        {s->per_length.given, "--per-length", of_trays},
+        {s->diverse, "--diverse", "leave it out: each house of the library is drawn as likely as each"},
         {s->paper != NULL, "--paper", one_scale},
         {s->scale.given, "--scale", one_scale},
     };
@@ -179,12 +178,12 @@ static void draw_houses(tn_job *job)
 {
     const tn_draw_settings *s = settings_of(job);
     const tn_house_settings houses = tn_job_houses(&s->plans);
-    tn_wishes wishes = {0};
-    tn_house_wishes best;
+    tn_wished wished;
+    tn_best_request best;
     tn_house_sheet sheet = {.wanted = (size_t)(s->best.given ? s->best.value : s->sample.value),
                             .best = s->best.given ? &best : NULL,
                             .columns = (size_t)s->columns.value,
-                            .seed = s->sampled.seed.value,
+                            .seed = s->seed.value,
                             .camera = camera_of(s, tn_house_sheet_camera()),
                             .title = s->title,
                             .output = s->output,
@@ -197,10 +196,9 @@ static void draw_houses(tn_job *job)
                 "write --sample N, or --best N --least MEASURE; `tartan house` draws one house");
         return;
     }
-    if (s->best.given && !tn_wishes_names(job, &s->wanted, 1, &wishes))
+    if (s->best.given && !tn_job_wishes(job, &s->wanted, 1, &wished))
         return;
-    best = tn_wishes_of_houses(&wishes);
-    best.wanted = sheet.wanted;
+    best = (tn_best_request){.subject = tn_job_asked(&s->plans), .by = {wished.items, wished.count}};
     tn_job_draw_houses(job, &houses, &sheet);
 }
 
@@ -238,12 +236,13 @@ static const tn_option options[] = {
     OUTPUT(output, TN_WRITES_PICTURES, "the picture: .svg, .png or .pdf"),
     LIST("rule", 'r', "NAME", rules, "draw this rule instead of plans; may be repeated"),
     OPTIONS_LIBRARY,
-    NUMBER("sample", 0, "N", sample, 1, TN_SAMPLE_MAX, "draw N plans sampled from the library"),
-    NUMBER("seed", 's', "S", sampled.seed, 0, 0, "which sample (default 0)"),
-    NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "sample only plans of L trays"),
-    NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX, "sample N plans of each number of trays"),
-    OPTION_DIVERSE,
-    NUMBER("best", 0, "N", best, 1, TN_SAMPLE_MAX, "draw the N best plans or houses of the library, with their values"),
+    NUMBER("sample", 0, "N", sample, 1, TN_DRAW_SAMPLE_MAX, "draw N plans sampled from the library"),
+    NUMBER("seed", 's', "S", seed, 0, 0, "which sample (default 0)"),
+    NUMBER("length", 0, "L", length, 0, UINT32_MAX - 1, "sample only plans of L trays"),
+    NUMBER("per-length", 0, "N", per_length, 0, TN_DRAW_SAMPLE_MAX, "sample N plans of each number of trays"),
+    FLAG("diverse", 0, diverse, "plans that differ from one another, instead of each as likely as each"),
+    NUMBER("best", 0, "N", best, 1, TN_DRAW_SAMPLE_MAX,
+           "draw the N best plans or houses of the library, with their values"),
     WISH("least", wanted, "with --best: the plans with the least MEASURE first"),
     WISH("most", wanted, "with --best: the plans with the most MEASURE first"),
     WISH("then-least", wanted, "of equal ones those with the least of this measure; may be repeated"),

@@ -3,8 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/found.h"
 #include "cli/draw/draw.h"
-#include "cli/measure/best_search.h"
+#include "cli/measure/best_sheet.h"
 #include "cli/plan/sheet.h"
 #include "driver/open/digits.h"
 #include "runtime/base/picture.h"
@@ -22,6 +23,7 @@ typedef struct sheet {
     tn_job *job;
     const tn_schema *schema;
     const tn_library_record *library; /* or NULL */
+    const tn_ready_library *ready;    /* of plans that it was asked for */
     tn_plan_sheet drawn;
     bool ranked; /* numbers are ranks, not lines */
     char notes[NOTE_COUNT][NOTE_SIZE];
@@ -87,65 +89,89 @@ static bool read_plans(sheet *s, const char *path)
     return going;
 }
 
-static bool unrank_all(sheet *s, const tn_ready_library *ready, const tn_sampled *sampled)
+/* ---- plans that the library is asked for */
+
+static bool take_library(void *context, tn_found_of *of)
 {
-    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(ready->library) + 1));
+    sheet *s = context;
+    s->ready = of->plans;
+    s->schema = of->plans->schema;
+    s->library = of->plans->record;
+    return true;
+}
+
+static bool take_plan(void *context, const tn_found *found)
+{
+    sheet *s = context;
     tn_error error;
-    tn_status status = trays ? TN_OK : tn_fail_memory(&error);
-    for (size_t i = 0; status == TN_OK && i < sampled->count; i++) {
-        uint32_t length = 0;
-        tn_library_unrank(ready->library, sampled->ranks[i], trays, &length);
-        status = tn_sheet_add(&s->drawn, trays, length, mpz_get_str(NULL, 10, sampled->ranks[i]), NULL, NULL, &error);
-    }
-    free(trays);
+    tn_status status =
+        tn_sheet_add(&s->drawn, found->trays, found->length, mpz_get_str(NULL, 10, found->rank), NULL, NULL, &error);
     if (status != TN_OK)
         tn_job_fail(s->job, &error);
     return status == TN_OK;
 }
 
-static void note_library(sheet *s, const tn_ready_library *ready)
+static void note_library(sheet *s)
 {
     char hash[33];
-    tn_library_hash(ready->library, hash);
+    tn_library_hash(s->ready->library, hash);
     snprintf(s->notes[s->note_count++], NOTE_SIZE, "library %s", hash);
 }
 
-static void note_sample(sheet *s, const tn_ready_library *ready)
+static void note_sample(sheet *s)
 {
     mpz_t kept;
     mpz_init(kept);
-    tn_library_kept(ready->library, TN_ALL_LENGTHS, kept);
+    tn_library_kept(s->ready->library, TN_ALL_LENGTHS, kept);
     char *digits = tn_digits(kept, true);
     snprintf(s->notes[s->note_count++], NOTE_SIZE, "%zu of %s plans, drawn with seed %" PRIu64, s->drawn.count,
-             digits ? digits : "?", settings_of(s->job)->sampled.seed.value);
+             digits ? digits : "?", settings_of(s->job)->seed.value);
     free(digits);
     mpz_clear(kept);
 }
 
-static bool sample_plans(sheet *s, const tn_ready_library *ready)
+static bool sample_plans(sheet *s)
 {
-    tn_sampled sampled;
-    bool drawn = tn_job_sample(s->job, ready, &settings_of(s->job)->sampled, (size_t)settings_of(s->job)->sample.value,
-                               &sampled) &&
-                 unrank_all(s, ready, &sampled);
-    tn_sampled_clear(&sampled);
+    const tn_draw_settings *settings = settings_of(s->job);
+    const tn_taker taker = {take_library, take_plan, s};
+    const tn_sample_request request = {.subject = tn_job_asked(&settings->plans),
+                                       .has_count = settings->sample.given,
+                                       .count = settings->sample.value,
+                                       .seed = settings->seed.value,
+                                       .has_length = settings->length.given,
+                                       .length = settings->length.value,
+                                       .has_per_length = settings->per_length.given,
+                                       .per_length = settings->per_length.value,
+                                       .diverse = settings->diverse};
+    tn_reply answer;
+    s->job->session.taker = &taker;
+    bool drawn = tn_job_answered(s->job, tn_ask_sample(&s->job->session, &request, &answer)) && s->ready &&
+                 s->job->exit_code == TN_EXIT_DONE;
+    s->job->session.taker = NULL;
+    tn_reply_clear(&answer);
     if (drawn)
-        note_sample(s, ready);
+        note_sample(s);
     return drawn;
 }
 
-static bool best_plans(sheet *s, const tn_ready_library *ready)
+static bool best_plans(sheet *s)
 {
     const tn_draw_settings *settings = settings_of(s->job);
-    tn_best_search search;
-    bool going = tn_best_search_open(&search, s->job, ready, &settings->wanted);
-    if (going) {
-        tn_best_search_sheet(&search, settings->best.value, settings->mirror, &s->drawn);
-        going = s->job->exit_code == TN_EXIT_DONE &&
-                tn_best_search_aim(&search, s->drawn.count, s->notes[s->note_count++], NOTE_SIZE);
-    }
-    tn_best_search_close(&search);
-    return going;
+    tn_best_sheet best = {0};
+    tn_wished wished;
+    if (!tn_job_wishes(s->job, &settings->wanted, 1, &wished))
+        return false;
+    const tn_best_request request = {.subject = tn_job_asked(&settings->plans),
+                                     .by = {wished.items, wished.count},
+                                     .has_count = true,
+                                     .count = settings->best.value,
+                                     .mirror = settings->mirror};
+    bool found =
+        tn_job_best_sheet(s->job, &request, &best) && tn_best_sheet_aim(&best, s->notes[s->note_count++], NOTE_SIZE);
+    s->drawn = best.drawn;
+    if (found)
+        take_library(s, &(tn_found_of){.plans = best.ready});
+    return found;
 }
 
 static void draw_sheet(sheet *s)
@@ -178,16 +204,14 @@ static void draw_sheet(sheet *s)
 /* Plans that the library is asked for: its best ones, or a sample. */
 void tn_job_draw_library(tn_job *job)
 {
-    tn_ready_library ready;
-    if (tn_job_library(job, job->settings->operands.items[0], &settings_of(job)->plans, &ready)) {
-        sheet s = {.job = job, .schema = ready.schema, .library = ready.record, .ranked = true};
-        if (settings_of(job)->best.given ? best_plans(&s, &ready) : sample_plans(&s, &ready)) {
-            note_library(&s, &ready);
-            draw_sheet(&s);
-        }
-        tn_sheet_clear(&s.drawn);
+    sheet s = {.job = job, .ranked = true};
+    if (!tn_job_open_plans(job, job->settings->operands.items[0], &settings_of(job)->plans))
+        return;
+    if (settings_of(job)->best.given ? best_plans(&s) : sample_plans(&s)) {
+        note_library(&s);
+        draw_sheet(&s);
     }
-    tn_library_close(&ready);
+    tn_sheet_clear(&s.drawn);
 }
 
 void tn_job_draw_file(tn_job *job, const char *path)

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/house/sampled.h"
 #include "runtime/base/array.h"
 #include "runtime/base/integers.h"
 #include "runtime/module/same.h"

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/house/best_parts.h"
-#include "cli/house/sampled.h"
+#include "ask/best.h"
+#include "cli/house/houses.h"
 #include "driver/house/change_text.h"
 #include "driver/open/digits.h"
 #include "runtime/house/picture/draw.h"
@@ -23,8 +23,8 @@ typedef struct pictured {
 typedef struct collection {
     pictured *items;
     size_t count;
-    tn_best_houses *search; /* of the best, or NULL */
-    bool front;             /* of the best trade-offs */
+    tn_house_search *search; /* of the best, or NULL */
+    bool front;              /* of the best trade-offs */
 } collection;
 
 static tn_status say_cost(pictured *p, size_t used, tn_error *error)
@@ -80,22 +80,25 @@ static tn_status collect_drawn(void *context, tn_house *house, const mpz_t rank,
 /* "daylight 14', cost 2500"; of a trade-off also how many houses have it. */
 static tn_status say_values(const collection *c, pictured *p, tn_error *error)
 {
-    const tn_best_houses *s = c->search;
+    const tn_house_search *s = c->search;
     size_t used = 0;
-    for (uint32_t k = 0; k < s->wishes->count && used < SAID_SIZE; k++) {
-        tn_buffer value = {0};
-        bool ok = tn_best_houses_value(s, k, false, &value);
+    mpq_t value;
+    mpq_init(value);
+    bool ok = true;
+    for (uint32_t k = 0; ok && k < s->found.count && used < SAID_SIZE; k++) {
+        tn_house_search_value(s, k, value);
+        char *text = tn_wish_text(&s->found, k, value);
+        ok = text != NULL;
         if (ok)
-            used += (size_t)snprintf(p->said + used, SAID_SIZE - used, "%s%s %s", k ? ", " : "",
-                                     tn_best_houses_measure(s, k), value.data);
-        free(value.data);
-        if (!ok)
-            return tn_fail_memory(error);
+            used +=
+                (size_t)snprintf(p->said + used, SAID_SIZE - used, "%s%s %s", k ? ", " : "", s->found.names[k], text);
+        free(text);
     }
+    mpq_clear(value);
     char *digits = c->front ? tn_digits(s->count, true) : NULL;
     if (digits && used < SAID_SIZE)
         snprintf(p->said + used, SAID_SIZE - used, "; %s house%s", digits, strcmp(digits, "1") == 0 ? "" : "s");
-    bool ok = digits || !c->front;
+    ok = ok && (digits || !c->front);
     free(digits);
     return ok ? TN_OK : tn_fail_memory(error);
 }
@@ -115,7 +118,7 @@ static tn_status collect_best(void *context, const tn_house *house, bool *stop, 
         status = take(&c->items[c->count++], &copy, error);
     tn_house_clear(&copy);
     free(line.data);
-    *stop = ++c->search->given == c->search->wishes->wanted || c->front;
+    *stop = ++c->search->given == c->search->wanted || c->front;
     return status;
 }
 
@@ -124,7 +127,7 @@ static tn_status collect_all_best(collection *c, tn_error *error)
 {
     mpz_t plan, variant;
     mpz_inits(plan, variant, NULL);
-    tn_status status = tn_best_houses_each(c->search, collect_best, c, error);
+    tn_status status = tn_house_search_each(c->search, collect_best, c, error);
     for (size_t i = 0; status == TN_OK && i < c->count; i++) {
         pictured *p = &c->items[i];
         status = tn_numbered_name(&c->search->n, &p->house, plan, variant, error);
@@ -197,20 +200,19 @@ static void draw_sample(tn_job *job, const tn_house_settings *settings, const tn
 
 /* " with the least cost, then the most daylight"; ": the first of each of the best trade-offs, with the least cost and
  * the most daylight" */
-static void say_aim(const tn_best_houses *search, bool front, char *text, size_t size)
+static void say_aim(const tn_house_search *search, bool front, char *text, size_t size)
 {
-    const tn_house_wishes *wishes = search->wishes;
+    const tn_wishes *wishes = &search->found;
     snprintf(text, size, front ? ": the first of each of the best trade-offs, with " : " with ");
     for (uint32_t k = 0; k < wishes->count; k++) {
         size_t used = strlen(text);
         const char *between = k == 0 ? "the" : front ? " and the" : ", then the";
-        snprintf(text + used, size - used, "%s %s %s", between, wishes->most[k] ? "most" : "least",
-                 tn_best_houses_measure(search, k));
+        snprintf(text + used, size - used, "%s %s %s", between, wishes->most[k] ? "most" : "least", wishes->names[k]);
     }
 }
 
 /* A front has as many points as it has. */
-static bool fits(tn_job *job, const tn_best_houses *search, tn_house_sheet *sheet)
+static bool fits(tn_job *job, const tn_house_search *search, tn_house_sheet *sheet)
 {
     size_t points = tn_houses_points(search->houses);
     if (!sheet->front)
@@ -225,28 +227,39 @@ static bool fits(tn_job *job, const tn_best_houses *search, tn_house_sheet *shee
     return false;
 }
 
-static void draw_best(tn_job *job, const tn_house_settings *settings, tn_house_sheet sheet)
+static void draw_best(tn_job *job, tn_house_sheet sheet)
 {
-    tn_best_houses search;
-    collection c = {.search = &search, .front = sheet.front};
+    const tn_best_request *best = sheet.best;
+    const tn_pareto_request *front = sheet.front;
+    const tn_house_asked asked = {.subject = front ? &front->subject : &best->subject,
+                                  .plan = front ? front->plan : best->plan,
+                                  .wanted = front ? UINT64_MAX : sheet.wanted,
+                                  .aim = front ? TN_HOUSES_FRONT : TN_HOUSES_LEAST};
+    tn_house_search search;
+    tn_wishes wishes;
+    collection c = {.search = &search, .front = front != NULL};
     char what[NOTE_SIZE];
-    if (tn_best_houses_begin(&search, job, settings, sheet.best, sheet.front ? TN_HOUSES_FRONT : TN_HOUSES_LEAST) &&
+    tn_status status = tn_wishes_take(&job->session, front ? front->by.items : best->by.items,
+                                      front ? front->by.count : best->by.count, front ? 2 : 1, &wishes);
+    if (!tn_job_answered(job, status))
+        return;
+    if (tn_job_answered(job, tn_house_search_begin(&search, &job->session, &asked, &wishes)) &&
         fits(job, &search, &sheet)) {
-        say_aim(&search, sheet.front, what, sizeof what);
+        say_aim(&search, front != NULL, what, sizeof what);
         draw_collected(&search.n, &c, &sheet, what);
     }
-    tn_best_houses_end(&search);
+    tn_house_search_end(&search);
 }
 
 void tn_job_draw_houses(tn_job *job, const tn_house_settings *settings, const tn_house_sheet *sheet)
 {
     if (sheet->front)
-        draw_best(job, settings, *sheet);
+        draw_best(job, *sheet);
     else if (sheet->wanted == 0 || sheet->wanted > TN_HOUSES_DRAWN_MAX)
         tn_help(tn_job_diagnostics(job), tn_job_usage(job, "a picture shows 1 to %u houses", TN_HOUSES_DRAWN_MAX),
                 sheet->wanted ? "ask for fewer" : "ask for one, or more");
     else if (sheet->best)
-        draw_best(job, settings, *sheet);
+        draw_best(job, *sheet);
     else
         draw_sample(job, settings, sheet);
 }

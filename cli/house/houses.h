@@ -3,6 +3,7 @@
 #define TARTAN_CLI_HOUSE_HOUSES_H
 
 #include "ask/numbered.h"
+#include "ask/requests.h"
 #include "cli/common/job.h"
 #include "runtime/geometry/camera.h"
 
@@ -18,22 +19,15 @@ static inline tn_job *tn_numbered_job(const tn_numbered *n)
     return n->session->listener.context;
 }
 
-struct tn_written_settings;
-
-/* Writes different houses of the library, or of those on one plan, in the order of their ranks: each is drawn with the
- * same probability. */
-void tn_job_sample_houses(tn_job *job, const tn_house_settings *settings, const char *plan, size_t wanted,
-                          uint64_t seed, const struct tn_written_settings *written);
-
 /* The most houses of a page. */
 #define TN_HOUSES_DRAWN_MAX 200u
 
 /* Small pictures of houses: the best by measures, the first of each of the best trade-offs, or so many drawn at random
  * with a seed. Their names, areas and costs, or their values, stand below. */
 typedef struct tn_house_sheet {
-    size_t wanted, columns;             /* columns: 0 for as many as look well */
-    const struct tn_house_wishes *best; /* cli/house/best.h; or NULL */
-    bool front;                         /* the best trade-offs, all of them */
+    size_t wanted, columns;         /* columns: 0 for as many as look well */
+    const tn_best_request *best;    /* or NULL */
+    const tn_pareto_request *front; /* the best trade-offs, all of them; or NULL */
     uint64_t seed;
     tn_camera camera;
     const char *title; /* NULL: what the form says of itself */
@@ -49,17 +43,6 @@ static inline tn_camera tn_house_sheet_camera(void)
 
 /* An error of usage where more than TN_HOUSES_DRAWN_MAX are wanted. */
 void tn_job_draw_houses(tn_job *job, const tn_house_settings *settings, const tn_house_sheet *sheet);
-
-/* The houses [from, to) by rank, at most `limit` where `limited`. */
-typedef struct tn_house_range {
-    const char *from, *to; /* digits; NULL: the first, all */
-    uint64_t limit;
-    bool limited;
-} tn_house_range;
-
-/* Writes the houses of the library, or of those on one plan, in the order of their ranks. */
-void tn_job_list_houses(tn_job *job, const tn_house_settings *settings, const char *plan, const tn_house_range *range,
-                        const struct tn_written_settings *written);
 
 /* Appends a page about a library of houses, with so many of them drawn with the seed. False where that failed. */
 bool tn_job_report_houses(tn_job *job, const tn_house_settings *settings, size_t wanted, uint64_t seed,

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/house/sampled.h"
+#include "cli/house/houses.h"
 #include "driver/report/house_report.h"
 #include "runtime/base/integers.h"
 

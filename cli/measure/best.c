@@ -3,10 +3,10 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
-#include "cli/measure/best_search.h"
-#include "cli/plan/plan_output.h"
+#include "cli/measure/best_sheet.h"
+#include "cli/plan/found_rows.h"
 
-enum { BEST_DEFAULT = 10, BEST_MAX = 1000000 };
+enum { BEST_MAX = 1000000 };
 
 typedef struct best_settings {
     tn_settings common;
@@ -22,107 +22,132 @@ static const best_settings *settings_of(const tn_job *job)
     return (const best_settings *)job->settings;
 }
 
-/* Where the plans go: onto a sheet that is drawn, into lines with their values, JSON with them, or what `sample`
- * writes. */
-typedef struct sink {
-    tn_job *job;
-    const tn_best_search *search;
-    tn_plan_writer *writer; /* NULL: `output` */
-    tn_output output;
-    bool json, draws;
-    tn_buffer text;
-    tn_buffer values; /* as text: many plans in a row have the same */
-    int64_t written[TN_WEIGHED_MAX];
-} sink;
+/* ---- as text or JSON, with values: the other formats are those of `sample` */
 
-/* "value":"3/2" or "values":["3/2","4"] */
-static bool values_json(sink *s, const int64_t *values)
+typedef struct listing {
+    tn_job *job;
+    tn_output output;
+    bool json, open;
+    tn_found_of of;
+    tn_buffer text, exact;
+} listing;
+
+static bool begins(void *context, tn_found_of *of)
 {
-    const tn_wishes *wishes = &s->search->wishes;
-    tn_json json = tn_json_text(&s->values, TN_JSON_TIGHT);
-    tn_buffer exact = {0};
-    bool list = wishes->count > 1, ok = true;
-    if (list)
-        tn_json_list(&json, "values");
-    for (uint32_t k = 0; ok && k < wishes->count; k++) {
-        exact.size = 0;
-        ok = tn_wishes_exact(wishes, s->search->weighed, k, values[k], &exact);
-        tn_json_bytes(&json, list ? NULL : "value", exact.data, exact.size);
-    }
-    if (list)
-        tn_json_list_end(&json);
-    free(exact.data);
-    return ok && !s->values.failed;
+    listing *l = context;
+    l->of = *of;
+    tn_job_show(l->job);
+    l->open = tn_job_output(l->job, settings_of(l->job)->written.output, &l->output);
+    return l->open;
 }
 
-/* A comment in lines: "# 3 m  4". */
-static bool values_text(sink *s, const int64_t *values)
+/* "value":"3/2" or "values":["3/2","4"] */
+static bool write_values(listing *l, mpq_t *values, tn_json *json)
 {
-    const tn_wishes *wishes = &s->search->wishes;
-    bool ok = tn_buffer_printf(&s->values, "# ");
-    for (uint32_t k = 0; ok && k < wishes->count; k++)
-        ok = (k == 0 || tn_buffer_printf(&s->values, "  ")) &&
-             tn_wishes_text(wishes, s->search->weighed, k, values[k], &s->values);
+    const tn_wishes *wishes = l->of.wishes;
+    bool list = wishes->count > 1, ok = true;
+    if (list)
+        tn_json_list(json, "values");
+    for (uint32_t k = 0; ok && k < wishes->count; k++) {
+        l->exact.size = 0;
+        ok = tn_amount_write_exact(wishes->units[k], values[k], &l->exact);
+        tn_json_bytes(json, list ? NULL : "value", l->exact.data, l->exact.size);
+    }
+    if (list)
+        tn_json_list_end(json);
     return ok;
 }
 
-/* Makes s->values those of a plan. */
-static bool make_values(sink *s, const int64_t *values)
+static tn_status write_json(listing *l, const tn_found *found, tn_error *error)
 {
-    size_t size = s->search->wishes.count * sizeof *values;
-    if (s->values.size > 0 && memcmp(values, s->written, size) == 0)
-        return true;
-    memcpy(s->written, values, size);
-    s->values.size = 0;
-    return (s->json ? values_json : values_text)(s, values);
-}
-
-static bool plan_json(sink *s, const tn_best_plan *plan, const char *rank)
-{
-    tn_json json = tn_json_text(&s->text, TN_JSON_TIGHT);
+    tn_json json = tn_json_text(&l->text, TN_JSON_TIGHT);
+    char *line = NULL;
+    tn_status status = found->house ? tn_found_house_texts(found->house, &line, NULL, error) : TN_OK;
     tn_json_object(&json, NULL);
-    tn_json_written(&json, s->values.data, s->values.size);
-    tn_json_string(&json, "rank", rank);
-    tn_plan_write_trays(s->search->ready->schema, plan->trays, plan->length, &json);
+    bool ok = write_values(l, found->values, &json);
+    if (found->house) {
+        tn_json_string(&json, "house", line);
+    } else {
+        tn_json_digits(&json, "rank", found->rank);
+        tn_plan_write_trays(l->of.plans->schema, found->trays, found->length, &json);
+    }
     tn_json_object_end(&json);
     tn_json_end_line(&json);
-    return !s->text.failed;
+    free(line);
+    return status == TN_OK && !(ok && !l->text.failed) ? tn_fail_memory(error) : status;
 }
 
-static bool plan_text(sink *s, const tn_best_plan *plan, const char *rank)
+/* A comment in lines: "# 3 m  4", of plans with the rank; and the line. */
+static tn_status write_text(listing *l, const tn_found *found, tn_error *error)
 {
-    return tn_buffer_printf(&s->text, "%s  rank %s\n", s->values.data, rank) &&
-           tn_plan_write_line(s->search->ready->schema, plan->trays, plan->length, &s->text) &&
-           tn_buffer_printf(&s->text, "\n");
+    const tn_wishes *wishes = l->of.wishes;
+    char *line = NULL;
+    tn_status status = found->house
+                           ? tn_found_house_texts(found->house, &line, NULL, error)
+                           : tn_found_plan_texts(l->of.plans->schema, found->trays, found->length, &line, NULL, error);
+    bool ok = tn_buffer_printf(&l->text, "# ");
+    for (uint32_t k = 0; ok && k < wishes->count; k++)
+        ok = tn_buffer_printf(&l->text, k ? "  " : "") && tn_amount_write(wishes->units[k], found->values[k], &l->text);
+    char *rank = found->rank ? mpz_get_str(NULL, 10, found->rank) : NULL;
+    if (ok && rank)
+        ok = tn_buffer_printf(&l->text, "  rank %s", rank);
+    if (ok && status == TN_OK)
+        ok = tn_buffer_printf(&l->text, "\n%s\n", line);
+    free(rank);
+    free(line);
+    return status == TN_OK && !ok ? tn_fail_memory(error) : status;
 }
 
-static tn_status put_plan(void *to, const tn_best_plan *plan, tn_error *error)
+static bool takes(void *context, const tn_found *found)
 {
-    sink *s = to;
-    if (s->writer)
-        return tn_plan_writer_write(s->writer, plan->rank, plan->trays, plan->length, error);
-    s->text.size = 0;
-    char *digits = mpz_get_str(NULL, 10, plan->rank);
-    bool ok = digits && make_values(s, plan->values) && (s->json ? plan_json : plan_text)(s, plan, digits);
-    free(digits);
-    if (!ok)
-        return tn_fail_memory(error);
-    fwrite(s->text.data, 1, s->text.size, s->output.stream);
-    return TN_OK;
+    listing *l = context;
+    tn_error error;
+    l->text.size = 0;
+    tn_status status = (l->json ? write_json : write_text)(l, found, &error);
+    if (status == TN_OK)
+        fwrite(l->text.data, 1, l->text.size, l->output.stream); /* a failure is said when the output is closed */
+    else
+        tn_job_fail(l->job, &error);
+    return status == TN_OK;
 }
+
+static void list(tn_job *job, const tn_best_request *request)
+{
+    listing l = {.job = job, .json = settings_of(job)->written.format == TN_FORMAT_JSON};
+    const tn_taker taker = {begins, takes, &l};
+    tn_reply answer;
+    job->session.taker = &taker;
+    bool found = tn_job_answered(job, tn_ask_best(&job->session, request, &answer));
+    job->session.taker = NULL;
+    if (l.open)
+        tn_job_close(job, &l.output, found && job->exit_code == TN_EXIT_DONE);
+    tn_reply_clear(&answer);
+    free(l.text.data);
+    free(l.exact.data);
+}
+
+/* ---- in the other formats */
+
+static void write_rows(tn_job *job, const tn_best_request *request)
+{
+    tn_found_rows rows;
+    tn_reply answer;
+    tn_found_rows_begin(&rows, job, &settings_of(job)->written, "best");
+    tn_found_rows_end(&rows, tn_ask_best(&job->session, request, &answer));
+    tn_reply_clear(&answer);
+}
+
+/* ---- drawn */
 
 enum { NOTES = 3, NOTE_SIZE = 256 };
 
-static void draw_best(tn_best_search *search, uint64_t wanted)
+static void draw_sheet(tn_job *job, const tn_best_sheet *sheet)
 {
-    tn_job *job = search->job;
-    const tn_ready_library *ready = search->ready;
+    const tn_ready_library *ready = sheet->ready;
     const tn_module *module = ready->schema->module;
     char aim[NOTE_SIZE] = "", hash[33], library[NOTE_SIZE], rules[NOTE_SIZE];
     const char *notes[NOTES] = {aim, library, rules};
     tn_error error;
-    tn_plan_sheet sheet = {0};
-    tn_best_search_sheet(search, wanted, settings_of(job)->mirror, &sheet);
     tn_library_hash(ready->library, hash);
     snprintf(library, sizeof library, "library %s", hash);
     tn_sheet_note_rules(job, rules, sizeof rules);
@@ -131,93 +156,80 @@ static void draw_best(tn_best_search *search, uint64_t wanted)
                                      .number_name = "rank",
                                      .notes = notes,
                                      .note_count = NOTES};
-    tn_status status = tn_best_search_aim(search, sheet.count, aim, sizeof aim) ? TN_OK : tn_fail_memory(&error);
-    if (status == TN_OK && job->exit_code == TN_EXIT_DONE)
-        status = tn_plans_draw(ready->schema, sheet.plans, sheet.count, &options,
+    tn_status status = tn_best_sheet_aim(sheet, aim, sizeof aim) ? TN_OK : tn_fail_memory(&error);
+    if (status == TN_OK)
+        status = tn_plans_draw(ready->schema, sheet->drawn.plans, sheet->drawn.count, &options,
                                &(tn_picture){.path = settings_of(job)->written.output}, &error);
     if (status != TN_OK)
         tn_job_fail(job, &error);
-    tn_sheet_clear(&sheet);
 }
 
-/* A picture by its name; text goes out here, so that values can stand with the plans; the other formats as `sample`
- * writes them. */
-static bool open_sink(sink *s, uint64_t wanted)
+static void draw(tn_job *job, const tn_best_request *request)
 {
-    const tn_written_settings *settings = &settings_of(s->job)->written;
-    tn_plan_format format = (tn_plan_format)settings->format;
-    s->draws = format == TN_FORMAT_AUTO && tn_job_draws(settings->output);
-    if (s->draws && wanted > TN_DRAW_PLANS_DEFAULT) {
-        tn_help(tn_job_diagnostics(s->job),
-                tn_job_usage(s->job, "a picture shows at most %u plans", TN_DRAW_PLANS_DEFAULT),
+    tn_best_sheet sheet;
+    if (request->count > TN_DRAW_PLANS_DEFAULT) {
+        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "a picture shows at most %u plans", TN_DRAW_PLANS_DEFAULT),
                 "ask for fewer, or write them to a file that is not a picture");
-        return false;
+        return;
     }
-    s->json = format == TN_FORMAT_JSON;
-    bool text = s->json || format == TN_FORMAT_LINES || (format == TN_FORMAT_AUTO && !settings->output);
-    return s->draws || (text ? tn_job_output(s->job, settings->output, &s->output)
-                             : tn_job_plan_writer(s->job, s->search->ready, settings, "best", &s->writer));
+    if (tn_job_best_sheet(job, request, &sheet))
+        draw_sheet(job, &sheet);
+    tn_sheet_clear(&sheet.drawn);
 }
 
-static void write_best(sink *s, tn_best_search *search, uint64_t wanted)
+/* ---- asked */
+
+static void find_plans(tn_job *job, const tn_best_request *request)
 {
-    tn_best_search_give(search, wanted, settings_of(s->job)->mirror, put_plan, s);
-    if (s->writer)
-        tn_job_rows_close(s->job, s->writer);
+    const tn_written_settings *written = &settings_of(job)->written;
+    tn_plan_format format = (tn_plan_format)written->format;
+    if (format == TN_FORMAT_AUTO && tn_job_draws(written->output))
+        draw(job, request);
+    else if (format == TN_FORMAT_JSON || format == TN_FORMAT_LINES || (format == TN_FORMAT_AUTO && !written->output))
+        list(job, request);
     else
-        tn_job_commit(s->job, &s->output);
-    free(s->text.data);
-    free(s->values.data);
-}
-
-static void find_best(tn_job *job, const tn_ready_library *ready, uint64_t wanted)
-{
-    tn_best_search search;
-    sink s = {.job = job, .search = &search};
-    if (tn_best_search_open(&search, job, ready, &settings_of(job)->wanted) && open_sink(&s, wanted)) {
-        if (s.draws)
-            draw_best(&search, wanted);
-        else
-            write_best(&s, &search, wanted);
-    }
-    tn_best_search_close(&search);
+        write_rows(job, request);
 }
 
 /* Houses are written as lines or JSON, or drawn; what else plans may be told is wrong usage. */
-static void find_houses(tn_job *job, uint64_t wanted)
+static void find_houses(tn_job *job, const tn_best_request *request)
 {
     const best_settings *settings = settings_of(job);
+    const char *output = settings->written.output;
     tn_plan_format format = (tn_plan_format)settings->written.format;
-    tn_wishes wishes;
     bool lines = format == TN_FORMAT_AUTO || format == TN_FORMAT_JSON || format == TN_FORMAT_LINES;
-    if (settings->mirror) {
-        tn_job_usage(job, "--mirror is about plans, not about houses");
-        return;
-    }
-    if (!tn_job_writes(job, "a list of the best houses", settings->written.output,
-                       TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES_PICTURES))
+    if (!tn_job_writes(job, "a list of the best houses", output, TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES_PICTURES))
         return;
     if (!lines) {
         tn_diagnostic *d =
             tn_job_usage(job, "the best houses are written as lines or JSON, or drawn: leave out this --format");
         tn_help(tn_job_diagnostics(job), d, "-o NAME.svg, NAME.png or NAME.pdf draws them");
-        return;
+    } else if (tn_job_draws(output) && !settings->mirror) {
+        const tn_house_settings houses = tn_job_houses(&settings->plans);
+        tn_job_draw_houses(job, &houses,
+                           &(tn_house_sheet){.wanted = (size_t)request->count,
+                                             .best = request,
+                                             .camera = tn_house_sheet_camera(),
+                                             .output = output});
+    } else {
+        list(job, request);
     }
-    if (!tn_wishes_names(job, &settings->wanted, 1, &wishes))
+}
+
+static void find_best(tn_job *job, uint64_t wanted)
+{
+    const best_settings *settings = settings_of(job);
+    tn_wished wished;
+    bool houses = settings->plan || tn_job_of_houses(job, &settings->plans);
+    if (!tn_job_wishes(job, &settings->wanted, 1, &wished))
         return;
-    const tn_house_settings houses = tn_job_houses(&settings->plans);
-    tn_house_wishes of = tn_wishes_of_houses(&wishes);
-    of.plan = settings->plan;
-    of.wanted = wanted;
-    of.json = format == TN_FORMAT_JSON;
-    of.output = settings->written.output;
-    if (tn_job_draws(of.output))
-        tn_job_draw_houses(
-            job, &houses,
-            &(tn_house_sheet){
-                .wanted = (size_t)wanted, .best = &of, .camera = tn_house_sheet_camera(), .output = of.output});
-    else
-        tn_job_best_houses(job, &houses, &of);
+    const tn_best_request request = {.subject = tn_job_asked(&settings->plans),
+                                     .by = {wished.items, wished.count},
+                                     .has_count = true,
+                                     .count = wanted,
+                                     .plan = settings->plan,
+                                     .mirror = settings->mirror};
+    (houses ? find_houses : find_plans)(job, &request);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
@@ -225,20 +237,15 @@ static int run(const tn_command *command, const tn_settings *common)
     (void)command;
     const best_settings *settings = (const best_settings *)common;
     tn_job job;
-    tn_ready_library ready = {0};
-    uint64_t wanted = BEST_DEFAULT;
+    uint64_t wanted = TN_BEST_DEFAULT;
     tn_job_begin(&job, common);
     if (common->operands.count > 1 && (!tn_number_read(common->operands.items[1], &wanted) || wanted > BEST_MAX)) {
         tn_diagnostic *d = tn_job_usage(&job, "the number of plans is a number from 0 to %d, not `%.60s`", BEST_MAX,
                                         common->operands.items[1]);
         tn_help(tn_job_diagnostics(&job), d, "the file comes first: tartan best FILE N --least MEASURE");
     } else if (tn_job_open_plans(&job, common->operands.items[0], &settings->plans)) {
-        if (settings->plan || tn_job_of_houses(&job, &settings->plans))
-            find_houses(&job, wanted);
-        else if (tn_job_opened_library(&job, &settings->plans, &ready))
-            find_best(&job, &ready, wanted);
+        find_best(&job, wanted);
     }
-    tn_library_close(&ready);
     return tn_job_end(&job);
 }
 

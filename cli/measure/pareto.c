@@ -1,13 +1,10 @@
 /* tartan pareto: lists the best trade-offs of two or three measures. */
 #include <stdlib.h>
 
-#include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
-#include "cli/common/progress.h"
 #include "cli/measure/wishes.h"
 #include "driver/measure/front.h"
 #include "driver/open/digits.h"
-#include "runtime/plan/text/text.h"
 
 typedef struct pareto_settings {
     tn_settings common;
@@ -23,154 +20,71 @@ static const pareto_settings *settings_of(const tn_job *job)
     return (const pareto_settings *)job->settings;
 }
 
-typedef struct paper {
-    const tn_ready_library *ready;
-    const tn_wishes *wishes;
-    const tn_weighed *weighed;
-    const tn_pareto_front *front;
-} paper;
-
-static const char *measure_name(const paper *p, uint32_t k)
+static void write_text(const tn_found_front *front, bool houses, FILE *out)
 {
-    const tn_module *module = p->ready->schema->module;
-    return tn_text(module, module->MEASURE_records[p->wishes->measures[k]].name);
-}
-
-static bool point_json(const paper *p, const tn_pareto_point *point, tn_json *json)
-{
-    tn_buffer text = {0}, line = {0};
-    bool ok = true;
-    tn_json_object(json, NULL);
-    tn_json_list(json, "values");
-    for (uint32_t k = 0; ok && k < p->wishes->count; k++) {
-        text.size = 0;
-        ok = tn_wishes_exact(p->wishes, p->weighed, k, point->values[k], &text);
-        tn_json_bytes(json, NULL, text.data, text.size);
+    for (size_t k = 0; k < front->measures.count; k++)
+        fprintf(out, "%18s", front->measures.items[k]);
+    fprintf(out, "  %20s  %s\n", houses ? "houses" : "plans", "the first of them");
+    for (size_t i = 0; i < front->points.count; i++) {
+        const tn_front_point *point = &front->points.items[i];
+        char *count = tn_digits(houses ? point->houses : point->plans, true);
+        for (size_t k = 0; k < point->shown.count; k++)
+            fprintf(out, "%18s", point->shown.items[k]);
+        fprintf(out, "  %20s  %s\n", count ? count : "?", houses ? point->house : point->plan);
+        free(count);
     }
-    tn_json_list_end(json);
-    mpz_t rank;
-    mpz_init(rank);
-    ok = ok && tn_library_rank(p->ready->library, point->trays, point->length, rank) &&
-         tn_plan_write_line(p->ready->schema, point->trays, point->length, &line);
-    tn_json_digits(json, "plans", point->plans);
-    tn_json_digits(json, "rank", rank);
-    tn_json_string(json, "plan", line.data ? line.data : "");
-    tn_json_object_end(json);
-    mpz_clear(rank);
-    free(text.data);
-    free(line.data);
-    return ok;
 }
 
-static bool write_json(const paper *p, FILE *out)
+static void draw(tn_job *job, const tn_plan_front *f)
 {
-    tn_json json = tn_json_file(out, TN_JSON_LINES);
-    bool ok = true;
-    tn_json_object(&json, NULL);
-    tn_json_list(&json, "measures");
-    for (uint32_t k = 0; k < p->wishes->count; k++)
-        tn_json_string(&json, NULL, measure_name(p, k));
-    tn_json_list_end(&json);
-    tn_json_list(&json, "points");
-    for (size_t i = 0; ok && i < p->front->count; i++)
-        ok = point_json(p, &p->front->points[i], &json);
-    tn_json_list_end(&json);
-    tn_json_object_end(&json);
-    tn_json_end_line(&json);
-    return ok;
-}
-
-static bool write_text(const paper *p, FILE *out)
-{
-    bool ok = true;
-    for (uint32_t k = 0; k < p->wishes->count; k++)
-        fprintf(out, "%18s", measure_name(p, k));
-    fprintf(out, "  %20s  %s\n", "plans", "the first of them");
-    for (size_t i = 0; ok && i < p->front->count; i++) {
-        const tn_pareto_point *point = &p->front->points[i];
-        tn_buffer line = {0};
-        for (uint32_t k = 0; ok && k < p->wishes->count; k++) {
-            tn_buffer text = {0};
-            ok = tn_wishes_text(p->wishes, p->weighed, k, point->values[k], &text);
-            fprintf(out, "%18s", text.data ? text.data : "");
-            free(text.data);
-        }
-        char *plans = tn_digits(point->plans, true);
-        ok = ok && tn_plan_write_line(p->ready->schema, point->trays, point->length, &line);
-        fprintf(out, "  %20s  %s\n", plans ? plans : "", line.data ? line.data : "");
-        free(plans);
-        free(line.data);
-    }
-    return ok;
-}
-
-static void draw_front(tn_job *job, const paper *p, tn_weighed *weighed)
-{
-    const tn_wishes *wishes = p->wishes;
-    const tn_shown_front shown = {p->ready, wishes->count, wishes->measures, wishes->most, weighed, p->front};
+    const tn_shown_front shown = {f->ready, f->wishes.count, f->wishes.measures, f->wishes.most, f->weighed, &f->front};
     tn_error error;
     if (tn_front_picture(&shown, &(tn_picture){.path = settings_of(job)->output}, &error) != TN_OK)
         tn_job_fail(job, &error);
 }
 
-static void write_front(tn_job *job, const paper *p)
+static void write(tn_job *job, const tn_reply *answer, bool houses)
 {
-    tn_error error;
     tn_output output;
     if (!tn_job_output(job, settings_of(job)->output, &output))
         return;
-    if (!(settings_of(job)->json ? write_json : write_text)(p, output.stream)) {
-        tn_fail_memory(&error);
-        tn_job_fail(job, &error);
-    }
+    if (settings_of(job)->json)
+        tn_job_write_json(answer, output.stream);
+    else
+        write_text(answer->value, houses, output.stream);
     tn_job_commit(job, &output);
 }
 
-static void find_front(tn_job *job, const tn_ready_library *ready)
+static void find_front(tn_job *job, const tn_pareto_request *request, bool houses)
 {
-    tn_wishes wishes;
-    tn_weighed *weighed = NULL;
-    tn_pareto_front front = {0};
-    tn_error error;
-    if ((settings_of(job)->json && !tn_job_takes_text(job, settings_of(job)->output)) ||
-        !tn_wishes_read(job, ready, &settings_of(job)->wanted, 2, &wishes))
-        return;
-    tn_progress progress;
-    tn_progress_watch(&progress, "looking for the front", tn_interrupt_waiting());
-    tn_status status = tn_weighed_new(ready->library, wishes.measures, wishes.count, &weighed, &error);
-    if (status == TN_OK)
-        status = tn_pareto_make(&front, weighed, wishes.most, &error);
-    tn_progress_unwatch(&progress, tn_interrupt_waiting());
-    paper p = {ready, &wishes, weighed, &front};
+    tn_reply answer;
+    bool found = tn_job_answered(job, tn_ask_pareto(&job->session, request, &answer));
+    const tn_found_front *front = answer.value;
     tn_job_show(job);
-    if (status != TN_OK)
-        tn_job_fail(job, &error);
-    else if (tn_job_draws(settings_of(job)->output))
-        draw_front(job, &p, weighed);
-    else
-        write_front(job, &p);
-    tn_pareto_clear(&front);
-    tn_weighed_free(weighed);
+    if (found && tn_job_draws(settings_of(job)->output))
+        draw(job, front->shown);
+    else if (found)
+        write(job, &answer, houses);
+    tn_reply_clear(&answer);
 }
 
-static void find_houses(tn_job *job)
+static void pareto(tn_job *job)
 {
     const pareto_settings *settings = settings_of(job);
-    tn_wishes wishes;
-    if (!tn_wishes_names(job, &settings->wanted, 2, &wishes))
+    tn_wished wished;
+    if ((settings->json && !tn_job_takes_text(job, settings->output)) ||
+        !tn_job_wishes(job, &settings->wanted, 2, &wished))
         return;
-    const tn_house_settings houses = tn_job_houses(&settings->plans);
-    tn_house_wishes of = tn_wishes_of_houses(&wishes);
-    of.plan = settings->plan;
-    of.wanted = UINT64_MAX; /* all of it */
-    of.json = settings->json;
-    of.output = settings->output;
-    if (tn_job_draws(of.output))
-        tn_job_draw_houses(
-            job, &houses,
-            &(tn_house_sheet){.best = &of, .front = true, .camera = tn_house_sheet_camera(), .output = of.output});
-    else
-        tn_job_front_of_houses(job, &houses, &of);
+    bool houses = settings->plan || tn_job_of_houses(job, &settings->plans);
+    const tn_pareto_request request = {
+        .subject = tn_job_asked(&settings->plans), .by = {wished.items, wished.count}, .plan = settings->plan};
+    if (!houses || !tn_job_draws(settings->output)) {
+        find_front(job, &request, houses);
+        return;
+    }
+    const tn_house_settings of = tn_job_houses(&settings->plans);
+    tn_job_draw_houses(
+        job, &of, &(tn_house_sheet){.front = &request, .camera = tn_house_sheet_camera(), .output = settings->output});
 }
 
 static int run(const tn_command *command, const tn_settings *common)
@@ -178,15 +92,9 @@ static int run(const tn_command *command, const tn_settings *common)
     (void)command;
     const pareto_settings *settings = (const pareto_settings *)common;
     tn_job job;
-    tn_ready_library ready = {0};
     tn_job_begin(&job, common);
-    if (tn_job_open_plans(&job, common->operands.items[0], &settings->plans)) {
-        if (settings->plan || tn_job_of_houses(&job, &settings->plans))
-            find_houses(&job);
-        else if (tn_job_opened_library(&job, &settings->plans, &ready))
-            find_front(&job, &ready);
-    }
-    tn_library_close(&ready);
+    if (tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
+        pareto(&job);
     return tn_job_end(&job);
 }
 

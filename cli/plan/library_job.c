@@ -20,45 +20,6 @@ size_t tn_job_max_length(const tn_plan_settings *plans)
     return tn_asked_length(&asked);
 }
 
-void tn_job_rank(const char *text, const mpz_t otherwise, mpz_t number)
-{
-    if (!text || !*text || mpz_set_str(number, text, 10) != 0)
-        mpz_set(number, otherwise);
-}
-
-static void refuse_range(tn_job *job, const char *from, const char *to)
-{
-    tn_diagnostic *d = tn_job_usage(job, "no rank is from %.60s on and before %.60s", from, to);
-    tn_help(tn_job_diagnostics(job), d, "write the smaller rank after --from");
-}
-
-static void note_end(tn_job *job, const mpz_t kept, const char *from)
-{
-    char *digits = tn_digits(kept, false);
-    tn_job_note(job, "the library holds %.400s plans, none of them from rank %.40s on", digits ? digits : "?", from);
-    free(digits);
-}
-
-bool tn_job_range(tn_job *job, const tn_library *library, const char *from, const char *to, mpz_t begin, mpz_t end)
-{
-    mpz_t kept, zero;
-    mpz_inits(kept, zero, NULL);
-    tn_library_kept(library, TN_ALL_LENGTHS, kept);
-    tn_job_rank(from, zero, begin);
-    tn_job_rank(to, kept, end);
-    bool backwards = to && mpz_cmp(begin, end) > 0;
-    if (backwards)
-        refuse_range(job, from, to);
-    else if (mpz_sgn(kept) > 0 && mpz_cmp(begin, kept) >= 0)
-        note_end(job, kept, from);
-    if (mpz_cmp(end, kept) > 0)
-        mpz_set(end, kept);
-    if (mpz_cmp(begin, end) > 0)
-        mpz_set(begin, end);
-    mpz_clears(kept, zero, NULL);
-    return !backwards;
-}
-
 bool tn_job_open_plan(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern)
 {
     const tn_questions questions = {.library = plans->library,

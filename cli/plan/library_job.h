@@ -74,11 +74,4 @@ unsigned tn_job_threads(const tn_plan_settings *plans);
 /* The longest plan that the options accept. */
 size_t tn_job_max_length(const tn_plan_settings *plans);
 
-/* A rank of the options ("" or NULL: `otherwise`). `number` is initialised. */
-void tn_job_rank(const char *text, const mpz_t otherwise, mpz_t number);
-
-/* The ranks [begin, end) that two such options ask for, no further than the library goes; initialised. False where they
- * are the wrong way round, which is recorded as wrong usage; a note says where the library has no such rank. */
-bool tn_job_range(tn_job *job, const tn_library *library, const char *from, const char *to, mpz_t begin, mpz_t end);
-
 #endif

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/enumerate.h"
 #include "cli/common/interrupt.h"
 #include "driver/open/digits.h"
 #include "driver/plan/made.h"
@@ -114,7 +115,7 @@ void tn_job_new_set(tn_job *job, const tn_ready_library *ready, const tn_new_set
     tn_error error;
     mpz_t from, to;
     mpz_inits(from, to, NULL);
-    if (tn_job_range(job, ready->library, what->from, what->to, from, to)) {
+    if (tn_job_answered(job, tn_asked_range(&job->session, ready->library, what->from, what->to, from, to))) {
         tn_status status = describe(job, ready, what, &set)
                                ? tn_shard_set_divide(&set, from, to, what->shards, what->each, &error)
                                : tn_fail_memory(&error);

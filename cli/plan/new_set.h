@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_PLAN_NEW_SET_H
 #define TARTAN_CLI_PLAN_NEW_SET_H
 
-#include "cli/plan/plan_output.h"
+#include "cli/plan/found_rows.h"
 #include "driver/shards/set.h"
 
 /* All is borrowed. written: its output is the folder. */

@@ -1,23 +1,21 @@
 /* tartan sample: plans drawn evenly from a library. */
 #include <inttypes.h>
-#include <stdlib.h>
+#include <stdio.h>
 
-#include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
-#include "cli/house/houses.h"
+#include "cli/plan/found_rows.h"
 #include "cli/plan/new_set.h"
-#include "cli/plan/plan_output.h"
-#include "cli/plan/sampled.h"
 
-#define PART "interrupted; %.400s holds only the first plans of the sample"
+/* The most plans that are drawn at once: their ranks are all in memory. */
+#define SAMPLE_MAX 50000000u
 
 typedef struct sample_settings {
     tn_settings common;
     tn_plan_settings plans;
-    tn_sampled_settings sampled;
     tn_written_settings written;
+    tn_option_number seed, length, per_length, shards;
+    bool diverse; /* plans that differ, instead of even chances */
     const char *plan;
-    tn_option_number shards;
 } sample_settings;
 
 static const sample_settings *settings_of(const tn_job *job)
@@ -25,73 +23,51 @@ static const sample_settings *settings_of(const tn_job *job)
     return (const sample_settings *)job->settings;
 }
 
-static void write_plans(tn_job *job, const tn_ready_library *ready, const tn_sampled *sampled, tn_plan_writer *writer)
-{
-    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(ready->library) + 1));
-    tn_error error;
-    tn_status status = trays ? TN_OK : tn_fail_memory(&error);
-    for (size_t i = 0; status == TN_OK && i < sampled->count; i++) {
-        uint32_t length;
-        if ((status = tn_interrupt_check(&error)) != TN_OK)
-            break;
-        if (tn_library_unrank(ready->library, sampled->ranks[i], trays, &length))
-            status = tn_plan_writer_write(writer, sampled->ranks[i], trays, length, &error);
-        else
-            status = tn_fail(&error, TN_INTERNAL, TN_CODE_NONE, "a sampled rank is not in the library");
-    }
-    if (status != TN_OK)
-        tn_job_fail(job, &error);
-    free(trays);
-}
-
-/* A part of a sample is not drawn evenly: a file is not written, and of a database it is said. */
-static void promise(const tn_job *job, const tn_plan_writer *writer)
-{
-    if (tn_plan_writer_resumes(writer))
-        tn_interrupt_last_words(PART, settings_of(job)->written.output);
-}
-
 /* What decides the result, for the record in the file. */
 static void describe(const sample_settings *settings, size_t wanted, char *text, size_t size)
 {
-    int used = settings->sampled.per_length.given
-                   ? snprintf(text, size, "sample --per-length %" PRIu64, settings->sampled.per_length.value)
+    int used = settings->per_length.given
+                   ? snprintf(text, size, "sample --per-length %" PRIu64, settings->per_length.value)
                    : snprintf(text, size, "sample %zu", wanted);
-    used += snprintf(text + used, size - (size_t)used, "%s --seed %" PRIu64,
-                     settings->sampled.diverse ? " --diverse" : "", settings->sampled.seed.value);
-    if (settings->sampled.length.given)
-        snprintf(text + used, size - (size_t)used, " --length %" PRIu64, settings->sampled.length.value);
+    used += snprintf(text + used, size - (size_t)used, "%s --seed %" PRIu64, settings->diverse ? " --diverse" : "",
+                     settings->seed.value);
+    if (settings->length.given)
+        snprintf(text + used, size - (size_t)used, " --length %" PRIu64, settings->length.value);
 }
 
-static void sample(tn_job *job, const tn_ready_library *ready, size_t wanted)
+static void sample(tn_job *job, size_t wanted)
 {
-    tn_sampled sampled;
-    tn_plan_writer *writer;
+    const sample_settings *s = settings_of(job);
+    const tn_sample_request request = {.subject = tn_job_asked(&s->plans),
+                                       .has_count = !s->per_length.given,
+                                       .count = wanted,
+                                       .seed = s->seed.value,
+                                       .has_length = s->length.given,
+                                       .length = s->length.value,
+                                       .has_per_length = s->per_length.given,
+                                       .per_length = s->per_length.value,
+                                       .diverse = s->diverse,
+                                       .plan = s->plan};
+    tn_found_rows rows;
+    tn_reply answer;
     char made[128];
-    describe(settings_of(job), wanted, made, sizeof made);
-    if (tn_job_sample(job, ready, &settings_of(job)->sampled, wanted, &sampled)) {
-        tn_job_show(job);
-        if (tn_job_plan_writer(job, ready, &settings_of(job)->written, made, &writer)) {
-            promise(job, writer);
-            write_plans(job, ready, &sampled, writer);
-            if (job->stopped && tn_plan_writer_resumes(writer))
-                tn_job_interrupted(job, PART, settings_of(job)->written.output);
-            tn_job_rows_close(job, writer);
-        }
-    }
-    tn_sampled_clear(&sampled);
+    describe(s, wanted, made, sizeof made);
+    tn_found_rows_begin(&rows, job, &s->written, made);
+    rows.sample = true;
+    tn_found_rows_end(&rows, tn_ask_sample(&job->session, &request, &answer));
+    tn_reply_clear(&answer);
 }
 
 /* The operand N; it and --per-length say the same thing in two ways. */
 static bool read_wanted(tn_job *job, size_t *wanted)
 {
     const sample_settings *settings = settings_of(job);
-    uint64_t number = 0, most = settings->shards.given ? TN_SHARDS_SAMPLE_MAX : TN_SAMPLE_MAX;
-    if ((settings->common.operands.count > 1) == settings->sampled.per_length.given) {
+    uint64_t number = 0, most = settings->shards.given ? TN_SHARDS_SAMPLE_MAX : SAMPLE_MAX;
+    if ((settings->common.operands.count > 1) == settings->per_length.given) {
         tn_job_usage(job, "say how many plans: either N after the file, or --per-length N");
         return false;
     }
-    if (settings->sampled.per_length.given && settings->sampled.length.given) {
+    if (settings->per_length.given && settings->length.given) {
         tn_job_usage(job, "--length and --per-length exclude each other");
         return false;
     }
@@ -112,32 +88,13 @@ static bool samples_houses(const tn_job *job, const sample_settings *settings)
     return settings->plan || tn_job_of_houses(job, &settings->plans);
 }
 
-/* Of the options, those about the length of plans and about formats are for plans alone. */
-static void sample_houses(tn_job *job, size_t wanted)
-{
-    const sample_settings *s = settings_of(job);
-    const tn_house_settings houses = tn_job_houses(&s->plans);
-    if (s->sampled.length.given || s->sampled.per_length.given || s->sampled.diverse) {
-        bool diverse = s->sampled.diverse;
-        tn_diagnostic *d = tn_job_usage(job, "for a library of houses, `tartan sample` does not take %s",
-                                        diverse                   ? "--diverse"
-                                        : s->sampled.length.given ? "--length"
-                                                                  : "--per-length");
-        tn_help(tn_job_diagnostics(job), d, "%s",
-                diverse ? "leave it out: each house of the library is drawn as likely as each"
-                        : "write it as a requirement, such as --where \"quantity(any, n = 3)\"; --plan takes one plan");
-        return;
-    }
-    tn_job_sample_houses(job, &houses, s->plan, wanted, s->sampled.seed.value, &s->written);
-}
-
 /* ---- --shards: a set, whose workers draw the same plans */
 
 static bool can_share(tn_job *job)
 {
     const sample_settings *s = settings_of(job);
     tn_diagnostics *list = tn_job_diagnostics(job);
-    if (s->sampled.length.given || s->sampled.per_length.given || s->sampled.diverse)
+    if (s->length.given || s->per_length.given || s->diverse)
         tn_help(list, tn_job_usage(job, "a shard set has a sample of all plans"),
                 "leave out --length, --per-length and --diverse; `tartan shards new --trays L` takes one length");
     else if (s->written.columns || s->written.csv_safe)
@@ -161,7 +118,7 @@ static void sample_shards(tn_job *job, size_t wanted)
                              .shards = s->shards.value,
                              .sampled = true,
                              .sample = wanted,
-                             .seed = s->sampled.seed.value};
+                             .seed = s->seed.value};
     if (can_share(job) && tn_new_set_fits(job, &what) && tn_job_opened_library(job, &s->plans, &ready))
         tn_job_new_set(job, &ready, &what);
     tn_library_close(&ready);
@@ -172,28 +129,23 @@ static int run(const tn_command *command, const tn_settings *common)
     (void)command;
     const sample_settings *settings = (const sample_settings *)common;
     tn_job job;
-    tn_ready_library ready = {0};
     size_t wanted;
     tn_job_begin(&job, common);
     bool open = read_wanted(&job, &wanted) && tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
     if (open && settings->shards.given)
         sample_shards(&job, wanted);
-    else if (open && samples_houses(&job, settings))
-        sample_houses(&job, wanted);
-    else if (open && tn_job_opened_library(&job, &settings->plans, &ready))
-        sample(&job, &ready, wanted);
-    tn_library_close(&ready);
+    else if (open)
+        sample(&job, wanted);
     return tn_job_end(&job);
 }
 
 #define SETTINGS sample_settings
 static const tn_option options[] = {
     OPTIONS_LIBRARY,
-    NUMBER("seed", 's', "S", sampled.seed, 0, 0, "which sample: the same seed gives the same plans (default 0)"),
-    NUMBER("length", 0, "L", sampled.length, 0, UINT32_MAX - 1, "only plans of L trays"),
-    NUMBER("per-length", 0, "N", sampled.per_length, 0, TN_SAMPLE_MAX,
-           "N plans of each number of trays, instead of N in all"),
-    OPTION_DIVERSE,
+    NUMBER("seed", 's', "S", seed, 0, 0, "which sample: the same seed gives the same plans (default 0)"),
+    NUMBER("length", 0, "L", length, 0, UINT32_MAX - 1, "only plans of L trays"),
+    NUMBER("per-length", 0, "N", per_length, 0, SAMPLE_MAX, "N plans of each number of trays, instead of N in all"),
+    FLAG("diverse", 0, diverse, "plans that differ from one another, instead of each as likely as each"),
     NUMBER("shards", 0, "M", shards, 1, 0,
            "make a shard set of M shards, the folder that -o names: `tartan shards run` draws the same plans"),
     TEXT("plan", 0, "PLAN", plan, "draw houses on one plan: a plan line, or # and its rank"),

@@ -3,8 +3,8 @@
 #define TARTAN_CLI_SHARDS_SHARDS_H
 
 #include "ask/chosen_rules.h"
+#include "cli/plan/found_rows.h"
 #include "cli/plan/plan_input.h"
-#include "cli/plan/plan_output.h"
 #include "driver/plan/matched.h"
 #include "driver/plan/pruned.h"
 #include "driver/shards/set.h"

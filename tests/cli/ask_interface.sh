@@ -18,9 +18,27 @@ as() {
         sed -nE '0,/^(.*: )?error(\[E[0-9]+\])?: /s/^(.*: )?error(\[E[0-9]+\])?: (.*)$/error \3/p' "$scratch/said" | head -n 1 >"$scratch/one"
     cat "$scratch/one" >>"$scratch/wanted"
 }
+# as_rows REQUEST WORDS...: the same of a question that is answered with a list: the command writes a line of JSON for each of it.
+as_rows() {
+    requests+=("$1")
+    shift
+    "$TARTAN" "${command[@]}" "$file" "$@" --format json >"$scratch/one" 2>"$scratch/said" ||
+        sed -nE '0,/^(.*: )?error(\[E[0-9]+\])?: /s/^(.*: )?error(\[E[0-9]+\])?: (.*)$/error \3/p' "$scratch/said" | head -n 1 >"$scratch/one"
+    cat "$scratch/one" >>"$scratch/wanted"
+    rows=row_by_row
+}
+row_by_row() {
+    python3 -c 'import json, sys
+for line in sys.stdin:
+    answer = json.loads(line) if line.startswith("{") else None
+    for row in answer.get("plans", answer.get("houses")) if answer else [line[:-1]]:
+        print(json.dumps(row, ensure_ascii=False, separators=(",", ":")) if answer else row)'
+}
+rows=cat
 # asked: all requests since the last one, of one session.
 asked() {
-    "$program" stdlib "$file" "$question" "${requests[@]}" >"$scratch/got"
+    "$program" stdlib "$file" "$question" "${requests[@]}" | "$rows" >"$scratch/got"
+    rows=cat
     diff "$scratch/wanted" "$scratch/got" || fail "$file: the command and the interface differ"
     requests=()
     : >"$scratch/wanted"
@@ -120,6 +138,77 @@ as '{"max_states": 40, "examples": true}' --max-states 40 --examples
 asked
 file=stdlib/bricks.kit
 as '{}'
+asked
+
+question=sample command=(sample)
+file=stdlib/terrace.plan
+as_rows '{"count": 5}' 5
+as_rows '{"count": 5, "seed": 7, "trays": {"from": 2, "to": 4}}' 5 --seed 7 --trays 2..4
+as_rows '{"per_length": 2, "seed": 1}' --per-length 2 --seed 1
+as_rows '{"count": 3, "length": 2, "diverse": true}' 3 --length 2 --diverse
+as_rows '{"count": 3, "where": ["trays = 2"]}' 3 --where 'trays = 2'
+as_rows '{"per_length": 2, "length": 2}' --per-length 2 --length 2
+as_rows '{"count": 2000, "diverse": true}' 2000 --diverse
+asked
+file=stdlib/cottage.plan
+as_rows '{"count": 3, "library": "cottages"}' 3 --library cottages
+as_rows '{"count": 3, "plan": "#10", "seed": 5}' 3 --plan '#10' --seed 5
+as_rows '{"count": 3, "plan": "#1000000"}' 3 --plan '#1000000'
+as_rows '{"count": 3, "library": "cottages", "diverse": true}' 3 --library cottages --diverse
+as_rows '{"count": 2, "library": "cottage-rows"}' 2 --library cottage-rows
+asked
+
+question=enumerate command=(enumerate)
+file=stdlib/terrace.plan
+as_rows '{"limit": 5}' --limit 5
+as_rows '{"from": "1000", "to": "1004"}' --from 1000 --to 1004
+as_rows '{"from": "1004", "to": "1000"}' --from 1004 --to 1000
+as_rows '{"from": "99999999999999999999"}' --from 99999999999999999999
+as_rows '{"mirror": true, "limit": 4, "where": ["trays = 3"]}' --mirror --limit 4 --where 'trays = 3'
+asked
+file=stdlib/cottage.plan
+as_rows '{"library": "cottages", "limit": 3}' --library cottages --limit 3
+as_rows '{"library": "cottages", "from": "1000000", "to": "1000002"}' --library cottages --from 1000000 --to 1000002
+as_rows '{"plan": "#10", "from": "5", "limit": 2}' --plan '#10' --from 5 --limit 2
+as_rows '{"plan": "#10", "mirror": true}' --plan '#10' --mirror
+asked
+
+question=best command=(best)
+file=stdlib/lahave-houses.plan
+as_rows '{"by": [{"measure": "cost"}], "trays": {"from": 4, "to": 4}}' --least cost --trays 4..4
+as_rows '{"by": [{"measure": "cost", "most": true}, {"measure": "area"}], "count": 4, "mirror": true, "trays": {"from": 4, "to": 4}}' 4 --most cost --then-least area --mirror --trays 4..4
+as_rows '{"by": [{"measure": "costs"}]}' --least costs
+asked
+file=stdlib/cottage.plan
+as_rows '{"by": [{"measure": "floor-area", "most": true}], "count": 2, "library": "cottages"}' 2 --most floor-area --library cottages
+as_rows '{"by": [{"measure": "floor-area"}, {"measure": "bedrooms"}], "count": 2, "plan": "#3"}' 2 --least floor-area --then-least bedrooms --plan '#3'
+as_rows '{"by": [{"measure": "floor-area"}], "plan": "#1000000"}' --least floor-area --plan '#1000000'
+asked
+
+question=pareto command=(pareto)
+file=stdlib/lahave-houses.plan
+as '{"by": [{"measure": "cost"}, {"measure": "area", "most": true}], "trays": {"from": 4, "to": 4}}' --least cost --most area --trays 4..4
+as '{"by": [{"measure": "cost"}], "trays": {"from": 4, "to": 5}}' --least cost --trays 4..5
+as '{"by": [{"measure": "cost"}, {"measure": "are"}]}' --least cost --least are
+asked
+file=stdlib/cottage.plan
+as '{"by": [{"measure": "floor-area"}, {"measure": "bedrooms", "most": true}], "plan": "#3"}' --least floor-area --most bedrooms --plan '#3'
+asked
+
+question=complete command=(complete)
+file=stdlib/terrace.plan
+as '{"pattern": "? | ... | ?"}' '? | ... | ?'
+as '{"pattern": "... | end"}' '... | end'
+as '{"pattern": "? | nothing"}' '? | nothing'
+as '{"pattern": "? | ...", "where": ["trays = 2"]}' '? | ...' --where 'trays = 2'
+as '{"pattern": "? | ...", "trays": {"from": 1, "to": 2}}' '? | ...' --trays 1..2
+asked
+file=stdlib/lahave-houses.plan
+as '{"pattern": "? | great | ... | ?", "trays": {"from": 4, "to": 4}, "by": [{"measure": "cost"}]}' '? | great | ... | ?' --trays 4..4 --least cost
+as '{"pattern": "? | great | ... | ?", "trays": {"from": 4, "to": 4}, "by": [{"measure": "cost", "most": true}]}' '? | great | ... | ?' --trays 4..4 --most cost
+asked
+file=stdlib/cottage.plan
+as '{"pattern": "... | ?", "library": "cottages"}' '... | ?' --library cottages
 asked
 
 # What only requests can get wrong.

@@ -1,6 +1,6 @@
 /* Says which written tray of an open plan leaves no completion: it counts what begins as the open plan does, for longer
  * and longer beginnings. */
-#include "cli/measure/complete_why.h"
+#include "ask/best.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -23,21 +23,21 @@ static tn_status count_beginning(const tn_library *library, const tn_open_plan *
     return status;
 }
 
-static bool say(const mpz_t plans, size_t trays, bool all, FILE *out)
+static bool say(const mpz_t plans, size_t trays, bool all, tn_buffer *text)
 {
     char *digits = tn_digits(plans, true);
     bool one = mpz_cmp_ui(plans, 1) == 0;
     if (!digits)
         return false;
     if (all)
-        fprintf(out,
+        tn_buffer_printf(text,
                 one ? "%s plan begins so, and it has more trays: `| ...` at the end lets it\n"
                     : "%s plans begin so, and all have more trays: `| ...` at the end lets them\n",
                 digits);
     else if (trays == 1)
-        fprintf(out, "no plan of the library has tray 1 as it is written\n");
+        tn_buffer_printf(text, "no plan of the library has tray 1 as it is written\n");
     else
-        fprintf(out,
+        tn_buffer_printf(text,
                 one ? "%s plan fits what is written before tray %zu, and it does not go on with it\n"
                     : "%s plans fit what is written before tray %zu, and none of them goes on with it\n",
                 digits, trays);
@@ -45,7 +45,7 @@ static bool say(const mpz_t plans, size_t trays, bool all, FILE *out)
     return true;
 }
 
-tn_status tn_complete_why(const tn_library *library, const tn_open_plan *open, FILE *out, tn_error *error)
+tn_status tn_complete_why(const tn_library *library, const tn_open_plan *open, tn_buffer *text, tn_error *error)
 {
     uint32_t *parts = calloc(open->count + 1, sizeof *parts);
     tn_status status = parts ? TN_OK : tn_fail_memory(error);
@@ -63,10 +63,10 @@ tn_status tn_complete_why(const tn_library *library, const tn_open_plan *open, F
         status = count_beginning(library, open, i + 1, parts, plans, error);
     }
     if (status == TN_OK && empty)
-        fputs("the library holds no plan at all\n", out);
-    else if (status == TN_OK && !say(mpz_sgn(plans) > 0 ? plans : before, trays, mpz_sgn(plans) > 0, out))
+        tn_buffer_printf(text, "the library holds no plan at all\n");
+    else if (status == TN_OK && !say(mpz_sgn(plans) > 0 ? plans : before, trays, mpz_sgn(plans) > 0, text))
         status = tn_fail_memory(error);
     mpz_clears(before, plans, NULL);
     free(parts);
-    return status;
+    return status == TN_OK && text->failed ? tn_fail_memory(error) : status;
 }

@@ -1,10 +1,7 @@
 /* Draws houses of a library at random: ranks, and then the houses of these, plan by plan. */
-#include <inttypes.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "cli/house/house_output.h"
-#include "cli/house/sampled.h"
+#include "ask/numbered.h"
 
 /* The ranks that are drawn, ascending, and how far the plans have come. */
 typedef struct tn_house_sample {
@@ -176,48 +173,4 @@ tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted,
     if (houses != n->all)
         tn_houses_free(houses);
     return status;
-}
-
-typedef struct tn_sample_writing {
-    tn_house_rows out;
-    uint64_t written;
-} tn_sample_writing;
-
-static tn_status write_house(void *context, tn_house *house, const mpz_t rank, const mpz_t variant, tn_error *error)
-{
-    tn_sample_writing *w = context;
-    w->written++;
-    return tn_house_rows_write(&w->out, house, rank, variant, error);
-}
-
-static void write_sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed,
-                         const tn_written_settings *written)
-{
-    tn_sample_writing w = {0};
-    tn_error error;
-    char made[80];
-    snprintf(made, sizeof made, "sample %zu --seed %" PRIu64, wanted, seed);
-    bool open = tn_house_rows_open(&w.out, n, written, made);
-    tn_status status = open ? tn_numbered_sample(n, plan, wanted, seed, write_house, &w, &error) : TN_OK;
-    if (status != TN_OK)
-        tn_job_fail(tn_numbered_job(n), &error);
-    tn_house_rows_close(&w.out);
-    if (open && status == TN_OK)
-        tn_numbered_say_few(n, plan != NULL, w.written, wanted);
-}
-
-void tn_job_sample_houses(tn_job *job, const tn_house_settings *settings, const char *plan, size_t wanted,
-                          uint64_t seed, const tn_written_settings *written)
-{
-    tn_numbered n = {0};
-    tn_error error = {0};
-    tn_plan on = {0};
-    if (tn_job_numbered(job, &n, settings)) {
-        if (plan && tn_numbered_plan(&n, plan, settings->max_length, &on, &error) != TN_OK)
-            tn_job_bad_text(job, &error, "PLAN", plan);
-        else
-            write_sample(&n, plan ? &on : NULL, wanted, seed, written);
-    }
-    free(on.trays);
-    tn_numbered_close(&n);
 }

@@ -1,0 +1,226 @@
+/* Writes the plans or houses that a question finds. */
+#include "cli/plan/found_rows.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/common/interrupt.h"
+#include "driver/plan/made.h"
+
+#define PART "interrupted; %.400s holds only the first plans of the sample"
+
+/* How often plans look at the clock. */
+enum { LOOK_EVERY = 4096 };
+
+/* ---- opened */
+
+static bool open_plans(tn_found_rows *rows)
+{
+    const tn_ready_library *ready = rows->of.plans;
+    const tn_written_settings *settings = rows->settings;
+    char command[400];
+    tn_made described;
+    mpz_t ranks;
+    mpz_init(ranks);
+    snprintf(command, sizeof command, "%s%s", rows->made, settings->columns ? " --columns" : "");
+    tn_made_describe(&rows->job->opened, ready, rows->job->settings->operands.items[0],
+                     settings->columns ? command : rows->made, &described);
+    tn_library_kept(ready->library, TN_ALL_LENGTHS, ranks);
+    const tn_row_source source = {.schema = ready->schema, .metadata = &described.metadata, .ranks = ranks};
+    bool opened = tn_job_row_writer(rows->job, settings, &source, &rows->writer);
+    mpz_clear(ranks);
+    return opened;
+}
+
+static bool open_houses(tn_found_rows *rows)
+{
+    static const tn_row_columns columns = {"houses", {"plan_rank", "variant", "house"}, 3};
+    const tn_numbered *n = rows->of.houses;
+    tn_made described;
+    tn_made_describe_houses(&rows->job->opened, n->plans, tn_text(n->form.module, n->record->name),
+                            rows->job->settings->operands.items[0], rows->made, &described);
+    const tn_row_source source = {.schema = n->schema, .metadata = &described.metadata, .rows = &columns};
+    return tn_job_row_writer(rows->job, rows->settings, &source, &rows->writer);
+}
+
+static const char *things(const tn_found_rows *rows)
+{
+    return rows->of.houses ? "houses" : "plans";
+}
+
+/* Goes on after what a database has. */
+static void resume(tn_found_rows *rows, tn_found_of *of)
+{
+    mpz_t last;
+    mpz_init(last);
+    rows->written = of->before = tn_plan_writer_resumed(rows->writer, last);
+    if (rows->written > 0) {
+        mpz_add_ui(of->from, last, 1);
+        mpz_set(rows->next, of->from);
+        tn_job_note(rows->job, "%" PRIu64 " %s are there already; going on after them", rows->written, things(rows));
+        tn_job_show(rows->job);
+    }
+    mpz_clear(last);
+}
+
+/* ---- progress: plans or houses, if there is a limit of them, else ranks */
+
+static double ranks_from_first(const tn_found_rows *rows, const mpz_t rank)
+{
+    mpz_t ranks;
+    mpz_init(ranks);
+    mpz_sub(ranks, rank, rows->first);
+    double count = mpz_get_d(ranks);
+    mpz_clear(ranks);
+    return count;
+}
+
+static double done(const tn_found_rows *rows)
+{
+    return rows->most.given || rows->of.houses ? (double)rows->written : ranks_from_first(rows, rows->next);
+}
+
+static void begin_progress(tn_found_rows *rows)
+{
+    const char *output = rows->settings->output;
+    bool to_stdout = !output || strcmp(output, "-") == 0, limited = rows->most.given;
+    double ranks = rows->of.to ? ranks_from_first(rows, rows->of.to) : 0, most = (double)rows->most.value;
+    bool enough = !rows->all_ranks || !rows->of.to || most < ranks; /* as far as can be known */
+    const char *what = rows->all_ranks || limited || rows->of.houses ? things(rows) : "ranks";
+    double total = limited && enough ? most : rows->of.houses ? 0 : ranks;
+    tn_progress_begin(&rows->progress, what, done(rows), total);
+    rows->progress.shows = rows->progress.shows && !(to_stdout && isatty(STDOUT_FILENO)); /* not between the rows */
+}
+
+/* ---- taken */
+
+static bool begins(void *context, tn_found_of *of)
+{
+    tn_found_rows *rows = context;
+    rows->of = *of;
+    tn_job_show(rows->job);
+    if (!(of->houses ? open_houses(rows) : open_plans(rows)))
+        return false;
+    if (of->from) {
+        mpz_set(rows->first, of->from);
+        mpz_set(rows->next, of->from);
+        resume(rows, of);
+    }
+    if (rows->sample && tn_plan_writer_resumes(rows->writer))
+        tn_interrupt_last_words(PART, rows->settings->output);
+    if (rows->enumerates)
+        begin_progress(rows);
+    return true;
+}
+
+/* The texts of the row are those of the columns above. */
+static tn_status write_house_row(tn_found_rows *rows, const tn_found *found, const char *plan_rank, const char *variant,
+                                 tn_error *error)
+{
+    bool as_json = rows->settings->format == TN_FORMAT_JSON;
+    rows->line.size = rows->members.size = 0;
+    tn_status status = tn_house_write(found->house, &rows->line, error);
+    tn_json members = tn_json_text(&rows->members, TN_JSON_TIGHT);
+    if (status == TN_OK && as_json)
+        status = tn_house_write_members(found->house, &members, error);
+    if (status == TN_OK && rows->members.failed)
+        status = tn_fail_memory(error);
+    if (status != TN_OK)
+        return status;
+    const tn_plan_row row = {.trays = found->trays,
+                             .length = found->length,
+                             .texts = {plan_rank, variant, rows->line.data},
+                             .members = rows->members.data};
+    return tn_plan_writer_write_row(rows->writer, found->rank, &row, error);
+}
+
+static tn_status write_house(tn_found_rows *rows, const tn_found *found, tn_error *error)
+{
+    mpz_t plan;
+    mpz_init(plan);
+    bool kept = tn_library_rank(rows->of.houses->plans, found->trays, found->length, plan);
+    char *plan_rank = mpz_get_str(NULL, 10, plan), *number = mpz_get_str(NULL, 10, found->variant);
+    tn_status status = TN_OK;
+    if (!kept)
+        status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a house stands on a plan that is not in the library");
+    else if (!plan_rank || !number)
+        status = tn_fail_memory(error);
+    else
+        status = write_house_row(rows, found, plan_rank, number, error);
+    free(plan_rank);
+    free(number);
+    mpz_clear(plan);
+    return status;
+}
+
+static bool takes(void *context, const tn_found *found)
+{
+    tn_found_rows *rows = context;
+    tn_error error;
+    tn_status status = found->house
+                           ? write_house(rows, found, &error)
+                           : tn_plan_writer_write(rows->writer, found->rank, found->trays, found->length, &error);
+    if (status != TN_OK) {
+        tn_job_fail(rows->job, &error);
+        return false;
+    }
+    mpz_add_ui(rows->next, found->rank, 1);
+    rows->written++;
+    if (rows->enumerates && (found->house || rows->written % LOOK_EVERY == 0))
+        tn_progress_update(&rows->progress, done(rows));
+    return true;
+}
+
+void tn_found_rows_begin(tn_found_rows *rows, tn_job *job, const tn_written_settings *settings, const char *made)
+{
+    *rows = (tn_found_rows){.job = job, .settings = settings, .made = made, .taker = {begins, takes, rows}};
+    mpz_inits(rows->first, rows->next, NULL);
+    job->session.taker = &rows->taker;
+}
+
+/* ---- ended */
+
+static void close_writer(tn_found_rows *rows)
+{
+    if (rows->writer)
+        tn_job_rows_close(rows->job, rows->writer);
+    rows->writer = NULL;
+}
+
+/* Keeps what was written: whole batches of a database, every row of anything else, and says how to go on. A database
+ * that was to be replaced is as it was, which is said at the end. */
+static void interrupt(tn_found_rows *rows)
+{
+    if (tn_plan_writer_replaces(rows->writer))
+        return;
+    if (tn_plan_writer_resumes(rows->writer) && rows->sample) {
+        tn_job_interrupted(rows->job, PART, rows->settings->output);
+    } else if (rows->enumerates && tn_plan_writer_resumes(rows->writer)) {
+        tn_interrupt_answered();
+        tn_job_interrupted(rows->job,
+                           "interrupted; a database keeps its whole batches, and --resume goes on after them");
+    } else if (rows->enumerates) {
+        tn_interrupt_answered();
+        close_writer(rows);
+        char *rank = mpz_get_str(NULL, 10, rows->next);
+        tn_job_interrupted(rows->job, "interrupted; %" PRIu64 " %s are written, and --from %s goes on after them",
+                           rows->written, things(rows), rank ? rank : "?");
+        free(rank);
+    }
+}
+
+void tn_found_rows_end(tn_found_rows *rows, tn_status status)
+{
+    if (rows->enumerates && rows->writer)
+        tn_progress_end(&rows->progress);
+    if (status == TN_STOPPED && rows->writer)
+        interrupt(rows);
+    tn_job_answered(rows->job, status);
+    close_writer(rows);
+    rows->job->session.taker = NULL;
+    free(rows->line.data);
+    free(rows->members.data);
+    mpz_clears(rows->first, rows->next, NULL);
+}
