@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "ask/questions.h"
 #include "runtime/plan/library/ranking.h"
 #include "runtime/plan/measure/best.h"
 
@@ -102,10 +103,10 @@ static tn_status give_plan(searching *s, tn_finds *finds, uint32_t length, const
         mpq_set_si(s->values[k], values[k], 1);
         mpq_mul(s->values[k], s->values[k], tn_weighed_unit(s->weighed, k));
     }
-    const tn_found found = {.rank = tn_ranking_next(s->ranking, s->trays, length),
-                            .trays = s->trays,
-                            .length = length,
-                            .values = s->values};
+    const tn_found_one found = {.rank = tn_ranking_next(s->ranking, s->trays, length),
+                                .trays = s->trays,
+                                .length = length,
+                                .values = s->values};
     return tn_finds_give(finds, &found, error);
 }
 

@@ -3,7 +3,7 @@
 #define TARTAN_ASK_BEST_H
 
 #include "ask/found.h"
-#include "ask/numbered.h"
+#include "ask/house/numbered.h"
 #include "runtime/house/count/best.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/measure/complete.h"
@@ -32,7 +32,7 @@ void tn_wishes_clear(mpq_t values[TN_WEIGHED_MAX]);
 /* A value for people (malloc); NULL: out of memory. */
 char *tn_wish_text(const tn_wishes *wishes, uint32_t k, const mpq_t value);
 
-/* ---- what answers carry for pictures; each borrows from the session */
+/* ---- what answers carry for pictures (tn_boxed); each borrows from the session */
 
 /* The front of a library of plans. */
 typedef struct tn_plan_front {
@@ -41,10 +41,9 @@ typedef struct tn_plan_front {
     tn_weighed *weighed;
     tn_pareto_front front;
 } tn_plan_front;
-void tn_plan_front_free(tn_plan_front *front);
 
 /* What an open plan leaves to choose. */
-typedef struct tn_choices {
+typedef struct tn_open_choices {
     const tn_schema *schema;
     tn_schema *own;          /* the same, of houses */
     const char *title, *doc; /* of the library */
@@ -55,12 +54,11 @@ typedef struct tn_choices {
     tn_wishes wishes; /* none, or one */
     mpq_t step;       /* of its measure, in nanometres to its power */
     char *why;        /* of plans, if there are none: the tray that leaves none */
-} tn_choices;
-void tn_choices_free(tn_choices *choices);
+} tn_open_choices;
 
 /* ---- houses: the measures made ready, and what was found */
 
-typedef struct tn_house_search {
+typedef struct tn_houses_search {
     tn_numbered n;
     const tn_wishes *wishes;
     tn_wishes found; /* the same, with units and whole names */
@@ -71,7 +69,7 @@ typedef struct tn_house_search {
     int64_t values[TN_WEIGHED_MAX]; /* of the point at hand */
     mpz_t count;                    /* houses there */
     uint64_t given, wanted;         /* houses so far, and in all */
-} tn_house_search;
+} tn_houses_search;
 
 /* What is searched: the library, one plan of it or NULL, and how many of the best are wanted. */
 typedef struct tn_house_asked {
@@ -82,23 +80,23 @@ typedef struct tn_house_asked {
 } tn_house_asked;
 
 /* Opens the library and finds the values. What is wrong is said. End it in any case. */
-tn_status tn_house_search_begin(tn_house_search *search, tn_session *session, const tn_house_asked *asked,
-                                const tn_wishes *wishes);
-void tn_house_search_end(tn_house_search *search);
+tn_status tn_houses_search_begin(tn_houses_search *search, tn_session *session, const tn_house_asked *asked,
+                                 const tn_wishes *wishes);
+void tn_houses_search_end(tn_houses_search *search);
 
 /* The value of measure k at the point at hand, in nanometres to its power. */
-void tn_house_search_value(const tn_house_search *search, uint32_t k, mpq_t value);
+void tn_houses_search_value(const tn_houses_search *search, uint32_t k, mpq_t value);
 
 /* Calls `each` with the best houses, by value and then by rank, until it stops; of a point with those that it has. It
  * is `each` who counts them in search->given. */
-tn_status tn_house_search_each(tn_house_search *search, tn_house_each *each, void *context, tn_error *error);
+tn_status tn_houses_search_each(tn_houses_search *search, tn_house_each *each, void *context, tn_error *error);
 
 /* The same of one point. */
-tn_status tn_house_search_of_point(tn_house_search *search, size_t point, tn_house_each *each, void *context,
-                                   tn_error *error);
+tn_status tn_houses_search_of_point(tn_houses_search *search, size_t point, tn_house_each *each, void *context,
+                                    tn_error *error);
 
 /* A choice's place in found.counts and found.best. */
-static inline size_t tn_choice_at(const tn_choices *c, uint32_t tray, uint32_t field, uint32_t value)
+static inline size_t tn_open_choice_at(const tn_open_choices *c, uint32_t tray, uint32_t field, uint32_t value)
 {
     return (size_t)tray * c->found.values + c->schema->value_start[field] + value;
 }

@@ -5,7 +5,7 @@
 #include "driver/plan/library.h"
 #include "runtime/house/rank/rank.h"
 
-static tn_status find_measures(tn_house_search *s)
+static tn_status find_measures(tn_houses_search *s)
 {
     const tn_module *module = s->n.form.module;
     tn_error error;
@@ -28,7 +28,7 @@ static tn_status find_measures(tn_house_search *s)
     return TN_OK;
 }
 
-static tn_status find_values(tn_house_search *s, const tn_house_asked *asked)
+static tn_status find_values(tn_houses_search *s, const tn_house_asked *asked)
 {
     tn_session *session = s->n.session;
     tn_houses_what what = {
@@ -44,10 +44,10 @@ static tn_status find_values(tn_house_search *s, const tn_house_asked *asked)
     return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }
 
-tn_status tn_house_search_begin(tn_house_search *s, tn_session *session, const tn_house_asked *asked,
-                                const tn_wishes *wishes)
+tn_status tn_houses_search_begin(tn_houses_search *s, tn_session *session, const tn_house_asked *asked,
+                                 const tn_wishes *wishes)
 {
-    *s = (tn_house_search){.wishes = wishes, .wanted = asked->wanted};
+    *s = (tn_houses_search){.wishes = wishes, .wanted = asked->wanted};
     mpz_init(s->count);
     tn_status status = tn_numbered_open_on(&s->n, session, asked->subject, asked->plan, &s->plan);
     if (status == TN_OK)
@@ -55,7 +55,7 @@ tn_status tn_house_search_begin(tn_house_search *s, tn_session *session, const t
     return status == TN_OK ? find_values(s, asked) : status;
 }
 
-void tn_house_search_end(tn_house_search *s)
+void tn_houses_search_end(tn_houses_search *s)
 {
     tn_houses_free(s->houses);
     for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
@@ -65,7 +65,7 @@ void tn_house_search_end(tn_house_search *s)
     mpz_clear(s->count);
 }
 
-void tn_house_search_value(const tn_house_search *s, uint32_t k, mpq_t value)
+void tn_houses_search_value(const tn_houses_search *s, uint32_t k, mpq_t value)
 {
     mpq_set_si(value, s->values[k], 1);
     mpq_mul(value, value, s->weights[k]->shown);
@@ -87,26 +87,26 @@ static tn_status judge_house(void *context, const tn_house *house, bool *stop, t
     return status == TN_OK ? j->each(j->context, house, stop, error) : status;
 }
 
-tn_status tn_house_search_of_point(tn_house_search *s, size_t point, tn_house_each *each, void *context,
-                                   tn_error *error)
+tn_status tn_houses_search_of_point(tn_houses_search *s, size_t point, tn_house_each *each, void *context,
+                                    tn_error *error)
 {
     tn_houses_point(s->houses, point, s->values, s->count);
     judged j = {.n = &s->n, .each = each, .context = context};
     return tn_houses_point_each(s->houses, point, s->n.variants, judge_house, &j, error);
 }
 
-tn_status tn_house_search_each(tn_house_search *s, tn_house_each *each, void *context, tn_error *error)
+tn_status tn_houses_search_each(tn_houses_search *s, tn_house_each *each, void *context, tn_error *error)
 {
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && s->given < s->wanted && i < tn_houses_points(s->houses); i++)
-        status = tn_house_search_of_point(s, i, each, context, error);
+        status = tn_houses_search_of_point(s, i, each, context, error);
     return status;
 }
 
 /* ---- asked */
 
 typedef struct giving {
-    tn_house_search *search;
+    tn_houses_search *search;
     tn_finds *finds;
     mpq_t values[TN_WEIGHED_MAX];
 } giving;
@@ -116,14 +116,14 @@ static tn_status give_house(void *context, const tn_house *house, bool *stop, tn
     giving *g = context;
     tn_house same = *house; /* it is not the taker's */
     for (uint32_t k = 0; k < g->search->wishes->count; k++)
-        tn_house_search_value(g->search, k, g->values[k]);
-    const tn_found found = {
+        tn_houses_search_value(g->search, k, g->values[k]);
+    const tn_found_one found = {
         .trays = house->trays, .length = (uint32_t)house->length, .house = &same, .values = g->values};
     *stop = ++g->search->given == g->search->wanted;
     return tn_finds_give(g->finds, &found, error);
 }
 
-static tn_status give(tn_house_search *search, tn_reply *answer)
+static tn_status give(tn_houses_search *search, tn_reply *answer)
 {
     tn_session *session = search->n.session;
     tn_error error;
@@ -133,7 +133,7 @@ static tn_status give(tn_house_search *search, tn_reply *answer)
     tn_wishes_room(g.values);
     tn_status status = tn_finds_begin(&finds, &error);
     if (status == TN_OK && !finds.ended)
-        status = tn_house_search_each(search, give_house, &g, &error);
+        status = tn_houses_search_each(search, give_house, &g, &error);
     tn_wishes_clear(g.values);
     if (status == TN_OK && !finds.ended)
         tn_numbered_say_few(&search->n, search->plan.trays != NULL, search->given, search->wanted);
@@ -146,14 +146,14 @@ tn_status tn_find_best_houses(tn_session *session, const tn_best_request *reques
                                   .plan = request->plan,
                                   .wanted = request->has_count ? request->count : TN_BEST_DEFAULT,
                                   .aim = TN_HOUSES_LEAST};
-    tn_house_search search;
+    tn_houses_search search;
     tn_wishes wishes;
     tn_status status = tn_wishes_take(session, request->by.items, request->by.count, 1, &wishes);
     if (status != TN_OK)
         return status;
-    status = tn_house_search_begin(&search, session, &asked, &wishes);
+    status = tn_houses_search_begin(&search, session, &asked, &wishes);
     if (status == TN_OK)
         status = give(&search, answer);
-    tn_house_search_end(&search);
+    tn_houses_search_end(&search);
     return status;
 }

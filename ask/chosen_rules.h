@@ -2,7 +2,7 @@
 #ifndef TARTAN_ASK_CHOSEN_RULES_H
 #define TARTAN_ASK_CHOSEN_RULES_H
 
-#include "ask/session.h"
+#include "ask/session/session.h"
 
 typedef struct tn_chosen_rules {
     uint32_t *indices; /* RULE records, in file order or as asked for */

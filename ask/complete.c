@@ -3,10 +3,12 @@
 #include <string.h>
 
 #include "ask/best.h"
+#include "ask/questions.h"
 #include "compiler/plan/syntax/program.h"
 
-void tn_choices_free(tn_choices *choices)
+static void free_choices(void *made)
 {
+    tn_open_choices *choices = made;
     if (!choices)
         return;
     tn_completions_clear(&choices->found);
@@ -19,7 +21,7 @@ void tn_choices_free(tn_choices *choices)
 
 /* ---- the answer */
 
-static void set_count(const tn_choices *c, bool *has_plans, mpz_t plans, bool *has_houses, mpz_t houses,
+static void set_count(const tn_open_choices *c, bool *has_plans, mpz_t plans, bool *has_houses, mpz_t houses,
                       const mpz_t count)
 {
     *has_houses = c->own != NULL;
@@ -27,30 +29,31 @@ static void set_count(const tn_choices *c, bool *has_plans, mpz_t plans, bool *h
     mpz_set(c->own ? houses : plans, count);
 }
 
-static char *spelling(const tn_choices *c, uint32_t field, uint32_t value)
+static char *spelling(const tn_open_choices *c, uint32_t field, uint32_t value)
 {
     return strdup(tn_text(c->schema->module, c->schema->values[c->schema->value_start[field] + value].spelling));
 }
 
-static char *name_of(const tn_choices *c, uint32_t field)
+static char *name_of(const tn_open_choices *c, uint32_t field)
 {
     return strdup(tn_text(c->schema->module, c->schema->fields[field].name));
 }
 
-static tn_status count_field(const tn_choices *c, uint32_t tray, uint32_t field, tn_named_bigs *to, tn_error *error)
+static tn_status count_field(const tn_open_choices *c, uint32_t tray, uint32_t field, tn_named_bigs *to,
+                             tn_error *error)
 {
     uint32_t count = c->schema->fields[field].value_count;
     tn_status status = TN_NEW_LIST(named_big, to->values, count, error);
     to->name = name_of(c, field);
     for (uint32_t v = 0; status == TN_OK && v < count; v++) {
-        mpz_set(to->values.items[v].value, c->found.counts[tn_choice_at(c, tray, field, v)]);
+        mpz_set(to->values.items[v].value, c->found.counts[tn_open_choice_at(c, tray, field, v)]);
         to->values.items[v].name = spelling(c, field, v);
         status = to->name && to->values.items[v].name ? TN_OK : tn_fail_memory(error);
     }
     return status;
 }
 
-static tn_status count_tray(const tn_choices *c, uint32_t tray, tn_tray_choices *to, tn_error *error)
+static tn_status count_tray(const tn_open_choices *c, uint32_t tray, tn_tray_choices *to, tn_error *error)
 {
     uint32_t count = c->schema->field_count;
     tn_status status = TN_NEW_LIST(named_bigs, to->fields, count, error);
@@ -59,7 +62,7 @@ static tn_status count_tray(const tn_choices *c, uint32_t tray, tn_tray_choices 
     return status;
 }
 
-static tn_status give_counts(const tn_choices *c, tn_completed *to, tn_error *error)
+static tn_status give_counts(const tn_open_choices *c, tn_completed *to, tn_error *error)
 {
     set_count(c, &to->has_plans, to->plans, &to->has_houses, to->houses, c->found.plans);
     tn_status status = TN_NEW_LIST(tray_choices, to->trays, c->found.trays, error);
@@ -70,7 +73,7 @@ static tn_status give_counts(const tn_choices *c, tn_completed *to, tn_error *er
 
 /* ---- with a measure */
 
-static void weigh_choice(const tn_choices *c, size_t at, tn_choice *to)
+static void weigh_choice(const tn_open_choices *c, size_t at, tn_open_choice *to)
 {
     set_count(c, &to->has_plans, to->plans, &to->has_houses, to->houses, c->found.counts[at]);
     to->has_best = mpz_sgn(c->found.counts[at]) > 0;
@@ -81,20 +84,21 @@ static void weigh_choice(const tn_choices *c, size_t at, tn_choice *to)
     tn_amount_convert(c->wishes.units[0], to->best);
 }
 
-static tn_status weigh_field(const tn_choices *c, uint32_t tray, uint32_t field, tn_named_choices *to, tn_error *error)
+static tn_status weigh_field(const tn_open_choices *c, uint32_t tray, uint32_t field, tn_named_choices *to,
+                             tn_error *error)
 {
     uint32_t count = c->schema->fields[field].value_count;
     tn_status status = TN_NEW_LIST(named_choice, to->values, count, error);
     to->name = name_of(c, field);
     for (uint32_t v = 0; status == TN_OK && v < count; v++) {
-        weigh_choice(c, tn_choice_at(c, tray, field, v), &to->values.items[v].choice);
+        weigh_choice(c, tn_open_choice_at(c, tray, field, v), &to->values.items[v].choice);
         to->values.items[v].name = spelling(c, field, v);
         status = to->name && to->values.items[v].name ? TN_OK : tn_fail_memory(error);
     }
     return status;
 }
 
-static tn_status weigh_tray(const tn_choices *c, uint32_t tray, tn_tray_weighed *to, tn_error *error)
+static tn_status weigh_tray(const tn_open_choices *c, uint32_t tray, tn_tray_weighed *to, tn_error *error)
 {
     uint32_t count = c->schema->field_count;
     tn_status status = TN_NEW_LIST(named_choices, to->fields, count, error);
@@ -103,7 +107,7 @@ static tn_status weigh_tray(const tn_choices *c, uint32_t tray, tn_tray_weighed 
     return status;
 }
 
-static tn_status give_weighed(const tn_choices *c, tn_completed_by *to, tn_error *error)
+static tn_status give_weighed(const tn_open_choices *c, tn_completed_by *to, tn_error *error)
 {
     set_count(c, &to->has_plans, to->plans, &to->has_houses, to->houses, c->found.plans);
     tn_status status = TN_NEW_LIST(tray_weighed, to->trays, c->found.trays, error);
@@ -113,30 +117,30 @@ static tn_status give_weighed(const tn_choices *c, tn_completed_by *to, tn_error
 }
 
 /* Takes over the choices in any case. */
-static tn_status give(tn_choices *c, tn_reply *answer, tn_error *error)
+static tn_status give(tn_open_choices *c, tn_reply *answer, tn_error *error)
 {
     bool weighed = c->wishes.count > 0;
     tn_status status = tn_reply_new(weighed ? &tn_message_completed_by : &tn_message_completed, answer, error);
     if (status != TN_OK) {
-        tn_choices_free(c);
+        free_choices(c);
         return status;
     }
     if (weighed) {
         tn_completed_by *to = answer->value;
-        to->shown = c;
+        to->shown = (tn_boxed){c, free_choices};
         return give_weighed(c, to, error);
     }
     tn_completed *to = answer->value;
-    to->shown = c;
+    to->shown = (tn_boxed){c, free_choices};
     return give_counts(c, to, error);
 }
 
 /* ---- asked */
 
-static tn_choices *new_choices(tn_session *session, const char *what)
+static tn_open_choices *new_choices(tn_session *session, const char *what)
 {
     const tn_program *program = session->opened->compilation.program;
-    tn_choices *c = calloc(1, sizeof *c);
+    tn_open_choices *c = calloc(1, sizeof *c);
     if (!c)
         return NULL;
     c->what = what;
@@ -146,7 +150,7 @@ static tn_choices *new_choices(tn_session *session, const char *what)
 }
 
 /* The trays of plans that complete it, by a measure or none. */
-static tn_status find_plans(tn_choices *c, const tn_library *library, tn_error *error)
+static tn_status find_plans(tn_open_choices *c, const tn_library *library, tn_error *error)
 {
     tn_buffer why = {0};
     tn_status status = c->wishes.count ? tn_weighed_new(library, c->wishes.measures, 1, &c->weighed, error) : TN_OK;
@@ -174,7 +178,7 @@ static tn_status complete_plans(tn_session *session, const tn_complete_request *
         status = tn_wishes_of_plans(session, ready, request->by.items, request->by.count, 0, &wishes);
     if (status != TN_OK)
         return status;
-    tn_choices *c = new_choices(session, "plans");
+    tn_open_choices *c = new_choices(session, "plans");
     if (!c) {
         tn_fail_memory(&error);
         return tn_session_fail(session, &error);
@@ -187,12 +191,12 @@ static tn_status complete_plans(tn_session *session, const tn_complete_request *
     if (status == TN_OK)
         status = give(c, answer, &error);
     else
-        tn_choices_free(c);
+        free_choices(c);
     return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }
 
 /* Houses have no schema that stays. */
-static tn_status find_houses(tn_choices *c, tn_house_search *search, tn_error *error)
+static tn_status find_houses(tn_open_choices *c, tn_houses_search *search, tn_error *error)
 {
     const tn_module *module = search->n.form.module;
     c->title = tn_text(module, search->n.record->name);
@@ -206,31 +210,31 @@ static tn_status find_houses(tn_choices *c, tn_house_search *search, tn_error *e
     return status == TN_OK ? tn_houses_complete(search->houses, &c->open, &c->found, error) : status;
 }
 
-static tn_status give_houses(tn_house_search *search, tn_reply *answer)
+static tn_status give_houses(tn_houses_search *search, tn_reply *answer)
 {
     tn_session *session = search->n.session;
     tn_error error;
-    tn_choices *c = new_choices(session, "houses");
+    tn_open_choices *c = new_choices(session, "houses");
     tn_status status = c ? find_houses(c, search, &error) : tn_fail_memory(&error);
     if (status == TN_OK)
         status = give(c, answer, &error);
     else
-        tn_choices_free(c);
+        free_choices(c);
     return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }
 
 static tn_status complete_houses(tn_session *session, const tn_complete_request *request, tn_reply *answer)
 {
     const tn_house_asked asked = {.subject = &request->subject, .aim = TN_HOUSES_COMPLETE};
-    tn_house_search search;
+    tn_houses_search search;
     tn_wishes wishes;
     tn_status status = tn_wishes_take(session, request->by.items, request->by.count, 0, &wishes);
     if (status != TN_OK)
         return status;
-    status = tn_house_search_begin(&search, session, &asked, &wishes);
+    status = tn_houses_search_begin(&search, session, &asked, &wishes);
     if (status == TN_OK)
         status = give_houses(&search, answer);
-    tn_house_search_end(&search);
+    tn_houses_search_end(&search);
     return status;
 }
 

@@ -1,6 +1,8 @@
 /* count: how many plans, houses or buildings there are. */
 #include "ask/count.h"
 
+#include "ask/questions.h"
+
 /* What only libraries of plans and houses are asked, or NULL. */
 static const char *asks_library(const tn_count_request *r)
 {

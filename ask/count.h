@@ -3,7 +3,8 @@
 #define TARTAN_ASK_COUNT_H
 
 #include "ask/kit.h"
-#include "ask/requests.h"
+#include "ask/session/requests.h"
+#include "driver/measure/spread.h"
 
 /* The plans of a library, and how they are spread over the values of a measure. */
 tn_status tn_count_plans(tn_session *session, const tn_count_request *request, tn_reply *answer);

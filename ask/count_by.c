@@ -99,6 +99,12 @@ static tn_status give(const tn_spread *spread, tn_counted_values *counted, tn_er
     return status == TN_OK && spread->d.count > 0 ? give_statistics(&spread->bins, counted, error) : status;
 }
 
+static void free_spread(void *spread)
+{
+    tn_spread_clear(spread);
+    free(spread);
+}
+
 tn_spread *tn_spread_room(tn_session *session)
 {
     tn_error error;
@@ -108,12 +114,6 @@ tn_spread *tn_spread_room(tn_session *session)
         tn_session_fail(session, &error);
     }
     return spread;
-}
-
-static void free_spread(tn_spread *spread)
-{
-    tn_spread_clear(spread);
-    free(spread);
 }
 
 tn_status tn_reply_spread(tn_session *session, const tn_count_request *request, tn_spread *spread, tn_reply *answer)
@@ -130,7 +130,7 @@ tn_status tn_reply_spread(tn_session *session, const tn_count_request *request, 
         return tn_session_fail(session, &error);
     }
     tn_counted_values *counted = answer->value;
-    counted->spread = spread;
+    counted->spread = (tn_boxed){spread, free_spread};
     status = give(spread, counted, &error);
     return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }

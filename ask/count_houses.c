@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "ask/count.h"
-#include "ask/numbered_count.h"
+#include "ask/house/numbered_count.h"
 
 static tn_status count_by(tn_numbered *n, const tn_count_request *request, const tn_plan *plan, tn_reply *answer)
 {

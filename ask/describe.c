@@ -4,7 +4,8 @@
 #include <inttypes.h>
 #include <string.h>
 
-#include "ask/requests.h"
+#include "ask/questions.h"
+#include "ask/session/requests.h"
 
 /* Calls `use` with each message that the question may be answered with. */
 static void each_answer(const tn_request_kind *kind, void (*use)(const tn_message *message, bool first, void *context),
@@ -152,10 +153,7 @@ static void write_kind(tn_json *json, const tn_message_member *m)
         break;
     case TN_MESSAGE_PART:
     case TN_MESSAGE_WRITTEN:
-    case TN_MESSAGE_SPREAD:
-    case TN_MESSAGE_REASONS:
-    case TN_MESSAGE_FRONT:
-    case TN_MESSAGE_CHOICES:
+    case TN_MESSAGE_BOXED:
         break;
     }
 }

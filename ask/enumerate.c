@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "ask/enumerate.h"
+#include "ask/questions.h"
 #include "driver/open/digits.h"
 
 void tn_asked_rank(const char *digits, const mpz_t otherwise, mpz_t rank)
@@ -77,7 +78,7 @@ static tn_status give_plans(enumeration *e, tn_finds *finds, tn_cursor *cursor, 
     tn_status status = TN_OK;
     for (size_t seen = 1; status == TN_OK && !is_done(e) && tn_cursor_next(cursor, &trays, &length); seen++) {
         if (is_wanted(e, trays, length)) {
-            status = tn_finds_give(finds, &(tn_found){.rank = e->rank, .trays = trays, .length = length}, error);
+            status = tn_finds_give(finds, &(tn_found_one){.rank = e->rank, .trays = trays, .length = length}, error);
             e->given++;
         }
         mpz_add_ui(e->rank, e->rank, 1);

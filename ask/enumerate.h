@@ -3,7 +3,7 @@
 #define TARTAN_ASK_ENUMERATE_H
 
 #include "ask/found.h"
-#include "ask/numbered.h"
+#include "ask/house/numbered.h"
 
 /* A rank in digits ("" or NULL: `otherwise`). `rank` is initialised. */
 void tn_asked_rank(const char *digits, const mpz_t otherwise, mpz_t rank);

@@ -28,11 +28,11 @@ static tn_status give_house(void *context, const tn_house *house, bool *stop, tn
     house_list *list = context;
     tn_watch *watch = list->session->opened->module->watch;
     tn_house same = *house; /* it is not the taker's */
-    const tn_found found = {.rank = list->next,
-                            .trays = house->trays,
-                            .length = (uint32_t)house->length,
-                            .house = &same,
-                            .variant = list->variant};
+    const tn_found_one found = {.rank = list->next,
+                                .trays = house->trays,
+                                .length = (uint32_t)house->length,
+                                .house = &same,
+                                .variant = list->variant};
     tn_status status = tn_finds_give(list->finds, &found, error);
     if (status != TN_OK)
         return status;

@@ -1,6 +1,8 @@
 /* explain: why a plan or a house is kept or dropped. */
 #include "ask/explain.h"
 
+#include "ask/questions.h"
+
 #include <string.h>
 
 /* #P: is the plan of rank P, and what keeps houses off it. */
@@ -24,9 +26,10 @@ tn_status tn_ask_explain(tn_session *session, const tn_explain_request *request,
     if (!request->plan == !request->house)
         return tn_session_refuse(session, NULL, "say which plan or which house is explained: one of them");
     if (request->subject.has_trays)
-        return tn_session_refuse(session, "leave it out", "--trays is for all plans of a library, and one is explained");
-    bool of_houses = library && request->rules.count == 0 &&
-                     tn_house_library_find(session->opened->module, library) != TN_NO_RECORD;
+        return tn_session_refuse(session, "leave it out",
+                                 "--trays is for all plans of a library, and one is explained");
+    bool of_houses =
+        library && request->rules.count == 0 && tn_house_library_find(session->opened->module, library) != TN_NO_RECORD;
     return request->house || of_houses || is_for_houses(request) ? explain_of_houses(session, request, answer)
                                                                  : tn_explain_plan(session, request, answer);
 }

@@ -2,19 +2,17 @@
 #ifndef TARTAN_ASK_EXPLAIN_H
 #define TARTAN_ASK_EXPLAIN_H
 
-#include "ask/requests.h"
-#include "ask/session.h"
+#include "ask/session/requests.h"
+#include "ask/session/session.h"
 #include "driver/house/judge.h"
 #include "driver/plan/explain.h"
 
-/* A plan explained, as its text and its picture need it. It borrows the file and what the session keeps. */
+/* A plan explained, as its text and its picture need it (the answer's `reasons`). It borrows the file and what the
+ * session keeps. */
 typedef struct tn_plan_reasons {
     tn_explained explained;
     tn_plan plan; /* owned */
 } tn_plan_reasons;
-
-/* NULL: nothing. */
-void tn_plan_reasons_free(tn_plan_reasons *reasons);
 
 /* Why a library keeps a plan, or why rules match it. */
 tn_status tn_explain_plan(tn_session *session, const tn_explain_request *request, tn_reply *answer);
@@ -28,9 +26,6 @@ tn_status tn_explain_house(tn_session *session, const tn_explain_request *reques
 /* What keeps all houses of a library off a plan. */
 tn_status tn_explain_cells(tn_session *session, const tn_explain_request *request, tn_reply *answer);
 
-/* What plans were explained with last, which a session keeps. NULL: nothing. */
-void tn_plan_explainer_free(struct tn_plan_explainer *explainer);
-
 /* ---- houses */
 
 /* A house that is explained. */
@@ -41,7 +36,8 @@ typedef struct tn_house_explaining {
     tn_house house;
 } tn_house_explaining;
 
-/* A list that a message has of what the questions of a clause or rule find: tn_explained_house_clause.why and the like. */
+/* A list that a message has of what the questions of a clause or rule find: tn_explained_house_clause.why and the like.
+ */
 #define TN_WHY(LIST) ((tn_list *)&(LIST))
 
 /* Adds what the questions of a function (of kind HOLDS) find to a list of tn_asked_of_house. */

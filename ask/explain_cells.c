@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "ask/explain.h"
-#include "ask/numbered.h"
+#include "ask/house/numbered.h"
 #include "driver/house/change_text.h"
 #include "runtime/house/bare.h"
 #include "runtime/house/solids.h"

@@ -4,7 +4,7 @@
 
 #include "ask/chosen_rules.h"
 #include "ask/explain.h"
-#include "ask/numbered.h"
+#include "ask/house/numbered.h"
 
 /* What plans are explained with, kept from one to the next. */
 typedef struct tn_plan_explainer {
@@ -19,8 +19,9 @@ typedef struct tn_plan_explainer {
     uint32_t max_states, max_length;
 } tn_plan_explainer;
 
-void tn_plan_explainer_free(tn_plan_explainer *explainer)
+static void free_explainer(void *made)
 {
+    tn_plan_explainer *explainer = made;
     if (!explainer)
         return;
     tn_near_finder_free(explainer->finder);
@@ -30,8 +31,9 @@ void tn_plan_explainer_free(tn_plan_explainer *explainer)
     free(explainer);
 }
 
-void tn_plan_reasons_free(tn_plan_reasons *reasons)
+static void free_reasons(void *made)
 {
+    tn_plan_reasons *reasons = made;
     if (!reasons)
         return;
     tn_explained_clear(&reasons->explained);
@@ -95,16 +97,17 @@ static tn_status make_ready(tn_session *session, const tn_explain_request *reque
 {
     tn_plan_explainer *made;
     tn_status status = new_explainer(session, request, &made);
-    bool kept = status == TN_OK && session->explainer && are_alike(session->explainer, made);
+    tn_boxed *last = &session->explainer;
+    bool kept = status == TN_OK && last->value && are_alike(last->value, made);
     if (status == TN_OK && !kept)
         status = make_schema(session, made);
     if (status == TN_OK && !kept) {
-        tn_plan_explainer_free(session->explainer);
-        session->explainer = made;
+        tn_boxed_free(last);
+        *last = (tn_boxed){made, free_explainer};
     } else {
-        tn_plan_explainer_free(made);
+        free_explainer(made);
     }
-    *explainer = session->explainer;
+    *explainer = last->value;
     return status;
 }
 
@@ -136,8 +139,8 @@ static tn_status make_library(tn_session *session, tn_plan_explainer *explainer,
         return explainer->library ? TN_OK : TN_LIMIT;
     }
     const tn_library_options options = {.max_states = explainer->max_states, .max_length = explainer->max_length};
-    tn_status status = tn_library_new(explainer->schema, library_index(session, explainer), &options,
-                                      &explainer->library, error);
+    tn_status status =
+        tn_library_new(explainer->schema, library_index(session, explainer), &options, &explainer->library, error);
     explainer->tried_library = status == TN_OK || status == TN_LIMIT;
     if (status == TN_LIMIT)
         explainer->limit = *error;
@@ -161,8 +164,8 @@ static tn_status try_finder(tn_session *session, tn_plan_explainer *explainer, t
     if (explainer->tried_nearest)
         return TN_OK;
     const tn_near_options options = {.max_states = explainer->max_states};
-    tn_status status = tn_near_finder_new(explainer->schema, library_index(session, explainer), &options,
-                                          &explainer->finder, error);
+    tn_status status =
+        tn_near_finder_new(explainer->schema, library_index(session, explainer), &options, &explainer->finder, error);
     explainer->tried_nearest = status == TN_OK || status == TN_LIMIT;
     if (status != TN_LIMIT)
         return status;
@@ -377,8 +380,7 @@ static bool set_rank(const tn_explained *explained, const tn_tray *trays, size_t
     return explained->automaton && tn_library_rank(explained->automaton, trays, length, rank);
 }
 
-static tn_status set_near(const tn_explained *explained, const tn_near_plan *plan, tn_nearest_plan *to,
-                          tn_error *error)
+static tn_status set_near(const tn_explained *explained, const tn_near_plan *plan, tn_nearest_plan *to, tn_error *error)
 {
     tn_buffer changes = {0};
     to->has_rank = set_rank(explained, plan->trays, plan->length, to->rank);
@@ -411,12 +413,12 @@ static tn_status answer_with(tn_plan_reasons *reasons, tn_reply *answer, tn_erro
     tn_status status =
         tn_reply_new(library ? &tn_message_explained_plan : &tn_message_explained_by_rules, answer, error);
     if (status != TN_OK) {
-        tn_plan_reasons_free(reasons);
+        free_reasons(reasons);
         return status;
     }
     tn_explained_plan *of_library = TN_REPLY(explained_plan, answer);
     tn_explained_by_rules *of_rules = TN_REPLY(explained_by_rules, answer);
-    *(library ? &of_library->reasons : &of_rules->reasons) = reasons;
+    *(library ? &of_library->reasons : &of_rules->reasons) = (tn_boxed){reasons, free_reasons};
     status = set_line(explained->schema, explained->trays, explained->length,
                       library ? &of_library->plan : &of_rules->plan, error);
     if (status == TN_OK)
@@ -431,9 +433,9 @@ static tn_status explain(tn_session *session, const tn_explain_request *request,
 {
     tn_explained *explained = &reasons->explained;
     size_t longest = request->subject.has_max_length ? (size_t)request->subject.max_length : TN_EXPLAIN_LENGTH_DEFAULT;
-    tn_status status = tn_explained_make(explained, session->opened, explainer->schema, explainer->record,
-                                         explainer->rules.indices, explainer->rules.count, reasons->plan.trays,
-                                         reasons->plan.length, longest, error);
+    tn_status status =
+        tn_explained_make(explained, session->opened, explainer->schema, explainer->record, explainer->rules.indices,
+                          explainer->rules.count, reasons->plan.trays, reasons->plan.length, longest, error);
     if (status == TN_OK && !request->no_ranks)
         status = try_library(session, explainer, error);
     explained->automaton = explainer->library;
@@ -455,13 +457,13 @@ tn_status tn_explain_plan(tn_session *session, const tn_explain_request *request
     }
     status = read_plan(session, explainer, request, &reasons->plan);
     if (status != TN_OK) {
-        tn_plan_reasons_free(reasons);
+        free_reasons(reasons);
         return status;
     }
     status = explain(session, request, explainer, reasons, &error);
     if (status == TN_OK)
         status = answer_with(reasons, answer, &error);
     else
-        tn_plan_reasons_free(reasons);
+        free_reasons(reasons);
     return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }

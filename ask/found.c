@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "ask/best.h"
-#include "ask/numbered.h"
+#include "ask/house/numbered.h"
 
 tn_status tn_finds_begin(tn_finds *finds, tn_error *error)
 {
@@ -87,7 +87,7 @@ static tn_status set_value(const tn_wishes *wishes, mpq_t *from, mpq_t value, tn
     return TN_OK;
 }
 
-static tn_status add_plan(const tn_finds *finds, const tn_found *found, tn_error *error)
+static tn_status add_plan(const tn_finds *finds, const tn_found_one *found, tn_error *error)
 {
     tn_found_plans *to = finds->answer->value;
     tn_found_plan *plan = TN_ADD(found_plan, to->plans, error);
@@ -104,7 +104,7 @@ static tn_status add_plan(const tn_finds *finds, const tn_found *found, tn_error
                                &plan->members, error);
 }
 
-static tn_status add_house(const tn_finds *finds, const tn_found *found, tn_error *error)
+static tn_status add_house(const tn_finds *finds, const tn_found_one *found, tn_error *error)
 {
     tn_found_houses *to = finds->answer->value;
     tn_found_house *house = TN_ADD(found_house, to->houses, error);
@@ -117,7 +117,7 @@ static tn_status add_house(const tn_finds *finds, const tn_found *found, tn_erro
     return tn_found_house_texts(found->house, NULL, &house->members, error);
 }
 
-static tn_status add_best_house(const tn_finds *finds, const tn_found *found, tn_error *error)
+static tn_status add_best_house(const tn_finds *finds, const tn_found_one *found, tn_error *error)
 {
     const tn_wishes *wishes = finds->of->wishes;
     tn_best_houses *to = finds->answer->value;
@@ -131,14 +131,14 @@ static tn_status add_best_house(const tn_finds *finds, const tn_found *found, tn
     return tn_found_house_texts(found->house, &house->house, NULL, error);
 }
 
-static tn_status add(const tn_finds *finds, const tn_found *found, tn_error *error)
+static tn_status add(const tn_finds *finds, const tn_found_one *found, tn_error *error)
 {
     if (!found->house)
         return add_plan(finds, found, error);
     return (finds->of->wishes ? add_best_house : add_house)(finds, found, error);
 }
 
-tn_status tn_finds_give(tn_finds *finds, const tn_found *found, tn_error *error)
+tn_status tn_finds_give(tn_finds *finds, const tn_found_one *found, tn_error *error)
 {
     const tn_taker *taker = finds->session->taker;
     if (!taker)

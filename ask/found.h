@@ -2,21 +2,21 @@
 #ifndef TARTAN_ASK_FOUND_H
 #define TARTAN_ASK_FOUND_H
 
-#include "ask/session.h"
+#include "ask/session/session.h"
 #include "runtime/house/house.h"
 
 struct tn_numbered;
 struct tn_wishes;
 
 /* A plan or a house. All is borrowed until the next is found, but a house may be taken: then an empty one is left. */
-typedef struct tn_found {
+typedef struct tn_found_one {
     mpz_srcptr rank; /* of a plan in its library; of a house among those that are asked for, or NULL: not known */
     const tn_tray *trays;
     uint32_t length;
-    tn_house *house;     /* NULL: it is a plan */
-    mpz_srcptr variant;  /* of a house: its number among those on its plan */
-    mpq_t *values; /* of the measures that were asked for, in nanometres to their power; or NULL */
-} tn_found;
+    tn_house *house;    /* NULL: it is a plan */
+    mpz_srcptr variant; /* of a house: its number among those on its plan */
+    mpq_t *values;      /* of the measures that were asked for, in nanometres to their power; or NULL */
+} tn_found_one;
 
 /* What is found: plans of a library, or houses. */
 typedef struct tn_found_of {
@@ -32,7 +32,7 @@ typedef struct tn_found_of {
  * and whoever said so knows why. */
 typedef struct tn_taker {
     bool (*begins)(void *context, tn_found_of *of); /* before the first; may be NULL */
-    bool (*takes)(void *context, const tn_found *found);
+    bool (*takes)(void *context, const tn_found_one *found);
     void *context;
 } tn_taker;
 
@@ -49,7 +49,7 @@ typedef struct tn_finds {
 tn_status tn_finds_begin(tn_finds *finds, tn_error *error);
 
 /* TN_STOPPED if the taker has enough: then `ended` is set. */
-tn_status tn_finds_give(tn_finds *finds, const tn_found *found, tn_error *error);
+tn_status tn_finds_give(tn_finds *finds, const tn_found_one *found, tn_error *error);
 
 /* What the question comes to after that status, which is said. */
 tn_status tn_finds_end(const tn_finds *finds, tn_status status, const tn_error *error);

@@ -2,7 +2,7 @@
 #ifndef TARTAN_ASK_KIT_H
 #define TARTAN_ASK_KIT_H
 
-#include "ask/session.h"
+#include "ask/session/session.h"
 #include "runtime/place/count/count.h"
 #include "runtime/place/model/rules.h"
 

@@ -3,11 +3,11 @@
 #include <string.h>
 
 #include "ask/best.h"
+#include "ask/questions.h"
 
-void tn_plan_front_free(tn_plan_front *front)
+static void free_front(void *made)
 {
-    if (!front)
-        return;
+    tn_plan_front *front = made;
     tn_pareto_clear(&front->front);
     tn_weighed_free(front->weighed);
     free(front);
@@ -65,7 +65,7 @@ static tn_status find_plans(tn_session *session, tn_plan_front *f, tn_error *err
 
 static tn_status give_plans(tn_session *session, tn_found_front *front, tn_error *error)
 {
-    tn_plan_front *f = front->shown;
+    tn_plan_front *f = front->shown.value;
     tn_status status = find_plans(session, f, error);
     if (status == TN_OK)
         status = name_measures(&f->wishes, front, error);
@@ -89,10 +89,11 @@ static tn_status front_of_plans(tn_session *session, const tn_pareto_request *re
     status = tn_reply_new(&tn_message_found_front, answer, &error);
     if (status == TN_OK) {
         tn_found_front *front = answer->value;
-        front->shown = calloc(1, sizeof *front->shown);
-        if (front->shown)
-            *front->shown = (tn_plan_front){.ready = ready, .wishes = wishes};
-        status = front->shown ? give_plans(session, front, &error) : tn_fail_memory(&error);
+        tn_plan_front *f = calloc(1, sizeof *f);
+        front->shown = (tn_boxed){f, free_front};
+        if (f)
+            *f = (tn_plan_front){.ready = ready, .wishes = wishes};
+        status = f ? give_plans(session, front, &error) : tn_fail_memory(&error);
     }
     return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }
@@ -106,15 +107,15 @@ static tn_status take_line(void *context, const tn_house *house, bool *stop, tn_
     return tn_found_house_texts(house, &point->house, NULL, error);
 }
 
-static tn_status set_house(tn_house_search *search, size_t i, tn_front_point *point, tn_error *error)
+static tn_status set_house(tn_houses_search *search, size_t i, tn_front_point *point, tn_error *error)
 {
     mpq_t values[TN_WEIGHED_MAX];
-    tn_status status = tn_house_search_of_point(search, i, take_line, point, error);
+    tn_status status = tn_houses_search_of_point(search, i, take_line, point, error);
     if (status != TN_OK)
         return status;
     tn_wishes_room(values);
     for (uint32_t k = 0; k < search->found.count; k++)
-        tn_house_search_value(search, k, values[k]);
+        tn_houses_search_value(search, k, values[k]);
     point->has_houses = point->has_house = true;
     mpz_set(point->houses, search->count);
     status = set_values(&search->found, values, point, error);
@@ -122,7 +123,7 @@ static tn_status set_house(tn_house_search *search, size_t i, tn_front_point *po
     return status;
 }
 
-static tn_status give_houses(tn_house_search *search, tn_reply *answer)
+static tn_status give_houses(tn_houses_search *search, tn_reply *answer)
 {
     tn_error error;
     size_t count = tn_houses_points(search->houses);
@@ -141,15 +142,15 @@ static tn_status front_of_houses(tn_session *session, const tn_pareto_request *r
 {
     const tn_house_asked asked = {
         .subject = &request->subject, .plan = request->plan, .wanted = UINT64_MAX, .aim = TN_HOUSES_FRONT};
-    tn_house_search search;
+    tn_houses_search search;
     tn_wishes wishes;
     tn_status status = tn_wishes_take(session, request->by.items, request->by.count, 2, &wishes);
     if (status != TN_OK)
         return status;
-    status = tn_house_search_begin(&search, session, &asked, &wishes);
+    status = tn_houses_search_begin(&search, session, &asked, &wishes);
     if (status == TN_OK)
         status = give_houses(&search, answer);
-    tn_house_search_end(&search);
+    tn_houses_search_end(&search);
     return status;
 }
 

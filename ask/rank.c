@@ -3,7 +3,8 @@
 #include <string.h>
 
 #include "ask/found.h"
-#include "ask/numbered.h"
+#include "ask/house/numbered.h"
+#include "ask/questions.h"
 #include "driver/plan/clauses.h"
 #include "runtime/plan/text/text.h"
 

@@ -1,7 +1,7 @@
 /* Relates the clauses of a library of houses: how many houses match each of two, and how many both? */
 #include <stdlib.h>
 
-#include "ask/numbered.h"
+#include "ask/house/numbered.h"
 #include "ask/relations.h"
 #include "driver/open/findings.h"
 #include "runtime/base/crew.h"

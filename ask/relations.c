@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/questions.h"
 #include "driver/plan/analysis.h"
 #include "runtime/base/crew.h"
 #include "runtime/plan/text/text.h"
@@ -109,8 +110,8 @@ static tn_status relate_analysed(tn_session *session, const tn_relations_request
         return tn_session_fail(session, &error);
     for (size_t i = 0; status == TN_OK && i < module->HOUSE_LIBRARY_count; i++)
         if (is_own(&module->HOUSE_LIBRARY_records[i]))
-            status = tn_relate_houses(session, request, &module->HOUSE_LIBRARY_records[i],
-                                      &relations->items.items[count++]);
+            status =
+                tn_relate_houses(session, request, &module->HOUSE_LIBRARY_records[i], &relations->items.items[count++]);
     return status;
 }
 

@@ -2,8 +2,8 @@
 #ifndef TARTAN_ASK_RELATIONS_H
 #define TARTAN_ASK_RELATIONS_H
 
-#include "ask/requests.h"
-#include "ask/session.h"
+#include "ask/session/requests.h"
+#include "ask/session/session.h"
 #include "runtime/plan/analysis/analysis.h"
 
 /* The states of a pair of clauses about houses, unless a request gives another limit: some seconds. */

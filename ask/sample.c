@@ -4,7 +4,8 @@
 #include <stdlib.h>
 
 #include "ask/found.h"
-#include "ask/numbered.h"
+#include "ask/house/numbered.h"
+#include "ask/questions.h"
 #include "runtime/base/array.h"
 #include "runtime/plan/library/diverse.h"
 
@@ -116,7 +117,7 @@ static tn_status give_plans(const drawing *d, tn_finds *finds, tn_error *error)
     tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(d->library) + 1));
     tn_status status = trays ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < d->count; i++) {
-        tn_found found = {.rank = d->ranks[i], .trays = trays};
+        tn_found_one found = {.rank = d->ranks[i], .trays = trays};
         status = tn_watch_check(d->session->opened->module->watch, error);
         if (status == TN_OK && !tn_library_unrank(d->library, d->ranks[i], trays, &found.length))
             status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a sampled rank is not in the library");
@@ -156,7 +157,7 @@ typedef struct giving {
 static tn_status give_house(void *context, tn_house *house, const mpz_t rank, const mpz_t variant, tn_error *error)
 {
     giving *g = context;
-    const tn_found found = {
+    const tn_found_one found = {
         .rank = rank, .trays = house->trays, .length = (uint32_t)house->length, .house = house, .variant = variant};
     g->given++;
     return tn_finds_give(g->finds, &found, error);

@@ -3,7 +3,8 @@
 #include <string.h>
 
 #include "api/compiler/compile.h"
-#include "ask/session.h"
+#include "ask/questions.h"
+#include "ask/session/session.h"
 #include "include/tartan/ask.h"
 #include "runtime/base/file.h"
 

@@ -6,7 +6,7 @@
 #ifndef TARTAN_CLI_COMMON_JOB_H
 #define TARTAN_CLI_COMMON_JOB_H
 
-#include "ask/session.h"
+#include "ask/session/session.h"
 #include "cli/common/files_read.h"
 #include "cli/common/options.h"
 #include "cli/common/progress.h"
@@ -71,7 +71,7 @@ void tn_job_fail(tn_job *job, const tn_error *error);
 /* Takes note of a status whose diagnostic is there already. */
 void tn_job_status(tn_job *job, tn_status status);
 
-/* Takes note of what a question came to (ask/session.h); true for TN_OK. */
+/* Takes note of what a question came to (ask/session/session.h); true for TN_OK. */
 bool tn_job_answered(tn_job *job, tn_status status);
 
 /* Writes an answer as JSON. */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "ask/found.h"
+#include "ask/questions.h"
 #include "cli/draw/draw.h"
 #include "cli/measure/best_sheet.h"
 #include "cli/plan/sheet.h"
@@ -100,7 +101,7 @@ static bool take_library(void *context, tn_found_of *of)
     return true;
 }
 
-static bool take_plan(void *context, const tn_found *found)
+static bool take_plan(void *context, const tn_found_one *found)
 {
     sheet *s = context;
     tn_error error;

@@ -23,8 +23,8 @@ typedef struct pictured {
 typedef struct collection {
     pictured *items;
     size_t count;
-    tn_house_search *search; /* of the best, or NULL */
-    bool front;              /* of the best trade-offs */
+    tn_houses_search *search; /* of the best, or NULL */
+    bool front;               /* of the best trade-offs */
 } collection;
 
 static tn_status say_cost(pictured *p, size_t used, tn_error *error)
@@ -80,13 +80,13 @@ static tn_status collect_drawn(void *context, tn_house *house, const mpz_t rank,
 /* "daylight 14', cost 2500"; of a trade-off also how many houses have it. */
 static tn_status say_values(const collection *c, pictured *p, tn_error *error)
 {
-    const tn_house_search *s = c->search;
+    const tn_houses_search *s = c->search;
     size_t used = 0;
     mpq_t value;
     mpq_init(value);
     bool ok = true;
     for (uint32_t k = 0; ok && k < s->found.count && used < SAID_SIZE; k++) {
-        tn_house_search_value(s, k, value);
+        tn_houses_search_value(s, k, value);
         char *text = tn_wish_text(&s->found, k, value);
         ok = text != NULL;
         if (ok)
@@ -127,7 +127,7 @@ static tn_status collect_all_best(collection *c, tn_error *error)
 {
     mpz_t plan, variant;
     mpz_inits(plan, variant, NULL);
-    tn_status status = tn_house_search_each(c->search, collect_best, c, error);
+    tn_status status = tn_houses_search_each(c->search, collect_best, c, error);
     for (size_t i = 0; status == TN_OK && i < c->count; i++) {
         pictured *p = &c->items[i];
         status = tn_numbered_name(&c->search->n, &p->house, plan, variant, error);
@@ -200,7 +200,7 @@ static void draw_sample(tn_job *job, const tn_house_settings *settings, const tn
 
 /* " with the least cost, then the most daylight"; ": the first of each of the best trade-offs, with the least cost and
  * the most daylight" */
-static void say_aim(const tn_house_search *search, bool front, char *text, size_t size)
+static void say_aim(const tn_houses_search *search, bool front, char *text, size_t size)
 {
     const tn_wishes *wishes = &search->found;
     snprintf(text, size, front ? ": the first of each of the best trade-offs, with " : " with ");
@@ -212,7 +212,7 @@ static void say_aim(const tn_house_search *search, bool front, char *text, size_
 }
 
 /* A front has as many points as it has. */
-static bool fits(tn_job *job, const tn_house_search *search, tn_house_sheet *sheet)
+static bool fits(tn_job *job, const tn_houses_search *search, tn_house_sheet *sheet)
 {
     size_t points = tn_houses_points(search->houses);
     if (!sheet->front)
@@ -235,7 +235,7 @@ static void draw_best(tn_job *job, tn_house_sheet sheet)
                                   .plan = front ? front->plan : best->plan,
                                   .wanted = front ? UINT64_MAX : sheet.wanted,
                                   .aim = front ? TN_HOUSES_FRONT : TN_HOUSES_LEAST};
-    tn_house_search search;
+    tn_houses_search search;
     tn_wishes wishes;
     collection c = {.search = &search, .front = front != NULL};
     char what[NOTE_SIZE];
@@ -243,12 +243,12 @@ static void draw_best(tn_job *job, tn_house_sheet sheet)
                                       front ? front->by.count : best->by.count, front ? 2 : 1, &wishes);
     if (!tn_job_answered(job, status))
         return;
-    if (tn_job_answered(job, tn_house_search_begin(&search, &job->session, &asked, &wishes)) &&
+    if (tn_job_answered(job, tn_houses_search_begin(&search, &job->session, &asked, &wishes)) &&
         fits(job, &search, &sheet)) {
         say_aim(&search, front != NULL, what, sizeof what);
         draw_collected(&search.n, &c, &sheet, what);
     }
-    tn_house_search_end(&search);
+    tn_houses_search_end(&search);
 }
 
 void tn_job_draw_houses(tn_job *job, const tn_house_settings *settings, const tn_house_sheet *sheet)

@@ -2,8 +2,8 @@
 #ifndef TARTAN_CLI_HOUSE_HOUSES_H
 #define TARTAN_CLI_HOUSE_HOUSES_H
 
-#include "ask/numbered.h"
-#include "ask/requests.h"
+#include "ask/house/numbered.h"
+#include "ask/session/requests.h"
 #include "cli/common/job.h"
 #include "runtime/geometry/camera.h"
 

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/measure/best_sheet.h"
 #include "cli/plan/found_rows.h"
@@ -58,7 +59,7 @@ static bool write_values(listing *l, mpq_t *values, tn_json *json)
     return ok;
 }
 
-static tn_status write_json(listing *l, const tn_found *found, tn_error *error)
+static tn_status write_json(listing *l, const tn_found_one *found, tn_error *error)
 {
     tn_json json = tn_json_text(&l->text, TN_JSON_TIGHT);
     char *line = NULL;
@@ -78,7 +79,7 @@ static tn_status write_json(listing *l, const tn_found *found, tn_error *error)
 }
 
 /* A comment in lines: "# 3 m  4", of plans with the rank; and the line. */
-static tn_status write_text(listing *l, const tn_found *found, tn_error *error)
+static tn_status write_text(listing *l, const tn_found_one *found, tn_error *error)
 {
     const tn_wishes *wishes = l->of.wishes;
     char *line = NULL;
@@ -98,7 +99,7 @@ static tn_status write_text(listing *l, const tn_found *found, tn_error *error)
     return status == TN_OK && !ok ? tn_fail_memory(error) : status;
 }
 
-static bool takes(void *context, const tn_found *found)
+static bool takes(void *context, const tn_found_one *found)
 {
     listing *l = context;
     tn_error error;

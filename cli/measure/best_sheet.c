@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "ask/questions.h"
 #include "driver/open/digits.h"
 
 static bool begins(void *context, tn_found_of *of)
@@ -14,7 +15,7 @@ static bool begins(void *context, tn_found_of *of)
 }
 
 /* "3.  cost 87,880, area 304 ft2" */
-static tn_status add(tn_best_sheet *s, const tn_found *found, tn_error *error)
+static tn_status add(tn_best_sheet *s, const tn_found_one *found, tn_error *error)
 {
     tn_buffer caption = {0};
     bool ok = tn_buffer_printf(&caption, "%zu.  ", s->drawn.count + 1);
@@ -28,7 +29,7 @@ static tn_status add(tn_best_sheet *s, const tn_found *found, tn_error *error)
     return tn_fail_memory(error);
 }
 
-static bool takes(void *context, const tn_found *found)
+static bool takes(void *context, const tn_found_one *found)
 {
     tn_best_sheet *s = context;
     tn_error error;

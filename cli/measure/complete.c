@@ -1,6 +1,7 @@
 /* tartan complete: what may still be chosen in an open plan. */
 #include <stdlib.h>
 
+#include "ask/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/measure/wishes.h"
 #include "driver/open/digits.h"
@@ -24,7 +25,7 @@ static const complete_settings *settings_of(const tn_job *job)
 
 /* The best that the measure can still be with the value, for people (malloc); NULL, too, if none is asked for, or the
  * value cannot stand there. */
-static char *best_of(const tn_choices *c, size_t at)
+static char *best_of(const tn_open_choices *c, size_t at)
 {
     mpq_t value;
     if (!c->found.best || mpz_sgn(c->found.counts[at]) == 0)
@@ -38,22 +39,22 @@ static char *best_of(const tn_choices *c, size_t at)
 }
 
 /* "least cost" */
-static void name_best(const tn_choices *c, char *text, size_t size)
+static void name_best(const tn_open_choices *c, char *text, size_t size)
 {
     snprintf(text, size, "%s %.200s", c->wishes.most[0] ? "most" : "least", c->wishes.names[0]);
 }
 
-static const char *spelling(const tn_choices *c, uint32_t field, uint32_t value)
+static const char *spelling(const tn_open_choices *c, uint32_t field, uint32_t value)
 {
     return tn_text(c->schema->module, c->schema->values[c->schema->value_start[field] + value].spelling);
 }
 
-static void write_field(const tn_choices *c, uint32_t tray, uint32_t field, FILE *out)
+static void write_field(const tn_open_choices *c, uint32_t tray, uint32_t field, FILE *out)
 {
     fprintf(out, "  %-16s", tn_text(c->schema->module, c->schema->fields[field].name));
     bool any = false;
     for (uint32_t v = 0; v < c->schema->fields[field].value_count; v++) {
-        size_t at = tn_choice_at(c, tray, field, v);
+        size_t at = tn_open_choice_at(c, tray, field, v);
         if (mpz_sgn(c->found.counts[at]) == 0)
             continue;
         char *digits = tn_digits(c->found.counts[at], true), *best = best_of(c, at);
@@ -66,7 +67,7 @@ static void write_field(const tn_choices *c, uint32_t tray, uint32_t field, FILE
     fputs(any ? "\n" : "-\n", out);
 }
 
-static void write_text(const tn_choices *c, FILE *out)
+static void write_text(const tn_open_choices *c, FILE *out)
 {
     char *plans = tn_digits(c->found.plans, true);
     char best[256];
@@ -87,13 +88,13 @@ static void write_text(const tn_choices *c, FILE *out)
 
 /* ---- the picture */
 
-static bool take_choices(const tn_choices *c, tn_drawn_choice *choices)
+static bool take_choices(const tn_open_choices *c, tn_drawn_choice *choices)
 {
     bool ok = true;
     for (uint32_t t = 0; t < c->found.trays; t++)
         for (uint32_t f = 0; f < c->schema->field_count; f++)
             for (uint32_t v = 0; ok && v < c->schema->fields[f].value_count; v++) {
-                size_t at = tn_choice_at(c, t, f, v);
+                size_t at = tn_open_choice_at(c, t, f, v);
                 tn_drawn_choice *choice = choices++;
                 choice->share = tn_bins_share(c->found.counts[at], c->found.plans);
                 choice->count = tn_digits(c->found.counts[at], true);
@@ -103,7 +104,7 @@ static bool take_choices(const tn_choices *c, tn_drawn_choice *choices)
     return ok;
 }
 
-static tn_status draw_choices(const tn_choices *c, const tn_drawn_choice *choices, tn_picture *to, tn_error *error)
+static tn_status draw_choices(const tn_open_choices *c, const tn_drawn_choice *choices, tn_picture *to, tn_error *error)
 {
     char about[512], best[256] = "";
     char *plans = tn_digits(c->found.plans, true);
@@ -125,7 +126,7 @@ static tn_status draw_choices(const tn_choices *c, const tn_drawn_choice *choice
     return tn_open_plan_draw(c->schema, &open, to, error);
 }
 
-static void draw(tn_job *job, const tn_choices *c)
+static void draw(tn_job *job, const tn_open_choices *c)
 {
     size_t count = (size_t)c->found.trays * c->found.values;
     tn_drawn_choice *choices = calloc(count + 1, sizeof *choices);
@@ -149,7 +150,7 @@ static void show(tn_job *job, const tn_reply *answer)
     const complete_settings *settings = settings_of(job);
     const tn_completed *counted = TN_REPLY(completed, answer);
     const tn_completed_by *weighed = TN_REPLY(completed_by, answer);
-    const tn_choices *choices = counted ? counted->shown : weighed->shown;
+    const tn_open_choices *choices = counted ? counted->shown.value : weighed->shown.value;
     tn_output output;
     tn_job_show(job);
     if (tn_job_draws(settings->output)) {

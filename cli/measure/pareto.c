@@ -1,6 +1,7 @@
 /* tartan pareto: lists the best trade-offs of two or three measures. */
 #include <stdlib.h>
 
+#include "ask/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/measure/wishes.h"
 #include "driver/measure/front.h"
@@ -62,7 +63,7 @@ static void find_front(tn_job *job, const tn_pareto_request *request, bool house
     const tn_found_front *front = answer.value;
     tn_job_show(job);
     if (found && tn_job_draws(settings_of(job)->output))
-        draw(job, front->shown);
+        draw(job, front->shown.value);
     else if (found)
         write(job, &answer, houses);
     tn_reply_clear(&answer);

@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_PLAN_ANSWERS_H
 #define TARTAN_CLI_PLAN_ANSWERS_H
 
-#include "ask/requests.h"
+#include "ask/session/requests.h"
 #include "cli/plan/library_job.h"
 #include "driver/plan/tests.h"
 

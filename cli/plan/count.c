@@ -2,11 +2,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/questions.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
 #include "cli/place/kit_options.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/count_text.h"
+#include "driver/measure/spread.h"
 
 typedef struct count_settings {
     tn_settings common;
@@ -80,7 +82,7 @@ static void write_answer(const showing *s, const tn_reply *answer, FILE *out)
 static void draw(const showing *s, const tn_counted_values *values)
 {
     tn_error error;
-    if (tn_spread_draw(values->spread, &(tn_picture){.path = s->path}, &error) != TN_OK)
+    if (tn_spread_draw(values->spread.value, &(tn_picture){.path = s->path}, &error) != TN_OK)
         tn_job_fail(s->job, &error);
 }
 

@@ -8,6 +8,7 @@
 
 #include "cli/common/interrupt.h"
 #include "driver/house/judge.h"
+#include "driver/measure/spread.h"
 #include "driver/open/digits.h"
 #include "runtime/base/utf8.h"
 
@@ -177,7 +178,7 @@ static void write_spread(const tn_spread *p, FILE *out)
 
 void tn_count_spread_text(const tn_counted_values *values, FILE *out)
 {
-    write_spread(values->spread, out);
+    write_spread(values->spread.value, out);
 }
 
 /* ---- houses */

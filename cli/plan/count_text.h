@@ -4,7 +4,8 @@
 
 #include <stdio.h>
 
-#include "ask/requests.h"
+#include "ask/session/requests.h"
+#include "runtime/module/module.h"
 
 /* The plans of a library: all but what its clauses do, and that. */
 void tn_count_plans_text(const tn_counted_plans *counted, FILE *out);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "ask/explain.h"
+#include "ask/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/house/judged.h"
 #include "cli/plan/explain_text.h"
@@ -52,7 +53,7 @@ static const tn_plan_reasons *reasons_of(const tn_reply *answer)
 {
     const tn_explained_plan *by_library = TN_REPLY(explained_plan, answer);
     const tn_explained_by_rules *by_rules = TN_REPLY(explained_by_rules, answer);
-    return by_library ? by_library->reasons : by_rules ? by_rules->reasons : NULL;
+    return by_library ? by_library->reasons.value : by_rules ? by_rules->reasons.value : NULL;
 }
 
 static bool make_text(const explaining *e, const tn_reply *answer, tn_buffer *text)

@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_PLAN_EXPLAIN_TEXT_H
 #define TARTAN_CLI_PLAN_EXPLAIN_TEXT_H
 
-#include "ask/requests.h"
+#include "ask/session/requests.h"
 #include "runtime/base/buffer.h"
 
 /* full: also clauses that keep the house. */

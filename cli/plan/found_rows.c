@@ -116,8 +116,8 @@ static bool begins(void *context, tn_found_of *of)
 }
 
 /* The texts of the row are those of the columns above. */
-static tn_status write_house_row(tn_found_rows *rows, const tn_found *found, const char *plan_rank, const char *variant,
-                                 tn_error *error)
+static tn_status write_house_row(tn_found_rows *rows, const tn_found_one *found, const char *plan_rank,
+                                 const char *variant, tn_error *error)
 {
     bool as_json = rows->settings->format == TN_FORMAT_JSON;
     rows->line.size = rows->members.size = 0;
@@ -136,7 +136,7 @@ static tn_status write_house_row(tn_found_rows *rows, const tn_found *found, con
     return tn_plan_writer_write_row(rows->writer, found->rank, &row, error);
 }
 
-static tn_status write_house(tn_found_rows *rows, const tn_found *found, tn_error *error)
+static tn_status write_house(tn_found_rows *rows, const tn_found_one *found, tn_error *error)
 {
     mpz_t plan;
     mpz_init(plan);
@@ -155,7 +155,7 @@ static tn_status write_house(tn_found_rows *rows, const tn_found *found, tn_erro
     return status;
 }
 
-static bool takes(void *context, const tn_found *found)
+static bool takes(void *context, const tn_found_one *found)
 {
     tn_found_rows *rows = context;
     tn_error error;

@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_PLAN_LIBRARY_JOB_H
 #define TARTAN_CLI_PLAN_LIBRARY_JOB_H
 
-#include "ask/requests.h"
+#include "ask/session/requests.h"
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
 #include "cli/house/houses.h"

@@ -1,7 +1,8 @@
 /* tartan rank: a plan's place in its library. */
 #include <stdio.h>
 
-#include "ask/numbered.h"
+#include "ask/house/numbered.h"
+#include "ask/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/library_job.h"
 

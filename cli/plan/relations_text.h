@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_PLAN_RELATIONS_TEXT_H
 #define TARTAN_CLI_PLAN_RELATIONS_TEXT_H
 
-#include "ask/requests.h"
+#include "ask/session/requests.h"
 
 /* A matrix for each schema, and for each library of houses; then the examples, if there are any. */
 void tn_relations_text(const tn_relations *relations, FILE *out);

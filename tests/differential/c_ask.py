@@ -30,24 +30,29 @@ class Session:
 
 # ---- the question
 
-def as_words(request):
+def as_words(question, request):
     """The operand of the command, and its options."""
-    operands = ("plan", "house", "rank")
-    yield from (request[key] for key in operands if key in request)
+    operands = {"rank": ["plan", "house"], "explain": ["plan", "house"], "unrank": ["rank"], "sample": ["count"], "best": ["count"], "complete": ["pattern"]}.get(question, [])
+    yield from (str(request[key]) for key in operands if key in request)
+    then = ""
+    for wish in request.get("by") if isinstance(request.get("by"), list) else []:
+        yield from ("--" + then + ("most" if wish.get("most") else "least"), wish["measure"])
+        then = "then-" if question == "best" else ""
     for key, value in request.items():
-        if key in operands:
+        if key in operands or (key == "by" and isinstance(value, list)):
             continue
         for one in value if isinstance(value, list) else [value]:
             yield "--" + key.replace("_", "-")
             yield from [] if one is True else [str(one)]
 
 
+ROWS = {"sample", "enumerate", "best"}                             # whose command writes a line of JSON for each plan or house
 COMMANDS = {"relations": ["check", "--relations"]}                 # others have the question's name
 
 
 def by_command(subject, question, request):
-    words = [word for word in as_words(request) if word != "--values"]
-    code, out, err = run(*COMMANDS.get(question, [question]), subject.path, *words, "--json")
+    words = [word for word in as_words(question, request) if word != "--values"]
+    code, out, err = run(*COMMANDS.get(question, [question]), subject.path, *words, *(["--format", "json"] if question in ROWS else ["--json"]))
     said = re.search(r"^(?:.*?: )?error(?:\[E\d+\])?: (.*)$", err, re.M)
     return out if code == 0 else "error: " + (said.group(1) if said else err)
 
@@ -71,6 +76,29 @@ def numbered(subject):
             yield "rank", {"house" if subject.houses else "plan": subject.lines[rank], "library": library}
 
 
+def found(subject):
+    """Plans or houses one after another, and what they are best by."""
+    library, measures, rules = subject.item.name, subject.measures()[:2], subject.rules()[:1]
+    yield "sample", {"library": library, "count": 4, "seed": 3}
+    yield "enumerate", {"library": library, "from": "1", "limit": 4}
+    yield from (("enumerate", {"library": library, "limit": 3, "where": [rule]}) for rule in rules)
+    by = [{"measure": measure, "most": i == 0} for i, measure in enumerate(measures)]
+    if by:
+        yield "best", {"library": library, "by": by, "count": 3}
+        yield "complete", {"library": library, "pattern": "? | ...", "by": by[:1]}
+    if len(by) > 1:
+        yield "pareto", {"library": library, "by": by}
+    yield "complete", {"library": library, "pattern": "... | ?"}
+
+
+def rows_of(question, answer):
+    """As the command writes them."""
+    if question not in ROWS or not answer.startswith("{"):
+        return answer
+    read = json.loads(answer)
+    return "".join(json.dumps(row, ensure_ascii=False, separators=(",", ":")) + "\n" for row in read.get("plans", read.get("houses")))
+
+
 def counted(subject):
     library, measures, rules = subject.item.name, subject.measures()[:2], subject.rules()[:1]
     yield {"library": library}
@@ -89,14 +117,14 @@ def c_ask(subject):
     if not os.path.exists(path) or "\nuse " in "\n" + subject.source.text:
         return
     requests = [("count", request) for request in counted(subject)] + [("explain", request) for request in explained(subject)]
-    requests += [*numbered(subject), ("relations", {"max_states": 50, "examples": True})]
+    requests += [*numbered(subject), *found(subject), ("relations", {"max_states": 50, "examples": True})]
     lines = "".join(json.dumps(asked) + "\n" for asked in requests)
     done = subprocess.run([sys.executable, "-B", os.path.abspath(__file__), path, subject.path], input=lines, capture_output=True, text=True,
                           encoding="utf-8", timeout=300, env=environment())
     if done.returncode:
         raise Wrong("tartan_ask ends", f"{done.returncode}: {done.stderr[-300:]}", "0")
     for (question, request), line in zip(requests, done.stdout.splitlines(), strict=True):
-        same(f"tartan_ask {question} {json.dumps(request)}", json.loads(line), by_command(subject, question, request))
+        same(f"tartan_ask {question} {json.dumps(request)}", rows_of(question, json.loads(line)), by_command(subject, question, request))
 
 
 def main():

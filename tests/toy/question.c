@@ -1,6 +1,7 @@
 /* A toy question: twice a number. */
-#include "ask/requests.h"
-#include "ask/session.h"
+#include "ask/questions.h"
+#include "ask/session/requests.h"
+#include "ask/session/session.h"
 
 tn_status tn_ask_twice(tn_session *session, const tn_twice_request *request, tn_reply *answer)
 {

@@ -10,7 +10,8 @@
 
 #include <cmocka.h>
 
-#include "ask/requests.h"
+#include "ask/questions.h"
+#include "ask/session/requests.h"
 #include "runtime/base/bytes.h"
 #include "runtime/genome/settings.h"
 #include "runtime/load.h"

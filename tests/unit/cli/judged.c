@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "ask/numbered.h"
+#include "ask/house/numbered.h"
 #include "tests/support/test_house.h"
 
 static const char text[] = "schema hut { width role length = 8' zone body role band = room(10') }\n"

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/numbered.h"
+#include "ask/house/numbered.h"
 
 void tn_numbered_forget_ranks(tn_numbered *n)
 {

@@ -4,10 +4,10 @@
  * diagnostics of that file; every question returns the status of what it says there. What does not change between
  * questions is kept: the automaton of the library that was asked about last, and what plans were explained with. A
  * session belongs to one thread. */
-#ifndef TARTAN_ASK_SESSION_H
-#define TARTAN_ASK_SESSION_H
+#ifndef TARTAN_ASK_SESSION_SESSION_H
+#define TARTAN_ASK_SESSION_SESSION_H
 
-#include "ask/requests.h"
+#include "ask/session/requests.h"
 #include "driver/plan/library.h"
 #include "runtime/plan/text/text.h"
 
@@ -33,7 +33,7 @@ typedef struct tn_session {
     tn_library_options options;
     bool only_one; /* it was asked for without a name */
 
-    struct tn_plan_explainer *explainer; /* of the plan that was explained last, or NULL */
+    tn_boxed explainer; /* of the plan that was explained last */
 } tn_session;
 
 /* Frees what is kept, which is before the file is closed. The session can be used again. */

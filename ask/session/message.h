@@ -3,8 +3,8 @@
  *
  * requests.def has the members, and requests.h the structs that they make. A message's texts are borrowed, from the
  * request or from the file that is asked about, unless they are TN_MESSAGE_OWNED. */
-#ifndef TARTAN_ASK_MESSAGE_H
-#define TARTAN_ASK_MESSAGE_H
+#ifndef TARTAN_ASK_SESSION_MESSAGE_H
+#define TARTAN_ASK_SESSION_MESSAGE_H
 
 #include <gmp.h>
 #include <jansson.h>
@@ -34,11 +34,7 @@ typedef enum tn_message_kind {
     TN_MESSAGE_WRITTEN, /* char *, to be freed: members of another message, written as JSON already (never spread over
                            lines) */
     TN_MESSAGE_TRAYS,   /* the trays of a plan, among members that are written already */
-    /* What pictures and tables are made of, owned, and no part of JSON: */
-    TN_MESSAGE_SPREAD,  /* tn_spread * */
-    TN_MESSAGE_REASONS, /* tn_plan_reasons * */
-    TN_MESSAGE_FRONT,   /* tn_plan_front * */
-    TN_MESSAGE_CHOICES, /* tn_choices * */
+    TN_MESSAGE_BOXED,   /* tn_boxed: what texts and pictures are made of, and no part of JSON */
 } tn_message_kind;
 
 typedef enum tn_message_presence {
@@ -54,6 +50,14 @@ typedef struct tn_texts {
     const char **items;
     size_t count;
 } tn_texts;
+
+/* What only its maker knows the type of. */
+typedef struct tn_boxed {
+    void *value; /* owned, or NULL */
+    void (*free)(void *value);
+} tn_boxed;
+
+void tn_boxed_free(tn_boxed *boxed);
 
 /* Texts that are freed with the message. */
 typedef struct tn_owneds {

@@ -1,9 +1,10 @@
 /* How many houses a library has, and how they are spread. */
-#ifndef TARTAN_ASK_NUMBERED_COUNT_H
-#define TARTAN_ASK_NUMBERED_COUNT_H
+#ifndef TARTAN_ASK_HOUSE_NUMBERED_COUNT_H
+#define TARTAN_ASK_HOUSE_NUMBERED_COUNT_H
 
-#include "ask/numbered.h"
-#include "ask/requests.h"
+#include "ask/house/numbered.h"
+#include "ask/session/requests.h"
+#include "driver/measure/spread.h"
 
 /* The houses of the library, or those on one plan (NULL: all plans); clauses: also what each clause keeps out. */
 tn_status tn_numbered_count(tn_numbered *n, const tn_plan *plan, bool clauses, tn_counted_houses *counted,

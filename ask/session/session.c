@@ -1,12 +1,11 @@
 /* What a session says and keeps. */
-#include "ask/session.h"
+#include "ask/session/session.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/explain.h"
 #include "driver/house/judge.h"
 #include "runtime/base/crew.h"
 #include "runtime/plan/match/vm.h"
@@ -25,8 +24,7 @@ static void forget_library(tn_session *session)
 void tn_session_forget(tn_session *session)
 {
     forget_library(session);
-    tn_plan_explainer_free(session->explainer);
-    session->explainer = NULL;
+    tn_boxed_free(&session->explainer);
 }
 
 tn_status tn_session_fail(tn_session *session, const tn_error *error)

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/numbered.h"
+#include "ask/house/numbered.h"
 
 /* ---- all houses */
 

@@ -1,9 +1,8 @@
 /* The questions as functions, and their requests and answers as structs: what requests.def says. */
-#ifndef TARTAN_ASK_REQUESTS_H
-#define TARTAN_ASK_REQUESTS_H
+#ifndef TARTAN_ASK_SESSION_REQUESTS_H
+#define TARTAN_ASK_SESSION_REQUESTS_H
 
-#include "ask/message.h"
-#include "driver/measure/spread.h"
+#include "ask/session/message.h"
 
 struct tn_session;
 
@@ -32,10 +31,7 @@ struct tn_session;
 #define TN_TYPE_EXACT mpq_t
 #define TN_TYPE_EXACTS tn_exacts
 #define TN_TYPE_TRAYS char *
-#define TN_TYPE_SPREAD tn_spread *
-#define TN_TYPE_REASONS struct tn_plan_reasons *
-#define TN_TYPE_FRONT struct tn_plan_front *
-#define TN_TYPE_CHOICES struct tn_choices *
+#define TN_TYPE_BOXED tn_boxed
 
 #define TN_OF_NESTED(OF, NAME) tn_##OF NAME;
 #define TN_OF_PART(OF, NAME) tn_##OF NAME;
@@ -56,7 +52,7 @@ struct tn_session;
 
 /* The structs, and how each is described. */
 #define TN_MESSAGE(NAME, DOC) typedef struct tn_##NAME tn_##NAME;
-#include "ask/requests.def"
+#include "ask/session/requests.def"
 
 #define TN_MESSAGE(NAME, DOC) struct tn_##NAME {
 #define TN_FIELD(OWNER, PRESENCE, KIND, NAME, UNIT, DOC) TN_HAS_##PRESENCE(NAME) TN_TYPE_##KIND NAME;
@@ -66,7 +62,7 @@ struct tn_session;
     }                                                                                                                  \
     ;                                                                                                                  \
     extern const tn_message tn_message_##NAME;
-#include "ask/requests.def"
+#include "ask/session/requests.def"
 
 /* `count` messages of a type in a list that a message has; one more of them (tn_message_add). */
 #define TN_NEW_LIST(OF, LIST, COUNT, ERROR) tn_message_list(&tn_message_##OF, (COUNT), (tn_list *)&(LIST), (ERROR))
@@ -88,27 +84,6 @@ tn_json_layout tn_reply_layout(const tn_reply *answer);
 /* The answer as that type, or NULL if it is of another one. */
 #define TN_REPLY(NAME, ANSWER)                                                                                         \
     ((ANSWER)->message == &tn_message_##NAME ? (tn_##NAME *)(ANSWER)->value : (tn_##NAME *)NULL)
-
-/* tn_ask_count and so on: each question as a function. What is wrong is said as session.h tells. Clear the answer in
- * any case. */
-#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)                                                                       \
-    tn_status tn_ask_##NAME(struct tn_session *session, const tn_##REQUEST *request, tn_reply *answer);
-#include "ask/requests.def"
-
-/* The same for whoever has a question's name. */
-typedef struct tn_request_kind {
-    const char *name;
-    const tn_message *request;
-    const char *answers; /* the names of their types, with blanks between them */
-    const char *doc;
-    tn_status (*ask)(struct tn_session *session, const void *request, tn_reply *answer);
-} tn_request_kind;
-
-extern const tn_request_kind tn_request_kinds[];
-extern const size_t tn_request_kind_count;
-
-/* The question of that name; TN_INVALID (E_USAGE) with what may have been meant if there is none. */
-tn_status tn_request_kind_named(const char *name, const tn_request_kind **question, tn_error *error);
 
 /* All messages, in the order of the table. */
 extern const tn_message *const tn_messages[];

@@ -1,13 +1,10 @@
 /* Messages by their tables: made, freed, written as JSON and read from it. */
-#include "ask/message.h"
+#include "ask/session/message.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/best.h"
-#include "ask/explain.h"
-#include "driver/measure/spread.h"
 #include "runtime/base/array.h"
 #include "runtime/base/nearest.h"
 
@@ -73,11 +70,11 @@ static void clear_owneds(tn_owneds *texts)
     free(texts->items);
 }
 
-static void clear_spread(tn_spread *spread)
+void tn_boxed_free(tn_boxed *boxed)
 {
-    if (spread)
-        tn_spread_clear(spread);
-    free(spread);
+    if (boxed->value)
+        boxed->free(boxed->value);
+    *boxed = (tn_boxed){0};
 }
 
 static void clear_member(const tn_message_member *m, void *member)
@@ -110,17 +107,8 @@ static void clear_member(const tn_message_member *m, void *member)
     case TN_MESSAGE_MAP:
         clear_list(m->of, member);
         break;
-    case TN_MESSAGE_SPREAD:
-        clear_spread(*(tn_spread **)member);
-        break;
-    case TN_MESSAGE_REASONS:
-        tn_plan_reasons_free(*(tn_plan_reasons **)member);
-        break;
-    case TN_MESSAGE_FRONT:
-        tn_plan_front_free(*(tn_plan_front **)member);
-        break;
-    case TN_MESSAGE_CHOICES:
-        tn_choices_free(*(tn_choices **)member);
+    case TN_MESSAGE_BOXED:
+        tn_boxed_free(member);
         break;
     case TN_MESSAGE_TEXT:
     case TN_MESSAGE_FLAG:
@@ -280,10 +268,7 @@ static void write_value(const tn_message_member *m, const char *key, const void 
         tn_json_written(json, text, text ? strlen(text) : 0);
         break;
     case TN_MESSAGE_TRAYS:
-    case TN_MESSAGE_SPREAD:
-    case TN_MESSAGE_REASONS:
-    case TN_MESSAGE_FRONT:
-    case TN_MESSAGE_CHOICES:
+    case TN_MESSAGE_BOXED:
         break;
     }
 }

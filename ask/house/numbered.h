@@ -1,9 +1,9 @@
 /* A library of houses, made ready with the library of its plans: counted together or plan by plan, and houses by
  * number: `#P:V`, variant V of the plan of rank P, or `#R`, the house of rank R. */
-#ifndef TARTAN_ASK_NUMBERED_H
-#define TARTAN_ASK_NUMBERED_H
+#ifndef TARTAN_ASK_HOUSE_NUMBERED_H
+#define TARTAN_ASK_HOUSE_NUMBERED_H
 
-#include "ask/session.h"
+#include "ask/session/session.h"
 #include "driver/house/judge.h"
 #include "runtime/house/house.h"
 #include "runtime/house/rank/rank.h"

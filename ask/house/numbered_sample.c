@@ -1,7 +1,7 @@
 /* Draws houses of a library at random: ranks, and then the houses of these, plan by plan. */
 #include <stdlib.h>
 
-#include "ask/numbered.h"
+#include "ask/house/numbered.h"
 
 /* The ranks that are drawn, ascending, and how far the plans have come. */
 typedef struct tn_house_sample {

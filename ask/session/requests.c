@@ -1,5 +1,5 @@
 /* The tables of requests, answers and questions. */
-#include "ask/requests.h"
+#include "ask/session/requests.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -47,7 +47,7 @@
 #define TN_END(NAME)                                                                                                   \
     }                                                                                                                  \
     ;
-#include "ask/requests.def"
+#include "ask/session/requests.def"
 
 #define DEFINE(NAME, DOC, FORM)                                                                                        \
     const tn_message tn_message_##NAME = {                                                                             \
@@ -55,11 +55,11 @@
 #define TN_MESSAGE(NAME, DOC) DEFINE(NAME, DOC, TN_MESSAGE_OBJECT)
 #define TN_TUPLE(NAME, DOC) DEFINE(NAME, DOC, TN_MESSAGE_TUPLE)
 #define TN_LISTING(NAME, DOC) DEFINE(NAME, DOC, TN_MESSAGE_LISTING)
-#include "ask/requests.def"
+#include "ask/session/requests.def"
 
 const tn_message *const tn_messages[] = {
 #define TN_MESSAGE(NAME, DOC) &tn_message_##NAME,
-#include "ask/requests.def"
+#include "ask/session/requests.def"
 };
 
 const size_t tn_message_count = sizeof tn_messages / sizeof *tn_messages;
@@ -70,37 +70,6 @@ const tn_message *tn_message_named(const char *name)
         if (strcmp(tn_messages[i]->name, name) == 0)
             return tn_messages[i];
     return NULL;
-}
-
-/* ---- questions */
-
-#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC)                                                                       \
-    static tn_status ask_##NAME(struct tn_session *session, const void *request, tn_reply *answer)                     \
-    {                                                                                                                  \
-        return tn_ask_##NAME(session, request, answer);                                                                \
-    }
-#include "ask/requests.def"
-
-const tn_request_kind tn_request_kinds[] = {
-#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC) {#NAME, &tn_message_##REQUEST, ANSWERS, DOC, ask_##NAME},
-#include "ask/requests.def"
-};
-const size_t tn_request_kind_count = sizeof tn_request_kinds / sizeof *tn_request_kinds;
-
-tn_status tn_request_kind_named(const char *name, const tn_request_kind **question, tn_error *error)
-{
-    const char *names[sizeof tn_request_kinds / sizeof *tn_request_kinds];
-    for (size_t i = 0; i < tn_request_kind_count; i++) {
-        names[i] = tn_request_kinds[i].name;
-        *question = &tn_request_kinds[i];
-        if (strcmp(names[i], name) == 0)
-            return TN_OK;
-    }
-    const char *near = tn_nearest(name, names, tn_request_kind_count);
-    tn_fail(error, TN_INVALID, E_USAGE, "there is no question `%.80s`", name);
-    if (near)
-        tn_error_help(error, "did you mean `%s`?", near);
-    return TN_INVALID;
 }
 
 /* ---- answers */

@@ -1,5 +1,5 @@
 /* Opens a library of houses, and goes through its plans. */
-#include "ask/numbered.h"
+#include "ask/house/numbered.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

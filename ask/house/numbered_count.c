@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/numbered_count.h"
+#include "ask/house/numbered_count.h"
 #include "runtime/base/integers.h"
 
 /* What was counted. */
