@@ -6,8 +6,7 @@
 #include "ask/session/requests.h"
 #include "driver/measure/spread.h"
 
-/* The plans of a library, and how they are spread over the values of a measure. */
-tn_status tn_count_plans(tn_session *session, const tn_count_request *request, tn_reply *answer);
+/* How the plans of a library are spread over the values of a measure. */
 tn_status tn_count_plans_by(tn_session *session, const tn_count_request *request, tn_reply *answer);
 
 /* The houses of a library, all of them or by a measure. */

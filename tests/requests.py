@@ -37,6 +37,7 @@ ASKED = {
         "complete terrace ?_|_..._|_?", "complete terrace ?_|_end", "complete lahave-houses ?_|_great_|_..._|_? --trays 4..4 --least cost",
         "complete cottage ..._|_? --library cottages",
     ],
+    "diff": ["diff terrace terrace --trays 2..3 --no-measures", "diff lahave-houses lahave-houses --trays 3..4", "diff cottage cottage --library cottages"],
     "relations": ["check terrace --relations", "check cottage --relations --max-states 40", "check cottage --relations --examples --max-states 40"],
 }
 # Questions whose answers are lists: the command writes a line of JSON for each, which follows the type of a row.

@@ -23,6 +23,8 @@ struct tartan_session {
     asked_file whole;    /* as it was written */
     asked_file narrowed; /* with further requirements or an open plan, */
     char *narrowed_by;   /* which are these, one a line behind the library's name and the open plan */
+    asked_file before;   /* another file that was compared with it last, */
+    char *before_text;
 };
 
 /* ---- opened */
@@ -118,6 +120,8 @@ void tartan_session_free(tartan_session *session)
         return;
     close_file(&session->whole);
     close_file(&session->narrowed);
+    close_file(&session->before);
+    free(session->before_text);
     for (size_t i = 0; session->folders && i < session->options.folder_count; i++)
         free(session->folders[i]);
     free(session->folders);
@@ -185,6 +189,84 @@ static tartan_status choose_file(tartan_session *session, const tn_library_asked
     return status;
 }
 
+/* ---- another file */
+
+/* One question, and whom it is asked for. */
+typedef struct answering {
+    tartan_session *session;
+    const tn_library_asked *subject; /* or NULL */
+    tn_watch *watch;
+    tartan_report *report;
+    void *report_context;
+    tartan_error *error;
+    bool failed; /* it is in `error` why */
+} answering;
+
+/* The text of that name, by the caller's resolver if there is one; *text is owned. */
+static tartan_status find_text(tartan_session *session, const char *path, char **text, size_t *size,
+                               tartan_error *error)
+{
+    const tartan_compile_options *options = &session->options;
+    const tartan_use use = {path, ".plan", session->path};
+    tartan_text found = {.name = path};
+    tn_error wrong;
+    if (!options->resolve)
+        return tn_file_read(path, TN_SOURCE_BYTES_MAX, (uint8_t **)text, size, &wrong) == TN_OK
+                   ? TARTAN_OK
+                   : tn_api_fail(&wrong, error);
+    tartan_status status = options->resolve(options->resolve_context, &use, &found, error);
+    if (status != TARTAN_OK)
+        return status;
+    *size = found.size;
+    *text = malloc(found.size + 1);
+    if (!*text)
+        return tn_api_memory(error);
+    if (found.size > 0)
+        memcpy(*text, found.text, found.size);
+    return TARTAN_OK;
+}
+
+/* Opens it anew for each question: it may be another text by now. */
+static tartan_status open_before(answering *a, const char *path)
+{
+    tartan_session *session = a->session;
+    const tn_library_asked *asked = a->subject;
+    const tn_questions asking = {
+        .library = asked->library, .wheres = asked->where.items, .where_count = asked->where.count};
+    tartan_compile_options options = session->options;
+    size_t size;
+    close_file(&session->before);
+    free(session->before_text);
+    session->before_text = NULL;
+    tartan_status status = find_text(session, path, &session->before_text, &size, a->error);
+    if (status != TARTAN_OK)
+        return status;
+    options.report = a->report;
+    options.report_context = a->report_context;
+    status = tn_api_open(path, session->before_text, size, &options, asked->where.count ? &asking : NULL,
+                         &session->before.opened, a->error);
+    session->before.open = status == TARTAN_OK;
+    if (!session->before.open)
+        tn_close(&session->before.opened);
+    session->before.session = (tn_session){.opened = &session->before.opened};
+    return status;
+}
+
+static tn_status give_other(void *context, const char *path, tn_session **other)
+{
+    answering *a = context;
+    asked_file *before = &a->session->before;
+    tartan_status status = open_before(a, path);
+    a->failed = status != TARTAN_OK;
+    if (a->failed)
+        return (tn_status)status;
+    tn_diagnostics_clear(&before->opened.compilation.diagnostics);
+    tn_diagnostics_init(&before->opened.compilation.diagnostics, &before->opened.compilation.sources);
+    before->opened.module->watch = a->watch;
+    *other = &before->session;
+    return TN_OK;
+}
+
 /* ---- asked */
 
 typedef struct asking {
@@ -232,21 +314,35 @@ static tartan_status give(const tn_reply *reply, char **answer, tartan_error *er
     return TARTAN_OK;
 }
 
+/* Which of the two files it is said of why the question failed. */
+static tartan_status say_why(const answering *to, const tn_diagnostics *said, tn_status status)
+{
+    const asked_file *before = &to->session->before;
+    bool elsewhere = said->error_count == 0 && before->open && before->opened.compilation.diagnostics.error_count > 0;
+    return to->failed ? (tartan_status)status
+                      : tn_api_first_error(elsewhere ? &before->opened.compilation.diagnostics : said, status,
+                                           to->watch, to->error);
+}
+
 /* What is said of one question is forgotten before the next one. */
-static tartan_status ask(asked_file *file, const asking *a, tn_watch *watch, tartan_report *report, void *context,
-                         char **answer, tartan_error *error)
+static tartan_status ask(asked_file *file, const asking *a, answering *to, char **answer)
 {
     tn_compilation *compilation = &file->opened.compilation;
     const tn_diagnostics kept = compilation->diagnostics;
     tn_reply reply = {0};
     tn_diagnostics_init(&compilation->diagnostics, &compilation->sources);
-    file->opened.module->watch = watch;
+    file->opened.module->watch = to->watch;
+    file->session.other = give_other;
+    file->session.other_context = to;
     tn_status status = a->kind->ask(&file->session, a->request, &reply);
     file->opened.module->watch = NULL;
-    tn_api_report(&compilation->diagnostics, report, context);
-    tartan_status result = status == TN_OK ? give(&reply, answer, error)
-                                           : tn_api_first_error(&compilation->diagnostics, status, watch, error);
+    if (to->session->before.open)
+        tn_api_report(&to->session->before.opened.compilation.diagnostics, to->report, to->report_context);
+    tn_api_report(&compilation->diagnostics, to->report, to->report_context);
+    tartan_status result =
+        status == TN_OK ? give(&reply, answer, to->error) : say_why(to, &compilation->diagnostics, status);
     tn_reply_clear(&reply);
+    close_file(&to->session->before);
     tn_diagnostics_clear(&compilation->diagnostics);
     compilation->diagnostics = kept;
     return result;
@@ -270,7 +366,10 @@ tartan_status tartan_ask(tartan_session *session, const char *question, const ch
         status = choose_file(session, library_of(a.kind->request, a.request), pattern_of(a.kind->request, a.request),
                              report, report_context, &file, error);
     if (status == TARTAN_OK)
-        status = ask(file, &a, &watch, report, report_context, answer, error);
+        status = ask(
+            file, &a,
+            &(answering){session, library_of(a.kind->request, a.request), &watch, report, report_context, error, false},
+            answer);
     clear(&a);
     return status;
 }

@@ -95,7 +95,8 @@ void tn_reply_clear(tn_reply *answer)
 tn_json_layout tn_reply_layout(const tn_reply *answer)
 {
     const tn_message *const lines[] = {&tn_message_counted_plans, &tn_message_counted_values, &tn_message_relations,
-                                       &tn_message_found_front,   &tn_message_completed,      &tn_message_completed_by};
+                                       &tn_message_found_front,   &tn_message_completed,      &tn_message_completed_by,
+                                       &tn_message_compared};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
         if (answer->message == lines[i])
             return TN_JSON_LINES;

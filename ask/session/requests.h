@@ -16,6 +16,12 @@ struct tn_session;
 /* How many of the best are found unless more are asked for. */
 #define TN_BEST_DEFAULT 10u
 
+/* How many of what an edit does are shown, and at most; how many houses are compared one by one, which takes some
+ * minutes. */
+#define TN_DIFF_SHOWN 3u
+#define TN_DIFF_SHOWN_MAX 1000u
+#define TN_DIFF_HOUSES UINT64_C(1000000)
+
 /* The most of the nearest plans that are looked for, and how many are unless more are asked for. */
 #define TN_NEAREST_MAX 1000u
 #define TN_NEAREST_DEFAULT 3u

@@ -26,6 +26,10 @@ typedef struct tn_session {
     void (*so_far)(void *context, const tn_reply *answer);
     void *so_far_context;
 
+    /* Gives the session in which another file that a request names is open, as this one was opened. NULL: it cannot. */
+    tn_status (*other)(void *context, const char *path, struct tn_session **other);
+    void *other_context;
+
     /* Takes the plans or houses that are found (found.h); NULL: they are put into the answer. */
     const struct tn_taker *taker;
 

@@ -48,16 +48,4 @@ void tn_job_draw_houses(tn_job *job, const tn_house_settings *settings, const tn
 bool tn_job_report_houses(tn_job *job, const tn_house_settings *settings, size_t wanted, uint64_t seed,
                           tn_buffer *page);
 
-/* How two libraries of houses are compared: so many houses of each kind are shown, drawn with the seed; so many are
- * compared one by one (0: the default). */
-typedef struct tn_house_comparing {
-    size_t shown;
-    uint64_t seed, one_by_one;
-    bool json;
-} tn_house_comparing;
-
-/* Writes what `tartan diff` says of a library of houses in two files that are open. */
-void tn_jobs_compare_houses(tn_job jobs[2], const char *const *paths, const tn_house_settings *settings,
-                            const tn_house_comparing *comparing);
-
 #endif

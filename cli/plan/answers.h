@@ -9,22 +9,12 @@
 /* Asks how many there are and writes the answer; path: NULL is standard output. */
 void tn_job_count(tn_job *job, const tn_count_request *request, bool json, const char *path);
 
-/* How two libraries are compared: all zero as `tartan diff` does without options. */
-typedef struct tn_compare_options {
-    tn_option_number sample, seed;
-    bool json, without_measures;
-    const char *output, *title; /* of a picture */
-} tn_compare_options;
+/* Asks what an edit does to a library. before: the session in which the file before it is open. Clear the answer in any
+ * case, before that session forgets. */
+bool tn_job_diff(tn_job *job, tn_session *before, const tn_diff_request *request, tn_reply *answer);
 
-/* Two libraries that are open, and their files. */
-typedef struct tn_compared {
-    const char *paths[2];
-    const tn_ready_library *before, *after;
-    uint32_t max_states; /* 0: the default */
-} tn_compared;
-
-/* What `tartan diff` prints of the two. The job is the one that has the second open. */
-void tn_job_compare(tn_job *job, const tn_compared *compared, const tn_compare_options *options);
+/* The same, and writes it as text. */
+void tn_job_diff_text(tn_job *job, tn_session *before, const tn_diff_request *request);
 
 /* The last line of `tartan test`. */
 void tn_test_counts_write(const tn_test_counts *counts, FILE *out);

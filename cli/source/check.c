@@ -124,20 +124,16 @@ static void run_tests(tn_job *job)
 }
 
 /* The file before an edit is open at the same time, with diagnostics of its own. */
-static void compare(tn_job *job, const tn_ready_library *after)
+static void compare(tn_job *job)
 {
     const check_settings *settings = settings_of(job);
+    const tn_diff_request request = {.subject = tn_job_asked(&settings->plans),
+                                     .before = settings->before,
+                                     .no_measures = true}; /* they take most of the time */
     tn_job old;
-    tn_ready_library before = {0};
     tn_job_begin(&old, job->settings);
-    if (tn_job_library(&old, settings->before, &settings->plans, &before))
-        tn_job_compare(job,
-                       &(tn_compared){{settings->before, settings->common.operands.items[0]},
-                                      &before,
-                                      after,
-                                      (uint32_t)settings->plans.max_states.value},
-                       &(tn_compare_options){.without_measures = true}); /* they take most of the time */
-    tn_library_close(&before);
+    if (tn_job_open_plans(&old, settings->before, &settings->plans))
+        tn_job_diff_text(job, &old.session, &request);
     int code = tn_job_end(&old);
     job->exit_code = code > job->exit_code ? code : job->exit_code;
 }
@@ -164,7 +160,7 @@ static void answer(tn_job *job)
     if (made && settings->with_counts)
         tn_job_count(job, &(tn_count_request){.subject = tn_job_asked(&settings->plans)}, false, NULL);
     if (made && settings->before)
-        compare(job, ready);
+        compare(job);
 }
 
 static bool takes_standard_input(const tn_option_list *operands)

@@ -211,6 +211,26 @@ file=stdlib/cottage.plan
 as '{"pattern": "... | ?", "library": "cottages"}' '... | ?' --library cottages
 asked
 
+# The file before the edit is the first operand of the command.
+question=diff
+files=tests/cli/files
+command=(diff "$files/sheds.plan") file=$files/sheds-edited.plan
+as "{\"before\": \"$files/sheds.plan\", \"library\": \"sheds\"}" --library sheds
+as "{\"before\": \"$files/sheds.plan\", \"library\": \"sheds\", \"sample\": 1, \"seed\": 4, \"no_measures\": true}" --library sheds --sample 1 --seed 4 --no-measures
+as "{\"before\": \"$files/sheds.plan\", \"library\": \"sheds\", \"where\": [\"trays = 2\"]}" --library sheds --where 'trays = 2'
+as "{\"before\": \"$files/sheds.plan\", \"library\": \"shed\"}" --library shed
+asked
+command=(diff "$files/rows.plan")
+as "{\"before\": \"$files/rows.plan\", \"library\": \"sheds\"}" --library sheds
+asked
+command=(diff "$files/none.plan")
+as "{\"before\": \"$files/none.plan\"}"
+asked
+command=(diff stdlib/cottage.plan) file=stdlib/cottage.plan library=cottages
+as "{\"before\": \"$file\", \"library\": \"$library\"}" --library "$library"
+as "{\"before\": \"$file\", \"library\": \"$library\", \"max_houses\": 1, \"sample\": 0}" --library "$library" --max-houses 1 --sample 0
+asked
+
 # What only requests can get wrong.
 wrong() { # REQUEST MESSAGE
     is "$1" "$("$program" stdlib stdlib/terrace.plan count "$1")" "error $2"

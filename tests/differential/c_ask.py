@@ -39,7 +39,7 @@ def as_words(question, request):
         yield from ("--" + then + ("most" if wish.get("most") else "least"), wish["measure"])
         then = "then-" if question == "best" else ""
     for key, value in request.items():
-        if key in operands or (key == "by" and isinstance(value, list)):
+        if key in operands or key == "before" or (key == "by" and isinstance(value, list)):
             continue
         for one in value if isinstance(value, list) else [value]:
             yield "--" + key.replace("_", "-")
@@ -52,6 +52,8 @@ COMMANDS = {"relations": ["check", "--relations"]}                 # others have
 
 def by_command(subject, question, request):
     words = [word for word in as_words(question, request) if word != "--values"]
+    if question == "diff":
+        words[:0] = [subject.path]
     code, out, err = run(*COMMANDS.get(question, [question]), subject.path, *words, *(["--format", "json"] if question in ROWS else ["--json"]))
     said = re.search(r"^(?:.*?: )?error(?:\[E\d+\])?: (.*)$", err, re.M)
     return out if code == 0 else "error: " + (said.group(1) if said else err)
@@ -89,6 +91,7 @@ def found(subject):
     if len(by) > 1:
         yield "pareto", {"library": library, "by": by}
     yield "complete", {"library": library, "pattern": "... | ?"}
+    yield "diff", {"library": library, "before": subject.path, "sample": 1}
 
 
 def rows_of(question, answer):

@@ -40,8 +40,9 @@ class Grammar:
     def alternative(self, items):
         items = trimmed(items)
         written = "".join(text for _, text in items)
-        if items and re.fullmatch(r"GE_RANGE:\w+", written):
-            return [[("text", str(i))] for i in range(self.range_of(written[9:]))]
+        counted = re.match(r"GE_RANGE:(\w+)", written) if items else None
+        if counted:                              # and what follows it is dropped
+            return [[("text", str(i))] for i in range(self.range_of(counted[1]))]
         made = []
         for kind, text in items:
             if kind == "name":

@@ -7,7 +7,8 @@
 
 #include <cmocka.h>
 
-#include "cli/house/compared.h"
+#include "ask/diff.h"
+#include "ask/house/compared.h"
 #include "tests/support/same_or_memory.h"
 #include "tests/support/test_house.h"
 
@@ -30,31 +31,33 @@
 
 static const struct {
     const char *old, *new;
-    bool json;
 } pairs[] = {
     /* together, with other plans */
     {SCHEMA("8' | 10'") FORM("window | wall") PLANS("") HOUSES(VAULT),
-     SCHEMA("8' | 10'") FORM("window | wall") PLANS("prune tray(8') as small ") HOUSES(VAULT DARK), false},
+     SCHEMA("8' | 10'") FORM("window | wall") PLANS("prune tray(8') as small ") HOUSES(VAULT DARK)},
     /* one by one: another clause */
     {SCHEMA("8' | 10'") FORM("window | wall") PLANS("") HOUSES(VAULT),
-     SCHEMA("8' | 10'") FORM("window | wall") PLANS("") HOUSES(DARK), true},
+     SCHEMA("8' | 10'") FORM("window | wall") PLANS("") HOUSES(DARK)},
     /* one by one: another form, and trays by other numbers */
     {SCHEMA("8' | 10'") FORM("window | wall") PLANS("prune tray(8') as small ") HOUSES(VAULT),
-     SCHEMA("10' | 8'") FORM("wall | door") PLANS("prune tray(8') as small ") HOUSES(VAULT), false},
+     SCHEMA("10' | 8'") FORM("wall | door") PLANS("prune tray(8') as small ") HOUSES(VAULT)},
 };
 
 typedef struct compared_pair {
     test_house houses[2];
     tn_library *plans[2];
-    bool json;
 } compared_pair;
 
 static tn_status compare(void *context, tn_buffer *out, tn_error *error)
 {
     static const tn_compared_options options = {.shown = 2, .seed = 1, .one_by_one = 1000};
     compared_pair *pair = context;
-    tn_compared_houses c = {.sides = {{.path = "old.plan"}, {.path = "new.plan"}}};
-    tn_session session = {0};
+    const tn_diff_request request = {.before = "old.plan"};
+    tn_compared_houses c = {0};
+    tn_compared answer;
+    tn_opened opened_file = {.path = "new.plan"};
+    tn_session session = {.opened = &opened_file};
+    tn_message_init(&tn_message_compared, &answer);
     tn_status status = TN_OK;
     for (int i = 0; i < 2; i++) {
         test_house *one = &pair->houses[i];
@@ -65,7 +68,14 @@ static tn_status compare(void *context, tn_buffer *out, tn_error *error)
     if (status == TN_OK)
         status = tn_houses_compare(&c, &options, error);
     if (status == TN_OK)
-        status = tn_compared_write(&c, pair->json, out, error);
+        status = tn_diff_houses_answer(&request, &c, &answer, error);
+    if (status == TN_OK) {
+        tn_json json = tn_json_text(out, TN_JSON_TIGHT);
+        tn_message_write(&tn_message_compared, &answer, NULL, &json);
+    }
+    if (status == TN_OK && out->failed)
+        status = tn_fail_memory(error);
+    tn_message_clear(&tn_message_compared, &answer);
     tn_houses_compare_clear(&c);
     tn_numbered_other_close(&c.sides[0].n);
     tn_numbered_other_close(&c.sides[1].n);
@@ -77,7 +87,7 @@ static void every_allocation_may_fail(void **state)
     (void)state;
     static const tn_library_options options = {0};
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
-        compared_pair pair = {.json = pairs[i].json};
+        compared_pair pair = {0};
         for (int k = 0; k < 2; k++) {
             test_house *one = &pair.houses[k];
             tn_error error = {0};

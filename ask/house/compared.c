@@ -1,6 +1,6 @@
 /* Compares two libraries of houses: what differs between them, how many houses each has, and which way to go from
  * there. */
-#include "cli/house/compared_parts.h"
+#include "ask/house/compared.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,15 +1,12 @@
 /* What an edit does to a library of houses: counted, and shown. */
-#ifndef TARTAN_CLI_HOUSE_COMPARED_H
-#define TARTAN_CLI_HOUSE_COMPARED_H
+#ifndef TARTAN_ASK_HOUSE_COMPARED_H
+#define TARTAN_ASK_HOUSE_COMPARED_H
 
-#include "cli/house/houses.h"
+#include "ask/house/numbered.h"
 #include "runtime/plan/library/diff.h"
-
-#define TN_COMPARED_ONE_BY_ONE UINT64_C(1000000) /* houses; some minutes */
 
 /* One of the two libraries. partner: for each clause the one of the other library that says the same. */
 typedef struct tn_compared_side {
-    const char *path;
     tn_numbered n;
     uint32_t *partner; /* TN_NO_RECORD: none */
 } tn_compared_side;
@@ -46,7 +43,26 @@ typedef struct tn_compared_options {
 tn_status tn_houses_compare(tn_compared_houses *c, const tn_compared_options *options, tn_error *error);
 void tn_houses_compare_clear(tn_compared_houses *c);
 
-/* Writes that as text, or as JSON. */
-tn_status tn_compared_write(const tn_compared_houses *c, bool json, tn_buffer *out, tn_error *error);
+/* ---- what these are made of: houses compared together, or one by one */
+
+/* Are there plans that only one of the libraries has? */
+bool tn_compared_other_plans(const tn_compared_houses *c);
+
+/* Keeps an example of what the edit removes (0) or adds (1). */
+tn_status tn_edit_example(tn_house_edit *edit, int which, const tn_house *house, tn_error *error);
+
+/* Finds the edit of that name without a clause: "plans" or "form"; NULL if nothing about it is another. */
+tn_house_edit *tn_compared_edit(const tn_compared_houses *c, const char *name);
+
+/* Examples of an edit from a library of the houses that it removes or adds: the first and some at random. */
+tn_status tn_edit_sample(tn_house_edit *edit, int which, tn_numbered *from, const tn_compared_options *options,
+                         tn_error *error);
+
+/* Counts the houses of a side on the plans that only it has, with examples. The trays have the same numbers in both. */
+tn_status tn_compared_own_plans(const tn_compared_houses *c, int which, tn_house_edit *edit,
+                                const tn_compared_options *options, tn_error *error);
+
+tn_status tn_compare_together(tn_compared_houses *c, int strict, const tn_compared_options *options, tn_error *error);
+tn_status tn_compare_each(tn_compared_houses *c, const tn_compared_options *options, tn_error *error);
 
 #endif

@@ -1,11 +1,10 @@
 /* Compares two libraries of houses on the plans that both have, one house after another: each of one library is asked
  * about by its line in the other. */
-#include "cli/house/compared_parts.h"
+#include "ask/house/compared.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 
-#include "cli/common/interrupt.h"
 #include "runtime/base/integers.h"
 #include "runtime/module/same.h"
 
@@ -99,7 +98,7 @@ static tn_status compare_plan(tn_compared_way *w, const tn_tray *trays, uint32_t
     for (uint32_t i = 0; i < length; i++)
         own[i] = map ? map[trays[i]] : trays[i];
     mpz_init(first);
-    tn_status status = tn_interrupt_check(error);
+    tn_status status = tn_watch_check(w->c->sides[w->from].n.form.module->watch, error);
     if (status == TN_OK)
         status = tn_house_variants_each(w->c->sides[w->from].n.variants, own, length, first, compare_house, w, error);
     mpz_clear(first);

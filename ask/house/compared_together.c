@@ -1,6 +1,6 @@
 /* Compares two libraries of houses in the same form, of which one has all clauses of the other: no house is gone
  * through. What a clause more keeps out is a library, too: with the clauses of both, and this one turned round. */
-#include "cli/house/compared_parts.h"
+#include "ask/house/compared.h"
 
 #include <stdlib.h>
 
