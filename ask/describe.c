@@ -123,6 +123,9 @@ static void write_kind(tn_json *json, const tn_message_member *m)
     case TN_MESSAGE_WHOLE:
         write_number(json, m);
         break;
+    case TN_MESSAGE_REAL:
+        tn_json_string(json, "type", "number");
+        break;
     case TN_MESSAGE_BIG:
         write_pattern(json, DIGITS);
         break;
@@ -305,6 +308,7 @@ static void write_type(const tn_message_member *m, FILE *out)
         break;
     case TN_MESSAGE_COUNT:
     case TN_MESSAGE_WHOLE:
+    case TN_MESSAGE_REAL:
         fputs("number", out);
         break;
     case TN_MESSAGE_TEXTS:
@@ -434,6 +438,7 @@ static void write_row_kind(const tn_message_member *m, FILE *out)
         [TN_MESSAGE_FLAG] = "true or false",
         [TN_MESSAGE_COUNT] = "number",
         [TN_MESSAGE_WHOLE] = "number",
+        [TN_MESSAGE_REAL] = "decimal number",
         [TN_MESSAGE_BIG] = "digits",
         [TN_MESSAGE_EXACT] = "fraction",
         [TN_MESSAGE_EXACTS] = "fractions",

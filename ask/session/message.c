@@ -114,6 +114,7 @@ static void clear_member(const tn_message_member *m, void *member)
     case TN_MESSAGE_FLAG:
     case TN_MESSAGE_COUNT:
     case TN_MESSAGE_WHOLE:
+    case TN_MESSAGE_REAL:
     case TN_MESSAGE_TRAYS:
         break;
     }
@@ -238,6 +239,9 @@ static void write_value(const tn_message_member *m, const char *key, const void 
         break;
     case TN_MESSAGE_WHOLE:
         tn_json_whole(json, key, *(const int64_t *)member);
+        break;
+    case TN_MESSAGE_REAL:
+        tn_json_number(json, key, *(const double *)member);
         break;
     case TN_MESSAGE_BIG:
         tn_json_digits(json, key, (mpz_srcptr)member);

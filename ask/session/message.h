@@ -23,6 +23,7 @@ typedef enum tn_message_kind {
     TN_MESSAGE_FLAG,    /* bool */
     TN_MESSAGE_COUNT,   /* uint64_t */
     TN_MESSAGE_WHOLE,   /* int64_t */
+    TN_MESSAGE_REAL,    /* double */
     TN_MESSAGE_BIG,     /* mpz_t; in JSON a string of digits */
     TN_MESSAGE_EXACT,   /* mpq_t; in JSON a string, "7/2" */
     TN_MESSAGE_EXACTS,  /* tn_exacts */

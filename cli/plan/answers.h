@@ -4,7 +4,6 @@
 
 #include "ask/session/requests.h"
 #include "cli/plan/library_job.h"
-#include "driver/plan/tests.h"
 
 /* Asks how many there are and writes the answer; path: NULL is standard output. */
 void tn_job_count(tn_job *job, const tn_count_request *request, bool json, const char *path);
@@ -15,11 +14,5 @@ bool tn_job_diff(tn_job *job, tn_session *before, const tn_diff_request *request
 
 /* The same, and writes it as text. */
 void tn_job_diff_text(tn_job *job, tn_session *before, const tn_diff_request *request);
-
-/* The last line of `tartan test`. */
-void tn_test_counts_write(const tn_test_counts *counts, FILE *out);
-
-/* The same as JSON; coverage and solids: what stands between the brackets of arrays, or NULL. */
-void tn_test_counts_json(const tn_test_counts *counts, const char *coverage, const char *solids, FILE *out);
 
 #endif

@@ -2,12 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/common/interrupt.h"
+#include "ask/questions.h"
 #include "cli/common/option_rows.h"
-#include "cli/common/progress.h"
-#include "cli/plan/answers.h"
-#include "cli/solid/solid.h"
-#include "driver/place/kit.h"
+#include "cli/plan/library_job.h"
+#include "cli/plan/tested_text.h"
 #include "driver/plan/coverage.h"
 #include "runtime/base/utf8.h"
 
@@ -25,38 +23,30 @@ static const test_settings *settings_of(const tn_job *job)
 
 /* What is written when all files are done: a line, or in JSON everything. */
 typedef struct test_report {
-    tn_test_counts counts;
-    tn_buffer files;           /* the coverage of each file, items of a list in JSON */
-    tn_buffer solids;          /* measures of designs of boxes: lines, or items of a list in JSON */
+    tn_tested all;             /* how many, of all files */
+    tn_buffer files;           /* in JSON: the coverage of each file, items of a list */
+    tn_buffer solids;          /* in JSON: designs of boxes, likewise */
     tn_json covered, measured; /* write the two */
 } test_report;
 
-void tn_test_counts_write(const tn_test_counts *counts, FILE *out)
+static void write_items(tn_json *json, const char *key, const tn_buffer *items)
 {
-    fprintf(out, "%zu passed, %zu failed", counts->passed, counts->failed);
-    if (counts->todo)
-        fprintf(out, ", %zu to do", counts->todo);
-    fputc('\n', out);
-}
-
-static void write_items(tn_json *json, const char *key, const char *items)
-{
-    if (!items)
+    if (items->size == 0)
         return;
     tn_json_list(json, key);
-    tn_json_written(json, items, strlen(items));
+    tn_json_written(json, items->data, items->size);
     tn_json_list_end(json);
 }
 
-void tn_test_counts_json(const tn_test_counts *counts, const char *coverage, const char *solids, FILE *out)
+static void write_json(const test_report *report, FILE *out)
 {
     tn_json json = tn_json_file(out, TN_JSON_TIGHT);
     tn_json_object(&json, NULL);
-    tn_json_count(&json, "passed", counts->passed);
-    tn_json_count(&json, "failed", counts->failed);
-    tn_json_count(&json, "todo", counts->todo);
-    write_items(&json, "coverage", coverage);
-    write_items(&json, "solids", solids);
+    tn_json_count(&json, "passed", report->all.passed);
+    tn_json_count(&json, "failed", report->all.failed);
+    tn_json_count(&json, "todo", report->all.todo);
+    write_items(&json, "coverage", &report->files);
+    write_items(&json, "solids", &report->solids);
     tn_json_object_end(&json);
     tn_json_end_line(&json);
 }
@@ -64,102 +54,86 @@ void tn_test_counts_json(const tn_test_counts *counts, const char *coverage, con
 static void write_report(tn_job *job, const test_report *report)
 {
     tn_output output;
-    if (!tn_job_output(job, NULL, &output))
-        return;
-    if (settings_of(job)->json) {
-        tn_test_counts_json(&report->counts, report->files.size ? report->files.data : NULL,
-                            report->solids.size ? report->solids.data : NULL, output.stream);
-    } else {
-        if (report->solids.size)
-            fwrite(report->solids.data, 1, report->solids.size, output.stream);
-        tn_test_counts_write(&report->counts, output.stream);
+    tn_error error;
+    if (report->files.failed || report->solids.failed) {
+        tn_fail_memory(&error);
+        tn_job_fail(job, &error);
+    } else if (tn_job_output(job, NULL, &output)) {
+        if (settings_of(job)->json)
+            write_json(report, output.stream);
+        else
+            tn_tested_counts_text(&report->all, output.stream);
+        tn_job_commit(job, &output);
     }
-    tn_job_commit(job, &output);
 }
 
-/* The coverage of the file that is open: in JSON it waits for the others. */
-static void write_coverage(tn_job *job, test_report *report)
+/* ---- a file: its texts are those of the file, which is closed before the next one */
+
+static void add_json(const tn_tested *tested, test_report *report)
 {
-    const tn_coverage_options options = {.library = settings_of(job)->plans.library,
-                                         .max_states = (uint32_t)settings_of(job)->plans.max_states.value,
-                                         .houses = true};
-    tn_covered covered;
+    for (size_t i = 0; i < tested->coverage.count; i++)
+        tn_message_write(&tn_message_measured_coverage, &tested->coverage.items[i], NULL, &report->covered);
+    for (size_t i = 0; i < tested->solids.count; i++)
+        tn_message_write(&tn_message_tested_design, &tested->solids.items[i], NULL, &report->measured);
+}
+
+static void write_text(tn_job *job, const tn_tested *tested)
+{
     tn_buffer text = {0};
     tn_output output;
     tn_error error;
-    tn_progress progress;
-    tn_progress_watch(&progress, "rules measured", tn_interrupt_waiting());
-    tn_status status = tn_coverage_measure(&job->opened, &options, &covered);
-    tn_progress_unwatch(&progress, tn_interrupt_waiting());
-    tn_job_status(job, status);
-    bool json = settings_of(job)->json, written = true;
-    if (status == TN_OK && json)
-        written = tn_covered_json(&covered, &report->covered);
-    else if (status == TN_OK)
-        written = tn_covered_text(&covered, &text);
+    bool written = true;
+    for (size_t i = 0; written && i < tested->coverage.count; i++)
+        written = tn_covered_text(tested->coverage.items[i].shown.value, &text);
     if (!written) {
         tn_fail_memory(&error);
         tn_job_fail(job, &error);
-    } else if (text.size && tn_job_output(job, NULL, &output)) {
-        tn_write_shown(output.stream, text.data, text.size);
+    } else if ((text.size > 0 || tested->solids.count > 0) && tn_job_output(job, NULL, &output)) {
+        tn_tested_designs_text(tested, output.stream);
+        tn_write_shown(output.stream, text.data ? text.data : "", text.size);
         tn_job_commit(job, &output);
     }
     free(text.data);
-    tn_covered_clear(&covered);
 }
 
-/* Designs of boxes: their measures, and their requirements as cases. */
-static void test_solids(tn_job *job, test_report *report)
+static void test_file(tn_job *job, test_report *report)
 {
-    tn_solid_tally tally = {0};
-    char *text = tn_job_test_solids(job, (uint32_t)settings_of(job)->max_boxes.value, settings_of(job)->json, &tally);
-    tn_error error;
-    report->counts.passed += tally.passed;
-    report->counts.failed += tally.failed;
-    if (text && settings_of(job)->json)
-        tn_json_written(&report->measured, text, strlen(text));
-    else if (text)
-        tn_buffer_append(&report->solids, text, strlen(text));
-    if (report->solids.failed) {
-        tn_fail_memory(&error);
-        tn_job_fail(job, &error);
+    const test_settings *settings = settings_of(job);
+    const tn_test_request request = {.subject = {.library = settings->plans.library,
+                                                 .has_max_states = settings->plans.max_states.given,
+                                                 .max_states = settings->plans.max_states.value},
+                                     .coverage = settings->coverage,
+                                     .has_max_boxes = settings->max_boxes.given,
+                                     .max_boxes = settings->max_boxes.value};
+    tn_reply answer;
+    bool answered = tn_job_answered(job, tn_ask_test(&job->session, &request, &answer));
+    const tn_tested *tested = answer.value;
+    if (tested) {
+        report->all.passed += tested->passed;
+        report->all.failed += tested->failed;
+        report->all.todo += tested->todo;
     }
-    free(text);
-}
-
-static void test_kit(tn_job *job, test_report *report)
-{
-    tn_kit_tally tally;
-    tn_job_status(job, tn_kit_tests_run(&job->opened, tn_interrupt_waiting(), &tally));
-    report->counts.passed += tally.passed;
-    report->counts.failed += tally.failed;
+    if (tested && tested->failed > 0)
+        tn_job_status(job, TN_INVALID);
+    if (answered && settings->json)
+        add_json(tested, report);
+    else if (answered)
+        write_text(job, tested);
+    tn_reply_clear(&answer);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
-    const test_settings *settings = (const test_settings *)common;
     tn_job job;
-    test_report report = {.counts = {0}};
+    test_report report = {.all = {0}};
     report.covered = tn_json_text(&report.files, TN_JSON_TIGHT);
     report.measured = tn_json_text(&report.solids, TN_JSON_TIGHT);
     tn_job_begin(&job, common);
     for (size_t i = 0; i < common->operands.count; i++) {
         const char *path = common->operands.items[i];
-        if (!(i == 0 ? tn_job_open(&job, path) : tn_job_reopen(&job, path)))
-            continue;
-        if (job.opened.module->SOLID_count) {
-            test_solids(&job, &report);
-            continue;
-        }
-        if (job.opened.module->KIT_count) {
-            test_kit(&job, &report);
-            continue;
-        }
-        tn_job_status(&job,
-                      tn_tests_run(&job.opened, (uint32_t)settings->plans.max_states.value, NULL, &report.counts));
-        if (settings->coverage && job.opened.compilation.program)
-            write_coverage(&job, &report);
+        if (i == 0 ? tn_job_open(&job, path) : tn_job_reopen(&job, path))
+            test_file(&job, &report);
     }
     tn_job_show(&job);
     if (job.exit_code <= TN_EXIT_INVALID)

@@ -11,8 +11,4 @@ void tn_job_explain_solid(tn_job *job, const char *name, uint32_t most, bool jso
 /* Draws the design of this name (NULL: the only one) to a file. */
 void tn_job_draw_solid(tn_job *job, const char *name, const tn_solid_drawing *drawing, const char *output);
 
-/* Measures the designs of the file that is open and tests their requirements. The measures come out as text that the
- * caller frees; NULL where out of memory, which is reported. */
-char *tn_job_test_solids(tn_job *job, uint32_t most, bool json, tn_solid_tally *tally);
-
 #endif

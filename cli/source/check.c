@@ -9,6 +9,7 @@
 #include "cli/common/progress.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/relations_text.h"
+#include "cli/plan/tested_text.h"
 #include "cli/solid/solid.h"
 #include "cli/source/fix.h"
 #include "cli/source/sarif.h"
@@ -40,28 +41,28 @@ static void report_grammar(tn_job *job)
         tn_job_fail(job, &error);
 }
 
-static void write_tested(tn_job *job, const tn_test_counts *counts, const char *solids)
+static void run_tests(tn_job *job)
 {
+    const check_settings *settings = settings_of(job);
+    const tn_test_request request = {.subject = {.max_states = settings->plans.max_states.value},
+                                     .max_boxes = settings->max_boxes.value};
+    tn_reply answer;
     tn_output output;
+    bool answered = tn_job_answered(job, tn_ask_test(&job->session, &request, &answer));
+    const tn_tested *tested = answer.value;
+    if (tested && tested->failed > 0)
+        tn_job_status(job, TN_INVALID);
     tn_job_show(job);
-    if (job->exit_code > TN_EXIT_INVALID || !tn_job_output(job, NULL, &output))
-        return;
-    if (settings_of(job)->json) {
-        tn_test_counts_json(counts, NULL, solids, output.stream);
-    } else {
-        fputs(solids ? solids : "", output.stream);
-        tn_test_counts_write(counts, output.stream);
+    if (answered && job->exit_code <= TN_EXIT_INVALID && tn_job_output(job, NULL, &output)) {
+        if (settings->json) {
+            tn_job_write_json(&answer, output.stream);
+        } else {
+            tn_tested_designs_text(tested, output.stream);
+            tn_tested_counts_text(tested, output.stream);
+        }
+        tn_job_commit(job, &output);
     }
-    tn_job_commit(job, &output);
-}
-
-static void test_solids(tn_job *job)
-{
-    tn_solid_tally tally = {0};
-    char *text = tn_job_test_solids(job, (uint32_t)settings_of(job)->max_boxes.value, settings_of(job)->json, &tally);
-    if (text)
-        write_tested(job, &(tn_test_counts){.passed = tally.passed, .failed = tally.failed}, text);
-    free(text);
+    tn_reply_clear(&answer);
 }
 
 /* What a person who placed boxes may not have meant; with --test also what the designs require. */
@@ -71,7 +72,7 @@ static void report_solids(tn_job *job)
     if (!settings->no_analysis)
         tn_job_status(job, tn_solid_report(&job->opened, (uint32_t)settings->max_boxes.value));
     if (settings->with_tests)
-        test_solids(job);
+        run_tests(job);
 }
 
 /* Analyses the rules, too. */
@@ -114,14 +115,6 @@ static void analyse(tn_job *job, const tn_library *library)
 }
 
 /* ---- other questions about the same file */
-
-static void run_tests(tn_job *job)
-{
-    tn_test_counts counts = {0};
-    tn_job_status(job, tn_tests_run(&job->opened, (uint32_t)settings_of(job)->plans.max_states.value, NULL, &counts));
-    tn_job_show(job);
-    write_tested(job, &counts, NULL);
-}
 
 /* The file before an edit is open at the same time, with diagnostics of its own. */
 static void compare(tn_job *job)

@@ -55,8 +55,10 @@ typedef struct tn_coverage_options {
 tn_status tn_coverage_measure(tn_opened *opened, const tn_coverage_options *options, tn_covered *covered);
 void tn_covered_clear(tn_covered *covered);
 
-/* Appends it as a table, or writes it into a text as a JSON object. false where out of memory. */
+/* Appends it as a table. False: out of memory. */
 bool tn_covered_text(const tn_covered *covered, tn_buffer *out);
-bool tn_covered_json(const tn_covered *covered, tn_json *json);
+
+/* The place of a line of a form. */
+tn_place tn_covered_place(const tn_covered *covered, tn_span span);
 
 #endif

@@ -95,7 +95,7 @@ static bool write_part(const tn_covered_part *part, bool both, tn_buffer *out)
 
 /* ---- forms */
 
-static tn_place place_of(const tn_covered *covered, tn_span span)
+tn_place tn_covered_place(const tn_covered *covered, tn_span span)
 {
     tn_sources *sources = (tn_sources *)(uintptr_t)&covered->opened->compilation.sources; /* finds its lines late */
     return tn_sources_place(sources, span);
@@ -109,8 +109,8 @@ static bool write_form_part(const tn_covered *covered, const tn_form_line *part,
         return false;
     cut(text, FORM_WIDTH - indent);
     size_t room = FORM_WIDTH - indent - characters(text);
-    bool ok = tn_buffer_printf(out, "%5zu  %*s%s%*s %6zu\n", place_of(covered, part->place).line, (int)indent, "", text,
-                               (int)room, "", part->houses);
+    bool ok = tn_buffer_printf(out, "%5zu  %*s%s%*s %6zu\n", tn_covered_place(covered, part->place).line, (int)indent,
+                               "", text, (int)room, "", part->houses);
     free(text);
     return ok;
 }
@@ -119,7 +119,7 @@ static bool write_form(const tn_covered *covered, const tn_form_coverage *form, 
 {
     bool ok = tn_buffer_printf(
         out, "`%s`%s%s in the houses of %zu test%s: how many have what a line says\n%5s  %-*s %6s\n", form->name,
-        form->imported ? " of " : "", form->imported ? place_of(covered, form->place).path : "", form->tests,
+        form->imported ? " of " : "", form->imported ? tn_covered_place(covered, form->place).path : "", form->tests,
         form->tests == 1 ? "" : "s", "line", (int)FORM_WIDTH, "part", "houses");
     for (size_t i = 0; ok && i < form->count; i++)
         ok = write_form_part(covered, &form->parts[i], out);
@@ -138,89 +138,4 @@ bool tn_covered_text(const tn_covered *covered, tn_buffer *out)
     for (size_t i = 0; ok && i < covered->form_count; i++)
         ok = write_form(covered, &covered->forms[i], out);
     return ok;
-}
-
-/* ---- JSON */
-
-static void place_json(tn_json *json, const tn_place *place)
-{
-    const tn_json_place begin = {.file = place->path, .line = place->line, .column = place->column};
-    tn_json_place_begin(json, &begin);
-}
-
-static void part_json(const tn_covered *covered, const tn_covered_part *part, tn_json *json)
-{
-    tn_place place;
-    tn_json_object(json, NULL);
-    tn_json_string(json, "text", part->text);
-    tn_json_string(json, "kind", part->kind);
-    tn_json_count(json, "depth", part->depth);
-    if (tn_code_place(covered->opened, part->root, &place))
-        place_json(json, &place);
-    if (part->of_houses && !part->counted)
-        tn_json_null(json, "flips");
-    else
-        tn_json_digits(json, "flips", part->flips);
-    tn_json_string(json, "of", part->of_houses ? "houses" : "plans");
-    tn_json_bool(json, "noticed", part->noticed);
-    tn_json_object_end(json);
-}
-
-/* Parts come rule by rule; the first of each, at depth 0, has its name. */
-static void rules_json(const tn_covered *covered, tn_json *json)
-{
-    tn_json_list(json, "rules");
-    for (size_t i = 0; i < covered->count;) {
-        tn_json_object(json, NULL);
-        tn_json_string(json, "name", covered->parts[i].name);
-        tn_json_list(json, "parts");
-        do
-            part_json(covered, &covered->parts[i++], json);
-        while (i < covered->count && covered->parts[i].depth > 0);
-        tn_json_list_end(json);
-        tn_json_object_end(json);
-    }
-    tn_json_list_end(json);
-}
-
-static void form_json(const tn_covered *covered, const tn_form_coverage *form, tn_json *json)
-{
-    tn_json_object(json, NULL);
-    tn_json_string(json, "name", form->name);
-    tn_json_count(json, "tests", form->tests);
-    tn_json_count(json, "reached", form->reached);
-    tn_json_list(json, "parts");
-    for (size_t i = 0; i < form->count; i++) {
-        const tn_form_line *part = &form->parts[i];
-        const tn_place place = place_of(covered, part->place);
-        tn_json_object(json, NULL);
-        tn_json_string(json, "text", part->text);
-        tn_json_string(json, "kind", part->kind);
-        tn_json_count(json, "depth", part->depth);
-        place_json(json, &place);
-        tn_json_count(json, "houses", part->houses);
-        tn_json_object_end(json);
-    }
-    tn_json_list_end(json);
-    tn_json_object_end(json);
-}
-
-bool tn_covered_json(const tn_covered *covered, tn_json *json)
-{
-    const tn_library_record *library = covered->library;
-    tn_json_object(json, NULL);
-    tn_json_string(json, "library", library ? tn_text(covered->opened->module, library->name) : NULL);
-    tn_json_list(json, "trays");
-    tn_json_count(json, NULL, library ? library->trays_min : 1);
-    tn_json_count(json, NULL, library ? library->trays_max : TN_COVERAGE_TRAYS);
-    tn_json_list_end(json);
-    tn_json_count(json, "parts", covered->count);
-    tn_json_count(json, "noticed", covered->noticed);
-    rules_json(covered, json);
-    tn_json_list(json, "forms");
-    for (size_t i = 0; i < covered->form_count; i++)
-        form_json(covered, &covered->forms[i], json);
-    tn_json_list_end(json);
-    tn_json_object_end(json);
-    return !json->text->failed;
 }

@@ -20,9 +20,12 @@ typedef struct tn_solid_tally {
 } tn_solid_tally;
 
 /* Measures the file's own designs and holds them to their requirements; those that fail are reported (E1514) with what
- * was found. The measures are written to `out`, as lines or as the items of a list in JSON. TN_INVALID where one
- * failed. */
-tn_status tn_solid_tests_run(tn_opened *opened, uint32_t most, bool json, FILE *out, tn_solid_tally *tally);
+ * was found. TN_INVALID if one failed. `measured` is called with each design and the `count` measures that it asks for.
+ */
+typedef tn_status tn_solid_measured_take(void *context, const char *design, size_t count, const char *const *names,
+                                         const double *values, tn_error *error);
+tn_status tn_solid_tests_run(tn_opened *opened, uint32_t most, tn_solid_measured_take *measured, void *context,
+                             tn_solid_tally *tally);
 
 /* How the boxes of a design were squashed, pair by pair, in order. */
 tn_status tn_solid_explain(tn_opened *opened, uint32_t solid, uint32_t most, bool json, FILE *out);

@@ -3,7 +3,6 @@
 
 #include "driver/solid/solid.h"
 #include "runtime/base/bytes.h"
-#include "runtime/base/json.h"
 #include "runtime/number/run.h"
 
 #define BARELY 1e-9 /* how far a strict comparison of equal values is from holding: no distance to tell anybody */
@@ -12,8 +11,8 @@ typedef struct testing {
     tn_opened *opened;
     const tn_module *module;
     uint32_t solid, most;
-    tn_json *json; /* NULL: as lines */
-    FILE *out;
+    tn_solid_measured_take *measured;
+    void *context;
     double values[TN_SOLID_MEASURED_COUNT];
     const tn_solid_measure_record **listed; /* what the design asks for, each once; owned */
     size_t listed_count;
@@ -53,24 +52,21 @@ static tn_status list_measures(testing *t, tn_error *error)
     return fine ? TN_OK : tn_fail_memory(error);
 }
 
-static void write_measures_json(const testing *t)
+static tn_status tell_measures(const testing *t, tn_error *error)
 {
-    tn_json_object(t->json, NULL);
-    tn_json_string(t->json, "name", tn_text(t->module, t->module->SOLID_records[t->solid].name));
-    tn_json_object(t->json, "measures");
-    for (size_t i = 0; i < t->listed_count; i++)
-        tn_json_number(t->json, tn_text(t->module, t->listed[i]->name), value_of(t, t->listed[i]->function));
-    tn_json_object_end(t->json);
-    tn_json_object_end(t->json);
-}
-
-static void write_measures(const testing *t)
-{
-    if (t->listed_count)
-        fprintf(t->out, "%s\n", tn_text(t->module, t->module->SOLID_records[t->solid].name));
-    for (size_t i = 0; i < t->listed_count; i++)
-        fprintf(t->out, "  %-16s %.10g\n", tn_text(t->module, t->listed[i]->name),
-                tn_without_sign(value_of(t, t->listed[i]->function)));
+    const char **names = malloc((t->listed_count + 1) * sizeof *names);
+    double *values = malloc((t->listed_count + 1) * sizeof *values);
+    tn_status status = names && values ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < t->listed_count; i++) {
+        names[i] = tn_text(t->module, t->listed[i]->name);
+        values[i] = value_of(t, t->listed[i]->function);
+    }
+    if (status == TN_OK)
+        status = t->measured(t->context, tn_text(t->module, t->module->SOLID_records[t->solid].name), t->listed_count,
+                             names, values, error);
+    free(names);
+    free(values);
+    return status;
 }
 
 /* What was found of each measure that the requirement names: "parts is 3, height is 7.5". */
@@ -113,12 +109,10 @@ static tn_status test_design(testing *t, tn_solid_tally *tally)
     tn_built_clear(&built);
     if (status == TN_OK)
         status = list_measures(t, &error);
+    if (status == TN_OK)
+        status = tell_measures(t, &error);
     if (status != TN_OK)
         return tn_solid_fail(t->opened, t->solid, &error);
-    if (t->json)
-        write_measures_json(t);
-    else
-        write_measures(t);
     for (uint32_t i = 0; i < record->requirement_count; i++) {
         bool held = holds(t, record->requirement_first + i);
         tally->passed += held;
@@ -128,10 +122,10 @@ static tn_status test_design(testing *t, tn_solid_tally *tally)
     return status;
 }
 
-tn_status tn_solid_tests_run(tn_opened *opened, uint32_t most, bool json, FILE *out, tn_solid_tally *tally)
+tn_status tn_solid_tests_run(tn_opened *opened, uint32_t most, tn_solid_measured_take *measured, void *context,
+                             tn_solid_tally *tally)
 {
     tn_status status = TN_OK;
-    tn_json items = tn_json_file(out, TN_JSON_TIGHT);
     for (uint32_t i = 0; i < opened->module->SOLID_count; i++) {
         if (opened->module->SOLID_records[i].flags & TN_SOLID_IMPORTED)
             continue;
@@ -139,8 +133,8 @@ tn_status tn_solid_tests_run(tn_opened *opened, uint32_t most, bool json, FILE *
                      .module = opened->module,
                      .solid = i,
                      .most = most,
-                     .json = json ? &items : NULL,
-                     .out = out};
+                     .measured = measured,
+                     .context = context};
         tn_status one = test_design(&t, tally);
         free(t.listed);
         status = status == TN_OK ? one : status;

@@ -231,6 +231,27 @@ as "{\"before\": \"$file\", \"library\": \"$library\"}" --library "$library"
 as "{\"before\": \"$file\", \"library\": \"$library\", \"max_houses\": 1, \"sample\": 0}" --library "$library" --max-houses 1 --sample 0
 asked
 
+question=test command=(test)
+file=stdlib/terrace.plan
+as '{}'
+as '{"coverage": true}' --coverage
+as '{"coverage": true, "library": "streets"}' --coverage --library streets
+as '{"max_states": 3}' --max-states 3
+asked
+file=stdlib/table.solid
+as '{}'
+as '{"max_boxes": 2}' --max-boxes 2
+asked
+file=stdlib/bricks.kit
+as '{}'
+asked
+file=stdlib/koch.hemls
+as '{}'
+asked
+is 'coverage' "$("$program" stdlib stdlib/terrace.plan coverage '{}')" \
+    "$("$TARTAN" test stdlib/terrace.plan --coverage --json | sed -E 's/^.*"coverage":\[(.*)\]\}$/\1/')"
+is 'no coverage' "$("$program" stdlib stdlib/bricks.kit coverage '{}')" 'error only a .plan file has tests whose coverage is measured'
+
 # What only requests can get wrong.
 wrong() { # REQUEST MESSAGE
     is "$1" "$("$program" stdlib stdlib/terrace.plan count "$1")" "error $2"

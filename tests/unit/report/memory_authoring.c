@@ -85,8 +85,7 @@ static tn_status cover(void *context, tn_buffer *out, tn_error *error)
     tn_status status = tn_coverage_measure(&rows->opened, &options, &covered);
     if (status == TN_MEMORY)
         tn_fail_memory(error);
-    tn_json json = tn_json_text(out, TN_JSON_TIGHT);
-    if (status == TN_OK && !(tn_covered_text(&covered, out) && tn_covered_json(&covered, &json)))
+    if (status == TN_OK && !tn_covered_text(&covered, out))
         status = tn_fail_memory(error);
     tn_covered_clear(&covered);
     return status;
