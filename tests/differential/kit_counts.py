@@ -11,6 +11,7 @@ from program import answer, read_json, run, same
 
 MOST = 400               # buildings that are listed
 GROWN = 1500             # and that are grown here
+FINE = 3000              # cells that a part has at most, of those whose buildings are looked at cell by cell
 
 
 def building_of(line, kit):
@@ -80,10 +81,14 @@ def grown(kit, count):
     return now
 
 
+def is_small(kit):
+    return kit.turns == 4 and 0 < len(kit.parts) <= 6 and all(part.volume() <= FINE for part in kit.parts.values())
+
+
 def counted(subject):
     """As many buildings are counted as are listed, and as a brute force grows; each is legal, and no two are the same."""
     kit = subject.kit
-    if kit.turns != 4 or len(kit.parts) > 6 or not kit.parts:
+    if not is_small(kit):
         return
     for count in (1, 2, 3):
         said = read_json("count --json", answer("count", subject.path, "--parts", str(count), "--json"))
@@ -125,7 +130,7 @@ def counted_inside(subject):
     """In the space of each model as many are counted as listed, and they lie there; with any number of threads."""
     kit = subject.kit
     for name, model in kit.models.items():
-        if kit.turns != 4 or len(kit.parts) > 6:
+        if not is_small(kit):
             return
         options = ["--parts", "2", "--inside", name]
         code, out, err = run("count", subject.path, *options, "--json")

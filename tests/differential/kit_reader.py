@@ -1,4 +1,5 @@
 """Reads .kit files, by a parser of its own. Lengths come out as cells; y points down, as in LDraw files."""
+import math
 import os
 import re
 from fractions import Fraction
@@ -22,8 +23,9 @@ class Part:
     def __init__(self):
         self.boxes, self.joints, self.mass, self.price, self.title = [], [], 0, 0, ""      # joints: (kind, place, axis)
 
-    def cells(self):
-        return {(x, y, z) for low, high in self.boxes for x in range(low[0], high[0]) for y in range(low[1], high[1]) for z in range(low[2], high[2])}
+    def volume(self):
+        """In cells."""
+        return sum(math.prod(h - l for l, h in zip(low, high)) for low, high in self.boxes)
 
 
 class Placed:
@@ -41,7 +43,10 @@ class Model:
 
 
 class Kit(Conditions):
-    def __init__(self, path):
+    """Of `laid_on`, the cells of a kit that uses this one, its parts and rules are in these."""
+
+    def __init__(self, path, laid_on=None):
+        self.laid_on, self.used = laid_on, []
         self.unit, self.turns, self.lengths, self.joins, self.kinds = None, 4, {}, set(), {}
         self.parts, self.spaces, self.rules, self.models, self.tests, self.statements = {}, {}, {}, {}, [], []
         with open(path, encoding="utf-8") as file:
@@ -99,19 +104,26 @@ class Kit(Conditions):
     def read_use(self):
         name = unquoted(self.next())
         own = os.path.join(self.folder, name)
-        used = Kit(own if os.path.exists(own) else os.path.join(ROOT, "stdlib", name + ".kit"))
+        path = own if os.path.exists(own) else os.path.join(ROOT, "stdlib", name + ".kit")
+        self.used.append(path)
+        self.take_over(Kit(path, self.laid_on))
+        self.take(";")
+
+    def take_over(self, used):
         self.unit, self.turns = used.unit or self.unit, used.turns if used.unit else self.turns
         for mine, theirs in ((self.lengths, used.lengths), (self.kinds, used.kinds), (self.parts, used.parts), (self.spaces, used.spaces), (self.rules, used.rules)):
             mine.update(theirs)
         self.joins |= used.joins
-        self.take(";")
 
     def read_unit(self):
-        self.unit = (1, 1, 1)
-        sizes = self.sizes()
-        self.unit = tuple(sizes)
-        if self.take("turns"):
-            self.turns = self.whole()
+        """The cells also of the kits that are used."""
+        own = self.laid_on or tuple(self.sizes())
+        while self.peek() not in ("turns", ";"):
+            self.next()
+        turns = self.whole() if self.take("turns") else 4
+        for path in self.used:
+            self.take_over(Kit(path, own))
+        self.unit, self.turns = own, turns
         self.take(";")
 
     def sizes(self):
