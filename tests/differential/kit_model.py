@@ -196,14 +196,14 @@ def fits(turns, one, other):
 
 
 def joined_pairs(kit, parts):
-    """(part, connector, part, connector) of connectors that are joined."""
+    """(part, connector, part, connector) of connectors of two parts that are joined."""
     by_place, pairs = defaultdict(list), []
     for i, standing in enumerate(parts):
         for j, joint in enumerate(joints_at(kit, standing)):
             by_place[joint[1]].append((i, j, joint))
     for there in by_place.values():
         for (i, a, one), (k, b, other) in itertools.combinations(there, 2):
-            if (one[0], other[0]) in kit.joins and one[2] == opposite(other[2]) and fits(alike(kit, one[0], other[0]), one[3], other[3]):
+            if i != k and (one[0], other[0]) in kit.joins and one[2] == opposite(other[2]) and fits(alike(kit, one[0], other[0]), one[3], other[3]):
                 pairs.append((i, a, k, b))
     return pairs
 
