@@ -270,12 +270,15 @@ def compared(subject, what, text, change, place, matrix):
     for word, line in subject.model.lines:
         if word == "inside":
             lines.append(f"inside ({line.partition(' ')[2]}) {text}")
+        elif word in ("minimize", "maximize") and matrix != TURNS[0]:
+            lines.append(re.sub("width|depth", lambda m: "depth" if m[0].lower() == "width" else "width", line, flags=re.I))
         elif word not in ("start", "require"):
             lines.append(line)
     for kind, axis, at, turn, rule in subject.model.starts:
-        at, turn = change(at, turn)
+        at, upright = change(at, turn)
         way = next(name for name, v in AXES.items() if v == turned(matrix, axis))
-        turn = f" turn {turn % 4}" if axis[1] and turn % 4 else f" turn {turn}" if not axis[1] and turn - (matrix != TURNS[0]) else ""
+        turn = upright % 4 if axis[1] else turn            # one that lies is turned about its own axis
+        turn = f" turn {turn}" if turn else ""
         lines.append(f"start {kind} {way} at ({written(subject, (at[0], -at[1], at[2]))}){turn} by {rule}")
     file = subject.with_lines("".join(f"  {line};\n" for line in lines), "changed")
     said, data = subject.place(file=file)
@@ -358,6 +361,8 @@ def limits(subject):
         return
     path = os.path.join(subject.folder, "limited.ldr")
     for limit, passed in ((len(subject.parts) - 1, True), (len(subject.parts), False)):
+        if os.path.exists(path):                           # of another model
+            os.unlink(path)
         code, _, _ = run("place", subject.free, *subject.options, "--part-limit", str(limit), "-o", path)
         same(f"--part-limit {limit} of {len(subject.parts)} ends with", (code, os.path.exists(path)), (4, False) if passed else (0, True))
 
