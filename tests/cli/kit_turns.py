@@ -35,14 +35,15 @@ assert len(TURNS) == 24
 
 
 def start_of(m):
-    """The direction and quarter turns of a start that was `up` without a turn: right was beside it."""
+    """The direction and quarter turns of a start that was `up` without a turn: right was beside it. One that points down turns about the
+    vertical, too."""
     up, right = apply(m, AXES["up"]), apply(m, AXES["right"])
     name = next(n for n, v in AXES.items() if v == up)
     beside = AXES["right"] if name in ("up", "down") else AXES["up"]
     across = tuple(up[(i + 1) % 3] * beside[(i + 2) % 3] - up[(i + 2) % 3] * beside[(i + 1) % 3] for i in range(3))
     # a quarter turn about up takes right to the back: against the right-hand rule about an axis that is up
     ways = [beside, tuple(-c for c in across), tuple(-c for c in beside), across]
-    return name, ways.index(right)
+    return name, -ways.index(right) % 4 if name == "down" else ways.index(right)
 
 
 def box(low, high):

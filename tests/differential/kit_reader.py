@@ -1,4 +1,5 @@
 """Reads .kit files, by a parser of its own. Lengths come out as cells; y points down, as in LDraw files."""
+import functools
 import math
 import os
 import re
@@ -106,7 +107,7 @@ class Kit(Conditions):
         own = os.path.join(self.folder, name)
         path = own if os.path.exists(own) else os.path.join(ROOT, "stdlib", name + ".kit")
         self.used.append(path)
-        self.take_over(Kit(path, self.laid_on))
+        self.take_over(kit_that_is_used(path, self.laid_on))
         self.take(";")
 
     def take_over(self, used):
@@ -122,7 +123,7 @@ class Kit(Conditions):
             self.next()
         turns = self.whole() if self.take("turns") else 4
         for path in self.used:
-            self.take_over(Kit(path, own))
+            self.take_over(kit_that_is_used(path, own))
         self.unit, self.turns = own, turns
         self.take(";")
 
@@ -437,6 +438,15 @@ class Kit(Conditions):
             self.take(",")
             parts.append(self.expression())
         return (name.lower(), *parts)
+
+
+@functools.lru_cache(maxsize=32)
+def read_from_library(path, laid_on):
+    return Kit(path, laid_on)
+
+
+def kit_that_is_used(path, laid_on):
+    return (read_from_library if path.startswith(ROOT) else Kit)(path, laid_on)
 
 
 def left_of(corners, sides):
