@@ -162,13 +162,24 @@ static tn_kit_placement simplest(const symmetry *like, tn_kit_placement p)
 
 /* ---- placements */
 
-/* Does a connector of a part, turned so, face a connector of this side, which is looked at as tn_kit_side_of says? */
-static bool faces(const tn_kit_joint *joint, const tn_kit_type *type, tn_kit_side side, uint32_t turns)
+static const tn_axis sides[TN_KIT_SIDE_COUNT] = {TN_AXIS_UP, TN_AXIS_DOWN, TN_AXIS_RIGHT};
+
+/* Does a connector of a part, turned so, face a connector of this side, which is looked at as tn_kit_side_of says, when
+ * so many of the four quarter turns about it are alike? */
+static bool faces(const tn_kit_joint *joint, tn_kit_side side, uint32_t turns, uint32_t alike)
 {
-    static const tn_axis axes[TN_KIT_SIDE_COUNT] = {TN_AXIS_UP, TN_AXIS_DOWN, TN_AXIS_RIGHT};
-    uint32_t alike = joint->type->turns < type->turns ? joint->type->turns : type->turns;
-    return tn_axis_turn(joint->axis, turns) == tn_axis_opposite(axes[side]) &&
-           tn_turns_fit(tn_axis_turn(tn_axis_beside(joint->axis), turns), tn_axis_beside(axes[side]), alike);
+    return tn_axis_turn(joint->axis, turns) == tn_axis_opposite(sides[side]) &&
+           tn_turns_fit(tn_axis_turn(tn_axis_beside(joint->axis), turns), tn_axis_beside(sides[side]), alike);
+}
+
+/* The turn of a part in which its connector faces one of this side, and is not turned against it; all turns of the kit
+ * where there is none. */
+static uint32_t straight(const tn_kit *kit, const tn_kit_joint *joint, tn_kit_side side)
+{
+    uint32_t turns = 0;
+    while (turns < kit->turns && !faces(joint, side, turns, 1))
+        turns++;
+    return turns;
 }
 
 static bool is_new(const tn_kit_placement *seen, uint32_t count, const tn_kit_placement *one)
@@ -192,8 +203,11 @@ tn_kit_placement *tn_kit_placements(tn_kit *kit, const tn_kit_node *places, cons
         return NULL;
     for (uint32_t j = 0; j < part->joint_count; j++) {
         const tn_kit_joint *joint = &part->joints[j];
-        for (uint32_t t = 0; t < kit->turns; t++) {
-            if (!joins(joint->type, type) || !faces(joint, type, side, t))
+        uint32_t first = straight(kit, joint, side),
+                 alike = joint->type->turns < type->turns ? joint->type->turns : type->turns;
+        for (uint32_t quarters = 0; first < kit->turns && quarters < TN_UPRIGHT_TURNS; quarters++) {
+            uint32_t t = tn_turn_after(quarters, first);
+            if (!joins(joint->type, type) || !faces(joint, side, t, alike))
                 continue;
             tn_kit_placement p = {.turns = t};
             tn_turn_place(t, joint->at, p.move);

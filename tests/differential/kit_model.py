@@ -4,9 +4,16 @@ import math
 from collections import Counter, defaultdict, deque
 from fractions import Fraction
 
-from kit_reader import SIZES, beside
+from kit_reader import AXES, SIZES, beside
+
+
+def cross(a, b):
+    return tuple(a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3))
+
 
 TURNS = [(1, 0, 0, 0, 1, 0, 0, 0, 1), (0, 0, -1, 0, 1, 0, 1, 0, 0), (-1, 0, 0, 0, 1, 0, 0, 0, -1), (0, 0, 1, 0, 1, 0, -1, 0, 0)]
+ALL_TURNS = [tuple(c for row in rows for c in row) for rows in itertools.product(AXES.values(), repeat=3)
+             if cross(rows[0], rows[1]) == rows[2]]
 MOST = 4000              # parts that are placed here
 
 
@@ -27,6 +34,12 @@ def turned(matrix, v):
 
 def product(a, b):
     return tuple(sum(a[3 * i + k] * b[3 * k + j] for k in range(3)) for i in range(3) for j in range(3))
+
+
+def quarter_about(axis):
+    """The quarter turn about an axis that takes right to the back where the axis is up."""
+    columns = [plus(tuple(c * axis[k] for c in axis), cross(axis, tuple(int(k == i) for i in range(3)))) for k in range(3)]
+    return tuple(columns[k][i] for i in range(3) for k in range(3))
 
 
 def plus(a, b):
@@ -319,7 +332,7 @@ SIGNS = {
 
 class Greedy:
     """Places a model by its rules as docs/kit-language.md says: the first alternative that has room, the connectors of a new part before
-    those that were there, or after them. Not of a kit whose parts lie on their side, nor of what is drawn by chance."""
+    those that were there, or after them. Not of what is drawn by chance."""
 
     def __init__(self, kit, model, room, stands):
         self.kit, self.model, self.free, self.parts = kit, model, set(room), []
@@ -338,7 +351,10 @@ class Greedy:
             self.open([(joint, [start[1]]) for standing in stands for joint in joints_at(self.kit, standing)])
             return
         kind, axis, at, turn, rule = start
-        self.waiting.append(((kind, at, axis, turned(TURNS[turn], beside(axis)) if axis[1] else beside(axis)), rule))
+        aside = beside(axis)
+        for _ in range(turn):
+            aside = turned(quarter_about(AXES["up"] if axis[1] else axis), aside)
+        self.waiting.append(((kind, at, axis, aside), rule))
 
     def go_on(self):
         while self.waiting and len(self.parts) < MOST:
@@ -368,15 +384,21 @@ class Greedy:
 
     def placements(self, joint, alternative):
         kind, at, axis, aside = joint
-        heading = next(t for t in range(4) if turned(TURNS[t], (1, 0, 0)) == (aside if axis[1] else axis))
         for own, place, own_axis in self.kit.parts[alternative[0].name].joints:
-            for turn in range(4):
-                matrix = TURNS[(heading + turn) % 4]
-                if (own, kind) not in self.kit.joins or turned(matrix, own_axis) != opposite(axis) or \
-                        not fits(alike(self.kit, own, kind), turned(matrix, beside(own_axis)), aside):
-                    continue
-                first = tuple(a - b for a, b in zip(at, turned(matrix, place)))
-                yield [Standing(p.name, self.colour(p), plus(first, turned(matrix, p.at)), TURNS[(heading + turn + p.turn) % 4]) for p in alternative]
+            for matrix in self.ways(own_axis, axis, aside) if (own, kind) in self.kit.joins else ():
+                if fits(alike(self.kit, own, kind), turned(matrix, beside(own_axis)), aside):
+                    first = tuple(a - b for a, b in zip(at, turned(matrix, place)))
+                    yield [Standing(p.name, self.colour(p), plus(first, turned(matrix, p.at)), product(matrix, TURNS[p.turn])) for p in alternative]
+
+    def ways(self, own_axis, axis, aside):
+        """Each turn of a part whose connector points at one that is open, that which is not turned against it first."""
+        matrix = next(m for m in ALL_TURNS if turned(m, own_axis) == opposite(axis) and turned(m, beside(own_axis)) == aside)
+        upright = self.kit.turns == 4
+        about = quarter_about(opposite(axis) if upright and axis[1] > 0 else axis)     # where parts stay upright, all turn as seen from above
+        for _ in range(4):
+            if not upright or matrix in TURNS:
+                yield matrix
+            matrix = product(about, matrix)
 
     def colour(self, placed):
         return self.model.colour if placed.colour is None else placed.colour

@@ -151,7 +151,7 @@ def symmetric(subject):
 def by_rules(subject):
     """The parts that the rules say, one after the other, where nothing is drawn or searched."""
     kit, model = subject.kit, subject.model
-    known = subject.room and not subject.room[1] and kit.turns == 4 and not subject.drawn and not subject.searched and not model.symmetry and not model.steps
+    known = subject.room and not subject.room[1] and not subject.drawn and not subject.searched and not model.symmetry and not model.steps
     if not known:
         return
     greedy = Greedy(kit, model, subject.room[0], stands_of(subject))
