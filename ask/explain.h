@@ -14,9 +14,6 @@ typedef struct tn_plan_reasons {
     tn_plan plan; /* owned */
 } tn_plan_reasons;
 
-/* Why a library keeps a plan, or why rules match it. */
-tn_status tn_explain_plan(tn_session *session, const tn_explain_request *request, tn_reply *answer);
-
 /* The schema by which the plans of such a request are read. It is the session's. */
 tn_status tn_explain_schema(tn_session *session, const tn_explain_request *request, const tn_schema **schema);
 
