@@ -45,6 +45,7 @@ ASKED = {
 ROWS = {
     "sample": [("found_plan", "sample terrace 3"), ("found_house", "sample cottage 2 --library cottages"), ("found_house", "sample cottage 2 --plan #10")],
     "enumerate": [("found_plan", "enumerate terrace --from 1000 --limit 3"), ("found_house", "enumerate cottage --library cottages --from 77 --limit 2")],
+    "vary": [("varied_house", "vary cottage #10:77"), ("varied_house", "vary row-houses #0:0")],
     "best": [
         ("found_plan", "best lahave-houses 3 --trays 4..4 --least cost"), ("found_plan", "best lahave-houses 3 --trays 4..4 --least cost --then-most area"),
         ("best_house", "best cottage 2 --library cottages --least floor-area"), ("best_house", "best cottage 2 --plan #3 --least floor-area --then-most bedrooms"),
@@ -103,7 +104,7 @@ def main():
                 check(line, validator, json.loads(said))
     for question, lines in ROWS.items():
         for kind, line in lines:
-            said = answers(line, "--format", "json")
+            said = answers(line, *(["--json"] if question == "vary" else ["--format", "json"]))
             for row in (said or "").splitlines():
                 check(line, jsonschema.Draft202012Validator({"$defs": schema["$defs"], "$ref": f"#/$defs/{kind}"}), json.loads(row))
             if said == "":

@@ -22,7 +22,9 @@ as() {
 as_rows() {
     requests+=("$1")
     shift
-    "$TARTAN" "${command[@]}" "$file" "$@" --format json >"$scratch/one" 2>"$scratch/said" ||
+    local json=(--format json)
+    [ "$question" != vary ] || json=(--json)
+    "$TARTAN" "${command[@]}" "$file" "$@" "${json[@]}" >"$scratch/one" 2>"$scratch/said" ||
         sed -nE '0,/^(.*: )?error(\[E[0-9]+\])?: /s/^(.*: )?error(\[E[0-9]+\])?: (.*)$/error \3/p' "$scratch/said" | head -n 1 >"$scratch/one"
     cat "$scratch/one" >>"$scratch/wanted"
     rows=row_by_row
@@ -251,6 +253,15 @@ asked
 is 'coverage' "$("$program" stdlib stdlib/terrace.plan coverage '{}')" \
     "$("$TARTAN" test stdlib/terrace.plan --coverage --json | sed -E 's/^.*"coverage":\[(.*)\]\}$/\1/')"
 is 'no coverage' "$("$program" stdlib stdlib/bricks.kit coverage '{}')" 'error only a .plan file has tests whose coverage is measured'
+
+question=vary command=(vary)
+file=stdlib/cottage.plan
+as_rows '{"house": "#10:77"}' '#10:77'
+as_rows '{"house": "#10:77", "at": "1.body.ground"}' '#10:77' --at 1.body.ground
+as_rows '{"house": "#10:77", "at": "1.body.grund"}' '#10:77' --at 1.body.grund
+as_rows "{\"house\": \"$house\"}" "$house"
+as_rows '{"house": "a; b"}' 'a; b'
+asked
 
 # What only requests can get wrong.
 wrong() { # REQUEST MESSAGE

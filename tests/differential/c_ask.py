@@ -32,7 +32,7 @@ class Session:
 
 def as_words(question, request):
     """The operand of the command, and its options."""
-    operands = {"rank": ["plan", "house"], "explain": ["plan", "house"], "unrank": ["rank"], "sample": ["count"], "best": ["count"], "complete": ["pattern"]}.get(question, [])
+    operands = {"rank": ["plan", "house"], "explain": ["plan", "house"], "unrank": ["rank"], "sample": ["count"], "best": ["count"], "complete": ["pattern"], "vary": ["house"]}.get(question, [])
     yield from (str(request[key]) for key in operands if key in request)
     then = ""
     for wish in request.get("by") if isinstance(request.get("by"), list) else []:
@@ -46,7 +46,7 @@ def as_words(question, request):
             yield from [] if one is True else [str(one)]
 
 
-ROWS = {"sample", "enumerate", "best"}                             # whose command writes a line of JSON for each plan or house
+ROWS = {"sample", "enumerate", "best", "vary"}                             # whose command writes a line of JSON for each plan or house
 COMMANDS = {"relations": ["check", "--relations"]}                 # others have the question's name
 
 
@@ -54,7 +54,7 @@ def by_command(subject, question, request):
     words = [word for word in as_words(question, request) if word != "--values"]
     if question == "diff":
         words[:0] = [subject.path]
-    code, out, err = run(*COMMANDS.get(question, [question]), subject.path, *words, *(["--format", "json"] if question in ROWS else ["--json"]))
+    code, out, err = run(*COMMANDS.get(question, [question]), subject.path, *words, *(["--format", "json"] if question in ROWS - {"vary"} else ["--json"]))
     said = re.search(r"^(?:.*?: )?error(?:\[E\d+\])?: (.*)$", err, re.M)
     return out if code == 0 else "error: " + (said.group(1) if said else err)
 
@@ -91,6 +91,8 @@ def found(subject):
     if len(by) > 1:
         yield "pareto", {"library": library, "by": by}
     yield "complete", {"library": library, "pattern": "... | ?"}
+    for line in [line for line in (subject.lines or [])[-1:] if line and subject.houses]:
+        yield "vary", {"house": line, "library": library}
     yield "diff", {"library": library, "before": subject.path, "sample": 1}
 
 
