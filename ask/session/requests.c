@@ -96,7 +96,7 @@ tn_json_layout tn_reply_layout(const tn_reply *answer)
 {
     const tn_message *const lines[] = {&tn_message_counted_plans, &tn_message_counted_values, &tn_message_relations,
                                        &tn_message_found_front,   &tn_message_completed,      &tn_message_completed_by,
-                                       &tn_message_compared};
+                                       &tn_message_compared,      &tn_message_shown_file};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
         if (answer->message == lines[i])
             return TN_JSON_LINES;

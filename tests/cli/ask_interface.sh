@@ -254,6 +254,13 @@ is 'coverage' "$("$program" stdlib stdlib/terrace.plan coverage '{}')" \
     "$("$TARTAN" test stdlib/terrace.plan --coverage --json | sed -E 's/^.*"coverage":\[(.*)\]\}$/\1/')"
 is 'no coverage' "$("$program" stdlib stdlib/bricks.kit coverage '{}')" 'error only a .plan file has tests whose coverage is measured'
 
+question=schema command=(schema)
+for file in stdlib/terrace.plan stdlib/cottage.plan stdlib/row-houses.plan stdlib/koch.hemls; do
+    as '{}'
+    as '{"used": true}' --used
+    asked
+done
+
 question=vary command=(vary)
 file=stdlib/cottage.plan
 as_rows '{"house": "#10:77"}' '#10:77'

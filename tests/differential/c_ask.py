@@ -122,7 +122,7 @@ def c_ask(subject):
     if not os.path.exists(path) or "\nuse " in "\n" + subject.source.text:
         return
     requests = [("count", request) for request in counted(subject)] + [("explain", request) for request in explained(subject)]
-    requests += [("test", {}), *numbered(subject), *found(subject), ("relations", {"max_states": 50, "examples": True})]
+    requests += [("test", {}), ("schema", {}), ("schema", {"used": True}), *numbered(subject), *found(subject), ("relations", {"max_states": 50, "examples": True})]
     lines = "".join(json.dumps(asked) + "\n" for asked in requests)
     done = subprocess.run([sys.executable, "-B", os.path.abspath(__file__), path, subject.path], input=lines, capture_output=True, text=True,
                           encoding="utf-8", timeout=300, env=environment())

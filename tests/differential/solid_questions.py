@@ -467,7 +467,7 @@ def pictures(subject):
 @left
 def bred(subject):
     """A run is the same with any number of threads, and each design that it makes can be checked, if anything of it is left."""
-    subject.file("skeleton.solid", subject.design_of(subject.design.boxes, "unit", "model"))
+    subject.file("skeleton.solid", subject.design_of(subject.design.boxes, "unit"))
     most = max(8, len(subject.design.boxes))
     study = subject.file("bred.study", 'evolution {\n  design "skeleton.solid"\n  region "(-4, -4, -4)..(4, 4, 4)"\n  sizes 0.5..4\n'
                                        f"  boxes 1..{most}\n  population 6\n  generations 2\n  split 0.3\n  delete 0.3\n  fitness volume target 10\n}}\n")
