@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/chosen_rules.h"
+#include "ask/match.h"
 #include "ask/house/numbered.h"
 #include "ask/questions.h"
 

@@ -4,8 +4,10 @@
 An answer follows the schema of its question; and the schema is no blank: an answer with a member less, another member, or a number in
 place of digits does not follow it."""
 import json
+import os
 import subprocess
 import sys
+import tempfile
 
 import jsonschema
 
@@ -46,6 +48,8 @@ ASKED = {
 ROWS = {
     "sample": [("found_plan", "sample terrace 3"), ("found_house", "sample cottage 2 --library cottages"), ("found_house", "sample cottage 2 --plan #10")],
     "enumerate": [("found_plan", "enumerate terrace --from 1000 --limit 3"), ("found_house", "enumerate cottage --library cottages --from 77 --limit 2")],
+    "match": [("matched_plan", "match terrace PLANS"), ("matched_plan", "match cottage HOUSES")],
+    "prune": [("pruned_plan", "prune terrace PLANS --dropped -")],
     "vary": [("varied_house", "vary cottage #10:77"), ("varied_house", "vary row-houses #0:0")],
     "best": [
         ("found_plan", "best lahave-houses 3 --trays 4..4 --least cost"), ("found_plan", "best lahave-houses 3 --trays 4..4 --least cost --then-most area"),
@@ -77,7 +81,7 @@ def spoiled(answer):
 
 def answers(line, *options):
     """What the command writes, or None: it refused, which is wrong."""
-    done = subprocess.run([tartan, *(word.replace("_", " ") for word in line.split(" ")), *options], capture_output=True, text=True, check=False)
+    done = subprocess.run([tartan, *(word if os.sep in word else word.replace("_", " ") for word in line.split(" ")), *options], capture_output=True, text=True, check=False)
     if done.returncode:
         wrong.append(f"{line}: {done.stderr}")
         return None
@@ -103,7 +107,13 @@ def main():
             said = answers(line, "--json")
             if said:
                 check(line, validator, json.loads(said))
+    folder = tempfile.mkdtemp(prefix="requests")
+    given = {"PLANS": ("unrank", "terrace", "1000"), "HOUSES": ("unrank", "cottage", "#10:3")}
+    for name, words in given.items():
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+            file.write(subprocess.run([tartan, *words], capture_output=True, text=True, check=True).stdout)
     for question, lines in ROWS.items():
+        lines = [(kind, " ".join(os.path.join(folder, word) if word in given else word for word in line.split(" "))) for kind, line in lines]
         for kind, line in lines:
             said = answers(line, *(["--json"] if question == "vary" else ["--format", "json"]))
             for row in (said or "").splitlines():

@@ -1,5 +1,5 @@
 /* tartan match: which rules each plan matches. */
-#include "ask/chosen_rules.h"
+#include "ask/match.h"
 #include "cli/common/option_rows.h"
 #include "cli/house/judged.h"
 #include "cli/plan/library_job.h"
@@ -80,8 +80,9 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_job_begin(&job, common);
     matching m = {.job = &job, .path = tn_job_plans_path(&job)};
     bool open = m.path && tn_job_open(&job, common->operands.items[0]);
-    if (open && tn_job_matches_houses(&job, &settings->rules))
-        tn_job_match_houses(&job, &settings->rules, m.path, (tn_house_answer)settings->format, settings->output,
+    const tn_texts rules = {settings->rules.items, settings->rules.count};
+    if (open && tn_session_matches_houses(&job.session, &rules))
+        tn_job_match_houses(&job, &rules, m.path, (tn_house_answer)settings->format, settings->output,
                             tn_job_max_length(&settings->plans));
     else if (open && choose_rules(&m) && compile_rules(&m))
         match_plans(&m);

@@ -125,7 +125,7 @@ static bool open_rules(tn_job *job, tn_shards_open *open)
         return tn_job_open_plans(job, path, &settings->plans) && tn_shards_ready_answers(job, open);
     if (!tn_job_open(job, path))
         return false;
-    if (tn_job_matches_houses(job, &settings->rules)) {
+    if (tn_session_matches_houses(&job->session, &(tn_texts){settings->rules.items, settings->rules.count})) {
         tn_help(tn_job_diagnostics(job), tn_job_usage(job, "a set has no shards of houses"),
                 "choose rules about plans with --rule, or match houses by `tartan match`");
         return false;

@@ -254,6 +254,28 @@ is 'coverage' "$("$program" stdlib stdlib/terrace.plan coverage '{}')" \
     "$("$TARTAN" test stdlib/terrace.plan --coverage --json | sed -E 's/^.*"coverage":\[(.*)\]\}$/\1/')"
 is 'no coverage' "$("$program" stdlib stdlib/bricks.kit coverage '{}')" 'error only a .plan file has tests whose coverage is measured'
 
+question=match command=(match)
+file=stdlib/terrace.plan
+short=${plan#* | }
+printf '%s\n' "$plan" "$short" >"$scratch/plans"
+as_rows "{\"plans\": [\"$plan\", \"$short\"]}" "$scratch/plans"
+as_rows "{\"plans\": [\"$plan\", \"$short\"], \"rules\": [\"closed\", \"step\"], \"max_states\": 3}" "$scratch/plans" --rule closed --rule step --max-states 3
+as_rows "{\"plans\": [\"$plan\"], \"rules\": [\"close\"]}" "$scratch/plans" --rule close
+as_rows "{\"plans\": [\"$plan\"], \"max_length\": 2}" "$scratch/plans" --max-length 2
+asked
+question=prune command=(prune)
+as_rows "{\"plans\": [\"$plan\", \"$short\"]}" "$scratch/plans" --dropped -
+as_rows "{\"plans\": [\"$plan\", \"$short\"], \"where\": [\"trays = 4\"], \"trays\": {\"from\": 4, \"to\": 4}}" "$scratch/plans" --dropped - --where 'trays = 4' --trays 4..4
+as_rows "{\"plans\": [\"$plan\"], \"library\": \"streets\"}" "$scratch/plans" --library streets
+asked
+question=match command=(match)
+file=stdlib/cottage.plan
+printf '%s\n' "$house" >"$scratch/houses"
+as_rows "{\"plans\": [\"$house\"]}" "$scratch/houses"
+as_rows "{\"plans\": [\"$house\"], \"rules\": [\"dark-living\", \"narrow\"]}" "$scratch/houses" --rule dark-living --rule narrow
+as_rows "{\"plans\": [\"$house\"], \"rules\": [\"dark-livin\"]}" "$scratch/houses" --rule dark-livin
+asked
+
 question=schema command=(schema)
 for file in stdlib/terrace.plan stdlib/cottage.plan stdlib/row-houses.plan stdlib/koch.hemls; do
     as '{}'

@@ -46,12 +46,17 @@ def as_words(question, request):
             yield from [] if one is True else [str(one)]
 
 
-ROWS = {"sample", "enumerate", "best", "vary"}                             # whose command writes a line of JSON for each plan or house
+ROWS = {"sample", "enumerate", "best", "vary", "prune"}                             # whose command writes a line of JSON for each plan or house
 COMMANDS = {"relations": ["check", "--relations"]}                 # others have the question's name
 
 
 def by_command(subject, question, request):
     words = [word for word in as_words(question, request) if word != "--values"]
+    if question == "prune":
+        path = os.path.join(subject.folder, "given.txt")
+        with open(path, "w", encoding="utf-8") as file:
+            file.writelines(line + "\n" for line in request["plans"])
+        words = [path, "--dropped", "-", "--library", request["library"]]
     if question == "diff":
         words[:0] = [subject.path]
     code, out, err = run(*COMMANDS.get(question, [question]), subject.path, *words, *(["--format", "json"] if question in ROWS - {"vary"} else ["--json"]))
@@ -93,6 +98,9 @@ def found(subject):
     yield "complete", {"library": library, "pattern": "... | ?"}
     for line in [line for line in (subject.lines or [])[-1:] if line and subject.houses]:
         yield "vary", {"house": line, "library": library}
+    lines = [line for line in (subject.lines or [])[:3] if line]
+    if lines and not subject.houses:
+        yield "prune", {"library": library, "plans": lines}
     yield "diff", {"library": library, "before": subject.path, "sample": 1}
 
 

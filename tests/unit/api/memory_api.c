@@ -89,6 +89,7 @@ static tartan_status ask_all(const asked_question *asked, size_t count, tartan_e
 ASKING(ask_numbers, {"count", "{}"}, {"count", "{\"by\": \"long\"}"},
        {"count", "{\"where\": [\"trays = 2\"], \"mirror\": true}"})
 ASKING(ask_why, {"explain", "{\"plan\": \"#1\"}"}, {"explain", "{\"plan\": \"1m lid | 2m lid\", \"nearest\": 2}"},
+       {"match", "{\"plans\": [\"2m lid | 1m -\"]}"}, {"prune", "{\"plans\": [\"2m lid | 1m lid\"]}"},
        {"rank", "{\"plan\": \"2m lid | 1m -\"}"}, {"unrank", "{\"rank\": \"2\"}"},
        {"relations", "{\"examples\": true}"})
 ASKING(ask_lists, {"sample", "{\"count\": 2}"}, {"sample", "{\"per_length\": 1}"},
