@@ -382,7 +382,7 @@ void tn_check_comparison(tn_check *check, tn_ast_expr *expr)
         return;
     expr->sum = low;
     expr->high = high;
-    expr->whole = low->whole || low->houses;
+    expr->whole = low->whole || low->houses || (range && (high->whole || high->houses));
     tn_check_compared_sum(check, low);
     if (range)
         tn_check_compared_sum(check, high);
