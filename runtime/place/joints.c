@@ -11,6 +11,7 @@
 typedef struct socket {
     int32_t at[3];
     uint32_t axis, beside, type, part; /* beside: where what is beside its axis points */
+    size_t number;                     /* in the list of all: sorting is the same everywhere */
 } socket;
 
 /* ---- parts */
@@ -97,6 +98,7 @@ static tn_status find_kinds(const tn_module *module, const tn_placed_model *mode
 static void list_sockets(const tn_module *module, const tn_placed_model *model, const tn_placed_joints *joints,
                          socket *sockets)
 {
+    size_t number = 0;
     for (size_t i = 0; i < model->count; i++) {
         const tn_kit_part_record *kind = joints->kinds[i];
         const tn_frame *frame = &model->parts[i].frame;
@@ -107,7 +109,8 @@ static void list_sockets(const tn_module *module, const tn_placed_model *model, 
             *to = (socket){.axis = tn_axis_turn((tn_axis)from->axis, frame->heading),
                            .beside = tn_axis_turn(tn_axis_beside((tn_axis)from->axis), frame->heading),
                            .type = from->type,
-                           .part = (uint32_t)i};
+                           .part = (uint32_t)i,
+                           .number = number++};
             tn_turn_place(frame->heading, at, to->at);
             for (int k = 0; k < 3; k++)
                 to->at[k] += frame->at[k];
@@ -121,8 +124,10 @@ static int by_place(const void *a, const void *b)
     for (int k = 0; k < 3; k++)
         if (one->at[k] != other->at[k])
             return one->at[k] < other->at[k] ? -1 : 1;
-    return one->part != other->part ? (one->part < other->part ? -1 : 1)
-                                    : (one->axis > other->axis) - (one->axis < other->axis);
+    if (one->part != other->part)
+        return one->part < other->part ? -1 : 1;
+    return one->axis != other->axis ? (one->axis < other->axis ? -1 : 1)
+                                    : (one->number > other->number) - (one->number < other->number);
 }
 
 bool tn_connectors_turn(const tn_module *module, uint32_t a, uint32_t b, tn_axis beside_a, tn_axis beside_b)
