@@ -14,8 +14,9 @@ extern "C" {
 typedef struct tartan_session tartan_session;
 
 /* Compiles a text as tartan_compile_text does; text NULL: the file at `path`. `path`, the text and the folders of
- * `options` are copied. A question with requirements of its own (`where`) compiles the text again: `resolve`, and what
- * it needs, has to stay until the session is freed. */
+ * `options` are copied. A question with requirements of its own (`where`) compiles the text again, and `diff` asks for
+ * the file before the edit as for one that is used: `resolve`, and what it needs, has to stay until the session is
+ * freed. */
 TARTAN_API tartan_status tartan_session_open(const char *path, const char *text, size_t size,
                                              const tartan_compile_options *options, tartan_session **session,
                                              tartan_error *error);
