@@ -65,12 +65,25 @@ static bool made(const tn_module *module)
     return module->SOLID_count > 0;
 }
 
+static const tn_vocabulary_word words[] = {
+#define WORD(TEXT, TOKEN, PLACES, USE, SENTENCE) {TEXT, SENTENCE, PLACES, USE, 0},
+#include "compiler/solid/words.def"
+};
+
+static const tn_vocabulary_place places[] = {
+#define PLACE(ID, BLOCK, HEADS, WHERE) {BLOCK, HEADS},
+#include "compiler/solid/words.def"
+};
+
+const tn_vocabulary tn_solid_words = {words, sizeof words / sizeof *words, places, sizeof places / sizeof *places};
+
 extern const tn_front tn_front_solid;
 const tn_front tn_front_solid = {
     .read = read,
     .compile = compile,
     .made = made,
     .list = tn_solid_list,
+    .words = &tn_solid_words,
     .lay_out = tn_format_solid,
     .spell = tn_format_small_letters,
     .nests = true,

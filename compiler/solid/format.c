@@ -22,8 +22,9 @@ static size_t gap_before(const tn_format *format, size_t i)
 /* Where a statement that is too long goes on in the next line. */
 static bool at_part(const tn_format *format, size_t i)
 {
-    static const char *const words[] = {"at", "size", "from", "clip", "rigid", "target", "weight", "and", "or", NULL};
-    return tn_format_is_any(format, i, words) || (i > 0 && tn_format_is(format, i - 1, ","));
+    bool joins = tn_format_is_word(format, i, &tn_solid_words, TN_SOLID_AT(MEASURED), TN_AS_INFIX);
+    return (joins && !tn_format_is(format, i, "in")) || (i > 0 && tn_format_is(format, i - 1, ",")) ||
+           tn_format_is_word(format, i, &tn_solid_words, TN_SOLID_AT(BOX) | TN_SOLID_AT(GOAL), TN_AS_MARK);
 }
 
 static bool ends_statement(const tn_format *format, size_t i)

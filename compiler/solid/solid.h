@@ -9,6 +9,7 @@
 #include "compiler/common/expression.h"
 #include "compiler/common/import.h"
 #include "compiler/common/listing.h"
+#include "compiler/common/words.h"
 #include "compiler/hemls/hemls.h"
 #include "runtime/solid/exact.h"
 #include "runtime/solid/measured.h"
@@ -218,5 +219,17 @@ void tn_solid_list(tn_listing *listing);
 /* Does a requirement, of which nothing is wrong, hold of every design, or of none? */
 typedef enum tn_solid_answer { TN_SOLID_DEPENDS, TN_SOLID_ALWAYS, TN_SOLID_NEVER } tn_solid_answer;
 tn_solid_answer tn_solid_requirement_answer(const tn_expression *requirement);
+
+/* ---- words: sets of the places of words.def, as TN_SOLID_AT(BOX) | TN_SOLID_AT(GENES) */
+
+enum tn_solid_word_place {
+#define PLACE(ID, BLOCK, HEADS, WHERE) TN_SOLID_WORD_PLACE_##ID,
+#include "compiler/solid/words.def"
+    TN_SOLID_WORD_PLACE_COUNT
+};
+_Static_assert(TN_SOLID_WORD_PLACE_COUNT < 64, "a set of places has a bit for each");
+#define TN_SOLID_AT(ID) (UINT64_C(1) << TN_SOLID_WORD_PLACE_##ID)
+
+extern const tn_vocabulary tn_solid_words;
 
 #endif
