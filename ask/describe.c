@@ -54,10 +54,18 @@ static bool is_used_as(const tn_message *message, tn_message_kind kind)
     return false;
 }
 
+static bool is_asked_with(const tn_message *message)
+{
+    for (size_t i = 0; i < tn_request_kind_count; i++)
+        if (tn_request_kinds[i].request == message)
+            return true;
+    return false;
+}
+
 /* Is it written as a whole, and not only as part of others? */
 static bool is_whole(const tn_message *message)
 {
-    return is_used_as(message, TN_MESSAGE_NESTED) || is_used_as(message, TN_MESSAGE_LIST) ||
+    return is_asked_with(message) || is_used_as(message, TN_MESSAGE_NESTED) || is_used_as(message, TN_MESSAGE_LIST) ||
            (!is_used_as(message, TN_MESSAGE_PART) && !is_used_as(message, TN_MESSAGE_WRITTEN) &&
             !is_used_as(message, TN_MESSAGE_MAP));
 }
