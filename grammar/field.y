@@ -102,7 +102,7 @@ expression
     | NAME OPEN arguments CLOSE             { $$ = call(parse, @$, $1.text, @1, $3); }
     | NAME OPEN STRING CLOSE                { $$ = mesh(parse, @$, $1, $3); }
     | OPEN expression CLOSE                 { $$ = $2; }
-    | expression AT OPEN arguments CLOSE    { $$ = call(parse, @$, TN_FIELD_AT, @2, $4); tn_expression_add($$, $1); }
+    | expression AT OPEN arguments CLOSE    { $$ = call(parse, @$, TN_FIELD_AT_NAME, @2, $4); tn_expression_add($$, $1); }
     | expression PLUS expression            { $$ = of_two(parse, TN_OP_ADD, @$, $1, $3); }
     | expression MINUS expression           { $$ = of_two(parse, TN_OP_SUBTRACT, @$, $1, $3); }
     | expression STAR expression            { $$ = of_two(parse, TN_OP_MULTIPLY, @$, $1, $3); }

@@ -52,6 +52,22 @@ bool tn_vocabulary_head_block(const tn_vocabulary *words, const char *text, size
     return false;
 }
 
+/* Does the word begin a statement, wherever it stands? */
+static bool is_head(const tn_vocabulary *words, const char *text, tn_span word)
+{
+    uint64_t starts = 0;
+    for (size_t i = 0; i < words->place_count; i++)
+        if (words->places[i].heads[0] == '\0')
+            starts |= UINT64_C(1) << i;
+    return tn_vocabulary_find(words, text + word.begin, word.end - word.begin, starts, TN_AS_KEYWORDS) != NULL;
+}
+
+/* May the statement with this head end behind the token? */
+static bool may_end(const char *text, tn_span head, const tn_token *token)
+{
+    return token->span.begin != head.begin && (token->kind != TN_TOKEN_SIGN || is(text, token->span, ")"));
+}
+
 uint64_t tn_vocabulary_places(const tn_vocabulary *words, const char *text, const tn_token *tokens, size_t count)
 {
     const tn_span none = {0};
@@ -69,18 +85,19 @@ uint64_t tn_vocabulary_places(const tn_vocabulary *words, const char *text, cons
             block = head = none;
         } else if (ends) {
             head = none;
-        } else if (head.end == head.begin) {
+        } else if (head.end == head.begin || (words->heads_begin && is_head(words, text, token))) {
             head = token;
         }
     }
+    bool inside = head.end > head.begin;
+    bool begins = !inside || (words->heads_begin && count > 0 && may_end(text, head, &tokens[count - 1]));
     uint64_t places = 0;
     for (size_t i = 0; i < words->place_count; i++) {
         const tn_vocabulary_place *place = &words->places[i];
         bool here = place->block[0] ? is(text, block, place->block) : block.end == block.begin;
-        bool begins = head.end == head.begin;
         if (here &&
             (place->heads[0] == '\0' ? begins
-                                     : !begins && (place->heads[0] == '*' || is_one_of(text, head, place->heads))))
+                                     : inside && (place->heads[0] == '*' || is_one_of(text, head, place->heads))))
             places |= UINT64_C(1) << i;
     }
     return places;

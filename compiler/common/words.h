@@ -43,6 +43,7 @@ typedef struct tn_vocabulary {
     size_t count;
     const tn_vocabulary_place *places; /* NULL: the notation has another way to tell them */
     size_t place_count;
+    bool heads_begin; /* nothing ends a statement: the next one begins with a word that stands where one begins */
 } tn_vocabulary;
 
 /* The row of the word that is `text`, in capitals or not, stands in one of the places and is one of the uses there; the
@@ -58,7 +59,7 @@ size_t tn_vocabulary_list(const tn_vocabulary *words, uint64_t places, uint32_t 
 /* Does a brace behind this word open a block, in a notation of statements? */
 bool tn_vocabulary_head_block(const tn_vocabulary *words, const char *text, size_t size);
 
-/* The places where what comes behind these tokens of the text stands, in a notation of statements that end with `;`. */
+/* The places where what comes behind these tokens of the text stands, in a notation of statements. */
 uint64_t tn_vocabulary_places(const tn_vocabulary *words, const char *text, const tn_token *tokens, size_t count);
 
 #endif

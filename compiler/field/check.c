@@ -28,7 +28,7 @@ static int axis_named(const char *name)
 
 bool tn_field_is_at(const tn_expression *e)
 {
-    return e->op == TN_OPCODE_COUNT && e->name && strcmp(e->name, TN_FIELD_AT) == 0;
+    return e->op == TN_OPCODE_COUNT && e->name && strcmp(e->name, TN_FIELD_AT_NAME) == 0;
 }
 
 /* ---- names */

@@ -77,12 +77,31 @@ static bool made(const tn_module *module)
     return module->SURFACE_count > 0 || strcmp(tn_path_extension(path), field_files) == 0;
 }
 
+static const tn_vocabulary_word words[] = {
+#define WORD(TEXT, TOKEN, PLACES, USE, SENTENCE) {TEXT, SENTENCE, PLACES, USE, 0},
+#include "compiler/field/words.def"
+};
+
+static const tn_vocabulary_place places[] = {
+#define PLACE(ID, BLOCK, HEADS, WHERE) {BLOCK, HEADS},
+#include "compiler/field/words.def"
+};
+
+const tn_vocabulary tn_field_words = {words, sizeof words / sizeof *words, places, sizeof places / sizeof *places,
+                                      .heads_begin = true};
+
+bool tn_field_heads(const char *text, size_t size)
+{
+    return tn_vocabulary_find(&tn_field_words, text, size, TN_FIELD_AT(STATEMENT), TN_AS_KEYWORDS) != NULL;
+}
+
 extern const tn_front tn_front_field;
 const tn_front tn_front_field = {
     .read = read,
     .compile = compile,
     .made = made,
     .list = tn_field_list,
+    .words = &tn_field_words,
     .lay_out = tn_format_field,
     .spell = tn_format_small_letters,
     .nests = true,

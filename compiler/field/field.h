@@ -10,6 +10,7 @@
 #include "compiler/common/format_tokens.h"
 #include "compiler/common/import.h"
 #include "compiler/common/listing.h"
+#include "compiler/common/words.h"
 #include "compiler/hemls/hemls.h"
 
 typedef enum tn_field_statement { TN_FIELD_LET, TN_FIELD_FUNCTION, TN_FIELD_SURFACE } tn_field_statement;
@@ -95,7 +96,7 @@ void tn_field_add_bare(tn_growth_parse *parse, tn_expression *body);
 void tn_field_lost(tn_growth_parse *parse);
 
 /* The name of the function that places a surface elsewhere: no other can be called so, being a word of the language. */
-#define TN_FIELD_AT "at"
+#define TN_FIELD_AT_NAME "at"
 
 /* ---- meaning */
 
@@ -152,5 +153,17 @@ tn_status tn_emit_field(tn_builder *builder, tn_arena *arena, tn_diagnostics *di
 
 void tn_format_field(tn_format *format);
 void tn_field_list(tn_listing *listing);
+
+/* ---- words: sets of the places of words.def, as TN_FIELD_AT(FORMULA) */
+
+enum tn_field_word_place {
+#define PLACE(ID, BLOCK, HEADS, WHERE) TN_FIELD_WORD_PLACE_##ID,
+#include "compiler/field/words.def"
+    TN_FIELD_WORD_PLACE_COUNT
+};
+_Static_assert(TN_FIELD_WORD_PLACE_COUNT < 64, "a set of places has a bit for each");
+#define TN_FIELD_AT(ID) (UINT64_C(1) << TN_FIELD_WORD_PLACE_##ID)
+
+extern const tn_vocabulary tn_field_words;
 
 #endif

@@ -100,7 +100,7 @@ static const tn_vocabulary_place places[] = {
 #include "compiler/kit/words.def"
 };
 
-const tn_vocabulary tn_kit_words = {words, sizeof words / sizeof *words, places, sizeof places / sizeof *places};
+const tn_vocabulary tn_kit_words = {words, sizeof words / sizeof *words, places, sizeof places / sizeof *places, false};
 
 extern const tn_front tn_front_kit;
 const tn_front tn_front_kit = {

@@ -75,7 +75,8 @@ static const tn_vocabulary_place places[] = {
 #include "compiler/solid/words.def"
 };
 
-const tn_vocabulary tn_solid_words = {words, sizeof words / sizeof *words, places, sizeof places / sizeof *places};
+const tn_vocabulary tn_solid_words = {words, sizeof words / sizeof *words, places, sizeof places / sizeof *places,
+                                      false};
 
 extern const tn_front tn_front_solid;
 const tn_front tn_front_solid = {

@@ -11,7 +11,7 @@ static const tn_vocabulary_word rows[] = {
 #include "compiler/plan/syntax/words.def"
 };
 
-const tn_vocabulary tn_plan_words = {rows, sizeof rows / sizeof *rows, NULL, 0};
+const tn_vocabulary tn_plan_words = {rows, sizeof rows / sizeof *rows, NULL, 0, false};
 
 static const tn_slip slips[] = {
     {TN_SLIP_RULE, "xor|either", "one of two, and not both, is written `(a or b) and not (a and b)`", NULL},
