@@ -3,7 +3,6 @@
 #include "ask/best.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "driver/open/digits.h"
 
@@ -13,7 +12,8 @@ static tn_status count_beginning(const tn_library *library, const tn_open_plan *
 {
     tn_completions found;
     bool gap = count > 0 && open->functions[count - 1] == TN_NO_RECORD;
-    memcpy(parts, open->functions, count * sizeof *parts);
+    for (size_t i = 0; i < count; i++)
+        parts[i] = open->functions[i];
     if (!gap)
         parts[count++] = TN_NO_RECORD;
     tn_status status = tn_complete(&found, library, &(tn_open_plan){.functions = parts, .count = count}, error);
