@@ -106,28 +106,28 @@ def editors(tartan, path, text, places, table, seen):
         yield "the language server fails"
 
 
-def slip(word):
-    """The word misspelled: two of its letters swapped, or one too many where they are alike or the word is short."""
-    if len(word) > 3 and word[-1] != word[-2]:
-        return word[:-2] + word[-1] + word[-2]
-    return word + word[-1]
+def slip(word, known):
+    """The word misspelled: two of its letters swapped, or one too many if they are alike, the word is short or another word comes of it."""
+    swapped = word[:-2] + word[:-3:-1]
+    return swapped if len(word) > 3 and swapped not in known | {word} else word + word[-1]
 
 
 def suggested(tartan, scratch, seen):
+    known = {row.text for row in seen}
     for row, places in seen.items():
         if row.token == "NAME" or row.text in UNTOLD:
             continue
         for path, text, offset in places:
             wrong = os.path.join(scratch, os.path.basename(path))
             with open(wrong, "w", encoding="utf-8") as file:
-                file.write(text[:offset] + slip(row.text) + text[offset + len(row.text):])
+                file.write(text[:offset] + slip(row.text, known) + text[offset + len(row.text):])
             said = run(tartan, "check", "--no-analysis", wrong)[1]
             with open(wrong, "w", encoding="utf-8") as file:
                 file.write(text)
             if "did you mean `%s`?" % row.text in said:
                 break
         else:
-            yield "`%s` is not suggested for `%s` (%s)" % (row.text, slip(row.text), ", ".join(sorted(row.places)))
+            yield "`%s` is not suggested for `%s` (%s)" % (row.text, slip(row.text, known), ", ".join(sorted(row.places)))
 
 
 def follows(tartan, notation, table, folder):

@@ -158,8 +158,9 @@ static const char *meant_word(const tn_expression_scope *scope, const char *name
 {
     enum { CALLS_MAX = 32 };
     const char *calls[CALLS_MAX];
-    size_t count =
-        scope->vocabulary ? tn_vocabulary_list(scope->vocabulary, TN_ANYWHERE, TN_AS_CALL, calls, CALLS_MAX) : 0;
+    size_t count = !scope->vocabulary ? 0
+                                      : tn_vocabulary_list(scope->vocabulary, scope->places, TN_AS_CALL | TN_AS_PREFIX,
+                                                           calls, CALLS_MAX);
     return tn_nearest(name, calls, count);
 }
 

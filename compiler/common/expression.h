@@ -47,6 +47,7 @@ typedef struct tn_expression_scope {
     const char *split;                  /* help where an expression nests too deep */
     tn_code unknown, wrong;             /* codes of errors: a name that is not there, anything else */
     const tn_vocabulary *vocabulary;    /* of the notation: some of its words are written as functions are; or NULL */
+    uint64_t places;                    /* of the vocabulary: where its expressions stand */
 } tn_expression_scope;
 
 /* How a function that other languages have is written by these words: of the arguments a and b. Empty: it cannot be.

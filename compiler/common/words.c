@@ -53,19 +53,23 @@ bool tn_vocabulary_head_block(const tn_vocabulary *words, const char *text, size
 }
 
 /* Does the word begin a statement, wherever it stands? */
-static bool is_head(const tn_vocabulary *words, const char *text, tn_span word)
+static bool is_head(const tn_vocabulary *words, const char *text, const tn_token *token)
 {
+    tn_span word = token->span;
     uint64_t starts = 0;
     for (size_t i = 0; i < words->place_count; i++)
         if (words->places[i].heads[0] == '\0')
             starts |= UINT64_C(1) << i;
-    return tn_vocabulary_find(words, text + word.begin, word.end - word.begin, starts, TN_AS_KEYWORDS) != NULL;
+    return token->kind == TN_TOKEN_WORD && tn_vocabulary_find(words, text + word.begin, word.end - word.begin, starts,
+                                                              TN_AS_KEYWORDS | TN_AS_NAMED) != NULL;
 }
 
-/* May the statement with this head end behind the token? */
-static bool may_end(const char *text, tn_span head, const tn_token *token)
+/* May the statement with this head end behind the token? Behind the head alone where that stands alone. */
+static bool may_end(const tn_vocabulary *words, const char *text, tn_span head, const tn_token *token)
 {
-    return token->span.begin != head.begin && (token->kind != TN_TOKEN_SIGN || is(text, token->span, ")"));
+    if (token->span.begin == head.begin)
+        return tn_vocabulary_find(words, text + head.begin, head.end - head.begin, TN_ANYWHERE, TN_AS_OPERAND) != NULL;
+    return token->kind != TN_TOKEN_SIGN || is(text, token->span, ")");
 }
 
 uint64_t tn_vocabulary_places(const tn_vocabulary *words, const char *text, const tn_token *tokens, size_t count)
@@ -74,7 +78,8 @@ uint64_t tn_vocabulary_places(const tn_vocabulary *words, const char *text, cons
     tn_span block = none, head = none; /* empty: in no block; at the start of a statement */
     for (size_t i = 0; i < count; i++) {
         tn_span token = tokens[i].span;
-        bool ends = is(text, token, ";"), opens = is(text, token, "{"), closes = is(text, token, "}");
+        bool ends = is(text, token, ";") || tokens[i].kind == TN_TOKEN_LINE, opens = is(text, token, "{"),
+             closes = is(text, token, "}");
         if (tokens[i].kind == TN_TOKEN_COMMENT)
             continue;
         if (opens && head.end > head.begin && block.end == block.begin &&
@@ -85,12 +90,12 @@ uint64_t tn_vocabulary_places(const tn_vocabulary *words, const char *text, cons
             block = head = none;
         } else if (ends) {
             head = none;
-        } else if (head.end == head.begin || (words->heads_begin && is_head(words, text, token))) {
+        } else if (head.end == head.begin || (words->heads_begin && is_head(words, text, &tokens[i]))) {
             head = token;
         }
     }
     bool inside = head.end > head.begin;
-    bool begins = !inside || (words->heads_begin && count > 0 && may_end(text, head, &tokens[count - 1]));
+    bool begins = !inside || (words->heads_begin && count > 0 && may_end(words, text, head, &tokens[count - 1]));
     uint64_t places = 0;
     for (size_t i = 0; i < words->place_count; i++) {
         const tn_vocabulary_place *place = &words->places[i];

@@ -10,6 +10,7 @@
 #include "compiler/common/import.h"
 #include "compiler/common/lexical.h"
 #include "compiler/common/notation.h"
+#include "compiler/common/words.h"
 #include "compiler/evolution/evolution.h"
 #include "compiler/study/study.h"
 #include "runtime/base/file.h"
@@ -216,12 +217,39 @@ static bool made(const tn_module *module)
     return module->SETTING_count > 0;
 }
 
+/* What a setting's value is, by its kind. */
+#define OF_WHOLE(CHOICES) "a whole number"
+#define OF_REAL(CHOICES) "a number"
+#define OF_PAIR(CHOICES) "a whole number, or a range of them: `2..10`"
+#define OF_SEED(CHOICES) "which random numbers: `seed 7`"
+#define OF_TEXT(CHOICES) "in quotes"
+#define OF_CHOICE(CHOICES) "one of `" CHOICES "`"
+#define OF_CHOICE_REAL(CHOICES) "one of `" CHOICES "`, and perhaps a number"
+#define OF_SPAN(CHOICES) "a number, or a range of them: `1..4`"
+#define OF_EVERY(CHOICES) "a whole number, and perhaps `every` and another one"
+#define OF_EACH(CHOICES) "perhaps with `target` and `weight` behind; may be there more than once"
+
+static const tn_vocabulary_place places[] = {{"", ""}, {"evolution", ""}};
+
+static const tn_vocabulary_word words[] = {
+    {"evolution", "how forms are bred: `evolution { ... }`, a setting a line", 1 << 0, TN_AS_VALUE, 0},
+#define SETTING(ID, NUMBER, NAME, KIND, FIRST, SECOND, LOW, HIGH, CHOICES, USE)                                        \
+    {NAME, OF_##KIND(CHOICES), 1 << 1, TN_AS_VALUE, 0},
+#include "runtime/genome/settings.def"
+};
+
+static const tn_vocabulary evolution_words = {.words = words,
+                                              .count = sizeof words / sizeof *words,
+                                              .places = places,
+                                              .place_count = sizeof places / sizeof *places};
+
 extern const tn_front tn_front_evolution;
 const tn_front tn_front_evolution = {
     .read = read,
     .compile = compile,
     .made = made,
     .list = tn_study_list,
+    .words = &evolution_words,
     .lay_out = tn_format_study,
     .spell = tn_format_small_letters,
 };

@@ -14,6 +14,7 @@ const tn_expression_scope tn_kit_scope = {
     .unknown = E_KIT_TERM,
     .wrong = E_KIT_EXPRESSION,
     .vocabulary = &tn_kit_words,
+    .places = TN_KIT_AT(CONDITION) | TN_KIT_AT(EXPECTATION),
 };
 
 /* ---- conditions */

@@ -15,6 +15,8 @@ const tn_expression_scope tn_solid_scope = {
     .split = "write several: they are joined by a comma",
     .unknown = E_UNKNOWN_SOLID_MEASURE,
     .wrong = E_SOLID_EXPRESSION,
+    .vocabulary = &tn_solid_words,
+    .places = TN_SOLID_AT(MEASURED),
 };
 
 static const char *const setting_names[TN_SOLID_SETTING_COUNT] = {"symmetry", "flat", "noclip",

@@ -41,13 +41,6 @@ void tn_study_lost(tn_growth_parse *parse)
 
 bool tn_study_heads(const char *text, size_t size)
 {
-    static const char *const words[] = {
-        "use",          "title",   "rules",         "steps",        "scale",      "start",
-        "start-length", "seed",    "facing",        "branch-angle", "edge-limit", "fixed-perimeter",
-        "mirror",       "gravity", "branch-length", "attractor",    "repeller",   "fixed-centre",
-        "boundary",     "fitness", "fixed-center",  "require",      "sun",        "distance-to"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strlen(words[i]) == size && strncasecmp(words[i], text, size) == 0)
-            return true;
-    return false;
+    return tn_vocabulary_find(&tn_study_words, text, size, TN_STUDY_AT(STATEMENT), TN_AS_KEYWORDS | TN_AS_NAMED) !=
+           NULL;
 }

@@ -13,6 +13,8 @@ const tn_expression_scope tn_study_scope = {
     .split = "make two fitness terms of it: they are added up",
     .unknown = E_UNKNOWN_TERM,
     .wrong = E_MEASURE,
+    .vocabulary = &tn_study_words,
+    .places = TN_STUDY_AT(TERM),
 };
 
 typedef struct check {
@@ -176,9 +178,12 @@ static void goal_twice(check *c, const tn_study_item *item)
 
 static void unknown_term(check *c, const tn_study_item *item)
 {
+    static const char *const raw = "raw";
     tn_diagnostic *d =
         tn_report(c->diagnostics, E_UNKNOWN_TERM, item->text_span, "there is no fitness term `%s`", item->text);
     const char *near = tn_nearest(item->text, tn_names_MEASURED, TN_MEASURED_COUNT);
+    if (!near)
+        near = tn_nearest(item->text, &raw, 1);
     if (near)
         tn_help(c->diagnostics, d, "did you mean `%s`?", near);
     else

@@ -119,12 +119,26 @@ static bool made(const tn_module *module)
     return module->GROWTH_count > 0;
 }
 
+static const tn_vocabulary_word words[] = {
+#define WORD(TEXT, TOKEN, PLACES, USE, SENTENCE) {TEXT, SENTENCE, PLACES, USE, 0},
+#include "compiler/study/words.def"
+};
+
+static const tn_vocabulary_place places[] = {
+#define PLACE(ID, BLOCK, HEADS, WHERE) {BLOCK, HEADS},
+#include "compiler/study/words.def"
+};
+
+const tn_vocabulary tn_study_words = {words, sizeof words / sizeof *words, places, sizeof places / sizeof *places,
+                                      .heads_begin = true};
+
 extern const tn_front tn_front_study;
 const tn_front tn_front_study = {
     .read = read,
     .compile = compile,
     .made = made,
     .list = tn_study_list,
+    .words = &tn_study_words,
     .lay_out = tn_format_study,
     .spell = tn_format_small_letters,
 };

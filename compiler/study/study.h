@@ -9,6 +9,7 @@
 #include "compiler/common/expression.h"
 #include "compiler/common/import.h"
 #include "compiler/common/listing.h"
+#include "compiler/common/words.h"
 #include "compiler/hemls/hemls.h"
 
 typedef enum tn_study_kind {
@@ -132,5 +133,17 @@ void tn_format_study(tn_format *format);
 
 /* Lists the statements of a study, and of an evolution block its settings. */
 void tn_study_list(tn_listing *listing);
+
+/* ---- words: sets of the places of words.def, as TN_STUDY_AT(FORCE) */
+
+enum tn_study_word_place {
+#define PLACE(ID, BLOCK, HEADS, WHERE) TN_STUDY_WORD_PLACE_##ID,
+#include "compiler/study/words.def"
+    TN_STUDY_WORD_PLACE_COUNT
+};
+_Static_assert(TN_STUDY_WORD_PLACE_COUNT < 64, "a set of places has a bit for each");
+#define TN_STUDY_AT(ID) (UINT64_C(1) << TN_STUDY_WORD_PLACE_##ID)
+
+extern const tn_vocabulary tn_study_words;
 
 #endif

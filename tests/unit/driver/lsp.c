@@ -763,6 +763,31 @@ static void test_sections(void **state)
     finish_live(&l);
 }
 
+/* In a study of evolution: its one statement, and in the block settings with what their values are. */
+static void test_settings(void **state)
+{
+    static const char uri[] = "file:///nowhere/never.study";
+    static const char text[] = "evolution {\n  population 20\n  initialise ramped\n}\n";
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, uri, text);
+    json_t *answer = hear_answer(
+        &l, ask(&l.session, "textDocument/completion", at(uri, text, (size_t)(strstr(text, "initialise") - text))));
+    assert_true(mentions(answer, "a whole number") && mentions(answer, "`random|ramped|grow|pi-grow`"));
+    assert_false(mentions(answer, "repeller"));
+    json_decref(answer);
+    answer = hear_answer(
+        &l, ask(&l.session, "textDocument/hover", at(uri, text, (size_t)(strstr(text, "population") - text))));
+    assert_true(mentions(answer, "`population`: a whole number"));
+    json_decref(answer);
+    answer = hear_answer(
+        &l, ask(&l.session, "textDocument/completion", at(uri, text, (size_t)(strstr(text, "evolution {") - text))));
+    assert_true(mentions(answer, "how forms are bred") && !mentions(answer, "\"population\""));
+    json_decref(answer);
+    finish_live(&l);
+}
+
 /* What a form says for nothing is warned of, and can be allowed there. */
 static void test_form_allows(void **state)
 {
@@ -1058,6 +1083,7 @@ int main(void)
         cmocka_unit_test(test_meaning),
         cmocka_unit_test(test_forms),
         cmocka_unit_test(test_sections),
+        cmocka_unit_test(test_settings),
         cmocka_unit_test(test_form_allows),
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_choices),
