@@ -72,10 +72,19 @@ static bool may_end(const tn_vocabulary *words, const char *text, tn_span head, 
     return token->kind != TN_TOKEN_SIGN || is(text, token->span, ")");
 }
 
+/* Is the place one of the statement with this head? */
+static bool is_headed(const tn_vocabulary_place *place, const char *text, tn_span head, bool named)
+{
+    if (strcmp(place->heads, "a name") == 0)
+        return named;
+    return place->heads[0] == '*' || is_one_of(text, head, place->heads);
+}
+
 uint64_t tn_vocabulary_places(const tn_vocabulary *words, const char *text, const tn_token *tokens, size_t count)
 {
     const tn_span none = {0};
     tn_span block = none, head = none; /* empty: in no block; at the start of a statement */
+    bool named = false;                /* is the head a name? */
     for (size_t i = 0; i < count; i++) {
         tn_span token = tokens[i].span;
         bool ends = is(text, token, ";") || tokens[i].kind == TN_TOKEN_LINE, opens = is(text, token, "{"),
@@ -92,6 +101,7 @@ uint64_t tn_vocabulary_places(const tn_vocabulary *words, const char *text, cons
             head = none;
         } else if (head.end == head.begin || (words->heads_begin && is_head(words, text, &tokens[i]))) {
             head = token;
+            named = tokens[i].kind == TN_TOKEN_NAME;
         }
     }
     bool inside = head.end > head.begin;
@@ -100,9 +110,7 @@ uint64_t tn_vocabulary_places(const tn_vocabulary *words, const char *text, cons
     for (size_t i = 0; i < words->place_count; i++) {
         const tn_vocabulary_place *place = &words->places[i];
         bool here = place->block[0] ? is(text, block, place->block) : block.end == block.begin;
-        if (here &&
-            (place->heads[0] == '\0' ? begins
-                                     : inside && (place->heads[0] == '*' || is_one_of(text, head, place->heads))))
+        if (here && (place->heads[0] == '\0' ? begins : inside && is_headed(place, text, head, named)))
             places |= UINT64_C(1) << i;
     }
     return places;

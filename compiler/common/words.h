@@ -33,7 +33,8 @@ typedef struct tn_vocabulary_word {
 #define TN_ANYWHERE UINT64_MAX
 
 /* A place of a notation of statements: which block it is in, by the word before the block's brace ("": none), and the
- * words that begin its statement, with blanks between ("": it is where one begins; "*": any). */
+ * words that begin its statement, with blanks between ("": it is where one begins; "*": any; "a name": one of the
+ * author's). */
 typedef struct tn_vocabulary_place {
     const char *block, *heads;
 } tn_vocabulary_place;

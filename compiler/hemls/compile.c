@@ -1,6 +1,4 @@
 /* Compiles .hemls files; and the front end that the table of notations names. */
-#include <string.h>
-#include <strings.h>
 
 #include "compiler/common/emit_sources.h"
 #include "compiler/common/notation.h"
@@ -45,13 +43,23 @@ static bool made(const tn_module *module)
     return module->GROWTH_count > 0;
 }
 
+static const tn_vocabulary_word words[] = {
+#define WORD(TEXT, TOKEN, PLACES, USE, SENTENCE) {TEXT, SENTENCE, PLACES, USE, 0},
+#include "compiler/hemls/words.def"
+};
+
+static const tn_vocabulary_place places[] = {
+#define PLACE(ID, BLOCK, HEADS, WHERE) {BLOCK, HEADS},
+#include "compiler/hemls/words.def"
+};
+
+const tn_vocabulary tn_hemls_words = {words, sizeof words / sizeof *words, places, sizeof places / sizeof *places,
+                                      false};
+
 static const char *spell(tn_arena *arena, const char *text, size_t size)
 {
-    static const char *const words[] = {"Angle", "BranchAngle", "Sync", "Even", "Weight", "If", "i"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strlen(words[i]) == size && strncasecmp(words[i], text, size) == 0)
-            return words[i];
-    return tn_arena_copy(arena, text, size);
+    const tn_vocabulary_word *word = tn_vocabulary_find(&tn_hemls_words, text, size, TN_ANYWHERE, TN_AS_KEYWORDS);
+    return word ? word->text : tn_arena_copy(arena, text, size);
 }
 
 /* ---- for editors */
@@ -86,6 +94,7 @@ const tn_front tn_front_hemls = {
     .compile = compile,
     .made = made,
     .list = list,
+    .words = &tn_hemls_words,
     .lay_out = tn_format_hemls,
     .spell = spell,
 };

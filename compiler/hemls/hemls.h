@@ -12,6 +12,7 @@
 #include "compiler/common/format_tokens.h"
 #include "compiler/common/lexical.h"
 #include "compiler/common/token.h"
+#include "compiler/common/words.h"
 #include "runtime/growth/model/records.h"
 #include "runtime/module/builder.h"
 #include "runtime/module/code.h"
@@ -234,5 +235,17 @@ tn_checked_growth *tn_check_hemls(tn_arena *arena, tn_diagnostics *diagnostics, 
 
 /* Writes the system's code and records. */
 void tn_emit_growth(tn_builder *builder, const tn_checked_growth *growth);
+
+/* ---- words: sets of the places of words.def, as TN_HEMLS_AT(RULE) */
+
+enum tn_hemls_word_place {
+#define PLACE(ID, BLOCK, HEADS, WHERE) TN_HEMLS_WORD_PLACE_##ID,
+#include "compiler/hemls/words.def"
+    TN_HEMLS_WORD_PLACE_COUNT
+};
+_Static_assert(TN_HEMLS_WORD_PLACE_COUNT < 64, "a set of places has a bit for each");
+#define TN_HEMLS_AT(ID) (UINT64_C(1) << TN_HEMLS_WORD_PLACE_##ID)
+
+extern const tn_vocabulary tn_hemls_words;
 
 #endif
