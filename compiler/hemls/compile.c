@@ -1,5 +1,4 @@
 /* Compiles .hemls files; and the front end that the table of notations names. */
-
 #include "compiler/common/emit_sources.h"
 #include "compiler/common/notation.h"
 #include "compiler/hemls/hemls.h"

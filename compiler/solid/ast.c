@@ -1,7 +1,4 @@
 /* Makes the syntax tree of .solid files: what the parser calls. */
-#include <string.h>
-#include <strings.h>
-
 #include "compiler/solid/solid.h"
 
 tn_solid_item *tn_solid_item_new(tn_growth_parse *parse, tn_solid_statement kind, tn_span span)
@@ -73,10 +70,5 @@ void tn_solid_lost(tn_growth_parse *parse)
 
 bool tn_solid_heads(const char *text, size_t size)
 {
-    static const char *const words[] = {"symmetry", "flat",  "noclip",  "correct", "unit",   "model",
-                                        "box",      "genes", "measure", "require", "fitness"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strlen(words[i]) == size && strncasecmp(words[i], text, size) == 0)
-            return true;
-    return false;
+    return tn_vocabulary_find(&tn_solid_words, text, size, TN_SOLID_AT(LINE), TN_AS_KEYWORDS) != NULL;
 }
