@@ -107,10 +107,15 @@ def tartan(*words, folder=None):
     return subprocess.run([TARTAN, *words], capture_output=True, cwd=folder, stdin=subprocess.DEVNULL, timeout=300, check=False)
 
 
-def known_endings():
+def formats():
+    """The endings of each format."""
     with open(os.path.join(SOURCE, "cli/common/endings.def"), encoding="ascii") as table:
-        rows = re.findall(r'^FORMAT\((\w+), "\w*", "([^"]*)"\)', table.read(), re.M)
-    return [ending for name, endings in rows for ending in (endings.split()[:1] if name == "FOREIGN" else endings.split())]
+        rows = re.findall(r'^FORMAT\((\w+), "\w*", "([^"]*)", ".*"\)', table.read(), re.M)
+    return [endings.split()[:1] if name == "FOREIGN" else endings.split() for name, endings in rows]
+
+
+def known_endings():
+    return [ending for endings in formats() for ending in endings]
 
 
 # ---- what a file of an ending has to be
@@ -226,7 +231,7 @@ CHECKS = {
 
 
 def ask(words, ending, folder):
-    """What is wrong with what the command does; None where nothing is."""
+    """Did it write a file, and what is wrong with what it does; None where nothing is."""
     with tempfile.TemporaryDirectory(dir=folder) as empty:
         done = tartan(*words, "-o", "made." + ending, folder=empty)
         made = os.listdir(empty)
@@ -234,26 +239,33 @@ def ask(words, ending, folder):
         if done.returncode != 0:
             named = re.search(r"end its name in \.\w+|another ending|a folder: name one|otherwise|leave out -o|write an \.\w+ file|let it end in|add `-o NAME\.\w+", said)
             if made or not named:
-                return f"exit {done.returncode}, {made} made: {said[:300]}"
-            return None
+                return False, f"exit {done.returncode}, {made} made: {said[:300]}"
+            return False, None
         if made != ["made." + ending]:
-            return f"it made {made}"
+            return True, f"it made {made}"
         if ending not in CHECKS:
-            return "it writes what nothing is known of"
+            return True, "it writes what nothing is known of"
         with open(os.path.join(empty, made[0]), "rb") as file:
             data = file.read()
         try:
             CHECKS[ending](data)
         except Exception as wrong:  # whatever a reader says
-            return f"it is no .{ending}: {wrong!r}"
-        return None
+            return True, f"it is no .{ending}: {wrong!r}"
+        return True, None
+
+
+def told(command):
+    """The endings that the command's help has beside -o."""
+    said = tartan("help", command).stdout.decode()
+    option = re.search(r"^ +-o, --output.*\n(?: {16,}.*\n)*", said, re.M).group()
+    return {ending for ending in re.findall(r"\.(\w+)", option) if ending in known_endings()}
 
 
 def asked_of(number, words, folder):
-    """The endings to try: those that the command says it writes, and a share of the others."""
+    """The endings to try: those that the command and its help say it writes, and a share of the others."""
     with tempfile.TemporaryDirectory(dir=folder) as empty:
         said = tartan(*words, "-o", "made.nonsense", folder=empty).stderr.decode()
-    named = set(re.findall(r"\.(\w+)", said))
+    named = set(re.findall(r"\.(\w+)", said)) | told(words[0])
     return [ending for k, ending in enumerate(known_endings()) if ending in named or (number + k) % SHARE == 0]
 
 
@@ -272,6 +284,19 @@ def prepare(folder):
         file.write(text.replace("trays 4..6", "trays 4..5"))
 
 
+def check_help(written):
+    """Help names a format beside -o if the command writes it, and no other. written: command -> endings of what it was seen to write"""
+    for command, made in written.items():
+        named = told(command)
+        for endings in formats():
+            if "study" in endings:  # rule files: what is read
+                continue
+            if made & set(endings) and not named & set(endings):
+                failures.append(f"the help of {command} does not say beside -o that it writes .{endings[0]}")
+            elif named & set(endings) and not made & set(endings):
+                failures.append(f"the help of {command} says beside -o that it writes .{endings[0]}")
+
+
 def main():
     lines = [line for line in COMMANDS.splitlines() if line]
     names = re.findall(r"^  (\w[\w-]*)  ", tartan("help").stdout.decode(), re.M)
@@ -284,9 +309,12 @@ def main():
         commands = [line.replace("{}", folder).split() for line in lines]
         endings = pool.map(lambda number: asked_of(number, commands[number], folder), range(len(commands)))
         asked = [(line, words, ending) for line, words, some in zip(lines, commands, endings) for ending in some]
-        for (line, _, ending), wrong in zip(asked, pool.map(lambda a: ask(a[1], a[2], folder), asked)):
+        written = {}
+        for (line, _, ending), (wrote, wrong) in zip(asked, pool.map(lambda a: ask(a[1], a[2], folder), asked)):
             if wrong:
                 failures.append(f"{line} -o made.{ending}: {wrong}")
+            written.setdefault(line.split()[0], set()).update({ending} if wrote else ())
+        check_help(written)
     print("\n".join(failures[:60]) or "fine")
     sys.exit(bool(failures))
 

@@ -8,7 +8,7 @@
 static const struct {
     const char *word, *endings;
 } formats[TN_FILE_FORMATS] = {
-#define FORMAT(NAME, WORD, ENDINGS) {WORD, ENDINGS},
+#define FORMAT(NAME, WORD, ENDINGS, HOLDS) {WORD, ENDINGS},
 #include "cli/common/endings.def"
 #undef FORMAT
 };

@@ -8,7 +8,7 @@
 #include "runtime/base/error.h"
 
 typedef enum tn_file_format {
-#define FORMAT(NAME, WORD, ENDINGS) TN_FILE_##NAME,
+#define FORMAT(NAME, WORD, ENDINGS, HOLDS) TN_FILE_##NAME,
 #include "cli/common/endings.def"
 #undef FORMAT
     TN_FILE_FORMATS,

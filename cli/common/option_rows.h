@@ -77,8 +77,10 @@
 #define OPTION_LDRAW                                                                                                   \
     TEXT("ldraw", 0, "DIR", common.ldraw,                                                                              \
          "the LDraw library of which kits take parts (default: the folder that LDRAWDIR names, or /usr/share/ldraw)")
-#define OPTION_OUTPUT(WRITES)                                                                                          \
-    OUTPUT(output, WRITES, "write to FILE (beside it, then renamed over it); - is standard output")
+#define OPTION_OUTPUT(WRITES) OPTION_OUTPUT_BY(WRITES, "")
+/* AS: what the endings mean, as "; .json is JSON". */
+#define OPTION_OUTPUT_BY(WRITES, AS)                                                                                   \
+    OUTPUT(output, WRITES, "write to FILE (beside it, then renamed over it)" AS "; - is standard output")
 #define OPTION_OUTPUT_OR_PICTURE                                                                                       \
     OUTPUT(output, TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES_PICTURES,                                              \
            "write to FILE (beside it, then renamed over it); - is standard output; .svg, .png and .pdf make a "        \

@@ -387,7 +387,7 @@ static const tn_option options[] = {
     CHOICE("format", 'f', "FORMAT", format, "text|json", "text (the default), or json: one object a line"),
     TEXT("tree", 0, "HOW", tree, "show the derivation: text, json, or a picture's file name (.svg, .png, .pdf)"),
     FLAG("trace", 0, trace, "show what each codon chose"),
-    OPTION_OUTPUT(TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES_PICTURES),
+    OPTION_OUTPUT_BY(TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES_PICTURES, "; .json is JSON"),
 };
 
 const tn_command tn_command_map = {

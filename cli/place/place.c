@@ -218,8 +218,7 @@ static const tn_option options[] = {
         outputs, WRITES,
         "write to FILE (beside it, then renamed over it), by its ending: .ldr a model, .csv a list of its parts; - is "
         "a model on standard output; of a kit also .mpd, with a sub-file for each step, a picture (.svg, .png, .pdf) "
-        "or a mesh (.obj, .ply, .stl, .glb "
-        "...)"),
+        "or a mesh (.obj, .ply, .stl, .off, .om, .glb, .3mf, .dxf)"),
     NUMBER("seed", 's', "N", seed, 0, UINT32_MAX, "which random choices: the same seed gives the same (default 0)"),
     TEXT("model", 'm', "NAME", model, "which model of the kit; may be left out where it has only one"),
     WRITTEN("program", 0, "FILE", program, TN_WRITES_TEXT,

@@ -160,7 +160,7 @@ static const tn_option options[] = {
     OUTPUT(
         written.output, TN_WRITES_ROWS | TN_WRITES(MPD) | TN_WRITES(LDR),
         "write to FILE instead of standard output, as its ending says: .json, .csv, .bin, .sqlite and .db, .parquet; "
-        "of a kit .json, or .mpd, with a sub-file for each building; otherwise as lines"),
+        "of a kit .json, or .mpd or .ldr, with a sub-file for each building; otherwise as lines"),
     FLAG("resume", 0, written.resume, "continue a database that was interrupted; no plan is left out or written twice"),
     OPTION_LDRAW,
     OPTIONS_LIBRARY_LIMITS,

@@ -236,7 +236,8 @@ static const tn_option options[] = {
     TEXT("model", 'm', "NAME", model, "the model of --pcfg; may be left out where the kit has only one"),
     OPTIONS_LIBRARY,
     OPTION_LDRAW,
-    OPTION_OUTPUT(TN_WRITES_TEXT | TN_WRITES(PROLOG) | TN_WRITES(PCFG) | TN_WRITES(KIT)),
+    OPTION_OUTPUT_BY(TN_WRITES_TEXT | TN_WRITES(PROLOG) | TN_WRITES(PCFG) | TN_WRITES(KIT),
+                     ", as .pl with --prolog, .pcfg with --pcfg, .kit with --kit"),
     OPTION_MAX_STATES,
 };
 

@@ -97,7 +97,7 @@ static const tn_option options[] = {
     CHOICE("format", 'f', "FORMAT", format, "names|json|bits|any",
            "names (default): the names of the rules, or - where there is none; json: an object a line; bits: a 0 or 1 "
            "a rule; any: 1 where at least one rule matches, else 0"),
-    OPTION_OUTPUT(TN_WRITES_TEXT | TN_WRITES(JSON)),
+    OPTION_OUTPUT_BY(TN_WRITES_TEXT | TN_WRITES(JSON), "; .json is JSON"),
     OPTION_INPUT_FORMAT,
     OPTION_ON_ERROR,
     OPTION_ENGINE,

@@ -106,7 +106,7 @@ static const tn_option options[] = {
     WRITTEN("dropped", 'd', "FILE", dropped, TN_WRITES_TEXT | TN_WRITES(JSON),
             "write the plans that are dropped to FILE, each with the clauses that drop it"),
     CHOICE("format", 'f', "FORMAT", format, "lines|json", "write plan lines (default) or JSON lines"),
-    OPTION_OUTPUT(TN_WRITES_TEXT | TN_WRITES(JSON)),
+    OPTION_OUTPUT_BY(TN_WRITES_TEXT | TN_WRITES(JSON), "; .json is JSON"),
     OPTION_INPUT_FORMAT,
     OPTION_ON_ERROR,
     OPTION_TRAYS,

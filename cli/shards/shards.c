@@ -136,7 +136,9 @@ static const tn_option options[] = {
     NUMBER("row-group", 0, "N", written.row_group, 1, UINT32_MAX,
            "new: in Parquet, plans of a row group (default 1000000)"),
     TEXT("output", 'o', "FILE", written.output,
-         "new: the folder of the set; merge: the database to make; otherwise the file to write"),
+         "new: the folder of the set; merge: the database to make, a .sqlite; otherwise the file to write, a .csv of a "
+         "set in "
+         "CSV"),
     NUMBER("shard", 0, "I", shard, 0, 0, "run: write only shard I; the first is 0"),
     TEXT("part", 0, "I/N", part, "run: write only the I-th of N equal parts of the shards"),
     TEXT("for", 0, "TIME", time, "run: begin no shard that would end after TIME: 90s, 55m, 2h"),

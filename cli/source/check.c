@@ -301,7 +301,7 @@ static const tn_option options[] = {
     FLAG("examples", 0, examples,
          "with --relations: the shortest plan, or the first house, that both match, that only one does"),
     FLAG("json", 0, json, "with --relations or --test: write JSON"),
-    OUTPUT(output, TN_WRITES_TEXT | TN_WRITES(JSON), "with --relations: write to FILE"),
+    OUTPUT(output, TN_WRITES_TEXT | TN_WRITES(JSON), "with --relations: write to FILE; .json is JSON"),
     FLAG("figures", 0, figures,
          "say of a grammar how deep its sentences are, how many there are, and how fast they grow"),
     FLAG("test", 0, with_tests, "also run the file's tests, as `tartan test` does"),
