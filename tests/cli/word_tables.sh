@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Whatever knows the words of .plan has every row of compiler/plan/syntax/words.def: docs/words.md and the editors' colours as they are
+# Whatever knows the words of a notation has every row of its words.def: docs/words.md and the editors' colours as they are
 # made from it; the formatter, suggestions, completion and hovering as they are asked (tests/words.py).
 # Slow under sanitizers.
 set -euo pipefail
