@@ -252,6 +252,9 @@ writes("json", "complete", plans, "? | 7'-9\"", "-l", "base", "--least", "ends",
 for words in (["count"], ["enumerate"], ["sample", "3"], ["best", "2", "--most", "ends"], ["pareto", "--most", "ends", "--least", "wide-ones"],
               ["complete", "? | 7'-9\""]):  # by the ending alone
     files("output", NAME + b"-made.json", words[0], plans, *words[1:], "-l", "base", "-o", NAME + b"-made.json")
+for words in (["check", plans, "--relations"], ["match", plans, lines], ["prune", plans, lines, "-l", "base"],
+              ["vary", houses, "6'2\" open:9'6\" ; vault(3'6\") ; L ; - ; -", "--library", "h"], ["map", grammar, "--random", "3", "--seed", "1"]):
+    files("output", NAME + b"-written.json", *words, "-o", NAME + b"-written.json")
 writes("json", "unrank", plans, "9", "-l", "base", "--json", inches="\"")
 writes("json", "rank", plans, run("unrank", plans, "9", "-l", "base").stdout.decode().rstrip("\n"), "-l", "base", "--json")
 for task in (["-l", "base", "--format", "json"], ["--task", "match", "--input", lines, "--rule", "wide", "--format", "json"],
