@@ -146,7 +146,7 @@ test('files that are not saved count where another uses them', async () => {
     fs.rmSync(folder, {recursive: true});
 });
 
-// Of each notation: a text, what is said of it, its outline, its layout.
+// Of each notation: a text, what is said of it, its outline, its layout, what its first word says.
 const notations = {
     hemls: {
         text: 'A+B+A\nA->A[+B A\n// why\nANGLE 90;',
@@ -159,6 +159,7 @@ const notations = {
         code: 'E0101',
         outline: ['rules', 'attractor', 'attractor', 'fitness size'],
         layout: 'rules "sqare"  # why\nattractor at  1 2   3\nattractor at 10 2.5 3\nfitness size target 8\n',
+        hover: '`rules`: what grows: `rules "square"`',
     },
     bnf: {
         text: '%dialect   ge\n<a> ::= x<c>|\n y',
@@ -168,7 +169,7 @@ const notations = {
     },
 };
 
-for (const [name, {text: content, code, outline, layout}] of Object.entries(notations)) {
+for (const [name, {text: content, code, outline, layout, hover}] of Object.entries(notations)) {
     for (const uri of [`file:///nowhere/a.${name}`, 'untitled:a']) {
         test(`.${name}: diagnostics, outline and formatting (${uri.split(':')[0]})`, async () => {
             await session(uri, content, async (client) => {
@@ -177,7 +178,8 @@ for (const [name, {text: content, code, outline, layout}] of Object.entries(nota
                 assert.deepStrictEqual(symbols.map((item) => item.name), outline);
                 const edits = await client.ask(rpc.DocumentFormattingRequest.type, uri, {options: {tabSize: 2, insertSpaces: true}});
                 assert.strictEqual(apply(content, edits), layout);
-                assert.strictEqual(await client.ask(rpc.HoverRequest.type, uri, {position: {line: 0, character: 0}}), null);
+                const first = await client.ask(rpc.HoverRequest.type, uri, {position: {line: 0, character: 0}});
+                assert.strictEqual(first?.contents.value, hover);
             }, name);
         });
     }
