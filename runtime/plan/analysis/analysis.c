@@ -176,13 +176,13 @@ static uint32_t *list_functions(const tn_plan_analysis *analysis, size_t *count)
     return functions;
 }
 
-void tn_plan_analysis_mark_called(const tn_module *module, uint8_t *reached)
+void tn_plan_analysis_mark_called(const tn_module *module, uint8_t *reached, uint32_t first, uint32_t end)
 {
-    for (size_t f = module->FUNCTION_count; f-- > 0;) {
+    for (uint32_t f = end; f-- > first;) {
         const tn_function_record *function = &module->FUNCTION_records[f];
         for (uint32_t offset = function->code_begin; reached[f] && offset < function->code_end;) {
             tn_instruction code = tn_code_read(module->code, offset);
-            if (code.opcode == TN_OP_CALL || code.opcode == TN_OP_MIRROR)
+            if ((code.opcode == TN_OP_CALL || code.opcode == TN_OP_MIRROR) && code.first >= first)
                 reached[code.first] = 1;
             offset += code.length;
         }
@@ -196,7 +196,7 @@ tn_status tn_plan_analysis_compares(const tn_module *module, uint32_t function, 
     if (!reached)
         return tn_fail_memory(error);
     reached[function] = 1;
-    tn_plan_analysis_mark_called(module, reached);
+    tn_plan_analysis_mark_called(module, reached, 0, module->FUNCTION_count);
     for (size_t f = 0; f < module->FUNCTION_count; f++) {
         const tn_function_record *record = &module->FUNCTION_records[f];
         for (uint32_t offset = record->code_begin; reached[f] && offset < record->code_end;) {
@@ -209,25 +209,53 @@ tn_status tn_plan_analysis_compares(const tn_module *module, uint32_t function, 
     return TN_OK;
 }
 
+/* Adds to a set of rules, as bits. */
+static void add_bits(uint64_t *to, const uint64_t *from, size_t words)
+{
+    for (size_t i = 0; i < words; i++)
+        to[i] |= from[i];
+}
+
+/* made: for each function the rules that it is or is made of, `words` words each. Callees have lower numbers: theirs
+ * are known. */
+static void find_made(const tn_plan_analysis *analysis, uint64_t *made, size_t words)
+{
+    const tn_module *module = analysis->schema->module;
+    for (size_t r = 0; r < analysis->rule_count; r++) {
+        const tn_rule_record *rule = &module->RULE_records[analysis->rules[r].record];
+        made[rule->whole * words + r / 64] |= UINT64_C(1) << (r % 64);
+        made[rule->holds * words + r / 64] |= UINT64_C(1) << (r % 64);
+    }
+    for (size_t f = 0; f < module->FUNCTION_count; f++) {
+        const tn_function_record *function = &module->FUNCTION_records[f];
+        for (uint32_t offset = function->code_begin; offset < function->code_end;) {
+            tn_instruction code = tn_code_read(module->code, offset);
+            if (code.opcode == TN_OP_CALL || code.opcode == TN_OP_MIRROR)
+                add_bits(made + f * words, made + (size_t)code.first * words, words);
+            offset += code.length;
+        }
+    }
+}
+
 static tn_status find_uses(tn_plan_analysis *analysis, tn_error *error)
 {
     const tn_module *module = analysis->schema->module;
-    uint8_t *reached = malloc(module->FUNCTION_count + 1);
-    bool ok = reached != NULL;
+    size_t words = analysis->rule_count / 64 + 1;
+    uint64_t *made = calloc(module->FUNCTION_count + 1, words * sizeof *made);
+    bool ok = made != NULL;
+    if (ok)
+        find_made(analysis, made, words);
     for (size_t r = 0; ok && r < analysis->rule_count; r++) {
         const tn_rule_record *rule = &module->RULE_records[analysis->rules[r].record];
-        analysis->rules[r].uses = calloc(analysis->rule_count / 64 + 1, sizeof *analysis->rules[r].uses);
-        ok = analysis->rules[r].uses != NULL;
-        memset(reached, 0, module->FUNCTION_count + 1);
-        reached[rule->whole] = reached[rule->holds] = 1;
-        tn_plan_analysis_mark_called(module, reached);
-        for (size_t other = 0; ok && other < analysis->rule_count; other++) {
-            const tn_rule_record *record = &module->RULE_records[analysis->rules[other].record];
-            if (other != r && (reached[record->whole] || reached[record->holds]))
-                analysis->rules[r].uses[other / 64] |= UINT64_C(1) << (other % 64);
-        }
+        uint64_t *uses = analysis->rules[r].uses = calloc(words, sizeof *uses);
+        ok = uses != NULL;
+        if (!ok)
+            break;
+        add_bits(uses, made + rule->whole * words, words);
+        add_bits(uses, made + rule->holds * words, words);
+        uses[r / 64] &= ~(UINT64_C(1) << (r % 64));
     }
-    free(reached);
+    free(made);
     return ok ? TN_OK : tn_fail_memory(error);
 }
 
@@ -247,7 +275,7 @@ static tn_status is_looked_at(const tn_plan_analysis *analysis, const tn_rule_re
         for (uint32_t c = 0; is_own_library(analysis, l) && c < library->clause_count; c++)
             reached[module->CLAUSE_records[library->clause_first + c].holds] = 1;
     }
-    tn_plan_analysis_mark_called(module, reached);
+    tn_plan_analysis_mark_called(module, reached, 0, module->FUNCTION_count);
     *looked_at = reached[rule->holds] || reached[rule->whole];
     free(reached);
     return TN_OK;

@@ -72,9 +72,9 @@ tn_status tn_plan_analysis_confirm(const tn_plan_analysis *analysis, tn_shown_pl
 tn_status tn_plan_analysis_give_up(tn_plan_analysis *analysis, uint32_t rule, uint32_t library, const tn_error *why,
                                    tn_error *error);
 
-/* Marks the functions that those marked call, directly or not. (Callees have lower numbers: one pass finds them all.)
- */
-void tn_plan_analysis_mark_called(const tn_module *module, uint8_t *reached);
+/* Of the functions from `first` to before `end` marks those that the marked ones call, directly or not. (Callees have
+ * lower numbers: one pass finds them all.) */
+void tn_plan_analysis_mark_called(const tn_module *module, uint8_t *reached, uint32_t first, uint32_t end);
 
 /* *compares: does the function, or one that it calls, compare sums? Its automaton may then need the library's lengths.
  */

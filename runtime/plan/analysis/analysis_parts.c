@@ -11,23 +11,21 @@ typedef struct item {
     uint32_t holds, file, begin, end;
 } item;
 
-/* An expression may be in the code twice, once for each judgement; it is looked at once. */
-typedef struct places {
-    uint8_t *reached; /* [functions] */
-    tn_key seen;      /* opcode, begin, end; one after another */
-} places;
+/* A specifier or a distance in the code, and the text that it was made from. */
+typedef struct part {
+    tn_source_map_record place;
+    tn_instruction code;
+    uint32_t function, offset;
+    size_t first; /* of those with this text: an expression may be in the code twice, once for each judgement */
+    bool seen;    /* of the first of these: it is looked at once */
+} part;
 
-static bool is_new(places *seen, tn_opcode opcode, const tn_source_map_record *place, bool *fresh)
-{
-    *fresh = true;
-    for (size_t i = 0; i < seen->seen.size; i += 3) {
-        const uint32_t *was = seen->seen.data + i;
-        if (was[0] == (uint32_t)opcode && was[1] == place->begin && was[2] == place->end)
-            *fresh = false;
-    }
-    return !*fresh || (tn_key_push(&seen->seen, opcode) && tn_key_push(&seen->seen, place->begin) &&
-                       tn_key_push(&seen->seen, place->end));
-}
+typedef struct code_parts {
+    part *all; /* by their places */
+    size_t count;
+    const part **chosen; /* [count]: those of the item at hand */
+    uint8_t *reached;    /* [functions] */
+} code_parts;
 
 static tn_plan_analysis_finding *report(tn_plan_analysis *analysis, const item *it, tn_found found, uint32_t offset,
                                         size_t plans)
@@ -143,43 +141,119 @@ static tn_status look_at_distance(tn_plan_analysis *analysis, const item *it, ui
 
 /* ---- all parts */
 
-static tn_status look_at(tn_plan_analysis *analysis, const item *it, places *seen, uint32_t function, uint32_t offset,
-                         const tn_instruction *code, tn_error *error)
+static int compare(uint32_t a, uint32_t b)
 {
-    if (code->opcode != TN_OP_TRAY && code->opcode != TN_OP_DISTANCE)
-        return TN_OK;
-    const tn_source_map_record *place = tn_module_place(analysis->schema->module, offset);
-    bool fresh;
-    if (!place || place->file != it->file || place->begin < it->begin || place->end > it->end)
-        return TN_OK;
-    if (!is_new(seen, code->opcode, place, &fresh))
-        return tn_fail_memory(error);
-    if (!fresh)
-        return TN_OK;
-    return code->opcode == TN_OP_TRAY ? look_at_specifier(analysis, it, (uint32_t)code->first, offset, error)
-                                      : look_at_distance(analysis, it, function, offset, error);
+    return (a > b) - (a < b);
 }
 
-static tn_status look_through(tn_plan_analysis *analysis, const item *it, places *seen, tn_error *error)
+static int by_code(const part *a, const part *b)
 {
-    const tn_module *module = analysis->schema->module;
-    memset(seen->reached, 0, module->FUNCTION_count);
-    seen->reached[it->holds] = 1;
-    tn_plan_analysis_mark_called(module, seen->reached);
+    int order = compare(a->function, b->function);
+    return order ? order : compare(a->offset, b->offset);
+}
+
+static int by_text(const part *a, const part *b)
+{
+    int order = compare(a->place.file, b->place.file);
+    order = order ? order : compare(a->place.begin, b->place.begin);
+    order = order ? order : compare(a->place.end, b->place.end);
+    return order ? order : compare((uint32_t)a->code.opcode, (uint32_t)b->code.opcode);
+}
+
+static int part_order(const void *a, const void *b)
+{
+    int order = by_text(a, b);
+    return order ? order : by_code(a, b);
+}
+
+static int chosen_order(const void *a, const void *b)
+{
+    return by_code(*(const part *const *)a, *(const part *const *)b);
+}
+
+/* How many there are; they go to `all`, if that is not NULL. */
+static size_t list_parts(const tn_module *module, part *all)
+{
+    size_t count = 0;
     for (uint32_t f = 0; f < module->FUNCTION_count; f++) {
         const tn_function_record *function = &module->FUNCTION_records[f];
-        for (uint32_t offset = function->code_begin; seen->reached[f] && offset < function->code_end;) {
+        for (uint32_t offset = function->code_begin; offset < function->code_end;) {
             tn_instruction code = tn_code_read(module->code, offset);
-            tn_status status = look_at(analysis, it, seen, f, offset, &code, error);
-            if (status != TN_OK)
-                return status;
+            bool looked_at = code.opcode == TN_OP_TRAY || code.opcode == TN_OP_DISTANCE;
+            const tn_source_map_record *place = looked_at ? tn_module_place(module, offset) : NULL;
+            if (place && all)
+                all[count] = (part){.place = *place, .code = code, .function = f, .offset = offset};
+            count += place != NULL;
             offset += code.length;
         }
     }
+    return count;
+}
+
+static tn_status parts_init(code_parts *p, const tn_module *module, tn_error *error)
+{
+    *p = (code_parts){.count = list_parts(module, NULL)};
+    p->all = malloc((p->count + 1) * sizeof *p->all);
+    p->chosen = malloc((p->count + 1) * sizeof(const part *));
+    p->reached = malloc(module->FUNCTION_count + 1);
+    if (!p->all || !p->chosen || !p->reached)
+        return tn_fail_memory(error);
+    list_parts(module, p->all);
+    qsort(p->all, p->count, sizeof *p->all, part_order);
+    for (size_t i = 0; i < p->count; i++)
+        p->all[i].first = i > 0 && by_text(&p->all[i - 1], &p->all[i]) == 0 ? p->all[i - 1].first : i;
     return TN_OK;
 }
 
-static tn_status look_at_library(tn_plan_analysis *analysis, uint32_t index, places *seen, tn_error *error)
+static void parts_clear(code_parts *p)
+{
+    free(p->all);
+    free(p->chosen);
+    free(p->reached);
+}
+
+/* Chooses those whose text is within the item, in the order of the code. */
+static size_t choose_parts(code_parts *p, const item *it)
+{
+    size_t low = 0, high = p->count, count = 0;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        const tn_source_map_record *place = &p->all[middle].place;
+        if (place->file < it->file || (place->file == it->file && place->begin < it->begin))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (size_t i = low; i < p->count && p->all[i].place.file == it->file && p->all[i].place.begin <= it->end; i++)
+        if (p->all[i].place.end <= it->end)
+            p->chosen[count++] = &p->all[i];
+    qsort(p->chosen, count, sizeof *p->chosen, chosen_order);
+    return count;
+}
+
+static tn_status look_through(tn_plan_analysis *analysis, const item *it, code_parts *p, tn_error *error)
+{
+    size_t count = choose_parts(p, it);
+    tn_status status = TN_OK;
+    if (count == 0 || p->chosen[0]->function > it->holds)
+        return TN_OK;
+    uint32_t lowest = p->chosen[0]->function;
+    memset(p->reached + lowest, 0, it->holds - lowest + 1);
+    p->reached[it->holds] = 1;
+    tn_plan_analysis_mark_called(analysis->schema->module, p->reached, lowest, it->holds + 1);
+    for (size_t i = 0; status == TN_OK && i < count && p->chosen[i]->function <= it->holds; i++) {
+        const part *one = p->chosen[i];
+        if (!p->reached[one->function] || p->all[one->first].seen)
+            continue;
+        p->all[one->first].seen = true;
+        status = one->code.opcode == TN_OP_TRAY
+                     ? look_at_specifier(analysis, it, (uint32_t)one->code.first, one->offset, error)
+                     : look_at_distance(analysis, it, one->function, one->offset, error);
+    }
+    return status;
+}
+
+static tn_status look_at_library(tn_plan_analysis *analysis, uint32_t index, code_parts *p, tn_error *error)
 {
     const tn_module *module = analysis->schema->module;
     const tn_library_record *library = &module->LIBRARY_records[index];
@@ -187,7 +261,7 @@ static tn_status look_at_library(tn_plan_analysis *analysis, uint32_t index, pla
     for (uint32_t c = 0; status == TN_OK && c < library->clause_count; c++) {
         const tn_clause_record *clause = &module->CLAUSE_records[library->clause_first + c];
         item it = {TN_NO_RECORD, index, clause->holds, clause->file, clause->begin, clause->end};
-        status = look_through(analysis, &it, seen, error);
+        status = look_through(analysis, &it, p, error);
     }
     return status;
 }
@@ -195,20 +269,19 @@ static tn_status look_at_library(tn_plan_analysis *analysis, uint32_t index, pla
 tn_status tn_plan_analysis_parts(tn_plan_analysis *analysis, tn_error *error)
 {
     const tn_module *module = analysis->schema->module;
-    places seen = {.reached = malloc(module->FUNCTION_count + 1)};
-    tn_status status = seen.reached ? TN_OK : tn_fail_memory(error);
+    code_parts p;
+    tn_status status = parts_init(&p, module, error);
     for (size_t r = 0; status == TN_OK && r < analysis->own_count; r++) {
         const tn_rule_record *rule = &module->RULE_records[analysis->rules[r].record];
         item it = {analysis->rules[r].record, TN_NO_RECORD, rule->holds, rule->file, rule->begin, rule->end};
         if (analysis->rules[r].dfa)
-            status = look_through(analysis, &it, &seen, error);
+            status = look_through(analysis, &it, &p, error);
     }
     for (uint32_t l = 0; status == TN_OK && l < module->LIBRARY_count; l++) {
         const tn_library_record *library = &module->LIBRARY_records[l];
         if (library->schema == analysis->schema_index && !(library->flags & TN_IMPORTED))
-            status = look_at_library(analysis, l, &seen, error);
+            status = look_at_library(analysis, l, &p, error);
     }
-    free(seen.reached);
-    free(seen.seen.data);
+    parts_clear(&p);
     return status;
 }
