@@ -60,8 +60,7 @@ typedef struct tn_open_choices {
 
 typedef struct tn_houses_search {
     tn_numbered n;
-    const tn_wishes *wishes;
-    tn_wishes found; /* the same, with units and whole names */
+    tn_wishes found; /* what is wished, with units and whole names */
     tn_plan plan;    /* if one is given */
     tn_house_weights *weights[TN_WEIGHED_MAX];
     tn_house_measures measures;
@@ -71,18 +70,24 @@ typedef struct tn_houses_search {
     uint64_t given, wanted;         /* houses so far, and in all */
 } tn_houses_search;
 
-/* What is searched: the library, one plan of it or NULL, and how many of the best are wanted. */
+/* What is searched: the library, one plan of it or NULL, how many of the best are wanted, and by which measures. */
 typedef struct tn_house_asked {
     const tn_library_asked *subject;
     const char *plan;
     uint64_t wanted;
     tn_houses_aim aim;
+    const tn_wish *by;
+    size_t by_count;
+    uint32_t by_least; /* how many of them there have to be */
 } tn_house_asked;
 
 /* Opens the library and finds the values. What is wrong is said. End it in any case. */
-tn_status tn_houses_search_begin(tn_houses_search *search, tn_session *session, const tn_house_asked *asked,
-                                 const tn_wishes *wishes);
+tn_status tn_houses_search_begin(tn_houses_search *search, tn_session *session, const tn_house_asked *asked);
 void tn_houses_search_end(tn_houses_search *search);
+
+/* Begins a search, has `give` make the answer of them. What is wrong is said. */
+tn_status tn_houses_search_give(tn_session *session, const tn_house_asked *asked,
+                                tn_status (*give)(tn_houses_search *search, tn_reply *answer), tn_reply *answer);
 
 /* The value of measure k at the point at hand, in nanometres to its power. */
 void tn_houses_search_value(const tn_houses_search *search, uint32_t k, mpq_t value);

@@ -9,11 +9,10 @@ static tn_status find_measures(tn_houses_search *s)
 {
     const tn_module *module = s->n.form.module;
     tn_error error;
-    s->found = *s->wishes;
-    for (uint32_t k = 0; k < s->wishes->count; k++) {
+    for (uint32_t k = 0; k < s->found.count; k++) {
         uint32_t measure;
         tn_status status =
-            tn_house_measure_choose(s->n.session->opened, s->wishes->names[k], s->n.record->form, &measure);
+            tn_house_measure_choose(s->n.session->opened, s->found.names[k], s->n.record->form, &measure);
         if (status != TN_OK)
             return status;
         tn_house_measured of = tn_house_measured_of(module, measure);
@@ -22,9 +21,9 @@ static tn_status find_measures(tn_houses_search *s)
         s->found.names[k] = tn_text(module, s->weights[k]->of.name);
         s->found.units[k] = tn_amount_unit_of(s->n.schema, module->SUM_records[of.sum].power);
         s->measures.of[k] = s->weights[k];
-        s->measures.most[k] = s->wishes->most[k];
+        s->measures.most[k] = s->found.most[k];
     }
-    s->measures.count = s->wishes->count;
+    s->measures.count = s->found.count;
     return TN_OK;
 }
 
@@ -32,7 +31,7 @@ static tn_status find_values(tn_houses_search *s, const tn_house_asked *asked)
 {
     tn_session *session = s->n.session;
     tn_houses_what what = {
-        .measures = s->wishes->count ? &s->measures : NULL, .aim = asked->aim, .wanted = asked->wanted};
+        .measures = s->found.count ? &s->measures : NULL, .aim = asked->aim, .wanted = asked->wanted};
     tn_error error;
     if (asked->plan) {
         what.only = s->plan.trays;
@@ -44,12 +43,13 @@ static tn_status find_values(tn_houses_search *s, const tn_house_asked *asked)
     return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }
 
-tn_status tn_houses_search_begin(tn_houses_search *s, tn_session *session, const tn_house_asked *asked,
-                                 const tn_wishes *wishes)
+tn_status tn_houses_search_begin(tn_houses_search *s, tn_session *session, const tn_house_asked *asked)
 {
-    *s = (tn_houses_search){.wishes = wishes, .wanted = asked->wanted};
+    *s = (tn_houses_search){.wanted = asked->wanted};
     mpz_init(s->count);
-    tn_status status = tn_numbered_open_on(&s->n, session, asked->subject, asked->plan, &s->plan);
+    tn_status status = tn_wishes_take(session, asked->by, asked->by_count, asked->by_least, &s->found);
+    if (status == TN_OK)
+        status = tn_numbered_open_on(&s->n, session, asked->subject, asked->plan, &s->plan);
     if (status == TN_OK)
         status = find_measures(s);
     return status == TN_OK ? find_values(s, asked) : status;
@@ -63,6 +63,17 @@ void tn_houses_search_end(tn_houses_search *s)
     free(s->plan.trays);
     tn_numbered_close(&s->n);
     mpz_clear(s->count);
+}
+
+tn_status tn_houses_search_give(tn_session *session, const tn_house_asked *asked,
+                                tn_status (*give)(tn_houses_search *search, tn_reply *answer), tn_reply *answer)
+{
+    tn_houses_search search;
+    tn_status status = tn_houses_search_begin(&search, session, asked);
+    if (status == TN_OK)
+        status = give(&search, answer);
+    tn_houses_search_end(&search);
+    return status;
 }
 
 void tn_houses_search_value(const tn_houses_search *s, uint32_t k, mpq_t value)
@@ -115,7 +126,7 @@ static tn_status give_house(void *context, const tn_house *house, bool *stop, tn
 {
     giving *g = context;
     tn_house same = *house; /* it is not the taker's */
-    for (uint32_t k = 0; k < g->search->wishes->count; k++)
+    for (uint32_t k = 0; k < g->search->found.count; k++)
         tn_houses_search_value(g->search, k, g->values[k]);
     const tn_found_one found = {
         .trays = house->trays, .length = (uint32_t)house->length, .house = &same, .values = g->values};
@@ -145,15 +156,9 @@ tn_status tn_find_best_houses(tn_session *session, const tn_best_request *reques
     const tn_house_asked asked = {.subject = &request->subject,
                                   .plan = request->plan,
                                   .wanted = request->has_count ? request->count : TN_BEST_DEFAULT,
-                                  .aim = TN_HOUSES_LEAST};
-    tn_houses_search search;
-    tn_wishes wishes;
-    tn_status status = tn_wishes_take(session, request->by.items, request->by.count, 1, &wishes);
-    if (status != TN_OK)
-        return status;
-    status = tn_houses_search_begin(&search, session, &asked, &wishes);
-    if (status == TN_OK)
-        status = give(&search, answer);
-    tn_houses_search_end(&search);
-    return status;
+                                  .aim = TN_HOUSES_LEAST,
+                                  .by = request->by.items,
+                                  .by_count = request->by.count,
+                                  .by_least = 1};
+    return tn_houses_search_give(session, &asked, give, answer);
 }

@@ -225,17 +225,11 @@ static tn_status give_houses(tn_houses_search *search, tn_reply *answer)
 
 static tn_status complete_houses(tn_session *session, const tn_complete_request *request, tn_reply *answer)
 {
-    const tn_house_asked asked = {.subject = &request->subject, .aim = TN_HOUSES_COMPLETE};
-    tn_houses_search search;
-    tn_wishes wishes;
-    tn_status status = tn_wishes_take(session, request->by.items, request->by.count, 0, &wishes);
-    if (status != TN_OK)
-        return status;
-    status = tn_houses_search_begin(&search, session, &asked, &wishes);
-    if (status == TN_OK)
-        status = give_houses(&search, answer);
-    tn_houses_search_end(&search);
-    return status;
+    const tn_house_asked asked = {.subject = &request->subject,
+                                  .aim = TN_HOUSES_COMPLETE,
+                                  .by = request->by.items,
+                                  .by_count = request->by.count};
+    return tn_houses_search_give(session, &asked, give_houses, answer);
 }
 
 /* The file was opened with the pattern (tn_questions), whose trays are functions of its module. */

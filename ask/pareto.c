@@ -140,18 +140,14 @@ static tn_status give_houses(tn_houses_search *search, tn_reply *answer)
 
 static tn_status front_of_houses(tn_session *session, const tn_pareto_request *request, tn_reply *answer)
 {
-    const tn_house_asked asked = {
-        .subject = &request->subject, .plan = request->plan, .wanted = UINT64_MAX, .aim = TN_HOUSES_FRONT};
-    tn_houses_search search;
-    tn_wishes wishes;
-    tn_status status = tn_wishes_take(session, request->by.items, request->by.count, 2, &wishes);
-    if (status != TN_OK)
-        return status;
-    status = tn_houses_search_begin(&search, session, &asked, &wishes);
-    if (status == TN_OK)
-        status = give_houses(&search, answer);
-    tn_houses_search_end(&search);
-    return status;
+    const tn_house_asked asked = {.subject = &request->subject,
+                                  .plan = request->plan,
+                                  .wanted = UINT64_MAX,
+                                  .aim = TN_HOUSES_FRONT,
+                                  .by = request->by.items,
+                                  .by_count = request->by.count,
+                                  .by_least = 2};
+    return tn_houses_search_give(session, &asked, give_houses, answer);
 }
 
 tn_status tn_ask_pareto(tn_session *session, const tn_pareto_request *request, tn_reply *answer)

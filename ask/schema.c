@@ -123,33 +123,36 @@ static const char *form_name(const showing *s, uint32_t form)
 
 /* ---- rules */
 
+/* One of plans has a schema, one of houses a form; the other is NULL. */
+static tn_status add_rule(const showing *s, tn_string name, tn_string doc, const char *schema, const char *form,
+                          tn_error *error)
+{
+    tn_shown_rule *to = TN_ADD(shown_rule, s->file->rules, error);
+    if (!to)
+        return TN_MEMORY;
+    to->name = tn_text(s->module, name);
+    set_doc(s, doc, &to->has_doc, &to->doc);
+    to->has_schema = schema != NULL;
+    to->schema = schema;
+    to->has_form = form != NULL;
+    to->form = form;
+    return TN_OK;
+}
+
 static tn_status show_rules(const showing *s, tn_error *error)
 {
-    for (uint32_t i = 0; i < s->module->RULE_count; i++) {
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < s->module->RULE_count; i++) {
         const tn_rule_record *from = &s->module->RULE_records[i];
-        tn_shown_rule *to = is_shown(s, from->flags) ? TN_ADD(shown_rule, s->file->rules, error) : NULL;
-        if (!to && is_shown(s, from->flags))
-            return TN_MEMORY;
-        if (!to)
-            continue;
-        to->name = tn_text(s->module, from->name);
-        set_doc(s, from->doc, &to->has_doc, &to->doc);
-        to->has_schema = true;
-        to->schema = schema_name(s, from->schema);
+        if (is_shown(s, from->flags))
+            status = add_rule(s, from->name, from->doc, schema_name(s, from->schema), NULL, error);
     }
-    for (uint32_t i = 0; i < s->module->HOUSE_RULE_count; i++) {
+    for (uint32_t i = 0; status == TN_OK && i < s->module->HOUSE_RULE_count; i++) {
         const tn_house_rule_record *from = &s->module->HOUSE_RULE_records[i];
-        tn_shown_rule *to = is_shown(s, from->flags) ? TN_ADD(shown_rule, s->file->rules, error) : NULL;
-        if (!to && is_shown(s, from->flags))
-            return TN_MEMORY;
-        if (!to)
-            continue;
-        to->name = tn_text(s->module, from->name);
-        set_doc(s, from->doc, &to->has_doc, &to->doc);
-        to->has_form = true;
-        to->form = form_name(s, from->form);
+        if (is_shown(s, from->flags))
+            status = add_rule(s, from->name, from->doc, NULL, form_name(s, from->form), error);
     }
-    return TN_OK;
+    return status;
 }
 
 /* ---- libraries */
@@ -214,15 +217,35 @@ static tn_status show_libraries(const showing *s, tn_error *error)
 
 /* ---- measures */
 
-/* The unit of values, which the lengths of a schema decide. */
-static tn_status set_unit(const showing *s, uint32_t schema, uint32_t sum, tn_shown_measure *to, tn_error *error)
+/* What the values are in: the lengths of the schema decide. */
+typedef struct valued {
+    uint32_t schema, sum;
+} valued;
+
+static tn_status set_unit(const showing *s, valued of, tn_shown_measure *to, tn_error *error)
 {
     tn_schema *made = NULL;
-    tn_status status = tn_schema_new(s->module, schema, 0, &made, error);
+    tn_status status = tn_schema_new(s->module, of.schema, 0, &made, error);
     if (status == TN_OK)
-        to->unit = tn_amount_unit_name(tn_amount_unit_of(made, s->module->SUM_records[sum].power));
+        to->unit = tn_amount_unit_name(tn_amount_unit_of(made, s->module->SUM_records[of.sum].power));
     tn_schema_free(made);
     return status;
+}
+
+/* As add_rule. */
+static tn_status add_measure(const showing *s, tn_string name, tn_string doc, const char *schema, const char *form,
+                             valued of, tn_error *error)
+{
+    tn_shown_measure *to = TN_ADD(shown_measure, s->file->measures, error);
+    if (!to)
+        return TN_MEMORY;
+    to->name = tn_text(s->module, name);
+    set_doc(s, doc, &to->has_doc, &to->doc);
+    to->has_schema = schema != NULL;
+    to->schema = schema;
+    to->has_form = form != NULL;
+    to->form = form;
+    return set_unit(s, of, to, error);
 }
 
 static tn_status show_measures(const showing *s, tn_error *error)
@@ -230,29 +253,16 @@ static tn_status show_measures(const showing *s, tn_error *error)
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < s->module->MEASURE_count; i++) {
         const tn_measure_record *from = &s->module->MEASURE_records[i];
-        if (!is_shown(s, from->flags))
-            continue;
-        tn_shown_measure *to = TN_ADD(shown_measure, s->file->measures, error);
-        if (!to)
-            return TN_MEMORY;
-        to->name = tn_text(s->module, from->name);
-        set_doc(s, from->doc, &to->has_doc, &to->doc);
-        to->has_schema = true;
-        to->schema = schema_name(s, from->schema);
-        status = set_unit(s, from->schema, from->sum, to, error);
+        if (is_shown(s, from->flags))
+            status = add_measure(s, from->name, from->doc, schema_name(s, from->schema), NULL,
+                                 (valued){from->schema, from->sum}, error);
     }
     for (uint32_t i = 0; status == TN_OK && i < s->module->HOUSE_MEASURE_count; i++) {
         const tn_house_measure_record *from = &s->module->HOUSE_MEASURE_records[i];
-        if (!is_shown(s, from->flags))
-            continue;
-        tn_shown_measure *to = TN_ADD(shown_measure, s->file->measures, error);
-        if (!to)
-            return TN_MEMORY;
-        to->name = tn_text(s->module, from->name);
-        set_doc(s, from->doc, &to->has_doc, &to->doc);
-        to->has_form = true;
-        to->form = form_name(s, from->form);
-        status = set_unit(s, s->module->FORM_records[from->form].schema, from->sum, to, error);
+        uint32_t schema = s->module->FORM_records[from->form].schema;
+        if (is_shown(s, from->flags))
+            status = add_measure(s, from->name, from->doc, NULL, form_name(s, from->form), (valued){schema, from->sum},
+                                 error);
     }
     return status;
 }

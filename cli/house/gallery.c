@@ -234,17 +234,14 @@ static void draw_best(tn_job *job, tn_house_sheet sheet)
     const tn_house_asked asked = {.subject = front ? &front->subject : &best->subject,
                                   .plan = front ? front->plan : best->plan,
                                   .wanted = front ? UINT64_MAX : sheet.wanted,
-                                  .aim = front ? TN_HOUSES_FRONT : TN_HOUSES_LEAST};
+                                  .aim = front ? TN_HOUSES_FRONT : TN_HOUSES_LEAST,
+                                  .by = front ? front->by.items : best->by.items,
+                                  .by_count = front ? front->by.count : best->by.count,
+                                  .by_least = front ? 2 : 1};
     tn_houses_search search;
-    tn_wishes wishes;
     collection c = {.search = &search, .front = front != NULL};
     char what[NOTE_SIZE];
-    tn_status status = tn_wishes_take(&job->session, front ? front->by.items : best->by.items,
-                                      front ? front->by.count : best->by.count, front ? 2 : 1, &wishes);
-    if (!tn_job_answered(job, status))
-        return;
-    if (tn_job_answered(job, tn_houses_search_begin(&search, &job->session, &asked, &wishes)) &&
-        fits(job, &search, &sheet)) {
+    if (tn_job_answered(job, tn_houses_search_begin(&search, &job->session, &asked)) && fits(job, &search, &sheet)) {
         say_aim(&search, front != NULL, what, sizeof what);
         draw_collected(&search.n, &c, &sheet, what);
     }
