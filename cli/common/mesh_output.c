@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "cli/common/endings.h"
+#include "runtime/base/formats.h"
 #include "runtime/mesh/openmesh.h"
 
 tn_out_format tn_out_format_of(const char *path)

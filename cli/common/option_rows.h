@@ -56,7 +56,7 @@
         OPTION_ROW(NAME, LETTER, ARGUMENT, FIELD, tn_option_real, TN_OPTION_REAL, HELP)                                \
     }
 
-/* The file that a command writes, in formats of the set WRITES (endings.h); several files; other files. */
+/* The file that a command writes, in formats of the set WRITES (formats.h); several files; other files. */
 #define OUTPUT(FIELD, WRITES, HELP) WRITTEN("output", 'o', "FILE", FIELD, WRITES, HELP)
 #define OUTPUTS(FIELD, WRITES, HELP)                                                                                   \
     {                                                                                                                  \

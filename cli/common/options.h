@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-#include "cli/common/endings.h"
+#include "runtime/base/formats.h"
 
 typedef struct tn_option_list {
     const char **items;

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/common/endings.h"
+#include "runtime/base/formats.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
 #include "runtime/base/json.h"

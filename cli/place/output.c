@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/common/endings.h"
+#include "runtime/base/formats.h"
 #include "cli/common/mesh_output.h"
 #include "cli/place/placing.h"
 #include "driver/place/shape.h"

@@ -3,7 +3,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "cli/common/endings.h"
+#include "runtime/base/formats.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
 #include "cli/common/progress.h"

@@ -1,5 +1,5 @@
 /* Tells formats by the endings of files' names. */
-#include "cli/common/endings.h"
+#include "runtime/base/formats.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +9,7 @@ static const struct {
     const char *word, *endings;
 } formats[TN_FILE_FORMATS] = {
 #define FORMAT(NAME, WORD, ENDINGS, HOLDS) {WORD, ENDINGS},
-#include "cli/common/endings.def"
+#include "runtime/base/formats.def"
 #undef FORMAT
 };
 

@@ -1,6 +1,6 @@
 /* What the ending of a file's name promises, and which endings a command writes: a column of its table of options. */
-#ifndef TARTAN_CLI_COMMON_ENDINGS_H
-#define TARTAN_CLI_COMMON_ENDINGS_H
+#ifndef TARTAN_BASE_FORMATS_H
+#define TARTAN_BASE_FORMATS_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -9,7 +9,7 @@
 
 typedef enum tn_file_format {
 #define FORMAT(NAME, WORD, ENDINGS, HOLDS) TN_FILE_##NAME,
-#include "cli/common/endings.def"
+#include "runtime/base/formats.def"
 #undef FORMAT
     TN_FILE_FORMATS,
     TN_FILE_OTHER = TN_FILE_FORMATS /* an ending that promises nothing, or none */
