@@ -98,6 +98,17 @@ static void write_number(tn_json *json, const tn_message_member *m)
         tn_json_count(json, "maximum", m->most);
 }
 
+static void write_words(tn_json *json, const char *words)
+{
+    const char *word;
+    size_t size;
+    tn_json_string(json, "type", "string");
+    tn_json_list(json, "enum");
+    while ((word = tn_message_word(&words, &size)) != NULL)
+        tn_json_bytes(json, NULL, word, size);
+    tn_json_list_end(json);
+}
+
 static void write_items(tn_json *json, const char *pattern)
 {
     tn_json_string(json, "type", "array");
@@ -123,6 +134,13 @@ static void write_kind(tn_json *json, const tn_message_member *m)
     case TN_MESSAGE_TEXTS:
     case TN_MESSAGE_OWNEDS:
         write_items(json, NULL);
+        break;
+    case TN_MESSAGE_CHOICE:
+        write_words(json, m->words);
+        break;
+    case TN_MESSAGE_BYTES:
+        tn_json_string(json, "type", "string");
+        tn_json_string(json, "contentEncoding", "base64");
         break;
     case TN_MESSAGE_FLAG:
         tn_json_string(json, "type", "boolean");
@@ -308,9 +326,21 @@ static void write_type_name(const char *name, FILE *out)
     }
 }
 
+/* "a" | "b" */
+static void write_word_types(const char *words, FILE *out)
+{
+    const char *word, *between = "";
+    size_t size;
+    for (; (word = tn_message_word(&words, &size)) != NULL; between = " | ")
+        fprintf(out, "%s\"%.*s\"", between, (int)size, word);
+}
+
 static void write_type(const tn_message_member *m, FILE *out)
 {
     switch (m->kind) {
+    case TN_MESSAGE_CHOICE:
+        write_word_types(m->words, out);
+        break;
     case TN_MESSAGE_FLAG:
         fputs("boolean", out);
         break;
@@ -444,6 +474,8 @@ static void write_row_kind(const tn_message_member *m, FILE *out)
         [TN_MESSAGE_OWNEDS] = "texts",
         [TN_MESSAGE_TRAYS] = "list of objects",
         [TN_MESSAGE_FLAG] = "true or false",
+        [TN_MESSAGE_CHOICE] = "one of",
+        [TN_MESSAGE_BYTES] = "bytes in base64",
         [TN_MESSAGE_COUNT] = "number",
         [TN_MESSAGE_WHOLE] = "number",
         [TN_MESSAGE_REAL] = "decimal number",
@@ -457,6 +489,10 @@ static void write_row_kind(const tn_message_member *m, FILE *out)
     fputs(words[m->kind], out);
     if (m->kind == TN_MESSAGE_COUNT && m->most)
         fprintf(out, ", %" PRIu64 " to %" PRIu64, m->least, m->most);
+    const char *choices = m->words ? m->words : "", *word;
+    size_t size;
+    for (const char *between = " "; (word = tn_message_word(&choices, &size)) != NULL; between = ", ")
+        fprintf(out, "%s`%.*s`", between, (int)size, word);
     if (m->kind == TN_MESSAGE_MAP)
         write_row_kind(valued(m), out);
     else if (m->of)

@@ -110,7 +110,7 @@ def tartan(*words, folder=None):
 def formats():
     """The endings of each format."""
     with open(os.path.join(SOURCE, "runtime/base/formats.def"), encoding="ascii") as table:
-        rows = re.findall(r'^FORMAT\((\w+), "\w*", "([^"]*)", ".*"\)', table.read(), re.M)
+        rows = re.findall(r'^FORMAT\((\w+), "\w*", "([^"]*)", \w+, ".*"\)', table.read(), re.M)
     return [endings.split()[:1] if name == "FOREIGN" else endings.split() for name, endings in rows]
 
 

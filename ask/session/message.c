@@ -110,8 +110,12 @@ static void clear_member(const tn_message_member *m, void *member)
     case TN_MESSAGE_BOXED:
         tn_boxed_free(member);
         break;
+    case TN_MESSAGE_BYTES:
+        free(((tn_bytes *)member)->items);
+        break;
     case TN_MESSAGE_TEXT:
     case TN_MESSAGE_FLAG:
+    case TN_MESSAGE_CHOICE:
     case TN_MESSAGE_COUNT:
     case TN_MESSAGE_WHOLE:
     case TN_MESSAGE_REAL:
@@ -271,6 +275,10 @@ static void write_value(const tn_message_member *m, const char *key, const void 
         text = *(const char *const *)member;
         tn_json_written(json, text, text ? strlen(text) : 0);
         break;
+    case TN_MESSAGE_BYTES:
+        tn_json_base64(json, key, ((const tn_bytes *)member)->items, ((const tn_bytes *)member)->count);
+        break;
+    case TN_MESSAGE_CHOICE: /* no answer has one */
     case TN_MESSAGE_TRAYS:
     case TN_MESSAGE_BOXED:
         break;
@@ -322,6 +330,8 @@ static const char *wanted(tn_message_kind kind)
         return "a list of texts";
     case TN_MESSAGE_FLAG:
         return "true or false";
+    case TN_MESSAGE_REAL:
+        return "a number";
     case TN_MESSAGE_COUNT:
         return "a whole number from 0";
     case TN_MESSAGE_NESTED:
@@ -366,6 +376,48 @@ static tn_status in_bounds(const tn_message_member *m, uint64_t number, tn_error
                    m->least, m->most, number);
 }
 
+/* The first of the words at `words`, with | between them; NULL behind the last one. */
+const char *tn_message_word(const char **words, size_t *size)
+{
+    const char *word = *words;
+    *size = strcspn(word, "|");
+    *words = word + *size + (word[*size] == '|');
+    return *word ? word : NULL;
+}
+
+/* a|b|c: "a, b or c" */
+static tn_status refuse_word(const tn_message_member *m, const char *text, tn_error *error)
+{
+    enum { WORDS_MAX = 40, WORD_SIZE = 32 };
+    char known[WORDS_MAX][WORD_SIZE], list[400];
+    const char *names[WORDS_MAX], *words = m->words, *word;
+    size_t size, count = 0;
+    while (count < WORDS_MAX && (word = tn_message_word(&words, &size)) != NULL) {
+        snprintf(known[count], WORD_SIZE, "%.*s", (int)size, word);
+        names[count] = known[count];
+        count++;
+    }
+    const char *near = tn_nearest(text, names, count);
+    tn_fail(error, TN_INVALID, E_USAGE, "`%s` cannot be `%.60s`", m->name, text);
+    tn_word_list(names, count, list, sizeof list);
+    if (near)
+        tn_error_help(error, "did you mean `%s`?", near);
+    else
+        tn_error_help(error, "it is one of %s", list);
+    return TN_INVALID;
+}
+
+static tn_status read_choice(const tn_message_member *m, const char *text, unsigned *choice, tn_error *error)
+{
+    const char *words = m->words, *word;
+    size_t size;
+    for (*choice = 0; text && (word = tn_message_word(&words, &size)) != NULL; ++*choice)
+        if (strlen(text) == size && strncmp(text, word, size) == 0)
+            return TN_OK;
+    *choice = 0;
+    return text ? refuse_word(m, text, error) : TN_INVALID;
+}
+
 /* TN_INVALID without a sentence if the value is of another type. */
 static tn_status read_value(const tn_message_member *m, json_t *from, void *member, tn_error *error)
 {
@@ -378,6 +430,11 @@ static tn_status read_value(const tn_message_member *m, json_t *from, void *memb
     case TN_MESSAGE_FLAG:
         *(bool *)member = json_is_true(from);
         return json_is_boolean(from) ? TN_OK : TN_INVALID;
+    case TN_MESSAGE_CHOICE:
+        return read_choice(m, json_string_value(from), member, error);
+    case TN_MESSAGE_REAL:
+        *(double *)member = json_number_value(from);
+        return json_is_number(from) ? TN_OK : TN_INVALID;
     case TN_MESSAGE_COUNT:
         *(uint64_t *)member = json_is_integer(from) ? (uint64_t)json_integer_value(from) : 0;
         return json_is_integer(from) && json_integer_value(from) >= 0 ? in_bounds(m, *(uint64_t *)member, error)

@@ -21,6 +21,7 @@ typedef enum tn_message_kind {
     TN_MESSAGE_TEXTS,   /* tn_texts */
     TN_MESSAGE_OWNEDS,  /* tn_owneds */
     TN_MESSAGE_FLAG,    /* bool */
+    TN_MESSAGE_CHOICE,  /* unsigned: which of some words; the first, 0, unless it is given */
     TN_MESSAGE_COUNT,   /* uint64_t */
     TN_MESSAGE_WHOLE,   /* int64_t */
     TN_MESSAGE_REAL,    /* double */
@@ -35,6 +36,7 @@ typedef enum tn_message_kind {
     TN_MESSAGE_WRITTEN, /* char *, to be freed: members of another message, written as JSON already (never spread over
                            lines) */
     TN_MESSAGE_TRAYS,   /* the trays of a plan, among members that are written already */
+    TN_MESSAGE_BYTES,   /* tn_bytes; in JSON a string in base64 */
     TN_MESSAGE_BOXED,   /* tn_boxed: what texts and pictures are made of, and no part of JSON */
 } tn_message_kind;
 
@@ -66,6 +68,12 @@ typedef struct tn_owneds {
     size_t count;
 } tn_owneds;
 
+/* Any bytes, freed with the message. */
+typedef struct tn_bytes {
+    uint8_t *items;
+    size_t count;
+} tn_bytes;
+
 typedef struct tn_exacts {
     mpq_t *items;
     size_t count;
@@ -85,6 +93,7 @@ typedef struct tn_message_member {
     size_t has;                  /* the offset of has_NAME, if it is TN_OPTIONAL, TN_SOMETIMES or TN_NULLABLE */
     const struct tn_message *of; /* of messages: their type */
     uint64_t least, most;        /* of numbers of requests; both are 0 otherwise */
+    const char *words;           /* of a choice, with | between them */
     const char *unit;            /* "" if it has none */
     const char *doc;             /* one sentence */
 } tn_message_member;
@@ -103,6 +112,9 @@ typedef struct tn_message {
     const tn_message_member *members;
     size_t member_count;
 } tn_message;
+
+/* Reads the next of the words of a choice, and goes on behind it; NULL: there is none. It ends after `size` bytes. */
+const char *tn_message_word(const char **words, size_t *size);
 
 /* Zeros and empty lists. Clear it. */
 void tn_message_init(const tn_message *message, void *value);

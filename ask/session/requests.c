@@ -35,6 +35,14 @@
      .has = HAS_##PRESENCE(OWNER, NAME),                                                                               \
      .unit = UNIT,                                                                                                     \
      .doc = DOC},
+#define TN_CHOICE(OWNER, NAME, WORDS, DOC)                                                                             \
+    {.name = #NAME,                                                                                                    \
+     .kind = TN_MESSAGE_CHOICE,                                                                                        \
+     .presence = TN_DEFAULTED,                                                                                         \
+     .offset = offsetof(tn_##OWNER, NAME),                                                                             \
+     .words = WORDS,                                                                                                   \
+     .unit = "",                                                                                                       \
+     .doc = DOC},
 #define TN_OF(OWNER, PRESENCE, KIND, OF, NAME, DOC)                                                                    \
     {.name = #NAME,                                                                                                    \
      .kind = TN_MESSAGE_##KIND,                                                                                        \

@@ -39,6 +39,7 @@ struct tn_session;
 #define TN_TYPE_EXACTS tn_exacts
 #define TN_TYPE_TRAYS char *
 #define TN_TYPE_BOXED tn_boxed
+#define TN_TYPE_BYTES tn_bytes
 
 #define TN_OF_NESTED(OF, NAME) tn_##OF NAME;
 #define TN_OF_PART(OF, NAME) tn_##OF NAME;
@@ -64,6 +65,7 @@ struct tn_session;
 #define TN_MESSAGE(NAME, DOC) struct tn_##NAME {
 #define TN_FIELD(OWNER, PRESENCE, KIND, NAME, UNIT, DOC) TN_HAS_##PRESENCE(NAME) TN_TYPE_##KIND NAME;
 #define TN_NUMBER(OWNER, PRESENCE, NAME, LEAST, MOST, UNIT, DOC) TN_HAS_##PRESENCE(NAME) uint64_t NAME;
+#define TN_CHOICE(OWNER, NAME, WORDS, DOC) unsigned NAME;
 #define TN_OF(OWNER, PRESENCE, KIND, OF, NAME, DOC) TN_HAS_##PRESENCE(NAME) TN_OF_##KIND(OF, NAME)
 #define TN_END(NAME)                                                                                                   \
     }                                                                                                                  \

@@ -33,6 +33,9 @@ typedef struct tn_session {
     /* Takes the plans or houses that are found (found.h); NULL: they are put into the answer. */
     const struct tn_taker *taker;
 
+    /* Takes the files that are made (made.h); NULL: they are put into the answer. */
+    const struct tn_file_taker *files;
+
     tn_ready_library library; /* made ready last, if library.library is not NULL */
     tn_library_options options;
     bool only_one; /* it was asked for without a name */

@@ -1,7 +1,7 @@
 /* tartan draw: plans as a picture sheet, rules as a picture, surfaces shaded. */
 #include "cli/draw/draw.h"
 #include "cli/common/option_rows.h"
-#include "cli/common/subject.h"
+#include "ask/form.h"
 #include "cli/measure/wishes.h"
 #include "cli/mesh/draw_surface.h"
 #include "cli/plan/library_job.h"
@@ -73,7 +73,7 @@ static bool of_houses(const tn_job *job)
 static bool check_use(tn_job *job)
 {
     const tn_draw_settings *s = settings_of(job);
-    const tn_option_use uses[] = {
+    const tn_asked_use uses[] = {
         {s->rules.count > 0, TN_OF_PLANS, "rule"},
         {s->plans.library != NULL, TN_OF_PLANS, "library"},
         {s->sample.given, TN_OF_PLANS, "sample"},
@@ -96,7 +96,7 @@ static bool check_use(tn_job *job)
         {s->sharp, TN_OF_FIELDS, "sharp"},
         {s->open, TN_OF_FIELDS, "open"},
     };
-    if (!tn_job_check_uses(job, uses, sizeof uses / sizeof *uses))
+    if (!tn_job_answered(job, tn_session_check_uses(&job->session, uses, sizeof uses / sizeof *uses)))
         return false;
     if (s->sheet + s->before + s->exploded > 1) {
         tn_job_usage(job, "one picture shows one thing: give one of --sheet, --before and --exploded");
@@ -227,7 +227,7 @@ static int run(const tn_command *command, const tn_settings *common)
         return tn_job_end(&job);
     static void (*const draw[TN_SUBJECT_COUNT])(tn_job *) = {draw_plans, draw_solid, draw_field};
     if (check_use(&job))
-        draw[tn_job_subject(&job)](&job);
+        draw[tn_subject_of(job.opened.module)](&job);
     return tn_job_end(&job);
 }
 

@@ -19,8 +19,8 @@ void tn_job_draw_surface(tn_job *job, const tn_drawn_surface *surface, const tn_
     tn_contour contour = {0};
     tn_error error;
     double *normals = NULL;
-    char note[240];
-    tn_status status = tn_open_field_of(job, surface->name, &open, &error);
+    char note[TN_FORM_NOTE_SIZE];
+    tn_status status = tn_open_field_of(&job->opened, surface->name, &open, &error);
     if (status == TN_OK) {
         tn_contour_options options = {
             .threads = (unsigned)picture->threads, .sharp = surface->sharp, .open = surface->open, .between = true};
@@ -31,9 +31,9 @@ void tn_job_draw_surface(tn_job *job, const tn_drawn_surface *surface, const tn_
         status = tn_field_normals(&open.field, &contour.mesh, contour.spacing, &normals, &error);
     if (status == TN_OK) {
         tn_mesh_picture whole = *picture;
-        tn_job_warn_of_contour(job, &contour, "there the mesh is a wall between samples");
+        tn_field_warn_of_contour(&job->opened, &contour, "there the mesh is a wall between samples");
         tn_job_show(job);
-        tn_mesh_note(job, open.field.record->name, note, sizeof note);
+        tn_form_note(&job->opened, open.field.record->name, note);
         whole.title = picture->title ? picture->title : title_of(&open.field);
         whole.caption = note;
         whole.normals = normals;

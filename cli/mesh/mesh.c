@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "cli/common/option_rows.h"
-#include "cli/common/subject.h"
+#include "ask/form.h"
 #include "runtime/field/normals.h"
 #include "runtime/field/volume.h"
 #include "runtime/geometry/crossing.h"
@@ -65,7 +65,7 @@ static bool check_format(tn_job *job, tn_out_format *format)
 static bool check_use(tn_job *job)
 {
     const tn_mesh_settings *s = tn_mesh_settings_of(job);
-    const tn_option_use uses[] = {
+    const tn_asked_use uses[] = {
         {s->surface != NULL, TN_OF_FIELDS, "surface"},
         {s->grid.given, TN_OF_FIELDS, "grid"},
         {s->points != NULL, TN_OF_FIELDS, "points"},
@@ -84,16 +84,8 @@ static bool check_use(tn_job *job)
         {s->exact, TN_OF_SOLIDS, "exact"},
         {s->max_boxes.given, TN_OF_SOLIDS, "max-boxes"},
     };
-    bool neither = tn_job_subject(job) == TN_SUBJECT_PLANS; /* what is missing is said where it is looked for */
-    return neither || tn_job_check_uses(job, uses, sizeof uses / sizeof *uses);
-}
-
-void tn_mesh_note(const tn_job *job, uint32_t name, char *note, size_t size)
-{
-    const tn_module *module = job->opened.module;
-    const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
-    snprintf(note, size, "%.60s, rules %016" PRIx64 ", %.40s", tn_text(module, name),
-             producer ? (uint64_t)producer->sources_hash : 0, producer ? tn_text(module, producer->version) : "tartan");
+    bool neither = tn_subject_of(job->opened.module) == TN_SUBJECT_PLANS; /* what is missing is said where it is looked for */
+    return neither || tn_job_answered(job, tn_session_check_uses(&job->session, uses, sizeof uses / sizeof *uses));
 }
 
 void tn_mesh_write(tn_job *job, tn_mesh *mesh, const tn_mesh_file *file)
@@ -152,7 +144,7 @@ static void write_stats(const tn_job *job, const tn_open_field *open, const tn_c
 static void warn_of_specks(tn_job *job, const tn_mesh_measures *m)
 {
     if (m->small_parts)
-        tn_job_warn(job, W_FIELD_COARSE, "take a finer --grid to see what they are",
+        tn_field_warn(&job->opened, W_FIELD_COARSE, "take a finer --grid to see what they are",
                     "%u of %u parts are smaller than two cells; the first is at (%.6g, %.6g, %.6g)", m->small_parts,
                     m->parts, m->small_part[0], m->small_part[1], m->small_part[2]);
 }
@@ -176,7 +168,7 @@ static tn_status finish_mesh(tn_job *job, tn_out_format format, tn_contour *cont
 static void warn_of_crossings(tn_job *job, uint64_t crossings)
 {
     if (crossings)
-        tn_job_warn(job, W_FIELD_CROSSING, "take a finer --grid, or leave out --sharp: then no triangles cross",
+        tn_field_warn(&job->opened, W_FIELD_CROSSING, "take a finer --grid, or leave out --sharp: then no triangles cross",
                     "%" PRIu64 " pairs of triangles cross", crossings);
 }
 
@@ -216,7 +208,7 @@ static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_forma
     options.every_sample = options.interpret;
     tn_status status = tn_contour_new(&open->field, &grid, &options, &contour, error);
     if (status == TN_OK) {
-        tn_job_warn_of_contour(job, &contour, "there the mesh is a wall between samples; --jumps open leaves it out");
+        tn_field_warn_of_contour(&job->opened, &contour, "there the mesh is a wall between samples; --jumps open leaves it out");
         status = finish_mesh(job, format, &contour, &measures, error);
     }
     if (status == TN_OK && s->bounds)
@@ -230,8 +222,8 @@ static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_forma
         if (s->stats || s->bounds || s->thickness || s->times || !s->output)
             write_stats(job, open, &contour, &measures, &asked);
         if (s->output) {
-            char note[240];
-            tn_mesh_note(job, open->field.record->name, note, sizeof note);
+            char note[TN_FORM_NOTE_SIZE];
+            tn_form_note(&job->opened, open->field.record->name, note);
             tn_mesh_file file = {format, note, (tn_mesh_unit)open->field.record->unit, &open->field, contour.spacing};
             tn_mesh_write(job, &contour.mesh, &file);
         }
@@ -245,7 +237,7 @@ static void answer_field(tn_job *job, tn_out_format format)
 {
     tn_open_field open = {0};
     tn_error error;
-    tn_status status = tn_open_field_of(job, tn_mesh_settings_of(job)->surface, &open, &error);
+    tn_status status = tn_open_field_of(&job->opened, tn_mesh_settings_of(job)->surface, &open, &error);
     if (status == TN_OK && tn_mesh_settings_of(job)->points)
         tn_mesh_points(job, &open);
     else if (status == TN_OK)

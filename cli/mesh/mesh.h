@@ -2,9 +2,10 @@
 #ifndef TARTAN_CLI_MESH_MESH_H
 #define TARTAN_CLI_MESH_MESH_H
 
+#include "ask/form.h"
 #include "cli/common/job.h"
 #include "cli/common/mesh_output.h"
-#include "cli/mesh/surface.h"
+#include "driver/field/field.h"
 #include "runtime/geometry/measure.h"
 
 typedef struct tn_mesh_settings {
@@ -25,9 +26,6 @@ static inline const tn_mesh_settings *tn_mesh_settings_of(const tn_job *job)
 {
     return (const tn_mesh_settings *)job->settings;
 }
-
-/* One line on how a mesh was made, for its file. */
-void tn_mesh_note(const tn_job *job, uint32_t name, char *note, size_t size);
 
 /* What a mesh's file says beside the mesh. */
 typedef struct tn_mesh_file {

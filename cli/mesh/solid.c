@@ -95,13 +95,13 @@ static tn_status pull_apart(tn_job *job, tn_mesh *mesh, tn_error *error)
 
 static tn_status write_mesh(tn_job *job, uint32_t solid, tn_mesh *mesh, tn_out_format format, tn_error *error)
 {
-    char note[240];
+    char note[TN_FORM_NOTE_SIZE];
     tn_status status = TN_OK;
     if (format == TN_OUT_STL && !tn_mesh_settings_of(job)->exact)
         status = pull_apart(job, mesh, error);
     if (status != TN_OK)
         return status;
-    tn_mesh_note(job, job->opened.module->SOLID_records[solid].name, note, sizeof note);
+    tn_form_note(&job->opened, job->opened.module->SOLID_records[solid].name, note);
     tn_solid_turn_up(mesh);
     tn_mesh_write(job, mesh,
                   &(tn_mesh_file){.format = format,

@@ -15,21 +15,6 @@ enum { ANCESTORS_MAX = 60, NARROW_MAX = 65535 };
 
 /* ---- numbers, as the script reads them */
 
-/* Three bytes in four letters (RFC 4648). */
-static bool put_base64(tn_buffer *out, const uint8_t *bytes, size_t size)
-{
-    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    if (!tn_buffer_reserve(out, (size + 2) / 3 * 4))
-        return false;
-    for (size_t i = 0; i < size; i += 3) {
-        uint32_t three = (uint32_t)bytes[i] << 16 | (i + 1 < size ? (uint32_t)bytes[i + 1] << 8 : 0) |
-                         (i + 2 < size ? bytes[i + 2] : 0);
-        for (size_t k = 0; k < 4; k++)
-            out->data[out->size++] = i + k > size ? '=' : letters[three >> (18 - 6 * k) & 63];
-    }
-    return true;
-}
-
 /* Three numbers, to so many digits. */
 static void put_vector(tn_json *json, const char *key, const double v[3], int digits)
 {
@@ -37,16 +22,6 @@ static void put_vector(tn_json *json, const char *key, const double v[3], int di
     for (int k = 0; k < 3; k++)
         tn_json_rounded(json, NULL, v[k], digits);
     tn_json_list_end(json);
-}
-
-static bool put_bytes(tn_json *json, const char *key, const uint8_t *bytes, size_t size)
-{
-    tn_buffer text = {0};
-    bool good = put_base64(&text, bytes, size);
-    if (good)
-        tn_json_bytes(json, key, text.data, text.size);
-    free(text.data);
-    return good;
 }
 
 /* Little-endian, 2 bytes each or 4. */
@@ -57,9 +32,10 @@ static bool put_indices(tn_json *json, const char *key, const uint32_t *indices,
     for (size_t i = 0; bytes && i < count; i++)
         for (size_t k = 0; k < each; k++)
             bytes[each * i + k] = (uint8_t)(indices[i] >> (8 * k));
-    bool good = bytes && put_bytes(json, key, bytes, each * count);
+    if (bytes)
+        tn_json_base64(json, key, bytes, each * count);
     free(bytes);
-    return good;
+    return bytes != NULL;
 }
 
 /* Each coordinate as a 65,536th of the longest side. */
@@ -81,9 +57,10 @@ static bool put_positions(tn_json *json, const tn_mesh *mesh)
     put_vector(json, "low", low, 9);
     put_vector(json, "extent", extent, 9);
     tn_json_rounded(json, "size", longest, 9);
-    bool good = bytes && put_bytes(json, "p", bytes, 6 * mesh->vertex_count);
+    if (bytes)
+        tn_json_base64(json, "p", bytes, 6 * mesh->vertex_count);
     free(bytes);
-    return good;
+    return bytes != NULL;
 }
 
 static void put_guide(tn_json *json, const tn_guides *guides, const tn_guide *g)

@@ -27,7 +27,7 @@ static tn_span place_of(const tn_solid_record *record)
 tn_status tn_solid_fail(tn_opened *opened, uint32_t solid, const tn_error *error)
 {
     tn_diagnostic *diagnostic = tn_report_error(&opened->compilation.diagnostics, error, NULL, NULL, 0);
-    diagnostic->has_span = true;
+    diagnostic->has_span = error->status != TN_IO; /* of a file that cannot be written the design is not to blame */
     diagnostic->span = place_of(&opened->module->SOLID_records[solid]);
     return error->status;
 }

@@ -5,10 +5,13 @@
 #include <string.h>
 #include <strings.h>
 
+#include "runtime/base/nearest.h"
+
 static const struct {
     const char *word, *endings;
+    enum { CONTENT_TEXT, CONTENT_BINARY } content;
 } formats[TN_FILE_FORMATS] = {
-#define FORMAT(NAME, WORD, ENDINGS, HOLDS) {WORD, ENDINGS},
+#define FORMAT(NAME, WORD, ENDINGS, CONTENT, HOLDS) {WORD, ENDINGS, CONTENT_##CONTENT},
 #include "runtime/base/formats.def"
 #undef FORMAT
 };
@@ -36,6 +39,31 @@ tn_file_format tn_file_format_of(const char *path)
 const char *tn_file_format_word(tn_file_format format)
 {
     return format < TN_FILE_FORMATS ? formats[format].word : "";
+}
+
+bool tn_file_format_is_text(tn_file_format format)
+{
+    return format < TN_FILE_FORMATS && formats[format].content == CONTENT_TEXT;
+}
+
+tn_status tn_file_format_named(const char *word, tn_file_formats among, tn_file_format *format, tn_error *error)
+{
+    const char *words[TN_FILE_FORMATS];
+    char list[300];
+    size_t count = 0;
+    for (int i = 0; i < TN_FILE_FORMATS; i++) {
+        if (!(among >> i & 1) || !formats[i].word[0])
+            continue;
+        words[count++] = formats[i].word;
+        if (strcmp(formats[i].word, word) == 0) {
+            *format = (tn_file_format)i;
+            return TN_OK;
+        }
+    }
+    tn_fail(error, TN_INVALID, E_USAGE, "there is no `%.60s` of this", word);
+    tn_word_list(words, count, list, sizeof list);
+    tn_error_help(error, "it is made as %s", list);
+    return TN_INVALID;
 }
 
 /* ".svg, .png or .pdf": the first ending of each. */

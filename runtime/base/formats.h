@@ -8,7 +8,7 @@
 #include "runtime/base/error.h"
 
 typedef enum tn_file_format {
-#define FORMAT(NAME, WORD, ENDINGS, HOLDS) TN_FILE_##NAME,
+#define FORMAT(NAME, WORD, ENDINGS, CONTENT, HOLDS) TN_FILE_##NAME,
 #include "runtime/base/formats.def"
 #undef FORMAT
     TN_FILE_FORMATS,
@@ -29,6 +29,12 @@ tn_file_format tn_file_format_of(const char *path);
 
 /* What --format calls it; "" where nothing does. */
 const char *tn_file_format_word(tn_file_format format);
+
+/* Is what such files hold text, in UTF-8? */
+bool tn_file_format_is_text(tn_file_format format);
+
+/* The format of that word, if it is one of a set; otherwise TN_INVALID (E0904), with the words that there are. */
+tn_status tn_file_format_named(const char *word, tn_file_formats among, tn_file_format *format, tn_error *error);
 
 /* Is the path one of what is written so? Otherwise TN_INVALID (E0904), with the endings that
  * are. what: is written, "a list of plans". */

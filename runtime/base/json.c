@@ -190,6 +190,23 @@ void tn_json_string(tn_json *json, const char *key, const char *value)
         tn_json_null(json, key);
 }
 
+/* Three bytes in four letters; what is missing of the last three is said by `=`. */
+void tn_json_base64(tn_json *json, const char *key, const uint8_t *bytes, size_t size)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    next(json, key);
+    put(json, "\"", 1);
+    for (size_t i = 0; i < size; i += 3) {
+        uint32_t three = (uint32_t)bytes[i] << 16 | (i + 1 < size ? (uint32_t)bytes[i + 1] << 8 : 0) |
+                         (i + 2 < size ? bytes[i + 2] : 0);
+        char four[4];
+        for (size_t k = 0; k < 4; k++)
+            four[k] = i + k > size ? '=' : letters[three >> (18 - 6 * k) & 63];
+        put(json, four, 4);
+    }
+    put(json, "\"", 1);
+}
+
 void tn_json_bool(tn_json *json, const char *key, bool value)
 {
     next(json, key);

@@ -1,5 +1,5 @@
 /* Opens a surface of a file, and warns of what its contour has. */
-#include "cli/mesh/surface.h"
+#include "driver/field/field.h"
 
 #include <inttypes.h>
 #include <stdarg.h>
@@ -38,16 +38,16 @@ static tn_status no_surface(const tn_opened *opened, const char *name, tn_error 
     return TN_INVALID;
 }
 
-tn_status tn_open_field_of(tn_job *job, const char *name, tn_open_field *open, tn_error *error)
+tn_status tn_open_field_of(const tn_opened *opened, const char *name, tn_open_field *open, tn_error *error)
 {
-    const tn_module *module = job->opened.module;
+    const tn_module *module = opened->module;
     size_t surface = name ? 0 : module->SURFACE_count - 1;
     while (name && surface < module->SURFACE_count &&
            strcmp(tn_text(module, module->SURFACE_records[surface].name), name) != 0)
         surface++;
     if (surface >= module->SURFACE_count)
-        return no_surface(&job->opened, name, error);
-    tn_status status = tn_field_meshes_read(module, &tn_openmesh_reader, job->opened.path, &open->meshes, error);
+        return no_surface(opened, name, error);
+    tn_status status = tn_field_meshes_read(module, &tn_openmesh_reader, opened->path, &open->meshes, error);
     if (status == TN_OK)
         status = tn_field_read(module, (uint32_t)surface, open->meshes.items, &open->field, error);
     return status;
@@ -61,16 +61,16 @@ void tn_open_field_close(tn_open_field *open)
 
 /* ---- what there is to say */
 
-void tn_job_warn(tn_job *job, tn_code code, const char *help, const char *format, ...)
+void tn_field_warn(tn_opened *opened, tn_code code, const char *help, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    tn_diagnostic *d = tn_report_bare_list(tn_job_diagnostics(job), TN_WARNING, code, format, arguments);
+    tn_diagnostic *d = tn_report_bare_list(&opened->compilation.diagnostics, TN_WARNING, code, format, arguments);
     va_end(arguments);
-    tn_help(tn_job_diagnostics(job), d, "%s", help);
+    tn_help(&opened->compilation.diagnostics, d, "%s", help);
 }
 
-static void warn_of_cut(tn_job *job, const tn_contour *contour)
+static void warn_of_cut(tn_opened *opened, const tn_contour *contour)
 {
     static const char *const sides[] = {"low x", "high x", "low y", "high y", "low z", "high z"};
     const char *cut[6];
@@ -82,29 +82,29 @@ static void warn_of_cut(tn_job *job, const tn_contour *contour)
     if (count == 0)
         return;
     tn_word_list(cut, count, list, sizeof list);
-    tn_job_warn(job, W_FIELD_CUT, "take a larger box, if that is not meant", "the box cuts the form at %s", list);
+    tn_field_warn(opened, W_FIELD_CUT, "take a larger box, if that is not meant", "the box cuts the form at %s", list);
 }
 
-void tn_job_warn_of_contour(tn_job *job, const tn_contour *c, const char *jumps)
+void tn_field_warn_of_contour(tn_opened *opened, const tn_contour *c, const char *jumps)
 {
     if (!c->inside)
-        tn_job_warn(job, W_FIELD_EMPTY, "inside is where the field is below 0", "nothing of the box is inside%s",
+        tn_field_warn(opened, W_FIELD_EMPTY, "inside is where the field is below 0", "nothing of the box is inside%s",
                     c->empty ? "" : ", at this grid");
     if (c->missed)
-        tn_job_warn(job, W_FIELD_COARSE, "take a finer --grid to have them whole",
+        tn_field_warn(opened, W_FIELD_COARSE, "take a finer --grid to have them whole",
                     "parts of the form lie between the samples, in %" PRIu64 " cells; (%.6g, %.6g, %.6g) is inside",
                     c->missed, c->missed_at[0], c->missed_at[1], c->missed_at[2]);
     if (!c->outside)
-        tn_job_warn(job, W_FIELD_FULL, "inside is where the field is below 0; turn its sign round for the rest",
+        tn_field_warn(opened, W_FIELD_FULL, "inside is where the field is below 0; turn its sign round for the rest",
                     "all of the box is inside");
     else
-        warn_of_cut(job, c);
+        warn_of_cut(opened, c);
     if (c->no_values)
-        tn_job_warn(job, W_FIELD_NO_VALUE, "what has no value is outside",
+        tn_field_warn(opened, W_FIELD_NO_VALUE, "what has no value is outside",
                     "%" PRIu64 " samples have no value; the first is (%.6g, %.6g, %.6g)", c->no_values, c->no_value[0],
                     c->no_value[1], c->no_value[2]);
     if (c->jumps)
-        tn_job_warn(job, W_FIELD_JUMPS, jumps,
+        tn_field_warn(opened, W_FIELD_JUMPS, jumps,
                     "at %" PRIu64 " vertices the field jumps; the first is (%.6g, %.6g, %.6g)", c->jumps, c->jump[0],
                     c->jump[1], c->jump[2]);
 }

@@ -1,8 +1,8 @@
-/* A surface of the file that a command has open: mesh, slice and draw work on one. */
-#ifndef TARTAN_CLI_MESH_SURFACE_H
-#define TARTAN_CLI_MESH_SURFACE_H
+/* A surface of a file that is open, and what there is to say of its contour. */
+#ifndef TARTAN_DRIVER_FIELD_FIELD_H
+#define TARTAN_DRIVER_FIELD_FIELD_H
 
-#include "cli/common/job.h"
+#include "driver/open/open.h"
 #include "runtime/field/contour.h"
 #include "runtime/field/meshes.h"
 
@@ -13,15 +13,15 @@ typedef struct tn_open_field {
 } tn_open_field;
 
 /* The surface of this name, or (NULL) the last of the file. */
-tn_status tn_open_field_of(tn_job *job, const char *name, tn_open_field *open, tn_error *error);
+tn_status tn_open_field_of(const tn_opened *opened, const char *name, tn_open_field *open, tn_error *error);
 void tn_open_field_close(tn_open_field *open);
 
 /* Adds a warning that has no place in the file. */
-void tn_job_warn(tn_job *job, tn_code code, const char *help, const char *format, ...)
+void tn_field_warn(tn_opened *opened, tn_code code, const char *help, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
 /* Warns where nothing or everything is inside, where the box cuts the form, of samples without value, and of
  * jumps; `jumps` says what is there. */
-void tn_job_warn_of_contour(tn_job *job, const tn_contour *contour, const char *jumps);
+void tn_field_warn_of_contour(tn_opened *opened, const tn_contour *contour, const char *jumps);
 
 #endif

@@ -1,0 +1,24 @@
+/* Puts the files that a question makes where -o says. */
+#ifndef TARTAN_CLI_COMMON_MADE_OUTPUTS_H
+#define TARTAN_CLI_COMMON_MADE_OUTPUTS_H
+
+#include "ask/made.h"
+#include "cli/common/job.h"
+
+typedef struct tn_made_outputs {
+    tn_job *job;
+    const char *const *paths; /* borrowed; of the files, in the order in which they are made */
+    size_t count, next;
+    bool folder;     /* the one path is a folder, and each file has a name in it */
+    char *in_folder; /* the path of the file that is open there; owned */
+    tn_output output;
+    tn_file_taker taker;
+} tn_made_outputs;
+
+/* From now on files that questions of the job's session make go there. The folder is made with its first file. */
+void tn_job_files(tn_job *job, tn_made_outputs *outputs, const char *const *paths, size_t count, bool folder);
+
+/* No longer. */
+void tn_job_files_end(tn_made_outputs *outputs);
+
+#endif

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""Holds the files that questions make to those that commands write: ask_files.py PROGRAM TARTAN [SCHEMA]
+
+PROGRAM asks through the C interface (ask_interface.c). Each answer's files have the bytes of those that the command writes by the same engines,
+and what the command refuses, the question does, with the same sentence. With SCHEMA, answers follow it, too."""
+import base64
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+# Question: file, request, and the command's words behind the file's name. -o names a file in an empty folder; what is written to a folder (a / at
+# its end) has the names that the answer says.
+ASKED = {
+    "slice": [
+        ("stdlib/table.solid", {"layer": 3}, "--layer 3 -o a.svg"),
+        ("stdlib/table.solid", {"layer": 0.5, "format": "cli", "each": True}, "--layer 0.5 --format cli -o layers/"),
+        ("stdlib/table.solid", {"layer": 30}, "--layer 30 -o a.svg"),
+        ("stdlib/table.solid", {"layer": 3, "grid": 8}, "--layer 3 --grid 8 -o a.svg"),
+        ("stdlib/table.solid", {"layer": 3, "solid": "tble"}, "--layer 3 --solid tble -o a.svg"),
+        ("tests/cli/files/ball.field", {"layer": 1.5, "format": "dxf", "grid": 9, "threads": 1}, "--layer 1.5 --grid 9 --threads 1 -o a.dxf"),
+        ("tests/cli/files/ball.field", {"layer": 1.5, "engine": "vm"}, "--layer 1.5 --engine vm -o a.svg"),
+        ("tests/cli/files/ball.field", {"layer": 1.5, "surface": "bal"}, "--layer 1.5 --surface bal -o a.svg"),
+        ("stdlib/terrace.plan", {"layer": 1}, "--layer 1 -o a.svg"),
+    ],
+}
+
+
+def first_error(said):
+    """The sentence of the first error that a command says."""
+    found = re.search(r"^(?:.*: )?error(?:\[E\d+\])?: (.*)$", said, re.M)
+    return "error " + found[1] if found else said
+
+
+def asked_of(program, question, file, request):
+    done = subprocess.run([program, "stdlib", file, question, json.dumps(request)], capture_output=True, text=True, check=False)
+    return done.stdout.rstrip("\n")
+
+
+def written_by(tartan, question, file, words, folder):
+    """The bytes of each file that the command writes, by its name there; or what it says is wrong."""
+    words = words.split(" ")
+    words = [os.path.join(folder, word) if before == "-o" else word.replace("_", " ") for before, word in zip(["", *words], words)]
+    done = subprocess.run([tartan, question.replace("_", "-"), file, *words], capture_output=True, text=True, check=False)
+    if done.returncode and not os.listdir(folder):
+        return first_error(done.stderr), []
+    found = {}
+    for place, _, names in os.walk(folder):
+        for name in names:
+            path = os.path.join(place, name)
+            with open(path, "rb") as opened:
+                found[os.path.relpath(path, folder)] = opened.read()
+    return found, [os.path.relpath(word, folder) for before, word in zip(["", *words], words) if before == "-o"]
+
+
+def content(file):
+    return file["text"].encode() if "text" in file else base64.b64decode(file["base64"])
+
+
+def differs(answer, written, names):
+    """What is wrong with the files of an answer, or None."""
+    if isinstance(written, str) or answer.startswith("error"):
+        return None if written == answer else f"the command says {written!r:.300}, the answer is {answer:.300}"
+    files = json.loads(answer)["files"]
+    if len(files) != len(written):
+        return f"{len(files)} files, and the command writes {sorted(written)}"
+    for i, file in enumerate(files):
+        name = os.path.join(names[0], file["name"]) if "name" in file else names[i]
+        if written.get(os.path.normpath(name)) != content(file):
+            return f"{name} has other bytes"
+    return None
+
+
+def main():
+    program, tartan = sys.argv[1:3]
+    validators = None
+    if len(sys.argv) > 3:
+        import jsonschema
+
+        with open(sys.argv[3], encoding="utf-8") as opened:
+            schema = json.load(opened)
+        validators = {question: jsonschema.Draft202012Validator({"$defs": schema["$defs"], **schema["answers"][question]}) for question in ASKED}
+        requests = {question: jsonschema.Draft202012Validator({"$defs": schema["$defs"], **schema["requests"][question]}) for question in ASKED}
+    wrong = []
+    for question, rows in ASKED.items():
+        for file, request, words in rows:
+            with tempfile.TemporaryDirectory() as folder:
+                answer = asked_of(program, question, file, request)
+                found = differs(answer, *written_by(tartan, question, file, words, folder))
+            if not found and validators and not answer.startswith("error"):
+                found = "; ".join(error.message[:200] for error in validators[question].iter_errors(json.loads(answer)))
+                found += "; ".join(error.message[:200] for error in requests[question].iter_errors(request))
+            if found:
+                wrong.append(f"{question} {file} {request}: {found}")
+    print("\n".join(wrong) or "fine")
+
+
+if __name__ == "__main__":
+    main()
