@@ -4,7 +4,7 @@
 #include <inttypes.h>
 #include <string.h>
 
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "ask/session/requests.h"
 
 /* Calls `use` with each message that the question may be answered with. */

@@ -1,5 +1,5 @@
 /* The table of questions: what requests.def lists. */
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "api/compiler/compile.h"
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "ask/session/session.h"
 #include "include/tartan/ask.h"
 #include "runtime/base/file.h"

@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_COMMON_MADE_OUTPUTS_H
 #define TARTAN_CLI_COMMON_MADE_OUTPUTS_H
 
-#include "ask/made.h"
+#include "ask/session/made.h"
 #include "cli/common/job.h"
 
 typedef struct tn_made_outputs {

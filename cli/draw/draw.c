@@ -1,7 +1,7 @@
 /* tartan draw: plans as a picture sheet, rules as a picture, surfaces shaded. */
 #include "cli/draw/draw.h"
+#include "ask/form/form.h"
 #include "cli/common/option_rows.h"
-#include "ask/form.h"
 #include "cli/measure/wishes.h"
 #include "cli/mesh/draw_surface.h"
 #include "cli/plan/library_job.h"

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/found.h"
-#include "ask/questions.h"
+#include "ask/plan/found.h"
+#include "ask/session/questions.h"
 #include "cli/draw/draw.h"
 #include "cli/measure/best_sheet.h"
 #include "cli/plan/sheet.h"

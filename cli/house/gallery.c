@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/best.h"
+#include "ask/plan/best.h"
 #include "cli/house/houses.h"
 #include "driver/house/change_text.h"
 #include "driver/open/digits.h"

@@ -1,7 +1,7 @@
 /* tartan vary: what else a house could be: each other value of one choice with which it stays in its library. */
 #include <string.h>
 
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
 

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "driver/open/digits.h"
 
 static bool begins(void *context, tn_found_of *of)

@@ -1,7 +1,7 @@
 /* tartan complete: what may still be chosen in an open plan. */
 #include <stdlib.h>
 
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/measure/wishes.h"
 #include "driver/open/digits.h"

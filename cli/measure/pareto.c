@@ -1,7 +1,7 @@
 /* tartan pareto: lists the best trade-offs of two or three measures. */
 #include <stdlib.h>
 
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/measure/wishes.h"
 #include "driver/measure/front.h"

@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_MEASURE_WISHES_H
 #define TARTAN_CLI_MEASURE_WISHES_H
 
-#include "ask/best.h"
+#include "ask/plan/best.h"
 #include "cli/plan/library_job.h"
 
 /* Room for the measures of --least, --most and so on. */

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/form/form.h"
 #include "cli/common/option_rows.h"
-#include "ask/form.h"
 #include "runtime/field/normals.h"
 #include "runtime/field/volume.h"
 #include "runtime/geometry/crossing.h"
@@ -84,7 +84,8 @@ static bool check_use(tn_job *job)
         {s->exact, TN_OF_SOLIDS, "exact"},
         {s->max_boxes.given, TN_OF_SOLIDS, "max-boxes"},
     };
-    bool neither = tn_subject_of(job->opened.module) == TN_SUBJECT_PLANS; /* what is missing is said where it is looked for */
+    bool neither =
+        tn_subject_of(job->opened.module) == TN_SUBJECT_PLANS; /* what is missing is said where it is looked for */
     return neither || tn_job_answered(job, tn_session_check_uses(&job->session, uses, sizeof uses / sizeof *uses));
 }
 
@@ -145,8 +146,8 @@ static void warn_of_specks(tn_job *job, const tn_mesh_measures *m)
 {
     if (m->small_parts)
         tn_field_warn(&job->opened, W_FIELD_COARSE, "take a finer --grid to see what they are",
-                    "%u of %u parts are smaller than two cells; the first is at (%.6g, %.6g, %.6g)", m->small_parts,
-                    m->parts, m->small_part[0], m->small_part[1], m->small_part[2]);
+                      "%u of %u parts are smaller than two cells; the first is at (%.6g, %.6g, %.6g)", m->small_parts,
+                      m->parts, m->small_part[0], m->small_part[1], m->small_part[2]);
 }
 
 /* Warns of parts that the grid is too coarse for, then reworks the mesh as the options say: what is measured, is what
@@ -168,8 +169,9 @@ static tn_status finish_mesh(tn_job *job, tn_out_format format, tn_contour *cont
 static void warn_of_crossings(tn_job *job, uint64_t crossings)
 {
     if (crossings)
-        tn_field_warn(&job->opened, W_FIELD_CROSSING, "take a finer --grid, or leave out --sharp: then no triangles cross",
-                    "%" PRIu64 " pairs of triangles cross", crossings);
+        tn_field_warn(&job->opened, W_FIELD_CROSSING,
+                      "take a finer --grid, or leave out --sharp: then no triangles cross",
+                      "%" PRIu64 " pairs of triangles cross", crossings);
 }
 
 static tn_status prove_volume(const tn_open_field *open, const tn_field_grid *grid, double proven[2], tn_error *error)
@@ -208,7 +210,8 @@ static tn_status mesh_field(tn_job *job, const tn_open_field *open, tn_out_forma
     options.every_sample = options.interpret;
     tn_status status = tn_contour_new(&open->field, &grid, &options, &contour, error);
     if (status == TN_OK) {
-        tn_field_warn_of_contour(&job->opened, &contour, "there the mesh is a wall between samples; --jumps open leaves it out");
+        tn_field_warn_of_contour(&job->opened, &contour,
+                                 "there the mesh is a wall between samples; --jumps open leaves it out");
         status = finish_mesh(job, format, &contour, &measures, error);
     }
     if (status == TN_OK && s->bounds)

@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_MESH_MESH_H
 #define TARTAN_CLI_MESH_MESH_H
 
-#include "ask/form.h"
+#include "ask/form/form.h"
 #include "cli/common/job.h"
 #include "cli/common/mesh_output.h"
 #include "driver/field/field.h"

@@ -2,7 +2,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
 
@@ -61,20 +61,19 @@ static bool choose_format(tn_job *job, unsigned *format)
 static void slice(tn_job *job, unsigned format)
 {
     const slice_settings *s = settings_of(job);
-    const tn_slice_request request = {.layer = s->layer.value,
-                                      .format = format,
-                                      .each = is_folder(s->output),
-                                      .field = {.surface = s->surface,
-                                                .has_grid = s->grid.given,
-                                                .grid = s->grid.value,
-                                                .has_max_samples = s->max_samples.given,
-                                                .max_samples = s->max_samples.value,
-                                                .engine = (unsigned)s->engine,
-                                                .has_threads = s->threads.given,
-                                                .threads = s->threads.value},
-                                      .solid = {.solid = s->solid,
-                                                .has_max_boxes = s->max_boxes.given,
-                                                .max_boxes = s->max_boxes.value}};
+    const tn_slice_request request = {
+        .layer = s->layer.value,
+        .format = format,
+        .each = is_folder(s->output),
+        .field = {.surface = s->surface,
+                  .has_grid = s->grid.given,
+                  .grid = s->grid.value,
+                  .has_max_samples = s->max_samples.given,
+                  .max_samples = s->max_samples.value,
+                  .engine = (unsigned)s->engine,
+                  .has_threads = s->threads.given,
+                  .threads = s->threads.value},
+        .solid = {.solid = s->solid, .has_max_boxes = s->max_boxes.given, .max_boxes = s->max_boxes.value}};
     tn_made_outputs outputs;
     tn_reply answer;
     tn_job_files(job, &outputs, &s->output, 1, request.each);

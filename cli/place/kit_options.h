@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_PLACE_KIT_OPTIONS_H
 #define TARTAN_CLI_PLACE_KIT_OPTIONS_H
 
-#include "ask/kit.h"
+#include "ask/place/kit.h"
 #include "cli/common/job.h"
 
 typedef struct tn_kit_options {
@@ -14,7 +14,7 @@ typedef struct tn_kit_options {
 
 /* Rows for commands that embed tn_kit_options as `kit`. verb: what is done with the buildings. */
 #define OPTIONS_KIT(verb)                                                                                              \
-    NUMBER("parts", 0, "N", kit.parts, 1, TN_COUNT_PARTS_MAX, "of a kit: " verb " the buildings of N parts"),            \
+    NUMBER("parts", 0, "N", kit.parts, 1, TN_COUNT_PARTS_MAX, "of a kit: " verb " the buildings of N parts"),          \
         LIST("part", 0, "NAME", kit.kinds, "of a kit: only of these parts; may be repeated (default: all)"),           \
         TEXT("inside", 0, "MODEL", kit.inside,                                                                         \
              "of a kit: " verb " those inside of the space of this model, each where it stands"),                      \

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/option_rows.h"
 #include "cli/place/kit_options.h"

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/diff.h"
-#include "ask/questions.h"
+#include "ask/plan/diff.h"
+#include "ask/session/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/diff_text.h"

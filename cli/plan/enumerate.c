@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/place/enumerate_kit.h"
 #include "cli/plan/found_rows.h"

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/explain.h"
-#include "ask/questions.h"
+#include "ask/plan/explain.h"
+#include "ask/session/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/house/judged.h"
 #include "cli/plan/explain_text.h"

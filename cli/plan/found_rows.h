@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_PLAN_FOUND_ROWS_H
 #define TARTAN_CLI_PLAN_FOUND_ROWS_H
 
-#include "ask/found.h"
+#include "ask/plan/found.h"
 #include "cli/common/row_output.h"
 #include "cli/plan/library_job.h"
 

@@ -1,5 +1,5 @@
 /* tartan match: which rules each plan matches. */
-#include "ask/match.h"
+#include "ask/plan/match.h"
 #include "cli/common/option_rows.h"
 #include "cli/house/judged.h"
 #include "cli/plan/library_job.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/enumerate.h"
+#include "ask/plan/enumerate.h"
 #include "cli/common/interrupt.h"
 #include "driver/open/digits.h"
 #include "driver/plan/made.h"

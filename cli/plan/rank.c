@@ -2,7 +2,7 @@
 #include <stdio.h>
 
 #include "ask/house/numbered.h"
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/library_job.h"
 

@@ -2,7 +2,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/found_rows.h"
 #include "cli/plan/new_set.h"

@@ -2,7 +2,7 @@
 #include <inttypes.h>
 #include <string.h>
 
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
 

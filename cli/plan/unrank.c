@@ -1,6 +1,6 @@
 /* tartan unrank: the plan at a place in its library. */
 #include "ask/house/numbered.h"
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/library_job.h"
 

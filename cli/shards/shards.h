@@ -2,7 +2,7 @@
 #ifndef TARTAN_CLI_SHARDS_SHARDS_H
 #define TARTAN_CLI_SHARDS_SHARDS_H
 
-#include "ask/match.h"
+#include "ask/plan/match.h"
 #include "cli/plan/found_rows.h"
 #include "cli/plan/plan_input.h"
 #include "driver/plan/matched.h"

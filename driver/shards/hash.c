@@ -8,7 +8,7 @@
 
 #define XXH_INLINE_ALL
 #include "runtime/base/file_error.h"
-#include "runtime/base/hash_text.h"
+#include "runtime/plan/library/hash_text.h"
 
 enum { CHUNK = 1 << 16 };
 

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <xxhash.h>
 
-#include "runtime/base/select_nth.h"
+#include "runtime/geometry/select_nth.h"
 #include "runtime/numeric/numeric.h"
 
 #define LEAF_TRIANGLES 4u

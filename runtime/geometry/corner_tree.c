@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "runtime/base/select_nth.h"
+#include "runtime/geometry/select_nth.h"
 
 #define LEAF 8u /* corners of a leaf: looking at them takes about as long as looking at two more nodes */
 

@@ -1,5 +1,5 @@
 /* A toy question: twice a number. */
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "ask/session/requests.h"
 #include "ask/session/session.h"
 

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "ask/questions.h"
+#include "ask/session/questions.h"
 #include "ask/session/requests.h"
 #include "runtime/base/bytes.h"
 #include "runtime/genome/settings.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
-#include "runtime/base/select_nth.h"
+#include "runtime/geometry/select_nth.h"
 
 #define LEAF 8u /* boxes of a leaf: looking at them takes about as long as looking at two more nodes */
 

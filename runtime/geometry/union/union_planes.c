@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/select_nth.h"
+#include "runtime/geometry/select_nth.h"
 #include "runtime/geometry/union/box_tree.h"
 #include "runtime/geometry/union/union_parts.h"
 

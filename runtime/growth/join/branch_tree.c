@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "runtime/base/select_nth.h"
+#include "runtime/geometry/select_nth.h"
 
 #define LEAF 8u
 

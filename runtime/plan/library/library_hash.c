@@ -9,8 +9,8 @@
 #include <string.h>
 
 #define XXH_INLINE_ALL
-#include "runtime/base/hash_text.h"
 #include "runtime/base/random.h"
+#include "runtime/plan/library/hash_text.h"
 #include "runtime/plan/library/library_data.h"
 
 __extension__ typedef unsigned __int128 wide;

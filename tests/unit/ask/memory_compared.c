@@ -7,8 +7,8 @@
 
 #include <cmocka.h>
 
-#include "ask/diff.h"
 #include "ask/house/compared.h"
+#include "ask/plan/diff.h"
 #include "tests/support/same_or_memory.h"
 #include "tests/support/test_house.h"
 

@@ -1,0 +1,163 @@
+/* best: the best plans, or houses, by measures, in their order. */
+#include "ask/plan/best.h"
+
+#include <stdlib.h>
+
+#include "ask/session/questions.h"
+#include "runtime/plan/library/ranking.h"
+#include "runtime/plan/measure/best.h"
+
+/* ---- measures */
+
+tn_status tn_wishes_take(tn_session *session, const tn_wish *items, size_t count, uint32_t least, tn_wishes *wishes)
+{
+    *wishes = (tn_wishes){0};
+    if (count < least || count > TN_WEIGHED_MAX)
+        return tn_session_refuse(session, "name them with --least MEASURE or --most MEASURE",
+                                 "%s measures to go by: %u to %d are needed", count < least ? "too few" : "too many",
+                                 least, TN_WEIGHED_MAX);
+    for (size_t k = 0; k < count; k++) {
+        wishes->names[k] = items[k].measure;
+        wishes->most[k] = items[k].most;
+    }
+    wishes->count = (uint32_t)count;
+    return TN_OK;
+}
+
+tn_status tn_wishes_of_plans(tn_session *session, const tn_ready_library *ready, const tn_wish *items, size_t count,
+                             uint32_t least, tn_wishes *wishes)
+{
+    const tn_module *module = session->opened->module;
+    tn_status status = tn_wishes_take(session, items, count, least, wishes);
+    for (uint32_t k = 0; status == TN_OK && k < wishes->count; k++) {
+        status = tn_measure_choose(session->opened, wishes->names[k], ready->record->schema, &wishes->measures[k]);
+        if (status != TN_OK)
+            return status;
+        const tn_measure_record *measure = &module->MEASURE_records[wishes->measures[k]];
+        wishes->names[k] = tn_text(module, measure->name);
+        wishes->units[k] = tn_amount_unit_of(ready->schema, module->SUM_records[measure->sum].power);
+    }
+    return status;
+}
+
+void tn_wishes_room(mpq_t values[TN_WEIGHED_MAX])
+{
+    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+        mpq_init(values[k]);
+}
+
+void tn_wishes_clear(mpq_t values[TN_WEIGHED_MAX])
+{
+    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+        mpq_clear(values[k]);
+}
+
+char *tn_wish_text(const tn_wishes *wishes, uint32_t k, const mpq_t value)
+{
+    tn_buffer text = {0};
+    if (tn_amount_write(wishes->units[k], value, &text))
+        return text.data;
+    free(text.data);
+    return NULL;
+}
+
+/* ---- plans */
+
+typedef struct searching {
+    tn_session *session;
+    const tn_ready_library *ready;
+    const tn_best_request *request;
+    tn_wishes wishes;
+    tn_weighed *weighed;
+    tn_best *best;
+    tn_ranking *ranking;
+    tn_tray *trays;
+    mpq_t values[TN_WEIGHED_MAX];
+} searching;
+
+static tn_status prepare(searching *s, tn_error *error)
+{
+    const tn_library *library = s->ready->library;
+    tn_status status = tn_weighed_new(library, s->wishes.measures, s->wishes.count, &s->weighed, error);
+    if (status == TN_OK)
+        status = tn_best_new(s->weighed, s->wishes.most, &s->best, error);
+    if (status == TN_OK)
+        status = tn_ranking_new(library, &s->ranking, error);
+    s->trays = malloc(sizeof *s->trays * ((size_t)tn_library_max(library) + 1));
+    return status != TN_OK || s->trays ? status : tn_fail_memory(error);
+}
+
+static void clear(searching *s)
+{
+    tn_ranking_free(s->ranking);
+    tn_best_free(s->best);
+    tn_weighed_free(s->weighed);
+    tn_wishes_clear(s->values);
+    free(s->trays);
+}
+
+/* values: in steps of each measure. */
+static tn_status give_plan(searching *s, tn_finds *finds, uint32_t length, const int64_t *values, tn_error *error)
+{
+    for (uint32_t k = 0; k < s->wishes.count; k++) {
+        mpq_set_si(s->values[k], values[k], 1);
+        mpq_mul(s->values[k], s->values[k], tn_weighed_unit(s->weighed, k));
+    }
+    const tn_found_one found = {.rank = tn_ranking_next(s->ranking, s->trays, length),
+                                .trays = s->trays,
+                                .length = length,
+                                .values = s->values};
+    return tn_finds_give(finds, &found, error);
+}
+
+static tn_status give_plans(searching *s, tn_finds *finds, tn_error *error)
+{
+    const tn_best_request *r = s->request;
+    uint64_t count = r->has_count ? r->count : TN_BEST_DEFAULT;
+    bool found = true;
+    tn_status status = TN_OK;
+    for (uint64_t given = 0; status == TN_OK && found && given < count;) {
+        int64_t values[TN_WEIGHED_MAX];
+        uint32_t length;
+        if (given == 0) /* the first takes longest; from then on plans are given */
+            tn_session_begins(s->session, "looking for the best");
+        status = tn_best_next(s->best, s->trays, &length, values, &found, error);
+        if (given == 0)
+            tn_session_ends(s->session);
+        if (status != TN_OK || !found || (r->mirror && !tn_library_mirror_first(s->ready->library, s->trays, length)))
+            continue;
+        status = give_plan(s, finds, length, values, error);
+        given++;
+    }
+    return status;
+}
+
+static tn_status best_plans(tn_session *session, const tn_best_request *request, tn_reply *answer)
+{
+    searching s = {.session = session, .request = request};
+    tn_error error;
+    tn_status status = tn_session_library(session, &request->subject, &s.ready);
+    if (status == TN_OK)
+        status = tn_wishes_of_plans(session, s.ready, request->by.items, request->by.count, 1, &s.wishes);
+    if (status != TN_OK)
+        return status;
+    tn_found_of of = {.plans = s.ready, .wishes = &s.wishes};
+    tn_finds finds = {.session = session, .of = &of, .answer = answer, .lines = request->lines};
+    tn_wishes_room(s.values);
+    status = prepare(&s, &error);
+    if (status == TN_OK)
+        status = tn_finds_begin(&finds, &error);
+    if (status == TN_OK && !finds.ended)
+        status = give_plans(&s, &finds, &error);
+    clear(&s);
+    return tn_finds_end(&finds, status, &error);
+}
+
+tn_status tn_ask_best(tn_session *session, const tn_best_request *request, tn_reply *answer)
+{
+    *answer = (tn_reply){0};
+    if (!request->plan && !tn_session_of_houses(session, &request->subject))
+        return best_plans(session, request, answer);
+    return request->mirror ? tn_session_refuse(session, NULL, "--mirror is about plans, not about houses")
+                           : tn_find_best_houses(session, request, answer);
+}

@@ -1,0 +1,116 @@
+/* What finding the best plans or houses by measures is made of. */
+#ifndef TARTAN_ASK_PLAN_BEST_H
+#define TARTAN_ASK_PLAN_BEST_H
+
+#include "ask/house/numbered.h"
+#include "ask/plan/found.h"
+#include "runtime/house/count/best.h"
+#include "runtime/plan/measure/amount.h"
+#include "runtime/plan/measure/complete.h"
+#include "runtime/plan/measure/pareto.h"
+
+/* The measures of a library that a request goes by. */
+typedef struct tn_wishes {
+    uint32_t count;
+    const char *names[TN_WEIGHED_MAX];
+    bool most[TN_WEIGHED_MAX];
+    tn_amount_unit units[TN_WEIGHED_MAX];
+    uint32_t measures[TN_WEIGHED_MAX]; /* of plans: MEASURE records */
+} tn_wishes;
+
+/* The names, and what is better; TN_INVALID, and said, if there are fewer than `least` or too many. */
+tn_status tn_wishes_take(tn_session *session, const tn_wish *items, size_t count, uint32_t least, tn_wishes *wishes);
+
+/* The same, found among the measures of the library's plans. */
+tn_status tn_wishes_of_plans(tn_session *session, const tn_ready_library *ready, const tn_wish *items, size_t count,
+                             uint32_t least, tn_wishes *wishes);
+
+/* Values of measures, in nanometres to their power. */
+void tn_wishes_room(mpq_t values[TN_WEIGHED_MAX]);
+void tn_wishes_clear(mpq_t values[TN_WEIGHED_MAX]);
+
+/* A value for people (malloc); NULL: out of memory. */
+char *tn_wish_text(const tn_wishes *wishes, uint32_t k, const mpq_t value);
+
+/* ---- what answers carry for pictures (tn_boxed); each borrows from the session */
+
+/* The front of a library of plans. */
+typedef struct tn_plan_front {
+    const tn_ready_library *ready;
+    tn_wishes wishes;
+    tn_weighed *weighed;
+    tn_pareto_front front;
+} tn_plan_front;
+
+/* What an open plan leaves to choose. */
+typedef struct tn_open_choices {
+    const tn_schema *schema;
+    tn_schema *own;          /* the same, of houses */
+    const char *title, *doc; /* of the library */
+    const char *what;        /* "plans" or "houses" */
+    tn_open_plan open;
+    tn_weighed *weighed; /* of plans by a measure */
+    tn_completions found;
+    tn_wishes wishes; /* none, or one */
+    mpq_t step;       /* of its measure, in nanometres to its power */
+    char *why;        /* of plans, if there are none: the tray that leaves none */
+} tn_open_choices;
+
+/* ---- houses: the measures made ready, and what was found */
+
+typedef struct tn_houses_search {
+    tn_numbered n;
+    tn_wishes found; /* what is wished, with units and whole names */
+    tn_plan plan;    /* if one is given */
+    tn_house_weights *weights[TN_WEIGHED_MAX];
+    tn_house_measures measures;
+    tn_houses *houses;
+    int64_t values[TN_WEIGHED_MAX]; /* of the point at hand */
+    mpz_t count;                    /* houses there */
+    uint64_t given, wanted;         /* houses so far, and in all */
+} tn_houses_search;
+
+/* What is searched: the library, one plan of it or NULL, how many of the best are wanted, and by which measures. */
+typedef struct tn_house_asked {
+    const tn_library_asked *subject;
+    const char *plan;
+    uint64_t wanted;
+    tn_houses_aim aim;
+    const tn_wish *by;
+    size_t by_count;
+    uint32_t by_least; /* how many of them there have to be */
+} tn_house_asked;
+
+/* Opens the library and finds the values. What is wrong is said. End it in any case. */
+tn_status tn_houses_search_begin(tn_houses_search *search, tn_session *session, const tn_house_asked *asked);
+void tn_houses_search_end(tn_houses_search *search);
+
+/* Begins a search, has `give` make the answer of them. What is wrong is said. */
+tn_status tn_houses_search_give(tn_session *session, const tn_house_asked *asked,
+                                tn_status (*give)(tn_houses_search *search, tn_reply *answer), tn_reply *answer);
+
+/* The value of measure k at the point at hand, in nanometres to its power. */
+void tn_houses_search_value(const tn_houses_search *search, uint32_t k, mpq_t value);
+
+/* Calls `each` with the best houses, by value and then by rank, until it stops; of a point with those that it has. It
+ * is `each` who counts them in search->given. */
+tn_status tn_houses_search_each(tn_houses_search *search, tn_house_each *each, void *context, tn_error *error);
+
+/* The same of one point. */
+tn_status tn_houses_search_of_point(tn_houses_search *search, size_t point, tn_house_each *each, void *context,
+                                    tn_error *error);
+
+/* A choice's place in found.counts and found.best. */
+static inline size_t tn_open_choice_at(const tn_open_choices *c, uint32_t tray, uint32_t field, uint32_t value)
+{
+    return (size_t)tray * c->found.values + c->schema->value_start[field] + value;
+}
+
+/* Appends why no plan of a library completes an open plan: the first written tray that leaves none, in a line or two.
+ */
+tn_status tn_complete_why(const tn_library *library, const tn_open_plan *open, tn_buffer *text, tn_error *error);
+
+/* The best houses that are asked for. */
+tn_status tn_find_best_houses(tn_session *session, const tn_best_request *request, tn_reply *answer);
+
+#endif

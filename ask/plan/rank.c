@@ -1,0 +1,181 @@
+/* rank, unrank: plans and houses of a library by their numbers. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "ask/house/numbered.h"
+#include "ask/plan/found.h"
+#include "ask/session/questions.h"
+#include "driver/plan/clauses.h"
+#include "runtime/plan/text/text.h"
+
+/* ---- the number of a plan */
+
+/* Names one clause that the plan fails, and where it is written. */
+static void name_clause(tn_opened *opened, tn_diagnostic *why, uint32_t clause)
+{
+    const tn_module *module = opened->module;
+    const tn_clause_record *record = &module->CLAUSE_records[clause];
+    const char *doc = tn_text(module, record->doc);
+    tn_span span = {record->file, record->begin, record->end};
+    bool known = record->file < opened->compilation.sources.count;
+    tn_note(&opened->compilation.diagnostics, why, known ? &span : NULL, "it fails `%s`%s%s",
+            tn_text(module, record->name), *doc ? ": " : "", doc);
+}
+
+/* Why the plan has no rank: each clause that it fails, as the interpreter finds them. Returns TN_INVALID. */
+static tn_status say_why(tn_session *session, const tn_ready_library *ready, const tn_plan *plan, size_t longest)
+{
+    tn_opened *opened = session->opened;
+    tn_diagnostics *list = &opened->compilation.diagnostics;
+    const tn_rules_options options = {.engine = TN_ENGINE_VM, .max_length = longest};
+    tn_rules *rules = NULL;
+    tn_matcher *matcher = NULL;
+    tn_error error;
+    uint64_t *bits = calloc(ready->record->clause_count / 64 + 1, sizeof *bits);
+    tn_diagnostic *why = tn_report_bare(list, TN_ERROR, E_NOT_IN_LIBRARY, "the plan is not in `%s`",
+                                        tn_text(opened->module, ready->record->name));
+    tn_status status =
+        bits ? tn_clause_rules_new(ready->schema, ready->record, &options, &rules, &error) : tn_fail_memory(&error);
+    if (status == TN_OK)
+        status = tn_matcher_new(rules, &matcher, &error);
+    if (status == TN_OK)
+        status = tn_match(matcher, plan->trays, plan->length, bits, &error);
+    if (plan->length < tn_library_min(ready->library) || plan->length > tn_library_max(ready->library))
+        tn_note(list, why, NULL, "it fails `trays`: it has %zu, and plans there have %u to %u", plan->length,
+                tn_library_min(ready->library), tn_library_max(ready->library));
+    for (uint32_t i = 0; status == TN_OK && i < ready->record->clause_count; i++)
+        if (tn_clause_drops(opened->module, ready->record, i, bits))
+            name_clause(opened, why, ready->record->clause_first + i);
+    tn_matcher_free(matcher);
+    tn_rules_free(rules);
+    free(bits);
+    return status == TN_OK ? TN_INVALID : tn_session_fail(session, &error);
+}
+
+static tn_status answer_plan(tn_session *session, const tn_ready_library *ready, const tn_plan *plan, size_t longest,
+                             tn_reply *answer)
+{
+    tn_error error;
+    tn_status status = tn_reply_new(&tn_message_ranked_plan, answer, &error);
+    if (status != TN_OK)
+        return tn_session_fail(session, &error);
+    tn_ranked_plan *ranked = answer->value;
+    ranked->library = tn_text(session->opened->module, ready->record->name);
+    return tn_library_rank(ready->library, plan->trays, plan->length, ranked->rank)
+               ? TN_OK
+               : say_why(session, ready, plan, longest);
+}
+
+static tn_status rank_plan(tn_session *session, const tn_rank_request *request, tn_reply *answer)
+{
+    const tn_ready_library *ready;
+    tn_plan plan = {0};
+    size_t longest = tn_asked_length(&request->subject);
+    tn_status status = tn_session_library(session, &request->subject, &ready);
+    if (status == TN_OK)
+        status = tn_session_plan(session, ready->schema, request->plan, longest, &plan);
+    if (status == TN_OK)
+        status = answer_plan(session, ready, &plan, longest, answer);
+    free(plan.trays);
+    return status;
+}
+
+/* ---- the number of a house */
+
+static tn_status rank_house(tn_session *session, const tn_rank_request *request, tn_reply *answer)
+{
+    const tn_house_settings settings = tn_asked_houses(&request->subject);
+    tn_numbered n;
+    tn_error error = {0};
+    tn_status status = tn_numbered_open(&n, session, &settings);
+    if (status == TN_OK) {
+        status = tn_reply_new(&tn_message_ranked_house, answer, &error);
+        tn_ranked_house *ranked = answer->value;
+        if (status == TN_OK)
+            status = tn_numbered_name_line(&n, request->house, settings.max_length, request->of_all, ranked->plan,
+                                           request->of_all ? ranked->rank : ranked->variant, &error);
+        if (status != TN_OK) {
+            tn_session_bad_text(session, &error, "HOUSE", request->house);
+        } else {
+            ranked->library = tn_text(session->opened->module, n.record->name);
+            ranked->has_rank = request->of_all;
+            ranked->has_plan = ranked->has_variant = !request->of_all;
+        }
+    }
+    tn_numbered_close(&n);
+    return status;
+}
+
+tn_status tn_ask_rank(tn_session *session, const tn_rank_request *request, tn_reply *answer)
+{
+    *answer = (tn_reply){0};
+    if (!request->plan == !request->house)
+        return tn_session_refuse(session, NULL, "say whose number is asked for: a plan's or a house's");
+    if (request->house)
+        return rank_house(session, request, answer);
+    if (request->of_all)
+        return tn_session_refuse(session, "the number of a plan is its rank among all plans: leave --of-all out",
+                                 "--of-all is about a house, and this is a plan");
+    return rank_plan(session, request, answer);
+}
+
+/* ---- the plan of a number */
+
+static tn_status set_plan(const tn_schema *schema, const tn_tray *trays, uint32_t length, tn_reply *answer,
+                          tn_error *error)
+{
+    tn_status status = tn_reply_new(&tn_message_unranked_plan, answer, error);
+    tn_unranked_plan *plan = answer->value;
+    return status == TN_OK ? tn_found_plan_texts(schema, trays, length, &plan->line, &plan->members, error) : status;
+}
+
+static tn_status unrank_plan(tn_session *session, const tn_unrank_request *request, tn_reply *answer)
+{
+    const tn_ready_library *ready;
+    tn_error error;
+    uint32_t length;
+    mpz_t rank;
+    tn_status status = tn_session_library(session, &request->subject, &ready);
+    if (status != TN_OK)
+        return status;
+    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(ready->library) + 1));
+    if (!trays) {
+        tn_fail_memory(&error);
+        return tn_session_fail(session, &error);
+    }
+    mpz_init_set_str(rank, request->rank, 10);
+    if (!tn_library_unrank(ready->library, rank, trays, &length))
+        status = tn_session_no_rank(session, ready->library, ready->record, request->rank);
+    else if (set_plan(ready->schema, trays, length, answer, &error) != TN_OK)
+        status = tn_session_fail(session, &error);
+    mpz_clear(rank);
+    free(trays);
+    return status;
+}
+
+/* ---- the house of a number */
+
+static tn_status set_house(void *context, const tn_house *house, tn_error *error)
+{
+    tn_reply *answer = context;
+    tn_status status = tn_reply_new(&tn_message_unranked_house, answer, error);
+    tn_unranked_house *to = answer->value;
+    return status == TN_OK ? tn_found_house_texts(house, &to->line, &to->members, error) : status;
+}
+
+static tn_status unrank_house(tn_session *session, const tn_unrank_request *request, tn_reply *answer)
+{
+    const tn_house_settings settings = tn_asked_houses(&request->subject);
+    return tn_session_house(session, &settings, request->rank, set_house, answer);
+}
+
+tn_status tn_ask_unrank(tn_session *session, const tn_unrank_request *request, tn_reply *answer)
+{
+    const char *rank = request->rank;
+    bool digits = tn_is_rank(rank);
+    *answer = (tn_reply){0};
+    if (!digits && !tn_is_house_number(rank))
+        return tn_session_refuse(session, NULL, "a rank is a whole number from 0, not `%.60s`", rank);
+    return digits && !tn_session_of_houses(session, &request->subject) ? unrank_plan(session, request, answer)
+                                                                       : unrank_house(session, request, answer);
+}

@@ -1,0 +1,231 @@
+/* sample: plans, or houses, drawn at random. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "ask/house/numbered.h"
+#include "ask/plan/found.h"
+#include "ask/session/questions.h"
+#include "runtime/base/array.h"
+#include "runtime/plan/library/diverse.h"
+
+/* ---- ranks of plans */
+
+/* tn_library_sample, or tn_library_diverse. */
+typedef tn_status choose_ranks(const tn_library *library, uint64_t seed, uint32_t length, size_t count, mpz_t *ranks,
+                               size_t *found, tn_error *error);
+
+typedef struct drawing {
+    tn_session *session;
+    const tn_library *library;
+    const tn_sample_request *request;
+    mpz_t *ranks; /* of one length ascending */
+    size_t count, room;
+} drawing;
+
+static tn_status make_room(drawing *d, size_t more, tn_error *error)
+{
+    if (d->room - d->count >= more && d->ranks)
+        return TN_OK;
+    size_t room = d->count + more;
+    if (!tn_array_resize(&d->ranks, room + 1, sizeof *d->ranks))
+        return tn_fail_memory(error);
+    for (; d->room < room; d->room++)
+        mpz_init(d->ranks[d->room]);
+    return TN_OK;
+}
+
+static void clear(drawing *d)
+{
+    for (size_t i = 0; i < d->room; i++)
+        mpz_clear(d->ranks[i]);
+    free(d->ranks);
+}
+
+/* What the library holds in a length, if that is fewer than wanted: no room is needed for more. */
+static size_t at_most(const tn_library *library, uint32_t length, size_t wanted)
+{
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(library, length, kept);
+    if (mpz_cmp_ui(kept, wanted) < 0)
+        wanted = (size_t)mpz_get_ui(kept);
+    mpz_clear(kept);
+    return wanted;
+}
+
+/* A rank is drawn in limbs, marked as drawn, and given as an integer: said beforehand, as it is all at once. */
+static tn_status check_memory(const drawing *d, uint32_t length, size_t count, tn_error *error)
+{
+    mpz_t kept;
+    char what[64];
+    mpz_init(kept);
+    tn_library_kept(d->library, length, kept);
+    uint64_t limbs = mpz_size(kept), bytes = sizeof(mpz_t) + 2 * sizeof(mp_limb_t) * limbs + 16 + 4 * sizeof(size_t);
+    mpz_clear(kept);
+    snprintf(what, sizeof what, "drawing %zu plans", count);
+    tn_status status = tn_watch_room(d->session->opened->module->watch, bytes * count, what, error);
+    if (status == TN_LIMIT)
+        tn_error_help(error, "draw fewer plans, or raise the limit with --memory-limit");
+    return status;
+}
+
+static void note_few(const drawing *d, uint32_t length, size_t found, size_t wanted)
+{
+    const char *plural = found == 1 ? "" : "s";
+    if (length == TN_ALL_LENGTHS)
+        tn_session_note(d->session, "the library holds %zu plan%s, fewer than the %zu asked for: these are all", found,
+                        plural, wanted);
+    else
+        tn_session_note(d->session,
+                        "the library holds %zu plan%s of length %u, fewer than the %zu asked for: these are all", found,
+                        plural, length, wanted);
+}
+
+static tn_status draw_length(drawing *d, uint32_t length, size_t wanted, tn_error *error)
+{
+    choose_ranks *choose = d->request->diverse ? tn_library_diverse : tn_library_sample;
+    size_t count = at_most(d->library, length, wanted), found = 0;
+    tn_status status = check_memory(d, length, count, error);
+    if (status == TN_OK)
+        status = make_room(d, count, error);
+    if (status == TN_OK)
+        status = choose(d->library, d->request->seed, length, count, d->ranks + d->count, &found, error);
+    if (status != TN_OK)
+        return status;
+    d->count += found;
+    if (found < wanted)
+        note_few(d, length, found, wanted);
+    return TN_OK;
+}
+
+static tn_status draw(drawing *d, tn_error *error)
+{
+    const tn_sample_request *r = d->request;
+    if (!r->has_per_length)
+        return draw_length(d, r->has_length ? (uint32_t)r->length : TN_ALL_LENGTHS, (size_t)r->count, error);
+    tn_status status = TN_OK;
+    for (uint32_t l = tn_library_min(d->library); status == TN_OK && l <= tn_library_max(d->library); l++)
+        status = draw_length(d, l, (size_t)r->per_length, error);
+    return status;
+}
+
+/* ---- plans */
+
+static tn_status give_plans(const drawing *d, tn_finds *finds, tn_error *error)
+{
+    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(d->library) + 1));
+    tn_status status = trays ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < d->count; i++) {
+        tn_found_one found = {.rank = d->ranks[i], .trays = trays};
+        status = tn_watch_check(d->session->opened->module->watch, error);
+        if (status == TN_OK && !tn_library_unrank(d->library, d->ranks[i], trays, &found.length))
+            status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a sampled rank is not in the library");
+        if (status == TN_OK)
+            status = tn_finds_give(finds, &found, error);
+    }
+    free(trays);
+    return status;
+}
+
+static tn_status sample_plans(tn_session *session, const tn_sample_request *request, tn_reply *answer)
+{
+    const tn_ready_library *ready;
+    tn_error error;
+    tn_status status = tn_session_library(session, &request->subject, &ready);
+    if (status != TN_OK)
+        return status;
+    tn_found_of of = {.plans = ready};
+    tn_finds finds = {.session = session, .of = &of, .answer = answer, .lines = request->lines};
+    drawing d = {.session = session, .library = ready->library, .request = request};
+    status = draw(&d, &error);
+    if (status == TN_OK)
+        status = tn_finds_begin(&finds, &error);
+    if (status == TN_OK && !finds.ended)
+        status = give_plans(&d, &finds, &error);
+    clear(&d);
+    return tn_finds_end(&finds, status, &error);
+}
+
+/* ---- houses */
+
+typedef struct giving {
+    tn_finds *finds;
+    uint64_t given;
+} giving;
+
+static tn_status give_house(void *context, tn_house *house, const mpz_t rank, const mpz_t variant, tn_error *error)
+{
+    giving *g = context;
+    const tn_found_one found = {
+        .rank = rank, .trays = house->trays, .length = (uint32_t)house->length, .house = house, .variant = variant};
+    g->given++;
+    return tn_finds_give(g->finds, &found, error);
+}
+
+static tn_status give_houses(tn_numbered *n, const tn_sample_request *request, const tn_plan *plan, tn_reply *answer)
+{
+    tn_error error;
+    tn_found_of of = {.houses = n};
+    tn_finds finds = {.session = n->session, .of = &of, .answer = answer};
+    giving g = {.finds = &finds};
+    tn_status status = tn_finds_begin(&finds, &error);
+    if (status == TN_OK && !finds.ended)
+        status = tn_numbered_sample(n, plan, (size_t)request->count, request->seed, give_house, &g, &error);
+    if (status == TN_OK && !finds.ended)
+        tn_numbered_say_few(n, plan != NULL, g.given, request->count);
+    return tn_finds_end(&finds, status, &error);
+}
+
+static tn_status sample_houses(tn_session *session, const tn_sample_request *request, tn_reply *answer)
+{
+    tn_numbered n;
+    tn_plan on;
+    tn_status status = tn_numbered_open_on(&n, session, &request->subject, request->plan, &on);
+    if (status == TN_OK)
+        status = give_houses(&n, request, request->plan ? &on : NULL, answer);
+    free(on.trays);
+    tn_numbered_close(&n);
+    return status;
+}
+
+/* ---- asked */
+
+/* What is about the length of plans, or makes them differ, is for plans alone. */
+static tn_status refuse_for_houses(tn_session *session, const tn_sample_request *request)
+{
+    if (request->diverse)
+        return tn_session_refuse(session, "leave it out: each house of the library is drawn as likely as each",
+                                 "for a library of houses, `tartan sample` does not take --diverse");
+    return tn_session_refuse(
+        session, "write it as a requirement, such as --where \"quantity(any, n = 3)\"; --plan takes one plan",
+        "for a library of houses, `tartan sample` does not take %s", request->has_length ? "--length" : "--per-length");
+}
+
+static tn_status check(tn_session *session, const tn_sample_request *request)
+{
+    if (request->has_count == request->has_per_length)
+        return tn_session_refuse(session, NULL, "say how many plans: either N after the file, or --per-length N");
+    if (request->has_per_length && request->has_length)
+        return tn_session_refuse(session, NULL, "--length and --per-length exclude each other");
+    if (request->diverse && request->has_per_length)
+        return tn_session_refuse(
+            session, NULL, "--diverse and --per-length exclude each other: give --length for plans of one length");
+    if (request->diverse && request->count > TN_DIVERSE_MAX)
+        return tn_session_refuse(session, NULL, "--diverse chooses at most %u plans, not %" PRIu64, TN_DIVERSE_MAX,
+                                 request->count);
+    return TN_OK;
+}
+
+tn_status tn_ask_sample(tn_session *session, const tn_sample_request *request, tn_reply *answer)
+{
+    const tn_sample_request *r = request;
+    *answer = (tn_reply){0};
+    bool houses = r->plan || tn_session_of_houses(session, &r->subject);
+    if (houses && (r->has_length || r->has_per_length || r->diverse))
+        return refuse_for_houses(session, r);
+    tn_status status = check(session, r);
+    if (status != TN_OK)
+        return status;
+    return houses ? sample_houses(session, r, answer) : sample_plans(session, r, answer);
+}

@@ -1,0 +1,291 @@
+/* schema: what a file of rules has. */
+#include <stdlib.h>
+
+#include "ask/session/questions.h"
+#include "runtime/house/measure/measure.h"
+#include "runtime/plan/measure/amount.h"
+
+typedef struct showing {
+    const tn_opened *opened;
+    const tn_module *module;
+    tn_shown_file *file;
+    bool used;
+} showing;
+
+static bool is_shown(const showing *s, uint32_t flags)
+{
+    return s->used || !(flags & TN_IMPORTED);
+}
+
+/* What an author says of something, if anything. */
+static void set_doc(const showing *s, tn_string doc, bool *has, const char **to)
+{
+    *to = tn_text(s->module, doc);
+    *has = **to != '\0';
+}
+
+/* ---- schemas */
+
+static void set_value(const showing *s, const tn_field_record *field, const tn_value_record *from, tn_shown_value *to)
+{
+    bool measured = field->kind == TN_FIELD_LENGTH || (field->kind == TN_FIELD_ZONE && from->length > 0);
+    to->name = tn_text(s->module, from->name);
+    to->spelling = tn_text(s->module, from->spelling);
+    set_doc(s, from->doc, &to->has_doc, &to->doc);
+    to->has_nanometres = measured;
+    to->nanometres = from->length;
+    to->has_role = from->role != TN_FILL_NONE;
+    to->role = tn_names_FILL_ROLE[from->role];
+}
+
+static tn_status set_field(const showing *s, const tn_field_record *from, tn_shown_field *to, tn_error *error)
+{
+    to->name = tn_text(s->module, from->name);
+    set_doc(s, from->doc, &to->has_doc, &to->doc);
+    to->kind = tn_names_FIELD_KIND[from->kind];
+    to->has_role = from->role != TN_ROLE_NONE;
+    to->role = tn_names_FIELD_ROLE[from->role];
+    tn_status status = TN_NEW_LIST(shown_value, to->values, from->value_count, error);
+    for (uint32_t i = 0; status == TN_OK && i < from->value_count; i++)
+        set_value(s, from, &s->module->VALUE_records[from->value_first + i], &to->values.items[i]);
+    return status;
+}
+
+/* As its author wrote it, on one line (malloc); NULL: not known, or out of memory. */
+static char *source_of(const showing *s, uint32_t file, uint32_t begin, uint32_t end)
+{
+    const tn_sources *sources = &s->opened->compilation.sources;
+    if (file >= sources->count || begin > end || end > sources->files[file].size)
+        return NULL;
+    const char *text = sources->files[file].text;
+    char *line = malloc((size_t)(end - begin) + 1);
+    size_t size = 0;
+    for (uint32_t i = begin; line && i < end; i++) {
+        bool blank = text[i] == ' ' || text[i] == '\n' || text[i] == '\r' || text[i] == '\t';
+        if (!blank)
+            line[size++] = text[i];
+        else if (size > 0 && line[size - 1] != ' ')
+            line[size++] = ' ';
+    }
+    if (line)
+        line[size] = '\0';
+    return line;
+}
+
+static tn_status set_forbidden(const showing *s, const tn_schema_record *from, tn_shown_schema *to, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < from->forbid_count; i++) {
+        const tn_spec_record *spec = &s->module->SPEC_records[from->forbid_first + i];
+        const uint32_t word = sizeof "forbid" - 1; /* which the stretch begins with */
+        if (spec->file < s->opened->compilation.sources.count)
+            status = tn_owneds_add(&to->forbidden, source_of(s, spec->file, spec->begin + word, spec->end), error);
+    }
+    return status;
+}
+
+static tn_status set_schema(const showing *s, uint32_t index, tn_shown_schema *to, tn_error *error)
+{
+    const tn_schema_record *from = &s->module->SCHEMA_records[index];
+    tn_schema *schema = NULL;
+    tn_status status = tn_schema_new(s->module, index, 0, &schema, error);
+    if (status != TN_OK)
+        return status;
+    to->name = tn_text(s->module, from->name);
+    set_doc(s, from->doc, &to->has_doc, &to->doc);
+    to->trays = schema->tray_count;
+    to->combinations = schema->code_count;
+    tn_schema_free(schema);
+    status = TN_NEW_LIST(shown_field, to->fields, from->field_count, error);
+    for (uint32_t i = 0; status == TN_OK && i < from->field_count; i++)
+        status = set_field(s, &s->module->FIELD_records[from->field_first + i], &to->fields.items[i], error);
+    return status == TN_OK ? set_forbidden(s, from, to, error) : status;
+}
+
+static tn_status show_schemas(const showing *s, tn_error *error)
+{
+    uint32_t count = s->module->SCHEMA_count;
+    tn_status status = TN_NEW_LIST(shown_schema, s->file->schemas, count, error);
+    for (uint32_t i = 0; status == TN_OK && i < count; i++)
+        status = set_schema(s, i, &s->file->schemas.items[i], error);
+    return status;
+}
+
+static const char *schema_name(const showing *s, uint32_t schema)
+{
+    return tn_text(s->module, s->module->SCHEMA_records[schema].name);
+}
+
+static const char *form_name(const showing *s, uint32_t form)
+{
+    return tn_text(s->module, s->module->FORM_records[form].name);
+}
+
+/* ---- rules */
+
+/* One of plans has a schema, one of houses a form; the other is NULL. */
+static tn_status add_rule(const showing *s, tn_string name, tn_string doc, const char *schema, const char *form,
+                          tn_error *error)
+{
+    tn_shown_rule *to = TN_ADD(shown_rule, s->file->rules, error);
+    if (!to)
+        return TN_MEMORY;
+    to->name = tn_text(s->module, name);
+    set_doc(s, doc, &to->has_doc, &to->doc);
+    to->has_schema = schema != NULL;
+    to->schema = schema;
+    to->has_form = form != NULL;
+    to->form = form;
+    return TN_OK;
+}
+
+static tn_status show_rules(const showing *s, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < s->module->RULE_count; i++) {
+        const tn_rule_record *from = &s->module->RULE_records[i];
+        if (is_shown(s, from->flags))
+            status = add_rule(s, from->name, from->doc, schema_name(s, from->schema), NULL, error);
+    }
+    for (uint32_t i = 0; status == TN_OK && i < s->module->HOUSE_RULE_count; i++) {
+        const tn_house_rule_record *from = &s->module->HOUSE_RULE_records[i];
+        if (is_shown(s, from->flags))
+            status = add_rule(s, from->name, from->doc, NULL, form_name(s, from->form), error);
+    }
+    return status;
+}
+
+/* ---- libraries */
+
+static void set_clause(const showing *s, tn_string name, tn_string doc, uint32_t kind, tn_shown_clause *to)
+{
+    to->name = tn_text(s->module, name);
+    set_doc(s, doc, &to->has_doc, &to->doc);
+    to->kind = tn_names_CLAUSE_KIND[kind];
+}
+
+static tn_status set_library(const showing *s, const tn_library_record *from, tn_shown_library *to, tn_error *error)
+{
+    to->name = tn_text(s->module, from->name);
+    set_doc(s, from->doc, &to->has_doc, &to->doc);
+    to->has_schema = to->has_trays = true;
+    to->schema = schema_name(s, from->schema);
+    to->trays = (tn_tray_bounds){from->trays_min, from->trays_max};
+    tn_status status = TN_NEW_LIST(shown_clause, to->clauses, from->clause_count, error);
+    for (uint32_t i = 0; status == TN_OK && i < from->clause_count; i++) {
+        const tn_clause_record *clause = &s->module->CLAUSE_records[from->clause_first + i];
+        set_clause(s, clause->name, clause->doc, clause->kind, &to->clauses.items[i]);
+    }
+    return status;
+}
+
+static tn_status set_house_library(const showing *s, const tn_house_library_record *from, tn_shown_library *to,
+                                   tn_error *error)
+{
+    to->name = tn_text(s->module, from->name);
+    set_doc(s, from->doc, &to->has_doc, &to->doc);
+    to->has_plans = to->has_form = true;
+    to->plans = tn_text(s->module, s->module->LIBRARY_records[from->plans].name);
+    to->form = form_name(s, from->form);
+    tn_status status = TN_NEW_LIST(shown_clause, to->clauses, from->clause_count, error);
+    for (uint32_t i = 0; status == TN_OK && i < from->clause_count; i++) {
+        const tn_house_clause_record *clause = &s->module->HOUSE_CLAUSE_records[from->clause_first + i];
+        set_clause(s, clause->name, clause->doc, clause->kind, &to->clauses.items[i]);
+    }
+    return status;
+}
+
+static tn_status show_libraries(const showing *s, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < s->module->LIBRARY_count; i++) {
+        const tn_library_record *from = &s->module->LIBRARY_records[i];
+        if (!is_shown(s, from->flags))
+            continue;
+        tn_shown_library *to = TN_ADD(shown_library, s->file->libraries, error);
+        status = to ? set_library(s, from, to, error) : TN_MEMORY;
+    }
+    for (uint32_t i = 0; status == TN_OK && i < s->module->HOUSE_LIBRARY_count; i++) {
+        const tn_house_library_record *from = &s->module->HOUSE_LIBRARY_records[i];
+        if (!is_shown(s, from->flags))
+            continue;
+        tn_shown_library *to = TN_ADD(shown_library, s->file->libraries, error);
+        status = to ? set_house_library(s, from, to, error) : TN_MEMORY;
+    }
+    return status;
+}
+
+/* ---- measures */
+
+/* What the values are in: the lengths of the schema decide. */
+typedef struct valued {
+    uint32_t schema, sum;
+} valued;
+
+static tn_status set_unit(const showing *s, valued of, tn_shown_measure *to, tn_error *error)
+{
+    tn_schema *made = NULL;
+    tn_status status = tn_schema_new(s->module, of.schema, 0, &made, error);
+    if (status == TN_OK)
+        to->unit = tn_amount_unit_name(tn_amount_unit_of(made, s->module->SUM_records[of.sum].power));
+    tn_schema_free(made);
+    return status;
+}
+
+/* As add_rule. */
+static tn_status add_measure(const showing *s, tn_string name, tn_string doc, const char *schema, const char *form,
+                             valued of, tn_error *error)
+{
+    tn_shown_measure *to = TN_ADD(shown_measure, s->file->measures, error);
+    if (!to)
+        return TN_MEMORY;
+    to->name = tn_text(s->module, name);
+    set_doc(s, doc, &to->has_doc, &to->doc);
+    to->has_schema = schema != NULL;
+    to->schema = schema;
+    to->has_form = form != NULL;
+    to->form = form;
+    return set_unit(s, of, to, error);
+}
+
+static tn_status show_measures(const showing *s, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < s->module->MEASURE_count; i++) {
+        const tn_measure_record *from = &s->module->MEASURE_records[i];
+        if (is_shown(s, from->flags))
+            status = add_measure(s, from->name, from->doc, schema_name(s, from->schema), NULL,
+                                 (valued){from->schema, from->sum}, error);
+    }
+    for (uint32_t i = 0; status == TN_OK && i < s->module->HOUSE_MEASURE_count; i++) {
+        const tn_house_measure_record *from = &s->module->HOUSE_MEASURE_records[i];
+        uint32_t schema = s->module->FORM_records[from->form].schema;
+        if (is_shown(s, from->flags))
+            status = add_measure(s, from->name, from->doc, NULL, form_name(s, from->form), (valued){schema, from->sum},
+                                 error);
+    }
+    return status;
+}
+
+/* ---- asked */
+
+tn_status tn_ask_schema(tn_session *session, const tn_schema_request *request, tn_reply *answer)
+{
+    const tn_module *module = session->opened->module;
+    tn_error error;
+    *answer = (tn_reply){0};
+    if (module->SCHEMA_count == 0)
+        return tn_session_refuse(session, NULL, "%.200s has no schema: only rules about plans have one",
+                                 session->opened->path);
+    tn_status status = tn_reply_new(&tn_message_shown_file, answer, &error);
+    const showing s = {session->opened, module, answer->value, request->used};
+    if (status == TN_OK)
+        status = show_schemas(&s, &error);
+    if (status == TN_OK)
+        status = show_rules(&s, &error);
+    if (status == TN_OK)
+        status = show_libraries(&s, &error);
+    if (status == TN_OK)
+        status = show_measures(&s, &error);
+    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
+}
