@@ -14,6 +14,16 @@ import tempfile
 # Question: file, request, and the command's words behind the file's name. -o names a file in an empty folder; what is written to a folder (a / at
 # its end) has the names that the answer says.
 ASKED = {
+    "report": [
+        ("stdlib/terrace.plan", {"sample": 3, "seed": 7}, "--sample 3 --seed 7 -o a.html"),
+        ("stdlib/terrace.plan", {"library": "street", "where": ["trays = 2"], "sample": 1}, "--library street --where trays_=_2 --sample 1 -o a.html"),
+        ("stdlib/terrace.plan", {"library": "streets"}, "--library streets -o a.html"),
+        ("stdlib/terrace.plan", {"pictures": 3}, "--pictures 3 -o a.html"),
+        ("stdlib/cottage.plan", {"library": "cottages", "sample": 2}, "--library cottages --sample 2 -o a.html"),
+        ("stdlib/bricks.kit", {"pictures": 3, "seed": 3}, "--pictures 3 --seed 3 -o a.html"),
+        ("stdlib/bricks.kit", {"seed": 99999999999}, "--seed 99999999999 -o a.html"),
+        ("stdlib/koch.hemls", {}, "-o a.html"),
+    ],
     "slice": [
         ("stdlib/table.solid", {"layer": 3}, "--layer 3 -o a.svg"),
         ("stdlib/table.solid", {"layer": 0.5, "format": "cli", "each": True}, "--layer 0.5 --format cli -o layers/"),

@@ -22,6 +22,9 @@ struct tn_session;
 #define TN_DIFF_SHOWN_MAX 1000u
 #define TN_DIFF_HOUSES UINT64_C(1000000)
 
+/* The most plans, or houses, of a page. */
+#define TN_REPORTED_MAX 2000u
+
 /* The most of the nearest plans that are looked for, and how many are unless more are asked for. */
 #define TN_NEAREST_MAX 1000u
 #define TN_NEAREST_DEFAULT 3u

@@ -9,7 +9,7 @@ static tn_status path_in_folder(tn_made_outputs *o, const char *name, tn_error *
     const char *folder = o->paths[0];
     const char *between = folder[strlen(folder) - 1] == '/' ? "" : "/";
     tn_status status = o->next == 0 ? tn_folder_make(folder, error) : TN_OK;
-    if (status == TN_OK && asprintf(&o->in_folder, "%s%s%s", folder, between, name) < 0) {
+    if (status == TN_OK && asprintf(&o->in_folder, "%s%s%s", folder, between, name ? name : "index.html") < 0) {
         o->in_folder = NULL;
         status = tn_fail_memory(error);
     }

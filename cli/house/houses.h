@@ -44,8 +44,4 @@ static inline tn_camera tn_house_sheet_camera(void)
 /* An error of usage where more than TN_HOUSES_DRAWN_MAX are wanted. */
 void tn_job_draw_houses(tn_job *job, const tn_house_settings *settings, const tn_house_sheet *sheet);
 
-/* Appends a page about a library of houses, with so many of them drawn with the seed. False where that failed. */
-bool tn_job_report_houses(tn_job *job, const tn_house_settings *settings, size_t wanted, uint64_t seed,
-                          tn_buffer *page);
-
 #endif

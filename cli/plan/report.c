@@ -1,18 +1,12 @@
 /* tartan report: a library, or a kit, as an HTML page. */
-#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
-#include "runtime/base/formats.h"
+#include "ask/session/questions.h"
 #include "cli/common/interrupt.h"
+#include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
-#include "cli/common/progress.h"
 #include "cli/plan/library_job.h"
-#include "driver/house/judge.h"
-#include "driver/open/findings.h"
-#include "driver/report/kit_report.h"
-#include "driver/report/report.h"
-#include "runtime/plan/library/alone.h"
+#include "runtime/base/formats.h"
 
 typedef struct report_settings {
     tn_settings common;
@@ -27,206 +21,51 @@ static const report_settings *settings_of(const tn_job *job)
     return (const report_settings *)job->settings;
 }
 
-#define SAMPLES_DEFAULT 24
-#define SAMPLES_MAX 2000
-#define HOUSES_DEFAULT 6
-
-/* ---- where the page goes */
-
-typedef struct page_path {
-    char text[4200];
-} page_path;
-
 static bool is_page(const char *path)
 {
     return tn_file_format_of(path) == TN_FILE_HTML;
 }
 
-/* What -o names: a page, or a folder for index.html. */
-static bool take_path(tn_job *job, page_path *path)
+/* Does -o name a page, or a folder for index.html? Of a kit the page may go to standard output. */
+static bool check_path(tn_job *job)
 {
     const char *output = settings_of(job)->output;
-    if (strlen(output) <= 4000)
-        snprintf(path->text, sizeof path->text, is_page(output) ? "%s" : "%s/index.html", output);
-    else
+    const tn_module *module = job->opened.module;
+    bool standard = !output || strcmp(output, "-") == 0, plans = module->LIBRARY_count || module->SCHEMA_count;
+    if (standard && plans && module->KIT_count == 0)
+        tn_job_usage(job, "report needs -o FOLDER, a folder to write into");
+    else if (!standard && strlen(output) > 4000)
         tn_job_usage(job, "the name that -o gives is longer than 4,000 bytes");
-    if (strlen(output) <= 4000)
-        tn_interrupt_last_words("interrupted; %.420s is not written", path->text);
-    return strlen(output) <= 4000;
-}
-
-/* Just before the work, so that a folder that cannot be made is told first. */
-static bool make_folder(tn_job *job)
-{
-    const char *output = settings_of(job)->output;
-    tn_error error;
-    if (is_page(output) || tn_folder_make(output, &error) == TN_OK)
+    else
         return true;
-    tn_job_fail(job, &error);
     return false;
 }
 
-static bool write_page(tn_job *job, const char *path, const tn_buffer *page)
+static void report(tn_job *job)
 {
-    tn_output output;
-    if (!tn_job_output(job, path, &output))
-        return false;
-    fwrite(page->data, 1, page->size, output.stream);
-    tn_job_commit(job, &output);
-    return true;
-}
-
-static void report(tn_job *job, const tn_ready_library *ready, const char *path)
-{
-    const report_settings *settings = settings_of(job);
-    tn_buffer page = {0};
-    tn_error error;
-    tn_report_options options = {.seed = settings->seed.value,
-                                 .samples = settings->sample.given ? settings->sample.value : SAMPLES_DEFAULT,
-                                 .max_states = (uint32_t)settings->plans.max_states.value};
-    const tn_coverage_options coverage = {.library = tn_text(job->opened.module, ready->record->name),
-                                          .max_states = options.max_states,
-                                          .automaton = ready->library,
-                                          .imported = true};
-    const tn_plan_analysis_options analysis = {
-        .max_states = options.max_states, .library = ready->library, .threads = tn_job_threads(&settings->plans)};
-    tn_plan_analyses analyses = {0};
-    tn_covered covered = {0};
-    tn_progress progress;
-    tn_progress_watch(&progress, "clauses counted", tn_interrupt_waiting());
-    tn_status status = tn_library_find_alone(ready->library, &error);
-    if (status != TN_OK)
-        tn_finding_error(&job->opened, &error);
-    else
-        status = tn_plan_analyse(&job->opened, &analysis, &analyses);
-    progress.what = "rules measured";
-    if (status == TN_OK)
-        status = tn_coverage_measure(&job->opened, &coverage, &covered);
-    tn_progress_unwatch(&progress, tn_interrupt_waiting());
-    tn_job_status(job, status);
-    if (status == TN_OK && tn_report_page(&job->opened, ready, &analyses, &covered, &options, &page, &error) == TN_OK)
-        write_page(job, path, &page);
-    else if (status == TN_OK)
-        tn_job_fail(job, &error);
-    tn_covered_clear(&covered);
-    tn_plan_analyses_free(&analyses);
-    free(page.data);
-}
-
-/* Is the library that is named one of houses; or, where none is, is all that the file itself has one of these? */
-static bool is_about_houses(const tn_job *job)
-{
-    const tn_module *module = job->opened.module;
-    const char *name = settings_of(job)->plans.library;
-    bool plans = false;
-    for (uint32_t i = 0; i < module->LIBRARY_count; i++)
-        plans = plans || !(module->LIBRARY_records[i].flags & TN_IMPORTED);
-    return (name || !plans) && tn_house_library_find(module, name) != TN_NO_RECORD;
-}
-
-static void report_houses(tn_job *job)
-{
-    const report_settings *settings = settings_of(job);
-    const tn_house_settings houses = tn_job_houses(&settings->plans);
-    const tn_plan_analysis_options analysis = {.max_states = (uint32_t)settings->plans.max_states.value,
-                                               .threads = tn_job_threads(&settings->plans)};
-    tn_plan_analyses analyses = {0};
-    page_path path;
-    tn_buffer page = {0};
-    if (take_path(job, &path) && make_folder(job)) {
-        tn_status status = tn_plan_analyse(&job->opened, &analysis, &analyses); /* its warnings are on the page */
-        tn_job_status(job, status);
-        if (status == TN_OK &&
-            tn_job_report_houses(job, &houses, settings->sample.given ? settings->sample.value : HOUSES_DEFAULT,
-                                 settings->seed.value, &page))
-            write_page(job, path.text, &page);
-    }
-    tn_plan_analyses_free(&analyses);
-    free(page.data);
-}
-
-static void report_library(tn_job *job)
-{
-    const report_settings *settings = settings_of(job);
-    tn_ready_library ready = {0};
-    page_path path;
-    if (!settings->output || strcmp(settings->output, "-") == 0)
-        tn_job_usage(job, "report needs -o FOLDER, a folder to write into");
-    else if (is_about_houses(job))
-        report_houses(job);
-    else if (take_path(job, &path) && tn_job_opened_library(job, &settings->plans, &ready) && make_folder(job))
-        report(job, &ready, path.text);
-    tn_library_close(&ready);
-}
-
-/* ---- kits */
-
-/* The first option that is given and about a kit, or about anything else. */
-static const char *option_given(const report_settings *s, bool of_kit)
-{
-    const struct {
-        const char *name;
-        bool given, of_kit;
-    } all[] = {{"library", s->plans.library != NULL, false}, {"where", s->plans.wheres.count > 0, false},
-               {"sample", s->sample.given, false},           {"max-states", s->plans.max_states.given, false},
-               {"threads", s->plans.threads.given, false},   {"pictures", s->pictures.given, true},
-               {"part-limit", s->part_limit.given, true},    {"step-limit", s->step_limit.given, true},
-               {"search-limit", s->search_limit.given, true}};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        if (all[i].given && all[i].of_kit == of_kit)
-            return all[i].name;
-    return NULL;
-}
-
-static void note_models(tn_job *job, const tn_kit_report_tally *tally)
-{
-    if (tally->unplaced)
-        tn_job_note(job, "%zu of %zu model%s could not be placed to the end: the page says why", tally->unplaced,
-                    tally->models, tally->models == 1 ? "" : "s");
-    if (tally->unmet)
-        tn_job_note(job, "%zu requirement%s of models do%s not hold: the page says which", tally->unmet,
-                    tally->unmet == 1 ? "" : "s", tally->unmet == 1 ? "es" : "");
-}
-
-static void report_kit(tn_job *job)
-{
-    const report_settings *settings = settings_of(job);
-    const tn_kit_report_options options = {.seed = (uint32_t)settings->seed.value,
-                                           .pictures = (size_t)settings->pictures.value,
-                                           .part_limit = settings->part_limit.value,
-                                           .step_limit = settings->step_limit.value,
-                                           .search_limit = settings->search_limit.value,
-                                           .watch = tn_interrupt_waiting()};
-    bool standard = !settings->output || strcmp(settings->output, "-") == 0;
-    tn_kit_report_tally tally;
-    tn_buffer page = {0};
-    tn_error error;
-    page_path path;
-    if (settings->seed.value > UINT32_MAX)
-        tn_job_usage(job, "the --seed of a kit is at most %u", (unsigned)UINT32_MAX);
-    else if (standard || (take_path(job, &path) && make_folder(job))) {
-        if (tn_kit_report_page(&job->opened, &options, &page, &tally, &error) == TN_OK) {
-            if (write_page(job, standard ? NULL : path.text, &page))
-                note_models(job, &tally);
-        } else {
-            tn_job_fail(job, &error);
-        }
-    }
-    free(page.data);
-}
-
-/* Is there neither a library nor a kit, and nothing that could have become one? */
-static bool has_nothing(tn_job *job)
-{
-    const tn_module *module = job->opened.module;
-    tn_error error;
-    if (module->KIT_count || module->LIBRARY_count || module->SCHEMA_count)
-        return false;
-    tn_fail(&error, TN_INVALID, E_NOT_IN_FILE, "%.200s has neither a library nor a kit to show", job->opened.path);
-    tn_error_help(&error, "report takes .plan files with a library, and .kit files; %s",
-                  tn_opened_help(&job->opened, "this file holds neither").text);
-    tn_job_fail(job, &error);
-    return true;
+    const report_settings *s = settings_of(job);
+    const char *output = s->output ? s->output : "-";
+    bool folder = !is_page(output) && strcmp(output, "-") != 0;
+    const tn_report_request request = {.subject = tn_job_asked(&s->plans),
+                                       .has_sample = s->sample.given,
+                                       .sample = s->sample.value,
+                                       .seed = s->seed.value,
+                                       .has_pictures = s->pictures.given,
+                                       .pictures = s->pictures.value,
+                                       .has_part_limit = s->part_limit.given,
+                                       .part_limit = s->part_limit.value,
+                                       .has_step_limit = s->step_limit.given,
+                                       .step_limit = s->step_limit.value,
+                                       .has_search_limit = s->search_limit.given,
+                                       .search_limit = s->search_limit.value};
+    tn_made_outputs outputs;
+    tn_reply answer;
+    if (strcmp(output, "-") != 0)
+        tn_interrupt_last_words("interrupted; %.400s%s is not written", output, folder ? "/index.html" : "");
+    tn_job_files(job, &outputs, &output, 1, folder);
+    tn_job_answered(job, tn_ask_report(&job->session, &request, &answer));
+    tn_job_files_end(&outputs);
+    tn_reply_clear(&answer);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
@@ -235,16 +74,8 @@ static int run(const tn_command *command, const tn_settings *common)
     const report_settings *settings = (const report_settings *)common;
     tn_job job;
     tn_job_begin(&job, common);
-    const char *path = common->operands.items[0];
-    if (tn_job_open_plans(&job, path, &settings->plans) && !has_nothing(&job)) {
-        bool kit = job.opened.module->KIT_count > 0;
-        const char *option = option_given(settings, !kit);
-        if (option)
-            tn_job_usage(&job, "--%s is about %s, and %.200s is %s", option, kit ? "a library of plans" : "a kit", path,
-                         kit ? "a kit" : "none");
-        else
-            (kit ? report_kit : report_library)(&job);
-    }
+    if (tn_job_open_plans(&job, common->operands.items[0], &settings->plans) && check_path(&job))
+        report(&job);
     return tn_job_end(&job);
 }
 
@@ -255,7 +86,7 @@ static const tn_option options[] = {
         "write FOLDER/index.html, or a page whose name ends in .html; the folder is made where it is not there; of a "
         "kit, "
         "- or nothing is standard output"),
-    NUMBER("sample", 0, "N", sample, 1, SAMPLES_MAX,
+    NUMBER("sample", 0, "N", sample, 1, TN_REPORTED_MAX,
            "show N plans that are kept, and of N that are generated those that are dropped (default 24); or N houses "
            "(default 6)"),
     NUMBER("seed", 's', "S", seed, 0, 0, "which sample; of a kit, the seed of its models (default 0)"),

@@ -1,8 +1,9 @@
-/* Answers `tartan report` about libraries of houses: counts, draws a sample, and hands both to the page. */
+/* The page of a library of houses: counts, draws a sample, and hands both to it. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/house/houses.h"
+#include "ask/house/numbered.h"
+#include "ask/house/reported.h"
 #include "driver/report/house_report.h"
 #include "runtime/base/integers.h"
 
@@ -86,25 +87,26 @@ static void clear(const tn_numbered *n, tn_reported_houses *r)
     tn_integers_free(r->page.alone, n->record ? n->record->clause_count : 0);
 }
 
-bool tn_job_report_houses(tn_job *job, const tn_house_settings *settings, size_t wanted, uint64_t seed, tn_buffer *page)
+tn_status tn_report_houses(tn_session *session, const tn_library_asked *asked, const tn_reported *wanted,
+                           tn_buffer *page)
 {
     tn_numbered n = {0};
+    tn_plan none;
     tn_error error;
-    tn_reported_houses r = {.page = {.opened = &job->opened, .seed = seed}};
-    bool good = false;
-    if (tn_job_numbered(job, &n, settings)) {
+    tn_reported_houses r = {.page = {.opened = session->opened, .seed = wanted->seed}};
+    tn_status status = tn_numbered_open_on(&n, session, asked, NULL, &none);
+    if (status == TN_OK) {
         r.page.form = &n.form;
         r.page.library = n.record;
-        tn_status status = count(&n, &r, &error);
+        status = count(&n, &r, &error);
         if (status == TN_OK)
-            status = sample(&n, &r, wanted, &error);
+            status = sample(&n, &r, (size_t)wanted->sample, &error);
         if (status == TN_OK)
             status = tn_house_report_page(&r.page, page, &error);
-        good = status == TN_OK;
-        if (!good)
-            tn_job_fail(job, &error);
+        if (status != TN_OK)
+            status = tn_session_fail(session, &error);
     }
     clear(&n, &r);
     tn_numbered_close(&n);
-    return good;
+    return status;
 }
