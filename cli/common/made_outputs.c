@@ -21,7 +21,8 @@ static tn_status opens(void *context, const char *name, FILE **stream, tn_error 
     tn_made_outputs *o = context;
     if (!o->folder && o->next == o->count)
         return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "there are more files than names for them");
-    tn_status status = o->folder ? path_in_folder(o, name, error) : TN_OK;
+    const char *made = o->folders ? o->folders[o->next] : NULL;
+    tn_status status = o->folder ? path_in_folder(o, name, error) : made ? tn_folder_make(made, error) : TN_OK;
     if (status == TN_OK)
         status = tn_output_open(o->folder ? o->in_folder : o->paths[o->next], &o->output, error);
     *stream = status == TN_OK ? o->output.stream : NULL;

@@ -7,7 +7,8 @@
 
 typedef struct tn_made_outputs {
     tn_job *job;
-    const char *const *paths; /* borrowed; of the files, in the order in which they are made */
+    const char *const *paths;   /* borrowed; of the files, in the order in which they are made */
+    const char *const *folders; /* the folder of each that is made if it is not there; NULL: none. It may be set. */
     size_t count, next;
     bool folder;     /* the one path is a folder, and each file has a name in it; one without is index.html */
     char *in_folder; /* the path of the file that is open there; owned */

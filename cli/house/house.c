@@ -1,15 +1,20 @@
 /* tartan house: one house of a form, checked, and written to files. */
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "ask/session/questions.h"
+#include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
-#include "cli/house/files.h"
-#include "cli/house/houses.h"
+#include "driver/house/files.h"
 
 typedef struct house_settings {
     tn_settings common;
-    tn_house_outputs outputs;
-    const char *form, *library;
-    tn_option_number max_length, max_states;
+    tn_option_list files, views;
+    const char *form, *library, *cut, *title;
+    int furnish; /* 1: no */
+    tn_option_number scale, dpi, max_length, max_states;
+    tn_option_real azimuth, elevation;
 } house_settings;
 
 static const house_settings *settings_of(const tn_job *job)
@@ -17,108 +22,149 @@ static const house_settings *settings_of(const tn_job *job)
     return (const house_settings *)job->settings;
 }
 
-/* The form that is meant: the named one, or the only one of the file itself, or the only one there is. */
-static bool choose_form(tn_job *job, uint32_t *index)
+/* ---- what -o names */
+
+#define ENDINGS ".json, .csv, .parts.csv, .obj, .ply, .glb, .ifc, .dxf, .svg, .pdf or .png"
+
+/* The files that are made, what each is written as, and of those in a folder, which has one of every kind, the folder.
+ */
+typedef struct house_files {
+    const char **words, **folders;
+    char **paths;
+    size_t count;
+    bool line; /* standard output gets the house's line */
+} house_files;
+
+static bool is_folder(const char *path)
 {
-    const tn_module *module = job->opened.module;
-    const char *wanted = settings_of(job)->form;
-    uint32_t own = 0, found = TN_NO_RECORD;
-    for (uint32_t i = 0; i < module->FORM_count; i++) {
-        bool imported = module->FORM_records[i].flags & TN_IMPORTED;
-        if (wanted ? strcmp(tn_text(module, module->FORM_records[i].name), wanted) != 0
-                   : imported && module->FORM_count > 1)
+    struct stat known;
+    size_t size = strlen(path);
+    return (size > 1 && path[size - 1] == '/') || (stat(path, &known) == 0 && S_ISDIR(known.st_mode));
+}
+
+static bool names_known(tn_job *job)
+{
+    const tn_option_list *files = &settings_of(job)->files;
+    bool known = true;
+    for (size_t i = 0; i < files->count; i++) {
+        const char *path = files->items[i];
+        if (strcmp(path, "-") == 0 || tn_house_file_of(path) != TN_HOUSE_FILES || is_folder(path))
             continue;
-        own++;
-        found = i;
+        tn_diagnostic *d = tn_job_usage(job, "the name of `%s` says no format that a house can be written in", path);
+        tn_help(tn_job_diagnostics(job), d, "let it end in " ENDINGS ", or in / for all of them in a folder");
+        known = false;
     }
-    *index = found;
-    if (own == 1)
-        return true;
-    tn_diagnostic *d = tn_job_usage(job,
-                                    wanted               ? "there is no form `%s` in the file"
-                                    : module->FORM_count ? "the file has several forms%.0s"
-                                                         : "the file has no form%.0s",
-                                    wanted ? wanted : "");
-    tn_help(tn_job_diagnostics(job), d,
-            wanted || !module->FORM_count ? "a form is declared by `form NAME of SCHEMA { ... }`"
-                                          : "say which: --form NAME");
-    return false;
+    return known;
 }
 
-static size_t max_trays(const tn_job *job)
+/* Takes the path (malloc; NULL: there was no memory). */
+static bool add_file(house_files *files, char *path, tn_house_file kind, const char *folder)
 {
-    const tn_option_number *most = &settings_of(job)->max_length;
-    return most->given ? (size_t)most->value : TN_HOUSE_TRAYS_DEFAULT;
+    files->words[files->count] = tn_house_file_ending(kind) + 1;
+    files->folders[files->count] = folder;
+    files->paths[files->count++] = path;
+    return path != NULL;
 }
 
-static void write_files(tn_job *job, const tn_house *house)
+static bool add_folder(house_files *files, const char *folder)
 {
-    const char *text = job->settings->operands.items[1];
-    tn_house_outputs outputs = settings_of(job)->outputs;
-    outputs.name = tn_is_house_number(text) ? text : NULL;
-    tn_house_files_write(job, house, &outputs);
-}
-
-static void read_house(tn_job *job, const tn_house_form *form, const char *line)
-{
-    tn_house house;
-    tn_error error = {0};
-    tn_status status = tn_house_read(form, line, strlen(line), max_trays(job), &house, &error);
-    if (status == TN_OK) {
-        write_files(job, &house);
-    } else if (status == TN_INVALID) {
-        tn_error_place(&error, error.column ? 1 : 0, error.column, error.column_end);
-        tn_report_error(tn_job_diagnostics(job), &error, "HOUSE", line, strlen(line));
-        tn_job_status(job, status);
-    } else {
-        tn_job_fail(job, &error);
+    bool good = true;
+    for (int i = TN_HOUSE_AS_LINE + 1; good && i < TN_HOUSE_FILES; i++) {
+        char *path;
+        const char *between = folder[strlen(folder) - 1] == '/' ? "" : "/";
+        if (asprintf(&path, "%s%shouse%s", folder, between, tn_house_file_ending((tn_house_file)i)) < 0)
+            path = NULL;
+        good = add_file(files, path, (tn_house_file)i, folder);
     }
-    tn_house_clear(&house);
+    return good;
 }
 
-static void read_line(tn_job *job, const char *line)
+static bool list_files(tn_job *job, house_files *files)
 {
-    uint32_t index;
-    tn_schema *schema;
-    tn_house_form form;
+    const tn_option_list *names = &settings_of(job)->files;
+    size_t room = names->count * TN_HOUSE_FILES + 1;
     tn_error error;
-    if (!choose_form(job, &index))
-        return;
-    const tn_module *module = job->opened.module;
-    if (tn_schema_new(module, module->FORM_records[index].schema, 0, &schema, &error) != TN_OK) {
-        tn_job_fail(job, &error);
-        return;
+    *files = (house_files){calloc(room, sizeof *files->words), calloc(room, sizeof *files->folders),
+                           calloc(room, sizeof *files->paths), 0, names->count == 0};
+    bool good = files->words && files->folders && files->paths;
+    for (size_t i = 0; good && i < names->count; i++) {
+        const char *path = names->items[i];
+        if (strcmp(path, "-") == 0)
+            files->line = true;
+        else if (tn_house_file_of(path) == TN_HOUSE_FILES)
+            good = add_folder(files, path);
+        else
+            good = add_file(files, strdup(path), tn_house_file_of(path), NULL);
     }
-    tn_form_ready(module, index, schema, &form);
-    read_house(job, &form, line);
-    tn_schema_free(schema);
+    if (!good) {
+        tn_fail_memory(&error);
+        tn_job_fail(job, &error);
+    }
+    return good;
 }
 
-/* What is wrong with the files is recorded. */
-static tn_status write_numbered(void *job, const tn_house *house, tn_error *error)
+static void clear_files(house_files *files)
 {
-    (void)error;
-    write_files(job, house);
-    return TN_OK;
+    for (size_t i = 0; i < files->count; i++)
+        free(files->paths[i]);
+    free(files->paths);
+    free(files->folders);
+    free(files->words);
+}
+
+/* ---- the command */
+
+static void write_line(tn_job *job, const tn_built_house *built)
+{
+    tn_output output;
+    if (!tn_job_output(job, NULL, &output))
+        return;
+    fprintf(output.stream, "%s\n", built->house);
+    tn_job_commit(job, &output);
+}
+
+static void ask(tn_job *job, const house_files *files)
+{
+    const house_settings *s = settings_of(job);
+    const tn_house_request request = {.house = s->common.operands.items[1],
+                                      .form = s->form,
+                                      .library = s->library,
+                                      .has_max_length = s->max_length.given,
+                                      .max_length = s->max_length.value,
+                                      .has_max_states = s->max_states.given,
+                                      .max_states = s->max_states.value,
+                                      .files = {files->words, files->count},
+                                      .views = {s->views.items, s->views.count},
+                                      .cut = s->cut,
+                                      .bare = s->furnish == 1,
+                                      .has_scale = s->scale.given,
+                                      .scale = s->scale.value,
+                                      .has_azimuth = s->azimuth.given,
+                                      .azimuth = s->azimuth.value,
+                                      .has_elevation = s->elevation.given,
+                                      .elevation = s->elevation.value,
+                                      .title = s->title,
+                                      .has_dpi = s->dpi.given,
+                                      .dpi = s->dpi.value};
+    tn_made_outputs outputs;
+    tn_reply answer;
+    tn_job_files(job, &outputs, (const char *const *)files->paths, files->count, false);
+    outputs.folders = files->folders;
+    if (tn_job_answered(job, tn_ask_house(&job->session, &request, &answer)) && files->line)
+        write_line(job, answer.value);
+    tn_job_files_end(&outputs);
+    tn_reply_clear(&answer);
 }
 
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
     tn_job job;
-    const char *text = settings->operands.items[1];
+    house_files files = {0};
     tn_job_begin(&job, settings);
-    const house_settings *own = settings_of(&job);
-    if (tn_house_files_known(&job, &own->outputs) && tn_job_open(&job, settings->operands.items[0])) {
-        const tn_house_settings houses = {
-            .library = own->library,
-            .max_length = max_trays(&job),
-            .plans = {.max_states = (uint32_t)own->max_states.value, .max_length = (uint32_t)max_trays(&job)}};
-        if (tn_is_house_number(text))
-            tn_job_answered(&job, tn_session_house(&job.session, &houses, text, write_numbered, &job));
-        else
-            read_line(&job, text);
-    }
+    if (names_known(&job) && list_files(&job, &files) && tn_job_open(&job, settings->operands.items[0]))
+        ask(&job, &files);
+    clear_files(&files);
     return tn_job_end(&job);
 }
 
@@ -128,23 +174,22 @@ static int run(const tn_command *command, const tn_settings *settings)
      TN_WRITES(GLB) | TN_WRITES(IFC) | TN_WRITES(DXF) | TN_WRITES_FOLDER)
 static const tn_option options[] = {
     OUTPUTS(
-        outputs.files, WRITES,
+        files, WRITES,
         "write to FILE, whose name says the format: .json, .csv, .obj, .ply, .glb, .ifc, .dxf, .svg, .pdf or .png; a "
         "folder (with "
         "a "
         "/ at its end) gets all of them; may be repeated"),
-    LIST("view", 0, "VIEW", outputs.views,
+    LIST("view", 0, "VIEW", views,
          "what is drawn: plan:STOREY, section:x=LENGTH, section:y=LENGTH, elevation:SIDE, axonometric or sheet (all of "
          "these, the default); may be repeated"),
-    TEXT("cut", 0, "STOREY", outputs.cut, "lift off what is above STOREY in the axonometric view"),
-    CHOICE("furnish", 0, "WORD", outputs.furnish, "yes|no", "draw what stands in the rooms (the default), or not"),
-    NUMBER("scale", 0, "N", outputs.scale, 1, 10000,
+    TEXT("cut", 0, "STOREY", cut, "lift off what is above STOREY in the axonometric view"),
+    CHOICE("furnish", 0, "WORD", furnish, "yes|no", "draw what stands in the rooms (the default), or not"),
+    NUMBER("scale", 0, "N", scale, 1, 10000,
            "draw at 1:N; by default at the largest usual scale at which everything fits on paper"),
-    REAL("azimuth", 0, "DEGREES", outputs.azimuth, "where the axonometric view is seen from, about z (default 60)"),
-    REAL("elevation", 0, "DEGREES", outputs.elevation, "and how far above the ground (default 30)"),
-    TEXT("title", 0, "TEXT", outputs.title,
-         "the title of a picture or of an IFC file; by default the number of the house"),
-    NUMBER("dpi", 0, "N", outputs.dpi, 10, 1200, "resolution of a .png (default 150)"),
+    REAL("azimuth", 0, "DEGREES", azimuth, "where the axonometric view is seen from, about z (default 60)"),
+    REAL("elevation", 0, "DEGREES", elevation, "and how far above the ground (default 30)"),
+    TEXT("title", 0, "TEXT", title, "the title of a picture or of an IFC file; by default the number of the house"),
+    NUMBER("dpi", 0, "N", dpi, 10, 1200, "resolution of a .png (default 150)"),
     TEXT("form", 0, "NAME", form, "which form of the file; may be left out where the file has only one"),
     TEXT("library", 0, "NAME", library,
          "the library of houses that the number belongs to; may be left out where the file has one"),

@@ -5,7 +5,7 @@
 #include "ask/house/numbered.h"
 #include "ask/session/requests.h"
 #include "cli/common/job.h"
-#include "runtime/geometry/camera.h"
+#include "runtime/house/model/aspect.h"
 
 /* Opens a library of houses for a command; close it in any case. False: what was wrong is recorded. */
 static inline bool tn_job_numbered(tn_job *job, tn_numbered *n, const tn_house_settings *settings)
@@ -34,12 +34,6 @@ typedef struct tn_house_sheet {
     const char *output;
     uint32_t dpi;
 } tn_house_sheet;
-
-/* Houses are seen from the front. */
-static inline tn_camera tn_house_sheet_camera(void)
-{
-    return (tn_camera){60, 30, 480};
-}
 
 /* An error of usage where more than TN_HOUSES_DRAWN_MAX are wanted. */
 void tn_job_draw_houses(tn_job *job, const tn_house_settings *settings, const tn_house_sheet *sheet);

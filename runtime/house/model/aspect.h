@@ -41,6 +41,12 @@ typedef struct tn_aspect {
     bool bare;          /* without what stands in the rooms */
 } tn_aspect;
 
+/* Houses are seen from the front. */
+static inline tn_camera tn_house_sheet_camera(void)
+{
+    return (tn_camera){60, 30, 480};
+}
+
 typedef struct tn_prospect {
     tn_aspect aspect;
     tn_camera camera;

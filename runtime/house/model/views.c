@@ -2,65 +2,64 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/house/files.h"
-#include "cli/house/houses.h"
 #include "runtime/base/length.h"
 #include "runtime/base/nearest.h"
+#include "runtime/house/model/views.h"
 
 static const char *storey_name(const tn_house_form *form, uint32_t storey)
 {
     return tn_text(form->module, form->module->STOREY_records[form->record->storey_first + storey].name);
 }
 
-static bool find_storey(tn_job *job, const tn_house_form *form, const char *name, const char *option, uint32_t *storey)
+static tn_status find_storey(const tn_house_form *form, const char *name, const char *option, uint32_t *storey,
+                             tn_error *error)
 {
-    for (uint32_t k = 0; k < form->record->storey_count; k++) {
-        if (strcmp(storey_name(form, k), name) == 0) {
-            *storey = k;
-            return true;
-        }
-    }
-    tn_diagnostic *d = tn_job_usage(job, "%s: the form has no storey `%.60s`", option, name);
     const char *names[TN_STOREYS_MAX];
     char all[512];
-    for (uint32_t k = 0; k < form->record->storey_count; k++)
+    uint32_t count = form->record->storey_count;
+    for (uint32_t k = 0; k < count; k++) {
         names[k] = storey_name(form, k);
-    tn_word_list(names, form->record->storey_count, all, sizeof all);
-    const char *near = tn_nearest(name, names, form->record->storey_count);
-    tn_help(tn_job_diagnostics(job), d, near ? "did you mean `%s`?" : "its storeys are %s", near ? near : all);
-    return false;
+        if (strcmp(names[k], name) == 0) {
+            *storey = k;
+            return TN_OK;
+        }
+    }
+    tn_status status = tn_fail(error, TN_INVALID, E_USAGE, "%s: the form has no storey `%.60s`", option, name);
+    tn_word_list(names, count, all, sizeof all);
+    const char *near = tn_nearest(name, names, count);
+    tn_error_help(error, near ? "did you mean `%s`?" : "its storeys are %s", near ? near : all);
+    return status;
 }
 
-static bool bad_view(tn_job *job, const char *text)
+static tn_status bad_view(const char *text, tn_error *error)
 {
-    tn_diagnostic *d = tn_job_usage(job, "--view: there is no drawing `%.60s`", text);
-    tn_help(tn_job_diagnostics(job), d,
-            "write plan:STOREY, section:x=LENGTH, section:y=LENGTH, elevation:front (back, left, right), axonometric, "
-            "or sheet");
-    return false;
+    tn_status status = tn_fail(error, TN_INVALID, E_USAGE, "--view: there is no drawing `%.60s`", text);
+    tn_error_help(error, "write plan:STOREY, section:x=LENGTH, section:y=LENGTH, elevation:front (back, left, right), "
+                         "axonometric, or sheet");
+    return status;
 }
 
 /* x=LENGTH or y=LENGTH, which may be negative. */
-static bool read_section(tn_job *job, const char *text, tn_aspect *aspect)
+static tn_status read_section(const char *text, tn_aspect *aspect, tn_error *error)
 {
-    tn_error error = {0};
+    tn_error wrong = {0};
     bool x = strncmp(text, "x=", 2) == 0, known = x || strncmp(text, "y=", 2) == 0;
     const char *length = known ? text + 2 : text;
     bool negative = *length == '-';
     length += negative;
-    size_t read = known ? tn_length_read(length, strlen(length), false, &aspect->at, &error) : 0;
+    size_t read = known ? tn_length_read(length, strlen(length), false, &aspect->at, &wrong) : 0;
     if (read == 0 || length[read]) {
-        tn_diagnostic *d = tn_job_usage(job, "--view: a section is cut at a place, not `%.60s`", text);
-        tn_help(tn_job_diagnostics(job), d,
-                "write section:x=LENGTH or section:y=LENGTH, with a unit: section:x=6', section:y=2.5m");
-        return false;
+        tn_status status =
+            tn_fail(error, TN_INVALID, E_USAGE, "--view: a section is cut at a place, not `%.60s`", text);
+        tn_error_help(error, "write section:x=LENGTH or section:y=LENGTH, with a unit: section:x=6', section:y=2.5m");
+        return status;
     }
     aspect->kind = x ? TN_ASPECT_SECTION_X : TN_ASPECT_SECTION_Y;
     aspect->at = negative ? -aspect->at : aspect->at;
-    return true;
+    return TN_OK;
 }
 
-static bool read_side(tn_job *job, const char *text, tn_aspect *aspect)
+static tn_status read_side(const char *text, tn_aspect *aspect, tn_error *error)
 {
     static const char *const sides[] = {
         [TN_HOUSE_BACK] = "back", [TN_HOUSE_FRONT] = "front", [TN_HOUSE_LEFT] = "left", [TN_HOUSE_RIGHT] = "right"};
@@ -68,12 +67,12 @@ static bool read_side(tn_job *job, const char *text, tn_aspect *aspect)
         if (strcmp(text, sides[i]) == 0) {
             aspect->kind = TN_ASPECT_ELEVATION;
             aspect->side = (tn_house_side)i;
-            return true;
+            return TN_OK;
         }
     }
-    tn_diagnostic *d = tn_job_usage(job, "--view: a house has no side `%.60s`", text);
-    tn_help(tn_job_diagnostics(job), d, "its sides are back, front, left and right");
-    return false;
+    tn_status status = tn_fail(error, TN_INVALID, E_USAGE, "--view: a house has no side `%.60s`", text);
+    tn_error_help(error, "its sides are back, front, left and right");
+    return status;
 }
 
 /* Does a cut there go along a wall, or might it? */
@@ -139,46 +138,52 @@ static size_t add_sheet(const tn_house *house, const tn_aspect *usual, tn_aspect
     return count;
 }
 
-static bool read_view(tn_job *job, const tn_house *house, const char *text, tn_aspect *aspect)
+static tn_status read_view(const tn_house *house, const char *text, tn_aspect *aspect, tn_error *error)
 {
     if (strncmp(text, "plan:", 5) == 0) {
         aspect->kind = TN_ASPECT_PLAN;
-        return find_storey(job, house->form, text + 5, "--view", &aspect->storey);
+        return find_storey(house->form, text + 5, "--view", &aspect->storey, error);
     }
     if (strncmp(text, "section:", 8) == 0)
-        return read_section(job, text + 8, aspect);
+        return read_section(text + 8, aspect, error);
     if (strncmp(text, "elevation:", 10) == 0)
-        return read_side(job, text + 10, aspect);
-    return strcmp(text, "axonometric") == 0 || bad_view(job, text);
+        return read_side(text + 10, aspect, error);
+    return strcmp(text, "axonometric") == 0 ? TN_OK : bad_view(text, error);
 }
 
-size_t tn_house_views(tn_job *job, const tn_house *house, const tn_house_outputs *outputs, tn_aspect *aspects)
+/* What each drawing has if its text does not say otherwise. */
+static tn_status usual_of(const tn_house *house, const tn_views *asked, tn_aspect *usual, tn_error *error)
 {
-    tn_aspect usual = {.kind = TN_ASPECT_AXONOMETRIC, .camera = tn_house_sheet_camera(), .bare = outputs->furnish == 1};
-    size_t count = 0;
-    if (outputs->azimuth.given)
-        usual.camera.azimuth = outputs->azimuth.value;
-    if (outputs->elevation.given)
-        usual.camera.elevation = outputs->elevation.value;
-    if (outputs->cut) {
-        if (!find_storey(job, house->form, outputs->cut, "--cut", &usual.storeys))
-            return 0;
-        usual.storeys++;
-    }
-    if (outputs->views.count == 0)
-        return add_sheet(house, &usual, aspects, TN_HOUSE_VIEWS_MAX);
-    for (size_t i = 0; i < outputs->views.count; i++) {
-        if (count + 16 > TN_HOUSE_VIEWS_MAX) {
-            tn_job_usage(job, "--view: more than %u drawings are too many for a sheet", TN_HOUSE_VIEWS_MAX - 16);
-            return 0;
-        }
-        if (strcmp(outputs->views.items[i], "sheet") == 0) {
-            count += add_sheet(house, &usual, aspects + count, TN_HOUSE_VIEWS_MAX - count);
+    *usual = (tn_aspect){.kind = TN_ASPECT_AXONOMETRIC, .camera = tn_house_sheet_camera(), .bare = asked->bare};
+    if (asked->azimuth)
+        usual->camera.azimuth = *asked->azimuth;
+    if (asked->elevation)
+        usual->camera.elevation = *asked->elevation;
+    if (!asked->cut)
+        return TN_OK;
+    tn_status status = find_storey(house->form, asked->cut, "--cut", &usual->storeys, error);
+    usual->storeys++;
+    return status;
+}
+
+tn_status tn_house_views(const tn_house *house, const tn_views *asked, tn_aspect *aspects, size_t *count,
+                         tn_error *error)
+{
+    tn_aspect usual;
+    *count = 0;
+    tn_status status = usual_of(house, asked, &usual, error);
+    if (status == TN_OK && asked->count == 0)
+        *count = add_sheet(house, &usual, aspects, TN_HOUSE_VIEWS_MAX);
+    for (size_t i = 0; status == TN_OK && i < asked->count; i++) {
+        if (*count + 16 > TN_HOUSE_VIEWS_MAX)
+            return tn_fail(error, TN_INVALID, E_USAGE, "--view: more than %u drawings are too many for a sheet",
+                           TN_HOUSE_VIEWS_MAX - 16);
+        if (strcmp(asked->items[i], "sheet") == 0) {
+            *count += add_sheet(house, &usual, aspects + *count, TN_HOUSE_VIEWS_MAX - *count);
             continue;
         }
-        aspects[count] = usual;
-        if (!read_view(job, house, outputs->views.items[i], &aspects[count++]))
-            return 0;
+        aspects[*count] = usual;
+        status = read_view(house, asked->items[i], &aspects[(*count)++], error);
     }
-    return count;
+    return status;
 }

@@ -1,0 +1,157 @@
+/* Writes a house as files of each kind. */
+#include "driver/house/files.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "runtime/geometry/write.h"
+#include "runtime/house/export/export.h"
+#include "runtime/house/picture/draw.h"
+#include "runtime/house/schedule/cost.h"
+#include "runtime/house/schedule/describe.h"
+
+static const struct {
+    const char *ending;
+    tn_file_format format;
+} kinds[TN_HOUSE_FILES] = {
+    [TN_HOUSE_AS_LINE] = {NULL, TN_FILE_OTHER},        [TN_HOUSE_AS_JSON] = {".json", TN_FILE_JSON},
+    [TN_HOUSE_AS_CSV] = {".csv", TN_FILE_CSV},         [TN_HOUSE_AS_PARTS] = {".parts.csv", TN_FILE_CSV},
+    [TN_HOUSE_AS_OBJ] = {".obj", TN_FILE_OBJ},         [TN_HOUSE_AS_PLY] = {".ply", TN_FILE_PLY},
+    [TN_HOUSE_AS_GLB] = {".glb", TN_FILE_GLB},         [TN_HOUSE_AS_IFC] = {".ifc", TN_FILE_IFC},
+    [TN_HOUSE_AS_DXF] = {".dxf", TN_FILE_DXF},         [TN_HOUSE_AS_SVG] = {".svg", TN_FILE_SVG},
+    [TN_HOUSE_AS_PDF] = {".pdf", TN_FILE_PDF},         [TN_HOUSE_AS_PNG] = {".png", TN_FILE_PNG},
+};
+
+const char *tn_house_file_ending(tn_house_file kind)
+{
+    return kinds[kind].ending;
+}
+
+tn_house_file tn_house_file_of(const char *path)
+{
+    size_t size = strlen(path);
+    for (int i = TN_HOUSE_FILES - 1; i > 0; i--) { /* `.parts.csv` before `.csv` */
+        size_t length = strlen(kinds[i].ending);
+        if (size > length && strcasecmp(path + size - length, kinds[i].ending) == 0)
+            return (tn_house_file)i;
+    }
+    return TN_HOUSE_FILES;
+}
+
+tn_file_format tn_house_file_format(tn_house_file kind)
+{
+    return kinds[kind].format;
+}
+
+bool tn_house_file_draws(tn_house_file kind)
+{
+    return kind >= TN_HOUSE_AS_DXF && kind <= TN_HOUSE_AS_PNG;
+}
+
+/* What it is called on sheets and in building models. */
+static const char *title_of(const tn_house_filed *filed)
+{
+    const tn_house_form *form = filed->house->form;
+    const char *doc = tn_text(form->module, form->record->doc);
+    if (filed->title)
+        return filed->title;
+    return doc[0] ? doc : tn_text(form->module, form->record->name);
+}
+
+static tn_status write_text(const tn_house_filed *filed, tn_house_file kind, FILE *out, tn_error *error)
+{
+    const tn_house *house = filed->house;
+    tn_buffer text = {0};
+    tn_status status = kind == TN_HOUSE_AS_JSON    ? tn_house_describe(house, filed->solids, &text, error)
+                       : kind == TN_HOUSE_AS_CSV   ? tn_house_schedule(house, &text, error)
+                       : kind == TN_HOUSE_AS_PARTS ? tn_house_parts(house, filed->solids, &text, error)
+                                                : tn_house_write(house, &text, error);
+    if (status == TN_OK && kind == TN_HOUSE_AS_LINE)
+        tn_buffer_append(&text, "\n", 1);
+    if (status == TN_OK && text.failed)
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        fwrite(text.data, 1, text.size, out);
+    free(text.data);
+    return status;
+}
+
+static tn_status write_mesh(const tn_house_filed *filed, tn_house_file kind, FILE *out, tn_error *error)
+{
+    tn_mesh mesh;
+    unsigned char colours[TN_HOUSE_GROUPS_MAX][3];
+    tn_mesh_style style = {.unit = TN_MESH_UNIT_M, .colours = (const unsigned char(*)[3])colours};
+    tn_house_mesh_colours(filed->house->form, colours);
+    tn_status status = tn_house_mesh(filed->house, filed->solids, &mesh, error);
+    if (status == TN_OK)
+        status = kind == TN_HOUSE_AS_OBJ   ? tn_mesh_write_obj(&mesh, &style, out, error)
+                 : kind == TN_HOUSE_AS_PLY ? tn_mesh_write_ply(&mesh, &style, out, error)
+                                        : tn_mesh_write_glb(&mesh, &style, out, error);
+    tn_mesh_clear(&mesh);
+    return status;
+}
+
+/* Drawings as lines. */
+static tn_status write_dxf(const tn_house_filed *filed, FILE *out, tn_error *error)
+{
+    tn_aspect aspects[TN_HOUSE_VIEWS_MAX];
+    size_t count;
+    tn_status status = tn_house_views(filed->house, &filed->views, aspects, &count, error);
+    return status == TN_OK ? tn_house_write_dxf(filed->house, filed->solids, aspects, count, out, error) : status;
+}
+
+static tn_status draw(const tn_house_filed *filed, tn_house_drawing *drawing, tn_house_file kind, FILE *out,
+                      tn_error *error)
+{
+    tn_buffer line = {0};
+    tn_picture to = {.format = kind == TN_HOUSE_AS_SVG   ? TN_CANVAS_SVG
+                               : kind == TN_HOUSE_AS_PDF ? TN_CANVAS_PDF
+                                                      : TN_CANVAS_PNG,
+                     .dpi = filed->dpi,
+                     .watch = filed->watch};
+    tn_status status = tn_house_write(filed->house, &line, error);
+    const char *notes[] = {line.data ? line.data : ""};
+    drawing->notes = notes;
+    if (status == TN_OK)
+        status = tn_house_draw(filed->house, filed->solids, drawing, &to, error);
+    if (status == TN_OK)
+        fwrite(to.element, 1, to.size, out);
+    free(to.element);
+    free(line.data);
+    return status;
+}
+
+/* A sheet says the house's line; one drawing alone has no room for it. */
+static tn_status write_picture(const tn_house_filed *filed, tn_house_file kind, FILE *out, tn_error *error)
+{
+    tn_aspect aspects[TN_HOUSE_VIEWS_MAX];
+    size_t count;
+    tn_status status = tn_house_views(filed->house, &filed->views, aspects, &count, error);
+    tn_house_drawing drawing = {.aspects = aspects,
+                                .count = count,
+                                .title = title_of(filed),
+                                .note_count = count > 1,
+                                .scale = filed->scale};
+    return status == TN_OK ? draw(filed, &drawing, kind, out, error) : status;
+}
+
+tn_status tn_house_file_write(const tn_house_filed *filed, tn_house_file kind, FILE *out, tn_error *error)
+{
+    switch (kind) {
+    case TN_HOUSE_AS_OBJ:
+    case TN_HOUSE_AS_PLY:
+    case TN_HOUSE_AS_GLB:
+        return write_mesh(filed, kind, out, error);
+    case TN_HOUSE_AS_IFC:
+        return tn_house_write_ifc(filed->house, filed->solids, title_of(filed), out, error);
+    case TN_HOUSE_AS_DXF:
+        return write_dxf(filed, out, error);
+    case TN_HOUSE_AS_SVG:
+    case TN_HOUSE_AS_PDF:
+    case TN_HOUSE_AS_PNG:
+        return write_picture(filed, kind, out, error);
+    default:
+        return write_text(filed, kind, out, error);
+    }
+}

@@ -1,0 +1,53 @@
+/* A house as files: its line, tables, models and drawings. */
+#ifndef TARTAN_DRIVER_HOUSE_FILES_H
+#define TARTAN_DRIVER_HOUSE_FILES_H
+
+#include <stdio.h>
+
+#include "runtime/base/formats.h"
+#include "runtime/base/watch.h"
+#include "runtime/house/model/views.h"
+
+/* In the order in which a folder of all has them. */
+typedef enum tn_house_file {
+    TN_HOUSE_AS_LINE,
+    TN_HOUSE_AS_JSON,  /* everything, in nanometres */
+    TN_HOUSE_AS_CSV,   /* the rooms with their areas */
+    TN_HOUSE_AS_PARTS, /* what it is made of, and what that costs; CSV, too */
+    TN_HOUSE_AS_OBJ,
+    TN_HOUSE_AS_PLY,
+    TN_HOUSE_AS_GLB,
+    TN_HOUSE_AS_IFC,
+    TN_HOUSE_AS_DXF,
+    TN_HOUSE_AS_SVG,
+    TN_HOUSE_AS_PDF,
+    TN_HOUSE_AS_PNG,
+    TN_HOUSE_FILES
+} tn_house_file;
+
+/* What such a file's name ends in, ".parts.csv" for example; NULL of a line. */
+const char *tn_house_file_ending(tn_house_file kind);
+
+/* By the ending of a name; TN_HOUSE_FILES if it says nothing. */
+tn_house_file tn_house_file_of(const char *path);
+
+/* What files of that kind hold. */
+tn_file_format tn_house_file_format(tn_house_file kind);
+
+/* Is it a drawing to scale, of views? */
+bool tn_house_file_draws(tn_house_file kind);
+
+/* A house and what its files say besides. All is borrowed. */
+typedef struct tn_house_filed {
+    const tn_house *house;
+    const tn_solids *solids;
+    const char *title; /* of sheets and of the building model; NULL: what the form says of itself */
+    tn_views views;
+    uint32_t scale, dpi; /* of drawings, 1:scale; 0: as it suits, 150 */
+    tn_watch *watch;     /* or NULL */
+} tn_house_filed;
+
+/* Writes it to the stream. TN_INVALID (E0904) for wrong views; what fails with the stream, ferror() tells. */
+tn_status tn_house_file_write(const tn_house_filed *filed, tn_house_file kind, FILE *out, tn_error *error);
+
+#endif
