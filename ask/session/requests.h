@@ -22,6 +22,9 @@ struct tn_session;
 #define TN_DIFF_SHOWN_MAX 1000u
 #define TN_DIFF_HOUSES UINT64_C(1000000)
 
+/* The most plans that are drawn from a library. */
+#define TN_DRAW_SAMPLE_MAX 50000000u
+
 /* The most plans, or houses, of a page. */
 #define TN_REPORTED_MAX 2000u
 

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/session/questions.h"
+
 static tn_status path_in_folder(tn_made_outputs *o, const char *name, tn_error *error)
 {
     const char *folder = o->paths[0];
@@ -59,4 +61,20 @@ void tn_job_files_end(tn_made_outputs *outputs)
 {
     free(outputs->in_folder);
     outputs->job->session.files = NULL;
+}
+
+unsigned tn_picture_choice(const char *path)
+{
+    tn_file_format format = path ? tn_file_format_of(path) : TN_FILE_SVG;
+    return format == TN_FILE_PNG ? 1 : format == TN_FILE_PDF ? 2 : 0;
+}
+
+void tn_job_draw(tn_job *job, const tn_draw_request *request, const char *path)
+{
+    tn_made_outputs outputs;
+    tn_reply answer;
+    tn_job_files(job, &outputs, &path, 1, false);
+    tn_job_answered(job, tn_ask_draw(&job->session, request, &answer));
+    tn_job_files_end(&outputs);
+    tn_reply_clear(&answer);
 }

@@ -22,4 +22,10 @@ void tn_job_files(tn_job *job, tn_made_outputs *outputs, const char *const *path
 /* No longer. */
 void tn_job_files_end(tn_made_outputs *outputs);
 
+/* Which of the words of a request's `format` the name of a picture means. */
+unsigned tn_picture_choice(const char *path);
+
+/* Asks for a picture, and puts it there. */
+void tn_job_draw(tn_job *job, const tn_draw_request *request, const char *path);
+
 #endif

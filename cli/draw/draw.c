@@ -1,237 +1,257 @@
-/* tartan draw: plans as a picture sheet, rules as a picture, surfaces shaded. */
-#include "cli/draw/draw.h"
-#include "ask/form/form.h"
+/* tartan draw: plans as a picture sheet, rules as a picture, houses and forms in space. */
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "ask/plan/draw.h"
+#include "ask/plan/found.h"
+#include "ask/session/questions.h"
+#include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
 #include "cli/measure/wishes.h"
-#include "cli/mesh/draw_surface.h"
-#include "cli/plan/library_job.h"
-#include "cli/solid/solid.h"
-#include "driver/house/judge.h"
+#include "cli/plan/plan_input.h"
+#include "runtime/base/array.h"
 #include "runtime/plan/picture/draw.h"
 
-static const tn_draw_settings *settings_of(const tn_job *job)
+typedef struct draw_settings {
+    tn_settings common;
+    tn_plan_settings plans;
+    tn_input_settings input;
+    const char *output, *title, *paper;
+    tn_option_list rules;
+    tn_option_list wanted; /* wishes of --best */
+    bool mirror, diverse;
+    tn_option_number best, sample, seed, length, per_length, scale, columns, dpi, max_plans;
+    /* of forms */
+    const char *solid, *surface;
+    bool sheet, before, exploded, sharp, open;
+    tn_option_real azimuth, elevation;
+    tn_option_number width, max_boxes, grid;
+} draw_settings;
+
+static const draw_settings *settings_of(const tn_job *job)
 {
-    return (const tn_draw_settings *)job->settings;
+    return (const draw_settings *)job->settings;
 }
 
-static bool is_sampled(const tn_draw_settings *settings)
+/* ---- plans of a file */
+
+typedef struct given_plans {
+    tn_given_plan *items; /* with their texts */
+    size_t count, room;
+    bool ranked; /* numbers are ranks, not lines */
+} given_plans;
+
+static void clear_given(given_plans *given)
 {
-    return settings->sample.given || settings->per_length.given;
+    for (size_t i = 0; i < given->count; i++) {
+        free((char *)(uintptr_t)given->items[i].plan);
+        free((char *)(uintptr_t)given->items[i].number);
+    }
+    free(given->items);
 }
 
-static bool from_library(const tn_draw_settings *settings)
+/* The number below a plan that was read: its rank where the file gives one, otherwise its line (malloc). */
+static char *number_of(given_plans *given, const tn_plan_reader *reader)
 {
-    return is_sampled(settings) || settings->best.given;
+    char *text = NULL;
+    mpz_t rank;
+    mpz_init(rank);
+    bool ranked = (given->count == 0 || given->ranked) && tn_plan_reader_rank(reader, rank);
+    if (given->count == 0)
+        given->ranked = ranked;
+    if (ranked)
+        text = mpz_get_str(NULL, 10, rank);
+    else if (asprintf(&text, "%" PRIu64, tn_plan_reader_line(reader)) < 0)
+        text = NULL;
+    mpz_clear(rank);
+    return text;
 }
 
-/* What --best goes with. */
-static bool check_best(tn_job *job)
+static tn_status add_plan(given_plans *given, const tn_schema *schema, const tn_plan *plan,
+                          const tn_plan_reader *reader, tn_error *error)
 {
-    const tn_draw_settings *settings = settings_of(job);
-    if (settings->best.given && (is_sampled(settings) || settings->rules.count || settings->common.operands.count > 1))
-        tn_job_usage(job,
-                     "--best draws the best plans of a library: give it without --sample, --rule and a file of plans");
-    else if (settings->best.given && settings->best.value > tn_draw_max_plans(settings))
-        tn_help(tn_job_diagnostics(job),
-                tn_job_usage(job, "a picture shows at most %zu plans", tn_draw_max_plans(settings)),
-                "ask for fewer, or raise the limit with --max-plans");
-    else if (!settings->best.given && (settings->wanted.count || settings->mirror))
-        tn_job_usage(job, "--least, --most and --mirror say which plans are best: give --best N too");
+    char *line = NULL, *number = number_of(given, reader);
+    tn_status status = tn_found_plan_texts(schema, plan->trays, (uint32_t)plan->length, &line, NULL, error);
+    if (status == TN_OK &&
+        (!number || !tn_array_reserve(&given->items, &given->room, given->count, 1, sizeof *given->items)))
+        status = tn_fail_memory(error);
+    if (status != TN_OK) {
+        free(line);
+        free(number);
+        return status;
+    }
+    given->items[given->count++] = (tn_given_plan){.plan = line, .number = number};
+    return TN_OK;
+}
+
+static size_t max_plans(const draw_settings *settings)
+{
+    return settings->max_plans.given ? (size_t)settings->max_plans.value : TN_DRAW_PLANS_DEFAULT;
+}
+
+/* Reads the plans, one more than the limit at most, which drawing then refuses. False where nothing is to be drawn. */
+static bool read_plans(tn_job *job, const tn_schema *schema, const char *path, given_plans *given)
+{
+    const draw_settings *settings = settings_of(job);
+    const tn_plans_source source = {path, &settings->input, &settings->plans};
+    tn_plan_reader *reader;
+    const tn_plan *plan;
+    tn_error error;
+    bool going = tn_job_reader(job, schema, &source, &reader);
+    if (!going)
+        return false;
+    while (going && given->count <= max_plans(settings)) {
+        tn_status status = tn_plan_reader_next(reader, &plan, &error);
+        if (status == TN_OK && !plan)
+            break;
+        if (status == TN_OK)
+            status = add_plan(given, schema, plan, reader, &error);
+        else if (error.line > 0) {
+            size_t size = 0;
+            const char *text = tn_plan_reader_text(reader, &size);
+            going = tn_job_bad_plan(job, &source, &error, text, size);
+            continue;
+        }
+        if (status != TN_OK) {
+            tn_job_fail(job, &error);
+            going = false;
+        }
+    }
+    tn_plan_reader_free(reader);
+    return going;
+}
+
+/* The plans of the file that is named beside the rules, or of standard input. */
+static bool take_plans(tn_job *job, const char *path, given_plans *given)
+{
+    tn_schema *schema;
+    uint32_t index, library = UINT32_MAX;
+    tn_error error;
+    tn_status status = tn_schema_choose(&job->opened, settings_of(job)->plans.library, &index, &library);
+    tn_job_status(job, status);
+    if (status != TN_OK)
+        return false;
+    if (tn_schema_new(job->opened.module, index, 0, &schema, &error) != TN_OK) {
+        tn_job_fail(job, &error);
+        return false;
+    }
+    bool well = read_plans(job, schema, path, given);
+    tn_schema_free(schema);
+    if (well && given->count == 0 && job->exit_code == TN_EXIT_DONE)
+        tn_job_note(job, "no plans came from %.200s: the sheet is empty",
+                    strcmp(path, "-") == 0 ? "standard input" : path);
+    return well;
+}
+
+/* ---- the command */
+
+static tn_draw_request asked(const draw_settings *s)
+{
+    return (tn_draw_request){
+        .format = tn_picture_choice(s->output),
+        .subject = tn_job_asked(&s->plans),
+        .rules = {s->rules.items, s->rules.count},
+        .has_sample = s->sample.given,
+        .sample = s->sample.value,
+        .has_seed = s->seed.given,
+        .seed = s->seed.value,
+        .has_length = s->length.given,
+        .length = s->length.value,
+        .has_per_length = s->per_length.given,
+        .per_length = s->per_length.value,
+        .diverse = s->diverse,
+        .has_best = s->best.given,
+        .best = s->best.value,
+        .mirror = s->mirror,
+        .title = s->title,
+        .paper = s->paper,
+        .has_scale = s->scale.given,
+        .scale = s->scale.value,
+        .has_columns = s->columns.given,
+        .columns = s->columns.value,
+        .has_dpi = s->dpi.given,
+        .dpi = s->dpi.value,
+        .has_max_plans = s->max_plans.given,
+        .max_plans = s->max_plans.value,
+        .surface = s->surface,
+        .has_grid = s->grid.given,
+        .grid = s->grid.value,
+        .sharp = s->sharp,
+        .open = s->open,
+        .solid = {.solid = s->solid, .has_max_boxes = s->max_boxes.given, .max_boxes = s->max_boxes.value},
+        .show = s->sheet      ? 1
+                : s->before   ? 2
+                : s->exploded ? 3
+                              : 0,
+        .has_azimuth = s->azimuth.given,
+        .azimuth = s->azimuth.value,
+        .has_elevation = s->elevation.given,
+        .elevation = s->elevation.value,
+        .has_width = s->width.given,
+        .width = s->width.value};
+}
+
+/* What the request cannot say at once. */
+static bool check_options(tn_job *job)
+{
+    const draw_settings *s = settings_of(job);
+    if (!s->output)
+        tn_job_usage(job, "say which picture to draw: -o FILE.svg, FILE.png or FILE.pdf");
+    else if (s->sheet + s->before + s->exploded > 1)
+        tn_job_usage(job, "one picture shows one thing: give one of --sheet, --before and --exploded");
     else
         return true;
     return false;
 }
 
-static bool check_options(tn_job *job)
+/* Is a file of plans drawn, or standard input? */
+static bool draws_file(const tn_job *job)
 {
-    const tn_draw_settings *settings = settings_of(job);
-    if (!settings->output)
-        tn_job_usage(job, "say which picture to draw: -o FILE.svg, FILE.png or FILE.pdf");
-    else if (settings->rules.count && (is_sampled(settings) || settings->common.operands.count > 1))
-        tn_job_usage(job, "draw either rules or plans, not both");
-    else if (is_sampled(settings) && settings->common.operands.count > 1)
-        tn_job_usage(job, "draw either a file of plans or a --sample, not both");
-    else if (!is_sampled(settings) && (settings->seed.given || settings->length.given || settings->diverse))
-        tn_job_usage(job, "--seed, --length and --diverse say what is sampled: give --sample N too");
-    else if (!from_library(settings) && settings->plans.trays.given)
-        tn_job_usage(job, "--trays says which plans are taken from the library: give --sample N or --best N too");
-    else
-        return check_best(job);
-    return false;
+    const draw_settings *s = settings_of(job);
+    const tn_module *module = job->opened.module;
+    bool library = s->best.given || s->sample.given || s->per_length.given;
+    bool forms = module->SOLID_count > 0 || module->SURFACE_count > 0;
+    return !library && !forms && s->rules.count == 0 && !tn_job_of_houses(job, &s->plans);
 }
 
-/* ---- forms */
-
-/* Is the library that is named one of houses? */
-static bool of_houses(const tn_job *job)
+static void draw(tn_job *job)
 {
-    const char *name = settings_of(job)->plans.library;
-    return name && tn_house_library_find(job->opened.module, name) != TN_NO_RECORD;
-}
-
-/* Options that say something about one or two of the subjects only. */
-static bool check_use(tn_job *job)
-{
-    const tn_draw_settings *s = settings_of(job);
-    const tn_asked_use uses[] = {
-        {s->rules.count > 0, TN_OF_PLANS, "rule"},
-        {s->plans.library != NULL, TN_OF_PLANS, "library"},
-        {s->sample.given, TN_OF_PLANS, "sample"},
-        {s->best.given, TN_OF_PLANS, "best"},
-        {s->per_length.given, TN_OF_PLANS, "per-length"},
-        {s->paper != NULL, TN_OF_PLANS, "paper"},
-        {s->scale.given, TN_OF_PLANS, "scale"},
-        {s->max_plans.given, TN_OF_PLANS, "max-plans"},
-        {s->columns.given, TN_OF_PLANS | TN_OF_SOLIDS, "columns"},
-        {s->solid != NULL, TN_OF_SOLIDS, "solid"},
-        {s->sheet, TN_OF_SOLIDS, "sheet"},
-        {s->before, TN_OF_SOLIDS, "before"},
-        {s->exploded, TN_OF_SOLIDS, "exploded"},
-        {s->max_boxes.given, TN_OF_SOLIDS, "max-boxes"},
-        {s->azimuth.given && !of_houses(job), TN_OF_SOLIDS | TN_OF_FIELDS, "azimuth"},
-        {s->elevation.given && !of_houses(job), TN_OF_SOLIDS | TN_OF_FIELDS, "elevation"},
-        {s->width.given, TN_OF_SOLIDS | TN_OF_FIELDS, "width"},
-        {s->surface != NULL, TN_OF_FIELDS, "surface"},
-        {s->grid.given, TN_OF_FIELDS, "grid"},
-        {s->sharp, TN_OF_FIELDS, "sharp"},
-        {s->open, TN_OF_FIELDS, "open"},
-    };
-    if (!tn_job_answered(job, tn_session_check_uses(&job->session, uses, sizeof uses / sizeof *uses)))
-        return false;
-    if (s->sheet + s->before + s->exploded > 1) {
-        tn_job_usage(job, "one picture shows one thing: give one of --sheet, --before and --exploded");
-        return false;
+    const draw_settings *s = settings_of(job);
+    const char *path = NULL;
+    given_plans given = {0};
+    tn_wished wished = {0};
+    tn_draw_request request = asked(s);
+    if (s->common.operands.count > 1)
+        request.from = s->common.operands.items[1];
+    bool well = !(s->best.given || s->wanted.count) || tn_job_wishes(job, &s->wanted, 1, &wished);
+    request.by.items = wished.items;
+    request.by.count = wished.count;
+    if (well && draws_file(job)) {
+        path = tn_job_plans_path(job);
+        request.from = path && strcmp(path, "-") == 0 ? "standard input" : path;
+        well = path && tn_job_answered(job, tn_draw_check(&job->session, &request)) && take_plans(job, path, &given);
     }
-    return true;
-}
-
-static tn_camera camera_of(const tn_draw_settings *settings, tn_camera camera)
-{
-    if (settings->azimuth.given)
-        camera.azimuth = settings->azimuth.value;
-    if (settings->elevation.given)
-        camera.elevation = settings->elevation.value;
-    if (settings->width.given)
-        camera.width = (double)settings->width.value;
-    return camera;
-}
-
-static void draw_solid(tn_job *job)
-{
-    const tn_draw_settings *s = settings_of(job);
-    tn_solid_drawing drawing = {.views = s->sheet      ? TN_SOLID_SHEET
-                                         : s->before   ? TN_SOLID_BEFORE
-                                         : s->exploded ? TN_SOLID_EXPLODED
-                                                       : TN_SOLID_VIEW,
-                                .camera = camera_of(s, tn_camera_default()),
-                                .title = s->title,
-                                .columns = (uint32_t)s->columns.value,
-                                .dpi = (uint32_t)s->dpi.value,
-                                .most = (uint32_t)s->max_boxes.value};
-    tn_job_draw_solid(job, s->solid, &drawing, s->output);
-}
-
-static void draw_field(tn_job *job)
-{
-    const tn_draw_settings *s = settings_of(job);
-    tn_mesh_picture picture = {.camera = camera_of(s, tn_camera_default()),
-                               .title = s->title,
-                               .dpi = (uint32_t)s->dpi.value,
-                               .threads = (int)s->plans.threads.value};
-    tn_drawn_surface surface = {s->surface, (uint32_t)s->grid.value, s->sharp, s->open};
-    tn_job_draw_surface(job, &surface, &picture, s->output);
-}
-
-/* What says which plans are drawn, and how they are put on paper, says nothing of houses. Is something of the kind
- * given? Then it is refused, with what does it for houses. */
-static bool refuses_for_houses(tn_job *job)
-{
-    static const char of_trays[] = "write it as a requirement, such as --where \"quantity(any, n = 3)\"";
-    static const char one_scale[] = "leave it out: all houses of a picture are to one scale. `tartan house FILE HOUSE "
-                                    "-o NAME.pdf` draws one on paper";
-    const tn_draw_settings *s = settings_of(job);
-    const struct {
-        bool given;
-        const char *what, *help;
-    } refused[] = {
-        {s->mirror, "--mirror", "leave it out: it is about plans, not about houses"},
-        {s->rules.count > 0, "--rule", "rules about houses have no picture; `tartan report` lists them"},
-        {s->common.operands.count > 1, "a file of plans",
-         "--sample N draws N houses of the library, and `tartan house FILE HOUSE -o NAME.svg` one"},
-        {s->length.given, "--length", of_trays},
-        {s->per_length.given, "--per-length", of_trays},
-        {s->diverse, "--diverse", "leave it out: each house of the library is drawn as likely as each"},
-        {s->paper != NULL, "--paper", one_scale},
-        {s->scale.given, "--scale", one_scale},
-    };
-    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
-        if (refused[i].given) {
-            tn_diagnostic *d =
-                tn_job_usage(job, "for a library of houses, `tartan draw` does not take %s", refused[i].what);
-            tn_help(tn_job_diagnostics(job), d, "%s", refused[i].help);
-            return true;
-        }
-    return false;
-}
-
-static void draw_houses(tn_job *job)
-{
-    const tn_draw_settings *s = settings_of(job);
-    const tn_house_settings houses = tn_job_houses(&s->plans);
-    tn_wished wished;
-    tn_best_request best;
-    tn_house_sheet sheet = {.wanted = (size_t)(s->best.given ? s->best.value : s->sample.value),
-                            .best = s->best.given ? &best : NULL,
-                            .columns = (size_t)s->columns.value,
-                            .seed = s->seed.value,
-                            .camera = camera_of(s, tn_house_sheet_camera()),
-                            .title = s->title,
-                            .output = s->output,
-                            .dpi = (uint32_t)s->dpi.value};
-    if (refuses_for_houses(job))
-        return;
-    if (!s->sample.given && !s->best.given) {
-        tn_diagnostic *d = tn_job_usage(job, "of a library of houses, a sample or the best are drawn");
-        tn_help(tn_job_diagnostics(job), d,
-                "write --sample N, or --best N --least MEASURE; `tartan house` draws one house");
-        return;
-    }
-    if (s->best.given && !tn_job_wishes(job, &s->wanted, 1, &wished))
-        return;
-    best = (tn_best_request){.subject = tn_job_asked(&s->plans), .by = {wished.items, wished.count}};
-    tn_job_draw_houses(job, &houses, &sheet);
-}
-
-static void draw_plans(tn_job *job)
-{
-    if (of_houses(job)) {
-        draw_houses(job);
-        return;
-    }
-    const char *path = from_library(settings_of(job)) ? NULL : tn_job_plans_path(job);
-    if (settings_of(job)->rules.count)
-        tn_job_draw_rules(job);
-    else if (path)
-        tn_job_draw_file(job, path);
-    else if (job->exit_code == TN_EXIT_DONE)
-        tn_job_draw_library(job);
+    request.plans.items = given.items;
+    request.plans.count = given.count;
+    request.ranked = given.ranked;
+    if (well)
+        tn_job_draw(job, &request, s->output);
+    clear_given(&given);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
-    const tn_draw_settings *settings = (const tn_draw_settings *)common;
+    const draw_settings *settings = (const draw_settings *)common;
     tn_job job;
     tn_job_begin(&job, common);
-    if (!check_options(&job) || !tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
-        return tn_job_end(&job);
-    static void (*const draw[TN_SUBJECT_COUNT])(tn_job *) = {draw_plans, draw_solid, draw_field};
-    if (check_use(&job))
-        draw[tn_subject_of(job.opened.module)](&job);
+    if (check_options(&job) && tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
+        draw(&job);
     return tn_job_end(&job);
 }
 
-#define SETTINGS tn_draw_settings
+#define SETTINGS draw_settings
 static const tn_option options[] = {
     OUTPUT(output, TN_WRITES_PICTURES, "the picture: .svg, .png or .pdf"),
     LIST("rule", 'r', "NAME", rules, "draw this rule instead of plans; may be repeated"),

@@ -3,7 +3,7 @@
 #define TARTAN_CLI_HOUSE_JUDGED_H
 
 #include "ask/plan/match.h"
-#include "cli/house/houses.h"
+#include "cli/common/job.h"
 
 typedef enum tn_house_answer { TN_HOUSE_NAMES, TN_HOUSE_JSON, TN_HOUSE_BITS, TN_HOUSE_ANY } tn_house_answer;
 

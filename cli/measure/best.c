@@ -3,9 +3,11 @@
 #include <string.h>
 
 #include "ask/session/questions.h"
+#include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
-#include "cli/measure/best_sheet.h"
+#include "cli/measure/wishes.h"
 #include "cli/plan/found_rows.h"
+#include "runtime/plan/picture/draw.h"
 
 enum { BEST_MAX = 1000000 };
 
@@ -140,42 +142,26 @@ static void write_rows(tn_job *job, const tn_best_request *request)
 
 /* ---- drawn */
 
-enum { NOTES = 3, NOTE_SIZE = 256 };
-
-static void draw_sheet(tn_job *job, const tn_best_sheet *sheet)
+static void draw(tn_job *job, const tn_best_request *best)
 {
-    const tn_ready_library *ready = sheet->ready;
-    const tn_module *module = ready->schema->module;
-    char aim[NOTE_SIZE] = "", hash[33], library[NOTE_SIZE], rules[NOTE_SIZE];
-    const char *notes[NOTES] = {aim, library, rules};
-    tn_error error;
-    tn_library_hash(ready->library, hash);
-    snprintf(library, sizeof library, "library %s", hash);
-    tn_sheet_note_rules(job, rules, sizeof rules);
-    const tn_draw_options options = {.title = tn_text(module, ready->record->name),
-                                     .doc = tn_text(module, ready->record->doc),
-                                     .number_name = "rank",
-                                     .notes = notes,
-                                     .note_count = NOTES};
-    tn_status status = tn_best_sheet_aim(sheet, aim, sizeof aim) ? TN_OK : tn_fail_memory(&error);
-    if (status == TN_OK)
-        status = tn_plans_draw(ready->schema, sheet->drawn.plans, sheet->drawn.count, &options,
-                               &(tn_picture){.path = settings_of(job)->written.output}, &error);
-    if (status != TN_OK)
-        tn_job_fail(job, &error);
+    const char *output = settings_of(job)->written.output;
+    const tn_draw_request request = {.format = tn_picture_choice(output),
+                                     .subject = best->subject,
+                                     .has_best = true,
+                                     .best = best->count,
+                                     .by = {best->by.items, best->by.count},
+                                     .plan = best->plan,
+                                     .mirror = best->mirror};
+    tn_job_draw(job, &request, output);
 }
 
-static void draw(tn_job *job, const tn_best_request *request)
+static void draw_plans(tn_job *job, const tn_best_request *best)
 {
-    tn_best_sheet sheet;
-    if (request->count > TN_DRAW_PLANS_DEFAULT) {
+    if (best->count > TN_DRAW_PLANS_DEFAULT)
         tn_help(tn_job_diagnostics(job), tn_job_usage(job, "a picture shows at most %u plans", TN_DRAW_PLANS_DEFAULT),
                 "ask for fewer, or write them to a file that is not a picture");
-        return;
-    }
-    if (tn_job_best_sheet(job, request, &sheet))
-        draw_sheet(job, &sheet);
-    tn_sheet_clear(&sheet.drawn);
+    else
+        draw(job, best);
 }
 
 /* ---- asked */
@@ -185,7 +171,7 @@ static void find_plans(tn_job *job, const tn_best_request *request)
     const tn_written_settings *written = &settings_of(job)->written;
     tn_plan_format format = (tn_plan_format)written->format;
     if (format == TN_FORMAT_AUTO && tn_job_draws(written->output))
-        draw(job, request);
+        draw_plans(job, request);
     else if (format == TN_FORMAT_JSON || format == TN_FORMAT_LINES || (format == TN_FORMAT_AUTO && !written->output))
         list(job, request);
     else
@@ -206,12 +192,7 @@ static void find_houses(tn_job *job, const tn_best_request *request)
             tn_job_usage(job, "the best houses are written as lines or JSON, or drawn: leave out this --format");
         tn_help(tn_job_diagnostics(job), d, "-o NAME.svg, NAME.png or NAME.pdf draws them");
     } else if (tn_job_draws(output) && !settings->mirror) {
-        const tn_house_settings houses = tn_job_houses(&settings->plans);
-        tn_job_draw_houses(job, &houses,
-                           &(tn_house_sheet){.wanted = (size_t)request->count,
-                                             .best = request,
-                                             .camera = tn_house_sheet_camera(),
-                                             .output = output});
+        draw(job, request);
     } else {
         list(job, request);
     }

@@ -2,9 +2,9 @@
 #include <stdlib.h>
 
 #include "ask/session/questions.h"
+#include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
 #include "cli/measure/wishes.h"
-#include "driver/measure/front.h"
 #include "driver/open/digits.h"
 
 typedef struct pareto_settings {
@@ -36,14 +36,6 @@ static void write_text(const tn_found_front *front, bool houses, FILE *out)
     }
 }
 
-static void draw(tn_job *job, const tn_plan_front *f)
-{
-    const tn_shown_front shown = {f->ready, f->wishes.count, f->wishes.measures, f->wishes.most, f->weighed, &f->front};
-    tn_error error;
-    if (tn_front_picture(&shown, &(tn_picture){.path = settings_of(job)->output}, &error) != TN_OK)
-        tn_job_fail(job, &error);
-}
-
 static void write(tn_job *job, const tn_reply *answer, bool houses)
 {
     tn_output output;
@@ -60,11 +52,8 @@ static void find_front(tn_job *job, const tn_pareto_request *request, bool house
 {
     tn_reply answer;
     bool found = tn_job_answered(job, tn_ask_pareto(&job->session, request, &answer));
-    const tn_found_front *front = answer.value;
     tn_job_show(job);
-    if (found && tn_job_draws(settings_of(job)->output))
-        draw(job, front->shown.value);
-    else if (found)
+    if (found)
         write(job, &answer, houses);
     tn_reply_clear(&answer);
 }
@@ -72,20 +61,21 @@ static void find_front(tn_job *job, const tn_pareto_request *request, bool house
 static void pareto(tn_job *job)
 {
     const pareto_settings *settings = settings_of(job);
+    const char *output = settings->output;
+    const tn_library_asked subject = tn_job_asked(&settings->plans);
     tn_wished wished;
-    if ((settings->json && !tn_job_takes_text(job, settings->output)) ||
-        !tn_job_wishes(job, &settings->wanted, 2, &wished))
+    if ((settings->json && !tn_job_takes_text(job, output)) || !tn_job_wishes(job, &settings->wanted, 2, &wished))
         return;
-    bool houses = settings->plan || tn_job_of_houses(job, &settings->plans);
-    const tn_pareto_request request = {
-        .subject = tn_job_asked(&settings->plans), .by = {wished.items, wished.count}, .plan = settings->plan};
-    if (!houses || !tn_job_draws(settings->output)) {
-        find_front(job, &request, houses);
-        return;
-    }
-    const tn_house_settings of = tn_job_houses(&settings->plans);
-    tn_job_draw_houses(
-        job, &of, &(tn_house_sheet){.front = &request, .camera = tn_house_sheet_camera(), .output = settings->output});
+    const tn_pareto_request request = {.subject = subject, .by = {wished.items, wished.count}, .plan = settings->plan};
+    const tn_draw_request drawn = {.format = tn_picture_choice(output),
+                                   .subject = subject,
+                                   .front = true,
+                                   .by = {wished.items, wished.count},
+                                   .plan = settings->plan};
+    if (tn_job_draws(output))
+        tn_job_draw(job, &drawn, output);
+    else
+        find_front(job, &request, settings->plan || tn_job_of_houses(job, &settings->plans));
 }
 
 static int run(const tn_command *command, const tn_settings *common)

@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "ask/plan/diff.h"
+#include "ask/plan/sheet.h"
 #include "ask/session/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/diff_text.h"
-#include "cli/plan/sheet.h"
 #include "driver/open/digits.h"
 #include "runtime/base/picture.h"
 

@@ -3,8 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/form/draw.h"
 #include "ask/plan/explain.h"
 #include "ask/session/questions.h"
+#include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
 #include "cli/house/judged.h"
 #include "cli/plan/explain_text.h"
@@ -208,14 +210,17 @@ static bool check_options(tn_job *job)
 static void draw_solid(tn_job *job)
 {
     const explain_settings *settings = settings_of(job);
-    const tn_solid_drawing drawing = {.views = TN_SOLID_HISTORY,
-                                      .camera = tn_camera_default(),
-                                      .dpi = (uint32_t)settings->dpi.value,
-                                      .most = (uint32_t)settings->max_boxes.value};
+    const tn_draw_request request = {.format = tn_picture_choice(settings->output),
+                                     .solid = {.solid = settings->solid,
+                                               .has_max_boxes = settings->max_boxes.given,
+                                               .max_boxes = settings->max_boxes.value},
+                                     .show = TN_DRAW_HISTORY,
+                                     .has_dpi = settings->dpi.given,
+                                     .dpi = settings->dpi.value};
     if (settings->json)
         tn_job_usage(job, "either a picture (-o) or --json, not both");
     else
-        tn_job_draw_solid(job, settings->solid, &drawing, settings->output);
+        tn_job_draw(job, &request, settings->output);
 }
 
 /* A house line, or the name of a house: #P:V, or #R if --library names a library of houses. */

@@ -2,10 +2,10 @@
 #ifndef TARTAN_CLI_PLAN_LIBRARY_JOB_H
 #define TARTAN_CLI_PLAN_LIBRARY_JOB_H
 
+#include "ask/house/numbered.h"
 #include "ask/session/requests.h"
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
-#include "cli/house/houses.h"
 #include "driver/plan/library.h"
 
 /* The options of commands about plans: which library, and what the work may take. Commands embed it as `plans`. */

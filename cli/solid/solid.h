@@ -8,7 +8,4 @@
 /* Prints how boxes of the design of this name (NULL: the only one) were squashed, as `tartan explain` does. */
 void tn_job_explain_solid(tn_job *job, const char *name, uint32_t most, bool json);
 
-/* Draws the design of this name (NULL: the only one) to a file. */
-void tn_job_draw_solid(tn_job *job, const char *name, const tn_solid_drawing *drawing, const char *output);
-
 #endif

@@ -1,8 +1,8 @@
 /* Plans gathered for a picture, before any is drawn, since all share one scale. */
-#ifndef TARTAN_CLI_PLAN_SHEET_H
-#define TARTAN_CLI_PLAN_SHEET_H
+#ifndef TARTAN_ASK_PLAN_SHEET_H
+#define TARTAN_ASK_PLAN_SHEET_H
 
-#include "cli/plan/library_job.h"
+#include "driver/open/open.h"
 #include "runtime/plan/picture/draw.h"
 
 typedef struct tn_plan_sheet {
@@ -18,6 +18,6 @@ void tn_sheet_clear(tn_plan_sheet *sheet);
 
 /* "ward.plan, rules 0123456789abcdef, tartan 1.0": the last note of a sheet. Only the file's name, so that the same
  * sheet can be made anywhere. */
-void tn_sheet_note_rules(const tn_job *job, char *note, size_t size);
+void tn_sheet_note_rules(const tn_opened *opened, char *note, size_t size);
 
 #endif

@@ -1,5 +1,5 @@
 /* Gathers plans for a picture. */
-#include "cli/plan/sheet.h"
+#include "ask/plan/sheet.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -34,10 +34,10 @@ void tn_sheet_clear(tn_plan_sheet *s)
     *s = (tn_plan_sheet){0};
 }
 
-void tn_sheet_note_rules(const tn_job *job, char *note, size_t size)
+void tn_sheet_note_rules(const tn_opened *opened, char *note, size_t size)
 {
-    const tn_module *module = job->opened.module;
-    const char *path = job->settings->operands.items[0], *slash = strrchr(path, '/');
+    const tn_module *module = opened->module;
+    const char *path = opened->path, *slash = strrchr(path, '/');
     const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
     int used = snprintf(note, size, "%.160s", slash ? slash + 1 : path);
     if (producer && used >= 0 && (size_t)used < size)
