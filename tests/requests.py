@@ -44,8 +44,11 @@ ASKED = {
     ],
     "diff": ["diff terrace terrace --trays 2..3 --no-measures", "diff lahave-houses lahave-houses --trays 3..4", "diff cottage cottage --library cottages"],
     "test": ["test terrace", "test terrace cottage --coverage", "test table", "check terrace --test --no-analysis"],
+    "mesh": ["mesh table", "mesh table --cells", "mesh primitives --surface torus --grid 12 --sharp --bounds --thickness --times"],
     "relations": ["check terrace --relations", "check cottage --relations --max-states 40", "check cottage --relations --examples --max-states 40"],
 }
+# What commands that lack --json are asked for JSON with.
+JSON = {"mesh": ["--stats", "json"]}
 # Questions whose answers are lists: the command writes a line of JSON for each, which follows the type of a row.
 ROWS = {
     "sample": [("found_plan", "sample terrace 3"), ("found_house", "sample cottage 2 --library cottages"), ("found_house", "sample cottage 2 --plan #10")],
@@ -106,7 +109,7 @@ def main():
     for question, lines in ASKED.items():
         validator = answers_of(question)
         for line in lines:
-            said = answers(line, "--json")
+            said = answers(line, *JSON.get(question, ["--json"]))
             if said:
                 check(line, validator, json.loads(said))
     folder = tempfile.mkdtemp(prefix="requests")

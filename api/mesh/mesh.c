@@ -100,7 +100,7 @@ static tn_status write_triangles(const tn_mesh *mesh, const tn_mesh_style *style
         status = tn_mesh_triangulate(&cut, error);
     if (status == TN_OK)
         status = glb ? write_to_memory(&cut, style, tn_mesh_write_glb, watch, bytes, size, error)
-                     : tn_openmesh_write(&cut, TN_OPENMESH_STL, style->y_up, bytes, size, error);
+                     : tn_openmesh_write(&cut, TN_FILE_STL, style->y_up, bytes, size, error);
     tn_mesh_clear(&cut);
     return status;
 }
@@ -121,9 +121,9 @@ static tn_status write_mesh(const tn_mesh *mesh, tartan_mesh_format format, cons
     case TARTAN_STL:
         return write_triangles(mesh, style, format == TARTAN_GLB, watch, bytes, size, error);
     case TARTAN_OFF:
-        return tn_openmesh_write(mesh, TN_OPENMESH_OFF, style->y_up, bytes, size, error);
+        return tn_openmesh_write(mesh, TN_FILE_OFF, style->y_up, bytes, size, error);
     case TARTAN_OM:
-        return tn_openmesh_write(mesh, TN_OPENMESH_OM, style->y_up, bytes, size, error);
+        return tn_openmesh_write(mesh, TN_FILE_OM, style->y_up, bytes, size, error);
     }
     return tn_fail(error, TN_INVALID, TN_CODE_NONE, "there is no mesh format %d", (int)format);
 }

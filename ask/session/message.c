@@ -323,9 +323,9 @@ static const char *article(const char *name)
     return strchr("aeiou", name[0]) ? "an" : "a";
 }
 
-static const char *wanted(tn_message_kind kind)
+static const char *wanted(const tn_message_member *m)
 {
-    switch (kind) {
+    switch (m->kind) {
     case TN_MESSAGE_TEXTS:
         return "a list of texts";
     case TN_MESSAGE_FLAG:
@@ -337,7 +337,7 @@ static const char *wanted(tn_message_kind kind)
     case TN_MESSAGE_NESTED:
         return "an object";
     case TN_MESSAGE_LIST:
-        return "a list of objects";
+        return m->of->form == TN_MESSAGE_TUPLE ? "a list of lists" : "a list of objects";
     default:
         return "a text";
     }
@@ -357,14 +357,30 @@ static tn_status read_texts(json_t *list, tn_texts *texts, tn_error *error)
     return TN_OK;
 }
 
+static tn_status read_value(const tn_message_member *m, json_t *from, void *member, tn_error *error);
+
+/* Of exactly so many values as it has members. */
+static tn_status read_tuple(const tn_message *of, json_t *from, void *value, tn_error *error)
+{
+    tn_status status = json_array_size(from) == of->member_count ? TN_OK : TN_INVALID;
+    for (size_t i = 0; status == TN_OK && i < of->member_count; i++)
+        status = read_value(&of->members[i], json_array_get(from, i), at(value, of->members[i].offset), error);
+    return status;
+}
+
+/* In its form; TN_INVALID without a sentence if it is in another one. */
+static tn_status read_message(const tn_message *of, json_t *from, void *value, tn_error *error)
+{
+    if (of->form == TN_MESSAGE_TUPLE)
+        return read_tuple(of, from, value, error);
+    return json_is_object(from) ? tn_message_read(of, from, value, error) : TN_INVALID;
+}
+
 static tn_status read_list(const tn_message *of, json_t *from, tn_list *list, tn_error *error)
 {
     tn_status status = tn_message_list(of, json_array_size(from), list, error);
-    for (size_t i = 0; status == TN_OK && i < list->count; i++) {
-        json_t *item = json_array_get(from, i);
-        status =
-            json_is_object(item) ? tn_message_read(of, item, (char *)list->items + i * of->size, error) : TN_INVALID;
-    }
+    for (size_t i = 0; status == TN_OK && i < list->count; i++)
+        status = read_message(of, json_array_get(from, i), (char *)list->items + i * of->size, error);
     return status;
 }
 
@@ -440,7 +456,7 @@ static tn_status read_value(const tn_message_member *m, json_t *from, void *memb
         return json_is_integer(from) && json_integer_value(from) >= 0 ? in_bounds(m, *(uint64_t *)member, error)
                                                                       : TN_INVALID;
     case TN_MESSAGE_NESTED:
-        return json_is_object(from) ? tn_message_read(m->of, from, member, error) : TN_INVALID;
+        return read_message(m->of, from, member, error);
     case TN_MESSAGE_LIST:
         return json_is_array(from) ? read_list(m->of, from, member, error) : TN_INVALID;
     default: /* no request has others */
@@ -469,7 +485,7 @@ static tn_status read_member(const tn_message *message, const tn_message_member 
     error->message[0] = '\0';
     tn_status status = read_value(m, from, at(value, m->offset), error);
     if (status == TN_INVALID && !error->message[0])
-        tn_fail(error, TN_INVALID, E_USAGE, "`%s` is %s: %s", m->name, wanted(m->kind), m->doc);
+        tn_fail(error, TN_INVALID, E_USAGE, "`%s` is %s: %s", m->name, wanted(m), m->doc);
     return status;
 }
 

@@ -108,5 +108,7 @@ tn_json_layout tn_reply_layout(const tn_reply *answer)
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
         if (answer->message == lines[i])
             return TN_JSON_LINES;
+    if (answer->message == &tn_message_measured_mesh)
+        return TN_JSON_SPACED;
     return TN_JSON_TIGHT;
 }

@@ -24,7 +24,7 @@ typedef struct run_state {
     tn_study study;
     tn_growth_system *system;
     tn_growth *growth;
-    tn_out_format format;
+    tn_file_format format;
     uint64_t until_faces; /* 0: as many steps as the study says */
     tn_stats *stats;
     size_t stats_count;

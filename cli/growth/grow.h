@@ -3,7 +3,7 @@
 #define TARTAN_CLI_GROWTH_GROW_H
 
 #include "cli/common/job.h"
-#include "cli/common/mesh_output.h"
+#include "driver/mesh/mesh_file.h"
 #include "runtime/growth/picture/draw.h"
 #include "runtime/growth/stats.h"
 #include "runtime/growth/study.h"
@@ -25,10 +25,10 @@ typedef struct tn_grow_settings {
     tn_settings common;
     tn_grow_statements said;
     const char *output, *until, *title, *overlay;
-    int format; /* a tn_out_format */
-    int engine; /* a tn_grow_engine */
-    int stats;  /* 0 not asked for, 1 table, 2 json */
-    int up;     /* 0 z, 1 y */
+    int format;       /* of the words of TN_GROW_FORMATS */
+    int engine;       /* a tn_grow_engine */
+    int stats;        /* 0 not asked for, 1 table, 2 json */
+    int up;           /* 0 z, 1 y */
     int surroundings; /* of a picture: 0 where there are any, 1 yes, 2 no */
     bool explain, each_step, sheet, triangulate, groups, lines, normals;
     tn_option_number subdivide, smooth, decimate, threads;
@@ -47,19 +47,20 @@ static inline const tn_grow_settings *tn_grow_settings_of(const tn_job *job)
 bool tn_grow_open(tn_job *job);
 
 /* What -o and --format ask for; false (reported) where they do not agree. */
-bool tn_grow_format_of(tn_job *job, tn_out_format *format);
+bool tn_grow_format_of(tn_job *job, tn_file_format *format);
 
 /* Writes the growth as it stands: a mesh or a picture. */
-void tn_grow_write(tn_job *job, const tn_growth *growth, const tn_study *study, tn_out_format format, const char *path);
+void tn_grow_write(tn_job *job, const tn_growth *growth, const tn_study *study, tn_file_format format,
+                   const char *path);
 
 /* Draws all views on one sheet. */
 void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, tn_view *const *views, size_t count,
-                   tn_out_format format);
+                   tn_file_format format);
 /* Draws what was gathered of several steps. */
 void tn_grow_overlay(tn_job *job, const tn_growth *growth, const tn_study *study, tn_sight *sight,
-                     tn_out_format format);
-/* Draws the surface from all around: into a folder, or (TN_OUT_PNG) as one picture that moves. */
-void tn_grow_turn(tn_job *job, const tn_growth *growth, const tn_study *study, tn_out_format format);
+                     tn_file_format format);
+/* Draws the surface from all around: into a folder, or (TN_FILE_PNG) as one picture that moves. */
+void tn_grow_turn(tn_job *job, const tn_growth *growth, const tn_study *study, tn_file_format format);
 tn_camera tn_grow_camera(const tn_grow_settings *settings);
 
 /* Are surroundings drawn? Where it is not said: if there are any. */

@@ -3,29 +3,30 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/session/made.h"
 #include "cli/growth/grow.h"
 #include "runtime/growth/surface.h"
 
-static bool is_picture(tn_out_format format)
+static bool is_picture(tn_file_format format)
 {
-    return format >= TN_OUT_SVG && format <= TN_OUT_PDF;
+    return TN_WRITES_PICTURES >> format & 1;
 }
 
 /* Options that say something about some formats only: used with another one they would do nothing. */
-static bool check_use(tn_job *job, tn_out_format format)
+static bool check_use(tn_job *job, tn_file_format format)
 {
     enum { MESH = 1, SURFACE = 2, LINES = 4, NORMALS = 8, GROUPS = 16, AXIS = 32, PICTURE = 64 };
-    static const unsigned can[TN_OUT_FORMAT_COUNT] = {
-        [TN_OUT_OBJ] = MESH | SURFACE | LINES | NORMALS | GROUPS | AXIS,
-        [TN_OUT_PLY] = MESH | SURFACE | LINES | NORMALS | GROUPS | AXIS,
-        [TN_OUT_STL] = MESH | SURFACE | AXIS,
-        [TN_OUT_OFF] = MESH | SURFACE | AXIS,
-        [TN_OUT_OM] = MESH | SURFACE | AXIS,
-        [TN_OUT_GLB] = MESH | SURFACE | NORMALS | GROUPS,
-        [TN_OUT_DXF] = MESH | LINES | GROUPS | AXIS,
-        [TN_OUT_SVG] = PICTURE,
-        [TN_OUT_PNG] = PICTURE,
-        [TN_OUT_PDF] = PICTURE,
+    static const unsigned can[TN_FILE_FORMATS + 1] = {
+        [TN_FILE_OBJ] = MESH | SURFACE | LINES | NORMALS | GROUPS | AXIS,
+        [TN_FILE_PLY] = MESH | SURFACE | LINES | NORMALS | GROUPS | AXIS,
+        [TN_FILE_STL] = MESH | SURFACE | AXIS,
+        [TN_FILE_OFF] = MESH | SURFACE | AXIS,
+        [TN_FILE_OM] = MESH | SURFACE | AXIS,
+        [TN_FILE_GLB] = MESH | SURFACE | NORMALS | GROUPS,
+        [TN_FILE_DXF] = MESH | LINES | GROUPS | AXIS,
+        [TN_FILE_SVG] = PICTURE,
+        [TN_FILE_PNG] = PICTURE,
+        [TN_FILE_PDF] = PICTURE,
     };
     const tn_grow_settings *s = tn_grow_settings_of(job);
     const struct {
@@ -73,10 +74,10 @@ static bool check_use(tn_job *job, tn_out_format format)
 }
 
 /* A turn is one picture from each side, as PNG. */
-static bool check_turn(tn_job *job, tn_out_format format)
+static bool check_turn(tn_job *job, tn_file_format format)
 {
     const tn_grow_settings *s = tn_grow_settings_of(job);
-    if (format != TN_OUT_PNG) {
+    if (format != TN_FILE_PNG) {
         tn_diagnostic *d = tn_job_usage(job, "--turn writes PNG pictures, and %s is none", s->output);
         tn_help(tn_job_diagnostics(job), d, "name a folder, as -o turn, or one moving picture, as -o turn.png");
         return false;
@@ -88,18 +89,21 @@ static bool check_turn(tn_job *job, tn_out_format format)
     return check_use(job, format);
 }
 
-bool tn_grow_format_of(tn_job *job, tn_out_format *format)
+bool tn_grow_format_of(tn_job *job, tn_file_format *format)
 {
     const tn_grow_settings *settings = tn_grow_settings_of(job);
     const char *path = settings->output;
-    *format = (tn_out_format)settings->format;
+    static const tn_file_format formats[] = {TN_FILE_OTHER, TN_FILE_OBJ, TN_FILE_PLY, TN_FILE_STL,
+                                             TN_FILE_OFF,   TN_FILE_OM,  TN_FILE_GLB, TN_FILE_DXF,
+                                             TN_FILE_SVG,   TN_FILE_PNG, TN_FILE_PDF};
+    *format = formats[settings->format];
     if (!path)
-        return check_use(job, TN_OUT_NONE);
-    if (*format == TN_OUT_NONE)
-        *format = tn_out_format_of(path);
-    if (settings->turn.given && *format == TN_OUT_NONE && strcmp(path, "-") != 0)
-        return check_turn(job, TN_OUT_PNG);
-    if (*format == TN_OUT_NONE || *format > TN_OUT_PDF) {
+        return check_use(job, TN_FILE_OTHER);
+    if (*format == TN_FILE_OTHER)
+        *format = tn_file_format_of(path);
+    if (settings->turn.given && *format == TN_FILE_OTHER && strcmp(path, "-") != 0)
+        return check_turn(job, TN_FILE_PNG);
+    if (*format == TN_FILE_OTHER) {
         tn_diagnostic *d = tn_job_usage(job, "%s does not say what is to be written", path);
         tn_help(tn_job_diagnostics(job), d,
                 "end its name in .obj, .ply, .stl, .off, .om, .glb, .dxf, .svg, .png or .pdf, or say --format");
@@ -153,11 +157,12 @@ static void describe(const tn_job *job, const tn_growth *growth, char *text, siz
 
 /* ---- meshes */
 
-static void write_surface(tn_job *job, const tn_growth *growth, tn_out_format format, const char *path)
+static void write_surface(tn_job *job, const tn_growth *growth, tn_file_format format, const char *path)
 {
     const tn_grow_settings *settings = tn_grow_settings_of(job);
-    bool dxf = format == TN_OUT_DXF;
-    tn_out_changes changes = {settings->subdivide, settings->smooth, settings->decimate, settings->triangulate};
+    bool dxf = format == TN_FILE_DXF;
+    tn_mesh_changes changes = {(unsigned)settings->subdivide.value, (unsigned)settings->smooth.value,
+                               (size_t)settings->decimate.value, settings->triangulate};
     tn_surface_options options = {
         .groups = settings->groups, .lines = settings->lines || dxf, .layers = dxf && !settings->groups};
     tn_mesh mesh;
@@ -167,12 +172,12 @@ static void write_surface(tn_job *job, const tn_growth *growth, tn_out_format fo
     describe(job, growth, note, sizeof note);
     tn_status status = tn_surface_mesh(growth, &options, &mesh, &error);
     if (status == TN_OK)
-        status = tn_out_rework(job, &changes, format, &mesh, &error);
+        status = tn_mesh_change(&job->opened, &changes, format, &mesh, &error);
     if (status == TN_OK && tn_job_output(job, path, &output)) {
         const char *notes = note;
         tn_mesh_style style = {
             .notes = &notes, .note_count = 1, .normals = settings->normals, .y_up = settings->up == 1};
-        status = tn_out_mesh(&mesh, format, &style, output.stream, &error);
+        status = tn_mesh_file_write(&mesh, format, &style, output.stream, &error);
         if (status == TN_OK)
             tn_job_commit(job, &output);
         else
@@ -185,9 +190,9 @@ static void write_surface(tn_job *job, const tn_growth *growth, tn_out_format fo
 
 /* ---- pictures */
 
-static tn_picture picture_to(const char *path, tn_out_format format)
+static tn_picture picture_to(const char *path, tn_file_format format)
 {
-    return (tn_picture){.path = path, .format = (tn_canvas_format)(format - TN_OUT_SVG + TN_CANVAS_SVG)};
+    return (tn_picture){.path = path, .format = tn_picture_asked(format).format};
 }
 
 static void note_depth(tn_job *job, const tn_view *view)
@@ -198,7 +203,7 @@ static void note_depth(tn_job *job, const tn_view *view)
 }
 
 void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, tn_view *const *views, size_t count,
-                   tn_out_format format)
+                   tn_file_format format)
 {
     char caption[240];
     tn_error error;
@@ -219,7 +224,7 @@ void tn_grow_sheet(tn_job *job, const tn_growth *growth, const tn_study *study, 
 }
 
 static void write_sight(tn_job *job, const tn_growth *growth, const tn_study *study, tn_sight *sight,
-                        tn_out_format format, const char *path)
+                        tn_file_format format, const char *path)
 {
     tn_camera camera = tn_grow_camera(tn_grow_settings_of(job));
     tn_view *view = NULL;
@@ -247,12 +252,13 @@ static void write_sight(tn_job *job, const tn_growth *growth, const tn_study *st
     tn_view_free(view);
 }
 
-void tn_grow_overlay(tn_job *job, const tn_growth *growth, const tn_study *study, tn_sight *sight, tn_out_format format)
+void tn_grow_overlay(tn_job *job, const tn_growth *growth, const tn_study *study, tn_sight *sight,
+                     tn_file_format format)
 {
     write_sight(job, growth, study, sight, format, tn_grow_settings_of(job)->output);
 }
 
-static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *study, tn_out_format format,
+static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *study, tn_file_format format,
                           const char *path)
 {
     tn_sight sight = {0};
@@ -264,7 +270,7 @@ static void write_picture(tn_job *job, const tn_growth *growth, const tn_study *
     tn_sight_clear(&sight);
 }
 
-void tn_grow_write(tn_job *job, const tn_growth *growth, const tn_study *study, tn_out_format format, const char *path)
+void tn_grow_write(tn_job *job, const tn_growth *growth, const tn_study *study, tn_file_format format, const char *path)
 {
     if (is_picture(format))
         write_picture(job, growth, study, format, path);

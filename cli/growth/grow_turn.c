@@ -83,12 +83,12 @@ static tn_status draw_moving(tn_job *job, const tn_growth *growth, const tn_stud
     return status;
 }
 
-void tn_grow_turn(tn_job *job, const tn_growth *growth, const tn_study *study, tn_out_format format)
+void tn_grow_turn(tn_job *job, const tn_growth *growth, const tn_study *study, tn_file_format format)
 {
     const char *path = tn_grow_settings_of(job)->output;
     tn_error error;
-    tn_status status = format == TN_OUT_PNG ? draw_moving(job, growth, study, path, &error)
-                                            : draw_files(job, growth, study, path, &error);
+    tn_status status = format == TN_FILE_PNG ? draw_moving(job, growth, study, path, &error)
+                                             : draw_files(job, growth, study, path, &error);
     if (status != TN_OK)
         tn_job_fail(job, &error);
 }

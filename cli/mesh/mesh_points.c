@@ -23,12 +23,10 @@ static bool read_place(const char *line, double place[3])
     return line[strspn(line, " \t\r\n")] == '\0';
 }
 
-static void write_lines(tn_job *job, const tn_open_field *open, FILE *in, double *registers)
+static void write_lines(tn_job *job, const tn_probe *probe, const char *path, FILE *in)
 {
     char line[1000];
     double place[3], gradient[3];
-    const tn_field *field = &open->field;
-    const char *path = tn_mesh_settings_of(job)->points;
     tn_file_state before = tn_file_state_of(fileno(in));
     tn_error error;
     for (unsigned long number = 1; fgets(line, sizeof line, in); number++) {
@@ -46,7 +44,7 @@ static void write_lines(tn_job *job, const tn_open_field *open, FILE *in, double
             tn_job_fail(job, &error);
             return;
         }
-        double value = tn_tape_gradient(&field->samples, place, &field->distances, registers, gradient);
+        double value = tn_probe_at(probe, place, gradient);
         printf("%.17g %.17g %.17g %.17g %s\n", tn_without_sign(value), tn_without_sign(gradient[0]),
                tn_without_sign(gradient[1]), tn_without_sign(gradient[2]), value < 0 ? "inside" : "outside");
     }
@@ -58,23 +56,21 @@ static void write_lines(tn_job *job, const tn_open_field *open, FILE *in, double
     }
 }
 
-void tn_mesh_points(tn_job *job, const tn_open_field *open)
+void tn_mesh_write_points(tn_job *job, const tn_mesh_request *request, const char *path)
 {
-    const char *path = tn_mesh_settings_of(job)->points;
+    tn_probe probe;
     bool standard = strcmp(path, "-") == 0;
-    FILE *in = standard ? stdin : tn_file_stream(path);
-    double *registers = calloc((size_t)open->field.samples.register_count * 4, sizeof *registers);
-    tn_error error;
-    if (!in) {
-        tn_cannot_read(path, errno, &error);
-        tn_job_fail(job, &error);
-    } else if (!registers) {
-        tn_fail_memory(&error);
-        tn_job_fail(job, &error);
-    } else {
-        write_lines(job, open, in, registers);
+    if (tn_job_answered(job, tn_probe_open(&job->session, request, &probe))) {
+        FILE *in = standard ? stdin : tn_file_stream(path);
+        tn_error error;
+        if (in) {
+            write_lines(job, &probe, path, in);
+        } else {
+            tn_cannot_read(path, errno, &error);
+            tn_job_fail(job, &error);
+        }
+        if (in && !standard)
+            fclose(in);
     }
-    if (in && !standard)
-        fclose(in);
-    free(registers);
+    tn_probe_close(&probe);
 }

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/formats.h"
-#include "cli/common/mesh_output.h"
 #include "cli/place/placing.h"
+#include "driver/mesh/mesh_file.h"
 #include "driver/place/shape.h"
+#include "runtime/base/formats.h"
 
 out_format tn_place_format(const char *path)
 {
@@ -115,8 +115,8 @@ static void write_picture(placing *p, const char *path)
 
 static void write_mesh(placing *p, const char *path)
 {
-    static const tn_out_changes none = {.triangulate = false};
-    tn_out_format format = tn_out_format_of(path);
+    static const tn_mesh_changes none = {.triangulate = false};
+    tn_file_format format = tn_file_format_of(path);
     unsigned char(*palette)[3] = NULL;
     tn_mesh mesh = {0};
     tn_output output;
@@ -125,10 +125,10 @@ static void write_mesh(placing *p, const char *path)
         return;
     tn_status status = tn_placed_mesh(p->rules.module, &p->model, &mesh, &palette, &error);
     if (status == TN_OK)
-        status = tn_out_rework(p->job, &none, format, &mesh, &error);
+        status = tn_mesh_change(&p->job->opened, &none, format, &mesh, &error);
     const tn_mesh_style style = {.unit = TN_MESH_UNIT_MM, .colours = (const unsigned char(*)[3])palette};
     if (status == TN_OK)
-        status = tn_out_mesh(&mesh, format, &style, output.stream, &error);
+        status = tn_mesh_file_write(&mesh, format, &style, output.stream, &error);
     if (status != TN_OK)
         tn_job_fail(p->job, &error);
     tn_job_close(p->job, &output, status == TN_OK);

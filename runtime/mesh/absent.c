@@ -17,8 +17,8 @@ static tn_status read_mesh(void *context, const char *path, tn_mesh *mesh, tn_er
 
 const tn_mesh_reader tn_openmesh_reader = {read_mesh, NULL};
 
-tn_status tn_openmesh_write(const tn_mesh *mesh, tn_openmesh_format format, bool y_up, unsigned char **bytes,
-                            size_t *size, tn_error *error)
+tn_status tn_openmesh_write(const tn_mesh *mesh, tn_file_format format, bool y_up, unsigned char **bytes, size_t *size,
+                            tn_error *error)
 {
     (void)mesh, (void)format, (void)y_up;
     *bytes = NULL;

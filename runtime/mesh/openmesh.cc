@@ -365,30 +365,30 @@ extern "C" tn_status tn_openmesh_read(const char *path, tn_mesh *mesh, tn_error 
     });
 }
 
-extern "C" tn_status tn_openmesh_write(const tn_mesh *mesh, tn_openmesh_format format, bool y_up, unsigned char **bytes,
+extern "C" tn_status tn_openmesh_write(const tn_mesh *mesh, tn_file_format format, bool y_up, unsigned char **bytes,
                                        size_t *size, tn_error *error)
 {
-    static const char *const extensions[] = {".off", ".stl", ".om"};
     *bytes = nullptr;
     *size = 0;
     return guarded(error, [&] {
         poly_mesh m;
         bool surface = into(mesh, y_up, m);
-        if (!surface && format != TN_OPENMESH_STL)
+        if (!surface && format != TN_FILE_STL)
             return no_surface(error);
         if (!surface) {
             m.clear();
             into_apart(mesh, y_up, m);
         }
         OpenMesh::IO::Options options;
-        if (format != TN_OPENMESH_OFF)
+        if (format != TN_FILE_OFF)
             options += OpenMesh::IO::Options::Binary;
         std::ostringstream out(std::ios::binary);
-        if (format == TN_OPENMESH_OFF)
+        if (format == TN_FILE_OFF)
             out.precision(17);
-        if (format == TN_OPENMESH_STL)
+        if (format == TN_FILE_STL)
             m.triangulate();
-        if (!OpenMesh::IO::write_mesh(m, out, extensions[format], options, 17))
+        const std::string extension = std::string(".") + tn_file_format_word(format);
+        if (!OpenMesh::IO::write_mesh(m, out, extension, options, 17))
             return tn_fail(error, TN_INVALID, TN_CODE_NONE, "the mesh library cannot write this mesh");
         const std::string text = out.str();
         *bytes = static_cast<unsigned char *>(std::malloc(text.size() + 1));

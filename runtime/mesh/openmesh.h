@@ -5,6 +5,7 @@
 #ifndef TARTAN_MESH_OPENMESH_H
 #define TARTAN_MESH_OPENMESH_H
 
+#include "runtime/base/formats.h"
 #include "runtime/geometry/boundary_file.h"
 
 /* Reads OBJ, PLY, STL, OFF or OM. OpenMesh splits vertices where faces meet otherwise than on a surface; they are
@@ -14,11 +15,9 @@ tn_status tn_openmesh_read(const char *path, tn_mesh *mesh, tn_error *error);
 /* The same for whoever takes a reader. */
 extern const tn_mesh_reader tn_openmesh_reader;
 
-typedef enum tn_openmesh_format { TN_OPENMESH_OFF, TN_OPENMESH_STL, TN_OPENMESH_OM } tn_openmesh_format;
-
-/* The file's bytes, which the caller frees with free(). STL is triangles, binary. */
-tn_status tn_openmesh_write(const tn_mesh *mesh, tn_openmesh_format format, bool y_up, unsigned char **bytes,
-                            size_t *size, tn_error *error);
+/* The file's bytes, which the caller frees with free(): OFF, STL or OM. STL is triangles, binary. */
+tn_status tn_openmesh_write(const tn_mesh *mesh, tn_file_format format, bool y_up, unsigned char **bytes, size_t *size,
+                            tn_error *error);
 
 /* Jacobi Laplace smoothing; the outline stays. */
 tn_status tn_openmesh_smooth(tn_mesh *mesh, unsigned iterations, tn_error *error);

@@ -9,12 +9,13 @@ source=$(cd "$here/../.." && pwd)
 cd "$source"
 
 requests=()
+json=(--json)
 : >"$scratch/wanted"
 # as REQUEST WORDS...: the request asks for what the words of the command do.
 as() {
     requests+=("$1")
     shift
-    "$TARTAN" "${command[@]}" "$file" "$@" --json >"$scratch/one" 2>"$scratch/said" ||
+    "$TARTAN" "${command[@]}" "$file" "$@" "${json[@]}" >"$scratch/one" 2>"$scratch/said" ||
         sed -nE '0,/^(.*: )?error(\[E[0-9]+\])?: /s/^(.*: )?error(\[E[0-9]+\])?: (.*)$/error \3/p' "$scratch/said" | head -n 1 >"$scratch/one"
     cat "$scratch/one" >>"$scratch/wanted"
 }
@@ -292,6 +293,34 @@ as_rows "{\"house\": \"$house\"}" "$house"
 as_rows '{"house": "a; b"}' 'a; b'
 asked
 
+# What is made goes into files (tests/ask_files.py); what is measured is JSON.
+question=mesh command=(mesh) json=(--stats json)
+file=stdlib/table.solid
+as '{}'
+as '{"cells": true}' --cells
+as '{"decimate": 50, "smooth": 1}' --decimate 50 --smooth 1
+as '{"sharp": true}' --sharp
+as '{"solid": "tabel"}' --solid tabel
+asked
+file=tests/cli/files/ball.field
+as '{"grid": 12}' --grid 12
+as '{"grid": 12, "sharp": true, "bounds": true, "thickness": true}' --grid 12 --sharp --bounds --thickness
+as '{"grid": 12, "open": true, "jumps": "open", "engine": "vm"}' --grid 12 --open --jumps open --engine vm
+as '{"grid": 12, "exact": true}' --grid 12 --exact
+as '{"open": true, "thickness": true}' --open --thickness
+asked
+for file in stdlib/terrace.plan stdlib/koch.hemls; do
+    as '{}'
+    asked
+done
+# What the command writes for each line of a file is a list of the answer.
+printf '0 0 0\n3 0 0.5\n-1 2 7\n' >"$scratch/places"
+"$program" stdlib tests/cli/files/ball.field mesh '{"points": [[0, 0, 0], [3, 0, 0.5], [-1, 2, 7]]}' | python3 -c 'import json, sys
+for point in json.load(sys.stdin)["points"]:
+    print(*("%.17g" % number for number in [point["value"], *point["gradient"]]), "inside" if point["inside"] else "outside")' >"$scratch/got"
+"$TARTAN" mesh tests/cli/files/ball.field --points "$scratch/places" | diff - "$scratch/got" || fail 'points are valued otherwise'
+json=(--json)
+
 # What only requests can get wrong.
 wrong() { # REQUEST MESSAGE
     is "$1" "$("$program" stdlib stdlib/terrace.plan count "$1")" "error $2"
@@ -314,5 +343,12 @@ wrong_to_explain '{}' 'say which plan or which house is explained: one of them'
 wrong_to_explain '{"plan": "#1", "house": "#1:1"}' 'say which plan or which house is explained: one of them'
 wrong_to_explain '{"plan": "#1", "trays": {"from": 1, "to": 2}}' '--trays is for all plans of a library, and one is explained'
 wrong_to_explain '{"house": "#1:1", "nearest": 2}' '--nearest is about plans that a library of plans drops'
+wrong_to_mesh() { # REQUEST MESSAGE
+    is "$1" "$("$program" stdlib stdlib/table.solid mesh "$1")" "error $2"
+}
+wrong_to_mesh '{"points": [[0, 0]]}' '`points` is a list of lists: of a field: places that it is evaluated at, instead of being meshed'
+wrong_to_mesh '{"points": [[0, 0, "1"]]}' '`points` is a list of lists: of a field: places that it is evaluated at, instead of being meshed'
+wrong_to_mesh '{"points": [[0, 0, 0]]}' '--points does nothing for a design of boxes'
+wrong_to_mesh '{"format": "svg"}' '`format` cannot be `svg`'
 is 'another question' "$("$program" stdlib stdlib/terrace.plan cuont '{}')" 'error there is no question `cuont`'
 finish

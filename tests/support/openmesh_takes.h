@@ -14,7 +14,7 @@ static inline bool openmesh_takes(const tn_mesh *mesh)
     unsigned char *bytes;
     size_t size;
     tn_error error = {0};
-    tn_status status = tn_openmesh_write(mesh, TN_OPENMESH_OM, false, &bytes, &size, &error);
+    tn_status status = tn_openmesh_write(mesh, TN_FILE_OM, false, &bytes, &size, &error);
     free(bytes);
     return status == TN_OK || error.code == E_PART_ABSENT;
 }

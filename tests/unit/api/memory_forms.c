@@ -1,0 +1,62 @@
+/* Out of memory where forms are asked about behind the C interface: each allocation fails once, and then all from there
+ * on. A question says so, or does without one, and leaves nothing behind. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "include/tartan/tartan.h"
+#include "tests/support/fail_each.h"
+
+static tn_status ask_of(const char *path, const char *text, const char *question, const char *const *requests,
+                        size_t count)
+{
+    tartan_session *session = NULL;
+    tartan_error error = {0};
+    tartan_status status = tartan_session_open(path, text, strlen(text), NULL, &session, &error);
+    for (size_t i = 0; status == TARTAN_OK && i < count; i++) {
+        char *answer = NULL;
+        status = tartan_ask(session, question, requests[i], NULL, NULL, NULL, &answer, &error);
+        assert_true(!answer == (status != TARTAN_OK));
+        tartan_text_free(answer);
+    }
+    tartan_session_free(session);
+    return (tn_status)status;
+}
+
+#define ASKING(NAME, PATH, TEXT, QUESTION, ...)                                                                        \
+    static tn_status NAME(void)                                                                                        \
+    {                                                                                                                  \
+        static const char *const requests[] = {__VA_ARGS__};                                                           \
+        return ask_of(PATH, TEXT, QUESTION, requests, sizeof requests / sizeof *requests);                             \
+    }
+
+ASKING(mesh_field, "ball.field", "surface ball = x*x + y*y + z*z - 1 grid 5\n", "mesh",
+       "{\"format\": \"obj\", \"stats\": true, \"normals\": true, \"threads\": 1}",
+       "{\"bounds\": true, \"thickness\": true, \"sharp\": true, \"threads\": 1}",
+       "{\"points\": [[0, 0, 0], [1, 2, 3]]}")
+ASKING(
+    mesh_solid, "pair.solid",
+    "solid pair {\n  symmetry x;\n  box low from (1, 0, 0) to (3, 2, 2);\n  box high from (2, 1, 0) to (4, 3, 2);\n}\n",
+    "mesh", "{\"format\": \"scad\", \"stats\": true}", "{\"format\": \"glb\"}", "{}")
+
+static void test_mesh_field(void **state)
+{
+    (void)state;
+    fail_each(mesh_field, false);
+}
+
+static void test_mesh_solid(void **state)
+{
+    (void)state;
+    fail_each(mesh_solid, false);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_mesh_field), cmocka_unit_test(test_mesh_solid)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
