@@ -35,7 +35,7 @@ static bool is_required(const tn_message_member *m)
 /* Do its members stand among those of the message that has it? */
 static bool is_inlined(const tn_message_member *m)
 {
-    return m->kind == TN_MESSAGE_PART || m->kind == TN_MESSAGE_WRITTEN;
+    return m->kind == TN_MESSAGE_PART || (m->kind == TN_MESSAGE_WRITTEN && m->of->form != TN_MESSAGE_LISTING);
 }
 
 /* What a map goes to. */
@@ -66,6 +66,7 @@ static bool is_asked_with(const tn_message *message)
 static bool is_whole(const tn_message *message)
 {
     return is_asked_with(message) || is_used_as(message, TN_MESSAGE_NESTED) || is_used_as(message, TN_MESSAGE_LIST) ||
+           message->form == TN_MESSAGE_LISTING ||
            (!is_used_as(message, TN_MESSAGE_PART) && !is_used_as(message, TN_MESSAGE_WRITTEN) &&
             !is_used_as(message, TN_MESSAGE_MAP));
 }
@@ -180,8 +181,16 @@ static void write_kind(tn_json *json, const tn_message_member *m)
         tn_json_string(json, "type", "object");
         tn_json_object_end(json);
         break;
+    case TN_MESSAGE_COUNTS:
+        tn_json_string(json, "type", "array");
+        tn_json_object(json, "items");
+        tn_json_string(json, "type", "integer");
+        tn_json_object_end(json);
+        break;
+    case TN_MESSAGE_WRITTEN: /* of a listing */
+        write_reference(json, NULL, m->of);
+        break;
     case TN_MESSAGE_PART:
-    case TN_MESSAGE_WRITTEN:
     case TN_MESSAGE_BOXED:
         break;
     }
@@ -354,7 +363,11 @@ static void write_type(const tn_message_member *m, FILE *out)
     case TN_MESSAGE_EXACTS:
         fputs("string[]", out);
         break;
+    case TN_MESSAGE_COUNTS:
+        fputs("number[]", out);
+        break;
     case TN_MESSAGE_NESTED:
+    case TN_MESSAGE_WRITTEN:
     case TN_MESSAGE_LIST:
         write_type_name(m->of->name, out);
         fputs(m->kind == TN_MESSAGE_LIST ? "[]" : "", out);
@@ -477,12 +490,14 @@ static void write_row_kind(const tn_message_member *m, FILE *out)
         [TN_MESSAGE_CHOICE] = "one of",
         [TN_MESSAGE_BYTES] = "bytes in base64",
         [TN_MESSAGE_COUNT] = "number",
+        [TN_MESSAGE_COUNTS] = "numbers",
         [TN_MESSAGE_WHOLE] = "number",
         [TN_MESSAGE_REAL] = "decimal number",
         [TN_MESSAGE_BIG] = "digits",
         [TN_MESSAGE_EXACT] = "fraction",
         [TN_MESSAGE_EXACTS] = "fractions",
         [TN_MESSAGE_NESTED] = "",
+        [TN_MESSAGE_WRITTEN] = "",
         [TN_MESSAGE_LIST] = "list of ",
         [TN_MESSAGE_MAP] = "names, each with ",
     };

@@ -45,6 +45,8 @@ ASKED = {
     "diff": ["diff terrace terrace --trays 2..3 --no-measures", "diff lahave-houses lahave-houses --trays 3..4", "diff cottage cottage --library cottages"],
     "test": ["test terrace", "test terrace cottage --coverage", "test table", "check terrace --test --no-analysis"],
     "mesh": ["mesh table", "mesh table --cells", "mesh primitives --surface torus --grid 12 --sharp --bounds --thickness --times"],
+    "runs": ["runs show RUN", "runs compare RUN RUN"],
+    "individual": ["runs replay RUN 1", "runs replay RUN 50"],
     "relations": ["check terrace --relations", "check cottage --relations --max-states 40", "check cottage --relations --examples --max-states 40"],
 }
 # What commands that lack --json are asked for JSON with.
@@ -55,14 +57,16 @@ ROWS = {
     "enumerate": [("found_plan", "enumerate terrace --from 1000 --limit 3"), ("found_house", "enumerate cottage --library cottages --from 77 --limit 2")],
     "match": [("matched_plan", "match terrace PLANS"), ("matched_plan", "match cottage HOUSES")],
     "prune": [("pruned_plan", "prune terrace PLANS --dropped -")],
+    "map": [("mapped_genome", "map words --random 3 --codons 9"), ("mapped_system", "map genr8 --random 20")],
     "vary": [("varied_house", "vary cottage #10:77"), ("varied_house", "vary row-houses #0:0")],
     "best": [
         ("found_plan", "best lahave-houses 3 --trays 4..4 --least cost"), ("found_plan", "best lahave-houses 3 --trays 4..4 --least cost --then-most area"),
         ("best_house", "best cottage 2 --library cottages --least floor-area"), ("best_house", "best cottage 2 --plan #3 --least floor-area --then-most bedrooms"),
     ],
 }
-# What is a part of the answer to another question; ask_files.py has those that make files.
-PARTS = {"coverage": "test"}
+# What is a part of the answer to another question, or of no answer that a command writes as JSON (tests/cli/ask_genomes.sh); ask_files.py has
+# those that make files.
+PARTS = {"coverage": "test", "invert": "map", "change_run": "runs"}
 wrong = []
 
 
@@ -106,13 +110,17 @@ def main():
     asked = {*ASKED, *ROWS, *PARTS, *ask_files.ASKED}
     if set(schema["requests"]) != asked:
         wrong.append(f"questions that are not asked here: {set(schema['requests']) ^ asked}")
+    folder = tempfile.mkdtemp(prefix="requests")
+    run = os.path.join(folder, "hello.run")
+    with open(os.path.join(folder, "hello.study"), "w", encoding="utf-8") as file:
+        file.write("evolution {\n  grammar \"words\"\n  match \"hello\"\n  population 20\n  generations 4\n}\n")
+    subprocess.run([tartan, "evolve", file.name, "-o", run], capture_output=True, check=True)
     for question, lines in ASKED.items():
         validator = answers_of(question)
-        for line in lines:
+        for line in (line.replace("RUN", run) for line in lines):
             said = answers(line, *JSON.get(question, ["--json"]))
             if said:
                 check(line, validator, json.loads(said))
-    folder = tempfile.mkdtemp(prefix="requests")
     given = {"PLANS": ("unrank", "terrace", "1000"), "HOUSES": ("unrank", "cottage", "#10:3")}
     for name, words in given.items():
         with open(os.path.join(folder, name), "w", encoding="utf-8") as file:

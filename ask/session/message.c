@@ -113,6 +113,9 @@ static void clear_member(const tn_message_member *m, void *member)
     case TN_MESSAGE_BYTES:
         free(((tn_bytes *)member)->items);
         break;
+    case TN_MESSAGE_COUNTS:
+        free(((tn_counts *)member)->items);
+        break;
     case TN_MESSAGE_TEXT:
     case TN_MESSAGE_FLAG:
     case TN_MESSAGE_CHOICE:
@@ -198,6 +201,23 @@ static void write_texts(const char *key, const char *const *items, size_t count,
     tn_json_list_end(json);
 }
 
+static void write_counts(const char *key, const tn_counts *counts, tn_json *json)
+{
+    tn_json_list(json, key);
+    for (size_t i = 0; i < counts->count; i++)
+        tn_json_count(json, NULL, counts->items[i]);
+    tn_json_list_end(json);
+}
+
+/* The members of a message, or the value of a listing. */
+static void write_written(const tn_message_member *m, const char *key, const char *text, tn_json *json)
+{
+    if (m->of->form == TN_MESSAGE_LISTING)
+        tn_json_written_value(json, key, text);
+    else
+        tn_json_written(json, text, text ? strlen(text) : 0);
+}
+
 static void write_list(const tn_message_member *m, const char *key, const tn_list *list, tn_json *json)
 {
     tn_json_list(json, key);
@@ -223,7 +243,6 @@ static void write_value(const tn_message_member *m, const char *key, const void 
 {
     const tn_texts *texts = member;
     const tn_exacts *exacts = member;
-    const char *text;
     switch (m->kind) {
     case TN_MESSAGE_TEXT:
     case TN_MESSAGE_OWNED:
@@ -240,6 +259,9 @@ static void write_value(const tn_message_member *m, const char *key, const void 
         break;
     case TN_MESSAGE_COUNT:
         tn_json_count(json, key, *(const uint64_t *)member);
+        break;
+    case TN_MESSAGE_COUNTS:
+        write_counts(key, member, json);
         break;
     case TN_MESSAGE_WHOLE:
         tn_json_whole(json, key, *(const int64_t *)member);
@@ -272,8 +294,7 @@ static void write_value(const tn_message_member *m, const char *key, const void 
         write_map(m, key, member, json);
         break;
     case TN_MESSAGE_WRITTEN:
-        text = *(const char *const *)member;
-        tn_json_written(json, text, text ? strlen(text) : 0);
+        write_written(m, key, *(const char *const *)member, json);
         break;
     case TN_MESSAGE_BYTES:
         tn_json_base64(json, key, ((const tn_bytes *)member)->items, ((const tn_bytes *)member)->count);

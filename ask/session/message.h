@@ -23,6 +23,7 @@ typedef enum tn_message_kind {
     TN_MESSAGE_FLAG,    /* bool */
     TN_MESSAGE_CHOICE,  /* unsigned: which of some words; the first, 0, unless it is given */
     TN_MESSAGE_COUNT,   /* uint64_t */
+    TN_MESSAGE_COUNTS,  /* tn_counts */
     TN_MESSAGE_WHOLE,   /* int64_t */
     TN_MESSAGE_REAL,    /* double */
     TN_MESSAGE_BIG,     /* mpz_t; in JSON a string of digits */
@@ -33,8 +34,8 @@ typedef enum tn_message_kind {
     TN_MESSAGE_LIST,    /* tn_list of messages */
     TN_MESSAGE_MAP,     /* the same; in JSON an object: of each message the first member is the key, and the second the
                            value */
-    TN_MESSAGE_WRITTEN, /* char *, to be freed: members of another message, written as JSON already (never spread over
-                           lines) */
+    TN_MESSAGE_WRITTEN, /* char *, to be freed: members of another message, or the list that a listing is, written as
+                           JSON already (never spread over lines) */
     TN_MESSAGE_TRAYS,   /* the trays of a plan, among members that are written already */
     TN_MESSAGE_BYTES,   /* tn_bytes; in JSON a string in base64 */
     TN_MESSAGE_BOXED,   /* tn_boxed: what texts and pictures are made of, and no part of JSON */
@@ -73,6 +74,12 @@ typedef struct tn_bytes {
     uint8_t *items;
     size_t count;
 } tn_bytes;
+
+/* Freed with the message. */
+typedef struct tn_counts {
+    uint64_t *items;
+    size_t count;
+} tn_counts;
 
 typedef struct tn_exacts {
     mpq_t *items;

@@ -38,6 +38,7 @@ struct tn_session;
 #define TN_TYPE_OWNEDS tn_owneds
 #define TN_TYPE_FLAG bool
 #define TN_TYPE_COUNT uint64_t
+#define TN_TYPE_COUNTS tn_counts
 #define TN_TYPE_WHOLE int64_t
 #define TN_TYPE_REAL double
 #define TN_TYPE_BIG mpz_t

@@ -41,6 +41,7 @@ typedef struct tn_session {
     bool only_one; /* it was asked for without a name */
 
     tn_boxed explainer; /* of the plan that was explained last */
+    tn_boxed grammar;   /* that genomes are mapped through */
 } tn_session;
 
 /* Frees what is kept, which is before the file is closed. The session can be used again. */

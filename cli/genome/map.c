@@ -5,17 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/session/questions.h"
 #include "cli/common/interrupt.h"
-#include "cli/common/job.h"
+#include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
-#include "runtime/base/file.h"
 #include "runtime/base/file_error.h"
-#include "runtime/base/json.h"
 #include "runtime/base/picture.h"
-#include "runtime/base/random.h"
-#include "runtime/genome/mapping/invert.h"
-#include "runtime/genome/mapping/mapper.h"
-#include "runtime/genome/picture/tree_draw.h"
+#include "runtime/genome/mapping/genome.h"
 
 typedef struct map_settings {
     tn_settings common;
@@ -31,18 +27,12 @@ static const map_settings *settings_of(const tn_job *job)
     return (const map_settings *)job->settings;
 }
 
-#define RANDOM_CODONS 200u   /* of a random genome, unless --codons says otherwise */
-#define RANDOM_CODON_BITS 31 /* their size */
-
 typedef struct mapping_run {
     tn_job *job;
-    tn_grammar *grammar;
-    tn_mapper *mapper;
-    tn_mapping_options options;
-    tn_genome genome;
+    tn_map_request request; /* for the next genome */
     FILE *out;
     uint64_t done; /* genomes mapped */
-    bool json, stop;
+    bool stop;
 } mapping_run;
 
 static void fail(mapping_run *run, const tn_error *error)
@@ -53,117 +43,84 @@ static void fail(mapping_run *run, const tn_error *error)
 
 /* ---- what is written of a mapping */
 
-static void write_number(tn_json *json, const char *key, bool known, uint64_t value)
-{
-    if (known)
-        tn_json_count(json, key, value);
-    else
-        tn_json_null(json, key);
-}
-
-static void write_json_repair(tn_json *json, const tn_mapping *m)
-{
-    write_number(json, "max_id", m->has_phenotype, m->max_id);
-    tn_json_string(json, "repaired_phenotype", m->repaired ? m->repaired_phenotype : NULL);
-    write_number(json, "repaired_used_codons", m->repaired, m->repaired_used);
-    if (!m->repaired) {
-        tn_json_null(json, "repaired_ids");
-        return;
-    }
-    tn_json_list(json, "repaired_ids");
-    for (size_t i = 0; i < m->repaired_count; i++)
-        tn_json_count(json, NULL, m->repaired_ids[i]);
-    tn_json_list_end(json);
-}
-
-static void write_json(const mapping_run *run, const tn_mapping *m)
-{
-    tn_json json = tn_json_file(run->out, TN_JSON_TIGHT);
-    tn_json_object(&json, NULL);
-    tn_json_bool(&json, "valid", m->valid);
-    tn_json_string(&json, "reason", m->valid ? NULL : tn_mapping_reason_text(m->reason));
-    tn_json_string(&json, "phenotype", m->has_phenotype ? m->phenotype : NULL);
-    write_number(&json, "used_codons", m->has_phenotype, m->used);
-    write_number(&json, "nodes", m->has_phenotype, m->nodes);
-    write_number(&json, "depth", m->has_phenotype, m->depth);
-    write_number(&json, "wraps", m->has_phenotype, m->wraps);
-    if (run->grammar->dialect == TN_DIALECT_GENR8)
-        write_json_repair(&json, m);
-    tn_json_object_end(&json);
-    tn_json_end_line(&json);
-}
-
-static void write_text(const mapping_run *run, const tn_mapping *m)
+/* system: of the dialect genr8, or NULL. */
+static void write_text(const mapping_run *run, const tn_mapped_sentence *m, const tn_mapped_system *system)
 {
     fprintf(run->out, "# genome %" PRIu64 ": ", run->done + 1);
     if (m->has_phenotype)
-        fprintf(run->out, "%" PRIu64 " codons, %" PRIu64 " wraps, %" PRIu64 " nodes, depth %u", m->used, m->wraps,
-                m->nodes, m->depth);
+        fprintf(run->out, "%" PRIu64 " codons, %" PRIu64 " wraps, %" PRIu64 " nodes, depth %" PRIu64, m->used_codons,
+                m->wraps, m->nodes, m->depth);
     if (!m->valid)
-        fprintf(run->out, "%snot valid: %s", m->has_phenotype ? "; " : "", tn_mapping_reason_text(m->reason));
-    if (m->repaired_count)
-        fprintf(run->out, "; repaired with %zu rules and %" PRIu64 " codons", m->repaired_count,
-                m->repaired_used - m->used);
+        fprintf(run->out, "%snot valid: %s", m->has_phenotype ? "; " : "", m->reason);
+    if (system && system->repaired_ids.count)
+        fprintf(run->out, "; repaired with %zu rules and %" PRIu64 " codons", system->repaired_ids.count,
+                system->repaired_used_codons - m->used_codons);
     fputc('\n', run->out);
+    bool repaired = system && system->has_repaired_phenotype;
     if (m->has_phenotype)
-        fprintf(run->out, "%s\n", m->repaired ? m->repaired_phenotype : m->phenotype);
+        fprintf(run->out, "%s\n", repaired ? system->repaired_phenotype : m->phenotype);
 }
 
-static void write_tree(mapping_run *run, const tn_mapping *m)
+/* What is asked for besides: a table and a tree. A picture has gone to its file. */
+static void write_derivation(const mapping_run *run, const tn_shown_derivation *shown)
 {
-    const char *how = settings_of(run->job)->tree;
-    tn_tree tree;
-    tn_error error;
-    tn_status status = tn_tree_make(m->events, m->event_count, &tree, &error);
-    if (status == TN_OK && strcmp(how, "text") == 0)
-        tn_tree_write_text(run->grammar, m->events, &tree, run->out);
-    else if (status == TN_OK && strcmp(how, "json") == 0)
-        tn_tree_write_json(run->grammar, m->events, &tree, run->out);
-    else if (status == TN_OK)
-        status = tn_tree_draw(run->grammar, m->events, &tree, &(tn_picture){.path = how}, &error);
-    if (status != TN_OK)
-        fail(run, &error);
-    tn_tree_clear(&tree);
+    if (shown->trace)
+        fputs(shown->trace, run->out);
+    if (shown->tree_text)
+        fputs(shown->tree_text, run->out);
+    if (shown->tree)
+        fprintf(run->out, "%s\n", shown->tree);
 }
 
-static void map_genome(mapping_run *run)
+/* JSON is a line for each, without what stands in texts of its own. */
+static void write_json(const mapping_run *run, const tn_message *message, const void *row)
+{
+    tn_json json = tn_json_file(run->out, TN_JSON_TIGHT);
+    tn_message_write(message, row, NULL, &json);
+    tn_json_end_line(&json);
+}
+
+static void write_genome(mapping_run *run, const tn_reply *answer)
 {
     const map_settings *settings = settings_of(run->job);
-    tn_mapping mapping;
-    tn_error error;
-    if (tn_mapper_derive(run->mapper, run->genome.codons, run->genome.count, &run->options, &mapping, &error) !=
-        TN_OK) {
-        fail(run, &error);
+    const tn_mapped_systems *systems = TN_REPLY(mapped_systems, answer);
+    const tn_mapped_genomes *genomes = TN_REPLY(mapped_genomes, answer);
+    const tn_mapped_system *system = systems && systems->genomes.count ? &systems->genomes.items[0] : NULL;
+    const tn_mapped_genome *genome = genomes && genomes->genomes.count ? &genomes->genomes.items[0] : NULL;
+    if (!system && !genome)
         return;
-    }
     bool tree_alone = settings->tree && strcmp(settings->tree, "json") == 0;
-    if (run->json && !tree_alone)
-        write_json(run, &mapping);
+    if (settings->format == 1 && !tree_alone && system)
+        write_json(run, &tn_message_mapped_system, system);
+    else if (settings->format == 1 && !tree_alone)
+        write_json(run, &tn_message_mapped_genome, genome);
     else if (!tree_alone)
-        write_text(run, &mapping);
-    if (settings->trace)
-        tn_trace_write(run->grammar, mapping.events, mapping.event_count, run->out);
-    if (settings->tree)
-        write_tree(run, &mapping);
-    run->done++;
+        write_text(run, system ? &system->sentence : &genome->sentence, system);
+    write_derivation(run, system ? &system->shown : &genome->shown);
+}
+
+/* Asks for one genome; what was found of it is written also if its picture could not be drawn. */
+static void map_genome(mapping_run *run)
+{
+    tn_reply answer;
+    tn_status status = tn_ask_map(&run->job->session, &run->request, &answer);
+    if (status != TN_STOPPED)
+        write_genome(run, &answer);
+    tn_reply_clear(&answer);
+    run->stop = !tn_job_answered(run->job, status);
+    run->done += !run->stop;
     run->stop |= ferror(run->out) != 0 || tn_interrupted();
 }
 
 /* ---- where genomes come from */
 
-static void read_genome(mapping_run *run, const char *path, uint64_t line, const char *text, size_t length)
+static void map_text(mapping_run *run, const char *path, uint64_t line, const char *text)
 {
-    tn_error error;
-    tn_status status = tn_genome_read(text, length, &run->genome, &error);
-    if (status == TN_OK) {
-        map_genome(run);
-        return;
-    }
-    error.line = line;
-    tn_report_error(tn_job_diagnostics(run->job), &error, path, text, length);
-    int code = tn_exit_code(status);
-    run->job->exit_code = code > run->job->exit_code ? code : run->job->exit_code;
-    run->stop = true;
+    run->request.genomes = (tn_texts){&text, 1};
+    run->request.file = path;
+    run->request.has_line = true;
+    run->request.line = line;
+    map_genome(run);
 }
 
 /* One genome a line; lines that start with # are comments. */
@@ -183,9 +140,11 @@ static void read_genomes(mapping_run *run, const char *path)
     for (ssize_t length; !run->stop && (length = getline(&text, &capacity, in)) >= 0;) {
         line++;
         if (length && text[length - 1] == '\n')
-            length--;
-        if (length == 0 || text[0] != '#')
-            read_genome(run, path, line, text, (size_t)length);
+            text[--length] = '\0';
+        for (ssize_t i = 0; i < length; i++) /* a zero byte is no codon, and no end of the line */
+            text[i] = text[i] ? text[i] : '?';
+        if (text[0] != '#')
+            map_text(run, path, line, text);
     }
     tn_error error;
     if (ferror(in) && !run->stop) {
@@ -199,20 +158,14 @@ static void read_genomes(mapping_run *run, const char *path)
         fclose(in);
 }
 
+/* One after another, so that any number can be written. */
 static void random_genomes(mapping_run *run)
 {
     const map_settings *settings = settings_of(run->job);
-    size_t codons = settings->codons.given ? (size_t)settings->codons.value : RANDOM_CODONS;
-    tn_error error;
-    if (!tn_genome_reserve(&run->genome, codons)) {
-        tn_fail_memory(&error);
-        fail(run, &error);
-        return;
-    }
-    run->genome.count = codons;
+    run->request.has_random = true;
+    run->request.random = 1;
     for (uint64_t i = 0; i < settings->random.value && !run->stop; i++) {
-        for (size_t k = 0; k < codons; k++)
-            run->genome.codons[k] = tn_random64(settings->seed.value, i, k) >> (64 - RANDOM_CODON_BITS);
+        run->request.first = i;
         map_genome(run);
     }
 }
@@ -222,21 +175,14 @@ static void random_genomes(mapping_run *run)
 static void invert(mapping_run *run)
 {
     const map_settings *settings = settings_of(run->job);
-    const char *sentence = settings->invert;
-    tn_invert_options options = {.max_depth = run->options.max_depth,
-                                 .position_independent = run->options.position_independent,
-                                 .max_items = (size_t)settings->max_items.value};
-    tn_error error;
-    tn_status status = tn_invert(run->grammar, sentence, strlen(sentence), &options, &run->genome, &error);
-    if (status != TN_OK) {
-        error.line = error.column ? 1 : 0;
-        tn_report_error(tn_job_diagnostics(run->job), &error, "sentence", sentence, strlen(sentence));
-        run->job->exit_code = tn_exit_code(status);
-        return;
-    }
-    for (size_t i = 0; i < run->genome.count; i++)
-        fprintf(run->out, i ? " %" PRIu64 : "%" PRIu64, run->genome.codons[i]);
-    fputc('\n', run->out);
+    const tn_invert_request request = {.sentence = settings->invert,
+                                       .grammar = run->request.grammar,
+                                       .has_max_items = settings->max_items.given,
+                                       .max_items = settings->max_items.value};
+    tn_reply answer;
+    if (tn_job_answered(run->job, tn_ask_invert(&run->job->session, &request, &answer)))
+        fprintf(run->out, "%s\n", TN_REPLY(inverted, &answer)->genome);
+    tn_reply_clear(&answer);
 }
 
 /* ---- the command */
@@ -286,55 +232,62 @@ static bool check_options(tn_job *job)
     return formats_agree(job);
 }
 
-static bool mapping_fits(mapping_run *run)
+static unsigned tree_asked(const char *how)
 {
-    tn_error error;
-    if (!run->options.position_independent || tn_grammar_takes_places(run->grammar))
-        return true;
-    bool genr8 = run->grammar->dialect == TN_DIALECT_GENR8;
-    tn_fail(&error, TN_INVALID, E_MAPPING_ORDER,
-            genr8 ? "position-independent mapping is for the dialect ge, and this grammar is in genr8"
-                  : "position-independent mapping reads two codons for every non-terminal, also for a single choice");
-    tn_error_help(&error, genr8 ? "leave out --mapping" : "leave out `%%single-choice skip` of the grammar");
-    fail(run, &error);
-    return false;
+    static const char *const words[] = {"json", "text"};
+    static const tn_file_format pictures[] = {TN_FILE_SVG, TN_FILE_PNG, TN_FILE_PDF};
+    for (unsigned i = 0; how && i < 2; i++)
+        if (strcmp(how, words[i]) == 0)
+            return 1 + i;
+    for (unsigned i = 0; how && i < 3; i++)
+        if (tn_file_format_of(how) == pictures[i])
+            return 3 + i;
+    return 0;
 }
 
-static bool prepare(mapping_run *run)
+/* What is asked of each genome. */
+static tn_map_request request_of(const map_settings *s)
 {
-    tn_job *job = run->job;
-    const map_settings *settings = settings_of(job);
-    tn_error error;
-    if (!tn_job_open(job, settings->common.operands.items[0]))
-        return false;
-    if (!tn_module_has_grammar(job->opened.module)) {
-        tn_fail(&error, TN_INVALID, E_NOT_A_GRAMMAR, "%.200s holds no grammar that genomes are mapped through",
-                settings->common.operands.items[0]);
-        tn_error_help(&error, "%s", tn_opened_help(&job->opened, "such grammars are .bnf files").text);
-        fail(run, &error);
-        return false;
-    }
-    if (tn_grammar_new(job->opened.module, 0, &run->grammar, &error) != TN_OK) {
-        fail(run, &error);
-        return false;
-    }
-    run->mapper = tn_mapper_new(run->grammar);
-    if (!run->mapper) {
-        tn_fail_memory(&error);
-        fail(run, &error);
-        return false;
-    }
-    run->options = tn_mapping_options_of(run->grammar);
-    if (settings->wraps.given)
-        run->options.wraps = (uint32_t)settings->wraps.value;
-    if (settings->max_depth.given)
-        run->options.max_depth = (uint32_t)settings->max_depth.value;
-    run->options.max_steps = settings->max_steps.value;
-    if (settings->mapping)
-        run->options.position_independent = settings->mapping == 2;
-    run->options.record = settings->tree || settings->trace;
-    run->json = settings->format == 1;
-    return mapping_fits(run);
+    return (tn_map_request){.has_seed = s->seed.given,
+                            .seed = s->seed.value,
+                            .has_codons = s->codons.given,
+                            .codons = s->codons.value,
+                            .has_wraps = s->wraps.given,
+                            .wraps = s->wraps.value,
+                            .has_max_steps = s->max_steps.given,
+                            .max_steps = s->max_steps.value,
+                            .grammar = {.has_max_depth = s->max_depth.given,
+                                        .max_depth = s->max_depth.value,
+                                        .mapping = (unsigned)s->mapping},
+                            .tree = tree_asked(s->tree),
+                            .trace = s->trace};
+}
+
+/* Asks for no genome: what is wrong with the grammar is said before the output is begun. */
+static bool grammar_fits(const mapping_run *run)
+{
+    tn_map_request none = run->request;
+    tn_reply answer;
+    none.has_random = true;
+    bool fits = tn_job_answered(run->job, tn_ask_map(&run->job->session, &none, &answer));
+    tn_reply_clear(&answer);
+    return fits;
+}
+
+static void map_all(mapping_run *run)
+{
+    const map_settings *settings = settings_of(run->job);
+    tn_made_outputs pictures;
+    tn_job_files(run->job, &pictures, &settings->tree, 1, false);
+    if (settings->invert)
+        invert(run);
+    else if (settings->genome)
+        map_text(run, "--genome", 1, settings->genome);
+    else if (settings->genomes)
+        read_genomes(run, settings->genomes);
+    else
+        random_genomes(run);
+    tn_job_files_end(&pictures);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
@@ -342,26 +295,17 @@ static int run(const tn_command *command, const tn_settings *common)
     (void)command;
     const map_settings *settings = (const map_settings *)common;
     tn_job job;
-    mapping_run run = {.job = &job};
+    mapping_run run = {.job = &job, .request = request_of(settings)};
     tn_output output;
     tn_job_begin(&job, common);
-    if (check_options(&job) && prepare(&run) && tn_job_output(&job, settings->output, &output)) {
+    if (check_options(&job) && tn_job_open(&job, common->operands.items[0]) && grammar_fits(&run) &&
+        tn_job_output(&job, settings->output, &output)) {
         run.out = output.stream;
-        if (settings->invert)
-            invert(&run);
-        else if (settings->genome)
-            read_genome(&run, "--genome", 1, settings->genome, strlen(settings->genome));
-        else if (settings->genomes)
-            read_genomes(&run, settings->genomes);
-        else
-            random_genomes(&run);
+        map_all(&run);
         if (tn_interrupted())
             tn_job_interrupted(&job, "interrupted after %" PRIu64 " genomes", run.done);
         tn_job_close(&job, &output, !tn_interrupted());
     }
-    tn_genome_clear(&run.genome);
-    tn_mapper_free(run.mapper);
-    tn_grammar_free(run.grammar);
     return tn_job_end(&job);
 }
 

@@ -4,51 +4,29 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/session/questions.h"
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
 #include "driver/breed/evolve.h"
+#include "runtime/base/file.h"
 #include "runtime/base/utf8.h"
 
 typedef struct runs_settings {
     tn_settings common;
     const char *output;
     tn_option_number in_place_of;
+    bool json;
 } runs_settings;
 
-/* What a run's database says of it. */
-typedef struct record {
-    tn_generation_stats *stats;
-    size_t count;
-    tn_run_event *events;
-    size_t event_count;
-    char *identity; /* NULL: not begun */
-} record;
-
-static void clear_record(record *r)
+static const runs_settings *settings_of(const tn_job *job)
 {
-    free(r->stats);
-    free(r->identity);
-    tn_run_events_free(r->events, r->event_count);
+    return (const runs_settings *)job->settings;
 }
 
-static bool read_run(tn_job *job, const char *dir, record *r)
+static bool writes_json(const tn_job *job)
 {
-    tn_run_store *store = NULL;
-    tn_error error;
-    char *path = tn_run_database(dir);
-    *r = (record){0};
-    tn_status status = path ? tn_run_store_open(path, false, true, &store, &error) : tn_fail_memory(&error);
-    if (status == TN_OK)
-        status = tn_run_store_get_meta(store, "identity", &r->identity, &error);
-    if (status == TN_OK)
-        status = tn_run_store_stats(store, &r->stats, &r->count, &error);
-    if (status == TN_OK)
-        status = tn_run_store_events(store, &r->events, &r->event_count, &error);
-    if (status != TN_OK)
-        tn_job_fail(job, &error);
-    tn_run_store_free(store);
-    free(path);
-    return status == TN_OK;
+    const runs_settings *s = settings_of(job);
+    return s->json || (s->output && tn_file_format_of(s->output) == TN_FILE_JSON);
 }
 
 static void show_line(FILE *out, const char *before, const char *text, size_t size)
@@ -72,141 +50,154 @@ static const char *words_of(const char *kind)
 }
 
 /* What a person decided before a generation was bred. */
-static void show_events(const record *r, uint32_t generation, FILE *out)
+static void show_events(const tn_run_told *run, uint64_t generation, FILE *out)
 {
-    for (size_t i = 0; i < r->event_count; i++)
-        if (r->events[i].generation == generation)
-            show_line(out, words_of(r->events[i].kind), r->events[i].text, strlen(r->events[i].text));
+    for (size_t i = 0; i < run->events.count; i++)
+        if (run->events.items[i].generation == generation)
+            show_line(out, words_of(run->events.items[i].kind), run->events.items[i].text,
+                      strlen(run->events.items[i].text));
 }
 
-static void show(tn_job *job, const char *dir, FILE *out)
+static void show_run(const tn_run_told *run, FILE *out)
 {
-    record r;
-    if (read_run(job, dir, &r)) {
-        fprintf(out, "%s%s\n", dir, r.identity ? "" : ": not begun");
-        for (const char *line = r.identity; line && *line; line += strcspn(line, "\n") + 1)
-            show_line(out, "  ", line, strcspn(line, "\n"));
-        fprintf(out, "%10s %14s %14s %9s %9s %12s %12s\n", "generation", "best", "mean", "distinct", "not valid",
-                "evaluations", "births");
-        for (size_t i = 0; i < r.count; i++) {
-            const tn_generation_stats *s = &r.stats[i];
-            show_events(&r, s->generation, out);
-            fprintf(out, "%10u %14.6g %14.6g %9u %9u %12" PRIu64 " %12" PRIu64 "\n", s->generation, s->best[0], s->mean,
-                    s->distinct, s->no_sentence + s->failed + s->limited, s->evaluations, s->births);
-        }
-        show_events(&r, (uint32_t)r.count, out);
+    fprintf(out, "%s%s\n", run->run, run->settings ? "" : ": not begun");
+    for (const char *line = run->settings; line && *line; line += strcspn(line, "\n") + 1)
+        show_line(out, "  ", line, strcspn(line, "\n"));
+    fprintf(out, "%10s %14s %14s %9s %9s %12s %12s\n", "generation", "best", "mean", "distinct", "not valid",
+            "evaluations", "births");
+    for (size_t i = 0; i < run->generations.count; i++) {
+        const tn_run_generation *g = &run->generations.items[i];
+        show_events(run, g->generation, out);
+        fprintf(out, "%10" PRIu64 " %14.6g %14.6g %9" PRIu64 " %9" PRIu64 " %12" PRIu64 " %12" PRIu64 "\n",
+                g->generation, g->best, g->mean, g->distinct, g->no_sentence + g->failed + g->limited, g->evaluations,
+                g->births);
     }
-    clear_record(&r);
+    show_events(run, run->generations.count, out);
 }
 
 /* One run a line: where each came, and after how many evaluations it first had its best. */
+static void compare_run(const tn_run_told *run, FILE *out)
+{
+    if (run->generations.count == 0) {
+        fprintf(out, "%-30s %10s\n", run->run, "none");
+        return;
+    }
+    const tn_run_generation *last = &run->generations.items[run->generations.count - 1];
+    fprintf(out, "%-30s %10" PRIu64 " %14.6g %14.6g %12" PRIu64 " %14" PRIu64 "\n", run->run, last->generation,
+            last->best, last->mean, last->evaluations, run->best_first_at);
+}
+
+/* Each that is wrong is said, and the others are told. */
+static void tell_run(tn_job *job, const char *dir, void (*tell)(const tn_run_told *run, FILE *out), FILE *out)
+{
+    tn_reply answer;
+    if (tn_job_answered(job, tn_ask_runs(&job->session, &(tn_runs_request){.runs = {&dir, 1}}, &answer)))
+        tell(&TN_REPLY(runs_told, &answer)->runs.items[0], out);
+    tn_reply_clear(&answer);
+}
+
+static void write_runs(tn_job *job, FILE *out)
+{
+    const tn_option_list *words = &job->settings->operands;
+    const char **dirs = (const char **)words->items + 1;
+    tn_reply answer;
+    if (tn_job_answered(job, tn_ask_runs(&job->session, &(tn_runs_request){.runs = {dirs, words->count - 1}}, &answer)))
+        tn_job_write_json(&answer, out);
+    tn_reply_clear(&answer);
+}
+
 static void compare(tn_job *job, FILE *out)
 {
     const tn_option_list *dirs = &job->settings->operands;
+    if (writes_json(job)) {
+        write_runs(job, out);
+        return;
+    }
     fprintf(out, "%-30s %10s %14s %14s %12s %14s\n", "run", "generation", "best", "mean", "evaluations",
             "best first at");
-    for (size_t d = 1; d < dirs->count; d++) {
-        record r;
-        size_t first = 0;
-        bool read = read_run(job, dirs->items[d], &r);
-        if (read && r.count == 0)
-            fprintf(out, "%-30s %10s\n", dirs->items[d], "none");
-        if (read && r.count) {
-            const tn_generation_stats *last = &r.stats[r.count - 1];
-            while (first + 1 < r.count && r.stats[first].best[0] > last->best[0])
-                first++;
-            fprintf(out, "%-30s %10u %14.6g %14.6g %12" PRIu64 " %14u\n", dirs->items[d], last->generation,
-                    last->best[0], last->mean, last->evaluations, r.stats[first].generation);
-        }
-        clear_record(&r);
-    }
+    for (size_t d = 1; d < dirs->count; d++)
+        tell_run(job, dirs->items[d], compare_run, out);
 }
 
-static void replay(tn_job *job, const char *dir, const char *id_text, FILE *out)
+static void show_individual(const tn_individual_told *individual, FILE *out)
 {
-    tn_evolution_job evolved = {0};
-    tn_run run = {0};
-    tn_opened opened = {0};
-    const tn_individual *individual;
-    tn_error error = {0};
-    uint64_t id;
-    if (!tn_number_read(id_text, &id)) {
+    fprintf(out, "# individual %" PRIu64, individual->individual);
+    if (individual->has_parents)
+        fprintf(out, ", of %" PRIu64 " and %" PRIu64, individual->parents.items[0], individual->parents.items[1]);
+    if (individual->has_score)
+        fprintf(out, ", score %.17g", individual->score);
+    else
+        fputs(", not scored", out);
+    fprintf(out, "\n# genome:%s%s\n%s\n", *individual->genome ? " " : "", individual->genome, individual->sentence);
+}
+
+static void replay(tn_job *job, FILE *out)
+{
+    const char *dir = job->settings->operands.items[1], *id_text = job->settings->operands.items[2];
+    tn_individual_request request = {.run = dir};
+    tn_reply answer;
+    if (!tn_number_read(id_text, &request.individual)) {
         tn_job_usage(job, "an individual is a number, not `%.60s`", id_text);
         return;
     }
-    if (tn_run_replay(dir, id, &opened, &evolved, &run, &individual, &error) != TN_OK) {
-        tn_job_fail(job, &error);
-    } else {
-        fprintf(out, "# individual %" PRIu64, id);
-        if (individual->parents[0] != TN_NO_PARENT)
-            fprintf(out, ", of %" PRIu64 " and %" PRIu64, individual->parents[0], individual->parents[1]);
-        if (individual->score.state == TN_SCORED)
-            fprintf(out, ", score %.17g", individual->score.objectives[0]);
+    if (tn_job_answered(job, tn_ask_individual(&job->session, &request, &answer))) {
+        if (writes_json(job))
+            tn_job_write_json(&answer, out);
         else
-            fputs(", not scored", out);
-        fputs("\n# genome:", out);
-        for (size_t i = 0; i < individual->genome.count; i++)
-            fprintf(out, " %" PRIu64, individual->genome.codons[i]);
-        fprintf(out, "\n%s\n", individual->sentence);
+            show_individual(TN_REPLY(individual_told, &answer), out);
     }
-    tn_run_clear(&run);
-    tn_evolution_job_clear(&evolved);
-    tn_close(&opened);
+    tn_reply_clear(&answer);
 }
 
 /* ---- what is left for a run that goes on later */
 
-/* A file's sentence goes into the run, or (NULL) the member is taken out. */
-static void leave(tn_job *job, const char *kind, const char *file, uint64_t member)
+static void leave(tn_job *job, const tn_change_run_request *request)
 {
-    tn_evolution_job evolved = {0};
-    tn_run run = {0};
-    tn_opened opened = {0};
-    tn_error error = {0};
-    char *sentence = NULL;
-    const char *dir = job->settings->operands.items[1];
-    tn_status status = tn_run_leave(dir, kind, file, member, &opened, &evolved, &run, &sentence, &error);
-    if (status == TN_OK) {
+    tn_reply answer;
+    if (tn_job_answered(job, tn_ask_change_run(&job->session, request, &answer)))
         tn_job_note(job, "this is done when the run goes on: --resume");
-    } else if (sentence && error.line) {
-        tn_job_status(job, status);
-        tn_report_error(tn_job_diagnostics(job), &error, file, sentence, strlen(sentence));
-    } else {
-        tn_job_fail(job, &error);
-    }
-    free(sentence);
-    tn_run_clear(&run);
-    tn_evolution_job_clear(&evolved);
-    tn_close(&opened);
+    tn_reply_clear(&answer);
 }
 
 static void insert(tn_job *job)
 {
-    const tn_option_number *place = &((const runs_settings *)job->settings)->in_place_of;
-    leave(job, place->given ? "edit" : "insert", job->settings->operands.items[2],
-          place->given ? place->value : TN_NO_PARENT);
+    const tn_option_number *place = &settings_of(job)->in_place_of;
+    tn_change_run_request request = {.run = job->settings->operands.items[1],
+                                     .file = job->settings->operands.items[2],
+                                     .has_in_place_of = place->given,
+                                     .in_place_of = place->value};
+    uint8_t *bytes;
+    size_t size;
+    tn_error error;
+    if (tn_file_read(request.file, TN_SENTENCE_FILE_MAX, &bytes, &size, &error) != TN_OK) {
+        tn_job_fail(job, &error);
+        return;
+    }
+    for (size_t i = 0; i < size; i++) /* a zero byte is in no sentence, and no end of one */
+        bytes[i] = bytes[i] ? bytes[i] : '?';
+    request.sentence = (const char *)bytes;
+    leave(job, &request);
+    free(bytes);
 }
 
 static void take_out(tn_job *job)
 {
-    uint64_t id;
+    tn_change_run_request request = {.run = job->settings->operands.items[1], .has_remove = true};
     const char *word = job->settings->operands.items[2];
-    if (tn_number_read(word, &id))
-        leave(job, "remove", NULL, id);
+    if (tn_number_read(word, &request.remove))
+        leave(job, &request);
     else
         tn_job_usage(job, "an individual is a number, not `%.60s`", word);
 }
 
 /* ---- the command */
 
-static void show_one(tn_job *job, FILE *out)
+static void show(tn_job *job, FILE *out)
 {
-    show(job, job->settings->operands.items[1], out);
-}
-
-static void replay_one(tn_job *job, FILE *out)
-{
-    replay(job, job->settings->operands.items[1], job->settings->operands.items[2], out);
+    if (writes_json(job))
+        write_runs(job, out);
+    else
+        tell_run(job, job->settings->operands.items[1], show_run, out);
 }
 
 /* What the first word asks for. `writes` has an output, `does` none. */
@@ -217,9 +208,9 @@ static const struct task {
     void (*writes)(tn_job *job, FILE *out);
     void (*does)(tn_job *job);
 } tasks[] = {
-    {"show", 1, "one run's folder", show_one, NULL},
+    {"show", 1, "one run's folder", show, NULL},
     {"compare", 0, "the folders of runs", compare, NULL},
-    {"replay", 2, "a run's folder and the number of an individual", replay_one, NULL},
+    {"replay", 2, "a run's folder and the number of an individual", replay, NULL},
     {"insert", 2, "a run's folder and a file with a sentence", NULL, insert},
     {"remove", 2, "a run's folder and the number of an individual", NULL, take_out},
 };
@@ -241,7 +232,7 @@ static void refuse_task(tn_job *job, const char *what)
 
 static void do_task(tn_job *job, const struct task *task)
 {
-    const runs_settings *settings = (const runs_settings *)job->settings;
+    const runs_settings *settings = settings_of(job);
     tn_output output;
     if (task->words && job->settings->operands.count != 1 + task->words)
         tn_job_usage(job, "`tartan runs %s` takes %s", task->name, task->takes);
@@ -249,6 +240,8 @@ static void do_task(tn_job *job, const struct task *task)
         tn_job_usage(job, "--in-place-of is for `tartan runs insert`");
     else if (task->does && settings->output)
         tn_job_usage(job, "`tartan runs %s` has no output: leave -o out", task->name);
+    else if (task->does && settings->json)
+        tn_job_usage(job, "`tartan runs %s` has no output: leave --json out", task->name);
     else if (task->does)
         task->does(job);
     else if (tn_job_output(job, settings->output, &output)) {
@@ -278,7 +271,8 @@ static int run(const tn_command *command, const tn_settings *common)
 static const tn_option options[] = {
     NUMBER("in-place-of", 0, "ID", in_place_of, 0, UINT64_MAX - 1,
            "insert: what is inserted was made from this member, and takes its place (default: that of the worst)"),
-    OPTION_OUTPUT(TN_WRITES_TEXT),
+    FLAG("json", 0, json, "show, compare and replay: write the answer as JSON"),
+    OPTION_OUTPUT_BY(TN_WRITES_TEXT | TN_WRITES(JSON), "; .json is JSON"),
 };
 
 const tn_command tn_command_runs = {

@@ -171,11 +171,12 @@ tn_by_hand_language tn_evolution_job_language(const tn_evolution_job *job);
 
 #define TN_SENTENCE_FILE_MAX ((size_t)1 << 20) /* bytes of a sentence that is inserted */
 
-/* Stores such an event in the run of a folder, to be done when the run goes on: the sentence of `file` goes to the
- * place of `member`, or (TN_NO_PARENT) of the worst; with file NULL the member is taken out. `sentence`: what the file
- * says in one line, which an error may be about; the caller frees it. The others are cleared as after a replay. */
-tn_status tn_run_leave(const char *dir, const char *kind, const char *file, uint64_t member, tn_opened *opened,
-                       tn_evolution_job *job, tn_run *run, char **sentence, tn_error *error);
+/* Stores such an event in the run of a folder, to be done when the run goes on: what a person has written goes to the
+ * place of `member`, or (TN_NO_PARENT) of the worst; with `written` NULL the member is taken out. `left`: the event,
+ * whose texts the caller frees. `sentence`: what was written, in one line, which an error may be about; the caller
+ * frees it. The others are cleared as after a replay. */
+tn_status tn_run_leave(const char *dir, const char *kind, const char *written, uint64_t member, tn_opened *opened,
+                       tn_evolution_job *job, tn_run *run, tn_run_event *left, char **sentence, tn_error *error);
 
 /* Is the best score as good as `stop` asks for? */
 bool tn_run_reached(const tn_run *run);

@@ -157,50 +157,41 @@ tn_by_hand_language tn_evolution_job_language(const tn_evolution_job *job)
     return (tn_by_hand_language){job->grammar, &job->settings, strcmp(job->extension, "hemls") == 0};
 }
 
-static tn_status read_sentence(const tn_evolution_job *job, const char *file, tn_genome *genome, char **sentence,
-                               tn_error *error)
-{
-    uint8_t *bytes;
-    size_t size;
-    tn_status status = tn_file_read(file, TN_SENTENCE_FILE_MAX, &bytes, &size, error);
-    if (status != TN_OK)
-        return status;
-    tn_by_hand_language language = tn_evolution_job_language(job);
-    status = tn_by_hand_genome(&language, (const char *)bytes, size, genome, sentence, error);
-    free(bytes);
-    return status;
-}
-
-static tn_status text_of_event(const tn_evolution_job *job, const char *file, uint64_t member, char **text,
+static tn_status text_of_event(const tn_evolution_job *job, const char *written, uint64_t member, char **text,
                                char **sentence, tn_error *error)
 {
     tn_genome genome = {0};
-    if (!file)
+    const tn_by_hand_language language = tn_evolution_job_language(job);
+    if (!written)
         return asprintf(text, "%" PRIu64, member) < 0 ? tn_fail_memory(error) : TN_OK;
-    tn_status status = read_sentence(job, file, &genome, sentence, error);
+    tn_status status = tn_by_hand_genome(&language, written, strlen(written), &genome, sentence, error);
     if (status == TN_OK && !(*text = tn_by_hand_text(member, &genome)))
         status = tn_fail_memory(error);
     tn_genome_clear(&genome);
     return status;
 }
 
-tn_status tn_run_leave(const char *dir, const char *kind, const char *file, uint64_t member, tn_opened *opened,
-                       tn_evolution_job *job, tn_run *run, char **sentence, tn_error *error)
+tn_status tn_run_leave(const char *dir, const char *kind, const char *written, uint64_t member, tn_opened *opened,
+                       tn_evolution_job *job, tn_run *run, tn_run_event *left, char **sentence, tn_error *error)
 {
-    char *text = NULL, *said = NULL;
+    char *text = NULL;
+    *left = (tn_run_event){0};
     *sentence = NULL;
     tn_status status = open_stored(dir, false, UINT64_MAX, opened, job, run, error);
     if (status == TN_OK && run->generations == 0)
         status = tn_fail(error, TN_INVALID, E_EVOLUTION_VALUE, "the run in %.200s has no generation yet", dir);
     if (status == TN_OK)
-        status = text_of_event(job, file, member, &text, sentence, error);
+        status = text_of_event(job, written, member, &text, sentence, error);
     if (status == TN_OK)
         status = do_for_the_moment(run, error);
     if (status == TN_OK)
-        status = tn_by_hand_do(run->evolution, kind, text, &said, error);
+        status = tn_by_hand_do(run->evolution, kind, text, &left->text, error);
     if (status == TN_OK)
-        status = tn_run_store_put_event(run->store, run->generations, kind, said, error);
+        status = tn_run_store_put_event(run->store, run->generations, kind, left->text, error);
+    left->generation = run->generations;
+    left->kind = strdup(kind);
+    if (status == TN_OK && !left->kind)
+        status = tn_fail_memory(error);
     free(text);
-    free(said);
     return status;
 }

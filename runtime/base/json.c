@@ -296,3 +296,9 @@ void tn_json_written(tn_json *json, const char *text, size_t size)
     put(json, text, size);
     json->filled = true;
 }
+
+void tn_json_written_value(tn_json *json, const char *key, const char *text)
+{
+    next(json, key);
+    put_text(json, text ? text : "null");
+}

@@ -47,8 +47,8 @@ void tn_json_object_end(tn_json *json);
 void tn_json_list(tn_json *json, const char *key);
 void tn_json_list_end(tn_json *json);
 
-void tn_json_string(tn_json *json, const char *key, const char *value);             /* NULL is null */
-void tn_json_bytes(tn_json *json, const char *key, const char *value, size_t size); /* a string of so many bytes */
+void tn_json_string(tn_json *json, const char *key, const char *value);                 /* NULL is null */
+void tn_json_bytes(tn_json *json, const char *key, const char *value, size_t size);     /* a string of so many bytes */
 void tn_json_base64(tn_json *json, const char *key, const uint8_t *bytes, size_t size); /* any bytes (RFC 4648) */
 void tn_json_bool(tn_json *json, const char *key, bool value);
 void tn_json_null(tn_json *json, const char *key);
@@ -75,6 +75,9 @@ void tn_json_place_whole(tn_json *json, const tn_json_place *place); /* and end_
 /* Items or members that another writer wrote into a text: one of the same layout, whose depth was set to this one's
  * before. */
 void tn_json_written(tn_json *json, const char *text, size_t size);
+
+/* One value that was written so; NULL is null. */
+void tn_json_written_value(tn_json *json, const char *key, const char *text);
 
 /* Lines of JSON: ends the document's line, and the next one may begin. */
 void tn_json_end_line(tn_json *json);

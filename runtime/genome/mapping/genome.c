@@ -1,9 +1,11 @@
 /* Keeps genomes, and reads and writes them as text. */
 #include "runtime/genome/mapping/genome.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
+#include "runtime/base/buffer.h"
 
 void tn_genome_clear(tn_genome *genome)
 {
@@ -72,4 +74,16 @@ tn_status tn_genome_read(const char *line, size_t length, tn_genome *genome, tn_
             return tn_fail_memory(error);
         genome->codons[genome->count++] = codon;
     }
+}
+
+char *tn_genome_text(const tn_genome *genome)
+{
+    tn_buffer text = {0};
+    tn_buffer_append(&text, "", 0);
+    for (size_t i = 0; i < genome->count; i++)
+        tn_buffer_printf(&text, i ? " %" PRIu64 : "%" PRIu64, genome->codons[i]);
+    if (!text.failed && text.data)
+        return text.data;
+    free(text.data);
+    return NULL;
 }

@@ -20,4 +20,7 @@ bool tn_genome_reserve(tn_genome *genome, size_t count);
  * the line is the caller's to set. TN_LIMIT past TN_GENOME_CODONS_MAX. Commas may stand beside blanks. */
 tn_status tn_genome_read(const char *line, size_t length, tn_genome *genome, tn_error *error);
 
+/* The codons as text, which the caller frees; NULL: out of memory. */
+char *tn_genome_text(const tn_genome *genome);
+
 #endif
