@@ -99,6 +99,28 @@ ASKED = {
         ("tests/cli/files/ball.field", {"format": "obj", "max_triangles": 9}, "--max-triangles 9 -o a.obj"),
         ("stdlib/terrace.plan", {"format": "obj"}, "-o a.obj"),
     ],
+    "place": [
+        ("examples/gatehouse/gatehouse.kit", {"formats": ["ldr", "mpd", "csv", "svg", "png", "pdf"], "seed": 3},
+         "--seed 3 -o a.ldr -o a.mpd -o a.csv -o a.svg -o a.png -o a.pdf"),
+        ("examples/gatehouse/gatehouse.kit", {"formats": ["obj", "ply", "stl", "off", "om", "glb", "3mf", "dxf"]},
+         "-o a.obj -o a.ply -o a.stl -o a.off -o a.om -o a.glb -o a.3mf -o a.dxf"),
+        ("examples/gatehouse/gatehouse.kit", {"formats": ["svg"], "steps": "layer", "sheet": True, "model": "gatehouse"}, "--model gatehouse --steps layer --sheet -o a.svg"),
+        ("examples/gatehouse/gatehouse.kit", {"formats": ["ldr"], "part_limit": 9, "keep_partial": True}, "--part-limit 9 --keep-partial -o a.ldr"),
+        ("examples/gatehouse/gatehouse.kit", {"formats": ["ldr"], "part_limit": 9}, "--part-limit 9 -o a.ldr"),
+        ("examples/gatehouse/gatehouse.kit", {"formats": ["ldr"], "threads": 2}, "--threads 2 -o a.ldr"),
+        ("examples/gatehouse/gatehouse.kit", {"formats": ["ldr"], "model": "gate"}, "--model gate -o a.ldr"),
+        ("examples/gatehouse/gatehouse.kit", {"formats": ["ldr"], "steps": "0"}, "--steps 0 -o a.ldr"),
+        ("examples/gatehouse/gatehouse.kit", {"formats": ["ldr"], "sheet": True}, "--sheet -o a.ldr"),
+        ("tests/cli/files/stack.pcfg", {"formats": ["ldr", "csv"], "seed": 4, "header": True}, "--seed 4 --header -o a.ldr -o a.csv"),
+        ("tests/cli/files/stack.pcfg", {"formats": ["ldr"], "fitness": "elements <= 6", "engine": "vm", "step_limit": 1000}, "--fitness elements_<=_6 --engine vm --step-limit 1000 -o a.ldr"),
+        ("tests/cli/files/stack.pcfg", {"formats": ["ldr"], "fitness": "elements <"}, "--fitness elements_< -o a.ldr"),
+        ("tests/cli/files/stack.pcfg", {"formats": ["ldr"], "fitness": "fill"}, "--fitness fill -o a.ldr"),
+        ("tests/cli/files/stack.pcfg", {"formats": ["ldr"], "fitness": "elements", "trace": True}, "--fitness elements --trace -o a.ldr"),
+        ("tests/cli/files/stack.pcfg", {"formats": ["svg"]}, "-o a.svg"),
+        ("tests/cli/files/stack.pcfg", {"formats": ["csv"], "header": True}, "--header -o a.csv"),
+        ("tests/cli/files/stack.pcfg", {"formats": ["ldr"], "model": "a"}, "--model a -o a.ldr"),
+        ("stdlib/terrace.plan", {"formats": ["ldr"]}, "-o a.ldr"),
+    ],
 }
 
 

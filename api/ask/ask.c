@@ -329,6 +329,7 @@ static tartan_status ask(asked_file *file, const asking *a, answering *to, char 
 {
     tn_compilation *compilation = &file->opened.compilation;
     const tn_diagnostics kept = compilation->diagnostics;
+    size_t source_count = compilation->sources.count;
     tn_reply reply = {0};
     tn_diagnostics_init(&compilation->diagnostics, &compilation->sources);
     file->opened.module->watch = to->watch;
@@ -345,6 +346,7 @@ static tartan_status ask(asked_file *file, const asking *a, answering *to, char 
     close_file(&to->session->before);
     tn_diagnostics_clear(&compilation->diagnostics);
     compilation->diagnostics = kept;
+    tn_sources_keep(&compilation->sources, source_count); /* without texts of the request */
     return result;
 }
 

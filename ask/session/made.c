@@ -8,7 +8,7 @@ tn_status tn_making_begin(tn_making *making, tn_session *session, tn_file_format
                           tn_made_file *to, tn_error *error)
 {
     *making = (tn_making){.taker = session->files, .to = to, .format = format};
-    to->format = tn_file_format_word(format);
+    to->format = format == TN_FILE_OTHER ? "text" : tn_file_format_word(format);
     to->has_name = name != NULL;
     to->name = name ? strdup(name) : NULL;
     if (name && !to->name)
@@ -23,7 +23,7 @@ tn_status tn_making_begin(tn_making *making, tn_session *session, tn_file_format
 static void put_content(tn_making *making)
 {
     tn_made_file *to = making->to;
-    to->has_text = tn_file_format_is_text(making->format);
+    to->has_text = making->format == TN_FILE_OTHER || tn_file_format_is_text(making->format);
     to->has_base64 = !to->has_text;
     if (to->has_text)
         to->text = making->bytes;

@@ -27,7 +27,8 @@ typedef struct tn_making {
     size_t size;
 } tn_making;
 
-/* Begins a file. `to` is an empty one of the answer; name (NULL if it is the only one) is copied. */
+/* Begins a file; of the format TN_FILE_OTHER it is a text. `to` is an empty one of the answer; name (NULL if it is the
+ * only one) is copied. */
 tn_status tn_making_begin(tn_making *making, tn_session *session, tn_file_format format, const char *name,
                           tn_made_file *to, tn_error *error);
 

@@ -77,6 +77,8 @@ bool tn_job_open_asking(tn_job *job, const char *path, const tn_questions *quest
 bool tn_job_open_joined(tn_job *job, const char *const *paths, size_t count)
 {
     worsen(job, tn_exit_code(tn_open_joined(paths, count, job->settings->werror, &job->opened)));
+    if (job->opened.module)
+        job->opened.module->watch = tn_interrupt_waiting();
     return job->opened.module != NULL;
 }
 

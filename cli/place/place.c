@@ -1,210 +1,207 @@
 /* tartan place: places parts by a connection grammar, and writes the model. */
-#include "cli/place/placing.h"
-
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/place/place.h"
+#include "ask/session/questions.h"
 #include "cli/common/interrupt.h"
-#include "driver/place/kit.h"
-#include "runtime/place/search/search.h"
+#include "cli/common/made_outputs.h"
+#include "cli/common/option_rows.h"
+#include "cli/place/place.h"
 
-static bool check_options(tn_job *job)
+typedef struct place_settings {
+    tn_settings common;
+    tn_option_list outputs;
+    const char *program, *model, *steps, *fitness;
+    tn_option_number seed, part_limit, step_limit, frame_limit, lookahead_limit, search_limit, threads;
+    int stats, engine;
+    bool trace, header, keep_partial, sheet;
+} place_settings;
+
+/* The files that are asked for: what each is, and where all go. */
+typedef struct wanted_files {
+    const char **formats; /* of those by -o */
+    const char **paths;   /* in the order in which they are made */
+    size_t count;
+} wanted_files;
+
+static const place_settings *settings_of(const tn_job *job)
 {
-    const place_settings *s = (const place_settings *)job->settings;
+    return (const place_settings *)job->settings;
+}
+
+static bool check_options(tn_job *job, const tn_place_request *request)
+{
+    const place_settings *s = settings_of(job);
     uint32_t standard = s->program && strcmp(s->program, "-") == 0;
-    bool ldraw = false, picture = false;
-    tn_steps_wish wish;
-    for (size_t i = 0; i < s->outputs.count; i++) {
-        const char *path = s->outputs.items[i];
-        standard += strcmp(path, "-") == 0;
-        ldraw |= tn_place_format(path) == OUT_LDRAW;
-        picture |= tn_place_format(path) == OUT_PICTURE;
-    }
+    for (size_t i = 0; i < s->outputs.count; i++)
+        standard += strcmp(s->outputs.items[i], "-") == 0;
     if (standard + (s->trace || s->stats) > 1)
         tn_job_usage(job, "standard output takes one thing only: name a file with -o");
-    else if (s->header && !ldraw)
-        tn_job_usage(job, "--header is of an .ldr file: name one with -o");
-    else if (s->steps && !tn_place_read_steps(s->steps, &wish))
-        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "--steps cannot be %.100s", s->steps),
-                "write `--steps part`, `--steps layer`, or how many parts a step has: `--steps 5`");
-    else if (s->fitness && s->trace)
-        tn_job_usage(job, "--trace shows what does not fit, and --fitness chooses by value: leave one out");
-    else if (s->sheet && !picture)
-        tn_job_usage(job, "--sheet is of a picture: name one with -o");
     else if (s->keep_partial && s->outputs.count == 0 && !s->program)
         tn_job_usage(job, "--keep-partial does nothing without a file: name one with -o");
     else
-        return true;
+        return tn_job_answered(job, tn_place_check(&job->session, request));
     return false;
+}
+
+static void name_files(const place_settings *s, wanted_files *files)
+{
+    if (s->trace)
+        files->paths[files->count++] = "-";
+    for (size_t i = 0; i < s->outputs.count; i++) {
+        const char *path = s->outputs.items[i];
+        files->formats[i] = tn_file_format_word(strcmp(path, "-") == 0 ? TN_FILE_LDR : tn_file_format_of(path));
+        files->paths[files->count++] = path;
+    }
+    if (s->program)
+        files->paths[files->count++] = s->program;
+}
+
+/* ---- what is printed */
+
+void tn_parts_text(const tn_placed_kind *kinds, size_t count, FILE *out)
+{
+    uint64_t parts = 0;
+    for (size_t i = 0; i < count; i++)
+        parts += kinds[i].number;
+    fprintf(out, "%" PRIu64 " part%s\n", parts, parts == 1 ? "" : "s");
+    for (size_t i = 0; i < count; i++)
+        fprintf(out, "%8" PRIu64 "  %s in colour %" PRId64 "\n", kinds[i].number, kinds[i].part, kinds[i].colour);
+}
+
+/* In their order. */
+static void figures_text(const tn_placing_figures *f, FILE *out)
+{
+    const struct {
+        bool has;
+        uint64_t value;
+        const char *what;
+    } rows[] = {{true, f->elements, "parts placed"},
+                {f->has_terminals, f->terminals, "steps taken"},
+                {f->has_expansions, f->expansions, "symbols expanded"},
+                {f->has_random, f->random, "of these, by a draw"},
+                {f->has_tries, f->tries, "alternatives looked at"},
+                {f->has_fallbacks, f->fallbacks, "times that none fitted"},
+                {f->has_cells, f->cells, "cells filled"},
+                {f->has_bounds, f->bounds, "bounds set"},
+                {f->has_models, f->models, "models looked at"},
+                {f->has_proved, f->proved, "1: the rules allow no better one"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].has)
+            fprintf(out, "%12" PRIu64 "  %s\n", rows[i].value, rows[i].what);
+}
+
+static void figures_json(const tn_placing_figures *figures, FILE *out)
+{
+    tn_json json = tn_json_file(out, TN_JSON_TIGHT);
+    tn_message_write(&tn_message_placing_figures, figures, NULL, &json);
+    tn_json_end_line(&json);
+}
+
+static void print_summary(tn_job *job, const tn_placed *placed)
+{
+    const place_settings *s = settings_of(job);
+    tn_output output;
+    if (!tn_job_output(job, NULL, &output))
+        return;
+    if (s->stats)
+        (s->stats == 2 ? figures_json : figures_text)(&placed->figures, output.stream);
+    else
+        tn_parts_text(placed->parts.items, placed->parts.count, output.stream);
+    tn_job_commit(job, &output);
 }
 
 /* ---- the run */
 
-static void report(void *context, const tn_place_event *event)
+/* The best that a search has found is kept, as is said at once. */
+static void tell_interrupted(void *context, const tn_reply *answer)
 {
-    const placing *p = context;
-    tn_place_trace(p->job, &p->rules, event, stdout);
-}
-
-static double value_of(void *context, const tn_placed_model *model, const char *const *ahead, size_t ahead_count)
-{
-    return tn_place_fitness_value(&((placing *)context)->fitness, model, ahead, ahead_count);
-}
-
-/* --fitness, before the run. */
-static bool make_fitness(placing *p)
-{
-    const char *text = p->settings->fitness;
-    if (!text)
-        return true;
-    if (p->rules.space) {
-        tn_help(tn_job_diagnostics(p->job), tn_job_usage(p->job, "--fitness is of connection grammars"),
-                "what is better of two models of a kit, the model says: `minimize elements;`");
-        return false;
-    }
-    tn_status status = tn_place_fitness_make(&p->rules, text, &p->fitness);
-    if (status == TN_OK)
-        return true;
-    tn_kit_ask_failed(&p->job->opened, &p->fitness.asked);
-    tn_job_status(p->job, status);
-    return false;
-}
-
-static tn_place_options options_of(placing *p)
-{
-    const place_settings *s = p->settings;
-    return (tn_place_options){.seed = (uint32_t)s->seed.value,
-                              .part_limit = s->part_limit.value,
-                              .step_limit = s->step_limit.value,
-                              .frame_limit = s->frame_limit.value,
-                              .lookahead_limit = s->lookahead_limit.value,
-                              .search_limit = s->search_limit.value,
-                              .threads = (unsigned)s->threads.value,
-                              .keep_steps = s->program != NULL,
-                              .keep_filled = s->trace,
-                              .interpret = s->engine == 1,
-                              .value = s->fitness ? value_of : NULL,
-                              .watch = p->watch,
-                              .report = s->trace ? report : NULL,
-                              .context = p};
-}
-
-/* The rules of the grammar, or of one model of a kit. */
-static tn_status make_rules(placing *p, tn_error *error)
-{
-    const tn_module *module = p->job->opened.module;
-    if (!module->KIT_count && p->settings->model) {
-        tn_job_usage(p->job, "--model is about a kit, and %.200s is none", p->settings->common.operands.items[0]);
-        return TN_STOPPED;
-    }
-    if (module->KIT_count) {
-        tn_status status = tn_kit_choose(&p->job->opened, p->settings->model, &p->chosen);
-        tn_job_status(p->job, status);
-        return status == TN_OK ? tn_place_rules_of_model(module, p->chosen, &p->rules, error) : TN_STOPPED;
-    }
-    return tn_place_rules_make(module, &p->rules, error);
-}
-
-/* Does what was placed meet what its model requires? */
-static tn_status check_conditions(placing *p)
-{
-    tn_placed_measures measured;
-    tn_error error;
-    tn_kit_tally tally = {0};
-    bool required;
-    tn_status status = tn_kit_measure_required(&p->rules, &p->model, p->watch, &required, &measured, &error);
-    if (status == TN_OK && required)
-        status = tn_kit_conditions(&p->job->opened, p->chosen, &measured, false, true, &tally);
-    else if (status != TN_OK)
-        tn_job_fail(p->job, &error);
-    tn_placed_measures_clear(&measured);
-    return status;
-}
-
-/* The statement by which a model is placed in another way than by deriving it. */
-static const char *search_reason(const tn_kit_model_record *model)
-{
-    return model->search != TN_SEARCH_GREEDY     ? "search"
-           : model->symmetry != TN_SYMMETRY_NONE ? "symmetry"
-           : model->stock_count > 0              ? "stock"
-                                                 : "order breadth";
-}
-
-/* A search looks at many models: what one derivation did is not asked for. */
-static bool check_search(placing *p)
-{
-    const place_settings *s = p->settings;
-    const char *option = s->trace ? "--trace" : s->program ? "--program" : s->engine ? "--engine" : NULL;
-    bool search = tn_place_needs_search(&p->rules);
-    if (search && option) {
-        const char *reason = search_reason(p->rules.space);
-        tn_diagnostic *d = tn_job_usage(
-            p->job, "%s is of models that are derived from the start on, and this one has `%s`", option, reason);
-        tn_help(tn_job_diagnostics(p->job), d, "leave `%s` out of the model to see it", reason);
-    } else if (!search && (s->search_limit.given || s->threads.given)) {
-        tn_job_usage(p->job, "--%s is of a search, and the model has none",
-                     s->search_limit.given ? "search-limit" : "threads");
-    } else {
-        return true;
-    }
-    return false;
-}
-
-/* The best until then is a model like any other. */
-static void interrupted(placing *p)
-{
+    const tn_placed *placed = answer->value;
+    if (placed->status != TN_STOPPED)
+        return;
     tn_interrupt_answered();
-    p->watch = NULL;
-    tn_job_interrupted(p->job, "interrupted; the best of %" PRIu64 " models that were looked at is kept",
-                       p->model.counts.looked_at);
+    tn_job_interrupted(context, "interrupted; the best of %" PRIu64 " models that were looked at is kept",
+                       placed->figures.models);
 }
 
-static void run_placing(placing *p)
+/* Progress and a trace would mix. */
+static void show_alone(void *context, const char *work)
 {
-    tn_error error;
-    tn_status status = make_rules(p, &error);
-    if (status == TN_STOPPED)
-        return; /* has been said */
-    if (status != TN_OK) {
-        tn_fail(&error, status, E_NOT_PLACING, "%.200s holds nothing to place", p->settings->common.operands.items[0]);
-        tn_error_help(&error, "%s",
-                      tn_opened_help(&p->job->opened, "connection grammars are .pcfg files, kits .kit files").text);
-        tn_job_fail(p->job, &error);
-        return;
-    }
-    if (!check_search(p) || !make_fitness(p))
-        return;
-    tn_place_options options = options_of(p);
-    tn_job_show(p->job);
-    status = tn_place_model(&p->job->opened, &p->rules, &options, &p->model);
-    bool found = p->model.counts.looked_at > 0 && p->model.count > 0 && (status == TN_LIMIT || status == TN_STOPPED);
-    if (status == TN_STOPPED && found)
-        interrupted(p);
-    tn_job_status(p->job, status);
-    if (status == TN_OK || found)
-        status = check_conditions(p);
-    tn_job_status(p->job, status);
-    if (status == TN_OK || (p->settings->keep_partial && status != TN_MEMORY && p->model.count > 0)) {
-        if (tn_place_find_steps(p))
-            tn_place_write_all(p);
-    } else if (p->model.count > 0)
-        tn_job_note(p->job, "%zu part%s placed before; nothing was written", p->model.count,
-                    p->model.count == 1 ? " was" : "s were");
+    (void)work;
+    tn_job_show(context);
+}
+
+static tn_place_request request_of(const place_settings *s, const wanted_files *files)
+{
+    return (tn_place_request){.model = s->model,
+                              .has_seed = s->seed.given,
+                              .seed = s->seed.value,
+                              .fitness = s->fitness,
+                              .formats = {files->formats, s->outputs.count},
+                              .steps = s->steps,
+                              .sheet = s->sheet,
+                              .header = s->header,
+                              .program = s->program != NULL,
+                              .trace = s->trace,
+                              .keep_partial = s->keep_partial,
+                              .engine = (unsigned)s->engine,
+                              .has_part_limit = s->part_limit.given,
+                              .part_limit = s->part_limit.value,
+                              .has_step_limit = s->step_limit.given,
+                              .step_limit = s->step_limit.value,
+                              .has_frame_limit = s->frame_limit.given,
+                              .frame_limit = s->frame_limit.value,
+                              .has_lookahead_limit = s->lookahead_limit.given,
+                              .lookahead_limit = s->lookahead_limit.value,
+                              .has_search_limit = s->search_limit.given,
+                              .search_limit = s->search_limit.value,
+                              .has_threads = s->threads.given,
+                              .threads = s->threads.value};
+}
+
+static void place(tn_job *job, const tn_place_request *request, const wanted_files *files)
+{
+    const place_settings *s = settings_of(job);
+    tn_made_outputs outputs;
+    tn_reply answer;
+    if (s->trace)
+        job->session.listener = (tn_session_listener){show_alone, NULL, job};
+    job->session.so_far = tell_interrupted;
+    job->session.so_far_context = job;
+    tn_job_files(job, &outputs, files->paths, files->count, false);
+    tn_job_answered(job, tn_ask_place(&job->session, request, &answer));
+    tn_job_files_end(&outputs);
+    const tn_placed *placed = TN_REPLY(placed, &answer);
+    if (placed)
+        tn_job_status(job, (tn_status)placed->status);
+    bool silent = s->outputs.count > 0 || s->program || s->trace;
+    if (placed && placed->ended && (s->stats || !silent))
+        print_summary(job, placed);
+    tn_reply_clear(&answer);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
+    const place_settings *s = (const place_settings *)common;
     tn_job job;
-    placing p = {.job = &job, .settings = (const place_settings *)common, .watch = tn_interrupt_waiting()};
+    tn_error error;
+    wanted_files files = {.formats = calloc(s->outputs.count + 1, sizeof *files.formats),
+                          .paths = calloc(s->outputs.count + 2, sizeof *files.paths)};
     tn_job_begin(&job, common);
-    if (check_options(&job) && tn_job_open_joined(&job, common->operands.items, common->operands.count))
-        run_placing(&p);
-    tn_placed_steps_clear(&p.steps);
-    tn_placed_model_clear(&p.model);
-    tn_place_fitness_clear(&p.fitness);
-    tn_place_rules_clear(&p.rules);
+    if (!files.formats || !files.paths) {
+        tn_fail_memory(&error);
+        tn_job_fail(&job, &error);
+    } else {
+        name_files(s, &files);
+        const tn_place_request request = request_of(s, &files);
+        if (check_options(&job, &request) && tn_job_open_joined(&job, common->operands.items, common->operands.count))
+            place(&job, &request, &files);
+    }
+    free(files.formats);
+    free(files.paths);
     return tn_job_end(&job);
 }
 

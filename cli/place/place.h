@@ -1,4 +1,4 @@
-/* What `tartan place` prints: a summary, figures, and what became of each alternative. */
+/* What `tartan place` and `tartan inspect` print of a model: how many parts there are of which kind. */
 #ifndef TARTAN_CLI_PLACE_PLACE_H
 #define TARTAN_CLI_PLACE_PLACE_H
 
@@ -7,12 +7,9 @@
 #include "cli/common/job.h"
 #include "runtime/place/write.h"
 
-/* Parts by name and colour. */
+void tn_parts_text(const tn_placed_kind *kinds, size_t count, FILE *out);
+
+/* The same of a model that no question was asked about. */
 tn_status tn_place_summary(const tn_placed_model *model, FILE *out, tn_error *error);
-
-void tn_place_stats(const tn_placed_model *model, bool json, FILE *out);
-
-/* One line about an event. */
-void tn_place_trace(tn_job *job, const tn_place_rules *rules, const tn_place_event *event, FILE *out);
 
 #endif

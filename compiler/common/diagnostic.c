@@ -137,6 +137,23 @@ tn_diagnostic *tn_report_error(tn_diagnostics *list, const tn_error *error, cons
     return item;
 }
 
+void tn_diagnostics_move(tn_diagnostics *from, tn_diagnostics *to, uint32_t first_file)
+{
+    for (size_t i = 0; i < from->count; i++) {
+        tn_diagnostic *item = add(to, from->items[i].severity, from->items[i].code);
+        size_t order = item->order;
+        *item = from->items[i];
+        item->order = order;
+        item->span.file += first_file;
+        for (size_t n = 0; n < item->note_count; n++)
+            item->notes[n].span.file += first_file;
+        from->items[i] = (tn_diagnostic){0};
+    }
+    to->dropped += from->dropped;
+    to->failed |= from->failed;
+    tn_diagnostics_clear(from);
+}
+
 void tn_note(tn_diagnostics *list, tn_diagnostic *diagnostic, const tn_span *span, const char *format, ...)
 {
     if (!tn_array_resize(&diagnostic->notes, diagnostic->note_count + 1, sizeof *diagnostic->notes)) {

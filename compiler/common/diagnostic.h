@@ -92,6 +92,10 @@ void tn_suggest(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *for
 void tn_advise(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Moves what `from` holds to the end of another list, whose sources have those of `from` from number `first_file` on.
+ */
+void tn_diagnostics_move(tn_diagnostics *from, tn_diagnostics *to, uint32_t first_file);
+
 /* Orders by file, place, code; drops exact repeats. Items without a place come last, in the order they were added. */
 void tn_diagnostics_sort(tn_diagnostics *list);
 

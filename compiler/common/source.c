@@ -33,13 +33,20 @@ tn_status tn_sources_add(tn_sources *sources, const char *path, const char *text
     return TN_OK;
 }
 
+void tn_sources_keep(tn_sources *sources, size_t count)
+{
+    while (sources->count > count) {
+        tn_source *last = &sources->files[--sources->count];
+        sources->bytes -= last->size;
+        free(last->path);
+        free(last->text);
+        free(last->line_starts);
+    }
+}
+
 void tn_sources_clear(tn_sources *sources)
 {
-    for (size_t i = 0; i < sources->count; i++) {
-        free(sources->files[i].path);
-        free(sources->files[i].text);
-        free(sources->files[i].line_starts);
-    }
+    tn_sources_keep(sources, 0);
     free(sources->files);
     *sources = (tn_sources){0};
 }

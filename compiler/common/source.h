@@ -37,6 +37,9 @@ tn_status tn_sources_add(tn_sources *sources, const char *path, const char *text
                          tn_error *error);
 void tn_sources_clear(tn_sources *sources);
 
+/* Forgets all but the first `count`. */
+void tn_sources_keep(tn_sources *sources, size_t count);
+
 typedef struct tn_place {
     const char *path;
     size_t line, column;         /* of the span's begin, from 1; columns count bytes */

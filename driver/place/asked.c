@@ -20,10 +20,19 @@ tn_status tn_kit_ask(const char *option, const char *text, const char *const *pa
 
 void tn_kit_ask_failed(tn_opened *opened, tn_opened *asked)
 {
-    tn_close(opened);
-    *opened = *asked;
-    opened->compilation.diagnostics.sources = &opened->compilation.sources;
-    *asked = (tn_opened){0};
+    const tn_sources *from = &asked->compilation.sources;
+    tn_sources *to = &opened->compilation.sources;
+    uint32_t first = (uint32_t)to->count, file;
+    tn_error error;
+    for (size_t i = 0; i < from->count; i++) {
+        const tn_source *text = &from->files[i];
+        if (tn_sources_add(to, text->path, text->text, text->size, &file, &error) != TN_OK) {
+            tn_report_error(&opened->compilation.diagnostics, &error, NULL, NULL, 0);
+            return;
+        }
+    }
+    tn_diagnostics_clear(&opened->compilation.diagnostics);
+    tn_diagnostics_move(&asked->compilation.diagnostics, &opened->compilation.diagnostics, first);
 }
 
 /* The conditions count parts in an order of their own. */

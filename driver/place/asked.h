@@ -9,8 +9,8 @@
 tn_status tn_kit_ask(const char *option, const char *text, const char *const *parts, size_t part_count,
                      tn_opened *asked);
 
-/* What is wrong with the conditions takes the place of `opened`, which is closed, so that it is what is shown; *asked
- * is empty then. */
+/* What is wrong with the conditions takes the place of what there was to say of `opened`; their text is added to its
+ * sources. */
 void tn_kit_ask_failed(tn_opened *opened, tn_opened *asked);
 
 /* Holds a model to the conditions: adds those that do not hold (E1316) to the diagnostics of `opened`. */

@@ -255,6 +255,33 @@ is 'coverage' "$("$program" stdlib stdlib/terrace.plan coverage '{}')" \
     "$("$TARTAN" test stdlib/terrace.plan --coverage --json | sed -E 's/^.*"coverage":\[(.*)\]\}$/\1/')"
 is 'no coverage' "$("$program" stdlib stdlib/bricks.kit coverage '{}')" 'error only a .plan file has tests whose coverage is measured'
 
+# What place prints besides its files is in its answer.
+member() { # NAME...: the member of an answer by that path; a text as it is, others as JSON
+    python3 -c 'import functools, json, sys
+found = functools.reduce(lambda value, key: value[key], sys.argv[1:], json.load(sys.stdin))
+print(found.rstrip() if isinstance(found, str) else json.dumps(found, separators=(",", ":")))' "$@"
+}
+placed() { # FILE REQUEST MEMBER WORDS...
+    is "place $1 $3" "$("$program" stdlib "$1" place "$2" | member $3)" "$("$TARTAN" place "$1" "${@:4}" 2>/dev/null)"
+}
+gatehouse=examples/gatehouse/gatehouse.kit
+placed tests/cli/files/stack.pcfg '{"seed": 4}' figures --seed 4 --stats json
+placed tests/cli/files/stack.pcfg '{"program": true}' 'program text' --program -
+placed tests/cli/files/stack.pcfg '{"trace": true, "seed": 4}' 'trace text' --seed 4 --trace
+placed $gatehouse '{"program": true, "seed": 2}' 'program text' --seed 2 --program -
+placed $gatehouse '{"trace": true, "part_limit": 9, "keep_partial": true}' figures --part-limit 9 --keep-partial -o "$scratch/nine.ldr" --stats json
+is 'how it ended' "$("$program" stdlib $gatehouse place '{"part_limit": 9, "keep_partial": true}' | member ended)" partial
+is 'whole' "$("$program" stdlib $gatehouse place '{}' | member ended)" whole
+"$program" stdlib $gatehouse place '{}' | python3 -c 'import csv, json, sys
+answer = json.load(sys.stdin)["parts"]
+listed = list(csv.DictReader(open(sys.argv[1], encoding="utf-8")))
+same = [{**row, "colour": int(row["colour"]), "number": int(row["number"]), "mass": float(row["mass"]), "price": float(row["price"])} for row in listed]
+near = all(abs(a["mass"] - b["mass"]) + abs(a["price"] - b["price"]) < 1e-6 for a, b in zip(answer, same))
+print("same" if near and [{**a, "mass": 0, "price": 0} for a in answer] == [{**b, "mass": 0, "price": 0} for b in same] else (answer, same))' \
+    <("$TARTAN" place $gatehouse -o "$scratch/list.csv"; cat "$scratch/list.csv") >"$scratch/same"
+is 'the list of parts' "$(cat "$scratch/same")" same
+is 'another format' "$("$program" stdlib $gatehouse place '{"formats": ["scad"]}')" 'error there is no `scad` of this'
+
 question=match command=(match)
 file=stdlib/terrace.plan
 short=${plan#* | }
