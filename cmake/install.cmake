@@ -15,8 +15,9 @@ file(RELATIVE_PATH TARTAN_PC_UP ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_I
 # What links a program with threads, without CMake.
 set(TARTAN_PC_THREADS "-pthread -lm")
 
-# Before 1.0 the soname holds major and minor: every minor version may break the ABI.
-set(TARTAN_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+# The binary interface has a version of its own, which exports.map names, too: it changes with the interface, whatever version of Tartan that comes
+# with.
+set(TARTAN_SOVERSION 0.3)
 set(TARTAN_LIBRARIES "")
 
 # tartan_library(NAME FOLDERS TARGETS... USES LIBRARIES... NEEDS LIBRARIES... MODULES PKG-CONFIG-MODULES... FLAGS FLAGS...): the objects of the
@@ -41,7 +42,7 @@ function(tartan_library name)
       LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   endforeach()
   # One shared library of ours need not be linked again when another one changes.
-  set_target_properties(lib${name}-shared PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${TARTAN_SOVERSION}
+  set_target_properties(lib${name}-shared PROPERTIES EXPORT_NAME ${name} VERSION ${TARTAN_SOVERSION}.0 SOVERSION ${TARTAN_SOVERSION}
     LINK_DEPENDS_NO_SHARED ON)
   target_link_options(lib${name}-shared PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map)
   # clang leaves the sanitizers' names in a shared library to the program

@@ -103,6 +103,23 @@ const char *tartan_module_library_doc(const tartan_module *module, size_t i)
     return i < m->LIBRARY_count ? tn_text(m, m->LIBRARY_records[i].doc) : NULL;
 }
 
+size_t tartan_module_house_library_count(const tartan_module *module)
+{
+    return module->module->HOUSE_LIBRARY_count;
+}
+
+const char *tartan_module_house_library_name(const tartan_module *module, size_t i)
+{
+    const tn_module *m = module->module;
+    return i < m->HOUSE_LIBRARY_count ? tn_text(m, m->HOUSE_LIBRARY_records[i].name) : NULL;
+}
+
+const char *tartan_module_house_library_doc(const tartan_module *module, size_t i)
+{
+    const tn_module *m = module->module;
+    return i < m->HOUSE_LIBRARY_count ? tn_text(m, m->HOUSE_LIBRARY_records[i].doc) : NULL;
+}
+
 size_t tartan_module_surface_count(const tartan_module *module)
 {
     return module->module->SURFACE_count;

@@ -237,6 +237,15 @@ tn_status tn_numbered_lengths(tn_numbered *n, uint32_t low, uint32_t high, mpz_t
     return status;
 }
 
+tn_status tn_numbered_houses(tn_numbered *n, const tn_plan *plan, mpz_t houses, tn_error *error)
+{
+    house_tally tally;
+    tn_status status = tally_new(n, &tally) ? tally_all(n, plan, &tally, error) : tn_fail_memory(error);
+    mpz_set(houses, tally.houses);
+    tally_free(n, &tally);
+    return status;
+}
+
 /* ---- what clauses keep out */
 
 /* The houses on the plan, or on all plans, that some of the clauses keep: those of another module's record. states:

@@ -87,21 +87,30 @@ tn_status tn_numbered_name(tn_numbered *n, const tn_house *house, mpz_t plan, mp
     return status == TN_OK ? tn_numbered_number(n, house, variant, error) : status;
 }
 
+tn_status tn_numbered_rank(tn_numbered *n, const tn_house *house, mpz_t rank, tn_error *error)
+{
+    mpz_t before;
+    mpz_init(before);
+    tn_status status = rank_plan(n, house, before, error);
+    if (status == TN_OK)
+        status = tn_numbered_all(n, error);
+    if (status == TN_OK)
+        status = tn_numbered_number(n, house, rank, error);
+    if (status == TN_OK)
+        status = tn_houses_before(n->all, house->trays, (uint32_t)house->length, before, error);
+    mpz_add(rank, rank, before);
+    mpz_clear(before);
+    return status;
+}
+
 tn_status tn_numbered_name_line(tn_numbered *n, const char *line, size_t max_length, bool of_all, mpz_t plan,
                                 mpz_t variant, tn_error *error)
 {
     tn_house house;
     tn_status status = tn_house_read(&n->form, line, strlen(line), max_length, &house, error);
     if (status == TN_OK)
-        status = rank_plan(n, &house, plan, error);
-    if (status == TN_OK && of_all)
-        status = tn_numbered_all(n, error);
-    if (status == TN_OK)
-        status = tn_numbered_number(n, &house, variant, error);
-    if (status == TN_OK && of_all) {
-        status = tn_houses_before(n->all, house.trays, (uint32_t)house.length, plan, error);
-        mpz_add(variant, variant, plan);
-    }
+        status =
+            of_all ? tn_numbered_rank(n, &house, variant, error) : tn_numbered_name(n, &house, plan, variant, error);
     tn_house_clear(&house);
     return status;
 }

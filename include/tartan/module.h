@@ -29,6 +29,11 @@ TARTAN_API size_t tartan_module_library_count(const tartan_module *module);
 TARTAN_API const char *tartan_module_library_name(const tartan_module *module, size_t i);
 TARTAN_API const char *tartan_module_library_doc(const tartan_module *module, size_t i);
 
+/* Its libraries of houses (house.h), those of imported files first. */
+TARTAN_API size_t tartan_module_house_library_count(const tartan_module *module);
+TARTAN_API const char *tartan_module_house_library_name(const tartan_module *module, size_t i);
+TARTAN_API const char *tartan_module_house_library_doc(const tartan_module *module, size_t i);
+
 /* Its surfaces (field.h), those of imported files first. */
 TARTAN_API size_t tartan_module_surface_count(const tartan_module *module);
 TARTAN_API const char *tartan_module_surface_name(const tartan_module *module, size_t i);
@@ -36,10 +41,10 @@ TARTAN_API const char *tartan_module_surface_name(const tartan_module *module, s
 /* What else it holds. */
 TARTAN_API bool tartan_module_has_growth(const tartan_module *module); /* a surface that grows: growth.h */
 TARTAN_API bool
-tartan_module_has_grammar(const tartan_module *module);                /* a grammar of genomes: genome.h, evolution.h */
+tartan_module_has_grammar(const tartan_module *module); /* a grammar of genomes: genome.h, evolution.h */
 TARTAN_API bool
 tartan_module_has_places(const tartan_module *module); /* a connection grammar, or a model of a kit: place.h */
-TARTAN_API bool tartan_module_has_study(const tartan_module *module);  /* settings of an evolution: evolution.h */
+TARTAN_API bool tartan_module_has_study(const tartan_module *module); /* settings of an evolution: evolution.h */
 
 #ifdef __cplusplus
 }

@@ -8,6 +8,7 @@
  *   ask.h        questions about rule files, as JSON
  *   plan.h       plans, rules that match them, libraries of them
  *   measure.h    measures of libraries: how plans are spread, the best of them, open plans
+ *   house.h      libraries of houses, and houses as meshes and files
  *   analysis.h   why a rule matches, what rules mean, how libraries differ
  *   mesh.h       meshes as arrays and as files
  *   growth.h     surfaces that grow
@@ -27,8 +28,8 @@
  *   libtartan-draw     draw
  *   libtartan-store    run
  *
- * compile.h, source.h and ask.h are in libtartan alone. Each has a pkg-config file of its name (tartan, tartan-runtime) and is
- * a target of the CMake package (find_package(tartan): tartan::tartan, tartan::tartan-runtime).
+ * compile.h, source.h, ask.h and house.h are in libtartan alone. Each has a pkg-config file of its name (tartan,
+ * tartan-runtime) and is a target of the CMake package (find_package(tartan): tartan::tartan, tartan::tartan-runtime).
  *
  * Ownership. What a function hands out through a `**` argument is the caller's, to be freed with the _free function of
  * its type (texts: tartan_text_free; files in memory: tartan_bytes_free); where it fails, it leaves that as it was.
@@ -62,6 +63,7 @@
 #include "field.h"
 #include "genome.h"
 #include "growth.h"
+#include "house.h"
 #include "measure.h"
 #include "mesh.h"
 #include "module.h"

@@ -77,6 +77,9 @@ tn_status tn_house_stand(const tn_house_form *form, const tn_tray *trays, size_t
                          tn_house *house, tn_error *error);
 void tn_house_clear(tn_house *house);
 
+/* The same house again, without what is known of it; empty after a failure. TN_MEMORY. */
+tn_status tn_house_copy(const tn_house *house, tn_house *copy, tn_error *error);
+
 /* The same for a house that is zero or has stood before, whose memory is used again. shapes: not the house's own. */
 tn_status tn_house_stand_again(const tn_house_form *form, const tn_tray *trays, size_t length, const uint32_t *shapes,
                                tn_house *house, tn_error *error);

@@ -291,6 +291,31 @@ tn_status tn_house_stand_again(const tn_house_form *form, const tn_tray *trays, 
     return status == TN_OK ? add_faces(house, error) : status;
 }
 
+/* A copy of an array; NULL: out of memory. */
+static void *copy_of(const void *items, size_t count, size_t size)
+{
+    void *copy = malloc((count + 1) * size);
+    if (copy && count > 0)
+        memcpy(copy, items, count * size);
+    return copy;
+}
+
+tn_status tn_house_copy(const tn_house *house, tn_house *copy, tn_error *error)
+{
+    *copy = *house;
+    copy->known = NULL;
+    copy->cell_room = house->cell_count;
+    copy->face_room = house->face_count;
+    copy->trays = copy_of(house->trays, house->length, sizeof *house->trays);
+    copy->tray_first = copy_of(house->tray_first, house->length + 1, sizeof *house->tray_first);
+    copy->cells = copy_of(house->cells, house->cell_count, sizeof *house->cells);
+    copy->faces = copy_of(house->faces, house->face_count, sizeof *house->faces);
+    if (copy->trays && copy->tray_first && copy->cells && copy->faces)
+        return TN_OK;
+    tn_house_clear(copy);
+    return tn_fail_memory(error);
+}
+
 void tn_house_clear(tn_house *house)
 {
     free(house->trays);

@@ -32,13 +32,13 @@ case $("$prefix/bin/tartan" --version) in
 *) fail "the binary is not of version $version" ;;
 esac
 grep -q "define TARTAN_VERSION \"$version\"" "$prefix/include/tartan/base.h" || fail "the header is not of version $version"
-[ -e "$libdir/libtartan.so.${version%.*}" ] || fail 'the shared library has no versioned name'
+[ -e "$libdir/libtartan.so.0.3" ] || fail 'the shared library has no versioned name'
 
 # Only the public interface is visible, and what the libraries call of one another.
 libraries=$(cd "$libdir" && ls libtartan*.so)
 for library in $libraries; do
     other=$(nm -D --defined-only "$libdir/$library" | awk '{print $3}' |
-        grep -vE '^tartan_[a-z_]*@@TARTAN_0\.2$|^tn_[A-Za-z0-9_.]*@@TARTAN_PRIVATE$|^TARTAN_|^_(init|fini)$|^__' || true)
+        grep -vE '^tartan_[a-z_]*@@TARTAN_0\.3$|^tn_[A-Za-z0-9_.]*@@TARTAN_PRIVATE$|^TARTAN_|^_(init|fini)$|^__' || true)
     [ -z "$other" ] || fail "$library exports more than tartan_*: $other"
 done
 
@@ -69,7 +69,7 @@ has libtartan-growth '(growth|statistics)_[^d].*' # but drawing
 has libtartan-mesh "$files"
 has libtartan-draw '[a-z]*_draw'
 has libtartan-store 'run_.*'
-has libtartan '(ask|(compile|format|source|session|tests|coverage)_.*)'
+has libtartan '(ask|(compile|format|source|session|tests|coverage|houses?)_.*)'
 exported libtartan-{growth,mesh,draw,store}.so libtartan.so >"$scratch/parts"
 exported libtartan-runtime.so | sort - "$scratch/parts" | cmp - "$scratch/exported" || fail 'libtartan-runtime lacks a function'
 
@@ -144,6 +144,12 @@ grep -q '<svg' "$scratch/dome.svg" || fail 'embed-growth drew nothing'
 "$scratch/evolution" examples/embed-evolution/sums.bnf 137 >"$scratch/sums"
 [ "$(tail -1 "$scratch/sums" | sed 's/.* //' | tr + '\n' | awk '{s += $1} END {print s}')" = 137 ] || fail "embed-evolution found no sum: $(tail -1 "$scratch/sums")"
 grep -q '^saved: [0-9]* bytes$' "$scratch/sums" || fail 'embed-evolution saved nothing'
+
+"$CC" "${flags[@]}" -std=c99 -Wall -Wextra -Wpedantic examples/embed-houses/houses.c "${by_pkg_config[@]}" -o "$scratch/houses"
+"$scratch/houses" examples/embed-houses/cottages.plan "$stdlib" "$scratch/cottage" >"$scratch/cottages"
+grep -q '^[0-9]* houses$' "$scratch/cottages" || fail 'embed-houses counted nothing'
+grep -q '^IFC' <<<"$(sed -n 's/^FILE_SCHEMA((.\(IFC4\).*/\1/p' "$scratch/cottage.ifc")" || fail 'embed-houses wrote no building model'
+[ -s "$scratch/cottage.glb" ] && grep -q '<svg' "$scratch/cottage.svg" || fail 'embed-houses wrote no mesh, or drew nothing'
 
 # The runtime alone runs a module.
 "$prefix/bin/tartan" build "$scratch/narrow.plan" -o "$scratch/narrow.tnb"
