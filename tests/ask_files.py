@@ -32,6 +32,16 @@ ASKED = {
         ("tests/cli/files/ball.field", {"surface": "bal"}, "--surface bal -o a.svg"),
         ("stdlib/bricks.kit", {"sample": 1}, "--sample 1 -o a.svg"),
     ],
+    "count": [
+        ("stdlib/lahave-houses.plan", {"by": "cost", "trays": {"from": 4, "to": 5}, "picture": "svg"}, "--by cost --trays 4..5 -o a.svg"),
+        ("stdlib/cottage.plan", {"library": "cottages", "plan": "#10", "by": "floor-area", "picture": "pdf"}, "--library cottages --plan #10 --by floor-area -o a.pdf"),
+    ],
+    "complete": [
+        ("stdlib/terrace.plan", {"pattern": "? | ... | ?", "picture": "png"}, "?_|_..._|_? -o a.png"),
+        ("stdlib/lahave-houses.plan", {"pattern": "? | great | ... | ?", "by": [{"measure": "cost"}], "trays": {"from": 4, "to": 4}, "picture": "svg"},
+         "?_|_great_|_..._|_? --least cost --trays 4..4 -o a.svg"),
+        ("stdlib/cottage.plan", {"pattern": "... | ?", "library": "cottages", "picture": "svg"}, "..._|_? --library cottages -o a.svg"),
+    ],
     "best": [("stdlib/lahave-houses.plan", {"best": 4, "by": [{"measure": "cost"}], "trays": {"from": 4, "to": 4}}, "4 --least cost --trays 4..4 -o a.svg")],
     "pareto": [
         ("stdlib/lahave-houses.plan", {"front": True, "by": [{"measure": "cost"}, {"measure": "area", "most": True}], "trays": {"from": 4, "to": 4}},

@@ -17,13 +17,7 @@ tn_file_format tn_draw_format(const tn_draw_request *request)
 tn_status tn_draw_give(tn_session *session, const tn_draw_request *request, tn_picture *drawn, tn_status status,
                        tn_error *error, tn_drawn_picture *made)
 {
-    tn_made_file *file = status == TN_OK ? TN_ADD(made_file, made->files, error) : NULL;
-    if (file) {
-        status = tn_made_picture(session, drawn, tn_draw_format(request), NULL, file, error);
-        return status == TN_OK ? TN_OK : tn_session_fail(session, error);
-    }
-    free(drawn->element);
-    return tn_session_fail(session, error);
+    return tn_picture_give(session, tn_draw_format(request), drawn, status, error, (tn_list *)&made->files);
 }
 
 static tn_camera camera_of(const tn_draw_request *request)

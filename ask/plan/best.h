@@ -4,6 +4,7 @@
 
 #include "ask/house/numbered.h"
 #include "ask/plan/found.h"
+#include "runtime/base/picture.h"
 #include "runtime/house/count/best.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/measure/complete.h"
@@ -106,9 +107,13 @@ static inline size_t tn_open_choice_at(const tn_open_choices *c, uint32_t tray, 
     return (size_t)tray * c->found.values + c->schema->value_start[field] + value;
 }
 
-/* Appends why no plan of a library completes an open plan: the first written tray that leaves none, in a line or two.
- */
-tn_status tn_complete_why(const tn_library *library, const tn_open_plan *open, tn_buffer *text, tn_error *error);
+/* The best that the measure can still be with the value at that place of found.counts, for people (malloc); NULL, too,
+ * if none is asked for, or the value cannot stand there. And what it is: "least cost". */
+char *tn_open_best_text(const tn_open_choices *choices, size_t at);
+void tn_open_best_name(const tn_open_choices *choices, char *text, size_t size);
+
+/* Draws them. */
+tn_status tn_open_choices_draw(const tn_open_choices *choices, tn_picture *to, tn_error *error);
 
 /* The best houses that are asked for. */
 tn_status tn_find_best_houses(tn_session *session, const tn_best_request *request, tn_reply *answer);

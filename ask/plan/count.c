@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/session/made.h"
 #include "ask/session/questions.h"
 
 /* ---- plans */
@@ -163,6 +164,7 @@ static const char *asks_library(const tn_count_request *r)
            : r->subject.where.count ? "where"
            : r->subject.has_trays   ? "trays"
            : r->by                  ? "by"
+           : r->drawn.picture       ? "picture"
            : r->step                ? "step"
            : r->has_bins            ? "bins"
            : r->plan                ? "plan"
@@ -178,6 +180,22 @@ static bool counts_houses(const tn_session *session, const tn_count_request *r)
     return r->plan || r->clauses || tn_session_of_houses(session, &r->subject);
 }
 
+/* The histogram of a distribution. */
+static tn_status draw(tn_session *session, const tn_answer_picture *asked, tn_counted_values *values)
+{
+    tn_picture to = tn_answer_picture_begin(asked);
+    tn_error error;
+    tn_status status = tn_spread_draw(values->spread.value, &to, &error);
+    return tn_answer_picture_give(session, asked, &to, status, &error, (tn_list *)&values->files, &values->has_files);
+}
+
+static tn_status count(tn_session *session, const tn_count_request *request, tn_reply *answer)
+{
+    if (counts_houses(session, request))
+        return tn_count_houses(session, request, answer);
+    return request->by ? tn_count_plans_by(session, request, answer) : count_plans(session, request, answer);
+}
+
 tn_status tn_ask_count(tn_session *session, const tn_count_request *request, tn_reply *answer)
 {
     const tn_kit_asked kit = tn_count_kit_asked(request);
@@ -191,7 +209,10 @@ tn_status tn_ask_count(tn_session *session, const tn_count_request *request, tn_
     tn_status status = tn_kit_none_asked(session, &kit);
     if (status != TN_OK)
         return status;
-    if (counts_houses(session, request))
-        return tn_count_houses(session, request, answer);
-    return request->by ? tn_count_plans_by(session, request, answer) : count_plans(session, request, answer);
+    if (tn_answer_has_picture(&request->drawn) && !request->by)
+        return tn_session_refuse(session, "give `by`, a measure", "only how plans are spread over a measure is drawn");
+    status = count(session, request, answer);
+    tn_counted_values *values = TN_REPLY(counted_values, answer);
+    return status == TN_OK && tn_answer_has_picture(&request->drawn) && values ? draw(session, &request->drawn, values)
+                                                                               : status;
 }

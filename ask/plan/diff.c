@@ -1,11 +1,15 @@
 /* diff: what an edit does to a library. */
 #include "ask/plan/diff.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "ask/plan/found.h"
+#include "ask/plan/sheet.h"
+#include "ask/session/made.h"
 #include "ask/session/questions.h"
+#include "driver/open/digits.h"
 
 const char *tn_change_word(tn_clause_change change)
 {
@@ -136,13 +140,93 @@ static tn_status set_plans(tn_plan_diff *d, size_t count, uint64_t seed, tn_comp
     return status;
 }
 
-/* ---- asked */
-
 typedef struct comparing {
     tn_session *session, *other;
     const tn_diff_request *request;
     const tn_ready_library *before, *after;
 } comparing;
+
+/* ---- the picture: removed plans, added ones, kept ones, each under a heading */
+
+enum { NOTE_SIZE = 400 };
+static const char *const part_names[TN_DIFF_PARTS] = {"removed", "added", "kept"};
+
+/* Its rank in its library stands under a plan: a removed one's in the library before, the others' in that after. */
+static tn_status add_plan(const tn_plan_diff *d, tn_diff_part part, const mpz_t rank, const char *heading,
+                          tn_plan_sheet *s, tn_error *error)
+{
+    const tn_library *library = tn_library_diff_part(d->diff, part);
+    tn_tray *trays = malloc(((size_t)tn_library_max(library) + 1) * sizeof *trays);
+    uint32_t length = 0;
+    mpz_t own;
+    if (!trays)
+        return tn_fail_memory(error);
+    mpz_init(own);
+    tn_status status = tn_plan_diff_at(d, part, rank, trays, &length, own, error);
+    if (status == TN_OK)
+        status = tn_sheet_add(s, trays, length, mpz_get_str(NULL, 10, own), heading, NULL, error);
+    mpz_clear(own);
+    free(trays);
+    return status;
+}
+
+static void describe(const tn_plan_diff *d, tn_diff_part part, char *note)
+{
+    mpz_t count;
+    mpz_init(count);
+    tn_library_kept(tn_library_diff_part(d->diff, part), TN_ALL_LENGTHS, count);
+    char *digits = tn_digits(count, true);
+    snprintf(note, NOTE_SIZE, "%s: %zu of %s plans", part_names[part], d->samples[part].count, digits ? digits : "?");
+    free(digits);
+    mpz_clear(count);
+}
+
+/* headings: of the three parts. */
+static tn_status collect(const tn_plan_diff *d, char headings[TN_DIFF_PARTS][NOTE_SIZE], tn_plan_sheet *s,
+                         tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (int part = 0; part < TN_DIFF_PARTS; part++)
+        for (size_t i = 0; status == TN_OK && i < d->samples[part].count; i++)
+            status = add_plan(d, (tn_diff_part)part, d->samples[part].ranks[i], i ? NULL : headings[part], s, error);
+    return status;
+}
+
+static tn_status draw_sheet(const tn_compared *compared, const tn_diff_request *request, tn_picture *to,
+                            tn_error *error)
+{
+    const tn_plan_diff *d = compared->shown.value;
+    char headings[TN_DIFF_PARTS][NOTE_SIZE], made_of[NOTE_SIZE], title[NOTE_SIZE];
+    const char *lines[TN_DIFF_PARTS + 1] = {headings[0], headings[1], headings[2], made_of};
+    tn_plan_sheet s = {0};
+    for (int part = 0; part < TN_DIFF_PARTS; part++)
+        describe(d, (tn_diff_part)part, headings[part]);
+    tn_status status = collect(d, headings, &s, error);
+    snprintf(made_of, NOTE_SIZE, "%.160s to %.160s, seed %" PRIu64, compared->before.file, compared->after.file,
+             request->seed);
+    snprintf(title, sizeof title, "%.160s: what changes", compared->after.library);
+    tn_draw_options drawing = {.title = request->title ? request->title : title,
+                               .number_name = "rank",
+                               .notes = lines,
+                               .note_count = TN_DIFF_PARTS + 1};
+    if (status == TN_OK)
+        status = tn_plans_draw(tn_library_schema(tn_library_diff_part(d->diff, TN_DIFF_KEPT)), s.plans, s.count,
+                               &drawing, to, error);
+    tn_sheet_clear(&s);
+    return status;
+}
+
+static tn_status draw(const comparing *c, tn_compared *compared)
+{
+    const tn_answer_picture *asked = &c->request->drawn;
+    tn_picture to = tn_answer_picture_begin(asked);
+    tn_error error;
+    tn_status status = draw_sheet(compared, c->request, &to, &error);
+    return tn_answer_picture_give(c->session, asked, &to, status, &error, (tn_list *)&compared->files,
+                                  &compared->has_files);
+}
+
+/* ---- asked */
 
 static tn_status compare(const comparing *c, tn_plan_diff *d, tn_compared *to, tn_error *error)
 {
@@ -193,5 +277,11 @@ tn_status tn_ask_diff(tn_session *session, const tn_diff_request *request, tn_re
     if (status != TN_OK)
         return status;
     bool houses = tn_session_of_houses(session, &request->subject) || tn_session_of_houses(c.other, &request->subject);
-    return houses ? tn_diff_houses(session, c.other, request, answer) : diff_plans(&c, answer);
+    bool drawn = tn_answer_has_picture(&request->drawn);
+    if (houses)
+        return drawn ? tn_session_refuse(session, "leave out -o; `tartan house` draws a house by its line",
+                                         "houses that are compared are not drawn")
+                     : tn_diff_houses(session, c.other, request, answer);
+    status = diff_plans(&c, answer);
+    return status == TN_OK && drawn ? draw(&c, answer->value) : status;
 }

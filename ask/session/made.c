@@ -71,3 +71,36 @@ tn_status tn_made_picture(tn_session *session, tn_picture *drawn, tn_file_format
     *drawn = (tn_picture){0};
     return status;
 }
+
+tn_status tn_picture_give(tn_session *session, tn_file_format format, tn_picture *drawn, tn_status status,
+                          tn_error *error, tn_list *files)
+{
+    tn_made_file *file = status == TN_OK ? tn_message_add(&tn_message_made_file, files, error) : NULL;
+    if (file) {
+        status = tn_made_picture(session, drawn, format, NULL, file, error);
+        return status == TN_OK ? TN_OK : tn_session_fail(session, error);
+    }
+    free(drawn->element);
+    *drawn = (tn_picture){0};
+    return tn_session_fail(session, error);
+}
+
+static tn_file_format format_of(const tn_answer_picture *asked)
+{
+    static const tn_file_format formats[] = {TN_FILE_OTHER, TN_FILE_SVG, TN_FILE_PNG, TN_FILE_PDF};
+    return formats[asked->picture];
+}
+
+tn_picture tn_answer_picture_begin(const tn_answer_picture *asked)
+{
+    tn_picture to = tn_picture_asked(format_of(asked));
+    to.dpi = (uint32_t)asked->dpi;
+    return to;
+}
+
+tn_status tn_answer_picture_give(tn_session *session, const tn_answer_picture *asked, tn_picture *drawn,
+                                 tn_status status, tn_error *error, tn_list *files, bool *has)
+{
+    *has = !session->files;
+    return tn_picture_give(session, format_of(asked), drawn, status, error, files);
+}

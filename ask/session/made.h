@@ -41,4 +41,21 @@ tn_picture tn_picture_asked(tn_file_format format);
 tn_status tn_made_picture(tn_session *session, tn_picture *drawn, tn_file_format format, const char *name,
                           tn_made_file *to, tn_error *error);
 
+/* Puts a picture, the only one of an answer, into its list of files, unless drawing it failed with that error, which is
+ * said. Frees the picture. */
+tn_status tn_picture_give(tn_session *session, tn_file_format format, tn_picture *drawn, tn_status status,
+                          tn_error *error, tn_list *files);
+
+/* Is a picture of an answer asked for, too? */
+static inline bool tn_answer_has_picture(const tn_answer_picture *asked)
+{
+    return asked->picture != 0;
+}
+
+/* Such a picture, to be drawn; and then given as tn_picture_give does. The answer says nothing of a picture that went
+ * to a taker: `has` says whether it does. */
+tn_picture tn_answer_picture_begin(const tn_answer_picture *asked);
+tn_status tn_answer_picture_give(tn_session *session, const tn_answer_picture *asked, tn_picture *drawn,
+                                 tn_status status, tn_error *error, tn_list *files, bool *has);
+
 #endif

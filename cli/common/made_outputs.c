@@ -69,6 +69,11 @@ unsigned tn_picture_choice(const char *path)
     return format == TN_FILE_PNG ? 1 : format == TN_FILE_PDF ? 2 : 0;
 }
 
+unsigned tn_answer_picture_choice(const char *path)
+{
+    return tn_job_draws(path) ? 1 + tn_picture_choice(path) : 0;
+}
+
 void tn_job_draw(tn_job *job, const tn_draw_request *request, const char *path)
 {
     tn_made_outputs outputs;

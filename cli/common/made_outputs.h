@@ -25,6 +25,9 @@ void tn_job_files_end(tn_made_outputs *outputs);
 /* Which of the words of a request's `format` the name of a picture means. */
 unsigned tn_picture_choice(const char *path);
 
+/* The same of the pictures of answers: the word none, 0, if the name is none of a picture. */
+unsigned tn_answer_picture_choice(const char *path);
+
 /* Asks for a picture, and puts it there. */
 void tn_job_draw(tn_job *job, const tn_draw_request *request, const char *path);
 

@@ -2,11 +2,10 @@
 #include <stdlib.h>
 
 #include "ask/session/questions.h"
+#include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
 #include "cli/measure/wishes.h"
 #include "driver/open/digits.h"
-#include "runtime/plan/measure/bins.h"
-#include "runtime/plan/picture/draw_open.h"
 
 typedef struct complete_settings {
     tn_settings common;
@@ -23,27 +22,6 @@ static const complete_settings *settings_of(const tn_job *job)
 
 /* ---- as text */
 
-/* The best that the measure can still be with the value, for people (malloc); NULL, too, if none is asked for, or the
- * value cannot stand there. */
-static char *best_of(const tn_open_choices *c, size_t at)
-{
-    mpq_t value;
-    if (!c->found.best || mpz_sgn(c->found.counts[at]) == 0)
-        return NULL;
-    mpq_init(value);
-    mpq_set_si(value, c->found.best[at], 1);
-    mpq_mul(value, value, c->step);
-    char *text = tn_wish_text(&c->wishes, 0, value);
-    mpq_clear(value);
-    return text;
-}
-
-/* "least cost" */
-static void name_best(const tn_open_choices *c, char *text, size_t size)
-{
-    snprintf(text, size, "%s %.200s", c->wishes.most[0] ? "most" : "least", c->wishes.names[0]);
-}
-
 static const char *spelling(const tn_open_choices *c, uint32_t field, uint32_t value)
 {
     return tn_text(c->schema->module, c->schema->values[c->schema->value_start[field] + value].spelling);
@@ -57,7 +35,7 @@ static void write_field(const tn_open_choices *c, uint32_t tray, uint32_t field,
         size_t at = tn_open_choice_at(c, tray, field, v);
         if (mpz_sgn(c->found.counts[at]) == 0)
             continue;
-        char *digits = tn_digits(c->found.counts[at], true), *best = best_of(c, at);
+        char *digits = tn_digits(c->found.counts[at], true), *best = tn_open_best_text(c, at);
         fprintf(out, "%s%s: %s%s%s%s", any ? ",  " : "", spelling(c, field, v), digits ? digits : "", best ? " (" : "",
                 best ? best : "", best ? ")" : "");
         free(best);
@@ -73,7 +51,7 @@ static void write_text(const tn_open_choices *c, FILE *out)
     char best[256];
     fprintf(out, "%s %s complete it", plans ? plans : "", c->what);
     if (c->found.best) {
-        name_best(c, best, sizeof best);
+        tn_open_best_name(c, best, sizeof best);
         fprintf(out, "; in brackets the %s that is left", best);
     }
     fputc('\n', out);
@@ -86,63 +64,6 @@ static void write_text(const tn_open_choices *c, FILE *out)
     fputs(c->why ? c->why : "", out);
 }
 
-/* ---- the picture */
-
-static bool take_choices(const tn_open_choices *c, tn_drawn_choice *choices)
-{
-    bool ok = true;
-    for (uint32_t t = 0; t < c->found.trays; t++)
-        for (uint32_t f = 0; f < c->schema->field_count; f++)
-            for (uint32_t v = 0; ok && v < c->schema->fields[f].value_count; v++) {
-                size_t at = tn_open_choice_at(c, t, f, v);
-                tn_drawn_choice *choice = choices++;
-                choice->share = tn_bins_share(c->found.counts[at], c->found.plans);
-                choice->count = tn_digits(c->found.counts[at], true);
-                choice->best = best_of(c, at);
-                ok = choice->count && (choice->best || !c->found.best || mpz_sgn(c->found.counts[at]) == 0);
-            }
-    return ok;
-}
-
-static tn_status draw_choices(const tn_open_choices *c, const tn_drawn_choice *choices, tn_picture *to, tn_error *error)
-{
-    char about[512], best[256] = "";
-    char *plans = tn_digits(c->found.plans, true);
-    if (!plans)
-        return tn_fail_memory(error);
-    if (c->found.best)
-        name_best(c, best, sizeof best);
-    snprintf(about, sizeof about, "%.200s %s complete the open plan%s%s%s", plans, c->what,
-             c->found.best ? "; beside each count the " : "", c->found.best ? best : "",
-             c->found.best ? " that is left" : "");
-    free(plans);
-    const tn_drawn_open open = {.title = c->title,
-                                .doc = c->doc,
-                                .about = about,
-                                .best_name = c->found.best ? best : NULL,
-                                .functions = c->open.functions,
-                                .count = c->open.count,
-                                .choices = choices};
-    return tn_open_plan_draw(c->schema, &open, to, error);
-}
-
-static void draw(tn_job *job, const tn_open_choices *c)
-{
-    size_t count = (size_t)c->found.trays * c->found.values;
-    tn_drawn_choice *choices = calloc(count + 1, sizeof *choices);
-    tn_error error;
-    tn_status status = choices && take_choices(c, choices) ? TN_OK : tn_fail_memory(&error);
-    if (status == TN_OK)
-        status = draw_choices(c, choices, &(tn_picture){.path = settings_of(job)->output}, &error);
-    if (status != TN_OK)
-        tn_job_fail(job, &error);
-    for (size_t i = 0; choices && i < count; i++) {
-        free((char *)(uintptr_t)choices[i].count);
-        free((char *)(uintptr_t)choices[i].best);
-    }
-    free(choices);
-}
-
 /* ---- the command */
 
 static void show(tn_job *job, const tn_reply *answer)
@@ -153,9 +74,7 @@ static void show(tn_job *job, const tn_reply *answer)
     const tn_open_choices *choices = counted ? counted->shown.value : weighed->shown.value;
     tn_output output;
     tn_job_show(job);
-    if (tn_job_draws(settings->output)) {
-        draw(job, choices);
-    } else if (tn_job_output(job, settings->output, &output)) {
+    if (!tn_job_draws(settings->output) && tn_job_output(job, settings->output, &output)) {
         if (settings->json)
             tn_job_write_json(answer, output.stream);
         else
@@ -168,14 +87,19 @@ static void complete(tn_job *job, const char *pattern)
 {
     const complete_settings *settings = settings_of(job);
     tn_wished wished = {0};
+    tn_made_outputs outputs;
     tn_reply answer;
     if ((settings->json && !tn_job_takes_text(job, settings->output)) ||
         (settings->wanted.count > 0 && !tn_job_wishes(job, &settings->wanted, 1, &wished)))
         return;
-    const tn_complete_request request = {
-        .subject = tn_job_asked(&settings->plans), .pattern = pattern, .by = {wished.items, wished.count}};
+    const tn_complete_request request = {.subject = tn_job_asked(&settings->plans),
+                                         .pattern = pattern,
+                                         .by = {wished.items, wished.count},
+                                         .drawn = {.picture = tn_answer_picture_choice(settings->output)}};
+    tn_job_files(job, &outputs, &settings->output, 1, false);
     if (tn_job_answered(job, tn_ask_complete(&job->session, &request, &answer)))
         show(job, &answer);
+    tn_job_files_end(&outputs);
     tn_reply_clear(&answer);
 }
 

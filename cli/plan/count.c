@@ -4,11 +4,11 @@
 
 #include "ask/session/questions.h"
 #include "cli/common/interrupt.h"
+#include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
 #include "cli/place/kit_options.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/count_text.h"
-#include "driver/measure/spread.h"
 
 typedef struct count_settings {
     tn_settings common;
@@ -32,6 +32,7 @@ static tn_count_request request_of(const count_settings *s)
                               .has_bins = s->bins.given,
                               .bins = s->bins.value,
                               .values = s->json,
+                              .drawn = {.picture = s->by && !s->json ? tn_answer_picture_choice(s->output) : 0},
                               .plan = s->plan,
                               .clauses = s->clauses,
                               .no_effects = s->no_effects,
@@ -79,13 +80,6 @@ static void write_answer(const showing *s, const tn_reply *answer, FILE *out)
         tn_count_buildings_text(TN_REPLY(counted_buildings, answer), out);
 }
 
-static void draw(const showing *s, const tn_counted_values *values)
-{
-    tn_error error;
-    if (tn_spread_draw(values->spread.value, &(tn_picture){.path = s->path}, &error) != TN_OK)
-        tn_job_fail(s->job, &error);
-}
-
 /* Nothing is left to write of plans but their clauses. */
 static void show_rest(showing *s, const tn_reply *answer, bool answered)
 {
@@ -103,9 +97,8 @@ static void show_rest(showing *s, const tn_reply *answer, bool answered)
 static void show(showing *s, const tn_reply *answer)
 {
     tn_job_show(s->job);
-    if (TN_REPLY(counted_values, answer) && tn_job_draws(s->path)) {
-        draw(s, answer->value);
-    } else if (tn_job_output(s->job, s->path, &s->output)) {
+    bool drawn = TN_REPLY(counted_values, answer) && tn_job_draws(s->path);
+    if (!drawn && tn_job_output(s->job, s->path, &s->output)) {
         write_answer(s, answer, s->output.stream);
         tn_job_commit(s->job, &s->output);
     }
@@ -115,10 +108,13 @@ void tn_job_count(tn_job *job, const tn_count_request *request, bool json, const
 {
     tn_reply answer;
     showing s = {.job = job, .json = json, .path = path};
+    tn_made_outputs outputs;
+    tn_job_files(job, &outputs, &path, 1, false);
     job->session.so_far = show_so_far;
     job->session.so_far_context = &s;
     bool answered = tn_job_answered(job, tn_ask_count(&job->session, request, &answer));
     job->session.so_far = NULL;
+    tn_job_files_end(&outputs);
     if (s.open)
         show_rest(&s, &answer, answered);
     else if (answered && (json || !TN_REPLY(counted_plans, &answer)))

@@ -1,16 +1,9 @@
 /* tartan diff: what an edit does to a library. */
-#include <inttypes.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "ask/plan/diff.h"
-#include "ask/plan/sheet.h"
 #include "ask/session/questions.h"
+#include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
 #include "cli/plan/answers.h"
 #include "cli/plan/diff_text.h"
-#include "driver/open/digits.h"
-#include "runtime/base/picture.h"
 
 typedef struct diff_settings {
     tn_settings common;
@@ -24,77 +17,6 @@ static const diff_settings *settings_of(const tn_job *job)
 {
     return (const diff_settings *)job->settings;
 }
-
-enum { NOTE_SIZE = 400 };
-static const char *const part_names[TN_DIFF_PARTS] = {"removed", "added", "kept"};
-
-/* ---- the picture: removed plans, added ones, kept ones, each under a heading */
-
-/* Its rank in its library stands under a plan: a removed one's in the library before, the others' in that after. */
-static tn_status add_plan(const tn_plan_diff *d, tn_diff_part part, const mpz_t rank, const char *heading,
-                          tn_plan_sheet *s, tn_error *error)
-{
-    const tn_library *library = tn_library_diff_part(d->diff, part);
-    tn_tray *trays = malloc(((size_t)tn_library_max(library) + 1) * sizeof *trays);
-    uint32_t length = 0;
-    mpz_t own;
-    if (!trays)
-        return tn_fail_memory(error);
-    mpz_init(own);
-    tn_status status = tn_plan_diff_at(d, part, rank, trays, &length, own, error);
-    if (status == TN_OK)
-        status = tn_sheet_add(s, trays, length, mpz_get_str(NULL, 10, own), heading, NULL, error);
-    mpz_clear(own);
-    free(trays);
-    return status;
-}
-
-static void describe(const tn_plan_diff *d, tn_diff_part part, char *note)
-{
-    mpz_t count;
-    mpz_init(count);
-    tn_library_kept(tn_library_diff_part(d->diff, part), TN_ALL_LENGTHS, count);
-    char *digits = tn_digits(count, true);
-    snprintf(note, NOTE_SIZE, "%s: %zu of %s plans", part_names[part], d->samples[part].count, digits ? digits : "?");
-    free(digits);
-    mpz_clear(count);
-}
-
-/* headings: of the three parts. */
-static tn_status collect(const tn_plan_diff *d, char headings[TN_DIFF_PARTS][NOTE_SIZE], tn_plan_sheet *s,
-                         tn_error *error)
-{
-    tn_status status = TN_OK;
-    for (int part = 0; part < TN_DIFF_PARTS; part++)
-        for (size_t i = 0; status == TN_OK && i < d->samples[part].count; i++)
-            status = add_plan(d, (tn_diff_part)part, d->samples[part].ranks[i], i ? NULL : headings[part], s, error);
-    return status;
-}
-
-static tn_status draw(const tn_compared *compared, const diff_settings *settings, tn_error *error)
-{
-    const tn_plan_diff *d = compared->shown.value;
-    char headings[TN_DIFF_PARTS][NOTE_SIZE], made_of[NOTE_SIZE], title[NOTE_SIZE];
-    const char *lines[TN_DIFF_PARTS + 1] = {headings[0], headings[1], headings[2], made_of};
-    tn_plan_sheet s = {0};
-    for (int part = 0; part < TN_DIFF_PARTS; part++)
-        describe(d, (tn_diff_part)part, headings[part]);
-    tn_status status = collect(d, headings, &s, error);
-    snprintf(made_of, NOTE_SIZE, "%.160s to %.160s, seed %" PRIu64, compared->before.file, compared->after.file,
-             settings->seed.value);
-    snprintf(title, sizeof title, "%.160s: what changes", compared->after.library);
-    tn_draw_options drawing = {.title = settings->title ? settings->title : title,
-                               .number_name = "rank",
-                               .notes = lines,
-                               .note_count = TN_DIFF_PARTS + 1};
-    if (status == TN_OK)
-        status = tn_plans_draw(tn_library_schema(tn_library_diff_part(d->diff, TN_DIFF_KEPT)), s.plans, s.count,
-                               &drawing, &(tn_picture){.path = settings->output}, error);
-    tn_sheet_clear(&s);
-    return status;
-}
-
-/* ---- the command */
 
 static void write(tn_job *job, const tn_reply *answer, bool json)
 {
@@ -142,14 +64,15 @@ static void compare(tn_job *job, tn_session *before)
                                      .seed = settings->seed.value,
                                      .no_measures = settings->without_measures,
                                      .has_max_houses = settings->max_houses.given,
-                                     .max_houses = settings->max_houses.value};
+                                     .max_houses = settings->max_houses.value,
+                                     .drawn = {.picture = tn_answer_picture_choice(settings->output)},
+                                     .title = settings->title};
+    tn_made_outputs outputs;
     tn_reply answer;
-    tn_error error;
-    bool answered = tn_job_diff(job, before, &request, &answer);
-    if (answered && settings->output && draw(answer.value, settings, &error) != TN_OK)
-        tn_job_fail(job, &error);
-    else if (answered)
+    tn_job_files(job, &outputs, &settings->output, 1, false);
+    if (tn_job_diff(job, before, &request, &answer))
         write(job, &answer, settings->json);
+    tn_job_files_end(&outputs);
     tn_reply_clear(&answer);
 }
 

@@ -360,6 +360,8 @@ wrong '{"where": "trays = 4"}' '`where` is a list of texts: only plans, or house
 wrong '{"trays": {"from": 4}}' 'a tray_range needs `to`: the most trays'
 wrong '{"trays": 4}' '`trays` is an object: how many trays a plan has, instead of what the library says'
 wrong '{"bins": -3}' '`bins` is a whole number from 0: with `by`: at most so many bins'
+wrong '{"picture": "svg"}' 'only how plans are spread over a measure is drawn'
+wrong '{"picture": "gif"}' '`picture` cannot be `gif`'
 wrong '[]' 'the request is no JSON object: it is another value'
 is 'no rank' "$("$program" stdlib stdlib/terrace.plan unrank '{}')" 'error an unrank_request needs `rank`: a whole number from 0; of houses also the name of one, such as #10:3'
 is 'no plan' "$("$program" stdlib stdlib/terrace.plan rank '{}')" "error say whose number is asked for: a plan's or a house's"
