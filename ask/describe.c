@@ -185,6 +185,7 @@ static void write_kind(tn_json *json, const tn_message_member *m)
         tn_json_string(json, "type", "array");
         tn_json_object(json, "items");
         tn_json_string(json, "type", "integer");
+        tn_json_count(json, "minimum", 0);
         tn_json_object_end(json);
         break;
     case TN_MESSAGE_WRITTEN: /* of a listing */
@@ -358,13 +359,13 @@ static void write_type(const tn_message_member *m, FILE *out)
     case TN_MESSAGE_REAL:
         fputs("number", out);
         break;
+    case TN_MESSAGE_COUNTS:
+        fputs("number[]", out);
+        break;
     case TN_MESSAGE_TEXTS:
     case TN_MESSAGE_OWNEDS:
     case TN_MESSAGE_EXACTS:
         fputs("string[]", out);
-        break;
-    case TN_MESSAGE_COUNTS:
-        fputs("number[]", out);
         break;
     case TN_MESSAGE_NESTED:
     case TN_MESSAGE_WRITTEN:

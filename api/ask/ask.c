@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "api/compiler/compile.h"
+#include "ask/growth/grow.h"
 #include "ask/session/questions.h"
 #include "ask/session/session.h"
 #include "include/tartan/ask.h"
@@ -21,8 +22,8 @@ struct tartan_session {
     tartan_compile_options options; /* with folders of our own */
     char **folders;
     asked_file whole;    /* as it was written */
-    asked_file narrowed; /* with further requirements or an open plan, */
-    char *narrowed_by;   /* which are these, one a line behind the library's name and the open plan */
+    asked_file narrowed; /* with further requirements or an open plan, or with statements about growing, */
+    char *narrowed_by;   /* which are these: one a line behind the library's name and the open plan, or a study */
     asked_file before;   /* another file that was compared with it last, */
     char *before_text;
 };
@@ -187,6 +188,54 @@ static tartan_status choose_file(tartan_session *session, const tn_library_asked
     tartan_status status = open_file(session, &asking, &session->narrowed, error);
     session->options.report = NULL;
     return status;
+}
+
+/* What a request says of growing, or NULL. */
+static const tn_grow_statements *statements_of(const tn_message *message, const void *request)
+{
+    return message == &tn_message_grow_request ? &((const tn_grow_request *)request)->said : NULL;
+}
+
+/* The study that the statements are, which uses the session's file, takes its place. */
+static tartan_status open_study(tartan_session *session, const char *study, size_t size, tartan_report *report,
+                                void *context, tartan_error *error)
+{
+    const tn_input used = {.text = session->text, .size = session->size, .name = session->path};
+    tartan_compile_options options = session->options;
+    options.report = report;
+    options.report_context = context;
+    tartan_status status =
+        tn_api_open_study("<options>", study, size, &options, &used, &session->narrowed.opened, error);
+    session->narrowed.open = status == TARTAN_OK;
+    if (!session->narrowed.open)
+        tn_close(&session->narrowed.opened);
+    session->narrowed.session = (tn_session){.opened = &session->narrowed.opened};
+    return status;
+}
+
+/* The file as it is to grow. */
+static tartan_status choose_growing(tartan_session *session, const tn_grow_statements *said, tartan_report *report,
+                                    void *context, asked_file **file, tartan_error *error)
+{
+    const tn_notation *notation = tn_notation_or_first(session->path, session->text, session->size);
+    char *study = NULL;
+    size_t size = 0;
+    tn_error wrong;
+    *file = &session->whole;
+    if (tn_notation_takes(notation, "grow") &&
+        tn_grow_study_text(said, session->path, notation == TN_NOTATION(hemls), &study, &size, &wrong) != TN_OK)
+        return tn_api_fail(&wrong, error);
+    if (!study)
+        return TARTAN_OK;
+    *file = &session->narrowed;
+    if (session->narrowed.open && strcmp(session->narrowed_by, study) == 0) {
+        free(study);
+        return TARTAN_OK;
+    }
+    close_file(&session->narrowed);
+    free(session->narrowed_by);
+    session->narrowed_by = study;
+    return open_study(session, study, size, report, context, error);
 }
 
 /* ---- another file */
@@ -364,7 +413,10 @@ tartan_status tartan_ask(tartan_session *session, const char *question, const ch
         return status;
     if (read_request(&a, question, request, &found) != TN_OK)
         status = tn_api_fail(&found, error);
-    if (status == TARTAN_OK)
+    const tn_grow_statements *said = status == TARTAN_OK ? statements_of(a.kind->request, a.request) : NULL;
+    if (said)
+        status = choose_growing(session, said, report, report_context, &file, error);
+    else if (status == TARTAN_OK)
         status = choose_file(session, library_of(a.kind->request, a.request), pattern_of(a.kind->request, a.request),
                              report, report_context, &file, error);
     if (status == TARTAN_OK)

@@ -90,9 +90,33 @@ static tn_status resolve(void *context, const tn_request *request, tn_input *fou
     return TN_INVALID;
 }
 
+/* A text that another one uses, in front of where all else comes from. */
+typedef struct stand_in {
+    const tn_input *user, *used; /* NULL: there is none */
+    tn_resolver rest;
+} stand_in;
+
+static tn_status resolve_used(void *context, const tn_request *request, tn_input *found, char *meant, tn_error *error)
+{
+    const stand_in *in = context;
+    if (strcmp(request->path, in->used->name) != 0 || strcmp(request->user, in->user->name) != 0)
+        return in->rest.resolve(in->rest.context, request, found, meant, error);
+    *found = *in->used;
+    return TN_OK;
+}
+
+static tn_status open_input(const tn_notation *notation, const tn_input *input, tn_compile_options *own,
+                            const tn_input *used, tn_opened *opened)
+{
+    stand_in in = {input, used, own->resolver};
+    if (used)
+        own->resolver = (tn_resolver){resolve_used, &in};
+    return tn_open_text(notation, input, own, opened);
+}
+
 /* Compiles with files that lie beside the text, and in the caller's folders. */
 static tn_status open_with_files(const tn_notation *notation, tn_input *input, const tartan_compile_options *options,
-                                 tn_compile_options *own, tn_opened *opened)
+                                 tn_compile_options *own, const tn_input *used, tn_opened *opened)
 {
     tn_files files;
     char *identity = tn_file_identity(input->name);
@@ -105,7 +129,7 @@ static tn_status open_with_files(const tn_notation *notation, tn_input *input, c
     input->identity = identity;
     own->resolver = tn_files_resolver(&files);
     own->attachments = tn_file_attachments;
-    tn_status status = copied ? tn_open_text(notation, input, own, opened) : TN_MEMORY;
+    tn_status status = copied ? open_input(notation, input, own, used, opened) : TN_MEMORY;
     tn_files_clear(&files);
     for (size_t i = 0; folders && i < options->folder_count; i++)
         free(folders[i]);
@@ -114,22 +138,20 @@ static tn_status open_with_files(const tn_notation *notation, tn_input *input, c
     return status;
 }
 
-static tartan_status open_text(const char *path, const char *text, size_t size, tartan_compile_options *options,
-                               const tn_questions *asking, tn_opened *opened, tartan_error *error)
+/* used: what it uses, or NULL. */
+static tartan_status open_text(const tn_notation *notation, tn_input input, tartan_compile_options *options,
+                               const tn_questions *asking, const tn_input *used, tn_opened *opened, tartan_error *error)
 {
     tn_watch watch;
-    tn_input input = {.text = text, .size = size, .name = path};
-    const tn_notation *notation = tn_notation_or_first(path, text, size);
-    tn_compile_options own = {
-        .resolver = {resolve, options},
-        .questions = asking,
-        .warnings_are_errors = options->warnings_are_errors,
-        .watch = &watch};
+    tn_compile_options own = {.resolver = {resolve, options},
+                              .questions = asking,
+                              .warnings_are_errors = options->warnings_are_errors,
+                              .watch = &watch};
     tartan_status status = tn_api_watch(options->watch, &watch, error);
     if (status != TARTAN_OK)
         return status;
-    tn_status compiled = options->resolve ? tn_open_text(notation, &input, &own, opened)
-                                          : open_with_files(notation, &input, options, &own, opened);
+    tn_status compiled = options->resolve ? open_input(notation, &input, &own, used, opened)
+                                          : open_with_files(notation, &input, options, &own, used, opened);
     if (compiled == TN_MEMORY && !opened->compilation.arena)
         return tn_api_memory(error);
     tn_api_report(&opened->compilation.diagnostics, options->report, options->report_context);
@@ -164,7 +186,21 @@ tartan_status tn_api_open(const char *path, const char *text, size_t size, const
         return tn_api_missing(error, "text");
     if (tn_module_has_magic(text, size))
         return tn_api_refuse(error, TARTAN_INVALID, "%.200s is a module, not a rule file", path);
-    return open_text(path, size ? text : "", size, &options, asking, opened, error);
+    text = size ? text : "";
+    return open_text(tn_notation_or_first(path, text, size), (tn_input){.text = text, .size = size, .name = path},
+                     &options, asking, NULL, opened, error);
+}
+
+tartan_status tn_api_open_study(const char *name, const char *text, size_t size, const tartan_compile_options *given,
+                                const tn_input *used, tn_opened *opened, tartan_error *error)
+{
+    tartan_compile_options options;
+    tartan_status status = take(name, given, &options, error);
+    *opened = (tn_opened){.path = name};
+    tn_diagnostics_init(&opened->compilation.diagnostics, &opened->compilation.sources);
+    return status == TARTAN_OK ? open_text(TN_NOTATION(study), (tn_input){.text = text, .size = size, .name = name},
+                                           &options, NULL, used, opened, error)
+                               : status;
 }
 
 tartan_status tn_api_open_file(const char *path, const tartan_compile_options *given, tn_opened *opened,

@@ -9,6 +9,12 @@
  * NULL): what is asked beyond what a .plan file says. */
 tartan_status tn_api_open(const char *path, const char *text, size_t size, const tartan_compile_options *options,
                           const tn_questions *asking, tn_opened *opened, tartan_error *error);
+
+/* The same of a study that uses a text, and has it whatever the file system or the resolver of the options has by that
+ * name. */
+tartan_status tn_api_open_study(const char *name, const char *text, size_t size, const tartan_compile_options *options,
+                                const tn_input *used, tn_opened *opened, tartan_error *error);
+
 tartan_status tn_api_open_file(const char *path, const tartan_compile_options *options, tn_opened *opened,
                                tartan_error *error);
 

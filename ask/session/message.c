@@ -87,6 +87,9 @@ static void clear_member(const tn_message_member *m, void *member)
     case TN_MESSAGE_TEXTS:
         free(((tn_texts *)member)->items);
         break;
+    case TN_MESSAGE_COUNTS:
+        free(((tn_counts *)member)->items);
+        break;
     case TN_MESSAGE_OWNEDS:
         clear_owneds(member);
         break;
@@ -112,9 +115,6 @@ static void clear_member(const tn_message_member *m, void *member)
         break;
     case TN_MESSAGE_BYTES:
         free(((tn_bytes *)member)->items);
-        break;
-    case TN_MESSAGE_COUNTS:
-        free(((tn_counts *)member)->items);
         break;
     case TN_MESSAGE_TEXT:
     case TN_MESSAGE_FLAG:
@@ -355,6 +355,8 @@ static const char *wanted(const tn_message_member *m)
         return "a number";
     case TN_MESSAGE_COUNT:
         return "a whole number from 0";
+    case TN_MESSAGE_COUNTS:
+        return "a list of whole numbers from 0";
     case TN_MESSAGE_NESTED:
         return "an object";
     case TN_MESSAGE_LIST:
@@ -374,6 +376,25 @@ static tn_status read_texts(json_t *list, tn_texts *texts, tn_error *error)
         if (!texts->items[i])
             return TN_INVALID;
         texts->count = i + 1;
+    }
+    return TN_OK;
+}
+
+static bool is_count(json_t *from)
+{
+    return json_is_integer(from) && json_integer_value(from) >= 0;
+}
+
+static tn_status read_counts(json_t *list, tn_counts *counts, tn_error *error)
+{
+    counts->items = calloc(json_array_size(list) + 1, sizeof *counts->items);
+    if (!counts->items)
+        return tn_fail_memory(error);
+    for (; counts->count < json_array_size(list); counts->count++) {
+        json_t *item = json_array_get(list, counts->count);
+        if (!is_count(item))
+            return TN_INVALID;
+        counts->items[counts->count] = (uint64_t)json_integer_value(item);
     }
     return TN_OK;
 }
@@ -473,9 +494,10 @@ static tn_status read_value(const tn_message_member *m, json_t *from, void *memb
         *(double *)member = json_number_value(from);
         return json_is_number(from) ? TN_OK : TN_INVALID;
     case TN_MESSAGE_COUNT:
-        *(uint64_t *)member = json_is_integer(from) ? (uint64_t)json_integer_value(from) : 0;
-        return json_is_integer(from) && json_integer_value(from) >= 0 ? in_bounds(m, *(uint64_t *)member, error)
-                                                                      : TN_INVALID;
+        *(uint64_t *)member = is_count(from) ? (uint64_t)json_integer_value(from) : 0;
+        return is_count(from) ? in_bounds(m, *(uint64_t *)member, error) : TN_INVALID;
+    case TN_MESSAGE_COUNTS:
+        return json_is_array(from) ? read_counts(from, member, error) : TN_INVALID;
     case TN_MESSAGE_NESTED:
         return read_message(m->of, from, member, error);
     case TN_MESSAGE_LIST:

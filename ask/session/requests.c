@@ -110,5 +110,7 @@ tn_json_layout tn_reply_layout(const tn_reply *answer)
             return TN_JSON_LINES;
     if (answer->message == &tn_message_measured_mesh)
         return TN_JSON_SPACED;
+    if (answer->message == &tn_message_grown_steps)
+        return (tn_json_layout){.spaced = true, .lines = 1};
     return TN_JSON_TIGHT;
 }

@@ -93,6 +93,12 @@ void tn_session_ends(const tn_session *session)
         session->listener.ends(session->listener.context);
 }
 
+void tn_session_shows(const tn_session *session)
+{
+    if (session->listener.shows)
+        session->listener.shows(session->listener.context);
+}
+
 tn_status tn_session_plan(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
                           tn_plan *plan)
 {

@@ -16,6 +16,7 @@ typedef struct tn_session_listener {
     void (*begins)(void *context, const char *work); /* work that may take long: "counting houses" */
     void (*ends)(void *context);                     /* that work */
     void *context;
+    void (*shows)(void *context); /* what is said so far may be shown: it is about what follows, which takes long */
 } tn_session_listener;
 
 typedef struct tn_session {
@@ -67,6 +68,7 @@ void tn_session_note(tn_session *session, const char *format, ...) __attribute__
 /* Tells the listener. */
 void tn_session_begins(const tn_session *session, const char *work);
 void tn_session_ends(const tn_session *session);
+void tn_session_shows(const tn_session *session);
 
 /* The library of plans that is asked about, ready. It is the session's. */
 tn_status tn_session_library(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready);

@@ -52,10 +52,15 @@ static void end_work(void *context)
     tn_progress_unwatch(&job->progress, tn_interrupt_waiting());
 }
 
+static void show_said(void *context)
+{
+    tn_job_show(context);
+}
+
 void tn_job_begin(tn_job *job, const tn_settings *settings)
 {
     *job = (tn_job){.settings = settings};
-    job->session = (tn_session){.opened = &job->opened, .listener = {show_work, end_work, job}};
+    job->session = (tn_session){.opened = &job->opened, .listener = {show_work, end_work, job, show_said}};
     tn_diagnostics_init(&job->opened.compilation.diagnostics, &job->opened.compilation.sources);
 }
 

@@ -1,419 +1,368 @@
 /* tartan grow: grows a surface from a rewrite system, and writes it. */
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli/common/interrupt.h"
+#include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
-#include "cli/common/progress.h"
 #include "cli/growth/grow.h"
-#include "runtime/base/array.h"
-#include "runtime/growth/faults.h"
-#include "runtime/growth/soundness.h"
-#include "runtime/mesh/openmesh.h"
 
-#define FORECAST_FACES 10000000.0 /* growths that will pass this many faces are announced */
-#define IDLE_STEPS 100u           /* on end without a new face: then no number of faces is waited for any more */
+/* What a study can say too, as the words of its statements. */
+typedef struct said_settings {
+    const char *steps, *scale, *start, *start_length, *seed, *branch_angle, *branch_length, *edge_limit, *sun,
+        *distance_to;
+    bool fixed_centre, fixed_perimeter, facing, mirror;
+    tn_option_list attractors, repellers, gravity, boundaries, fitness;
+} said_settings;
 
-/* A growth under way. */
-enum { OVERLAY_MAX = 32 };
+typedef struct grow_settings {
+    tn_settings common;
+    said_settings said;
+    const char *output, *until, *title, *overlay;
+    int format;       /* auto, then as the words of the request's; what a file's name ends in is taken for it */
+    int engine;       /* 0 templates, 1 vm */
+    int stats;        /* 0 not asked for, 1 table, 2 json */
+    int up;           /* 0 z, 1 y */
+    int surroundings; /* of a picture: 0 where there are any, 1 yes, 2 no */
+    bool explain, each_step, sheet, triangulate, groups, lines, normals;
+    tn_option_number subdivide, smooth, decimate, threads;
+    tn_option_real azimuth, elevation;
+    tn_option_number width, columns, dpi, turn; /* of a picture */
+} grow_settings;
 
-typedef struct run_state {
+/* A growth, as its steps are told. */
+typedef struct running {
     tn_job *job;
-    const tn_grow_settings *settings;
-    tn_study study;
-    tn_growth_system *system;
-    tn_growth *growth;
-    tn_file_format format;
-    uint64_t until_faces; /* 0: as many steps as the study says */
-    tn_stats *stats;
-    size_t stats_count;
-    tn_view **views;
-    size_t view_count, view_room, stats_room;
-    tn_faults faults;                 /* of the last step that had any, each kind by itself */
-    uint32_t crossed[2], inverted[2]; /* the first and the last step with such faces; 0: none */
-    double faces_before;
-    bool forecast;                                /* was made */
-    uint32_t idle;                                /* steps on end that made no face */
-    uint32_t overlay[OVERLAY_MAX], overlay_count; /* steps to be drawn over one another */
-    uint32_t overlaid_count;
-    tn_sight overlaid;
-} run_state;
-
-static void clear(run_state *run)
-{
-    tn_sight_clear(&run->overlaid);
-    for (size_t i = 0; i < run->stats_count; i++)
-        tn_stats_clear(&run->stats[i]);
-    for (size_t i = 0; i < run->view_count; i++)
-        tn_view_free(run->views[i]);
-    free(run->stats);
-    free(run->views);
-    tn_growth_free(run->growth);
-    tn_growth_system_free(run->system);
-    tn_study_clear(&run->study);
-}
-
-/* NAME-003.obj for NAME.obj; the caller frees it. */
-static char *step_path(const char *path, uint32_t step)
-{
-    const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
-    size_t stem = dot && (!slash || dot > slash) ? (size_t)(dot - path) : strlen(path), size = strlen(path) + 16;
-    char *made = malloc(size);
-    if (made)
-        snprintf(made, size, "%.*s-%03u%s", (int)stem, path, step, path + stem);
-    return made;
-}
-
-static bool make_room(run_state *run)
-{
-    return tn_array_reserve_from(&run->stats, &run->stats_room, 16, run->stats_count, 1, sizeof *run->stats) &&
-           tn_array_reserve_from(&run->views, &run->view_room, 16, run->view_count, 1, sizeof *run->views);
-}
-
-static void note_fault(const tn_fault *found, uint32_t step, tn_fault *kept, uint32_t steps[2])
-{
-    if (found->count == 0)
-        return;
-    *kept = *found;
-    steps[0] = steps[0] ? steps[0] : step;
-    steps[1] = step;
-}
-
-static tn_status note_faults(run_state *run, tn_error *error)
-{
-    tn_faults found;
-    uint32_t step = tn_growth_steps(run->growth);
-    tn_status status = tn_faults_find(run->growth, &found, error);
-    if (status != TN_OK)
-        return status;
-    note_fault(&found.crossed, step, &run->faults.crossed, run->crossed);
-    note_fault(&found.inverted, step, &run->faults.inverted, run->inverted);
-    return TN_OK;
-}
-
-static void warn_of_fault(run_state *run, uint32_t code, const tn_fault *fault, const uint32_t steps[2],
-                          const char *what, const char *help)
-{
-    char since[48] = "";
-    if (fault->count == 0)
-        return;
-    if (steps[0] != steps[1])
-        snprintf(since, sizeof since, ", since step %u", steps[0]);
-    tn_diagnostics *list = tn_job_diagnostics(run->job);
-    tn_diagnostic *d =
-        tn_report_bare(list, TN_WARNING, code, "after step %u, %u %s%s; the first is around (%.4g, %.4g, %.4g)",
-                       steps[1], fault->count, what, since, fault->place[0], fault->place[1], fault->place[2]);
-    tn_help(list, d, "%s", help);
-}
-
-static void warn_of_faults(run_state *run)
-{
-    bool one = run->faults.crossed.count == 1;
-    warn_of_fault(run, W_FACES_CROSSED, &run->faults.crossed, run->crossed,
-                  one ? "face's outline crosses itself" : "faces' outlines cross themselves",
-                  "turns of the rules, or forces, carry edges past others there; take a smaller angle or strength");
-    one = run->faults.inverted.count == 1;
-    warn_of_fault(
-        run, W_FACES_INVERTED, &run->faults.inverted, run->inverted,
-        one ? "face is turned over onto its neighbours" : "faces are turned over onto their neighbours",
-        "forces that overshoot what they pull towards do that: take a smaller strength, or stop steps earlier");
-}
-
-/* JSON has all measures; the table those that the study speaks of. */
-static tn_status note_stats(run_state *run, tn_error *error)
-{
-    tn_stats *stats = &run->stats[run->stats_count++];
-    uint64_t asked = run->settings->stats == 2 ? UINT64_MAX : run->study.goal.asked;
-    tn_status status = tn_stats_measure(run->growth, stats, error);
-    return status == TN_OK ? tn_soundness_measure(run->growth, &run->study.measuring, asked, &stats->fitness, error)
-                           : status;
-}
-
-/* Is the step one of --overlay? */
-static bool overlays(const run_state *run, uint32_t step)
-{
-    for (uint32_t i = 0; i < run->overlay_count; i++)
-        if (run->overlay[i] == step)
-            return true;
-    return false;
-}
-
-/* What there is to do with each step. */
-static tn_status note_step(run_state *run, tn_error *error)
-{
-    const tn_grow_settings *settings = run->settings;
-    if (!make_room(run))
-        return tn_fail_memory(error);
-    if (settings->stats || !settings->output) {
-        tn_status status = note_stats(run, error);
-        if (status != TN_OK)
-            return status;
-    }
-    if (overlays(run, tn_growth_steps(run->growth))) {
-        tn_status status = tn_growth_sight_add(run->growth, &run->overlaid, error);
-        if (status != TN_OK)
-            return status;
-        run->overlaid_count++;
-    }
-    if (settings->sheet) {
-        tn_camera camera = tn_grow_camera(settings);
-        tn_status status = tn_growth_view(run->growth, &camera, tn_grow_surrounded(settings, &run->study),
-                                          &run->views[run->view_count], error);
-        if (status != TN_OK)
-            return status;
-        run->view_count++;
-    } else if (settings->each_step && settings->output) {
-        char *path = step_path(settings->output, tn_growth_steps(run->growth));
-        if (!path)
-            return tn_fail_memory(error);
-        tn_grow_write(run->job, run->growth, &run->study, run->format, path);
-        free(path);
-    }
-    if (settings->explain && tn_growth_steps(run->growth) > 0) {
-        tn_growth_counts counts = tn_growth_last_counts(run->growth);
-        tn_grow_explain(stderr, tn_growth_steps(run->growth), &counts);
-    }
-    return TN_OK;
-}
-
-/* Says what is coming where it is much: the last step's growth, continued. */
-static void forecast(run_state *run)
-{
-    const tn_map *map = tn_growth_map(run->growth);
-    double faces = map->face_count - 1, ratio = run->faces_before > 0 ? faces / run->faces_before : 1;
-    uint32_t steps = tn_growth_steps(run->growth), left = run->study.steps > steps ? run->study.steps - steps : 0;
-    run->faces_before = faces;
-    if (run->forecast || steps < 3 || ratio <= 1 || run->until_faces)
-        return;
-    double coming = faces;
-    for (uint32_t i = 0; i < left && coming < 1e15; i++)
-        coming *= ratio;
-    if (coming <= FORECAST_FACES)
-        return;
-    run->forecast = true;
-    uint64_t limit = run->study.options.edge_limit ? run->study.options.edge_limit : TN_EDGES_MAX;
-    if (2 * coming > (double)limit) /* a face has two edges of its own, where four meet */
-        tn_job_note(run->job, "%u steps will make more edges than the limit of %llu", run->study.steps,
-                    (unsigned long long)limit);
-    else
-        tn_job_note(run->job, "%u steps will make about %.0f million faces and need about %.1f GB of memory",
-                    run->study.steps, coming / 1e6, coming * 170e-9);
-    tn_job_show(run->job);
-}
-
-/* With --until, steps are counted only where -n says so. */
-static bool is_enough(run_state *run)
-{
-    uint32_t faces = tn_growth_map(run->growth)->face_count - 1, steps = tn_growth_steps(run->growth);
-    bool all_steps = steps >= run->study.steps;
-    if (!run->until_faces)
-        return all_steps;
-    if (faces >= run->until_faces)
-        return true;
-    if (all_steps && run->settings->said.steps)
-        tn_job_note(run->job, "after %u steps there are %u faces, fewer than %llu", steps, faces,
-                    (unsigned long long)run->until_faces);
-    else if (run->idle >= IDLE_STEPS)
-        tn_job_note(run->job, "%u steps have made no face: there are %u, fewer than %llu", run->idle, faces,
-                    (unsigned long long)run->until_faces);
-    return (all_steps && run->settings->said.steps) || run->idle >= IDLE_STEPS;
-}
-
-/* What an interrupt leaves, should one come after this step. */
-static void describe_rest(const run_state *run, uint32_t step, char *text, size_t size)
-{
-    const char *output = run->settings->output;
-    if (!output)
-        snprintf(text, size, "interrupted after step %u of %u", step, run->study.steps);
-    else if (run->settings->each_step)
-        snprintf(text, size, "interrupted after step %u of %u; the files of later steps are not written", step,
-                 run->study.steps);
-    else
-        snprintf(text, size, "interrupted after step %u of %u; %.300s is not written", step, run->study.steps, output);
-}
-
-static void promise(const run_state *run, uint32_t step)
-{
-    char text[480];
-    describe_rest(run, step, text, sizeof text);
-    tn_interrupt_last_words("%s", text);
-}
-
-/* Grows step by step. A limit or rest ends it at the last complete step. */
-static tn_status grow(run_state *run, tn_error *error)
-{
+    const grow_settings *settings;
+    tn_grow_request request;
+    uint64_t overlay[TN_OVERLAY_MAX];
+    const char *statement; /* what -n says, if that is no number */
+    char *said_steps;      /* the same as a statement; owned */
+    tn_made_outputs outputs;
+    tn_file_taker each_step; /* of the files of steps, in front of that of the outputs */
+    char *step_path;         /* of the file of a step that is open; owned */
     tn_progress progress;
-    tn_status status = note_step(run, error);
-    tn_progress_begin(&progress, "steps", 0, run->until_faces ? 0 : run->study.steps);
-    while (status == TN_OK && !is_enough(run)) {
-        uint32_t complete = tn_growth_steps(run->growth), faces = tn_growth_map(run->growth)->face_count;
-        tn_progress_update(&progress, complete);
-        promise(run, complete);
-        status = tn_interrupt_check(error);
-        if (status == TN_OK)
-            status = tn_growth_step(run->growth, error);
-        if (status == TN_LIMIT) {
-            tn_job_fail(run->job, error);
-            tn_job_note(run->job, "the surface is that of step %u, the last complete one", complete);
-            status = tn_growth_regrow(run->growth, complete, error);
-            break;
-        }
-        if (status != TN_OK)
-            break;
-        run->idle = tn_growth_map(run->growth)->face_count == faces ? run->idle + 1 : 0;
-        forecast(run);
-        if (tn_growth_at_rest(run->growth)) {
-            tn_job_note(run->job, "step %u changes nothing any more: further steps are left out",
-                        tn_growth_steps(run->growth));
-            break;
-        }
-        status = note_faults(run, error);
-        if (status == TN_OK)
-            status = note_step(run, error);
+    bool begun, complete;
+    uint64_t step, steps; /* the last that stands, and how many there are to be */
+    size_t explained;     /* steps */
+} running;
+
+static const grow_settings *settings_of(const tn_job *job)
+{
+    return (const grow_settings *)job->settings;
+}
+
+/* ---- the request */
+
+static tn_texts texts_of(const tn_option_list *list)
+{
+    return (tn_texts){list->items, list->count};
+}
+
+/* What the study makes of words for -n that are no number, it says itself. */
+static bool set_statements(running *run)
+{
+    const said_settings *s = &run->settings->said;
+    tn_grow_statements *to = &run->request.said;
+    *to = (tn_grow_statements){.scale = s->scale,
+                               .start = s->start,
+                               .start_length = s->start_length,
+                               .seed = s->seed,
+                               .branch_angle = s->branch_angle,
+                               .branch_length = s->branch_length,
+                               .edge_limit = s->edge_limit,
+                               .sun = s->sun,
+                               .distance_to = s->distance_to,
+                               .fixed_centre = s->fixed_centre,
+                               .fixed_perimeter = s->fixed_perimeter,
+                               .facing = s->facing,
+                               .mirror = s->mirror,
+                               .attractor = texts_of(&s->attractors),
+                               .repeller = texts_of(&s->repellers),
+                               .gravity = texts_of(&s->gravity),
+                               .boundary = texts_of(&s->boundaries),
+                               .fitness = texts_of(&s->fitness)};
+    to->has_steps = s->steps && tn_number_read(s->steps, &to->steps);
+    if (!s->steps || to->has_steps)
+        return true;
+    if (asprintf(&run->said_steps, "steps %s", s->steps) < 0) {
+        run->said_steps = NULL;
+        tn_job_fail(run->job, &(tn_error){.status = TN_MEMORY});
+        return false;
     }
-    tn_progress_end(&progress);
-    return status;
+    run->statement = run->said_steps;
+    to->statements = (tn_texts){&run->statement, 1};
+    return true;
 }
 
-static void draw_overlay(run_state *run)
+static void set_request(running *run)
 {
-    uint32_t last = tn_growth_steps(run->growth);
-    if (run->overlaid_count < run->overlay_count)
-        tn_job_note(run->job, "the surface has %u steps: later ones of --overlay are not drawn", last);
-    if (run->overlaid_count)
-        tn_grow_overlay(run->job, run->growth, &run->study, &run->overlaid, run->format);
-    else
-        tn_job_usage(run->job, "none of the steps of --overlay is there: the last is %u", last);
-}
-
-static void finish(run_state *run)
-{
-    const tn_grow_settings *settings = run->settings;
-    warn_of_faults(run);
-    if (settings->sheet)
-        tn_grow_sheet(run->job, run->growth, &run->study, run->views, run->view_count, run->format);
-    else if (settings->turn.given)
-        tn_grow_turn(run->job, run->growth, &run->study, run->format);
-    else if (settings->overlay)
-        draw_overlay(run);
-    else if (settings->output && !settings->each_step)
-        tn_grow_write(run->job, run->growth, &run->study, run->format, settings->output);
-    if (settings->stats || !settings->output)
-        tn_grow_stats(run->job, run->system, &run->study, run->stats, run->stats_count);
-}
-
-/* What ended it before the end; an interrupt says what is there and what is not. */
-static void fail(run_state *run, const tn_error *error)
-{
-    char text[480];
-    if (error->status != TN_STOPPED || !run->growth) {
-        tn_job_fail(run->job, error);
-        return;
-    }
-    describe_rest(run, tn_growth_steps(run->growth), text, sizeof text);
-    tn_job_interrupted(run->job, "%s", text);
+    const grow_settings *s = run->settings;
+    bool folder = s->turn.given && s->output && s->format == 0 && strcmp(s->output, "-") != 0;
+    unsigned png = 0;
+    while (tn_grow_formats[png] != TN_FILE_PNG)
+        png++;
+    run->request = (tn_grow_request){
+        .format = !s->output ? 0
+                  : folder   ? png
+                             : (unsigned)s->format,
+        .stats = s->stats != 0,
+        .measures = s->stats != 2,
+        .explain = s->explain,
+        .each_step = s->each_step,
+        .sheet = s->sheet,
+        .has_turn = s->turn.given,
+        .turn = s->turn.value,
+        .moving = s->turn.given && !folder,
+        .rework = {.has_subdivide = s->subdivide.given,
+                   .subdivide = s->subdivide.value,
+                   .has_smooth = s->smooth.given,
+                   .smooth = s->smooth.value,
+                   .has_decimate = s->decimate.given,
+                   .decimate = s->decimate.value},
+        .triangulate = s->triangulate,
+        .groups = s->groups,
+        .lines = s->lines,
+        .normals = s->normals,
+        .up = (unsigned)s->up,
+        .picture = {.has_azimuth = s->azimuth.given,
+                    .azimuth = s->azimuth.value,
+                    .has_elevation = s->elevation.given,
+                    .elevation = s->elevation.value,
+                    .surroundings = (unsigned)s->surroundings,
+                    .has_width = s->width.given,
+                    .width = s->width.value,
+                    .has_columns = s->columns.given,
+                    .columns = s->columns.value,
+                    .has_dpi = s->dpi.given,
+                    .dpi = s->dpi.value,
+                    .title = s->title},
+        .engine = (unsigned)s->engine,
+        .has_threads = s->threads.given,
+        .threads = s->threads.value,
+    };
 }
 
 /* --until faces=N */
-static bool read_until(run_state *run)
+static bool read_until(running *run)
 {
     const char *text = run->settings->until;
+    tn_grow_request *r = &run->request;
+    r->has_until_faces = text != NULL;
     if (!text)
         return true;
-    if (strncmp(text, "faces=", 6) == 0 && tn_number_read(text + 6, &run->until_faces) && run->until_faces > 0)
+    if (strncmp(text, "faces=", 6) == 0 && tn_number_read(text + 6, &r->until_faces) && r->until_faces > 0)
         return true;
     tn_diagnostic *d = tn_job_usage(run->job, "--until takes faces=N, not `%.60s`", text);
     tn_help(tn_job_diagnostics(run->job), d, "for example --until faces=10000");
     return false;
 }
 
+static bool is_known(const tn_counts *steps, uint64_t step)
+{
+    for (size_t i = 0; i < steps->count; i++)
+        if (steps->items[i] == step)
+            return true;
+    return false;
+}
+
 /* --overlay 1,3,5 */
-static bool read_overlay(run_state *run)
+static bool read_overlay(running *run)
 {
     const char *text = run->settings->overlay;
-    while (text && *text) {
+    tn_counts *steps = &run->request.overlay;
+    steps->items = run->overlay;
+    for (bool more = text != NULL; more; more = *text != '\0') {
         char word[12];
         uint64_t step;
         size_t size = strcspn(text, ",");
         snprintf(word, sizeof word, "%.*s", (int)(size < sizeof word ? size : 0), text);
-        if (run->overlay_count == OVERLAY_MAX || !tn_number_read(word, &step) || step > TN_STEPS_MAX) {
-            tn_diagnostic *d = tn_job_usage(run->job, "--overlay takes up to %d steps, not `%.60s`", OVERLAY_MAX,
+        if (steps->count == TN_OVERLAY_MAX || !tn_number_read(word, &step) || step > TN_STEPS_MAX) {
+            tn_diagnostic *d = tn_job_usage(run->job, "--overlay takes up to %d steps, not `%.60s`", TN_OVERLAY_MAX,
                                             run->settings->overlay);
             tn_help(tn_job_diagnostics(run->job), d, "for example --overlay 1,3,5");
             return false;
         }
-        if (!overlays(run, (uint32_t)step))
-            run->overlay[run->overlay_count++] = (uint32_t)step;
+        if (!is_known(steps, step))
+            steps->items[steps->count++] = step;
         text += size + (text[size] == ',');
     }
     return true;
 }
 
-static tn_status prepare(run_state *run, tn_error *error)
+static bool names_format(running *run)
 {
-    const tn_opened *opened = &run->job->opened;
-    if (opened->module->GROWTH_count == 0) {
-        tn_fail(error, TN_INVALID, E_NOT_IN_FILE, "%.200s has no rewrite system", opened->path);
-        tn_error_help(
-            error, "%s",
-            tn_opened_help(opened, "a surface grows from a .hemls file, or from a .study file that names one").text);
-        return TN_INVALID;
-    }
-    tn_status status = tn_growth_system_read(opened->module, &run->system, error);
-    if (status == TN_OK)
-        status = tn_study_read(opened->module, opened->path, &tn_openmesh_reader, &run->study, error);
-    if (status != TN_OK)
-        return status;
-    run->study.options.explain = run->settings->explain;
-    run->study.options.interpret = run->settings->engine == TN_GROW_VM;
-    run->study.options.watch = tn_interrupt_waiting();
-    run->study.options.threads = (int)run->settings->threads.value;
-    return tn_growth_new(run->system, &run->study.environment, &run->study.options, &run->growth, error);
+    const char *path = run->settings->output;
+    if (!path || run->request.format)
+        return true;
+    tn_diagnostic *d = tn_job_usage(run->job, "%s does not say what is to be written", path);
+    tn_help(tn_job_diagnostics(run->job), d,
+            "end its name in .obj, .ply, .stl, .off, .om, .glb, .dxf, .svg, .png or .pdf, or say --format");
+    return false;
 }
 
-static void warn_of_open_boundaries(const run_state *run)
+static bool check_request(running *run)
 {
-    const tn_module *module = run->job->opened.module;
-    tn_diagnostics *list = tn_job_diagnostics(run->job);
-    for (uint32_t i = 0; (i = tn_study_open_boundary(&run->study, i)) < module->BOUNDARY_count; i++) {
-        const tn_boundary_record *r = &module->BOUNDARY_records[i];
-        tn_diagnostic *d = tn_report(list, W_OPEN_BOUNDARY, (tn_span){r->file, r->begin, r->end},
-                                     "this mesh is open, or has edges of more than two faces: nothing is inside it");
-        tn_help(list, d, "close it, or leave `inside` out: it stops what crosses it from either side");
+    const grow_settings *s = run->settings;
+    if (!names_format(run) ||
+        !tn_job_answered(run->job, tn_grow_request_fits(&run->job->session, &run->request, s->output)))
+        return false;
+    if (s->format && !s->output) {
+        tn_help(tn_job_diagnostics(run->job), tn_job_usage(run->job, "--format does nothing without a file"),
+                "name one with -o");
+        return false;
     }
+    if (s->output && strcmp(s->output, "-") == 0 && (s->each_step || s->stats)) {
+        tn_job_usage(run->job, "standard output takes one thing only: name a file with -o");
+        return false;
+    }
+    return true;
+}
+
+/* ---- files of steps */
+
+/* NAME-003.obj for NAME.obj and step-003.obj. */
+static char *step_path(const char *path, const char *name)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.'), *number = strchr(name, '-');
+    size_t stem = dot && (!slash || dot > slash) ? (size_t)(dot - path) : strlen(path);
+    char *made;
+    return asprintf(&made, "%.*s%.*s%s", (int)stem, path, (int)strcspn(number, "."), number, path + stem) < 0 ? NULL
+                                                                                                              : made;
+}
+
+static tn_status open_step(void *context, const char *name, FILE **stream, tn_error *error)
+{
+    running *run = context;
+    tn_made_outputs *outputs = &run->outputs;
+    free(run->step_path);
+    run->step_path = step_path(run->settings->output, name);
+    if (!run->step_path)
+        return tn_fail_memory(error);
+    outputs->paths = (const char *const *)&run->step_path;
+    outputs->next = 0;
+    return outputs->taker.opens(outputs->taker.context, name, stream, error);
+}
+
+static tn_status close_step(void *context, bool whole, tn_error *error)
+{
+    const tn_file_taker *taker = &((running *)context)->outputs.taker;
+    return taker->closes(taker->context, whole, error);
+}
+
+/* ---- while it grows */
+
+/* What an interrupt leaves, should one come after this step. */
+static void describe_rest(const running *run, char *text, size_t size)
+{
+    const char *output = run->settings->output;
+    unsigned step = (unsigned)run->step, steps = (unsigned)run->steps;
+    if (!output)
+        snprintf(text, size, "interrupted after step %u of %u", step, steps);
+    else if (run->settings->each_step)
+        snprintf(text, size, "interrupted after step %u of %u; the files of later steps are not written", step, steps);
+    else
+        snprintf(text, size, "interrupted after step %u of %u; %.300s is not written", step, steps, output);
+}
+
+static void follow(running *run)
+{
+    char text[480];
+    if (!run->begun)
+        tn_progress_begin(&run->progress, "steps", 0, run->request.has_until_faces ? 0 : (double)run->steps);
+    run->begun = true;
+    if (run->complete) {
+        tn_progress_end(&run->progress);
+        return;
+    }
+    tn_progress_update(&run->progress, (double)run->step);
+    describe_rest(run, text, sizeof text);
+    tn_interrupt_last_words("%s", text);
+}
+
+/* After each step. */
+static void take_step(void *context, const tn_reply *answer)
+{
+    running *run = context;
+    const tn_grown *grown = TN_REPLY(grown, answer);
+    const tn_grown_shown *shown = grown->stats.shown.value;
+    run->step = grown->steps;
+    run->steps = shown->study.steps;
+    run->complete = shown->complete;
+    for (; run->explained < grown->joins.count; run->explained++)
+        tn_grow_explain(&grown->joins.items[run->explained], stderr);
+    follow(run);
+}
+
+/* ---- the command */
+
+static void show_steps(running *run, const tn_reply *answer)
+{
+    const tn_grown *grown = TN_REPLY(grown, answer);
+    const tn_grown_steps *steps = grown ? &grown->stats : TN_REPLY(grown_steps, answer);
+    tn_output output;
+    if (!(run->request.stats || !run->request.format) || !tn_job_output(run->job, NULL, &output))
+        return;
+    if (run->settings->stats == 2)
+        tn_job_write_json(&(tn_reply){&tn_message_grown_steps, (void *)(uintptr_t)steps}, output.stream);
+    else
+        tn_grow_table(steps->shown.value, output.stream);
+    tn_job_commit(run->job, &output);
+}
+
+static void grow(running *run)
+{
+    tn_job *job = run->job;
+    const grow_settings *s = run->settings;
+    tn_reply answer;
+    char text[480];
+    run->request.said.has_steps = s->said.steps != NULL; /* which the study took */
+    tn_job_files(job, &run->outputs, &s->output, 1, run->request.has_turn && !run->request.moving);
+    if (s->each_step) {
+        run->each_step = (tn_file_taker){open_step, close_step, run};
+        job->session.files = &run->each_step;
+    }
+    job->session.so_far = take_step;
+    job->session.so_far_context = run;
+    tn_status status = tn_ask_grow(&job->session, &run->request, &answer);
+    if (run->begun && !run->complete)
+        tn_progress_end(&run->progress);
+    if (status == TN_STOPPED && run->begun && !run->complete) {
+        describe_rest(run, text, sizeof text);
+        tn_job_interrupted(job, "%s", text);
+    } else {
+        tn_job_answered(job, status);
+    }
+    if (answer.message)
+        show_steps(run, &answer);
+    tn_job_files_end(&run->outputs);
+    tn_reply_clear(&answer);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
     tn_job job;
-    tn_error error;
     tn_job_begin(&job, common);
-    run_state state = {.job = &job, .settings = tn_grow_settings_of(&job)};
-    if (tn_grow_format_of(&job, &state.format) && read_until(&state) && read_overlay(&state) && tn_grow_open(&job)) {
-        tn_status status = prepare(&state, &error);
-        if (status == TN_OK)
-            warn_of_open_boundaries(&state);
-        if (status == TN_OK)
-            status = grow(&state, &error);
-        if (status == TN_OK)
-            finish(&state);
-        else
-            fail(&state, &error);
-    }
-    clear(&state);
+    running growing = {.job = &job, .settings = settings_of(&job)};
+    set_request(&growing);
+    if (read_until(&growing) && read_overlay(&growing) && check_request(&growing) && set_statements(&growing) &&
+        tn_grow_open(&job, &growing.request.said))
+        grow(&growing);
+    free(growing.said_steps);
+    free(growing.step_path);
     return tn_job_end(&job);
 }
 
-#define SETTINGS tn_grow_settings
+#define SETTINGS grow_settings
 static const tn_option options[] = {
     OUTPUT(output,
            TN_WRITES_PICTURES | TN_WRITES(OBJ) | TN_WRITES(PLY) | TN_WRITES(STL) | TN_WRITES(OFF) | TN_WRITES(OM) |
                TN_WRITES(GLB) | TN_WRITES(DXF) | TN_WRITES_ASKED,
            "the surface: .obj, .ply, .stl, .off, .om, .glb, its edges: .dxf, or a picture: .svg, .png, .pdf; - is "
            "standard output"),
-    CHOICE("format", 'f', "FORMAT", format, TN_GROW_FORMATS, "what is written, where the name of FILE does not say it"),
+    CHOICE("format", 'f', "FORMAT", format, "auto|obj|ply|stl|off|om|glb|dxf|svg|png|pdf",
+           "what is written, where the name of FILE does not say it"),
     TEXT("steps", 'n', "N", said.steps, "how many derivation steps (default: the study's, or 4)"),
     TEXT("until", 0, "faces=N", until,
          "stop at the first step with at least N faces, or after the steps of -n where that is given"),

@@ -167,7 +167,7 @@ static void place(tn_job *job, const tn_place_request *request, const wanted_fil
     tn_made_outputs outputs;
     tn_reply answer;
     if (s->trace)
-        job->session.listener = (tn_session_listener){show_alone, NULL, job};
+        job->session.listener = (tn_session_listener){.begins = show_alone, .context = job};
     job->session.so_far = tell_interrupted;
     job->session.so_far_context = job;
     tn_job_files(job, &outputs, files->paths, files->count, false);

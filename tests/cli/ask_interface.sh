@@ -346,6 +346,31 @@ printf '0 0 0\n3 0 0.5\n-1 2 7\n' >"$scratch/places"
 for point in json.load(sys.stdin)["points"]:
     print(*("%.17g" % number for number in [point["value"], *point["gradient"]]), "inside" if point["inside"] else "outside")' >"$scratch/got"
 "$TARTAN" mesh tests/cli/files/ball.field --points "$scratch/places" | diff - "$scratch/got" || fail 'points are valued otherwise'
+question=grow command=(grow)
+for file in stdlib/square.hemls stdlib/koch.hemls examples/growing-surfaces/draped.study; do
+    as '{}'
+    as '{"steps": 2}' -n 2
+    as '{"steps": 3, "scale": "1.5", "mirror": true, "seed": "18446744073709551615", "fitness": ["size target 10"]}' -n 3 --scale 1.5 --mirror --seed 18446744073709551615 \
+        --fitness 'size target 10'
+    as '{"steps": 5, "until_faces": 20}' -n 5 --until faces=20
+    as '{"start_length": "-1"}' --start-length -1
+    as '{"seed": "2.5"}' --seed 2.5
+    as '{"statements": ["scale 0"]}' --scale 0
+    as '{"edge_limit": "20", "steps": 4}' --edge-limit 20 -n 4
+    as '{"sheet": true}' --sheet
+    as '{"steps": 1}' -n 1
+    asked
+done
+file=stdlib/terrace.plan
+as '{}'
+as '{"steps": 2}' -n 2
+asked
+is 'why branches did not join' "$("$program" stdlib stdlib/square.hemls grow '{"steps": 1, "explain": true}' | python3 -c 'import json, sys
+joins = json.load(sys.stdin)["joins"]
+for step in joins:
+    print("step %(step)d: %(replaced)d edges replaced, %(joined)d pairs of branches joined" % step)
+    for some in step["unjoined"]:
+        print("  %(branches)d branches %(reason)s" % some)')" "$("$TARTAN" grow stdlib/square.hemls -n 1 --explain 2>&1 >/dev/null)"
 json=(--json)
 
 # What only requests can get wrong.
@@ -379,5 +404,13 @@ wrong_to_mesh '{"points": [[0, 0]]}' '`points` is a list of lists: of a field: p
 wrong_to_mesh '{"points": [[0, 0, "1"]]}' '`points` is a list of lists: of a field: places that it is evaluated at, instead of being meshed'
 wrong_to_mesh '{"points": [[0, 0, 0]]}' '--points does nothing for a design of boxes'
 wrong_to_mesh '{"format": "svg"}' '`format` cannot be `svg`'
+wrong_to_grow() { # REQUEST MESSAGE
+    is "$1" "$("$program" stdlib stdlib/square.hemls grow "$1")" "error $2"
+}
+wrong_to_grow '{"steps": 100001}' '`steps` is from 0 to 100000, not 100001'
+wrong_to_grow '{"overlay": [1, -1]}' '`overlay` is a list of whole numbers from 0: draw these over one another, in one picture; 32 at most'
+wrong_to_grow '{"format": "svg", "overlay": [200000]}' '--overlay takes up to 32 steps'
+wrong_to_grow '{"format": "svg", "turn": 3}' '--turn writes PNG pictures, and svg is none'
+wrong_to_grow '{"format": "png", "moving": true}' 'what moves is a turn'
 is 'another question' "$("$program" stdlib stdlib/terrace.plan cuont '{}')" 'error there is no question `cuont`'
 finish

@@ -43,6 +43,16 @@ ASKING(
     "solid pair {\n  symmetry x;\n  box low from (1, 0, 0) to (3, 2, 2);\n  box high from (2, 1, 0) to (4, 3, 2);\n}\n",
     "mesh", "{\"format\": \"scad\", \"stats\": true}", "{\"format\": \"glb\"}", "{}")
 
+ASKING(grow, "leaf.hemls", "A + A + A\nA -> A [+ A] ~ A\nAngle 60\n", "grow", "{\"steps\": 2}",
+       "{\"steps\": 1, \"format\": \"obj\", \"stats\": true, \"explain\": true, \"each_step\": true}",
+       "{\"steps\": 1, \"format\": \"ply\", \"scale\": \"1.5\", \"overlay\": []}")
+
+static void test_grow(void **state)
+{
+    (void)state;
+    fail_each(grow, false);
+}
+
 static void test_mesh_field(void **state)
 {
     (void)state;
@@ -57,6 +67,7 @@ static void test_mesh_solid(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_mesh_field), cmocka_unit_test(test_mesh_solid)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_grow), cmocka_unit_test(test_mesh_field),
+                                       cmocka_unit_test(test_mesh_solid)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
