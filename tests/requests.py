@@ -29,7 +29,7 @@ ASKED = {
     ],
     "explain": [
         "explain terrace #1000", "explain terrace 4m_one_end_left_eaves_-_none --where trays=1", "explain terrace 4m_one_end_left_eaves_-_none --rule step",
-        "explain cottage #10", "explain cottage #10:3", "explain cottage #10: --library cottages",
+        "explain cottage #10", "explain cottage #10:3", "explain cottage #10: --library cottages", "explain table",
     ],
     "rank": [
         "rank terrace 4m_one_end_left_eaves_-_none_|_4m_one_mid_left_eaves_-_none_|_6m_one_mid_right_eaves_-_garden:2m_|_8m_one_mid_left_eaves_passage_"

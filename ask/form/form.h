@@ -35,6 +35,9 @@ tn_status tn_session_check_uses(tn_session *session, const tn_asked_use *uses, s
 /* The same for what questions about forms have in common, of a file with surfaces or designs; others pass. */
 tn_status tn_form_options_fit(tn_session *session, const tn_field_asked *field, const tn_solid_asked *solid);
 
+/* Answers explain, of a design of boxes. If nothing is left of it, there is an answer with the failure. */
+tn_status tn_explain_design(tn_session *session, const tn_explain_request *request, tn_reply *answer);
+
 /* How a surface is sampled. */
 tn_contour_options tn_contour_asked(const tn_field_asked *asked);
 

@@ -1,6 +1,7 @@
 /* explain: why a plan or a house is kept or dropped; of plans here, by the clauses of a library or by rules, as trees
  * of messages. */
 #include "ask/plan/explain.h"
+#include "ask/form/form.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -487,10 +488,28 @@ static tn_status explain_of_houses(tn_session *session, const tn_explain_request
     return request->house ? tn_explain_house(session, request, answer) : tn_explain_cells(session, request, answer);
 }
 
+/* A design of boxes is explained if neither a plan nor a house is named. */
+static bool is_about_design(const tn_session *session, const tn_explain_request *request)
+{
+    return tn_subject_of(session->opened->module) == TN_SUBJECT_SOLID && !request->plan && !request->house;
+}
+
+static tn_status check_subject(tn_session *session, const tn_explain_request *request)
+{
+    const tn_asked_use uses[] = {{request->solid.solid != NULL, TN_OF_SOLIDS, "solid"},
+                                 {request->solid.has_max_boxes, TN_OF_SOLIDS, "max-boxes"}};
+    return tn_session_check_uses(session, uses, sizeof uses / sizeof *uses);
+}
+
 tn_status tn_ask_explain(tn_session *session, const tn_explain_request *request, tn_reply *answer)
 {
     const char *library = request->subject.library;
     *answer = (tn_reply){0};
+    tn_status status = check_subject(session, request);
+    if (status != TN_OK)
+        return status;
+    if (is_about_design(session, request))
+        return tn_explain_design(session, request, answer);
     if (!request->plan == !request->house)
         return tn_session_refuse(session, NULL, "say which plan or which house is explained: one of them");
     if (request->subject.has_trays)

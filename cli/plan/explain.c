@@ -12,7 +12,7 @@
 #include "cli/plan/explain_text.h"
 #include "cli/plan/library_job.h"
 #include "cli/plan/plan_input.h"
-#include "cli/solid/solid.h"
+#include "driver/solid/solid.h"
 #include "runtime/base/picture.h"
 #include "runtime/base/utf8.h"
 
@@ -42,10 +42,12 @@ typedef struct explaining {
 
 static tn_explain_request request_of(const explain_settings *s)
 {
-    return (tn_explain_request){.subject = tn_job_asked(&s->plans),
-                                .rules = {s->rules.items, s->rules.count},
-                                .has_nearest = s->nearest.given,
-                                .nearest = s->nearest.value};
+    return (tn_explain_request){
+        .subject = tn_job_asked(&s->plans),
+        .rules = {s->rules.items, s->rules.count},
+        .has_nearest = s->nearest.given,
+        .nearest = s->nearest.value,
+        .solid = {.solid = s->solid, .has_max_boxes = s->max_boxes.given, .max_boxes = s->max_boxes.value}};
 }
 
 /* ---- written */
@@ -223,6 +225,32 @@ static void draw_solid(tn_job *job)
         tn_job_draw(job, &request, settings->output);
 }
 
+static void write_squashes(const tn_explained_design *design, FILE *out)
+{
+    if (design->squashes.count == 0)
+        fputs("no two boxes overlap: nothing was squashed\n", out);
+    for (size_t i = 0; i < design->squashes.count; i++)
+        fprintf(out, "%s\n", design->squashes.items[i].told);
+}
+
+/* Of a design of which nothing is left, there is an answer all the same. */
+static void explain_solid(tn_job *job)
+{
+    const tn_explain_request request = request_of(settings_of(job));
+    tn_reply answer;
+    tn_output output;
+    tn_job_answered(job, tn_ask_explain(&job->session, &request, &answer));
+    const tn_explained_design *design = TN_REPLY(explained_design, &answer);
+    if (design && tn_job_output(job, NULL, &output)) {
+        if (settings_of(job)->json)
+            tn_job_write_json(&answer, output.stream);
+        else
+            write_squashes(design, output.stream);
+        tn_job_commit(job, &output);
+    }
+    tn_reply_clear(&answer);
+}
+
 /* A house line, or the name of a house: #P:V, or #R if --library names a library of houses. */
 static bool is_house(const tn_job *job, const char *text)
 {
@@ -262,8 +290,7 @@ static int run(const tn_command *command, const tn_settings *common)
     if (open && job.opened.module->SOLID_count && settings_of(&job)->output)
         draw_solid(&job);
     else if (open && job.opened.module->SOLID_count)
-        tn_job_explain_solid(&job, settings_of(&job)->solid, (uint32_t)settings_of(&job)->max_boxes.value,
-                             settings_of(&job)->json);
+        explain_solid(&job);
     else if ((open || !alone) && check_options(&job) &&
              tn_job_open_plans(&job, common->operands.items[0], &settings_of(&job)->plans))
         explain(&job);

@@ -10,7 +10,7 @@
 #include "cli/plan/answers.h"
 #include "cli/plan/relations_text.h"
 #include "cli/plan/tested_text.h"
-#include "cli/solid/solid.h"
+#include "driver/solid/solid.h"
 #include "cli/source/fix.h"
 #include "cli/source/sarif.h"
 #include "driver/grammar/grammar_report.h"

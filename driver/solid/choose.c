@@ -68,3 +68,15 @@ tn_status tn_solid_choose(tn_opened *opened, const char *name, uint32_t *solid)
         return TN_OK;
     return unknown(opened, own ? "has several designs" : "has no design of its own", name);
 }
+
+tn_squash_words tn_squash_told(const tn_module *module, uint32_t solid, const tn_squash *s)
+{
+    tn_box_words box = tn_box_named(module, solid, s->box, 0), by = tn_box_named(module, solid, s->by, s->image);
+    tn_squash_words told;
+    if (s->whole)
+        snprintf(told.text, sizeof told.text, "%s  by %s  nothing is left", box.text, by.text);
+    else
+        snprintf(told.text, sizeof told.text, "%s  by %s  %s %c  %.10g -> %.10g", box.text, by.text,
+                 s->high ? "high" : "low", "xyz"[s->axis], s -> before, s -> after);
+    return told;
+}

@@ -27,9 +27,6 @@ typedef tn_status tn_solid_measured_take(void *context, const char *design, size
 tn_status tn_solid_tests_run(tn_opened *opened, uint32_t most, tn_solid_measured_take *measured, void *context,
                              tn_solid_tally *tally);
 
-/* How the boxes of a design were squashed, pair by pair, in order. */
-tn_status tn_solid_explain(tn_opened *opened, uint32_t solid, uint32_t most, bool json, FILE *out);
-
 /* What a box is called in the place of an image: "leg'xz"; a box without a name is called by its number. */
 typedef struct tn_box_words {
     char text[TN_NAME_MAX + 16];

@@ -346,6 +346,21 @@ printf '0 0 0\n3 0 0.5\n-1 2 7\n' >"$scratch/places"
 for point in json.load(sys.stdin)["points"]:
     print(*("%.17g" % number for number in [point["value"], *point["gradient"]]), "inside" if point["inside"] else "outside")' >"$scratch/got"
 "$TARTAN" mesh tests/cli/files/ball.field --points "$scratch/places" | diff - "$scratch/got" || fail 'points are valued otherwise'
+question=explain command=(explain) json=(--json)
+file=stdlib/table.solid
+as '{}'
+as '{"solid": "table"}' --solid table
+as '{"solid": "tble"}' --solid tble
+as '{"max_boxes": 2}' --max-boxes 2
+as '{"library": "table"}' --library table
+as '{"nearest": 2}' --nearest 2
+asked
+file=stdlib/terrace.plan
+as "{\"plan\": \"$plan\", \"solid\": \"table\"}" "$plan" --solid table
+as "{\"plan\": \"$plan\", \"max_boxes\": 2}" "$plan" --max-boxes 2
+asked
+json=(--stats json)
+
 question=grow command=(grow)
 for file in stdlib/square.hemls stdlib/koch.hemls examples/growing-surfaces/draped.study; do
     as '{}'

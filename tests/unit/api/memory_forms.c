@@ -47,6 +47,16 @@ ASKING(grow, "leaf.hemls", "A + A + A\nA -> A [+ A] ~ A\nAngle 60\n", "grow", "{
        "{\"steps\": 1, \"format\": \"obj\", \"stats\": true, \"explain\": true, \"each_step\": true}",
        "{\"steps\": 1, \"format\": \"ply\", \"scale\": \"1.5\", \"overlay\": []}")
 
+ASKING(explain_solid, "pair.solid",
+       "solid pair {\n  box low from (0, 0, 0) to (2, 2, 2);\n  box high from (1, 1, 0) to (3, 3, 2);\n}\n", "explain",
+       "{}")
+
+static void test_explain_solid(void **state)
+{
+    (void)state;
+    fail_each(explain_solid, false);
+}
+
 static void test_grow(void **state)
 {
     (void)state;
@@ -67,7 +77,7 @@ static void test_mesh_solid(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_grow), cmocka_unit_test(test_mesh_field),
-                                       cmocka_unit_test(test_mesh_solid)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_explain_solid), cmocka_unit_test(test_grow),
+                                       cmocka_unit_test(test_mesh_field), cmocka_unit_test(test_mesh_solid)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
