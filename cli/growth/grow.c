@@ -298,13 +298,13 @@ static void take_step(void *context, const tn_reply *answer)
 
 static void show_steps(running *run, const tn_reply *answer)
 {
-    const tn_grown *grown = TN_REPLY(grown, answer);
-    const tn_grown_steps *steps = grown ? &grown->stats : TN_REPLY(grown_steps, answer);
+    tn_grown *grown = TN_REPLY(grown, answer);
+    tn_grown_steps *steps = grown ? &grown->stats : TN_REPLY(grown_steps, answer);
     tn_output output;
     if (!(run->request.stats || !run->request.format) || !tn_job_output(run->job, NULL, &output))
         return;
     if (run->settings->stats == 2)
-        tn_job_write_json(&(tn_reply){&tn_message_grown_steps, (void *)(uintptr_t)steps}, output.stream);
+        tn_job_write_json(&(tn_reply){&tn_message_grown_steps, steps}, output.stream);
     else
         tn_grow_table(steps->shown.value, output.stream);
     tn_job_commit(run->job, &output);
