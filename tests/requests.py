@@ -43,6 +43,7 @@ ASKED = {
         "complete cottage ..._|_? --library cottages",
     ],
     "diff": ["diff terrace terrace --trays 2..3 --no-measures", "diff lahave-houses lahave-houses --trays 3..4", "diff cottage cottage --library cottages"],
+    "inspect": ["inspect examples/drawn-gate/gate.ldr --kit bricks", "inspect tests/cli/files/loose.ldr --kit bricks"],
     "test": ["test terrace", "test terrace cottage --coverage", "test table", "check terrace --test --no-analysis"],
     "grow": ["grow square -n 2", "grow examples/growing-surfaces/draped.study -n 2"],
     "mesh": ["mesh table", "mesh table --cells", "mesh primitives --surface torus --grid 12 --sharp --bounds --thickness --times"],

@@ -61,8 +61,10 @@ tn_status tn_kit_hold(tn_opened *opened, tn_opened *asked, const tn_placed_model
     uint32_t file;
     tn_error error;
     tn_status status = tn_sources_add(&opened->compilation.sources, text->path, text->text, text->size, &file, &error);
-    if (status != TN_OK)
+    if (status != TN_OK) {
+        tn_report_error(&opened->compilation.diagnostics, &error, NULL, NULL, 0);
         return status;
+    }
     count_parts(asked->module, model, &own);
     for (uint32_t i = 0; i < asked->module->FUNCTION_count; i++) {
         const tn_span span = span_of(asked->module, i);

@@ -23,6 +23,11 @@ typedef struct tn_drawn_changes {
  * parts. Those that the kit has are called as there, with the module's text. */
 tn_status tn_drawn_read(const char *path, const tn_module *module, tn_ldraw *ldraw, tn_error *error);
 
+/* The same from a text that is at hand, which messages call `name`. beside: a path beside which its sub-files lie;
+ * NULL: all are in the text. */
+tn_status tn_drawn_read_text(const char *text, size_t size, const char *name, const char *beside,
+                             const tn_module *module, tn_ldraw *ldraw, tn_error *error);
+
 /* Writes an LDraw text as a connection grammar, as the published program's ldr2pcfg does: one rule `Init`, in which
  * bricks 3005 and 3004 are symbols (B1x1NoCheck, B1x2NoCheck) whose room is taken first, and all else is placed without
  * taking room. init: terminals and symbols that come first, for a grammar that has rules of its own for the two bricks;
@@ -34,7 +39,8 @@ tn_status tn_drawn_pcfg(const char *text, size_t size, const char *init, FILE *o
 /* Writes a model as a .kit file with a model `drawn`, which uses the kit that `use` names: one alternative places all
  * of its parts. module: of that kit. Where no part stands unturned, all are turned. *text: the caller's to free. It was
  * compiled as what would lie at `path`, and placed the same parts: E1361 where it does not, as where parts overlap, or
- * all lie on their side. E1314 where the kit has none of the parts, TN_LIMIT (E1313) for more than 10,000. */
+ * all lie on their side. E1314 where the kit has none of the
+ * parts, TN_LIMIT (E1313) for more than 10,000. */
 tn_status tn_drawn_kit(const tn_module *module, const tn_placed_model *model, const char *use, const char *path,
                        char **text, tn_drawn_changes *changes, tn_error *error);
 

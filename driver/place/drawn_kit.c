@@ -297,30 +297,37 @@ static void name_parts(const tn_module *module, tn_placed_model *model)
     }
 }
 
-tn_status tn_drawn_read(const char *path, const tn_module *module, tn_ldraw *ldraw, tn_error *error)
+tn_status tn_drawn_read_text(const char *text, size_t size, const char *name, const char *beside,
+                             const tn_module *module, tn_ldraw *ldraw, tn_error *error)
 {
-    uint8_t *bytes;
-    size_t size;
+    const tn_ldraw_files files = {find_beside, &beside};
     double unit[3];
-    *ldraw = (tn_ldraw){0};
-    tn_status status = tn_file_read(path, TN_DRAWN_BYTES, &bytes, &size, error);
-    if (status != TN_OK)
-        return status;
     tn_place_unit(module, unit);
-    const tn_ldraw_files beside = {find_beside, &path};
-    status = tn_ldraw_read((const char *)bytes, size, unit, tn_place_turns(module), &beside, ldraw, error);
-    free(bytes);
+    tn_status status = tn_ldraw_read(text, size, unit, tn_place_turns(module), beside ? &files : NULL, ldraw, error);
     if (status == TN_INVALID) {
         tn_error found = *error;
-        tn_fail(error, status, E_LDRAW_LINE, "%.200s, %s", path, found.message);
+        tn_fail(error, status, E_LDRAW_LINE, "%.200s, %s", name, found.message);
         tn_error_help(error, "a part is written `1 COLOUR X Y Z A B C D E F G H I NAME.dat`");
     }
     if (status == TN_OK)
         name_parts(module, &ldraw->model);
     if (status == TN_OK && ldraw->model.count == 0 && ldraw->tilted + ldraw->beside == 0) {
-        tn_fail(error, TN_INVALID, E_PLACE_NOTHING, "%.200s has no parts", path);
+        tn_fail(error, TN_INVALID, E_PLACE_NOTHING, "%.200s has no parts", name);
         tn_error_help(error, "a model is an LDraw file, .ldr or .mpd");
         return TN_INVALID;
     }
+    return status;
+}
+
+tn_status tn_drawn_read(const char *path, const tn_module *module, tn_ldraw *ldraw, tn_error *error)
+{
+    uint8_t *bytes;
+    size_t size;
+    *ldraw = (tn_ldraw){0};
+    tn_status status = tn_file_read(path, TN_DRAWN_BYTES, &bytes, &size, error);
+    if (status != TN_OK)
+        return status;
+    status = tn_drawn_read_text((const char *)bytes, size, path, path, module, ldraw, error);
+    free(bytes);
     return status;
 }

@@ -282,6 +282,40 @@ print("same" if near and [{**a, "mass": 0, "price": 0} for a in answer] == [{**b
 is 'the list of parts' "$(cat "$scratch/same")" same
 is 'another format' "$("$program" stdlib $gatehouse place '{"formats": ["scad"]}')" 'error there is no `scad` of this'
 
+# A model that was drawn: the command opens its file, and the session that of the kit.
+drawn=examples/drawn-gate/gate.ldr
+text_of() { python3 -c 'import json, sys; print(json.dumps(open(sys.argv[1], encoding="utf-8").read()))' "$1"; }
+printf '0 FILE a.ldr\n1 4 0 0 0 1 0 0 0 1 0 0 0 1 3001.dat\n1 4 3 -12 0 1 0 0 0 1 0 0 0 1 b.ldr\n0 FILE b.ldr\n1 2 0 0 0 1 0 0 0 0 1 0 -1 0 3002.dat\n1 7 0 -240 0 1 0 0 0 1 0 0 0 1 none.dat\n' >"$scratch/bad.mpd"
+question=inspect command=(inspect)
+inspected() { # MODEL REQUEST WORDS...
+    is "inspect $1 $2" "$("$program" stdlib "$file" inspect "{\"path\": \"$1\"$2}" | sed -E 's/,"meets":(true|false)\}$/}/')" \
+        "$("$TARTAN" inspect "$1" --kit "$file" --json "${@:3}" 2>"$scratch/said" || [ ! -s "$scratch/said" ] || true)$(first_error)"
+}
+first_error() { grep -qE '^(.*: )?error' "$scratch/said" && ! grep -q E1316 "$scratch/said" && sed -nE '0,/^(.*: )?error(\[E[0-9]+\])?: /s/^(.*: )?error(\[E[0-9]+\])?: (.*)$/error \3/p' "$scratch/said" | head -n 1; }
+for file in stdlib/bricks.kit $gatehouse; do
+    for model in $drawn "$scratch/bad.mpd"; do
+        inspected "$model" ''
+        inspected "$model" ', "require": "components = 1, floating = 0"' --require 'components = 1, floating = 0'
+        inspected "$model" ', "require": "components ="' --require 'components ='
+        inspected "$model" ', "require": "count(nothing) = 1"' --require 'count(nothing) = 1'
+        inspected "$model" ', "model": "gatehouse"' --model gatehouse
+    done
+    inspected "$scratch/no.ldr" ''
+    is 'by its text' "$("$program" stdlib $file inspect "{\"ldraw\": $(text_of "$scratch/bad.mpd")}")" "$("$TARTAN" inspect "$scratch/bad.mpd" --kit $file --json 2>/dev/null)"
+done
+is 'meets' "$("$program" stdlib $gatehouse inspect "{\"ldraw\": $(text_of "$scratch/bad.mpd"), \"require\": \"elements = 2\"}" | member meets)" false
+is 'no model' "$("$program" stdlib $gatehouse inspect '{}')" 'error say which model is inspected: its text, or the name of its file'
+is 'no kit' "$("$program" stdlib stdlib/terrace.plan inspect '{"path": "a.ldr"}')" 'error stdlib/terrace.plan is no kit'
+is 'no parts' "$("$program" stdlib $gatehouse inspect '{"ldraw": "0 nothing\n"}')" 'error the drawn model has no parts'
+is 'no picture' "$("$program" stdlib $gatehouse inspect '{"ldraw": "0 nothing\n", "formats": ["ldr"]}')" 'error there is no `ldr` of this'
+for ending in svg png pdf; do
+    "$TARTAN" inspect "$scratch/bad.mpd" --kit $gatehouse -o "$scratch/drawn.$ending" >/dev/null 2>&1
+    "$program" stdlib $gatehouse inspect "{\"path\": \"$scratch/bad.mpd\", \"formats\": [\"$ending\"]}" |
+        python3 -c 'import base64, json, sys
+file = json.load(sys.stdin)["files"][0]
+sys.stdout.buffer.write(file["text"].encode() if "text" in file else base64.b64decode(file["base64"]))' | cmp - "$scratch/drawn.$ending" || fail "inspect draws another .$ending"
+done
+
 question=match command=(match)
 file=stdlib/terrace.plan
 short=${plan#* | }
