@@ -56,7 +56,7 @@ JSON = {"mesh": ["--stats", "json"], "grow": ["--stats", "json"]}
 # Questions whose answers are lists: the command writes a line of JSON for each, which follows the type of a row.
 ROWS = {
     "sample": [("found_plan", "sample terrace 3"), ("found_house", "sample cottage 2 --library cottages"), ("found_house", "sample cottage 2 --plan #10")],
-    "enumerate": [("found_plan", "enumerate terrace --from 1000 --limit 3"), ("found_house", "enumerate cottage --library cottages --from 77 --limit 2")],
+    "enumerate": [("found_building", "enumerate bricks --parts 2 --part 3001 --limit 3"), ("found_plan", "enumerate terrace --from 1000 --limit 3"), ("found_house", "enumerate cottage --library cottages --from 77 --limit 2")],
     "match": [("matched_plan", "match terrace PLANS"), ("matched_plan", "match cottage HOUSES")],
     "prune": [("pruned_plan", "prune terrace PLANS --dropped -")],
     "map": [("mapped_genome", "map words --random 3 --codons 9"), ("mapped_system", "map genr8 --random 20")],

@@ -28,4 +28,8 @@ tn_status tn_kit_asked_space(tn_session *session, const char *model, tn_place_ru
 tn_status tn_count_kit(tn_session *session, const tn_count_request *request, tn_reply *answer);
 tn_kit_asked tn_count_kit_asked(const tn_count_request *request);
 
+/* enumerate: the buildings themselves. Its ranks are digits, and in order. */
+tn_status tn_enumerate_kit(tn_session *session, const tn_enumerate_request *request, tn_reply *answer);
+tn_kit_asked tn_enumerate_kit_asked(const tn_enumerate_request *request);
+
 #endif

@@ -1,6 +1,7 @@
-/* enumerate: plans, or houses, in the order of their ranks. */
+/* enumerate: plans, or houses, in the order of their ranks; buildings of kits elsewhere. */
 #include <stdlib.h>
 
+#include "ask/place/kit.h"
 #include "ask/plan/enumerate.h"
 #include "ask/session/questions.h"
 #include "driver/open/digits.h"
@@ -132,6 +133,39 @@ static tn_status enumerate_plans(tn_session *session, const tn_enumerate_request
 
 /* ---- asked */
 
+/* What only libraries of plans and houses are asked, or NULL. */
+static const char *asks_library(const tn_enumerate_request *r)
+{
+    return r->subject.library       ? "library"
+           : r->subject.where.count ? "where"
+           : r->subject.has_trays   ? "trays"
+           : r->plan                ? "plan"
+           : r->mirror              ? "mirror"
+           : r->lines               ? "lines"
+                                    : NULL;
+}
+
+static bool is_backwards(const char *from, const char *to)
+{
+    mpz_t ranks[2];
+    bool backwards = false;
+    mpz_inits(ranks[0], ranks[1], NULL);
+    if (to && *to && from && *from && mpz_set_str(ranks[0], from, 10) == 0 && mpz_set_str(ranks[1], to, 10) == 0)
+        backwards = mpz_cmp(ranks[0], ranks[1]) > 0;
+    mpz_clears(ranks[0], ranks[1], NULL);
+    return backwards;
+}
+
+static tn_status enumerate_kit(tn_session *session, const tn_enumerate_request *request, tn_reply *answer)
+{
+    const char *option = asks_library(request);
+    if (option)
+        return tn_session_refuse(session, NULL, "--%s is about a library of plans, and %.200s is a kit", option,
+                                 session->opened->path);
+    return is_backwards(request->from, request->to) ? tn_refuse_range(session, request->from, request->to)
+                                                    : tn_enumerate_kit(session, request, answer);
+}
+
 static bool is_number(const char *text)
 {
     return !text || !*text || tn_is_rank(text);
@@ -143,6 +177,12 @@ tn_status tn_ask_enumerate(tn_session *session, const tn_enumerate_request *requ
     if (!is_number(request->from) || !is_number(request->to))
         return tn_session_refuse(session, NULL, "a rank is a whole number from 0, not `%.60s`",
                                  is_number(request->from) ? request->to : request->from);
+    if (session->opened->module->KIT_count > 0)
+        return enumerate_kit(session, request, answer);
+    const tn_kit_asked kit = tn_enumerate_kit_asked(request);
+    tn_status status = tn_kit_none_asked(session, &kit);
+    if (status != TN_OK)
+        return status;
     if (!request->plan && !tn_session_of_houses(session, &request->subject))
         return enumerate_plans(session, request, answer);
     return request->mirror ? tn_session_refuse(session, NULL, "--mirror is about plans: of houses all are written")

@@ -34,6 +34,9 @@ typedef struct tn_session {
     /* Takes the plans or houses that are found (found.h); NULL: they are put into the answer. */
     const struct tn_taker *taker;
 
+    /* Takes the buildings of a kit that are found (ask/place/buildings.h); NULL: they are put into the answer. */
+    const struct tn_building_taker *buildings;
+
     /* Takes the files that are made (made.h); NULL: they are put into the answer. */
     const struct tn_file_taker *files;
 

@@ -2,8 +2,8 @@
 #ifndef TARTAN_CLI_PLACE_KIT_OPTIONS_H
 #define TARTAN_CLI_PLACE_KIT_OPTIONS_H
 
-#include "ask/place/kit.h"
-#include "cli/common/job.h"
+#include "cli/common/options.h"
+#include "runtime/place/count/count.h"
 
 typedef struct tn_kit_options {
     tn_option_number parts;
@@ -19,15 +19,5 @@ typedef struct tn_kit_options {
         TEXT("inside", 0, "MODEL", kit.inside,                                                                         \
              "of a kit: " verb " those inside of the space of this model, each where it stands"),                      \
         FLAG("fixed", 0, kit.fixed, "of a kit: tell apart buildings that differ by a turn")
-
-/* What they ask. */
-static inline tn_kit_asked tn_kit_options_ask(const tn_kit_options *options)
-{
-    return (tn_kit_asked){.parts = (uint32_t)options->parts.value,
-                          .kinds = options->kinds.items,
-                          .kind_count = options->kinds.count,
-                          .inside = options->inside,
-                          .fixed = options->fixed};
-}
 
 #endif

@@ -7,6 +7,7 @@
 #include "ask/session/questions.h"
 #include "cli/common/option_rows.h"
 #include "cli/place/enumerate_kit.h"
+#include "cli/place/kit_options.h"
 #include "cli/plan/found_rows.h"
 #include "driver/plan/made.h"
 
@@ -59,16 +60,26 @@ static bool check_options(tn_job *job)
     return false;
 }
 
+static tn_enumerate_request request_of(const enumerate_settings *s)
+{
+    return (tn_enumerate_request){.subject = tn_job_asked(&s->plans),
+                                  .from = s->from,
+                                  .to = s->to,
+                                  .has_limit = s->limit.given,
+                                  .limit = s->limit.value,
+                                  .plan = s->plan,
+                                  .mirror = s->mirror,
+                                  .has_parts = s->kit.parts.given,
+                                  .parts = s->kit.parts.value,
+                                  .part = {s->kit.kinds.items, s->kit.kinds.count},
+                                  .inside = s->kit.inside,
+                                  .fixed = s->kit.fixed};
+}
+
 static void enumerate(tn_job *job)
 {
     const enumerate_settings *s = settings_of(job);
-    const tn_enumerate_request request = {.subject = tn_job_asked(&s->plans),
-                                          .from = s->from,
-                                          .to = s->to,
-                                          .has_limit = s->limit.given,
-                                          .limit = s->limit.value,
-                                          .plan = s->plan,
-                                          .mirror = s->mirror};
+    const tn_enumerate_request request = request_of(s);
     tn_found_rows rows;
     tn_reply answer = {0};
     tn_error error;
@@ -86,36 +97,25 @@ static void enumerate(tn_job *job)
     free(made);
 }
 
-/* What only libraries of plans are asked. */
-static bool asks_library(tn_job *job)
+/* What is said of how plans are written. */
+static bool writes_plans(tn_job *job)
 {
     const enumerate_settings *s = settings_of(job);
-    const char *option = s->plans.library        ? "library"
-                         : s->plans.wheres.count ? "where"
-                         : s->plans.trays.given  ? "trays"
-                         : s->plan               ? "plan"
-                         : s->mirror             ? "mirror"
-                         : s->written.columns    ? "columns"
-                         : s->written.csv_safe   ? "csv-safe"
-                         : s->written.resume     ? "resume"
-                                                 : NULL;
+    const char *option = s->written.columns    ? "columns"
+                         : s->written.csv_safe ? "csv-safe"
+                         : s->written.resume   ? "resume"
+                                               : NULL;
     if (option)
         tn_job_usage(job, "--%s is about a library of plans, and %.200s is a kit", option, s->common.operands.items[0]);
     return option != NULL;
 }
 
-static bool asks_kit(tn_job *job)
-{
-    const tn_kit_asked asked = tn_kit_options_ask(&settings_of(job)->kit);
-    return !tn_job_answered(job, tn_kit_none_asked(&job->session, &asked));
-}
-
 static void enumerate_kit(tn_job *job)
 {
     const enumerate_settings *s = settings_of(job);
-    const tn_building_range range = {s->from, s->to, s->limit};
+    const tn_enumerate_request request = request_of(s);
     int format = s->written.format;
-    if (asks_library(job) || !tn_job_writes(job, "a list of buildings", s->written.output,
+    if (writes_plans(job) || !tn_job_writes(job, "a list of buildings", s->written.output,
                                             TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES(MPD) | TN_WRITES(LDR)))
         return;
     if (format != TN_FORMAT_AUTO && format != TN_FORMAT_LINES && format != TN_FORMAT_JSON) {
@@ -123,7 +123,7 @@ static void enumerate_kit(tn_job *job)
         tn_help(tn_job_diagnostics(job), d, "-o FILE.mpd writes a sub-file for each");
         return;
     }
-    tn_job_enumerate_kit(job, &s->kit, format == TN_FORMAT_JSON, &range, s->written.output);
+    tn_job_enumerate_kit(job, &request, format == TN_FORMAT_JSON, s->written.output);
 }
 
 static int run(const tn_command *command, const tn_settings *common)
@@ -135,8 +135,6 @@ static int run(const tn_command *command, const tn_settings *common)
     bool open = check_options(&job) && tn_job_open_plans(&job, common->operands.items[0], &settings->plans);
     if (open && job.opened.module->KIT_count > 0)
         enumerate_kit(&job);
-    else if (open && asks_kit(&job))
-        open = false; /* has been said */
     else if (open)
         enumerate(&job);
     return tn_job_end(&job);

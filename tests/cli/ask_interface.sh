@@ -34,7 +34,7 @@ row_by_row() {
     python3 -c 'import json, sys
 for line in sys.stdin:
     answer = json.loads(line) if line.startswith("{") else None
-    for row in answer.get("plans", answer.get("houses")) if answer else [line[:-1]]:
+    for row in next(answer[key] for key in ("plans", "houses", "buildings") if key in answer) if answer else [line[:-1]]:
         print(json.dumps(row, ensure_ascii=False, separators=(",", ":")) if answer else row)'
 }
 rows=cat
@@ -315,6 +315,33 @@ for ending in svg png pdf; do
 file = json.load(sys.stdin)["files"][0]
 sys.stdout.buffer.write(file["text"].encode() if "text" in file else base64.b64decode(file["base64"]))' | cmp - "$scratch/drawn.$ending" || fail "inspect draws another .$ending"
 done
+
+question=enumerate command=(enumerate)
+file=stdlib/bricks.kit
+as_rows '{"parts": 2, "part": ["3001"]}' --parts 2 --part 3001
+as_rows '{"parts": 2, "part": ["3001"], "fixed": true, "from": "3", "to": "9"}' --parts 2 --part 3001 --fixed --from 3 --to 9
+as_rows '{"parts": 3, "part": ["3003", "3005"], "limit": 4}' --parts 3 --part 3003 --part 3005 --limit 4
+as_rows '{"parts": 2, "from": "9", "to": "3"}' --parts 2 --from 9 --to 3
+as_rows '{"parts": 2, "mirror": true}' --parts 2 --mirror
+as_rows '{"parts": 2, "part": ["300"]}' --parts 2 --part 300
+as_rows '{"parts": 2, "inside": "room"}' --parts 2 --inside room
+as_rows '{}'
+asked
+file=$gatehouse
+as_rows '{"parts": 2, "part": ["3001"], "inside": "gatehouse", "limit": 9}' --parts 2 --part 3001 --inside gatehouse --limit 9
+as_rows '{"parts": 2, "inside": "gatehouse", "fixed": true}' --parts 2 --inside gatehouse --fixed
+asked
+file=stdlib/terrace.plan
+as_rows '{"parts": 2}' --parts 2
+as_rows '{"inside": "room"}' --inside room
+asked
+next() { "$program" stdlib stdlib/bricks.kit enumerate "$1" | python3 -c 'import json, sys
+answer = json.load(sys.stdin)
+print(len(answer["buildings"]), answer.get("next"))'; }
+is 'more buildings' "$(next '{"parts": 3, "part": ["3001"]}')" '1000 1000'
+is 'all that were asked for' "$(next '{"parts": 2, "part": ["3001"], "to": "7"}')" '7 None'
+is 'all buildings' "$(next '{"parts": 2, "part": ["3001"], "from": "20"}')" '4 None'
+is 'no more buildings' "$(next '{"parts": 2, "part": ["3001"], "limit": 24}')" '24 None'
 
 question=match command=(match)
 file=stdlib/terrace.plan
