@@ -158,6 +158,22 @@ ASKED = {
         ("tests/cli/files/stack.pcfg", {"formats": ["ldr"], "model": "a"}, "--model a -o a.ldr"),
         ("stdlib/terrace.plan", {"formats": ["ldr"]}, "-o a.ldr"),
     ],
+    "export": [
+        ("stdlib/terrace.plan", {}, "--prolog -o a.pl"),
+        ("stdlib/terrace.plan", {"as": "prolog", "library": "streets", "where": ["trays = 3"]}, "--prolog --library streets --where trays_=_3 -o a.pl"),
+        ("stdlib/terrace.plan", {"as": "prolog", "library": "street-houses"}, "--prolog --library street-houses -o a.pl"),
+        ("tests/cli/files/sheds.plan", {"as": "regex", "rule": "wide-end"}, "--regex --rule wide-end -o a.txt"),
+        ("tests/cli/files/sheds.plan", {"as": "regex", "rule": "wide-end", "max_states": 1}, "--regex --rule wide-end --max-states 1 -o a.txt"),
+        ("tests/cli/files/sheds.plan", {"as": "regex", "rule": "wide-ends"}, "--regex --rule wide-ends -o a.txt"),
+        ("tests/cli/files/sheds.plan", {"as": "regex"}, "--regex -o a.txt"),
+        ("tests/cli/files/sheds.plan", {"as": "prolog", "rule": "wide-end"}, "--prolog --rule wide-end -o a.pl"),
+        ("tests/cli/files/sheds.plan", {"as": "prolog", "model": "a"}, "--prolog --model a -o a.pl"),
+        ("tests/cli/files/sheds.plan", {"as": "pcfg"}, "--pcfg -o a.pcfg"),
+        ("tests/cli/files/sheds.plan", {"as": "pcfg", "init": "Wall"}, "--pcfg --init Wall -o a.pcfg"),
+        ("examples/gatehouse/gatehouse.kit", {"as": "pcfg"}, "--pcfg -o a.pcfg"),
+        ("examples/gatehouse/gatehouse.kit", {"as": "pcfg", "model": "gate"}, "--pcfg --model gate -o a.pcfg"),
+        ("stdlib/bricks.kit", {"as": "pcfg"}, "--pcfg -o a.pcfg"),
+    ],
 }
 
 

@@ -6,6 +6,7 @@
 #include "ask/growth/grow.h"
 #include "ask/session/questions.h"
 #include "ask/session/session.h"
+#include "driver/open/files.h"
 #include "include/tartan/ask.h"
 #include "runtime/base/file.h"
 
@@ -316,6 +317,33 @@ static tn_status give_other(void *context, const char *path, tn_session **other)
     return TN_OK;
 }
 
+/* ---- a text that is made of an answer */
+
+/* What the session has is used as it has it; all else comes from the caller. */
+static tartan_status resolve_with_own(void *context, const tartan_use *use, tartan_text *found, tartan_error *error)
+{
+    const tartan_session *session = context;
+    char *identity = tn_file_identity(session->path);
+    bool own = strcmp(use->path, session->path) == 0 || (identity && strcmp(use->path, identity) == 0);
+    free(identity);
+    if (!own)
+        return session->options.resolve(session->options.resolve_context, use, found, error);
+    *found = (tartan_text){.text = session->text, .size = session->size, .name = session->path};
+    return TARTAN_OK;
+}
+
+static tn_status open_made(void *context, const char *path, const char *text, size_t size, tn_opened *opened)
+{
+    tartan_session *session = context;
+    tartan_compile_options options = session->options;
+    tartan_error error;
+    if (options.resolve) {
+        options.resolve = resolve_with_own;
+        options.resolve_context = session;
+    }
+    return (tn_status)tn_api_open(path, text, size, &options, NULL, opened, &error);
+}
+
 /* ---- asked */
 
 typedef struct asking {
@@ -384,8 +412,11 @@ static tartan_status ask(asked_file *file, const asking *a, answering *to, char 
     file->opened.module->watch = to->watch;
     file->session.other = give_other;
     file->session.other_context = to;
+    const tn_text_opener opener = {open_made, to->session};
+    file->session.opener = &opener;
     tn_status status = a->kind->ask(&file->session, a->request, &reply);
     file->opened.module->watch = NULL;
+    file->session.opener = NULL;
     if (to->session->before.open)
         tn_api_report(&to->session->before.opened.compilation.diagnostics, to->report, to->report_context);
     tn_api_report(&compilation->diagnostics, to->report, to->report_context);

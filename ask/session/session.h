@@ -31,6 +31,9 @@ typedef struct tn_session {
     tn_status (*other)(void *context, const char *path, struct tn_session **other);
     void *other_context;
 
+    /* Opens a text that is made of an answer as the session's file was opened. NULL: as files are. */
+    const tn_text_opener *opener;
+
     /* Takes the plans or houses that are found (found.h); NULL: they are put into the answer. */
     const struct tn_taker *taker;
 

@@ -1,16 +1,13 @@
 /* tartan export: rules in other notations. */
-#include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
+#include "ask/place/export.h"
+#include "ask/plan/export.h"
+#include "ask/session/questions.h"
+#include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
-#include "cli/place/export_drawn.h"
 #include "cli/plan/library_job.h"
-#include "driver/place/export.h"
-#include "driver/place/kit.h"
-#include "runtime/plan/match/lower.h"
-#include "runtime/plan/match/parts.h"
-#include "runtime/plan/text/export_prolog.h"
-#include "runtime/plan/text/export_regex.h"
 
 typedef struct export_settings {
     tn_settings common;
@@ -25,172 +22,25 @@ static const export_settings *settings_of(const tn_job *job)
     return (const export_settings *)job->settings;
 }
 
-typedef struct exporting {
-    tn_job *job;
-    const tn_module *module;
-    tn_schema *schema;
-    uint32_t rule;
-    tn_buffer text;
-} exporting;
-
-/* ---- patterns */
-
-/* A rule alone has no lengths that would bound its sums. */
-static void help_comparison(const exporting *e, uint32_t function, tn_error *error)
+/* The name of an LDraw file? */
+static bool is_drawn(const char *path)
 {
-    tn_parts parts;
-    bool compares = false;
-    if (tn_parts_read(e->module, function, &parts, NULL) == TN_OK)
-        for (uint32_t i = 0; i < parts.count; i++)
-            compares |= parts.parts[i].kind == TN_PART_COMPARISON;
-    if (compares)
-        tn_error_help(error, "a pattern is made of a rule without a library, whose sums may only rise: "
-                             "`quantity(a) <= 3`, `sum(width) < 12m`");
-    tn_parts_clear(&parts);
+    const char *dot = strrchr(path, '.');
+    return dot && (strcasecmp(dot, ".ldr") == 0 || strcasecmp(dot, ".mpd") == 0 || strcasecmp(dot, ".dat") == 0);
 }
 
-static tn_status export_regex(exporting *e, tn_error *error)
-{
-    uint32_t function = e->module->RULE_records[e->rule].holds;
-    tn_classes *classes = NULL;
-    tn_lowering *lowering = NULL;
-    tn_dfa *dfa = NULL;
-    tn_status status = tn_classes_new(e->schema, &function, 1, &classes, error);
-    if (status == TN_OK)
-        status = tn_lowering_new(classes, (uint32_t)settings_of(e->job)->plans.max_states.value, &lowering, error);
-    if (status == TN_OK)
-        status = tn_lower(lowering, function, &dfa, error);
-    if (status == TN_LIMIT)
-        help_comparison(e, function, error);
-    tn_buffer pattern = {0};
-    if (status == TN_OK)
-        status = tn_export_regex(dfa, &pattern, error);
-    if (status == TN_OK && !tn_buffer_printf(&e->text, "# %s, a letter for each tray:\n",
-                                             tn_text(e->module, e->module->RULE_records[e->rule].name)))
-        status = tn_fail_memory(error);
-    if (status == TN_OK)
-        status = tn_regex_legend(dfa, classes, &e->text, error);
-    if (status == TN_OK && !tn_buffer_printf(&e->text, "%s\n", pattern.size ? pattern.data : "# matches no plan"))
-        status = tn_fail_memory(error);
-    free(pattern.data);
-    tn_dfa_free(dfa);
-    tn_lowering_free(lowering);
-    tn_classes_free(classes);
-    return status;
-}
-
-/* ---- the command */
-
-/* The rule asked for, and the schema: the rule's, the library's, or the only one. */
-static bool choose(exporting *e, uint32_t *schema)
-{
-    const export_settings *settings = settings_of(e->job);
-    uint32_t library;
-    tn_status status;
-    if (settings->regex) {
-        status = tn_rule_choose(&e->job->opened, settings->rules.count ? settings->rules.items[0] : "", &e->rule);
-        if (status == TN_OK)
-            *schema = e->module->RULE_records[e->rule].schema;
-    } else {
-        status = tn_schema_choose(&e->job->opened, settings->plans.library, schema, &library);
-    }
-    tn_job_status(e->job, status);
-    return status == TN_OK;
-}
-
-static void export(tn_job *job)
-{
-    exporting e = {.job = job, .module = job->opened.module};
-    uint32_t schema;
-    tn_error error;
-    tn_output output;
-    if (!choose(&e, &schema))
-        return;
-    tn_status status = tn_schema_new(e.module, schema, 0, &e.schema, &error);
-    if (status == TN_OK)
-        status = settings_of(job)->regex ? export_regex(&e, &error) : tn_export_prolog(e.schema, &e.text, &error);
-    if (status != TN_OK) {
-        tn_job_fail(job, &error);
-    } else if (tn_job_output(job, settings_of(job)->output, &output)) {
-        fwrite(e.text.data, 1, e.text.size, output.stream);
-        tn_job_commit(job, &output);
-    }
-    free(e.text.data);
-    tn_schema_free(e.schema);
-}
-
-/* ---- kits */
-
-static tn_status write_kit(const tn_module *module, uint32_t model, tn_buffer *text, tn_error *error)
-{
-    tn_place_rules rules;
-    tn_status status = tn_place_rules_of_model(module, model, &rules, error);
-    FILE *out = status == TN_OK ? open_memstream(&text->data, &text->size) : NULL;
-    if (status == TN_OK)
-        status = out ? tn_kit_export(&rules, out, error) : tn_fail_memory(error);
-    if (out && fclose(out) != 0 && status == TN_OK)
-        status = tn_fail_memory(error);
-    tn_place_rules_clear(&rules);
-    return status;
-}
-
-static void export_kit(tn_job *job)
-{
-    tn_buffer text = {0};
-    tn_error error;
-    tn_output output;
-    uint32_t model;
-    if (job->opened.module->KIT_count == 0) {
-        tn_job_usage(job, "--pcfg is about a kit, and %.200s is none", job->settings->operands.items[0]);
-        return;
-    }
-    tn_status status = tn_kit_choose(&job->opened, settings_of(job)->model, &model);
-    tn_job_status(job, status);
-    if (status != TN_OK)
-        return;
-    status = write_kit(job->opened.module, model, &text, &error);
-    if (status != TN_OK) {
-        tn_job_fail(job, &error);
-    } else if (tn_job_output(job, settings_of(job)->output, &output)) {
-        fwrite(text.data, 1, text.size, output.stream);
-        tn_job_commit(job, &output);
-    }
-    free(text.data);
-}
-
-/* Is what is asked of a model that was drawn in order? Otherwise that is told. */
-static bool check_drawn(tn_job *job)
+/* Is one notation asked for, and no more than one rule? The question sees to the rest. */
+static bool check_words(tn_job *job, bool drawn)
 {
     const export_settings *s = settings_of(job);
-    const char *path = s->common.operands.items[0];
-    bool drawn = tn_path_is_drawn(path);
-    if (!drawn && (s->kit || s->init))
-        tn_job_usage(job, "--%s is about an LDraw file, .ldr or .mpd, and %.200s is none", s->kit ? "kit" : "init",
-                     path);
-    else if (drawn && (s->prolog || s->regex || s->model || !s->pcfg == !s->kit))
+    int kinds = s->prolog + s->regex + s->pcfg;
+    if (drawn && !s->prolog && !s->regex && !s->pcfg == !s->kit)
         tn_job_usage(job, "a model that was drawn is written as a connection grammar, --pcfg, or as a kit, --kit KIT");
-    else if (s->init && !s->pcfg)
-        tn_job_usage(job, "--init is how a connection grammar begins: it goes with --pcfg");
-    else if (s->init && strpbrk(s->init, "\r\n"))
-        tn_job_usage(job, "--init is of one line");
-    else
-        return true;
-    return false;
-}
-
-static bool check_rules(tn_job *job)
-{
-    const export_settings *settings = settings_of(job);
-    int kinds = settings->prolog + settings->regex + settings->pcfg;
-    if (kinds != 1)
+    else if (!drawn && !s->kit && !s->init && kinds != 1)
         tn_job_usage(job, kinds ? "--prolog, --regex and --pcfg are one or the other: leave one out"
                                 : "say what to write: --prolog, --regex or --pcfg");
-    else if (settings->model && !settings->pcfg)
-        tn_job_usage(job, "--model is for --pcfg");
-    else if (settings->regex && settings->rules.count != 1)
+    else if (!drawn && s->regex && s->rules.count > 1)
         tn_job_usage(job, "a pattern is of one rule: --rule NAME");
-    else if (settings->prolog && settings->rules.count)
-        tn_job_usage(job, "--prolog writes all rules; --rule is for --regex");
     else
         return true;
     return false;
@@ -206,20 +56,54 @@ static bool check_output(tn_job *job)
                       : tn_job_writes(job, "a kit", s->output, TN_WRITES_TEXT | TN_WRITES(KIT));
 }
 
+static tn_export_request request_of(const export_settings *s, bool drawn)
+{
+    bool named = s->output && strcmp(s->output, "-") != 0;
+    return (tn_export_request){.as = s->kit     ? TN_EXPORT_KIT
+                                     : s->pcfg  ? TN_EXPORT_PCFG
+                                     : s->regex ? TN_EXPORT_REGEX
+                                                : TN_EXPORT_PROLOG,
+                               .subject = tn_job_asked(&s->plans),
+                               .rule = s->rules.count ? s->rules.items[0] : NULL,
+                               .model = s->model,
+                               .drawn = {.path = drawn ? s->common.operands.items[0] : NULL},
+                               .init = s->init,
+                               .at = named ? s->output : NULL};
+}
+
+/* A grammar of a drawn model says nothing of rules. */
+static bool open_rules(tn_job *job, bool drawn)
+{
+    const export_settings *s = settings_of(job);
+    const char *path = s->common.operands.items[0];
+    if (drawn)
+        return s->pcfg || tn_job_open(job, s->kit);
+    return s->pcfg ? tn_job_open(job, path) : tn_job_open_plans(job, path, &s->plans);
+}
+
+static void export(tn_job *job, const tn_export_request *request)
+{
+    const char *path = settings_of(job)->output ? settings_of(job)->output : "-";
+    tn_made_outputs outputs;
+    tn_reply answer;
+    tn_job_files(job, &outputs, &path, 1, false);
+    tn_job_answered(job, tn_ask_export(&job->session, request, &answer));
+    tn_job_files_end(&outputs);
+    tn_reply_clear(&answer);
+}
+
 static int run(const tn_command *command, const tn_settings *common)
 {
     (void)command;
     const export_settings *settings = (const export_settings *)common;
     const char *path = common->operands.items[0];
-    const tn_export_drawn_options drawn = {settings->kit, settings->init, settings->output};
+    bool drawn = is_drawn(path);
+    const tn_export_request request = request_of(settings, drawn);
     tn_job job;
     tn_job_begin(&job, common);
-    if (!check_drawn(&job) || !(tn_path_is_drawn(path) || check_rules(&job)) || !check_output(&job))
-        return tn_job_end(&job);
-    if (tn_path_is_drawn(path))
-        tn_job_export_drawn(&job, &drawn, path);
-    else if ((settings->pcfg ? tn_job_open(&job, path) : tn_job_open_plans(&job, path, &settings->plans)))
-        (settings->pcfg ? export_kit : export)(&job);
+    if (check_words(&job, drawn) && tn_job_answered(&job, tn_export_check(&job.session, &request, path)) &&
+        check_output(&job) && open_rules(&job, drawn))
+        export(&job, &request);
     return tn_job_end(&job);
 }
 

@@ -40,6 +40,13 @@ tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, boo
 tn_status tn_open_text(const tn_notation *notation, const tn_input *input, const tn_compile_options *options,
                        tn_opened *opened);
 
+/* Opens a text that would lie at a path, as another file was opened: what it uses is found where that file's is. The
+ * opened text borrows the path. Close it in any case. */
+typedef struct tn_text_opener {
+    tn_status (*open)(void *context, const char *path, const char *text, size_t size, tn_opened *opened);
+    void *context;
+} tn_text_opener;
+
 /* Where a file lacks what a command is about: which commands take what it does hold, as a help; `otherwise` where it
  * holds nothing of another kind than plan rules. */
 typedef struct tn_help_text {

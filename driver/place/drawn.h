@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "driver/open/open.h"
 #include "runtime/place/read.h"
 
 #define TN_DRAWN_BYTES ((size_t)256 << 20) /* of a file */
@@ -39,9 +40,9 @@ tn_status tn_drawn_pcfg(const char *text, size_t size, const char *init, FILE *o
 /* Writes a model as a .kit file with a model `drawn`, which uses the kit that `use` names: one alternative places all
  * of its parts. module: of that kit. Where no part stands unturned, all are turned. *text: the caller's to free. It was
  * compiled as what would lie at `path`, and placed the same parts: E1361 where it does not, as where parts overlap, or
- * all lie on their side. E1314 where the kit has none of the
+ * all lie on their side. opener: opens it for that; NULL: as files are opened. E1314 where the kit has none of the
  * parts, TN_LIMIT (E1313) for more than 10,000. */
 tn_status tn_drawn_kit(const tn_module *module, const tn_placed_model *model, const char *use, const char *path,
-                       char **text, tn_drawn_changes *changes, tn_error *error);
+                       const tn_text_opener *opener, char **text, tn_drawn_changes *changes, tn_error *error);
 
 #endif

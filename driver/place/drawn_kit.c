@@ -215,13 +215,14 @@ static bool are_placed(const drawing_kit *d, const tn_placed_model *placed)
     return same;
 }
 
-static tn_status check_text(const drawing_kit *d, const char *text, const char *path)
+static tn_status check_text(const drawing_kit *d, const char *text, const char *path, const tn_text_opener *opener)
 {
     const tn_place_options options = {.threads = 1};
     tn_placed_model placed = {0};
     tn_place_rules rules;
     tn_opened opened;
-    tn_status status = tn_open_bytes(path, (const uint8_t *)text, strlen(text), false, &opened);
+    tn_status status = opener ? opener->open(opener->context, path, text, strlen(text), &opened)
+                              : tn_open_bytes(path, (const uint8_t *)text, strlen(text), false, &opened);
     if (status == TN_OK) {
         status = tn_place_rules_of_model(opened.module, 0, &rules, d->error);
         if (status == TN_OK)
@@ -249,7 +250,7 @@ static tn_status make_text(drawing_kit *d, const char *use, char **text)
 }
 
 tn_status tn_drawn_kit(const tn_module *module, const tn_placed_model *model, const char *use, const char *path,
-                       char **text, tn_drawn_changes *changes, tn_error *error)
+                       const tn_text_opener *opener, char **text, tn_drawn_changes *changes, tn_error *error)
 {
     drawing_kit d = {.module = module, .changes = changes, .error = error};
     *changes = (tn_drawn_changes){0};
@@ -262,7 +263,7 @@ tn_status tn_drawn_kit(const tn_module *module, const tn_placed_model *model, co
     if (status == TN_OK)
         status = make_text(&d, use, text);
     if (status == TN_OK)
-        status = check_text(&d, *text, path);
+        status = check_text(&d, *text, path, opener);
     tn_placed_model_clear(&d.model);
     free(d.kinds);
     return status;

@@ -316,6 +316,22 @@ file = json.load(sys.stdin)["files"][0]
 sys.stdout.buffer.write(file["text"].encode() if "text" in file else base64.b64decode(file["base64"]))' | cmp - "$scratch/drawn.$ending" || fail "inspect draws another .$ending"
 done
 
+exported() { # WHAT FILE REQUEST WORDS...: of the answer the file, or what is wrong
+    is "export $1" "$("$program" stdlib "$2" export "$3" | python3 -c 'import json, sys
+said = sys.stdin.read().rstrip()
+print(said if said.startswith("error") else json.loads(said)["files"][0]["text"].rstrip())')" "$("$TARTAN" export "${@:4}" 2>"$scratch/said")$(first_error)"
+}
+exported 'a drawn grammar' stdlib/bricks.kit "{\"as\": \"pcfg\", \"ldraw\": $(text_of $drawn)}" $drawn --pcfg
+exported 'a drawn grammar, of any file' stdlib/terrace.plan "{\"as\": \"pcfg\", \"path\": \"$drawn\", \"init\": \"Wall\"}" $drawn --pcfg --init Wall
+exported 'sub-files' stdlib/terrace.plan "{\"as\": \"pcfg\", \"path\": \"$scratch/bad.mpd\"}" "$scratch/bad.mpd" --pcfg
+exported 'a drawn kit' stdlib/bricks.kit "{\"as\": \"kit\", \"ldraw\": $(text_of $drawn)}" $drawn --kit stdlib/bricks.kit
+exported 'a drawn kit of another' $gatehouse "{\"as\": \"kit\", \"path\": \"$drawn\"}" $drawn --kit $gatehouse
+exported 'no kit' stdlib/terrace.plan "{\"as\": \"kit\", \"path\": \"$drawn\"}" $drawn --kit stdlib/terrace.plan
+exported 'a drawn program' stdlib/terrace.plan "{\"path\": \"$drawn\"}" $drawn --prolog
+exported 'lines' stdlib/terrace.plan "{\"as\": \"pcfg\", \"path\": \"$drawn\", \"init\": \"a\\nb\"}" $drawn --pcfg --init $'a\nb'
+exported 'no drawing' stdlib/terrace.plan "{\"as\": \"kit\"}" stdlib/terrace.plan --kit bricks
+is 'needless' "$("$program" stdlib stdlib/terrace.plan export '{"max_length": 4}')" 'error --max-length says nothing about what is exported'
+
 question=enumerate command=(enumerate)
 file=stdlib/bricks.kit
 as_rows '{"parts": 2, "part": ["3001"]}' --parts 2 --part 3001

@@ -18,6 +18,17 @@ static const char text[] = "schema box { width = 1m | 2m  lid = flag }\n"
                            "library rows using box { trays 1..3 prune pair }\n"
                            "measure long = sum(width)\nmeasure lids = quantity(tray(lid))\n";
 
+static const char kit[] =
+    "unit 10 x 8 x 10;\nconnector stud joins tube;\nconnector tube joins stud;\n"
+    "part 3005 { fill 20 x 24 x 20; stud up; tube down at (0, -24, 0); }\nrule up at stud = 3005;\n"
+    "model post { inside box(20, 72, 20); start stud at (0, 0, 0) by up; require elements = 3; }\n";
+
+static const char grammar[] = "S -> 'PlaceBoundingBox(9,9,9)' 'Place(3005)' A\nA -> 'Move(0,-3,0)' 'Place(3005)' |\n";
+
+/* Parts as LDraw has them: two joined ones, one loose, and one that the kit lacks. */
+#define AT(Y) "1 4 0 " Y " 0 1 0 0 0 1 0 0 0 1 "
+#define DRAWN AT("-24") "3005.dat\\n" AT("-48") "3005.dat\\n" AT("-144") "3005.dat\\n" AT("-240") "none.dat\\n"
+
 static const char tested[] = "test pair { match [1m lid | 2m lid] reject [1m - | 2m lid] }\n";
 
 /* The file before an edit. */
@@ -59,14 +70,13 @@ typedef struct asked_question {
     const char *question, *request;
 } asked_question;
 
-static tartan_status ask_all(const asked_question *asked, size_t count, tartan_error *error)
+static tartan_status ask_of(const char *path, const char *whole, const asked_question *asked, size_t count,
+                            tartan_error *error)
 {
-    char whole[sizeof text + sizeof tested];
     tartan_compile_options options = tartan_compile_options_init();
     options.resolve = before_edit;
-    snprintf(whole, sizeof whole, "%s%s", text, tested);
     tartan_session *session = NULL;
-    tartan_status status = tartan_session_open("box.plan", whole, strlen(whole), &options, &session, error);
+    tartan_status status = tartan_session_open(path, whole, strlen(whole), &options, &session, error);
     for (size_t i = 0; i < count && status == TARTAN_OK; i++) {
         char *answer = NULL;
         status = tartan_ask(session, asked[i].question, asked[i].request, NULL, NULL, NULL, &answer, error);
@@ -75,6 +85,13 @@ static tartan_status ask_all(const asked_question *asked, size_t count, tartan_e
     }
     tartan_session_free(session);
     return status;
+}
+
+static tartan_status ask_all(const asked_question *asked, size_t count, tartan_error *error)
+{
+    char whole[sizeof text + sizeof tested];
+    snprintf(whole, sizeof whole, "%s%s", text, tested);
+    return ask_of("box.plan", whole, asked, count, error);
 }
 
 /* A few together, as what they take is multiplied by how often they allocate. */
@@ -98,6 +115,31 @@ ASKING(ask_trade_offs, {"pareto", "{\"by\": [{\"measure\": \"long\"}, {\"measure
        {"complete", "{\"pattern\": \"? | lid\"}"},
        {"complete", "{\"pattern\": \"? | ...\", \"by\": [{\"measure\": \"lids\"}]}"})
 ASKING(ask_edits, {"diff", "{\"before\": \"old.plan\"}"}, {"test", "{\"coverage\": true}"}, {"coverage", "{}"})
+
+/* Of kits and models of parts. */
+static tartan_status ask_kit(const tartan_module *module, tartan_error *error)
+{
+    static const asked_question asked[] = {
+        {"place", "{\"formats\": [\"ldr\", \"mpd\", \"csv\", \"obj\"], \"program\": true, \"threads\": null}"},
+        {"place", "{\"trace\": true, \"steps\": \"part\", \"part_limit\": 3, \"keep_partial\": true}"},
+        {"inspect", "{\"ldraw\": \"" DRAWN "\", \"require\": \"count(3005) = 3\", \"model\": \"post\"}"},
+        {"enumerate", "{\"parts\": 3}"},
+        {"export", "{\"as\": \"pcfg\"}"},
+        {"export", "{\"as\": \"pcfg\", \"ldraw\": \"" DRAWN "\"}"},
+        {"export", "{\"as\": \"kit\", \"ldraw\": \"" DRAWN "\"}"}};
+    (void)module;
+    return ask_of("own.kit", kit, asked, sizeof asked / sizeof *asked, error);
+}
+
+static tartan_status ask_grammar(const tartan_module *module, tartan_error *error)
+{
+    static const asked_question asked[] = {
+        {"place", "{\"fitness\": \"elements <= 2\", \"formats\": [\"ldr\"], \"header\": true}"}};
+    (void)module;
+    return ask_of("own.pcfg", grammar, asked, 1, error);
+}
+
+ASKING(ask_exports, {"export", "{}"}, {"export", "{\"as\": \"regex\", \"rule\": \"pair\"}"})
 
 static tartan_status match(const tartan_module *module, tartan_error *error)
 {
@@ -198,8 +240,9 @@ static tartan_status measure(const tartan_module *module, tartan_error *error)
 
 static void fails_cleanly(void **state)
 {
-    static operation *const operations[] = {compile,        load,      ask_numbers, ask_why, ask_lists,
-                                            ask_trade_offs, ask_edits, match,       walk,    measure};
+    static operation *const operations[] = {compile,        load,      ask_numbers, ask_why,     ask_lists,
+                                            ask_trade_offs, ask_edits, ask_kit,     ask_grammar, ask_exports,
+                                            match,          walk,      measure};
     for (size_t i = 0; i < sizeof operations / sizeof *operations; i++) {
         size_t failures = 0;
         for (int all_after = 0; all_after < 2; all_after++) {

@@ -76,7 +76,7 @@ static tn_status as_kit(void)
     snprintf(path, sizeof path, "%s/again.kit", folder);
     tn_status status = tn_drawn_read(drawn_path, opened.module, &ldraw, &error);
     if (status == TN_OK)
-        status = tn_drawn_kit(opened.module, &ldraw.model, "own.kit", path, &text, &changes, &error);
+        status = tn_drawn_kit(opened.module, &ldraw.model, "own.kit", path, NULL, &text, &changes, &error);
     if (status == TN_OK) {
         assert_int_equal(changes.left_out, 0);
         assert_non_null(strstr(text, "3024"));
