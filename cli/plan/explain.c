@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "ask/form/draw.h"
-#include "ask/plan/explain.h"
+#include "ask/explain/explain.h"
 #include "ask/session/questions.h"
 #include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"

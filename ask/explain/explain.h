@@ -1,6 +1,6 @@
 /* What explaining is made of: each kind of thing that is explained has a file of its own. */
-#ifndef TARTAN_ASK_PLAN_EXPLAIN_H
-#define TARTAN_ASK_PLAN_EXPLAIN_H
+#ifndef TARTAN_ASK_EXPLAIN_EXPLAIN_H
+#define TARTAN_ASK_EXPLAIN_EXPLAIN_H
 
 #include "ask/session/requests.h"
 #include "ask/session/session.h"

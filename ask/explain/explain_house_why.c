@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/plan/explain.h"
+#include "ask/explain/explain.h"
 #include "driver/house/change_text.h"
 #include "runtime/house/rule/witness.h"
 #include "runtime/house/schedule/cost.h"

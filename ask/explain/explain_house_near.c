@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/plan/explain.h"
+#include "ask/explain/explain.h"
 #include "driver/house/change_text.h"
 
 enum { NEAREST_MAX = 5 };

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "ask/house/numbered.h"
-#include "ask/plan/explain.h"
+#include "ask/explain/explain.h"
 
 /* The library that is named, or the first of the rules, says of which form the house is. */
 static tn_status choose(tn_house_explaining *e, const tn_explain_request *request, uint32_t *form)

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "ask/house/numbered.h"
-#include "ask/plan/explain.h"
+#include "ask/explain/explain.h"
 #include "driver/house/change_text.h"
 #include "runtime/house/bare.h"
 #include "runtime/house/solids.h"

@@ -1,6 +1,6 @@
 /* explain: why a plan or a house is kept or dropped; of plans here, by the clauses of a library or by rules, as trees
  * of messages. */
-#include "ask/plan/explain.h"
+#include "ask/explain/explain.h"
 #include "ask/form/form.h"
 
 #include <stdlib.h>
