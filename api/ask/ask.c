@@ -253,11 +253,11 @@ typedef struct answering {
 } answering;
 
 /* The text of that name, by the caller's resolver if there is one; *text is owned. */
-static tartan_status find_text(tartan_session *session, const char *path, char **text, size_t *size,
-                               tartan_error *error)
+static tartan_status find_text(tartan_session *session, const char *path, const char *extension, char **text,
+                               size_t *size, tartan_error *error)
 {
     const tartan_compile_options *options = &session->options;
-    const tartan_use use = {path, ".plan", session->path};
+    const tartan_use use = {path, extension, session->path};
     tartan_text found = {.name = path};
     tn_error wrong;
     if (!options->resolve)
@@ -288,7 +288,7 @@ static tartan_status open_before(answering *a, const char *path)
     close_file(&session->before);
     free(session->before_text);
     session->before_text = NULL;
-    tartan_status status = find_text(session, path, &session->before_text, &size, a->error);
+    tartan_status status = find_text(session, path, ".plan", &session->before_text, &size, a->error);
     if (status != TARTAN_OK)
         return status;
     options.report = a->report;
@@ -315,6 +315,22 @@ static tn_status give_other(void *context, const char *path, tn_session **other)
     before->opened.module->watch = a->watch;
     *other = &before->session;
     return TN_OK;
+}
+
+/* A model that was drawn. */
+static tn_status read_drawn(void *context, const char *path, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    tartan_session *session = context;
+    tartan_error said = {.status = TARTAN_OK};
+    tartan_status status = find_text(session, path, ".ldr", (char **)bytes, size, &said);
+    if (status == TARTAN_OK)
+        return TN_OK;
+    if (status == TARTAN_MEMORY)
+        return tn_fail_memory(error);
+    tn_fail(error, TN_INVALID, E_CANNOT_READ, "%.479s", said.message[0] ? said.message : "there is no such text");
+    if (said.help[0])
+        tn_error_help(error, "%.319s", said.help);
+    return TN_INVALID;
 }
 
 /* ---- a text that is made of an answer */
@@ -414,6 +430,8 @@ static tartan_status ask(asked_file *file, const asking *a, answering *to, char 
     file->session.other_context = to;
     const tn_text_opener opener = {open_made, to->session};
     file->session.opener = &opener;
+    file->session.reads = to->session->options.resolve ? read_drawn : NULL;
+    file->session.reads_context = to->session;
     tn_status status = a->kind->ask(&file->session, a->request, &reply);
     file->opened.module->watch = NULL;
     file->session.opener = NULL;

@@ -17,9 +17,9 @@ typedef struct tn_drawn_text {
 bool tn_drawn_given(const tn_drawn_asked *asked);
 
 /* Reads the file, unless the text was given; free its bytes after TN_OK. Errors as of tn_file_read. */
-tn_status tn_drawn_find(const tn_drawn_asked *asked, tn_drawn_text *drawn, tn_error *error);
+tn_status tn_drawn_find(const tn_session *session, const tn_drawn_asked *asked, tn_drawn_text *drawn, tn_error *error);
 
-/* The model, in cells of the module's kit, as tn_drawn_read has it. Clear it in any case. */
-tn_status tn_drawn_model(const tn_drawn_asked *asked, const tn_module *module, tn_ldraw *ldraw, tn_error *error);
+/* The model, in cells of the session's kit, as tn_drawn_read has it. Clear it in any case. */
+tn_status tn_drawn_model(const tn_session *session, const tn_drawn_asked *asked, tn_ldraw *ldraw, tn_error *error);
 
 #endif

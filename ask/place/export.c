@@ -109,10 +109,11 @@ bool tn_export_is_drawn(const tn_export_request *request)
     return tn_drawn_given(&request->drawn);
 }
 
-static tn_status write_pcfg(const tn_export_request *r, tn_buffer *text, tn_drawn_changes *changes, tn_error *error)
+static tn_status write_pcfg(const tn_session *session, const tn_export_request *r, tn_buffer *text,
+                            tn_drawn_changes *changes, tn_error *error)
 {
     tn_drawn_text drawn;
-    tn_status status = tn_drawn_find(&r->drawn, &drawn, error);
+    tn_status status = tn_drawn_find(session, &r->drawn, &drawn, error);
     if (status != TN_OK)
         return status;
     FILE *out = open_memstream(&text->data, &text->size);
@@ -134,7 +135,7 @@ static tn_status export_pcfg(tn_session *session, const tn_export_request *reque
     tn_drawn_changes changes;
     tn_buffer text = {0};
     tn_error error;
-    tn_status status = write_pcfg(request, &text, &changes, &error);
+    tn_status status = write_pcfg(session, request, &text, &changes, &error);
     if (status == TN_OK) {
         warn_of_changes(session, &changes, false);
         status = tn_export_give(session, TN_FILE_PCFG, text.data, text.size, answer);
@@ -158,7 +159,7 @@ static tn_status export_to_kit(tn_session *session, const tn_export_request *r, 
     tn_ldraw ldraw = {0};
     tn_error error;
     char *text = NULL, *use = name_of_kit(session->opened->path);
-    tn_status status = use ? tn_drawn_model(&r->drawn, module, &ldraw, &error) : tn_fail_memory(&error);
+    tn_status status = use ? tn_drawn_model(session, &r->drawn, &ldraw, &error) : tn_fail_memory(&error);
     if (status == TN_OK)
         status = tn_drawn_kit(module, &ldraw.model, use, r->at ? r->at : "drawn.kit", session->opener, &text, &changes,
                               &error);

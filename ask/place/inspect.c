@@ -227,7 +227,7 @@ static tn_status measure(inspection *n, tn_reply *answer)
 {
     tn_watch *watch = n->session->opened->module->watch;
     tn_error error;
-    tn_status status = tn_drawn_model(&n->request->drawn, n->module, &n->ldraw, &error);
+    tn_status status = tn_drawn_model(n->session, &n->request->drawn, &n->ldraw, &error);
     if (status == TN_OK)
         status = tn_placed_measure(n->module, n->space, &n->ldraw.model, watch, &n->measures, &error);
     if (status == TN_OK) {

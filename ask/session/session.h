@@ -31,6 +31,10 @@ typedef struct tn_session {
     tn_status (*other)(void *context, const char *path, struct tn_session **other);
     void *other_context;
 
+    /* Gives what is in a file that a request names, which whoever asks frees. NULL: files are read. */
+    tn_status (*reads)(void *context, const char *path, uint8_t **bytes, size_t *size, tn_error *error);
+    void *reads_context;
+
     /* Opens a text that is made of an answer as the session's file was opened. NULL: as files are. */
     const tn_text_opener *opener;
 

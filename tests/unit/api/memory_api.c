@@ -31,14 +31,15 @@ static const char grammar[] = "S -> 'PlaceBoundingBox(9,9,9)' 'Place(3005)' A\nA
 
 static const char tested[] = "test pair { match [1m lid | 2m lid] reject [1m - | 2m lid] }\n";
 
-/* The file before an edit. */
+/* The file before an edit, or a model that was drawn. */
 static tartan_status before_edit(void *context, const tartan_use *use, tartan_text *found, tartan_error *error)
 {
+    static const char part[] = "1 4 0 -24 0 1 0 0 0 1 0 0 0 1 3005.dat\n";
+    bool drawn = strcmp(use->extension, ".ldr") == 0;
     (void)context;
-    (void)use;
     (void)error;
-    found->text = text;
-    found->size = sizeof text - 1;
+    found->text = drawn ? part : text;
+    found->size = strlen(found->text);
     return TARTAN_OK;
 }
 
@@ -126,7 +127,9 @@ static tartan_status ask_kit(const tartan_module *module, tartan_error *error)
         {"enumerate", "{\"parts\": 3}"},
         {"export", "{\"as\": \"pcfg\"}"},
         {"export", "{\"as\": \"pcfg\", \"ldraw\": \"" DRAWN "\"}"},
-        {"export", "{\"as\": \"kit\", \"ldraw\": \"" DRAWN "\"}"}};
+        {"export", "{\"as\": \"kit\", \"ldraw\": \"" DRAWN "\"}"},
+        {"inspect", "{\"path\": \"drawn.ldr\"}"},
+        {"export", "{\"as\": \"kit\", \"path\": \"drawn.ldr\"}"}};
     (void)module;
     return ask_of("own.kit", kit, asked, sizeof asked / sizeof *asked, error);
 }
