@@ -12,6 +12,7 @@ import tempfile
 import jsonschema
 
 import ask_files
+import ask_source
 
 tartan = sys.argv[1]
 with open(sys.argv[2], encoding="utf-8") as file:
@@ -67,7 +68,7 @@ ROWS = {
     ],
 }
 # What is a part of the answer to another question, or of no answer that a command writes as JSON (tests/cli/ask_genomes.sh); ask_files.py has
-# those that make files.
+# those that make files, ask_source.py those about the text.
 PARTS = {"coverage": "test", "invert": "map", "change_run": "runs"}
 wrong = []
 
@@ -111,7 +112,7 @@ def check(line, validator, answer):
 
 def main():
     jsonschema.Draft202012Validator.check_schema(schema)
-    asked = {*ASKED, *ROWS, *PARTS, *ask_files.ASKED}
+    asked = {*ASKED, *ROWS, *PARTS, *ask_files.ASKED, *ask_source.ASKED}
     if set(schema["requests"]) != asked:
         wrong.append(f"questions that are not asked here: {set(schema['requests']) ^ asked}")
     folder = tempfile.mkdtemp(prefix="requests")

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "ask/session/questions.h"
+#include "ask/source/check.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
@@ -13,8 +14,6 @@
 #include "driver/solid/solid.h"
 #include "cli/source/fix.h"
 #include "cli/source/sarif.h"
-#include "driver/grammar/grammar_report.h"
-#include "driver/plan/analysis.h"
 
 typedef struct check_settings {
     tn_settings common;
@@ -32,13 +31,6 @@ typedef struct check_settings {
 static const check_settings *settings_of(const tn_job *job)
 {
     return (const check_settings *)job->settings;
-}
-
-static void report_grammar(tn_job *job)
-{
-    tn_error error;
-    if (tn_grammar_report(&job->opened, settings_of(job)->figures, &error) != TN_OK)
-        tn_job_fail(job, &error);
 }
 
 static void run_tests(tn_job *job)
@@ -65,12 +57,29 @@ static void run_tests(tn_job *job)
     tn_reply_clear(&answer);
 }
 
-/* What a person who placed boxes may not have meant; with --test also what the designs require. */
-static void report_solids(tn_job *job)
+/* What is found is shown with what compiling said, in the order of the text. library: the one that is counted too, or
+ * NULL. */
+static void find(tn_job *job, const tn_library *library)
+{
+    const check_settings *settings = settings_of(job);
+    const tn_check_request request = {.figures = settings->figures,
+                                      .has_max_states = settings->plans.max_states.given,
+                                      .max_states = settings->plans.max_states.value,
+                                      .has_max_boxes = settings->max_boxes.given,
+                                      .max_boxes = settings->max_boxes.value,
+                                      .has_threads = settings->plans.threads.given,
+                                      .threads = settings->plans.threads.value};
+    tn_reply answer;
+    tn_job_answered(job, tn_check_beside(&job->session, &request, library, &answer));
+    tn_reply_clear(&answer);
+}
+
+/* Of designs of boxes: with --test also what they require. */
+static void check_solids(tn_job *job)
 {
     const check_settings *settings = settings_of(job);
     if (!settings->no_analysis)
-        tn_job_status(job, tn_solid_report(&job->opened, (uint32_t)settings->max_boxes.value));
+        find(job, NULL);
     if (settings->with_tests)
         run_tests(job);
 }
@@ -98,20 +107,12 @@ static void relate(tn_job *job)
     tn_reply_clear(&answer);
 }
 
-/* library: the one that is counted too, or NULL. */
 static void analyse(tn_job *job, const tn_library *library)
 {
-    const check_settings *settings = settings_of(job);
-    const tn_plan_analysis_options options = {.max_states = (uint32_t)settings->plans.max_states.value,
-                                              .library = library,
-                                              .threads = tn_job_threads(&settings->plans)};
-    tn_plan_analyses analyses;
     tn_progress progress;
     tn_progress_watch(&progress, "analysing the rules", tn_interrupt_waiting());
-    tn_status status = tn_plan_analyse(&job->opened, &options, &analyses);
+    find(job, library);
     tn_progress_unwatch(&progress, tn_interrupt_waiting());
-    tn_job_status(job, status);
-    tn_plan_analyses_free(&analyses);
 }
 
 /* ---- other questions about the same file */
@@ -195,22 +196,19 @@ static bool check_options(tn_job *job)
     return false;
 }
 
-static void check(tn_job *job, const char *path)
+static void check(tn_job *job)
 {
     const check_settings *settings = settings_of(job);
     const tn_module *module = job->opened.module;
-    if (settings->figures && !tn_module_has_grammar(module))
-        tn_job_usage(job, "--figures is about grammars, and %.200s is not one", path);
-    else if (settings->relations)
+    bool grammar = tn_module_has_grammar(module);
+    if (settings->relations && (grammar || !settings->figures))
         relate(job);
-    else if (tn_module_has_grammar(module))
-        report_grammar(job);
+    else if (settings->figures || grammar || !tn_notation_of_module(module))
+        find(job, NULL);
     else if (tn_notation_of_module(module) == TN_NOTATION(pcfg))
         return;
     else if (module->SOLID_count)
-        report_solids(job);
-    else if (!tn_notation_of_module(module))
-        tn_job_note(job, "there is nothing in %.200s", path);
+        check_solids(job);
     else
         answer(job);
 }
@@ -253,7 +251,7 @@ static void check_all(tn_job *job)
         if (settings->fix && tn_job_diagnostics(job)->count > 0)
             tn_job_next(job);
         if ((!part || !joined) && open_operand(job, i))
-            check(job, path);
+            check(job);
         joined |= part;
     }
 }

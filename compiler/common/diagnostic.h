@@ -99,6 +99,9 @@ void tn_diagnostics_move(tn_diagnostics *from, tn_diagnostics *to, uint32_t firs
 /* Orders by file, place, code; drops exact repeats. Items without a place come last, in the order they were added. */
 void tn_diagnostics_sort(tn_diagnostics *list);
 
+/* "error", "warning" or "note". */
+const char *tn_severity_text(tn_severity severity);
+
 /* "E0301" or "W012" (buffer of 8). */
 void tn_code_name(uint32_t code, char name[8]);
 

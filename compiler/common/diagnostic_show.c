@@ -24,7 +24,7 @@ typedef struct tn_marked_source {
     size_t size, begin, end;
 } tn_marked_source;
 
-static const char *severity_name(tn_severity severity)
+const char *tn_severity_text(tn_severity severity)
 {
     static const char *const names[] = {"note", "warning", "error"};
     return names[severity];
@@ -168,7 +168,7 @@ static void show_head(tn_diagnostics *list, const tn_style *style, const tn_diag
     }
     fputs(style->end, out);
     const char *const colours[] = {style->note, style->warning, style->error};
-    fprintf(out, "%s%s", colours[item->severity], severity_name(item->severity));
+    fprintf(out, "%s%s", colours[item->severity], tn_severity_text(item->severity));
     if (item->code != TN_CODE_NONE) {
         char name[8];
         tn_code_name(item->code, name);
@@ -263,7 +263,7 @@ static void json_item(tn_diagnostics *list, const tn_diagnostic *item, tn_json *
         place = place_of(list, item->has_span, item->span);
     tn_code_name(item->code, name);
     tn_json_object(json, NULL);
-    tn_json_string(json, "severity", severity_name(item->severity));
+    tn_json_string(json, "severity", tn_severity_text(item->severity));
     tn_json_string(json, "code", item->code != TN_CODE_NONE ? name : NULL);
     tn_json_string(json, "message", item->message);
     tn_json_place_whole(json, &place);

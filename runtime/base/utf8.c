@@ -26,6 +26,14 @@ uint32_t tn_utf8_read(const char *text, size_t left, size_t *size)
     return character;
 }
 
+size_t tn_utf16_units(const char *text, size_t size)
+{
+    size_t units = 0, step;
+    for (size_t i = 0; i < size; i += step)
+        units += tn_utf8_read(text + i, size - i, &step) >= 0x10000 ? 2 : 1;
+    return units;
+}
+
 void tn_utf8_copy(const char *text, size_t room, char *to)
 {
     size_t left = strlen(text), used = 0, size;

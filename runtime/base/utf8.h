@@ -12,6 +12,9 @@
 /* Reads one character; *size is its bytes (at least 1). Broken UTF-8 is one byte and TN_REPLACEMENT. */
 uint32_t tn_utf8_read(const char *text, size_t left, size_t *size);
 
+/* Code units that the text takes in UTF-16; a byte that is no UTF-8 counts as one. */
+size_t tn_utf16_units(const char *text, size_t size);
+
 /* Is the text UTF-8, without surrogates or overlong forms? Zero bytes are allowed. */
 bool tn_is_utf8(const char *text, size_t size);
 

@@ -116,6 +116,7 @@ ASKING(ask_trade_offs, {"pareto", "{\"by\": [{\"measure\": \"long\"}, {\"measure
        {"complete", "{\"pattern\": \"? | lid\"}"},
        {"complete", "{\"pattern\": \"? | ...\", \"by\": [{\"measure\": \"lids\"}]}"})
 ASKING(ask_edits, {"diff", "{\"before\": \"old.plan\"}"}, {"test", "{\"coverage\": true}"}, {"coverage", "{}"})
+ASKING(ask_text, {"check", "{\"threads\": 1}"}, {"format", "{}"})
 
 /* Of kits and models of parts. */
 static tartan_status ask_kit(const tartan_module *module, tartan_error *error)
@@ -243,9 +244,9 @@ static tartan_status measure(const tartan_module *module, tartan_error *error)
 
 static void fails_cleanly(void **state)
 {
-    static operation *const operations[] = {compile,        load,      ask_numbers, ask_why,     ask_lists,
-                                            ask_trade_offs, ask_edits, ask_kit,     ask_grammar, ask_exports,
-                                            match,          walk,      measure};
+    static operation *const operations[] = {compile,        load,      ask_numbers, ask_why, ask_lists,
+                                            ask_trade_offs, ask_edits, ask_text,    ask_kit, ask_grammar,
+                                            ask_exports,    match,     walk,        measure};
     for (size_t i = 0; i < sizeof operations / sizeof *operations; i++) {
         size_t failures = 0;
         for (int all_after = 0; all_after < 2; all_after++) {

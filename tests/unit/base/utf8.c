@@ -115,14 +115,21 @@ static void test_copying(void **state)
     expect_copy("a", 1, "");
 }
 
+static void test_utf16(void **state)
+{
+    (void)state;
+    assert_int_equal(tn_utf16_units("", 0), 0);
+    assert_int_equal(tn_utf16_units("a\xC3\xA9\xE4\xB8\xAD", 6), 3);
+    assert_int_equal(tn_utf16_units("\xF0\x9F\x8F\xA0z", 5), 3);
+    assert_int_equal(tn_utf16_units("\xF0\x9F\x8F\xA0z", 2), 2); /* cut in the middle */
+    assert_int_equal(tn_utf16_units("\xFFz", 2), 2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_character),
-        cmocka_unit_test(test_what_is_not_utf8),
-        cmocka_unit_test(test_widths),
-        cmocka_unit_test(test_cleaning),
-        cmocka_unit_test(test_copying),
+        cmocka_unit_test(test_every_character), cmocka_unit_test(test_what_is_not_utf8), cmocka_unit_test(test_widths),
+        cmocka_unit_test(test_cleaning),        cmocka_unit_test(test_copying),          cmocka_unit_test(test_utf16),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,145 @@
+/* check: what there is to say of a file that compiles: what rules and libraries mean, what a grammar grows into, what
+ * becomes of boxes. */
+#include "ask/source/check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "ask/session/questions.h"
+#include "driver/grammar/grammar_report.h"
+#include "driver/plan/analysis.h"
+#include "driver/solid/solid.h"
+#include "runtime/base/crew.h"
+#include "runtime/base/utf8.h"
+
+/* ---- found */
+
+/* What is found goes to the diagnostics. */
+static tn_status analyse(tn_opened *opened, const tn_check_request *request, const tn_library *library)
+{
+    const tn_plan_analysis_options options = {.max_states = (uint32_t)request->max_states,
+                                              .library = library,
+                                              .threads = request->has_threads ? (unsigned)request->threads
+                                                                              : tn_crew_default()};
+    tn_plan_analyses analyses;
+    tn_status status = tn_plan_analyse(opened, &options, &analyses);
+    tn_plan_analyses_free(&analyses);
+    return status;
+}
+
+static tn_status find(tn_session *session, const tn_check_request *request, const tn_library *library)
+{
+    tn_opened *opened = session->opened;
+    const tn_module *module = opened->module;
+    tn_error error;
+    if (tn_module_has_grammar(module)) {
+        tn_status status = tn_grammar_report(opened, request->figures, &error);
+        return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
+    }
+    if (tn_notation_of_module(module) == TN_NOTATION(pcfg))
+        return TN_OK;
+    if (module->SOLID_count > 0)
+        return tn_solid_report(opened, (uint32_t)request->max_boxes);
+    if (tn_notation_of_module(module))
+        return analyse(opened, request, library);
+    tn_session_note(session, "there is nothing in %.200s", opened->path);
+    return TN_OK;
+}
+
+/* ---- the answer */
+
+static bool give_text(const char *text, char **to)
+{
+    *to = text ? strdup(text) : NULL;
+    return *to || !text;
+}
+
+/* From the beginning of the text; a byte order mark is no part of it. */
+static uint64_t utf16_offset(const tn_source *source, size_t offset)
+{
+    size_t mark = strncmp(source->text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+    if (offset > source->size)
+        offset = source->size;
+    return offset > mark ? tn_utf16_units(source->text + mark, offset - mark) : 0;
+}
+
+static bool give_place(tn_sources *sources, bool has_span, tn_span span, tn_text_place *to)
+{
+    if (!has_span || span.file >= sources->count)
+        return true;
+    const tn_source *source = &sources->files[span.file];
+    const tn_place place = tn_sources_place(sources, span);
+    to->has_file = to->has_line = to->has_column = to->has_end_line = to->has_end_column = true;
+    to->has_utf16_begin = to->has_utf16_end = true;
+    to->line = place.line;
+    to->column = place.column;
+    to->end_line = place.end_line;
+    to->end_column = place.end_column;
+    to->utf16_begin = utf16_offset(source, span.begin);
+    to->utf16_end = utf16_offset(source, span.end > span.begin ? span.end : span.begin);
+    return give_text(place.path, &to->file);
+}
+
+static tn_status give_finding(tn_sources *sources, const tn_diagnostic *from, tn_check_finding *to, tn_error *error)
+{
+    char code[8];
+    tn_code_name(from->code, code);
+    to->severity = tn_severity_text(from->severity);
+    to->has_code = from->code != TN_CODE_NONE;
+    to->has_help = from->help != NULL;
+    to->has_replacement = from->replacement != NULL;
+    bool given = give_text(to->has_code ? code : NULL, &to->code) &&
+                 give_text(from->message ? from->message : "out of memory", &to->message) &&
+                 give_text(from->help, &to->help) && give_text(from->replacement, &to->replacement) &&
+                 give_place(sources, from->has_span, from->span, &to->place);
+    for (size_t i = 0; given && i < from->note_count; i++) {
+        const tn_diagnostic_note *note = &from->notes[i];
+        tn_check_note *added = TN_ADD(check_note, to->notes, error);
+        given = added && give_text(note->text ? note->text : "out of memory", &added->message) &&
+                give_place(sources, note->has_span, note->span, &added->place);
+    }
+    return given ? TN_OK : tn_fail_memory(error);
+}
+
+/* What was added to the diagnostics since there were so many, in the order of the text. */
+static tn_status give_findings(tn_diagnostics *list, size_t before, tn_checked_file *to, tn_error *error)
+{
+    tn_status status = TN_OK;
+    tn_diagnostics_sort(list);
+    for (size_t i = 0; status == TN_OK && i < list->count; i++) {
+        if (list->items[i].order < before)
+            continue;
+        tn_check_finding *added = TN_ADD(check_finding, to->findings, error);
+        status = added ? give_finding(list->sources, &list->items[i], added, error) : TN_MEMORY;
+        to->notes += list->items[i].severity == TN_NOTE;
+    }
+    return status == TN_OK && list->failed ? tn_fail_memory(error) : status;
+}
+
+tn_status tn_check_beside(tn_session *session, const tn_check_request *request, const tn_library *library,
+                          tn_reply *answer)
+{
+    tn_diagnostics *list = &session->opened->compilation.diagnostics;
+    size_t before = list->count, errors = list->error_count, warnings = list->warning_count;
+    tn_error error;
+    *answer = (tn_reply){0};
+    if (request->figures && !tn_module_has_grammar(session->opened->module))
+        return tn_session_refuse(session, NULL, "--figures is about grammars, and %.200s is not one",
+                                 session->opened->path);
+    tn_status status = find(session, request, library);
+    if (status != TN_OK && status != TN_INVALID)
+        return status;
+    status = tn_reply_new(&tn_message_checked_file, answer, &error);
+    if (status == TN_OK) {
+        tn_checked_file *to = answer->value;
+        to->errors = list->error_count - errors;
+        to->warnings = list->warning_count - warnings;
+        status = give_findings(list, before, to, &error);
+    }
+    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
+}
+
+tn_status tn_ask_check(tn_session *session, const tn_check_request *request, tn_reply *answer)
+{
+    return tn_check_beside(session, request, NULL, answer);
+}
