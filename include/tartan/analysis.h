@@ -40,6 +40,7 @@ typedef struct tartan_verdict {
 } tartan_verdict;
 TARTAN_SIZED(tartan_verdict)
 
+/* Its rules or clauses: how many, and what is said of the i-th. */
 TARTAN_API size_t tartan_explanation_count(const tartan_explanation *explanation);
 TARTAN_API tartan_status tartan_explanation_verdict(const tartan_explanation *explanation, size_t i,
                                                     tartan_verdict *verdict, tartan_error *error);
@@ -131,6 +132,7 @@ typedef struct tartan_finding {
 } tartan_finding;
 TARTAN_SIZED(tartan_finding)
 
+/* What was found: how many findings, and the i-th. */
 TARTAN_API size_t tartan_analysis_count(const tartan_analysis *analysis);
 TARTAN_API tartan_status tartan_analysis_finding(const tartan_analysis *analysis, size_t i, tartan_finding *finding,
                                                  tartan_error *error);
@@ -176,6 +178,7 @@ typedef struct tartan_changed_clause {
 } tartan_changed_clause;
 TARTAN_SIZED(tartan_changed_clause)
 
+/* The clauses in which the libraries differ: how many, and the i-th. */
 TARTAN_API size_t tartan_diff_clause_count(const tartan_diff *diff);
 TARTAN_API tartan_status tartan_diff_clause(const tartan_diff *diff, size_t i, tartan_changed_clause *clause,
                                             tartan_error *error);

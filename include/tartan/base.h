@@ -78,7 +78,7 @@ TARTAN_SIZED(tartan_watch)
 
 /* ---- memory */
 
-/* NULL is fine, as for every _free. */
+/* Frees a text, or a file in memory. NULL is fine, as for every _free. */
 TARTAN_API void tartan_text_free(char *text);
 TARTAN_API void tartan_bytes_free(void *bytes);
 

@@ -188,7 +188,7 @@ typedef struct tartan_generation {
 } tartan_generation;
 TARTAN_SIZED(tartan_generation)
 
-/* TARTAN_INVALID before the first step. */
+/* The newest generation as a whole. TARTAN_INVALID before the first step. */
 TARTAN_API tartan_status tartan_evolution_generation(const tartan_evolution *evolution, tartan_generation *generation,
                                                      tartan_error *error);
 

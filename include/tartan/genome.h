@@ -45,6 +45,7 @@ TARTAN_API tartan_status tartan_map_options_of(const tartan_grammar *grammar, ta
 /* Scratch memory for mapping; borrows the grammar, belongs to one thread. */
 typedef struct tartan_mapper tartan_mapper;
 
+/* A mapper for the grammar. */
 TARTAN_API tartan_status tartan_mapper_new(const tartan_grammar *grammar, tartan_mapper **mapper, tartan_error *error);
 TARTAN_API void tartan_mapper_free(tartan_mapper *mapper);
 

@@ -129,6 +129,7 @@ typedef struct tartan_measures {
 } tartan_measures;
 TARTAN_SIZED(tartan_measures)
 
+/* What the surface measures as it stands. */
 TARTAN_API tartan_status tartan_growth_measure(tartan_growth *growth, tartan_measures *measures, tartan_error *error);
 
 /* Edges by label and age, and faces by their number of sides; no zeros, ascending. */
@@ -145,6 +146,7 @@ typedef struct tartan_side_count {
 
 typedef struct tartan_statistics tartan_statistics;
 
+/* Counts of edges by label and age, and of faces by their sides. */
 TARTAN_API tartan_status tartan_growth_statistics(tartan_growth *growth, tartan_statistics **statistics,
                                                   tartan_error *error);
 TARTAN_API void tartan_statistics_free(tartan_statistics *statistics);
@@ -173,6 +175,7 @@ typedef struct tartan_growth_counts {
 } tartan_growth_counts;
 TARTAN_SIZED(tartan_growth_counts)
 
+/* What the last step did. */
 TARTAN_API tartan_status tartan_growth_last_counts(tartan_growth *growth, tartan_growth_counts *counts,
                                                    tartan_error *error);
 

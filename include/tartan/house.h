@@ -110,6 +110,7 @@ TARTAN_API tartan_status tartan_house_best(tartan_house_library *library, const 
 TARTAN_API tartan_status tartan_house_variants(const tartan_house *house, const char *cell, const tartan_watch *watch,
                                                tartan_houses **houses, tartan_error *error);
 
+/* The houses of a list. */
 TARTAN_API void tartan_houses_free(tartan_houses *houses);
 TARTAN_API size_t tartan_houses_count(const tartan_houses *houses);
 TARTAN_API const tartan_house *tartan_houses_house(const tartan_houses *houses, size_t i); /* NULL past the end */

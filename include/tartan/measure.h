@@ -29,6 +29,7 @@ typedef enum tartan_statistic {
     TARTAN_VARIANCE /* in the unit squared; of all plans, not of a sample */
 } tartan_statistic;
 
+/* How the plans of the library are spread over the values of a measure. */
 TARTAN_API tartan_status tartan_distribution_new(const tartan_library *library, const char *measure,
                                                  tartan_distribution **distribution, tartan_error *error);
 TARTAN_API void tartan_distribution_free(tartan_distribution *distribution);
@@ -38,7 +39,7 @@ TARTAN_API size_t tartan_distribution_count(const tartan_distribution *distribut
 TARTAN_API tartan_status tartan_distribution_value(const tartan_distribution *distribution, size_t i, char **value,
                                                    char **plans, tartan_error *error);
 
-/* Of a library without plans there is none: TARTAN_INVALID. */
+/* A number that sums them up. Of a library without plans there is none: TARTAN_INVALID. */
 TARTAN_API tartan_status tartan_distribution_statistic(const tartan_distribution *distribution,
                                                        tartan_statistic statistic, char **value, tartan_error *error);
 

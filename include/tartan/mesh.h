@@ -18,7 +18,6 @@ typedef struct tartan_mesh tartan_mesh;
 TARTAN_API tartan_status tartan_mesh_new(const double *positions, size_t vertex_count, const uint32_t *face_first,
                                          const uint32_t *corners, size_t face_count, tartan_mesh **mesh,
                                          tartan_error *error);
-
 TARTAN_API void tartan_mesh_free(tartan_mesh *mesh);
 
 /* Its arrays, borrowed. tartan_mesh_faces returns where each face's corners begin, as in tartan_mesh_new. Lines are

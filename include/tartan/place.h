@@ -61,6 +61,7 @@ typedef struct tartan_placement_counts {
 } tartan_placement_counts;
 TARTAN_SIZED(tartan_placement_counts)
 
+/* How many parts there are, and what placing them took. */
 TARTAN_API tartan_status tartan_placement_count(const tartan_placement *placement, tartan_placement_counts *counts,
                                                 tartan_error *error);
 

@@ -16,6 +16,7 @@ extern "C" {
 
 typedef struct tartan_schema tartan_schema;
 
+/* Its name, and how many different trays it has. */
 TARTAN_API const char *tartan_schema_name(const tartan_schema *schema);
 TARTAN_API uint32_t tartan_schema_tray_count(const tartan_schema *schema);
 
@@ -50,6 +51,7 @@ TARTAN_API size_t tartan_rules_words(const tartan_rules *rules);
 
 typedef struct tartan_matcher tartan_matcher;
 
+/* What matches plans one by one, by rules that are ready; each thread has its own. */
 TARTAN_API tartan_status tartan_matcher_new(const tartan_rules *rules, tartan_matcher **matcher, tartan_error *error);
 TARTAN_API void tartan_matcher_free(tartan_matcher *matcher);
 

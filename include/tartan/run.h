@@ -37,6 +37,7 @@ typedef struct tartan_run_event {
 } tartan_run_event;
 TARTAN_SIZED(tartan_run_event)
 
+/* What a person chose or changed on its way: how many events, and the i-th. */
 TARTAN_API size_t tartan_run_event_count(const tartan_run *run);
 TARTAN_API tartan_status tartan_run_event_at(const tartan_run *run, size_t i, tartan_run_event *event,
                                              tartan_error *error);
