@@ -49,6 +49,7 @@ ASKED = {
     "grow": ["grow square -n 2", "grow examples/growing-surfaces/draped.study -n 2"],
     "mesh": ["mesh table", "mesh table --cells", "mesh primitives --surface torus --grid 12 --sharp --bounds --thickness --times"],
     "runs": ["runs show RUN", "runs compare RUN RUN"],
+    "evolve": ["evolve STUDY -o RUN --resume"],
     "individual": ["runs replay RUN 1", "runs replay RUN 50"],
     "relations": ["check terrace --relations", "check cottage --relations --max-states 40", "check cottage --relations --examples --max-states 40"],
 }
@@ -122,7 +123,7 @@ def main():
     subprocess.run([tartan, "evolve", file.name, "-o", run], capture_output=True, check=True)
     for question, lines in ASKED.items():
         validator = answers_of(question)
-        for line in (line.replace("RUN", run) for line in lines):
+        for line in (line.replace("RUN", run).replace("STUDY", file.name) for line in lines):
             said = answers(line, *JSON.get(question, ["--json"]))
             if said:
                 check(line, validator, json.loads(said))

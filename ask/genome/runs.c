@@ -1,32 +1,12 @@
 /* runs, individual, change_run: runs of evolution that were made, each a folder with its database. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/genome/evolving.h"
 #include "ask/session/questions.h"
 #include "driver/breed/evolve.h"
 
 /* ---- what a run's database says of it */
-
-static void put_generation(const tn_generation_stats *s, tn_run_generation *to)
-{
-    *to = (tn_run_generation){.generation = s->generation,
-                              .has_best = isfinite(s->best[0]),
-                              .best = s->best[0],
-                              .mean = s->mean,
-                              .lower_quartile = s->quartiles[0],
-                              .median = s->quartiles[1],
-                              .upper_quartile = s->quartiles[2],
-                              .scored = s->scored,
-                              .no_sentence = s->no_sentence,
-                              .failed = s->failed,
-                              .limited = s->limited,
-                              .distinct = s->distinct,
-                              .evaluations = s->evaluations,
-                              .births = s->births,
-                              .mean_codons = s->mean_codons,
-                              .mean_depth = s->mean_depth};
-}
 
 static tn_status put_generations(tn_run_store *store, tn_run_told *told, tn_error *error)
 {
@@ -36,7 +16,7 @@ static tn_status put_generations(tn_run_store *store, tn_run_told *told, tn_erro
     if (status == TN_OK)
         status = TN_NEW_LIST(run_generation, told->generations, count, error);
     for (size_t i = 0; status == TN_OK && i < count; i++)
-        put_generation(&stats[i], &told->generations.items[i]);
+        tn_generation_put(&stats[i], &told->generations.items[i]);
     told->has_best_first_at = status == TN_OK && count > 0;
     size_t first = 0;
     while (told->has_best_first_at && first + 1 < count && stats[first].best[0] > stats[count - 1].best[0])
@@ -96,24 +76,6 @@ tn_status tn_ask_runs(tn_session *session, const tn_runs_request *request, tn_re
 
 /* ---- an individual */
 
-static tn_status put_individual(const tn_individual *individual, tn_individual_told *to, tn_error *error)
-{
-    to->individual = individual->id;
-    to->has_parents = individual->parents[0] != TN_NO_PARENT;
-    to->has_score = individual->score.state == TN_SCORED;
-    to->score = individual->score.objectives[0];
-    if (to->has_parents) {
-        to->parents.items = calloc(2, sizeof *to->parents.items);
-        if (!to->parents.items)
-            return tn_fail_memory(error);
-        memcpy(to->parents.items, individual->parents, sizeof individual->parents);
-        to->parents.count = 2;
-    }
-    to->sentence = strdup(individual->sentence);
-    to->genome = tn_genome_text(&individual->genome);
-    return to->sentence && to->genome ? TN_OK : tn_fail_memory(error);
-}
-
 tn_status tn_ask_individual(tn_session *session, const tn_individual_request *request, tn_reply *answer)
 {
     tn_evolution_job evolved = {0};
@@ -126,7 +88,7 @@ tn_status tn_ask_individual(tn_session *session, const tn_individual_request *re
     if (status == TN_OK)
         status = tn_reply_new(&tn_message_individual_told, answer, &error);
     if (status == TN_OK)
-        status = put_individual(individual, answer->value, &error);
+        status = tn_individual_put(individual, answer->value, &error);
     if (status != TN_OK)
         tn_session_fail(session, &error);
     tn_run_clear(&run);

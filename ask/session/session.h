@@ -23,7 +23,8 @@ typedef struct tn_session {
     tn_opened *opened; /* borrowed */
     tn_session_listener listener;
 
-    /* Called with an answer whose first part stands, before the rest of it is worked out; NULL: nobody waits for it. */
+    /* Called with an answer whose first part stands, before the rest of it is worked out, perhaps several times; NULL:
+     * nobody waits for it. */
     void (*so_far)(void *context, const tn_reply *answer);
     void *so_far_context;
 
@@ -37,6 +38,9 @@ typedef struct tn_session {
 
     /* Opens a text that is made of an answer as the session's file was opened. NULL: as files are. */
     const tn_text_opener *opener;
+
+    /* The processes that do what is asked together (runtime/ranks/ranks.h); NULL: this one alone. */
+    const struct tn_ranks *ranks;
 
     /* Takes the plans or houses that are found (found.h); NULL: they are put into the answer. */
     const struct tn_taker *taker;

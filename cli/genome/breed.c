@@ -7,9 +7,9 @@
 #include "cli/common/interrupt.h"
 #include "cli/genome/evolution_session.h"
 #include "cli/genome/prompt.h"
-#include "driver/breed/evolve_sheet.h"
 #include "driver/hand/choice.h"
 #include "driver/sheet/sheet_page.h"
+#include "driver/sheet/sheet_picture.h"
 
 /* Reads a line of choices and says what is wrong with it. */
 static bool read_choice(const char *line, size_t members, tn_choices *choices)
@@ -33,7 +33,7 @@ static bool read_choice(const char *line, size_t members, tn_choices *choices)
 typedef enum answer { PARENTS, CHANGED, NOTHING_MORE } answer;
 
 /* Asks until there is an answer. */
-static answer ask(tn_evolution_session *e, size_t members, tn_choices *c)
+static answer ask(tn_evolving *e, size_t members, tn_choices *c)
 {
     char *line = NULL;
     size_t capacity = 0;
@@ -57,25 +57,31 @@ static answer ask(tn_evolution_session *e, size_t members, tn_choices *c)
     return given;
 }
 
-static void breed(tn_evolution_session *e)
+static void breed(tn_evolving *e, tn_job *job)
 {
     tn_error error;
     tn_choices c = {0};
     bool begins = e->run.generations == 0;
     tn_status status = begins ? tn_run_step(&e->run, NULL, 0, &error) : TN_OK;
-    if (begins && status == TN_OK)
-        tn_evolution_session_warn(e);
+    if (begins && status == TN_OK) {
+        tn_evolving_warn(e);
+        tn_job_show(job);
+    }
     while (status == TN_OK && !tn_interrupted()) {
         size_t members;
-        char sheet[512], page[512];
+        char sheet[TN_SHEET_NAME_SIZE];
+        bool page;
         tn_evolution_members(e->run.evolution, &members);
-        status = tn_run_sheet(&e->run, sheet, sizeof sheet, &error);
+        status = tn_run_sheet(&e->run, NULL, sheet, &error);
         if (status != TN_OK)
             break;
-        status = tn_sheet_page(&e->run, page, sizeof page, &error);
+        status = tn_sheet_page(&e->run, NULL, &page, &error);
         if (status != TN_OK)
             break;
-        printf("generation %u: %s%s%s\n", e->run.generations - 1, sheet, page[0] ? ", " : "", page);
+        printf("generation %u: %s/%s", e->run.generations - 1, e->run.dir, sheet);
+        if (page)
+            printf(", %s/%s", e->run.dir, TN_SHEET_PAGE);
+        putchar('\n');
         answer given = e->run.generations > e->generations ? NOTHING_MORE : ask(e, members, &c);
         if (given == NOTHING_MORE)
             break;
@@ -89,20 +95,29 @@ static void breed(tn_evolution_session *e)
     }
     tn_choices_clear(&c);
     if (status == TN_OK)
-        status = tn_run_results(&e->run, &error);
+        status = tn_run_results(&e->run, NULL, &error);
     if (status != TN_OK) {
-        tn_job_fail(e->command, &error);
+        tn_job_fail(job, &error);
         return;
     }
     printf("results are in %s; --resume goes on from here\n", e->run.dir);
     if (tn_interrupted())
-        e->command->exit_code = TN_EXIT_INTERRUPTED;
+        job->exit_code = TN_EXIT_INTERRUPTED;
 }
 
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    return tn_evolution_session_run((const tn_session_settings *)settings, true, breed);
+    tn_study_job study;
+    if (tn_study_job_open(&study, (const tn_session_settings *)settings)) {
+        tn_evolving evolving = {.session = &study.job.session, .asked = &study.asked, .remembers = true};
+        if (tn_job_answered(&study.job, tn_evolving_begin(&evolving))) {
+            tn_job_show(&study.job);
+            breed(&evolving, &study.job);
+        }
+        tn_evolving_clear(&evolving);
+    }
+    return tn_study_job_end(&study);
 }
 
 #define SETTINGS tn_session_settings

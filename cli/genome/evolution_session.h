@@ -1,10 +1,10 @@
-/* What the commands that evolve share: opening a study and the run it is to make. */
+/* What the commands that evolve share: their options, and opening a study. */
 #ifndef TARTAN_CLI_GENOME_EVOLUTION_SESSION_H
 #define TARTAN_CLI_GENOME_EVOLUTION_SESSION_H
 
+#include "ask/genome/evolving.h"
 #include "cli/common/job.h"
 #include "cli/common/option_rows.h"
-#include "driver/breed/evolve.h"
 
 /* The options of all of them; what the number of generations means is told by each. */
 #define OPTIONS_RUN(generations_help)                                                                                  \
@@ -28,28 +28,22 @@ typedef struct tn_session_settings {
     tn_settings common;
     const char *output; /* the run's folder */
     bool resume, durable, rescore, ponyge, run_programs, open;
+    bool json; /* of evolve */
     tn_option_number generations, seed, threads;
     tn_option_list changes;
 } tn_session_settings;
 
-typedef struct tn_evolution_session {
-    tn_job *command;
-    const tn_session_settings *settings;
-    tn_evolution_job job;
-    tn_run run;
-    uint32_t generations; /* to be bred, after the first */
-    bool remembers;
-    bool exhausted; /* it ended because there is nothing left to be scored */
-    bool written;   /* best/ and the rest are those of its last generation */
+/* A study that is open, and the run that is asked for. */
+typedef struct tn_study_job {
+    tn_job job;
+    tn_run_asked asked;
+    char *own_dir;          /* owned: of a run whose folder is not named */
     char *parameters_study; /* owned: the name of the study that parameters became, or NULL */
-} tn_evolution_session;
+} tn_study_job;
 
-/* Opens the study that the first operand names, begins or resumes its run, and has it worked on, interruptible. The
- * command's exit code. remembers: whoever was born can be chosen as a parent later. */
-int tn_evolution_session_run(const tn_session_settings *settings, bool remembers,
-                             void (*work)(tn_evolution_session *evolution));
-
-/* Warns of what the first generation shows, once it was made here. */
-void tn_evolution_session_warn(tn_evolution_session *evolution);
+/* Begins the job, and opens the study that the first operand names; false: that failed, with several ranks on any of
+ * them. End it in any case, which is the command's exit code. */
+bool tn_study_job_open(tn_study_job *study, const tn_session_settings *settings);
+int tn_study_job_end(tn_study_job *study);
 
 #endif

@@ -5,10 +5,10 @@
 #include <string.h>
 #include <time.h>
 
+#include "ask/session/questions.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
 #include "cli/genome/evolution_session.h"
-#include "driver/breed/reasons.h"
 #include "runtime/base/utf8.h"
 
 static double now(void)
@@ -18,251 +18,191 @@ static double now(void)
     return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
 }
 
-/* What there is to see while it runs. */
-static void describe(const tn_evolution_session *e, uint64_t evaluated_before, double start, char *text, size_t size)
-{
-    tn_generation_stats s = tn_evolution_stats(e->run.evolution);
-    uint32_t invalid = s.no_sentence + s.failed + s.limited, members = invalid + s.scored;
-    double seconds = now() - start;
-    snprintf(text, size, "generations; best %.5g, median %.5g, %.0f %% without score, %u distinct, %.0f evaluations/s",
-             s.best[0], s.quartiles[1], members ? 100.0 * invalid / members : 0, s.distinct,
-             seconds > 0 ? (double)(s.evaluations - evaluated_before) / seconds : 0);
-}
+/* ---- while it runs */
 
-/* A grammar whose sentences mostly cannot be scored is rarely meant: said once, before breeding begins. */
-static void warn_of_failures(tn_evolution_session *e)
-{
-    tn_error error;
-    tn_generation_stats s = tn_evolution_stats(e->run.evolution);
-    tn_reasons reasons;
-    if (e->run.generations != 1 || s.failed + s.limited <= s.scored)
-        return;
-    if (tn_run_reasons(&e->run, &reasons, &error) != TN_OK || reasons.count == 0)
-        return;
-    tn_diagnostics *list = tn_job_diagnostics(e->command);
-    tn_diagnostic *diagnostic = tn_report_bare(
-        list, TN_WARNING, W_SENTENCES_FAIL, "of %u sentences of the first generation, %u have no score: %s",
-        s.scored + s.failed + s.limited, s.failed + s.limited, reasons.items[0].text);
-    tn_help(list, diagnostic, "that is why %u of them have none; the grammar may be for another program or other data",
-            reasons.items[0].count);
-    tn_job_show(e->command);
-}
-
-/* Is there another generation to breed? Several ranks give the same answer: an interrupt ends the step of all of them.
- */
-static bool goes_on(tn_evolution_session *e)
-{
-    bool exhausted = tn_run_exhausted(&e->run), left = e->run.generations <= e->generations;
-    bool wanted = left && !exhausted && !tn_run_reached(&e->run);
-    e->exhausted = left && exhausted;
-    return wanted && (tn_ranks_several(e->job.settings.ranks) || !tn_interrupted());
-}
-
-/* The best by its score may lack what is required: then the score says little. */
-static void warn_of_unmet(tn_evolution_session *e)
-{
-    const tn_bred_forms *forms = &e->job.forms;
-    size_t count;
-    const tn_individual *const *members = tn_evolution_members(e->run.evolution, &count);
-    char *text = NULL;
-    tn_error error;
-    if (!forms->unmet || !count || members[0]->score.state != TN_SCORED ||
-        forms->unmet(forms->context, members[0]->sentence, &text, &error) != TN_OK || !text[0]) {
-        free(text);
-        return;
-    }
-    tn_diagnostics *list = tn_job_diagnostics(e->command);
-    tn_diagnostic *d =
-        tn_report_bare(list, TN_WARNING, W_BEST_LACKS, "the best %s does not meet what is required of it", forms->what);
-    for (char *line = text, *end; (end = strchr(line, '\n')); line = end + 1)
-        tn_note(list, d, NULL, "%.*s", (int)(end - line), line);
-    if (e->job.settings.select.selection != TN_SELECT_NSGA2)
-        tn_help(list, d, "with `selection nsga2`, what meets more of it is always better");
-    free(text);
-    tn_job_show(e->command);
-}
-
-static tn_status breed_all(tn_evolution_session *e, tn_error *error)
-{
+typedef struct watched_run {
+    tn_study_job *study;
     tn_progress progress;
-    char text[200] = "generations";
-    double start = now();
-    bool lead = tn_ranks_lead(e->job.settings.ranks);
-    uint64_t before = e->run.generations ? tn_evolution_stats(e->run.evolution).evaluations : 0;
-    tn_progress_begin(&progress, text, e->run.generations, (double)e->generations + 1);
-    progress.shows &= lead;
-    tn_status status = TN_OK;
-    while (status == TN_OK && goes_on(e)) {
-        if (lead)
-            tn_interrupt_last_words("interrupted after %u generations; --resume goes on from there",
-                                    e->run.generations);
-        status = tn_run_step(&e->run, NULL, 0, error);
-        if (status == TN_OK && lead)
-            warn_of_failures(e);
-        if (status == TN_OK && lead && e->run.generations == 1)
-            tn_evolution_session_warn(e);
-        if (status == TN_OK && progress.shows)
-            describe(e, before, start, text, sizeof text);
-        tn_progress_update(&progress, e->run.generations);
-    }
-    tn_progress_end(&progress);
-    if (status == TN_OK)
-        status = tn_run_settle(&e->run, error);
-    return status;
+    char text[200];
+    double start;
+    uint64_t before; /* evaluations of generations that were made before */
+    bool begun, lead;
+} watched_run;
+
+/* What there is to see. */
+static void describe(watched_run *w, const tn_run_generation *g)
+{
+    uint64_t invalid = g->no_sentence + g->failed + g->limited, members = invalid + g->scored;
+    double seconds = now() - w->start;
+    snprintf(w->text, sizeof w->text,
+             "generations; best %.5g, median %.5g, %.0f %% without score, %" PRIu64 " distinct, %.0f evaluations/s",
+             g->best, g->median, members ? 100.0 * (double)invalid / (double)members : 0, g->distinct,
+             seconds > 0 ? (double)(g->evaluations - w->before) / seconds : 0);
 }
 
-static void evolve(tn_evolution_session *e)
+static void begin(watched_run *w, size_t generations, const tn_run_generation *last)
 {
-    tn_error error;
-    const tn_ranks *ranks = e->job.settings.ranks;
-    if (ranks)
-        tn_interrupt_gently(true, true);
-    tn_status status = breed_all(e, &error);
-    bool interrupted = tn_ranks_any(ranks, tn_interrupted() || status == TN_STOPPED);
-    if (status == TN_STOPPED)
-        status = TN_OK; /* within a generation, which is not kept */
-    if (status == TN_OK && e->run.generations && !interrupted && tn_ranks_lead(ranks))
-        status = tn_run_results(&e->run, &error);
-    e->written = status == TN_OK && !interrupted;
-    if (e->written && e->run.generations && tn_ranks_lead(ranks))
-        warn_of_unmet(e);
-    e->command->said = !tn_ranks_lead(ranks); /* what is missing: the first says it */
-    if (status != TN_OK) {
-        tn_job_fail(e->command, &error);
-    } else if (!tn_ranks_lead(ranks)) {
+    tn_job *job = &w->study->job;
+    tn_evolution_study study;
+    double wanted = (double)w->study->asked.generations;
+    if (!w->study->asked.has_generations && tn_evolution_study_of(job->opened.module, &study))
+        wanted = study.of[TN_SET_GENERATIONS].first;
+    w->begun = true;
+    w->start = now();
+    w->before = last ? last->evaluations : 0;
+    snprintf(w->text, sizeof w->text, "generations");
+    tn_progress_begin(&w->progress, w->text, (double)generations, wanted + 1);
+    w->progress.shows &= w->lead;
+}
+
+/* Called once before breeding, and with each generation. */
+static void show_so_far(void *context, const tn_reply *answer)
+{
+    watched_run *w = context;
+    const tn_evolved *told = TN_REPLY(evolved, answer);
+    size_t generations = told->generations.count;
+    const tn_run_generation *last = generations ? &told->generations.items[generations - 1] : NULL;
+    if (!w->begun || tn_job_diagnostics(&w->study->job)->count)
+        tn_job_show(&w->study->job);
+    if (w->lead)
+        tn_interrupt_last_words("interrupted after %zu generations; --resume goes on from there", generations);
+    if (!w->begun) {
+        begin(w, generations, last);
         return;
-    } else if (e->run.new_changes) {
-        tn_job_note(e->command, "what --set changed is kept with the next generation: --generations %u breeds one",
-                    e->run.generations);
-    } else if (interrupted) {
-        tn_job_interrupted(e->command, "interrupted after %u generations; --resume goes on from there",
-                           e->run.generations);
     }
+    if (w->progress.shows)
+        describe(w, last);
+    tn_progress_update(&w->progress, (double)generations);
 }
 
-static const char *why_no_score(const tn_individual *individual)
-{
-    return individual->reason != TN_MAPPING_VALID ? tn_mapping_reason_text(individual->reason) : individual->message;
-}
+/* ---- how it went */
 
-/* How its genomes were made: even numbers full and odd ones grown, where they are of both kinds. */
-static void tell_first_made(const tn_evolution_session *e, FILE *out)
+/* How its genomes were made. */
+static void tell_first_made(const tn_first_genomes *first, FILE *out)
 {
-    const tn_evolution_settings *s = &e->job.settings;
-    size_t given = s->seed_count < s->population ? s->seed_count : s->population, left = s->population - given;
-    size_t full = (s->population + 1) / 2 - (given + 1) / 2;
-    if (given)
-        fprintf(out, "%zu given, ", given);
-    if (s->initialisation == TN_INITIALISE_RAMPED)
-        fprintf(out, "%zu full and %zu grown, ", full, left - full);
-    else
-        fprintf(out, "%zu %s, ", left, s->initialisation == TN_INITIALISE_RANDOM ? "random" : "grown");
+    if (first->given)
+        fprintf(out, "%" PRIu64 " given, ", first->given);
+    if (first->has_full)
+        fprintf(out, "%" PRIu64 " full and ", first->full);
+    if (first->has_grown)
+        fprintf(out, "%" PRIu64 " grown, ", first->grown);
+    if (first->has_random)
+        fprintf(out, "%" PRIu64 " random, ", first->random);
 }
 
 /* What the first generation was like, from which all others come. */
-static void tell_first(const tn_evolution_session *e, FILE *out)
+static void tell_first(const tn_evolved *told, FILE *out)
 {
-    tn_generation_stats *stats = NULL;
-    size_t count = 0;
-    tn_error error;
-    if (tn_run_store_stats(e->run.store, &stats, &count, &error) == TN_OK && count) {
-        const tn_generation_stats *s = &stats[0];
-        fputs("first generation: ", out);
-        if (e->job.grammar)
-            tell_first_made(e, out);
-        fprintf(out, "%u distinct, %u without sentence, mean depth %.3g", s->distinct, s->no_sentence, s->mean_depth);
-        fprintf(out, e->job.grammar ? ", %.4g codons on the mean\n" : "\n", s->mean_codons);
-    }
-    free(stats);
+    if (!told->generations.count)
+        return;
+    const tn_run_generation *g = &told->generations.items[0];
+    fputs("first generation: ", out);
+    if (told->has_first_genomes)
+        tell_first_made(&told->first_genomes, out);
+    fprintf(out, "%" PRIu64 " distinct, %" PRIu64 " without sentence, mean depth %.3g", g->distinct, g->no_sentence,
+            g->mean_depth);
+    fprintf(out, told->has_first_genomes ? ", %.4g codons on the mean\n" : "\n", g->mean_codons);
 }
 
-static void tell_reasons(const tn_evolution_session *e, FILE *out)
+static void tell_reasons(const tn_evolved *told, bool programs, FILE *out)
 {
-    tn_reasons reasons;
-    tn_error error;
-    if (tn_run_reasons(&e->run, &reasons, &error) != TN_OK)
-        return;
-    for (size_t i = 0; i < reasons.count; i++) {
-        const tn_reason *reason = &reasons.items[i];
-        fprintf(out, "  %u %s: %s", reason->count, reason->state == TN_SCORE_LIMIT ? "past a limit" : "failed",
+    for (size_t i = 0; i < told->reasons.count; i++) {
+        const tn_no_score_reason *reason = &told->reasons.items[i];
+        fprintf(out, "  %" PRIu64 " %s: %s", reason->members,
+                strcmp(reason->state, "limited") == 0 ? "past a limit" : "failed",
                 reason->text[0] ? reason->text : "no reason was given");
-        if (e->job.program)
-            fprintf(out, reason->count > 1 ? " (individual %" PRIu64 " and others)" : " (individual %" PRIu64 ")",
-                    reason->first);
+        if (programs)
+            fprintf(out, reason->members > 1 ? " (individual %" PRIu64 " and others)" : " (individual %" PRIu64 ")",
+                    reason->individual);
         fputc('\n', out);
     }
 }
 
-/* What the best is worth where nobody has looked yet. */
-static void tell_test(const tn_evolution_session *e, const tn_individual *best, FILE *out)
+static void tell_best(const tn_evolved *told, FILE *out)
 {
-    tn_fit_report report;
-    tn_error error;
-    if (!e->job.problem || !e->job.study.of[TN_SET_FIT].written ||
-        tn_problem_examine(e->job.problem, best->sentence, best->sentence_size, &report, &error) != TN_OK)
-        return;
-    if (e->job.study.of[TN_SET_SCALING].choice)
-        fprintf(out, "scaled: %.10g + %.10g times this\n", report.line[0], report.line[1]);
-    if (tn_problem_holds(e->job.problem))
-        fprintf(out, "with the test data: %.6g\n", report.test);
+    fprintf(out, "best: individual %" PRIu64 "\n", told->best.individual);
+    tn_write_shown(out, told->best.sentence, strlen(told->best.sentence));
+    fputc('\n', out);
+    if (told->has_slope)
+        fprintf(out, "scaled: %.10g + %.10g times this\n", told->intercept, told->slope);
+    if (told->has_test)
+        fprintf(out, "with the test data: %.6g\n", told->test);
 }
 
-static void summarise(const tn_evolution_session *e, FILE *out)
+static void summarise(const tn_evolved *told, bool programs, bool written, FILE *out)
 {
-    size_t count;
-    tn_generation_stats s = tn_evolution_stats(e->run.evolution);
-    const tn_individual *const *members = tn_evolution_members(e->run.evolution, &count);
-    if (e->run.generations == 0)
-        return;
-    fprintf(out, "%u generation%s, %" PRIu64 " evaluations, %" PRIu64 " births\n", s.generation,
-            s.generation == 1 ? "" : "s", s.evaluations, s.births);
-    if (s.scored)
-        fprintf(out, "last generation: best %.6g, median %.6g, mean %.6g, %u distinct", s.best[0], s.quartiles[1],
-                s.mean, s.distinct);
+    const tn_run_generation *g = &told->newest;
+    fprintf(out, "%" PRIu64 " generation%s, %" PRIu64 " evaluations, %" PRIu64 " births\n", g->generation,
+            g->generation == 1 ? "" : "s", g->evaluations, g->births);
+    if (g->scored)
+        fprintf(out, "last generation: best %.6g, median %.6g, mean %.6g, %" PRIu64 " distinct", g->best, g->median,
+                g->mean, g->distinct);
     else
-        fprintf(out, "last generation: no individual has a score (%s)", count ? why_no_score(members[0]) : "");
-    fprintf(out, ", %u without sentence, %u failed, %u past a limit\n", s.no_sentence, s.failed, s.limited);
-    tell_reasons(e, out);
-    if (count && members[0]->score.state == TN_SCORED) {
-        fprintf(out, "best: individual %" PRIu64 "\n", members[0]->id);
-        tn_write_shown(out, members[0]->sentence, strlen(members[0]->sentence));
-        fputc('\n', out);
-        tell_test(e, members[0], out);
-    }
-    tell_first(e, out);
-    fprintf(out, e->written ? "results are in %s\n" : "the run so far is in %s/run.sqlite\n", e->run.dir);
+        fprintf(out, "last generation: no individual has a score (%s)", told->why_none ? told->why_none : "");
+    fprintf(out, ", %" PRIu64 " without sentence, %" PRIu64 " failed, %" PRIu64 " past a limit\n", g->no_sentence,
+            g->failed, g->limited);
+    tell_reasons(told, programs, out);
+    if (told->has_best)
+        tell_best(told, out);
+    tell_first(told, out);
+    fprintf(out, written ? "results are in %s\n" : "the run so far is in %s/run.sqlite\n", told->run);
 }
 
-/* It ended before its last generation. */
-static void tell_exhausted(tn_evolution_session *e)
-{
-    if (e->exhausted)
-        tn_job_note(e->command,
-                    "the grammar has %zu sentences, and all have been scored: more generations find nothing new",
-                    e->run.sentences);
-}
+/* ---- the command */
 
-static void evolve_and_tell(tn_evolution_session *e)
+static void tell(tn_study_job *s, const tn_reply *answer, bool written)
 {
+    const tn_evolved *told = TN_REPLY(evolved, answer);
+    bool json = ((const tn_session_settings *)s->job.settings)->json;
+    tn_evolution_study study;
     tn_output output;
-    evolve(e);
-    if (tn_ranks_lead(e->job.settings.ranks))
-        tell_exhausted(e);
-    if (tn_ranks_lead(e->job.settings.ranks) && tn_job_output(e->command, NULL, &output)) {
-        summarise(e, output.stream);
-        tn_job_commit(e->command, &output);
-    }
+    bool programs = tn_evolution_study_of(s->job.opened.module, &study) && study.of[TN_SET_PROGRAM].written;
+    if (!tn_job_output(&s->job, NULL, &output))
+        return;
+    if (json)
+        tn_job_write_json(answer, output.stream);
+    else if (told->has_newest)
+        summarise(told, programs, written, output.stream);
+    tn_job_commit(&s->job, &output);
+}
+
+static void evolve(tn_study_job *s)
+{
+    const tn_ranks *ranks = s->job.settings->ranks;
+    const tn_evolve_request request = {.asked = s->asked};
+    watched_run w = {.study = s, .lead = tn_ranks_lead(ranks)};
+    tn_reply answer;
+    if (ranks)
+        tn_interrupt_gently(true, true);
+    s->job.session.so_far = show_so_far;
+    s->job.session.so_far_context = &w;
+    tn_status status = tn_ask_evolve(&s->job.session, &request, &answer);
+    if (w.begun)
+        tn_progress_end(&w.progress);
+    const tn_evolved *told = TN_REPLY(evolved, &answer);
+    s->job.said = told && !w.lead; /* what is missing: the first says it */
+    if (told && w.lead && status == TN_STOPPED)
+        tn_job_interrupted(&s->job, "interrupted after %zu generations; --resume goes on from there",
+                           told->generations.count);
+    else if (w.lead || status != TN_STOPPED)
+        tn_job_answered(&s->job, status);
+    if (told && w.lead)
+        tell(s, &answer, status == TN_OK);
+    tn_reply_clear(&answer);
 }
 
 static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    return tn_evolution_session_run((const tn_session_settings *)settings, false, evolve_and_tell);
+    tn_study_job study;
+    if (tn_study_job_open(&study, (const tn_session_settings *)settings))
+        evolve(&study);
+    return tn_study_job_end(&study);
 }
 
 #define SETTINGS tn_session_settings
 static const tn_option options[] = {OPTIONS_RUN("how many generations to breed, instead of the study's number"),
-                                    OPTION_LDRAW};
+                                    FLAG("json", 0, json, "write how it went as JSON"), OPTION_LDRAW};
 
 const tn_command tn_command_evolve = {
     .name = "evolve",

@@ -29,7 +29,7 @@ static tn_prompt_answer answer_of(tn_status status, const tn_error *error)
 /* ---- individuals */
 
 /* The member at a place ("3") or with an id ("#41"); NULL, and said, where there is none. */
-static const tn_individual *member_of(const tn_evolution_session *e, const char *word)
+static const tn_individual *member_of(const tn_evolving *e, const char *word)
 {
     size_t count;
     uint64_t number;
@@ -52,7 +52,7 @@ static void show_place(const char *sentence, const tn_error *error)
 }
 
 /* Inserts a sentence in the place of `member`, or of the worst (NULL). */
-static tn_prompt_answer insert_text(tn_evolution_session *e, const tn_individual *member, const char *text, size_t size)
+static tn_prompt_answer insert_text(tn_evolving *e, const tn_individual *member, const char *text, size_t size)
 {
     tn_genome genome = {0};
     tn_error error = {0};
@@ -72,7 +72,7 @@ static tn_prompt_answer insert_text(tn_evolution_session *e, const tn_individual
     return answer_of(status, &error);
 }
 
-static tn_prompt_answer insert_file(tn_evolution_session *e, const tn_individual *member, const char *path)
+static tn_prompt_answer insert_file(tn_evolving *e, const tn_individual *member, const char *path)
 {
     uint8_t *bytes;
     size_t size;
@@ -128,7 +128,7 @@ static bool write_lines(const char *path, const char *sentence)
     return fclose(out) == 0;
 }
 
-static tn_prompt_answer edit_member(tn_evolution_session *e, const tn_individual *member)
+static tn_prompt_answer edit_member(tn_evolving *e, const tn_individual *member)
 {
     char *path = NULL;
     if (asprintf(&path, "%s/edited-%" PRIu64 ".%s", e->run.dir, member->id, e->job.extension) < 0)
@@ -151,7 +151,7 @@ static tn_prompt_answer edit_member(tn_evolution_session *e, const tn_individual
 }
 
 /* "N" or "N FILE" */
-static tn_prompt_answer edit(tn_evolution_session *e, char *words)
+static tn_prompt_answer edit(tn_evolving *e, char *words)
 {
     char *file = words + strcspn(words, " ");
     if (*file)
@@ -163,7 +163,7 @@ static tn_prompt_answer edit(tn_evolution_session *e, char *words)
     return *file ? insert_file(e, member, file) : edit_member(e, member);
 }
 
-static tn_prompt_answer take_out(tn_evolution_session *e, char *word)
+static tn_prompt_answer take_out(tn_evolving *e, char *word)
 {
     char id[24];
     tn_error error;
@@ -174,22 +174,22 @@ static tn_prompt_answer take_out(tn_evolution_session *e, char *word)
     return answer_of(tn_run_by_hand(&e->run, "remove", id, &error), &error);
 }
 
-static tn_prompt_answer insert(tn_evolution_session *e, char *path)
+static tn_prompt_answer insert(tn_evolving *e, char *path)
 {
     return insert_file(e, NULL, path);
 }
 
-static tn_prompt_answer set(tn_evolution_session *e, char *change)
+static tn_prompt_answer set(tn_evolving *e, char *change)
 {
     tn_error error;
     return answer_of(tn_run_set(&e->run, change, &error), &error);
 }
 
-tn_prompt_answer tn_prompt_do(tn_evolution_session *session, char *line)
+tn_prompt_answer tn_prompt_do(tn_evolving *session, char *line)
 {
     static const struct {
         const char *name;
-        tn_prompt_answer (*does)(tn_evolution_session *session, char *rest);
+        tn_prompt_answer (*does)(tn_evolving *session, char *rest);
     } commands[] = {{"set ", set}, {"insert ", insert}, {"out ", take_out}, {"edit ", edit}};
     line[strcspn(line, "\r\n")] = '\0';
     for (size_t end = strlen(line); end && line[end - 1] == ' ';)

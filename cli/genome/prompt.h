@@ -12,6 +12,6 @@ typedef enum tn_prompt_answer {
 
 /* Does what a line says: `set NAME VALUE`, `insert FILE`, `out N`, `edit N` and `edit N FILE`. N is a place on the
  * sheet, or with # an id. */
-tn_prompt_answer tn_prompt_do(tn_evolution_session *session, char *line);
+tn_prompt_answer tn_prompt_do(tn_evolving *session, char *line);
 
 #endif

@@ -369,7 +369,7 @@ tn_status tn_design_scorer_unmet(const void *scorer, const char *sentence, char 
 /* ---- pictures */
 
 tn_status tn_design_scorer_draw(const void *scorer, const char *const *sentences, const char *const *labels,
-                                size_t count, const char *title, const char *path, tn_error *error)
+                                size_t count, const char *title, tn_picture *to, tn_error *error)
 {
     (void)scorer;
     tn_view **views = calloc(count + 1, sizeof *views);
@@ -389,7 +389,7 @@ tn_status tn_design_scorer_draw(const void *scorer, const char *const *sentences
     }
     const tn_view_options options = {.title = title, .labels = labels};
     if (status == TN_OK && drawn)
-        status = tn_views_draw(views, drawn, &options, &(tn_picture){.path = path}, error);
+        status = tn_views_draw(views, drawn, &options, to, error);
     for (size_t i = 0; views && i < drawn; i++)
         tn_view_free(views[i]);
     free(views);

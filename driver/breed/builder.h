@@ -3,6 +3,7 @@
 #define TARTAN_DRIVER_BREED_BUILDER_H
 
 #include "driver/program/form_listener.h"
+#include "runtime/base/picture.h"
 #include "runtime/genome/boxes/box_kind.h"
 #include "runtime/genome/breeding/evolve.h"
 #include "runtime/genome/settings.h"
@@ -43,7 +44,7 @@ const char *tn_design_scorer_objective(const void *scorer, size_t i);
 
 /* Draws sentences that could be scored side by side, as tn_grower_draw does. */
 tn_status tn_design_scorer_draw(const void *scorer, const char *const *sentences, const char *const *labels,
-                                size_t count, const char *title, const char *path, tn_error *error);
+                                size_t count, const char *title, tn_picture *to, tn_error *error);
 
 /* Adds what its scores depend on to the text (inputs.h). */
 tn_status tn_design_scorer_inputs(const tn_design_scorer *scorer, char **inputs, tn_error *error);

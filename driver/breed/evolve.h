@@ -14,6 +14,7 @@
 #include "driver/breed/field_scorer.h"
 #include "driver/breed/grower.h"
 #include "driver/breed/learn.h"
+#include "driver/breed/run_files.h"
 #include "driver/breed/skeleton.h"
 #include "driver/hand/by_hand.h"
 #include "driver/open/open.h"
@@ -32,7 +33,7 @@ typedef struct tn_bred_forms {
     const char *what;    /* "surface", "form" or "model" */
     const char *picture; /* what files of pictures end in: ".svg" or ".png" */
     tn_status (*draw)(const void *context, const char *const *sentences, const char *const *labels, size_t count,
-                      const char *title, const char *path, tn_error *error);
+                      const char *title, tn_picture *to, tn_error *error);
     const char *(*objective)(const void *context, size_t i);
     /* A form as a mesh, z up, and what explains it (guides); NULL: there is none. The caller clears both. */
     tn_status (*mesh)(const void *context, const char *sentence, tn_mesh *mesh, tn_guides *guides, tn_error *error);
@@ -117,13 +118,16 @@ typedef struct tn_first_look {
 
 typedef struct tn_run {
     tn_evolution_job *job; /* borrowed */
-    char *dir;
-    bool locked; /* nobody else writes the folder: `lock` is its descriptor */
+    char *dir;             /* NULL: it has no folder, and nothing is stored */
+    char *study;           /* the name of its study's file, without folders */
+    bool locked;           /* nobody else writes the folder: `lock` is its descriptor */
     int lock;
-    tn_run_store *store; /* NULL on ranks but the first, which alone writes */
+    tn_run_store *store; /* NULL without a folder, and on ranks but the first, which alone writes */
     tn_evolution *evolution;
-    uint32_t generations; /* done */
-    tn_first_look look;   /* once the first generation was made here; the database has it as events "warning" */
+    uint32_t generations;      /* done */
+    tn_generation_stats *kept; /* without a folder: of each */
+    size_t kept_count;
+    tn_first_look look; /* once the first generation was made here; the database has it as events "warning" */
     tn_run_event *
         changes; /* of targets, weights and inputs: all that were made, the last `new_changes` of them not stored yet */
     size_t change_count, new_changes;
@@ -146,7 +150,7 @@ typedef struct tn_run_texts {
  * tn_run_settle.
  *
  * Starts a run in the folder `dir`, which is made, or goes on with the one that is there: then all its generations are
- * made again, without evaluating. */
+ * made again, without evaluating. dir NULL: a run without a folder. */
 tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_options *options, const tn_run_texts *texts,
                        tn_run *run, tn_error *error);
 
@@ -185,8 +189,12 @@ bool tn_run_reached(const tn_run *run);
  * is new; only then are they counted. */
 bool tn_run_exhausted(tn_run *run);
 
-/* Writes best/, stats.csv and fitness.svg: where several ranks made the run, by the first. */
-tn_status tn_run_results(tn_run *run, tn_error *error);
+/* The statistics of its generations; the caller frees *stats. */
+tn_status tn_run_stats(const tn_run *run, tn_generation_stats **stats, size_t *count, tn_error *error);
+
+/* Writes best/, stats.csv and fitness.svg, to `files` or (NULL) into the run's folder: where several ranks made the
+ * run, by the first. */
+tn_status tn_run_results(tn_run *run, const tn_run_files *files, tn_error *error);
 void tn_run_clear(tn_run *run);
 
 /* The folder's database: DIR/run.sqlite. The caller frees it; NULL where out of memory. */

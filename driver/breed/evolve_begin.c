@@ -19,7 +19,6 @@ static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *erro
 {
     char seed[24], objectives[24], arithmetic[24];
     const tn_evolution_job *job = run->job;
-    const char *slash = strrchr(texts->study_path, '/');
     snprintf(seed, sizeof seed, "%" PRIu64, job->settings.seed);
     snprintf(objectives, sizeof objectives, "%zu", job->evaluator.objectives);
     snprintf(arithmetic, sizeof arithmetic, "%d", TN_NUMERIC_VERSION);
@@ -30,7 +29,7 @@ static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *erro
                                   job->identity,
                                   seed,
                                   objectives,
-                                  slash ? slash + 1 : texts->study_path,
+                                  run->study,
                                   texts->study_text,
                                   texts->grammar_path,
                                   texts->grammar_text,
@@ -230,13 +229,16 @@ tn_status tn_run_begin(tn_evolution_job *job, const char *dir, const tn_run_opti
 {
     const tn_ranks *ranks = job->settings.ranks;
     bool goes_on = false;
-    *run = (tn_run){.job = job, .dir = strdup(dir)};
-    tn_status status = tn_ranks_agree(ranks, run->dir ? TN_OK : tn_fail_memory(error), error);
+    const char *slash = strrchr(texts->study_path, '/');
+    *run = (tn_run){.job = job, .dir = dir ? strdup(dir) : NULL};
+    run->study = strdup(slash ? slash + 1 : texts->study_path);
+    bool named = run->study && (run->dir || !dir);
+    tn_status status = tn_ranks_agree(ranks, named ? TN_OK : tn_fail_memory(error), error);
     if (status == TN_OK)
         status = same_everywhere(run, texts, error);
     if (status == TN_OK)
         status = tn_evolution_new(job->grammar, &job->settings, &job->evaluator, &run->evolution, error);
-    if (status == TN_OK && tn_ranks_lead(ranks))
+    if (status == TN_OK && dir && tn_ranks_lead(ranks))
         status = begin_store(run, dir, options, texts, &goes_on, error);
     status = tn_ranks_agree(ranks, status, error);
     if (status != TN_OK || !tn_ranks_any(ranks, goes_on))

@@ -19,7 +19,15 @@
 #define BEST_MAX 10u   /* files of best/ for one objective; of several, all of the first front are written */
 #define LOOKS_MAX 200u /* forms that are made to see whether they are others than those written before */
 
+/* Results on their way. */
+typedef struct results {
+    tn_run *run;
+    const tn_run_files *files; /* NULL: into the run's folder */
+} results;
+
 /* ---- best/ */
+
+#define BEST "best/"
 
 /* Files of an earlier call go: the best are others now. Only names that we write are removed. */
 static void empty_best(const char *dir)
@@ -107,23 +115,21 @@ static tn_status write_text(const tn_run *run, const char *sentence, size_t size
     return TN_OK;
 }
 
-static tn_status write_sentence(const tn_run *run, const char *path, const tn_individual *individual, tn_error *error)
+static tn_status write_sentence(const results *r, const char *name, const tn_individual *individual, tn_error *error)
 {
-    tn_output output;
-    tn_status status = tn_output_open(path, &output, error);
+    const tn_run *run = r->run;
+    tn_run_file file;
+    tn_status status = tn_run_file_begin(run->dir, r->files, name, &file, error);
     if (status != TN_OK)
         return status;
     status = run->job->settings.kind
-                 ? write_form(run, path, individual, output.stream, error)
-                 : write_text(run, individual->sentence, individual->sentence_size, output.stream, error);
-    if (status == TN_OK)
-        return tn_output_commit(&output, error);
-    tn_output_discard(&output);
-    return status;
+                 ? write_form(run, name, individual, file.stream, error)
+                 : write_text(run, individual->sentence, individual->sentence_size, file.stream, error);
+    return tn_run_file_end(&file, status, error);
 }
 
 /* The derivation as a picture; one that is too large to draw is left out. */
-static tn_status draw_derivation(tn_run *run, const char *path, const tn_individual *individual, tn_error *error)
+static tn_status draw_derivation(const tn_run *run, const tn_individual *individual, tn_picture *to, tn_error *error)
 {
     tn_mapping_options options = run->job->settings.mapping;
     tn_mapper *mapper = tn_mapper_new(run->job->grammar);
@@ -136,30 +142,45 @@ static tn_status draw_derivation(tn_run *run, const char *path, const tn_individ
     if (status == TN_OK)
         status = tn_tree_make(mapping.events, mapping.event_count, &tree, error);
     if (status == TN_OK && tree.count <= TN_TREE_DRAWN)
-        status = tn_tree_draw(run->job->grammar, mapping.events, &tree, &(tn_picture){.path = path}, error);
+        status = tn_tree_draw(run->job->grammar, mapping.events, &tree, to, error);
     tn_tree_clear(&tree);
     tn_mapper_free(mapper);
     return status;
 }
 
-static tn_status write_individual(tn_run *run, const char *dir, size_t number, const tn_individual *individual,
-                                  tn_error *error)
+/* Its form, its rule or its derivation. */
+static tn_status draw_individual(const results *r, const char *name, const char *title, const tn_individual *individual,
+                                 tn_error *error)
 {
+    const tn_evolution_job *job = r->run->job;
+    const tn_bred_forms *forms = &job->forms;
+    const char *const text[] = {individual->sentence};
+    tn_run_picture picture;
+    tn_status status = tn_run_picture_begin(r->run->dir, r->files, name, &picture, error);
+    if (status == TN_OK && forms->context)
+        status = forms->draw(forms->context, text, NULL, 1, title, &picture.to, error);
+    else if (status == TN_OK && job->learner)
+        status = tn_learner_draw(job->learner, individual->sentence, &picture.to, error);
+    else if (status == TN_OK)
+        status = draw_derivation(r->run, individual, &picture.to, error);
+    bool drawn = picture.to.path || picture.to.element; /* a derivation that is too large is not */
+    if (status == TN_OK && !drawn)
+        picture.files = NULL;
+    return tn_run_picture_end(&picture, status, error);
+}
+
+static tn_status write_individual(const results *r, size_t number, const tn_individual *individual, tn_error *error)
+{
+    const tn_evolution_job *job = r->run->job;
     char *sentence = NULL, *picture = NULL;
     tn_status status = TN_OK;
-    if (asprintf(&sentence, "%s/%zu.%s", dir, number, run->job->extension) < 0 ||
-        asprintf(&picture, "%s/%zu%s", dir, number, run->job->forms.context ? run->job->forms.picture : ".svg") < 0)
+    if (asprintf(&sentence, BEST "%zu.%s", number, job->extension) < 0 ||
+        asprintf(&picture, BEST "%zu%s", number, job->forms.context ? job->forms.picture : ".svg") < 0)
         status = tn_fail_memory(error);
     if (status == TN_OK)
-        status = write_sentence(run, sentence, individual, error);
-    const char *const text[] = {individual->sentence};
-    const tn_bred_forms *forms = &run->job->forms;
-    if (status == TN_OK && forms->context)
-        status = forms->draw(forms->context, text, NULL, 1, sentence + strlen(dir) + 1, picture, error); /* no folder */
-    else if (status == TN_OK && run->job->learner)
-        status = tn_learner_draw(run->job->learner, individual->sentence, picture, error);
-    else if (status == TN_OK)
-        status = draw_derivation(run, picture, individual, error);
+        status = write_sentence(r, sentence, individual, error);
+    if (status == TN_OK)
+        status = draw_individual(r, picture, sentence + strlen(BEST), individual, error); /* no folder */
     if (status != TN_OK && (status == TN_LIMIT || error->code == E_PART_ABSENT))
         status = TN_OK; /* too large to be drawn, or pictures are left out of this build: the sentence is there */
     free(sentence);
@@ -290,23 +311,24 @@ static tn_status list_individual(const tn_run *run, size_t number, const tn_indi
     return status;
 }
 
-static tn_status write_member(tn_run *run, const char *dir, const tn_individual *individual, written *w, FILE *list,
+static tn_status write_member(const results *r, const tn_individual *individual, written *w, FILE *list,
                               tn_error *error)
 {
     uint64_t form;
     bool before;
-    tn_status status = drawn_before(run, individual, w, &form, &before, error);
+    tn_status status = drawn_before(r->run, individual, w, &form, &before, error);
     if (status != TN_OK || before)
         return status;
     w->items[w->count] = individual;
     w->forms[w->count++] = form;
-    status = write_individual(run, dir, w->count, individual, error);
-    return status == TN_OK ? list_individual(run, w->count, individual, list, error) : status;
+    status = write_individual(r, w->count, individual, error);
+    return status == TN_OK ? list_individual(r->run, w->count, individual, list, error) : status;
 }
 
 /* The best of one objective, or the first front of several. */
-static tn_status write_members(tn_run *run, const char *dir, FILE *list, tn_error *error)
+static tn_status write_members(const results *r, FILE *list, tn_error *error)
 {
+    const tn_run *run = r->run;
     size_t count, front = tn_evolution_front(run->evolution);
     const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
     bool several = run->job->evaluator.objectives > 1;
@@ -317,84 +339,117 @@ static tn_status write_members(tn_run *run, const char *dir, FILE *list, tn_erro
         if (several ? i >= front : w.count >= BEST_MAX)
             break;
         if (members[i]->score.state == TN_SCORED && !seen_before(members, i))
-            status = write_member(run, dir, members[i], &w, list, error);
+            status = write_member(r, members[i], &w, list, error);
     }
     free(w.items);
     free(w.forms);
     return status;
 }
 
-static tn_status write_best(tn_run *run, tn_error *error)
+/* The folder of the best, without those of an earlier call. */
+static tn_status begin_best(const char *dir, tn_error *error)
 {
-    char *dir = NULL, *list = NULL;
-    tn_output output;
-    tn_status status = TN_OK;
-    if (asprintf(&dir, "%s/best", run->dir) < 0 || asprintf(&list, "%s/best/scores.csv", run->dir) < 0)
+    char *best = NULL;
+    if (asprintf(&best, "%s/best", dir) < 0)
+        return tn_fail_memory(error);
+    tn_status status = tn_folder_make(best, error);
+    if (status == TN_OK)
+        empty_best(best);
+    free(best);
+    return status;
+}
+
+static tn_status write_list(const results *r, const char *list, size_t size, tn_error *error)
+{
+    tn_run_file file;
+    tn_status status = tn_run_file_begin(r->run->dir, r->files, BEST "scores.csv", &file, error);
+    if (status != TN_OK)
+        return status;
+    fwrite(list, 1, size, file.stream); /* what fails shows when it is ended */
+    return tn_run_file_end(&file, TN_OK, error);
+}
+
+static tn_status write_best(const results *r, tn_error *error)
+{
+    char *list = NULL;
+    size_t size;
+    tn_status status = r->files ? TN_OK : begin_best(r->run->dir, error);
+    FILE *stream = status == TN_OK ? open_memstream(&list, &size) : NULL;
+    if (status == TN_OK)
+        status = stream ? write_members(r, stream, error) : tn_fail_memory(error);
+    if (stream && fclose(stream) != 0 && status == TN_OK)
         status = tn_fail_memory(error);
     if (status == TN_OK)
-        status = tn_folder_make(dir, error);
-    if (status == TN_OK) {
-        empty_best(dir);
-        status = tn_output_open(list, &output, error);
-    }
-    if (status == TN_OK) {
-        status = write_members(run, dir, output.stream, error);
-        if (status == TN_OK)
-            status = tn_output_commit(&output, error);
-        else
-            tn_output_discard(&output);
-    }
-    free(dir);
+        status = write_list(r, list, size, error);
     free(list);
     return status;
 }
 
-/* ---- stats.csv */
+/* ---- how it went */
 
-static tn_status write_stats(tn_run *run, const tn_generation_stats *stats, size_t count, tn_error *error)
+static tn_status write_stats(const results *r, const tn_generation_stats *stats, size_t count, tn_error *error)
 {
-    char *path = NULL;
-    tn_output output;
-    if (asprintf(&path, "%s/stats.csv", run->dir) < 0)
-        return tn_fail_memory(error);
-    tn_status status = tn_output_open(path, &output, error);
-    if (status == TN_OK) {
-        fputs("generation,best,mean,scored,no_sentence,failed,limit,distinct,evaluations,births,mean_codons,mean_depth,"
-              "lower_quartile,median,upper_quartile\n",
-              output.stream);
-        for (size_t i = 0; i < count; i++)
-            fprintf(output.stream,
-                    "%u,%.17g,%.17g,%u,%u,%u,%u,%u,%" PRIu64 ",%" PRIu64 ",%.6g,%.6g,%.17g,%.17g,%.17g\n",
-                    stats[i].generation, stats[i].best[0], stats[i].mean, stats[i].scored, stats[i].no_sentence,
-                    stats[i].failed, stats[i].limited, stats[i].distinct, stats[i].evaluations, stats[i].births,
-                    stats[i].mean_codons, stats[i].mean_depth, stats[i].quartiles[0], stats[i].quartiles[1],
-                    stats[i].quartiles[2]);
-        status = tn_output_commit(&output, error);
-    }
-    free(path);
+    tn_run_file file;
+    tn_status status = tn_run_file_begin(r->run->dir, r->files, "stats.csv", &file, error);
+    if (status != TN_OK)
+        return status;
+    fputs("generation,best,mean,scored,no_sentence,failed,limit,distinct,evaluations,births,mean_codons,mean_depth,"
+          "lower_quartile,median,upper_quartile\n",
+          file.stream);
+    for (size_t i = 0; i < count; i++)
+        fprintf(file.stream, "%u,%.17g,%.17g,%u,%u,%u,%u,%u,%" PRIu64 ",%" PRIu64 ",%.6g,%.6g,%.17g,%.17g,%.17g\n",
+                stats[i].generation, stats[i].best[0], stats[i].mean, stats[i].scored, stats[i].no_sentence,
+                stats[i].failed, stats[i].limited, stats[i].distinct, stats[i].evaluations, stats[i].births,
+                stats[i].mean_codons, stats[i].mean_depth, stats[i].quartiles[0], stats[i].quartiles[1],
+                stats[i].quartiles[2]);
+    return tn_run_file_end(&file, TN_OK, error);
+}
+
+static tn_status draw_stats(const results *r, const tn_generation_stats *stats, size_t count, tn_error *error)
+{
+    char *stored = NULL;
+    tn_run_picture picture;
+    tn_status status = r->run->store ? tn_run_store_get_meta(r->run->store, "study_path", &stored, error) : TN_OK;
+    const char *study = r->run->store ? stored : r->run->study;
+    if (status != TN_OK)
+        return status;
+    status = tn_run_picture_begin(r->run->dir, r->files, "fitness.svg", &picture, error);
+    if (status == TN_OK) /* no name of a folder: the same run has the same picture, wherever it lies */
+        status = tn_stats_plot(stats, count, study ? study : "", &picture.to, error);
+    status = tn_run_picture_end(&picture, status, error);
+    free(stored);
     return status;
 }
 
-tn_status tn_run_results(tn_run *run, tn_error *error)
+tn_status tn_run_stats(const tn_run *run, tn_generation_stats **stats, size_t *count, tn_error *error)
 {
+    *stats = NULL;
+    *count = 0;
+    if (run->store)
+        return tn_run_store_stats(run->store, stats, count, error);
+    *stats = calloc(run->kept_count + 1, sizeof **stats);
+    if (!*stats)
+        return tn_fail_memory(error);
+    if (run->kept_count)
+        memcpy(*stats, run->kept, run->kept_count * sizeof **stats);
+    *count = run->kept_count;
+    return TN_OK;
+}
+
+tn_status tn_run_results(tn_run *run, const tn_run_files *files, tn_error *error)
+{
+    const results r = {run, files};
     tn_generation_stats *stats = NULL;
     size_t count;
-    char *plot = NULL, *study = NULL;
-    tn_status status = write_best(run, error);
+    tn_status status = write_best(&r, error);
     if (status == TN_OK)
-        status = tn_run_store_stats(run->store, &stats, &count, error);
+        status = tn_run_stats(run, &stats, &count, error);
     if (status == TN_OK)
-        status = write_stats(run, stats, count, error);
-    if (status == TN_OK && asprintf(&plot, "%s/fitness.svg", run->dir) < 0)
-        status = tn_fail_memory(error);
+        status = write_stats(&r, stats, count, error);
     if (status == TN_OK)
-        status = tn_run_store_get_meta(run->store, "study_path", &study, error);
-    if (status == TN_OK) /* no name of a folder: the same run has the same picture, wherever it lies */
-        status = tn_stats_plot(stats, count, study ? study : "", plot, error);
+        status = draw_stats(&r, stats, count, error);
     if (status != TN_OK && error->code == E_PART_ABSENT)
         status = TN_OK; /* the numbers are in stats.csv */
-    free(study);
-    free(plot);
     free(stats);
     return status;
 }

@@ -33,6 +33,8 @@ void tn_run_clear(tn_run *run)
     tn_run_events_free(run->changes, run->change_count);
     tn_run_events_free(run->waiting, run->waiting_count);
     free(run->rescored);
+    free(run->kept);
+    free(run->study);
     free(run->dir);
     *run = (tn_run){0};
 }
@@ -417,6 +419,15 @@ static tn_status store_step(tn_run *run, char *text, tn_error *error)
     return TN_OK;
 }
 
+/* Of a run without a folder, what its database would have. */
+static tn_status keep_step(tn_run *run, tn_error *error)
+{
+    if (!tn_array_resize(&run->kept, run->kept_count + 1, sizeof *run->kept))
+        return tn_fail_memory(error);
+    run->kept[run->kept_count++] = tn_evolution_stats(run->evolution);
+    return run->generations == 0 ? tn_run_first_look(run, &run->look, error) : TN_OK;
+}
+
 /* Could this rank store the generation before? */
 static tn_status stored(const tn_run *run, tn_error *error)
 {
@@ -471,6 +482,8 @@ tn_status tn_run_step(tn_run *run, const tn_chosen *chosen, size_t chosen_count,
         status = check_program(run, error);
     if (status == TN_OK && run->store)
         status = store_step(run, text, error);
+    else if (status == TN_OK && !run->dir)
+        status = keep_step(run, error);
     if (status == TN_OK) {
         run->generations++;
         run->new_changes = 0;

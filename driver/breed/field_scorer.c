@@ -289,7 +289,7 @@ static tn_status make_one(void *context, unsigned thread, size_t item, tn_error 
 }
 
 tn_status tn_field_scorer_draw(const void *scorer, const char *const *sentences, const char *const *labels,
-                               size_t count, const char *title, const char *path, tn_error *error)
+                               size_t count, const char *title, tn_picture *to, tn_error *error)
 {
     const tn_field_scorer *s = scorer;
     forms f = {s, sentences, calloc(count + 1, sizeof *f.items), calloc(count + 1, sizeof *f.normals)};
@@ -302,7 +302,7 @@ tn_status tn_field_scorer_draw(const void *scorer, const char *const *sentences,
         meshes[i] = &f.items[i].contour.mesh;
     const tn_meshes_picture picture = {.title = title, .labels = labels, .normals = f.normals, .open = s->draws_open};
     if (status == TN_OK)
-        status = tn_meshes_draw(meshes, count, &picture, &(tn_picture){.path = path}, error);
+        status = tn_meshes_draw(meshes, count, &picture, to, error);
     for (size_t i = 0; f.items && i < count; i++)
         form_clear(&f.items[i]);
     if (crew)

@@ -3,6 +3,7 @@
 #define TARTAN_DRIVER_BREED_FIELD_SCORER_H
 
 #include "driver/program/form_listener.h"
+#include "runtime/base/picture.h"
 #include "runtime/genome/breeding/evolve.h"
 #include "runtime/genome/settings.h"
 #include "runtime/geometry/guide/guide.h"
@@ -36,7 +37,7 @@ const char *tn_field_scorer_objective(const void *scorer, size_t i);
 
 /* Draws sentences that could be scored side by side, as tn_grower_draw does, but in pixels. */
 tn_status tn_field_scorer_draw(const void *scorer, const char *const *sentences, const char *const *labels,
-                               size_t count, const char *title, const char *path, tn_error *error);
+                               size_t count, const char *title, tn_picture *to, tn_error *error);
 
 /* A sentence's form as a mesh, z up, which the caller clears with the guides that are added to it. */
 tn_status tn_field_scorer_mesh(const void *scorer, const char *sentence, tn_mesh *mesh, tn_guides *guides,

@@ -338,7 +338,7 @@ tn_status tn_grower_unmet(const void *grower, const char *sentence, char **text,
 /* ---- pictures */
 
 tn_status tn_grower_draw(const void *grower, const char *const *sentences, const char *const *labels, size_t count,
-                         const char *title, const char *path, tn_error *error)
+                         const char *title, tn_picture *to, tn_error *error)
 {
     const tn_grower *g = grower;
     tn_canvas_format format;
@@ -349,7 +349,7 @@ tn_status tn_grower_draw(const void *grower, const char *const *sentences, const
     bool surrounded = g->study.environment.force_count > 0 || g->study.environment.boundary_count > 0;
     if (count > 1)
         camera.width = 200;
-    tn_status status = views ? tn_canvas_format_of(path, &format, error) : tn_fail_memory(error);
+    tn_status status = views ? tn_picture_format(to, &format, error) : tn_fail_memory(error);
     for (size_t i = 0; i < count && status == TN_OK; i++) {
         rules compiled;
         status = grow(g, sentences[i], strlen(sentences[i]), &compiled, &growth, error);
@@ -359,7 +359,7 @@ tn_status tn_grower_draw(const void *grower, const char *const *sentences, const
     }
     tn_view_options options = {.title = title, .labels = labels, .fades = true};
     if (status == TN_OK && drawn)
-        status = tn_views_draw(views, drawn, &options, &(tn_picture){.path = path}, error);
+        status = tn_views_draw(views, drawn, &options, to, error);
     for (size_t i = 0; views && i < drawn; i++)
         tn_view_free(views[i]);
     tn_growth_free(growth);

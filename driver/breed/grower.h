@@ -4,6 +4,7 @@
 #define TARTAN_DRIVER_BREED_GROWER_H
 
 #include "driver/program/form_listener.h"
+#include "runtime/base/picture.h"
 #include "runtime/genome/breeding/evolve.h"
 #include "runtime/geometry/guide/guide.h"
 #include "runtime/geometry/mesh.h"
@@ -33,7 +34,7 @@ const char *tn_grower_objective(const void *grower, size_t i);
 /* Grows sentences that could be scored, and draws them side by side in their order, each over its label (`labels` may
  * be NULL). */
 tn_status tn_grower_draw(const void *grower, const char *const *sentences, const char *const *labels, size_t count,
-                         const char *title, const char *path, tn_error *error);
+                         const char *title, tn_picture *to, tn_error *error);
 
 /* Adds what its scores depend on to the text (inputs.h): the study, its rules and meshes. */
 tn_status tn_grower_inputs(const tn_grower *grower, char **inputs, tn_error *error);

@@ -224,11 +224,10 @@ tn_evaluator tn_learner_evaluator(tn_learner *learner)
 
 /* ---- pictures */
 
-tn_status tn_learner_draw(tn_learner *l, const char *sentence, const char *path, tn_error *error)
+tn_status tn_learner_draw(tn_learner *l, const char *sentence, tn_picture *to, tn_error *error)
 {
     tn_opened opened;
     tn_schema *schema = NULL;
-    tn_picture picture = {.path = path};
     tn_status status = open_rule(&l->files, sentence_name, sentence, strlen(sentence), &opened);
     const tn_module *module = opened.module;
     if (status != TN_OK || module->RULE_count == 0) {
@@ -238,7 +237,7 @@ tn_status tn_learner_draw(tn_learner *l, const char *sentence, const char *path,
         tn_drawn_rule drawn = tn_drawn_rule_of(module, rule);
         status = tn_schema_new(module, module->RULE_records[rule].schema, 0, &schema, error);
         if (status == TN_OK)
-            status = tn_rules_draw(schema, &drawn, 1, &picture, error);
+            status = tn_rules_draw(schema, &drawn, 1, to, error);
     }
     tn_schema_free(schema);
     tn_close(&opened);

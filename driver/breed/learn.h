@@ -4,6 +4,7 @@
 #define TARTAN_DRIVER_BREED_LEARN_H
 
 #include "driver/open/open.h"
+#include "runtime/base/picture.h"
 #include "runtime/genome/breeding/evolve.h"
 
 typedef struct tn_learner tn_learner;
@@ -23,7 +24,7 @@ void tn_learner_free(tn_learner *learner);
 tn_evaluator tn_learner_evaluator(tn_learner *learner);
 
 /* Draws the rule of a sentence that could be scored (runtime/plan/picture/draw_rule.h). */
-tn_status tn_learner_draw(tn_learner *learner, const char *sentence, const char *path, tn_error *error);
+tn_status tn_learner_draw(tn_learner *learner, const char *sentence, tn_picture *to, tn_error *error);
 
 /* The module that declares the examples' schema; the learner's. */
 const tn_module *tn_learner_schema(const tn_learner *learner);

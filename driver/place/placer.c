@@ -270,7 +270,7 @@ tn_status tn_placer_text(const tn_placer *p, const char *sentence, char **text, 
 }
 
 tn_status tn_placer_draw(const void *placer, const char *const *sentences, const char *const *labels, size_t count,
-                         const char *title, const char *path, tn_error *error)
+                         const char *title, tn_picture *to, tn_error *error)
 {
     placed *all = calloc(count + 1, sizeof *all);
     tn_placed_shape *shapes = calloc(count + 1, sizeof *shapes);
@@ -280,7 +280,7 @@ tn_status tn_placer_draw(const void *placer, const char *const *sentences, const
         shapes[i] = (tn_placed_shape){all[i].opened.module, &all[i].model};
     }
     if (status == TN_OK && count > 0)
-        status = tn_placed_draw_many(shapes, labels, count, title, &(tn_picture){.path = path}, error);
+        status = tn_placed_draw_many(shapes, labels, count, title, to, error);
     for (size_t i = 0; all && i < count; i++)
         clear_placed(&all[i]);
     free(shapes);

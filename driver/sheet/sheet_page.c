@@ -9,7 +9,6 @@
 
 #include "driver/report/page.h"
 #include "driver/sheet/sheet_script.h"
-#include "runtime/base/file.h"
 
 enum { ANCESTORS_MAX = 60, NARROW_MAX = 65535 };
 
@@ -202,17 +201,17 @@ static bool put_cards(const tn_run *run, const tn_page *page, const tn_run_score
     return good && tn_page_html(page, "</div>\n");
 }
 
-static tn_status write_page(const char *path, const tn_buffer *text, tn_error *error)
+static tn_status write_page(const tn_run *run, const tn_run_files *files, const tn_buffer *text, tn_error *error)
 {
-    tn_output output;
-    tn_status status = tn_output_open(path, &output, error);
+    tn_run_file file;
+    tn_status status = tn_run_file_begin(run->dir, files, TN_SHEET_PAGE, &file, error);
     if (status != TN_OK)
         return status;
-    fwrite(text->data, 1, text->size, output.stream);
-    return tn_output_commit(&output, error);
+    fwrite(text->data, 1, text->size, file.stream); /* what fails shows when it is ended */
+    return tn_run_file_end(&file, TN_OK, error);
 }
 
-tn_status tn_sheet_page(const tn_run *run, char *path, size_t size, tn_error *error)
+tn_status tn_sheet_page(const tn_run *run, const tn_run_files *files, bool *written, tn_error *error)
 {
     size_t all, count = 0;
     tn_buffer text = {0};
@@ -221,11 +220,12 @@ tn_status tn_sheet_page(const tn_run *run, char *path, size_t size, tn_error *er
     const tn_individual *const *members = tn_evolution_members(run->evolution, &all);
     while (count < all && members[count]->score.state == TN_SCORED)
         count++;
-    path[0] = '\0';
-    if (!run->job->forms.mesh || count == 0)
+    *written = run->job->forms.mesh && count > 0;
+    if (!*written)
         return TN_OK;
-    snprintf(path, size, "%s/sheet.html", run->dir);
-    tn_status status = tn_run_store_scores(run->store, tn_evaluator_numbers(&run->job->evaluator), &births, error);
+    tn_status status = run->store
+                           ? tn_run_store_scores(run->store, tn_evaluator_numbers(&run->job->evaluator), &births, error)
+                           : TN_OK;
     if (status == TN_OK)
         status = tn_page_written(&page, put_cards(run, &page, &births, count));
     if (status == TN_OK)
@@ -233,7 +233,7 @@ tn_status tn_sheet_page(const tn_run *run, char *path, size_t size, tn_error *er
     if (status == TN_OK)
         status = tn_page_written(&page, put_script(&page));
     if (status == TN_OK)
-        status = write_page(path, &text, error);
+        status = write_page(run, files, &text, error);
     tn_run_scores_clear(&births);
     free(text.data);
     return status;

@@ -5,8 +5,9 @@
 
 #include "driver/breed/evolve.h"
 
-/* Writes sheet.html into the run's folder. `path` (of `size` bytes) is where; "" where what is bred has no forms in
- * space. */
-tn_status tn_sheet_page(const tn_run *run, char *path, size_t size, tn_error *error);
+#define TN_SHEET_PAGE "sheet.html"
+
+/* Writes it to `files` or (NULL) into the run's folder. *written: false if what is bred has no forms in space. */
+tn_status tn_sheet_page(const tn_run *run, const tn_run_files *files, bool *written, tn_error *error);
 
 #endif

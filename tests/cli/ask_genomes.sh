@@ -89,17 +89,56 @@ is 'nothing to change' "$(asks change_run hello.study '{"run": "hello.run"}')" \
     'error say what is changed: a sentence that is inserted, or a member that is taken out'
 is 'a change without output' "$(said runs remove hello.run 3 --json)" 'error `tartan runs remove` has no output: leave --json out'
 
+# ---- evolve
+export TARTAN_PATH=$stdlib # of what the studies name
+"$TARTAN" evolve hello.study -o whole.run --json >whole.json
+is 'gone on with' "$(asks evolve hello.study '{"run": "whole.run", "resume": true}')" "$("$TARTAN" evolve hello.study -o whole.run --resume --json)"
+is 'goes further' "$(asks evolve hello.study '{"run": "whole.run", "resume": true, "generations": 6, "threads": 1}' >/dev/null; "$TARTAN" runs show whole.run | sed 1d)" \
+    "$("$TARTAN" evolve hello.study -o at-once.run -g 6 >/dev/null; "$TARTAN" runs show at-once.run | sed 1d)"
+is 'another seed' "$(of evolve hello.study '{"seed": 5, "generations": 3}' newest)" "$("$TARTAN" evolve hello.study --seed 5 -g 3 -o seed.run --json >seed.json
+    python3 -c 'import json; print(json.dumps(json.load(open("seed.json"))["newest"], separators=(",", ":")))')"
+is 'a run in the way' "$(asks evolve hello.study '{"run": "whole.run"}')" "$(said evolve hello.study -o whole.run)"
+is 'a change of no run' "$(asks evolve hello.study '{"set": ["length-weight 1"]}')" "$(said evolve hello.study --set 'length-weight 1')"
+is 'rescored without a run' "$(asks evolve hello.study '{"rescore": true}')" "$(said evolve hello.study --rescore)"
+is 'resumed without a folder' "$(asks evolve hello.study '{"resume": true}')" 'error --resume goes on with the run of a folder: say which'
+is 'open words' "$(asks evolve hello.study '{"open": true}')" "$(said evolve hello.study --open -o another)"
+is 'no study' "$(asks evolve "$words" '{}' | sed 's/.*has no/no/')" "$(said evolve "$words" | sed 's/.*has no/no/')"
+# Without a folder: the files that the command writes, with the same bytes; and a page.
+printf 'rules "square"\nsteps 3\ngravity 0 0 -0.1\nfitness undulation target 3\nfitness size target 6\nedge-limit 2000\n' >tent.study
+printf 'evolution {\n  grammar "genr8-dividing"\n  grow "tent.study"\n  population 16\n  generations 2\n  seed 5\n}\n' >grown.study
+cp "$here/../../examples/breeding-fields/four.study" "$here/../../examples/solids/seat.study" "$here/../../examples/solids/"*.solid .
+printf 'evolution {\n  parent "ball.field"\n  fitness volume target 20\n  population 6\n  generations 1\n}\n' >bred.study
+cp "$here/files/ball.field" .
+for study in hello grown seat bred; do
+    asks evolve $study.study '{"generations": 1, "page": true}' >$study.json
+    "$TARTAN" evolve $study.study -o $study.files -g 1 >/dev/null 2>&1 || fail "$study is not evolved"
+    is "files of $study" "$(python3 -c 'import base64, json, os, sys
+study = sys.argv[1]
+answer, named = json.load(open(study + ".json")), set()
+for file in answer["files"]:
+    path = os.path.join(study + ".files", file["name"])
+    content = file["text"].encode() if "text" in file else base64.b64decode(file["base64"])
+    named.add(path)
+    if file["name"] == "sheet.html":
+        print("page" if content.startswith(b"<!") else content[:20])
+    elif open(path, "rb").read() != content:
+        print(path)
+print({os.path.join(folder, name) for folder, _, names in os.walk(study + ".files") for name in names} - named)' $study)" \
+        "$([ $study = hello ] || echo page; echo "{'$study.files/run.sqlite'}")"
+done
+
 # ---- answers follow the schema
 "$TARTAN" help --requests schema >schema.json
 if python3 -c 'import jsonschema' 2>/dev/null; then
     asks map "$genr8" '{"random": 3, "tree": "json", "trace": true}' >map.json
     asks invert "$words" '{"sentence": "hello"}' >invert.json
     asks change_run hello.study '{"run": "hello.run", "sentence": "hello"}' >change_run.json
+    cp grown.json evolve.json
     is 'schema' "$(python3 -c 'import json, jsonschema, sys
 schema = json.load(open("schema.json"))
 for question in sys.argv[1:]:
     kind = {"$defs": schema["$defs"], **schema["answers"][question]}
     for error in jsonschema.Draft202012Validator(kind).iter_errors(json.load(open(question + ".json"))):
-        print(question, error.message[:300])' map invert change_run)" ''
+        print(question, error.message[:300])' map invert change_run evolve)" ''
 fi
 finish

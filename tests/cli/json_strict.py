@@ -334,7 +334,7 @@ os.chmod("score.py", 0o755)
 with open("words.bnf", "w") as file:
     file.write(GRAMMAR)
 study = write(".study", 'evolution {\n  grammar "words.bnf"\n  fitness program "score.py"\n  population 8\n  generations 2\n  seed 3\n}\n')
-run("evolve", study, "--run-programs", "-o", NAME + b"-run")
+writes("json", "evolve", study, "--run-programs", "-o", NAME + b"-run", "--json")
 writes("json", "runs", "show", NAME + b"-run", "--json")
 writes("json", "runs", "replay", NAME + b"-run", "1", "--json")
 files("output", NAME + b"-runs.json", "runs", "compare", NAME + b"-run", "-o", NAME + b"-runs.json")

@@ -11,16 +11,16 @@ tn_status tn_tree_draw(const tn_grammar *grammar, const tn_event *events, const 
     return tn_part_absent(TN_WITH_DRAW, "drawing a derivation", error);
 }
 
-tn_status tn_stats_plot(const tn_generation_stats *stats, size_t count, const char *title, const char *path,
+tn_status tn_stats_plot(const tn_generation_stats *stats, size_t count, const char *title, tn_picture *to,
                         tn_error *error)
 {
-    (void)stats, (void)count, (void)title, (void)path;
+    (void)stats, (void)count, (void)title, (void)to;
     return tn_part_absent(TN_WITH_DRAW, "drawing how a run went", error);
 }
 
-tn_status tn_sentences_draw(const tn_individual *const *members, size_t count, const char *title, const char *path,
+tn_status tn_sentences_draw(const tn_individual *const *members, size_t count, const char *title, tn_picture *to,
                             tn_error *error)
 {
-    (void)members, (void)count, (void)title, (void)path;
+    (void)members, (void)count, (void)title, (void)to;
     return tn_part_absent(TN_WITH_DRAW, "drawing a generation", error);
 }

@@ -229,16 +229,16 @@ static void draw_title(cairo_t *t, const char *title)
     tn_type_line(t, LEFT, 38, TN_ALIGN_LEFT, "score: lower is better; the band holds the middle half of the members");
 }
 
-tn_status tn_stats_plot(const tn_generation_stats *stats, size_t count, const char *title, const char *path,
+tn_status tn_stats_plot(const tn_generation_stats *stats, size_t count, const char *title, tn_picture *to,
                         tn_error *error)
 {
     tn_canvas_format format;
     tn_canvas *canvas = NULL;
     tn_canvas_options options = {.width = WIDTH, .height = HEIGHT, .title = title};
     double *scratch = calloc(count + 1, sizeof *scratch);
-    tn_status status = scratch ? tn_canvas_format_of(path, &format, error) : tn_fail_memory(error);
+    tn_status status = scratch ? tn_picture_format(to, &format, error) : tn_fail_memory(error);
     if (status == TN_OK)
-        status = tn_canvas_new(path, format, &options, &canvas, error);
+        status = tn_canvas_open(to, &options, &canvas, error);
     if (status == TN_OK) {
         chart c = {.context = tn_canvas_context(canvas), .stats = stats, .count = count};
         find_range(&c, scratch);

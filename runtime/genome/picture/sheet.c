@@ -71,7 +71,7 @@ static void draw_cell(cairo_t *t, double x, double y, double height, size_t numb
                   (unsigned)((height - INSET - HEAD - INSET) / LEADING));
 }
 
-tn_status tn_sentences_draw(const tn_individual *const *members, size_t count, const char *title, const char *path,
+tn_status tn_sentences_draw(const tn_individual *const *members, size_t count, const char *title, tn_picture *to,
                             tn_error *error)
 {
     unsigned lines = 1;
@@ -87,7 +87,7 @@ tn_status tn_sentences_draw(const tn_individual *const *members, size_t count, c
                                  .height = 2 * MARGIN + (double)rows * height,
                                  .title = title};
     tn_canvas *canvas = NULL;
-    tn_status status = tn_canvas_new(path, TN_CANVAS_SVG, &options, &canvas, error);
+    tn_status status = tn_canvas_open(to, &options, &canvas, error);
     if (status == TN_OK) {
         for (size_t i = 0; i < count; i++)
             draw_cell(tn_canvas_context(canvas), MARGIN + (double)(i % columns) * CELL_WIDTH,

@@ -1,5 +1,5 @@
 /* A generation on a sheet: of surfaces or designs where what is bred has a form, else of its sentences. */
-#include "driver/breed/evolve_sheet.h"
+#include "driver/sheet/sheet_picture.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -25,7 +25,7 @@ static void write_label(const tn_run *run, size_t i, const tn_individual *member
 }
 
 /* Forms are drawn as they are, in the members' order; those without a score come last and are not drawn. */
-static tn_status draw_forms(tn_run *run, size_t scored, const char *path, tn_error *error)
+static tn_status draw_forms(const tn_run *run, size_t scored, tn_picture *to, tn_error *error)
 {
     size_t count;
     const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
@@ -41,7 +41,7 @@ static tn_status draw_forms(tn_run *run, size_t scored, const char *path, tn_err
     if (scored < count)
         snprintf(title + strlen(title), 40, "; %zu more have no %s", count - scored, run->job->forms.what);
     if (status == TN_OK)
-        status = run->job->forms.draw(run->job->forms.context, sentences, labels, scored, title, path, error);
+        status = run->job->forms.draw(run->job->forms.context, sentences, labels, scored, title, to, error);
     free(sentences);
     free(labels);
     free(text);
@@ -57,12 +57,16 @@ static size_t count_scored(const tn_run *run)
     return scored;
 }
 
-tn_status tn_run_sheet(tn_run *run, char *path, size_t size, tn_error *error)
+tn_status tn_run_sheet(const tn_run *run, const tn_run_files *files, char name[TN_SHEET_NAME_SIZE], tn_error *error)
 {
     size_t count, scored = run->job->forms.context ? count_scored(run) : 0;
-    snprintf(path, size, "%s/sheet-%04u%s", run->dir, run->generations ? run->generations - 1 : 0,
-             scored ? run->job->forms.picture : ".svg");
     const tn_individual *const *members = tn_evolution_members(run->evolution, &count);
-    return scored ? draw_forms(run, scored, path, error)
-                  : tn_sentences_draw(members, count, run->job->grammar->name, path, error);
+    tn_run_picture picture;
+    snprintf(name, TN_SHEET_NAME_SIZE, "sheet-%04u%s", run->generations ? run->generations - 1 : 0,
+             scored ? run->job->forms.picture : ".svg");
+    tn_status status = tn_run_picture_begin(run->dir, files, name, &picture, error);
+    if (status == TN_OK)
+        status = scored ? draw_forms(run, scored, &picture.to, error)
+                        : tn_sentences_draw(members, count, run->job->grammar->name, &picture.to, error);
+    return tn_run_picture_end(&picture, status, error);
 }
