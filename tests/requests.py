@@ -70,7 +70,7 @@ ROWS = {
 }
 # What is a part of the answer to another question, or of no answer that a command writes as JSON (tests/cli/ask_genomes.sh); ask_files.py has
 # those that make files, ask_source.py those about the text.
-PARTS = {"coverage": "test", "invert": "map", "change_run": "runs"}
+PARTS = {"coverage": "test", "invert": "map", "change_run": "runs", "breed": "evolve"}
 wrong = []
 
 

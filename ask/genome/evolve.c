@@ -100,7 +100,7 @@ static bool goes_on(evolving_run *r)
     bool wanted = left && !exhausted && !tn_run_reached(run);
     r->told->has_exhausted = left && exhausted;
     r->told->exhausted = run->sentences;
-    return wanted && (tn_ranks_several(r->e.session->ranks) || !tn_watch_stopped(r->e.session->opened->module->watch));
+    return wanted && (tn_ranks_several(r->e.session->ranks) || !tn_watch_stopped(r->e.watch));
 }
 
 static tn_status step(evolving_run *r, tn_error *error)
@@ -245,7 +245,7 @@ static tn_status evolve(evolving_run *r, bool page)
     const tn_ranks *ranks = r->e.session->ranks;
     tn_error error, telling;
     tn_status status = breed_all(r, &error);
-    bool stopped = tn_ranks_any(ranks, tn_watch_stopped(r->e.session->opened->module->watch) || status == TN_STOPPED);
+    bool stopped = tn_ranks_any(ranks, tn_watch_stopped(r->e.watch) || status == TN_STOPPED);
     if (status == TN_STOPPED)
         status = TN_OK; /* within a generation, which is not kept */
     bool results = status == TN_OK && !stopped && r->lead && r->e.run.generations;
@@ -266,13 +266,16 @@ static tn_status evolve(evolving_run *r, bool page)
 
 tn_status tn_ask_evolve(tn_session *session, const tn_evolve_request *request, tn_reply *answer)
 {
-    evolving_run r = {
-        .e = {.session = session, .asked = &request->asked}, .answer = answer, .lead = tn_ranks_lead(session->ranks)};
+    evolving_run r = {.e = {.session = session, .asked = &request->asked, .watch = session->opened->module->watch},
+                      .answer = answer,
+                      .lead = tn_ranks_lead(session->ranks)};
     tn_error error;
     *answer = (tn_reply){0};
     tn_status status = tn_evolving_begin(&r.e);
-    if (status == TN_OK && (status = tn_reply_new(&tn_message_evolved, answer, &error)) != TN_OK)
-        tn_session_fail(session, &error);
+    if (status == TN_OK) {
+        status = tn_ranks_agree(session->ranks, tn_reply_new(&tn_message_evolved, answer, &error), &error);
+        status = status == TN_OK ? TN_OK : tn_session_fail(session, &error);
+    }
     if (status == TN_OK) {
         r.told = answer->value;
         r.told->has_run = request->asked.run != NULL;

@@ -92,7 +92,7 @@ static tn_status make_job(tn_evolving *e, const tn_evolution_study *study)
     const tn_ranks *ranks = e->session->ranks;
     tn_error error;
     const tn_evolution_job_options options = {.threads = ranks && !asked->has_threads ? 1 : (unsigned)asked->threads,
-                                              .watch = opened->module->watch,
+                                              .watch = e->watch,
                                               .ranks = ranks,
                                               .says_seed = asked->has_seed,
                                               .seed = asked->seed,

@@ -8,6 +8,7 @@
 typedef struct tn_evolving {
     tn_session *session;
     const tn_run_asked *asked; /* borrowed */
+    tn_watch *watch;           /* borrowed, or NULL: breeding gives up (TN_STOPPED) once this says so */
     bool remembers;            /* whoever was born can be chosen as a parent later */
     tn_evolution_job job;
     tn_run run;
@@ -15,7 +16,7 @@ typedef struct tn_evolving {
 } tn_evolving;
 
 /* Makes the run of the study that is open, as far as it was made before. What is wrong is said. With several ranks,
- * together. Zero it before, but for its first three members; clear it in any case, before the file is closed. */
+ * together. Zero it before, but for its first four members; clear it in any case, before the file is closed. */
 tn_status tn_evolving_begin(tn_evolving *evolving);
 void tn_evolving_clear(tn_evolving *evolving);
 

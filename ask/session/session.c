@@ -26,6 +26,7 @@ void tn_session_forget(tn_session *session)
     forget_library(session);
     tn_boxed_free(&session->explainer);
     tn_boxed_free(&session->grammar);
+    tn_boxed_free(&session->breeding);
 }
 
 tn_status tn_session_fail(tn_session *session, const tn_error *error)

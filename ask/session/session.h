@@ -57,6 +57,7 @@ typedef struct tn_session {
 
     tn_boxed explainer; /* of the plan that was explained last */
     tn_boxed grammar;   /* that genomes are mapped through */
+    tn_boxed breeding;  /* the run that is bred by hand */
 } tn_session;
 
 /* Frees what is kept, which is before the file is closed. The session can be used again. */

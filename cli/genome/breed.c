@@ -4,41 +4,83 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/session/questions.h"
 #include "cli/common/interrupt.h"
 #include "cli/genome/evolution_session.h"
 #include "cli/genome/prompt.h"
-#include "driver/hand/choice.h"
-#include "driver/sheet/sheet_page.h"
-#include "driver/sheet/sheet_picture.h"
 
-/* Reads a line of choices and says what is wrong with it. */
-static bool read_choice(const char *line, size_t members, tn_choices *choices)
+/* What has been typed so far, which is what the question asks for. */
+typedef struct by_eye {
+    tn_study_job *study;
+    tn_prompt prompt;
+    tn_breed_request request;
+    tn_reply answer; /* the newest generation */
+} by_eye;
+
+static const tn_bred *told(const by_eye *b)
 {
-    char wrong[40];
-    tn_error error;
-    tn_status status = tn_choices_read(line, choices, wrong, &error);
-    for (size_t i = 0; status == TN_OK && i < choices->count; i++)
-        if (!choices->items[i].by_id && choices->items[i].number >= members) {
-            snprintf(wrong, sizeof wrong, "%" PRIu64, choices->items[i].number + 1);
-            status = TN_INVALID;
-        }
-    if (status != TN_OK)
-        printf("`%s` is not a choice: write numbers from 1 to %zu, as 3 7 12; 3*2 counts twice, 3@0.4 gives less of it "
-               "(0 to 1), "
-               "and #41 is the individual with that id\n",
-               wrong, members);
-    return status == TN_OK;
+    return TN_REPLY(bred, &b->answer);
 }
 
-typedef enum answer { PARENTS, CHANGED, NOTHING_MORE } answer;
+/* Says what is wrong with what was typed, which is asked again, and takes that back from what is said in the end. */
+static void refuse(tn_job *job, const tn_diagnostics *kept)
+{
+    tn_diagnostics *list = tn_job_diagnostics(job);
+    for (size_t i = 0; i < list->count; i++)
+        tn_prompt_say(&list->items[i]);
+    tn_diagnostics_clear(list);
+    *list = *kept;
+}
 
-/* Asks until there is an answer. */
-static answer ask(tn_evolving *e, size_t members, tn_choices *c)
+static tn_code code_of(tn_job *job)
+{
+    const tn_diagnostics *list = tn_job_diagnostics(job);
+    return list->count ? list->items[list->count - 1].code : TN_CODE_NONE;
+}
+
+/* The next generation, or the one that there is as it was changed; false: it could not be bred, which ends the command.
+ * *done: the generation is to be shown. */
+static bool act(by_eye *b, const tn_breed_action *action, bool *done)
+{
+    tn_job *job = &b->study->job;
+    tn_diagnostics *list = tn_job_diagnostics(job);
+    const tn_diagnostics kept = *list;
+    tn_reply answer;
+    if (!tn_prompt_add(&b->prompt, action, &b->request)) {
+        tn_job_status(job, TN_MEMORY);
+        return false;
+    }
+    tn_diagnostics_init(list, kept.sources);
+    tn_status status = tn_ask_breed(&job->session, &b->request, &answer);
+    tn_code code = code_of(job);
+    bool breeds = action->does == TN_PROMPT_BREED, nobody = breeds && code == E_NO_INDIVIDUAL;
+    *done = status == TN_OK || nobody;
+    if (status != TN_OK && breeds && !nobody && code != E_USAGE) {
+        tn_reply_clear(&answer);
+        tn_job_answered(job, status);
+        return false;
+    }
+    if (status == TN_OK) {
+        tn_diagnostics_clear(list);
+        *list = kept;
+        tn_reply_clear(&b->answer);
+        b->answer = answer;
+    } else {
+        refuse(job, &kept);
+        tn_prompt_take_back(&b->prompt, &b->request);
+        tn_reply_clear(&answer);
+    }
+    return true;
+}
+
+/* Reads a line and does what it says, until something is done; false: there is no more. *failed: the command is. */
+static bool ask(by_eye *b, bool *failed)
 {
     char *line = NULL;
     size_t capacity = 0;
-    answer given = NOTHING_MORE;
-    for (bool answered = false; !answered;) {
+    bool done = false, more = true;
+    while (!done && more) {
+        tn_breed_action action;
         printf("parents? (numbers; set, insert, edit or out; an empty line ends) ");
         fflush(stdout);
         tn_interrupt_asking(true);
@@ -48,59 +90,44 @@ static answer ask(tn_evolving *e, size_t members, tn_choices *c)
             putchar('\n');
             break;
         }
-        tn_prompt_answer done = tn_prompt_do(e, line);
-        bool command = done != TN_PROMPT_NOT_A_COMMAND;
-        answered = command ? done == TN_PROMPT_DONE : read_choice(line, members, c);
-        given = command ? CHANGED : c->count > 0 ? PARENTS : NOTHING_MORE;
+        tn_prompt_answer typed = tn_prompt_read(&b->prompt, told(b), line, &action);
+        more = typed != TN_PROMPT_NOTHING;
+        if (typed == TN_PROMPT_ACTION) {
+            *failed = !act(b, &action, &done);
+            more = !*failed;
+        }
+        tn_prompt_end(&b->prompt, done);
     }
     free(line);
-    return given;
+    return done;
 }
 
-static void breed(tn_evolving *e, tn_job *job)
+static void show(const tn_bred *bred)
 {
-    tn_error error;
-    tn_choices c = {0};
-    bool begins = e->run.generations == 0;
-    tn_status status = begins ? tn_run_step(&e->run, NULL, 0, &error) : TN_OK;
-    if (begins && status == TN_OK) {
-        tn_evolving_warn(e);
-        tn_job_show(job);
-    }
-    while (status == TN_OK && !tn_interrupted()) {
-        size_t members;
-        char sheet[TN_SHEET_NAME_SIZE];
-        bool page;
-        tn_evolution_members(e->run.evolution, &members);
-        status = tn_run_sheet(&e->run, NULL, sheet, &error);
-        if (status != TN_OK)
-            break;
-        status = tn_sheet_page(&e->run, NULL, &page, &error);
-        if (status != TN_OK)
-            break;
-        printf("generation %u: %s/%s", e->run.generations - 1, e->run.dir, sheet);
-        if (page)
-            printf(", %s/%s", e->run.dir, TN_SHEET_PAGE);
-        putchar('\n');
-        answer given = e->run.generations > e->generations ? NOTHING_MORE : ask(e, members, &c);
-        if (given == NOTHING_MORE)
-            break;
-        if (given == CHANGED) /* the same members, as they are now, on the sheet again */
-            continue;
-        status = tn_run_step(&e->run, c.items, c.count, &error);
-        if (status == TN_INVALID && error.code == E_NO_INDIVIDUAL) { /* an id that nobody has: asked again */
-            puts(error.message);
-            status = TN_OK;
-        }
-    }
-    tn_choices_clear(&c);
-    if (status == TN_OK)
-        status = tn_run_results(&e->run, NULL, &error);
-    if (status != TN_OK) {
-        tn_job_fail(job, &error);
+    printf("generation %" PRIu64 ": %s/%s", bred->generation, bred->run, bred->sheet);
+    if (bred->has_page)
+        printf(", %s/%s", bred->run, bred->page);
+    putchar('\n');
+}
+
+static void breed(by_eye *b)
+{
+    tn_job *job = &b->study->job;
+    bool failed = false;
+    tn_reply answer;
+    if (!tn_job_answered(job, tn_ask_breed(&job->session, &b->request, &b->answer)))
         return;
+    tn_job_show(job);
+    if (!tn_interrupted()) {
+        do
+            show(told(b));
+        while (told(b)->more && ask(b, &failed) && !tn_interrupted());
     }
-    printf("results are in %s; --resume goes on from here\n", e->run.dir);
+    b->request.results = true;
+    if (failed || !tn_job_answered(job, tn_ask_breed(&job->session, &b->request, &answer)))
+        return;
+    tn_reply_clear(&answer);
+    printf("results are in %s; --resume goes on from here\n", b->study->asked.run);
     if (tn_interrupted())
         job->exit_code = TN_EXIT_INTERRUPTED;
 }
@@ -110,12 +137,10 @@ static int run(const tn_command *command, const tn_settings *settings)
     (void)command;
     tn_study_job study;
     if (tn_study_job_open(&study, (const tn_session_settings *)settings)) {
-        tn_evolving evolving = {.session = &study.job.session, .asked = &study.asked, .remembers = true};
-        if (tn_job_answered(&study.job, tn_evolving_begin(&evolving))) {
-            tn_job_show(&study.job);
-            breed(&evolving, &study.job);
-        }
-        tn_evolving_clear(&evolving);
+        by_eye b = {.study = &study, .prompt.dir = study.asked.run, .request.asked = study.asked};
+        breed(&b);
+        tn_reply_clear(&b.answer);
+        tn_prompt_clear(&b.prompt);
     }
     return tn_study_job_end(&study);
 }

@@ -1,4 +1,6 @@
-/* Does what a person types while breeding: changes of the run, and individuals inserted, edited and taken out. */
+/* Reads what a person types while breeding: parents, changes of the run, and individuals inserted, edited and taken
+ * out.
+ */
 #include "cli/genome/prompt.h"
 
 #include <errno.h>
@@ -9,82 +11,53 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "cli/common/options.h"
+#include "runtime/base/array.h"
 #include "runtime/base/file.h"
 #include "runtime/base/utf8.h"
 
-static void say(const tn_error *error)
-{
-    puts(error->message);
-    if (error->help[0])
-        puts(error->help);
-}
+#define SENTENCE_BYTES_MAX ((size_t)1 << 20)
 
-static tn_prompt_answer answer_of(tn_status status, const tn_error *error)
-{
-    if (status != TN_OK)
-        say(error);
-    return status == TN_OK ? TN_PROMPT_DONE : TN_PROMPT_REFUSED;
-}
-
-/* ---- individuals */
-
-/* The member at a place ("3") or with an id ("#41"); NULL, and said, where there is none. */
-static const tn_individual *member_of(const tn_evolving *e, const char *word)
-{
-    size_t count;
-    uint64_t number;
-    const tn_individual *const *members = tn_evolution_members(e->run.evolution, &count);
-    bool by_id = word[0] == '#', read = tn_number_read(word + by_id, &number);
-    for (size_t i = 0; read && i < count; i++)
-        if (by_id ? members[i]->id == number : i + 1 == number)
-            return members[i];
-    printf("`%.40s` is nobody here: write a number from 1 to %zu, or # and the id of one on the sheet\n", word, count);
-    return NULL;
-}
+/* ---- what is wrong */
 
 /* Shows where a sentence cannot be derived. */
-static void show_place(const char *sentence, const tn_error *error)
+static void show_place(const char *sentence, size_t at)
 {
     enum { BEFORE = 50, SHOWN = 76 };
-    size_t at = error->column - 1, size = strlen(sentence), begin = at > BEFORE ? at - BEFORE : 0;
+    size_t size = strlen(sentence), begin = at > BEFORE ? at - BEFORE : 0;
     tn_write_clean(stdout, sentence + begin, size - begin < SHOWN ? size - begin : SHOWN);
     printf("\n%*s\n", (int)(at - begin) + 1, "^");
 }
 
-/* Inserts a sentence in the place of `member`, or of the worst (NULL). */
-static tn_prompt_answer insert_text(tn_evolving *e, const tn_individual *member, const char *text, size_t size)
+void tn_prompt_say(const tn_diagnostic *d)
 {
-    tn_genome genome = {0};
-    tn_error error = {0};
-    char *sentence, *event = NULL;
-    uint64_t out = member ? member->id : TN_NO_PARENT;
-    tn_by_hand_language language = tn_evolution_job_language(&e->job);
-    tn_status status = tn_by_hand_genome(&language, text, size, &genome, &sentence, &error);
-    if (status != TN_OK && sentence && error.line && error.column <= strlen(sentence))
-        show_place(sentence, &error);
-    if (status == TN_OK && !(event = tn_by_hand_text(out, &genome)))
-        status = tn_fail_memory(&error);
-    if (status == TN_OK)
-        status = tn_run_by_hand(&e->run, member ? "edit" : "insert", event, &error);
-    free(event);
-    free(sentence);
-    tn_genome_clear(&genome);
-    return answer_of(status, &error);
+    if (d->input_text && d->input_column > 0)
+        show_place(d->input_text, d->input_column - 1);
+    puts(d->message);
+    if (d->help)
+        puts(d->help);
 }
 
-static tn_prompt_answer insert_file(tn_evolving *e, const tn_individual *member, const char *path)
+/* ---- sentences */
+
+/* The sentence that a file has; false, and said, if it cannot be read. */
+static bool read_sentence(tn_prompt *prompt, const char *path)
 {
     uint8_t *bytes;
     size_t size;
     tn_error error;
-    if (tn_file_read(path, TN_SENTENCE_FILE_MAX, &bytes, &size, &error) != TN_OK)
-        return answer_of(TN_INVALID, &error);
-    tn_prompt_answer answer = insert_text(e, member, (const char *)bytes, size);
-    free(bytes);
-    return answer;
+    if (tn_file_read(path, SENTENCE_BYTES_MAX, &bytes, &size, &error) != TN_OK) {
+        puts(error.message);
+        if (error.help[0])
+            puts(error.help);
+        return false;
+    }
+    for (size_t i = 0; i < size; i++) /* a zero byte is in no sentence, and no end of one */
+        bytes[i] = bytes[i] ? bytes[i] : '?';
+    free(prompt->sentence);
+    prompt->sentence = (char *)bytes;
+    return true;
 }
-
-/* ---- editing */
 
 /* Lets the person's editor change a file; false, and said, where it ended otherwise than well. */
 static bool let_edit(const char *path)
@@ -128,76 +101,172 @@ static bool write_lines(const char *path, const char *sentence)
     return fclose(out) == 0;
 }
 
-static tn_prompt_answer edit_member(tn_evolving *e, const tn_individual *member)
+/* The member at a place ("3") or with an id ("#41"), or NULL. */
+static const tn_bred_member *member_of(const tn_bred *bred, const char *word)
 {
-    char *path = NULL;
-    if (asprintf(&path, "%s/edited-%" PRIu64 ".%s", e->run.dir, member->id, e->job.extension) < 0)
-        return TN_PROMPT_REFUSED;
-    tn_prompt_answer answer = TN_PROMPT_REFUSED;
-    bool surfaces = strcmp(e->job.extension, "hemls") == 0;
-    FILE *plain = surfaces ? NULL : fopen(path, "w");
-    bool written = surfaces ? write_lines(path, member->sentence)
-                            : plain && fprintf(plain, "%s\n", member->sentence) > 0 && fclose(plain) == 0;
-    if (!written)
-        printf("cannot write %.200s\n", path);
-    else if (let_edit(path))
-        answer = insert_file(e, member, path);
-    if (written && answer == TN_PROMPT_REFUSED)
-        printf("what you wrote is in %.200s\n", path);
-    else
-        unlink(path);
-    free(path);
-    return answer;
+    uint64_t number;
+    bool by_id = word[0] == '#', read = tn_number_read(word + by_id, &number);
+    for (size_t i = 0; read && i < bred->members.count; i++)
+        if ((by_id ? bred->members.items[i].told.individual : i + 1) == number)
+            return &bred->members.items[i];
+    return NULL;
 }
 
-/* "N" or "N FILE" */
-static tn_prompt_answer edit(tn_evolving *e, char *words)
+/* Lets the person edit a member's sentence; false, and said, if that failed. */
+static bool edit_member(tn_prompt *prompt, const tn_bred *bred, const tn_bred_member *member)
+{
+    const char *sentence = member->told.sentence;
+    char *path = NULL;
+    if (asprintf(&path, "%s/edited-%" PRIu64 ".%s", prompt->dir, member->told.individual, bred->extension) < 0)
+        return false;
+    bool surfaces = strcmp(bred->extension, "hemls") == 0;
+    FILE *plain = surfaces ? NULL : fopen(path, "w");
+    bool written =
+        surfaces ? write_lines(path, sentence) : plain && fprintf(plain, "%s\n", sentence) > 0 && fclose(plain) == 0;
+    if (!written) {
+        printf("cannot write %.200s\n", path);
+        free(path);
+        return false;
+    }
+    prompt->edited = path;
+    return let_edit(path) && read_sentence(prompt, path);
+}
+
+/* ---- lines */
+
+static bool read_insert(tn_prompt *prompt, const tn_bred *bred, char *file, tn_breed_action *action)
+{
+    (void)bred;
+    action->file = file;
+    return read_sentence(prompt, file);
+}
+
+static bool read_out(tn_prompt *prompt, const tn_bred *bred, char *word, tn_breed_action *action)
+{
+    (void)prompt, (void)bred;
+    action->member = word;
+    return true;
+}
+
+static bool read_set(tn_prompt *prompt, const tn_bred *bred, char *change, tn_breed_action *action)
+{
+    (void)prompt, (void)bred;
+    action->change = change;
+    return true;
+}
+
+/* "N" or "N FILE". Whoever is no member is refused by the question. */
+static bool read_edit(tn_prompt *prompt, const tn_bred *bred, char *words, tn_breed_action *action)
 {
     char *file = words + strcspn(words, " ");
     if (*file)
         *file++ = '\0';
     file += strspn(file, " ");
-    const tn_individual *member = member_of(e, words);
+    action->member = words;
+    action->file = *file ? file : NULL;
+    const tn_bred_member *member = member_of(bred, words);
     if (!member)
-        return TN_PROMPT_REFUSED;
-    return *file ? insert_file(e, member, file) : edit_member(e, member);
+        return true;
+    return *file ? read_sentence(prompt, file) : edit_member(prompt, bred, member);
 }
 
-static tn_prompt_answer take_out(tn_evolving *e, char *word)
-{
-    char id[24];
-    tn_error error;
-    const tn_individual *member = member_of(e, word);
-    if (!member)
-        return TN_PROMPT_REFUSED;
-    snprintf(id, sizeof id, "%" PRIu64, member->id);
-    return answer_of(tn_run_by_hand(&e->run, "remove", id, &error), &error);
-}
-
-static tn_prompt_answer insert(tn_evolving *e, char *path)
-{
-    return insert_file(e, NULL, path);
-}
-
-static tn_prompt_answer set(tn_evolving *e, char *change)
-{
-    tn_error error;
-    return answer_of(tn_run_set(&e->run, change, &error), &error);
-}
-
-tn_prompt_answer tn_prompt_do(tn_evolving *session, char *line)
+tn_prompt_answer tn_prompt_read(tn_prompt *prompt, const tn_bred *bred, char *line, tn_breed_action *action)
 {
     static const struct {
         const char *name;
-        tn_prompt_answer (*does)(tn_evolving *session, char *rest);
-    } commands[] = {{"set ", set}, {"insert ", insert}, {"out ", take_out}, {"edit ", edit}};
+        unsigned does;
+        bool (*read)(tn_prompt *prompt, const tn_bred *bred, char *rest, tn_breed_action *action);
+    } commands[] = {{"set ", TN_PROMPT_SET, read_set},
+                    {"insert ", TN_PROMPT_INSERT, read_insert},
+                    {"out ", TN_PROMPT_OUT, read_out},
+                    {"edit ", TN_PROMPT_EDIT, read_edit}};
+    *action = (tn_breed_action){.does = TN_PROMPT_BREED, .parents = line};
     line[strcspn(line, "\r\n")] = '\0';
     for (size_t end = strlen(line); end && line[end - 1] == ' ';)
         line[--end] = '\0';
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
         size_t size = strlen(commands[i].name);
-        if (strncmp(line, commands[i].name, size) == 0)
-            return commands[i].does(session, line + size + strspn(line + size, " "));
+        if (strncmp(line, commands[i].name, size) != 0)
+            continue;
+        *action = (tn_breed_action){.does = commands[i].does};
+        bool read = commands[i].read(prompt, bred, line + size + strspn(line + size, " "), action);
+        action->sentence = prompt->sentence;
+        return read ? TN_PROMPT_ACTION : TN_PROMPT_REFUSED;
     }
-    return TN_PROMPT_NOT_A_COMMAND;
+    return line[strspn(line, " ,\t")] ? TN_PROMPT_ACTION : TN_PROMPT_NOTHING;
+}
+
+void tn_prompt_end(tn_prompt *prompt, bool done)
+{
+    if (prompt->edited && done)
+        unlink(prompt->edited);
+    else if (prompt->edited)
+        printf("what you wrote is in %.200s\n", prompt->edited);
+    free(prompt->sentence);
+    free(prompt->edited);
+    prompt->sentence = prompt->edited = NULL;
+}
+
+/* ---- actions */
+
+static size_t size_of(const char *text)
+{
+    return text ? strlen(text) + 1 : 0;
+}
+
+/* The text at *at, which goes on behind it. */
+static const char *put(const char *text, char **at)
+{
+    char *copy = *at;
+    if (!text)
+        return NULL;
+    *at = stpcpy(copy, text) + 1;
+    return copy;
+}
+
+/* The texts of one lie one behind another. */
+static bool copy_action(const tn_breed_action *action, tn_breed_action *copy, char **texts)
+{
+    *texts = malloc(size_of(action->parents) + size_of(action->change) + size_of(action->sentence) +
+                    size_of(action->file) + size_of(action->member) + 1);
+    char *at = *texts;
+    if (!at)
+        return false;
+    *copy = (tn_breed_action){.does = action->does,
+                              .parents = put(action->parents, &at),
+                              .change = put(action->change, &at),
+                              .sentence = put(action->sentence, &at),
+                              .file = put(action->file, &at),
+                              .member = put(action->member, &at)};
+    return true;
+}
+
+bool tn_prompt_add(tn_prompt *prompt, const tn_breed_action *action, tn_breed_request *request)
+{
+    size_t count = prompt->count;
+    if (!tn_array_resize(&prompt->actions, count + 1, sizeof *prompt->actions) ||
+        !tn_array_resize(&prompt->texts, count + 1, sizeof *prompt->texts) ||
+        !copy_action(action, &prompt->actions[count], &prompt->texts[count]))
+        return false;
+    prompt->count++;
+    request->actions.items = prompt->actions;
+    request->actions.count = prompt->count;
+    return true;
+}
+
+void tn_prompt_take_back(tn_prompt *prompt, tn_breed_request *request)
+{
+    free(prompt->texts[--prompt->count]);
+    request->actions.count = prompt->count;
+}
+
+void tn_prompt_clear(tn_prompt *prompt)
+{
+    for (size_t i = 0; i < prompt->count; i++)
+        free(prompt->texts[i]);
+    free(prompt->texts);
+    free(prompt->actions);
+    free(prompt->sentence);
+    free(prompt->edited);
+    *prompt = (tn_prompt){0};
 }

@@ -127,6 +127,45 @@ print({os.path.join(folder, name) for folder, _, names in os.walk(study + ".file
         "$([ $study = hello ] || echo page; echo "{'$study.files/run.sqlite'}")"
 done
 
+# ---- breed
+first='{"does": "breed", "parents": "1 2*3"}'
+changes='{"does": "set", "change": "population 12"}, {"does": "out", "member": "2"}'
+second="$changes, {\"does\": \"breed\", \"parents\": \"#3 4\"}"
+third='{"does": "edit", "member": "3", "sentence": "hel"}, {"does": "insert", "sentence": "helo\n"}'
+one_by_one() {
+    asks breed $1.study '{}' "{\"actions\": [$first]}" "{\"actions\": [$first, $second]}" "{\"actions\": [$first, $second, $third]}"
+}
+one_by_one hello >bred.json
+is 'at once' "$(asks breed hello.study "{\"actions\": [$first, $second, $third]}")" "$(tail -n 1 bred.json)"
+is 'other actions' "$(asks breed hello.study "{\"actions\": [$second]}" "{\"actions\": [$first]}" | tail -n 1)" "$(sed -n 2p bred.json)"
+is 'after what is refused' "$(asks breed hello.study "{\"actions\": [$first]}" "{\"actions\": [$first, {\"does\": \"breed\", \"parents\": \"#99999\"}]}" \
+    "{\"actions\": [$first, {\"does\": \"breed\", \"parents\": \"3 x\"}]}" "{\"actions\": [$first, $second, $third]}")" "$(sed -n 2p bred.json)
+error nobody with the id 99999 was born so far
+error \`x\` is not a choice: write numbers from 1 to 20, as 3 7 12; 3*2 counts twice, 3@0.4 gives less of it (0 to 1), and #41 is the individual with that id
+$(tail -n 1 bred.json)"
+# The same at the prompt, and in a folder.
+printf '1 2*3\nset population 12\nout 2\n#3 4\nedit 3 hel\ninsert helo\n\n' | "$TARTAN" breed hello.study -o typed.run >/dev/null || fail 'cannot be bred'
+{ sed -n 1p bred.json; asks breed hello.study "{\"actions\": [$first, $changes]}"; sed -n 4p bred.json; } >sheets.json
+for i in 0 1 2; do
+    sed -n $((i + 1))p sheets.json | python3 -c 'import json, sys
+for file in json.load(sys.stdin)["files"]:
+    print(file["text"], end="")' >sheet
+    cmp sheet typed.run/sheet-000$i.svg || fail "sheet $i is another"
+done
+asks breed hello.study '{"run": "asked.run"}' "{\"run\": \"asked.run\", \"actions\": [$first]}" "{\"run\": \"asked.run\", \"actions\": [$first, $changes]}" \
+    "{\"run\": \"asked.run\", \"actions\": [$first, $second, $third]}" \
+    "{\"run\": \"asked.run\", \"actions\": [$first, $second, $third], \"results\": true}" >/dev/null
+diff -rq typed.run asked.run || fail 'a run in a folder is another'
+is 'results' "$(of breed hello.study "{\"actions\": [$first, $second, $third], \"results\": true}" files.0.text)" "$(cat typed.run/best/1.txt)"
+is 'another member' "$(asks breed hello.study '{"actions": [{"does": "out", "member": "21"}]}')" \
+    'error `21` is nobody here: write a number from 1 to 20, or # and the id of one on the sheet'
+is 'no sentence' "$(asks breed hello.study '{"actions": [{"does": "insert"}]}')" 'error say which sentence is inserted'
+is 'no parents' "$(asks breed hello.study '{"actions": [{"does": "breed"}]}')" 'error say who has children: the numbers of parents'
+is 'no more' "$(asks breed hello.study "{\"generations\": 0, \"actions\": [$first]}")" 'error all generations are bred'
+printf 'evolution {\n  grammar "words"\n  match "hello"\n  population 20\n  islands 2\n}\n' >islands.study
+is 'islands' "$(asks breed islands.study '{}')" "$(said breed islands.study)"
+is 'a page' "$(of breed seat.study '{}' page)" 'sheet.html'
+
 # ---- answers follow the schema
 "$TARTAN" help --requests schema >schema.json
 if python3 -c 'import jsonschema' 2>/dev/null; then
@@ -134,11 +173,12 @@ if python3 -c 'import jsonschema' 2>/dev/null; then
     asks invert "$words" '{"sentence": "hello"}' >invert.json
     asks change_run hello.study '{"run": "hello.run", "sentence": "hello"}' >change_run.json
     cp grown.json evolve.json
+    tail -n 1 bred.json >breed.json
     is 'schema' "$(python3 -c 'import json, jsonschema, sys
 schema = json.load(open("schema.json"))
 for question in sys.argv[1:]:
     kind = {"$defs": schema["$defs"], **schema["answers"][question]}
     for error in jsonschema.Draft202012Validator(kind).iter_errors(json.load(open(question + ".json"))):
-        print(question, error.message[:300])' map invert change_run evolve)" ''
+        print(question, error.message[:300])' map invert change_run evolve breed)" ''
 fi
 finish
