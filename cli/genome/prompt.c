@@ -12,11 +12,10 @@
 #include <unistd.h>
 
 #include "cli/common/options.h"
+#include "driver/breed/evolve.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
 #include "runtime/base/utf8.h"
-
-#define SENTENCE_BYTES_MAX ((size_t)1 << 20)
 
 /* ---- what is wrong */
 
@@ -46,7 +45,7 @@ static bool read_sentence(tn_prompt *prompt, const char *path)
     uint8_t *bytes;
     size_t size;
     tn_error error;
-    if (tn_file_read(path, SENTENCE_BYTES_MAX, &bytes, &size, &error) != TN_OK) {
+    if (tn_file_read(path, TN_SENTENCE_FILE_MAX, &bytes, &size, &error) != TN_OK) {
         puts(error.message);
         if (error.help[0])
             puts(error.help);

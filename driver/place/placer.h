@@ -13,10 +13,10 @@ typedef struct tn_placer tn_placer;
 #define TN_PLACER_PARTS 50000u     /* of one model */
 #define TN_PLACER_VIOLATION 1000.0 /* what a requirement that is missed by 1 adds to a score */
 
-/* `kit` is the path of a .kit with one model that requires something or has an objective, or `may_want_nothing`. With
- * `separately`, the model's objective and the length of the rules are two objectives, and requirements come first; else
- * the score is the objective (negated where it is to be large) and TN_PLACER_VIOLATION times how far the requirements
- * are from holding. TN_INVALID (E1360) where it cannot be used. */
+/* `kit` is the path of a .kit with one model that requires something or has an objective, or `may_want_nothing`. With `separately`, the
+ * model's objective and the length of the rules are two objectives, and requirements come first; else the score is the
+ * objective (negated where it is to be large) and TN_PLACER_VIOLATION times how far the requirements are from holding.
+ * TN_INVALID (E1360) where it cannot be used. */
 tn_status tn_placer_new(const char *kit, bool separately, bool may_want_nothing, tn_placer **placer, tn_error *error);
 void tn_placer_free(tn_placer *placer);
 

@@ -1,5 +1,4 @@
-/* What runs on the page of a sheet: draws the forms by WebGL, turns them, and collects the numbers that are chosen; a
- * line each. */
+/* What runs on the page of a sheet: draws the forms by WebGL, turns them, and collects the numbers that are chosen; a line each. */
 #ifndef TARTAN_DRIVER_SHEET_SHEET_SCRIPT_H
 #define TARTAN_DRIVER_SHEET_SHEET_SCRIPT_H
 

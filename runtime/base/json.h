@@ -47,8 +47,8 @@ void tn_json_object_end(tn_json *json);
 void tn_json_list(tn_json *json, const char *key);
 void tn_json_list_end(tn_json *json);
 
-void tn_json_string(tn_json *json, const char *key, const char *value);                 /* NULL is null */
-void tn_json_bytes(tn_json *json, const char *key, const char *value, size_t size);     /* a string of so many bytes */
+void tn_json_string(tn_json *json, const char *key, const char *value);             /* NULL is null */
+void tn_json_bytes(tn_json *json, const char *key, const char *value, size_t size); /* a string of so many bytes */
 void tn_json_base64(tn_json *json, const char *key, const uint8_t *bytes, size_t size); /* any bytes (RFC 4648) */
 void tn_json_bool(tn_json *json, const char *key, bool value);
 void tn_json_null(tn_json *json, const char *key);
