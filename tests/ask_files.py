@@ -36,6 +36,11 @@ ASKED = {
         ("stdlib/lahave-houses.plan", {"by": "cost", "trays": {"from": 4, "to": 5}, "picture": "svg"}, "--by cost --trays 4..5 -o a.svg"),
         ("stdlib/cottage.plan", {"library": "cottages", "plan": "#10", "by": "floor-area", "picture": "pdf"}, "--library cottages --plan #10 --by floor-area -o a.pdf"),
     ],
+    "explain": [
+        ("stdlib/terrace.plan", {"plan": "#1000", "picture": "svg"}, "#1000 -o a.svg"),
+        ("stdlib/terrace.plan", {"plan": "#1000", "rules": ["step"], "picture": "png", "dpi": 60, "full": True}, "#1000 --rule step --dpi 60 --full -o a.png"),
+        ("stdlib/cottage.plan", {"house": "#10:3", "picture": "svg"}, "#10:3 -o a.svg"),
+    ],
     "complete": [
         ("stdlib/terrace.plan", {"pattern": "? | ... | ?", "picture": "png"}, "?_|_..._|_? -o a.png"),
         ("stdlib/lahave-houses.plan", {"pattern": "? | great | ... | ?", "by": [{"measure": "cost"}], "trays": {"from": 4, "to": 4}, "picture": "svg"},

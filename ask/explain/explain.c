@@ -8,6 +8,7 @@
 
 #include "ask/house/numbered.h"
 #include "ask/plan/match.h"
+#include "ask/session/made.h"
 #include "ask/session/questions.h"
 
 /* What plans are explained with, kept from one to the next. */
@@ -472,6 +473,21 @@ static tn_status explain_plan(tn_session *session, const tn_explain_request *req
     return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }
 
+/* ---- the picture */
+
+static tn_status draw(tn_session *session, const tn_explain_request *request, const tn_reply *answer)
+{
+    tn_explained_plan *by_library = TN_REPLY(explained_plan, answer);
+    tn_explained_by_rules *by_rules = TN_REPLY(explained_by_rules, answer);
+    const tn_plan_reasons *reasons = by_library ? by_library->reasons.value : by_rules->reasons.value;
+    tn_picture to = tn_answer_picture_begin(&request->drawn);
+    tn_error error;
+    tn_status status = tn_explained_draw(&reasons->explained, request->full, &to, &error);
+    return tn_answer_picture_give(session, &request->drawn, &to, status, &error,
+                                  by_library ? (tn_list *)&by_library->files : (tn_list *)&by_rules->files,
+                                  by_library ? &by_library->has_files : &by_rules->has_files);
+}
+
 /* ---- asked */
 
 /* #P: is the plan of rank P, and what keeps houses off it. */
@@ -508,8 +524,11 @@ tn_status tn_ask_explain(tn_session *session, const tn_explain_request *request,
     tn_status status = check_subject(session, request);
     if (status != TN_OK)
         return status;
+    bool drawn = tn_answer_has_picture(&request->drawn);
     if (is_about_design(session, request))
-        return tn_explain_design(session, request, answer);
+        return drawn ? tn_session_refuse(session, "`draw` with `show` history draws its steps",
+                                         "why boxes are squashed is not drawn here")
+                     : tn_explain_design(session, request, answer);
     if (!request->plan == !request->house)
         return tn_session_refuse(session, NULL, "say which plan or which house is explained: one of them");
     if (request->subject.has_trays)
@@ -517,6 +536,10 @@ tn_status tn_ask_explain(tn_session *session, const tn_explain_request *request,
                                  "--trays is for all plans of a library, and one is explained");
     bool of_houses =
         library && request->rules.count == 0 && tn_house_library_find(session->opened->module, library) != TN_NO_RECORD;
-    return request->house || of_houses || is_for_houses(request) ? explain_of_houses(session, request, answer)
-                                                                 : explain_plan(session, request, answer);
+    if (request->house || of_houses || is_for_houses(request))
+        return drawn ? tn_session_refuse(session, "`tartan house FILE HOUSE -o NAME.svg` draws the house",
+                                         "why a house is kept or dropped is not drawn: leave out -o")
+                     : explain_of_houses(session, request, answer);
+    status = explain_plan(session, request, answer);
+    return status == TN_OK && drawn ? draw(session, request, answer) : status;
 }

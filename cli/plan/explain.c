@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/form/draw.h"
 #include "ask/explain/explain.h"
+#include "ask/form/draw.h"
 #include "ask/session/questions.h"
 #include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
@@ -47,6 +47,8 @@ static tn_explain_request request_of(const explain_settings *s)
         .rules = {s->rules.items, s->rules.count},
         .has_nearest = s->nearest.given,
         .nearest = s->nearest.value,
+        .drawn = {.picture = tn_answer_picture_choice(s->output), .has_dpi = s->dpi.given, .dpi = s->dpi.value},
+        .full = s->full,
         .solid = {.solid = s->solid, .has_max_boxes = s->max_boxes.given, .max_boxes = s->max_boxes.value}};
 }
 
@@ -86,24 +88,6 @@ static void write_text(explaining *e, const tn_reply *answer)
     free(text.data);
 }
 
-/* What is said of a house is not drawn. */
-static void refuse_picture(tn_job *job)
-{
-    tn_help(tn_job_diagnostics(job), tn_job_usage(job, "why a house is kept or dropped is not drawn: leave out -o"),
-            "`tartan house FILE HOUSE -o NAME.svg` draws the house");
-}
-
-static void draw(explaining *e, const tn_plan_reasons *reasons)
-{
-    const explain_settings *settings = e->settings;
-    tn_picture to = {.path = settings->output, .dpi = (uint32_t)settings->dpi.value};
-    tn_error error;
-    if (!reasons)
-        refuse_picture(e->job);
-    else if (tn_explained_draw(&reasons->explained, settings->full, &to, &error) != TN_OK)
-        tn_job_fail(e->job, &error);
-}
-
 /* heading: of what is written, or "". Ranks take several times as long as all the rest: they are shown if all is. */
 static void explain_one(explaining *e, const char *heading)
 {
@@ -111,11 +95,9 @@ static void explain_one(explaining *e, const char *heading)
     const explain_settings *settings = e->settings;
     e->request.no_ranks = !settings->json && !settings->full;
     if (tn_job_answered(e->job, tn_ask_explain(&e->job->session, &e->request, &answer))) {
-        if (settings->output)
-            draw(e, reasons_of(&answer));
-        else if (settings->json)
+        if (settings->json)
             tn_job_write_json(&answer, e->output.stream);
-        else if (fputs(heading, e->output.stream) >= 0)
+        else if (!settings->output && fputs(heading, e->output.stream) >= 0)
             write_text(e, &answer);
     }
     tn_reply_clear(&answer);
@@ -270,13 +252,16 @@ static void explain(tn_job *job)
 {
     const explain_settings *settings = settings_of(job);
     explaining e = {.job = job, .settings = settings, .request = request_of(settings)};
+    tn_made_outputs outputs;
     if (!tn_job_output(job, NULL, &e.output))
         return;
     tn_job_show(job);
+    tn_job_files(job, &outputs, &settings->output, 1, false);
     if (settings->plan_file)
         explain_file(&e);
     else
         explain_text(&e, settings->common.operands.items[1]);
+    tn_job_files_end(&outputs);
     tn_job_commit(job, &e.output);
 }
 
