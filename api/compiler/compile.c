@@ -7,6 +7,7 @@
 #include "compiler/format.h"
 #include "driver/open/attached.h"
 #include "driver/open/files.h"
+#include "driver/open/stdlib_texts.h"
 #include "runtime/base/file.h"
 
 _Static_assert((int)TARTAN_NOTE == (int)TN_NOTE && (int)TARTAN_ERROR == (int)TN_ERROR,
@@ -114,7 +115,8 @@ static tn_status open_input(const tn_notation *notation, const tn_input *input, 
     return tn_open_text(notation, input, own, opened);
 }
 
-/* Compiles with files that lie beside the text, and in the caller's folders. */
+/* Compiles with files that lie beside the text, and in the caller's folders; without such, with the standard library
+ * that is in here. */
 static tn_status open_with_files(const tn_notation *notation, tn_input *input, const tartan_compile_options *options,
                                  tn_compile_options *own, const tn_input *used, tn_opened *opened)
 {
@@ -127,7 +129,8 @@ static tn_status open_with_files(const tn_notation *notation, tn_input *input, c
     tn_stdlib_dirs dirs = {folders, options->folder_count};
     tn_files_begin(&files, &dirs);
     input->identity = identity;
-    own->resolver = tn_files_resolver(&files);
+    tn_stdlib_resolver standard = {tn_files_resolver(&files)};
+    own->resolver = options->folder_count ? standard.rest : tn_stdlib_resolver_of(&standard);
     own->attachments = tn_file_attachments;
     tn_status status = copied ? open_input(notation, input, own, used, opened) : TN_MEMORY;
     tn_files_clear(&files);
@@ -274,4 +277,24 @@ tartan_status tartan_format_text(const char *path, const char *text, size_t size
     tn_diagnostics_clear(&diagnostics);
     tn_sources_clear(&sources);
     return result;
+}
+
+/* ---- the standard library */
+
+size_t tartan_stdlib_count(void)
+{
+    return tn_stdlib_text_count;
+}
+
+const char *tartan_stdlib_name(size_t index)
+{
+    return index < tn_stdlib_text_count ? tn_stdlib_texts[index].name : NULL;
+}
+
+const char *tartan_stdlib_text(const char *name, size_t *size)
+{
+    const tn_stdlib_text *found = name ? tn_stdlib_text_named(name) : NULL;
+    if (size)
+        *size = found ? found->size : 0;
+    return found ? found->text : NULL;
 }

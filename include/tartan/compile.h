@@ -47,7 +47,8 @@ typedef struct tartan_compile_options {
     size_t size;
     tartan_report *report; /* may be NULL */
     void *report_context;
-    const char *const *folders; /* where `use "name"`, without slash and extension, is looked for, in this order */
+    const char *const *folders; /* where `use "name"`, without slash and extension, is looked for, in this order; none:
+                                   among the texts of tartan_stdlib_text */
     size_t folder_count;
     tartan_resolve *resolve; /* where all that is used comes from, and no file is opened; NULL: files, and `folders` */
     void *resolve_context;
@@ -57,15 +58,24 @@ typedef struct tartan_compile_options {
 TARTAN_SIZED(tartan_compile_options)
 
 /* Compiles a rule file, or a rule file's text of `size` bytes that diagnostics call `path` (its extension says the
- * notation, and its folder is where `use "file.plan"` begins). `options` may be NULL; without folders there is no
- * standard library. Everything there is to say goes to `report`; where that includes an error the result is
- * TARTAN_INVALID (or TARTAN_IO, TARTAN_LIMIT, TARTAN_MEMORY) and `error` holds the first error. What is a module
- * already is TARTAN_INVALID. A `path` of "-" is standard input. */
+ * notation, and its folder is where `use "file.plan"` begins). `options` may be NULL; without folders and
+ * `resolve`, the standard library is that of tartan_stdlib_text. Everything there is to say goes to `report`; where
+ * that includes an error the result is TARTAN_INVALID (or TARTAN_IO, TARTAN_LIMIT, TARTAN_MEMORY) and `error` holds the
+ * first error. What is a module already is TARTAN_INVALID. A `path` of "-" is standard input. */
 TARTAN_API tartan_status tartan_compile_file(const char *path, const tartan_compile_options *options,
                                              tartan_module **module, tartan_error *error);
 TARTAN_API tartan_status tartan_compile_text(const char *path, const char *text, size_t size,
                                              const tartan_compile_options *options, tartan_module **module,
                                              tartan_error *error);
+
+/* The standard library, as it was when this library was built: how many files it has, and what the one at an index,
+ * from 0, is called, with its extension ("shapes.field"); NULL past the last. */
+TARTAN_API size_t tartan_stdlib_count(void);
+TARTAN_API const char *tartan_stdlib_name(size_t index);
+
+/* The text of the file of that name, of *size bytes (size may be NULL), with a zero byte behind it; NULL if there is
+ * none. It stays. For `resolve`, and to show it. */
+TARTAN_API const char *tartan_stdlib_text(const char *name, size_t *size);
 
 /* Lays a rule file's text out the one way that `tartan fmt` does, with its comments; `path` says the notation. What is
  * said goes to `report` (may be NULL). A text with errors of syntax is TARTAN_INVALID. Free the text with

@@ -71,6 +71,58 @@ static void tells_what_became_of_each_test(void **state)
     tartan_source_free(source);
 }
 
+/* The library that is in the program has the bytes of that of the sources. */
+static void has_the_standard_library(void **state)
+{
+    (void)state;
+    size_t count = tartan_stdlib_count(), size = 1;
+    assert_true(count > 30);
+    for (size_t i = 0; i < count; i++) {
+        char path[1000], *kept = malloc(1 << 20);
+        const char *name = tartan_stdlib_name(i), *found = tartan_stdlib_text(name, &size);
+        assert_true(i == 0 || strcmp(tartan_stdlib_name(i - 1), name) < 0);
+        snprintf(path, sizeof path, "%s/stdlib/%s", TARTAN_SOURCE_DIR, name);
+        FILE *file = fopen(path, "rb");
+        assert_non_null(file);
+        assert_non_null(kept);
+        assert_int_equal(fread(kept, 1, 1 << 20, file), size);
+        assert_memory_equal(kept, found, size);
+        assert_int_equal(found[size], '\0');
+        fclose(file);
+        free(kept);
+    }
+    assert_null(tartan_stdlib_name(count));
+    assert_null(tartan_stdlib_text("shapes", &size));
+    assert_int_equal(size, 0);
+    assert_null(tartan_stdlib_text(NULL, NULL));
+}
+
+static tartan_status compile(const char *path, const char *rules, const tartan_compile_options *options,
+                             tartan_error *error)
+{
+    tartan_module *module = NULL;
+    tartan_status status = tartan_compile_text(path, rules, strlen(rules), options, &module, error);
+    tartan_module_free(module);
+    return status;
+}
+
+static void uses_the_standard_library_without_folders(void **state)
+{
+    (void)state;
+    const char *const nowhere[] = {"/nowhere"};
+    tartan_compile_options options = tartan_compile_options_init();
+    tartan_error error;
+    assert_int_equal(compile("a.field", "use \"shapes\"\nsurface s = block(x, y, z, 1, 1, 1)\n", NULL, &error),
+                     TARTAN_OK);
+    assert_int_equal(compile("a.plan", "use \"lahave-houses\"\n", &options, &error), TARTAN_OK);
+    assert_int_equal(compile("a.plan", "use \"lahav\"\n", &options, &error), TARTAN_INVALID);
+    assert_string_equal(error.message, "the standard library has no `lahav`");
+    assert_string_equal(error.help, "did you mean `lahave`?");
+    options.folders = nowhere;
+    options.folder_count = 1;
+    assert_int_equal(compile("a.plan", "use \"lahave\"\n", &options, &error), TARTAN_INVALID);
+}
+
 static void tells_what_tests_cover(void **state)
 {
     (void)state;
@@ -206,6 +258,8 @@ static void can_be_stopped(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(has_the_standard_library),
+        cmocka_unit_test(uses_the_standard_library_without_folders),
         cmocka_unit_test(tells_what_became_of_each_test),
         cmocka_unit_test(tells_what_tests_cover),
         cmocka_unit_test(writes_a_report),
