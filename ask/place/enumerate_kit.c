@@ -17,15 +17,6 @@ typedef struct enumeration {
     bool enough;
 } enumeration;
 
-tn_kit_asked tn_enumerate_kit_asked(const tn_enumerate_request *request)
-{
-    return (tn_kit_asked){.parts = (uint32_t)request->parts,
-                          .kinds = request->part.items,
-                          .kind_count = request->part.count,
-                          .inside = request->inside,
-                          .fixed = request->fixed};
-}
-
 /* ---- one building */
 
 static tn_status add_part(const enumeration *e, const tn_placed_part *from, tn_found_building *building,
@@ -95,10 +86,10 @@ static tn_status list(enumeration *e, const bool *wanted, const tn_place_rules *
     const tn_enumerate_request *r = e->request;
     const tn_building_list asked = {.rules = rules,
                                     .wanted = wanted,
-                                    .parts = (uint32_t)r->parts,
-                                    .kind = r->inside  ? TN_BUILDINGS_INSIDE
-                                            : r->fixed ? TN_BUILDINGS_FIXED
-                                                       : TN_BUILDINGS_TURNED,
+                                    .parts = (uint32_t)r->kit.parts,
+                                    .kind = r->kit.inside  ? TN_BUILDINGS_INSIDE
+                                            : r->kit.fixed ? TN_BUILDINGS_FIXED
+                                                           : TN_BUILDINGS_TURNED,
                                     .visit = visit,
                                     .context = e};
     const tn_building_taker *taker = e->session->buildings;
@@ -131,7 +122,6 @@ static tn_status answer_list(enumeration *e, const bool *wanted, const tn_place_
 
 tn_status tn_enumerate_kit(tn_session *session, const tn_enumerate_request *request, tn_reply *answer)
 {
-    const tn_kit_asked asked = tn_enumerate_kit_asked(request);
     tn_place_rules rules = {.module = session->opened->module};
     enumeration e = {.session = session,
                      .request = request,
@@ -141,14 +131,14 @@ tn_status tn_enumerate_kit(tn_session *session, const tn_enumerate_request *requ
                              : session->buildings ? UINT64_MAX
                                                   : TN_ROWS_DEFAULT};
     bool *wanted;
-    tn_status status = tn_kit_asked_parts(session, &asked, &wanted);
+    tn_status status = tn_kit_asked_parts(session, &request->kit, &wanted);
     if (status != TN_OK)
         return status;
-    if (request->inside)
-        status = tn_kit_asked_space(session, request->inside, &rules);
+    if (request->kit.inside)
+        status = tn_kit_asked_space(session, request->kit.inside, &rules);
     if (status == TN_OK) {
         status = answer_list(&e, wanted, &rules, answer);
-        if (request->inside)
+        if (request->kit.inside)
             tn_place_rules_clear(&rules);
     }
     free(wanted);

@@ -11,7 +11,7 @@ tn_status tn_kit_none_asked(tn_session *session, const tn_kit_asked *asked)
     const char *option = asked->parts        ? "parts"
                          : asked->fixed      ? "fixed"
                          : asked->inside     ? "inside"
-                         : asked->kind_count ? "part"
+                         : asked->part.count ? "part"
                                              : NULL;
     return option ? tn_session_refuse(session, NULL, "--%s is about a kit, and %.200s is none", option,
                                       session->opened->path)
@@ -33,18 +33,18 @@ static tn_status choose_parts(tn_session *session, const tn_kit_asked *asked, bo
 {
     const tn_module *module = session->opened->module;
     tn_error error;
-    if (asked->kind_count == 0)
+    if (asked->part.count == 0)
         return TN_OK;
     bool *chosen = calloc((size_t)module->KIT_PART_count + 1, sizeof *chosen);
     if (!chosen) {
         tn_fail_memory(&error);
         return tn_session_fail(session, &error);
     }
-    for (size_t i = 0; i < asked->kind_count; i++) {
-        const tn_kit_part_record *part = tn_kit_part_named(module, asked->kinds[i]);
+    for (size_t i = 0; i < asked->part.count; i++) {
+        const tn_kit_part_record *part = tn_kit_part_named(module, asked->part.items[i]);
         if (!part) {
             free(chosen);
-            return unknown_part(session, asked->kinds[i]);
+            return unknown_part(session, asked->part.items[i]);
         }
         chosen[part - module->KIT_PART_records] = true;
     }

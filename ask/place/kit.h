@@ -6,14 +6,6 @@
 #include "runtime/place/count/count.h"
 #include "runtime/place/model/rules.h"
 
-typedef struct tn_kit_asked {
-    uint32_t parts;           /* of each building; 0: none were said */
-    const char *const *kinds; /* parts by name; none: all of the kit */
-    size_t kind_count;
-    const char *inside; /* a model of the kit, or NULL */
-    bool fixed;
-} tn_kit_asked;
-
 /* TN_INVALID, and says it, if something is asked that only kits answer: the file is none. */
 tn_status tn_kit_none_asked(tn_session *session, const tn_kit_asked *asked);
 
@@ -24,12 +16,10 @@ tn_status tn_kit_asked_parts(tn_session *session, const tn_kit_asked *asked, boo
 /* The rules of the model whose space is named, to be cleared after TN_OK. */
 tn_status tn_kit_asked_space(tn_session *session, const char *model, tn_place_rules *rules);
 
-/* count: the buildings of a kit's parts, and what the request says of them. */
+/* count: the buildings of a kit's parts. */
 tn_status tn_count_kit(tn_session *session, const tn_count_request *request, tn_reply *answer);
-tn_kit_asked tn_count_kit_asked(const tn_count_request *request);
 
 /* enumerate: the buildings themselves. Its ranks are digits, and in order. */
 tn_status tn_enumerate_kit(tn_session *session, const tn_enumerate_request *request, tn_reply *answer);
-tn_kit_asked tn_enumerate_kit_asked(const tn_enumerate_request *request);
 
 #endif

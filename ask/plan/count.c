@@ -198,7 +198,6 @@ static tn_status count(tn_session *session, const tn_count_request *request, tn_
 
 tn_status tn_ask_count(tn_session *session, const tn_count_request *request, tn_reply *answer)
 {
-    const tn_kit_asked kit = tn_count_kit_asked(request);
     *answer = (tn_reply){0};
     if (session->opened->module->KIT_count > 0) {
         const char *option = asks_library(request);
@@ -206,7 +205,7 @@ tn_status tn_ask_count(tn_session *session, const tn_count_request *request, tn_
                                           option, session->opened->path)
                       : tn_count_kit(session, request, answer);
     }
-    tn_status status = tn_kit_none_asked(session, &kit);
+    tn_status status = tn_kit_none_asked(session, &request->kit);
     if (status != TN_OK)
         return status;
     if (tn_answer_has_picture(&request->drawn) && !request->by)

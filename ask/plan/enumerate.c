@@ -179,8 +179,7 @@ tn_status tn_ask_enumerate(tn_session *session, const tn_enumerate_request *requ
                                  is_number(request->from) ? request->to : request->from);
     if (session->opened->module->KIT_count > 0)
         return enumerate_kit(session, request, answer);
-    const tn_kit_asked kit = tn_enumerate_kit_asked(request);
-    tn_status status = tn_kit_none_asked(session, &kit);
+    tn_status status = tn_kit_none_asked(session, &request->kit);
     if (status != TN_OK)
         return status;
     if (!request->plan && !tn_session_of_houses(session, &request->subject))

@@ -20,4 +20,14 @@ typedef struct tn_kit_options {
              "of a kit: " verb " those inside of the space of this model, each where it stands"),                      \
         FLAG("fixed", 0, kit.fixed, "of a kit: tell apart buildings that differ by a turn")
 
+/* The same as part of a request. */
+static inline tn_kit_asked tn_kit_options_asked(const tn_kit_options *options)
+{
+    return (tn_kit_asked){.has_parts = options->parts.given,
+                          .parts = options->parts.value,
+                          .part = {options->kinds.items, options->kinds.count},
+                          .inside = options->inside,
+                          .fixed = options->fixed};
+}
+
 #endif

@@ -37,11 +37,7 @@ static tn_count_request request_of(const count_settings *s)
                               .clauses = s->clauses,
                               .no_effects = s->no_effects,
                               .mirror = s->mirror,
-                              .has_parts = s->kit.parts.given,
-                              .parts = s->kit.parts.value,
-                              .part = {s->kit.kinds.items, s->kit.kinds.count},
-                              .inside = s->kit.inside,
-                              .fixed = s->kit.fixed};
+                              .kit = tn_kit_options_asked(&s->kit)};
 }
 
 /* ---- what is written, and when: the plans first, and then what each clause does, which may take far longer */

@@ -69,11 +69,7 @@ static tn_enumerate_request request_of(const enumerate_settings *s)
                                   .limit = s->limit.value,
                                   .plan = s->plan,
                                   .mirror = s->mirror,
-                                  .has_parts = s->kit.parts.given,
-                                  .parts = s->kit.parts.value,
-                                  .part = {s->kit.kinds.items, s->kit.kinds.count},
-                                  .inside = s->kit.inside,
-                                  .fixed = s->kit.fixed};
+                                  .kit = tn_kit_options_asked(&s->kit)};
 }
 
 static void enumerate(tn_job *job)
