@@ -551,7 +551,9 @@ void tn_describe_page(FILE *out)
         "`tartan help --requests schema` prints it as a JSON Schema, and `tartan help --requests types` as types of "
         "TypeScript; both are installed.\n\n"
         "*Digits* are a whole number as a string, since readers of JSON round large numbers. A *fraction* is a string "
-        "such as `7/2`.\n\n"
+        "such as `7/2`. Pictures, meshes, drawings and pages are *files* of an answer, each with its text or, in "
+        "base64, its "
+        "bytes.\n\n"
         "| question | asked with | answered with | |\n| --- | --- | --- | --- |\n",
         out);
     for (size_t i = 0; i < tn_request_kind_count; i++) {
