@@ -117,6 +117,21 @@ static bool help_depth(tn_diagnostics *diagnostics, tn_diagnostic *d, const char
     return true;
 }
 
+/* `40 %`: is it the sign of a share, behind a number and a blank? */
+static bool help_share(tn_diagnostics *diagnostics, tn_diagnostic *d, const char *begin, const char *text)
+{
+    const char *number = text;
+    while (number > begin && number[-1] == ' ')
+        number--;
+    const char *end = number;
+    while (number > begin && (isdigit((unsigned char)number[-1]) || number[-1] == '.'))
+        number--;
+    if (*text != '%' || number == end || end == text)
+        return false;
+    tn_help(diagnostics, d, "a share is written without a blank: `%.*s%%`", (int)(end - number), number);
+    return true;
+}
+
 void tn_stray_report(tn_diagnostics *diagnostics, tn_span span)
 {
     static const struct {
@@ -145,7 +160,8 @@ void tn_stray_report(tn_diagnostics *diagnostics, tn_span span)
                 : tn_report(diagnostics, E_STRAY_CHARACTER, span, "the control character 0x%02x means nothing here",
                             (unsigned char)text[0]);
     const char *help = "leave it out";
-    if (help_depth(diagnostics, d, diagnostics->sources->files[span.file].text, text))
+    const char *begin = diagnostics->sources->files[span.file].text;
+    if (help_depth(diagnostics, d, begin, text) || help_share(diagnostics, d, begin, text))
         return;
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
         if (strlen(table[i].found) == size && memcmp(text, table[i].found, size) == 0)

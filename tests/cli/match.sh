@@ -57,4 +57,14 @@ is 'plans that some rule matches, and that none does' "$(sort -u "$scratch/some"
 for how in '--engine dfa' '--engine vm' '--max-states 8' '--threads 7'; do
     "$TARTAN" match "$files/sheds.plan" "$scratch/many" --format any $how 2>/dev/null | cmp -s - "$scratch/some" || fail "any by $how"
 done
+
+# What a person gives by mistake for a list of plans.
+printf '  0\r\nSECTION\r\n  2\r\nHEADER\r\n' >"$scratch/drawing.dxf"
+printf 'ISO-10303-21;\nHEADER;\n' >"$scratch/house.ifc"
+printf '%%PDF-1.7\n' >"$scratch/page.pdf"
+printf '0\n' >"$scratch/zero"
+for file in drawing.dxf house.ifc page.pdf zero; do
+    golden "mistaken_$file" "tartan match sheds.plan $scratch/$file"
+done
+golden comma_between "echo \"6m door, 3m door\" | tartan match sheds.plan"
 finish

@@ -157,6 +157,14 @@ const char *tn_power_name(int power, char *text, size_t size)
     return text;
 }
 
+/* Is the operand a share that stands alone, `40%`? */
+static bool is_share(const tn_check *check, tn_span span)
+{
+    const char *text = check->diagnostics->sources->files[span.file].text + span.begin;
+    size_t size = span.end - span.begin, digits = strspn(text, "0123456789.");
+    return size > 1 && digits == size - 1 && text[digits] == '%';
+}
+
 bool tn_same_power(tn_check *check, tn_sum_amount left, tn_span left_span, tn_sum_amount right, tn_span right_span,
                    const char *verb, tn_sum_amount *both)
 {
@@ -168,7 +176,11 @@ bool tn_same_power(tn_check *check, tn_sum_amount left, tn_span left_span, tn_su
         tn_report(check->diagnostics, E_DIMENSIONS, right_span, "%s cannot be %s %s",
                   tn_power_name(right.power, other, sizeof other), verb, tn_power_name(left.power, one, sizeof one));
     tn_note(check->diagnostics, d, &left_span, "this is %s", one);
-    if (left.power == 0 && right.power == 2)
+    const char *text = check->diagnostics->sources->files[right_span.file].text + right_span.begin;
+    int size = (int)(right_span.end - right_span.begin);
+    if (left.power > 0 && is_share(check, right_span))
+        tn_help(check->diagnostics, d, "a share is one of a sum: `%.*s * sum(...)`", size, text);
+    else if (left.power == 0 && right.power == 2)
         tn_help(check->diagnostics, d,
                 "write this without a unit; divided by `1m2` or `1sf` an area is a plain number");
     else if (left.power == 2 || right.power == 2)

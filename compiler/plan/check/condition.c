@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "compiler/plan/check/amount.h"
+#include "runtime/base/length_style.h"
 
 typedef struct tn_condition_builder {
     tn_check *check;
@@ -206,11 +207,30 @@ static bool check_variable(tn_condition_builder *b, const tn_ast_word *word)
     return fail(b);
 }
 
+static bool is_metric(const tn_ast_word *length)
+{
+    return tn_length_style_of(length->text) != TN_STYLE_FEET;
+}
+
+/* `20'..50m`: it has a meaning, but hardly that of its author. */
+static void warn_of_units(tn_check *check, const tn_ast_range *range)
+{
+    if (range->low == range->high || is_metric(range->low) == is_metric(range->high) ||
+        !tn_check_wanted(check, W_MIXED_UNITS))
+        return;
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, W_MIXED_UNITS, range->span, "this range begins in %s and ends in %s",
+                  is_metric(range->low) ? "metres" : "feet", is_metric(range->high) ? "metres" : "feet");
+    tn_help(check->diagnostics, d, "write both ends in one unit");
+}
+
 bool tn_check_range(tn_check *check, const tn_ast_range *range, bool lengths)
 {
     bool good = check_unit(check, range->low, lengths);
     if (range->high != range->low)
         good &= check_unit(check, range->high, lengths);
+    if (good && lengths)
+        warn_of_units(check, range);
     if (!good || range->low->value <= range->high->value)
         return good;
     tn_diagnostic *d =

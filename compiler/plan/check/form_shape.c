@@ -220,6 +220,15 @@ static const char *meant_choice(const tn_checked_form *form, const tn_checked_ch
     return meant && !has_choice(form, zone_of(form, ast), meant) ? meant : NULL;
 }
 
+/* Was one of its words told to be wrong? */
+static bool is_broken(const tn_ast_shape *ast)
+{
+    bool broken = ast->word && ast->word->broken;
+    for (TN_EACH(const tn_ast_argument, argument, ast->arguments))
+        broken |= argument->word->broken || (argument->run && argument->run->broken);
+    return broken;
+}
+
 static void read_shape(tn_check *check, const tn_checked_form *form, const tn_checked_choice *choice,
                        const tn_ast_shape *ast, tn_checked_shape *shape)
 {
@@ -228,7 +237,7 @@ static void read_shape(tn_check *check, const tn_checked_form *form, const tn_ch
         bad_shape(check, ast->node.span, "this value is too long", "values have at most 255 bytes");
     else if (choice->kind == TN_CHOICE_STOREYS)
         read_storeys(check, form, ast, &shape->record);
-    else if (choice->kind == TN_CHOICE_ROOF && !read_roof(check, form, ast, &shape->record))
+    else if (choice->kind == TN_CHOICE_ROOF && !read_roof(check, form, ast, &shape->record) && !is_broken(ast))
         bad_shape(check, ast->node.span, "this is no roof",
                   "write `flat`, `shed(back, 4:12)`, `shed(front, 4:12)`, `gable(12:12)` or `vault(4')`; these may end "
                   "with `eaves 1'` and `open`, gables and vaults with `across`");

@@ -363,6 +363,20 @@ bool tn_means_cost(const tn_check *check, const char *word)
     return forms && (strcmp(word, "cost") == 0 || strcmp(word, "costs") == 0 || strcmp(word, "price") == 0);
 }
 
+/* `area-20m2`: a name from which something is to be taken away, without blanks. */
+static bool help_minus(tn_check *check, tn_diagnostic *d, const char *word)
+{
+    const char *dash = strchr(word, '-');
+    while (dash && !(dash[1] >= '0' && dash[1] <= '9'))
+        dash = strchr(dash + 1, '-');
+    const char *name = dash ? tn_arena_copy(check->arena, word, (size_t)(dash - word)) : NULL;
+    if (!name || !tn_names_get(&check->names, name))
+        return false;
+    tn_help(check->diagnostics, d, "a minus sign has a blank on each side: `%s - %s`", name, dash + 1);
+    tn_replace_with(check->diagnostics, d, "%s - %s", name, dash + 1);
+    return true;
+}
+
 static void report_unknown(tn_check *check, const tn_ast_word *word, tn_want want)
 {
     if (check->incomplete || word->broken)
@@ -374,6 +388,8 @@ static void report_unknown(tn_check *check, const tn_ast_word *word, tn_want wan
     const tn_checked_schema *schema = want == TN_WANT_RULE ? check->schema : NULL;
     const tn_slip *slip = want == TN_WANT_LIBRARY ? NULL : tn_slip_find(TN_SLIP_RULE, word->text, strlen(word->text));
     if (schema && (help_word(check, d, schema, word->text) || help_function(check, d, schema, word->text)))
+        return;
+    if (want != TN_WANT_LIBRARY && help_minus(check, d, word->text))
         return;
     if (near)
         tn_suggest(check->diagnostics, d, "%s", near);

@@ -164,6 +164,26 @@ static void warn_counted(tn_check *check, const tn_ast_expr *expr)
     }
 }
 
+/* `every(tray(cafe), beside(tray(cafe), tray(hall)))`: what takes two trays is asked of each single one, so that there
+ * may be none at all. */
+static void warn_every(tn_check *check, const tn_ast_expr *every)
+{
+    const tn_ast_expr *part = (const tn_ast_expr *)every->parts.first, *asked = NULL;
+    for (TN_EACH(const tn_ast_expr, other, every->parts))
+        asked = other == part ? asked : other;
+    uint32_t trays = asked ? tn_min_trays(asked) : 1;
+    if (trays < 2 || !tn_check_wanted(check, W_EVERY_NEVER))
+        return;
+    tn_span keyword = every->node.span;
+    keyword.end = keyword.begin + (uint32_t)strlen("every");
+    tn_diagnostic *d = tn_report(check->diagnostics, W_EVERY_NEVER, keyword,
+                                 "this says that there is none: `every` asks of each single tray what takes %u or more",
+                                 (unsigned)trays);
+    tn_help(check->diagnostics, d,
+            "for what stands beside each, deny that one is far from it: `not distance(from A, to B, by quantity(any, n "
+            "> 0))`");
+}
+
 /* `somewhere`: is the expression about the plan (judgement H), where the parts of an `and` need not be met in one
  * place? */
 static void warn(tn_check *check, const tn_ast_expr *expr, bool somewhere)
@@ -181,6 +201,10 @@ static void warn(tn_check *check, const tn_ast_expr *expr, bool somewhere)
     case TN_EXPR_SUM:
     case TN_EXPR_MANY:
         warn_counted(check, expr);
+        somewhere = false;
+        break;
+    case TN_EXPR_EVERY:
+        warn_every(check, expr);
         somewhere = false;
         break;
     case TN_EXPR_NOT:

@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -327,6 +328,19 @@ static bool report_quantifier(tn_parse *parse, tn_span span)
     return true;
 }
 
+/* `prune narrow wide`: two rules without the comma between them. */
+static bool report_missing_comma(tn_parse *parse, tn_span first, tn_span second, const tn_expected *e)
+{
+    if (!tn_expects(e, "`,`") || !declares_rule(parse, first) || !declares_rule(parse, second))
+        return false;
+    const char *text = parse->text;
+    tn_span whole = tn_span_join(first, second);
+    tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, whole, "a comma is missing between two rules");
+    tn_advise(parse->diagnostics, d, "%.*s, %.*s", (int)(first.end - first.begin), text + first.begin,
+              (int)(second.end - second.begin), text + second.begin);
+    return true;
+}
+
 /* Two names beside each other where one can stand: `four bed`. */
 static bool report_two_words(tn_parse *parse, const tn_syntax_found *found, const tn_expected *e)
 {
@@ -342,6 +356,8 @@ static bool report_two_words(tn_parse *parse, const tn_syntax_found *found, cons
     char meant[40];
     if (nearest_word(parse, second, e, meant, sizeof meant))
         return false;
+    if (report_missing_comma(parse, first, second, e))
+        return true;
     const char *text = parse->text;
     int first_size = (int)(first.end - first.begin), second_size = (int)(second.end - second.begin);
     tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, tn_span_join(first, second),
@@ -356,7 +372,54 @@ static bool report_two_words(tn_parse *parse, const tn_syntax_found *found, cons
     return true;
 }
 
-/* `118,50`: the comma of a number whose decimals stand after one. */
+/* `9 m`: a unit that does not follow its number directly. */
+static bool report_parted_unit(tn_parse *parse, const tn_syntax_found *found)
+{
+    static const struct {
+        const char *unit, *written;
+    } units[] = {{"m", "m"},    {"cm", "cm"},   {"mm", "mm"},     {"ft", "'"},     {"feet", "'"},
+                 {"foot", "'"}, {"inch", "\""}, {"inches", "\""}, {"metres", "m"}, {"meters", "m"}};
+    const char *text = parse->text;
+    tn_span number = parse->span_before, unit = found->span;
+    size_t digits = strspn(text + number.begin, "0123456789."), size = unit.end - unit.begin;
+    size_t blanks = strspn(text + number.end, " \t");
+    if (number.end == number.begin || digits != number.end - number.begin || blanks == 0 ||
+        number.end + blanks != unit.begin)
+        return false;
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
+        if (strlen(units[i].unit) != size || strncasecmp(units[i].unit, text + unit.begin, size) != 0)
+            continue;
+        tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, tn_span_join(number, unit),
+                                     "a unit follows its number without a blank");
+        tn_advise(parse->diagnostics, d, "%.*s%s", (int)digits, text + number.begin, units[i].written);
+        return true;
+    }
+    return false;
+}
+
+/* `rule 2-cafes`: a name that begins with a digit. */
+static bool report_digit_name(tn_parse *parse, const tn_syntax_found *found, const tn_expected *e)
+{
+    static const char *const words[] = {"no",    "one",   "two",  "three", "four",   "five",  "six",
+                                        "seven", "eight", "nine", "ten",   "eleven", "twelve"};
+    const char *text = parse->text + found->span.begin, *rest = text + strspn(text, "0123456789");
+    size_t size = strcspn(text, " \t\r\n=(){}[],;\"");
+    unsigned long number = strtoul(text, NULL, 10);
+    if (strcmp(found->name, "a number") != 0 || e->count > 2 || !tn_expects(e, "a name") || rest == text + size ||
+        (*rest != '-' && !isalpha((unsigned char)*rest)))
+        return false;
+    const tn_span whole = {found->span.file, found->span.begin, found->span.begin + (uint32_t)size};
+    tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, whole, "a name begins with a letter");
+    const char *name = rest + (*rest == '-');
+    int left = (int)(text + size - name);
+    if (number < sizeof words / sizeof *words)
+        tn_advise(parse->diagnostics, d, "%s-%.*s", words[number], left, name);
+    else
+        tn_advise(parse->diagnostics, d, "%.*s-%lu", left, name, number);
+    return true;
+}
+
+/* `118,50`: the comma of a number whose decimals stand after one; `1,500`: one of thousands. */
 static bool report_decimal_comma(tn_parse *parse, const tn_syntax_found *found, const tn_expected *e)
 {
     tn_span whole = parse->span_before;
@@ -368,8 +431,11 @@ static bool report_decimal_comma(tn_parse *parse, const tn_syntax_found *found, 
     const char *text = parse->text + whole.begin;
     tn_diagnostic *d =
         tn_report(parse->diagnostics, E_UNEXPECTED, span, "`%.*s,%.*s` is no price", size, text, digits, rest);
-    tn_help(parse->diagnostics, d, "decimals stand after a point: `%.*s.%.*s`", size, text, digits, rest);
-    tn_replace_with(parse->diagnostics, d, "%.*s.%.*s", size, text, digits, rest);
+    bool thousands = digits == 3 && size <= 3 && !memchr(text, '.', (size_t)size);
+    tn_help(parse->diagnostics, d,
+            thousands ? "thousands are not parted: `%.*s%s%.*s`" : "decimals stand after a point: `%.*s%s%.*s`", size,
+            text, thousands ? "" : ".", digits, rest);
+    tn_replace_with(parse->diagnostics, d, "%.*s%s%.*s", size, text, thousands ? "" : ".", digits, rest);
     return true;
 }
 
@@ -474,8 +540,8 @@ void tn_syntax_error(tn_parse *parse, const tn_syntax_found *found, const char *
         return; /* what led to this was reported */
     tn_expected e = {.tokens = expected, .count = count < 96 ? count : 96};
     if (report_misspelled(parse, found, &e) || report_misspelled_call(parse, found) ||
-        report_two_words(parse, found, &e) || report_decimal_comma(parse, found, &e) || report_colour(parse, &e) ||
-        report_rank(parse, &e))
+        report_parted_unit(parse, found) || report_digit_name(parse, found, &e) || report_two_words(parse, found, &e) ||
+        report_decimal_comma(parse, found, &e) || report_colour(parse, &e) || report_rank(parse, &e))
         return;
     char list[800], words[800], here[120];
     say_expected(expected, count, list, sizeof list);

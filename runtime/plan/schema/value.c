@@ -146,6 +146,13 @@ static void help_value(const tn_schema *schema, uint32_t field, const tn_word *w
     for (uint32_t v = 0; v < count; v++)
         candidates[v] = text_of(schema, schema->values[schema->value_start[field] + v].spelling);
     const char *near = tn_nearest(shown, candidates, count);
+    tn_word before = *word; /* the comma */
+    bool comma = word->size > 1 && word->text[word->size - 1] == ',';
+    before.size -= comma;
+    if (comma && tn_value_find(schema, field, &before) != TN_NO_VALUE) {
+        tn_error_help(error, "trays are separated by a bar, ` | `, and not by a comma");
+        return;
+    }
     uint32_t other = field_with_value(schema, word);
     char fields[160];
     int64_t length;

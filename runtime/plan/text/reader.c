@@ -246,6 +246,34 @@ static tn_status begin_input(tn_plan_reader *reader, tn_error *error)
     return status == TN_OK ? tn_reader_fill(reader, TN_PACK_HEADER, error) : status;
 }
 
+/* What the first bytes say that no plans are: what a person gives by mistake. NULL: none of these. */
+static const char *foreign(const char *data, size_t size)
+{
+    static const struct {
+        const char *begins, *is;
+    } table[] = {
+        {"%PDF", "is a PDF"},
+        {"\x89PNG", "is a picture (PNG)"},
+        {"ISO-10303-21", "is a building model (IFC)"},
+        {"glTF", "is a mesh (GLB)"},
+        {"PK\x03\x04", "is a zip archive, or a spreadsheet"},
+        {"<svg", "is a picture (SVG)"},
+        {"<?xml", "is XML"},
+        {"<!DOCTYPE", "is a page (HTML)"},
+        {"<html", "is a page (HTML)"},
+    };
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        if (size >= strlen(table[i].begins) && memcmp(data, table[i].begins, strlen(table[i].begins)) == 0)
+            return table[i].is;
+    size_t at = 0; /* DXF: a zero and SECTION, a line each */
+    while (at < size && data[at] == ' ')
+        at++;
+    bool zero = at + 1 < size && data[at] == '0' && (data[at + 1] == '\r' || data[at + 1] == '\n');
+    for (at++; zero && at < size && (data[at] == '\r' || data[at] == '\n'); at++)
+        continue;
+    return zero && size - at >= 7 && memcmp(data + at, "SECTION", 7) == 0 ? "is a drawing (DXF)" : NULL;
+}
+
 /* Finds the format from the first bytes, where it is not given. */
 static tn_status open_format(tn_plan_reader *reader, tn_error *error)
 {
@@ -256,6 +284,10 @@ static tn_status open_format(tn_plan_reader *reader, tn_error *error)
     bool sqlite = size >= sizeof SQLITE_MAGIC && memcmp(reader->data, SQLITE_MAGIC, sizeof SQLITE_MAGIC) == 0;
     bool bin = size >= strlen(TN_PACK_MAGIC) && memcmp(reader->data, TN_PACK_MAGIC, strlen(TN_PACK_MAGIC)) == 0;
     bool parquet = size >= strlen(PARQUET_MAGIC) && memcmp(reader->data, PARQUET_MAGIC, strlen(PARQUET_MAGIC)) == 0;
+    const char *other = reader->format == TN_FORMAT_AUTO ? foreign((const char *)reader->data, size) : NULL;
+    if (other)
+        return refuse_text(reader, other,
+                           "plans are read as plan lines, JSON, CSV, packed, from SQLite and from Parquet", error);
     if (reader->format == TN_FORMAT_AUTO && (sqlite || bin || parquet))
         reader->format = sqlite ? TN_FORMAT_SQLITE : bin ? TN_FORMAT_BIN : TN_FORMAT_PARQUET;
     if (reader->format == TN_FORMAT_SQLITE && !sqlite)
