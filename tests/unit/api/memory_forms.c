@@ -51,6 +51,19 @@ ASKING(explain_solid, "pair.solid",
        "solid pair {\n  box low from (0, 0, 0) to (2, 2, 2);\n  box high from (1, 1, 0) to (3, 3, 2);\n}\n", "explain",
        "{}")
 
+ASKING(slice_field, "ball.field", "surface ball = x*x + y*y + z*z - 1 grid 5\n", "slice",
+       "{\"layer\": 0.5, \"format\": \"cli\", \"each\": true, \"threads\": 1}", "{\"layer\": 1, \"threads\": 1}")
+ASKING(slice_solid, "pair.solid", "solid pair {\n  box low from (0, 0, 0) to (2, 2, 2);\n}\n", "slice",
+       "{\"layer\": 1, \"format\": \"dxf\"}")
+
+ASKING(house, "hut.plan",
+       "schema row { bay = 4m  zone rooms = room(4m) }\n"
+       "form cells of row {\n  storey ground 3m\n  wall 300mm\n  partition 100mm\n  deck 250mm\n  roof 200mm\n"
+       "  function bedroom at cell(rooms)\n  face cell(any) outside = wall\n}\n",
+       "house",
+       "{\"house\": \"4m room:4m\", \"files\": [\"json\", \"csv\", \"parts.csv\", \"obj\", \"glb\", \"ifc\", \"dxf\"]}",
+       "{\"house\": \"4m room:4m | 4m room:4m\"}")
+
 static void test_explain_solid(void **state)
 {
     (void)state;
@@ -75,9 +88,29 @@ static void test_mesh_solid(void **state)
     fail_each(mesh_solid, false);
 }
 
+static void test_slice_field(void **state)
+{
+    (void)state;
+    fail_each(slice_field, false);
+}
+
+static void test_slice_solid(void **state)
+{
+    (void)state;
+    fail_each(slice_solid, false);
+}
+
+static void test_house(void **state)
+{
+    (void)state;
+    fail_each(house, false);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_explain_solid), cmocka_unit_test(test_grow),
-                                       cmocka_unit_test(test_mesh_field), cmocka_unit_test(test_mesh_solid)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_slice_field), cmocka_unit_test(test_slice_solid),
+                                       cmocka_unit_test(test_house),       cmocka_unit_test(test_explain_solid),
+                                       cmocka_unit_test(test_grow),        cmocka_unit_test(test_mesh_field),
+                                       cmocka_unit_test(test_mesh_solid)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
