@@ -69,7 +69,7 @@ has libtartan-growth '(growth|statistics)_[^d].*' # but drawing
 has libtartan-mesh "$files"
 has libtartan-draw '[a-z]*_draw'
 has libtartan-store 'run_.*'
-has libtartan '(ask|(compile|format|source|session|tests|coverage|houses?)_.*)'
+has libtartan '(ask|(compile|format|source|session|tests|coverage|houses?|stdlib)_.*)'
 exported libtartan-{growth,mesh,draw,store}.so libtartan.so >"$scratch/parts"
 exported libtartan-runtime.so | sort - "$scratch/parts" | cmp - "$scratch/exported" || fail 'libtartan-runtime lacks a function'
 
