@@ -214,6 +214,8 @@ static void help_figure(tn_check *check, const tn_checked_schema *schema, tn_dia
         tn_help(check->diagnostics, d, "`%s` is a measure, and so a number already: write it without `sum(...)`", word);
     else if (tn_means_cost(check, word))
         tn_help(check->diagnostics, d, "what a whole house costs is `sum(cost)`");
+    else if (tn_help_height(check, d, word))
+        return;
     else if (strcmp(word, "area") == 0)
         tn_help(check->diagnostics, d, "areas of cells of a house are added up by `sum(area of cell(...))`");
     else if (near)

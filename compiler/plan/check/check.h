@@ -392,6 +392,8 @@ tn_ast_expr *tn_counts_house(const tn_ast_expr *quantity);
 bool tn_sums_cost(const tn_check *check, const tn_ast_expr *sum); /* is it `sum(cost)`? */
 void tn_check_cost(tn_check *check, tn_ast_expr *sum);
 bool tn_means_cost(const tn_check *check, const char *word); /* of houses: `cost` or the like, and there is a form */
+/* Of houses: helps whoever asks how high one is, and says whether `word` did. */
+bool tn_help_height(tn_check *check, tn_diagnostic *d, const char *word);
 void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum); /* what else it counts is of plans */
 void tn_check_compared_sum(tn_check *check, const tn_checked_sum *sum); /* the same of a comparison's */
 /* A rule that is named: is it about houses of the same form as what names it? */

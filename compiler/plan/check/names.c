@@ -355,12 +355,42 @@ static bool help_function(tn_check *check, tn_diagnostic *d, const tn_checked_sc
     return false;
 }
 
+static const tn_checked_form *form_here(const tn_check *check)
+{
+    for (size_t i = 0; i < check->result->form_count; i++)
+        if (check->result->forms[i]->schema == check->schema)
+            return check->result->forms[i];
+    return NULL;
+}
+
 bool tn_means_cost(const tn_check *check, const char *word)
 {
-    bool forms = false;
-    for (size_t i = 0; i < check->result->form_count; i++)
-        forms = forms || check->result->forms[i]->schema == check->schema;
-    return forms && (strcmp(word, "cost") == 0 || strcmp(word, "costs") == 0 || strcmp(word, "price") == 0);
+    return form_here(check) && (strcmp(word, "cost") == 0 || strcmp(word, "costs") == 0 || strcmp(word, "price") == 0);
+}
+
+static const tn_checked_choice *choice_of_storeys(const tn_checked_form *form)
+{
+    for (uint32_t i = 0; i < form->choice_count; i++)
+        if (form->choices[i].kind == TN_CHOICE_STOREYS && form->choices[i].shape_count > 1)
+            return &form->choices[i];
+    return NULL;
+}
+
+bool tn_help_height(tn_check *check, tn_diagnostic *d, const char *word)
+{
+    const tn_checked_form *form = form_here(check);
+    if (!form || (strcmp(word, "height") != 0 && strcmp(word, "heights") != 0))
+        return false;
+    const tn_checked_choice *choice = choice_of_storeys(form);
+    if (choice)
+        tn_help(check->diagnostics, d,
+                "rules do not measure how high a house is: ask how many storeys it has, `section(%s %s)`", choice->name,
+                choice->shapes[0].spelling);
+    else
+        tn_help(check->diagnostics, d,
+                "rules do not measure how high a house is: its storeys have the heights that form `%s` gives them",
+                form->name);
+    return true;
 }
 
 /* `area-20m2`: a name from which something is to be taken away, without blanks. */
@@ -395,6 +425,8 @@ static void report_unknown(tn_check *check, const tn_ast_word *word, tn_want wan
         tn_suggest(check->diagnostics, d, "%s", near);
     else if (want == TN_WANT_RULE && tn_means_cost(check, word->text))
         tn_help(check->diagnostics, d, "what a house costs is `sum(cost)`");
+    else if (want == TN_WANT_RULE && tn_help_height(check, d, word->text))
+        return;
     else if (slip)
         tn_help(check->diagnostics, d, "%s", slip->help);
     else
