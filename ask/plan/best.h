@@ -57,6 +57,9 @@ typedef struct tn_open_choices {
     char *why;        /* of plans, if there are none: the tray that leaves none */
 } tn_open_choices;
 
+/* Appends why no plan of the library completes an open plan, in a line or a few. */
+tn_status tn_open_why_none(const tn_ready_library *ready, const tn_open_plan *open, tn_buffer *text, tn_error *error);
+
 /* ---- houses: the measures made ready, and what was found */
 
 typedef struct tn_houses_search {

@@ -151,80 +151,10 @@ static tn_open_choices *new_choices(tn_session *session, const char *what)
     return c;
 }
 
-/* ---- which written tray leaves no completion: what begins as the open plan does is counted, for longer and longer
- * beginnings */
-
-/* The plans that begin with the first `count` parts; any trays may follow. `parts` has room for one more. */
-static tn_status count_beginning(const tn_library *library, const tn_open_plan *open, size_t count, uint32_t *parts,
-                                 mpz_t plans, tn_error *error)
-{
-    tn_completions found;
-    bool gap = count > 0 && open->functions[count - 1] == TN_NO_RECORD;
-    for (size_t i = 0; i < count; i++)
-        parts[i] = open->functions[i];
-    if (!gap)
-        parts[count++] = TN_NO_RECORD;
-    tn_status status = tn_complete(&found, library, &(tn_open_plan){.functions = parts, .count = count}, error);
-    if (status == TN_OK)
-        mpz_set(plans, found.plans);
-    tn_completions_clear(&found);
-    return status;
-}
-
-static bool say_why(const mpz_t plans, size_t trays, bool all, tn_buffer *text)
-{
-    char *digits = tn_digits(plans, true);
-    bool one = mpz_cmp_ui(plans, 1) == 0;
-    if (!digits)
-        return false;
-    if (all)
-        tn_buffer_printf(text,
-                         one ? "%s plan begins so, and it has more trays: `| ...` at the end lets it\n"
-                             : "%s plans begin so, and all have more trays: `| ...` at the end lets them\n",
-                         digits);
-    else if (trays == 1)
-        tn_buffer_printf(text, "no plan of the library has tray 1 as it is written\n");
-    else
-        tn_buffer_printf(text,
-                         one ? "%s plan fits what is written before tray %zu, and it does not go on with it\n"
-                             : "%s plans fit what is written before tray %zu, and none of them goes on with it\n",
-                         digits, trays);
-    free(digits);
-    return true;
-}
-
-/* Appends why no plan of a library completes an open plan, in a line or two. */
-static tn_status find_why(const tn_library *library, const tn_open_plan *open, tn_buffer *text, tn_error *error)
-{
-    uint32_t *parts = calloc(open->count + 1, sizeof *parts);
-    tn_status status = parts ? TN_OK : tn_fail_memory(error);
-    size_t trays = 0, i = 0;
-    mpz_t before, plans;
-    mpz_inits(before, plans, NULL);
-    if (status == TN_OK)
-        status = count_beginning(library, open, 0, parts, plans, error);
-    bool empty = status == TN_OK && mpz_sgn(plans) == 0;
-    for (; status == TN_OK && mpz_sgn(plans) > 0 && i < open->count; i++) {
-        if (open->functions[i] == TN_NO_RECORD)
-            continue;
-        trays++;
-        mpz_set(before, plans);
-        status = count_beginning(library, open, i + 1, parts, plans, error);
-    }
-    if (status == TN_OK && empty)
-        tn_buffer_printf(text, "the library holds no plan at all\n");
-    else if (status == TN_OK && !say_why(mpz_sgn(plans) > 0 ? plans : before, trays, mpz_sgn(plans) > 0, text))
-        status = tn_fail_memory(error);
-    mpz_clears(before, plans, NULL);
-    free(parts);
-    return status == TN_OK && text->failed ? tn_fail_memory(error) : status;
-}
-
-/* ---- asked */
-
 /* The trays of plans that complete it, by a measure or none. */
-static tn_status find_plans(tn_open_choices *c, const tn_library *library, tn_error *error)
+static tn_status find_plans(tn_open_choices *c, const tn_ready_library *ready, tn_error *error)
 {
+    const tn_library *library = ready->library;
     tn_buffer why = {0};
     tn_status status = c->wishes.count ? tn_weighed_new(library, c->wishes.measures, 1, &c->weighed, error) : TN_OK;
     if (status != TN_OK)
@@ -235,7 +165,7 @@ static tn_status find_plans(tn_open_choices *c, const tn_library *library, tn_er
         mpq_set(c->step, tn_weighed_unit(c->weighed, 0));
     status = tn_complete(&c->found, library, &c->open, error);
     if (status == TN_OK && mpz_sgn(c->found.plans) == 0)
-        status = find_why(library, &c->open, &why, error);
+        status = tn_open_why_none(ready, &c->open, &why, error);
     c->why = why.data;
     return status;
 }
@@ -260,7 +190,7 @@ static tn_status complete_plans(tn_session *session, const tn_complete_request *
     c->title = tn_text(module, ready->record->name);
     c->doc = tn_text(module, ready->record->doc);
     c->wishes = wishes;
-    status = find_plans(c, ready->library, &error);
+    status = find_plans(c, ready, &error);
     if (status == TN_OK)
         status = give(c, answer, &error);
     else

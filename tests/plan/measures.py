@@ -8,7 +8,7 @@ that. Three slips of the reference are mended here: its memory of rules by their
 bare value `dense`, which two zones of its schema have, and quartiles of no plans, which are null. An answer that would pass
 the limit of work (exit 4) is counted apart: there may be few of them, and none that is wrong.
 """
-import json, os, subprocess, sys, tempfile
+import json, os, re, subprocess, sys, tempfile
 from fractions import Fraction
 
 tartan, oracles, first, last = sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4])
@@ -31,6 +31,7 @@ oracle.Oracle.H = remembering(lambda o, r, i, j: o._H(r, i, j), 1)
 faults = []
 unanswered = []
 asked_count = 0
+pruned = 0  # plans of open plans that nothing completes
 
 
 def mended(text):
@@ -144,6 +145,24 @@ def check_complete(seed, case, pattern, wanted):
         check_best(seed, case, ["--least", "x0", "--where", "plan [%s]" % pattern], wanted["least_x0"])
 
 
+def check_pruned(seed, case, pattern):
+    """A plan that is named as pruned fits the pattern, and the interpreter drops it by the clauses that are named."""
+    out = asked(seed, "complete, as text, " + pattern, "complete", case, pattern, "--library", "kept")
+    found = re.search(r"pruned[^`]*`([^`]*)` by (.*)\n", out or "")
+    if not found:
+        return 0
+    plan, names = found.groups()
+    with tempfile.TemporaryDirectory() as folder:
+        plans, dropped = os.path.join(folder, "plans"), os.path.join(folder, "dropped")
+        with open(plans, "w") as out:
+            out.write(plan + "\n")
+        same(seed, "kept of " + plan, asked(seed, "prune " + plan, "prune", case, plans, "-l", "kept", "--engine", "vm", "-d", dropped,
+                                           "--where", "plan [%s]" % pattern), "")
+        with open(dropped) as text:
+            same(seed, "what drops " + plan, text.readline(), "# dropped by %s\n" % names)
+    return 1
+
+
 def check_choices(seed, case, pattern):
     """The least x0 that each choice leaves, against the list of all completions: for the trays before the first gap,
     whose places are known; for the others the least of all values of a field."""
@@ -168,6 +187,7 @@ def check_choices(seed, case, pattern):
 
 
 def check(seed, folder):
+    global pruned
     measures.main(seed, folder)
     case = os.path.join(folder, "case.plan")
     text = mended(open(case).read())
@@ -199,6 +219,7 @@ def check(seed, folder):
     for pattern, wanted in list(expect["complete"].items()) + list(expect["complete_best"].items()):
         check_complete(seed, case, pattern, wanted)
         check_choices(seed, case, pattern)
+        pruned += check_pruned(seed, case, pattern) if wanted["plans"] == 0 else 0
 
 
 with tempfile.TemporaryDirectory() as folder:
@@ -208,5 +229,6 @@ for fault in faults:
     print(fault)
 for question in unanswered:
     print("not answered, past the limit of work: " + question)
-print("%d seeds, %d questions, %d not answered, %d faults" % (last - first, asked_count, len(unanswered), len(faults)))
+print("%d seeds, %d questions, %d not answered, %d open plans all pruned, %d faults" %
+      (last - first, asked_count, len(unanswered), pruned, len(faults)))
 sys.exit(1 if faults or len(unanswered) * 50 > asked_count else 0)

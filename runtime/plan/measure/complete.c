@@ -227,6 +227,43 @@ static void add_values(const completer *c, tn_completions *out)
         out->best[i] = out->best[i] == WORST ? 0 : c->sign * out->best[i];
 }
 
+/* A step that is looked for: the first from state `from` of level n from which a plan can still be completed. */
+typedef struct way_on {
+    size_t from, to;
+    uint32_t letter;
+    bool found;
+} way_on;
+
+static bool take_first(completer *c, const step *s, void *context)
+{
+    way_on *way = context;
+    if (way->found || s->from != way->from)
+        return true;
+    size_t to = index_of(c, s->n + 1, s->to);
+    if (mpz_sgn(c->backward[s->n + 1][to]) > 0)
+        *way = (way_on){way->from, to, s->letter, true};
+    return true;
+}
+
+/* A plan is over as soon as it can be: `first` is no longer than others that begin like it. */
+static tn_status find_first(completer *c, tn_completions *out, tn_error *error)
+{
+    uint32_t n = 0;
+    size_t at = 0;
+    out->first = calloc((size_t)c->library->max + 1, sizeof *out->first);
+    if (!out->first)
+        return tn_fail_memory(error);
+    for (; !accepts(c, n, c->level[n][at]); n++) {
+        way_on way = {.from = at};
+        if (!each_step(c, n, take_first, &way) || !way.found)
+            return c->failed != TN_OK ? c->failed : tn_fail_memory(error);
+        out->first[n] = c->first[way.letter];
+        at = way.to;
+    }
+    out->first_length = n;
+    return TN_OK;
+}
+
 static void clear(completer *c)
 {
     for (uint32_t n = 0; c->level && n <= c->library->max; n++) {
@@ -284,6 +321,8 @@ tn_status tn_complete(tn_completions *out, const tn_library *library, const tn_o
         mpz_set(out->plans, c.backward[0][0]);
         add_values(&c, out);
     }
+    if (status == TN_OK && open->first && mpz_sgn(out->plans) > 0)
+        status = find_first(&c, out, error);
     clear(&c);
     return status;
 }
@@ -292,6 +331,7 @@ void tn_completions_clear(tn_completions *completions)
 {
     tn_integers_free(completions->counts, (size_t)completions->trays * completions->values);
     free(completions->best);
+    free(completions->first);
     mpz_clear(completions->plans);
     *completions = (tn_completions){0};
 }

@@ -18,6 +18,8 @@ typedef struct tn_completions {
     mpz_t *counts;   /* [trays][values]: completions that have the value there */
     int64_t *best;   /* [trays][values]: the best that the measure still can be with it, in steps, where there are such
                         completions; NULL where no measure was asked for */
+    tn_tray *first; /* a plan that completes it, [first_length]; NULL if there is none, or it was not asked for */
+    uint32_t first_length;
 } tn_completions;
 
 /* A place of an open plan by its trays instead of by a rule. */
@@ -32,6 +34,7 @@ typedef struct tn_open_plan {
     size_t count;
     tn_weighed *weighed; /* by its first measure, of the same library, choices are weighed; or NULL */
     bool most;           /* more of it is better, else less */
+    bool first;          /* find a plan that completes it, too */
 } tn_open_plan;
 
 /* Clear in any case. */
