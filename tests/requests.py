@@ -40,7 +40,7 @@ ASKED = {
     "schema": ["schema terrace", "schema cottage", "schema lahave-houses --used", "schema row-houses"],
     "pareto": ["pareto lahave-houses --trays 4..4 --least cost --most area", "pareto cottage --plan #3 --least floor-area --most bedrooms"],
     "complete": [
-        "complete terrace ?_|_..._|_?", "complete terrace ?_|_end", "complete lahave-houses ?_|_great_|_..._|_? --trays 4..4 --least cost",
+        "complete terrace ?_|_..._|_?", "complete terrace ?_|_?", "complete terrace ?_|_end", "complete lahave-houses ?_|_great_|_..._|_? --trays 4..4 --least cost",
         "complete cottage ..._|_? --library cottages",
     ],
     "diff": ["diff terrace terrace --trays 2..3 --no-measures", "diff lahave-houses lahave-houses --trays 3..4", "diff cottage cottage --library cottages"],

@@ -54,10 +54,10 @@ typedef struct tn_open_choices {
     tn_completions found;
     tn_wishes wishes; /* none, or one */
     mpq_t step;       /* of its measure, in nanometres to its power */
-    char *why;        /* of plans, if there are none: the tray that leaves none */
+    char *why;        /* of plans, if there are none: what tn_open_why_none says, until the answer has it */
 } tn_open_choices;
 
-/* Appends why no plan of the library completes an open plan, in a line or a few. */
+/* Appends why no plan of the library completes an open plan, in lines; the last has no end. */
 tn_status tn_open_why_none(const tn_ready_library *ready, const tn_open_plan *open, tn_buffer *text, tn_error *error);
 
 /* ---- houses: the measures made ready, and what was found */

@@ -64,8 +64,17 @@ static tn_status count_tray(const tn_open_choices *c, uint32_t tray, tn_tray_cho
     return status;
 }
 
-static tn_status give_counts(const tn_open_choices *c, tn_completed *to, tn_error *error)
+/* Hands over why nothing completes it. */
+static void give_why(tn_open_choices *c, bool *has_why, char **why)
 {
+    *has_why = c->why != NULL;
+    *why = c->why;
+    c->why = NULL;
+}
+
+static tn_status give_counts(tn_open_choices *c, tn_completed *to, tn_error *error)
+{
+    give_why(c, &to->has_why_none, &to->why_none);
     set_count(c, &to->has_plans, to->plans, &to->has_houses, to->houses, c->found.plans);
     tn_status status = TN_NEW_LIST(tray_choices, to->trays, c->found.trays, error);
     for (uint32_t t = 0; status == TN_OK && t < c->found.trays; t++)
@@ -109,8 +118,9 @@ static tn_status weigh_tray(const tn_open_choices *c, uint32_t tray, tn_tray_wei
     return status;
 }
 
-static tn_status give_weighed(const tn_open_choices *c, tn_completed_by *to, tn_error *error)
+static tn_status give_weighed(tn_open_choices *c, tn_completed_by *to, tn_error *error)
 {
+    give_why(c, &to->has_why_none, &to->why_none);
     set_count(c, &to->has_plans, to->plans, &to->has_houses, to->houses, c->found.plans);
     tn_status status = TN_NEW_LIST(tray_weighed, to->trays, c->found.trays, error);
     for (uint32_t t = 0; status == TN_OK && t < c->found.trays; t++)

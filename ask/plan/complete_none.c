@@ -152,5 +152,7 @@ tn_status tn_open_why_none(const tn_ready_library *ready, const tn_open_plan *op
     tn_status status = say_tray(ready->library, open, text, error);
     if (status == TN_OK)
         status = say_generated(ready, open, text, error);
+    if (text->size > 0)
+        text->data[--text->size] = '\0';
     return status == TN_OK && text->failed ? tn_fail_memory(error) : status;
 }

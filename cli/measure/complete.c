@@ -45,7 +45,7 @@ static void write_field(const tn_open_choices *c, uint32_t tray, uint32_t field,
     fputs(any ? "\n" : "-\n", out);
 }
 
-static void write_text(const tn_open_choices *c, FILE *out)
+static void write_text(const tn_open_choices *c, const char *why_none, FILE *out)
 {
     char *plans = tn_digits(c->found.plans, true);
     char best[256];
@@ -61,7 +61,8 @@ static void write_text(const tn_open_choices *c, FILE *out)
         for (uint32_t f = 0; f < c->schema->field_count; f++)
             write_field(c, t, f, out);
     }
-    fputs(c->why ? c->why : "", out);
+    if (why_none)
+        fprintf(out, "%s\n", why_none);
 }
 
 /* ---- the command */
@@ -78,7 +79,7 @@ static void show(tn_job *job, const tn_reply *answer)
         if (settings->json)
             tn_job_write_json(answer, output.stream);
         else
-            write_text(choices, output.stream);
+            write_text(choices, counted ? counted->why_none : weighed->why_none, output.stream);
         tn_job_commit(job, &output);
     }
 }

@@ -22,6 +22,7 @@ golden complete_json 'tartan complete measures.plan -l strips "room | ?" --json'
 golden complete_none_later 'tartan complete measures.plan -l strips "room | 3m store | ... | store | ? | room"'
 golden complete_none_longer 'tartan complete measures.plan -l strips "room"'
 golden complete_none 'tartan complete measures.plan -l strips "store | ?"'
+golden complete_none_json 'tartan complete measures.plan -l strips "store | ?" --least area --json'
 golden where 'tartan count measures.plan -l strips --where "area <= 20m2" --where "plan [room | ... | store]"'
 golden prolog_left_out 'tartan export measures.plan --prolog -l strips'
 

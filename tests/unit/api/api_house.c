@@ -1,6 +1,7 @@
 /* Libraries of houses through the C interface: counting, numbers, lists, meshes and files; cancelling, threads and
  * misuse. tests/cli/house_interface.sh holds the answers to those of the commands. */
 #include "include/tartan/tartan.h"
+#include "tests/support/huts.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -13,19 +14,7 @@
 
 #include <cmocka.h>
 
-/* Plans of one bay or two; each has a roof of two kinds, and the front of each bay a window or none. */
-static const char text[] = "schema hut { width role length = 8' | 10' zone body role band = room(10') }\n"
-                           "form huts \"small huts\" of hut {\n"
-                           "  storey ground 9' wall 6\" partition 4\" deck 10\" roof 8\"\n"
-                           "  section body roof = gable(9:12) | vault(3')\n"
-                           "  function bed at cell(body)\n"
-                           "  opening window wide 3' high 4' sill 2'8\"\n"
-                           "  opening door wide 2'8\" high 6'8\" clear 2' passage\n"
-                           "  face cell(bed) beside cell(bed) = door\n"
-                           "  face cell(bed) outside front = window | wall\n"
-                           "  material brick \"#a05030\" price 10 per sf for wall\n"
-                           "}\n"
-                           "library rows using hut { trays 1..2 }\n"
+static const char text[] = TEST_HUTS
                            "library all \"every hut\" from rows in huts { }\n"
                            "library round from rows in huts { require section(body roof vault) }\n"
                            "measure long = sum(width)\n"

@@ -11,19 +11,9 @@
 
 #include "include/tartan/tartan.h"
 #include "tests/support/failing_memory.h"
+#include "tests/support/huts.h"
 
-static const char text[] = "schema hut { width role length = 8' | 10' zone body role band = room(10') }\n"
-                           "form huts of hut {\n"
-                           "  storey ground 9' wall 6\" partition 4\" deck 10\" roof 8\"\n"
-                           "  section body roof = gable(9:12) | vault(3')\n"
-                           "  function bed at cell(body)\n"
-                           "  opening window wide 3' high 4' sill 2'8\"\n"
-                           "  opening door wide 2'8\" high 6'8\" clear 2' passage\n"
-                           "  face cell(bed) beside cell(bed) = door\n"
-                           "  face cell(bed) outside front = window | wall\n"
-                           "  material brick \"#a05030\" price 10 per sf for wall\n"
-                           "}\n"
-                           "library rows using hut { trays 1..2 }\n"
+static const char text[] = TEST_HUTS
                            "library all from rows in huts { prune room(bed, not by window) as dark }\n"
                            "measure price = sum(cost)\n";
 static const char hut[] = "8' room:10' ; vault(3') ; bed ; window";
