@@ -113,7 +113,7 @@ ASKING(ask_why, {"explain", "{\"plan\": \"#1\"}"}, {"explain", "{\"plan\": \"1m 
 ASKING(ask_lists, {"sample", "{\"count\": 2}"}, {"sample", "{\"per_length\": 1}"},
        {"enumerate", "{\"limit\": 2, \"lines\": true}"}, {"best", "{\"by\": [{\"measure\": \"long\"}], \"count\": 2}"})
 ASKING(ask_trade_offs, {"pareto", "{\"by\": [{\"measure\": \"long\"}, {\"measure\": \"lids\", \"most\": true}]}"},
-       {"complete", "{\"pattern\": \"? | lid\"}"},
+       {"complete", "{\"pattern\": \"? | lid\"}"}, {"complete", "{\"pattern\": \"lid | lid\"}"},
        {"complete", "{\"pattern\": \"? | ...\", \"by\": [{\"measure\": \"lids\"}]}"})
 ASKING(ask_edits, {"diff", "{\"before\": \"old.plan\"}"}, {"test", "{\"coverage\": true}"}, {"coverage", "{}"})
 ASKING(ask_text, {"check", "{\"threads\": 1}"}, {"format", "{}"})
