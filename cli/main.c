@@ -10,6 +10,26 @@
 #include "cli/common/manual.h"
 #include "cli/common/program.h"
 
+/* Questions that a command of another name asks. */
+static const struct {
+    const char *question, *command;
+} asked_otherwise[] = {
+    {"format", "`tartan fmt`"},
+    {"coverage", "`tartan test --coverage`"},
+    {"relations", "`tartan check --relations`"},
+    {"invert", "`tartan map --invert`"},
+    {"individual", "`tartan runs replay`"},
+    {"change_run", "`tartan runs insert` and `tartan runs remove`"},
+};
+
+static const char *command_that_asks(const char *question)
+{
+    for (size_t i = 0; i < sizeof asked_otherwise / sizeof *asked_otherwise; i++)
+        if (strcmp(asked_otherwise[i].question, question) == 0)
+            return asked_otherwise[i].command;
+    return NULL;
+}
+
 static int unknown_command(const char *name, int count, char **words)
 {
     const tn_settings settings = {.diagnostics = tn_options_diagnostics(count, words)};
@@ -20,9 +40,12 @@ static int unknown_command(const char *name, int count, char **words)
     tn_fail(&error, TN_INVALID, E_USAGE,
             name[0] == '-' ? "`tartan` has no option %.60s" : "there is no command `%.60s`", name);
     const char *near = tn_nearest(name, names, tn_commands_count), *later = NULL;
+    const char *otherwise = command_that_asks(name);
     for (int i = 0; i < count && !later; i++)
         later = tn_command_find(words[i]) ? words[i] : NULL;
-    if (near)
+    if (otherwise)
+        tn_error_help(&error, "that is what %s is for", otherwise);
+    else if (near)
         tn_error_help(&error, "did you mean `tartan %s`?", near);
     else if (later)
         tn_error_help(&error, "the command comes first: tartan %s %.60s", later, name);
