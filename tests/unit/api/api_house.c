@@ -4,22 +4,21 @@
 #include "tests/support/huts.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <threads.h>
 
 #include <cmocka.h>
 
-static const char text[] = TEST_HUTS
-                           "library all \"every hut\" from rows in huts { }\n"
-                           "library round from rows in huts { require section(body roof vault) }\n"
-                           "measure long = sum(width)\n"
-                           "measure price = sum(cost)\n"
-                           "measure beds = quantity(cell(bed))\n";
+static const char text[] = TEST_HUTS "library all \"every hut\" from rows in huts { }\n"
+                                     "library round from rows in huts { require section(body roof vault) }\n"
+                                     "measure long = sum(width)\n"
+                                     "measure price = sum(cost)\n"
+                                     "measure beds = quantity(cell(bed))\n";
 static const char hut[] = "8' room:10' ; vault(3') ; bed ; window";
 
 static tartan_module *compile(void)
@@ -318,10 +317,17 @@ static void stops(void **state)
 
 /* ---- threads */
 
-/* A library of its own, of a module that others have, too. */
-static int ask_all(void *context)
+/* What a thread finds out, through a library of its own of a module that others have, too. */
+typedef struct thread_of_houses {
+    pthread_t thread;
+    const tartan_module *module;
+    size_t size; /* of a drawing; 0 if a call failed */
+} thread_of_houses;
+
+static void *ask_all(void *context)
 {
-    const tartan_module *module = context;
+    thread_of_houses *own = context;
+    const tartan_module *module = own->module;
     tartan_house_library *library = NULL;
     tartan_house_library_options options = tartan_house_library_options_init();
     tartan_house *house = NULL;
@@ -344,7 +350,8 @@ static int ask_all(void *context)
     tartan_text_free(rank);
     tartan_house_free(house);
     tartan_house_library_free(library);
-    return ok ? (int)size : 0;
+    own->size = ok ? size : 0;
+    return NULL;
 }
 
 static void works_in_threads(void **state)
@@ -352,14 +359,15 @@ static void works_in_threads(void **state)
     (void)state;
     enum { THREADS = 4 };
     tartan_module *module = compile();
-    thrd_t threads[THREADS];
-    int sizes[THREADS];
+    thread_of_houses threads[THREADS] = {0};
+    for (int i = 0; i < THREADS; i++) {
+        threads[i].module = module;
+        assert_int_equal(pthread_create(&threads[i].thread, NULL, ask_all, &threads[i]), 0);
+    }
     for (int i = 0; i < THREADS; i++)
-        assert_int_equal(thrd_create(&threads[i], ask_all, module), thrd_success);
+        pthread_join(threads[i].thread, NULL);
     for (int i = 0; i < THREADS; i++)
-        thrd_join(threads[i], &sizes[i]);
-    for (int i = 0; i < THREADS; i++)
-        assert_true(sizes[i] > 1000 && sizes[i] == sizes[0]);
+        assert_true(threads[i].size > 1000 && threads[i].size == threads[0].size);
     tartan_module_free(module);
 }
 

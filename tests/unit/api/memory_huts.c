@@ -13,9 +13,8 @@
 #include "tests/support/failing_memory.h"
 #include "tests/support/huts.h"
 
-static const char text[] = TEST_HUTS
-                           "library all from rows in huts { prune room(bed, not by window) as dark }\n"
-                           "measure price = sum(cost)\n";
+static const char text[] = TEST_HUTS "library all from rows in huts { prune room(bed, not by window) as dark }\n"
+                                     "measure price = sum(cost)\n";
 static const char hut[] = "8' room:10' ; vault(3') ; bed ; window";
 
 typedef struct huts {
