@@ -40,11 +40,6 @@ struct tn_coverage {
     tn_differences gained;    /* of the plans that the unchanged clauses keep */
 };
 
-static bool compares_sums(tn_opcode opcode)
-{
-    return opcode == TN_OP_BELOW || opcode == TN_OP_ZERO || opcode == TN_OP_ABOVE;
-}
-
 /* Marks what the terms of a sum count. */
 static void mark_terms(const tn_module *module, uint32_t sum, uint8_t *reached)
 {
@@ -63,7 +58,7 @@ static void mark_reached(const tn_module *module, uint32_t function, uint8_t *re
             tn_instruction code = tn_code_read(module->code, offset);
             if (code.opcode == TN_OP_CALL || code.opcode == TN_OP_MIRROR)
                 reached[code.first] = 1;
-            else if (compares_sums(code.opcode))
+            else if (tn_code_compares(code.opcode))
                 mark_terms(module, (uint32_t)code.first, reached);
             offset += code.length;
         }
