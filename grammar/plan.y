@@ -90,7 +90,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <rule> rule_head
 %type <library> library_head
 %type <word> doc role using from constant operand spec_word literal_word clause_name expectation
-%type <list> expectations items values depths allow names clauses clause prunes requires cases clause_names trays words
+%type <list> expectations items values ordered depths allow names clauses clause prunes requires cases clause_names trays words
 %type <list> specifier spec_items spec_alternatives spec_words parts total_field
 %type <list> by_kinds walk_by
 %type <literal> plan
@@ -178,6 +178,7 @@ body
 
 field
     : field_head EQUAL values                   { $$ = tn_ast_field_new(parse, @$, TN_FORM_VALUES, $1, $3); }
+    | field_head EQUAL ordered                  { $$ = tn_ast_ordered_new(parse, @$, $1, $3); }
     | field_head EQUAL FLAG                     { $$ = tn_ast_field_new(parse, @$, TN_FORM_FLAG, $1, tn_ast_empty()); }
     | zone field_head EQUAL values              { $$ = tn_ast_field_new(parse, @$, TN_FORM_ZONE, $2, $4); }
     ;
@@ -213,6 +214,14 @@ role
 values
     : value                                     { $$ = tn_ast_one($1); }
     | values BAR value                          { $$ = tn_ast_append($1, $3); }
+    ;
+
+/* From the least to the greatest. */
+ordered
+    : value LESS value                          { $$ = tn_ast_append(tn_ast_one($1), $3); }
+    | ordered LESS value                        { $$ = tn_ast_append($1, $3); }
+    | ordered BAR value                         { $$ = tn_ast_mixed_order(parse, @2, $1, $3); }
+    | values BAR value LESS value               { $$ = tn_ast_mixed_order(parse, @4, tn_ast_append($1, $3), $5); }
     ;
 
 value
@@ -272,6 +281,7 @@ spec_word
     | comparison                                { $$ = tn_ast_operator(parse, @$, $1); }
     | LENGTH DOTS LENGTH                        { $$ = tn_ast_word_range(parse, @$, $1, $3); }
     | NUMBER DOTS NUMBER                        { $$ = tn_ast_word_range(parse, @$, $1, $3); }
+    | NAME DOTS NAME                            { $$ = tn_ast_word_range(parse, @$, $1, $3); }
     | AREA DOTS AREA                            { $$ = tn_ast_word_range(parse, @$, $1, $3); }
     | NUMBER COLON NUMBER                       { $$ = tn_ast_word_ratio(parse, @$, $1, $3); }
     | IN                                        { $$ = NULL; }

@@ -31,6 +31,7 @@ typedef struct tn_checked_field {
     tn_field_role role;
     tn_checked_value *values;
     uint32_t value_count;
+    bool ordered;         /* a choice whose values go from the least to the greatest */
     uint32_t older_count; /* of them: values that the schema it is made from has */
     uint32_t first_bit;   /* of its values in the schema's masks */
 } tn_checked_field;

@@ -7,6 +7,8 @@
 
 #include <string.h>
 
+#include "compiler/plan/check/amount.h"
+
 #include "compiler/common/limits.h"
 
 enum { CALLS_DEEP = 64 };
@@ -173,7 +175,9 @@ static tn_ast_expr *expand_quantifier(tn_rule_expansion *expansion, const tn_ast
 {
     tn_check *check = expansion->check;
     const tn_checked_schema *schema = check->schema;
-    uint32_t field = schema ? tn_field_find(schema, expr->name->text) : TN_NONE;
+    tn_bound_name bound = tn_bound(expansion, expr->name);
+    const char *name = bound.value && bound.value->kind == TN_EXPR_NAME ? bound.value->name->text : expr->name->text;
+    uint32_t field = schema ? tn_field_find(schema, name) : TN_NONE;
     if (schema && field == TN_NONE && !schema->broken) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_WORD, expr->name->node.span,
                                      "`%s` is not a field of schema `%s`", expr->name->text, schema->name);
@@ -447,6 +451,8 @@ static tn_ast_expr *expand_name(tn_rule_expansion *expansion, const tn_ast_expr 
     tn_bound_name bound = tn_bound(expansion, expr->name);
     if (bound.let && !bound.value) /* it uses itself */
         return broken(expansion, expr);
+    if (bound.value && expansion->number && bound.field && bound.field->ordered)
+        return tn_place_expression(expansion, bound.field, bound.value);
     if (bound.value && (bound.value->kind == TN_EXPR_FIGURE || (bound.let && is_word_value(expansion, bound.value)))) {
         tn_check *check = expansion->check;
         tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_OR_NUMBER, expr->node.span,
@@ -468,6 +474,54 @@ static tn_ast_expr *expand_name(tn_rule_expansion *expansion, const tn_ast_expr 
     return shallow(expansion, expr);
 }
 
+/* Are the parts numbers? */
+static bool has_numbers(tn_expr_kind kind)
+{
+    switch (kind) {
+    case TN_EXPR_COMPARE:
+    case TN_EXPR_WITHIN:
+    case TN_EXPR_REMAINDER:
+    case TN_EXPR_PLUS:
+    case TN_EXPR_MINUS:
+    case TN_EXPR_TIMES:
+    case TN_EXPR_OVER:
+    case TN_EXPR_NEGATIVE:
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool is_constant(const tn_ast_expr *expr)
+{
+    bool constant = expr->kind == TN_EXPR_NUMBER || (has_numbers(expr->kind) && expr->kind != TN_EXPR_COMPARE &&
+                                                     expr->kind != TN_EXPR_WITHIN && expr->kind != TN_EXPR_REMAINDER);
+    for (TN_EACH(const tn_ast_expr, part, expr->parts))
+        constant = constant && is_constant(part);
+    return constant;
+}
+
+/* `u - v <= 1` of values that a quantifier goes through: what is left of it is numbers, and so decided. false: it is not. */
+static bool decide_constants(tn_rule_expansion *expansion, tn_operator op, tn_ast_list parts, tn_ast_expr *made)
+{
+    tn_check *check = expansion->check;
+    tn_ast_expr *left = (tn_ast_expr *)parts.first, *right = (tn_ast_expr *)parts.last;
+    tn_sum_amount a, b, both;
+    if (parts.count != 2 || !is_constant(left) || !is_constant(right) || !tn_check_figure(check, NULL, left, &a) ||
+        !tn_check_figure(check, NULL, right, &b) || !a.value || !b.value)
+        return false;
+    if (!tn_same_power(check, a, left->node.span, b, right->node.span, "compared with", &both)) {
+        made->kind = TN_EXPR_BROKEN;
+        return true;
+    }
+    const char *more = tn_amount_apply(check, TN_EXPR_MINUS, a.value, b.value);
+    if (!more)
+        return false;
+    made->kind = tn_decided(op, tn_amount_is_zero(more) ? 0 : *more == '-' ? -1 : 1);
+    made->parts = tn_ast_empty();
+    return true;
+}
+
 static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr)
 {
     if (expr->rule && expr->rule->hidden) /* written out already */
@@ -487,9 +541,19 @@ static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr
         break;
     }
     case TN_EXPR_FIGURE: {
-        tn_bound_name bound = expr->detail ? (tn_bound_name){0} : tn_bound(expansion, expr->name);
+        tn_bound_name bound = tn_bound(expansion, expr->name);
         if (!bound.value)
             break;
+        if (bound.value->kind == TN_EXPR_NAME && !bound.let) { /* a field, for a parameter */
+            tn_ast_expr *field = shallow(expansion, expr);
+            if (field)
+                field->name = bound.value->name;
+            return field;
+        }
+        if (expr->detail)
+            break;
+        if (bound.field && bound.field->ordered)
+            return tn_place_expression(expansion, bound.field, bound.value);
         tn_rule_expansion none = {.check = expansion->check, .unit = expansion->unit, .older = expansion->older};
         return expand(&none, bound.value);
     }
@@ -503,7 +567,12 @@ static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr
         copy->items = tn_expand_items(expansion, expr->items);
     copy->condition = expr->condition ? tn_expand_condition(expansion, expr->condition) : NULL;
     copy->figure = expr->figure ? expand(expansion, expr->figure) : NULL;
+    bool number = expansion->number;
+    expansion->number = has_numbers(expr->kind);
     tn_ast_list parts = expand_parts(expansion, expr->parts);
+    expansion->number = number;
+    if (expr->kind == TN_EXPR_COMPARE && expansion->bindings && decide_constants(expansion, expr->op, parts, copy))
+        return copy;
     if (expr->kind == TN_EXPR_AND || expr->kind == TN_EXPR_OR)
         return joined(expansion, expr->kind, expr, parts);
     copy->parts = parts;

@@ -20,6 +20,7 @@ typedef struct tn_rule_expansion {
     const tn_bound_name *bindings;  /* innermost first */
     size_t unit;                    /* the file whose words are being read */
     const tn_checked_schema *older; /* the schema that they are of; NULL: that in use */
+    bool number;                    /* a number stands here: a value of an order is its place */
 } tn_rule_expansion;
 
 /* What a word stands for where it is read; value NULL where it stands for itself. */
@@ -39,6 +40,11 @@ tn_ast_expr *tn_value_expression(tn_rule_expansion *expansion, const tn_ast_expr
 /* ... and a comparison of such a value with another, or with a word of its field: TRUE, FALSE, or BROKEN, which is
  * reported. false where neither side is one, or the other is no value: then it is a comparison of sums. */
 bool tn_decide_values(tn_rule_expansion *expansion, const tn_ast_expr *comparison, tn_expr_kind *decided);
+
+/* What a comparison is of a left side that is so much more than the right: TRUE or FALSE. */
+tn_expr_kind tn_decided(tn_operator op, int64_t order);
+/* The place of a value of a field whose values have an order, the first is 1, as a number. NULL: no memory. */
+tn_ast_expr *tn_place_expression(tn_rule_expansion *expansion, const tn_checked_field *field, const tn_ast_expr *value);
 
 /* expand_key.c: a text that is the same for equal expressions. */
 const char *tn_expression_key(tn_check *check, const tn_checked_schema *schema, const char *name, tn_ast_list parts);

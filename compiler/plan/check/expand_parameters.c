@@ -42,6 +42,14 @@ static void use(parameters *p, const tn_ast_word *word, use_kind kind)
     }
 }
 
+/* It is used, as what another place says: by a rule that is called, or as a field. */
+static void use_somehow(parameters *p, const tn_ast_word *word)
+{
+    for (size_t i = 0; i < p->count; i++)
+        if (strcmp(p->items[i].word->text, word->text) == 0 && p->items[i].kind == USE_NONE)
+            p->items[i].said = true;
+}
+
 static void use_items(parameters *p, const tn_ast_item *item)
 {
     for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives))
@@ -74,7 +82,9 @@ static void use_expression(parameters *p, const tn_ast_expr *expr, bool number)
     if (expr->kind == TN_EXPR_NAME)
         use(p, expr->name, number ? USE_NUMBER : USE_EXPRESSION);
     if (expr->kind == TN_EXPR_FIGURE)
-        use(p, expr->name, USE_NUMBER);
+        use_somehow(p, expr->name); /* as a number, or as a field */
+    if (expr->kind == TN_EXPR_SOME || expr->kind == TN_EXPR_EACH)
+        use_somehow(p, expr->name);
     for (TN_EACH(const tn_ast_item, item, tn_ast_tray_items(expr)))
         use_items(p, item);
     if (expr->condition)
@@ -85,9 +95,7 @@ static void use_expression(parameters *p, const tn_ast_expr *expr, bool number)
     for (const tn_ast_expr *part = (const tn_ast_expr *)expr->parts.first; part;
          part = (const tn_ast_expr *)part->node.next, at++) {
         if (expr->kind == TN_EXPR_CALL && part->kind == TN_EXPR_NAME) {
-            for (size_t i = 0; i < p->count; i++) /* what it is there, the rule that is called says */
-                if (strcmp(p->items[i].word->text, part->name->text) == 0 && p->items[i].kind == USE_NONE)
-                    p->items[i].said = true;
+            use_somehow(p, part->name); /* what it is there, the rule that is called says */
             continue;
         }
         bool distance = (expr->kind == TN_EXPR_NEAR || expr->kind == TN_EXPR_EVERY_NEAR) && at == 2;

@@ -1,5 +1,6 @@
 /* The values that quantifiers go through: as expressions, and compared with one another or with words of their field.
  */
+#include <stdio.h>
 #include <string.h>
 
 #include "compiler/plan/check/expand.h"
@@ -88,6 +89,37 @@ static bool same_value(const tn_ast_expr *left, const tn_ast_expr *right)
     return same && (!left->detail || !right->detail || left->detail->value == right->detail->value);
 }
 
+tn_expr_kind tn_decided(tn_operator op, int64_t order)
+{
+    bool truths[] = {[TN_LESS] = order < 0,     [TN_AT_MOST] = order <= 0,  [TN_EQUAL] = order == 0,
+                     [TN_UNEQUAL] = order != 0, [TN_AT_LEAST] = order >= 0, [TN_GREATER] = order > 0};
+    return truths[op] ? TN_EXPR_TRUE : TN_EXPR_FALSE;
+}
+
+/* Of a value of a field whose values have an order. */
+static uint32_t place_of(const tn_checked_field *field, const tn_ast_expr *value)
+{
+    uint32_t v = 0;
+    while (v + 1 < field->value_count && strcmp(field->values[v].name, value->name->text) != 0)
+        v++;
+    return v;
+}
+
+tn_ast_expr *tn_place_expression(tn_rule_expansion *expansion, const tn_checked_field *field, const tn_ast_expr *value)
+{
+    tn_ast_expr *number = TN_NEW(expansion->check->arena, tn_ast_expr);
+    tn_ast_word *word = TN_NEW(expansion->check->arena, tn_ast_word);
+    char text[16];
+    int64_t place = (int64_t)place_of(field, value) + 1;
+    snprintf(text, sizeof text, "%lld", (long long)place);
+    if (!number || !word)
+        return NULL;
+    *word = (tn_ast_word){.node.span = value->node.span, .kind = TN_WORD_NUMBER, .value = place};
+    word->text = tn_arena_copy(expansion->check->arena, text, strlen(text));
+    *number = (tn_ast_expr){.node.span = value->node.span, .kind = TN_EXPR_NUMBER, .depth = 1, .name = word};
+    return number;
+}
+
 bool tn_decide_values(tn_rule_expansion *expansion, const tn_ast_expr *comparison, tn_expr_kind *decided)
 {
     tn_bound_name bound[2] = {value_of(expansion, comparison->parts.first),
@@ -110,6 +142,10 @@ bool tn_decide_values(tn_rule_expansion *expansion, const tn_ast_expr *compariso
             return true;
     }
     bool lengths = sides[0]->kind == TN_EXPR_NUMBER && sides[1]->kind == TN_EXPR_NUMBER;
+    if (!lengths && field->ordered) {
+        *decided = tn_decided(comparison->op, (int64_t)place_of(field, sides[0]) - place_of(field, sides[1]));
+        return true;
+    }
     if (!lengths && comparison->op != TN_EQUAL && comparison->op != TN_UNEQUAL) {
         tn_check *check = expansion->check;
         tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_ARGUMENT, comparison->node.span,
@@ -118,8 +154,6 @@ bool tn_decide_values(tn_rule_expansion *expansion, const tn_ast_expr *compariso
         return true;
     }
     bool same = same_value(sides[0], sides[1]), less = lengths && sides[0]->name->value < sides[1]->name->value;
-    bool truths[] = {[TN_LESS] = less,     [TN_AT_MOST] = less || same, [TN_EQUAL] = same,
-                     [TN_UNEQUAL] = !same, [TN_AT_LEAST] = !less,       [TN_GREATER] = !less && !same};
-    *decided = truths[comparison->op] ? TN_EXPR_TRUE : TN_EXPR_FALSE;
+    *decided = tn_decided(comparison->op, same ? 0 : less ? -1 : 1);
     return true;
 }

@@ -129,7 +129,9 @@ static bool is_field_sum(const tn_check *check, const tn_ast_expr *sum)
     bool number = false;
     for (uint32_t n = 0; n < schema->number_count; n++)
         number |= sum->name && strcmp(schema->numbers[n].name, sum->name->text) == 0;
-    return sum->figure->kind == TN_EXPR_FIGURE && !number;
+    uint32_t field = sum->name ? tn_field_find(schema, sum->name->text) : TN_NONE;
+    bool places = field != TN_NONE && schema->fields[field].ordered;
+    return sum->figure->kind == TN_EXPR_FIGURE && !number && !places;
 }
 
 /* ---- expressions */

@@ -357,6 +357,17 @@ static void report_field_twice(tn_check *check, tn_checked_schema *schema, const
     schema->broken = true;
 }
 
+/* Only names are put into an order: lengths have one. */
+static void check_order(tn_check *check, tn_checked_field *field)
+{
+    field->ordered = field->ast->ordered && field->kind == TN_FIELD_CHOICE;
+    if (field->ordered == field->ast->ordered)
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_MIXED_ORDER, field->ast->name->node.span,
+                                 "the values of `%s` are lengths, which have an order already", field->name);
+    tn_help(check->diagnostics, d, "write `|` between them");
+}
+
 static void check_field(tn_check *check, tn_checked_schema *schema, const tn_ast_field *ast)
 {
     uint32_t before = tn_field_find(schema, ast->name->text);
@@ -376,6 +387,7 @@ static void check_field(tn_check *check, tn_checked_schema *schema, const tn_ast
     if (!field)
         return;
     name_is_good(check, schema, ast->name);
+    check_order(check, field);
     if (field->kind == TN_FIELD_FLAG) {
         add_value(check, schema, field,
                   (tn_checked_value){.name = "-", .spelling = "-", .measure = "", .span = ast->node.span});

@@ -289,18 +289,53 @@ static void invert(tn_item_reader *item)
         item->found[v] = !item->found[v];
 }
 
+/* The one value that is marked becomes those that compare so with it. */
+static void mark_by_order(tn_item_reader *item, tn_operator op)
+{
+    uint32_t count = item->schema->fields[item->field].value_count, place = 0;
+    while (place < count && !item->found[place])
+        place++;
+    for (uint32_t v = 0; v < count; v++)
+        item->found[v] = compares(v, op, place);
+}
+
+/* one..two */
+static bool mark_names_between(tn_item_reader *item, const tn_ast_word *range)
+{
+    bool from[TN_VALUES_MAX];
+    uint32_t count = item->schema->fields[item->field].value_count;
+    if (range->low->kind != TN_WORD_NAME || !mark_name(item, range->low))
+        return range->low->kind != TN_WORD_NAME && bad_item(item, range->node.span, "a range of values is missing");
+    mark_by_order(item, TN_AT_LEAST);
+    memcpy(from, item->found, sizeof from);
+    if (!mark_name(item, range->high))
+        return false;
+    mark_by_order(item, TN_AT_MOST);
+    bool any = false;
+    for (uint32_t v = 0; v < count; v++)
+        any |= item->found[v] = item->found[v] && from[v];
+    if (any)
+        return true;
+    tn_diagnostic *d = tn_report(item->check->diagnostics, E_RANGE_BACKWARDS, range->node.span,
+                                 "this range ends before it starts");
+    tn_help(item->check->diagnostics, d, "write `%s..%s`", range->high->text, range->low->text);
+    return false;
+}
+
 /* names only: `= double`, `!= double` */
 static bool read_name(tn_item_reader *item, tn_operator op)
 {
     const tn_ast_word *word = next_word(item);
+    bool ordered = item->schema->fields[item->field].ordered;
     if (!word)
         return bad_item(item, item->span, "a value is missing");
-    if (op != TN_EQUAL && op != TN_UNEQUAL)
+    if (word->kind == TN_WORD_RANGE && op == TN_EQUAL && ordered)
+        return mark_names_between(item, word);
+    if (op != TN_EQUAL && op != TN_UNEQUAL && !ordered)
         return bad_item(item, word->node.span, "names cannot be compared by size");
     if (!mark_name(item, word))
         return false;
-    if (op == TN_UNEQUAL)
-        invert(item);
+    mark_by_order(item, op);
     return true;
 }
 

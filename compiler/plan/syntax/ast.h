@@ -191,6 +191,7 @@ typedef struct tn_ast_expr {
     struct tn_checked_sum *sum;       /* checked: comparison: the left side less the right; a `within`: less low */
     struct tn_checked_sum *high;      /* checked: `within`: the sum less high */
     struct tn_checked_number *number; /* checked: figure: a number of the tray */
+    struct tn_checked_spec **specs;   /* checked: figure: of a field whose values have an order: those of each value */
     const char *constant;             /* checked: figure: of a number that is written out */
     bool figure_good;                 /* checked: sum */
     int64_t modulus;                  /* checked: remainder: in nanometres to the sum's power; 0: already reported */
@@ -242,6 +243,7 @@ typedef struct tn_ast_field {
     tn_field_form form;
     const tn_ast_word *name, *doc, *role;
     tn_ast_list values; /* tn_ast_value */
+    bool ordered;       /* its values go from the least to the greatest */
     bool extends;       /* begins with `...`: the values that an older schema gives the field come first */
 } tn_ast_field;
 
@@ -440,6 +442,9 @@ void *tn_ast_use_new(tn_parse *parse, tn_span span, const tn_ast_word *path);
 void *tn_ast_value_new(tn_parse *parse, tn_span span, const tn_ast_word *word, const tn_ast_list *depths,
                        const tn_ast_word *doc, const tn_ast_word *role);
 void *tn_ast_field_new(tn_parse *parse, tn_span span, tn_field_form form, tn_ast_field head, tn_ast_list values);
+void *tn_ast_ordered_new(tn_parse *parse, tn_span span, tn_ast_field head, tn_ast_list values);
+/* `a < b | c`: E0212, and all of them. */
+tn_ast_list tn_ast_mixed_order(tn_parse *parse, tn_span sign, tn_ast_list values, void *value);
 /* from: the older schema, or NULL. */
 void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
                         const tn_ast_word *from, tn_ast_body body);

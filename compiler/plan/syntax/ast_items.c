@@ -85,6 +85,21 @@ void *tn_ast_field_new(tn_parse *parse, tn_span span, tn_field_form form, tn_ast
     return field;
 }
 
+void *tn_ast_ordered_new(tn_parse *parse, tn_span span, tn_ast_field head, tn_ast_list values)
+{
+    tn_ast_field *field = tn_ast_field_new(parse, span, TN_FORM_VALUES, head, values);
+    if (field)
+        field->ordered = true;
+    return field;
+}
+
+tn_ast_list tn_ast_mixed_order(tn_parse *parse, tn_span sign, tn_ast_list values, void *value)
+{
+    tn_diagnostic *d = tn_report(parse->diagnostics, E_MIXED_ORDER, sign, "values are either all in an order or all apart");
+    tn_help(parse->diagnostics, d, "write `<` between all of them, from the least to the greatest, or `|`");
+    return tn_ast_append(values, value);
+}
+
 void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
                         const tn_ast_word *from, tn_ast_body body)
 {
