@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/session/written.h"
 #include "driver/house/judge.h"
 #include "runtime/base/crew.h"
 #include "runtime/plan/match/vm.h"
@@ -102,6 +103,19 @@ void tn_session_shows(const tn_session *session)
 
 tn_status tn_session_plan(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
                           tn_plan *plan)
+{
+    tn_written written;
+    tn_status status = tn_written_read(session, schema, text, "PLAN", max_length, false, &written);
+    if (status == TN_OK)
+        status = tn_written_settle(session, schema, text, "PLAN", &written);
+    *plan = written.plan;
+    written.plan = (tn_plan){0};
+    tn_written_clear(&written);
+    return status;
+}
+
+tn_status tn_session_plan_line(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
+                               tn_plan *plan)
 {
     tn_error error;
     size_t size = strlen(text);

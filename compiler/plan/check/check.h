@@ -39,10 +39,10 @@ typedef struct tn_checked_spec {
     struct tn_checked_schema *schema;
     uint64_t *mask; /* schema->words; a bit per value */
     tn_span span;
-    const char *key; /* equal for equal masks of one schema */
-    uint32_t index;  /* emitted: of its record */
+    const char *key;   /* equal for equal masks of one schema */
+    uint32_t index;    /* emitted: of its record */
     uint32_t function; /* emitted: 1 + that of one such tray; 0: none yet */
-    bool broken;     /* already reported */
+    bool broken;       /* already reported */
 } tn_checked_spec;
 
 /* A number of a tray: its cases in order, the first that fits counts. */
@@ -210,9 +210,12 @@ typedef struct tn_checked {
     struct tn_checked_form **forms;
     size_t form_count;
     tn_program *program;
-    tn_checked_library *asked; /* the library that the command line is about; NULL: not clear */
-    tn_ast_expr **pattern;     /* an open plan's trays: each a rule expression, a gap NULL */
+    tn_checked_library *asked;               /* the library that the command line is about; NULL: not clear */
+    const tn_checked_schema *pattern_schema; /* of the next, and of a plan in brackets */
+    tn_ast_expr **pattern;                   /* an open plan's trays: each a rule expression, a gap NULL */
     size_t pattern_count;
+    const uint8_t *asked_plan; /* a plan that was written in brackets: tn_program.plan */
+    size_t asked_length;
 } tn_checked;
 
 /* Expressions that the command line gives: parsed. */
@@ -220,9 +223,9 @@ typedef struct tn_asked_for {
     const char *library; /* or NULL */
     tn_ast_expr **wheres;
     size_t where_count;
-    tn_ast_list pattern;
-    tn_span pattern_span;
-    bool has_pattern;
+    const char *schema;            /* of the next two */
+    const tn_ast_list *pattern;    /* an open plan, or NULL */
+    const tn_ast_literal *literal; /* a plan in brackets, or NULL */
 } tn_asked_for;
 
 typedef struct tn_check {
@@ -394,7 +397,7 @@ void tn_check_cost(tn_check *check, tn_ast_expr *sum);
 bool tn_means_cost(const tn_check *check, const char *word); /* of houses: `cost` or the like, and there is a form */
 /* Of houses: helps whoever asks how high one is, and says whether `word` did. */
 bool tn_help_height(tn_check *check, tn_diagnostic *d, const char *word);
-void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum); /* what else it counts is of plans */
+void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum);    /* what else it counts is of plans */
 void tn_check_compared_sum(tn_check *check, const tn_checked_sum *sum); /* the same of a comparison's */
 /* A rule that is named: is it about houses of the same form as what names it? */
 void tn_check_same_form(tn_check *check, const tn_ast_expr *name);

@@ -489,7 +489,7 @@ static void narrow_by_item(tn_check *check, tn_checked_spec *spec, const tn_chec
                            const tn_ast_item *ast, bool loose)
 {
     const tn_checked_schema *schema = spec->schema;
-    tn_ast_alternative rest = {.node = ast->node};
+    tn_ast_alternative rest = {.node = {.span = ast->node.span}};
     tn_ast_item one = *ast;
     for (;;) {
         tn_item_reader item = {

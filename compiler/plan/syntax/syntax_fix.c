@@ -196,7 +196,7 @@ static const char *mark_fix(const tn_parse *parse, const char *found, const tn_e
     if (strcmp(found, "`...`") == 0 && parse->mode == TN_LEX_PATTERN && tn_expects(e, "`|`"))
         return "`...` stands for trays, between bars; values of a tray that are left open are not written";
     if (strcmp(found, "`[`") == 0 && parse->mode == TN_LEX_PATTERN)
-        return "an open plan on the command line has no brackets: `a | ? | ...`";
+        return "brackets stand around the whole plan: `[a | ? | ...]`";
     if (strcmp(found, "`[`") == 0 && tn_expects(e, "`{`"))
         return "cases stand in braces: `test NAME { match [...] }`";
     if (strcmp(found, "`[`") == 0 && parse->mode != TN_LEX_TRAY && tn_expects(e, "`(`") && !tn_expects(e, "`tray`"))
