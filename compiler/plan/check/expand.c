@@ -217,7 +217,8 @@ static const char *past_blanks(const char *text, const char *end)
     return text;
 }
 
-/* What a call is named after: its text with blanks only where `fmt` has them between words, so that laying a file out changes no name. */
+/* What a call is named after: its text with blanks only where `fmt` has them between words, so that laying a file out
+ * changes no name. */
 static char *call_name(tn_check *check, const tn_ast_expr *call)
 {
     const char *text = check->diagnostics->sources->files[call->node.span.file].text;
