@@ -4,7 +4,7 @@
 
 #include "ask/house/numbered.h"
 #include "ask/plan/found.h"
-#include "ask/session/written.h"
+#include "ask/session/spelled.h"
 #include "runtime/base/picture.h"
 #include "runtime/house/count/best.h"
 #include "runtime/plan/measure/amount.h"
@@ -50,8 +50,8 @@ typedef struct tn_open_choices {
     tn_schema *own;          /* the same, of houses */
     const char *title, *doc; /* of the library */
     const char *what;        /* "plans" or "houses" */
-    tn_written written;      /* the open plan as it was read, */
-    tn_open_tray *trays;     /* [written.count]: its trays, */
+    tn_spelled spelled;      /* the open plan as it was read, */
+    tn_open_tray *trays;     /* [spelled.count]: its trays, */
     tn_open_plan open;       /* and both as completions are counted */
     tn_weighed *weighed;     /* of plans by a measure */
     tn_completions found;

@@ -14,7 +14,7 @@ static void free_choices(void *made)
         return;
     tn_completions_clear(&choices->found);
     tn_weighed_free(choices->weighed);
-    tn_written_clear(&choices->written);
+    tn_spelled_clear(&choices->spelled);
     free(choices->trays);
     tn_schema_free(choices->own);
     mpq_clear(choices->step);
@@ -164,7 +164,7 @@ static tn_open_choices *new_choices(const char *what)
 static void note_brackets(tn_session *session, const tn_open_choices *c)
 {
     tn_buffer line = {0};
-    if (tn_plan_write_line(c->schema, c->written.plan.trays, c->written.plan.length, &line))
+    if (tn_plan_write_line(c->schema, c->spelled.plan.trays, c->spelled.plan.length, &line))
         tn_session_note(session,
                         "in brackets this is the one plan `%s`; without them, what is not written may have any value",
                         line.data ? line.data : "");
@@ -175,14 +175,14 @@ static void note_brackets(tn_session *session, const tn_open_choices *c)
 static tn_status read_open(tn_session *session, const tn_complete_request *request, tn_open_choices *c)
 {
     static const char name[] = "PATTERN";
-    tn_written *w = &c->written;
+    tn_spelled *w = &c->spelled;
     tn_error error;
     tn_status status =
-        tn_written_read(session, c->schema, request->pattern, name, tn_asked_length(&request->subject), true, w);
+        tn_spelled_read(session, c->schema, request->pattern, name, tn_asked_length(&request->subject), true, w);
     if (status == TN_OK && w->in_brackets)
         note_brackets(session, c);
     if (status == TN_OK)
-        status = tn_written_open(session, c->schema, name, w);
+        status = tn_spelled_open(session, c->schema, name, w);
     if (status != TN_OK)
         return status;
     c->trays = calloc(w->count + 1, sizeof *c->trays);

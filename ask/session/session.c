@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/session/written.h"
+#include "ask/session/spelled.h"
 #include "driver/house/judge.h"
 #include "runtime/base/crew.h"
 #include "runtime/plan/match/vm.h"
@@ -104,13 +104,13 @@ void tn_session_shows(const tn_session *session)
 tn_status tn_session_plan(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
                           tn_plan *plan)
 {
-    tn_written written;
-    tn_status status = tn_written_read(session, schema, text, "PLAN", max_length, false, &written);
+    tn_spelled spelled;
+    tn_status status = tn_spelled_read(session, schema, text, "PLAN", max_length, false, &spelled);
     if (status == TN_OK)
-        status = tn_written_settle(session, schema, text, "PLAN", &written);
-    *plan = written.plan;
-    written.plan = (tn_plan){0};
-    tn_written_clear(&written);
+        status = tn_spelled_settle(session, schema, text, "PLAN", &spelled);
+    *plan = spelled.plan;
+    spelled.plan = (tn_plan){0};
+    tn_spelled_clear(&spelled);
     return status;
 }
 

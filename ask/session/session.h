@@ -91,7 +91,7 @@ tn_status tn_session_library(tn_session *session, const tn_library_asked *asked,
 /* Is the library that is asked about by name one of houses? */
 bool tn_session_of_houses(const tn_session *session, const tn_library_asked *asked);
 
-/* Reads the plan that a request is about, in any spelling (written.h). The caller frees its trays, also after a
+/* Reads the plan that a request is about, in any spelling (spelled.h). The caller frees its trays, also after a
  * failure, which is said. */
 tn_status tn_session_plan(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
                           tn_plan *plan);

@@ -51,7 +51,7 @@ void tn_form_unknown(tn_check *check, const tn_checked_form *form, const tn_ast_
                  names[i]);
     if (near)
         tn_suggest(check->diagnostics, d, "%s", near);
-    else if (strncmp(what, "zone", 4) == 0 && tn_form_opening(form, word->text) != TN_NONE)
+    else if (strncmp(what, "zone", 4) == 0 && tn_form_opening_named(form, word->text) != TN_NONE)
         tn_help(check->diagnostics, d,
                 "`%s` is an opening: rooms with one are `room(any, by %s)`, rooms without one `room(any, not by %s)`",
                 word->text, word->text, word->text);
@@ -69,7 +69,7 @@ uint32_t tn_form_storey(const tn_checked_form *form, const char *name)
     return TN_NONE;
 }
 
-uint32_t tn_form_opening(const tn_checked_form *form, const char *name)
+uint32_t tn_form_opening_named(const tn_checked_form *form, const char *name)
 {
     for (uint32_t i = 0; i < form->opening_count; i++)
         if (strcmp(form->openings[i].ast->name->text, name) == 0)

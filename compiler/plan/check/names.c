@@ -360,7 +360,7 @@ static bool help_opening(tn_check *check, tn_diagnostic *d, const tn_checked_sch
 {
     for (size_t i = 0; i < check->result->form_count; i++) {
         const tn_checked_form *form = check->result->forms[i];
-        if (form->schema != schema || tn_form_opening(form, word) == TN_NONE)
+        if (form->schema != schema || tn_form_opening_named(form, word) == TN_NONE)
             continue;
         tn_help(check->diagnostics, d,
                 "`%s` is an opening of form `%s`: `room(any, by %s)` asks for rooms with one, `not by %s` for those "

@@ -1,5 +1,5 @@
 /* Reads plans as people write them. */
-#include "ask/session/written.h"
+#include "ask/session/spelled.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -91,7 +91,7 @@ static tn_status say_errors(const reader *r, tn_opened *opened)
 
 /* ---- one plan in brackets */
 
-static tn_status take_literal(const reader *r, const tn_opened *opened, size_t max_length, tn_written *written)
+static tn_status take_literal(const reader *r, const tn_opened *opened, size_t max_length, tn_spelled *spelled)
 {
     const tn_program *program = opened->compilation.program;
     size_t length = program->plan_length;
@@ -101,59 +101,59 @@ static tn_status take_literal(const reader *r, const tn_opened *opened, size_t m
         tn_error_help(&error, "--max-length raises the limit");
         return tn_session_fail(r->session, &error);
     }
-    written->plan = (tn_plan){.trays = malloc((length + 1) * sizeof(tn_tray)), .length = length, .capacity = length};
-    if (!written->plan.trays)
+    spelled->plan = (tn_plan){.trays = malloc((length + 1) * sizeof(tn_tray)), .length = length, .capacity = length};
+    if (!spelled->plan.trays)
         return out_of_memory(r);
     for (size_t i = 0; i < length; i++)
-        written->plan.trays[i] = tn_schema_tray(r->schema, program->plan + i * r->schema->field_count);
-    written->one = written->in_brackets = true;
+        spelled->plan.trays[i] = tn_schema_tray(r->schema, program->plan + i * r->schema->field_count);
+    spelled->one = spelled->in_brackets = true;
     return TN_OK;
 }
 
 /* ---- open plans */
 
-static tn_status judge_part(const reader *r, tn_plan_vm *vm, tn_tray tray, tn_written *written, tn_error *error)
+static tn_status judge_part(const reader *r, tn_plan_vm *vm, tn_tray tray, tn_spelled *spelled, tn_error *error)
 {
     tn_status status = tn_plan_vm_plan(vm, &tray, 1, error);
-    for (size_t i = 0; status == TN_OK && i < written->count; i++)
-        if (written->functions[i] != TN_NO_RECORD)
-            status = tn_plan_vm_relation(vm, written->functions[i], 0, 1,
-                                         &written->fits[i * r->schema->tray_count + tray], error);
+    for (size_t i = 0; status == TN_OK && i < spelled->count; i++)
+        if (spelled->functions[i] != TN_NO_RECORD)
+            status = tn_plan_vm_relation(vm, spelled->functions[i], 0, 1,
+                                         &spelled->fits[i * r->schema->tray_count + tray], error);
     return status;
 }
 
-static tn_status judge_parts(const reader *r, tn_written *written, tn_error *error)
+static tn_status judge_parts(const reader *r, tn_spelled *spelled, tn_error *error)
 {
     tn_plan_vm *vm = NULL;
-    written->fits = calloc(written->count * r->schema->tray_count + 1, sizeof *written->fits);
-    if (!written->fits)
+    spelled->fits = calloc(spelled->count * r->schema->tray_count + 1, sizeof *spelled->fits);
+    if (!spelled->fits)
         return tn_fail_memory(error);
-    tn_status status = tn_plan_vm_new(written->schema, 1, &vm, error);
+    tn_status status = tn_plan_vm_new(spelled->schema, 1, &vm, error);
     for (tn_tray tray = 0; status == TN_OK && tray < r->schema->tray_count; tray++)
-        status = judge_part(r, vm, tray, written, error);
+        status = judge_part(r, vm, tray, spelled, error);
     tn_plan_vm_free(vm);
     return status;
 }
 
-static tn_status find_schema(const reader *r, tn_written *written, tn_error *error)
+static tn_status find_schema(const reader *r, tn_spelled *spelled, tn_error *error)
 {
-    const tn_module *module = written->opened.module;
+    const tn_module *module = spelled->opened.module;
     for (uint32_t i = 0; i < module->SCHEMA_count; i++)
         if (strcmp(tn_text(module, module->SCHEMA_records[i].name), schema_name(r)) == 0)
-            return tn_schema_new(module, i, 0, &written->schema, error);
+            return tn_schema_new(module, i, 0, &spelled->schema, error);
     return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "the schema of a plan is not found again");
 }
 
-/* Of `opened` in `written`, whose pattern has its functions. */
-static tn_status take_pattern(const reader *r, tn_written *written)
+/* Of `opened` in what is read, whose pattern has its functions. */
+static tn_status take_pattern(const reader *r, tn_spelled *spelled)
 {
-    const tn_program *program = written->opened.compilation.program;
+    const tn_program *program = spelled->opened.compilation.program;
     tn_error error;
-    written->count = program->pattern_count;
-    written->functions = program->pattern;
-    tn_status status = find_schema(r, written, &error);
+    spelled->count = program->pattern_count;
+    spelled->functions = program->pattern;
+    tn_status status = find_schema(r, spelled, &error);
     if (status == TN_OK)
-        status = judge_parts(r, written, &error);
+        status = judge_parts(r, spelled, &error);
     return status == TN_OK ? TN_OK : tn_session_fail(r->session, &error);
 }
 
@@ -229,7 +229,7 @@ static tn_status refuse_module(const reader *r)
 }
 
 /* Is there a part in which no tray can stand? */
-static bool is_void(const reader *r, const tn_written *w)
+static bool is_void(const reader *r, const tn_spelled *w)
 {
     for (size_t i = 0; i < w->count; i++) {
         const bool *fits = w->fits + i * r->schema->tray_count;
@@ -240,7 +240,7 @@ static bool is_void(const reader *r, const tn_written *w)
 }
 
 /* In brackets: one plan if it can be, else an open one. */
-static tn_status read_brackets(const reader *r, const char *literal, bool named, size_t max_length, tn_written *written)
+static tn_status read_brackets(const reader *r, const char *literal, bool named, size_t max_length, tn_spelled *spelled)
 {
     tn_opened first = {0};
     char *bare = without_brackets(r->text);
@@ -248,14 +248,14 @@ static tn_status read_brackets(const reader *r, const char *literal, bool named,
         return out_of_memory(r);
     tn_status status = named ? TN_INVALID : compile_literal(r, literal, &first);
     if (status == TN_OK) {
-        status = take_literal(r, &first, max_length, written);
+        status = take_literal(r, &first, max_length, spelled);
     } else if (status == TN_INVALID) {
         bool open = named || looks_open(r->text), closed = strchr(literal, ']') != NULL;
-        status = open || closed ? compile_pattern(r, bare, &written->opened) : TN_INVALID;
+        status = open || closed ? compile_pattern(r, bare, &spelled->opened) : TN_INVALID;
         if (status == TN_OK)
-            status = take_pattern(r, written);
-        if (status == TN_INVALID || (status == TN_OK && !open && is_void(r, written)))
-            status = say_errors(r, open ? &written->opened : &first);
+            status = take_pattern(r, spelled);
+        if (status == TN_INVALID || (status == TN_OK && !open && is_void(r, spelled)))
+            status = say_errors(r, open ? &spelled->opened : &first);
     }
     tn_close(&first);
     free(bare);
@@ -263,49 +263,49 @@ static tn_status read_brackets(const reader *r, const char *literal, bool named,
 }
 
 /* As a line it has an error: it is an open plan if it can be. */
-static tn_status read_open(const reader *r, tn_error *line, bool open_first, tn_written *written)
+static tn_status read_open(const reader *r, tn_error *line, bool open_first, tn_spelled *spelled)
 {
-    tn_status status = compile_pattern(r, r->text, &written->opened);
+    tn_status status = compile_pattern(r, r->text, &spelled->opened);
     bool open = looks_open(r->text) || strchr(r->text, ']') || (open_first && !looks_like_line(r->text));
     if (status == TN_OK)
-        status = take_pattern(r, written);
+        status = take_pattern(r, spelled);
     if (status == TN_INVALID && open)
-        return say_errors(r, &written->opened);
-    return status == TN_INVALID || (status == TN_OK && !open && is_void(r, written)) ? say_line(r, line) : status;
+        return say_errors(r, &spelled->opened);
+    return status == TN_INVALID || (status == TN_OK && !open && is_void(r, spelled)) ? say_line(r, line) : status;
 }
 
-static tn_status read(const reader *r, size_t max_length, bool open_first, tn_written *written)
+static tn_status read(const reader *r, size_t max_length, bool open_first, tn_spelled *spelled)
 {
     bool named;
     tn_error error;
     const char *bare = behind_plan(r->text, &named);
-    tn_status status = read_as_line(r, max_length, &written->plan, &error);
-    written->one = status == TN_OK;
+    tn_status status = read_as_line(r, max_length, &spelled->plan, &error);
+    spelled->one = status == TN_OK;
     if (status == TN_OK)
         return TN_OK;
     if (status != TN_INVALID || is_json(r->text))
         return say_line(r, &error);
     if (!r->session->opened->compiled)
         return *bare == '[' || looks_open(r->text) || open_first ? refuse_module(r) : say_line(r, &error);
-    return *bare == '[' ? read_brackets(r, bare, named, max_length, written)
-                        : read_open(r, &error, open_first, written);
+    return *bare == '[' ? read_brackets(r, bare, named, max_length, spelled)
+                        : read_open(r, &error, open_first, spelled);
 }
 
-tn_status tn_written_read(tn_session *session, const tn_schema *schema, const char *text, const char *name,
-                          size_t max_length, bool open_first, tn_written *written)
+tn_status tn_spelled_read(tn_session *session, const tn_schema *schema, const char *text, const char *name,
+                          size_t max_length, bool open_first, tn_spelled *spelled)
 {
     const reader r = {session, schema, text, name};
-    *written = (tn_written){0};
-    return read(&r, max_length, open_first, written);
+    *spelled = (tn_spelled){0};
+    return read(&r, max_length, open_first, spelled);
 }
 
-void tn_written_clear(tn_written *written)
+void tn_spelled_clear(tn_spelled *spelled)
 {
-    tn_schema_free(written->schema);
-    tn_close(&written->opened);
-    free(written->fits);
-    free(written->plan.trays);
-    *written = (tn_written){0};
+    tn_schema_free(spelled->schema);
+    tn_close(&spelled->opened);
+    free(spelled->fits);
+    free(spelled->plan.trays);
+    *spelled = (tn_spelled){0};
 }
 
 /* ---- one plan as an open plan */
@@ -327,32 +327,32 @@ static void write_tray(const tn_schema *schema, tn_tray tray, tn_buffer *out)
     }
 }
 
-tn_status tn_written_open(tn_session *session, const tn_schema *schema, const char *name, tn_written *written)
+tn_status tn_spelled_open(tn_session *session, const tn_schema *schema, const char *name, tn_spelled *spelled)
 {
     const reader r = {session, schema, "", name};
     tn_buffer text = {0};
-    if (!written->one || written->plan.length == 0)
+    if (!spelled->one || spelled->plan.length == 0)
         return TN_OK;
-    for (size_t i = 0; i < written->plan.length; i++) {
+    for (size_t i = 0; i < spelled->plan.length; i++) {
         tn_buffer_printf(&text, i ? " | " : "");
-        write_tray(schema, written->plan.trays[i], &text);
+        write_tray(schema, spelled->plan.trays[i], &text);
     }
-    tn_status status = text.failed ? out_of_memory(&r) : compile_pattern(&r, text.data, &written->opened);
+    tn_status status = text.failed ? out_of_memory(&r) : compile_pattern(&r, text.data, &spelled->opened);
     free(text.data);
     if (status == TN_OK)
-        return take_pattern(&r, written);
-    return status == TN_INVALID ? say_errors(&r, &written->opened) : status;
+        return take_pattern(&r, spelled);
+    return status == TN_INVALID ? say_errors(&r, &spelled->opened) : status;
 }
 
 /* ---- an open plan where one plan is wanted */
 
-static const bool *fits_of(const tn_written *w, const tn_schema *schema, size_t part)
+static const bool *fits_of(const tn_spelled *w, const tn_schema *schema, size_t part)
 {
     return w->fits + part * schema->tray_count;
 }
 
 /* The first tray from `from` on that fits, or TN_NO_TRAY. */
-static tn_tray next_fit(const tn_written *w, const tn_schema *schema, size_t part, tn_tray from)
+static tn_tray next_fit(const tn_spelled *w, const tn_schema *schema, size_t part, tn_tray from)
 {
     const bool *fits = fits_of(w, schema, part);
     for (tn_tray tray = from; tray < schema->tray_count; tray++)
@@ -363,7 +363,7 @@ static tn_tray next_fit(const tn_written *w, const tn_schema *schema, size_t par
 
 /* The first plan, by number of trays and then tray by tray: the gaps are empty. TN_INVALID, and said, if no tray fits
  * somewhere. */
-static tn_status find_first(const reader *r, const tn_written *w, tn_plan *plan)
+static tn_status find_first(const reader *r, const tn_spelled *w, tn_plan *plan)
 {
     *plan = (tn_plan){.trays = malloc((w->count + 1) * sizeof(tn_tray))};
     if (!plan->trays)
@@ -395,7 +395,7 @@ static bool is_before(const tn_tray *a, const tn_tray *b, size_t length)
 }
 
 /* The first plan with one tray more, which stands in a gap: of all gaps the one that makes it first. */
-static void add_tray(const tn_written *w, const tn_plan *first, tn_tray *trays, tn_tray *tried)
+static void add_tray(const tn_spelled *w, const tn_plan *first, tn_tray *trays, tn_tray *tried)
 {
     size_t at = 0;
     bool any = false;
@@ -414,7 +414,7 @@ static void add_tray(const tn_written *w, const tn_plan *first, tn_tray *trays, 
 }
 
 /* The plan after the first one, of those with as many trays: false if there is none. */
-static bool find_next(const tn_written *w, const tn_schema *schema, const tn_plan *first, tn_tray *trays)
+static bool find_next(const tn_spelled *w, const tn_schema *schema, const tn_plan *first, tn_tray *trays)
 {
     size_t at = first->length;
     memcpy(trays, first->trays, first->length * sizeof *trays);
@@ -430,7 +430,7 @@ static bool find_next(const tn_written *w, const tn_schema *schema, const tn_pla
     return false;
 }
 
-static bool has_gap(const tn_written *w)
+static bool has_gap(const tn_spelled *w)
 {
     for (size_t i = 0; i < w->count; i++)
         if (w->functions[i] == TN_NO_RECORD)
@@ -438,7 +438,7 @@ static bool has_gap(const tn_written *w)
     return false;
 }
 
-static void count_plans(const tn_written *w, const tn_schema *schema, mpz_t plans)
+static void count_plans(const tn_spelled *w, const tn_schema *schema, mpz_t plans)
 {
     mpz_set_ui(plans, 1);
     for (size_t i = 0; i < w->count; i++) {
@@ -488,7 +488,7 @@ static void help_several(const reader *r, tn_diagnostic *d)
 }
 
 /* second: of so many trays. */
-static tn_status say_several(const reader *r, const tn_written *w, const tn_plan *first, const tn_tray *second,
+static tn_status say_several(const reader *r, const tn_spelled *w, const tn_plan *first, const tn_tray *second,
                              size_t length)
 {
     tn_error error;
@@ -515,7 +515,7 @@ static tn_status say_several(const reader *r, const tn_written *w, const tn_plan
 }
 
 /* `second` and `tried` have room for a tray more than `first` has. */
-static tn_status settle(const reader *r, const tn_written *w, const tn_plan *first, tn_tray *second, tn_tray *tried)
+static tn_status settle(const reader *r, const tn_spelled *w, const tn_plan *first, tn_tray *second, tn_tray *tried)
 {
     if (find_next(w, r->schema, first, second))
         return say_several(r, w, first, second, first->length);
@@ -525,22 +525,22 @@ static tn_status settle(const reader *r, const tn_written *w, const tn_plan *fir
     return say_several(r, w, first, second, first->length + 1);
 }
 
-tn_status tn_written_settle(tn_session *session, const tn_schema *schema, const char *text, const char *name,
-                            tn_written *written)
+tn_status tn_spelled_settle(tn_session *session, const tn_schema *schema, const char *text, const char *name,
+                            tn_spelled *spelled)
 {
     const reader r = {session, schema, text, name};
-    if (written->one)
+    if (spelled->one)
         return TN_OK;
     tn_plan first;
-    tn_status status = find_first(&r, written, &first);
-    tn_tray *others = calloc(2 * (written->count + 2), sizeof *others);
+    tn_status status = find_first(&r, spelled, &first);
+    tn_tray *others = calloc(2 * (spelled->count + 2), sizeof *others);
     if (status == TN_OK && !others)
         status = out_of_memory(&r);
     if (status == TN_OK)
-        status = settle(&r, written, &first, others, others + written->count + 2);
+        status = settle(&r, spelled, &first, others, others + spelled->count + 2);
     free(others);
-    free(written->plan.trays);
-    written->plan = first;
-    written->one = status == TN_OK;
+    free(spelled->plan.trays);
+    spelled->plan = first;
+    spelled->one = status == TN_OK;
     return status;
 }

@@ -9,12 +9,12 @@
  * `...`, `or`), or the word `plan` before them, make it one, as in rules. Lines and JSON are read from the module at
  * hand. For the other two the file is compiled once more with the text (tn_questions), so that their words mean what
  * they mean in a rule file; the module of a file that was compiled before has no such words. */
-#ifndef TARTAN_ASK_SESSION_WRITTEN_H
-#define TARTAN_ASK_SESSION_WRITTEN_H
+#ifndef TARTAN_ASK_SESSION_SPELLED_H
+#define TARTAN_ASK_SESSION_SPELLED_H
 
 #include "ask/session/session.h"
 
-typedef struct tn_written {
+typedef struct tn_spelled {
     bool one;                  /* it is `plan`; else an open plan */
     bool in_brackets;          /* one, whose left out values are the first ones */
     tn_plan plan;              /* that one */
@@ -23,21 +23,21 @@ typedef struct tn_written {
     bool *fits;                /* [count][trays]: may a tray of the schema stand there? */
     tn_schema *schema;         /* the same trays as those of the session's schema */
     tn_opened opened;          /* the module of `schema`, if there is one */
-} tn_written;
+} tn_spelled;
 
 /* Reads it. What is wrong is said of `name`, which is what the text is called; open_first: as of an open plan where it
  * is not clear what was meant. Clear it in any case. */
-tn_status tn_written_read(tn_session *session, const tn_schema *schema, const char *text, const char *name,
-                          size_t max_length, bool open_first, tn_written *written);
+tn_status tn_spelled_read(tn_session *session, const tn_schema *schema, const char *text, const char *name,
+                          size_t max_length, bool open_first, tn_spelled *spelled);
 
 /* Makes an open plan of one plan, too, for which alone it stands. */
-tn_status tn_written_open(tn_session *session, const tn_schema *schema, const char *name, tn_written *written);
+tn_status tn_spelled_open(tn_session *session, const tn_schema *schema, const char *name, tn_spelled *spelled);
 
-void tn_written_clear(tn_written *written);
+void tn_spelled_clear(tn_spelled *spelled);
 
 /* Where an open plan stands for several plans, or for none, says so and returns TN_INVALID; else makes it the one plan
  * that it stands for. */
-tn_status tn_written_settle(tn_session *session, const tn_schema *schema, const char *text, const char *name,
-                            tn_written *written);
+tn_status tn_spelled_settle(tn_session *session, const tn_schema *schema, const char *text, const char *name,
+                            tn_spelled *spelled);
 
 #endif
