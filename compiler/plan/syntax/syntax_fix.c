@@ -274,6 +274,10 @@ static const char *mark_fix(const tn_parse *parse, const char *found, const tn_e
         return "alternatives are joined by `or`: `tray(a or b)` for the values of a tray, `a or b` for rules";
     if (strcmp(found, "`...`") == 0 && parse->mode == TN_LEX_PATTERN && tn_expects(e, "`|`"))
         return "`...` stands for trays, between bars; values of a tray that are left open are not written";
+    if (strcmp(found, "`?`") == 0 && parse->mode == TN_LEX_PATTERN && tn_expects(e, "`|`"))
+        return "`?` stands for a whole tray, between bars: `a | ? | b`";
+    if (strcmp(found, "`...`") == 0 && parse->mode == TN_LEX_PATTERN)
+        return "trays are separated by a bar: `a | ... | b`";
     if (strcmp(found, "`[`") == 0 && parse->mode == TN_LEX_PATTERN)
         return "brackets stand around the whole plan: `[a | ? | ...]`";
     if (strcmp(found, "`[`") == 0 && tn_expects(e, "`{`"))
