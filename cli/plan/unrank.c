@@ -1,4 +1,6 @@
 /* tartan unrank: the plan at a place in its library. */
+#include <string.h>
+
 #include "ask/house/numbered.h"
 #include "ask/session/questions.h"
 #include "cli/common/option_rows.h"
