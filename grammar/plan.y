@@ -69,7 +69,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token <word> DECIMAL "a decimal number"
 %token MEASURE "`measure`" LET "`let`" NUMBER_FIELD "`number`" WHERE "`where`" MATCHES "`matches`" SOME "`some`" EVERY "`every`"
 %token IMPLIES "`implies`" WITHIN "`within`" LEAST "`least`" BEFORE "`before`" AFTER "`after`" PLAN "`plan`" MIN "`min`" MAX "`max`" VALUE "`value`"
-%token ONE_EXPRESSION "an expression" ONE_PATTERN "an open plan"
+%token ONE_EXPRESSION "an expression" ONE_PATTERN "an open plan" ONE_LITERAL "a plan"
 %token PLUS "`+`" STAR "`*`" SLASH "`/`" ELLIPSIS "`...`" QUESTION "`?`"
 %token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
 %token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
@@ -118,6 +118,7 @@ file
     : items                                     { parse->result->items = $1; }
     | ONE_EXPRESSION expression                 { parse->result->expression = $2; }
     | ONE_PATTERN pattern                       { parse->result->pattern = $2; }
+    | ONE_LITERAL plan                          { parse->result->literal = $2; }
     ;
 
 items
@@ -481,6 +482,7 @@ pattern_tray
     : QUESTION                                  { $$ = tn_ast_leaf(parse, TN_EXPR_ANY, @$); }
     | ELLIPSIS                                  { $$ = tn_ast_gap(parse, @$); }
     | spec_items                                { $$ = tn_ast_open_tray(parse, @$, $1); }
+    | TRAY OPEN specifier CLOSE                 { $$ = tn_ast_tray_new(parse, @$, $3); }
     ;
 
 parts
@@ -1015,7 +1017,9 @@ static tn_ast_file *parse_source(tn_arena *arena, tn_diagnostics *diagnostics, u
         return parse.result ? tn_ast_unread(parse.result) : NULL;
     yyscan_t scanner;
     parse.offset = (uint32_t)tn_text_mark(source->text, source->size);
-    parse.held_token = what == TN_PARSE_EXPRESSION ? TN_PLAN_ONE_EXPRESSION : what == TN_PARSE_PATTERN ? TN_PLAN_ONE_PATTERN : 0;
+    static const int first[] = {[TN_PARSE_FILE] = 0, [TN_PARSE_EXPRESSION] = TN_PLAN_ONE_EXPRESSION, [TN_PARSE_PATTERN] = TN_PLAN_ONE_PATTERN,
+                                [TN_PARSE_LITERAL] = TN_PLAN_ONE_LITERAL};
+    parse.held_token = first[what];
     parse.held_span = (tn_span){file, parse.offset, parse.offset};
     size_t size = source->size - parse.offset;
     char *text = tn_arena_alloc(arena, size + 2); /* flex marks its tokens in the text, and wants two zero bytes after it */

@@ -23,8 +23,8 @@ struct tartan_session {
     tartan_compile_options options; /* with folders of our own */
     char **folders;
     asked_file whole;    /* as it was written */
-    asked_file narrowed; /* with further requirements or an open plan, or with statements about growing, */
-    char *narrowed_by;   /* which are these: one a line behind the library's name and the open plan, or a study */
+    asked_file narrowed; /* with further requirements, or with statements about growing, */
+    char *narrowed_by;   /* which are these: one a line behind the library's name, or a study */
     asked_file before;   /* another file that was compared with it last, */
     char *before_text;
 };
@@ -144,17 +144,11 @@ static const tn_library_asked *library_of(const tn_message *message, const void 
     return NULL;
 }
 
-/* The open plan that a request is about, or NULL. */
-static const char *pattern_of(const tn_message *message, const void *request)
-{
-    return message == &tn_message_complete_request ? ((const tn_complete_request *)request)->pattern : NULL;
-}
-
 /* (malloc) */
-static char *key_of(const tn_library_asked *asked, const char *pattern)
+static char *key_of(const tn_library_asked *asked)
 {
     tn_buffer key = {0};
-    tn_buffer_printf(&key, "%s\n%s", asked->library ? asked->library : "", pattern ? pattern : "");
+    tn_buffer_printf(&key, "%s", asked->library ? asked->library : "");
     for (size_t i = 0; i < asked->where.count; i++)
         tn_buffer_printf(&key, "\n%s", asked->where.items[i]);
     if (key.failed) {
@@ -165,14 +159,14 @@ static char *key_of(const tn_library_asked *asked, const char *pattern)
 }
 
 /* The file as the request wants it: compiled again only if other requirements were asked for before. */
-static tartan_status choose_file(tartan_session *session, const tn_library_asked *asked, const char *pattern,
-                                 tartan_report *report, void *context, asked_file **file, tartan_error *error)
+static tartan_status choose_file(tartan_session *session, const tn_library_asked *asked, tartan_report *report,
+                                 void *context, asked_file **file, tartan_error *error)
 {
     *file = &session->whole;
-    if (!asked || (asked->where.count == 0 && !pattern))
+    if (!asked || asked->where.count == 0)
         return TARTAN_OK;
     *file = &session->narrowed;
-    char *key = key_of(asked, pattern);
+    char *key = key_of(asked);
     if (!key)
         return tn_api_memory(error);
     if (session->narrowed.open && strcmp(session->narrowed_by, key) == 0) {
@@ -180,7 +174,7 @@ static tartan_status choose_file(tartan_session *session, const tn_library_asked
         return TARTAN_OK;
     }
     const tn_questions asking = {
-        .library = asked->library, .wheres = asked->where.items, .where_count = asked->where.count, .pattern = pattern};
+        .library = asked->library, .wheres = asked->where.items, .where_count = asked->where.count};
     close_file(&session->narrowed);
     free(session->narrowed_by);
     session->narrowed_by = key;
@@ -348,7 +342,8 @@ static tartan_status resolve_with_own(void *context, const tartan_use *use, tart
     return TARTAN_OK;
 }
 
-static tn_status open_made(void *context, const char *path, const char *text, size_t size, tn_opened *opened)
+static tn_status open_made(void *context, const char *path, const char *text, size_t size,
+                           const tn_questions *questions, tn_opened *opened)
 {
     tartan_session *session = context;
     tartan_compile_options options = session->options;
@@ -357,7 +352,7 @@ static tn_status open_made(void *context, const char *path, const char *text, si
         options.resolve = resolve_with_own;
         options.resolve_context = session;
     }
-    return (tn_status)tn_api_open(path, text, size, &options, NULL, opened, &error);
+    return (tn_status)tn_api_open(path, text, size, &options, questions, opened, &error);
 }
 
 /* ---- asked */
@@ -466,8 +461,7 @@ tartan_status tartan_ask(tartan_session *session, const char *question, const ch
     if (said)
         status = choose_growing(session, said, report, report_context, &file, error);
     else if (status == TARTAN_OK)
-        status = choose_file(session, library_of(a.kind->request, a.request), pattern_of(a.kind->request, a.request),
-                             report, report_context, &file, error);
+        status = choose_file(session, library_of(a.kind->request, a.request), report, report_context, &file, error);
     if (status == TARTAN_OK)
         status = ask(
             file, &a,

@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/house/numbered.h"
 #include "ask/explain/explain.h"
+#include "ask/house/numbered.h"
 #include "driver/house/change_text.h"
 #include "runtime/house/bare.h"
 #include "runtime/house/solids.h"
@@ -76,14 +76,20 @@ static tn_status explain(cells_explaining *e, const tn_numbered *n, const tn_pla
     return status;
 }
 
-/* A plan line, #P or #P: */
-static tn_status read_plan(tn_numbered *n, const tn_explain_request *request, tn_plan *plan, tn_error *error)
+/* A plan, #P or #P: */
+static tn_status read_plan(tn_numbered *n, const tn_explain_request *request, tn_plan *plan)
 {
     size_t size = strlen(request->plan);
     bool colon = request->plan[0] == '#' && request->plan[size - 1] == ':';
     char *text = strndup(request->plan, size - colon);
-    tn_status status =
-        text ? tn_numbered_plan(n, text, tn_asked_length(&request->subject), plan, error) : tn_fail_memory(error);
+    tn_error error;
+    tn_status status = TN_OK;
+    if (text) {
+        status = tn_numbered_plan(n, text, tn_asked_length(&request->subject), plan);
+    } else {
+        tn_fail_memory(&error);
+        status = tn_session_fail(n->session, &error);
+    }
     free(text);
     return status;
 }
@@ -93,10 +99,8 @@ static tn_status explain_on(tn_numbered *n, const tn_explain_request *request, t
     cells_explaining e = {.form = &n->form};
     tn_plan plan = {0};
     tn_error error = {0};
-    tn_status status = read_plan(n, request, &plan, &error);
-    if (status != TN_OK) {
-        status = tn_session_bad_text(n->session, &error, "PLAN", request->plan);
-    } else {
+    tn_status status = read_plan(n, request, &plan);
+    if (status == TN_OK) {
         status = tn_reply_new(&tn_message_explained_cells, answer, &error);
         if (status == TN_OK)
             status = explain(&e, n, &plan, answer->value, &error);

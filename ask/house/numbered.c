@@ -207,41 +207,53 @@ tn_tray *tn_numbered_tray_room(const tn_numbered *n, tn_error *error)
     return trays;
 }
 
-/* The plan of a line or of #P, one of the library's. */
-tn_status tn_numbered_plan(tn_numbered *n, const char *text, size_t max_length, tn_plan *plan, tn_error *error)
+static tn_status plan_of_rank(tn_numbered *n, const char *text, tn_plan *plan, tn_error *error)
 {
     uint32_t length = 0;
-    mpz_t rank;
-    *plan = (tn_plan){0};
-    if (text[0] == '#') {
-        plan->trays = tn_numbered_tray_room(n, error);
-        if (!plan->trays)
-            return TN_MEMORY;
-        tn_status status = tn_numbered_plan_of_rank(n, text + 1, strlen(text) - 1, plan->trays, &length, error);
-        plan->length = length;
-        return status;
-    }
-    mpz_init(rank);
-    tn_status status = tn_plan_parse_line(n->schema, text, strlen(text), max_length, plan, error);
-    if (status == TN_OK && !tn_library_rank(n->plans, plan->trays, plan->length, rank)) {
-        status = tn_fail(error, TN_INVALID, E_NO_VARIANT, "the plan is none of the library's");
-        tn_error_help(error, "`tartan rank` says why, with --library and the library of plans");
-    }
-    mpz_clear(rank);
+    plan->trays = tn_numbered_tray_room(n, error);
+    if (!plan->trays)
+        return TN_MEMORY;
+    tn_status status = tn_numbered_plan_of_rank(n, text + 1, strlen(text) - 1, plan->trays, &length, error);
+    plan->length = length;
     return status;
+}
+
+static tn_status check_plan(const tn_numbered *n, const tn_plan *plan, tn_error *error)
+{
+    mpz_t rank;
+    mpz_init(rank);
+    bool known = tn_library_rank(n->plans, plan->trays, plan->length, rank);
+    mpz_clear(rank);
+    if (known)
+        return TN_OK;
+    tn_fail(error, TN_INVALID, E_NO_VARIANT, "the plan is none of the library's");
+    tn_error_help(error, "`tartan rank` says why, with --library and the library of plans");
+    return TN_INVALID;
+}
+
+tn_status tn_numbered_plan(tn_numbered *n, const char *text, size_t max_length, tn_plan *plan)
+{
+    tn_error error = {0};
+    *plan = (tn_plan){0};
+    tn_status status = TN_OK;
+    if (text[0] == '#') {
+        status = plan_of_rank(n, text, plan, &error);
+    } else {
+        status = tn_session_plan(n->session, n->schema, text, max_length, plan);
+        if (status != TN_OK)
+            return status;
+        status = check_plan(n, plan, &error);
+    }
+    return status == TN_OK ? TN_OK : tn_session_bad_text(n->session, &error, "PLAN", text);
 }
 
 tn_status tn_numbered_open_on(tn_numbered *n, tn_session *session, const tn_library_asked *asked, const char *text,
                               tn_plan *plan)
 {
     const tn_house_settings settings = tn_asked_houses(asked);
-    tn_error error = {0};
     *plan = (tn_plan){0};
     tn_status status = tn_numbered_open(n, session, &settings);
-    if (status != TN_OK || !text)
-        return status;
-    status = tn_numbered_plan(n, text, settings.max_length, plan, &error);
-    return status == TN_OK ? TN_OK : tn_session_bad_text(session, &error, "PLAN", text);
+    return status == TN_OK && text ? tn_numbered_plan(n, text, settings.max_length, plan) : status;
 }
 
 static tn_status too_many_plans(const mpz_t plans, tn_error *error)

@@ -139,8 +139,9 @@ tn_status tn_numbered_plan_of_rank(const tn_numbered *n, const char *digits, siz
 /* Room for the longest plan of the library; the caller frees it. NULL: out of memory. */
 tn_tray *tn_numbered_tray_room(const tn_numbered *n, tn_error *error);
 
-/* A plan of the library: a plan line, or #P. The caller frees its trays, also after a failure. */
-tn_status tn_numbered_plan(tn_numbered *n, const char *text, size_t max_length, tn_plan *plan, tn_error *error);
+/* A plan of the library: in any spelling of one plan (ask/session/spelled.h), or #P. The caller frees its trays, also
+ * after a failure, which is said. */
+tn_status tn_numbered_plan(tn_numbered *n, const char *text, size_t max_length, tn_plan *plan);
 
 /* Visits all plans of the library in order, until *stop. TN_LIMIT (E1617) where there are too many. */
 #define TN_HOUSE_PLANS_MAX 1000000u

@@ -4,6 +4,7 @@
 
 #include "ask/house/numbered.h"
 #include "ask/plan/found.h"
+#include "ask/session/spelled.h"
 #include "runtime/base/picture.h"
 #include "runtime/house/count/best.h"
 #include "runtime/plan/measure/amount.h"
@@ -49,8 +50,10 @@ typedef struct tn_open_choices {
     tn_schema *own;          /* the same, of houses */
     const char *title, *doc; /* of the library */
     const char *what;        /* "plans" or "houses" */
-    tn_open_plan open;
-    tn_weighed *weighed; /* of plans by a measure */
+    tn_spelled spelled;      /* the open plan as it was read, */
+    tn_open_tray *trays;     /* [spelled.count]: its trays, */
+    tn_open_plan open;       /* and both as completions are counted */
+    tn_weighed *weighed;     /* of plans by a measure */
     tn_completions found;
     tn_wishes wishes; /* none, or one */
     mpq_t step;       /* of its measure, in nanometres to its power */

@@ -5,7 +5,6 @@
 #include "ask/plan/best.h"
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
-#include "compiler/plan/syntax/program.h"
 #include "driver/open/digits.h"
 
 static void free_choices(void *made)
@@ -15,6 +14,8 @@ static void free_choices(void *made)
         return;
     tn_completions_clear(&choices->found);
     tn_weighed_free(choices->weighed);
+    tn_spelled_clear(&choices->spelled);
+    free(choices->trays);
     tn_schema_free(choices->own);
     mpq_clear(choices->step);
     free(choices->why);
@@ -149,16 +150,51 @@ static tn_status give(tn_open_choices *c, tn_reply *answer, tn_error *error)
 
 /* ---- asked */
 
-static tn_open_choices *new_choices(tn_session *session, const char *what)
+static tn_open_choices *new_choices(const char *what)
 {
-    const tn_program *program = session->opened->compilation.program;
     tn_open_choices *c = calloc(1, sizeof *c);
     if (!c)
         return NULL;
     c->what = what;
-    c->open = (tn_open_plan){.functions = program->pattern, .count = program->pattern_count};
     mpq_init(c->step);
     return c;
+}
+
+/* What is left out of a plan in brackets has its first value, and may be anything in an open plan. */
+static void note_brackets(tn_session *session, const tn_open_choices *c)
+{
+    tn_buffer line = {0};
+    if (tn_plan_write_line(c->schema, c->spelled.plan.trays, c->spelled.plan.length, &line))
+        tn_session_note(session,
+                        "in brackets this is the one plan `%s`; without them, what is not written may have any value",
+                        line.data ? line.data : "");
+    free(line.data);
+}
+
+/* The trays that may stand at each place of the open plan that is asked about; c has its schema. */
+static tn_status read_open(tn_session *session, const tn_complete_request *request, tn_open_choices *c)
+{
+    static const char name[] = "PATTERN";
+    tn_spelled *w = &c->spelled;
+    tn_error error;
+    tn_status status =
+        tn_spelled_read(session, c->schema, request->pattern, name, tn_asked_length(&request->subject), true, w);
+    if (status == TN_OK && w->in_brackets)
+        note_brackets(session, c);
+    if (status == TN_OK)
+        status = tn_spelled_open(session, c->schema, name, w);
+    if (status != TN_OK)
+        return status;
+    c->trays = calloc(w->count + 1, sizeof *c->trays);
+    if (!c->trays) {
+        tn_fail_memory(&error);
+        return tn_session_fail(session, &error);
+    }
+    for (size_t i = 0; i < w->count; i++)
+        c->trays[i] =
+            (tn_open_tray){.fits = w->fits + i * c->schema->tray_count, .gap = w->functions[i] == TN_NO_RECORD};
+    c->open = (tn_open_plan){.trays = c->trays, .count = w->count};
+    return TN_OK;
 }
 
 /* The trays of plans that complete it, by a measure or none. */
@@ -191,7 +227,7 @@ static tn_status complete_plans(tn_session *session, const tn_complete_request *
         status = tn_wishes_of_plans(session, ready, request->by.items, request->by.count, 0, &wishes);
     if (status != TN_OK)
         return status;
-    tn_open_choices *c = new_choices(session, "plans");
+    tn_open_choices *c = new_choices("plans");
     if (!c) {
         tn_fail_memory(&error);
         return tn_session_fail(session, &error);
@@ -200,6 +236,11 @@ static tn_status complete_plans(tn_session *session, const tn_complete_request *
     c->title = tn_text(module, ready->record->name);
     c->doc = tn_text(module, ready->record->doc);
     c->wishes = wishes;
+    status = read_open(session, request, c);
+    if (status != TN_OK) {
+        free_choices(c);
+        return status;
+    }
     status = find_plans(c, ready, &error);
     if (status == TN_OK)
         status = give(c, answer, &error);
@@ -208,41 +249,67 @@ static tn_status complete_plans(tn_session *session, const tn_complete_request *
     return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }
 
-/* Houses have no schema that stays. */
-static tn_status find_houses(tn_open_choices *c, tn_houses_search *search, tn_error *error)
+/* A schema of its own: that of houses does not stay. */
+static tn_status make_schema(tn_session *session, const char *library, tn_open_choices *c)
 {
-    const tn_module *module = search->n.form.module;
-    c->title = tn_text(module, search->n.record->name);
-    c->doc = tn_text(module, search->n.record->doc);
+    const tn_module *module = session->opened->module;
+    const tn_house_library_record *record = &module->HOUSE_LIBRARY_records[tn_house_library_find(module, library)];
+    tn_error error;
+    tn_status status = tn_schema_new(module, module->FORM_records[record->form].schema, 0, &c->own, &error);
+    c->schema = c->own;
+    c->title = tn_text(module, record->name);
+    c->doc = tn_text(module, record->doc);
+    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
+}
+
+/* Takes over the choices in any case. */
+static tn_status give_houses(const tn_houses_search *search, tn_open_choices *c, tn_reply *answer)
+{
+    tn_error error;
     c->wishes = search->found;
     c->open.most = c->wishes.most[0];
     if (c->wishes.count)
         mpq_set(c->step, search->weights[0]->shown);
-    tn_status status = tn_schema_new(module, search->n.form.record->schema, 0, &c->own, error);
-    c->schema = c->own;
-    return status == TN_OK ? tn_houses_complete(search->houses, &c->open, &c->found, error) : status;
-}
-
-static tn_status give_houses(tn_houses_search *search, tn_reply *answer)
-{
-    tn_session *session = search->n.session;
-    tn_error error;
-    tn_open_choices *c = new_choices(session, "houses");
-    tn_status status = c ? find_houses(c, search, &error) : tn_fail_memory(&error);
+    tn_status status = tn_houses_complete(search->houses, &c->open, &c->found, &error);
     if (status == TN_OK)
         status = give(c, answer, &error);
     else
         free_choices(c);
-    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
+    return status == TN_OK ? TN_OK : tn_session_fail(search->n.session, &error);
 }
 
-static tn_status complete_houses(tn_session *session, const tn_complete_request *request, tn_reply *answer)
+static tn_status search_houses(tn_session *session, const tn_complete_request *request, tn_open_choices *c,
+                               tn_reply *answer)
 {
     const tn_house_asked asked = {.subject = &request->subject,
                                   .aim = TN_HOUSES_COMPLETE,
                                   .by = request->by.items,
                                   .by_count = request->by.count};
-    return tn_houses_search_give(session, &asked, give_houses, answer);
+    tn_houses_search search;
+    tn_status status = tn_houses_search_begin(&search, session, &asked);
+    if (status == TN_OK)
+        status = give_houses(&search, c, answer);
+    else
+        free_choices(c);
+    tn_houses_search_end(&search);
+    return status;
+}
+
+static tn_status complete_houses(tn_session *session, const tn_complete_request *request, tn_reply *answer)
+{
+    tn_error error;
+    tn_open_choices *c = new_choices("houses");
+    if (!c) {
+        tn_fail_memory(&error);
+        return tn_session_fail(session, &error);
+    }
+    tn_status status = make_schema(session, request->subject.library, c);
+    if (status == TN_OK)
+        status = read_open(session, request, c);
+    if (status == TN_OK)
+        return search_houses(session, request, c, answer);
+    free_choices(c);
+    return status;
 }
 
 static tn_status draw(tn_session *session, const tn_answer_picture *asked, const tn_reply *answer)
@@ -257,7 +324,6 @@ static tn_status draw(tn_session *session, const tn_answer_picture *asked, const
                                   counted ? &counted->has_files : &weighed->has_files);
 }
 
-/* The file was opened with the pattern (tn_questions), whose trays are functions of its module. */
 tn_status tn_ask_complete(tn_session *session, const tn_complete_request *request, tn_reply *answer)
 {
     *answer = (tn_reply){0};

@@ -11,16 +11,16 @@
  * beginnings */
 
 /* The plans that begin with the first `count` parts; any trays may follow. `parts` has room for one more. */
-static tn_status count_beginning(const tn_library *library, const tn_open_plan *open, size_t count, uint32_t *parts,
+static tn_status count_beginning(const tn_library *library, const tn_open_plan *open, size_t count, tn_open_tray *parts,
                                  mpz_t plans, tn_error *error)
 {
     tn_completions found;
-    bool gap = count > 0 && open->functions[count - 1] == TN_NO_RECORD;
+    bool gap = count > 0 && open->trays[count - 1].gap;
     for (size_t i = 0; i < count; i++)
-        parts[i] = open->functions[i];
+        parts[i] = open->trays[i];
     if (!gap)
-        parts[count++] = TN_NO_RECORD;
-    tn_status status = tn_complete(&found, library, &(tn_open_plan){.functions = parts, .count = count}, error);
+        parts[count++] = (tn_open_tray){.gap = true};
+    tn_status status = tn_complete(&found, library, &(tn_open_plan){.trays = parts, .count = count}, error);
     if (status == TN_OK)
         mpz_set(plans, found.plans);
     tn_completions_clear(&found);
@@ -51,7 +51,7 @@ static bool say_why(const mpz_t plans, size_t trays, bool all, tn_buffer *text)
 
 static tn_status say_tray(const tn_library *library, const tn_open_plan *open, tn_buffer *text, tn_error *error)
 {
-    uint32_t *parts = calloc(open->count + 1, sizeof *parts);
+    tn_open_tray *parts = calloc(open->count + 1, sizeof *parts);
     tn_status status = parts ? TN_OK : tn_fail_memory(error);
     size_t trays = 0, i = 0;
     mpz_t before, plans;
@@ -60,7 +60,7 @@ static tn_status say_tray(const tn_library *library, const tn_open_plan *open, t
         status = count_beginning(library, open, 0, parts, plans, error);
     bool empty = status == TN_OK && mpz_sgn(plans) == 0;
     for (; status == TN_OK && mpz_sgn(plans) > 0 && i < open->count; i++) {
-        if (open->functions[i] == TN_NO_RECORD)
+        if (open->trays[i].gap)
             continue;
         trays++;
         mpz_set(before, plans);
@@ -133,7 +133,7 @@ static tn_status say_generated(const tn_ready_library *ready, const tn_open_plan
                                         .override_trays = true,
                                         .trays_min = tn_library_min(ready->library),
                                         .trays_max = tn_library_max(ready->library)};
-    const tn_open_plan all = {.functions = open->functions, .count = open->count, .first = true};
+    const tn_open_plan all = {.trays = open->trays, .count = open->count, .first = true};
     tn_library *library;
     tn_completions found;
     tn_status status = tn_library_new(ready->schema, ready->index, &options, &library, error);

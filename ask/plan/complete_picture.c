@@ -56,10 +56,10 @@ static tn_status draw_choices(const tn_open_choices *c, const tn_drawn_choice *c
                                 .doc = c->doc,
                                 .about = about,
                                 .best_name = c->found.best ? best : NULL,
-                                .functions = c->open.functions,
+                                .functions = c->spelled.functions,
                                 .count = c->open.count,
                                 .choices = choices};
-    return tn_open_plan_draw(c->schema, &open, to, error);
+    return tn_open_plan_draw(c->spelled.schema ? c->spelled.schema : c->schema, &open, to, error);
 }
 
 tn_status tn_open_choices_draw(const tn_open_choices *c, tn_picture *to, tn_error *error)

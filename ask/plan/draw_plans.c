@@ -66,7 +66,7 @@ static tn_status add_given(sheet *s, size_t i)
     tn_plan plan = {0};
     tn_error error;
     tn_status status =
-        tn_session_plan(s->session, s->schema, given->plan, tn_asked_length(&s->request->subject), &plan);
+        tn_session_plan_line(s->session, s->schema, given->plan, tn_asked_length(&s->request->subject), &plan);
     snprintf(place, sizeof place, "%zu", i + 1);
     if (status == TN_OK && tn_sheet_add(&s->drawn, plan.trays, plan.length,
                                         strdup(given->number ? given->number : place), NULL, NULL, &error) != TN_OK)

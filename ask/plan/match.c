@@ -248,7 +248,7 @@ typedef struct plan_matching {
 static tn_status match_text(plan_matching *m, const char *text, tn_plan *plan)
 {
     tn_error error;
-    tn_status status = tn_session_plan(m->session, m->schema, text, m->longest, plan);
+    tn_status status = tn_session_plan_line(m->session, m->schema, text, m->longest, plan);
     if (status != TN_OK)
         return status;
     if (tn_match(m->matcher, plan->trays, plan->length, m->bits, &error) != TN_OK)

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/session/spelled.h"
 #include "driver/house/judge.h"
 #include "runtime/base/crew.h"
 #include "runtime/plan/match/vm.h"
@@ -102,6 +103,19 @@ void tn_session_shows(const tn_session *session)
 
 tn_status tn_session_plan(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
                           tn_plan *plan)
+{
+    tn_spelled spelled;
+    tn_status status = tn_spelled_read(session, schema, text, "PLAN", max_length, false, &spelled);
+    if (status == TN_OK)
+        status = tn_spelled_settle(session, schema, text, "PLAN", &spelled);
+    *plan = spelled.plan;
+    spelled.plan = (tn_plan){0};
+    tn_spelled_clear(&spelled);
+    return status;
+}
+
+tn_status tn_session_plan_line(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
+                               tn_plan *plan)
 {
     tn_error error;
     size_t size = strlen(text);

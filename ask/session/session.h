@@ -91,9 +91,14 @@ tn_status tn_session_library(tn_session *session, const tn_library_asked *asked,
 /* Is the library that is asked about by name one of houses? */
 bool tn_session_of_houses(const tn_session *session, const tn_library_asked *asked);
 
-/* Reads a plan of a request, a plan line or JSON. The caller frees its trays, also after a failure, which is said. */
+/* Reads the plan that a request is about, in any spelling (spelled.h). The caller frees its trays, also after a
+ * failure, which is said. */
 tn_status tn_session_plan(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
                           tn_plan *plan);
+
+/* The same of one of many plans, as files of plans have them: a plan line or JSON. */
+tn_status tn_session_plan_line(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
+                               tn_plan *plan);
 
 /* What a request says of a library's plans and of the work that it may take; how many threads may do it, and the
  * longest plan that it accepts. */

@@ -187,6 +187,18 @@ static tn_status set_number(parse *p, const tn_option *option, const char *text)
     return TN_OK;
 }
 
+/* `2-4`, `2:4`, `2,4`: is it two numbers with something else between? */
+static tn_status bad_range(parse *p, const tn_option *option, const char *text)
+{
+    size_t first = strspn(text, "0123456789"), between = strcspn(text + first, "0123456789");
+    size_t last = strspn(text + first + between, "0123456789");
+    tn_status status = bad_number(p, option, text, "a range a..b");
+    if (first > 0 && between > 0 && last > 0 && text[first + between + last] == '\0')
+        tn_error_help(p->error, "a range is written with two dots: --%s %.*s..%.40s", option->name, (int)first, text,
+                      text + first + between);
+    return status;
+}
+
 static tn_status set_range(parse *p, const tn_option *option, const char *text)
 {
     tn_option_range *range = place_of(p->settings, option);
@@ -196,7 +208,7 @@ static tn_status set_range(parse *p, const tn_option *option, const char *text)
     snprintf(low, sizeof low, "%.*s", (int)(length < sizeof low ? length : sizeof low - 1), text);
     if (length >= sizeof low || !tn_number_read(low, &range->low) || !within(option, range->low) ||
         !tn_number_read(dots ? dots + 2 : low, &range->high) || !within(option, range->high))
-        return bad_number(p, option, text, "a range a..b");
+        return bad_range(p, option, text);
     if (range->low > range->high) {
         tn_status status = tn_fail(p->error, TN_INVALID, E_USAGE, "the range --%s %.60s is empty", option->name, text);
         tn_error_help(p->error, "write the smaller number first: %llu..%llu", (unsigned long long)range->high,

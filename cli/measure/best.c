@@ -239,7 +239,7 @@ static const tn_option options[] = {
     WISH("then-least", wanted, "of equal ones those with the least of this measure; may be repeated"),
     WISH("then-most", wanted, "of equal ones those with the most of this measure; may be repeated"),
     FLAG("mirror", 0, mirror, "leave out a plan whose mirror image is kept and of lower rank"),
-    TEXT("plan", 0, "PLAN", plan, "the best houses on one plan: a plan line, or # and its rank"),
+    TEXT("plan", 0, "PLAN", plan, "the best houses on one plan: a plan in any spelling, or # and its rank"),
     OPTION_PLAN_FORMAT,
     OUTPUT(
         written.output, TN_WRITES_ROWS | TN_WRITES_PICTURES,

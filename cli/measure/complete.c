@@ -1,5 +1,6 @@
 /* tartan complete: what may still be chosen in an open plan. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "ask/session/questions.h"
 #include "cli/common/made_outputs.h"
@@ -49,7 +50,8 @@ static void write_text(const tn_open_choices *c, const char *why_none, FILE *out
 {
     char *plans = tn_digits(c->found.plans, true);
     char best[256];
-    fprintf(out, "%s %s complete it", plans ? plans : "", c->what);
+    bool one = mpz_cmp_ui(c->found.plans, 1) == 0;
+    fprintf(out, "%s %.*s complete%s it", plans ? plans : "", (int)strlen(c->what) - one, c->what, one ? "s" : "");
     if (c->found.best) {
         tn_open_best_name(c, best, sizeof best);
         fprintf(out, "; in brackets the %s that is left", best);
@@ -111,7 +113,7 @@ static int run(const tn_command *command, const tn_settings *common)
     const char *pattern = common->operands.items[1];
     tn_job job;
     tn_job_begin(&job, common);
-    if (tn_job_open_plan(&job, common->operands.items[0], &settings->plans, pattern))
+    if (tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
         complete(&job, pattern);
     return tn_job_end(&job);
 }
@@ -137,7 +139,8 @@ const tn_command tn_command_complete = {
         "any tray, `...` "
         "for any number of trays, also none. Says how many plans of the library complete it, and of each "
         "written tray how "
-        "many of these have which value there. Where a plan fits in several ways, the leftmost counts. To "
+        "many of these have which value there. PATTERN may also be one plan: a plan line, or in brackets as tests have "
+        "it. Where a plan fits in several ways, the leftmost counts. To "
         "list completions, "
         "give other commands --where \"plan [PATTERN]\". With --least or --most, the best value of a measure that each "
         "choice "

@@ -95,7 +95,7 @@ static const tn_option options[] = {
     WISH("least", wanted, "prefer plans with less of MEASURE"),
     WISH("most", wanted, "prefer plans with more of MEASURE"),
     FLAG("json", 0, json, "write JSON, every value exactly and every count as a string of digits"),
-    TEXT("plan", 0, "PLAN", plan, "the front of the houses on one plan: a plan line, or # and its rank"),
+    TEXT("plan", 0, "PLAN", plan, "the front of the houses on one plan: a plan in any spelling, or # and its rank"),
     OPTION_OUTPUT_OR_PICTURE,
     OPTIONS_LIBRARY_LIMITS,
 };

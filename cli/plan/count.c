@@ -158,7 +158,7 @@ static const tn_option options[] = {
     TEXT("step", 0, "S", step, "with --by: show bins of S, in the measure's unit"),
     NUMBER("bins", 0, "N", bins, 1, TN_BINS_MAX, "with --by: show at most N bins"),
     FLAG("no-effects", 0, no_effects, "leave out what each clause does, which may take far longer than the counts"),
-    TEXT("plan", 0, "PLAN", plan, "count the houses on one plan: a plan line, or # and its rank"),
+    TEXT("plan", 0, "PLAN", plan, "count the houses on one plan: a plan in any spelling, or # and its rank"),
     FLAG("clauses", 0, clauses, "of houses: also count how many of all houses each clause keeps out"),
     FLAG("mirror", 0, mirror, "also count one of each pair of plans that mirror each other"),
     OPTIONS_KIT("count"),

@@ -142,7 +142,7 @@ static const tn_option options[] = {
     RANK("from", 0, "RANK", from, "the first rank (default 0)"),
     RANK("to", 0, "RANK", to, "one past the last rank (default: all)"),
     NUMBER("limit", 'n', "N", limit, 0, 0, "at most N plans or houses"),
-    TEXT("plan", 0, "PLAN", plan, "the houses on one plan: a plan line, or # and its rank"),
+    TEXT("plan", 0, "PLAN", plan, "the houses on one plan: a plan in any spelling, or # and its rank"),
     OPTIONS_KIT("list"),
     FLAG("mirror", 0, mirror,
          "one of each pair of plans that mirror each other; ranks stay those of the whole library"),

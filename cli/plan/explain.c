@@ -182,7 +182,7 @@ static bool check_options(tn_job *job)
 {
     const explain_settings *settings = settings_of(job);
     if ((settings->common.operands.count > 1) == (settings->plan_file != NULL))
-        tn_job_usage(job, "say which plan: a plan line, #RANK, or --plan FILE");
+        tn_job_usage(job, "say which plan: a plan, #RANK, or --plan FILE");
     else if (settings->output && settings->json)
         tn_job_usage(job, "either a picture (-o) or --json, not both");
     else
@@ -314,7 +314,8 @@ const tn_command tn_command_explain = {
         "far from every destination, so one is shown.\n\n"
         "For a dropped plan, the nearest plans that the library keeps follow. A changed field costs 1; a tray "
         "that is added or left out costs as much as it has fields. With --rule, or if the file has no library, "
-        "rules are explained by themselves. PLAN is a plan line or a JSON object, in quotes.\n\n"
+        "rules are explained by themselves. PLAN is a plan line, a plan in brackets as tests have it, an open plan "
+        "that stands for one, or a JSON object, in quotes.\n\n"
         "HOUSE is a house line (docs/houses.md) or a JSON object with one: explain says which clauses of a library of "
         "houses drop it, and "
         "whether its plan is one of the library's. The tiles may be left out. '#P:V' is a house by its name, and so is "

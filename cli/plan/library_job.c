@@ -20,19 +20,11 @@ size_t tn_job_max_length(const tn_plan_settings *plans)
     return tn_asked_length(&asked);
 }
 
-bool tn_job_open_plan(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern)
-{
-    const tn_questions questions = {.library = plans->library,
-                                    .wheres = plans->wheres.items,
-                                    .where_count = plans->wheres.count,
-                                    .pattern = pattern};
-    bool asks = questions.where_count > 0 || pattern;
-    return tn_job_open_asking(job, path, asks ? &questions : NULL);
-}
-
 bool tn_job_open_plans(tn_job *job, const char *path, const tn_plan_settings *plans)
 {
-    return tn_job_open_plan(job, path, plans, NULL);
+    const tn_questions questions = {
+        .library = plans->library, .wheres = plans->wheres.items, .where_count = plans->wheres.count};
+    return tn_job_open_asking(job, path, questions.where_count > 0 ? &questions : NULL);
 }
 
 static bool ready_library(tn_job *job, const tn_plan_settings *plans, const tn_library_options *options,

@@ -44,9 +44,6 @@ typedef struct tn_plan_settings {
 /* Opens the file with the further requirements of --where; false where that failed (then end the job). */
 bool tn_job_open_plans(tn_job *job, const char *path, const tn_plan_settings *plans);
 
-/* The same, with an open plan whose trays become functions of the module. */
-bool tn_job_open_plan(tn_job *job, const char *path, const tn_plan_settings *plans, const char *pattern);
-
 /* Opens the file and makes the chosen library ready; false where that failed (then end the job). */
 bool tn_job_library(tn_job *job, const char *path, const tn_plan_settings *plans, tn_ready_library *ready);
 

@@ -33,7 +33,11 @@ bool tn_job_reader(tn_job *job, const tn_schema *schema, const tn_plans_source *
     tn_error error;
     if (tn_plan_reader_open(schema, source->path, &options, reader, &error) == TN_OK)
         return true;
-    tn_suggest_file(source->path, &error);
+    if (error.status == TN_IO && strchr(source->path, '|')) /* no file, but a plan */
+        tn_error_help(&error, "a plan itself is given to standard input: `echo \"PLAN\" | tartan %s FILE`",
+                      job->settings->command->name);
+    else
+        tn_suggest_file(source->path, &error);
     tn_job_fail(job, &error);
     return false;
 }

@@ -72,7 +72,8 @@ const tn_command tn_command_rank = {
     .usage = "FILE PLAN [--library NAME]\nFILE HOUSE [--library HOUSES] [--of-all]",
     .description = "Writes the rank of a plan: how many plans of the library come before it, in the order of length "
                    "and then tray by tray. "
-                   "PLAN is a plan line or a JSON object, in quotes. For a plan that the library does not hold, the "
+                   "PLAN is a plan line, a plan in brackets as tests have it, an open plan that stands for one, or a "
+                   "JSON object, in quotes. For a plan that the library does not hold, the "
                    "exit code is 1 and "
                    "the message says which clause it fails. "
                    "HOUSE is a house line or a JSON object with one; of it the command writes #P:V: the rank of its "

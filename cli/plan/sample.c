@@ -149,7 +149,7 @@ static const tn_option options[] = {
     FLAG("diverse", 0, diverse, "plans that differ from one another, instead of each as likely as each"),
     NUMBER("shards", 0, "M", shards, 1, 0,
            "make a shard set of M shards, the folder that -o names: `tartan shards run` draws the same plans"),
-    TEXT("plan", 0, "PLAN", plan, "draw houses on one plan: a plan line, or # and its rank"),
+    TEXT("plan", 0, "PLAN", plan, "draw houses on one plan: a plan in any spelling, or # and its rank"),
     OPTION_PLAN_FORMAT,
     OPTION_COLUMNS,
     OPTION_CSV_SAFE,

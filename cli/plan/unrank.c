@@ -1,4 +1,6 @@
 /* tartan unrank: the plan at a place in its library. */
+#include <string.h>
+
 #include "ask/house/numbered.h"
 #include "ask/session/questions.h"
 #include "cli/common/option_rows.h"
@@ -36,7 +38,8 @@ static int run(const tn_command *command, const tn_settings *common)
     tn_job_begin(&job, common);
     if (!tn_is_rank(text) && !tn_is_house_number(text)) /* before a file is opened that may be the number */
         tn_help(tn_job_diagnostics(&job), tn_job_usage(&job, "a rank is a whole number from 0, not `%.60s`", text),
-                "the file comes first: tartan unrank FILE RANK");
+                text[strspn(text, "0123456789.,' ")] ? "the file comes first: tartan unrank FILE RANK"
+                                                     : "write it without marks between its digits, such as 1000");
     else if (tn_job_open_plans(&job, common->operands.items[0], &settings->plans))
         unrank(&job, settings, text);
     return tn_job_end(&job);

@@ -101,8 +101,10 @@ static const char terrace[] =
     "rule low \"more than two storeys anywhere\" =\n"
     "  tray(three or four)\n"
     "\n"
-    "rule corner-shop \"a shop anywhere but beside an end house\" =\n"
-    "  tray(shop) and not symmetric neighbour(tray(end), tray(shop))\n"
+    "rule stray-shop \"a shop with no end house beside it\" =\n"
+    "  neighbour(tray(not end), tray(shop), tray(not end))\n"
+    "  or symmetric neighbour(beginning, tray(shop), tray(not end))\n"
+    "  or neighbour(beginning, tray(shop), end)\n"
     "\n"
     "# A library is all plans that meet its requirements, without those that a pruning rule matches: `tartan count "
     "FILE`.\n"
@@ -111,7 +113,7 @@ static const char terrace[] =
     "  trays 5..6\n"
     "  total front 24m..36m\n"
     "  require closed\n"
-    "  prune low, corner-shop, restless-line\n"
+    "  prune low, stray-shop, restless-line\n"
     "}\n"
     "\n"
     "# A measure of the file that is used: `tartan best FILE 5 --most floors-in-all`.\n"
@@ -122,6 +124,7 @@ static const char terrace[] =
     "test mews {\n"
     "  keep [6m end | 6m | 6m | 6m | 6m end]\n"
     "  drop [6m end | 6m | 6m three | 6m | 6m end] by low\n"
+    "  drop [6m end | 6m shop | 6m | 6m shop | 6m | 6m end] by stray-shop  \"one of two\"\n"
     "}\n";
 
 const char *const tn_starts[] = {own, lahave, terrace};

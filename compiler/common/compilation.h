@@ -12,7 +12,10 @@ typedef struct tn_questions {
     const char *library;       /* the library that is asked about; NULL: the only one */
     const char *const *wheres; /* expressions: further requirements, called where@1 and so on */
     size_t where_count;
+    const char *schema;       /* of the next two */
     const char *pattern;      /* an open plan, or NULL: its trays become functions of the module */
+    const char *plan;         /* a plan in brackets, as tests have it; or NULL */
+    const char *plan_name;    /* what messages call these two */
     const char *const *parts; /* of a kit, or NULL: the text is a list of conditions, which may count these parts */
     size_t part_count;
 } tn_questions;

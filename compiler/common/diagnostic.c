@@ -154,6 +154,19 @@ void tn_diagnostics_move(tn_diagnostics *from, tn_diagnostics *to, uint32_t firs
     tn_diagnostics_clear(from);
 }
 
+void tn_diagnostics_keep_errors(tn_diagnostics *list)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < list->count; i++) {
+        if (list->items[i].severity == TN_ERROR)
+            list->items[kept++] = list->items[i];
+        else
+            clear_item(&list->items[i]);
+    }
+    list->count = kept;
+    list->warning_count = 0;
+}
+
 void tn_note(tn_diagnostics *list, tn_diagnostic *diagnostic, const tn_span *span, const char *format, ...)
 {
     if (!tn_array_resize(&diagnostic->notes, diagnostic->note_count + 1, sizeof *diagnostic->notes)) {

@@ -96,6 +96,9 @@ void tn_advise(tn_diagnostics *list, tn_diagnostic *diagnostic, const char *form
  */
 void tn_diagnostics_move(tn_diagnostics *from, tn_diagnostics *to, uint32_t first_file);
 
+/* Forgets all but the errors. */
+void tn_diagnostics_keep_errors(tn_diagnostics *list);
+
 /* Orders by file, place, code; drops exact repeats. Items without a place come last, in the order they were added. */
 void tn_diagnostics_sort(tn_diagnostics *list);
 

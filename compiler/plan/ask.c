@@ -1,4 +1,4 @@
-/* Compiles the expressions and open plans that a command line gives. */
+/* Compiles the expressions, open plans and plans that a command line gives. */
 #include "compiler/plan/ask.h"
 
 #include <string.h>
@@ -26,11 +26,16 @@ tn_status tn_ask(tn_arena *arena, tn_diagnostics *diagnostics, tn_sources *sourc
         if (status == TN_OK && tree->expression)
             asked->wheres[asked->where_count++] = tree->expression;
     }
+    asked->schema = questions->schema;
     if (status == TN_OK && questions->pattern) {
-        status = parse(arena, diagnostics, sources, "PATTERN", questions->pattern, TN_PARSE_PATTERN, &tree, error);
-        if (status == TN_OK)
-            asked->pattern = tree->pattern;
-        asked->has_pattern = status == TN_OK;
+        status = parse(arena, diagnostics, sources, questions->plan_name, questions->pattern, TN_PARSE_PATTERN, &tree,
+                       error);
+        asked->pattern = status == TN_OK ? &tree->pattern : NULL;
+    }
+    if (status == TN_OK && questions->plan) {
+        status =
+            parse(arena, diagnostics, sources, questions->plan_name, questions->plan, TN_PARSE_LITERAL, &tree, error);
+        asked->literal = status == TN_OK && !tree->broken ? &tree->literal : NULL;
     }
     return status;
 }

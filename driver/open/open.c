@@ -121,8 +121,8 @@ static tn_status load(tn_opened *opened, const uint8_t *bytes, size_t size)
 static tn_status refuse_questions(tn_opened *opened)
 {
     tn_diagnostics *list = &opened->compilation.diagnostics;
-    tn_diagnostic *d = tn_report_bare(list, TN_ERROR, E_USAGE,
-                                      "%s is a module, and --where and open plans need the rule file", opened->path);
+    tn_diagnostic *d =
+        tn_report_bare(list, TN_ERROR, E_USAGE, "%s is a module, and --where needs the rule file", opened->path);
     tn_help(list, d, "name the rule file that it was built from");
     return TN_INVALID;
 }
@@ -143,6 +143,13 @@ tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, boo
                         tn_opened *opened)
 {
     return open_bytes(path, bytes, size, warnings_are_errors, NULL, opened);
+}
+
+tn_status tn_open_source(const char *path, const char *text, size_t size, const tn_questions *questions,
+                         tn_opened *opened)
+{
+    start(path, opened);
+    return compile_file(opened, text, size, &(asked){.questions = questions});
 }
 
 /* ---- files */

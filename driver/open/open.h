@@ -36,14 +36,19 @@ bool tn_path_joins(const char *path);
 tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
                         tn_opened *opened);
 
+/* The same of a text, with what is asked of it. */
+tn_status tn_open_source(const char *path, const char *text, size_t size, const tn_questions *questions,
+                         tn_opened *opened);
+
 /* Compiles a text that the caller has, and makes its module ready to run. */
 tn_status tn_open_text(const tn_notation *notation, const tn_input *input, const tn_compile_options *options,
                        tn_opened *opened);
 
-/* Opens a text that would lie at a path, as another file was opened: what it uses is found where that file's is. The
- * opened text borrows the path. Close it in any case. */
+/* Opens a text that would lie at a path, as another file was opened: what it uses is found where that file's is.
+ * questions: what is asked of it, or NULL. The opened text borrows the path. Close it in any case. */
 typedef struct tn_text_opener {
-    tn_status (*open)(void *context, const char *path, const char *text, size_t size, tn_opened *opened);
+    tn_status (*open)(void *context, const char *path, const char *text, size_t size, const tn_questions *questions,
+                      tn_opened *opened);
     void *context;
 } tn_text_opener;
 

@@ -221,7 +221,7 @@ static tn_status check_text(const drawing_kit *d, const char *text, const char *
     tn_placed_model placed = {0};
     tn_place_rules rules;
     tn_opened opened;
-    tn_status status = opener ? opener->open(opener->context, path, text, strlen(text), &opened)
+    tn_status status = opener ? opener->open(opener->context, path, text, strlen(text), NULL, &opened)
                               : tn_open_bytes(path, (const uint8_t *)text, strlen(text), false, &opened);
     if (status == TN_OK) {
         status = tn_place_rules_of_model(opened.module, 0, &rules, d->error);

@@ -111,6 +111,8 @@ as "{\"plan\": \"$plan\"}" "$plan"
 as "{\"plan\": \"$plan\", \"where\": [\"trays = 1\"]}" "$plan" --where 'trays = 1'
 as "{\"plan\": \"${plan#* | }\"}" "${plan#* | }"
 as '{"plan": "4m one | no"}' '4m one | no'
+as '{"plan": "[6m end | 4m | 4m | 6m end right]"}' '[6m end | 4m | 4m | 6m end right]'
+as '{"plan": "6m end | ... | end"}' '6m end | ... | end'
 as "{\"plan\": \"$plan\", \"of_all\": true}" "$plan" --of-all
 asked
 file=stdlib/cottage.plan
@@ -203,6 +205,7 @@ file=stdlib/terrace.plan
 as '{"pattern": "? | ... | ?"}' '? | ... | ?'
 as '{"pattern": "... | end"}' '... | end'
 as '{"pattern": "? | nothing"}' '? | nothing'
+as '{"pattern": "[end | end]"}' '[end | end]'
 as '{"pattern": "? | ...", "where": ["trays = 2"]}' '? | ...' --where 'trays = 2'
 as '{"pattern": "? | ...", "trays": {"from": 1, "to": 2}}' '? | ...' --trays 1..2
 asked

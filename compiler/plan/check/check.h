@@ -213,9 +213,12 @@ typedef struct tn_checked {
     struct tn_checked_form **forms;
     size_t form_count;
     tn_program *program;
-    tn_checked_library *asked; /* the library that the command line is about; NULL: not clear */
-    tn_ast_expr **pattern;     /* an open plan's trays: each a rule expression, a gap NULL */
+    tn_checked_library *asked;               /* the library that the command line is about; NULL: not clear */
+    const tn_checked_schema *pattern_schema; /* of the next, and of a plan in brackets */
+    tn_ast_expr **pattern;                   /* an open plan's trays: each a rule expression, a gap NULL */
     size_t pattern_count;
+    const uint8_t *asked_plan; /* a plan that was written in brackets: tn_program.plan */
+    size_t asked_length;
 } tn_checked;
 
 /* Expressions that the command line gives: parsed. */
@@ -223,9 +226,9 @@ typedef struct tn_asked_for {
     const char *library; /* or NULL */
     tn_ast_expr **wheres;
     size_t where_count;
-    tn_ast_list pattern;
-    tn_span pattern_span;
-    bool has_pattern;
+    const char *schema;            /* of the next two */
+    const tn_ast_list *pattern;    /* an open plan, or NULL */
+    const tn_ast_literal *literal; /* a plan in brackets, or NULL */
 } tn_asked_for;
 
 typedef struct tn_check {

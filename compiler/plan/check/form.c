@@ -51,6 +51,10 @@ void tn_form_unknown(tn_check *check, const tn_checked_form *form, const tn_ast_
                  names[i]);
     if (near)
         tn_suggest(check->diagnostics, d, "%s", near);
+    else if (strncmp(what, "zone", 4) == 0 && tn_form_opening_named(form, word->text) != TN_NONE)
+        tn_help(check->diagnostics, d,
+                "`%s` is an opening: rooms with one are `room(any, by %s)`, rooms without one `room(any, not by %s)`",
+                word->text, word->text, word->text);
     else if (count > 0)
         tn_help(check->diagnostics, d, "it can be %s", list);
     else
@@ -61,6 +65,14 @@ uint32_t tn_form_storey(const tn_checked_form *form, const char *name)
 {
     for (uint32_t i = 0; i < form->storey_count; i++)
         if (strcmp(form->storeys[i].ast->name->text, name) == 0)
+            return i;
+    return TN_NONE;
+}
+
+uint32_t tn_form_opening_named(const tn_checked_form *form, const char *name)
+{
+    for (uint32_t i = 0; i < form->opening_count; i++)
+        if (strcmp(form->openings[i].ast->name->text, name) == 0)
             return i;
     return TN_NONE;
 }

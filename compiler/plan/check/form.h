@@ -117,8 +117,9 @@ int64_t tn_form_length(tn_check *check, const tn_ast_word *word);
 /* A name that the form does not know: E1602, with the nearest of `names`. */
 void tn_form_unknown(tn_check *check, const tn_checked_form *form, const tn_ast_word *word, const char *what,
                      const char *const *names, size_t count);
-uint32_t tn_form_storey(const tn_checked_form *form, const char *name);   /* TN_NONE where there is none */
-uint32_t tn_form_function(const tn_checked_form *form, const char *name); /* likewise */
+uint32_t tn_form_storey(const tn_checked_form *form, const char *name);        /* TN_NONE where there is none */
+uint32_t tn_form_function(const tn_checked_form *form, const char *name);      /* likewise */
+uint32_t tn_form_opening_named(const tn_checked_form *form, const char *name); /* likewise */
 
 /* ---- form_shape.c */
 void tn_check_choice(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);

@@ -439,11 +439,20 @@ static void add_where(tn_check *check, tn_checked_library *library, tn_ast_expr 
         put_clause(check, library, clause);
 }
 
-static void check_pattern(tn_check *check)
+static tn_checked_schema *named_schema(const tn_check *check)
+{
+    const tn_checked *result = check->result;
+    for (size_t i = 0; check->asked->schema && i < result->schema_count; i++)
+        if (strcmp(result->schemas[i]->name, check->asked->schema) == 0)
+            return result->schemas[i];
+    return NULL;
+}
+
+static void check_pattern(tn_check *check, tn_ast_list pattern)
 {
     tn_checked *result = check->result;
-    result->pattern = TN_NEW_ARRAY(check->arena, tn_ast_expr *, check->asked->pattern.count);
-    for (TN_EACH(tn_ast_expr, tray, check->asked->pattern)) {
+    result->pattern = TN_NEW_ARRAY(check->arena, tn_ast_expr *, pattern.count);
+    for (TN_EACH(tn_ast_expr, tray, pattern)) {
         if (!result->pattern)
             return;
         if (tray->kind != TN_EXPR_OPTIONAL) {
@@ -454,10 +463,41 @@ static void check_pattern(tn_check *check)
     }
 }
 
-void tn_check_asked(tn_check *check)
+/* The plan in brackets that is asked about, for the program. */
+static void check_literal(tn_check *check, const tn_ast_literal *literal)
+{
+    if (literal->house) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_PLAN_SYNTAX, literal->house->node.span,
+                                     "this is a house, and a plan is wanted");
+        tn_help(check->diagnostics, d, "leave out what stands from the first `;` on, and the brackets");
+        return;
+    }
+    check->result->asked_plan = tn_check_plan(check, check->schema, literal->trays, &check->result->asked_length);
+}
+
+/* An open plan, or a plan in brackets. */
+static void check_asked_plan(tn_check *check)
 {
     const tn_asked_for *asked = check->asked;
-    tn_checked_library *library = asked->where_count || asked->has_pattern ? asked_library(check) : NULL;
+    tn_checked_schema *schema = asked->pattern || asked->literal ? named_schema(check) : NULL;
+    check->result->pattern_schema = schema;
+    if (!schema)
+        return;
+    check->unit = check->imports->count - 1;
+    check->schema = schema;
+    check->rule = NULL;
+    check->form = NULL; /* a plan is about trays */
+    check->allow = tn_ast_empty();
+    if (asked->pattern)
+        check_pattern(check, *asked->pattern);
+    else
+        check_literal(check, asked->literal);
+}
+
+static void check_wheres(tn_check *check)
+{
+    const tn_asked_for *asked = check->asked;
+    tn_checked_library *library = asked->where_count ? asked_library(check) : NULL;
     check->result->asked = library;
     if (!library || !library->schema)
         return;
@@ -471,6 +511,11 @@ void tn_check_asked(tn_check *check)
     for (size_t i = 0; i < asked->where_count; i++)
         add_where(check, library, asked->wheres[i], i + 1);
     check->asking = false;
-    check->form = NULL; /* an open plan is about trays */
-    check_pattern(check);
+    check->form = NULL;
+}
+
+void tn_check_asked(tn_check *check)
+{
+    check_wheres(check);
+    check_asked_plan(check);
 }

@@ -355,6 +355,22 @@ static bool help_function(tn_check *check, tn_diagnostic *d, const tn_checked_sc
     return false;
 }
 
+/* An opening of a form, for which no rule asks by itself. */
+static bool help_opening(tn_check *check, tn_diagnostic *d, const tn_checked_schema *schema, const char *word)
+{
+    for (size_t i = 0; i < check->result->form_count; i++) {
+        const tn_checked_form *form = check->result->forms[i];
+        if (form->schema != schema || tn_form_opening_named(form, word) == TN_NONE)
+            continue;
+        tn_help(check->diagnostics, d,
+                "`%s` is an opening of form `%s`: `room(any, by %s)` asks for rooms with one, `not by %s` for those "
+                "without",
+                word, form->name, word, word);
+        return true;
+    }
+    return false;
+}
+
 static const tn_checked_form *form_here(const tn_check *check)
 {
     for (size_t i = 0; i < check->result->form_count; i++)
@@ -417,7 +433,8 @@ static void report_unknown(tn_check *check, const tn_ast_word *word, tn_want wan
     const char *near = nearest_name(check, word->text, want);
     const tn_checked_schema *schema = want == TN_WANT_RULE ? check->schema : NULL;
     const tn_slip *slip = want == TN_WANT_LIBRARY ? NULL : tn_slip_find(TN_SLIP_RULE, word->text, strlen(word->text));
-    if (schema && (help_word(check, d, schema, word->text) || help_function(check, d, schema, word->text)))
+    if (schema && (help_word(check, d, schema, word->text) || help_function(check, d, schema, word->text) ||
+                   help_opening(check, d, schema, word->text)))
         return;
     if (want != TN_WANT_LIBRARY && help_minus(check, d, word->text))
         return;

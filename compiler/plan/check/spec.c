@@ -72,6 +72,9 @@ __attribute__((format(printf, 3, 4))) static bool bad_item(tn_item_reader *item,
     if (item->word && flag && item->word->kind == TN_WORD_OPERATOR)
         tn_help(item->check->diagnostics, d, "a flag is written alone: `%s`, or `not %s`",
                 item->schema->fields[item->field].name, item->schema->fields[item->field].name);
+    else if (item->word && flag && item->word->kind == TN_WORD_NOT)
+        tn_help(item->check->diagnostics, d, "`not` stands before what it denies: `not %s`",
+                item->schema->fields[item->field].name);
     else if (item->word && item->field != TN_NONE && help_order(item, d))
         return false;
     else if (item->word && item->field != TN_NONE)
@@ -536,7 +539,7 @@ static void narrow_by_item(tn_check *check, tn_checked_spec *spec, const tn_chec
                            const tn_ast_item *ast, bool loose)
 {
     const tn_checked_schema *schema = spec->schema;
-    tn_ast_alternative rest = {.node = ast->node};
+    tn_ast_alternative rest = {.node = {.span = ast->node.span}};
     tn_ast_item one = *ast;
     for (;;) {
         tn_item_reader item = {

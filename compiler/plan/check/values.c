@@ -3,7 +3,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "compiler/plan/check/check.h"
+#include "compiler/plan/check/form.h"
 #include "compiler/plan/syntax/slip.h"
 #include "runtime/base/length.h"
 #include "runtime/base/nearest.h"
@@ -132,6 +132,20 @@ bool tn_value_guessed(tn_check *check, const tn_checked_schema *schema, const tn
            tn_slip_find(TN_SLIP_TRAY, word->text, strlen(word->text));
 }
 
+/* The trays of a plan have no functions: the cells of a house do. */
+static bool help_function(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word, tn_diagnostic *d)
+{
+    for (size_t i = 0; i < check->result->form_count; i++) {
+        const tn_checked_form *form = check->result->forms[i];
+        if (form->schema != schema || tn_form_function(form, word->text) == TN_NONE)
+            continue;
+        tn_help(check->diagnostics, d, "`%s` is a function of form `%s`, and no tray has one: write `cell(%s)`",
+                word->text, form->name, word->text);
+        return true;
+    }
+    return false;
+}
+
 static void report_unknown_word(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word)
 {
     tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_WORD, word->node.span,
@@ -155,7 +169,7 @@ static void report_unknown_word(tn_check *check, const tn_checked_schema *schema
         tn_suggest(check->diagnostics, d, "%s", near);
     } else if (join_words(schema, word, joined, sizeof joined)) {
         tn_help(check->diagnostics, d, "a name of several words is joined by `-`: `%s`", joined);
-    } else {
+    } else if (!help_function(check, schema, word, d)) {
         tn_help(check->diagnostics, d, "the fields are %s", fields);
     }
 }

@@ -21,8 +21,8 @@ static const tn_ast_expr *comparison_in(const tn_ast_expr *expr)
 static void report(tn_check *check, const tn_ast_expr *expr)
 {
     const tn_ast_expr *comparison = comparison_in(expr);
-    bool houses = comparison && comparison->sum &&
-                  (comparison->sum->houses || (comparison->high && comparison->high->houses));
+    bool houses =
+        comparison && comparison->sum && (comparison->sum->houses || (comparison->high && comparison->high->houses));
     tn_diagnostic *d =
         tn_report(check->diagnostics, E_WHOLE_PLAN, expr->node.span,
                   "this is about the whole %s, and stands where a part of it is meant", houses ? "house" : "plan");

@@ -63,17 +63,19 @@ static void emit_library(tn_emit *emit, const tn_checked_library *library)
                                           });
 }
 
-/* The trays of an open plan that the command line gives: a function each. */
-static void emit_pattern(tn_emit *emit)
+/* The trays of an open plan that the command line gives: a function each. And the plan in brackets. */
+static void emit_asked(tn_emit *emit)
 {
     const tn_checked *checked = emit->checked;
     tn_program *program = checked->program;
+    program->plan = checked->asked_plan;
+    program->plan_length = checked->asked_length;
     program->pattern = TN_NEW_ARRAY(emit->arena, uint32_t, checked->pattern_count);
     for (size_t i = 0; program->pattern && i < checked->pattern_count; i++) {
         tn_ast_expr *tray = checked->pattern[i];
         uint32_t function = TN_NO_RECORD;
         if (tray) {
-            emit->schema = checked->asked->schema->index;
+            emit->schema = checked->pattern_schema->index;
             tn_emit_needs(emit, tray, "open plan");
             tn_emit_begin(emit, emit->schema);
             tn_emit_whole(emit, tray);
@@ -86,7 +88,7 @@ static void emit_pattern(tn_emit *emit)
 
 void tn_emit_libraries(tn_emit *emit)
 {
-    emit_pattern(emit);
+    emit_asked(emit);
     for (size_t i = 0; i < emit->checked->library_count; i++)
         if (!emit->checked->libraries[i]->form)
             emit_library(emit, emit->checked->libraries[i]);

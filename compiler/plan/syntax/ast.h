@@ -343,6 +343,7 @@ typedef struct tn_ast_file {
     tn_ast_list items;       /* tn_ast_top */
     tn_ast_expr *expression; /* where one was parsed alone */
     tn_ast_list pattern;     /* where an open plan was */
+    tn_ast_literal literal;  /* where a plan in brackets was */
     bool broken;             /* an item is missing: its name could not be read */
     bool skipped;            /* a clause is missing */
 } tn_ast_file;

@@ -58,8 +58,8 @@ typedef struct tn_parse {
     tn_lexer_pool pool;
 } tn_parse;
 
-/* Parses the source as one expression, or as one open plan: see tn_ast_file. */
-typedef enum tn_parse_what { TN_PARSE_FILE, TN_PARSE_EXPRESSION, TN_PARSE_PATTERN } tn_parse_what;
+/* Parses the source as one expression, one open plan, or one plan in brackets: see tn_ast_file. */
+typedef enum tn_parse_what { TN_PARSE_FILE, TN_PARSE_EXPRESSION, TN_PARSE_PATTERN, TN_PARSE_LITERAL } tn_parse_what;
 struct tn_ast_file *tn_parse_plan_part(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_parse_what what);
 
 /* Parses the source as a .plan file. NULL where out of memory; errors are in the diagnostics. Its tokens go to `tokens`

@@ -53,6 +53,8 @@ typedef struct tn_program {
     size_t allowance_count;
     uint32_t *pattern; /* an open plan's trays: the function (of M) of each; TN_NO_RECORD: any number of trays */
     size_t pattern_count;
+    const uint8_t *plan; /* a plan in brackets, [tray][field] as in tn_test_case; NULL: none was asked about */
+    size_t plan_length;
 } tn_program;
 
 /* Does `allow` silence the warning at that place? For the warnings of the analysis, which runs after compiling. */

@@ -57,7 +57,7 @@ static const struct {
      {"`rule`", "`schema`"},
      TN_AT(ITEM),
      TN_AS_KEYWORDS,
-     {"an expression", "an open plan", "the end of the file"}},
+     {"an expression", "an open plan", "a plan", "the end of the file"}},
     {"a line of a form (`storey`, `section`, `function`, `face`, `tile` ...)",
      {"`storey`", "`spine`"},
      TN_AT(FORM),
@@ -341,6 +341,39 @@ static bool report_missing_comma(tn_parse *parse, tn_span first, tn_span second,
     return true;
 }
 
+/* Is it a word that can stand in the head of an item? */
+static bool is_head_word(const tn_parse *parse, tn_span word)
+{
+    return tn_vocabulary_find(&tn_plan_words, parse->text + word.begin, word.end - word.begin,
+                              TN_AT(ITEM) | TN_AT(HEAD), TN_AS_KEYWORDS) != NULL;
+}
+
+/* Does what the item is come behind the word? */
+static bool heads_body(const tn_parse *parse, tn_span word)
+{
+    size_t next = word.end + strspn(parse->text + word.end, " \t\r\n");
+    return parse->text[next] != '\0' && strchr("{=(\"", parse->text[next]);
+}
+
+/* `rule no rest = ...`, `library small halls { ... }`: the name of an item in two words. */
+static bool report_parted_name(tn_parse *parse, const tn_syntax_found *found, const tn_expected *e)
+{
+    tn_span first = found->after, second = found->span;
+    bool heads = tn_expects(e, "`{`") || (tn_expects(e, "`=`") && tn_expects(e, "`using`"));
+    char meant[40];
+    if (parse->mode != TN_LEX_TOP || first.end == first.begin || strcmp(found->name, "a name") != 0 || !heads ||
+        is_head_word(parse, first) || !heads_body(parse, second) || slip_here(parse, second, e) ||
+        nearest_word(parse, second, e, meant, sizeof meant))
+        return false;
+    int first_size = (int)(first.end - first.begin), second_size = (int)(second.end - second.begin);
+    const char *text = parse->text;
+    tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, tn_span_join(first, second),
+                                 "a name is one word, and these are two: `%.*s` and `%.*s`", first_size,
+                                 text + first.begin, second_size, text + second.begin);
+    tn_advise(parse->diagnostics, d, "%.*s-%.*s", first_size, text + first.begin, second_size, text + second.begin);
+    return true;
+}
+
 /* Two names beside each other where one can stand: `four bed`. */
 static bool report_two_words(tn_parse *parse, const tn_syntax_found *found, const tn_expected *e)
 {
@@ -540,7 +573,8 @@ void tn_syntax_error(tn_parse *parse, const tn_syntax_found *found, const char *
         return; /* what led to this was reported */
     tn_expected e = {.tokens = expected, .count = count < 96 ? count : 96};
     if (report_misspelled(parse, found, &e) || report_misspelled_call(parse, found) ||
-        report_parted_unit(parse, found) || report_digit_name(parse, found, &e) || report_two_words(parse, found, &e) ||
+        report_parted_unit(parse, found) || report_digit_name(parse, found, &e) ||
+        report_parted_name(parse, found, &e) || report_two_words(parse, found, &e) ||
         report_decimal_comma(parse, found, &e) || report_colour(parse, &e) || report_rank(parse, &e))
         return;
     char list[800], words[800], here[120];
@@ -556,7 +590,10 @@ void tn_syntax_error(tn_parse *parse, const tn_syntax_found *found, const char *
                            : tn_report(parse->diagnostics, E_UNEXPECTED, span, "%s is not expected here", here);
     char meant[40];
     const char *help = tn_syntax_fix(parse, found->name, &e);
-    bool misspelled = strcmp(found->name, "a name") == 0 || (tn_is_keyword(found->name) && size > 3);
+    /* `tray(` is not `trays`, and a room is no roof */
+    bool called = (tn_starts_expression(found->name) && parse->text[span.end] == '(') ||
+                  (parse->in_form && size == 4 && memcmp(parse->text + span.begin, "room", 4) == 0);
+    bool misspelled = strcmp(found->name, "a name") == 0 || (tn_is_keyword(found->name) && size > 3 && !called);
     const tn_slip *slip = tn_starts_expression(found->name) ? NULL : slip_here(parse, span, &e);
     if (slip)
         advise_slip(parse, d, slip);

@@ -5,7 +5,8 @@
 #include <stddef.h>
 
 /* An example of the line that the byte `at` of a text is on, by the line's first word; NULL where the word begins
- * lines of several kinds, or of none. Its lengths are metric where the first one of the text is. A string that lives as long as the program. */
+ * lines of several kinds, or of none. Its lengths are metric where the first one of the text is. A string that lives as
+ * long as the program. */
 const char *tn_syntax_example(const char *text, size_t at);
 
 #endif

@@ -80,6 +80,17 @@ static bool opens_call(const tn_parse *parse)
                                               TN_AT(RULE) | TN_AT(CONDITION), TN_AS_KEYWORDS);
 }
 
+/* Does a name of the author's come after the token at hand? */
+static bool name_follows(const tn_parse *parse)
+{
+    size_t at = parse->last_span.end, size = 0;
+    at += strspn(parse->text + at, " \t");
+    while (isalnum((unsigned char)parse->text[at + size]) || parse->text[at + size] == '-')
+        size++;
+    return size > 0 &&
+           !tn_vocabulary_find(&tn_plan_words, parse->text + at, size, TN_AT(ITEM) | TN_AT(HEAD), TN_AS_KEYWORDS);
+}
+
 /* Does a digit come directly after the token at hand? */
 static bool digit_follows(const tn_parse *parse)
 {
@@ -96,6 +107,45 @@ static bool line_begins(const tn_parse *parse, const char *word)
     return strncmp(parse->text + begin, word, size) == 0 && !isalnum((unsigned char)parse->text[begin + size]);
 }
 
+static bool stands_compass(const tn_parse *parse)
+{
+    static const char *const points[] = {"north", "south", "east", "west"};
+    bool here = false;
+    for (size_t i = 0; i < sizeof points / sizeof *points; i++)
+        here |= stands_here(parse, points[i]);
+    return here;
+}
+
+/* Does the word before the token at hand come after this one? */
+static bool comes_after_next(const tn_parse *parse, const char *word)
+{
+    size_t end = parse->span_before.begin, size = strlen(word);
+    while (end > 0 && isspace((unsigned char)parse->text[end - 1]))
+        end--;
+    return end > size && memcmp(parse->text + end - size, word, size) == 0 &&
+           isspace((unsigned char)parse->text[end - size - 1]);
+}
+
+/* Lines of forms that are neither of these. */
+static const char *form_fix(const tn_parse *parse, const char *found, const tn_expected *e)
+{
+    if (tn_expects(e, "`storey`") && (stands_here(parse, "floor") || stands_here(parse, "level")))
+        return "a storey and its height are written `storey ground 3m`";
+    if (tn_expects(e, "`storey`") && stands_here(parse, "room"))
+        return "what cells are for is written `function living at cell(body)`";
+    if (strcmp(found, "a length") == 0 && comes_after_next(parse, "spine"))
+        return "a zone follows `spine`: `spine body`";
+    if (strcmp(found, "`..`") == 0 && line_begins(parse, "section"))
+        return "each number of storeys is written, with `|` between: `section body storeys = 1 | 2`";
+    if (strcmp(found, "`|`") == 0 && line_begins(parse, "against"))
+        return "kinds of faces are joined by `or` here: `against wall or window`";
+    if (line_begins(parse, "function") && (stands_here(parse, "min") || stands_here(parse, "area")))
+        return "how large a room is, a library asks: `require room(bedroom, area >= 9m2)`, or `prune room(bedroom, "
+               "area "
+               "< 9m2)`";
+    return NULL;
+}
+
 /* Lines `face` of forms: one relation, one side, kinds by bars. */
 static const char *face_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
@@ -104,6 +154,8 @@ static const char *face_fix(const tn_parse *parse, const char *found, const tn_e
         return "kinds that a face may have are separated by `|`: `= door | wall`";
     if (joined && e->count == 1 && tn_expects(e, "`=`"))
         return "a line is about one side, or without a side about all of them: write a line for each";
+    if (tn_expects(e, "`front`") && stands_compass(parse))
+        return "a side is `front`, `back`, `left` or `right` of the plan, and no point of the compass";
     if (tn_expects(e, "`under`") && stands_here(parse, "above"))
         return "the lower cell comes first: `face cell(stair) under cell(stair) = stair`";
     if (tn_expects(e, "`front`") && tn_expects(e, "`=`"))
@@ -153,6 +205,8 @@ static const char *pair_fix(const tn_parse *parse, const tn_expected *e)
 static const char *house_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
     const char *fix = line_begins(parse, "face") ? face_fix(parse, found, e) : NULL;
+    if (!fix && parse->in_form)
+        fix = form_fix(parse, found, e);
     if (fix)
         return fix;
     if (tn_expects(e, "`cell`") && !tn_expects(e, "`tray`") && strcmp(found, "a name") == 0)
@@ -178,9 +232,34 @@ static const char *house_fix(const tn_parse *parse, const char *found, const tn_
     return NULL;
 }
 
+/* Of numbers: what is compared, and ranges. */
+static const char *number_fix(const tn_parse *parse, const char *found, const tn_expected *e)
+{
+    bool compares = strchr("<>=!", found[1]) != NULL && found[0] == '`';
+    if (compares && tn_expects(e, "`tray`") && (comes_after(parse, "and") || comes_after(parse, "or")))
+        return "what is compared stands on both sides: `sum(FIELD) >= 10m and sum(FIELD) <= 20m`, or `sum(FIELD) in "
+               "10m..20m`";
+    if (strcmp(found, "`..`") == 0 && parse->mode == TN_LEX_TOP && tn_expects(e, "`and`") && comes_after_number(parse))
+        return "a range follows `in`: `quantity(a) in 1..2`";
+    if (line_begins(parse, "total") && strcmp(found, "`and`") == 0 && tn_expects(e, "`..`"))
+        return "a range is written with two dots: `total FIELD 10m..20m`";
+    if (line_begins(parse, "total") && strcmp(found, "a name") == 0 && tn_expects(e, "`prune`") &&
+        !tn_expects(e, "`..`"))
+        return "the field stands before its bounds: `total FIELD 10m..20m`";
+    return NULL;
+}
+
 /* What was likely meant by a mark that other notations have there, or that stands in a wrong place. */
 static const char *mark_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
+    const char *number = number_fix(parse, found, e);
+    if (number)
+        return number;
+    if (strcmp(found, "`(`") == 0 && tn_expects(e, "`and`") &&
+        (comes_after(parse, "beginning") || comes_after(parse, "end")))
+        return "what begins or ends a plan stands beside it: `neighbour(beginning, a)`, `neighbour(a, end)`";
+    if (strcmp(found, "`,`") == 0 && tn_expects(e, "`and`") && tn_expects(e, "`rule`"))
+        return "trays side by side are written `neighbour(a, b)`; rules are joined by `and` or `or`";
     if (strcmp(found, "`..`") == 0 && tn_expects(e, "`...`"))
         return "any number of trays is written with three dots: `...`";
     if (strcmp(found, "`|`") == 0 && parse->mode == TN_LEX_SCHEMA && tn_expects(e, "`)`"))
@@ -195,8 +274,12 @@ static const char *mark_fix(const tn_parse *parse, const char *found, const tn_e
         return "alternatives are joined by `or`: `tray(a or b)` for the values of a tray, `a or b` for rules";
     if (strcmp(found, "`...`") == 0 && parse->mode == TN_LEX_PATTERN && tn_expects(e, "`|`"))
         return "`...` stands for trays, between bars; values of a tray that are left open are not written";
+    if (strcmp(found, "`?`") == 0 && parse->mode == TN_LEX_PATTERN && tn_expects(e, "`|`"))
+        return "`?` stands for a whole tray, between bars: `a | ? | b`";
+    if (strcmp(found, "`...`") == 0 && parse->mode == TN_LEX_PATTERN)
+        return "trays are separated by a bar: `a | ... | b`";
     if (strcmp(found, "`[`") == 0 && parse->mode == TN_LEX_PATTERN)
-        return "an open plan on the command line has no brackets: `a | ? | ...`";
+        return "brackets stand around the whole plan: `[a | ? | ...]`";
     if (strcmp(found, "`[`") == 0 && tn_expects(e, "`{`"))
         return "cases stand in braces: `test NAME { match [...] }`";
     if (strcmp(found, "`[`") == 0 && parse->mode != TN_LEX_TRAY && tn_expects(e, "`(`") && !tn_expects(e, "`tray`"))
@@ -249,6 +332,8 @@ static const char *word_fix(const tn_parse *parse, const char *found, const tn_e
         return "how many trays a plan has is written `trays 4..6`";
     if (e->count == 1 && tn_expects(e, "`(`"))
         return "what this word is about stands in parentheses after it";
+    if (tn_expects(e, "`)`") && tn_token_is_word(found, TN_AT(ITEM), TN_AS_KEYWORDS))
+        return "close the `(` before this";
     if (tn_expects(e, "`of`") || (strcmp(found, "`tray`") == 0 && tn_expects(e, "`not`") && !tn_expects(e, "`tray`")))
         return "which trays are added up is said after `of`: `sum(FIELD of tray(a))`";
     if (tn_expects(e, "`where`"))
@@ -276,6 +361,10 @@ static const char *schema_fix(const tn_parse *parse, const char *found, const tn
     if (tn_expects(e, "`flag`") &&
         (strcmp(found, "`[`") == 0 || strcmp(found, "`{`") == 0 || strcmp(found, "`(`") == 0))
         return "the values stand one after the other, with `|` between: `a | b | c`";
+    if (strcmp(found, "`where`") == 0 && tn_expects(e, "`|`") && !parse->in_number)
+        return "a number of a tray begins with the word `number`: `number NAME = 12 where tray(a) | 8`";
+    if (comes_after(parse, "|") && tn_expects(e, "`...`"))
+        return "a value is missing after the `|` before this";
     if (strcmp(found, "a length") == 0 && tn_expects(e, "`(`"))
         return "the depths of a fill stand in parentheses: `FILL(2m, 3m)`";
     if (strcmp(found, "`..`") == 0 && tn_expects(e, "`|`"))
@@ -312,7 +401,7 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
     if (parse->mode == TN_LEX_SCHEMA && tn_expects(e, "a field"))
         return "a field is written `NAME = a | b`, `NAME = 4m | 6m`, `NAME = flag` or `zone NAME = FILL(2m) | FILL`, "
                "a forbidden tray `forbid tray(...)`";
-    if (tn_expects(e, "`)`") && tn_expects(e, "`,`") && tn_starts_expression(found))
+    if ((tn_expects(e, "`)`") || tn_expects(e, "`prune`")) && tn_expects(e, "`,`") && tn_starts_expression(found))
         return "a `,` is missing before this, or `and` or `or`";
     if (strcmp(found, "`)`") == 0 && tn_expects(e, "`and`") && !tn_expects(e, "`)`") && !tn_expects(e, "`,`"))
         return "no `(` is open that this could close: leave it out";
@@ -321,10 +410,14 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
         return "close the `(` before this";
     if (tn_expects(e, "`[`"))
         return "a plan stands in brackets: `[a b | c]`";
+    if (strcmp(found, "a text in quotes") == 0 && tn_expects(e, "`as`") && tn_expects(e, "`and`"))
+        return "a clause that is pruned has a text behind its name: `prune a as NAME \"text\"`";
     if (strcmp(found, "a text in quotes") == 0)
         return "a text comes directly after the name that it describes";
     if (tn_is_keyword(found) && tn_expects(e, "a name") && !tn_expects(e, "`tray`"))
         return "this is a word of the language; a name of yours has to be another word";
+    if (strcmp(found, "`=`") == 0 && tn_expects(e, "`from`") && tn_expects(e, "`using`") && name_follows(parse))
+        return "a library that is made from another is written `library NAME from OTHER { prune RULE }`";
     if (tn_expects(e, "`from`") && tn_expects(e, "`using`"))
         return "a library is written `library NAME using SCHEMA { ... }`";
     if (strcmp(found, "`{`") == 0 && tn_expects(e, "`=`"))

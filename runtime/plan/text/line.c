@@ -65,7 +65,8 @@ static tn_status in_brackets(const tn_schema *schema, const tn_word *word, tn_er
 {
     char fields[200];
     tn_fail(error, TN_INVALID, E_PLAN_SYNTAX,
-            "a plan line has no brackets: those are of the plans in a rule file's tests");
+            "a plan line has no brackets: those are of plans in a rule file's tests, and of single plans on a command "
+            "line");
     tn_error_help(error, "write every value of each tray, in the schema's order: %s",
                   tn_value_fields(schema, fields, sizeof fields));
     return tn_word_refuse(word, error);

@@ -110,6 +110,9 @@ ASKING(ask_why, {"explain", "{\"plan\": \"#1\"}"}, {"explain", "{\"plan\": \"1m 
        {"match", "{\"plans\": [\"2m lid | 1m -\"]}"}, {"prune", "{\"plans\": [\"2m lid | 1m lid\"]}"},
        {"rank", "{\"plan\": \"2m lid | 1m -\"}"}, {"unrank", "{\"rank\": \"2\"}"},
        {"relations", "{\"examples\": true}"})
+ASKING(ask_spellings, {"rank", "{\"plan\": \"[2m lid | 1m]\"}"},
+       {"rank", "{\"plan\": \"tray(2m, lid) | 1m, not lid\"}"}, {"complete", "{\"pattern\": \"[2m lid | 1m]\"}"},
+       {"complete", "{\"pattern\": \"2m lid | 1m -\"}"})
 ASKING(ask_lists, {"sample", "{\"count\": 2}"}, {"sample", "{\"per_length\": 1}"},
        {"enumerate", "{\"limit\": 2, \"lines\": true}"}, {"best", "{\"by\": [{\"measure\": \"long\"}], \"count\": 2}"})
 ASKING(ask_trade_offs, {"pareto", "{\"by\": [{\"measure\": \"long\"}, {\"measure\": \"lids\", \"most\": true}]}"},
@@ -244,9 +247,9 @@ static tartan_status measure(const tartan_module *module, tartan_error *error)
 
 static void fails_cleanly(void **state)
 {
-    static operation *const operations[] = {compile,        load,      ask_numbers, ask_why, ask_lists,
-                                            ask_trade_offs, ask_edits, ask_text,    ask_kit, ask_grammar,
-                                            ask_exports,    match,     walk,        measure};
+    static operation *const operations[] = {compile,     load,           ask_numbers, ask_why,  ask_spellings,
+                                            ask_lists,   ask_trade_offs, ask_edits,   ask_text, ask_kit,
+                                            ask_grammar, ask_exports,    match,       walk,     measure};
     for (size_t i = 0; i < sizeof operations / sizeof *operations; i++) {
         size_t failures = 0;
         for (int all_after = 0; all_after < 2; all_after++) {

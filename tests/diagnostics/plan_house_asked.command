@@ -1,0 +1,1 @@
+complete plan_house_asked.plan [2m|cafe;gable]

@@ -1,0 +1,1 @@
+explain plan_open_several.plan 2m|cafe
