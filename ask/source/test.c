@@ -2,8 +2,8 @@
 #include <stdlib.h>
 
 #include "ask/session/questions.h"
+#include "driver/coverage/coverage.h"
 #include "driver/place/kit.h"
-#include "driver/plan/coverage.h"
 #include "driver/plan/tests.h"
 #include "driver/solid/solid.h"
 
@@ -15,41 +15,67 @@ static void free_covered(void *made)
     free(made);
 }
 
-static void set_part(const tn_covered *covered, const tn_covered_part *from, tn_coverage_part *to)
+static tn_status set_test(const tn_covered *covered, const tn_covered_part *from, tn_coverage_part *to, tn_error *error)
 {
-    tn_place place;
-    bool known = tn_code_place(covered->opened, from->root, &place);
+    tn_buffer text = {0};
+    if (!from->telling.found)
+        return TN_OK;
+    const tn_covered_part *told = &covered->parts[from->telling.same_as];
+    to->has_subject = to->has_test = true;
+    to->subject = tn_covered_subject_name(covered, told);
+    if (!tn_covered_case(covered, told, &text)) {
+        free(text.data);
+        return tn_fail_memory(error);
+    }
+    to->test = text.data;
+    return TN_OK;
+}
+
+static tn_status set_part(const tn_covered *covered, const tn_covered_part *from, tn_coverage_part *to, tn_error *error)
+{
+    static const char *const outcomes[TN_FATE_COUNT] = {"noticed", "survives", "equal", "unknown"};
+    tn_place place = tn_covered_place(covered, from->place);
+    tn_buffer change = {0};
     to->text = from->text;
     to->kind = from->kind;
     to->depth = from->depth;
-    to->has_file = known;
-    to->has_line = known && place.line > 0;
-    to->has_column = known && place.column > 0;
-    if (known) {
-        to->file = place.path;
-        to->line = place.line;
-        to->column = place.column;
-    }
-    to->has_flips = !from->of_houses || from->counted;
+    to->has_file = to->has_line = to->has_column = place.line > 0;
+    to->file = place.path;
+    to->line = place.line;
+    to->column = place.column;
+    to->has_bytes = place.line > 0;
+    to->bytes = from->place.end - from->place.begin;
+    to->has_flips = from->counted;
     mpz_set(to->flips, from->flips);
     to->of = from->of_houses ? "houses" : "plans";
     to->noticed = from->noticed;
+    to->to = from->change ? from->change->to : NULL;
+    to->has_to = to->to != NULL;
+    to->around = from->around;
+    to->has_around = to->around != NULL;
+    to->outcome = outcomes[from->fate];
+    to->alone = from->alone;
+    if (!tn_covered_change(from, &change)) {
+        free(change.data);
+        return tn_fail_memory(error);
+    }
+    to->change = change.data;
+    return set_test(covered, from, to, error);
 }
 
-/* Parts come rule by rule; the first of each, at depth 0, has its name. */
+/* Parts come rule by rule. */
 static tn_status set_rules(const tn_covered *covered, tn_measured_coverage *to, tn_error *error)
 {
     tn_status status = TN_OK;
     for (size_t i = 0, next; status == TN_OK && i < covered->count; i = next) {
         tn_coverage_rule *rule = TN_ADD(coverage_rule, to->rules, error);
-        for (next = i + 1; next < covered->count && covered->parts[next].depth > 0;)
-            next++;
         if (!rule)
             return TN_MEMORY;
+        next = tn_covered_rule_end(covered, i);
         rule->name = covered->parts[i].name;
         status = TN_NEW_LIST(coverage_part, rule->parts, next - i, error);
         for (size_t k = i; status == TN_OK && k < next; k++)
-            set_part(covered, &covered->parts[k], &rule->parts.items[k - i]);
+            status = set_part(covered, &covered->parts[k], &rule->parts.items[k - i], error);
     }
     return status;
 }
@@ -83,10 +109,14 @@ static tn_status set_coverage(const tn_covered *covered, tn_measured_coverage *t
     const tn_library_record *library = covered->library;
     to->has_library = library != NULL;
     to->library = library ? tn_text(covered->opened->module, library->name) : NULL;
-    to->trays.from = library ? library->trays_min : 1;
-    to->trays.to = library ? library->trays_max : TN_COVERAGE_TRAYS;
+    to->trays.from = covered->min;
+    to->trays.to = covered->max;
     to->parts = covered->count;
     to->noticed = covered->noticed;
+    to->survive =
+        tn_covered_count(covered, false, TN_FATE_SURVIVES) + tn_covered_count(covered, true, TN_FATE_SURVIVES);
+    to->equal = tn_covered_count(covered, false, TN_FATE_EQUAL) + tn_covered_count(covered, true, TN_FATE_EQUAL);
+    to->untried = covered->changes.more;
     tn_status status = set_rules(covered, to, error);
     if (status == TN_OK)
         status = TN_NEW_LIST(coverage_form, to->forms, covered->form_count, error);
@@ -98,7 +128,7 @@ static tn_status set_coverage(const tn_covered *covered, tn_measured_coverage *t
 static tn_status measure(tn_session *session, const tn_coverage_request *request, tn_measured_coverage *to)
 {
     const tn_coverage_options options = {
-        .library = request->library, .max_states = (uint32_t)request->max_states, .houses = true};
+        .library = request->library, .max_states = (uint32_t)request->max_states, .houses = true, .tell = true};
     tn_covered *covered = calloc(1, sizeof *covered);
     tn_error error;
     if (!covered) {
@@ -183,6 +213,9 @@ tn_status tn_ask_test(tn_session *session, const tn_test_request *request, tn_re
     const tn_module *module = session->opened->module;
     tn_error error;
     *answer = (tn_reply){0};
+    if (request->coverage && (module->SOLID_count > 0 || module->KIT_count > 0))
+        return tn_session_refuse(session, "run the tests without --coverage and --write-tests",
+                                 "only a .plan file has tests whose coverage is measured");
     tn_status status = tn_reply_new(&tn_message_tested, answer, &error);
     if (status != TN_OK)
         return tn_session_fail(session, &error);

@@ -6,13 +6,13 @@
 #include "cli/common/option_rows.h"
 #include "cli/plan/library_job.h"
 #include "cli/plan/tested_text.h"
-#include "driver/plan/coverage.h"
+#include "driver/coverage/coverage.h"
 #include "runtime/base/utf8.h"
 
 typedef struct test_settings {
     tn_settings common;
     tn_plan_settings plans;
-    bool coverage, json;
+    bool coverage, write_tests, json;
     tn_option_number max_boxes;
 } test_settings;
 
@@ -61,7 +61,7 @@ static void write_report(tn_job *job, const test_report *report)
     } else if (tn_job_output(job, NULL, &output)) {
         if (settings_of(job)->json)
             write_json(report, output.stream);
-        else
+        else if (!settings_of(job)->write_tests)
             tn_tested_counts_text(&report->all, output.stream);
         tn_job_commit(job, &output);
     }
@@ -84,7 +84,8 @@ static void write_text(tn_job *job, const tn_tested *tested)
     tn_error error;
     bool written = true;
     for (size_t i = 0; written && i < tested->coverage.count; i++)
-        written = tn_covered_text(tested->coverage.items[i].shown.value, &text);
+        written = (settings_of(job)->write_tests ? tn_covered_tests
+                                                 : tn_covered_text)(tested->coverage.items[i].shown.value, &text);
     if (!written) {
         tn_fail_memory(&error);
         tn_job_fail(job, &error);
@@ -102,7 +103,7 @@ static void test_file(tn_job *job, test_report *report)
     const tn_test_request request = {.subject = {.library = settings->plans.library,
                                                  .has_max_states = settings->plans.max_states.given,
                                                  .max_states = settings->plans.max_states.value},
-                                     .coverage = settings->coverage,
+                                     .coverage = settings->coverage || settings->write_tests,
                                      .has_max_boxes = settings->max_boxes.given,
                                      .max_boxes = settings->max_boxes.value};
     tn_reply answer;
@@ -145,8 +146,9 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS test_settings
 static const tn_option options[] = {
-    FLAG("coverage", 0, coverage,
-         "say of each part of each rule how many plans it decides, and whether a test notices"),
+    FLAG("coverage", 0, coverage, "make small changes of the rules, and say which of them no test notices"),
+    FLAG("write-tests", 0, write_tests,
+         "write only test cases that tell the changes which no test notices, to be appended to the file"),
     FLAG("json", 0, json, "write JSON: how many passed and failed, and the coverage"),
     OPTION_LIBRARY,
     OPTION_MAX_STATES,
@@ -165,12 +167,19 @@ const tn_command tn_command_test = {
         "marked `todo` is expected to fail; when it passes, that is a failure too. The last line says how many "
         "passed and failed, and the exit code is 1 if one failed. Tests of files that are only used (`use`) do "
         "not run.\n\n"
-        "With --coverage, each part of each rule and clause is listed with two answers: how many plans would be "
-        "decided otherwise if the part never matched, counted exactly, and whether a test would notice. The plans "
-        "are those that the library generates or, without a library, all plans of up to 4 trays. Of rules about "
-        "houses it is the number of houses of the library that uses them, as far as counts of 100,000 states (or "
-        "--max-states) know it. Of a form each line is listed, with the number of tests whose houses have what it "
-        "says.\n\n"
+        "With --coverage, small changes are made of each rule about plans and each clause, one at a time: a part "
+        "never or always matches, an item is left out, a bound is a step lower or higher, a value is the next one, a "
+        "symmetric matches only one way, a clause is left out. Of each it is found out exactly how many plans are "
+        "decided otherwise, of all of the library's lengths or, without a library, of 1 to 4 trays. Changes that "
+        "pass every test are listed first, with the shortest plan that would tell them. Then come those that decide "
+        "every plan as before, which no test can tell, and the numbers of each rule.\n\n"
+        "--write-tests does the same and writes only that shortest plan for each change that passes every test, as a "
+        "case of a test block that says what the rules decide now. Read each, and append those that are right: "
+        "`tartan test FILE --write-tests >>FILE` appends them all. Nothing is written into a file by itself.\n\n"
+        "Of rules about houses --coverage lists each part with the number of houses of the library that uses them "
+        "that would be decided otherwise if it never matched, as far as counts of 100,000 states (or --max-states) "
+        "know it, and whether a test would notice. Of a form each line is listed, with the number of tests whose "
+        "houses have what it says.\n\n"
         "For designs of boxes it prints what they measure, and checks their requirements. Of a kit every model is "
         "placed "
         "with seed 0 and held to its requirements and its tests.",

@@ -20,6 +20,8 @@ typedef struct tn_questions {
     size_t part_count;
 } tn_questions;
 
+struct tn_imports;
+
 typedef struct tn_compile_options {
     tn_resolver resolver; /* of what is used */
     tn_attachments attachments;
@@ -31,6 +33,10 @@ typedef struct tn_compile_options {
     size_t more_count;
     tn_watch *watch; /* or NULL: compiling is given up (TN_STOPPED) between two texts once this says so */
     bool partial;    /* the text may be only a part of what it belongs to: an editor looks at one */
+    /* Of a .plan file: changes the syntax trees after they are read and before they are checked, which shows what the
+     * file would mean if it were written otherwise; or NULL. What it adds to them lives in the arena. */
+    void (*change)(void *context, tn_arena *arena, const struct tn_imports *imports);
+    void *change_context;
 } tn_compile_options;
 
 typedef struct tn_compilation {

@@ -193,6 +193,8 @@ static tn_status load(tn_importer *importer, const tn_input *input, uint32_t fil
     size_t use_count = 0;
     if (!importer->parse(importer->arena, importer->diagnostics, unit, &uses, &use_count))
         return TN_MEMORY;
+    unit->uses = uses;
+    unit->use_count = use_count;
     for (size_t i = 0; i < use_count; i++) {
         tn_status status = follow(importer, unit, &uses[i]);
         if (status != TN_OK)

@@ -26,9 +26,11 @@ typedef struct tn_unit {
     const char *identity; /* the same text has one, whatever way leads to it */
     const char *recorded; /* the path that the module records: the same wherever the standard library is installed */
     void *tree;           /* what the notation's parser made of it */
-    bool loading;         /* its uses are being followed */
-    bool incomplete;      /* something that it uses, directly or not, could not be had */
-    uint64_t *reach;      /* bit set over units: itself and what it uses, directly or not */
+    const tn_use *uses;   /* what it uses, and what that led to */
+    size_t use_count;
+    bool loading;    /* its uses are being followed */
+    bool incomplete; /* something that it uses, directly or not, could not be had */
+    uint64_t *reach; /* bit set over units: itself and what it uses, directly or not */
 } tn_unit;
 
 /* Parses a unit: sets its tree, and gives its uses in an array of the arena. False where out of memory. */

@@ -38,6 +38,8 @@ static tn_status compile(tn_compilation *compilation, const tn_compile_options *
         return tn_fail_memory(error);
     tn_status status = tn_import_all(compilation, options, compilation->notation->extension, parse_unit, imports);
     tn_asked_for asked = {0};
+    if (status == TN_OK && options->change)
+        options->change(options->change_context, compilation->arena, imports);
     if (status == TN_OK && options->questions)
         status = tn_ask(compilation->arena, diagnostics, &compilation->sources, options->questions, &asked, error);
     if (status == TN_OK)

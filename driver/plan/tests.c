@@ -10,6 +10,7 @@
 #include "driver/plan/clauses.h"
 #include "driver/plan/explain.h"
 #include "driver/plan/library.h"
+#include "driver/plan/outcome.h"
 #include "runtime/plan/text/text.h"
 
 #define EXPLAINED_LINES 12 /* of one rule, in a failure */
@@ -109,56 +110,10 @@ static tn_status match(block *b, const tn_test_case *test, tn_error *error)
     return status;
 }
 
-static bool length_drops(const block *b, const tn_test_case *test)
-{
-    return test->length < b->library->trays_min || test->length > b->library->trays_max;
-}
-
-/* Is the clause called `name` among those that drop the plan? */
-static bool is_reason(const block *b, const tn_test_case *test, const char *name)
-{
-    if (strcmp(name, "trays") == 0 && length_drops(b, test))
-        return true;
-    for (size_t i = 0; i < b->rule_count; i++)
-        if (strcmp(rule_name(b, i), name) == 0 && tn_clause_drops(b->module, b->library, i, b->interpreter.bits))
-            return true;
-    return false;
-}
-
-static bool is_dropped(const block *b, const tn_test_case *test)
-{
-    if (length_drops(b, test))
-        return true;
-    for (size_t i = 0; i < b->rule_count; i++)
-        if (tn_clause_drops(b->module, b->library, i, b->interpreter.bits))
-            return true;
-    return false;
-}
-
-static bool comes_out(const block *b, const tn_test_case *test)
-{
-    bool matched = !b->library && (b->interpreter.bits[0] & 1);
-    switch (test->expectation) {
-    case TN_EXPECT_MATCH:
-        return matched;
-    case TN_EXPECT_REJECT:
-        return !matched;
-    case TN_EXPECT_KEEP:
-        return !is_dropped(b, test);
-    case TN_EXPECT_DROP:
-    case TN_EXPECT_VALUE: /* value_tests.c */
-        break;
-    }
-    for (size_t i = 0; i < test->by_count; i++)
-        if (!is_reason(b, test, test->by[i]))
-            return false;
-    return is_dropped(b, test);
-}
-
 /* The names of all that drop the plan: "dense-end, narrow-pair". */
 static void write_reasons(const block *b, const tn_test_case *test, tn_buffer *out)
 {
-    if (length_drops(b, test))
+    if (tn_length_drops(b->library, test))
         tn_buffer_printf(out, "trays");
     for (size_t i = 0; i < b->rule_count; i++)
         if (tn_clause_drops(b->module, b->library, i, b->interpreter.bits))
@@ -314,7 +269,7 @@ static tn_status run_block(block *b, uint32_t max_states, const tn_test_watcher 
             status = match(b, test, error);
         if (status != TN_OK)
             break;
-        bool good = comes_out(b, test);
+        bool good = tn_case_comes_out(b->module, b->tests, test, b->interpreter.bits);
         count_case(b, test, good, good || test->todo ? NULL : report_failure(b, test), watcher, counts);
     }
     block_free(b);

@@ -4,8 +4,8 @@
 #ifndef TARTAN_DRIVER_REPORT_REPORT_H
 #define TARTAN_DRIVER_REPORT_REPORT_H
 
+#include "driver/coverage/coverage.h"
 #include "driver/plan/analysis.h"
-#include "driver/plan/coverage.h"
 #include "driver/plan/explain.h"
 
 typedef struct tn_report_options {

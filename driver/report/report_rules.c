@@ -259,30 +259,41 @@ static tn_status put_witness_alone(tn_reporting *r, const card *c)
 
 /* ---- coverage */
 
+static bool put_change(const tn_reporting *r, const tn_covered_part *part)
+{
+    const char *to = part->change ? part->change->to : NULL;
+    return tn_page_html(&r->page, "<tr><td>") && tn_page_text(&r->page, part->text) &&
+           tn_page_html(&r->page, "</td><td>") && tn_page_html(&r->page, tn_covered_change_words(part)) &&
+           (!to || (tn_page_html(&r->page, " <b>") && tn_page_text(&r->page, to) && tn_page_html(&r->page, "</b>"))) &&
+           tn_page_html(&r->page, "</td><td>");
+}
+
 static bool put_part(const tn_reporting *r, const tn_covered_part *part)
 {
-    return tn_buffer_printf(r->page.text, "<tr><td style=\"padding-left:%uem\">",
-                            part->depth < 12 ? part->depth : 12) &&
-           tn_page_text(&r->page, part->text) && tn_page_html(&r->page, "</td><td>") &&
-           tn_report_number(r, part->flips) &&
-           tn_buffer_printf(r->page.text, "</td><td>%s</td></tr>\n", part->noticed ? "yes" : "<b>no</b>");
+    return put_change(r, part) &&
+           (part->counted ? tn_report_number(r, part->flips) : tn_page_html(&r->page, "not counted")) &&
+           tn_buffer_printf(r->page.text, "</td><td>%s</td></tr>\n",
+                            part->noticed                 ? "yes"
+                            : part->fate == TN_FATE_EQUAL ? "none can"
+                                                          : "<b>no</b>");
 }
 
 static bool put_coverage(const tn_reporting *r, const card *c)
 {
-    size_t parts = 0, noticed = 0;
+    size_t parts = 0, noticed = 0, equal = 0;
     for (size_t i = 0; i < r->covered->count; i++)
         if (r->covered->parts[i].function == c->function) {
             parts++;
             noticed += r->covered->parts[i].noticed;
+            equal += r->covered->parts[i].fate == TN_FATE_EQUAL;
         }
     if (parts == 0)
         return true;
     bool good = tn_buffer_printf(r->page.text,
-                                 "<details><summary>coverage: tests notice %zu of %zu parts</summary>\n<table "
-                                 "class=\"parts\"><tr><th>if this part never matched</th><th>plans decided "
-                                 "otherwise</th><th>a test notices</th></tr>\n",
-                                 noticed, parts);
+                                 "<details><summary>coverage: tests notice %zu of %zu changes that decide plans "
+                                 "otherwise</summary>\n<table class=\"parts\"><tr><th>written</th><th>changed</th>"
+                                 "<th>plans decided otherwise</th><th>a test notices</th></tr>\n",
+                                 noticed, parts - equal);
     for (size_t i = 0; good && i < r->covered->count; i++)
         if (r->covered->parts[i].function == c->function)
             good = put_part(r, &r->covered->parts[i]);

@@ -54,24 +54,26 @@ TARTAN_API tartan_status tartan_tests_case(const tartan_tests *tests, size_t i, 
 
 /* ---- coverage */
 
-/* One part of a rule, or of a clause that is written out in its library. */
+/* A small change of a rule about plans, or of a clause of its library; or a part of a rule about houses, which never
+ * matches then. */
 typedef struct tartan_covered_part {
     size_t size;
-    const char *rule;  /* name of the rule or clause */
-    uint32_t depth;    /* 0: the whole rule */
-    const char *kind;  /* "neighbour", "tray", "and" */
-    const char *text;  /* as its author wrote it, cut off where it is long */
-    const char *plans; /* how many plans would be decided otherwise if the part never matched, in decimal;
-                        * NULL: the part is of a rule about houses */
-    bool noticed;      /* would a test case notice that? */
+    const char *rule;   /* name of the rule or clause */
+    uint32_t depth;     /* 0: the whole rule */
+    const char *kind;   /* what is changed: "neighbour", "tray", "item", "value" */
+    const char *text;   /* as its author wrote it, cut off where it is long */
+    const char *plans;  /* how many plans would be decided otherwise, in decimal; NULL: the part is of a rule about
+                         * houses, or that passes the limit of states */
+    bool noticed;       /* would a test case notice that? */
+    const char *change; /* what is made of the text: "never matches", "changed to `12'`" */
 } tartan_covered_part;
 TARTAN_SIZED(tartan_covered_part)
 
 typedef struct tartan_coverage tartan_coverage;
 
-/* Measures which parts of the rules the tests notice. Plans are counted among those that the library generates (name
- * NULL: the only one of the file; in a file without one, among all plans of up to 4 trays). What passes max_states (0:
- * 20,000) is left out. `watch` may be NULL. */
+/* Measures which small changes of the rules the tests notice. Plans are counted among all of the library's lengths (name
+ * NULL: the only one of the file; in a file without one, of 1 to 4 trays). What passes max_states (0: 20,000) is not
+ * counted. `watch` may be NULL. */
 TARTAN_API tartan_status tartan_source_cover(tartan_source *source, const char *library, uint32_t max_states,
                                              const tartan_watch *watch, tartan_coverage **coverage,
                                              tartan_error *error);

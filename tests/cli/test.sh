@@ -20,17 +20,14 @@ golden coverage_module "tartan build sheds.plan -o $scratch/sheds.tnb; tartan te
 golden coverage_steps 'tartan test steps.plan --coverage --library bays'
 golden coverage_limit 'tartan test parts.plan --coverage --max-states 3'
 
-# What coverage counts is what `count` says where the part is written as one that never matches.
-kept() { "$TARTAN" count "$1" --library "$2" --json | sed -n 's/^  "kept": "\([0-9]*\)",$/\1/p'; }
-flips() { "$TARTAN" test "$1" --coverage --library "$3" | awk -v part="  $2  " 'index($0, part) { gsub(",", "", $(NF - 1)); print $(NF - 1); exit }'; }
-never='(any and not any)'
-compare() { # FILE PART LIBRARY: for a part that only ever prunes more
-    cp "$1" "$scratch/before.plan"
-    sed "s/$(sed 's/[.*()]/[&]/g' <<<"$2")/$never/" "$1" >"$scratch/after.plan"
-    is "coverage of $2" "$(flips "$1" "$2" "$3")" "$(($(kept "$scratch/after.plan" "$3") - $(kept "$scratch/before.plan" "$3")))"
-}
-compare "$files/sheds.plan" 'neighbour(tray(door), tray(door))' sheds
-compare "$files/sheds.plan" 'tray(6m)' sheds
-compare stdlib/lahave-houses.plan "tray(4', great)" houses
-compare stdlib/lahave-houses.plan "tray(4', bay open)" houses
+golden coverage_rules 'for file in cov-prune cov-require-not; do tartan test $file.plan --coverage --json; done'
+golden write_tests 'tartan test sheds.plan --write-tests --library sheds'
+golden write_tests_none 'tartan test told.plan --write-tests'
+golden write_tests_json 'tartan test steps.plan --write-tests --library bays --json'
+
+# What coverage says of a change is what is said of a file in which it is written out; and what it writes tells what it was written for.
+for file in "$files/sheds.plan sheds" "$files/steps.plan bays" "$files/cov-require-not.plan" examples/narrow-lot/narrow.plan; do
+    # shellcheck disable=SC2086 # a file, and perhaps a library
+    python3 tests/coverage_edits.py $file >"$scratch/said" 2>&1 || fail "$(tail -n 3 "$scratch/said")"
+done
 finish

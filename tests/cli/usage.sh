@@ -61,6 +61,7 @@ golden json_no_command 'tartan cuont sheds.plan --diagnostics json'
 golden help_unknown 'tartan help rnak'
 
 # A file of another notation than the command is about: which command takes it.
+golden no_coverage_of_kits 'for file in bricks table; do tartan test $file --coverage; tartan test $file --write-tests; done'
 golden no_tests_in_growth 'tartan test ../../../stdlib/square.hemls --coverage'
 golden no_tests_in_grammar 'tartan test ../../../stdlib/words.bnf'
 golden no_library_in_growth 'tartan count ../../../stdlib/square.hemls'

@@ -7,7 +7,6 @@
 #include "driver/plan/clauses.h"
 #include "driver/report/report.h"
 #include "runtime/base/random.h"
-#include "runtime/plan/analysis/coverage.h"
 #include "runtime/plan/library/diff.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/parts.h"
@@ -23,7 +22,6 @@ enum {
     SCHEMAS = 8,
     CODES = 4096,
     RULES = 12,
-    CLAUSES = 4,
     LIBRARIES = 3,
     PARTS = 6,
     PLANS = 6,
@@ -295,35 +293,6 @@ static void compare(const tn_library *before, const tn_library *after)
     tn_library_diff_free(diff);
 }
 
-static void cover_parts(const tn_module *module, tn_coverage *coverage, uint32_t function)
-{
-    tn_parts parts;
-    mpz_t flips;
-    mpz_init(flips);
-    if (tn_parts_read(module, function, &parts, NULL) == TN_OK)
-        for (uint32_t i = 0; i < parts.count && i < PARTS; i++) {
-            tn_tray none[1] = {0};
-            if (tn_coverage_without(coverage, &parts.parts[i].root, 1, NULL) != TN_OK)
-                continue;
-            tn_coverage_flips(coverage, flips, NULL);
-            tn_coverage_holds(coverage, 0, true, none, 1);
-        }
-    tn_parts_clear(&parts);
-    mpz_clear(flips);
-}
-
-static void cover(const tn_library *library)
-{
-    const tn_module *module = tn_library_schema(library)->module;
-    const tn_library_record *record = tn_library_record_of(library);
-    tn_coverage *coverage;
-    if (record->clause_count == 0 || tn_coverage_of_library(library, &coverage, NULL) != TN_OK)
-        return;
-    for (uint32_t i = 0; i < record->clause_count && i < CLAUSES; i++)
-        cover_parts(module, coverage, module->CLAUSE_records[record->clause_first + i].holds);
-    tn_coverage_free(coverage);
-}
-
 static void use_library(const tn_opened *opened, const tn_schema *schema, uint32_t index, const tn_library *before)
 {
     tn_library *library;
@@ -337,7 +306,6 @@ static void use_library(const tn_opened *opened, const tn_schema *schema, uint32
     compare(library, library);
     if (before)
         compare(before, library);
-    cover(library);
     tn_library_free(library);
 }
 

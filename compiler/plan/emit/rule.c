@@ -195,9 +195,12 @@ void tn_emit_whole(tn_emit *emit, const tn_ast_expr *expr)
         emit_neighbour(emit, expr);
         break;
     case TN_EXPR_SYMMETRIC:
-        tn_emit_op(emit, first_part(expr)->node.span, TN_OP_CALL, mirrored(expr), 0);
-        tn_emit_op(emit, span, TN_OP_MIRROR, mirrored(expr), 0);
-        tn_emit_op(emit, span, TN_OP_OR, 0, 0);
+        if (expr->sides != TN_SIDES_MIRRORED)
+            tn_emit_op(emit, first_part(expr)->node.span, TN_OP_CALL, mirrored(expr), 0);
+        if (expr->sides != TN_SIDES_WRITTEN)
+            tn_emit_op(emit, span, TN_OP_MIRROR, mirrored(expr), 0);
+        if (expr->sides == TN_SIDES_BOTH)
+            tn_emit_op(emit, span, TN_OP_OR, 0, 0);
         break;
     case TN_EXPR_CELL:
     case TN_EXPR_ROOM:

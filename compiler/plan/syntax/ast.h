@@ -166,6 +166,9 @@ struct tn_checked_rule;
 struct tn_checked_spec;
 struct tn_checked_condition;
 
+/* Of a symmetric: which of its two ways counts; both, unless a changed tree says otherwise. */
+typedef enum tn_ast_sides { TN_SIDES_BOTH, TN_SIDES_WRITTEN, TN_SIDES_MIRRORED } tn_ast_sides;
+
 typedef struct tn_ast_expr {
     tn_ast_node node;
     tn_expr_kind kind;
@@ -175,6 +178,7 @@ typedef struct tn_ast_expr {
     tn_ast_list items;          /* tray, cell, room, section: tn_ast_item; of a section each ends with a tn_ast_shape */
     tn_ast_list kinds;          /* touch, apart: tn_ast_word after `by` */
     tn_ast_list parts;          /* tn_ast_expr; distance: source, destination, separator; call: arguments */
+    tn_ast_sides sides;         /* symmetric */
     bool loose;                 /* tray: of an open plan: blanks alone may separate its items */
     tn_ast_list names;          /* quantifier: the words that it binds; mirrored: fields */
     tn_operator op;             /* of a comparison */

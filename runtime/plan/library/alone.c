@@ -191,16 +191,46 @@ tn_status tn_library_alone_shortest(const tn_library *library, uint32_t i, tn_tr
     return status == TN_OK ? shortest(library, plans, trays, length, found, error) : status;
 }
 
-tn_status tn_library_pruned_shortest(const tn_library *library, uint32_t i, tn_tray **trays, size_t *length,
-                                     bool *found, tn_error *error)
+static tn_status combined_shortest(const tn_library *library, const tn_sparse *from, const tn_dfa *with,
+                                   tn_tray **trays, size_t *length, bool *found, tn_error *error)
 {
     tn_bounds bounds = tn_library_bounds(library);
     tn_sparse *plans = NULL;
     *trays = NULL;
-    tn_status status =
-        tn_sparse_combine(library->generator, library->clauses[i], TN_DFA_AND, "library", &bounds, &plans, error);
+    tn_status status = tn_sparse_combine(from, with, TN_DFA_AND, "library", &bounds, &plans, error);
     if (status == TN_OK)
         status = shortest(library, plans, trays, length, found, error);
     tn_sparse_free(plans);
+    return status;
+}
+
+tn_status tn_library_pruned_shortest(const tn_library *library, uint32_t i, tn_tray **trays, size_t *length,
+                                     bool *found, tn_error *error)
+{
+    return combined_shortest(library, library->generator, library->clauses[i], trays, length, found, error);
+}
+
+tn_status tn_library_kept_shortest(const tn_library *library, const tn_dfa *plans, tn_tray **trays, size_t *length,
+                                   bool *found, tn_error *error)
+{
+    return combined_shortest(library, library->live, plans, trays, length, found, error);
+}
+
+static tn_status ask_left(const tn_others *others, const void *what, void *answer, tn_error *error)
+{
+    const question_without *question = what;
+    return tn_others_left(others, question->skipped, question->plans, (tn_sparse **)answer, error);
+}
+
+tn_status tn_library_shortest_without(const tn_library *library, const bool *skipped, const tn_dfa *plans,
+                                      tn_tray **trays, size_t *length, bool *found, tn_error *error)
+{
+    const question_without question = {skipped, plans};
+    tn_sparse *left = NULL;
+    *trays = NULL;
+    tn_status status = ask_others(library, ask_left, &question, &left, error);
+    if (status == TN_OK)
+        status = shortest(library, left, trays, length, found, error);
+    tn_sparse_free(left);
     return status;
 }

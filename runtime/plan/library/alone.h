@@ -33,6 +33,15 @@ tn_status tn_library_alone_any(const tn_library *library, uint32_t i, bool *any,
 tn_status tn_library_count_without(const tn_library *library, const bool *skipped, const tn_dfa *plans, mpz_t count,
                                    tn_error *error);
 
+/* The shortest of these plans that all clauses keep but the `skipped` ones, and of those the first. *found: is there
+ * one? The caller frees *trays. TN_LIMIT as above. */
+tn_status tn_library_shortest_without(const tn_library *library, const bool *skipped, const tn_dfa *plans,
+                                      tn_tray **trays, size_t *length, bool *found, tn_error *error);
+
+/* The shortest plan that the library keeps and `plans` accepts, in the same way. */
+tn_status tn_library_kept_shortest(const tn_library *library, const tn_dfa *plans, tn_tray **trays, size_t *length,
+                                   bool *found, tn_error *error);
+
 /* How many plans that the library keeps `plans` accepts. */
 tn_status tn_library_count_kept(const tn_library *library, const tn_dfa *plans, mpz_t count, tn_error *error);
 

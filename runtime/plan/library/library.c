@@ -23,7 +23,7 @@ tn_status tn_library_name_clause(const tn_library *library, size_t i, tn_error *
     return inner.status;
 }
 
-static tn_status lower_clauses(tn_library *library, bool all_generated, tn_error *error)
+static tn_status lower_clauses(tn_library *library, const tn_library_options *options, tn_error *error)
 {
     size_t count = library->record->clause_count;
     uint32_t *functions = calloc(count + 1, sizeof *functions);
@@ -36,10 +36,12 @@ static tn_status lower_clauses(tn_library *library, bool all_generated, tn_error
     for (size_t i = 0; i < count; i++) {
         functions[i] = tn_library_clause(library, i)->holds;
         library->required_count += !tn_library_prunes(library, i);
-        library->applied_count += !tn_library_prunes(library, i) || !all_generated;
+        library->applied_count += !tn_library_prunes(library, i) || !options->all_generated;
     }
     tn_lowering *lowering = NULL;
     tn_status status = tn_classes_new(library->schema, functions, count, &library->classes, error);
+    if (status == TN_OK && options->classes)
+        status = tn_classes_refine(library->classes, options->classes, error);
     if (status == TN_OK)
         status = tn_lowering_new(library->classes, library->max_states, &lowering, error);
     if (status == TN_OK)
@@ -104,7 +106,7 @@ tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_libra
     if (status == TN_OK)
         status = add_late(library, error);
     if (status == TN_OK)
-        status = lower_clauses(library, options->all_generated, error);
+        status = lower_clauses(library, options, error);
     if (status == TN_OK)
         status = tn_library_combine(library, error);
     if (status == TN_OK)

@@ -15,7 +15,7 @@
 #include <gmp.h>
 
 #include "runtime/plan/library/memory.h"
-#include "runtime/plan/schema/schema.h"
+#include "runtime/plan/schema/classes.h"
 
 typedef struct tn_library tn_library;
 
@@ -25,12 +25,14 @@ typedef struct tn_library_options {
     bool all_generated;  /* leave pruning out: the plans are all that are generated */
     bool override_trays; /* take the lengths below instead of the library's own */
     uint32_t trays_min, trays_max;
-    uint32_t max_length;    /* the largest trays_max that is accepted; 0: 4,096 (E0805 past it) */
-    uint64_t max_table;     /* bytes of the table of counts; 0: 4 GiB (E0806 past it) */
-    uint64_t max_eager;     /* steps that combining the clauses may take before it is tried within the lengths; 0:
-                               3,000,000 */
-    tn_plan_memory *memory; /* where counts of clauses are found and kept, borrowed; or NULL */
-    unsigned threads;       /* that may count clauses; 0: as many as there are processors */
+    uint32_t max_length;       /* the largest trays_max that is accepted; 0: 4,096 (E0805 past it) */
+    uint64_t max_table;        /* bytes of the table of counts; 0: 4 GiB (E0806 past it) */
+    uint64_t max_eager;        /* steps that combining the clauses may take before it is tried within the lengths; 0:
+                                  3,000,000 */
+    tn_plan_memory *memory;    /* where counts of clauses are found and kept, borrowed; or NULL */
+    unsigned threads;          /* that may count clauses; 0: as many as there are processors */
+    const tn_classes *classes; /* its automata are over these classes, as far as they are finer than what its clauses
+                                  need: for who asks about other rules too; borrowed, or NULL */
 } tn_library_options;
 
 /* index: of the LIBRARY record. Fails with TN_LIMIT (E0802) naming the clause in the way. */

@@ -209,28 +209,57 @@ tn_status tn_others_count_alone(const tn_others *others, size_t number, mpz_t co
     return status;
 }
 
-tn_status tn_others_count(const tn_others *others, const bool *skipped, const tn_dfa *plans, mpz_t count,
-                          tn_error *error)
+/* *left := what of the plans the clauses keep that are not skipped, up to the last one that is. *end: the number behind
+ * that. */
+static tn_status keep_to_skipped(const tn_others *others, const bool *skipped, const tn_dfa *plans, tn_bounds *bounds,
+                                 tn_sparse **left, size_t *end, tn_error *error)
 {
     const tn_sequence *sequence = &others->sequence;
-    size_t first = sequence->count, end = 0;
-    tn_bounds bounds = others->each;
-    tn_sparse *left = NULL;
+    size_t first = sequence->count;
+    *end = 0;
     for (size_t i = 0; i < sequence->count; i++) {
         if (!skipped[others->order[i]])
             continue;
         first = i < first ? i : first;
-        end = i + 1;
+        *end = i + 1;
     }
-    tn_status status = tn_sequence_before(sequence, first, &bounds, &left, error);
+    tn_status status = tn_sequence_before(sequence, first, bounds, left, error);
     if (status == TN_OK)
-        status = tn_sparse_apply(&left, plans, TN_DFA_AND, sequence->what, &bounds, error);
-    for (size_t i = first; status == TN_OK && i < end; i++)
+        status = tn_sparse_apply(left, plans, TN_DFA_AND, sequence->what, bounds, error);
+    for (size_t i = first; status == TN_OK && i < *end; i++)
         if (!skipped[others->order[i]])
-            status = tn_sparse_apply(&left, sequence->clauses[i].dfa, sequence->clauses[i].keeping, sequence->what,
-                                     &bounds, error);
+            status = tn_sparse_apply(left, sequence->clauses[i].dfa, sequence->clauses[i].keeping, sequence->what,
+                                     bounds, error);
+    if (*end <= first)
+        *end = sequence->count;
+    return status;
+}
+
+tn_status tn_others_left(const tn_others *others, const bool *skipped, const tn_dfa *plans, tn_sparse **left,
+                         tn_error *error)
+{
+    tn_bounds bounds = others->each;
+    size_t end;
+    *left = NULL;
+    tn_status status = keep_to_skipped(others, skipped, plans, &bounds, left, &end, error);
     if (status == TN_OK)
-        status = count_rest(others, end > first ? end : sequence->count, &bounds, &left, count, error);
+        status = tn_sequence_apply(&others->sequence, end, &bounds, left, error);
+    if (status != TN_OK) {
+        tn_sparse_free(*left);
+        *left = NULL;
+    }
+    return status;
+}
+
+tn_status tn_others_count(const tn_others *others, const bool *skipped, const tn_dfa *plans, mpz_t count,
+                          tn_error *error)
+{
+    tn_bounds bounds = others->each;
+    tn_sparse *left = NULL;
+    size_t end;
+    tn_status status = keep_to_skipped(others, skipped, plans, &bounds, &left, &end, error);
+    if (status == TN_OK)
+        status = count_rest(others, end, &bounds, &left, count, error);
     tn_sparse_free(left);
     return status;
 }

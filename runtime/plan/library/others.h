@@ -37,6 +37,10 @@ tn_status tn_others_alone(const tn_others *others, size_t number, tn_sparse **pl
 /* How many plans of the library's lengths that is; the last automaton is not made. */
 tn_status tn_others_count_alone(const tn_others *others, size_t number, mpz_t count, tn_error *error);
 
+/* *left := these plans that all clauses keep but the `skipped` ones ([clause_count]); the caller's. */
+tn_status tn_others_left(const tn_others *others, const bool *skipped, const tn_dfa *plans, tn_sparse **left,
+                         tn_error *error);
+
 /* How many of these plans all clauses keep but the `skipped` ones ([clause_count]). */
 tn_status tn_others_count(const tn_others *others, const bool *skipped, const tn_dfa *plans, mpz_t count,
                           tn_error *error);

@@ -254,6 +254,23 @@ tn_status tn_classes_with_sums(const tn_schema *schema, const uint32_t *function
     return TN_OK;
 }
 
+tn_status tn_classes_refine(tn_classes *classes, const tn_classes *other, tn_error *error)
+{
+    tn_numbering pairs = {0};
+    bool ok = true;
+    for (tn_tray t = 0; ok && t < classes->schema->tray_count; t++) {
+        uint32_t pair = tn_number(&pairs, (uint64_t)classes->of_tray[t] << 32 | other->of_tray[t]);
+        ok = pair != UINT32_MAX;
+        classes->of_tray[t] = pair;
+    }
+    classes->count = pairs.count;
+    tn_numbering_clear(&pairs);
+    free(classes->representative);
+    free(classes->size);
+    classes->representative = classes->size = NULL;
+    return ok && finish(classes) ? TN_OK : tn_fail_memory(error);
+}
+
 void tn_classes_free(tn_classes *classes)
 {
     if (!classes)

@@ -118,8 +118,18 @@ ASKING(ask_lists, {"sample", "{\"count\": 2}"}, {"sample", "{\"per_length\": 1}"
 ASKING(ask_trade_offs, {"pareto", "{\"by\": [{\"measure\": \"long\"}, {\"measure\": \"lids\", \"most\": true}]}"},
        {"complete", "{\"pattern\": \"? | lid\"}"}, {"complete", "{\"pattern\": \"lid | lid\"}"},
        {"complete", "{\"pattern\": \"? | ...\", \"by\": [{\"measure\": \"lids\"}]}"})
-ASKING(ask_edits, {"diff", "{\"before\": \"old.plan\"}"}, {"test", "{\"coverage\": true}"}, {"coverage", "{}"})
+ASKING(ask_edits, {"diff", "{\"before\": \"old.plan\"}"}, {"test", "{}"})
 ASKING(ask_text, {"check", "{\"threads\": 1}"}, {"format", "{}"})
+
+/* A rule or two, as each of its changes is compiled. */
+static tartan_status ask_coverage(const tartan_module *module, tartan_error *error)
+{
+    static const char rules[] = "schema s { use = a | b }\nrule pair = neighbour(tray(a), tray(a))\n"
+                                "library l { trays 1  prune pair }\ntest pair { match [a | a] }\n";
+    static const asked_question asked[] = {{"coverage", "{}"}};
+    (void)module;
+    return ask_of("s.plan", rules, asked, 1, error);
+}
 
 /* Of kits and models of parts. */
 static tartan_status ask_kit(const tartan_module *module, tartan_error *error)
@@ -247,9 +257,10 @@ static tartan_status measure(const tartan_module *module, tartan_error *error)
 
 static void fails_cleanly(void **state)
 {
-    static operation *const operations[] = {compile,     load,           ask_numbers, ask_why,  ask_spellings,
-                                            ask_lists,   ask_trade_offs, ask_edits,   ask_text, ask_kit,
-                                            ask_grammar, ask_exports,    match,       walk,     measure};
+    static operation *const operations[] = {compile,   load,           ask_numbers, ask_why,      ask_spellings,
+                                            ask_lists, ask_trade_offs, ask_edits,   ask_coverage, ask_text,
+                                            ask_kit,   ask_grammar,    ask_exports, match,        walk,
+                                            measure};
     for (size_t i = 0; i < sizeof operations / sizeof *operations; i++) {
         size_t failures = 0;
         for (int all_after = 0; all_after < 2; all_after++) {

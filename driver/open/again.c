@@ -1,0 +1,61 @@
+/* Opens a file once more, from the texts that were opened before. */
+#include "driver/open/again.h"
+
+#include <string.h>
+
+#include "compiler/common/import.h"
+
+/* What is changed, and who finds the texts. */
+typedef struct changing {
+    tn_change_tree *change;
+    void *context;
+} changing;
+
+static void change_trees(void *context, tn_arena *arena, const struct tn_imports *imports)
+{
+    const changing *c = context;
+    for (size_t i = 0; i < imports->count; i++)
+        c->change(c->context, arena, imports->units[i]->tree, i + 1 == imports->count);
+}
+
+static const tn_unit *unit_named(const tn_compilation *compilation, const char *name)
+{
+    for (size_t i = 0; i < compilation->imports->count; i++) {
+        const tn_unit *unit = compilation->imports->units[i];
+        if (strcmp(compilation->sources.files[unit->file].path, name) == 0)
+            return unit;
+    }
+    return NULL;
+}
+
+static tn_input input_of(const tn_compilation *compilation, const tn_unit *unit)
+{
+    const tn_source *source = &compilation->sources.files[unit->file];
+    return (tn_input){source->text, source->size, source->path, unit->identity, unit->recorded};
+}
+
+/* What a `use` led to before. */
+static tn_status resolve(void *context, const tn_request *request, tn_input *found, char *meant, tn_error *error)
+{
+    const tn_compilation *compilation = context;
+    const tn_unit *user = unit_named(compilation, request->user);
+    (void)meant;
+    for (size_t i = 0; user && i < user->use_count; i++)
+        if (user->uses[i].unit && strcmp(user->uses[i].path, request->path) == 0) {
+            *found = input_of(compilation, user->uses[i].unit);
+            return TN_OK;
+        }
+    return tn_fail(error, TN_INVALID, E_IMPORT_NOT_FOUND, "`%.200s` was not used before", request->path);
+}
+
+tn_status tn_open_again(const tn_opened *opened, tn_change_tree *change, void *context, tn_opened *again)
+{
+    const tn_compilation *before = &opened->compilation;
+    const tn_input input = input_of(before, before->imports->units[before->imports->count - 1]);
+    changing c = {change, context};
+    const tn_compile_options options = {.resolver = {resolve, (void *)(uintptr_t)before},
+                                        .watch = opened->module->watch,
+                                        .change = change_trees,
+                                        .change_context = &c};
+    return tn_open_text(before->notation, &input, &options, again);
+}
