@@ -292,6 +292,8 @@ void tn_check_schema(tn_check *check, tn_checked_schema *schema);
 /* ---- trays.c */
 void tn_check_forbids(tn_check *check, tn_checked_schema *schema);
 void tn_check_numbers(tn_check *check, tn_checked_schema *schema);
+/* Looks for a legal tray that meets both, a value of each field; false: none was found soon. */
+bool tn_check_both(const tn_checked_spec *a, const tn_checked_spec *b, uint8_t *values);
 
 /* ---- extend.c: schemas made from others */
 /* Finds the schema that it is made from, and checks that first; reports circles. */

@@ -338,7 +338,10 @@ static bool read_name(tn_item_reader *item, tn_operator op)
         return bad_item(item, word->node.span, "names cannot be compared by size");
     if (!mark_name(item, word))
         return false;
-    mark_by_order(item, op);
+    if (ordered)
+        mark_by_order(item, op);
+    else if (op == TN_UNEQUAL)
+        invert(item);
     return true;
 }
 

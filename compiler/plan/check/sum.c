@@ -440,7 +440,7 @@ void tn_check_remainder(tn_check *check, tn_ast_expr *expr)
     if (!good || !few_matches(check, expr, sides, count))
         return;
     tn_sum_amount both;
-    if (!tn_same_power(check, sides[0].constant, left->node.span, sides[1].constant, middle->node.span, "divided by",
+    if (!tn_same_power(check, sides[0].constant, left->node.span, sides[1].constant, middle->node.span, "a divisor of",
                        &both) ||
         !tn_same_power(check, both, left->node.span, sides[2].constant, right->node.span, "compared with", &both))
         return;

@@ -26,21 +26,40 @@ static bool next(const tn_checked_schema *schema, uint8_t *values)
 
 /* ---- forbidden trays */
 
+static bool is_legal(const tn_checked_schema *schema, const uint8_t *values)
+{
+    for (uint32_t i = 0; i < schema->forbid_count; i++)
+        if (meets(schema, schema->forbids[i], values))
+            return false;
+    return true;
+}
+
 /* Looks for one legal tray, among so many combinations at most: a schema that needs longer has legal ones. */
 static bool has_legal_tray(const tn_checked_schema *schema)
 {
     enum { LEGAL_TRIES = 1 << 16 };
     uint8_t values[TN_FIELDS_MAX] = {0};
     for (int tries = 0; tries < LEGAL_TRIES; tries++) {
-        bool legal = true;
-        for (uint32_t i = 0; i < schema->forbid_count && legal; i++)
-            legal = !meets(schema, schema->forbids[i], values);
-        if (legal)
+        if (is_legal(schema, values))
             return true;
         if (!next(schema, values))
             return false;
     }
     return true;
+}
+
+bool tn_check_both(const tn_checked_spec *a, const tn_checked_spec *b, uint8_t *values)
+{
+    enum { BOTH_TRIES = 1 << 16 };
+    const tn_checked_schema *schema = a->schema;
+    memset(values, 0, schema->field_count);
+    for (int tries = 0; tries < BOTH_TRIES; tries++) {
+        if (meets(schema, a, values) && meets(schema, b, values) && is_legal(schema, values))
+            return true;
+        if (!next(schema, values))
+            return false;
+    }
+    return false;
 }
 
 /* Those that `of` declares: the schema, or one that it is made from. False: no more can be added. */

@@ -1,6 +1,8 @@
 /* Rules that are legal, but hardly say what was meant. */
+#include <stdio.h>
 #include <string.h>
 
+#include "compiler/common/limits.h"
 #include "compiler/plan/check/check.h"
 
 /* Could one tray meet both? And does each leave trays out that the other lets in? (If not, one of them says nothing
@@ -180,8 +182,71 @@ static void warn_every(tn_check *check, const tn_ast_expr *every)
                                  "this says that there is none: `every` asks of each single tray what takes %u or more",
                                  (unsigned)trays);
     tn_help(check->diagnostics, d,
-            "for what stands beside each, deny that one is far from it: `not distance(from A, to B, by quantity(any, n "
-            "> 0))`");
+            "what stands beside each, or near it, is asked by `every A beside B`, `every A within 2 of B`");
+}
+
+/* The tray as a plan of its own. */
+static void say_tray(const tn_checked_schema *schema, const uint8_t *values, char *text, size_t size)
+{
+    size_t used = 0;
+    *text = '\0';
+    for (uint32_t f = 0; f < schema->field_count && used < size; f++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s", f ? " " : "",
+                                 schema->fields[f].values[values[f]].spelling);
+}
+
+/* `every tray(cafe) within 12m of tray(public)`, and a café may be public: it is not near itself. */
+static void warn_near(tn_check *check, const tn_ast_expr *near)
+{
+    const tn_ast_expr *a = (const tn_ast_expr *)near->parts.first, *b = (const tn_ast_expr *)a->node.next;
+    uint8_t values[TN_FIELDS_MAX];
+    bool trays = b && a->kind == TN_EXPR_TRAY && b->kind == TN_EXPR_TRAY && a->spec && b->spec && !a->tests.first &&
+                 !b->tests.first && !a->spec->broken && !b->spec->broken;
+    if (!trays || a->spec == b->spec || !tn_check_wanted(check, W_NEAR_ITSELF) ||
+        !tn_check_both(a->spec, b->spec, values))
+        return;
+    char line[200];
+    say_tray(a->spec->schema, values, line, sizeof line);
+    bool far = near->near == TN_NEAR_APART, every = near->kind == TN_EXPR_EVERY_NEAR;
+    tn_diagnostic *d = tn_report(check->diagnostics, W_NEAR_ITSELF, near->node.span,
+                                 "a tray may be both, and is then not near itself: the plan `%s` %s this", line,
+                                 far ? "matches" : "does not match");
+    tn_help(check->diagnostics, d, "%s",
+            every && !far ? "if that is not meant, ask it of those alone that are not both: `tray(..., not ...)`; else write "
+                            "`allow W022`"
+                          : "if that is not meant, say what a tray that is both is to be; else write `allow W022`");
+}
+
+static bool is_number_of_stretch(const tn_ast_expr *expr)
+{
+    bool more = expr->op == TN_AT_LEAST || expr->op == TN_GREATER;
+    return (expr->kind == TN_EXPR_COMPARE && more && !expr->whole) || expr->kind == TN_EXPR_QUANTITY ||
+           expr->kind == TN_EXPR_SUM;
+}
+
+/* `sum(beds) > 2 and not tray(firedoor)` as a rule: in the whole plan there is no such tray. Whoever means a stretch
+ * without one says so by `where`. */
+static void warn_and_not(tn_check *check, const tn_ast_expr *conjunction)
+{
+    const tn_ast_expr *first = (const tn_ast_expr *)conjunction->parts.first,
+                      *second = (const tn_ast_expr *)conjunction->parts.last;
+    const tn_ast_expr *not = first->kind == TN_EXPR_NOT ? first : second, *number = not == first ? second : first;
+    const tn_ast_expr *tray = (const tn_ast_expr *)not->parts.first;
+    if (!check->rule || check->rule->ast->body != conjunction || conjunction->parts.count != 2 ||
+        not->kind != TN_EXPR_NOT || tray->kind != TN_EXPR_TRAY || !is_number_of_stretch(number) ||
+        !tn_check_wanted(check, W_NOT_IN_STRETCH))
+        return;
+    tn_span a = not->node.span, b = number->node.span;
+    words none = words_between(check, a.file, a.begin, a.end), count = words_between(check, b.file, b.begin, b.end);
+    tn_diagnostic *d = tn_report(check->diagnostics, W_NOT_IN_STRETCH, conjunction->node.span,
+                                 "this is about the whole plan: there is no such tray anywhere in it");
+    if (!memchr(none.text, '\n', none.size) && !memchr(count.text, '\n', count.size)) {
+        tn_help(check->diagnostics, d, "a stretch without one is `%.*s where %.*s`", (int)none.size, none.text,
+                (int)count.size, count.text);
+        tn_replace_with(check->diagnostics, d, "%.*s where %.*s", (int)none.size, none.text, (int)count.size, count.text);
+    } else {
+        tn_help(check->diagnostics, d, "a stretch without one is `not ... where ...`");
+    }
 }
 
 /* `somewhere`: is the expression about the plan (judgement H), where the parts of an `and` need not be met in one
@@ -192,6 +257,12 @@ static void warn(tn_check *check, const tn_ast_expr *expr, bool somewhere)
     case TN_EXPR_AND:
         if (somewhere)
             warn_two_trays(check, expr);
+        warn_and_not(check, expr);
+        break;
+    case TN_EXPR_NEAR:
+    case TN_EXPR_EVERY_NEAR:
+        warn_near(check, expr);
+        somewhere = false;
         break;
     case TN_EXPR_NEIGHBOUR:
         warn_neighbour(check, expr);

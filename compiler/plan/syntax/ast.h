@@ -153,7 +153,7 @@ typedef enum tn_expr_kind {
 typedef enum tn_ast_region { TN_AST_STRETCH, TN_AST_BEFORE, TN_AST_AFTER } tn_ast_region;
 
 /* How a stretch lies to another one that shares no tray with it. */
-typedef enum tn_near { TN_NEAR_BESIDE, TN_NEAR_WITHIN, TN_NEAR_APART } tn_near;
+typedef enum tn_nearness { TN_NEAR_BESIDE, TN_NEAR_WITHIN, TN_NEAR_APART } tn_nearness;
 
 /* Constants of sums: an exact rational with a dimension (amount.h). */
 typedef struct tn_sum_amount {
@@ -182,7 +182,7 @@ typedef struct tn_ast_expr {
     bool loose;                 /* tray: of an open plan: blanks alone may separate its items */
     tn_ast_list names;          /* quantifier: the words that it binds; mirrored: fields */
     tn_operator op;             /* of a comparison */
-    tn_near near;               /* of a relation to what lies around */
+    tn_nearness near;               /* of a relation to what lies around */
     tn_ast_region region;       /* quantity, occurrences, sum */
     struct tn_ast_expr *figure; /* sum: what it adds up, where that is more than a field */
     tn_ast_cond *condition;
@@ -431,7 +431,7 @@ tn_ast_expr *tn_ast_implies(tn_parse *parse, tn_span span, tn_ast_expr *left, tn
 tn_ast_expr *tn_ast_implies_chained(tn_parse *parse, tn_span span, tn_ast_expr *first);
 tn_ast_expr *tn_ast_every(tn_parse *parse, tn_span span, tn_ast_expr *which, tn_ast_expr *what);
 /* distance: NULL for `beside`. */
-tn_ast_expr *tn_ast_near(tn_parse *parse, tn_span span, tn_near near, tn_ast_expr *source, tn_ast_expr *distance,
+tn_ast_expr *tn_ast_near(tn_parse *parse, tn_span span, tn_nearness near, tn_ast_expr *source, tn_ast_expr *distance,
                          tn_ast_expr *destination);
 /* `a beside b beside c`: E0409, and the first two alone. */
 tn_ast_expr *tn_ast_near_chained(tn_parse *parse, tn_span span, tn_ast_expr *first);

@@ -117,7 +117,7 @@ tn_ast_expr *tn_ast_every(tn_parse *parse, tn_span span, tn_ast_expr *which, tn_
     return two(parse, TN_EXPR_EVERY, span, which, what);
 }
 
-tn_ast_expr *tn_ast_near(tn_parse *parse, tn_span span, tn_near near, tn_ast_expr *source, tn_ast_expr *distance,
+tn_ast_expr *tn_ast_near(tn_parse *parse, tn_span span, tn_nearness near, tn_ast_expr *source, tn_ast_expr *distance,
                          tn_ast_expr *destination)
 {
     tn_ast_expr *expr = two(parse, TN_EXPR_NEAR, span, source, destination);
