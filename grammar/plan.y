@@ -39,6 +39,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
     tn_ast_literal literal;
     tn_ast_range range;
     tn_operator op;
+    tn_ast_region region;
     tn_ast_cond *cond;
     tn_ast_expr *expr;
     tn_ast_body body;
@@ -67,7 +68,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token IN "`in`" MOD "`mod`" ROOM "`room`" TOUCH "`touch`" APART "`apart`" THROUGH "`through`"
 %token <word> DECIMAL "a decimal number"
 %token MEASURE "`measure`" LET "`let`" NUMBER_FIELD "`number`" WHERE "`where`" MATCHES "`matches`" SOME "`some`" EVERY "`every`"
-%token IMPLIES "`implies`" PLAN "`plan`" MIN "`min`" MAX "`max`" VALUE "`value`"
+%token IMPLIES "`implies`" WITHIN "`within`" LEAST "`least`" BEFORE "`before`" AFTER "`after`" PLAN "`plan`" MIN "`min`" MAX "`max`" VALUE "`value`"
 %token ONE_EXPRESSION "an expression" ONE_PATTERN "an open plan"
 %token PLUS "`+`" STAR "`*`" SLASH "`/`" ELLIPSIS "`...`" QUESTION "`?`"
 %token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
@@ -95,6 +96,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <literal> plan
 %type <range> range
 %type <op> comparison
+%type <region> region
 %type <cond> condition cond_ors cond_and cond_ands cond_not cond_atom compare
 %type <form> form_head
 %type <form_clause> thickness relation price
@@ -105,7 +107,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <word> size outside_side number turn section
 %type <expr> material_where
 %type <expr> cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
-%type <expr> expression implied disjunction ors and ands not compared comparable additive term signed primary pattern_tray head_number
+%type <expr> expression implied qualified disjunction ors and ands not compared comparable nearness additive term signed primary pattern_tray head_number
 %type <expr> part tray_sum tray_term tray_signed tray_atom
 %type <list> params number_cases pattern call_args
 %type <node> number_item number_case
@@ -300,11 +302,20 @@ allow
 expression
     : disjunction
     | implied
+    | qualified
+    ;
+
+/* A stretch, and what else is so of it and of what lies around it. */
+qualified
+    : disjunction WHERE disjunction             { $$ = tn_ast_where(parse, @$, $1, $3); }
+    | qualified WHERE disjunction               { $$ = tn_ast_mixed(parse, @$, $1); }
+    | qualified IMPLIES disjunction             { $$ = tn_ast_mixed(parse, @$, $1); }
     ;
 
 implied
     : disjunction IMPLIES disjunction           { $$ = tn_ast_implies(parse, @$, $1, $3); }
     | implied IMPLIES disjunction               { $$ = tn_ast_implies_chained(parse, @$, $1); }
+    | implied WHERE disjunction                 { $$ = tn_ast_mixed(parse, @$, $1); }
     ;
 
 disjunction
@@ -338,6 +349,19 @@ compared
     | comparable
     | comparable comparison additive            { $$ = tn_ast_compared_chained(parse, @$, $1); }
     | additive IN additive DOTS additive        { $$ = tn_ast_sum_within(parse, @$, $1, $3, $5); }
+    | additive MOD additive comparison additive { $$ = tn_ast_sum_remainder(parse, @$, $1, $3, $4, $5); }
+    | nearness
+    | EVERY nearness                            { $$ = tn_ast_every_near(parse, @$, $2); }
+    ;
+
+/* A stretch, and what lies around it. */
+nearness
+    : additive BESIDE additive                  { $$ = tn_ast_near(parse, @$, TN_NEAR_BESIDE, $1, NULL, $3); }
+    | additive WITHIN additive OF additive      { $$ = tn_ast_near(parse, @$, TN_NEAR_WITHIN, $1, $3, $5); }
+    | additive AT LEAST additive FROM EVERY additive
+                                                { $$ = tn_ast_near(parse, @$, TN_NEAR_APART, $1, $4, $7); }
+    | nearness BESIDE additive                  { $$ = tn_ast_near_chained(parse, @$, $1); }
+    | nearness WITHIN additive OF additive      { $$ = tn_ast_near_chained(parse, @$, $1); }
     ;
 
 comparable
@@ -369,10 +393,11 @@ primary
     | head_number
     | TRAYS                                     { $$ = tn_ast_leaf(parse, TN_EXPR_TRAYS, @$); }
     | MATCHES OPEN expression CLOSE             { $$ = tn_ast_of(parse, TN_EXPR_MATCHES, @$, tn_ast_one($3)); }
-    | QUANTITY OPEN expression CLOSE            { $$ = tn_ast_of(parse, TN_EXPR_QUANTITY, @$, tn_ast_one($3)); }
-    | OCCURRENCES OPEN expression CLOSE         { $$ = tn_ast_of(parse, TN_EXPR_OCCURRENCES, @$, tn_ast_one($3)); }
-    | SUM OPEN tray_sum CLOSE                   { $$ = tn_ast_sum(parse, @$, $3, NULL, NULL); }
-    | SUM OPEN tray_sum OF expression CLOSE     { $$ = tn_ast_sum(parse, @$, $3, $5, NULL); }
+    | QUANTITY OPEN expression region CLOSE     { $$ = tn_ast_counted(parse, TN_EXPR_QUANTITY, @$, $3, $4, NULL); }
+    | OCCURRENCES OPEN expression region CLOSE  { $$ = tn_ast_counted(parse, TN_EXPR_OCCURRENCES, @$, $3, $4, NULL); }
+    | SUM OPEN tray_sum region CLOSE            { $$ = tn_ast_sum(parse, @$, $3, NULL, $4, NULL); }
+    | SUM OPEN tray_sum OF expression region CLOSE
+                                                { $$ = tn_ast_sum(parse, @$, $3, $5, $6, NULL); }
     | SOME names IN NAME OPEN expression CLOSE  { $$ = tn_ast_quantifier(parse, TN_EXPR_SOME, @$, $2, $4, $6); }
     | EVERY names IN NAME OPEN expression CLOSE { $$ = tn_ast_quantifier(parse, TN_EXPR_EACH, @$, $2, $4, $6); }
     | EVERY OPEN expression COMMA expression CLOSE
@@ -385,13 +410,14 @@ primary
     | SYMMETRIC primary                         { $$ = tn_ast_of(parse, TN_EXPR_SYMMETRIC, @$, tn_ast_one($2)); }
     | MANY OPEN expression CLOSE                { $$ = tn_ast_of(parse, TN_EXPR_MANY, @$, tn_ast_one($3)); }
     | OPTIONAL OPEN expression CLOSE            { $$ = tn_ast_of(parse, TN_EXPR_OPTIONAL, @$, tn_ast_one($3)); }
-    | QUANTITY OPEN expression COMMA condition CLOSE
-                                                { $$ = tn_ast_counted(parse, TN_EXPR_QUANTITY, @$, $3, $5); }
-    | OCCURRENCES OPEN expression COMMA condition CLOSE
-                                                { $$ = tn_ast_counted(parse, TN_EXPR_OCCURRENCES, @$, $3, $5); }
-    | SUM OPEN tray_sum COMMA condition CLOSE  { $$ = tn_ast_sum(parse, @$, $3, NULL, $5); }
-    | SUM OPEN tray_sum OF expression COMMA condition CLOSE
-                                                { $$ = tn_ast_sum(parse, @$, $3, $5, $7); }
+    | QUANTITY OPEN expression region COMMA condition CLOSE
+                                                { $$ = tn_ast_counted(parse, TN_EXPR_QUANTITY, @$, $3, $4, $6); }
+    | OCCURRENCES OPEN expression region COMMA condition CLOSE
+                                                { $$ = tn_ast_counted(parse, TN_EXPR_OCCURRENCES, @$, $3, $4, $6); }
+    | SUM OPEN tray_sum region COMMA condition CLOSE
+                                                { $$ = tn_ast_sum(parse, @$, $3, NULL, $4, $6); }
+    | SUM OPEN tray_sum OF expression region COMMA condition CLOSE
+                                                { $$ = tn_ast_sum(parse, @$, $3, $5, $6, $8); }
     | CELL OPEN specifier CLOSE                 { $$ = tn_ast_house_leaf(parse, TN_EXPR_CELL, @$, $3); }
     | ROOM OPEN specifier CLOSE                 { $$ = tn_ast_house_leaf(parse, TN_EXPR_ROOM, @$, $3); }
     | SECTION OPEN section_items CLOSE          { $$ = tn_ast_house_leaf(parse, TN_EXPR_SECTION, @$, $3); }
@@ -405,6 +431,13 @@ primary
                                                 { $$ = tn_ast_meeting(parse, TN_EXPR_APART, @$, tn_ast_append(tn_ast_append(tn_ast_one($3), $6), $12), $9); }
     | DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE
                                                 { $$ = tn_ast_distance(parse, @$, $4, $7, $10); }
+    ;
+
+/* Where a count or a sum looks, of the stretch that a `where` is about. */
+region
+    : %empty                                    { $$ = TN_AST_STRETCH; }
+    | BEFORE                                    { $$ = TN_AST_BEFORE; }
+    | AFTER                                     { $$ = TN_AST_AFTER; }
     ;
 
 by_kinds

@@ -280,7 +280,7 @@ static tn_status set_lists(const tn_explanation *why, const tn_why *node, tn_exp
     tn_status status = TN_NEW_LIST(tray_stretch, to->trays, node->stretch_count, error);
     for (uint32_t i = 0; status == TN_OK && i < node->stretch_count; i++)
         to->trays.items[i] = stretch_of(why->stretches[node->stretch_first + i]);
-    to->has_gaps = tn_why_part(why, node)->kind == TN_PART_DISTANCE;
+    to->has_gaps = tn_explanation_gaps(why, (uint32_t)(node - why->nodes)) == (uint32_t)(node - why->nodes);
     if (status != TN_OK || !to->has_gaps)
         return status;
     status = TN_NEW_LIST(explained_gap, to->gaps, node->gap_count, error);

@@ -76,7 +76,7 @@ bool tn_words_places(const tn_explanation *why, const tn_why *node);
 
 /* What there is to say about a node beside its text: where it matched, what it counted, what was closest. */
 void tn_words_evidence(const tn_explanation *why, const tn_why *node, tn_buffer *out);
-void tn_words_gap(const tn_explanation *why, const tn_why *node, const tn_gap *gap, tn_buffer *out);
+void tn_words_gap(const tn_explanation *why, uint32_t index, const tn_gap *gap, tn_buffer *out);
 
 /* "width 8', body open:8'": a tray's values that do not meet a specifier. */
 void tn_words_wrong(const tn_explanation *why, const tn_why *node, tn_buffer *out);

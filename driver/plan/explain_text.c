@@ -22,16 +22,18 @@ static size_t width_of(const char *text)
     return width;
 }
 
-static void write_gaps(writing *w, const tn_why *node, unsigned depth)
+static void write_gaps(writing *w, uint32_t index, unsigned depth)
 {
+    const tn_why *node = &w->why->nodes[index];
     for (uint32_t i = 0; i < node->gap_count && (w->full || i < 4); i++) {
         tn_buffer line = {0};
-        tn_words_gap(w->why, node, &w->why->gaps[node->gap_first + i], &line);
+        tn_words_gap(w->why, index, &w->why->gaps[node->gap_first + i], &line);
         w->ok &= !line.failed && tn_buffer_printf(w->out, "%*s%s\n", (int)(2 * depth + 6), "", line.data);
         free(line.data);
     }
     bool vacuous = node->matched && node->gap_count == 0 && node->stretch_count > 0;
-    if (vacuous)
+    bool missing = tn_why_part(w->why, node)->kind == TN_PART_NEAR && !node->matched && node->gap_count == 0;
+    if (vacuous || missing)
         w->ok &= tn_buffer_printf(w->out, "%*sno destination anywhere\n", (int)(2 * depth + 6), "");
 }
 
@@ -59,8 +61,9 @@ static void write_tree(writing *w)
     for (uint32_t i = 0; i < rows.count; i++) {
         const tn_why *node = &w->why->nodes[rows.nodes[i]];
         write_line(w, node, rows.depths[i]);
-        if (tn_why_part(w->why, node)->kind == TN_PART_DISTANCE)
-            write_gaps(w, node, rows.depths[i]);
+        uint32_t gaps = tn_explanation_gaps(w->why, rows.nodes[i]);
+        if (gaps != TN_NO_WHY)
+            write_gaps(w, gaps, rows.depths[i]);
     }
     tn_explain_rows_clear(&rows);
 }

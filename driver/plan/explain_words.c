@@ -146,8 +146,11 @@ void tn_words_evidence(const tn_explanation *why, const tn_why *node, tn_buffer 
         tn_buffer_printf(out, "%snot opened further", out->size ? ", " : "");
 }
 
-void tn_words_gap(const tn_explanation *why, const tn_why *node, const tn_gap *gap, tn_buffer *out)
+void tn_words_gap(const tn_explanation *why, uint32_t index, const tn_gap *gap, tn_buffer *out)
 {
+    static const char *const verdicts[] = {
+        [TN_GAP_GOOD] = "", [TN_GAP_TOO_NEAR] = ": too near", [TN_GAP_TOO_FAR] = ": too far"};
+    const tn_why *node = &why->nodes[index];
     named_stretch(gap->source, out);
     tn_buffer_printf(out, " to ");
     named_stretch(gap->destination, out);
@@ -164,7 +167,7 @@ void tn_words_gap(const tn_explanation *why, const tn_why *node, const tn_gap *g
         tn_buffer_printf(out, ", ");
         say_number(why, separator, gap->number, out);
     }
-    tn_buffer_printf(out, gap->fits ? "" : ": too near");
+    tn_buffer_printf(out, "%s", verdicts[tn_explanation_gap(why, index, gap)]);
 }
 
 /* ---- changes */

@@ -60,6 +60,12 @@ static inline bool tn_code_compares_house(tn_opcode opcode)
     return tn_code_operands((uint8_t)opcode) == TN_OPERANDS_HOUSE_SUMMED;
 }
 
+/* Does it compare a sum on the stretches of a plan? */
+static inline bool tn_code_compares(tn_opcode opcode)
+{
+    return opcode == TN_OP_BELOW || opcode == TN_OP_ZERO || opcode == TN_OP_ABOVE || opcode == TN_OP_MULTIPLE;
+}
+
 /* Is it a relation over the trays of a house, which a plan alone does not say? */
 static inline bool tn_code_asks_house(tn_opcode opcode)
 {

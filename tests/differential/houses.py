@@ -80,7 +80,7 @@ def added_areas(maker, place):
 
 
 def asked_areas(maker, place):
-    made = plans.asked_sum(6)(maker, place)
+    made = plans.asked_sum(7)(maker, place)
     if place.form:
         made[4] = place.but(sort="cells", cells="cell")
     return made
@@ -113,10 +113,10 @@ CONTEXTS.update({
     "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": joined(cells(2, 5), named(_6="walk")),
     "primary: APART OPEN cells COMMA FROM cells COMMA THROUGH cells walk_by CLOSE": joined(cells(2, 5, 8), named(_9="walk")),
     "primary: APART OPEN cells COMMA FROM cells COMMA BY or_names COMMA THROUGH cells CLOSE": joined(cells(2, 5, 11), named(_8="walk")),
-    "primary: QUANTITY OPEN expression CLOSE": counted_cells(2),
-    "primary: QUANTITY OPEN expression COMMA condition CLOSE": counted_cells(2, 4),
-    "primary: SUM OPEN tray_sum OF expression CLOSE": added_areas,
-    "primary: SUM OPEN tray_sum OF expression COMMA condition CLOSE": asked_areas,
+    "primary: QUANTITY OPEN expression region CLOSE": counted_cells(2),
+    "primary: QUANTITY OPEN expression region COMMA condition CLOSE": counted_cells(2, 5),
+    "primary: SUM OPEN tray_sum OF expression region CLOSE": added_areas,
+    "primary: SUM OPEN tray_sum OF expression region COMMA condition CLOSE": asked_areas,
 })
 
 

@@ -38,6 +38,7 @@ class Place:
     cells: str = None                # in a specifier of houses: which kind of specifier
     test: str = None                 # what a test is of: rule, library, measure
     counts: str = None               # of a measure of houses: whether it counts parts of plans or of houses, which it cannot both
+    around: bool = False             # whether a `where` says of which stretch what lies before and behind is counted
     argument: tuple = ()             # what the parameters of a call are
     several: bool = False            # whether the file has more than one schema
     before: tuple = None             # of a `let`: those that stand before it, so that few stand for one another in a circle
@@ -71,19 +72,20 @@ QUESTIONS = {"rule", "part"}
 ONE_FIELD = {"field", "figure"}
 SUMS = {"number", "constant"}
 SORTS = {
-    "expression: implied": QUESTIONS, "disjunction: ors": QUESTIONS | {"values"}, "and: ands": QUESTIONS, "not: NOT not": QUESTIONS,
+    "expression: implied": QUESTIONS, "expression: qualified": QUESTIONS, "compared: nearness": QUESTIONS, "compared: EVERY nearness": QUESTIONS,
+    "compared: additive MOD additive comparison additive": QUESTIONS, "disjunction: ors": QUESTIONS | {"values"}, "and: ands": QUESTIONS, "not: NOT not": QUESTIONS,
     "compared: comparable": QUESTIONS, "compared: comparable comparison additive": QUESTIONS,
     "compared: additive IN additive DOTS additive": QUESTIONS,
     "additive: additive PLUS term": SUMS, "additive: additive DASH term": SUMS, "term: term STAR signed": SUMS,
     "term: term SLASH signed": SUMS, "signed: DASH signed": SUMS,
-    "primary: NAME": QUESTIONS | SUMS | {"values", "bound"}, "primary: NAME OPEN call_args CLOSE": QUESTIONS,
+    "primary: NAME": QUESTIONS | SUMS | {"values", "bound"}, "primary: NAME OPEN call_args CLOSE": QUESTIONS | {"number"},
     "primary: head_number": SUMS | {"values"}, "primary: TRAYS": {"number"}, "primary: OPEN expression CLOSE": QUESTIONS | SUMS,
-    "primary: SUM OPEN tray_sum CLOSE": {"number"}, "primary: SUM OPEN tray_sum OF expression CLOSE": {"number"},
+    "primary: SUM OPEN tray_sum region CLOSE": {"number"}, "primary: SUM OPEN tray_sum OF expression region CLOSE": {"number"},
     "primary: BEGINNING": {"part"}, "primary: END": {"part"}, "primary: OPTIONAL OPEN expression CLOSE": {"part"},
     "primary: NEIGHBOUR OPEN parts CLOSE": QUESTIONS | {"neighbour"},
-    "primary: QUANTITY OPEN expression COMMA condition CLOSE": QUESTIONS | {"by"},
-    "primary: SUM OPEN tray_sum COMMA condition CLOSE": QUESTIONS | {"by"},
-    "primary: SUM OPEN tray_sum OF expression COMMA condition CLOSE": QUESTIONS | {"by"},
+    "primary: QUANTITY OPEN expression region COMMA condition CLOSE": QUESTIONS | {"by"},
+    "primary: SUM OPEN tray_sum region COMMA condition CLOSE": QUESTIONS | {"by"},
+    "primary: SUM OPEN tray_sum OF expression region COMMA condition CLOSE": QUESTIONS | {"by"},
     "tray_sum: tray_sum PLUS tray_term": {"figure"}, "tray_sum: tray_sum DASH tray_term": {"figure"},
     "tray_term: tray_term STAR tray_signed": {"figure"}, "tray_term: tray_term SLASH tray_signed": {"figure"},
     "tray_signed: DASH tray_signed": {"figure"}, "tray_atom: head_number": {"figure"}, "tray_atom: OPEN tray_sum CLOSE": {"figure"},
@@ -93,10 +95,11 @@ SORTS = {
     "field: field_head EQUAL values": {"length", "choice"}, "field: field_head EQUAL FLAG": {"flag"},
     "field: zone field_head EQUAL values": {"zone"},
 }
-for word in ("MATCHES", "QUANTITY", "OCCURRENCES"):
-    SORTS[f"primary: {word} OPEN expression CLOSE"] = {"number"}
+SORTS["primary: MATCHES OPEN expression CLOSE"] = {"number"}
+for word in ("QUANTITY", "OCCURRENCES"):
+    SORTS[f"primary: {word} OPEN expression region CLOSE"] = {"number"}
 for head in ("TRAY OPEN specifier CLOSE", "ANY", "SYMMETRIC primary", "MANY OPEN expression CLOSE", "PLAN OPEN_BRACKET pattern CLOSE_BRACKET",
-             "OCCURRENCES OPEN expression COMMA condition CLOSE", "SOME names IN NAME OPEN expression CLOSE",
+             "OCCURRENCES OPEN expression region COMMA condition CLOSE", "SOME names IN NAME OPEN expression CLOSE",
              "EVERY names IN NAME OPEN expression CLOSE", "EVERY OPEN expression COMMA expression CLOSE",
              "DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE"):
     SORTS["primary: " + head] = QUESTIONS
@@ -104,7 +107,11 @@ for head in ("TRAY OPEN specifier CLOSE", "ANY", "SYMMETRIC primary", "MANY OPEN
 # How often a production is chosen where that is not 1. What the grammar takes only in order to say better what is wrong with it is rare.
 MISTAKE = .04
 WEIGHTS = {
-    "implied: implied IMPLIES disjunction": MISTAKE, "compared: comparable comparison additive": MISTAKE,
+    "implied: implied IMPLIES disjunction": MISTAKE, "implied: implied WHERE disjunction": MISTAKE,
+    "qualified: qualified WHERE disjunction": MISTAKE, "qualified: qualified IMPLIES disjunction": MISTAKE,
+    "nearness: nearness BESIDE additive": MISTAKE, "nearness: nearness WITHIN additive OF additive": MISTAKE,
+    "expression: qualified": .2, "compared: nearness": .15, "compared: EVERY nearness": .15, "region: BEFORE": .8, "region: AFTER": .8,
+    "compared: additive MOD additive comparison additive": .15, "compared: comparable comparison additive": MISTAKE,
     "cond_atom: compare comparison operand": MISTAKE, "range: constant DASH constant": MISTAKE, "value: NUMBER doc role": MISTAKE,
     "primary: ANY": .4, "primary: BEGINNING": MISTAKE, "primary: END": MISTAKE,
     "doc: STRING": .15, "allow: ALLOW names": .1, "from: FROM NAME": .2, "role: ROLE NAME": .1,
@@ -113,9 +120,9 @@ WEIGHTS = {
     "primary: TRAY OPEN specifier CLOSE": 3, "primary: NEIGHBOUR OPEN parts CLOSE": 2, "primary: NAME": .7,
     "primary: head_number": .3, "primary: TRAYS": .4, "additive: additive PLUS term": .3, "additive: additive DASH term": .2,
     "term: term STAR signed": .2, "term: term SLASH signed": .1, "tray_sum: tray_sum PLUS tray_term": .4, "tray_sum: tray_sum DASH tray_term": .4,
-    "tray_term: tray_term STAR tray_signed": .5, "tray_term: tray_term SLASH tray_signed": .3, "primary: MATCHES OPEN expression CLOSE": 2, "primary: QUANTITY OPEN expression CLOSE": 2,
-    "primary: OCCURRENCES OPEN expression CLOSE": 2, "primary: SUM OPEN tray_sum COMMA condition CLOSE": 2,
-    "primary: SUM OPEN tray_sum OF expression COMMA condition CLOSE": 2, "primary: SUM OPEN tray_sum CLOSE": 2, "primary: SUM OPEN tray_sum OF expression CLOSE": 2,
+    "tray_term: tray_term STAR tray_signed": .5, "tray_term: tray_term SLASH tray_signed": .3, "primary: MATCHES OPEN expression CLOSE": 2, "primary: QUANTITY OPEN expression region CLOSE": 2,
+    "primary: OCCURRENCES OPEN expression region CLOSE": 2, "primary: SUM OPEN tray_sum region COMMA condition CLOSE": 2,
+    "primary: SUM OPEN tray_sum OF expression region COMMA condition CLOSE": 2, "primary: SUM OPEN tray_sum region CLOSE": 2, "primary: SUM OPEN tray_sum OF expression region CLOSE": 2,
     "primary: OPTIONAL OPEN expression CLOSE": .5, "tray_atom: NAME": 4, "tray_signed: DASH tray_signed": .1,
     "tray_atom: OPEN tray_sum CLOSE": .3, "tray_atom: head_number": .4, "cond_not: NOT cond_not": .2, "condition: cond_ors": .2,
     "cond_and: cond_ands": .3, "cond_atom: OPEN condition CLOSE": .2, "cond_atom: compare": 3,
@@ -130,8 +137,8 @@ WEIGHTS = {
 BY_DIMENSION = {"constant: NUMBER": 0, "constant: DECIMAL": 0, "constant: LENGTH": 1, "constant: AREA": 2,
                 "head_number: NUMBER": 0, "head_number: DECIMAL": 0, "head_number: LENGTH": 1, "head_number: AREA": 2,
                 "constant: DASH NUMBER": 0, "constant: DASH DECIMAL": 0, "constant: DASH LENGTH": 1, "constant: DASH AREA": 2,
-                "primary: TRAYS": 0, "primary: MATCHES OPEN expression CLOSE": 0, "primary: QUANTITY OPEN expression CLOSE": 0,
-                "primary: OCCURRENCES OPEN expression CLOSE": 0}
+                "primary: TRAYS": 0, "primary: MATCHES OPEN expression CLOSE": 0, "primary: QUANTITY OPEN expression region CLOSE": 0,
+                "primary: OCCURRENCES OPEN expression region CLOSE": 0}
 
 
 # ---- what the parts of a production are
@@ -195,6 +202,31 @@ def asked_sum(index):
     return contexts
 
 
+def near(distance=None, *parts):
+    """Two questions, and how far apart: a number of trays, or a length where trays have one."""
+    def contexts(maker, place):
+        lengths = bool(place.fields("length"))
+        made = {i: place.but(sort="rule", around=False) for i in parts}
+        if distance is not None:
+            made[distance] = place.but(sort="constant", dimension=int(lengths and maker.chance(.4)))
+        return made
+    return contexts
+
+
+def divided_sum(maker, place):
+    return {0: place.but(sort="number", dimension=0), 2: place.but(sort="constant", dimension=0, want="divisor"),
+            3: place.but(want="equal"), 4: place.but(sort="constant", dimension=0, want="rest")}
+
+
+def own_call(maker, place):
+    """`values` of a field, or `mirrored` of some: what the language has itself."""
+    number = place.sort == "number"
+    fields = maker.random.sample(place.fields("length", "choice", "flag", "zone"), 1)
+    if not number and maker.chance(.3):
+        fields += maker.random.sample(place.fields("length", "choice", "flag", "zone"), 1)
+    return {0: place.but(want="exact", text="values" if number else "mirrored"), 2: place.but(argument=tuple(f"field {f.name}" for f in fields))}
+
+
 def quantified(maker, place):
     fields = place.fields("length", "choice")
     if not fields:
@@ -206,6 +238,9 @@ def quantified(maker, place):
 
 
 def call(maker, place):
+    own = place.fields("length", "choice", "flag", "zone") and (place.sort == "number" or maker.chance(.4) or not place.rules(True))
+    if own:
+        return own_call(maker, place)
     if not place.rules(True):
         return {}
     name = maker.random.choice(place.rules(True))
@@ -221,16 +256,21 @@ def head(word, **changes):
 CONTEXTS = {
     "comparable: additive comparison additive": same_dimension(0, 2),
     "compared: comparable comparison additive": same_dimension(0, 2),
+    "compared: additive MOD additive comparison additive": divided_sum,
+    "qualified: disjunction WHERE disjunction": lambda maker, place: {0: place.but(around=False), 2: place.but(around=True)},
+    "nearness: additive BESIDE additive": near(None, 0, 2), "nearness: additive WITHIN additive OF additive": near(2, 0, 4),
+    "nearness: additive AT LEAST additive FROM EVERY additive": near(3, 0, 6),
+    "nearness: nearness BESIDE additive": near(None, 0, 2), "nearness: nearness WITHIN additive OF additive": near(2, 0, 4),
     "compared: additive IN additive DOTS additive": same_dimension(0, 2, 4),
     "additive: additive PLUS term": same_dimension(0, 2), "additive: additive DASH term": same_dimension(0, 2),
     "term: term STAR signed": product, "term: term SLASH signed": quotient,
     "tray_sum: tray_sum PLUS tray_term": same_dimension(0, 2), "tray_sum: tray_sum DASH tray_term": same_dimension(0, 2),
     "tray_term: tray_term STAR tray_signed": product, "tray_term: tray_term SLASH tray_signed": quotient,
-    "primary: QUANTITY OPEN expression COMMA condition CLOSE": counted(4),
-    "primary: OCCURRENCES OPEN expression COMMA condition CLOSE": counted(4),
-    "primary: SUM OPEN tray_sum CLOSE": summed, "primary: SUM OPEN tray_sum OF expression CLOSE": summed,
-    "primary: SUM OPEN tray_sum COMMA condition CLOSE": asked_sum(4),
-    "primary: SUM OPEN tray_sum OF expression COMMA condition CLOSE": asked_sum(6),
+    "primary: QUANTITY OPEN expression region COMMA condition CLOSE": counted(5),
+    "primary: OCCURRENCES OPEN expression region COMMA condition CLOSE": counted(5),
+    "primary: SUM OPEN tray_sum region CLOSE": summed, "primary: SUM OPEN tray_sum OF expression region CLOSE": summed,
+    "primary: SUM OPEN tray_sum region COMMA condition CLOSE": asked_sum(5),
+    "primary: SUM OPEN tray_sum OF expression region COMMA condition CLOSE": asked_sum(7),
     "primary: SYMMETRIC primary": lambda maker, place: {1: place.but(sort="neighbour")},
     "primary: DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE":
         lambda maker, place: {9: place.but(sort="by")},
@@ -332,6 +372,8 @@ def name(maker, place):
 
 
 def number(maker, place):
+    if place.want == "rest":
+        return str(maker.random.randint(0, 1))
     if place.sort == "divisor" or place.want == "divisor":
         return str(maker.random.randint(2, 4))
     return str(maker.random.choice([0, 1, 1, 2, 2, 3, 7]))
@@ -391,6 +433,11 @@ def arguments(maker, depth, place):
 
 
 def argument(maker, depth, place, kind):
+    if kind.startswith("field "):
+        node = maker.node("primary: NAME", maker.word("NAME", kind[6:]))
+        for production in reversed(maker.grammar.chain("expression", "primary")):
+            node = Node(production.head, production, [node])
+        return node
     if kind == "rule":
         return maker.make("expression", depth, place.but(sort="rule"))
     if kind == "number":
@@ -574,6 +621,8 @@ class Plans(Notation):
         if known:
             for i, context in known(maker, place).items():
                 made[i] = context
+        if production.head == "primary" and production.name not in PARENTHESES:
+            made = [c if s == "region" else c.but(around=False) for s, c in zip(production.symbols, made)]
         if place.sort == "number" and production.head == "primary" and production.name not in PARENTHESES:
             made = [c.but(sort="rule") if s == "expression" and c.sort == "number" else c for s, c in zip(production.symbols, made)]
         return made
@@ -596,7 +645,11 @@ AVAILABLE = {
     "primary: head_number": lambda place: place.sort != "values" or place.field and place.field.kind == "length",
     "primary: NAME": has_names,
     "role: ROLE NAME": lambda place: place.sort in ROLES,
-    "primary: NAME OPEN call_args CLOSE": lambda place: place.rules(True),
+    "primary: NAME OPEN call_args CLOSE":
+        lambda place: place.dimension == 0 and not place.form and place.fields() if place.sort == "number" else place.rules(True) or not place.form and place.fields(),
+    "region: BEFORE": lambda place: place.around, "region: AFTER": lambda place: place.around,
+    "comparison: LESS": lambda place: place.want != "equal", "comparison: AT_MOST": lambda place: place.want != "equal",
+    "comparison: AT_LEAST": lambda place: place.want != "equal", "comparison: GREATER": lambda place: place.want != "equal",
     "primary: SOME names IN NAME OPEN expression CLOSE": lambda place: place.fields("length", "choice") and len(place.bound) < 2,
     "primary: EVERY names IN NAME OPEN expression CLOSE": lambda place: place.fields("length", "choice") and len(place.bound) < 2,
     "tray_atom: NAME": lambda place: place.want == "area" or place.dimension < 2 and place.fields(*(("number",) if place.dimension == 0 else ("length", "zone"))),
@@ -604,8 +657,8 @@ AVAILABLE = {
     "operand: NAME": lambda place: place.sort == "variable" or any(kind == "number" for _, kind in place.params),
     "total_field: NAME NAME": lambda place: place.fields("zone"),
     "case: value_word plan EQUAL additive doc": lambda place: place.test == "measure",
-    "primary: SUM OPEN tray_sum COMMA condition CLOSE": lambda place: place.form or place.fields("length", "zone"),
-    "primary: SUM OPEN tray_sum OF expression COMMA condition CLOSE": lambda place: place.form or place.fields("length", "zone"),
+    "primary: SUM OPEN tray_sum region COMMA condition CLOSE": lambda place: place.form or place.fields("length", "zone"),
+    "primary: SUM OPEN tray_sum OF expression region COMMA condition CLOSE": lambda place: place.form or place.fields("length", "zone"),
 }
 for expectations in ("plan doc", "plan STRING BY clause_names", "plan BY clause_names doc"):
     AVAILABLE["case: expectations " + expectations] = lambda place: place.test != "measure"
@@ -617,10 +670,10 @@ WALKS = ["primary: APART OPEN cells COMMA FROM cells walk_by CLOSE"] * 3     # w
 for leaf in HOUSE_LEAVES:
     AVAILABLE[leaf] = lambda place: place.form and place.counts != "plans"
     SORTS[leaf] = QUESTIONS
-for leaf in ("TRAY OPEN specifier CLOSE", "ANY", "SUM OPEN tray_sum CLOSE", "MATCHES OPEN expression CLOSE", "OCCURRENCES OPEN expression CLOSE",
+for leaf in ("TRAY OPEN specifier CLOSE", "ANY", "SUM OPEN tray_sum region CLOSE", "MATCHES OPEN expression CLOSE", "OCCURRENCES OPEN expression region CLOSE",
              "PLAN OPEN_BRACKET pattern CLOSE_BRACKET"):
     AVAILABLE["primary: " + leaf] = lambda place: place.counts != "houses"
-AVAILABLE["primary: SUM OPEN tray_sum OF expression CLOSE"] = lambda place: place.counts != "houses" or place.dimension == 2
+AVAILABLE["primary: SUM OPEN tray_sum OF expression region CLOSE"] = lambda place: place.counts != "houses" or place.dimension == 2
 for clause in ("trays_word range", "total_word total_field range doc", "total_word total_field comparison constant doc"):
     AVAILABLE["clause: " + clause] = lambda place: not place.form
 

@@ -350,11 +350,19 @@ def symmetric(plan, e, env, i, j):
     return plan.M(inner, env, i, j) or plan.back.M(inner, env, plan.n - j, plan.n - i)
 
 
+def looked_at(plan, e, i, j):
+    """Where a count looks: at the stretch, or at what lies before it or behind it."""
+    word = words(e.child("region"))
+    return (0, i) if word == ["before"] else (j, plan.n) if word == ["after"] else (i, j)
+
+
 def quantity(plan, e, env, i, j):
+    i, j = looked_at(plan, e, i, j)
     return sum(plan.one(e.children[2], env, t) for t in range(i, j))
 
 
 def occurrences(plan, e, env, i, j):
+    i, j = looked_at(plan, e, i, j)
     return sum(any(plan.M(e.children[2], env, t, b) for b in range(t + 1, j + 1)) for t in range(i, j))
 
 
@@ -364,7 +372,7 @@ def asked(number):
 
 def sum_of(plan, e, env, i, j):
     of = e.child("expression")
-    return plan.figures(e.child("tray_sum"), of, env, i, j)
+    return plan.figures(e.child("tray_sum"), of, env, *looked_at(plan, e, i, j))
 
 
 def many(plan, e, env, i, j):
@@ -377,6 +385,61 @@ def distance(plan, e, env, i, j):
         return False
     stretches = [(a, b) for a in range(plan.n) for b in range(a + 1, plan.n + 1) if plan.M(to, env, a, b)]
     return all(plan.M(by, env, *((b, i) if b <= i else (j, a) if j <= a else (i, i))) for a, b in stretches)
+
+
+def around(plan, e, env, i, j):
+    """The gaps to all stretches that are an `e` and share no tray with this one."""
+    found = [(a, b) for a in range(plan.n) for b in range(a + 1, plan.n + 1) if (b <= i or j <= a) and plan.M(e, env, a, b)]
+    return [(b, i) if b <= i else (j, a) for a, b in found]
+
+
+def power(plan, e, env):
+    """Of a constant: 0 a number, 1 a length."""
+    e = core(e)
+    if e.name in ("term: term STAR signed", "term: term SLASH signed"):
+        return power(plan, e.children[0], env) + (1 if "STAR" in e.name else -1) * power(plan, e.children[2], env)
+    if e.name.startswith("head_number"):
+        return {"LENGTH": 1, "AREA": 2}.get(e.children[0].symbol, 0)
+    if e.name == "primary: NAME":
+        name = e.children[0].text
+        return 0 if isinstance(env.get(name), Fraction) else power(plan, plan.file.sum(name), Env())
+    return power(plan, e.children[1 if e.name == "signed: DASH signed" else 0], env)
+
+
+def gap(plan, e, env, trays):
+    """What a gap measures, and the distance that it is compared with: trays, or the first field of lengths."""
+    value = plan.value(e, env)
+    lengths = [k for k, (_, kind, _) in enumerate(plan.schema.fields) if kind == "length"]
+    if power(plan, e, env) == 1 and value != 0:
+        if not lengths:
+            raise Unknown("no lengths")
+        return sum((plan.trays[t][lengths[0]] for t in range(*trays)), Fraction(0)), value
+    return Fraction(trays[1] - trays[0]), value
+
+
+def near(distance, how):
+    def matches(plan, e, env, i, j):
+        if not (i < j and plan.M(e.children[0], env, i, j)):
+            return False
+        gaps = around(plan, e.children[-1], env, i, j)
+        if distance is None:
+            return any(a == b for a, b in gaps)
+        return (any if how == operator.le else all)(how(*gap(plan, e.children[distance], env, g)) for g in gaps)
+    return matches
+
+
+def every_near(plan, e, env, i, j):
+    relation = core(e.children[1])
+    return all(plan.M(relation, env, a, b) for a in range(i, j) for b in range(a + 1, j + 1) if plan.M(relation.children[0], env, a, b))
+
+
+def where(plan, e, env, i, j):
+    return i < j and plan.M(e.children[0], env, i, j) and plan.M(e.children[2], env, i, j)
+
+
+def divided_compared(plan, e, env, i, j):
+    value, by, rest = [plan.value(e.children[k], env, i, j) for k in (0, 2, 4)]
+    return OPERATORS[words(e.children[3])[0]](value % by, rest)
 
 
 def every_tray(plan, e, env, i, j):
@@ -442,8 +505,20 @@ def named(which):
     return matches
 
 
+def own_fields(plan, e, env):
+    """The fields that `values` or `mirrored` is about; None where the file has a rule of that name."""
+    if e.children[0].text not in ("values", "mirrored") or plan.file.rules.get(e.children[0].text, ([],))[0]:
+        return None
+    named = [words(a)[0] for a in find_all(e.child("call_args"), "expression")]
+    named = [env.get(n)[1] if env.get(n) else n for n in named]
+    return [plan.schema.index(n) for n in named]
+
+
 def called(which):
     def matches(plan, e, env, i, j):
+        fields = own_fields(plan, e, env)
+        if fields is not None:
+            return all(plan.trays[i + t][f] == plan.trays[j - 1 - t][f] for t in range(j - i) for f in fields)
         params, body = plan.file.rule(e.children[0].text)
         arguments = find_all(e.child("call_args"), "expression")
         inner = Env((name, plan.file.argument(plan, a, kind, env)) for (name, kind), a in zip(params, arguments))
@@ -465,11 +540,14 @@ WHOLE = {
     "ors: and OR and": join("M", any, 0, 2), "ors: ors OR and": join("M", any, 0, 2),
     "ands: not AND not": join("M", all, 0, 2), "ands: ands AND not": join("M", all, 0, 2), "not: NOT not": negated(1),
     "implied: disjunction IMPLIES disjunction": implies, P + "NEIGHBOUR OPEN parts CLOSE": neighbour, P + "SYMMETRIC primary": symmetric,
-    P + "QUANTITY OPEN expression COMMA condition CLOSE": asked(quantity), P + "OCCURRENCES OPEN expression COMMA condition CLOSE": asked(occurrences),
-    P + "SUM OPEN tray_sum COMMA condition CLOSE": asked(sum_of), P + "SUM OPEN tray_sum OF expression COMMA condition CLOSE": asked(sum_of),
+    P + "QUANTITY OPEN expression region COMMA condition CLOSE": asked(quantity), P + "OCCURRENCES OPEN expression region COMMA condition CLOSE": asked(occurrences),
+    P + "SUM OPEN tray_sum region COMMA condition CLOSE": asked(sum_of), P + "SUM OPEN tray_sum OF expression region COMMA condition CLOSE": asked(sum_of),
     P + "MANY OPEN expression CLOSE": many, P + "EVERY OPEN expression COMMA expression CLOSE": every_tray,
     P + "DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE": distance,
     P + "SOME names IN NAME OPEN expression CLOSE": quantified(any, "M"), P + "EVERY names IN NAME OPEN expression CLOSE": quantified(all, "M"),
+    "nearness: additive BESIDE additive": near(None, None), "nearness: additive WITHIN additive OF additive": near(2, operator.le),
+    "nearness: additive AT LEAST additive FROM EVERY additive": near(3, operator.ge), "compared: EVERY nearness": every_near,
+    "qualified: disjunction WHERE disjunction": where, "compared: additive MOD additive comparison additive": divided_compared,
     "comparable: additive comparison additive": compared, "compared: additive IN additive DOTS additive": within,
     P + "PLAN OPEN_BRACKET pattern CLOSE_BRACKET": open_plan, P + "NAME": named("M"), P + "NAME OPEN call_args CLOSE": called("M"),
 }
@@ -480,10 +558,10 @@ SOMEWHERE = {
     P + "SOME names IN NAME OPEN expression CLOSE": quantified(any, "H"), P + "EVERY names IN NAME OPEN expression CLOSE": quantified(all, "H"),
     P + "NAME": named("H"), P + "NAME OPEN call_args CLOSE": called("H"),
 }
-for same in ("not: NOT not", P + "QUANTITY OPEN expression COMMA condition CLOSE", P + "OCCURRENCES OPEN expression COMMA condition CLOSE",
-             P + "SUM OPEN tray_sum COMMA condition CLOSE", P + "SUM OPEN tray_sum OF expression COMMA condition CLOSE",
+for same in ("not: NOT not", P + "QUANTITY OPEN expression region COMMA condition CLOSE", P + "OCCURRENCES OPEN expression region COMMA condition CLOSE",
+             P + "SUM OPEN tray_sum region COMMA condition CLOSE", P + "SUM OPEN tray_sum OF expression region COMMA condition CLOSE",
              P + "EVERY OPEN expression COMMA expression CLOSE", "comparable: additive comparison additive",
-             "compared: additive IN additive DOTS additive"):
+             "compared: additive IN additive DOTS additive", "compared: EVERY nearness", "compared: additive MOD additive comparison additive"):
     SOMEWHERE[same] = WHOLE[same]
 WHOLE_PLAN = P + "PLAN OPEN_BRACKET pattern CLOSE_BRACKET"
 SOMEWHERE[WHOLE_PLAN] = lambda plan, e, env, i, j: (i, j) == (0, plan.n) and plan.M(e, env, i, j)
@@ -503,6 +581,13 @@ def named_sum(plan, e, env, i, j):
     return plan.value(plan.file.sum(name), Env(), i, j)
 
 
+def different_values(plan, e, env, i, j):
+    fields = own_fields(plan, e, env)
+    if fields is None:
+        raise Unknown("a number that is a call")
+    return Fraction(len({plan.trays[t][fields[0]] for t in range(i, j)}))
+
+
 def over(plan, e, env, i, j):
     return divided(plan.value(e.children[0], env, i, j), plan.value(e.children[2], env, i, j))
 
@@ -511,11 +596,12 @@ SUMS = {
     "additive: additive PLUS term": arithmetic(operator.add), "additive: additive DASH term": arithmetic(operator.sub),
     "term: term STAR signed": arithmetic(operator.mul), "term: term SLASH signed": over,
     "signed: DASH signed": lambda plan, e, env, i, j: -plan.value(e.children[1], env, i, j),
+    P + "NAME OPEN call_args CLOSE": different_values,
     P + "TRAYS": lambda plan, e, env, i, j: Fraction(j - i), P + "NAME": named_sum,
     P + "MATCHES OPEN expression CLOSE": lambda plan, e, env, i, j: Fraction(plan.H(e.children[2], env, 0, plan.n)),
-    P + "QUANTITY OPEN expression CLOSE": lambda plan, e, env, i, j: Fraction(quantity(plan, e, env, i, j)),
-    P + "OCCURRENCES OPEN expression CLOSE": lambda plan, e, env, i, j: Fraction(occurrences(plan, e, env, i, j)),
-    P + "SUM OPEN tray_sum CLOSE": sum_of, P + "SUM OPEN tray_sum OF expression CLOSE": sum_of,
+    P + "QUANTITY OPEN expression region CLOSE": lambda plan, e, env, i, j: Fraction(quantity(plan, e, env, i, j)),
+    P + "OCCURRENCES OPEN expression region CLOSE": lambda plan, e, env, i, j: Fraction(occurrences(plan, e, env, i, j)),
+    P + "SUM OPEN tray_sum region CLOSE": sum_of, P + "SUM OPEN tray_sum OF expression region CLOSE": sum_of,
 }
 for token in ("NUMBER", "LENGTH", "AREA", "DECIMAL"):
     SUMS["head_number: " + token] = lambda plan, e, env, i, j: constant(words(e)[0])

@@ -86,6 +86,7 @@ static void check_meaning(tn_check *check, tn_checked_rule *rule)
     tn_check_meaning(check, body);
     if (rule->is_measure)
         tn_check_plan_measure(check, rule);
+    tn_check_around(check, body);
     rule->about_plan = tn_check_whole(check, body) && !rule->is_measure;
     tn_check_warnings(check, body);
     note_call(check, rule, errors);

@@ -39,10 +39,10 @@ typedef struct tn_checked_spec {
     struct tn_checked_schema *schema;
     uint64_t *mask; /* schema->words; a bit per value */
     tn_span span;
-    const char *key; /* equal for equal masks of one schema */
-    uint32_t index;  /* emitted: of its record */
+    const char *key;   /* equal for equal masks of one schema */
+    uint32_t index;    /* emitted: of its record */
     uint32_t function; /* emitted: 1 + that of one such tray; 0: none yet */
-    bool broken;     /* already reported */
+    bool broken;       /* already reported */
 } tn_checked_spec;
 
 /* A number of a tray: its cases in order, the first that fits counts. */
@@ -94,6 +94,7 @@ typedef enum tn_term_kind {
     TN_TERM_SINGLES = TN_SUM_SINGLES, /* trays that the part fits, each with what its figure says (1 without one) */
     TN_TERM_STARTS = TN_SUM_STARTS,   /* places where the part starts */
     TN_TERM_MATCHES = TN_SUM_MATCHES, /* 1 where the plan as a whole is matched */
+    TN_TERM_PRESENT = TN_SUM_PRESENT, /* 1 if a tray of the stretch meets `any`, here a specifier */
     TN_TERM_CELLS,                    /* what is added up over a house: the part asks for it */
     TN_TERM_AREAS,
     TN_TERM_ROOMS,
@@ -102,6 +103,7 @@ typedef enum tn_term_kind {
 
 typedef struct tn_checked_term {
     tn_term_kind kind;
+    tn_ast_region region;
     const char *factor; /* "p/q", in nanometres */
     /* What is counted or added up: one of these, or none for costs. */
     tn_ast_expr *part;
@@ -297,6 +299,10 @@ const tn_checked_schema *tn_schema_of_word(const tn_checked_schema *schema, cons
 void tn_check_older_fields(tn_check *check, tn_checked_schema *schema); /* each `... |` has older values */
 void tn_check_older_measures(tn_check *check); /* measures of older schemas, for the plans of those made from them */
 
+/* ---- spec.c */
+tn_checked_spec *tn_check_value_spec(tn_check *check, tn_checked_schema *schema, uint32_t field, uint32_t value,
+                                     tn_span span); /* trays with the value */
+
 /* ---- values.c: fields and values by name, and in words */
 uint32_t tn_field_find(const tn_checked_schema *schema, const char *name);
 bool tn_field_has(const tn_checked_field *field, const char *name); /* a choice's value or a zone's fill of that name */
@@ -345,14 +351,22 @@ void tn_check_truth(tn_check *check, const tn_checked_condition *condition, cons
 bool tn_check_detail(tn_check *check, const tn_checked_field *field, const tn_ast_word *detail);
 void tn_check_expr(tn_check *check, tn_ast_expr *expr);       /* names, specifiers, conditions, what may stand where */
 void tn_check_expr_known(tn_check *check, tn_ast_expr *expr); /* the same where a name in its place is resolved */
-void tn_check_expr_name(tn_check *check, tn_ast_expr *expr);  /* finds what a name means, once */
-void tn_check_meaning(tn_check *check, tn_ast_expr *expr);    /* what needs the rules that it names to be in order */
-uint32_t tn_min_trays(const tn_ast_expr *expr);               /* a lower bound of what it fits */
+uint32_t tn_check_field_named(tn_check *check, const tn_ast_word *name); /* TN_NONE: reported */
+void tn_check_expr_name(tn_check *check, tn_ast_expr *expr);             /* finds what a name means, once */
+void tn_check_meaning(tn_check *check, tn_ast_expr *expr); /* what needs the rules that it names to be in order */
+uint32_t tn_min_trays(const tn_ast_expr *expr);            /* a lower bound of what it fits */
+
+/* ---- around.c */
+void tn_check_around(tn_check *check, const tn_ast_expr *expr); /* does `where` say what lies before and behind? */
+
+/* ---- near.c */
+void tn_check_near(tn_check *check, tn_ast_expr *near); /* its parts; the distance becomes a rule of the gap */
 
 /* ---- sum.c */
 bool tn_is_sum(const tn_ast_expr *expr); /* is it a number, not a rule? Names are to be resolved */
 void tn_check_sum_expr(tn_check *check, tn_ast_expr *expr);
 tn_checked_sum *tn_check_sum(tn_check *check, tn_ast_expr *expr); /* NULL: reported */
+void tn_check_remainder(tn_check *check, tn_ast_expr *expr);      /* likewise */
 void tn_check_comparison(tn_check *check, tn_ast_expr *expr);     /* makes its sums; what it names is checked */
 void tn_check_plan_measure(tn_check *check, tn_checked_rule *measure);
 
@@ -394,7 +408,7 @@ void tn_check_cost(tn_check *check, tn_ast_expr *sum);
 bool tn_means_cost(const tn_check *check, const char *word); /* of houses: `cost` or the like, and there is a form */
 /* Of houses: helps whoever asks how high one is, and says whether `word` did. */
 bool tn_help_height(tn_check *check, tn_diagnostic *d, const char *word);
-void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum); /* what else it counts is of plans */
+void tn_check_house_sum(tn_check *check, const tn_checked_sum *sum);    /* what else it counts is of plans */
 void tn_check_compared_sum(tn_check *check, const tn_checked_sum *sum); /* the same of a comparison's */
 /* A rule that is named: is it about houses of the same form as what names it? */
 void tn_check_same_form(tn_check *check, const tn_ast_expr *name);

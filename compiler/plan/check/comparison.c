@@ -51,6 +51,17 @@ static tn_ast_expr *within(tn_check *check, tn_span span, const tn_ast_expr *sum
     return expr;
 }
 
+static tn_ast_expr *divided(tn_check *check, const tn_ast_cond *cond, const tn_ast_expr *sum)
+{
+    tn_ast_expr *expr = make(check, TN_EXPR_REMAINDER, cond->node.span), *value = copy_of(check, sum),
+                *modulus = constant(check, cond->modulus), *rest = constant(check, cond->right);
+    if (!expr || !value || !modulus || !rest)
+        return NULL;
+    expr->op = cond->op;
+    expr->parts = tn_ast_append(tn_ast_append(tn_ast_one(value), modulus), rest);
+    return expr;
+}
+
 static tn_ast_expr *broken(tn_check *check, tn_span span)
 {
     return make(check, TN_EXPR_BROKEN, span);
@@ -123,12 +134,11 @@ static tn_ast_expr *of_condition(tn_check *check, const tn_ast_cond *cond, const
     case TN_COND_NOT:
         return of_parts(check, TN_EXPR_NOT, cond, sum, variable);
     case TN_COND_REMAINDER:
-        break;
+        if (!is_variable(check, cond->left, variable))
+            return broken(check, cond->node.span);
+        return divided(check, cond, sum);
     }
-    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_REMAINDER, cond->node.span,
-                                 "a remainder can only be asked for of a sum of one field of lengths, and of counts");
-    tn_help(check->diagnostics, d, "compare the sum with numbers, or count trays: `quantity(tray(...), n mod 2 = 0)`");
-    return broken(check, cond->node.span);
+    return NULL;
 }
 
 void tn_check_sum_condition(tn_check *check, tn_ast_expr *expr)

@@ -217,7 +217,8 @@ static const char *past_blanks(const char *text, const char *end)
     return text;
 }
 
-/* What a call is named after: its text with blanks only where `fmt` has them between words, so that laying a file out changes no name. */
+/* What a call is named after: its text with blanks only where `fmt` has them between words, so that laying a file out
+ * changes no name. */
 static char *call_name(tn_check *check, const tn_ast_expr *call)
 {
     const char *text = check->diagnostics->sources->files[call->node.span.file].text;
@@ -359,9 +360,65 @@ static bool arguments_fit(tn_rule_expansion *expansion, const tn_ast_expr *call,
     return false;
 }
 
+/* The field that an argument names; a word that is bound is the one that it stands for. NULL: reported. */
+static tn_ast_word *field_of(tn_rule_expansion *expansion, const tn_ast_expr *call, const tn_ast_expr *argument)
+{
+    tn_bound_name bound = argument->kind == TN_EXPR_NAME ? tn_bound(expansion, argument->name) : (tn_bound_name){0};
+    const tn_ast_expr *meant = bound.value ? bound.value : argument;
+    if (meant->kind == TN_EXPR_NAME) {
+        tn_ast_word *word = TN_NEW(expansion->check->arena, tn_ast_word);
+        if (word)
+            *word = *meant->name;
+        if (word)
+            word->node.next = NULL;
+        return word;
+    }
+    if (meant->kind == TN_EXPR_BROKEN)
+        return NULL;
+    tn_diagnostic *d = tn_report(expansion->check->diagnostics, E_BAD_ARGUMENT, argument->node.span,
+                                 "`%s` is about fields, and this is none", call->name->text);
+    tn_help(expansion->check->diagnostics, d, "name a field of the schema: `%s(FIELD)`", call->name->text);
+    return NULL;
+}
+
+/* `values(f)`, `mirrored(f, g)`: calls of what the language has itself. A rule with parameters of that name hides it.
+ */
+static tn_ast_expr *expand_own_call(tn_rule_expansion *expansion, const tn_ast_expr *call)
+{
+    bool values = tn_word_is(call->name, "values");
+    tn_ast_expr *made = shallow(expansion, call);
+    if (!made)
+        return NULL;
+    made->kind = values ? TN_EXPR_VALUES : TN_EXPR_MIRRORED;
+    made->parts = made->names = tn_ast_empty();
+    for (TN_EACH(const tn_ast_expr, argument, call->parts)) {
+        tn_ast_word *field = field_of(expansion, call, argument);
+        if (!field)
+            return broken(expansion, call);
+        made->names = tn_ast_append(made->names, field);
+    }
+    made->name = (const tn_ast_word *)made->names.first;
+    if (!values || made->names.count == 1)
+        return made;
+    tn_check *check = expansion->check;
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_BAD_ARGUMENT, call->node.span, "`values` counts the values of one field");
+    tn_help(check->diagnostics, d, "add two of them up, or compare each");
+    return broken(expansion, call);
+}
+
+static bool is_own_call(const tn_rule_expansion *expansion, const tn_ast_expr *call)
+{
+    const tn_checked_rule *rule = rule_named(expansion, call->name);
+    bool own = tn_word_is(call->name, "values") || tn_word_is(call->name, "mirrored");
+    return call->kind == TN_EXPR_CALL && own && !(rule && rule->is_template);
+}
+
 /* `name(...)` or `name` of a rule with parameters. */
 static tn_ast_expr *expand_call(tn_rule_expansion *expansion, const tn_ast_expr *call)
 {
+    if (is_own_call(expansion, call))
+        return expand_own_call(expansion, call);
     tn_check *check = expansion->check;
     size_t unit = check->unit;
     check->unit = call->unit ? call->unit - 1 : expansion->unit;

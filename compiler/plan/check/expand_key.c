@@ -78,6 +78,8 @@ static void put_expression(text *t, const tn_ast_expr *expr)
     put(t, "(");
     put_number(t, expr->kind);
     put_number(t, expr->op);
+    put_number(t, expr->near);
+    put_number(t, expr->region);
     put_number(t, expr->rule && expr->rule->hidden ? (long long)expr->rule->serial : -1);
     put_number(t, (long long)expr->unit);
     put_number(t, expr->older ? (long long)expr->older->index : -1);
@@ -91,6 +93,9 @@ static void put_expression(text *t, const tn_ast_expr *expr)
     }
     for (TN_EACH(const tn_ast_word, kind, expr->kinds))
         put_word(t, kind);
+    if (expr->kind == TN_EXPR_MIRRORED || expr->kind == TN_EXPR_VALUES)
+        for (TN_EACH(const tn_ast_word, field, expr->names))
+            put_word(t, field);
     if (expr->figure)
         put_expression(t, expr->figure);
     if (expr->condition)

@@ -69,7 +69,8 @@ static void use_expression(parameters *p, const tn_ast_expr *expr, bool number)
 {
     bool sum = expr->kind == TN_EXPR_COMPARE || expr->kind == TN_EXPR_WITHIN || expr->kind == TN_EXPR_PLUS ||
                expr->kind == TN_EXPR_MINUS || expr->kind == TN_EXPR_TIMES || expr->kind == TN_EXPR_OVER ||
-               expr->kind == TN_EXPR_NEGATIVE || expr->kind == TN_EXPR_LEAST || expr->kind == TN_EXPR_MOST;
+               expr->kind == TN_EXPR_REMAINDER || expr->kind == TN_EXPR_NEGATIVE || expr->kind == TN_EXPR_LEAST ||
+               expr->kind == TN_EXPR_MOST;
     if (expr->kind == TN_EXPR_NAME)
         use(p, expr->name, number ? USE_NUMBER : USE_EXPRESSION);
     if (expr->kind == TN_EXPR_FIGURE)
@@ -80,14 +81,17 @@ static void use_expression(parameters *p, const tn_ast_expr *expr, bool number)
         use_condition(p, expr->condition);
     if (expr->figure)
         use_expression(p, expr->figure, true);
-    for (TN_EACH(const tn_ast_expr, part, expr->parts)) {
+    size_t at = 0;
+    for (const tn_ast_expr *part = (const tn_ast_expr *)expr->parts.first; part;
+         part = (const tn_ast_expr *)part->node.next, at++) {
         if (expr->kind == TN_EXPR_CALL && part->kind == TN_EXPR_NAME) {
             for (size_t i = 0; i < p->count; i++) /* what it is there, the rule that is called says */
                 if (strcmp(p->items[i].word->text, part->name->text) == 0 && p->items[i].kind == USE_NONE)
                     p->items[i].said = true;
             continue;
         }
-        use_expression(p, part, sum);
+        bool distance = (expr->kind == TN_EXPR_NEAR || expr->kind == TN_EXPR_EVERY_NEAR) && at == 2;
+        use_expression(p, part, sum || distance);
     }
 }
 

@@ -74,6 +74,7 @@ static void check_clause_expr(tn_check *check, tn_ast_clause *clause)
     check->rule = NULL;
     tn_check_expr(check, expr);
     tn_check_meaning(check, expr);
+    tn_check_around(check, expr);
     tn_check_whole(check, expr);
     tn_check_warnings(check, expr);
 }

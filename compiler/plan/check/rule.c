@@ -153,6 +153,33 @@ static void check_leaf(tn_check *check, tn_ast_expr *expr)
         expr->spec = tn_check_any(check, check->schema, expr->node.span);
 }
 
+uint32_t tn_check_field_named(tn_check *check, const tn_ast_word *name)
+{
+    const tn_checked_schema *schema = check->schema;
+    uint32_t field = tn_field_find(schema, name->text);
+    if (field != TN_NONE || schema->broken)
+        return field;
+    const char **names = TN_NEW_ARRAY(check->arena, const char *, schema->field_count + 1);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_WORD, name->node.span,
+                                 "`%s` is not a field of schema `%s`", name->text, schema->name);
+    tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
+    for (uint32_t f = 0; names && f < schema->field_count; f++)
+        names[f] = schema->fields[f].name;
+    const char *near = names ? tn_nearest(name->text, names, schema->field_count) : NULL;
+    if (near)
+        tn_suggest(check->diagnostics, d, "%s", near);
+    else if (schema->field_count > 0)
+        tn_help(check->diagnostics, d, "name a field, such as `%s`", schema->fields[0].name);
+    return TN_NONE;
+}
+
+static void check_mirrored(tn_check *check, const tn_ast_expr *mirrored)
+{
+    for (TN_EACH(const tn_ast_word, name, mirrored->names))
+        if (check->schema)
+            tn_check_field_named(check, name);
+}
+
 /* `210,000`: a comma directly between two digits. */
 static bool follows_number(const tn_check *check, tn_span span)
 {
@@ -197,8 +224,12 @@ void tn_check_expr_known(tn_check *check, tn_ast_expr *expr)
         break;
     case TN_EXPR_COMPARE:
     case TN_EXPR_WITHIN:
+    case TN_EXPR_REMAINDER:
         for (TN_EACH(tn_ast_expr, part, expr->parts))
             tn_check_sum_expr(check, part);
+        break;
+    case TN_EXPR_MIRRORED:
+        check_mirrored(check, expr);
         break;
     case TN_EXPR_PLAN:
         if (check->schema)
@@ -228,15 +259,23 @@ void tn_check_expr_known(tn_check *check, tn_ast_expr *expr)
     case TN_EXPR_SUM:
         if (!check->schema)
             check_parts(check, expr);
-        else if (is_field_sum(check, expr))
+        else if (is_field_sum(check, expr) && expr->region == TN_AST_STRETCH)
             check_sum(check, expr);
         else
             tn_check_sum_condition(check, expr);
         break;
     case TN_EXPR_QUANTITY:
     case TN_EXPR_OCCURRENCES:
+        if (expr->region != TN_AST_STRETCH) {
+            tn_check_sum_condition(check, expr);
+            break;
+        }
         check_parts(check, expr);
         expr->condition_checked = tn_check_count(check, expr);
+        break;
+    case TN_EXPR_NEAR:
+    case TN_EXPR_EVERY_NEAR:
+        tn_check_near(check, expr);
         break;
     case TN_EXPR_AND:
     case TN_EXPR_OR:
@@ -245,6 +284,7 @@ void tn_check_expr_known(tn_check *check, tn_ast_expr *expr)
     case TN_EXPR_MANY:
     case TN_EXPR_DISTANCE:
     case TN_EXPR_IMPLIES:
+    case TN_EXPR_WHERE:
         check_parts(check, expr);
         break;
     case TN_EXPR_CELL:
@@ -316,8 +356,9 @@ static bool is_counting(const tn_ast_expr *expr)
     bool joined = meant->kind == TN_EXPR_AND || meant->kind == TN_EXPR_OR || meant->kind == TN_EXPR_NOT;
     for (TN_EACH(const tn_ast_expr, part, meant->parts))
         joined = joined && meant->from_sum;
-    return joined || meant->kind == TN_EXPR_QUANTITY || meant->kind == TN_EXPR_SUM ||
-           meant->kind == TN_EXPR_OCCURRENCES || meant->kind == TN_EXPR_COMPARE || meant->kind == TN_EXPR_WITHIN;
+    return joined || meant->kind == TN_EXPR_QUANTITY || meant->kind == TN_EXPR_REMAINDER ||
+           meant->kind == TN_EXPR_SUM || meant->kind == TN_EXPR_OCCURRENCES || meant->kind == TN_EXPR_COMPARE ||
+           meant->kind == TN_EXPR_WITHIN;
 }
 
 static void check_distance(tn_check *check, const tn_ast_expr *distance)
@@ -346,6 +387,8 @@ void tn_check_meaning(tn_check *check, tn_ast_expr *expr)
         tn_check_meaning(check, part);
     if (expr->kind == TN_EXPR_COMPARE || expr->kind == TN_EXPR_WITHIN)
         tn_check_comparison(check, expr);
+    else if (expr->kind == TN_EXPR_REMAINDER)
+        tn_check_remainder(check, expr);
 }
 
 /* ---- sizes */
@@ -381,6 +424,8 @@ uint32_t tn_min_trays(const tn_ast_expr *expr)
         return min_of_parts(expr);
     case TN_EXPR_SYMMETRIC:
     case TN_EXPR_DISTANCE:
+    case TN_EXPR_NEAR:
+    case TN_EXPR_WHERE:
         return tn_min_trays((const tn_ast_expr *)expr->parts.first);
     default:
         return 1;

@@ -483,6 +483,18 @@ tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_spa
     return spec ? share(check, spec) : NULL;
 }
 
+tn_checked_spec *tn_check_value_spec(tn_check *check, tn_checked_schema *schema, uint32_t field, uint32_t value,
+                                     tn_span span)
+{
+    tn_checked_spec *spec = new_spec(check, schema, span);
+    for (uint32_t f = 0; spec && f < schema->field_count; f++)
+        if (f != field)
+            allow_all(spec, f);
+    if (spec)
+        set_bit(spec, schema->fields[field].first_bit + value);
+    return spec ? share(check, spec) : NULL;
+}
+
 /* Leaves the values that an item lets in; items of one field mean both. In an open plan an item ends where it is whole.
  */
 static void narrow_by_item(tn_check *check, tn_checked_spec *spec, const tn_checked_schema *older,

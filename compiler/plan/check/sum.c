@@ -3,6 +3,7 @@
  * Equal terms are one, so that measures of measures do not grow: a term is known by the expressions it is made of,
  * which a measure's uses share.
  */
+#include <stdlib.h>
 #include <string.h>
 
 #include "compiler/plan/check/amount.h"
@@ -16,6 +17,7 @@ bool tn_is_sum(const tn_ast_expr *expr)
     case TN_EXPR_NUMBER:
     case TN_EXPR_TRAYS:
     case TN_EXPR_MATCHES:
+    case TN_EXPR_VALUES:
     case TN_EXPR_PLUS:
     case TN_EXPR_MINUS:
     case TN_EXPR_TIMES:
@@ -76,6 +78,9 @@ void tn_check_sum_expr(tn_check *check, tn_ast_expr *expr)
     case TN_EXPR_SUM:
         check_sum_expr(check, expr);
         break;
+    case TN_EXPR_VALUES:
+        expr->field = check->schema ? tn_check_field_named(check, expr->name) : TN_NONE;
+        break;
     case TN_EXPR_PLUS:
     case TN_EXPR_MINUS:
     case TN_EXPR_TIMES:
@@ -104,8 +109,8 @@ static bool add_term(tn_check *check, sum *to, tn_checked_term term)
 {
     for (size_t i = 0; i < to->count; i++) {
         tn_checked_term *t = &to->terms[i];
-        if (t->kind != term.kind || t->part != term.part || t->rule != term.rule || t->any != term.any ||
-            t->figure != term.figure)
+        if (t->kind != term.kind || t->region != term.region || t->part != term.part || t->rule != term.rule ||
+            t->any != term.any || t->figure != term.figure)
             continue;
         t->factor = tn_amount_apply(check, TN_EXPR_PLUS, t->factor, term.factor);
         if (t->factor && tn_amount_is_zero(t->factor))
@@ -129,8 +134,11 @@ static bool add_term(tn_check *check, sum *to, tn_checked_term term)
 static bool one_term(tn_check *check, tn_term_kind kind, tn_ast_expr *expr, int power, sum *out)
 {
     tn_ast_expr *part = (tn_ast_expr *)expr->parts.first;
-    tn_checked_term term = {
-        .kind = kind, .factor = "1", .figure = expr->figure, .span = (part ? part : expr)->node.span};
+    tn_checked_term term = {.kind = kind,
+                            .region = expr->region,
+                            .factor = "1",
+                            .figure = expr->figure,
+                            .span = (part ? part : expr)->node.span};
     if (!part)
         term.any = expr->spec;
     else if (part->kind == TN_EXPR_NAME)
@@ -155,6 +163,21 @@ static bool eval_quantity(tn_check *check, tn_ast_expr *quantity, sum *out)
         return false;
     return of ? house_term(check, of->kind == TN_EXPR_CELL ? TN_TERM_CELLS : TN_TERM_ROOMS, of, 0, out)
               : one_term(check, TN_TERM_SINGLES, quantity, 0, out);
+}
+
+/* How many different values of a field there are: 1 for each that is there. */
+static bool eval_values(tn_check *check, const tn_ast_expr *expr, sum *out)
+{
+    *out = (sum){.constant = {.value = "0"}};
+    if (expr->field == TN_NONE)
+        return false;
+    for (uint32_t v = 0; v < check->schema->fields[expr->field].value_count; v++) {
+        tn_checked_spec *spec = tn_check_value_spec(check, check->schema, expr->field, v, expr->node.span);
+        tn_checked_term term = {.kind = TN_TERM_PRESENT, .factor = "1", .any = spec, .span = expr->node.span};
+        if (!spec || !add_term(check, out, term))
+            return false;
+    }
+    return true;
 }
 
 static bool eval_sum(tn_check *check, tn_ast_expr *expr, sum *out)
@@ -289,6 +312,8 @@ static bool eval(tn_check *check, tn_ast_expr *expr, sum *out)
         return one_term(check, TN_TERM_MATCHES, expr, 0, out);
     case TN_EXPR_SUM:
         return eval_sum(check, expr, out);
+    case TN_EXPR_VALUES:
+        return eval_values(check, expr, out);
     case TN_EXPR_NAME:
         return expr->rule && expr->rule->is_measure && eval_measure(check, expr->rule, out);
     case TN_EXPR_NEGATIVE:
@@ -386,6 +411,56 @@ void tn_check_comparison(tn_check *check, tn_ast_expr *expr)
     tn_check_compared_sum(check, low);
     if (range)
         tn_check_compared_sum(check, high);
+}
+
+static void report_remainder(tn_check *check, tn_span span, const char *what, const char *help)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_REMAINDER, span, "%s", what);
+    tn_help(check->diagnostics, d, "%s", help);
+}
+
+/* A whole number, of a length in nanometres to its power; false: it is none, or too large. */
+static bool whole_constant(const sum *s, int64_t *number)
+{
+    bool whole = s->count == 0 && !strchr(s->constant.value, '/') && strlen(s->constant.value) < 19;
+    *number = whole ? strtoll(s->constant.value, NULL, 10) : 0;
+    return whole;
+}
+
+void tn_check_remainder(tn_check *check, tn_ast_expr *expr)
+{
+    const tn_ast_expr *left = (const tn_ast_expr *)expr->parts.first, *middle = (const tn_ast_expr *)left->node.next,
+                      *right = (const tn_ast_expr *)expr->parts.last;
+    sum sides[3];
+    size_t count = 0;
+    bool good = true;
+    int64_t modulus, rest;
+    for (TN_EACH(tn_ast_expr, part, expr->parts))
+        good &= eval(check, part, &sides[count++]);
+    if (!good || !few_matches(check, expr, sides, count))
+        return;
+    tn_sum_amount both;
+    if (!tn_same_power(check, sides[0].constant, left->node.span, sides[1].constant, middle->node.span, "divided by",
+                       &both) ||
+        !tn_same_power(check, both, left->node.span, sides[2].constant, right->node.span, "compared with", &both))
+        return;
+    if (expr->op != TN_EQUAL && expr->op != TN_UNEQUAL)
+        report_remainder(check, expr->node.span, "a remainder is compared by `=` or `!=` only",
+                         "join several by `or`: `quantity(a) mod 3 = 0 or quantity(a) mod 3 = 1`");
+    else if (!whole_constant(&sides[1], &modulus) || modulus <= 0)
+        report_remainder(check, middle->node.span, "a remainder is by a whole number above 0",
+                         "`quantity(a) mod 2 = 0` means an even number of them");
+    else if (!whole_constant(&sides[2], &rest) || rest < 0 || rest >= modulus)
+        report_remainder(check, right->node.span, "no remainder is ever this",
+                         "a remainder is a whole number from 0 up to, and without, what is divided by");
+    else if ((expr->sum = difference(check, expr, left, right, &sides[0], &sides[2]))) {
+        expr->modulus = modulus;
+        expr->whole = expr->sum->whole || expr->sum->houses;
+        tn_check_compared_sum(check, expr->sum);
+        if (expr->sum->houses)
+            report_remainder(check, expr->node.span, "what is added up over a house has no remainder here",
+                             "compare it with numbers, or count the trays of its plan");
+    }
 }
 
 void tn_check_plan_measure(tn_check *check, tn_checked_rule *measure)

@@ -46,6 +46,7 @@ void tn_emit_whole(tn_emit *emit, const tn_ast_expr *expr);
 /* ---- sum.c */
 void tn_emit_sum_needs(tn_emit *emit, tn_checked_sum *sum, const char *name); /* the functions that its terms name */
 /* The relation of the stretches on which the sum compares so with 0. */
+void tn_emit_remainder(tn_emit *emit, const tn_ast_expr *expr); /* a comparison of one */
 void tn_emit_comparison(tn_emit *emit, tn_span span, tn_checked_sum *sum, tn_operator op);
 void tn_emit_number(tn_emit *emit, const tn_checked_number *number, tn_span span);
 void tn_emit_house_measure(tn_emit *emit, const tn_checked_rule *measure);

@@ -108,6 +108,33 @@ static void emit_every(tn_emit *emit, const tn_ast_expr *expr)
     tn_emit_op(emit, span, TN_OP_NOT, 0, 0);
 }
 
+/* Of several fields: each of them. */
+static void emit_mirrored(tn_emit *emit, const tn_ast_expr *expr)
+{
+    const tn_checked_schema *schema = emit->checked->schemas[emit->schema];
+    for (TN_EACH(const tn_ast_word, name, expr->names)) {
+        uint32_t field = schema->field_first + tn_field_find(schema, name->text);
+        tn_emit_op(emit, expr->node.span, TN_OP_MIRRORED, field, 0);
+        if ((const tn_ast_node *)name != expr->names.first)
+            tn_emit_op(emit, expr->node.span, TN_OP_AND, 0, 0);
+    }
+}
+
+/* Source, destination, and the rule of the gap. `every` denies that one lies otherwise: for it, the rule of the gap is
+ * what a gap must not be, and so what is asked of one destination is denied of all, and the other way round. */
+static void emit_near(tn_emit *emit, const tn_ast_expr *expr)
+{
+    tn_span span = expr->node.span;
+    bool every = expr->kind == TN_EXPR_EVERY_NEAR, all = (expr->near == TN_NEAR_APART) != every;
+    for (TN_EACH(const tn_ast_expr, part, expr->parts))
+        tn_emit_whole(emit, part);
+    tn_emit_op(emit, span, all ? TN_OP_FAR : TN_OP_NEAR, 0, 0);
+    if (!every)
+        return;
+    tn_emit_op(emit, span, TN_OP_SOMEWHERE, 0, 0);
+    tn_emit_op(emit, span, TN_OP_NOT, 0, 0);
+}
+
 void tn_emit_whole(tn_emit *emit, const tn_ast_expr *expr)
 {
     tn_span span = expr->node.span;
@@ -140,6 +167,17 @@ void tn_emit_whole(tn_emit *emit, const tn_ast_expr *expr)
         tn_emit_comparison(emit, span, expr->sum, TN_AT_LEAST);
         tn_emit_comparison(emit, span, expr->high, TN_AT_MOST);
         tn_emit_op(emit, span, TN_OP_AND, 0, 0);
+        break;
+    case TN_EXPR_REMAINDER:
+        tn_emit_remainder(emit, expr);
+        break;
+    case TN_EXPR_WHERE:
+        tn_emit_whole(emit, first_part(expr));
+        tn_emit_whole(emit, (const tn_ast_expr *)expr->parts.last);
+        tn_emit_op(emit, span, TN_OP_WHERE, 0, 0);
+        break;
+    case TN_EXPR_MIRRORED:
+        emit_mirrored(emit, expr);
         break;
     case TN_EXPR_NAME:
         tn_emit_op(emit, span, TN_OP_CALL, expr->rule->whole, 0);
@@ -189,6 +227,10 @@ void tn_emit_whole(tn_emit *emit, const tn_ast_expr *expr)
         tn_emit_whole(emit, first_part(expr));
         tn_emit_op(emit, span, TN_OP_MANY, 0, 0);
         break;
+    case TN_EXPR_NEAR:
+    case TN_EXPR_EVERY_NEAR:
+        emit_near(emit, expr);
+        break;
     case TN_EXPR_DISTANCE:
         for (TN_EACH(const tn_ast_expr, part, expr->parts))
             tn_emit_whole(emit, part);
@@ -210,7 +252,10 @@ static bool holds_is_whole(tn_expr_kind kind)
     case TN_EXPR_OCCURRENCES:
     case TN_EXPR_COMPARE:
     case TN_EXPR_WITHIN:
+    case TN_EXPR_REMAINDER:
+    case TN_EXPR_MIRRORED:
     case TN_EXPR_EVERY:
+    case TN_EXPR_EVERY_NEAR:
     case TN_EXPR_PLAN:
     case TN_EXPR_TRUE:
     case TN_EXPR_FALSE:

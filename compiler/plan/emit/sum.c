@@ -120,6 +120,16 @@ void tn_emit_sum_needs(tn_emit *emit, tn_checked_sum *sum, const char *name)
     }
 }
 
+/* What is counted, and where. */
+static uint32_t kind_of(const tn_checked_term *term)
+{
+    static const uint32_t singles[] = {TN_SUM_SINGLES, TN_SUM_SINGLES_BEFORE, TN_SUM_SINGLES_AFTER},
+                          starts[] = {TN_SUM_STARTS, TN_SUM_STARTS_BEFORE, TN_SUM_STARTS_AFTER};
+    return term->kind == TN_TERM_SINGLES  ? singles[term->region]
+           : term->kind == TN_TERM_STARTS ? starts[term->region]
+                                          : (uint32_t)term->kind;
+}
+
 /* matches: whether those terms are written out too. The power is kept of what is shown to people. */
 static uint32_t emit_sum(tn_emit *emit, const tn_checked_sum *sum, const char *constant, bool matches)
 {
@@ -131,7 +141,7 @@ static uint32_t emit_sum(tn_emit *emit, const tn_checked_sum *sum, const char *c
             continue;
         count++;
         tn_builder_add_TERM(emit->builder, &(tn_term_record){
-                                               .kind = (uint32_t)term->kind,
+                                               .kind = kind_of(term),
                                                .factor = tn_builder_string(emit->builder, term->factor),
                                                .part = part_of(emit, term, ""),
                                                .tally = tally_of(emit, term->figure, ""),
@@ -148,48 +158,63 @@ static uint32_t emit_sum(tn_emit *emit, const tn_checked_sum *sum, const char *c
 
 /* ---- comparisons */
 
-static void emit_plain(tn_emit *emit, tn_span span, const tn_checked_sum *sum, const char *constant, tn_operator op)
+/* How a sum is compared with 0; or, modulus above 0, with the multiples of it. */
+typedef struct comparing {
+    tn_span span;
+    const tn_checked_sum *sum;
+    tn_operator op;
+    int64_t modulus;
+} comparing;
+
+static void emit_plain(tn_emit *emit, const comparing *c, const char *constant)
 {
     static const tn_opcode opcodes[][2] = {
         [TN_LESS] = {TN_OP_BELOW, TN_OP_HOUSE_BELOW},     [TN_AT_MOST] = {TN_OP_ABOVE, TN_OP_HOUSE_ABOVE},
         [TN_EQUAL] = {TN_OP_ZERO, TN_OP_HOUSE_ZERO},      [TN_UNEQUAL] = {TN_OP_ZERO, TN_OP_HOUSE_ZERO},
         [TN_AT_LEAST] = {TN_OP_BELOW, TN_OP_HOUSE_BELOW}, [TN_GREATER] = {TN_OP_ABOVE, TN_OP_HOUSE_ABOVE},
     };
-    uint32_t number = emit_sum(emit, sum, constant, false);
-    if (sum->houses)
-        number = tn_emit_house_sum(emit, sum, number);
-    tn_emit_op(emit, span, opcodes[op][sum->houses], number, 0);
-    if (op == TN_AT_MOST || op == TN_UNEQUAL || op == TN_AT_LEAST)
-        tn_emit_op(emit, span, TN_OP_NOT, 0, 0);
+    uint32_t number = emit_sum(emit, c->sum, constant, false);
+    if (c->sum->houses)
+        number = tn_emit_house_sum(emit, c->sum, number);
+    tn_emit_op(emit, c->span, c->modulus > 0 ? TN_OP_MULTIPLE : opcodes[c->op][c->sum->houses], number, c->modulus);
+    if (c->op == TN_AT_MOST || c->op == TN_UNEQUAL || c->op == TN_AT_LEAST)
+        tn_emit_op(emit, c->span, TN_OP_NOT, 0, 0);
 }
 
 /* `matches` is 1 or 0: either of the two, each with what the rest of the sum then has to be. */
-static void emit_cases(tn_emit *emit, tn_span span, const tn_checked_sum *sum, size_t from, const char *constant,
-                       tn_operator op)
+static void emit_cases(tn_emit *emit, const comparing *c, size_t from, const char *constant)
 {
+    const tn_checked_sum *sum = c->sum;
     while (from < sum->count && sum->terms[from].kind != TN_TERM_MATCHES)
         from++;
     if (from == sum->count) {
-        emit_plain(emit, span, sum, constant, op);
+        emit_plain(emit, c, constant);
         return;
     }
     const tn_checked_term *term = &sum->terms[from];
     uint32_t function = part_of(emit, term, "");
     tn_check check = {.arena = emit->arena};
     const char *more = tn_amount_apply(&check, TN_EXPR_PLUS, constant, term->factor);
-    tn_emit_op(emit, span, TN_OP_CALL, function, 0);
-    emit_cases(emit, span, sum, from + 1, more ? more : constant, op);
-    tn_emit_op(emit, span, TN_OP_AND, 0, 0);
-    tn_emit_op(emit, span, TN_OP_CALL, function, 0);
-    tn_emit_op(emit, span, TN_OP_NOT, 0, 0);
-    emit_cases(emit, span, sum, from + 1, constant, op);
-    tn_emit_op(emit, span, TN_OP_AND, 0, 0);
-    tn_emit_op(emit, span, TN_OP_OR, 0, 0);
+    tn_emit_op(emit, c->span, TN_OP_CALL, function, 0);
+    emit_cases(emit, c, from + 1, more ? more : constant);
+    tn_emit_op(emit, c->span, TN_OP_AND, 0, 0);
+    tn_emit_op(emit, c->span, TN_OP_CALL, function, 0);
+    tn_emit_op(emit, c->span, TN_OP_NOT, 0, 0);
+    emit_cases(emit, c, from + 1, constant);
+    tn_emit_op(emit, c->span, TN_OP_AND, 0, 0);
+    tn_emit_op(emit, c->span, TN_OP_OR, 0, 0);
 }
 
 void tn_emit_comparison(tn_emit *emit, tn_span span, tn_checked_sum *sum, tn_operator op)
 {
-    emit_cases(emit, span, sum, 0, sum->constant, op);
+    comparing c = {.span = span, .sum = sum, .op = op};
+    emit_cases(emit, &c, 0, sum->constant);
+}
+
+void tn_emit_remainder(tn_emit *emit, const tn_ast_expr *expr)
+{
+    comparing c = {.span = expr->node.span, .sum = expr->sum, .op = expr->op, .modulus = expr->modulus};
+    emit_cases(emit, &c, 0, expr->sum->constant);
 }
 
 /* ---- measures */

@@ -328,13 +328,16 @@ tn_ast_expr *tn_ast_of(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_
     return expr;
 }
 
-tn_ast_expr *tn_ast_counted(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_expr *part, tn_ast_cond *condition)
+tn_ast_expr *tn_ast_counted(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_expr *part, tn_ast_region region,
+                            tn_ast_cond *condition)
 {
-    if (!part || !condition)
+    if (!part)
         return NULL;
     tn_ast_expr *expr = tn_ast_of(parse, kind, span, tn_ast_one(part));
-    if (expr)
+    if (expr) {
         expr->condition = condition;
+        expr->region = region;
+    }
     return expr;
 }
 

@@ -112,14 +112,19 @@ typedef enum tn_expr_kind {
     TN_EXPR_BEGINNING,
     TN_EXPR_END,
     TN_EXPR_IMPLIES,
-    TN_EXPR_EVERY,   /* every(a, b) */
-    TN_EXPR_SOME,    /* some v in FIELD (...): expanded before it is checked */
-    TN_EXPR_EACH,    /* every v in FIELD (...): likewise */
-    TN_EXPR_CALL,    /* of a rule with parameters: likewise */
-    TN_EXPR_PLAN,    /* plan [...] */
-    TN_EXPR_COMPARE, /* of two sums */
-    TN_EXPR_WITHIN,  /* a sum in a range: parts are the sum, low, high */
-    TN_EXPR_TRUE,    /* what a quantifier leaves: every stretch */
+    TN_EXPR_EVERY,      /* every(a, b) */
+    TN_EXPR_NEAR,       /* a beside b, a within K of b, a at least K from every b: parts are a, b and K */
+    TN_EXPR_EVERY_NEAR, /* every a beside b, ...: likewise */
+    TN_EXPR_WHERE,      /* a where b */
+    TN_EXPR_MIRRORED,   /* mirrored(f, g): `names` */
+    TN_EXPR_REMAINDER,  /* a sum mod a number, compared: parts are the sum, the number, the rest */
+    TN_EXPR_SOME,       /* some v in FIELD (...): expanded before it is checked */
+    TN_EXPR_EACH,       /* every v in FIELD (...): likewise */
+    TN_EXPR_CALL,       /* of a rule with parameters: likewise */
+    TN_EXPR_PLAN,       /* plan [...] */
+    TN_EXPR_COMPARE,    /* of two sums */
+    TN_EXPR_WITHIN,     /* a sum in a range: parts are the sum, low, high */
+    TN_EXPR_TRUE,       /* what a quantifier leaves: every stretch */
     TN_EXPR_FALSE,
     TN_EXPR_CELL,    /* of a form: items as of a tray */
     TN_EXPR_SECTION, /* of a form: items of section values */
@@ -132,6 +137,7 @@ typedef enum tn_expr_kind {
     TN_EXPR_NUMBER, /* a constant: `name` */
     TN_EXPR_TRAYS,
     TN_EXPR_MATCHES,
+    TN_EXPR_VALUES, /* values(f): `name` */
     TN_EXPR_PLUS,
     TN_EXPR_MINUS,
     TN_EXPR_TIMES,
@@ -142,6 +148,12 @@ typedef enum tn_expr_kind {
     TN_EXPR_LEAST,
     TN_EXPR_MOST,
 } tn_expr_kind;
+
+/* Where a count or a sum looks, of the stretch that a `where` is about. */
+typedef enum tn_ast_region { TN_AST_STRETCH, TN_AST_BEFORE, TN_AST_AFTER } tn_ast_region;
+
+/* How a stretch lies to another one that shares no tray with it. */
+typedef enum tn_near { TN_NEAR_BESIDE, TN_NEAR_WITHIN, TN_NEAR_APART } tn_near;
 
 /* Constants of sums: an exact rational with a dimension (amount.h). */
 typedef struct tn_sum_amount {
@@ -168,8 +180,10 @@ typedef struct tn_ast_expr {
     tn_ast_list parts;          /* tn_ast_expr; distance: source, destination, separator; call: arguments */
     tn_ast_sides sides;         /* symmetric */
     bool loose;                 /* tray: of an open plan: blanks alone may separate its items */
-    tn_ast_list names;          /* quantifier: the words that it binds */
+    tn_ast_list names;          /* quantifier: the words that it binds; mirrored: fields */
     tn_operator op;             /* of a comparison */
+    tn_near near;               /* of a relation to what lies around */
+    tn_ast_region region;       /* quantity, occurrences, sum */
     struct tn_ast_expr *figure; /* sum: what it adds up, where that is more than a field */
     tn_ast_cond *condition;
     size_t unit; /* expanded: the file in whose scope its names are, plus one; 0: that of what it stands in */
@@ -183,6 +197,7 @@ typedef struct tn_ast_expr {
     struct tn_checked_number *number; /* checked: figure: a number of the tray */
     const char *constant;             /* checked: figure: of a number that is written out */
     bool figure_good;                 /* checked: sum */
+    int64_t modulus;                  /* checked: remainder: in nanometres to the sum's power; 0: already reported */
     tn_sum_amount figure_amount;      /* checked: sum: the dimension of what it adds up */
     tn_ast_list tests;                /* checked: tray: comparisons of its numbers */
     bool resolved;                    /* checked: its name has been looked up */
@@ -390,21 +405,34 @@ tn_ast_expr *tn_ast_name(tn_parse *parse, const tn_ast_word *name);
 tn_ast_expr *tn_ast_expr_join(tn_parse *parse, tn_expr_kind kind, tn_ast_expr *first, tn_ast_expr *second);
 tn_ast_expr *tn_ast_expr_add(tn_parse *parse, tn_ast_expr *joined, tn_ast_expr *part);
 tn_ast_expr *tn_ast_of(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_list parts);
-tn_ast_expr *tn_ast_counted(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_expr *part,
+/* condition: NULL for a number. */
+tn_ast_expr *tn_ast_counted(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_expr *part, tn_ast_region region,
                             tn_ast_cond *condition);
 /* figure: arithmetic over one tray; condition: NULL for a number. */
-tn_ast_expr *tn_ast_sum(tn_parse *parse, tn_span span, tn_ast_expr *figure, tn_ast_expr *part, tn_ast_cond *condition);
+tn_ast_expr *tn_ast_sum(tn_parse *parse, tn_span span, tn_ast_expr *figure, tn_ast_expr *part, tn_ast_region region,
+                        tn_ast_cond *condition);
 tn_ast_expr *tn_ast_constant(tn_parse *parse, const tn_ast_word *word);
 tn_ast_expr *tn_ast_figure(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *detail);
 tn_ast_expr *tn_ast_arithmetic(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_expr *left, tn_ast_expr *right);
 tn_ast_expr *tn_ast_sum_compared(tn_parse *parse, tn_span span, tn_ast_expr *left, tn_operator op, tn_ast_expr *right);
 tn_ast_expr *tn_ast_sum_within(tn_parse *parse, tn_span span, tn_ast_expr *sum, tn_ast_expr *low, tn_ast_expr *high);
+tn_ast_expr *tn_ast_sum_remainder(tn_parse *parse, tn_span span, tn_ast_expr *sum, tn_ast_expr *modulus, tn_operator op,
+                                  tn_ast_expr *rest);
+tn_ast_expr *tn_ast_where(tn_parse *parse, tn_span span, tn_ast_expr *what, tn_ast_expr *where);
+/* `a where b implies c` and the like: E0421, and the first of them alone. */
+tn_ast_expr *tn_ast_mixed(tn_parse *parse, tn_span span, tn_ast_expr *first);
 /* `a < b < c`: E0409, and the first comparison alone. */
 tn_ast_expr *tn_ast_compared_chained(tn_parse *parse, tn_span span, tn_ast_expr *first);
 tn_ast_expr *tn_ast_implies(tn_parse *parse, tn_span span, tn_ast_expr *left, tn_ast_expr *right);
 /* `a implies b implies c`: E0421, and the first two alone. */
 tn_ast_expr *tn_ast_implies_chained(tn_parse *parse, tn_span span, tn_ast_expr *first);
 tn_ast_expr *tn_ast_every(tn_parse *parse, tn_span span, tn_ast_expr *which, tn_ast_expr *what);
+/* distance: NULL for `beside`. */
+tn_ast_expr *tn_ast_near(tn_parse *parse, tn_span span, tn_near near, tn_ast_expr *source, tn_ast_expr *distance,
+                         tn_ast_expr *destination);
+/* `a beside b beside c`: E0409, and the first two alone. */
+tn_ast_expr *tn_ast_near_chained(tn_parse *parse, tn_span span, tn_ast_expr *first);
+tn_ast_expr *tn_ast_every_near(tn_parse *parse, tn_span span, tn_ast_expr *near);
 tn_ast_expr *tn_ast_quantifier(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_list names,
                                const tn_ast_word *field, tn_ast_expr *part);
 tn_ast_expr *tn_ast_call(tn_parse *parse, tn_span span, const tn_ast_word *name, tn_ast_list arguments);

@@ -3,12 +3,14 @@
 #include "compiler/plan/syntax/ast.h"
 
 /* A sum of one field with a condition keeps the form that it had before there were others. */
-tn_ast_expr *tn_ast_sum(tn_parse *parse, tn_span span, tn_ast_expr *figure, tn_ast_expr *part, tn_ast_cond *condition)
+tn_ast_expr *tn_ast_sum(tn_parse *parse, tn_span span, tn_ast_expr *figure, tn_ast_expr *part, tn_ast_region region,
+                        tn_ast_cond *condition)
 {
     tn_ast_expr *expr = tn_ast_of(parse, TN_EXPR_SUM, span, tn_ast_one(part));
     if (!expr || !figure)
         return NULL;
     expr->condition = condition;
+    expr->region = region;
     if (figure->kind == TN_EXPR_FIGURE) {
         expr->name = figure->name;
         expr->detail = figure->detail;
@@ -64,6 +66,31 @@ tn_ast_expr *tn_ast_sum_within(tn_parse *parse, tn_span span, tn_ast_expr *sum, 
     return tn_ast_of(parse, TN_EXPR_WITHIN, span, tn_ast_append(tn_ast_append(tn_ast_one(sum), low), high));
 }
 
+tn_ast_expr *tn_ast_sum_remainder(tn_parse *parse, tn_span span, tn_ast_expr *sum, tn_ast_expr *modulus, tn_operator op,
+                                  tn_ast_expr *rest)
+{
+    if (!sum || !modulus || !rest)
+        return NULL;
+    tn_ast_list parts = tn_ast_append(tn_ast_append(tn_ast_one(sum), modulus), rest);
+    tn_ast_expr *expr = tn_ast_of(parse, TN_EXPR_REMAINDER, span, parts);
+    if (expr)
+        expr->op = op;
+    return expr;
+}
+
+tn_ast_expr *tn_ast_where(tn_parse *parse, tn_span span, tn_ast_expr *what, tn_ast_expr *where)
+{
+    return two(parse, TN_EXPR_WHERE, span, what, where);
+}
+
+tn_ast_expr *tn_ast_mixed(tn_parse *parse, tn_span span, tn_ast_expr *first)
+{
+    tn_diagnostic *d =
+        tn_report(parse->diagnostics, E_IMPLIES_CHAINED, span, "it is not clear how far this `where` reaches");
+    tn_help(parse->diagnostics, d, "use parentheses: `(a where b) implies c` or `a where (b implies c)`");
+    return first;
+}
+
 tn_ast_expr *tn_ast_compared_chained(tn_parse *parse, tn_span span, tn_ast_expr *first)
 {
     tn_diagnostic *d =
@@ -88,6 +115,37 @@ tn_ast_expr *tn_ast_implies_chained(tn_parse *parse, tn_span span, tn_ast_expr *
 tn_ast_expr *tn_ast_every(tn_parse *parse, tn_span span, tn_ast_expr *which, tn_ast_expr *what)
 {
     return two(parse, TN_EXPR_EVERY, span, which, what);
+}
+
+tn_ast_expr *tn_ast_near(tn_parse *parse, tn_span span, tn_near near, tn_ast_expr *source, tn_ast_expr *distance,
+                         tn_ast_expr *destination)
+{
+    tn_ast_expr *expr = two(parse, TN_EXPR_NEAR, span, source, destination);
+    if (!expr || (near != TN_NEAR_BESIDE && !distance))
+        return NULL;
+    expr->near = near;
+    if (distance)
+        expr->parts = tn_ast_append(expr->parts, distance);
+    return expr;
+}
+
+tn_ast_expr *tn_ast_near_chained(tn_parse *parse, tn_span span, tn_ast_expr *first)
+{
+    tn_diagnostic *d =
+        tn_report(parse->diagnostics, E_CHAINED_COMPARISON, span, "a relation has two sides, and this one has three");
+    tn_help(parse->diagnostics, d,
+            "write two relations joined by `and`: `a beside b and b beside c`; `neighbour(a, b, c)` is in this order");
+    return first;
+}
+
+tn_ast_expr *tn_ast_every_near(tn_parse *parse, tn_span span, tn_ast_expr *near)
+{
+    (void)parse;
+    if (!near)
+        return NULL;
+    near->kind = TN_EXPR_EVERY_NEAR;
+    near->node.span = span;
+    return near;
 }
 
 tn_ast_expr *tn_ast_quantifier(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_list names,

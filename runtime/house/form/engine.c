@@ -6,6 +6,7 @@
 #include "runtime/module/engine.h"
 #include "runtime/number/rational.h"
 #include "runtime/plan/schema/list.h"
+#include "runtime/plan/schema/sum.h"
 
 static const tn_function_record *function_of(const tn_checker *checker, uint32_t index)
 {
@@ -351,7 +352,8 @@ static tn_status check_house_summed(const tn_checker *checker, const tn_instruct
     bool lower = true;
     for (uint32_t i = 0; i < sum->term_count; i++) {
         const tn_term_record *term = &module->TERM_records[sum->term_first + i];
-        lower = lower && term->part < checker->record && term->kind != TN_SUM_MATCHES;
+        lower = lower && term->part < checker->record && term->kind != TN_SUM_MATCHES &&
+                tn_term_region(term->kind) == TN_REGION_STRETCH;
     }
     for (uint32_t i = 0; i < compared->term_count; i++) {
         uint32_t part = module->HOUSE_TERM_records[compared->term_first + i].part;

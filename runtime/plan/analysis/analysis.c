@@ -201,7 +201,7 @@ tn_status tn_plan_analysis_compares(const tn_module *module, uint32_t function, 
         const tn_function_record *record = &module->FUNCTION_records[f];
         for (uint32_t offset = record->code_begin; reached[f] && offset < record->code_end;) {
             tn_instruction code = tn_code_read(module->code, offset);
-            *compares |= code.opcode == TN_OP_BELOW || code.opcode == TN_OP_ZERO || code.opcode == TN_OP_ABOVE;
+            *compares |= tn_code_compares(code.opcode);
             offset += code.length;
         }
     }

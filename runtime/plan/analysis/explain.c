@@ -290,6 +290,22 @@ static tn_status explain_symmetric(tn_explaining *e, tn_reader_of who, tn_stretc
     return tn_explain_part(e, half, region, asked, node, &made);
 }
 
+/* What the stretch is; and what else it is to be, on the first that is so. */
+static tn_status explain_where(tn_explaining *e, tn_reader_of who, tn_stretch at, uint32_t node)
+{
+    bool matched = e->result->nodes[node].matched;
+    tn_reader_of first = tn_child(who, tn_part_of(e, who)->first);
+    tn_reader_of second = tn_child(who, tn_part_of(e, first)->next);
+    uint32_t found, made;
+    tn_status status = tn_explain_part(e, first, at, matched ? TN_ASKED_AS_WRITTEN : TN_ASKED_SOMEWHERE, node, &found);
+    if (status != TN_OK)
+        return status;
+    const tn_why *why = &e->result->nodes[found];
+    if (!matched && why->stretch_count > 0)
+        at = e->result->stretches[why->stretch_first];
+    return matched || why->stretch_count > 0 ? tn_explain_part(e, second, at, TN_ASKED_AS_WRITTEN, node, &made) : TN_OK;
+}
+
 static void find_closest(tn_explaining *e, tn_reader_of who, uint32_t node)
 {
     tn_why *why = &e->result->nodes[node];
@@ -342,7 +358,11 @@ static tn_status explain_below(tn_explaining *e, tn_reader_of who, uint32_t node
     case TN_PART_MANY:
         return tn_explain_part(e, tn_child(who, part->first), at, TN_ASKED_SINGLES, node, &made);
     case TN_PART_DISTANCE:
+    case TN_PART_NEAR:
+    case TN_PART_FAR:
         return tn_explain_distance(e, who, node, at);
+    case TN_PART_WHERE:
+        return explain_where(e, who, at, node);
     case TN_PART_COMPARISON:
     case TN_PART_HOUSE: /* in no rule about plans */
     case TN_PART_KIND_COUNT:
@@ -458,4 +478,29 @@ uint64_t tn_spec_failing(const tn_schema *schema, uint32_t spec, tn_tray tray)
             failing |= UINT64_C(1) << f;
     }
     return failing;
+}
+
+uint32_t tn_explanation_gaps(const tn_explanation *explanation, uint32_t node)
+{
+    const tn_why *why = &explanation->nodes[node];
+    const tn_parts *tree = &explanation->trees[why->tree];
+    tn_part_kind kind = tree->parts[why->part].kind;
+    if (kind == TN_PART_NOT && why->first != TN_NO_WHY && tn_part_is_step(tree, explanation->nodes[why->first].part)) {
+        node = why->first; /* `every a beside b` denies that one is not */
+        kind = tn_why_part(explanation, &explanation->nodes[node])->kind;
+        return kind == TN_PART_NEAR || kind == TN_PART_FAR ? node : TN_NO_WHY;
+    }
+    return kind == TN_PART_DISTANCE || kind == TN_PART_NEAR || kind == TN_PART_FAR ? node : TN_NO_WHY;
+}
+
+tn_gap_verdict tn_explanation_gap(const tn_explanation *explanation, uint32_t node, const tn_gap *gap)
+{
+    const tn_why *why = &explanation->nodes[node];
+    const tn_parts *tree = &explanation->trees[why->tree];
+    tn_part_kind kind = tree->parts[why->part].kind;
+    bool denied =
+        kind != TN_PART_DISTANCE && tn_part_is_step(tree, why->part); /* then a gap that fits is what is wrong */
+    if (gap->fits != denied)
+        return TN_GAP_GOOD;
+    return (kind == TN_PART_NEAR) != denied ? TN_GAP_TOO_FAR : TN_GAP_TOO_NEAR;
 }

@@ -86,4 +86,12 @@ uint32_t tn_explanation_largest(const tn_explanation *explanation);
 /* Which fields of a tray do not meet a specifier: bit f of the result (fields past 63 are left out). */
 uint64_t tn_spec_failing(const tn_schema *schema, uint32_t spec, tn_tray tray);
 
+/* The node whose gaps are those of the node: itself, or a step of what is written as one; TN_NO_WHY if it is about
+ * none. */
+uint32_t tn_explanation_gaps(const tn_explanation *explanation, uint32_t node);
+
+/* What a gap of that node says of the part as it is written. */
+typedef enum tn_gap_verdict { TN_GAP_GOOD, TN_GAP_TOO_NEAR, TN_GAP_TOO_FAR } tn_gap_verdict;
+tn_gap_verdict tn_explanation_gap(const tn_explanation *explanation, uint32_t node, const tn_gap *gap);
+
 #endif

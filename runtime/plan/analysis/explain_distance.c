@@ -1,4 +1,4 @@
-/* Distances: each source with the destinations nearest to it, and what lies between. */
+/* Distances, and what lies around: each source with the destinations nearest to it, and what lies between. */
 #include "runtime/plan/analysis/explain_data.h"
 
 #define GAPS_MAX 64u /* shown of one distance */
@@ -8,6 +8,8 @@ typedef struct looking {
     tn_reader_of separator;
     const uint64_t *source, *destination, *between;
     uint32_t node;
+    bool near;     /* is one destination whose gap fits enough? */
+    bool overlaps; /* do destinations that share a tray with the source count? */
 } looking;
 
 /* What separates a source and a destination: nothing, at the source's start, where they overlap (M of `distance`). */
@@ -30,7 +32,12 @@ static tn_status add_gap(const looking *l, tn_stretch source, tn_stretch destina
     return status == TN_OK ? tn_explain_gap(l->e, l->node, gap) : status;
 }
 
-/* Of a source: the first destination whose gap does not fit; or, where all fit, the nearest on either side. */
+static bool overlap(tn_stretch a, tn_stretch b)
+{
+    return a.begin < b.end && b.begin < a.end;
+}
+
+/* Of a source: the first destination whose gap decides; or, where none does, the nearest on either side. */
 static tn_status look_from(const looking *l, tn_stretch source)
 {
     uint32_t length = l->e->result->length;
@@ -40,7 +47,9 @@ static tn_status look_from(const looking *l, tn_stretch source)
         for (size_t b = tn_relation_row_next(row, a + 1, l->e->words); b != TN_NO_BIT;
              b = tn_relation_row_next(row, b + 1, l->e->words)) {
             tn_stretch destination = {a, (uint32_t)b};
-            if (!tn_in(l->e, l->between, between(source, destination)))
+            if (!l->overlaps && overlap(source, destination))
+                continue;
+            if (tn_in(l->e, l->between, between(source, destination)) == l->near)
                 return add_gap(l, source, destination);
             if (destination.end <= source.begin && (left.end == 0 || destination.end > left.end))
                 left = destination;
@@ -57,7 +66,11 @@ tn_status tn_explain_distance(tn_explaining *e, tn_reader_of who, uint32_t node,
     const tn_part *part = tn_part_of(e, who);
     tn_reader_of source = tn_child(who, part->first);
     tn_reader_of destination = tn_child(who, tn_part_of(e, source)->next);
-    looking l = {.e = e, .separator = tn_child(who, tn_part_of(e, destination)->next), .node = node};
+    looking l = {.e = e,
+                 .separator = tn_child(who, tn_part_of(e, destination)->next),
+                 .node = node,
+                 .near = part->kind == TN_PART_NEAR,
+                 .overlaps = part->kind == TN_PART_DISTANCE};
     tn_status status = tn_explain_relation(e, source, &l.source);
     if (status == TN_OK)
         status = tn_explain_relation(e, destination, &l.destination);

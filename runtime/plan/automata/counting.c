@@ -111,7 +111,7 @@ static bool counting_step(void *context, const uint32_t *key, size_t size, uint3
         return step_marker(counting, key, size, next);
     uint32_t phase = key[PHASE], thread = key[THREAD], running = key[RUNNING];
     for (size_t i = PLACES; i < size; i += 2)
-        place_add(counting, tn_guesses_read(&counting->guesses, key[i], phase, column), key[i + 1]);
+        place_add(counting, tn_guesses_read(&counting->guesses, key[i], phase == 1, column), key[i + 1]);
     if (phase == 1 && counting->guesses.tally == TN_TALLY_ENDS) {
         running = tn_guesses_running(&counting->guesses, running, thread, column);
         place_add(counting, tn_guesses_end_running(&counting->guesses, running), 1);

@@ -176,7 +176,7 @@ static tn_status less(const tn_marked *marked, const tn_guess_plan *plan, const 
     tn_dfa *near = NULL, *rest = NULL;
     tn_status status = guess_stretch(marked, plan, destination, failing, false, &near, error);
     if (status == TN_OK)
-        status = tn_dfa_product(*left, near, TN_DFA_MINUS, "distance", marked->bounds, &rest, error);
+        status = tn_dfa_product(*left, near, TN_DFA_MINUS, plan->what, marked->bounds, &rest, error);
     tn_dfa_free(near);
     if (status != TN_OK)
         return status;
@@ -185,23 +185,58 @@ static tn_status less(const tn_marked *marked, const tn_guess_plan *plan, const 
     return TN_OK;
 }
 
-tn_status tn_marked_distance(const tn_marked *marked, const tn_dfa *source, const tn_dfa *destination,
-                             const tn_dfa *separator, bool mirrored, tn_dfa **out, tn_error *error)
+/* The source less the stretches with a destination at a failing gap, as each of the plans finds it. */
+static tn_status less_all(const tn_marked *marked, const tn_guess_plan *const *plans, const tn_dfa *source,
+                          const tn_dfa *destination, const tn_dfa *failing, tn_dfa **out, tn_error *error)
 {
-    tn_dfa *failing = NULL, *left = NULL;
-    tn_status status = tn_marked_not(marked, separator, &failing, error);
-    if (status == TN_OK)
-        status = tn_dfa_product(source, marked->nonempty, TN_DFA_AND, "distance", marked->bounds, &left, error);
-    if (status == TN_OK)
-        status = less(marked, mirrored ? &across_mirrored : &across, destination, failing, &left, error);
-    if (status == TN_OK)
-        status = less(marked, &to_the_left, destination, failing, &left, error);
-    if (status == TN_OK)
-        status = less(marked, &to_the_right, destination, failing, &left, error);
-    tn_dfa_free(failing);
+    tn_dfa *left = NULL;
+    tn_status status =
+        tn_dfa_product(source, marked->nonempty, TN_DFA_AND, (*plans)->what, marked->bounds, &left, error);
+    for (; status == TN_OK && *plans; plans++)
+        status = less(marked, *plans, destination, failing, &left, error);
     if (status != TN_OK)
         tn_dfa_free(left);
     else
         *out = left;
+    return status;
+}
+
+tn_status tn_marked_distance(const tn_marked *marked, const tn_dfa *source, const tn_dfa *destination,
+                             const tn_dfa *separator, bool mirrored, tn_dfa **out, tn_error *error)
+{
+    const tn_guess_plan *const plans[] = {mirrored ? &across_mirrored : &across, &to_the_left, &to_the_right, NULL};
+    tn_dfa *failing = NULL;
+    tn_status status = tn_marked_not(marked, separator, &failing, error);
+    if (status == TN_OK)
+        status = less_all(marked, plans, source, destination, failing, out, error);
+    tn_dfa_free(failing);
+    return status;
+}
+
+static const tn_guess_plan *const around[] = {&to_the_left, &to_the_right, NULL};
+
+tn_status tn_marked_far(const tn_marked *marked, const tn_dfa *source, const tn_dfa *destination,
+                        const tn_dfa *separator, tn_dfa **out, tn_error *error)
+{
+    tn_dfa *failing = NULL;
+    tn_status status = tn_marked_not(marked, separator, &failing, error);
+    if (status == TN_OK)
+        status = less_all(marked, around, source, destination, failing, out, error);
+    tn_dfa_free(failing);
+    return status;
+}
+
+/* What is left of the source without those that have no such destination. */
+tn_status tn_marked_near(const tn_marked *marked, const tn_dfa *source, const tn_dfa *destination,
+                         const tn_dfa *separator, tn_dfa **out, tn_error *error)
+{
+    tn_dfa *none = NULL, *nonempty = NULL;
+    tn_status status = less_all(marked, around, source, destination, separator, &none, error);
+    if (status == TN_OK)
+        status = tn_dfa_product(source, marked->nonempty, TN_DFA_AND, "relation", marked->bounds, &nonempty, error);
+    if (status == TN_OK)
+        status = tn_dfa_product(nonempty, none, TN_DFA_MINUS, "relation", marked->bounds, out, error);
+    tn_dfa_free(none);
+    tn_dfa_free(nonempty);
     return status;
 }

@@ -98,14 +98,14 @@ static void set_add_running(tn_guesses *guesses, uint32_t state)
     set_add(guesses, tn_operand_mark(&guesses->a, state));
 }
 
-uint32_t tn_guesses_read(tn_guesses *guesses, uint32_t set, uint32_t phase, uint32_t column)
+uint32_t tn_guesses_read(tn_guesses *guesses, uint32_t set, bool inside, uint32_t column)
 {
     size_t size = set_members(guesses, set);
     set_begin(guesses);
     for (size_t i = 0; i < size; i++) {
         uint32_t state = guesses->scratch.data[i];
         uint32_t to = tn_guesses_state(guesses, state, column);
-        if (phase == 1 && guesses->a.phase[state] == 1)
+        if (inside && guesses->a.phase[state] == 1)
             set_add_running(guesses, to);
         else
             set_add(guesses, to);

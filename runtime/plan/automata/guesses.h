@@ -36,8 +36,8 @@ static inline uint32_t tn_guesses_state(const tn_guesses *guesses, uint32_t stat
                            guesses->join->pick[(size_t)column * guesses->join->parts + guesses->part]);
 }
 
-/* A set after one more tray. In phase 1 (between x and y), guesses of TALLY_STARTS that are under way may end. */
-uint32_t tn_guesses_read(tn_guesses *guesses, uint32_t set, uint32_t phase, uint32_t column);
+/* A set after one more tray. Inside of what is counted, guesses of TALLY_STARTS that are under way may end. */
+uint32_t tn_guesses_read(tn_guesses *guesses, uint32_t set, bool inside, uint32_t column);
 
 /* A set without the guesses that are under way (at y: they would end too late). */
 uint32_t tn_guesses_ended(tn_guesses *guesses, uint32_t set);

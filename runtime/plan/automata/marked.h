@@ -52,6 +52,20 @@ tn_status tn_marked_many(const tn_marked *marked, const tn_dfa *a, tn_dfa **out,
 tn_status tn_marked_distance(const tn_marked *marked, const tn_dfa *source, const tn_dfa *destination,
                              const tn_dfa *separator, bool mirrored, tn_dfa **out, tn_error *error);
 
+/* NEAR: stretches of the source with a destination that shares no letter with them and whose gap is in the separator.
+ */
+tn_status tn_marked_near(const tn_marked *marked, const tn_dfa *source, const tn_dfa *destination,
+                         const tn_dfa *separator, tn_dfa **out, tn_error *error);
+
+/* FAR: stretches of the source such that the gap to every destination that shares no letter with them is in it. */
+tn_status tn_marked_far(const tn_marked *marked, const tn_dfa *source, const tn_dfa *destination,
+                        const tn_dfa *separator, tn_dfa **out, tn_error *error);
+
+/* MIRRORED: stretches on which each letter has the value of the one as far from the other end. values: [letters], the
+ * marker's is not looked at. longest: no word asked about has more letters. */
+tn_status tn_marked_mirrored(const tn_marked *marked, const uint32_t *values, uint32_t longest, tn_dfa **out,
+                             tn_error *error);
+
 /* Counting conditions. */
 typedef enum tn_tally {
     TN_TALLY_SINGLES, /* QUANTITY and SUM: k in [i, j) with [k, k + 1) in the relation */

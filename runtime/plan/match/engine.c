@@ -106,6 +106,15 @@ static tn_status check_sum(const tn_checker *checker, const tn_instruction *inst
     return check_condition_kind(checker, instruction->second);
 }
 
+static tn_status check_field(const tn_checker *checker, const tn_instruction *instruction)
+{
+    uint32_t field = (uint32_t)instruction->first;
+    const tn_schema_record *schema = &checker->module->SCHEMA_records[function_of(checker)->schema];
+    if (field < schema->field_first || field - schema->field_first >= schema->field_count)
+        return tn_refuse(checker, "field %u is not of the function's schema", field);
+    return TN_OK;
+}
+
 static tn_status check_numbers(const tn_checker *checker, const tn_instruction *instruction)
 {
     if (instruction->opcode == TN_OP_REMAINDER && (instruction->first <= 0 || instruction->second < 0))
@@ -176,6 +185,12 @@ static void list_spec(tn_lister *lister, const tn_instruction *instruction)
     tn_list_spec(lister, (uint32_t)instruction->first);
 }
 
+static void list_field(tn_lister *lister, const tn_instruction *instruction)
+{
+    fprintf(lister->out, "field %u  ", (unsigned)instruction->first);
+    tn_list_name(lister, lister->module->FIELD_records[instruction->first].name);
+}
+
 static void list_function(tn_lister *lister, uint32_t function)
 {
     if (lister->module->FUNCTION_records[function].kind != TN_FUNCTION_CONDITION)
@@ -199,7 +214,7 @@ static const tn_section sections[] = {TN_SECTION_RULE, TN_SECTION_LIBRARY, TN_SE
 static const tn_operand_rules operands[] = {
     {TN_OPERANDS_SPEC, check_spec, list_spec}, {TN_OPERANDS_FUNC, check_call, NULL},
     {TN_OPERANDS_COND, check_condition, NULL}, {TN_OPERANDS_FIELD_COND, check_sum, NULL},
-    {TN_OPERANDS_INT2, check_numbers, NULL},
+    {TN_OPERANDS_INT2, check_numbers, NULL},   {TN_OPERANDS_FIELD, check_field, list_field},
 };
 
 extern const tn_engine tn_engine_match;

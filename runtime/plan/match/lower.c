@@ -211,6 +211,16 @@ static tn_status lower_boolean(tn_lowering *lowering, const tn_node *node, tn_df
     }
 }
 
+static tn_status lower_where(const tn_marked *marked, tn_dfa *const *in, tn_dfa **out, tn_error *error)
+{
+    tn_dfa *both = NULL;
+    tn_status status = tn_dfa_product(in[0], in[1], TN_DFA_AND, "where", marked->bounds, &both, error);
+    if (status == TN_OK)
+        status = tn_dfa_product(both, marked->nonempty, TN_DFA_AND, "where", marked->bounds, out, error);
+    tn_dfa_free(both);
+    return status;
+}
+
 /* The relation of an instruction whose operands are relations. */
 static tn_status lower_relation(const tn_lowering *lowering, const tn_node *node, bool reversed, tn_dfa *const *in,
                                 tn_dfa **out, tn_error *error)
@@ -246,6 +256,15 @@ static tn_status lower_relation(const tn_lowering *lowering, const tn_node *node
                                out, error);
     case TN_OP_DISTANCE:
         return tn_marked_distance(marked, in[0], in[1], in[2], reversed, out, error);
+    case TN_OP_WHERE:
+        return lower_where(marked, in, out, error);
+    case TN_OP_MIRRORED:
+        return tn_relate_mirrored(marked, classes, first - classes->schema->record->field_first, lowering->max_trays,
+                                  out, error);
+    case TN_OP_NEAR:
+        return tn_marked_near(marked, in[0], in[1], in[2], out, error);
+    case TN_OP_FAR:
+        return tn_marked_far(marked, in[0], in[1], in[2], out, error);
     default:
         return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "an instruction that makes no relation");
     }
@@ -265,7 +284,8 @@ static tn_status summed(tn_lowering *lowering, uint32_t index, const tn_sum **su
 /* Is the term's automaton needed, or does each tray decide alone? */
 static bool needs_part(const tn_lowering *lowering, const tn_term_record *term)
 {
-    return term->kind == TN_SUM_STARTS || !tn_summing_is_local(lowering->module, term->part, lowering->local);
+    return tn_term_counts(term->kind) == TN_SUM_STARTS ||
+           !tn_summing_is_local(lowering->module, term->part, lowering->local);
 }
 
 static uint32_t part_wanted(const tn_term_record *term, uint32_t form)
@@ -273,7 +293,7 @@ static uint32_t part_wanted(const tn_term_record *term, uint32_t form)
     return term->part * FORM_COUNT + (form & FORM_REVERSED);
 }
 
-/* BELOW, ZERO, ABOVE: the parts are lowered. */
+/* BELOW, ZERO, ABOVE, MULTIPLE: the parts are lowered. */
 static tn_status lower_comparison(tn_lowering *lowering, const tn_node *node, uint32_t form, tn_dfa **out,
                                   tn_error *error)
 {
@@ -289,7 +309,7 @@ static tn_status lower_comparison(tn_lowering *lowering, const tn_node *node, ui
         if (needs_part(lowering, term))
             parts[i] = lowering->lowered[part_wanted(term, form)].dfa;
     }
-    status = tn_relate_sum(&lowering->marked, lowering->classes, sum, parts, form & FORM_REVERSED, node->code.opcode,
+    status = tn_relate_sum(&lowering->marked, lowering->classes, sum, parts, form & FORM_REVERSED, &node->code,
                            lowering->max_trays, out, error);
     free(parts);
     return status;
@@ -301,11 +321,6 @@ static tn_status lower_house(const tn_lowering *lowering, const tn_node *node, b
     if (!lowering->ask)
         return tn_fail(error, TN_INVALID, E_NOT_A_HOUSE, "a rule about houses was asked about a plan alone");
     return lowering->ask(lowering->house, &lowering->marked, &node->code, reversed, out, error);
-}
-
-static bool compares(tn_opcode opcode)
-{
-    return opcode == TN_OP_BELOW || opcode == TN_OP_ZERO || opcode == TN_OP_ABOVE;
 }
 
 static tn_status lower_node(tn_lowering *lowering, const tn_node *node, uint32_t form, tn_dfa *const *in, tn_dfa **out,
@@ -332,7 +347,7 @@ static tn_status lower_node(tn_lowering *lowering, const tn_node *node, uint32_t
     }
     tn_dfa *relation = NULL;
     bool reversed = form & FORM_REVERSED;
-    tn_status status = compares(node->code.opcode) ? lower_comparison(lowering, node, form, &relation, error)
+    tn_status status = tn_code_compares(node->code.opcode) ? lower_comparison(lowering, node, form, &relation, error)
                        : tn_code_asks_house(node->code.opcode)
                            ? lower_house(lowering, node, reversed, &relation, error)
                            : lower_relation(lowering, node, reversed, in, &relation, error);
@@ -401,7 +416,7 @@ static tn_status push_callees(tn_lowering *lowering, const tn_term *term, uint32
     for (size_t i = 0; status == TN_OK && i < term->count; i++) {
         const tn_node *node = &term->nodes[i];
         uint32_t wanted;
-        if (compares(node->code.opcode)) {
+        if (tn_code_compares(node->code.opcode)) {
             status = push_parts(lowering, node, form, pending, error);
         } else if (node->code.opcode == TN_OP_CALL || node->code.opcode == TN_OP_MIRROR) {
             called(lowering, node, form, &wanted);

@@ -261,9 +261,17 @@ static tn_status read_instruction(reading *r, uint32_t offset, const tn_instruct
         return read_counted(r, TN_PART_OCCURRENCES, offset, code);
     case TN_OP_DISTANCE:
         return wrap(r, leaf(TN_PART_DISTANCE, offset, code->length), 3);
+    case TN_OP_NEAR:
+        return wrap(r, leaf(TN_PART_NEAR, offset, code->length), 3);
+    case TN_OP_FAR:
+        return wrap(r, leaf(TN_PART_FAR, offset, code->length), 3);
+    case TN_OP_WHERE:
+        return wrap(r, leaf(TN_PART_WHERE, offset, code->length), 2);
     case TN_OP_BELOW:
     case TN_OP_ZERO:
     case TN_OP_ABOVE:
+    case TN_OP_MULTIPLE:
+    case TN_OP_MIRRORED:
         return push(r, leaf(TN_PART_COMPARISON, offset, code->length));
     default:
         return foreign(r, offset);
@@ -402,8 +410,8 @@ void tn_parts_clear(tn_parts *parts)
 const char *tn_part_word(tn_part_kind kind)
 {
     static const char *const words[TN_PART_KIND_COUNT] = {
-        "tray",     "rule", "and",         "or",   "not",      "neighbour",  "symmetric",
-        "quantity", "sum",  "occurrences", "many", "distance", "comparison", "house",
+        "tray",        "rule", "and",      "or",   "not", "neighbour", "symmetric",  "quantity", "sum",
+        "occurrences", "many", "distance", "near", "far", "where",     "comparison", "house",
     };
     return kind < TN_PART_KIND_COUNT ? words[kind] : "part";
 }
@@ -506,7 +514,10 @@ bool tn_part_is_step(const tn_parts *parts, uint32_t part)
 
 bool tn_part_unwritten(const tn_parts *parts, uint32_t part)
 {
-    return tn_part_is_step(parts, part) && parts->parts[parts->parts[part].parent].kind == TN_PART_SUM;
+    if (!tn_part_is_step(parts, part))
+        return false;
+    tn_part_kind above = parts->parts[parts->parts[part].parent].kind;
+    return above == TN_PART_SUM || above == TN_PART_NEAR || above == TN_PART_FAR;
 }
 
 uint32_t tn_part_size(const tn_parts *parts, uint32_t part)

@@ -26,7 +26,10 @@ typedef enum tn_part_kind {
     TN_PART_OCCURRENCES,
     TN_PART_MANY,
     TN_PART_DISTANCE,   /* source, destination, separator */
-    TN_PART_COMPARISON, /* of sums: a leaf, what it counts is not opened */
+    TN_PART_NEAR,       /* the same three: some destination that shares no tray with the source */
+    TN_PART_FAR,        /* likewise: every such destination */
+    TN_PART_WHERE,      /* a stretch, and what else it is */
+    TN_PART_COMPARISON, /* of sums, or of a stretch with its mirror image: a leaf, what it counts is not opened */
     TN_PART_HOUSE,      /* a question about a house (`cell`, `room`, `apart`): a leaf */
     TN_PART_KIND_COUNT
 } tn_part_kind;
@@ -75,7 +78,7 @@ void tn_part_text(const tn_parts *parts, uint32_t part, char *text, size_t size)
 void tn_source_text(const tn_module *module, uint32_t file, uint32_t begin, uint32_t end, char *text, size_t size);
 
 /* Is the part's place in the source its parent's too, so that it is only there in the code (the trays that `total` or a
- * sum without `of` adds up)? */
+ * sum without `of` adds up, what is asked of the gap in `a within K of b`)? */
 bool tn_part_unwritten(const tn_parts *parts, uint32_t part);
 
 /* Is the part's place in the source its parent's too: a step of what is written as one (`implies`, `every`, `tray` with

@@ -248,6 +248,35 @@ TN_RELATION_INLINE void tn_relation_distance(uint64_t *source, const uint64_t *d
     }
 }
 
+/* source := { [i, j) of it, i < j, such that the gap to every destination that shares no tray with it is in the
+ * separator }. */
+TN_RELATION_INLINE void tn_relation_far(uint64_t *source, const uint64_t *destination, const uint64_t *separator,
+                                        size_t trays, size_t words, const tn_gaps *gaps)
+{
+    tn_gaps_find(gaps, destination, separator, trays, words);
+    for (size_t i = 0; i <= trays; i++) {
+        uint64_t *row = tn_relation_row(source, i, words);
+        bool fine = !tn_relation_row_has(gaps->left_bad, i);
+        for (size_t w = 0; w < words; w++)
+            row[w] &= fine ? gaps->right_fine[w] & tn_bits_from(i + 1, w) : 0;
+    }
+}
+
+/* source := { [i, j) of it, i < j, with a destination that shares no tray with it and whose gap is in the separator }:
+ * not all gaps are outside of it. The separator is turned into its opposite. */
+TN_RELATION_INLINE void tn_relation_near(uint64_t *source, const uint64_t *destination, uint64_t *separator,
+                                         size_t trays, size_t words, const tn_gaps *gaps)
+{
+    tn_relation_not(separator, trays, words);
+    tn_gaps_find(gaps, destination, separator, trays, words);
+    for (size_t i = 0; i <= trays; i++) {
+        uint64_t *row = tn_relation_row(source, i, words);
+        bool left = tn_relation_row_has(gaps->left_bad, i);
+        for (size_t w = 0; w < words; w++)
+            row[w] &= (left ? ~UINT64_C(0) : ~gaps->right_fine[w]) & tn_bits_from(i + 1, w);
+    }
+}
+
 /* turned := { [N - j, N - i) : [i, j) in relation }. */
 TN_RELATION_INLINE void tn_relation_turn(uint64_t *turned, const uint64_t *relation, size_t trays, size_t words)
 {

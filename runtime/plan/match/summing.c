@@ -8,32 +8,40 @@
 #include "runtime/module/code.h"
 #include "runtime/plan/match/vm.h"
 
-/* A key is {phase, thread and running set of each term, then term, set and steps (two words) of each kind of place}. */
-enum { PHASE, TERMS };
+/* A key is {phase, if the sum asks for it which trays were there (two words), thread and running set of each term, then
+ * term, set and steps (two words) of each kind of place}. */
+enum { PHASE, PRESENT_LOW, PRESENT_HIGH };
 enum { THREAD, RUNNING, TERM_WORDS };
 enum { PLACE_TERM, PLACE_SET, PLACE_LOW, PLACE_HIGH, PLACE_WORDS };
 
 enum { UNKNOWN, LOCAL, NOT_LOCAL };
 
+/* Does a sum count what only the trays around decide? */
+static bool sum_looks_around(const tn_module *module, uint32_t index, uint8_t *known)
+{
+    const tn_sum_record *sum = &module->SUM_records[index];
+    for (uint32_t i = 0; i < sum->term_count; i++) {
+        const tn_term_record *term = &module->TERM_records[sum->term_first + i];
+        if (tn_term_region(term->kind) != TN_REGION_STRETCH || !tn_summing_is_local(module, term->part, known))
+            return true;
+    }
+    return false;
+}
+
 static bool looks_around(const tn_module *module, const tn_instruction *code, uint8_t *known)
 {
+    if (tn_code_compares(code->opcode))
+        return sum_looks_around(module, (uint32_t)code->first, known);
     switch (code->opcode) {
     case TN_OP_BEGINNING:
     case TN_OP_END:
     case TN_OP_DISTANCE:
+    case TN_OP_NEAR:
+    case TN_OP_FAR:
         return true;
     case TN_OP_CALL:
     case TN_OP_MIRROR:
         return !tn_summing_is_local(module, (uint32_t)code->first, known);
-    case TN_OP_BELOW:
-    case TN_OP_ZERO:
-    case TN_OP_ABOVE: {
-        const tn_sum_record *sum = &module->SUM_records[code->first];
-        for (uint32_t i = 0; i < sum->term_count; i++)
-            if (!tn_summing_is_local(module, module->TERM_records[sum->term_first + i].part, known))
-                return true;
-        return false;
-    }
     default:
         return false;
     }
@@ -62,21 +70,50 @@ static int64_t weight_of(const tn_sum_term *term, tn_tray tray)
     return term->weight ? term->weight[tray] : term->each;
 }
 
+/* In which phase a term's places are read. A reversed plan is read from its other end. */
+static uint32_t phase_of(const tn_sum_term *term, bool reversed)
+{
+    if (term->region == TN_REGION_STRETCH)
+        return 1;
+    return (term->region == TN_REGION_BEFORE) != reversed ? 0 : 2;
+}
+
+/* What the trays of the classes decide alone. */
+typedef struct tn_alone {
+    int64_t *steps;    /* [3][classes] */
+    uint64_t *present; /* [classes] */
+} tn_alone;
+
+static void add_alone(const tn_sum *sum, uint32_t i, const tn_classes *classes, uint32_t c, bool reversed,
+                      uint64_t present, tn_alone *alone)
+{
+    const tn_sum_term *term = &sum->terms[i];
+    if (term->kind == TN_SUM_PRESENT)
+        alone->present[c] |= present;
+    else
+        alone->steps[(size_t)phase_of(term, reversed) * classes->count + c] +=
+            weight_of(term, classes->representative[c]);
+}
+
 /* What each class's tray adds by the terms that it decides alone. */
-static tn_status find_local(const tn_sum *sum, const tn_classes *classes, tn_dfa *const *parts, int64_t *local,
-                            tn_error *error)
+static tn_status find_alone(const tn_sum *sum, const tn_classes *classes, tn_dfa *const *parts, bool reversed,
+                            tn_alone *alone, tn_error *error)
 {
     tn_plan_vm *vm = NULL;
     tn_status status = tn_plan_vm_new(sum->schema, 1, &vm, error);
     for (uint32_t c = 0; status == TN_OK && c < classes->count; c++) {
         tn_tray tray = classes->representative[c];
+        uint64_t present = 1;
         status = tn_plan_vm_plan(vm, &tray, 1, error);
         for (uint32_t i = 0; status == TN_OK && i < sum->count; i++) {
             bool in = false;
             if (parts[i] || sum->terms[i].kind == TN_SUM_MATCHES)
                 continue;
             status = tn_plan_vm_relation(vm, sum->terms[i].part, 0, 1, &in, error);
-            local[c] += in ? weight_of(&sum->terms[i], tray) : 0;
+            if (status == TN_OK && in)
+                add_alone(sum, i, classes, c, reversed, present, alone);
+            if (sum->terms[i].kind == TN_SUM_PRESENT)
+                present <<= 1;
         }
     }
     tn_plan_vm_free(vm);
@@ -84,17 +121,19 @@ static tn_status find_local(const tn_sum *sum, const tn_classes *classes, tn_dfa
 }
 
 /* Numbers what tells the classes apart: *extra[class]. */
-static bool number_weights(const tn_sum *sum, const tn_classes *classes, tn_dfa *const *parts, const int64_t *local,
+static bool number_weights(const tn_sum *sum, const tn_classes *classes, tn_dfa *const *parts, const tn_alone *alone,
                            uint32_t *extra)
 {
     tn_numbering values = {0}, pairs = {0};
     bool ok = true;
     for (uint32_t c = 0; ok && c < classes->count; c++) {
-        uint32_t id = tn_number(&values, (uint64_t)local[c]);
-        for (uint32_t i = 0; i < sum->count && id != UINT32_MAX; i++) {
-            if (!parts[i])
+        uint32_t id = tn_number(&values, alone->present[c]);
+        for (uint32_t i = 0; i < 3 + sum->count && id != UINT32_MAX; i++) {
+            if (i >= 3 && !parts[i - 3])
                 continue;
-            uint32_t weight = tn_number(&values, (uint64_t)weight_of(&sum->terms[i], classes->representative[c]));
+            int64_t steps = i < 3 ? alone->steps[(size_t)i * classes->count + c]
+                                  : weight_of(&sum->terms[i - 3], classes->representative[c]);
+            uint32_t weight = tn_number(&values, (uint64_t)steps);
             id = weight == UINT32_MAX ? weight : tn_number(&pairs, (uint64_t)id << 32 | weight);
         }
         extra[c] = id;
@@ -116,9 +155,10 @@ static void note_range(int64_t weight, int64_t *up, int64_t *down)
 static void find_range(tn_summing *summing)
 {
     int64_t up = 0, down = 0;
-    for (uint32_t c = 0; c < summing->join.columns; c++)
-        if (c != summing->marker)
-            note_range(summing->local[c], &up, &down);
+    for (uint32_t phase = 0; phase < 3; phase++)
+        for (uint32_t c = 0; c < summing->join.columns; c++)
+            if (c != summing->marker)
+                note_range(summing->local[(size_t)phase * summing->join.columns + c], &up, &down);
     summing->most_up = up;
     summing->most_down = down;
     for (uint32_t t = 0; t < summing->count; t++) {
@@ -126,6 +166,12 @@ static void find_range(tn_summing *summing)
         for (uint32_t c = 0; c < summing->join.columns; c++)
             if (c != summing->marker)
                 note_range(summing->terms[t].weight[c], &up, &down);
+        summing->most_up += up;
+        summing->most_down += down;
+    }
+    for (uint32_t p = 0; p < summing->present_count; p++) {
+        up = down = 0;
+        note_range(summing->present_steps[p], &up, &down);
         summing->most_up += up;
         summing->most_down += down;
     }
@@ -138,6 +184,7 @@ static tn_status add_terms(tn_summing *summing, const tn_sum *sum, const tn_clas
         if (!parts[i])
             continue;
         tn_summing_term *term = &summing->terms[summing->count];
+        term->phase = phase_of(&sum->terms[i], reversed);
         tn_tally tally = sum->terms[i].kind == TN_SUM_SINGLES ? TN_TALLY_SINGLES
                          : reversed                           ? TN_TALLY_ENDS
                                                               : TN_TALLY_STARTS;
@@ -155,44 +202,76 @@ static tn_status add_terms(tn_summing *summing, const tn_sum *sum, const tn_clas
 }
 
 static tn_status join(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, const tn_classes *classes,
-                      tn_dfa *const *parts, const int64_t *local, tn_error *error)
+                      tn_dfa *const *parts, const tn_alone *alone, tn_error *error)
 {
     uint32_t count = 0;
     uint32_t *extra = calloc(marked->letters, sizeof *extra);
     const tn_dfa **dfas = calloc((size_t)sum->count + 1, sizeof *dfas);
-    bool ok = extra && dfas && number_weights(sum, classes, parts, local, extra);
+    bool ok = extra && dfas && number_weights(sum, classes, parts, alone, extra);
     for (uint32_t i = 0; ok && i < sum->count; i++)
         if (parts[i])
             dfas[count++] = parts[i];
     tn_status status =
         ok ? tn_join_make(&summing->join, dfas, count, marked->letters, extra, true, error) : tn_fail_memory(error);
+    size_t columns = summing->join.columns;
     if (status == TN_OK) {
         summing->marker = summing->join.column[marked->letters - 1];
-        summing->local = calloc((size_t)summing->join.columns + 1, sizeof *summing->local);
+        summing->local = calloc(3 * columns + 1, sizeof *summing->local);
+        summing->present = calloc(columns + 1, sizeof *summing->present);
         summing->terms = calloc((size_t)count + 1, sizeof *summing->terms);
-        status = summing->local && summing->terms ? TN_OK : tn_fail_memory(error);
+        status = summing->local && summing->present && summing->terms ? TN_OK : tn_fail_memory(error);
     }
-    for (uint32_t c = 0; status == TN_OK && c < summing->join.columns; c++)
-        if (c != summing->marker)
-            summing->local[c] = local[summing->join.letter[c]];
+    for (uint32_t c = 0; status == TN_OK && c < columns; c++) {
+        uint32_t letter = summing->join.letter[c];
+        if (c == summing->marker)
+            continue;
+        summing->present[c] = alone->present[letter];
+        for (size_t phase = 0; phase < 3; phase++)
+            summing->local[phase * columns + c] = alone->steps[phase * classes->count + letter];
+    }
     free(extra);
     free(dfas);
     return status;
+}
+
+static tn_status find_present(tn_summing *summing, const tn_sum *sum, bool reversed, tn_error *error)
+{
+    summing->present_steps = calloc(TN_PRESENT_MAX, sizeof *summing->present_steps);
+    if (!summing->present_steps)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < sum->count; i++) {
+        summing->behind |= phase_of(&sum->terms[i], reversed) == 2;
+        if (sum->terms[i].kind != TN_SUM_PRESENT)
+            continue;
+        if (summing->present_count == TN_PRESENT_MAX) {
+            tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES, "a sum counts more than %u values that are there or not",
+                    TN_PRESENT_MAX);
+            tn_error_help(error, "count the values of fewer fields, or of a field with fewer values");
+            return TN_LIMIT;
+        }
+        summing->present_steps[summing->present_count++] = sum->terms[i].each;
+    }
+    return TN_OK;
 }
 
 tn_status tn_summing_make(tn_summing *summing, const tn_sum *sum, const tn_marked *marked, const tn_classes *classes,
                           tn_dfa *const *parts, bool reversed, tn_error *error)
 {
     *summing = (tn_summing){0};
-    int64_t *local = calloc((size_t)classes->count + 1, sizeof *local);
-    tn_status status = local ? find_local(sum, classes, parts, local, error) : tn_fail_memory(error);
+    tn_alone alone = {calloc(3 * (size_t)classes->count + 1, sizeof *alone.steps),
+                      calloc((size_t)classes->count + 1, sizeof *alone.present)};
+    tn_status status =
+        alone.steps && alone.present ? find_present(summing, sum, reversed, error) : tn_fail_memory(error);
     if (status == TN_OK)
-        status = join(summing, sum, marked, classes, parts, local, error);
+        status = find_alone(sum, classes, parts, reversed, &alone, error);
+    if (status == TN_OK)
+        status = join(summing, sum, marked, classes, parts, &alone, error);
     if (status == TN_OK)
         status = add_terms(summing, sum, classes, parts, reversed, error);
     if (status == TN_OK)
         find_range(summing);
-    free(local);
+    free(alone.steps);
+    free(alone.present);
     return status;
 }
 
@@ -205,6 +284,8 @@ void tn_summing_clear(tn_summing *summing)
     tn_join_clear(&summing->join);
     free(summing->terms);
     free(summing->local);
+    free(summing->present);
+    free(summing->present_steps);
     free(summing->pending);
     *summing = (tn_summing){0};
 }
@@ -260,9 +341,20 @@ static int64_t steps_of(const uint32_t *place)
 
 /* ---- steps */
 
+static size_t terms_at(const tn_summing *summing)
+{
+    return summing->present_count ? PRESENT_HIGH + 1 : PHASE + 1;
+}
+
+static bool push_present(const tn_summing *summing, uint64_t present, tn_key *key)
+{
+    return summing->present_count == 0 ||
+           (tn_key_push(key, (uint32_t)present) && tn_key_push(key, (uint32_t)(present >> 32)));
+}
+
 bool tn_summing_start(const tn_summing *summing, tn_key *key)
 {
-    bool ok = tn_key_push(key, 0);
+    bool ok = tn_key_push(key, 0) && push_present(summing, 0, key);
     for (uint32_t t = 0; t < summing->count; t++) {
         uint32_t thread = summing->terms[t].guesses.a.dead == 0 ? TN_NO_STATE : 0;
         ok = ok && tn_key_push(key, thread) && tn_key_push(key, TN_NO_GUESSES);
@@ -272,7 +364,7 @@ bool tn_summing_start(const tn_summing *summing, tn_key *key)
 
 static size_t places_at(const tn_summing *summing)
 {
-    return TERMS + TERM_WORDS * (size_t)summing->count;
+    return terms_at(summing) + TERM_WORDS * (size_t)summing->count;
 }
 
 bool tn_summing_waits(const tn_summing *summing, size_t size)
@@ -282,9 +374,11 @@ bool tn_summing_waits(const tn_summing *summing, size_t size)
 
 static bool step_marker(tn_summing *summing, const uint32_t *key, size_t size, tn_key *next, int64_t *gain)
 {
-    bool ok = tn_key_push(next, key[PHASE] + 1);
+    uint32_t phase = key[PHASE] + 1;
+    bool ok = tn_key_push(next, phase) && push_present(summing, 0, next); /* what was there is counted */
     for (uint32_t t = 0; t < summing->count; t++) {
-        uint32_t thread = key[PHASE] == 0 ? key[TERMS + TERM_WORDS * (size_t)t + THREAD] : TN_NO_STATE;
+        bool goes_on = phase <= summing->terms[t].phase;
+        uint32_t thread = goes_on ? key[terms_at(summing) + TERM_WORDS * (size_t)t + THREAD] : TN_NO_STATE;
         ok = ok && tn_key_push(next, thread) && tn_key_push(next, TN_NO_GUESSES);
     }
     for (size_t i = places_at(summing); i < size; i += PLACE_WORDS) {
@@ -302,10 +396,11 @@ static bool step_term(tn_summing *summing, uint32_t t, uint32_t phase, const uin
     tn_guesses *guesses = &summing->terms[t].guesses;
     uint32_t thread = words[THREAD], running = words[RUNNING];
     int64_t weight = summing->terms[t].weight[column];
-    if (phase == 1 && guesses->tally == TN_TALLY_ENDS) {
+    bool inside = phase == summing->terms[t].phase;
+    if (inside && guesses->tally == TN_TALLY_ENDS) {
         running = tn_guesses_running(guesses, running, thread, column);
         add_pending(summing, t, tn_guesses_end_running(guesses, running), weight, gain);
-    } else if (phase == 1) {
+    } else if (inside) {
         add_pending(summing, t, tn_guesses_new(guesses, thread, column), weight, gain);
     }
     if (thread != TN_NO_STATE)
@@ -313,6 +408,18 @@ static bool step_term(tn_summing *summing, uint32_t t, uint32_t phase, const uin
     if (thread == guesses->a.dead)
         thread = TN_NO_STATE;
     return tn_key_push(next, thread) && tn_key_push(next, running);
+}
+
+/* The trays that are there after a tray of the given column: a new one is counted once. */
+static bool step_present(const tn_summing *summing, const uint32_t *key, uint32_t column, tn_key *next, int64_t *gain)
+{
+    if (summing->present_count == 0)
+        return true;
+    uint64_t was = (uint64_t)key[PRESENT_HIGH] << 32 | key[PRESENT_LOW];
+    uint64_t now = key[PHASE] == 1 ? was | summing->present[column] : was;
+    for (uint64_t more = now & ~was; more; more &= more - 1)
+        *gain += summing->present_steps[__builtin_ctzll(more)];
+    return push_present(summing, now, next);
 }
 
 bool tn_summing_step(tn_summing *summing, const uint32_t *key, size_t size, uint32_t column, tn_key *next,
@@ -325,16 +432,16 @@ bool tn_summing_step(tn_summing *summing, const uint32_t *key, size_t size, uint
     if (column == summing->marker) {
         ok = step_marker(summing, key, size, next, gain);
     } else {
-        *gain = phase == 1 ? summing->local[column] : 0;
-        ok = tn_key_push(next, phase);
+        *gain = phase < 3 ? summing->local[(size_t)phase * summing->join.columns + column] : 0;
+        ok = tn_key_push(next, phase) && step_present(summing, key, column, next, gain);
         for (size_t i = places_at(summing); i < size; i += PLACE_WORDS) {
-            uint32_t term = key[i + PLACE_TERM];
-            add_pending(summing, term,
-                        tn_guesses_read(&summing->terms[term].guesses, key[i + PLACE_SET], phase, column),
+            tn_summing_term *term = &summing->terms[key[i + PLACE_TERM]];
+            add_pending(summing, key[i + PLACE_TERM],
+                        tn_guesses_read(&term->guesses, key[i + PLACE_SET], phase == term->phase, column),
                         steps_of(key + i), gain);
         }
         for (uint32_t t = 0; ok && t < summing->count; t++)
-            ok = step_term(summing, t, phase, key + TERMS + TERM_WORDS * (size_t)t, column, next, gain);
+            ok = step_term(summing, t, phase, key + terms_at(summing) + TERM_WORDS * (size_t)t, column, next, gain);
     }
     uint64_t effort = 0;
     for (uint32_t t = 0; t < summing->count; t++) {

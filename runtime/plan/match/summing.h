@@ -8,7 +8,7 @@
 #ifndef TARTAN_PLAN_MATCH_SUMMING_H
 #define TARTAN_PLAN_MATCH_SUMMING_H
 
-#include "runtime/module/opcodes.h"
+#include "runtime/module/code.h"
 #include "runtime/plan/automata/guesses.h"
 #include "runtime/plan/automata/marked.h"
 #include "runtime/plan/schema/classes.h"
@@ -16,6 +16,7 @@
 
 typedef struct tn_summing_term {
     tn_guesses guesses;
+    uint32_t phase;  /* in which its places lie: how many markers have been read there */
     int64_t *weight; /* [columns]: steps of a place that the column's tray makes */
 } tn_summing_term;
 
@@ -26,16 +27,23 @@ typedef struct tn_summing_pending {
 
 typedef struct tn_summing {
     tn_join join;
-    uint32_t marker;        /* column of the join */
-    int64_t *local;         /* [columns]: steps of a tray of the stretch, by the terms that it decides alone */
-    tn_summing_term *terms; /* the others */
+    uint32_t marker; /* column of the join */
+    int64_t *local;  /* [3][columns]: steps of a tray, by the terms that it decides alone: before the stretch, in it,
+                        behind it */
+    tn_summing_term *terms; /* those that the trays around decide too */
     uint32_t count;
+    uint64_t *present;          /* [columns]: a bit for each term that wants such a tray in the stretch */
+    int64_t *present_steps;     /* [present_count] */
+    uint32_t present_count;     /* at most TN_PRESENT_MAX */
+    bool behind;                /* does a term count what lies behind the stretch? */
     int64_t most_up, most_down; /* by how much a tray can raise or lower the sum, both at least 0 */
     tn_summing_pending *pending;
     size_t pending_size, pending_capacity;
     uint64_t effort;
     bool failed;
 } tn_summing;
+
+#define TN_PRESENT_MAX 64u /* terms of a sum that are there or not: more are E0802 */
 
 /* Does the relation of a function say of one tray alone whether it is in it, whatever stands around it? known: zeroed
  * to begin with, [FUNCTION records]: what has been found so far. */
@@ -60,9 +68,11 @@ bool tn_summing_waits(const tn_summing *summing, size_t size);
 /* What is added where the plan ends in this state. */
 int64_t tn_summing_rest(const tn_summing *summing, const uint32_t *key, size_t size);
 
-/* The stretches on which the sum, with its constant, compares so with 0: opcode is BELOW, ZERO or ABOVE. max_trays: of
- * the plans that will be asked about, or 0 where that is not known: then sums that rise and fall are E0802. */
+/* The stretches on which the sum, with its constant, compares so with 0, or is a multiple: `compare` is BELOW, ZERO,
+ * ABOVE or MULTIPLE. max_trays: of the plans that will be asked about, or 0 where that is not known: then sums that
+ * rise and fall are E0802. */
 tn_status tn_relate_sum(const tn_marked *marked, const tn_classes *classes, const tn_sum *sum, tn_dfa *const *parts,
-                        bool reversed, tn_opcode opcode, uint32_t max_trays, tn_dfa **out, tn_error *error);
+                        bool reversed, const tn_instruction *compare, uint32_t max_trays, tn_dfa **out,
+                        tn_error *error);
 
 #endif

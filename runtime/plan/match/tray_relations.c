@@ -73,3 +73,23 @@ tn_status tn_relate_numbers(const tn_marked *marked, const tn_module *module, co
     free(holds);
     return status;
 }
+
+tn_status tn_relate_mirrored(const tn_marked *marked, const tn_classes *classes, uint32_t field, uint32_t max_trays,
+                             tn_dfa **out, tn_error *error)
+{
+    if (max_trays == 0) {
+        tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES,
+                "`mirrored` has more states the more trays plans have, and it is not known how many that is");
+        tn_error_help(error,
+                      "prune or require the rule in a library: there it is looked at within the library's lengths");
+        return TN_LIMIT;
+    }
+    uint32_t *values = calloc((size_t)classes->count + 1, sizeof *values);
+    if (!values)
+        return tn_fail_memory(error);
+    for (uint32_t c = 0; c < classes->count; c++)
+        values[c] = tn_tray_value(classes->schema, classes->representative[c], field);
+    tn_status status = tn_marked_mirrored(marked, values, max_trays, out, error);
+    free(values);
+    return status;
+}

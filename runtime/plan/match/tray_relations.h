@@ -20,4 +20,9 @@ tn_status tn_relate_count(const tn_marked *marked, const tn_classes *classes, co
 tn_status tn_relate_numbers(const tn_marked *marked, const tn_module *module, const tn_dfa *a, uint32_t condition,
                             const uint64_t *counts, tn_dfa **out, tn_error *error);
 
+/* MIRRORED: stretches whose values of a field (index within the schema) are mirrored. max_trays: of the plans that will
+ * be asked about; 0: not known, which is E0802. */
+tn_status tn_relate_mirrored(const tn_marked *marked, const tn_classes *classes, uint32_t field, uint32_t max_trays,
+                             tn_dfa **out, tn_error *error);
+
 #endif

@@ -79,7 +79,7 @@ static tn_status follow(tn_use_finder *finder, const tn_use_node *node, tn_error
     if (node->op.opcode == TN_OP_CALL || node->op.opcode == TN_OP_MIRROR)
         return meet(finder, (uint32_t)node->op.first, node->use, error);
     tn_status status = TN_OK;
-    if (tn_code_operands((uint8_t)node->op.opcode) != TN_OPERANDS_SUMMED)
+    if (!tn_code_compares(node->op.opcode))
         return status;
     const tn_sum_record *sum = &module->SUM_records[node->op.first];
     for (uint32_t i = 0; status == TN_OK && i < sum->term_count; i++)

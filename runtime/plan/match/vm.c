@@ -102,7 +102,9 @@ static uint64_t cost(const tn_plan_vm *vm, const tn_instruction *op)
         condition = (uint32_t)op->second;
         asked = rows * rows / 2 + rows;
     }
-    if (op->opcode == TN_OP_BELOW || op->opcode == TN_OP_ZERO || op->opcode == TN_OP_ABOVE)
+    if (op->opcode == TN_OP_MIRRORED)
+        return vm->relation_size + rows * rows / 2;
+    if (tn_code_compares(op->opcode))
         return rows * rows / 2 + rows * vm->module->SUM_records[op->first].term_count * (vm->words + 1);
     if (condition == UINT32_MAX)
         return vm->relation_size;
@@ -219,14 +221,9 @@ static tn_status run_compare(tn_plan_vm *vm, vm_frame *frame, const tn_instructi
     status = add_relation(vm, &vm->stack, error);
     if (status != TN_OK)
         return status;
-    tn_plan_vm_compare(vm, op->opcode, sum, vm->stack.words + (vm->stack.count - 1) * vm->relation_size, reversed);
+    tn_plan_vm_compare(vm, op, sum, vm->stack.words + (vm->stack.count - 1) * vm->relation_size, reversed);
     frame->offset += op->length;
     return TN_OK;
-}
-
-static bool compares(tn_opcode opcode)
-{
-    return opcode == TN_OP_BELOW || opcode == TN_OP_ZERO || opcode == TN_OP_ABOVE;
 }
 
 static tn_status run_instruction(tn_plan_vm *vm, tn_error *error)
@@ -238,7 +235,7 @@ static tn_status run_instruction(tn_plan_vm *vm, tn_error *error)
         return status;
     if (op.opcode == TN_OP_CALL || op.opcode == TN_OP_MIRROR)
         return run_call(vm, frame, &op, error);
-    if (compares(op.opcode))
+    if (tn_code_compares(op.opcode))
         return run_compare(vm, frame, &op, error);
     if (op.opcode == TN_OP_RETURN)
         return run_return(vm, frame, error);

@@ -64,8 +64,8 @@ struct tn_plan_vm {
 /* Whether any of the relations that a sum's terms count is still to be found: then *function is one (vm_sum.c). */
 bool tn_plan_vm_sum_needs(const tn_plan_vm *vm, const tn_sum *sum, bool reversed, uint32_t *function);
 
-/* BELOW, ZERO, ABOVE: writes the relation of the stretches on which the sum compares so. */
-void tn_plan_vm_compare(tn_plan_vm *vm, tn_opcode opcode, const tn_sum *sum, uint64_t *relation, bool reversed);
+/* BELOW, ZERO, ABOVE, MULTIPLE: writes the relation of the stretches on which the sum compares so. */
+void tn_plan_vm_compare(tn_plan_vm *vm, const tn_instruction *op, const tn_sum *sum, uint64_t *relation, bool reversed);
 
 /* The sum made ready, now or before. */
 tn_status tn_plan_vm_summed(tn_plan_vm *vm, uint32_t index, const tn_sum **sum, tn_error *error);

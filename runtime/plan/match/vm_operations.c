@@ -25,6 +25,27 @@ TN_RELATION_INLINE void run_tray(const tn_plan_vm *vm, uint64_t *relation, uint3
     }
 }
 
+/* relation := { [i, j) : the trays at i + t and j - 1 - t have the same value for all t }: those inside of [i + 1, j -
+ * 1) whose ends are alike. */
+TN_RELATION_INLINE void run_mirrored(const tn_plan_vm *vm, uint64_t *relation, uint32_t field, bool reversed,
+                                     size_t words)
+{
+    field -= vm->schema->record->field_first;
+    memset(relation, 0, (vm->length + 1) * words * sizeof *relation);
+    for (size_t i = vm->length + 1; i-- > 0;) {
+        uint64_t *row = relation + i * words;
+        tn_relation_row_set(row, i);
+        if (i == vm->length)
+            continue;
+        uint32_t value = tn_tray_value(vm->schema, tray_at(vm, reversed, i), field);
+        tn_relation_row_set(row, i + 1);
+        for (size_t j = i + 2; j <= vm->length; j++)
+            if (tn_relation_row_has(row + words, j - 1) &&
+                tn_tray_value(vm->schema, tray_at(vm, reversed, j - 1), field) == value)
+                tn_relation_row_set(row, j);
+    }
+}
+
 /* relation := { [i, j) : E(sums[j] - sums[i]) } for sums that count: truths has E of every number up to the last sum.
  */
 TN_RELATION_INLINE void keep_counts(tn_plan_vm *vm, uint64_t *relation, uint32_t condition, size_t words)
@@ -98,14 +119,21 @@ TN_RELATION_INLINE void run_sum(tn_plan_vm *vm, uint64_t *relation, uint32_t fie
     }
 }
 
-TN_RELATION_INLINE void run_distance(tn_plan_vm *vm, uint64_t *source, size_t words)
+/* DISTANCE, NEAR, FAR: source, destination and separator. */
+TN_RELATION_INLINE void run_gaps(tn_plan_vm *vm, tn_opcode opcode, uint64_t *source, size_t words)
 {
     tn_gaps gaps = {.begins = vm->rows,
                     .ends = vm->rows + words,
                     .right_fine = vm->rows + 2 * words,
                     .left_bad = vm->rows + 3 * words,
                     .overlap_from = vm->places};
-    tn_relation_distance(source, source + vm->relation_size, source + 2 * vm->relation_size, vm->length, words, &gaps);
+    uint64_t *destination = source + vm->relation_size, *separator = destination + vm->relation_size;
+    if (opcode == TN_OP_NEAR)
+        tn_relation_near(source, destination, separator, vm->length, words, &gaps);
+    else if (opcode == TN_OP_FAR)
+        tn_relation_far(source, destination, separator, vm->length, words, &gaps);
+    else
+        tn_relation_distance(source, destination, separator, vm->length, words, &gaps);
 }
 
 /* An operation on the relations at the top of the stack, that is all but CALL, MIRROR and RETURN. */
@@ -117,6 +145,13 @@ TN_RELATION_INLINE void run_operation(tn_plan_vm *vm, const tn_instruction *op, 
     switch (op->opcode) {
     case TN_OP_TRAY:
         run_tray(vm, top, first, reversed, words);
+        break;
+    case TN_OP_MIRRORED:
+        run_mirrored(vm, top, first, reversed, words);
+        break;
+    case TN_OP_WHERE:
+        tn_relation_and(top, top + vm->relation_size, trays, words);
+        tn_relation_nonempty(top, trays, words);
         break;
     case TN_OP_AND:
         tn_relation_and(top, top + vm->relation_size, trays, words);
@@ -158,7 +193,9 @@ TN_RELATION_INLINE void run_operation(tn_plan_vm *vm, const tn_instruction *op, 
         run_occurrences(vm, top, first, words);
         break;
     case TN_OP_DISTANCE:
-        run_distance(vm, top, words);
+    case TN_OP_NEAR:
+    case TN_OP_FAR:
+        run_gaps(vm, op->opcode, top, words);
         break;
     default: /* verifying has refused anything else */
         break;

@@ -25,33 +25,121 @@ bool tn_plan_vm_sum_needs(const tn_plan_vm *vm, const tn_sum *sum, bool reversed
     return false;
 }
 
-/* gain[j] += what place k of the plan adds to every stretch that starts at k or before and ends at j or later. */
-static void add_place(const tn_plan_vm *vm, const tn_sum *sum, size_t k, bool reversed, int64_t *gain)
+/* A sum being compared on all stretches. */
+typedef struct tn_compared {
+    const tn_plan_vm *vm;
+    const tn_sum *sum;
+    bool reversed;
+    int64_t *gain; /* [N + 1]: what a stretch gains by ending at j instead of j - 1 */
+} tn_compared;
+
+static const uint64_t *row_of(const tn_compared *c, const tn_sum_term *term, size_t k)
 {
-    tn_tray tray = vm->trays[reversed ? vm->length - 1 - k : k];
-    for (uint32_t i = 0; i < sum->count; i++) {
-        const tn_sum_term *term = &sum->terms[i];
-        const uint64_t *row = tn_plan_vm_found(vm, term->part, reversed) + k * vm->words;
-        if (term->kind == TN_SUM_SINGLES && tn_relation_row_has(row, k + 1))
-            gain[k + 1] += term->weight ? term->weight[tray] : term->each;
-        size_t end = term->kind == TN_SUM_STARTS ? tn_relation_row_next(row, k + 1, vm->words) : TN_NO_BIT;
+    return tn_plan_vm_found(c->vm, term->part, c->reversed) + k * c->vm->words;
+}
+
+/* What place k counts in a term that ends at `last` at most, and where its match ends first (TN_NO_BIT: nowhere). */
+static int64_t count_place(const tn_compared *c, const tn_sum_term *term, size_t k, size_t last, size_t *end)
+{
+    const uint64_t *row = row_of(c, term, k);
+    bool singles = term->kind == TN_SUM_SINGLES;
+    *end = singles ? (tn_relation_row_has(row, k + 1) ? k + 1 : TN_NO_BIT)
+                   : tn_relation_row_next(row, k + 1, c->vm->words);
+    if (*end == TN_NO_BIT || *end > last)
+        return 0;
+    return term->weight ? term->weight[c->vm->trays[c->reversed ? c->vm->length - 1 - k : k]] : term->each;
+}
+
+/* Place k has a tray that is to be there: from now on it is the first one, and no more the one behind it. */
+static void add_present(const tn_compared *c, const tn_sum_term *term, size_t k)
+{
+    if (!tn_relation_row_has(row_of(c, term, k), k + 1))
+        return;
+    c->gain[k + 1] += term->each;
+    for (size_t next = k + 1; next < c->vm->length; next++)
+        if (tn_relation_row_has(row_of(c, term, next), next + 1)) {
+            c->gain[next + 1] -= term->each;
+            return;
+        }
+}
+
+/* What place k adds to every stretch that starts at k or before and ends at j or later goes into gain[j]. */
+static void add_place(const tn_compared *c, size_t k)
+{
+    for (uint32_t i = 0; i < c->sum->count; i++) {
+        const tn_sum_term *term = &c->sum->terms[i];
+        size_t end;
+        if (term->region != TN_REGION_STRETCH)
+            continue;
+        if (term->kind == TN_SUM_PRESENT) {
+            add_present(c, term, k);
+            continue;
+        }
+        int64_t steps = count_place(c, term, k, c->vm->length, &end);
         if (end != TN_NO_BIT)
-            gain[end] += term->each;
+            c->gain[end] += steps;
     }
 }
 
-void tn_plan_vm_compare(tn_plan_vm *vm, tn_opcode opcode, const tn_sum *sum, uint64_t *relation, bool reversed)
+/* What the terms of a region count from place `first` to place `last`. */
+static int64_t region_value(const tn_compared *c, tn_sum_region region, size_t first, size_t last)
 {
-    int64_t *gain = vm->sums;
-    memset(gain, 0, (vm->length + 1) * sizeof *gain);
+    int64_t value = 0;
+    size_t end;
+    for (uint32_t i = 0; i < c->sum->count; i++)
+        for (size_t k = first; c->sum->terms[i].region == region && k < last; k++)
+            value += count_place(c, &c->sum->terms[i], k, last, &end);
+    return value;
+}
+
+/* A stretch that ends at j instead of j - 1 no more has place j - 1 behind it. */
+static void lose_places_behind(const tn_compared *c)
+{
+    for (size_t j = 1; j <= c->vm->length; j++)
+        c->gain[j] -=
+            region_value(c, TN_REGION_AFTER, j - 1, c->vm->length) - region_value(c, TN_REGION_AFTER, j, c->vm->length);
+}
+
+static bool looks_around(const tn_sum *sum)
+{
+    for (uint32_t i = 0; i < sum->count; i++)
+        if (sum->terms[i].region != TN_REGION_STRETCH)
+            return true;
+    return false;
+}
+
+static bool compares(tn_opcode opcode, int64_t value, int64_t modulus)
+{
+    switch (opcode) {
+    case TN_OP_BELOW:
+        return value < 0;
+    case TN_OP_ZERO:
+        return value == 0;
+    case TN_OP_ABOVE:
+        return value > 0;
+    default:
+        return value % modulus == 0;
+    }
+}
+
+void tn_plan_vm_compare(tn_plan_vm *vm, const tn_instruction *op, const tn_sum *sum, uint64_t *relation, bool reversed)
+{
+    tn_compared c = {.vm = vm, .sum = sum, .reversed = reversed, .gain = vm->sums};
+    int64_t modulus = op->opcode == TN_OP_MULTIPLE ? tn_sum_modulus(sum, op->second) : 1;
+    bool around = looks_around(sum);
+    memset(c.gain, 0, (vm->length + 1) * sizeof *c.gain);
     memset(relation, 0, vm->relation_size * sizeof *relation);
+    if (around)
+        lose_places_behind(&c);
     for (size_t i = vm->length + 1; i-- > 0;) {
         if (i < vm->length)
-            add_place(vm, sum, i, reversed, gain);
+            add_place(&c, i);
         int64_t value = sum->constant;
+        if (around)
+            value += region_value(&c, TN_REGION_BEFORE, 0, i) + region_value(&c, TN_REGION_AFTER, i, vm->length);
         for (size_t j = i; j <= vm->length; j++) {
-            value += j > i ? gain[j] : 0;
-            if (opcode == TN_OP_BELOW ? value < 0 : opcode == TN_OP_ZERO ? value == 0 : value > 0)
+            value += j > i ? c.gain[j] : 0;
+            if (compares(op->opcode, value, modulus))
                 tn_relation_row_set(relation + i * vm->words, j);
         }
     }
@@ -73,6 +161,10 @@ static tn_status add_term(tn_plan_vm *vm, const tn_sum_term *term, int64_t *step
             *steps += term->weight ? term->weight[vm->trays[k]] : term->each;
         if (term->kind == TN_SUM_STARTS && tn_relation_row_next(row, k + 1, vm->words) != TN_NO_BIT)
             *steps += term->each;
+        if (term->kind == TN_SUM_PRESENT && tn_relation_row_has(row, k + 1)) {
+            *steps += term->each;
+            break;
+        }
     }
     return TN_OK;
 }

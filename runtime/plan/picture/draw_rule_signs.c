@@ -10,6 +10,8 @@
 static const char *sign_of(tn_part_kind kind)
 {
     switch (kind) {
+    case TN_PART_WHERE:
+        return "where";
     case TN_PART_AND:
         return "and";
     case TN_PART_OR:
@@ -36,12 +38,41 @@ static bool own_condition(const tn_rule_picture *p, uint32_t part, char conditio
     return true;
 }
 
+/* Does the part deny that something lies otherwise: is it `every a beside b`? */
+static bool is_every(const tn_rule_picture *p, const tn_part *it)
+{
+    tn_part_kind below = it->child_count == 1 ? tn_rule_part(p, it->first)->kind : TN_PART_KIND_COUNT;
+    return it->kind == TN_PART_NOT && (below == TN_PART_NEAR || below == TN_PART_FAR) &&
+           tn_part_is_step(&p->parts, it->first);
+}
+
+/* The words between source and destination, as they are written: "within 12m of". */
+static void near_words(const tn_rule_picture *p, const tn_part *it, char words[TN_RULE_WORDS_MAX])
+{
+    const tn_module *module = p->schema->module;
+    const tn_part *source = tn_rule_part(p, it->first), *destination = tn_rule_part(p, source->next);
+    const tn_source_map_record *from = tn_module_place(module, source->root),
+                               *to = tn_module_place(module, destination->root);
+    snprintf(words, TN_RULE_WORDS_MAX, "%s", tn_part_word(it->kind));
+    if (!from || !to || from->file != to->file || from->end >= to->begin)
+        return;
+    char text[TN_RULE_WORDS_MAX];
+    tn_source_text(module, from->file, from->end, to->begin, text, sizeof text);
+    size_t begin = strspn(text, " )"), size = strlen(text);
+    while (size > begin && strchr(" (", text[size - 1]))
+        size--;
+    if (size > begin)
+        snprintf(words, TN_RULE_WORDS_MAX, "%.*s", (int)(size - begin), text + begin);
+}
+
 void tn_draw_rule_words(const tn_rule_picture *p, uint32_t part, char words[TN_RULE_WORDS_MAX])
 {
     const tn_part *it = tn_rule_part(p, part);
     const tn_module *module = p->schema->module;
     char condition[TN_CONDITION_TEXT_MAX];
-    snprintf(words, TN_RULE_WORDS_MAX, "%s", sign_of(it->kind));
+    snprintf(words, TN_RULE_WORDS_MAX, "%s", is_every(p, it) ? "every" : sign_of(it->kind));
+    if (it->kind == TN_PART_NEAR || it->kind == TN_PART_FAR)
+        near_words(p, it, words);
     if (it->kind != TN_PART_QUANTITY && it->kind != TN_PART_SUM && it->kind != TN_PART_OCCURRENCES)
         return;
     bool own = own_condition(p, part, condition);

@@ -21,6 +21,8 @@ typedef struct tn_class_finder {
 
 #define NO_CLASS UINT32_MAX
 
+enum { SEEN_LENGTHS = 1, SEEN_VALUES = 2 }; /* of a field */
+
 /* Splits every class in two by whether its trays meet a specifier. */
 static bool split_by_spec(tn_class_finder *finder, uint32_t spec)
 {
@@ -58,6 +60,24 @@ static bool split_by_length(tn_class_finder *finder, uint32_t field)
         classes->of_tray[t] = pair;
     }
     classes->count = pairs.count;
+    tn_numbering_clear(&pairs);
+    return ok;
+}
+
+/* Splits every class by the values that its trays have in a field (index within the schema). */
+static bool split_by_value(tn_class_finder *finder, uint32_t field)
+{
+    tn_classes *classes = finder->classes;
+    const tn_schema *schema = finder->schema;
+    tn_numbering pairs = {0};
+    bool ok = true;
+    for (tn_tray t = 0; ok && t < schema->tray_count; t++) {
+        uint32_t pair = tn_number(&pairs, (uint64_t)classes->of_tray[t] << 32 | tn_tray_value(schema, t, field));
+        ok = pair != UINT32_MAX;
+        classes->of_tray[t] = pair;
+    }
+    if (schema->tray_count > 0)
+        classes->count = pairs.count;
     tn_numbering_clear(&pairs);
     return ok;
 }
@@ -121,42 +141,43 @@ static tn_status visit_sum(tn_class_finder *finder, uint32_t index, tn_error *er
     return status;
 }
 
+/* A field of which each length, or each value, counts. */
+static tn_status visit_field(tn_class_finder *finder, const tn_instruction *instruction, tn_error *error)
+{
+    uint32_t first = (uint32_t)instruction->first, field = first - finder->schema->record->field_first;
+    bool values = instruction->opcode == TN_OP_MIRRORED;
+    uint8_t seen = values ? SEEN_VALUES : SEEN_LENGTHS;
+    if (finder->seen_field[first] & seen)
+        return TN_OK;
+    finder->seen_field[first] |= seen;
+    tn_status status = look_at_trays(finder, error);
+    if (status != TN_OK)
+        return status;
+    return (values ? split_by_value : split_by_length)(finder, field) ? TN_OK : tn_fail_memory(error);
+}
+
 static tn_status visit(tn_class_finder *finder, const tn_instruction *instruction, tn_error *error)
 {
     uint32_t first = (uint32_t)instruction->first;
-    uint8_t *seen = NULL;
+    if (tn_code_compares(instruction->opcode))
+        return visit_sum(finder, first, error);
     switch (instruction->opcode) {
     case TN_OP_CALL:
     case TN_OP_MIRROR:
-        seen = &finder->seen_function[first];
-        break;
-    case TN_OP_TRAY:
-        seen = &finder->seen_spec[first];
-        break;
+        return push_function(finder, first, error);
     case TN_OP_SUM:
-        seen = &finder->seen_field[first];
-        break;
-    case TN_OP_BELOW:
-    case TN_OP_ZERO:
-    case TN_OP_ABOVE:
-        return visit_sum(finder, first, error);
+    case TN_OP_MIRRORED:
+        return visit_field(finder, instruction, error);
+    case TN_OP_TRAY: {
+        if (finder->seen_spec[first])
+            return TN_OK;
+        finder->seen_spec[first] = 1;
+        tn_status status = look_at_trays(finder, error);
+        return status != TN_OK || split_by_spec(finder, first) ? status : tn_fail_memory(error);
+    }
     default:
-        break;
-    }
-    if (!seen || *seen)
         return TN_OK;
-    *seen = 1;
-    bool ok;
-    tn_status status = TN_OK;
-    if (instruction->opcode == TN_OP_CALL || instruction->opcode == TN_OP_MIRROR) {
-        ok = tn_key_push(&finder->pending, first);
-    } else {
-        status = look_at_trays(finder, error);
-        ok = status != TN_OK ||
-             (instruction->opcode == TN_OP_TRAY ? split_by_spec(finder, first)
-                                                : split_by_length(finder, first - finder->schema->record->field_first));
     }
-    return ok ? status : tn_fail_memory(error);
 }
 
 static tn_status find(tn_class_finder *finder, tn_error *error)

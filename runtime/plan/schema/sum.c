@@ -8,6 +8,20 @@
 #include "runtime/module/code.h"
 #include "runtime/number/rational.h"
 
+tn_sum_kind tn_term_counts(uint32_t kind)
+{
+    bool singles = kind == TN_SUM_SINGLES_BEFORE || kind == TN_SUM_SINGLES_AFTER;
+    bool starts = kind == TN_SUM_STARTS_BEFORE || kind == TN_SUM_STARTS_AFTER;
+    return singles ? TN_SUM_SINGLES : starts ? TN_SUM_STARTS : (tn_sum_kind)kind;
+}
+
+tn_sum_region tn_term_region(uint32_t kind)
+{
+    bool before = kind == TN_SUM_SINGLES_BEFORE || kind == TN_SUM_STARTS_BEFORE;
+    bool after = kind == TN_SUM_SINGLES_AFTER || kind == TN_SUM_STARTS_AFTER;
+    return before ? TN_REGION_BEFORE : after ? TN_REGION_AFTER : TN_REGION_STRETCH;
+}
+
 /* ---- what a tray counts */
 
 /* A number on the stack. What has divided by zero has no value; nor has what is made of it. */
@@ -284,7 +298,8 @@ static tn_status fill(tn_sum *sum, walk *w, tn_error *error)
     for (uint32_t i = 0; i < sum->count; i++) {
         const tn_term_record *record = term_of(sum, i);
         tn_sum_term *term = &sum->terms[i];
-        *term = (tn_sum_term){.kind = (tn_sum_kind)record->kind, .part = record->part};
+        *term = (tn_sum_term){
+            .kind = tn_term_counts(record->kind), .region = tn_term_region(record->kind), .part = record->part};
         mpq_set_str(w->factor, tn_text(sum->schema->module, record->factor), 10);
         if (record->tally != TN_NO_RECORD &&
             !(term->weight = calloc((size_t)sum->schema->tray_count + 1, sizeof *term->weight)))
@@ -337,4 +352,17 @@ void tn_sum_free(tn_sum *sum)
     free(sum->terms);
     mpq_clear(sum->unit);
     free(sum);
+}
+
+/* steps * p / q is whole if q divides the steps, p and q having nothing in common. No sum has as many steps as the
+ * greatest modulus but one: then only 0 is a multiple. */
+int64_t tn_sum_modulus(const tn_sum *sum, int64_t number)
+{
+    mpq_t part;
+    mpq_init(part);
+    mpq_set_si(part, number, 1);
+    mpq_div(part, sum->unit, part);
+    int64_t modulus = mpz_fits_slong_p(mpq_denref(part)) ? mpz_get_si(mpq_denref(part)) : INT64_MAX;
+    mpq_clear(part);
+    return modulus;
 }

@@ -11,8 +11,12 @@
 
 #define TN_SUM_STEPS_MAX (INT64_C(1) << 45) /* of one tray or place, so that sums of all places stay in 64 bits */
 
+/* Where a term counts, of a stretch: in it, or in what lies before it or behind it. */
+typedef enum tn_sum_region { TN_REGION_STRETCH, TN_REGION_BEFORE, TN_REGION_AFTER } tn_sum_region;
+
 typedef struct tn_sum_term {
-    tn_sum_kind kind;
+    tn_sum_kind kind; /* SINGLES, STARTS, MATCHES or PRESENT */
+    tn_sum_region region;
     uint32_t part;   /* a rule function */
     int64_t each;    /* steps of each place; singles: where `weight` is NULL */
     int64_t *weight; /* [trays]: steps of each tray, or NULL */
@@ -27,9 +31,16 @@ typedef struct tn_sum {
     mpq_t unit;       /* a step, in nanometres to the sum's power; above 0 */
 } tn_sum;
 
+/* What the kind of a TERM record says: what is counted, and where. */
+tn_sum_kind tn_term_counts(uint32_t kind);
+tn_sum_region tn_term_region(uint32_t kind);
+
 /* Makes the SUM record ready. E0419 (TN_INVALID) where it divides by zero for a tray that it counts, E0424 (TN_LIMIT)
  * where its numbers have no common step that is coarse enough. */
 tn_status tn_sum_new(const tn_schema *schema, uint32_t index, tn_sum **sum, tn_error *error);
 void tn_sum_free(tn_sum *sum);
+
+/* The sum is a multiple of a number (above 0, in nanometres to the sum's power) if its steps are one of this. */
+int64_t tn_sum_modulus(const tn_sum *sum, int64_t number);
 
 #endif

@@ -2,9 +2,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/module/code.h"
 #include "runtime/module/engine.h"
 #include "runtime/number/rational.h"
 #include "runtime/plan/schema/list.h"
+#include "runtime/plan/schema/sum.h"
 
 static bool is_rational(const tn_module *module, tn_string text)
 {
@@ -20,6 +22,14 @@ static bool is_of(const tn_module *module, uint32_t function, tn_function_kind k
     return module->FUNCTION_records[function].kind == kind && module->FUNCTION_records[function].schema == schema;
 }
 
+/* Is the function one specifier, of which a tray decides alone? */
+static bool is_specifier(const tn_module *module, uint32_t function)
+{
+    uint32_t offset = module->FUNCTION_records[function].code_begin;
+    tn_instruction tray = tn_code_read(module->code, offset);
+    return tray.opcode == TN_OP_TRAY && tn_code_read(module->code, offset + tray.length).opcode == TN_OP_RETURN;
+}
+
 static tn_status check_term(const tn_checker *checker, uint32_t schema, uint32_t index)
 {
     const tn_module *module = checker->module;
@@ -29,8 +39,10 @@ static tn_status check_term(const tn_checker *checker, uint32_t schema, uint32_t
     tn_function_kind wanted = term->kind == TN_SUM_MATCHES ? TN_FUNCTION_HOLDS : TN_FUNCTION_WHOLE;
     if (!is_of(module, term->part, wanted, schema))
         return tn_refuse(checker, "term %u names a function of another kind or schema", index);
+    if (term->kind == TN_SUM_PRESENT && !is_specifier(module, term->part))
+        return tn_refuse(checker, "term %u asks for more than a tray of its own", index);
     if (term->tally != TN_NO_RECORD &&
-        (term->kind != TN_SUM_SINGLES || !is_of(module, term->tally, TN_FUNCTION_TALLY, schema)))
+        (tn_term_counts(term->kind) != TN_SUM_SINGLES || !is_of(module, term->tally, TN_FUNCTION_TALLY, schema)))
         return tn_refuse(checker, "term %u has a tally of another kind or schema", index);
     return TN_OK;
 }
@@ -81,13 +93,24 @@ static tn_status check_measure_names(const tn_checker *checker)
     return status;
 }
 
-static tn_status verify(const tn_checker *checker)
+/* A measure is of the plan, which nothing lies before or behind. */
+static tn_status check_measure(const tn_checker *checker, size_t i)
 {
     const tn_module *module = checker->module;
+    const tn_sum_record *sum = &module->SUM_records[module->MEASURE_records[i].sum];
+    if (sum->schema != module->MEASURE_records[i].schema)
+        return tn_refuse(checker, "measure %zu names a sum of another schema", i);
+    for (uint32_t t = 0; t < sum->term_count; t++)
+        if (tn_term_region(module->TERM_records[sum->term_first + t].kind) != TN_REGION_STRETCH)
+            return tn_refuse(checker, "measure %zu counts what lies around a stretch", i);
+    return TN_OK;
+}
+
+static tn_status verify(const tn_checker *checker)
+{
     tn_status status = check_sums(checker);
-    for (size_t i = 0; status == TN_OK && i < module->MEASURE_count; i++)
-        if (module->SUM_records[module->MEASURE_records[i].sum].schema != module->MEASURE_records[i].schema)
-            status = tn_refuse(checker, "measure %zu names a sum of another schema", i);
+    for (size_t i = 0; status == TN_OK && i < checker->module->MEASURE_count; i++)
+        status = check_measure(checker, i);
     return status == TN_OK ? check_measure_names(checker) : status;
 }
 
@@ -124,6 +147,12 @@ static tn_status check_summed(const tn_checker *checker, const tn_instruction *i
     return TN_OK;
 }
 
+static tn_status check_summed_by(const tn_checker *checker, const tn_instruction *instruction)
+{
+    return instruction->second > 0 ? check_summed(checker, instruction)
+                                   : tn_refuse(checker, "a sum is divided by a number that is not above 0");
+}
+
 static tn_status check_rational(const tn_checker *checker, const tn_instruction *instruction)
 {
     return is_rational(checker->module, (tn_string)instruction->first)
@@ -147,13 +176,13 @@ static tn_status check_extent(const tn_checker *checker, const tn_instruction *i
 
 void tn_list_sum(tn_lister *lister, uint32_t index)
 {
-    static const char *const kinds[] = {"singles", "starts", "matches"};
     const tn_module *module = lister->module;
     const tn_sum_record *sum = &module->SUM_records[index];
     fprintf(lister->out, "sum %u: %s", index, tn_text(module, sum->constant));
     for (uint32_t i = 0; i < sum->term_count; i++) {
         const tn_term_record *term = &module->TERM_records[sum->term_first + i];
-        fprintf(lister->out, " + %s %s of function %u", tn_text(module, term->factor), kinds[term->kind], term->part);
+        fprintf(lister->out, " + %s %s of function %u", tn_text(module, term->factor), tn_names_SUM_KIND[term->kind],
+                term->part);
         if (term->tally != TN_NO_RECORD)
             fprintf(lister->out, " by function %u", term->tally);
     }
@@ -161,6 +190,12 @@ void tn_list_sum(tn_lister *lister, uint32_t index)
 
 static void list_summed(tn_lister *lister, const tn_instruction *instruction)
 {
+    tn_list_sum(lister, (uint32_t)instruction->first);
+}
+
+static void list_summed_by(tn_lister *lister, const tn_instruction *instruction)
+{
+    fprintf(lister->out, "by %lld  ", (long long)instruction->second);
     tn_list_sum(lister, (uint32_t)instruction->first);
 }
 
@@ -201,6 +236,7 @@ static const tn_section sections[] = {TN_SECTION_SUM, TN_SECTION_TERM, TN_SECTIO
 
 static const tn_operand_rules operands[] = {
     {TN_OPERANDS_SUMMED, check_summed, list_summed},
+    {TN_OPERANDS_SUMMED_BY, check_summed_by, list_summed_by},
     {TN_OPERANDS_RATIONAL, check_rational, list_rational},
     {TN_OPERANDS_EXTENT, check_extent, list_extent},
 };

@@ -218,9 +218,10 @@ static void put_counted(writing *w, const tn_parts *parts, uint32_t function, ui
     put_condition(w, it->condition);
 }
 
-static void put_distance(writing *w, const tn_parts *parts, uint32_t function, uint32_t part)
+/* Source, destination and separator. */
+static void put_gaps(writing *w, const char *predicate, const tn_parts *parts, uint32_t function, uint32_t part)
 {
-    put(w, "distance(");
+    put(w, predicate);
     for (uint32_t child = parts->parts[part].first; child != TN_NO_PART; child = parts->parts[child].next) {
         put_name(w, function, child);
         put(w, ", ");
@@ -265,7 +266,17 @@ static void put_body(writing *w, const tn_parts *parts, uint32_t function, uint3
         put(w, ", W, I, J)");
         break;
     case TN_PART_DISTANCE:
-        put_distance(w, parts, function, part);
+        put_gaps(w, "distance(", parts, function, part);
+        break;
+    case TN_PART_NEAR:
+        put_gaps(w, "near(", parts, function, part);
+        break;
+    case TN_PART_FAR:
+        put_gaps(w, "far(", parts, function, part);
+        break;
+    case TN_PART_WHERE:
+        put(w, "I < J, ");
+        put_joined(w, parts, function, part, ", ");
         break;
     default:
         put_counted(w, parts, function, part);

@@ -1,0 +1,135 @@
+/* A stretch and what lies around it: `a beside b`, `a within K of b`, `a at least K from every b`, and each of them
+ * after `every`. The distance K becomes a rule of the gap: a condition on the trays or the lengths that lie between. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "compiler/plan/check/amount.h"
+
+static tn_ast_expr *make(tn_check *check, tn_expr_kind kind, tn_span span)
+{
+    tn_ast_expr *expr = TN_NEW(check->arena, tn_ast_expr);
+    if (expr)
+        *expr = (tn_ast_expr){.node.span = span, .kind = kind, .depth = 1};
+    return expr;
+}
+
+static tn_ast_word *word_of(tn_check *check, tn_span span, tn_word_kind kind, const char *text)
+{
+    tn_ast_word *word = TN_NEW(check->arena, tn_ast_word);
+    if (word)
+        *word = (tn_ast_word){.node.span = span, .kind = kind, .text = text};
+    return word;
+}
+
+/* What lies between has so many trays. */
+static tn_ast_expr *trays_between(tn_check *check, tn_span span, tn_ast_cond *condition)
+{
+    tn_ast_expr *count = make(check, TN_EXPR_QUANTITY, span), *any = make(check, TN_EXPR_ANY, span);
+    if (!count || !any)
+        return NULL;
+    count->parts = tn_ast_one(any);
+    count->condition = condition;
+    return count;
+}
+
+/* What lies between is so long. */
+static tn_ast_expr *length_between(tn_check *check, tn_span span, tn_ast_cond *condition)
+{
+    tn_ast_expr *sum = make(check, TN_EXPR_SUM, span), *figure = make(check, TN_EXPR_FIGURE, span);
+    if (!sum || !figure)
+        return NULL;
+    figure->name = word_of(check, span, TN_WORD_NAME, check->schema->fields[check->schema->length_field].name);
+    sum->name = figure->name;
+    sum->figure = figure;
+    sum->condition = condition;
+    return figure->name ? sum : NULL;
+}
+
+/* Is the distance a constant, so that it does not depend on the plan? */
+static bool is_constant(const tn_ast_expr *expr)
+{
+    bool operation = expr->kind == TN_EXPR_PLUS || expr->kind == TN_EXPR_MINUS || expr->kind == TN_EXPR_TIMES ||
+                     expr->kind == TN_EXPR_OVER || expr->kind == TN_EXPR_NEGATIVE;
+    for (TN_EACH(const tn_ast_expr, part, expr->parts))
+        operation = operation && is_constant(part);
+    return operation || expr->kind == TN_EXPR_NUMBER;
+}
+
+static void report_distance(tn_check *check, const tn_ast_expr *distance, const char *what)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NEAR_DISTANCE, distance->node.span, "%s", what);
+    tn_help(check->diagnostics, d, "write a number of trays, such as `2`, or a length, such as `12m`");
+}
+
+/* The distance as one word, a number or a length; NULL: reported. */
+static tn_ast_word *read_distance(tn_check *check, tn_ast_expr *distance)
+{
+    if (!is_constant(distance)) {
+        if (distance->kind != TN_EXPR_BROKEN)
+            report_distance(check, distance, "a distance has to be a constant");
+        return NULL;
+    }
+    const tn_checked_sum *sum = tn_check_sum(check, distance);
+    if (!sum)
+        return NULL;
+    bool length = sum->power == 1 && !sum->any, whole = !strchr(sum->constant, '/') && strlen(sum->constant) < 18;
+    const char *wrong = *sum->constant == '-'        ? "a distance cannot be below 0"
+                        : sum->power != 0 && !length ? "a distance has to be a number of trays or a length"
+                        : !whole && !length          ? "a distance in trays has to be a whole number"
+                        : !whole                     ? "this length is too fine or too long for a distance"
+                        : length && check->schema->length_field == TN_NONE
+                            ? "the schema has no field of lengths to measure this by"
+                            : NULL;
+    if (wrong) {
+        report_distance(check, distance, wrong);
+        return NULL;
+    }
+    tn_ast_word *word = word_of(check, distance->node.span, length ? TN_WORD_LENGTH : TN_WORD_NUMBER, sum->constant);
+    if (word)
+        word->value = strtoll(sum->constant, NULL, 10);
+    return word;
+}
+
+/* The comparison that a gap has to meet. Of `every`, it is what a gap must not be. */
+static tn_operator gap_operator(const tn_ast_expr *near)
+{
+    bool every = near->kind == TN_EXPR_EVERY_NEAR;
+    if (near->near == TN_NEAR_APART)
+        return every ? TN_LESS : TN_AT_LEAST;
+    if (near->near == TN_NEAR_BESIDE && !every)
+        return TN_EQUAL;
+    return every ? TN_GREATER : TN_AT_MOST;
+}
+
+static tn_ast_cond *gap_condition(tn_check *check, const tn_ast_expr *near, const tn_ast_word *distance)
+{
+    tn_ast_cond *condition = TN_NEW(check->arena, tn_ast_cond);
+    if (!condition)
+        return NULL;
+    *condition = (tn_ast_cond){.node.span = near->node.span,
+                               .kind = TN_COND_COMPARE,
+                               .op = gap_operator(near),
+                               .left = word_of(check, near->node.span, TN_WORD_NAME, "n"),
+                               .right = distance,
+                               .depth = 1};
+    return condition->left ? condition : NULL;
+}
+
+void tn_check_near(tn_check *check, tn_ast_expr *near)
+{
+    tn_ast_expr *source = (tn_ast_expr *)near->parts.first, *destination = (tn_ast_expr *)source->node.next,
+                *distance = (tn_ast_expr *)destination->node.next;
+    tn_check_expr(check, source);
+    tn_check_expr(check, destination);
+    if (!check->schema)
+        return;
+    const tn_ast_word *word =
+        distance ? read_distance(check, distance) : word_of(check, near->node.span, TN_WORD_NUMBER, "0");
+    tn_ast_cond *condition = word ? gap_condition(check, near, word) : NULL;
+    bool length = word && word->kind == TN_WORD_LENGTH;
+    tn_ast_expr *gap = condition ? (length ? length_between : trays_between)(check, near->node.span, condition) : NULL;
+    destination->node.next = NULL; /* the list ends with it, or with the rule of the gap */
+    near->parts = tn_ast_append(tn_ast_append(tn_ast_one(source), destination), gap);
+    if (gap)
+        tn_check_expr(check, gap);
+}
