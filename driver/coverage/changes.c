@@ -203,6 +203,7 @@ static bool is_rule(const tn_ast_expr *expr)
     case TN_EXPR_NUMBER:
     case TN_EXPR_TRAYS:
     case TN_EXPR_MATCHES:
+    case TN_EXPR_VALUES:
     case TN_EXPR_PLUS:
     case TN_EXPR_MINUS:
     case TN_EXPR_TIMES:
@@ -352,6 +353,46 @@ static void change_each(tn_change_walk *walk, tn_ast_expr *expr, const tn_wholes
     walk->in.depth--;
 }
 
+/* What is asked of what lies around a stretch: the stretch, what may lie there, and how far. */
+static void change_near(tn_change_walk *walk, tn_ast_expr *expr)
+{
+    static const tn_wholes one[] = {ALWAYS, ALWAYS, NEITHER}, other[] = {ALWAYS, EITHER, NEITHER};
+    bool every = expr->kind == TN_EXPR_EVERY_NEAR, apart = expr->near == TN_NEAR_APART;
+    int64_t before = walk->step;
+    bool any = false;
+    if (expr->parts.count > 2) {
+        walk->step = step_of(walk, NULL);
+        change_bounds(walk, (tn_ast_expr *)expr->parts.last, &any);
+        walk->step = before;
+    }
+    change_each(walk, expr, every == apart ? one : other, 3);
+}
+
+/* A sum mod a number, compared with a rest. */
+static void change_rest(tn_change_walk *walk, tn_ast_expr *expr)
+{
+    tn_ast_expr *sum = (tn_ast_expr *)expr->parts.first;
+    const char *field = field_of(sum);
+    int64_t before = walk->step;
+    bool any = false;
+    walk->step = step_of(walk, *field ? field : NULL);
+    for (TN_EACH(tn_ast_expr, part, expr->parts))
+        if (part != sum)
+            change_bounds(walk, part, &any);
+    walk->step = before;
+    change_counted(walk, sum);
+}
+
+/* Of several fields each may be left out. */
+static void change_mirrored(tn_change_walk *walk, tn_ast_expr *expr)
+{
+    for (TN_EACH(const tn_ast_word, name, expr->names))
+        if (expr->names.count > 1 && tn_change_offer(walk, TN_CHANGE_LEFT_OUT, name->node.span, NULL)) {
+            expr->names = tn_change_without(expr->names, name);
+            return;
+        }
+}
+
 /* What is in a rule's expression. */
 static void change_inside(tn_change_walk *walk, tn_ast_expr *expr)
 {
@@ -389,6 +430,19 @@ static void change_inside(tn_change_walk *walk, tn_ast_expr *expr)
         break;
     case TN_EXPR_DISTANCE:
         change_each(walk, expr, far, 3);
+        break;
+    case TN_EXPR_NEAR:
+    case TN_EXPR_EVERY_NEAR:
+        change_near(walk, expr);
+        break;
+    case TN_EXPR_WHERE:
+        change_parts(walk, expr, ALWAYS);
+        break;
+    case TN_EXPR_REMAINDER:
+        change_rest(walk, expr);
+        break;
+    case TN_EXPR_MIRRORED:
+        change_mirrored(walk, expr);
         break;
     case TN_EXPR_QUANTITY:
     case TN_EXPR_OCCURRENCES:
@@ -452,7 +506,15 @@ static const char *word_of_expr(tn_expr_kind kind)
         return "plan";
     case TN_EXPR_COMPARE:
     case TN_EXPR_WITHIN:
+    case TN_EXPR_REMAINDER:
         return "comparison";
+    case TN_EXPR_NEAR:
+    case TN_EXPR_EVERY_NEAR:
+        return "near";
+    case TN_EXPR_WHERE:
+        return "where";
+    case TN_EXPR_MIRRORED:
+        return "mirrored";
     default:
         return "part";
     }

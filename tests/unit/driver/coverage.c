@@ -345,6 +345,11 @@ static void forms(void **state)
         SCHEMA
         "rule some-kind = some v in kind (neighbour(tray(v), tray(v)))\n"
         "library l { trays 2..3  prune some-kind, symmetric neighbour(tray(4'..8'), tray((4' or 8'), not a)) }\n",
+        SCHEMA "rule lone = tray(a) beside tray(b, public)\nrule far = every tray(a) at least 2 from every tray(b)\n"
+               "rule wide = tray(public) within 8' of tray(b)\nrule close = every tray(8') within 1 of tray(public)\n",
+        SCHEMA "rule half = tray(a) where quantity(any before) = quantity(any after)\n"
+               "rule same = mirrored(kind, width) and values(kind) >= 2\n"
+               "rule third = every(any where quantity(any before) mod 2 = 1, tray(public))\n",
         SCHEMA "library l { trays 1..3  prune tray(a) }\ntest l { drop [4' a]  keep [4' b] }\n",
         SCHEMA "library l { trays 1..3  require not tray(a) }\ntest l { drop [4' a]  keep [4' b] }\n",
     };
