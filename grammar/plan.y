@@ -989,6 +989,14 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
     tn_ast_too_deep(parse, *span);
 }
 
+/* Is this something that could stand here, and hardly ever does? It is not named where others are. */
+static bool is_rare(const tn_parse *parse, yysymbol_kind_t kind, int before)
+{
+    bool named_range = kind == YYSYMBOL_DOTS && before == TN_PLAN_NAME;
+    bool order = kind == YYSYMBOL_LESS && parse->mode == TN_LEX_SCHEMA;
+    return named_range || order || kind == YYSYMBOL_BEFORE || kind == YYSYMBOL_AFTER;
+}
+
 static int yyreport_syntax_error(const yypcontext_t *context, tn_parse *parse, void *scanner)
 {
     (void)scanner;
@@ -998,12 +1006,14 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_parse *parse, v
     int count = yypcontext_expected_tokens(context, kinds, EXPECTED_MAX);
     if (count < 0)
         return count;
-    for (int i = 0; i < count; i++)
-        expected[i] = yysymbol_name(kinds[i]);
     yysymbol_kind_t found = yypcontext_token(context);
+    int before = found == YYSYMBOL_YYEOF ? parse->last_token : parse->token_before, named = 0;
+    for (int i = 0; i < count; i++)
+        if (!is_rare(parse, kinds[i], before))
+            expected[named++] = yysymbol_name(kinds[i]);
     tn_syntax_found token = {*yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "" : yysymbol_name(found),
                       parse->token_before == TN_PLAN_NAME ? parse->span_before : (tn_span){0}};
-    tn_syntax_error(parse, &token, expected, (size_t)count);
+    tn_syntax_error(parse, &token, expected, (size_t)named);
     return 0;
 }
 

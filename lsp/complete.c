@@ -184,6 +184,16 @@ static bool stands_behind(const tn_lsp_cursor *c, size_t bracket, const char *te
     return false;
 }
 
+/* Does the word stand a few before the cursor, in the same item? */
+static bool stands_after(const tn_lsp_cursor *c, const char *word)
+{
+    enum { FEW = 8 };
+    for (size_t i = c->count, seen = 0; i-- > c->item && seen < FEW; seen++)
+        if (tn_cursor_is(c, i, word))
+            return true;
+    return false;
+}
+
 /* Is the cursor in what `sum(` adds up: in its parenthesis, or in further ones inside? */
 static bool in_tally(const tn_lsp_cursor *c)
 {
@@ -267,7 +277,7 @@ static void complete_top(tn_lsp_cursor *c)
         offer_symbols(c, TN_SYMBOL_FORM, KIND_STRUCT);
     } else if (c->count > 0 && tn_cursor_is(c, last, "of") && tn_cursor_is(c, c->item, "form")) {
         offer_symbols(c, TN_SYMBOL_SCHEMA, KIND_STRUCT);
-    } else if (c->count > 0 && tn_cursor_is(c, last, "from")) {
+    } else if (c->count > 0 && tn_cursor_is(c, last, "from") && !stands_after(c, "least")) {
         offer_symbols(c, TN_SYMBOL_LIBRARY, KIND_MODULE);
     } else if (c->count > 0 && tn_cursor_is(c, last, "test") && last == c->item) {
         offer_symbols(c, TN_SYMBOL_RULE, KIND_FUNCTION);

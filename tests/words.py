@@ -10,7 +10,7 @@ from importlib.machinery import SourceFileLoader
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 words = SourceFileLoader("words", os.path.join(ROOT, "tools/words")).load_module()
-UNTOLD = {"flag", "i"}  # misspelled, the one is a value of its field; of the other it is said what the age is called
+UNTOLD = {"flag", "i", "least"}  # misspelled, the first is a value of its field; of the next it is said what the age is called; of `at` what follows it
 
 
 class Server:

@@ -139,6 +139,14 @@ static inline void sample_rule(tn_builder *builder, uint32_t narrow, uint32_t co
     tn_builder_emit(builder, TN_OP_CALL, holds, 0);
     tn_builder_emit(builder, TN_OP_DISTANCE, 0, 0);
     tn_builder_emit(builder, TN_OP_TRAY, narrow, 0);
+    tn_builder_emit(builder, TN_OP_TRAY, narrow, 0);
+    tn_builder_emit(builder, TN_OP_NEAR, 0, 0);
+    tn_builder_emit(builder, TN_OP_TRAY, narrow, 0);
+    tn_builder_emit(builder, TN_OP_TRAY, narrow, 0);
+    tn_builder_emit(builder, TN_OP_FAR, 0, 0);
+    tn_builder_emit(builder, TN_OP_MIRRORED, 0, 0);
+    tn_builder_emit(builder, TN_OP_WHERE, 0, 0);
+    tn_builder_emit(builder, TN_OP_TRAY, narrow, 0);
     tn_builder_emit(builder, TN_OP_OR, 0, 0);
     uint32_t all = sample_function(builder, "everything", TN_FUNCTION_HOLDS, begin, 3);
     tn_builder_add_RULE(builder, &(tn_rule_record){.name = tn_builder_string(builder, "pair"),

@@ -232,7 +232,8 @@ static bool find_places(tn_check *check, const tn_checked_schema *schema, tn_ast
     uint32_t count = schema->fields[figure->field].value_count;
     figure->specs = TN_NEW_ARRAY(check->arena, tn_checked_spec *, count);
     for (uint32_t v = 0; figure->specs && v < count; v++)
-        figure->specs[v] = tn_check_value_spec(check, check->result->schemas[schema->index], figure->field, v, figure->node.span);
+        figure->specs[v] =
+            tn_check_value_spec(check, check->result->schemas[schema->index], figure->field, v, figure->node.span);
     return figure->specs != NULL;
 }
 

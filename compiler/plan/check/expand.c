@@ -501,7 +501,8 @@ static bool is_constant(const tn_ast_expr *expr)
     return constant;
 }
 
-/* `u - v <= 1` of values that a quantifier goes through: what is left of it is numbers, and so decided. false: it is not. */
+/* `u - v <= 1` of values that a quantifier goes through: what is left of it is numbers, and so decided. false: it is
+ * not. */
 static bool decide_constants(tn_rule_expansion *expansion, tn_operator op, tn_ast_list parts, tn_ast_expr *made)
 {
     tn_check *check = expansion->check;

@@ -91,8 +91,8 @@ static bool same_value(const tn_ast_expr *left, const tn_ast_expr *right)
 
 tn_expr_kind tn_decided(tn_operator op, int64_t order)
 {
-    bool truths[] = {[TN_LESS] = order < 0,     [TN_AT_MOST] = order <= 0,  [TN_EQUAL] = order == 0,
-                     [TN_UNEQUAL] = order != 0, [TN_AT_LEAST] = order >= 0, [TN_GREATER] = order > 0};
+    bool truths[] = {[TN_LESS] = order<0, [TN_AT_MOST] = order <= 0, [TN_EQUAL] = order == 0, [TN_UNEQUAL] = order != 0,
+                                       [TN_AT_LEAST] = order >= 0, [TN_GREATER] = order> 0};
     return truths[op] ? TN_EXPR_TRUE : TN_EXPR_FALSE;
 }
 

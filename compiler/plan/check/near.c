@@ -38,7 +38,8 @@ static tn_ast_expr *length_between(tn_check *check, tn_span span, tn_ast_cond *c
     tn_ast_expr *sum = make(check, TN_EXPR_SUM, span), *figure = make(check, TN_EXPR_FIGURE, span);
     if (!sum || !figure)
         return NULL;
-    figure->name = word_of(check, span, TN_WORD_NAME, check->schema->fields[check->schema->length_field].name);
+    tn_span nowhere = {span.file, span.begin, span.begin}; /* the field is not written there */
+    figure->name = word_of(check, nowhere, TN_WORD_NAME, check->schema->fields[check->schema->length_field].name);
     sum->name = figure->name;
     sum->figure = figure;
     sum->condition = condition;

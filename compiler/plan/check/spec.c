@@ -319,8 +319,8 @@ static bool mark_names_between(tn_item_reader *item, const tn_ast_word *range)
         any |= item->found[v] = item->found[v] && from[v];
     if (any)
         return true;
-    tn_diagnostic *d = tn_report(item->check->diagnostics, E_RANGE_BACKWARDS, range->node.span,
-                                 "this range ends before it starts");
+    tn_diagnostic *d =
+        tn_report(item->check->diagnostics, E_RANGE_BACKWARDS, range->node.span, "this range ends before it starts");
     tn_help(item->check->diagnostics, d, "write `%s..%s`", range->high->text, range->low->text);
     return false;
 }

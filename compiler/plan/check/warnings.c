@@ -212,9 +212,10 @@ static void warn_near(tn_check *check, const tn_ast_expr *near)
                                  "a tray may be both, and is then not near itself: the plan `%s` %s this", line,
                                  far ? "matches" : "does not match");
     tn_help(check->diagnostics, d, "%s",
-            every && !far ? "if that is not meant, ask it of those alone that are not both: `tray(..., not ...)`; else write "
-                            "`allow W022`"
-                          : "if that is not meant, say what a tray that is both is to be; else write `allow W022`");
+            every && !far
+                ? "if that is not meant, ask it of those alone that are not both: `tray(..., not ...)`; else write "
+                  "`allow W022`"
+                : "if that is not meant, say what a tray that is both is to be; else write `allow W022`");
 }
 
 static bool is_number_of_stretch(const tn_ast_expr *expr)
@@ -228,22 +229,22 @@ static bool is_number_of_stretch(const tn_ast_expr *expr)
  * without one says so by `where`. */
 static void warn_and_not(tn_check *check, const tn_ast_expr *conjunction)
 {
-    const tn_ast_expr *first = (const tn_ast_expr *)conjunction->parts.first,
-                      *second = (const tn_ast_expr *)conjunction->parts.last;
-    const tn_ast_expr *not = first->kind == TN_EXPR_NOT ? first : second, *number = not == first ? second : first;
-    const tn_ast_expr *tray = (const tn_ast_expr *)not->parts.first;
+    const tn_ast_expr *number = (const tn_ast_expr *)conjunction->parts.first,
+                      *not = (const tn_ast_expr *)conjunction->parts.last;
+    const tn_ast_expr *tray = (const tn_ast_expr *)not ->parts.first;
     if (!check->rule || check->rule->ast->body != conjunction || conjunction->parts.count != 2 ||
-        not->kind != TN_EXPR_NOT || tray->kind != TN_EXPR_TRAY || !is_number_of_stretch(number) ||
+        not ->kind != TN_EXPR_NOT || tray->kind != TN_EXPR_TRAY || !is_number_of_stretch(number) ||
         !tn_check_wanted(check, W_NOT_IN_STRETCH))
         return;
-    tn_span a = not->node.span, b = number->node.span;
+    tn_span a = not ->node.span, b = number->node.span;
     words none = words_between(check, a.file, a.begin, a.end), count = words_between(check, b.file, b.begin, b.end);
     tn_diagnostic *d = tn_report(check->diagnostics, W_NOT_IN_STRETCH, conjunction->node.span,
                                  "this is about the whole plan: there is no such tray anywhere in it");
     if (!memchr(none.text, '\n', none.size) && !memchr(count.text, '\n', count.size)) {
         tn_help(check->diagnostics, d, "a stretch without one is `%.*s where %.*s`", (int)none.size, none.text,
                 (int)count.size, count.text);
-        tn_replace_with(check->diagnostics, d, "%.*s where %.*s", (int)none.size, none.text, (int)count.size, count.text);
+        tn_replace_with(check->diagnostics, d, "%.*s where %.*s", (int)none.size, none.text, (int)count.size,
+                        count.text);
     } else {
         tn_help(check->diagnostics, d, "a stretch without one is `not ... where ...`");
     }

@@ -182,7 +182,7 @@ typedef struct tn_ast_expr {
     bool loose;                 /* tray: of an open plan: blanks alone may separate its items */
     tn_ast_list names;          /* quantifier: the words that it binds; mirrored: fields */
     tn_operator op;             /* of a comparison */
-    tn_nearness near;               /* of a relation to what lies around */
+    tn_nearness near;           /* of a relation to what lies around */
     tn_ast_region region;       /* quantity, occurrences, sum */
     struct tn_ast_expr *figure; /* sum: what it adds up, where that is more than a field */
     tn_ast_cond *condition;

@@ -95,7 +95,8 @@ void *tn_ast_ordered_new(tn_parse *parse, tn_span span, tn_ast_field head, tn_as
 
 tn_ast_list tn_ast_mixed_order(tn_parse *parse, tn_span sign, tn_ast_list values, void *value)
 {
-    tn_diagnostic *d = tn_report(parse->diagnostics, E_MIXED_ORDER, sign, "values are either all in an order or all apart");
+    tn_diagnostic *d =
+        tn_report(parse->diagnostics, E_MIXED_ORDER, sign, "values are either all in an order or all apart");
     tn_help(parse->diagnostics, d, "write `<` between all of them, from the least to the greatest, or `|`");
     return tn_ast_append(values, value);
 }

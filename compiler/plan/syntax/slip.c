@@ -29,7 +29,8 @@ static const tn_slip slips[] = {
      NULL},
     {TN_SLIP_RULE, "between", "what lies between two is written `quantity(a) in 2..4`, `sum(FIELD) in 20m..30m`", NULL},
     {TN_SLIP_RULE, "every|all|each|only|always|forall|for",
-     "`every(a, b)`: each tray that is a is b too; `every(any, a)`: all trays are a; `every a beside b`: each stands so",
+     "`every(a, b)`: each tray that is a is b too; `every(any, a)`: all trays are a; `every a beside b`: each stands "
+     "so",
      NULL},
     {TN_SLIP_RULE, "none|no|never|without", "none is written `quantity(a) = 0`, or `not a`", NULL},
     {TN_SLIP_RULE, "exists|has|contains|contain|includes|there",

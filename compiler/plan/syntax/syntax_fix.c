@@ -304,7 +304,7 @@ static const char *mark_fix(const tn_parse *parse, const char *found, const tn_e
     if (strcmp(found, "`)`") == 0 && comes_after(parse, "(") && tn_expects(e, "`tray`"))
         return opens_call(parse) ? "a rule without parameters is named alone, without parentheses"
                                  : "something is missing before this";
-    if (strcmp(found, "`)`") == 0 && tn_expects(e, "`in`") && tn_expects(e, "`mod`"))
+    if (strcmp(found, "`)`") == 0 && tn_expects(e, "`in`") && tn_expects(e, "`mod`") && !tn_expects(e, "`+`"))
         return "a condition compares: `n > 1`, `n = 2 or n = 5`, `n in 2..4`, `n mod 3 = 1`";
     if ((strcmp(found, "`>`") == 0 || strcmp(found, "`<`") == 0) && tn_expects(e, "`-`"))
         return "what is compared stands on both sides: `n > 1`, `quantity(a) > 1 and quantity(a) < 4`";
@@ -336,7 +336,7 @@ static const char *word_fix(const tn_parse *parse, const char *found, const tn_e
         return "close the `(` before this";
     if (tn_expects(e, "`of`") || (strcmp(found, "`tray`") == 0 && tn_expects(e, "`not`") && !tn_expects(e, "`tray`")))
         return "which trays are added up is said after `of`: `sum(FIELD of tray(a))`";
-    if (tn_expects(e, "`where`"))
+    if (tn_expects(e, "`where`") && parse->in_number)
         return "which trays a case is for is said by `where`: `number beds = 4 where tray(a) | 0`";
     if (e->count == 1 && tn_expects(e, "`tray`"))
         return "a tray that is left out is written `forbid tray(...)`";
@@ -442,7 +442,7 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
         return "names are separated by commas";
     if (tn_expects(e, "`from`") || (e->count == 1 && (tn_expects(e, "`to`") || tn_expects(e, "`by`"))))
         return "a distance is written `distance(from ..., to ..., by quantity(..., n >= 2))`";
-    if (tn_expects(e, "`in`") && tn_expects(e, "`mod`"))
+    if (tn_expects(e, "`in`") && tn_expects(e, "`mod`") && !tn_expects(e, "`+`"))
         return "a condition compares: `n > 1`, `n in 2..4`, `n mod 3 = 1`";
     if (tn_expects(e, "`match`") && tn_expects(e, "`keep`"))
         return "a case is written `match [a b | c]`";

@@ -112,8 +112,16 @@ static void test_sample(void **state)
         "     127  CALL        function 2 (holds pair)\n"
         "     132  DISTANCE\n"
         "     133  TRAY        spec 1  width 4'\n"
-        "     138  OR\n"
-        "     139  RETURN\n");
+        "     138  TRAY        spec 1  width 4'\n"
+        "     143  NEAR\n"
+        "     144  TRAY        spec 1  width 4'\n"
+        "     149  TRAY        spec 1  width 4'\n"
+        "     154  FAR\n"
+        "     155  MIRRORED    field 0  width\n"
+        "     160  WHERE\n"
+        "     161  TRAY        spec 1  width 4'\n"
+        "     166  OR\n"
+        "     167  RETURN\n");
     free(text);
 }
 

@@ -61,10 +61,10 @@ static void test_sample_has_every_opcode(void **state)
         seen[module->code[at]] = true;
     }
     for (int i = 0; i < TN_OPCODE_COUNT; i++)
-        if (!seen[i] && tn_opcode_describe((uint8_t)i)->operands != TN_OPERANDS_SUMMED && /* plan.measures has these */
-            !tn_code_asks_house((tn_opcode)i) &&                                          /* cli.house_oracle these */
-            tn_opcode_describe((uint8_t)i)->code <= TN_CODE_CONDITION)                    /* unit.gene_compile and
-                                                                                                           unit.measure have the others */
+        if (!seen[i] && !tn_code_compares((tn_opcode)i) &&             /* plan.measures has these */
+            !tn_code_asks_house((tn_opcode)i) &&                       /* cli.house_oracle these */
+            tn_opcode_describe((uint8_t)i)->code <= TN_CODE_CONDITION) /* unit.gene_compile and
+                                                                                        unit.measure have the others */
             fail_msg("the sample has no %s", tn_opcode_describe((uint8_t)i)->name);
     tn_module_free(module);
     free(good.bytes);
