@@ -994,7 +994,7 @@ static bool is_rare(const tn_parse *parse, yysymbol_kind_t kind, int before)
 {
     bool named_range = kind == YYSYMBOL_DOTS && before == TN_PLAN_NAME;
     bool order = kind == YYSYMBOL_LESS && parse->mode == TN_LEX_SCHEMA;
-    return named_range || order || kind == YYSYMBOL_BEFORE || kind == YYSYMBOL_AFTER;
+    return named_range || order;
 }
 
 static int yyreport_syntax_error(const yypcontext_t *context, tn_parse *parse, void *scanner)

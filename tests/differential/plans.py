@@ -91,8 +91,8 @@ SORTS = {
     "tray_signed: DASH tray_signed": {"figure"}, "tray_atom: head_number": {"figure"}, "tray_atom: OPEN tray_sum CLOSE": {"figure"},
     "tray_atom: MIN OPEN tray_sum COMMA tray_sum CLOSE": {"figure"}, "tray_atom: MAX OPEN tray_sum COMMA tray_sum CLOSE": {"figure"},
     "operand: NAME": {"variable", "constant"}, "operand: constant": {"constant"},
-    "value: NAME doc role": {"choice", "zone"}, "value: NAME OPEN depths CLOSE doc role": {"zone"}, "value: LENGTH doc role": {"length"},
-    "field: field_head EQUAL values": {"length", "choice"}, "field: field_head EQUAL FLAG": {"flag"},
+    "value: NAME doc role": {"choice", "order", "zone"}, "value: NAME OPEN depths CLOSE doc role": {"zone"}, "value: LENGTH doc role": {"length"},
+    "field: field_head EQUAL values": {"length", "choice"}, "field: field_head EQUAL FLAG": {"flag"}, "field: field_head EQUAL ordered": {"order"},
     "field: zone field_head EQUAL values": {"zone"},
 }
 SORTS["primary: MATCHES OPEN expression CLOSE"] = {"number"}
@@ -221,9 +221,9 @@ def divided_sum(maker, place):
 def own_call(maker, place):
     """`values` of a field, or `mirrored` of some: what the language has itself."""
     number = place.sort == "number"
-    fields = maker.random.sample(place.fields("length", "choice", "flag", "zone"), 1)
+    fields = maker.random.sample(place.fields("length", "choice", "order", "flag", "zone"), 1)
     if not number and maker.chance(.3):
-        fields += maker.random.sample(place.fields("length", "choice", "flag", "zone"), 1)
+        fields += maker.random.sample(place.fields("length", "choice", "order", "flag", "zone"), 1)
     return {0: place.but(want="exact", text="values" if number else "mirrored"), 2: place.but(argument=tuple(f"field {f.name}" for f in fields))}
 
 
@@ -238,7 +238,7 @@ def quantified(maker, place):
 
 
 def call(maker, place):
-    own = place.fields("length", "choice", "flag", "zone") and (place.sort == "number" or maker.chance(.4) or not place.rules(True))
+    own = place.fields("length", "choice", "order", "flag", "zone") and (place.sort == "number" or maker.chance(.4) or not place.rules(True))
     if own:
         return own_call(maker, place)
     if not place.rules(True):
@@ -308,7 +308,7 @@ CONTEXTS = {
 }
 
 
-ROLES = {"length": ["length", "level"], "flag": ["public-end", "great-hall"], "choice": ["text", "tone", "hatch"], "zone": ["band"],
+ROLES = {"length": ["length", "level"], "flag": ["public-end", "great-hall"], "choice": ["text", "tone", "hatch"], "order": ["text", "level", "tone"], "zone": ["band"],
          "fill": ["solid", "void", "absent"]}
 
 
@@ -341,7 +341,7 @@ def expression_name(maker, place):
 def figure_name(maker, place):
     if place.want == "area":
         return pick(place, maker, ["cost"] if place.dimension == 0 else ["area"])
-    return pick(place, maker, [f.name for f in place.fields(*(("number",) if place.dimension == 0 else ("length", "zone")))])
+    return pick(place, maker, [f.name for f in place.fields(*(("number", "order") if place.dimension == 0 else ("length", "zone")))])
 
 
 NAMED = {
@@ -470,9 +470,9 @@ def new_fields(maker, place, older):
     if place.item == "schema of houses":
         return house_fields(maker, place)
     kinds = random.choice([["length"], ["length", "flag"], ["length", "choice"], ["length", "zone"], ["length", "zone", "flag"], ["choice", "zone"],
-                           ["length", "choice", "flag"]])
-    names = {"length": "width", "flag": "open", "choice": "colour", "zone": "yard"}
-    made = [Field(f.name, f.kind, f.values) for f in older or [] if f.kind in ("choice", "zone", "length") and maker.chance(.4)][:1]
+                           ["length", "choice", "flag"], ["length", "order"], ["order", "flag"]])
+    names = {"length": "width", "flag": "open", "choice": "colour", "order": "height", "zone": "yard"}
+    made = [Field(f.name, f.kind, f.values) for f in older or [] if f.kind in ("choice", "order", "zone", "length") and maker.chance(.4)][:1]
     for kind in kinds if not older else random.sample(kinds, int(not made or maker.chance(.5))):
         name = names[kind]
         made.append(Field(name if name not in taken else name + "2", kind, []))
@@ -498,10 +498,25 @@ def field(maker, place):
         return maker.node("field: field_head EQUAL FLAG", name_node)
     new = [text for text in chosen_values(maker, place, made) if text not in made.values and (made.kind != "zone" or text[0] not in dict(made.values))]
     before = [maker.node("value: ELLIPSIS")] if made.values else []
-    values = listed(maker.grammar, "values", before + [value(maker, place, made.kind, text) for text in new])
+    every = before + [value(maker, place, made.kind, text) for text in new]
+    if made.kind == "order":
+        return maker.node("field: field_head EQUAL ordered", name_node, in_order(maker, every))
+    values = listed(maker.grammar, "values", every)
     if made.kind == "zone":
         return maker.node("field: zone field_head EQUAL values", maker.make("zone", 1, own), name_node, values)
     return maker.node("field: field_head EQUAL values", name_node, values)
+
+
+def in_order(maker, values):
+    """From the least to the greatest; now and then with a sign that does not go with the others."""
+    mixed = len(values) > 2 and maker.chance(MISTAKE)
+    if mixed and maker.chance(.5):
+        first = listed(maker.grammar, "values", values[:1])
+        return maker.node("ordered: values BAR value LESS value", first, values[1], values[2])
+    node = maker.node("ordered: value LESS value", values[0], values[1])
+    for more in values[2:]:
+        node = maker.node(f"ordered: ordered {'BAR' if mixed else 'LESS'} value", node, more)
+    return node
 
 
 def chosen_values(maker, place, made):
@@ -511,6 +526,8 @@ def chosen_values(maker, place, made):
         return random.sample(METRES if place.metric else FEET, random.choice(few))
     if made.kind == "choice":
         return random.sample(NAMES, random.choice([2, 2, 3]))
+    if made.kind == "order":
+        return ["attic"] if made.values else ["low", "middle", "high"][:random.choice([2, 3])]
     depths = DEPTHS_METRES if place.metric else DEPTHS_FEET
     if made.values:
         return [("wet", [depths[1]])]
@@ -536,7 +553,7 @@ def value(maker, place, kind, text):
     doc, role = maker.make("doc", 1, plain), maker.make("role", 1, plain)
     if kind == "length":
         return maker.node("value: LENGTH doc role", maker.word("LENGTH", text), doc, role)
-    name, depths = (text, []) if kind == "choice" else text
+    name, depths = (text, []) if kind in ("choice", "order") else text
     if not depths:
         return maker.node("value: NAME doc role", maker.word("NAME", name), doc, role)
     listed_depths = listed(maker.grammar, "depths", [maker.node("spec_word: LENGTH", maker.word("LENGTH", d)) for d in depths])
@@ -652,7 +669,7 @@ AVAILABLE = {
     "comparison: AT_LEAST": lambda place: place.want != "equal", "comparison: GREATER": lambda place: place.want != "equal",
     "primary: SOME names IN NAME OPEN expression CLOSE": lambda place: place.fields("length", "choice") and len(place.bound) < 2,
     "primary: EVERY names IN NAME OPEN expression CLOSE": lambda place: place.fields("length", "choice") and len(place.bound) < 2,
-    "tray_atom: NAME": lambda place: place.want == "area" or place.dimension < 2 and place.fields(*(("number",) if place.dimension == 0 else ("length", "zone"))),
+    "tray_atom: NAME": lambda place: place.want == "area" or place.dimension < 2 and place.fields(*(("number", "order") if place.dimension == 0 else ("length", "zone"))),
     "tray_atom: NAME NAME": lambda place: place.dimension == 1 and place.fields("zone") and place.want != "area",
     "operand: NAME": lambda place: place.sort == "variable" or any(kind == "number" for _, kind in place.params),
     "total_field: NAME NAME": lambda place: place.fields("zone"),

@@ -76,7 +76,7 @@ class Schema:
         texts = [words(v)[0] for v in values if words(v)[0] != "..."]
         if texts and texts[0][0].isdigit():
             return name, "length", [length(t) for t in texts]
-        return name, "choice", texts
+        return name, "order" if node.child("ordered") else "choice", texts
 
     def _case(self, node):
         return node.child("tray_sum"), node.child("specifier")
@@ -108,6 +108,8 @@ class Schema:
             return self.number(name, tray)
         i = self.index(name)
         value = tray[i]
+        if self.fields[i][1] == "order":
+            return Fraction(self.fields[i][2].index(value) + 1)
         if self.fields[i][1] not in ("length", "zone"):
             raise Unknown(name)
         return value[1] if isinstance(value, tuple) else value
@@ -186,11 +188,20 @@ class Item:
             raise Unknown("a field alone")
         if nodes[0].name.startswith("spec_word: OPEN"):
             return self.any_of(nodes[0].child("spec_alternatives"))
+        if self.order() and texts[0] in OPERATORS and len(texts) == 2:
+            return OPERATORS[texts[0]](self.place(self.tray[self.schema.index(self.field)]), self.place(texts[1]))
         if texts[0] in OPERATORS and len(texts) == 2:
             given = self.values.get(texts[1])
             text = given[1] if given and given[0] == AS_WRITTEN else texts[1]
             return OPERATORS[texts[0]](self.measured(), constant(text) if text[0].isdigit() else given[1])
         return all([self.word(node, text) for node, text in zip(nodes, texts)])
+
+    def order(self):
+        """The values of the field that the item is about, if they have an order."""
+        return next((values for name, kind, values in self.schema.fields if kind == "order" and name == self.field), None)
+
+    def place(self, value):
+        return self.order().index(value)
 
     def measured(self):
         if self.field in self.schema.numbers:
@@ -214,6 +225,9 @@ class Item:
                 return self.measured() == length(value) if value[0].isdigit() else self.named(value)
             self.field = field
             return self.tray[self.schema.index(field)] == value
+        if "DOTS" in node.name and self.order():
+            low, high = [self.place(t) for t in words(node) if t != ".."]
+            return low <= self.place(self.tray[self.schema.index(self.field)]) <= high
         if "DOTS" in node.name:
             low, high = [constant(t) for t in words(node) if t != ".."]
             return low <= self.measured() <= high
@@ -227,7 +241,7 @@ class Item:
                 continue
             if kind == "flag" and name == text:
                 return self.tray[i]
-            if kind == "choice" and text in values or kind == "zone" and text in [fill for fill, _ in values]:
+            if kind in ("choice", "order") and text in values or kind == "zone" and text in [fill for fill, _ in values]:
                 self.field = name
                 return (self.tray[i][0] if kind == "zone" else self.tray[i]) == text
         raise Unknown(text)

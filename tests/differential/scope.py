@@ -8,7 +8,7 @@ from tree import find_all, words
 @dataclass
 class Field:
     name: str
-    kind: str                                   # length, choice, flag, zone, number
+    kind: str                                   # length, choice, order (a choice whose values go from least to greatest), flag, zone, number
     values: list                                # texts; of a zone (fill, texts of its depths)
 
 
@@ -111,6 +111,8 @@ def declared(node):
     if node.child("zone"):
         return Field(name, "zone", [fill(v) for v in values if words(v)[0] != "..."])
     texts = [words(v)[0] for v in values if words(v)[0] != "..."]
+    if node.child("ordered"):
+        return Field(name, "order", texts)
     return Field(name, "length" if texts and texts[0][0].isdigit() else "choice", texts)
 
 

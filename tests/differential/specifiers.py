@@ -88,6 +88,12 @@ def of_choice(maker, f, place):
                           [[f.name, "not", group(maker, [[v] for v in f.values[:2]])]]])
 
 
+def of_order(maker, f, place):
+    random, one = maker.random, maker.random.choice(f.values)
+    pair = sorted(random.choices(f.values, k=2), key=f.values.index)
+    return random.choice([[[one]], [[f.name, "not", one]], [[f.name, random.choice(list(OPERATORS)), one]], [[f.name, "..".join(pair)]]])
+
+
 def of_flag(maker, f, place):
     return maker.random.choice([[[f.name]], [["not", f.name]]])
 
@@ -105,7 +111,7 @@ def of_number(maker, f, place):
     return [[f.name, maker.random.choice(list(OPERATORS)), str(maker.random.choice([0, 1, 2, 3]))]]
 
 
-ASKED = {"length": of_length, "choice": of_choice, "flag": of_flag, "zone": of_zone, "number": of_number}
+ASKED = {"length": of_length, "choice": of_choice, "order": of_order, "flag": of_flag, "zone": of_zone, "number": of_number}
 
 
 # ---- cells and rooms

@@ -226,17 +226,6 @@ static void help_figure(tn_check *check, const tn_checked_schema *schema, tn_dia
         tn_help(check->diagnostics, d, "count trays with `quantity(...)`, or give the schema a `number`");
 }
 
-/* A field whose values have an order says the place of the tray's value, the first is 1. */
-static bool find_places(tn_check *check, const tn_checked_schema *schema, tn_ast_expr *figure)
-{
-    uint32_t count = schema->fields[figure->field].value_count;
-    figure->specs = TN_NEW_ARRAY(check->arena, tn_checked_spec *, count);
-    for (uint32_t v = 0; figure->specs && v < count; v++)
-        figure->specs[v] =
-            tn_check_value_spec(check, check->result->schemas[schema->index], figure->field, v, figure->node.span);
-    return figure->specs != NULL;
-}
-
 static bool check_name(tn_check *check, const tn_checked_schema *schema, tn_ast_expr *figure, tn_sum_amount *amount)
 {
     const char *name = figure->name->text;
@@ -245,9 +234,10 @@ static bool check_name(tn_check *check, const tn_checked_schema *schema, tn_ast_
     *amount = (tn_sum_amount){.power = 1};
     if (field && (field->kind == TN_FIELD_LENGTH || field->kind == TN_FIELD_ZONE))
         return tn_check_detail(check, field, figure->detail);
-    if (field && field->ordered) {
+    if (field && field->ordered) { /* the place of the tray's value, the first is 1 */
         amount->power = 0;
-        return tn_check_detail(check, field, figure->detail) && find_places(check, schema, figure);
+        figure->place = true;
+        return tn_check_detail(check, field, figure->detail);
     }
     for (uint32_t n = 0; !field && n < schema->number_count; n++) {
         if (strcmp(schema->numbers[n].name, name) != 0)

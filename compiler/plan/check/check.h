@@ -306,8 +306,11 @@ void tn_check_older_fields(tn_check *check, tn_checked_schema *schema); /* each 
 void tn_check_older_measures(tn_check *check); /* measures of older schemas, for the plans of those made from them */
 
 /* ---- spec.c */
+/* Trays with the value: shared with other specifiers that are alike, or one of its own. */
 tn_checked_spec *tn_check_value_spec(tn_check *check, tn_checked_schema *schema, uint32_t field, uint32_t value,
-                                     tn_span span); /* trays with the value */
+                                     tn_span span);
+tn_checked_spec *tn_value_spec(tn_arena *arena, tn_checked_schema *schema, uint32_t field, uint32_t value,
+                               tn_span span);
 
 /* ---- values.c: fields and values by name, and in words */
 uint32_t tn_field_find(const tn_checked_schema *schema, const char *name);

@@ -499,13 +499,13 @@ static tn_checked_spec *share(tn_check *check, tn_checked_spec *spec)
     return spec;
 }
 
-static tn_checked_spec *new_spec(tn_check *check, tn_checked_schema *schema, tn_span span)
+static tn_checked_spec *new_spec(tn_arena *arena, tn_checked_schema *schema, tn_span span)
 {
-    tn_checked_spec *spec = TN_NEW(check->arena, tn_checked_spec);
+    tn_checked_spec *spec = TN_NEW(arena, tn_checked_spec);
     if (!spec)
         return NULL;
     *spec = (tn_checked_spec){.schema = schema, .span = span, .index = TN_NONE, .broken = schema->broken};
-    spec->mask = TN_NEW_ARRAY(check->arena, uint64_t, schema->words);
+    spec->mask = TN_NEW_ARRAY(arena, uint64_t, schema->words);
     return spec->mask ? spec : NULL;
 }
 
@@ -518,21 +518,27 @@ static void allow_all(tn_checked_spec *spec, uint32_t field)
 
 tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_span span)
 {
-    tn_checked_spec *spec = new_spec(check, schema, span);
+    tn_checked_spec *spec = new_spec(check->arena, schema, span);
     for (uint32_t f = 0; spec && f < schema->field_count; f++)
         allow_all(spec, f);
     return spec ? share(check, spec) : NULL;
 }
 
-tn_checked_spec *tn_check_value_spec(tn_check *check, tn_checked_schema *schema, uint32_t field, uint32_t value,
-                                     tn_span span)
+tn_checked_spec *tn_value_spec(tn_arena *arena, tn_checked_schema *schema, uint32_t field, uint32_t value, tn_span span)
 {
-    tn_checked_spec *spec = new_spec(check, schema, span);
+    tn_checked_spec *spec = new_spec(arena, schema, span);
     for (uint32_t f = 0; spec && f < schema->field_count; f++)
         if (f != field)
             allow_all(spec, f);
     if (spec)
         set_bit(spec, schema->fields[field].first_bit + value);
+    return spec;
+}
+
+tn_checked_spec *tn_check_value_spec(tn_check *check, tn_checked_schema *schema, uint32_t field, uint32_t value,
+                                     tn_span span)
+{
+    tn_checked_spec *spec = tn_value_spec(check->arena, schema, field, value, span);
     return spec ? share(check, spec) : NULL;
 }
 
@@ -565,7 +571,7 @@ static void narrow_by_item(tn_check *check, tn_checked_spec *spec, const tn_chec
 tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const tn_checked_schema *older,
                                const tn_ast_expr *tray)
 {
-    tn_checked_spec *spec = new_spec(check, schema, tray->node.span);
+    tn_checked_spec *spec = new_spec(check->arena, schema, tray->node.span);
     if (!spec)
         return NULL;
     for (uint32_t f = 0; f < schema->field_count; f++)
@@ -578,7 +584,7 @@ tn_checked_spec *tn_check_spec(tn_check *check, tn_checked_schema *schema, const
 tn_checked_spec *tn_check_alternative(tn_check *check, tn_checked_schema *schema, const tn_ast_word *first,
                                       tn_span span, tn_item_context *context)
 {
-    tn_checked_spec *spec = new_spec(check, schema, span);
+    tn_checked_spec *spec = new_spec(check->arena, schema, span);
     tn_item_reader item = {.check = check, .schema = schema, .field = context->field, .fill = context->fill};
     tn_ast_alternative alternative = {.node.span = span};
     alternative.words.first = (tn_ast_node *)(uintptr_t)first; /* only read */

@@ -7,17 +7,20 @@
 
 /* ---- what a tray counts */
 
-/* The place of the tray's value in its order: from the first on, each picked over what is there so far. */
+/* The place of the tray's value in its order: from the first on, each picked over what is there so far. A number of a
+ * schema is also one of those that are made from it: what its figures ask is of the schema at hand. */
 static void emit_place(tn_emit *emit, const tn_ast_expr *figure)
 {
-    const tn_checked_schema *schema = emit->checked->schemas[emit->schema];
+    tn_checked_schema *schema = emit->checked->schemas[emit->schema];
     char place[16];
     tn_span span = figure->node.span;
     tn_emit_op(emit, span, TN_OP_FIGURE, tn_builder_string(emit->builder, "1"), 0);
     for (uint32_t v = 1; v < schema->fields[figure->field].value_count; v++) {
         snprintf(place, sizeof place, "%u", (unsigned)v + 1);
         tn_emit_op(emit, span, TN_OP_FIGURE, tn_builder_string(emit->builder, place), 0);
-        tn_emit_op(emit, span, TN_OP_PICK, tn_emit_spec(emit, figure->specs[v]), 0);
+        tn_checked_spec *spec = tn_value_spec(emit->arena, schema, figure->field, v, span);
+        if (spec)
+            tn_emit_op(emit, span, TN_OP_PICK, tn_emit_spec(emit, spec), 0);
     }
 }
 
@@ -33,7 +36,7 @@ static void emit_figure(tn_emit *emit, const tn_ast_expr *figure)
         tn_emit_op(emit, span, TN_OP_FIGURE, tn_builder_string(emit->builder, "0"), 0);
         emit_figure(emit, (const tn_ast_expr *)figure->parts.first);
         tn_emit_op(emit, span, TN_OP_MINUS, 0, 0);
-    } else if (figure->kind == TN_EXPR_FIGURE && figure->specs) {
+    } else if (figure->kind == TN_EXPR_FIGURE && figure->place) {
         emit_place(emit, figure);
     } else if (figure->kind == TN_EXPR_FIGURE && !figure->number) {
         tn_emit_op(emit, span, TN_OP_EXTENT, emit->checked->schemas[emit->schema]->field_first + figure->field, 0);

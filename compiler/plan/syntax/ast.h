@@ -195,17 +195,17 @@ typedef struct tn_ast_expr {
     struct tn_checked_sum *sum;       /* checked: comparison: the left side less the right; a `within`: less low */
     struct tn_checked_sum *high;      /* checked: `within`: the sum less high */
     struct tn_checked_number *number; /* checked: figure: a number of the tray */
-    struct tn_checked_spec **specs;   /* checked: figure: of a field whose values have an order: those of each value */
-    const char *constant;             /* checked: figure: of a number that is written out */
-    bool figure_good;                 /* checked: sum */
-    int64_t modulus;                  /* checked: remainder: in nanometres to the sum's power; 0: already reported */
-    tn_sum_amount figure_amount;      /* checked: sum: the dimension of what it adds up */
-    tn_ast_list tests;                /* checked: tray: comparisons of its numbers */
-    bool resolved;                    /* checked: its name has been looked up */
-    bool from_sum;                    /* checked: a condition on a sum, written out */
-    bool whole;                       /* checked: speaks of the whole plan, whatever it stands in */
-    uint32_t field;                   /* checked: of a sum */
-    uint32_t function;                /* emitted: of what a symmetric mirrors, plus one; 0: not yet */
+    bool place;                  /* checked: figure: of a field whose values have an order: the place of the value */
+    const char *constant;        /* checked: figure: of a number that is written out */
+    bool figure_good;            /* checked: sum */
+    int64_t modulus;             /* checked: remainder: in nanometres to the sum's power; 0: already reported */
+    tn_sum_amount figure_amount; /* checked: sum: the dimension of what it adds up */
+    tn_ast_list tests;           /* checked: tray: comparisons of its numbers */
+    bool resolved;               /* checked: its name has been looked up */
+    bool from_sum;               /* checked: a condition on a sum, written out */
+    bool whole;                  /* checked: speaks of the whole plan, whatever it stands in */
+    uint32_t field;              /* checked: of a sum */
+    uint32_t function;           /* emitted: of what a symmetric mirrors, plus one; 0: not yet */
     uint32_t part_whole, part_holds, tally; /* emitted: of a sum's part or figure, plus one; 0: not yet */
 } tn_ast_expr;
 
