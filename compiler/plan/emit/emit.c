@@ -61,6 +61,8 @@ tn_status tn_emit_module(tn_arena *arena, const tn_checked *checked, const tn_im
             tn_fail(error, TN_LIMIT, E_MODULE_TOO_LARGE, "the rules need %zu instructions, more than the limit of %u",
                     emit.instructions, TN_INSTRUCTIONS_MAX);
         tn_error_help(error, "split the file, or give parts that are written out often a name of their own");
+    } else if (tn_arena_failed(arena)) { /* parts may be missing */
+        status = tn_fail_memory(error);
     } else {
         status = tn_builder_finish(emit.builder, bytes, size, error);
     }
