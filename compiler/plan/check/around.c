@@ -15,23 +15,8 @@ static void report(tn_check *check, const tn_ast_expr *expr)
 /* Is the expression, if a `where` reaches it, still about the same stretch with all that is in it? */
 static bool goes_through(tn_expr_kind kind)
 {
-    switch (kind) {
-    case TN_EXPR_AND:
-    case TN_EXPR_OR:
-    case TN_EXPR_NOT:
-    case TN_EXPR_IMPLIES:
-    case TN_EXPR_COMPARE:
-    case TN_EXPR_WITHIN:
-    case TN_EXPR_REMAINDER:
-    case TN_EXPR_PLUS:
-    case TN_EXPR_MINUS:
-    case TN_EXPR_TIMES:
-    case TN_EXPR_OVER:
-    case TN_EXPR_NEGATIVE:
-        return true;
-    default:
-        return false;
-    }
+    bool joined = kind == TN_EXPR_AND || kind == TN_EXPR_OR || kind == TN_EXPR_NOT || kind == TN_EXPR_IMPLIES;
+    return joined || tn_compares_numbers(kind) || tn_is_arithmetic(kind);
 }
 
 static void walk(tn_check *check, const tn_ast_expr *expr, bool reached)

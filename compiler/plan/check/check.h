@@ -372,7 +372,10 @@ void tn_check_around(tn_check *check, const tn_ast_expr *expr); /* does `where` 
 void tn_check_near(tn_check *check, tn_ast_expr *near); /* its parts; the distance becomes a rule of the gap */
 
 /* ---- sum.c */
-bool tn_is_sum(const tn_ast_expr *expr); /* is it a number, not a rule? Names are to be resolved */
+bool tn_is_arithmetic(tn_expr_kind kind);     /* `+`, `-`, `*`, `/` of numbers */
+bool tn_compares_numbers(tn_expr_kind kind);  /* a comparison, a range, a remainder: its parts are numbers */
+bool tn_is_constant(const tn_ast_expr *expr); /* is it made of constants alone? */
+bool tn_is_sum(const tn_ast_expr *expr);      /* is it a number, not a rule? Names are to be resolved */
 void tn_check_sum_expr(tn_check *check, tn_ast_expr *expr);
 tn_checked_sum *tn_check_sum(tn_check *check, tn_ast_expr *expr); /* NULL: reported */
 void tn_check_remainder(tn_check *check, tn_ast_expr *expr);      /* likewise */

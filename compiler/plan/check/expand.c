@@ -474,33 +474,6 @@ static tn_ast_expr *expand_name(tn_rule_expansion *expansion, const tn_ast_expr 
     return shallow(expansion, expr);
 }
 
-/* Are the parts numbers? */
-static bool has_numbers(tn_expr_kind kind)
-{
-    switch (kind) {
-    case TN_EXPR_COMPARE:
-    case TN_EXPR_WITHIN:
-    case TN_EXPR_REMAINDER:
-    case TN_EXPR_PLUS:
-    case TN_EXPR_MINUS:
-    case TN_EXPR_TIMES:
-    case TN_EXPR_OVER:
-    case TN_EXPR_NEGATIVE:
-        return true;
-    default:
-        return false;
-    }
-}
-
-static bool is_constant(const tn_ast_expr *expr)
-{
-    bool constant = expr->kind == TN_EXPR_NUMBER || (has_numbers(expr->kind) && expr->kind != TN_EXPR_COMPARE &&
-                                                     expr->kind != TN_EXPR_WITHIN && expr->kind != TN_EXPR_REMAINDER);
-    for (TN_EACH(const tn_ast_expr, part, expr->parts))
-        constant = constant && is_constant(part);
-    return constant;
-}
-
 /* `u - v <= 1` of values that a quantifier goes through: what is left of it is numbers, and so decided. false: it is
  * not. */
 static bool decide_constants(tn_rule_expansion *expansion, tn_operator op, tn_ast_list parts, tn_ast_expr *made)
@@ -508,8 +481,8 @@ static bool decide_constants(tn_rule_expansion *expansion, tn_operator op, tn_as
     tn_check *check = expansion->check;
     tn_ast_expr *left = (tn_ast_expr *)parts.first, *right = (tn_ast_expr *)parts.last;
     tn_sum_amount a, b, both;
-    if (parts.count != 2 || !is_constant(left) || !is_constant(right) || !tn_check_figure(check, NULL, left, &a) ||
-        !tn_check_figure(check, NULL, right, &b) || !a.value || !b.value)
+    if (parts.count != 2 || !tn_is_constant(left) || !tn_is_constant(right) ||
+        !tn_check_figure(check, NULL, left, &a) || !tn_check_figure(check, NULL, right, &b) || !a.value || !b.value)
         return false;
     if (!tn_same_power(check, a, left->node.span, b, right->node.span, "compared with", &both)) {
         made->kind = TN_EXPR_BROKEN;
@@ -569,7 +542,7 @@ static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr
     copy->condition = expr->condition ? tn_expand_condition(expansion, expr->condition) : NULL;
     copy->figure = expr->figure ? expand(expansion, expr->figure) : NULL;
     bool number = expansion->number;
-    expansion->number = has_numbers(expr->kind);
+    expansion->number = tn_compares_numbers(expr->kind) || tn_is_arithmetic(expr->kind);
     tn_ast_list parts = expand_parts(expansion, expr->parts);
     expansion->number = number;
     if (expr->kind == TN_EXPR_COMPARE && expansion->bindings && decide_constants(expansion, expr->op, parts, copy))

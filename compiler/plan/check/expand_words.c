@@ -103,15 +103,9 @@ static tn_ast_word *group_of(tn_rule_expansion *expansion, const tn_ast_expr *va
     return word;
 }
 
-static bool constant_kind(const tn_ast_expr *value)
-{
-    return value->kind == TN_EXPR_PLUS || value->kind == TN_EXPR_MINUS || value->kind == TN_EXPR_TIMES ||
-           value->kind == TN_EXPR_OVER || value->kind == TN_EXPR_NEGATIVE;
-}
-
 static void put_value(tn_rule_expansion *expansion, const tn_ast_word *use, tn_ast_expr *value, tn_ast_list *words)
 {
-    if (constant_kind(value)) {
+    if (tn_is_arithmetic(value->kind)) {
         const tn_ast_word *word = tn_expand_constant(expansion, value, use->node.span);
         *words = tn_ast_append(*words, word ? copy_word(expansion, word) : NULL);
         return;
@@ -183,10 +177,10 @@ const tn_ast_word *tn_expand_constant(tn_rule_expansion *expansion, tn_ast_expr 
     tn_ast_word *word = TN_NEW(check->arena, tn_ast_word);
     if (!word)
         return NULL;
-    bool good = constant_kind(value) && tn_check_figure(check, NULL, value, &amount);
+    bool good = tn_is_arithmetic(value->kind) && tn_check_figure(check, NULL, value, &amount);
     bool whole = good && amount.value && !strchr(amount.value, '/') && strlen(amount.value) < 18 &&
                  (amount.power == 0 || amount.power == 1);
-    if (!constant_kind(value) && value->kind != TN_EXPR_BROKEN) {
+    if (!tn_is_arithmetic(value->kind) && value->kind != TN_EXPR_BROKEN) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_ARGUMENT, value->node.span, "a number is needed here");
         tn_note(check->diagnostics, d, &place, "it is used here");
         tn_help(check->diagnostics, d, "give a number such as `2`, or a length such as `12'` or `3.6m`");

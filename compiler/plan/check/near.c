@@ -46,16 +46,6 @@ static tn_ast_expr *length_between(tn_check *check, tn_span span, tn_ast_cond *c
     return figure->name ? sum : NULL;
 }
 
-/* Is the distance a constant, so that it does not depend on the plan? */
-static bool is_constant(const tn_ast_expr *expr)
-{
-    bool operation = expr->kind == TN_EXPR_PLUS || expr->kind == TN_EXPR_MINUS || expr->kind == TN_EXPR_TIMES ||
-                     expr->kind == TN_EXPR_OVER || expr->kind == TN_EXPR_NEGATIVE;
-    for (TN_EACH(const tn_ast_expr, part, expr->parts))
-        operation = operation && is_constant(part);
-    return operation || expr->kind == TN_EXPR_NUMBER;
-}
-
 static void report_distance(tn_check *check, const tn_ast_expr *distance, const char *what)
 {
     tn_diagnostic *d = tn_report(check->diagnostics, E_NEAR_DISTANCE, distance->node.span, "%s", what);
@@ -65,7 +55,7 @@ static void report_distance(tn_check *check, const tn_ast_expr *distance, const 
 /* The distance as one word, a number or a length; NULL: reported. */
 static tn_ast_word *read_distance(tn_check *check, tn_ast_expr *distance)
 {
-    if (!is_constant(distance)) {
+    if (!tn_is_constant(distance)) {
         if (distance->kind != TN_EXPR_BROKEN)
             report_distance(check, distance, "a distance has to be a constant");
         return NULL;

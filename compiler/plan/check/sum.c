@@ -11,18 +11,34 @@
 
 enum { MEASURE_POWER_MAX = 3, TERMS_MAX = 1000, MATCHES_MAX = 10 };
 
+bool tn_is_arithmetic(tn_expr_kind kind)
+{
+    return kind == TN_EXPR_PLUS || kind == TN_EXPR_MINUS || kind == TN_EXPR_TIMES || kind == TN_EXPR_OVER ||
+           kind == TN_EXPR_NEGATIVE;
+}
+
+bool tn_compares_numbers(tn_expr_kind kind)
+{
+    return kind == TN_EXPR_COMPARE || kind == TN_EXPR_WITHIN || kind == TN_EXPR_REMAINDER;
+}
+
+bool tn_is_constant(const tn_ast_expr *expr)
+{
+    bool constant = expr->kind == TN_EXPR_NUMBER || tn_is_arithmetic(expr->kind);
+    for (TN_EACH(const tn_ast_expr, part, expr->parts))
+        constant = constant && tn_is_constant(part);
+    return constant;
+}
+
 bool tn_is_sum(const tn_ast_expr *expr)
 {
+    if (tn_is_arithmetic(expr->kind))
+        return true;
     switch (expr->kind) {
     case TN_EXPR_NUMBER:
     case TN_EXPR_TRAYS:
     case TN_EXPR_MATCHES:
     case TN_EXPR_VALUES:
-    case TN_EXPR_PLUS:
-    case TN_EXPR_MINUS:
-    case TN_EXPR_TIMES:
-    case TN_EXPR_OVER:
-    case TN_EXPR_NEGATIVE:
         return true;
     case TN_EXPR_QUANTITY:
     case TN_EXPR_OCCURRENCES:
