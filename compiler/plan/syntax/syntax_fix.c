@@ -338,6 +338,8 @@ static const char *word_fix(const tn_parse *parse, const char *found, const tn_e
         return "which trays are added up is said after `of`: `sum(FIELD of tray(a))`";
     if (tn_expects(e, "`where`") && parse->in_number)
         return "which trays a case is for is said by `where`: `number beds = 4 where tray(a) | 0`";
+    if (e->count == 1 && tn_expects(e, "`every`"))
+        return "what is far is so from each: `a at least 2 from every b`";
     if (e->count == 1 && tn_expects(e, "`tray`"))
         return "a tray that is left out is written `forbid tray(...)`";
     if (parse->mode == TN_LEX_SCHEMA && strcmp(found, "a decimal number") == 0)
