@@ -40,6 +40,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
     tn_ast_range range;
     tn_operator op;
     tn_ast_region region;
+    tn_ast_extreme_kind extreme;
     tn_ast_cond *cond;
     tn_ast_expr *expr;
     tn_ast_body body;
@@ -68,7 +69,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token IN "`in`" MOD "`mod`" ROOM "`room`" TOUCH "`touch`" APART "`apart`" THROUGH "`through`"
 %token <word> DECIMAL "a decimal number"
 %token MEASURE "`measure`" LET "`let`" NUMBER_FIELD "`number`" WHERE "`where`" MATCHES "`matches`" SOME "`some`" EVERY "`every`"
-%token IMPLIES "`implies`" WITHIN "`within`" LEAST "`least`" BEFORE "`before`" AFTER "`after`" PLAN "`plan`" MIN "`min`" MAX "`max`" VALUE "`value`"
+%token IMPLIES "`implies`" GAP "`gap`" WITHIN "`within`" LEAST "`least`" BEFORE "`before`" AFTER "`after`" PLAN "`plan`" MIN "`min`" MAX "`max`" VALUE "`value`"
 %token ONE_EXPRESSION "an expression" ONE_PATTERN "an open plan" ONE_LITERAL "a plan"
 %token PLUS "`+`" STAR "`*`" SLASH "`/`" ELLIPSIS "`...`" QUESTION "`?`"
 %token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
@@ -97,6 +98,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <range> range
 %type <op> comparison
 %type <region> region
+%type <extreme> extreme
 %type <cond> condition cond_ors cond_and cond_ands cond_not cond_atom compare
 %type <form> form_head
 %type <form_clause> thickness relation price
@@ -409,6 +411,12 @@ primary
     | SUM OPEN tray_sum region CLOSE            { $$ = tn_ast_sum(parse, @$, $3, NULL, $4, NULL); }
     | SUM OPEN tray_sum OF expression region CLOSE
                                                 { $$ = tn_ast_sum(parse, @$, $3, $5, $6, NULL); }
+    | extreme OPEN tray_sum CLOSE               { $$ = tn_ast_extreme(parse, @$, $1, $3, NULL); }
+    | extreme OPEN tray_sum OF expression CLOSE { $$ = tn_ast_extreme(parse, @$, $1, $3, $5); }
+    | extreme OPEN GAP FROM expression TO expression CLOSE
+                                                { $$ = tn_ast_extreme_gap(parse, @$, $1, $5, $7, NULL); }
+    | extreme OPEN GAP FROM expression TO expression BY NAME CLOSE
+                                                { $$ = tn_ast_extreme_gap(parse, @$, $1, $5, $7, $9); }
     | SOME names IN NAME OPEN expression CLOSE  { $$ = tn_ast_quantifier(parse, TN_EXPR_SOME, @$, $2, $4, $6); }
     | EVERY names IN NAME OPEN expression CLOSE { $$ = tn_ast_quantifier(parse, TN_EXPR_EACH, @$, $2, $4, $6); }
     | EVERY OPEN expression COMMA expression CLOSE
@@ -442,6 +450,11 @@ primary
                                                 { $$ = tn_ast_meeting(parse, TN_EXPR_APART, @$, tn_ast_append(tn_ast_append(tn_ast_one($3), $6), $12), $9); }
     | DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE
                                                 { $$ = tn_ast_distance(parse, @$, $4, $7, $10); }
+    ;
+
+extreme
+    : MAX                                       { $$ = TN_EXTREME_MOST; }
+    | MIN                                       { $$ = TN_EXTREME_LEAST; }
     ;
 
 /* Where a count or a sum looks, of the stretch that a `where` is about. */

@@ -51,7 +51,7 @@ static void measure_library(tn_measure_facts *facts, const tn_module *module, co
                             uint32_t measure)
 {
     const tn_measure_record *record = &module->MEASURE_records[measure];
-    tn_amount_unit unit = tn_amount_unit_of(tn_library_schema(library), module->SUM_records[record->sum].power);
+    tn_amount_unit unit = tn_amount_unit_of(tn_library_schema(library), tn_measure_power(module, measure));
     tn_weighed *weighed = NULL;
     tn_measure_moments moments;
     tn_buffer text = {0};

@@ -78,7 +78,7 @@ tartan_status tartan_best_value(const tartan_best *best, size_t wish, char **val
         return tn_api_missing(error, "object of best plans");
     if (!best->stepped)
         return tn_api_refuse(error, TARTAN_INVALID, "there is no plan at hand");
-    return tn_api_wish_value(&best->wishes, wish, best->values[wish < TN_WEIGHED_MAX ? wish : 0], value, error);
+    return tn_api_wish_value(&best->wishes, wish, best->values, value, error);
 }
 
 /* ---- fronts */
@@ -129,8 +129,7 @@ tartan_status tartan_front_value(const tartan_front *front, size_t point, size_t
     tartan_status status = check_point(front, point, error);
     if (status != TARTAN_OK)
         return status;
-    return tn_api_wish_value(&front->wishes, wish, front->front.points[point].values[wish < TN_WEIGHED_MAX ? wish : 0],
-                             value, error);
+    return tn_api_wish_value(&front->wishes, wish, front->front.points[point].values, value, error);
 }
 
 tartan_status tartan_front_plans(const tartan_front *front, size_t point, char **plans, const uint32_t **trays,

@@ -38,8 +38,8 @@ static tartan_status write_texts(tartan_completions *made, const tn_api_wishes *
     tartan_status status = tn_api_decimal(made->found.plans, &made->plans, error);
     for (size_t i = 0; status == TARTAN_OK && i < count; i++) {
         status = tn_api_decimal(made->found.counts[i], &made->counts[i], error);
-        if (status == TARTAN_OK && made->bests && mpz_sgn(made->found.counts[i]) > 0)
-            status = tn_api_wish_value(wishes, 0, made->found.best[i], &made->bests[i], error);
+        if (status == TARTAN_OK && made->bests && made->found.best[i] != TN_NO_BEST)
+            status = tn_api_wish_value(wishes, 0, &made->found.best[i], &made->bests[i], error);
     }
     return status;
 }

@@ -38,8 +38,7 @@ tartan_status tn_api_measure_find(const tartan_library *library, const char *nam
 
 tn_amount_unit tn_api_measure_unit(const tartan_library *library, uint32_t measure)
 {
-    const tn_module *module = library->schema->module;
-    return tn_amount_unit_of(library->schema, module->SUM_records[module->MEASURE_records[measure].sum].power);
+    return tn_amount_unit_of(library->schema, tn_measure_power(library->schema->module, measure));
 }
 
 const char *tartan_measure_unit(const tartan_library *library, const char *measure)
@@ -92,15 +91,14 @@ void tn_api_wishes_clear(tn_api_wishes *wishes)
     *wishes = (tn_api_wishes){0};
 }
 
-tartan_status tn_api_wish_value(const tn_api_wishes *wishes, size_t wish, int64_t steps, char **value,
+tartan_status tn_api_wish_value(const tn_api_wishes *wishes, size_t wish, const int64_t *values, char **value,
                                 tartan_error *error)
 {
     if (wish >= wishes->count)
         return tn_api_refuse(error, TARTAN_INVALID, "there is no wish %zu", wish);
     mpq_t number;
     mpq_init(number);
-    mpq_set_si(number, steps, 1);
-    mpq_mul(number, number, tn_weighed_unit(wishes->weighed, (uint32_t)wish));
+    tn_weighed_value(wishes->weighed, (uint32_t)wish, values, number);
     tartan_status status = tn_api_amount(wishes->unit[wish], number, value, error);
     mpq_clear(number);
     return status;
@@ -169,6 +167,12 @@ tartan_status tartan_distribution_value(const tartan_distribution *distribution,
     return status;
 }
 
+tartan_status tartan_distribution_none(const tartan_distribution *distribution, char **plans, tartan_error *error)
+{
+    return distribution ? tn_api_decimal(distribution->d.without, plans, error)
+                        : tn_api_missing(error, "distribution");
+}
+
 tartan_status tartan_distribution_statistic(const tartan_distribution *distribution, tartan_statistic statistic,
                                             char **value, tartan_error *error)
 {
@@ -177,7 +181,7 @@ tartan_status tartan_distribution_statistic(const tartan_distribution *distribut
     if ((unsigned)statistic > TARTAN_VARIANCE)
         return tn_api_refuse(error, TARTAN_INVALID, "there is no statistic %d", (int)statistic);
     if (distribution->d.count == 0)
-        return tn_api_refuse(error, TARTAN_INVALID, "the library has no plans");
+        return tn_api_refuse(error, TARTAN_INVALID, "no plan of the library has a value");
     const tn_distribution *d = &distribution->d;
     tn_amount_unit unit = distribution->unit;
     mpq_t number, variance;

@@ -20,7 +20,7 @@ tartan_status tn_api_wishes_take(const tartan_library *library, const tartan_wis
 void tn_api_wishes_clear(tn_api_wishes *wishes);
 
 /* A value in steps as a new text; one in nanometres. */
-tartan_status tn_api_wish_value(const tn_api_wishes *wishes, size_t wish, int64_t steps, char **value,
+tartan_status tn_api_wish_value(const tn_api_wishes *wishes, size_t wish, const int64_t *values, char **value,
                                 tartan_error *error);
 tartan_status tn_api_amount(tn_amount_unit unit, const mpq_t value, char **text, tartan_error *error);
 

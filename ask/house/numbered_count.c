@@ -501,7 +501,7 @@ tn_status tn_numbered_spread(tn_numbered *n, const tn_plan *plan, uint32_t measu
 {
     const tn_module *module = n->form.module;
     tn_house_measured of = tn_house_measured_of(module, measure);
-    tn_spread_begin(spread, n->schema, module->SUM_records[of.sum].power);
+    tn_spread_begin(spread, n->schema, (int)module->SUM_records[of.sum].power);
     spread->library = tn_text(module, n->record->name);
     spread->name = tn_text(module, of.name);
     spread->doc = tn_text(module, of.doc);

@@ -4,8 +4,10 @@
 #include <stdlib.h>
 
 #include "ask/session/questions.h"
+#include "driver/open/digits.h"
 #include "runtime/plan/library/ranking.h"
 #include "runtime/plan/measure/best.h"
+#include "runtime/plan/measure/moments.h"
 
 /* ---- measures */
 
@@ -35,8 +37,31 @@ tn_status tn_wishes_of_plans(tn_session *session, const tn_ready_library *ready,
             return status;
         const tn_measure_record *measure = &module->MEASURE_records[wishes->measures[k]];
         wishes->names[k] = tn_text(module, measure->name);
-        wishes->units[k] = tn_amount_unit_of(ready->schema, module->SUM_records[measure->sum].power);
+        wishes->units[k] = tn_amount_unit_of(ready->schema, tn_measure_power(module, wishes->measures[k]));
     }
+    return status;
+}
+
+tn_status tn_wishes_note_none(tn_session *session, const tn_wishes *wishes, tn_weighed *weighed, tn_error *error)
+{
+    const tn_library *library = tn_weighed_library(weighed);
+    const tn_module *module = tn_library_schema(library)->module;
+    bool partial = false;
+    for (uint32_t k = 0; k < wishes->count; k++)
+        partial |= tn_measure_partial(module, wishes->measures[k]);
+    if (!partial)
+        return TN_OK;
+    mpz_t valued, none;
+    mpz_inits(valued, none, NULL);
+    tn_status status = tn_weighed_plans(weighed, valued, error);
+    tn_library_kept(library, TN_ALL_LENGTHS, none);
+    mpz_sub(none, none, valued);
+    char *count = status == TN_OK && mpz_sgn(none) > 0 ? tn_digits(none, true) : NULL;
+    if (count)
+        tn_session_note(session, "%s plan%s without a value %s left out", count, mpz_cmp_ui(none, 1) ? "s" : "",
+                        mpz_cmp_ui(none, 1) ? "are" : "is");
+    free(count);
+    mpz_clears(valued, none, NULL);
     return status;
 }
 
@@ -80,6 +105,8 @@ static tn_status prepare(searching *s, tn_error *error)
     const tn_library *library = s->ready->library;
     tn_status status = tn_weighed_new(library, s->wishes.measures, s->wishes.count, &s->weighed, error);
     if (status == TN_OK)
+        status = tn_wishes_note_none(s->session, &s->wishes, s->weighed, error);
+    if (status == TN_OK)
         status = tn_best_new(s->weighed, s->wishes.most, &s->best, error);
     if (status == TN_OK)
         status = tn_ranking_new(library, &s->ranking, error);
@@ -96,13 +123,11 @@ static void clear(searching *s)
     free(s->trays);
 }
 
-/* values: in steps of each measure. */
+/* values: of the sums, in steps. */
 static tn_status give_plan(searching *s, tn_finds *finds, uint32_t length, const int64_t *values, tn_error *error)
 {
-    for (uint32_t k = 0; k < s->wishes.count; k++) {
-        mpq_set_si(s->values[k], values[k], 1);
-        mpq_mul(s->values[k], s->values[k], tn_weighed_unit(s->weighed, k));
-    }
+    for (uint32_t k = 0; k < s->wishes.count; k++)
+        tn_weighed_value(s->weighed, k, values, s->values[k]);
     const tn_found_one found = {.rank = tn_ranking_next(s->ranking, s->trays, length),
                                 .trays = s->trays,
                                 .length = length,

@@ -27,6 +27,9 @@ tn_status tn_wishes_take(tn_session *session, const tn_wish *items, size_t count
 tn_status tn_wishes_of_plans(tn_session *session, const tn_ready_library *ready, const tn_wish *items, size_t count,
                              uint32_t least, tn_wishes *wishes);
 
+/* Says how many plans are left out since they have no value of one of the measures. */
+tn_status tn_wishes_note_none(tn_session *session, const tn_wishes *wishes, tn_weighed *weighed, tn_error *error);
+
 /* Values of measures, in nanometres to their power. */
 void tn_wishes_room(mpq_t values[TN_WEIGHED_MAX]);
 void tn_wishes_clear(mpq_t values[TN_WEIGHED_MAX]);

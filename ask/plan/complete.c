@@ -88,7 +88,7 @@ static tn_status give_counts(tn_open_choices *c, tn_completed *to, tn_error *err
 static void weigh_choice(const tn_open_choices *c, size_t at, tn_open_choice *to)
 {
     set_count(c, &to->has_plans, to->plans, &to->has_houses, to->houses, c->found.counts[at]);
-    to->has_best = mpz_sgn(c->found.counts[at]) > 0;
+    to->has_best = c->found.best[at] != TN_NO_BEST;
     if (!to->has_best)
         return;
     mpq_set_si(to->best, c->found.best[at], 1);

@@ -9,7 +9,7 @@
 char *tn_open_best_text(const tn_open_choices *c, size_t at)
 {
     mpq_t value;
-    if (!c->found.best || mpz_sgn(c->found.counts[at]) == 0)
+    if (!c->found.best || c->found.best[at] == TN_NO_BEST)
         return NULL;
     mpq_init(value);
     mpq_set_si(value, c->found.best[at], 1);
@@ -35,7 +35,7 @@ static bool take_choices(const tn_open_choices *c, tn_drawn_choice *choices)
                 choice->share = tn_bins_share(c->found.counts[at], c->found.plans);
                 choice->count = tn_digits(c->found.counts[at], true);
                 choice->best = tn_open_best_text(c, at);
-                ok = choice->count && (choice->best || !c->found.best || mpz_sgn(c->found.counts[at]) == 0);
+                ok = choice->count && (choice->best || !c->found.best || c->found.best[at] == TN_NO_BEST);
             }
     return ok;
 }

@@ -90,11 +90,13 @@ static tn_status give(const tn_spread *spread, tn_counted_values *counted, tn_er
 {
     bool of_houses = strcmp(spread->of, "house") == 0;
     counted->measure = spread->name;
-    counted->dimension = (uint64_t)spread->bins.unit.power;
+    counted->dimension = spread->bins.unit.power;
     counted->unit = tn_amount_unit_name(spread->bins.unit);
     counted->has_houses = of_houses;
     counted->has_plans = !of_houses;
     mpz_set(of_houses ? counted->houses : counted->plans, spread->d.all);
+    counted->has_none = mpz_sgn(spread->d.without) > 0;
+    mpz_set(counted->none, spread->d.without);
     tn_status status = give_rows(spread, of_houses, counted, error);
     return status == TN_OK && spread->d.count > 0 ? give_statistics(&spread->bins, counted, error) : status;
 }

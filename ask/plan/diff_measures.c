@@ -53,8 +53,7 @@ static tn_status find_side(const tn_ready_library *ready, uint32_t measure, cons
     const tn_module *module = ready->schema->module;
     tn_weighed *weighed = NULL;
     tn_measure_moments moments;
-    tn_amount_unit unit =
-        tn_amount_unit_of(ready->schema, module->SUM_records[module->MEASURE_records[measure].sum].power);
+    tn_amount_unit unit = tn_amount_unit_of(ready->schema, tn_measure_power(module, measure));
     *unit_name = tn_amount_unit_name(unit);
     tn_measure_moments_init(&moments);
     tn_status status = tn_weighed_new(ready->library, &measure, 1, &weighed, error);

@@ -39,10 +39,8 @@ static tn_status set_plan(const tn_plan_front *f, const tn_pareto_point *from, t
 {
     mpq_t values[TN_WEIGHED_MAX];
     tn_wishes_room(values);
-    for (uint32_t k = 0; k < f->wishes.count; k++) {
-        mpq_set_si(values[k], from->values[k], 1);
-        mpq_mul(values[k], values[k], tn_weighed_unit(f->weighed, k));
-    }
+    for (uint32_t k = 0; k < f->wishes.count; k++)
+        tn_weighed_value(f->weighed, k, from->values, values[k]);
     tn_status status = set_values(&f->wishes, values, point, error);
     tn_wishes_clear(values);
     point->has_plans = point->has_rank = point->has_plan = true;
@@ -57,6 +55,8 @@ static tn_status find_plans(tn_session *session, tn_plan_front *f, tn_error *err
 {
     tn_session_begins(session, "looking for the front");
     tn_status status = tn_weighed_new(f->ready->library, f->wishes.measures, f->wishes.count, &f->weighed, error);
+    if (status == TN_OK)
+        status = tn_wishes_note_none(session, &f->wishes, f->weighed, error);
     if (status == TN_OK)
         status = tn_pareto_make(&f->front, f->weighed, f->wishes.most, error);
     tn_session_ends(session);

@@ -219,7 +219,8 @@ static tn_status show_libraries(const showing *s, tn_error *error)
 
 /* What the values are in: the lengths of the schema decide. */
 typedef struct valued {
-    uint32_t schema, sum;
+    uint32_t schema;
+    int power; /* of a length */
 } valued;
 
 static tn_status set_unit(const showing *s, valued of, tn_shown_measure *to, tn_error *error)
@@ -227,7 +228,7 @@ static tn_status set_unit(const showing *s, valued of, tn_shown_measure *to, tn_
     tn_schema *made = NULL;
     tn_status status = tn_schema_new(s->module, of.schema, 0, &made, error);
     if (status == TN_OK)
-        to->unit = tn_amount_unit_name(tn_amount_unit_of(made, s->module->SUM_records[of.sum].power));
+        to->unit = tn_amount_unit_name(tn_amount_unit_of(made, of.power));
     tn_schema_free(made);
     return status;
 }
@@ -255,14 +256,14 @@ static tn_status show_measures(const showing *s, tn_error *error)
         const tn_measure_record *from = &s->module->MEASURE_records[i];
         if (is_shown(s, from->flags))
             status = add_measure(s, from->name, from->doc, schema_name(s, from->schema), NULL,
-                                 (valued){from->schema, from->sum}, error);
+                                 (valued){from->schema, tn_measure_power(s->module, i)}, error);
     }
     for (uint32_t i = 0; status == TN_OK && i < s->module->HOUSE_MEASURE_count; i++) {
         const tn_house_measure_record *from = &s->module->HOUSE_MEASURE_records[i];
         uint32_t schema = s->module->FORM_records[from->form].schema;
         if (is_shown(s, from->flags))
-            status = add_measure(s, from->name, from->doc, NULL, form_name(s, from->form), (valued){schema, from->sum},
-                                 error);
+            status = add_measure(s, from->name, from->doc, NULL, form_name(s, from->form),
+                                 (valued){schema, (int)s->module->SUM_records[from->sum].power}, error);
     }
     return status;
 }

@@ -130,6 +130,15 @@ static void put_bound(const tn_spread *p, const mpq_t value, tn_buffer *text)
     tn_amount_write(plain, value, text);
 }
 
+/* The row of the plans that have no value. */
+static void write_without(const tn_spread *p, FILE *out)
+{
+    char *plans = mpz_sgn(p->d.without) > 0 ? tn_digits(p->d.without, true) : NULL;
+    if (plans)
+        fprintf(out, "%24s  %24s\n", "none", plans);
+    free(plans);
+}
+
 static void write_rows(const tn_spread *p, FILE *out)
 {
     mpz_t running;
@@ -161,6 +170,7 @@ static void write_rows(const tn_spread *p, FILE *out)
     }
     tn_bin_row_clear(&r);
     mpz_clear(running);
+    write_without(p, out);
 }
 
 static void write_spread(const tn_spread *p, FILE *out)
@@ -170,8 +180,10 @@ static void write_spread(const tn_spread *p, FILE *out)
     fprintf(out, "%s%s%s%s%s%s of %s %s of %s\n\n", p->name, *doc ? " " : "", doc, *unit ? " (" : "", unit,
             *unit ? ")" : "", all ? all : "", things(p), p->library);
     free(all);
-    if (p->d.count == 0)
+    if (p->d.count == 0) {
+        write_without(p, out);
         return;
+    }
     write_statistics(p, out);
     write_rows(p, out);
 }

@@ -33,17 +33,11 @@ static const char *name_of(const showing *s, uint32_t k)
     return tn_text(s->of->ready->schema->module, measure_of(s, k)->name);
 }
 
-static void set_steps(const showing *s, uint32_t k, int64_t steps, mpq_t value)
-{
-    mpq_set_si(value, steps, 1);
-    mpq_mul(value, value, tn_weighed_unit(s->of->weighed, k));
-}
-
-static double number_of(const showing *s, uint32_t k, int64_t steps)
+static double number_of(const showing *s, uint32_t k, const int64_t *values)
 {
     mpq_t value;
     mpq_init(value);
-    set_steps(s, k, steps, value);
+    tn_weighed_value(s->of->weighed, k, values, value);
     tn_amount_convert(s->unit[k], value);
     double number = mpq_get_d(value);
     mpq_clear(value);
@@ -93,7 +87,7 @@ static tn_chart_point *points_of(const showing *s, uint32_t x, uint32_t y, bool 
     tn_chart_point *points = calloc(count + 1, sizeof *points);
     for (size_t i = 0; points && i < count; i++) {
         const int64_t *values = front ? s->of->front->points[i].values : s->cloud.values[i];
-        points[i] = (tn_chart_point){number_of(s, x, values[x]), number_of(s, y, values[y])};
+        points[i] = (tn_chart_point){number_of(s, x, values), number_of(s, y, values)};
     }
     return points;
 }
@@ -130,7 +124,7 @@ static bool put_row(showing *s, size_t i, char **cells)
     mpz_init(rank);
     for (uint32_t k = 0; ok && k < s->of->count; k++) {
         tn_buffer text = {0};
-        set_steps(s, k, point->values[k], value);
+        tn_weighed_value(s->of->weighed, k, point->values, value);
         ok = tn_amount_write(s->unit[k], value, &text);
         cells[k] = text.data;
     }
@@ -194,13 +188,12 @@ static void clear(showing *s)
 
 tn_status tn_front_picture(const tn_shown_front *shown, tn_picture *to, tn_error *error)
 {
-    const tn_module *module = shown->ready->schema->module;
     showing s = {.of = shown};
     tn_front_drawing d = {.note = "Red: the front. Green: 20,000 plans drawn evenly, the darker the more of them lie "
                                   "there, or all where there are fewer. The bars beside are of all plans."};
     tn_status status = TN_OK;
     for (uint32_t k = 0; status == TN_OK && k < shown->count; k++) {
-        s.unit[k] = tn_amount_unit_of(shown->ready->schema, module->SUM_records[measure_of(&s, k)->sum].power);
+        s.unit[k] = tn_amount_unit_of(shown->ready->schema, tn_weighed_power(shown->weighed, k));
         status = find_bars(&s, k, error);
     }
     if (status == TN_OK)

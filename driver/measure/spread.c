@@ -55,7 +55,7 @@ static bool put_facts(tn_spread *s)
     return ok && put_moments(s);
 }
 
-void tn_spread_begin(tn_spread *s, const tn_schema *schema, uint32_t power)
+void tn_spread_begin(tn_spread *s, const tn_schema *schema, int power)
 {
     *s = (tn_spread){0};
     tn_distribution_init(&s->d);
@@ -71,7 +71,7 @@ tn_status tn_spread_make(tn_spread *s, const tn_ready_library *ready, uint32_t m
 {
     const tn_module *module = ready->schema->module;
     const tn_measure_record *record = &module->MEASURE_records[measure];
-    tn_spread_begin(s, ready->schema, module->SUM_records[record->sum].power);
+    tn_spread_begin(s, ready->schema, tn_measure_power(module, measure));
     s->library = tn_text(module, ready->record->name);
     s->name = tn_text(module, record->name);
     s->doc = tn_text(module, record->doc);

@@ -25,7 +25,7 @@ tn_status tn_spread_make(tn_spread *spread, const tn_ready_library *ready, uint3
 void tn_spread_clear(tn_spread *spread);
 
 /* A spread whose distribution is empty, and then filled; units are those of the schema. Clear in any case. */
-void tn_spread_begin(tn_spread *spread, const tn_schema *schema, uint32_t power);
+void tn_spread_begin(tn_spread *spread, const tn_schema *schema, int power);
 tn_status tn_spread_finish(tn_spread *spread, tn_error *error); /* says it in words */
 
 /* The histogram, of the rows that the bins are set to. */

@@ -7,6 +7,7 @@
 #include "compiler/plan/syntax/program.h"
 #include "driver/house/survey.h"
 #include "runtime/module/code.h"
+#include "runtime/plan/measure/never.h"
 #include "runtime/plan/schema/sum.h"
 #include "runtime/plan/text/text.h"
 
@@ -412,6 +413,22 @@ static tn_status check_sums(const tn_schema *schema, tn_error *error)
     return TN_OK;
 }
 
+/* A quotient has a value for some plan. */
+static void check_quotients(tn_opened *opened, const tn_schema *schema)
+{
+    const tn_module *module = schema->module;
+    for (uint32_t i = 0; i < module->MEASURE_count; i++) {
+        const tn_measure_record *measure = &module->MEASURE_records[i];
+        if (&module->SCHEMA_records[measure->schema] != schema->record || measure->flags & TN_IMPORTED ||
+            measure->over == TN_NO_RECORD || !tn_measure_never(schema, i))
+            continue;
+        tn_span place = {measure->file, measure->begin, measure->end};
+        tn_diagnostic *d = tn_report(&opened->compilation.diagnostics, E_DIVIDED_BY_ZERO, place,
+                                     "this divides by 0 for every plan");
+        tn_help(&opened->compilation.diagnostics, d, "divide by what some plans have: `/ trays`, `/ sum(FIELD)`");
+    }
+}
+
 static tn_status analyse_schema(tn_opened *opened, uint32_t index, const tn_plan_analysis_options *options,
                                 tn_plan_analyses *analyses, tn_error *error)
 {
@@ -423,6 +440,8 @@ static tn_status analyse_schema(tn_opened *opened, uint32_t index, const tn_plan
     status = check_sums(analyses->schemas[at], error);
     if (status != TN_OK)
         return status;
+    if (opened->compiled)
+        check_quotients(opened, analyses->schemas[at]);
     status = tn_plan_analysis_new(analyses->schemas[at], options, &analyses->items[at], error);
     for (size_t i = 0; status == TN_OK && opened->compiled && i < tn_plan_analysis_count(analyses->items[at]); i++) {
         teller t = {opened,

@@ -6,6 +6,7 @@
 
 #include "driver/house/judge.h"
 #include "runtime/base/nearest.h"
+#include "runtime/plan/schema/sum.h"
 
 /* The names of things in a file, for choosing among them. */
 typedef struct names {
@@ -225,6 +226,20 @@ tn_status tn_measure_choose(tn_opened *opened, const char *name, uint32_t schema
     return status;
 }
 
+/* Houses go by measures that all of them have. */
+static tn_status refuse_partial(tn_opened *opened, uint32_t measure)
+{
+    const tn_module *module = opened->module;
+    if (!tn_measure_partial(module, measure))
+        return TN_OK;
+    tn_diagnostic *d = tn_report_bare(&opened->compilation.diagnostics, TN_ERROR, E_QUOTIENT,
+                                      "some plans have no value of `%.80s`, and houses go by measures that all have",
+                                      tn_text(module, module->MEASURE_records[measure].name));
+    tn_help(&opened->compilation.diagnostics, d,
+            "ask about the plans; of houses quotients, `max(...)` and `min(...)` can be compared in rules");
+    return TN_INVALID;
+}
+
 tn_status tn_house_measure_choose(tn_opened *opened, const char *name, uint32_t form, uint32_t *index)
 {
     const tn_module *module = opened->module;
@@ -239,6 +254,8 @@ tn_status tn_house_measure_choose(tn_opened *opened, const char *name, uint32_t 
                 names_add(&all, tn_text(module, module->MEASURE_records[i].name),
                           (uint32_t)module->HOUSE_MEASURE_count + i);
         status = pick(opened, &all, "measure", name, index);
+        if (status == TN_OK && *index >= module->HOUSE_MEASURE_count)
+            status = refuse_partial(opened, *index - (uint32_t)module->HOUSE_MEASURE_count);
     } else {
         status = no_memory(opened);
     }

@@ -27,17 +27,20 @@ void tn_value_tests_clear(tn_value_tests *values)
     *values = (tn_value_tests){0};
 }
 
-static const char *report(const tn_value_tests *values, const tn_test_case *test, const mpq_t value, const mpq_t wanted)
+/* value: NULL where there is none. */
+static const char *report(const tn_value_tests *values, const tn_test_case *test, mpq_srcptr value, const mpq_t wanted)
 {
     const tn_measure_record *measure = &values->opened->module->MEASURE_records[values->tests->index];
-    uint32_t power = values->opened->module->SUM_records[measure->sum].power;
-    tn_amount_unit unit = tn_amount_unit_of(values->schema, power);
+    tn_amount_unit unit =
+        tn_amount_unit_of(values->schema, tn_measure_power(values->opened->module, values->tests->index));
     tn_diagnostics *list = &values->opened->compilation.diagnostics;
     tn_buffer is = {0}, should = {0}, plan = {0};
-    tn_amount_write(unit, value, &is);
+    if (value)
+        tn_amount_write(unit, value, &is);
     tn_amount_write(unit, wanted, &should);
-    tn_diagnostic *d = tn_report(list, E_TEST_FAILED, test->span, "`%s` is %s for this plan, not %s",
-                                 values->tests->subject, is.data ? is.data : "?", should.data ? should.data : "?");
+    tn_diagnostic *d =
+        tn_report(list, E_TEST_FAILED, test->span, "`%s` is %s for this plan, not %s", values->tests->subject,
+                  is.data ? is.data : "nothing", should.data ? should.data : "?");
     if (test->doc)
         tn_note(list, d, NULL, "expected because: %s", test->doc);
     if (tn_plan_write_line(values->schema, values->trays, test->length, &plan))
@@ -54,19 +57,19 @@ tn_status tn_value_test(tn_value_tests *values, size_t i, bool *good, const char
 {
     *message = NULL;
     const tn_test_case *test = &values->tests->cases[i];
-    const tn_module *module = values->opened->module;
+    bool has = false;
     for (size_t k = 0; k < test->length; k++)
         values->trays[k] = tn_schema_tray(values->schema, test->values + k * values->schema->field_count);
     mpq_t value, wanted;
     mpq_inits(value, wanted, NULL);
     tn_status status = tn_plan_vm_plan(values->vm, values->trays, test->length, error);
     if (status == TN_OK)
-        status = tn_plan_vm_value(values->vm, module->MEASURE_records[values->tests->index].sum, value, error);
+        status = tn_plan_vm_measure(values->vm, values->tests->index, value, &has, error);
     if (status == TN_OK) {
         mpq_set_str(wanted, test->value, 10);
-        *good = mpq_equal(value, wanted);
+        *good = has && mpq_equal(value, wanted);
         if (!*good && !test->todo)
-            *message = report(values, test, value, wanted);
+            *message = report(values, test, has ? value : NULL, wanted);
     }
     mpq_clears(value, wanted, NULL);
     return status;

@@ -22,13 +22,12 @@ static bool put_title(const tn_reporting *r, uint32_t measure)
 
 /* ---- the plans with the least or the most */
 
-static bool put_value(const tn_reporting *r, const tn_spread *spread, int64_t steps, const mpz_t rank)
+static bool put_value(const tn_reporting *r, const tn_spread *spread, const int64_t *values, const mpz_t rank)
 {
     tn_buffer text = {0};
     mpq_t value;
     mpq_init(value);
-    mpq_set_si(value, steps, 1);
-    mpq_mul(value, value, tn_weighed_unit(spread->weighed, 0));
+    tn_weighed_value(spread->weighed, 0, values, value);
     bool good = tn_amount_write(spread->bins.unit, value, &text) && tn_page_html(&r->page, "<div><p><b>") &&
                 tn_page_text(&r->page, text.data) && tn_page_html(&r->page, "</b>, rank ") &&
                 tn_report_number(r, rank) && tn_page_html(&r->page, "</p>\n");
@@ -38,12 +37,12 @@ static bool put_value(const tn_reporting *r, const tn_spread *spread, int64_t st
 }
 
 static tn_status put_plan(tn_reporting *r, const tn_spread *spread, const tn_tray *trays, uint32_t length,
-                          int64_t steps)
+                          const int64_t *values)
 {
     mpz_t rank;
     mpz_init(rank);
     tn_library_rank(r->ready->library, trays, length, rank);
-    tn_status status = tn_page_written(&r->page, put_value(r, spread, steps, rank));
+    tn_status status = tn_page_written(&r->page, put_value(r, spread, values, rank));
     mpz_clear(rank);
     if (status == TN_OK)
         status = tn_report_put_plan(r, trays, length, "one of the best plans by a measure");
@@ -63,7 +62,7 @@ static tn_status put_plans(tn_reporting *r, const tn_spread *spread, tn_best *be
         uint32_t length;
         status = tn_best_next(best, trays, &length, values, &found, r->page.error);
         if (status == TN_OK && found)
-            status = put_plan(r, spread, trays, length, values[0]);
+            status = put_plan(r, spread, trays, length, values);
     }
     free(trays);
     return status;

@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* The unit of its values: "m", "ft2", or "" for plain numbers; NULL where the library's trays have no such measure. */
+/* The unit of its values: "m", "ft2", "/m2", or "" for plain numbers; NULL where the library's trays have no such measure. */
 TARTAN_API const char *tartan_measure_unit(const tartan_library *library, const char *measure);
 
 /* ---- how plans are spread */
@@ -39,11 +39,15 @@ TARTAN_API size_t tartan_distribution_count(const tartan_distribution *distribut
 TARTAN_API tartan_status tartan_distribution_value(const tartan_distribution *distribution, size_t i, char **value,
                                                    char **plans, tartan_error *error);
 
-/* A number that sums them up. Of a library without plans there is none: TARTAN_INVALID. */
+/* How many plans have no value, in decimal: of nothing there is no greatest number, and nothing is divided by 0. */
+TARTAN_API tartan_status tartan_distribution_none(const tartan_distribution *distribution, char **plans,
+                                                  tartan_error *error);
+
+/* A number that sums them up. If no plan has a value there is none: TARTAN_INVALID. */
 TARTAN_API tartan_status tartan_distribution_statistic(const tartan_distribution *distribution,
                                                        tartan_statistic statistic, char **value, tartan_error *error);
 
-/* ---- best plans */
+/* ---- best plans: those that have a value of each measure */
 
 /* What is to be great, or, where `most` is false, small. */
 typedef struct tartan_wish {

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 from program import Refused, same
 from plan_questions import how_many
-from reference import UNITS, File, Unknown
+from reference import INFINITE, UNITS, File, Unknown
 
 
 def plans_by_reference(subject):
@@ -43,6 +43,8 @@ def rule_by_reference(subject, file, kept, rule):
 
 def measure_by_reference(subject, file, kept, measure):
     want = Counter(plan.value(file.sum(measure)) for plan in kept)
+    none = sum(want.pop(value, 0) for value in (None, INFINITE, -INFINITE))
     found = subject.json("count", "--by", measure)
-    unit = UNITS.get(found["unit"].rstrip("23"), 1) ** found["dimension"]
+    unit = UNITS.get(found["unit"].strip("/").rstrip("23"), Fraction(1)) ** found["dimension"]
     same("--by", [(Fraction(d["value"]) * unit, int(d["plans"])) for d in found["distribution"]], sorted(want.items()))
+    same("plans without a value", int(found.get("none", 0)), none)

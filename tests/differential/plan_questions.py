@@ -70,8 +70,9 @@ class PlanSubject(Subject):
         return form or schema
 
     def distribution(self, measure, file=None):
-        """[(value, how many)]"""
+        """[(value, how many)]; `without` is then how many have none"""
         found = self.json("count", "--by", measure, file=file)
+        self.without = int(found.get("none", 0))
         return [(Fraction(d["value"]), int(d["houses" if self.houses else "plans"])) for d in found["distribution"] if "value" in d]
 
 
@@ -143,7 +144,7 @@ def by_measures(subject):
         values = subject.distribution(measure)
         if not values:
             continue
-        same("sum of --by = count", sum(n for _, n in values), subject.total)
+        same("sum of --by = count", sum(n for _, n in values) + subject.without, subject.total)
         if subject.lines is None:
             continue
         groups = [(v, subject.listed_where(equals(subject, measure, v))) for v, _ in some(values)]
@@ -160,14 +161,18 @@ def some(values):
 def equals(subject, measure, value):
     """`measure = value`, in the unit of its dimension."""
     number = number_of(abs(value), unit_of(subject, measure))
-    return f"{measure} = {number}" if value >= 0 else f"{measure} + {number} = 0"
+    return f"{measure} = {number}" if value >= 0 else f"{measure} = 0 - {number}"
 
 
 def unit_of(subject, measure):
-    return {"": "", "ft": "'", "m": "m", "ft2": "sf", "m2": "m2", "ft3": "cf", "m3": "m3"}[subject.json("count", "--by", measure)["unit"]]
+    """As constants are written; of a number by a length with a stroke before it."""
+    unit = subject.json("count", "--by", measure)["unit"]
+    return "/" * unit.startswith("/") + {"": "", "ft": "'", "m": "m", "ft2": "sf", "m2": "m2", "ft3": "cf", "m3": "m3"}[unit.strip("/")]
 
 
 def number_of(value, unit):
+    if unit.startswith("/"):
+        return f"{value.numerator} / {value.denominator} / 1{unit[1:]}"
     return f"{value.numerator}{unit} / {value.denominator}" if value.denominator != 1 else f"{value.numerator}{unit}"
 
 
@@ -186,7 +191,7 @@ def fronts(subject):
     value_of = [values_of_lines(subject, m) for m in measures[:2]]
     if None in value_of:
         return
-    pairs = [(value_of[0][line], -value_of[1][line]) for line in subject.lines]
+    pairs = [(value_of[0][line], -value_of[1][line]) for line in subject.lines if line in value_of[0] and line in value_of[1]]
     front = sorted({p for p in pairs if not any(q != p and q[0] <= p[0] and q[1] <= p[1] for q in set(pairs))})
     found = subject.json("pareto", "--least", measures[0], "--most", measures[1])["points"]
     key = "houses" if subject.houses else "plans"

@@ -96,6 +96,10 @@ SORTS = {
     "field: zone field_head EQUAL values": {"zone"},
 }
 SORTS["primary: MATCHES OPEN expression CLOSE"] = {"number"}
+EXTREMES = ["primary: extreme OPEN tray_sum CLOSE", "primary: extreme OPEN tray_sum OF expression CLOSE",
+            "primary: extreme OPEN GAP FROM expression TO expression CLOSE", "primary: extreme OPEN GAP FROM expression TO expression BY NAME CLOSE"]
+for extreme in EXTREMES:                                  # alone on a side: `alone` makes them
+    SORTS[extreme] = set()
 for word in ("QUANTITY", "OCCURRENCES"):
     SORTS[f"primary: {word} OPEN expression region CLOSE"] = {"number"}
 for head in ("TRAY OPEN specifier CLOSE", "ANY", "SYMMETRIC primary", "MANY OPEN expression CLOSE", "PLAN OPEN_BRACKET pattern CLOSE_BRACKET",
@@ -151,7 +155,11 @@ def same_dimension(*places):
         if place.bound and place.sort in QUESTIONS and maker.chance(.5):
             name = maker.random.choice(place.bound)
             return {i: place.but(sort="bound", text=None, field=field_named(place, name[1])) for i in places}
-        return {i: place.but(sort=sort, dimension=dimension) for i in places}
+        made = {i: place.but(sort=sort, dimension=dimension) for i in places}
+        if sort == "number" and not place.form and maker.chance(.2):
+            made.update({i: place.but(sort="constant", dimension=dimension) for i in places[1:]})
+            made[places[0]] = place.but(sort="number", dimension=dimension, want="alone")
+        return made
     return contexts
 
 
@@ -271,6 +279,8 @@ CONTEXTS = {
     "primary: SUM OPEN tray_sum region CLOSE": summed, "primary: SUM OPEN tray_sum OF expression region CLOSE": summed,
     "primary: SUM OPEN tray_sum region COMMA condition CLOSE": asked_sum(5),
     "primary: SUM OPEN tray_sum OF expression region COMMA condition CLOSE": asked_sum(7),
+    "primary: extreme OPEN tray_sum CLOSE": summed, "primary: extreme OPEN tray_sum OF expression CLOSE": summed,
+    "primary: extreme OPEN GAP FROM expression TO expression BY NAME CLOSE": lambda maker, place: {8: place.but(want="measured")},
     "primary: SYMMETRIC primary": lambda maker, place: {1: place.but(sort="neighbour")},
     "primary: DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE":
         lambda maker, place: {9: place.but(sort="by")},
@@ -399,6 +409,29 @@ TOKENS = {
 
 
 # ---- parts that are made of what is declared
+
+def alone(maker, depth, place):
+    """A quotient of two sums, or the greatest or least of some numbers: what stands on a side by itself."""
+    if place.want != "alone":
+        return None
+    inner = place.but(want=None)
+    if place.dimension > 1 or maker.chance(.4):
+        by = inner.but(dimension=maker.random.choice([0, 0, 1]))
+        made = maker.node("term: term SLASH signed", maker.make("term", depth - 1, inner.but(dimension=min(place.dimension + by.dimension, 3))),
+                          maker.make("signed", depth - 1, by))
+        return maker.node("additive: term", made)
+    fitting = [e for e in EXTREMES if fits_extreme(e, place)]
+    if not fitting:
+        return None
+    primary = maker.make_of(maker.random.choice(fitting), max(depth, 2), inner)
+    return maker.node("additive: term", maker.node("term: signed", maker.node("signed: primary", primary)))
+
+
+def fits_extreme(production, place):
+    if "GAP" in production:
+        return place.dimension == (1 if "BY" in production else 0) and (place.dimension == 0 or place.fields("length", "zone"))
+    return AVAILABLE["tray_atom: NAME"](place)
+
 
 def small_question(maker, depth, place):
     """Where no depth is left: mostly a tray, which says more than `any` and is as short."""
@@ -599,7 +632,7 @@ def older(maker, depth, place):
     return maker.node("from: FROM NAME", maker.word("NAME", place.text)) if place.text else maker.node("from: %empty")
 
 
-HOOKS = {"primary": small_question, "parts": neighbour_parts, "call_args": arguments, "body": body, "clauses": clauses, "range": trays_range, "number_cases": number_cases, "params": params,
+HOOKS = {"additive": alone, "primary": small_question, "parts": neighbour_parts, "call_args": arguments, "body": body, "clauses": clauses, "range": trays_range, "number_cases": number_cases, "params": params,
          "using": using, "from": older, "spec_items": specifiers.items, "literal_tray": specifiers.literal_tray}
 
 
@@ -728,7 +761,7 @@ def add_rules(maker, items, place, depths=(2, 3, 3, 4, 5)):
     for _ in range(random.choice([1, 2])):
         counts = random.choice(["houses", "houses", "plans"]) if place.form else None
         dimension = random.choices([0, 2] if counts == "houses" else [0, 1, 2, 3], [5, 2] if counts == "houses" else [5, 3, 2, 1])[0]
-        measure = place.but(item="measure", sort="number", counts=counts, dimension=dimension)
+        measure = place.but(item="measure", sort="number", counts=counts, dimension=dimension, want="alone" if not place.form and maker.chance(.4) else None)
         add(maker, items, "item: measure NAME doc using EQUAL additive", random.choice([4, 4, 5, 6]), measure)
 
 

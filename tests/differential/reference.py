@@ -474,7 +474,8 @@ def compared(plan, e, env, i, j):
     bound = bound_sides(plan, e, env)
     if bound:
         return OPERATORS[words(e.children[1])[0]](*bound)
-    return OPERATORS[words(e.children[1])[0]](plan.value(e.children[0], env, i, j), plan.value(e.children[2], env, i, j))
+    left, right = plan.value(e.children[0], env, i, j), plan.value(e.children[2], env, i, j)
+    return left is not None and right is not None and OPERATORS[words(e.children[1])[0]](left, right)
 
 
 def bound_sides(plan, e, env):
@@ -490,7 +491,7 @@ def bound_sides(plan, e, env):
 
 def within(plan, e, env, i, j):
     low, value, high = [plan.value(e.children[k], env, i, j) for k in (2, 0, 4)]
-    return low <= value <= high
+    return value is not None and low <= value <= high
 
 
 def open_plan(plan, e, env, i, j):
@@ -584,7 +585,46 @@ SOMEWHERE[WHOLE_PLAN] = lambda plan, e, env, i, j: (i, j) == (0, plan.n) and pla
 # ---- sums
 
 def arithmetic(how, left=0, right=2):
-    return lambda plan, e, env, i, j: how(plan.value(e.children[left], env, i, j), plan.value(e.children[right], env, i, j))
+    def value(plan, e, env, i, j):
+        sides = [plan.value(e.children[k], env, i, j) for k in (left, right)]
+        return None if None in sides else Fraction(0) if how is operator.mul and 0 in sides else how(*sides)
+    return value
+
+
+# A number that is none: None, divided by 0. INFINITE, or less that, is the least or the greatest of nothing.
+INFINITE = float("inf")
+
+
+def best_of(e, numbers):
+    """The greatest, or the least, of numbers."""
+    least = words(e.child("extreme"))[0].lower() == "min"
+    return min(numbers, default=INFINITE) if least else max(numbers, default=-INFINITE)
+
+
+def extreme(plan, e, env, i, j):
+    of = e.child("expression")
+    return best_of(e, [plan.schema.figure(e.child("tray_sum"), plan.trays[t]) for t in range(i, j) if of is None or plan.one(of, env, t)])
+
+
+def extreme_gap(plan, e, env, i, j):
+    source, destination = find_all_expressions(e)
+    by = e.children[8].text if "BY" in e.name else None
+    each = []
+    for a in range(i, j):
+        for b in range(a + 1, j + 1):
+            if plan.M(source, env, a, b):
+                each.append(min((between(plan, by, a, b, c, d) for c in range(plan.n) for d in range(c + 1, plan.n + 1)
+                                 if (d <= a or b <= c) and plan.M(destination, env, c, d)), default=INFINITE))
+    return best_of(e, each)
+
+
+def find_all_expressions(e):
+    return [c for c in e.children if c.symbol == "expression"]
+
+
+def between(plan, by, a, b, c, d):
+    first, last = (d, a) if d <= a else (b, c)
+    return Fraction(last - first) if by is None else sum((plan.schema.named_figure(by, plan.trays[t]) for t in range(first, last)), Fraction(0))
 
 
 def named_sum(plan, e, env, i, j):
@@ -603,13 +643,21 @@ def different_values(plan, e, env, i, j):
 
 
 def over(plan, e, env, i, j):
-    return divided(plan.value(e.children[0], env, i, j), plan.value(e.children[2], env, i, j))
+    """Of two numbers that depend on the plan it may have no value."""
+    value, by = plan.value(e.children[0], env, i, j), plan.value(e.children[2], env, i, j)
+    return None if value is None or by in (None, 0) else value / by
+
+
+def negative(value):
+    return None if value is None else -value
 
 
 SUMS = {
     "additive: additive PLUS term": arithmetic(operator.add), "additive: additive DASH term": arithmetic(operator.sub),
     "term: term STAR signed": arithmetic(operator.mul), "term: term SLASH signed": over,
-    "signed: DASH signed": lambda plan, e, env, i, j: -plan.value(e.children[1], env, i, j),
+    "signed: DASH signed": lambda plan, e, env, i, j: negative(plan.value(e.children[1], env, i, j)),
+    P + "extreme OPEN tray_sum CLOSE": extreme, P + "extreme OPEN tray_sum OF expression CLOSE": extreme,
+    P + "extreme OPEN GAP FROM expression TO expression CLOSE": extreme_gap, P + "extreme OPEN GAP FROM expression TO expression BY NAME CLOSE": extreme_gap,
     P + "NAME OPEN call_args CLOSE": different_values,
     P + "TRAYS": lambda plan, e, env, i, j: Fraction(j - i), P + "NAME": named_sum,
     P + "MATCHES OPEN expression CLOSE": lambda plan, e, env, i, j: Fraction(plan.H(e.children[2], env, 0, plan.n)),

@@ -96,6 +96,8 @@ typedef enum tn_term_kind {
     TN_TERM_STARTS = TN_SUM_STARTS,   /* places where the part starts */
     TN_TERM_MATCHES = TN_SUM_MATCHES, /* 1 where the plan as a whole is matched */
     TN_TERM_PRESENT = TN_SUM_PRESENT, /* 1 if a tray of the stretch meets `any`, here a specifier */
+    TN_TERM_EXTREME,                  /* max(X of a), min(X of a) */
+    TN_TERM_GAP,                      /* max(gap from a to b), min(gap from a to b) */
     TN_TERM_CELLS,                    /* what is added up over a house: the part asks for it */
     TN_TERM_AREAS,
     TN_TERM_ROOMS,
@@ -106,13 +108,22 @@ typedef struct tn_checked_term {
     tn_term_kind kind;
     tn_ast_region region;
     const char *factor; /* "p/q", in nanometres */
-    /* What is counted or added up: one of these, or none for costs. */
+    /* What is counted or added up: one of these, or none for costs. Of an extreme or a gap `part` is the whole of it.
+     */
     tn_ast_expr *part;
     struct tn_checked_rule *rule; /* the part is this rule's name */
     tn_checked_spec *any;         /* every tray: `trays`, and `sum` without `of` */
     tn_span span;                 /* of that, where it is written first */
     tn_ast_expr *figure;
 } tn_checked_term;
+
+/* What `max(X of a)` can be: the numbers X that a tray can have, in the order in which they are reached: ascending for
+ * the greatest, descending for the least. */
+typedef struct tn_checked_extreme {
+    const char **values; /* as the constants of sums are */
+    size_t count;
+    uint32_t *reached; /* emitted: plus one: the function of "some tray that is a has this number or a better one" */
+} tn_checked_extreme;
 
 typedef struct tn_checked_sum {
     struct tn_checked_schema *schema;
@@ -122,6 +133,8 @@ typedef struct tn_checked_sum {
     int power;
     bool any;                           /* 0: of any dimension */
     bool whole;                         /* has `matches` */
+    bool partial;                       /* has extremes or gaps: some stretches have no value */
+    struct tn_checked_sum *over;        /* what it is divided by, or NULL */
     bool houses;                        /* has terms about houses */
     const struct tn_checked_form *form; /* theirs */
     tn_span span;
@@ -370,6 +383,16 @@ void tn_check_around(tn_check *check, const tn_ast_expr *expr); /* does `where` 
 
 /* ---- near.c */
 void tn_check_near(tn_check *check, tn_ast_expr *near); /* its parts; the distance becomes a rule of the gap */
+/* The rule of gaps that compare so with a number: of trays, or added up by a field. At most TN_GAP_MAX. */
+#define TN_GAP_MAX INT64_C(1000000000000000)
+tn_ast_expr *tn_check_gap_rule(tn_check *check, tn_span span, const tn_ast_word *by, tn_operator op, int64_t number);
+
+/* ---- extreme.c: the greatest and the least number of a tray, the longest and the shortest gap */
+void tn_check_extreme(tn_check *check, tn_ast_expr *expr);
+/* What it can be, once all that it names is checked; NULL: reported. */
+tn_checked_extreme *tn_extreme_values(tn_check *check, tn_ast_expr *extreme);
+/* Writes a comparison of a gap with a number as a relation that says the same. left: gap * factor + constant. */
+void tn_check_gap_compared(tn_check *check, tn_ast_expr *expr, const tn_checked_term *gap, const char *constant);
 
 /* ---- sum.c */
 bool tn_is_arithmetic(tn_expr_kind kind);     /* `+`, `-`, `*`, `/` of numbers */

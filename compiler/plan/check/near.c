@@ -1,5 +1,6 @@
 /* A stretch and what lies around it: `a beside b`, `a within K of b`, `a at least K from every b`, and each of them
  * after `every`. The distance K becomes a rule of the gap: a condition on the trays or the lengths that lie between. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,14 +33,15 @@ static tn_ast_expr *trays_between(tn_check *check, tn_span span, tn_ast_cond *co
     return count;
 }
 
-/* What lies between is so long. */
-static tn_ast_expr *length_between(tn_check *check, tn_span span, tn_ast_cond *condition)
+/* What lies between is so long, in the field or in the schema's first field of lengths. */
+static tn_ast_expr *length_between(tn_check *check, tn_span span, const tn_ast_word *by, tn_ast_cond *condition)
 {
     tn_ast_expr *sum = make(check, TN_EXPR_SUM, span), *figure = make(check, TN_EXPR_FIGURE, span);
     if (!sum || !figure)
         return NULL;
     tn_span nowhere = {span.file, span.begin, span.begin}; /* the field is not written there */
-    figure->name = word_of(check, nowhere, TN_WORD_NAME, check->schema->fields[check->schema->length_field].name);
+    const tn_checked_schema *schema = check->schema;
+    figure->name = word_of(check, nowhere, TN_WORD_NAME, by ? by->text : schema->fields[schema->length_field].name);
     sum->name = figure->name;
     sum->figure = figure;
     sum->condition = condition;
@@ -92,15 +94,15 @@ static tn_operator gap_operator(const tn_ast_expr *near)
     return every ? TN_GREATER : TN_AT_MOST;
 }
 
-static tn_ast_cond *gap_condition(tn_check *check, const tn_ast_expr *near, const tn_ast_word *distance)
+static tn_ast_cond *gap_condition(tn_check *check, tn_span span, tn_operator op, const tn_ast_word *distance)
 {
     tn_ast_cond *condition = TN_NEW(check->arena, tn_ast_cond);
     if (!condition)
         return NULL;
-    *condition = (tn_ast_cond){.node.span = near->node.span,
+    *condition = (tn_ast_cond){.node.span = span,
                                .kind = TN_COND_COMPARE,
-                               .op = gap_operator(near),
-                               .left = word_of(check, near->node.span, TN_WORD_NAME, "n"),
+                               .op = op,
+                               .left = word_of(check, span, TN_WORD_NAME, "n"),
                                .right = distance,
                                .depth = 1};
     return condition->left ? condition : NULL;
@@ -116,11 +118,33 @@ void tn_check_near(tn_check *check, tn_ast_expr *near)
         return;
     const tn_ast_word *word =
         distance ? read_distance(check, distance) : word_of(check, near->node.span, TN_WORD_NUMBER, "0");
-    tn_ast_cond *condition = word ? gap_condition(check, near, word) : NULL;
+    tn_span span = near->node.span;
+    tn_ast_cond *condition = word ? gap_condition(check, span, gap_operator(near), word) : NULL;
     bool length = word && word->kind == TN_WORD_LENGTH;
-    tn_ast_expr *gap = condition ? (length ? length_between : trays_between)(check, near->node.span, condition) : NULL;
+    tn_ast_expr *gap = !condition ? NULL
+                       : length   ? length_between(check, span, NULL, condition)
+                                  : trays_between(check, span, condition);
     destination->node.next = NULL; /* the list ends with it, or with the rule of the gap */
     near->parts = tn_ast_append(tn_ast_append(tn_ast_one(source), destination), gap);
     if (gap)
         tn_check_expr(check, gap);
+}
+
+tn_ast_expr *tn_check_gap_rule(tn_check *check, tn_span span, const tn_ast_word *by, tn_operator op, int64_t number)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%lld", (long long)number);
+    tn_ast_word *word =
+        word_of(check, span, by ? TN_WORD_LENGTH : TN_WORD_NUMBER, tn_arena_copy(check->arena, text, strlen(text)));
+    tn_ast_cond *condition = word ? gap_condition(check, span, op, word) : NULL;
+    if (!condition)
+        return NULL;
+    word->value = number;
+    tn_ast_expr *gap = by ? length_between(check, span, by, condition) : trays_between(check, span, condition);
+    bool quiet = check->quiet;
+    check->quiet = true; /* nobody has written this condition: a warning of it would be about something else */
+    if (gap)
+        tn_check_expr(check, gap);
+    check->quiet = quiet;
+    return gap;
 }

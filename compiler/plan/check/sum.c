@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/plan/check/amount.h"
 #include "compiler/plan/check/form.h"
+#include "compiler/plan/check/sum.h"
 
-enum { MEASURE_POWER_MAX = 3, TERMS_MAX = 1000, MATCHES_MAX = 10 };
+enum { MEASURE_POWER_MAX = 3, TERMS_MAX = 1000 };
 
 bool tn_is_arithmetic(tn_expr_kind kind)
 {
@@ -39,6 +39,8 @@ bool tn_is_sum(const tn_ast_expr *expr)
     case TN_EXPR_TRAYS:
     case TN_EXPR_MATCHES:
     case TN_EXPR_VALUES:
+    case TN_EXPR_EXTREME:
+    case TN_EXPR_GAP:
         return true;
     case TN_EXPR_QUANTITY:
     case TN_EXPR_OCCURRENCES:
@@ -94,6 +96,10 @@ void tn_check_sum_expr(tn_check *check, tn_ast_expr *expr)
     case TN_EXPR_SUM:
         check_sum_expr(check, expr);
         break;
+    case TN_EXPR_EXTREME:
+    case TN_EXPR_GAP:
+        tn_check_extreme(check, expr);
+        break;
     case TN_EXPR_VALUES:
         expr->field = check->schema ? tn_check_field_named(check, expr->name) : TN_NONE;
         break;
@@ -115,13 +121,12 @@ void tn_check_sum_expr(tn_check *check, tn_ast_expr *expr)
 
 /* ---- sums as constant and terms */
 
-typedef struct sum {
-    tn_checked_term *terms;
-    size_t count;
-    tn_sum_amount constant;
-} sum;
+static bool depends(const tn_sum_parts *s)
+{
+    return s->count > 0 || s->over;
+}
 
-static bool add_term(tn_check *check, sum *to, tn_checked_term term)
+static bool add_term(tn_check *check, tn_sum_parts *to, tn_checked_term term)
 {
     for (size_t i = 0; i < to->count; i++) {
         tn_checked_term *t = &to->terms[i];
@@ -147,7 +152,7 @@ static bool add_term(tn_check *check, sum *to, tn_checked_term term)
     return true;
 }
 
-static bool one_term(tn_check *check, tn_term_kind kind, tn_ast_expr *expr, int power, sum *out)
+static bool one_term(tn_check *check, tn_term_kind kind, tn_ast_expr *expr, int power, tn_sum_parts *out)
 {
     tn_ast_expr *part = (tn_ast_expr *)expr->parts.first;
     tn_checked_term term = {.kind = kind,
@@ -161,18 +166,18 @@ static bool one_term(tn_check *check, tn_term_kind kind, tn_ast_expr *expr, int 
         term.rule = part->rule;
     else
         term.part = part;
-    *out = (sum){.constant = {.value = "0", .power = power}};
+    *out = (tn_sum_parts){.constant = {.value = "0", .power = power}};
     return add_term(check, out, term);
 }
 
 /* What is added up over a house. `of` asks for it. */
-static bool house_term(tn_check *check, tn_term_kind kind, tn_ast_expr *of, int power, sum *out)
+static bool house_term(tn_check *check, tn_term_kind kind, tn_ast_expr *of, int power, tn_sum_parts *out)
 {
-    *out = (sum){.constant = {.value = "0", .power = power}};
+    *out = (tn_sum_parts){.constant = {.value = "0", .power = power}};
     return of->ask && add_term(check, out, (tn_checked_term){.kind = kind, .factor = "1", .part = of});
 }
 
-static bool eval_quantity(tn_check *check, tn_ast_expr *quantity, sum *out)
+static bool eval_quantity(tn_check *check, tn_ast_expr *quantity, tn_sum_parts *out)
 {
     tn_ast_expr *of = tn_counts_house(quantity);
     if (quantity->condition)
@@ -182,9 +187,9 @@ static bool eval_quantity(tn_check *check, tn_ast_expr *quantity, sum *out)
 }
 
 /* How many different values of a field there are: 1 for each that is there. */
-static bool eval_values(tn_check *check, const tn_ast_expr *expr, sum *out)
+static bool eval_values(tn_check *check, const tn_ast_expr *expr, tn_sum_parts *out)
 {
-    *out = (sum){.constant = {.value = "0"}};
+    *out = (tn_sum_parts){.constant = {.value = "0"}};
     if (expr->field == TN_NONE)
         return false;
     for (uint32_t v = 0; v < check->schema->fields[expr->field].value_count; v++) {
@@ -196,7 +201,19 @@ static bool eval_values(tn_check *check, const tn_ast_expr *expr, sum *out)
     return true;
 }
 
-static bool eval_sum(tn_check *check, tn_ast_expr *expr, sum *out)
+/* The greatest or least number, or gap: one term. */
+static bool eval_extreme(tn_check *check, tn_ast_expr *expr, tn_sum_parts *out)
+{
+    bool gap = expr->kind == TN_EXPR_GAP;
+    tn_checked_term term = {
+        .kind = gap ? TN_TERM_GAP : TN_TERM_EXTREME, .factor = "1", .part = expr, .span = expr->node.span};
+    *out =
+        (tn_sum_parts){.constant = {.value = "0", .power = gap ? expr->field != TN_NONE : expr->figure_amount.power}};
+    return (gap ? !expr->name || expr->field != TN_NONE : tn_extreme_values(check, expr) != NULL) &&
+           add_term(check, out, term);
+}
+
+static bool eval_sum(tn_check *check, tn_ast_expr *expr, tn_sum_parts *out)
 {
     if (expr->condition)
         return false;
@@ -207,7 +224,7 @@ static bool eval_sum(tn_check *check, tn_ast_expr *expr, sum *out)
     return expr->figure_good && one_term(check, TN_TERM_SINGLES, expr, expr->figure_amount.power, out);
 }
 
-static bool scale(tn_check *check, sum *s, tn_expr_kind kind, tn_sum_amount by)
+bool tn_sum_scale(tn_check *check, tn_sum_parts *s, tn_expr_kind kind, tn_sum_amount by)
 {
     s->constant.value = tn_amount_apply(check, kind, s->constant.value, by.value);
     s->constant.power += kind == TN_EXPR_TIMES ? by.power : -by.power;
@@ -217,12 +234,12 @@ static bool scale(tn_check *check, sum *s, tn_expr_kind kind, tn_sum_amount by)
         s->terms[i].factor = tn_amount_apply(check, kind, s->terms[i].factor, by.value);
         good &= s->terms[i].factor != NULL;
     }
-    if (tn_amount_is_zero(by.value))
+    if (tn_amount_is_zero(by.value) && !s->over)
         s->count = 0;
     return good;
 }
 
-static bool eval(tn_check *check, tn_ast_expr *expr, sum *out);
+bool tn_sum_eval(tn_check *check, tn_ast_expr *expr, tn_sum_parts *out);
 
 static void report_product(tn_check *check, const tn_ast_expr *expr, bool divides)
 {
@@ -231,16 +248,45 @@ static void report_product(tn_check *check, const tn_ast_expr *expr, bool divide
                                : tn_report(check->diagnostics, E_NOT_ADDITIVE, expr->node.span,
                                            "both sides of this product depend on the plan");
     tn_help(check->diagnostics, d,
-            divides ? "over the plan sums are only added, and multiplied by constants; a comparison `A / B < 3` is "
-                      "written `A < 3 * B`"
+            divides ? "a quotient of two sums stands alone: as a measure, or on one side of a comparison"
                     : "over the plan sums are only added, and multiplied by constants; inside `sum(...)` any "
                       "arithmetic over one tray is allowed: `sum(FIELD * FIELD)`");
 }
 
-static bool eval_product(tn_check *check, tn_ast_expr *expr, sum *a, sum *b, sum *out)
+bool tn_sum_has_extremes(const tn_sum_parts *s)
+{
+    for (size_t i = 0; i < s->count; i++)
+        if (s->terms[i].kind == TN_TERM_EXTREME || s->terms[i].kind == TN_TERM_GAP)
+            return true;
+    return false;
+}
+
+/* A sum divided by another one. */
+static bool eval_quotient(tn_check *check, const tn_ast_expr *expr, const tn_sum_parts *a, const tn_sum_parts *b,
+                          tn_sum_parts *out)
+{
+    tn_sum_parts *over = TN_NEW(check->arena, tn_sum_parts);
+    if (!over)
+        return false;
+    *over = *b;
+    *out = *a;
+    out->over = over;
+    out->constant.power = a->constant.power - b->constant.power;
+    out->constant.any = false;
+    if (!tn_sum_has_extremes(a) && !tn_sum_has_extremes(b))
+        return true;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_QUOTIENT, expr->node.span,
+                                 "a quotient is of two sums, and this has `max(...)` or `min(...)` in it");
+    tn_help(check->diagnostics, d, "compare it with a number: `max(width of a) <= 3 * sum(...)` is possible");
+    return false;
+}
+
+static bool eval_product(tn_check *check, tn_ast_expr *expr, tn_sum_parts *a, tn_sum_parts *b, tn_sum_parts *out)
 {
     bool divides = expr->kind == TN_EXPR_OVER;
-    if (b->count > 0 && (divides || a->count > 0)) {
+    if (divides && b->count > 0 && !a->over && !b->over)
+        return eval_quotient(check, expr, a, b, out);
+    if (depends(b) && (divides || depends(a))) {
         report_product(check, expr, divides);
         return false;
     }
@@ -250,8 +296,8 @@ static bool eval_product(tn_check *check, tn_ast_expr *expr, sum *a, sum *b, sum
         tn_help(check->diagnostics, d, "divide by another number");
         return false;
     }
-    *out = b->count > 0 ? *b : *a;
-    if (scale(check, out, expr->kind, b->count > 0 ? a->constant : b->constant))
+    *out = depends(b) ? *b : *a;
+    if (tn_sum_scale(check, out, expr->kind, depends(b) ? a->constant : b->constant))
         return true;
     tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_FINE, expr->node.span,
                                  "this number has more digits than sums are made with");
@@ -259,15 +305,27 @@ static bool eval_product(tn_check *check, tn_ast_expr *expr, sum *a, sum *b, sum
     return false;
 }
 
-static bool add_up(tn_check *check, const tn_ast_expr *expr, tn_expr_kind kind, const char *verb, const sum *a,
-                   const sum *b, sum *out)
+void tn_report_quotient(tn_check *check, tn_span span)
+{
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_QUOTIENT, span, "a quotient of two sums stands alone, and here there is more");
+    tn_help(check->diagnostics, d,
+            "as a measure it is `A / B`; compared it is so with a constant: `A / B < 3`, or `A / B in 2..3`");
+}
+
+bool tn_sum_add_up(tn_check *check, const tn_ast_expr *expr, tn_expr_kind kind, const char *verb, const tn_sum_parts *a,
+                   const tn_sum_parts *b, tn_sum_parts *out)
 {
     tn_span left = ((const tn_ast_expr *)expr->parts.first)->node.span,
             right = ((const tn_ast_expr *)expr->parts.last)->node.span;
     tn_sum_amount both;
     if (!tn_same_power(check, a->constant, left, b->constant, right, verb, &both))
         return false;
-    *out = (sum){.constant = both};
+    if (a->over || b->over) {
+        tn_report_quotient(check, a->over ? left : right);
+        return false;
+    }
+    *out = (tn_sum_parts){.constant = both};
     out->constant.any = a->constant.any && b->constant.any;
     out->constant.value = tn_amount_apply(check, kind, a->constant.value, b->constant.value);
     bool good = out->constant.value != NULL;
@@ -287,33 +345,43 @@ static bool add_up(tn_check *check, const tn_ast_expr *expr, tn_expr_kind kind, 
     return false;
 }
 
-static bool eval_two(tn_check *check, tn_ast_expr *expr, sum *out)
+static bool eval_two(tn_check *check, tn_ast_expr *expr, tn_sum_parts *out)
 {
-    sum a, b;
-    bool good = eval(check, (tn_ast_expr *)expr->parts.first, &a);
-    good &= eval(check, (tn_ast_expr *)expr->parts.last, &b);
+    tn_sum_parts a, b;
+    bool good = tn_sum_eval(check, (tn_ast_expr *)expr->parts.first, &a);
+    good &= tn_sum_eval(check, (tn_ast_expr *)expr->parts.last, &b);
     if (!good)
         return false;
     if (expr->kind == TN_EXPR_TIMES || expr->kind == TN_EXPR_OVER)
         return eval_product(check, expr, &a, &b, out);
-    return add_up(check, expr, expr->kind, expr->kind == TN_EXPR_PLUS ? "added to" : "taken from", &a, &b, out);
+    return tn_sum_add_up(check, expr, expr->kind, expr->kind == TN_EXPR_PLUS ? "added to" : "taken from", &a, &b, out);
 }
 
-static bool eval_measure(tn_check *check, const tn_checked_rule *measure, sum *out)
+static bool eval_measure(tn_check *check, const tn_checked_rule *measure, tn_sum_parts *out)
 {
     const tn_checked_sum *of = measure->sum;
     if (!of)
         return false;
-    *out = (sum){.constant = {.value = of->constant, .power = of->power}};
+    *out = (tn_sum_parts){.constant = {.value = of->constant, .power = of->power}};
     for (size_t i = 0; i < of->count; i++)
         if (!add_term(check, out, of->terms[i]))
+            return false;
+    if (!of->over)
+        return true;
+    tn_sum_parts *over = TN_NEW(check->arena, tn_sum_parts);
+    if (!over)
+        return false;
+    *over = (tn_sum_parts){.constant = {.value = of->over->constant, .power = of->over->power}};
+    out->over = over;
+    for (size_t i = 0; i < of->over->count; i++)
+        if (!add_term(check, over, of->over->terms[i]))
             return false;
     return true;
 }
 
-static bool eval(tn_check *check, tn_ast_expr *expr, sum *out)
+bool tn_sum_eval(tn_check *check, tn_ast_expr *expr, tn_sum_parts *out)
 {
-    *out = (sum){0};
+    *out = (tn_sum_parts){0};
     switch (expr->kind) {
     case TN_EXPR_NUMBER:
         out->constant = tn_amount_read(check, expr->name);
@@ -330,12 +398,15 @@ static bool eval(tn_check *check, tn_ast_expr *expr, sum *out)
         return eval_sum(check, expr, out);
     case TN_EXPR_VALUES:
         return eval_values(check, expr, out);
+    case TN_EXPR_EXTREME:
+    case TN_EXPR_GAP:
+        return eval_extreme(check, expr, out);
     case TN_EXPR_NAME:
         return expr->rule && expr->rule->is_measure && eval_measure(check, expr->rule, out);
     case TN_EXPR_NEGATIVE:
-        if (!eval(check, (tn_ast_expr *)expr->parts.first, out))
+        if (!tn_sum_eval(check, (tn_ast_expr *)expr->parts.first, out))
             return false;
-        return scale(check, out, TN_EXPR_TIMES, (tn_sum_amount){.value = "-1"});
+        return tn_sum_scale(check, out, TN_EXPR_TIMES, (tn_sum_amount){.value = "-1"});
     case TN_EXPR_PLUS:
     case TN_EXPR_MINUS:
     case TN_EXPR_TIMES:
@@ -346,7 +417,7 @@ static bool eval(tn_check *check, tn_ast_expr *expr, sum *out)
     }
 }
 
-static tn_checked_sum *finish(tn_check *check, const sum *s, tn_span span)
+tn_checked_sum *tn_sum_finish(tn_check *check, const tn_sum_parts *s, tn_span span)
 {
     tn_checked_sum *made = TN_NEW(check->arena, tn_checked_sum);
     if (!made)
@@ -359,8 +430,10 @@ static tn_checked_sum *finish(tn_check *check, const sum *s, tn_span span)
                              .any = s->constant.any,
                              .span = span,
                              .index = TN_NONE};
+    made->over = s->over ? tn_sum_finish(check, s->over, span) : NULL;
     for (size_t i = 0; i < s->count; i++) {
         made->whole |= s->terms[i].kind == TN_TERM_MATCHES;
+        made->partial |= s->terms[i].kind == TN_TERM_EXTREME || s->terms[i].kind == TN_TERM_GAP;
         if (s->terms[i].kind < TN_TERM_CELLS)
             continue;
         made->houses = true;
@@ -371,112 +444,29 @@ static tn_checked_sum *finish(tn_check *check, const sum *s, tn_span span)
 
 tn_checked_sum *tn_check_sum(tn_check *check, tn_ast_expr *expr)
 {
-    sum s;
-    return eval(check, expr, &s) ? finish(check, &s, expr->node.span) : NULL;
+    tn_sum_parts s;
+    return tn_sum_eval(check, expr, &s) ? tn_sum_finish(check, &s, expr->node.span) : NULL;
 }
 
-/* The left side less the right. */
-static tn_checked_sum *difference(tn_check *check, const tn_ast_expr *expr, const tn_ast_expr *left,
-                                  const tn_ast_expr *right, const sum *a, const sum *b)
+static bool in_powers(int power)
 {
-    tn_ast_expr both = {.node.span = expr->node.span};
-    tn_ast_expr one = *left, other = *right;
-    both.parts = tn_ast_append(tn_ast_one(&one), &other);
-    sum s;
-    return add_up(check, &both, TN_EXPR_MINUS, "compared with", a, b, &s) ? finish(check, &s, expr->node.span) : NULL;
+    return power >= 0 && power <= MEASURE_POWER_MAX;
 }
 
-/* Each `matches` doubles what a comparison becomes. */
-static bool few_matches(tn_check *check, const tn_ast_expr *expr, const sum *sides, size_t count)
+/* Of a quotient both sides: `rent / area` is a number by area. */
+static bool power_stands(const tn_checked_sum *sum)
 {
-    size_t matches = 0;
-    for (size_t i = 0; i < count; i++)
-        for (size_t t = 0; t < sides[i].count; t++)
-            matches += sides[i].terms[t].kind == TN_TERM_MATCHES;
-    if (matches <= MATCHES_MAX)
-        return true;
-    tn_diagnostic *d =
-        tn_report(check->diagnostics, E_TOO_MANY, expr->node.span,
-                  "this comparison has %zu different `matches`, more than the limit of %d", matches, MATCHES_MAX);
-    tn_help(check->diagnostics, d, "count fewer rules in one comparison, or join some of them by `or`");
-    return false;
+    return sum->over ? in_powers(sum->over->power) && in_powers(sum->power + sum->over->power) : in_powers(sum->power);
 }
 
-void tn_check_comparison(tn_check *check, tn_ast_expr *expr)
+/* Houses are counted by their measures, which all of them have. */
+static void refuse_partial(tn_check *check, tn_checked_rule *measure)
 {
-    const tn_ast_expr *left = (const tn_ast_expr *)expr->parts.first, *middle = (const tn_ast_expr *)left->node.next,
-                      *right = (const tn_ast_expr *)expr->parts.last;
-    sum sides[3];
-    size_t count = 0;
-    bool good = true;
-    for (TN_EACH(tn_ast_expr, part, expr->parts))
-        good &= eval(check, part, &sides[count++]);
-    if (!good)
-        return;
-    if (!few_matches(check, expr, sides, count))
-        return;
-    /* First the dimensions: what cannot be compared at all is said before what cannot be compared here. */
-    bool range = expr->kind != TN_EXPR_COMPARE;
-    tn_checked_sum *low = difference(check, expr, left, middle, &sides[0], &sides[1]),
-                   *high = range ? difference(check, expr, left, right, &sides[0], &sides[2]) : NULL;
-    if (!low || (range && !high))
-        return;
-    expr->sum = low;
-    expr->high = high;
-    expr->whole = low->whole || low->houses || (range && (high->whole || high->houses));
-    tn_check_compared_sum(check, low);
-    if (range)
-        tn_check_compared_sum(check, high);
-}
-
-static void report_remainder(tn_check *check, tn_span span, const char *what, const char *help)
-{
-    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_REMAINDER, span, "%s", what);
-    tn_help(check->diagnostics, d, "%s", help);
-}
-
-/* A whole number, of a length in nanometres to its power; false: it is none, or too large. */
-static bool whole_constant(const sum *s, int64_t *number)
-{
-    bool whole = s->count == 0 && !strchr(s->constant.value, '/') && strlen(s->constant.value) < 19;
-    *number = whole ? strtoll(s->constant.value, NULL, 10) : 0;
-    return whole;
-}
-
-void tn_check_remainder(tn_check *check, tn_ast_expr *expr)
-{
-    const tn_ast_expr *left = (const tn_ast_expr *)expr->parts.first, *middle = (const tn_ast_expr *)left->node.next,
-                      *right = (const tn_ast_expr *)expr->parts.last;
-    sum sides[3];
-    size_t count = 0;
-    bool good = true;
-    int64_t modulus, rest;
-    for (TN_EACH(tn_ast_expr, part, expr->parts))
-        good &= eval(check, part, &sides[count++]);
-    if (!good || !few_matches(check, expr, sides, count))
-        return;
-    tn_sum_amount both;
-    if (!tn_same_power(check, sides[0].constant, left->node.span, sides[1].constant, middle->node.span, "a divisor of",
-                       &both) ||
-        !tn_same_power(check, both, left->node.span, sides[2].constant, right->node.span, "compared with", &both))
-        return;
-    if (expr->op != TN_EQUAL && expr->op != TN_UNEQUAL)
-        report_remainder(check, expr->node.span, "a remainder is compared by `=` or `!=` only",
-                         "join several by `or`: `quantity(a) mod 3 = 0 or quantity(a) mod 3 = 1`");
-    else if (!whole_constant(&sides[1], &modulus) || modulus <= 0)
-        report_remainder(check, middle->node.span, "a remainder is by a whole number above 0",
-                         "`quantity(a) mod 2 = 0` means an even number of them");
-    else if (!whole_constant(&sides[2], &rest) || rest < 0 || rest >= modulus)
-        report_remainder(check, right->node.span, "no remainder is ever this",
-                         "a remainder is a whole number from 0 up to, and without, what is divided by");
-    else if ((expr->sum = difference(check, expr, left, right, &sides[0], &sides[2]))) {
-        expr->modulus = modulus;
-        expr->whole = expr->sum->whole || expr->sum->houses;
-        tn_check_compared_sum(check, expr->sum);
-        if (expr->sum->houses)
-            report_remainder(check, expr->node.span, "what is added up over a house has no remainder here",
-                             "compare it with numbers, or count the trays of its plan");
-    }
+    tn_diagnostic *d = tn_report(check->diagnostics, E_QUOTIENT, measure->ast->body->node.span,
+                                 "a measure of houses is a sum, which every house has");
+    tn_help(check->diagnostics, d, "quotients, `max(...)` and `min(...)` are measures of plans; of houses they can be "
+                                   "compared in rules");
+    measure->sum = NULL;
 }
 
 void tn_check_plan_measure(tn_check *check, tn_checked_rule *measure)
@@ -484,7 +474,9 @@ void tn_check_plan_measure(tn_check *check, tn_checked_rule *measure)
     measure->sum = tn_check_sum(check, measure->ast->body);
     if (measure->sum && measure->form)
         tn_check_house_sum(check, measure->sum);
-    if (!measure->sum || (measure->sum->power >= 0 && measure->sum->power <= MEASURE_POWER_MAX))
+    if (measure->sum && measure->form && (measure->sum->over || measure->sum->partial))
+        refuse_partial(check, measure);
+    if (!measure->sum || power_stands(measure->sum))
         return;
     tn_diagnostic *d = tn_report(check->diagnostics, E_DIMENSIONS, measure->ast->body->node.span,
                                  "a measure cannot be a length to the power of %d", measure->sum->power);

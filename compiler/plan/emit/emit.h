@@ -43,11 +43,28 @@ void tn_emit_holds(tn_emit *emit, const tn_ast_expr *expr);
 
 void tn_emit_whole(tn_emit *emit, const tn_ast_expr *expr);
 
+/* ---- extreme.c */
+const char *tn_emit_added(tn_emit *emit, const char *left, const char *right); /* of constants of sums */
+const char *tn_emit_times(tn_emit *emit, const char *left, const char *right);
+void tn_emit_extreme_needs(tn_emit *emit, tn_ast_expr *extreme, const char *name); /* or of a gap */
+/* The stretches with nothing to choose from, if that holds; else none. */
+void tn_emit_extreme_none(tn_emit *emit, tn_span span, const tn_checked_extreme *numbers, bool holds);
+/* The stretches on which it is one of the numbers first to last. */
+void tn_emit_extreme_is(tn_emit *emit, tn_span span, const tn_checked_extreme *numbers, size_t first, size_t last);
+/* Adds TERM records of a measure; the constant of its sum with what belongs to it. */
+void tn_emit_needed(tn_emit *emit, uint32_t function); /* without which a measure has no value */
+const char *tn_emit_extreme_terms(tn_emit *emit, const tn_checked_term *term, const char *constant);
+void tn_emit_gap_term(tn_emit *emit, const tn_checked_term *term);
+
 /* ---- sum.c */
+/* The function of what a term counts, and of what a tray counts in it. `name` is for people. */
+uint32_t tn_emit_part(tn_emit *emit, const tn_checked_term *term, const char *name);
+uint32_t tn_emit_tally(tn_emit *emit, tn_ast_expr *figure, const char *name);
 void tn_emit_sum_needs(tn_emit *emit, tn_checked_sum *sum, const char *name); /* the functions that its terms name */
 /* The relation of the stretches on which the sum compares so with 0. */
 void tn_emit_remainder(tn_emit *emit, const tn_ast_expr *expr); /* a comparison of one */
 void tn_emit_comparison(tn_emit *emit, tn_span span, tn_checked_sum *sum, tn_operator op);
+void tn_emit_quotient(tn_emit *emit, const tn_ast_expr *expr); /* a comparison of one */
 void tn_emit_number(tn_emit *emit, const tn_checked_number *number, tn_span span);
 void tn_emit_house_measure(tn_emit *emit, const tn_checked_rule *measure);
 uint32_t tn_emit_house_sum(tn_emit *emit, const tn_checked_sum *sum, uint32_t of_plan); /* of_plan: a SUM */

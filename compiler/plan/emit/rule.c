@@ -161,9 +161,16 @@ void tn_emit_whole(tn_emit *emit, const tn_ast_expr *expr)
         emit_every(emit, expr);
         break;
     case TN_EXPR_COMPARE:
-        tn_emit_comparison(emit, span, expr->sum, expr->op);
+        if (expr->over)
+            tn_emit_quotient(emit, expr);
+        else
+            tn_emit_comparison(emit, span, expr->sum, expr->op);
         break;
     case TN_EXPR_WITHIN:
+        if (expr->over) {
+            tn_emit_quotient(emit, expr);
+            break;
+        }
         tn_emit_comparison(emit, span, expr->sum, TN_AT_LEAST);
         tn_emit_comparison(emit, span, expr->high, TN_AT_MOST);
         tn_emit_op(emit, span, TN_OP_AND, 0, 0);
@@ -303,6 +310,7 @@ void tn_emit_needs(tn_emit *emit, tn_ast_expr *expr, const char *name)
     tn_emit_ask_needs(emit, expr);
     tn_emit_sum_needs(emit, expr->sum, name);
     tn_emit_sum_needs(emit, expr->high, name);
+    tn_emit_sum_needs(emit, expr->over, name);
     if (expr->kind != TN_EXPR_SYMMETRIC || first_part(expr)->kind == TN_EXPR_NAME)
         return;
     char label[TN_NAME_MAX + 1];

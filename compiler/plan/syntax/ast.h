@@ -137,7 +137,9 @@ typedef enum tn_expr_kind {
     TN_EXPR_NUMBER, /* a constant: `name` */
     TN_EXPR_TRAYS,
     TN_EXPR_MATCHES,
-    TN_EXPR_VALUES, /* values(f): `name` */
+    TN_EXPR_VALUES,  /* values(f): `name` */
+    TN_EXPR_EXTREME, /* max(X of a), min(X of a): `figure`, `extreme`; parts are a, or nothing */
+    TN_EXPR_GAP,     /* max(gap from a to b by f): `extreme`; parts are a and b; `name` is f, or NULL */
     TN_EXPR_PLUS,
     TN_EXPR_MINUS,
     TN_EXPR_TIMES,
@@ -151,6 +153,9 @@ typedef enum tn_expr_kind {
 
 /* Where a count or a sum looks, of the stretch that a `where` is about. */
 typedef enum tn_ast_region { TN_AST_STRETCH, TN_AST_BEFORE, TN_AST_AFTER } tn_ast_region;
+
+/* Which of many numbers is meant. */
+typedef enum tn_ast_extreme_kind { TN_EXTREME_MOST, TN_EXTREME_LEAST } tn_ast_extreme_kind;
 
 /* How a stretch lies to another one that shares no tray with it. */
 typedef enum tn_nearness { TN_NEAR_BESIDE, TN_NEAR_WITHIN, TN_NEAR_APART } tn_nearness;
@@ -173,18 +178,19 @@ typedef struct tn_ast_expr {
     tn_ast_node node;
     tn_expr_kind kind;
     uint32_t depth;
-    const tn_ast_word *name;    /* of a rule; of the field of a sum or quantifier; a constant */
-    const tn_ast_word *detail;  /* the word after a sum's field: `depth` */
-    tn_ast_list items;          /* tray, cell, room, section: tn_ast_item; of a section each ends with a tn_ast_shape */
-    tn_ast_list kinds;          /* touch, apart: tn_ast_word after `by` */
-    tn_ast_list parts;          /* tn_ast_expr; distance: source, destination, separator; call: arguments */
-    tn_ast_sides sides;         /* symmetric */
-    bool loose;                 /* tray: of an open plan: blanks alone may separate its items */
-    tn_ast_list names;          /* quantifier: the words that it binds; mirrored: fields */
-    tn_operator op;             /* of a comparison */
-    tn_nearness near;           /* of a relation to what lies around */
-    tn_ast_region region;       /* quantity, occurrences, sum */
-    struct tn_ast_expr *figure; /* sum: what it adds up, where that is more than a field */
+    const tn_ast_word *name;   /* of a rule; of the field of a sum or quantifier; a constant */
+    const tn_ast_word *detail; /* the word after a sum's field: `depth` */
+    tn_ast_list items;         /* tray, cell, room, section: tn_ast_item; of a section each ends with a tn_ast_shape */
+    tn_ast_list kinds;         /* touch, apart: tn_ast_word after `by` */
+    tn_ast_list parts;         /* tn_ast_expr; distance: source, destination, separator; call: arguments */
+    tn_ast_sides sides;        /* symmetric */
+    bool loose;                /* tray: of an open plan: blanks alone may separate its items */
+    tn_ast_list names;         /* quantifier: the words that it binds; mirrored: fields */
+    tn_operator op;            /* of a comparison */
+    tn_nearness near;          /* of a relation to what lies around */
+    tn_ast_region region;      /* quantity, occurrences, sum */
+    tn_ast_extreme_kind extreme; /* extreme, gap */
+    struct tn_ast_expr *figure;  /* sum: what it adds up, where that is more than a field; extreme: its numbers */
     tn_ast_cond *condition;
     size_t unit; /* expanded: the file in whose scope its names are, plus one; 0: that of what it stands in */
     const struct tn_checked_schema *older;          /* expanded: the schema that its words are of; NULL: that in use */
@@ -192,9 +198,12 @@ typedef struct tn_ast_expr {
     struct tn_checked_ask *ask;                     /* checked: what is asked of houses; NULL: nothing */
     struct tn_checked_spec *spec;                   /* checked: tray, any, and what a sum without a part counts */
     struct tn_checked_condition *condition_checked; /* checked */
-    struct tn_checked_sum *sum;       /* checked: comparison: the left side less the right; a `within`: less low */
-    struct tn_checked_sum *high;      /* checked: `within`: the sum less high */
-    struct tn_checked_number *number; /* checked: figure: a number of the tray */
+    struct tn_checked_sum *sum;         /* checked: comparison: the left side less the right; a `within`: less low */
+    struct tn_checked_sum *high;        /* checked: `within`: the sum less high */
+    struct tn_checked_sum *over;        /* checked: comparison of a quotient: what it is divided by; `sum`, `high`: what
+                                                 is divided less so many times that */
+    struct tn_checked_extreme *numbers; /* checked: extreme */
+    struct tn_checked_number *number;   /* checked: figure: a number of the tray */
     bool place;                  /* checked: figure: of a field whose values have an order: the place of the value */
     const char *constant;        /* checked: figure: of a number that is written out */
     bool figure_good;            /* checked: sum */
@@ -360,6 +369,9 @@ typedef struct tn_ast_file {
 
 tn_ast_list tn_ast_empty(void);
 
+/* The same with the sides changed: `a < b` is `b > a`. */
+tn_operator tn_operator_turned(tn_operator op);
+
 /* What an expression asks of a tray, a cell or a room: tn_ast_item; empty for all others. */
 static inline tn_ast_list tn_ast_tray_items(const tn_ast_expr *expr)
 {
@@ -414,6 +426,12 @@ tn_ast_expr *tn_ast_counted(tn_parse *parse, tn_expr_kind kind, tn_span span, tn
 /* figure: arithmetic over one tray; condition: NULL for a number. */
 tn_ast_expr *tn_ast_sum(tn_parse *parse, tn_span span, tn_ast_expr *figure, tn_ast_expr *part, tn_ast_region region,
                         tn_ast_cond *condition);
+/* part: NULL for every tray. */
+tn_ast_expr *tn_ast_extreme(tn_parse *parse, tn_span span, tn_ast_extreme_kind extreme, tn_ast_expr *figure,
+                            tn_ast_expr *part);
+/* by: a field; NULL for trays. */
+tn_ast_expr *tn_ast_extreme_gap(tn_parse *parse, tn_span span, tn_ast_extreme_kind extreme, tn_ast_expr *source,
+                                tn_ast_expr *destination, const tn_ast_word *by);
 tn_ast_expr *tn_ast_constant(tn_parse *parse, const tn_ast_word *word);
 tn_ast_expr *tn_ast_figure(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *detail);
 tn_ast_expr *tn_ast_arithmetic(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_expr *left, tn_ast_expr *right);

@@ -2,6 +2,20 @@
  * calls, open plans. */
 #include "compiler/plan/syntax/ast.h"
 
+static tn_ast_expr *two(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_expr *left, tn_ast_expr *right)
+{
+    if (!left || !right)
+        return NULL;
+    return tn_ast_of(parse, kind, span, tn_ast_append(tn_ast_one(left), right));
+}
+
+tn_operator tn_operator_turned(tn_operator op)
+{
+    static const tn_operator other[] = {[TN_LESS] = TN_GREATER,    [TN_AT_MOST] = TN_AT_LEAST, [TN_EQUAL] = TN_EQUAL,
+                                        [TN_UNEQUAL] = TN_UNEQUAL, [TN_AT_LEAST] = TN_AT_MOST, [TN_GREATER] = TN_LESS};
+    return other[op];
+}
+
 /* A sum of one field with a condition keeps the form that it had before there were others. */
 tn_ast_expr *tn_ast_sum(tn_parse *parse, tn_span span, tn_ast_expr *figure, tn_ast_expr *part, tn_ast_region region,
                         tn_ast_cond *condition)
@@ -16,6 +30,28 @@ tn_ast_expr *tn_ast_sum(tn_parse *parse, tn_span span, tn_ast_expr *figure, tn_a
         expr->detail = figure->detail;
     }
     expr->figure = figure;
+    return expr;
+}
+
+tn_ast_expr *tn_ast_extreme(tn_parse *parse, tn_span span, tn_ast_extreme_kind extreme, tn_ast_expr *figure,
+                            tn_ast_expr *part)
+{
+    tn_ast_expr *expr = figure ? tn_ast_of(parse, TN_EXPR_EXTREME, span, tn_ast_one(part)) : NULL;
+    if (!expr)
+        return NULL;
+    expr->extreme = extreme;
+    expr->figure = figure;
+    return expr;
+}
+
+tn_ast_expr *tn_ast_extreme_gap(tn_parse *parse, tn_span span, tn_ast_extreme_kind extreme, tn_ast_expr *source,
+                                tn_ast_expr *destination, const tn_ast_word *by)
+{
+    tn_ast_expr *expr = two(parse, TN_EXPR_GAP, span, source, destination);
+    if (!expr)
+        return NULL;
+    expr->extreme = extreme;
+    expr->name = by;
     return expr;
 }
 
@@ -37,13 +73,6 @@ tn_ast_expr *tn_ast_figure(tn_parse *parse, tn_span span, const tn_ast_word *nam
     expr->name = name;
     expr->detail = detail;
     return expr;
-}
-
-static tn_ast_expr *two(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_expr *left, tn_ast_expr *right)
-{
-    if (!left || !right)
-        return NULL;
-    return tn_ast_of(parse, kind, span, tn_ast_append(tn_ast_one(left), right));
 }
 
 tn_ast_expr *tn_ast_arithmetic(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_expr *left, tn_ast_expr *right)

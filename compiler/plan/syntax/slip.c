@@ -23,6 +23,8 @@ static const tn_slip slips[] = {
     {TN_SLIP_RULE, "exactly|just", "an exact number is written `quantity(a) = 2`", NULL},
     {TN_SLIP_RULE, "atleast|at-least|atmost|at-most|least|most|minimum|maximum|more|fewer|less|up|over|under",
      "numbers of trays are compared: `quantity(a) >= 2`, `quantity(a) <= 2`, `quantity(a) in 2..4`", NULL},
+    {TN_SLIP_RULE, "longest|shortest|greatest|smallest|largest|widest|narrowest|tallest|deepest|biggest",
+     "the greatest number of some trays is written `max(FIELD of a)`, the longest gap `max(gap from a to b)`", NULL},
     {TN_SLIP_RULE, "at",
      "numbers of trays are compared, `quantity(a) >= 2`; what is far is `a at least 2 from every b`; a plan's first "
      "trays are written `neighbour(beginning, a)`",
@@ -52,8 +54,11 @@ static const tn_slip slips[] = {
     {TN_SLIP_RULE, "area|floor-area|floorarea",
      "areas of cells of a house are added up by `sum(area of cell(...))`; trays have none", NULL},
     {TN_SLIP_RULE, "length|width|total", "lengths are added up by `sum(FIELD)`: `sum(FIELD) <= 24m`", NULL},
-    {TN_SLIP_RULE, "average|mean|avg|median", "a mean is compared as a sum: `sum(FIELD) >= 3m * trays`", NULL},
-    {TN_SLIP_RULE, "min|max", "`min(a, b)` and `max(a, b)` stand inside `sum(...)`, over one tray", NULL},
+    {TN_SLIP_RULE, "average|mean|avg|median", "a mean is a quotient: `sum(FIELD) / trays >= 3m`", NULL},
+    {TN_SLIP_RULE, "min|max",
+     "what it is of stands in parentheses: `max(FIELD of a)`, `min(gap from a to b)`; `max(x, y)` of two numbers of "
+     "a tray stands inside `sum(...)`",
+     NULL},
     {TN_SLIP_RULE, "true", "what matches every plan is not needed as a rule: leave it out", NULL},
     {TN_SLIP_RULE, "is|equals|equal|same", "numbers are compared by `=`; what a tray is stands in `tray(...)`", NULL},
     {TN_SLIP_RULE, "mirror|reversed|either-way", "in either order is written `symmetric a`", "symmetric"},

@@ -313,6 +313,18 @@ static const char *mark_fix(const tn_parse *parse, const char *found, const tn_e
     return NULL;
 }
 
+/* The same in `max(...)` and `min(...)`; NULL elsewhere. */
+static const char *extreme_fix(const tn_parse *parse, const char *found)
+{
+    if (!parse->in_extreme)
+        return NULL;
+    return strcmp(found, "`,`") == 0
+               ? "of two numbers of a tray it stands inside `sum(...)`: `sum(max(FIELD, 2m))`; alone it is `max(FIELD "
+                 "of a)`"
+               : "`max(...)` and `min(...)` choose among trays, `max(FIELD of tray(a))`, or gaps, `max(gap from a to "
+                 "b)`";
+}
+
 /* The same of words of the language. */
 static const char *word_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
@@ -335,7 +347,8 @@ static const char *word_fix(const tn_parse *parse, const char *found, const tn_e
     if (tn_expects(e, "`)`") && tn_token_is_word(found, TN_AT(ITEM), TN_AS_KEYWORDS))
         return "close the `(` before this";
     if (tn_expects(e, "`of`") || (strcmp(found, "`tray`") == 0 && tn_expects(e, "`not`") && !tn_expects(e, "`tray`")))
-        return "which trays are added up is said after `of`: `sum(FIELD of tray(a))`";
+        return parse->in_extreme ? extreme_fix(parse, found)
+                                 : "which trays are added up is said after `of`: `sum(FIELD of tray(a))`";
     if (tn_expects(e, "`where`") && parse->in_number)
         return "which trays a case is for is said by `where`: `number beds = 4 where tray(a) | 0`";
     if (e->count == 1 && tn_expects(e, "`every`"))
@@ -405,6 +418,8 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
                "a forbidden tray `forbid tray(...)`";
     if ((tn_expects(e, "`)`") || tn_expects(e, "`prune`")) && tn_expects(e, "`,`") && tn_starts_expression(found))
         return "a `,` is missing before this, or `and` or `or`";
+    if (strcmp(found, "`)`") == 0 && parse->in_extreme && tn_expects(e, "`to`"))
+        return "a gap leads from one thing to another: `max(gap from a to b)`";
     if (strcmp(found, "`)`") == 0 && tn_expects(e, "`and`") && !tn_expects(e, "`)`") && !tn_expects(e, "`,`"))
         return "no `(` is open that this could close: leave it out";
     if (tn_expects(e, "`)`") &&

@@ -296,8 +296,8 @@ static void add_values(const tn_completing *c)
             }
     tn_int128 sign = out->best && c->houses->measures->most[0] ? -1 : 1;
     for (size_t i = 0; out->best && i < (size_t)out->trays * out->values; i++)
-        if (c->best_values[i] != WORST)
-            out->best[i] = tn_houses_shown(c->houses, 0, sign * c->best_values[i]);
+        out->best[i] =
+            c->best_values[i] == WORST ? TN_NO_BEST : tn_houses_shown(c->houses, 0, sign * c->best_values[i]);
 }
 
 tn_status tn_houses_complete(tn_houses *h, const tn_open_plan *open, tn_completions *out, tn_error *error)

@@ -121,7 +121,7 @@ tn_status tn_houses_spread(const tn_houses *h, tn_distribution *d, tn_error *err
     mpq_set(d->unit, h->measures->of[0]->shown);
     d->value = ok ? malloc((all.count + 1) * sizeof *d->value) : NULL;
     d->plans = d->value ? tn_integers_new(all.count) : NULL;
-    d->count = d->plans ? all.count : 0;
+    d->count = d->room = d->plans ? all.count : 0;
     for (size_t i = 0; i < d->count; i++) {
         d->value[i] = (int64_t)all.items[i].value.by[0];
         mpz_set(d->plans[i], all.items[i].count);

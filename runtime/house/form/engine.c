@@ -206,6 +206,12 @@ static tn_status check_added(const tn_checker *checker, uint32_t form, uint32_t 
     tn_status status = TN_OK;
     if (module->SUM_records[sum].schema != schema)
         return tn_refuse(checker, "sum %u is not of the schema of form %u, whose houses it is about", sum, form);
+    const tn_sum_record *of_plan = &module->SUM_records[sum];
+    for (uint32_t i = 0; i < of_plan->term_count; i++) {
+        uint32_t kind = module->TERM_records[of_plan->term_first + i].kind;
+        if (kind == TN_SUM_NEEDED || tn_term_is_gap(kind))
+            return tn_refuse(checker, "sum %u of houses may have no value", sum);
+    }
     for (uint32_t i = 0; status == TN_OK && i < count; i++)
         status = check_house_term(checker, schema, first + i);
     return status;
@@ -352,7 +358,7 @@ static tn_status check_house_summed(const tn_checker *checker, const tn_instruct
     bool lower = true;
     for (uint32_t i = 0; i < sum->term_count; i++) {
         const tn_term_record *term = &module->TERM_records[sum->term_first + i];
-        lower = lower && term->part < checker->record && term->kind != TN_SUM_MATCHES &&
+        lower = lower && term->part < checker->record && !tn_term_of_whole(term->kind) &&
                 tn_term_region(term->kind) == TN_REGION_STRETCH;
     }
     for (uint32_t i = 0; i < compared->term_count; i++) {

@@ -46,9 +46,10 @@ static void add_terms(const tn_house_rules *rules, uint32_t first, uint32_t coun
 tn_status tn_house_rules_measure(tn_house_rules *rules, tn_house_measured measure, mpq_t value, mpq_t cost,
                                  tn_error *error)
 {
+    bool has; /* measures of houses always have a value */
     tn_status status = tn_rooms_gather(rules, error);
     if (status == TN_OK)
-        status = tn_plan_vm_value(rules->vm, measure.sum, value, error);
+        status = tn_plan_vm_value(rules->vm, measure.sum, value, &has, error);
     if (status == TN_OK)
         add_terms(rules, measure.term_first, measure.term_count, value, cost);
     return status;
@@ -65,7 +66,8 @@ static tn_status plan_value(tn_house_rules *rules, uint32_t sum, mpq_t value, tn
     if (status == TN_OK && !rules->summed)
         status = tn_plan_vm_plan(rules->sums_vm, house->trays, house->length, error);
     rules->summed = status == TN_OK;
-    return status == TN_OK ? tn_plan_vm_value(rules->sums_vm, sum, value, error) : status;
+    bool has;
+    return status == TN_OK ? tn_plan_vm_value(rules->sums_vm, sum, value, &has, error) : status;
 }
 
 /* Do all tiles that fit in a cell cost the same? */

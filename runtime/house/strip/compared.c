@@ -31,7 +31,9 @@ static tn_status value_of_plan(tn_strip *strip, uint32_t number, tn_tray tray, m
     tn_status status = strip->plan_vm ? TN_OK : tn_plan_vm_new(strip->form->schema, 1, &strip->plan_vm, error);
     if (status == TN_OK)
         status = tn_plan_vm_plan(strip->plan_vm, &tray, tray != TN_STRIP_NONE, error);
-    return status == TN_OK ? tn_plan_vm_value(strip->plan_vm, strip->added->of[number]->of.sum, value, error) : status;
+    bool has; /* what is added up of a house always has a value */
+    return status == TN_OK ? tn_plan_vm_value(strip->plan_vm, strip->added->of[number]->of.sum, value, &has, error)
+                           : status;
 }
 
 tn_status tn_strip_tray_adds(tn_strip *strip, uint32_t number, tn_tray tray, int64_t *steps, tn_error *error)

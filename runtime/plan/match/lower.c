@@ -560,3 +560,8 @@ const tn_marked *tn_lowering_marked(const tn_lowering *lowering)
 {
     return &lowering->marked;
 }
+
+const tn_classes *tn_lowering_classes(const tn_lowering *lowering)
+{
+    return lowering->classes;
+}

@@ -52,5 +52,6 @@ tn_status tn_lower_operands(tn_lowering *lowering, uint32_t function, uint32_t o
 
 /* What the constructions of this lowering share, and the bounds that they keep. */
 const tn_marked *tn_lowering_marked(const tn_lowering *lowering);
+const tn_classes *tn_lowering_classes(const tn_lowering *lowering);
 
 #endif

@@ -107,7 +107,7 @@ static tn_status find_alone(const tn_sum *sum, const tn_classes *classes, tn_dfa
         status = tn_plan_vm_plan(vm, &tray, 1, error);
         for (uint32_t i = 0; status == TN_OK && i < sum->count; i++) {
             bool in = false;
-            if (parts[i] || sum->terms[i].kind == TN_SUM_MATCHES)
+            if (parts[i] || tn_term_of_whole(sum->terms[i].kind))
                 continue;
             status = tn_plan_vm_relation(vm, sum->terms[i].part, 0, 1, &in, error);
             if (status == TN_OK && in)

@@ -55,7 +55,11 @@ tn_status tn_plan_vm_relation(tn_plan_vm *vm, uint32_t function, size_t begin, s
 tn_status tn_plan_vm_term(tn_plan_vm *vm, uint32_t code_begin, uint32_t code_end, bool reversed,
                           const uint64_t **relation, size_t *words, tn_error *error);
 
-/* The value of a SUM record on the plan, in nanometres to its power. `value` is initialised. */
-tn_status tn_plan_vm_value(tn_plan_vm *vm, uint32_t sum, mpq_t value, tn_error *error);
+/* The value of a SUM record on the plan, in nanometres to its power; *has: it has one, else `value` is 0. `value` is
+ * initialised. */
+tn_status tn_plan_vm_value(tn_plan_vm *vm, uint32_t sum, mpq_t value, bool *has, tn_error *error);
+
+/* The same of a MEASURE record. */
+tn_status tn_plan_vm_measure(tn_plan_vm *vm, uint32_t measure, mpq_t value, bool *has, tn_error *error);
 
 #endif

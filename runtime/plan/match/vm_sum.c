@@ -145,16 +145,88 @@ void tn_plan_vm_compare(tn_plan_vm *vm, const tn_instruction *op, const tn_sum *
     }
 }
 
+/* ---- values of the whole plan */
+
+/* Where stretches of a relation that are not empty end, or start: [N + 1]. */
+static void find_edges(const tn_plan_vm *vm, const uint64_t *relation, bool *ends, bool *starts)
+{
+    memset(ends, 0, vm->length + 1);
+    memset(starts, 0, vm->length + 1);
+    for (size_t i = 0; i < vm->length; i++)
+        for (size_t j = tn_relation_row_next(relation + i * vm->words, i + 1, vm->words); j != TN_NO_BIT;
+             j = tn_relation_row_next(relation + i * vm->words, j + 1, vm->words))
+            starts[i] = ends[j] = true;
+}
+
+/* What lies between place i and place j, in steps: all of one sign. */
+static int64_t between(const tn_plan_vm *vm, const tn_sum_term *gap, size_t i, size_t j)
+{
+    int64_t steps = 0;
+    for (; i < j; i++)
+        steps += gap->weight ? gap->weight[vm->trays[i]] : gap->each;
+    return steps;
+}
+
+/* How far the nearest stretch is from [i, j) that ends before or starts behind it; false: there is none. */
+static bool nearest(const tn_plan_vm *vm, const tn_sum_term *gap, const bool *ends, const bool *starts, size_t i,
+                    size_t j, int64_t *steps)
+{
+    size_t left = i + 1, right = j;
+    while (left > 0 && !ends[left - 1])
+        left--;
+    while (right < vm->length && !starts[right])
+        right++;
+    bool before = left > 0, behind = right < vm->length;
+    int64_t one = before ? between(vm, gap, left - 1, i) : 0, other = behind ? between(vm, gap, j, right) : 0;
+    *steps = before && (!behind || llabs(one) < llabs(other)) ? one : other;
+    return before || behind;
+}
+
+/* The longest gap, or the shortest; *has false: there is no gap, or one that leads nowhere and would be the longest. */
+static tn_status add_gap(tn_plan_vm *vm, const tn_sum_term *gap, int64_t *steps, bool *has, tn_error *error)
+{
+    bool in, longest = gap->kind == TN_SUM_LONGEST_GAP, any = false, endless = false;
+    tn_status status = tn_plan_vm_relation(vm, gap->other, 0, vm->length, &in, error);
+    bool *ends = malloc(vm->length + 1), *starts = malloc(vm->length + 1);
+    if (status == TN_OK && (!ends || !starts))
+        status = tn_fail_memory(error);
+    if (status == TN_OK) {
+        find_edges(vm, tn_plan_vm_found(vm, gap->other, false), ends, starts);
+        status = tn_plan_vm_relation(vm, gap->part, 0, vm->length, &in, error);
+    }
+    const uint64_t *relation = status == TN_OK ? tn_plan_vm_found(vm, gap->part, false) : NULL;
+    int64_t best = 0;
+    for (size_t i = 0; relation && i < vm->length; i++)
+        for (size_t j = tn_relation_row_next(relation + i * vm->words, i + 1, vm->words); j != TN_NO_BIT;
+             j = tn_relation_row_next(relation + i * vm->words, j + 1, vm->words)) {
+            int64_t here;
+            bool found = nearest(vm, gap, ends, starts, i, j, &here);
+            endless |= !found;
+            if (found && (!any || (llabs(here) > llabs(best)) == longest))
+                best = here;
+            any |= found;
+        }
+    *steps += best;
+    *has &= any && !(longest && endless);
+    free(ends);
+    free(starts);
+    return status;
+}
+
 /* Adds what a term is worth over the whole plan, in steps of its sum's unit. */
-static tn_status add_term(tn_plan_vm *vm, const tn_sum_term *term, int64_t *steps, tn_error *error)
+static tn_status add_term(tn_plan_vm *vm, const tn_sum_term *term, int64_t *steps, bool *has, tn_error *error)
 {
     bool in = false;
+    if (tn_term_is_gap(term->kind))
+        return add_gap(vm, term, steps, has, error);
     tn_status status = tn_plan_vm_relation(vm, term->part, 0, vm->length, &in, error);
     if (status != TN_OK)
         return status;
     const uint64_t *relation = tn_plan_vm_found(vm, term->part, false);
     if (term->kind == TN_SUM_MATCHES)
         *steps += in ? term->each : 0;
+    if (term->kind == TN_SUM_NEEDED)
+        *has &= in;
     for (size_t k = 0; k < vm->length; k++) {
         const uint64_t *row = relation + k * vm->words;
         if (term->kind == TN_SUM_SINGLES && tn_relation_row_has(row, k + 1))
@@ -169,19 +241,39 @@ static tn_status add_term(tn_plan_vm *vm, const tn_sum_term *term, int64_t *step
     return TN_OK;
 }
 
-tn_status tn_plan_vm_value(tn_plan_vm *vm, uint32_t index, mpq_t value, tn_error *error)
+tn_status tn_plan_vm_value(tn_plan_vm *vm, uint32_t index, mpq_t value, bool *has, tn_error *error)
 {
     const tn_sum *sum = NULL;
     tn_status status = tn_plan_vm_summed(vm, index, &sum, error);
     if (status != TN_OK)
         return status;
     int64_t steps = sum->constant;
+    *has = true;
     for (uint32_t i = 0; status == TN_OK && i < sum->count; i++)
-        status = add_term(vm, &sum->terms[i], &steps, error);
+        status = add_term(vm, &sum->terms[i], &steps, has, error);
     if (status != TN_OK)
         return status;
-    mpz_set_si(mpq_numref(value), steps);
+    mpz_set_si(mpq_numref(value), *has ? steps : 0);
     mpz_set_ui(mpq_denref(value), 1);
     mpq_mul(value, value, sum->unit);
     return TN_OK;
+}
+
+tn_status tn_plan_vm_measure(tn_plan_vm *vm, uint32_t measure, mpq_t value, bool *has, tn_error *error)
+{
+    const tn_measure_record *record = &vm->module->MEASURE_records[measure];
+    tn_status status = tn_plan_vm_value(vm, record->sum, value, has, error);
+    if (status != TN_OK || record->over == TN_NO_RECORD)
+        return status;
+    bool divided = false;
+    mpq_t over;
+    mpq_init(over);
+    status = tn_plan_vm_value(vm, record->over, over, &divided, error);
+    *has = *has && divided && mpq_sgn(over) != 0;
+    if (*has)
+        mpq_div(value, value, over);
+    else
+        mpq_set_ui(value, 0, 1);
+    mpq_clear(over);
+    return status;
 }

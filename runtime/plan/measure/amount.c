@@ -10,7 +10,7 @@
 
 enum { DIGITS = 12 }; /* significant, of a decimal */
 
-tn_amount_unit tn_amount_unit_of(const tn_schema *schema, uint32_t power)
+tn_amount_unit tn_amount_unit_of(const tn_schema *schema, int power)
 {
     uint32_t field = tn_schema_length_field(schema);
     bool feet = false;
@@ -31,8 +31,10 @@ tn_amount_unit tn_amount_unit_of(const tn_schema *schema, uint32_t power)
 
 const char *tn_amount_unit_name(tn_amount_unit unit)
 {
-    static const char *const names[2][4] = {{"", "m", "m2", "m3"}, {"", "ft", "ft2", "ft3"}};
-    return unit.power < 4 ? names[unit.feet][unit.power] : "";
+    enum { MOST = 3 };
+    static const char *const names[2][2 * MOST + 1] = {{"/m3", "/m2", "/m", "", "m", "m2", "m3"},
+                                                       {"/ft3", "/ft2", "/ft", "", "ft", "ft2", "ft3"}};
+    return abs(unit.power) <= MOST ? names[unit.feet][MOST + unit.power] : "";
 }
 
 void tn_amount_convert(tn_amount_unit unit, mpq_t value)
@@ -40,7 +42,7 @@ void tn_amount_convert(tn_amount_unit unit, mpq_t value)
     mpq_t length;
     mpq_init(length);
     mpq_set_si(length, unit.feet ? TN_FOOT_NM : 1000000000, 1);
-    tn_rational_power(length, length, (int)unit.power);
+    tn_rational_power(length, length, unit.power);
     mpq_div(value, value, length);
     mpq_clear(length);
 }

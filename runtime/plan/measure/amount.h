@@ -5,17 +5,17 @@
 
 #include <gmp.h>
 
-#include "runtime/plan/schema/schema.h"
+#include "runtime/plan/schema/sum.h"
 #include "runtime/plan/text/text.h"
 
 typedef struct tn_amount_unit {
     bool feet;
-    uint32_t power; /* of a length: 0 a plain number */
+    int power; /* of a length: 0 a plain number; below 0 a number by a length, an area, a volume */
 } tn_amount_unit;
 
-tn_amount_unit tn_amount_unit_of(const tn_schema *schema, uint32_t power);
+tn_amount_unit tn_amount_unit_of(const tn_schema *schema, int power);
 
-/* "ft2", "m", or "" for a plain number. */
+/* "ft2", "m", "/m2", or "" for a plain number. */
 const char *tn_amount_unit_name(tn_amount_unit unit);
 
 /* value := the same in the unit instead of nanometres to its power. */

@@ -1,5 +1,5 @@
 /* The best plans of a library: recursive enumeration over its automaton. */
-#include "runtime/plan/measure/best.h"
+#include "runtime/plan/measure/best_data.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +7,7 @@
 #include "runtime/base/array.h"
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/library/library_data.h"
+#include "runtime/plan/measure/cloud.h"
 
 #define NONE UINT32_MAX
 
@@ -35,7 +36,12 @@ typedef struct place {
 struct tn_best {
     tn_weighed *weighed;
     const tn_library *library;
+    tn_best_quotient *quotient; /* it goes by one; NULL: by sums */
+    uint32_t count;             /* of values that are compared */
     int64_t sign[TN_WEIGHED_MAX];
+    bool mixed; /* the first value is of two sums */
+    int64_t times[2];
+    bool overflows;
     tn_numbering numbers; /* left << 32 | state -> place */
     place *places;
     uint32_t place_count; /* one fewer than the numbers where memory ran out */
@@ -43,16 +49,59 @@ struct tn_best {
     size_t *given; /* [max - min + 1]: plans of each length given so far */
 };
 
-tn_status tn_best_new(tn_weighed *weighed, const bool *most, tn_best **out, tn_error *error)
+static tn_status new_of_sums(tn_weighed *weighed, const bool *most, tn_best **out, tn_error *error)
 {
     tn_best *best = calloc(1, sizeof *best);
     if (!best)
         return tn_fail_memory(error);
     best->weighed = weighed;
     best->library = tn_weighed_library(weighed);
-    for (uint32_t k = 0; k < tn_weighed_count(weighed); k++)
+    best->count = tn_weighed_count(weighed);
+    for (uint32_t k = 0; k < best->count; k++)
         best->sign[k] = most[k] ? -1 : 1;
     *out = best;
+    return TN_OK;
+}
+
+static tn_status refuse_later(tn_error *error)
+{
+    tn_fail(error, TN_INVALID, E_QUOTIENT, "a quotient can only be the first measure to go by");
+    tn_error_help(error, "name it first, or ask for the front of both measures");
+    return TN_INVALID;
+}
+
+tn_status tn_best_new(tn_weighed *weighed, const bool *most, tn_best **out, tn_error *error)
+{
+    bool first = false, over;
+    tn_weighed_sum(weighed, 0, &first);
+    for (uint32_t k = 1; k < tn_weighed_measures(weighed); k++) {
+        tn_weighed_sum(weighed, k, &over);
+        if (over)
+            return refuse_later(error);
+    }
+    if (!first)
+        return new_of_sums(weighed, most, out, error);
+    tn_best *best = calloc(1, sizeof *best);
+    tn_status status = best ? tn_best_quotient_new(weighed, most, &best->quotient, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        *out = best;
+    else
+        free(best);
+    return status;
+}
+
+tn_status tn_best_of_mixture(tn_weighed *weighed, const int64_t *times, const bool *most, tn_best **out,
+                             tn_error *error)
+{
+    tn_status status = new_of_sums(weighed, most, out, error);
+    if (status != TN_OK)
+        return status;
+    tn_best *best = *out;
+    best->mixed = true;
+    memcpy(best->times, times, sizeof best->times);
+    best->count--;
+    for (uint32_t k = 1; k < best->count; k++)
+        best->sign[k] = best->sign[k + 1];
     return TN_OK;
 }
 
@@ -60,6 +109,7 @@ void tn_best_free(tn_best *best)
 {
     if (!best)
         return;
+    tn_best_quotient_free(best->quotient);
     for (uint32_t i = 0; i < best->place_count; i++) {
         free(best->places[i].found);
         free(best->places[i].heap);
@@ -133,16 +183,34 @@ static tn_status place_of(tn_best *best, uint32_t left, uint32_t state, uint32_t
     return TN_OK;
 }
 
-static void add_gain(const tn_best *best, int64_t *value, const int64_t *gain)
+/* The first value: so many times the one sum and so many times the other. */
+static void add_mixture(tn_best *best, int64_t *value, const int64_t *gain)
 {
+    int64_t one, other;
+    best->overflows |= __builtin_mul_overflow(best->times[0], gain[0], &one) ||
+                       __builtin_mul_overflow(best->times[1], gain[1], &other) ||
+                       __builtin_add_overflow(one, other, &one) || __builtin_add_overflow(value[0], one, &value[0]);
+    for (uint32_t k = 1; k < best->count; k++)
+        value[k] += best->sign[k] * gain[k + 1];
+}
+
+static void add_gain(tn_best *best, int64_t *value, const int64_t *gain)
+{
+    if (best->mixed) {
+        add_mixture(best, value, gain);
+        return;
+    }
     for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
         value[k] += best->sign[k] * gain[k];
 }
 
-static void set_rest(const tn_best *best, uint32_t state, int64_t *value)
+static void set_rest(tn_best *best, uint32_t state, int64_t *value)
 {
-    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
-        value[k] = k < tn_weighed_count(best->weighed) ? best->sign[k] * tn_weighed_rest(best->weighed, state, k) : 0;
+    int64_t rest[TN_WEIGHED_MAX] = {0};
+    for (uint32_t k = 0; k < tn_weighed_count(best->weighed); k++)
+        rest[k] = tn_weighed_rest(best->weighed, state, k);
+    memset(value, 0, TN_WEIGHED_MAX * sizeof *value);
+    add_gain(best, value, rest);
 }
 
 /* The least of all completions of a state. Recursion is as deep as plans are long. */
@@ -153,7 +221,7 @@ static tn_status measure(tn_best *best, uint32_t left, uint32_t state, uint32_t 
         return status;
     place found = {.left = left, .state = state, .measured = true};
     if (left == 0) {
-        found.possible = tn_weighed_alive(best->weighed, 0, state);
+        found.possible = tn_weighed_alive(best->weighed, 0, state) && tn_weighed_valued(best->weighed, state);
         set_rest(best, state, found.least);
         best->places[*index] = found;
         return TN_OK;
@@ -266,6 +334,13 @@ static tn_status ensure(tn_best *best, uint32_t index, size_t rank, bool *there,
 
 /* ---- the root: every length's first state */
 
+static tn_status too_fine(tn_error *error)
+{
+    tn_fail(error, TN_LIMIT, E_TOO_FINE, "the sums of a quotient have more digits than it is compared with");
+    tn_error_help(error, "use rounder numbers: prices in steps of 10 or 50, lengths in whole units");
+    return TN_LIMIT;
+}
+
 typedef struct cursor {
     uint32_t left;
     size_t rank;
@@ -318,6 +393,8 @@ static tn_status follow(tn_best *best, uint32_t index, size_t rank, tn_tray *tra
 tn_status tn_best_next(tn_best *best, tn_tray *trays, uint32_t *length, int64_t *values, bool *found, tn_error *error)
 {
     *found = false;
+    if (best->quotient)
+        return tn_best_quotient_next(best->quotient, trays, length, values, found, error);
     if (best->library->min > best->library->max)
         return TN_OK;
     if (!best->given &&
@@ -329,9 +406,15 @@ tn_status tn_best_next(tn_best *best, tn_tray *trays, uint32_t *length, int64_t 
         return status;
     best->given[next.left - best->library->min]++;
     uint32_t index;
+    bool valued;
     status = place_of(best, next.left, 0, &index, error);
-    for (uint32_t k = 0; status == TN_OK && k < tn_weighed_count(best->weighed); k++)
+    for (uint32_t k = 0; status == TN_OK && !best->mixed && k < best->count; k++)
         values[k] = best->sign[k] * best->places[index].found[next.rank].value[k] + tn_weighed_start(best->weighed, k);
     *length = next.left;
-    return status == TN_OK ? follow(best, index, next.rank, trays, error) : status;
+    if (status == TN_OK)
+        status = follow(best, index, next.rank, trays, error);
+    if (status == TN_OK && best->overflows)
+        status = too_fine(error);
+    return status == TN_OK && best->mixed ? tn_weighed_plan(best->weighed, trays, *length, values, &valued, error)
+                                          : status;
 }

@@ -5,7 +5,8 @@
 
 #include "runtime/plan/library/library_data.h"
 
-tn_status tn_weighed_plan(tn_weighed *weighed, const tn_tray *trays, size_t length, int64_t *values, tn_error *error)
+tn_status tn_weighed_plan(tn_weighed *weighed, const tn_tray *trays, size_t length, int64_t *values, bool *valued,
+                          tn_error *error)
 {
     uint32_t state = 0, measures = tn_weighed_count(weighed);
     for (uint32_t k = 0; k < measures; k++)
@@ -22,6 +23,7 @@ tn_status tn_weighed_plan(tn_weighed *weighed, const tn_tray *trays, size_t leng
     }
     for (uint32_t k = 0; k < measures; k++)
         values[k] += tn_weighed_rest(weighed, state, k);
+    *valued = tn_weighed_valued(weighed, state);
     return TN_OK;
 }
 
@@ -33,8 +35,10 @@ static tn_status measure_ranks(tn_cloud *cloud, tn_weighed *weighed, mpz_t *rank
     tn_status status = trays && cloud->values ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         uint32_t length = 0;
+        bool valued = false;
         tn_library_unrank(library, ranks[i], trays, &length);
-        status = tn_weighed_plan(weighed, trays, length, cloud->values[cloud->count++], error);
+        status = tn_weighed_plan(weighed, trays, length, cloud->values[cloud->count], &valued, error);
+        cloud->count += valued;
     }
     free(trays);
     return status;

@@ -181,7 +181,7 @@ static void end_plans(completer *c, uint32_t n)
         bool good = accepts(c, n, c->level[n][i]);
         machine_of(c, c->level[n][i], &state);
         mpz_set_ui(c->backward[n][i], good);
-        if (c->weighed && good)
+        if (c->weighed && good && tn_weighed_valued(c->weighed, state))
             c->best_after[n][i] = c->sign * tn_weighed_rest(c->weighed, state, 0);
     }
 }
@@ -224,7 +224,7 @@ static void add_values(const completer *c, tn_completions *out)
                     take_better(&out->best[at], c->best_placed[placed]);
             }
     for (size_t i = 0; c->weighed && i < (size_t)out->trays * out->values; i++)
-        out->best[i] = out->best[i] == WORST ? 0 : c->sign * out->best[i];
+        out->best[i] = out->best[i] == WORST ? TN_NO_BEST : c->sign * out->best[i];
 }
 
 /* A step that is looked for: the first from state `from` of level n from which a plan can still be completed. */
@@ -307,12 +307,26 @@ static tn_status make_room(completer *c, tn_completions *out, tn_error *error)
     return TN_OK;
 }
 
+static tn_status check_measure(const tn_weighed *weighed, tn_error *error)
+{
+    bool over;
+    tn_weighed_sum(weighed, 0, &over);
+    if (!over)
+        return TN_OK;
+    tn_fail(error, TN_INVALID, E_QUOTIENT, "measure `%.60s` is a quotient, and what choices leave is told by sums",
+            tn_weighed_name(weighed, 0));
+    tn_error_help(error, "ask by one of its two sums");
+    return TN_INVALID;
+}
+
 tn_status tn_complete(tn_completions *out, const tn_library *library, const tn_open_plan *open, tn_error *error)
 {
     completer c = {.library = library, .weighed = open->weighed, .sign = open->most ? -1 : 1, .error = error};
     *out = (tn_completions){0};
     mpz_init(out->plans);
-    tn_status status = tn_completer_read(&c, open, error);
+    tn_status status = c.weighed ? check_measure(c.weighed, error) : TN_OK;
+    if (status == TN_OK)
+        status = tn_completer_read(&c, open, error);
     if (status == TN_OK)
         status = make_room(&c, out, error);
     if (status == TN_OK && library->min <= library->max)

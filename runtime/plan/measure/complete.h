@@ -11,6 +11,8 @@
 
 #define TN_PATTERN_MAX 60u /* written trays */
 
+#define TN_NO_BEST INT64_MIN /* no plan with the choice has a value */
+
 typedef struct tn_completions {
     mpz_t plans;
     uint32_t trays;  /* written ones */
@@ -18,7 +20,7 @@ typedef struct tn_completions {
     mpz_t *counts;   /* [trays][values]: completions that have the value there */
     int64_t *best;   /* [trays][values]: the best that the measure still can be with it, in steps, where there are such
                         completions; NULL where no measure was asked for */
-    tn_tray *first; /* a plan that completes it, [first_length]; NULL if there is none, or it was not asked for */
+    tn_tray *first;  /* a plan that completes it, [first_length]; NULL if there is none, or it was not asked for */
     uint32_t first_length;
 } tn_completions;
 

@@ -8,6 +8,7 @@
 #include "runtime/plan/automata/count.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/measure/amount.h"
+#include "runtime/plan/measure/pareto.h"
 
 #define DENSE_MAX (INT64_C(1) << 22) /* values side by side: beyond, they are sorted */
 
@@ -295,7 +296,7 @@ static tn_status add_ended(spreader *s, const level *l, uint32_t n, level *ended
         return TN_OK;
     for (size_t i = 0; i < l->count; i++) {
         const spread *from = &l->items[i];
-        if (!tn_weighed_alive(s->weighed, 0, from->state))
+        if (!tn_weighed_alive(s->weighed, 0, from->state) || !tn_weighed_valued(s->weighed, from->state))
             continue;
         s->ended += words_of(s, from->count);
         if (s->ended > TN_DISTRIBUTION_WORDS)
@@ -327,7 +328,7 @@ static tn_status finish(spreader *s, const level *ended, tn_distribution *d, tn_
         d->value = all.value;
         all.value = NULL;
         d->plans = tn_integers_new(all.count);
-        d->count = d->plans ? all.count : 0;
+        d->count = d->room = d->plans ? all.count : 0;
         status = d->plans ? TN_OK : tn_fail_memory(error);
     }
     for (size_t i = 0; i < d->count; i++) {
@@ -366,8 +367,61 @@ static tn_status walk(spreader *s, level *ended, tn_error *error)
 void tn_distribution_init(tn_distribution *d)
 {
     *d = (tn_distribution){0};
-    mpz_init(d->all);
+    mpz_inits(d->all, d->without, NULL);
     mpq_init(d->unit);
+}
+
+/* ---- quotients */
+
+typedef struct share {
+    mpq_t value;
+    size_t point;
+} share;
+
+static int compare_shares(const void *left, const void *right)
+{
+    const share *a = left, *b = right;
+    return mpq_cmp(a->value, b->value);
+}
+
+/* Fills the distribution from the values that both sums have together. */
+static tn_status divide(tn_distribution *d, const tn_weighed *weighed, const tn_pareto_front *joint, tn_error *error)
+{
+    share *shares = calloc(joint->count + 1, sizeof *shares);
+    d->plans = tn_integers_new(joint->count);
+    d->room = d->plans ? joint->count : 0;
+    d->exact = malloc((joint->count + 1) * sizeof *d->exact);
+    if (!shares || !d->plans || !d->exact) {
+        free(shares);
+        return tn_fail_memory(error);
+    }
+    for (size_t i = 0; i < joint->count; i++) {
+        mpq_init(shares[i].value);
+        shares[i].point = i;
+        tn_weighed_value(weighed, 0, joint->points[i].values, shares[i].value);
+    }
+    qsort(shares, joint->count, sizeof *shares, compare_shares);
+    for (size_t i = 0; i < joint->count; i++) {
+        if (d->count == 0 || !mpq_equal(d->exact[d->count - 1], shares[i].value)) {
+            mpq_init(d->exact[d->count]);
+            mpq_set(d->exact[d->count++], shares[i].value);
+        }
+        mpz_add(d->plans[d->count - 1], d->plans[d->count - 1], joint->points[shares[i].point].plans);
+        mpz_add(d->all, d->all, joint->points[shares[i].point].plans);
+        mpq_clear(shares[i].value);
+    }
+    free(shares);
+    return TN_OK;
+}
+
+static tn_status make_quotient(tn_distribution *d, tn_weighed *weighed, tn_error *error)
+{
+    tn_pareto_front joint;
+    tn_status status = tn_pareto_all(&joint, weighed, error);
+    if (status == TN_OK)
+        status = divide(d, weighed, &joint, error);
+    tn_pareto_clear(&joint);
+    return status;
 }
 
 tn_status tn_distribution_make(tn_distribution *d, tn_weighed *weighed, tn_error *error)
@@ -379,9 +433,12 @@ tn_status tn_distribution_make(tn_distribution *d, tn_weighed *weighed, tn_error
     tn_library_kept(library, TN_ALL_LENGTHS, kept);
     spreader s = {.weighed = weighed, .library = library, .limbs = mpz_size(kept) ? mpz_size(kept) : 1};
     level ended = {0};
-    tn_status status = mpz_sgn(kept) ? walk(&s, &ended, error) : TN_OK;
-    if (status == TN_OK)
+    bool over;
+    tn_weighed_sum(weighed, 0, &over);
+    tn_status status = mpz_sgn(kept) == 0 ? TN_OK : over ? make_quotient(d, weighed, error) : walk(&s, &ended, error);
+    if (status == TN_OK && !over)
         status = finish(&s, &ended, d, error);
+    mpz_sub(d->without, kept, d->all);
     level_clear(&ended);
     mpz_clear(kept);
     free(s.arcs);
@@ -393,22 +450,55 @@ tn_status tn_distribution_make(tn_distribution *d, tn_weighed *weighed, tn_error
 
 void tn_distribution_clear(tn_distribution *d)
 {
-    tn_integers_free(d->plans, d->count);
+    for (size_t i = 0; d->exact && i < d->count; i++)
+        mpq_clear(d->exact[i]);
+    free(d->exact);
+    tn_integers_free(d->plans, d->room);
     free(d->value);
-    mpz_clear(d->all);
+    mpz_clears(d->all, d->without, NULL);
     mpq_clear(d->unit);
     *d = (tn_distribution){0};
 }
 
 void tn_distribution_value(const tn_distribution *d, size_t i, mpq_t value)
 {
+    if (d->exact) {
+        mpq_set(value, d->exact[i]);
+        return;
+    }
     mpz_set_si(mpq_numref(value), d->value[i]);
     mpz_set_ui(mpq_denref(value), 1);
     mpq_mul(value, value, d->unit);
 }
 
+/* The same, number by number. */
+static void moments_of_exact(const tn_distribution *d, mpq_t mean, mpq_t variance)
+{
+    mpq_t term, times;
+    mpq_inits(term, times, NULL);
+    mpq_set_ui(mean, 0, 1);
+    mpq_set_ui(variance, 0, 1);
+    for (size_t i = 0; i < d->count; i++) {
+        mpq_set_z(times, d->plans[i]);
+        mpq_mul(term, times, d->exact[i]);
+        mpq_add(mean, mean, term);
+        mpq_mul(term, term, d->exact[i]);
+        mpq_add(variance, variance, term);
+    }
+    mpq_set_z(times, d->all);
+    mpq_div(mean, mean, times);
+    mpq_div(variance, variance, times);
+    mpq_mul(term, mean, mean);
+    mpq_sub(variance, variance, term);
+    mpq_clears(term, times, NULL);
+}
+
 void tn_distribution_moments(const tn_distribution *d, mpq_t mean, mpq_t variance)
 {
+    if (d->exact) {
+        moments_of_exact(d, mean, variance);
+        return;
+    }
     mpz_t first, second, term;
     mpz_inits(first, second, term, NULL);
     for (size_t i = 0; i < d->count; i++) {

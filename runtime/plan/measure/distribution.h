@@ -10,10 +10,13 @@
 
 typedef struct tn_distribution {
     size_t count;   /* values, ascending */
-    int64_t *value; /* steps of the unit */
-    mpz_t *plans;
-    mpz_t all;  /* plans in all */
-    mpq_t unit; /* nanometres to the power */
+    int64_t *value; /* steps of the unit; NULL: of a quotient */
+    mpq_t *exact;   /* of a quotient; NULL: of a sum */
+    mpz_t *plans;   /* [room], of which `count` are used */
+    size_t room;
+    mpz_t all;     /* plans in all that have a value */
+    mpz_t without; /* plans that have none */
+    mpq_t unit;    /* nanometres to the power */
 } tn_distribution;
 
 void tn_distribution_init(tn_distribution *distribution);

@@ -6,6 +6,7 @@
 #include "runtime/base/array.h"
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/library/library_data.h"
+#include "runtime/plan/measure/distribution.h"
 
 /* The plans that lead to a state, or all that end. */
 typedef struct heap {
@@ -117,7 +118,7 @@ static tn_status walk(tn_weighed *w, heap *all, tn_error *error)
         level next = {0};
         for (uint32_t i = 0; status == TN_OK && i < here.numbers.count; i++) {
             const heap *h = &here.heaps[i];
-            if (n >= library->min && tn_weighed_alive(w, 0, h->state))
+            if (n >= library->min && tn_weighed_alive(w, 0, h->state) && tn_weighed_valued(w, h->state))
                 pour(all, h, 1, tn_weighed_rest(w, h->state, 0));
             if (n < library->max)
                 status = step(w, h, n, &next, error);
@@ -155,14 +156,45 @@ static void conclude(tn_measure_moments *m, const heap *all, mpq_srcptr unit)
     mpq_clear(square);
 }
 
+/* Of a quotient: by its distribution. */
+static tn_status find_of_quotient(tn_measure_moments *m, tn_weighed *weighed, tn_error *error)
+{
+    tn_distribution d;
+    tn_distribution_init(&d);
+    tn_status status = tn_distribution_make(&d, weighed, error);
+    if (status == TN_OK && d.count > 0) {
+        mpz_set(m->plans, d.all);
+        tn_distribution_value(&d, 0, m->least);
+        tn_distribution_value(&d, d.count - 1, m->most);
+        tn_distribution_moments(&d, m->mean, m->variance);
+    }
+    tn_distribution_clear(&d);
+    return status;
+}
+
 tn_status tn_measure_moments_find(tn_measure_moments *m, tn_weighed *weighed, tn_error *error)
 {
     const tn_library *library = tn_weighed_library(weighed);
+    bool over;
+    tn_weighed_sum(weighed, 0, &over);
+    if (over)
+        return find_of_quotient(m, weighed, error);
     heap all;
     heap_init(&all, 0);
     tn_status status = library->min <= library->max ? walk(weighed, &all, error) : TN_OK;
     if (status == TN_OK)
         conclude(m, &all, tn_weighed_unit(weighed, 0));
+    heap_clear(&all);
+    return status;
+}
+
+tn_status tn_weighed_plans(tn_weighed *weighed, mpz_t plans, tn_error *error)
+{
+    const tn_library *library = tn_weighed_library(weighed);
+    heap all;
+    heap_init(&all, 0);
+    tn_status status = library->min <= library->max ? walk(weighed, &all, error) : TN_OK;
+    mpz_set(plans, all.count);
     heap_clear(&all);
     return status;
 }

@@ -26,6 +26,9 @@ typedef struct fronts {
     tn_weighed *weighed;
     const tn_library *library;
     int64_t sign[TN_WEIGHED_MAX];
+    bool exact[TN_WEIGHED_MAX]; /* sums of which none is better: both of a quotient */
+    bool any_exact, all_exact;
+    size_t most;          /* points of a state */
     tn_numbering numbers; /* left << 32 | state -> front */
     front *items;
     uint32_t count; /* of items: one fewer than the numbers where memory ran out */
@@ -62,10 +65,10 @@ static int compare_points(const void *left, const void *right)
     return (a->tray > b->tray) - (a->tray < b->tray);
 }
 
-static bool covers(const point *a, const point *b)
+static bool covers(const fronts *all, const point *a, const point *b)
 {
     for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
-        if (a->value[k] > b->value[k])
+        if (a->value[k] > b->value[k] || (all->exact[k] && a->value[k] != b->value[k]))
             return false;
     return true;
 }
@@ -77,9 +80,10 @@ static bool same_values(const point *a, const point *b)
 
 /* Sorts, joins equal values (the first keeps its place: the lowest tray) and drops what another point betters. Whoever
  * betters a point comes before it; by two measures that is the last point kept. */
-static void reduce(front *f, uint32_t measures)
+static void reduce(const fronts *all, front *f)
 {
     size_t kept = 0;
+    bool last = tn_weighed_count(all->weighed) <= 2 && !all->any_exact;
     if (f->count > 1)
         qsort(f->points, f->count, sizeof *f->points, compare_points);
     for (size_t i = 0; i < f->count; i++) {
@@ -87,9 +91,9 @@ static void reduce(front *f, uint32_t measures)
         bool equal = kept > 0 && same_values(&f->points[kept - 1], p), worse = false;
         if (equal)
             mpz_add(f->points[kept - 1].plans, f->points[kept - 1].plans, p->plans);
-        size_t from = measures <= 2 && kept > 0 ? kept - 1 : 0;
+        size_t from = all->all_exact ? kept : last && kept > 0 ? kept - 1 : 0;
         for (size_t j = from; j < kept && !equal && !worse; j++)
-            worse = covers(&f->points[j], p);
+            worse = covers(all, &f->points[j], p);
         if (equal || worse) {
             mpz_clear(p->plans);
             continue;
@@ -102,9 +106,10 @@ static void reduce(front *f, uint32_t measures)
     f->count = kept;
 }
 
-static tn_status too_many(tn_error *error)
+static tn_status too_many(const fronts *all, tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, E_TOO_MANY_VALUES, "the front has more than %u points in a state", TN_FRONT_MAX);
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_VALUES, "%s in a state: more than %zu",
+            all->all_exact ? "the sums have too many different values" : "the front has too many points", all->most);
     tn_error_help(error, "measure in rounder numbers: prices in steps of 10 or 50, lengths in whole units");
     return TN_LIMIT;
 }
@@ -127,7 +132,7 @@ static tn_status number_of(fronts *all, uint32_t left, uint32_t state, uint32_t 
 static tn_status make_end(fronts *all, uint32_t state, front *made, tn_error *error)
 {
     int64_t value[TN_WEIGHED_MAX] = {0};
-    if (!tn_weighed_alive(all->weighed, 0, state))
+    if (!tn_weighed_alive(all->weighed, 0, state) || !tn_weighed_valued(all->weighed, state))
         return TN_OK;
     for (uint32_t k = 0; k < tn_weighed_count(all->weighed); k++)
         value[k] = all->sign[k] * tn_weighed_rest(all->weighed, state, k);
@@ -167,14 +172,14 @@ static tn_status make(fronts *all, uint32_t left, uint32_t state, uint32_t *inde
         }
         if (status == TN_OK)
             status = tn_weighed_check(all->weighed, error);
-        if (status == TN_OK && made.count > 4 * TN_FRONT_MAX)
-            reduce(&made, tn_weighed_count(all->weighed));
-        if (status == TN_OK && made.count > 4 * TN_FRONT_MAX)
-            status = too_many(error);
+        if (status == TN_OK && made.count > 4 * all->most)
+            reduce(all, &made);
+        if (status == TN_OK && made.count > 4 * all->most)
+            status = too_many(all, error);
     }
-    reduce(&made, tn_weighed_count(all->weighed));
-    if (status == TN_OK && made.count > TN_FRONT_MAX)
-        status = too_many(error);
+    reduce(all, &made);
+    if (status == TN_OK && made.count > all->most)
+        status = too_many(all, error);
     all->items[*index] = made;
     return status;
 }
@@ -214,39 +219,170 @@ static tn_status join_lengths(fronts *all, front *whole, tn_error *error)
                 status = tn_fail_memory(error);
         }
     }
-    reduce(whole, tn_weighed_count(all->weighed));
+    reduce(all, whole);
     return status;
 }
 
-tn_status tn_pareto_make(tn_pareto_front *out, tn_weighed *weighed, const bool *most, tn_error *error)
+/* The points of all sums that are not bettered, each with a plan. */
+static tn_status make_points(tn_pareto_front *out, fronts *all, tn_error *error)
 {
-    fronts all = {.weighed = weighed, .library = tn_weighed_library(weighed)};
     front whole = {0};
-    *out = (tn_pareto_front){0};
-    for (uint32_t k = 0; k < tn_weighed_count(weighed); k++)
-        all.sign[k] = most[k] ? -1 : 1;
-    tn_status status = join_lengths(&all, &whole, error);
+    tn_status status = join_lengths(all, &whole, error);
     if (status == TN_OK && !(out->points = calloc(whole.count + 1, sizeof *out->points)))
         status = tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < whole.count; i++) {
         mpz_init(out->points[out->count].plans);
-        status = fill_point(&all, &whole.points[i], whole.points[i].tray, &out->points[out->count], error);
+        status = fill_point(all, &whole.points[i], whole.points[i].tray, &out->points[out->count], error);
         out->count++;
     }
     front_clear(&whole);
-    for (uint32_t i = 0; i < all.count; i++)
-        front_clear(&all.items[i]);
-    free(all.items);
-    tn_numbering_clear(&all.numbers);
+    for (uint32_t i = 0; i < all->count; i++)
+        front_clear(&all->items[i]);
+    free(all->items);
+    tn_numbering_clear(&all->numbers);
     return status;
+}
+
+/* ---- quotients: what is not bettered by their values */
+
+/* A point with the values of its measures, with the sign that makes less better. */
+typedef struct measured {
+    tn_pareto_point point;
+    mpq_t value[TN_WEIGHED_MAX];
+    uint32_t measures;
+} measured;
+
+static int compare_ranks(const tn_pareto_point *a, const tn_pareto_point *b)
+{
+    if (a->length != b->length)
+        return a->length < b->length ? -1 : 1;
+    for (uint32_t i = 0; i < a->length; i++)
+        if (a->trays[i] != b->trays[i])
+            return a->trays[i] < b->trays[i] ? -1 : 1;
+    return 0;
+}
+
+static int compare_measured(const void *left, const void *right)
+{
+    const measured *a = left, *b = right;
+    for (uint32_t k = 0; k < a->measures; k++) {
+        int order = mpq_cmp(a->value[k], b->value[k]);
+        if (order != 0)
+            return order;
+    }
+    return compare_ranks(&a->point, &b->point);
+}
+
+static bool betters(const measured *a, const measured *b)
+{
+    for (uint32_t k = 0; k < a->measures; k++)
+        if (mpq_cmp(a->value[k], b->value[k]) > 0)
+            return false;
+    return true;
+}
+
+static bool same_measures(const measured *a, const measured *b)
+{
+    for (uint32_t k = 0; k < a->measures; k++)
+        if (!mpq_equal(a->value[k], b->value[k]))
+            return false;
+    return true;
+}
+
+static void point_clear(tn_pareto_point *p)
+{
+    mpz_clear(p->plans);
+    free(p->trays);
+}
+
+/* Those of the points that no other betters, in order; points of the same values are one. */
+static void keep_best(tn_pareto_front *out, measured *points)
+{
+    size_t kept = 0, count = out->count;
+    if (count > 1)
+        qsort(points, count, sizeof *points, compare_measured);
+    for (size_t i = 0; i < count; i++) {
+        bool equal = kept > 0 && same_measures(&points[kept - 1], &points[i]), worse = false;
+        for (size_t j = 0; j < kept && !equal && !worse; j++)
+            worse = betters(&points[j], &points[i]);
+        if (equal)
+            mpz_add(points[kept - 1].point.plans, points[kept - 1].point.plans, points[i].point.plans);
+        if (equal || worse) {
+            point_clear(&points[i].point);
+            continue;
+        }
+        measured keep = points[kept];
+        points[kept++] = points[i];
+        points[i] = keep; /* its numbers are cleared with the others */
+    }
+    out->count = kept;
+    for (size_t i = 0; i < kept; i++)
+        out->points[i] = points[i].point;
+}
+
+static tn_status go_by_quotients(tn_pareto_front *out, const tn_weighed *weighed, const bool *most, tn_error *error)
+{
+    uint32_t measures = tn_weighed_measures(weighed);
+    size_t count = out->count;
+    measured *points = calloc(count + 1, sizeof *points);
+    if (!points)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        points[i].point = out->points[i];
+        points[i].measures = measures;
+        for (uint32_t k = 0; k < measures; k++) {
+            mpq_init(points[i].value[k]);
+            tn_weighed_value(weighed, k, out->points[i].values, points[i].value[k]);
+            if (most[k])
+                mpq_neg(points[i].value[k], points[i].value[k]);
+        }
+    }
+    keep_best(out, points);
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < measures; k++)
+            mpq_clear(points[i].value[k]);
+    free(points);
+    return TN_OK;
+}
+
+tn_status tn_pareto_make(tn_pareto_front *out, tn_weighed *weighed, const bool *most, tn_error *error)
+{
+    fronts all = {.weighed = weighed, .library = tn_weighed_library(weighed), .most = TN_FRONT_MAX};
+    *out = (tn_pareto_front){0};
+    for (uint32_t k = 0; k < tn_weighed_measures(weighed); k++) {
+        bool over;
+        uint32_t sum = tn_weighed_sum(weighed, k, &over);
+        all.sign[sum] = most[k] ? -1 : 1;
+        if (over)
+            all.sign[sum + 1] = 1;
+        all.exact[sum] |= over;
+        if (over)
+            all.exact[sum + 1] = true;
+        all.any_exact |= over;
+    }
+    tn_status status = make_points(out, &all, error);
+    return status == TN_OK && all.any_exact ? go_by_quotients(out, weighed, most, error) : status;
+}
+
+tn_status tn_pareto_all(tn_pareto_front *out, tn_weighed *weighed, tn_error *error)
+{
+    fronts all = {.weighed = weighed,
+                  .library = tn_weighed_library(weighed),
+                  .most = TN_JOINT_MAX,
+                  .any_exact = true,
+                  .all_exact = true};
+    *out = (tn_pareto_front){0};
+    for (uint32_t k = 0; k < tn_weighed_count(weighed); k++) {
+        all.sign[k] = 1;
+        all.exact[k] = true;
+    }
+    return make_points(out, &all, error);
 }
 
 void tn_pareto_clear(tn_pareto_front *f)
 {
-    for (size_t i = 0; i < f->count; i++) {
-        mpz_clear(f->points[i].plans);
-        free(f->points[i].trays);
-    }
+    for (size_t i = 0; i < f->count; i++)
+        point_clear(&f->points[i]);
     free(f->points);
     *f = (tn_pareto_front){0};
 }

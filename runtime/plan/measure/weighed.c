@@ -8,6 +8,7 @@
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/summing.h"
+#include "runtime/plan/measure/weighed_whole.h"
 
 enum { STATES_MAX = 4000000 };
 
@@ -16,14 +17,16 @@ typedef struct memory {
     uint32_t *next; /* [classes]: another memory; UINT32_MAX: not asked yet. NULL: none was asked */
     int64_t *gain;  /* [classes] */
     int64_t rest;   /* what is added where the plan ends */
+    bool valued;    /* has a plan that ends here a value? */
 } memory;
 
-/* A measure: its sum's machine, and the automata of what `matches` counts. A memory's key: the states of its `matches`,
- * then the words of its machine. */
+/* A sum: its machine, and the automata of what is asked of the whole plan. A memory's key: the states of these, then
+ * the words of its machine. */
 typedef struct weight {
     tn_string name;
     tn_sum *sum;
-    tn_dfa **parts; /* [sum->count]: of places that single trays do not decide, and of `matches` */
+    tn_dfa **parts;         /* [sum->count]: of places that single trays do not decide */
+    tn_weighed_whole whole; /* what is asked of the whole plan */
     tn_summing summing;
     tn_interner keys;
     memory *memories;
@@ -35,11 +38,14 @@ typedef struct node {
     tn_weighed_edge *edges; /* NULL: not found yet */
     size_t count;
     int64_t rest[TN_WEIGHED_MAX];
+    bool valued;
 } node;
 
 struct tn_weighed {
     const tn_library *library;
-    uint32_t count;
+    uint32_t measures;
+    bool over[TN_WEIGHED_MAX]; /* [measures]: is it a quotient: of two sums? */
+    uint32_t count;            /* of sums */
     weight weights[TN_WEIGHED_MAX];
     tn_classes *classes; /* of what the measures tell apart */
     tn_lowering *lowering;
@@ -67,8 +73,8 @@ static tn_status lower_parts(tn_weighed *w, weight *m, uint8_t *local, tn_error 
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < m->sum->count; i++) {
         const tn_sum_term *term = &m->sum->terms[i];
-        if (term->kind == TN_SUM_MATCHES)
-            status = tn_lower(w->lowering, term->part, &m->parts[i], error);
+        if (tn_term_of_whole(term->kind))
+            status = tn_weighed_ask_whole(&m->whole, w->lowering, m->sum, i, w->library->max, error);
         else if (term->kind == TN_SUM_STARTS || !tn_summing_is_local(module, term->part, local))
             status = tn_lower_marked(w->lowering, term->part, &m->parts[i], error);
     }
@@ -77,15 +83,7 @@ static tn_status lower_parts(tn_weighed *w, weight *m, uint8_t *local, tn_error 
 
 static tn_status make_summing(tn_weighed *w, weight *m, tn_error *error)
 {
-    tn_dfa **parts = calloc((size_t)m->sum->count + 1, sizeof(tn_dfa *));
-    if (!parts)
-        return tn_fail_memory(error);
-    for (uint32_t i = 0; i < m->sum->count; i++)
-        parts[i] = m->sum->terms[i].kind == TN_SUM_MATCHES ? NULL : m->parts[i];
-    tn_status status =
-        tn_summing_make(&m->summing, m->sum, tn_lowering_marked(w->lowering), w->classes, parts, false, error);
-    free(parts);
-    return status;
+    return tn_summing_make(&m->summing, m->sum, tn_lowering_marked(w->lowering), w->classes, m->parts, false, error);
 }
 
 static tn_status make_weights(tn_weighed *w, const uint32_t *sums, tn_error *error)
@@ -160,25 +158,30 @@ static tn_status intern(tn_weighed *w, uint32_t *state, tn_error *error)
         return tn_fail_memory(error);
     w->nodes[*state] = (node){0};
     w->node_count = *state + 1;
-    for (uint32_t k = 0; k < w->count; k++)
-        w->nodes[*state].rest[k] = w->weights[k].memories[w->next.data[1 + k]].rest;
+    w->nodes[*state].valued = true;
+    for (uint32_t k = 0; k < w->count; k++) {
+        const memory *m = &w->weights[k].memories[w->next.data[1 + k]];
+        w->nodes[*state].rest[k] = m->rest;
+        w->nodes[*state].valued &= m->valued;
+    }
     return TN_OK;
 }
 
-/* What a measure adds where the plan ends with this key of a memory. */
-static bool rest_of(weight *m, const uint32_t *words, size_t size, tn_key *room, int64_t *rest)
+/* What a measure adds where the plan ends with this key of a memory, and whether it has a value. */
+static bool end_memory(weight *m, const uint32_t *words, size_t size, tn_key *room, memory *end)
 {
     int64_t gain;
-    *rest = 0;
-    for (uint32_t i = 0; i < m->sum->count; i++)
-        if (m->sum->terms[i].kind == TN_SUM_MATCHES) {
-            *rest += m->parts[i]->accept[*words++] ? m->sum->terms[i].each : 0;
-            size--;
-        }
+    end->valued = true;
+    for (size_t i = 0; i < m->whole.count; i++) {
+        const tn_weighed_asked *asked = &m->whole.items[i];
+        bool yes = asked->dfa->accept[words[i]];
+        end->rest += yes ? asked->each : 0;
+        end->valued &= yes || !asked->needed;
+    }
     room->size = 0;
-    if (!tn_summing_step(&m->summing, words, size, m->summing.marker, room, &gain))
+    if (!tn_summing_step(&m->summing, words + m->whole.count, size - m->whole.count, m->summing.marker, room, &gain))
         return false;
-    *rest += gain + tn_summing_rest(&m->summing, room->data, room->size);
+    end->rest += gain + tn_summing_rest(&m->summing, room->data, room->size);
     return true;
 }
 
@@ -195,7 +198,7 @@ static tn_status remember(tn_weighed *w, weight *m, uint32_t *number, tn_error *
         return too_many(error);
     memory made = {0};
     if (!tn_array_reserve_from(&m->memories, &m->memory_room, 16, *number, 1, sizeof *m->memories) ||
-        !rest_of(m, w->next.data, w->next.size, &w->part, &made.rest))
+        !end_memory(m, w->next.data, w->next.size, &w->part, &made))
         return tn_fail_memory(error);
     m->memories[*number] = made;
     m->memory_count = (size_t)*number + 1;
@@ -208,8 +211,8 @@ static tn_status start_measure(tn_weighed *w, weight *m, uint32_t *number, tn_er
     int64_t gain;
     bool ok = true;
     w->next.size = w->part.size = 0;
-    for (uint32_t i = 0; ok && i < m->sum->count; i++)
-        ok = m->sum->terms[i].kind != TN_SUM_MATCHES || tn_key_push(&w->next, 0);
+    for (size_t i = 0; ok && i < m->whole.count; i++)
+        ok = tn_key_push(&w->next, 0);
     ok = ok && tn_summing_start(&m->summing, &w->part) &&
          tn_summing_step(&m->summing, w->part.data, w->part.size, m->summing.marker, &w->next, &gain);
     return ok ? remember(w, m, number, error) : tn_fail_memory(error);
@@ -227,9 +230,8 @@ static tn_status find_next(tn_weighed *w, weight *m, uint32_t number, uint32_t c
     const uint32_t *words = w->key.data, *end = words + size;
     bool ok = true;
     w->next.size = 0;
-    for (uint32_t i = 0; ok && i < m->sum->count; i++)
-        if (m->sum->terms[i].kind == TN_SUM_MATCHES)
-            ok = tn_key_push(&w->next, tn_dfa_read(m->parts[i], *words++, class));
+    for (size_t i = 0; ok && i < m->whole.count; i++)
+        ok = tn_key_push(&w->next, tn_dfa_read(m->whole.items[i].dfa, *words++, class));
     ok = ok &&
          tn_summing_step(&m->summing, words, (size_t)(end - words), m->summing.join.column[class], &w->next, &gain);
     tn_status status = ok ? remember(w, m, &to, error) : tn_fail_memory(error);
@@ -278,17 +280,39 @@ static tn_status make_start(tn_weighed *w, tn_error *error)
     return ok ? intern(w, &state, error) : tn_fail_memory(error);
 }
 
+static tn_status too_many_sums(tn_error *error)
+{
+    tn_fail(error, TN_LIMIT, E_TOO_MANY, "these measures are of more than %d sums: a quotient is of two",
+            TN_WEIGHED_MAX);
+    tn_error_help(error, "ask for fewer measures at a time");
+    return TN_LIMIT;
+}
+
 tn_status tn_weighed_new(const tn_library *library, const uint32_t *measures, uint32_t count, tn_weighed **out,
                          tn_error *error)
 {
     const tn_module *module = library->schema->module;
-    uint32_t sums[TN_WEIGHED_MAX];
+    uint32_t sums[TN_WEIGHED_MAX], total = 0;
     tn_string names[TN_WEIGHED_MAX];
+    bool over[TN_WEIGHED_MAX] = {0};
     for (uint32_t k = 0; k < count; k++) {
-        sums[k] = module->MEASURE_records[measures[k]].sum;
-        names[k] = module->MEASURE_records[measures[k]].name;
+        const tn_measure_record *measure = &module->MEASURE_records[measures[k]];
+        over[k] = measure->over != TN_NO_RECORD;
+        if (total + 1 + over[k] > TN_WEIGHED_MAX)
+            return too_many_sums(error);
+        sums[total] = measure->sum;
+        names[total++] = measure->name;
+        if (over[k])
+            sums[total] = measure->over;
+        if (over[k])
+            names[total++] = measure->name;
     }
-    return tn_weighed_of_sums(library, sums, names, count, out, error);
+    tn_status status = tn_weighed_of_sums(library, sums, names, total, out, error);
+    if (status != TN_OK)
+        return status;
+    (*out)->measures = count;
+    memcpy((*out)->over, over, sizeof over);
+    return TN_OK;
 }
 
 tn_status tn_weighed_of_sums(const tn_library *library, const uint32_t *sums, const tn_string *names, uint32_t count,
@@ -298,7 +322,7 @@ tn_status tn_weighed_of_sums(const tn_library *library, const uint32_t *sums, co
     if (!w)
         return tn_fail_memory(error);
     w->library = library;
-    w->count = count;
+    w->count = w->measures = count;
     for (uint32_t k = 0; k < count; k++)
         w->weights[k].name = names[k];
     w->live = calloc((size_t)library->kept->states + 1, 1);
@@ -324,6 +348,7 @@ void tn_weighed_free(tn_weighed *w)
         for (uint32_t i = 0; m->parts && i < m->sum->count; i++)
             tn_dfa_free(m->parts[i]);
         free(m->parts);
+        tn_weighed_whole_clear(&m->whole);
         for (size_t i = 0; i < m->memory_count; i++) {
             free(m->memories[i].next);
             free(m->memories[i].gain);
@@ -372,14 +397,52 @@ mpq_srcptr tn_weighed_unit(const tn_weighed *w, uint32_t measure)
     return w->weights[measure].sum->unit;
 }
 
-uint32_t tn_weighed_power(const tn_weighed *w, uint32_t measure)
-{
-    return w->weights[measure].sum->record->power;
-}
-
 int64_t tn_weighed_start(const tn_weighed *w, uint32_t measure)
 {
     return w->weights[measure].sum->constant;
+}
+
+uint32_t tn_weighed_measures(const tn_weighed *w)
+{
+    return w->measures;
+}
+
+uint32_t tn_weighed_sum(const tn_weighed *w, uint32_t measure, bool *over)
+{
+    uint32_t first = 0;
+    for (uint32_t k = 0; k < measure; k++)
+        first += 1 + w->over[k];
+    *over = w->over[measure];
+    return first;
+}
+
+int tn_weighed_power(const tn_weighed *w, uint32_t measure)
+{
+    bool over;
+    uint32_t sum = tn_weighed_sum(w, measure, &over);
+    int power = (int)w->weights[sum].sum->record->power;
+    return over ? power - (int)w->weights[sum + 1].sum->record->power : power;
+}
+
+void tn_weighed_value(const tn_weighed *w, uint32_t measure, const int64_t *values, mpq_t value)
+{
+    bool over;
+    uint32_t sum = tn_weighed_sum(w, measure, &over);
+    mpq_set_si(value, values[sum], 1);
+    mpq_mul(value, value, w->weights[sum].sum->unit);
+    if (!over)
+        return;
+    mpq_t divisor;
+    mpq_init(divisor);
+    mpq_set_si(divisor, values[sum + 1], 1);
+    mpq_mul(divisor, divisor, w->weights[sum + 1].sum->unit);
+    mpq_div(value, value, divisor);
+    mpq_clear(divisor);
+}
+
+bool tn_weighed_valued(const tn_weighed *w, uint32_t state)
+{
+    return w->nodes[state].valued;
 }
 
 int64_t tn_weighed_rest(const tn_weighed *w, uint32_t state, uint32_t measure)

@@ -8,7 +8,7 @@
 
 #include "runtime/plan/library/library.h"
 
-#define TN_WEIGHED_MAX 3 /* measures at a time */
+#define TN_WEIGHED_MAX 3 /* sums at a time: a measure is one, a quotient two */
 
 /* Trays alike: from a state they lead to one state and add the same. */
 typedef struct tn_weighed_edge {
@@ -22,7 +22,7 @@ typedef struct tn_weighed_edge {
 typedef struct tn_weighed tn_weighed;
 
 /* measures: indices of MEASURE records, of the library's schema. E0802 where they remember too much, E0424 where their
- * numbers are too fine. */
+ * numbers are too fine, E0831 where they are of more than TN_WEIGHED_MAX sums. */
 tn_status tn_weighed_new(const tn_library *library, const uint32_t *measures, uint32_t count, tn_weighed **weighed,
                          tn_error *error);
 
@@ -32,11 +32,19 @@ tn_status tn_weighed_of_sums(const tn_library *library, const uint32_t *sums, co
 void tn_weighed_free(tn_weighed *weighed);
 
 const tn_library *tn_weighed_library(const tn_weighed *weighed);
+
+/* ---- sums, in the order of the measures; of a quotient what is divided, then what it is divided by */
 uint32_t tn_weighed_count(const tn_weighed *weighed);
-const char *tn_weighed_name(const tn_weighed *weighed, uint32_t measure);
-mpq_srcptr tn_weighed_unit(const tn_weighed *weighed, uint32_t measure); /* a step, in nanometres to its power */
-uint32_t tn_weighed_power(const tn_weighed *weighed, uint32_t measure);
-int64_t tn_weighed_start(const tn_weighed *weighed, uint32_t measure); /* steps before the first tray */
+const char *tn_weighed_name(const tn_weighed *weighed, uint32_t sum);
+mpq_srcptr tn_weighed_unit(const tn_weighed *weighed, uint32_t sum); /* a step, in nanometres to its power */
+int64_t tn_weighed_start(const tn_weighed *weighed, uint32_t sum);   /* steps before the first tray */
+
+/* ---- measures */
+uint32_t tn_weighed_measures(const tn_weighed *weighed);
+uint32_t tn_weighed_sum(const tn_weighed *weighed, uint32_t measure, bool *over); /* its first; over: is it of two? */
+int tn_weighed_power(const tn_weighed *weighed, uint32_t measure);                /* of a length */
+/* Of a plan with these values of the sums, in nanometres to its power; `value` is initialised. */
+void tn_weighed_value(const tn_weighed *weighed, uint32_t measure, const int64_t *values, mpq_t value);
 
 /* TN_STOPPED where whoever waits for the answer has ended the work. */
 tn_status tn_weighed_check(const tn_weighed *weighed, tn_error *error);
@@ -48,8 +56,11 @@ tn_status tn_weighed_edges(tn_weighed *weighed, uint32_t state, const tn_weighed
 /* Does a kept plan follow with so many trays to come? */
 bool tn_weighed_alive(const tn_weighed *weighed, uint32_t left, uint32_t state);
 
+/* Has a plan that ends in the state a value of each measure? */
+bool tn_weighed_valued(const tn_weighed *weighed, uint32_t state);
+
 /* What is added where the plan ends in the state. */
-int64_t tn_weighed_rest(const tn_weighed *weighed, uint32_t state, uint32_t measure);
+int64_t tn_weighed_rest(const tn_weighed *weighed, uint32_t state, uint32_t sum);
 
 /* The trays of the schema by letters: trays of one letter are alike in every state. */
 uint32_t tn_weighed_letter(const tn_weighed *weighed, tn_tray tray);

@@ -132,6 +132,8 @@ static tn_status visit_sum(tn_class_finder *finder, uint32_t index, tn_error *er
     tn_status status = tn_sum_new(finder->schema, index, &sum, error);
     for (uint32_t i = 0; status == TN_OK && i < sum->count; i++) {
         status = push_function(finder, sum->terms[i].part, error);
+        if (status == TN_OK && sum->terms[i].other != TN_NO_RECORD)
+            status = push_function(finder, sum->terms[i].other, error);
         if (status == TN_OK && sum->terms[i].weight)
             status = look_at_trays(finder, error);
         if (status == TN_OK && sum->terms[i].weight && !split_by_weight(finder, sum->terms[i].weight))

@@ -22,6 +22,35 @@ tn_sum_region tn_term_region(uint32_t kind)
     return before ? TN_REGION_BEFORE : after ? TN_REGION_AFTER : TN_REGION_STRETCH;
 }
 
+bool tn_term_is_gap(uint32_t kind)
+{
+    return kind == TN_SUM_LONGEST_GAP || kind == TN_SUM_SHORTEST_GAP;
+}
+
+bool tn_term_of_whole(uint32_t kind)
+{
+    return kind == TN_SUM_MATCHES || kind == TN_SUM_NEEDED || tn_term_is_gap(kind);
+}
+
+bool tn_measure_partial(const tn_module *module, uint32_t measure)
+{
+    const tn_measure_record *record = &module->MEASURE_records[measure];
+    const tn_sum_record *sum = &module->SUM_records[record->sum];
+    bool partial = record->over != TN_NO_RECORD;
+    for (uint32_t i = 0; i < sum->term_count; i++) {
+        uint32_t kind = module->TERM_records[sum->term_first + i].kind;
+        partial |= kind == TN_SUM_NEEDED || tn_term_is_gap(kind);
+    }
+    return partial;
+}
+
+int tn_measure_power(const tn_module *module, uint32_t measure)
+{
+    const tn_measure_record *record = &module->MEASURE_records[measure];
+    int power = (int)module->SUM_records[record->sum].power;
+    return record->over == TN_NO_RECORD ? power : power - (int)module->SUM_records[record->over].power;
+}
+
 /* ---- what a tray counts */
 
 /* A number on the stack. What has divided by zero has no value; nor has what is made of it. */
@@ -204,9 +233,11 @@ static void number(const tn_sum *sum, walk *w, uint32_t i, tn_tray t)
     mpq_mul(w->value, w->value, w->factor);
 }
 
+/* What is needed counts nothing. */
 static tn_tray numbers(const tn_sum *sum, uint32_t i)
 {
-    return term_of(sum, i)->tally == TN_NO_RECORD ? 1 : sum->schema->tray_count;
+    const tn_term_record *term = term_of(sum, i);
+    return term->kind == TN_SUM_NEEDED ? 0 : term->tally == TN_NO_RECORD ? 1 : sum->schema->tray_count;
 }
 
 static void constant(const tn_sum *sum, walk *w)
@@ -298,8 +329,10 @@ static tn_status fill(tn_sum *sum, walk *w, tn_error *error)
     for (uint32_t i = 0; i < sum->count; i++) {
         const tn_term_record *record = term_of(sum, i);
         tn_sum_term *term = &sum->terms[i];
-        *term = (tn_sum_term){
-            .kind = tn_term_counts(record->kind), .region = tn_term_region(record->kind), .part = record->part};
+        *term = (tn_sum_term){.kind = tn_term_counts(record->kind),
+                              .region = tn_term_region(record->kind),
+                              .part = record->part,
+                              .other = record->other};
         mpq_set_str(w->factor, tn_text(sum->schema->module, record->factor), 10);
         if (record->tally != TN_NO_RECORD &&
             !(term->weight = calloc((size_t)sum->schema->tray_count + 1, sizeof *term->weight)))

@@ -15,10 +15,11 @@
 typedef enum tn_sum_region { TN_REGION_STRETCH, TN_REGION_BEFORE, TN_REGION_AFTER } tn_sum_region;
 
 typedef struct tn_sum_term {
-    tn_sum_kind kind; /* SINGLES, STARTS, MATCHES or PRESENT */
+    tn_sum_kind kind; /* SINGLES, STARTS, MATCHES, PRESENT, NEEDED or a gap */
     tn_sum_region region;
     uint32_t part;   /* a rule function */
-    int64_t each;    /* steps of each place; singles: where `weight` is NULL */
+    uint32_t other;  /* of gaps: where they lead, a rule function */
+    int64_t each;    /* steps of each place; singles, and trays of a gap: where `weight` is NULL */
     int64_t *weight; /* [trays]: steps of each tray, or NULL */
 } tn_sum_term;
 
@@ -34,6 +35,14 @@ typedef struct tn_sum {
 /* What the kind of a TERM record says: what is counted, and where. */
 tn_sum_kind tn_term_counts(uint32_t kind);
 tn_sum_region tn_term_region(uint32_t kind);
+bool tn_term_is_gap(uint32_t kind);
+bool tn_term_of_whole(uint32_t kind); /* it is asked of whole plans only */
+
+/* May a plan have no value of the MEASURE record: a quotient by 0, the greatest number of nothing? */
+bool tn_measure_partial(const tn_module *module, uint32_t measure);
+
+/* To which power of a length a MEASURE record is: below 0 of `number / length`. */
+int tn_measure_power(const tn_module *module, uint32_t measure);
 
 /* Makes the SUM record ready. E0419 (TN_INVALID) where it divides by zero for a tray that it counts, E0424 (TN_LIMIT)
  * where its numbers have no common step that is coarse enough. */

@@ -36,13 +36,17 @@ static tn_status check_term(const tn_checker *checker, uint32_t schema, uint32_t
     const tn_term_record *term = &module->TERM_records[index];
     if (!is_rational(module, term->factor) || strcmp(tn_text(module, term->factor), "0") == 0)
         return tn_refuse(checker, "term %u has no factor, or 0", index);
-    tn_function_kind wanted = term->kind == TN_SUM_MATCHES ? TN_FUNCTION_HOLDS : TN_FUNCTION_WHOLE;
+    bool gap = tn_term_is_gap(term->kind);
+    tn_function_kind wanted =
+        term->kind == TN_SUM_MATCHES || term->kind == TN_SUM_NEEDED ? TN_FUNCTION_HOLDS : TN_FUNCTION_WHOLE;
     if (!is_of(module, term->part, wanted, schema))
         return tn_refuse(checker, "term %u names a function of another kind or schema", index);
+    if (gap != (term->other != TN_NO_RECORD) || (gap && !is_of(module, term->other, TN_FUNCTION_WHOLE, schema)))
+        return tn_refuse(checker, "term %u leads to a function of another kind or schema", index);
     if (term->kind == TN_SUM_PRESENT && !is_specifier(module, term->part))
         return tn_refuse(checker, "term %u asks for more than a tray of its own", index);
-    if (term->tally != TN_NO_RECORD &&
-        (tn_term_counts(term->kind) != TN_SUM_SINGLES || !is_of(module, term->tally, TN_FUNCTION_TALLY, schema)))
+    if (term->tally != TN_NO_RECORD && ((tn_term_counts(term->kind) != TN_SUM_SINGLES && !gap) ||
+                                        !is_of(module, term->tally, TN_FUNCTION_TALLY, schema)))
         return tn_refuse(checker, "term %u has a tally of another kind or schema", index);
     return TN_OK;
 }
@@ -94,16 +98,23 @@ static tn_status check_measure_names(const tn_checker *checker)
 }
 
 /* A measure is of the plan, which nothing lies before or behind. */
-static tn_status check_measure(const tn_checker *checker, size_t i)
+static tn_status check_measure_sum(const tn_checker *checker, size_t i, uint32_t index)
 {
     const tn_module *module = checker->module;
-    const tn_sum_record *sum = &module->SUM_records[module->MEASURE_records[i].sum];
+    const tn_sum_record *sum = &module->SUM_records[index];
     if (sum->schema != module->MEASURE_records[i].schema)
         return tn_refuse(checker, "measure %zu names a sum of another schema", i);
     for (uint32_t t = 0; t < sum->term_count; t++)
         if (tn_term_region(module->TERM_records[sum->term_first + t].kind) != TN_REGION_STRETCH)
             return tn_refuse(checker, "measure %zu counts what lies around a stretch", i);
     return TN_OK;
+}
+
+static tn_status check_measure(const tn_checker *checker, size_t i)
+{
+    const tn_measure_record *measure = &checker->module->MEASURE_records[i];
+    tn_status status = check_measure_sum(checker, i, measure->sum);
+    return status == TN_OK && measure->over != TN_NO_RECORD ? check_measure_sum(checker, i, measure->over) : status;
 }
 
 static tn_status verify(const tn_checker *checker)
@@ -138,7 +149,7 @@ static tn_status check_summed(const tn_checker *checker, const tn_instruction *i
         return tn_refuse(checker, "sum %u is of another schema", (unsigned)instruction->first);
     for (uint32_t i = 0; i < sum->term_count; i++) {
         const tn_term_record *term = &module->TERM_records[sum->term_first + i];
-        if (term->kind == TN_SUM_MATCHES)
+        if (tn_term_of_whole(term->kind))
             return tn_refuse(checker, "sum %u is compared, and speaks of the whole plan", (unsigned)instruction->first);
         if (term->part >= checker->record)
             return tn_refuse(checker, "sum %u has function %u, which is not a lower one", (unsigned)instruction->first,
@@ -183,6 +194,8 @@ void tn_list_sum(tn_lister *lister, uint32_t index)
         const tn_term_record *term = &module->TERM_records[sum->term_first + i];
         fprintf(lister->out, " + %s %s of function %u", tn_text(module, term->factor), tn_names_SUM_KIND[term->kind],
                 term->part);
+        if (term->other != TN_NO_RECORD)
+            fprintf(lister->out, " to function %u", term->other);
         if (term->tally != TN_NO_RECORD)
             fprintf(lister->out, " by function %u", term->tally);
     }
@@ -222,6 +235,10 @@ static void list(tn_lister *lister)
         tn_list_doc(lister, measure->doc);
         fputs(": ", lister->out);
         tn_list_sum(lister, measure->sum);
+        if (measure->over != TN_NO_RECORD) {
+            fputs(" over ", lister->out);
+            tn_list_sum(lister, measure->over);
+        }
         tn_list_place(lister, measure->file, measure->begin);
     }
 }
