@@ -207,8 +207,21 @@ static tn_status read_counted(reading *r, tn_part_kind kind, uint32_t offset, co
     return wrap(r, made, 1);
 }
 
+/* Is the call a case of a comparison, `max(X of a) <= K` or `matches(a) > 0`: of a function that is written in it? */
+static bool is_case(const reading *r, uint32_t offset, const tn_instruction *code)
+{
+    const tn_function_record *callee = &r->module->FUNCTION_records[code->first];
+    const tn_source_map_record *outer = tn_module_place(r->module, offset),
+                               *inner = tn_module_place(r->module, callee->code_begin);
+    return code->opcode == TN_OP_CALL && callee->kind == TN_FUNCTION_HOLDS &&
+           tn_function_rule(r->module, (uint32_t)code->first) == UINT32_MAX && outer && inner &&
+           outer->file == inner->file && outer->begin <= inner->begin && inner->end <= outer->end;
+}
+
 static tn_status read_call(reading *r, uint32_t offset, const tn_instruction *code)
 {
+    if (is_case(r, offset, code))
+        return push(r, leaf(TN_PART_COMPARISON, offset, code->length));
     tn_part made = leaf(code->opcode == TN_OP_CALL ? TN_PART_RULE : TN_PART_KIND_COUNT, offset, code->length);
     made.function = (uint32_t)code->first;
     made.rule = tn_function_rule(r->module, made.function);
