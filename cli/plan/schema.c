@@ -105,6 +105,7 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS schema_settings
 static const tn_option options[] = {
     FLAG("used", 0, used, "also the rules, libraries and measures of files that it uses"),
+    OPTION_SET,
     FLAG("json", 0, json, "write JSON"),
 };
 

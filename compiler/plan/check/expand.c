@@ -22,7 +22,9 @@ tn_bound_name tn_bound(const tn_rule_expansion *expansion, const tn_ast_word *wo
     const tn_checked_name *name = check->has_lets ? tn_names_get(&check->names, word->text) : NULL;
     if (!name || !name->rule || !name->rule->is_let || !tn_import_reaches(check->imports, expansion->unit, name->unit))
         return (tn_bound_name){0};
-    return (tn_bound_name){.word = word, .value = tn_let_value(expansion->check, name->rule), .let = name->rule};
+    tn_bound_name bound = {.word = word, .value = tn_let_value(expansion->check, name->rule), .let = name->rule};
+    expansion->check->met_param |= name->rule->settable;
+    return bound;
 }
 
 /* ---- does anything have to be written out? */
@@ -192,11 +194,11 @@ static tn_ast_expr *expand_quantifier(tn_rule_expansion *expansion, const tn_ast
     return joined(expansion, expr->kind == TN_EXPR_SOME ? TN_EXPR_OR : TN_EXPR_AND, expr, parts);
 }
 
-/* A comparison with the value of a quantifier: decided at once. NULL where none is. */
+/* A comparison with the value of a quantifier, or with the word of a param: decided at once. NULL where none is. */
 static tn_ast_expr *decide(tn_rule_expansion *expansion, const tn_ast_expr *expr)
 {
     tn_expr_kind decided;
-    if (!tn_decide_values(expansion, expr, &decided))
+    if (!tn_decide_words(expansion, expr, &decided) && !tn_decide_values(expansion, expr, &decided))
         return NULL;
     tn_ast_expr *made = shallow(expansion, expr);
     if (made) {
@@ -326,7 +328,11 @@ static tn_checked_rule *instance(tn_rule_expansion *expansion, const tn_ast_expr
         inner.bindings = &bindings[count++];
         argument = (tn_ast_expr *)argument->node.next;
     }
+    bool met = check->met_param;
+    check->met_param = false;
     rule->ast->body = expand(&inner, of->written);
+    rule->settable = check->met_param;
+    check->met_param |= met;
     if (!rule->ast->body || tn_arena_failed(check->arena))
         rule->ast->body = of->written;
     check->open = rule->outer;
@@ -451,6 +457,8 @@ static tn_ast_expr *expand_name(tn_rule_expansion *expansion, const tn_ast_expr 
     tn_bound_name bound = tn_bound(expansion, expr->name);
     if (bound.let && !bound.value) /* it uses itself */
         return broken(expansion, expr);
+    if (tn_refuse_words(expansion, bound, expr->node.span))
+        return broken(expansion, expr);
     if (bound.value && expansion->number && bound.field && bound.field->ordered)
         return tn_place_expression(expansion, bound.field, bound.value);
     if (bound.value && (bound.value->kind == TN_EXPR_FIGURE || (bound.let && is_word_value(expansion, bound.value)))) {
@@ -518,6 +526,8 @@ static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr
         tn_bound_name bound = tn_bound(expansion, expr->name);
         if (!bound.value)
             break;
+        if (tn_refuse_words(expansion, bound, expr->node.span))
+            return broken(expansion, expr);
         if (bound.value->kind == TN_EXPR_NAME && !bound.let) { /* a field, for a parameter */
             tn_ast_expr *field = shallow(expansion, expr);
             if (field)
@@ -555,8 +565,8 @@ static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr
 
 static void report_let_circle(tn_check *check, const tn_checked_rule *let)
 {
-    tn_diagnostic *d =
-        tn_report(check->diagnostics, E_RULE_CYCLE, let->ast->name->node.span, "`let %s` uses itself", let->name);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_CYCLE, let->ast->name->node.span, "`%s %s` uses itself",
+                                 let->param ? "param" : "let", let->name);
     tn_help(check->diagnostics, d, "write out what it means: constants, or values of a field");
 }
 
@@ -570,9 +580,15 @@ tn_ast_expr *tn_let_value(tn_check *check, tn_checked_rule *let)
     if (let->state != UNSEEN)
         return let->meaning;
     let->state = OPEN;
-    tn_rule_expansion expansion = {.check = check, .unit = let->unit};
-    tn_ast_expr *meaning = expand(&expansion, let->ast->body);
-    let->meaning = let->failed ? broken(&expansion, let->ast->body) : meaning;
+    const tn_ast_rule *ast = let->ast;
+    tn_rule_expansion expansion = {.check = check, .unit = ast->given ? ast->given_unit : let->unit};
+    const tn_ast_expr *value = ast->given ? ast->given : ast->body;
+    bool met = check->met_param;
+    check->met_param = false;
+    tn_ast_expr *meaning = ast->words.first ? shallow(&expansion, value) : expand(&expansion, value);
+    let->meaning = let->failed ? broken(&expansion, value) : meaning;
+    let->settable = let->param || check->met_param;
+    check->met_param = met;
     let->state = DONE;
     return let->meaning;
 }
