@@ -80,7 +80,8 @@ static tn_ast_expr *shallow(tn_rule_expansion *expansion, const tn_ast_expr *exp
     copy->sum = copy->high = NULL;
     copy->condition_checked = NULL;
     copy->tests = tn_ast_empty();
-    copy->whole = copy->resolved = false;
+    copy->whole = copy->resolved = copy->settable = false;
+    copy->idle = tn_ast_empty();
     return copy;
 }
 
@@ -111,12 +112,39 @@ static bool count_expansion(tn_check *check, tn_span span)
 
 /* ---- quantifiers */
 
+/* What a param decides leaves the other parts out, which mean something with another value: they are kept to be
+ * checked. Moves them from `parts`, but for `decides` (or NULL), to the end of a list. */
+static tn_ast_list leave_out(tn_ast_list kept, tn_ast_list parts, const tn_ast_expr *decides)
+{
+    for (tn_ast_node *node = parts.first, *next; node; node = next) {
+        tn_ast_expr *part = (tn_ast_expr *)node;
+        next = node->next;
+        node->next = NULL;
+        kept = tn_ast_join(kept, part->idle);
+        if (part != decides && part->kind != TN_EXPR_TRUE && part->kind != TN_EXPR_FALSE)
+            kept = tn_ast_append(kept, part);
+        part->idle = tn_ast_empty();
+    }
+    return kept;
+}
+
+/* The same, where a part of it is decided by a param. */
+static tn_ast_expr *decided_by_param(tn_ast_expr *result, tn_expr_kind kind, tn_ast_list parts, tn_ast_list kept,
+                                     const tn_ast_expr *decides)
+{
+    result->kind = kind;
+    result->settable = true;
+    result->parts = tn_ast_empty();
+    result->idle = leave_out(kept, parts, decides);
+    return result;
+}
+
 /* An `and` or `or` without the parts that change nothing; what is decided already is decided. */
 static tn_ast_expr *joined(tn_rule_expansion *expansion, tn_expr_kind kind, const tn_ast_expr *place, tn_ast_list parts)
 {
     tn_expr_kind decides = kind == TN_EXPR_OR ? TN_EXPR_TRUE : TN_EXPR_FALSE,
                  idle = kind == TN_EXPR_OR ? TN_EXPR_FALSE : TN_EXPR_TRUE;
-    tn_ast_list left = tn_ast_empty();
+    tn_ast_list left = tn_ast_empty(), kept = tn_ast_empty();
     tn_ast_expr *result = shallow(expansion, place);
     if (!result)
         return NULL;
@@ -125,7 +153,14 @@ static tn_ast_expr *joined(tn_rule_expansion *expansion, tn_expr_kind kind, cons
     for (tn_ast_node *node = parts.first, *next; node; node = next) {
         tn_ast_expr *part = (tn_ast_expr *)node;
         next = node->next;
+        if (part->kind == decides && part->settable)
+            return decided_by_param(result, decides, (tn_ast_list){node, parts.last, parts.count},
+                                    tn_ast_join(kept, left), part);
         node->next = NULL;
+        if (part->kind == idle) {
+            kept = tn_ast_join(kept, part->idle);
+            result->settable |= part->settable;
+        }
         if (part->kind == decides) {
             result->kind = decides;
             result->parts = tn_ast_empty();
@@ -134,11 +169,35 @@ static tn_ast_expr *joined(tn_rule_expansion *expansion, tn_expr_kind kind, cons
         if (part->kind != idle)
             left = tn_ast_append(left, part);
     }
-    if (left.count == 1)
-        return (tn_ast_expr *)left.first;
+    if (left.count == 1) {
+        tn_ast_expr *only = (tn_ast_expr *)left.first;
+        only->idle = tn_ast_join(only->idle, kept);
+        return only;
+    }
     result->kind = left.count ? kind : idle;
     result->parts = left;
+    result->idle = kept;
     return result;
+}
+
+static bool by_param(const tn_ast_expr *part)
+{
+    return part && part->settable && (part->kind == TN_EXPR_TRUE || part->kind == TN_EXPR_FALSE);
+}
+
+/* `not a` and `a implies b` where a param decides a. NULL: none does. */
+static tn_ast_expr *folded(tn_ast_expr *expr, tn_ast_list parts)
+{
+    tn_ast_expr *first = (tn_ast_expr *)parts.first, *last = (tn_ast_expr *)parts.last;
+    bool implies = expr->kind == TN_EXPR_IMPLIES && parts.count == 2;
+    if ((!implies && expr->kind != TN_EXPR_NOT) || !by_param(first))
+        return NULL;
+    bool holds = first->kind == TN_EXPR_TRUE;
+    if (implies && holds) {
+        last->idle = tn_ast_join(last->idle, first->idle);
+        return last;
+    }
+    return decided_by_param(expr, implies || !holds ? TN_EXPR_TRUE : TN_EXPR_FALSE, parts, tn_ast_empty(), first);
 }
 
 static bool bound_names_good(tn_rule_expansion *expansion, const tn_ast_expr *quantifier)
@@ -198,11 +257,13 @@ static tn_ast_expr *expand_quantifier(tn_rule_expansion *expansion, const tn_ast
 static tn_ast_expr *decide(tn_rule_expansion *expansion, const tn_ast_expr *expr)
 {
     tn_expr_kind decided;
-    if (!tn_decide_words(expansion, expr, &decided) && !tn_decide_values(expansion, expr, &decided))
+    bool words = tn_decide_words(expansion, expr, &decided);
+    if (!words && !tn_decide_values(expansion, expr, &decided))
         return NULL;
     tn_ast_expr *made = shallow(expansion, expr);
     if (made) {
         made->kind = decided;
+        made->settable = words;
         made->parts = tn_ast_empty();
     }
     return made;
@@ -559,6 +620,9 @@ static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr
         return copy;
     if (expr->kind == TN_EXPR_AND || expr->kind == TN_EXPR_OR)
         return joined(expansion, expr->kind, expr, parts);
+    tn_ast_expr *decided = folded(copy, parts);
+    if (decided)
+        return decided;
     copy->parts = parts;
     return copy;
 }

@@ -202,10 +202,12 @@ typedef struct tn_ast_expr {
     tn_sum_amount figure_amount; /* checked: sum: the dimension of what it adds up */
     tn_ast_list tests;           /* checked: tray: comparisons of its numbers */
     bool resolved;               /* checked: its name has been looked up */
-    bool from_sum;               /* checked: a condition on a sum, written out */
-    bool whole;                  /* checked: speaks of the whole plan, whatever it stands in */
-    uint32_t field;              /* checked: of a sum */
-    uint32_t function;           /* emitted: of what a symmetric mirrors, plus one; 0: not yet */
+    bool settable;     /* written out: TRUE or FALSE with this value of a param, and perhaps not with another */
+    tn_ast_list idle;  /* written out: what such a value leaves out, tn_ast_expr: it is checked all the same */
+    bool from_sum;     /* checked: a condition on a sum, written out */
+    bool whole;        /* checked: speaks of the whole plan, whatever it stands in */
+    uint32_t field;    /* checked: of a sum */
+    uint32_t function; /* emitted: of what a symmetric mirrors, plus one; 0: not yet */
     uint32_t part_whole, part_holds, tally; /* emitted: of a sum's part or figure, plus one; 0: not yet */
 } tn_ast_expr;
 
