@@ -147,6 +147,22 @@ cat "$scratch/written" >>"$scratch/untested.plan"
 exits 0 "$TARTAN" test "$scratch/untested.plan"
 golden coverage "tartan test $lots -l fitting --coverage | grep -A1 'lot\\|side'"
 
+# They are listed, and programs say which they have.
+golden listed "tartan schema $lots --set lot=9m | grep ^param"
+golden listed_json "tartan schema $lots --json | sed -n '/\"params\"/,\$p'"
+cat >"$scratch/halls.plan" <<'END'
+schema row {
+  use = hall | room
+}
+param side = left | right
+rule ends = side = right and neighbour(beginning, tray(hall))
+library halls {
+  trays 1..3
+  prune ends
+}
+END
+golden prolog "tartan export $scratch/halls.plan --prolog --set side=right | grep -v '^\$' | sed -n '1,2p; /^ends/p'"
+
 # Params of files that are used.
 cat >"$scratch/main.plan" <<'END'
 use "lots.plan"

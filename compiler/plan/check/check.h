@@ -422,6 +422,7 @@ void tn_check_let(tn_check *check, const tn_ast_expr *value);
 /* ---- param.c */
 void tn_check_param(tn_check *check, tn_checked_rule *param); /* what it is, and its range; once */
 void tn_check_settings(tn_check *check);                      /* those of the command line: they are given already */
+void tn_check_list_params(tn_check *check);                   /* for the program */
 /* Is what stands in a schema the name of a param? Then that is reported. */
 bool tn_refuse_param(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word);
 void tn_check_with(tn_check *check, const tn_ast_test *test); /* those of a test in check->unit */

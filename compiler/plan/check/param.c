@@ -404,3 +404,38 @@ void tn_check_settings(tn_check *check)
         name->rule->failed = false;
     }
 }
+
+/* ---- for whoever lists them */
+
+static void list_param(tn_check *check, const tn_ast_rule *ast, bool imported, tn_program_param *to)
+{
+    const tn_ast_expr *value = ast->given ? ast->given : ast->body;
+    *to = (tn_program_param){.name = ast->name->text,
+                             .doc = ast->doc ? ast->doc->text : NULL,
+                             .value = text_of(check, value->node.span),
+                             .imported = imported};
+    if (ast->low) {
+        to->least = text_of(check, ast->low->node.span);
+        to->most = text_of(check, ast->high->node.span);
+    }
+    to->words = ast->words.first ? TN_NEW_ARRAY(check->arena, const char *, ast->words.count) : NULL;
+    for (TN_EACH(const tn_ast_word, word, ast->words))
+        if (to->words)
+            to->words[to->word_count++] = word->text;
+}
+
+void tn_check_list_params(tn_check *check)
+{
+    const tn_imports *imports = check->imports;
+    size_t count = 0;
+    for (size_t u = 0; u < imports->count; u++)
+        for (TN_EACH(const tn_ast_top, item, ((const tn_ast_file *)imports->units[u]->tree)->items))
+            count += item->kind == TN_ITEM_PARAM;
+    tn_program *program = check->result->program;
+    program->params = TN_NEW_ARRAY(check->arena, tn_program_param, count);
+    for (size_t u = 0; program->params && u < imports->count; u++)
+        for (TN_EACH(const tn_ast_top, item, ((const tn_ast_file *)imports->units[u]->tree)->items))
+            if (item->kind == TN_ITEM_PARAM)
+                list_param(check, (const tn_ast_rule *)item, u + 1 < imports->count,
+                           &program->params[program->param_count++]);
+}

@@ -48,6 +48,16 @@ typedef struct tn_allowance {
     uint32_t code; /* a tn_code */
 } tn_allowance;
 
+/* A param, in its author's words. */
+typedef struct tn_program_param {
+    const char *name, *doc;   /* doc: or NULL */
+    const char *value;        /* that it has here: its default, or what it was given */
+    const char *least, *most; /* its range, or NULL */
+    const char **words;       /* which it is one of, or NULL: a constant */
+    size_t word_count;
+    bool imported;
+} tn_program_param;
+
 typedef struct tn_program {
     const tn_test_block *tests;
     size_t test_count;
@@ -56,6 +66,8 @@ typedef struct tn_program {
     const tn_span
         *settable; /* rules and clauses that depend on params: what is always so may be otherwise with others */
     size_t settable_count;
+    tn_program_param *params; /* in the order of the files and of the text */
+    size_t param_count;
     uint32_t *pattern; /* an open plan's trays: the function (of M) of each; TN_NO_RECORD: any number of trays */
     size_t pattern_count;
     const uint8_t *plan; /* a plan in brackets, [tray][field] as in tn_test_case; NULL: none was asked about */
