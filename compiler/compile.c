@@ -3,6 +3,16 @@
 
 #include <stdlib.h>
 
+/* Values are given to params of a text that can have none. */
+static tn_status refuse_settings(tn_compilation *compilation, const tn_compile_options *options)
+{
+    tn_diagnostic *d =
+        tn_report_bare(&compilation->diagnostics, TN_ERROR, E_USAGE, "--set %.200s: %.200s has no params",
+                       options->params.items[0], compilation->input->name);
+    tn_help(&compilation->diagnostics, d, "only .plan files have them: leave --set out");
+    return TN_INVALID;
+}
+
 tn_status tn_compile_text(const tn_notation *notation, const tn_input *input, const tn_compile_options *options,
                           tn_compilation *compilation)
 {
@@ -16,7 +26,9 @@ tn_status tn_compile_text(const tn_notation *notation, const tn_input *input, co
                            : tn_fail_memory(&error);
     if (status == TN_OK)
         status = tn_watch_check(options->watch, &error);
-    if (status == TN_OK)
+    if (status == TN_OK && options->params.count > 0 && !notation->front->settable)
+        status = refuse_settings(compilation, options);
+    else if (status == TN_OK)
         status = notation->front->compile(compilation, options, &error);
     if (status != TN_OK && status != TN_INVALID && tn_watch_stopped(options->watch))
         status = tn_fail_stopped(options->watch, &error); /* a front end takes that for want of memory */

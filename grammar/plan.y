@@ -70,7 +70,8 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token <word> DECIMAL "a decimal number"
 %token MEASURE "`measure`" LET "`let`" NUMBER_FIELD "`number`" WHERE "`where`" MATCHES "`matches`" SOME "`some`" EVERY "`every`"
 %token IMPLIES "`implies`" GAP "`gap`" WITHIN "`within`" LEAST "`least`" BEFORE "`before`" AFTER "`after`" PLAN "`plan`" MIN "`min`" MAX "`max`" VALUE "`value`"
-%token ONE_EXPRESSION "an expression" ONE_PATTERN "an open plan" ONE_LITERAL "a plan"
+%token ONE_EXPRESSION "an expression" ONE_PATTERN "an open plan" ONE_LITERAL "a plan" ONE_SETTING "the value of a param"
+%token PARAM "`param`" WITH "`with`"
 %token PLUS "`+`" STAR "`*`" SLASH "`/`" ELLIPSIS "`...`" QUESTION "`?`"
 %token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
 %token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
@@ -112,7 +113,8 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <expr> expression implied qualified disjunction ors and ands not compared comparable nearness additive term signed primary pattern_tray head_number
 %type <expr> part tray_sum tray_term tray_signed tray_atom
 %type <list> params number_cases pattern call_args
-%type <node> number_item number_case
+%type <node> number_item number_case setting
+%type <list> param_words with settings
 
 %%
 
@@ -121,6 +123,7 @@ file
     | ONE_EXPRESSION expression                 { parse->result->expression = $2; }
     | ONE_PATTERN pattern                       { parse->result->pattern = $2; }
     | ONE_LITERAL plan                          { parse->result->literal = $2; }
+    | ONE_SETTING setting                       { parse->result->setting = $2; }
     ;
 
 items
@@ -134,6 +137,10 @@ item
     | schema NAME doc from OPEN_BRACE body CLOSE_BRACE
                                                 { $$ = tn_ast_schema_new(parse, @$, $2, $3, $4, $6); }
     | let NAME EQUAL expression                 { $$ = tn_ast_let_new(parse, @$, $2, $4); }
+    | param NAME doc EQUAL additive             { $$ = tn_ast_param_new(parse, @$, (tn_ast_rule){.name = $2, .doc = $3}, $5); }
+    | param NAME doc EQUAL additive IN additive DOTS additive
+                                                { $$ = tn_ast_param_new(parse, @$, (tn_ast_rule){.name = $2, .doc = $3, .low = $7, .high = $9}, $5); }
+    | param NAME doc EQUAL param_words          { $$ = tn_ast_param_new(parse, @$, (tn_ast_rule){.name = $2, .doc = $3, .words = $5}, NULL); }
     | measure NAME doc using EQUAL additive     { $$ = tn_ast_measure_new(parse, @$, $2, $3, $4, $6); }
     | rule_head EQUAL expression                { $$ = tn_ast_rule_new(parse, @$, $1, $3); }
     | rule_head EQUAL error                     { $$ = tn_ast_rule_new(parse, @1, $1, NULL); }
@@ -141,10 +148,12 @@ item
                                                 { $$ = tn_ast_library_new(parse, @$, $1, $3); }
     | form_head OPEN_BRACE form_clauses CLOSE_BRACE
                                                 { $$ = tn_ast_form_new(parse, @$, $1, $3); }
-    | test names OPEN_BRACE cases CLOSE_BRACE   { $$ = tn_ast_test_new(parse, @$, $2, $4); }
+    | test names with OPEN_BRACE cases CLOSE_BRACE
+                                                { $$ = tn_ast_test_new(parse, @$, $2, $3, $5); }
     ;
 
 let: LET                                        { yyerrok; };
+param: PARAM                                    { yyerrok; };
 measure: MEASURE                                { yyerrok; };
 
 use: USE                                        { yyerrok; };
@@ -162,6 +171,26 @@ doc
 names
     : NAME                                      { $$ = tn_ast_one($1); }
     | names COMMA NAME                          { $$ = tn_ast_append($1, $3); }
+    ;
+
+param_words
+    : NAME BAR NAME                             { $$ = tn_ast_append(tn_ast_one($1), $3); }
+    | param_words BAR NAME                      { $$ = tn_ast_append($1, $3); }
+    ;
+
+/* What params have for the cases of a test. */
+with
+    : %empty                                    { $$ = tn_ast_empty(); }
+    | WITH settings                             { $$ = $2; }
+    ;
+
+settings
+    : setting                                   { $$ = tn_ast_one($1); }
+    | settings COMMA setting                    { $$ = tn_ast_append($1, $3); }
+    ;
+
+setting
+    : NAME EQUAL additive                       { $$ = tn_ast_setting_new(parse, @$, $1, $3); }
     ;
 
 /* ---- schemas */
@@ -1007,7 +1036,8 @@ static bool is_rare(const tn_parse *parse, yysymbol_kind_t kind, int before)
 {
     bool named_range = kind == YYSYMBOL_DOTS && before == TN_PLAN_NAME;
     bool order = kind == YYSYMBOL_LESS && parse->mode == TN_LEX_SCHEMA;
-    return named_range || order;
+    bool values = kind == YYSYMBOL_WITH;
+    return named_range || order || values;
 }
 
 static int yyreport_syntax_error(const yypcontext_t *context, tn_parse *parse, void *scanner)
@@ -1041,7 +1071,7 @@ static tn_ast_file *parse_source(tn_arena *arena, tn_diagnostics *diagnostics, u
     yyscan_t scanner;
     parse.offset = (uint32_t)tn_text_mark(source->text, source->size);
     static const int first[] = {[TN_PARSE_FILE] = 0, [TN_PARSE_EXPRESSION] = TN_PLAN_ONE_EXPRESSION, [TN_PARSE_PATTERN] = TN_PLAN_ONE_PATTERN,
-                                [TN_PARSE_LITERAL] = TN_PLAN_ONE_LITERAL};
+                                [TN_PARSE_LITERAL] = TN_PLAN_ONE_LITERAL, [TN_PARSE_SETTING] = TN_PLAN_ONE_SETTING};
     parse.held_token = first[what];
     parse.held_span = (tn_span){file, parse.offset, parse.offset};
     size_t size = source->size - parse.offset;

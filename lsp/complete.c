@@ -165,10 +165,32 @@ static void offer_fields(tn_lsp_cursor *c, const char *group)
                 tn_offer(c, s->name, KIND_FIELD, s->doc, group);
 }
 
+/* The param of words that the two tokens before the cursor compare or give: `side =`, `side !=`. */
+static const tn_ast_rule *compared_param(const tn_lsp_cursor *c)
+{
+    if (c->count < 2 || !(tn_cursor_is(c, c->count - 1, "=") || tn_cursor_is(c, c->count - 1, "!=")))
+        return NULL;
+    char *name = tn_cursor_word(c, c->count - 2);
+    const tn_symbol *symbol = name ? tn_names_get(&c->analysis->index.names, name) : NULL;
+    free(name);
+    return symbol && symbol->kind == TN_SYMBOL_PARAM ? (const tn_ast_rule *)symbol->ast : NULL;
+}
+
+static void offer_param_words(tn_lsp_cursor *c)
+{
+    const tn_ast_rule *param = compared_param(c);
+    if (!param)
+        return;
+    for (TN_EACH(const tn_ast_word, word, param->words))
+        tn_offer(c, word->text, KIND_VALUE, param->name->text, "0");
+}
+
 static void complete_expression(tn_lsp_cursor *c)
 {
+    offer_param_words(c);
     offer_symbols(c, TN_SYMBOL_RULE, KIND_FUNCTION);
     offer_symbols(c, TN_SYMBOL_MEASURE, KIND_VALUE);
+    offer_symbols(c, TN_SYMBOL_PARAM, KIND_VALUE);
     tn_offer_words(c, TN_AT(RULE));
 }
 
@@ -212,6 +234,7 @@ static void complete_in_call(tn_lsp_cursor *c, size_t bracket)
                    tn_cursor_is(c, bracket - 1, "sum");
     if (counted && stands_behind(c, bracket, ",")) {
         tn_offer_words(c, TN_AT(CONDITION));
+        offer_symbols(c, TN_SYMBOL_PARAM, KIND_VALUE);
         return;
     }
     if (in_tally(c) && !stands_behind(c, bracket, "of")) {
@@ -268,9 +291,27 @@ static void complete_test(tn_lsp_cursor *c)
                                                                     : TN_AT(CASE_OF_RULE));
 }
 
+/* In the head of a test, behind `with`: params, and the words of the one that is given a value. */
+static bool complete_with(tn_lsp_cursor *c)
+{
+    bool with = false;
+    for (size_t i = c->item; i < c->count && tn_cursor_is(c, c->item, "test"); i++)
+        with |= tn_cursor_is(c, i, "with") && c->tokens[i].kind == TN_TOKEN_WORD;
+    if (!with)
+        return false;
+    if (tn_cursor_is(c, c->count - 1, "with") || tn_cursor_is(c, c->count - 1, ","))
+        offer_symbols(c, TN_SYMBOL_PARAM, KIND_VALUE);
+    else
+        offer_param_words(c);
+    tn_offer_words(c, TN_AT(HEAD));
+    return true;
+}
+
 static void complete_top(tn_lsp_cursor *c)
 {
     size_t last = c->count - 1;
+    if (c->count > 0 && complete_with(c))
+        return;
     if (c->count > 0 && tn_cursor_is(c, last, "using")) {
         offer_symbols(c, TN_SYMBOL_SCHEMA, KIND_STRUCT);
     } else if (c->count > 0 && tn_cursor_is(c, last, "in") && tn_cursor_is(c, c->item, "library")) {

@@ -117,10 +117,13 @@ static void define_items(tn_index *index, const tn_ast_file *file)
     for (TN_EACH(const tn_ast_top, item, file->items)) {
         if (item->kind == TN_ITEM_SCHEMA)
             define_schema(index, (const tn_ast_schema *)item);
-        if (item->kind == TN_ITEM_RULE || item->kind == TN_ITEM_MEASURE) {
+        if (item->kind == TN_ITEM_RULE || item->kind == TN_ITEM_MEASURE || item->kind == TN_ITEM_PARAM) {
             const tn_ast_rule *rule = (const tn_ast_rule *)item;
-            define_named(index, item->kind == TN_ITEM_RULE ? TN_SYMBOL_RULE : TN_SYMBOL_MEASURE, rule->name, rule->doc,
-                         &item->node);
+            define_named(index,
+                         item->kind == TN_ITEM_RULE      ? TN_SYMBOL_RULE
+                         : item->kind == TN_ITEM_MEASURE ? TN_SYMBOL_MEASURE
+                                                         : TN_SYMBOL_PARAM,
+                         rule->name, rule->doc, &item->node);
         }
         if (item->kind == TN_ITEM_FORM)
             tn_index_define_form(index, (const tn_ast_form *)item);
@@ -141,6 +144,14 @@ const tn_symbol *tn_index_use(tn_index *index, const tn_names *names, const tn_a
     return symbol;
 }
 
+/* The param of that name; NULL: there is none. */
+static const tn_symbol *param_named(const tn_index *index, const tn_ast_word *word)
+{
+    const tn_symbol *symbol =
+        word && word->kind == TN_WORD_NAME && word->text ? tn_names_get(&index->names, word->text) : NULL;
+    return symbol && symbol->kind == TN_SYMBOL_PARAM ? symbol : NULL;
+}
+
 /* The words of one alternative of a specifier, or of one tray of a plan: fields, and values after their field or alone;
  * of cells also what their form declares. */
 static const tn_symbol *use_words(tn_index *index, const tn_index_about *about, const tn_symbol *field,
@@ -150,7 +161,9 @@ static const tn_symbol *use_words(tn_index *index, const tn_index_about *about, 
     for (TN_EACH(const tn_ast_word, word, *words)) {
         if (word->kind != TN_WORD_NAME || !word->text)
             continue;
-        const tn_symbol *part = tn_index_part(about->form, word->text);
+        const tn_symbol *part = param_named(index, word);
+        if (!part)
+            part = tn_index_part(about->form, word->text);
         if (part) {
             tn_index_occur(index, word->node.span, part);
             continue;
@@ -182,15 +195,43 @@ static void use_field(tn_index *index, const tn_symbol *schema, const tn_ast_wor
         tn_index_occur(index, word->node.span, tn_index_field(schema, word->text));
 }
 
+static void use_condition(tn_index *index, const tn_ast_cond *cond)
+{
+    const tn_ast_word *const words[] = {cond->left, cond->right, cond->modulus, cond->range.low, cond->range.high};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        bool again = i + 1 == sizeof words / sizeof *words && cond->range.low == cond->range.high;
+        const tn_symbol *param = again ? NULL : param_named(index, words[i]);
+        if (param)
+            tn_index_occur(index, words[i]->node.span, param);
+    }
+    for (TN_EACH(const tn_ast_cond, part, cond->parts))
+        use_condition(index, part);
+}
+
+/* What a sum adds up: fields, params. */
+static void use_figure(tn_index *index, const tn_index_about *about, const tn_ast_expr *figure)
+{
+    if (figure->kind == TN_EXPR_FIGURE && param_named(index, figure->name))
+        tn_index_use(index, &index->names, figure->name);
+    else if (figure->kind == TN_EXPR_FIGURE)
+        use_field(index, about->schema, figure->name);
+    for (TN_EACH(const tn_ast_expr, part, figure->parts))
+        use_figure(index, about, part);
+}
+
 /* As deep as expressions nest, at most TN_NESTING_MAX. */
 void tn_index_expression(tn_index *index, const tn_index_about *about, const tn_ast_expr *expr)
 {
     if (!expr)
         return;
-    if (expr->kind == TN_EXPR_NAME)
+    if (expr->kind == TN_EXPR_NAME || expr->kind == TN_EXPR_CALL)
         tn_index_use(index, &index->names, expr->name);
-    else if (expr->kind == TN_EXPR_SUM)
+    else if (expr->kind == TN_EXPR_SOME || expr->kind == TN_EXPR_EACH)
         use_field(index, about->schema, expr->name);
+    if (expr->condition)
+        use_condition(index, expr->condition);
+    if (expr->figure)
+        use_figure(index, about, expr->figure);
     if (expr->kind == TN_EXPR_SECTION)
         tn_index_section(index, about->form, expr);
     use_specifier(index, about, expr);
@@ -204,7 +245,7 @@ static void use_library(tn_index *index, tn_symbol *library, const tn_ast_librar
     const tn_index_about about = {library->schema, library->form};
     for (TN_EACH(const tn_ast_clause, clause, ast->clauses)) {
         use_field(index, library->schema, clause->field);
-        tn_index_expression(index, &about, clause->expr);
+        tn_index_expression(index, &about, clause->written);
         if (clause->form != TN_FORM_PRUNE || !clause->name)
             continue;
         const tn_symbol *symbol =
@@ -222,6 +263,10 @@ static void use_test(tn_index *index, const tn_ast_test *test)
         subject = subject ? subject : named;
     }
     const tn_index_about about = {tn_index_schema(index, subject ? subject->name : NULL), NULL};
+    for (TN_EACH(const tn_ast_setting, setting, test->settings)) {
+        tn_index_use(index, &index->names, setting->name);
+        tn_index_expression(index, &about, setting->value);
+    }
     for (TN_EACH(const tn_ast_case, test_case, test->cases)) {
         for (TN_EACH(const tn_ast_tray, tray, test_case->literal.trays))
             use_words(index, &about, NULL, &tray->words);
@@ -254,7 +299,13 @@ static void use_item(tn_index *index, const tn_ast_top *item)
         tn_index_use(index, &index->schemas, rule->using);
         const tn_symbol *symbol = own_symbol(index, &item->node);
         const tn_index_about about = {tn_index_schema(index, rule->name->text), symbol ? symbol->form : NULL};
-        tn_index_expression(index, &about, rule->body);
+        tn_index_expression(index, &about, rule->written);
+    } else if (item->kind == TN_ITEM_PARAM || item->kind == TN_ITEM_LET) {
+        const tn_ast_rule *rule = (const tn_ast_rule *)item;
+        const tn_index_about about = {NULL, NULL};
+        tn_index_expression(index, &about, rule->words.first ? NULL : rule->written);
+        tn_index_expression(index, &about, rule->low);
+        tn_index_expression(index, &about, rule->high);
     } else if (item->kind == TN_ITEM_FORM) {
         tn_index_use_form(index, own_symbol(index, &item->node), (const tn_ast_form *)item);
     } else if (item->kind == TN_ITEM_TEST) {

@@ -14,6 +14,7 @@ typedef enum tn_symbol_kind {
     TN_SYMBOL_LIBRARY,
     TN_SYMBOL_CLAUSE, /* `prune ... as NAME` */
     TN_SYMBOL_MEASURE,
+    TN_SYMBOL_PARAM,
     TN_SYMBOL_FORM,
     TN_SYMBOL_STOREY,
     TN_SYMBOL_FUNCTION,
@@ -47,7 +48,7 @@ typedef struct tn_index {
     tn_occurrence *occurrences;
     size_t count, capacity;
     const tn_symbol *last_form;
-    tn_names schemas, forms, names, clauses; /* names: rules, measures and libraries */
+    tn_names schemas, forms, names, clauses; /* names: rules, measures, params and libraries */
 } tn_index;
 
 /* Does nothing where there is nothing to index. False where out of memory. */

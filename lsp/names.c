@@ -124,7 +124,8 @@ static bool is_name(const char *text)
 /* Rules, measures and libraries share their names. */
 static bool is_named(const tn_symbol *symbol)
 {
-    return symbol->kind == TN_SYMBOL_RULE || symbol->kind == TN_SYMBOL_MEASURE || symbol->kind == TN_SYMBOL_LIBRARY;
+    return symbol->kind == TN_SYMBOL_RULE || symbol->kind == TN_SYMBOL_MEASURE || symbol->kind == TN_SYMBOL_PARAM ||
+           symbol->kind == TN_SYMBOL_LIBRARY;
 }
 
 /* Another one than `but`. */

@@ -23,7 +23,7 @@ static int outline_kind(tn_symbol_kind kind)
         [TN_SYMBOL_RULE] = KIND_FUNCTION,    [TN_SYMBOL_LIBRARY] = KIND_MODULE, [TN_SYMBOL_CLAUSE] = KIND_KEY,
         [TN_SYMBOL_MEASURE] = KIND_CONSTANT, [TN_SYMBOL_FORM] = KIND_STRUCT,    [TN_SYMBOL_STOREY] = KIND_MEMBER,
         [TN_SYMBOL_FUNCTION] = KIND_FIELD,   [TN_SYMBOL_OPENING] = KIND_MEMBER, [TN_SYMBOL_TILE] = KIND_PROPERTY,
-        [TN_SYMBOL_CHOICE] = KIND_PROPERTY};
+        [TN_SYMBOL_CHOICE] = KIND_PROPERTY,  [TN_SYMBOL_PARAM] = KIND_CONSTANT};
     return kinds[kind];
 }
 
@@ -35,7 +35,8 @@ static json_t *outline_item(tn_file_analysis *analysis, const tn_symbol *symbol)
     if (symbol->doc)
         json_object_set_new(item, "detail", json_string(symbol->doc));
     json_t *children = json_array();
-    for (const tn_symbol *s = symbol->next; s && symbol->kind != TN_SYMBOL_RULE && symbol->kind != TN_SYMBOL_MEASURE;
+    for (const tn_symbol *s = symbol->next;
+         s && symbol->kind != TN_SYMBOL_RULE && symbol->kind != TN_SYMBOL_MEASURE && symbol->kind != TN_SYMBOL_PARAM;
          s = s->next) {
         if (s->parent == symbol)
             json_array_append_new(children, outline_item(analysis, s));

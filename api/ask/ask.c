@@ -21,7 +21,7 @@ struct tartan_session {
     char *path, *text; /* the caller's, copied */
     size_t size;
     tartan_compile_options options; /* with folders of our own */
-    char **folders;
+    char **folders, **params;
     asked_file whole;    /* as it was written */
     asked_file narrowed; /* with further requirements, or with statements about growing, */
     char *narrowed_by;   /* which are these: one a line behind the library's name, or a study */
@@ -52,16 +52,38 @@ static tartan_status open_file(tartan_session *session, const tn_questions *aski
     return status;
 }
 
-static bool copy_folders(tartan_session *session, const tartan_compile_options *given)
+/* NULL where out of memory. */
+static char **copy_texts(const char *const *texts, size_t count)
 {
-    session->folders = calloc(given->folder_count + 1, sizeof *session->folders);
-    for (size_t i = 0; session->folders && i < given->folder_count; i++) {
-        session->folders[i] = strdup(given->folders[i]);
-        if (!session->folders[i])
-            return false;
-    }
+    char **copy = calloc(count + 1, sizeof *copy);
+    for (size_t i = 0; copy && i < count; i++)
+        copy[i] = strdup(texts[i]);
+    return copy;
+}
+
+static void free_texts(char **texts, size_t count)
+{
+    for (size_t i = 0; texts && i < count; i++)
+        free(texts[i]);
+    free(texts);
+}
+
+static bool all_there(char *const *texts, size_t count)
+{
+    bool there = texts != NULL;
+    for (size_t i = 0; there && i < count; i++)
+        there = texts[i] != NULL;
+    return there;
+}
+
+/* The folders and the values of params. */
+static bool copy_options(tartan_session *session, const tartan_compile_options *given)
+{
+    session->folders = copy_texts(given->folders, given->folder_count);
+    session->params = copy_texts(given->params, given->param_count);
     session->options.folders = (const char *const *)session->folders;
-    return session->folders != NULL;
+    session->options.params = (const char *const *)session->params;
+    return all_there(session->folders, given->folder_count) && all_there(session->params, given->param_count);
 }
 
 /* The caller's text, or that of the file. */
@@ -87,11 +109,12 @@ static tartan_status begin(tartan_session *session, const char *path, const char
                            const tartan_compile_options *given, tartan_error *error)
 {
     tartan_status status = TN_API_TAKE(tartan_compile_options, &session->options, given, error);
-    if (status == TARTAN_OK && session->options.folder_count && !session->options.folders)
-        return tn_api_missing(error, "array of folders");
+    const tartan_compile_options taken = session->options;
+    if (status == TARTAN_OK)
+        status = tn_api_compile_texts(&taken, error);
     if (status == TARTAN_OK)
         status = take_text(session, path, text, size, error);
-    if (status == TARTAN_OK && given && !copy_folders(session, given))
+    if (status == TARTAN_OK && !copy_options(session, &taken))
         status = tn_api_memory(error);
     if (status == TARTAN_OK)
         status = open_file(session, NULL, &session->whole, error);
@@ -124,9 +147,8 @@ void tartan_session_free(tartan_session *session)
     close_file(&session->narrowed);
     close_file(&session->before);
     free(session->before_text);
-    for (size_t i = 0; session->folders && i < session->options.folder_count; i++)
-        free(session->folders[i]);
-    free(session->folders);
+    free_texts(session->folders, session->options.folder_count);
+    free_texts(session->params, session->options.param_count);
     free(session->narrowed_by);
     free(session->path);
     free(session->text);

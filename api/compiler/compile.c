@@ -149,6 +149,7 @@ static tartan_status open_text(const tn_notation *notation, tn_input input, tart
     tn_compile_options own = {.resolver = {resolve, options},
                               .questions = asking,
                               .warnings_are_errors = options->warnings_are_errors,
+                              .params = {options->params, options->param_count},
                               .watch = &watch};
     tartan_status status = tn_api_watch(options->watch, &watch, error);
     if (status != TARTAN_OK)
@@ -162,17 +163,33 @@ static tartan_status open_text(const tn_notation *notation, tn_input input, tart
                              : tn_api_first_error(&opened->compilation.diagnostics, compiled, &watch, error);
 }
 
+static tartan_status check_texts(const char *const *texts, size_t count, const char *all, const char *one,
+                                 tartan_error *error)
+{
+    if (count && !texts)
+        return tn_api_missing(error, all);
+    for (size_t i = 0; i < count; i++)
+        if (!texts[i])
+            return tn_api_missing(error, one);
+    return TARTAN_OK;
+}
+
+tartan_status tn_api_compile_texts(const tartan_compile_options *options, tartan_error *error)
+{
+    tartan_status status = check_texts(options->folders, options->folder_count, "array of folders", "folder", error);
+    return status == TARTAN_OK ? check_texts(options->params, options->param_count, "array of values of params",
+                                             "value of a param", error)
+                               : status;
+}
+
 static tartan_status take(const char *path, const tartan_compile_options *given, tartan_compile_options *options,
                           tartan_error *error)
 {
     if (!path)
         return tn_api_missing(error, "path");
     tartan_status status = TN_API_TAKE(tartan_compile_options, options, given, error);
-    if (status == TARTAN_OK && options->folder_count && !options->folders)
-        status = tn_api_missing(error, "array of folders");
-    for (size_t i = 0; status == TARTAN_OK && i < options->folder_count; i++)
-        if (!options->folders[i])
-            status = tn_api_missing(error, "folder");
+    if (status == TARTAN_OK)
+        status = tn_api_compile_texts(options, error);
     return status;
 }
 

@@ -5,6 +5,9 @@
 #include "api/base/api.h"
 #include "driver/open/open.h"
 
+/* Are the texts there of which the options have so many? */
+tartan_status tn_api_compile_texts(const tartan_compile_options *options, tartan_error *error);
+
 /* As tartan_compile_text and tartan_compile_file, and keeps what was opened. Close it in any case. `asking` (may be
  * NULL): what is asked beyond what a .plan file says. */
 tartan_status tn_api_open(const char *path, const char *text, size_t size, const tartan_compile_options *options,

@@ -6,6 +6,7 @@
 
 #include "ask/place/export.h"
 #include "ask/session/questions.h"
+#include "driver/open/again.h"
 #include "driver/plan/library.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/parts.h"
@@ -80,6 +81,14 @@ static tn_status choose(tn_session *session, exporting *e, uint32_t *schema)
     return status;
 }
 
+/* A program says the values with which it is one. */
+static bool put_params(const tn_opened *opened, tn_buffer *text)
+{
+    char params[TN_PARAMS_TEXT_MAX];
+    tn_opened_params_text(opened, params, sizeof params);
+    return !params[0] || tn_buffer_printf(text, "%% Params: %s.\n", params);
+}
+
 static tn_status export_rules(tn_session *session, const tn_export_request *request, tn_reply *answer)
 {
     exporting e = {.request = request, .module = session->opened->module};
@@ -90,6 +99,8 @@ static tn_status export_rules(tn_session *session, const tn_export_request *requ
     if (status != TN_OK)
         return status;
     status = tn_schema_new(e.module, schema, 0, &e.schema, &error);
+    if (status == TN_OK && prolog && !put_params(session->opened, &e.text))
+        status = tn_fail_memory(&error);
     if (status == TN_OK)
         status = prolog ? tn_export_prolog(e.schema, &e.text, &error) : export_regex(&e, &error);
     status = status == TN_OK

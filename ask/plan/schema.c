@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "ask/session/questions.h"
+#include "compiler/plan/syntax/program.h"
 #include "runtime/house/measure/measure.h"
 #include "runtime/plan/measure/amount.h"
 
@@ -268,6 +269,40 @@ static tn_status show_measures(const showing *s, tn_error *error)
     return status;
 }
 
+/* ---- params */
+
+static tn_status set_param(const tn_program_param *from, tn_shown_param *to, tn_error *error)
+{
+    to->name = from->name;
+    to->has_doc = from->doc != NULL;
+    to->doc = from->doc;
+    to->value = from->value;
+    to->has_least = to->has_most = from->least != NULL;
+    to->least = from->least;
+    to->most = from->most;
+    to->has_words = from->word_count > 0;
+    to->words.items = calloc(from->word_count + 1, sizeof *to->words.items);
+    if (!to->words.items)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < from->word_count; i++)
+        to->words.items[to->words.count++] = from->words[i];
+    return TN_OK;
+}
+
+static tn_status show_params(const showing *s, tn_error *error)
+{
+    const tn_program *program = s->opened->compilation.program;
+    tn_status status = TN_OK;
+    for (size_t i = 0; program && status == TN_OK && i < program->param_count; i++) {
+        if (program->params[i].imported && !s->used)
+            continue;
+        tn_shown_param *to = TN_ADD(shown_param, s->file->params, error);
+        s->file->has_params = true;
+        status = to ? set_param(&program->params[i], to, error) : TN_MEMORY;
+    }
+    return status;
+}
+
 /* ---- asked */
 
 tn_status tn_ask_schema(tn_session *session, const tn_schema_request *request, tn_reply *answer)
@@ -288,5 +323,7 @@ tn_status tn_ask_schema(tn_session *session, const tn_schema_request *request, t
         status = show_libraries(&s, &error);
     if (status == TN_OK)
         status = show_measures(&s, &error);
+    if (status == TN_OK)
+        status = show_params(&s, &error);
     return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }

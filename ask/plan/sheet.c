@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "driver/open/again.h"
 #include "runtime/base/array.h"
 
 tn_status tn_sheet_add(tn_plan_sheet *s, const tn_tray *trays, size_t length, char *number, const char *heading,
@@ -39,7 +40,9 @@ void tn_sheet_note_rules(const tn_opened *opened, char *note, size_t size)
     const tn_module *module = opened->module;
     const char *path = opened->path, *slash = strrchr(path, '/');
     const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
-    int used = snprintf(note, size, "%.160s", slash ? slash + 1 : path);
+    char params[160];
+    tn_opened_params_text(opened, params, sizeof params);
+    int used = snprintf(note, size, "%.160s%s%s", slash ? slash + 1 : path, params[0] ? " with " : "", params);
     if (producer && used >= 0 && (size_t)used < size)
         snprintf(note + used, size - (size_t)used, ", rules %016" PRIx64 ", %.60s", (uint64_t)producer->sources_hash,
                  tn_text(module, producer->version));

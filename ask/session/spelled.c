@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "compiler/plan/syntax/program.h"
+#include "driver/open/again.h"
 #include "driver/open/digits.h"
 #include "runtime/plan/match/vm.h"
 #include "runtime/plan/schema/value.h"
@@ -36,9 +37,14 @@ static tn_status compile(const reader *r, const tn_questions *questions, tn_open
 {
     const tn_source *main = &r->session->opened->compilation.sources.files[0];
     const tn_text_opener *opener = r->session->opener;
+    tn_param_values params;
     tn_error error;
-    tn_status status = opener ? opener->open(opener->context, main->path, main->text, main->size, questions, opened)
-                              : tn_open_source(main->path, main->text, main->size, questions, opened);
+    *opened = (tn_opened){0};
+    tn_status status = tn_opened_params(r->session->opened, &params);
+    if (status == TN_OK)
+        status = opener ? opener->open(opener->context, main->path, main->text, main->size, questions, opened)
+                        : tn_open_source(main->path, main->text, main->size, questions, params, opened);
+    free((void *)(uintptr_t)params.items);
     if (status == TN_OK || status == TN_INVALID)
         return status;
     tn_open_error(opened, status, &error);

@@ -64,6 +64,11 @@ void tn_job_begin(tn_job *job, const tn_settings *settings)
     tn_diagnostics_init(&job->opened.compilation.diagnostics, &job->opened.compilation.sources);
 }
 
+static tn_param_values params_of(const tn_job *job)
+{
+    return (tn_param_values){job->settings->params.items, job->settings->params.count};
+}
+
 bool tn_job_open(tn_job *job, const char *path)
 {
     return tn_job_open_asking(job, path, NULL);
@@ -73,7 +78,7 @@ bool tn_job_open_asking(tn_job *job, const char *path, const tn_questions *quest
 {
     if (job->opened.module && job->opened.path == path)
         return true;
-    worsen(job, tn_exit_code(tn_open_asking(path, job->settings->werror, questions, &job->opened)));
+    worsen(job, tn_exit_code(tn_open_asking(path, job->settings->werror, questions, params_of(job), &job->opened)));
     if (job->opened.module)
         job->opened.module->watch = tn_interrupt_waiting();
     return job->opened.module != NULL;
@@ -81,7 +86,7 @@ bool tn_job_open_asking(tn_job *job, const char *path, const tn_questions *quest
 
 bool tn_job_open_joined(tn_job *job, const char *const *paths, size_t count)
 {
-    worsen(job, tn_exit_code(tn_open_joined(paths, count, job->settings->werror, &job->opened)));
+    worsen(job, tn_exit_code(tn_open_joined(paths, count, job->settings->werror, params_of(job), &job->opened)));
     if (job->opened.module)
         job->opened.module->watch = tn_interrupt_waiting();
     return job->opened.module != NULL;

@@ -74,6 +74,9 @@
     }
 
 #define OPTION_WERROR FLAG("werror", 0, common.werror, "treat warnings as errors")
+#define OPTION_SET                                                                                                     \
+    LIST("set", 0, "NAME=VALUE", common.params,                                                                        \
+         "give the param NAME of the .plan file another value than its default, for this run; may be repeated")
 #define OPTION_LDRAW                                                                                                   \
     TEXT("ldraw", 0, "DIR", common.ldraw,                                                                              \
          "the LDraw library of which kits take parts (default: the folder that LDRAWDIR names, or /usr/share/ldraw)")

@@ -68,6 +68,7 @@ typedef struct tn_settings {
     bool help;
     int diagnostics; /* 0 text, 1 json */
     bool werror;
+    tn_option_list params;         /* values of params, NAME=VALUE each */
     const char *ldraw;             /* a folder; NULL: the usual one */
     tn_option_number memory_limit; /* megabytes */
     const struct tn_ranks *ranks;  /* the processes that do the command together; NULL: this one alone */

@@ -193,6 +193,7 @@ static const tn_option options[] = {
     TEXT("form", 0, "NAME", form, "which form of the file; may be left out where the file has only one"),
     TEXT("library", 0, "NAME", library,
          "the library of houses that the number belongs to; may be left out where the file has one"),
+    OPTION_SET,
     NUMBER("max-length", 0, "N", max_length, 1, 1u << 24, "the longest plan that is accepted, in trays (default 4096)"),
     NUMBER("max-states", 0, "N", max_states, 1, UINT32_MAX, "the most states of an automaton of the library of plans"),
 };

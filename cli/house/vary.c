@@ -70,6 +70,7 @@ static int run(const tn_command *command, const tn_settings *common)
 static const tn_option options[] = {
     TEXT("at", 0, "CELL", at, "only what is about one cell: TRAY.ZONE.STOREY, trays from 1, such as 2.body.ground"),
     TEXT("library", 0, "NAME", library, "the library of houses; may be left out where the file has only one"),
+    OPTION_SET,
     FLAG("json", 0, json, "write each change as a JSON object"),
     OUTPUT(output, TN_WRITES_TEXT | TN_WRITES(JSON), "write to FILE; .json is JSON"),
     NUMBER("max-length", 0, "N", max_length, 1, 1u << 24, "the longest plan that is accepted, in trays (default 4096)"),

@@ -289,6 +289,7 @@ static const tn_option options[] = {
     OPTION_LIBRARY,
     TEXT("solid", 0, "NAME", solid, "which design of the file; may be left out where the file has only one"),
     OPTION_WHERE,
+    OPTION_SET,
     FLAG("full", 0, full, "every clause and every part, not only what decides"),
     FLAG("json", 0, json, "write JSON, everything in it"),
     OUTPUT(output, TN_WRITES_PICTURES, "draw it instead: .svg, .png or .pdf"),

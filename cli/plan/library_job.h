@@ -33,7 +33,7 @@ typedef struct tn_plan_settings {
     NUMBER("max-states", 0, "N", plans.max_states, 1, 1u << 30,                                                        \
            "the most states an automaton may have while it is made (default 20000, 1000000 for a library)")
 /* What most commands about libraries take: which library, and within which limits. */
-#define OPTIONS_LIBRARY OPTION_LIBRARY, OPTION_WHERE
+#define OPTIONS_LIBRARY OPTION_LIBRARY, OPTION_WHERE, OPTION_SET
 #define OPTIONS_LIBRARY_LIMITS OPTION_TRAYS, OPTION_MAX_LENGTH, OPTION_MAX_STATES, OPTION_THREADS(plans.threads)
 #define OPTION_ENGINE                                                                                                  \
     CHOICE(                                                                                                            \

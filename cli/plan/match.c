@@ -94,6 +94,7 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS match_settings
 static const tn_option options[] = {
     LIST("rule", 'r', "NAME", rules, "match this rule; may be repeated (default: all rules of the file itself)"),
+    OPTION_SET,
     CHOICE("format", 'f', "FORMAT", format, "names|json|bits|any",
            "names (default): the names of the rules, or - where there is none; json: an object a line; bits: a 0 or 1 "
            "a rule; any: 1 where at least one rule matches, else 0"),

@@ -58,6 +58,7 @@ static int run(const tn_command *command, const tn_settings *common)
 static const tn_option options[] = {
     OPTION_LIBRARY,
     OPTION_WHERE,
+    OPTION_SET,
     OPTION_TRAYS,
     FLAG("of-all", 0, of_all, "of a house: its rank among all houses, #R, in place of #P:V"),
     FLAG("json", 0, json, "write the number as JSON"),

@@ -58,6 +58,17 @@ static void write_library(const tn_shown_library *library, FILE *out)
     }
 }
 
+/* As in the file. */
+static void write_param(const tn_shown_param *param, FILE *out)
+{
+    fprintf(out, "param %s = %s", param->name, param->value);
+    if (param->has_least)
+        fprintf(out, " in %s..%s", param->least, param->most);
+    for (size_t i = 0; param->has_words && i < param->words.count; i++)
+        fprintf(out, "%s%s", i == 0 ? ", one of " : ", ", param->words.items[i]);
+    write_doc(param->has_doc, param->doc, out);
+}
+
 static void write_text(const tn_shown_file *file, FILE *out)
 {
     for (size_t i = 0; i < file->schemas.count; i++)
@@ -75,6 +86,8 @@ static void write_text(const tn_shown_file *file, FILE *out)
                 *measure->unit ? " in " : "", measure->unit);
         write_doc(measure->has_doc, measure->doc, out);
     }
+    for (size_t i = 0; i < file->params.count; i++)
+        write_param(&file->params.items[i], out);
 }
 
 static void show(tn_job *job, const schema_settings *settings)
@@ -105,6 +118,7 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS schema_settings
 static const tn_option options[] = {
     FLAG("used", 0, used, "also the rules, libraries and measures of files that it uses"),
+    OPTION_SET,
     FLAG("json", 0, json, "write JSON"),
 };
 

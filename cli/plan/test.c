@@ -151,6 +151,7 @@ static const tn_option options[] = {
          "write only test cases that tell the changes which no test notices, to be appended to the file"),
     FLAG("json", 0, json, "write JSON: how many passed and failed, and the coverage"),
     OPTION_LIBRARY,
+    OPTION_SET,
     OPTION_MAX_STATES,
     OPTION_MAX_BOXES(max_boxes),
     OPTION_LDRAW,

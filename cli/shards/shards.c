@@ -24,7 +24,8 @@ static void run_new(tn_job *job, tn_shards_open *open)
 
 static const shards_part parts[] = {
     {"new",
-     " task input rule input-format on-error library where trays max-length max-states threads shards plans from to "
+     " task input rule input-format on-error library where set trays max-length max-states threads shards plans from "
+     "to "
      "sample seed "
      "format compress plan-lines row-group output ",
      false, run_new},
@@ -62,7 +63,9 @@ static bool takes_options(tn_job *job, const shards_part *part)
         snprintf(wanted, sizeof wanted, " %s ", command->options[i].name);
         if (strstr(part->options, wanted) || !tn_option_given(&command->options[i], job->settings))
             continue;
-        tn_job_usage(job, "`tartan shards %s` takes no --%s", part->name, command->options[i].name);
+        tn_diagnostic *d = tn_job_usage(job, "`tartan shards %s` takes no --%s", part->name, command->options[i].name);
+        if (strcmp(command->options[i].name, "set") == 0)
+            tn_help(tn_job_diagnostics(job), d, "params keep the values with which `tartan shards new` made the set");
         return false;
     }
     return true;

@@ -66,7 +66,7 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS build_settings
 static const tn_option options[] = {OPTION_OUTPUT_BY(TN_WRITES(TNB) | TN_WRITES_TEXT, ", which is usually called .tnb"),
-                                    OPTION_LDRAW, OPTION_WERROR};
+                                    OPTION_SET, OPTION_LDRAW, OPTION_WERROR};
 
 const tn_command tn_command_build = {
     .name = "build",

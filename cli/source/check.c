@@ -11,9 +11,9 @@
 #include "cli/plan/answers.h"
 #include "cli/plan/relations_text.h"
 #include "cli/plan/tested_text.h"
-#include "driver/solid/solid.h"
 #include "cli/source/fix.h"
 #include "cli/source/sarif.h"
+#include "driver/solid/solid.h"
 
 typedef struct check_settings {
     tn_settings common;
@@ -312,6 +312,7 @@ static const tn_option options[] = {
     TEXT("sarif", 0, "LOG", sarif,
          "also write what is found to LOG in SARIF 2.1.0, for code hosts; - is standard output"),
     OPTION_LIBRARY,
+    OPTION_SET,
     OPTION_LDRAW,
     OPTION_WERROR,
     OPTION_MAX_STATES,

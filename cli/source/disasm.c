@@ -98,6 +98,7 @@ static int run(const tn_command *command, const tn_settings *common)
 static const tn_option options[] = {
     LIST("rule", 'r', "NAME", rules, "list only this rule and the functions it needs; may be repeated"),
     FLAG("tape", 0, tape, "list what the code of fields is lowered to: steps on rows of numbers"),
+    OPTION_SET,
     OPTION_LDRAW,
     OPTION_OUTPUT(TN_WRITES_TEXT),
 };

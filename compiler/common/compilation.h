@@ -20,6 +20,15 @@ typedef struct tn_questions {
     size_t part_count;
 } tn_questions;
 
+/* What the source of a param's value is called, also in modules; its text is NAME=VALUE. */
+#define TN_SETTING_SOURCE "--set"
+
+/* Values of params, NAME=VALUE each. */
+typedef struct tn_param_values {
+    const char *const *items;
+    size_t count;
+} tn_param_values;
+
 struct tn_imports;
 
 typedef struct tn_compile_options {
@@ -27,6 +36,8 @@ typedef struct tn_compile_options {
     tn_attachments attachments;
     bool warnings_are_errors;
     const tn_questions *questions; /* of a .plan file, or about parts; or NULL */
+    tn_param_values params;        /* of a .plan file */
+    size_t test; /* of a .plan file: the params have the values that its test of this number, from 1, says; 0: none */
     /* Further texts of the same compilation, in their order, where the notation puts several into one (tn_front.joins).
      */
     const tn_input *more;

@@ -35,6 +35,9 @@ typedef struct tn_front {
     /* Are several files one text, in the order given? Commands then compile all that they are given together. */
     bool joins;
 
+    /* Has it params, whose values the options may give? */
+    bool settable;
+
     /* Lists what the text has, from its tokens. NULL: it is listed from what was compiled, where that is a plan's. */
     void (*list)(tn_listing *listing);
 

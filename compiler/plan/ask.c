@@ -18,7 +18,7 @@ tn_status tn_ask(tn_arena *arena, tn_diagnostics *diagnostics, tn_sources *sourc
                  tn_asked_for *asked, tn_error *error)
 {
     tn_ast_file *tree = NULL;
-    *asked = (tn_asked_for){.library = questions->library};
+    asked->library = questions->library;
     asked->wheres = TN_NEW_ARRAY(arena, tn_ast_expr *, questions->where_count);
     tn_status status = asked->wheres ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < questions->where_count; i++) {

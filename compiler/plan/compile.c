@@ -3,6 +3,7 @@
 #include "compiler/plan/ask.h"
 #include "compiler/plan/emit/emit.h"
 #include "compiler/plan/format_clauses.h"
+#include "compiler/plan/settings.h"
 #include "compiler/plan/syntax/parse.h"
 #include "compiler/plan/syntax/words.h"
 
@@ -38,8 +39,12 @@ static tn_status compile(tn_compilation *compilation, const tn_compile_options *
         return tn_fail_memory(error);
     tn_status status = tn_import_all(compilation, options, compilation->notation->extension, parse_unit, imports);
     tn_asked_for asked = {0};
+    if (status == TN_OK)
+        status = tn_settings_read(compilation, options, imports, &asked.settings, error);
     if (status == TN_OK && options->change)
         options->change(options->change_context, compilation->arena, imports);
+    if (status == TN_OK)
+        tn_settings_of_test(imports, options->test);
     if (status == TN_OK && options->questions)
         status = tn_ask(compilation->arena, diagnostics, &compilation->sources, options->questions, &asked, error);
     if (status == TN_OK)
@@ -80,6 +85,7 @@ const tn_front tn_front_plan = {
     .compile = compile,
     .words = &tn_plan_words,
     .made = made,
+    .settable = true,
     .lay_out = tn_format_plan,
     .spell = tn_format_small_letters,
     .nests = true,

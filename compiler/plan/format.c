@@ -364,7 +364,8 @@ static void put_item(tn_format *format, size_t first, size_t last, bool one_line
         put_block(format, first, last, starts_part, put_parts);
     else if (tn_format_is(format, first, "test"))
         put_block(format, first, last, starts_case, put_cases);
-    else if (tn_format_is(format, first, "rule") || tn_format_is(format, first, "measure"))
+    else if (tn_format_is(format, first, "rule") || tn_format_is(format, first, "measure") ||
+             tn_format_is(format, first, "param"))
         put_rule(format, first, last);
     else
         tn_format_expression(format, first, last, 0);
@@ -379,7 +380,7 @@ void tn_format_plan(tn_format *format)
         last = next_start(format, first, format->count, starts_item);
         bool one_line = tn_format_is(format, first, "use") ||
                         ((tn_format_is(format, first, "rule") || tn_format_is(format, first, "measure") ||
-                          tn_format_is(format, first, "let")) &&
+                          tn_format_is(format, first, "let") || tn_format_is(format, first, "param")) &&
                          is_short_rule(format, first, last));
         tn_format_gap(format, first, 0, first > 0 && (tall || !one_line));
         put_item(format, first, last, one_line);

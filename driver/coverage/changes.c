@@ -570,6 +570,11 @@ static bool clause_names(const tn_change_walk *walk, uint32_t holds)
     return false;
 }
 
+static bool is_let(const tn_ast_rule *rule)
+{
+    return rule->top.kind == TN_ITEM_LET || rule->top.kind == TN_ITEM_PARAM;
+}
+
 /* Sets what the changes of the rule have in common. False: the rule is not one whose changes are wanted. */
 static bool enter_rule(tn_change_walk *walk, const tn_ast_rule *rule, bool main)
 {
@@ -589,7 +594,7 @@ static bool enter_rule(tn_change_walk *walk, const tn_ast_rule *rule, bool main)
         bool wanted = !(record->flags & TN_IMPORTED) || (walk->scope->imported && clause_names(walk, record->holds));
         return wanted && record->schema == walk->schema;
     }
-    return main && (rule->top.kind == TN_ITEM_LET || rule->params.count > 0);
+    return main && (is_let(rule) || rule->params.count > 0);
 }
 
 static void change_let(tn_change_walk *walk, tn_ast_expr *body)
@@ -680,7 +685,8 @@ static void change_item(tn_change_walk *walk, tn_ast_top *item, bool main)
             change_expr(walk, rule->body, EITHER);
         break;
     case TN_ITEM_LET:
-        if (rule->body && enter_rule(walk, rule, main))
+    case TN_ITEM_PARAM:
+        if (rule->body && !rule->words.first && enter_rule(walk, rule, main))
             change_let(walk, rule->body);
         break;
     case TN_ITEM_LIBRARY:
@@ -708,7 +714,7 @@ static tn_status open_walked(const tn_change_scope *scope, tn_change_walk *walk,
 {
     walk->scope = scope;
     walk->module = scope->opened->module;
-    return tn_open_again(scope->opened, change_tree, walk, opened);
+    return tn_open_again(scope->opened, change_tree, walk, walk->test, opened);
 }
 
 tn_status tn_changes_list(const tn_change_scope *scope, tn_changes *changes, tn_error *error)
@@ -744,9 +750,9 @@ static bool is_comparable(const tn_module *a, const tn_module *b)
     return same;
 }
 
-tn_status tn_change_open(const tn_change_scope *scope, size_t number, tn_opened *changed)
+tn_status tn_change_open(const tn_change_scope *scope, size_t number, size_t test, tn_opened *changed)
 {
-    tn_change_walk walk = {.wanted = number};
+    tn_change_walk walk = {.wanted = number, .test = test};
     tn_status status = open_walked(scope, &walk, changed);
     bool comparable = status != TN_OK || (walk.made && is_comparable(scope->opened->module, changed->module));
     if (status == TN_OK)

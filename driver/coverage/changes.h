@@ -60,8 +60,9 @@ typedef struct tn_change_scope {
 tn_status tn_changes_list(const tn_change_scope *scope, tn_changes *changes, tn_error *error);
 void tn_changes_clear(tn_changes *changes);
 
-/* Opens the file with the change of this number. TN_INVALID where it does not compile so, or its trays are others: such
- * a change is none. Close it in any case. */
-tn_status tn_change_open(const tn_change_scope *scope, size_t number, tn_opened *changed);
+/* Opens the file with the change of this number. test: the params have the values that the file's test of this number,
+ * from 1, says; 0: their own. TN_INVALID where it does not compile so, or its trays are others: such a change is none.
+ * Close it in any case. */
+tn_status tn_change_open(const tn_change_scope *scope, size_t number, size_t test, tn_opened *changed);
 
 #endif

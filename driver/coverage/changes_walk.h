@@ -13,6 +13,7 @@ typedef struct tn_change_walk {
     tn_changes *list; /* NULL: the walk makes a change */
     size_t wanted;    /* then: its number */
     size_t number;    /* of the next change */
+    size_t test;      /* the file's test whose values the params have; 0: none */
     bool made, failed;
     tn_change in;    /* what each change here has in common: name, rule, clause, depth */
     uint32_t schema; /* SCHEMA record that words are looked up in */

@@ -148,6 +148,18 @@ static tn_status split_classes(trying *t, const tn_schema *changed, tried *item,
     return status;
 }
 
+/* A change that is tried. */
+typedef struct tried_change {
+    const trying *t;
+    size_t number;
+} tried_change;
+
+static tn_status open_for_test(void *context, size_t test, tn_opened *opened)
+{
+    const tried_change *change = context;
+    return tn_change_open(&change->t->scope, change->number, test, opened);
+}
+
 static tn_status try_opened(trying *t, size_t i, tn_opened *opened, tn_error *error)
 {
     tn_schema *schema = NULL;
@@ -157,8 +169,10 @@ static tn_status try_opened(trying *t, size_t i, tn_opened *opened, tn_error *er
         tn_schema_free(schema);
         return TN_OK; /* a `let` that the schema uses */
     }
+    tried_change change = {t, i};
+    const tn_reopen reopen = {open_for_test, &change};
     if (status == TN_OK)
-        status = tn_noticing_ask(t->noticing, opened, schema, &item->notices, error);
+        status = tn_noticing_ask(t->noticing, opened, schema, &reopen, &item->notices, error);
     if (status == TN_OK) {
         item->module = opened->module;
         opened->module = NULL;
@@ -171,7 +185,7 @@ static tn_status try_opened(trying *t, size_t i, tn_opened *opened, tn_error *er
 static tn_status try_change(trying *t, size_t i, tn_error *error)
 {
     tn_opened opened;
-    tn_status status = tn_change_open(&t->scope, i, &opened);
+    tn_status status = tn_change_open(&t->scope, i, 0, &opened);
     if (status == TN_OK)
         status = try_opened(t, i, &opened, error);
     else if (status == TN_INVALID) /* what cannot be written is no mistake that stays unnoticed */

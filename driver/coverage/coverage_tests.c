@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "driver/coverage/coverage.h"
+#include "driver/open/again.h"
 
 const char *tn_covered_subject_name(const tn_covered *covered, const tn_covered_part *part)
 {
@@ -116,9 +117,24 @@ static bool is_first(const tn_covered *covered, size_t i)
     return true;
 }
 
+/* The values of params with which the rules decide so: " with lot = 9m, side = right". */
+static bool write_params(const tn_covered *covered, tn_buffer *out)
+{
+    tn_param_values params;
+    bool ok = tn_opened_params(covered->opened, &params) == TN_OK;
+    for (size_t i = 0; ok && i < params.count; i++) {
+        const char *text = params.items[i], *equal = strchr(text, '=');
+        ok = equal && tn_buffer_printf(out, "%s%.*s = %s", i == 0 ? " with " : ", ", (int)(equal - text), text,
+                                       equal + 1 + strspn(equal + 1, " "));
+    }
+    free((void *)(uintptr_t)params.items);
+    return ok;
+}
+
 static bool write_block(const tn_covered *covered, size_t first, tn_buffer *out)
 {
-    bool ok = tn_buffer_printf(out, "\ntest %s {\n", tn_covered_subject_name(covered, &covered->parts[first]));
+    bool ok = tn_buffer_printf(out, "\ntest %s", tn_covered_subject_name(covered, &covered->parts[first])) &&
+              write_params(covered, out) && tn_buffer_printf(out, " {\n");
     for (size_t i = first; ok && i < covered->count; i++)
         if (is_told(covered, i) && same_subject(covered, first, i))
             ok = write_reasons(covered, i, out) && tn_buffer_printf(out, "  ") &&

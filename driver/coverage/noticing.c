@@ -5,14 +5,16 @@
 #include <string.h>
 
 #include "driver/house/tests.h"
+#include "driver/open/again.h"
 #include "driver/plan/outcome.h"
 #include "driver/plan/value_tests.h"
 #include "runtime/plan/match/rules.h"
 #include "runtime/plan/match/same.h"
 
-/* How many cases came out so. */
+/* How many cases came out so; and which of those about plans, as a hash. */
 typedef struct tally {
     size_t passed, failed, todo;
+    uint64_t which;
 } tally;
 
 /* A block of tests and how it came out. */
@@ -21,7 +23,7 @@ typedef struct noticed_block {
     size_t words;    /* of 64 bits for a case */
     uint64_t *bits;  /* [cases][words]: what each function said */
     bool *good;      /* [cases] */
-    tally otherwise; /* of measures and houses */
+    tally otherwise; /* of measures and houses, and with other values of params */
 } noticed_block;
 
 struct tn_noticing {
@@ -35,7 +37,8 @@ struct tn_noticing {
 
 static bool is_of_rules(const tn_noticing *n, const tn_test_block *block)
 {
-    return !block->imported && !block->is_measure && !block->of_houses && block->schema == n->schema_index;
+    return !block->imported && !block->is_measure && !block->of_houses && !block->with &&
+           block->schema == n->schema_index;
 }
 
 /* The function of number i of a block, in the module at hand. */
@@ -159,6 +162,12 @@ static tn_status ask_block(const tn_noticing *n, const tn_schema *changed, const
 
 /* ---- measures and houses: they are run as always, and counted */
 
+static void count(tally *counts, size_t i, bool good)
+{
+    counts->passed += good;
+    counts->which = (counts->which ^ (2 * i + good + 1)) * UINT64_C(0x9e3779b97f4a7c15); /* 2^64 by the golden ratio */
+}
+
 static tn_status run_values(tn_opened *opened, const tn_test_block *block, tally *counts, tn_error *error)
 {
     tn_value_tests values = {0};
@@ -167,9 +176,27 @@ static tn_status run_values(tn_opened *opened, const tn_test_block *block, tally
         bool good = false;
         const char *message;
         status = tn_value_test(&values, i, &good, &message, error);
-        counts->passed += good;
+        count(counts, i, good);
     }
     tn_value_tests_clear(&values);
+    return status;
+}
+
+/* A block about plans, all of it. */
+static tn_status run_rules(tn_opened *opened, const tn_test_block *block, tally *counts, tn_error *error)
+{
+    tn_noticing n = {.module = opened->module};
+    noticed_block made = {0};
+    tn_schema *schema = NULL;
+    tn_status status = tn_schema_new(opened->module, block->schema, 0, &schema, error);
+    n.schema = schema;
+    if (status == TN_OK)
+        status = run_block(&n, block, &made, error);
+    for (size_t k = 0; status == TN_OK && k < block->case_count; k++)
+        count(counts, k, made.good[k]);
+    free(made.bits);
+    free(made.good);
+    tn_schema_free(schema);
     return status;
 }
 
@@ -180,7 +207,8 @@ static tn_status run_otherwise(tn_opened *opened, const tn_test_block *block, ta
     tn_diagnostics_init(list, said.sources);
     tn_status status = block->of_houses
                            ? tn_house_tests_run(opened, block, &counts->passed, &counts->failed, &counts->todo, error)
-                           : run_values(opened, block, counts, error);
+                       : block->is_measure ? run_values(opened, block, counts, error)
+                                           : run_rules(opened, block, counts, error);
     tn_diagnostics_clear(list);
     *list = said;
     return status;
@@ -188,13 +216,56 @@ static tn_status run_otherwise(tn_opened *opened, const tn_test_block *block, ta
 
 static bool is_otherwise(const tn_test_block *block)
 {
-    return !block->imported && (block->is_measure || block->of_houses);
+    return !block->imported && (block->is_measure || block->of_houses || block->with);
 }
 
 /* ---- the whole */
 
+/* The file, opened once more for one test after another. */
+typedef struct reopened {
+    const tn_reopen *reopen;
+    size_t test;
+    tn_opened opened;
+    tn_status status;
+} reopened;
+
+static void close_again(reopened *again)
+{
+    if (again->test)
+        tn_close(&again->opened);
+    again->test = 0;
+}
+
+/* How the block of number b comes out, which is not of plans alone, or has values of params of its own. *opens: it
+ * compiles with these. */
+static tn_status run_in_turn(tn_opened *opened, size_t b, reopened *again, tally *counts, bool *opens, tn_error *error)
+{
+    const tn_test_block *block = &opened->compilation.program->tests[b];
+    *opens = true;
+    if (!block->with)
+        return run_otherwise(opened, block, counts, error);
+    if (again->test != block->with) {
+        close_again(again);
+        again->test = block->with;
+        again->status = again->reopen->open(again->reopen->context, block->with, &again->opened);
+    }
+    *opens = again->status == TN_OK;
+    if (again->status == TN_INVALID)
+        return TN_OK;
+    if (again->status != TN_OK)
+        return tn_open_error(&again->opened, again->status, error);
+    return run_otherwise(&again->opened, &again->opened.compilation.program->tests[b], counts, error);
+}
+
+static tn_status open_again(void *context, size_t test, tn_opened *opened)
+{
+    return tn_open_again(context, NULL, NULL, test, opened);
+}
+
 tn_status tn_noticing_new(tn_opened *opened, const tn_schema *schema, tn_noticing **noticing, tn_error *error)
 {
+    const tn_reopen reopen = {open_again, opened};
+    reopened again = {.reopen = &reopen};
     tn_noticing *n = calloc(1, sizeof *n);
     if (!n)
         return tn_fail_memory(error);
@@ -207,11 +278,13 @@ tn_status tn_noticing_new(tn_opened *opened, const tn_schema *schema, tn_noticin
     tn_status status = n->blocks ? TN_OK : tn_fail_memory(error);
     for (size_t b = 0; status == TN_OK && b < n->program->test_count; b++) {
         const tn_test_block *block = &n->program->tests[b];
+        bool opens;
         if (is_of_rules(n, block))
             status = run_block(n, block, &n->blocks[b], error);
         else if (is_otherwise(block))
-            status = run_otherwise(opened, block, &n->blocks[b].otherwise, error);
+            status = run_in_turn(opened, b, &again, &n->blocks[b].otherwise, &opens, error);
     }
+    close_again(&again);
     if (status == TN_OK)
         *noticing = n;
     else
@@ -231,10 +304,11 @@ void tn_noticing_free(tn_noticing *n)
     free(n);
 }
 
-tn_status tn_noticing_ask(const tn_noticing *n, tn_opened *changed_file, const tn_schema *changed, bool *notices,
-                          tn_error *error)
+tn_status tn_noticing_ask(const tn_noticing *n, tn_opened *changed_file, const tn_schema *changed,
+                          const tn_reopen *reopen, bool *notices, tn_error *error)
 {
     const tn_program *program = changed_file->compilation.program;
+    reopened again = {.reopen = reopen};
     tn_status status = TN_OK;
     *notices = false;
     for (size_t b = 0; status == TN_OK && !*notices && b < program->test_count; b++)
@@ -242,10 +316,12 @@ tn_status tn_noticing_ask(const tn_noticing *n, tn_opened *changed_file, const t
             status = ask_block(n, changed, &program->tests[b], &n->blocks[b], notices, error);
     for (size_t b = 0; status == TN_OK && !*notices && b < program->test_count; b++) {
         tally counts = {0};
+        bool opens;
         if (!is_otherwise(&program->tests[b]))
             continue;
-        status = run_otherwise(changed_file, &program->tests[b], &counts, error);
-        *notices = memcmp(&counts, &n->blocks[b].otherwise, sizeof counts) != 0;
+        status = run_in_turn(changed_file, b, &again, &counts, &opens, error);
+        *notices = !opens || memcmp(&counts, &n->blocks[b].otherwise, sizeof counts) != 0;
     }
+    close_again(&again);
     return status;
 }

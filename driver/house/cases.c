@@ -44,7 +44,7 @@ tn_status tn_house_cases_read(const tn_opened *opened, tn_house_cases *cases, tn
         (tn_house_cases){.opened = opened, .judges = calloc(opened->module->FORM_count + 1, sizeof *cases->judges)};
     tn_status status = cases->judges ? TN_OK : tn_fail_memory(error);
     for (size_t b = 0; status == TN_OK && b < program->test_count; b++)
-        if (program->tests[b].of_houses && !program->tests[b].imported)
+        if (program->tests[b].of_houses && !program->tests[b].imported && !program->tests[b].with)
             status = read_block(cases, &program->tests[b], error);
     return status;
 }

@@ -1,6 +1,7 @@
 /* The houses that a file's own tests are about, read once: for what tests reach, and for what they notice.
  *
- * A tn_house_cases borrows the opened file.
+ * A tn_house_cases borrows the opened file. Tests that give params values are left out: their
+ * houses are judged by other code than that of the file.
  */
 #ifndef TARTAN_DRIVER_HOUSE_CASES_H
 #define TARTAN_DRIVER_HOUSE_CASES_H

@@ -1,6 +1,8 @@
 /* Opens a file once more, from the texts that were opened before. */
 #include "driver/open/again.h"
 
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "compiler/common/import.h"
@@ -48,14 +50,41 @@ static tn_status resolve(void *context, const tn_request *request, tn_input *fou
     return tn_fail(error, TN_INVALID, E_IMPORT_NOT_FOUND, "`%.200s` was not used before", request->path);
 }
 
-tn_status tn_open_again(const tn_opened *opened, tn_change_tree *change, void *context, tn_opened *again)
+tn_status tn_opened_params(const tn_opened *opened, tn_param_values *params)
+{
+    const tn_sources *sources = &opened->compilation.sources;
+    const char **items = calloc(sources->count + 1, sizeof *items);
+    *params = (tn_param_values){.items = items};
+    for (size_t i = 0; items && i < sources->count; i++)
+        if (strcmp(sources->files[i].path, TN_SETTING_SOURCE) == 0)
+            items[params->count++] = sources->files[i].text;
+    return items ? TN_OK : TN_MEMORY;
+}
+
+void tn_opened_params_text(const tn_opened *opened, char *text, size_t size)
+{
+    const tn_sources *sources = &opened->compilation.sources;
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < sources->count && used < size; i++)
+        if (strcmp(sources->files[i].path, TN_SETTING_SOURCE) == 0)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", sources->files[i].text);
+}
+
+tn_status tn_open_again(const tn_opened *opened, tn_change_tree *change, void *context, size_t test, tn_opened *again)
 {
     const tn_compilation *before = &opened->compilation;
     const tn_input input = input_of(before, before->imports->units[before->imports->count - 1]);
     changing c = {change, context};
-    const tn_compile_options options = {.resolver = {resolve, (void *)(uintptr_t)before},
-                                        .watch = opened->module->watch,
-                                        .change = change_trees,
-                                        .change_context = &c};
-    return tn_open_text(before->notation, &input, &options, again);
+    tn_compile_options options = {.resolver = {resolve, (void *)(uintptr_t)before},
+                                  .watch = opened->module->watch,
+                                  .change = change ? change_trees : NULL,
+                                  .change_context = &c,
+                                  .test = test};
+    *again = (tn_opened){.path = input.name};
+    tn_status status = tn_opened_params(opened, &options.params);
+    if (status == TN_OK)
+        status = tn_open_text(before->notation, &input, &options, again);
+    free((void *)(uintptr_t)options.params.items);
+    return status;
 }

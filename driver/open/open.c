@@ -44,7 +44,8 @@ static tn_status compile(const tn_notation *notation, const tn_input *input, con
 typedef struct asked {
     bool warnings_are_errors;
     const tn_questions *questions; /* NULL: none */
-    const tn_input *more;          /* further texts of the same compilation */
+    tn_param_values params;
+    const tn_input *more; /* further texts of the same compilation */
     size_t more_count;
 } asked;
 
@@ -80,6 +81,7 @@ static tn_status compile_file(tn_opened *opened, const char *text, size_t size, 
                                       .attachments = tn_file_attachments,
                                       .warnings_are_errors = how->warnings_are_errors,
                                       .questions = how->questions,
+                                      .params = how->params,
                                       .more = how->more,
                                       .more_count = how->more_count};
         status = compile(tn_notation_or_first(opened->path, text, size), &input, &options, opened);
@@ -127,29 +129,40 @@ static tn_status refuse_questions(tn_opened *opened)
     return TN_INVALID;
 }
 
-static tn_status open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
-                            const tn_questions *questions, tn_opened *opened)
+/* The states of its automata depend on its params. */
+static tn_status refuse_params(tn_opened *opened)
+{
+    tn_diagnostics *list = &opened->compilation.diagnostics;
+    tn_diagnostic *d = tn_report_bare(
+        list, TN_ERROR, E_USAGE, "%s is a module, and its params keep the values that it was built with", opened->path);
+    tn_help(list, d, "give --set to `tartan build`, or name the rule file that it was built from");
+    return TN_INVALID;
+}
+
+static tn_status open_bytes(const char *path, const uint8_t *bytes, size_t size, const asked *how, tn_opened *opened)
 {
     tn_error error = {0};
     start(path, opened);
     if (tn_refuse_python_grammar(path, &error) != TN_OK)
         return refuse(opened, &error);
     if (!tn_module_has_magic(bytes, size))
-        return compile_file(opened, (const char *)bytes, size, &(asked){warnings_are_errors, questions, NULL, 0});
-    return questions ? refuse_questions(opened) : load(opened, bytes, size);
+        return compile_file(opened, (const char *)bytes, size, how);
+    if (how->params.count > 0)
+        return refuse_params(opened);
+    return how->questions ? refuse_questions(opened) : load(opened, bytes, size);
 }
 
 tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, bool warnings_are_errors,
                         tn_opened *opened)
 {
-    return open_bytes(path, bytes, size, warnings_are_errors, NULL, opened);
+    return open_bytes(path, bytes, size, &(asked){.warnings_are_errors = warnings_are_errors}, opened);
 }
 
 tn_status tn_open_source(const char *path, const char *text, size_t size, const tn_questions *questions,
-                         tn_opened *opened)
+                         tn_param_values params, tn_opened *opened)
 {
     start(path, opened);
-    return compile_file(opened, text, size, &(asked){.questions = questions});
+    return compile_file(opened, text, size, &(asked){.questions = questions, .params = params});
 }
 
 /* ---- files */
@@ -170,18 +183,20 @@ static tn_status read_named(const char *path, tn_stdlib_file *found, uint8_t **b
 
 tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened)
 {
-    return tn_open_asking(path, warnings_are_errors, NULL, opened);
+    return tn_open_asking(path, warnings_are_errors, NULL, (tn_param_values){0}, opened);
 }
 
-tn_status tn_open_asking(const char *path, bool warnings_are_errors, const tn_questions *questions, tn_opened *opened)
+tn_status tn_open_asking(const char *path, bool warnings_are_errors, const tn_questions *questions,
+                         tn_param_values params, tn_opened *opened)
 {
+    const asked how = {.warnings_are_errors = warnings_are_errors, .questions = questions, .params = params};
     uint8_t *bytes = NULL;
     size_t size;
     tn_error error;
     tn_stdlib_file found;
     tn_status status = read_named(path, &found, &bytes, &size, &error);
     if (status == TN_OK) {
-        status = open_bytes(found.path ? found.recorded : path, bytes, size, warnings_are_errors, questions, opened);
+        status = open_bytes(found.path ? found.recorded : path, bytes, size, &how, opened);
         opened->path = path; /* the recorded path ends here */
     } else {
         start(path, opened);
@@ -223,7 +238,7 @@ static tn_status read_joined(const char *path, joined_file *file, tn_error *erro
 
 /* Compiles files that have been read. */
 static tn_status compile_joined(const char *const *paths, const joined_file *files, size_t count,
-                                bool warnings_are_errors, tn_opened *opened)
+                                bool warnings_are_errors, tn_param_values params, tn_opened *opened)
 {
     tn_input *more = calloc(count, sizeof *more);
     tn_error error;
@@ -236,17 +251,19 @@ static tn_status compile_joined(const char *const *paths, const joined_file *fil
                              .size = files[i].size,
                              .name = files[i].found.path ? files[i].found.recorded : paths[i]};
     opened->path = more[0].name;
-    tn_status status =
-        compile_file(opened, more[0].text, more[0].size, &(asked){warnings_are_errors, NULL, more + 1, count - 1});
+    const asked how = {
+        .warnings_are_errors = warnings_are_errors, .params = params, .more = more + 1, .more_count = count - 1};
+    tn_status status = compile_file(opened, more[0].text, more[0].size, &how);
     opened->path = paths[0];
     free(more);
     return status;
 }
 
-tn_status tn_open_joined(const char *const *paths, size_t count, bool warnings_are_errors, tn_opened *opened)
+tn_status tn_open_joined(const char *const *paths, size_t count, bool warnings_are_errors, tn_param_values params,
+                         tn_opened *opened)
 {
     if (count == 1)
-        return tn_open(paths[0], warnings_are_errors, opened);
+        return tn_open_asking(paths[0], warnings_are_errors, NULL, params, opened);
     start(paths[0], opened);
     tn_error error;
     tn_status status = TN_OK;
@@ -255,8 +272,8 @@ tn_status tn_open_joined(const char *const *paths, size_t count, bool warnings_a
         status = tn_fail_memory(&error);
     for (size_t i = 0; i < count && status == TN_OK; i++)
         status = read_joined(paths[i], &files[i], &error);
-    status =
-        status == TN_OK ? compile_joined(paths, files, count, warnings_are_errors, opened) : refuse(opened, &error);
+    status = status == TN_OK ? compile_joined(paths, files, count, warnings_are_errors, params, opened)
+                             : refuse(opened, &error);
     for (size_t i = 0; files && i < count; i++) {
         tn_stdlib_file_clear(&files[i].found);
         free(files[i].bytes);

@@ -22,11 +22,14 @@ typedef struct tn_opened {
  * rules or the module are, TN_IO where the file cannot be read, TN_LIMIT, TN_MEMORY. */
 tn_status tn_open(const char *path, bool warnings_are_errors, tn_opened *opened);
 
-/* The same, with what the command line asks of a .plan file. A module takes no such questions. */
-tn_status tn_open_asking(const char *path, bool warnings_are_errors, const tn_questions *questions, tn_opened *opened);
+/* The same, with what the command line asks of a .plan file, or NULL, and the values that it gives to the file's
+ * params. A module takes neither. */
+tn_status tn_open_asking(const char *path, bool warnings_are_errors, const tn_questions *questions,
+                         tn_param_values params, tn_opened *opened);
 /* Opens files that are one text together, in this order (tn_front.joins); one alone is opened by tn_open. Otherwise as
  * there. */
-tn_status tn_open_joined(const char *const *paths, size_t count, bool warnings_are_errors, tn_opened *opened);
+tn_status tn_open_joined(const char *const *paths, size_t count, bool warnings_are_errors, tn_param_values params,
+                         tn_opened *opened);
 
 /* Is a file of this name one of those that may be several? */
 bool tn_path_joins(const char *path);
@@ -38,7 +41,7 @@ tn_status tn_open_bytes(const char *path, const uint8_t *bytes, size_t size, boo
 
 /* The same of a text, with what is asked of it. */
 tn_status tn_open_source(const char *path, const char *text, size_t size, const tn_questions *questions,
-                         tn_opened *opened);
+                         tn_param_values params, tn_opened *opened);
 
 /* Compiles a text that the caller has, and makes its module ready to run. */
 tn_status tn_open_text(const tn_notation *notation, const tn_input *input, const tn_compile_options *options,

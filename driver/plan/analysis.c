@@ -97,9 +97,15 @@ static tn_status note_plan(const teller *t, tn_diagnostic *diagnostic, const tn_
     return ok ? TN_OK : tn_fail_memory(NULL);
 }
 
+/* Is it otherwise with other values of params? */
+static bool is_settable(const teller *t, tn_span span)
+{
+    return tn_program_settable(t->opened->compilation.program, span);
+}
+
 static bool is_allowed(const teller *t, tn_code code, tn_span span)
 {
-    return tn_program_allows(t->opened->compilation.program, code, span);
+    return tn_program_allows(t->opened->compilation.program, code, span) || is_settable(t, span);
 }
 
 /* A condition of the rule that is always or never true has been warned about: that explains it. */
@@ -138,7 +144,7 @@ static tn_status tell_subsumed(const teller *t)
 {
     const tn_plan_analysis_finding *f = t->finding;
     tn_span span = rule_span(t, f->rule), other = rule_span(t, f->other);
-    if (is_allowed(t, W_SUBSUMED, span))
+    if (is_allowed(t, W_SUBSUMED, span) || is_settable(t, other))
         return TN_OK;
     const char *name = rule_name(t, f->rule), *wider = rule_name(t, f->other);
     char what[TN_NAME_MAX + 40];
@@ -157,7 +163,7 @@ static tn_status tell_equivalent(const teller *t)
 {
     const tn_plan_analysis_finding *f = t->finding;
     tn_span span = rule_span(t, f->rule), other = rule_span(t, f->other);
-    if (is_allowed(t, W_EQUIVALENT, span))
+    if (is_allowed(t, W_EQUIVALENT, span) || is_settable(t, other))
         return TN_OK;
     const char *name = rule_name(t, f->rule), *equal = rule_name(t, f->other);
     tn_diagnostics *list = list_of(t);
@@ -190,7 +196,10 @@ static tn_status tell_idle_prune(const teller *t)
     const tn_plan_analysis_finding *f = t->finding;
     tn_span span = clause_span(t, f->clause);
     char names[300], what[400];
-    if (is_allowed(t, W_REDUNDANT_PRUNE, span))
+    bool settable = false;
+    for (size_t i = 0; i < f->reason_count; i++)
+        settable |= is_settable(t, clause_span(t, f->reasons[i]));
+    if (is_allowed(t, W_REDUNDANT_PRUNE, span) || settable)
         return TN_OK;
     const char *name = clause_name(t, f->clause);
     tn_diagnostic *d;
@@ -210,7 +219,11 @@ static tn_status tell_idle_prune(const teller *t)
 static tn_status tell_idle_requirement(const teller *t)
 {
     tn_span span = clause_span(t, t->finding->clause);
-    if (is_allowed(t, W_NEEDLESS_REQUIREMENT, span))
+    const tn_library_record *library = &t->module->LIBRARY_records[t->finding->library];
+    bool settable = false;
+    for (uint32_t i = 0; i < library->clause_count; i++)
+        settable |= is_settable(t, clause_span(t, library->clause_first + i));
+    if (is_allowed(t, W_NEEDLESS_REQUIREMENT, span) || settable)
         return TN_OK;
     tn_diagnostic *d =
         tn_report(list_of(t), W_NEEDLESS_REQUIREMENT, span, "every plan that `%s` would hold without `%s` meets it",

@@ -13,6 +13,7 @@ static void describe(const tn_opened *opened, const tn_library *library, const c
     const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
     *made = (tn_made){0};
     tn_library_hash(library, made->library_hash);
+    tn_opened_params_text(opened, made->params, sizeof made->params);
     if (producer)
         snprintf(made->rules_hash, sizeof made->rules_hash, "%016" PRIx64, (uint64_t)producer->sources_hash);
     made->metadata = (tn_plan_metadata){.library = name,
@@ -20,7 +21,8 @@ static void describe(const tn_opened *opened, const tn_library *library, const c
                                         .rules_hash = made->rules_hash,
                                         .rules_path = rules_path,
                                         .version = producer ? tn_text(module, producer->version) : NULL,
-                                        .command = command};
+                                        .command = command,
+                                        .params = made->params[0] ? made->params : NULL};
 }
 
 void tn_made_describe(const tn_opened *opened, const tn_ready_library *ready, const char *rules_path,

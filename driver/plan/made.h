@@ -5,11 +5,13 @@
 #ifndef TARTAN_DRIVER_PLAN_MADE_H
 #define TARTAN_DRIVER_PLAN_MADE_H
 
+#include "driver/open/again.h"
 #include "driver/plan/library.h"
 #include "runtime/plan/text/stream.h"
 
 typedef struct tn_made {
     char library_hash[56], rules_hash[20];
+    char params[TN_PARAMS_TEXT_MAX];
     tn_plan_metadata metadata; /* points into this: never copy it */
 } tn_made;
 

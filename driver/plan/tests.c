@@ -11,6 +11,7 @@
 #include "driver/plan/explain.h"
 #include "driver/plan/library.h"
 #include "driver/plan/outcome.h"
+#include "driver/plan/with.h"
 #include "runtime/plan/text/text.h"
 
 #define EXPLAINED_LINES 12 /* of one rule, in a failure */
@@ -27,6 +28,7 @@ typedef struct block {
     tn_opened *opened;
     const tn_module *module;
     const tn_test_block *tests;
+    const tn_test_block *shown;       /* the same as the file itself has it: to whoever looks on */
     const tn_library_record *library; /* or NULL: a rule */
     size_t rule_count;
     tn_schema *schema;
@@ -255,7 +257,7 @@ static void count_case(const block *b, const tn_test_case *test, bool good, cons
     if (outcome == TN_TEST_DONE)
         message = report_done(b, test);
     if (watcher)
-        watcher->seen(watcher->context, b->tests, test, outcome, message);
+        watcher->seen(watcher->context, b->shown, &b->shown->cases[test - b->tests->cases], outcome, message);
 }
 
 static tn_status run_block(block *b, uint32_t max_states, const tn_test_watcher *watcher, tn_test_counts *counts,
@@ -294,6 +296,42 @@ static tn_status run_values(block *b, const tn_test_watcher *watcher, tn_test_co
     return status;
 }
 
+static tn_status run_tests(block *b, uint32_t max_states, const tn_test_watcher *watcher, tn_test_counts *counts,
+                           tn_error *error)
+{
+    if (b->tests->of_houses)
+        return tn_house_tests_run(b->opened, b->tests, &counts->passed, &counts->failed, &counts->todo, error);
+    return b->tests->is_measure ? run_values(b, watcher, counts, error)
+                                : run_block(b, max_states, watcher, counts, error);
+}
+
+/* Block number i, in the file as it is, or with the values that it gives params. Failures are said. */
+static tn_status run_in_turn(tn_opened *opened, size_t i, tn_with *with, uint32_t max_states,
+                             const tn_test_watcher *watcher, tn_test_counts *counts)
+{
+    const tn_test_block *own = &opened->compilation.program->tests[i];
+    block b = {.opened = opened, .module = opened->module, .tests = own, .shown = own};
+    tn_error error = {0};
+    if (own->with) {
+        tn_status status = tn_with_open(with, opened, own, &error);
+        if (status == TN_INVALID) /* which is said */
+            return status;
+        if (status != TN_OK) {
+            tn_finding_error(opened, &error);
+            return status;
+        }
+        b.opened = &with->opened;
+        b.module = b.opened->module;
+        b.tests = &b.opened->compilation.program->tests[i];
+    }
+    tn_status status = run_tests(&b, max_states, watcher, counts, &error);
+    if (status != TN_OK)
+        tn_finding_error(b.opened, &error);
+    if (own->with)
+        tn_with_said(with, opened, own);
+    return status;
+}
+
 tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, const tn_test_watcher *watcher, tn_test_counts *counts)
 {
     tn_diagnostics *list = &opened->compilation.diagnostics;
@@ -311,25 +349,11 @@ tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, const tn_test_wat
         return TN_INVALID;
     }
     size_t failed = counts->failed;
-    for (size_t i = 0; i < program->test_count; i++) {
-        block b = {.opened = opened, .module = opened->module, .tests = &program->tests[i]};
-        tn_error error;
-        if (b.tests->imported)
-            continue;
-        if (b.tests->of_houses) {
-            tn_status status =
-                tn_house_tests_run(opened, b.tests, &counts->passed, &counts->failed, &counts->todo, &error);
-            if (status == TN_OK)
-                continue;
-            tn_finding_error(opened, &error);
-            return status;
-        }
-        tn_status status = b.tests->is_measure ? run_values(&b, watcher, counts, &error)
-                                               : run_block(&b, max_states, watcher, counts, &error);
-        if (status != TN_OK) {
-            tn_finding_error(opened, &error);
-            return status;
-        }
-    }
-    return counts->failed > failed ? TN_INVALID : TN_OK;
+    tn_with with = {0};
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < program->test_count; i++)
+        if (!program->tests[i].imported)
+            status = run_in_turn(opened, i, &with, max_states, watcher, counts);
+    tn_with_clear(&with);
+    return status == TN_OK && counts->failed > failed ? TN_INVALID : status;
 }

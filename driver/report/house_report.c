@@ -133,7 +133,7 @@ static bool put_head(const tn_house_reporting *r)
     const tn_form_record *form = report->form->record;
     return tn_page_begin(&r->page, tn_text(r->module, report->library->name),
                          tn_text(r->module, report->library->doc)) &&
-           tn_page_html(&r->page, "<p>Houses in the form <b>") &&
+           tn_page_params(&r->page, report->opened) && tn_page_html(&r->page, "<p>Houses in the form <b>") &&
            tn_page_text(&r->page, tn_text(r->module, form->name)) &&
            tn_page_html(&r->page, "</b>, on the plans of <b>") &&
            tn_page_text(&r->page, tn_text(r->module, r->module->LIBRARY_records[report->library->plans].name)) &&

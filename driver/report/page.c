@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "driver/open/again.h"
 #include "runtime/base/utf8.h"
 
 static const char style[] =
@@ -106,6 +107,14 @@ bool tn_page_begin(const tn_page *page, const char *title, const char *doc)
            tn_page_text(page, title) && tn_page_html(page, "</title>\n") && tn_page_html(page, style) &&
            tn_page_html(page, "<h1>") && tn_page_text(page, title) && tn_page_html(page, "</h1>\n<p>") &&
            tn_page_text(page, doc) && tn_page_html(page, "</p>\n");
+}
+
+bool tn_page_params(const tn_page *page, const tn_opened *opened)
+{
+    char params[TN_PARAMS_TEXT_MAX];
+    tn_opened_params_text(opened, params, sizeof params);
+    return !params[0] || (tn_page_html(page, "<p>With <code>") && tn_page_text(page, params) &&
+                          tn_page_html(page, "</code>, which <code>--set</code> says.</p>\n"));
 }
 
 bool tn_page_version(const tn_page *page, const tn_module *module)

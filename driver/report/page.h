@@ -20,6 +20,8 @@ static inline tn_status tn_page_written(const tn_page *page, bool good)
 
 /* Up to the title and a sentence below it, in the style of all pages; and the version that made the module. */
 bool tn_page_begin(const tn_page *page, const char *title, const char *doc);
+/* The values that the params of the file were given, if any were. */
+bool tn_page_params(const tn_page *page, const tn_opened *opened);
 bool tn_page_version(const tn_page *page, const tn_module *module);
 
 /* HTML as it is, and a text with &, <, > and quotes written for HTML. */

@@ -60,6 +60,7 @@ static bool put_head(const tn_reporting *r)
 {
     return tn_page_begin(&r->page, tn_text(r->module, r->ready->record->name),
                          tn_text(r->module, r->ready->record->doc)) &&
+           tn_page_params(&r->page, r->opened) &&
            tn_page_html(
                &r->page,
                "<nav><a href=\"#counts\">Counts</a> <a href=\"#findings\">Warnings</a> <a "

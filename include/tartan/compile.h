@@ -54,6 +54,10 @@ typedef struct tartan_compile_options {
     void *resolve_context;
     bool warnings_are_errors;
     const tartan_watch *watch; /* or NULL: asked at each text that is compiled; TARTAN_STOPPED once it says so */
+    const char *const *params; /* of a .plan file: values for its params instead of their defaults, as `tartan --set`
+                                  takes them, "lot=12m" each; what is wrong with one is an error of the compilation, in
+                                  a text called "--set". For other notations there must be none */
+    size_t param_count;
 } tartan_compile_options;
 TARTAN_SIZED(tartan_compile_options)
 

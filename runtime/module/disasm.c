@@ -17,7 +17,12 @@ static void list_header(tn_lister *lister)
     }
     for (size_t i = 0; i < module->SOURCE_count; i++) {
         fprintf(lister->out, "source %zu  ", i);
+        const char *path = tn_text(module, module->SOURCE_records[i].path);
         tn_list_name(lister, module->SOURCE_records[i].path);
+        if (path[0] == '-' && path[1] == '-') { /* what an option said */
+            fputc(' ', lister->out);
+            tn_list_name(lister, module->SOURCE_records[i].text);
+        }
         fputc('\n', lister->out);
     }
 }

@@ -14,6 +14,7 @@ class PlanKind(Kind):
         "file: ONE_EXPRESSION expression": "the command line's, not a file's",
         "file: ONE_PATTERN pattern": "the command line's, not a file's",
         "file: ONE_LITERAL plan": "the command line's, not a file's",
+        "file: ONE_SETTING setting": "the command line's, not a file's",
         "file: items": "the start is `items`",
         "value: NUMBER doc role": "taken by the grammar in order to say that a number has no unit",
     }

@@ -12,6 +12,7 @@ from c_interface import c_interface
 from exports import prolog, regex
 from house_files import bills, solids, swings
 from program import Refused, answer, json_lines, read_json, run, same
+from settings import set_as_written
 from source import Source
 from subject import Subject
 
@@ -461,4 +462,4 @@ def limits(subject):
 QUICK = [counted_ways, by_length]              # asked of every library; of those that follow some are chosen
 OF_FILES = [loads, file_questions.keeps_its_meaning, says_json]
 OF_LIBRARIES = [by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, explained_where, both_engines, fronts, mirrored,
-                effects, compared, threads, saved, limits, prolog, regex, c_interface, c_ask, solids, swings, bills, tested]
+                effects, compared, threads, saved, limits, prolog, regex, c_interface, c_ask, solids, swings, bills, tested, set_as_written]

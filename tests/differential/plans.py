@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 import specifiers
 from maker import Notation
 from scope import Field, Scope, body_fields, merged
-from tree import Node, listed
+from tree import Node, listed, wrapped
 
 DOCS = ['"a doc"', '"it\'s a \\"quoted\\" word"', '"größer \\\\ 5\'"', '""']
 CODES = ["W001", "W002", "W003", "W004", "W005", "W008"]
@@ -132,7 +132,7 @@ WEIGHTS = {
     "cond_and: cond_ands": .3, "cond_atom: OPEN condition CLOSE": .2, "cond_atom: compare": 3,
     "constant: DASH NUMBER": .15, "constant: DASH LENGTH": .05, "constant: DASH AREA": .2, "constant: DASH DECIMAL": .2,
     "range: constant": .3, "part: ELLIPSIS": .2, "item: use STRING": 2, "pattern_tray: spec_items": 2,
-    "any_case: todo_word case": .3, "literal_word: ABSENT": .2, "literal_word: OF_DEPTH": MISTAKE, "value: ELLIPSIS": MISTAKE,
+    "any_case: todo_word case": .3, "item: param NAME doc EQUAL additive IN additive DOTS additive": .2, "literal_word: ABSENT": .2, "literal_word: OF_DEPTH": MISTAKE, "value: ELLIPSIS": MISTAKE,
     "specifier: %empty": .05, "plan: OPEN_BRACKET HOUSE CLOSE_BRACKET": MISTAKE, "clause: require_word requires": 3, "clause: prune_word prunes": 3,
     "clause: allow_word names": .2, "clause: trays_word range": MISTAKE, "clause_name: CLAUSE_NAME": .5,
     "prunes: prunes COMMA prune": .5, "requires: requires COMMA require": .5,
@@ -303,6 +303,10 @@ CONTEXTS = {
     "clause: total_word total_field comparison constant doc":
         lambda maker, place: {3: place.but(sort="constant", dimension=1, want="total")},
     "item: schema NAME doc from OPEN_BRACE body CLOSE_BRACE": head("s"),
+    "item: param NAME doc EQUAL additive": lambda maker, place: {**head("lot")(maker, place), 4: place.but(sort="constant")},
+    "item: param NAME doc EQUAL additive IN additive DOTS additive":
+        lambda maker, place: {**head("lot")(maker, place), **{i: place.but(sort="constant") for i in (4, 6, 8)}},
+    "item: param NAME doc EQUAL param_words": head("side"),
     "item: let NAME EQUAL expression": head("const"), "item: measure NAME doc using EQUAL additive": head("m"),
     "rule_head: rule NAME params doc using allow": head("r"), "library_head: library NAME doc using": head("l"),
     "library_head: library NAME doc using FROM NAME":
@@ -311,7 +315,7 @@ CONTEXTS = {
         lambda maker, place: {**head("h")(maker, place), 3: place.but(want="using-schema"), 5: place.but(want="plans"),
                               7: place.but(want="exact", text=place.form)},
     "form_head: form NAME doc OF NAME": lambda maker, place: {**head("f")(maker, place), 4: place.but(want="exact", text=place.schema)},
-    "item: test names OPEN_BRACE cases CLOSE_BRACE": lambda maker, place: {1: place.but(want="tested")},
+    "item: test names with OPEN_BRACE cases CLOSE_BRACE": lambda maker, place: {1: place.but(want="tested")},
     "case: value_word plan EQUAL additive doc": lambda maker, place: {3: place.but(sort="constant")},
     "role: ROLE NAME": lambda maker, place: {1: place.but(want="role")},
     "number_item: number_word field_head EQUAL number_cases": lambda maker, place: {1: place.but(sort="figure")},
@@ -632,7 +636,63 @@ def older(maker, depth, place):
     return maker.node("from: FROM NAME", maker.word("NAME", place.text)) if place.text else maker.node("from: %empty")
 
 
-HOOKS = {"additive": alone, "primary": small_question, "parts": neighbour_parts, "call_args": arguments, "body": body, "clauses": clauses, "range": trays_range, "number_cases": number_cases, "params": params,
+SIDES = ["left", "right", "lime"]                # one of which may be a value of a field, too
+
+
+def constant(maker, place, text):
+    """The text as a sum."""
+    token = {0: "NUMBER", 1: "LENGTH", 2: "AREA"}[place.dimension]
+    return wrapped(maker.grammar, "additive", maker.node(f"head_number: {token}", maker.word(token, text)))
+
+
+def constants(place):
+    """Constants of the place's dimension, from the least to the greatest."""
+    return [["0", "1", "2", "3", "7"], METRES if place.metric else ["3'", "4'", "5'", "8'6\"", "12'"],
+            ["3.5m2", "6m2", "20m2"] if place.metric else ["12ft2", "48sf", "100sf"]][place.dimension]
+
+
+def param_words(maker, depth, place):
+    names = maker.random.sample(SIDES, maker.random.choice([2, 2, 3]))
+    first, second, *more = [maker.word("NAME", n) for n in names]
+    node = maker.node("param_words: NAME BAR NAME", first, second)
+    for word in more:
+        node = maker.node("param_words: param_words BAR NAME", node, word)
+    return node
+
+
+def side_question(maker, depth, place):
+    """A param of words, compared with one of them."""
+    sides = [n for n, p in place.scope.params.items() if p.words]
+    if not sides or place.sort not in QUESTIONS or maker.chance(.5):
+        return None
+    side = maker.random.choice(sides)
+    parts = [side, maker.random.choice(place.scope.params[side].words)]
+    maker.random.shuffle(parts)
+    one, other = (wrapped(maker.grammar, "additive", maker.node("primary: NAME", maker.word("NAME", n))) for n in parts)
+    sign = maker.node("comparison: " + maker.random.choice(["EQUAL", "EQUAL", "UNEQUAL"]))
+    return maker.node("comparable: additive comparison additive", one, sign, other)
+
+
+def given(maker, place, name):
+    """`NAME = VALUE` of a param."""
+    param = place.scope.params[name]
+    if param.words:
+        value = wrapped(maker.grammar, "additive", maker.node("primary: NAME", maker.word("NAME", maker.random.choice(param.words))))
+    else:
+        of = place.but(dimension=min(param.dimension, 2))
+        value = constant(maker, of, maker.random.choice(param.range or constants(of)))
+    return maker.node("setting: NAME EQUAL additive", maker.word("NAME", name), value)
+
+
+def settings(maker, depth, place):
+    names = list(place.scope.params)
+    if not names or maker.chance(.4):
+        return maker.node("with: %empty")
+    chosen = maker.random.sample(names, min(len(names), maker.random.choice([1, 1, 2])))
+    return maker.node("with: WITH settings", listed(maker.grammar, "settings", [given(maker, place, n) for n in chosen]))
+
+
+HOOKS = {"additive": alone, "comparable": side_question, "param_words": param_words, "with": settings, "primary": small_question, "parts": neighbour_parts, "call_args": arguments, "body": body, "clauses": clauses, "range": trays_range, "number_cases": number_cases, "params": params,
          "using": using, "from": older, "spec_items": specifiers.items, "literal_tray": specifiers.literal_tray}
 
 
@@ -743,6 +803,25 @@ def random_params(maker, place):
     return tuple((name, maker.random.choice(kinds)) for name in ["a", "b", "k"][:maker.random.choice([1, 2])])
 
 
+def add_params(maker, items, place):
+    random = maker.random
+    if maker.chance(.25):
+        of = place.but(item="param", dimension=random.choice([0, 0, 1, 1, 2]), sort="constant", before=tuple(place.scope.lets))
+        known = constants(of)
+        low, default, high = sorted(random.choices(range(len(known)), k=3))
+        if maker.chance(.4):
+            add(maker, items, "item: param NAME doc EQUAL additive", 1, of)
+        else:
+            made = maker.node("item: param NAME doc EQUAL additive IN additive DOTS additive", maker.make("param", 1, of),
+                              maker.word("NAME", place.scope.fresh(random, "lot")), maker.make("doc", 1, of),
+                              *(constant(maker, of, known[i]) for i in (default, low, high)))
+            made = Node(made.symbol, made.production, made.children, context=of)
+            place.scope.declare(made)
+            items.append(made)
+    if maker.chance(.25):
+        add(maker, items, "item: param NAME doc EQUAL param_words", 1, place.but(item="param"))
+
+
 def add_rules(maker, items, place, depths=(2, 3, 3, 4, 5)):
     random = maker.random
     rule = "item: rule_head EQUAL expression"
@@ -750,6 +829,7 @@ def add_rules(maker, items, place, depths=(2, 3, 3, 4, 5)):
         before = None if maker.chance(.05) else tuple(place.scope.lets)
         let = place.but(item="let", before=before, dimension=random.choice([0, 1, 2]), sort="constant")
         add(maker, items, "item: let NAME EQUAL expression", 1, let)
+    add_params(maker, items, place)
     if maker.chance(.2) and place.fields("length", "choice"):
         values = place.but(item="let", before=(), sort="values", dimension=1, field=random.choice(place.fields("length", "choice")))
         add(maker, items, "item: let NAME EQUAL expression", 2, values)
@@ -780,7 +860,7 @@ def add_tests(maker, items, place):
     for kind in ("rule", "library", "measure"):
         of = place.but(item="test", test=kind)
         if maker.chance(.25) and tested(maker, of) != "nothing":
-            add(maker, items, "item: test names OPEN_BRACE cases CLOSE_BRACE", 4, of)
+            add(maker, items, "item: test names with OPEN_BRACE cases CLOSE_BRACE", 4, of)
 
 
 def make_file(maker):

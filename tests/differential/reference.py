@@ -471,11 +471,23 @@ def quantified(joined, which):
 
 
 def compared(plan, e, env, i, j):
+    side = side_compared(plan, e)
+    if side is not None:
+        return side
     bound = bound_sides(plan, e, env)
     if bound:
         return OPERATORS[words(e.children[1])[0]](*bound)
     left, right = plan.value(e.children[0], env, i, j), plan.value(e.children[2], env, i, j)
     return left is not None and right is not None and OPERATORS[words(e.children[1])[0]](left, right)
+
+
+def side_compared(plan, e):
+    """Of a param of words and one of them; None where neither side is such a param."""
+    texts = [words(e.children[k]) for k in (0, 2)]
+    for one, other in (texts, texts[::-1]):
+        if len(one) == len(other) == 1 and one[0] in plan.file.sides:
+            return OPERATORS[words(e.children[1])[0]](plan.file.sides[one[0]], other[0])
+    return None
 
 
 def bound_sides(plan, e, env):
@@ -721,7 +733,7 @@ class File:
         if schema not in schemas:
             raise Unknown(f"schema {schema}")
         self.schema = Schema(schemas[schema], schemas)
-        self.rules, self.sums, self.libraries = {}, {}, {}
+        self.rules, self.sums, self.libraries, self.sides = {}, {}, {}, {}
         for item in self.items:
             self._declare(item)
 
@@ -730,7 +742,9 @@ class File:
         if kind == "rule_head":
             head = item.child("rule_head")
             self.rules[head.child("NAME").text] = (words(head.child("params"))[1:-1:2], item.child("expression"))
-        elif kind in ("measure", "let"):
+        elif kind == "param" and item.child("param_words"):
+            self.sides[item.child("NAME").text] = words(item.child("param_words"))[0]
+        elif kind in ("measure", "let", "param"):
             self.sums[item.child("NAME").text] = item.child("additive") or item.child("expression")
         elif kind == "library_head":
             self.libraries[item.child("library_head").child("NAME").text] = item

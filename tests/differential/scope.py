@@ -25,6 +25,13 @@ class Measure:
 
 
 @dataclass
+class Param:
+    dimension: int                              # of a number
+    words: list                                 # of a choice, the default first
+    range: list                                 # texts, or empty
+
+
+@dataclass
 class Library:
     schema: str
     form: str = None
@@ -44,7 +51,7 @@ class Form:
 
 class Scope:
     def __init__(self, items=()):
-        self.schemas, self.rules, self.measures, self.lets, self.libraries, self.forms = {}, {}, {}, {}, {}, {}
+        self.schemas, self.rules, self.measures, self.lets, self.params, self.libraries, self.forms = {}, {}, {}, {}, {}, {}, {}
         self.used = set()
         for item in items:
             self.declare(item)
@@ -137,6 +144,17 @@ def let(scope, item):
     scope.lets[named(item)] = (item.context.field.name if item.context.field else None, item.context.dimension)
 
 
+def param(scope, item):
+    """A number stands where a `let` may; words are compared."""
+    choice, texts = item.child("param_words"), words(item)
+    names = words(choice)[::2] if choice else []
+    ends = texts[texts.index("in") + 1:] if item.child("IN") else []
+    ends = [ends[0], ends[-1]] if len(ends) == 3 else []
+    scope.params[named(item)] = Param(item.context.dimension, names, ends)
+    if not choice:
+        scope.lets[named(item)] = (None, item.context.dimension)
+
+
 def library(scope, item):
     head = item.child("library_head")
     scope.libraries[named(head)] = Library(head.context.schema, head.context.form)
@@ -163,4 +181,4 @@ def form_clause(made, clause):
         made.items += [p.child("NAME").text for p in find_all(clause, "tile_part") if words(p)[0] == "item"]
 
 
-DECLARED = {"schema": schema, "rule_head": rule, "measure": measure, "let": let, "library_head": library, "form_head": form}
+DECLARED = {"schema": schema, "rule_head": rule, "measure": measure, "let": let, "param": param, "library_head": library, "form_head": form}

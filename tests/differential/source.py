@@ -2,7 +2,7 @@
 import re
 from dataclasses import dataclass
 
-HEAD = re.compile(r"""^(?P<kind>schema|rule|measure|library|form|let)\s+(?P<name>[^\W\d][\w-]*)\s*(?P<params>\([^)]*\))?\s*(?:"(?:\\.|[^"\\])*")?
+HEAD = re.compile(r"""^(?P<kind>schema|rule|measure|library|form|let|param)\s+(?P<name>[^\W\d][\w-]*)\s*(?P<params>\([^)]*\))?\s*(?:"(?:\\.|[^"\\])*")?
                       \s*(?:using\s+(?P<using>[\w-]+))?\s*(?:from\s+(?P<older>[\w-]+))?\s*(?:in\s+(?P<form>[\w-]+))?\s*(?:of\s+(?P<schema>[\w-]+))?""", re.X)
 
 

@@ -248,7 +248,7 @@ static bool check_name(tn_check *check, const tn_checked_schema *schema, tn_ast_
         amount->power = figure->number->power;
         return !figure->number->broken;
     }
-    if (schema->broken || figure->name->broken)
+    if (schema->broken || figure->name->broken || tn_refuse_param(check, schema, figure->name))
         return false;
     tn_diagnostic *d = field ? tn_report(check->diagnostics, E_NOT_A_LENGTH, figure->name->node.span,
                                          "`%s` has no lengths to add up", name)

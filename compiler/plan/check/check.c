@@ -59,8 +59,11 @@ static void check_rule(tn_check *check, tn_checked_rule *rule)
     size_t errors = check->diagnostics->error_count;
     if (!rule->hidden) {
         tn_check_allow(check, rule->ast->allow);
+        check->met_param = false;
         tn_expand(check, &rule->ast->body);
+        rule->settable = check->met_param;
     }
+    check->settable = rule->settable;
     if (tn_arena_failed(check->arena))
         return;
     if (rule->is_measure)
@@ -81,6 +84,9 @@ static void check_meaning(tn_check *check, tn_checked_rule *rule)
     check->quiet = is_taken_over(rule);
     tn_ast_expr *body = rule->ast->body;
     size_t errors = check->diagnostics->error_count;
+    for (size_t i = 0; i < rule->use_count; i++)
+        rule->settable |= rule->uses[i]->settable;
+    check->settable = rule->settable;
     rule->meaning = body->kind != TN_EXPR_NAME ? body : body->rule ? body->rule->meaning : NULL;
     rule->min_trays = tn_min_trays(body);
     tn_check_meaning(check, body);
@@ -126,16 +132,20 @@ void tn_check_let(tn_check *check, const tn_ast_expr *value)
             "write `let wide = 4.8m` or `let wet = bath or kitchen`; a rule is named by `rule NAME = ...`");
 }
 
-/* Says which use themselves, whether or not anything uses them. */
+/* Says which use themselves, whether or not anything uses them; and what params are. */
 static void check_lets(tn_check *check)
 {
     for (size_t u = 0; check->has_lets && u < check->imports->count; u++) {
         const tn_ast_file *file = check->imports->units[u]->tree;
         for (TN_EACH(tn_ast_top, item, file->items)) {
+            bool let = item->kind == TN_ITEM_LET || item->kind == TN_ITEM_PARAM;
             const tn_checked_name *name =
-                item->kind == TN_ITEM_LET ? tn_names_get(&check->names, ((const tn_ast_rule *)item)->name->text) : NULL;
-            if (name && name->rule && name->rule->is_let)
-                tn_let_value(check, name->rule);
+                let ? tn_names_get(&check->names, ((const tn_ast_rule *)item)->name->text) : NULL;
+            if (!name || !name->rule || &name->rule->ast->top != item)
+                continue;
+            tn_let_value(check, name->rule);
+            if (name->rule->param)
+                tn_check_param(check, name->rule);
         }
     }
 }
@@ -144,13 +154,14 @@ void tn_check_settle(tn_check *check)
 {
     tn_checked *result = check->result;
     size_t ordered = result->ordered;
-    bool quiet = check->quiet;
+    bool quiet = check->quiet, settable = check->settable;
     for (; result->rule_count > result->settled && !tn_arena_failed(check->arena); result->settled++)
         check_rule(check, result->rules[result->settled]);
     tn_check_order(check);
     for (size_t i = ordered; i < result->ordered; i++)
         check_meaning(check, result->order[i]);
     check->quiet = quiet;
+    check->settable = settable;
 }
 
 tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports,
@@ -162,16 +173,18 @@ tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const t
     tn_check_collect(&check);
     if (tn_arena_failed(arena))
         return TN_MEMORY;
+    check.in_schema = true;
     for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
         tn_check_schema(&check, result->schemas[i]);
     for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
         tn_check_forbids(&check, result->schemas[i]);
     for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
         tn_check_numbers(&check, result->schemas[i]);
+    check.in_schema = false;
     static void (*const steps[])(tn_check *) = {
-        check_lets,         tn_check_forms, find_schemas,    tn_check_older_measures, tn_check_settle,
-        tn_check_libraries, tn_check_asked, tn_check_unused, tn_check_number_records, tn_check_tests,
-        tn_check_allowances};
+        tn_check_settings, check_lets,          tn_check_forms,    find_schemas,        tn_check_older_measures,
+        tn_check_settle,   tn_check_libraries,  tn_check_asked,    tn_check_unused,     tn_check_number_records,
+        tn_check_tests,    tn_check_allowances, tn_check_settable, tn_check_list_params};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !tn_arena_failed(arena); i++)
         steps[i](&check);
     return tn_arena_failed(arena) ? TN_MEMORY : TN_OK;

@@ -141,6 +141,14 @@ typedef struct tn_checked_sum {
     uint32_t index; /* emitted: of its SUM record */
 } tn_checked_sum;
 
+/* A param, beyond its being a `let`. */
+typedef struct tn_checked_param {
+    bool seen, good;        /* good: what it may be is known */
+    tn_sum_amount kind;     /* of numbers: their dimension */
+    const char *low, *high; /* its range, or NULL */
+    tn_span range;
+} tn_checked_param;
+
 typedef struct tn_checked_rule {
     tn_ast_rule *ast;
     const char *name;
@@ -158,6 +166,8 @@ typedef struct tn_checked_rule {
     tn_ast_expr *written;                /* the body before anything was written out */
     bool is_template;                    /* has parameters: only calls of it mean something */
     bool is_let;
+    bool settable;              /* what it means depends on a param */
+    tn_checked_param *param;    /* of a `let` whose value may be given; else NULL */
     bool used, seen;            /* by a library or measure, also by way of others; seen: what it names is marked too */
     bool hidden;                /* made of a call, or of a rule of an older schema: the file does not name it */
     bool listed;                /* of a hidden measure: it has a record all the same */
@@ -184,6 +194,7 @@ typedef struct tn_checked_clause {
     tn_checked_spec *any;            /* total */
     uint32_t field;                  /* total */
     tn_span span;
+    bool settable;     /* what is written in it depends on a param */
     uint32_t function; /* emitted: plus one; 0: not yet */
 } tn_checked_clause;
 
@@ -239,6 +250,7 @@ typedef struct tn_asked_for {
     const char *library; /* or NULL */
     tn_ast_expr **wheres;
     size_t where_count;
+    tn_ast_list settings;          /* tn_ast_setting: the values of params */
     const char *schema;            /* of the next two */
     const tn_ast_list *pattern;    /* an open plan, or NULL */
     const tn_ast_literal *literal; /* a plan in brackets, or NULL */
@@ -266,11 +278,14 @@ typedef struct tn_check {
     tn_checked_rule **templates; /* rules with parameters */
     size_t template_count;
     const tn_checked_rule *open; /* the call that is being written out, or NULL */
+    bool in_schema;              /* schemas are being checked: they know no params */
+    bool met_param;              /* what has been written out so far depends on a param */
 
     /* of the rule or library being checked */
     size_t unit;
     tn_checked_schema *schema;
     tn_checked_rule *rule;        /* NULL in a library */
+    bool settable;                /* what is checked depends on a param: what is always so may be otherwise */
     struct tn_checked_form *form; /* of a library of houses */
     bool form_wrong;              /* it has another one than it says, which was reported */
     bool asking;                  /* what the command line asks is checked */
@@ -297,6 +312,7 @@ bool tn_check_new_word(tn_check *check, const tn_checked_schema *schema, const t
 void tn_check_allow(tn_check *check,
                     tn_ast_list codes);    /* resolves the words of an `allow`: value is the tn_code, 0 where wrong */
 void tn_check_allowances(tn_check *check); /* collects all of them for the program */
+void tn_check_settable(tn_check *check);   /* collects what depends on params for the program */
 bool tn_check_wanted(const tn_check *check, tn_code warning); /* is it not allowed in what is being checked? */
 
 /* ---- schema.c */
@@ -425,7 +441,15 @@ tn_ast_expr *tn_let_value(tn_check *check, tn_checked_rule *let); /* NULL: repor
 /* ---- check.c */
 /* Can a `let` stand for this: a constant, or values of a field? Reports where not. */
 void tn_check_let(tn_check *check, const tn_ast_expr *value);
-void tn_check_settle(tn_check *check); /* checks the rules that were added since the last time */
+
+/* ---- param.c */
+void tn_check_param(tn_check *check, tn_checked_rule *param); /* what it is, and its range; once */
+void tn_check_settings(tn_check *check);                      /* those of the command line: they are given already */
+void tn_check_list_params(tn_check *check);                   /* for the program */
+/* Is what stands in a schema the name of a param? Then that is reported. */
+bool tn_refuse_param(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word);
+void tn_check_with(tn_check *check, const tn_ast_test *test); /* those of a test in check->unit */
+void tn_check_settle(tn_check *check);                        /* checks the rules that were added since the last time */
 
 /* ---- warnings.c */
 void tn_check_warnings(tn_check *check, const tn_ast_expr *expr);

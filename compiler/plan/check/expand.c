@@ -22,7 +22,9 @@ tn_bound_name tn_bound(const tn_rule_expansion *expansion, const tn_ast_word *wo
     const tn_checked_name *name = check->has_lets ? tn_names_get(&check->names, word->text) : NULL;
     if (!name || !name->rule || !name->rule->is_let || !tn_import_reaches(check->imports, expansion->unit, name->unit))
         return (tn_bound_name){0};
-    return (tn_bound_name){.word = word, .value = tn_let_value(expansion->check, name->rule), .let = name->rule};
+    tn_bound_name bound = {.word = word, .value = tn_let_value(expansion->check, name->rule), .let = name->rule};
+    expansion->check->met_param |= name->rule->settable;
+    return bound;
 }
 
 /* ---- does anything have to be written out? */
@@ -78,7 +80,8 @@ static tn_ast_expr *shallow(tn_rule_expansion *expansion, const tn_ast_expr *exp
     copy->sum = copy->high = NULL;
     copy->condition_checked = NULL;
     copy->tests = tn_ast_empty();
-    copy->whole = copy->resolved = false;
+    copy->whole = copy->resolved = copy->settable = false;
+    copy->idle = tn_ast_empty();
     return copy;
 }
 
@@ -109,12 +112,39 @@ static bool count_expansion(tn_check *check, tn_span span)
 
 /* ---- quantifiers */
 
+/* What a param decides leaves the other parts out, which mean something with another value: they are kept to be
+ * checked. Moves them from `parts`, but for `decides` (or NULL), to the end of a list. */
+static tn_ast_list leave_out(tn_ast_list kept, tn_ast_list parts, const tn_ast_expr *decides)
+{
+    for (tn_ast_node *node = parts.first, *next; node; node = next) {
+        tn_ast_expr *part = (tn_ast_expr *)node;
+        next = node->next;
+        node->next = NULL;
+        kept = tn_ast_join(kept, part->idle);
+        if (part != decides && part->kind != TN_EXPR_TRUE && part->kind != TN_EXPR_FALSE)
+            kept = tn_ast_append(kept, part);
+        part->idle = tn_ast_empty();
+    }
+    return kept;
+}
+
+/* The same, where a part of it is decided by a param. */
+static tn_ast_expr *decided_by_param(tn_ast_expr *result, tn_expr_kind kind, tn_ast_list parts, tn_ast_list kept,
+                                     const tn_ast_expr *decides)
+{
+    result->kind = kind;
+    result->settable = true;
+    result->parts = tn_ast_empty();
+    result->idle = leave_out(kept, parts, decides);
+    return result;
+}
+
 /* An `and` or `or` without the parts that change nothing; what is decided already is decided. */
 static tn_ast_expr *joined(tn_rule_expansion *expansion, tn_expr_kind kind, const tn_ast_expr *place, tn_ast_list parts)
 {
     tn_expr_kind decides = kind == TN_EXPR_OR ? TN_EXPR_TRUE : TN_EXPR_FALSE,
                  idle = kind == TN_EXPR_OR ? TN_EXPR_FALSE : TN_EXPR_TRUE;
-    tn_ast_list left = tn_ast_empty();
+    tn_ast_list left = tn_ast_empty(), kept = tn_ast_empty();
     tn_ast_expr *result = shallow(expansion, place);
     if (!result)
         return NULL;
@@ -123,7 +153,14 @@ static tn_ast_expr *joined(tn_rule_expansion *expansion, tn_expr_kind kind, cons
     for (tn_ast_node *node = parts.first, *next; node; node = next) {
         tn_ast_expr *part = (tn_ast_expr *)node;
         next = node->next;
+        if (part->kind == decides && part->settable)
+            return decided_by_param(result, decides, (tn_ast_list){node, parts.last, parts.count},
+                                    tn_ast_join(kept, left), part);
         node->next = NULL;
+        if (part->kind == idle) {
+            kept = tn_ast_join(kept, part->idle);
+            result->settable |= part->settable;
+        }
         if (part->kind == decides) {
             result->kind = decides;
             result->parts = tn_ast_empty();
@@ -132,11 +169,35 @@ static tn_ast_expr *joined(tn_rule_expansion *expansion, tn_expr_kind kind, cons
         if (part->kind != idle)
             left = tn_ast_append(left, part);
     }
-    if (left.count == 1)
-        return (tn_ast_expr *)left.first;
+    if (left.count == 1) {
+        tn_ast_expr *only = (tn_ast_expr *)left.first;
+        only->idle = tn_ast_join(only->idle, kept);
+        return only;
+    }
     result->kind = left.count ? kind : idle;
     result->parts = left;
+    result->idle = kept;
     return result;
+}
+
+static bool by_param(const tn_ast_expr *part)
+{
+    return part && part->settable && (part->kind == TN_EXPR_TRUE || part->kind == TN_EXPR_FALSE);
+}
+
+/* `not a` and `a implies b` where a param decides a. NULL: none does. */
+static tn_ast_expr *folded(tn_ast_expr *expr, tn_ast_list parts)
+{
+    tn_ast_expr *first = (tn_ast_expr *)parts.first, *last = (tn_ast_expr *)parts.last;
+    bool implies = expr->kind == TN_EXPR_IMPLIES && parts.count == 2;
+    if ((!implies && expr->kind != TN_EXPR_NOT) || !by_param(first))
+        return NULL;
+    bool holds = first->kind == TN_EXPR_TRUE;
+    if (implies && holds) {
+        last->idle = tn_ast_join(last->idle, first->idle);
+        return last;
+    }
+    return decided_by_param(expr, implies || !holds ? TN_EXPR_TRUE : TN_EXPR_FALSE, parts, tn_ast_empty(), first);
 }
 
 static bool bound_names_good(tn_rule_expansion *expansion, const tn_ast_expr *quantifier)
@@ -192,15 +253,17 @@ static tn_ast_expr *expand_quantifier(tn_rule_expansion *expansion, const tn_ast
     return joined(expansion, expr->kind == TN_EXPR_SOME ? TN_EXPR_OR : TN_EXPR_AND, expr, parts);
 }
 
-/* A comparison with the value of a quantifier: decided at once. NULL where none is. */
+/* A comparison with the value of a quantifier, or with the word of a param: decided at once. NULL where none is. */
 static tn_ast_expr *decide(tn_rule_expansion *expansion, const tn_ast_expr *expr)
 {
     tn_expr_kind decided;
-    if (!tn_decide_values(expansion, expr, &decided))
+    bool words = tn_decide_words(expansion, expr, &decided);
+    if (!words && !tn_decide_values(expansion, expr, &decided))
         return NULL;
     tn_ast_expr *made = shallow(expansion, expr);
     if (made) {
         made->kind = decided;
+        made->settable = words;
         made->parts = tn_ast_empty();
     }
     return made;
@@ -326,7 +389,11 @@ static tn_checked_rule *instance(tn_rule_expansion *expansion, const tn_ast_expr
         inner.bindings = &bindings[count++];
         argument = (tn_ast_expr *)argument->node.next;
     }
+    bool met = check->met_param;
+    check->met_param = false;
     rule->ast->body = expand(&inner, of->written);
+    rule->settable = check->met_param;
+    check->met_param |= met;
     if (!rule->ast->body || tn_arena_failed(check->arena))
         rule->ast->body = of->written;
     check->open = rule->outer;
@@ -451,6 +518,8 @@ static tn_ast_expr *expand_name(tn_rule_expansion *expansion, const tn_ast_expr 
     tn_bound_name bound = tn_bound(expansion, expr->name);
     if (bound.let && !bound.value) /* it uses itself */
         return broken(expansion, expr);
+    if (tn_refuse_words(expansion, bound, expr->node.span))
+        return broken(expansion, expr);
     if (bound.value && expansion->number && bound.field && bound.field->ordered)
         return tn_place_expression(expansion, bound.field, bound.value);
     if (bound.value && (bound.value->kind == TN_EXPR_FIGURE || (bound.let && is_word_value(expansion, bound.value)))) {
@@ -518,6 +587,8 @@ static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr
         tn_bound_name bound = tn_bound(expansion, expr->name);
         if (!bound.value)
             break;
+        if (tn_refuse_words(expansion, bound, expr->node.span))
+            return broken(expansion, expr);
         if (bound.value->kind == TN_EXPR_NAME && !bound.let) { /* a field, for a parameter */
             tn_ast_expr *field = shallow(expansion, expr);
             if (field)
@@ -549,14 +620,17 @@ static tn_ast_expr *expand(tn_rule_expansion *expansion, const tn_ast_expr *expr
         return copy;
     if (expr->kind == TN_EXPR_AND || expr->kind == TN_EXPR_OR)
         return joined(expansion, expr->kind, expr, parts);
+    tn_ast_expr *decided = folded(copy, parts);
+    if (decided)
+        return decided;
     copy->parts = parts;
     return copy;
 }
 
 static void report_let_circle(tn_check *check, const tn_checked_rule *let)
 {
-    tn_diagnostic *d =
-        tn_report(check->diagnostics, E_RULE_CYCLE, let->ast->name->node.span, "`let %s` uses itself", let->name);
+    tn_diagnostic *d = tn_report(check->diagnostics, E_RULE_CYCLE, let->ast->name->node.span, "`%s %s` uses itself",
+                                 let->param ? "param" : "let", let->name);
     tn_help(check->diagnostics, d, "write out what it means: constants, or values of a field");
 }
 
@@ -570,9 +644,15 @@ tn_ast_expr *tn_let_value(tn_check *check, tn_checked_rule *let)
     if (let->state != UNSEEN)
         return let->meaning;
     let->state = OPEN;
-    tn_rule_expansion expansion = {.check = check, .unit = let->unit};
-    tn_ast_expr *meaning = expand(&expansion, let->ast->body);
-    let->meaning = let->failed ? broken(&expansion, let->ast->body) : meaning;
+    const tn_ast_rule *ast = let->ast;
+    tn_rule_expansion expansion = {.check = check, .unit = ast->given ? ast->given_unit : let->unit};
+    const tn_ast_expr *value = ast->given ? ast->given : ast->body;
+    bool met = check->met_param;
+    check->met_param = false;
+    tn_ast_expr *meaning = ast->words.first ? shallow(&expansion, value) : expand(&expansion, value);
+    let->meaning = let->failed ? broken(&expansion, value) : meaning;
+    let->settable = let->param || check->met_param;
+    check->met_param = met;
     let->state = DONE;
     return let->meaning;
 }

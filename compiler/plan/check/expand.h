@@ -41,6 +41,11 @@ tn_ast_expr *tn_value_expression(tn_rule_expansion *expansion, const tn_ast_expr
  * reported. false where neither side is one, or the other is no value: then it is a comparison of sums. */
 bool tn_decide_values(tn_rule_expansion *expansion, const tn_ast_expr *comparison, tn_expr_kind *decided);
 
+/* param.c: the same of a param of words and one of its words; false where neither side is such a param. */
+bool tn_decide_words(tn_rule_expansion *expansion, const tn_ast_expr *comparison, tn_expr_kind *decided);
+/* Is it a param of words, which stands only in comparisons and specifiers? Then that is reported. */
+bool tn_refuse_words(tn_rule_expansion *expansion, tn_bound_name bound, tn_span place);
+
 /* What a comparison is of a left side that is so much more than the right: TRUE or FALSE. */
 tn_expr_kind tn_decided(tn_operator op, int64_t order);
 /* The place of a value of a field whose values have an order, the first is 1, as a number. NULL: no memory. */

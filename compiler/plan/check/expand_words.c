@@ -207,7 +207,8 @@ static const tn_ast_word *expand_operand(tn_rule_expansion *expansion, const tn_
     tn_bound_name bound = tn_bound(expansion, word);
     if (!bound.value)
         return word;
-    const tn_ast_word *constant = tn_expand_constant(expansion, bound.value, word->node.span);
+    bool words = tn_refuse_words(expansion, bound, word->node.span);
+    const tn_ast_word *constant = words ? NULL : tn_expand_constant(expansion, bound.value, word->node.span);
     if (constant)
         return constant;
     tn_ast_word *broken = copy_word(expansion, word);

@@ -62,7 +62,9 @@ static bool name_is_free(tn_check *check, const tn_checked_library *library, con
 /* Calls in it make rules, which are checked first. */
 static void check_clause_expr(tn_check *check, tn_ast_clause *clause)
 {
+    check->met_param = false;
     tn_expand(check, &clause->expr);
+    check->settable = check->met_param;
     tn_ast_expr *expr = clause->expr;
     size_t unit = check->unit;
     tn_checked_schema *schema = check->schema;
@@ -90,6 +92,8 @@ static void take_rule(tn_checked_clause *clause)
 static void add_expr_clause(tn_check *check, tn_checked_library *library, tn_ast_clause *ast, tn_checked_clause *clause)
 {
     check_clause_expr(check, ast);
+    clause->settable = check->settable;
+    check->settable = false;
     clause->expr = ast->expr;
     take_rule(clause);
     if (clause->rule) {

@@ -15,6 +15,12 @@ typedef struct counts {
     size_t schemas, rules, libraries, tests;
 } counts;
 
+/* Is it written as a tn_ast_rule? */
+static bool is_rule_like(tn_item_kind kind)
+{
+    return kind == TN_ITEM_RULE || kind == TN_ITEM_MEASURE || kind == TN_ITEM_LET || kind == TN_ITEM_PARAM;
+}
+
 static counts count_items(const tn_imports *imports)
 {
     counts n = {0};
@@ -22,7 +28,7 @@ static counts count_items(const tn_imports *imports)
         const tn_ast_file *file = imports->units[u]->tree;
         for (TN_EACH(const tn_ast_top, item, file->items)) {
             n.schemas += item->kind == TN_ITEM_SCHEMA;
-            n.rules += item->kind == TN_ITEM_RULE || item->kind == TN_ITEM_MEASURE || item->kind == TN_ITEM_LET;
+            n.rules += is_rule_like(item->kind);
             n.libraries += item->kind == TN_ITEM_LIBRARY;
             n.tests += item->kind == TN_ITEM_TEST;
         }
@@ -85,7 +91,11 @@ static void add_schema(tn_check *check, const tn_ast_schema *ast, size_t unit)
 
 static const char *tn_name_kind(const tn_checked_name *name)
 {
-    return !name->rule ? "library" : name->rule->is_measure ? "measure" : name->rule->is_let ? "`let`" : "rule";
+    return !name->rule              ? "library"
+           : name->rule->is_measure ? "measure"
+           : name->rule->param      ? "param"
+           : name->rule->is_let     ? "`let`"
+                                    : "rule";
 }
 
 static tn_checked_name *add_name(tn_check *check, const tn_ast_word *word, size_t unit)
@@ -123,7 +133,8 @@ bool tn_check_grow_rules(tn_check *check)
     return true;
 }
 
-/* A rule, a measure or a `let`. Rules with parameters and `let` are not among the rules: what is made of them is. */
+/* A rule, a measure, a `let` or a param. Rules with parameters and `let` are not among the rules: what is made of them
+ * is. */
 static void add_rule(tn_check *check, tn_ast_rule *ast, size_t unit)
 {
     tn_checked *result = check->result;
@@ -138,14 +149,16 @@ static void add_rule(tn_check *check, tn_ast_rule *ast, size_t unit)
                               .unit = unit,
                               .serial = (uint32_t)result->rule_count,
                               .is_measure = ast->top.kind == TN_ITEM_MEASURE,
-                              .is_let = ast->top.kind == TN_ITEM_LET,
+                              .is_let = ast->top.kind == TN_ITEM_LET || ast->top.kind == TN_ITEM_PARAM,
                               .is_template = ast->params.first != NULL,
                               .written = ast->body};
+    if (ast->top.kind == TN_ITEM_PARAM)
+        rule->param = TN_NEW(check->arena, tn_checked_param);
     check->has_lets |= rule->is_let;
     name->rule = rule;
     if (rule->is_template)
         check->templates[check->template_count++] = rule;
-    if (rule->is_let)
+    if (rule->is_let && !rule->param)
         tn_check_let(check, ast->body);
     if (rule->is_let || rule->is_template)
         return;
@@ -191,7 +204,7 @@ void tn_check_collect(tn_check *check)
         for (TN_EACH(tn_ast_top, item, file->items)) {
             if (item->kind == TN_ITEM_SCHEMA)
                 add_schema(check, (const tn_ast_schema *)item, u);
-            else if (item->kind == TN_ITEM_RULE || item->kind == TN_ITEM_MEASURE || item->kind == TN_ITEM_LET)
+            else if (is_rule_like(item->kind))
                 add_rule(check, (tn_ast_rule *)item, u);
             else if (item->kind == TN_ITEM_LIBRARY)
                 add_library(check, (const tn_ast_library *)item, u);
@@ -561,6 +574,9 @@ void tn_check_allow(tn_check *check, tn_ast_list codes)
 
 bool tn_check_wanted(const tn_check *check, tn_code warning)
 {
+    bool of_values = warning == W_ALWAYS_TRUE || warning == W_NEVER_TRUE || warning == W_REMAINDER_NEVER;
+    if (of_values && check->settable)
+        return false;
     for (TN_EACH(const tn_ast_word, word, check->allow))
         if (word->value == (int64_t)warning)
             return false;
@@ -593,4 +609,37 @@ void tn_check_allowances(tn_check *check)
         for (TN_EACH(const tn_ast_word, word, result->forms[i]->allow))
             allowances[result->program->allowance_count++] =
                 (tn_allowance){result->forms[i]->ast->top.node.span, (uint32_t)word->value};
+}
+
+/* ---- what depends on params */
+
+static bool names_settable(const tn_ast_expr *expr)
+{
+    bool settable = expr->rule && expr->rule->settable;
+    for (TN_EACH(const tn_ast_expr, part, expr->parts))
+        settable = settable || names_settable(part);
+    return settable || (expr->figure && names_settable(expr->figure));
+}
+
+void tn_check_settable(tn_check *check)
+{
+    const tn_checked *result = check->result;
+    size_t count = result->rule_count;
+    for (size_t i = 0; i < result->library_count; i++)
+        count += result->libraries[i]->clause_count;
+    tn_span *spans = TN_NEW_ARRAY(check->arena, tn_span, count);
+    if (!spans)
+        return;
+    result->program->settable = spans;
+    for (size_t i = 0; i < result->rule_count; i++)
+        if (result->rules[i]->settable)
+            spans[result->program->settable_count++] = result->rules[i]->ast->top.node.span;
+    for (size_t i = 0; i < result->library_count; i++) {
+        const tn_checked_library *library = result->libraries[i];
+        for (size_t k = 0; k < library->clause_count; k++) {
+            const tn_checked_clause *clause = library->clauses[k];
+            if (clause->settable || (clause->expr && names_settable(clause->expr)))
+                spans[result->program->settable_count++] = clause->span;
+        }
+    }
 }

@@ -214,8 +214,19 @@ void tn_check_expr(tn_check *check, tn_ast_expr *expr)
     tn_check_expr_known(check, expr);
 }
 
+/* What a value of a param leaves out: nothing is warned of. */
+static void check_idle(tn_check *check, const tn_ast_expr *expr)
+{
+    bool quiet = check->quiet;
+    check->quiet = true;
+    for (TN_EACH(tn_ast_expr, part, expr->idle))
+        tn_check_expr(check, part);
+    check->quiet = quiet;
+}
+
 void tn_check_expr_known(tn_check *check, tn_ast_expr *expr)
 {
+    check_idle(check, expr);
     switch (expr->kind) {
     case TN_EXPR_TRAY:
     case TN_EXPR_ANY:

@@ -231,7 +231,7 @@ static void add_fill(tn_check *check, tn_checked_schema *schema, tn_checked_fiel
             schema->broken = true;
             if (depth->kind == TN_WORD_NUMBER) {
                 tn_report_unit(check, NULL, depth);
-            } else if (!depth->broken) {
+            } else if (!depth->broken && !tn_refuse_param(check, schema, depth)) {
                 tn_diagnostic *d =
                     tn_report(check->diagnostics, E_MIXED_VALUES, depth->node.span, "`%s` is not a depth", depth->text);
                 tn_help(check->diagnostics, d, "the depths of a fill are lengths: `%s(4', 8')`", ast->word->text);
@@ -260,12 +260,14 @@ static void add_fill(tn_check *check, tn_checked_schema *schema, tn_checked_fiel
 static void report_mixed(tn_check *check, tn_checked_schema *schema, const tn_checked_field *field,
                          const tn_ast_value *value)
 {
+    schema->broken = true;
+    if (value->word && tn_refuse_param(check, schema, value->word))
+        return;
     tn_diagnostic *d = tn_report(check->diagnostics, E_MIXED_VALUES, value->node.span,
                                  "`%s` has both lengths and names as values", field->name);
     tn_help(check->diagnostics, d,
             "a field has either; for a filling with a depth declare a zone: `zone %s = dense(4', 8') | empty`",
             field->name);
-    schema->broken = true;
 }
 
 static void check_plain_value(tn_check *check, tn_checked_schema *schema, tn_checked_field *field,

@@ -269,18 +269,25 @@ void tn_check_tests(tn_check *check)
     result->program->tests = blocks;
     for (check->unit = 0; check->unit < check->imports->count; check->unit++) {
         const tn_ast_file *file = check->imports->units[check->unit]->tree;
+        size_t number = 0;
         for (TN_EACH(const tn_ast_top, item, file->items)) {
             const tn_ast_test *test = (const tn_ast_test *)item;
             size_t column = 0;
             if (item->kind != TN_ITEM_TEST)
                 continue;
+            number++;
             check_columns(check, test);
+            tn_check_with(check, test);
             for (TN_EACH(const tn_ast_word, subject, test->subjects)) {
                 if (!tn_check_room(check, result->program->test_count, TN_TESTS_MAX, "test", item->node.span,
                                    "one `test` can have many cases"))
                     break;
                 tn_test_block *block = &blocks[result->program->test_count++];
                 block->imported = check->unit + 1 < check->imports->count;
+                if (test->settings.first) {
+                    block->with = number;
+                    block->settings = tn_span_join(test->settings.first->span, test->settings.last->span);
+                }
                 check_subject(check, test, subject, column++, block);
             }
         }

@@ -148,6 +148,8 @@ static bool help_function(tn_check *check, const tn_checked_schema *schema, cons
 
 static void report_unknown_word(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word)
 {
+    if (tn_refuse_param(check, schema, word))
+        return;
     tn_diagnostic *d = tn_report(check->diagnostics, E_UNKNOWN_WORD, word->node.span,
                                  "`%s` is neither a field nor a value of schema `%s`", word->text, schema->name);
     tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
@@ -331,7 +333,7 @@ static bool with_inches(const tn_checked_field *field, const tn_ast_word *word, 
 
 void tn_report_value(tn_check *check, const tn_checked_schema *schema, uint32_t field, const tn_ast_word *word)
 {
-    if (schema->broken || word->broken)
+    if (schema->broken || word->broken || tn_refuse_param(check, schema, word))
         return;
     const tn_checked_field *f = &schema->fields[field];
     char legal[400];

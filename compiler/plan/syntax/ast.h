@@ -211,10 +211,12 @@ typedef struct tn_ast_expr {
     tn_sum_amount figure_amount; /* checked: sum: the dimension of what it adds up */
     tn_ast_list tests;           /* checked: tray: comparisons of its numbers */
     bool resolved;               /* checked: its name has been looked up */
-    bool from_sum;               /* checked: a condition on a sum, written out */
-    bool whole;                  /* checked: speaks of the whole plan, whatever it stands in */
-    uint32_t field;              /* checked: of a sum */
-    uint32_t function;           /* emitted: of what a symmetric mirrors, plus one; 0: not yet */
+    bool settable;     /* written out: TRUE or FALSE with this value of a param, and perhaps not with another */
+    tn_ast_list idle;  /* written out: what such a value leaves out, tn_ast_expr: it is checked all the same */
+    bool from_sum;     /* checked: a condition on a sum, written out */
+    bool whole;        /* checked: speaks of the whole plan, whatever it stands in */
+    uint32_t field;    /* checked: of a sum */
+    uint32_t function; /* emitted: of what a symmetric mirrors, plus one; 0: not yet */
     uint32_t part_whole, part_holds, tally; /* emitted: of a sum's part or figure, plus one; 0: not yet */
 } tn_ast_expr;
 
@@ -226,6 +228,7 @@ typedef enum tn_item_kind {
     TN_ITEM_RULE,
     TN_ITEM_MEASURE, /* a tn_ast_rule whose body is a sum */
     TN_ITEM_LET,     /* a tn_ast_rule whose body is a constant or a name */
+    TN_ITEM_PARAM,   /* the same, whose value may be given */
     TN_ITEM_LIBRARY,
     TN_ITEM_TEST,
     TN_ITEM_FORM
@@ -293,10 +296,22 @@ typedef struct tn_ast_schema {
 typedef struct tn_ast_rule {
     tn_ast_top top;
     const tn_ast_word *name, *doc, *using;
-    tn_ast_list params; /* tn_ast_word */
-    tn_ast_list allow;  /* tn_ast_word */
-    tn_ast_expr *body;
+    tn_ast_list params;         /* tn_ast_word */
+    tn_ast_list allow;          /* tn_ast_word */
+    tn_ast_expr *body;          /* of a param: its default */
+    const tn_ast_expr *written; /* the body as it stands in the file */
+    tn_ast_list words;          /* of a param of words: tn_ast_word, the default first */
+    tn_ast_expr *low, *high;    /* of a param: its range, or NULL */
+    tn_ast_expr *given;         /* of a param: what it has instead of its default, or NULL; */
+    size_t given_unit;          /* the file whose words that is in */
 } tn_ast_rule;
+
+/* The value that a param is given: `NAME = VALUE`. */
+typedef struct tn_ast_setting {
+    tn_ast_node node;
+    const tn_ast_word *name;
+    tn_ast_expr *value;
+} tn_ast_setting;
 
 typedef enum tn_clause_form {
     TN_FORM_TRAYS,
@@ -315,6 +330,7 @@ typedef struct tn_ast_clause {
     const tn_ast_word *word;           /* total: what it is compared with */
     const tn_ast_word *field, *detail; /* total: the word after the field: `depth` */
     tn_ast_expr *expr;
+    const tn_ast_expr *written; /* as it stands in the file */
     const tn_ast_word *name, *doc;
     tn_ast_list allow; /* tn_ast_word */
 } tn_ast_clause;
@@ -349,6 +365,7 @@ typedef struct tn_ast_case {
 typedef struct tn_ast_test {
     tn_ast_top top;
     tn_ast_list subjects; /* tn_ast_word */
+    tn_ast_list settings; /* tn_ast_setting: the values of params for its cases */
     tn_ast_list cases;
 } tn_ast_test;
 
@@ -357,6 +374,7 @@ typedef struct tn_ast_file {
     tn_ast_expr *expression; /* where one was parsed alone */
     tn_ast_list pattern;     /* where an open plan was */
     tn_ast_literal literal;  /* where a plan in brackets was */
+    tn_ast_setting *setting; /* where the value of a param was */
     bool broken;             /* an item is missing: its name could not be read */
     bool skipped;            /* a clause is missing */
 } tn_ast_file;
@@ -478,6 +496,9 @@ tn_ast_body tn_ast_body_number(tn_ast_body body, void *number);
 void *tn_ast_measure_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
                          const tn_ast_word *using, tn_ast_expr *body);
 void *tn_ast_let_new(tn_parse *parse, tn_span span, const tn_ast_word *name, tn_ast_expr *body);
+/* Of the head: name and doc, and a range or words. value: NULL for words. */
+void *tn_ast_param_new(tn_parse *parse, tn_span span, tn_ast_rule head, tn_ast_expr *value);
+void *tn_ast_setting_new(tn_parse *parse, tn_span span, const tn_ast_word *name, tn_ast_expr *value);
 tn_ast_body tn_ast_body_field(tn_ast_body body, void *field);
 void *tn_ast_forbid_new(tn_parse *parse, tn_span span, tn_ast_list items);
 tn_ast_body tn_ast_body_forbid(tn_ast_body body, void *forbid);
@@ -493,7 +514,7 @@ tn_ast_clause *tn_ast_require(tn_parse *parse, tn_span span, tn_ast_expr *expr, 
 tn_ast_clause *tn_ast_prune(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *name,
                             const tn_ast_word *doc);
 tn_ast_clause *tn_ast_allow(tn_parse *parse, tn_span span, tn_ast_list codes);
-void *tn_ast_test_new(tn_parse *parse, tn_span span, tn_ast_list subjects, tn_ast_list cases);
+void *tn_ast_test_new(tn_parse *parse, tn_span span, tn_ast_list subjects, tn_ast_list settings, tn_ast_list cases);
 tn_ast_word *tn_ast_expect(tn_parse *parse, tn_span span, const char *text, tn_expectation expectation);
 void *tn_ast_case_todo(void *test_case);
 void *tn_ast_case_new(tn_parse *parse, tn_span span, tn_ast_list expectations, tn_ast_literal literal,

@@ -173,6 +173,7 @@ void *tn_ast_rule_new(tn_parse *parse, tn_span span, tn_ast_rule head, tn_ast_ex
     *rule = head;
     rule->top = (tn_ast_top){.node.span = span, .kind = TN_ITEM_RULE};
     rule->body = body ? body : tn_ast_leaf(parse, TN_EXPR_BROKEN, span);
+    rule->written = rule->body;
     return rule->body ? rule : NULL;
 }
 
@@ -191,6 +192,24 @@ void *tn_ast_let_new(tn_parse *parse, tn_span span, const tn_ast_word *name, tn_
     if (let)
         let->top.kind = TN_ITEM_LET;
     return let;
+}
+
+void *tn_ast_param_new(tn_parse *parse, tn_span span, tn_ast_rule head, tn_ast_expr *value)
+{
+    if (head.words.first)
+        value = tn_ast_name(parse, (const tn_ast_word *)head.words.first);
+    tn_ast_rule *param = tn_ast_rule_new(parse, span, head, value);
+    if (param)
+        param->top.kind = TN_ITEM_PARAM;
+    return param;
+}
+
+void *tn_ast_setting_new(tn_parse *parse, tn_span span, const tn_ast_word *name, tn_ast_expr *value)
+{
+    tn_ast_setting *setting = name && value ? TN_NEW(parse->arena, tn_ast_setting) : NULL;
+    if (setting)
+        *setting = (tn_ast_setting){.node.span = span, .name = name, .value = value};
+    return setting;
 }
 
 void *tn_ast_library_new(tn_parse *parse, tn_span span, tn_ast_library head, tn_ast_list clauses)
@@ -259,6 +278,7 @@ tn_ast_clause *tn_ast_require(tn_parse *parse, tn_span span, tn_ast_expr *expr, 
     if (!clause || !expr)
         return NULL;
     clause->expr = expr;
+    clause->written = expr;
     clause->doc = doc;
     return clause;
 }
@@ -270,6 +290,7 @@ tn_ast_clause *tn_ast_prune(tn_parse *parse, tn_span span, tn_ast_expr *expr, co
     if (!clause || !expr)
         return NULL;
     clause->expr = expr;
+    clause->written = expr;
     clause->name = name;
     clause->doc = doc;
     return clause;
@@ -285,12 +306,13 @@ tn_ast_clause *tn_ast_allow(tn_parse *parse, tn_span span, tn_ast_list codes)
 
 /* ---- tests */
 
-void *tn_ast_test_new(tn_parse *parse, tn_span span, tn_ast_list subjects, tn_ast_list cases)
+void *tn_ast_test_new(tn_parse *parse, tn_span span, tn_ast_list subjects, tn_ast_list settings, tn_ast_list cases)
 {
     tn_ast_test *test = TN_NEW(parse->arena, tn_ast_test);
     if (!test || !subjects.count)
         return NULL;
-    *test = (tn_ast_test){.top = {.node.span = span, .kind = TN_ITEM_TEST}, .subjects = subjects, .cases = cases};
+    *test = (tn_ast_test){
+        .top = {.node.span = span, .kind = TN_ITEM_TEST}, .subjects = subjects, .settings = settings, .cases = cases};
     return test;
 }
 

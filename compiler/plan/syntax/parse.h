@@ -40,6 +40,7 @@ typedef struct tn_parse {
     uint32_t parens;                /* open inside the tray specifier */
     bool schema_head;               /* a `schema` was read, and its { not yet */
     bool form_head;                 /* the same of `form` */
+    bool test_head;                 /* of `test`: neither its `with` nor its { */
     bool in_form, in_tile;          /* inside the braces of one */
     bool in_braces;
     tn_span brace, tile_brace; /* the { that is open; that of the tile inside it */
@@ -59,8 +60,15 @@ typedef struct tn_parse {
     tn_lexer_pool pool;
 } tn_parse;
 
-/* Parses the source as one expression, one open plan, or one plan in brackets: see tn_ast_file. */
-typedef enum tn_parse_what { TN_PARSE_FILE, TN_PARSE_EXPRESSION, TN_PARSE_PATTERN, TN_PARSE_LITERAL } tn_parse_what;
+/* Parses the source as one expression, one open plan, one plan in brackets, or the value of one param: see tn_ast_file.
+ */
+typedef enum tn_parse_what {
+    TN_PARSE_FILE,
+    TN_PARSE_EXPRESSION,
+    TN_PARSE_PATTERN,
+    TN_PARSE_LITERAL,
+    TN_PARSE_SETTING
+} tn_parse_what;
 struct tn_ast_file *tn_parse_plan_part(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_parse_what what);
 
 /* Parses the source as a .plan file. NULL where out of memory; errors are in the diagnostics. Its tokens go to `tokens`

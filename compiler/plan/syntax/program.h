@@ -35,6 +35,8 @@ typedef struct tn_test_block {
     uint32_t index;  /* of its RULE, LIBRARY or MEASURE record; of houses: HOUSE_RULE or HOUSE_LIBRARY */
     uint32_t schema; /* of its SCHEMA record */
     bool imported;
+    size_t with;      /* the number of the test in its file, from 1, if it gives params values; else 0 */
+    tn_span settings; /* these */
     const tn_test_case *cases;
     size_t case_count;
     tn_span span;
@@ -46,11 +48,26 @@ typedef struct tn_allowance {
     uint32_t code; /* a tn_code */
 } tn_allowance;
 
+/* A param, in its author's words. */
+typedef struct tn_program_param {
+    const char *name, *doc;   /* doc: or NULL */
+    const char *value;        /* that it has here: its default, or what it was given */
+    const char *least, *most; /* its range, or NULL */
+    const char **words;       /* which it is one of, or NULL: a constant */
+    size_t word_count;
+    bool imported;
+} tn_program_param;
+
 typedef struct tn_program {
     const tn_test_block *tests;
     size_t test_count;
     const tn_allowance *allowances;
     size_t allowance_count;
+    const tn_span
+        *settable; /* rules and clauses that depend on params: what is always so may be otherwise with others */
+    size_t settable_count;
+    tn_program_param *params; /* in the order of the files and of the text */
+    size_t param_count;
     uint32_t *pattern; /* an open plan's trays: the function (of M) of each; TN_NO_RECORD: any number of trays */
     size_t pattern_count;
     const uint8_t *plan; /* a plan in brackets, [tray][field] as in tn_test_case; NULL: none was asked about */
@@ -63,6 +80,17 @@ static inline bool tn_program_allows(const tn_program *program, uint32_t code, t
     for (size_t i = 0; i < program->allowance_count; i++) {
         const tn_allowance *a = &program->allowances[i];
         if (a->code == code && a->item.file == place.file && a->item.begin <= place.begin && place.end <= a->item.end)
+            return true;
+    }
+    return false;
+}
+
+/* Does what stands there depend on a param? */
+static inline bool tn_program_settable(const tn_program *program, tn_span place)
+{
+    for (size_t i = 0; i < program->settable_count; i++) {
+        const tn_span *item = &program->settable[i];
+        if (item->file == place.file && item->begin <= place.begin && place.end <= item->end)
             return true;
     }
     return false;

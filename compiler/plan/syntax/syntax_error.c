@@ -57,7 +57,7 @@ static const struct {
      {"`rule`", "`schema`"},
      TN_AT(ITEM),
      TN_AS_KEYWORDS,
-     {"an expression", "an open plan", "a plan", "the end of the file"}},
+     {"an expression", "an open plan", "a plan", "the value of a param", "the end of the file"}},
     {"a line of a form (`storey`, `section`, `function`, `face`, `tile` ...)",
      {"`storey`", "`spine`"},
      TN_AT(FORM),

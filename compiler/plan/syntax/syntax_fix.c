@@ -4,6 +4,7 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "compiler/common/compilation.h"
 #include "compiler/plan/syntax/words.h"
 
 bool tn_expects(const tn_expected *e, const char *token)
@@ -105,6 +106,25 @@ static bool line_begins(const tn_parse *parse, const char *word)
         begin--;
     begin += strspn(parse->text + begin, " \t");
     return strncmp(parse->text + begin, word, size) == 0 && !isalnum((unsigned char)parse->text[begin + size]);
+}
+
+/* Does the token at hand stand in a clause of bounds, behind this word: `trays 1..`, `total width <=`? */
+static bool in_clause(const tn_parse *parse, const char *word)
+{
+    size_t size = strlen(word), at = parse->last_span.begin, words = 0;
+    while (at > 0 && words < 3) {
+        while (at > 0 && (isspace((unsigned char)parse->text[at - 1]) || strchr("<>=.", parse->text[at - 1])))
+            at--;
+        size_t end = at;
+        while (at > 0 && (isalnum((unsigned char)parse->text[at - 1]) || parse->text[at - 1] == '-'))
+            at--;
+        if (end == at)
+            return false;
+        if (end - at == size && strncmp(parse->text + at, word, size) == 0)
+            return words > 0 || end < parse->last_span.begin;
+        words++;
+    }
+    return false;
 }
 
 static bool stands_compass(const tn_parse *parse)
@@ -235,6 +255,12 @@ static const char *house_fix(const tn_parse *parse, const char *found, const tn_
 /* Of numbers: what is compared, and ranges. */
 static const char *number_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
+    bool name = strcmp(found, "a name") == 0 && tn_expects(e, "a number");
+    if (name && in_clause(parse, "trays"))
+        return "a bound is a number here; with a name for it write `require trays <= NAME`";
+    if (in_clause(parse, "total") &&
+        ((name && !tn_expects(e, "`prune`")) || (strcmp(found, "`..`") == 0 && !tn_expects(e, "`..`"))))
+        return "a bound is a number or a length here; with a name for it write `require sum(FIELD) <= NAME`";
     bool compares = strchr("<>=!", found[1]) != NULL && found[0] == '`';
     if (compares && tn_expects(e, "`tray`") && (comes_after(parse, "and") || comes_after(parse, "or")))
         return "what is compared stands on both sides: `sum(FIELD) >= 10m and sum(FIELD) <= 20m`, or `sum(FIELD) in "
@@ -437,6 +463,10 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
         return "a library that is made from another is written `library NAME from OTHER { prune RULE }`";
     if (tn_expects(e, "`from`") && tn_expects(e, "`using`"))
         return "a library is written `library NAME using SCHEMA { ... }`";
+    if (e->count == 1 && tn_expects(e, "a name") && comes_after(parse, "with"))
+        return "the values of params stand behind `with`: `test NAME with lot = 9m { ... }`";
+    if (e->count == 1 && tn_expects(e, "`=`") && line_begins(parse, "test"))
+        return "the value of a param stands behind `=`: `test NAME with lot = 9m { ... }`";
     if (strcmp(found, "`{`") == 0 && tn_expects(e, "`=`"))
         return "a rule is written `rule NAME = ...`, without braces";
     if (strcmp(found, "`=`") == 0 && tn_expects(e, "`{`"))
@@ -481,9 +511,23 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
     return NULL;
 }
 
+/* Values of params, and of what has none. */
+static const char *param_fix(const tn_parse *parse, const char *found)
+{
+    if (strcmp(found, "`{`") == 0 && line_begins(parse, "test") && comes_after(parse, "="))
+        return "the value of a param stands behind `=`: `test NAME with lot = 9m { ... }`";
+    if (strcmp(parse->diagnostics->sources->files[parse->file].path, TN_SETTING_SOURCE) == 0)
+        return "a param is given a value by its name, `=` and the value: `lot=12m`, `side=right`";
+    if (parse->mode == TN_LEX_TOP && line_begins(parse, "param"))
+        return "a param is written `param NAME = 12m`, `param NAME = 12m in 9m..20m` or `param NAME = left | right`";
+    return NULL;
+}
+
 const char *tn_syntax_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
-    const char *fix = house_fix(parse, found, e);
+    const char *fix = param_fix(parse, found);
+    if (!fix)
+        fix = house_fix(parse, found, e);
     if (!fix)
         fix = mark_fix(parse, found, e);
     if (!fix)

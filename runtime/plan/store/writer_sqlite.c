@@ -184,7 +184,7 @@ static tn_status check_item(tn_plan_writer *writer, const tn_metadata_item *item
 /* Everything that decides which plans come. */
 static tn_status check_metadata(tn_plan_writer *writer, const tn_plan_metadata *metadata, tn_error *error)
 {
-    static const char *const decisive[] = {"library_hash", "schema_hash", "command"};
+    static const char *const decisive[] = {"library_hash", "schema_hash", "command", "params"};
     tn_metadata_room room;
     tn_metadata_item items[TN_METADATA_ITEMS];
     tn_writer_metadata(writer, metadata, &room, items);

@@ -132,6 +132,7 @@ typedef struct tn_plan_metadata {
     const char *rules_path;
     const char *version; /* the compiler's */
     const char *command; /* what was asked for: "enumerate --from 10", "sample 100 --seed 3" */
+    const char *params;  /* the values that the rules' params were given: "lot=9m, side=right" */
 } tn_plan_metadata;
 
 /* What a row says besides its plan, where it is more than a plan (a house): texts, in columns after those of the plan.

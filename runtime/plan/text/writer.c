@@ -28,6 +28,7 @@ void tn_writer_metadata(const tn_plan_writer *writer, const tn_plan_metadata *me
         {"schema_hash", room->schema_hash},
         {"tray_bytes", room->tray_bytes},
         {"command", metadata->command},
+        {"params", metadata->params},
         {"rules_path", metadata->rules_path},
         {"rules_hash", metadata->rules_hash},
         {"version", metadata->version},

@@ -17,7 +17,7 @@ typedef struct tn_metadata_item {
     const char *value;
 } tn_metadata_item;
 
-#define TN_METADATA_ITEMS 9
+#define TN_METADATA_ITEMS 10
 
 /* Plans that go into a SQLite library by one statement. */
 #define TN_WAITING_MAX 16

@@ -123,6 +123,61 @@ static void compiles_again_for_requirements(void **state)
     tartan_session_free(session);
 }
 
+/* The values that the options give to params hold for every question, also for those that compile the text again. */
+static void keeps_values_of_params(void **state)
+{
+    (void)state;
+    static const char rules[] =
+        "schema box { long = 1m | 2m }\nparam most \"metres\" = 3m in 1m..6m\nparam side = left | right\n"
+        "library rows { trays 1..3 require sum(long) <= most, side = right implies tray(1m) }\n";
+    char given[] = "most=2m", word[] = "side=right";
+    const char *params[] = {word, given};
+    tartan_compile_options options = tartan_compile_options_init();
+    tartan_session *session = session_of(rules, NULL);
+    answers(session, NULL, "\"kept\": \"6\"");
+    tartan_session_free(session);
+    options.params = params;
+    options.param_count = 2;
+    session = session_of(rules, &options);
+    memset(given, 'x', sizeof given - 1); /* they are the session's own */
+    answers(session, NULL, "\"kept\": \"2\"");
+    answers(session, "{\"where\": [\"trays = 2\"]}", "\"kept\": \"1\"");
+    tartan_session_free(session);
+}
+
+static void refuses_values_of_params(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *path, *param, *message;
+        tartan_status status;
+    } cases[] = {
+        {"box.plan", "most=9m", "9m is outside the range of `most`", TARTAN_INVALID},
+        {"box.plan", "mast=2m", "box.plan has no param `mast`", TARTAN_INVALID},
+        {"box.plan", "most", "expected `=`, but found the end of the file", TARTAN_INVALID},
+        {"box.field", "most=2m", "--set most=2m: box.field has no params", TARTAN_INVALID},
+        {"box.plan", NULL, "the value of a param is NULL", TARTAN_INVALID},
+    };
+    static const char rules[] = "schema box { long = 1m | 2m }\nparam most = 3m in 1m..6m\n";
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        tartan_compile_options options = tartan_compile_options_init();
+        tartan_error error = {0};
+        tartan_session *session = NULL;
+        tartan_module *module = NULL;
+        options.params = &cases[i].param;
+        options.param_count = 1;
+        assert_int_equal(tartan_session_open(cases[i].path, rules, strlen(rules), &options, &session, &error),
+                         cases[i].status);
+        assert_string_equal(error.message, cases[i].message);
+        assert_int_equal(tartan_compile_text(cases[i].path, rules, strlen(rules), &options, &module, &error),
+                         cases[i].status);
+        assert_string_equal(error.message, cases[i].message);
+        options.params = NULL;
+        assert_int_equal(tartan_session_open("box.plan", rules, strlen(rules), &options, &session, &error),
+                         TARTAN_INVALID);
+    }
+}
+
 static bool refuse(void *context, double done, double total)
 {
     (void)done, (void)total;
@@ -182,6 +237,8 @@ int main(void)
         cmocka_unit_test(answers_one_after_another),
         cmocka_unit_test(tells_notes),
         cmocka_unit_test(compiles_again_for_requirements),
+        cmocka_unit_test(keeps_values_of_params),
+        cmocka_unit_test(refuses_values_of_params),
         cmocka_unit_test(can_be_stopped),
         cmocka_unit_test(refuses_misuse),
     };

@@ -191,7 +191,7 @@ static size_t check_parts(const compiled *now, const tn_covered *covered, const 
     for (size_t i = 0; i < covered->count; i++) {
         compiled then = {0};
         tn_status status =
-            tn_change_open(&scope, (size_t)(covered->parts[i].change - covered->changes.items), &then.opened);
+            tn_change_open(&scope, (size_t)(covered->parts[i].change - covered->changes.items), 0, &then.opened);
         assert_int_equal(status, TN_OK);
         make_ready(&then);
         check_part(now, &then, covered, &covered->parts[i], text);

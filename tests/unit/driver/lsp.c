@@ -921,6 +921,69 @@ static void test_choices(void **state)
     finish_live(&l);
 }
 
+static const char lots[] = "schema row { width = 2m | 3m  use = hall | room }\n"
+                           "param lot \"how wide the lot is\" = 12m in 9m..20m\n"
+                           "param side = left | right\n"
+                           "param use-of = hall | room\n"
+                           "rule wide = sum(width) > lot or sum(width, w > lot) or tray(use-of)\n"
+                           "rule ends = side = right implies neighbour(beginning, tray(hall))\n"
+                           "test wide with lot = 9m, side = left { match [3m] }\n";
+
+static json_t *ask_lots(live *l, const char *method, const char *uri, const char *before, size_t further)
+{
+    return hear_answer(l, ask(&l->session, method, at(uri, lots, (size_t)(strstr(lots, before) - lots) + further)));
+}
+
+/* Params: what they are, where they are named, and what may stand beside them. */
+static void test_params(void **state)
+{
+    static const char uri[] = "file:///nowhere/lots.plan";
+    static const struct {
+        const char *before;
+        size_t further;
+        const char *line; /* of its definition, from 0 */
+    } uses[] = {{"> lot or", 2, "\"line\":1"},
+                {"tray(use-of", 5, "\"line\":3"},
+                {"side = right", 0, "\"line\":2"},
+                {"with lot", 5, "\"line\":1"},
+                {"side = left {", 0, "\"line\":2"}};
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, uri, lots);
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
+        json_t *answer = ask_lots(&l, "textDocument/definition", uri, uses[i].before, uses[i].further);
+        assert_true(mentions(answer, uses[i].line));
+        json_decref(answer);
+    }
+    json_t *answer = ask_lots(&l, "textDocument/hover", uri, "> lot or", 2);
+    assert_true(mentions(answer, "param lot") && mentions(answer, "12m in 9m..20m") &&
+                mentions(answer, "how wide the lot is") && mentions(answer, "param `lot`"));
+    json_decref(answer);
+    answer = ask_lots(&l, "textDocument/completion", uri, "> lot or", 2);
+    assert_true(mentions(answer, "\"lot\"") && mentions(answer, "\"side\""));
+    json_decref(answer);
+    answer = ask_lots(&l, "textDocument/completion", uri, "right implies", 0);
+    assert_true(mentions(answer, "\"left\"") && mentions(answer, "\"right\""));
+    json_decref(answer);
+    answer = ask_lots(&l, "textDocument/completion", uri, "side = left {", 7);
+    assert_true(mentions(answer, "\"left\"") && mentions(answer, "\"right\"") && !mentions(answer, "\"hall\""));
+    json_decref(answer);
+    answer = ask_lots(&l, "textDocument/completion", uri, "lot = 9m", 0);
+    assert_true(mentions(answer, "\"lot\"") && mentions(answer, "\"use-of\""));
+    json_decref(answer);
+    json_t *params = at(uri, lots, (size_t)(strstr(lots, "lot \"") - lots));
+    json_object_set_new(params, "newName", json_string("plot"));
+    answer = hear_answer(&l, ask(&l.session, "textDocument/rename", params));
+    assert_int_equal(
+        json_array_size(json_object_get(json_object_get(json_object_get(answer, "result"), "changes"), uri)), 4);
+    json_decref(answer);
+    answer = hear_answer(&l, ask(&l.session, "textDocument/documentSymbol", everything(uri)));
+    assert_true(mentions(answer, "\"use-of\""));
+    json_decref(answer);
+    finish_live(&l);
+}
+
 /* Also of a form in a file that is used. */
 static void test_places_of_used(void **state)
 {
@@ -1087,6 +1150,7 @@ int main(void)
         cmocka_unit_test(test_form_allows),
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_choices),
+        cmocka_unit_test(test_params),
         cmocka_unit_test(test_places_of_used),
         cmocka_unit_test(test_meaning_given_up),
         cmocka_unit_test(test_meaning_of_grammar),
