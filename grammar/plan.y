@@ -1036,8 +1036,7 @@ static bool is_rare(const tn_parse *parse, yysymbol_kind_t kind, int before)
 {
     bool named_range = kind == YYSYMBOL_DOTS && before == TN_PLAN_NAME;
     bool order = kind == YYSYMBOL_LESS && parse->mode == TN_LEX_SCHEMA;
-    bool values = kind == YYSYMBOL_WITH;
-    return named_range || order || values;
+    return named_range || order;
 }
 
 static int yyreport_syntax_error(const yypcontext_t *context, tn_parse *parse, void *scanner)

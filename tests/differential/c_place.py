@@ -19,7 +19,7 @@ OPTIONS = [word for name, value in LIMITS.items() for word in (f"--{name}", str(
 class CompileOptions(ctypes.Structure):
     _fields_ = [("size", ctypes.c_size_t), ("report", ctypes.c_void_p), ("report_context", ctypes.c_void_p), ("folders", ctypes.POINTER(ctypes.c_char_p)),
                 ("folder_count", ctypes.c_size_t), ("resolve", ctypes.c_void_p), ("resolve_context", ctypes.c_void_p), ("warnings_are_errors", ctypes.c_bool),
-                ("watch", ctypes.c_void_p)]
+                ("watch", ctypes.c_void_p), ("params", ctypes.c_void_p), ("param_count", ctypes.c_size_t)]
 
 
 class PlaceOptions(ctypes.Structure):
