@@ -213,7 +213,8 @@ static void help_figure(tn_check *check, const tn_checked_schema *schema, tn_dia
     if (measure && measure->rule && measure->rule->is_measure)
         tn_help(check->diagnostics, d, "`%s` is a measure, and so a number already: write it without `sum(...)`", word);
     else if (measure && measure->rule && !measure->rule->is_let)
-        tn_help(check->diagnostics, d, "`%s` is a rule: say which numbers of its trays are meant, `FIELD of %s`", word, word);
+        tn_help(check->diagnostics, d, "`%s` is a rule: say which numbers of its trays are meant, `FIELD of %s`", word,
+                word);
     else if (tn_means_cost(check, word))
         tn_help(check->diagnostics, d, "what a whole house costs is `sum(cost)`");
     else if (tn_help_height(check, d, word))

@@ -394,9 +394,6 @@ void tn_check_expr_name(tn_check *check, tn_ast_expr *expr);             /* find
 void tn_check_meaning(tn_check *check, tn_ast_expr *expr); /* what needs the rules that it names to be in order */
 uint32_t tn_min_trays(const tn_ast_expr *expr);            /* a lower bound of what it fits */
 
-/* ---- around.c */
-void tn_check_around(tn_check *check, const tn_ast_expr *expr); /* does `where` say what lies before and behind? */
-
 /* ---- near.c */
 void tn_check_near(tn_check *check, tn_ast_expr *near); /* its parts; the distance becomes a rule of the gap */
 /* The rule of gaps that compare so with a number: of trays, or added up by a field. At most TN_GAP_MAX. */
@@ -421,11 +418,36 @@ void tn_check_remainder(tn_check *check, tn_ast_expr *expr);      /* likewise */
 void tn_check_comparison(tn_check *check, tn_ast_expr *expr);     /* makes its sums; what it names is checked */
 void tn_check_plan_measure(tn_check *check, tn_checked_rule *measure);
 
+/* Sums while they are worked out: a constant and terms. */
+typedef struct tn_sum_parts {
+    tn_checked_term *terms;
+    size_t count;
+    tn_sum_amount constant;
+    const struct tn_sum_parts *over; /* what the rest is divided by, or NULL */
+} tn_sum_parts;
+
+/* false: reported, of what was checked before. */
+bool tn_sum_eval(tn_check *check, tn_ast_expr *expr, tn_sum_parts *out);
+
+/* kind: TN_EXPR_TIMES or OVER, a constant. false: a number has too many digits. */
+bool tn_sum_scale(tn_check *check, tn_sum_parts *s, tn_expr_kind kind, tn_sum_amount by);
+
+/* kind: TN_EXPR_PLUS or MINUS. expr: has both sides as its parts, for what is said. false: reported. */
+bool tn_sum_add_up(tn_check *check, const tn_ast_expr *expr, tn_expr_kind kind, const char *verb, const tn_sum_parts *a,
+                   const tn_sum_parts *b, tn_sum_parts *out);
+
+/* As the emitter takes it; NULL: out of memory. */
+tn_checked_sum *tn_sum_finish(tn_check *check, const tn_sum_parts *s, tn_span span);
+
+bool tn_sum_has_extremes(const tn_sum_parts *s);
+void tn_report_quotient(tn_check *check, tn_span span); /* E0429: it does not stand alone */
+
 /* ---- comparison.c */
 void tn_check_sum_condition(tn_check *check, tn_ast_expr *sum);     /* makes comparisons of a sum's condition */
 void tn_check_tests_of_numbers(tn_check *check, tn_ast_expr *tray); /* takes the items about numbers out: `tests` */
 
-/* ---- whole.c */
+/* ---- standing.c */
+void tn_check_around(tn_check *check, const tn_ast_expr *expr); /* does `where` say what lies before and behind? */
 /* Comparisons with `matches` stand only where the plan as a whole is meant. Is one in it? */
 bool tn_check_whole(tn_check *check, const tn_ast_expr *expr);
 
@@ -453,6 +475,7 @@ void tn_check_settle(tn_check *check);                        /* checks the rule
 
 /* ---- warnings.c */
 void tn_check_warnings(tn_check *check, const tn_ast_expr *expr);
+void tn_check_unused(tn_check *check); /* warns about rules that nothing uses */
 
 /* ---- house.c: what is asked of houses */
 /* `cell`, `room`, `section`, `touch`, `apart`: finds the form that is meant, and what they say of it. */
@@ -476,13 +499,9 @@ struct tn_checked_form *tn_check_form_named(const tn_check *check, size_t unit, 
 /* Numbers the rules and libraries that there are records of: those of plans, and those of houses. */
 void tn_check_number_records(tn_check *check);
 
-/* ---- order.c */
-void tn_check_order(tn_check *check); /* orders the rules, callees first; reports circles */
-
 /* ---- library.c */
 void tn_check_libraries(tn_check *check);
-void tn_check_unused(tn_check *check); /* warns about rules that nothing uses */
-void tn_check_asked(tn_check *check);  /* adds what the command line asks to the library that it is about */
+void tn_check_asked(tn_check *check); /* adds what the command line asks to the library that it is about */
 
 /* ---- form.c */
 void tn_check_forms(tn_check *check);

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compiler/plan/check/amount.h"
 #include "compiler/plan/check/form.h"
-#include "compiler/plan/check/sum.h"
 
 enum { MEASURE_POWER_MAX = 3, TERMS_MAX = 1000 };
 
@@ -464,8 +464,9 @@ static void refuse_partial(tn_check *check, tn_checked_rule *measure)
 {
     tn_diagnostic *d = tn_report(check->diagnostics, E_QUOTIENT, measure->ast->body->node.span,
                                  "a measure of houses is a sum, which every house has");
-    tn_help(check->diagnostics, d, "quotients, `max(...)` and `min(...)` are measures of plans; of houses they can be "
-                                   "compared in rules");
+    tn_help(check->diagnostics, d,
+            "quotients, `max(...)` and `min(...)` are measures of plans; of houses they can be "
+            "compared in rules");
     measure->sum = NULL;
 }
 

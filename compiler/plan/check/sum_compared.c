@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compiler/plan/check/amount.h"
 #include "compiler/plan/check/form.h"
-#include "compiler/plan/check/sum.h"
 
 enum { MATCHES_MAX = 10, CASES_MAX = 1024, SIDES = 3 };
 

@@ -1,6 +1,8 @@
-/* What speaks of the whole plan (comparisons with `matches`, or of numbers of houses) stands only where the plan is
- * meant. */
+/* Numbers that stand only in some places: what speaks of the whole plan (comparisons with `matches`, or of numbers of
+ * houses) where the plan is meant, and what lies before or behind a stretch where a `where` says of which. */
 #include "compiler/plan/check/check.h"
+
+/* ---- the whole plan */
 
 static const tn_ast_expr *comparison_in(const tn_ast_expr *expr)
 {
@@ -18,7 +20,7 @@ static const tn_ast_expr *comparison_in(const tn_ast_expr *expr)
     return NULL;
 }
 
-static void report(tn_check *check, const tn_ast_expr *expr)
+static void report_whole(tn_check *check, const tn_ast_expr *expr)
 {
     const tn_ast_expr *comparison = comparison_in(expr);
     bool houses =
@@ -38,17 +40,17 @@ static void report(tn_check *check, const tn_ast_expr *expr)
 }
 
 /* level: is the plan as a whole meant? */
-static bool walk(tn_check *check, const tn_ast_expr *expr, bool level)
+static bool walk_whole(tn_check *check, const tn_ast_expr *expr, bool level)
 {
     bool whole =
         expr->whole || (expr->kind == TN_EXPR_NAME && expr->rule && !expr->rule->is_measure && expr->rule->about_plan);
     if (whole && !level)
-        report(check, expr);
+        report_whole(check, expr);
     bool plan = expr->kind == TN_EXPR_MATCHES;
     bool through = level && (expr->kind == TN_EXPR_AND || expr->kind == TN_EXPR_OR || expr->kind == TN_EXPR_NOT ||
                              expr->kind == TN_EXPR_IMPLIES);
     for (TN_EACH(const tn_ast_expr, part, expr->parts)) {
-        bool inside = walk(check, part, plan || through);
+        bool inside = walk_whole(check, part, plan || through);
         whole = whole || (inside && !plan);
     }
     return whole;
@@ -56,5 +58,40 @@ static bool walk(tn_check *check, const tn_ast_expr *expr, bool level)
 
 bool tn_check_whole(tn_check *check, const tn_ast_expr *expr)
 {
-    return walk(check, expr, true);
+    return walk_whole(check, expr, true);
+}
+
+/* ---- before and behind a stretch */
+
+static void report_around(tn_check *check, const tn_ast_expr *expr)
+{
+    const char *word = expr->region == TN_AST_BEFORE ? "before" : "after";
+    tn_diagnostic *d = tn_report(check->diagnostics, E_AROUND_WHAT, expr->node.span,
+                                 "this counts what lies %s a stretch, and it is not said which", word);
+    tn_help(check->diagnostics, d,
+            "say it behind `where`, joined by `and`, `or`, `not` and `implies` only: `tray(...) where quantity(any %s) "
+            "= 2`",
+            word);
+}
+
+/* Is the expression, if a `where` reaches it, still about the same stretch with all that is in it? */
+static bool goes_through(tn_expr_kind kind)
+{
+    bool joined = kind == TN_EXPR_AND || kind == TN_EXPR_OR || kind == TN_EXPR_NOT || kind == TN_EXPR_IMPLIES;
+    return joined || tn_compares_numbers(kind) || tn_is_arithmetic(kind);
+}
+
+static void walk_around(tn_check *check, const tn_ast_expr *expr, bool reached)
+{
+    if (expr->region != TN_AST_STRETCH && !reached)
+        report_around(check, expr);
+    for (TN_EACH(const tn_ast_expr, part, expr->parts)) {
+        bool second = expr->kind == TN_EXPR_WHERE && (const tn_ast_node *)part != expr->parts.first;
+        walk_around(check, part, second || (reached && goes_through(expr->kind)));
+    }
+}
+
+void tn_check_around(tn_check *check, const tn_ast_expr *expr)
+{
+    walk_around(check, expr, false);
 }
