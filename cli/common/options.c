@@ -111,6 +111,19 @@ static void help_number(parse *p, const char *name)
             tn_error_help(p->error, "write how many without an option: `tartan %s FILE N`", p->command->name);
 }
 
+/* What others call an option, if the command has it. */
+static const char *by_other_name(const char *const *names, size_t count, const char *word)
+{
+    static const char *const others[][2] = {{"min", "least"},      {"minimum", "least"}, {"minimise", "least"},
+                                            {"minimize", "least"}, {"max", "most"},      {"maximum", "most"},
+                                            {"maximise", "most"},  {"maximize", "most"}};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        for (size_t k = 0; k < count; k++)
+            if (strcmp(others[i][0], word) == 0 && strcmp(others[i][1], names[k]) == 0)
+                return names[k];
+    return NULL;
+}
+
 static tn_status unknown_option(parse *p, const char *name, size_t length)
 {
     tn_status status = tn_fail(p->error, TN_INVALID, E_USAGE, "`tartan %s` has no option --%.*s", p->command->name,
@@ -121,7 +134,7 @@ static tn_status unknown_option(parse *p, const char *name, size_t length)
         names[count++] = tn_option_at(p->command, i)->name;
     char word[81];
     snprintf(word, sizeof word, "%.*s", (int)(length < 80 ? length : 80), name);
-    const char *near = tn_nearest(word, names, count);
+    const char *other = by_other_name(names, count, word), *near = other ? other : tn_nearest(word, names, count);
     for (size_t i = 0; i < count && !near && length > 0; i++) /* shortened: --lib */
         near = strncmp(names[i], word, length) == 0 ? names[i] : NULL;
     help_number(p, word);

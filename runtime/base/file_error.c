@@ -50,7 +50,11 @@ static tn_status refuse(const char *cannot, const char *path, uint32_t code, int
 
 tn_status tn_cannot_read(const char *path, int reason, tn_error *error)
 {
-    return refuse("read", path, E_CANNOT_READ, reason, read_reasons, sizeof read_reasons / sizeof *read_reasons, error);
+    tn_status status =
+        refuse("read", path, E_CANNOT_READ, reason, read_reasons, sizeof read_reasons / sizeof *read_reasons, error);
+    if (reason == ENOENT && strchr(path, '|'))
+        tn_error_help(error, "the file comes first: this looks like a plan");
+    return status;
 }
 
 /* Is the folder there that a file or folder of this name would be in? */

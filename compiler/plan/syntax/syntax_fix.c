@@ -356,6 +356,8 @@ static const char *word_fix(const tn_parse *parse, const char *found, const tn_e
 {
     if (strcmp(found, "`as`") == 0 && tn_expects(e, "`require`"))
         return "only `prune` gives its clauses names; name the rule instead: `rule fit = ...`, then `require fit`";
+    if (strcmp(found, "`of`") == 0 && comes_after(parse, "within"))
+        return "how near has to be said: `a within 2 of b`, `a within 12m of b`";
     if (strcmp(found, "`of`") == 0 && tn_expects(e, "`*`"))
         return "a share is written `30% * trays`";
     if (strcmp(found, "`to`") == 0 && !tn_expects(e, "`..`"))
