@@ -238,11 +238,19 @@ void tn_emit_remainder(tn_emit *emit, const tn_ast_expr *expr)
 
 /* ---- measures */
 
+uint32_t tn_emit_sum(tn_emit *emit, tn_checked_sum *sum, const char *name)
+{
+    if (sum->index == TN_NONE) {
+        emit->schema = sum->schema->index;
+        tn_emit_sum_needs(emit, sum, name);
+        sum->index = emit_sum(emit, sum, sum->constant, true);
+    }
+    return sum->index;
+}
+
 void tn_emit_plan_measure(tn_emit *emit, tn_checked_rule *measure)
 {
-    emit->schema = measure->schema->index;
-    tn_emit_sum_needs(emit, measure->sum, measure->name);
-    measure->sum->index = emit_sum(emit, measure->sum, measure->sum->constant, true);
+    tn_emit_sum(emit, measure->sum, measure->name);
 }
 
 void tn_emit_measures(tn_emit *emit)
