@@ -61,7 +61,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token USE "`use`" SCHEMA "`schema`" RULE "`rule`" LIBRARY "`library`" TEST "`test`"
 %token USING "`using`" FROM "`from`" ALLOW "`allow`" AS "`as`" BY "`by`" TO "`to`" OF "`of`"
 %token ZONE "`zone`" FLAG "`flag`" FORBID "`forbid`" ROLE "`role`"
-%token TRAYS "`trays`" TOTAL "`total`" REQUIRE "`require`" PRUNE "`prune`"
+%token TRAYS "`trays`" TOTAL "`total`" REQUIRE "`require`" PRUNE "`prune`" WEIGHT "`weight`"
 %token TODO "`todo`" MATCH "`match`" REJECT "`reject`" KEEP "`keep`" DROP "`drop`"
 %token TRAY "`tray`" ANY "`any`" AND "`and`" OR "`or`" NOT "`not`"
 %token NEIGHBOUR "`neighbour`" SYMMETRIC "`symmetric`" QUANTITY "`quantity`" SUM "`sum`" MANY "`many`"
@@ -91,7 +91,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <field> field_head
 %type <rule> rule_head
 %type <library> library_head
-%type <word> doc role using from constant operand spec_word literal_word clause_name expectation
+%type <word> doc role using from constant operand spec_word literal_word clause_name expectation positive
 %type <list> expectations items values ordered depths allow names clauses clause prunes requires cases clause_names trays words
 %type <list> specifier spec_items spec_alternatives spec_words parts total_field
 %type <list> by_kinds walk_by
@@ -655,6 +655,8 @@ clause
                                                 { $$ = tn_ast_one(tn_ast_total_compare(parse, @$, $2, $3, $4, $5)); }
     | require_word requires                     { $$ = $2; }
     | prune_word prunes                         { $$ = $2; }
+    | weight_word expression                    { $$ = tn_ast_one(tn_ast_weight(parse, @$, $2, NULL)); }
+    | weight_word expression positive           { $$ = tn_ast_one(tn_ast_weight(parse, @$, $2, $3)); }
     | allow_word names                          { $$ = tn_ast_one(tn_ast_allow(parse, @$, $2)); }
     ;
 
@@ -662,12 +664,21 @@ trays_word: TRAYS                               { yyerrok; };
 total_word: TOTAL                               { yyerrok; };
 require_word: REQUIRE                           { yyerrok; };
 prune_word: PRUNE                               { yyerrok; };
+weight_word: WEIGHT                             { yyerrok; };
 allow_word: ALLOW                               { yyerrok; };
 
 total_field
     : %empty                                    { $$ = tn_ast_empty(); }
     | NAME                                      { $$ = tn_ast_one($1); }
     | NAME NAME                                 { $$ = tn_ast_append(tn_ast_one($1), $2); }
+    ;
+
+/* A number above 0; what it is not is told by the checker. */
+positive
+    : NUMBER
+    | DECIMAL
+    | LENGTH
+    | AREA
     ;
 
 requires

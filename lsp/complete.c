@@ -263,6 +263,8 @@ static void complete_library(tn_lsp_cursor *c)
     if (tn_cursor_is(c, c->clause, "require") || tn_cursor_is(c, c->clause, "prune")) {
         tn_offer_words(c, TN_AT(CLAUSE_END));
         complete_expression(c);
+    } else if (tn_cursor_is(c, c->clause, "weight")) {
+        complete_expression(c);
     } else if (tn_cursor_is(c, c->clause, "allow")) {
         tn_complete_codes(c);
     } else if (tn_cursor_is(c, c->clause, "total") && c->clause + 1 == c->count) {

@@ -175,7 +175,8 @@ static tn_status find_sample(sheet *s, tn_reply *found)
                                        .length = r->length,
                                        .has_per_length = r->has_per_length,
                                        .per_length = r->per_length,
-                                       .diverse = r->diverse};
+                                       .diverse = r->diverse,
+                                       .uniform = true};
     return tn_ask_sample(s->session, &request, found);
 }
 

@@ -20,6 +20,10 @@ tn_status tn_finds_begin(tn_finds *finds, tn_error *error)
     tn_best_houses *best = TN_REPLY(best_houses, finds->answer);
     if (plans)
         plans->library = tn_text(module, of->plans->record->name);
+    if (plans && of->weight) {
+        plans->has_total_weight = true;
+        mpq_set(plans->total_weight, of->weight);
+    }
     if (houses)
         houses->library = tn_text(module, of->houses->record->name);
     if (best)

@@ -26,6 +26,7 @@ typedef struct tn_found_of {
     mpz_ptr from;                   /* of an enumeration: the first rank, which `begins` may raise; or NULL */
     mpz_srcptr to;                  /* one past its last rank; or NULL */
     uint64_t before;                /* how many of its limit `begins` has already */
+    mpq_srcptr weight;              /* of a sample that is drawn by weights: of all plans; or NULL */
 } tn_found_of;
 
 /* Whoever takes what is found (tn_session.taker). Each says whether the question goes on; if it does not, it ends well,

@@ -5,21 +5,21 @@
 
 #include "ask/house/numbered.h"
 #include "ask/plan/found.h"
+#include "ask/plan/weights.h"
 #include "ask/session/questions.h"
 #include "runtime/base/array.h"
 #include "runtime/plan/library/diverse.h"
+#include "runtime/plan/measure/likelihood.h"
 
 /* ---- ranks of plans */
-
-/* tn_library_sample, or tn_library_diverse. */
-typedef tn_status choose_ranks(const tn_library *library, uint64_t seed, uint32_t length, size_t count, mpz_t *ranks,
-                               size_t *found, tn_error *error);
 
 typedef struct drawing {
     tn_session *session;
     const tn_library *library;
     const tn_sample_request *request;
-    mpz_t *ranks; /* of one length ascending */
+    tn_likelihood *likelihood; /* NULL: each plan is as likely as each */
+    mpq_t weight;              /* of all plans, if they are drawn by it */
+    mpz_t *ranks;              /* of one length ascending */
     size_t count, room;
 } drawing;
 
@@ -40,6 +40,8 @@ static void clear(drawing *d)
     for (size_t i = 0; i < d->room; i++)
         mpz_clear(d->ranks[i]);
     free(d->ranks);
+    tn_likelihood_free(d->likelihood);
+    mpq_clear(d->weight);
 }
 
 /* What the library holds in a length, if that is fewer than wanted: no room is needed for more. */
@@ -63,6 +65,8 @@ static tn_status check_memory(const drawing *d, uint32_t length, size_t count, t
     tn_library_kept(d->library, length, kept);
     uint64_t limbs = mpz_size(kept), bytes = sizeof(mpz_t) + 2 * sizeof(mp_limb_t) * limbs + 16 + 4 * sizeof(size_t);
     mpz_clear(kept);
+    if (d->likelihood) /* where it lies among the masses, and its place in a tree */
+        bytes += 4 * (sizeof(mpz_t) + 2 * sizeof(mp_limb_t) * (1 + mpz_size(mpq_numref(d->weight))));
     snprintf(what, sizeof what, "drawing %zu plans", count);
     tn_status status = tn_watch_room(d->session->opened->module->watch, bytes * count, what, error);
     if (status == TN_LIMIT)
@@ -82,15 +86,24 @@ static void note_few(const drawing *d, uint32_t length, size_t found, size_t wan
                         plural, length, wanted);
 }
 
+static tn_status choose(const drawing *d, uint32_t length, size_t count, size_t *found, tn_error *error)
+{
+    const tn_sample_request *r = d->request;
+    mpz_t *ranks = d->ranks + d->count;
+    if (d->likelihood)
+        return tn_likelihood_sample(d->likelihood, r->seed, length, count, ranks, found, error);
+    return (r->diverse ? tn_library_diverse : tn_library_sample)(d->library, r->seed, length, count, ranks, found,
+                                                                 error);
+}
+
 static tn_status draw_length(drawing *d, uint32_t length, size_t wanted, tn_error *error)
 {
-    choose_ranks *choose = d->request->diverse ? tn_library_diverse : tn_library_sample;
     size_t count = at_most(d->library, length, wanted), found = 0;
     tn_status status = check_memory(d, length, count, error);
     if (status == TN_OK)
         status = make_room(d, count, error);
     if (status == TN_OK)
-        status = choose(d->library, d->request->seed, length, count, d->ranks + d->count, &found, error);
+        status = choose(d, length, count, &found, error);
     if (status != TN_OK)
         return status;
     d->count += found;
@@ -108,6 +121,44 @@ static tn_status draw(drawing *d, tn_error *error)
     for (uint32_t l = tn_library_min(d->library); status == TN_OK && l <= tn_library_max(d->library); l++)
         status = draw_length(d, l, (size_t)r->per_length, error);
     return status;
+}
+
+/* ---- weights */
+
+static tn_status note_weights(const drawing *d, const tn_ready_library *ready, tn_error *error)
+{
+    tn_buffer weights = {0};
+    char *total = tn_weight_text(d->weight);
+    bool ok = total && tn_weights_say(ready, &weights) && tn_buffer_append(&weights, "", 1);
+    if (ok)
+        tn_session_note(d->session,
+                        "plans are drawn by their weights: %s; those of all plans add up to %.200s; --uniform draws "
+                        "each plan as likely as each",
+                        weights.data, total);
+    free(weights.data);
+    free(total);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+/* Makes ready to draw by weights, if the library has any, and says so. */
+static tn_status weigh(drawing *d, const tn_ready_library *ready, tn_error *error)
+{
+    if (d->request->uniform || ready->record->weight_count == 0)
+        return TN_OK;
+    tn_session_begins(d->session, "adding up weights");
+    tn_status status = tn_likelihood_new(d->library, &d->likelihood, error);
+    tn_session_ends(d->session);
+    if (status != TN_OK)
+        return status;
+    tn_likelihood_total(d->likelihood, TN_ALL_LENGTHS, d->weight);
+    return note_weights(d, ready, error);
+}
+
+static tn_status refuse_diverse(tn_session *session, const tn_ready_library *ready)
+{
+    return tn_session_refuse(session, "add --uniform, or leave out --diverse",
+                             "--diverse looks for plans that differ, and the weights of `%s` for likely ones",
+                             tn_text(session->opened->module, ready->record->name));
 }
 
 /* ---- plans */
@@ -135,10 +186,16 @@ static tn_status sample_plans(tn_session *session, const tn_sample_request *requ
     tn_status status = tn_session_library(session, &request->subject, &ready);
     if (status != TN_OK)
         return status;
+    if (request->diverse && !request->uniform && ready->record->weight_count > 0)
+        return refuse_diverse(session, ready);
     tn_found_of of = {.plans = ready};
     tn_finds finds = {.session = session, .of = &of, .answer = answer, .lines = request->lines};
     drawing d = {.session = session, .library = ready->library, .request = request};
-    status = draw(&d, &error);
+    mpq_init(d.weight);
+    status = weigh(&d, ready, &error);
+    if (status == TN_OK)
+        status = draw(&d, &error);
+    of.weight = d.likelihood ? d.weight : NULL;
     if (status == TN_OK)
         status = tn_finds_begin(&finds, &error);
     if (status == TN_OK && !finds.ended)
@@ -177,11 +234,23 @@ static tn_status give_houses(tn_numbered *n, const tn_sample_request *request, c
     return tn_finds_end(&finds, status, &error);
 }
 
+/* Houses of several plans whose library has weights. */
+static tn_status refuse_weighted(tn_session *session, const tn_numbered *n)
+{
+    const tn_module *module = session->opened->module;
+    return tn_session_refuse(session, "add --uniform, or give one plan with --plan",
+                             "houses are drawn each as likely as each, and the plans of `%s` have weights",
+                             tn_text(module, module->LIBRARY_records[n->record->plans].name));
+}
+
 static tn_status sample_houses(tn_session *session, const tn_sample_request *request, tn_reply *answer)
 {
     tn_numbered n;
     tn_plan on;
     tn_status status = tn_numbered_open_on(&n, session, &request->subject, request->plan, &on);
+    bool weighted = status == TN_OK && session->opened->module->LIBRARY_records[n.record->plans].weight_count > 0;
+    if (weighted && !request->uniform && !request->plan)
+        status = refuse_weighted(session, &n);
     if (status == TN_OK)
         status = give_houses(&n, request, request->plan ? &on : NULL, answer);
     free(on.trays);

@@ -1,6 +1,7 @@
 /* schema: what a file of rules has. */
 #include <stdlib.h>
 
+#include "ask/plan/weights.h"
 #include "ask/session/questions.h"
 #include "compiler/plan/syntax/program.h"
 #include "runtime/house/measure/measure.h"
@@ -165,6 +166,20 @@ static void set_clause(const showing *s, tn_string name, tn_string doc, uint32_t
     to->kind = tn_names_CLAUSE_KIND[kind];
 }
 
+static tn_status set_weights(const showing *s, const tn_library_record *from, tn_shown_library *to, tn_error *error)
+{
+    to->has_weights = from->weight_count > 0;
+    tn_status status = TN_NEW_LIST(shown_weight, to->weights, from->weight_count, error);
+    for (uint32_t i = 0; status == TN_OK && i < from->weight_count; i++) {
+        const tn_weight_record *weight = &s->module->WEIGHT_records[from->weight_first + i];
+        to->weights.items[i].name = tn_text(s->module, weight->name);
+        mpq_set_str(to->weights.items[i].weight, tn_text(s->module, weight->factor), 10);
+        if (!(to->weights.items[i].shown = tn_weight_text(to->weights.items[i].weight)))
+            status = tn_fail_memory(error);
+    }
+    return status;
+}
+
 static tn_status set_library(const showing *s, const tn_library_record *from, tn_shown_library *to, tn_error *error)
 {
     to->name = tn_text(s->module, from->name);
@@ -177,7 +192,7 @@ static tn_status set_library(const showing *s, const tn_library_record *from, tn
         const tn_clause_record *clause = &s->module->CLAUSE_records[from->clause_first + i];
         set_clause(s, clause->name, clause->doc, clause->kind, &to->clauses.items[i]);
     }
-    return status;
+    return status == TN_OK ? set_weights(s, from, to, error) : status;
 }
 
 static tn_status set_house_library(const showing *s, const tn_house_library_record *from, tn_shown_library *to,

@@ -71,6 +71,22 @@ static void write_clauses(const tn_compared *c, FILE *out)
     }
 }
 
+/* ---- weights */
+
+static void write_weights(const tn_compared *c, FILE *out)
+{
+    int names = (int)strlen("weight");
+    for (size_t i = 0; i < c->weights.count; i++)
+        names = larger(names, (int)strlen(c->weights.items[i].name));
+    if (c->weights.count > 0)
+        fprintf(out, "\n%-*s  %-7s  before  after\n", names, "weight", "is");
+    for (size_t i = 0; i < c->weights.count; i++) {
+        const tn_compared_weight *w = &c->weights.items[i];
+        fprintf(out, "%-*s  %-7s  %6s  %5s\n", names, w->name, w->change, w->has_before ? w->shown_before : "-",
+                w->has_after ? w->shown_after : "-");
+    }
+}
+
 /* ---- measures */
 
 enum { NUMBERS = 3, CELL_SIZE = 256 };
@@ -149,6 +165,7 @@ void tn_diff_text(const tn_compared *c, FILE *out)
     fprintf(out, "%s: %s%s\n\n", c->after.file, same ? "the same " : "what changes", same ? what : "");
     write_lengths(c, out);
     write_clauses(c, out);
+    write_weights(c, out);
     write_measures(c, out);
     write_plans(kinds[REMOVED], c->plans.removed.items, c->plans.removed.count, out);
     write_plans(kinds[ADDED], c->plans.added.items, c->plans.added.count, out);

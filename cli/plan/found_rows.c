@@ -24,9 +24,9 @@ static bool open_plans(tn_found_rows *rows)
     tn_made described;
     mpz_t ranks;
     mpz_init(ranks);
-    snprintf(command, sizeof command, "%s%s", rows->made, settings->columns ? " --columns" : "");
-    tn_made_describe(&rows->job->opened, ready, rows->job->settings->operands.items[0],
-                     settings->columns ? command : rows->made, &described);
+    snprintf(command, sizeof command, "%s%s%s", rows->made, settings->columns ? " --columns" : "",
+             rows->of.weight ? " (by weight)" : "");
+    tn_made_describe(&rows->job->opened, ready, rows->job->settings->operands.items[0], command, &described);
     tn_library_kept(ready->library, TN_ALL_LENGTHS, ranks);
     const tn_row_source source = {.schema = ready->schema, .metadata = &described.metadata, .ranks = ranks};
     bool opened = tn_job_row_writer(rows->job, settings, &source, &rows->writer);

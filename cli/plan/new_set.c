@@ -49,7 +49,8 @@ bool tn_new_set_fits(tn_job *job, const tn_new_set *what)
 static char *sample_words(const tn_new_set *what)
 {
     char text[80];
-    snprintf(text, sizeof text, "sample %" PRIu64 " --seed %" PRIu64, what->sample, what->seed);
+    snprintf(text, sizeof text, "sample %" PRIu64 "%s --seed %" PRIu64, what->sample, what->uniform ? " --uniform" : "",
+             what->seed);
     return strdup(text);
 }
 
@@ -109,11 +110,25 @@ static void tell(tn_job *job, const tn_shard_set *set)
     mpz_clear(plans);
 }
 
+/* Workers draw the numbers of plans, each as likely as each. */
+static bool can_draw(tn_job *job, const tn_ready_library *ready, const tn_new_set *what)
+{
+    if (!what->sampled || what->uniform || ready->record->weight_count == 0)
+        return true;
+    tn_help(tn_job_diagnostics(job),
+            tn_job_usage(job, "a shard set draws each plan as likely as each, and library `%s` has weights",
+                         tn_text(job->opened.module, ready->record->name)),
+            "add --uniform; or draw fewer plans by weight, without shards");
+    return false;
+}
+
 void tn_job_new_set(tn_job *job, const tn_ready_library *ready, const tn_new_set *what)
 {
     tn_shard_set set = {0};
     tn_error error;
     mpz_t from, to;
+    if (!can_draw(job, ready, what))
+        return;
     mpz_inits(from, to, NULL);
     if (tn_job_answered(job, tn_asked_range(&job->session, ready->library, what->from, what->to, from, to))) {
         tn_status status = describe(job, ready, what, &set)

@@ -15,6 +15,7 @@ typedef struct tn_new_set {
     bool compress;
     bool sampled; /* only a sample of so many plans */
     uint64_t sample, seed;
+    bool uniform; /* the sample leaves weights out */
 } tn_new_set;
 
 /* Are there a folder, and a rule file whose name a manifest can hold? False: what is wrong was said. */

@@ -16,6 +16,7 @@ typedef struct sample_settings {
     tn_written_settings written;
     tn_option_number seed, length, per_length, shards;
     bool diverse; /* plans that differ, instead of even chances */
+    bool uniform; /* even chances, instead of weights */
     const char *plan;
 } sample_settings;
 
@@ -30,8 +31,8 @@ static void describe(const sample_settings *settings, size_t wanted, char *text,
     int used = settings->per_length.given
                    ? snprintf(text, size, "sample --per-length %" PRIu64, settings->per_length.value)
                    : snprintf(text, size, "sample %zu", wanted);
-    used += snprintf(text + used, size - (size_t)used, "%s --seed %" PRIu64, settings->diverse ? " --diverse" : "",
-                     settings->seed.value);
+    used += snprintf(text + used, size - (size_t)used, "%s%s --seed %" PRIu64, settings->diverse ? " --diverse" : "",
+                     settings->uniform ? " --uniform" : "", settings->seed.value);
     if (settings->length.given)
         snprintf(text + used, size - (size_t)used, " --length %" PRIu64, settings->length.value);
 }
@@ -48,6 +49,7 @@ static void sample(tn_job *job, size_t wanted)
                                        .has_per_length = s->per_length.given,
                                        .per_length = s->per_length.value,
                                        .diverse = s->diverse,
+                                       .uniform = s->uniform,
                                        .plan = s->plan};
     tn_found_rows rows;
     tn_reply answer;
@@ -119,7 +121,8 @@ static void sample_shards(tn_job *job, size_t wanted)
                              .shards = s->shards.value,
                              .sampled = true,
                              .sample = wanted,
-                             .seed = s->seed.value};
+                             .seed = s->seed.value,
+                             .uniform = s->uniform};
     if (can_share(job) && tn_new_set_fits(job, &what) && tn_job_opened_library(job, &s->plans, &ready))
         tn_job_new_set(job, &ready, &what);
     tn_library_close(&ready);
@@ -147,6 +150,7 @@ static const tn_option options[] = {
     NUMBER("length", 0, "L", length, 0, UINT32_MAX - 1, "only plans of L trays"),
     NUMBER("per-length", 0, "N", per_length, 0, SAMPLE_MAX, "N plans of each number of trays, instead of N in all"),
     FLAG("diverse", 0, diverse, "plans that differ from one another, instead of each as likely as each"),
+    FLAG("uniform", 0, uniform, "each plan as likely as each, also if the library has weights"),
     NUMBER("shards", 0, "M", shards, 1, 0,
            "make a shard set of M shards, the folder that -o names: `tartan shards run` draws the same plans"),
     TEXT("plan", 0, "PLAN", plan, "draw houses on one plan: a plan in any spelling, or # and its rank"),
@@ -162,11 +166,14 @@ static const tn_option options[] = {
 const tn_command tn_command_sample = {
     .name = "sample",
     .summary = "choose random plans of a library",
-    .usage = "FILE N [--seed S] [--length L] [--diverse]\nFILE --per-length N [--seed S]\nFILE N --library HOUSES "
+    .usage = "FILE N [--seed S] [--length L] [--diverse] [--uniform]\nFILE --per-length N [--seed S]\nFILE N --library "
+             "HOUSES "
              "[--plan PLAN] [--seed S]\nFILE N --shards M -o SET [--seed S]",
     .description =
         "Draws N different plans of the library at random, each with the same probability, and writes them in the "
-        "order of their ranks. Nearly all plans of a library have the greatest number of trays, so nearly all "
+        "order of their ranks. If the library has weights (`weight` in its clauses), each plan is drawn in proportion "
+        "to the product of its weights, among those not drawn yet; --uniform leaves the weights out. Nearly all plans "
+        "of a library have the greatest number of trays, so nearly all "
         "samples do too; --length and --per-length draw plans of other lengths. --diverse draws one plan; each next "
         "plan is the one of 1,000 fresh draws that is farthest from those before. A changed field counts 1, a tray "
         "more or less counts as many as it has fields. With --library HOUSES, or --plan, houses are drawn. The same "

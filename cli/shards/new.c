@@ -23,6 +23,9 @@ static bool check_options(tn_job *job, const tn_new_set *what)
     else if (settings->seed.given && !settings->sample.given)
         tn_help(list, tn_job_usage(job, "--seed says which sample, and none is asked for"),
                 "add --sample N, or leave out --seed");
+    else if (settings->uniform && !settings->sample.given)
+        tn_help(list, tn_job_usage(job, "--uniform is about samples, and none is asked for"),
+                "add --sample N, or leave out --uniform");
     else if (settings->shards.given == settings->each.given)
         tn_help(list,
                 tn_job_usage(job, settings->shards.given ? "--shards and --plans say the same thing twice"
@@ -47,7 +50,8 @@ void tn_shards_new(tn_job *job)
                              .compress = settings->compress != 0,
                              .sampled = settings->sample.given,
                              .sample = settings->sample.value,
-                             .seed = settings->seed.value};
+                             .seed = settings->seed.value,
+                             .uniform = settings->uniform};
     if (check_options(job, &what) && tn_job_library(job, what.path, &settings->plans, &ready))
         tn_job_new_set(job, &ready, &what);
     tn_library_close(&ready);

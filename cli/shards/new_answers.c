@@ -20,6 +20,7 @@ static const char *foreign_option(const tn_shards_settings *s)
     return s->each.given                          ? "--plans"
            : s->sample.given                      ? "--sample"
            : s->seed.given                        ? "--seed"
+           : s->uniform                           ? "--uniform"
            : s->from                              ? "--from"
            : s->to                                ? "--to"
            : s->compress                          ? "--compress"

@@ -26,7 +26,7 @@ static const shards_part parts[] = {
     {"new",
      " task input rule input-format on-error library where set trays max-length max-states threads shards plans from "
      "to "
-     "sample seed "
+     "sample seed uniform "
      "format compress plan-lines row-group output ",
      false, run_new},
     {"run", " shard part threads for stale ", true, tn_shards_run_set},
@@ -131,6 +131,7 @@ static const tn_option options[] = {
     NUMBER("sample", 0, "N", sample, 0, TN_SHARDS_SAMPLE_MAX,
            "new: only N plans, the same that `tartan sample` draws from all of them"),
     NUMBER("seed", 's', "S", seed, 0, 0, "new: which sample: the same seed gives the same plans (default 0)"),
+    FLAG("uniform", 0, uniform, "new: the sample has each plan as likely as each, also if the library has weights"),
     CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite|parquet|names|bits|any",
            "new: what the shards are: lines (the default), json, csv, bin or parquet; of a match names (the default), "
            "json, bits or any; of a prune lines (the default) or json"),

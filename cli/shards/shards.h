@@ -20,6 +20,7 @@ typedef struct tn_shards_settings {
     tn_option_number shards, each; /* --shards, --plans */
     const char *from, *to;
     tn_option_number sample, seed;
+    bool uniform;
     int compress; /* 1: zstd */
     tn_option_number shard;
     const char *part, *time, *stale;

@@ -133,7 +133,8 @@ TARTAN_API tartan_status tartan_library_plans(const tartan_library *library, con
                                               tartan_plans **plans, tartan_error *error);
 
 /* `count` different plans drawn uniformly from those of one length or of any, in rank order: the same seed gives the
- * same plans everywhere. Where the library has fewer, all of them. Memory grows with their number. */
+ * same plans everywhere. If the library has weights they are left out here: the request `sample` (tartan_ask) draws by
+ * them. Where the library has fewer, all of them. Memory grows with their number. */
 TARTAN_API tartan_status tartan_library_sample(const tartan_library *library, uint64_t seed, uint32_t length,
                                                size_t count, tartan_plans **plans, tartan_error *error);
 

@@ -16,6 +16,9 @@ golden one_file 'tartan diff sheds.plan'
 sed 's/^  trays 2..4/  trays 2..3/' "$files/measures.plan" >"$scratch/shorter.plan"
 golden measures "tartan diff measures.plan $scratch/shorter.plan -l strips --sample 0"
 golden measures_json "tartan diff measures.plan $scratch/shorter.plan -l strips --sample 0 --json | sed -n '/\"measures\"/,/^  ]/p'"
+sed 's/cafe) 7/cafe) 9/; /weight busy/d; s/prune tray(hall, 3m)/weight tray(hall) 2/' "$files/market.plan" >"$scratch/market.plan"
+golden weights "tartan diff market.plan $scratch/market.plan -l lively --sample 0"
+golden weights_json "tartan diff market.plan $scratch/market.plan -l lively --sample 0 --json | sed -n '/\"weights\"/,/^  ]/p'"
 golden limit 'tartan diff sheds.plan sheds-edited.plan -l sheds --max-states 3'
 sed 's/6m/7m/g' "$files/sheds.plan" >"$scratch/wider.plan"
 golden other_value "tartan diff sheds.plan $scratch/wider.plan -l sheds"

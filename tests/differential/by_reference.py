@@ -1,8 +1,9 @@
 """Questions whose answers the brute force of reference.py works out from the file's derivation tree."""
+import re
 from collections import Counter
 from fractions import Fraction
 
-from program import Refused, same
+from program import Refused, run, same
 from plan_questions import how_many
 from reference import INFINITE, UNITS, File, Unknown
 
@@ -19,6 +20,7 @@ def plans_by_reference(subject):
     same("count", how_many(subject.counts), len(kept))
     lengths = Counter(plan.n for plan in kept)
     same("count by length", {d["length"]: int(d["kept"]) for d in subject.counts["by_length"] if int(d["kept"])}, dict(lengths))
+    answered(lambda: weights_by_reference(subject, file, kept))
     for rule in subject.rules():
         answered(lambda: rule_by_reference(subject, file, kept, rule))
     for measure in subject.measures() if kept else []:
@@ -39,6 +41,18 @@ def answered(ask):
 def rule_by_reference(subject, file, kept, rule):
     want = sum(plan.holds(file.rule(rule)[1]) for plan in kept)
     same("--where", subject.where(rule), want)
+
+
+def weights_by_reference(subject, file, kept):
+    """What all weights add up to, as a sample says it; and a sample of all plans but one."""
+    if not any(c.production.symbols[0] == "weight_word" for c in file.clauses(subject.item.name)) or not kept:
+        return
+    code, out, err = run("sample", subject.path, str(max(len(kept) - 1, 1)), *subject.options)
+    said = re.search(r"those of all plans add up to ([0-9,./-]+);", err)
+    if code or not said:
+        raise Refused(re.search(r"error\[(E\d+)\]", err + "error[E0]")[1], code == 4)
+    same("the weights of all plans", Fraction(said[1].replace(",", "")), sum(file.weight(plan, subject.item.name) for plan in kept))
+    same("plans drawn by weight", len(set(out.split("\n")[:-1])), max(len(kept) - 1, 1))
 
 
 def measure_by_reference(subject, file, kept, measure):

@@ -813,6 +813,15 @@ class File:
             return self.total(plan, clause)
         return True
 
+    def weight(self, plan, name):
+        """How many times as likely the plan is as one without weights."""
+        product = Fraction(1)
+        for clause in self.clauses(name):
+            if clause.production.symbols[0] == "weight_word":
+                trays = sum(plan.one(clause.child("expression"), Env(), t) for t in range(plan.n))
+                product *= constant(words(clause.child("positive"))[0]) ** trays
+        return product
+
     def total(self, plan, clause):
         named_field = words(clause.child("total_field"))
         lengths = [n for n, kind, _ in self.schema.fields if kind == "length"]

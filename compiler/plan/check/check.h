@@ -198,6 +198,18 @@ typedef struct tn_checked_clause {
     uint32_t function; /* emitted: plus one; 0: not yet */
 } tn_checked_clause;
 
+/* Each single tray that the sum counts, of one term, makes a plan so many times as likely. */
+typedef struct tn_checked_weight {
+    const tn_ast_clause *ast;
+    const char *name;                      /* a rule's, or "weight@12" */
+    const char *factor;                    /* "p/q" */
+    size_t unit;                           /* the file that it is in */
+    const struct tn_checked_schema *older; /* the schema that it was written for */
+    tn_ast_expr *written;                  /* the quantity, before anything was written out */
+    tn_checked_sum *sum;
+    tn_span span;
+} tn_checked_weight;
+
 typedef struct tn_checked_library {
     const tn_ast_library *ast;
     const char *name;
@@ -208,7 +220,10 @@ typedef struct tn_checked_library {
     struct tn_checked_form *form;     /* of a library of houses; NULL: of plans */
     tn_checked_clause **clauses;
     size_t clause_count, clause_capacity;
-    tn_names clause_names;      /* name -> tn_checked_clause */
+    tn_names clause_names; /* name -> tn_checked_clause */
+    tn_checked_weight **weights;
+    size_t weight_count, weight_capacity;
+    tn_names weight_names;
     const tn_ast_clause *trays; /* its own, or taken over */
     uint32_t trays_min, trays_max;
     tn_ast_list allow;
@@ -476,6 +491,7 @@ void tn_check_settle(tn_check *check);                        /* checks the rule
 /* ---- warnings.c */
 void tn_check_warnings(tn_check *check, const tn_ast_expr *expr);
 void tn_check_unused(tn_check *check); /* warns about rules that nothing uses */
+void tn_check_weight_warnings(tn_check *check, const tn_ast_expr *quantity); /* of what single trays are weighed */
 
 /* ---- house.c: what is asked of houses */
 /* `cell`, `room`, `section`, `touch`, `apart`: finds the form that is meant, and what they say of it. */
@@ -500,8 +516,17 @@ struct tn_checked_form *tn_check_form_named(const tn_check *check, size_t unit, 
 void tn_check_number_records(tn_check *check);
 
 /* ---- library.c */
+/* "require@12"; with ".2" and so on where these names have that already. */
+const char *tn_clause_name(tn_check *check, const tn_names *names, const char *word, tn_span span);
 void tn_check_libraries(tn_check *check);
 void tn_check_asked(tn_check *check); /* adds what the command line asks to the library that it is about */
+
+/* ---- weight.c */
+void tn_check_weight(tn_check *check, tn_checked_library *library, tn_ast_clause *ast);
+/* Those of a library that this one is made from. newer: by another schema. */
+void tn_check_weights_of(tn_check *check, tn_checked_library *library, const tn_checked_library *from, bool newer);
+/* A number above 0 without a unit, as "p/q"; NULL: reported, with what 0 would mean. what: "a weight". */
+const char *tn_check_positive(tn_check *check, const tn_ast_word *word, const char *what, const char *none);
 
 /* ---- form.c */
 void tn_check_forms(tn_check *check);

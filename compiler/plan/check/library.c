@@ -24,15 +24,19 @@ static void put_clause(tn_check *check, tn_checked_library *library, tn_checked_
     tn_names_put(&library->clause_names, clause->name, clause);
 }
 
-/* "require@12"; with ".2" and so on where the library has that already. */
-static const char *make_name(tn_check *check, const tn_checked_library *library, const char *word, size_t line)
+static const char *make_name(tn_check *check, const tn_names *names, const char *word, size_t number)
 {
     char name[64], numbered[96];
-    snprintf(name, sizeof name, "%s@%zu", word, line);
+    snprintf(name, sizeof name, "%s@%zu", word, number);
     snprintf(numbered, sizeof numbered, "%s", name);
-    for (unsigned n = 2; tn_names_get(&library->clause_names, numbered); n++)
+    for (unsigned n = 2; tn_names_get(names, numbered); n++)
         snprintf(numbered, sizeof numbered, "%s.%u", name, n);
     return tn_arena_copy(check->arena, numbered, strlen(numbered));
+}
+
+const char *tn_clause_name(tn_check *check, const tn_names *names, const char *word, tn_span span)
+{
+    return make_name(check, names, word, tn_sources_place(check->diagnostics->sources, span).line);
 }
 
 /* Is the name that the author gave free? Where it is not, says so. The same rule pruned twice is harmless. */
@@ -109,8 +113,8 @@ static void add_expr_clause(tn_check *check, tn_checked_library *library, tn_ast
         if (name_is_free(check, library, clause, ast->name ? ast->name->node.span : ast->expr->node.span))
             put_clause(check, library, clause);
     } else {
-        size_t line = tn_sources_place(check->diagnostics->sources, ast->node.span).line;
-        clause->name = make_name(check, library, ast->form == TN_FORM_PRUNE ? "prune" : "require", line);
+        const char *word = ast->form == TN_FORM_PRUNE ? "prune" : "require";
+        clause->name = tn_clause_name(check, &library->clause_names, word, ast->node.span);
         if (clause->name)
             put_clause(check, library, clause);
     }
@@ -187,11 +191,13 @@ static void add_clause(tn_check *check, tn_checked_library *library, tn_ast_clau
     static const tn_clause_kind kinds[] = {
         [TN_FORM_TOTAL_RANGE] = TN_CLAUSE_TOTAL, [TN_FORM_TOTAL_COMPARE] = TN_CLAUSE_TOTAL,
         [TN_FORM_REQUIRE] = TN_CLAUSE_REQUIRE,   [TN_FORM_PRUNE] = TN_CLAUSE_PRUNE,
-        [TN_FORM_ALLOW] = TN_CLAUSE_PRUNE,
+        [TN_FORM_ALLOW] = TN_CLAUSE_PRUNE,       [TN_FORM_WEIGHT] = TN_CLAUSE_REQUIRE,
     };
-    if (library->form && (ast->form == TN_FORM_TRAYS || kinds[ast->form] == TN_CLAUSE_TOTAL)) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_HOUSE_CLAUSE, ast->node.span,
-                                     "a library of houses cannot say which plans there are");
+    bool of_plans = ast->form == TN_FORM_TRAYS || ast->form == TN_FORM_WEIGHT || kinds[ast->form] == TN_CLAUSE_TOTAL;
+    if (library->form && of_plans) {
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_HOUSE_CLAUSE, ast->node.span, "a library of houses cannot say %s",
+                      ast->form == TN_FORM_WEIGHT ? "how likely plans are" : "which plans there are");
         tn_note(check->diagnostics, d, &library->plans->ast->name->node.span, "its plans are those of `%s`",
                 library->plans->name);
         tn_help(check->diagnostics, d, "write this line in a library of plans, and make the houses `from` that");
@@ -199,6 +205,10 @@ static void add_clause(tn_check *check, tn_checked_library *library, tn_ast_clau
     }
     if (ast->form == TN_FORM_TRAYS) {
         set_trays(check, library, ast);
+        return;
+    }
+    if (ast->form == TN_FORM_WEIGHT) {
+        tn_check_weight(check, library, ast);
         return;
     }
     if (ast->form == TN_FORM_ALLOW || !tn_check_room(check, library->clause_count, TN_CLAUSES_MAX, "clause",
@@ -350,6 +360,8 @@ static void take_over(tn_check *check, tn_checked_library *library)
         if (clause)
             put_clause(check, library, clause);
     }
+    if (!library->form)
+        tn_check_weights_of(check, library, from, newer);
 }
 
 /* Recursion is as deep as libraries are made from each other: at most TN_LIBRARIES_MAX. */
@@ -438,7 +450,7 @@ static void add_where(tn_check *check, tn_checked_library *library, tn_ast_expr 
         .ast = ast, .kind = TN_CLAUSE_REQUIRE, .expr = ast->expr, .span = expr->node.span, .field = TN_NONE};
     if (ast->expr->kind == TN_EXPR_NAME && ast->expr->rule && !ast->expr->rule->hidden)
         clause->rule = ast->expr->rule;
-    clause->name = make_name(check, library, "where", number);
+    clause->name = make_name(check, &library->clause_names, "where", number);
     if (clause->name)
         put_clause(check, library, clause);
 }

@@ -177,7 +177,7 @@ static void add_library(tn_check *check, const tn_ast_library *ast, size_t unit)
         return;
     *library = (tn_checked_library){
         .ast = ast, .name = ast->name->text, .unit = unit, .index = (uint32_t)result->library_count};
-    library->clause_names.arena = check->arena;
+    library->clause_names.arena = library->weight_names.arena = check->arena;
     name->library = library;
     result->libraries[result->library_count++] = library;
 }

@@ -292,6 +292,19 @@ static void warn(tn_check *check, const tn_ast_expr *expr, bool somewhere)
         warn(check, part, somewhere);
 }
 
+void tn_check_weight_warnings(tn_check *check, const tn_ast_expr *quantity)
+{
+    const tn_ast_expr *part = (const tn_ast_expr *)quantity->parts.first;
+    uint32_t trays = tn_min_trays(part);
+    warn(check, part, false);
+    if (trays < 2 || !tn_check_wanted(check, W_NEVER_ONE_TRAY))
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, W_NEVER_ONE_TRAY, part->node.span,
+                                 "a weight looks at single trays, and this takes %u or more", (unsigned)trays);
+    tn_help(check->diagnostics, d,
+            "name what a single tray has to be; one that stands beside another is `tray(...) beside tray(...)`");
+}
+
 void tn_check_warnings(tn_check *check, const tn_ast_expr *expr)
 {
     warn(check, expr, true);

@@ -68,6 +68,8 @@ void tn_emit_quotient(tn_emit *emit, const tn_ast_expr *expr); /* a comparison o
 void tn_emit_number(tn_emit *emit, const tn_checked_number *number, tn_span span);
 void tn_emit_house_measure(tn_emit *emit, const tn_checked_rule *measure);
 uint32_t tn_emit_house_sum(tn_emit *emit, const tn_checked_sum *sum, uint32_t of_plan); /* of_plan: a SUM */
+/* The SUM record of a number of whole plans, with what it names; once, also where several have it. */
+uint32_t tn_emit_sum(tn_emit *emit, tn_checked_sum *sum, const char *name);
 void tn_emit_plan_measure(tn_emit *emit, tn_checked_rule *measure);
 void tn_emit_measures(tn_emit *emit); /* their records */
 

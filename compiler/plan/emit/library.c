@@ -30,6 +30,24 @@ uint32_t tn_emit_clause(tn_emit *emit, tn_checked_clause *clause, uint32_t schem
     return clause->function - 1;
 }
 
+/* Returns the first of the records. */
+static uint32_t emit_weights(tn_emit *emit, const tn_checked_library *library)
+{
+    uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_WEIGHT);
+    for (size_t i = 0; i < library->weight_count; i++) {
+        const tn_checked_weight *weight = library->weights[i];
+        tn_builder_add_WEIGHT(emit->builder, &(tn_weight_record){
+                                                 .name = tn_builder_string(emit->builder, weight->name),
+                                                 .sum = tn_emit_sum(emit, weight->sum, weight->name),
+                                                 .factor = tn_builder_string(emit->builder, weight->factor),
+                                                 .file = weight->span.file,
+                                                 .begin = weight->span.begin,
+                                                 .end = weight->span.end,
+                                             });
+    }
+    return first;
+}
+
 static void emit_library(tn_emit *emit, const tn_checked_library *library)
 {
     uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_CLAUSE);
@@ -46,6 +64,7 @@ static void emit_library(tn_emit *emit, const tn_checked_library *library)
                                                  .end = clause->span.end,
                                              });
     }
+    uint32_t first_weight = emit_weights(emit, library);
     tn_span span = library->ast->top.node.span;
     const tn_ast_word *doc = library->ast->doc;
     tn_builder_add_LIBRARY(emit->builder, &(tn_library_record){
@@ -60,6 +79,8 @@ static void emit_library(tn_emit *emit, const tn_checked_library *library)
                                               .file = span.file,
                                               .begin = span.begin,
                                               .end = span.end,
+                                              .weight_first = first_weight,
+                                              .weight_count = (uint32_t)library->weight_count,
                                           });
 }
 

@@ -365,19 +365,27 @@ static uint32_t emit_divides(tn_emit *emit, const tn_checked_sum *over, const ch
     return tn_emit_end(emit, label_of(name).text, TN_FUNCTION_HOLDS);
 }
 
-void tn_emit_plan_measure(tn_emit *emit, tn_checked_rule *measure)
+uint32_t tn_emit_sum(tn_emit *emit, tn_checked_sum *sum, const char *name)
 {
-    tn_checked_sum *sum = measure->sum, *over = sum->over;
-    emit->schema = measure->schema->index;
-    tn_emit_sum_needs(emit, sum, measure->name);
-    tn_emit_sum_needs(emit, over, measure->name);
+    tn_checked_sum *over = sum->over;
     uint32_t divides = TN_NO_RECORD;
+    if (sum->index != TN_NONE)
+        return sum->index;
+    emit->schema = sum->schema->index;
+    tn_emit_sum_needs(emit, sum, name);
+    tn_emit_sum_needs(emit, over, name);
     if (over) {
-        divides = emit_divides(emit, over, measure->name);
+        divides = emit_divides(emit, over, name);
         over->index = emit_sum(emit, over, over->constant, true, TN_NO_RECORD);
         sum->power += over->power;
     }
     sum->index = emit_sum(emit, sum, sum->constant, true, divides);
+    return sum->index;
+}
+
+void tn_emit_plan_measure(tn_emit *emit, tn_checked_rule *measure)
+{
+    tn_emit_sum(emit, measure->sum, measure->name);
 }
 
 void tn_emit_measures(tn_emit *emit)

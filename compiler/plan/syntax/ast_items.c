@@ -296,6 +296,16 @@ tn_ast_clause *tn_ast_prune(tn_parse *parse, tn_span span, tn_ast_expr *expr, co
     return clause;
 }
 
+tn_ast_clause *tn_ast_weight(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *number)
+{
+    tn_ast_clause *clause = clause_new(parse, TN_FORM_WEIGHT, span);
+    if (!clause || !expr)
+        return NULL;
+    clause->expr = tn_ast_counted(parse, TN_EXPR_QUANTITY, expr->node.span, expr, TN_AST_STRETCH, NULL);
+    clause->word = number;
+    return clause->expr ? clause : NULL;
+}
+
 tn_ast_clause *tn_ast_allow(tn_parse *parse, tn_span span, tn_ast_list codes)
 {
     tn_ast_clause *clause = clause_new(parse, TN_FORM_ALLOW, span);

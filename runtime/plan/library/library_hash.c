@@ -4,7 +4,9 @@
  * of trays to come. Different sets are different polynomials, of a degree of at most the plans' length, and such differ
  * at a random point but for (length / modulus) of all points (Schwartz 1980, Zippel 1979). The value at two fixed,
  * random-looking points modulo 2^61 - 1 is found like a count, over any automaton of the library: neither the wording
- * nor the order of the rules shows, nor how the automaton was built. All numbers go into the hash in little-endian. */
+ * nor the order of the rules shows, nor how the automaton was built. Weights, of libraries that have any, go in as they
+ * are written: in any order, but other words for the same trays are another weight. All numbers go into the hash in
+ * little-endian. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,6 +14,7 @@
 #include "runtime/base/random.h"
 #include "runtime/plan/library/hash_text.h"
 #include "runtime/plan/library/library_data.h"
+#include "runtime/plan/match/code_hash.h"
 
 __extension__ typedef unsigned __int128 wide;
 
@@ -105,6 +108,35 @@ static void add_plans(XXH3_state_t *hash, const tn_library *library, unsigned po
     }
 }
 
+/* Adds one to the others, in whatever order they come. */
+static tn_status add_weight(tn_library *library, const tn_weight_record *weight, tn_error *error)
+{
+    const tn_module *module = library->schema->module;
+    uint64_t code[2];
+    XXH3_state_t hash;
+    tn_status status =
+        tn_code_hash(module, module->TERM_records[module->SUM_records[weight->sum].term_first].part, code, error);
+    if (status != TN_OK)
+        return status;
+    XXH3_128bits_reset(&hash);
+    add_text(&hash, module, weight->factor);
+    add_number(&hash, code[0]);
+    add_number(&hash, code[1]);
+    XXH128_hash_t found = XXH3_128bits_digest(&hash);
+    library->weights[0] += found.low64;
+    library->weights[1] += found.high64;
+    return TN_OK;
+}
+
+tn_status tn_library_hash_weights(tn_library *library, tn_error *error)
+{
+    const tn_library_record *record = library->record;
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < record->weight_count; i++)
+        status = add_weight(library, &library->schema->module->WEIGHT_records[record->weight_first + i], error);
+    return status;
+}
+
 void tn_library_hash(const tn_library *library, char hex[33])
 {
     XXH3_state_t hash;
@@ -116,5 +148,9 @@ void tn_library_hash(const tn_library *library, char hex[33])
     for (unsigned point = 0; point < POINTS; point++)
         add_plans(&hash, library, point);
     pthread_mutex_unlock(&library->late->lock);
+    if (library->record && library->record->weight_count > 0) {
+        add_number(&hash, library->weights[0]);
+        add_number(&hash, library->weights[1]);
+    }
     tn_hash_text(XXH3_128bits_digest(&hash), hex);
 }

@@ -163,6 +163,14 @@ static void list_library(tn_lister *lister, size_t index)
         fprintf(lister->out, ": function %u", clause->holds);
         tn_list_place(lister, clause->file, clause->begin);
     }
+    for (uint32_t i = 0; i < library->weight_count; i++) {
+        const tn_weight_record *weight = &lister->module->WEIGHT_records[library->weight_first + i];
+        fputs("  weight ", lister->out);
+        tn_list_name(lister, weight->name);
+        fprintf(lister->out, " %s: ", tn_text(lister->module, weight->factor));
+        tn_list_sum(lister, weight->sum);
+        tn_list_place(lister, weight->file, weight->begin);
+    }
 }
 
 static void list(tn_lister *lister)

@@ -1,4 +1,4 @@
-/* Verifies and lists sums, their terms and measures, and the code that says what a tray counts. */
+/* Verifies and lists sums, their terms, measures and weights, and the code that says what a tray counts. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -117,9 +117,41 @@ static tn_status check_measure(const tn_checker *checker, size_t i)
     return status == TN_OK && measure->over != TN_NO_RECORD ? check_measure_sum(checker, i, measure->over) : status;
 }
 
+/* A weight counts single trays of plans of the library's schema; its factor is above 0. */
+static tn_status check_weight(const tn_checker *checker, uint32_t index, uint32_t schema)
+{
+    const tn_module *module = checker->module;
+    const tn_weight_record *weight = &module->WEIGHT_records[index];
+    const tn_sum_record *sum = &module->SUM_records[weight->sum];
+    const tn_term_record *term = sum->term_count == 1 ? &module->TERM_records[sum->term_first] : NULL;
+    bool counts = term && term->kind == TN_SUM_SINGLES && term->tally == TN_NO_RECORD &&
+                  strcmp(tn_text(module, term->factor), "1") == 0 && strcmp(tn_text(module, sum->constant), "0") == 0;
+    mpq_t factor;
+    mpq_init(factor);
+    bool above = tn_rational_read(tn_text(module, weight->factor), factor) && mpq_sgn(factor) > 0;
+    mpq_clear(factor);
+    if (sum->schema != schema || !counts)
+        return tn_refuse(checker, "weight %u has a sum of another kind or schema", index);
+    return above ? TN_OK : tn_refuse(checker, "weight %u is not above 0", index);
+}
+
+static tn_status check_weights(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    tn_status status = TN_OK;
+    for (size_t l = 0; l < module->LIBRARY_count; l++) {
+        const tn_library_record *library = &module->LIBRARY_records[l];
+        for (uint32_t i = 0; status == TN_OK && i < library->weight_count; i++)
+            status = check_weight(checker, library->weight_first + i, library->schema);
+    }
+    return status;
+}
+
 static tn_status verify(const tn_checker *checker)
 {
     tn_status status = check_sums(checker);
+    if (status == TN_OK)
+        status = check_weights(checker);
     for (size_t i = 0; status == TN_OK && i < checker->module->MEASURE_count; i++)
         status = check_measure(checker, i);
     return status == TN_OK ? check_measure_names(checker) : status;
@@ -249,7 +281,8 @@ static void list_heading(tn_lister *lister, uint32_t function)
     tn_list_name(lister, lister->module->SCHEMA_records[lister->module->FUNCTION_records[function].schema].name);
 }
 
-static const tn_section sections[] = {TN_SECTION_SUM, TN_SECTION_TERM, TN_SECTION_MEASURE, TN_SECTION_STRINGS};
+static const tn_section sections[] = {TN_SECTION_SUM, TN_SECTION_TERM, TN_SECTION_MEASURE, TN_SECTION_WEIGHT,
+                                      TN_SECTION_STRINGS};
 
 static const tn_operand_rules operands[] = {
     {TN_OPERANDS_SUMMED, check_summed, list_summed},

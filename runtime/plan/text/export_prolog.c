@@ -479,6 +479,8 @@ static tn_status put_libraries(writing *w, tn_error *error)
         put_atom(w, tn_text(module, library->name), NULL);
         w->ok =
             w->ok && tn_buffer_printf(w->out, ", %" PRIu32 ", %" PRIu32 ").\n", library->trays_min, library->trays_max);
+        if (library->weight_count > 0)
+            put(w, "% Its weights say which plans samples draw, and are left out.\n");
         for (uint32_t i = 0; status == TN_OK && i < library->clause_count; i++) {
             put_clause(w, library, &module->CLAUSE_records[library->clause_first + i]);
             status = check_clause(w, &module->CLAUSE_records[library->clause_first + i], error);

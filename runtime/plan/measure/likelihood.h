@@ -1,0 +1,29 @@
+/* How likely the plans of a library with weights are drawn: each in proportion to the product of its weights.
+ *
+ * A plan's mass is that product, as a whole number: weights are brought to one denominator. The masses of all plans lie
+ * side by side on a line, and a number drawn on it means the plan whose mass it hits; so everything is exact. The
+ * masses are added up over the library's automaton joined with what weights remember that look at the trays around.
+ *
+ * Immutable once made; borrows the library.
+ */
+#ifndef TARTAN_PLAN_MEASURE_LIKELIHOOD_H
+#define TARTAN_PLAN_MEASURE_LIKELIHOOD_H
+
+#include "runtime/plan/library/library.h"
+
+typedef struct tn_likelihood tn_likelihood;
+
+/* Of a library with a record; one without weights has each plan as likely as each. E0802 where weights remember too
+ * much, E0831 where more than three of them look at the trays around, E0841 past the limit on memory. */
+tn_status tn_likelihood_new(const tn_library *library, tn_likelihood **likelihood, tn_error *error);
+void tn_likelihood_free(tn_likelihood *likelihood);
+
+/* The sum of the weights of the plans of one length, or (TN_ALL_LENGTHS) of all. `total` is initialised. */
+void tn_likelihood_total(const tn_likelihood *likelihood, uint32_t length, mpq_t total);
+
+/* As tn_library_sample; but each plan is drawn in proportion to its weight, those drawn before left out. Where the
+ * library has no more than are wanted these are all. TN_STOPPED. */
+tn_status tn_likelihood_sample(const tn_likelihood *likelihood, uint64_t seed, uint32_t length, size_t count,
+                               mpz_t *ranks, size_t *found, tn_error *error);
+
+#endif
