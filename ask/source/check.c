@@ -8,6 +8,7 @@
 #include "ask/session/questions.h"
 #include "driver/grammar/grammar_report.h"
 #include "driver/plan/analysis.h"
+#include "driver/plan/tests.h"
 #include "driver/solid/solid.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/utf8.h"
@@ -22,7 +23,13 @@ static tn_status analyse(tn_opened *opened, const tn_check_request *request, con
                                               .threads = request->has_threads ? (unsigned)request->threads
                                                                               : tn_crew_default()};
     tn_plan_analyses analyses;
-    tn_status status = tn_plan_analyse(opened, &options, &analyses);
+    tn_error error;
+    tn_status status = tn_tests_check(opened, &error);
+    if (status != TN_OK) {
+        tn_finding_error(opened, &error);
+        return status;
+    }
+    status = tn_plan_analyse(opened, &options, &analyses);
     tn_plan_analyses_free(&analyses);
     return status;
 }

@@ -357,3 +357,21 @@ tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, const tn_test_wat
     tn_with_clear(&with);
     return status == TN_OK && counts->failed > failed ? TN_INVALID : status;
 }
+
+tn_status tn_tests_check(tn_opened *opened, tn_error *error)
+{
+    const tn_program *program = opened->compilation.program;
+    tn_with with = {0};
+    tn_status status = TN_OK;
+    size_t seen = 0;
+    for (size_t i = 0; program && status == TN_OK && i < program->test_count; i++) {
+        const tn_test_block *own = &program->tests[i];
+        if (own->imported || own->with <= seen)
+            continue;
+        seen = own->with;
+        status = tn_with_open(&with, opened, own, error);
+        status = status == TN_INVALID ? TN_OK : status; /* which is said */
+    }
+    tn_with_clear(&with);
+    return status;
+}

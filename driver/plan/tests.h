@@ -30,4 +30,7 @@ typedef struct tn_test_watcher {
  * the two engines disagree. max_states as in tn_rules_options; watcher may be NULL. */
 tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, const tn_test_watcher *watcher, tn_test_counts *counts);
 
+/* Says what does not compile with the values that the file's tests give params; that is no failure. */
+tn_status tn_tests_check(tn_opened *opened, tn_error *error);
+
 #endif

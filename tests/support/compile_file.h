@@ -14,6 +14,7 @@
 typedef struct library_folders {
     const char *const *stdlib_dirs;
     size_t stdlib_dir_count;
+    tn_param_values params;
 } library_folders;
 
 /* As tn_compile_text; the path says the notation, and where what is used lies. */
@@ -24,7 +25,8 @@ static inline tn_status compile_text(const char *path, const char *text, size_t 
     tn_stdlib_dirs dirs = {(char **)(uintptr_t)folders->stdlib_dirs, folders->stdlib_dir_count};
     tn_files files;
     tn_files_begin(&files, &dirs);
-    tn_compile_options options = {.resolver = tn_files_resolver(&files), .attachments = tn_file_attachments};
+    tn_compile_options options = {
+        .resolver = tn_files_resolver(&files), .attachments = tn_file_attachments, .params = folders->params};
     tn_input input = {.text = text, .size = size, .name = path, .identity = realpath(path, identity)};
     tn_status status = tn_compile_text(tn_notation_or_first(path, text, size), &input, &options, compilation);
     tn_files_clear(&files);

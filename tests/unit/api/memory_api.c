@@ -67,6 +67,43 @@ static tartan_status load(const tartan_module *module, tartan_error *error)
     return status;
 }
 
+/* Values for params. */
+static tartan_status ask_with_params(const char *rules, const char *const *questions, size_t count, tartan_error *error)
+{
+    static const char *const params[] = {"side=right", "most=3m"};
+    tartan_compile_options options = tartan_compile_options_init();
+    options.params = params;
+    options.param_count = 2;
+    tartan_session *session = NULL;
+    tartan_status status = tartan_session_open("a.plan", rules, strlen(rules), &options, &session, error);
+    for (size_t i = 0; i < count && status == TARTAN_OK; i++) {
+        char *answer = NULL;
+        status = tartan_ask(session, questions[i], "{}", NULL, NULL, NULL, &answer, error);
+        tartan_text_free(answer);
+    }
+    tartan_session_free(session);
+    return status;
+}
+
+static tartan_status set_params(const tartan_module *module, tartan_error *error)
+{
+    static const char rules[] = "schema s { w = 1m | 2m }\nparam most = 4m in 2m..6m\nparam side = left | right\n"
+                                "rule big = side = right and sum(w) > most\n"
+                                "test big with most = 2m { match [2m | 1m] }\n";
+    static const char *const questions[] = {"schema", "test"};
+    (void)module;
+    return ask_with_params(rules, questions, 2, error);
+}
+
+static tartan_status cover_params(const tartan_module *module, tartan_error *error)
+{
+    static const char rules[] = "schema s { w = 1m | 2m }\nparam most = 4m\nparam side = left | right\n"
+                                "rule big = side = right and tray(2m)\ntest big with side = left { reject [2m] }\n";
+    static const char *const questions[] = {"coverage"};
+    (void)module;
+    return ask_with_params(rules, questions, 1, error);
+}
+
 typedef struct asked_question {
     const char *question, *request;
 } asked_question;
@@ -257,10 +294,10 @@ static tartan_status measure(const tartan_module *module, tartan_error *error)
 
 static void fails_cleanly(void **state)
 {
-    static operation *const operations[] = {compile,   load,           ask_numbers, ask_why,      ask_spellings,
-                                            ask_lists, ask_trade_offs, ask_edits,   ask_coverage, ask_text,
-                                            ask_kit,   ask_grammar,    ask_exports, match,        walk,
-                                            measure};
+    static operation *const operations[] = {compile,      set_params,    cover_params, load,           ask_numbers,
+                                            ask_why,      ask_spellings, ask_lists,    ask_trade_offs, ask_edits,
+                                            ask_coverage, ask_text,      ask_kit,      ask_grammar,    ask_exports,
+                                            match,        walk,          measure};
     for (size_t i = 0; i < sizeof operations / sizeof *operations; i++) {
         size_t failures = 0;
         for (int all_after = 0; all_after < 2; all_after++) {

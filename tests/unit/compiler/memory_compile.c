@@ -33,11 +33,15 @@ static const char *const bad = "use \"nowhere\"\n"
                                "library l using t { trays 4-9 }\n"
                                "\"open\n";
 
+static const char *const params[] = {"side=right", "lot=10m"};
+static const library_folders with_params = {.params = {params, 2}};
+
 /* Compiles under a failing allocation; true where a module came out. */
 static bool compile(const char *path, const char *text)
 {
     tn_compilation compilation;
-    tn_status status = compile_text(path, text, strlen(text), &options, &compilation);
+    const library_folders *how = strncmp(path, "params", strlen("params")) == 0 ? &with_params : &options;
+    tn_status status = compile_text(path, text, strlen(text), how, &compilation);
     assert_int_equal(status == TN_OK, compilation.module != NULL);
     char *shown = NULL;
     size_t size;
@@ -98,6 +102,23 @@ static void test_schema_made_from_another(void **state)
     (void)state;
     compile_with_failures("a.plan", newer, true);
     compile_with_failures("b.plan", wrong, false);
+}
+
+static void test_params(void **state)
+{
+    static const char rules[] =
+        "schema s { w = 1m | 2m  use = a | b }\n"
+        "param lot \"the lot\" = 12m in 9m..20m\nparam side = left | right\nparam kind = a | b\nlet half = lot / 2\n"
+        "rule wide = sum(w) > lot or sum(w, x > half)\n"
+        "rule right = side = right and tray(kind) or not side != left and wide\n"
+        "library l { trays 1..3 prune wide require side = left implies right }\n"
+        "test wide, right with lot = 9m, side = left { match reject [2m | 2m] }\n";
+    static const char wrong[] = "schema s { w = 1m | lot }\nparam lot = 12m in 14m..10m\nparam side = left | left\n"
+                                "param low = 3 in 4..5\nparam none = other\nrule a = side\nrule b = side = rigth\n"
+                                "test a with lost = 3, low = 3m, side = up, side = left { match [1m] }\n";
+    (void)state;
+    compile_with_failures("params.plan", rules, true);
+    compile_with_failures("params-wrong.plan", wrong, false);
 }
 
 static void test_other_notations(void **state)
@@ -237,6 +258,7 @@ int main(void)
         cmocka_unit_test(test_good_source),
         cmocka_unit_test(test_bad_source),
         cmocka_unit_test(test_schema_made_from_another),
+        cmocka_unit_test(test_params),
         cmocka_unit_test(test_other_notations),
         cmocka_unit_test(test_resolved_source),
         cmocka_unit_test(test_reference_engine),
