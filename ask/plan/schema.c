@@ -179,6 +179,23 @@ static tn_status set_weights(const showing *s, const tn_library_record *from, tn
     return status;
 }
 
+static tn_status set_preferences(const showing *s, const tn_library_record *from, tn_shown_library *to, tn_error *error)
+{
+    to->has_preferences = from->preference_count > 0;
+    tn_status status = TN_NEW_LIST(shown_preference, to->preferences, from->preference_count, error);
+    for (uint32_t i = 0; status == TN_OK && i < from->preference_count; i++) {
+        const tn_preference_record *preference = &s->module->PREFERENCE_records[from->preference_first + i];
+        const tn_sum_record *sum = &s->module->SUM_records[preference->sum];
+        tn_shown_preference *shown = &to->preferences.items[i];
+        shown->name = tn_text(s->module, preference->name);
+        set_doc(s, preference->doc, &shown->has_doc, &shown->doc);
+        mpq_set_str(shown->worth, tn_text(s->module, s->module->TERM_records[sum->term_first + i].factor), 10);
+        if (!(shown->shown = tn_weight_text(shown->worth)))
+            status = tn_fail_memory(error);
+    }
+    return status == TN_OK ? set_weights(s, from, to, error) : status;
+}
+
 static tn_status set_library(const showing *s, const tn_library_record *from, tn_shown_library *to, tn_error *error)
 {
     to->name = tn_text(s->module, from->name);
@@ -191,7 +208,7 @@ static tn_status set_library(const showing *s, const tn_library_record *from, tn
         const tn_clause_record *clause = &s->module->CLAUSE_records[from->clause_first + i];
         set_clause(s, clause->name, clause->doc, clause->kind, &to->clauses.items[i]);
     }
-    return status == TN_OK ? set_weights(s, from, to, error) : status;
+    return status == TN_OK ? set_preferences(s, from, to, error) : status;
 }
 
 static tn_status set_house_library(const showing *s, const tn_house_library_record *from, tn_shown_library *to,

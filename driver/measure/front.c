@@ -7,6 +7,7 @@
 #include "runtime/chart/chart.h"
 #include "runtime/plan/measure/bins.h"
 #include "runtime/plan/measure/cloud.h"
+#include "runtime/plan/measure/named.h"
 
 #define SAMPLED 20000u
 
@@ -23,14 +24,9 @@ typedef struct showing {
     tn_buffer title, about;
 } showing;
 
-static const tn_measure_record *measure_of(const showing *s, uint32_t k)
-{
-    return &s->of->ready->schema->module->MEASURE_records[s->of->measures[k]];
-}
-
 static const char *name_of(const showing *s, uint32_t k)
 {
-    return tn_text(s->of->ready->schema->module, measure_of(s, k)->name);
+    return tn_named_measure(s->of->ready->schema->module, s->of->measures[k]);
 }
 
 static void set_steps(const showing *s, uint32_t k, int64_t steps, mpq_t value)
@@ -200,7 +196,9 @@ tn_status tn_front_picture(const tn_shown_front *shown, tn_picture *to, tn_error
                                   "there, or all where there are fewer. The bars beside are of all plans."};
     tn_status status = TN_OK;
     for (uint32_t k = 0; status == TN_OK && k < shown->count; k++) {
-        s.unit[k] = tn_amount_unit_of(shown->ready->schema, module->SUM_records[measure_of(&s, k)->sum].power);
+        s.unit[k] = tn_amount_unit_of(
+            shown->ready->schema,
+            module->SUM_records[tn_named_measure_sum(module, shown->ready->record, shown->measures[k])].power);
         status = find_bars(&s, k, error);
     }
     if (status == TN_OK)

@@ -8,6 +8,7 @@
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/summing.h"
+#include "runtime/plan/measure/named.h"
 
 enum { STATES_MAX = 4000000 };
 
@@ -21,7 +22,7 @@ typedef struct memory {
 /* A measure: its sum's machine, and the automata of what `matches` counts. A memory's key: the states of its `matches`,
  * then the words of its machine. */
 typedef struct weight {
-    tn_string name;
+    const char *name;
     tn_sum *sum;
     tn_dfa **parts; /* [sum->count]: of places that single trays do not decide, and of `matches` */
     tn_summing summing;
@@ -283,15 +284,15 @@ tn_status tn_weighed_new(const tn_library *library, const uint32_t *measures, ui
 {
     const tn_module *module = library->schema->module;
     uint32_t sums[TN_WEIGHED_MAX];
-    tn_string names[TN_WEIGHED_MAX];
+    const char *names[TN_WEIGHED_MAX];
     for (uint32_t k = 0; k < count; k++) {
-        sums[k] = module->MEASURE_records[measures[k]].sum;
-        names[k] = module->MEASURE_records[measures[k]].name;
+        sums[k] = tn_named_measure_sum(module, library->record, measures[k]);
+        names[k] = tn_named_measure(module, measures[k]);
     }
     return tn_weighed_of_sums(library, sums, names, count, out, error);
 }
 
-tn_status tn_weighed_of_sums(const tn_library *library, const uint32_t *sums, const tn_string *names, uint32_t count,
+tn_status tn_weighed_of_sums(const tn_library *library, const uint32_t *sums, const char *const *names, uint32_t count,
                              tn_weighed **out, tn_error *error)
 {
     tn_weighed *w = calloc(1, sizeof *w);
@@ -364,7 +365,7 @@ uint32_t tn_weighed_count(const tn_weighed *w)
 
 const char *tn_weighed_name(const tn_weighed *w, uint32_t measure)
 {
-    return tn_text(w->library->schema->module, w->weights[measure].name);
+    return w->weights[measure].name;
 }
 
 mpq_srcptr tn_weighed_unit(const tn_weighed *w, uint32_t measure)

@@ -35,6 +35,19 @@ typedef struct tn_sum {
 tn_sum_kind tn_term_counts(uint32_t kind);
 tn_sum_region tn_term_region(uint32_t kind);
 
+/* What the preferences of a library that has some add up to: a SUM record. */
+static inline uint32_t tn_preferred_sum(const tn_module *module, const tn_library_record *library)
+{
+    return module->PREFERENCE_records[library->preference_first].sum;
+}
+
+/* The term of its preference i: what it is worth, and its function of H. */
+static inline const tn_term_record *tn_preferred_term(const tn_module *module, const tn_library_record *library,
+                                                      uint32_t i)
+{
+    return &module->TERM_records[module->SUM_records[tn_preferred_sum(module, library)].term_first + i];
+}
+
 /* Makes the SUM record ready. E0419 (TN_INVALID) where it divides by zero for a tray that it counts, E0424 (TN_LIMIT)
  * where its numbers have no common step that is coarse enough. */
 tn_status tn_sum_new(const tn_schema *schema, uint32_t index, tn_sum **sum, tn_error *error);
