@@ -61,7 +61,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token USE "`use`" SCHEMA "`schema`" RULE "`rule`" LIBRARY "`library`" TEST "`test`"
 %token USING "`using`" FROM "`from`" ALLOW "`allow`" AS "`as`" BY "`by`" TO "`to`" OF "`of`"
 %token ZONE "`zone`" FLAG "`flag`" FORBID "`forbid`" ROLE "`role`"
-%token TRAYS "`trays`" TOTAL "`total`" REQUIRE "`require`" PRUNE "`prune`" WEIGHT "`weight`"
+%token TRAYS "`trays`" TOTAL "`total`" REQUIRE "`require`" PRUNE "`prune`" WEIGHT "`weight`" PREFER "`prefer`" WORTH "`worth`"
 %token TODO "`todo`" MATCH "`match`" REJECT "`reject`" KEEP "`keep`" DROP "`drop`"
 %token TRAY "`tray`" ANY "`any`" AND "`and`" OR "`or`" NOT "`not`"
 %token NEIGHBOUR "`neighbour`" SYMMETRIC "`symmetric`" QUANTITY "`quantity`" SUM "`sum`" MANY "`many`"
@@ -86,13 +86,13 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token EQUAL "`=`" OPEN "`(`" CLOSE "`)`" OPEN_BRACE "`{`" CLOSE_BRACE "`}`" OPEN_BRACKET "`[`" CLOSE_BRACKET "`]`"
 %token BAR "`|`" COMMA "`,`" DASH "`-`"
 
-%type <node> item field value forbid case any_case spec_item spec_alternative literal_tray prune require
+%type <node> item field value forbid case any_case spec_item spec_alternative literal_tray prune require preference
 %type <body> body
 %type <field> field_head
 %type <rule> rule_head
 %type <library> library_head
-%type <word> doc role using from constant operand spec_word literal_word clause_name expectation positive
-%type <list> expectations items values ordered depths allow names clauses clause prunes requires cases clause_names trays words
+%type <word> doc role using from constant operand spec_word literal_word clause_name expectation positive worth
+%type <list> expectations items values ordered depths allow names clauses clause prunes requires preferences cases clause_names trays words
 %type <list> specifier spec_items spec_alternatives spec_words parts total_field
 %type <list> by_kinds walk_by
 %type <literal> plan
@@ -655,6 +655,7 @@ clause
                                                 { $$ = tn_ast_one(tn_ast_total_compare(parse, @$, $2, $3, $4, $5)); }
     | require_word requires                     { $$ = $2; }
     | prune_word prunes                         { $$ = $2; }
+    | prefer_word preferences                   { $$ = $2; }
     | weight_word expression                    { $$ = tn_ast_one(tn_ast_weight(parse, @$, $2, NULL)); }
     | weight_word expression positive           { $$ = tn_ast_one(tn_ast_weight(parse, @$, $2, $3)); }
     | allow_word names                          { $$ = tn_ast_one(tn_ast_allow(parse, @$, $2)); }
@@ -664,6 +665,7 @@ trays_word: TRAYS                               { yyerrok; };
 total_word: TOTAL                               { yyerrok; };
 require_word: REQUIRE                           { yyerrok; };
 prune_word: PRUNE                               { yyerrok; };
+prefer_word: PREFER                             { yyerrok; };
 weight_word: WEIGHT                             { yyerrok; };
 allow_word: ALLOW                               { yyerrok; };
 
@@ -671,6 +673,21 @@ total_field
     : %empty                                    { $$ = tn_ast_empty(); }
     | NAME                                      { $$ = tn_ast_one($1); }
     | NAME NAME                                 { $$ = tn_ast_append(tn_ast_one($1), $2); }
+    ;
+
+preferences
+    : preference                                { $$ = tn_ast_one($1); }
+    | preferences COMMA preference              { $$ = tn_ast_append($1, $3); }
+    ;
+
+preference
+    : expression worth doc                      { $$ = tn_ast_preference(parse, @$, $1, $2, NULL, $3); }
+    | expression worth AS NAME doc              { $$ = tn_ast_preference(parse, @$, $1, $2, $4, $5); }
+    ;
+
+worth
+    : %empty                                    { $$ = NULL; }
+    | WORTH positive                            { $$ = $2; }
     ;
 
 /* A number above 0; what it is not is told by the checker. */

@@ -246,7 +246,7 @@ static void use_library(tn_index *index, tn_symbol *library, const tn_ast_librar
     for (TN_EACH(const tn_ast_clause, clause, ast->clauses)) {
         use_field(index, library->schema, clause->field);
         tn_index_expression(index, &about, clause->written);
-        if (clause->form != TN_FORM_PRUNE || !clause->name)
+        if (!clause->name)
             continue;
         const tn_symbol *symbol =
             tn_index_define(index, TN_SYMBOL_CLAUSE, clause->name, clause->doc, &clause->node, library);

@@ -8,6 +8,7 @@
 #include "runtime/number/rational.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/measure/moments.h"
+#include "runtime/plan/measure/named.h"
 
 enum { FACTS_MAX = 10000 };
 
@@ -50,8 +51,8 @@ static void add_fact(tn_measure_facts *facts, const char *library, const char *m
 static void measure_library(tn_measure_facts *facts, const tn_module *module, const tn_library *library, uint32_t index,
                             uint32_t measure)
 {
-    const tn_measure_record *record = &module->MEASURE_records[measure];
-    tn_amount_unit unit = tn_amount_unit_of(tn_library_schema(library), tn_measure_power(module, measure));
+    const tn_library_record *record = &module->LIBRARY_records[index];
+    tn_amount_unit unit = tn_amount_unit_of(tn_library_schema(library), tn_named_measure_power(module, measure));
     tn_weighed *weighed = NULL;
     tn_measure_moments moments;
     tn_buffer text = {0};
@@ -59,7 +60,7 @@ static void measure_library(tn_measure_facts *facts, const tn_module *module, co
     tn_measure_moments_init(&moments);
     if (tn_weighed_new(library, &measure, 1, &weighed, &error) == TN_OK &&
         tn_measure_moments_find(&moments, weighed, &error) == TN_OK && write_moments(unit, &moments, &text))
-        add_fact(facts, tn_text(module, module->LIBRARY_records[index].name), tn_text(module, record->name), text.data);
+        add_fact(facts, tn_text(module, record->name), tn_named_measure(module, measure), text.data);
     else
         free(text.data);
     tn_measure_moments_clear(&moments);
@@ -68,9 +69,8 @@ static void measure_library(tn_measure_facts *facts, const tn_module *module, co
 
 void tn_measure_facts_add(tn_measure_facts *facts, const tn_module *module, const tn_library *library, uint32_t index)
 {
-    for (uint32_t i = 0; i < module->MEASURE_count; i++)
-        if (module->MEASURE_records[i].schema == module->LIBRARY_records[index].schema)
-            measure_library(facts, module, library, index, i);
+    for (uint32_t i = TN_NO_RECORD; tn_named_measure_next(module, &module->LIBRARY_records[index], &i);)
+        measure_library(facts, module, library, index, i);
 }
 
 void tn_measure_facts_clear(tn_measure_facts *facts)

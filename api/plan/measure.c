@@ -4,18 +4,12 @@
 
 #include "api/plan/measure_data.h"
 #include "runtime/plan/measure/distribution.h"
+#include "runtime/plan/measure/named.h"
 
 struct tartan_distribution {
     tn_distribution d;
     tn_amount_unit unit;
 };
-
-static bool is_named(const tartan_library *library, uint32_t i, const char *name)
-{
-    const tn_module *module = library->schema->module;
-    return module->MEASURE_records[i].schema == module->LIBRARY_records[library->index].schema &&
-           strcmp(tn_text(module, module->MEASURE_records[i].name), name) == 0;
-}
 
 tartan_status tn_api_measure_find(const tartan_library *library, const char *name, uint32_t *measure,
                                   tartan_error *error)
@@ -25,20 +19,20 @@ tartan_status tn_api_measure_find(const tartan_library *library, const char *nam
     if (!library->owned)
         return tn_api_refuse(error, TARTAN_INVALID, "a part of a comparison has no measures");
     const tn_module *module = library->schema->module;
-    for (uint32_t i = 0; i < module->MEASURE_count; i++)
-        if (is_named(library, i, name)) {
-            *measure = i;
-            return TARTAN_OK;
-        }
+    const tn_library_record *record = &module->LIBRARY_records[library->index];
+    *measure = tn_named_measure_find(module, record, name);
+    if (*measure != TN_NO_RECORD)
+        return TARTAN_OK;
+    size_t count = 0;
     const char **names = malloc((module->MEASURE_count + 1) * sizeof *names);
-    for (uint32_t i = 0; names && i < module->MEASURE_count; i++)
-        names[i] = tn_text(module, module->MEASURE_records[i].name);
-    return tn_api_unknown(error, "measure", name, names, module->MEASURE_count);
+    for (uint32_t i = TN_NO_RECORD; names && tn_named_measure_next(module, record, &i);)
+        names[count++] = tn_named_measure(module, i);
+    return tn_api_unknown(error, "measure", name, names, count);
 }
 
 tn_amount_unit tn_api_measure_unit(const tartan_library *library, uint32_t measure)
 {
-    return tn_amount_unit_of(library->schema, tn_measure_power(library->schema->module, measure));
+    return tn_amount_unit_of(library->schema, tn_named_measure_power(library->schema->module, measure));
 }
 
 const char *tartan_measure_unit(const tartan_library *library, const char *measure)
@@ -169,8 +163,7 @@ tartan_status tartan_distribution_value(const tartan_distribution *distribution,
 
 tartan_status tartan_distribution_none(const tartan_distribution *distribution, char **plans, tartan_error *error)
 {
-    return distribution ? tn_api_decimal(distribution->d.without, plans, error)
-                        : tn_api_missing(error, "distribution");
+    return distribution ? tn_api_decimal(distribution->d.without, plans, error) : tn_api_missing(error, "distribution");
 }
 
 tartan_status tartan_distribution_statistic(const tartan_distribution *distribution, tartan_statistic statistic,

@@ -367,6 +367,27 @@ static tn_status set_clauses(const tn_explained *explained, tn_list *clauses, tn
     return status;
 }
 
+static tn_status set_preferences(const tn_explained *explained, tn_explained_plan *to, tn_error *error)
+{
+    mpq_t all;
+    mpq_init(all);
+    to->has_preference = to->has_preferences = explained->preference_count > 0;
+    tn_explained_preferred(explained, to->preference, all);
+    mpq_clear(all);
+    tn_status status = TN_NEW_LIST(explained_preference, to->preferences, explained->preference_count, error);
+    for (size_t i = 0; status == TN_OK && i < explained->preference_count; i++) {
+        const tn_preference_reason *from = &explained->preferences[i];
+        tn_explained_preference *item = &to->preferences.items[i];
+        item->name = from->name;
+        item->doc = from->doc;
+        item->has_doc = *from->doc != '\0';
+        item->met = from->met;
+        mpq_set_str(item->worth, from->worth, 10);
+        status = set_tree(explained, &from->why, 0, &item->why, error);
+    }
+    return status;
+}
+
 static tn_status set_line(const tn_schema *schema, const tn_tray *trays, size_t length, char **to, tn_error *error)
 {
     tn_buffer line = {0};
@@ -428,6 +449,8 @@ static tn_status answer_with(tn_plan_reasons *reasons, tn_reply *answer, tn_erro
                       library ? &of_library->plan : &of_rules->plan, error);
     if (status == TN_OK)
         status = set_clauses(explained, library ? (tn_list *)&of_library->clauses : (tn_list *)&of_rules->rules, error);
+    if (status == TN_OK && library)
+        status = set_preferences(explained, of_library, error);
     return status == TN_OK && library ? set_library(explained, of_library, error) : status;
 }
 

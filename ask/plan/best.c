@@ -8,6 +8,7 @@
 #include "runtime/plan/library/ranking.h"
 #include "runtime/plan/measure/best.h"
 #include "runtime/plan/measure/moments.h"
+#include "runtime/plan/measure/named.h"
 
 /* ---- measures */
 
@@ -32,12 +33,11 @@ tn_status tn_wishes_of_plans(tn_session *session, const tn_ready_library *ready,
     const tn_module *module = session->opened->module;
     tn_status status = tn_wishes_take(session, items, count, least, wishes);
     for (uint32_t k = 0; status == TN_OK && k < wishes->count; k++) {
-        status = tn_measure_choose(session->opened, wishes->names[k], ready->record->schema, &wishes->measures[k]);
+        status = tn_measure_choose(session->opened, wishes->names[k], ready->record, &wishes->measures[k]);
         if (status != TN_OK)
             return status;
-        const tn_measure_record *measure = &module->MEASURE_records[wishes->measures[k]];
-        wishes->names[k] = tn_text(module, measure->name);
-        wishes->units[k] = tn_amount_unit_of(ready->schema, tn_measure_power(module, wishes->measures[k]));
+        wishes->names[k] = tn_named_measure(module, wishes->measures[k]);
+        wishes->units[k] = tn_amount_unit_of(ready->schema, tn_named_measure_power(module, wishes->measures[k]));
     }
     return status;
 }
@@ -48,7 +48,7 @@ tn_status tn_wishes_note_none(tn_session *session, const tn_wishes *wishes, tn_w
     const tn_module *module = tn_library_schema(library)->module;
     bool partial = false;
     for (uint32_t k = 0; k < wishes->count; k++)
-        partial |= tn_measure_partial(module, wishes->measures[k]);
+        partial |= tn_named_measure_partial(module, wishes->measures[k]);
     if (!partial)
         return TN_OK;
     mpz_t valued, none;
@@ -157,13 +157,33 @@ static tn_status give_plans(searching *s, tn_finds *finds, tn_error *error)
     return status;
 }
 
+/* Without a wish, plans of a library that prefers are the best by that, which is said. */
+static tn_status take_wishes(searching *s)
+{
+    static const tn_wish preferred = {.measure = TN_PREFERENCE_NAME, .most = true};
+    const tn_best_request *r = s->request;
+    if (r->by.count > 0)
+        return tn_wishes_of_plans(s->session, s->ready, r->by.items, r->by.count, 1, &s->wishes);
+    if (s->ready->record->preference_count == 0)
+        return tn_session_refuse(s->session,
+                                 "name it with --least MEASURE or --most MEASURE; or say in the library what is "
+                                 "preferred: `prefer RULE worth 2`",
+                                 "nothing says by which measure plans are the best");
+    tn_session_note(s->session,
+                    "the best by `%s`, most first: what the %u preferences of `%s` that a plan meets are "
+                    "worth together",
+                    TN_PREFERENCE_NAME, s->ready->record->preference_count,
+                    tn_text(s->session->opened->module, s->ready->record->name));
+    return tn_wishes_of_plans(s->session, s->ready, &preferred, 1, 1, &s->wishes);
+}
+
 static tn_status best_plans(tn_session *session, const tn_best_request *request, tn_reply *answer)
 {
     searching s = {.session = session, .request = request};
     tn_error error;
     tn_status status = tn_session_library(session, &request->subject, &s.ready);
     if (status == TN_OK)
-        status = tn_wishes_of_plans(session, s.ready, request->by.items, request->by.count, 1, &s.wishes);
+        status = take_wishes(&s);
     if (status != TN_OK)
         return status;
     tn_found_of of = {.plans = s.ready, .wishes = &s.wishes};

@@ -17,7 +17,7 @@ typedef struct tn_wishes {
     const char *names[TN_WEIGHED_MAX];
     bool most[TN_WEIGHED_MAX];
     tn_amount_unit units[TN_WEIGHED_MAX];
-    uint32_t measures[TN_WEIGHED_MAX]; /* of plans: MEASURE records */
+    uint32_t measures[TN_WEIGHED_MAX]; /* of plans: runtime/plan/measure/named.h */
 } tn_wishes;
 
 /* The names, and what is better; TN_INVALID, and said, if there are fewer than `least` or too many. */

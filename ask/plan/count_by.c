@@ -144,7 +144,7 @@ tn_status tn_count_plans_by(tn_session *session, const tn_count_request *request
     tn_error error;
     tn_status status = tn_session_library(session, &request->subject, &ready);
     if (status == TN_OK)
-        status = tn_measure_choose(session->opened, request->by, ready->record->schema, &index);
+        status = tn_measure_choose(session->opened, request->by, ready->record, &index);
     if (status != TN_OK)
         return status;
     tn_spread *spread = tn_spread_room(session);

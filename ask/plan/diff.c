@@ -242,7 +242,7 @@ static tn_status compare(const comparing *c, tn_plan_diff *d, tn_compared *to, t
     if (status == TN_OK && !r->no_measures)
         status = tn_diff_measures(c->session, c->before, c->after, to, error);
     if (status == TN_OK)
-        status = tn_diff_weights(c->before, c->after, to, error);
+        status = tn_diff_leanings(c->before, c->after, to, error);
     if (status == TN_OK)
         status = set_counts(d, to, error);
     if (status == TN_OK)

@@ -30,9 +30,9 @@ const char *tn_change_word(tn_clause_change change);
 tn_status tn_diff_measures(tn_session *session, const tn_ready_library *before, const tn_ready_library *after,
                            tn_compared *compared, tn_error *error);
 
-/* The weights that differ. */
-tn_status tn_diff_weights(const tn_ready_library *before, const tn_ready_library *after, tn_compared *compared,
-                          tn_error *error);
+/* The weights and the preferences that differ. */
+tn_status tn_diff_leanings(const tn_ready_library *before, const tn_ready_library *after, tn_compared *compared,
+                           tn_error *error);
 
 /* The same question about libraries of houses. `other`: the session of the file before the edit. */
 tn_status tn_diff_houses(tn_session *session, tn_session *other, const tn_diff_request *request, tn_reply *answer);

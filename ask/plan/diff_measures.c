@@ -1,20 +1,8 @@
 /* Compares the measures of two libraries. */
-#include <string.h>
-
 #include "ask/plan/diff.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/measure/moments.h"
-
-/* The measure of that name over the library's trays, or TN_NO_RECORD. */
-static uint32_t measure_named(const tn_ready_library *ready, const char *name)
-{
-    const tn_module *module = ready->schema->module;
-    for (uint32_t i = 0; i < module->MEASURE_count; i++)
-        if (module->MEASURE_records[i].schema == ready->record->schema &&
-            strcmp(tn_text(module, module->MEASURE_records[i].name), name) == 0)
-            return i;
-    return TN_NO_RECORD;
-}
+#include "runtime/plan/measure/named.h"
 
 /* ---- one side */
 
@@ -53,7 +41,7 @@ static tn_status find_side(const tn_ready_library *ready, uint32_t measure, cons
     const tn_module *module = ready->schema->module;
     tn_weighed *weighed = NULL;
     tn_measure_moments moments;
-    tn_amount_unit unit = tn_amount_unit_of(ready->schema, tn_measure_power(module, measure));
+    tn_amount_unit unit = tn_amount_unit_of(ready->schema, tn_named_measure_power(module, measure));
     *unit_name = tn_amount_unit_name(unit);
     tn_measure_moments_init(&moments);
     tn_status status = tn_weighed_new(ready->library, &measure, 1, &weighed, error);
@@ -76,7 +64,7 @@ static tn_status add_measure(tn_session *session, const tn_ready_library *const 
     tn_compared_measure *to = TN_ADD(compared_measure, compared->measures, error);
     if (!to)
         return TN_MEMORY;
-    to->name = tn_text(module, module->MEASURE_records[measures[0]].name);
+    to->name = tn_named_measure(module, measures[0]);
     tn_status status = find_side(sides[0], measures[0], &to->unit, &to->before, error);
     if (status == TN_OK)
         status = find_side(sides[1], measures[1], &unit_after, &to->after, error);
@@ -94,9 +82,10 @@ tn_status tn_diff_measures(tn_session *session, const tn_ready_library *before, 
     const tn_ready_library *const sides[2] = {before, after};
     const tn_module *module = before->schema->module;
     tn_status status = TN_OK;
-    for (uint32_t i = 0; status == TN_OK && i < module->MEASURE_count; i++) {
-        const uint32_t measures[2] = {i, measure_named(after, tn_text(module, module->MEASURE_records[i].name))};
-        if (module->MEASURE_records[i].schema == before->record->schema && measures[1] != TN_NO_RECORD)
+    for (uint32_t i = TN_NO_RECORD; status == TN_OK && tn_named_measure_next(module, before->record, &i);) {
+        const uint32_t measures[2] = {
+            i, tn_named_measure_find(after->schema->module, after->record, tn_named_measure(module, i))};
+        if (measures[1] != TN_NO_RECORD)
             status = add_measure(session, sides, measures, compared, error);
     }
     return status;

@@ -15,8 +15,8 @@ static bool is_sampled(const tn_draw_request *request)
 
 static bool of_houses(const tn_session *session, const tn_draw_request *r)
 {
-    return r->plan || (r->subject.library &&
-                       tn_house_library_find(session->opened->module, r->subject.library) != TN_NO_RECORD);
+    return r->plan ||
+           (r->subject.library && tn_house_library_find(session->opened->module, r->subject.library) != TN_NO_RECORD);
 }
 
 static tn_status check_best(tn_session *session, const tn_draw_request *r)

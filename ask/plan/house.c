@@ -41,9 +41,9 @@ static const char *asked_of_drawings(const tn_house_request *request)
     const struct {
         const char *name;
         bool given;
-    } all[] = {{"view", request->views.count > 0},   {"cut", request->cut != NULL},
-               {"furnish", request->bare},           {"scale", request->has_scale},
-               {"azimuth", request->has_azimuth},    {"elevation", request->has_elevation},
+    } all[] = {{"view", request->views.count > 0}, {"cut", request->cut != NULL},
+               {"furnish", request->bare},         {"scale", request->has_scale},
+               {"azimuth", request->has_azimuth},  {"elevation", request->has_elevation},
                {"dpi", request->has_dpi}};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i].given)
@@ -90,7 +90,7 @@ static tn_status write_file(building *b, const char *word, tn_error *error)
 static tn_house_filed filed_of(const building *b)
 {
     const tn_house_request *request = b->request;
-    return (tn_house_filed){.title = request->title ? request->title
+    return (tn_house_filed){.title = request->title                       ? request->title
                                      : tn_is_house_number(request->house) ? request->house
                                                                           : NULL,
                             .views = {.items = request->views.items,
@@ -148,10 +148,9 @@ static tn_status choose_form(tn_session *session, const char *wanted, uint32_t *
     if (wanted)
         return tn_session_refuse(session, "a form is declared by `form NAME of SCHEMA { ... }`",
                                  "there is no form `%s` in the file", wanted);
-    return module->FORM_count
-               ? tn_session_refuse(session, "say which: --form NAME", "the file has several forms")
-               : tn_session_refuse(session, "a form is declared by `form NAME of SCHEMA { ... }`",
-                                   "the file has no form");
+    return module->FORM_count ? tn_session_refuse(session, "say which: --form NAME", "the file has several forms")
+                              : tn_session_refuse(session, "a form is declared by `form NAME of SCHEMA { ... }`",
+                                                  "the file has no form");
 }
 
 static tn_status read_house(building *b, const tn_house_form *form, size_t max_length)

@@ -2,10 +2,10 @@
 #include <stdlib.h>
 
 #include "ask/house/reported.h"
-#include "driver/report/kit_report.h"
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
 #include "driver/house/judge.h"
+#include "driver/report/kit_report.h"
 #include "driver/report/report.h"
 #include "runtime/plan/library/alone.h"
 
@@ -41,8 +41,7 @@ static tn_status report_plans(reporting *r, const tn_ready_library *ready, const
     tn_opened *opened = r->session->opened;
     uint32_t max_states = (uint32_t)r->request->subject.max_states;
     const tn_report_options options = {.seed = r->request->seed,
-                                       .samples =
-                                           r->request->has_sample ? (size_t)r->request->sample : SAMPLES_DEFAULT,
+                                       .samples = r->request->has_sample ? (size_t)r->request->sample : SAMPLES_DEFAULT,
                                        .max_states = max_states};
     const tn_coverage_options coverage = {.library = tn_text(opened->module, ready->record->name),
                                           .max_states = max_states,
@@ -72,9 +71,8 @@ static tn_status make_plans(reporting *r)
     tn_status status = tn_session_library(r->session, asked, &ready);
     if (status != TN_OK)
         return status;
-    const tn_plan_analysis_options options = {.max_states = (uint32_t)asked->max_states,
-                                              .library = ready->library,
-                                              .threads = tn_asked_threads(asked)};
+    const tn_plan_analysis_options options = {
+        .max_states = (uint32_t)asked->max_states, .library = ready->library, .threads = tn_asked_threads(asked)};
     tn_session_begins(r->session, "clauses and rules measured"); /* as one: what it warns of has to be on the page */
     status = find_alone(r, ready);
     if (status == TN_OK)
@@ -173,11 +171,16 @@ static const char *asked_for(const tn_report_request *request, bool of_kit)
     const struct {
         const char *name;
         bool given, of_kit;
-    } all[] = {{"library", subject->library != NULL, false},  {"where", subject->where.count > 0, false},
-               {"trays", subject->has_trays, false},          {"max-length", subject->has_max_length, false},
-               {"sample", request->has_sample, false},        {"max-states", subject->has_max_states, false},
-               {"threads", subject->has_threads, false},      {"pictures", request->has_pictures, true},
-               {"part-limit", request->has_part_limit, true}, {"step-limit", request->has_step_limit, true},
+    } all[] = {{"library", subject->library != NULL, false},
+               {"where", subject->where.count > 0, false},
+               {"trays", subject->has_trays, false},
+               {"max-length", subject->has_max_length, false},
+               {"sample", request->has_sample, false},
+               {"max-states", subject->has_max_states, false},
+               {"threads", subject->has_threads, false},
+               {"pictures", request->has_pictures, true},
+               {"part-limit", request->has_part_limit, true},
+               {"step-limit", request->has_step_limit, true},
                {"search-limit", request->has_search_limit, true}};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i].given && all[i].of_kit == of_kit)

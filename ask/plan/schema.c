@@ -6,6 +6,7 @@
 #include "compiler/plan/syntax/program.h"
 #include "runtime/house/measure/measure.h"
 #include "runtime/plan/measure/amount.h"
+#include "runtime/plan/measure/named.h"
 
 typedef struct showing {
     const tn_opened *opened;
@@ -180,6 +181,23 @@ static tn_status set_weights(const showing *s, const tn_library_record *from, tn
     return status;
 }
 
+static tn_status set_preferences(const showing *s, const tn_library_record *from, tn_shown_library *to, tn_error *error)
+{
+    to->has_preferences = from->preference_count > 0;
+    tn_status status = TN_NEW_LIST(shown_preference, to->preferences, from->preference_count, error);
+    for (uint32_t i = 0; status == TN_OK && i < from->preference_count; i++) {
+        const tn_preference_record *preference = &s->module->PREFERENCE_records[from->preference_first + i];
+        const tn_sum_record *sum = &s->module->SUM_records[preference->sum];
+        tn_shown_preference *shown = &to->preferences.items[i];
+        shown->name = tn_text(s->module, preference->name);
+        set_doc(s, preference->doc, &shown->has_doc, &shown->doc);
+        mpq_set_str(shown->worth, tn_text(s->module, s->module->TERM_records[sum->term_first + i].factor), 10);
+        if (!(shown->shown = tn_weight_text(shown->worth)))
+            status = tn_fail_memory(error);
+    }
+    return status == TN_OK ? set_weights(s, from, to, error) : status;
+}
+
 static tn_status set_library(const showing *s, const tn_library_record *from, tn_shown_library *to, tn_error *error)
 {
     to->name = tn_text(s->module, from->name);
@@ -192,7 +210,7 @@ static tn_status set_library(const showing *s, const tn_library_record *from, tn
         const tn_clause_record *clause = &s->module->CLAUSE_records[from->clause_first + i];
         set_clause(s, clause->name, clause->doc, clause->kind, &to->clauses.items[i]);
     }
-    return status == TN_OK ? set_weights(s, from, to, error) : status;
+    return status == TN_OK ? set_preferences(s, from, to, error) : status;
 }
 
 static tn_status set_house_library(const showing *s, const tn_house_library_record *from, tn_shown_library *to,
@@ -272,7 +290,7 @@ static tn_status show_measures(const showing *s, tn_error *error)
         const tn_measure_record *from = &s->module->MEASURE_records[i];
         if (is_shown(s, from->flags))
             status = add_measure(s, from->name, from->doc, schema_name(s, from->schema), NULL,
-                                 (valued){from->schema, tn_measure_power(s->module, i)}, error);
+                                 (valued){from->schema, tn_named_measure_power(s->module, i)}, error);
     }
     for (uint32_t i = 0; status == TN_OK && i < s->module->HOUSE_MEASURE_count; i++) {
         const tn_house_measure_record *from = &s->module->HOUSE_MEASURE_records[i];

@@ -224,7 +224,7 @@ static void draw(tn_job *job)
     tn_draw_request request = asked(s);
     if (s->common.operands.count > 1)
         request.from = s->common.operands.items[1];
-    bool well = !(s->best.given || s->wanted.count) || tn_job_wishes(job, &s->wanted, 1, &wished);
+    bool well = !(s->best.given || s->wanted.count) || tn_job_wishes(job, &s->wanted, s->wanted.count ? 1 : 0, &wished);
     request.by.items = wished.items;
     request.by.count = wished.count;
     if (well && draws_file(job)) {

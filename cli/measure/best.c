@@ -203,7 +203,8 @@ static void find_best(tn_job *job, uint64_t wanted)
     const best_settings *settings = settings_of(job);
     tn_wished wished;
     bool houses = settings->plan || tn_job_of_houses(job, &settings->plans);
-    if (!tn_job_wishes(job, &settings->wanted, 1, &wished))
+    bool told = settings->wanted.count > 0 || houses; /* else plans are asked for that are preferred */
+    if (!tn_job_wishes(job, &settings->wanted, told ? 1 : 0, &wished))
         return;
     const tn_best_request request = {.subject = tn_job_asked(&settings->plans),
                                      .by = {wished.items, wished.count},
@@ -252,10 +253,13 @@ const tn_command tn_command_best = {
     .name = "best",
     .summary = "write the best plans of a library by a measure",
     .usage = "FILE [N] --least MEASURE\nFILE [N] --most MEASURE [--then-least MEASURE]\nFILE [N] --least MEASURE -o "
-             "SHEET.svg\nFILE [N] --library HOUSES [--plan PLAN] --least MEASURE",
+             "SHEET.svg\nFILE [N] [--library PREFERS]\nFILE [N] --library HOUSES [--plan PLAN] --least MEASURE",
     .description =
         "Writes the N (10) plans of the library with the least or most of a measure, in order: by the measure, then by "
-        "the measures named after it, then by rank. They are found from the library's automaton; no other plan is "
+        "the measures named after it, then by rank. Without a measure, plans of a library that prefers (`prefer` in "
+        "its "
+        "clauses) are the best by `preference`, the most first. They are found from the library's automaton; no other "
+        "plan is "
         "looked "
         "at. In lines, a comment before each plan has its values and its rank; in JSON, \"value\" or \"values\" has "
         "them exactly, in feet or metres. With -o and the name of a picture (.svg, .png or .pdf) the plans are drawn, "

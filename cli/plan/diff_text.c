@@ -71,20 +71,18 @@ static void write_clauses(const tn_compared *c, FILE *out)
     }
 }
 
-/* ---- weights */
+/* ---- weights and preferences */
 
-static void write_weights(const tn_compared *c, FILE *out)
+static void write_leanings(const char *kind, const tn_compared_weight *items, size_t count, FILE *out)
 {
-    int names = (int)strlen("weight");
-    for (size_t i = 0; i < c->weights.count; i++)
-        names = larger(names, (int)strlen(c->weights.items[i].name));
-    if (c->weights.count > 0)
-        fprintf(out, "\n%-*s  %-7s  before  after\n", names, "weight", "is");
-    for (size_t i = 0; i < c->weights.count; i++) {
-        const tn_compared_weight *w = &c->weights.items[i];
-        fprintf(out, "%-*s  %-7s  %6s  %5s\n", names, w->name, w->change, w->has_before ? w->shown_before : "-",
-                w->has_after ? w->shown_after : "-");
-    }
+    int names = (int)strlen(kind);
+    for (size_t i = 0; i < count; i++)
+        names = larger(names, (int)strlen(items[i].name));
+    if (count > 0)
+        fprintf(out, "\n%-*s  %-7s  before  after\n", names, kind, "is");
+    for (size_t i = 0; i < count; i++)
+        fprintf(out, "%-*s  %-7s  %6s  %5s\n", names, items[i].name, items[i].change,
+                items[i].has_before ? items[i].shown_before : "-", items[i].has_after ? items[i].shown_after : "-");
 }
 
 /* ---- measures */
@@ -165,7 +163,8 @@ void tn_diff_text(const tn_compared *c, FILE *out)
     fprintf(out, "%s: %s%s\n\n", c->after.file, same ? "the same " : "what changes", same ? what : "");
     write_lengths(c, out);
     write_clauses(c, out);
-    write_weights(c, out);
+    write_leanings("preference", c->preferences.items, c->preferences.count, out);
+    write_leanings("weight", c->weights.items, c->weights.count, out);
     write_measures(c, out);
     write_plans(kinds[REMOVED], c->plans.removed.items, c->plans.removed.count, out);
     write_plans(kinds[ADDED], c->plans.added.items, c->plans.added.count, out);

@@ -56,6 +56,11 @@ static void write_library(const tn_shown_library *library, FILE *out)
         fprintf(out, "  %-7s %s", clause->kind, clause->name);
         write_doc(clause->has_doc, clause->doc, out);
     }
+    for (size_t i = 0; i < library->preferences.count; i++) {
+        const tn_shown_preference *preference = &library->preferences.items[i];
+        fprintf(out, "  %-7s %s %s", "prefer", preference->name, preference->shown);
+        write_doc(preference->has_doc, preference->doc, out);
+    }
     for (size_t i = 0; i < library->weights.count; i++)
         fprintf(out, "  %-7s %s %s\n", "weight", library->weights.items[i].name, library->weights.items[i].shown);
 }

@@ -7,6 +7,7 @@
 #include "runtime/chart/chart.h"
 #include "runtime/plan/measure/bins.h"
 #include "runtime/plan/measure/cloud.h"
+#include "runtime/plan/measure/named.h"
 
 #define SAMPLED 20000u
 
@@ -23,14 +24,9 @@ typedef struct showing {
     tn_buffer title, about;
 } showing;
 
-static const tn_measure_record *measure_of(const showing *s, uint32_t k)
-{
-    return &s->of->ready->schema->module->MEASURE_records[s->of->measures[k]];
-}
-
 static const char *name_of(const showing *s, uint32_t k)
 {
-    return tn_text(s->of->ready->schema->module, measure_of(s, k)->name);
+    return tn_named_measure(s->of->ready->schema->module, s->of->measures[k]);
 }
 
 static double number_of(const showing *s, uint32_t k, const int64_t *values)

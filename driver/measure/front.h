@@ -10,7 +10,7 @@
 typedef struct tn_shown_front {
     const tn_ready_library *ready;
     uint32_t count;
-    const uint32_t *measures; /* MEASURE records */
+    const uint32_t *measures; /* runtime/plan/measure/named.h */
     const bool *most;
     tn_weighed *weighed; /* by these measures */
     const tn_pareto_front *front;

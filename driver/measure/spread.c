@@ -8,6 +8,7 @@
 #include "runtime/base/array.h"
 #include "runtime/chart/chart.h"
 #include "runtime/number/rational.h"
+#include "runtime/plan/measure/named.h"
 
 enum { LEAST, QUARTER, HALF, THREE_QUARTERS, MOST, MEAN, DEVIATION };
 
@@ -70,11 +71,10 @@ tn_status tn_spread_finish(tn_spread *s, tn_error *error)
 tn_status tn_spread_make(tn_spread *s, const tn_ready_library *ready, uint32_t measure, tn_error *error)
 {
     const tn_module *module = ready->schema->module;
-    const tn_measure_record *record = &module->MEASURE_records[measure];
-    tn_spread_begin(s, ready->schema, tn_measure_power(module, measure));
+    tn_spread_begin(s, ready->schema, tn_named_measure_power(module, measure));
     s->library = tn_text(module, ready->record->name);
-    s->name = tn_text(module, record->name);
-    s->doc = tn_text(module, record->doc);
+    s->name = tn_named_measure(module, measure);
+    s->doc = tn_named_measure_doc(module, measure);
     s->of = "plan";
     tn_status status = tn_weighed_new(ready->library, &measure, 1, &s->weighed, error);
     if (status == TN_OK)

@@ -20,7 +20,7 @@ typedef struct tn_spread {
     char *facts[TN_SPREAD_FACTS];       /* "146.88 m2"; none of a library without plans */
 } tn_spread;
 
-/* measure: a MEASURE record of the library's schema. Borrows the library. Clear in any case. */
+/* measure: of the library (runtime/plan/measure/named.h). Borrows the library. Clear in any case. */
 tn_status tn_spread_make(tn_spread *spread, const tn_ready_library *ready, uint32_t measure, tn_error *error);
 void tn_spread_clear(tn_spread *spread);
 

@@ -436,8 +436,8 @@ static void check_quotients(tn_opened *opened, const tn_schema *schema)
             measure->over == TN_NO_RECORD || !tn_measure_never(schema, i))
             continue;
         tn_span place = {measure->file, measure->begin, measure->end};
-        tn_diagnostic *d = tn_report(&opened->compilation.diagnostics, E_DIVIDED_BY_ZERO, place,
-                                     "this divides by 0 for every plan");
+        tn_diagnostic *d =
+            tn_report(&opened->compilation.diagnostics, E_DIVIDED_BY_ZERO, place, "this divides by 0 for every plan");
         tn_help(&opened->compilation.diagnostics, d, "divide by what some plans have: `/ trays`, `/ sum(FIELD)`");
     }
 }

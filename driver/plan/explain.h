@@ -21,6 +21,14 @@ typedef struct tn_explained_rule {
     tn_explanation why;
 } tn_explained_rule;
 
+/* A preference of a library, explained. */
+typedef struct tn_preference_reason {
+    const char *name, *doc;
+    const char *worth; /* "p/q" */
+    bool met;
+    tn_explanation why;
+} tn_preference_reason;
+
 typedef struct tn_explained {
     const tn_opened *opened;
     const tn_schema *schema;
@@ -31,6 +39,8 @@ typedef struct tn_explained {
     bool length_drops; /* the plan has too few or too many trays */
     tn_explained_rule *rules;
     size_t count;
+    tn_preference_reason *preferences; /* of the library */
+    size_t preference_count;
     const tn_library *automaton; /* borrowed; NULL: ranks are not known */
     bool near_known;
     tn_near near;
@@ -42,6 +52,9 @@ tn_status tn_explained_make(tn_explained *explained, const tn_opened *opened, co
                             const tn_library_record *library, const uint32_t *rules, size_t rule_count,
                             const tn_tray *trays, size_t length, size_t max_length, tn_error *error);
 void tn_explained_clear(tn_explained *explained);
+
+/* What the preferences that the plan meets are worth together, and what all are. Both are initialised. */
+void tn_explained_preferred(const tn_explained *explained, mpq_t met, mpq_t all);
 
 /* Finds the nearest kept plans of a plan that is dropped, `most` of them. */
 tn_status tn_explained_near(tn_explained *explained, tn_near_finder *finder, size_t most, tn_error *error);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "driver/plan/explain.h"
+#include "runtime/plan/measure/amount.h"
 
 #define TEXT_WIDTH 64 /* of a part's own text; the evidence follows */
 
@@ -154,6 +155,32 @@ static bool write_verdict(const tn_explained *explained, tn_buffer *out)
     return ok && tn_buffer_append(out, "\n", 1);
 }
 
+/* "`preference` is 3 of 4.5:", and each of them. */
+static bool write_preferences(const tn_explained *explained, bool full, tn_buffer *out)
+{
+    static const tn_amount_unit plain = {0};
+    mpq_t met, all;
+    if (explained->preference_count == 0)
+        return true;
+    mpq_inits(met, all, NULL);
+    tn_explained_preferred(explained, met, all);
+    bool ok = tn_buffer_printf(out, "\n`%s` is ", TN_PREFERENCE_NAME) && tn_amount_write(plain, met, out) &&
+              tn_buffer_printf(out, " of ") && tn_amount_write(plain, all, out) && tn_buffer_append(out, "\n", 1);
+    for (size_t i = 0; ok && i < explained->preference_count; i++) {
+        const tn_preference_reason *preference = &explained->preferences[i];
+        writing w = {.why = &preference->why, .full = full, .out = out, .ok = true};
+        mpq_set_str(met, preference->worth, 10);
+        ok = tn_buffer_printf(out, "  `%s` is %s, worth ", preference->name, preference->met ? "met" : "not met") &&
+             tn_amount_write(plain, met, out) &&
+             tn_buffer_printf(out, "%s%s\n", *preference->doc ? ": " : "", preference->doc);
+        if (ok && full)
+            write_tree(&w);
+        ok = ok && w.ok;
+    }
+    mpq_clears(met, all, NULL);
+    return ok;
+}
+
 bool tn_explained_text(const tn_explained *explained, bool full, tn_buffer *out)
 {
     bool ok = explained->library ? write_verdict(explained, out) : true;
@@ -165,5 +192,5 @@ bool tn_explained_text(const tn_explained *explained, bool full, tn_buffer *out)
         ok = (!apart || tn_buffer_append(out, "\n", 1)) && tn_explained_rule_text(explained, rule, full, out);
         apart = true;
     }
-    return ok && write_near(explained, out);
+    return ok && write_preferences(explained, full, out) && write_near(explained, out);
 }

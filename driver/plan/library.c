@@ -6,7 +6,7 @@
 
 #include "driver/house/judge.h"
 #include "runtime/base/nearest.h"
-#include "runtime/plan/schema/sum.h"
+#include "runtime/plan/measure/named.h"
 
 /* The names of things in a file, for choosing among them. */
 typedef struct names {
@@ -209,16 +209,15 @@ tn_status tn_rule_choose(tn_opened *opened, const char *name, uint32_t *index)
     return status;
 }
 
-tn_status tn_measure_choose(tn_opened *opened, const char *name, uint32_t schema, uint32_t *index)
+tn_status tn_measure_choose(tn_opened *opened, const char *name, const tn_library_record *library, uint32_t *measure)
 {
     const tn_module *module = opened->module;
     names all;
     tn_status status;
-    if (names_new(module->MEASURE_count, &all)) {
-        for (uint32_t i = 0; i < module->MEASURE_count; i++)
-            if (module->MEASURE_records[i].schema == schema)
-                names_add(&all, tn_text(module, module->MEASURE_records[i].name), i);
-        status = pick(opened, &all, "measure", name, index);
+    if (names_new((size_t)module->MEASURE_count + 1, &all)) {
+        for (uint32_t i = TN_NO_RECORD; tn_named_measure_next(module, library, &i);)
+            names_add(&all, tn_named_measure(module, i), i);
+        status = pick(opened, &all, "measure", name, measure);
     } else {
         status = no_memory(opened);
     }
@@ -230,7 +229,7 @@ tn_status tn_measure_choose(tn_opened *opened, const char *name, uint32_t schema
 static tn_status refuse_partial(tn_opened *opened, uint32_t measure)
 {
     const tn_module *module = opened->module;
-    if (!tn_measure_partial(module, measure))
+    if (!tn_named_measure_partial(module, measure))
         return TN_OK;
     tn_diagnostic *d = tn_report_bare(&opened->compilation.diagnostics, TN_ERROR, E_QUOTIENT,
                                       "some plans have no value of `%.80s`, and houses go by measures that all have",

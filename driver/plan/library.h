@@ -15,8 +15,8 @@ tn_status tn_library_choose(tn_opened *opened, const char *name, uint32_t *index
 /* The RULE record named so, or TN_INVALID (E0905). */
 tn_status tn_rule_choose(tn_opened *opened, const char *name, uint32_t *index);
 
-/* The MEASURE record named so, of the schema; or TN_INVALID (E0905). */
-tn_status tn_measure_choose(tn_opened *opened, const char *name, uint32_t schema, uint32_t *index);
+/* The measure named so, of the library (runtime/plan/measure/named.h); or TN_INVALID (E0905). */
+tn_status tn_measure_choose(tn_opened *opened, const char *name, const tn_library_record *library, uint32_t *measure);
 
 /* A measure that the houses of a form have, by its name: as tn_house_measured_of numbers them. */
 tn_status tn_house_measure_choose(tn_opened *opened, const char *name, uint32_t form, uint32_t *index);

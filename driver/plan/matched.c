@@ -6,8 +6,7 @@
 #include <string.h>
 
 tn_status tn_matched_new(const tn_module *module, const uint32_t *indices, size_t count, uint32_t schema,
-                         const tn_rules_options *options, tn_answer_format format, tn_matched *matched,
-                         tn_error *error)
+                         const tn_rules_options *options, tn_answer_format format, tn_matched *matched, tn_error *error)
 {
     *matched = (tn_matched){.module = module, .indices = indices, .count = count, .format = format};
     tn_rules_options asked = *options;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "runtime/plan/measure/amount.h"
+#include "runtime/plan/measure/named.h"
 #include "runtime/plan/text/text.h"
 
 tn_status tn_value_tests_new(tn_value_tests *values, tn_opened *opened, const tn_test_block *tests, tn_error *error)
@@ -32,7 +33,7 @@ static const char *report(const tn_value_tests *values, const tn_test_case *test
 {
     const tn_measure_record *measure = &values->opened->module->MEASURE_records[values->tests->index];
     tn_amount_unit unit =
-        tn_amount_unit_of(values->schema, tn_measure_power(values->opened->module, values->tests->index));
+        tn_amount_unit_of(values->schema, tn_named_measure_power(values->opened->module, values->tests->index));
     tn_diagnostics *list = &values->opened->compilation.diagnostics;
     tn_buffer is = {0}, should = {0}, plan = {0};
     if (value)

@@ -4,18 +4,14 @@
 #include "driver/measure/spread.h"
 #include "driver/report/report_data.h"
 #include "runtime/plan/measure/best.h"
+#include "runtime/plan/measure/named.h"
 
 enum { SHOWN = 5 };
-
-static bool is_shown(const tn_reporting *r, uint32_t measure)
-{
-    return r->module->MEASURE_records[measure].schema == r->ready->record->schema;
-}
 
 /* The picture says what the measure is of. */
 static bool put_title(const tn_reporting *r, uint32_t measure)
 {
-    const char *name = tn_text(r->module, r->module->MEASURE_records[measure].name);
+    const char *name = tn_named_measure(r->module, measure);
     return tn_page_html(&r->page, "<section class=\"card measure\" id=\"measure-") && tn_page_text(&r->page, name) &&
            tn_page_html(&r->page, "\"><h3>") && tn_page_text(&r->page, name) && tn_page_html(&r->page, "</h3>\n");
 }
@@ -124,9 +120,7 @@ tn_status tn_report_measures(tn_reporting *r)
 {
     tn_status status = tn_page_written(&r->page, tn_page_html(&r->page, "<h2 id=\"measures\">Measures</h2>\n"));
     bool any = false;
-    for (uint32_t i = 0; status == TN_OK && i < r->module->MEASURE_count; i++) {
-        if (!is_shown(r, i))
-            continue;
+    for (uint32_t i = TN_NO_RECORD; status == TN_OK && tn_named_measure_next(r->module, r->ready->record, &i);) {
         status = put_measure(r, i);
         any = true;
     }

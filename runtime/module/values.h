@@ -48,8 +48,9 @@ _Static_assert(TN_OF_COUNT == 6, "modules number the openings that have a materi
 
 /* ---- plans */
 
-#define TN_TALLY_STACK_MAX 64u /* values on the stack of a function of kind TALLY */
-#define TN_RATIONAL_MAX 4096u  /* bytes of an exact number */
+#define TN_TALLY_STACK_MAX 64u          /* values on the stack of a function of kind TALLY */
+#define TN_PREFERENCE_NAME "preference" /* the measure of libraries that prefer */
+#define TN_RATIONAL_MAX 4096u           /* bytes of an exact number */
 
 /* Flags of rules, libraries and measures. */
 #define TN_IMPORTED 1u /* from a file that the named file uses, not from the named file itself */
@@ -137,9 +138,9 @@ enum { TN_ROOF_OPEN = 1, TN_ROOF_ACROSS = 2 };
 
 /* ---- solids */
 
-#define TN_SOLID_COORDINATE_MAX 1e9  /* of a box's faces and sizes */
+#define TN_SOLID_COORDINATE_MAX 1e9        /* of a box's faces and sizes */
 #define TN_SOLID_UNIT_MAX 1000000000000000 /* of the two numbers whose quotient is a design's unit */
-#define TN_SOLID_BOXES_MAX 10000000u /* of one design, as it is written */
+#define TN_SOLID_BOXES_MAX 10000000u       /* of one design, as it is written */
 
 /* Flags of a design. */
 #define TN_SOLID_SYMMETRY_X 1u

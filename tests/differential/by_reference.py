@@ -3,8 +3,8 @@ import re
 from collections import Counter
 from fractions import Fraction
 
-from program import Refused, run, same
-from plan_questions import how_many
+from program import Refused, json_lines, run, same
+from plan_questions import how_many, number_of
 from reference import INFINITE, UNITS, File, Unknown
 
 
@@ -21,6 +21,7 @@ def plans_by_reference(subject):
     lengths = Counter(plan.n for plan in kept)
     same("count by length", {d["length"]: int(d["kept"]) for d in subject.counts["by_length"] if int(d["kept"])}, dict(lengths))
     answered(lambda: weights_by_reference(subject, file, kept))
+    answered(lambda: preferences_by_reference(subject, file, kept))
     for rule in subject.rules():
         answered(lambda: rule_by_reference(subject, file, kept, rule))
     for measure in subject.measures() if kept else []:
@@ -41,6 +42,26 @@ def answered(ask):
 def rule_by_reference(subject, file, kept, rule):
     want = sum(plan.holds(file.rule(rule)[1]) for plan in kept)
     same("--where", subject.where(rule), want)
+
+
+def preferences_by_reference(subject, file, kept):
+    """The measure `preference`: how plans are spread over it, which are the best by it, what `explain` says of one, and how many have as much."""
+    if not file.preferences(subject.item.name) or not kept:
+        return
+    values = [file.preference(plan, subject.item.name) for plan in kept]
+    same("--by preference", [(v, n) for v, n in subject.distribution("preference")], sorted(Counter(values).items()))
+    best = json_lines("best", subject.ask("best", "3", "--format", "json"))
+    same("best without a measure", [Fraction(b["value"]) for b in best], sorted(values, reverse=True)[:3])
+    if subject.lines is not None:
+        same("the best have these values", [values[int(b["rank"])] for b in best], [Fraction(b["value"]) for b in best])
+        for rank in {0, len(values) // 2}:
+            if subject.lines[rank]:
+                explained = subject.json("explain", subject.lines[rank])
+                same("explain says the preference", Fraction(explained["preference"]), values[rank])
+                met = sum(Fraction(p["worth"]) for p in explained["preferences"] if p["met"])
+                same("explain adds up what is met", met, values[rank])
+    least = sorted(values)[len(values) // 2]
+    same("--where preference", subject.where(f"preference >= {number_of(least, '')}"), sum(v >= least for v in values))
 
 
 def weights_by_reference(subject, file, kept):

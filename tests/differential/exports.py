@@ -3,8 +3,9 @@ import itertools
 import re
 import shutil
 import subprocess
+from fractions import Fraction
 
-from program import Refused, Wrong, answer, environment, same
+from program import Refused, Wrong, answer, environment, json_lines, same
 
 PLANS = 150              # no more of a library's plans are asked of a Prolog program
 WORDS = 300              # and no more texts of a regular expression
@@ -31,7 +32,10 @@ def prolog(subject):
     lines = [line for line in subject.lines if line][:PLANS]
     rules = [rule for rule in subject.rules() if f"rule_part({atom(rule)}," in program]
     kept = f"trays_of({atom(subject.item.name)}," in program
+    preferred = kept and f"preference({atom(subject.item.name)}," in program
     decided = consulted(subject, program, rules, lines, kept)
+    if preferred and lines:
+        same("plan_preference as best", worths(subject, program, lines), preferences(subject)[:len(lines)])
     for i, rule in enumerate(rules if lines else []):
         same("Prolog as match", [bit[i] for bit in decided], bits(subject, rule, lines))
     if kept:
@@ -49,6 +53,23 @@ def consulted(subject, program, rules, lines, kept):
                           env=environment())
     same("SWI-Prolog says nothing", (done.returncode, done.stderr[:300]), (0, ""))
     return done.stdout.splitlines()
+
+
+def worths(subject, program, lines):
+    """What the preferences that each plan meets are worth together, by the program."""
+    plans = "".join(f"plan({i}, {term(line)}).\n" for i, line in enumerate(lines))
+    run = subject.file("run.pl", f"{plans}run :- forall(plan(_, W), ( plan_preference({atom(subject.item.name)}, W, P, Q), write(P/Q), nl )).\n")
+    done = subprocess.run(["swipl", "-q", "-f", subject.file("rules.pl", program), "-l", run, "-g", "run", "-g", "halt"], capture_output=True,
+                          text=True, encoding="utf-8", timeout=120, env=environment())
+    same("SWI-Prolog says nothing", (done.returncode, done.stderr[:300]), (0, ""))
+    return [Fraction(line) for line in done.stdout.splitlines()]
+
+
+def preferences(subject):
+    """The same by `best`, in the order of ranks, without the plan that has no trays."""
+    best = json_lines("best", subject.ask("best", str(subject.total), "--format", "json"))
+    value = {int(b["rank"]): Fraction(b["value"]) for b in best}
+    return [value[rank] for rank, line in enumerate(subject.lines) if line]
 
 
 def term(line):

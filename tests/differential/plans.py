@@ -134,7 +134,7 @@ WEIGHTS = {
     "range: constant": .3, "part: ELLIPSIS": .2, "item: use STRING": 2, "pattern_tray: spec_items": 2,
     "any_case: todo_word case": .3, "item: param NAME doc EQUAL additive IN additive DOTS additive": .2, "literal_word: ABSENT": .2, "literal_word: OF_DEPTH": MISTAKE, "value: ELLIPSIS": MISTAKE,
     "specifier: %empty": .05, "plan: OPEN_BRACKET HOUSE CLOSE_BRACKET": MISTAKE, "clause: require_word requires": 3, "clause: prune_word prunes": 3,
-    "clause: allow_word names": .2, "clause: weight_word expression positive": .5, "clause: weight_word expression": MISTAKE, "positive: LENGTH": MISTAKE, "positive: AREA": MISTAKE, "clause: trays_word range": MISTAKE, "clause_name: CLAUSE_NAME": .5,
+    "clause: allow_word names": .2, "clause: weight_word expression positive": .5, "clause: prefer_word preferences": .6, "preferences: preferences COMMA preference": .5, "clause: weight_word expression": MISTAKE, "positive: LENGTH": .1, "positive: AREA": .1, "clause: trays_word range": MISTAKE, "clause_name: CLAUSE_NAME": .5,
     "prunes: prunes COMMA prune": .5, "requires: requires COMMA require": .5,
     "case: expectations plan STRING BY clause_names": .3, "case: expectations plan BY clause_names doc": .3,
 }
@@ -297,6 +297,8 @@ CONTEXTS = {
     "total_field: NAME NAME": lambda maker, place: {0: place.but(want="zone"), 1: place.but(want="exact", text="depth")},
     "prune: expression AS NAME doc": lambda maker, place: {2: place.but(want="exact", text=place.scope.fresh(maker.random, "clause"))},
     "clause: weight_word expression positive": lambda maker, place: {2: place.but(want="positive", dimension=0)},
+    "worth: WORTH positive": lambda maker, place: {1: place.but(want="positive", dimension=0)},
+    "preference: expression worth AS NAME doc": lambda maker, place: {3: place.but(want="exact", text=place.scope.fresh(maker.random, "liked"))},
     "allow: ALLOW names": lambda maker, place: {1: place.but(want="code")},
     "clause: allow_word names": lambda maker, place: {1: place.but(want="code")},
     "clause: trays_word range": lambda maker, place: {1: place.but(sort="constant", dimension=0, want="trays")},
@@ -788,7 +790,7 @@ for leaf in ("TRAY OPEN specifier CLOSE", "ANY", "SUM OPEN tray_sum region CLOSE
     AVAILABLE["primary: " + leaf] = lambda place: place.counts != "houses"
 AVAILABLE["primary: SUM OPEN tray_sum OF expression region CLOSE"] = lambda place: place.counts != "houses" or place.dimension == 2
 for clause in ("trays_word range", "total_word total_field range doc", "total_word total_field comparison constant doc", "weight_word expression",
-               "weight_word expression positive"):
+               "weight_word expression positive", "prefer_word preferences"):
     AVAILABLE["clause: " + clause] = lambda place: not place.form
 
 

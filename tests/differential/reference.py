@@ -813,6 +813,15 @@ class File:
             return self.total(plan, clause)
         return True
 
+    def preferences(self, name):
+        """(expression, worth) of those of the library."""
+        found = [p for c in self.clauses(name) if c.production.symbols[0] == "prefer_word" for p in find_all(c, "preference")]
+        return [(p.child("expression"), constant(words(p.child("worth"))[1]) if words(p.child("worth")) else Fraction(1)) for p in found]
+
+    def preference(self, plan, name):
+        """What the preferences that the plan meets are worth together."""
+        return sum((worth for expression, worth in self.preferences(name) if plan.holds(expression)), Fraction(0))
+
     def weight(self, plan, name):
         """How many times as likely the plan is as one without weights."""
         product = Fraction(1)

@@ -198,6 +198,19 @@ typedef struct tn_checked_clause {
     uint32_t function; /* emitted: plus one; 0: not yet */
 } tn_checked_clause;
 
+/* What plans of a library should match, and how much that counts. */
+typedef struct tn_checked_preference {
+    const tn_ast_clause *ast;
+    const char *name;                      /* its own, a rule's, or "prefer@12" */
+    const char *doc;                       /* or NULL */
+    const char *worth;                     /* "p/q" */
+    size_t unit;                           /* the file that it is in */
+    const struct tn_checked_schema *older; /* the schema that it was written for */
+    tn_ast_expr *written;                  /* before anything was written out */
+    tn_ast_expr *expr;
+    tn_span span;
+} tn_checked_preference;
+
 /* Each single tray that the sum counts, of one term, makes a plan so many times as likely. */
 typedef struct tn_checked_weight {
     const tn_ast_clause *ast;
@@ -224,6 +237,10 @@ typedef struct tn_checked_library {
     tn_checked_weight **weights;
     size_t weight_count, weight_capacity;
     tn_names weight_names;
+    tn_checked_preference **preferences;
+    size_t preference_count, preference_capacity;
+    tn_names preference_names;
+    tn_checked_sum *preferred;  /* what they add up to, a term for each; NULL: there are none */
     const tn_ast_clause *trays; /* its own, or taken over */
     uint32_t trays_min, trays_max;
     tn_ast_list allow;
@@ -521,7 +538,19 @@ const char *tn_clause_name(tn_check *check, const tn_names *names, const char *w
 void tn_check_libraries(tn_check *check);
 void tn_check_asked(tn_check *check); /* adds what the command line asks to the library that it is about */
 
-/* ---- weight.c */
+/* The expression of a clause; calls in it make rules, which are checked first. */
+void tn_check_clause_expr(tn_check *check, tn_ast_clause *clause);
+/* The rule whose name and text a clause has that is this expression; NULL: there is none. */
+tn_checked_rule *tn_clause_rule(const tn_ast_expr *expr);
+
+/* ---- leaning.c: preferences and weights */
+void tn_check_preference(tn_check *check, tn_checked_library *library, tn_ast_clause *ast);
+/* Those of a library that this one is made from. newer: by another schema. */
+void tn_check_preferences_of(tn_check *check, tn_checked_library *library, const tn_checked_library *from, bool newer);
+void tn_check_preferred(tn_check *check, tn_checked_library *library); /* makes the sum of all of them */
+/* While the command line's expressions are checked: `preference` is what the library's preferences add up to. */
+void tn_check_name_preference(tn_check *check, tn_checked_library *library);
+
 void tn_check_weight(tn_check *check, tn_checked_library *library, tn_ast_clause *ast);
 /* Those of a library that this one is made from. newer: by another schema. */
 void tn_check_weights_of(tn_check *check, tn_checked_library *library, const tn_checked_library *from, bool newer);

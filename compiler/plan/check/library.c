@@ -63,8 +63,7 @@ static bool name_is_free(tn_check *check, const tn_checked_library *library, con
     return false;
 }
 
-/* Calls in it make rules, which are checked first. */
-static void check_clause_expr(tn_check *check, tn_ast_clause *clause)
+void tn_check_clause_expr(tn_check *check, tn_ast_clause *clause)
 {
     check->met_param = false;
     tn_expand(check, &clause->expr);
@@ -86,20 +85,19 @@ static void check_clause_expr(tn_check *check, tn_ast_clause *clause)
 }
 
 /* A clause that is a rule's name has its name and text; but not one that calls a rule with arguments. */
-static void take_rule(tn_checked_clause *clause)
+tn_checked_rule *tn_clause_rule(const tn_ast_expr *expr)
 {
-    tn_checked_rule *rule = clause->expr->kind == TN_EXPR_NAME ? clause->expr->rule : NULL;
-    if (rule && (!rule->hidden || !rule->of->is_template))
-        clause->rule = rule;
+    tn_checked_rule *rule = expr->kind == TN_EXPR_NAME ? expr->rule : NULL;
+    return rule && (!rule->hidden || !rule->of->is_template) ? rule : NULL;
 }
 
 static void add_expr_clause(tn_check *check, tn_checked_library *library, tn_ast_clause *ast, tn_checked_clause *clause)
 {
-    check_clause_expr(check, ast);
+    tn_check_clause_expr(check, ast);
     clause->settable = check->settable;
     check->settable = false;
     clause->expr = ast->expr;
-    take_rule(clause);
+    clause->rule = tn_clause_rule(clause->expr);
     if (clause->rule) {
         clause->name = clause->rule->name;
         if (!clause->doc && clause->rule->ast->doc)
@@ -192,12 +190,16 @@ static void add_clause(tn_check *check, tn_checked_library *library, tn_ast_clau
         [TN_FORM_TOTAL_RANGE] = TN_CLAUSE_TOTAL, [TN_FORM_TOTAL_COMPARE] = TN_CLAUSE_TOTAL,
         [TN_FORM_REQUIRE] = TN_CLAUSE_REQUIRE,   [TN_FORM_PRUNE] = TN_CLAUSE_PRUNE,
         [TN_FORM_ALLOW] = TN_CLAUSE_PRUNE,       [TN_FORM_WEIGHT] = TN_CLAUSE_REQUIRE,
+        [TN_FORM_PREFER] = TN_CLAUSE_REQUIRE,
     };
-    bool of_plans = ast->form == TN_FORM_TRAYS || ast->form == TN_FORM_WEIGHT || kinds[ast->form] == TN_CLAUSE_TOTAL;
+    bool of_plans = ast->form == TN_FORM_TRAYS || ast->form == TN_FORM_WEIGHT || ast->form == TN_FORM_PREFER ||
+                    kinds[ast->form] == TN_CLAUSE_TOTAL;
     if (library->form && of_plans) {
         tn_diagnostic *d =
             tn_report(check->diagnostics, E_HOUSE_CLAUSE, ast->node.span, "a library of houses cannot say %s",
-                      ast->form == TN_FORM_WEIGHT ? "how likely plans are" : "which plans there are");
+                      ast->form == TN_FORM_WEIGHT   ? "how likely plans are"
+                      : ast->form == TN_FORM_PREFER ? "which plans are preferred"
+                                                    : "which plans there are");
         tn_note(check->diagnostics, d, &library->plans->ast->name->node.span, "its plans are those of `%s`",
                 library->plans->name);
         tn_help(check->diagnostics, d, "write this line in a library of plans, and make the houses `from` that");
@@ -207,8 +209,8 @@ static void add_clause(tn_check *check, tn_checked_library *library, tn_ast_clau
         set_trays(check, library, ast);
         return;
     }
-    if (ast->form == TN_FORM_WEIGHT) {
-        tn_check_weight(check, library, ast);
+    if (ast->form == TN_FORM_WEIGHT || ast->form == TN_FORM_PREFER) {
+        (ast->form == TN_FORM_WEIGHT ? tn_check_weight : tn_check_preference)(check, library, ast);
         return;
     }
     if (ast->form == TN_FORM_ALLOW || !tn_check_room(check, library->clause_count, TN_CLAUSES_MAX, "clause",
@@ -289,10 +291,10 @@ static tn_checked_clause *renew(tn_check *check, const tn_checked_library *libra
     if (old->written) {
         ast->expr = tn_expand_older(check, old->written, old->unit, old->older);
         if (ast->expr)
-            check_clause_expr(check, ast);
+            tn_check_clause_expr(check, ast);
         clause->expr = ast->expr;
         if (clause->expr)
-            take_rule(clause);
+            clause->rule = tn_clause_rule(clause->expr);
     } else {
         clause->condition = tn_check_total(check, ast, clause->field);
         clause->any = tn_check_any(check, library->schema, ast->node.span);
@@ -360,8 +362,10 @@ static void take_over(tn_check *check, tn_checked_library *library)
         if (clause)
             put_clause(check, library, clause);
     }
-    if (!library->form)
-        tn_check_weights_of(check, library, from, newer);
+    if (library->form)
+        return;
+    tn_check_weights_of(check, library, from, newer);
+    tn_check_preferences_of(check, library, from, newer);
 }
 
 /* Recursion is as deep as libraries are made from each other: at most TN_LIBRARIES_MAX. */
@@ -396,6 +400,7 @@ static void check_library(tn_check *check, tn_checked_library *library)
     check->allow = library->allow;
     for (TN_EACH(tn_ast_clause, clause, ast->clauses))
         add_clause(check, library, clause);
+    tn_check_preferred(check, library);
     library->state = DONE;
     library->broken |= ast->from && (!library->from || library->from->broken);
     if (library->trays || check->skipped || library->broken)
@@ -445,7 +450,7 @@ static void add_where(tn_check *check, tn_checked_library *library, tn_ast_expr 
     if (!ast || !clause)
         return;
     *ast = (tn_ast_clause){.node.span = expr->node.span, .form = TN_FORM_REQUIRE, .expr = expr};
-    check_clause_expr(check, ast);
+    tn_check_clause_expr(check, ast);
     *clause = (tn_checked_clause){
         .ast = ast, .kind = TN_CLAUSE_REQUIRE, .expr = ast->expr, .span = expr->node.span, .field = TN_NONE};
     if (ast->expr->kind == TN_EXPR_NAME && ast->expr->rule && !ast->expr->rule->hidden)
@@ -524,6 +529,7 @@ static void check_wheres(tn_check *check)
     check->form_wrong = false;
     check->allow = library->allow;
     check->asking = true;
+    tn_check_name_preference(check, library);
     for (size_t i = 0; i < asked->where_count; i++)
         add_where(check, library, asked->wheres[i], i + 1);
     check->asking = false;

@@ -177,7 +177,7 @@ static void add_library(tn_check *check, const tn_ast_library *ast, size_t unit)
         return;
     *library = (tn_checked_library){
         .ast = ast, .name = ast->name->text, .unit = unit, .index = (uint32_t)result->library_count};
-    library->clause_names.arena = library->weight_names.arena = check->arena;
+    library->clause_names.arena = library->weight_names.arena = library->preference_names.arena = check->arena;
     name->library = library;
     result->libraries[result->library_count++] = library;
 }
@@ -453,6 +453,10 @@ static void report_unknown(tn_check *check, const tn_ast_word *word, tn_want wan
         return;
     if (near)
         tn_suggest(check->diagnostics, d, "%s", near);
+    else if (want == TN_WANT_RULE && strcmp(word->text, TN_PREFERENCE_NAME) == 0)
+        tn_help(check->diagnostics, d,
+                "it is the measure of a library that has `prefer` in its clauses, and named on the command line: "
+                "`--where \"preference >= 3\"`");
     else if (want == TN_WANT_RULE && tn_means_cost(check, word->text))
         tn_help(check->diagnostics, d, "what a house costs is `sum(cost)`");
     else if (want == TN_WANT_RULE && tn_help_height(check, d, word->text))

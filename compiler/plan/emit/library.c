@@ -48,6 +48,25 @@ static uint32_t emit_weights(tn_emit *emit, const tn_checked_library *library)
     return first;
 }
 
+/* The same of preferences. */
+static uint32_t emit_preferences(tn_emit *emit, const tn_checked_library *library)
+{
+    uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_PREFERENCE);
+    uint32_t sum = library->preferred ? tn_emit_sum(emit, library->preferred, library->name) : 0;
+    for (size_t i = 0; i < library->preference_count; i++) {
+        const tn_checked_preference *preference = library->preferences[i];
+        tn_builder_add_PREFERENCE(emit->builder, &(tn_preference_record){
+                                                     .name = tn_builder_string(emit->builder, preference->name),
+                                                     .doc = tn_builder_string(emit->builder, preference->doc),
+                                                     .sum = sum,
+                                                     .file = preference->span.file,
+                                                     .begin = preference->span.begin,
+                                                     .end = preference->span.end,
+                                                 });
+    }
+    return first;
+}
+
 static void emit_library(tn_emit *emit, const tn_checked_library *library)
 {
     uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_CLAUSE);
@@ -64,7 +83,7 @@ static void emit_library(tn_emit *emit, const tn_checked_library *library)
                                                  .end = clause->span.end,
                                              });
     }
-    uint32_t first_weight = emit_weights(emit, library);
+    uint32_t first_weight = emit_weights(emit, library), first_preference = emit_preferences(emit, library);
     tn_span span = library->ast->top.node.span;
     const tn_ast_word *doc = library->ast->doc;
     tn_builder_add_LIBRARY(emit->builder, &(tn_library_record){
@@ -81,6 +100,8 @@ static void emit_library(tn_emit *emit, const tn_checked_library *library)
                                               .end = span.end,
                                               .weight_first = first_weight,
                                               .weight_count = (uint32_t)library->weight_count,
+                                              .preference_first = first_preference,
+                                              .preference_count = (uint32_t)library->preference_count,
                                           });
 }
 

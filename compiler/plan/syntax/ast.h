@@ -320,6 +320,7 @@ typedef enum tn_clause_form {
     TN_FORM_REQUIRE,
     TN_FORM_PRUNE,
     TN_FORM_WEIGHT,
+    TN_FORM_PREFER,
     TN_FORM_ALLOW
 } tn_clause_form;
 
@@ -328,7 +329,7 @@ typedef struct tn_ast_clause {
     tn_clause_form form;
     tn_ast_range range;                /* trays, total */
     tn_operator op;                    /* total */
-    const tn_ast_word *word;           /* total: what it is compared with; weight: its number, or NULL */
+    const tn_ast_word *word;           /* total: what it is compared with; weight, prefer: its number, or NULL */
     const tn_ast_word *field, *detail; /* total: the word after the field: `depth` */
     tn_ast_expr *expr;                 /* weight: the quantity of what single trays are */
     const tn_ast_expr *written;        /* as it stands in the file */
@@ -514,6 +515,9 @@ tn_ast_clause *tn_ast_total_compare(tn_parse *parse, tn_span span, tn_ast_list f
 tn_ast_clause *tn_ast_require(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *doc);
 tn_ast_clause *tn_ast_prune(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *name,
                             const tn_ast_word *doc);
+/* worth, name: NULL where they are not written. */
+tn_ast_clause *tn_ast_preference(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *worth,
+                                 const tn_ast_word *name, const tn_ast_word *doc);
 /* number: NULL where it is not written. */
 tn_ast_clause *tn_ast_weight(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *number);
 tn_ast_clause *tn_ast_allow(tn_parse *parse, tn_span span, tn_ast_list codes);

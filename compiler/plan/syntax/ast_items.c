@@ -296,6 +296,19 @@ tn_ast_clause *tn_ast_prune(tn_parse *parse, tn_span span, tn_ast_expr *expr, co
     return clause;
 }
 
+tn_ast_clause *tn_ast_preference(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *worth,
+                                 const tn_ast_word *name, const tn_ast_word *doc)
+{
+    tn_ast_clause *clause = clause_new(parse, TN_FORM_PREFER, span);
+    if (!clause || !expr)
+        return NULL;
+    clause->expr = expr;
+    clause->word = worth;
+    clause->name = name;
+    clause->doc = doc;
+    return clause;
+}
+
 tn_ast_clause *tn_ast_weight(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *number)
 {
     tn_ast_clause *clause = clause_new(parse, TN_FORM_WEIGHT, span);

@@ -51,8 +51,8 @@ typedef struct tn_parse {
     int quiet;          /* tokens to come whose being out of place follows from what was reported */
     bool quiet_now;     /* is the token at hand one of them? */
 
-    int clause;      /* the word that began the clause of a library at hand: `weight`; 0: another one, or none */
-    bool apart;      /* `at least` was read, and not its `from` */
+    int clause; /* the word that began the clause of a library at hand: `weight`, `prefer`; 0: another one, or none */
+    bool apart; /* `at least` was read, and not its `from` */
     bool in_number;  /* inside a `number` of a schema: min and max are functions */
     bool in_extreme;  /* the sum over a tray that is read is one of `max(...)` or `min(...)` */
     uint32_t groups; /* in parentheses, in specifiers */

@@ -252,18 +252,25 @@ static const char *house_fix(const tn_parse *parse, const char *found, const tn_
     return NULL;
 }
 
-/* Of a weight: its number behind what trays are, and another weight in a clause of its own. */
-static const char *weight_fix(const tn_parse *parse, const char *found, const tn_expected *e)
+/* Of weights and preferences: their numbers, and what stands beside them. */
+static const char *leaning_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
+    bool prefers = tn_expects(e, "`worth`"), number = comes_after_number(parse);
     if (!parse->clause || !tn_expects(e, "`prune`"))
         return NULL;
-    if (strcmp(found, "`,`") == 0)
-        return "each weight is a clause of its own: `weight tray(a) 7`, and in the next line `weight tray(b) 2`";
-    if (strcmp(found, "`/`") == 0 || strcmp(found, "`*`") == 0)
-        return "a weight is one number, such as 3 or 0.25";
-    if (comes_after_number(parse) && tn_starts_expression(found))
+    if (prefers && (strcmp(found, "a number") == 0 || strcmp(found, "a decimal number") == 0))
+        return "what a preference is worth stands behind `worth`: `prefer a worth 3`";
+    if (strcmp(found, "`worth`") == 0)
+        return "what a preference is worth stands behind it, once, and before its name: `prefer a worth 3 as NAME`";
+    if (strcmp(found, "`/`") == 0 || (!prefers && strcmp(found, "`*`") == 0))
+        return "it is one number, such as 3 or 0.25";
+    if (number && prefers && tn_starts_expression(found))
+        return "the number stands behind what is preferred: `prefer a worth 3`";
+    if (number && tn_starts_expression(found))
         return "the number stands behind what trays are: `weight tray(a) 7`";
-    if (strcmp(found, "`as`") == 0 || strcmp(found, "a text in quotes") == 0)
+    if (!prefers && !tn_expects(e, "`as`") && strcmp(found, "`,`") == 0)
+        return "each weight is a clause of its own: `weight tray(a) 7`, and in the next line `weight tray(b) 2`";
+    if (!prefers && !tn_expects(e, "`as`") && (strcmp(found, "`as`") == 0 || strcmp(found, "a text in quotes") == 0))
         return "a weight has no name or text of its own: name the rule instead, `rule fit = ...`, then `weight fit 7`";
     return NULL;
 }
@@ -515,8 +522,8 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
         return "expressions are joined by `and` or `or`, clauses of a library by `,`; what a tray is stands in "
                "`tray(...)`";
     if (tn_expects(e, "`prune`") && tn_expects(e, "`require`"))
-        return "a library says `trays 4..9`, `total FIELD 10m..20m`, `require RULE`, `prune RULE`, `weight tray(...) "
-               "3` or `allow W001`; what a tray is stands in rules, in `tray(...)`";
+        return "a library says `trays 4..9`, `total FIELD 10m..20m`, `require RULE`, `prune RULE`, `prefer RULE`, "
+               "`weight tray(...) 3` or `allow W001`; what a tray is stands in rules, in `tray(...)`";
     if (tn_expects(e, "`rule`") && strcmp(found, "a name") == 0 && followed_by_equals(parse))
         return "a name has to follow this word: `measure NAME = ...`, `let NAME = ...`";
     if (tn_expects(e, "`rule`") && tn_expects(e, "`and`"))
@@ -546,7 +553,7 @@ const char *tn_syntax_fix(const tn_parse *parse, const char *found, const tn_exp
     if (!fix)
         fix = house_fix(parse, found, e);
     if (!fix)
-        fix = weight_fix(parse, found, e);
+        fix = leaning_fix(parse, found, e);
     if (!fix)
         fix = mark_fix(parse, found, e);
     if (!fix)

@@ -305,10 +305,10 @@ static tn_status count_sections(tn_houses *h, const tn_strip_trays *trays, tn_er
 static tn_status weigh_plans(tn_houses *h, tn_error *error)
 {
     uint32_t sums[TN_WEIGHED_MAX];
-    tn_string names[TN_WEIGHED_MAX];
+    const char *names[TN_WEIGHED_MAX];
     for (uint32_t k = 0; k < h->measures->count; k++) {
         sums[k] = h->measures->of[k]->of.sum;
-        names[k] = h->measures->of[k]->of.name;
+        names[k] = tn_text(tn_library_schema(h->plans)->module, h->measures->of[k]->of.name);
     }
     return tn_weighed_of_sums(h->plans, sums, names, h->measures->count, &h->weighed, error);
 }

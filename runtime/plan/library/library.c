@@ -112,7 +112,7 @@ tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_libra
     if (status == TN_OK)
         status = tn_library_tables(library, error);
     if (status == TN_OK)
-        status = tn_library_hash_weights(library, error);
+        status = tn_library_hash_leanings(library, error);
     if (status != TN_OK) {
         tn_library_free(library);
         return status;

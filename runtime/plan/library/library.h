@@ -51,8 +51,9 @@ const tn_schema *tn_library_schema(const tn_library *library);
 /* Its LIBRARY record; NULL where it is not written anywhere. */
 const tn_library_record *tn_library_record_of(const tn_library *library);
 
-/* Hash of the meaning: schema, lengths, set of kept plans, and of a library with weights these as they are written.
- * Equal meaning, equal hash, on every machine, however the rules are written and the automaton was built. */
+/* Hash of the meaning: schema, lengths, set of kept plans, and of a library with weights or preferences these as they
+ * are written. Equal meaning, equal hash, on every machine, however the rules are written and the automaton was built.
+ */
 void tn_library_hash(const tn_library *library, char hex[33]);
 
 /* Kept plans of one length, or (length = TN_ALL_LENGTHS) in all. */

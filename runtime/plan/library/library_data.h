@@ -77,11 +77,11 @@ struct tn_library {
     double *nearly;         /* [max + 1][states]: the rows, nearly (tn_nearly) */
     uint64_t *alive;        /* [max + 1][alive_words]: bit s: rows[left] is not zero at s */
     uint32_t alive_words;
-    mpz_t *before;       /* [max + 2]: kept plans of the lengths min..length - 1, so the first rank of a length */
-    uint32_t stride;     /* trays between the marks of `passed` */
-    uint32_t *passed;    /* [trays / stride + 1][columns]: trays of a column before tray mark * stride */
-    uint64_t *hash_room; /* of columns + 2 states, used under late->lock */
-    uint64_t weights[2]; /* a hash of its weights, if it has any */
+    mpz_t *before;        /* [max + 2]: kept plans of the lengths min..length - 1, so the first rank of a length */
+    uint32_t stride;      /* trays between the marks of `passed` */
+    uint32_t *passed;     /* [trays / stride + 1][columns]: trays of a column before tray mark * stride */
+    uint64_t *hash_room;  /* of columns + 2 states, used under late->lock */
+    uint64_t leanings[2]; /* a hash of its weights and preferences, if it has any */
     tn_library_late *late;
 };
 
@@ -120,8 +120,8 @@ static inline tn_dfa_operation tn_library_keeping(const tn_library *library, siz
     return tn_library_prunes(library, i) ? TN_DFA_MINUS : TN_DFA_AND;
 }
 
-/* Finds the hash of the library's weights. */
-tn_status tn_library_hash_weights(tn_library *library, tn_error *error);
+/* Finds the hash of the library's weights and preferences. */
+tn_status tn_library_hash_leanings(tn_library *library, tn_error *error);
 
 /* Says in which clause it was that making automata passed a limit; returns the error's status. */
 tn_status tn_library_name_clause(const tn_library *library, size_t i, tn_error *error);

@@ -15,6 +15,7 @@
 #include "runtime/plan/library/hash_text.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/match/code_hash.h"
+#include "runtime/plan/schema/sum.h"
 
 __extension__ typedef unsigned __int128 wide;
 
@@ -108,32 +109,42 @@ static void add_plans(XXH3_state_t *hash, const tn_library *library, unsigned po
     }
 }
 
-/* Adds one to the others, in whatever order they come. */
-static tn_status add_weight(tn_library *library, const tn_weight_record *weight, tn_error *error)
+/* Adds a weight, or a preference, to the others, in whatever order they come: a number and the function of what it is
+ * about. */
+static tn_status add_leaning(tn_library *library, tn_section kind, tn_string number, uint32_t function, tn_error *error)
 {
     const tn_module *module = library->schema->module;
     uint64_t code[2];
     XXH3_state_t hash;
-    tn_status status =
-        tn_code_hash(module, module->TERM_records[module->SUM_records[weight->sum].term_first].part, code, error);
+    tn_status status = tn_code_hash(module, function, code, error);
     if (status != TN_OK)
         return status;
     XXH3_128bits_reset(&hash);
-    add_text(&hash, module, weight->factor);
+    add_number(&hash, kind);
+    add_text(&hash, module, number);
     add_number(&hash, code[0]);
     add_number(&hash, code[1]);
     XXH128_hash_t found = XXH3_128bits_digest(&hash);
-    library->weights[0] += found.low64;
-    library->weights[1] += found.high64;
+    library->leanings[0] += found.low64;
+    library->leanings[1] += found.high64;
     return TN_OK;
 }
 
-tn_status tn_library_hash_weights(tn_library *library, tn_error *error)
+tn_status tn_library_hash_leanings(tn_library *library, tn_error *error)
 {
     const tn_library_record *record = library->record;
+    const tn_module *module = library->schema->module;
     tn_status status = TN_OK;
-    for (uint32_t i = 0; status == TN_OK && i < record->weight_count; i++)
-        status = add_weight(library, &library->schema->module->WEIGHT_records[record->weight_first + i], error);
+    for (uint32_t i = 0; status == TN_OK && i < record->weight_count; i++) {
+        const tn_weight_record *weight = &module->WEIGHT_records[record->weight_first + i];
+        const tn_sum_record *sum = &module->SUM_records[weight->sum];
+        status =
+            add_leaning(library, TN_SECTION_WEIGHT, weight->factor, module->TERM_records[sum->term_first].part, error);
+    }
+    for (uint32_t i = 0; status == TN_OK && i < record->preference_count; i++) {
+        const tn_term_record *term = tn_preferred_term(module, record, i);
+        status = add_leaning(library, TN_SECTION_PREFERENCE, term->factor, term->part, error);
+    }
     return status;
 }
 
@@ -148,9 +159,9 @@ void tn_library_hash(const tn_library *library, char hex[33])
     for (unsigned point = 0; point < POINTS; point++)
         add_plans(&hash, library, point);
     pthread_mutex_unlock(&library->late->lock);
-    if (library->record && library->record->weight_count > 0) {
-        add_number(&hash, library->weights[0]);
-        add_number(&hash, library->weights[1]);
+    if (library->record && library->record->weight_count + library->record->preference_count > 0) {
+        add_number(&hash, library->leanings[0]);
+        add_number(&hash, library->leanings[1]);
     }
     tn_hash_text(XXH3_128bits_digest(&hash), hex);
 }

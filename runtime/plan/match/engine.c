@@ -2,6 +2,7 @@
 #include "runtime/module/engine.h"
 #include "runtime/plan/match/condition_text.h"
 #include "runtime/plan/schema/list.h"
+#include "runtime/plan/schema/sum.h"
 
 /* ---- verifying tables */
 
@@ -162,6 +163,18 @@ static void list_library(tn_lister *lister, size_t index)
         tn_list_doc(lister, clause->doc);
         fprintf(lister->out, ": function %u", clause->holds);
         tn_list_place(lister, clause->file, clause->begin);
+    }
+    for (uint32_t i = 0; i < library->preference_count; i++) {
+        const tn_preference_record *preference = &lister->module->PREFERENCE_records[library->preference_first + i];
+        fputs("  prefer ", lister->out);
+        tn_list_name(lister, preference->name);
+        tn_list_doc(lister, preference->doc);
+        tn_list_place(lister, preference->file, preference->begin);
+    }
+    if (library->preference_count > 0) {
+        fputs("  preference: ", lister->out);
+        tn_list_sum(lister, tn_preferred_sum(lister->module, library));
+        fputc('\n', lister->out);
     }
     for (uint32_t i = 0; i < library->weight_count; i++) {
         const tn_weight_record *weight = &lister->module->WEIGHT_records[library->weight_first + i];

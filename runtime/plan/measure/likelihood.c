@@ -39,7 +39,7 @@ typedef struct sorting {
     uint32_t alone_count, around_count;
     uint32_t *alone, *sums; /* [weights]: indices of those alone, and their sums */
     uint32_t around[TN_WEIGHED_MAX];
-    tn_string names[TN_WEIGHED_MAX];
+    const char *names[TN_WEIGHED_MAX];
 } sorting;
 
 static tn_status sort_weights(tn_likelihood *l, sorting *s, tn_error *error)
@@ -63,7 +63,7 @@ static tn_status sort_weights(tn_likelihood *l, sorting *s, tn_error *error)
             read_factor(l, weight, factor);
             mpz_set(l->up[s->around_count], mpq_numref(factor));
             mpz_set(l->down[s->around_count], mpq_denref(factor));
-            s->names[s->around_count] = weight->name;
+            s->names[s->around_count] = tn_text(module, weight->name);
             s->around[s->around_count++] = weight->sum;
         }
     }

@@ -8,6 +8,7 @@
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/summing.h"
+#include "runtime/plan/measure/named.h"
 #include "runtime/plan/measure/weighed_whole.h"
 
 enum { STATES_MAX = 4000000 };
@@ -23,7 +24,7 @@ typedef struct memory {
 /* A sum: its machine, and the automata of what is asked of the whole plan. A memory's key: the states of these, then
  * the words of its machine. */
 typedef struct weight {
-    tn_string name;
+    const char *name;
     tn_sum *sum;
     tn_dfa **parts;         /* [sum->count]: of places that single trays do not decide */
     tn_weighed_whole whole; /* what is asked of the whole plan */
@@ -293,19 +294,19 @@ tn_status tn_weighed_new(const tn_library *library, const uint32_t *measures, ui
 {
     const tn_module *module = library->schema->module;
     uint32_t sums[TN_WEIGHED_MAX], total = 0;
-    tn_string names[TN_WEIGHED_MAX];
+    const char *names[TN_WEIGHED_MAX];
     bool over[TN_WEIGHED_MAX] = {0};
     for (uint32_t k = 0; k < count; k++) {
-        const tn_measure_record *measure = &module->MEASURE_records[measures[k]];
-        over[k] = measure->over != TN_NO_RECORD;
+        uint32_t divisor = tn_named_measure_over(module, measures[k]);
+        over[k] = divisor != TN_NO_RECORD;
         if (total + 1 + over[k] > TN_WEIGHED_MAX)
             return too_many_sums(error);
-        sums[total] = measure->sum;
-        names[total++] = measure->name;
-        if (over[k])
-            sums[total] = measure->over;
-        if (over[k])
-            names[total++] = measure->name;
+        names[total] = tn_named_measure(module, measures[k]);
+        sums[total++] = tn_named_measure_sum(module, library->record, measures[k]);
+        if (!over[k])
+            continue;
+        names[total] = names[total - 1];
+        sums[total++] = divisor;
     }
     tn_status status = tn_weighed_of_sums(library, sums, names, total, out, error);
     if (status != TN_OK)
@@ -315,7 +316,7 @@ tn_status tn_weighed_new(const tn_library *library, const uint32_t *measures, ui
     return TN_OK;
 }
 
-tn_status tn_weighed_of_sums(const tn_library *library, const uint32_t *sums, const tn_string *names, uint32_t count,
+tn_status tn_weighed_of_sums(const tn_library *library, const uint32_t *sums, const char *const *names, uint32_t count,
                              tn_weighed **out, tn_error *error)
 {
     tn_weighed *w = calloc(1, sizeof *w);
@@ -389,7 +390,7 @@ uint32_t tn_weighed_count(const tn_weighed *w)
 
 const char *tn_weighed_name(const tn_weighed *w, uint32_t measure)
 {
-    return tn_text(w->library->schema->module, w->weights[measure].name);
+    return w->weights[measure].name;
 }
 
 mpq_srcptr tn_weighed_unit(const tn_weighed *w, uint32_t measure)

@@ -21,13 +21,13 @@ typedef struct tn_weighed_edge {
 
 typedef struct tn_weighed tn_weighed;
 
-/* measures: indices of MEASURE records, of the library's schema. E0802 where they remember too much, E0424 where their
- * numbers are too fine, E0831 where they are of more than TN_WEIGHED_MAX sums. */
+/* measures: of the library (named.h), which has a record if its preference is among them. E0802 where they remember too
+ * much, E0424 where their numbers are too fine, E0831 where they are of more than TN_WEIGHED_MAX sums. */
 tn_status tn_weighed_new(const tn_library *library, const uint32_t *measures, uint32_t count, tn_weighed **weighed,
                          tn_error *error);
 
 /* The same for SUM records of the library's schema that have these names. */
-tn_status tn_weighed_of_sums(const tn_library *library, const uint32_t *sums, const tn_string *names, uint32_t count,
+tn_status tn_weighed_of_sums(const tn_library *library, const uint32_t *sums, const char *const *names, uint32_t count,
                              tn_weighed **weighed, tn_error *error);
 void tn_weighed_free(tn_weighed *weighed);
 

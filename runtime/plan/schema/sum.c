@@ -32,25 +32,6 @@ bool tn_term_of_whole(uint32_t kind)
     return kind == TN_SUM_MATCHES || kind == TN_SUM_NEEDED || tn_term_is_gap(kind);
 }
 
-bool tn_measure_partial(const tn_module *module, uint32_t measure)
-{
-    const tn_measure_record *record = &module->MEASURE_records[measure];
-    const tn_sum_record *sum = &module->SUM_records[record->sum];
-    bool partial = record->over != TN_NO_RECORD;
-    for (uint32_t i = 0; i < sum->term_count; i++) {
-        uint32_t kind = module->TERM_records[sum->term_first + i].kind;
-        partial |= kind == TN_SUM_NEEDED || tn_term_is_gap(kind);
-    }
-    return partial;
-}
-
-int tn_measure_power(const tn_module *module, uint32_t measure)
-{
-    const tn_measure_record *record = &module->MEASURE_records[measure];
-    int power = (int)module->SUM_records[record->sum].power;
-    return record->over == TN_NO_RECORD ? power : power - (int)module->SUM_records[record->over].power;
-}
-
 /* ---- what a tray counts */
 
 /* A number on the stack. What has divided by zero has no value; nor has what is made of it. */

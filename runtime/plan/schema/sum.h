@@ -38,11 +38,18 @@ tn_sum_region tn_term_region(uint32_t kind);
 bool tn_term_is_gap(uint32_t kind);
 bool tn_term_of_whole(uint32_t kind); /* it is asked of whole plans only */
 
-/* May a plan have no value of the MEASURE record: a quotient by 0, the greatest number of nothing? */
-bool tn_measure_partial(const tn_module *module, uint32_t measure);
+/* What the preferences of a library that has some add up to: a SUM record. */
+static inline uint32_t tn_preferred_sum(const tn_module *module, const tn_library_record *library)
+{
+    return module->PREFERENCE_records[library->preference_first].sum;
+}
 
-/* To which power of a length a MEASURE record is: below 0 of `number / length`. */
-int tn_measure_power(const tn_module *module, uint32_t measure);
+/* The term of its preference i: what it is worth, and its function of H. */
+static inline const tn_term_record *tn_preferred_term(const tn_module *module, const tn_library_record *library,
+                                                      uint32_t i)
+{
+    return &module->TERM_records[module->SUM_records[tn_preferred_sum(module, library)].term_first + i];
+}
 
 /* Makes the SUM record ready. E0419 (TN_INVALID) where it divides by zero for a tray that it counts, E0424 (TN_LIMIT)
  * where its numbers have no common step that is coarse enough. */

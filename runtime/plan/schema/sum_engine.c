@@ -1,4 +1,5 @@
-/* Verifies and lists sums, their terms, measures and weights, and the code that says what a tray counts. */
+/* Verifies and lists sums, their terms, measures, weights and preferences, and the code that says what a tray counts.
+ */
 #include <stdlib.h>
 #include <string.h>
 
@@ -135,7 +136,24 @@ static tn_status check_weight(const tn_checker *checker, uint32_t index, uint32_
     return above ? TN_OK : tn_refuse(checker, "weight %u is not above 0", index);
 }
 
-static tn_status check_weights(const tn_checker *checker)
+/* The preferences of a library have one sum, with a term above 0 for each. */
+static tn_status check_preferred(const tn_checker *checker, size_t index)
+{
+    const tn_module *module = checker->module;
+    const tn_library_record *library = &module->LIBRARY_records[index];
+    if (library->preference_count == 0)
+        return TN_OK;
+    const tn_sum_record *sum = &module->SUM_records[tn_preferred_sum(module, library)];
+    bool good = sum->schema == library->schema && sum->power == 0 && sum->term_count == library->preference_count;
+    for (uint32_t i = 0; good && i < sum->term_count; i++) {
+        const tn_term_record *term = &module->TERM_records[sum->term_first + i];
+        good = term->kind == TN_SUM_MATCHES && tn_text(module, term->factor)[0] != '-' &&
+               &module->SUM_records[module->PREFERENCE_records[library->preference_first + i].sum] == sum;
+    }
+    return good ? TN_OK : tn_refuse(checker, "the preferences of library %zu have another sum", index);
+}
+
+static tn_status check_leanings(const tn_checker *checker)
 {
     const tn_module *module = checker->module;
     tn_status status = TN_OK;
@@ -143,6 +161,10 @@ static tn_status check_weights(const tn_checker *checker)
         const tn_library_record *library = &module->LIBRARY_records[l];
         for (uint32_t i = 0; status == TN_OK && i < library->weight_count; i++)
             status = check_weight(checker, library->weight_first + i, library->schema);
+        if (status == TN_OK)
+            status = check_preferred(checker, l);
+        if (status != TN_OK)
+            return status;
     }
     return status;
 }
@@ -151,7 +173,7 @@ static tn_status verify(const tn_checker *checker)
 {
     tn_status status = check_sums(checker);
     if (status == TN_OK)
-        status = check_weights(checker);
+        status = check_leanings(checker);
     for (size_t i = 0; status == TN_OK && i < checker->module->MEASURE_count; i++)
         status = check_measure(checker, i);
     return status == TN_OK ? check_measure_names(checker) : status;
@@ -281,8 +303,8 @@ static void list_heading(tn_lister *lister, uint32_t function)
     tn_list_name(lister, lister->module->SCHEMA_records[lister->module->FUNCTION_records[function].schema].name);
 }
 
-static const tn_section sections[] = {TN_SECTION_SUM, TN_SECTION_TERM, TN_SECTION_MEASURE, TN_SECTION_WEIGHT,
-                                      TN_SECTION_STRINGS};
+static const tn_section sections[] = {TN_SECTION_SUM,    TN_SECTION_TERM,       TN_SECTION_MEASURE,
+                                      TN_SECTION_WEIGHT, TN_SECTION_PREFERENCE, TN_SECTION_STRINGS};
 
 static const tn_operand_rules operands[] = {
     {TN_OPERANDS_SUMMED, check_summed, list_summed},

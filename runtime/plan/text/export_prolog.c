@@ -8,6 +8,7 @@
 
 #include "runtime/module/code.h"
 #include "runtime/plan/match/parts.h"
+#include "runtime/plan/schema/sum.h"
 #include "runtime/plan/text/prolog_prelude.h"
 
 /* A program being written. */
@@ -420,6 +421,61 @@ static void put_rule_names(writing *w)
            "    plan_of(Trays, W), W = w(N, _), rule_part(Rule, Part), call(Part, W, 0, N).\n\n");
 }
 
+/* The function of H of a preference. */
+static uint32_t preferred(const tn_module *module, const tn_library_record *library, uint32_t i)
+{
+    return tn_preferred_term(module, library, i)->part;
+}
+
+/* *all: can every preference of the library be said in Prolog? Else none is: a part of what they are worth together
+ * means nothing. */
+static tn_status says_preferences(const writing *w, const tn_library_record *library, bool *all, tn_error *error)
+{
+    tn_status status = TN_OK;
+    *all = library->preference_count > 0;
+    for (uint32_t i = 0; status == TN_OK && *all && i < library->preference_count; i++) {
+        uint32_t function = preferred(w->module, library, i), rule = tn_function_rule(w->module, function), part;
+        tn_parts parts = {0};
+        if (rule == UINT32_MAX) {
+            status = tn_parts_read(w->module, function, &parts, error);
+            *all = status == TN_OK && !no_words(w, &parts, &part);
+            tn_parts_clear(&parts);
+        } else {
+            *all = !w->left_out[rule];
+        }
+    }
+    return status;
+}
+
+/* What a preference is worth, as two whole numbers. */
+static void put_preference(writing *w, const tn_library_record *library, uint32_t i)
+{
+    const char *worth = tn_text(w->module, tn_preferred_term(w->module, library, i)->factor);
+    int size = (int)strcspn(worth, "/");
+    put(w, "preference(");
+    put_atom(w, tn_text(w->module, library->name), NULL);
+    put(w, ", ");
+    put_atom(w, tn_text(w->module, w->module->PREFERENCE_records[library->preference_first + i].name), NULL);
+    put(w, ", ");
+    put_name(w, preferred(w->module, library, i), 0);
+    w->ok = w->ok && tn_buffer_printf(w->out, ", %.*s, %s).\n", size, worth, worth[size] ? worth + size + 1 : "1");
+}
+
+/* *any: becomes true if the library's are said. */
+static tn_status put_preferences(writing *w, const tn_library_record *library, bool *any, tn_error *error)
+{
+    bool all;
+    tn_status status = says_preferences(w, library, &all, error);
+    if (!all && library->preference_count > 0)
+        put(w, "% Its preferences are left out: not all of them can be said here.\n");
+    if (all && !*any)
+        put(w, ":- discontiguous(preference/5).\n");
+    for (uint32_t i = 0; all && i < library->preference_count; i++)
+        put_preference(w, library, i);
+    *any |= all;
+    return status;
+}
+
 static void put_clause(writing *w, const tn_library_record *library, const tn_clause_record *clause)
 {
     put(w, clause->kind == TN_CLAUSE_PRUNE ? "prune_clause(" : "require_clause(");
@@ -455,6 +511,10 @@ static tn_status put_clauses(writing *w, tn_error *error)
         bool ours = &module->SCHEMA_records[library->schema] == w->schema->record;
         for (uint32_t i = 0; ours && i < library->clause_count; i++)
             asked[module->CLAUSE_records[library->clause_first + i].holds] = true;
+        bool prefers = false;
+        status = ours ? says_preferences(w, library, &prefers, error) : TN_OK;
+        for (uint32_t i = 0; prefers && i < library->preference_count; i++)
+            asked[preferred(module, library, i)] = true;
     }
     for (uint32_t f = 0; status == TN_OK && f < module->FUNCTION_count; f++)
         if (asked[f] && tn_function_rule(module, f) == UINT32_MAX)
@@ -468,6 +528,7 @@ static tn_status put_libraries(writing *w, tn_error *error)
     const tn_module *module = w->module;
     tn_status status = TN_OK;
     static const char *const facts[] = {"trays_of", "prune_clause", "require_clause"};
+    bool prefers = false;
     put(w, "% ---- libraries\n");
     for (size_t i = 0; i < sizeof facts / sizeof *facts; i++)
         w->ok = w->ok && tn_buffer_printf(w->out, ":- dynamic(%s/3).\n:- discontiguous(%s/3).\n", facts[i], facts[i]);
@@ -485,6 +546,8 @@ static tn_status put_libraries(writing *w, tn_error *error)
             put_clause(w, library, &module->CLAUSE_records[library->clause_first + i]);
             status = check_clause(w, &module->CLAUSE_records[library->clause_first + i], error);
         }
+        if (status == TN_OK)
+            status = put_preferences(w, library, &prefers, error);
     }
     put(w, "\nprune_plan(Library, Clause, Trays) :-\n"
            "    plan_of(Trays, W), W = w(N, _), prune_clause(Library, Clause, Part), call(Part, W, 0, N).\n"
@@ -492,6 +555,15 @@ static tn_status put_libraries(writing *w, tn_error *error)
            "    plan_of(Trays, W), W = w(N, _), trays_of(Library, Min, Max), Min =< N, N =< Max,\n"
            "    \\+ ( require_clause(Library, _, Part), \\+ call(Part, W, 0, N) ),\n"
            "    \\+ ( prune_clause(Library, _, Part), call(Part, W, 0, N) ).\n\n");
+    if (prefers)
+        put(w, "% What the preferences that a plan meets are worth together: P / Q.\n"
+               "plan_preference(Library, Trays, P, Q) :-\n"
+               "    plan_of(Trays, W), W = w(N, _),\n"
+               "    findall(A-B, ( preference(Library, _, Part, A, B), call(Part, W, 0, N) ), Met),\n"
+               "    worth_together(Met, 0, 1, P, Q).\n"
+               "worth_together([], P, Q, P, Q).\n"
+               "worth_together([A-B|Met], P0, Q0, P, Q) :-\n"
+               "    P1 is P0 * B + A * Q0, Q1 is Q0 * B, worth_together(Met, P1, Q1, P, Q).\n\n");
     return status == TN_OK ? put_clauses(w, error) : status;
 }
 
