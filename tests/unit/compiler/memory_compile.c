@@ -22,7 +22,8 @@ static const char *const good = "use \"lahave\"\n"
                                 "rule a \"a rule\" = neighbour(tray(4'), optional(many(tray(8'))), tray(12'))\n"
                                 "rule b = not a and quantity(tray(double), n > 1 or n mod 3 = 1)\n"
                                 "rule c = distance(from tray(4'), to tray(public), by sum(width, w >= 8'))\n"
-                                "library l using lahave { trays 2..5 total width 8'..48' require b prune a, c }\n"
+                                "library l using lahave { trays 2..5 total width 8'..48' require b prune a, c\n"
+                                "  prefer a worth 2, tray(4') beside tray(8') as near weight tray(great) 3 }\n"
                                 "test a { match [4' | 12'] reject [8'] \"no\" }\n"
                                 "test l { keep [4' | 8' double | 8' double] }\n";
 
