@@ -94,7 +94,7 @@ static char *text_of(const plain_design *d, const change *c)
 
 static void build(const char *text, tn_module **module, tn_built *built)
 {
-    static const library_folders none = {NULL, 0};
+    static const library_folders none = {0};
     tn_compilation c;
     tn_error error;
     tn_diagnostics_init(&c.diagnostics, &c.sources);

@@ -54,7 +54,8 @@ static void weigh(const weighted *made, tn_plan_vm *vm, const tn_tray *trays, ui
     test_ok(tn_plan_vm_plan(vm, trays, length, &error), &error);
     for (uint32_t i = 0; i < record->weight_count; i++) {
         const tn_weight_record *w = &module->WEIGHT_records[record->weight_first + i];
-        test_ok(tn_plan_vm_value(vm, w->sum, count, &error), &error);
+        bool has;
+        test_ok(tn_plan_vm_value(vm, w->sum, count, &has, &error), &error);
         mpq_set_str(factor, tn_text(module, w->factor), 10);
         for (unsigned long k = mpz_get_ui(mpq_numref(count)); k > 0; k--)
             mpq_mul(weight, weight, factor);
