@@ -1,8 +1,9 @@
 /* Measures of the plans of a library: how they are spread, which plans are best, fronts, and open plans. All answers
  * are exact, and found without listing plans.
  *
- * A measure is named as in the rule file. Values are texts, "p/q" or "p", in the measure's unit: tartan_measure_unit.
- * Where a measure's numbers are too many or too fine, functions return TARTAN_LIMIT, and the error says what helps. */
+ * A measure is named as in the rule file; of a library that prefers there is `preference`, too. Values are texts, "p/q"
+ * or "p", in the measure's unit: tartan_measure_unit. Where a measure's numbers are too many or too fine, functions
+ * return TARTAN_LIMIT, and the error says what helps. */
 #ifndef TARTAN_MEASURE_H
 #define TARTAN_MEASURE_H
 

@@ -86,7 +86,7 @@ def numbered(subject):
 def found(subject):
     """Plans or houses one after another, and what they are best by."""
     library, measures, rules = subject.item.name, subject.measures()[:2], subject.rules()[:1]
-    yield "sample", {"library": library, "count": 4, "seed": 3}
+    yield "sample", {"library": library, "count": 4, "seed": 3, **({"uniform": True} if subject.houses else {})}
     yield "enumerate", {"library": library, "from": "1", "limit": 4}
     yield from (("enumerate", {"library": library, "limit": 3, "where": [rule]}) for rule in rules)
     by = [{"measure": measure, "most": i == 0} for i, measure in enumerate(measures)]

@@ -259,7 +259,8 @@ def samples(subject):
     if not subject.total:
         return
     number = min(5, subject.total)
-    lines = subject.ask("sample", str(number), "--seed", "7").split("\n")[:-1]
+    uniform = ["--uniform"] * subject.houses                     # by the weights of their plans no houses are drawn
+    lines = subject.ask("sample", str(number), "--seed", "7", *uniform).split("\n")[:-1]
     same("sample, as many as asked", len(set(lines)), number)
     for line in lines:
         explained(subject, "a sample", line)
