@@ -176,6 +176,25 @@ static void split_range(tn_check *check, tn_ast_expr *expr, const tn_checked_sum
     expr->parts = tn_ast_append(tn_ast_one(first), second);
 }
 
+/* `quantity(a) < 10%` is "less than a tenth of a tray": a share is one of something. */
+static void warn_of_share(tn_check *check, const tn_ast_expr *expr, const tn_sum_parts *sides)
+{
+    const tn_ast_expr *left = (const tn_ast_expr *)expr->parts.first, *right = (const tn_ast_expr *)expr->parts.last;
+    for (int turn = 0; turn < 2; turn++) {
+        const tn_ast_expr *share = turn ? left : right, *sum = turn ? right : left;
+        const char *text = share->kind == TN_EXPR_NUMBER ? share->name->text : "";
+        size_t size = strlen(text);
+        bool counts = sum->kind == TN_EXPR_QUANTITY || sum->kind == TN_EXPR_OCCURRENCES || sum->kind == TN_EXPR_TRAYS;
+        if (size < 2 || text[size - 1] != '%' || !counts || sides[turn].over || !tn_check_wanted(check, W_SHARE_ALONE))
+            continue;
+        tn_diagnostic *d = tn_report(check->diagnostics, W_SHARE_ALONE, share->node.span,
+                                     "`%s` is a number here, a share of nothing", text);
+        tn_help(check->diagnostics, d, "a share of all trays is `%s * trays`", text);
+        tn_replace_with(check->diagnostics, d, "%s * trays", text);
+        return;
+    }
+}
+
 /* A gap in trays is not compared with a length: it is measured by a field then. */
 static bool gap_is_measured(tn_check *check, const tn_ast_expr *expr, const tn_sum_parts *sides, size_t count)
 {
@@ -212,6 +231,8 @@ void tn_check_comparison(tn_check *check, tn_ast_expr *expr)
     }
     if (!gap_is_measured(check, expr, sides, count))
         return;
+    if (expr->kind == TN_EXPR_COMPARE)
+        warn_of_share(check, expr, sides);
     /* First the dimensions: what cannot be compared at all is said before what cannot be compared here. */
     bool range = expr->kind != TN_EXPR_COMPARE;
     tn_checked_sum *low = difference(check, expr, left, middle, &sides[0], &sides[1]),
