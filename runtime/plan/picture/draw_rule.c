@@ -21,9 +21,10 @@
 #define GREY 0.45
 
 /* Is the part drawn as a tag with its words? */
-static bool is_named(const tn_part *it)
+static bool is_named(const tn_rule_picture *p, uint32_t part)
 {
-    return it->kind == TN_PART_RULE || it->kind == TN_PART_COMPARISON;
+    tn_part_kind kind = tn_rule_part(p, part)->kind;
+    return kind == TN_PART_RULE || kind == TN_PART_COMPARISON || tn_rule_is_gap(p, part);
 }
 
 /* Is the part a distance's separator, whose condition stands on top of its section? */
@@ -31,14 +32,14 @@ static bool is_separator(const tn_rule_picture *p, uint32_t part)
 {
     const tn_part *it = tn_rule_part(p, part);
     return it->parent != TN_NO_PART && tn_rule_part(p, it->parent)->kind == TN_PART_DISTANCE &&
-           it->next == TN_NO_PART && !is_named(it);
+           it->next == TN_NO_PART && !is_named(p, part);
 }
 
 /* A neighbour has a box of its own only where it is the whole rule ("the box and symbol are omitted", section 3.2). */
 static bool is_boxed(const tn_rule_picture *p, uint32_t part)
 {
     const tn_part *it = tn_rule_part(p, part);
-    return it->kind != TN_PART_TRAY && !is_named(it) && !is_separator(p, part) &&
+    return it->kind != TN_PART_TRAY && !is_named(p, part) && !is_separator(p, part) &&
            (it->kind != TN_PART_NEIGHBOUR || it->parent == TN_NO_PART);
 }
 
@@ -85,7 +86,7 @@ static void measure_part(tn_rule_picture *p, uint32_t part)
     char text[TN_RULE_WORDS_MAX];
     if (it->kind == TN_PART_TRAY) {
         tn_draw_spec_measure(p->context, &p->roles, it->spec, &made->width, &made->height);
-    } else if (is_named(it)) {
+    } else if (is_named(p, part)) {
         char name[TN_PART_TEXT_MAX];
         tn_part_text(&p->parts, part, name, sizeof name);
         tn_type_face(p->context, TN_RULE_SIGN_SIZE, true);
@@ -224,13 +225,13 @@ static void draw_name(const tn_rule_picture *p, uint32_t part, double x, double 
 
 static void draw_inside(const tn_rule_picture *p, uint32_t part, double x, double y, tn_size room, bool mirrored)
 {
+    if (is_named(p, part)) {
+        draw_name(p, part, x, y, room);
+        return;
+    }
     switch (tn_rule_part(p, part)->kind) {
     case TN_PART_TRAY:
         tn_draw_spec(p->context, &p->roles, tn_rule_part(p, part)->spec, x, y, mirrored);
-        break;
-    case TN_PART_RULE:
-    case TN_PART_COMPARISON:
-        draw_name(p, part, x, y, room);
         break;
     case TN_PART_NEIGHBOUR:
         draw_neighbour(p, part, x, y, room, mirrored);

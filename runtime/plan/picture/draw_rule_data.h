@@ -32,6 +32,9 @@ static inline const tn_part *tn_rule_part(const tn_rule_picture *p, uint32_t par
 /* What stands on top of a part's box: the word for its kind, or its condition as its author wrote it. */
 void tn_draw_rule_words(const tn_rule_picture *p, uint32_t part, char words[TN_RULE_WORDS_MAX]);
 
+/* Is the part all of a comparison of a gap, `max(gap from a to b) <= 2`, which is made of relations? */
+bool tn_rule_is_gap(const tn_rule_picture *p, uint32_t part);
+
 void tn_draw_rule_box(cairo_t *context, double x, double y, tn_size s);
 void tn_draw_rule_dashes(cairo_t *context, double x1, double y1, double x2, double y2);
 void tn_draw_rule_arrow(cairo_t *context, double from, double to, double y);

@@ -1,10 +1,7 @@
 /* The signs of rules: words over boxes, arrows, walls, tags. */
-#include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/length.h"
 #include "runtime/draw/type.h"
 #include "runtime/plan/picture/draw_rule_data.h"
 
@@ -49,34 +46,6 @@ static bool is_every(const tn_rule_picture *p, const tn_part *it)
            tn_part_is_step(&p->parts, it->first);
 }
 
-/* In whole metres, or as plan lines have it. */
-static void write_length(int64_t nanometres, char *text, size_t size)
-{
-    const int64_t metre = 1000000000;
-    if (nanometres % metre == 0)
-        snprintf(text, size, "%" PRId64 "m", nanometres / metre);
-    else
-        tn_length_write(nanometres, text, size);
-}
-
-/* How long a gap is, of `max(gap from a to b) <= 12m`: "to, <= 12m". `every` denies that one is otherwise. */
-static void gap_words(const tn_rule_picture *p, const tn_part *it, char words[TN_RULE_WORDS_MAX])
-{
-    static const char *const opposite[][2] = {{"<=", ">"}, {">=", "<"}, {"<", ">="}, {">", "<="}};
-    const tn_part *gap = tn_rule_part(p, tn_rule_part(p, tn_rule_part(p, it->first)->next)->next);
-    char condition[TN_CONDITION_TEXT_MAX], sign[4], number[TN_CONDITION_TEXT_MAX];
-    bool denied = it->parent != TN_NO_PART && is_every(p, tn_rule_part(p, it->parent));
-    tn_condition_text(p->schema->module, gap->condition, condition);
-    if (sscanf(condition, "%*s %3s %63s", sign, number) != 2)
-        return;
-    if (gap->kind == TN_PART_SUM)
-        write_length(strtoll(number, NULL, 10), number, sizeof number);
-    const char *said = sign;
-    for (size_t i = 0; denied && i < sizeof opposite / sizeof *opposite; i++)
-        said = strcmp(sign, opposite[i][0]) == 0 ? opposite[i][1] : said;
-    snprintf(words, TN_RULE_WORDS_MAX, "to, %s %.60s", said, number);
-}
-
 /* The words between source and destination, as they are written: "within 12m of". */
 static void near_words(const tn_rule_picture *p, const tn_part *it, char words[TN_RULE_WORDS_MAX])
 {
@@ -94,8 +63,21 @@ static void near_words(const tn_rule_picture *p, const tn_part *it, char words[T
         size--;
     if (size > begin)
         snprintf(words, TN_RULE_WORDS_MAX, "%.*s", (int)(size - begin), text + begin);
-    if (strcmp(words, "to") == 0)
-        gap_words(p, it, words);
+}
+
+bool tn_rule_is_gap(const tn_rule_picture *p, uint32_t part)
+{
+    char words[TN_RULE_WORDS_MAX];
+    for (;; part = tn_rule_part(p, part)->first) {
+        const tn_part *it = tn_rule_part(p, part);
+        if (it->kind == TN_PART_NEAR || it->kind == TN_PART_FAR) {
+            near_words(p, it, words);
+            return strcmp(words, "to") == 0;
+        }
+        bool steps = it->kind == TN_PART_NOT || it->kind == TN_PART_AND || it->kind == TN_PART_OR;
+        if (!steps || it->first == TN_NO_PART || !tn_part_is_step(&p->parts, it->first))
+            return false;
+    }
 }
 
 void tn_draw_rule_words(const tn_rule_picture *p, uint32_t part, char words[TN_RULE_WORDS_MAX])
