@@ -216,16 +216,27 @@ static bool stands_after(const tn_lsp_cursor *c, const char *word)
     return false;
 }
 
-/* Is the cursor in what `sum(` adds up: in its parenthesis, or in further ones inside? */
+/* Is the cursor in a number of one tray, of `sum(`, `max(` or `min(`: in its parenthesis, or in further ones inside? */
 static bool in_tally(const tn_lsp_cursor *c)
 {
     for (size_t i = c->depth; i-- > 0;) {
-        if (tn_cursor_is(c, c->brackets[i] - 1, "sum"))
+        if (tn_cursor_is(c, c->brackets[i] - 1, "sum") || tn_cursor_is(c, c->brackets[i] - 1, "max") ||
+            tn_cursor_is(c, c->brackets[i] - 1, "min"))
             return true;
         if (tn_cursor_is_word(c, c->brackets[i] - 1, TN_AT(RULE), TN_AS_KEYWORDS))
             return false;
     }
     return false;
+}
+
+/* Of `max(gap from a to b by FIELD)`. */
+static void complete_gap(tn_lsp_cursor *c)
+{
+    tn_offer_words(c, TN_AT(DISTANCE));
+    if (c->count > 0 && tn_cursor_is(c, c->count - 1, "by"))
+        offer_fields(c, "0");
+    else
+        complete_expression(c);
 }
 
 static void complete_in_call(tn_lsp_cursor *c, size_t bracket)
@@ -235,6 +246,10 @@ static void complete_in_call(tn_lsp_cursor *c, size_t bracket)
     if (counted && stands_behind(c, bracket, ",")) {
         tn_offer_words(c, TN_AT(CONDITION));
         offer_symbols(c, TN_SYMBOL_PARAM, KIND_VALUE);
+        return;
+    }
+    if (stands_behind(c, bracket, "gap")) {
+        complete_gap(c);
         return;
     }
     if (in_tally(c) && !stands_behind(c, bracket, "of")) {

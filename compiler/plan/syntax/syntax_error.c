@@ -280,11 +280,13 @@ static bool declares_rule(const tn_parse *parse, tn_span name)
     return false;
 }
 
-/* `romo(hall, by door)`, `sectino(body roof flat)`: what stands in the parentheses can stand in none of a rule's. */
+/* `romo(hall, by door)`, `sectino(body roof flat)`, `maxx(beds of any)`: what stands in the parentheses can stand in
+ * none of a rule's. */
 static bool report_misspelled_call(tn_parse *parse, const tn_syntax_found *found)
 {
     bool values = found->after.end > found->after.begin &&
-                  (strcmp(found->name, "a name") == 0 || strcmp(found->name, "a length") == 0);
+                  (strcmp(found->name, "a name") == 0 || strcmp(found->name, "a length") == 0 ||
+                   strcmp(found->name, "`of`") == 0);
     if (parse->mode != TN_LEX_TOP ||
         (!values && !tn_token_is_word(found->name, TN_AT(DISTANCE) | TN_AT(MEETING), TN_AS_MARK)))
         return false;
@@ -298,6 +300,29 @@ static bool report_misspelled_call(tn_parse *parse, const tn_syntax_found *found
         return false;
     tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, word, "the language has no `%.*s(...)`",
                                  (int)(word.end - word.begin), parse->text + word.begin);
+    tn_suggest(parse->diagnostics, d, "%s", near);
+    return true;
+}
+
+/* `max(gapp from a to b)`: no number of a tray has a name after a name. */
+static bool report_misspelled_gap(tn_parse *parse, const tn_syntax_found *found)
+{
+    static const char from[] = "from";
+    tn_span second = found->after;
+    if (!parse->in_extreme || strcmp(found->name, "a name") != 0 || second.end - second.begin != strlen(from) ||
+        strncasecmp(parse->text + second.begin, from, strlen(from)) != 0)
+        return false;
+    size_t end = second.begin, begin;
+    while (end > 0 && isspace((unsigned char)parse->text[end - 1]))
+        end--;
+    for (begin = end; begin > 0 && isalpha((unsigned char)parse->text[begin - 1]);)
+        begin--;
+    tn_span word = {second.file, (uint32_t)begin, (uint32_t)end};
+    const char *near = nearest_of(parse, word, TN_AT(TALLY), TN_AS_MARK);
+    if (!near)
+        return false;
+    tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, word, "`%.*s` is not a word of the language",
+                                 (int)(end - begin), parse->text + begin);
     tn_suggest(parse->diagnostics, d, "%s", near);
     return true;
 }
@@ -576,10 +601,11 @@ void tn_syntax_error(tn_parse *parse, const tn_syntax_found *found, const char *
     if (parse->quiet_now || (parse->virtual_brace && span.begin == span.end))
         return; /* what led to this was reported */
     tn_expected e = {.tokens = expected, .count = count < 96 ? count : 96};
-    if (report_misspelled(parse, found, &e) || report_misspelled_call(parse, found) ||
-        report_parted_unit(parse, found) || report_digit_name(parse, found, &e) ||
-        report_parted_name(parse, found, &e) || report_two_words(parse, found, &e) ||
-        report_decimal_comma(parse, found, &e) || report_colour(parse, &e) || report_rank(parse, &e))
+    if (report_misspelled_call(parse, found) || report_misspelled(parse, found, &e) ||
+        report_misspelled_gap(parse, found) || report_parted_unit(parse, found) ||
+        report_digit_name(parse, found, &e) || report_parted_name(parse, found, &e) ||
+        report_two_words(parse, found, &e) || report_decimal_comma(parse, found, &e) || report_colour(parse, &e) ||
+        report_rank(parse, &e))
         return;
     char list[800], words[800], here[120];
     say_expected(expected, count, list, sizeof list);
