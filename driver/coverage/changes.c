@@ -289,12 +289,25 @@ static void change_bounds(tn_change_walk *walk, tn_ast_expr *sum, bool *any)
     }
 }
 
+/* The greatest becomes the least, and the other way round. */
+static void change_extreme(tn_change_walk *walk, tn_ast_expr *expr)
+{
+    bool most = expr->extreme == TN_EXTREME_MOST;
+    tn_span word = expr->node.span;
+    word.end = word.begin + (uint32_t)strlen("max");
+    if (tn_change_offer(walk, TN_CHANGE_REPLACED, word, most ? "min" : "max"))
+        expr->extreme = most ? TN_EXTREME_LEAST : TN_EXTREME_MOST;
+}
+
 /* The rules that a number counts by. */
 static void change_counted(tn_change_walk *walk, tn_ast_expr *sum)
 {
+    bool extreme = sum->kind == TN_EXPR_EXTREME || sum->kind == TN_EXPR_GAP;
+    if (extreme)
+        change_extreme(walk, sum);
     walk->in.depth++;
     for (TN_EACH(tn_ast_expr, part, sum->parts)) {
-        if (is_rule(part) && sum->kind >= TN_EXPR_NUMBER && sum->kind != TN_EXPR_MATCHES)
+        if (is_rule(part) && sum->kind >= TN_EXPR_NUMBER && sum->kind != TN_EXPR_MATCHES && !extreme)
             continue; /* the name of a number */
         if (is_rule(part))
             change_expr(walk, part, EITHER);

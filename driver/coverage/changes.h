@@ -5,8 +5,9 @@
  *   a change of its own. A specifier that always matches stands for any tray.
  * - An item or an alternative of a specifier, `beginning` or `end`, or a clause of a library is left out.
  * - A bound (of a condition, a comparison, a specifier, `total`, `trays`, a `let`) is a step lower or higher; a value
- * or a fill is the next one of its field; a flag is the opposite; a comparison without a bound takes its bound in or
+ *   or a fill is the next one of its field; a flag is the opposite; a comparison without a bound takes its bound in or
  *   leaves it out.
+ * - The greatest number becomes the least, and the other way round.
  * - A symmetric matches only as it is written, or only mirrored.
  *
  * They are numbered in the order of the text, the files in the order in which they are used, so that a number means the

@@ -18,6 +18,7 @@ golden coverage_json 'tartan test todo.plan failing.plan --coverage --json 2>/de
 golden json 'tartan test sheds.plan --json'
 golden coverage_module "tartan build sheds.plan -o $scratch/sheds.tnb; tartan test --coverage $scratch/sheds.tnb"
 golden coverage_steps 'tartan test steps.plan --coverage --library bays'
+golden coverage_extremes 'tartan test extremes.plan --coverage'
 golden coverage_limit 'tartan test parts.plan --coverage --max-states 3'
 
 golden coverage_rules 'for file in cov-prune cov-require-not; do tartan test $file.plan --coverage --json; done'
@@ -26,7 +27,7 @@ golden write_tests_none 'tartan test told.plan --write-tests'
 golden write_tests_json 'tartan test steps.plan --write-tests --library bays --json'
 
 # What coverage says of a change is what is said of a file in which it is written out; and what it writes tells what it was written for.
-for file in "$files/sheds.plan sheds" "$files/steps.plan bays" "$files/cov-require-not.plan" examples/narrow-lot/narrow.plan; do
+for file in "$files/sheds.plan sheds" "$files/steps.plan bays" "$files/extremes.plan" "$files/cov-require-not.plan" examples/narrow-lot/narrow.plan; do
     # shellcheck disable=SC2086 # a file, and perhaps a library
     python3 tests/coverage_edits.py $file >"$scratch/said" 2>&1 || fail "$(tail -n 3 "$scratch/said")"
 done
