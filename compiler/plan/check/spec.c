@@ -55,6 +55,16 @@ static bool help_order(const tn_item_reader *item, tn_diagnostic *d)
     return true;
 }
 
+/* `covered = bool`: other languages' word for a flag, which is the name of the field's only value here. */
+static bool is_truth(const tn_checked_field *field)
+{
+    static const char *const words[] = {"bool", "boolean", "truth", "logical"};
+    for (size_t i = 0; field->value_count == 1 && i < sizeof words / sizeof *words; i++)
+        if (tn_field_has(field, words[i]))
+            return true;
+    return false;
+}
+
 __attribute__((format(printf, 3, 4))) static bool bad_item(tn_item_reader *item, tn_span span, const char *format, ...)
 {
     char message[300];
@@ -79,6 +89,10 @@ __attribute__((format(printf, 3, 4))) static bool bad_item(tn_item_reader *item,
         return false;
     else if (item->word && item->field != TN_NONE)
         tn_help(item->check->diagnostics, d, "items are separated by commas, alternatives joined by `or`");
+    else if (item->field != TN_NONE && is_truth(&item->schema->fields[item->field]))
+        tn_help(item->check->diagnostics, d,
+                "`%s` can only be %s; what a tray has or has not is a flag, in the schema `%s = flag`",
+                item->schema->fields[item->field].name, legal, item->schema->fields[item->field].name);
     else if (item->field != TN_NONE && item->schema->fields[item->field].kind != TN_FIELD_FLAG)
         tn_help(item->check->diagnostics, d, "`%s` can be %s", item->schema->fields[item->field].name, legal);
     else {
