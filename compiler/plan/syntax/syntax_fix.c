@@ -57,6 +57,16 @@ static bool comes_after_number(const tn_parse *parse)
     return span.end > span.begin && parse->text[span.begin] >= '0' && parse->text[span.begin] <= '9';
 }
 
+/* Does the line begin with this word? */
+static bool on_line_of(const tn_parse *parse, const char *word)
+{
+    size_t begin = parse->span_before.begin, size = strlen(word);
+    while (begin > 0 && parse->text[begin - 1] != '\n')
+        begin--;
+    begin += strspn(parse->text + begin, " \t");
+    return strncmp(parse->text + begin, word, size) == 0 && isspace((unsigned char)parse->text[begin + size]);
+}
+
 /* Is what stands at hand a word like `measure`, which is one only before a name, and `=` comes next? */
 static bool followed_by_equals(const tn_parse *parse)
 {
@@ -464,6 +474,8 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
         return schema;
     if (parse->mode == TN_LEX_SCHEMA && tn_expects(e, "`|`"))
         return "alternatives are separated by `|`, and a field starts with `NAME =`";
+    if (parse->mode == TN_LEX_SCHEMA && strcmp(found, "`,`") == 0 && on_line_of(parse, "forbid"))
+        return "each tray that is left out has its own `forbid`: `forbid tray(a) forbid tray(b)`";
     if (parse->mode == TN_LEX_SCHEMA && tn_expects(e, "a field"))
         return "a field is written `NAME = a | b`, `NAME = 4m | 6m`, `NAME = flag` or `zone NAME = FILL(2m) | FILL`, "
                "a forbidden tray `forbid tray(...)`";

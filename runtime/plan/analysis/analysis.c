@@ -189,10 +189,10 @@ void tn_plan_analysis_mark_called(const tn_module *module, uint8_t *reached, uin
     }
 }
 
-tn_status tn_plan_analysis_compares(const tn_module *module, uint32_t function, bool *compares, tn_error *error)
+tn_status tn_plan_analysis_needs_length(const tn_module *module, uint32_t function, bool *needs, tn_error *error)
 {
     uint8_t *reached = calloc(module->FUNCTION_count + 1, 1);
-    *compares = false;
+    *needs = false;
     if (!reached)
         return tn_fail_memory(error);
     reached[function] = 1;
@@ -201,7 +201,7 @@ tn_status tn_plan_analysis_compares(const tn_module *module, uint32_t function, 
         const tn_function_record *record = &module->FUNCTION_records[f];
         for (uint32_t offset = record->code_begin; reached[f] && offset < record->code_end;) {
             tn_instruction code = tn_code_read(module->code, offset);
-            *compares |= tn_code_compares(code.opcode);
+            *needs |= tn_code_compares(code.opcode) || code.opcode == TN_OP_MIRRORED;
             offset += code.length;
         }
     }
@@ -259,12 +259,13 @@ static tn_status find_uses(tn_plan_analysis *analysis, tn_error *error)
     return ok ? TN_OK : tn_fail_memory(error);
 }
 
-/* *looked_at: is the rule a comparison of sums, or made of one, that a clause of a library of the file uses? */
+/* *looked_at: is the rule a comparison of sums or a `mirrored`, or made of one, that a clause of a library of the file
+ * uses? */
 static tn_status is_looked_at(const tn_plan_analysis *analysis, const tn_rule_record *rule, bool *looked_at,
                               tn_error *error)
 {
     const tn_module *module = analysis->schema->module;
-    tn_status status = tn_plan_analysis_compares(module, rule->holds, looked_at, error);
+    tn_status status = tn_plan_analysis_needs_length(module, rule->holds, looked_at, error);
     if (status != TN_OK || !*looked_at)
         return status;
     uint8_t *reached = calloc(module->FUNCTION_count + 1, 1);
@@ -281,8 +282,8 @@ static tn_status is_looked_at(const tn_plan_analysis *analysis, const tn_rule_re
     return TN_OK;
 }
 
-/* A rule that has no automaton for plans of any length. That is said, but not of a comparison of sums that a library of
- * the file uses: it is looked at there, within the library's lengths. */
+/* A rule that has no automaton for plans of any length. That is said, but not of a comparison of sums or a `mirrored`
+ * that a library of the file uses: it is looked at there, within the library's lengths. */
 static tn_status leave_rule(tn_plan_analysis *analysis, tn_plan_analysed_rule *rule, const tn_error *why,
                             tn_error *error)
 {

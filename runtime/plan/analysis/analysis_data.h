@@ -76,9 +76,9 @@ tn_status tn_plan_analysis_give_up(tn_plan_analysis *analysis, uint32_t rule, ui
  * lower numbers: one pass finds them all.) */
 void tn_plan_analysis_mark_called(const tn_module *module, uint8_t *reached, uint32_t first, uint32_t end);
 
-/* *compares: does the function, or one that it calls, compare sums? Its automaton may then need the library's lengths.
- */
-tn_status tn_plan_analysis_compares(const tn_module *module, uint32_t function, bool *compares, tn_error *error);
+/* *needs: does the function, or one that it calls, compare sums or ask what is mirrored? Its automaton may then need
+ * the library's lengths. */
+tn_status tn_plan_analysis_needs_length(const tn_module *module, uint32_t function, bool *needs, tn_error *error);
 
 /* The parts of the analysis, each in a file of its own. */
 tn_status tn_plan_analysis_rules(tn_plan_analysis *analysis, tn_error *error);     /* never, always, and relations */

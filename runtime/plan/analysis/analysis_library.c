@@ -22,14 +22,15 @@ static tn_status name_clause(const tn_analysed_clauses *c, size_t i, tn_error *e
     return inner.status;
 }
 
-/* A comparison of sums may have no automaton for plans of any length: it is made for the library's own. */
+/* A comparison of sums, or what has to be mirrored, may have no automaton for plans of any length: it is made for the
+ * library's own. */
 static tn_status lower_clause(tn_analysed_clauses *c, size_t i, tn_error *error)
 {
     const tn_plan_analysis *analysis = c->analysis;
     bool bounded = false;
     tn_status status = TN_OK;
     if (c->record->trays_max <= LONGEST_WITHIN)
-        status = tn_plan_analysis_compares(analysis->schema->module, c->clauses[i].holds, &bounded, error);
+        status = tn_plan_analysis_needs_length(analysis->schema->module, c->clauses[i].holds, &bounded, error);
     if (status == TN_OK && bounded && !c->within) {
         status = tn_lowering_new(analysis->classes, analysis->max_states, &c->within, error);
         if (status == TN_OK)
