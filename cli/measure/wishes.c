@@ -17,7 +17,7 @@ bool tn_job_wishes(tn_job *job, const tn_option_list *list, uint32_t least, tn_w
     for (size_t i = 0; i + 1 < list->count; i += 2) {
         bool then = strncmp(list->items[i], "then-", 5) == 0;
         if (then != (i > 0 && least == 1)) {
-            tn_help(diagnostics, tn_job_usage(job, then ? "--%s is first" : "--%s stands twice", list->items[i]),
+            tn_help(diagnostics, tn_job_usage(job, then ? "--%s is first" : "--%s is not the first", list->items[i]),
                     "the first measure is told by --least or --most, the next by --then-least or --then-most");
             return false;
         }
