@@ -93,7 +93,7 @@ void tn_lowering_free(tn_lowering *lowering)
 
 void tn_lowering_within(tn_lowering *lowering, uint32_t max_trays)
 {
-    lowering->max_trays = max_trays;
+    lowering->max_trays = max_trays > 0 ? max_trays : 1; /* 0 says that it is not known */
 }
 
 void tn_lowering_disable(tn_lowering *lowering, const uint32_t *offsets, size_t count)
