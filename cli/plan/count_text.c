@@ -178,7 +178,7 @@ static void write_spread(const tn_spread *p, FILE *out)
     const char *doc = p->doc, *unit = tn_amount_unit_name(p->bins.unit);
     char *all = tn_digits(p->d.all, true);
     fprintf(out, "%s%s%s%s%s%s of %s %s of %s\n\n", p->name, *doc ? " " : "", doc, *unit ? " (" : "", unit,
-            *unit ? ")" : "", all ? all : "", things(p), p->library);
+            *unit ? ")" : "", all ? all : "", mpz_cmp_ui(p->d.all, 1) == 0 ? p->of : things(p), p->library);
     free(all);
     if (p->d.count == 0) {
         write_without(p, out);

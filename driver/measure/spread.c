@@ -130,7 +130,7 @@ static double mean_of(const tn_spread *s)
     return number;
 }
 
-/* "12 plans of mews, 5 values" */
+/* "12 plans of mews, 5 values; 3 without a value" */
 static bool write_about(const tn_spread *s, tn_buffer *text)
 {
     char *all = tn_digits(s->d.all, true);
@@ -142,6 +142,10 @@ static bool write_about(const tn_spread *s, tn_buffer *text)
         ok = tn_buffer_printf(text, ", in bins of ") &&
              tn_amount_write((tn_amount_unit){s->bins.unit.feet, 0}, s->bins.step, text) &&
              tn_buffer_printf(text, "%s%s", *unit ? " " : "", unit);
+    char *without = ok && mpz_sgn(s->d.without) > 0 ? tn_digits(s->d.without, true) : NULL;
+    if (without)
+        ok = tn_buffer_printf(text, "; %s without a value", without);
+    free(without);
     free(all);
     return ok;
 }
