@@ -355,6 +355,8 @@ void tn_check_forbids(tn_check *check, tn_checked_schema *schema);
 void tn_check_numbers(tn_check *check, tn_checked_schema *schema);
 /* Looks for a legal tray that meets both, a value of each field; false: none was found soon. */
 bool tn_check_both(const tn_checked_spec *a, const tn_checked_spec *b, uint8_t *values);
+/* The same of one that meets `a` (NULL: any) and not `b`. */
+bool tn_check_one_alone(const tn_checked_spec *a, const tn_checked_spec *b, uint8_t *values);
 
 /* ---- extend.c: schemas made from others */
 /* Finds the schema that it is made from, and checks that first; reports circles. */
@@ -507,7 +509,7 @@ void tn_check_settle(tn_check *check);                        /* checks the rule
 
 /* ---- warnings.c */
 void tn_check_warnings(tn_check *check, const tn_ast_expr *expr);
-void tn_check_unused(tn_check *check); /* warns about rules that nothing uses */
+void tn_check_unused(tn_check *check);                                       /* warns about rules that nothing uses */
 void tn_check_weight_warnings(tn_check *check, const tn_ast_expr *quantity); /* of what single trays are weighed */
 
 /* ---- house.c: what is asked of houses */

@@ -48,18 +48,29 @@ static bool has_legal_tray(const tn_checked_schema *schema)
     return true;
 }
 
-bool tn_check_both(const tn_checked_spec *a, const tn_checked_spec *b, uint8_t *values)
+/* A legal tray that meets `a` (NULL: any), and meets `b` as wanted. */
+static bool find_tray(const tn_checked_spec *a, const tn_checked_spec *b, bool wanted, uint8_t *values)
 {
     enum { BOTH_TRIES = 1 << 16 };
-    const tn_checked_schema *schema = a->schema;
+    const tn_checked_schema *schema = b->schema;
     memset(values, 0, schema->field_count);
     for (int tries = 0; tries < BOTH_TRIES; tries++) {
-        if (meets(schema, a, values) && meets(schema, b, values) && is_legal(schema, values))
+        if ((!a || meets(schema, a, values)) && meets(schema, b, values) == wanted && is_legal(schema, values))
             return true;
         if (!next(schema, values))
             return false;
     }
     return false;
+}
+
+bool tn_check_both(const tn_checked_spec *a, const tn_checked_spec *b, uint8_t *values)
+{
+    return find_tray(a, b, true, values);
+}
+
+bool tn_check_one_alone(const tn_checked_spec *a, const tn_checked_spec *b, uint8_t *values)
+{
+    return find_tray(a, b, false, values);
 }
 
 /* Those that `of` declares: the schema, or one that it is made from. False: no more can be added. */

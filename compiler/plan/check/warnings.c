@@ -225,6 +225,26 @@ static bool is_number_of_stretch(const tn_ast_expr *expr)
            expr->kind == TN_EXPR_SUM;
 }
 
+/* The specifier of the trays that a number counts or adds up; NULL: all of them, or it is no specifier. */
+static const tn_checked_spec *counted_by(const tn_ast_expr *number)
+{
+    const tn_ast_expr *sum = number->kind == TN_EXPR_COMPARE ? (const tn_ast_expr *)number->parts.first : number;
+    const tn_ast_expr *of = (const tn_ast_expr *)sum->parts.first;
+    bool counts = sum->kind == TN_EXPR_QUANTITY || sum->kind == TN_EXPR_SUM;
+    return counts && of && of->kind == TN_EXPR_TRAY && !of->tests.first ? of->spec : NULL;
+}
+
+/* Is there a plan that tells "nowhere such a tray" from "a stretch without one"? It has what is counted without being
+ * such a tray, as often as needed, and such a tray behind that. */
+static bool is_told_apart(const tn_ast_expr *number, const tn_ast_expr *tray)
+{
+    uint8_t values[TN_FIELDS_MAX];
+    const tn_checked_spec *such = tray->spec, *counted = counted_by(number);
+    if (!such || such->broken || tray->tests.first || (counted && counted->broken))
+        return false;
+    return tn_check_both(such, such, values) && tn_check_one_alone(counted, such, values);
+}
+
 /* `sum(beds) > 2 and not tray(firedoor)` as a rule: in the whole plan there is no such tray. Whoever means a stretch
  * without one says so by `where`. */
 static void warn_and_not(tn_check *check, const tn_ast_expr *conjunction)
@@ -234,7 +254,7 @@ static void warn_and_not(tn_check *check, const tn_ast_expr *conjunction)
     const tn_ast_expr *tray = (const tn_ast_expr *)not ->parts.first;
     if (!check->rule || check->rule->ast->body != conjunction || conjunction->parts.count != 2 ||
         not ->kind != TN_EXPR_NOT || tray->kind != TN_EXPR_TRAY || !is_number_of_stretch(number) ||
-        !tn_check_wanted(check, W_NOT_IN_STRETCH))
+        !tn_check_wanted(check, W_NOT_IN_STRETCH) || !is_told_apart(number, tray))
         return;
     tn_span a = not ->node.span, b = number->node.span;
     words none = words_between(check, a.file, a.begin, a.end), count = words_between(check, b.file, b.begin, b.end);
