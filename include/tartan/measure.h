@@ -13,7 +13,8 @@
 extern "C" {
 #endif
 
-/* The unit of its values: "m", "ft2", "/m2", or "" for plain numbers; NULL where the library's trays have no such measure. */
+/* The unit of its values: "m", "ft2", "/m2", or "" for plain numbers; NULL where the library's trays have no such
+ * measure. */
 TARTAN_API const char *tartan_measure_unit(const tartan_library *library, const char *measure);
 
 /* ---- how plans are spread */

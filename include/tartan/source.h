@@ -71,9 +71,9 @@ TARTAN_SIZED(tartan_covered_part)
 
 typedef struct tartan_coverage tartan_coverage;
 
-/* Measures which small changes of the rules the tests notice. Plans are counted among all of the library's lengths (name
- * NULL: the only one of the file; in a file without one, of 1 to 4 trays). What passes max_states (0: 20,000) is not
- * counted. `watch` may be NULL. */
+/* Measures which small changes of the rules the tests notice. Plans are counted among all of the library's lengths
+ * (name NULL: the only one of the file; in a file without one, of 1 to 4 trays). What passes max_states (0: 20,000) is
+ * not counted. `watch` may be NULL. */
 TARTAN_API tartan_status tartan_source_cover(tartan_source *source, const char *library, uint32_t max_states,
                                              const tartan_watch *watch, tartan_coverage **coverage,
                                              tartan_error *error);
