@@ -109,6 +109,21 @@ char *tn_arena_copy(tn_arena *arena, const char *text, size_t length)
     return copy;
 }
 
+void *tn_arena_room(tn_arena *arena, void *items, size_t count, size_t *capacity)
+{
+    enum { FIRST = 8 };
+    if (count < *capacity)
+        return items;
+    size_t larger = *capacity ? *capacity * 2 : FIRST;
+    void *moved = tn_arena_alloc_array(arena, sizeof(void *), larger);
+    if (!moved)
+        return NULL;
+    if (count > 0)
+        memcpy(moved, items, count * sizeof(void *));
+    *capacity = larger;
+    return moved;
+}
+
 int tn_arena_failed(const tn_arena *arena)
 {
     return arena->failed;

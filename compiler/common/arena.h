@@ -15,6 +15,10 @@ void *tn_arena_alloc(tn_arena *arena, size_t size);
 void *tn_arena_alloc_array(tn_arena *arena, size_t size, size_t count); /* count items of that size */
 char *tn_arena_copy(tn_arena *arena, const char *text, size_t length);  /* with a zero byte after it */
 
+/* Room for one more item behind the `count` of an array of pointers in the arena: the array, moved where it was full,
+ * or NULL where out of memory. */
+void *tn_arena_room(tn_arena *arena, void *items, size_t count, size_t *capacity);
+
 /* Did any allocation fail? */
 int tn_arena_failed(const tn_arena *arena);
 

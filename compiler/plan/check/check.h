@@ -353,6 +353,8 @@ void tn_check_schema(tn_check *check, tn_checked_schema *schema);
 /* ---- trays.c */
 void tn_check_forbids(tn_check *check, tn_checked_schema *schema);
 void tn_check_numbers(tn_check *check, tn_checked_schema *schema);
+/* Has the tray, a value of each field, what the specifier allows? */
+bool tn_check_meets(const tn_checked_schema *schema, const tn_checked_spec *spec, const uint8_t *values);
 /* Looks for a legal tray that meets both, a value of each field; false: none was found soon. */
 bool tn_check_both(const tn_checked_spec *a, const tn_checked_spec *b, uint8_t *values);
 /* The same of one that meets `a` (NULL: any) and not `b`. */
@@ -477,8 +479,9 @@ bool tn_sum_has_extremes(const tn_sum_parts *s);
 void tn_report_quotient(tn_check *check, tn_span span); /* E0429: it does not stand alone */
 
 /* ---- comparison.c */
-void tn_check_sum_condition(tn_check *check, tn_ast_expr *sum);     /* makes comparisons of a sum's condition */
-void tn_check_tests_of_numbers(tn_check *check, tn_ast_expr *tray); /* takes the items about numbers out: `tests` */
+tn_ast_expr *tn_expr_copy(tn_check *check, const tn_ast_expr *expr); /* the node alone, in no list; NULL: no memory */
+void tn_check_sum_condition(tn_check *check, tn_ast_expr *sum);      /* makes comparisons of a sum's condition */
+void tn_check_tests_of_numbers(tn_check *check, tn_ast_expr *tray);  /* takes the items about numbers out: `tests` */
 
 /* ---- standing.c */
 void tn_check_around(tn_check *check, const tn_ast_expr *expr); /* does `where` say what lies before and behind? */

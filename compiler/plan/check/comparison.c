@@ -3,7 +3,7 @@
 
 #include "compiler/plan/check/check.h"
 
-static tn_ast_expr *copy_of(tn_check *check, const tn_ast_expr *expr)
+tn_ast_expr *tn_expr_copy(tn_check *check, const tn_ast_expr *expr)
 {
     tn_ast_expr *copy = TN_NEW(check->arena, tn_ast_expr);
     if (!copy)
@@ -32,7 +32,8 @@ static tn_ast_expr *constant(tn_check *check, const tn_ast_word *word)
 static tn_ast_expr *compared(tn_check *check, tn_span span, const tn_ast_expr *sum, tn_operator op,
                              const tn_ast_word *word, bool turned)
 {
-    tn_ast_expr *expr = make(check, TN_EXPR_COMPARE, span), *left = copy_of(check, sum), *right = constant(check, word);
+    tn_ast_expr *expr = make(check, TN_EXPR_COMPARE, span), *left = tn_expr_copy(check, sum),
+                *right = constant(check, word);
     if (!expr || !left || !right)
         return NULL;
     expr->op = op;
@@ -43,8 +44,8 @@ static tn_ast_expr *compared(tn_check *check, tn_span span, const tn_ast_expr *s
 static tn_ast_expr *within(tn_check *check, tn_span span, const tn_ast_expr *sum, const tn_ast_word *low,
                            const tn_ast_word *high)
 {
-    tn_ast_expr *expr = make(check, TN_EXPR_WITHIN, span), *value = copy_of(check, sum), *from = constant(check, low),
-                *to = constant(check, high);
+    tn_ast_expr *expr = make(check, TN_EXPR_WITHIN, span), *value = tn_expr_copy(check, sum),
+                *from = constant(check, low), *to = constant(check, high);
     if (!expr || !value || !from || !to)
         return NULL;
     expr->parts = tn_ast_append(tn_ast_append(tn_ast_one(value), from), to);
@@ -53,7 +54,7 @@ static tn_ast_expr *within(tn_check *check, tn_span span, const tn_ast_expr *sum
 
 static tn_ast_expr *divided(tn_check *check, const tn_ast_cond *cond, const tn_ast_expr *sum)
 {
-    tn_ast_expr *expr = make(check, TN_EXPR_REMAINDER, cond->node.span), *value = copy_of(check, sum),
+    tn_ast_expr *expr = make(check, TN_EXPR_REMAINDER, cond->node.span), *value = tn_expr_copy(check, sum),
                 *modulus = constant(check, cond->modulus), *rest = constant(check, cond->right);
     if (!expr || !value || !modulus || !rest)
         return NULL;
@@ -143,7 +144,7 @@ static tn_ast_expr *of_condition(tn_check *check, const tn_ast_cond *cond, const
 
 void tn_check_sum_condition(tn_check *check, tn_ast_expr *expr)
 {
-    tn_ast_expr *sum = copy_of(check, expr);
+    tn_ast_expr *sum = tn_expr_copy(check, expr);
     if (!sum)
         return;
     sum->condition = NULL;

@@ -63,16 +63,6 @@ static void note_fields(const tn_checked_schema *schema, const tn_ast_expr *figu
     }
 }
 
-static bool meets(const tn_checked_schema *schema, const tn_checked_spec *spec, const uint8_t *values)
-{
-    for (uint32_t f = 0; f < schema->field_count; f++) {
-        uint32_t bit = schema->fields[f].first_bit + values[f];
-        if (!(spec->mask[bit / 64] >> (bit % 64) & 1))
-            return false;
-    }
-    return true;
-}
-
 static bool compute(const tn_checked_schema *schema, const tn_ast_expr *figure, const uint8_t *values, mpq_t out);
 
 /* The first case that the tray meets. */
@@ -81,7 +71,7 @@ static bool compute_number(const tn_checked_schema *schema, const tn_checked_num
 {
     size_t i = 0;
     for (TN_EACH(const tn_ast_number_case, c, number->ast->cases))
-        if (meets(schema, number->specs[i++], values))
+        if (tn_check_meets(schema, number->specs[i++], values))
             return compute(schema, c->sum, values, out);
     return false;
 }
@@ -250,16 +240,6 @@ static tn_ast_expr *make(tn_check *check, tn_expr_kind kind, tn_span span, tn_as
     return expr;
 }
 
-static tn_ast_expr *copy_of(tn_check *check, const tn_ast_expr *expr)
-{
-    tn_ast_expr *copy = TN_NEW(check->arena, tn_ast_expr);
-    if (!copy)
-        return NULL;
-    *copy = *expr;
-    copy->node.next = NULL;
-    return copy;
-}
-
 /* `max(gap) <= number`: every a has a b as near, of which the opposite is what a gap must not be. `min(gap) <= number`:
  * some a has. Without `or_equal`: less. */
 static tn_ast_expr *gap_at_most(tn_check *check, tn_span span, const tn_ast_expr *gap, bool or_equal, int64_t number)
@@ -267,8 +247,8 @@ static tn_ast_expr *gap_at_most(tn_check *check, tn_span span, const tn_ast_expr
     bool every = gap->extreme == TN_EXTREME_MOST;
     tn_operator op = every ? (or_equal ? TN_GREATER : TN_AT_LEAST) : (or_equal ? TN_AT_MOST : TN_LESS);
     const tn_ast_word *by = gap->field == TN_NONE ? NULL : gap->name;
-    tn_ast_expr *source = copy_of(check, (const tn_ast_expr *)gap->parts.first),
-                *destination = copy_of(check, (const tn_ast_expr *)gap->parts.last);
+    tn_ast_expr *source = tn_expr_copy(check, (const tn_ast_expr *)gap->parts.first),
+                *destination = tn_expr_copy(check, (const tn_ast_expr *)gap->parts.last);
     tn_ast_expr *between = tn_check_gap_rule(check, span, by, op, number);
     tn_ast_expr *near = make(check, every ? TN_EXPR_EVERY_NEAR : TN_EXPR_NEAR, span, source);
     if (!near || !destination || !between)

@@ -115,16 +115,11 @@ static void check_trays(tn_check *check, tn_ast_clause *ast)
 
 static void put_weight(tn_check *check, tn_checked_library *library, tn_checked_weight *weight)
 {
-    if (library->weight_count == library->weight_capacity) {
-        size_t capacity = library->weight_capacity ? library->weight_capacity * 2 : 4;
-        tn_checked_weight **weights = TN_NEW_ARRAY(check->arena, tn_checked_weight *, capacity);
-        if (!weights)
-            return;
-        if (library->weight_count > 0)
-            memcpy(weights, library->weights, library->weight_count * sizeof *weights);
-        library->weights = weights;
-        library->weight_capacity = capacity;
-    }
+    tn_checked_weight **weights =
+        tn_arena_room(check->arena, library->weights, library->weight_count, &library->weight_capacity);
+    if (!weights)
+        return;
+    library->weights = weights;
     library->weights[library->weight_count++] = weight;
 }
 
@@ -204,16 +199,11 @@ void tn_check_weights_of(tn_check *check, tn_checked_library *library, const tn_
 
 static void put_preference(tn_check *check, tn_checked_library *library, tn_checked_preference *preference)
 {
-    if (library->preference_count == library->preference_capacity) {
-        size_t capacity = library->preference_capacity ? library->preference_capacity * 2 : 4;
-        tn_checked_preference **preferences = TN_NEW_ARRAY(check->arena, tn_checked_preference *, capacity);
-        if (!preferences)
-            return;
-        if (library->preference_count > 0)
-            memcpy(preferences, library->preferences, library->preference_count * sizeof *preferences);
-        library->preferences = preferences;
-        library->preference_capacity = capacity;
-    }
+    tn_checked_preference **preferences =
+        tn_arena_room(check->arena, library->preferences, library->preference_count, &library->preference_capacity);
+    if (!preferences)
+        return;
+    library->preferences = preferences;
     library->preferences[library->preference_count++] = preference;
     tn_names_put(&library->preference_names, preference->name, preference);
 }

@@ -10,16 +10,11 @@ enum { UNSEEN, OPEN, DONE };
 
 static void put_clause(tn_check *check, tn_checked_library *library, tn_checked_clause *clause)
 {
-    if (library->clause_count == library->clause_capacity) {
-        size_t capacity = library->clause_capacity ? library->clause_capacity * 2 : 8;
-        tn_checked_clause **clauses = TN_NEW_ARRAY(check->arena, tn_checked_clause *, capacity);
-        if (!clauses)
-            return;
-        if (library->clause_count > 0)
-            memcpy(clauses, library->clauses, library->clause_count * sizeof *clauses);
-        library->clauses = clauses;
-        library->clause_capacity = capacity;
-    }
+    tn_checked_clause **clauses =
+        tn_arena_room(check->arena, library->clauses, library->clause_count, &library->clause_capacity);
+    if (!clauses)
+        return;
+    library->clauses = clauses;
     library->clauses[library->clause_count++] = clause;
     tn_names_put(&library->clause_names, clause->name, clause);
 }

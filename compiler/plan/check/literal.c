@@ -252,14 +252,6 @@ static bool in_mask(const tn_checked_spec *spec, const tn_checked_field *field, 
     return spec->mask[bit / 64] >> (bit % 64) & 1;
 }
 
-static bool meets(const tn_checked_schema *schema, const tn_checked_spec *spec, const uint8_t *values)
-{
-    for (uint32_t f = 0; f < schema->field_count; f++)
-        if (!in_mask(spec, &schema->fields[f], values[f]))
-            return false;
-    return true;
-}
-
 static bool narrows(const tn_checked_spec *spec, const tn_checked_field *field)
 {
     for (uint32_t v = 0; v < field->value_count; v++)
@@ -293,7 +285,7 @@ static bool check_legal(tn_tray_reader *tray, tn_span place)
     if (schema->broken)
         return false;
     for (uint32_t i = 0; i < schema->forbid_count; i++) {
-        if (!meets(schema, schema->forbids[i], tray->values))
+        if (!tn_check_meets(schema, schema->forbids[i], tray->values))
             continue;
         report_forbidden(tray, schema->forbids[i], place, schema->forbid_places[i]);
         return false;

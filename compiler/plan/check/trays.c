@@ -6,7 +6,7 @@
 
 enum { TRIES = 1 << 18 };
 
-static bool meets(const tn_checked_schema *schema, const tn_checked_spec *spec, const uint8_t *values)
+bool tn_check_meets(const tn_checked_schema *schema, const tn_checked_spec *spec, const uint8_t *values)
 {
     for (uint32_t f = 0; f < schema->field_count; f++) {
         uint32_t bit = schema->fields[f].first_bit + values[f];
@@ -29,7 +29,7 @@ static bool next(const tn_checked_schema *schema, uint8_t *values)
 static bool is_legal(const tn_checked_schema *schema, const uint8_t *values)
 {
     for (uint32_t i = 0; i < schema->forbid_count; i++)
-        if (meets(schema, schema->forbids[i], values))
+        if (tn_check_meets(schema, schema->forbids[i], values))
             return false;
     return true;
 }
@@ -55,7 +55,8 @@ static bool find_tray(const tn_checked_spec *a, const tn_checked_spec *b, bool w
     const tn_checked_schema *schema = b->schema;
     memset(values, 0, schema->field_count);
     for (int tries = 0; tries < BOTH_TRIES; tries++) {
-        if ((!a || meets(schema, a, values)) && meets(schema, b, values) == wanted && is_legal(schema, values))
+        if ((!a || tn_check_meets(schema, a, values)) && tn_check_meets(schema, b, values) == wanted &&
+            is_legal(schema, values))
             return true;
         if (!next(schema, values))
             return false;
@@ -177,9 +178,9 @@ static bool covers(tn_check *check, const tn_checked_schema *schema, const tn_ch
     do {
         bool met = false;
         for (uint32_t i = 0; i < schema->forbid_count && !met; i++)
-            met = meets(schema, schema->forbids[i], values);
+            met = tn_check_meets(schema, schema->forbids[i], values);
         for (size_t i = 0; i < number->ast->cases.count && !met; i++)
-            met = meets(schema, number->specs[i], values);
+            met = tn_check_meets(schema, number->specs[i], values);
         if (!met || ++tries == TRIES) {
             report_tray(check, schema, number, values);
             return false;
