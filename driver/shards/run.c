@@ -18,14 +18,22 @@
 #define WAIT_FIRST 0.05 /* seconds until it is looked again whether others are done */
 #define WAIT_MOST 2.0   /* and at most */
 
+/* Why a thread could not go on. */
+typedef struct failure {
+    uint32_t shard;
+    tn_status status; /* TN_OK: it could */
+    tn_error error;
+} failure;
+
 typedef struct running {
     const tn_shards_job *job;
     const tn_made *made;
     mpz_t ranks;      /* how many the library has */
     tn_claimant self; /* this process */
     double start;
-    bool *done;       /* [shards]: known to be there; each is written by the thread that has the shard */
-    atomic_uint next; /* the first shard that no thread has looked at in this pass, where there is one rank */
+    bool *done;        /* [shards]: known to be there; each is written by the thread that has the shard */
+    failure *failures; /* [threads] */
+    atomic_uint next;  /* the first shard that no thread has looked at in this pass, where there is one rank */
     atomic_uint written;
     _Atomic uint64_t unread; /* plans */
     atomic_uint held;        /* by others, in this pass */
@@ -148,24 +156,39 @@ static uint64_t take(running *run)
 /* One thread's part of a pass over the shards. */
 static tn_status work(void *context, unsigned thread, size_t item, tn_error *error)
 {
-    (void)thread, (void)item;
+    (void)thread, (void)error;
     running *run = context;
+    failure *mine = &run->failures[item];
     uint32_t count = run->job->end - run->job->begin;
-    tn_status status = TN_OK;
-    while (status == TN_OK && goes_on(run)) {
+    *mine = (failure){.status = TN_OK};
+    while (mine->status == TN_OK && goes_on(run)) {
         uint64_t taken = take(run);
         if (taken >= count)
             break;
-        status = tn_watch_check(run->job->watch, error);
-        if (status == TN_OK)
-            status = do_shard(run, run->job->begin + (uint32_t)taken, error);
+        mine->shard = (uint32_t)taken;
+        mine->status = tn_watch_check(run->job->watch, &mine->error);
+        if (mine->status == TN_OK)
+            mine->status = do_shard(run, run->job->begin + mine->shard, &mine->error);
         tn_watch_tell(run->job->watch, (double)taken + 1, count);
     }
     if (run->ended && tn_ranks_several(run->job->ranks))
         run->job->ranks->take(run->job->ranks->context, count); /* the others begin none either */
-    if (status != TN_OK)
+    if (mine->status != TN_OK)
         run->failed = true;
-    return status;
+    return TN_OK;
+}
+
+/* The failure of the first shard that has one, whichever thread came to its end first: shards are taken in order, and
+ * what is taken is tried, so this is the same in every run. */
+static tn_status first_failure(const running *run, unsigned threads, tn_error *error)
+{
+    const failure *first = NULL;
+    for (const failure *f = run->failures; f < run->failures + threads; f++)
+        if (f->status != TN_OK && (!first || f->shard < first->shard))
+            first = f;
+    if (first && error)
+        *error = first->error;
+    return first ? first->status : TN_OK;
 }
 
 static tn_status wait_a_little(const running *run, double *seconds, tn_error *error)
@@ -218,6 +241,8 @@ static tn_status pass(running *run, tn_crew *crew, passed *now, tn_error *error)
     if (tn_ranks_several(ranks))
         ranks->restart(ranks->context);
     tn_status status = tn_crew_run(crew, tn_crew_threads(crew), 1, work, run, error);
+    if (status == TN_OK)
+        status = first_failure(run, tn_crew_threads(crew), error);
     *now = all_passed(run);
     return status;
 }
@@ -281,7 +306,8 @@ tn_status tn_shards_run(const tn_shards_job *job, tn_shards_done *done, tn_error
     if (!answers)
         tn_library_kept(job->ready->library, TN_ALL_LENGTHS, run.ranks);
     tn_crew *crew = tn_crew_new(job->threads, NULL);
-    tn_status status = tn_ranks_agree(job->ranks, run.done && crew ? TN_OK : tn_fail_memory(error), error);
+    run.failures = crew ? calloc(tn_crew_threads(crew), sizeof *run.failures) : NULL;
+    tn_status status = tn_ranks_agree(job->ranks, run.done && run.failures ? TN_OK : tn_fail_memory(error), error);
     if (status == TN_OK)
         status = run_all(&run, crew, &now, error);
     *done = (tn_shards_done){
@@ -293,6 +319,7 @@ tn_status tn_shards_run(const tn_shards_job *job, tn_shards_done *done, tn_error
     }
     tn_crew_free(crew);
     mpz_clear(run.ranks);
+    free(run.failures);
     free(run.done);
     return tn_ranks_agree(job->ranks, status, error);
 }
