@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/any_width.h"
 #include "runtime/field/cell_row.h"
+#include "runtime/numeric/any_width.h"
 
 typedef struct cells {
     tn_contouring *c;

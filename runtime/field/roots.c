@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/any_width.h"
 #include "runtime/field/contour_parts.h"
+#include "runtime/numeric/any_width.h"
 
 #define HALVINGS 24
 #define NEAREST (1.0 / 4096) /* of an edge: vertices keep this distance from samples, so that none meet */

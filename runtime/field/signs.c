@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/any_width.h"
 #include "runtime/field/contour_parts.h"
+#include "runtime/numeric/any_width.h"
 
 #define COARSE 4u                             /* blocks along the side of a coarse one */
 #define HALF (TN_ROW / (TN_BLOCK * TN_BLOCK)) /* layers of a row */

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "runtime/base/any_width.h"
 #include "runtime/number/noise.h"
+#include "runtime/numeric/any_width.h"
 #include "runtime/numeric/numeric.h"
 
 /* The least violation of a condition that excludes its bound. */

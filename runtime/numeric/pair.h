@@ -8,8 +8,8 @@
 #ifndef TARTAN_NUMERIC_PAIR_H
 #define TARTAN_NUMERIC_PAIR_H
 
-#include "runtime/base/any_width.h"
 #include "runtime/base/bytes.h"
+#include "runtime/numeric/any_width.h"
 
 typedef struct pair {
     double high, low;

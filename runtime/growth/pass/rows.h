@@ -5,8 +5,8 @@
 
 #include <stdint.h>
 
-#include "runtime/base/any_width.h"
 #include "runtime/geometry/vector.h"
+#include "runtime/numeric/any_width.h"
 
 #define TN_ROW 32u
 typedef double tn_row[TN_ROW];
