@@ -8,6 +8,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
 #include "runtime/base/array.h"
+#include "runtime/base/clock.h"
 
 typedef struct tn_file_seen {
     char *path;
@@ -123,15 +124,14 @@ int tn_watch_files(const tn_settings *settings, int (*once)(const tn_settings *s
         if (strcmp(settings->operands.items[i], "-") == 0)
             return refuse_standard_input(settings);
     for (;;) {
-        struct timespec begin, start, end;
+        struct timespec begin;
         clock_gettime(CLOCK_REALTIME, &begin);
-        clock_gettime(CLOCK_MONOTONIC, &start);
+        double start = tn_seconds();
         int exit_code = once(settings, &read);
-        clock_gettime(CLOCK_MONOTONIC, &end);
+        double seconds = tn_seconds() - start;
         fflush(stdout);
         for (size_t i = 0; i < settings->operands.count; i++)
             tn_files_read_add(&read, settings->operands.items[i]);
-        double seconds = (double)(end.tv_sec - start.tv_sec) + 1e-9 * (double)(end.tv_nsec - start.tv_nsec);
         const char *path = changed_since(&read, begin);
         if (!path && !tn_interrupted() && read.count > 0) {
             say(settings, "%.2f s; waiting for a change of %zu file%s; Ctrl-C ends", seconds, read.count,

@@ -1,23 +1,16 @@
 /* Shows on a terminal how far long work is. */
 #include "cli/common/progress.h"
+#include "runtime/base/clock.h"
 
 #include <stdio.h>
-#include <time.h>
 #include <unistd.h>
 
 #define SECONDS_BEFORE 0.5 /* short work shows nothing */
 #define SECONDS_BETWEEN 0.2
 
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
-}
-
 void tn_progress_begin(tn_progress *progress, const char *what, double done, double total)
 {
-    double time = now();
+    double time = tn_seconds();
     *progress = (tn_progress){.what = what,
                               .before = done,
                               .total = total,
@@ -41,7 +34,7 @@ void tn_progress_update(tn_progress *progress, double done)
 {
     if (!progress->shows)
         return;
-    double time = now();
+    double time = tn_seconds();
     if (time - progress->last < SECONDS_BETWEEN)
         return;
     progress->last = time;
@@ -66,7 +59,7 @@ void tn_progress_end(tn_progress *progress)
 static bool draw(void *context, double done, double total)
 {
     tn_progress *progress = context;
-    double time = now();
+    double time = tn_seconds();
     if (time - progress->last < SECONDS_BETWEEN)
         return true;
     progress->last = time;

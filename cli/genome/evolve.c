@@ -3,20 +3,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "ask/session/questions.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
 #include "cli/genome/evolution_session.h"
+#include "runtime/base/clock.h"
 #include "runtime/base/utf8.h"
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
-}
 
 /* ---- while it runs */
 
@@ -33,7 +26,7 @@ typedef struct watched_run {
 static void describe(watched_run *w, const tn_run_generation *g)
 {
     uint64_t invalid = g->no_sentence + g->failed + g->limited, members = invalid + g->scored;
-    double seconds = now() - w->start;
+    double seconds = tn_seconds() - w->start;
     snprintf(w->text, sizeof w->text,
              "generations; best %.5g, median %.5g, %.0f %% without score, %" PRIu64 " distinct, %.0f evaluations/s",
              g->best, g->median, members ? 100.0 * (double)invalid / (double)members : 0, g->distinct,
@@ -48,7 +41,7 @@ static void begin(watched_run *w, size_t generations, const tn_run_generation *l
     if (!w->study->asked.has_generations && tn_evolution_study_of(job->opened.module, &study))
         wanted = study.of[TN_SET_GENERATIONS].first;
     w->begun = true;
-    w->start = now();
+    w->start = tn_seconds();
     w->before = last ? last->evaluations : 0;
     snprintf(w->text, sizeof w->text, "generations");
     tn_progress_begin(&w->progress, w->text, (double)generations, wanted + 1);

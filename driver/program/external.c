@@ -3,18 +3,18 @@
 
 #include <errno.h>
 #include <inttypes.h>
-#include <stdatomic.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "driver/program/keeper.h"
 #include "driver/program/process.h"
 #include "runtime/base/array.h"
+#include "runtime/base/clock.h"
 #include "runtime/base/file_error.h"
 
 #define TICK_MS 50 /* how often a watch is looked at */
@@ -148,13 +148,6 @@ typedef struct asking {
     double since; /* when the wait for the next answer began */
 } asking;
 
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
-}
-
 /* The first that is on its way, or, with `waiting`, that is to be sent; NULL: none. */
 static tn_question *first(const asking *a, bool waiting)
 {
@@ -173,7 +166,7 @@ static void finish(asking *a, tn_question *q)
     q->done = true;
     q->sent = false;
     a->sent--;
-    a->since = now();
+    a->since = tn_seconds();
 }
 
 __attribute__((format(printf, 3, 4))) static void fail_question(asking *a, tn_question *q, const char *format, ...)
@@ -202,7 +195,7 @@ static tn_status send(asking *a, tn_question *q, tn_error *error)
     a->outgoing_size += q->size;
     q->sent = true;
     if (a->sent++ == 0)
-        a->since = now();
+        a->since = tn_seconds();
     return TN_OK;
 }
 
@@ -319,7 +312,7 @@ static tn_status turn(asking *a, tn_error *error)
         end_and_give_up(a, NULL, false);
     else if (tn_process_overlong(process))
         end_and_give_up(a, "gave an answer of more than 65536 bytes", true);
-    else if (now() - a->since > a->program->options.seconds)
+    else if (tn_seconds() - a->since > a->program->options.seconds)
         end_and_give_up(a, late, true);
     return TN_OK;
 }
@@ -355,7 +348,8 @@ static tn_status look_for_unasked(asking *a, tn_error *error)
 
 tn_status tn_external_ask(tn_external *program, unsigned thread, tn_question *questions, size_t count, tn_error *error)
 {
-    asking a = {.program = program, .thread = thread, .of = &program->of[thread], .questions = questions, .count = count};
+    asking a = {
+        .program = program, .thread = thread, .of = &program->of[thread], .questions = questions, .count = count};
     tn_status status = look_for_unasked(&a, error);
     while (status == TN_OK && (first(&a, true) || a.sent)) {
         if (!a.of->process.pid)

@@ -12,18 +12,12 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "runtime/base/clock.h"
 #include "runtime/base/file_error.h"
 #include "runtime/base/json.h"
 
 #define TOUCHES 8         /* times that a claim is touched before it would be stale */
 #define WRITTEN_WITHIN 5. /* seconds after which a claim that says nothing is of a worker killed while it made it */
-
-double tn_seconds(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
-}
 
 /* ---- this process */
 

@@ -40,7 +40,4 @@ void tn_claim_release(tn_claim *claim);
 /* Reads who holds a claim; false where there is none. */
 bool tn_claim_read(const char *path, tn_claimant *claimant);
 
-/* Seconds of a clock that only goes forward. */
-double tn_seconds(void);
-
 #endif

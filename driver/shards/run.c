@@ -13,6 +13,7 @@
 #include "driver/shards/hash.h"
 #include "driver/shards/record.h"
 #include "driver/shards/write.h"
+#include "runtime/base/clock.h"
 #include "runtime/base/crew.h"
 
 #define WAIT_FIRST 0.05 /* seconds until it is looked again whether others are done */

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "runtime/base/clock.h"
 #include "runtime/field/contour_parts.h"
 
 void tn_contour_clear(tn_contour *contour)
@@ -97,13 +97,6 @@ static tn_status drop_unused(tn_mesh *mesh, tn_error *error)
     return TN_OK;
 }
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
-}
-
 tn_status tn_contour_new(const tn_field *field, const tn_field_grid *grid, const tn_contour_options *options,
                          tn_contour *contour, tn_error *error)
 {
@@ -115,11 +108,11 @@ tn_status tn_contour_new(const tn_field *field, const tn_field_grid *grid, const
     tn_contouring c = {.field = field, .grid = grid, .options = options, .out = contour};
     tn_status status = tn_contouring_begin(&c, NULL, error);
     for (int i = 0; i < 3 && status == TN_OK; i += i == 0 && options->survey ? 2 : 1) {
-        double begun = now();
+        double begun = tn_seconds();
         status = stages[i == 2 && options->sharp ? 3 : i](&c, error);
         if (status == TN_OK && i == 0 && options->between)
             status = tn_contour_missed(&c, error);
-        contour->seconds[i] = now() - begun;
+        contour->seconds[i] = tn_seconds() - begun;
     }
     if (status == TN_OK)
         tn_contouring_count(&c);
