@@ -30,22 +30,43 @@ static void read_tokens(tn_file_analysis *analysis)
     tn_diagnostics_clear(&scratch);
 }
 
-tn_file_analysis *tn_analysis_new(const char *path, const char *text, size_t size, const tn_stdlib_dirs *stdlib,
-                                  tn_overlay *overlay, void *context)
+static tn_status compile_input(tn_file_analysis *analysis, const tn_input *input, const tn_compile_options *options)
+{
+    return tn_compile_text(tn_notation_or_first(input->name, input->text, input->size), input, options,
+                           &analysis->compilation);
+}
+
+static tn_status compile_served(tn_file_analysis *analysis, const tn_input *input, const tn_analysis_texts *texts)
+{
+    tn_served_files files;
+    tn_served_begin(&files, texts->served, texts->overlay, texts->context);
+    const tn_compile_options options = {
+        .resolver = tn_served_resolver(&files), .attachments = tn_served_attachments(&files), .partial = true};
+    tn_status status = compile_input(analysis, input, &options);
+    tn_served_clear(&files);
+    return status;
+}
+
+static tn_status compile_file(tn_file_analysis *analysis, const tn_input *input, const tn_analysis_texts *texts)
+{
+    tn_files files;
+    tn_files_begin(&files, texts->stdlib);
+    files.overlay = texts->overlay;
+    files.overlay_context = texts->context;
+    const tn_compile_options options = {
+        .resolver = tn_files_resolver(&files), .attachments = tn_file_attachments, .partial = true};
+    tn_status status = compile_input(analysis, input, &options);
+    tn_files_clear(&files);
+    return status;
+}
+
+tn_file_analysis *tn_analysis_new(const char *path, const char *text, size_t size, const tn_analysis_texts *texts)
 {
     tn_file_analysis *analysis = calloc(1, sizeof *analysis);
     if (!analysis)
         return NULL;
-    tn_files files;
-    tn_files_begin(&files, stdlib);
-    files.overlay = overlay;
-    files.overlay_context = context;
-    tn_compile_options options = {
-        .resolver = tn_files_resolver(&files), .attachments = tn_file_attachments, .partial = true};
-    tn_input input = {.text = text, .size = size, .name = path};
-    tn_status status =
-        tn_compile_text(tn_notation_or_first(path, text, size), &input, &options, &analysis->compilation);
-    tn_files_clear(&files);
+    const tn_input input = {.text = text, .size = size, .name = path};
+    tn_status status = texts->served ? compile_served(analysis, &input, texts) : compile_file(analysis, &input, texts);
     analysis->lines = calloc(analysis->compilation.sources.count + 1, sizeof *analysis->lines);
     if (analysis->compilation.sources.count > 0 && analysis->compilation.arena) {
         read_tokens(analysis);

@@ -5,7 +5,7 @@
 #include <jansson.h>
 
 #include "compiler/notation.h"
-#include "driver/open/files.h"
+#include "driver/open/served.h"
 #include "lsp/index.h"
 #include "lsp/lines.h"
 
@@ -16,10 +16,17 @@ typedef struct tn_file_analysis {
     tn_tokens tokens; /* of the text itself */
 } tn_file_analysis;
 
-/* Compiles a text; `path` is where it is or would be, a real one that ends as files of its notation do. What `overlay`
- * gives stands in for files (driver/open/files.h); it is not asked afterwards. NULL where out of memory. */
-tn_file_analysis *tn_analysis_new(const char *path, const char *text, size_t size, const tn_stdlib_dirs *stdlib,
-                                  tn_overlay *overlay, void *context);
+/* Where what a text uses comes from. What `overlay` gives stands in for files. */
+typedef struct tn_analysis_texts {
+    const tn_served *served;      /* NULL: files, and the standard library in these folders */
+    const tn_stdlib_dirs *stdlib; /* not looked at if `served` is there */
+    tn_overlay *overlay;
+    void *context;
+} tn_analysis_texts;
+
+/* Compiles a text; `path` is where it is or would be, a real one (or one of what is served) that ends as files of its
+ * notation do. The texts are not asked for afterwards. NULL where out of memory. */
+tn_file_analysis *tn_analysis_new(const char *path, const char *text, size_t size, const tn_analysis_texts *texts);
 void tn_analysis_free(tn_file_analysis *analysis);
 
 /* The lines of a source; NULL where out of memory. */

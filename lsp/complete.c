@@ -4,6 +4,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "driver/open/stdlib_texts.h"
 #include "lsp/complete_parts.h"
 
 bool tn_cursor_is(const tn_lsp_cursor *c, size_t i, const char *text)
@@ -356,21 +357,27 @@ static void complete_top(tn_lsp_cursor *c)
     }
 }
 
-static void complete_files(tn_lsp_cursor *c, const tn_workspace *workspace)
+/* By its name, without the extension, if it is of the text's own notation. */
+static void offer_library_file(tn_lsp_cursor *c, const char *file)
 {
     const char *extension = c->analysis->compilation.notation->extension;
+    size_t size = strlen(file), tail = strlen(extension);
+    if (size <= tail || strcmp(file + size - tail, extension) != 0)
+        return;
+    char *name = strndup(file, size - tail);
+    if (name)
+        tn_offer(c, name, KIND_FILE, "standard library", "1");
+    free(name);
+}
+
+static void complete_files(tn_lsp_cursor *c, const tn_workspace *workspace)
+{
+    for (size_t i = 0; workspace->served && i < tn_stdlib_text_count; i++)
+        offer_library_file(c, tn_stdlib_texts[i].name);
     for (size_t i = 0; i < workspace->stdlib.count; i++) {
         DIR *folder = opendir(workspace->stdlib.dirs[i]);
-        for (struct dirent *entry; folder && (entry = readdir(folder));) {
-            size_t size = strlen(entry->d_name);
-            size_t tail = strlen(extension);
-            if (size <= tail || strcmp(entry->d_name + size - tail, extension) != 0)
-                continue;
-            char *name = strndup(entry->d_name, size - tail);
-            if (name)
-                tn_offer(c, name, KIND_FILE, "standard library", "1");
-            free(name);
-        }
+        for (struct dirent *entry; folder && (entry = readdir(folder));)
+            offer_library_file(c, entry->d_name);
         if (folder)
             closedir(folder);
     }

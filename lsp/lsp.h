@@ -1,11 +1,5 @@
-/* The language server: the Language Server Protocol (version 3.17) over a pair of streams, for editors.
- *
- * One thread reads messages and answers them in order. What was typed is compiled when an answer needs it or when no
- * message waits, whichever is first: so a burst of keystrokes costs one compilation. What takes longer is done by a
- * second thread when typing pauses (background.h). Texts that editors have open stand
- * in for the files on the disk, also where another file uses them. Nothing that a client sends ends the server but
- * `exit`.
- */
+/* The language server for editors: an exchange (exchange.h) over a pair of streams. One thread reads messages and
+ * answers them; a second one looks at rules when typing pauses (background.h). */
 #ifndef TARTAN_LSP_LSP_H
 #define TARTAN_LSP_LSP_H
 

@@ -73,6 +73,14 @@ static bool is_used(const tn_file_analysis *analysis, const char *path)
     return false;
 }
 
+static tn_status read_file(const tn_workspace *workspace, const char *path, uint8_t **bytes, size_t *size,
+                           tn_error *error)
+{
+    const tn_served *served = workspace->served;
+    return served ? served->read(served->context, path, bytes, size, error)
+                  : tn_file_read(path, TN_SOURCE_BYTES_MAX, bytes, size, error);
+}
+
 /* Most files do not have the name at all: those are not compiled. */
 static bool visit_file(tn_workspace *workspace, tn_document *asked, const tn_symbol *symbol, const char *path,
                        tn_visit_occurrence *visit, void *context)
@@ -82,7 +90,7 @@ static bool visit_file(tn_workspace *workspace, tn_document *asked, const tn_sym
     size_t size = 0;
     bool good = true;
     if (is_open(workspace, path) || is_used(asked->analysis, path) ||
-        tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, &error) != TN_OK)
+        read_file(workspace, path, &bytes, &size, &error) != TN_OK)
         return true;
     if (memmem(bytes, size, symbol->name, strlen(symbol->name))) {
         tn_document document = {.uri = tn_path_uri(path), .path = strdup(path), .text = (char *)bytes, .size = size};
@@ -100,9 +108,17 @@ static int compare_paths(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* Where the editor has no folder open: what is beside the file that defines the name. */
-static void find_files(const tn_workspace *workspace, const tn_file_analysis *analysis, const tn_symbol *symbol,
-                       tn_rule_files *files)
+static void list_served(const tn_served *served, tn_rule_files *files)
+{
+    tn_error error;
+    if (served->read && served->list)
+        files->failed =
+            served->list(served->context, &files->paths, &files->count, &files->cut_off, &error) == TN_MEMORY;
+}
+
+/* If the editor has no folder open: what is beside the file that defines the name. */
+static void find_files_on_disk(const tn_workspace *workspace, const tn_file_analysis *analysis, const tn_symbol *symbol,
+                               tn_rule_files *files)
 {
     for (size_t i = 0; i < workspace->root_count; i++)
         tn_rule_files_find(files, workspace->roots[i], TN_FOLDER_DEPTH_MAX);
@@ -113,6 +129,15 @@ static void find_files(const tn_workspace *workspace, const tn_file_analysis *an
         tn_rule_files_find(files, path, 0);
     }
     free(path);
+}
+
+static void find_files(const tn_workspace *workspace, const tn_file_analysis *analysis, const tn_symbol *symbol,
+                       tn_rule_files *files)
+{
+    if (workspace->served)
+        list_served(workspace->served, files);
+    else
+        find_files_on_disk(workspace, analysis, symbol, files);
     if (files->count)
         qsort(files->paths, files->count, sizeof *files->paths, compare_paths);
 }

@@ -9,9 +9,15 @@
 #include "lsp/facts.h"
 #include "runtime/base/array.h"
 
-tn_status tn_workspace_open(tn_workspace *workspace, tn_error *error)
+/* What texts of the standard library are called if they are built in. */
+static const char recorded_folder[] = "<stdlib>/";
+
+tn_status tn_workspace_open(const tn_served *served, tn_workspace *workspace, tn_error *error)
 {
-    *workspace = (tn_workspace){.memory = tn_plan_memory_new(0)}; /* without it all is only found again */
+    *workspace =
+        (tn_workspace){.served = served, .memory = tn_plan_memory_new(0)}; /* without it all is only found again */
+    if (served)
+        return TN_OK;
     return tn_stdlib_dirs_find(&workspace->stdlib, error);
 }
 
@@ -69,6 +75,8 @@ bool tn_workspace_add_root(tn_workspace *workspace, const char *uri)
 
 bool tn_workspace_is_stdlib(const tn_workspace *workspace, const char *path)
 {
+    if (strncmp(path, recorded_folder, sizeof recorded_folder - 1) == 0)
+        return true;
     for (size_t i = 0; i < workspace->stdlib.count; i++) {
         const char *dir = workspace->stdlib.dirs[i];
         char real[PATH_MAX];
@@ -105,9 +113,10 @@ static void text_changed(tn_workspace *workspace, const char *path)
 }
 
 /* The file's real path, or what would be: ends so that it says the notation. */
-static char *path_of_uri(const char *uri, const char *language)
+static char *path_of_uri(const tn_workspace *workspace, const char *uri, const char *language)
 {
-    char *path = tn_uri_path(uri), *real = path ? realpath(path, NULL) : NULL, *longer = NULL;
+    char *path = tn_uri_path(uri), *longer = NULL;
+    char *real = path && !workspace->served ? realpath(path, NULL) : NULL;
     char *found = real ? real : path;
     if (real)
         free(path);
@@ -126,7 +135,7 @@ static tn_document *new_document(tn_workspace *workspace, const char *uri, const
     if (!document)
         return NULL;
     document->uri = strdup(uri);
-    document->path = path_of_uri(uri, language);
+    document->path = path_of_uri(workspace, uri, language);
     if (!document->uri || !document->path) {
         free_document(document);
         return NULL;
@@ -166,6 +175,14 @@ void tn_workspace_remove(tn_workspace *workspace, const char *uri)
         free_document(document);
         return;
     }
+}
+
+void tn_workspace_file_changed(tn_workspace *workspace, const char *uri)
+{
+    char *path = path_of_uri(workspace, uri, NULL);
+    if (path)
+        text_changed(workspace, path);
+    free(path);
 }
 
 /* ---- changes */
@@ -216,7 +233,7 @@ bool tn_workspace_change(tn_workspace *workspace, tn_document *document, const j
 
 /* ---- analysing */
 
-static bool open_text(void *context, const char *real_path, const char **text, size_t *size)
+bool tn_workspace_text(void *context, const char *real_path, const char **text, size_t *size)
 {
     const tn_workspace *workspace = context;
     for (const tn_document *document = workspace->documents; document; document = document->next) {
@@ -233,8 +250,25 @@ tn_file_analysis *tn_workspace_analyse(tn_workspace *workspace, tn_document *doc
 {
     if (!document->analysis)
         document->analysis =
-            tn_analysis_new(document->path, document->text, document->size, &workspace->stdlib, open_text, workspace);
+            tn_analysis_new(document->path, document->text, document->size,
+                            &(tn_analysis_texts){workspace->served, &workspace->stdlib, tn_workspace_text, workspace});
     return document->analysis;
+}
+
+/* A file's real path, or its path among those that are served. */
+static const char *identity_of(const tn_file_analysis *analysis, uint32_t file, const char *path)
+{
+    const tn_imports *imports = analysis->compilation.imports;
+    for (size_t i = 0; imports && i < imports->count; i++)
+        if (imports->units[i]->file == file)
+            return imports->units[i]->identity;
+    return path;
+}
+
+static char *library_uri(const char *name)
+{
+    char *uri;
+    return asprintf(&uri, "stdlib:/%s", name) < 0 ? NULL : uri;
 }
 
 char *tn_document_source_uri(const tn_document *document, uint32_t file)
@@ -242,9 +276,9 @@ char *tn_document_source_uri(const tn_document *document, uint32_t file)
     const char *path = document->analysis->compilation.sources.files[file].path;
     if (file == 0)
         return strdup(document->uri);
-    char *real = realpath(path, NULL), *uri = tn_path_uri(real ? real : path);
-    free(real);
-    return uri;
+    if (strncmp(path, recorded_folder, sizeof recorded_folder - 1) == 0)
+        return library_uri(path + sizeof recorded_folder - 1);
+    return tn_path_uri(identity_of(document->analysis, file, path));
 }
 
 json_t *tn_analysis_location(const tn_document *document, tn_span span)

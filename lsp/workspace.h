@@ -19,13 +19,15 @@ typedef struct tn_document {
 
 typedef struct tn_workspace {
     tn_document *documents;
-    char **roots; /* the folders that the editor has open */
+    const tn_served *served; /* whose files the others are; NULL: those of the file system */
+    char **roots;            /* the folders that the editor has open */
     size_t root_count;
     tn_stdlib_dirs stdlib;
     tn_plan_memory *memory; /* what was found out about libraries before; NULL where out of memory */
 } tn_workspace;
 
-tn_status tn_workspace_open(tn_workspace *workspace, tn_error *error);
+/* `served` (borrowed) may be NULL: then files are those of the file system. */
+tn_status tn_workspace_open(const tn_served *served, tn_workspace *workspace, tn_error *error);
 void tn_workspace_clear(tn_workspace *workspace);
 
 tn_document *tn_workspace_find(const tn_workspace *workspace, const char *uri);
@@ -39,9 +41,15 @@ bool tn_workspace_put(tn_workspace *workspace, const char *uri, const char *lang
                       json_int_t version);
 void tn_workspace_remove(tn_workspace *workspace, const char *uri);
 
+/* The open text of that path, a tn_overlay (driver/open/files.h) of the workspace. */
+bool tn_workspace_text(void *workspace, const char *real_path, const char **text, size_t *size);
+
 /* Applies the changes of a didChange notification. False where they make no sense (then nothing of the rest is applied)
  * or out of memory. */
 bool tn_workspace_change(tn_workspace *workspace, tn_document *document, const json_t *changes, json_int_t version);
+
+/* A file that is not open has another text now, is new or gone. */
+void tn_workspace_file_changed(tn_workspace *workspace, const char *uri);
 
 /* The analysis of the text as it is now; NULL where out of memory. Valid until the next change of any document. */
 tn_file_analysis *tn_workspace_analyse(tn_workspace *workspace, tn_document *document);
@@ -55,7 +63,8 @@ char *tn_document_source_uri(const tn_document *document, uint32_t file);
 /* Is the source in the standard library? */
 bool tn_workspace_is_stdlib(const tn_workspace *workspace, const char *path);
 
-/* A path from a `file:` URI, and back; other URIs stay as they are. The caller frees them. */
+/* A path from a `file:` URI, and back; other URIs stay as they are, and a text of the built-in standard library is at
+ * `stdlib:/NAME`. The caller frees them. */
 char *tn_uri_path(const char *uri);
 char *tn_path_uri(const char *path);
 

@@ -1,14 +1,11 @@
-/* The server's loop: messages in, answers out. */
+/* Messages in, answers out. */
+#include "lsp/exchange.h"
+
 #include <stdlib.h>
 #include <string.h>
-#include <sys/eventfd.h>
-#include <time.h>
-#include <unistd.h>
 
-#include "lsp/background.h"
 #include "lsp/features.h"
-#include "lsp/lsp.h"
-#include "lsp/wire.h"
+#include "runtime/base/clock.h"
 
 /* Error codes of JSON-RPC and of the protocol. */
 enum {
@@ -22,46 +19,41 @@ enum {
     REQUEST_FAILED = -32803,
 };
 
-enum {
-    PAUSE = 200,        /* milliseconds without an edit, after which rules are looked at in the background */
-    BACKGROUND = 60000, /* milliseconds after which that is given up */
-};
+#define PAUSE 0.2 /* seconds without an edit, after which rules are looked at */
 
-typedef struct server {
-    tn_wire wire;
+struct tn_exchange {
     tn_workspace workspace;
-    tn_background *background; /* at work, or NULL */
-    tn_document *subject;      /* what it is about; NULL where it was cancelled */
-    int wake;                  /* the event by which it says that it is done */
-    int64_t time;              /* when to begin, or, while one is at work, to give up; in milliseconds */
-    bool initialized, shut_down, exiting;
+    json_t *sent; /* an array: what the client has not taken yet, from `next` on */
+    size_t next;
+    tn_review *review;    /* at work, or NULL */
+    tn_document *subject; /* what it is about; NULL where it was cancelled */
+    double time;          /* when the next review may begin (tn_seconds) */
+    bool initialized, shut_down, ended, failed;
     int error;          /* of the request at hand; 0: none */
     const char *reason; /* what to say about it */
-} server;
+};
 
-static json_t *fail(server *s, int code, const char *reason)
+/* Says it to the client; NULL (out of memory) is a failure. */
+static void say(tn_exchange *s, json_t *message)
+{
+    if (!message || json_array_append_new(s->sent, message) != 0)
+        s->failed = true;
+}
+
+static json_t *fail(tn_exchange *s, int code, const char *reason)
 {
     s->error = code;
     s->reason = reason;
     return NULL;
 }
 
-/* ---- looking at rules in the background */
-
-static int64_t now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (int64_t)time.tv_sec * 1000 + time.tv_nsec / 1000000;
-}
+/* ---- looking at rules */
 
 /* A text has changed: what is found out about the old one is of no use, and nobody wants to wait for it. */
-static void cancel_background(server *s)
+static void cancel_review(tn_exchange *s)
 {
-    if (s->background)
-        tn_background_cancel(s->background);
-    s->subject = NULL;
-    s->time = now() + PAUSE;
+    tn_exchange_cancel(s);
+    s->time = tn_seconds() + PAUSE;
 }
 
 /* ---- what is asked about */
@@ -77,7 +69,7 @@ static const char *uri_of(const json_t *params)
     return json_string_value(json_object_get(json_object_get(params, "textDocument"), "uri"));
 }
 
-static bool find_document(server *s, const json_t *params, question *asked)
+static bool find_document(tn_exchange *s, const json_t *params, question *asked)
 {
     const char *uri = uri_of(params);
     asked->document = uri ? tn_workspace_find(&s->workspace, uri) : NULL;
@@ -89,7 +81,7 @@ static bool find_document(server *s, const json_t *params, question *asked)
     return asked->analysis != NULL;
 }
 
-static bool find_place(server *s, const json_t *params, question *asked)
+static bool find_place(tn_exchange *s, const json_t *params, question *asked)
 {
     if (!find_document(s, params, asked))
         return false;
@@ -103,10 +95,10 @@ static bool find_place(server *s, const json_t *params, question *asked)
 
 /* ---- requests */
 
-typedef json_t *answer(server *s, const json_t *params);
+typedef json_t *answer(tn_exchange *s, const json_t *params);
 
 /* The folders that the editor has open, as new editors say it or as old ones did. */
-static bool take_roots(server *s, const json_t *params)
+static bool take_roots(tn_exchange *s, const json_t *params)
 {
     const json_t *folders = json_object_get(params, "workspaceFolders"), *folder;
     const char *root = json_string_value(json_object_get(params, "rootUri"));
@@ -122,7 +114,7 @@ static bool take_roots(server *s, const json_t *params)
     return good;
 }
 
-static json_t *initialize(server *s, const json_t *params)
+static json_t *initialize(tn_exchange *s, const json_t *params)
 {
     if (!s->initialized && !take_roots(s, params))
         return NULL;
@@ -135,27 +127,27 @@ static json_t *initialize(server *s, const json_t *params)
                      "codeActionKinds", "quickfix", "serverInfo", "name", "tartan", "version", TARTAN_VERSION);
 }
 
-static json_t *shut_down(server *s, const json_t *params)
+static json_t *shut_down(tn_exchange *s, const json_t *params)
 {
     (void)params;
     s->shut_down = true;
-    cancel_background(s);
+    cancel_review(s);
     return json_null();
 }
 
-static json_t *hover(server *s, const json_t *params)
+static json_t *hover(tn_exchange *s, const json_t *params)
 {
     question a;
     return find_place(s, params, &a) ? tn_lsp_hover(a.document, a.analysis, a.offset) : NULL;
 }
 
-static json_t *definition(server *s, const json_t *params)
+static json_t *definition(tn_exchange *s, const json_t *params)
 {
     question a;
     return find_place(s, params, &a) ? tn_lsp_definition(a.document, a.analysis, a.offset) : NULL;
 }
 
-static json_t *references(server *s, const json_t *params)
+static json_t *references(tn_exchange *s, const json_t *params)
 {
     question a;
     bool declaration = json_is_true(json_object_get(json_object_get(params, "context"), "includeDeclaration"));
@@ -163,19 +155,19 @@ static json_t *references(server *s, const json_t *params)
                                      : NULL;
 }
 
-static json_t *highlight(server *s, const json_t *params)
+static json_t *highlight(tn_exchange *s, const json_t *params)
 {
     question a;
     return find_place(s, params, &a) ? tn_lsp_highlight(a.document, a.analysis, a.offset) : NULL;
 }
 
-static json_t *prepare_rename(server *s, const json_t *params)
+static json_t *prepare_rename(tn_exchange *s, const json_t *params)
 {
     question a;
     return find_place(s, params, &a) ? tn_lsp_prepare_rename(&s->workspace, a.document, a.analysis, a.offset) : NULL;
 }
 
-static json_t *rename_symbol(server *s, const json_t *params)
+static json_t *rename_symbol(tn_exchange *s, const json_t *params)
 {
     question a;
     const char *name = json_string_value(json_object_get(params, "newName")), *reason;
@@ -187,19 +179,19 @@ static json_t *rename_symbol(server *s, const json_t *params)
     return reason ? fail(s, REQUEST_FAILED, reason) : edit;
 }
 
-static json_t *completion(server *s, const json_t *params)
+static json_t *completion(tn_exchange *s, const json_t *params)
 {
     question a;
     return find_place(s, params, &a) ? tn_lsp_completion(&s->workspace, a.document, a.analysis, a.offset) : NULL;
 }
 
-static json_t *outline(server *s, const json_t *params)
+static json_t *outline(tn_exchange *s, const json_t *params)
 {
     question a;
     return find_document(s, params, &a) ? tn_lsp_outline(a.document, a.analysis) : NULL;
 }
 
-static json_t *formatting(server *s, const json_t *params)
+static json_t *formatting(tn_exchange *s, const json_t *params)
 {
     question a;
     if (!find_document(s, params, &a))
@@ -207,7 +199,7 @@ static json_t *formatting(server *s, const json_t *params)
     return tn_lsp_format(a.document);
 }
 
-static json_t *actions(server *s, const json_t *params)
+static json_t *actions(tn_exchange *s, const json_t *params)
 {
     question a;
     const json_t *range = json_object_get(params, "range");
@@ -239,17 +231,17 @@ static const struct {
     {"textDocument/codeAction", actions},
 };
 
-static void respond(server *s, const json_t *id, json_t *result)
+static void respond(tn_exchange *s, const json_t *id, json_t *result)
 {
     if (!result && !s->error)
         fail(s, INTERNAL_ERROR, "out of memory");
     json_t *answered = s->error ? json_pack("{s:s,s:O,s:{s:i,s:s}}", "jsonrpc", "2.0", "id", id, "error", "code",
                                             s->error, "message", s->reason)
                                 : json_pack("{s:s,s:O,s:o}", "jsonrpc", "2.0", "id", id, "result", result);
-    tn_wire_send(&s->wire, answered);
+    say(s, answered);
 }
 
-static void take_request(server *s, const json_t *id, const char *method, const json_t *params)
+static void take_request(tn_exchange *s, const json_t *id, const char *method, const json_t *params)
 {
     json_t *result = NULL;
     s->error = 0;
@@ -271,48 +263,63 @@ static void take_request(server *s, const json_t *id, const char *method, const 
 
 /* ---- notifications */
 
-static void did_open(server *s, const json_t *params)
+static void did_open(tn_exchange *s, const json_t *params)
 {
     const json_t *document = json_object_get(params, "textDocument");
     const char *uri = uri_of(params), *text = json_string_value(json_object_get(document, "text"));
     const char *language = json_string_value(json_object_get(document, "languageId"));
     if (!uri || !text)
         return;
-    cancel_background(s);
+    cancel_review(s);
     if (!tn_workspace_put(&s->workspace, uri, language, text, json_integer_value(json_object_get(document, "version"))))
-        s->wire.failed = true;
+        s->failed = true;
 }
 
-static void did_change(server *s, const json_t *params)
+static void did_change(tn_exchange *s, const json_t *params)
 {
     const char *uri = uri_of(params);
     tn_document *document = uri ? tn_workspace_find(&s->workspace, uri) : NULL;
     json_int_t version = json_integer_value(json_object_get(json_object_get(params, "textDocument"), "version"));
     if (!document)
         return;
-    cancel_background(s);
+    cancel_review(s);
     tn_workspace_change(&s->workspace, document, json_object_get(params, "contentChanges"), version);
 }
 
-static void notify(server *s, const char *method, json_t *params)
+static void notify(tn_exchange *s, const char *method, json_t *params)
 {
-    tn_wire_send(&s->wire, json_pack("{s:s,s:s,s:o}", "jsonrpc", "2.0", "method", method, "params", params));
+    say(s, json_pack("{s:s,s:s,s:o}", "jsonrpc", "2.0", "method", method, "params", params));
 }
 
-static void did_close(server *s, const json_t *params)
+static void did_close(tn_exchange *s, const json_t *params)
 {
     const char *uri = uri_of(params);
     if (!uri || !tn_workspace_find(&s->workspace, uri))
         return;
-    cancel_background(s);
+    cancel_review(s);
     notify(s, "textDocument/publishDiagnostics", json_pack("{s:s,s:[]}", "uri", uri, "diagnostics"));
     tn_workspace_remove(&s->workspace, uri);
 }
 
-static void take_notification(server *s, const char *method, const json_t *params)
+/* Of files that are not open. */
+static void did_change_files(tn_exchange *s, const json_t *params)
+{
+    size_t i;
+    const json_t *change;
+    json_array_foreach(json_object_get(params, "changes"), i, change)
+    {
+        const char *uri = json_string_value(json_object_get(change, "uri"));
+        if (!uri || tn_workspace_find(&s->workspace, uri))
+            continue;
+        cancel_review(s);
+        tn_workspace_file_changed(&s->workspace, uri);
+    }
+}
+
+static void take_notification(tn_exchange *s, const char *method, const json_t *params)
 {
     if (strcmp(method, "exit") == 0)
-        s->exiting = true;
+        s->ended = true;
     else if (!s->initialized || s->shut_down)
         return;
     else if (strcmp(method, "textDocument/didOpen") == 0)
@@ -321,29 +328,18 @@ static void take_notification(server *s, const char *method, const json_t *param
         did_change(s, params);
     else if (strcmp(method, "textDocument/didClose") == 0)
         did_close(s, params);
+    else if (strcmp(method, "workspace/didChangeWatchedFiles") == 0)
+        did_change_files(s, params);
 }
 
-/* ---- the loop */
-
-static void publish(server *s)
-{
-    for (tn_document *document = s->workspace.documents; document; document = document->next) {
-        if (!document->dirty)
-            continue;
-        tn_file_analysis *analysis = tn_workspace_analyse(&s->workspace, document);
-        document->dirty = false;
-        if (!analysis)
-            continue;
-        notify(s, "textDocument/publishDiagnostics", tn_lsp_diagnostics(document, analysis));
-    }
-}
+/* ---- work between messages */
 
 static bool is_due(const tn_document *document)
 {
     return document->due && document->analysis && document->analysis->compilation.module;
 }
 
-static tn_document *find_due(const server *s)
+static tn_document *find_due(const tn_exchange *s)
 {
     tn_document *document = s->workspace.documents;
     while (document && !is_due(document))
@@ -351,62 +347,79 @@ static tn_document *find_due(const server *s)
     return document;
 }
 
-/* How long to wait at most for a message; -1: for ever. */
-static int patience(const server *s)
+static bool any_dirty(const tn_exchange *s)
 {
-    if (!s->background && !find_due(s))
+    const tn_document *document = s->workspace.documents;
+    while (document && !document->dirty)
+        document = document->next;
+    return document;
+}
+
+void tn_exchange_work(tn_exchange *s)
+{
+    for (tn_document *document = s->workspace.documents; document; document = document->next) {
+        if (!document->dirty)
+            continue;
+        tn_file_analysis *analysis = tn_workspace_analyse(&s->workspace, document);
+        document->dirty = false;
+        if (analysis)
+            notify(s, "textDocument/publishDiagnostics", tn_lsp_diagnostics(document, analysis));
+    }
+}
+
+int tn_exchange_patience(const tn_exchange *s)
+{
+    if (any_dirty(s))
+        return 0;
+    if (s->review || !find_due(s))
         return -1;
-    int64_t left = s->time - now();
-    return left < 0 ? 0 : (int)left;
+    double left = s->time - tn_seconds();
+    return left < 0 ? 0 : (int)(left * 1000) + 1;
 }
 
-/* It is time to begin with the next document, or to give up the one at work. */
-static void time_is_up(server *s)
+tn_review *tn_exchange_review(tn_exchange *s)
 {
-    tn_document *document = find_due(s);
-    if (s->background && s->subject) {
-        s->subject->due = false;
-        cancel_background(s);
-    }
-    if (s->background || !document) {
-        s->time = now() + PAUSE; /* one that was cancelled is about to end */
-        return;
-    }
-    s->subject = document;
-    s->time = now() + BACKGROUND;
-    s->background = tn_background_start(&s->workspace, document, s->wake);
-    document->due = s->background != NULL;
+    tn_document *document = s->review || s->time > tn_seconds() ? NULL : find_due(s);
+    if (!document)
+        return NULL;
+    s->review = tn_review_new(&s->workspace, document);
+    s->subject = s->review ? document : NULL;
+    document->due = s->review != NULL;
+    return s->review;
 }
 
-/* Takes over what was found, if that one at work has come to its end. */
-static void take_background(server *s)
+void tn_exchange_reviewed(tn_exchange *s, tn_review *review)
 {
     tn_document *document = s->subject;
     tn_file_analysis *analysis;
     tn_facts *facts;
-    uint64_t count;
-    (void)!read(s->wake, &count, sizeof count);
-    if (!s->background || !tn_background_ended(s->background))
-        return;
-    tn_background_finish(s->background, &analysis, &facts);
-    s->background = NULL;
+    tn_review_end(review, &analysis, &facts);
+    s->review = NULL;
     s->subject = NULL;
+    if (document)
+        document->due = false;
     if (document && analysis) {
         tn_analysis_free(document->analysis);
         tn_facts_free(document->facts);
         document->analysis = analysis;
         document->facts = facts;
         document->dirty = true;
-        s->time = now();
     } else {
         tn_analysis_free(analysis);
         tn_facts_free(facts);
     }
-    if (document)
-        document->due = false;
 }
 
-static void take(server *s, const json_t *message)
+void tn_exchange_cancel(tn_exchange *s)
+{
+    if (s->review)
+        tn_review_cancel(s->review);
+    s->subject = NULL;
+}
+
+/* ---- messages */
+
+void tn_exchange_take(tn_exchange *s, const json_t *message)
 {
     const json_t *id = json_object_get(message, "id");
     const char *method = json_string_value(json_object_get(message, "method"));
@@ -417,65 +430,62 @@ static void take(server *s, const json_t *message)
         take_notification(s, method, params);
 }
 
-static void take_message(server *s)
+void tn_exchange_malformed(tn_exchange *s, const char *why)
 {
-    json_t *message;
-    tn_wire_result result = tn_wire_read(&s->wire, &message);
-    if (result == TN_WIRE_END) {
-        s->exiting = true;
-    } else if (result == TN_WIRE_MESSAGE) {
-        take(s, message);
-        json_decref(message);
-    } else {
-        json_t *null = json_null();
-        fail(s, PARSE_ERROR, s->wire.problem);
-        respond(s, null, NULL);
-        notify(s, "window/logMessage", json_pack("{s:i,s:s}", "type", LOG_ERROR, "message", s->wire.problem));
+    fail(s, PARSE_ERROR, why);
+    respond(s, json_null(), NULL);
+    notify(s, "window/logMessage", json_pack("{s:i,s:s}", "type", LOG_ERROR, "message", why));
+}
+
+json_t *tn_exchange_next(tn_exchange *s)
+{
+    json_t *message = json_array_get(s->sent, s->next);
+    if (!message) {
+        json_array_clear(s->sent);
+        s->next = 0;
+        return NULL;
     }
+    s->next++;
+    return json_incref(message);
 }
 
-static void loop(server *s)
+bool tn_exchange_ended(const tn_exchange *s)
 {
-    while (!s->exiting && !s->wire.failed) {
-        tn_wire_event event = tn_wire_wait(&s->wire, s->wake, 0);
-        if (event != TN_WIRE_INPUT) {
-            publish(s);
-            event = tn_wire_wait(&s->wire, s->wake, patience(s));
-        }
-        if (event == TN_WIRE_INPUT)
-            take_message(s);
-        else if (event == TN_WIRE_WOKEN)
-            take_background(s);
-        else
-            time_is_up(s);
-    }
+    return s->ended;
 }
 
-static void end_background(server *s)
+bool tn_exchange_shut_down(const tn_exchange *s)
 {
-    tn_file_analysis *analysis = NULL;
-    tn_facts *facts = NULL;
-    if (!s->background)
-        return;
-    tn_background_cancel(s->background);
-    tn_background_finish(s->background, &analysis, &facts);
+    return s->shut_down;
 }
 
-tn_status tn_lsp_serve(int input, FILE *output, tn_error *error)
+bool tn_exchange_failed(const tn_exchange *s)
 {
-    server s = {.wire = {.input = input, .output = output}, .wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
-    tn_status status = s.wake >= 0 ? tn_workspace_open(&s.workspace, error) : tn_fail_memory(error);
+    return s->failed;
+}
+
+/* ---- the beginning and the end */
+
+tn_status tn_exchange_new(const tn_served *served, tn_exchange **exchange, tn_error *error)
+{
+    tn_exchange *s = calloc(1, sizeof *s);
+    *exchange = s;
+    if (!s)
+        return tn_fail_memory(error);
+    s->sent = json_array();
+    tn_status status = s->sent ? tn_workspace_open(served, &s->workspace, error) : tn_fail_memory(error);
     if (status == TN_OK)
-        loop(&s);
-    if (status == TN_OK && s.wire.failed)
-        status = ferror(output) ? tn_fail(error, TN_IO, E_CANNOT_WRITE, "the client does not read what it is sent")
-                                : tn_fail_memory(error);
-    else if (status == TN_OK && !s.shut_down)
-        status = tn_fail(error, TN_INVALID, TN_CODE_NONE, "the client went away without `shutdown`");
-    end_background(&s);
-    tn_workspace_clear(&s.workspace);
-    tn_wire_clear(&s.wire);
-    if (s.wake >= 0)
-        close(s.wake);
+        return TN_OK;
+    tn_exchange_free(s);
+    *exchange = NULL;
     return status;
+}
+
+void tn_exchange_free(tn_exchange *s)
+{
+    if (!s)
+        return;
+    json_decref(s->sent);
+    tn_workspace_clear(&s->workspace);
+    free(s);
 }

@@ -1,0 +1,223 @@
+/* Finds what texts name below a folder that is served. */
+#include "driver/open/served.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "compiler/common/ldraw_library.h"
+#include "driver/open/missing.h"
+#include "driver/open/stdlib_texts.h"
+
+typedef struct tn_served_file {
+    struct tn_served_file *next;
+    char *path;
+    uint8_t *bytes; /* NULL if a text stands in for it */
+    const char *text;
+    size_t size;
+} tn_served_file;
+
+void tn_served_begin(tn_served_files *files, const tn_served *served, tn_overlay *overlay, void *context)
+{
+    *files = (tn_served_files){
+        .served = served, .overlay = overlay, .overlay_context = context, .lock = PTHREAD_MUTEX_INITIALIZER};
+}
+
+static void free_file(tn_served_file *file)
+{
+    free(file->path);
+    free(file->bytes);
+    free(file);
+}
+
+void tn_served_clear(tn_served_files *files)
+{
+    for (tn_served_file *file = files->found, *next; file; file = next) {
+        next = file->next;
+        free_file(file);
+    }
+    files->found = NULL;
+    pthread_mutex_destroy(&files->lock);
+}
+
+/* ---- paths */
+
+/* Takes the last part off a path that ends with "/": "/a/b/" to "/a/". False at the folder itself. */
+static bool leave(char *path, size_t *size)
+{
+    if (*size <= 1)
+        return false;
+    (*size)--;
+    while (path[*size - 1] != '/')
+        (*size)--;
+    return true;
+}
+
+/* Adds a relative path to that of a folder, which has room for it. False if it leads out of what is served. */
+static bool follow(char *to, size_t size, const char *path)
+{
+    while (*path) {
+        size_t length = strcspn(path, "/");
+        bool last = path[length] == '\0';
+        if (length == 2 && memcmp(path, "..", 2) == 0) {
+            if (!leave(to, &size))
+                return false;
+        } else if (length > 0 && !(length == 1 && *path == '.')) {
+            memcpy(to + size, path, length);
+            size += length;
+            if (!last)
+                to[size++] = '/';
+        }
+        path += length + !last;
+    }
+    to[size] = '\0';
+    return true;
+}
+
+static tn_status refuse(const tn_request *request, const char *why, tn_error *error)
+{
+    tn_fail(error, TN_INVALID, E_IMPORT_NOT_FOUND, "`%.300s` %s", request->path, why);
+    tn_error_help(error, "only files of the folder that is open here are read: name them from this file on");
+    return TN_INVALID;
+}
+
+/* Where what is named lies; the caller frees it. */
+static tn_status find_place(const tn_request *request, char **place, tn_error *error)
+{
+    const char *user = request->user, *slash = strrchr(user, '/');
+    size_t folder = user[0] == '/' && slash ? (size_t)(slash - user) + 1 : 0;
+    *place = NULL;
+    if (request->path[0] == '/')
+        return refuse(request, "is the path of a file somewhere on this machine", error);
+    char *made = malloc(folder + strlen(request->path) + 2);
+    if (!made)
+        return tn_fail_memory(error);
+    memcpy(made, folder ? user : "/", folder ? folder : 1);
+    if (!follow(made, folder ? folder : 1, request->path)) {
+        free(made);
+        return refuse(request, "leads out of the folder", error);
+    }
+    *place = made;
+    return TN_OK;
+}
+
+/* ---- reading */
+
+static tn_status read_text(const tn_served_files *files, tn_served_file *file, tn_error *error)
+{
+    if (files->overlay && files->overlay(files->overlay_context, file->path, &file->text, &file->size))
+        return TN_OK;
+    if (!files->served->read)
+        return tn_fail(error, TN_IO, E_CANNOT_READ, "there is no file %.300s", file->path + 1);
+    tn_status status = files->served->read(files->served->context, file->path, &file->bytes, &file->size, error);
+    file->text = (const char *)file->bytes;
+    return status;
+}
+
+/* Reads the file of that path, which becomes the file's. */
+static tn_status get(tn_served_files *files, char *place, tn_error *error)
+{
+    tn_served_file *file = calloc(1, sizeof *file);
+    if (!file) {
+        free(place);
+        return tn_fail_memory(error);
+    }
+    file->path = place;
+    tn_status status = read_text(files, file, error);
+    if (status != TN_OK) {
+        free_file(file);
+        return status;
+    }
+    file->next = files->found;
+    files->found = file;
+    return TN_OK;
+}
+
+static const tn_served_file *known(const tn_served_files *files, const char *place)
+{
+    const tn_served_file *file = files->found;
+    while (file && strcmp(file->path, place) != 0)
+        file = file->next;
+    return file;
+}
+
+static tn_status find_file(tn_served_files *files, const tn_request *request, const tn_served_file **found,
+                           tn_error *error)
+{
+    char *place;
+    tn_status status = find_place(request, &place, error);
+    if (status != TN_OK)
+        return status;
+    pthread_mutex_lock(&files->lock);
+    *found = known(files, place);
+    if (*found) {
+        free(place);
+    } else {
+        status = get(files, place, error);
+        *found = files->found;
+    }
+    pthread_mutex_unlock(&files->lock);
+    return status;
+}
+
+/* ---- what texts use */
+
+static tn_status find_used(void *context, const tn_request *request, tn_input *found, char *meant, tn_error *error)
+{
+    const tn_served_file *file;
+    (void)meant;
+    if (tn_path_is_bare(request->path)) {
+        tn_fail(error, TN_INVALID, E_IMPORT_NOT_FOUND, "the standard library has no `%.400s`", request->path);
+        tn_error_help(error, "for a file of yours write its extension too: `use \"%.200s%s\"`", request->path,
+                      request->extension);
+        return TN_INVALID;
+    }
+    tn_status status = find_file(context, request, &file, error);
+    if (status == TN_OK)
+        *found = (tn_input){.text = file->text, .size = file->size, .name = file->path};
+    return status;
+}
+
+tn_status tn_served_find(void *context, const tn_request *request, tn_input *found, char *meant, tn_error *error)
+{
+    tn_stdlib_resolver own = {{find_used, context}};
+    const tn_resolver all = tn_stdlib_resolver_of(&own);
+    return all.resolve(all.context, request, found, meant, error);
+}
+
+tn_resolver tn_served_resolver(tn_served_files *files)
+{
+    return (tn_resolver){tn_served_find, files};
+}
+
+/* ---- what lies beside them */
+
+static tn_status read_bytes(void *context, const tn_request *request, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    const tn_served_file *file;
+    if (strcmp(request->extension, TN_LDRAW_LIBRARY) == 0)
+        return tn_fail(error, TN_IO, E_CANNOT_READ, "the LDraw library, which has %.120s, is not read here",
+                       request->path);
+    tn_status status = find_file(context, request, &file, error);
+    if (status != TN_OK)
+        return status;
+    *size = file->size;
+    *bytes = malloc(file->size + 1);
+    if (!*bytes)
+        return tn_fail_memory(error);
+    memcpy(*bytes, file->text, file->size);
+    (*bytes)[file->size] = '\0';
+    return TN_OK;
+}
+
+static tn_status refuse_mesh(void *context, const tn_request *request, struct tn_mesh *mesh, tn_error *error)
+{
+    (void)context, (void)mesh;
+    tn_fail(error, TN_INVALID, E_CANNOT_READ, "the mesh %.300s is not read here", request->path);
+    tn_error_help(error, "`tartan check` reads it");
+    return TN_INVALID;
+}
+
+tn_attachments tn_served_attachments(tn_served_files *files)
+{
+    return (tn_attachments){.bytes = read_bytes, .mesh = refuse_mesh, .context = files};
+}
