@@ -7,6 +7,7 @@
 #include "ask/session/questions.h"
 #include "ask/session/session.h"
 #include "driver/open/files.h"
+#include "driver/open/served.h"
 #include "include/tartan/ask.h"
 #include "runtime/base/file.h"
 
@@ -447,6 +448,7 @@ static tartan_status ask(asked_file *file, const asking *a, answering *to, char 
     file->session.other_context = to;
     const tn_text_opener opener = {open_made, to->session};
     file->session.opener = &opener;
+    file->opened.meshes = to->session->options.resolve ? &tn_no_meshes : NULL;
     file->session.reads = to->session->options.resolve ? read_drawn : NULL;
     file->session.reads_context = to->session;
     tn_status status = a->kind->ask(&file->session, a->request, &reply);

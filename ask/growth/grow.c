@@ -6,7 +6,6 @@
 
 #include "runtime/base/array.h"
 #include "runtime/growth/faults.h"
-#include "runtime/mesh/openmesh.h"
 
 #define FORECAST_FACES 10000000.0 /* growths that will pass this many faces are announced */
 #define IDLE_STEPS 100u           /* on end without a new face: then no number of faces is waited for any more */
@@ -293,7 +292,7 @@ static tn_status prepare(run_state *run, tn_error *error)
     }
     tn_status status = tn_growth_system_read(opened->module, &g->shown->system, error);
     if (status == TN_OK)
-        status = tn_study_read(opened->module, opened->path, &tn_openmesh_reader, study, error);
+        status = tn_study_read(opened->module, opened->path, tn_opened_meshes(opened), study, error);
     if (status != TN_OK)
         return status;
     study->options.explain = g->request->explain;

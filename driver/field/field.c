@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "compiler/notation.h"
-#include "runtime/mesh/openmesh.h"
 
 static tn_status no_surface(const tn_opened *opened, const char *name, tn_error *error)
 {
@@ -47,7 +46,7 @@ tn_status tn_open_field_of(const tn_opened *opened, const char *name, tn_open_fi
         surface++;
     if (surface >= module->SURFACE_count)
         return no_surface(opened, name, error);
-    tn_status status = tn_field_meshes_read(module, &tn_openmesh_reader, opened->path, &open->meshes, error);
+    tn_status status = tn_field_meshes_read(module, tn_opened_meshes(opened), opened->path, &open->meshes, error);
     if (status == TN_OK)
         status = tn_field_read(module, (uint32_t)surface, open->meshes.items, &open->field, error);
     return status;

@@ -14,6 +14,7 @@
 #include "driver/open/suggest_file.h"
 #include "runtime/base/file.h"
 #include "runtime/load.h"
+#include "runtime/mesh/openmesh.h"
 
 static void start(const char *path, tn_opened *opened)
 {
@@ -306,6 +307,11 @@ tn_status tn_open_error(const tn_opened *opened, tn_status status, tn_error *err
 {
     return status == TN_MEMORY ? tn_fail_memory(error)
                                : tn_fail(error, status, TN_CODE_NONE, "%.400s", tn_first_error(opened));
+}
+
+const struct tn_mesh_reader *tn_opened_meshes(const tn_opened *opened)
+{
+    return opened->meshes ? opened->meshes : &tn_openmesh_reader;
 }
 
 void tn_close(tn_opened *opened)

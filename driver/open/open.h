@@ -15,6 +15,7 @@ typedef struct tn_opened {
     tn_compilation compilation; /* sources and diagnostics always; program and bytes only where compiled */
     tn_module *module;          /* NULL where opening failed */
     bool compiled;
+    const struct tn_mesh_reader *meshes; /* reads the meshes that the rules name; NULL: they are files */
 } tn_opened;
 
 /* Opens the file at `path` ("-": standard input); a name that no file has, without folder and extension, means a file
@@ -68,6 +69,9 @@ const char *tn_first_error(const tn_opened *opened);
 
 /* Puts that into an error, with the status of opening, which is returned. */
 tn_status tn_open_error(const tn_opened *opened, tn_status status, tn_error *error);
+
+/* Who reads the meshes that the rules name. */
+const struct tn_mesh_reader *tn_opened_meshes(const tn_opened *opened);
 
 void tn_close(tn_opened *opened);
 

@@ -7,6 +7,7 @@
 #include "compiler/common/ldraw_library.h"
 #include "driver/open/missing.h"
 #include "driver/open/stdlib_texts.h"
+#include "runtime/geometry/boundary_file.h"
 
 typedef struct tn_served_file {
     struct tn_served_file *next;
@@ -209,15 +210,22 @@ static tn_status read_bytes(void *context, const tn_request *request, uint8_t **
     return TN_OK;
 }
 
-static tn_status refuse_mesh(void *context, const tn_request *request, struct tn_mesh *mesh, tn_error *error)
+static tn_status refuse_mesh(void *context, const char *path, tn_mesh *mesh, tn_error *error)
 {
     (void)context, (void)mesh;
-    tn_fail(error, TN_INVALID, E_CANNOT_READ, "the mesh %.300s is not read here", request->path);
-    tn_error_help(error, "`tartan check` reads it");
+    tn_fail(error, TN_INVALID, E_CANNOT_READ, "the mesh %.300s is not read here", path);
+    tn_error_help(error, "the command `tartan` reads meshes from files");
     return TN_INVALID;
+}
+
+const tn_mesh_reader tn_no_meshes = {refuse_mesh, NULL};
+
+static tn_status refuse_attached_mesh(void *context, const tn_request *request, tn_mesh *mesh, tn_error *error)
+{
+    return refuse_mesh(context, request->path, mesh, error);
 }
 
 tn_attachments tn_served_attachments(tn_served_files *files)
 {
-    return (tn_attachments){.bytes = read_bytes, .mesh = refuse_mesh, .context = files};
+    return (tn_attachments){.bytes = read_bytes, .mesh = refuse_attached_mesh, .context = files};
 }

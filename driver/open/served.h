@@ -38,4 +38,7 @@ tn_resolver tn_served_resolver(tn_served_files *files);
 /* What lies beside the texts: pictures, models. Meshes are not read. */
 tn_attachments tn_served_attachments(tn_served_files *files);
 
+/* Reads no mesh, and says so. */
+extern const struct tn_mesh_reader tn_no_meshes;
+
 #endif
