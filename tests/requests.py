@@ -37,6 +37,7 @@ ASKED = {
         "garden:4m_|_8m_one_end_right_eaves_-_none", f"rank cottage {HOUSE}", f"rank cottage {HOUSE} --of-all",
     ],
     "unrank": ["unrank terrace 1000", "unrank cottage #10:3", "unrank cottage 77 --library cottages", "unrank lahave-houses 0 --trays 4..4"],
+    "settings": ["settings examples/market-hall/market.plan", "settings primitives", "settings bricks --used"],
     "schema": ["schema terrace", "schema cottage", "schema lahave-houses --used", "schema row-houses"],
     "pareto": ["pareto lahave-houses --trays 4..4 --least cost --most area", "pareto cottage --plan #3 --least floor-area --most bedrooms"],
     "complete": [

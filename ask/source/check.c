@@ -6,12 +6,12 @@
 #include <string.h>
 
 #include "ask/session/questions.h"
+#include "ask/source/place.h"
 #include "driver/grammar/grammar_report.h"
 #include "driver/plan/analysis.h"
 #include "driver/plan/tests.h"
 #include "driver/solid/solid.h"
 #include "runtime/base/crew.h"
-#include "runtime/base/utf8.h"
 
 /* ---- found */
 
@@ -61,32 +61,6 @@ static bool give_text(const char *text, char **to)
     return *to || !text;
 }
 
-/* From the beginning of the text; a byte order mark is no part of it. */
-static uint64_t utf16_offset(const tn_source *source, size_t offset)
-{
-    size_t mark = strncmp(source->text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
-    if (offset > source->size)
-        offset = source->size;
-    return offset > mark ? tn_utf16_units(source->text + mark, offset - mark) : 0;
-}
-
-static bool give_place(tn_sources *sources, bool has_span, tn_span span, tn_text_place *to)
-{
-    if (!has_span || span.file >= sources->count)
-        return true;
-    const tn_source *source = &sources->files[span.file];
-    const tn_place place = tn_sources_place(sources, span);
-    to->has_file = to->has_line = to->has_column = to->has_end_line = to->has_end_column = true;
-    to->has_utf16_begin = to->has_utf16_end = true;
-    to->line = place.line;
-    to->column = place.column;
-    to->end_line = place.end_line;
-    to->end_column = place.end_column;
-    to->utf16_begin = utf16_offset(source, span.begin);
-    to->utf16_end = utf16_offset(source, span.end > span.begin ? span.end : span.begin);
-    return give_text(place.path, &to->file);
-}
-
 static tn_status give_finding(tn_sources *sources, const tn_diagnostic *from, tn_check_finding *to, tn_error *error)
 {
     char code[8];
@@ -98,12 +72,12 @@ static tn_status give_finding(tn_sources *sources, const tn_diagnostic *from, tn
     bool given = give_text(to->has_code ? code : NULL, &to->code) &&
                  give_text(from->message ? from->message : "out of memory", &to->message) &&
                  give_text(from->help, &to->help) && give_text(from->replacement, &to->replacement) &&
-                 give_place(sources, from->has_span, from->span, &to->place);
+                 tn_text_place_of(sources, from->has_span, from->span, &to->place);
     for (size_t i = 0; given && i < from->note_count; i++) {
         const tn_diagnostic_note *note = &from->notes[i];
         tn_check_note *added = TN_ADD(check_note, to->notes, error);
         given = added && give_text(note->text ? note->text : "out of memory", &added->message) &&
-                give_place(sources, note->has_span, note->span, &added->place);
+                tn_text_place_of(sources, note->has_span, note->span, &added->place);
     }
     return given ? TN_OK : tn_fail_memory(error);
 }

@@ -413,15 +413,18 @@ static void list_param(tn_check *check, const tn_ast_rule *ast, bool imported, t
     *to = (tn_program_param){.name = ast->name->text,
                              .doc = ast->doc ? ast->doc->text : NULL,
                              .value = text_of(check, value->node.span),
+                             .place = ast->body->node.span,
                              .imported = imported};
     if (ast->low) {
         to->least = text_of(check, ast->low->node.span);
         to->most = text_of(check, ast->high->node.span);
     }
     to->words = ast->words.first ? TN_NEW_ARRAY(check->arena, const char *, ast->words.count) : NULL;
-    for (TN_EACH(const tn_ast_word, word, ast->words))
+    for (TN_EACH(const tn_ast_word, word, ast->words)) {
         if (to->words)
             to->words[to->word_count++] = word->text;
+        to->place = tn_span_join(((const tn_ast_node *)ast->words.first)->span, word->node.span);
+    }
 }
 
 void tn_check_list_params(tn_check *check)

@@ -52,6 +52,7 @@ typedef struct tn_allowance {
 typedef struct tn_program_param {
     const char *name, *doc;   /* doc: or NULL */
     const char *value;        /* that it has here: its default, or what it was given */
+    tn_span place;            /* of its default, or of all its words, where it is declared */
     const char *least, *most; /* its range, or NULL */
     const char **words;       /* which it is one of, or NULL: a constant */
     size_t word_count;
