@@ -1,9 +1,11 @@
-/* Whole numbers of any size: arrays of them, and how long they are. */
+/* Whole numbers of any size: arrays of them, how long they are, and their digits. */
 #ifndef TARTAN_BASE_INTEGERS_H
 #define TARTAN_BASE_INTEGERS_H
 
 #include <gmp.h>
 #include <stdlib.h>
+
+#include "runtime/base/buffer.h"
 
 /* So many zeros; NULL where out of memory. tn_integers_free frees them. */
 static inline mpz_t *tn_integers_new(size_t count)
@@ -35,5 +37,8 @@ static inline size_t tn_decimal_digits(const mpz_t number)
     mpz_clear(least);
     return size;
 }
+
+/* Appends the number's decimal digits. False where out of memory. */
+bool tn_buffer_integer(tn_buffer *buffer, const mpz_t number);
 
 #endif
