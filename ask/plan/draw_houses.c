@@ -11,6 +11,7 @@
 #include "runtime/base/integers.h"
 #include "runtime/house/picture/draw.h"
 #include "runtime/house/schedule/cost.h"
+#include "runtime/house/schedule/describe.h"
 
 enum { NAME_SIZE = 96, SAID_SIZE = 128, NOTE_SIZE = 256 };
 
@@ -69,11 +70,11 @@ static tn_status take(pictured *p, tn_house *house, tn_error *error)
 }
 
 /* Names it by its rank, or by that of its plan and its variant on that. */
-static tn_status name(pictured *p, const mpz_t rank, const mpz_t *variant, tn_error *error)
+static tn_status name(pictured *p, const mpz_t rank, mpz_srcptr variant, tn_error *error)
 {
     tn_buffer text = {0};
     bool ok = tn_buffer_append(&text, "#", 1) && tn_buffer_integer(&text, rank) &&
-              (!variant || (tn_buffer_append(&text, ":", 1) && tn_buffer_integer(&text, *variant)));
+              (!variant || (tn_buffer_append(&text, ":", 1) && tn_buffer_integer(&text, variant)));
     if (ok)
         snprintf(p->name, NAME_SIZE, "%s", text.data);
     free(text.data);
@@ -150,7 +151,7 @@ static tn_status collect_all_best(collection *c, tn_error *error)
         pictured *p = &c->items[i];
         status = tn_numbered_name(&c->search->n, &p->house, plan, variant, error);
         if (status == TN_OK)
-            status = name(p, plan, &variant, error);
+            status = name(p, plan, variant, error);
     }
     mpz_clears(plan, variant, NULL);
     return status;

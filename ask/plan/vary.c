@@ -8,6 +8,7 @@
 #include "runtime/base/integers.h"
 #include "runtime/base/nearest.h"
 #include "runtime/house/schedule/cost.h"
+#include "runtime/house/schedule/describe.h"
 
 /* The house at hand, and where its changes go. */
 typedef struct varying {

@@ -217,7 +217,7 @@ static int label_width(const tn_counted_houses *c, const tn_module *module)
 }
 
 /* At least `width` characters, with blanks behind it. */
-static void write_number(const mpz_t number, int width, FILE *out)
+static void write_digits(const mpz_t number, int width, FILE *out)
 {
     int written = (int)mpz_out_str(out, 10, number);
     fprintf(out, "%*s", written < width ? width - written : 0, "");
@@ -226,7 +226,7 @@ static void write_number(const mpz_t number, int width, FILE *out)
 static void write_label(const char *label, const mpz_t number, int labels, FILE *out)
 {
     fprintf(out, "%-*s", labels, label);
-    write_number(number, 0, out);
+    write_digits(number, 0, out);
     fputc('\n', out);
 }
 
@@ -243,7 +243,7 @@ static void write_house_lengths(const tn_counted_houses *c, int labels, FILE *ou
 static void write_named(const tn_named_big *named, int labels, FILE *out)
 {
     fprintf(out, "  %-*s ", labels - 3, named->name);
-    write_number(named->value, 0, out);
+    write_digits(named->value, 0, out);
     fputc('\n', out);
 }
 
@@ -275,9 +275,9 @@ static void write_house_clauses(const tn_counted_houses *c, int labels, FILE *ou
     fprintf(out, "%-*s%-*s%s\n", labels, "clause", COUNT_WIDTH, "keeps out", "only by it");
     for (size_t i = 0; i < c->kept_out.count; i++) {
         fprintf(out, "  %-*s ", labels - 3, c->kept_out.items[i].name);
-        write_number(c->kept_out.items[i].value, COUNT_WIDTH - 1, out);
+        write_digits(c->kept_out.items[i].value, COUNT_WIDTH - 1, out);
         fputc(' ', out);
-        write_number(c->only.items[i].value, 0, out);
+        write_digits(c->only.items[i].value, 0, out);
         fputc('\n', out);
     }
     if (c->has_states_of)

@@ -4,6 +4,7 @@
 
 #include <gmp.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/base/buffer.h"
 
@@ -39,6 +40,13 @@ static inline size_t tn_decimal_digits(const mpz_t number)
 }
 
 /* Appends the number's decimal digits. False where out of memory. */
-bool tn_buffer_integer(tn_buffer *buffer, const mpz_t number);
+static inline bool tn_buffer_integer(tn_buffer *buffer, const mpz_t number)
+{
+    if (!tn_buffer_reserve(buffer, mpz_sizeinbase(number, 10) + 1)) /* and the sign */
+        return false;
+    mpz_get_str(buffer->data + buffer->size, 10, number);
+    buffer->size += strlen(buffer->data + buffer->size);
+    return true;
+}
 
 #endif

@@ -10,7 +10,6 @@
 
 #include <gmp.h>
 
-#include "runtime/base/buffer.h"
 #include "runtime/house/solids.h"
 
 /* part: as in MATERIAL. material: a MATERIAL record, TN_NO_RECORD where the form names none for the part. */
@@ -57,9 +56,6 @@ tn_status tn_house_bill(const tn_house *house, tn_house_build *build, tn_costs *
 
 /* cost := what that costs, unrounded; unchanged after a failure. TN_MEMORY. */
 tn_status tn_house_exact_cost(const tn_house *house, tn_house_build *build, mpq_t cost, tn_error *error);
-
-/* Appends an amount of hundredths, as "12.50". False where out of memory. */
-bool tn_cost_write(tn_buffer *out, const mpz_t hundredths);
 
 /* Half up to the hundredth, as bills are written. */
 void tn_round_to_cent(mpq_t cost);
