@@ -111,7 +111,7 @@ static bool take_matrix(tn_rule_matrix *matrix, const tn_module *module, const t
 {
     size_t count = tn_plan_analysis_rule_count(analysis);
     matrix->names = calloc(count + 1, sizeof *matrix->names);
-    matrix->relations = malloc(count * count + 1);
+    matrix->relations = malloc(tn_size_of(count, count) + 1);
     if (!matrix->names || !matrix->relations)
         return false;
     matrix->count = count;

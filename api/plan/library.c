@@ -283,7 +283,7 @@ static size_t at_most_kept(const tn_library *library, uint32_t length, size_t co
     mpz_init(kept);
     tn_library_kept(library, length, kept);
     if (mpz_cmp_ui(kept, count) < 0)
-        count = mpz_get_ui(kept);
+        count = (size_t)mpz_get_ui(kept);
     mpz_clear(kept);
     return count;
 }

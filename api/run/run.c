@@ -18,9 +18,9 @@ static tn_status read_objectives(tartan_run *run, tn_error *error)
 {
     char *text = NULL;
     tn_status status = tn_run_store_get_meta(run->store, "objectives", &text, error);
-    unsigned long count = text ? strtoul(text, NULL, 10) : 1;
+    unsigned long long count = text ? strtoull(text, NULL, 10) : 1;
     free(text);
-    run->objectives = count < 1 ? 1 : count > TN_OBJECTIVES_MAX ? TN_OBJECTIVES_MAX : count;
+    run->objectives = count < 1 ? 1 : count > TN_OBJECTIVES_MAX ? TN_OBJECTIVES_MAX : (size_t)count;
     return status;
 }
 

@@ -5,6 +5,7 @@
 
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
+#include "runtime/base/array.h"
 #include "runtime/base/random.h"
 #include "runtime/genome/mapping/invert.h"
 #include "runtime/genome/mapping/mapper.h"
@@ -232,7 +233,7 @@ static tn_status map_given(const mapping_run *run)
 {
     const tn_map_request *request = run->request;
     const char *file = request->file ? request->file : "genomes";
-    size_t first = request->has_line ? (size_t)request->line : 1;
+    size_t first = request->has_line ? tn_as_size(request->line) : 1;
     tn_error error;
     for (size_t i = 0; i < request->genomes.count; i++) {
         const char *text = request->genomes.items[i];

@@ -50,7 +50,7 @@ tn_status tn_numbered_locate(tn_numbered *n, const mpz_t rank, mpz_t plan, mpz_t
     return status;
 }
 
-static bool at_most(const tn_numbered *n, unsigned long plans)
+static bool at_most(const tn_numbered *n, uint64_t plans)
 {
     mpz_t kept;
     mpz_init(kept);

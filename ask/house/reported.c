@@ -57,10 +57,12 @@ static tn_status collect(void *context, tn_house *house, const mpz_t rank, const
     (void)variant;
     reported->house = *house;
     *house = (tn_house){0};
-    if (gmp_asprintf(&reported->name, "#%Zd", rank) < 0) {
-        reported->name = NULL;
+    tn_buffer name = {0};
+    tn_buffer_append(&name, "#", 1);
+    tn_buffer_integer(&name, rank);
+    reported->name = name.data;
+    if (name.failed)
         return tn_fail_memory(error);
-    }
     return tn_house_solids(&reported->house, &reported->solids, error);
 }
 

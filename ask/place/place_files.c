@@ -5,6 +5,7 @@
 
 #include "ask/place/parts.h"
 #include "ask/place/placing.h"
+#include "runtime/base/array.h"
 
 /* Pictures and meshes show the parts of a kit. */
 static tn_status has_shapes(const tn_model_placing *p, tn_error *error)
@@ -25,7 +26,7 @@ bool tn_placing_read_steps(const char *text, tn_steps_wish *wish)
     if (wish->layers || strcmp(text, "part") == 0)
         return true;
     unsigned long long count = strtoull(text, &end, 10);
-    wish->parts = (size_t)count;
+    wish->parts = tn_as_size(count);
     return isdigit((unsigned char)*text) && !*end && count >= 1 && count <= TN_STEP_PARTS_MAX;
 }
 

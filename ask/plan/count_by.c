@@ -24,7 +24,7 @@ static tn_status choose_bins(tn_session *session, const tn_count_request *reques
     if (!bins->binned)
         return TN_OK;
     if (!step)
-        tn_bins_few(bins, request->has_bins ? (unsigned long)request->bins : TN_BINS_DEFAULT);
+        tn_bins_few(bins, request->has_bins ? request->bins : TN_BINS_DEFAULT);
     return tn_bins_at_most(bins, TN_BINS_MAX)
                ? TN_OK
                : tn_session_refuse(session, "give a greater one", "the step makes more than %u bins", TN_BINS_MAX);

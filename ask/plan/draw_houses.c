@@ -8,8 +8,10 @@
 #include "ask/plan/draw.h"
 #include "driver/house/change_text.h"
 #include "driver/open/digits.h"
+#include "runtime/base/integers.h"
 #include "runtime/house/picture/draw.h"
 #include "runtime/house/schedule/cost.h"
+#include "runtime/house/schedule/describe.h"
 
 enum { NAME_SIZE = 96, SAID_SIZE = 128, NOTE_SIZE = 256 };
 
@@ -37,11 +39,12 @@ static tn_status say_cost(pictured *p, size_t used, tn_error *error)
         return TN_OK;
     tn_status status = tn_house_costs(&p->house, &p->solids, &costs, error);
     if (status == TN_OK) {
-        mpz_t whole;
-        mpz_init(whole);
-        mpz_fdiv_q_ui(whole, costs.hundredths, 100);
-        gmp_snprintf(p->said + used, SAID_SIZE - used, ", cost %Zd.%02lu", whole, mpz_fdiv_ui(costs.hundredths, 100));
-        mpz_clear(whole);
+        tn_buffer cost = {0};
+        if (tn_cost_write(&cost, costs.hundredths))
+            snprintf(p->said + used, SAID_SIZE - used, ", cost %s", cost.data);
+        else
+            status = tn_fail_memory(error);
+        free(cost.data);
     }
     tn_costs_clear(&costs);
     return status;
@@ -66,6 +69,18 @@ static tn_status take(pictured *p, tn_house *house, tn_error *error)
     return tn_house_solids(&p->house, &p->solids, error);
 }
 
+/* Names it by its rank, or by that of its plan and its variant on that. */
+static tn_status name(pictured *p, const mpz_t rank, mpz_srcptr variant, tn_error *error)
+{
+    tn_buffer text = {0};
+    bool ok = tn_buffer_append(&text, "#", 1) && tn_buffer_integer(&text, rank) &&
+              (!variant || (tn_buffer_append(&text, ":", 1) && tn_buffer_integer(&text, variant)));
+    if (ok)
+        snprintf(p->name, NAME_SIZE, "%s", text.data);
+    free(text.data);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
 /* ---- a sample */
 
 static tn_status collect_drawn(void *context, tn_house *house, const mpz_t rank, const mpz_t variant, tn_error *error)
@@ -73,8 +88,9 @@ static tn_status collect_drawn(void *context, tn_house *house, const mpz_t rank,
     (void)variant;
     collection *c = context;
     pictured *p = &c->items[c->count++];
-    gmp_snprintf(p->name, NAME_SIZE, "#%Zd", rank);
-    tn_status status = take(p, house, error);
+    tn_status status = name(p, rank, NULL, error);
+    if (status == TN_OK)
+        status = take(p, house, error);
     return status == TN_OK ? describe(p, error) : status;
 }
 
@@ -134,7 +150,8 @@ static tn_status collect_all_best(collection *c, tn_error *error)
     for (size_t i = 0; status == TN_OK && i < c->count; i++) {
         pictured *p = &c->items[i];
         status = tn_numbered_name(&c->search->n, &p->house, plan, variant, error);
-        gmp_snprintf(p->name, NAME_SIZE, "#%Zd:%Zd", plan, variant);
+        if (status == TN_OK)
+            status = name(p, plan, variant, error);
     }
     mpz_clears(plan, variant, NULL);
     return status;

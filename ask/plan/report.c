@@ -7,6 +7,7 @@
 #include "driver/house/judge.h"
 #include "driver/report/kit_report.h"
 #include "driver/report/report.h"
+#include "runtime/base/array.h"
 #include "runtime/plan/library/alone.h"
 
 #define SAMPLES_DEFAULT 24
@@ -137,7 +138,7 @@ static tn_status make_kit(reporting *r)
 {
     const tn_report_request *request = r->request;
     const tn_kit_report_options options = {.seed = (uint32_t)request->seed,
-                                           .pictures = (size_t)request->pictures,
+                                           .pictures = tn_as_size(request->pictures),
                                            .part_limit = request->part_limit,
                                            .step_limit = request->step_limit,
                                            .search_limit = request->search_limit,

@@ -5,8 +5,10 @@
 #include "ask/house/numbered.h"
 #include "ask/session/questions.h"
 #include "driver/house/change_text.h"
+#include "runtime/base/integers.h"
 #include "runtime/base/nearest.h"
 #include "runtime/house/schedule/cost.h"
+#include "runtime/house/schedule/describe.h"
 
 /* The house at hand, and where its changes go. */
 typedef struct varying {
@@ -34,17 +36,37 @@ static tn_status cost_of(const tn_house *house, mpz_t hundredths, tn_error *erro
     return status;
 }
 
-/* "+12.50"; the caller frees it. */
+/* What is written, or NULL where out of memory; the caller frees it. */
+static char *take_text(tn_buffer *text)
+{
+    if (!text->failed)
+        return text->data;
+    free(text->data);
+    return NULL;
+}
+
+/* "+12.50" */
 static char *money(const varying *v)
 {
-    char *text = NULL;
-    mpz_t whole;
-    mpz_init(whole);
-    unsigned long rest = mpz_tdiv_q_ui(whole, v->more, 100);
-    mpz_abs(whole, whole);
-    gmp_asprintf(&text, "%c%Zd.%02lu", mpz_sgn(v->more) < 0 ? '-' : '+', whole, rest);
-    mpz_clear(whole);
-    return text;
+    tn_buffer text = {0};
+    mpz_t more;
+    mpz_init(more);
+    mpz_abs(more, v->more);
+    tn_buffer_append(&text, mpz_sgn(v->more) < 0 ? "-" : "+", 1);
+    tn_cost_write(&text, more);
+    mpz_clear(more);
+    return take_text(&text);
+}
+
+/* The house by the rank of its plan and its variant on that. */
+static char *name_house(const varying *v)
+{
+    tn_buffer text = {0};
+    tn_buffer_append(&text, "#", 1);
+    tn_buffer_integer(&text, v->plan);
+    tn_buffer_append(&text, ":", 1);
+    tn_buffer_integer(&text, v->variant);
+    return take_text(&text);
 }
 
 static tn_status set_words(const varying *v, const tn_house_change *change, tn_varied_house *to, tn_error *error)
@@ -80,8 +102,7 @@ static tn_status add_change(void *context, const tn_house_change *change, const 
     mpz_sub(v->more, v->more, v->cost);
     to->has_cost = tn_form_has_costs(v->house->form);
     to->cost = to->has_cost ? money(v) : NULL;
-    if (gmp_asprintf(&to->house, "#%Zd:%Zd", v->plan, v->variant) < 0)
-        to->house = NULL;
+    to->house = name_house(v);
     return to->house && (to->cost || !to->has_cost) ? TN_OK : tn_fail_memory(error);
 }
 

@@ -7,6 +7,7 @@
 #include "compiler/plan/syntax/program.h"
 #include "driver/open/again.h"
 #include "driver/open/digits.h"
+#include "runtime/base/array.h"
 #include "runtime/plan/match/vm.h"
 #include "runtime/plan/schema/value.h"
 
@@ -131,7 +132,7 @@ static tn_status judge_part(const reader *r, tn_plan_vm *vm, tn_tray tray, tn_sp
 static tn_status judge_parts(const reader *r, tn_spelled *spelled, tn_error *error)
 {
     tn_plan_vm *vm = NULL;
-    spelled->fits = calloc(spelled->count * r->schema->tray_count + 1, sizeof *spelled->fits);
+    spelled->fits = calloc(tn_size_of(spelled->count, r->schema->tray_count) + 1, sizeof *spelled->fits);
     if (!spelled->fits)
         return tn_fail_memory(error);
     tn_status status = tn_plan_vm_new(spelled->schema, 1, &vm, error);
@@ -448,7 +449,7 @@ static void count_plans(const tn_spelled *w, const tn_schema *schema, mpz_t plan
 {
     mpz_set_ui(plans, 1);
     for (size_t i = 0; i < w->count; i++) {
-        unsigned long fit = 0;
+        uint64_t fit = 0;
         for (tn_tray tray = 0; tray < schema->tray_count; tray++)
             fit += fits_of(w, schema, i)[tray];
         mpz_mul_ui(plans, plans, fit);

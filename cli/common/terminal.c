@@ -2,6 +2,8 @@
 #include "cli/common/terminal.h"
 
 #include <stdio.h>
+
+#ifdef __GLIBC__ /* the one C library that we know of in which `stdout` can be another stream */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -75,3 +77,8 @@ void tn_terminal_guard(void)
     setvbuf(guarded, NULL, _IOLBF, 0);
     stdout = guarded;
 }
+#else
+void tn_terminal_guard(void)
+{
+}
+#endif

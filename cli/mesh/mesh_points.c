@@ -29,7 +29,7 @@ static void write_lines(tn_job *job, const tn_probe *probe, const char *path, FI
     double place[3], gradient[3];
     tn_file_state before = tn_file_state_of(fileno(in));
     tn_error error;
-    for (unsigned long number = 1; fgets(line, sizeof line, in); number++) {
+    for (size_t number = 1; fgets(line, sizeof line, in); number++) {
         if (tn_interrupt_check(&error) != TN_OK) {
             tn_job_fail(job, &error);
             return;
@@ -38,7 +38,7 @@ static void write_lines(tn_job *job, const tn_probe *probe, const char *path, FI
             continue;
         if (!read_place(line, place)) {
             if (tn_file_state_same(&before, fileno(in), path, &error) == TN_OK) {
-                tn_fail(&error, TN_INVALID, E_EXPRESSION, "line %lu of %.200s is not three numbers", number, path);
+                tn_fail(&error, TN_INVALID, E_EXPRESSION, "line %zu of %.200s is not three numbers", number, path);
                 tn_error_help(&error, "write x, y and z with blanks between them");
             }
             tn_job_fail(job, &error);

@@ -216,9 +216,18 @@ static int label_width(const tn_counted_houses *c, const tn_module *module)
     return width;
 }
 
+/* At least `width` characters, with blanks behind it. */
+static void write_digits(const mpz_t number, int width, FILE *out)
+{
+    int written = (int)mpz_out_str(out, 10, number);
+    fprintf(out, "%*s", written < width ? width - written : 0, "");
+}
+
 static void write_label(const char *label, const mpz_t number, int labels, FILE *out)
 {
-    gmp_fprintf(out, "%-*s%Zd\n", labels, label, number);
+    fprintf(out, "%-*s", labels, label);
+    write_digits(number, 0, out);
+    fputc('\n', out);
 }
 
 static void write_house_lengths(const tn_counted_houses *c, int labels, FILE *out)
@@ -231,6 +240,13 @@ static void write_house_lengths(const tn_counted_houses *c, int labels, FILE *ou
     }
 }
 
+static void write_named(const tn_named_big *named, int labels, FILE *out)
+{
+    fprintf(out, "  %-*s ", labels - 3, named->name);
+    write_digits(named->value, 0, out);
+    fputc('\n', out);
+}
+
 /* Choices that leave nothing to choose are left out. */
 static void write_sections(const tn_counted_houses *c, int labels, FILE *out)
 {
@@ -240,7 +256,7 @@ static void write_sections(const tn_counted_houses *c, int labels, FILE *out)
             continue;
         fprintf(out, "%s\n", choice->name);
         for (size_t k = 0; k < choice->values.count; k++)
-            gmp_fprintf(out, "  %-*s %Zd\n", labels - 3, choice->values.items[k].name, choice->values.items[k].value);
+            write_named(&choice->values.items[k], labels, out);
     }
 }
 
@@ -255,11 +271,15 @@ static void write_house_states(const tn_counted_houses *c, int labels, FILE *out
 
 static void write_house_clauses(const tn_counted_houses *c, int labels, FILE *out)
 {
-    gmp_fprintf(out, "%-*s%Zd\n%-*s%-*s%s\n", labels, "without clauses", c->without_clauses, labels, "clause",
-                COUNT_WIDTH, "keeps out", "only by it");
-    for (size_t i = 0; i < c->kept_out.count; i++)
-        gmp_fprintf(out, "  %-*s %-*Zd %Zd\n", labels - 3, c->kept_out.items[i].name, COUNT_WIDTH - 1,
-                    c->kept_out.items[i].value, c->only.items[i].value);
+    write_label("without clauses", c->without_clauses, labels, out);
+    fprintf(out, "%-*s%-*s%s\n", labels, "clause", COUNT_WIDTH, "keeps out", "only by it");
+    for (size_t i = 0; i < c->kept_out.count; i++) {
+        fprintf(out, "  %-*s ", labels - 3, c->kept_out.items[i].name);
+        write_digits(c->kept_out.items[i].value, COUNT_WIDTH - 1, out);
+        fputc(' ', out);
+        write_digits(c->only.items[i].value, 0, out);
+        fputc('\n', out);
+    }
     if (c->has_states_of)
         write_house_states(c, labels, out);
 }

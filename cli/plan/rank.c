@@ -16,12 +16,13 @@ static void write_text(const tn_reply *answer, FILE *out)
 {
     const tn_ranked_plan *plan = TN_REPLY(ranked_plan, answer);
     const tn_ranked_house *house = TN_REPLY(ranked_house, answer);
-    if (plan)
-        gmp_fprintf(out, "%Zd\n", plan->rank);
-    else if (house->has_rank)
-        gmp_fprintf(out, "#%Zd\n", house->rank);
-    else
-        gmp_fprintf(out, "#%Zd:%Zd\n", house->plan, house->variant);
+    fputs(plan ? "" : "#", out);
+    mpz_out_str(out, 10, plan ? plan->rank : house->has_rank ? house->rank : house->plan);
+    if (!plan && !house->has_rank) {
+        fputc(':', out);
+        mpz_out_str(out, 10, house->variant);
+    }
+    fputc('\n', out);
 }
 
 static void rank(tn_job *job, const rank_settings *settings, const char *text)

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/json.h"
 #include "runtime/base/utf8.h"
 
@@ -164,7 +165,8 @@ static void show_head(tn_diagnostics *list, const tn_style *style, const tn_diag
         tn_place place = tn_sources_place(list->sources, item->span);
         show_place(out, place.path, place.line, place.column);
     } else if (item->input_line > 0) {
-        show_place(out, item->input_path ? item->input_path : "input", item->input_line, item->input_column);
+        show_place(out, item->input_path ? item->input_path : "input", tn_as_size(item->input_line),
+                   item->input_column);
     }
     fputs(style->end, out);
     const char *const colours[] = {style->note, style->warning, style->error};
@@ -188,7 +190,8 @@ static void show_input(const tn_style *style, const tn_diagnostic *item, FILE *o
     begin = begin < size ? begin : size;
     end = end < size ? end : size;
     tn_marked_source line = {item->input_text, size, begin, end > begin ? end : begin};
-    show_line(out, style, gutter_width(item->input_line), item->input_line, &line);
+    size_t number = tn_as_size(item->input_line);
+    show_line(out, style, gutter_width(number), number, &line);
 }
 
 static void show_tail(tn_diagnostics *list, const tn_style *style, const tn_diagnostic *item, FILE *out)
@@ -257,7 +260,7 @@ static void json_notes(tn_diagnostics *list, const tn_diagnostic *item, tn_json 
 static void json_item(tn_diagnostics *list, const tn_diagnostic *item, tn_json *json)
 {
     char name[8];
-    size_t line = item->input_line;
+    size_t line = tn_as_size(item->input_line);
     tn_json_place place = {item->input_path, line, item->input_column, line, item->input_column_end};
     if (item->has_span || line == 0)
         place = place_of(list, item->has_span, item->span);

@@ -8,6 +8,7 @@
 #include "driver/open/again.h"
 #include "driver/plan/outcome.h"
 #include "driver/plan/value_tests.h"
+#include "runtime/base/array.h"
 #include "runtime/plan/match/rules.h"
 #include "runtime/plan/match/same.h"
 
@@ -91,7 +92,7 @@ static tn_status run_block(const tn_noticing *n, const tn_test_block *block, not
 {
     made->count = block->is_library ? n->module->LIBRARY_records[block->index].clause_count : 1;
     made->words = made->count / 64 + 1;
-    made->bits = calloc(block->case_count * made->words + 1, sizeof *made->bits);
+    made->bits = calloc(tn_size_of(block->case_count, made->words) + 1, sizeof *made->bits);
     made->good = calloc(block->case_count + 1, sizeof *made->good);
     uint32_t *functions = calloc(made->count + 1, sizeof *functions);
     size_t *which = calloc(made->count + 1, sizeof *which);

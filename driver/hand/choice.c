@@ -66,7 +66,8 @@ tn_status tn_choices_read(const char *line, tn_choices *choices, char wrong[40],
             snprintf(wrong, 40, "%.*s", (int)(size < 39 ? size : 39), at);
             return tn_fail(error, TN_INVALID, E_NO_INDIVIDUAL, "`%s` names no parent", wrong);
         }
-        if (!tn_array_reserve(&choices->items, &choices->capacity, choices->count, times, sizeof *choices->items))
+        if (!tn_array_reserve(&choices->items, &choices->capacity, choices->count, (size_t)times,
+                              sizeof *choices->items))
             return tn_fail_memory(error);
         for (uint64_t i = 0; i < times; i++)
             choices->items[choices->count++] = chosen;

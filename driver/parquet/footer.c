@@ -307,7 +307,7 @@ void tn_footer_write(const tn_parquet_writing *w, tn_buffer *out)
     tn_thrift_number(&t, 1, TN_THRIFT_I32, 2);
     write_columns(w, &t);
     tn_thrift_number(&t, 3, TN_THRIFT_I64, (int64_t)w->plans);
-    tn_thrift_list(&t, 4, TN_THRIFT_STRUCT, w->groups);
+    tn_thrift_list(&t, 4, TN_THRIFT_STRUCT, (size_t)w->groups);
     if (w->about_groups.size > 0)
         tn_buffer_append(out, w->about_groups.data, w->about_groups.size);
     tn_buffer_append(out, w->metadata.data, w->metadata.size);

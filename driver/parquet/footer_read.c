@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "driver/parquet/reading.h"
+#include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
 #include "runtime/base/file_error.h"
 
@@ -237,7 +238,7 @@ tn_status tn_footer_groups(tn_plan_reader *reader, tn_error *error)
         return tn_parquet_damaged(reader, "what it says of its row groups is wrong", error);
     r->group_count = count;
     r->group_rows = calloc(count + 1, sizeof *r->group_rows);
-    r->chunks = calloc((count + 1) * r->column_count, sizeof *r->chunks);
+    r->chunks = calloc(tn_size_of(count + 1, r->column_count), sizeof *r->chunks);
     if (!r->group_rows || !r->chunks)
         return tn_fail_memory(error);
     bool whole = !in.bad;

@@ -242,7 +242,7 @@ static void keep_missing(const tn_plan_reader *reader, uint32_t field, wrong *w)
 
 static bool make_room(tn_parquet_reading *r, size_t trays, uint32_t fields)
 {
-    return tn_array_reserve(&r->values, &r->values_room, 0, trays * fields, 1);
+    return tn_array_reserve(&r->values, &r->values_room, 0, tn_size_of(trays, fields), 1);
 }
 
 /* Reads a field's list of the plan: its values into r->values, its size into *length. */

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "driver/plan/explain.h"
+#include "runtime/base/array.h"
 #include "runtime/base/length_style.h"
 
 #define STRETCHES_SHOWN 8u
@@ -199,7 +200,7 @@ bool tn_words_changes(const tn_explained *explained, const tn_near_plan *plan, t
     const tn_schema *schema = explained->schema;
     size_t n = explained->length, m = plan->length, width = m + 1;
     uint32_t fields = schema->field_count;
-    uint32_t *cost = calloc((n + 1) * width, sizeof *cost);
+    uint32_t *cost = calloc(tn_size_of(n + 1, width), sizeof *cost);
     if (!cost)
         return false;
     for (size_t i = n + 1; i-- > 0;) {

@@ -61,13 +61,13 @@ bool tn_report_share(const tn_reporting *r, const mpz_t part, const mpz_t whole)
     mpz_init(share);
     mpz_mul_ui(share, part, 100000);
     mpz_fdiv_q(share, share, whole);
-    unsigned long thousandths = mpz_get_ui(share);
+    unsigned thousandths = (unsigned)mpz_get_ui(share);
     mpz_clear(share);
     if (thousandths == 0)
         return tn_page_html(&r->page, "less than 0.001 %");
     if (thousandths < 1000)
-        return tn_buffer_printf(r->page.text, "0.%03lu %%", thousandths);
-    return tn_buffer_printf(r->page.text, "%lu.%lu %%", thousandths / 1000, thousandths % 1000 / 100);
+        return tn_buffer_printf(r->page.text, "0.%03u %%", thousandths);
+    return tn_buffer_printf(r->page.text, "%u.%u %%", thousandths / 1000, thousandths % 1000 / 100);
 }
 
 bool tn_report_plan(const tn_reporting *r, const tn_tray *trays, size_t length)
@@ -103,10 +103,10 @@ tn_status tn_report_put_plan(tn_reporting *r, const tn_tray *trays, size_t lengt
 enum { BAR_HEIGHT = 12, BAR_ROW = 34, BAR_LEFT = 70, BAR_WIDTH = 560, DIGIT_WIDTH = 8 };
 
 /* The logarithm of a count in thousandths of its base ten, straight between powers of ten: exact on every machine. */
-static unsigned long magnitude(const mpz_t count)
+static size_t magnitude(const mpz_t count)
 {
     char *digits = mpz_get_str(NULL, 10, count);
-    unsigned long result = 0;
+    size_t result = 0;
     if (digits && mpz_sgn(count) > 0) {
         char lead[5] = "0000";
         size_t size = strlen(digits);
@@ -117,18 +117,18 @@ static unsigned long magnitude(const mpz_t count)
     return result;
 }
 
-static bool write_bar(const tn_reporting *r, const mpz_t count, unsigned long most, size_t y, const char *colour)
+static bool write_bar(const tn_reporting *r, const mpz_t count, size_t most, size_t y, const char *colour)
 {
-    unsigned long width = mpz_sgn(count) > 0 ? 2 + magnitude(count) * BAR_WIDTH / (most ? most : 1) : 0;
-    return tn_buffer_printf(r->page.text, "<rect x=\"%d\" y=\"%zu\" width=\"%lu\" height=\"%d\" fill=\"%s\"/>",
+    size_t width = mpz_sgn(count) > 0 ? 2 + magnitude(count) * BAR_WIDTH / (most ? most : 1) : 0;
+    return tn_buffer_printf(r->page.text, "<rect x=\"%d\" y=\"%zu\" width=\"%zu\" height=\"%d\" fill=\"%s\"/>",
                             BAR_LEFT, y, width, BAR_HEIGHT, colour) &&
-           tn_buffer_printf(r->page.text, "<text x=\"%lu\" y=\"%zu\">", BAR_LEFT + width + 6, y + BAR_HEIGHT - 2) &&
+           tn_buffer_printf(r->page.text, "<text x=\"%zu\" y=\"%zu\">", BAR_LEFT + width + 6, y + BAR_HEIGHT - 2) &&
            tn_report_number(r, count) && tn_buffer_printf(r->page.text, "</text>\n");
 }
 
 bool tn_report_chart(const tn_reporting *r, uint32_t low, const mpz_t *generated, const mpz_t *kept, size_t count)
 {
-    unsigned long most = 0;
+    size_t most = 0;
     for (size_t i = 0; i < count; i++)
         most = magnitude(generated[i]) > most ? magnitude(generated[i]) : most;
     size_t digits = most / 1000 + 1, width = BAR_LEFT + BAR_WIDTH + DIGIT_WIDTH * (digits + digits / 3 + 1);

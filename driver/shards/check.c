@@ -55,7 +55,7 @@ static bool is_known(const tn_shard_set *set, uint32_t folder, const char *name)
     char *end;
     if (name[0] == '.')
         return true;
-    unsigned long shard = strtoul(name, &end, 10);
+    unsigned long long shard = strtoull(name, &end, 10);
     if (end != name + 6 || shard >= set->count || shard / TN_SHARDS_A_FOLDER != folder)
         return false;
     const tn_shard_name whole = tn_shard_name_of(set, (uint32_t)shard);

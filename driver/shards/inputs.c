@@ -2,6 +2,7 @@
 #include "driver/shards/inputs.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -50,9 +51,9 @@ static tn_status find_input(const char *path, tn_shard_input *input, tn_error *e
     return TN_OK;
 }
 
-static tn_status too_many(size_t shards, tn_error *error)
+static tn_status too_many(uint64_t shards, tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, E_SHARD_TOO_MANY, "%zu shards are more than a set may have, which is %u", shards,
+    tn_fail(error, TN_LIMIT, E_SHARD_TOO_MANY, "%" PRIu64 " shards are more than a set may have, which is %u", shards,
             TN_SHARDS_MAX);
     tn_error_help(error, "ask for fewer with --shards, or make several sets");
     return TN_LIMIT;
@@ -85,7 +86,7 @@ static tn_status add_piece(dividing *d, const tn_shard_piece *piece, tn_error *e
 {
     tn_shard_set *set = d->set;
     if (set->count == TN_SHARDS_MAX)
-        return too_many((size_t)set->count + 1, error);
+        return too_many((uint64_t)set->count + 1, error);
     if (!tn_array_reserve(&set->inputs.pieces, &d->room, set->count, 1, sizeof *set->inputs.pieces))
         return tn_fail_memory(error);
     set->inputs.pieces[set->count++] = *piece;

@@ -13,6 +13,12 @@ size_t tn_array_larger(size_t capacity, size_t needed, size_t first)
     return larger < needed ? needed : larger;
 }
 
+void *tn_array_new(uint64_t count, size_t size)
+{
+    void *items = NULL;
+    return tn_array_resize(&items, tn_as_size(count), size) ? items : NULL;
+}
+
 bool tn_array_resize(void *items, size_t count, size_t size)
 {
     size_t bytes;

@@ -5,9 +5,29 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdlib.h> /* free, which is the caller's part */
 
 enum { TN_ARRAY_FIRST = 64 }; /* items that an array begins with */
+
+/* A number as a size. What a size cannot count (where it has 32 bits) becomes TN_SIZE_MOST, as much as no memory holds:
+ * it is refused where it is asked for. A little more than that is a size, too. */
+#define TN_SIZE_MOST (SIZE_MAX / 2)
+
+static inline size_t tn_as_size(uint64_t number)
+{
+    return number < TN_SIZE_MOST ? (size_t)number : TN_SIZE_MOST;
+}
+
+/* a * b, likewise. */
+static inline size_t tn_size_of(size_t a, size_t b)
+{
+    size_t product;
+    return __builtin_mul_overflow(a, b, &product) || product > TN_SIZE_MOST ? TN_SIZE_MOST : product;
+}
+
+/* `count` items whose bytes the caller writes. NULL where out of memory, or where these are too many bytes to count. */
+void *tn_array_new(uint64_t count, size_t size);
 
 /* The next capacity of an array that needs `needed` items: twice as many, and at least `first`. */
 size_t tn_array_larger(size_t capacity, size_t needed, size_t first);

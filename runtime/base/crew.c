@@ -203,9 +203,11 @@ tn_status tn_crew_share(tn_crew *crew, uint32_t count, tn_crew_piece *work, void
 
 unsigned tn_crew_default(void)
 {
+#ifdef __linux__
     cpu_set_t usable;
     if (sched_getaffinity(0, sizeof usable, &usable) == 0 && CPU_COUNT(&usable) > 0)
         return (unsigned)CPU_COUNT(&usable);
+#endif
     long online = sysconf(_SC_NPROCESSORS_ONLN);
     return online > 0 ? (unsigned)online : 1;
 }

@@ -1,9 +1,12 @@
-/* Whole numbers of any size: arrays of them, and how long they are. */
+/* Whole numbers of any size: arrays of them, how long they are, and their digits. */
 #ifndef TARTAN_BASE_INTEGERS_H
 #define TARTAN_BASE_INTEGERS_H
 
 #include <gmp.h>
 #include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/buffer.h"
 
 /* So many zeros; NULL where out of memory. tn_integers_free frees them. */
 static inline mpz_t *tn_integers_new(size_t count)
@@ -34,6 +37,16 @@ static inline size_t tn_decimal_digits(const mpz_t number)
     size -= mpz_cmpabs(number, least) < 0;
     mpz_clear(least);
     return size;
+}
+
+/* Appends the number's decimal digits. False where out of memory. */
+static inline bool tn_buffer_integer(tn_buffer *buffer, const mpz_t number)
+{
+    if (!tn_buffer_reserve(buffer, mpz_sizeinbase(number, 10) + 1)) /* and the sign */
+        return false;
+    mpz_get_str(buffer->data + buffer->size, 10, number);
+    buffer->size += strlen(buffer->data + buffer->size);
+    return true;
 }
 
 #endif

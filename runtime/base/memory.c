@@ -1,13 +1,36 @@
-/* Reads how much memory is free and used: /proc/meminfo, /proc/self/statm, and the files of control groups. */
+/* Reads how much memory is free and used: /proc/meminfo, /proc/self/statm, and the files of control groups. WebAssembly
+ * has one memory, which grows up to a bound that it was linked with. */
 #include "runtime/base/memory.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+#ifdef __EMSCRIPTEN__
+#include <emscripten/heap.h>
+
+/* Up to the end of what was ever allocated: what is free below that may be in pieces. */
+uint64_t tn_memory_used(void)
+{
+    return (uintptr_t)sbrk(0);
+}
+
+uint64_t tn_memory_available(const char *root)
+{
+    (void)root;
+    return (uint64_t)emscripten_get_heap_max() - tn_memory_used();
+}
+
+bool tn_memory_can_have(uint64_t bytes)
+{
+    return bytes <= tn_memory_available("");
+}
+
+#else
 #include <sys/mman.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 enum { PATH_ROOM = 4096, LINE_ROOM = 4352 };
 
@@ -173,6 +196,8 @@ bool tn_memory_can_have(uint64_t bytes)
     munmap(piece, (size_t)bytes);
     return true;
 }
+
+#endif
 
 void tn_memory_write(uint64_t bytes, char text[32])
 {

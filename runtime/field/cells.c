@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/field/cell_row.h"
 #include "runtime/numeric/any_width.h"
 
@@ -78,8 +79,8 @@ tn_status tn_contour_make_room(tn_contouring *c, uint64_t count, tn_error *error
     if (status != TN_OK)
         return status;
     mesh->face_count = (size_t)count;
-    mesh->corners = malloc((3 * (size_t)count + 1) * sizeof *mesh->corners);
-    mesh->face_first = malloc(((size_t)count + 1) * sizeof *mesh->face_first);
+    mesh->corners = tn_array_new(3 * count + 1, sizeof *mesh->corners);
+    mesh->face_first = tn_array_new(count + 1, sizeof *mesh->face_first);
     if (!mesh->corners || !mesh->face_first)
         return tn_fail_memory(error);
     for (uint32_t i = 0; i <= count; i++)

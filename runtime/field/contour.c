@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/clock.h"
 #include "runtime/field/contour_parts.h"
 
@@ -35,7 +36,7 @@ tn_status tn_contouring_begin(tn_contouring *c, const double *z, tn_error *error
     c->threads = c->options->threads ? c->options->threads : tn_crew_default();
     c->crew = tn_crew_new(c->threads, c->field->module->watch);
     c->words = (n[0] + 63) / 64;
-    c->signs = calloc((size_t)n[1] * n[2] * c->words, sizeof *c->signs);
+    c->signs = calloc(tn_size_of((size_t)n[1] * n[2], c->words), sizeof *c->signs);
     c->first = calloc((size_t)n[1] * n[2], sizeof *c->first);
     c->layer_jumps = calloc(n[2], sizeof *c->layer_jumps);
     c->layer_moved = calloc(n[2], sizeof *c->layer_moved);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/field/contour_parts.h"
 #include "runtime/numeric/any_width.h"
 
@@ -227,8 +228,8 @@ tn_status tn_contour_roots(tn_contouring *c, tn_error *error)
     tn_status status = number_vertices(c, error);
     if (status == TN_OK) {
         c->out->mesh.vertex_count = (size_t)c->vertex_count;
-        c->out->mesh.positions = calloc((size_t)c->vertex_count + 1, 3 * sizeof(double));
-        c->jumping = calloc((size_t)c->vertex_count / 64 + 1, sizeof *c->jumping);
+        c->out->mesh.positions = calloc(tn_as_size(c->vertex_count) + 1, 3 * sizeof(double));
+        c->jumping = calloc(tn_as_size(c->vertex_count) / 64 + 1, sizeof *c->jumping);
         if (!r.batches || !c->out->mesh.positions || !c->jumping)
             status = tn_fail_memory(error);
     }

@@ -277,7 +277,7 @@ static tn_status join_layers(sharpening *s, tn_error *error)
     if (c->vertex_count + points > UINT32_MAX - 1)
         return tn_fail(error, TN_LIMIT, E_FIELD_TRIANGLES, "the mesh has more than %u vertices, the limit",
                        UINT32_MAX - 1);
-    if (!tn_array_resize(&mesh->positions, 3 * (size_t)(c->vertex_count + points) + 3, sizeof *mesh->positions))
+    if (!tn_array_resize(&mesh->positions, tn_as_size(3 * (c->vertex_count + points) + 3), sizeof *mesh->positions))
         return tn_fail_memory(error);
     for (uint32_t z = 0; z + 1 < c->grid->count[2]; z++) {
         const layer *l = &s->layers[z];
@@ -301,13 +301,14 @@ tn_status tn_contour_sharp_cells(tn_contouring *c, tn_error *error)
         return tn_fail_memory(error);
     s->c = c;
     s->layers = calloc(layers, sizeof *s->layers);
-    s->normals = malloc((c->vertex_count + 1) * sizeof *s->normals);
+    s->normals = tn_array_new(c->vertex_count + 1, sizeof *s->normals);
     s->registers = malloc((size_t)c->threads * 4 * c->field->samples.register_count * sizeof *s->registers);
     for (unsigned mask = 0; mask < 256; mask++)
         find_loops(mask, &s->table[mask]);
     tn_status status = s->layers && s->normals && s->registers ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK)
-        status = tn_crew_run(c->crew, (c->vertex_count + NORMALS_CHUNK - 1) / NORMALS_CHUNK, 1, find_normals, s, error);
+        status = tn_crew_run(c->crew, (size_t)((c->vertex_count + NORMALS_CHUNK - 1) / NORMALS_CHUNK), 1, find_normals,
+                             s, error);
     if (status == TN_OK)
         status = tn_crew_run(c->crew, layers, 1, do_layer, s, error);
     if (status == TN_OK)

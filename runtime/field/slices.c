@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/field/contour_parts.h"
 
 #define NONE UINT32_MAX
@@ -105,8 +106,8 @@ static void gather(const tn_contouring *c, uint32_t *next, tn_slices *slices)
 static tn_status trace(const tn_contouring *c, tn_slices *slices, tn_error *error)
 {
     size_t room = (size_t)c->vertex_count + 1;
-    tracing t = {c, malloc(room * sizeof *t.next)};
-    slices->points = malloc(room * sizeof *slices->points);
+    tracing t = {c, tn_array_new(room, sizeof *t.next)};
+    slices->points = tn_array_new(room, sizeof *slices->points);
     slices->line_first = calloc(room, sizeof *slices->line_first);
     tn_status status = TN_OK;
     if (!t.next || !slices->points || !slices->line_first)

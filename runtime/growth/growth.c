@@ -162,9 +162,9 @@ static tn_status plant(tn_growth *growth, tn_error *error)
     tn_map *map = &growth->map;
     tn_growth_workspace *space = &growth->space;
     int here = space->current;
-    if (!tn_pages_reserve(&space->positions, 3 * (size_t)n * sizeof(double)) ||
-        !tn_pages_reserve(&space->states[here], n * sizeof(tn_edge_state)) ||
-        !tn_pages_reserve(&space->darts[here], 4 * (size_t)n * sizeof(uint32_t)) ||
+    if (!tn_pages_reserve(&space->positions, 3 * (uint64_t)n * sizeof(double)) ||
+        !tn_pages_reserve(&space->states[here], (uint64_t)n * sizeof(tn_edge_state)) ||
+        !tn_pages_reserve(&space->darts[here], 4 * (uint64_t)n * sizeof(uint32_t)) ||
         !tn_pages_reserve(&space->faces[here], 5 * sizeof(uint32_t)))
         return tn_fail_memory(error);
     *map = (tn_map){.vertex_count = n,

@@ -172,7 +172,7 @@ tn_status tn_house_known_begin(const tn_house_form *form, tn_house_known *known,
         known->alone[f] = asks_function_alone(module, f);
         known->place[f] = (uint32_t)(known->alone[f] ? known->alones++ : known->decisions++);
     }
-    known->of_function = calloc((known->functions + 1) * known->alones + 1, sizeof *known->of_function);
+    known->of_function = calloc(tn_size_of(known->functions + 1, known->alones) + 1, sizeof *known->of_function);
     return known->of_function ? TN_OK : tn_fail_memory(error);
 }
 

@@ -226,7 +226,7 @@ static int compare_numbers(const void *left, const void *right)
 tn_status tn_data_distinct(const tn_data *t, size_t first, size_t last, size_t *count, tn_error *error)
 {
     size_t all = 0;
-    double *sorted = malloc(((last - first) * t->points + 1) * sizeof *sorted);
+    double *sorted = tn_array_new(tn_size_of(last - first, t->points) + 1, sizeof *sorted);
     *count = 0;
     if (!sorted)
         return tn_fail_memory(error);

@@ -41,7 +41,7 @@ static inline bool tn_bit_tree_new(tn_bit_tree *tree, uint32_t count)
         size = (size + 63) / 64;
         words += size;
     } while (size > 1);
-    tree->words = malloc(words * sizeof *tree->words);
+    tree->words = malloc((size_t)words * sizeof *tree->words);
     if (tree->words)
         tn_bit_tree_reset(tree, count);
     return tree->words != NULL;

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 #define PIECE ((size_t)256 << 20) /* bytes that rank 0 tells at once */
 
 void tn_gathered_clear(tn_gathered *all)
@@ -65,7 +67,7 @@ tn_status tn_ranks_tell(const tn_ranks *ranks, uint8_t **bytes, size_t *size, tn
         return TN_OK;
     uint64_t whole = *size;
     tell_piece(ranks, (uint8_t *)&whole, sizeof whole);
-    uint8_t *told = ranks->rank == 0 ? *bytes : malloc(whole ? whole : 1);
+    uint8_t *told = ranks->rank == 0 ? *bytes : tn_array_new(whole, 1);
     tn_status status = told || whole == 0 ? TN_OK : tn_fail_memory(error);
     status = tn_ranks_agree(ranks, status, error);
     if (status != TN_OK) {
@@ -74,11 +76,11 @@ tn_status tn_ranks_tell(const tn_ranks *ranks, uint8_t **bytes, size_t *size, tn
         return status;
     }
     for (size_t at = 0; at < whole; at += PIECE)
-        tell_piece(ranks, told + at, whole - at < PIECE ? whole - at : PIECE);
+        tell_piece(ranks, told + at, whole - at < PIECE ? (size_t)(whole - at) : PIECE);
     if (ranks->rank != 0)
         free(*bytes);
     *bytes = told;
-    *size = whole;
+    *size = (size_t)whole;
     return TN_OK;
 }
 

@@ -259,9 +259,10 @@ tn_status tn_view_find_meets(tn_view *view, const float *depths, tn_error *error
     size_t corners, others = count_sides(view, &corners);
     if (others == 0)
         return TN_OK;
-    meeting_places m = {.view = view, .depths = depths, .items = malloc((corners + 2 * others) * sizeof *m.items)};
+    meeting_places m = {
+        .view = view, .depths = depths, .items = tn_array_new(corners + 2 * (uint64_t)others, sizeof *m.items)};
     m.unit = fmax(fmax(view->high[0] - view->low[0], view->high[1] - view->low[1]), 1e-300) / GRID;
-    view->sharpest = malloc(2 * corners * sizeof *view->sharpest);
+    view->sharpest = tn_array_new(2 * (uint64_t)corners, sizeof *view->sharpest);
     tn_status status = m.items && view->sharpest ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; view->sharpest && i < 2 * corners; i++)
         view->sharpest[i] = TN_MEETS_NOTHING;

@@ -91,7 +91,7 @@ static bool refuse_cell(tn_check *check, tn_span span, tn_code code, const char 
 
 bool tn_amount_read_cell(tn_check *check, const tn_ast_word *word, int64_t *square_micrometres)
 {
-    const long largest = 1L << 62;
+    const int64_t largest = INT64_C(1) << 62;
     tn_sum_amount amount = tn_amount_read(check, word);
     if (!amount.value)
         return false;

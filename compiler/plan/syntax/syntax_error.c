@@ -466,7 +466,6 @@ static bool report_digit_name(tn_parse *parse, const tn_syntax_found *found, con
                                         "seven", "eight", "nine", "ten",   "eleven", "twelve"};
     const char *text = parse->text + found->span.begin, *rest = text + strspn(text, "0123456789");
     size_t size = strcspn(text, " \t\r\n=(){}[],;\"");
-    unsigned long number = strtoul(text, NULL, 10);
     if (strcmp(found->name, "a number") != 0 || e->count > 2 || !tn_expects(e, "a name") || rest == text + size ||
         (*rest != '-' && !isalpha((unsigned char)*rest)))
         return false;
@@ -474,10 +473,12 @@ static bool report_digit_name(tn_parse *parse, const tn_syntax_found *found, con
     tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, whole, "a name begins with a letter");
     const char *name = rest + (*rest == '-');
     int left = (int)(text + size - name);
+    const char *digits = text + strspn(text, "0"), *last = text + strspn(text, "0123456789");
+    unsigned long number = last - digits < 3 ? strtoul(text, NULL, 10) : sizeof words;
     if (number < sizeof words / sizeof *words)
         tn_advise(parse->diagnostics, d, "%s-%.*s", words[number], left, name);
     else
-        tn_advise(parse->diagnostics, d, "%.*s-%lu", left, name, number);
+        tn_advise(parse->diagnostics, d, "%.*s-%.*s", left, name, (int)(last - digits), digits);
     return true;
 }
 

@@ -50,7 +50,7 @@ static inline __attribute__((always_inline)) void tn_ask_ahead(const tn_pass *pa
     uint32_t last = old->face_count - face < TN_TOGETHER ? old->face_count : face + TN_TOGETHER;
     const uint32_t *side = old->side + old->face_first[face], *end = old->side + old->face_first[last];
     const uint32_t *all = old->side + 2 * (size_t)old->edge_count;
-    if (all - end < 4 * TN_AHEAD)
+    if (all - end < (ptrdiff_t)(4 * TN_AHEAD))
         return;
     for (; side < end; side++) {
         __builtin_prefetch(&pass->records[side[4 * TN_AHEAD] / 2], 0, 2); /* so far ahead, the second cache does */

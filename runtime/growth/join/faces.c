@@ -112,9 +112,9 @@ static tn_status prepare(tn_pass *pass, tn_error *error)
     tn_growth_workspace *space = &pass->growth->space;
     size_t branches = (size_t)pass->branch_first + pass->branch_count, faces = pass->old->face_count;
     bool ranked = pass->growth->ranked;
-    if (!tn_pages_reserve(&space->joints, branches * sizeof *pass->joints) ||
-        !tn_pages_reserve(&space->cut_of, faces * sizeof *pass->cut_of) ||
-        (ranked && !tn_pages_reserve(&space->made, faces * sizeof *pass->made)))
+    if (!tn_pages_reserve(&space->joints, (uint64_t)branches * sizeof *pass->joints) ||
+        !tn_pages_reserve(&space->cut_of, (uint64_t)faces * sizeof *pass->cut_of) ||
+        (ranked && !tn_pages_reserve(&space->made, (uint64_t)faces * sizeof *pass->made)))
         return tn_fail_memory(error);
     pass->joints = space->joints.data;
     pass->cut_of = space->cut_of.data;

@@ -370,7 +370,7 @@ tn_status tn_pass_match(tn_pass *pass, tn_error *error)
         status = match_chains(pass, &around, error);
     } else if (status == TN_OK && !find_plain(pass)) {
         tn_pages *choices = &pass->growth->space.choices;
-        if (tn_pages_reserve(choices, pass->old->edge_count * sizeof *pass->choice)) {
+        if (tn_pages_reserve(choices, (uint64_t)pass->old->edge_count * sizeof *pass->choice)) {
             pass->choice = choices->data;
             status = match_singly(pass, &around, error);
         } else {

@@ -1,13 +1,14 @@
 /* Keeps arrays that are used again from step to step. */
 #include "runtime/growth/pass/pages.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include "runtime/base/array.h"
+
+#if defined(__linux__) && !defined(TN_PAGES_ON_HEAP)
+#include <sys/mman.h>
+#include <unistd.h>
 
 #define HUGE_PAGE ((size_t)2 << 20)
 #define SMALL ((size_t)512 << 10) /* up to here the heap serves as well */
@@ -57,18 +58,9 @@ static void *enlarge(const tn_pages *pages, size_t capacity)
     return data;
 }
 
-bool tn_pages_reserve(tn_pages *pages, size_t size)
+/* Makes it larger than the heap serves. */
+static bool reserve_large(tn_pages *pages, size_t size)
 {
-    if (size <= pages->capacity && pages->data)
-        return true;
-    if (size > SIZE_MAX / 2)
-        return false;
-    if (size <= SMALL) {
-        if (!tn_array_resize(&pages->data, size, 1))
-            return false;
-        pages->capacity = size;
-        return true;
-    }
     size_t capacity = capacity_for(size);
     void *data = enlarge(pages, capacity);
     if (!data)
@@ -77,10 +69,44 @@ bool tn_pages_reserve(tn_pages *pages, size_t size)
     return true;
 }
 
+static void release_large(tn_pages *pages)
+{
+    munmap(pages->data, pages->capacity);
+}
+
+#else
+#define SMALL SIZE_MAX
+
+static bool reserve_large(tn_pages *pages, size_t size)
+{
+    (void)pages, (void)size;
+    return false;
+}
+
+static void release_large(tn_pages *pages)
+{
+    (void)pages;
+}
+#endif
+
+bool tn_pages_reserve(tn_pages *pages, uint64_t size)
+{
+    if (size <= pages->capacity && pages->data)
+        return true;
+    if (size > SIZE_MAX / 2)
+        return false;
+    if (size > SMALL)
+        return reserve_large(pages, (size_t)size);
+    if (!tn_array_resize(&pages->data, (size_t)size, 1))
+        return false;
+    pages->capacity = (size_t)size;
+    return true;
+}
+
 void tn_pages_release(tn_pages *pages)
 {
     if (pages->capacity > SMALL)
-        munmap(pages->data, pages->capacity);
+        release_large(pages);
     else
         free(pages->data);
     *pages = (tn_pages){0};

@@ -206,7 +206,7 @@ typedef struct tn_edge_replacement {
 tn_status tn_pass_survey(tn_pass *pass, tn_error *error);
 
 /* Room for the aims of this many branches behind the sides, which may move. False: out of memory. */
-bool tn_pass_reserve_aims(tn_pass *pass, size_t count);
+bool tn_pass_reserve_aims(tn_pass *pass, uint64_t count);
 
 tn_status tn_pass_match(tn_pass *pass, tn_error *error);
 tn_status tn_pass_rewrite(tn_pass *pass, tn_error *error);

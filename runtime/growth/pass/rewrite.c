@@ -257,10 +257,10 @@ tn_status tn_rewrite_make_room(tn_pass *pass, const tn_rewrite_tally *total, tn_
     pass->branch_count = (uint32_t)total->branches;
     pass->rewrites = total->rewrites;
     tn_growth_workspace *space = &growth->space;
-    if (!tn_pages_reserve(&space->positions, 3 * (size_t)vertices * sizeof(double)) ||
-        !tn_pages_reserve(&space->states[!space->current], (size_t)most * sizeof(tn_edge_state)) ||
-        !tn_pages_reserve(&space->records, (size_t)old->edge_count * sizeof *pass->records) ||
-        !tn_pass_reserve_aims(pass, (size_t)total->branches))
+    if (!tn_pages_reserve(&space->positions, 3 * vertices * sizeof(double)) ||
+        !tn_pages_reserve(&space->states[!space->current], most * sizeof(tn_edge_state)) ||
+        !tn_pages_reserve(&space->records, (uint64_t)old->edge_count * sizeof *pass->records) ||
+        !tn_pass_reserve_aims(pass, total->branches))
         return tn_fail_memory(error);
     growth->map.positions = space->positions.data; /* vertices stay where they are; new ones follow them */
     pass->new->positions = space->positions.data;

@@ -49,10 +49,11 @@ static void survey_chunk(void *context, uint32_t chunk)
     tn_normals_finish(&normals);
 }
 
-bool tn_pass_reserve_aims(tn_pass *pass, size_t count)
+bool tn_pass_reserve_aims(tn_pass *pass, uint64_t count)
 {
     tn_growth_workspace *space = &pass->growth->space;
-    size_t sides = (2 * (size_t)pass->old->edge_count + 7) & ~(size_t)7; /* so that no aim is in two cache lines */
+    uint64_t sides =
+        (2 * (uint64_t)pass->old->edge_count + 7) & ~(uint64_t)7; /* so that no aim is in two cache lines */
     tn_pages *pages = &space->darts[!space->current];
     if (!tn_pages_reserve(pages, sides * sizeof *pass->sides + count * sizeof *pass->aims))
         return false;
@@ -64,7 +65,7 @@ bool tn_pass_reserve_aims(tn_pass *pass, size_t count)
 tn_status tn_pass_survey(tn_pass *pass, tn_error *error)
 {
     const tn_map *map = pass->old;
-    size_t normals = 3 * (size_t)map->face_count, darts = pass->walks_vertices ? 2 * (size_t)map->edge_count : 0;
+    uint64_t normals = 3 * (uint64_t)map->face_count, darts = pass->walks_vertices ? 2 * (uint64_t)map->edge_count : 0;
     tn_pages *space = &pass->growth->space.survey;
     if (!tn_pass_reserve_aims(pass, 0) ||
         !tn_pages_reserve(space, normals * sizeof *pass->normal + darts * sizeof *pass->dart))

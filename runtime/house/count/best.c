@@ -102,7 +102,7 @@ tn_status tn_houses_aim_kind(const tn_houses *h, tn_houses_kind *kind, tn_error 
     mpz_init(a.times);
     for (a.layer = h->high + 1; status == TN_OK && a.layer-- > 0;) {
         tn_houses_layer *layer = &kind->layers[a.layer];
-        layer->best = calloc((size_t)layer->nodes.count * tn_houses_lengths(h) + 1, sizeof *layer->best);
+        layer->best = calloc(tn_size_of(layer->nodes.count, tn_houses_lengths(h)) + 1, sizeof *layer->best);
         status = layer->best ? TN_OK : tn_fail_memory(error);
         if (status == TN_OK && a.layer >= h->low)
             status = tn_houses_expand(h, kind, a.layer, true, add_end, &a, error);

@@ -111,7 +111,7 @@ static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
 {
     tn_forward f = {.houses = h, .kind = kind, .stages = tn_houses_stages(h, kind), .count = 2};
     tn_status status = TN_OK;
-    kind->layers = calloc((size_t)h->high * f.stages + 1, sizeof *kind->layers);
+    kind->layers = calloc(tn_size_of(h->high, f.stages) + 1, sizeof *kind->layers);
     kind->houses = tn_integers_new(tn_houses_lengths(h));
     f.counts = tn_integers_new(f.count);
     if (!kind->layers || !kind->houses || !f.counts || tn_number(&kind->layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX) {
@@ -180,7 +180,7 @@ static tn_status walk(const tn_houses *h, tn_houses_kind *kind, bool *any, tn_er
     tn_scout s = {.houses = h, .kind = kind};
     uint32_t stages = tn_houses_stages(h, kind);
     tn_status status = TN_OK;
-    kind->layers = calloc((size_t)h->high * stages + 1, sizeof *kind->layers);
+    kind->layers = calloc(tn_size_of(h->high, stages) + 1, sizeof *kind->layers);
     if (!kind->layers || tn_number(&kind->layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX)
         return tn_fail_memory(error);
     for (; status == TN_OK && s.layer <= h->high * stages; s.layer++) {

@@ -245,7 +245,7 @@ static tn_status begin_trays(const tn_houses *h, tn_strip_trays *trays, tn_error
     trays->words = count / 64 + 1;
     trays->stand = calloc(count + 1, sizeof *trays->stand);
     if (count <= FOLLOWED_TRAYS_MAX)
-        trays->follows = calloc((count + 1) * trays->words, sizeof *trays->follows);
+        trays->follows = calloc(tn_size_of(count + 1, trays->words), sizeof *trays->follows);
     return trays->stand && (trays->follows || count > FOLLOWED_TRAYS_MAX) ? TN_OK : tn_fail_memory(error);
 }
 

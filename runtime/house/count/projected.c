@@ -287,7 +287,7 @@ static void end_plans(const tn_projected_walk *w)
 {
     const tn_project_plans *f = w->context;
     const tn_projecting *p = f->projecting;
-    unsigned long sections = 0;
+    uint64_t sections = 0;
     size_t size;
     const uint32_t *sets = tn_interned(&f->tuples, w->set, &size);
     for (size_t k = 0; k < p->houses->kind_count; k++)

@@ -120,7 +120,7 @@ static tn_status add_up(tn_furnishing *f, size_t cell, tn_error *error)
     const struct tn_cost_sums *after = &f->sums[cell + 1];
     struct tn_cost_sums *sums = &f->sums[cell];
     size_t count = 0, ways = f->cost[cell] ? f->tiles[cell] : 1;
-    sums->items = malloc((after->count * ways + 1) * sizeof *sums->items);
+    sums->items = tn_array_new(tn_size_of(after->count, ways) + 1, sizeof *sums->items);
     if (!sums->items)
         return tn_fail_memory(error);
     for (size_t v = 0; v < ways; v++)

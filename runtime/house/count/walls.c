@@ -126,7 +126,7 @@ static tn_status begin(siding *s, tn_error *error)
     size_t count = s->houses->form->schema->tray_count + 1;
     s->of_tray = malloc(count * sizeof *s->of_tray);
     s->first = malloc(count * sizeof *s->first);
-    s->beside = malloc(count * s->trays.words * sizeof *s->beside);
+    s->beside = tn_array_new(tn_size_of(count, s->trays.words), sizeof *s->beside);
     return s->of_tray && s->first && s->beside ? TN_OK : tn_fail_memory(error);
 }
 

@@ -33,9 +33,9 @@ static const tn_house_term_record *term_record(const tn_house_weights *w, uint32
 
 static void set_area(mpz_t to, tn_int128 area)
 {
-    mpz_set_ui(to, (unsigned long)(area >> 64));
+    mpz_set_ui(to, (uint64_t)(area >> 64));
     mpz_mul_2exp(to, to, 64);
-    mpz_add_ui(to, to, (unsigned long)(uint64_t)area);
+    mpz_add_ui(to, to, (uint64_t)area);
 }
 
 /* What the areas of all cells that a tray can have are multiples of. */

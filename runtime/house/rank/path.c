@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/integers.h"
 
 bool tn_choosing_passes(const tn_choosing *c, const mpz_t houses, bool is_wanted)
@@ -51,7 +52,7 @@ static tn_status reach(void *context, const tn_houses_edge *edge, tn_error *erro
 static tn_status find_nodes(tn_plan_path *p, tn_error *error)
 {
     tn_path_reaching r = {.path = p};
-    p->kind.layers = calloc((size_t)p->length * p->stages + 1, sizeof *p->kind.layers);
+    p->kind.layers = calloc(tn_size_of(p->length, p->stages) + 1, sizeof *p->kind.layers);
     if (!p->kind.layers || tn_number(&p->kind.layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX)
         return tn_fail_memory(error);
     tn_status status = TN_OK;

@@ -67,7 +67,7 @@ static tn_status look_back(tn_backward *b, tn_error *error)
 {
     const tn_houses *h = b->houses;
     tn_houses_layer *layer = &b->kind->layers[b->layer];
-    layer->ahead = tn_integers_new((size_t)layer->nodes.count * tn_houses_lengths(h));
+    layer->ahead = tn_integers_new(tn_size_of(layer->nodes.count, tn_houses_lengths(h)));
     tn_status status = layer->ahead ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK && b->layer % b->stages == 0 && b->layer >= h->low * b->stages)
         status = tn_houses_expand(h, b->kind, b->layer, true, add_end, b, error);
@@ -236,7 +236,7 @@ static tn_status place_of(tn_plan_walk *w, tn_houses_kind *kind, uint32_t state,
     if (node == UINT32_MAX || h->by_tray_count > MOST)
         return TN_OK;
     if (!layer->by_tray)
-        layer->by_tray = calloc(layer->nodes.count * lengths + 1, sizeof *layer->by_tray);
+        layer->by_tray = calloc(tn_size_of(layer->nodes.count, lengths) + 1, sizeof *layer->by_tray);
     if (!layer->by_tray)
         return tn_fail_memory(error);
     *place = &layer->by_tray[node * lengths + w->length - h->low];

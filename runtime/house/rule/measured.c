@@ -8,9 +8,9 @@ static void add(mpq_t to, const tn_module *module, const tn_house_term_record *t
     mpq_t factor, more;
     mpq_inits(factor, more, NULL);
     mpq_set_str(factor, tn_text(module, term->factor), 10);
-    mpz_set_ui(mpq_numref(more), (unsigned long)(number >> 64));
+    mpz_set_ui(mpq_numref(more), (uint64_t)(number >> 64));
     mpz_mul_2exp(mpq_numref(more), mpq_numref(more), 64);
-    mpz_add_ui(mpq_numref(more), mpq_numref(more), (unsigned long)(uint64_t)number);
+    mpz_add_ui(mpq_numref(more), mpq_numref(more), (uint64_t)number);
     mpq_mul(factor, factor, more);
     mpq_add(to, to, factor);
     mpq_clears(factor, more, NULL);

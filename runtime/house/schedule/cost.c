@@ -88,9 +88,9 @@ uint32_t tn_part_material(const tn_house *house, uint32_t part)
 static void set_wide(mpz_t to, tn_int128 number)
 {
     tn_int128 positive = number < 0 ? -number : number;
-    mpz_set_ui(to, (unsigned long)(positive >> 64));
+    mpz_set_ui(to, (uint64_t)(positive >> 64));
     mpz_mul_2exp(to, to, 64);
-    mpz_add_ui(to, to, (unsigned long)(uint64_t)positive);
+    mpz_add_ui(to, to, (uint64_t)positive);
     if (number < 0)
         mpz_neg(to, to);
 }
@@ -206,7 +206,7 @@ static void add_roof(const tn_solids *solids, const tn_prism *prism, tn_costs *c
 static void set_unit(mpz_t unit, tn_price_unit per)
 {
     bool feet = per == TN_PER_SQUARE_FOOT || per == TN_PER_CUBIC_FOOT;
-    unsigned long power = per == TN_PER_EACH ? 0 : per <= TN_PER_SQUARE_METRE ? 2 : 3;
+    unsigned power = per == TN_PER_EACH ? 0 : per <= TN_PER_SQUARE_METRE ? 2 : 3;
     mpz_ui_pow_ui(unit, feet ? 304800000u : 1000000000u, power);
 }
 

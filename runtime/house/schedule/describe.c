@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/integers.h"
+
 /* ---- numbers beyond 64 bits */
 
 static void put_wide(tn_buffer *out, tn_int128 number)
@@ -216,21 +218,14 @@ static void put_roofs(const tn_solids *solids, tn_json *json)
 
 /* ---- parts and what they cost */
 
-/* Appends a text that GMP made, and frees it. */
-static void put_digits(tn_buffer *out, char *digits)
-{
-    tn_buffer_append(out, digits, strlen(digits));
-    free(digits);
-}
-
-static void put_hundredths(tn_buffer *out, const mpz_t hundredths)
+bool tn_cost_write(tn_buffer *out, const mpz_t hundredths)
 {
     mpz_t whole;
     mpz_init(whole);
-    unsigned long rest = mpz_fdiv_q_ui(whole, hundredths, 100);
-    put_digits(out, mpz_get_str(NULL, 10, whole));
-    tn_buffer_printf(out, ".%02lu", rest);
+    unsigned rest = (unsigned)mpz_fdiv_q_ui(whole, hundredths, 100);
+    tn_buffer_integer(out, whole);
     mpz_clear(whole);
+    return tn_buffer_printf(out, ".%02u", rest);
 }
 
 static void put_quotient(tn_json *json, const char *key, const mpq_t value)
@@ -243,7 +238,7 @@ static void put_quotient(tn_json *json, const char *key, const mpq_t value)
 static void put_money(tn_json *json, const char *key, const mpz_t hundredths)
 {
     tn_buffer text = {0};
-    put_hundredths(&text, hundredths);
+    tn_cost_write(&text, hundredths);
     json->text->failed |= text.failed;
     tn_json_string(json, key, text.data);
     free(text.data);
@@ -367,10 +362,10 @@ tn_status tn_house_schedule(const tn_house *house, tn_buffer *out, tn_error *err
 /* ---- a table of parts */
 
 /* An area or a volume, of nanometres, in a unit of that length to that power; to six places, rounded half up. */
-static void put_in_unit(tn_buffer *out, const mpq_t number, int64_t unit, unsigned long power)
+static void put_in_unit(tn_buffer *out, const mpq_t number, int64_t unit, unsigned power)
 {
     mpz_t top, bottom;
-    mpz_init_set_ui(bottom, (unsigned long)unit);
+    mpz_init_set_ui(bottom, (uint64_t)unit);
     mpz_init(top);
     mpz_pow_ui(bottom, bottom, power);
     mpz_mul(bottom, bottom, mpq_denref(number));
@@ -378,9 +373,9 @@ static void put_in_unit(tn_buffer *out, const mpq_t number, int64_t unit, unsign
     mpz_add(top, top, bottom);
     mpz_mul_2exp(bottom, bottom, 1);
     mpz_fdiv_q(top, top, bottom);
-    unsigned long rest = mpz_fdiv_q_ui(top, top, 1000000);
-    put_digits(out, mpz_get_str(NULL, 10, top));
-    tn_buffer_printf(out, ".%06lu", rest);
+    unsigned rest = (unsigned)mpz_fdiv_q_ui(top, top, 1000000);
+    tn_buffer_integer(out, top);
+    tn_buffer_printf(out, ".%06u", rest);
     mpz_clears(top, bottom, NULL);
 }
 
@@ -398,7 +393,7 @@ static void put_part_row(const tn_house *house, const tn_cost_line *line, int64_
         const tn_material_record *material = &module->MATERIAL_records[line->material];
         tn_buffer_printf(out, ",%s,%" PRId64 ".%06" PRId64 ",%s,", tn_text(module, material->name),
                          material->price / 1000000, material->price % 1000000, units[material->unit]);
-        put_hundredths(out, line->hundredths);
+        tn_cost_write(out, line->hundredths);
         tn_buffer_append(out, "\r\n", 2);
     }
 }
@@ -414,7 +409,7 @@ tn_status tn_house_parts(const tn_house *house, const tn_solids *solids, tn_buff
             put_part_row(house, &costs.lines[i], unit.length, out);
     if (status == TN_OK && tn_form_has_costs(house->form)) {
         tn_buffer_printf(out, "total,,,,,,,");
-        put_hundredths(out, costs.hundredths);
+        tn_cost_write(out, costs.hundredths);
         tn_buffer_append(out, "\r\n", 2);
     }
     tn_costs_clear(&costs);

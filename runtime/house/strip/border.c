@@ -317,7 +317,7 @@ tn_status tn_strip_borders_find(tn_strip *strip, const tn_strip_trays *trays, tn
         if (trays->stand[t])
             status = describe_tray(&d, t, error);
     size_t count = strip->borders.descriptions.count;
-    bool *meet = malloc(count * count + 1);
+    bool *meet = malloc(tn_size_of(count, count) + 1);
     if (status == TN_OK && !(meet && find_meetings(&d, meet) && find_classes(strip, meet)))
         status = tn_fail_memory(error);
     free(meet);

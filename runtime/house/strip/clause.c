@@ -214,7 +214,7 @@ static tn_status sums_that_hold(const tn_strip_lowering *l, uint32_t condition, 
 {
     if (most > AREA_STEPS_MAX)
         return tn_strip_limit(l->strip, l->name, "adds areas that have no large common measure", error);
-    *holds = malloc(most + 2);
+    *holds = malloc((size_t)most + 2);
     if (!*holds)
         return tn_fail_memory(error);
     for (uint64_t n = 0; n <= most; n++)

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/house/strip/placed.h"
 #include "runtime/plan/automata/explore.h"
 #include "runtime/plan/match/condition.h"
@@ -167,7 +168,8 @@ static bool read_column(const tn_span_relation *r, uint32_t column, uint32_t see
 
 /* ---- SOME_ROOM: {phase, what is read of the stretch} */
 
-enum { NOTHING_READ = UINT32_MAX, MAY_END = 1u << TN_STRIP_SLOTS_MAX }; /* below that, slots that may be the room's */
+#define NOTHING_READ UINT32_MAX
+enum { MAY_END = 1u << TN_STRIP_SLOTS_MAX }; /* below that, slots that may be the room's */
 
 static uint32_t slots_that(const uint32_t *seen, uint32_t say)
 {
@@ -303,7 +305,7 @@ static tn_status find_counts(const tn_module *module, const tn_strip_atom *atom,
     tn_status status = tn_condition_period(module, condition, 1, limit, &set->threshold, &set->period, error);
     if (status != TN_OK)
         return status;
-    *holds = malloc(set->threshold + set->period);
+    *holds = tn_array_new(set->threshold + set->period, 1);
     if (!*holds)
         return tn_fail_memory(error);
     for (uint64_t n = 0; n < set->threshold + set->period; n++)

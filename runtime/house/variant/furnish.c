@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/integers.h"
 #include "runtime/house/measure/measure.h"
 #include "runtime/house/schedule/cost.h"
@@ -152,7 +153,7 @@ static tn_status add_up(const tn_house_variants *v, size_t cell, tn_error *error
     struct tn_combinations *f = v->combinations;
     const tn_tile_sums *behind = &f->sums[cell + 1];
     size_t count = 0;
-    tn_part_sum *parts = malloc((v->tiles[cell] * behind->count + 1) * sizeof *parts);
+    tn_part_sum *parts = tn_array_new(tn_size_of(v->tiles[cell], behind->count) + 1, sizeof *parts);
     if (!parts)
         return tn_fail_memory(error);
     for (size_t t = 0; t < v->tiles[cell]; t++)
@@ -275,7 +276,7 @@ void tn_furnished_find(tn_house_variants *v, const mpz_t number)
         find_from(v, 0, 0, left);
     else
         for (size_t i = v->house.cell_count; i-- > 0;)
-            v->house.cells[i].variant = mpz_fdiv_q_ui(left, left, v->tiles[i]);
+            v->house.cells[i].variant = (size_t)mpz_fdiv_q_ui(left, left, v->tiles[i]);
     mpz_clear(left);
 }
 

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 enum { SEEN = 128 }; /* above how many of the chosen overlap a slot */
 
 /* What one thread has. */
@@ -212,7 +214,7 @@ static tn_status make_threads(count_work *w, unsigned threads, tn_error *error)
         counting *c = &w->threads[i];
         c->room = room * w->parts;
         c->marks = calloc(l->slot_count, sizeof *c->marks);
-        c->untried = calloc(c->room * w->parts, sizeof *c->untried);
+        c->untried = calloc(tn_size_of(c->room, w->parts), sizeof *c->untried);
         status = c->marks && c->untried ? TN_OK : tn_fail_memory(error);
         if (status == TN_OK && w->forbidden)
             memcpy(c->marks, w->forbidden, l->slot_count);

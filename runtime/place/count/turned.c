@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/crew.h"
 
 enum { IMAGES = 4 };
@@ -244,7 +245,7 @@ static tn_status make_threads(turned_work *w, uint32_t parts, unsigned threads, 
         *t = (turning){.l = w->l, .parts = parts, .turns = w->turns, .watch = watch, .room = room};
         t->marks = calloc(w->l->slot_count, sizeof *t->marks);
         t->chosen = calloc(parts + IMAGES, sizeof *t->chosen);
-        t->untried = calloc(room * ((size_t)parts + 1), sizeof *t->untried);
+        t->untried = calloc(tn_size_of(room, (size_t)parts + 1), sizeof *t->untried);
         if (!t->marks || !t->chosen || !t->untried)
             return tn_fail_memory(error);
     }

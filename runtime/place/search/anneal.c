@@ -117,7 +117,7 @@ static tn_status grow_again(chain *c, tn_world *world, tn_error *error)
     tn_standing *plan = &world->plan;
     tn_status status = TN_OK;
     while (plan->open_count > 0 && status == TN_OK) {
-        size_t i = draw(c, world, plan->open_count);
+        size_t i = (size_t)draw(c, world, plan->open_count);
         tn_open_site site = plan->open[i];
         plan->open[i] = plan->open[--plan->open_count];
         size_t count = tn_world_choices(world, &site, false, fitting, FITTING_MAX);

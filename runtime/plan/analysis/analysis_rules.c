@@ -1,6 +1,7 @@
 /* Rules alone and in pairs: never, always, and how the plans that two of them match lie to one another. */
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/random.h"
 #include "runtime/plan/analysis/analysis_data.h"
 
@@ -94,7 +95,7 @@ static void probe(const tn_plan_analysis *analysis, const meanings *m, probes *p
 static tn_status probe_all(const tn_plan_analysis *analysis, const meanings *m, probes *p, tn_error *error)
 {
     *p = (probes){.words = (2 * m->count + PROBES) / 64 + 1};
-    p->matches = calloc(m->count * p->words + 1, sizeof *p->matches);
+    p->matches = calloc(tn_size_of(m->count, p->words) + 1, sizeof *p->matches);
     if (!p->matches)
         return tn_fail_memory(error);
     for (size_t i = 0; i < m->count; i++) {
@@ -211,8 +212,8 @@ static void relate_rules(tn_plan_analysis *analysis, const comparing *c)
 static tn_status compare_all(tn_plan_analysis *analysis, const meanings *m, const probes *p, tn_error *error)
 {
     size_t n = analysis->rule_count;
-    comparing c = {analysis, m, p, calloc(m->count * m->count + 1, 1)};
-    analysis->relations = calloc(n * n + 1, sizeof *analysis->relations);
+    comparing c = {analysis, m, p, calloc(tn_size_of(m->count, m->count) + 1, 1)};
+    analysis->relations = calloc(tn_size_of(n, n) + 1, sizeof *analysis->relations);
     tn_status status = c.relations && analysis->relations
                            ? tn_crew_run(analysis->crew, m->count, 1, compare_meaning, &c, error)
                            : tn_fail_memory(error);

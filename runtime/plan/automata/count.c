@@ -115,7 +115,7 @@ void tn_edges_clear(tn_edges *edges)
 static tn_status row_allocate(const tn_edges *edges, size_t limbs, tn_count_row *row, tn_error *error)
 {
     row->limbs = limbs;
-    row->value = calloc((size_t)edges->states * limbs + 1, sizeof *row->value);
+    row->value = calloc(tn_size_of(edges->states, limbs) + 1, sizeof *row->value);
     return row->value ? TN_OK : tn_fail_memory(error);
 }
 
@@ -191,7 +191,7 @@ typedef struct count_front {
 
 static bool front_make(count_front *front, uint32_t states, size_t limbs)
 {
-    front->value = calloc((size_t)states * limbs + 1, sizeof *front->value);
+    front->value = calloc(tn_size_of(states, limbs) + 1, sizeof *front->value);
     front->active = malloc(((size_t)states + 1) * sizeof *front->active);
     return front->value && front->active;
 }
@@ -315,7 +315,7 @@ tn_status tn_count_lengths(const tn_sparse *sparse, const uint32_t *sizes, uint3
     tn_status status = tn_column_weights(sizes, sparse->letters, sparse->column, sparse->columns, &weights, error);
     uint64_t limbs = status == TN_OK ? tn_count_limbs(weights, sparse->columns, max) : 0;
     if (status == TN_OK && sparse->folded && limbs <= TN_FORWARD_LIMBS_MAX)
-        status = count_forward(sparse, weights, limbs, max, counts, error);
+        status = count_forward(sparse, weights, (size_t)limbs, max, counts, error);
     else if (status == TN_OK)
         status = count_backward(sparse, weights, max, counts, watch, error);
     free(weights);

@@ -325,7 +325,7 @@ static tn_status walk(tn_both *both, uint32_t min, const char *what, tn_bounds *
     uint64_t all = (uint64_t)both->of.a->states * both->of.b->states;
     if (both->of.a->states == 0 || both->away_a[0] > both->of.max || both->away_b[0] > both->of.max)
         return TN_OK;
-    if (all <= TABLE_ENTRIES_MAX && !(both->table = calloc(all, sizeof *both->table)))
+    if (all <= TABLE_ENTRIES_MAX && !(both->table = calloc((size_t)all, sizeof *both->table)))
         return tn_fail_memory(error);
     if (number(both, 0, 0, both->away_a[0] > both->away_b[0] ? both->away_a[0] : both->away_b[0]) == UINT32_MAX)
         return tn_fail_memory(error);

@@ -6,6 +6,8 @@
 
 #include "runtime/plan/automata/count_pairs.h"
 
+#include "runtime/base/array.h"
+
 #define CHECK_EVERY 1024u /* states between two looks at the bounds */
 
 /* Where symbols lead from the state in hand, told apart by what the second automaton tells apart. */
@@ -120,7 +122,7 @@ tn_status tn_sweep_count(const tn_agreement *of, const uint32_t *longest, const 
     tn_count_sweep sweep = {.of = of,
                             .longest = longest,
                             .away = away,
-                            .value = calloc(pairs * of->limbs + 1, sizeof *sweep.value),
+                            .value = calloc(tn_size_of(pairs, of->limbs) + 1, sizeof *sweep.value),
                             .reached = calloc(pairs + 1, 1),
                             .steps = malloc(((size_t)of->splits.columns + 1) * sizeof *sweep.steps)};
     tn_status status = sweep.value && sweep.reached && sweep.steps ? TN_OK : tn_fail_memory(error);

@@ -41,9 +41,8 @@ tn_status tn_bounds_check(tn_bounds *bounds, const char *what, uint64_t states, 
 
 tn_dfa *tn_dfa_new(uint32_t letters, uint32_t columns, uint32_t states)
 {
-    size_t transitions = (size_t)states * columns;
-    size_t words = (size_t)letters + transitions;
-    tn_dfa *dfa = calloc(1, sizeof *dfa + words * sizeof(uint32_t) + states);
+    uint64_t transitions = (uint64_t)states * columns, words = letters + transitions;
+    tn_dfa *dfa = words < TN_SIZE_MOST / 8 ? calloc(1, sizeof *dfa + (size_t)words * sizeof(uint32_t) + states) : NULL;
     if (!dfa)
         return NULL;
     dfa->uses = 1;
@@ -159,7 +158,7 @@ tn_status tn_join_make(tn_join *join, const tn_dfa *const *parts, uint32_t count
         return tn_fail_memory(error);
     if (apart && letters > 0)
         join_apart(join);
-    join->pick = calloc((size_t)join->columns * count + 1, sizeof *join->pick);
+    join->pick = calloc(tn_size_of(join->columns, count) + 1, sizeof *join->pick);
     join->letter = calloc((size_t)join->columns + 1, sizeof *join->letter);
     if (!join->pick || !join->letter)
         return tn_fail_memory(error);

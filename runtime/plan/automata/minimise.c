@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/automata/dfa.h"
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/automata/sparse.h"
@@ -111,7 +112,7 @@ tn_status tn_dfa_tidy(const tn_dfa *dfa, uint32_t start, tn_dfa **out, tn_error 
 {
     tn_tidy tidy = {0};
     size_t n = dfa->states, k = dfa->columns;
-    tidy.memory = malloc((3 * k + 2 * n + 1) * sizeof *tidy.memory);
+    tidy.memory = tn_array_new(3 * (uint64_t)k + 2 * (uint64_t)n + 1, sizeof *tidy.memory);
     if (!tidy.memory)
         return tn_fail_memory(error);
     tidy.same = tidy.memory;

@@ -156,10 +156,10 @@ bool tn_operand_compare(tn_operand *operand)
         return true;
     operand->compared = true;
     size_t n = operand->dfa->states, k = operand->dfa->columns;
-    if (n > TN_INCLUSION_STATES || n * n * k > UINT64_C(1) << 30)
+    if (n > TN_INCLUSION_STATES || (uint64_t)n * n > (UINT64_C(1) << 30) / k)
         return true;
     operand->words = (uint32_t)(n / 64 + 1);
-    operand->exceeds = calloc(n * operand->words, sizeof *operand->exceeds);
+    operand->exceeds = calloc(tn_size_of(n, operand->words), sizeof *operand->exceeds);
     tn_set_comparison comparison = {.operand = operand};
     comparison.first = calloc(k * (n + 1), sizeof *comparison.first);
     comparison.source = malloc(k * n * sizeof *comparison.source);

@@ -151,7 +151,7 @@ typedef struct tn_reach {
 static bool reach_make(tn_reach *reach, const tn_dfa *dfa, uint32_t start)
 {
     size_t n = dfa->states, k = dfa->columns;
-    *reach = (tn_reach){.memory = malloc((2 * k + 2 * n + 1) * sizeof *reach->memory)};
+    *reach = (tn_reach){.memory = tn_array_new(2 * (uint64_t)k + 2 * (uint64_t)n + 1, sizeof *reach->memory)};
     if (!reach->memory)
         return false;
     reach->used = reach->memory;
@@ -339,7 +339,7 @@ static tn_status work_run(tn_sparse_work *work, const char *what, tn_bounds *bou
         return work_reserve(work, 0, 0) ? (work->first[0] = 0, TN_OK) : tn_fail_memory(error);
     uint64_t all = (uint64_t)work->a->states * work->b->states;
     if (all <= TABLE_ENTRIES_MAX)
-        work->table = calloc(all, sizeof *work->table);
+        work->table = calloc((size_t)all, sizeof *work->table);
     if (work_number(work, 0, 0) == UINT32_MAX)
         return tn_fail_memory(error);
     for (uint32_t s = 0; s < work->pairs.count; s++) {

@@ -16,7 +16,8 @@ bool tn_drawn_make(tn_drawn *drawn, const mpz_t bound, size_t count)
     drawn->slots = calloc(drawn->capacity, sizeof *drawn->slots);
     drawn->candidate = malloc((drawn->limbs + 1) * sizeof *drawn->candidate);
     return drawn->slots && drawn->candidate &&
-           tn_array_reserve(&drawn->values, &drawn->room, 0, count * drawn->limbs + 1, sizeof *drawn->values);
+           tn_array_reserve(&drawn->values, &drawn->room, 0, tn_size_of(count, drawn->limbs) + 1,
+                            sizeof *drawn->values);
 }
 
 void tn_drawn_clear(tn_drawn *drawn)

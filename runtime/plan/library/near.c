@@ -131,8 +131,8 @@ static tn_status make_changes(tn_near_search *s)
     size_t joints = s->finder->joints, rows = (size_t)s->band.length;
     free(s->change);
     free(s->by_cost);
-    s->change = malloc((rows * joints + 1) * sizeof *s->change);
-    s->by_cost = malloc(((rows + 1) * joints + 1) * sizeof *s->by_cost);
+    s->change = tn_array_new(tn_size_of(rows, joints) + 1, sizeof *s->change);
+    s->by_cost = tn_array_new(tn_size_of(rows + 1, joints) + 1, sizeof *s->by_cost);
     if (!s->change || !s->by_cost)
         return tn_fail_memory(s->error);
     for (uint32_t i = 0; i < s->band.length; i++) {

@@ -170,8 +170,8 @@ tn_status tn_near_collect(tn_near_search *s, size_t most, tn_near *near)
     low = low > band->min ? low : band->min;
     high = high < band->max ? high : band->max;
     size_t rows = (size_t)high + 2, width = (size_t)band->length + 1;
-    writing w = {malloc(rows * sizeof *w.trays), calloc(rows * s->finder->part_count, sizeof *w.states),
-                 malloc(rows * width * sizeof *w.rows)};
+    writing w = {malloc(rows * sizeof *w.trays), calloc(tn_size_of(rows, s->finder->part_count), sizeof *w.states),
+                 tn_array_new(tn_size_of(rows, width), sizeof *w.rows)};
     tn_status status = w.trays && w.states && w.rows ? TN_OK : tn_fail_memory(s->error);
     for (uint32_t p = 0; status == TN_OK && p <= band->length; p++)
         w.rows[p] = p * band->fields;

@@ -4,6 +4,8 @@
 
 #include "runtime/plan/library/near_data.h"
 
+#include "runtime/base/array.h"
+
 #define LEAD_WORK 8000000u /* steps that finding out what is to come may take for one part */
 #define COMBINE_WORK 40u   /* steps an edge of what is combined */
 
@@ -110,7 +112,7 @@ static tn_status number_joints(tn_near_finder *finder, tn_interner *interner, tn
         ok = finder->joint_of[c] != UINT32_MAX;
     }
     finder->joints = interner->count;
-    finder->joint_label = malloc(((size_t)finder->joints * parts + 1) * sizeof *finder->joint_label);
+    finder->joint_label = tn_array_new(tn_size_of(finder->joints, parts) + 1, sizeof *finder->joint_label);
     finder->joint_first = calloc((size_t)columns + 2, sizeof *finder->joint_first);
     place = malloc(((size_t)finder->joints + 1) * sizeof *place);
     ok = ok && finder->joint_label && finder->joint_first && place;
@@ -219,7 +221,7 @@ static tn_status lead_part(tn_near_finder *finder, size_t k, const tn_near_band 
     part->togo = NULL;
     if (cells > LEAD_WORK / (part->live->first[n] + n + 1))
         return TN_OK;
-    part->togo = malloc((cells * n + 1) * sizeof *part->togo);
+    part->togo = tn_array_new(tn_size_of(cells, n) + 1, sizeof *part->togo);
     uint32_t *own = malloc(((size_t)part->live->columns + 1) * sizeof *own);
     if (!part->togo || !own) {
         free(own);

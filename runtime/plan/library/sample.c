@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/library/drawn.h"
 #include "runtime/plan/library/library_data.h"
 
@@ -19,7 +20,7 @@ static tn_status draw(tn_drawn *drawn, uint64_t seed, uint64_t stream, size_t co
 /* Gives all numbers below `bound` but those drawn; the bound is less than twice the number given, so it fits a word. */
 static bool give_others(const tn_drawn *drawn, uint64_t bound, mpz_t *ranks)
 {
-    uint8_t *out = calloc(bound / 8 + 1, 1);
+    uint8_t *out = calloc(tn_as_size(bound / 8 + 1), 1);
     if (!out)
         return false;
     for (size_t i = 0; i < drawn->count; i++)

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/integers.h"
 #include "runtime/plan/library/drawn.h"
 
@@ -49,7 +50,7 @@ static tn_status count_round(tn_drawing *c, uint64_t round, tn_error *error)
     tn_drawn drawn;
     const tn_draws *d = c->draws;
     tn_status status =
-        tn_drawn_make(&drawn, d->bound, (size_t)(to_draw(d) / c->rounds)) ? TN_OK : tn_fail_memory(error);
+        tn_drawn_make(&drawn, d->bound, tn_as_size(to_draw(d) / c->rounds)) ? TN_OK : tn_fail_memory(error);
     for (uint64_t a = 0; status == TN_OK && a < c->limit; a++) {
         bool fresh = false;
         status = look(c->watch, a, error);
@@ -75,7 +76,7 @@ static tn_status find_attempts(tn_drawing *c, uint64_t *attempts, tn_error *erro
     bool found = false;
     for (c->limit = expect(c->draws); !found; c->limit += c->limit / 8) {
         free(c->fresh);
-        c->fresh = calloc((size_t)(c->limit / 64 + 1), sizeof *c->fresh);
+        c->fresh = calloc(tn_as_size(c->limit / 64 + 1), sizeof *c->fresh);
         tn_status status = c->fresh ? TN_OK : tn_fail_memory(error);
         for (uint64_t round = 0; status == TN_OK && round < c->rounds; round++)
             status = count_round(c, round, error);
@@ -201,7 +202,7 @@ tn_status tn_draws_between(const tn_draws *d, const mpz_t from, const mpz_t to, 
     mpz_t all;
     mpz_init(all);
     mpz_sub(all, to, from);
-    *count = (size_t)mpz_get_ui(all) - found;
+    *count = (mpz_fits_ulong_p(all) ? tn_as_size(mpz_get_ui(all)) : TN_SIZE_MOST) - found;
     mpz_clear(all);
     *ranks = tn_integers_new(*count);
     if (*ranks)

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/memory.h"
 #include "runtime/plan/library/library_data.h"
 
@@ -89,9 +90,9 @@ static tn_status make_rows(tn_library *library, tn_error *error)
     uint32_t states = library->kept->states;
     library->alive_words = states / 64 + 1;
     library->rows = calloc(lengths, sizeof *library->rows);
-    library->alive = calloc(lengths * library->alive_words, sizeof *library->alive);
-    library->nearly = calloc(lengths * states, sizeof *library->nearly);
-    library->hash_room = malloc((library->kept->columns + 2 * (size_t)states + 1) * sizeof *library->hash_room);
+    library->alive = calloc(tn_size_of(lengths, library->alive_words), sizeof *library->alive);
+    library->nearly = calloc(tn_size_of(lengths, states), sizeof *library->nearly);
+    library->hash_room = tn_array_new(library->kept->columns + 2 * (uint64_t)states + 1, sizeof *library->hash_room);
     if (!library->hash_room || !library->rows || !library->alive || !library->nearly)
         return tn_fail_memory(error);
     tn_status status = tn_column_weights(library->classes->size, library->classes->count, library->kept->column,
@@ -131,7 +132,7 @@ static tn_status make_passed(tn_library *library, tn_error *error)
     while (((uint64_t)trays / library->stride + 2) * columns > PASSED_ENTRIES_MAX)
         library->stride *= 2;
     library->tray_column = calloc((size_t)trays + 1, sizeof *library->tray_column);
-    library->passed = calloc(((size_t)trays / library->stride + 2) * columns + 1, sizeof *library->passed);
+    library->passed = calloc(tn_size_of((size_t)trays / library->stride + 2, columns) + 1, sizeof *library->passed);
     uint32_t *count = calloc((size_t)columns + 1, sizeof *count);
     bool ok = library->tray_column && library->passed && count;
     for (tn_tray t = 0; ok && t <= trays; t++) {

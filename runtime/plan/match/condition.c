@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/module/code.h"
 #include "runtime/module/opcodes.h"
 
@@ -170,7 +171,7 @@ tn_status tn_condition_period(const tn_module *module, uint32_t function, int64_
         return TN_LIMIT;
     }
     uint64_t size = bound.threshold + bound.period;
-    uint8_t *values = malloc(size);
+    uint8_t *values = tn_array_new(size, 1);
     if (!values)
         return tn_fail_memory(error);
     for (uint64_t i = 0; i < size; i++)

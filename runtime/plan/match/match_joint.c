@@ -107,7 +107,7 @@ static tn_status add_table(tn_joints *joints, tn_joint *joint, size_t table_size
 static tn_status finish_joining(tn_joints *joints, const joining *j, const tn_row_map *map, tn_error *error)
 {
     tn_joint joint = {.word = j->word, .width = 1, .shift = (uint8_t)shift_for(j->states)};
-    tn_status status = add_table(joints, &joint, table_bytes(map, j->states), j->states, error);
+    tn_status status = add_table(joints, &joint, tn_as_size(table_bytes(map, j->states)), j->states, error);
     if (status != TN_OK)
         return status;
     uint8_t *table = joint.table;

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "runtime/base/array.h"
 #include "runtime/plan/match/condition.h"
 
 tn_status tn_relate_tray(const tn_marked *marked, const tn_classes *classes, uint32_t spec, tn_dfa **out,
@@ -26,7 +27,7 @@ static tn_status meeting(const tn_module *module, uint32_t condition, int64_t un
     if (status != TN_OK)
         return status;
     uint64_t size = set->threshold + set->period;
-    *holds = malloc(size);
+    *holds = tn_array_new(size, 1);
     if (!*holds)
         return tn_fail_memory(error);
     for (uint64_t n = 0; n < size; n++)

@@ -24,7 +24,7 @@ static tn_status resize(tn_plan_vm *vm, void **block, uint64_t before, uint64_t 
 {
     if (after > vm->memory_limit || vm->memory - before > vm->memory_limit - after)
         return out_of_room(vm, error);
-    if (!tn_array_resize(block, after, 1))
+    if (!tn_array_resize(block, tn_as_size(after), 1))
         return tn_fail_memory(error);
     vm->memory += after - before;
     return TN_OK;

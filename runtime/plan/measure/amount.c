@@ -185,7 +185,7 @@ bool tn_amount_write_root(tn_amount_unit unit, const mpq_t square, tn_buffer *ou
             break;
     }
     while (decimals > 0 && (tn_decimal_digits(scaled) > DIGITS || mpz_divisible_ui_p(scaled, 10))) {
-        unsigned long digit = mpz_fdiv_ui(scaled, 10);
+        unsigned digit = (unsigned)mpz_fdiv_ui(scaled, 10);
         mpz_fdiv_q_ui(scaled, scaled, 10);
         if (tn_decimal_digits(scaled) == DIGITS && digit >= 5)
             mpz_add_ui(scaled, scaled, 1);

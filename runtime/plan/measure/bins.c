@@ -42,7 +42,7 @@ static void count_bins(const tn_bins *p, mpz_t bins)
     mpz_clear(first);
 }
 
-bool tn_bins_at_most(const tn_bins *p, unsigned long most)
+bool tn_bins_at_most(const tn_bins *p, uint64_t most)
 {
     mpz_t count;
     mpz_init(count);
@@ -52,7 +52,7 @@ bool tn_bins_at_most(const tn_bins *p, unsigned long most)
     return good;
 }
 
-void tn_bins_few(tn_bins *p, unsigned long most)
+void tn_bins_few(tn_bins *p, uint64_t most)
 {
     static const unsigned factors[] = {1, 2, 5};
     mpq_t ten;

@@ -23,10 +23,10 @@ void tn_bins_clear(tn_bins *bins);
 void tn_bins_value(const tn_bins *bins, size_t i, mpq_t value);
 
 /* The least step of 1, 2 or 5 times a power of ten of the unit that makes at most so many bins. */
-void tn_bins_few(tn_bins *bins, unsigned long most);
+void tn_bins_few(tn_bins *bins, uint64_t most);
 
 /* Are there at most so many bins, with the step as it is? */
-bool tn_bins_at_most(const tn_bins *bins, unsigned long most);
+bool tn_bins_at_most(const tn_bins *bins, uint64_t most);
 
 /* The rows one by one, empty bins too. */
 typedef struct tn_bin_row {

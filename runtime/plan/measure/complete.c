@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 #define WORST INT64_MAX
 
 typedef tn_completer completer;
@@ -293,8 +295,8 @@ static tn_status make_room(completer *c, tn_completions *out, tn_error *error)
     c->backward = calloc(levels, sizeof *c->backward);
     c->best_before = calloc(levels, sizeof *c->best_before);
     c->best_after = calloc(levels, sizeof *c->best_after);
-    c->best_placed = worst_new(c, (size_t)c->items * c->letters);
-    c->placed = tn_integers_new((size_t)c->items * c->letters);
+    c->best_placed = worst_new(c, tn_size_of(c->items, c->letters));
+    c->placed = tn_integers_new(tn_size_of(c->items, c->letters));
     bool ok = c->level_size && c->forward && c->backward && c->best_before && c->best_after && c->placed &&
               (c->best_placed || !c->weighed);
     c->level = ok ? calloc(levels, sizeof *c->level) : NULL;

@@ -172,9 +172,9 @@ static tn_status add_factor(tn_likelihood *l, const int64_t *gain, tn_error *err
     mpz_init_set_ui(factor->up, 1);
     mpz_init_set_ui(factor->down, 1);
     for (uint32_t k = 0; k < l->around; k++) {
-        mpz_pow_ui(power, l->up[k], (unsigned long)gain[k]);
+        mpz_pow_ui(power, l->up[k], (uint64_t)gain[k]);
         mpz_mul(factor->up, factor->up, power);
-        mpz_pow_ui(power, l->down[k], (unsigned long)gain[k]);
+        mpz_pow_ui(power, l->down[k], (uint64_t)gain[k]);
         mpz_mul(factor->down, factor->down, power);
     }
     mpz_clear(power);
@@ -250,7 +250,7 @@ static void end_mass(const tn_likelihood *l, uint32_t state, mpz_t mass)
     mpz_init(power);
     mpz_set_ui(mass, tn_weighed_alive(l->weighed, 0, state) ? 1 : 0);
     for (uint32_t k = 0; k < l->around && mpz_sgn(mass) > 0; k++) {
-        unsigned long rest = (unsigned long)tn_weighed_rest(l->weighed, state, k);
+        uint64_t rest = (uint64_t)tn_weighed_rest(l->weighed, state, k);
         mpz_pow_ui(power, l->up[k], rest);
         mpz_mul(mass, mass, power);
         mpz_pow_ui(power, l->down[k], l->library->max - rest);

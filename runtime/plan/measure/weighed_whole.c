@@ -122,10 +122,10 @@ static tn_status find_lengths(gaps *g, uint32_t classes, uint32_t trays, tn_erro
 /* The stretches that are longer than so many parts, or at most as long. */
 static tn_status between(const gaps *g, uint64_t length, bool longer, tn_dfa **out, tn_error *error)
 {
-    uint8_t *holds = malloc(length + 2);
+    uint8_t *holds = tn_array_new(length + 2, 1);
     if (!holds)
         return tn_fail_memory(error);
-    memset(holds, !longer, length + 1);
+    memset(holds, !longer, (size_t)length + 1);
     holds[length + 1] = longer;
     const tn_periodic_set set = {.threshold = length + 1, .period = 1, .holds = holds};
     tn_status status = tn_marked_count(g->marked, g->marked->single, TN_TALLY_SINGLES, &set, g->counts, out, error);

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 /* While states are eliminated an expression may be longer than the whole will be, though not by much. */
 #define PART_MAX (8 * TN_REGEX_LENGTH_MAX)
 
@@ -231,7 +233,7 @@ tn_status tn_export_regex(const tn_dfa *dfa, tn_buffer *out, tn_error *error)
     if (dfa->columns > TN_REGEX_LETTERS_MAX || dfa->states > TN_REGEX_LENGTH_MAX)
         return too_large(dfa, error);
     size_t all = (size_t)e.count + 2;
-    e.between = calloc(all * all, sizeof *e.between);
+    e.between = calloc(tn_size_of(all, all), sizeof *e.between);
     if (!e.between)
         return tn_fail_memory(error);
     set_up(&e, dfa);

@@ -1,6 +1,7 @@
 /* Packed plans: a header, then for each plan its length (LEB128) and its trays. */
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
 #include "runtime/plan/text/pack.h"
 #include "runtime/plan/text/reader.h"
@@ -99,7 +100,7 @@ tn_status tn_reader_bin_next(tn_plan_reader *reader, bool *found, tn_error *erro
         status = skip(reader, length * reader->tray_bytes, error);
         return status == TN_OK ? tn_reader_too_long(reader, length, error) : status;
     }
-    size_t bytes = (size_t)length * reader->tray_bytes;
+    size_t bytes = tn_size_of((size_t)length, reader->tray_bytes);
     status = tn_reader_fill(reader, bytes, error);
     if (status != TN_OK)
         return status;

@@ -19,7 +19,7 @@ tn_tray tn_scanner_recall(const tn_plan_scanner *scanner, const char *text, size
     if (!scanner->known || size == 0 || size > TN_TRAY_TEXT_MAX)
         return TN_NO_TRAY;
     *hash = XXH3_64bits(text, size);
-    for (size_t place = *hash;; place++) {
+    for (size_t place = (size_t)*hash;; place++) {
         uint32_t number = scanner->places[place & scanner->place_mask];
         if (number == 0)
             return TN_NO_TRAY;
@@ -40,7 +40,7 @@ void tn_scanner_learn(tn_plan_scanner *scanner, const char *text, size_t size, u
     uint32_t number = scanner->known_count++;
     scanner->known[number] = (tn_known_tray){.hash = hash, .size = (uint32_t)size, .tray = tray};
     memcpy(scanner->texts[number], text, size);
-    size_t place = hash;
+    size_t place = (size_t)hash;
     while (scanner->places[place & scanner->place_mask])
         place++;
     scanner->places[place & scanner->place_mask] = number + 1;

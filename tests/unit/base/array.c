@@ -63,9 +63,33 @@ static void test_too_large(void **state)
     assert_int_equal(tn_array_larger(SIZE_MAX / 2 + 1, 0, 4), SIZE_MAX);
 }
 
+/* What a size cannot count is refused, and is no small number instead, however many bits a size has. */
+static void test_sizes(void **state)
+{
+    (void)state;
+    assert_int_equal(tn_as_size(0), 0);
+    assert_int_equal(tn_as_size(100000), 100000);
+    assert_true(tn_as_size(UINT64_MAX) == TN_SIZE_MOST);
+    assert_int_equal(tn_size_of(300, 7), 2100);
+    assert_int_equal(tn_size_of(SIZE_MAX, 0), 0);
+    assert_true(tn_size_of(SIZE_MAX / 2, 3) == TN_SIZE_MOST);
+    assert_true(tn_size_of(SIZE_MAX, 1) == TN_SIZE_MOST);
+    assert_null(tn_array_new(UINT64_MAX, 1));
+    assert_null(tn_array_new(UINT64_C(1) << 62, 8));
+    assert_null(tn_array_new((uint64_t)tn_size_of(SIZE_MAX, SIZE_MAX) + 1, sizeof(uint64_t)));
+    uint64_t *items = tn_array_new(3, sizeof *items);
+    assert_non_null(items);
+    items[2] = 1;
+    free(items);
+    items = tn_array_new(0, sizeof *items);
+    assert_non_null(items);
+    free(items);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sizes),
         cmocka_unit_test(test_growth),
         cmocka_unit_test(test_nothing),
         cmocka_unit_test(test_too_large),
