@@ -24,7 +24,7 @@
 
 typedef struct tn_desk tn_desk;
 
-/* `served` (borrowed, to stay): whose files there are besides the texts. TN_MEMORY. */
+/* `served` (borrowed, to stay): whose files there are besides the texts. TN_MEMORY; free the desk in any case. */
 tn_status tn_desk_new(const tn_served *served, tn_desk **desk, tn_error *error);
 void tn_desk_free(tn_desk *desk);
 
