@@ -86,6 +86,7 @@ typedef struct tn_command {
     const char *ask_less; /* what to do where memory does not suffice: "take fewer steps"; NULL: nothing is known */
     const char *operands; /* what an operand is called in errors */
     size_t operands_min, operands_max;
+    bool serves; /* others, for as long as they like: it has nothing to lose, and a signal ends it at once */
     int (*run)(const struct tn_command *command, const tn_settings *settings);
 } tn_command;
 

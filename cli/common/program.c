@@ -35,11 +35,10 @@ int tn_program_refuse(const tn_settings *settings, const tn_error *error)
     return tn_job_end(&job);
 }
 
-/* An editor's server has nothing to lose, and ends at once. */
 static void watch(const tn_command *command, const tn_settings *settings)
 {
     tn_memory_guard_start(command, settings);
-    if (strcmp(command->name, "lsp") == 0)
+    if (command->serves)
         return;
     tn_interrupt_watch(settings->diagnostics == 1);
     const char *output = tn_settings_output(settings);

@@ -37,5 +37,6 @@ const tn_command tn_command_lsp = {
     .example = "$ tartan lsp 2>lsp.log",
     .settings_size = sizeof(tn_settings),
     .operands = "no operands",
+    .serves = true,
     .run = run,
 };

@@ -93,16 +93,16 @@ static int open_walking(int root, const char *name, int flags)
     return file;
 }
 
-int tn_open_below(const tn_served_folder *folder, const char *name, int flags)
+int tn_open_below(const tn_studio_folder *folder, const char *name, int flags)
 {
     return folder->walks ? open_walking(folder->root, name, flags) : (int)open_beneath(folder->root, name, flags);
 }
 
 /* ---- the folder */
 
-tn_status tn_served_folder_open(const char *path, bool read_only, tn_served_folder **folder, tn_error *error)
+tn_status tn_studio_folder_open(const char *path, bool read_only, tn_studio_folder **folder, tn_error *error)
 {
-    tn_served_folder *made = calloc(1, sizeof *made);
+    tn_studio_folder *made = calloc(1, sizeof *made);
     *folder = NULL;
     if (!made)
         return tn_fail_memory(error);
@@ -116,6 +116,12 @@ tn_status tn_served_folder_open(const char *path, bool read_only, tn_served_fold
         free(made);
         return tn_cannot_read(path, reason, error);
     }
+    if (!tn_is_utf8(made->path, strlen(made->path))) { /* a page could not be told */
+        close(made->root);
+        free(made->path);
+        free(made);
+        return tn_fail(error, TN_IO, E_CANNOT_READ, "cannot serve the folder: its name is no UTF-8 text");
+    }
     made->read_only = read_only;
     pthread_mutex_init(&made->writing, NULL);
     /* Filters of system calls refuse what they do not know, with errors of their own. */
@@ -127,7 +133,7 @@ tn_status tn_served_folder_open(const char *path, bool read_only, tn_served_fold
     return TN_OK;
 }
 
-void tn_served_folder_close(tn_served_folder *folder)
+void tn_studio_folder_close(tn_studio_folder *folder)
 {
     if (!folder)
         return;
@@ -137,17 +143,17 @@ void tn_served_folder_close(tn_served_folder *folder)
     free(folder);
 }
 
-void tn_served_folder_walk(tn_served_folder *folder)
+void tn_studio_folder_walk(tn_studio_folder *folder)
 {
     folder->walks = true;
 }
 
-const char *tn_served_folder_path(const tn_served_folder *folder)
+const char *tn_studio_folder_path(const tn_studio_folder *folder)
 {
     return folder->path;
 }
 
-bool tn_served_folder_read_only(const tn_served_folder *folder)
+bool tn_studio_folder_read_only(const tn_studio_folder *folder)
 {
     return folder->read_only;
 }
@@ -208,7 +214,7 @@ static tn_status cannot(const char *name, size_t limit, int reason, tn_error *er
                : tn_cannot_read(name, reason, error);
 }
 
-tn_status tn_served_folder_read(const tn_served_folder *folder, const char *name, size_t limit, uint8_t **bytes,
+tn_status tn_studio_folder_read(const tn_studio_folder *folder, const char *name, size_t limit, uint8_t **bytes,
                                 size_t *size, tn_error *error)
 {
     int file = tn_open_below(folder, name, O_RDONLY);
@@ -232,19 +238,19 @@ tn_file_hash tn_hash_of_bytes(const void *bytes, size_t size)
     return hash;
 }
 
-tn_file_hash tn_served_folder_hash(const tn_served_folder *folder, const char *name)
+tn_file_hash tn_studio_folder_hash(const tn_studio_folder *folder, const char *name)
 {
     uint8_t *bytes;
     size_t size;
     tn_error error;
-    if (tn_served_folder_read(folder, name, TN_TEXT_MAX, &bytes, &size, &error) != TN_OK)
+    if (tn_studio_folder_read(folder, name, TN_TEXT_MAX, &bytes, &size, &error) != TN_OK)
         return (tn_file_hash){""};
     tn_file_hash hash = tn_hash_of_bytes(bytes, size);
     free(bytes);
     return hash;
 }
 
-tn_file_stamp tn_served_folder_stamp(const tn_served_folder *folder, const char *name)
+tn_file_stamp tn_studio_folder_stamp(const tn_studio_folder *folder, const char *name)
 {
     struct stat found;
     int file = tn_open_below(folder, name, O_PATH);
@@ -270,7 +276,7 @@ static bool is_plain(const char *name)
     }
 }
 
-tn_status tn_served_name_check(const char *name, tn_error *error)
+tn_status tn_studio_name_check(const char *name, tn_error *error)
 {
     if (strlen(name) >= PATH_MAX || !tn_is_utf8(name, strlen(name)))
         return tn_fail(error, TN_INVALID, E_USAGE, "the name of a file is too long, or is no text");

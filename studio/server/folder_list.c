@@ -16,17 +16,17 @@
 #include "studio/server/folder_parts.h"
 
 typedef struct walk {
-    const tn_served_folder *folder;
-    tn_served_files *list;
+    const tn_studio_folder *folder;
+    tn_studio_files *list;
 } walk;
 
-static bool add(tn_served_files *list, const char *name, uint64_t size, const tn_notation *notation)
+static bool add(tn_studio_files *list, const char *name, uint64_t size, const tn_notation *notation)
 {
     if (!tn_array_reserve(&list->files, &list->capacity, list->count, 1, sizeof *list->files))
         return false;
     char *copy = strdup(name);
     if (copy)
-        list->files[list->count++] = (tn_served_file){copy, size, tn_notation_language(notation)};
+        list->files[list->count++] = (tn_studio_file){copy, size, tn_notation_language(notation)};
     return copy != NULL;
 }
 
@@ -104,13 +104,13 @@ static bool list_folder(const walk *w, int at, const char *prefix, unsigned dept
 
 static int by_name(const void *a, const void *b)
 {
-    return strcmp(((const tn_served_file *)a)->name, ((const tn_served_file *)b)->name);
+    return strcmp(((const tn_studio_file *)a)->name, ((const tn_studio_file *)b)->name);
 }
 
-tn_status tn_served_folder_list(const tn_served_folder *folder, tn_served_files *list, tn_error *error)
+tn_status tn_studio_folder_list(const tn_studio_folder *folder, tn_studio_files *list, tn_error *error)
 {
     struct stat found;
-    *list = (tn_served_files){0};
+    *list = (tn_studio_files){0};
     if (fstat(folder->root, &found) != 0 || found.st_nlink == 0)
         return tn_fail(error, TN_IO, E_CANNOT_READ, "the folder %.300s is gone", folder->path);
     int root = openat(folder->root, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -124,10 +124,52 @@ tn_status tn_served_folder_list(const tn_served_folder *folder, tn_served_files 
     return TN_OK;
 }
 
-void tn_served_files_clear(tn_served_files *list)
+void tn_studio_files_clear(tn_studio_files *list)
 {
     for (size_t i = 0; i < list->count; i++)
         free(list->files[i].name);
     free(list->files);
-    *list = (tn_served_files){0};
+    *list = (tn_studio_files){0};
+}
+
+/* ---- for those who compile: a path begins with "/", which is the folder */
+
+static tn_status read_served(void *context, const char *path, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    return tn_studio_folder_read(context, path + (path[0] == '/'), TN_NAMED_FILE_MAX, bytes, size, error);
+}
+
+/* The names as paths. */
+static bool hand_over(const tn_studio_files *list, char **paths)
+{
+    for (size_t i = 0; i < list->count; i++)
+        if (asprintf(&paths[i], "/%s", list->files[i].name) < 0) {
+            while (i > 0)
+                free(paths[--i]);
+            return false;
+        }
+    return true;
+}
+
+static tn_status list_served(void *context, char ***paths, size_t *count, bool *cut_off, tn_error *error)
+{
+    tn_studio_files list;
+    tn_status status = tn_studio_folder_list(context, &list, error);
+    *count = 0;
+    *paths = status == TN_OK ? malloc(sizeof **paths * (list.count + 1)) : NULL;
+    if (status == TN_OK && (!*paths || !hand_over(&list, *paths))) {
+        free(*paths);
+        *paths = NULL;
+        status = tn_fail_memory(error);
+    } else if (status == TN_OK) {
+        *count = list.count;
+        *cut_off = list.cut;
+    }
+    tn_studio_files_clear(&list);
+    return status;
+}
+
+tn_served tn_studio_folder_served(tn_studio_folder *folder)
+{
+    return (tn_served){.read = read_served, .list = list_served, .context = folder};
 }

@@ -7,7 +7,7 @@
 
 #include "studio/server/folder.h"
 
-struct tn_served_folder {
+struct tn_studio_folder {
     int root; /* the folder's descriptor */
     bool read_only;
     bool walks; /* the kernel has no openat2 */
@@ -16,7 +16,7 @@ struct tn_served_folder {
 };
 
 /* Opens what `name` says below the folder; -1 and errno. EXDEV: it lies outside. */
-int tn_open_below(const tn_served_folder *folder, const char *name, int flags);
+int tn_open_below(const tn_studio_folder *folder, const char *name, int flags);
 
 /* Reads an open file. 0, or why not: ENODEV or EISDIR if it is none that holds text, EFBIG if it is larger than the
  * limit. */

@@ -124,18 +124,18 @@ static tn_status unwritten(const char *name, int reason, tn_error *error)
 }
 
 /* The folder that the file is in, opened; -1 and errno. */
-static int open_its_folder(const tn_served_folder *folder, const char *name, size_t length)
+static int open_its_folder(const tn_studio_folder *folder, const char *name, size_t length)
 {
     char path[PATH_MAX];
     snprintf(path, sizeof path, "%.*s", length ? (int)length : 1, length ? name : ".");
     return tn_open_below(folder, path, O_RDONLY | O_DIRECTORY);
 }
 
-tn_status tn_served_folder_write(tn_served_folder *folder, const char *name, const char *text, size_t size,
+tn_status tn_studio_folder_write(tn_studio_folder *folder, const char *name, const char *text, size_t size,
                                  const tn_file_hash *seen, tn_file_hash *now, bool *conflict, tn_error *error)
 {
     *conflict = false;
-    if (tn_served_name_check(name, error) != TN_OK)
+    if (tn_studio_name_check(name, error) != TN_OK)
         return error->status;
     if (folder->read_only)
         return tn_fail(error, TN_IO, E_CANNOT_WRITE, "cannot write %.300s: the folder is served to be read only", name);

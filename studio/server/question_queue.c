@@ -151,12 +151,9 @@ static json_t *cancelled(const json_t *question)
                      TN_CANCELLED, "message", "nobody waits for the answer any more");
 }
 
-json_t *tn_question_queue_done(tn_question_queue *queue, json_t *answer)
+json_t *tn_question_queue_done(tn_question_queue *queue)
 {
-    if (queue->work && queue->unwanted) {
-        json_decref(answer);
-        answer = cancelled(queue->work->message);
-    }
+    json_t *answer = queue->work && queue->unwanted ? cancelled(queue->work->message) : NULL;
     free_entry(queue->work);
     queue->work = NULL;
     queue->unwanted = false;

@@ -25,12 +25,11 @@ bool tn_question_queue_put(tn_question_queue *queue, json_t *message, size_t siz
  * waits. */
 const json_t *tn_question_queue_next(tn_question_queue *queue);
 
-/* Is nobody waiting for the answer of the one at work any more? Then tn_question_queue_done says so to whoever asked. */
+/* Is nobody waiting for the answer of the one at work any more? */
 bool tn_question_queue_unwanted(const tn_question_queue *queue);
 
-/* The one at work has ended, with this answer (taken over; NULL: it has none). What is to be said: the answer, or, of
- * one that was ended, that it was. The caller's; NULL: nothing. */
-json_t *tn_question_queue_done(tn_question_queue *queue, json_t *answer);
+/* The one at work has come to its end. If nobody waits for its answer any more: what is said instead, the caller's. */
+json_t *tn_question_queue_done(tn_question_queue *queue);
 
 /* The next answer to a question that was ended while it waited. The caller's; NULL: no more. */
 json_t *tn_question_queue_ended(tn_question_queue *queue);

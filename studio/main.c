@@ -1,0 +1,161 @@
+/* tartan-studio: serves a folder to a browser, as `tartan studio` asks. */
+#include <errno.h>
+#include <libgen.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/common/interrupt.h"
+#include "cli/common/job.h"
+#include "cli/common/program.h"
+#include "cli/studio/studio.h"
+#include "runtime/base/file_error.h"
+#include "studio/server/browser.h"
+#include "studio/server/server.h"
+
+/* ---- what is served */
+
+typedef struct place {
+    char folder[PATH_MAX], file[NAME_MAX + 1]; /* the file is empty if there is none */
+} place;
+
+/* A folder, or a rule file's. */
+static tn_status find_place(const char *path, place *found, tn_error *error)
+{
+    struct stat kind;
+    *found = (place){"", ""};
+    if (strlen(path) >= sizeof found->folder)
+        return tn_cannot_read(path, ENAMETOOLONG, error);
+    if (stat(path, &kind) != 0)
+        return tn_cannot_read(path, errno, error);
+    strcpy(found->folder, path);
+    if (S_ISDIR(kind.st_mode))
+        return TN_OK;
+    char copy[PATH_MAX];
+    strcpy(copy, path);
+    const char *name = basename(copy);
+    if (strlen(name) >= sizeof found->file)
+        return tn_cannot_read(path, ENAMETOOLONG, error);
+    strcpy(found->file, name);
+    char *slash = strrchr(found->folder, '/');
+    if (slash)
+        slash[slash == found->folder] = '\0';
+    else
+        strcpy(found->folder, ".");
+    return tn_studio_name_check(found->file, error);
+}
+
+/* ---- the end */
+
+static void signals_that_end(sigset_t *set)
+{
+    sigemptyset(set);
+    sigaddset(set, SIGINT);
+    sigaddset(set, SIGTERM);
+    sigaddset(set, SIGHUP);
+}
+
+/* One ends the server, another one does not wait for it. */
+static void *wait_for_signals(void *server)
+{
+    sigset_t set;
+    int number;
+    signals_that_end(&set);
+    sigwait(&set, &number);
+    tn_server_end(server);
+    sigwait(&set, &number);
+    _exit(TN_EXIT_DONE);
+}
+
+static tn_status start_waiting(tn_server *server, tn_error *error)
+{
+    pthread_t thread;
+    if (pthread_create(&thread, NULL, wait_for_signals, server) != 0)
+        return tn_fail_memory(error);
+    pthread_detach(thread);
+    return TN_OK;
+}
+
+/* ---- the server */
+
+static tn_status announce(const tn_server *server, const tn_studio_folder *folder, const tn_studio_settings *settings,
+                          tn_error *error)
+{
+    printf("%s\n", tn_server_address(server));
+    if (fflush(stdout) != 0)
+        return tn_cannot_write("standard output", errno, error);
+    if (settings->common.diagnostics == 0)
+        fprintf(stderr, "note: %s is served%s; Ctrl-C ends it\n", tn_studio_folder_path(folder),
+                settings->read_only ? " to be read only" : "");
+    if (!settings->no_open)
+        tn_browser_open(tn_server_address_once(server));
+    return TN_OK;
+}
+
+/* What is still at work when it ends is left to the system. */
+static tn_status serve_folder(const tn_studio_settings *settings, tn_studio_folder *folder, const char *file,
+                              tn_error *error)
+{
+    const tn_server_options options = {.folder = folder,
+                                       .open = file[0] ? file : NULL,
+                                       .port = (unsigned)settings->port.value,
+                                       .memory_limit = tn_interrupt_waiting()->memory_limit};
+    tn_server *server;
+    tn_status status = tn_server_new(&options, &server, error);
+    if (status != TN_OK)
+        return status;
+    status = start_waiting(server, error);
+    if (status == TN_OK)
+        status = announce(server, folder, settings, error);
+    if (status == TN_OK)
+        tn_server_run(server);
+    fflush(stderr);
+    if (!tn_server_free(server))
+        _exit(status == TN_OK ? TN_EXIT_DONE : TN_EXIT_IO);
+    return status;
+}
+
+static tn_status serve(const tn_studio_settings *settings, tn_error *error)
+{
+    const tn_option_list *operands = &settings->common.operands;
+    place where;
+    tn_studio_folder *folder;
+    tn_status status = find_place(operands->count ? operands->items[0] : ".", &where, error);
+    if (status == TN_OK)
+        status = tn_studio_folder_open(where.folder, settings->read_only, &folder, error);
+    if (status != TN_OK)
+        return status;
+    status = serve_folder(settings, folder, where.file, error);
+    tn_studio_folder_close(folder);
+    return status;
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
+{
+    (void)command;
+    tn_job job;
+    tn_error error;
+    sigset_t set;
+    signals_that_end(&set);
+    pthread_sigmask(SIG_BLOCK, &set, NULL); /* in all threads: one waits for them */
+    tn_job_begin(&job, settings);
+    if (serve((const tn_studio_settings *)settings, &error) != TN_OK)
+        tn_job_fail(&job, &error);
+    return tn_job_end(&job);
+}
+
+int main(int argc, char **argv)
+{
+    tn_program_begin();
+    if (argc == 2 && strcmp(argv[1], "--version") == 0) {
+        puts("tartan-studio " TARTAN_VERSION);
+        return tn_program_printed();
+    }
+    tn_command command = *tn_command_find("studio");
+    command.run = run;
+    return tn_program_run(&command, argc - 1, argv + 1, NULL);
+}
