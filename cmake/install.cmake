@@ -69,7 +69,7 @@ foreach(folder ${folders})
   elseif(folder STREQUAL "api-run")
     set(part STORE)
   endif()
-  if(folder STREQUAL "lsp")
+  if(folder MATCHES "^(lsp|studio-.*)$") # of programs alone
     continue()
   elseif(part AND TARTAN_WITH_${part})
     list(APPEND TARTAN_${part}_FOLDERS ${folder})

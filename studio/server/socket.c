@@ -52,7 +52,7 @@ static int receive(struct lws *wsi, tn_socket *socket, const void *bytes, size_t
 }
 
 /* One piece each time the network has room. */
-static int send(struct lws *wsi, tn_socket *socket)
+static int send_piece(struct lws *wsi, tn_socket *socket)
 {
     unsigned char bytes[LWS_PRE + TN_PIECE_MAX];
     tn_outbox *outbox = tn_window_outbox(socket->window);
@@ -90,7 +90,7 @@ static int take_event(struct lws *wsi, enum lws_callback_reasons reason, tn_sock
     case LWS_CALLBACK_RECEIVE:
         return receive(wsi, socket, in, size);
     case LWS_CALLBACK_SERVER_WRITEABLE:
-        return send(wsi, socket);
+        return send_piece(wsi, socket);
     case LWS_CALLBACK_TIMER:
         return look(wsi, socket);
     case LWS_CALLBACK_CLOSED: /* comes for sockets, too, that were refused: those have no window */
