@@ -88,8 +88,8 @@ static json_t *list_of(const tn_studio_files *list)
     json_t *files = json_array();
     for (size_t i = 0; files && i < list->count; i++) {
         const tn_studio_file *file = &list->files[i];
-        json_t *row = json_pack("{s:s,s:I,s:s}", "path", file->name, "size", (json_int_t)file->size, "notation",
-                                file->notation);
+        json_t *row =
+            json_pack("{s:s,s:I,s:s}", "path", file->name, "size", (json_int_t)file->size, "notation", file->notation);
         if (json_array_append_new(files, row) != 0) {
             json_decref(files);
             return NULL;
@@ -132,8 +132,8 @@ static json_t *read_file(tn_file_requests *requests, const json_t *message, cons
         answered = fail(message, &error);
     } else {
         tn_file_hash hash = tn_hash_of_bytes(bytes, size);
-        answered = answer(message, json_pack("{s:s,s:s%,s:s}", "path", name, "text", (const char *)bytes, size, "hash",
-                                             hash.text));
+        answered = answer(
+            message, json_pack("{s:s,s:s%,s:s}", "path", name, "text", (const char *)bytes, size, "hash", hash.text));
     }
     free(bytes);
     return answered;

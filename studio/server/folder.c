@@ -24,9 +24,15 @@ enum { AGAIN_MAX = 16 }; /* openat2 asks to be called again if something was ren
 
 /* ---- below the folder */
 
+/* What is only looked at is not opened, and takes no other flags. */
+static int with_care(int flags)
+{
+    return flags | (flags & O_PATH ? O_CLOEXEC : SAFELY);
+}
+
 static long open_beneath(int root, const char *name, int flags)
 {
-    const struct open_how how = {.flags = (uint64_t)(flags | SAFELY),
+    const struct open_how how = {.flags = (uint64_t)with_care(flags),
                                  .resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS};
     long file = -1;
     errno = EAGAIN;
@@ -86,7 +92,7 @@ static int open_walking(int root, const char *name, int flags)
             return -1;
         at = next;
     }
-    int file = openat(at, *part ? part : ".", flags | SAFELY | O_NOFOLLOW), reason = errno;
+    int file = openat(at, *part ? part : ".", with_care(flags) | O_NOFOLLOW), reason = errno;
     if (at != root)
         close(at);
     errno = reason;
@@ -206,10 +212,10 @@ static tn_status cannot(const char *name, size_t limit, int reason, tn_error *er
         return tn_fail_memory(error);
     if (reason == EFBIG)
         return tn_fail(error, TN_LIMIT, E_FILE_TOO_LARGE, "%.300s is larger than the limit of %zu bytes", name, limit);
-    const char *why = reason == EXDEV                      ? "it lies outside of the folder that is served"
-                      : reason == ELOOP                    ? "it is a link, or lies behind one"
+    const char *why = reason == EXDEV                       ? "it lies outside of the folder that is served"
+                      : reason == ELOOP                     ? "it is a link, or lies behind one"
                       : reason == ENODEV || reason == ENXIO ? "it is no file that holds text"
-                                                           : NULL;
+                                                            : NULL;
     return why ? tn_fail(error, TN_IO, E_CANNOT_READ, "cannot read %.300s: %s", name, why)
                : tn_cannot_read(name, reason, error);
 }

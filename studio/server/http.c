@@ -87,7 +87,8 @@ static int confirm_upgrade(struct lws *wsi)
     if (!host_is_ours(wsi, host))
         sent = refuse_host(wsi);
     else if (!tn_gate_origin(host, origin) || !tn_gate_protocols(&server->gate, protocols))
-        sent = tn_http_refuse(wsi, HTTP_STATUS_FORBIDDEN, "Only pages that know the token of this address get a socket.");
+        sent =
+            tn_http_refuse(wsi, HTTP_STATUS_FORBIDDEN, "Only pages that know the token of this address get a socket.");
     else if (tn_windows_full(&server->windows))
         sent = tn_http_refuse(wsi, HTTP_STATUS_SERVICE_UNAVAILABLE, "Too many windows are open: close one.");
     else
@@ -184,7 +185,9 @@ int tn_http_callback(struct lws *wsi, enum lws_callback_reasons reason, void *us
         return go_on(wsi, user);
     case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
         return confirm_upgrade(wsi);
-    case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION: /* no socket speaks this protocol */
+    case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION: /* no socket speaks this protocol, */
+    case LWS_CALLBACK_RAW_ADOPT:                  /* and nobody gets a bare connection by CONNECT */
+    case LWS_CALLBACK_RAW_RX:
         return -1;
     default:
         return 0;

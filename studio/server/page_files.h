@@ -1,4 +1,5 @@
-/* The files of the page, which are built into the program (tools/embed-page): no path that a browser names is opened. */
+/* The files of the page, which are built into the program (tools/embed-page): no path that a browser names is opened.
+ */
 #ifndef TARTAN_STUDIO_SERVER_PAGE_FILES_H
 #define TARTAN_STUDIO_SERVER_PAGE_FILES_H
 

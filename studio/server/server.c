@@ -10,10 +10,10 @@
 #include "studio/server/server_parts.h"
 
 enum {
-    CONNECTIONS_MAX = TN_WINDOWS_MAX + 64, /* files of the page are asked for a few at a time */
-    HEADERS_MAX = 16 << 10,                /* bytes; browsers send the cookies of every server of this machine */
-    REQUEST_SECONDS = 10,                  /* in which a request is to have come */
-    PATIENCE = 2,                          /* seconds for windows to end */
+    CONNECTIONS_MAX = 512,  /* windows, and those that ask for files or say nothing */
+    HEADERS_MAX = 16 << 10, /* bytes; browsers send the cookies of every server of this machine */
+    REQUEST_SECONDS = 5,    /* in which a request is to have come */
+    PATIENCE = 2,           /* seconds for windows to end */
 };
 
 static const struct lws_protocols protocols[] = {
@@ -97,7 +97,7 @@ static tn_status open_context(tn_server *server, tn_error *error)
         .user = server,
         .fd_limit_per_thread = CONNECTIONS_MAX,
         .max_http_header_data2 = HEADERS_MAX,
-        .max_http_header_pool = TN_WINDOWS_MAX,
+        .max_http_header_pool = CONNECTIONS_MAX,
         .timeout_secs = REQUEST_SECONDS,
     };
     lws_set_log_level(0, NULL); /* what it says is not for people */

@@ -16,7 +16,7 @@ enum { PARSE_ERROR = -32700, INVALID_REQUEST = -32600, INTERNAL_ERROR = -32603, 
 
 enum {
     THREAD_STACK = 8 << 20,
-    REVIEW_SECONDS = 60, /* after which rules are looked at no longer */
+    REVIEW_SECONDS = 60,     /* after which rules are looked at no longer */
     LOOK_MILLISECONDS = 1000 /* between two looks at the files that are shown */
 };
 
@@ -35,10 +35,10 @@ struct tn_window {
     parcel *first, **last; /* for the thread of texts */
     size_t waiting;        /* bytes of them */
     tn_question_queue *questions;
-    bool left;       /* by the socket */
-    bool over;       /* an answer could not be made, or `exit` was said */
-    bool reviewed;   /* the background has come to its end */
-    unsigned users;  /* the socket and the threads */
+    bool left;      /* by the socket */
+    bool over;      /* an answer could not be made, or `exit` was said */
+    bool reviewed;  /* the background has come to its end */
+    unsigned users; /* the socket and the threads */
     /* of the thread of texts */
     tn_exchange *exchange;
     tn_background *background;
