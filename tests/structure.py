@@ -24,7 +24,8 @@ def read(path):
 
 def sources(root):
     for top in TOP:
-        for folder, _, names in os.walk(os.path.join(root, top)):
+        for folder, inside, names in os.walk(os.path.join(root, top)):
+            inside[:] = [name for name in inside if name != "node_modules"]
             for name in sorted(names):
                 if re.search(r"\.(c|h|cc|l|y|def)$", name):
                     yield os.path.relpath(os.path.join(folder, name), root)

@@ -79,6 +79,8 @@ static int open_walking(int root, const char *name, int flags)
         errno = EXDEV;
         return -1;
     }
+    size_t size = strlen(name);
+    flags |= size > 0 && name[size - 1] == '/' ? O_DIRECTORY : 0;
     int at = root;
     char *part = flat;
     for (char *slash; (slash = strchr(part, '/')) != NULL; part = slash + 1) {
