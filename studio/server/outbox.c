@@ -123,9 +123,9 @@ void tn_outbox_close(tn_outbox *outbox)
     pthread_mutex_unlock(&outbox->lock);
 }
 
-tn_piece tn_outbox_take(tn_outbox *outbox, unsigned char *bytes)
+tn_outbox_piece tn_outbox_take(tn_outbox *outbox, unsigned char *bytes)
 {
-    tn_piece piece = {0};
+    tn_outbox_piece piece = {0};
     pthread_mutex_lock(&outbox->lock);
     letter *l = outbox->first;
     if (l) {

@@ -34,13 +34,13 @@ void tn_outbox_wake(tn_outbox *outbox);
 /* Nothing is taken any more, and nobody waits; nor is anybody woken. */
 void tn_outbox_close(tn_outbox *outbox);
 
-typedef struct tn_piece {
+typedef struct tn_outbox_piece {
     size_t size;
     bool first, last; /* of its message */
-} tn_piece;
+} tn_outbox_piece;
 
 /* Copies the next piece to `bytes`, which has room for TN_PIECE_MAX; size 0: there is none. It counts as read. */
-tn_piece tn_outbox_take(tn_outbox *outbox, unsigned char *bytes);
+tn_outbox_piece tn_outbox_take(tn_outbox *outbox, unsigned char *bytes);
 
 /* Is there more? */
 bool tn_outbox_waits(tn_outbox *outbox);

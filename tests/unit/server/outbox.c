@@ -37,14 +37,14 @@ static void sends_in_pieces(void **state)
     assert_true(tn_outbox_put_text(outbox, text_of(2 * TN_PIECE_MAX + 1)));
     assert_true(tn_outbox_put(outbox, NULL) && tn_outbox_put_text(outbox, NULL));
     assert_int_equal(woken, 3);
-    const tn_piece wanted[] = {{7, true, true},
-                               {TN_PIECE_MAX, true, true},
-                               {TN_PIECE_MAX, true, false},
-                               {TN_PIECE_MAX, false, false},
-                               {1, false, true}};
+    const tn_outbox_piece wanted[] = {{7, true, true},
+                                      {TN_PIECE_MAX, true, true},
+                                      {TN_PIECE_MAX, true, false},
+                                      {TN_PIECE_MAX, false, false},
+                                      {1, false, true}};
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
         assert_true(tn_outbox_waits(outbox));
-        tn_piece piece = tn_outbox_take(outbox, bytes);
+        tn_outbox_piece piece = tn_outbox_take(outbox, bytes);
         assert_true(piece.size == wanted[i].size && piece.first == wanted[i].first && piece.last == wanted[i].last);
         assert_true(i > 0 || memcmp(bytes, "{\"a\":1}", 7) == 0);
     }
