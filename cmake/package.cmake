@@ -24,7 +24,7 @@ listed and drawn. With the libraries and headers to do so in C.")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 # Programs that are linked to the archives, or by pkg-config --static, need more.
-set(CPACK_DEBIAN_TARTAN_PACKAGE_SUGGESTS "bash-completion, libcairo2-dev, libgmp-dev, libjansson-dev, libsqlite3-dev, libxxhash-dev, libzstd-dev, pkg-config")
+set(CPACK_DEBIAN_TARTAN_PACKAGE_SUGGESTS "tartan-studio, bash-completion, libcairo2-dev, libgmp-dev, libjansson-dev, libsqlite3-dev, libxxhash-dev, libzstd-dev, pkg-config")
 # tartan-mpi, where it was built (mpi/): it runs with the standard library and the pages of the other.
 if(TARGET tartan-mpi)
   list(APPEND CPACK_COMPONENTS_ALL mpi)
@@ -33,6 +33,16 @@ if(TARGET tartan-mpi)
   set(CPACK_DEBIAN_MPI_PACKAGE_GENERATE_SHLIBS OFF)
   set(CPACK_COMPONENT_MPI_DESCRIPTION "tartan-mpi does commands of Tartan by MPI: it writes the shards of a plan library and breeds runs of evolution by many
 processes, on one machine or on many, with the same bytes as tartan alone.")
+endif()
+# tartan-studio, where it was built (studio/): the command `tartan studio` runs it, with libwebsockets, which nothing else needs.
+if(TARGET tartan-studio)
+  list(APPEND CPACK_COMPONENTS_ALL studio)
+  set(CPACK_DEBIAN_STUDIO_PACKAGE_NAME tartan-studio)
+  set(CPACK_DEBIAN_STUDIO_PACKAGE_DEPENDS "tartan (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_STUDIO_PACKAGE_RECOMMENDS "xdg-utils")
+  set(CPACK_DEBIAN_STUDIO_PACKAGE_GENERATE_SHLIBS OFF)
+  set(CPACK_COMPONENT_STUDIO_DESCRIPTION "The server of `tartan studio`: a page in the browser on which rules are written and what they keep is
+seen at once. It serves one folder, to this machine alone.")
 endif()
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian.cmake)
 include(CPack)
