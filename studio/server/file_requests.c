@@ -251,6 +251,12 @@ void tn_file_requests_clear(tn_file_requests *requests)
 
 /* ---- what others change */
 
+static json_t *say_changed(const char *name, const tn_file_hash *hash)
+{
+    return json_pack("{s:s,s:s,s:{s:s,s:o}}", "jsonrpc", "2.0", "method", "tartan/changed", "params", "path", name,
+                     "hash", hash_or_null(hash));
+}
+
 json_t *tn_file_requests_changed(tn_file_requests *requests, size_t *next)
 {
     while (*next < requests->watched_count) {
@@ -263,8 +269,16 @@ json_t *tn_file_requests_changed(tn_file_requests *requests, size_t *next)
         file->stamp = stamp;
         file->hash = hash;
         if (!same)
-            return json_pack("{s:s,s:s,s:{s:s,s:o}}", "jsonrpc", "2.0", "method", "tartan/changed", "params", "path",
-                             file->name, "hash", hash_or_null(&hash));
+            return say_changed(file->name, &hash);
     }
     return NULL;
+}
+
+json_t *tn_file_requests_tell(const tn_file_requests *requests, const char *name)
+{
+    for (size_t i = 0; i < requests->watched_count; i++)
+        if (strcmp(requests->watched[i].name, name) == 0)
+            return NULL;
+    tn_file_hash hash = tn_studio_folder_hash(requests->folder, name);
+    return say_changed(name, &hash);
 }

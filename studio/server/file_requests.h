@@ -42,4 +42,7 @@ json_t *tn_file_requests_answer(tn_file_requests *requests, const json_t *messag
  * the caller's; NULL: no other has. */
 json_t *tn_file_requests_changed(tn_file_requests *requests, size_t *next);
 
+/* That notification for another file, whose hash the window does not know; NULL if it is watched, or out of memory. */
+json_t *tn_file_requests_tell(const tn_file_requests *requests, const char *name);
+
 #endif

@@ -1,5 +1,7 @@
 #include "studio/server/window.h"
 
+#include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,9 +12,12 @@
 #include "studio/desk/desk.h"
 #include "studio/server/file_requests.h"
 #include "studio/server/question_queue.h"
+#include "studio/server/used_files.h"
 
 /* Error codes of JSON-RPC and of the Language Server Protocol. */
 enum { PARSE_ERROR = -32700, INVALID_REQUEST = -32600, INTERNAL_ERROR = -32603, REQUEST_FAILED = -32803 };
+
+enum { CHANGED = 2 }; /* a FileChangeType */
 
 enum {
     THREAD_STACK = 8 << 20,
@@ -29,7 +34,8 @@ typedef struct parcel {
 struct tn_window {
     tn_windows *all;
     tn_outbox *outbox;
-    tn_served served;
+    tn_used_files used;
+    tn_served served;     /* which notes them */
     pthread_mutex_t lock; /* for what follows */
     pthread_cond_t texts_come, questions_come;
     parcel *first, **last; /* for the thread of texts */
@@ -130,6 +136,7 @@ static void free_window(tn_window *w)
     tn_exchange_free(w->exchange);
     tn_desk_free(w->desk);
     tn_file_requests_clear(&w->files);
+    tn_used_files_clear(&w->used);
     pthread_mutex_destroy(&w->lock);
     pthread_cond_destroy(&w->texts_come);
     pthread_cond_destroy(&w->questions_come);
@@ -159,6 +166,23 @@ static json_t *failure(const json_t *id, int code, const char *why)
 {
     return id ? json_pack("{s:s,s:O,s:{s:i,s:s}}", "jsonrpc", "2.0", "id", id, "error", "code", code, "message", why)
               : json_pack("{s:s,s:n,s:{s:i,s:s}}", "jsonrpc", "2.0", "id", "error", "code", code, "message", why);
+}
+
+/* Takes over a message for the thread of questions, and answers those that it ended. */
+static bool put_question(tn_window *w, json_t *message, size_t size)
+{
+    json_t *ended;
+    pthread_mutex_lock(&w->lock);
+    bool good = message && tn_question_queue_size(w->questions) + size <= TN_UNTAKEN_MAX;
+    if (good)
+        good = tn_question_queue_put(w->questions, message, size);
+    else
+        json_decref(message);
+    pthread_cond_signal(&w->questions_come);
+    while ((ended = tn_question_queue_ended(w->questions)))
+        good = tn_outbox_put_now(w->outbox, ended) && good;
+    pthread_mutex_unlock(&w->lock);
+    return good;
 }
 
 /* ---- the thread of texts */
@@ -233,13 +257,35 @@ static void begin_review(tn_window *w)
     }
 }
 
+static bool looks_at_files(tn_window *w)
+{
+    return w->files.watched_count > 0 || tn_used_files_any(&w->used);
+}
+
+/* Those who keep what they read of it are told, and so is the page, whose answers are old. */
+static void tell_of_file(tn_window *w, const char *name)
+{
+    char path[PATH_MAX + 1];
+    snprintf(path, sizeof path, "/%s", name);
+    char *uri = tn_path_uri(path);
+    json_t *message =
+        json_pack("{s:s,s:s,s:{s:[{s:s,s:i}]}}", "jsonrpc", "2.0", "method", "workspace/didChangeWatchedFiles",
+                  "params", "changes", "uri", uri ? uri : "", "type", CHANGED);
+    free(uri);
+    tn_exchange_take(w->exchange, message);
+    put_question(w, message, 0);
+    tn_outbox_put(w->outbox, tn_file_requests_tell(&w->files, name));
+}
+
 static void look_at_files(tn_window *w)
 {
-    size_t next = 0;
-    if (w->files.watched_count == 0 || tn_seconds() < w->look)
+    size_t next = 0, next_used = 0;
+    if (tn_seconds() < w->look || !looks_at_files(w))
         return;
     for (json_t *changed; (changed = tn_file_requests_changed(&w->files, &next));)
         tn_outbox_put(w->outbox, changed);
+    for (char *name; (name = tn_used_files_changed(&w->used, &next_used)); free(name))
+        tell_of_file(w, name);
     w->look = tn_seconds() + LOOK_MILLISECONDS * 1e-3;
 }
 
@@ -262,11 +308,10 @@ static void take_text(tn_window *w, json_t *message)
 }
 
 /* Milliseconds until something is to be done that is no message. */
-static int patience_of(const tn_window *w)
+static int patience_of(tn_window *w)
 {
     int patience = tn_exchange_patience(w->exchange);
-    bool looks = w->files.watched_count > 0;
-    return looks && (patience < 0 || patience > LOOK_MILLISECONDS) ? LOOK_MILLISECONDS : patience;
+    return (patience < 0 || patience > LOOK_MILLISECONDS) && looks_at_files(w) ? LOOK_MILLISECONDS : patience;
 }
 
 static void *answer_texts(void *context)
@@ -390,7 +435,8 @@ tn_window *tn_window_open(tn_windows *windows, void (*woken)(void *context), voi
     w->all = windows;
     w->users = 1;
     w->last = &w->first;
-    w->served = tn_studio_folder_served(windows->folder);
+    tn_used_files_begin(&w->used, windows->folder);
+    w->served = tn_used_files_served(&w->used);
     w->files = (tn_file_requests){.folder = windows->folder, .open = windows->open};
     pthread_mutex_init(&w->lock, NULL);
     begin_condition(&w->texts_come);
@@ -426,23 +472,6 @@ static bool put_text(tn_window *w, json_t *message, size_t size)
         free(p);
     }
     return room;
-}
-
-/* Answers what this ended, too. */
-static bool put_question(tn_window *w, json_t *message, size_t size)
-{
-    json_t *ended;
-    pthread_mutex_lock(&w->lock);
-    bool good = message && tn_question_queue_size(w->questions) + size <= TN_UNTAKEN_MAX;
-    if (good)
-        good = tn_question_queue_put(w->questions, message, size);
-    else
-        json_decref(message);
-    pthread_cond_signal(&w->questions_come);
-    while ((ended = tn_question_queue_ended(w->questions)))
-        good = tn_outbox_put_now(w->outbox, ended) && good;
-    pthread_mutex_unlock(&w->lock);
-    return good;
 }
 
 /* Texts that are open, or files that are not. */

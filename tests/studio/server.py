@@ -522,6 +522,24 @@ def tells_of_changes(server, folder):
 
 
 @served()
+def notices_changes_of_what_is_used(server, folder):
+    window = Window(server)
+    window.begin()
+    window.open("user.plan", 'use "one.plan"\nlibrary more using s { trays 1..2 }\n')
+    equal(window.note("textDocument/publishDiagnostics")["diagnostics"], [], "what is used")
+    equal(window.answer(count(window, "user.plan", 1))["result"]["answer"]["kept"], "6", "the count")
+    folder.write("one.plan", PLAN.replace("a | b", "a | b | c"))
+    equal(window.note("tartan/changed")["path"], "one.plan", "which is changed")
+    equal(window.answer(count(window, "user.plan", 1))["result"]["answer"]["kept"], "12", "the count after it")
+    folder.write("one.plan", PLAN.replace("schema s", "schema t"))
+    while "E0105" not in json.dumps(window.note("textDocument/publishDiagnostics")):
+        pass
+    os.remove(folder.at("one.plan"))
+    while "E0901" not in json.dumps(window.note("textDocument/publishDiagnostics")):
+        pass
+
+
+@served()
 def says_that_the_folder_is_gone(server, folder):
     window = Window(server)
     shutil.rmtree(folder.path)
