@@ -33,11 +33,11 @@ struct tn_paint {
     state now;
     state *saved; /* owned */
     size_t depth, capacity;
-    tn_path_step *steps; /* owned */
+    tn_drawn_step *steps; /* owned */
     size_t step_count, step_capacity;
-    bool goes_on;           /* what is added goes on from where the path is */
-    tn_path_step beginning; /* of the subpath */
-    tn_status status;       /* of the first failure */
+    bool goes_on;            /* what is added goes on from where the path is */
+    tn_drawn_step beginning; /* of the subpath */
+    tn_status status;        /* of the first failure */
 };
 
 static void reset(state *s)
@@ -200,7 +200,7 @@ void tn_paint_even_odd(tn_paint *paint, bool even_odd)
 
 /* ---- paths */
 
-static void add(tn_paint *paint, tn_path_step step)
+static void add(tn_paint *paint, tn_drawn_step step)
 {
     if (!draws(paint))
         return;
@@ -223,9 +223,9 @@ void tn_paint_new_sub_path(tn_paint *paint)
 
 void tn_paint_move_to(tn_paint *paint, double x, double y)
 {
-    tn_path_step step = {.kind = TN_STEP_MOVE};
+    tn_drawn_step step = {.kind = TN_DRAWN_MOVE};
     place(paint, x, y, &step.x, &step.y);
-    if (paint->step_count && paint->steps[paint->step_count - 1].kind == TN_STEP_MOVE)
+    if (paint->step_count && paint->steps[paint->step_count - 1].kind == TN_DRAWN_MOVE)
         paint->step_count--; /* nothing begins there */
     add(paint, step);
     paint->beginning = step;
@@ -235,13 +235,13 @@ void tn_paint_move_to(tn_paint *paint, double x, double y)
 /* What goes on from a path that was closed begins where that began. */
 static void go_on(tn_paint *paint)
 {
-    if (paint->step_count && paint->steps[paint->step_count - 1].kind == TN_STEP_CLOSE)
+    if (paint->step_count && paint->steps[paint->step_count - 1].kind == TN_DRAWN_CLOSE)
         add(paint, paint->beginning);
 }
 
 void tn_paint_line_to(tn_paint *paint, double x, double y)
 {
-    tn_path_step step = {.kind = TN_STEP_LINE};
+    tn_drawn_step step = {.kind = TN_DRAWN_LINE};
     if (!paint->goes_on) {
         tn_paint_move_to(paint, x, y);
         return;
@@ -254,7 +254,7 @@ void tn_paint_line_to(tn_paint *paint, double x, double y)
 void tn_paint_close_path(tn_paint *paint)
 {
     if (paint->goes_on)
-        add(paint, (tn_path_step){.kind = TN_STEP_CLOSE});
+        add(paint, (tn_drawn_step){.kind = TN_DRAWN_CLOSE});
 }
 
 void tn_paint_rectangle(tn_paint *paint, double x, double y, double width, double height)
@@ -270,8 +270,8 @@ static void add_arc(tn_paint *paint, double x, double y, double radius, double f
 {
     const axes *a = &paint->now.axes;
     tn_paint_line_to(paint, x + radius * tn_cos(from), y + radius * tn_sin(from));
-    tn_path_step step = {
-        .kind = TN_STEP_ARC, .radius = radius * a->scale, .from = from + a->angle, .to = to + a->angle};
+    tn_drawn_step step = {
+        .kind = TN_DRAWN_ARC, .radius = radius * a->scale, .from = from + a->angle, .to = to + a->angle};
     place(paint, x, y, &step.x, &step.y);
     add(paint, step);
 }
@@ -290,14 +290,14 @@ void tn_paint_arc_negative(tn_paint *paint, double x, double y, double radius, d
     add_arc(paint, x, y, radius, from, to);
 }
 
-static tn_path path_of(const tn_paint *paint)
+static tn_drawn_path path_of(const tn_paint *paint)
 {
-    return (tn_path){paint->steps, paint->step_count, paint->now.even_odd};
+    return (tn_drawn_path){paint->steps, paint->step_count, paint->now.even_odd};
 }
 
 void tn_paint_fill_keep(tn_paint *paint)
 {
-    tn_path path = path_of(paint);
+    tn_drawn_path path = path_of(paint);
     if (draws(paint) && path.count)
         note(paint, paint->device->operations->fill(paint->device, &path, &paint->now.ink));
 }
@@ -311,7 +311,7 @@ void tn_paint_fill(tn_paint *paint)
 /* The pen as it is on the page. */
 void tn_paint_stroke_keep(tn_paint *paint)
 {
-    tn_path path = path_of(paint);
+    tn_drawn_path path = path_of(paint);
     tn_pen pen = paint->now.pen;
     double scale = paint->now.axes.scale;
     pen.width *= scale;
@@ -330,7 +330,7 @@ void tn_paint_stroke(tn_paint *paint)
 
 void tn_paint_clip(tn_paint *paint)
 {
-    tn_path path = path_of(paint);
+    tn_drawn_path path = path_of(paint);
     if (draws(paint)) {
         note(paint, paint->device->operations->begin_clip(paint->device, &path));
         paint->now.clips++;

@@ -43,16 +43,16 @@ static tn_status status_of(tn_device *device)
 
 /* ---- operations */
 
-static void trace(cairo_t *context, const tn_path *path)
+static void trace(cairo_t *context, const tn_drawn_path *path)
 {
     cairo_new_path(context);
     for (size_t i = 0; i < path->count; i++) {
-        const tn_path_step *step = &path->steps[i];
-        if (step->kind == TN_STEP_MOVE)
+        const tn_drawn_step *step = &path->steps[i];
+        if (step->kind == TN_DRAWN_MOVE)
             cairo_move_to(context, step->x, step->y);
-        else if (step->kind == TN_STEP_LINE)
+        else if (step->kind == TN_DRAWN_LINE)
             cairo_line_to(context, step->x, step->y);
-        else if (step->kind == TN_STEP_CLOSE)
+        else if (step->kind == TN_DRAWN_CLOSE)
             cairo_close_path(context);
         else if (step->to < step->from)
             cairo_arc_negative(context, step->x, step->y, step->radius, step->from, step->to);
@@ -67,7 +67,7 @@ static void take_ink(cairo_t *context, const tn_ink *ink)
     cairo_set_source_rgba(context, ink->red, ink->green, ink->blue, ink->opacity);
 }
 
-static tn_status fill(tn_device *device, const tn_path *path, const tn_ink *ink)
+static tn_status fill(tn_device *device, const tn_drawn_path *path, const tn_ink *ink)
 {
     trace(context_of(device), path);
     take_ink(context_of(device), ink);
@@ -75,7 +75,7 @@ static tn_status fill(tn_device *device, const tn_path *path, const tn_ink *ink)
     return status_of(device);
 }
 
-static tn_status stroke(tn_device *device, const tn_path *path, const tn_pen *pen, const tn_ink *ink)
+static tn_status stroke(tn_device *device, const tn_drawn_path *path, const tn_pen *pen, const tn_ink *ink)
 {
     cairo_t *context = context_of(device);
     trace(context, path);
@@ -126,7 +126,7 @@ static tn_status draw_pixels(tn_device *device, const tn_pixels *pixels)
     return status_of(device);
 }
 
-static tn_status begin_clip(tn_device *device, const tn_path *path)
+static tn_status begin_clip(tn_device *device, const tn_drawn_path *path)
 {
     cairo_save(context_of(device));
     trace(context_of(device), path);

@@ -9,22 +9,22 @@
 
 #include "runtime/base/watch.h"
 
-typedef enum tn_step_kind { TN_STEP_MOVE, TN_STEP_LINE, TN_STEP_ARC, TN_STEP_CLOSE } tn_step_kind;
+typedef enum tn_drawn_step_kind { TN_DRAWN_MOVE, TN_DRAWN_LINE, TN_DRAWN_ARC, TN_DRAWN_CLOSE } tn_drawn_step_kind;
 
 /* A step of a path. An arc is one of a circle around (x, y), from an angle to another, in radians from the x axis
  * towards the y axis, and begins where the step before it ends; it runs backwards if `to` is less than `from`. */
-typedef struct tn_path_step {
-    tn_step_kind kind;
+typedef struct tn_drawn_step {
+    tn_drawn_step_kind kind;
     double x, y;
     double radius, from, to; /* arc */
-} tn_path_step;
+} tn_drawn_step;
 
 /* Every path begins with a MOVE, and after a CLOSE there is another. */
-typedef struct tn_path {
-    const tn_path_step *steps;
+typedef struct tn_drawn_path {
+    const tn_drawn_step *steps;
     size_t count;
     bool even_odd; /* filled where it is wound around an odd number of times; otherwise any but 0 */
-} tn_path;
+} tn_drawn_path;
 
 /* Parts from 0 to 1. */
 typedef struct tn_ink {
@@ -68,12 +68,12 @@ typedef struct tn_pixels {
 typedef struct tn_device tn_device;
 
 typedef struct tn_device_operations {
-    tn_status (*fill)(tn_device *device, const tn_path *path, const tn_ink *ink);
-    tn_status (*stroke)(tn_device *device, const tn_path *path, const tn_pen *pen, const tn_ink *ink);
+    tn_status (*fill)(tn_device *device, const tn_drawn_path *path, const tn_ink *ink);
+    tn_status (*stroke)(tn_device *device, const tn_drawn_path *path, const tn_pen *pen, const tn_ink *ink);
     tn_status (*text)(tn_device *device, const tn_lettering *lettering, const tn_ink *ink);
     tn_status (*pixels)(tn_device *device, const tn_pixels *pixels);
     /* From now on only within the path, too; ends what began last. */
-    tn_status (*begin_clip)(tn_device *device, const tn_path *path);
+    tn_status (*begin_clip)(tn_device *device, const tn_drawn_path *path);
     tn_status (*end_clip)(tn_device *device);
     /* What is drawn until its end is said to be that; NULL: nothing is said. */
     tn_status (*begin_group)(tn_device *device, const char *name, size_t number);

@@ -126,7 +126,7 @@ static bool line_to(svg *s, grid_point to)
     return append_step(&s->path, 'l', numbers, 2);
 }
 
-static bool arc_part(svg *s, const tn_path_step *arc, double from, double to)
+static bool arc_part(svg *s, const tn_drawn_step *arc, double from, double to)
 {
     grid_point end = {grid_of(arc->x + arc->radius * tn_cos(to)), grid_of(arc->y + arc->radius * tn_sin(to))};
     int64_t radius = grid_of(arc->radius);
@@ -138,7 +138,7 @@ static bool arc_part(svg *s, const tn_path_step *arc, double from, double to)
 }
 
 /* A whole circle ends where it begins, which an arc of SVG cannot: it is two halves. */
-static bool arc_to(svg *s, const tn_path_step *arc)
+static bool arc_to(svg *s, const tn_drawn_step *arc)
 {
     if (fabs(arc->to - arc->from) < WHOLE * 0.999)
         return arc_part(s, arc, arc->from, arc->to);
@@ -146,17 +146,17 @@ static bool arc_to(svg *s, const tn_path_step *arc)
     return arc_part(s, arc, arc->from, middle) && arc_part(s, arc, middle, arc->to);
 }
 
-static bool append_path(svg *s, const tn_path *path)
+static bool append_path(svg *s, const tn_drawn_path *path)
 {
     bool fine = append(&s->path, "", 0);
     for (size_t i = 0; fine && i < path->count; i++) {
-        const tn_path_step *step = &path->steps[i];
+        const tn_drawn_step *step = &path->steps[i];
         grid_point to = {grid_of(step->x), grid_of(step->y)};
-        if (step->kind == TN_STEP_MOVE) {
+        if (step->kind == TN_DRAWN_MOVE) {
             fine = move_to(s, to);
-        } else if (step->kind == TN_STEP_LINE) {
+        } else if (step->kind == TN_DRAWN_LINE) {
             fine = line_to(s, to);
-        } else if (step->kind == TN_STEP_ARC) {
+        } else if (step->kind == TN_DRAWN_ARC) {
             fine = arc_to(s, step);
         } else {
             fine = append(&s->path, "z", 1);
@@ -209,7 +209,7 @@ static void put_fill(FILE *out, const tn_ink *ink)
     fputs(words, out);
 }
 
-static tn_status fill(tn_device *device, const tn_path *path, const tn_ink *ink)
+static tn_status fill(tn_device *device, const tn_drawn_path *path, const tn_ink *ink)
 {
     svg *s = (svg *)device;
     close_stroke(s);
@@ -246,7 +246,7 @@ static void write_pen(char style[STYLE_ROOM], const tn_pen *pen, const tn_ink *i
 }
 
 /* Strokes that can be seen through are darker where they cross, so that two are not one. */
-static tn_status stroke(tn_device *device, const tn_path *path, const tn_pen *pen, const tn_ink *ink)
+static tn_status stroke(tn_device *device, const tn_drawn_path *path, const tn_pen *pen, const tn_ink *ink)
 {
     svg *s = (svg *)device;
     char style[STYLE_ROOM];
@@ -353,7 +353,7 @@ static tn_status new_clip(svg *s, uint64_t hash, bool even_odd)
     return TN_OK;
 }
 
-static tn_status begin_clip(tn_device *device, const tn_path *path)
+static tn_status begin_clip(tn_device *device, const tn_drawn_path *path)
 {
     svg *s = (svg *)device;
     close_stroke(s);
