@@ -319,9 +319,19 @@ static void draw_number(const drawing *d, tn_paint *paint, const tn_drawn_plan *
     tn_type_digits(paint, x + used, baseline, width - used, plan->number);
 }
 
+static void draw_table(const drawing *d, tn_paint *paint, const tn_drawn_plan *plan, double x, double y)
+{
+    tn_paint_save(paint);
+    tn_paint_translate(paint, x, y);
+    tn_paint_scale(paint, d->factor);
+    tn_draw_table_plan(paint, &d->roles, &d->table, plan, 0, 0);
+    tn_paint_restore(paint);
+}
+
 static void draw_cell(const drawing *d, tn_paint *paint, const tn_drawn_plan *plan, double x, double top)
 {
     double y = top + heading_room(d), height = d->cell_height - heading_room(d);
+    tn_paint_target(paint, x, y, d->cell_width, height);
     if (plan->heading) {
         tn_paint_face(paint, HEADING_SIZE, true);
         tn_type_line(paint, x, top + HEADING_SIZE, TN_ALIGN_LEFT, plan->heading);
@@ -337,11 +347,7 @@ static void draw_cell(const drawing *d, tn_paint *paint, const tn_drawn_plan *pl
         draw_number(d, paint, plan, left, y + height - 2, d->cell_width - (left - x));
         return;
     }
-    tn_paint_save(paint);
-    tn_paint_translate(paint, x, y);
-    tn_paint_scale(paint, d->factor);
-    tn_draw_table_plan(paint, &d->roles, &d->table, plan, 0, 0);
-    tn_paint_restore(paint);
+    draw_table(d, paint, plan, x, y);
     double indent = d->table.name_width * d->factor;
     draw_number(d, paint, plan, x + indent, y + height - 2, d->cell_width - indent);
 }
@@ -372,9 +378,12 @@ static void draw_page(const drawing *d, const tn_canvas *canvas, size_t first, s
     for (size_t i = 0, slot = SIZE_MAX; i < d->count && !tn_canvas_stopped(canvas); i++) {
         slot = next_slot(d, slot, &d->plans[i]);
         size_t at = slot - first; /* wraps where it is on an earlier page */
-        if (at < here)
-            draw_cell(d, paint, &d->plans[i], x0 + (double)(at % d->columns) * (d->cell_width + column_gap),
-                      y0 + (double)(at / d->columns) * (d->cell_height + row_gap));
+        if (at >= here)
+            continue;
+        tn_paint_group_begin(paint, TN_PAINT_PLAN, i);
+        draw_cell(d, paint, &d->plans[i], x0 + (double)(at % d->columns) * (d->cell_width + column_gap),
+                  y0 + (double)(at / d->columns) * (d->cell_height + row_gap));
+        tn_paint_group_end(paint);
     }
 }
 

@@ -119,7 +119,7 @@ static bool measure(picture *p, const tn_drawn_reason *reasons, size_t count)
     return true;
 }
 
-static void draw_plan(const picture *p, const tn_drawn_plan *plan, double y)
+static void draw_trays(const picture *p, const tn_drawn_plan *plan, double y)
 {
     if (!p->roles.to_scale) {
         tn_draw_table_plan(p->paint, &p->roles, &p->table, plan, p->left - p->table.name_width, y);
@@ -127,6 +127,13 @@ static void draw_plan(const picture *p, const tn_drawn_plan *plan, double y)
     }
     double spine = y + TN_MARK_ROOM + p->extent.above * p->scale;
     tn_draw_plan(p->paint, &p->roles, plan, p->scale, p->left, spine, spine + p->extent.below * p->scale, &p->extent);
+}
+
+static void draw_plan(const picture *p, const tn_drawn_plan *plan, size_t number, double y)
+{
+    tn_paint_group_begin(p->paint, TN_PAINT_PLAN, number);
+    draw_trays(p, plan, y);
+    tn_paint_group_end(p->paint);
 }
 
 static void bars(const picture *p, const tn_stretch *stretches, size_t count, double y, const double colour[3],
@@ -233,6 +240,22 @@ static void draw_grid(const picture *p, double from, double to)
     tn_paint_colour(p->paint, 0, 0, 0);
 }
 
+/* A rule, and a row for each of its parts. */
+static void draw_reason(const picture *p, const tn_drawn_reason *rule, size_t parts, double y)
+{
+    tn_paint_group_begin(p->paint, TN_PAINT_RULE, rule->number);
+    draw_rule(p, rule, y);
+    draw_grid(p, y + ROW_HEIGHT, y + ROW_HEIGHT * (1 + (double)parts));
+    for (size_t i = 1; i <= parts; i++) {
+        double top = y + ROW_HEIGHT * (double)i;
+        tn_paint_group_begin(p->paint, TN_PAINT_PART, rule[i].number);
+        tn_paint_target(p->paint, MARGIN, top, p->width - 2 * MARGIN, ROW_HEIGHT);
+        draw_part(p, &rule[i], top);
+        tn_paint_group_end(p->paint);
+    }
+    tn_paint_group_end(p->paint);
+}
+
 static void draw_near(const picture *p, double y)
 {
     if (p->drawn->near_count == 0)
@@ -246,7 +269,7 @@ static void draw_near(const picture *p, double y)
         tn_paint_face(p->paint, RULE_SIZE, false);
         if (plan->caption)
             tn_type_fit(p->paint, p->left, y + RULE_SIZE, TN_ALIGN_LEFT, p->width - p->margin - p->left, plan->caption);
-        draw_plan(p, plan, y + CAPTION_ROOM);
+        draw_plan(p, plan, i + 1, y + CAPTION_ROOM);
         y += CAPTION_ROOM + p->plan_height;
     }
 }
@@ -259,17 +282,14 @@ static void draw_all(const picture *p, const tn_drawn_reason *reasons, size_t co
         tn_type_fit(p->paint, MARGIN, y + TITLE_SIZE, TN_ALIGN_LEFT, p->width - 2 * MARGIN, p->title);
         y += TITLE_ROOM;
     }
-    draw_plan(p, p->plan, y);
+    draw_plan(p, p->plan, 0, y);
     y += p->plan_height;
-    for (size_t i = 0; i < count; i++) {
-        if (reasons[i].depth == 0) {
-            y += RULE_ROOM;
-            draw_rule(p, &reasons[i], y);
-            draw_grid(p, y + ROW_HEIGHT, y + ROW_HEIGHT * (1 + (double)parts_of(reasons, count, i)));
-        } else {
-            draw_part(p, &reasons[i], y);
-        }
-        y += ROW_HEIGHT;
+    for (size_t i = 0; i < count;) {
+        size_t parts = parts_of(reasons, count, i);
+        y += RULE_ROOM;
+        draw_reason(p, &reasons[i], parts, y);
+        y += ROW_HEIGHT * (1 + (double)parts);
+        i += 1 + parts;
     }
     draw_near(p, y);
 }

@@ -196,13 +196,10 @@ static void draw_gap(const picture *p, const card *c)
     }
 }
 
-static void draw_card(const picture *p, const card *c)
+static void draw_tray(const picture *p, const card *c)
 {
     char number[24];
-    if (c->spec == TN_NO_RECORD) {
-        draw_gap(p, c);
-        return;
-    }
+    tn_paint_target(p->paint, c->x, c->y, p->width, card_height(p));
     ink(p, 0);
     snprintf(number, sizeof number, "%u", c->number + 1);
     tn_paint_face(p->paint, TEXT, true);
@@ -210,6 +207,17 @@ static void draw_card(const picture *p, const card *c)
     tn_draw_spec(p->paint, &p->roles, c->spec, c->x + (p->width - c->symbol_width) / 2,
                  c->y + NUMBER_ROOM + (p->symbols - c->symbol_height) / 2, false);
     draw_table(p, c, c->y + NUMBER_ROOM + p->symbols + SYMBOL_GAP);
+}
+
+static void draw_card(const picture *p, const card *c)
+{
+    if (c->spec == TN_NO_RECORD) {
+        draw_gap(p, c);
+        return;
+    }
+    tn_paint_group_begin(p->paint, TN_PAINT_TRAY, c->number);
+    draw_tray(p, c);
+    tn_paint_group_end(p->paint);
 }
 
 static void draw_titles(const picture *p)

@@ -351,6 +351,25 @@ static void draw_dimensions(const picture *p, double bottom, const tn_draw_exten
         tn_type_line(p->paint, (p->x + x) / 2, y - 2, TN_ALIGN_CENTRE, text);
 }
 
+/* Each tray's place, from its highest band to its lowest. */
+static void mark_trays(const picture *p)
+{
+    double x = p->x;
+    for (size_t i = 0; i < p->plan->length; x += tray_width(p, i++)) {
+        rectangle r = {x, p->y, tray_width(p, i), (double)bare_depth(p->roles) * p->scale, 0}, band;
+        double top = INFINITY, bottom = -INFINITY;
+        for (uint32_t b = 0; b < p->roles->band_count; b++) {
+            if (!band_rectangle(p, p->plan->trays[i], b, x, &band))
+                continue;
+            top = fmin(top, band.y);
+            bottom = fmax(bottom, band.y + band.height);
+        }
+        tn_paint_group_begin(p->paint, TN_PAINT_TRAY, i);
+        tn_paint_target(p->paint, r.x, top < bottom ? top : r.y, r.width, top < bottom ? bottom - top : r.height);
+        tn_paint_group_end(p->paint);
+    }
+}
+
 void tn_draw_plan(tn_paint *paint, const tn_draw_roles *roles, const tn_drawn_plan *plan, double scale, double x,
                   double y, double bottom, const tn_draw_extent *extent)
 {
@@ -363,4 +382,5 @@ void tn_draw_plan(tn_paint *paint, const tn_draw_roles *roles, const tn_drawn_pl
     draw_masses(&p);
     draw_marks(&p, bottom);
     draw_dimensions(&p, bottom + (extent->mark_below ? TN_MARK_ROOM : 0), extent);
+    mark_trays(&p);
 }

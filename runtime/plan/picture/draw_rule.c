@@ -248,7 +248,8 @@ static void draw_inside(const tn_rule_picture *p, uint32_t part, double x, doubl
     }
 }
 
-static void draw_part(const tn_rule_picture *p, uint32_t part, double x, double y, bool mirrored)
+/* What a part looks like where it may be left out, or has a box. */
+static void draw_framed(const tn_rule_picture *p, uint32_t part, double x, double y, bool mirrored)
 {
     const tn_part *it = tn_rule_part(p, part);
     tn_size s = p->sizes[part];
@@ -268,6 +269,14 @@ static void draw_part(const tn_rule_picture *p, uint32_t part, double x, double 
     double side = PADDING + (it->kind == TN_PART_DISTANCE ? DISTANCE_SIDE : 0);
     draw_inside(p, part, x + side, y + PADDING + SIGN_ROOM,
                 (tn_size){s.width - 2 * side, s.height - 2 * PADDING - SIGN_ROOM}, mirrored);
+}
+
+static void draw_part(const tn_rule_picture *p, uint32_t part, double x, double y, bool mirrored)
+{
+    tn_paint_group_begin(p->paint, TN_PAINT_PART, part);
+    tn_paint_target(p->paint, x, y, p->sizes[part].width, p->sizes[part].height);
+    draw_framed(p, part, x, y, mirrored);
+    tn_paint_group_end(p->paint);
 }
 
 /* ---- a rule, a tn_rule_picture */
@@ -316,7 +325,9 @@ static tn_status draw_pictures(tn_rule_picture *pictures, size_t count, tn_size 
     double y = MARGIN;
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         pictures[i].paint = tn_canvas_paint(canvas);
+        tn_paint_group_begin(pictures[i].paint, TN_PAINT_RULE, i);
         draw_rule(&pictures[i], MARGIN, y);
+        tn_paint_group_end(pictures[i].paint);
         y += title_room(&pictures[i]) + pictures[i].sizes[0].height + BETWEEN_RULES;
     }
     if (status == TN_OK)

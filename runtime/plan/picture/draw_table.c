@@ -100,4 +100,10 @@ void tn_draw_table_plan(tn_paint *paint, const tn_draw_roles *roles, const tn_dr
                    plan->length);
     else
         tn_type_line(paint, left, y + table->row_height - 2.6, TN_ALIGN_LEFT, "no trays");
+    for (size_t i = 0; i < plan->length; i++) {
+        tn_paint_group_begin(paint, TN_PAINT_TRAY, i);
+        tn_paint_target(paint, left + table->box_width * (double)i, y, table->box_width,
+                        tn_draw_table_height(table, roles));
+        tn_paint_group_end(paint);
+    }
 }
