@@ -54,6 +54,7 @@ static void fails_cleanly(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
         size_t failures = 0;
+        bool here = true; /* this build makes such pictures */
         for (int all_after = 0; all_after < 2; all_after++) {
             for (size_t number = 0;; number++) {
                 tn_error error = {0};
@@ -64,6 +65,7 @@ static void fails_cleanly(void **state)
                         fail_msg("format %zu: %s", i, error.message);
                     break;
                 }
+                here = here && error.code != E_PART_ABSENT;
                 if (status == TN_OK || error.code == E_PART_ABSENT)
                     continue;
                 if (status != TN_MEMORY || error.code != E_OUT_OF_MEMORY)
@@ -71,7 +73,7 @@ static void fails_cleanly(void **state)
                 failures++;
             }
         }
-        assert_true(failures > 2);
+        assert_true(!here || failures > 2);
     }
 }
 
