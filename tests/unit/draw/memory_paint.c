@@ -60,12 +60,12 @@ static void fails_cleanly(void **state)
                 tn_error error = {0};
                 fail_allocation(number, all_after);
                 tn_status status = make(formats[i], &error);
+                here = here && error.code != E_PART_ABSENT;
                 if (stop_failing() <= number) {
                     if (status != TN_OK && error.code != E_PART_ABSENT)
                         fail_msg("format %zu: %s", i, error.message);
                     break;
                 }
-                here = here && error.code != E_PART_ABSENT;
                 if (status == TN_OK || error.code == E_PART_ABSENT)
                     continue;
                 if (status != TN_MEMORY || error.code != E_OUT_OF_MEMORY)
