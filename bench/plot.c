@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "runtime/draw/canvas.h"
+#include "runtime/draw/type.h"
 
 enum { POINTS_MAX = 64, PANELS = 6, COLUMNS = 3 };
 
@@ -48,14 +49,6 @@ static int read_points(const char *path)
     return fclose(file);
 }
 
-static void text(cairo_t *cairo, double x, double y, double align, const char *words)
-{
-    cairo_text_extents_t extents;
-    cairo_text_extents(cairo, words, &extents);
-    cairo_move_to(cairo, x - align * extents.x_advance, y);
-    cairo_show_text(cairo, words);
-}
-
 static void range(const double *values, size_t count, double *low, double *high)
 {
     *low = *high = count ? values[0] : 0;
@@ -82,7 +75,7 @@ static double place_y(const frame *f, double value)
 }
 
 /* Lines at 1, 2 and 5 times the powers of ten, with the powers (and, in one decade, all) named. */
-static void draw_axis(cairo_t *cairo, const frame *f, bool vertical)
+static void draw_axis(tn_paint *paint, const frame *f, bool vertical)
 {
     static const double steps[] = {1, 2, 5};
     double low = vertical ? f->y_low : f->x_low, high = vertical ? f->y_high : f->x_high;
@@ -93,46 +86,47 @@ static void draw_axis(cairo_t *cairo, const frame *f, bool vertical)
             if (value > high + 1e-9)
                 break;
             double at = vertical ? place_y(f, value) : place_x(f, value);
-            cairo_set_source_rgb(cairo, s ? 0.93 : 0.8, s ? 0.93 : 0.8, s ? 0.93 : 0.8);
-            cairo_move_to(cairo, vertical ? f->x : at, vertical ? at : f->y);
-            cairo_line_to(cairo, vertical ? f->x + f->width : at, vertical ? at : f->y + f->height);
-            cairo_stroke(cairo);
+            tn_paint_colour(paint, s ? 0.93 : 0.8, s ? 0.93 : 0.8, s ? 0.93 : 0.8);
+            tn_paint_move_to(paint, vertical ? f->x : at, vertical ? at : f->y);
+            tn_paint_line_to(paint, vertical ? f->x + f->width : at, vertical ? at : f->y + f->height);
+            tn_paint_stroke(paint);
             if (s && high - low > 2)
                 continue;
-            cairo_set_source_rgb(cairo, 0.3, 0.3, 0.3);
+            tn_paint_colour(paint, 0.3, 0.3, 0.3);
             double number = steps[s] * pow(10, decade);
             if (number > 999999)
                 snprintf(label, sizeof label, "%gM", number / 1e6);
             else
                 snprintf(label, sizeof label, number > 999 ? "%gk" : "%g", number > 999 ? number / 1e3 : number);
-            text(cairo, vertical ? f->x - 4 : at, vertical ? at + 3 : f->y + f->height + 11, vertical ? 1 : 0.5, label);
+            tn_type_line(paint, vertical ? f->x - 4 : at, vertical ? at + 3 : f->y + f->height + 11,
+                         vertical ? TN_ALIGN_RIGHT : TN_ALIGN_CENTRE, label);
         }
     }
 }
 
-static void draw_panel(cairo_t *cairo, const panel *p, double left, double top)
+static void draw_panel(tn_paint *paint, const panel *p, double left, double top)
 {
     frame f = {
         .x = left + LEFT, .y = top + TOP, .width = PANEL_WIDTH - LEFT - RIGHT, .height = PANEL_HEIGHT - TOP - BOTTOM};
     range(p->x, p->count, &f.x_low, &f.x_high);
     range(p->y, p->count, &f.y_low, &f.y_high);
-    cairo_set_line_width(cairo, 0.6);
-    cairo_set_font_size(cairo, 8);
-    draw_axis(cairo, &f, false);
-    draw_axis(cairo, &f, true);
-    cairo_set_source_rgb(cairo, 0, 0, 0);
-    text(cairo, f.x + f.width / 2, f.y + f.height + 23, 0.5, p->x_name);
-    cairo_set_font_size(cairo, 10);
-    text(cairo, f.x + f.width / 2, f.y - 8, 0.5, p->title);
-    cairo_set_source_rgb(cairo, 0.1, 0.35, 0.6);
-    cairo_set_line_width(cairo, 1.5);
-    cairo_new_path(cairo);
+    tn_paint_line_width(paint, 0.6);
+    tn_paint_face(paint, 8, false);
+    draw_axis(paint, &f, false);
+    draw_axis(paint, &f, true);
+    tn_paint_colour(paint, 0, 0, 0);
+    tn_type_line(paint, f.x + f.width / 2, f.y + f.height + 23, TN_ALIGN_CENTRE, p->x_name);
+    tn_paint_face(paint, 10, false);
+    tn_type_line(paint, f.x + f.width / 2, f.y - 8, TN_ALIGN_CENTRE, p->title);
+    tn_paint_colour(paint, 0.1, 0.35, 0.6);
+    tn_paint_line_width(paint, 1.5);
+    tn_paint_new_path(paint);
     for (size_t i = 0; i < p->count; i++)
-        cairo_line_to(cairo, place_x(&f, p->x[i]), place_y(&f, p->y[i]));
-    cairo_stroke(cairo);
+        tn_paint_line_to(paint, place_x(&f, p->x[i]), place_y(&f, p->y[i]));
+    tn_paint_stroke(paint);
     for (size_t i = 0; i < p->count; i++) {
-        cairo_arc(cairo, place_x(&f, p->x[i]), place_y(&f, p->y[i]), 2.2, 0, 6.2831853);
-        cairo_fill(cairo);
+        tn_paint_arc(paint, place_x(&f, p->x[i]), place_y(&f, p->y[i]), 2.2, 0, 6.2831853);
+        tn_paint_fill(paint);
     }
 }
 
@@ -151,10 +145,8 @@ int main(int argc, char **argv)
     if (status == TN_OK)
         status = tn_canvas_new(argv[2], format, &options, &canvas, &error);
     if (status == TN_OK) {
-        cairo_select_font_face(tn_canvas_context(canvas), "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                               CAIRO_FONT_WEIGHT_NORMAL);
         for (size_t p = 0; p < PANELS; p++)
-            draw_panel(tn_canvas_context(canvas), &panels[p], (double)(p % COLUMNS) * PANEL_WIDTH,
+            draw_panel(tn_canvas_paint(canvas), &panels[p], (double)(p % COLUMNS) * PANEL_WIDTH,
                        (double)(p / COLUMNS) * PANEL_HEIGHT);
         status = tn_canvas_commit(canvas, &error);
         tn_canvas_free(canvas);

@@ -3,7 +3,7 @@
 #   libtartan-runtime  loads modules; plans, genomes, fields, placing. Needs GMP and xxHash only.
 #   libtartan-growth   grows surfaces
 #   libtartan-mesh     mesh files and algorithms, by OpenMesh
-#   libtartan-draw     pictures, by cairo
+#   libtartan-draw     pictures: SVG by itself, PNG and PDF by cairo
 #   libtartan-store    plan libraries and runs in databases, by SQLite
 #   libtartan          compiles, and links all of those
 #
@@ -64,13 +64,15 @@ endfunction()
 get_property(folders GLOBAL PROPERTY TARTAN_FOLDERS)
 foreach(folder ${folders})
   get_property(part GLOBAL PROPERTY TARTAN_PART_${folder})
-  if(folder MATCHES "^api-(draw|mesh)$")
-    string(TOUPPER ${CMAKE_MATCH_1} part)
+  if(folder STREQUAL "api-mesh")
+    set(part MESH)
   elseif(folder STREQUAL "api-run")
     set(part STORE)
   endif()
   if(folder MATCHES "^(lsp|studio-.*)$") # of programs alone
     continue()
+  elseif(folder MATCHES "^(runtime-(draw|chart|scene)|api-draw$)|-picture$") # an SVG needs no part
+    list(APPEND TARTAN_DRAW_FOLDERS ${folder})
   elseif(part AND TARTAN_WITH_${part})
     list(APPEND TARTAN_${part}_FOLDERS ${folder})
   elseif(part)
@@ -92,11 +94,15 @@ if(TARTAN_WITH_MESH)
   tartan_library(tartan-mesh FOLDERS ${TARTAN_MESH_FOLDERS} USES tartan-runtime NEEDS ${TARTAN_OPENMESH} FLAGS ${TARTAN_OPENMESH})
   list(APPEND parts tartan-mesh)
 endif()
+set(drawing "")
+set(drawing_modules "")
 if(TARTAN_WITH_DRAW)
-  tartan_library(tartan-draw FOLDERS ${TARTAN_DRAW_FOLDERS} USES tartan-growth tartan-runtime NEEDS PkgConfig::CAIRO PkgConfig::ZLIB PkgConfig::GMP ${threads}
-    MODULES cairo cairo-svg cairo-pdf zlib)
-  list(APPEND parts tartan-draw)
+  set(drawing PkgConfig::CAIRO PkgConfig::ZLIB)
+  set(drawing_modules cairo cairo-pdf zlib)
 endif()
+tartan_library(tartan-draw FOLDERS ${TARTAN_DRAW_FOLDERS} USES tartan-growth tartan-runtime NEEDS ${drawing} PkgConfig::GMP ${threads}
+  MODULES ${drawing_modules})
+list(APPEND parts tartan-draw)
 if(TARTAN_WITH_STORE)
   tartan_library(tartan-store FOLDERS ${TARTAN_STORE_FOLDERS} USES tartan-runtime NEEDS PkgConfig::SQLITE PkgConfig::GMP PkgConfig::XXHASH
     MODULES sqlite3)

@@ -307,6 +307,8 @@ static tn_status set_part(const tn_explained *explained, const tn_explanation *w
     tn_part_text(&why->trees[node->tree], node->part, text, sizeof text);
     to->kind = tn_part_word(part->kind);
     to->text = strdup(text);
+    to->has_number = node->tree == 0;
+    to->number = node->part;
     set_place(explained, part, to);
     to->matched = node->matched;
     to->has_mirrored = to->mirrored = node->mirrored;

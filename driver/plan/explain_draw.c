@@ -23,7 +23,9 @@ static bool add(gathering *g, tn_drawn_reason reason)
     return reason.text != NULL;
 }
 
-static bool add_node(gathering *g, const tn_explanation *why, uint32_t index, unsigned depth, bool drops)
+/* A row of the rule's explanation; `number` is the node's. */
+static bool add_node(gathering *g, const tn_explanation *why, uint32_t index, unsigned depth, bool drops,
+                     uint32_t number)
 {
     const tn_why *node = &why->nodes[index];
     char text[TN_PART_TEXT_MAX];
@@ -37,7 +39,8 @@ static bool add_node(gathering *g, const tn_explanation *why, uint32_t index, un
                               .drops = drops,
                               .marks = node->stretch_count ? why->stretches + node->stretch_first : NULL,
                               .mark_count = tn_words_places(why, node) ? node->stretch_count : 0,
-                              .region = node->region};
+                              .region = node->region,
+                              .number = number};
     if (!node->matched && node->run_count > 0)
         reason.partly = node->run;
     if (node->closest != TN_NO_WHY)
@@ -45,18 +48,41 @@ static bool add_node(gathering *g, const tn_explanation *why, uint32_t index, un
     return add(g, reason) && !evidence.failed;
 }
 
-static bool add_rule(gathering *g, const tn_explained_rule *rule, bool full)
+/* Numbers the nodes as an answer lists them: each before its own parts. The caller frees it; NULL: out of memory. */
+static uint32_t *number_nodes(const tn_explanation *why)
+{
+    uint32_t *numbers = calloc((size_t)why->node_count + 1, sizeof *numbers), count = 0;
+    for (uint32_t at = 0; numbers && why->node_count > 0;) {
+        numbers[at] = count++;
+        if (why->nodes[at].first != TN_NO_WHY) {
+            at = why->nodes[at].first;
+            continue;
+        }
+        while (at != 0 && why->nodes[at].next == TN_NO_WHY)
+            at = why->nodes[at].parent;
+        if (at == 0)
+            break;
+        at = why->nodes[at].next;
+    }
+    return numbers;
+}
+
+static bool add_rule(gathering *g, const tn_explained_rule *rule, uint32_t number, bool full)
 {
     tn_explain_rows rows = {0};
     tn_buffer evidence = {0};
     bool prunes = rule->drops && rule->holds;
+    uint32_t *numbers = number_nodes(&rule->why);
     tn_buffer_printf(&evidence, "%s", rule->doc);
-    bool ok =
-        add(g, (tn_drawn_reason){
-                   .text = strdup(rule->name), .evidence = evidence.data, .matched = rule->holds, .drops = prunes});
-    ok = ok && !evidence.failed && tn_explain_rows_make(&rule->why, full, &rows);
+    bool ok = add(g, (tn_drawn_reason){.text = strdup(rule->name),
+                                       .evidence = evidence.data,
+                                       .matched = rule->holds,
+                                       .drops = prunes,
+                                       .number = number});
+    ok = ok && numbers && !evidence.failed && tn_explain_rows_make(&rule->why, full, &rows);
     for (uint32_t i = 0; ok && i < rows.count; i++)
-        ok = add_node(g, &rule->why, rows.nodes[i], rows.depths[i], prunes);
+        ok = add_node(g, &rule->why, rows.nodes[i], rows.depths[i], prunes, numbers[rows.nodes[i]]);
+    free(numbers);
     tn_explain_rows_clear(&rows);
     return ok;
 }
@@ -114,7 +140,7 @@ tn_status tn_explained_draw(const tn_explained *explained, bool full, tn_picture
     write_near_title(explained, &near_title);
     for (size_t i = 0; ok && i < explained->count; i++)
         if (!explained->library || full || explained->rules[i].drops)
-            ok = add_rule(&g, &explained->rules[i], full);
+            ok = add_rule(&g, &explained->rules[i], (uint32_t)i, full);
     const tn_drawn_reasons drawn = {.title = title.data,
                                     .plan = {.trays = explained->trays, .length = explained->length},
                                     .reasons = g.reasons,

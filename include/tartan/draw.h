@@ -1,4 +1,5 @@
-/* Pictures in memory: SVG, PNG or PDF, the same bytes for the same input and version of cairo. */
+/* Pictures in memory: SVG, PNG or PDF, the same bytes for the same input: of an SVG on every machine, of the others for
+ * one version of cairo and one set of fonts. A build without the part `draw` has SVG alone (TARTAN_INVALID, E0907). */
 #ifndef TARTAN_DRAW_H
 #define TARTAN_DRAW_H
 

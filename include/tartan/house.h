@@ -172,8 +172,8 @@ typedef struct tartan_house_drawing {
 TARTAN_SIZED(tartan_house_drawing)
 
 /* The house as a file of that format, in memory: the bytes that `tartan house` writes. Formats that are no drawings use
- * nothing of `drawing` but the title; it may be NULL. A text of a view that is wrong is TARTAN_INVALID. Pictures need
- * the part `draw`. */
+ * nothing of `drawing` but the title; it may be NULL. A text of a view that is wrong is TARTAN_INVALID. PNG and PDF
+ * need the part `draw`. */
 TARTAN_API tartan_status tartan_house_file(const tartan_house *house, tartan_house_format format,
                                            const tartan_house_drawing *drawing, const tartan_watch *watch, void **bytes,
                                            size_t *size, tartan_error *error);

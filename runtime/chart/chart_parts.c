@@ -11,9 +11,9 @@
 #define APART_ACROSS 14.0 /* between two numbers at least */
 #define ROOM_UP 26.0
 
-void tn_chart_ink(cairo_t *context, tn_chart_tone tone)
+void tn_chart_ink(tn_paint *paint, tn_chart_tone tone)
 {
-    cairo_set_source_rgb(context, tone.red, tone.green, tone.blue);
+    tn_paint_colour(paint, tone.red, tone.green, tone.blue);
 }
 
 double tn_chart_at(const tn_chart_scale *scale, double value)
@@ -49,48 +49,48 @@ static double step_of(const tn_chart_scale *scale, double room)
 }
 
 /* The widest number needs room. */
-static double room_across(cairo_t *context, const tn_chart_scale *scale)
+static double room_across(tn_paint *paint, const tn_chart_scale *scale)
 {
     char text[2][64];
     double step = step_of(scale, 60);
     tn_axis_write(scale->low, step, text[0], sizeof text[0]);
     tn_axis_write(scale->high, step, text[1], sizeof text[1]);
-    return fmax(tn_type_width(context, text[0]), tn_type_width(context, text[1])) + APART_ACROSS;
+    return fmax(tn_type_width(paint, text[0]), tn_type_width(paint, text[1])) + APART_ACROSS;
 }
 
-void tn_chart_marks_across(cairo_t *context, const tn_chart_scale *scale, double y, double grid)
+void tn_chart_marks_across(tn_paint *paint, const tn_chart_scale *scale, double y, double grid)
 {
     char text[64];
-    tn_type_face(context, TN_CHART_TEXT, false);
-    double step = step_of(scale, room_across(context, scale));
+    tn_paint_face(paint, TN_CHART_TEXT, false);
+    double step = step_of(scale, room_across(paint, scale));
     for (double i = ceil(scale->low / step - 1e-9); i * step <= scale->high + step * 1e-9; i++) {
         double x = tn_chart_at(scale, i * step);
-        tn_chart_ink(context, grid > 0 ? TN_CHART_LINE : TN_CHART_GREY);
-        cairo_set_line_width(context, 0.5);
-        cairo_move_to(context, x, grid > 0 ? y - grid : y);
-        cairo_line_to(context, x, grid > 0 ? y : y + MARK);
-        cairo_stroke(context);
-        tn_chart_ink(context, TN_CHART_BLACK);
+        tn_chart_ink(paint, grid > 0 ? TN_CHART_LINE : TN_CHART_GREY);
+        tn_paint_line_width(paint, 0.5);
+        tn_paint_move_to(paint, x, grid > 0 ? y - grid : y);
+        tn_paint_line_to(paint, x, grid > 0 ? y : y + MARK);
+        tn_paint_stroke(paint);
+        tn_chart_ink(paint, TN_CHART_BLACK);
         tn_axis_write(i * step, step, text, sizeof text);
-        tn_type_line(context, x, y + MARK + TN_CHART_TEXT + 1, TN_ALIGN_CENTRE, text);
+        tn_type_line(paint, x, y + MARK + TN_CHART_TEXT + 1, TN_ALIGN_CENTRE, text);
     }
 }
 
-void tn_chart_marks_up(cairo_t *context, const tn_chart_scale *scale, double x, double grid)
+void tn_chart_marks_up(tn_paint *paint, const tn_chart_scale *scale, double x, double grid)
 {
     char text[64];
     double step = step_of(scale, ROOM_UP);
-    tn_type_face(context, TN_CHART_TEXT, false);
+    tn_paint_face(paint, TN_CHART_TEXT, false);
     for (double i = ceil(scale->low / step - 1e-9); i * step <= scale->high + step * 1e-9; i++) {
         double y = tn_chart_at(scale, i * step);
-        tn_chart_ink(context, grid > 0 ? TN_CHART_LINE : TN_CHART_GREY);
-        cairo_set_line_width(context, 0.5);
-        cairo_move_to(context, grid > 0 ? x + grid : x, y);
-        cairo_line_to(context, grid > 0 ? x : x - MARK, y);
-        cairo_stroke(context);
-        tn_chart_ink(context, TN_CHART_BLACK);
+        tn_chart_ink(paint, grid > 0 ? TN_CHART_LINE : TN_CHART_GREY);
+        tn_paint_line_width(paint, 0.5);
+        tn_paint_move_to(paint, grid > 0 ? x + grid : x, y);
+        tn_paint_line_to(paint, grid > 0 ? x : x - MARK, y);
+        tn_paint_stroke(paint);
+        tn_chart_ink(paint, TN_CHART_BLACK);
         tn_axis_write(i * step, step, text, sizeof text);
-        tn_type_line(context, x - MARK - 2, y + 3, TN_ALIGN_RIGHT, text);
+        tn_type_line(paint, x - MARK - 2, y + 3, TN_ALIGN_RIGHT, text);
     }
 }
 

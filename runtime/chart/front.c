@@ -29,7 +29,7 @@ typedef struct cells {
 } cells;
 
 typedef struct picture {
-    cairo_t *context;
+    tn_paint *paint;
     const tn_front_panel *panel;
     tn_chart_scale across, up;
     cells columns, rows;
@@ -79,10 +79,10 @@ static bool draw_cloud(const picture *p)
             continue;
         double strength = 0.12 + 0.88 * sqrt((double)hits[at] / most);
         size_t column = at % p->columns.count, row = at / p->columns.count;
-        cairo_set_source_rgb(p->context, 1 - 0.52 * strength, 1 - 0.39 * strength, 1 - 0.58 * strength);
-        cairo_rectangle(p->context, p->across.from + wide * (double)column, p->up.from - high * (double)(row + 1), wide,
-                        high);
-        cairo_fill(p->context);
+        tn_paint_colour(p->paint, 1 - 0.52 * strength, 1 - 0.39 * strength, 1 - 0.58 * strength);
+        tn_paint_rectangle(p->paint, p->across.from + wide * (double)column, p->up.from - high * (double)(row + 1),
+                           wide, high);
+        tn_paint_fill(p->paint);
     }
     free(hits);
     return true;
@@ -101,19 +101,19 @@ static bool draw_side(const picture *p, const tn_chart_axis *axis, const cells *
     }
     const tn_chart_scale *scale = upright ? &p->up : &p->across;
     double size = fabs(scale->to - scale->from) / (double)c->count, apart = size > 5 ? size * 0.1 : 0;
-    tn_chart_ink(p->context, TN_CHART_BAR);
+    tn_chart_ink(p->paint, TN_CHART_BAR);
     for (size_t i = 0; i < c->count; i++) {
         double reach = BARS * shares[i] / (most > 0 ? most : 1);
         if (!(shares[i] > 0))
             continue;
         reach = fmax(reach, 0.7);
         if (upright)
-            cairo_rectangle(p->context, WIDTH - RIGHT + BARS_APART, p->up.from - size * (double)(i + 1) + apart, reach,
-                            size - 2 * apart);
+            tn_paint_rectangle(p->paint, WIDTH - RIGHT + BARS_APART, p->up.from - size * (double)(i + 1) + apart, reach,
+                               size - 2 * apart);
         else
-            cairo_rectangle(p->context, p->across.from + size * (double)i + apart, p->top - BARS_APART - reach,
-                            size - 2 * apart, reach);
-        cairo_fill(p->context);
+            tn_paint_rectangle(p->paint, p->across.from + size * (double)i + apart, p->top - BARS_APART - reach,
+                               size - 2 * apart, reach);
+        tn_paint_fill(p->paint);
     }
     free(shares);
     return true;
@@ -130,21 +130,21 @@ static void draw_stairs(const picture *p)
 {
     double x, y, next_x, next_y;
     bool level_first = p->panel->across.most; /* towards the worse of x first */
-    cairo_set_line_width(p->context, 1);
-    tn_chart_ink(p->context, TN_CHART_MARK);
+    tn_paint_line_width(p->paint, 1);
+    tn_chart_ink(p->paint, TN_CHART_MARK);
     for (size_t i = 0; i < p->panel->front_count; i++) {
         place(p, i, &next_x, &next_y);
         if (i == 0)
-            cairo_move_to(p->context, next_x, next_y);
+            tn_paint_move_to(p->paint, next_x, next_y);
         else if ((next_x > x) == level_first)
-            cairo_line_to(p->context, x, next_y);
+            tn_paint_line_to(p->paint, x, next_y);
         else
-            cairo_line_to(p->context, next_x, y);
-        cairo_line_to(p->context, next_x, next_y);
+            tn_paint_line_to(p->paint, next_x, y);
+        tn_paint_line_to(p->paint, next_x, next_y);
         x = next_x;
         y = next_y;
     }
-    cairo_stroke(p->context);
+    tn_paint_stroke(p->paint);
 }
 
 /* A number stands on the side of its point where nothing lies, unless that is outside the plot. */
@@ -152,28 +152,27 @@ static void draw_number(const picture *p, size_t i, double x, double y)
 {
     char number[24];
     snprintf(number, sizeof number, "%zu", i + 1);
-    double width = tn_type_width(p->context, number) + DOT + 2;
+    double width = tn_type_width(p->paint, number) + DOT + 2;
     bool right = p->panel->across.most, below = !p->panel->up.most;
     if (right ? x + width > p->across.to : x - width < p->across.from)
         right = !right;
     double baseline = below ? y + DOT + 6 : y - DOT;
     if (baseline < p->top + 7 || baseline > p->top + PLOT_HEIGHT - 2)
         baseline = y + 3;
-    tn_chart_ink(p->context, TN_CHART_BLACK);
-    tn_type_line(p->context, right ? x + DOT + 2 : x - DOT - 2, baseline, right ? TN_ALIGN_LEFT : TN_ALIGN_RIGHT,
-                 number);
+    tn_chart_ink(p->paint, TN_CHART_BLACK);
+    tn_type_line(p->paint, right ? x + DOT + 2 : x - DOT - 2, baseline, right ? TN_ALIGN_LEFT : TN_ALIGN_RIGHT, number);
 }
 
 /* The points, with their numbers where there is room from the number before. */
 static void draw_points(const picture *p)
 {
     double x, y, last_x = -1e9, last_y = -1e9;
-    tn_type_face(p->context, TN_CHART_SMALL, true);
+    tn_paint_face(p->paint, TN_CHART_SMALL, true);
     for (size_t i = 0; i < p->panel->front_count; i++) {
         place(p, i, &x, &y);
-        tn_chart_ink(p->context, TN_CHART_MARK);
-        cairo_arc(p->context, x, y, DOT, 0, 2 * 3.14159265358979323846);
-        cairo_fill(p->context);
+        tn_chart_ink(p->paint, TN_CHART_MARK);
+        tn_paint_arc(p->paint, x, y, DOT, 0, 2 * 3.14159265358979323846);
+        tn_paint_fill(p->paint);
         if (fabs(x - last_x) < NUMBER_APART && fabs(y - last_y) < NUMBER_APART)
             continue;
         draw_number(p, i, x, y);
@@ -185,31 +184,32 @@ static void draw_points(const picture *p)
 static void draw_axes(const picture *p)
 {
     char text[256], name[220];
-    cairo_t *t = p->context;
-    tn_chart_ink(t, TN_CHART_GREY);
-    cairo_set_line_width(t, 0.6);
-    cairo_rectangle(t, LEFT, p->top, WIDTH - LEFT - RIGHT, PLOT_HEIGHT);
-    cairo_stroke(t);
-    tn_chart_marks_across(t, &p->across, p->top + PLOT_HEIGHT, 0);
-    tn_chart_marks_up(t, &p->up, LEFT, 0);
-    tn_type_face(t, TN_CHART_TEXT, true);
+    tn_paint *paint = p->paint;
+    tn_chart_ink(paint, TN_CHART_GREY);
+    tn_paint_line_width(paint, 0.6);
+    tn_paint_rectangle(paint, LEFT, p->top, WIDTH - LEFT - RIGHT, PLOT_HEIGHT);
+    tn_paint_stroke(paint);
+    tn_chart_marks_across(paint, &p->across, p->top + PLOT_HEIGHT, 0);
+    tn_chart_marks_up(paint, &p->up, LEFT, 0);
+    tn_paint_face(paint, TN_CHART_TEXT, true);
     tn_chart_axis_name(p->panel->across.name, p->panel->across.unit, name, sizeof name);
     snprintf(text, sizeof text,
              p->panel->across.most ? "%s  (more is better \xE2\x86\x92)" : "(\xE2\x86\x90 less is better)  %s", name);
-    tn_type_fit(t, (LEFT + WIDTH - RIGHT) / 2, p->top + PLOT_HEIGHT + 28, TN_ALIGN_CENTRE, WIDTH - LEFT - RIGHT, text);
+    tn_type_fit(paint, (LEFT + WIDTH - RIGHT) / 2, p->top + PLOT_HEIGHT + 28, TN_ALIGN_CENTRE, WIDTH - LEFT - RIGHT,
+                text);
     tn_chart_axis_name(p->panel->up.name, p->panel->up.unit, name, sizeof name);
     snprintf(text, sizeof text,
              p->panel->up.most ? "%s  (more is better \xE2\x86\x92)" : "(\xE2\x86\x90 less is better)  %s", name);
-    cairo_save(t);
-    cairo_translate(t, 20, p->top + PLOT_HEIGHT / 2);
-    cairo_rotate(t, -3.14159265358979323846 / 2);
-    tn_type_fit(t, 0, 0, TN_ALIGN_CENTRE, PLOT_HEIGHT, text);
-    cairo_restore(t);
+    tn_paint_save(paint);
+    tn_paint_translate(paint, 20, p->top + PLOT_HEIGHT / 2);
+    tn_paint_rotate(paint, -3.14159265358979323846 / 2);
+    tn_type_fit(paint, 0, 0, TN_ALIGN_CENTRE, PLOT_HEIGHT, text);
+    tn_paint_restore(paint);
 }
 
-static bool draw_panel(cairo_t *context, const tn_front_panel *panel, double top)
+static bool draw_panel(tn_paint *paint, const tn_front_panel *panel, double top)
 {
-    picture p = {.context = context, .panel = panel, .top = top + BARS + BARS_APART};
+    picture p = {.paint = paint, .panel = panel, .top = top + BARS + BARS_APART};
     p.columns = cells_of(&panel->across);
     p.rows = cells_of(&panel->up);
     p.across = scale_of(&p.columns, LEFT, WIDTH - RIGHT);
@@ -231,58 +231,58 @@ static size_t rows_shown(const tn_front_drawing *d)
     return d->rows < TN_CHART_ROWS_SHOWN ? d->rows : TN_CHART_ROWS_SHOWN;
 }
 
-static double column_width(cairo_t *context, const tn_front_drawing *d, size_t column)
+static double column_width(tn_paint *paint, const tn_front_drawing *d, size_t column)
 {
-    tn_type_face(context, TN_CHART_TEXT, true);
-    double width = tn_type_width(context, d->headings[column]);
-    tn_type_face(context, TN_CHART_TEXT, false);
+    tn_paint_face(paint, TN_CHART_TEXT, true);
+    double width = tn_type_width(paint, d->headings[column]);
+    tn_paint_face(paint, TN_CHART_TEXT, false);
     for (size_t r = 0; r < rows_shown(d); r++)
-        width = fmax(width, tn_type_width(context, d->cells[r * d->columns + column]));
+        width = fmax(width, tn_type_width(paint, d->cells[r * d->columns + column]));
     return width;
 }
 
 /* All columns but the last are of numbers and stand to the right. */
-static void draw_column(cairo_t *context, const tn_front_drawing *d, size_t column, double *x, double top)
+static void draw_column(tn_paint *paint, const tn_front_drawing *d, size_t column, double *x, double top)
 {
     bool last = column + 1 == d->columns;
-    double width = last ? WIDTH - 24 - *x : column_width(context, d, column), at = last ? *x : *x + width;
+    double width = last ? WIDTH - 24 - *x : column_width(paint, d, column), at = last ? *x : *x + width;
     tn_align align = last ? TN_ALIGN_LEFT : TN_ALIGN_RIGHT;
-    tn_type_face(context, TN_CHART_TEXT, true);
-    tn_type_fit(context, at, top, align, width, d->headings[column]);
-    tn_type_face(context, TN_CHART_TEXT, false);
+    tn_paint_face(paint, TN_CHART_TEXT, true);
+    tn_type_fit(paint, at, top, align, width, d->headings[column]);
+    tn_paint_face(paint, TN_CHART_TEXT, false);
     for (size_t r = 0; r < rows_shown(d); r++)
-        tn_type_fit(context, at, top + ROW * (double)(r + 1), align, width, d->cells[r * d->columns + column]);
+        tn_type_fit(paint, at, top + ROW * (double)(r + 1), align, width, d->cells[r * d->columns + column]);
     *x += width + 16;
 }
 
-static void draw_table(cairo_t *context, const tn_front_drawing *d, double top)
+static void draw_table(tn_paint *paint, const tn_front_drawing *d, double top)
 {
     char number[64];
     double x = 24 + 22 + 14;
-    tn_chart_ink(context, TN_CHART_BLACK);
-    tn_type_face(context, TN_CHART_TEXT, true);
+    tn_chart_ink(paint, TN_CHART_BLACK);
+    tn_paint_face(paint, TN_CHART_TEXT, true);
     for (size_t r = 0; r < rows_shown(d); r++) {
         snprintf(number, sizeof number, "%zu", r + 1);
-        tn_type_line(context, 24 + 22, top + ROW * (double)(r + 1), TN_ALIGN_RIGHT, number);
+        tn_type_line(paint, 24 + 22, top + ROW * (double)(r + 1), TN_ALIGN_RIGHT, number);
     }
     for (size_t column = 0; column < d->columns; column++)
-        draw_column(context, d, column, &x, top);
+        draw_column(paint, d, column, &x, top);
     if (rows_shown(d) == d->rows)
         return;
     snprintf(number, sizeof number, "and %zu more points", d->rows - rows_shown(d));
-    tn_chart_ink(context, TN_CHART_GREY);
-    tn_type_face(context, TN_CHART_TEXT, false);
-    tn_type_line(context, 24 + 36, top + ROW * (double)(rows_shown(d) + 1), TN_ALIGN_LEFT, number);
+    tn_chart_ink(paint, TN_CHART_GREY);
+    tn_paint_face(paint, TN_CHART_TEXT, false);
+    tn_type_line(paint, 24 + 36, top + ROW * (double)(rows_shown(d) + 1), TN_ALIGN_LEFT, number);
 }
 
-static void draw_titles(cairo_t *context, const tn_front_drawing *d)
+static void draw_titles(tn_paint *paint, const tn_front_drawing *d)
 {
-    tn_chart_ink(context, TN_CHART_BLACK);
-    tn_type_face(context, 13, true);
-    tn_type_fit(context, 24, 26, TN_ALIGN_LEFT, WIDTH - 48, d->title);
-    tn_chart_ink(context, TN_CHART_GREY);
-    tn_type_face(context, TN_CHART_TEXT, false);
-    tn_type_fit(context, 24, 41, TN_ALIGN_LEFT, WIDTH - 48, d->about);
+    tn_chart_ink(paint, TN_CHART_BLACK);
+    tn_paint_face(paint, 13, true);
+    tn_type_fit(paint, 24, 26, TN_ALIGN_LEFT, WIDTH - 48, d->title);
+    tn_chart_ink(paint, TN_CHART_GREY);
+    tn_paint_face(paint, TN_CHART_TEXT, false);
+    tn_type_fit(paint, 24, 41, TN_ALIGN_LEFT, WIDTH - 48, d->about);
 }
 
 tn_status tn_front_draw(const tn_front_drawing *d, tn_picture *to, tn_error *error)
@@ -293,15 +293,15 @@ tn_status tn_front_draw(const tn_front_drawing *d, tn_picture *to, tn_error *err
     tn_status status = tn_canvas_begin(to, WIDTH, height, d->title, &canvas, error);
     if (status != TN_OK)
         return status;
-    cairo_t *context = tn_canvas_context(canvas);
-    draw_titles(context, d);
+    tn_paint *paint = tn_canvas_paint(canvas);
+    draw_titles(paint, d);
     bool ok = true;
     for (size_t i = 0; ok && i < d->panel_count; i++)
-        ok = draw_panel(context, &d->panels[i], TITLES + PANEL_HEIGHT * (double)i);
-    tn_chart_ink(context, TN_CHART_GREY);
-    tn_type_face(context, TN_CHART_SMALL, false);
-    tn_type_fit(context, 24, table - 10, TN_ALIGN_LEFT, WIDTH - 48, d->note);
-    draw_table(context, d, table + 8);
+        ok = draw_panel(paint, &d->panels[i], TITLES + PANEL_HEIGHT * (double)i);
+    tn_chart_ink(paint, TN_CHART_GREY);
+    tn_paint_face(paint, TN_CHART_SMALL, false);
+    tn_type_fit(paint, 24, table - 10, TN_ALIGN_LEFT, WIDTH - 48, d->note);
+    draw_table(paint, d, table + 8);
     status = ok ? tn_canvas_commit(canvas, error) : tn_fail_memory(error);
     tn_canvas_free(canvas);
     return status;

@@ -23,7 +23,7 @@
 #define VALUE_APART 4.0
 
 typedef struct picture {
-    cairo_t *context;
+    tn_paint *paint;
     const tn_histogram *h;
     tn_chart_scale across, up; /* up: in per cent */
 } picture;
@@ -63,20 +63,20 @@ static void draw_bars(const picture *p)
     const tn_histogram *h = p->h;
     bool says = h->count > 0 && bar_pitch(p) >= SHARE_ROOM;
     char text[32];
-    tn_type_face(p->context, TN_CHART_SMALL, false);
+    tn_paint_face(p->paint, TN_CHART_SMALL, false);
     for (size_t i = 0; i < h->count; i++) {
         double left, right, y = tn_chart_at(&p->up, 100 * h->bars[i].share);
         bar_sides(p, &h->bars[i], &left, &right);
         if (h->bars[i].share > 0)
             y = fmin(y, p->up.from - LEAST_BAR);
-        tn_chart_ink(p->context, TN_CHART_BAR);
-        cairo_rectangle(p->context, left, y, right - left, p->up.from - y);
-        cairo_fill(p->context);
+        tn_chart_ink(p->paint, TN_CHART_BAR);
+        tn_paint_rectangle(p->paint, left, y, right - left, p->up.from - y);
+        tn_paint_fill(p->paint);
         if (!says || !(h->bars[i].share > 0))
             continue;
-        tn_chart_ink(p->context, TN_CHART_BLACK);
+        tn_chart_ink(p->paint, TN_CHART_BLACK);
         snprintf(text, sizeof text, h->bars[i].share >= 0.0005 ? "%.1f %%" : "< 0.1 %%", 100 * h->bars[i].share);
-        tn_type_line(p->context, (left + right) / 2, y - 2.5, TN_ALIGN_CENTRE, text);
+        tn_type_line(p->paint, (left + right) / 2, y - 2.5, TN_ALIGN_CENTRE, text);
     }
 }
 
@@ -85,77 +85,77 @@ static void draw_bars(const picture *p)
 static void draw_box(const picture *p)
 {
     const tn_histogram *h = p->h;
-    cairo_t *t = p->context;
+    tn_paint *paint = p->paint;
     double middle = BOX_TOP + BOX_HEIGHT / 2, x[5];
     const double values[5] = {h->least, h->quartiles[0], h->quartiles[1], h->quartiles[2], h->most};
     for (int i = 0; i < 5; i++)
         x[i] = tn_chart_at(&p->across, values[i]);
-    tn_chart_ink(t, TN_CHART_BLACK);
-    cairo_set_line_width(t, 0.8);
-    cairo_move_to(t, x[0], middle);
-    cairo_line_to(t, x[4], middle);
+    tn_chart_ink(paint, TN_CHART_BLACK);
+    tn_paint_line_width(paint, 0.8);
+    tn_paint_move_to(paint, x[0], middle);
+    tn_paint_line_to(paint, x[4], middle);
     for (int end = 0; end < 5; end += 4) {
-        cairo_move_to(t, x[end], BOX_TOP + 3);
-        cairo_line_to(t, x[end], BOX_TOP + BOX_HEIGHT - 3);
+        tn_paint_move_to(paint, x[end], BOX_TOP + 3);
+        tn_paint_line_to(paint, x[end], BOX_TOP + BOX_HEIGHT - 3);
     }
-    cairo_stroke(t);
-    cairo_rectangle(t, x[1], BOX_TOP, x[3] - x[1], BOX_HEIGHT);
-    cairo_set_source_rgb(t, 0.90, 0.93, 0.88);
-    cairo_fill_preserve(t);
-    tn_chart_ink(t, TN_CHART_BLACK);
-    cairo_stroke(t);
-    cairo_set_line_width(t, 2);
-    cairo_move_to(t, x[2], BOX_TOP);
-    cairo_line_to(t, x[2], BOX_TOP + BOX_HEIGHT);
-    cairo_stroke(t);
+    tn_paint_stroke(paint);
+    tn_paint_rectangle(paint, x[1], BOX_TOP, x[3] - x[1], BOX_HEIGHT);
+    tn_paint_colour(paint, 0.90, 0.93, 0.88);
+    tn_paint_fill_keep(paint);
+    tn_chart_ink(paint, TN_CHART_BLACK);
+    tn_paint_stroke(paint);
+    tn_paint_line_width(paint, 2);
+    tn_paint_move_to(paint, x[2], BOX_TOP);
+    tn_paint_line_to(paint, x[2], BOX_TOP + BOX_HEIGHT);
+    tn_paint_stroke(paint);
     double mean = tn_chart_at(&p->across, h->mean);
-    tn_chart_ink(t, TN_CHART_MARK);
-    cairo_arc(t, mean, middle, 3, 0, 2 * 3.14159265358979323846);
-    cairo_fill(t);
-    tn_type_face(t, TN_CHART_SMALL, false);
-    tn_type_line(t, mean, BOX_TOP - 3, TN_ALIGN_CENTRE, "mean");
+    tn_chart_ink(paint, TN_CHART_MARK);
+    tn_paint_arc(paint, mean, middle, 3, 0, 2 * 3.14159265358979323846);
+    tn_paint_fill(paint);
+    tn_paint_face(paint, TN_CHART_SMALL, false);
+    tn_type_line(paint, mean, BOX_TOP - 3, TN_ALIGN_CENTRE, "mean");
 }
 
 /* Where the box stands in the bars. */
 static void draw_guides(const picture *p)
 {
     static const double dashes[] = {2, 2};
-    cairo_t *t = p->context;
-    cairo_save(t);
-    cairo_set_dash(t, dashes, 2, 0);
-    cairo_set_line_width(t, 0.6);
+    tn_paint *paint = p->paint;
+    tn_paint_save(paint);
+    tn_paint_dash(paint, dashes, 2, 0);
+    tn_paint_line_width(paint, 0.6);
     for (int q = 0; q < 3; q++) {
         double x = tn_chart_at(&p->across, p->h->quartiles[q]);
-        tn_chart_ink(t, TN_CHART_GREY);
-        cairo_move_to(t, x, BOX_TOP + BOX_HEIGHT);
-        cairo_line_to(t, x, BOTTOM);
-        cairo_stroke(t);
+        tn_chart_ink(paint, TN_CHART_GREY);
+        tn_paint_move_to(paint, x, BOX_TOP + BOX_HEIGHT);
+        tn_paint_line_to(paint, x, BOTTOM);
+        tn_paint_stroke(paint);
     }
     double mean = tn_chart_at(&p->across, p->h->mean);
-    tn_chart_ink(t, TN_CHART_MARK);
-    cairo_move_to(t, mean, BOX_TOP + BOX_HEIGHT);
-    cairo_line_to(t, mean, BOTTOM);
-    cairo_stroke(t);
-    cairo_restore(t);
+    tn_chart_ink(paint, TN_CHART_MARK);
+    tn_paint_move_to(paint, mean, BOX_TOP + BOX_HEIGHT);
+    tn_paint_line_to(paint, mean, BOTTOM);
+    tn_paint_stroke(paint);
+    tn_paint_restore(paint);
 }
 
 static void draw_axes(const picture *p)
 {
     char text[256];
-    tn_chart_marks_up(p->context, &p->up, LEFT, WIDTH - LEFT - RIGHT);
-    tn_chart_marks_across(p->context, &p->across, BOTTOM, 0);
-    tn_chart_ink(p->context, TN_CHART_BLACK);
-    cairo_set_line_width(p->context, 0.8);
-    cairo_move_to(p->context, LEFT, BOTTOM);
-    cairo_line_to(p->context, WIDTH - RIGHT, BOTTOM);
-    cairo_stroke(p->context);
+    tn_chart_marks_up(p->paint, &p->up, LEFT, WIDTH - LEFT - RIGHT);
+    tn_chart_marks_across(p->paint, &p->across, BOTTOM, 0);
+    tn_chart_ink(p->paint, TN_CHART_BLACK);
+    tn_paint_line_width(p->paint, 0.8);
+    tn_paint_move_to(p->paint, LEFT, BOTTOM);
+    tn_paint_line_to(p->paint, WIDTH - RIGHT, BOTTOM);
+    tn_paint_stroke(p->paint);
     tn_chart_axis_name(p->h->title, p->h->unit, text, sizeof text);
-    tn_type_face(p->context, TN_CHART_TEXT, true);
-    tn_type_fit(p->context, (LEFT + WIDTH - RIGHT) / 2, BOTTOM + 28, TN_ALIGN_CENTRE, WIDTH - LEFT - RIGHT, text);
-    tn_type_face(p->context, TN_CHART_SMALL, false);
-    tn_type_line(p->context, LEFT - 5, TOP - 9, TN_ALIGN_RIGHT, "% of all");
-    tn_chart_ink(p->context, TN_CHART_GREY);
-    tn_type_line(p->context, LEFT - 5, BOX_TOP + 10, TN_ALIGN_RIGHT, "quarters");
+    tn_paint_face(p->paint, TN_CHART_TEXT, true);
+    tn_type_fit(p->paint, (LEFT + WIDTH - RIGHT) / 2, BOTTOM + 28, TN_ALIGN_CENTRE, WIDTH - LEFT - RIGHT, text);
+    tn_paint_face(p->paint, TN_CHART_SMALL, false);
+    tn_type_line(p->paint, LEFT - 5, TOP - 9, TN_ALIGN_RIGHT, "% of all");
+    tn_chart_ink(p->paint, TN_CHART_GREY);
+    tn_type_line(p->paint, LEFT - 5, BOX_TOP + 10, TN_ALIGN_RIGHT, "quarters");
 }
 
 /* The numbers in a row, each under its name. */
@@ -164,26 +164,26 @@ static void draw_facts(const picture *p)
     double room = (WIDTH - 48) / (double)(p->h->fact_count ? p->h->fact_count : 1);
     for (size_t i = 0; i < p->h->fact_count; i++) {
         double x = 24 + room * (double)i;
-        tn_chart_ink(p->context, TN_CHART_GREY);
-        tn_type_face(p->context, TN_CHART_SMALL, false);
-        tn_type_fit(p->context, x, FACTS, TN_ALIGN_LEFT, room - VALUE_APART, p->h->facts[i].name);
-        tn_chart_ink(p->context, TN_CHART_BLACK);
-        tn_type_face(p->context, TN_CHART_TEXT, true);
-        tn_type_fit(p->context, x, FACTS + 12, TN_ALIGN_LEFT, room - VALUE_APART, p->h->facts[i].value);
+        tn_chart_ink(p->paint, TN_CHART_GREY);
+        tn_paint_face(p->paint, TN_CHART_SMALL, false);
+        tn_type_fit(p->paint, x, FACTS, TN_ALIGN_LEFT, room - VALUE_APART, p->h->facts[i].name);
+        tn_chart_ink(p->paint, TN_CHART_BLACK);
+        tn_paint_face(p->paint, TN_CHART_TEXT, true);
+        tn_type_fit(p->paint, x, FACTS + 12, TN_ALIGN_LEFT, room - VALUE_APART, p->h->facts[i].value);
     }
 }
 
 static void draw_titles(const picture *p)
 {
-    tn_chart_ink(p->context, TN_CHART_BLACK);
-    tn_type_face(p->context, 13, true);
-    double used = fmin(tn_type_width(p->context, p->h->title), WIDTH / 2) + 8;
-    tn_type_fit(p->context, 24, TITLE, TN_ALIGN_LEFT, WIDTH / 2, p->h->title);
-    tn_type_face(p->context, TN_CHART_TEXT + 0.5, false);
-    tn_type_fit(p->context, 24 + used, TITLE, TN_ALIGN_LEFT, WIDTH - 48 - used, p->h->doc);
-    tn_chart_ink(p->context, TN_CHART_GREY);
-    tn_type_face(p->context, TN_CHART_TEXT, false);
-    tn_type_fit(p->context, 24, TITLE + 15, TN_ALIGN_LEFT, WIDTH - 48, p->h->about);
+    tn_chart_ink(p->paint, TN_CHART_BLACK);
+    tn_paint_face(p->paint, 13, true);
+    double used = fmin(tn_type_width(p->paint, p->h->title), WIDTH / 2) + 8;
+    tn_type_fit(p->paint, 24, TITLE, TN_ALIGN_LEFT, WIDTH / 2, p->h->title);
+    tn_paint_face(p->paint, TN_CHART_TEXT + 0.5, false);
+    tn_type_fit(p->paint, 24 + used, TITLE, TN_ALIGN_LEFT, WIDTH - 48 - used, p->h->doc);
+    tn_chart_ink(p->paint, TN_CHART_GREY);
+    tn_paint_face(p->paint, TN_CHART_TEXT, false);
+    tn_type_fit(p->paint, 24, TITLE + 15, TN_ALIGN_LEFT, WIDTH - 48, p->h->about);
 }
 
 tn_status tn_histogram_draw(const tn_histogram *h, tn_picture *to, tn_error *error)
@@ -192,7 +192,7 @@ tn_status tn_histogram_draw(const tn_histogram *h, tn_picture *to, tn_error *err
     tn_status status = tn_canvas_begin(to, WIDTH, HEIGHT, h->title, &canvas, error);
     if (status != TN_OK)
         return status;
-    picture p = {tn_canvas_context(canvas),
+    picture p = {tn_canvas_paint(canvas),
                  h,
                  tn_chart_scale_of(h->bars, h->count, LEFT, WIDTH - RIGHT),
                  {0, fmax(highest(h) * 1.06, 1e-9), BOTTOM, TOP}};

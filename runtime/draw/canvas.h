@@ -1,20 +1,16 @@
-/* A picture under construction: SVG, PNG or PDF by the file's extension, one cairo context for all three.
+/* A picture under construction: SVG, PNG or PDF by the file's extension, one tn_paint for all three.
  *
  * Units are points (1/72 inch), y downwards. The file is written beside its target and renamed. The same drawing gives
- * the same bytes for one version of cairo and one set of fonts: PDF dates are constant, SVG ids are numbered afresh. A
- * canvas owns its context and its file; free it in any case.
+ * the same bytes: of an SVG on every machine, of the others for one version of cairo and one set of fonts (dates in a
+ * PDF are constant). A canvas owns its paint and its file; free it in any case.
  */
 #ifndef TARTAN_DRAW_CANVAS_H
 #define TARTAN_DRAW_CANVAS_H
 
-#include <cairo.h>
-
 #include "runtime/base/picture.h"
+#include "runtime/draw/paint.h"
 
 typedef struct tn_canvas tn_canvas;
-
-/* The most pixels of a PNG: 4 bytes each while it is drawn. A side is limited to 32,767 by cairo. */
-#define TN_CANVAS_PIXELS_MAX UINT64_C(100000000)
 
 /* The longest side of a page, in points: 70 metres. */
 #define TN_CANVAS_SIDE_MAX 200000.0
@@ -25,7 +21,8 @@ typedef struct tn_canvas_options {
     const char *title;    /* for the file's metadata; or NULL */
 } tn_canvas_options;
 
-/* Starts a picture. E0902 where the file cannot be written, E0820 where its page or its PNG would be too large. */
+/* Starts a picture. E0902 where the file cannot be written, E0820 where its page or its PNG would be too large, E0907
+ * for a PNG or a PDF in a build without the part `draw`. */
 tn_status tn_canvas_new(const char *path, tn_canvas_format format, const tn_canvas_options *options, tn_canvas **canvas,
                         tn_error *error);
 
@@ -37,8 +34,8 @@ tn_status tn_canvas_open(tn_picture *picture, const tn_canvas_options *options, 
 tn_status tn_canvas_begin(tn_picture *picture, double width, double height, const char *title, tn_canvas **canvas,
                           tn_error *error);
 
-/* Draw here. White to begin with, black lines. */
-cairo_t *tn_canvas_context(const tn_canvas *canvas);
+/* Draw with this. White to begin with, black lines. */
+tn_paint *tn_canvas_paint(const tn_canvas *canvas);
 
 /* Ends the page and starts another of this size. Only PDF has pages: TN_INTERNAL for the others. */
 tn_status tn_canvas_page(tn_canvas *canvas, double width, double height, tn_error *error);

@@ -4,7 +4,6 @@
 
 #include <stdint.h>
 #include <string.h>
-#include <zlib.h>
 
 enum { SIGNATURE = 8, HEAD = 8, TAIL = 4, SIZES = 8, THOUSANDTHS = 1000 };
 
@@ -31,6 +30,22 @@ static void write_bytes(writer *w, const void *bytes, size_t size)
         w->fine = w->fine && fwrite(bytes, 1, size, w->out) == size;
 }
 
+/* The sum of a chunk (CRC-32 of ISO/IEC 15948, annex D) goes on over more bytes, by half a byte at a time. It begins
+ * with all bits set, and is written with all of them turned. */
+static uint32_t sum_on(uint32_t sum, const unsigned char *bytes, size_t size)
+{
+    static const uint32_t remainders[16] = {
+        0x00000000, 0x1db71064, 0x3b6e20c8, 0x26d930ac, 0x76dc4190, 0x6b6b51f4, 0x4db26158, 0x5005713c,
+        0xedb88320, 0xf00f9344, 0xd6d6a3e8, 0xcb61b38c, 0x9b64c2b0, 0x86d3d2d4, 0xa00ae278, 0xbdbdf21c,
+    };
+    for (size_t i = 0; i < size; i++) {
+        sum ^= bytes[i];
+        sum = sum >> 4 ^ remainders[sum & 15];
+        sum = sum >> 4 ^ remainders[sum & 15];
+    }
+    return sum;
+}
+
 /* A chunk whose data are in two parts. */
 static void write_chunk(writer *w, const char *name, const unsigned char *first, uint32_t first_size,
                         const unsigned char *rest, uint32_t rest_size)
@@ -38,12 +53,10 @@ static void write_chunk(writer *w, const char *name, const unsigned char *first,
     unsigned char head[HEAD], tail[TAIL];
     put_number(head, first_size + rest_size);
     memcpy(head + 4, name, 4);
-    uLong sum = crc32(0, head + 4, 4);
-    if (first_size)
-        sum = crc32(sum, first, first_size);
-    if (rest_size)
-        sum = crc32(sum, rest, rest_size);
-    put_number(tail, (uint32_t)sum);
+    uint32_t sum = sum_on(UINT32_MAX, head + 4, 4);
+    sum = sum_on(sum, first, first_size);
+    sum = sum_on(sum, rest, rest_size);
+    put_number(tail, ~sum);
     write_bytes(w, head, HEAD);
     write_bytes(w, first, first_size);
     write_bytes(w, rest, rest_size);

@@ -51,7 +51,7 @@ static double left_of(const page *p)
 
 /* ---- pixels */
 
-static tn_status paint_pixels(cairo_t *cr, const tn_mesh *mesh, const tn_mesh_picture *picture, const page *p,
+static tn_status paint_pixels(tn_paint *paint, const tn_mesh *mesh, const tn_mesh_picture *picture, const page *p,
                               tn_error *error)
 {
     const double *given = picture->normals;
@@ -71,15 +71,7 @@ static tn_status paint_pixels(cairo_t *cr, const tn_mesh *mesh, const tn_mesh_pi
     free(normals);
     if (status != TN_OK)
         return status;
-    cairo_surface_t *surface = cairo_image_surface_create_for_data(
-        (unsigned char *)image, CAIRO_FORMAT_ARGB32, (int)frame.width, (int)frame.height, (int)(4 * frame.width));
-    cairo_save(cr);
-    cairo_scale(cr, pixel, pixel);
-    cairo_set_source_surface(cr, surface, 0, 0);
-    cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
-    cairo_paint(cr);
-    cairo_restore(cr);
-    cairo_surface_destroy(surface);
+    tn_paint_pixels(paint, image, frame.width, frame.height, 0, 0, pixel);
     free(image);
     return TN_OK;
 }
@@ -121,17 +113,17 @@ static tn_status draw_vectors(const tn_mesh *mesh, const tn_mesh_picture *pictur
 
 /* ---- the page */
 
-static void write_words(cairo_t *cr, const page *p, const tn_mesh_picture *picture)
+static void write_words(tn_paint *paint, const page *p, const tn_mesh_picture *picture)
 {
     if (picture->title && picture->title[0]) {
-        cairo_set_source_rgb(cr, 0, 0, 0);
-        tn_type_face(cr, 12, false);
-        tn_type_fit(cr, MARGIN, 18, TN_ALIGN_LEFT, p->size[0] - 2 * MARGIN, picture->title);
+        tn_paint_colour(paint, 0, 0, 0);
+        tn_paint_face(paint, 12, false);
+        tn_type_fit(paint, MARGIN, 18, TN_ALIGN_LEFT, p->size[0] - 2 * MARGIN, picture->title);
     }
     if (picture->caption) {
-        cairo_set_source_rgb(cr, 0.45, 0.45, 0.45);
-        tn_type_face(cr, 6.5, false);
-        tn_type_fit(cr, MARGIN, p->size[1] - 8, TN_ALIGN_LEFT, p->size[0] - 2 * MARGIN, picture->caption);
+        tn_paint_colour(paint, 0.45, 0.45, 0.45);
+        tn_paint_face(paint, 6.5, false);
+        tn_type_fit(paint, MARGIN, p->size[1] - 8, TN_ALIGN_LEFT, p->size[0] - 2 * MARGIN, picture->caption);
     }
 }
 
@@ -143,10 +135,10 @@ static tn_status draw_pixels(const tn_mesh *mesh, const tn_mesh_picture *picture
     tn_status status = tn_canvas_open(to, &options, &canvas, error);
     if (status != TN_OK)
         return status;
-    cairo_t *cr = tn_canvas_context(canvas);
-    status = paint_pixels(cr, mesh, picture, &p, error);
+    tn_paint *paint = tn_canvas_paint(canvas);
+    status = paint_pixels(paint, mesh, picture, &p, error);
     if (status == TN_OK) {
-        write_words(cr, &p, picture);
+        write_words(paint, &p, picture);
         status = tn_canvas_commit(canvas, error);
     }
     tn_canvas_free(canvas);

@@ -98,21 +98,6 @@ static tn_status make_image(void *context, unsigned thread, size_t item, tn_erro
     return status;
 }
 
-/* Puts an image into the square whose corner is at x, y. */
-static void put_image(cairo_t *cr, uint32_t *image, uint32_t side, double pixel, const double corner[2])
-{
-    cairo_surface_t *surface = cairo_image_surface_create_for_data((unsigned char *)image, CAIRO_FORMAT_ARGB32,
-                                                                   (int)side, (int)side, (int)(4 * side));
-    cairo_save(cr);
-    cairo_translate(cr, corner[0], corner[1]);
-    cairo_scale(cr, pixel, pixel);
-    cairo_set_source_surface(cr, surface, 0, 0);
-    cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
-    cairo_paint(cr);
-    cairo_restore(cr);
-    cairo_surface_destroy(surface);
-}
-
 static double largest_side(const extent *extents, size_t count)
 {
     double side = 1e-300;
@@ -121,15 +106,15 @@ static double largest_side(const extent *extents, size_t count)
     return side;
 }
 
-static tn_status draw_cells(cairo_t *cr, const tn_mesh *const *meshes, const extent *extents, size_t count,
+static tn_status draw_cells(tn_paint *paint, const tn_mesh *const *meshes, const extent *extents, size_t count,
                             const sheet *s, const tn_meshes_picture *picture, tn_error *error)
 {
     double pixel = 72.0 / s->dpi, largest = largest_side(extents, count);
     uint32_t side = (uint32_t)ceil(s->cell / pixel);
     tn_crew *crew = tn_crew_new(0, NULL);
     tn_status status = crew ? TN_OK : tn_fail_memory(error);
-    tn_type_face(cr, 9, false);
-    cairo_set_source_rgb(cr, 0, 0, 0);
+    tn_paint_face(paint, 9, false);
+    tn_paint_colour(paint, 0, 0, 0);
     for (size_t first = 0; first < count && status == TN_OK; first += BATCH_CELLS) {
         batch b = {.meshes = meshes + first,
                    .normals = picture->normals ? picture->normals + first : NULL,
@@ -143,9 +128,9 @@ static tn_status draw_cells(cairo_t *cr, const tn_mesh *const *meshes, const ext
         for (size_t i = 0; i < here && status == TN_OK; i++) {
             double corner[2] = {MARGIN + (double)((first + i) % s->columns) * (s->cell + GAP),
                                 s->top + (double)((first + i) / s->columns) * (s->cell + s->label + GAP)};
-            put_image(cr, b.images[i], side, pixel, corner);
+            tn_paint_pixels(paint, b.images[i], side, side, corner[0], corner[1], pixel);
             if (picture->labels)
-                tn_type_fit(cr, corner[0] + s->cell / 2, corner[1] + s->cell + 11, TN_ALIGN_CENTRE, s->cell,
+                tn_type_fit(paint, corner[0] + s->cell / 2, corner[1] + s->cell + 11, TN_ALIGN_CENTRE, s->cell,
                             picture->labels[first + i]);
         }
         for (size_t i = 0; i < here; i++)
@@ -165,12 +150,12 @@ static tn_status draw(const tn_mesh *const *meshes, const extent *extents, size_
     tn_status status = tn_canvas_open(to, &options, &canvas, error);
     if (status != TN_OK)
         return status;
-    cairo_t *cr = tn_canvas_context(canvas);
+    tn_paint *paint = tn_canvas_paint(canvas);
     if (picture->title && picture->title[0]) {
-        tn_type_face(cr, 12, false);
-        tn_type_fit(cr, MARGIN, 18, TN_ALIGN_LEFT, width - 2 * MARGIN, picture->title);
+        tn_paint_face(paint, 12, false);
+        tn_type_fit(paint, MARGIN, 18, TN_ALIGN_LEFT, width - 2 * MARGIN, picture->title);
     }
-    status = draw_cells(cr, meshes, extents, count, s, picture, error);
+    status = draw_cells(paint, meshes, extents, count, s, picture, error);
     if (status == TN_OK)
         status = tn_canvas_commit(canvas, error);
     tn_canvas_free(canvas);

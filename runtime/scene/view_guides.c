@@ -36,7 +36,8 @@ static void widen(tn_view *view, const double most[2][2], tn_vector seen)
 tn_status tn_view_take_guides(tn_view *view, const tn_guides *guides, const tn_eye *eye, tn_error *error)
 {
     double size = fmax(view->high[0] - view->low[0], view->high[1] - view->low[1]);
-    const double most[2][2] = {{view->low[0] - size, view->low[1] - size}, {view->high[0] + size, view->high[1] + size}};
+    const double most[2][2] = {{view->low[0] - size, view->low[1] - size},
+                               {view->high[0] + size, view->high[1] + size}};
     for (size_t i = 0; i < guides->count; i++) {
         tn_vector seen[POINTS_MAX];
         const tn_guide *guide = &guides->items[i];
@@ -51,9 +52,9 @@ tn_status tn_view_take_guides(tn_view *view, const tn_guides *guides, const tn_e
     return TN_OK;
 }
 
-static void set_colour(cairo_t *cr, colour c, double opacity)
+static void set_colour(tn_paint *paint, colour c, double opacity)
 {
-    cairo_set_source_rgba(cr, c.r, c.g, c.b, opacity);
+    tn_paint_translucent(paint, c.r, c.g, c.b, opacity);
 }
 
 /* Where a guide's point is on the page. */
@@ -80,16 +81,16 @@ static double turn_of(const tn_view *view, const tn_guide *guide)
 }
 
 /* All polygons run the same way round, so that what they cover together is filled once. */
-static void outline(cairo_t *cr, const tn_view *view, const tn_view_place *place, const tn_guide *guide)
+static void outline(tn_paint *paint, const tn_view *view, const tn_view_place *place, const tn_guide *guide)
 {
     bool backwards = turn_of(view, guide) < 0;
-    cairo_new_sub_path(cr);
+    tn_paint_new_sub_path(paint);
     for (uint32_t i = 0; i < guide->count; i++) {
         double at[2];
         place_point(view, place, guide, backwards ? guide->count - 1 - i : i, at);
-        cairo_line_to(cr, at[0], at[1]);
+        tn_paint_line_to(paint, at[0], at[1]);
     }
-    cairo_close_path(cr);
+    tn_paint_close_path(paint);
 }
 
 /* Of a shape whose areas begin before: an area of it, or what lies among them. */
@@ -98,117 +99,117 @@ static bool is_part(const tn_guide *guide, uint32_t whole)
     return guide->kind != TN_GUIDE_AREA || guide->whole == whole;
 }
 
-void tn_view_paint_areas(cairo_t *cr, const tn_view *view, const tn_view_place *place)
+void tn_view_paint_areas(tn_paint *paint, const tn_view *view, const tn_view_place *place)
 {
     const tn_guide *items = view->guides.items;
-    cairo_save(cr);
-    cairo_set_fill_rule(cr, CAIRO_FILL_RULE_WINDING);
+    tn_paint_save(paint);
+    tn_paint_even_odd(paint, false);
     for (size_t i = 0, end; i < view->guides.count; i = end) {
         end = i + 1;
         if (items[i].kind != TN_GUIDE_AREA)
             continue;
-        cairo_new_path(cr);
-        outline(cr, view, place, &items[i]);
+        tn_paint_new_path(paint);
+        outline(paint, view, place, &items[i]);
         for (; end < view->guides.count && is_part(&items[end], items[i].whole); end++)
             if (items[end].kind == TN_GUIDE_AREA)
-                outline(cr, view, place, &items[end]);
+                outline(paint, view, place, &items[end]);
         bool ground = items[i].subject == TN_GUIDE_GROUND;
-        set_colour(cr, ground ? ground_colour : boundary_colour, ground ? 0.10 : 0.14);
-        cairo_fill(cr);
+        set_colour(paint, ground ? ground_colour : boundary_colour, ground ? 0.10 : 0.14);
+        tn_paint_fill(paint);
     }
-    cairo_restore(cr);
+    tn_paint_restore(paint);
 }
 
 /* ---- lines and marks */
 
-static void stroke_line(cairo_t *cr, const tn_view *view, const tn_view_place *place, const tn_guide *guide)
+static void stroke_line(tn_paint *paint, const tn_view *view, const tn_view_place *place, const tn_guide *guide)
 {
     static const double dash = 3;
-    cairo_new_path(cr);
+    tn_paint_new_path(paint);
     for (uint32_t i = 0; i < guide->count; i++) {
         double at[2];
         place_point(view, place, guide, i, at);
-        cairo_line_to(cr, at[0], at[1]);
+        tn_paint_line_to(paint, at[0], at[1]);
     }
-    set_colour(cr, boundary_colour, 0.45);
-    cairo_set_dash(cr, &dash, guide->dashed, 0);
-    cairo_set_line_width(cr, 0.6);
-    cairo_stroke(cr);
-    cairo_set_dash(cr, NULL, 0, 0);
+    set_colour(paint, boundary_colour, 0.45);
+    tn_paint_dash(paint, &dash, guide->dashed, 0);
+    tn_paint_line_width(paint, 0.6);
+    tn_paint_stroke(paint);
+    tn_paint_dash(paint, NULL, 0, 0);
 }
 
 /* An arrow that would be a point, because it runs towards the eye, has its head all the same. */
-static void draw_arrow(cairo_t *cr, const double from[2], const double to[2])
+static void draw_arrow(tn_paint *paint, const double from[2], const double to[2])
 {
     double along[2] = {to[0] - from[0], to[1] - from[1]}, length = hypot(along[0], along[1]);
     for (int k = 0; k < 2; k++)
         along[k] = length > 1e-9 ? along[k] / length : k;
     double neck[2] = {to[0] - along[0] * ARROW_HEAD, to[1] - along[1] * ARROW_HEAD};
-    set_colour(cr, arrow_colour, 0.9);
-    cairo_set_line_width(cr, 1.1);
-    cairo_move_to(cr, from[0], from[1]);
-    cairo_line_to(cr, neck[0], neck[1]);
-    cairo_stroke(cr);
-    cairo_move_to(cr, to[0], to[1]);
-    cairo_line_to(cr, neck[0] - along[1] * ARROW_HEAD / 2.5, neck[1] + along[0] * ARROW_HEAD / 2.5);
-    cairo_line_to(cr, neck[0] + along[1] * ARROW_HEAD / 2.5, neck[1] - along[0] * ARROW_HEAD / 2.5);
-    cairo_close_path(cr);
-    cairo_fill(cr);
+    set_colour(paint, arrow_colour, 0.9);
+    tn_paint_line_width(paint, 1.1);
+    tn_paint_move_to(paint, from[0], from[1]);
+    tn_paint_line_to(paint, neck[0], neck[1]);
+    tn_paint_stroke(paint);
+    tn_paint_move_to(paint, to[0], to[1]);
+    tn_paint_line_to(paint, neck[0] - along[1] * ARROW_HEAD / 2.5, neck[1] + along[0] * ARROW_HEAD / 2.5);
+    tn_paint_line_to(paint, neck[0] + along[1] * ARROW_HEAD / 2.5, neck[1] - along[0] * ARROW_HEAD / 2.5);
+    tn_paint_close_path(paint);
+    tn_paint_fill(paint);
 }
 
 /* A full disc pulls; a ring with a hole pushes. */
-static void draw_mark(cairo_t *cr, bool pulls, const double at[2])
+static void draw_mark(tn_paint *paint, bool pulls, const double at[2])
 {
     static const double whole = 6.283185307179586;
-    cairo_new_path(cr);
-    cairo_arc(cr, at[0], at[1], MARK, 0, whole);
+    tn_paint_new_path(paint);
+    tn_paint_arc(paint, at[0], at[1], MARK, 0, whole);
     if (pulls) {
-        set_colour(cr, attractor_colour, 0.95);
-        cairo_fill(cr);
+        set_colour(paint, attractor_colour, 0.95);
+        tn_paint_fill(paint);
         return;
     }
-    cairo_set_source_rgb(cr, 1, 1, 1);
-    cairo_fill_preserve(cr);
-    set_colour(cr, repeller_colour, 0.95);
-    cairo_set_line_width(cr, 1.4);
-    cairo_stroke(cr);
+    tn_paint_colour(paint, 1, 1, 1);
+    tn_paint_fill_keep(paint);
+    set_colour(paint, repeller_colour, 0.95);
+    tn_paint_line_width(paint, 1.4);
+    tn_paint_stroke(paint);
 }
 
 /* To the right of the mark, or to its left where the right border, `most`, is near. */
-static void write_text(cairo_t *cr, const tn_guide *guide, const double at[2], double most, bool brief)
+static void write_text(tn_paint *paint, const tn_guide *guide, const double at[2], double most, bool brief)
 {
     char text[64];
     if (!guide->name || (brief && guide->kind == TN_GUIDE_ARROW))
         return;
     snprintf(text, sizeof text, brief ? "%.0s%.4g" : "%s %.4g", guide->name, guide->value);
-    cairo_set_source_rgb(cr, 0.2, 0.2, 0.22);
-    tn_type_face(cr, TEXT_SIZE, false);
-    bool left = at[0] + MARK + 2 + tn_type_width(cr, text) > most;
-    tn_type_line(cr, left ? at[0] - MARK - 2 : at[0] + MARK + 2, at[1] + TEXT_SIZE / 3,
+    tn_paint_colour(paint, 0.2, 0.2, 0.22);
+    tn_paint_face(paint, TEXT_SIZE, false);
+    bool left = at[0] + MARK + 2 + tn_type_width(paint, text) > most;
+    tn_type_line(paint, left ? at[0] - MARK - 2 : at[0] + MARK + 2, at[1] + TEXT_SIZE / 3,
                  left ? TN_ALIGN_RIGHT : TN_ALIGN_LEFT, text);
-    cairo_new_path(cr);
+    tn_paint_new_path(paint);
 }
 
-void tn_view_paint_marks(cairo_t *cr, const tn_view *view, const tn_view_place *place, bool brief)
+void tn_view_paint_marks(tn_paint *paint, const tn_view *view, const tn_view_place *place, bool brief)
 {
     double most = place->x + view->high[0] * place->scale + MARGIN;
-    cairo_save(cr);
+    tn_paint_save(paint);
     for (size_t i = 0; i < view->guides.count; i++) {
         const tn_guide *guide = &view->guides.items[i];
         double at[2], to[2];
         if (guide->kind == TN_GUIDE_AREA)
             continue;
         if (guide->kind == TN_GUIDE_LINE) {
-            stroke_line(cr, view, place, guide);
+            stroke_line(paint, view, place, guide);
             continue;
         }
         place_point(view, place, guide, 0, at);
         place_point(view, place, guide, guide->count - 1, to);
         if (guide->kind == TN_GUIDE_ARROW)
-            draw_arrow(cr, at, to);
+            draw_arrow(paint, at, to);
         else
-            draw_mark(cr, guide->kind == TN_GUIDE_ATTRACTOR, at);
-        write_text(cr, guide, at, most, brief);
+            draw_mark(paint, guide->kind == TN_GUIDE_ATTRACTOR, at);
+        write_text(paint, guide, at, most, brief);
     }
-    cairo_restore(cr);
+    tn_paint_restore(paint);
 }

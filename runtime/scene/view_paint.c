@@ -8,58 +8,57 @@
 #define HAIRLINE 0.5 /* points: of seams */
 #define PAPER 0.88   /* the grey that lines fade towards */
 
-static void set_edge_colour(cairo_t *cr, uint16_t edge, double fade)
+static void set_edge_colour(tn_paint *paint, uint16_t edge, double fade)
 {
     unsigned char rgb[3] = {33, 33, 38};
     if (edge != TN_EDGE_DARK)
         tn_group_colour(edge, rgb);
-    cairo_set_source_rgb(cr, rgb[0] / 255.0 + fade * (PAPER - rgb[0] / 255.0),
-                         rgb[1] / 255.0 + fade * (PAPER - rgb[1] / 255.0),
-                         rgb[2] / 255.0 + fade * (PAPER - rgb[2] / 255.0));
+    tn_paint_colour(paint, rgb[0] / 255.0 + fade * (PAPER - rgb[0] / 255.0),
+                    rgb[1] / 255.0 + fade * (PAPER - rgb[1] / 255.0), rgb[2] / 255.0 + fade * (PAPER - rgb[2] / 255.0));
 }
 
-void tn_view_face_colour(cairo_t *cr, const tn_seen_face *face)
+void tn_view_face_colour(tn_paint *paint, const tn_seen_face *face)
 {
     unsigned char rgb[3];
     double light = (double)face->light;
     if (face->group == TN_NO_GROUP) {
-        cairo_set_source_rgb(cr, 0.98 * light, 0.97 * light, 0.93 * light);
+        tn_paint_colour(paint, 0.98 * light, 0.97 * light, 0.93 * light);
         return;
     }
     tn_group_colour(face->group, rgb);
-    cairo_set_source_rgb(cr, light * (0.4 + 0.6 * rgb[0] / 255.0), light * (0.4 + 0.6 * rgb[1] / 255.0),
-                         light * (0.4 + 0.6 * rgb[2] / 255.0));
+    tn_paint_colour(paint, light * (0.4 + 0.6 * rgb[0] / 255.0), light * (0.4 + 0.6 * rgb[1] / 255.0),
+                    light * (0.4 + 0.6 * rgb[2] / 255.0));
 }
 
 /* Paths are in points of the page, y downwards: an SVG with coordinates of the model and a matrix that makes them small
  * loses its thin lines in browsers. */
 typedef struct tn_brush {
-    cairo_t *cr;
+    tn_paint *paint;
     const tn_view *view;
     double scale;
 } tn_brush;
 
 static void move_to(const tn_brush *brush, double x, double y)
 {
-    cairo_move_to(brush->cr, x * brush->scale, -y * brush->scale);
+    tn_paint_move_to(brush->paint, x * brush->scale, -y * brush->scale);
 }
 
 static void line_to(const tn_brush *brush, double x, double y)
 {
-    cairo_line_to(brush->cr, x * brush->scale, -y * brush->scale);
+    tn_paint_line_to(brush->paint, x * brush->scale, -y * brush->scale);
 }
 
 static void set_width(const tn_brush *brush, double width)
 {
-    cairo_set_line_width(brush->cr, width * brush->scale);
+    tn_paint_line_width(brush->paint, width * brush->scale);
 }
 
 static void outline(const tn_brush *brush, const tn_seen_face *face)
 {
-    cairo_new_sub_path(brush->cr);
+    tn_paint_new_sub_path(brush->paint);
     for (uint32_t c = face->first; c < face->first + face->size; c++)
         line_to(brush, (double)brush->view->points[c][0], (double)brush->view->points[c][1]);
-    cairo_close_path(brush->cr);
+    tn_paint_close_path(brush->paint);
 }
 
 /* Strokes the sides of one kind, from one corner on; returns the next corner. */
@@ -73,19 +72,19 @@ static uint32_t stroke_run(const tn_brush *brush, const tn_seen_face *face, uint
         const float *next = points[(i + 1) % face->size];
         line_to(brush, (double)next[0], (double)next[1]);
     }
-    cairo_stroke(brush->cr);
+    tn_paint_stroke(brush->paint);
     return i;
 }
 
-static void set_fill(cairo_t *cr, const tn_seen_face *face, const tn_view_place *place)
+static void set_fill(tn_paint *paint, const tn_seen_face *face, const tn_view_place *place)
 {
     const double(*palette)[3] = place->palette;
     double light = place->ambient + (1 - place->ambient) * (double)face->light;
     if (palette)
-        cairo_set_source_rgb(cr, light * palette[face->group][0], light * palette[face->group][1],
-                             light * palette[face->group][2]);
+        tn_paint_colour(paint, light * palette[face->group][0], light * palette[face->group][1],
+                        light * palette[face->group][2]);
     else
-        tn_view_face_colour(cr, face);
+        tn_view_face_colour(paint, face);
 }
 
 /* How far seams keep away from lines at their ends, in units of the model: `line` is half as wide as these are,
@@ -129,7 +128,7 @@ static void draw_seams(const tn_brush *brush, const tn_seen_face *face, const cl
         line_to(brush, (double)b[0] - to * along[0], (double)b[1] - to * along[1]);
         goes_on = to == 0;
     }
-    cairo_stroke(brush->cr);
+    tn_paint_stroke(brush->paint);
 }
 
 static void draw_edges(const tn_brush *brush, const tn_seen_face *face, double fade)
@@ -140,7 +139,7 @@ static void draw_edges(const tn_brush *brush, const tn_seen_face *face, double f
             i++;
             continue;
         }
-        set_edge_colour(brush->cr, edge, fade);
+        set_edge_colour(brush->paint, edge, fade);
         i = stroke_run(brush, face, i);
     }
 }
@@ -180,8 +179,8 @@ static void draw_mends(const tn_brush *brush, const tn_seen_face *face, const cl
         trace_mend(brush, &mends[i], clear);
         if (i + 1 < end && mends[i + 1].edge == mends[i].edge)
             continue;
-        set_edge_colour(brush->cr, mends[i].edge, fade);
-        cairo_stroke(brush->cr);
+        set_edge_colour(brush->paint, mends[i].edge, fade);
+        tn_paint_stroke(brush->paint);
     }
 }
 
@@ -191,45 +190,42 @@ static void draw_mends(const tn_brush *brush, const tn_seen_face *face, const cl
 static void paint_faces(const tn_brush *brush, const tn_seen_face *faces, size_t count, const tn_view_place *place,
                         double seam)
 {
-    cairo_t *cr = brush->cr;
+    tn_paint *paint = brush->paint;
     const clearance clear = {place->line / place->scale / 2, seam / 2};
-    cairo_new_path(cr); /* text leaves a point behind */
+    tn_paint_new_path(paint); /* text leaves a point behind */
     for (size_t f = 0; f < count; f++)
         outline(brush, &faces[f]);
-    set_fill(cr, faces, place);
-    cairo_set_fill_rule(cr, count > 1 ? CAIRO_FILL_RULE_WINDING : CAIRO_FILL_RULE_EVEN_ODD);
-    cairo_fill(cr);
-    cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
+    set_fill(paint, faces, place);
+    tn_paint_even_odd(paint, count == 1);
+    tn_paint_fill(paint);
+    tn_paint_line_cap(paint, TN_CAP_BUTT);
     set_width(brush, seam);
     for (size_t f = 0; f < count; f++)
         draw_seams(brush, &faces[f], &clear);
     set_width(brush, clear.line);
     for (size_t f = 0; f < count; f++)
         draw_mends(brush, &faces[f], &clear, place->fade);
-    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+    tn_paint_line_cap(paint, TN_CAP_ROUND);
     set_width(brush, 2 * clear.line);
     for (size_t f = 0; f < count; f++)
         draw_edges(brush, &faces[f], place->fade);
 }
 
 /* As wide as a seam can be seen, in units of the model: a pixel at least where there are pixels. */
-static double seam_width(cairo_t *cr, const tn_view_place *place)
+static double seam_width(tn_paint *paint, const tn_view_place *place)
 {
-    double pixel[2] = {1, 0};
-    cairo_device_to_user_distance(cr, &pixel[0], &pixel[1]);
-    bool has_pixels = cairo_surface_get_type(cairo_get_target(cr)) == CAIRO_SURFACE_TYPE_IMAGE;
-    return fmax(HAIRLINE, has_pixels ? hypot(pixel[0], pixel[1]) : 0) / place->scale;
+    return fmax(HAIRLINE, tn_paint_pixel(paint)) / place->scale;
 }
 
 void tn_view_paint(const tn_canvas *canvas, const tn_view *view, const tn_view_place *place)
 {
-    cairo_t *cr = tn_canvas_context(canvas);
-    const tn_brush brush = {cr, view, place->scale};
-    cairo_save(cr);
-    cairo_translate(cr, place->x, place->y);
-    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-    double seam = seam_width(cr, place);
+    tn_paint *paint = tn_canvas_paint(canvas);
+    const tn_brush brush = {paint, view, place->scale};
+    tn_paint_save(paint);
+    tn_paint_translate(paint, place->x, place->y);
+    tn_paint_line_join(paint, TN_JOIN_ROUND);
+    tn_paint_line_cap(paint, TN_CAP_ROUND);
+    double seam = seam_width(paint, place);
     for (size_t f = 0, end, painted = 0; f < view->face_count; f = end) {
         if (painted++ % 256 == 0 && tn_canvas_stopped(canvas))
             break;
@@ -237,5 +233,5 @@ void tn_view_paint(const tn_canvas *canvas, const tn_view *view, const tn_view_p
             end++;
         paint_faces(&brush, view->faces + f, end - f, place, seam);
     }
-    cairo_restore(cr);
+    tn_paint_restore(paint);
 }

@@ -2,8 +2,7 @@
 #ifndef TARTAN_SCENE_VIEW_PARTS_H
 #define TARTAN_SCENE_VIEW_PARTS_H
 
-#include <cairo.h>
-
+#include "runtime/draw/paint.h"
 #include "runtime/scene/view.h"
 
 #define TN_NO_GROUP UINT32_MAX
@@ -55,12 +54,12 @@ struct tn_view {
 tn_status tn_view_take_guides(tn_view *view, const tn_guides *guides, const tn_eye *eye, tn_error *error);
 
 /* Paint them: what is filled, below the form; lines, marks and texts over it. `brief`: values without their names. */
-void tn_view_paint_areas(cairo_t *cr, const tn_view *view, const tn_view_place *place);
-void tn_view_paint_marks(cairo_t *cr, const tn_view *view, const tn_view_place *place, bool brief);
+void tn_view_paint_areas(tn_paint *paint, const tn_view *view, const tn_view_place *place);
+void tn_view_paint_marks(tn_paint *paint, const tn_view *view, const tn_view_place *place, bool brief);
 
 /* The colour of a face without a palette. Faces of groups are paler than lines of their colour, so that edges stand
  * out. */
-void tn_view_face_colour(cairo_t *cr, const tn_seen_face *face);
+void tn_view_face_colour(tn_paint *paint, const tn_seen_face *face);
 
 /* Joins faces that can be filled together; changes their order. */
 tn_status tn_view_join(tn_view *view, tn_error *error);

@@ -91,11 +91,11 @@ static sheet lay_out(tn_view *const *views, size_t count, const tn_view_options 
     return s;
 }
 
-static void set_colour(cairo_t *cr, uint32_t number, double light)
+static void set_colour(tn_paint *paint, uint32_t number, double light)
 {
     unsigned char rgb[3];
     tn_group_colour(number, rgb);
-    cairo_set_source_rgb(cr, light * rgb[0] / 255.0, light * rgb[1] / 255.0, light * rgb[2] / 255.0);
+    tn_paint_colour(paint, light * rgb[0] / 255.0, light * rgb[1] / 255.0, light * rgb[2] / 255.0);
 }
 
 /* The longest of 1, 2, 5, 10 and so on, and of their tenths, that is no longer. */
@@ -110,20 +110,20 @@ static double round_length(double most)
 }
 
 /* A bar of a round length of the model, its number before it; (right, y) is its right end. */
-static void draw_scale(cairo_t *cr, double scale, double most, double right, double y)
+static void draw_scale(tn_paint *paint, double scale, double most, double right, double y)
 {
     char text[40];
     double length = round_length(most / scale), left = right - length * scale;
     snprintf(text, sizeof text, "%.6g", length);
-    cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
-    cairo_set_line_width(cr, 0.8);
-    cairo_move_to(cr, left, y - 5);
-    cairo_line_to(cr, left, y);
-    cairo_line_to(cr, right, y);
-    cairo_line_to(cr, right, y - 5);
-    cairo_stroke(cr);
-    tn_type_face(cr, 8, false);
-    tn_type_line(cr, left - 4 - tn_type_width(cr, text), y, TN_ALIGN_LEFT, text);
+    tn_paint_colour(paint, 0.25, 0.25, 0.25);
+    tn_paint_line_width(paint, 0.8);
+    tn_paint_move_to(paint, left, y - 5);
+    tn_paint_line_to(paint, left, y);
+    tn_paint_line_to(paint, right, y);
+    tn_paint_line_to(paint, right, y - 5);
+    tn_paint_stroke(paint);
+    tn_paint_face(paint, 8, false);
+    tn_type_line(paint, left - 4 - tn_type_width(paint, text), y, TN_ALIGN_LEFT, text);
 }
 
 /* How far lines fade where faces are so small on the mean. */
@@ -137,7 +137,7 @@ static double fade_of(const tn_view *view, double scale)
 static void paint_view(const tn_canvas *canvas, const tn_view *view, const sheet *s, double x, double y,
                        const char *label)
 {
-    cairo_t *cr = tn_canvas_context(canvas);
+    tn_paint *paint = tn_canvas_paint(canvas);
     double extent[2] = {view->high[0] - view->low[0], view->high[1] - view->low[1]}, scale = s->scale;
     double foot = label || s->scaled ? LABEL_HEIGHT : 0;
     if (s->scaled)
@@ -157,69 +157,69 @@ static void paint_view(const tn_canvas *canvas, const tn_view *view, const sheet
                            .palette = s->palette};
     bool guided = view->guides.count > 0; /* they may reach beyond the cell */
     if (guided) {
-        cairo_save(cr);
-        cairo_rectangle(cr, x, y, s->cell[0], s->cell[1] - foot);
-        cairo_clip(cr);
+        tn_paint_save(paint);
+        tn_paint_rectangle(paint, x, y, s->cell[0], s->cell[1] - foot);
+        tn_paint_clip(paint);
     }
-    tn_view_paint_areas(cr, view, &place);
+    tn_view_paint_areas(paint, view, &place);
     tn_view_paint(canvas, view, &place);
-    tn_view_paint_marks(cr, view, &place, s->columns > 1 || s->rows > 1);
+    tn_view_paint_marks(paint, view, &place, s->columns > 1 || s->rows > 1);
     if (guided)
-        cairo_restore(cr);
+        tn_paint_restore(paint);
     if (s->scaled)
-        draw_scale(cr, scale, (s->cell[0] - 2 * MARGIN) / 4, x + s->cell[0] - MARGIN, y + s->cell[1] - 5);
+        draw_scale(paint, scale, (s->cell[0] - 2 * MARGIN) / 4, x + s->cell[0] - MARGIN, y + s->cell[1] - 5);
     if (label) {
-        cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
-        tn_type_face(cr, 9, false);
-        tn_type_line(cr, x + MARGIN, y + s->cell[1] - 5, TN_ALIGN_LEFT, label);
+        tn_paint_colour(paint, 0.25, 0.25, 0.25);
+        tn_paint_face(paint, 9, false);
+        tn_type_line(paint, x + MARGIN, y + s->cell[1] - 5, TN_ALIGN_LEFT, label);
     }
 }
 
 /* A line of the legend: a stroke in the colour of a label, or a square in that of a group. */
-static void write_entry(cairo_t *cr, const tn_legend *legend, uint32_t number, double x, double y)
+static void write_entry(tn_paint *paint, const tn_legend *legend, uint32_t number, double x, double y)
 {
     if (legend->groups) {
-        tn_view_face_colour(cr, &(tn_seen_face){.group = number, .light = 0.9F});
-        cairo_rectangle(cr, x + 4, y - 6, 7, 7);
-        cairo_fill(cr);
+        tn_view_face_colour(paint, &(tn_seen_face){.group = number, .light = 0.9F});
+        tn_paint_rectangle(paint, x + 4, y - 6, 7, 7);
+        tn_paint_fill(paint);
     } else {
-        set_colour(cr, number, 1);
-        cairo_set_line_width(cr, 2);
-        cairo_move_to(cr, x, y - 2.5);
-        cairo_line_to(cr, x + 12, y - 2.5);
-        cairo_stroke(cr);
+        set_colour(paint, number, 1);
+        tn_paint_line_width(paint, 2);
+        tn_paint_move_to(paint, x, y - 2.5);
+        tn_paint_line_to(paint, x + 12, y - 2.5);
+        tn_paint_stroke(paint);
     }
-    cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
-    tn_type_line(cr, x + 15, y, TN_ALIGN_LEFT, legend->name(legend->names, number));
+    tn_paint_colour(paint, 0.25, 0.25, 0.25);
+    tn_type_line(paint, x + 15, y, TN_ALIGN_LEFT, legend->name(legend->names, number));
 }
 
-static void write_foot(cairo_t *cr, const sheet *s, const tn_view_options *options)
+static void write_foot(tn_paint *paint, const sheet *s, const tn_view_options *options)
 {
     double x = MARGIN, y = s->size[1] - FOOT_HEIGHT - LEGEND_LINE * (s->legend_rows - 1) + 10;
-    tn_type_face(cr, 8, false);
+    tn_paint_face(paint, 8, false);
     for (uint32_t i = 0; i < s->legend_count; i++) {
         if (s->legend_rows > 1) {
             x = MARGIN + i % s->legend_columns * s->legend_cell;
             y += i > 0 && i % s->legend_columns == 0 ? LEGEND_LINE : 0;
         }
-        write_entry(cr, &options->legend, s->legend[i], x, y);
-        x += 26 + tn_type_width(cr, options->legend.name(options->legend.names, s->legend[i]));
+        write_entry(paint, &options->legend, s->legend[i], x, y);
+        x += 26 + tn_type_width(paint, options->legend.name(options->legend.names, s->legend[i]));
     }
     if (options->caption) {
-        cairo_set_source_rgb(cr, 0.45, 0.45, 0.45);
-        tn_type_face(cr, 6.5, false);
-        tn_type_line(cr, MARGIN, s->size[1] - 8, TN_ALIGN_LEFT, options->caption);
+        tn_paint_colour(paint, 0.45, 0.45, 0.45);
+        tn_paint_face(paint, 6.5, false);
+        tn_type_line(paint, MARGIN, s->size[1] - 8, TN_ALIGN_LEFT, options->caption);
     }
 }
 
 static void paint_sheet(const tn_canvas *canvas, tn_view *const *views, size_t count, const sheet *s,
                         const tn_view_options *options)
 {
-    cairo_t *cr = tn_canvas_context(canvas);
+    tn_paint *paint = tn_canvas_paint(canvas);
     double top = 0;
     if (options->title && options->title[0]) {
-        tn_type_face(cr, 12, false);
-        tn_type_line(cr, MARGIN, 18, TN_ALIGN_LEFT, options->title);
+        tn_paint_face(paint, 12, false);
+        tn_type_line(paint, MARGIN, 18, TN_ALIGN_LEFT, options->title);
         top = TITLE_HEIGHT;
     }
     for (size_t i = 0; i < count; i++) {
@@ -231,7 +231,7 @@ static void paint_sheet(const tn_canvas *canvas, tn_view *const *views, size_t c
         paint_view(canvas, views[i], s, (double)(i % s->columns) * s->cell[0],
                    top + (double)(i / s->columns) * s->cell[1], options->labels || count > 1 ? label : NULL);
     }
-    write_foot(cr, s, options);
+    write_foot(paint, s, options);
 }
 
 tn_status tn_views_draw(tn_view *const *views, size_t count, const tn_view_options *options, tn_picture *to,

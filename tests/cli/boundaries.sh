@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Boundaries that are meshes: one without an inside is warned of, one that is made of a field bounds two rooms, and a wrong line of an OBJ
 # file is named by its number.
-# Needs the parts: draw mesh store
+# Needs the parts: mesh store
 set -u
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

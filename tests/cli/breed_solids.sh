@@ -2,7 +2,7 @@
 # Designs of boxes bred as lists of genes: the same bytes for any number of threads and after an interruption, results that compile,
 # score as they were scored and keep the skeleton, choices by hand, changed inputs.
 # Slow under sanitizers.
-# Needs the parts: draw store
+# Needs the parts: store
 set -u
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -1,5 +1,4 @@
 #!/usr/bin/env bash
-# Needs the parts: draw
 # diff: what an edit removes, adds and keeps.
 name=diff
 . "$(dirname "$0")/golden.bash"

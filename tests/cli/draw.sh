@@ -14,6 +14,22 @@ for kind in svg png pdf; do
     "$TARTAN" draw "$rows" --sample 12 --seed 4 -o "$scratch/c.$kind"
     cmp -s "$scratch/a.$kind" "$scratch/c.$kind" && fail "$kind: another seed gives the same sheet"
 done
+# What an SVG shows says what it is: twelve plans with their trays; a rule and its parts, by the numbers that `explain` gives them.
+said() { # ATTRIBUTE FILE: its values, once each
+    grep -o "<g data-$1=\"[0-9]*\"" "$2" | grep -o '[0-9]*' | sort -nu | tr '\n' ' '
+}
+is 'plans of the sheet' "$(said plan "$scratch/a.svg")" '0 1 2 3 4 5 6 7 8 9 10 11 '
+is 'trays of the sheet' "$(grep -c '<g data-tray' "$scratch/a.svg")" "$("$TARTAN" sample "$rows" 12 --seed 3 | tr -cd '|\n' | wc -c)"
+"$TARTAN" draw lahave --rule stranded --rule thin-totem -o "$scratch/two.svg"
+is 'rules of a picture' "$(said rule "$scratch/two.svg")" '0 1 '
+plan=$("$TARTAN" sample lahave-houses 1 --seed 3)
+for rule in thin-totem narrow-pair dense-end hall-without-totem; do
+    "$TARTAN" draw lahave-houses --rule "$rule" -o "$scratch/rule.svg"
+    is "parts of $rule" "$(said part "$scratch/rule.svg")" \
+        "$("$TARTAN" explain lahave-houses "$plan" --rule "$rule" --full --json | grep -o '"number": *[0-9]*' | grep -o '[0-9]*' | sort -nu | tr '\n' ' ')"
+done
+"$TARTAN" explain lahave-houses "$plan" --rule thin-totem --full -o "$scratch/why.svg"
+is 'rows of an explanation' "$(said part "$scratch/why.svg")" '0 1 2 3 4 '
 is 'PNG' "$(head -c 4 "$scratch/a.png" | tail -c 3)" PNG
 is 'PDF' "$(head -c 4 "$scratch/a.pdf")" %PDF
 python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "$scratch/a.svg" || fail 'the SVG is not well-formed'
@@ -45,15 +61,14 @@ PYTHON
 tones() {
     python3 - "$1" <<'PYTHON'
 import re, sys
-fills = set(re.findall(r'fill(?:="|:)rgb\(([^)]*)%\)', open(sys.argv[1]).read()))
-shades = [[float(x.strip(" %")) for x in f.split(",")] for f in fills]
-print(sum(max(s) - min(s) > 4 for s in shades))
+fills = set(re.findall(r'fill="#([0-9a-f]{6})"', open(sys.argv[1]).read()))
+print(sum(max(bytes.fromhex(f)) - min(bytes.fromhex(f)) > 10 for f in fills))
 PYTHON
 }
 printf '2m %s north - open:1m none | 2m %s south water none none\n' fish meat flowers nothing >"$scratch/stalls.plans"
 "$TARTAN" draw "$files/stalls.plan" "$scratch/stalls.plans" -o "$scratch/stalls.svg"
 is 'tones of the trades and of the legend' "$(tones "$scratch/stalls.svg")" 5
-grep -q 'stroke-dasharray[=:]"*2.5' "$scratch/stalls.svg" || fail 'a tray without zones is not there'
+grep -q 'stroke-dasharray="2.5' "$scratch/stalls.svg" || fail 'a tray without zones is not there'
 sed -E 's/ role [a-z]+//' "$files/stalls.plan" | sed -E 's/ role [a-z]+//g' >"$scratch/bare.plan"
 "$TARTAN" draw "$scratch/bare.plan" "$scratch/stalls.plans" -o "$scratch/bare.svg"
 is 'tones without roles' "$(tones "$scratch/bare.svg")" 5

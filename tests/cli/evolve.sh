@@ -1,6 +1,6 @@
 # Runs of evolution: the same bytes for any number of threads, whether interrupted or not; extension; replay; breeding by hand.
 # Slow under sanitizers.
-# Needs the parts: draw store
+# Needs the parts: store
 set -u
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

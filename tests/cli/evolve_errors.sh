@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Needs the parts: draw store
+# Needs the parts: store
 # What evolve says of studies whose files are not there or hold something else, and of wrong use: each at its place.
 name=evolve_errors
 source "$(dirname "$0")/golden.bash"

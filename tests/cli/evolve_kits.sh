@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Needs the parts: draw store
+# Needs the parts: store
 # Rules of kits are bred: scored by what the kit's model becomes, the same with any number of threads, resumed and replayed.
 name=evolve_kits
 source "$(dirname "$0")/golden.bash"

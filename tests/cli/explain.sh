@@ -38,8 +38,8 @@ for format in svg png pdf; do
     "$TARTAN" explain stdlib/lahave-houses.plan "$plan" --full -o "$scratch/b.$format"
     cmp "$scratch/a.$format" "$scratch/b.$format" || fail "the pictures in $format differ"
 done
-grep -q 'rgb(36' "$scratch/a.svg" || fail 'no green'
-grep -q 'rgb(78' "$scratch/a.svg" || fail 'no red'
+grep -q '#5ca861' "$scratch/a.svg" || fail 'no green'
+grep -q '#c7332b' "$scratch/a.svg" || fail 'no red'
 "$TARTAN" explain "$files/sheds.plan" '6m - | 3m -' --library sheds -o "$scratch/table.svg"
 [ -s "$scratch/table.svg" ] || fail 'no picture of a schema without roles'
 exits 2 "$TARTAN" explain "$files/sheds.plan" '6m - | 3m -' --library sheds -o "$scratch/a.txt"
@@ -57,7 +57,7 @@ if "$TARTAN" draw "$files/rows.plan" --sample 1 -o "$scratch/any.svg" 2>/dev/nul
     "$TARTAN" explain "$files/stalls.plan" "$plan" --nearest 0 -o "$scratch/alone.svg"
     height() { sed -n 's/.*<svg[^>]* height="\([0-9]*\).*/\1/p' "$1" | head -1; }
     [ "$(height "$scratch/near.svg")" -gt "$(($(height "$scratch/alone.svg") + 100))" ] || fail 'the nearest plans are not drawn'
-    grep -q 'rgb(78[.0-9]*%, *20[.0-9]*%, *17' "$scratch/alone.svg" || fail 'what condemns is not red'
-    grep -q 'rgb(36[.0-9]*%, *66[.0-9]*%, *38' "$scratch/alone.svg" && fail 'what condemns is green'
+    grep -q '#c7332b' "$scratch/alone.svg" || fail 'what condemns is not red'
+    grep -q '#5ca861' "$scratch/alone.svg" && fail 'what condemns is green'
 fi
 finish

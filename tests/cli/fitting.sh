@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fitting: data to test with, measures of errors, classes, scaling, lexicase selection, why sentences fail.
 # Slow under sanitizers.
-# Needs the parts: draw store
+# Needs the parts: store
 set -u
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

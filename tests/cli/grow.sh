@@ -205,18 +205,18 @@ for words in '--overlay 9 -o x.svg' '--overlay x -o x.svg' '--overlay 1, -o x.ob
 done
 
 # What a surface grows in is drawn where there is any, or where it is asked for.
-filled() { grep -c "fill-opacity[:=]\"*$2[;\"]" "$1"; } # cairo's versions write it as a style or an attribute
+filled() { grep -c "fill-opacity=\"$2\"" "$1"; }
 run grow square.hemls -n 2 -o plain.svg
 run grow square.hemls -n 2 --surroundings no -o none.svg
 cmp plain.svg none.svg || fail 'a surface in no surroundings is drawn with some'
 run grow square.hemls -n 2 --surroundings yes -o ground.svg
-[ "$(filled ground.svg 0.1)" = 1 ] && [ "$(filled plain.svg 0.1)" = 0 ] || fail 'the ground is not drawn'
+[ "$(filled ground.svg .1)" = 1 ] && [ "$(filled plain.svg .1)" = 0 ] || fail 'the ground is not drawn'
 run grow square.hemls -n 2 --boundary 'sphere at 0 0 -1 radius 1' --attractor 'at 2 0 1 strength 0.2' --repeller 'at 90 0 0' --gravity '0 0 -0.1' -o said.svg
-[ "$(filled said.svg 0.14)" = 1 ] || fail 'a sphere is not one shape'
-[ "$(filled said.svg 0.95)" = 1 ] || fail 'an attractor is not one mark'
-[ "$(filled said.svg 0.9)" = 2 ] || fail 'gravity and the far repeller are not two arrows'
+[ "$(filled said.svg .14)" = 1 ] || fail 'a sphere is not one shape'
+[ "$(filled said.svg .95)" = 1 ] || fail 'an attractor is not one mark'
+[ "$(filled said.svg .9)" = 2 ] || fail 'gravity and the far repeller are not two arrows'
 run grow square.hemls -n 2 --boundary 'sphere at 0 0 -1 radius 1' --surroundings no -o bare.svg
-if grep -q 'fill-opacity[:=]"*0' bare.svg; then fail 'surroundings are drawn all the same'; fi
+if grep -q 'fill-opacity' bare.svg; then fail 'surroundings are drawn all the same'; fi
 
 # From all around: files of one size, or one picture that moves. The same bytes at any number of threads.
 run grow square.hemls -n 3 --gravity '0 0 -0.1' --turn 5 --width 120 -o around
@@ -331,8 +331,8 @@ printf 'A' >labels.hemls
 for letter in B C D E F G H I J K L M N O P Q R S; do printf ' + %s' "$letter" >>labels.hemls; done
 printf '; Angle 90\n' >>labels.hemls
 run grow labels.hemls -n 0 -o labels.svg
-[ "$(grep -o 'stroke[:=]"*rgb([^)]*)' labels.svg | sort -u | wc -l)" = 20 ] || fail 'labels share colours'
-[ "$(grep -o 'stroke[:=]"*rgb([^)]*)' labels.svg | sort | uniq -c | awk '$1 < 2' | wc -l)" = 1 ] || fail 'the legend leaves labels out'
+[ "$(grep -o ' stroke="[^"]*"' labels.svg | sort -u | wc -l)" = 20 ] || fail 'labels share colours'
+[ "$(grep -o ' stroke="[^"]*"' labels.svg | sort | uniq -c | awk '$1 < 2' | wc -l)" = 1 ] || fail 'the legend leaves labels out'
 
 # Wrong usage.
 for words in '--smooth 3' '--sheet' '--smooth 3 -o x.png' '--subdivide 1 --lines -o x.ply' '--title T -o x.ply' '--normals -o x.stl' '--up y -o x.glb' \

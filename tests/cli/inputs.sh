@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A run never mixes scores: whatever a score depends on, a change of it is named when the run is gone on with.
-# Needs the parts: draw store mesh
+# Needs the parts: store mesh
 name=inputs
 . "$(dirname "$0")/golden.bash"
 cd "$scratch"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Needs the parts: draw mesh store
+# Needs the parts: mesh store
 # JSON of every command, of names and values that it has to escape: what a strict reader takes (json_strict.py).
 # Slow under sanitizers.
 set -euo pipefail

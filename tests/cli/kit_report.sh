@@ -1,5 +1,4 @@
 #!/usr/bin/env bash
-# Needs the parts: draw
 # report of a kit: one page with nothing from elsewhere, the same each time, with every part, rule and model; what cannot be placed is said.
 name=kit_report
 . "$(dirname "$0")/golden.bash"

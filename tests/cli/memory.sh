@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Needs the parts: draw mesh
+# Needs the parts: mesh
 # Every command has a limit of memory, and keeps to it whatever takes the memory: exit 4, what the limit is, and what to do; no file is left
 # half written. Where the system itself gives no more, it ends as well in order.
 name=memory

@@ -1,5 +1,4 @@
 #!/usr/bin/env bash
-# Needs the parts: draw
 # Output that cannot be written is an error (3); a reader that goes away is not.
 name=output
 . "$(dirname "$0")/golden.bash"

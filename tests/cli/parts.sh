@@ -20,9 +20,21 @@ part() {
     fi
 }
 
-part draw draw lahave-houses --sample 2 --seed 7 -o "$scratch/sheet.svg"
-part draw house cottage "14' room:14' none ; 1 gable(9:12) 1 flat ; living ; window wall window" -o "$scratch/house.svg"
-part draw grow square -n 1 -o "$scratch/surface.png"
+# Pictures as SVG need no part: the same bytes with and without any.
+for picture in sheet house surface tree histogram; do
+    case $picture in
+    sheet) words=(draw lahave-houses --sample 2 --seed 7) ;;
+    house) words=(house cottage "14' room:14' none ; 1 gable(9:12) 1 flat ; living ; window wall window") ;;
+    surface) words=(grow square -n 1) ;;
+    tree) words=(map words --genome '1 2 3' --tree) ;;
+    histogram) words=(count examples/hospital-ward/ward.plan -l short-strip --by capacity) ;;
+    esac
+    [ "$picture" = tree ] && output=("$scratch/$picture.svg") || output=(-o "$scratch/$picture.svg")
+    "$TARTAN" "${words[@]}" "${output[@]}" >/dev/null
+    grep -q '<text' "$scratch/$picture.svg" || { echo "no lettering in $picture.svg"; exit 1; }
+    part draw "${words[@]}" "${output[@]/%.svg/.png}"
+    part draw "${words[@]}" "${output[@]/%.svg/.pdf}"
+done
 part mesh grow square -n 1 -o "$scratch/surface.stl"
 part mesh grow square -n 1 --smooth 2 -o "$scratch/smooth.obj"
 part store sample lahave-houses 3 --seed 7 -o "$scratch/sample.sqlite"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Grammars, data and parameters as they are written for PonyGE2. A folder of its grammars is taken from $TARTAN_PONYGE2, where that is set
 # (cmake -DTARTAN_PONYGE2=DIR): each of them is read, or what is not supported is said in one line.
-# Needs the parts: draw store
+# Needs the parts: store
 set -u
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What a parameter file of PonyGE2 does not say is as PonyGE2's algorithm/parameters.py has it: the same run, written out or not.
-# Needs the parts: draw store
+# Needs the parts: store
 set -u
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

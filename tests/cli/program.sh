@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Needs the parts: draw store
+# Needs the parts: store
 # A program that scores: what it is asked and what its answers mean, hostile programs, ends, kills, resuming and replaying without it.
 # Slow under sanitizers.
 name=program

@@ -1,5 +1,4 @@
 #!/usr/bin/env bash
-# Needs the parts: draw
 # report: one page with nothing from elsewhere, the same each time, with every clause and plan; nothing else is left behind.
 name=report
 . "$(dirname "$0")/golden.bash"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Needs the parts: draw mesh store
+# Needs the parts: mesh store
 # What `tartan help --requests` says of the questions: docs/requests.md is its page, answers follow its schema, and nothing else does.
 name=requests
 . "$(dirname "$0")/golden.bash"

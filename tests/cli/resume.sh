@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Needs the parts: draw store
+# Needs the parts: store
 # A database that is killed while it is written goes on with --resume: nothing twice, nothing missing.
 # Slow under sanitizers.
 name=resume

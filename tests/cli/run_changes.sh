@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Needs the parts: draw mesh store
+# Needs the parts: mesh store
 # A run that has begun takes other surroundings and rates; each is stored, and made again at any number of threads.
 name=run_changes
 source "$(dirname "$0")/golden.bash"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Needs the parts: draw mesh store
+# Needs the parts: mesh store
 # The example of surfaces that a program scores by finite elements: against the theory of beams, and a small population.
 set -euo pipefail
 if ! command -v ccx >/dev/null; then

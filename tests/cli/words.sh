@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What is said, and what is not: folders that may not be written, files that are no rule files, pictures of the same run.
-# Needs the parts: draw store
+# Needs the parts: store
 name=words
 . "$(dirname "$0")/golden.bash"
 

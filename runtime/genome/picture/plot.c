@@ -27,7 +27,7 @@
 #define DECADES_FROM 100.0 /* from this range on, the axis has powers of ten */
 
 typedef struct chart {
-    cairo_t *context;
+    tn_paint *paint;
     const tn_generation_stats *stats;
     size_t count;
     double low, high, step; /* with powers of ten: their exponents */
@@ -116,86 +116,86 @@ static void find_range(chart *c, double *scratch)
 
 static void draw_axes(const chart *c)
 {
-    cairo_t *t = c->context;
+    tn_paint *paint = c->paint;
     char text[64];
-    tn_type_face(t, 9, false);
+    tn_paint_face(paint, 9, false);
     int lines = (int)floor((c->high - c->low) / c->step + 0.5);
     for (int i = 0; i <= lines; i++) {
         double at = c->low + c->step * i, value = c->decades ? tn_pow(10, at) : at, y = y_of(c, value);
-        cairo_set_source_rgb(t, 0.85, 0.85, 0.85);
-        cairo_set_line_width(t, 0.5);
-        cairo_move_to(t, LEFT, y);
-        cairo_line_to(t, WIDTH - RIGHT, y);
-        cairo_stroke(t);
-        cairo_set_source_rgb(t, 0.2, 0.2, 0.2);
+        tn_paint_colour(paint, 0.85, 0.85, 0.85);
+        tn_paint_line_width(paint, 0.5);
+        tn_paint_move_to(paint, LEFT, y);
+        tn_paint_line_to(paint, WIDTH - RIGHT, y);
+        tn_paint_stroke(paint);
+        tn_paint_colour(paint, 0.2, 0.2, 0.2);
         snprintf(text, sizeof text, "%.6g", !c->decades && fabs(value) < c->step / 1000 ? 0 : value);
-        tn_type_line(t, LEFT - 6, y + 3, TN_ALIGN_RIGHT, text);
+        tn_type_line(paint, LEFT - 6, y + 3, TN_ALIGN_RIGHT, text);
     }
     double apart = c->count > 1 ? fmax(1, tn_axis_step((double)(c->count - 1), TICKS_X)) : 1;
     for (double i = 0; i < (double)c->count; i += apart) {
         snprintf(text, sizeof text, "%.0f", i);
-        tn_type_line(t, x_of(c, (size_t)i), HEIGHT - BOTTOM + 14, TN_ALIGN_CENTRE, text);
+        tn_type_line(paint, x_of(c, (size_t)i), HEIGHT - BOTTOM + 14, TN_ALIGN_CENTRE, text);
     }
-    tn_type_line(t, (LEFT + WIDTH - RIGHT) / 2, HEIGHT - BOTTOM + 30, TN_ALIGN_CENTRE, "generation");
+    tn_type_line(paint, (LEFT + WIDTH - RIGHT) / 2, HEIGHT - BOTTOM + 30, TN_ALIGN_CENTRE, "generation");
 }
 
-static void set_colour(cairo_t *t, figure which)
+static void set_colour(tn_paint *paint, figure which)
 {
     bool best = which == BEST;
-    cairo_set_source_rgb(t, best ? 0.75 : 0.45, best ? 0.1 : 0.45, best ? 0.1 : 0.45);
+    tn_paint_colour(paint, best ? 0.75 : 0.45, best ? 0.1 : 0.45, best ? 0.1 : 0.45);
 }
 
-static void clip_to_axes(cairo_t *t)
+static void clip_to_axes(tn_paint *paint)
 {
-    cairo_save(t);
-    cairo_rectangle(t, 0, TOP - 1, WIDTH, HEIGHT - TOP - BOTTOM + 2);
-    cairo_clip(t);
+    tn_paint_save(paint);
+    tn_paint_rectangle(paint, 0, TOP - 1, WIDTH, HEIGHT - TOP - BOTTOM + 2);
+    tn_paint_clip(paint);
 }
 
 /* Between the quartiles, from a generation to the next. */
 static void draw_band(const chart *c)
 {
-    cairo_t *t = c->context;
-    clip_to_axes(t);
-    cairo_set_source_rgb(t, 0.9, 0.9, 0.9);
+    tn_paint *paint = c->paint;
+    clip_to_axes(paint);
+    tn_paint_colour(paint, 0.9, 0.9, 0.9);
     for (size_t i = 0; i + 1 < c->count; i++) {
         double low[2], high[2];
         if (!value_of(c, i, LOWER, &low[0]) || !value_of(c, i + 1, LOWER, &low[1]) ||
             !value_of(c, i, UPPER, &high[0]) || !value_of(c, i + 1, UPPER, &high[1]))
             continue;
-        cairo_move_to(t, x_of(c, i), y_of(c, low[0]));
-        cairo_line_to(t, x_of(c, i + 1), y_of(c, low[1]));
-        cairo_line_to(t, x_of(c, i + 1), y_of(c, high[1]));
-        cairo_line_to(t, x_of(c, i), y_of(c, high[0]));
-        cairo_close_path(t);
+        tn_paint_move_to(paint, x_of(c, i), y_of(c, low[0]));
+        tn_paint_line_to(paint, x_of(c, i + 1), y_of(c, low[1]));
+        tn_paint_line_to(paint, x_of(c, i + 1), y_of(c, high[1]));
+        tn_paint_line_to(paint, x_of(c, i), y_of(c, high[0]));
+        tn_paint_close_path(paint);
     }
-    cairo_fill(t);
-    cairo_restore(t);
+    tn_paint_fill(paint);
+    tn_paint_restore(paint);
 }
 
 static void draw_curve(const chart *c, figure which)
 {
-    cairo_t *t = c->context;
+    tn_paint *paint = c->paint;
     bool open = false;
-    clip_to_axes(t);
-    set_colour(t, which);
-    cairo_set_line_width(t, which == BEST ? 1.6 : 1);
+    double value = 0;
+    clip_to_axes(paint);
+    set_colour(paint, which);
+    tn_paint_line_width(paint, which == BEST ? 1.6 : 1);
     for (size_t i = 0; i < c->count; i++) {
-        double value;
         if (!value_of(c, i, which, &value)) {
             open = false;
             continue;
         }
         if (open)
-            cairo_line_to(t, x_of(c, i), y_of(c, value));
+            tn_paint_line_to(paint, x_of(c, i), y_of(c, value));
         else
-            cairo_move_to(t, x_of(c, i), y_of(c, value));
+            tn_paint_move_to(paint, x_of(c, i), y_of(c, value));
         open = true;
     }
     if (c->count == 1 && open)
-        cairo_rel_line_to(t, 3, 0);
-    cairo_stroke(t);
-    cairo_restore(t);
+        tn_paint_line_to(paint, x_of(c, 0) + 3, y_of(c, value));
+    tn_paint_stroke(paint);
+    tn_paint_restore(paint);
 }
 
 /* The curves' names and last values, at their ends but not on one another. */
@@ -211,22 +211,23 @@ static void draw_names(const chart *c)
     double apart = LABEL_APART - (y[0] - y[1]); /* the best lies below the median */
     if (apart > 0)
         y[1] -= apart;
-    tn_type_face(c->context, 9, false);
+    tn_paint_face(c->paint, 9, false);
     for (figure which = BEST; which <= MEDIAN; which++) {
-        set_colour(c->context, which);
+        set_colour(c->paint, which);
         snprintf(text, sizeof text, "%s %.5g", which == BEST ? "best" : "median", value[which]);
-        tn_type_line(c->context, WIDTH - RIGHT + 8, y[which] + 3, TN_ALIGN_LEFT, text);
+        tn_type_line(c->paint, WIDTH - RIGHT + 8, y[which] + 3, TN_ALIGN_LEFT, text);
     }
 }
 
-static void draw_title(cairo_t *t, const char *title)
+static void draw_title(tn_paint *paint, const char *title)
 {
-    cairo_set_source_rgb(t, 0, 0, 0);
-    tn_type_face(t, 12, true);
-    tn_type_fit(t, LEFT, 24, TN_ALIGN_LEFT, WIDTH - LEFT - 20, title);
-    cairo_set_source_rgb(t, 0.45, 0.45, 0.45);
-    tn_type_face(t, 9, false);
-    tn_type_line(t, LEFT, 38, TN_ALIGN_LEFT, "score: lower is better; the band holds the middle half of the members");
+    tn_paint_colour(paint, 0, 0, 0);
+    tn_paint_face(paint, 12, true);
+    tn_type_fit(paint, LEFT, 24, TN_ALIGN_LEFT, WIDTH - LEFT - 20, title);
+    tn_paint_colour(paint, 0.45, 0.45, 0.45);
+    tn_paint_face(paint, 9, false);
+    tn_type_line(paint, LEFT, 38, TN_ALIGN_LEFT,
+                 "score: lower is better; the band holds the middle half of the members");
 }
 
 tn_status tn_stats_plot(const tn_generation_stats *stats, size_t count, const char *title, tn_picture *to,
@@ -240,9 +241,9 @@ tn_status tn_stats_plot(const tn_generation_stats *stats, size_t count, const ch
     if (status == TN_OK)
         status = tn_canvas_open(to, &options, &canvas, error);
     if (status == TN_OK) {
-        chart c = {.context = tn_canvas_context(canvas), .stats = stats, .count = count};
+        chart c = {.paint = tn_canvas_paint(canvas), .stats = stats, .count = count};
         find_range(&c, scratch);
-        draw_title(c.context, title);
+        draw_title(c.paint, title);
         draw_band(&c);
         draw_axes(&c);
         draw_curve(&c, MEDIAN);

@@ -30,44 +30,44 @@ static unsigned count_lines(const char *sentence)
     return lines < 1 ? 1 : lines < LINES_MAX ? lines : LINES_MAX;
 }
 
-static void draw_sentence(cairo_t *t, double x, double y, const char *sentence, unsigned room)
+static void draw_sentence(tn_paint *paint, double x, double y, const char *sentence, unsigned room)
 {
     char line[512];
-    tn_type_face(t, 8, false);
+    tn_paint_face(paint, 8, false);
     for (const char *at = sentence; *at && room > 0;) {
         size_t size = strcspn(at, "\n"), kept = size < sizeof line ? size : sizeof line - 1;
         snprintf(line, sizeof line, "%.*s", (int)kept, at);
-        unsigned used = tn_type_paragraph(t, x, y, CELL_WIDTH - 3 * INSET, LEADING, room, line);
+        unsigned used = tn_type_paragraph(paint, x, y, CELL_WIDTH - 3 * INSET, LEADING, room, line);
         y += used * LEADING;
         room -= used;
         at += size + (at[size] == '\n');
     }
 }
 
-static void draw_cell(cairo_t *t, double x, double y, double height, size_t number, const tn_individual *member)
+static void draw_cell(tn_paint *paint, double x, double y, double height, size_t number, const tn_individual *member)
 {
     char text[96];
     const char *missing = member->reason != TN_MAPPING_VALID ? tn_mapping_reason_text(member->reason)
                           : !member->sentence_size           ? "no text"
                                                              : NULL;
-    cairo_set_source_rgb(t, 0.8, 0.8, 0.8);
-    cairo_set_line_width(t, 0.6);
-    cairo_rectangle(t, x, y, CELL_WIDTH - INSET, height - INSET);
-    cairo_stroke(t);
-    cairo_set_source_rgb(t, 0.1, 0.2, 0.5);
-    tn_type_face(t, 14, true);
+    tn_paint_colour(paint, 0.8, 0.8, 0.8);
+    tn_paint_line_width(paint, 0.6);
+    tn_paint_rectangle(paint, x, y, CELL_WIDTH - INSET, height - INSET);
+    tn_paint_stroke(paint);
+    tn_paint_colour(paint, 0.1, 0.2, 0.5);
+    tn_paint_face(paint, 14, true);
     snprintf(text, sizeof text, "%zu", number);
-    tn_type_line(t, x + INSET, y + 18, TN_ALIGN_LEFT, text);
-    cairo_set_source_rgb(t, 0.4, 0.4, 0.4);
-    tn_type_face(t, 7, false);
+    tn_type_line(paint, x + INSET, y + 18, TN_ALIGN_LEFT, text);
+    tn_paint_colour(paint, 0.4, 0.4, 0.4);
+    tn_paint_face(paint, 7, false);
     if (member->score.state == TN_SCORED)
         snprintf(text, sizeof text, "individual %" PRIu64 ", score %.5g", member->id, member->score.objectives[0]);
     else
         snprintf(text, sizeof text, "individual %" PRIu64 ", no score", member->id);
-    tn_type_line(t, x + CELL_WIDTH - 2 * INSET, y + 18, TN_ALIGN_RIGHT, text);
+    tn_type_line(paint, x + CELL_WIDTH - 2 * INSET, y + 18, TN_ALIGN_RIGHT, text);
     if (!missing)
-        cairo_set_source_rgb(t, 0, 0, 0);
-    draw_sentence(t, x + INSET, y + HEAD + LEADING, missing ? missing : member->sentence,
+        tn_paint_colour(paint, 0, 0, 0);
+    draw_sentence(paint, x + INSET, y + HEAD + LEADING, missing ? missing : member->sentence,
                   (unsigned)((height - INSET - HEAD - INSET) / LEADING));
 }
 
@@ -90,7 +90,7 @@ tn_status tn_sentences_draw(const tn_individual *const *members, size_t count, c
     tn_status status = tn_canvas_open(to, &options, &canvas, error);
     if (status == TN_OK) {
         for (size_t i = 0; i < count; i++)
-            draw_cell(tn_canvas_context(canvas), MARGIN + (double)(i % columns) * CELL_WIDTH,
+            draw_cell(tn_canvas_paint(canvas), MARGIN + (double)(i % columns) * CELL_WIDTH,
                       MARGIN + (double)(i / columns) * height, height, i + 1, members[i]);
         status = tn_canvas_commit(canvas, error);
     }

@@ -21,7 +21,7 @@ typedef struct drawing {
     const tn_grammar *grammar;
     const tn_event *events;
     const tn_tree *tree;
-    cairo_t *context;
+    tn_paint *paint;
     double *x, *half, *left; /* by node: centre, half of its label's width, where its room begins */
     double right;            /* where the room of what is placed so far ends */
     uint32_t last;           /* the node entered last */
@@ -70,10 +70,10 @@ static bool drawn(const drawing *d, uint32_t node)
     return kind == TN_EVENT_EXPAND || kind == TN_EVENT_TERMINAL || kind == TN_EVENT_EDGE || kind == TN_EVENT_REPAIR;
 }
 
-static double text_width(cairo_t *context, double size, const char *text)
+static double text_width(tn_paint *paint, double size, const char *text)
 {
-    tn_type_face(context, size, true);
-    double width = tn_type_width(context, text);
+    tn_paint_face(paint, size, true);
+    double width = tn_type_width(paint, text);
     return width < LABEL_MAX ? width : LABEL_MAX;
 }
 
@@ -107,9 +107,9 @@ static void enter(void *context, uint32_t node, uint32_t depth)
         return;
     char text[96];
     label(d, node, text, sizeof text);
-    double width = text_width(d->context, LETTERING, text);
+    double width = text_width(d->paint, LETTERING, text);
     codon_text(&d->events[d->tree->nodes[node].event], text, sizeof text);
-    double below = text_width(d->context, CODON_LETTERING, text);
+    double below = text_width(d->paint, CODON_LETTERING, text);
     d->half[node] = (width > below ? width : below) / 2;
     d->deepest = depth > d->deepest ? depth : d->deepest;
 }
@@ -158,35 +158,33 @@ static void draw_node(const drawing *d, uint32_t node)
     char text[96];
     label(d, node, text, sizeof text);
     if (n->parent != TN_TREE_NONE) {
-        cairo_set_source_rgb(d->context, 0.6, 0.6, 0.6);
-        cairo_set_line_width(d->context, 0.6);
-        cairo_move_to(d->context, d->x[n->parent], baseline(d, n->parent) + 9);
-        cairo_line_to(d->context, d->x[node], baseline(d, node) - LETTERING);
-        cairo_stroke(d->context);
+        tn_paint_colour(d->paint, 0.6, 0.6, 0.6);
+        tn_paint_line_width(d->paint, 0.6);
+        tn_paint_move_to(d->paint, d->x[n->parent], baseline(d, n->parent) + 9);
+        tn_paint_line_to(d->paint, d->x[node], baseline(d, node) - LETTERING);
+        tn_paint_stroke(d->paint);
     }
     bool inner = event->kind == TN_EVENT_EXPAND;
-    cairo_set_source_rgb(d->context, inner ? 0.1 : 0, inner ? 0.2 : 0, inner ? 0.5 : 0);
-    tn_type_face(d->context, LETTERING, !inner);
-    tn_type_fit(d->context, d->x[node], baseline(d, node), TN_ALIGN_CENTRE, LABEL_MAX, text);
+    tn_paint_colour(d->paint, inner ? 0.1 : 0, inner ? 0.2 : 0, inner ? 0.5 : 0);
+    tn_paint_face(d->paint, LETTERING, !inner);
+    tn_type_fit(d->paint, d->x[node], baseline(d, node), TN_ALIGN_CENTRE, LABEL_MAX, text);
     if (event->read == TN_NO_READ)
         return;
     codon_text(event, text, sizeof text);
-    cairo_set_source_rgb(d->context, 0.45, 0.45, 0.45);
-    tn_type_face(d->context, CODON_LETTERING, false);
-    tn_type_line(d->context, d->x[node], baseline(d, node) + 7.5, TN_ALIGN_CENTRE, text);
+    tn_paint_colour(d->paint, 0.45, 0.45, 0.45);
+    tn_paint_face(d->paint, CODON_LETTERING, false);
+    tn_type_line(d->paint, d->x[node], baseline(d, node) + 7.5, TN_ALIGN_CENTRE, text);
 }
 
-/* Labels are measured on a scratch surface, since a picture's size is wanted when it is begun. */
+/* Labels are measured before there is a canvas, since a picture's size is wanted when it is begun. */
 static tn_status lay_out(drawing *d, tn_error *error)
 {
-    cairo_surface_t *scratch = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
-    d->context = cairo_create(scratch);
-    bool well = cairo_status(d->context) == CAIRO_STATUS_SUCCESS;
-    if (well)
-        place(d);
-    cairo_destroy(d->context);
-    cairo_surface_destroy(scratch);
-    return well ? TN_OK : tn_fail_memory(error);
+    d->paint = tn_paint_new(NULL);
+    if (!d->paint)
+        return tn_fail_memory(error);
+    place(d);
+    tn_paint_free(d->paint);
+    return TN_OK;
 }
 
 static tn_status draw(drawing *d, tn_picture *to, tn_error *error)
@@ -202,7 +200,7 @@ static tn_status draw(drawing *d, tn_picture *to, tn_error *error)
     if (status == TN_OK)
         status = tn_canvas_open(to, &options, &canvas, error);
     if (status == TN_OK) {
-        d->context = tn_canvas_context(canvas);
+        d->paint = tn_canvas_paint(canvas);
         for (uint32_t i = 0; i < d->tree->count && !tn_canvas_stopped(canvas); i++)
             if (drawn(d, i))
                 draw_node(d, i);

@@ -1,4 +1,4 @@
-/* Pictures of houses: one drawing, or a sheet of them, to scale (part `draw`). */
+/* Pictures of houses: one drawing, or a sheet of them, to scale. */
 #ifndef TARTAN_HOUSE_DRAW_H
 #define TARTAN_HOUSE_DRAW_H
 

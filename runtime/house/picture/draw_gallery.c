@@ -55,27 +55,27 @@ static void lay_out(gallery *g)
     }
 }
 
-static void paint(const gallery *g, const tn_canvas *canvas)
+static void paint_all(const gallery *g, const tn_canvas *canvas)
 {
-    cairo_t *cr = tn_canvas_context(canvas);
+    tn_paint *paint = tn_canvas_paint(canvas);
     if (g->what->title) {
-        tn_type_face(cr, 13, true);
-        tn_type_fit(cr, MARGIN, MARGIN + 6, TN_ALIGN_LEFT, g->width - 2 * MARGIN, g->what->title);
+        tn_paint_face(paint, 13, true);
+        tn_type_fit(paint, MARGIN, MARGIN + 6, TN_ALIGN_LEFT, g->width - 2 * MARGIN, g->what->title);
     }
     for (size_t i = 0; i < g->what->count && !tn_canvas_stopped(canvas); i++) {
         const tn_house_drawn *d = &g->drawn[i];
         double middle = g->left + (double)(i % g->columns) * (PICTURE_WIDTH + GAP) + PICTURE_WIDTH / 2;
         tn_draw_prospect(canvas, d, g->points);
-        cairo_set_source_rgb(cr, 0, 0, 0);
-        tn_type_face(cr, 7.5, true);
-        tn_type_fit(cr, middle, d->y + 11, TN_ALIGN_CENTRE, PICTURE_WIDTH, g->what->houses[i].name);
-        tn_type_face(cr, 7, false);
-        tn_type_fit(cr, middle, d->y + 21, TN_ALIGN_CENTRE, PICTURE_WIDTH, g->what->houses[i].said);
+        tn_paint_colour(paint, 0, 0, 0);
+        tn_paint_face(paint, 7.5, true);
+        tn_type_fit(paint, middle, d->y + 11, TN_ALIGN_CENTRE, PICTURE_WIDTH, g->what->houses[i].name);
+        tn_paint_face(paint, 7, false);
+        tn_type_fit(paint, middle, d->y + 21, TN_ALIGN_CENTRE, PICTURE_WIDTH, g->what->houses[i].said);
     }
-    tn_type_face(cr, 6.5, false);
-    cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
+    tn_paint_face(paint, 6.5, false);
+    tn_paint_colour(paint, 0.25, 0.25, 0.25);
     for (size_t i = 0; i < g->what->note_count; i++)
-        tn_type_fit(cr, MARGIN, g->height - MARGIN - NOTE_LEADING * (double)(g->what->note_count - 1 - i),
+        tn_type_fit(paint, MARGIN, g->height - MARGIN - NOTE_LEADING * (double)(g->what->note_count - 1 - i),
                     TN_ALIGN_LEFT, g->width - 2 * MARGIN, g->what->notes[i]);
 }
 
@@ -102,7 +102,7 @@ tn_status tn_house_gallery_draw(const tn_house_gallery *what, tn_picture *to, tn
         status = tn_canvas_begin(to, g.width, g.height, what->title, &canvas, error);
     }
     if (status == TN_OK) {
-        paint(&g, canvas);
+        paint_all(&g, canvas);
         status = tn_canvas_commit(canvas, error);
     }
     tn_canvas_free(canvas);

@@ -281,69 +281,69 @@ static tn_status choose_page(sheet *s, tn_error *error)
 
 /* ---- painting */
 
-static void paint_captions(const sheet *s, cairo_t *cr)
+static void paint_captions(const sheet *s, tn_paint *paint)
 {
     char scale[32];
     tn_scale_write(s->scale, s->metric, scale, sizeof scale);
     for (size_t i = 0; i < s->drawing->count; i++) {
         const tn_house_drawn *d = &s->drawn[i];
         double middle = d->x + wide(s, d) / 2;
-        cairo_set_source_rgb(cr, 0, 0, 0);
-        tn_type_face(cr, 7.5, true);
-        tn_type_line(cr, middle, d->y + CAPTION - 3, TN_ALIGN_CENTRE, d->prospect.title);
+        tn_paint_colour(paint, 0, 0, 0);
+        tn_paint_face(paint, 7.5, true);
+        tn_type_line(paint, middle, d->y + CAPTION - 3, TN_ALIGN_CENTRE, d->prospect.title);
     }
 }
 
 /* A bar of four feet or metres, in black and white, at the right of the foot. */
-static void paint_bar(const sheet *s, cairo_t *cr, double y)
+static void paint_bar(const sheet *s, tn_paint *paint, double y)
 {
     char text[64];
     int64_t unit = s->metric ? INT64_C(1000000000) : TN_FOOT_NM * 4;
     double step = (double)unit * s->points, x = s->width - MARGIN - 4 * step;
     tn_scale_write(s->scale, s->metric, text, sizeof text);
-    tn_type_face(cr, 6.5, false);
-    cairo_set_source_rgb(cr, 0, 0, 0);
-    tn_type_line(cr, x - 8, y + 4, TN_ALIGN_RIGHT, text);
-    cairo_set_line_width(cr, 0.5);
+    tn_paint_face(paint, 6.5, false);
+    tn_paint_colour(paint, 0, 0, 0);
+    tn_type_line(paint, x - 8, y + 4, TN_ALIGN_RIGHT, text);
+    tn_paint_line_width(paint, 0.5);
     for (int i = 0; i <= 4; i++) {
         tn_length_write_style(unit * i, tn_house_length_style(s->house), text, sizeof text);
         if (i % 2 == 0)
-            tn_type_line(cr, x + step * i, y + 12, TN_ALIGN_CENTRE, text);
+            tn_type_line(paint, x + step * i, y + 12, TN_ALIGN_CENTRE, text);
         if (i == 4)
             break;
-        cairo_rectangle(cr, x + step * i, y, step, 4);
+        tn_paint_rectangle(paint, x + step * i, y, step, 4);
         if (i % 2 == 0)
-            cairo_fill_preserve(cr);
-        cairo_stroke(cr);
+            tn_paint_fill_keep(paint);
+        tn_paint_stroke(paint);
     }
 }
 
-static void paint_foot(const sheet *s, cairo_t *cr)
+static void paint_foot(const sheet *s, tn_paint *paint)
 {
     double y = s->height - MARGIN - s->foot + 14,
            bar = (double)(s->metric ? 1000000000 : TN_FOOT_NM * 4) * s->points * 4;
     double room = s->width - 2 * MARGIN - bar - 90;
-    paint_bar(s, cr, y);
+    paint_bar(s, paint, y);
     if (s->drawing->count == 1 && s->drawing->aspects[0].kind == TN_ASPECT_AXONOMETRIC && room < 120)
         room = 120;
-    tn_type_face(cr, 6.5, false);
-    cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
+    tn_paint_face(paint, 6.5, false);
+    tn_paint_colour(paint, 0.25, 0.25, 0.25);
     y += 4;
     for (size_t i = 0; i < s->drawing->note_count && room > 60; i++)
-        y += NOTE_LEADING * tn_type_paragraph(cr, MARGIN, y, room, NOTE_LEADING, NOTE_LINES, s->drawing->notes[i]);
+        y += NOTE_LEADING * tn_type_paragraph(paint, MARGIN, y, room, NOTE_LEADING, NOTE_LINES, s->drawing->notes[i]);
 }
 
-static void paint(const sheet *s, const tn_canvas *canvas)
+static void paint_all(const sheet *s, const tn_canvas *canvas)
 {
-    cairo_t *cr = tn_canvas_context(canvas);
+    tn_paint *paint = tn_canvas_paint(canvas);
     if (s->drawing->title) {
-        tn_type_face(cr, 13, true);
-        tn_type_fit(cr, MARGIN, MARGIN + 6, TN_ALIGN_LEFT, s->width - 2 * MARGIN, s->drawing->title);
+        tn_paint_face(paint, 13, true);
+        tn_type_fit(paint, MARGIN, MARGIN + 6, TN_ALIGN_LEFT, s->width - 2 * MARGIN, s->drawing->title);
     }
     for (size_t i = 0; i < s->drawing->count && !tn_canvas_stopped(canvas); i++)
         tn_draw_prospect(canvas, &s->drawn[i], s->points);
-    paint_captions(s, cr);
-    paint_foot(s, cr);
+    paint_captions(s, paint);
+    paint_foot(s, paint);
 }
 
 tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn_house_drawing *drawing, tn_picture *to,
@@ -363,7 +363,7 @@ tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn
     if (status == TN_OK)
         status = tn_canvas_begin(to, s.width, s.height, drawing->title, &canvas, error);
     if (status == TN_OK) {
-        paint(&s, canvas);
+        paint_all(&s, canvas);
         status = tn_canvas_commit(canvas, error);
     }
     tn_canvas_free(canvas);

@@ -127,28 +127,27 @@ static bool is_metric(const drawing *d)
 }
 
 /* How wide the widest name of what a tray is for is. */
-static double widest_text(const drawing *d, cairo_t *context)
+static double widest_text(const drawing *d, tn_paint *paint)
 {
     const tn_schema *schema = d->roles.schema;
     uint32_t field = d->roles.text;
     double widest = 0;
-    tn_type_face(context, TN_INSIDE_LEAST, true);
+    tn_paint_face(paint, TN_INSIDE_LEAST, true);
     for (uint32_t v = 0; field != TN_NO_FIELD && v < schema->fields[field].value_count; v++)
-        widest = fmax(widest, tn_type_width(context, tn_text(schema->module,
-                                                             schema->values[schema->value_start[field] + v].spelling)) +
+        widest = fmax(widest, tn_type_width(paint, tn_text(schema->module,
+                                                           schema->values[schema->value_start[field] + v].spelling)) +
                                   LEGIBLE_ROOM / 2);
     return widest;
 }
 
 /* The smallest scale 1:n at which each tray's length, and what it is for, can be written along it. */
-static double legible_scale(const drawing *d, cairo_t *context)
+static double legible_scale(const drawing *d, tn_paint *paint)
 {
     const tn_schema *schema = d->roles.schema;
-    double most = 1e9, text = widest_text(d, context);
-    tn_type_face(context, LEGIBLE_SIZE, false);
+    double most = 1e9, text = widest_text(d, paint);
+    tn_paint_face(paint, LEGIBLE_SIZE, false);
     for (uint32_t v = schema->value_start[d->roles.length]; v < schema->value_start[d->roles.length + 1]; v++) {
-        double width =
-            fmax(text, tn_type_width(context, tn_text(schema->module, schema->values[v].name)) + LEGIBLE_ROOM);
+        double width = fmax(text, tn_type_width(paint, tn_text(schema->module, schema->values[v].name)) + LEGIBLE_ROOM);
         if (schema->values[v].length > 0)
             most = fmin(most, (double)schema->values[v].length * TN_POINTS_PER_NM / width);
     }
@@ -225,6 +224,26 @@ static void lay_out_tables(drawing *d, const tn_paper *papers, size_t paper_coun
     lay_out(d, usual, fmin(across, down));
 }
 
+/* What the lettering asks for: of plans to scale the smallest scale 1:*most, of tables how wide they are. False: out of
+ * memory. */
+static bool measure_lettering(drawing *d, double *most)
+{
+    tn_paint *paint = tn_paint_new(NULL);
+    size_t longest = 0;
+    if (!paint)
+        return false;
+    for (size_t i = 0; i < d->count; i++)
+        longest = d->plans[i].length > longest ? d->plans[i].length : longest;
+    if (d->roles.to_scale) {
+        *most = legible_scale(d, paint);
+    } else {
+        tn_draw_table_measure(paint, &d->roles, &d->table);
+        d->extent.width = tn_draw_table_width(&d->table, longest > 0 ? longest : 2);
+    }
+    tn_paint_free(paint);
+    return true;
+}
+
 static tn_status choose_layout(drawing *d, tn_error *error)
 {
     const tn_paper *papers;
@@ -243,18 +262,9 @@ static tn_status choose_layout(drawing *d, tn_error *error)
                       "leave --scale out, or say in the schema which field is the length and which zones are bands");
         return status;
     }
-    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
-    cairo_t *context = cairo_create(surface);
-    double most = d->roles.to_scale ? legible_scale(d, context) : 0;
-    if (!d->roles.to_scale) {
-        size_t longest = 0;
-        tn_draw_table_measure(context, &d->roles, &d->table);
-        for (size_t i = 0; i < d->count; i++)
-            longest = d->plans[i].length > longest ? d->plans[i].length : longest;
-        d->extent.width = tn_draw_table_width(&d->table, longest > 0 ? longest : 2);
-    }
-    cairo_destroy(context);
-    cairo_surface_destroy(surface);
+    double most = 0;
+    if (!measure_lettering(d, &most))
+        return tn_fail_memory(error);
     if (d->roles.to_scale)
         lay_out_plans(d, papers, paper_count, most);
     else
@@ -279,61 +289,67 @@ static void fit_sheet(drawing *d)
     d->height = 2 * (MARGIN + INSET) + strip_height(d->width) + (double)needed * (d->cell_height + ROW_GAP) - ROW_GAP;
 }
 
-static void draw_frame(const drawing *d, cairo_t *context, size_t page, size_t pages)
+static void draw_frame(const drawing *d, tn_paint *paint, size_t page, size_t pages)
 {
     double width = d->width - 2 * MARGIN, zoom = strip_zoom(d->width),
            strip = d->height - MARGIN - strip_height(d->width);
-    cairo_rectangle(context, MARGIN, MARGIN, width, d->height - 2 * MARGIN);
-    cairo_set_line_width(context, TN_LINE_CUT);
-    cairo_stroke(context);
-    cairo_move_to(context, MARGIN, strip);
-    cairo_line_to(context, MARGIN + width, strip);
-    cairo_set_line_width(context, TN_LINE_CUT);
-    cairo_stroke(context);
-    cairo_save(context);
-    cairo_translate(context, MARGIN, strip);
-    cairo_scale(context, zoom, zoom);
-    tn_draw_strip(context, &d->roles, d->options, d->scale, zoom, page, pages, width / zoom);
-    cairo_restore(context);
+    tn_paint_rectangle(paint, MARGIN, MARGIN, width, d->height - 2 * MARGIN);
+    tn_paint_line_width(paint, TN_LINE_CUT);
+    tn_paint_stroke(paint);
+    tn_paint_move_to(paint, MARGIN, strip);
+    tn_paint_line_to(paint, MARGIN + width, strip);
+    tn_paint_line_width(paint, TN_LINE_CUT);
+    tn_paint_stroke(paint);
+    tn_paint_save(paint);
+    tn_paint_translate(paint, MARGIN, strip);
+    tn_paint_scale(paint, zoom);
+    tn_draw_strip(paint, &d->roles, d->options, d->scale, zoom, page, pages, width / zoom);
+    tn_paint_restore(paint);
 }
 
-static void draw_number(const drawing *d, cairo_t *context, const tn_drawn_plan *plan, double x, double baseline,
+static void draw_number(const drawing *d, tn_paint *paint, const tn_drawn_plan *plan, double x, double baseline,
                         double width)
 {
     if (!plan->number)
         return;
-    tn_type_face(context, NUMBER_SIZE - 1, false);
-    tn_type_line(context, x, baseline, TN_ALIGN_LEFT, d->options->number_name);
-    double used = tn_type_width(context, d->options->number_name) + 3;
-    tn_type_face(context, NUMBER_SIZE, true);
-    tn_type_digits(context, x + used, baseline, width - used, plan->number);
+    tn_paint_face(paint, NUMBER_SIZE - 1, false);
+    tn_type_line(paint, x, baseline, TN_ALIGN_LEFT, d->options->number_name);
+    double used = tn_type_width(paint, d->options->number_name) + 3;
+    tn_paint_face(paint, NUMBER_SIZE, true);
+    tn_type_digits(paint, x + used, baseline, width - used, plan->number);
 }
 
-static void draw_cell(const drawing *d, cairo_t *context, const tn_drawn_plan *plan, double x, double top)
+static void draw_table(const drawing *d, tn_paint *paint, const tn_drawn_plan *plan, double x, double y)
+{
+    tn_paint_save(paint);
+    tn_paint_translate(paint, x, y);
+    tn_paint_scale(paint, d->factor);
+    tn_draw_table_plan(paint, &d->roles, &d->table, plan, 0, 0);
+    tn_paint_restore(paint);
+}
+
+static void draw_cell(const drawing *d, tn_paint *paint, const tn_drawn_plan *plan, double x, double top)
 {
     double y = top + heading_room(d), height = d->cell_height - heading_room(d);
+    tn_paint_target(paint, x, y, d->cell_width, height);
     if (plan->heading) {
-        tn_type_face(context, HEADING_SIZE, true);
-        tn_type_line(context, x, top + HEADING_SIZE, TN_ALIGN_LEFT, plan->heading);
+        tn_paint_face(paint, HEADING_SIZE, true);
+        tn_type_line(paint, x, top + HEADING_SIZE, TN_ALIGN_LEFT, plan->heading);
     }
     if (plan->caption) {
-        tn_type_face(context, CAPTION_SIZE, true);
-        tn_type_fit(context, x, y - CAPTION_ROOM + CAPTION_SIZE, TN_ALIGN_LEFT, d->cell_width, plan->caption);
+        tn_paint_face(paint, CAPTION_SIZE, true);
+        tn_type_fit(paint, x, y - CAPTION_ROOM + CAPTION_SIZE, TN_ALIGN_LEFT, d->cell_width, plan->caption);
     }
     if (d->roles.to_scale) {
         double left = x + (d->roles.public_end == TN_NO_FIELD ? 0 : TN_MARK_ROOM);
         double spine = y + d->extent.above * d->factor, bottom = spine + d->extent.below * d->factor;
-        tn_draw_plan(context, &d->roles, plan, d->factor, left, spine, bottom, &d->extent);
-        draw_number(d, context, plan, left, y + height - 2, d->cell_width - (left - x));
+        tn_draw_plan(paint, &d->roles, plan, d->factor, left, spine, bottom, &d->extent);
+        draw_number(d, paint, plan, left, y + height - 2, d->cell_width - (left - x));
         return;
     }
-    cairo_save(context);
-    cairo_translate(context, x, y);
-    cairo_scale(context, d->factor, d->factor);
-    tn_draw_table_plan(context, &d->roles, &d->table, plan, 0, 0);
-    cairo_restore(context);
+    draw_table(d, paint, plan, x, y);
     double indent = d->table.name_width * d->factor;
-    draw_number(d, context, plan, x + indent, y + height - 2, d->cell_width - indent);
+    draw_number(d, paint, plan, x + indent, y + height - 2, d->cell_width - indent);
 }
 
 /* The gap that spreads `count` cells over the room, between the usual gap and three times that. */
@@ -357,14 +373,17 @@ static void draw_page(const drawing *d, const tn_canvas *canvas, size_t first, s
     double used_down = d->cell_height * (double)rows + row_gap * (rows ? (double)rows - 1 : 0);
     double x0 = MARGIN + INSET + fmax(0, (across - used) / 2);
     double y0 = MARGIN + INSET + (pages == 1 ? fmax(0, (down - used_down) / 2) : 0);
-    cairo_t *context = tn_canvas_context(canvas);
-    draw_frame(d, context, page, pages);
+    tn_paint *paint = tn_canvas_paint(canvas);
+    draw_frame(d, paint, page, pages);
     for (size_t i = 0, slot = SIZE_MAX; i < d->count && !tn_canvas_stopped(canvas); i++) {
         slot = next_slot(d, slot, &d->plans[i]);
         size_t at = slot - first; /* wraps where it is on an earlier page */
-        if (at < here)
-            draw_cell(d, context, &d->plans[i], x0 + (double)(at % d->columns) * (d->cell_width + column_gap),
-                      y0 + (double)(at / d->columns) * (d->cell_height + row_gap));
+        if (at >= here)
+            continue;
+        tn_paint_group_begin(paint, TN_PAINT_PLAN, i);
+        draw_cell(d, paint, &d->plans[i], x0 + (double)(at % d->columns) * (d->cell_width + column_gap),
+                  y0 + (double)(at / d->columns) * (d->cell_height + row_gap));
+        tn_paint_group_end(paint);
     }
 }
 

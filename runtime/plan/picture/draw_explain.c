@@ -37,7 +37,7 @@ static const double *colour_of(const tn_drawn_reason *reason, bool matched)
 }
 
 typedef struct picture {
-    cairo_t *context;
+    tn_paint *paint;
     const tn_schema *schema;
     const tn_drawn_reasons *drawn;
     const tn_drawn_plan *plan;
@@ -93,19 +93,20 @@ static size_t longest(const picture *p)
     return most;
 }
 
-static void measure(picture *p, const tn_drawn_reason *reasons, size_t count)
+/* False: out of memory. */
+static bool measure(picture *p, const tn_drawn_reason *reasons, size_t count)
 {
-    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
-    cairo_t *context = cairo_create(surface);
+    tn_paint *paint = tn_paint_new(NULL);
+    if (!paint)
+        return false;
     if (p->roles.to_scale) {
         measure_to_scale(p);
     } else {
-        tn_draw_table_measure(context, &p->roles, &p->table);
+        tn_draw_table_measure(paint, &p->roles, &p->table);
         p->plan_width = fmax(p->table.box_width * (double)longest(p), 40);
         p->plan_height = tn_draw_table_height(&p->table, &p->roles) + GAP;
     }
-    cairo_destroy(context);
-    cairo_surface_destroy(surface);
+    tn_paint_free(paint);
     /* beside a plan alone there is nothing to say */
     p->margin = count > 0 || p->title ? MARGIN : ALONE_MARGIN;
     p->left = p->margin + (count > 0 ? LABEL_WIDTH + GAP + TN_MARK_ROOM : fmax(TN_MARK_ROOM, p->table.name_width));
@@ -115,16 +116,24 @@ static void measure(picture *p, const tn_drawn_reason *reasons, size_t count)
         p->height += ROW_HEIGHT + (reasons[i].depth == 0 ? RULE_ROOM : 0);
     if (p->drawn->near_count > 0)
         p->height += TITLE_ROOM + 2 * RULE_ROOM + (CAPTION_ROOM + p->plan_height) * (double)p->drawn->near_count;
+    return true;
 }
 
-static void draw_plan(const picture *p, const tn_drawn_plan *plan, double y)
+static void draw_trays(const picture *p, const tn_drawn_plan *plan, double y)
 {
     if (!p->roles.to_scale) {
-        tn_draw_table_plan(p->context, &p->roles, &p->table, plan, p->left - p->table.name_width, y);
+        tn_draw_table_plan(p->paint, &p->roles, &p->table, plan, p->left - p->table.name_width, y);
         return;
     }
     double spine = y + TN_MARK_ROOM + p->extent.above * p->scale;
-    tn_draw_plan(p->context, &p->roles, plan, p->scale, p->left, spine, spine + p->extent.below * p->scale, &p->extent);
+    tn_draw_plan(p->paint, &p->roles, plan, p->scale, p->left, spine, spine + p->extent.below * p->scale, &p->extent);
+}
+
+static void draw_plan(const picture *p, const tn_drawn_plan *plan, size_t number, double y)
+{
+    tn_paint_group_begin(p->paint, TN_PAINT_PLAN, number);
+    draw_trays(p, plan, y);
+    tn_paint_group_end(p->paint);
 }
 
 static void bars(const picture *p, const tn_stretch *stretches, size_t count, double y, const double colour[3],
@@ -134,15 +143,15 @@ static void bars(const picture *p, const tn_stretch *stretches, size_t count, do
         if (stretches[i].begin >= stretches[i].end)
             continue;
         double from = p->left + tray_at(p, stretches[i].begin) + 1, to = p->left + tray_at(p, stretches[i].end) - 1;
-        cairo_rectangle(p->context, from, y + BAR_INSET, to - from, ROW_HEIGHT - 2 * BAR_INSET);
+        tn_paint_rectangle(p->paint, from, y + BAR_INSET, to - from, ROW_HEIGHT - 2 * BAR_INSET);
     }
-    cairo_set_source_rgb(p->context, colour[0], colour[1], colour[2]);
-    cairo_set_line_width(p->context, 1.1);
+    tn_paint_colour(p->paint, colour[0], colour[1], colour[2]);
+    tn_paint_line_width(p->paint, 1.1);
     if (filled)
-        cairo_fill(p->context);
+        tn_paint_fill(p->paint);
     else
-        cairo_stroke(p->context);
-    cairo_set_source_rgb(p->context, 0, 0, 0);
+        tn_paint_stroke(p->paint);
+    tn_paint_colour(p->paint, 0, 0, 0);
 }
 
 /* Where the part was looked for in vain. */
@@ -151,12 +160,12 @@ static void line_of_absence(const picture *p, const tn_drawn_reason *reason, dou
     tn_stretch region = reason->region;
     const double *colour = colour_of(reason, false);
     double middle = y + ROW_HEIGHT / 2;
-    cairo_move_to(p->context, p->left + tray_at(p, region.begin) + 1, middle);
-    cairo_line_to(p->context, p->left + tray_at(p, region.end) - 1, middle);
-    cairo_set_source_rgb(p->context, colour[0], colour[1], colour[2]);
-    cairo_set_line_width(p->context, 0.7);
-    cairo_stroke(p->context);
-    cairo_set_source_rgb(p->context, 0, 0, 0);
+    tn_paint_move_to(p->paint, p->left + tray_at(p, region.begin) + 1, middle);
+    tn_paint_line_to(p->paint, p->left + tray_at(p, region.end) - 1, middle);
+    tn_paint_colour(p->paint, colour[0], colour[1], colour[2]);
+    tn_paint_line_width(p->paint, 0.7);
+    tn_paint_stroke(p->paint);
+    tn_paint_colour(p->paint, 0, 0, 0);
 }
 
 static void draw_marks(const picture *p, const tn_drawn_reason *reason, double y)
@@ -174,38 +183,38 @@ static void draw_marks(const picture *p, const tn_drawn_reason *reason, double y
 static void draw_sign(const picture *p, const tn_drawn_reason *reason, double x, double y)
 {
     const double *colour = colour_of(reason, reason->matched);
-    cairo_rectangle(p->context, x, y + 4.2, 4.6, 4.6);
-    cairo_set_source_rgb(p->context, colour[0], colour[1], colour[2]);
-    cairo_set_line_width(p->context, 1);
+    tn_paint_rectangle(p->paint, x, y + 4.2, 4.6, 4.6);
+    tn_paint_colour(p->paint, colour[0], colour[1], colour[2]);
+    tn_paint_line_width(p->paint, 1);
     if (reason->matched)
-        cairo_fill(p->context);
+        tn_paint_fill(p->paint);
     else
-        cairo_stroke(p->context);
-    cairo_set_source_rgb(p->context, 0, 0, 0);
+        tn_paint_stroke(p->paint);
+    tn_paint_colour(p->paint, 0, 0, 0);
 }
 
 static void draw_rule(const picture *p, const tn_drawn_reason *reason, double y)
 {
-    cairo_move_to(p->context, MARGIN, y);
-    cairo_line_to(p->context, p->width - MARGIN, y);
-    cairo_set_line_width(p->context, TN_LINE_HAIR);
-    cairo_stroke(p->context);
-    tn_type_face(p->context, RULE_SIZE, true);
-    tn_type_fit(p->context, MARGIN, y + 9.5, TN_ALIGN_LEFT, LABEL_WIDTH, reason->text);
-    tn_type_face(p->context, TEXT_SIZE, false);
+    tn_paint_move_to(p->paint, MARGIN, y);
+    tn_paint_line_to(p->paint, p->width - MARGIN, y);
+    tn_paint_line_width(p->paint, TN_LINE_HAIR);
+    tn_paint_stroke(p->paint);
+    tn_paint_face(p->paint, RULE_SIZE, true);
+    tn_type_fit(p->paint, MARGIN, y + 9.5, TN_ALIGN_LEFT, LABEL_WIDTH, reason->text);
+    tn_paint_face(p->paint, TEXT_SIZE, false);
     if (reason->evidence)
-        tn_type_fit(p->context, p->left, y + 9.5, TN_ALIGN_LEFT, p->width - MARGIN - p->left, reason->evidence);
+        tn_type_fit(p->paint, p->left, y + 9.5, TN_ALIGN_LEFT, p->width - MARGIN - p->left, reason->evidence);
 }
 
 static void draw_part(const picture *p, const tn_drawn_reason *reason, double y)
 {
     double x = MARGIN + INDENT * (fmin(reason->depth, 14) - 1);
     draw_sign(p, reason, x, y);
-    tn_type_face(p->context, TEXT_SIZE, false);
-    tn_type_fit(p->context, x + 8, y + 9, TN_ALIGN_LEFT, MARGIN + LABEL_WIDTH - x - 8, reason->text);
+    tn_paint_face(p->paint, TEXT_SIZE, false);
+    tn_type_fit(p->paint, x + 8, y + 9, TN_ALIGN_LEFT, MARGIN + LABEL_WIDTH - x - 8, reason->text);
     draw_marks(p, reason, y);
     if (reason->evidence)
-        tn_type_fit(p->context, p->width - MARGIN - EVIDENCE_WIDTH, y + 9, TN_ALIGN_LEFT, EVIDENCE_WIDTH,
+        tn_type_fit(p->paint, p->width - MARGIN - EVIDENCE_WIDTH, y + 9, TN_ALIGN_LEFT, EVIDENCE_WIDTH,
                     reason->evidence);
 }
 
@@ -222,13 +231,29 @@ static size_t parts_of(const tn_drawn_reason *reasons, size_t count, size_t rule
 static void draw_grid(const picture *p, double from, double to)
 {
     for (size_t i = 0; i <= p->plan->length; i++) {
-        cairo_move_to(p->context, p->left + tray_at(p, i), from);
-        cairo_line_to(p->context, p->left + tray_at(p, i), to);
+        tn_paint_move_to(p->paint, p->left + tray_at(p, i), from);
+        tn_paint_line_to(p->paint, p->left + tray_at(p, i), to);
     }
-    cairo_set_source_rgb(p->context, 0.8, 0.8, 0.8);
-    cairo_set_line_width(p->context, TN_LINE_HAIR);
-    cairo_stroke(p->context);
-    cairo_set_source_rgb(p->context, 0, 0, 0);
+    tn_paint_colour(p->paint, 0.8, 0.8, 0.8);
+    tn_paint_line_width(p->paint, TN_LINE_HAIR);
+    tn_paint_stroke(p->paint);
+    tn_paint_colour(p->paint, 0, 0, 0);
+}
+
+/* A rule, and a row for each of its parts. */
+static void draw_reason(const picture *p, const tn_drawn_reason *rule, size_t parts, double y)
+{
+    tn_paint_group_begin(p->paint, TN_PAINT_RULE, rule->number);
+    draw_rule(p, rule, y);
+    draw_grid(p, y + ROW_HEIGHT, y + ROW_HEIGHT * (1 + (double)parts));
+    for (size_t i = 1; i <= parts; i++) {
+        double top = y + ROW_HEIGHT * (double)i;
+        tn_paint_group_begin(p->paint, TN_PAINT_PART, rule[i].number);
+        tn_paint_target(p->paint, MARGIN, top, p->width - 2 * MARGIN, ROW_HEIGHT);
+        draw_part(p, &rule[i], top);
+        tn_paint_group_end(p->paint);
+    }
+    tn_paint_group_end(p->paint);
 }
 
 static void draw_near(const picture *p, double y)
@@ -236,16 +261,15 @@ static void draw_near(const picture *p, double y)
     if (p->drawn->near_count == 0)
         return;
     y += 2 * RULE_ROOM;
-    tn_type_face(p->context, TITLE_SIZE, true);
-    tn_type_fit(p->context, p->margin, y + TITLE_SIZE, TN_ALIGN_LEFT, p->width - 2 * p->margin, p->drawn->near_title);
+    tn_paint_face(p->paint, TITLE_SIZE, true);
+    tn_type_fit(p->paint, p->margin, y + TITLE_SIZE, TN_ALIGN_LEFT, p->width - 2 * p->margin, p->drawn->near_title);
     y += TITLE_ROOM;
     for (size_t i = 0; i < p->drawn->near_count; i++) {
         const tn_drawn_plan *plan = &p->drawn->near[i];
-        tn_type_face(p->context, RULE_SIZE, false);
+        tn_paint_face(p->paint, RULE_SIZE, false);
         if (plan->caption)
-            tn_type_fit(p->context, p->left, y + RULE_SIZE, TN_ALIGN_LEFT, p->width - p->margin - p->left,
-                        plan->caption);
-        draw_plan(p, plan, y + CAPTION_ROOM);
+            tn_type_fit(p->paint, p->left, y + RULE_SIZE, TN_ALIGN_LEFT, p->width - p->margin - p->left, plan->caption);
+        draw_plan(p, plan, i + 1, y + CAPTION_ROOM);
         y += CAPTION_ROOM + p->plan_height;
     }
 }
@@ -254,21 +278,18 @@ static void draw_all(const picture *p, const tn_drawn_reason *reasons, size_t co
 {
     double y = p->margin;
     if (p->title) {
-        tn_type_face(p->context, TITLE_SIZE, true);
-        tn_type_fit(p->context, MARGIN, y + TITLE_SIZE, TN_ALIGN_LEFT, p->width - 2 * MARGIN, p->title);
+        tn_paint_face(p->paint, TITLE_SIZE, true);
+        tn_type_fit(p->paint, MARGIN, y + TITLE_SIZE, TN_ALIGN_LEFT, p->width - 2 * MARGIN, p->title);
         y += TITLE_ROOM;
     }
-    draw_plan(p, p->plan, y);
+    draw_plan(p, p->plan, 0, y);
     y += p->plan_height;
-    for (size_t i = 0; i < count; i++) {
-        if (reasons[i].depth == 0) {
-            y += RULE_ROOM;
-            draw_rule(p, &reasons[i], y);
-            draw_grid(p, y + ROW_HEIGHT, y + ROW_HEIGHT * (1 + (double)parts_of(reasons, count, i)));
-        } else {
-            draw_part(p, &reasons[i], y);
-        }
-        y += ROW_HEIGHT;
+    for (size_t i = 0; i < count;) {
+        size_t parts = parts_of(reasons, count, i);
+        y += RULE_ROOM;
+        draw_reason(p, &reasons[i], parts, y);
+        y += ROW_HEIGHT * (1 + (double)parts);
+        i += 1 + parts;
     }
     draw_near(p, y);
 }
@@ -281,10 +302,11 @@ tn_status tn_reasons_draw(const tn_schema *schema, const tn_drawn_reasons *drawn
         return tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "there are %zu parts to draw; the limit is %u",
                        drawn->count, TN_DRAW_REASONS_MAX);
     tn_draw_roles_find(schema, &p.roles);
-    measure(&p, drawn->reasons, drawn->count);
+    if (!measure(&p, drawn->reasons, drawn->count))
+        return tn_fail_memory(error);
     tn_status status = tn_canvas_begin(to, p.width, p.height, drawn->title, &canvas, error);
     if (status == TN_OK) {
-        p.context = tn_canvas_context(canvas);
+        p.paint = tn_canvas_paint(canvas);
         draw_all(&p, drawn->reasons, drawn->count);
         status = tn_canvas_commit(canvas, error);
     }

@@ -18,6 +18,8 @@ typedef struct tn_drawn_reason {
     tn_stretch region;  /* where it was looked for */
     tn_stretch partly;  /* not matched: where a piece of it is; or empty */
     tn_stretch lacking; /* not matched: the tray that comes closest; or empty */
+    uint32_t number;    /* of a rule among all that were asked; of a part in the rule's explanation, which is 0, each
+                           before its own parts */
 } tn_drawn_reason;
 
 /* The most rows of a picture (E0820 past it). */

@@ -2,6 +2,7 @@
 #include "runtime/plan/picture/draw_open.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "runtime/draw/canvas.h"
@@ -29,7 +30,7 @@ typedef struct card {
 } card;
 
 typedef struct picture {
-    cairo_t *context;
+    tn_paint *paint;
     const tn_schema *schema;
     const tn_drawn_open *open;
     tn_draw_roles roles;
@@ -58,7 +59,7 @@ static tn_status find_spec(const picture *p, uint32_t function, card *c, tn_erro
         status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a tray of an open plan is not a tray specifier");
     if (status == TN_OK) {
         c->spec = parts.parts[0].spec;
-        tn_draw_spec_measure(p->context, &p->roles, c->spec, &c->symbol_width, &c->symbol_height);
+        tn_draw_spec_measure(p->paint, &p->roles, c->spec, &c->symbol_width, &c->symbol_height);
     }
     tn_parts_clear(&parts);
     return status;
@@ -78,18 +79,18 @@ static double card_height(const picture *p)
 
 static void measure_columns(picture *p, uint32_t trays)
 {
-    tn_type_face(p->context, TEXT, false);
+    tn_paint_face(p->paint, TEXT, false);
     for (uint32_t v = 0; v < p->schema->value_count; v++) {
-        p->values = fmax(p->values, tn_type_width(p->context, spelling(p, v)));
+        p->values = fmax(p->values, tn_type_width(p->paint, spelling(p, v)));
         for (uint32_t t = 0; t < trays; t++) {
             const tn_drawn_choice *choice = choice_at(p, t, v);
-            p->counts = fmax(p->counts, tn_type_width(p->context, choice->count));
-            p->bests = choice->best ? fmax(p->bests, tn_type_width(p->context, choice->best)) : p->bests;
+            p->counts = fmax(p->counts, tn_type_width(p->paint, choice->count));
+            p->bests = choice->best ? fmax(p->bests, tn_type_width(p->paint, choice->best)) : p->bests;
         }
     }
-    tn_type_face(p->context, TEXT - 1, false);
+    tn_paint_face(p->paint, TEXT - 1, false);
     if (p->open->best_name)
-        p->bests = fmax(p->bests, tn_type_width(p->context, p->open->best_name));
+        p->bests = fmax(p->bests, tn_type_width(p->paint, p->open->best_name));
     p->width = p->values + APART + p->counts + (p->bests > 0 ? APART + p->bests : 0);
 }
 
@@ -114,8 +115,8 @@ static void place_cards(picture *p)
         p->wide = fmax(p->wide, x - CARD_GAP + MARGIN);
     }
     p->height = y + card_height(p) + MARGIN;
-    tn_type_face(p->context, 9, false);
-    p->wide = fmax(p->wide, fmin(TN_DRAW_OPEN_WIDTH, tn_type_width(p->context, p->open->about) + 2 * MARGIN + 10));
+    tn_paint_face(p->paint, 9, false);
+    p->wide = fmax(p->wide, fmin(TN_DRAW_OPEN_WIDTH, tn_type_width(p->paint, p->open->about) + 2 * MARGIN + 10));
 }
 
 static tn_status lay_out(picture *p, tn_error *error)
@@ -142,7 +143,7 @@ static tn_status lay_out(picture *p, tn_error *error)
 
 static void ink(const picture *p, double grey)
 {
-    cairo_set_source_rgb(p->context, grey, grey, grey);
+    tn_paint_colour(p->paint, grey, grey, grey);
 }
 
 static void draw_choice(const picture *p, const card *c, uint32_t value, double y)
@@ -150,16 +151,16 @@ static void draw_choice(const picture *p, const card *c, uint32_t value, double 
     const tn_drawn_choice *choice = choice_at(p, c->number, value);
     double baseline = y + LEADING - 3, right = c->x + p->width;
     if (choice->share > 0) {
-        cairo_set_source_rgb(p->context, 0.80, 0.88, 0.76);
-        cairo_rectangle(p->context, c->x, y + 0.8, fmax(0.8, p->width * choice->share), LEADING - 1.6);
-        cairo_fill(p->context);
+        tn_paint_colour(p->paint, 0.80, 0.88, 0.76);
+        tn_paint_rectangle(p->paint, c->x, y + 0.8, fmax(0.8, p->width * choice->share), LEADING - 1.6);
+        tn_paint_fill(p->paint);
     }
     ink(p, choice->share > 0 ? 0 : 0.72);
-    tn_type_face(p->context, TEXT, false);
-    tn_type_line(p->context, c->x + 2, baseline, TN_ALIGN_LEFT, spelling(p, value));
+    tn_paint_face(p->paint, TEXT, false);
+    tn_type_line(p->paint, c->x + 2, baseline, TN_ALIGN_LEFT, spelling(p, value));
     if (choice->best)
-        tn_type_line(p->context, right, baseline, TN_ALIGN_RIGHT, choice->best);
-    tn_type_line(p->context, right - (p->bests > 0 ? p->bests + APART : 0), baseline, TN_ALIGN_RIGHT, choice->count);
+        tn_type_line(p->paint, right, baseline, TN_ALIGN_RIGHT, choice->best);
+    tn_type_line(p->paint, right - (p->bests > 0 ? p->bests + APART : 0), baseline, TN_ALIGN_RIGHT, choice->count);
 }
 
 static void draw_table(const picture *p, const card *c, double y)
@@ -167,17 +168,17 @@ static void draw_table(const picture *p, const card *c, double y)
     const tn_schema *schema = p->schema;
     for (uint32_t f = 0; f < schema->field_count; f++) {
         ink(p, 0);
-        tn_type_face(p->context, TEXT, true);
-        tn_type_line(p->context, c->x, y + FIELD_ROOM - 4, TN_ALIGN_LEFT,
+        tn_paint_face(p->paint, TEXT, true);
+        tn_type_line(p->paint, c->x, y + FIELD_ROOM - 4, TN_ALIGN_LEFT,
                      tn_text(schema->module, schema->fields[f].name));
-        tn_type_face(p->context, TEXT - 1, false);
+        tn_paint_face(p->paint, TEXT - 1, false);
         ink(p, 0.4);
         if (f == 0 && p->open->best_name)
-            tn_type_line(p->context, c->x + p->width, y + FIELD_ROOM - 4, TN_ALIGN_RIGHT, p->open->best_name);
-        cairo_move_to(p->context, c->x, y + FIELD_ROOM - 1);
-        cairo_line_to(p->context, c->x + p->width, y + FIELD_ROOM - 1);
-        cairo_set_line_width(p->context, TN_LINE_HAIR);
-        cairo_stroke(p->context);
+            tn_type_line(p->paint, c->x + p->width, y + FIELD_ROOM - 4, TN_ALIGN_RIGHT, p->open->best_name);
+        tn_paint_move_to(p->paint, c->x, y + FIELD_ROOM - 1);
+        tn_paint_line_to(p->paint, c->x + p->width, y + FIELD_ROOM - 1);
+        tn_paint_line_width(p->paint, TN_LINE_HAIR);
+        tn_paint_stroke(p->paint);
         y += FIELD_ROOM;
         for (uint32_t v = schema->value_start[f]; v < schema->value_start[f + 1]; v++, y += LEADING)
             draw_choice(p, c, v, y);
@@ -190,39 +191,47 @@ static void draw_gap(const picture *p, const card *c)
     double y = c->y + NUMBER_ROOM + p->symbols / 2;
     ink(p, 0);
     for (int i = -1; i <= 1; i++) {
-        cairo_arc(p->context, c->x + GAP_WIDTH / 2 + 7 * i, y, 1.6, 0, 2 * 3.14159265358979323846);
-        cairo_fill(p->context);
+        tn_paint_arc(p->paint, c->x + GAP_WIDTH / 2 + 7 * i, y, 1.6, 0, 2 * 3.14159265358979323846);
+        tn_paint_fill(p->paint);
     }
+}
+
+static void draw_tray(const picture *p, const card *c)
+{
+    char number[24];
+    tn_paint_target(p->paint, c->x, c->y, p->width, card_height(p));
+    ink(p, 0);
+    snprintf(number, sizeof number, "%u", c->number + 1);
+    tn_paint_face(p->paint, TEXT, true);
+    tn_type_line(p->paint, c->x, c->y + TEXT, TN_ALIGN_LEFT, number);
+    tn_draw_spec(p->paint, &p->roles, c->spec, c->x + (p->width - c->symbol_width) / 2,
+                 c->y + NUMBER_ROOM + (p->symbols - c->symbol_height) / 2, false);
+    draw_table(p, c, c->y + NUMBER_ROOM + p->symbols + SYMBOL_GAP);
 }
 
 static void draw_card(const picture *p, const card *c)
 {
-    char number[24];
     if (c->spec == TN_NO_RECORD) {
         draw_gap(p, c);
         return;
     }
-    ink(p, 0);
-    snprintf(number, sizeof number, "%u", c->number + 1);
-    tn_type_face(p->context, TEXT, true);
-    tn_type_line(p->context, c->x, c->y + TEXT, TN_ALIGN_LEFT, number);
-    tn_draw_spec(p->context, &p->roles, c->spec, c->x + (p->width - c->symbol_width) / 2,
-                 c->y + NUMBER_ROOM + (p->symbols - c->symbol_height) / 2, false);
-    draw_table(p, c, c->y + NUMBER_ROOM + p->symbols + SYMBOL_GAP);
+    tn_paint_group_begin(p->paint, TN_PAINT_TRAY, c->number);
+    draw_tray(p, c);
+    tn_paint_group_end(p->paint);
 }
 
 static void draw_titles(const picture *p)
 {
     double width = p->wide - 2 * MARGIN;
     ink(p, 0);
-    tn_type_face(p->context, 13, true);
-    double used = tn_type_width(p->context, p->open->title) + 8;
-    tn_type_fit(p->context, MARGIN, MARGIN + 6, TN_ALIGN_LEFT, width, p->open->title);
-    tn_type_face(p->context, 9, false);
+    tn_paint_face(p->paint, 13, true);
+    double used = tn_type_width(p->paint, p->open->title) + 8;
+    tn_type_fit(p->paint, MARGIN, MARGIN + 6, TN_ALIGN_LEFT, width, p->open->title);
+    tn_paint_face(p->paint, 9, false);
     if (used < width)
-        tn_type_fit(p->context, MARGIN + used, MARGIN + 6, TN_ALIGN_LEFT, width - used, p->open->doc);
+        tn_type_fit(p->paint, MARGIN + used, MARGIN + 6, TN_ALIGN_LEFT, width - used, p->open->doc);
     ink(p, 0.3);
-    tn_type_fit(p->context, MARGIN, MARGIN + 21, TN_ALIGN_LEFT, width, p->open->about);
+    tn_type_fit(p->paint, MARGIN, MARGIN + 21, TN_ALIGN_LEFT, width, p->open->about);
 }
 
 static tn_status draw(picture *p, tn_picture *to, tn_error *error)
@@ -237,7 +246,7 @@ static tn_status draw(picture *p, tn_picture *to, tn_error *error)
     tn_status status = tn_canvas_begin(to, p->wide, p->height, p->open->title, &canvas, error);
     if (status != TN_OK)
         return status;
-    p->context = tn_canvas_context(canvas);
+    p->paint = tn_canvas_paint(canvas);
     draw_titles(p);
     for (size_t i = 0; i < p->open->count; i++)
         draw_card(p, &p->cards[i]);
@@ -248,16 +257,14 @@ static tn_status draw(picture *p, tn_picture *to, tn_error *error)
 
 tn_status tn_open_plan_draw(const tn_schema *schema, const tn_drawn_open *open, tn_picture *to, tn_error *error)
 {
-    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
-    picture p = {.context = cairo_create(surface), .schema = schema, .open = open};
-    cairo_t *scratch = p.context;
+    picture p = {.paint = tn_paint_new(NULL), .schema = schema, .open = open};
+    tn_paint *scratch = p.paint;
     tn_draw_roles_find(schema, &p.roles);
     p.cards = calloc(open->count + 1, sizeof *p.cards);
-    tn_status status = p.cards ? lay_out(&p, error) : tn_fail_memory(error);
+    tn_status status = scratch && p.cards ? lay_out(&p, error) : tn_fail_memory(error);
     if (status == TN_OK)
         status = draw(&p, to, error);
     free(p.cards);
-    cairo_destroy(scratch);
-    cairo_surface_destroy(surface);
+    tn_paint_free(scratch);
     return status;
 }

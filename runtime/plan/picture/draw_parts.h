@@ -3,9 +3,8 @@
 #ifndef TARTAN_PLAN_PICTURE_DRAW_PARTS_H
 #define TARTAN_PLAN_PICTURE_DRAW_PARTS_H
 
-#include <cairo.h>
-
 #include "runtime/base/length_style.h"
+#include "runtime/draw/paint.h"
 #include "runtime/plan/picture/draw.h"
 
 #define TN_NO_FIELD UINT32_MAX
@@ -52,31 +51,31 @@ double tn_draw_dimension_room(const tn_draw_extent *extent);
 
 /* Draws a plan with the left end of its spine at (x, y); `scale` is points a nanometre; `bottom` is where dimensions
  * start. */
-void tn_draw_plan(cairo_t *context, const tn_draw_roles *roles, const tn_drawn_plan *plan, double scale, double x,
+void tn_draw_plan(tn_paint *paint, const tn_draw_roles *roles, const tn_drawn_plan *plan, double scale, double x,
                   double y, double bottom, const tn_draw_extent *extent);
 
 /* The pieces of it that the legend shows too. */
 
 /* A fill of a band: VALUE record `value`. Fills of one role but of different names are told apart. */
-void tn_draw_fill(cairo_t *context, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
+void tn_draw_fill(tn_paint *paint, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
                   double height);
 
 /* The colour of the tray's value in the field of role tone, and the lines of that in the field of role hatch; nothing
  * where the schema has no such field. `value`: counted from the field's first. */
-void tn_draw_tone(cairo_t *context, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
+void tn_draw_tone(tn_paint *paint, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
                   double height);
-void tn_draw_hatch(cairo_t *context, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
+void tn_draw_hatch(tn_paint *paint, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
                    double height);
 
 /* Sets the text in the middle of the rectangle, upright where that is the only way that it fits; on a pale ground where
  * that is `hatched`. */
 #define TN_INSIDE_SIZE 7.0  /* in a tray */
 #define TN_INSIDE_LEAST 4.6 /* where that does not fit */
-void tn_draw_inside(cairo_t *context, const char *text, double size, bool hatched, double x, double y, double width,
+void tn_draw_inside(tn_paint *paint, const char *text, double size, bool hatched, double x, double y, double width,
                     double height);
-void tn_draw_level_mark(cairo_t *context, uint32_t levels, double x, double y, double width, double height);
-void tn_draw_hall_mark(cairo_t *context, double x, double y, double radius);
-void tn_draw_public_mark(cairo_t *context, double x, double y, double dx,
+void tn_draw_level_mark(tn_paint *paint, uint32_t levels, double x, double y, double width, double height);
+void tn_draw_hall_mark(tn_paint *paint, double x, double y, double radius);
+void tn_draw_public_mark(tn_paint *paint, double x, double y, double dx,
                          double dy); /* tip at (x, y), pointing (dx, dy) */
 
 /* A plan as a table of boxes. */
@@ -86,16 +85,16 @@ typedef struct tn_draw_table {
     double head_height; /* of the row of the field of role text, on top; 0: there is none */
 } tn_draw_table;
 
-void tn_draw_table_measure(cairo_t *context, const tn_draw_roles *roles, tn_draw_table *table);
+void tn_draw_table_measure(tn_paint *paint, const tn_draw_roles *roles, tn_draw_table *table);
 double tn_draw_table_width(const tn_draw_table *table, size_t length);
 double tn_draw_table_height(const tn_draw_table *table, const tn_draw_roles *roles);
-void tn_draw_table_plan(cairo_t *context, const tn_draw_roles *roles, const tn_draw_table *table,
+void tn_draw_table_plan(tn_paint *paint, const tn_draw_roles *roles, const tn_draw_table *table,
                         const tn_drawn_plan *plan, double x, double y);
 
 /* The strip along the bottom of a sheet: key, legend, title and how it was made. Its upper left corner is the origin.
  * `scale` 0: not to scale; otherwise the bar allows for the strip itself being drawn `zoom` times as large. */
 #define TN_STRIP_HEIGHT 118.0
-void tn_draw_strip(cairo_t *context, const tn_draw_roles *roles, const tn_draw_options *options, uint32_t scale,
+void tn_draw_strip(tn_paint *paint, const tn_draw_roles *roles, const tn_draw_options *options, uint32_t scale,
                    double zoom, size_t page, size_t pages, double width);
 
 #endif

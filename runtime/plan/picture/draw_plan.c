@@ -21,7 +21,7 @@ typedef struct rectangle {
 
 /* The plan being drawn. */
 typedef struct picture {
-    cairo_t *context;
+    tn_paint *paint;
     const tn_draw_roles *roles;
     const tn_drawn_plan *plan;
     double scale, x, y;
@@ -91,45 +91,45 @@ double tn_draw_dimension_room(const tn_draw_extent *extent)
            (extent->mark_below ? TN_MARK_ROOM : 0) + 4;
 }
 
-void tn_draw_level_mark(cairo_t *context, uint32_t levels, double x, double y, double width, double height)
+void tn_draw_level_mark(tn_paint *paint, uint32_t levels, double x, double y, double width, double height)
 {
     static const double dashes[] = {3, 1.6};
-    cairo_save(context);
-    cairo_set_dash(context, dashes, 2, 0);
-    cairo_set_line_width(context, 0.4);
-    cairo_move_to(context, x, y);
-    cairo_line_to(context, x + width, y + height);
-    cairo_move_to(context, x + width, y);
-    cairo_line_to(context, x, y + height);
-    cairo_stroke(context);
-    cairo_restore(context);
+    tn_paint_save(paint);
+    tn_paint_dash(paint, dashes, 2, 0);
+    tn_paint_line_width(paint, 0.4);
+    tn_paint_move_to(paint, x, y);
+    tn_paint_line_to(paint, x + width, y + height);
+    tn_paint_move_to(paint, x + width, y);
+    tn_paint_line_to(paint, x, y + height);
+    tn_paint_stroke(paint);
+    tn_paint_restore(paint);
     if (levels < 3)
         return;
     char text[16];
     snprintf(text, sizeof text, "%u", levels);
-    tn_type_face(context, DIMENSION_SIZE, false);
-    tn_type_line(context, x + width / 2, y + 7, TN_ALIGN_CENTRE, text);
+    tn_paint_face(paint, DIMENSION_SIZE, false);
+    tn_type_line(paint, x + width / 2, y + 7, TN_ALIGN_CENTRE, text);
 }
 
-void tn_draw_hall_mark(cairo_t *context, double x, double y, double radius)
+void tn_draw_hall_mark(tn_paint *paint, double x, double y, double radius)
 {
-    cairo_new_sub_path(context);
-    cairo_arc(context, x, y, radius, 0, 2 * 3.14159265358979323846);
-    cairo_set_source_rgb(context, 1, 1, 1);
-    cairo_fill_preserve(context);
-    cairo_set_source_rgb(context, 0, 0, 0);
-    cairo_set_line_width(context, 0.7);
-    cairo_stroke(context);
+    tn_paint_new_sub_path(paint);
+    tn_paint_arc(paint, x, y, radius, 0, 2 * 3.14159265358979323846);
+    tn_paint_colour(paint, 1, 1, 1);
+    tn_paint_fill_keep(paint);
+    tn_paint_colour(paint, 0, 0, 0);
+    tn_paint_line_width(paint, 0.7);
+    tn_paint_stroke(paint);
 }
 
-void tn_draw_public_mark(cairo_t *context, double x, double y, double dx, double dy)
+void tn_draw_public_mark(tn_paint *paint, double x, double y, double dx, double dy)
 {
     const double length = 7, half = 3.4;
-    cairo_move_to(context, x, y);
-    cairo_line_to(context, x - dx * length - dy * half, y - dy * length + dx * half);
-    cairo_line_to(context, x - dx * length + dy * half, y - dy * length - dx * half);
-    cairo_close_path(context);
-    cairo_fill(context);
+    tn_paint_move_to(paint, x, y);
+    tn_paint_line_to(paint, x - dx * length - dy * half, y - dy * length + dx * half);
+    tn_paint_line_to(paint, x - dx * length + dy * half, y - dy * length - dx * half);
+    tn_paint_close_path(paint);
+    tn_paint_fill(paint);
 }
 
 /* The rectangle of a band of a tray that starts at `x`; false where the band is absent there. */
@@ -166,7 +166,7 @@ static void outline(const picture *p)
     for (size_t i = 0; i < p->plan->length; x += tray_width(p, i++))
         for (uint32_t b = 0; b < p->roles->band_count; b++)
             if (band_rectangle(p, p->plan->trays[i], b, x, &r))
-                cairo_rectangle(p->context, r.x, r.y, r.width, r.height);
+                tn_paint_rectangle(p->paint, r.x, r.y, r.width, r.height);
 }
 
 /* The room of a tray, which height, public end and great hall are said of: its spine band, or, where that is absent,
@@ -190,12 +190,12 @@ static bool room_of(const picture *p, tn_tray tray, double x, rectangle *room)
 static void draw_bare(const picture *p, rectangle room)
 {
     static const double dashes[] = {2.5, 2};
-    cairo_save(p->context);
-    cairo_set_dash(p->context, dashes, 2, 0);
-    cairo_rectangle(p->context, room.x, room.y, room.width, room.height);
-    cairo_set_line_width(p->context, TN_LINE_EDGE);
-    cairo_stroke(p->context);
-    cairo_restore(p->context);
+    tn_paint_save(p->paint);
+    tn_paint_dash(p->paint, dashes, 2, 0);
+    tn_paint_rectangle(p->paint, room.x, room.y, room.width, room.height);
+    tn_paint_line_width(p->paint, TN_LINE_EDGE);
+    tn_paint_stroke(p->paint);
+    tn_paint_restore(p->paint);
 }
 
 /* What the tray is for colours its room, under the fills. */
@@ -205,10 +205,10 @@ static void draw_room(const picture *p, tn_tray tray, double x, double width)
     rectangle room = {x, p->y, width, (double)bare_depth(roles) * p->scale, 0};
     bool bare = !room_of(p, tray, x, &room);
     if (roles->tone != TN_NO_FIELD)
-        tn_draw_tone(p->context, roles, tn_tray_value(roles->schema, tray, roles->tone), room.x, room.y, room.width,
+        tn_draw_tone(p->paint, roles, tn_tray_value(roles->schema, tray, roles->tone), room.x, room.y, room.width,
                      room.height);
     if (roles->hatch != TN_NO_FIELD)
-        tn_draw_hatch(p->context, roles, tn_tray_value(roles->schema, tray, roles->hatch), room.x, room.y, room.width,
+        tn_draw_hatch(p->paint, roles, tn_tray_value(roles->schema, tray, roles->hatch), room.x, room.y, room.width,
                       room.height);
     if (bare)
         draw_bare(p, room);
@@ -218,20 +218,20 @@ static void draw_room(const picture *p, tn_tray tray, double x, double width)
 static void draw_masses(const picture *p)
 {
     outline(p);
-    cairo_set_line_width(p->context, 2 * TN_LINE_CUT);
-    cairo_set_line_join(p->context, CAIRO_LINE_JOIN_MITER);
-    cairo_stroke(p->context);
+    tn_paint_line_width(p->paint, 2 * TN_LINE_CUT);
+    tn_paint_line_join(p->paint, TN_JOIN_MITRE);
+    tn_paint_stroke(p->paint);
     outline(p);
-    cairo_set_source_rgb(p->context, 1, 1, 1);
-    cairo_fill(p->context);
-    cairo_set_source_rgb(p->context, 0, 0, 0);
+    tn_paint_colour(p->paint, 1, 1, 1);
+    tn_paint_fill(p->paint);
+    tn_paint_colour(p->paint, 0, 0, 0);
     double x = p->x;
     rectangle r;
     for (size_t i = 0; i < p->plan->length; x += tray_width(p, i++)) {
         draw_room(p, p->plan->trays[i], x, tray_width(p, i));
         for (uint32_t b = 0; b < p->roles->band_count; b++)
             if (band_rectangle(p, p->plan->trays[i], b, x, &r))
-                tn_draw_fill(p->context, p->roles, r.value, r.x, r.y, r.width, r.height);
+                tn_draw_fill(p->paint, p->roles, r.value, r.x, r.y, r.width, r.height);
     }
 }
 
@@ -239,11 +239,11 @@ static void draw_public_end(const picture *p, size_t i, const rectangle *room, d
 {
     double middle = room->y + room->height / 2, gap = TN_LINE_CUT + 3;
     if (i == 0)
-        tn_draw_public_mark(p->context, room->x - gap, middle, 1, 0);
+        tn_draw_public_mark(p->paint, room->x - gap, middle, 1, 0);
     else if (i + 1 == p->plan->length)
-        tn_draw_public_mark(p->context, room->x + room->width + gap, middle, -1, 0);
+        tn_draw_public_mark(p->paint, room->x + room->width + gap, middle, -1, 0);
     else
-        tn_draw_public_mark(p->context, room->x + room->width / 2, bottom + gap, 0, -1);
+        tn_draw_public_mark(p->paint, room->x + room->width / 2, bottom + gap, 0, -1);
 }
 
 /* What the tray is for stands in its room, or where its room would be. */
@@ -259,7 +259,7 @@ static void draw_text(const picture *p, tn_tray tray, double x, double width)
         room.y += room.height * 0.7;
         room.height *= 0.3;
     }
-    tn_draw_inside(p->context, tn_text(roles->schema->module, value_of(roles, tray, roles->text)->spelling),
+    tn_draw_inside(p->paint, tn_text(roles->schema->module, value_of(roles, tray, roles->text)->spelling),
                    TN_INSIDE_SIZE, hatched, room.x, room.y, room.width, room.height);
 }
 
@@ -275,9 +275,9 @@ static void draw_marks(const picture *p, double bottom)
             continue;
         uint32_t levels = roles->level == TN_NO_FIELD ? 1 : tn_tray_value(roles->schema, tray, roles->level) + 1;
         if (levels > 1)
-            tn_draw_level_mark(p->context, levels, room.x, room.y, room.width, room.height);
+            tn_draw_level_mark(p->paint, levels, room.x, room.y, room.width, room.height);
         if (is_set(roles, tray, roles->great_hall))
-            tn_draw_hall_mark(p->context, room.x + room.width / 2, room.y + room.height / 2,
+            tn_draw_hall_mark(p->paint, room.x + room.width / 2, room.y + room.height / 2,
                               fmin(9, fmin(room.width, room.height) * 0.27));
         if (is_set(roles, tray, roles->public_end))
             draw_public_end(p, i, &room, bottom);
@@ -285,24 +285,24 @@ static void draw_marks(const picture *p, double bottom)
 }
 
 /* An architect's tick: a short stroke across the dimension line. */
-static void tick(cairo_t *context, double x, double y)
+static void tick(tn_paint *paint, double x, double y)
 {
-    cairo_move_to(context, x, y - 2.2);
-    cairo_line_to(context, x, y + 2.2);
-    cairo_set_line_width(context, TN_LINE_HAIR);
-    cairo_stroke(context);
-    cairo_move_to(context, x - 1.5, y + 1.5);
-    cairo_line_to(context, x + 1.5, y - 1.5);
-    cairo_set_line_width(context, 0.7);
-    cairo_stroke(context);
+    tn_paint_move_to(paint, x, y - 2.2);
+    tn_paint_line_to(paint, x, y + 2.2);
+    tn_paint_line_width(paint, TN_LINE_HAIR);
+    tn_paint_stroke(paint);
+    tn_paint_move_to(paint, x - 1.5, y + 1.5);
+    tn_paint_line_to(paint, x + 1.5, y - 1.5);
+    tn_paint_line_width(paint, 0.7);
+    tn_paint_stroke(paint);
 }
 
 static void dimension_line(const picture *p, double from, double to, double y)
 {
-    cairo_move_to(p->context, from, y);
-    cairo_line_to(p->context, to, y);
-    cairo_set_line_width(p->context, TN_LINE_HAIR);
-    cairo_stroke(p->context);
+    tn_paint_move_to(p->paint, from, y);
+    tn_paint_line_to(p->paint, to, y);
+    tn_paint_line_width(p->paint, TN_LINE_HAIR);
+    tn_paint_stroke(p->paint);
 }
 
 /* What no mark shows is written below the tray, a line for each field. */
@@ -312,11 +312,11 @@ static void write_values(const picture *p, size_t i, double x, double y, double 
     const tn_schema *schema = p->roles->schema;
     if (width < WRITTEN_MIN)
         return;
-    tn_type_face(p->context, WRITTEN_SIZE, false);
+    tn_paint_face(p->paint, WRITTEN_SIZE, false);
     for (uint32_t f = 0; f < schema->field_count; f++) {
         if (!is_worth_writing(p->roles, tray, f))
             continue;
-        tn_type_fit(p->context, x + width / 2, y, TN_ALIGN_CENTRE, width - 1,
+        tn_type_fit(p->paint, x + width / 2, y, TN_ALIGN_CENTRE, width - 1,
                     tn_text(schema->module, value_of(p->roles, tray, f)->spelling));
         y += WRITTEN_LEADING;
     }
@@ -331,36 +331,56 @@ static void draw_dimensions(const picture *p, double bottom, const tn_draw_exten
         const tn_value_record *value = value_of(p->roles, p->plan->trays[i], p->roles->length);
         const char *spelling = tn_text(p->roles->schema->module, value->name);
         double width = (double)value->length * p->scale;
-        tick(p->context, x, y);
-        tn_type_face(p->context, DIMENSION_SIZE, false);
-        if (tn_type_width(p->context, spelling) < width)
-            tn_type_line(p->context, x + width / 2, y - 2, TN_ALIGN_CENTRE, spelling);
+        tick(p->paint, x, y);
+        tn_paint_face(p->paint, DIMENSION_SIZE, false);
+        if (tn_type_width(p->paint, spelling) < width)
+            tn_type_line(p->paint, x + width / 2, y - 2, TN_ALIGN_CENTRE, spelling);
         write_values(p, i, x, y + WRITTEN_LEADING + 0.5, width);
         total += value->length;
         x += width;
     }
-    tick(p->context, x, y);
+    tick(p->paint, x, y);
     dimension_line(p, p->x, x, y);
     y += OVERALL_GAP + extent->written_lines * WRITTEN_LEADING;
-    tick(p->context, p->x, y);
-    tick(p->context, x, y);
+    tick(p->paint, p->x, y);
+    tick(p->paint, x, y);
     dimension_line(p, p->x, x, y);
     tn_draw_length(p->roles, total, text, sizeof text);
-    tn_type_face(p->context, DIMENSION_SIZE, false);
-    if (tn_type_width(p->context, text) < x - p->x)
-        tn_type_line(p->context, (p->x + x) / 2, y - 2, TN_ALIGN_CENTRE, text);
+    tn_paint_face(p->paint, DIMENSION_SIZE, false);
+    if (tn_type_width(p->paint, text) < x - p->x)
+        tn_type_line(p->paint, (p->x + x) / 2, y - 2, TN_ALIGN_CENTRE, text);
 }
 
-void tn_draw_plan(cairo_t *context, const tn_draw_roles *roles, const tn_drawn_plan *plan, double scale, double x,
+/* Each tray's place, from its highest band to its lowest. */
+static void mark_trays(const picture *p)
+{
+    double x = p->x;
+    for (size_t i = 0; i < p->plan->length; x += tray_width(p, i++)) {
+        rectangle r = {x, p->y, tray_width(p, i), (double)bare_depth(p->roles) * p->scale, 0}, band;
+        double top = INFINITY, bottom = -INFINITY;
+        for (uint32_t b = 0; b < p->roles->band_count; b++) {
+            if (!band_rectangle(p, p->plan->trays[i], b, x, &band))
+                continue;
+            top = fmin(top, band.y);
+            bottom = fmax(bottom, band.y + band.height);
+        }
+        tn_paint_group_begin(p->paint, TN_PAINT_TRAY, i);
+        tn_paint_target(p->paint, r.x, top < bottom ? top : r.y, r.width, top < bottom ? bottom - top : r.height);
+        tn_paint_group_end(p->paint);
+    }
+}
+
+void tn_draw_plan(tn_paint *paint, const tn_draw_roles *roles, const tn_drawn_plan *plan, double scale, double x,
                   double y, double bottom, const tn_draw_extent *extent)
 {
-    picture p = {context, roles, plan, scale, x, y};
+    picture p = {paint, roles, plan, scale, x, y};
     if (plan->length == 0) {
-        tn_type_face(context, DIMENSION_SIZE, false);
-        tn_type_line(context, x, y + 6, TN_ALIGN_LEFT, "no trays");
+        tn_paint_face(paint, DIMENSION_SIZE, false);
+        tn_type_line(paint, x, y + 6, TN_ALIGN_LEFT, "no trays");
         return;
     }
     draw_masses(&p);
     draw_marks(&p, bottom);
     draw_dimensions(&p, bottom + (extent->mark_below ? TN_MARK_ROOM : 0), extent);
+    mark_trays(&p);
 }

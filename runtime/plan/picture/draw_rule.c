@@ -85,19 +85,19 @@ static void measure_part(tn_rule_picture *p, uint32_t part)
     tn_size *made = &p->sizes[part];
     char text[TN_RULE_WORDS_MAX];
     if (it->kind == TN_PART_TRAY) {
-        tn_draw_spec_measure(p->context, &p->roles, it->spec, &made->width, &made->height);
+        tn_draw_spec_measure(p->paint, &p->roles, it->spec, &made->width, &made->height);
     } else if (is_named(p, part)) {
         char name[TN_PART_TEXT_MAX];
         tn_part_text(&p->parts, part, name, sizeof name);
-        tn_type_face(p->context, TN_RULE_SIGN_SIZE, true);
-        *made = (tn_size){tn_type_width(p->context, name) + 20, TAG_HEIGHT};
+        tn_paint_face(p->paint, TN_RULE_SIGN_SIZE, true);
+        *made = (tn_size){tn_type_width(p->paint, name) + 20, TAG_HEIGHT};
     } else {
         *made = measure_children(p, part);
     }
     tn_draw_rule_words(p, part, text);
-    tn_type_face(p->context, TN_RULE_SIGN_SIZE, true);
+    tn_paint_face(p->paint, TN_RULE_SIGN_SIZE, true);
     if (is_boxed(p, part) || is_separator(p, part))
-        made->width = fmax(made->width, tn_type_width(p->context, text));
+        made->width = fmax(made->width, tn_type_width(p->paint, text));
     if (is_boxed(p, part)) {
         made->width += 2 * PADDING;
         made->height += 2 * PADDING + SIGN_ROOM;
@@ -127,9 +127,9 @@ static void draw_neighbour(const tn_rule_picture *p, uint32_t part, double x, do
     bool left = mirrored ? it->end : it->beginning, right = mirrored ? it->beginning : it->end;
     double from = x + (left ? TN_RULE_END_WIDTH : 0), to = x + room.width - (right ? TN_RULE_END_WIDTH : 0);
     if (left)
-        tn_draw_plan_end(p->context, x, y, room.height, true);
+        tn_draw_plan_end(p->paint, x, y, room.height, true);
     if (right)
-        tn_draw_plan_end(p->context, to, y, room.height, false);
+        tn_draw_plan_end(p->paint, to, y, room.height, false);
     for (uint32_t child = it->first; child != TN_NO_PART; child = tn_rule_part(p, child)->next) {
         tn_size one = p->sizes[child];
         double down = y + (room.height - one.height) / 2;
@@ -154,9 +154,9 @@ static void draw_parts(const tn_rule_picture *p, uint32_t part, double x, double
         if (tn_part_unwritten(&p->parts, child))
             continue;
         if (child != it->first && down)
-            tn_draw_rule_dashes(p->context, x - PADDING, at - PADDING, x + room.width + PADDING, at - PADDING);
+            tn_draw_rule_dashes(p->paint, x - PADDING, at - PADDING, x + room.width + PADDING, at - PADDING);
         else if (child != it->first)
-            tn_draw_rule_dashes(p->context, at - PADDING, y - SIGN_ROOM / 2, at - PADDING, y + room.height + PADDING);
+            tn_draw_rule_dashes(p->paint, at - PADDING, y - SIGN_ROOM / 2, at - PADDING, y + room.height + PADDING);
         if (down)
             draw_part(p, child, x + (room.width - one.width) / 2, at, mirrored);
         else
@@ -172,9 +172,9 @@ static void draw_symmetric(const tn_rule_picture *p, uint32_t part, double x, do
     tn_size one = p->sizes[child];
     double left = x + (room.width - one.width) / 2, middle = y + room.height / 2;
     draw_part(p, child, left, y, mirrored);
-    tn_draw_rule_dashes(p->context, x - PADDING, middle, x + room.width + PADDING, middle);
+    tn_draw_rule_dashes(p->paint, x - PADDING, middle, x + room.width + PADDING, middle);
     draw_part(p, child, left, middle + PADDING, !mirrored);
-    tn_type_veil(p->context, x - PADDING + 1, middle + 1, room.width + 2 * PADDING - 2, y + room.height - middle,
+    tn_type_veil(p->paint, x - PADDING + 1, middle + 1, room.width + 2 * PADDING - 2, y + room.height - middle,
                  1 - GREY);
 }
 
@@ -183,13 +183,13 @@ static void draw_sign(const tn_rule_picture *p, uint32_t part, double x, double 
     char text[TN_RULE_WORDS_MAX];
     tn_part_kind kind = tn_rule_part(p, part)->kind;
     if (kind == TN_PART_NEIGHBOUR)
-        tn_draw_neighbour_sign(p->context, x + 6, y + 5);
+        tn_draw_neighbour_sign(p->paint, x + 6, y + 5);
     if (kind == TN_PART_SYMMETRIC)
-        tn_draw_symmetric_sign(p->context, x + 7, y + 4);
+        tn_draw_symmetric_sign(p->paint, x + 7, y + 4);
     bool centred = kind == TN_PART_QUANTITY || kind == TN_PART_SUM || kind == TN_PART_OCCURRENCES;
     tn_draw_rule_words(p, part, text);
-    tn_type_face(p->context, TN_RULE_SIGN_SIZE, true);
-    tn_type_line(p->context, centred ? x + p->sizes[part].width / 2 : x + 6, y + 12,
+    tn_paint_face(p->paint, TN_RULE_SIGN_SIZE, true);
+    tn_type_line(p->paint, centred ? x + p->sizes[part].width / 2 : x + 6, y + 12,
                  centred ? TN_ALIGN_CENTRE : TN_ALIGN_LEFT, text);
 }
 
@@ -201,26 +201,26 @@ static void draw_distance(const tn_rule_picture *p, uint32_t part, double x, dou
              separator = tn_rule_part(p, destination)->next;
     const uint32_t order[3] = {source, separator, destination};
     double at = x, top = y - SIGN_ROOM - PADDING, middle = y + room.height / 2;
-    tn_draw_check_mark(p->context, x + p->sizes[source].width / 2, y - SIGN_ROOM + 1);
+    tn_draw_check_mark(p->paint, x + p->sizes[source].width / 2, y - SIGN_ROOM + 1);
     for (int i = 0; i < 3; i++) {
         tn_size one = p->sizes[order[i]];
         if (i > 0)
-            tn_draw_rule_dashes(p->context, at - PADDING, top, at - PADDING, y + room.height + PADDING);
+            tn_draw_rule_dashes(p->paint, at - PADDING, top, at - PADDING, y + room.height + PADDING);
         if (is_separator(p, order[i]))
             draw_sign(p, order[i], at, y - SIGN_ROOM - 3);
         draw_part(p, order[i], at, y + (room.height - one.height) / 2, mirrored);
         at += one.width + 2 * PADDING;
     }
     double left = x - PADDING - DISTANCE_SIDE, right = x + room.width + PADDING + DISTANCE_SIDE;
-    tn_draw_rule_arrow(p->context, left + DISTANCE_SIDE, left, middle);
-    tn_draw_rule_arrow(p->context, right, right - DISTANCE_SIDE, middle);
+    tn_draw_rule_arrow(p->paint, left + DISTANCE_SIDE, left, middle);
+    tn_draw_rule_arrow(p->paint, right, right - DISTANCE_SIDE, middle);
 }
 
 static void draw_name(const tn_rule_picture *p, uint32_t part, double x, double y, tn_size room)
 {
     char name[TN_PART_TEXT_MAX];
     tn_part_text(&p->parts, part, name, sizeof name);
-    tn_draw_tag(p->context, name, x, y, room);
+    tn_draw_tag(p->paint, name, x, y, room);
 }
 
 static void draw_inside(const tn_rule_picture *p, uint32_t part, double x, double y, tn_size room, bool mirrored)
@@ -231,7 +231,7 @@ static void draw_inside(const tn_rule_picture *p, uint32_t part, double x, doubl
     }
     switch (tn_rule_part(p, part)->kind) {
     case TN_PART_TRAY:
-        tn_draw_spec(p->context, &p->roles, tn_rule_part(p, part)->spec, x, y, mirrored);
+        tn_draw_spec(p->paint, &p->roles, tn_rule_part(p, part)->spec, x, y, mirrored);
         break;
     case TN_PART_NEIGHBOUR:
         draw_neighbour(p, part, x, y, room, mirrored);
@@ -248,12 +248,13 @@ static void draw_inside(const tn_rule_picture *p, uint32_t part, double x, doubl
     }
 }
 
-static void draw_part(const tn_rule_picture *p, uint32_t part, double x, double y, bool mirrored)
+/* What a part looks like where it may be left out, or has a box. */
+static void draw_framed(const tn_rule_picture *p, uint32_t part, double x, double y, bool mirrored)
 {
     const tn_part *it = tn_rule_part(p, part);
     tn_size s = p->sizes[part];
     if (it->optional) {
-        tn_draw_optional(p->context, x, y, s);
+        tn_draw_optional(p->paint, x, y, s);
         x += PADDING / 2;
         y += SIGN_ROOM - 2;
         s.width -= PADDING;
@@ -263,11 +264,19 @@ static void draw_part(const tn_rule_picture *p, uint32_t part, double x, double 
         draw_inside(p, part, x, y, s, mirrored);
         return;
     }
-    tn_draw_rule_box(p->context, x, y, s);
+    tn_draw_rule_box(p->paint, x, y, s);
     draw_sign(p, part, x, y);
     double side = PADDING + (it->kind == TN_PART_DISTANCE ? DISTANCE_SIDE : 0);
     draw_inside(p, part, x + side, y + PADDING + SIGN_ROOM,
                 (tn_size){s.width - 2 * side, s.height - 2 * PADDING - SIGN_ROOM}, mirrored);
+}
+
+static void draw_part(const tn_rule_picture *p, uint32_t part, double x, double y, bool mirrored)
+{
+    tn_paint_group_begin(p->paint, TN_PAINT_PART, part);
+    tn_paint_target(p->paint, x, y, p->sizes[part].width, p->sizes[part].height);
+    draw_framed(p, part, x, y, mirrored);
+    tn_paint_group_end(p->paint);
 }
 
 /* ---- a rule, a tn_rule_picture */
@@ -279,25 +288,25 @@ static double title_room(const tn_rule_picture *p)
 
 static double title_width(const tn_rule_picture *p)
 {
-    tn_type_face(p->context, NAME_SIZE, true);
-    double name = tn_type_width(p->context, p->rule->name);
-    tn_type_face(p->context, DOC_SIZE, false);
-    return fmax(name, tn_type_width(p->context, p->rule->doc));
+    tn_paint_face(p->paint, NAME_SIZE, true);
+    double name = tn_type_width(p->paint, p->rule->name);
+    tn_paint_face(p->paint, DOC_SIZE, false);
+    return fmax(name, tn_type_width(p->paint, p->rule->doc));
 }
 
 static void draw_rule(const tn_rule_picture *p, double x, double y)
 {
-    tn_type_face(p->context, NAME_SIZE, true);
-    tn_type_line(p->context, x, y + 10, TN_ALIGN_LEFT, p->rule->name);
-    tn_type_face(p->context, DOC_SIZE, false);
-    tn_type_line(p->context, x, y + 21, TN_ALIGN_LEFT, p->rule->doc);
+    tn_paint_face(p->paint, NAME_SIZE, true);
+    tn_type_line(p->paint, x, y + 10, TN_ALIGN_LEFT, p->rule->name);
+    tn_paint_face(p->paint, DOC_SIZE, false);
+    tn_type_line(p->paint, x, y + 21, TN_ALIGN_LEFT, p->rule->doc);
     draw_part(p, 0, x, y + title_room(p), false);
 }
 
-static tn_status picture_make(tn_rule_picture *p, const tn_schema *schema, const tn_drawn_rule *rule, cairo_t *context,
+static tn_status picture_make(tn_rule_picture *p, const tn_schema *schema, const tn_drawn_rule *rule, tn_paint *paint,
                               tn_error *error)
 {
-    *p = (tn_rule_picture){.context = context, .schema = schema, .rule = rule};
+    *p = (tn_rule_picture){.paint = paint, .schema = schema, .rule = rule};
     tn_draw_roles_find(schema, &p->roles);
     tn_status status = tn_parts_read(schema->module, rule->function, &p->parts, error);
     if (status != TN_OK)
@@ -315,8 +324,10 @@ static tn_status draw_pictures(tn_rule_picture *pictures, size_t count, tn_size 
     tn_status status = tn_canvas_begin(to, all.width, all.height, pictures[0].rule->name, &canvas, error);
     double y = MARGIN;
     for (size_t i = 0; status == TN_OK && i < count; i++) {
-        pictures[i].context = tn_canvas_context(canvas);
+        pictures[i].paint = tn_canvas_paint(canvas);
+        tn_paint_group_begin(pictures[i].paint, TN_PAINT_RULE, i);
         draw_rule(&pictures[i], MARGIN, y);
+        tn_paint_group_end(pictures[i].paint);
         y += title_room(&pictures[i]) + pictures[i].sizes[0].height + BETWEEN_RULES;
     }
     if (status == TN_OK)
@@ -334,13 +345,12 @@ tn_drawn_rule tn_drawn_rule_of(const tn_module *module, uint32_t rule)
 tn_status tn_rules_draw(const tn_schema *schema, const tn_drawn_rule *rules, size_t count, tn_picture *to,
                         tn_error *error)
 {
-    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
-    cairo_t *context = cairo_create(surface);
+    tn_paint *paint = tn_paint_new(NULL);
     tn_rule_picture *pictures = calloc(count + 1, sizeof *pictures);
-    tn_status status = pictures ? TN_OK : tn_fail_memory(error);
+    tn_status status = paint && pictures ? TN_OK : tn_fail_memory(error);
     tn_size all = {0, 2 * MARGIN - BETWEEN_RULES};
     for (size_t i = 0; status == TN_OK && i < count; i++) {
-        status = picture_make(&pictures[i], schema, &rules[i], context, error);
+        status = picture_make(&pictures[i], schema, &rules[i], paint, error);
         if (status != TN_OK)
             continue;
         tn_size one = pictures[i].sizes[0];
@@ -360,7 +370,6 @@ tn_status tn_rules_draw(const tn_schema *schema, const tn_drawn_rule *rules, siz
         free(pictures[i].sizes);
     }
     free(pictures);
-    cairo_destroy(context);
-    cairo_surface_destroy(surface);
+    tn_paint_free(paint);
     return status;
 }

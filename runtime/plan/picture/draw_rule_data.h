@@ -16,7 +16,7 @@ typedef struct tn_size {
 
 /* One rule being drawn. */
 typedef struct tn_rule_picture {
-    cairo_t *context;
+    tn_paint *paint;
     const tn_schema *schema;
     tn_draw_roles roles;
     tn_parts parts;
@@ -35,32 +35,32 @@ void tn_draw_rule_words(const tn_rule_picture *p, uint32_t part, char words[TN_R
 /* Is the part all of a comparison of a gap, `max(gap from a to b) <= 2`, which is made of relations? */
 bool tn_rule_is_gap(const tn_rule_picture *p, uint32_t part);
 
-void tn_draw_rule_box(cairo_t *context, double x, double y, tn_size s);
-void tn_draw_rule_dashes(cairo_t *context, double x1, double y1, double x2, double y2);
-void tn_draw_rule_arrow(cairo_t *context, double from, double to, double y);
+void tn_draw_rule_box(tn_paint *paint, double x, double y, tn_size s);
+void tn_draw_rule_dashes(tn_paint *paint, double x1, double y1, double x2, double y2);
+void tn_draw_rule_arrow(tn_paint *paint, double from, double to, double y);
 
 /* Two trays side by side: the sign of a neighbour. */
-void tn_draw_neighbour_sign(cairo_t *context, double x, double y);
+void tn_draw_neighbour_sign(tn_paint *paint, double x, double y);
 
 /* `or` under an arrow both ways: a row or its mirror image. */
-void tn_draw_symmetric_sign(cairo_t *context, double x, double y);
+void tn_draw_symmetric_sign(tn_paint *paint, double x, double y);
 
 /* The plan's outer wall, with the side beyond it struck out. */
-void tn_draw_plan_end(cairo_t *context, double x, double y, double height, bool left);
+void tn_draw_plan_end(tn_paint *paint, double x, double y, double height, bool left);
 
 /* Above the source of a distance. */
-void tn_draw_check_mark(cairo_t *context, double x, double y);
+void tn_draw_check_mark(tn_paint *paint, double x, double y);
 
 /* A rule by its name. */
-void tn_draw_tag(cairo_t *context, const char *name, double x, double y, tn_size s);
+void tn_draw_tag(tn_paint *paint, const char *name, double x, double y, tn_size s);
 
 /* Brackets, and that it may be left out. */
-void tn_draw_optional(cairo_t *context, double x, double y, tn_size s);
+void tn_draw_optional(tn_paint *paint, double x, double y, tn_size s);
 
 /* ---- tray specifiers (draw_rule_tray.c) */
 
 /* How much room the symbol of a specifier needs. */
-void tn_draw_spec_measure(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double *width, double *height);
-void tn_draw_spec(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y, bool mirrored);
+void tn_draw_spec_measure(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double *width, double *height);
+void tn_draw_spec(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y, bool mirrored);
 
 #endif

@@ -104,108 +104,108 @@ void tn_draw_rule_words(const tn_rule_picture *p, uint32_t part, char words[TN_R
 
 /* ---- lines */
 
-void tn_draw_rule_box(cairo_t *context, double x, double y, tn_size s)
+void tn_draw_rule_box(tn_paint *paint, double x, double y, tn_size s)
 {
-    cairo_rectangle(context, x, y, s.width, s.height);
-    cairo_set_line_width(context, 0.9);
-    cairo_stroke(context);
+    tn_paint_rectangle(paint, x, y, s.width, s.height);
+    tn_paint_line_width(paint, 0.9);
+    tn_paint_stroke(paint);
 }
 
-void tn_draw_rule_dashes(cairo_t *context, double x1, double y1, double x2, double y2)
+void tn_draw_rule_dashes(tn_paint *paint, double x1, double y1, double x2, double y2)
 {
     static const double dashes[] = {4, 3};
-    cairo_save(context);
-    cairo_set_dash(context, dashes, 2, 0);
-    cairo_move_to(context, x1, y1);
-    cairo_line_to(context, x2, y2);
-    cairo_set_line_width(context, 0.6);
-    cairo_stroke(context);
-    cairo_restore(context);
+    tn_paint_save(paint);
+    tn_paint_dash(paint, dashes, 2, 0);
+    tn_paint_move_to(paint, x1, y1);
+    tn_paint_line_to(paint, x2, y2);
+    tn_paint_line_width(paint, 0.6);
+    tn_paint_stroke(paint);
+    tn_paint_restore(paint);
 }
 
 /* A head at (x, y) that points to the left or right. */
-static void arrow_head(cairo_t *context, double x, double y, double direction)
+static void arrow_head(tn_paint *paint, double x, double y, double direction)
 {
-    cairo_move_to(context, x, y);
-    cairo_line_to(context, x - direction * 5, y - 2.6);
-    cairo_line_to(context, x - direction * 5, y + 2.6);
-    cairo_close_path(context);
-    cairo_fill(context);
+    tn_paint_move_to(paint, x, y);
+    tn_paint_line_to(paint, x - direction * 5, y - 2.6);
+    tn_paint_line_to(paint, x - direction * 5, y + 2.6);
+    tn_paint_close_path(paint);
+    tn_paint_fill(paint);
 }
 
-void tn_draw_rule_arrow(cairo_t *context, double from, double to, double y)
+void tn_draw_rule_arrow(tn_paint *paint, double from, double to, double y)
 {
-    cairo_move_to(context, from, y);
-    cairo_line_to(context, to, y);
-    cairo_set_line_width(context, 0.8);
-    cairo_stroke(context);
-    arrow_head(context, to, y, to > from ? 1 : -1);
+    tn_paint_move_to(paint, from, y);
+    tn_paint_line_to(paint, to, y);
+    tn_paint_line_width(paint, 0.8);
+    tn_paint_stroke(paint);
+    arrow_head(paint, to, y, to > from ? 1 : -1);
 }
 
-void tn_draw_neighbour_sign(cairo_t *context, double x, double y)
+void tn_draw_neighbour_sign(tn_paint *paint, double x, double y)
 {
-    cairo_rectangle(context, x, y, 5, 7.5);
-    cairo_rectangle(context, x + 5, y, 5, 7.5);
-    cairo_set_line_width(context, 0.9);
-    cairo_stroke(context);
+    tn_paint_rectangle(paint, x, y, 5, 7.5);
+    tn_paint_rectangle(paint, x + 5, y, 5, 7.5);
+    tn_paint_line_width(paint, 0.9);
+    tn_paint_stroke(paint);
 }
 
-void tn_draw_symmetric_sign(cairo_t *context, double x, double y)
+void tn_draw_symmetric_sign(tn_paint *paint, double x, double y)
 {
-    tn_type_face(context, TN_RULE_SIGN_SIZE, true);
-    tn_type_line(context, x + 2, y + 9.5, TN_ALIGN_LEFT, "or");
-    tn_draw_rule_arrow(context, x + 7, x + 15, y);
-    tn_draw_rule_arrow(context, x + 7, x - 1, y);
+    tn_paint_face(paint, TN_RULE_SIGN_SIZE, true);
+    tn_type_line(paint, x + 2, y + 9.5, TN_ALIGN_LEFT, "or");
+    tn_draw_rule_arrow(paint, x + 7, x + 15, y);
+    tn_draw_rule_arrow(paint, x + 7, x - 1, y);
 }
 
-void tn_draw_plan_end(cairo_t *context, double x, double y, double height, bool left)
+void tn_draw_plan_end(tn_paint *paint, double x, double y, double height, bool left)
 {
     double wall = left ? x + TN_RULE_END_WIDTH - 2 : x + 2, out = left ? -5 : 5;
-    cairo_move_to(context, wall, y);
-    cairo_line_to(context, wall, y + height);
-    cairo_set_line_width(context, 2.2);
-    cairo_stroke(context);
+    tn_paint_move_to(paint, wall, y);
+    tn_paint_line_to(paint, wall, y + height);
+    tn_paint_line_width(paint, 2.2);
+    tn_paint_stroke(paint);
     for (double at = y + 3; at < y + height - 1; at += 5) {
-        cairo_move_to(context, wall, at);
-        cairo_line_to(context, wall + out, at + 4);
+        tn_paint_move_to(paint, wall, at);
+        tn_paint_line_to(paint, wall + out, at + 4);
     }
-    cairo_set_line_width(context, 0.5);
-    cairo_stroke(context);
+    tn_paint_line_width(paint, 0.5);
+    tn_paint_stroke(paint);
 }
 
-void tn_draw_check_mark(cairo_t *context, double x, double y)
+void tn_draw_check_mark(tn_paint *paint, double x, double y)
 {
-    cairo_move_to(context, x - 4, y + 3);
-    cairo_line_to(context, x - 1, y + 6.5);
-    cairo_line_to(context, x + 5, y - 1);
-    cairo_set_line_width(context, 1.4);
-    cairo_stroke(context);
+    tn_paint_move_to(paint, x - 4, y + 3);
+    tn_paint_line_to(paint, x - 1, y + 6.5);
+    tn_paint_line_to(paint, x + 5, y - 1);
+    tn_paint_line_width(paint, 1.4);
+    tn_paint_stroke(paint);
 }
 
-void tn_draw_tag(cairo_t *context, const char *name, double x, double y, tn_size s)
+void tn_draw_tag(tn_paint *paint, const char *name, double x, double y, tn_size s)
 {
     double r = 6;
-    cairo_new_sub_path(context);
-    cairo_arc(context, x + s.width - 2 - r, y + 2 + r, r, -1.5707963, 0);
-    cairo_arc(context, x + s.width - 2 - r, y + s.height - 2 - r, r, 0, 1.5707963);
-    cairo_arc(context, x + 2 + r, y + s.height - 2 - r, r, 1.5707963, 3.1415927);
-    cairo_arc(context, x + 2 + r, y + 2 + r, r, 3.1415927, 4.712389);
-    cairo_close_path(context);
-    cairo_set_line_width(context, 0.9);
-    cairo_stroke(context);
-    tn_type_face(context, TN_RULE_SIGN_SIZE, true);
-    tn_type_line(context, x + s.width / 2, y + s.height / 2 + 3, TN_ALIGN_CENTRE, name);
+    tn_paint_new_sub_path(paint);
+    tn_paint_arc(paint, x + s.width - 2 - r, y + 2 + r, r, -1.5707963, 0);
+    tn_paint_arc(paint, x + s.width - 2 - r, y + s.height - 2 - r, r, 0, 1.5707963);
+    tn_paint_arc(paint, x + 2 + r, y + s.height - 2 - r, r, 1.5707963, 3.1415927);
+    tn_paint_arc(paint, x + 2 + r, y + 2 + r, r, 3.1415927, 4.712389);
+    tn_paint_close_path(paint);
+    tn_paint_line_width(paint, 0.9);
+    tn_paint_stroke(paint);
+    tn_paint_face(paint, TN_RULE_SIGN_SIZE, true);
+    tn_type_line(paint, x + s.width / 2, y + s.height / 2 + 3, TN_ALIGN_CENTRE, name);
 }
 
-void tn_draw_optional(cairo_t *context, double x, double y, tn_size s)
+void tn_draw_optional(tn_paint *paint, double x, double y, tn_size s)
 {
     static const double dashes[] = {2, 2};
-    cairo_save(context);
-    cairo_set_dash(context, dashes, 2, 0);
-    cairo_rectangle(context, x + 1, y + 1, s.width - 2, s.height - 2);
-    cairo_set_line_width(context, 0.8);
-    cairo_stroke(context);
-    cairo_restore(context);
-    tn_type_face(context, TN_RULE_SIGN_SIZE - 1.5, false);
-    tn_type_line(context, x + s.width / 2, y + 9, TN_ALIGN_CENTRE, "or none");
+    tn_paint_save(paint);
+    tn_paint_dash(paint, dashes, 2, 0);
+    tn_paint_rectangle(paint, x + 1, y + 1, s.width - 2, s.height - 2);
+    tn_paint_line_width(paint, 0.8);
+    tn_paint_stroke(paint);
+    tn_paint_restore(paint);
+    tn_paint_face(paint, TN_RULE_SIGN_SIZE - 1.5, false);
+    tn_type_line(paint, x + s.width / 2, y + 9, TN_ALIGN_CENTRE, "or none");
 }

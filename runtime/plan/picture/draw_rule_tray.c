@@ -173,51 +173,51 @@ static bool any_fill(const tn_draw_roles *roles, uint32_t spec, uint32_t field)
 }
 
 /* Dotted, with nothing in it: any fill will do. */
-static void draw_any(cairo_t *context, double x, double y, double width, double height)
+static void draw_any(tn_paint *paint, double x, double y, double width, double height)
 {
     static const double dots[] = {1, 2};
-    cairo_save(context);
-    cairo_rectangle(context, x, y, width, height);
-    cairo_set_source_rgb(context, 0.94, 0.94, 0.94);
-    cairo_fill_preserve(context);
-    cairo_set_source_rgb(context, 0, 0, 0);
-    cairo_set_dash(context, dots, 2, 0);
-    cairo_set_line_width(context, 0.5);
-    cairo_stroke(context);
-    cairo_restore(context);
+    tn_paint_save(paint);
+    tn_paint_rectangle(paint, x, y, width, height);
+    tn_paint_colour(paint, 0.94, 0.94, 0.94);
+    tn_paint_fill_keep(paint);
+    tn_paint_colour(paint, 0, 0, 0);
+    tn_paint_dash(paint, dots, 2, 0);
+    tn_paint_line_width(paint, 0.5);
+    tn_paint_stroke(paint);
+    tn_paint_restore(paint);
 }
 
 /* A circle struck through: nothing is there. */
-static void draw_absent(cairo_t *context, double x, double y, double width, double height)
+static void draw_absent(tn_paint *paint, double x, double y, double width, double height)
 {
     double cx = x + width / 2, cy = y + height / 2, r = 3.6;
-    cairo_new_sub_path(context);
-    cairo_arc(context, cx, cy, r, 0, 2 * PI);
-    cairo_move_to(context, cx - r, cy + r);
-    cairo_line_to(context, cx + r, cy - r);
-    cairo_set_line_width(context, 0.6);
-    cairo_stroke(context);
+    tn_paint_new_sub_path(paint);
+    tn_paint_arc(paint, cx, cy, r, 0, 2 * PI);
+    tn_paint_move_to(paint, cx - r, cy + r);
+    tn_paint_line_to(paint, cx + r, cy - r);
+    tn_paint_line_width(paint, 0.6);
+    tn_paint_stroke(paint);
 }
 
-static void draw_zone(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, uint32_t field, double x, double y,
+static void draw_zone(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, uint32_t field, double x, double y,
                       double height)
 {
     uint32_t fills[FILLS_MAX], count = list_fills(roles, spec, field, fills);
     bool any = any_fill(roles, spec, field);
     if (any)
-        draw_any(context, x, y, TRAY_WIDTH, height);
+        draw_any(paint, x, y, TRAY_WIDTH, height);
     double width = TRAY_WIDTH / (count ? count : 1);
     for (uint32_t i = 0; i < count && !any; i++) {
         tn_fill_role role = (tn_fill_role)value_at(roles, field, fills[i])->role;
         if (role == TN_FILL_ABSENT)
-            draw_absent(context, x + width * i, y, width, height);
+            draw_absent(paint, x + width * i, y, width, height);
         else
-            tn_draw_fill(context, roles, roles->schema->value_start[field] + fills[i], x + width * i, y, width, height);
+            tn_draw_fill(paint, roles, roles->schema->value_start[field] + fills[i], x + width * i, y, width, height);
     }
     char text[ITEM_MAX];
     zone_text(roles, spec, field, text);
-    tn_type_face(context, TEXT_SIZE, false);
-    tn_type_line(context, x + TRAY_WIDTH + DEPTH_GAP, y + height / 2 + 2, TN_ALIGN_LEFT, text);
+    tn_paint_face(paint, TEXT_SIZE, false);
+    tn_type_line(paint, x + TRAY_WIDTH + DEPTH_GAP, y + height / 2 + 2, TN_ALIGN_LEFT, text);
 }
 
 static double band_height(const tn_draw_roles *roles, uint32_t band)
@@ -227,36 +227,36 @@ static double band_height(const tn_draw_roles *roles, uint32_t band)
 
 /* ---- marks */
 
-static void strike(cairo_t *context, double x, double y, double radius)
+static void strike(tn_paint *paint, double x, double y, double radius)
 {
-    cairo_move_to(context, x - radius, y + radius);
-    cairo_line_to(context, x + radius, y - radius);
-    cairo_set_line_width(context, 0.9);
-    cairo_stroke(context);
+    tn_paint_move_to(paint, x - radius, y + radius);
+    tn_paint_line_to(paint, x + radius, y - radius);
+    tn_paint_line_width(paint, 0.9);
+    tn_paint_stroke(paint);
 }
 
-static void draw_great_hall(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y)
+static void draw_great_hall(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y)
 {
     if (is_free(roles, spec, roles->great_hall))
         return;
-    tn_draw_hall_mark(context, x, y, 6);
+    tn_draw_hall_mark(paint, x, y, 6);
     if (!allows(roles, spec, roles->great_hall, 1))
-        strike(context, x, y, 7.5);
+        strike(paint, x, y, 7.5);
 }
 
-static void draw_public(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double left, double y,
+static void draw_public(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double left, double y,
                         bool mirrored)
 {
     if (is_free(roles, spec, roles->public_end))
         return;
     double x = mirrored ? left + TRAY_WIDTH + 11 : left - 3;
-    tn_draw_public_mark(context, x, y, mirrored ? -1 : 1, 0);
+    tn_draw_public_mark(paint, x, y, mirrored ? -1 : 1, 0);
     if (!allows(roles, spec, roles->public_end, 1))
-        strike(context, mirrored ? x - 4 + 7 : x - 4, y, 5.5);
+        strike(paint, mirrored ? x - 4 + 7 : x - 4, y, 5.5);
 }
 
 /* A bar for each storey, one above the other; of several numbers the highest, with the words. */
-static void draw_levels(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double left, double y,
+static void draw_levels(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double left, double y,
                         double height)
 {
     if (is_free(roles, spec, roles->level))
@@ -265,31 +265,31 @@ static void draw_levels(cairo_t *context, const tn_draw_roles *roles, uint32_t s
     for (uint32_t v = 0; v < count; v++)
         most = allows(roles, spec, roles->level, v) ? v + 1 : most;
     if (allowed(roles, spec, roles->level) == 1 && most > 1) {
-        tn_draw_level_mark(context, most, left, y, TRAY_WIDTH, height);
+        tn_draw_level_mark(paint, most, left, y, TRAY_WIDTH, height);
         return;
     }
     for (uint32_t i = 0; i < most; i++)
-        cairo_rectangle(context, left + TRAY_WIDTH / 2 - 5, y + height - 7 - 5 * i, 10, 3);
-    cairo_set_line_width(context, 0.7);
-    cairo_stroke(context);
+        tn_paint_rectangle(paint, left + TRAY_WIDTH / 2 - 5, y + height - 7 - 5 * i, 10, 3);
+    tn_paint_line_width(paint, 0.7);
+    tn_paint_stroke(paint);
 }
 
-static void draw_width(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y)
+static void draw_width(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y)
 {
     char text[ITEM_MAX];
     if (is_free(roles, spec, roles->length))
         return;
     list_values(roles, spec, roles->length, text);
     for (int end = 0; end < 2; end++) {
-        cairo_move_to(context, x + end * TRAY_WIDTH, y + 1.5);
-        cairo_line_to(context, x + end * TRAY_WIDTH, y + 5.5);
+        tn_paint_move_to(paint, x + end * TRAY_WIDTH, y + 1.5);
+        tn_paint_line_to(paint, x + end * TRAY_WIDTH, y + 5.5);
     }
-    cairo_move_to(context, x, y + 3.5);
-    cairo_line_to(context, x + TRAY_WIDTH, y + 3.5);
-    cairo_set_line_width(context, TN_LINE_HAIR + 0.1);
-    cairo_stroke(context);
-    tn_type_face(context, TEXT_SIZE, true);
-    tn_type_line(context, x + TRAY_WIDTH / 2, y + 11.5, TN_ALIGN_CENTRE, text);
+    tn_paint_move_to(paint, x, y + 3.5);
+    tn_paint_line_to(paint, x + TRAY_WIDTH, y + 3.5);
+    tn_paint_line_width(paint, TN_LINE_HAIR + 0.1);
+    tn_paint_stroke(paint);
+    tn_paint_face(paint, TEXT_SIZE, true);
+    tn_type_line(paint, x + TRAY_WIDTH / 2, y + 11.5, TN_ALIGN_CENTRE, text);
 }
 
 /* ---- what is written */
@@ -300,32 +300,31 @@ static bool is_written(const tn_draw_roles *roles, uint32_t spec, uint32_t field
     return !is_free(roles, spec, field) && (!roles->to_scale || tn_draw_written(roles, field));
 }
 
-static double written_width(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, uint32_t *lines)
+static double written_width(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, uint32_t *lines)
 {
     double width = 0;
     *lines = 0;
-    tn_type_face(context, roles->to_scale ? TEXT_SIZE : LABEL_SIZE, false);
+    tn_paint_face(paint, roles->to_scale ? TEXT_SIZE : LABEL_SIZE, false);
     for (uint32_t f = 0; f < roles->schema->field_count; f++) {
         char text[ITEM_MAX];
         if (!is_written(roles, spec, f))
             continue;
         field_text(roles, spec, f, text);
-        width = fmax(width, tn_type_width(context, text));
+        width = fmax(width, tn_type_width(paint, text));
         ++*lines;
     }
     return width;
 }
 
-static void write_fields(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y,
-                         double leading)
+static void write_fields(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y, double leading)
 {
-    tn_type_face(context, roles->to_scale ? TEXT_SIZE : LABEL_SIZE, false);
+    tn_paint_face(paint, roles->to_scale ? TEXT_SIZE : LABEL_SIZE, false);
     for (uint32_t f = 0; f < roles->schema->field_count; f++) {
         char text[ITEM_MAX];
         if (!is_written(roles, spec, f))
             continue;
         field_text(roles, spec, f, text);
-        tn_type_line(context, x, y, TN_ALIGN_CENTRE, text);
+        tn_type_line(paint, x, y, TN_ALIGN_CENTRE, text);
         y += leading;
     }
 }
@@ -342,71 +341,71 @@ typedef struct sides {
     double left, right;
 } sides;
 
-static sides sides_of(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, uint32_t *lines)
+static sides sides_of(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, uint32_t *lines)
 {
     char text[ITEM_MAX];
-    double words = written_width(context, roles, spec, lines), depths = 0, room = mark_room(roles, spec);
+    double words = written_width(paint, roles, spec, lines), depths = 0, room = mark_room(roles, spec);
     for (uint32_t b = 0; b < roles->band_count; b++) {
         zone_text(roles, spec, roles->bands[b], text);
-        depths = fmax(depths, *text ? tn_type_width(context, text) + DEPTH_GAP : 0);
+        depths = fmax(depths, *text ? tn_type_width(paint, text) + DEPTH_GAP : 0);
     }
     if (!is_free(roles, spec, roles->length)) {
         list_values(roles, spec, roles->length, text);
-        tn_type_face(context, TEXT_SIZE, true);
-        words = fmax(words, tn_type_width(context, text));
+        tn_paint_face(paint, TEXT_SIZE, true);
+        words = fmax(words, tn_type_width(paint, text));
     }
     words += 2 * SIDE_ROOM;
     return (sides){fmax(room + TRAY_WIDTH / 2, words / 2), fmax(TRAY_WIDTH / 2 + fmax(depths, room), words / 2)};
 }
 
-void tn_draw_spec_measure(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double *width, double *height)
+void tn_draw_spec_measure(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double *width, double *height)
 {
     uint32_t lines;
     if (!roles->to_scale) {
-        double written = written_width(context, roles, spec, &lines);
+        double written = written_width(paint, roles, spec, &lines);
         *width = fmax(written, 18) + 2 * LABEL_PADDING;
         *height = fmax(lines, 1) * LABEL_LEADING + 2 * LABEL_PADDING - 2;
         return;
     }
-    sides beside = sides_of(context, roles, spec, &lines);
+    sides beside = sides_of(paint, roles, spec, &lines);
     *width = beside.left + beside.right;
     *height = WIDTH_ROOM + lines * TEXT_LEADING;
     for (uint32_t b = 0; b < roles->band_count; b++)
         *height += band_height(roles, b);
 }
 
-static void draw_label(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y)
+static void draw_label(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y)
 {
     double width, height;
     uint32_t lines;
-    tn_draw_spec_measure(context, roles, spec, &width, &height);
-    cairo_rectangle(context, x, y, width, height);
-    cairo_set_line_width(context, TN_LINE_CUT);
-    cairo_stroke(context);
-    written_width(context, roles, spec, &lines);
+    tn_draw_spec_measure(paint, roles, spec, &width, &height);
+    tn_paint_rectangle(paint, x, y, width, height);
+    tn_paint_line_width(paint, TN_LINE_CUT);
+    tn_paint_stroke(paint);
+    written_width(paint, roles, spec, &lines);
     double baseline = y + LABEL_PADDING + LABEL_LEADING - 3;
     if (lines == 0)
-        tn_type_line(context, x + width / 2, baseline, TN_ALIGN_CENTRE, "any");
-    write_fields(context, roles, spec, x + width / 2, baseline, LABEL_LEADING);
+        tn_type_line(paint, x + width / 2, baseline, TN_ALIGN_CENTRE, "any");
+    write_fields(paint, roles, spec, x + width / 2, baseline, LABEL_LEADING);
 }
 
-void tn_draw_spec(cairo_t *context, const tn_draw_roles *roles, uint32_t spec, double x, double y, bool mirrored)
+void tn_draw_spec(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y, bool mirrored)
 {
     if (!roles->to_scale) {
-        draw_label(context, roles, spec, x, y);
+        draw_label(paint, roles, spec, x, y);
         return;
     }
     uint32_t lines;
-    double left = x + sides_of(context, roles, spec, &lines).left - TRAY_WIDTH / 2, at = y, spine = y;
+    double left = x + sides_of(paint, roles, spec, &lines).left - TRAY_WIDTH / 2, at = y, spine = y;
     for (uint32_t b = 0; b < roles->band_count; b++) {
         double height = band_height(roles, b);
-        draw_zone(context, roles, spec, roles->bands[b], left, at, height);
+        draw_zone(paint, roles, spec, roles->bands[b], left, at, height);
         spine = b == roles->spine ? at : spine;
         at += height;
     }
-    draw_levels(context, roles, spec, left, spine, SPINE_HEIGHT);
-    draw_great_hall(context, roles, spec, left + TRAY_WIDTH / 2, spine + SPINE_HEIGHT / 2);
-    draw_public(context, roles, spec, left, spine + SPINE_HEIGHT / 2, mirrored);
-    draw_width(context, roles, spec, left, at);
-    write_fields(context, roles, spec, left + TRAY_WIDTH / 2, at + WIDTH_ROOM + TEXT_LEADING - 2, TEXT_LEADING);
+    draw_levels(paint, roles, spec, left, spine, SPINE_HEIGHT);
+    draw_great_hall(paint, roles, spec, left + TRAY_WIDTH / 2, spine + SPINE_HEIGHT / 2);
+    draw_public(paint, roles, spec, left, spine + SPINE_HEIGHT / 2, mirrored);
+    draw_width(paint, roles, spec, left, at);
+    write_fields(paint, roles, spec, left + TRAY_WIDTH / 2, at + WIDTH_ROOM + TEXT_LEADING - 2, TEXT_LEADING);
 }

@@ -24,7 +24,7 @@
 
 /* The strip being drawn. */
 typedef struct strip {
-    cairo_t *context;
+    tn_paint *paint;
     const tn_draw_roles *roles;
     double x, y; /* upper left corner of the section being drawn */
     double width;
@@ -38,16 +38,16 @@ static const char *text_at(const strip *s, tn_string string)
 
 static void heading(const strip *s, const char *text)
 {
-    tn_type_face(s->context, HEADING_SIZE, true);
-    tn_type_line(s->context, s->x + PADDING, s->y + 13, TN_ALIGN_LEFT, text);
+    tn_paint_face(s->paint, HEADING_SIZE, true);
+    tn_type_line(s->paint, s->x + PADDING, s->y + 13, TN_ALIGN_LEFT, text);
 }
 
 static void divider(const strip *s, double x)
 {
-    cairo_move_to(s->context, x, s->y);
-    cairo_line_to(s->context, x, s->y + TN_STRIP_HEIGHT);
-    cairo_set_line_width(s->context, TN_LINE_EDGE);
-    cairo_stroke(s->context);
+    tn_paint_move_to(s->paint, x, s->y);
+    tn_paint_line_to(s->paint, x, s->y + TN_STRIP_HEIGHT);
+    tn_paint_line_width(s->paint, TN_LINE_EDGE);
+    tn_paint_stroke(s->paint);
 }
 
 /* The value that stands for a band in the key: the deepest, where the spine is void if it can be. */
@@ -78,25 +78,25 @@ static void draw_key(const strip *s)
     heading(s, "ONE TRAY");
     if (depth <= 0)
         return;
-    cairo_rectangle(s->context, x, y, tray, room);
-    cairo_set_line_width(s->context, 2 * TN_LINE_CUT);
-    cairo_stroke(s->context);
-    cairo_rectangle(s->context, x, y, tray, room);
-    cairo_set_source_rgb(s->context, 1, 1, 1);
-    cairo_fill(s->context);
-    cairo_set_source_rgb(s->context, 0, 0, 0);
+    tn_paint_rectangle(s->paint, x, y, tray, room);
+    tn_paint_line_width(s->paint, 2 * TN_LINE_CUT);
+    tn_paint_stroke(s->paint);
+    tn_paint_rectangle(s->paint, x, y, tray, room);
+    tn_paint_colour(s->paint, 1, 1, 1);
+    tn_paint_fill(s->paint);
+    tn_paint_colour(s->paint, 0, 0, 0);
     for (uint32_t b = 0; b < roles->band_count; b++) {
         const tn_value_record *value = key_value(s, roles->bands[b]);
         if (!value)
             continue;
         double height = (double)value->length / depth * room;
-        tn_draw_fill(s->context, roles, (uint32_t)(value - roles->schema->values), x, y, tray, height);
-        cairo_move_to(s->context, x + tray + 4, y + height / 2);
-        cairo_line_to(s->context, x + tray + 12, y + height / 2);
-        cairo_set_line_width(s->context, TN_LINE_HAIR);
-        cairo_stroke(s->context);
-        tn_type_face(s->context, LABEL_SIZE, false);
-        tn_type_fit(s->context, x + tray + 15, y + height / 2 + 2.3, TN_ALIGN_LEFT, KEY_WIDTH - tray - 15 - 2 * PADDING,
+        tn_draw_fill(s->paint, roles, (uint32_t)(value - roles->schema->values), x, y, tray, height);
+        tn_paint_move_to(s->paint, x + tray + 4, y + height / 2);
+        tn_paint_line_to(s->paint, x + tray + 12, y + height / 2);
+        tn_paint_line_width(s->paint, TN_LINE_HAIR);
+        tn_paint_stroke(s->paint);
+        tn_paint_face(s->paint, LABEL_SIZE, false);
+        tn_type_fit(s->paint, x + tray + 15, y + height / 2 + 2.3, TN_ALIGN_LEFT, KEY_WIDTH - tray - 15 - 2 * PADDING,
                     text_at(s, roles->schema->fields[roles->bands[b]].name));
         y += height;
     }
@@ -120,12 +120,12 @@ static bool next_entry(strip *s, double *x, double *y, double *width)
 static void label(const strip *s, double x, double y, double width, const char *name, const char *doc)
 {
     x += SWATCH_WIDTH + 6;
-    tn_type_face(s->context, LABEL_SIZE, true);
-    double used = tn_type_width(s->context, name) + 4;
-    tn_type_fit(s->context, x, y + 7.3, TN_ALIGN_LEFT, width, name);
-    tn_type_face(s->context, DOC_SIZE, false);
+    tn_paint_face(s->paint, LABEL_SIZE, true);
+    double used = tn_type_width(s->paint, name) + 4;
+    tn_type_fit(s->paint, x, y + 7.3, TN_ALIGN_LEFT, width, name);
+    tn_paint_face(s->paint, DOC_SIZE, false);
     if (used < width)
-        tn_type_fit(s->context, x + used, y + 7.3, TN_ALIGN_LEFT, width - used, doc);
+        tn_type_fit(s->paint, x + used, y + 7.3, TN_ALIGN_LEFT, width - used, doc);
 }
 
 /* Is `value` the first one of its name and role, over all bands? */
@@ -176,7 +176,7 @@ static void fill_entries(strip *s)
             if (value->role == TN_FILL_ABSENT || value->length == 0 || !is_first_fill(s, b, v) ||
                 !next_entry(s, &x, &y, &width))
                 continue;
-            tn_draw_fill(s->context, s->roles, v, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
+            tn_draw_fill(s->paint, s->roles, v, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
             name_bands(s, value, bands, sizeof bands);
             label(s, x, y, width, text_at(s, value->name), value->doc ? text_at(s, value->doc) : bands);
         }
@@ -191,10 +191,10 @@ static void level_entries(strip *s)
         double x, y, width;
         if (!next_entry(s, &x, &y, &width))
             return;
-        cairo_rectangle(s->context, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
-        cairo_set_line_width(s->context, TN_LINE_HAIR);
-        cairo_stroke(s->context);
-        tn_draw_level_mark(s->context, v - schema->value_start[field] + 1, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
+        tn_paint_rectangle(s->paint, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
+        tn_paint_line_width(s->paint, TN_LINE_HAIR);
+        tn_paint_stroke(s->paint);
+        tn_draw_level_mark(s->paint, v - schema->value_start[field] + 1, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
         tn_string doc = schema->values[v].doc ? schema->values[v].doc : schema->fields[field].doc;
         label(s, x, y, width, text_at(s, schema->values[v].name), text_at(s, doc ? doc : schema->fields[field].name));
     }
@@ -206,9 +206,9 @@ static void flag_entry(strip *s, uint32_t field, bool hall)
     if (field == TN_NO_FIELD || !next_entry(s, &x, &y, &width))
         return;
     if (hall)
-        tn_draw_hall_mark(s->context, x + SWATCH_WIDTH / 2, y + SWATCH_HEIGHT / 2, 4.4);
+        tn_draw_hall_mark(s->paint, x + SWATCH_WIDTH / 2, y + SWATCH_HEIGHT / 2, 4.4);
     else
-        tn_draw_public_mark(s->context, x + SWATCH_WIDTH / 2 + 3.5, y + SWATCH_HEIGHT / 2, 1, 0);
+        tn_draw_public_mark(s->paint, x + SWATCH_WIDTH / 2 + 3.5, y + SWATCH_HEIGHT / 2, 1, 0);
     const tn_field_record *record = &s->roles->schema->fields[field];
     label(s, x, y, width, text_at(s, record->name), text_at(s, record->doc));
 }
@@ -222,10 +222,10 @@ static void choice_entries(strip *s, uint32_t field, bool tone)
         return;
     for (uint32_t v = 0; v < schema->fields[field].value_count && next_entry(s, &x, &y, &width); v++) {
         const tn_value_record *value = &schema->values[schema->value_start[field] + v];
-        (tone ? tn_draw_tone : tn_draw_hatch)(s->context, s->roles, v, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
-        cairo_rectangle(s->context, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
-        cairo_set_line_width(s->context, TN_LINE_HAIR);
-        cairo_stroke(s->context);
+        (tone ? tn_draw_tone : tn_draw_hatch)(s->paint, s->roles, v, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
+        tn_paint_rectangle(s->paint, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
+        tn_paint_line_width(s->paint, TN_LINE_HAIR);
+        tn_paint_stroke(s->paint);
         label(s, x, y, width, text_at(s, value->name),
               value->doc ? text_at(s, value->doc) : text_at(s, schema->fields[field].name));
     }
@@ -254,12 +254,12 @@ static void list_fields(strip *s)
     for (uint32_t f = 0; f < schema->field_count && f < 2 * s->rows; f++) {
         double x = s->x + PADDING + (f / s->rows) * column, baseline = s->y + 26 + (f % s->rows) * 10;
         const char *name = text_at(s, schema->fields[f].name);
-        tn_type_face(s->context, LABEL_SIZE, true);
-        double used = tn_type_width(s->context, name) + 5;
-        tn_type_fit(s->context, x, baseline, TN_ALIGN_LEFT, column - PADDING, name);
-        tn_type_face(s->context, DOC_SIZE, false);
+        tn_paint_face(s->paint, LABEL_SIZE, true);
+        double used = tn_type_width(s->paint, name) + 5;
+        tn_type_fit(s->paint, x, baseline, TN_ALIGN_LEFT, column - PADDING, name);
+        tn_paint_face(s->paint, DOC_SIZE, false);
         if (used < column - PADDING)
-            tn_type_fit(s->context, x + used, baseline, TN_ALIGN_LEFT, column - PADDING - used,
+            tn_type_fit(s->paint, x + used, baseline, TN_ALIGN_LEFT, column - PADDING - used,
                         text_at(s, schema->fields[f].doc));
     }
 }
@@ -289,29 +289,29 @@ static void draw_scale(const strip *s, uint32_t scale, double zoom)
     char text[64];
     heading(s, "SCALE");
     tn_scale_write(scale, roles->style != TN_STYLE_FEET, text, sizeof text);
-    tn_type_face(s->context, 9, false);
-    tn_type_line(s->context, s->x + PADDING, s->y + 32, TN_ALIGN_LEFT, text);
+    tn_paint_face(s->paint, 9, false);
+    tn_type_line(s->paint, s->x + PADDING, s->y + 32, TN_ALIGN_LEFT, text);
     double room = SCALE_WIDTH - 2 * PADDING - 4;
     int64_t step = bar_step(roles, room / (TN_POINTS_PER_NM / scale / zoom));
     double width = (double)step * TN_POINTS_PER_NM / scale / zoom;
     int steps = (int)fmin(4, floor(room / width));
     double x = s->x + PADDING + 1, y = s->y + 48;
-    tn_type_face(s->context, HEADING_SIZE, false);
+    tn_paint_face(s->paint, HEADING_SIZE, false);
     double free_from = x - 10;
     for (int i = 0; steps > 0 && i <= steps; i++) {
         tn_draw_length(roles, step * i, text, sizeof text);
-        double half = tn_type_width(s->context, text) / 2, at = x + width * i;
+        double half = tn_type_width(s->paint, text) / 2, at = x + width * i;
         if (at - half > free_from) {
-            tn_type_line(s->context, at, y + 11, TN_ALIGN_CENTRE, text);
+            tn_type_line(s->paint, at, y + 11, TN_ALIGN_CENTRE, text);
             free_from = at + half + 2;
         }
         if (i == steps)
             break;
-        cairo_rectangle(s->context, at, y, width, 3.4);
-        cairo_set_line_width(s->context, TN_LINE_EDGE);
+        tn_paint_rectangle(s->paint, at, y, width, 3.4);
+        tn_paint_line_width(s->paint, TN_LINE_EDGE);
         if (i % 2 == 0)
-            cairo_fill_preserve(s->context);
-        cairo_stroke(s->context);
+            tn_paint_fill_keep(s->paint);
+        tn_paint_stroke(s->paint);
     }
 }
 
@@ -319,36 +319,36 @@ static void draw_title(const strip *s, const tn_draw_options *options, size_t pa
 {
     double x = s->x + PADDING, width = s->width - 2 * PADDING, y = s->y + 26;
     const char *title = options->title ? options->title : text_at(s, s->roles->schema->record->name);
-    tn_type_face(s->context, TITLE_SIZE, true);
-    tn_type_fit(s->context, x, y, TN_ALIGN_LEFT, width, title);
+    tn_paint_face(s->paint, TITLE_SIZE, true);
+    tn_type_fit(s->paint, x, y, TN_ALIGN_LEFT, width, title);
     y += 13;
     if (options->doc) {
-        tn_type_face(s->context, 7, false);
-        y += 9 * tn_type_paragraph(s->context, x, y, width, 9, 2, options->doc);
+        tn_paint_face(s->paint, 7, false);
+        y += 9 * tn_type_paragraph(s->paint, x, y, width, 9, 2, options->doc);
     }
-    cairo_move_to(s->context, x, y - 2);
-    cairo_line_to(s->context, x + width, y - 2);
-    cairo_set_line_width(s->context, TN_LINE_HAIR);
-    cairo_stroke(s->context);
+    tn_paint_move_to(s->paint, x, y - 2);
+    tn_paint_line_to(s->paint, x + width, y - 2);
+    tn_paint_line_width(s->paint, TN_LINE_HAIR);
+    tn_paint_stroke(s->paint);
     y += 8;
-    tn_type_face(s->context, DOC_SIZE, false);
+    tn_paint_face(s->paint, DOC_SIZE, false);
     for (size_t i = 0; i < options->note_count && y < s->y + TN_STRIP_HEIGHT - 5; i++) {
         bool last = y + 8 >= s->y + TN_STRIP_HEIGHT - 5;
-        tn_type_fit(s->context, x, y, TN_ALIGN_LEFT, last && pages > 1 ? width - 40 : width, options->notes[i]);
+        tn_type_fit(s->paint, x, y, TN_ALIGN_LEFT, last && pages > 1 ? width - 40 : width, options->notes[i]);
         y += 8;
     }
     char text[64];
     snprintf(text, sizeof text, "%zu / %zu", page, pages);
     if (pages > 1)
-        tn_type_line(s->context, x + width, s->y + TN_STRIP_HEIGHT - 8, TN_ALIGN_RIGHT, text);
+        tn_type_line(s->paint, x + width, s->y + TN_STRIP_HEIGHT - 8, TN_ALIGN_RIGHT, text);
 }
 
-void tn_draw_strip(cairo_t *context, const tn_draw_roles *roles, const tn_draw_options *options, uint32_t scale,
+void tn_draw_strip(tn_paint *paint, const tn_draw_roles *roles, const tn_draw_options *options, uint32_t scale,
                    double zoom, size_t page, size_t pages, double width)
 {
     double key = scale ? KEY_WIDTH : 0, bar = scale ? SCALE_WIDTH : 0,
            title = fmin(TITLE_WIDTH, (width - key - bar) * 0.5);
-    strip s = {context, roles, .width = width - key - bar - title};
+    strip s = {paint, roles, .width = width - key - bar - title};
     if (scale) {
         draw_key(&s);
         s.x += key;

@@ -12,71 +12,71 @@
 typedef enum hatching { PLAIN, RISING, FALLING, CROSSED, LEVEL, UPRIGHT, GRID, DOTTED, HATCHINGS } hatching;
 
 /* Lines at 45 degrees, x + y = a multiple of the spacing, so that the hatches of neighbours meet. */
-static void rising(cairo_t *context, double spacing, double x, double y, double width, double height)
+static void rising(tn_paint *paint, double spacing, double x, double y, double width, double height)
 {
     for (double sum = ceil((x + y) / spacing) * spacing; sum < x + y + width + height; sum += spacing) {
         double from = fmax(x, sum - y - height), to = fmin(x + width, sum - y);
         if (to - from < 0.01)
             continue;
-        cairo_move_to(context, from, sum - from);
-        cairo_line_to(context, to, sum - to);
+        tn_paint_move_to(paint, from, sum - from);
+        tn_paint_line_to(paint, to, sum - to);
     }
 }
 
 /* The same mirrored: x - y = a multiple of the spacing. */
-static void falling(cairo_t *context, double spacing, double x, double y, double width, double height)
+static void falling(tn_paint *paint, double spacing, double x, double y, double width, double height)
 {
     for (double lead = ceil((x - y - height) / spacing) * spacing; lead < x + width - y; lead += spacing) {
         double from = fmax(x, lead + y), to = fmin(x + width, lead + y + height);
         if (to - from < 0.01)
             continue;
-        cairo_move_to(context, from, from - lead);
-        cairo_line_to(context, to, to - lead);
+        tn_paint_move_to(paint, from, from - lead);
+        tn_paint_line_to(paint, to, to - lead);
     }
 }
 
-static void level(cairo_t *context, double spacing, double x, double y, double width, double height)
+static void level(tn_paint *paint, double spacing, double x, double y, double width, double height)
 {
     for (double at = ceil((y + 0.01) / spacing) * spacing; at < y + height; at += spacing) {
-        cairo_move_to(context, x, at);
-        cairo_line_to(context, x + width, at);
+        tn_paint_move_to(paint, x, at);
+        tn_paint_line_to(paint, x + width, at);
     }
 }
 
-static void upright(cairo_t *context, double spacing, double x, double y, double width, double height)
+static void upright(tn_paint *paint, double spacing, double x, double y, double width, double height)
 {
     for (double at = ceil((x + 0.01) / spacing) * spacing; at < x + width; at += spacing) {
-        cairo_move_to(context, at, y);
-        cairo_line_to(context, at, y + height);
+        tn_paint_move_to(paint, at, y);
+        tn_paint_line_to(paint, at, y + height);
     }
 }
 
 /* Dashed lines, which take a hundredth of the bytes of so many points. */
-static void dotted(cairo_t *context, double spacing, double x, double y, double width, double height)
+static void dotted(tn_paint *paint, double spacing, double x, double y, double width, double height)
 {
     const double dashes[] = {DOT, spacing - DOT};
-    cairo_save(context);
-    cairo_set_dash(context, dashes, 2, x - floor(x / spacing) * spacing);
-    level(context, spacing, x, y, width, height);
-    cairo_set_line_width(context, DOT);
-    cairo_stroke(context);
-    cairo_restore(context);
+    tn_paint_save(paint);
+    tn_paint_dash(paint, dashes, 2, x - floor(x / spacing) * spacing);
+    level(paint, spacing, x, y, width, height);
+    tn_paint_line_width(paint, DOT);
+    tn_paint_stroke(paint);
+    tn_paint_restore(paint);
 }
 
-static void hatch(cairo_t *context, hatching how, double spacing, double x, double y, double width, double height)
+static void hatch(tn_paint *paint, hatching how, double spacing, double x, double y, double width, double height)
 {
     if (how == RISING || how == CROSSED)
-        rising(context, spacing, x, y, width, height);
+        rising(paint, spacing, x, y, width, height);
     if (how == FALLING || how == CROSSED)
-        falling(context, spacing, x, y, width, height);
+        falling(paint, spacing, x, y, width, height);
     if (how == LEVEL || how == GRID)
-        level(context, spacing, x, y, width, height);
+        level(paint, spacing, x, y, width, height);
     if (how == UPRIGHT || how == GRID)
-        upright(context, spacing, x, y, width, height);
-    cairo_set_line_width(context, TN_LINE_HAIR + 0.08);
-    cairo_stroke(context);
+        upright(paint, spacing, x, y, width, height);
+    tn_paint_line_width(paint, TN_LINE_HAIR + 0.08);
+    tn_paint_stroke(paint);
     if (how == DOTTED)
-        dotted(context, spacing, x, y, width, height);
+        dotted(paint, spacing, x, y, width, height);
 }
 
 /* How many fills of that role, but of other names, the bands have before this one. */
@@ -103,7 +103,7 @@ static unsigned names_before(const tn_draw_roles *roles, uint32_t value)
     return 0;
 }
 
-void tn_draw_fill(cairo_t *context, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
+void tn_draw_fill(tn_paint *paint, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
                   double height)
 {
     static const hatching solids[] = {RISING, CROSSED, FALLING, UPRIGHT, LEVEL, GRID},
@@ -112,18 +112,18 @@ void tn_draw_fill(cairo_t *context, const tn_draw_roles *roles, uint32_t value, 
     tn_fill_role role = (tn_fill_role)roles->schema->values[value].role;
     unsigned before = names_before(roles, value);
     if (role == TN_FILL_SOLID)
-        hatch(context, solids[before % (sizeof solids / sizeof *solids)], HATCH_SPACING, x, y, width, height);
+        hatch(paint, solids[before % (sizeof solids / sizeof *solids)], HATCH_SPACING, x, y, width, height);
     else if (role == TN_FILL_VOID)
-        hatch(context, voids[before % (sizeof voids / sizeof *voids)], HATCH_SPACING * COARSE, x, y, width, height);
+        hatch(paint, voids[before % (sizeof voids / sizeof *voids)], HATCH_SPACING * COARSE, x, y, width, height);
     else
-        hatch(context, others[before % (sizeof others / sizeof *others)], HATCH_SPACING * COARSE, x, y, width, height);
-    cairo_rectangle(context, x, y, width, height);
-    cairo_set_line_width(context, role == TN_FILL_SOLID ? TN_LINE_EDGE : TN_LINE_HAIR);
-    cairo_stroke(context);
+        hatch(paint, others[before % (sizeof others / sizeof *others)], HATCH_SPACING * COARSE, x, y, width, height);
+    tn_paint_rectangle(paint, x, y, width, height);
+    tn_paint_line_width(paint, role == TN_FILL_SOLID ? TN_LINE_EDGE : TN_LINE_HAIR);
+    tn_paint_stroke(paint);
 }
 
 /* Pale, so that black lettering is read on all; past the last they begin anew, hatched. */
-void tn_draw_tone(cairo_t *context, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
+void tn_draw_tone(tn_paint *paint, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
                   double height)
 {
     static const double tones[][3] = {{0.99, 0.90, 0.70}, {0.74, 0.87, 0.95}, {0.80, 0.91, 0.73}, {0.97, 0.80, 0.76},
@@ -133,47 +133,47 @@ void tn_draw_tone(cairo_t *context, const tn_draw_roles *roles, uint32_t value, 
     if (roles->tone == TN_NO_FIELD)
         return;
     const double *tone = tones[value % count];
-    cairo_set_source_rgb(context, tone[0], tone[1], tone[2]);
-    cairo_rectangle(context, x, y, width, height);
-    cairo_fill(context);
-    cairo_set_source_rgb(context, 0.45, 0.45, 0.45);
-    hatch(context, (hatching)(value / count % HATCHINGS), HATCH_SPACING * COARSE, x, y, width, height);
-    cairo_set_source_rgb(context, 0, 0, 0);
+    tn_paint_colour(paint, tone[0], tone[1], tone[2]);
+    tn_paint_rectangle(paint, x, y, width, height);
+    tn_paint_fill(paint);
+    tn_paint_colour(paint, 0.45, 0.45, 0.45);
+    hatch(paint, (hatching)(value / count % HATCHINGS), HATCH_SPACING * COARSE, x, y, width, height);
+    tn_paint_colour(paint, 0, 0, 0);
 }
 
-void tn_draw_hatch(cairo_t *context, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
+void tn_draw_hatch(tn_paint *paint, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
                    double height)
 {
     if (roles->hatch == TN_NO_FIELD)
         return;
-    cairo_set_source_rgb(context, 0.6, 0.6, 0.6);
-    hatch(context, (hatching)(value % HATCHINGS), HATCH_SPACING * COARSE, x, y, width, height);
-    cairo_set_source_rgb(context, 0, 0, 0);
+    tn_paint_colour(paint, 0.6, 0.6, 0.6);
+    hatch(paint, (hatching)(value % HATCHINGS), HATCH_SPACING * COARSE, x, y, width, height);
+    tn_paint_colour(paint, 0, 0, 0);
 }
 
-void tn_draw_inside(cairo_t *context, const char *text, double size, bool hatched, double x, double y, double width,
+void tn_draw_inside(tn_paint *paint, const char *text, double size, bool hatched, double x, double y, double width,
                     double height)
 {
     const double apart = 2;
-    tn_type_face(context, size, true);
-    double needs = tn_type_width(context, text) + apart;
+    tn_paint_face(paint, size, true);
+    double needs = tn_type_width(paint, text) + apart;
     if (needs > width && needs > height) { /* smaller rather than cut off */
         size = fmax(TN_INSIDE_LEAST, 0.99 * size * (fmax(width, height) - apart) / (needs - apart));
-        tn_type_face(context, size, true);
-        needs = tn_type_width(context, text) + apart;
+        tn_paint_face(paint, size, true);
+        needs = tn_type_width(paint, text) + apart;
     }
     bool upright = needs > width && needs <= height && width >= size;
     double across = fmin(needs + apart, upright ? height : width);
-    cairo_save(context);
-    cairo_translate(context, x + width / 2, y + height / 2);
+    tn_paint_save(paint);
+    tn_paint_translate(paint, x + width / 2, y + height / 2);
     if (upright)
-        cairo_rotate(context, -3.14159265358979323846 / 2);
+        tn_paint_rotate(paint, -3.14159265358979323846 / 2);
     if (hatched) {
-        cairo_rectangle(context, -across / 2, -size * 0.6, across, size * 1.2);
-        cairo_set_source_rgba(context, 1, 1, 1, 0.8);
-        cairo_fill(context);
-        cairo_set_source_rgb(context, 0, 0, 0);
+        tn_paint_rectangle(paint, -across / 2, -size * 0.6, across, size * 1.2);
+        tn_paint_translucent(paint, 1, 1, 1, 0.8);
+        tn_paint_fill(paint);
+        tn_paint_colour(paint, 0, 0, 0);
     }
-    tn_type_fit(context, 0, size * 0.36, TN_ALIGN_CENTRE, upright ? height : width - apart, text);
-    cairo_restore(context);
+    tn_type_fit(paint, 0, size * 0.36, TN_ALIGN_CENTRE, upright ? height : width - apart, text);
+    tn_paint_restore(paint);
 }

@@ -10,7 +10,6 @@
 
 #include <cmocka.h>
 
-#include "runtime/draw/svg_ids.h"
 #include "runtime/plan/picture/draw.h"
 #include "tests/support/failing_memory.h"
 #include "tests/support/test_schema.h"
@@ -46,22 +45,9 @@ static tn_status draw_pdf(const tn_schema *schema, tn_error *error)
     return draw(schema, "pdf", error);
 }
 
-static tn_status renumber(const tn_schema *schema, tn_error *error)
-{
-    (void)schema;
-    char text[4096] = "", *out = NULL;
-    size_t used = 0, size;
-    for (int i = 0; i < 200; i++)
-        used += (size_t)snprintf(text + used, sizeof text - used, "id=\"a%d\"", i);
-    tn_status status = tn_svg_renumber(text, used, "i", &out, &size, error);
-    if (status == TN_OK)
-        free(out);
-    return status;
-}
-
 static void fails_cleanly(void **state)
 {
-    static operation *const operations[] = {renumber, draw_svg, draw_png, draw_pdf};
+    static operation *const operations[] = {draw_svg, draw_png, draw_pdf};
     const tn_schema *schema = *state;
     for (size_t i = 0; i < sizeof operations / sizeof *operations; i++) {
         size_t failures = 0;

@@ -1,6 +1,6 @@
 /* Writes an image of cairo as a PNG, a few times as fast as cairo does: each row is what changed from the row above. */
-#ifndef TARTAN_DRAW_PNG_H
-#define TARTAN_DRAW_PNG_H
+#ifndef TARTAN_DRAW_CAIRO_PNG_H
+#define TARTAN_DRAW_CAIRO_PNG_H
 
 #include <cairo.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* Writes PNG files (ISO/IEC 15948): 8 bits a colour, filter `up` in every row. */
-#include "runtime/draw/png.h"
+#include "runtime/draw/cairo/png.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,0 +1,95 @@
+/* What draws a picture: the operations that tn_paint (runtime/draw/paint.h) is made of, which each kind of file does in
+ * its own way.
+ *
+ * All places and lengths are in points of the page (1/72 inch), y downwards; no transformation is left to a device.
+ * What is passed is the caller's and lasts for the call. An operation fails with TN_MEMORY, TN_IO or TN_INTERNAL;
+ * `finish` alone has an error to fill. */
+#ifndef TARTAN_DRAW_DEVICE_DEVICE_H
+#define TARTAN_DRAW_DEVICE_DEVICE_H
+
+#include "runtime/base/watch.h"
+
+typedef enum tn_drawn_step_kind { TN_DRAWN_MOVE, TN_DRAWN_LINE, TN_DRAWN_ARC, TN_DRAWN_CLOSE } tn_drawn_step_kind;
+
+/* A step of a path. An arc is one of a circle around (x, y), from an angle to another, in radians from the x axis
+ * towards the y axis, and begins where the step before it ends; it runs backwards if `to` is less than `from`. */
+typedef struct tn_drawn_step {
+    tn_drawn_step_kind kind;
+    double x, y;
+    double radius, from, to; /* arc */
+} tn_drawn_step;
+
+/* Every path begins with a MOVE, and after a CLOSE there is another. */
+typedef struct tn_drawn_path {
+    const tn_drawn_step *steps;
+    size_t count;
+    bool even_odd; /* filled where it is wound around an odd number of times; otherwise any but 0 */
+} tn_drawn_path;
+
+/* Parts from 0 to 1. */
+typedef struct tn_ink {
+    double red, green, blue, opacity;
+} tn_ink;
+
+typedef enum tn_line_cap { TN_CAP_BUTT, TN_CAP_ROUND } tn_line_cap;
+typedef enum tn_line_join { TN_JOIN_MITRE, TN_JOIN_ROUND } tn_line_join;
+
+#define TN_DASHES_MAX 4u
+#define TN_MITRE_LIMIT 10.0
+
+typedef struct tn_pen {
+    double width;
+    tn_line_cap cap;
+    tn_line_join join;
+    double dashes[TN_DASHES_MAX]; /* lengths of dashes and gaps in turn */
+    uint32_t dash_count;          /* 0: a whole line */
+    double dash_offset;
+} tn_pen;
+
+typedef enum tn_align { TN_ALIGN_LEFT, TN_ALIGN_CENTRE, TN_ALIGN_RIGHT } tn_align;
+
+/* A line of text: what of it stands at (x, y), which is on its baseline, and how far it is turned there, in radians. */
+typedef struct tn_lettering {
+    double x, y, angle;
+    double size;
+    bool bold;
+    tn_align align;
+    const char *text; /* UTF-8 */
+} tn_lettering;
+
+/* Pixels, as cairo's ARGB32 has them (premultiplied, 4 bytes in the machine's order, rows from above), drawn with the
+ * upper left corner at (x, y), each a square with a side of `pixel`. */
+typedef struct tn_pixels {
+    const uint32_t *values;
+    uint32_t width, height;
+    double x, y, pixel;
+} tn_pixels;
+
+typedef struct tn_device tn_device;
+
+typedef struct tn_device_operations {
+    tn_status (*fill)(tn_device *device, const tn_drawn_path *path, const tn_ink *ink);
+    tn_status (*stroke)(tn_device *device, const tn_drawn_path *path, const tn_pen *pen, const tn_ink *ink);
+    tn_status (*text)(tn_device *device, const tn_lettering *lettering, const tn_ink *ink);
+    tn_status (*pixels)(tn_device *device, const tn_pixels *pixels);
+    /* From now on only within the path, too; ends what began last. */
+    tn_status (*begin_clip)(tn_device *device, const tn_drawn_path *path);
+    tn_status (*end_clip)(tn_device *device);
+    /* What is drawn until its end is said to be that; NULL: nothing is said. */
+    tn_status (*begin_group)(tn_device *device, const char *name, size_t number);
+    tn_status (*end_group)(tn_device *device);
+    /* A place that belongs to the group, though nothing is seen of it; NULL: nothing is said. */
+    tn_status (*target)(tn_device *device, double x, double y, double width, double height);
+    tn_status (*next_page)(tn_device *device, double width, double height); /* NULL: there is only one */
+    /* Writes what is left to write. The watch, which may be NULL, may end that: TN_IO. */
+    tn_status (*finish)(tn_device *device, tn_watch *watch, tn_error *error);
+    void (*free)(tn_device *device);
+} tn_device_operations;
+
+/* Begins what a device is. */
+struct tn_device {
+    const tn_device_operations *operations;
+    double pixel; /* the side of a pixel, in points; 0: there are none */
+};
+
+#endif
