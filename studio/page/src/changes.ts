@@ -3,7 +3,7 @@
 import type {Desk} from "./desk";
 import {fill, h} from "./dom";
 import {drawPlans, scaled} from "./drawn";
-import {decimal, grouped, plans as plural} from "./numbers";
+import {decimal, grouped, inWords, plans as plural} from "./numbers";
 import type {Compared, ComparedMeasure, RankedLine} from "./requests";
 
 const EXAMPLES = 5;
@@ -25,7 +25,9 @@ export class Changes {
       fill(this.element, h("p", {class: "lead"}, "The file has not been saved yet, so there is nothing to compare with."));
       return;
     }
-    const answer = (await this.desk.questions.ask("diff", {library: library.name, before: file.saved, sample: EXAMPLES}, "diff")) as Compared;
+    const before = file.path.replace(/\.plan$/, ".saved.plan");
+    const asked = await this.desk.questions.askWithNotes("diff", {library: library.name, before, sample: EXAMPLES}, "diff", {[before]: file.saved});
+    const answer = asked.answer as Compared;
     const total = answer.total;
     const what = library.form ? "house" : "plan";
     fill(
@@ -36,7 +38,7 @@ export class Changes {
         h("div", {class: "kept"}, h("dt", null, "new"), h("dd", null, grouped(total.added))),
         h("div", null, h("dt", null, "as before"), h("dd", null, grouped(total.kept)))),
       answer.clauses.length > 0 && h("section", null, h("h3", null, "Which clauses did it"), h("ul", {class: "changed"}, answer.clauses.map((clause) =>
-        h("li", null, h("strong", null, clause.name.replace(/@(\d+)$/, " in line $1")), ` is ${clause.change}`,
+        h("li", null, h("strong", null, inWords(clause.name)), ` is ${clause.change}`,
           clause.removes !== "0" && `, and leaves out ${plural(clause.removes, what)} that ${clause.removes === "1" ? "was" : "were"} kept`,
           clause.adds !== "0" && `, and no longer leaves out ${plural(clause.adds, what)}`, ".")))),
       answer.measures?.length && this.measures(answer.measures),

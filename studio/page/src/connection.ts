@@ -4,7 +4,7 @@ import type {Transport, TransportState} from "./transport";
 export interface Failure {
   code: number;
   message: string;
-  data?: {code?: string; help?: string; line?: number; column?: number; hash?: string | null};
+  data?: {code?: string; help?: string; line?: number; column?: number; path?: string; hash?: string | null};
 }
 
 export const CANCELLED = -32800;

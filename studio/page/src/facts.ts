@@ -2,7 +2,7 @@
 import type {Desk} from "./desk";
 import {fill, h, withCode} from "./dom";
 import {bar, drawPlans, scaled} from "./drawn";
-import {counted, grouped, percent, share} from "./numbers";
+import {counted, grouped, inWords, percent, rounded, share} from "./numbers";
 import {offsetOf} from "./edits";
 import type {CheckFinding, CountedHouses, CountedPlans, ShownLibrary} from "./requests";
 
@@ -15,8 +15,8 @@ interface Clause {
 }
 
 function called(name: string): {label: string; line: number} {
-  const line = Number(/@(\d+)$/.exec(name)?.[1] ?? 0);
-  return {label: line ? `${name.replace(/@\d+$/, "")} in line ${line}` : name, line};
+  const line = Number(/@(\d+)/.exec(name)?.[1] ?? 0);
+  return {label: inWords(name), line};
 }
 
 export class Facts {
@@ -90,8 +90,8 @@ export class Facts {
       h("th", {scope: "row"},
         h("button", {type: "button", class: "link", onclick: () => this.jump(name, line)}, label),
         h("span", {class: `verb ${verb}`}, verb), doc && h("span", {class: "doc"}, doc)),
-      h("td", {class: "num"}, out === undefined ? "" : counted(out)),
-      h("td", {class: "num"}, only === undefined ? "" : only === "0" ? "nothing" : counted(only)));
+      h("td", {class: "num", title: out ? grouped(out) : null}, out === undefined ? "" : rounded(out)),
+      h("td", {class: "num", title: only ? grouped(only) : null}, only === undefined ? "" : only === "0" ? "nothing" : rounded(only)));
   }
 
   private jump(name: string, line: number): void {

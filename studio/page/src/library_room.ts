@@ -140,13 +140,18 @@ export class LibraryRoom {
     this.element.classList.add("stale");
     try {
       await this.ask(run);
-      this.trouble.hidden = true;
-      this.element.classList.remove("stale");
+      this.fresh();
     } catch (failure) {
       if (failure instanceof Stale || run !== this.run) return;
       if (!(failure instanceof Refused)) throw failure;
       this.say(failure);
     }
+  }
+
+  // What is largest is as the text says now; the rest follows.
+  private fresh(): void {
+    this.trouble.hidden = true;
+    this.element.classList.remove("stale");
   }
 
   private async ask(run: number): Promise<void> {
@@ -162,6 +167,7 @@ export class LibraryRoom {
     const steps = [
       () => this.attempt(() => this.sheet.refresh(), this.sheet.element),
       () => this.count(this.library!, libraries),
+      async () => this.fresh(),
       () => this.sliders.refresh(),
       () => this.watchedPlans.refresh(),
       () => this.why.refresh(),
@@ -192,11 +198,11 @@ export class LibraryRoom {
     this.panes.forEach((pane) => (pane.element.hidden = pane.key !== this.pane));
     if (library.form) {
       const houses = answer as CountedHouses;
-      this.renderHead(library, libraries, houses.houses, ["houses", ` on ${counted(houses.plans_with_houses ?? houses.plans)} plans`]);
+      this.renderHead(library, libraries, houses.houses, ["houses", `on ${counted(houses.plans_with_houses ?? houses.plans)} plans`]);
       this.facts.houses(library, houses);
     } else {
       const plans = answer as CountedPlans;
-      this.renderHead(library, libraries, plans.kept, [plans.kept === "1" ? "plan kept" : "plans kept", ` of ${counted(plans.generated)} generated`]);
+      this.renderHead(library, libraries, plans.kept, [plans.kept === "1" ? "plan kept" : "plans kept", `of ${counted(plans.generated)} generated`]);
       this.facts.count(library, plans);
     }
   }
@@ -216,7 +222,7 @@ export class LibraryRoom {
           }}, libraries.map(({name}) => h("option", {value: name, selected: name === library.name}, name))))
           : h("h1", null, library.name),
         library.doc && h("p", {class: "doc"}, library.doc)),
-      h("p", {class: "count", role: "status"}, h("strong", {id: "count"}, count === null ? "too many to count" : grouped(count)), h("span", null, ` ${what}`), h("span", {class: "of"}, of)),
+      h("p", {class: "count", role: "status"}, h("strong", {id: "count"}, count === null ? "too many to count" : grouped(count)), " ", h("span", {class: "what"}, `${what} `, h("span", {class: "of"}, of))),
       h("div", {class: "actions"},
         own && h("button", {id: "add-rule", type: "button", onclick: () => this.addRule.show()}, "Add a rule"),
         !library.form && h("button", {id: "ask-plan", type: "button", class: "quiet", onclick: () => this.askPlan()}, "Ask about a plan")),
@@ -248,9 +254,10 @@ export class LibraryRoom {
 
   private say(failure: Refused): void {
     const file = this.desk.file()!;
+    const elsewhere = failure.path !== "" && !failure.path.endsWith(file.path);
     fill(this.trouble,
-      h("p", null, h("strong", null, failure.line ? `Line ${failure.line}: ` : ""), withCode(failure.message), failure.help && h("span", {class: "hint"}, " ", withCode(failure.help))),
-      failure.line > 0 && h("button", {type: "button", onclick: () => this.desk.editor.goTo(offsetOf(file.text, failure.line, failure.column || 1))}, "Show it"));
+      h("p", null, h("strong", null, failure.line ? `${elsewhere ? `${failure.path}, line` : "Line"} ${failure.line}: ` : ""), withCode(failure.message), failure.help && h("span", {class: "hint"}, " ", withCode(failure.help))),
+      failure.line > 0 && !elsewhere && h("button", {type: "button", onclick: () => this.desk.editor.goTo(offsetOf(file.text, failure.line, failure.column || 1))}, "Show it"));
     this.trouble.hidden = false;
   }
 
@@ -275,8 +282,7 @@ export class LibraryRoom {
       if (run !== this.run) return;
       const svg = files[0]?.text ? picture(files[0].text, file.path) : null;
       fill(this.plain, h("figure", {class: "form"}, svg));
-      this.trouble.hidden = true;
-      this.element.classList.remove("stale");
+      this.fresh();
     } catch (failure) {
       if (failure instanceof Stale || run !== this.run) return;
       if (!(failure instanceof Refused)) throw failure;

@@ -11,6 +11,17 @@ export function counted(digits: string | null | undefined): string {
   return digits === null || digits === undefined ? "too many to count" : grouped(digits);
 }
 
+const POWERS = ["", "thousand", "million", "billion", "trillion", "quadrillion", "quintillion", "sextillion", "septillion", "octillion", "nonillion", "decillion"];
+
+// A count in few letters: whole up to seven digits, then four of them and a word.
+export function rounded(digits: string | null | undefined): string {
+  if (digits === null || digits === undefined || digits.length <= 7) return counted(digits);
+  const power = Math.floor((digits.length - 1) / 3);
+  if (power >= POWERS.length) return `${digits[0]}.${digits.slice(1, 3)} × 10^${digits.length - 1}`;
+  const whole = digits.length - 3 * power;
+  return `${digits.slice(0, whole)}${whole < 4 ? `.${digits.slice(whole, 4)}` : ""} ${POWERS[power]}`;
+}
+
 // "1 plan", "2,000 plans".
 export function plans(digits: string | null | undefined, word = "plan"): string {
   return `${counted(digits)} ${word}${digits === "1" ? "" : "s"}`;
@@ -22,13 +33,13 @@ export function share(part: string | null | undefined, whole: string | null | un
   return Number((BigInt(part) * 1_000_000n) / BigInt(whole)) / 1_000_000;
 }
 
-// A share in words: "37%", "under 0.01%".
+// A share in words: "37%", "<0.01%".
 export function percent(part: string | null | undefined, whole: string | null | undefined): string {
   if (!part || !whole || BigInt(whole) === 0n) return "";
   if (part === "0") return "none";
   if (part === whole) return "all";
   const value = share(part, whole) * 100;
-  if (value < 0.01) return "under 0.01%";
+  if (value < 0.01) return "<0.01%";
   if (value < 10) return `${value.toFixed(value < 1 ? 2 : 1)}%`;
   return `${Math.min(99, Math.round(value))}%`;
 }
@@ -69,4 +80,9 @@ export function decimal(text: string | null | undefined, places = 2): string {
 export function approximately(text: string): number {
   const {over, under} = fraction(text);
   return Number(over) / Number(under);
+}
+
+// The name of a clause: one without a name of its own is called by its line, and by its place in that.
+export function inWords(name: string): string {
+  return name.replace(/@(\d+)(?:\.(\d+))?$/, (_whole, line: string, place?: string) => ` in line ${line}${place ? `, no. ${place}` : ""}`);
 }

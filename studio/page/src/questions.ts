@@ -38,6 +38,7 @@ export class Refused extends Error {
   readonly help: string;
   readonly line: number;
   readonly column: number;
+  readonly path: string; // of the file in which that is
   readonly unknown: boolean;
 
   constructor(failure: Failure) {
@@ -46,6 +47,7 @@ export class Refused extends Error {
     this.help = failure.data?.help ?? "";
     this.line = failure.data?.line ?? 0;
     this.column = failure.data?.column ?? 0;
+    this.path = failure.data?.path ?? "";
     this.unknown = failure.code === -32601;
   }
 }
@@ -62,14 +64,15 @@ export class Questions {
     return (await this.askWithNotes(name, request, subject)).answer;
   }
 
-  async askWithNotes<K extends keyof Table>(name: K, request: Table[K]["request"], subject?: string): Promise<{answer: Table[K]["answer"]; notes: Note[]}> {
+  // `texts` are files that only this question names.
+  async askWithNotes<K extends keyof Table>(name: K, request: Table[K]["request"], subject?: string, texts?: Record<string, string>): Promise<{answer: Table[K]["answer"]; notes: Note[]}> {
     const file = this.file();
     if (!file || this.connection.state !== "open") throw new Stale();
     this.client.sync();
     const version = file.version;
     await this.client.initializing;
     try {
-      const result = await this.connection.ask(`tartan/${name}`, {uri: file.uri, version, subject, request});
+      const result = await this.connection.ask(`tartan/${name}`, {uri: file.uri, version, subject, request, texts});
       if (this.file() !== file || file.version !== version) throw new Stale();
       return {answer: result.answer, notes: result.notes ?? []};
     } catch (failure) {

@@ -13,6 +13,7 @@ const ROWS = `# A row of rooms. Change a word here, and the plans on the right f
 schema bay "one bay of the row, from wall to wall" {
   use   "what it is for" = room | hall | stair
   width "along the row" role length = 3m | 4m | 6m
+  zone depth "from front to back" role band = deep(6m) role void | shallow(4m) role void
 }
 
 # What can be set by the sliders above the plans.

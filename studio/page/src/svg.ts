@@ -162,12 +162,10 @@ function needed(element: Element, shared: Map<string, Element>): Set<string> {
   return found;
 }
 
-// Lights the trays of a plan's picture; they count from 1, in their order from the left.
+// Lights trays of a plan's picture, by their numbers from 1; the picture counts from 0.
 export function light(svg: Element | null, stretches: [number, number][]): void {
-  if (!svg) return;
-  const numbers = [...new Set([...svg.querySelectorAll("[data-tray]")].map((part) => part.getAttribute("data-tray")!))];
-  for (const part of svg.querySelectorAll("[data-tray]")) {
-    const number = numbers.indexOf(part.getAttribute("data-tray")!) + 1;
-    part.classList.toggle("lit", stretches.some(([first, last]) => first <= number && number <= last));
+  for (const tray of svg?.querySelectorAll("[data-tray]") ?? []) {
+    const number = Number(tray.getAttribute("data-tray")) + 1;
+    tray.classList.toggle("lit", stretches.some(([first, last]) => first <= number && number <= last));
   }
 }

@@ -3,6 +3,7 @@
 import type {Desk} from "./desk";
 import {fill, h} from "./dom";
 import {drawPlans, scaled} from "./drawn";
+import {inWords} from "./numbers";
 import {Refused} from "./questions";
 
 export class Watched {
@@ -64,7 +65,7 @@ export class Watched {
 
   private card(plan: string, state: string[] | null, svg: SVGSVGElement | null): HTMLElement {
     const gone = state === null || state.length > 0;
-    const why = state === null ? "no plan any more: its trays have changed" : state.length ? `gone, by ${state.map((name) => name.replace(/@(\d+)$/, " in line $1")).join(", ")}` : "kept";
+    const why = state === null ? "no plan any more: its trays have changed" : state.length ? `gone, by ${state.map(inWords).join(", ")}` : "kept";
     svg?.setAttribute("aria-hidden", "true");
     return h("li", null, h("button", {type: "button", class: `card ${gone ? "gone" : "kept"}`, title: plan, "aria-label": `${why}: ${plan}`, "data-line": plan, onclick: () => this.desk.explain(plan)},
       svg && h("span", {class: "drawing"}, svg), h("span", {class: "caption"}, why), !svg && h("span", {class: "line"}, plan)));

@@ -4,7 +4,7 @@ import type {Desk} from "./desk";
 import {fill, h, withCode} from "./dom";
 import {drawPlans, scaled} from "./drawn";
 import {addCase, bared, offsetOf} from "./edits";
-import {grouped} from "./numbers";
+import {grouped, inWords} from "./numbers";
 import {Refused, Stale} from "./questions";
 import type {ExplainedClause, ExplainedHouse, ExplainedPlan, ExplainedTree, NearestPlan, TrayStretch} from "./requests";
 import {light, picture} from "./svg";
@@ -80,7 +80,7 @@ export class Why {
   }
 
   private async explain(library: string): Promise<void> {
-    const answer = (await this.desk.questions.ask("explain", {library, plan: this.plan, nearest: 3}, "why")) as ExplainedPlan;
+    const answer = (await this.desk.questions.ask("explain", {library, plan: `[${this.plan}]`, nearest: 3}, "why")) as ExplainedPlan;
     const drawn = await drawPlans(this.desk, [answer.plan, ...answer.nearest.map((near) => near.plan)], "why");
     const pictures = drawn.each.length ? scaled(drawn.each) : [];
     this.drawing.replaceChildren(...(pictures[0] ? [pictures[0]] : drawn.whole ? [drawn.whole] : []));
@@ -106,7 +106,7 @@ export class Why {
     if (answer.kept)
       return h("p", {class: "verdict kept"}, h("strong", null, "Kept."), answer.rank !== null && ` It is number ${grouped(answer.rank)} of ${answer.library}.`);
     const reasons = answer.too_short_or_long ? "The library has no plan with so many trays." : "";
-    const names = decides.map((clause) => clause.doc ?? clause.name);
+    const names = decides.map((clause) => clause.doc ?? inWords(clause.name));
     return h("p", {class: "verdict gone"}, h("strong", null, "Gone."), ` ${reasons}`,
       names.length === 1 ? ` One clause leaves it out: ${names[0]}.` : names.length > 1 && ` ${names.length} clauses leave it out.`);
   }
@@ -156,7 +156,7 @@ export class Why {
     const says = clause.kind === "prune"
       ? clause.matches ? "is pruned, and this plan has it" : "is pruned, and this plan does not have it"
       : clause.matches ? "is required, and is so" : "is required, and is not so";
-    const name = clause.name.includes("@") ? `${clause.name.split("@")[0]} in line ${clause.name.split("@")[1]}` : clause.name;
+    const name = inWords(clause.name);
     return h("details", {class: `clause ${clause.drops ? "gone" : "kept"}`, open},
       h("summary", null, h("span", {class: "sign", "aria-hidden": "true"}, clause.drops ? "✕" : "✓"), h("span", null, h("strong", null, clause.doc ?? name), h("span", {class: "hint"}, ` ${clause.doc ? `${name} ` : ""}${says}`))),
       this.tree(clause.why, 0));
@@ -201,9 +201,9 @@ export class Why {
     const decides = answer.clauses.filter((clause) => clause.drops);
     fill(
       this.body,
-      answer.kept ? h("p", {class: "verdict kept"}, h("strong", null, "Kept."), ` ${answer.library} has this house.`) : h("p", {class: "verdict gone"}, h("strong", null, "Gone."), ` ${decides.map((clause) => clause.name).join(", ")}`),
+      answer.kept ? h("p", {class: "verdict kept"}, h("strong", null, "Kept."), ` ${answer.library} has this house.`) : h("p", {class: "verdict gone"}, h("strong", null, "Gone."), ` ${decides.map((clause) => inWords(clause.name)).join(", ")}`),
       answer.clauses.map((clause) => h("details", {class: `clause ${clause.drops ? "gone" : "kept"}`, open: clause.drops},
-        h("summary", null, h("span", {class: "sign", "aria-hidden": "true"}, clause.drops ? "✕" : "✓"), h("span", null, h("strong", null, clause.name), h("span", {class: "hint"}, ` about the ${clause.of}`))),
+        h("summary", null, h("span", {class: "sign", "aria-hidden": "true"}, clause.drops ? "✕" : "✓"), h("span", null, h("strong", null, inWords(clause.name)), h("span", {class: "hint"}, ` about the ${clause.of}`))),
         clause.why.map((why) => h("p", null, h("code", null, why.question), ` ${why.found.length ? why.found.join(", ") : "finds nothing"}`)))),
       answer.bare.map((cell) => h("p", null, h("strong", null, cell.cell), " can have no tile: ", cell.tiles.map((tile) => `${tile.tile}: ${tile.why}`).join("; "))),
       answer.nearest?.length && h("section", null, h("h3", null, "The nearest houses that are kept"), h("ul", null, answer.nearest.map((near) =>

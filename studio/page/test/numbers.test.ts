@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import {counted, decimal, grouped, minus, percent, plans, share} from "../src/numbers";
+import {counted, decimal, grouped, minus, percent, plans, rounded, share} from "../src/numbers";
 
 test("digits are grouped, however many", () => {
   assert.equal(grouped("14252657920"), "14,252,657,920");
@@ -12,9 +12,17 @@ test("digits are grouped, however many", () => {
   assert.equal(plans("2000"), "2,000 plans");
 });
 
+test("long counts are told in few letters", () => {
+  assert.equal(rounded("9999999"), "9,999,999");
+  assert.equal(rounded("14252657920"), "14.25 billion");
+  assert.equal(rounded("71755065638281866240000"), "71.75 sextillion");
+  assert.equal(rounded("123456789"), "123.4 million");
+  assert.equal(rounded("1".repeat(40)), "1.11 × 10^39");
+});
+
 test("shares of counts past what a double holds", () => {
   assert.equal(share("7632871264010612736", "15265742528021225472"), 0.5);
-  assert.equal(percent("1", "15265742528021225472"), "under 0.01%");
+  assert.equal(percent("1", "15265742528021225472"), "<0.01%");
   assert.equal(percent("999999", "1000000"), "99%");
   assert.equal(percent("0", "5"), "none");
   assert.equal(percent("5", "5"), "all");
