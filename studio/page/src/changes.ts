@@ -37,7 +37,7 @@ export class Changes {
         h("div", {class: "gone"}, h("dt", null, "gone"), h("dd", null, grouped(total.removed))),
         h("div", {class: "kept"}, h("dt", null, "new"), h("dd", null, grouped(total.added))),
         h("div", null, h("dt", null, "as before"), h("dd", null, grouped(total.kept)))),
-      answer.clauses.length > 0 && h("section", null, h("h3", null, "Which clauses did it"), h("ul", {class: "changed"}, answer.clauses.map((clause) =>
+      answer.clauses.length > 0 && h("section", null, h("h2", null, "Which clauses did it"), h("ul", {class: "changed"}, answer.clauses.map((clause) =>
         h("li", null, h("strong", null, inWords(clause.name)), ` is ${clause.change}`,
           clause.removes !== "0" && `, and leaves out ${plural(clause.removes, what)} that ${clause.removes === "1" ? "was" : "were"} kept`,
           clause.adds !== "0" && `, and no longer leaves out ${plural(clause.adds, what)}`, ".")))),
@@ -49,7 +49,7 @@ export class Changes {
 
   private measures(measures: ComparedMeasure[]): HTMLElement {
     const side = (value: string | null, before: string | null) => h("td", {class: "num"}, value === before ? decimal(value) : [decimal(before), " → ", decimal(value)].join(""));
-    return h("section", null, h("h3", null, "What that does to measures"), h("table", {class: "by-length"},
+    return h("section", null, h("h2", null, "What that does to measures"), h("table", {class: "by-length"},
       h("thead", null, h("tr", null, h("th", {scope: "col"}, "measure"), ["least", "mean", "most"].map((name) => h("th", {scope: "col", class: "num"}, name)))),
       h("tbody", null, measures.map(({name, unit, before, after}) => h("tr", null, h("th", {scope: "row"}, name, unit && h("span", {class: "faint"}, ` ${unit}`)), side(after.least, before.least), side(after.mean, before.mean), side(after.most, before.most))))));
   }
@@ -58,10 +58,10 @@ export class Changes {
     if (!lines.length) return;
     const drawn = await drawPlans(this.desk, lines.map((line) => line.plan), `diff ${kind}`);
     const pictures = drawn.each.length ? scaled(drawn.each) : [];
-    this.element.append(h("section", {class: kind}, h("h3", null, title), h("ol", {class: "sheet"}, lines.map(({plan}, i) => {
+    this.element.append(h("section", {class: kind}, h("h2", null, title), h("ol", {class: "sheet"}, lines.map(({plan}, i) => {
       pictures[i]?.setAttribute("aria-hidden", "true");
-      return h("li", null, h("button", {type: "button", class: "card", title: plan, "aria-label": `Why? ${plan}`, onclick: () => this.desk.explain(plan)},
-        pictures[i] && h("span", {class: "drawing"}, pictures[i]), h("span", {class: "caption"}, kind === "gone" ? "why is it gone?" : "new"), !pictures[i] && h("span", {class: "line"}, plan)));
+      return h("li", null, h("button", {type: "button", class: "card", title: plan, onclick: () => this.desk.explain(plan)},
+        pictures[i] && h("span", {class: "drawing"}, pictures[i]), h("span", {class: "caption"}, kind === "gone" ? "why is it gone?" : "new"), h("span", {class: pictures[i] ? "sr" : "line"}, plan)));
     }))));
   }
 }

@@ -48,8 +48,10 @@ export class Connection {
     this.notices.set(method, reader);
   }
 
-  ask(method: string, params: unknown): Promise<any> {
+  // `begun` is told the request's id, by which it can be cancelled.
+  ask(method: string, params: unknown, begun?: (id: number) => void): Promise<any> {
     const id = this.next++;
+    begun?.(id);
     return new Promise((resolve, reject) => {
       try {
         this.transport.send(JSON.stringify({jsonrpc: "2.0", id, method, params}));
@@ -58,6 +60,16 @@ export class Connection {
         reject({code: GONE, message: "there is no connection"} satisfies Failure);
       }
     });
+  }
+
+  // The answer is wanted no more; it comes as an error, or as if nothing had been said.
+  cancel(id: number): void {
+    if (!this.waiting.has(id)) return;
+    try {
+      this.transport.send(JSON.stringify({jsonrpc: "2.0", method: "$/cancelRequest", params: {id}}));
+    } catch {
+      // It went with the connection.
+    }
   }
 
   private take(text: string): void {

@@ -89,7 +89,7 @@ export class Editor {
     const sheet = new CSSStyleSheet();
     sheet.replaceSync(":host{display:block;height:100%} :host>div{height:100%}");
     root.adoptedStyleSheets = [sheet];
-    this.view = new EditorView({parent: holder, root});
+    this.view = new EditorView({parent: holder, root, state: EditorState.create({extensions: [theme, EditorView.editable.of(false), EditorView.contentAttributes.of({"aria-label": "No file is open"})]})});
   }
 
   private extensions(file: OpenFile): Extension {
@@ -105,7 +105,7 @@ export class Editor {
       ]),
       colours(file.path), theme, lit, placeholder("Write rules here."),
       EditorView.lineWrapping,
-      EditorView.contentAttributes.of({"aria-label": `The text of ${file.path}`}),
+      EditorView.contentAttributes.of({"aria-label": `The text of ${file.path}`, tabindex: "0"}),
       EditorState.readOnly.of(file.readOnly), EditorView.editable.of(!file.readOnly), EditorState.tabSize.of(2),
       EditorView.updateListener.of((update) => {
         if (update.docChanged) this.hooks.changed();

@@ -39,7 +39,7 @@ export class Facts {
     const most = answer.by_length.reduce((max, row) => (row.kept !== null && BigInt(row.kept) > BigInt(max) ? row.kept : max), "0");
     fill(
       this.lengths,
-      h("h3", null, "By number of trays"),
+      h("h2", null, "By number of trays"),
       h("table", {class: "lengths"},
         h("thead", {class: "sr"}, h("tr", null, h("th", {scope: "col"}, "trays"), h("th", {scope: "col"}, "share"), h("th", {scope: "col"}, "kept"), h("th", {scope: "col"}, "of those generated"))),
         h("tbody", null, answer.by_length.map((row) =>
@@ -59,10 +59,10 @@ export class Facts {
     const row = (name: string, digits: string) => h("tr", null, h("th", {scope: "row"}, name), h("td", {class: "bar-cell"}, bar(share(digits, most))), h("td", {class: "num"}, grouped(digits)));
     fill(
       this.lengths,
-      h("h3", null, "Houses by number of trays"),
+      h("h2", null, "Houses by number of trays"),
       h("table", {class: "lengths"}, h("tbody", null, Object.entries(answer.by_length).map(([name, digits]) => row(name, digits)))),
       Object.entries(answer.by_section).map(([choice, values]) => [
-        h("h3", null, choice),
+        h("h2", null, choice),
         h("table", {class: "lengths"}, h("tbody", null, Object.entries(values).map(([name, digits]) => row(name, digits)))),
       ]).flat(),
     );
@@ -71,13 +71,13 @@ export class Facts {
 
   private list(clauses: Clause[], what: string): void {
     if (!clauses.length) {
-      fill(this.clauses, h("h3", null, "Clauses"), h("p", {class: "hint"}, `The library has no clause yet, so all ${what} that it generates are kept. “Add a rule” makes the first.`));
+      fill(this.clauses, h("h2", null, "Clauses"), h("p", {class: "hint"}, `The library has no clause yet, so all ${what} that it generates are kept. “Add a rule” makes the first.`));
       return;
     }
     const sorted = [...clauses].sort((a, b) => (a.only && b.only ? (BigInt(b.only) > BigInt(a.only) ? 1 : BigInt(b.only) < BigInt(a.only) ? -1 : 0) : 0));
     fill(
       this.clauses,
-      h("h3", null, "What each clause does"),
+      h("h2", null, "What each clause does"),
       h("table", {class: "clauses"},
         h("thead", null, h("tr", null, h("th", {scope: "col"}, "clause"), h("th", {scope: "col", class: "num"}, "leaves out"), h("th", {scope: "col", class: "num", title: `${what} that no other clause leaves out`}, "it alone"))),
         h("tbody", null, sorted.map((clause) => this.clause(clause)))),
@@ -114,12 +114,13 @@ export class Facts {
     if (!own.length) return fill(this.warnings);
     const witnesses = own.map((finding) => finding.notes.map((note) => /: ([^:]+(?::[^:\s][^:]*)*)$/.exec(note.message)?.[1] ?? "").find((text) => text.includes(" | ")) ?? "");
     const rows = own.map((finding, i) => this.finding(finding, witnesses[i]));
-    fill(this.warnings, h("h3", null, own.length === 1 ? "One thing to look at" : `${own.length} things to look at`), h("ul", {class: "findings"}, rows.map((row) => row.element)));
+    fill(this.warnings, h("h2", null, own.length === 1 ? "One thing to look at" : `${own.length} things to look at`), h("ul", {class: "findings"}, rows.map((row) => row.element)));
     const plans = witnesses.filter((plan) => plan);
     if (!plans.length) return;
     const drawn = await drawPlans(this.desk, plans, "witnesses");
     if (!drawn.each.length) return;
     const pictures = scaled(drawn.each);
+    for (const svg of pictures) svg.setAttribute("aria-hidden", "true");
     let n = 0;
     own.forEach((_finding, i) => witnesses[i] && rows[i].place.replaceChildren(pictures[n++]));
   }
@@ -131,7 +132,7 @@ export class Facts {
         type: "button", class: "link line",
         onclick: () => this.desk.editor.goTo(offsetOf(this.desk.file()!.text, finding.line!, finding.column ?? 1), offsetOf(this.desk.file()!.text, finding.end_line ?? finding.line!, finding.end_column ?? 1)),
       }, `line ${finding.line}`)),
-      witness && h("button", {type: "button", class: "card witness", "aria-label": `For example ${witness}`, title: witness, onclick: () => this.desk.explain(witness)}, place),
+      witness && h("button", {type: "button", class: "card witness", title: witness, onclick: () => this.desk.explain(witness)}, place, h("span", {class: "sr"}, `for example ${witness}`)),
       finding.help && h("p", {class: "hint"}, withCode(finding.help)));
     return {element, place};
   }

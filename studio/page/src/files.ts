@@ -64,7 +64,7 @@ export class Files {
       h("ul", null, unsaved.map(row), this.folder.files.map(({path}) => row(path))),
       this.folder.cut && h("p", {class: "hint"}, "There are more files than are listed."),
       this.folder.files.length + unsaved.length === 0 && h("p", {class: "hint"}, "There is no file of rules here yet."),
-      !this.folder.readOnly && h("div", {class: "starts"}, h("h3", null, "New file"), h("ul", null, STARTS.map((start) => h("li", null, h("button", {type: "button", class: "file", title: start.about, onclick: () => {
+      !this.folder.readOnly && h("div", {class: "starts"}, h("h2", null, "New file"), h("ul", null, STARTS.map((start) => h("li", null, h("button", {type: "button", class: "file", title: start.about, onclick: () => {
         this.element.hidePopover();
         this.begin(start);
       }}, start.title, h("span", {class: "faint"}, start.name.slice(start.name.indexOf(".")))))))),
@@ -75,7 +75,7 @@ export class Files {
     const card = (start: Start) => h("li", null, h("button", {type: "button", class: "start", onclick: () => this.begin(start)}, h("strong", null, start.title), h("span", null, start.about)));
     fill(
       this.welcome,
-      h("h1", null, "Rules for plans, and the plans that they keep"),
+      h("h2", {class: "title"}, "Rules for plans, and the plans that they keep"),
       h("p", {class: "lead"}, "In a file of rules you say what a plan is made of and which plans are good. This page counts every plan there is, draws some, and says of each why it is kept or not, while you type."),
       this.folder.readOnly
         ? h("p", {class: "hint"}, "This folder has no file of rules, and may not be written to. Start Tartan in another folder.")
@@ -282,7 +282,7 @@ export class Files {
     const others = theirs.split("\n");
     const side = (title: string, lines: string[], against: string[]) => {
       const known = new Set(against);
-      return h("section", null, h("h3", null, title), h("pre", {tabindex: "0"}, lines.map((line) => h("span", {class: known.has(line) ? "" : "differs"}, `${line}\n`))));
+      return h("section", null, h("h2", null, title), h("pre", {tabindex: "0"}, lines.map((line) => h("span", {class: known.has(line) ? "" : "differs"}, `${line}\n`))));
     };
     const dialog = h("dialog", {class: "both", "aria-label": "Both texts"},
       h("div", {class: "sides"}, side("Here", mine, others), side("In the folder", others, mine)),

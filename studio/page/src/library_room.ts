@@ -25,7 +25,7 @@ interface Pane {
 }
 
 export class LibraryRoom {
-  readonly element = h("main", {class: "library", "aria-label": "Library"});
+  readonly element = h("section", {class: "library", "aria-label": "Library"});
   readonly addRule: AddRule;
   readonly why: Why;
   readonly watchedPlans: Watched;
@@ -133,6 +133,7 @@ export class LibraryRoom {
     const file = this.desk.file();
     if (!file) return;
     const run = ++this.run;
+    this.desk.questions.cancel();
     const plan = file.languageId === "plan";
     this.content.hidden = !plan;
     this.plain.hidden = plan;
@@ -184,7 +185,7 @@ export class LibraryRoom {
   }
 
   private withoutLibrary(): void {
-    fill(this.head, h("div", {class: "name"}, h("h1", null, "No library yet")), h("p", {class: "doc"}, "The text compiles, but nothing in it says which plans there are. A library does, such as this:"),
+    fill(this.head, h("div", {class: "name"}, h("h2", {class: "title"}, "No library yet")), h("p", {class: "doc"}, "The text compiles, but nothing in it says which plans there are. A library does, such as this:"),
       h("pre", null, `library plans using ${this.shown?.schemas.at(-1)?.name ?? "SCHEMA"} {\n  trays 3..5\n}`));
     this.sheet.reset();
     this.facts.clear();
@@ -214,13 +215,13 @@ export class LibraryRoom {
       this.head,
       h("div", {class: "name"},
         libraries.length > 1
-          ? h("h1", null, h("select", {id: "library-name", "aria-label": "Library", onchange: (event: Event) => {
+          ? h("h2", {class: "title"}, h("select", {id: "library-name", "aria-label": "Library", onchange: (event: Event) => {
             this.wanted = (event.target as HTMLSelectElement).value;
             this.sheet.reset();
             this.resetPanes();
             void this.refresh();
           }}, libraries.map(({name}) => h("option", {value: name, selected: name === library.name}, name))))
-          : h("h1", null, library.name),
+          : h("h2", {class: "title"}, library.name),
         library.doc && h("p", {class: "doc"}, library.doc)),
       h("p", {class: "count", role: "status"}, h("strong", {id: "count"}, count === null ? "too many to count" : grouped(count)), " ", h("span", {class: "what"}, `${what} `, h("span", {class: "of"}, of))),
       h("div", {class: "actions"},
@@ -273,7 +274,7 @@ export class LibraryRoom {
       kit: "Models are not placed on this page yet. `tartan place` places and draws them.",
     };
     if (!draws) {
-      fill(this.plain, h("h1", null, file.path), h("p", {class: "lead"}, withCode(about[file.languageId] ?? "This page knows no questions about such a file.")), h("p", {class: "hint"}, "Everything that the editor says of the text is there all the same: findings, words, definitions."));
+      fill(this.plain, h("h2", {class: "title"}, file.path), h("p", {class: "lead"}, withCode(about[file.languageId] ?? "This page knows no questions about such a file.")), h("p", {class: "hint"}, "Everything that the editor says of the text is there all the same: findings, words, definitions."));
       return;
     }
     this.element.classList.add("stale");

@@ -126,7 +126,7 @@ export class Measures {
       return text.startsWith("−") || text === "0" ? text : `+${text}`;
     };
     fill(place,
-      h("h3", null, "What one more tray does to it"),
+      h("h2", null, "What one more tray does to it"),
       h("table", {class: "by-length"},
         h("thead", null, h("tr", null, ["trays", "least", "", "mean", "", "most", ""].map((name, i) => (name ? h("th", {scope: "col", class: i ? "num" : ""}, name) : h("td", null))))),
         h("tbody", null, rows.map(({length, answer}, i) => {
@@ -142,7 +142,7 @@ export class Measures {
     const drawn = this.desk.library()?.form ? null : await drawing(this.desk, {front: true, by}, "front", `The best trade-offs of ${this.by} and ${this.other}`);
     const unit = (name: string) => choices.find((measure) => measure.name === name)?.unit ?? "";
     fill(place,
-      h("h3", null, `The best trade-offs of ${this.by} and ${this.other}`),
+      h("h2", null, `The best trade-offs of ${this.by} and ${this.other}`),
       drawn?.whole && h("figure", {class: "chart"}, drawn.whole),
       h("table", {class: "front"},
         h("thead", null, h("tr", null, answer.measures.map((name) => h("th", {scope: "col", class: "num"}, name)), h("th", {scope: "col", class: "num"}, "plans"), h("th", {scope: "col"}, "one of them"))),

@@ -53,6 +53,8 @@ export class Refused extends Error {
 }
 
 export class Questions {
+  private asked = new Set<number>();
+
   constructor(
     private connection: Connection,
     private client: LSPClient,
@@ -71,8 +73,9 @@ export class Questions {
     this.client.sync();
     const version = file.version;
     await this.client.initializing;
+    let own = 0;
     try {
-      const result = await this.connection.ask(`tartan/${name}`, {uri: file.uri, version, subject, request, texts});
+      const result = await this.connection.ask(`tartan/${name}`, {uri: file.uri, version, subject, request, texts}, (id) => this.asked.add((own = id)));
       if (this.file() !== file || file.version !== version) throw new Stale();
       return {answer: result.answer, notes: result.notes ?? []};
     } catch (failure) {
@@ -80,6 +83,14 @@ export class Questions {
       const {code} = failure as Failure;
       if (code === CANCELLED || code === MODIFIED || code === GONE || this.file() !== file || file.version !== version) throw new Stale();
       throw new Refused(failure as Failure);
+    } finally {
+      this.asked.delete(own);
     }
+  }
+
+  // The text is another, or another file is shown: what is still worked on is not worth the time.
+  cancel(): void {
+    for (const id of this.asked) this.connection.cancel(id);
+    this.asked.clear();
   }
 }

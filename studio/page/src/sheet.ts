@@ -139,9 +139,9 @@ export class Sheet {
     svg?.setAttribute("aria-hidden", "true");
     svg?.removeAttribute("role");
     return h("li", null, h("button", {
-      type: "button", class: "card", title: plan.line, "aria-label": `${caption}: ${plan.line}. Why is it kept?`, "data-line": plan.line,
+      type: "button", class: "card", title: plan.line, "data-line": plan.line,
       onclick: () => this.desk.explain(plan.line),
-    }, svg && h("span", {class: "drawing"}, svg), h("span", {class: "caption"}, caption), !svg && h("span", {class: "line"}, plan.line)));
+    }, svg && h("span", {class: "drawing"}, svg), h("span", {class: "caption"}, caption), h("span", {class: svg ? "sr" : "line"}, plan.line)));
   }
 }
 

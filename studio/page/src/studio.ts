@@ -23,6 +23,7 @@ export class Studio {
   private room: LibraryRoom;
   private client;
   private began = false;
+  private linked = false;
   private bar = h("header", {class: "top"});
   private status = h("span", {class: "status"});
   private name = h("button", {type: "button", class: "file-name", popovertarget: "files", "aria-haspopup": "true"});
@@ -82,12 +83,12 @@ export class Studio {
   private build(host: HTMLElement): void {
     const room = (key: string, label: string) => h("button", {type: "button", "data-room": key, "aria-pressed": "false", onclick: () => this.enter(key)}, label);
     fill(this.bar,
-      h("a", {class: "brand", href: "#", onclick: (event: Event) => event.preventDefault(), tabindex: "-1", "aria-hidden": "true"}, "Tartan"),
+      h("h1", {class: "brand"}, "Tartan"),
       this.name, this.status, h("span", {class: "space"}),
       h("div", {class: "rooms", role: "group", "aria-label": "Rooms"}, room("writing", "Writing"), room("library", "Library")),
       this.saveButton);
     const writing = h("section", {class: "writing", "aria-label": "Writing"}, host);
-    document.body.replaceChildren(this.bar, this.notices.element, h("div", {class: "rooms-body"}, writing, this.room.element, this.files.welcome), this.files.element, this.room.addRule.element, this.notices.spoken);
+    document.body.replaceChildren(this.bar, this.notices.element, h("main", {class: "rooms-body"}, writing, this.room.element, this.files.welcome), this.files.element, this.room.addRule.element, this.notices.spoken);
     this.enter(sessionStorage.getItem("tartan.room") ?? "writing");
   }
 
@@ -140,7 +141,8 @@ export class Studio {
   // ---- the connection
 
   private connected(state: TransportState): void {
-    document.body.classList.toggle("offline", state !== "open");
+    if (state !== "open" && this.linked) this.client.disconnect();
+    this.linked = state === "open";
     this.showState();
     if (state === "open")
       this.welcome().catch((failure) => {
@@ -150,7 +152,6 @@ export class Studio {
   }
 
   private gone(state: TransportState): void {
-    if (this.client.connected && state === "lost") this.client.disconnect();
     this.files.keepDrafts();
     const text = state === "refused" && !this.began
       ? "This address is not one that Tartan gave. Start `tartan studio`, and open the address that it prints."
@@ -161,6 +162,7 @@ export class Studio {
 
   private async welcome(): Promise<void> {
     this.notices.clear("gone");
+    this.client.disconnect(); // what was asked while there was no connection is forgotten: the texts come first
     this.client.connect(this.connection.languageTransport);
     this.client.initializing.catch(() => {});
     const folder = await this.files.list();

@@ -40,7 +40,7 @@ export class Watched {
     const readable = this.plans.filter((_plan, i) => states[i] !== null);
     const drawn = readable.length ? await drawPlans(this.desk, readable, "watched") : {each: [], whole: null};
     const pictures = drawn.each.length ? scaled(drawn.each) : [];
-    fill(this.element, h("h3", null, "Plans that you watch"), h("ol", {class: "sheet"}, this.plans.map((plan, i) => this.card(plan, states[i], pictures[readable.indexOf(plan)] ?? null))));
+    fill(this.element, h("h2", null, "Plans that you watch"), h("ol", {class: "sheet"}, this.plans.map((plan, i) => this.card(plan, states[i], pictures[readable.indexOf(plan)] ?? null))));
   }
 
   // Of each plan what drops it; null of one that is none any more.
@@ -67,7 +67,7 @@ export class Watched {
     const gone = state === null || state.length > 0;
     const why = state === null ? "no plan any more: its trays have changed" : state.length ? `gone, by ${state.map(inWords).join(", ")}` : "kept";
     svg?.setAttribute("aria-hidden", "true");
-    return h("li", null, h("button", {type: "button", class: `card ${gone ? "gone" : "kept"}`, title: plan, "aria-label": `${why}: ${plan}`, "data-line": plan, onclick: () => this.desk.explain(plan)},
-      svg && h("span", {class: "drawing"}, svg), h("span", {class: "caption"}, why), !svg && h("span", {class: "line"}, plan)));
+    return h("li", null, h("button", {type: "button", class: `card ${gone ? "gone" : "kept"}`, title: plan, "data-line": plan, onclick: () => this.desk.explain(plan)},
+      svg && h("span", {class: "drawing"}, svg), h("span", {class: "caption"}, why), h("span", {class: svg ? "sr" : "line"}, plan)));
   }
 }

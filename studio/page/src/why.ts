@@ -83,6 +83,7 @@ export class Why {
     const answer = (await this.desk.questions.ask("explain", {library, plan: `[${this.plan}]`, nearest: 3}, "why")) as ExplainedPlan;
     const drawn = await drawPlans(this.desk, [answer.plan, ...answer.nearest.map((near) => near.plan)], "why");
     const pictures = drawn.each.length ? scaled(drawn.each) : [];
+    pictures[0]?.setAttribute("aria-label", `The plan: ${answer.plan}`);
     this.drawing.replaceChildren(...(pictures[0] ? [pictures[0]] : drawn.whole ? [drawn.whole] : []));
     if (document.activeElement !== this.field) this.field.value = answer.plan;
     this.plan = answer.plan;
