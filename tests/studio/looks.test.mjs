@@ -27,7 +27,7 @@ for (const width of [1280, 390])
       }
       await page.getByRole("tab", {name: "Plans"}).click();
       await page.locator(".sheet .card").first().click();
-      await page.locator(".verdict").waitFor();
+      await page.locator(".why .verdict").waitFor();
       await inspected(page, "one plan");
     });
 
@@ -48,7 +48,7 @@ test("by the keyboard alone", async (t) => {
   }
   assert.ok(seen.includes("a plan"), `a plan is reached: ${seen.join(", ")}`);
   await page.keyboard.press("Enter");
-  await page.locator(".verdict").waitFor();
+  await page.locator(".why .verdict").waitFor();
   await page.keyboard.press("Escape");
   assert.equal(await focused(), "a plan", "the plan has the focus again");
 });

@@ -2,22 +2,7 @@
 import type {LSPClient} from "@codemirror/lsp-client";
 import {CANCELLED, GONE, MODIFIED, type Connection, type Failure} from "./connection";
 import type {OpenFile} from "./documents";
-import type {Questions as All} from "./requests";
-
-export interface Setting {
-  name: string;
-  doc?: string;
-  kind: "number" | "word";
-  value: string;
-  unit?: string;
-  from?: string;
-  to?: string;
-  words?: string[];
-  begin: {line: number; column: number};
-  end: {line: number; column: number};
-}
-
-type Table = All & {settings: {request: Record<string, never>; answer: {settings: Setting[]}}};
+import type {Questions as Table} from "./requests";
 
 export interface Note {
   severity: string;

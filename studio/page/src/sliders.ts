@@ -4,8 +4,8 @@ import {isolateHistory} from "@codemirror/commands";
 import {Transaction} from "@codemirror/state";
 import type {Desk} from "./desk";
 import {fill, h} from "./dom";
-import {offsetOf} from "./edits";
-import {Refused, type Setting} from "./questions";
+import {Refused} from "./questions";
+import type {ShownSetting} from "./requests";
 
 export interface Range {
   from: number;
@@ -18,11 +18,11 @@ export interface Range {
 const VALUE = /^\s*(-?\d+(?:\.\d+)?)\s*('|[a-z]+[23]?|%)?\s*$/;
 
 // The numbers between which a slider goes; null for what is no plain number with a unit, such as 7'-9".
-export function rangeOf(setting: Pick<Setting, "value" | "from" | "to">): Range | null {
+export function rangeOf(setting: Pick<ShownSetting, "value" | "least" | "most">): Range | null {
   const value = VALUE.exec(setting.value);
-  const from = setting.from === undefined ? null : VALUE.exec(setting.from);
-  const to = setting.to === undefined ? null : VALUE.exec(setting.to);
-  if (!value || (setting.from !== undefined && !from) || (setting.to !== undefined && !to)) return null;
+  const from = setting.least === undefined ? null : VALUE.exec(setting.least);
+  const to = setting.most === undefined ? null : VALUE.exec(setting.most);
+  if (!value || (setting.least !== undefined && !from) || (setting.most !== undefined && !to)) return null;
   const unit = value[2] ?? "";
   const least = from ? Number(from[1]) : Math.min(0, Number(value[1]) * 2);
   const most = to ? Number(to[1]) : Math.max(Number(value[1]) * 2, 10);
@@ -68,36 +68,34 @@ export class Sliders {
     }
   }
 
-  private show(settings: Setting[]): void {
+  private show(settings: ShownSetting[]): void {
     const text = this.desk.file()!.text;
-    for (const setting of settings) {
-      if (setting.name === this.sliding) continue;
-      const from = offsetOf(text, setting.begin.line, setting.begin.column);
-      this.places.set(setting.name, {from, text: text.slice(from, offsetOf(text, setting.end.line, setting.end.column))});
+    for (const {name, utf16_begin: from, utf16_end: to} of settings) {
+      if (name !== this.sliding && from !== null && to !== null) this.places.set(name, {from, text: text.slice(from, to)});
     }
-    const shape = JSON.stringify([this.desk.file()!.readOnly, settings.map(({name, doc, kind, from, to, words, value}) => [name, doc, kind, from, to, words && [...words].sort(), kind === "number" ? rangeOf({value, from, to}) : 0])]);
+    const shape = JSON.stringify([this.desk.file()!.readOnly, settings.map(({name, doc, least, most, words, value}) => [name, doc, least, most, words && [...words].sort(), words ? null : rangeOf({value, least, most})])]);
     if (shape !== this.shape) this.build(settings);
     this.shape = shape;
     for (const {name, value} of settings) if (name !== this.sliding) this.rows.get(name)?.set(value);
     this.element.hidden = settings.length === 0;
   }
 
-  private build(settings: Setting[]): void {
+  private build(settings: ShownSetting[]): void {
     this.rows.clear();
-    fill(this.element, settings.map((setting) => (setting.kind === "word" ? this.choice(setting) : this.number(setting))));
+    fill(this.element, settings.map((setting) => (setting.words ? this.choice(setting) : this.number(setting))));
   }
 
-  private label(setting: Setting): HTMLElement {
+  private label(setting: ShownSetting): HTMLElement {
     return h("span", {class: "label", title: setting.doc}, setting.doc ?? setting.name);
   }
 
-  private choice(setting: Setting): HTMLElement {
+  private choice(setting: ShownSetting): HTMLElement {
     const select = h("select", {disabled: this.desk.file()!.readOnly, onchange: () => this.word(setting, select.value)}, [...(setting.words ?? [])].sort().map((word) => h("option", {value: word}, word)));
     this.rows.set(setting.name, {set: (text) => (select.value = text)});
     return h("label", {class: "setting"}, this.label(setting), select);
   }
 
-  private number(setting: Setting): HTMLElement {
+  private number(setting: ShownSetting): HTMLElement {
     const range = rangeOf(setting);
     const readOnly = this.desk.file()!.readOnly;
     if (!range) {
@@ -129,25 +127,12 @@ export class Sliders {
     return h("label", {class: "setting"}, this.label(setting), slider, output);
   }
 
-  // The default is the first of the words: the one that is chosen changes places with it.
-  private word(setting: Setting, word: string): void {
+  // The default is the first of the words, whose place is that of all of them.
+  private word(setting: ShownSetting, word: string): void {
     const place = this.places.get(setting.name);
     if (!place) return;
-    const words = place.text.includes("|") ? place.text.split(/\s*\|\s*/) : null;
-    if (!words) return this.swap(setting, place, word);
-    this.put(setting.name, [word, ...words.filter((other) => other !== word)].join(" | "), true);
-  }
-
-  private swap(setting: Setting, place: Place, word: string): void {
-    const text = this.desk.file()!.text;
-    const rest = new RegExp(`^([^\\n#{}]*?\\|\\s*)${word}(?![\\w-])`).exec(text.slice(place.from + place.text.length));
-    if (!rest || text.slice(place.from, place.from + place.text.length) !== place.text) return;
-    const at = place.from + place.text.length + rest[1].length;
-    this.desk.editor.view.dispatch({
-      changes: [{from: place.from, to: place.from + place.text.length, insert: word}, {from: at, to: at + word.length, insert: place.text}],
-      annotations: isolateHistory.of("full"), userEvent: "input.setting",
-    });
-    this.places.set(setting.name, {from: place.from, text: word});
+    const words = place.text.split(/\s*\|\s*/);
+    if (words.includes(word)) this.put(setting.name, [word, ...words.filter((other) => other !== word)].join(" | "), true);
   }
 
   // While a slider moves its steps are no history; where it stops is.
