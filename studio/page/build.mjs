@@ -1,7 +1,8 @@
-// Builds the page into dist/: index.html, app.js and app.css. The words of the notations come from the grammars of the
+// Builds the page into dist/: index.html, app.js and app.css; with --playground FOLDER, the one that has no server, beside
+// the engines in that folder (`make wasm`). The words of the notations come from the grammars of the
 // extension for VS Code, so that both colour the same.
 import {build} from "esbuild";
-import {copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync} from "node:fs";
+import {mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync} from "node:fs";
 import {dirname, join} from "node:path";
 import {fileURLToPath} from "node:url";
 
@@ -51,19 +52,26 @@ const words = {
 
 export const options = {bundle: true, format: "esm", target: "es2022", charset: "utf8", plugins: [words], logLevel: "warning"};
 
-export async function buildPage(out = join(here, "dist")) {
-  rmSync(out, {recursive: true, force: true});
+// A server of files alone sends no policy along, so that page has its own.
+const POLICY =
+  "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src 'self'; worker-src 'self'; img-src data: blob:; base-uri 'none'; form-action 'none'";
+
+async function buildPage(entry, out) {
   mkdirSync(out, {recursive: true});
-  await build({
-    ...options,
-    entryPoints: {app: join(here, "src/app.ts")},
-    outdir: out,
-    minify: true,
-    legalComments: "eof",
-  });
+  await build({...options, entryPoints: {app: join(here, "src", entry)}, outdir: out, minify: true, legalComments: "eof"});
   await build({entryPoints: [join(here, "src/app.css")], outdir: out, minify: true});
-  copyFileSync(join(here, "src/index.html"), join(out, "index.html"));
-  for (const name of readdirSync(out)) console.log(name, statSync(join(out, name)).size);
+  const page = readFileSync(join(here, "src/index.html"), "utf8");
+  const policy = `<meta http-equiv="Content-Security-Policy" content="${POLICY}">\n`;
+  writeFileSync(join(out, "index.html"), entry === "playground.ts" ? page.replace("<title>", `${policy}<title>`) : page);
+  for (const name of ["index.html", "app.js", "app.css"]) console.log(name, statSync(join(out, name)).size);
 }
 
-if (process.argv[1] === fileURLToPath(import.meta.url)) await buildPage();
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const playground = process.argv.indexOf("--playground");
+  if (playground > 0) await buildPage("playground.ts", process.argv[playground + 1]);
+  else {
+    const out = join(here, "dist");
+    rmSync(out, {recursive: true, force: true});
+    await buildPage("app.ts", out);
+  }
+}

@@ -53,10 +53,11 @@ export class Connection {
     const id = this.next++;
     begun?.(id);
     return new Promise((resolve, reject) => {
+      this.waiting.set(id, {resolve, reject}); // the answer may come before send() has ended
       try {
         this.transport.send(JSON.stringify({jsonrpc: "2.0", id, method, params}));
-        this.waiting.set(id, {resolve, reject});
       } catch {
+        this.waiting.delete(id);
         reject({code: GONE, message: "there is no connection"} satisfies Failure);
       }
     });

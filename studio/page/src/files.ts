@@ -218,6 +218,17 @@ export class Files {
     return this.documents.files.filter((file) => file.changed || (file.hash === null && file.text !== ""));
   }
 
+  // A link brings a file: it takes the place of one of that name, and is written; what was there can be had again by undo.
+  async receive(path: string, text: string): Promise<void> {
+    const known = this.folder.files.some((file) => file.path === path) || this.documents.files.some((file) => file.path === path);
+    const file = known ? await this.load(path) : new OpenFile(path, Text.of(text.split("\n")), "", null, false);
+    if (!file) return;
+    if (!known) this.documents.add(file);
+    this.show(file);
+    if (known) this.editor.replace(text);
+    await this.save(file);
+  }
+
   // ---- changed elsewhere
 
   watch(): void {
