@@ -1,0 +1,77 @@
+// Builds the page into dist/: index.html, app.js and app.css; with --playground FOLDER, the one that has no server, beside
+// the engines in that folder (`make wasm`). The words of the notations come from the grammars of the
+// extension for VS Code, so that both colour the same.
+import {build} from "esbuild";
+import {mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync} from "node:fs";
+import {dirname, join} from "node:path";
+import {fileURLToPath} from "node:url";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const grammars = join(here, "../../editors/vscode/syntaxes");
+const classes = [
+  ["keyword.operator.logical", "operator"],
+  ["support.function", "function"],
+  ["storage.type", "type"],
+  ["keyword", "keyword"],
+];
+
+// The words of one grammar, by class: those alternatives of its patterns that are plain words.
+function wordsOf(grammar) {
+  const words = {};
+  const take = (name, pattern) => {
+    const found = typeof name === "string" && classes.find(([prefix]) => name.startsWith(prefix));
+    if (!found || !pattern) return;
+    for (const [, group] of pattern.matchAll(/\(((?:[A-Za-z][\w-]*\|)+[A-Za-z][\w-]*)\)/g))
+      for (const word of group.split("|")) words[word.toLowerCase()] ??= found[1];
+  };
+  const walk = (node) => {
+    if (Array.isArray(node)) return node.forEach(walk);
+    if (typeof node !== "object" || node === null) return;
+    take(node.name, node.match);
+    for (const capture of Object.values(node.captures ?? {})) take(capture.name, node.match);
+    Object.values(node).forEach(walk);
+  };
+  walk(grammar);
+  return words;
+}
+
+function notationWords() {
+  const all = {};
+  for (const name of readdirSync(grammars).sort())
+    all[name.split(".")[0]] = wordsOf(JSON.parse(readFileSync(join(grammars, name), "utf8")));
+  return all;
+}
+
+const words = {
+  name: "words",
+  setup(build) {
+    build.onResolve({filter: /^tartan:words$/}, () => ({path: "words", namespace: "tartan"}));
+    build.onLoad({filter: /.*/, namespace: "tartan"}, () => ({contents: JSON.stringify(notationWords()), loader: "json"}));
+  },
+};
+
+export const options = {bundle: true, format: "esm", target: "es2022", charset: "utf8", plugins: [words], logLevel: "warning"};
+
+// A server of files alone sends no policy along, so that page has its own.
+const POLICY =
+  "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src 'self'; worker-src 'self'; img-src data: blob:; base-uri 'none'; form-action 'none'";
+
+async function buildPage(entry, out) {
+  mkdirSync(out, {recursive: true});
+  await build({...options, entryPoints: {app: join(here, "src", entry)}, outdir: out, minify: true, legalComments: "eof"});
+  await build({entryPoints: [join(here, "src/app.css")], outdir: out, minify: true});
+  const page = readFileSync(join(here, "src/index.html"), "utf8");
+  const policy = `<meta http-equiv="Content-Security-Policy" content="${POLICY}">\n`;
+  writeFileSync(join(out, "index.html"), entry === "playground.ts" ? page.replace("<title>", `${policy}<title>`) : page);
+  for (const name of ["index.html", "app.js", "app.css"]) console.log(name, statSync(join(out, name)).size);
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const playground = process.argv.indexOf("--playground");
+  if (playground > 0) await buildPage("playground.ts", process.argv[playground + 1]);
+  else {
+    const out = join(here, "dist");
+    rmSync(out, {recursive: true, force: true});
+    await buildPage("app.ts", out);
+  }
+}

@@ -1,0 +1,43 @@
+// Elements in few words. Text is set as text, never read as HTML.
+
+type Child = Node | string | number | null | undefined | false;
+type Attributes = Record<string, unknown>;
+
+export function h<K extends keyof HTMLElementTagNameMap>(tag: K, attributes?: Attributes | null, ...children: (Child | Child[])[]): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes ?? {})) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name.startsWith("on") && typeof value === "function") element.addEventListener(name.slice(2), value as EventListener);
+    else if (name === "value" && "value" in element) (element as unknown as {value: unknown}).value = value;
+    else if (value === true) element.setAttribute(name, "");
+    else element.setAttribute(name, String(value));
+  }
+  append(element, ...children);
+  return element;
+}
+
+export function append(parent: Node, ...children: (Child | Child[])[]): void {
+  for (const child of children.flat()) {
+    if (child === null || child === undefined || child === false) continue;
+    parent.appendChild(typeof child === "object" ? child : document.createTextNode(String(child)));
+  }
+}
+
+export function fill(parent: Element, ...children: (Child | Child[])[]): void {
+  parent.replaceChildren();
+  append(parent, ...children);
+}
+
+// `text` with what stands between backquotes as code.
+export function withCode(text: string): Node[] {
+  return text.split("`").map((part, i) => (i % 2 ? h("code", null, part) : document.createTextNode(part)));
+}
+
+export function later(work: () => void, ms: number): {(): void; cancel(): void} {
+  let timer = 0;
+  const start = () => {
+    clearTimeout(timer);
+    timer = window.setTimeout(work, ms);
+  };
+  return Object.assign(start, {cancel: () => clearTimeout(timer)});
+}
