@@ -9,7 +9,7 @@ SECONDS ?= 600
 FIRST ?= $(shell date +%s)
 TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(TEST_JOBS)
 
-.PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale check-sanitizers check-arm check-arm-syntax lint package check-package bench bench-place bench-scale fuzz search install uninstall clean
+.PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale check-sanitizers check-arm check-arm-syntax wasm check-wasm lint package check-package bench bench-place bench-scale fuzz search install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
@@ -24,6 +24,8 @@ help:
 	@echo 'make check-sanitizers  run every test under AddressSanitizer and UndefinedBehaviorSanitizer (into build-asan/)'
 	@echo 'make check-arm-syntax  pass every C file through a compiler for 64-bit ARM'
 	@echo 'make check-arm   build for 64-bit ARM, test that in an emulator and compare its results with those here (into build-arm/)'
+	@echo 'make wasm        make the engines as WebAssembly, for pages and workers (into build-wasm/site)'
+	@echo 'make check-wasm  test these under Node, and compare their results with those here'
 	@echo 'make lint        look over the sources with clang-tidy'
 	@echo 'make bench       print how fast it is here'
 	@echo 'make bench-place print how fast parts are placed, counted and drawn here'
@@ -81,6 +83,16 @@ check-arm-syntax: build
 check-arm: build
 	@tools/check-arm build
 
+# The engines as WebAssembly: build-wasm/site is a folder that any server of files can serve.
+wasm: packages
+	@tools/install-packages tools/wasm-packages.txt
+	@mkdir -p build-wasm
+	@cmake --preset wasm $(CMAKE_FLAGS) >build-wasm/configure.log 2>&1 || { cat build-wasm/configure.log; exit 1; }
+	@cmake --build build-wasm -j $(JOBS)
+
+check-wasm: build wasm
+	@tools/check-wasm build build-wasm
+
 lint: build
 	@tools/lint build
 
@@ -110,4 +122,4 @@ uninstall:
 	@DESTDIR='$(DESTDIR)' cmake -DMANIFEST=build/install_manifest.txt -P cmake/uninstall.cmake
 
 clean:
-	@rm -rf build build-arm build-asan build-asan-quick build-fuzz build-package build-parts demo
+	@rm -rf build build-wasm build-arm build-asan build-asan-quick build-fuzz build-package build-parts demo

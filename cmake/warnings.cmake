@@ -4,6 +4,9 @@ set(TARTAN_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmiss
 if(CMAKE_C_COMPILER_ID STREQUAL GNU)
   list(APPEND TARTAN_WARNINGS -Wno-format-truncation) # messages are cut to their buffers on purpose
 endif()
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL wasm32) # what 64 bits count is not cut to sizes of 32 unseen
+  list(APPEND TARTAN_WARNINGS -Wshorten-64-to-32)
+endif()
 if(TARTAN_WERROR)
   list(APPEND TARTAN_WARNINGS -Werror)
 endif()

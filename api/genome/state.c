@@ -171,12 +171,12 @@ static bool read_births(reader *r, tartan_evolution *e)
 static bool read_choice(reader *r, tartan_evolution *e)
 {
     uint64_t generation = get(r), count = get(r);
-    uint32_t *places = count <= r->left ? calloc(count + 1, sizeof *places) : NULL;
+    uint32_t *places = count <= r->left ? calloc((size_t)count + 1, sizeof *places) : NULL;
     if (!places)
         return false;
     for (size_t i = 0; i < count; i++)
         places[i] = (uint32_t)get(r);
-    return tn_api_evolution_add_choice(e, (uint32_t)generation, places, count);
+    return tn_api_evolution_add_choice(e, (uint32_t)generation, places, (size_t)count);
 }
 
 static tartan_status damaged(tartan_error *error)

@@ -136,7 +136,8 @@ tn_status tn_evolution_forms(tn_evolution_job *job, const char *path, const tn_e
                               : take_skeleton(job, path, options->stored_seeds, error);
     if (status == TN_OK && !options->only_replay)
         return fields ? make_fields(job, path, options->draws_open, error) : make_boxes(job, path, error);
-    job->evaluator = (tn_evaluator){
-        .objectives = options->objectives, .evaluate = tn_never_evaluate, .cases = tn_evolution_held_cases(job)};
+    job->evaluator = (tn_evaluator){.objectives = (size_t)options->objectives,
+                                    .evaluate = tn_never_evaluate,
+                                    .cases = tn_evolution_held_cases(job)};
     return status;
 }

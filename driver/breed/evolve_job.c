@@ -235,8 +235,8 @@ static tn_status make_grower(tn_evolution_job *job, const char *path, tn_error *
     if (status == TN_OK)
         status = tn_grower_new(job->blamed_path, weighs_separately(job), is_asked(job), job->settings.threads,
                                &job->grower, error);
-    job->forms = (tn_bred_forms){
-        job->grower, "surface", ".svg", tn_grower_draw, tn_grower_objective, tn_grower_mesh, tn_grower_unmet};
+    job->forms = (tn_bred_forms){job->grower,         "surface",      ".svg",         tn_grower_draw,
+                                 tn_grower_objective, tn_grower_mesh, tn_grower_unmet};
     return status == TN_OK ? tn_grower_inputs(job->grower, &job->inputs, error) : status;
 }
 
@@ -280,7 +280,8 @@ static tn_status make_placer(tn_evolution_job *job, const char *path, tn_error *
     tn_status status = find_data(job, TN_SET_PLACE, path, error);
     if (status == TN_OK)
         status = tn_placer_new(job->blamed_path, weighs_separately(job), is_asked(job), &job->placer, error);
-    job->forms = (tn_bred_forms){job->placer, "model", ".svg", tn_placer_draw, tn_placer_objective, NULL, tn_placer_unmet};
+    job->forms =
+        (tn_bred_forms){job->placer, "model", ".svg", tn_placer_draw, tn_placer_objective, NULL, tn_placer_unmet};
     return status == TN_OK ? add_kit(tn_placer_kit(job->placer), &job->inputs, error) : status;
 }
 
@@ -308,7 +309,7 @@ static tn_status make_problem(tn_evolution_job *job, const char *path, const tn_
     job->extension = learns ? "plan" : grows ? "hemls" : builds ? "solid" : places ? "kit" : "txt";
     if (options->only_replay) {
         size_t held = tn_evolution_held_cases(job);
-        job->evaluator = (tn_evaluator){.objectives = options->objectives,
+        job->evaluator = (tn_evaluator){.objectives = (size_t)options->objectives,
                                         .evaluate = tn_never_evaluate,
                                         .cases = held ? held : 1,
                                         .evaluate_cases = held ? NULL : never_evaluate_cases};

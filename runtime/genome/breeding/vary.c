@@ -160,7 +160,7 @@ static tn_status find_subtrees(tn_breeder *b, int which, const tn_genome *genome
 static bool moved(tn_breeder *b, int which, const tn_span_of *span, uint32_t depth, tn_genome *part, bool *well)
 {
     part->count = 0;
-    *well = append(part, &b->straight[which], span->begin, (size_t)(span->end - span->begin), SIZE_MAX);
+    *well = append(part, &b->straight[which], (size_t)span->begin, (size_t)(span->end - span->begin), SIZE_MAX);
     if (!*well || b->grammar->dialect == TN_DIALECT_GE || depth == span->depth)
         return *well;
     size_t open = 0;

@@ -1,0 +1,26 @@
+# WebAssembly by Debian's emscripten: clang compiles with the flags that emcc gives it, emcc links. (emcc itself takes longer to start than most of
+# our files take to compile, and ccache knows clang.)
+set(CMAKE_SYSTEM_NAME Generic)
+set(CMAKE_SYSTEM_PROCESSOR wasm32)
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+set(CMAKE_CROSSCOMPILING_EMULATOR node)
+
+find_program(TARTAN_EMCC emcc)
+if(NOT TARTAN_EMCC)
+  message(FATAL_ERROR "there is no emcc: the package emscripten has it")
+endif()
+if(NOT TARTAN_EMCC_FLAGS)
+  execute_process(COMMAND ${TARTAN_EMCC} --cflags OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX REPLACE "-Xclang -iwithsysroot/include/SDL *" "" flags "${flags}")
+  set(TARTAN_EMCC_FLAGS "${flags}" CACHE INTERNAL "What emcc gives clang")
+endif()
+# The clang that emcc calls.
+find_program(TARTAN_WASM_CLANG NAMES clang-14 clang)
+find_program(TARTAN_WASM_AR NAMES llvm-ar-14 llvm-ar)
+find_program(TARTAN_WASM_RANLIB NAMES llvm-ranlib-14 llvm-ranlib)
+set(CMAKE_C_COMPILER ${TARTAN_WASM_CLANG})
+set(CMAKE_AR ${TARTAN_WASM_AR} CACHE FILEPATH "")
+set(CMAKE_RANLIB ${TARTAN_WASM_RANLIB} CACHE FILEPATH "")
+set(CMAKE_C_FLAGS_INIT "${TARTAN_EMCC_FLAGS}")
+# emcc's own scripts are run by node, which looks for their modules where Debian has them.
+set(CMAKE_C_LINK_EXECUTABLE "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs:/usr/lib/nodejs ${TARTAN_EMCC} <CMAKE_C_LINK_FLAGS> <LINK_FLAGS> <OBJECTS> -o <TARGET> <LINK_LIBRARIES>")

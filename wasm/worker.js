@@ -1,0 +1,99 @@
+// A worker that answers a page: messages of JSON-RPC come and go as texts, as over the studio's socket.
+//
+// Before them the page posts {module, files, languages}: the compiled WebAssembly.Module (or nothing: the worker compiles it itself), the files
+// that it holds by their paths ("/cabins.plan"), and what this worker answers: "language", "desk", or both. The worker says {ready: version}.
+// {path, text} changes a file, text null removes it. A page that cannot wait for an answer ends the worker and starts another from the module.
+import Engine from "./engine.js";
+
+let page = null, engine = null, roles = [], timer = null;
+const waiting = [];
+
+function take(pointer) {
+  if (!pointer) return null;
+  const text = engine.UTF8ToString(pointer);
+  engine._free(pointer);
+  return text;
+}
+
+function withText(text, use) {
+  if (text === null) return use(0);
+  const size = engine.lengthBytesUTF8(text) + 1, pointer = engine._malloc(size);
+  if (!pointer) throw new Error("out of memory");
+  engine.stringToUTF8(text, pointer, size);
+  try {
+    return use(pointer);
+  } finally {
+    engine._free(pointer);
+  }
+}
+
+function send() {
+  for (let text = take(engine._tn_page_next(page)); text !== null; text = take(engine._tn_page_next(page))) postMessage(text);
+}
+
+// What is to be done while no message comes.
+function rest() {
+  clearTimeout(timer);
+  timer = null;
+  if (!roles.includes("language")) return;
+  const milliseconds = engine._tn_page_wait(page);
+  if (milliseconds >= 0) {
+    timer = setTimeout(() => {
+      engine._tn_page_work(page);
+      send();
+      rest();
+    }, milliseconds);
+  }
+}
+
+function isQuestion(text) {
+  const method = JSON.parse(text).method;
+  return typeof method === "string" && method.startsWith("tartan/");
+}
+
+function answer(text) {
+  const question = isQuestion(text);
+  if (!question && roles.includes("language")) withText(text, (p) => engine._tn_page_take(page, p));
+  if (roles.includes("desk")) {
+    const response = take(withText(text, (p) => engine._tn_page_ask(page, p)));
+    if (question && response !== null) postMessage(response);
+  }
+  if (roles.includes("language")) send();
+  rest();
+}
+
+function setFile(path, text) {
+  if (withText(path, (p) => withText(text, (t) => engine._tn_page_file(page, p, t))) !== 0) throw new Error("out of memory");
+}
+
+async function begin(given) {
+  roles = given.languages || ["language", "desk"];
+  const options = {};
+  if (given.module) {
+    options.instantiateWasm = (imports, done) => {
+      WebAssembly.instantiate(given.module, imports).then((instance) => done(instance, given.module));
+      return {};
+    };
+  }
+  engine = await Engine(options);
+  page = engine._tn_page_new();
+  if (!page) throw new Error("out of memory");
+  for (const [path, text] of Object.entries(given.files || {})) setFile(path, text);
+  postMessage({ready: engine.UTF8ToString(engine._tartan_version())});
+  for (const message of waiting.splice(0)) handle(message);
+}
+
+function handle(data) {
+  if (typeof data === "string") answer(data);
+  else setFile(data.path, data.text);
+}
+
+onmessage = (event) => {
+  if (engine === null && event.data && event.data.path === undefined && typeof event.data !== "string") {
+    begin(event.data).catch((error) => postMessage({failed: String(error)}));
+  } else if (page === null) {
+    waiting.push(event.data);
+  } else {
+    handle(event.data);
+  }
+};
