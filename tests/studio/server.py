@@ -401,6 +401,21 @@ def ends_questions(server, folder):
     window.close()
 
 
+@case
+def limits_memory(program):
+    with open(program, "rb") as file:
+        if b"__asan_init" in file.read():
+            return  # sanitizers take more than there is
+    with Folder() as folder:
+        server = Server(program, "--no-open", "--memory-limit", "150", folder.path)
+        window = Window(server)
+        window.begin()
+        window.open("slow.plan", SLOW)
+        equal(window.answer(count(window, "slow.plan", 1))["error"]["data"]["code"], "E0841", "a question that takes too much")
+        equal(window.ask("tartan/files", {})["result"]["readOnly"], False, "the server after it")
+        equal(server.end()[0], 0, "the end")
+
+
 # ---- files
 
 
