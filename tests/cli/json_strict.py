@@ -294,6 +294,7 @@ writes("json", "complete", houses, "6'2\"", "-l", "h", "--least", "rooms", "--js
 writes("json", "unrank", houses, "#0:0", "-l", "h", "--json", inches=HOUSE)
 writes("json", "rank", houses, run("unrank", houses, "#0:0", "-l", "h").stdout.decode().rstrip("\n"), "-l", "h", "--json")
 writes("json", "schema", houses, "--used", "--json", inches="6'2\"")
+writes("json", "settings", houses, "--used", "--json")
 writes("json", "vary", houses, HOUSE, "--library", "h", "--json", inches=CHANGED)
 files("output", NAME + b".json", "house", houses, HOUSE, "-o", NAME + b".json", inches=HOUSE)
 glb("output", "house", houses, HOUSE)
