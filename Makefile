@@ -9,7 +9,7 @@ SECONDS ?= 600
 FIRST ?= $(shell date +%s)
 TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(TEST_JOBS)
 
-.PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale check-sanitizers check-arm check-arm-syntax wasm check-wasm lint package check-package bench bench-place bench-scale fuzz search install uninstall clean
+.PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale check-sanitizers check-arm check-arm-syntax wasm check-wasm lint package check-package bench bench-place bench-scale bench-studio fuzz search install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
@@ -30,6 +30,7 @@ help:
 	@echo 'make bench       print how fast it is here'
 	@echo 'make bench-place print how fast parts are placed, counted and drawn here'
 	@echo 'make bench-scale print how fast shard sets are here (an idle machine with two processors or more)'
+	@echo 'make bench-studio print how fast the studio answers here'
 	@echo 'make fuzz        run each fuzz target for FUZZ_SECONDS (600)'
 	@echo 'make search      ask random files every question against every other for SECONDS (600), from the seed FIRST (the time)'
 	@echo 'make install     install below PREFIX (/usr/local), staged into DESTDIR where that is set'
@@ -101,6 +102,9 @@ bench: build
 
 bench-place: build
 	@bench/place build
+
+bench-studio: build
+	@bench/studio build build-wasm
 
 bench-scale: build
 	@bench/scale build/tartan

@@ -94,4 +94,5 @@ def main():
     sys.exit(client.process.wait())
 
 
-main()
+if __name__ == "__main__":
+    main()
