@@ -1,6 +1,6 @@
 // A worker that answers a page: messages of JSON-RPC come and go as texts, as over the studio's socket.
 //
-// Before them the page posts {module, files, languages}: the compiled WebAssembly.Module (or nothing: the worker compiles it itself), the files
+// Before them the page posts {module, files, roles}: the compiled WebAssembly.Module (or nothing: the worker compiles it itself), the files
 // that it holds by their paths ("/cabins.plan"), and what this worker answers: "language", "desk", or both. The worker says {ready: version}.
 // {path, text} changes a file, text null removes it. A page that cannot wait for an answer ends the worker and starts another from the module.
 import Engine from "./engine.js";
@@ -47,8 +47,12 @@ function rest() {
 }
 
 function isQuestion(text) {
-  const method = JSON.parse(text).method;
-  return typeof method === "string" && method.startsWith("tartan/");
+  try {
+    const method = JSON.parse(text).method;
+    return typeof method === "string" && method.startsWith("tartan/");
+  } catch {
+    return false; // the language server says what is wrong with it
+  }
 }
 
 function answer(text) {
@@ -67,7 +71,7 @@ function setFile(path, text) {
 }
 
 async function begin(given) {
-  roles = given.languages || ["language", "desk"];
+  roles = given.roles || ["language", "desk"];
   const options = {};
   if (given.module) {
     options.instantiateWasm = (imports, done) => {
@@ -88,7 +92,7 @@ function handle(data) {
   else setFile(data.path, data.text);
 }
 
-onmessage = (event) => {
+self.onmessage = (event) => {
   if (engine === null && event.data && event.data.path === undefined && typeof event.data !== "string") {
     begin(event.data).catch((error) => postMessage({failed: String(error)}));
   } else if (page === null) {
