@@ -55,9 +55,9 @@ class Page {
       this.look();
     });
   }
-  async begin(files, roles) {
+  async begin(files, languages) {
     await this.until((m) => m === "loaded");
-    this.worker.postMessage({ module: compiled, files, roles });
+    this.worker.postMessage({ module: compiled, files, languages });
     return (await this.until((m) => m.ready || m.failed)).ready;
   }
   notify(method, params) {
@@ -106,13 +106,11 @@ try {
   // The file changes.
   const changed = pieces.replace(">= 2", ">= 1");
   page.worker.postMessage({ path: "/pieces.plan", text: changed });
-  page.notify("workspace/didChangeWatchedFiles", { changes: [{ uri: "file:///pieces.plan", type: 2 }] });
   writeFileSync(join(folder, "pieces.plan"), changed);
   answer = await page.request("tartan/count", { uri: other, version: 1, request: {} });
   assert.ok(answer.result, JSON.stringify(answer));
   assert.deepEqual(answer.result.answer, JSON.parse(execFileSync(tartan, ["count", join(folder, "own.plan"), "--json"], { encoding: "utf8" })));
   page.worker.postMessage({ path: "/pieces.plan", text: null });
-  page.notify("workspace/didChangeWatchedFiles", { changes: [{ uri: "file:///pieces.plan", type: 3 }] });
   answer = await page.request("tartan/count", { uri: other, version: 1, request: {} });
   assert.equal(answer.error.code, -32803);
 
