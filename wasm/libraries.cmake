@@ -5,12 +5,12 @@ execute_process(COMMAND ${PROJECT_SOURCE_DIR}/tools/debian-sources ${TARTAN_WASM
 
 # tartan_outside(MODULE SOURCES... INCLUDES FOLDERS...): a library of others, under the name that pkg-config's has elsewhere. Its warnings are not ours.
 function(tartan_outside module)
-  cmake_parse_arguments(OUTSIDE "" "" "SOURCES;INCLUDES;DEFINES" ${ARGN})
+  cmake_parse_arguments(OUTSIDE "" "" "SOURCES;INCLUDES;DEFINES;OPTIONS" ${ARGN})
   string(TOLOWER outside-${module} target)
   add_library(${target} STATIC ${OUTSIDE_SOURCES})
   target_include_directories(${target} SYSTEM PUBLIC ${OUTSIDE_INCLUDES})
   target_compile_definitions(${target} PRIVATE ${OUTSIDE_DEFINES})
-  target_compile_options(${target} PRIVATE -w)
+  target_compile_options(${target} PRIVATE -w ${OUTSIDE_OPTIONS})
   add_library(PkgConfig::${module} ALIAS ${target})
 endfunction()
 
@@ -28,11 +28,11 @@ file(WRITE ${PROJECT_BINARY_DIR}/jansson/jansson_private_config.h.new "#define I
 file(COPY_FILE ${PROJECT_BINARY_DIR}/jansson/jansson_private_config.h.new ${PROJECT_BINARY_DIR}/jansson/jansson_private_config.h ONLY_IF_DIFFERENT)
 file(GLOB jansson ${sources}/jansson/src/*.c)
 tartan_outside(JANSSON SOURCES ${jansson} INCLUDES ${PROJECT_BINARY_DIR}/jansson ${sources}/jansson/src
-  DEFINES HAVE_STDINT_H HAVE_SYS_TYPES_H HAVE_UNISTD_H HAVE_STRTOLL HAVE_CONFIG_H=1)
+  DEFINES HAVE_STDINT_H HAVE_SYS_TYPES_H HAVE_UNISTD_H HAVE_STRTOLL HAVE_CONFIG_H=1 OPTIONS -Os)
 
 tartan_outside(XXHASH SOURCES ${sources}/xxhash/xxhash.c INCLUDES ${sources}/xxhash)
 
 file(GLOB zstd ${sources}/libzstd/lib/common/*.c ${sources}/libzstd/lib/compress/*.c ${sources}/libzstd/lib/decompress/*.c)
-tartan_outside(ZSTD SOURCES ${zstd} INCLUDES ${sources}/libzstd/lib DEFINES ZSTD_DISABLE_ASM)
+tartan_outside(ZSTD SOURCES ${zstd} INCLUDES ${sources}/libzstd/lib DEFINES ZSTD_DISABLE_ASM OPTIONS -Os)
 
 add_library(Threads::Threads INTERFACE IMPORTED) # there are none, and the C library has their functions
