@@ -1,10 +1,10 @@
 // Measures: how plans are spread over the values of one, what one more tray does to it, and the front of two.
 import type {Desk} from "./desk";
 import {fill, h} from "./dom";
-import {drawing} from "./drawn";
+import {bar, drawing} from "./drawn";
 import {approximately, decimal, grouped, minus} from "./numbers";
+import {Refused} from "./questions";
 import type {CountedValues, FoundFront, ShownMeasure, SpreadRow} from "./requests";
-import {bar} from "./drawn";
 import {picture} from "./svg";
 
 const BINS = 16;
@@ -61,7 +61,7 @@ export class Measures {
     if (!choices.some(({name}) => name === this.other)) this.other = "";
     this.renderTools(choices);
     const chosen = choices.find(({name}) => name === this.by)!;
-    const spread = (await this.desk.questions.ask("count", {library: library.name, by: this.by, bins: BINS, picture: "svg"}, "measure")) as CountedValues;
+    const spread = await this.spread(library.name);
     const chart = h("figure", {class: "chart"});
     const svg = spread.files?.[0]?.text ? picture(spread.files[0].text, `How many plans have which ${this.by}`) : null;
     if (svg) chart.append(svg);
@@ -76,6 +76,17 @@ export class Measures {
     this.bins(rows, spread);
     await this.byLength(lengths, library.name, library.trays, spread.unit);
     if (this.other) await this.front(front, library.name, choices);
+  }
+
+  // Engines that were built without pictures count all the same.
+  private async spread(library: string): Promise<CountedValues> {
+    const request = {library, by: this.by, bins: BINS};
+    try {
+      return (await this.desk.questions.ask("count", {...request, picture: "svg"}, "measure")) as CountedValues;
+    } catch (failure) {
+      if (!(failure instanceof Refused)) throw failure;
+      return (await this.desk.questions.ask("count", request, "measure")) as CountedValues;
+    }
   }
 
   private value(fraction: string | null, unit: string): string {
