@@ -66,7 +66,7 @@ await page.locator(".totals").waitFor();
 await settled();
 await shot("what-changed");
 await page.getByRole("tab", {name: "Open plan"}).click();
-await page.locator("#value-use-stair").click();
+await page.locator("#value-use-hall").click();
 await settled();
 await shot("open-plan");
 

@@ -131,10 +131,10 @@ export class Measures {
     for (let length = trays[0]; length <= trays[1]; length++)
       found.push({length, answer: (await this.desk.questions.ask("count", {library, by: this.by, bins: 1, trays: {from: length, to: length}}, `measure ${length}`)) as CountedValues});
     const rows = found.filter(({answer}) => answer.least !== null);
-    const more = (now: string | null, before: string | null | undefined) => {
+    const more = (now: string | null, before: string | null | undefined, trays: number) => {
       if (now === null || before === null || before === undefined) return "";
       const text = decimal(minus(now, before));
-      return text.startsWith("−") || text === "0" ? text : `+${text}`;
+      return `${text.startsWith("−") || text === "0" ? text : `+${text}`}${trays > 1 ? ` for ${trays}` : ""}`;
     };
     fill(place,
       h("h2", null, "What one more tray does to it"),
@@ -142,7 +142,8 @@ export class Measures {
         h("thead", null, h("tr", null, ["trays", "least", "", "mean", "", "most", ""].map((name, i) => (name ? h("th", {scope: "col", class: i ? "num" : ""}, name) : h("td", null))))),
         h("tbody", null, rows.map(({length, answer}, i) => {
           const before = rows[i - 1]?.answer;
-          const cells = (now: string | null, then: string | null | undefined) => [h("td", {class: "num"}, this.value(now, unit)), h("td", {class: "num more"}, more(now, then))];
+          const trays = length - (rows[i - 1]?.length ?? length);
+          const cells = (now: string | null, then: string | null | undefined) => [h("td", {class: "num"}, this.value(now, unit)), h("td", {class: "num more"}, more(now, then, trays))];
           return h("tr", null, h("th", {scope: "row"}, length), cells(answer.least, before?.least), cells(answer.mean, before?.mean), cells(answer.most, before?.most));
         }))));
   }
