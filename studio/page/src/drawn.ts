@@ -19,7 +19,7 @@ export async function drawing(desk: Desk, request: DrawRequest, subject: string,
 }
 
 export async function drawPlans(desk: Desk, plans: string[], subject: string): Promise<Drawn> {
-  const drawn = await drawing(desk, {plans: plans.map((plan, i) => ({plan, number: String(i + 1)}))}, subject, "the plans");
+  const drawn = await drawing(desk, {plans: plans.map((plan) => ({plan, number: " "}))}, subject, "the plans");
   return drawn.each.length === plans.length ? drawn : {each: [], whole: drawn.whole};
 }
 
