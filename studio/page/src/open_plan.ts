@@ -3,6 +3,7 @@ import type {Desk} from "./desk";
 import {fill, h} from "./dom";
 import {bar} from "./drawn";
 import {counted, grouped, share} from "./numbers";
+import {quietly} from "./questions";
 import type {Completed, ShownField, ShownSchema, TrayChoices} from "./requests";
 
 type Tray = Record<string, string>; // by field the spelling of the value that is chosen
@@ -68,7 +69,7 @@ export class OpenPlan {
           this.again();
         }}, "Start again"),
         many === "1" && h("button", {id: "tray-why", type: "button", onclick: () => this.desk.explain(this.only(schema, answer))}, "Show it"),
-        answer.houses === undefined && many !== "0" && many !== "1" && h("button", {id: "tray-show", type: "button", class: "quiet", onclick: () => void this.one(library.name, schema)}, "Show the first")),
+        answer.houses === undefined && many !== "0" && many !== "1" && h("button", {id: "tray-show", type: "button", class: "quiet", onclick: () => quietly(this.one(library.name, schema))}, "Show the first")),
       answer.why_none && h("p", {class: "trouble"}, answer.why_none),
       h("ol", {class: "trays", "aria-label": "Trays"}, this.trays.map((tray, i) => h("li", null, this.tab(tray, i, schema)))),
       this.fields(schema, {...answer.trays[this.chosen], ...others}),
