@@ -9,7 +9,7 @@ SECONDS ?= 600
 FIRST ?= $(shell date +%s)
 TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(TEST_JOBS)
 
-.PHONY: help packages build demo check check-long check-parts check-editor check-report check-scale check-sanitizers check-arm check-arm-syntax wasm check-wasm lint package check-package bench bench-place bench-scale bench-studio fuzz search install uninstall clean
+.PHONY: help packages build demo check check-long check-parts check-editor check-report check-studio check-studio-quick check-scale check-sanitizers check-arm check-arm-syntax wasm check-wasm lint package check-package bench bench-place bench-scale bench-studio fuzz search install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
@@ -20,6 +20,7 @@ help:
 	@echo 'make check-package  try that on a clean root (as root, with debootstrap)'
 	@echo 'make check-editor  test the language server and the VS Code extension (needs node and npm)'
 	@echo 'make check-report  test the report page in a browser without a screen (chromium)'
+	@echo 'make check-studio  test the studio in a browser, and the playground if it is made (chromium, node and npm)'
 	@echo 'make check-scale  write a library by MPI, GNU parallel and Slurm, where these are installed'
 	@echo 'make check-sanitizers  run every test under AddressSanitizer and UndefinedBehaviorSanitizer (into build-asan/)'
 	@echo 'make check-arm-syntax  pass every C file through a compiler for 64-bit ARM'
@@ -69,6 +70,13 @@ check-editor: build
 
 check-report: build
 	@tools/check-report build/tartan
+
+check-studio: build
+	@tools/check-studio build/tartan all
+
+# Three scenarios of it, for continuous integration.
+check-studio-quick: build
+	@tools/check-studio build/tartan quick
 
 check-scale: build
 	@tools/check-scale build/tartan "$(RANKS)"

@@ -12,8 +12,7 @@ async function begin(t) {
   const page = await visit(t, address);
   await page.getByRole("button", {name: "A row of rooms"}).first().click();
   await page.locator("#count").waitFor();
-  await page.keyboard.press("Control+s");
-  await page.locator(".status", {hasText: /^saved$/}).waitFor();
+  await save(page);
   return {page, file: join(path, "rows.plan")};
 }
 

@@ -4,13 +4,15 @@ import assert from "node:assert/strict";
 import test, {after} from "node:test";
 import {writeFileSync} from "node:fs";
 import {join} from "node:path";
-import {ROWS, countOf, counted, done, folder, freePort, inspected, read, save, serve, text, visit, write} from "./studio.mjs";
+import {PLAYGROUND, ROWS, countOf, counted, done, folder, freePort, inspected, read, save, serve, text, visit, write} from "./studio.mjs";
 
 after(done);
 
+// What is about a server and its folder; the playground has neither.
+const only = {skip: PLAYGROUND !== null};
 const NO_SERVER = /WebSocket connection|ERR_CONNECTION_REFUSED|403/;
 
-test("the server ends and is started again", async (t) => {
+test("the server ends and is started again", only, async (t) => {
   const path = folder(t, {"rows.plan": ROWS});
   const port = String(await freePort());
   const first = await serve(t, path, "--port", port);
@@ -36,7 +38,7 @@ test("the server ends and is started again", async (t) => {
   assert.equal(read(join(path, "rows.plan")), wanted);
 });
 
-test("a window that was closed before its text was saved", async (t) => {
+test("a window that was closed before its text was saved", only, async (t) => {
   const path = folder(t, {"rows.plan": ROWS});
   const {address} = await serve(t, path);
   const page = await visit(t, address);
@@ -48,7 +50,7 @@ test("a window that was closed before its text was saved", async (t) => {
   assert.match(await text(page), /trays 3\.\.4/);
 });
 
-test("two windows on one file", async (t) => {
+test("two windows on one file", only, async (t) => {
   const path = folder(t, {"rows.plan": ROWS});
   const {address} = await serve(t, path);
   const one = await visit(t, address);
@@ -67,7 +69,7 @@ test("two windows on one file", async (t) => {
   await one.waitForFunction(() => document.querySelector(".editor").shadowRoot.querySelector(".cm-content").textContent.includes("18m in"));
 });
 
-test("a file that is changed outside", async (t) => {
+test("a file that is changed outside", only, async (t) => {
   const path = folder(t, {"rows.plan": ROWS});
   const {address} = await serve(t, path);
   const page = await visit(t, address);
@@ -82,7 +84,7 @@ test("a file that is changed outside", async (t) => {
   assert.equal(await text(page), ROWS);
 });
 
-test("a folder for reading alone", async (t) => {
+test("a folder for reading alone", only, async (t) => {
   const path = folder(t, {"rows.plan": ROWS});
   const {address} = await serve(t, path, "--read-only");
   const page = await visit(t, address);
@@ -93,4 +95,21 @@ test("a folder for reading alone", async (t) => {
   await page.locator(".cm-content").focus();
   await page.keyboard.type("x");
   assert.equal(await text(page), ROWS);
+});
+
+test("a link is opened again, and another in the same window", {skip: PLAYGROUND === null}, async (t) => {
+  const path = folder(t, {"rows.plan": ROWS});
+  const {address} = await serve(t, path);
+  const page = await visit(t, address);
+  await counted(page, countOf(join(path, "rows.plan")).kept);
+  await write(page, {over: "trays 3..6", typed: "trays 3..5"});
+  await save(page);
+  const kept = countOf(join(path, "rows.plan")).kept;
+  await counted(page, kept);
+  const link = page.url();
+  assert.notEqual(link, address);
+  const another = await visit(t, link);
+  await counted(another, kept);
+  await another.evaluate((hash) => (location.hash = hash), new URL(address).hash);
+  await another.waitForFunction(() => document.querySelector(".editor").shadowRoot.querySelector(".cm-content").textContent.includes("trays 3..6"));
 });

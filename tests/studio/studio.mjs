@@ -2,16 +2,20 @@
 import {chromium} from "playwright-core";
 import assert from "node:assert/strict";
 import {spawn, spawnSync} from "node:child_process";
-import {mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
+import {mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync} from "node:fs";
+import {createServer as createWeb} from "node:http";
 import {createServer} from "node:net";
 import {tmpdir} from "node:os";
-import {dirname, join, resolve} from "node:path";
+import {basename, dirname, extname, join, resolve} from "node:path";
 import {fileURLToPath} from "node:url";
+import {deflateRawSync} from "node:zlib";
 
 const here = dirname(fileURLToPath(import.meta.url));
 export const TARTAN = resolve(process.env.TARTAN ?? join(here, "../../build/tartan"));
 const BROWSER = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
+// The folder of the page without a server (make wasm), if the scenarios are to run on that.
+export const PLAYGROUND = process.env.PLAYGROUND ? resolve(process.env.PLAYGROUND) : null;
 const START_MS = 20_000;
 
 let browser;
@@ -39,8 +43,38 @@ export function freePort() {
   });
 }
 
+const TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm"};
+
+// Serves the playground as any server of files does; the folder's texts are in the address.
+async function serveFiles(t, path) {
+  const server = createWeb((request, response) => {
+    const name = basename(new URL(request.url, "http://localhost").pathname) || "index.html";
+    try {
+      const bytes = readFileSync(join(PLAYGROUND, name));
+      response.writeHead(200, {"content-type": TYPES[extname(name)] ?? "application/octet-stream"}).end(bytes);
+    } catch {
+      response.writeHead(404).end();
+    }
+  });
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  t.after(() => server.close());
+  const names = readdirSync(path);
+  const files = Object.fromEntries(names.map((name) => [name, read(join(path, name))]));
+  const packed = deflateRawSync(JSON.stringify({files, open: names[0]})).toString("base64url");
+  return {address: `http://127.0.0.1:${server.address().port}/${names.length ? `#t1.${packed}` : ""}`, stop: async () => {}};
+}
+
+// Where the page of an address has its files, for what is compared with the command.
+const folders = new Map();
+
 // Starts the server; `stop` ends it as Ctrl-C does.
 export async function serve(t, path, ...options) {
+  const served = PLAYGROUND ? await serveFiles(t, path) : await serveFolder(t, path, ...options);
+  folders.set(served.address, path);
+  return served;
+}
+
+async function serveFolder(t, path, ...options) {
   const child = spawn(TARTAN, ["studio", path, "--no-open", ...options], {stdio: ["ignore", "pipe", "pipe"]});
   let said = "";
   const address = await new Promise((done, fail) => {
@@ -74,6 +108,7 @@ export async function visit(t, address, {width = 1280, height = 800, dark = fals
   page.on("console", (message) => said.push(message.text()));
   page.on("pageerror", (error) => said.push(String(error.stack ?? error.message ?? error)));
   page.on("dialog", (dialog) => dialog.accept());
+  page.folder = folders.get(address);
   await page.goto(address);
   t.after(async () => {
     await page.close({runBeforeUnload: false});
@@ -117,6 +152,7 @@ export async function write(page, {after, over, typed}) {
 export async function save(page) {
   await page.keyboard.press("Control+s");
   await page.locator(".status", {hasText: /^saved$/}).waitFor();
+  if (PLAYGROUND) writeFileSync(join(page.folder, (await page.locator(".file-name").textContent()).replace("▾", "")), await text(page));
 }
 
 export function countOf(path, ...options) {

@@ -1,7 +1,7 @@
 // Plans as pictures, drawn by the engines.
 import type {Desk} from "./desk";
 import {h} from "./dom";
-import {cards, picture, type Card} from "./svg";
+import {NO_NUMBER, cards, picture, type Card} from "./svg";
 import type {DrawRequest} from "./requests";
 
 export interface Drawn {
@@ -19,7 +19,7 @@ export async function drawing(desk: Desk, request: DrawRequest, subject: string,
 }
 
 export async function drawPlans(desk: Desk, plans: string[], subject: string): Promise<Drawn> {
-  const drawn = await drawing(desk, {plans: plans.map((plan, i) => ({plan, number: String(i + 1)}))}, subject, "the plans");
+  const drawn = await drawing(desk, {plans: plans.map((plan) => ({plan, number: NO_NUMBER}))}, subject, "the plans");
   return drawn.each.length === plans.length ? drawn : {each: [], whole: drawn.whole};
 }
 

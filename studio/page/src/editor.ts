@@ -95,7 +95,7 @@ export class Editor {
   private extensions(file: OpenFile): Extension {
     return [
       lineNumbers(), lintGutter(), highlightActiveLineGutter(), highlightSpecialChars(), history(), drawSelection(), dropCursor(),
-      EditorState.allowMultipleSelections.of(true), indentOnInput(), bracketMatching(), closeBrackets(), autocompletion(),
+      EditorState.allowMultipleSelections.of(true), indentOnInput(), bracketMatching(), closeBrackets(), autocompletion({icons: false}),
       rectangularSelection(), crosshairCursor(), highlightActiveLine(), highlightSelectionMatches(), tooltips({position: "absolute"}),
       keymap.of([
         {key: "Mod-s", preventDefault: true, run: () => (this.hooks.save(), true)},

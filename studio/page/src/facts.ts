@@ -79,7 +79,7 @@ export class Facts {
       this.clauses,
       h("h2", null, "What each clause does"),
       h("table", {class: "clauses"},
-        h("thead", null, h("tr", null, h("th", {scope: "col"}, "clause"), h("th", {scope: "col", class: "num"}, "leaves out"), h("th", {scope: "col", class: "num", title: `${what} that no other clause leaves out`}, "it alone"))),
+        h("thead", null, h("tr", null, h("th", {scope: "col"}, "clause"), h("th", {scope: "col", class: "num", title: `${what} that no other clause leaves out, and all that it does`}, "leaves out alone"))),
         h("tbody", null, sorted.map((clause) => this.clause(clause)))),
     );
   }
@@ -90,8 +90,8 @@ export class Facts {
       h("th", {scope: "row"},
         h("button", {type: "button", class: "link", onclick: () => this.jump(name, line)}, label),
         h("span", {class: `verb ${verb}`}, verb), doc && h("span", {class: "doc"}, doc)),
-      h("td", {class: "num", title: out ? grouped(out) : null}, out === undefined ? "" : rounded(out)),
-      h("td", {class: "num", title: only ? grouped(only) : null}, only === undefined ? "" : only === "0" ? "nothing" : rounded(only)));
+      h("td", {class: "num", title: only && out ? `${grouped(only)} of ${grouped(out)}` : null},
+        only === undefined ? "" : only === "0" ? "nothing" : rounded(only), out !== undefined && h("span", {class: "of"}, `of ${rounded(out)}`)));
   }
 
   private jump(name: string, line: number): void {

@@ -238,6 +238,7 @@ export class Files {
 
   private outside(path: string, hash: string | null): void {
     const file = this.documents.files.find((one) => one.path === path);
+    if (!file) this.changed(false); // one that a text here uses
     if (!file || hash === file.hash) return;
     if (hash === null) {
       file.hash = null;

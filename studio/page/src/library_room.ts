@@ -169,14 +169,11 @@ export class LibraryRoom {
       () => this.attempt(() => this.sheet.refresh(), this.sheet.element),
       () => this.count(this.library!, libraries),
       async () => this.fresh(),
-      () => this.sliders.refresh(),
-      () => this.watchedPlans.refresh(),
+      () => this.attempt(() => this.sliders.refresh(), this.sliders.element),
+      () => this.attempt(() => this.watchedPlans.refresh(), this.watchedPlans.element),
       () => this.why.refresh(),
       () => this.refreshPane(),
-      async () => {
-        const {findings} = await questions.ask("check", {}, "check");
-        await this.facts.check(findings);
-      },
+      () => this.attempt(async () => this.facts.check((await questions.ask("check", {}, "check")).findings), this.facts.element),
     ];
     for (const step of steps) {
       await step();

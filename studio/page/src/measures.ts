@@ -1,10 +1,10 @@
 // Measures: how plans are spread over the values of one, what one more tray does to it, and the front of two.
 import type {Desk} from "./desk";
 import {fill, h} from "./dom";
-import {drawing} from "./drawn";
+import {bar, drawing} from "./drawn";
 import {approximately, decimal, grouped, minus} from "./numbers";
+import {Refused} from "./questions";
 import type {CountedValues, FoundFront, ShownMeasure, SpreadRow} from "./requests";
-import {bar} from "./drawn";
 import {picture} from "./svg";
 
 const BINS = 16;
@@ -61,7 +61,7 @@ export class Measures {
     if (!choices.some(({name}) => name === this.other)) this.other = "";
     this.renderTools(choices);
     const chosen = choices.find(({name}) => name === this.by)!;
-    const spread = (await this.desk.questions.ask("count", {library: library.name, by: this.by, bins: BINS, picture: "svg"}, "measure")) as CountedValues;
+    const spread = await this.spread(library.name);
     const chart = h("figure", {class: "chart"});
     const svg = spread.files?.[0]?.text ? picture(spread.files[0].text, `How many plans have which ${this.by}`) : null;
     if (svg) chart.append(svg);
@@ -76,6 +76,17 @@ export class Measures {
     this.bins(rows, spread);
     await this.byLength(lengths, library.name, library.trays, spread.unit);
     if (this.other) await this.front(front, library.name, choices);
+  }
+
+  // Engines that were built without pictures count all the same.
+  private async spread(library: string): Promise<CountedValues> {
+    const request = {library, by: this.by, bins: BINS};
+    try {
+      return (await this.desk.questions.ask("count", {...request, picture: "svg"}, "measure")) as CountedValues;
+    } catch (failure) {
+      if (!(failure instanceof Refused)) throw failure;
+      return (await this.desk.questions.ask("count", request, "measure")) as CountedValues;
+    }
   }
 
   private value(fraction: string | null, unit: string): string {
@@ -120,10 +131,10 @@ export class Measures {
     for (let length = trays[0]; length <= trays[1]; length++)
       found.push({length, answer: (await this.desk.questions.ask("count", {library, by: this.by, bins: 1, trays: {from: length, to: length}}, `measure ${length}`)) as CountedValues});
     const rows = found.filter(({answer}) => answer.least !== null);
-    const more = (now: string | null, before: string | null | undefined) => {
+    const more = (now: string | null, before: string | null | undefined, trays: number) => {
       if (now === null || before === null || before === undefined) return "";
       const text = decimal(minus(now, before));
-      return text.startsWith("−") || text === "0" ? text : `+${text}`;
+      return `${text.startsWith("−") || text === "0" ? text : `+${text}`}${trays > 1 ? ` for ${trays}` : ""}`;
     };
     fill(place,
       h("h2", null, "What one more tray does to it"),
@@ -131,7 +142,8 @@ export class Measures {
         h("thead", null, h("tr", null, ["trays", "least", "", "mean", "", "most", ""].map((name, i) => (name ? h("th", {scope: "col", class: i ? "num" : ""}, name) : h("td", null))))),
         h("tbody", null, rows.map(({length, answer}, i) => {
           const before = rows[i - 1]?.answer;
-          const cells = (now: string | null, then: string | null | undefined) => [h("td", {class: "num"}, this.value(now, unit)), h("td", {class: "num more"}, more(now, then))];
+          const trays = length - (rows[i - 1]?.length ?? length);
+          const cells = (now: string | null, then: string | null | undefined) => [h("td", {class: "num"}, this.value(now, unit)), h("td", {class: "num more"}, more(now, then, trays))];
           return h("tr", null, h("th", {scope: "row"}, length), cells(answer.least, before?.least), cells(answer.mean, before?.mean), cells(answer.most, before?.most));
         }))));
   }

@@ -3,7 +3,8 @@ import type {Desk} from "./desk";
 import {fill, h} from "./dom";
 import {bar} from "./drawn";
 import {counted, grouped, share} from "./numbers";
-import type {Completed, ShownField, ShownSchema} from "./requests";
+import {quietly} from "./questions";
+import type {Completed, ShownField, ShownSchema, TrayChoices} from "./requests";
 
 type Tray = Record<string, string>; // by field the spelling of the value that is chosen
 
@@ -48,6 +49,7 @@ export class OpenPlan {
     this.chosen = Math.min(this.chosen, this.trays.length - 1);
     const answer = (await this.desk.questions.ask("complete", {library: library.name, pattern: pattern(schema, this.trays)}, "open")) as Completed;
     const many = answer.plans ?? answer.houses ?? "0";
+    const others = await this.others(library.name, schema);
     const focused = document.activeElement?.id;
     fill(
       this.element,
@@ -67,12 +69,24 @@ export class OpenPlan {
           this.again();
         }}, "Start again"),
         many === "1" && h("button", {id: "tray-why", type: "button", onclick: () => this.desk.explain(this.only(schema, answer))}, "Show it"),
-        answer.houses === undefined && many !== "0" && many !== "1" && h("button", {id: "tray-show", type: "button", class: "quiet", onclick: () => void this.one(library.name, schema)}, "Show the first")),
+        answer.houses === undefined && many !== "0" && many !== "1" && h("button", {id: "tray-show", type: "button", class: "quiet", onclick: () => quietly(this.one(library.name, schema))}, "Show the first")),
       answer.why_none && h("p", {class: "trouble"}, answer.why_none),
       h("ol", {class: "trays", "aria-label": "Trays"}, this.trays.map((tray, i) => h("li", null, this.tab(tray, i, schema)))),
-      this.fields(schema, answer),
+      this.fields(schema, {...answer.trays[this.chosen], ...others}),
     );
     if (focused) document.getElementById(focused)?.focus();
+  }
+
+  // Of each field that is chosen in this tray: what its other values would leave.
+  private async others(library: string, schema: ShownSchema): Promise<TrayChoices> {
+    const found: TrayChoices = {};
+    for (const name of Object.keys(this.trays[this.chosen])) {
+      const trays = this.trays.map((tray) => ({...tray}));
+      delete trays[this.chosen][name];
+      const answer = (await this.desk.questions.ask("complete", {library, pattern: pattern(schema, trays)}, `open ${name}`)) as Completed;
+      found[name] = answer.trays[this.chosen]?.[name] ?? {};
+    }
+    return found;
   }
 
   private tab(tray: Tray, i: number, schema: ShownSchema): HTMLElement {
@@ -83,9 +97,8 @@ export class OpenPlan {
     }}, h("span", {class: "number"}, i + 1), words.length ? words.map((word) => h("span", null, word)) : h("span", {class: "faint"}, "anything"));
   }
 
-  private fields(schema: ShownSchema, answer: Completed): HTMLElement {
+  private fields(schema: ShownSchema, choices: TrayChoices): HTMLElement {
     const tray = this.trays[this.chosen];
-    const choices = answer.trays[this.chosen] ?? {};
     return h("div", {class: "fields"}, schema.fields.map((field) => {
       const counts = choices[field.name] ?? {};
       const most = Object.values(counts).reduce((max, digits) => (BigInt(digits) > BigInt(max) ? digits : max), "0");

@@ -79,3 +79,10 @@ export class Questions {
     this.asked.clear();
   }
 }
+
+// For work that nobody waits for: what comes too late, or is refused where there is no place to say so, is left.
+export function quietly(work: Promise<unknown>): void {
+  work.catch((failure) => {
+    if (!(failure instanceof Stale || failure instanceof Refused)) throw failure;
+  });
+}

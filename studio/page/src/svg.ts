@@ -92,9 +92,24 @@ export function cards(sheet: SVGSVGElement): Card[] {
   document.body.appendChild(stage);
   const shared = new Map<string, Element>();
   for (const element of sheet.querySelectorAll("[id]")) shared.set(element.id, element);
+  groups.forEach(bared);
   const found = groups.map((group) => card(group as SVGGElement, sheet, shared));
   stage.remove();
   return found;
+}
+
+// A plan that is given this for its number has none: the page says below the picture which one it is.
+export const NO_NUMBER = "·";
+
+// Takes off what only a sheet needs: the number with the word before it, and the rectangle of nothing that is as large as
+// the plan's part of the sheet.
+function bared(group: Element): void {
+  for (const child of group.querySelectorAll("text"))
+    if (child.textContent?.trim() === NO_NUMBER) {
+      if (child.previousElementSibling?.localName === "text") child.previousElementSibling.remove();
+      child.remove();
+    }
+  for (const child of group.children) if (child.localName === "rect" && child.getAttribute("fill-opacity") === "0") child.remove();
 }
 
 const MARGIN = 4;

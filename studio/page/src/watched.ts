@@ -4,7 +4,7 @@ import type {Desk} from "./desk";
 import {fill, h} from "./dom";
 import {drawPlans, scaled} from "./drawn";
 import {inWords} from "./numbers";
-import {Refused} from "./questions";
+import {Refused, quietly} from "./questions";
 
 export class Watched {
   readonly element = h("section", {class: "watched", "aria-label": "Plans that you watch", hidden: true});
@@ -21,7 +21,7 @@ export class Watched {
     this.load();
     this.plans = this.plans.includes(plan) ? this.plans.filter((one) => one !== plan) : [...this.plans, plan];
     sessionStorage.setItem(this.key(), JSON.stringify(this.plans));
-    void this.refresh();
+    quietly(this.refresh());
   }
 
   private load(): void {

@@ -18,6 +18,7 @@ export class Why {
     type: "text", class: "plan-field", "aria-label": "The plan, tray by tray", spellcheck: "false", autocomplete: "off", autocapitalize: "off",
   });
   private body = h("div", {class: "why-body"});
+  private heading = h("h2", null, "One plan");
   private drawing = h("div", {class: "drawing large"});
   private opener: Element | null = null;
 
@@ -27,7 +28,7 @@ export class Why {
       if (this.field.value.trim()) this.show(this.field.value.trim());
     }}, this.field, h("button", {type: "submit"}, "Why?"));
     this.element = h("aside", {class: "why", hidden: true, "aria-label": "One plan", tabindex: "-1"},
-      h("header", null, h("h2", null, "One plan"), h("button", {type: "button", class: "close", "aria-label": "Close", title: "Close (Escape)", onclick: () => this.close()}, "×")),
+      h("header", null, this.heading, h("button", {type: "button", class: "close", "aria-label": "Close", title: "Close (Escape)", onclick: () => this.close()}, "×")),
       this.drawing, form, this.body);
     this.element.addEventListener("keydown", (event) => {
       if (event.key === "Escape") this.close();
@@ -66,6 +67,7 @@ export class Why {
     const library = this.desk.library();
     if (!this.open || !library) return;
     this.element.classList.add("stale");
+    this.heading.textContent = library.form ? "One house" : "One plan";
     try {
       if (library.form) await this.house(library.name);
       else await this.explain(library.name);

@@ -1,0 +1,75 @@
+// Films the three first tasks, from an empty folder and an empty profile, and makes the pictures of docs/studio.md:
+// node pictures.mjs FOLDER. Prints what each task took, without the time of whoever thinks.
+import {mkdirSync, mkdtempSync, rmSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {join, resolve} from "node:path";
+import {counted, countOf, done, save, serve, visit} from "./studio.mjs";
+
+const out = resolve(process.argv[2] ?? "pictures");
+mkdirSync(out, {recursive: true});
+const work = [];
+const t = {after: (end) => work.push(end)};
+const folder = mkdtempSync(join(tmpdir(), "tartan-studio-"));
+const {address} = await serve(t, folder);
+const page = await visit(t, address, {width: 1280, height: 800});
+let shots = 0;
+const shot = (name) => page.screenshot({path: join(out, `${String(++shots).padStart(2, "0")}-${name}.png`)});
+let began = performance.now();
+const lap = (task) => {
+  console.log(`${task}: ${((performance.now() - began) / 1000).toFixed(1)} s`);
+  began = performance.now();
+};
+const settled = () => page.waitForTimeout(600);
+
+await page.getByRole("button", {name: "A row of rooms"}).first().waitFor();
+await shot("empty-folder");
+await page.getByRole("button", {name: "A row of rooms"}).first().click();
+await page.locator("#count").waitFor();
+await save(page);
+await counted(page, countOf(join(folder, "rows.plan")).kept);
+lap("an empty folder, and a text that works");
+await settled();
+await shot("a-row-of-rooms");
+
+began = performance.now();
+await page.locator(".sheet .card").nth(1).click();
+await page.getByRole("button", {name: "Watch this plan"}).click();
+await page.getByRole("button", {name: "Watched"}).waitFor();
+await page.getByRole("button", {name: "Close", exact: true}).click();
+await page.getByRole("button", {name: "Add a rule"}).click();
+await page.getByLabel("Which tray").selectOption("stair");
+await shot("add-a-rule");
+await page.getByRole("button", {name: "Add it"}).click();
+await page.locator(".clauses").getByRole("button", {name: "stair-in-the-middle"}).waitFor();
+lap("only plans with a stair in the middle");
+await settled();
+await shot("a-stair-in-the-middle");
+
+began = performance.now();
+await page.locator(".watched .card").first().click();
+await page.locator(".why .verdict").waitFor();
+await page.locator(".why .part").first().hover();
+lap("why a plan that one liked is gone");
+await settled();
+await shot("why-it-is-gone");
+await page.getByRole("button", {name: "Close", exact: true}).click();
+
+began = performance.now();
+await page.getByRole("tab", {name: "Measures"}).click();
+await page.getByRole("heading", {name: "What one more tray does to it"}).waitFor();
+lap("what one more bay costs");
+await page.getByRole("heading", {name: "What one more tray does to it"}).scrollIntoViewIfNeeded();
+await settled();
+await shot("one-more-bay");
+await page.getByRole("tab", {name: "What changed"}).click();
+await page.locator(".totals").waitFor();
+await settled();
+await shot("what-changed");
+await page.getByRole("tab", {name: "Open plan"}).click();
+await page.locator("#value-use-hall").click();
+await settled();
+await shot("open-plan");
+
+for (const end of work.reverse()) await end();
+await done();
+rmSync(folder, {recursive: true, force: true});
