@@ -1,5 +1,4 @@
-/* Where a picture goes and of which format it is: what whoever asks for one needs to know. Drawing it is the optional
- * part runtime/draw.
+/* Where a picture goes and of which format it is: what whoever asks for one needs to know. runtime/draw draws it.
  */
 #ifndef TARTAN_BASE_PICTURE_H
 #define TARTAN_BASE_PICTURE_H
@@ -11,8 +10,7 @@ typedef enum tn_canvas_format { TN_CANVAS_BY_PATH, TN_CANVAS_SVG, TN_CANVAS_PNG,
 /* The format that a path's extension asks for (.svg, .png, .pdf, in any case); TN_INVALID (E0904) for another. */
 tn_status tn_canvas_format_of(const char *path, tn_canvas_format *format, tn_error *error);
 
-/* Where a picture goes: to a file, into memory, or into an HTML page as an <svg> element whose lettering is text, which
- * makes it a tenth of the size. */
+/* Where a picture goes: to a file, into memory, or into an HTML page as an <svg> element. */
 typedef struct tn_picture {
     const char *path;        /* a file; NULL: into memory or a page */
     tn_canvas_format format; /* BY_PATH: what the path's extension says, or, without a path, into a page */
