@@ -98,6 +98,7 @@ wasm: packages
 	@mkdir -p build-wasm
 	@cmake --preset wasm $(CMAKE_FLAGS) >build-wasm/configure.log 2>&1 || { cat build-wasm/configure.log; exit 1; }
 	@cmake --build build-wasm -j $(JOBS)
+	@tools/build-playground build-wasm/site
 
 check-wasm: build wasm
 	@tools/check-wasm build build-wasm

@@ -56,9 +56,27 @@ export const options = {bundle: true, format: "esm", target: "es2022", charset: 
 const POLICY =
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src 'self'; worker-src 'self'; img-src data: blob:; base-uri 'none'; form-action 'none'";
 
+// The licences of the packages that are bundled, each text once, as a comment.
+function licencesOf(inputs) {
+  const packages = new Set(inputs.map((path) => /^.*node_modules\/(?:@[^/]+\/)?[^/]+/.exec(path)?.[0]).filter(Boolean));
+  const texts = new Map();
+  for (const path of [...packages].sort()) {
+    const folder = join(here, path);
+    const {name, version} = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
+    const file = readdirSync(folder).find((one) => /^licen[cs]e/i.test(one));
+    if (!file) throw new Error(`${name} has no licence`);
+    const text = readFileSync(join(folder, file), "utf8").trim();
+    texts.set(text, [...(texts.get(text) ?? []), `${name} ${version}`]);
+  }
+  const said = [...texts].map(([text, names]) => `${names.join(", ")}:\n\n${text}`).join("\n\n");
+  return `/* This page bundles:\n\n${said.replaceAll("*/", "* /")}\n*/\n`;
+}
+
 async function buildPage(entry, out) {
   mkdirSync(out, {recursive: true});
-  await build({...options, entryPoints: {app: join(here, "src", entry)}, outdir: out, minify: true, legalComments: "eof"});
+  const bundle = {...options, absWorkingDir: here, entryPoints: {app: join("src", entry)}, outdir: out, minify: true};
+  const {metafile} = await build({...bundle, write: false, metafile: true});
+  await build({...bundle, footer: {js: licencesOf(Object.keys(metafile.inputs))}});
   await build({entryPoints: [join(here, "src/app.css")], outdir: out, minify: true});
   const page = readFileSync(join(here, "src/index.html"), "utf8");
   const policy = `<meta http-equiv="Content-Security-Policy" content="${POLICY}">\n`;

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import test, {after} from "node:test";
 import {writeFileSync} from "node:fs";
 import {join} from "node:path";
-import {ROWS, countOf, counted, done, folder, inspected, save, serve, tartan, text, visit, write} from "./studio.mjs";
+import {ROWS, countOf, counted, done, folder, inspected, read, save, serve, tartan, text, visit, write} from "./studio.mjs";
 
 after(done);
 
@@ -52,4 +52,21 @@ test("counts and differences are the command's", async (t) => {
   await inspected(page, "what changed");
   await save(page);
   await page.getByText("Nothing has changed since the file was saved.").waitFor();
+});
+
+test("what is saved has the command's bytes", async (t) => {
+  const path = folder(t, {"rows.plan": 'use "lahave"\n\nlibrary small "houses of two trays" using lahave {\n  trays 1..2\n  prune narrow-pair, dense-end\n}\n'});
+  const {address} = await serve(t, path);
+  const page = await visit(t, address);
+  await page.locator(".sheet .card svg").first().waitFor();
+  const saved = async (what) => {
+    const [file] = await Promise.all([page.waitForEvent("download"), page.getByLabel("Save a copy of").selectOption(what)]);
+    return read(await file.path());
+  };
+  for (const [what, name, ...words] of [["svg", "out.svg", "draw", "--sample", "12", "--seed", "0"], ["pl", "out.pl", "export", "--prolog"]]) {
+    const [command, ...options] = words;
+    tartan(command, join(path, "rows.plan"), ...options, "-o", join(path, name));
+    const same = (text) => text.replaceAll(path + "/", "").replaceAll("/rows.plan", "rows.plan");
+    assert.equal(same(await saved(what)), same(read(join(path, name))), what);
+  }
 });

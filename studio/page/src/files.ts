@@ -4,6 +4,7 @@ import type {Connection, Failure} from "./connection";
 import {OpenFile, pathOf, type Documents} from "./documents";
 import type {Editor} from "./editor";
 import {fill, h} from "./dom";
+import {keep} from "./keep";
 import {NOTATIONS, notationOf} from "./language";
 import type {Notices} from "./notices";
 import {STARTS, type Start} from "./starts";
@@ -169,7 +170,7 @@ export class Files {
       const {data, message, code} = failure as Failure;
       if (data?.code === "conflict") this.outside(file.path, data.hash ?? null);
       else if (code === -1) this.notices.say("There is no connection, so nothing is saved. The text stays here.");
-      else this.notices.show("write", `${file.path} cannot be saved: ${message}`, [{label: "Save a copy", run: () => download(file)}, {label: "Close", run: () => this.notices.clear("write")}], true);
+      else this.notices.show("write", `${file.path} cannot be saved: ${message}`, [{label: "Save a copy", run: () => keep(file.text, file.path.split("/").pop()!)}, {label: "Close", run: () => this.notices.clear("write")}], true);
     }
   }
 
@@ -306,13 +307,6 @@ export class Files {
     document.body.append(dialog);
     dialog.showModal();
   }
-}
-
-export function download(file: OpenFile): void {
-  const address = URL.createObjectURL(new Blob([file.text], {type: "text/plain"}));
-  const link = h("a", {href: address, download: file.path.split("/").pop()});
-  link.click();
-  URL.revokeObjectURL(address);
 }
 
 export function notationName(path: string): string {

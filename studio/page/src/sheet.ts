@@ -3,6 +3,8 @@ import type {Desk} from "./desk";
 import {fill, h} from "./dom";
 import {drawPlans, drawing, scaled} from "./drawn";
 import {decimal, grouped, plans as plural} from "./numbers";
+import {keep} from "./keep";
+import {Refused, Stale} from "./questions";
 import type {BestHouses, FoundHouses, FoundPlans} from "./requests";
 
 const PLANS = 12;
@@ -71,8 +73,38 @@ export class Sheet {
           this.again();
         },
       }, this.where.label, h("span", {"aria-hidden": "true"}, " ×")),
+      this.saver(),
     );
     if (focused) document.getElementById(focused)?.focus();
+  }
+
+  // What can be taken along, as the commands write it.
+  private saver(): HTMLElement {
+    const library = this.desk.library()!;
+    const name = this.desk.file()!.path.split("/").pop()!.replace(/\.plan$/, "");
+    const select = h("select", {id: "sheet-save", class: "end", "aria-label": "Save a copy of", onchange: () => {
+      const what = select.value;
+      select.value = "";
+      this.save(what, library.name, name).catch((failure) => {
+        if (failure instanceof Refused) this.desk.say(`${failure.message}.`);
+        else if (!(failure instanceof Stale)) throw failure;
+      });
+    }}, h("option", {value: ""}, "Save a copy …"), h("option", {value: "svg"}, "the plans as a sheet (.svg)"), h("option", {value: "html"}, "a report (.html)"),
+      !library.form && h("option", {value: "pl"}, "the rules in Prolog (.pl)"));
+    return select;
+  }
+
+  private async save(what: string, library: string, name: string): Promise<void> {
+    const {questions} = this.desk;
+    const where = this.where ? [this.where.text] : undefined;
+    const count = this.desk.library()!.form ? HOUSES : PLANS;
+    const measure = /^(least|most):(.+)/.exec(this.way);
+    const which = measure ? {best: count, by: [{measure: measure[2], most: measure[1] === "most"}]} : {sample: count, seed: this.seed};
+    const answer = what === "svg"
+      ? await questions.ask("draw", {library, where, ...which, format: "svg"}, "copy")
+      : what === "html" ? await questions.ask("report", {library, where}, "copy") : await questions.ask("export", {library, where, as: "prolog"}, "copy");
+    const text = answer.files[0]?.text;
+    if (text !== undefined) keep(text, `${name}.${what}`);
   }
 
   private async houses(library: string, where: string[] | undefined): Promise<Shown[]> {

@@ -5,7 +5,8 @@ import {Documents} from "./documents";
 import {fill, h, later} from "./dom";
 import {Editor, newClient} from "./editor";
 import {applied, type Edit} from "./edits";
-import {Files, download, notationName} from "./files";
+import {Files, notationName} from "./files";
+import {keep} from "./keep";
 import {LibraryRoom} from "./library_room";
 import {Notices} from "./notices";
 import {Questions} from "./questions";
@@ -157,7 +158,7 @@ export class Studio {
       ? "This address is not one that Tartan gave. Start `tartan studio`, and open the address that it prints."
       : "Tartan has ended, or does not answer. Your text is kept here, and is sent again when it is back. If it was started anew, open the address that it prints in this window.";
     const file = this.files.shown;
-    this.notices.show("gone", text.replaceAll("`", ""), file ? [{label: "Save a copy", run: () => download(file)}] : [], true);
+    this.notices.show("gone", text.replaceAll("`", ""), file ? [{label: "Save a copy", run: () => keep(file.text, file.path.split("/").pop()!)}] : [], true);
   }
 
   private async welcome(): Promise<void> {
