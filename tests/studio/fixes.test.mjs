@@ -70,3 +70,18 @@ test("what is saved has the command's bytes", async (t) => {
     assert.equal(same(await saved(what)), same(read(join(path, name))), what);
   }
 });
+
+test("to a definition in the standard library, and back", async (t) => {
+  const path = folder(t, {"small.plan": 'use "lahave"\n\nlibrary small using lahave {\n  trays 1..2\n  prune narrow-pair\n}\n'});
+  const {address} = await serve(t, path);
+  const page = await visit(t, address);
+  await page.locator("#count").waitFor();
+  await write(page, {after: "prune narrow-p", typed: ""});
+  await page.keyboard.press("F12");
+  await page.getByText("This file comes with Tartan.").waitFor();
+  assert.match(await text(page), /^# The trays of the LaHave House grammar/);
+  await inspected(page, "a file of the standard library");
+  await page.getByRole("button", {name: "Back to small.plan"}).click();
+  await page.locator("#count").waitFor();
+  assert.match(await text(page), /^use "lahave"/);
+});

@@ -18,5 +18,6 @@ export interface Desk {
   say(sentence: string): void;
   watch(plan: string): void;
   watched(): string[];
+  before(): {path: string; show: () => void} | null; // the file that was shown before
   refreshPane(): Promise<void>; // what is asked anew when a choice in a pane changes
 }

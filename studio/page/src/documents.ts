@@ -5,6 +5,8 @@ import type {EditorView} from "@codemirror/view";
 import {LSPPlugin, Workspace, type LSPClient, type WorkspaceFile} from "@codemirror/lsp-client";
 import {notationOf} from "./language";
 
+export const STANDARD = "stdlib:/";
+
 export class OpenFile implements WorkspaceFile {
   version = 1;
   view: EditorView | null = null;
@@ -18,8 +20,9 @@ export class OpenFile implements WorkspaceFile {
     public saved: string, // the text as it was last read or written
     public hash: string | null, // of that; null if there is no such file yet
     readonly readOnly: boolean,
+    readonly standard = false, // a file of the standard library, which no server knows as an open one
   ) {
-    this.uri = uriOf(path);
+    this.uri = standard ? STANDARD + path : uriOf(path);
     this.languageId = notationOf(path);
   }
 
@@ -66,12 +69,12 @@ export class Documents extends Workspace {
 
   add(file: OpenFile): void {
     this.files.push(file);
-    this.client.didOpen(file);
+    if (!file.standard) this.client.didOpen(file);
   }
 
   remove(file: OpenFile): void {
     this.files = this.files.filter((other) => other !== file);
-    this.client.didClose(file.uri);
+    if (!file.standard) this.client.didClose(file.uri);
   }
 
   syncFiles() {
@@ -101,6 +104,7 @@ export class Documents extends Workspace {
   // A connection is made, perhaps again: the server knows nothing of these texts.
   override connected(): void {
     for (const file of this.files) {
+      if (file.standard) continue;
       const plugin = file.view && LSPPlugin.get(file.view);
       file.doc = file.current;
       file.version++;

@@ -110,8 +110,7 @@ export class Editor {
       EditorView.updateListener.of((update) => {
         if (update.docChanged) this.hooks.changed();
       }),
-      this.client.plugin(file.uri, file.languageId),
-      serverCompletion(), hoverTooltips(),
+      file.standard ? [] : [this.client.plugin(file.uri, file.languageId), serverCompletion(), hoverTooltips()],
     ];
   }
 

@@ -1,7 +1,7 @@
 // The files of the folder: reading, saving, and what happens if one was changed elsewhere.
 import {Text} from "@codemirror/state";
 import type {Connection, Failure} from "./connection";
-import {OpenFile, pathOf, type Documents} from "./documents";
+import {OpenFile, STANDARD, pathOf, type Documents} from "./documents";
 import type {Editor} from "./editor";
 import {fill, h} from "./dom";
 import {keep} from "./keep";
@@ -29,6 +29,7 @@ export class Files {
   readonly welcome = h("section", {class: "welcome", hidden: true, "aria-label": "Begin"});
   folder: Folder = {folder: "", readOnly: false, open: null, files: [], cut: false};
   shown: OpenFile | null = null;
+  before: OpenFile | null = null; // the one of this folder that was shown before that of the standard library
   documents!: Documents;
   editor!: Editor;
 
@@ -51,9 +52,9 @@ export class Files {
   private render(): void {
     const open = new Set(this.documents.files.filter((file) => file.changed).map((file) => file.path));
     const known = new Set(this.folder.files.map((file) => file.path));
-    const unsaved = this.documents.files.filter((file) => !known.has(file.path)).map((file) => file.path);
+    const unsaved = this.documents.files.filter((file) => !file.standard && !known.has(file.path)).map((file) => file.path);
     const row = (path: string) => h("li", null, h("button", {
-      type: "button", class: "file", "aria-current": this.shown?.path === path ? "true" : null,
+      type: "button", class: "file", "aria-current": this.shown?.path === path && !this.shown.standard ? "true" : null,
       onclick: () => {
         this.element.hidePopover();
         void this.open(path);
@@ -106,7 +107,7 @@ export class Files {
   // ---- opening
 
   async load(path: string): Promise<OpenFile | null> {
-    const known = this.documents.files.find((file) => file.path === path);
+    const known = this.documents.files.find((file) => file.path === path && !file.standard);
     if (known) return known;
     try {
       const {text, hash} = await this.connection.ask("tartan/read", {path});
@@ -130,8 +131,9 @@ export class Files {
   show(file: OpenFile): void {
     this.hideWelcome();
     this.editor.show(file);
+    if (this.shown && !this.shown.standard) this.before = this.shown;
     this.shown = file;
-    sessionStorage.setItem("tartan.file", file.path);
+    if (!file.standard) sessionStorage.setItem("tartan.file", file.path);
     document.title = `${file.path} – Tartan`;
     this.changed(true);
     this.render();
@@ -139,10 +141,22 @@ export class Files {
   }
 
   async showUri(uri: string): Promise<import("@codemirror/view").EditorView | null> {
-    const file = this.documents.getFile(uri) ?? (await this.load(pathOf(uri)));
+    const file = this.documents.getFile(uri) ?? (uri.startsWith(STANDARD) ? await this.standard(uri.slice(STANDARD.length)) : await this.load(pathOf(uri)));
     if (!file) return null;
     this.show(file);
     return this.editor.view;
+  }
+
+  private async standard(name: string): Promise<OpenFile | null> {
+    try {
+      const {text} = (await this.connection.ask("tartan/stdlib", {name})) as {text: string};
+      const file = new OpenFile(name, Text.of(text.split("\n")), text, "", true, true);
+      this.documents.files.push(file);
+      return file;
+    } catch {
+      this.notices.say(`${name} is of the standard library, and cannot be shown.`);
+      return null;
+    }
   }
 
   async loadUri(uri: string): Promise<OpenFile | null> {
@@ -233,12 +247,12 @@ export class Files {
   // ---- changed elsewhere
 
   watch(): void {
-    const paths = this.documents.files.filter((file) => file.hash !== null).map(({path, hash}) => ({path, hash}));
+    const paths = this.documents.files.filter((file) => file.hash !== null && !file.standard).map(({path, hash}) => ({path, hash}));
     void this.connection.ask("tartan/watch", {paths}).catch(() => {});
   }
 
   private outside(path: string, hash: string | null): void {
-    const file = this.documents.files.find((one) => one.path === path);
+    const file = this.documents.files.find((one) => one.path === path && !one.standard);
     if (!file) this.changed(false); // one that a text here uses
     if (!file || hash === file.hash) return;
     if (hash === null) {

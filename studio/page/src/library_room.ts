@@ -134,7 +134,7 @@ export class LibraryRoom {
     if (!file) return;
     const run = ++this.run;
     this.desk.questions.cancel();
-    const plan = file.languageId === "plan";
+    const plan = file.languageId === "plan" && !file.standard;
     this.content.hidden = !plan;
     this.plain.hidden = plan;
     if (!plan) return this.other(run);
@@ -262,6 +262,12 @@ export class LibraryRoom {
   // A file of another notation: what this page has of it so far.
   private async other(run: number): Promise<void> {
     const file = this.desk.file()!;
+    if (file.standard) {
+      const before = this.desk.before();
+      fill(this.plain, h("h2", {class: "title"}, file.path), h("p", {class: "lead"}, "This file comes with Tartan. Other files use it by its name:"), h("pre", null, `use "${file.path.replace(/\.\w+$/, "")}"`),
+        before && h("p", null, h("button", {type: "button", onclick: before.show}, `Back to ${before.path}`)));
+      return;
+    }
     const draws = ["field", "solid"].includes(file.languageId);
     const about: Record<string, string> = {
       hemls: "Surfaces that grow from these rules are not shown on this page yet. `tartan grow` makes and draws them.",

@@ -77,6 +77,10 @@ export class Studio {
       say: (sentence) => this.notices.say(sentence),
       watch: (plan) => room().watchedPlans.toggle(plan),
       watched: () => room().watchedPlans.plans,
+      before: () => {
+        const {before} = this.files;
+        return before && {path: before.path, show: () => this.files.show(before)};
+      },
       refreshPane: () => room().refreshPane(),
     };
   }
