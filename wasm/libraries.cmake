@@ -15,7 +15,7 @@ function(tartan_outside module)
 endfunction()
 
 set(sources ${TARTAN_WASM_SOURCES})
-tartan_outside(GMP SOURCES ${CMAKE_CURRENT_LIST_DIR}/gmp.c INCLUDES ${CMAKE_CURRENT_LIST_DIR} ${sources}/gmp/mini-gmp)
+tartan_outside(GMP SOURCES ${CMAKE_CURRENT_LIST_DIR}/gmp.c INCLUDES ${CMAKE_CURRENT_LIST_DIR} ${sources}/gmp/mini-gmp OPTIONS -O2)
 
 # jansson's configuration, with what emscripten's C library has.
 set(json_inline inline)
@@ -28,11 +28,11 @@ file(WRITE ${PROJECT_BINARY_DIR}/jansson/jansson_private_config.h.new "#define I
 file(COPY_FILE ${PROJECT_BINARY_DIR}/jansson/jansson_private_config.h.new ${PROJECT_BINARY_DIR}/jansson/jansson_private_config.h ONLY_IF_DIFFERENT)
 file(GLOB jansson ${sources}/jansson/src/*.c)
 tartan_outside(JANSSON SOURCES ${jansson} INCLUDES ${PROJECT_BINARY_DIR}/jansson ${sources}/jansson/src
-  DEFINES HAVE_STDINT_H HAVE_SYS_TYPES_H HAVE_UNISTD_H HAVE_STRTOLL HAVE_CONFIG_H=1 OPTIONS -Os)
+  DEFINES HAVE_STDINT_H HAVE_SYS_TYPES_H HAVE_UNISTD_H HAVE_STRTOLL HAVE_CONFIG_H=1)
 
 tartan_outside(XXHASH SOURCES ${sources}/xxhash/xxhash.c INCLUDES ${sources}/xxhash)
 
 file(GLOB zstd ${sources}/libzstd/lib/common/*.c ${sources}/libzstd/lib/compress/*.c ${sources}/libzstd/lib/decompress/*.c)
-tartan_outside(ZSTD SOURCES ${zstd} INCLUDES ${sources}/libzstd/lib DEFINES ZSTD_DISABLE_ASM OPTIONS -Os)
+tartan_outside(ZSTD SOURCES ${zstd} INCLUDES ${sources}/libzstd/lib DEFINES ZSTD_DISABLE_ASM)
 
 add_library(Threads::Threads INTERFACE IMPORTED) # there are none, and the C library has their functions
