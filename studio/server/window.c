@@ -1,6 +1,7 @@
 #include "studio/server/window.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,6 +25,8 @@ enum {
     REVIEW_SECONDS = 60,     /* after which rules are looked at no longer */
     LOOK_MILLISECONDS = 1000 /* between two looks at the files that are shown */
 };
+
+#define TOLD_SECONDS 0.25 /* between two words on how far a question is, and before the first */
 
 typedef struct parcel {
     struct parcel *next;
@@ -52,8 +55,10 @@ struct tn_window {
     double look; /* when files are looked at next */
     /* of the thread of questions */
     tn_desk *desk;
-    double began; /* the question at work */
-    bool late;    /* it was ended for the time it took */
+    double began;        /* the question at work */
+    bool late;           /* it was ended for the time it took */
+    const json_t *token; /* by which it asked to be told how far it is, or NULL; borrowed from it */
+    double told;         /* when it was told last; 0: not yet */
 };
 
 /* ---- all of them */
@@ -340,10 +345,30 @@ static void *answer_texts(void *context)
 
 /* ---- the thread of questions */
 
+static void tell(tn_window *w, json_t *value)
+{
+    tn_outbox_put(w->outbox, json_pack("{s:s,s:s,s:{s:O,s:o}}", "jsonrpc", "2.0", "method", "$/progress", "params",
+                                       "token", w->token, "value", value));
+}
+
+/* Begins with a title, as the Language Server Protocol has it. */
+static void tell_how_far(tn_window *w, double done, double total)
+{
+    double now = tn_seconds();
+    if (!w->token || now - fmax(w->told, w->began) < TOLD_SECONDS)
+        return;
+    json_t *value = w->told > 0 ? json_pack("{s:s}", "kind", "report")
+                                : json_pack("{s:s,s:s}", "kind", "begin", "title", "working");
+    if (total > 0)
+        json_object_set_new(value, "percentage", json_integer((json_int_t)(100 * fmin(done / total, 1))));
+    tell(w, value);
+    w->told = now;
+}
+
 static bool goes_on(void *context, double done, double total)
 {
     tn_window *w = context;
-    (void)done, (void)total;
+    tell_how_far(w, done, total);
     pthread_mutex_lock(&w->lock);
     bool wanted = !w->left && !tn_question_queue_unwanted(w->questions);
     pthread_mutex_unlock(&w->lock);
@@ -371,7 +396,12 @@ static char *ask(tn_window *w, const json_t *message)
     watch.memory_limit = w->all->memory_limit;
     w->began = tn_seconds();
     w->late = false;
-    return tn_desk_take(w->desk, message, &watch, &response) == TN_OK ? response : NULL;
+    w->token = json_object_get(json_object_get(message, "params"), "workDoneToken");
+    w->told = 0;
+    bool answered = tn_desk_take(w->desk, message, &watch, &response) == TN_OK;
+    if (w->told > 0)
+        tell(w, json_pack("{s:s}", "kind", "end"));
+    return answered ? response : NULL;
 }
 
 /* If the desk has none: why. */

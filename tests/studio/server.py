@@ -401,6 +401,21 @@ def ends_questions(server, folder):
     window.close()
 
 
+@served()
+def says_how_far_it_is(server, folder):
+    window = Window(server)
+    window.begin()
+    window.open("slow.plan", SLOW)
+    number = window.send("tartan/count", {"uri": "file:///slow.plan", "version": 1, "workDoneToken": "t", "request": {"max_states": 1 << 24}})
+    begin, report = window.note("$/progress"), window.note("$/progress")
+    equal([begin["token"], begin["value"]["kind"], report["value"]["kind"]], ["t", "begin", "report"], "the first two words")
+    window.tell("$/cancelRequest", {"id": number})
+    equal(window.answer(number).get("error", {}).get("code"), -32800, "the question")
+    while (kind := window.note("$/progress")["value"]["kind"]) == "report":
+        pass
+    equal(kind, "end", "the last word")
+
+
 @case
 def limits_memory(program):
     with open(program, "rb") as file:
