@@ -67,7 +67,8 @@ def compare(native, wasm, folder, times):
     """How many commands differ."""
     differ = 0
     for words in ASKED:
-        threads = ['--threads', '1'] if words[0] in ('count', 'grow', 'mesh') and '--parts' not in words else []
+        many = words[0] in ('count', 'grow') and '--parts' not in words or '--grid' in words
+        threads = ['--threads', '1'] if many else []
         here, took = run([native, *words, *threads], folder + '/a')
         there, took_there = run([wasm, *words, *threads], folder + '/a')
         if b'E0907' in there[2]:
