@@ -230,14 +230,16 @@ static json_t *first_error(const json_t *notes)
 /* Why it failed: with what the first error among the notes says of its place. */
 static tn_status fail(const asked *a, tartan_status status, const tartan_error *error)
 {
+    static const char *const places[] = {"path", "line", "column"};
     int code = status == TARTAN_STOPPED ? REQUEST_CANCELLED : error->code == E_USAGE ? INVALID_PARAMS : REQUEST_FAILED;
     char name[8] = "";
     if (error->code != TN_CODE_NONE)
         tn_code_name((tn_code)error->code, name);
     const json_t *first = first_error(a->notes);
     json_t *data = json_pack("{s:s,s:s,s:O}", "code", name, "help", error->help, "notes", a->notes);
-    if (first)
-        json_object_update_missing(data, (json_t *)(uintptr_t)first);
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+        if (json_object_get(first, places[i]))
+            json_object_set(data, places[i], json_object_get(first, places[i]));
     return give(a, json_pack("{s:s,s:O,s:{s:i,s:s,s:o}}", "jsonrpc", "2.0", "id", a->id, "error", "code", code,
                              "message", error->message, "data", data));
 }
