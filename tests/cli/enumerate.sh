@@ -25,4 +25,10 @@ for format in json csv bin sqlite; do
     "$TARTAN" prune "$files/sheds.plan" "$scratch/plans.$format" -l any-sheds --trays 0..5 | cmp -s - "$scratch/all" ||
         fail "$format does not read back as it was written"
 done
+
+# A database says how its plans are drawn.
+"$TARTAN" sample "$files/market.plan" 6 -l market --seed 3 -o "$scratch/weighed.sqlite" || fail 'a sample by weight in a database'
+python3 -c 'import sqlite3, sys
+sys.exit("(by weight)" not in "".join(sqlite3.connect(sys.argv[1]).iterdump()))' "$scratch/weighed.sqlite" ||
+    fail 'a database does not say that its plans are drawn by weight'
 finish

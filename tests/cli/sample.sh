@@ -38,10 +38,6 @@ is 'different plans by weight' "$(sort -u "$scratch/one" | wc -l)" 40
 by_weight 1000 -l market | cmp - <("$TARTAN" enumerate "$files/market.plan" -l market) || fail 'by weight, not all plans'
 by_weight 20 -l market --uniform | cmp - <(by_weight 20 -l bare) || fail '--uniform draws other plans than without weights'
 by_weight 20 -l market | cmp -s - <(by_weight 20 -l bare) && fail 'weights change nothing'
-by_weight 6 -l market --seed 3 -o "$scratch/a.sqlite"
-python3 -c 'import sqlite3, sys
-sys.exit("(by weight)" not in "".join(sqlite3.connect(sys.argv[1]).iterdump()))' "$scratch/a.sqlite" ||
-    fail 'a database does not say that its plans are drawn by weight'
 cat >"$scratch/houses.plan" <<'PLAN'
 use "cottage"
 library heavy from cottage-rows { weight any 2 }
