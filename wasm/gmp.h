@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#pragma GCC system_header /* a keyword is another for a while */
 #define MINI_GMP_LIMB_TYPE long
 #define long long long
 #include <mini-gmp.h>

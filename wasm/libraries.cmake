@@ -1,7 +1,11 @@
-# The libraries that we link, from Debian's source packages: GMP's mini-gmp, jansson, xxHash, zstd. They are fetched into the build
+# The libraries that we link, from Debian's source packages: GMP's mini-gmp, jansson, xxHash, zstd, and cmocka for unit tests. They are fetched into the build
 # (tools/debian-sources); TARTAN_WASM_SOURCES names a folder that has them already, each in a folder of its package's name.
 set(TARTAN_WASM_SOURCES ${PROJECT_BINARY_DIR}/sources CACHE PATH "Folder of the sources of gmp, jansson, xxhash and libzstd")
-execute_process(COMMAND ${PROJECT_SOURCE_DIR}/tools/debian-sources ${TARTAN_WASM_SOURCES} gmp jansson xxhash libzstd COMMAND_ERROR_IS_FATAL ANY)
+set(packages gmp jansson xxhash libzstd)
+if(TARTAN_TESTS)
+  list(APPEND packages cmocka)
+endif()
+execute_process(COMMAND ${PROJECT_SOURCE_DIR}/tools/debian-sources ${TARTAN_WASM_SOURCES} ${packages} COMMAND_ERROR_IS_FATAL ANY)
 
 # tartan_outside(MODULE SOURCES... INCLUDES FOLDERS...): a library of others, under the name that pkg-config's has elsewhere. Its warnings are not ours.
 function(tartan_outside module)
@@ -34,5 +38,11 @@ tartan_outside(XXHASH SOURCES ${sources}/xxhash/xxhash.c INCLUDES ${sources}/xxh
 
 file(GLOB zstd ${sources}/libzstd/lib/common/*.c ${sources}/libzstd/lib/compress/*.c ${sources}/libzstd/lib/decompress/*.c)
 tartan_outside(ZSTD SOURCES ${zstd} INCLUDES ${sources}/libzstd/lib DEFINES ZSTD_DISABLE_ASM)
+
+if(TARTAN_TESTS)
+  tartan_outside(CMOCKA SOURCES ${sources}/cmocka/src/cmocka.c INCLUDES ${sources}/cmocka/include
+    DEFINES HAVE_INTTYPES_H HAVE_MALLOC_H HAVE_STRINGS_H HAVE_SIGNAL_H HAVE_STRUCT_TIMESPEC HAVE_CLOCK_REALTIME)
+  target_compile_definitions(outside-cmocka PUBLIC _UINTPTR_T) # the C library's is another than its header's
+endif()
 
 add_library(Threads::Threads INTERFACE IMPORTED) # there are none, and the C library has their functions

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
 #include "runtime/module/layout.h"
 #include "runtime/module/load.h"
@@ -153,6 +154,8 @@ static tn_status check_counts(const tn_stored *sections, const tn_module_limits 
                     limits->records);
             return too_much(error);
         }
+        if (*block + (uint64_t)sections[i].count * info.size > TN_SIZE_MOST / 2) /* what it grows to is a size, too */
+            return tn_fail_memory(error);
         *block += aligned(sections[i].count * info.size);
     }
     return TN_OK;

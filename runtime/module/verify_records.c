@@ -181,7 +181,7 @@ static tn_status check_slices(const tn_column *column)
 static tn_status measure_sources(tn_checker *checker)
 {
     const tn_module *module = checker->module;
-    size_t left = checker->limits->bytes < UINT32_MAX ? checker->limits->bytes : UINT32_MAX;
+    size_t left = checker->limits->bytes < UINT32_MAX ? checker->limits->bytes : UINT32_MAX - 1;
     for (size_t i = 0; i < module->SOURCE_count; i++) {
         if (!is_string(module, module->SOURCE_records[i].text))
             return tn_refuse(checker, "source %zu: its text is not a string", i);

@@ -168,8 +168,8 @@ static void check_part(const compiled *now, const compiled *then, const tn_cover
     bool noticed = tests_differ(now, then);
     if (mpz_cmp_ui(part->flips, kept + alone) != 0 || part->alone != (covered->library && alone > 0) ||
         part->noticed != noticed)
-        fail_msg("`%s` at %u, change %d: %lu plans and %d, not %zu and %d, of\n%s", part->text, part->place.begin,
-                 (int)part->change->kind, mpz_get_ui(part->flips), part->noticed, kept + alone, noticed, text);
+        fail_msg("`%s` at %u, change %d: %zu plans and %d, not %zu and %d, of\n%s", part->text, part->place.begin,
+                 (int)part->change->kind, (size_t)mpz_get_ui(part->flips), part->noticed, kept + alone, noticed, text);
     assert_int_equal(part->fate, noticed ? TN_FATE_NOTICED : kept + alone > 0 ? TN_FATE_SURVIVES : TN_FATE_EQUAL);
     if (part->fate == TN_FATE_SURVIVES) {
         assert_true(part->telling.found);
