@@ -22,7 +22,7 @@ void *tn_array_new(uint64_t count, size_t size)
 bool tn_array_resize(void *items, size_t count, size_t size)
 {
     size_t bytes;
-    if (__builtin_mul_overflow(count, size, &bytes) || bytes > PTRDIFF_MAX)
+    if (__builtin_mul_overflow(count, size, &bytes) || bytes >= TN_SIZE_MOST)
         return false;
     void *memory;
     memcpy(&memory, items, sizeof memory); /* a pointer to another type must not be read as a `void *` */
