@@ -8,6 +8,7 @@
 
 #include "ask/session/spelled.h"
 #include "driver/house/judge.h"
+#include "driver/open/again.h"
 #include "runtime/base/crew.h"
 #include "runtime/plan/match/vm.h"
 
@@ -73,6 +74,25 @@ tn_status tn_session_no_rank(tn_session *session, const tn_library *library, con
     free(digits);
     mpz_clear(kept);
     return TN_INVALID;
+}
+
+tn_status tn_session_open_text(tn_session *session, const char *text, size_t size, const tn_questions *questions,
+                               tn_opened *opened)
+{
+    const char *path = session->opened->compilation.sources.files[0].path;
+    const tn_text_opener *opener = session->opener;
+    tn_param_values params;
+    tn_error error;
+    *opened = (tn_opened){0};
+    tn_status status = tn_opened_params(session->opened, &params);
+    if (status == TN_OK)
+        status = opener ? opener->open(opener->context, path, text, size, questions, opened)
+                        : tn_open_source(path, text, size, questions, params, opened);
+    free((void *)(uintptr_t)params.items);
+    if (status == TN_OK || status == TN_INVALID)
+        return status;
+    tn_open_error(opened, status, &error);
+    return tn_session_fail(session, &error);
 }
 
 void tn_session_note(tn_session *session, const char *format, ...)

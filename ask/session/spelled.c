@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "compiler/plan/syntax/program.h"
-#include "driver/open/again.h"
 #include "driver/open/digits.h"
 #include "runtime/base/array.h"
 #include "runtime/plan/match/vm.h"
@@ -37,19 +36,7 @@ static tn_status out_of_memory(const reader *r)
 static tn_status compile(const reader *r, const tn_questions *questions, tn_opened *opened)
 {
     const tn_source *main = &r->session->opened->compilation.sources.files[0];
-    const tn_text_opener *opener = r->session->opener;
-    tn_param_values params;
-    tn_error error;
-    *opened = (tn_opened){0};
-    tn_status status = tn_opened_params(r->session->opened, &params);
-    if (status == TN_OK)
-        status = opener ? opener->open(opener->context, main->path, main->text, main->size, questions, opened)
-                        : tn_open_source(main->path, main->text, main->size, questions, params, opened);
-    free((void *)(uintptr_t)params.items);
-    if (status == TN_OK || status == TN_INVALID)
-        return status;
-    tn_open_error(opened, status, &error);
-    return tn_session_fail(r->session, &error);
+    return tn_session_open_text(r->session, main->text, main->size, questions, opened);
 }
 
 static const char *schema_name(const reader *r)

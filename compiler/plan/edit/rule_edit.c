@@ -1,0 +1,652 @@
+#include "compiler/plan/edit/rule_edit.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compiler/plan/edit/rule_layout.h"
+#include "compiler/plan/edit/text_changes.h"
+
+/* One edit on the way. */
+typedef struct editing {
+    const tn_rule_tree *tree;
+    const tn_rule_edit *edit;
+    tn_rule_part part; /* that it is about */
+    tn_text_changes changes;
+    tn_stretch about; /* of the old text: where it is what the edit was about afterwards */
+    tn_binding binds; /* of `with` */
+    char *with;       /* owned */
+    char *why;
+} editing;
+
+__attribute__((format(printf, 2, 3))) static void refuse(editing *e, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(e->why, TN_WHY_MAX, format, args);
+    va_end(args);
+}
+
+static void change(editing *e, uint32_t begin, uint32_t end, const char *insert)
+{
+    tn_text_change_add(&e->changes, (tn_stretch){begin, end}, insert, (tn_stretch){0});
+}
+
+/* ---- parentheses */
+
+static bool has_parentheses(const tn_rule_part *part)
+{
+    return part->own.begin != part->outer.begin;
+}
+
+/* Puts the stretch into parentheses if what `binds` so stands where what it stands in `needs` more. */
+static void enclose(editing *e, tn_stretch stretch, tn_binding binds, tn_binding needs)
+{
+    if (binds >= needs)
+        return;
+    change(e, stretch.begin, stretch.begin, "(");
+    change(e, stretch.end, stretch.end, ")");
+}
+
+static void enclose_part(editing *e, const tn_rule_part *part, tn_binding needs)
+{
+    if (!has_parentheses(part))
+        enclose(e, part->own, part->binds, needs);
+}
+
+/* `with` as it stands where so much is needed (malloc); NULL: out of memory. */
+static char *enclosed(const editing *e, tn_binding needs)
+{
+    tn_buffer text = {0};
+    tn_buffer_printf(&text, e->binds < needs ? "(%s)" : "%s", e->with);
+    return text.data;
+}
+
+/* Puts before, `with` and behind into the text at one place: it is what the edit is about. */
+static void put(editing *e, uint32_t begin, uint32_t end, const char *before, const char *behind, tn_binding needs)
+{
+    tn_buffer text = {0};
+    char *with = enclosed(e, needs);
+    bool good = with && tn_buffer_printf(&text, "%s%s%s", before, with, behind);
+    uint32_t from = (uint32_t)strlen(before);
+    if (good)
+        tn_text_change_add(&e->changes, (tn_stretch){begin, end}, text.data,
+                           (tn_stretch){from, from + (uint32_t)strlen(with)});
+    e->changes.failed |= !good;
+    free(with);
+    free(text.data);
+}
+
+/* ---- items of trays */
+
+static const tn_ast_item *item_of(editing *e)
+{
+    uint32_t item = e->edit->item;
+    if (e->part.kind == TN_RULE_PART_TRAY)
+        for (TN_EACH(const tn_ast_item, it, e->part.expr->items))
+            if (item-- == 0)
+                return it;
+    refuse(e, "this tray has no such item");
+    return NULL;
+}
+
+static void set_item(editing *e)
+{
+    const tn_ast_item *item = item_of(e);
+    if (item)
+        change(e, item->node.span.begin, item->node.span.end, e->with);
+}
+
+/* With the comma before it, or, of the first, the one behind it. */
+static void clear_item(editing *e)
+{
+    const tn_ast_item *item = item_of(e), *before = NULL;
+    if (!item)
+        return;
+    for (TN_EACH(const tn_ast_item, it, e->part.expr->items)) {
+        if (it == item)
+            break;
+        before = it;
+    }
+    const tn_ast_node *behind = item->node.next;
+    if (before)
+        change(e, before->node.span.end, item->node.span.end, "");
+    else if (behind)
+        change(e, item->node.span.begin, behind->span.begin, "");
+    else
+        change(e, e->part.own.begin, e->part.own.end, "any");
+}
+
+static void add_item(editing *e)
+{
+    const tn_rule_part *part = &e->part;
+    uint32_t item = e->edit->item;
+    const tn_ast_node *before = NULL, *behind = part->expr->items.first;
+    for (; behind && item > 0; item--) {
+        before = behind;
+        behind = behind->next;
+    }
+    if (part->kind == TN_RULE_PART_ANY)
+        put(e, part->own.begin, part->own.end, "tray(", ")", TN_BINDS_NOTHING);
+    else if (part->kind != TN_RULE_PART_TRAY)
+        refuse(e, "only a tray has items");
+    else if (behind)
+        put(e, behind->span.begin, behind->span.begin, "", ", ", TN_BINDS_NOTHING);
+    else if (before)
+        put(e, before->span.end, before->span.end, ", ", "", TN_BINDS_NOTHING);
+    else
+        put(e, part->own.end - 1, part->own.end - 1, "", "", TN_BINDS_NOTHING);
+}
+
+/* ---- boxes */
+
+/* What each box puts before and behind its part, and how tightly the part has to hold together in it. */
+static const struct box {
+    const char *before, *behind;
+    tn_binding binds, holds;
+} boxes[] = {{"not ", "", TN_BINDS_NOT, TN_BINDS_NOT},
+             {"symmetric ", "", TN_BINDS_PRIMARY, TN_BINDS_PRIMARY},
+             {"quantity(", ", n >= 1)", TN_BINDS_PRIMARY, TN_BINDS_NOTHING},
+             {"occurrences(", ", n >= 1)", TN_BINDS_PRIMARY, TN_BINDS_NOTHING},
+             {"many(", ")", TN_BINDS_PRIMARY, TN_BINDS_NOTHING},
+             {"neighbour(", ")", TN_BINDS_PRIMARY, TN_BINDS_NOTHING},
+             {"optional(", ")", TN_BINDS_PRIMARY, TN_BINDS_NOTHING},
+             {"distance(from ", ", to any, by any)", TN_BINDS_PRIMARY, TN_BINDS_NOTHING}};
+
+const char *const tn_rule_boxes[] = {"not",       "symmetric", "quantity", "occurrences", "many",
+                                     "neighbour", "optional",  "distance", NULL};
+
+static bool is_of_row(tn_rule_part_kind kind)
+{
+    return kind == TN_RULE_PART_BEGINNING || kind == TN_RULE_PART_END || kind == TN_RULE_PART_GAP;
+}
+
+static void wrap(editing *e)
+{
+    tn_binding needs = tn_rule_part_needs(e->tree, e->edit->part);
+    size_t i = 0;
+    while (tn_rule_boxes[i] && strcmp(tn_rule_boxes[i], e->edit->by) != 0)
+        i++;
+    if (!tn_rule_boxes[i]) {
+        refuse(e, "there is no box `%.60s`", e->edit->by);
+        return;
+    }
+    if (is_of_row(e->part.kind)) {
+        refuse(e, "`%s` stands in a row by itself, and in no box",
+               e->part.kind == TN_RULE_PART_GAP ? "..." : tn_rule_part_word(e->part.kind));
+        return;
+    }
+    const struct box *box = &boxes[i];
+    tn_stretch outer = e->part.outer;
+    bool inside = box->binds < needs;
+    if (inside)
+        change(e, outer.begin, outer.begin, "(");
+    change(e, outer.begin, outer.begin, box->before);
+    enclose_part(e, &e->part, box->holds);
+    change(e, outer.end, outer.end, box->behind);
+    if (inside)
+        change(e, outer.end, outer.end, ")");
+}
+
+/* Takes away all of a part but one of those in it. */
+static void keep_only(editing *e, const tn_rule_part *box, const tn_rule_part *kept)
+{
+    change(e, box->outer.begin, kept->outer.begin, "");
+    if (!has_parentheses(kept))
+        enclose(e, kept->outer, kept->binds, tn_rule_part_needs(e->tree, (uint32_t)(box - e->tree->parts)));
+    change(e, kept->outer.end, box->outer.end, "");
+}
+
+static uint32_t part_at(const editing *e)
+{
+    return e->edit->at == TN_NO_RULE_PART ? e->part.last : tn_rule_part_child(e->tree, e->edit->part, e->edit->at);
+}
+
+static void unwrap(editing *e)
+{
+    if (e->part.count == 0) {
+        refuse(e, "there is nothing in it that could stay");
+        return;
+    }
+    uint32_t kept = part_at(e);
+    if (kept == TN_NO_RULE_PART)
+        refuse(e, "it has %u part%s", e->part.count, e->part.count == 1 ? "" : "s");
+    else
+        keep_only(e, &e->tree->parts[e->edit->part], &e->tree->parts[kept]);
+}
+
+/* ---- rows and places */
+
+static const char *separator(tn_rule_part_kind row)
+{
+    return row == TN_RULE_PART_AND ? " and " : row == TN_RULE_PART_OR ? " or " : ", ";
+}
+
+/* `with` becomes the index-th of a row's parts. */
+static void insert_into(editing *e, const tn_rule_part *row, uint32_t index)
+{
+    const tn_rule_part *parts = e->tree->parts;
+    uint32_t self = (uint32_t)(row - parts), behind = tn_rule_part_child(e->tree, self, index);
+    const char *between = separator(row->kind);
+    tn_binding needs = tn_rule_part_holds(row->kind);
+    uint32_t at = behind == TN_NO_RULE_PART ? parts[row->last].outer.end : parts[behind].outer.begin;
+    bool last = behind == TN_NO_RULE_PART;
+    put(e, at, at, last ? between : "", last ? "" : between, needs);
+}
+
+/* Has `with` all that the edit needs? */
+static bool is_given(editing *e)
+{
+    if (!e->with)
+        refuse(e, "say what is put there: a text, or a part of the rule");
+    return e->with;
+}
+
+/* Between the ends of the plan that a row of neighbours has, unless it is an end that is put there. */
+static uint32_t inside_ends(const editing *e)
+{
+    const tn_rule_part *parts = e->tree->parts;
+    bool end = strcmp(e->with, "end") == 0, beginning = strcmp(e->with, "beginning") == 0;
+    uint32_t least = !beginning && parts[e->part.first].kind == TN_RULE_PART_BEGINNING ? 1 : 0,
+             most = e->part.count - (!end && parts[e->part.last].kind == TN_RULE_PART_END ? 1 : 0), at = e->edit->at;
+    return at > most ? most : at < least ? least : at;
+}
+
+static void insert(editing *e)
+{
+    if (!is_given(e))
+        return;
+    if (tn_rule_part_form_of(e->part.kind) == TN_RULE_PART_ROW) {
+        insert_into(e, &e->tree->parts[e->edit->part], inside_ends(e));
+        return;
+    }
+    uint32_t place = e->part.count ? part_at(e) : TN_NO_RULE_PART;
+    if (place == TN_NO_RULE_PART) {
+        refuse(e, e->part.count ? "it has no such place" : "nothing can be put into it");
+        return;
+    }
+    const tn_rule_part *old = &e->tree->parts[place];
+    if (e->edit->from != TN_NO_RULE_PART && tn_rule_part_within(e->tree, e->edit->from, place)) {
+        refuse(e, "it is there already; unwrap what is around it instead");
+        return;
+    }
+    put(e, old->outer.begin, old->outer.end, "", "", tn_rule_part_holds(e->part.kind));
+}
+
+static void join(editing *e)
+{
+    const tn_rule_part *parts = e->tree->parts, *part = &parts[e->edit->part];
+    bool both = strcmp(e->edit->by, "and") == 0, either = strcmp(e->edit->by, "or") == 0;
+    tn_rule_part_kind kind = both ? TN_RULE_PART_AND : TN_RULE_PART_OR;
+    const tn_rule_part *parent = part->parent == TN_NO_RULE_PART ? NULL : &parts[part->parent];
+    if (!both && !either) {
+        refuse(e, "parts are joined by `and` or by `or`");
+        return;
+    }
+    if (!is_given(e))
+        return;
+    if (parent && parent->kind == kind) {
+        insert_into(e, parent, part->index + (e->edit->before ? 0 : 1));
+        return;
+    }
+    if (part->kind == kind) {
+        insert_into(e, part, e->edit->before ? 0 : part->count);
+        return;
+    }
+    tn_binding binds = both ? TN_BINDS_AND : TN_BINDS_OR, holds = tn_rule_part_holds(kind),
+               needs = tn_rule_part_needs(e->tree, e->edit->part);
+    uint32_t at = e->edit->before ? part->outer.begin : part->outer.end;
+    if (binds < needs)
+        change(e, part->outer.begin, part->outer.begin, "(");
+    if (e->edit->before)
+        put(e, at, at, "", separator(kind), holds);
+    enclose_part(e, part, holds);
+    if (!e->edit->before)
+        put(e, at, at, separator(kind), "", holds);
+    if (binds < needs)
+        change(e, part->outer.end, part->outer.end, ")");
+}
+
+static void remove_part(editing *e)
+{
+    const tn_rule_part *parts = e->tree->parts, *part = &parts[e->edit->part];
+    const tn_rule_part *parent = part->parent == TN_NO_RULE_PART ? NULL : &parts[part->parent];
+    bool row = parent && tn_rule_part_form_of(parent->kind) == TN_RULE_PART_ROW && parent->count > 1;
+    e->about = parent ? parent->outer : part->outer;
+    if (!row) {
+        change(e, part->outer.begin, part->outer.end, "any");
+        e->about = part->outer;
+    } else if (parent->count == 2 && parent->kind != TN_RULE_PART_NEIGHBOUR) {
+        keep_only(e, parent, &parts[part->index ? parent->first : parent->last]);
+    } else if (part->index > 0) {
+        uint32_t before = tn_rule_part_child(e->tree, part->parent, part->index - 1);
+        change(e, parts[before].outer.end, part->outer.end, "");
+    } else {
+        change(e, part->outer.begin, parts[part->next].outer.begin, "");
+    }
+}
+
+/* ---- what is written */
+
+static void set_condition(editing *e)
+{
+    const tn_ast_cond *condition = e->part.expr->condition;
+    if (e->part.kind == TN_RULE_PART_TEXT || !condition)
+        refuse(e, "only what is counted has a condition");
+    else
+        change(e, condition->node.span.begin, condition->node.span.end, e->with);
+}
+
+static void set_text(editing *e)
+{
+    if (is_given(e))
+        put(e, e->part.outer.begin, e->part.outer.end, "", "", tn_rule_part_needs(e->tree, e->edit->part));
+}
+
+static void (*const operations[TN_RULE_OPERATIONS])(editing *) = {
+    [TN_RULE_SET] = set_item,  [TN_RULE_CLEAR] = clear_item,   [TN_RULE_ADD] = add_item,
+    [TN_RULE_WRAP] = wrap,     [TN_RULE_UNWRAP] = unwrap,      [TN_RULE_JOIN] = join,
+    [TN_RULE_INSERT] = insert, [TN_RULE_REMOVE] = remove_part, [TN_RULE_CONDITION] = set_condition,
+    [TN_RULE_TEXT] = set_text,
+};
+
+/* ---- one edit of a tree */
+
+static tn_given_kind given_as(tn_rule_operation operation)
+{
+    return operation == TN_RULE_CONDITION                         ? TN_GIVEN_CONDITION
+           : operation == TN_RULE_SET || operation == TN_RULE_ADD ? TN_GIVEN_ITEM
+                                                                  : TN_GIVEN_PART;
+}
+
+/* `with`: the text that is given, or that of the part which is moved. */
+static tn_status take_with(editing *e, tn_error *error)
+{
+    const tn_rule_edit *edit = e->edit;
+    if (edit->from != TN_NO_RULE_PART) {
+        const tn_rule_part *from = &e->tree->parts[edit->from];
+        e->binds = from->binds;
+        e->with = strndup(e->tree->text->text + from->own.begin, from->own.end - from->own.begin);
+        return e->with ? TN_OK : tn_fail_memory(error);
+    }
+    if (!edit->text)
+        return TN_OK;
+    tn_status status = tn_given_text_check(given_as(edit->operation), edit->text, &e->binds, e->why, error);
+    e->with = strdup(edit->text);
+    return status == TN_OK && !e->with ? tn_fail_memory(error) : status;
+}
+
+/* Changes the text, or says why not. */
+static tn_status change_text(editing *e, tn_buffer *text, tn_stretch *about, tn_error *error)
+{
+    tn_status status = take_with(e, error);
+    if (status != TN_OK || *e->why)
+        return status;
+    bool written = e->edit->operation == TN_RULE_SET || e->edit->operation == TN_RULE_ADD ||
+                   e->edit->operation == TN_RULE_CONDITION;
+    if (written && !e->with)
+        refuse(e, "say what is written there");
+    else
+        operations[e->edit->operation](e);
+    if (*e->why)
+        return TN_OK;
+    if (!tn_text_changes_put(&e->changes, e->tree, about))
+        *about = tn_text_changes_map(&e->changes, e->tree, e->about);
+    return tn_text_changes_make(&e->changes, e->tree, text, error);
+}
+
+/* What stands in a row may stand where it does, if it did so before. */
+static const char *misplaced(const tn_rule_tree *tree)
+{
+    for (uint32_t i = 0; i < tree->count; i++) {
+        const tn_rule_part *part = &tree->parts[i];
+        if (!is_of_row(part->kind))
+            continue;
+        bool row = part->parent != TN_NO_RULE_PART && tree->parts[part->parent].kind == TN_RULE_PART_NEIGHBOUR;
+        if (part->kind == TN_RULE_PART_BEGINNING && !(row && part->index == 0))
+            return "`beginning` can only stand first in a row of neighbours";
+        if (part->kind == TN_RULE_PART_END && !(row && part->next == TN_NO_RULE_PART))
+            return "`end` can only stand last in a row of neighbours";
+        if (!row)
+            return "`...` can only stand in a row of neighbours";
+    }
+    return NULL;
+}
+
+/* Reads the changed text and finds the rule in it, which `why` says if that is not possible. */
+static tn_status read_changed(const tn_buffer *text, const char *rule, tn_rule_text *read, tn_rule_tree *tree,
+                              char *why, tn_error *error)
+{
+    tn_status status = tn_rule_text_read(text->data, text->size, read, error);
+    const tn_ast_rule *found = status == TN_OK && read->parses ? tn_rule_text_find(read, rule) : NULL;
+    if (status != TN_OK)
+        return status;
+    if (found)
+        return tn_rule_tree_make(read, found, tree, error);
+    snprintf(why, TN_WHY_MAX, "the rule could not be read afterwards: %.300s",
+             read->mistake ? read->mistake : "it is not there");
+    return TN_OK;
+}
+
+/* Takes away what was moved from where it was. */
+static tn_status take_away(const tn_rule_tree *tree, tn_stretch moved, tn_buffer *text, tn_stretch *about, char *why,
+                           tn_error *error)
+{
+    const tn_rule_edit removal = {
+        .operation = TN_RULE_REMOVE, .part = tn_rule_part_placed(tree, moved), .from = TN_NO_RULE_PART};
+    if (removal.part == TN_NO_RULE_PART) {
+        snprintf(why, TN_WHY_MAX, "it cannot be moved there");
+        return TN_OK;
+    }
+    editing e = {.tree = tree, .edit = &removal, .part = tree->parts[removal.part], .why = why};
+    e.changes.moved = e.part.own;
+    remove_part(&e);
+    *about = tn_text_changes_shift(&e.changes, tree, *about);
+    tn_status status = tn_text_changes_make(&e.changes, tree, text, error);
+    tn_text_changes_clear(&e.changes);
+    return status;
+}
+
+/* The second half of moving: the part stands where it was dropped, and where it was. */
+static tn_status finish_move(const char *rule, tn_stretch moved, tn_buffer *text, tn_stretch *about, char *why,
+                             tn_error *error)
+{
+    tn_rule_text read = {0};
+    tn_rule_tree tree = {0};
+    tn_buffer made = {0};
+    tn_status status = read_changed(text, rule, &read, &tree, why, error);
+    if (status == TN_OK && !*why)
+        status = take_away(&tree, moved, &made, about, why, error);
+    tn_rule_tree_clear(&tree);
+    tn_rule_text_clear(&read);
+    free(text->data);
+    *text = made;
+    return status;
+}
+
+/* ---- asked */
+
+/* Do the parts that the edit names exist, and can the one be moved to the other? */
+static bool names_parts(const tn_rule_tree *tree, const tn_rule_edit *edit, char *why)
+{
+    bool moves = edit->from != TN_NO_RULE_PART;
+    if (edit->part >= tree->count || (moves && edit->from >= tree->count))
+        snprintf(why, TN_WHY_MAX, "the rule has the parts 0 to %u", tree->count - 1);
+    else if (moves && edit->operation != TN_RULE_INSERT && edit->operation != TN_RULE_JOIN)
+        snprintf(why, TN_WHY_MAX, "a part is moved by `insert` or `join`");
+    else if (moves && tn_rule_part_within(tree, edit->part, edit->from))
+        snprintf(why, TN_WHY_MAX, "a part cannot be put into itself");
+    return !*why;
+}
+
+/* The smallest part of the changed rule at the place, the place being told by the tokens that it holds: laying out does
+ * not change them. */
+static uint32_t part_about(const tn_rule_tree *tree, size_t first, size_t last)
+{
+    const tn_rule_text *text = tree->text;
+    tn_stretch place = {text->tokens[first].span.begin, text->tokens[last > first ? last - 1 : first].span.end};
+    uint32_t part = tn_rule_part_around(tree, place);
+    return part == TN_NO_RULE_PART ? 0 : part;
+}
+
+/* Says what became of the text, and of what the edit was about. */
+static tn_status finish(const tn_rule_text *old, const char *rule, tn_buffer *text, tn_stretch about,
+                        tn_rule_edited *made, tn_error *error)
+{
+    tn_rule_text read = {0};
+    tn_rule_tree tree = {0};
+    size_t first = 0, last = 0;
+    tn_status status = read_changed(text, rule, &read, &tree, made->why, error);
+    const char *wrong = status == TN_OK && !*made->why ? misplaced(&tree) : NULL;
+    if (wrong)
+        snprintf(made->why, TN_WHY_MAX, "%s", wrong);
+    bool good = status == TN_OK && !*made->why;
+    if (good) {
+        first = tn_rule_text_token(&read, about.begin);
+        last = tn_rule_text_token(&read, about.end);
+    }
+    tn_rule_tree_clear(&tree);
+    tn_rule_text_clear(&read);
+    if (!good)
+        return status;
+    status = tn_rule_lay_out(old->text, old->size, rule, text, error);
+    if (status == TN_OK)
+        status = read_changed(text, rule, &read, &tree, made->why, error);
+    if (status == TN_OK && !*made->why)
+        made->part = part_about(&tree, first, last);
+    tn_rule_tree_clear(&tree);
+    tn_rule_text_clear(&read);
+    return status;
+}
+
+/* What of the old text became what: all between what both begin and end with. */
+static tn_status compare(const char *old, size_t size, tn_buffer *text, tn_rule_edited *made, tn_error *error)
+{
+    size_t begin = 0, end = 0, least = size < text->size ? size : text->size;
+    while (begin < least && old[begin] == text->data[begin])
+        begin++;
+    while (end < least - begin && old[size - 1 - end] == text->data[text->size - 1 - end])
+        end++;
+    while (begin > 0 && ((unsigned char)old[begin] & 0xC0) == 0x80) /* whole characters */
+        begin--;
+    while (end > 0 && ((unsigned char)old[size - end] & 0xC0) == 0x80)
+        end--;
+    made->changed = (tn_stretch){(uint32_t)begin, (uint32_t)(size - end)};
+    made->insert = strndup(text->data + begin, text->size - end - begin);
+    made->text = text->data;
+    made->size = text->size;
+    *text = (tn_buffer){0};
+    return made->insert ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status edit_tree(const tn_rule_tree *tree, const char *rule, const tn_rule_edit *edit, tn_rule_edited *made,
+                           tn_error *error)
+{
+    tn_buffer text = {0};
+    tn_stretch about = {0};
+    if (!names_parts(tree, edit, made->why))
+        return TN_OK;
+    editing e = {.tree = tree, .edit = edit, .part = tree->parts[edit->part], .why = made->why};
+    e.about = e.part.outer;
+    tn_status status = change_text(&e, &text, &about, error);
+    if (status == TN_OK && !*made->why && edit->from != TN_NO_RULE_PART) {
+        tn_stretch moved = tn_text_changes_shift(&e.changes, tree, tree->parts[edit->from].own);
+        status = finish_move(rule, moved, &text, &about, made->why, error);
+    }
+    if (status == TN_OK && !*made->why)
+        status = finish(tree->text, rule, &text, about, made, error);
+    if (status == TN_OK && !*made->why)
+        status = compare(tree->text->text, tree->text->size, &text, made, error);
+    tn_text_changes_clear(&e.changes);
+    free(e.with);
+    free(text.data);
+    return status;
+}
+
+tn_status tn_rule_edit_make(const char *text, size_t size, const char *rule, const tn_rule_edit *edit,
+                            tn_rule_edited *made, tn_error *error)
+{
+    tn_rule_text read = {0};
+    tn_rule_tree tree = {0};
+    *made = (tn_rule_edited){0};
+    tn_status status = tn_rule_text_read(text, size, &read, error);
+    const tn_ast_rule *found = status == TN_OK && read.parses ? tn_rule_text_find(&read, rule) : NULL;
+    if (status == TN_OK && !found)
+        snprintf(made->why, TN_WHY_MAX, read.parses ? "there is no rule `%.60s` in the text" : "the text has mistakes",
+                 rule);
+    if (found)
+        status = tn_rule_tree_make(&read, found, &tree, error);
+    if (found && status == TN_OK)
+        status = edit_tree(&tree, rule, edit, made, error);
+    tn_rule_tree_clear(&tree);
+    tn_rule_text_clear(&read);
+    return status;
+}
+
+/* ---- a new rule */
+
+/* Where the item ends that the byte is in or behind; at the end of the text if none begins before it. */
+static uint32_t end_of_item(const tn_rule_text *text, size_t offset)
+{
+    uint32_t end = (uint32_t)text->size;
+    for (TN_EACH(const tn_ast_top, item, text->tree->items))
+        if (item->node.span.begin <= offset)
+            end = item->node.span.end;
+    return end;
+}
+
+/* Behind the comment that stands on the same line. */
+static uint32_t end_of_line(const tn_rule_text *text, uint32_t end)
+{
+    for (size_t i = 0; i < text->comment_count; i++) {
+        tn_span comment = text->comments[i].span;
+        if (comment.begin >= end && !memchr(text->text + end, '\n', comment.begin - end) &&
+            strspn(text->text + end, " \t") >= comment.begin - end)
+            return comment.end;
+    }
+    return end;
+}
+
+static tn_status write_new(const tn_rule_text *text, const char *name, uint32_t at, tn_buffer *to, tn_error *error)
+{
+    bool first = strspn(text->text, " \t\r\n") >= at;
+    tn_buffer_append(to, text->text, at);
+    tn_buffer_printf(to, "%srule %s =\n  any%s",
+                     first                                  ? ""
+                     : at > 0 && text->text[at - 1] == '\n' ? "\n"
+                                                            : "\n\n",
+                     name, at == text->size ? "\n" : "");
+    tn_buffer_append(to, text->text + at, text->size - at);
+    return to->failed ? tn_fail_memory(error) : TN_OK;
+}
+
+tn_status tn_rule_new_make(const char *text, size_t size, const char *name, size_t offset, tn_rule_edited *made,
+                           tn_error *error)
+{
+    tn_rule_text read = {0};
+    tn_buffer changed = {0};
+    tn_binding binds;
+    *made = (tn_rule_edited){0};
+    tn_status status = tn_given_text_check(TN_GIVEN_NAME, name, &binds, made->why, error);
+    if (status == TN_OK && !*made->why)
+        status = tn_rule_text_read(text, size, &read, error);
+    if (status == TN_OK && !*made->why && !read.parses)
+        snprintf(made->why, TN_WHY_MAX, "the text has mistakes");
+    if (status == TN_OK && !*made->why && tn_rule_text_find(&read, name))
+        snprintf(made->why, TN_WHY_MAX, "there is a rule `%.60s` already", name);
+    if (status == TN_OK && !*made->why)
+        status = write_new(&read, name, end_of_line(&read, end_of_item(&read, offset)), &changed, error);
+    if (status == TN_OK && !*made->why)
+        status = compare(read.text, read.size, &changed, made, error);
+    tn_rule_text_clear(&read);
+    free(changed.data);
+    return status;
+}
+
+void tn_rule_edited_clear(tn_rule_edited *made)
+{
+    free(made->insert);
+    free(made->text);
+    *made = (tn_rule_edited){0};
+}
