@@ -99,11 +99,11 @@ static void describe_part(showing *s, uint32_t number, tn_rule_part_shown *to)
     const tn_ast_expr *expr = part->expr;
     if (expr->name && part->kind != TN_RULE_PART_TEXT)
         name_part(s, number, expr->name, to);
-    if (expr->condition && part->kind != TN_RULE_PART_TEXT) {
-        tn_span span = expr->condition->node.span;
+    tn_stretch condition = tn_rule_part_condition(&s->asked->tree, number);
+    if (condition.end > 0) {
         to->has_condition = to->has_condition_place = true;
-        to->condition = copy(s, span.begin, span.end);
-        place(s, span.begin, span.end, &to->condition_place);
+        to->condition = copy(s, condition.begin, condition.end);
+        place(s, condition.begin, condition.end, &to->condition_place);
     }
     if (part->kind == TN_RULE_PART_NEAR || part->kind == TN_RULE_PART_EVERY_NEAR)
         relate_part(s, part, to);

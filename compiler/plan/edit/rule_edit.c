@@ -82,12 +82,15 @@ static void put(editing *e, uint32_t begin, uint32_t end, const char *before, co
 
 static const tn_ast_item *item_of(editing *e)
 {
-    uint32_t item = e->edit->item;
-    if (e->part.kind == TN_RULE_PART_TRAY)
-        for (TN_EACH(const tn_ast_item, it, e->part.expr->items))
-            if (item-- == 0)
-                return it;
-    refuse(e, "this tray has no such item");
+    uint32_t count = 0;
+    if (e->part.kind != TN_RULE_PART_TRAY) {
+        refuse(e, "only a tray has items");
+        return NULL;
+    }
+    for (TN_EACH(const tn_ast_item, it, e->part.expr->items))
+        if (count++ == e->edit->item)
+            return it;
+    refuse(e, "the tray has %u item%s", count, count == 1 ? "" : "s");
     return NULL;
 }
 
@@ -152,7 +155,7 @@ static const struct box {
              {"many(", ")", TN_BINDS_PRIMARY, TN_BINDS_NOTHING},
              {"neighbour(", ")", TN_BINDS_PRIMARY, TN_BINDS_NOTHING},
              {"optional(", ")", TN_BINDS_PRIMARY, TN_BINDS_NOTHING},
-             {"distance(from ", ", to any, by any)", TN_BINDS_PRIMARY, TN_BINDS_NOTHING}};
+             {"distance(from ", ", to any, by quantity(any, n >= 1))", TN_BINDS_PRIMARY, TN_BINDS_NOTHING}};
 
 const char *const tn_rule_boxes[] = {"not",       "symmetric", "quantity", "occurrences", "many",
                                      "neighbour", "optional",  "distance", NULL};
@@ -198,6 +201,15 @@ static void keep_only(editing *e, const tn_rule_part *box, const tn_rule_part *k
     change(e, kept->outer.end, box->outer.end, "");
 }
 
+static const char GAP_ALONE[] = "`...` can only stand in a row of neighbours";
+
+/* Does the part stand in a row of neighbours? */
+static bool in_neighbour(const editing *e)
+{
+    uint32_t parent = e->part.parent;
+    return parent != TN_NO_RULE_PART && e->tree->parts[parent].kind == TN_RULE_PART_NEIGHBOUR;
+}
+
 static uint32_t part_at(const editing *e)
 {
     return e->edit->at == TN_NO_RULE_PART ? e->part.last : tn_rule_part_child(e->tree, e->edit->part, e->edit->at);
@@ -212,6 +224,8 @@ static void unwrap(editing *e)
     uint32_t kept = part_at(e);
     if (kept == TN_NO_RULE_PART)
         refuse(e, "it has %u part%s", e->part.count, e->part.count == 1 ? "" : "s");
+    else if (e->tree->parts[kept].kind == TN_RULE_PART_GAP && !in_neighbour(e))
+        refuse(e, "%s", GAP_ALONE);
     else
         keep_only(e, &e->tree->parts[e->edit->part], &e->tree->parts[kept]);
 }
@@ -235,12 +249,14 @@ static void insert_into(editing *e, const tn_rule_part *row, uint32_t index)
     put(e, at, at, last ? between : "", last ? "" : between, needs);
 }
 
-/* Has `with` all that the edit needs? */
-static bool is_given(editing *e)
+/* Has `with` all that the edit needs? `neighbours`: it comes to stand in a row of them. */
+static bool is_given(editing *e, bool neighbours)
 {
     if (!e->with)
         refuse(e, "say what is put there: a text, or a part of the rule");
-    return e->with;
+    else if (!neighbours && strcmp(e->with, "...") == 0)
+        refuse(e, "%s", GAP_ALONE);
+    return !*e->why;
 }
 
 /* Between the ends of the plan that a row of neighbours has, unless it is an end that is put there. */
@@ -255,22 +271,24 @@ static uint32_t inside_ends(const editing *e)
 
 static void insert(editing *e)
 {
-    if (!is_given(e))
+    if (!is_given(e, e->part.kind == TN_RULE_PART_NEIGHBOUR))
         return;
     if (tn_rule_part_form_of(e->part.kind) == TN_RULE_PART_ROW) {
         insert_into(e, &e->tree->parts[e->edit->part], inside_ends(e));
         return;
     }
     uint32_t place = e->part.count ? part_at(e) : TN_NO_RULE_PART;
-    if (place == TN_NO_RULE_PART) {
-        refuse(e, e->part.count ? "it has no such place" : "nothing can be put into it");
+    if (place == TN_NO_RULE_PART && e->part.count)
+        refuse(e, "it has %u place%s", e->part.count, e->part.count == 1 ? "" : "s");
+    else if (place == TN_NO_RULE_PART)
+        refuse(e, "it has no places for parts; put something beside it, or in its place");
+    else if (e->edit->from == place)
+        refuse(e, "it is there already");
+    else if (e->edit->from != TN_NO_RULE_PART && tn_rule_part_within(e->tree, e->edit->from, place))
+        refuse(e, "it stands in what it would replace: unwrap that, so that only this stays");
+    if (*e->why)
         return;
-    }
     const tn_rule_part *old = &e->tree->parts[place];
-    if (e->edit->from != TN_NO_RULE_PART && tn_rule_part_within(e->tree, e->edit->from, place)) {
-        refuse(e, "it is there already; unwrap what is around it instead");
-        return;
-    }
     put(e, old->outer.begin, old->outer.end, "", "", tn_rule_part_holds(e->part.kind));
 }
 
@@ -284,7 +302,7 @@ static void join(editing *e)
         refuse(e, "parts are joined by `and` or by `or`");
         return;
     }
-    if (!is_given(e))
+    if (!is_given(e, false))
         return;
     if (parent && parent->kind == kind) {
         insert_into(e, parent, part->index + (e->edit->before ? 0 : 1));
@@ -331,16 +349,16 @@ static void remove_part(editing *e)
 
 static void set_condition(editing *e)
 {
-    const tn_ast_cond *condition = e->part.expr->condition;
-    if (e->part.kind == TN_RULE_PART_TEXT || !condition)
-        refuse(e, "only what is counted has a condition");
+    tn_stretch condition = tn_rule_part_condition(e->tree, e->edit->part);
+    if (condition.end == 0)
+        refuse(e, "only `quantity` and `occurrences` have a condition");
     else
-        change(e, condition->node.span.begin, condition->node.span.end, e->with);
+        change(e, condition.begin, condition.end, e->with);
 }
 
 static void set_text(editing *e)
 {
-    if (is_given(e))
+    if (is_given(e, in_neighbour(e)))
         put(e, e->part.outer.begin, e->part.outer.end, "", "", tn_rule_part_needs(e->tree, e->edit->part));
 }
 
@@ -520,8 +538,26 @@ static tn_status finish(const tn_rule_text *old, const char *rule, tn_buffer *te
     return status;
 }
 
+/* Do its lines end with carriage returns, too? The first tells. */
+static bool has_carriage_returns(const char *text, size_t size)
+{
+    const char *line = memchr(text, '\n', size);
+    return line && line > text && line[-1] == '\r';
+}
+
+/* Lines whose ends are those of the text that they come into. */
+static void put_lines(tn_buffer *to, const char *text, size_t size, bool carriage_returns)
+{
+    tn_buffer_append(to, "", 0);
+    for (size_t i = 0; i < size; i++) {
+        if (carriage_returns && text[i] == '\n' && (i == 0 || text[i - 1] != '\r'))
+            tn_buffer_append(to, "\r", 1);
+        tn_buffer_append(to, text + i, 1);
+    }
+}
+
 /* What of the old text became what: all between what both begin and end with. */
-static tn_status compare(const char *old, size_t size, tn_buffer *text, tn_rule_edited *made, tn_error *error)
+static tn_status compare(const char *old, size_t size, const tn_buffer *text, tn_rule_edited *made, tn_error *error)
 {
     size_t begin = 0, end = 0, least = size < text->size ? size : text->size;
     while (begin < least && old[begin] == text->data[begin])
@@ -533,11 +569,15 @@ static tn_status compare(const char *old, size_t size, tn_buffer *text, tn_rule_
     while (end > 0 && ((unsigned char)old[size - end] & 0xC0) == 0x80)
         end--;
     made->changed = (tn_stretch){(uint32_t)begin, (uint32_t)(size - end)};
-    made->insert = strndup(text->data + begin, text->size - end - begin);
-    made->text = text->data;
-    made->size = text->size;
-    *text = (tn_buffer){0};
-    return made->insert ? TN_OK : tn_fail_memory(error);
+    tn_buffer insert = {0}, whole = {0};
+    put_lines(&insert, text->data + begin, text->size - end - begin, has_carriage_returns(old, size));
+    tn_buffer_append(&whole, old, begin);
+    tn_buffer_append(&whole, insert.data, insert.size);
+    tn_buffer_append(&whole, old + size - end, end);
+    made->insert = insert.data;
+    made->text = whole.data;
+    made->size = whole.size;
+    return insert.failed || whole.failed ? tn_fail_memory(error) : TN_OK;
 }
 
 static tn_status edit_tree(const tn_rule_tree *tree, const char *rule, const tn_rule_edit *edit, tn_rule_edited *made,
@@ -586,14 +626,21 @@ tn_status tn_rule_edit_make(const char *text, size_t size, const char *rule, con
 
 /* ---- a new rule */
 
-/* Where the item ends that the byte is in or behind; at the end of the text if none begins before it. */
-static uint32_t end_of_item(const tn_rule_text *text, size_t offset)
+/* The item that the byte is in or behind, or NULL. */
+static const tn_ast_top *item_before(const tn_rule_text *text, size_t offset)
 {
-    uint32_t end = (uint32_t)text->size;
+    const tn_ast_top *found = NULL;
     for (TN_EACH(const tn_ast_top, item, text->tree->items))
         if (item->node.span.begin <= offset)
-            end = item->node.span.end;
-    return end;
+            found = item;
+    return found;
+}
+
+/* The schema that the rule before it names: the new one is about the same trays. NULL: it names none. */
+static const char *schema_of(const tn_ast_top *item)
+{
+    const tn_ast_rule *rule = item && item->kind == TN_ITEM_RULE ? (const tn_ast_rule *)item : NULL;
+    return rule && rule->using ? rule->using->text : NULL;
 }
 
 /* Behind the comment that stands on the same line. */
@@ -608,15 +655,18 @@ static uint32_t end_of_line(const tn_rule_text *text, uint32_t end)
     return end;
 }
 
-static tn_status write_new(const tn_rule_text *text, const char *name, uint32_t at, tn_buffer *to, tn_error *error)
+static tn_status write_new(const tn_rule_text *text, const char *name, const tn_ast_top *before, tn_buffer *to,
+                           tn_error *error)
 {
-    bool first = strspn(text->text, " \t\r\n") >= at;
+    uint32_t at = end_of_line(text, before ? before->node.span.end : (uint32_t)text->size);
+    const char *schema = schema_of(before);
+    bool first = strspn(text->text, " \t\r\n") >= at, line = at > 0 && text->text[at - 1] == '\n';
     tn_buffer_append(to, text->text, at);
-    tn_buffer_printf(to, "%srule %s =\n  any%s",
-                     first                                  ? ""
-                     : at > 0 && text->text[at - 1] == '\n' ? "\n"
-                                                            : "\n\n",
-                     name, at == text->size ? "\n" : "");
+    tn_buffer_printf(to, "%srule %s%s%s =\n  any%s",
+                     first  ? ""
+                     : line ? "\n"
+                            : "\n\n",
+                     name, schema ? " using " : "", schema ? schema : "", at == text->size ? "\n" : "");
     tn_buffer_append(to, text->text + at, text->size - at);
     return to->failed ? tn_fail_memory(error) : TN_OK;
 }
@@ -636,7 +686,7 @@ tn_status tn_rule_new_make(const char *text, size_t size, const char *name, size
     if (status == TN_OK && !*made->why && tn_rule_text_find(&read, name))
         snprintf(made->why, TN_WHY_MAX, "there is a rule `%.60s` already", name);
     if (status == TN_OK && !*made->why)
-        status = write_new(&read, name, end_of_line(&read, end_of_item(&read, offset)), &changed, error);
+        status = write_new(&read, name, item_before(&read, offset), &changed, error);
     if (status == TN_OK && !*made->why)
         status = compare(read.text, read.size, &changed, made, error);
     tn_rule_text_clear(&read);

@@ -232,6 +232,20 @@ uint32_t tn_rule_part_child(const tn_rule_tree *tree, uint32_t part, uint32_t in
     return child;
 }
 
+/* All between the comma before it and the parenthesis that ends the part. */
+tn_stretch tn_rule_part_condition(const tn_rule_tree *tree, uint32_t part)
+{
+    const tn_rule_part *it = &tree->parts[part];
+    const tn_rule_text *text = tree->text;
+    if (!it->expr->condition || it->kind == TN_RULE_PART_TEXT)
+        return (tn_stretch){0};
+    size_t first = tn_rule_text_token(text, it->expr->condition->node.span.begin),
+           end = tn_rule_text_token(text, it->own.end) - 1;
+    while (is_sign(text, first - 1, '('))
+        first--;
+    return (tn_stretch){text->tokens[first].span.begin, text->tokens[end - 1].span.end};
+}
+
 bool tn_rule_part_within(const tn_rule_tree *tree, uint32_t part, uint32_t other)
 {
     while (part != TN_NO_RULE_PART && part != other)

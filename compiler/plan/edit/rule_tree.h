@@ -72,6 +72,10 @@ uint32_t tn_rule_part_child(const tn_rule_tree *tree, uint32_t part, uint32_t in
 /* Is `part` the other part or inside it? */
 bool tn_rule_part_within(const tn_rule_tree *tree, uint32_t part, uint32_t other);
 
+/* Of what is counted: where its condition stands, with the parentheses that the syntax tree leaves out; empty of
+ * others. */
+tn_stretch tn_rule_part_condition(const tn_rule_tree *tree, uint32_t part);
+
 /* The part with this own place, or TN_NO_RULE_PART. */
 uint32_t tn_rule_part_placed(const tn_rule_tree *tree, tn_stretch own);
 
