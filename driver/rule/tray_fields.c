@@ -167,6 +167,7 @@ uint32_t tn_tray_spec(const tn_module *module, uint32_t file, tn_stretch place)
 typedef struct stepping {
     const tn_schema *schema;
     uint32_t spec, field;
+    bool said, deep; /* an item is about the field; it has a depth */
 } stepping;
 
 static bool allows(const stepping *s, uint32_t value)
@@ -221,14 +222,13 @@ static uint32_t step(const stepping *s, tn_tray_sign sign, bool *whole, char *wh
     *whole = zone && sign == TN_SIGN_VALUE;
     if (s->schema->fields[s->field].kind == TN_FIELD_FLAG)
         return step_flag(count, value);
-    if (!zone)
-        return count == all ? 0 : count == 1 ? next_value(s, value, sign) : UINT32_MAX;
-    uint32_t of_fill = count_allowed(s, value, &value, &depths);
-    if (sign == TN_SIGN_VALUE)
-        return count == all ? 0 : of_fill == count ? next_value(s, value, sign) : UINT32_MAX;
-    if (count == all || of_fill != count)
+    uint32_t of_fill = zone ? count_allowed(s, value, &value, &depths) : 1;
+    bool any = count == all && !(s->said && count == of_fill); /* what is said may be all that there is */
+    if (!zone || sign == TN_SIGN_VALUE)
+        return any ? 0 : count == of_fill ? next_value(s, value, sign) : UINT32_MAX;
+    if (any || of_fill != count)
         snprintf(why, TN_WHY_MAX, "say first what fills the zone; then it has a depth");
-    uint32_t next = of_fill == depths ? value : of_fill == 1 ? next_value(s, value, sign) : UINT32_MAX;
+    uint32_t next = !s->deep && of_fill == depths ? value : of_fill == 1 ? next_value(s, value, sign) : UINT32_MAX;
     *whole = next == UINT32_MAX;
     return next == UINT32_MAX ? value : next; /* its fill stays */
 }
@@ -248,6 +248,23 @@ static uint32_t item_about(const tn_schema *schema, const tn_ast_expr *tray, uin
     return found;
 }
 
+static const tn_ast_item *item_at(const tn_ast_expr *tray, uint32_t index)
+{
+    for (TN_EACH(const tn_ast_item, item, tray->items))
+        if (index-- == 0)
+            return item;
+    return NULL;
+}
+
+static bool has_length(const tn_ast_item *item)
+{
+    const tn_ast_alternative *first = item ? (const tn_ast_alternative *)item->alternatives.first : NULL;
+    for (const tn_ast_node *word = first ? first->words.first : NULL; word; word = word->next)
+        if (((const tn_ast_word *)word)->kind == TN_WORD_LENGTH)
+            return true;
+    return false;
+}
+
 /* Where an item about the field goes: items stand in the order of the schema's fields. */
 static uint32_t place_of_item(const tn_schema *schema, const tn_ast_expr *tray, uint32_t field)
 {
@@ -264,7 +281,6 @@ tn_status tn_tray_step(const tn_schema *schema, const tn_rule_tree *tree, uint32
                        tn_tray_sign sign, tn_rule_edit *edit, char **text, char why[TN_WHY_MAX], tn_error *error)
 {
     const tn_rule_part *tray = &tree->parts[part];
-    const stepping s = {schema, spec, field};
     uint32_t count = 0, item = UINT32_MAX;
     bool whole;
     *text = NULL;
@@ -279,6 +295,7 @@ tn_status tn_tray_step(const tn_schema *schema, const tn_rule_tree *tree, uint32
         snprintf(why, TN_WHY_MAX, "the item has a word that stands for several values; change its text");
     if (*why)
         return TN_OK;
+    const stepping s = {schema, spec, field, count > 0, count > 0 && has_length(item_at(tray->expr, item))};
     uint32_t next = step(&s, sign, &whole, why);
     if (*why)
         return TN_OK;

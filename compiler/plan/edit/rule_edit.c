@@ -568,6 +568,10 @@ static tn_status compare(const char *old, size_t size, const tn_buffer *text, tn
         begin--;
     while (end > 0 && ((unsigned char)old[size - end] & 0xC0) == 0x80)
         end--;
+    if (begin > 0 && old[begin - 1] == '\r') /* and whole ends of lines */
+        begin--;
+    if (end > 0 && end < size - begin && old[size - end - 1] == '\r')
+        end--;
     made->changed = (tn_stretch){(uint32_t)begin, (uint32_t)(size - end)};
     tn_buffer insert = {0}, whole = {0};
     put_lines(&insert, text->data + begin, text->size - end - begin, has_carriage_returns(old, size));

@@ -48,26 +48,33 @@ static tn_stretch line_before(const tn_rule_tree *tree)
     return (tn_stretch){at, begin};
 }
 
-/* The lost comments, each on a line of its own, as they are put before the rule. */
-static void write_lost(const tn_text_changes *changes, const tn_rule_tree *tree, tn_buffer *to)
+/* NULL: only the size is asked for. */
+static size_t put(tn_buffer *to, const char *text, size_t size)
+{
+    if (to)
+        tn_buffer_append(to, text, size);
+    return size;
+}
+
+/* The lost comments, each on a line of its own, as they are put before the rule. How many bytes they are. */
+static size_t write_lost(const tn_text_changes *changes, const tn_rule_tree *tree, tn_buffer *to)
 {
     const tn_rule_text *text = tree->text;
     tn_stretch line = line_before(tree);
-    size_t blanks = strspn(text->text + line.begin, " \t");
+    size_t blanks = strspn(text->text + line.begin, " \t"), size = 0;
     bool alone = blanks >= line.end - line.begin;
-    bool first = true;
     for (size_t i = 0; i < text->comment_count; i++) {
         tn_span comment = text->comments[i].span;
         if (!is_lost(changes, comment))
             continue;
-        if (first && !alone)
-            tn_buffer_append(to, "\n", 1);
-        tn_buffer_append(to, text->text + comment.begin, comment.end - comment.begin);
-        tn_buffer_append(to, "\n", 1);
+        if (size == 0 && !alone)
+            size += put(to, "\n", 1);
+        size += put(to, text->text + comment.begin, comment.end - comment.begin);
+        size += put(to, "\n", 1);
         if (alone)
-            tn_buffer_append(to, text->text + line.begin, line.end - line.begin);
-        first = false;
+            size += put(to, text->text + line.begin, line.end - line.begin);
     }
+    return size;
 }
 
 /* ---- the changed text */
@@ -92,10 +99,7 @@ tn_status tn_text_changes_make(const tn_text_changes *changes, const tn_rule_tre
 /* How many bytes of comments come before the rule. */
 static int64_t lost_size(const tn_text_changes *changes, const tn_rule_tree *tree)
 {
-    tn_buffer lost = {0};
-    write_lost(changes, tree, &lost);
-    free(lost.data);
-    return (int64_t)lost.size;
+    return (int64_t)write_lost(changes, tree, NULL);
 }
 
 /* How much longer the text becomes by a change. */
