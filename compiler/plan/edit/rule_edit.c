@@ -1,5 +1,6 @@
 #include "compiler/plan/edit/rule_edit.h"
 
+#include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,9 +29,33 @@ __attribute__((format(printf, 2, 3))) static void refuse(editing *e, const char 
     va_end(args);
 }
 
+static bool is_of_word(char byte)
+{
+    return isalnum((unsigned char)byte) || (unsigned char)byte >= 0x80 || (byte && strchr("_-.'\"%", byte));
+}
+
+/* Adds a change, with blanks where words would else come to stand together: the parenthesis of `not(a)` may go. */
+static void add_change(editing *e, tn_stretch replaced, const char *insert, tn_stretch put)
+{
+    const tn_rule_text *text = e->tree->text;
+    size_t size = strlen(insert);
+    tn_buffer apart = {0};
+    bool word_before = replaced.begin > 0 && is_of_word(text->text[replaced.begin - 1]),
+         word_behind = replaced.end < text->size && is_of_word(text->text[replaced.end]),
+         first = word_before && (size > 0 ? is_of_word(*insert) : word_behind && replaced.begin < replaced.end),
+         last = size > 0 && word_behind && is_of_word(insert[size - 1]);
+    tn_buffer_printf(&apart, "%s%s%s", first ? " " : "", insert, last ? " " : "");
+    if (first && put.end > 0)
+        put = (tn_stretch){put.begin + 1, put.end + 1};
+    e->changes.failed |= apart.failed;
+    if (!apart.failed)
+        tn_text_change_add(&e->changes, replaced, apart.data, put);
+    free(apart.data);
+}
+
 static void change(editing *e, uint32_t begin, uint32_t end, const char *insert)
 {
-    tn_text_change_add(&e->changes, (tn_stretch){begin, end}, insert, (tn_stretch){0});
+    add_change(e, (tn_stretch){begin, end}, insert, (tn_stretch){0});
 }
 
 /* ---- parentheses */
@@ -71,8 +96,7 @@ static void put(editing *e, uint32_t begin, uint32_t end, const char *before, co
     bool good = with && tn_buffer_printf(&text, "%s%s%s", before, with, behind);
     uint32_t from = (uint32_t)strlen(before);
     if (good)
-        tn_text_change_add(&e->changes, (tn_stretch){begin, end}, text.data,
-                           (tn_stretch){from, from + (uint32_t)strlen(with)});
+        add_change(e, (tn_stretch){begin, end}, text.data, (tn_stretch){from, from + (uint32_t)strlen(with)});
     e->changes.failed |= !good;
     free(with);
     free(text.data);
