@@ -160,7 +160,7 @@ static tn_status say_error(tn_opened *opened, const char *rule, const tn_rule_ed
         snprintf(why, TN_WHY_MAX, "line %zu would be wrong then: %.300s",
                  tn_sources_place(&opened->compilation.sources, first->span).line, first->message);
     else
-        snprintf(why, TN_WHY_MAX, "%.399s", tn_first_error(opened));
+        snprintf(why, TN_WHY_MAX, "the rule would be wrong then: %.300s", tn_first_error(opened));
     tn_rule_text_clear(&read);
     return status;
 }

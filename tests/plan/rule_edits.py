@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Edits of rules as pictures, held to the same edits of trees: rule_edits.py LIBTARTAN SEED COUNT FOLDER...
 
-COUNT random edits of the rules of the .plan files below the FOLDERs that compile, by turns with random rules (rule_random.py). Each is asked of `rule_edit` and made of
-the tree by rule_model.py. Then the changed text compiles; its tree is the one that was worked out, and the part that is named is the one
+COUNT random edits of the rules of the .plan files below the FOLDERs that compile, by turns with random rules (rule_random.py). Each is
+asked of `rule_edit` and made of the tree by rule_model.py. Then the changed text compiles; its tree is the one that was worked out, and the part that is named is the one
 that the edit was about; undoing it gives the bytes; nothing but the rule changes, and all comments stay; and what was laid out is. An edit
-that is refused has no tree, or one that does not compile. Rules of six trays match the plans that they should (rule_meaning.py)."""
+that is refused has no tree, or one that does not compile. Rules of six trays match the plans that they should (rule_meaning.py).
+--refusals shows some edits that were refused for each reason."""
 import collections
 import ctypes
 import glob
@@ -15,8 +16,8 @@ import re
 import sys
 
 import rule_meaning as meaning
-from rule_model import COUNTED, Impossible, Part, Tree, any_tray, bare, check_row, inside_ends, step, written, written_out
-from rule_random import SIGNS, HELPERS, Maker, comment, random_file
+from rule_model import COUNTED, ROWS, Impossible, Part, Tree, any_tray, bare, check_row, step, written, written_out
+from rule_random import Maker, comment, random_file
 
 
 class Error(ctypes.Structure):
@@ -248,7 +249,7 @@ class Edits:
     def place(self):
         """A part that others are put into, and where."""
         number = self.r.choice([i for i, part in enumerate(self.case.parts) if part.parts] or [0])
-        row = self.case.parts[number].kind in ("and", "or", "neighbour")
+        row = self.case.parts[number].kind in ROWS
         return number, self.r.choice([{}, {"at": self.r.randrange(max(1, len(self.case.parts[number].parts)) + row)}])
 
     def insert(self):
@@ -347,7 +348,7 @@ def undone(r, case, edit, after):
     if edit.operation == "wrap":
         request, make = {"part": number, "at": 0}, lambda: tree.unwrap(part, 0)
         return Edit(r, after, "unwrap", request, make, tree)
-    row = case.parts[edit.request["part"]].kind in ("and", "or", "neighbour")
+    row = case.parts[edit.request["part"]].kind in ROWS
     if edit.operation == "insert" and row:
         return Edit(r, after, "remove", {"part": number}, lambda: tree.remove(part), tree)
     return None
