@@ -57,7 +57,7 @@ static void add_item(showing *s, const tn_ast_item *item, tn_rule_part_shown *pa
 static void name_part(showing *s, uint32_t number, const tn_ast_word *name, tn_rule_part_shown *to)
 {
     const tn_rule_part *part = &s->asked->tree.parts[number];
-    bool field = part->kind == TN_RULE_PART_SOME || part->kind == TN_RULE_PART_EACH;
+    bool field = part->kind == TN_RULE_PART_SOME || part->kind == TN_RULE_PART_EACH || part->kind == TN_RULE_PART_SUM;
     to->has_name = to->has_name_place = to->has_means = true;
     to->name = strdup(name->text);
     s->failed |= !to->name;
@@ -201,13 +201,13 @@ static void add_names(showing *s)
 static tn_status add_boxes(tn_texts *to, tn_error *error)
 {
     size_t count = 0;
-    while (tn_rule_boxes[count])
+    while (tn_rule_wraps[count])
         count++;
     to->items = calloc(count + 1, sizeof *to->items);
     if (!to->items)
         return tn_fail_memory(error);
     for (; to->count < count; to->count++)
-        to->items[to->count] = tn_rule_boxes[to->count];
+        to->items[to->count] = tn_rule_wraps[to->count];
     return TN_OK;
 }
 

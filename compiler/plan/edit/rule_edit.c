@@ -154,7 +154,7 @@ static const struct box {
              {"optional(", ")", TN_BINDS_PRIMARY, TN_BINDS_NOTHING},
              {"distance(from ", ", to any, by any)", TN_BINDS_PRIMARY, TN_BINDS_NOTHING}};
 
-const char *const tn_rule_boxes[] = {"not",       "symmetric", "quantity", "occurrences", "many",
+const char *const tn_rule_wraps[] = {"not",       "symmetric", "quantity", "occurrences", "many",
                                      "neighbour", "optional",  "distance", NULL};
 
 static bool is_of_row(tn_rule_part_kind kind)
@@ -166,9 +166,9 @@ static void wrap(editing *e)
 {
     tn_binding needs = tn_rule_part_needs(e->tree, e->edit->part);
     size_t i = 0;
-    while (tn_rule_boxes[i] && strcmp(tn_rule_boxes[i], e->edit->by) != 0)
+    while (tn_rule_wraps[i] && strcmp(tn_rule_wraps[i], e->edit->by) != 0)
         i++;
-    if (!tn_rule_boxes[i]) {
+    if (!tn_rule_wraps[i]) {
         refuse(e, "there is no box `%.60s`", e->edit->by);
         return;
     }
