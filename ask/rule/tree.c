@@ -183,7 +183,7 @@ static void add_name(showing *s, const char *name, const char *means)
     s->failed |= !to->name;
 }
 
-/* Rules about the same trays but itself, and params. Constants stand in numbers, whose texts complete them. */
+/* Rules about the same trays but itself, params, the text's own constants, and the rule's own words. */
 static void add_names(showing *s)
 {
     const tn_module *module = s->session->opened->module;
@@ -194,6 +194,9 @@ static void add_names(showing *s)
             add_name(s, tn_text(module, module->RULE_records[i].name), "rule");
     for (size_t i = 0; i < program->param_count; i++)
         add_name(s, program->params[i].name, "param");
+    for (TN_EACH(const tn_ast_top, item, s->asked->text.tree->items))
+        if (item->kind == TN_ITEM_LET)
+            add_name(s, ((const tn_ast_rule *)item)->name->text, "let");
     for (TN_EACH(const tn_ast_word, word, s->asked->tree.rule->params))
         add_name(s, word->text, "bound");
 }
