@@ -173,6 +173,17 @@ static void edit(tn_job *job)
 
 /* ---- the command */
 
+/* The changed text is one of plans, whatever other rule files there are. */
+static bool names_plan(tn_job *job)
+{
+    const char *path = settings_of(job)->output, *ending = path ? strrchr(path, '.') : NULL;
+    if (!path || (ending && strcmp(ending, ".plan") == 0))
+        return true;
+    tn_diagnostic *said = tn_job_usage(job, "the changed text cannot be written as %.200s", path);
+    tn_help(tn_job_diagnostics(job), said, "end its name in .plan");
+    return false;
+}
+
 /* Is what is given about an edit, or about a picture, and is that asked for? */
 static bool goes_together(tn_job *job)
 {
@@ -194,7 +205,7 @@ static bool goes_together(tn_job *job)
     else if (s->dpi.given && (s->operation || !s->output))
         tn_job_usage(job, "--dpi is of a picture in pixels: give -o FILE.png too");
     else if (s->operation)
-        return s->json || tn_job_writes(job, "the changed text", s->output, TN_WRITES(RULES));
+        return s->json || names_plan(job);
     else
         return !s->output || tn_job_writes(job, "the picture of a rule", s->output, TN_WRITES_PICTURES);
     return false;
