@@ -57,7 +57,7 @@ static void add_item(showing *s, const tn_ast_item *item, tn_rule_part_shown *pa
 static void name_part(showing *s, uint32_t number, const tn_ast_word *name, tn_rule_part_shown *to)
 {
     const tn_rule_part *part = &s->asked->tree.parts[number];
-    bool field = part->kind == TN_RULE_PART_SOME || part->kind == TN_RULE_PART_EACH;
+    bool field = part->kind == TN_RULE_PART_SOME || part->kind == TN_RULE_PART_EACH || part->kind == TN_RULE_PART_SUM;
     to->has_name = to->has_name_place = to->has_means = true;
     to->name = strdup(name->text);
     s->failed |= !to->name;
@@ -183,7 +183,7 @@ static void add_name(showing *s, const char *name, const char *means)
     s->failed |= !to->name;
 }
 
-/* Rules about the same trays but itself, and params. Constants stand in numbers, whose texts complete them. */
+/* Rules about the same trays but itself, params, the text's own constants, and the rule's own words. */
 static void add_names(showing *s)
 {
     const tn_module *module = s->session->opened->module;
@@ -194,6 +194,9 @@ static void add_names(showing *s)
             add_name(s, tn_text(module, module->RULE_records[i].name), "rule");
     for (size_t i = 0; i < program->param_count; i++)
         add_name(s, program->params[i].name, "param");
+    for (TN_EACH(const tn_ast_top, item, s->asked->text.tree->items))
+        if (item->kind == TN_ITEM_LET)
+            add_name(s, ((const tn_ast_rule *)item)->name->text, "let");
     for (TN_EACH(const tn_ast_word, word, s->asked->tree.rule->params))
         add_name(s, word->text, "bound");
 }
@@ -201,13 +204,13 @@ static void add_names(showing *s)
 static tn_status add_boxes(tn_texts *to, tn_error *error)
 {
     size_t count = 0;
-    while (tn_rule_boxes[count])
+    while (tn_rule_wraps[count])
         count++;
     to->items = calloc(count + 1, sizeof *to->items);
     if (!to->items)
         return tn_fail_memory(error);
     for (; to->count < count; to->count++)
-        to->items[to->count] = tn_rule_boxes[to->count];
+        to->items[to->count] = tn_rule_wraps[to->count];
     return TN_OK;
 }
 

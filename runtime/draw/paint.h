@@ -97,7 +97,9 @@ typedef enum tn_paint_subject {
     TN_PAINT_PLAN, /* of a sheet, from 0 */
     TN_PAINT_TRAY, /* of a plan, from 0 */
     TN_PAINT_RULE, /* of those drawn, or of those that an explanation is about, from 0 */
-    TN_PAINT_PART  /* of a rule: its root is 0, and what follows it are its parts, each before its own */
+    TN_PAINT_PART, /* of a rule: its root is 0, and what follows it are its parts, each before its own */
+    TN_PAINT_ITEM, /* of a tray that a rule asks for: the sign of a field, by its number in the schema */
+    TN_PAINT_DEPTH /* likewise the sign of a zone's depth */
 } tn_paint_subject;
 
 /* What is drawn until the group ends is that. Groups nest, and end before a state that was saved before them is

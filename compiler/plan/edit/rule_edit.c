@@ -181,7 +181,7 @@ static const struct box {
              {"optional(", ")", TN_BINDS_PRIMARY, TN_BINDS_NOTHING},
              {"distance(from ", ", to any, by quantity(any, n >= 1))", TN_BINDS_PRIMARY, TN_BINDS_NOTHING}};
 
-const char *const tn_rule_boxes[] = {"not",       "symmetric", "quantity", "occurrences", "many",
+const char *const tn_rule_wraps[] = {"not",       "symmetric", "quantity", "occurrences", "many",
                                      "neighbour", "optional",  "distance", NULL};
 
 static bool is_of_row(tn_rule_part_kind kind)
@@ -189,13 +189,29 @@ static bool is_of_row(tn_rule_part_kind kind)
     return kind == TN_RULE_PART_BEGINNING || kind == TN_RULE_PART_END || kind == TN_RULE_PART_GAP;
 }
 
+static void put_box(editing *e, const struct box *box, tn_stretch outer)
+{
+    change(e, outer.begin, outer.begin, box->before);
+    enclose_part(e, &e->part, box->holds);
+    change(e, outer.end, outer.end, box->behind);
+}
+
+/* The parentheses that are there become those of the box: `(a or b)`, `many(a or b)`. */
+static void put_call(editing *e, const char *word, const char *behind, tn_stretch outer)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%.*s", (int)strlen(behind) - 1, behind);
+    change(e, outer.begin, outer.begin, word);
+    change(e, outer.end - 1, outer.end - 1, text);
+}
+
 static void wrap(editing *e)
 {
     tn_binding needs = tn_rule_part_needs(e->tree, e->edit->part);
     size_t i = 0;
-    while (tn_rule_boxes[i] && strcmp(tn_rule_boxes[i], e->edit->by) != 0)
+    while (tn_rule_wraps[i] && strcmp(tn_rule_wraps[i], e->edit->by) != 0)
         i++;
-    if (!tn_rule_boxes[i]) {
+    if (!tn_rule_wraps[i]) {
         refuse(e, "there is no box `%.60s`", e->edit->by);
         return;
     }
@@ -209,9 +225,10 @@ static void wrap(editing *e)
     bool inside = box->binds < needs;
     if (inside)
         change(e, outer.begin, outer.begin, "(");
-    change(e, outer.begin, outer.begin, box->before);
-    enclose_part(e, &e->part, box->holds);
-    change(e, outer.end, outer.end, box->behind);
+    if (has_parentheses(&e->part) && strcmp(box->before + strlen(tn_rule_wraps[i]), "(") == 0)
+        put_call(e, tn_rule_wraps[i], box->behind, outer);
+    else
+        put_box(e, box, outer);
     if (inside)
         change(e, outer.end, outer.end, ")");
 }

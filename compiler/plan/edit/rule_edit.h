@@ -56,6 +56,6 @@ tn_status tn_rule_new_make(const char *text, size_t size, const char *name, size
 void tn_rule_edited_clear(tn_rule_edited *made);
 
 /* The boxes that `wrap` knows, in the order in which they are offered; NULL ends them. */
-extern const char *const tn_rule_boxes[];
+extern const char *const tn_rule_wraps[];
 
 #endif

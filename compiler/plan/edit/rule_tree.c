@@ -37,6 +37,12 @@ static bool is_gap(const tn_ast_expr *expr, const char *text)
     return expr->kind == TN_EXPR_OPTIONAL && text[expr->node.span.begin] == '.';
 }
 
+/* What is called with fields, not with parts. */
+static bool of_fields(const char *name)
+{
+    return strcmp(name, "mirrored") == 0 || strcmp(name, "values") == 0;
+}
+
 tn_rule_part_kind tn_rule_part_kind_of(const tn_ast_expr *expr, const char *text)
 {
     if (is_gap(expr, text))
@@ -49,7 +55,6 @@ tn_rule_part_kind tn_rule_part_kind_of(const tn_ast_expr *expr, const char *text
         SAME(TRAY)
         SAME(ANY)
         SAME(NAME)
-        SAME(CALL)
         SAME(AND)
         SAME(OR)
         SAME(NOT)
@@ -68,6 +73,10 @@ tn_rule_part_kind tn_rule_part_kind_of(const tn_ast_expr *expr, const char *text
         SAME(SOME)
         SAME(EACH)
 #undef SAME
+    case TN_EXPR_CALL:
+        return of_fields(expr->name->text) ? TN_RULE_PART_TEXT : TN_RULE_PART_CALL;
+    case TN_EXPR_SUM:
+        return counts && expr->parts.count ? TN_RULE_PART_SUM : TN_RULE_PART_TEXT;
     case TN_EXPR_QUANTITY:
         return counts ? TN_RULE_PART_QUANTITY : TN_RULE_PART_TEXT;
     case TN_EXPR_OCCURRENCES:

@@ -7,6 +7,7 @@
 
 #include "runtime/draw/canvas.h"
 #include "runtime/draw/type.h"
+#include "runtime/plan/match/parts.h"
 #include "runtime/plan/picture/draw_rule_data.h"
 
 #define MARGIN 26.0
@@ -205,7 +206,7 @@ static void draw_tray(const picture *p, const card *c)
     tn_paint_face(p->paint, TEXT, true);
     tn_type_line(p->paint, c->x, c->y + TEXT, TN_ALIGN_LEFT, number);
     tn_draw_spec(p->paint, &p->roles, c->spec, c->x + (p->width - c->symbol_width) / 2,
-                 c->y + NUMBER_ROOM + (p->symbols - c->symbol_height) / 2, false);
+                 c->y + NUMBER_ROOM + (p->symbols - c->symbol_height) / 2, (tn_spec_look){0});
     draw_table(p, c, c->y + NUMBER_ROOM + p->symbols + SYMBOL_GAP);
 }
 

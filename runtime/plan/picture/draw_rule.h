@@ -8,7 +8,7 @@
 #define TARTAN_PLAN_PICTURE_DRAW_RULE_H
 
 #include "runtime/base/picture.h"
-#include "runtime/plan/match/parts.h"
+#include "runtime/plan/picture/rule_boxes.h"
 #include "runtime/plan/schema/schema.h"
 
 /* The longest side of a picture, in points (E0820 past it): 200 inches, the most that a PDF page may have. */
@@ -25,5 +25,16 @@ tn_drawn_rule tn_drawn_rule_of(const tn_module *module, uint32_t rule); /* a RUL
 /* Draws rules (of the schema) one below the other. Errors as in tn_plans_draw, and as in tn_parts_read. */
 tn_status tn_rules_draw(const tn_schema *schema, const tn_drawn_rule *rules, size_t count, tn_picture *to,
                         tn_error *error);
+
+/* A rule as boxes of its maker's, which it borrows: what else is drawn, and whether signs of trays say which field they
+ * are of. */
+typedef struct tn_drawn_boxes {
+    const char *name, *doc;
+    const tn_rule_boxes *boxes;
+    bool signs; /* groups `data-item` and `data-depth`, with the field's number in its schema */
+} tn_drawn_boxes;
+
+/* Draws it as tn_rules_draw draws a rule alone. */
+tn_status tn_rule_boxes_draw(const tn_schema *schema, const tn_drawn_boxes *rule, tn_picture *to, tn_error *error);
 
 #endif

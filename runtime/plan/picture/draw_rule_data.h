@@ -2,13 +2,11 @@
 #ifndef TARTAN_PLAN_PICTURE_DRAW_RULE_DATA_H
 #define TARTAN_PLAN_PICTURE_DRAW_RULE_DATA_H
 
-#include "runtime/plan/match/condition_text.h"
 #include "runtime/plan/picture/draw_parts.h"
 #include "runtime/plan/picture/draw_rule.h"
 
 #define TN_RULE_SIGN_SIZE 8.0
 #define TN_RULE_END_WIDTH 13.0 /* of the mark of the plan's beginning or end */
-#define TN_RULE_WORDS_MAX (TN_CONDITION_TEXT_MAX + 80)
 
 typedef struct tn_size {
     double width, height;
@@ -17,23 +15,15 @@ typedef struct tn_size {
 /* One rule being drawn. */
 typedef struct tn_rule_picture {
     tn_paint *paint;
-    const tn_schema *schema;
     tn_draw_roles roles;
-    tn_parts parts;
-    tn_size *sizes; /* [part] */
-    const tn_drawn_rule *rule;
+    tn_drawn_boxes rule;
+    tn_size *sizes; /* [box] */
 } tn_rule_picture;
 
-static inline const tn_part *tn_rule_part(const tn_rule_picture *p, uint32_t part)
+static inline const tn_rule_box *tn_rule_box_at(const tn_rule_picture *p, uint32_t box)
 {
-    return &p->parts.parts[part];
+    return &p->rule.boxes->items[box];
 }
-
-/* What stands on top of a part's box: the word for its kind, or its condition as its author wrote it. */
-void tn_draw_rule_words(const tn_rule_picture *p, uint32_t part, char words[TN_RULE_WORDS_MAX]);
-
-/* Is the part all of a comparison of a gap, `max(gap from a to b) <= 2`, which is made of relations? */
-bool tn_rule_is_gap(const tn_rule_picture *p, uint32_t part);
 
 void tn_draw_rule_box(tn_paint *paint, double x, double y, tn_size s);
 void tn_draw_rule_dashes(tn_paint *paint, double x1, double y1, double x2, double y2);
@@ -61,6 +51,16 @@ void tn_draw_optional(tn_paint *paint, double x, double y, tn_size s);
 
 /* How much room the symbol of a specifier needs. */
 void tn_draw_spec_measure(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double *width, double *height);
-void tn_draw_spec(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y, bool mirrored);
+
+typedef struct tn_spec_look {
+    bool mirrored;
+    bool signs; /* its signs say which field they are of */
+} tn_spec_look;
+void tn_draw_spec(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y, tn_spec_look look);
+
+/* A tray that has no symbol: words of several lines in a box. */
+void tn_draw_label_measure(tn_paint *paint, const tn_draw_roles *roles, const char *words, double *width,
+                           double *height);
+void tn_draw_label(tn_paint *paint, const tn_draw_roles *roles, const char *words, double x, double y);
 
 #endif

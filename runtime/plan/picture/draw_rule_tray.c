@@ -23,6 +23,12 @@
 #define ITEM_MAX 160
 #define FILLS_MAX 8 /* of a zone that are drawn */
 #define PI 3.14159265358979323846
+#define SIGN_SIDE 12.0 /* of the signs within the spine, to be clicked on */
+#define DEPTH_SIDE 8.0
+
+typedef struct tn_draw_area {
+    double x, y, width, height;
+} tn_draw_area;
 
 static bool allows(const tn_draw_roles *roles, uint32_t spec, uint32_t field, uint32_t value)
 {
@@ -88,6 +94,23 @@ static void field_text(const tn_draw_roles *roles, uint32_t spec, uint32_t field
     list_values(roles, spec, field, values);
     snprintf(text, ITEM_MAX, "%.60s ", name);
     say(text, values);
+}
+
+/* ---- what is clicked on */
+
+/* Begins the sign of a field, which can be clicked on where nothing is drawn, too. */
+static void begin_sign(tn_paint *paint, bool signs, tn_paint_subject subject, uint32_t field, tn_draw_area area)
+{
+    if (!signs || field == TN_NO_FIELD)
+        return;
+    tn_paint_group_begin(paint, subject, field);
+    tn_paint_target(paint, area.x, area.y, area.width, area.height);
+}
+
+static void end_sign(tn_paint *paint, bool signs, uint32_t field)
+{
+    if (signs && field != TN_NO_FIELD)
+        tn_paint_group_end(paint);
 }
 
 /* ---- zones */
@@ -199,25 +222,38 @@ static void draw_absent(tn_paint *paint, double x, double y, double width, doubl
     tn_paint_stroke(paint);
 }
 
-static void draw_zone(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, uint32_t field, double x, double y,
-                      double height)
+static void draw_fills(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, uint32_t field, tn_draw_area at)
 {
     uint32_t fills[FILLS_MAX], count = list_fills(roles, spec, field, fills);
     bool any = any_fill(roles, spec, field);
     if (any)
-        draw_any(paint, x, y, TRAY_WIDTH, height);
-    double width = TRAY_WIDTH / (count ? count : 1);
+        draw_any(paint, at.x, at.y, at.width, at.height);
+    double width = at.width / (count ? count : 1);
     for (uint32_t i = 0; i < count && !any; i++) {
         tn_fill_role role = (tn_fill_role)value_at(roles, field, fills[i])->role;
         if (role == TN_FILL_ABSENT)
-            draw_absent(paint, x + width * i, y, width, height);
+            draw_absent(paint, at.x + width * i, at.y, width, at.height);
         else
-            tn_draw_fill(paint, roles, roles->schema->value_start[field] + fills[i], x + width * i, y, width, height);
+            tn_draw_fill(paint, roles, roles->schema->value_start[field] + fills[i], at.x + width * i, at.y, width,
+                         at.height);
     }
+}
+
+static void draw_zone(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, uint32_t field, double x, double y,
+                      double height, bool signs)
+{
     char text[ITEM_MAX];
+    tn_draw_area area = {x, y, TRAY_WIDTH, height};
+    begin_sign(paint, signs, TN_PAINT_ITEM, field, area);
+    draw_fills(paint, roles, spec, field, area);
+    end_sign(paint, signs, field);
     zone_text(roles, spec, field, text);
     tn_paint_face(paint, TEXT_SIZE, false);
+    begin_sign(
+        paint, signs, TN_PAINT_DEPTH, field,
+        (tn_draw_area){x + TRAY_WIDTH - DEPTH_SIDE, y, DEPTH_SIDE + DEPTH_GAP + tn_type_width(paint, text), height});
     tn_type_line(paint, x + TRAY_WIDTH + DEPTH_GAP, y + height / 2 + 2, TN_ALIGN_LEFT, text);
+    end_sign(paint, signs, field);
 }
 
 static double band_height(const tn_draw_roles *roles, uint32_t band)
@@ -316,7 +352,8 @@ static double written_width(tn_paint *paint, const tn_draw_roles *roles, uint32_
     return width;
 }
 
-static void write_fields(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y, double leading)
+static void write_fields(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y, double leading,
+                         bool signs)
 {
     tn_paint_face(paint, roles->to_scale ? TEXT_SIZE : LABEL_SIZE, false);
     for (uint32_t f = 0; f < roles->schema->field_count; f++) {
@@ -324,7 +361,10 @@ static void write_fields(tn_paint *paint, const tn_draw_roles *roles, uint32_t s
         if (!is_written(roles, spec, f))
             continue;
         field_text(roles, spec, f, text);
+        double width = tn_type_width(paint, text);
+        begin_sign(paint, signs, TN_PAINT_ITEM, f, (tn_draw_area){x - width / 2, y - leading + 2, width, leading});
         tn_type_line(paint, x, y, TN_ALIGN_CENTRE, text);
+        end_sign(paint, signs, f);
         y += leading;
     }
 }
@@ -374,38 +414,102 @@ void tn_draw_spec_measure(tn_paint *paint, const tn_draw_roles *roles, uint32_t 
         *height += band_height(roles, b);
 }
 
-static void draw_label(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y)
+static void draw_frame(tn_paint *paint, double x, double y, double width, double height)
+{
+    tn_paint_rectangle(paint, x, y, width, height);
+    tn_paint_line_width(paint, TN_LINE_CUT);
+    tn_paint_stroke(paint);
+}
+
+static void draw_written(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y, bool signs)
 {
     double width, height;
     uint32_t lines;
     tn_draw_spec_measure(paint, roles, spec, &width, &height);
-    tn_paint_rectangle(paint, x, y, width, height);
-    tn_paint_line_width(paint, TN_LINE_CUT);
-    tn_paint_stroke(paint);
+    draw_frame(paint, x, y, width, height);
     written_width(paint, roles, spec, &lines);
     double baseline = y + LABEL_PADDING + LABEL_LEADING - 3;
     if (lines == 0)
         tn_type_line(paint, x + width / 2, baseline, TN_ALIGN_CENTRE, "any");
-    write_fields(paint, roles, spec, x + width / 2, baseline, LABEL_LEADING);
+    write_fields(paint, roles, spec, x + width / 2, baseline, LABEL_LEADING, signs);
 }
 
-void tn_draw_spec(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y, bool mirrored)
+/* The marks of the spine: on its left side the public end, in its middle the great hall, below it the storeys. */
+static void draw_marks(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double left, double spine,
+                       tn_spec_look look)
+{
+    double middle = left + TRAY_WIDTH / 2, half = SIGN_SIDE / 2, y = spine + SPINE_HEIGHT / 2;
+    double side = look.mirrored ? left + TRAY_WIDTH - half : left - half;
+    begin_sign(paint, look.signs, TN_PAINT_ITEM, roles->level,
+               (tn_draw_area){middle - half, spine + SPINE_HEIGHT - SIGN_SIDE * 3 / 4, SIGN_SIDE, SIGN_SIDE * 3 / 4});
+    draw_levels(paint, roles, spec, left, spine, SPINE_HEIGHT);
+    end_sign(paint, look.signs, roles->level);
+    begin_sign(paint, look.signs, TN_PAINT_ITEM, roles->great_hall,
+               (tn_draw_area){middle - half, y - half, SIGN_SIDE, SIGN_SIDE});
+    draw_great_hall(paint, roles, spec, middle, y);
+    end_sign(paint, look.signs, roles->great_hall);
+    begin_sign(paint, look.signs, TN_PAINT_ITEM, roles->public_end,
+               (tn_draw_area){side, y - half, SIGN_SIDE, SIGN_SIDE});
+    draw_public(paint, roles, spec, left, y, look.mirrored);
+    end_sign(paint, look.signs, roles->public_end);
+}
+
+void tn_draw_spec(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y, tn_spec_look look)
 {
     if (!roles->to_scale) {
-        draw_label(paint, roles, spec, x, y);
+        draw_written(paint, roles, spec, x, y, look.signs);
         return;
     }
     uint32_t lines;
     double left = x + sides_of(paint, roles, spec, &lines).left - TRAY_WIDTH / 2, at = y, spine = y;
     for (uint32_t b = 0; b < roles->band_count; b++) {
         double height = band_height(roles, b);
-        draw_zone(paint, roles, spec, roles->bands[b], left, at, height);
+        draw_zone(paint, roles, spec, roles->bands[b], left, at, height, look.signs);
         spine = b == roles->spine ? at : spine;
         at += height;
     }
-    draw_levels(paint, roles, spec, left, spine, SPINE_HEIGHT);
-    draw_great_hall(paint, roles, spec, left + TRAY_WIDTH / 2, spine + SPINE_HEIGHT / 2);
-    draw_public(paint, roles, spec, left, spine + SPINE_HEIGHT / 2, mirrored);
+    draw_marks(paint, roles, spec, left, spine, look);
+    begin_sign(paint, look.signs, TN_PAINT_ITEM, roles->length, (tn_draw_area){left, at, TRAY_WIDTH, WIDTH_ROOM});
     draw_width(paint, roles, spec, left, at);
-    write_fields(paint, roles, spec, left + TRAY_WIDTH / 2, at + WIDTH_ROOM + TEXT_LEADING - 2, TEXT_LEADING);
+    end_sign(paint, look.signs, roles->length);
+    write_fields(paint, roles, spec, left + TRAY_WIDTH / 2, at + WIDTH_ROOM + TEXT_LEADING - 2, TEXT_LEADING,
+                 look.signs);
+}
+
+/* ---- a tray that has no symbol */
+
+/* The next line of the words, copied as far as there is room; NULL: there is none. */
+static const char *next_line(const char *words, char line[ITEM_MAX])
+{
+    size_t size = strcspn(words, "\n");
+    snprintf(line, ITEM_MAX, "%.*s", (int)size, words);
+    return words[size] ? words + size + 1 : NULL;
+}
+
+void tn_draw_label_measure(tn_paint *paint, const tn_draw_roles *roles, const char *words, double *width,
+                           double *height)
+{
+    char line[ITEM_MAX];
+    uint32_t lines = 0;
+    double widest = 18;
+    tn_paint_face(paint, roles->to_scale ? TEXT_SIZE : LABEL_SIZE, false);
+    for (const char *rest = words; rest; lines++) {
+        rest = next_line(rest, line);
+        widest = fmax(widest, tn_type_width(paint, line));
+    }
+    *width = widest + 2 * LABEL_PADDING;
+    *height = fmax(lines, 1) * LABEL_LEADING + 2 * LABEL_PADDING - 2;
+}
+
+void tn_draw_label(tn_paint *paint, const tn_draw_roles *roles, const char *words, double x, double y)
+{
+    char line[ITEM_MAX];
+    double width, height, baseline = y + LABEL_PADDING + LABEL_LEADING - 3;
+    tn_draw_label_measure(paint, roles, words, &width, &height);
+    draw_frame(paint, x, y, width, height);
+    tn_paint_face(paint, roles->to_scale ? TEXT_SIZE : LABEL_SIZE, false);
+    for (const char *rest = words; rest; baseline += LABEL_LEADING) {
+        rest = next_line(rest, line);
+        tn_type_line(paint, x + width / 2, baseline, TN_ALIGN_CENTRE, line);
+    }
 }
