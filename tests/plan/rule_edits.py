@@ -16,7 +16,7 @@ import re
 import sys
 
 import rule_meaning as meaning
-from rule_model import COUNTED, ROWS, Impossible, Part, Tree, any_tray, bare, check_row, step, written, written_out
+from rule_model import COUNTED, ROWS, Impossible, Part, Tree, any_tray, bare, check_row, step, without_comments, written, written_out
 from rule_random import Maker, comment, random_file
 
 
@@ -137,6 +137,10 @@ def tree_of(answer, text):
         if part.kind in COUNTED:
             inner = max(other["around"]["utf16_end"] for other in answer["parts"] if other.get("parent") == shown["number"])
             part.region = bare(text.slice(inner, shown["condition_place"]["utf16_begin"])).rstrip(",")
+        if part.kind == "sum":
+            first = min(other["around"]["utf16_begin"] for other in answer["parts"] if other.get("parent") == shown["number"])
+            before = without_comments(text.slice(shown["place"]["utf16_begin"], first))
+            part.relation = before[before.index("(") + 1:before.rindex("of")].strip()
     return made[0]
 
 
@@ -265,7 +269,8 @@ class Edits:
         return {"part": number}, lambda: self.tree.remove(*self.parts(number))
 
     def condition(self):
-        number, text = self.of_kind(*COUNTED), self.r.choice(list(meaning.CONDITIONS))
+        number = self.of_kind(*COUNTED)
+        text = self.r.choice(list(meaning.SUM_CONDITIONS if self.case.parts[number].kind == "sum" else meaning.CONDITIONS))
         return {"part": number, "text": text}, lambda: self.tree.condition(*self.parts(number), text)
 
     def text(self):

@@ -21,6 +21,7 @@ ITEMS.update({"lit": lambda t: t[1], "not lit": lambda t: not t[1], "1m..2m": la
 CONDITIONS = {f"n {op} {k}": lambda n, op=op, k=k: OPERATORS[op](n, k) for op in OPERATORS for k in (1, 2)}
 CONDITIONS.update({"n in 1..2": lambda n: 1 <= n <= 2, "k mod 2 = 1": lambda n: n % 2 == 1, "not n = 1": lambda n: n != 1,
                    "1 <= n and n < 3": lambda n: 1 <= n < 3, "(n = 1 or n > 2)": lambda n: n == 1 or n > 2})
+SUM_CONDITIONS = {"w > 3m": lambda n: n > 3, "(w = 2m)": lambda n: n == 2, "(w < 2m) or w in 4m..5m": lambda n: n < 2 or 4 <= n <= 5}
 RELATIONS = {"beside": ("within", 0, False), "within 1 of": ("within", 1, False), "within 2m of": ("within", 2, True),
              "at least 1 from every": ("far", 1, False), "at least 3m from every": ("far", 3, True)}
 # Numbers of a stretch, each with how it is worked out of its trays.
@@ -38,7 +39,6 @@ def texts():
     found["sum(width) in 2m..4m"] = lambda trays, before, behind: 2 <= sum(w for w, _ in trays) <= 4
     found["quantity(tray(lit)) < quantity(tray(1m))"] = lambda trays, before, behind: sum(lit for _, lit in trays) < sum(w == 1 for w, _ in trays)
     found["sum(width, w > 3m)"] = lambda trays, before, behind: sum(w for w, _ in trays) > 3
-    found["sum(width of tray(lit), w = 2m)"] = lambda trays, before, behind: sum(w for w, lit in trays if lit) == 2
     return found
 
 
@@ -47,7 +47,7 @@ REGIONS = {"quantity(any before) = 1": lambda trays, before, behind: len(before)
            "quantity(tray(lit) after) > 0": lambda trays, before, behind: any(lit for _, lit in behind),
            "sum(width before) <= sum(width after)": lambda trays, before, behind: sum(w for w, _ in before) <= sum(w for w, _ in behind)}
 KNOWN = {kind: {bare(text): what for text, what in known.items()} for kind, known in
-         (("item", ITEMS), ("condition", CONDITIONS), ("relation", RELATIONS), ("text", {**TEXTS, **REGIONS}))}
+         (("item", ITEMS), ("condition", {**CONDITIONS, **SUM_CONDITIONS}), ("relation", RELATIONS), ("text", {**TEXTS, **REGIONS}))}
 
 
 class Unknown(Exception):
@@ -138,12 +138,19 @@ class Plans:
 
     def counted(self, sets, holds):
         """The plans for which the number of the sets that they are in is as wanted."""
+        return self.added([{1: some} for some in sets], holds)
+
+    def added(self, sets, holds):
+        """The same of the sum of numbers; each of the sets says for some plans, apart from one another, what is added."""
         numbers = {0: self.all}
         for some in sets:
             after = {}
             for n, plans in numbers.items():
-                for more, part in ((0, plans & ~some), (1, plans & some)):
-                    after[n + more] = after.get(n + more, 0) | part
+                rest = plans
+                for more, those in some.items():
+                    after[n + more] = after.get(n + more, 0) | plans & those
+                    rest &= ~those
+                after[n] = after.get(n, 0) | rest
             numbers = after
         return self.either(plans for n, plans in numbers.items() if holds(n))
 
@@ -223,6 +230,15 @@ def occurrences(p, part, i, j, back):
     return p.counted(starts, known("condition", part.condition))
 
 
+def added(p, part, i, j, back):
+    if part.relation != "width":
+        raise Unknown(part.relation)
+    i, j = region(p, part, i, j)
+    is_wide = lambda k, w: p.where(("wide", k, w), lambda plan: plan[k][0] == w, back)
+    sets = [{w: p.M(part.parts[0], k, k + 1, back) & is_wide(k, w) for w in WIDTHS} for k in range(i, j)]
+    return p.added(sets, known("condition", part.condition))
+
+
 def many(p, part, i, j, back):
     return p.both(p.M(part.parts[0], k, k + 1, back) for k in range(i, j)) if i < j else 0
 
@@ -275,8 +291,8 @@ def unknown(p, part, i, j, back):
 
 MATCHES = {
     "tray": tray, "any": tray, "and": joined("M"), "or": joined("M"), "not": denied, "implies": implied("M"), "where": where, "neighbour": neighbour,
-    "symmetric": symmetric, "quantity": quantity, "occurrences": occurrences, "many": many, "every": every, "near": near, "every near": every_near,
+    "symmetric": symmetric, "quantity": quantity, "occurrences": occurrences, "sum": added, "many": many, "every": every, "near": near, "every near": every_near,
     "distance": distance, "text": text, "optional": unknown, "beginning": unknown, "end": unknown, "gap": unknown,
 }
-HOLDS = {"and": joined("H"), "or": joined("H"), "not": denied, "implies": implied("H"), "quantity": quantity, "occurrences": occurrences,
+HOLDS = {"and": joined("H"), "or": joined("H"), "not": denied, "implies": implied("H"), "quantity": quantity, "occurrences": occurrences, "sum": added,
          "every": every, "every near": every_near, "text": text}

@@ -5,7 +5,7 @@ import re
 ROWS = {"and", "or", "neighbour"}
 LEAVES = {"tray", "any", "name", "beginning", "end", "gap", "text"}
 ENDS = {"beginning", "end", "gap"}
-COUNTED = {"quantity", "occurrences"}
+COUNTED = {"quantity", "occurrences", "sum"}
 # How tightly what stands in a place has to hold together there, and how tightly each kind does.
 WORDS = {"implies": 0, "where": 0, "or": 1, "and": 2, "not": 3, "near": 3, "every near": 3}
 HOLDS = {"or": 2, "and": 3, "not": 3, "implies": 1, "where": 1, "symmetric": 5, "near": 4, "every near": 4}
@@ -26,7 +26,7 @@ def bare(text):
 
 
 class Part:
-    """A part of a rule. Texts are as somebody wrote them; two parts are alike if these say the same (shape)."""
+    """A part of a rule. Texts are as somebody wrote them; two parts are alike if these say the same (shape). relation: of `sum` what is added."""
 
     def __init__(self, kind, parts=(), name=None, condition=None, region="", relation=None, binds=(), items=(), text=None):
         self.kind, self.parts, self.name, self.condition = kind, list(parts), name, condition
@@ -71,7 +71,7 @@ WRITTEN = {
     "any": "any", "beginning": "beginning", "end": "end", "gap": "...", "not": "not {0}", "implies": "{0} implies {1}", "where": "{0} where {1}",
     "symmetric": "symmetric {0}", "many": "many({0})", "optional": "optional({0})", "distance": "distance(from {0}, to {1}, by {2})",
     "every": "every({0}, {1})", "near": "{0} {relation} {1}", "every near": "every {0} {relation} {1}", "some": "some {binds} in {name} ({0})",
-    "each": "every {binds} in {name} ({0})", "quantity": "quantity({0}{region}, {condition})", "occurrences": "occurrences({0}{region}, {condition})",
+    "each": "every {binds} in {name} ({0})", "sum": "sum({relation} of {0}{region}, {condition})", "quantity": "quantity({0}{region}, {condition})", "occurrences": "occurrences({0}{region}, {condition})",
 }
 
 

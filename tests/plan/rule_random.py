@@ -99,6 +99,8 @@ class Maker:
         inner = self.part(deep + 1)
         if kind in ("and", "or"):
             return Part(kind, [inner] + [self.part(deep + 1) for _ in range(self.r.randint(1, 2))])
+        if kind == "counted" and not self.signs and self.r.random() < 0.25:
+            return Part("sum", [inner], "width", self.r.choice(list(meaning.SUM_CONDITIONS)), relation="width")
         if kind == "counted":
             return Part(self.r.choice(["quantity", "occurrences"]), [inner], condition=self.r.choice(list(meaning.CONDITIONS)))
         if kind == "symmetric":
