@@ -104,7 +104,7 @@ static json_t *make(tn_document *document, tn_file_analysis *analysis, const jso
 /* The part as it is written, blanks and line ends as one blank each, cut off if it is long. */
 static void show(const offering *o, uint32_t part, char text[SHOWN_MAX + 4])
 {
-    tn_stretch own = o->tree->parts[part].own;
+    tn_text_stretch own = o->tree->parts[part].own;
     size_t size = 0;
     for (uint32_t i = own.begin; i < own.end; i++) {
         char c = o->tree->text->text[i];
@@ -235,7 +235,7 @@ static void offer_items(const offering *o, size_t begin, size_t end)
 
 static void offer_all(offering *o, size_t begin, size_t end)
 {
-    tn_stretch place = {(uint32_t)begin, (uint32_t)(end > begin ? end : begin)};
+    tn_text_stretch place = {(uint32_t)begin, (uint32_t)(end > begin ? end : begin)};
     o->part = tn_rule_part_around(o->tree, place);
     if (o->part == TN_NO_RULE_PART)
         return;

@@ -99,7 +99,7 @@ static void describe_part(showing *s, uint32_t number, tn_rule_part_shown *to)
     const tn_ast_expr *expr = part->expr;
     if (expr->name && part->kind != TN_RULE_PART_TEXT)
         name_part(s, number, expr->name, to);
-    tn_stretch condition = tn_rule_part_condition(&s->asked->tree, number);
+    tn_text_stretch condition = tn_rule_part_condition(&s->asked->tree, number);
     if (condition.end > 0) {
         to->has_condition = to->has_condition_place = true;
         to->condition = copy(s, condition.begin, condition.end);

@@ -123,7 +123,7 @@ char *tn_item_text(const tn_schema *schema, uint32_t field, uint32_t value, bool
 
 /* ---- specifiers */
 
-static bool is_there(const tn_source_map_record *place, uint32_t file, tn_stretch at)
+static bool is_there(const tn_source_map_record *place, uint32_t file, tn_text_stretch at)
 {
     return place && place->file == file && place->begin == at.begin && place->end == at.end;
 }
@@ -142,7 +142,7 @@ static bool same_masks(const tn_module *module, uint32_t a, uint32_t b)
     return true;
 }
 
-uint32_t tn_tray_spec(const tn_module *module, uint32_t file, tn_stretch place)
+uint32_t tn_tray_spec(const tn_module *module, uint32_t file, tn_text_stretch place)
 {
     uint32_t found = UINT32_MAX;
     for (uint32_t f = 0; f < module->FUNCTION_count; f++) {

@@ -15,9 +15,9 @@ typedef struct editing {
     const tn_rule_edit *edit;
     tn_rule_part part; /* that it is about */
     tn_text_changes changes;
-    tn_stretch about; /* of the old text: where it is what the edit was about afterwards */
-    tn_binding binds; /* of `with` */
-    char *with;       /* owned */
+    tn_text_stretch about; /* of the old text: where it is what the edit was about afterwards */
+    tn_binding binds;      /* of `with` */
+    char *with;            /* owned */
     char *why;
 } editing;
 
@@ -35,7 +35,7 @@ static bool is_of_word(char byte)
 }
 
 /* Adds a change, with blanks where words would else come to stand together: the parenthesis of `not(a)` may go. */
-static void add_change(editing *e, tn_stretch replaced, const char *insert, tn_stretch put)
+static void add_change(editing *e, tn_text_stretch replaced, const char *insert, tn_text_stretch put)
 {
     const tn_rule_text *text = e->tree->text;
     size_t size = strlen(insert);
@@ -46,7 +46,7 @@ static void add_change(editing *e, tn_stretch replaced, const char *insert, tn_s
          last = size > 0 && word_behind && is_of_word(insert[size - 1]);
     tn_buffer_printf(&apart, "%s%s%s", first ? " " : "", insert, last ? " " : "");
     if (first && put.end > 0)
-        put = (tn_stretch){put.begin + 1, put.end + 1};
+        put = (tn_text_stretch){put.begin + 1, put.end + 1};
     e->changes.failed |= apart.failed;
     if (!apart.failed)
         tn_text_change_add(&e->changes, replaced, apart.data, put);
@@ -55,7 +55,7 @@ static void add_change(editing *e, tn_stretch replaced, const char *insert, tn_s
 
 static void change(editing *e, uint32_t begin, uint32_t end, const char *insert)
 {
-    add_change(e, (tn_stretch){begin, end}, insert, (tn_stretch){0});
+    add_change(e, (tn_text_stretch){begin, end}, insert, (tn_text_stretch){0});
 }
 
 /* ---- parentheses */
@@ -66,7 +66,7 @@ static bool has_parentheses(const tn_rule_part *part)
 }
 
 /* Puts the stretch into parentheses if what `binds` so stands where what it stands in `needs` more. */
-static void enclose(editing *e, tn_stretch stretch, tn_binding binds, tn_binding needs)
+static void enclose(editing *e, tn_text_stretch stretch, tn_binding binds, tn_binding needs)
 {
     if (binds >= needs)
         return;
@@ -96,7 +96,7 @@ static void put(editing *e, uint32_t begin, uint32_t end, const char *before, co
     bool good = with && tn_buffer_printf(&text, "%s%s%s", before, with, behind);
     uint32_t from = (uint32_t)strlen(before);
     if (good)
-        add_change(e, (tn_stretch){begin, end}, text.data, (tn_stretch){from, from + (uint32_t)strlen(with)});
+        add_change(e, (tn_text_stretch){begin, end}, text.data, (tn_text_stretch){from, from + (uint32_t)strlen(with)});
     e->changes.failed |= !good;
     free(with);
     free(text.data);
@@ -189,7 +189,7 @@ static bool is_of_row(tn_rule_part_kind kind)
     return kind == TN_RULE_PART_BEGINNING || kind == TN_RULE_PART_END || kind == TN_RULE_PART_GAP;
 }
 
-static void put_box(editing *e, const struct box *box, tn_stretch outer)
+static void put_box(editing *e, const struct box *box, tn_text_stretch outer)
 {
     change(e, outer.begin, outer.begin, box->before);
     enclose_part(e, &e->part, box->holds);
@@ -197,7 +197,7 @@ static void put_box(editing *e, const struct box *box, tn_stretch outer)
 }
 
 /* The parentheses that are there become those of the box: `(a or b)`, `many(a or b)`. */
-static void put_call(editing *e, const char *word, const char *behind, tn_stretch outer)
+static void put_call(editing *e, const char *word, const char *behind, tn_text_stretch outer)
 {
     char text[40];
     snprintf(text, sizeof text, "%.*s", (int)strlen(behind) - 1, behind);
@@ -221,7 +221,7 @@ static void wrap(editing *e)
         return;
     }
     const struct box *box = &boxes[i];
-    tn_stretch outer = e->part.outer;
+    tn_text_stretch outer = e->part.outer;
     bool inside = box->binds < needs;
     if (inside)
         change(e, outer.begin, outer.begin, "(");
@@ -390,7 +390,7 @@ static void remove_part(editing *e)
 
 static void set_condition(editing *e)
 {
-    tn_stretch condition = tn_rule_part_condition(e->tree, e->edit->part);
+    tn_text_stretch condition = tn_rule_part_condition(e->tree, e->edit->part);
     if (condition.end == 0)
         refuse(e, "only `quantity` and `occurrences` have a condition");
     else
@@ -437,7 +437,7 @@ static tn_status take_with(editing *e, tn_error *error)
 }
 
 /* Changes the text, or says why not. */
-static tn_status change_text(editing *e, tn_buffer *text, tn_stretch *about, tn_error *error)
+static tn_status change_text(editing *e, tn_buffer *text, tn_text_stretch *about, tn_error *error)
 {
     tn_status status = take_with(e, error);
     if (status != TN_OK || *e->why)
@@ -489,8 +489,8 @@ static tn_status read_changed(const tn_buffer *text, const char *rule, tn_rule_t
 }
 
 /* Takes away what was moved from where it was. */
-static tn_status take_away(const tn_rule_tree *tree, tn_stretch moved, tn_buffer *text, tn_stretch *about, char *why,
-                           tn_error *error)
+static tn_status take_away(const tn_rule_tree *tree, tn_text_stretch moved, tn_buffer *text, tn_text_stretch *about,
+                           char *why, tn_error *error)
 {
     const tn_rule_edit removal = {
         .operation = TN_RULE_REMOVE, .part = tn_rule_part_placed(tree, moved), .from = TN_NO_RULE_PART};
@@ -508,8 +508,8 @@ static tn_status take_away(const tn_rule_tree *tree, tn_stretch moved, tn_buffer
 }
 
 /* The second half of moving: the part stands where it was dropped, and where it was. */
-static tn_status finish_move(const char *rule, tn_stretch moved, tn_buffer *text, tn_stretch *about, char *why,
-                             tn_error *error)
+static tn_status finish_move(const char *rule, tn_text_stretch moved, tn_buffer *text, tn_text_stretch *about,
+                             char *why, tn_error *error)
 {
     tn_rule_text read = {0};
     tn_rule_tree tree = {0};
@@ -544,13 +544,13 @@ static bool names_parts(const tn_rule_tree *tree, const tn_rule_edit *edit, char
 static uint32_t part_about(const tn_rule_tree *tree, size_t first, size_t last)
 {
     const tn_rule_text *text = tree->text;
-    tn_stretch place = {text->tokens[first].span.begin, text->tokens[last > first ? last - 1 : first].span.end};
+    tn_text_stretch place = {text->tokens[first].span.begin, text->tokens[last > first ? last - 1 : first].span.end};
     uint32_t part = tn_rule_part_around(tree, place);
     return part == TN_NO_RULE_PART ? 0 : part;
 }
 
 /* Says what became of the text, and of what the edit was about. */
-static tn_status finish(const tn_rule_text *old, const char *rule, tn_buffer *text, tn_stretch about,
+static tn_status finish(const tn_rule_text *old, const char *rule, tn_buffer *text, tn_text_stretch about,
                         tn_rule_edited *made, tn_error *error)
 {
     tn_rule_text read = {0};
@@ -613,7 +613,7 @@ static tn_status compare(const char *old, size_t size, const tn_buffer *text, tn
         begin--;
     if (end > 0 && end < size - begin && old[size - end - 1] == '\r')
         end--;
-    made->changed = (tn_stretch){(uint32_t)begin, (uint32_t)(size - end)};
+    made->changed = (tn_text_stretch){(uint32_t)begin, (uint32_t)(size - end)};
     tn_buffer insert = {0}, whole = {0};
     put_lines(&insert, text->data + begin, text->size - end - begin, has_carriage_returns(old, size));
     tn_buffer_append(&whole, old, begin);
@@ -629,14 +629,14 @@ static tn_status edit_tree(const tn_rule_tree *tree, const char *rule, const tn_
                            tn_error *error)
 {
     tn_buffer text = {0};
-    tn_stretch about = {0};
+    tn_text_stretch about = {0};
     if (!names_parts(tree, edit, made->why))
         return TN_OK;
     editing e = {.tree = tree, .edit = edit, .part = tree->parts[edit->part], .why = made->why};
     e.about = e.part.outer;
     tn_status status = change_text(&e, &text, &about, error);
     if (status == TN_OK && !*made->why && edit->from != TN_NO_RULE_PART) {
-        tn_stretch moved = tn_text_changes_shift(&e.changes, tree, tree->parts[edit->from].own);
+        tn_text_stretch moved = tn_text_changes_shift(&e.changes, tree, tree->parts[edit->from].own);
         status = finish_move(rule, moved, &text, &about, made->why, error);
     }
     if (status == TN_OK && !*made->why)

@@ -36,8 +36,8 @@ typedef struct tn_rule_edit {
 
 /* What an edit makes. */
 typedef struct tn_rule_edited {
-    char why[TN_WHY_MAX]; /* it cannot be made, and nothing else is said: why; or empty */
-    tn_stretch changed;   /* bytes of the old text that become `insert` */
+    char why[TN_WHY_MAX];    /* it cannot be made, and nothing else is said: why; or empty */
+    tn_text_stretch changed; /* bytes of the old text that become `insert` */
     char *insert;
     char *text; /* the changed text */
     size_t size;
