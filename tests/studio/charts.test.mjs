@@ -1,8 +1,11 @@
 // What is drawn of measures can be clicked, and does what the tables beside it do.
 import assert from "node:assert/strict";
 import test, {after} from "node:test";
-import {join} from "node:path";
-import {ROWS, countOf, counted, done, folder, inspected, serve, tartan, visit} from "./studio.mjs";
+import {dirname, join} from "node:path";
+import {fileURLToPath} from "node:url";
+import {ROWS, countOf, counted, done, folder, inspected, read, serve, tartan, visit} from "./studio.mjs";
+
+const COTTAGE = join(dirname(fileURLToPath(import.meta.url)), "../../stdlib/cottage.plan");
 
 after(done);
 
@@ -40,4 +43,24 @@ test("a point of a front shows one of its plans", async (t) => {
   await page.locator('.chart [data-point="0"]').click();
   await page.getByRole("heading", {name: "One plan"}).waitFor();
   await page.locator(".why .verdict.kept").waitFor();
+});
+
+test("a house of a sheet is shown", async (t) => {
+  const path = folder(t, {"cottage.plan": read(COTTAGE)});
+  const {address} = await serve(t, path);
+  const page = await visit(t, address);
+  const houses = page.locator(".sheet .whole [data-house]");
+  await houses.first().waitFor();
+  const cards = page.locator(".sheet .card");
+  assert.equal(await houses.count(), await cards.count());
+  const file = join(path, "cottage.plan");
+  for (const i of [0, 5]) {
+    const [number] = /#[0-9]+/.exec(await houses.nth(i).textContent());
+    assert.equal(await cards.nth(i).getAttribute("data-line"), tartan("unrank", file, number, "--library", "cottages").trim(), `house ${i} is the one of its line`);
+  }
+  await inspected(page, "houses");
+  const line = await cards.nth(2).getAttribute("data-line");
+  await houses.nth(2).click();
+  await page.getByRole("heading", {name: "One house"}).waitFor();
+  await page.getByText(line).first().waitFor();
 });
