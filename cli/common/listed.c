@@ -37,7 +37,7 @@ void tn_listed_write_values(const char *least, const char *most, const char *con
 
 void tn_listed_write_doc(const char *doc, FILE *out)
 {
-    if (doc)
+    if (doc && *doc)
         fprintf(out, "  \"%s\"", doc);
     fputc('\n', out);
 }

@@ -23,7 +23,7 @@ int tn_listed_run(const tn_listed *listed, const tn_settings *settings);
  * none, nothing. */
 void tn_listed_write_values(const char *least, const char *most, const char *const *words, size_t count, FILE *out);
 
-/* What the author says of it, if anything, and the end of the line. */
+/* What the author says of it, NULL or empty if nothing, and the end of the line. */
 void tn_listed_write_doc(const char *doc, FILE *out);
 
 #endif
