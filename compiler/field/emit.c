@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "compiler/common/number_ranges.h"
 #include "compiler/common/emit_sources.h"
 #include "compiler/field/field.h"
 #include "runtime/number/interval.h"
@@ -117,6 +118,7 @@ static void take_grid(emit *e, const tn_field_setting *grid)
     if (!grid)
         return;
     double n = grid->number.value;
+    tn_range_note(e->diagnostics, grid->number.span, 2, TN_GRID_MAX);
     if (n == floor(n) && n >= 2 && n <= TN_GRID_MAX) {
         e->grid = (uint32_t)n;
         return;

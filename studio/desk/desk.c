@@ -361,16 +361,6 @@ static tn_status ask(tn_desk *desk, const tn_document *document, const asked *a,
     return given;
 }
 
-/* Those whose answers are more than words: they read or write folders, or run programs. */
-static bool is_elsewhere(const char *question)
-{
-    static const char *const names[] = {"runs", "individual", "change_run", "evolve", "breed"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strcmp(names[i], question) == 0)
-            return true;
-    return false;
-}
-
 /* ---- the standard library */
 
 static tn_status stdlib_asked(const asked *a)
@@ -397,10 +387,10 @@ static tn_status take_request(tn_desk *desk, const asked *a, const tartan_watch 
     const tn_document *document = a->uri ? tn_workspace_find(&desk->workspace, a->uri) : NULL;
     if (strcmp(a->question, "stdlib") == 0)
         return stdlib_asked(a);
-    if (is_elsewhere(a->question))
-        return refuse(a, METHOD_NOT_FOUND, "runs of evolution are asked about at a terminal, by the command `tartan`");
     if (tn_request_kind_named(a->question, &kind, &error) != TN_OK)
         return refuse_question(a, &error);
+    if (kind->runs)
+        return refuse(a, METHOD_NOT_FOUND, "runs of evolution are asked about at a terminal, by the command `tartan`");
     if (!document)
         return refuse(a, INVALID_PARAMS, "the document is not open");
     if (document->version != a->version)
