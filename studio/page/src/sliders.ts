@@ -1,7 +1,7 @@
 // What may be set in the file as sliders and choices: the params of rules about plans, the numbers of other notations by
 // what they belong to. What is chosen stands in the text, as one step that can be undone.
-import {isolateHistory} from "@codemirror/commands";
-import {Transaction} from "@codemirror/state";
+import {isolateHistory, undo} from "@codemirror/commands";
+import type {Text} from "@codemirror/state";
 import type {Desk} from "./desk";
 import {fill, h} from "./dom";
 import {Refused} from "./questions";
@@ -44,6 +44,11 @@ export function rangeAbout(value: string): Range | null {
   return {from: sign < 0 ? -most : 0, to: sign < 0 ? 0 : most, step: 10 ** -fine, places: fine, unit: read[2] ?? ""};
 }
 
+export function within({from, to, places, unit}: Range, text: string): boolean {
+  const read = VALUE.exec(text);
+  return read !== null && (read[2] ?? "") === unit && Number(read[1]) >= from && Number(read[1]) <= to && (read[1].split(".")[1]?.length ?? 0) <= places;
+}
+
 const MANY = 12; // numbers that are all shown at once
 
 // Its own name, also among others that are called alike.
@@ -69,6 +74,12 @@ export function written(value: number, range: Range): string {
   return (range.places ? text.replace(/\.?0+$/, "") : text) + range.unit;
 }
 
+// What is shown of a setting.
+interface Row {
+  set: (text: string) => void;
+  holds: (text: string) => boolean; // can it show that, too?
+}
+
 interface Place {
   from: number;
   text: string; // as it is there now
@@ -78,9 +89,10 @@ export class Sliders {
   readonly element = h("section", {class: "sliders", "aria-label": "Settings", hidden: true});
   private shape = "";
   private places = new Map<string, Place>();
-  private rows = new Map<string, {set: (text: string) => void}>();
+  private rows = new Map<string, Row>();
   private unknown = false;
   private sliding = ""; // the one that is being moved
+  private last: {before: string; after: Text} | null = null; // what was put, and the text with it
 
   constructor(private desk: Desk) {}
 
@@ -106,8 +118,9 @@ export class Sliders {
     for (const {key: name, utf16_begin: from, utf16_end: to} of settings) {
       if (name !== this.sliding && from !== null && to !== null) this.places.set(name, {from, text: text.slice(from, to)});
     }
-    const shape = JSON.stringify([this.desk.file()!.readOnly, settings.map(({key, part, doc, least, most, words, value}) => [key, doc, least, most, words && [...words].sort(), words || part !== undefined ? null : rangeOf({value, least, most})])]);
-    if (shape !== this.shape) this.build(settings);
+    const shape = JSON.stringify([this.desk.file()!.readOnly, settings.map(({key, doc, least, most, words}) => [key, doc, least, most, words && [...words].sort()])]);
+    const fit = settings.every(({key, value}) => key === this.sliding || this.rows.get(key)?.holds(value));
+    if (shape !== this.shape || !fit) this.build(settings);
     this.shape = shape;
     for (const {key, value} of settings) if (key !== this.sliding) this.rows.get(key)?.set(value);
     this.element.hidden = settings.length === 0;
@@ -131,7 +144,7 @@ export class Sliders {
 
   private choice(setting: Named): HTMLElement {
     const select = h("select", {disabled: this.desk.file()!.readOnly, onchange: () => this.word(setting.key, select.value)}, [...(setting.words ?? [])].sort().map((word) => h("option", {value: word}, word)));
-    this.rows.set(setting.key, {set: (text) => (select.value = text)});
+    this.rows.set(setting.key, {set: (text) => (select.value = text), holds: () => true});
     return h("label", {class: "setting"}, this.label(setting), select);
   }
 
@@ -139,31 +152,26 @@ export class Sliders {
     const range = setting.part === undefined ? rangeOf(setting) : setting.least === undefined && setting.most === undefined ? rangeAbout(setting.value) : rangeOf(setting);
     const readOnly = this.desk.file()!.readOnly;
     if (!range) {
-      const field = h("input", {type: "text", size: 8, disabled: readOnly, onchange: () => this.put(setting.key, field.value, true)});
-      this.rows.set(setting.key, {set: (text) => (field.value = text)});
+      const field = h("input", {type: "text", size: 8, disabled: readOnly, onchange: () => this.put(setting.key, field.value)});
+      this.rows.set(setting.key, {set: (text) => (field.value = text), holds: () => true});
       return h("label", {class: "setting"}, this.label(setting), field);
     }
     const output = h("output", null);
     const slider = h("input", {type: "range", min: range.from, max: range.to, step: range.step, disabled: readOnly});
-    let before = "";
     slider.addEventListener("input", () => {
-      if (!this.sliding) before = this.places.get(setting.key)?.text ?? "";
+      const again = this.sliding === setting.key;
       this.sliding = setting.key;
       output.textContent = written(Number(slider.value), range);
-      this.put(setting.key, output.textContent, false);
+      this.put(setting.key, output.textContent, again);
     });
-    slider.addEventListener("change", () => {
-      this.sliding = "";
-      const now = written(Number(slider.value), range);
-      if (before && before !== now) {
-        this.put(setting.key, before, false);
-        this.put(setting.key, now, true);
-      }
+    slider.addEventListener("change", () => (this.sliding = ""));
+    this.rows.set(setting.key, {
+      set: (text) => {
+        slider.value = String(parseFloat(text));
+        output.textContent = text;
+      },
+      holds: (text) => within(range, text),
     });
-    this.rows.set(setting.key, {set: (text) => {
-      slider.value = String(parseFloat(text));
-      output.textContent = text;
-    }});
     return h("label", {class: "setting"}, this.label(setting), slider, output);
   }
 
@@ -172,22 +180,30 @@ export class Sliders {
     const place = this.places.get(key);
     if (!place) return;
     const words = place.text.split(/\s*\|\s*/);
-    if (words.includes(word)) this.put(key, [word, ...words.filter((other) => other !== word)].join(" | "), true);
+    if (words.includes(word)) this.put(key, [word, ...words.filter((other) => other !== word)].join(" | "));
   }
 
-  // While a slider moves its steps are no history; where it stops is.
-  private put(key: string, value: string, history: boolean): void {
+  // `again`: in the place of what was put last, so that a slider that was moved is one step to undo.
+  private put(key: string, value: string, again = false): void {
     const place = this.places.get(key);
     const file = this.desk.file();
     if (!place || !file || !value) return;
+    const {view} = this.desk.editor;
+    if (again && this.last?.after === view.state.doc) {
+      undo({state: view.state, dispatch: (transaction) => view.dispatch(Object.assign(transaction, {scrollIntoView: false}))});
+      this.stands(place, this.last.before);
+    }
     const to = place.from + place.text.length;
+    this.last = null;
     if (file.text.slice(place.from, to) !== place.text || place.text === value) return;
-    this.desk.editor.view.dispatch({
-      changes: {from: place.from, to, insert: value},
-      annotations: history ? isolateHistory.of("full") : Transaction.addToHistory.of(false), userEvent: "input.setting",
-    });
-    const grown = value.length - place.text.length;
+    view.dispatch({changes: {from: place.from, to, insert: value}, annotations: isolateHistory.of("full"), userEvent: "input.setting"});
+    this.last = {before: place.text, after: view.state.doc};
+    this.stands(place, value);
+  }
+
+  private stands(place: Place, text: string): void {
+    const grown = text.length - place.text.length;
     for (const other of this.places.values()) if (other.from > place.from) other.from += grown;
-    place.text = value;
+    place.text = text;
   }
 }
