@@ -59,13 +59,13 @@ export class FormView {
   private light = new DirectionalLight(0xffffff, 2.1);
   private sphere = new Sphere(new Vector3(), 1);
   private shown: BufferGeometry[] = [];
-  private materials: MeshLambertMaterial[] = [];
+  private materials: {smooth: MeshLambertMaterial[]; flat: MeshLambertMaterial[]} = {smooth: [], flat: []};
   private line = new LineBasicMaterial({transparent: true, opacity: 0.55});
   private frame = 0;
 
   // `drawn` is told each time that a form stands in a frame; `lost` if the browser takes the drawing away.
   constructor(private host: HTMLElement, name: string, private drawn: () => void, lost: () => void) {
-    this.renderer = new WebGLRenderer({antialias: true, alpha: true, powerPreference: "low-power"});
+    this.renderer = new WebGLRenderer({antialias: true, powerPreference: "low-power"});
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "application");
@@ -92,9 +92,8 @@ export class FormView {
   show(mesh: Mesh, fits: boolean, faces: number | null): void {
     this.forget();
     const geometry = this.geometryOf(mesh);
-    this.materials = mesh.groups.map(({colour}) => new MeshLambertMaterial({color: new Color(...colour), side: DoubleSide, flatShading: !mesh.normals, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1}));
-    const one = this.materials.length === 1 ? this.materials[0] : null;
-    this.scene.add(new Body(geometry, one ?? this.materials));
+    const materials = this.materialsOf(mesh);
+    this.scene.add(new Body(geometry, materials.length === 1 ? materials[0] : materials));
     if (!mesh.normals && mesh.faces > 0 && mesh.faces <= EDGES_MAX) {
       const edges = (faces === null ? null : netOf(mesh, faces)) ?? new EdgesGeometry(geometry, BEND);
       this.shown.push(edges);
@@ -105,6 +104,14 @@ export class FormView {
     this.sphere.radius = Math.max(this.sphere.radius, 1e-6);
     if (fits || this.sphere.radius > 1.8 * before || this.sphere.radius < 0.5 * before) this.look("whole", !fits);
     this.draw();
+  }
+
+  // One for each group. They stay for the next mesh: programs of new ones would be compiled again, which takes many frames.
+  private materialsOf({groups, normals}: Mesh): MeshLambertMaterial[] {
+    const all = normals ? this.materials.smooth : this.materials.flat;
+    while (all.length < groups.length) all.push(new MeshLambertMaterial({side: DoubleSide, flatShading: !normals, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1}));
+    groups.forEach(({colour}, i) => all[i].color.setRGB(...colour));
+    return all.slice(0, groups.length);
   }
 
   private geometryOf(mesh: Mesh): BufferGeometry {
@@ -120,9 +127,8 @@ export class FormView {
 
   private forget(): void {
     for (const object of [...this.scene.children]) if (object instanceof Body || object instanceof LineSegments) this.scene.remove(object);
-    for (const one of [...this.shown, ...this.materials]) one.dispose();
+    for (const one of this.shown) one.dispose();
     this.shown = [];
-    this.materials = [];
   }
 
   // From one of the sides; `turned`: from where it is looked at now.
@@ -189,7 +195,9 @@ export class FormView {
   }
 
   private recolour(): void {
-    this.line.color.set(getComputedStyle(document.documentElement).getPropertyValue("--ink").trim());
+    const colour = (name: string) => new Color(getComputedStyle(document.documentElement).getPropertyValue(name).trim());
+    this.line.color.copy(colour("--ink"));
+    this.renderer.setClearColor(colour("--paper"));
     this.draw();
   }
 
