@@ -19,7 +19,7 @@ const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--e
 const EDITS = 15;
 const FRAMES = 15;
 const TURNS = 5;
-const SIZE = {width: 800, height: 600};
+const VIEW = {width: 1280, height: 800};
 const EGG = "surface egg = pow(x/2, 2) + y*y + z*z - 1.5\nbox (-4, -4, -4) .. (4, 4, 4)\ngrid 30\n";
 
 const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
@@ -90,7 +90,7 @@ function edit([from, to, marked]) {
 }
 
 async function edits(browser, address) {
-  const page = await browser.newPage({viewport: {width: 1280, height: 800}});
+  const page = await browser.newPage({viewport: VIEW});
   await page.addInitScript(watchSocket);
   await page.goto(address);
   await openFile(page, "egg.field");
@@ -114,17 +114,17 @@ const EXAMPLE = `
 import * as THREE from "three";
 import {OrbitControls} from "three/addons/controls/OrbitControls.js";
 import {readMesh} from "./src/mesh";
-export function begin(base64) {
+export function begin(base64, {width, height}) {
   const file = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
   const mesh = readMesh(file);
   const scene = new THREE.Scene();
   scene.background = new THREE.Color(0xcccccc);
   const renderer = new THREE.WebGLRenderer({antialias: true});
   renderer.setPixelRatio(window.devicePixelRatio);
-  renderer.setSize(${SIZE.width}, ${SIZE.height});
+  renderer.setSize(width, height);
   window.runs = (on) => renderer.setAnimationLoop(on ? animate : null);
   document.body.appendChild(renderer.domElement);
-  const camera = new THREE.PerspectiveCamera(28, ${SIZE.width} / ${SIZE.height}, 0.001, 1000);
+  const camera = new THREE.PerspectiveCamera(28, width / height, 0.001, 1000);
   const controls = new OrbitControls(camera, renderer.domElement);
   controls.enableDamping = true;
   const geometry = new THREE.BufferGeometry();
@@ -147,22 +147,19 @@ export function begin(base64) {
   }
 }`;
 
-async function example(browser, glb) {
+async function example(browser, glb, size) {
   const {outputFiles} = await build({stdin: {contents: EXAMPLE, resolveDir: join(root, "studio/page"), loader: "ts"}, bundle: true, write: false, format: "iife", globalName: "example", logLevel: "error"});
-  const page = await browser.newPage({viewport: SIZE});
+  const page = await browser.newPage({viewport: VIEW});
   await page.setContent("<style>body { margin: 0 }</style>");
   await page.addScriptTag({content: outputFiles[0].text});
-  await page.evaluate((base64) => window.example.begin(base64), glb.toString("base64"));
+  await page.evaluate(({base64, size}) => window.example.begin(base64, size), {base64: glb.toString("base64"), size});
   return page;
 }
 
 async function ours(browser, address, name) {
-  const page = await browser.newPage({viewport: {width: 1280, height: 800}});
+  const page = await browser.newPage({viewport: VIEW});
   await page.goto(address);
   await openFile(page, name);
-  // as large as the example
-  await page.locator(".form-stage").evaluate((stage, {width, height}) => Object.assign(stage.style, {position: "fixed", left: "0", top: "0", margin: "0", width: `${width}px`, height: `${height}px`}), SIZE);
-  await page.waitForTimeout(300);
   return page;
 }
 
@@ -194,7 +191,9 @@ function turn(count) {
 async function turning(browser, address, folder, name, command, what) {
   const made = join(folder, "made.glb");
   spawnSync(tartan, [...command, "-o", made], {cwd: folder});
-  const pages = [await ours(browser, address, name), await example(browser, readFileSync(made))];
+  const own = await ours(browser, address, name);
+  const size = await own.locator(".form-stage").evaluate(({clientWidth: width, clientHeight: height}) => ({width, height}));
+  const pages = [own, await example(browser, readFileSync(made), size)];
   const times = [[], []];
   for (let i = 0; i < TURNS; i++)
     for (const [side, page] of pages.entries()) {

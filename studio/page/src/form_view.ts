@@ -62,6 +62,7 @@ export class FormView {
   private materials: {smooth: MeshLambertMaterial[]; flat: MeshLambertMaterial[]} = {smooth: [], flat: []};
   private line = new LineBasicMaterial({transparent: true, opacity: 0.55});
   private frame = 0;
+  private placed = false; // was there a place to be drawn in when it was looked at?
 
   // `drawn` is told each time that a form stands in a frame; `lost` if the browser takes the drawing away.
   constructor(private host: HTMLElement, name: string, private drawn: () => void, lost: () => void) {
@@ -91,6 +92,7 @@ export class FormView {
   // which are drawn, how many faces it has; null: edges are where a form bends.
   show(mesh: Mesh, fits: boolean, faces: number | null): void {
     this.forget();
+    this.resize(); // it may have had no place until now
     const geometry = this.geometryOf(mesh);
     const materials = this.materialsOf(mesh);
     this.scene.add(new Body(geometry, materials.length === 1 ? materials[0] : materials));
@@ -137,6 +139,7 @@ export class FormView {
     const direction = turned ? this.camera.position.clone().sub(this.controls.target).normalize() : new Vector3(...VIEWS[view]).normalize();
     const half = (FIELD_OF_VIEW / 2) * (Math.PI / 180);
     const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
+    this.placed = this.host.clientWidth > 0;
     this.controls.target.copy(to);
     this.camera.position.copy(to).addScaledVector(direction, (1.02 * this.sphere.radius) / Math.sin(narrow));
     this.controls.update();
@@ -191,6 +194,7 @@ export class FormView {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
+    if (!this.placed && this.shown.length) this.look("whole");
     this.draw();
   }
 
