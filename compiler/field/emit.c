@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "compiler/common/number_ranges.h"
 #include "compiler/common/emit_sources.h"
+#include "compiler/common/number_ranges.h"
 #include "compiler/field/field.h"
 #include "runtime/number/interval.h"
 #include "runtime/number/run.h"
@@ -87,7 +87,8 @@ static void take_corner(emit *e, const tn_expression *corner, double out[3])
         return;
     }
     for (const tn_expression *number = corner->first; number; number = number->next)
-        out[axis++] = constant(e, number, "a corner's coordinate", "write numbers, or names that `let` gave to numbers");
+        out[axis++] =
+            constant(e, number, "a corner's coordinate", "write numbers, or names that `let` gave to numbers");
 }
 
 static void take_box(emit *e, const tn_field_setting *box)

@@ -3,8 +3,8 @@
 #include <string.h>
 #include <strings.h>
 
-#include "compiler/common/number_ranges.h"
 #include "compiler/common/names.h"
+#include "compiler/common/number_ranges.h"
 #include "compiler/solid/solid.h"
 
 const tn_expression_scope tn_solid_scope = {
