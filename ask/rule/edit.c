@@ -93,7 +93,8 @@ static tn_status take_step(tn_session *session, const tn_rule_edit_request *r, t
     else if (status == TN_OK && r->part >= asked.tree.count)
         snprintf(why, TN_WHY_MAX, "the rule has the parts 0 to %u", asked.tree.count - 1);
     else if (status == TN_OK) {
-        uint32_t part = (uint32_t)r->part, spec = tn_tray_spec(session->opened->module, 0, asked.tree.parts[part].own);
+        uint32_t part = (uint32_t)r->part,
+                 spec = tn_tray_field_spec(asked.schema, field, 0, asked.tree.parts[part].own);
         status = tn_tray_step(asked.schema, &asked.tree, part, spec, field, r->depth ? TN_SIGN_DEPTH : TN_SIGN_VALUE,
                               edit, text, why, &error);
         if (status != TN_OK)

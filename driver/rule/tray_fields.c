@@ -142,8 +142,39 @@ static bool same_masks(const tn_module *module, uint32_t a, uint32_t b)
     return true;
 }
 
-uint32_t tn_tray_spec(const tn_module *module, uint32_t file, tn_text_stretch place)
+/* Of one schema: the same values of one field. */
+static bool same_values(const tn_schema *schema, uint32_t field, uint32_t a, uint32_t b)
 {
+    for (uint32_t v = 0; v < value_count(schema, field); v++) {
+        uint32_t bit = schema->value_start[field] + v;
+        if ((tn_spec_word(schema->module, a, bit / 64) ^ tn_spec_word(schema->module, b, bit / 64)) >> (bit % 64) & 1)
+            return false;
+    }
+    return true;
+}
+
+/* What is asked of the tray's specifiers; schema NULL: all of them are to be the same. */
+typedef struct sought {
+    const tn_module *module;
+    const tn_schema *schema;
+    uint32_t field, file;
+    tn_text_stretch place;
+} sought;
+
+static bool counts(const sought *s, uint32_t spec)
+{
+    const tn_schema_record *of = &s->module->SCHEMA_records[s->module->SPEC_records[spec].schema];
+    return !s->schema || of == s->schema->record;
+}
+
+static bool alike(const sought *s, uint32_t a, uint32_t b)
+{
+    return s->schema ? same_values(s->schema, s->field, a, b) : same_masks(s->module, a, b);
+}
+
+static uint32_t find_spec(const sought *s)
+{
+    const tn_module *module = s->module;
     uint32_t found = UINT32_MAX;
     for (uint32_t f = 0; f < module->FUNCTION_count; f++) {
         const tn_function_record *function = &module->FUNCTION_records[f];
@@ -152,14 +183,26 @@ uint32_t tn_tray_spec(const tn_module *module, uint32_t file, tn_text_stretch pl
         for (uint32_t at = function->code_begin; at < function->code_end;) {
             tn_instruction it = tn_code_read(module->code, at);
             uint32_t spec = (uint32_t)it.first;
-            bool here = it.opcode == TN_OP_TRAY && is_there(tn_module_place(module, at), file, place);
-            if (here && found != UINT32_MAX && !same_masks(module, found, spec))
+            bool here =
+                it.opcode == TN_OP_TRAY && is_there(tn_module_place(module, at), s->file, s->place) && counts(s, spec);
+            if (here && found != UINT32_MAX && !alike(s, found, spec))
                 return UINT32_MAX;
             found = here ? spec : found;
             at += it.length;
         }
     }
     return found;
+}
+
+uint32_t tn_tray_spec(const tn_module *module, uint32_t file, tn_text_stretch place)
+{
+    return find_spec(&(sought){.module = module, .file = file, .place = place});
+}
+
+uint32_t tn_tray_field_spec(const tn_schema *schema, uint32_t field, uint32_t file, tn_text_stretch place)
+{
+    return find_spec(
+        &(sought){.module = schema->module, .schema = schema, .field = field, .file = file, .place = place});
 }
 
 /* ---- steps */
@@ -292,7 +335,7 @@ tn_status tn_tray_step(const tn_schema *schema, const tn_rule_tree *tree, uint32
         snprintf(why, TN_WHY_MAX, "the tray says %u things of `%s`; change one of them", count,
                  name_of(schema, schema->fields[field].name));
     else if (count == 1 && spec == UINT32_MAX)
-        snprintf(why, TN_WHY_MAX, "the item has a word that stands for several values; change its text");
+        snprintf(why, TN_WHY_MAX, "the tray has a word that stands for several values; change its text");
     if (*why)
         return TN_OK;
     const stepping s = {schema, spec, field, count > 0, count > 0 && has_length(item_at(tray->expr, item))};

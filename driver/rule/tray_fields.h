@@ -20,6 +20,10 @@ char *tn_item_text(const tn_schema *schema, uint32_t field, uint32_t value, bool
  * quantifier binds say what it is. */
 uint32_t tn_tray_spec(const tn_module *module, uint32_t file, tn_text_stretch place);
 
+/* The same for one field of a schema: words for other fields may stand for several values, and the tray may become
+ * others for schemas that are made from this one. */
+uint32_t tn_tray_field_spec(const tn_schema *schema, uint32_t field, uint32_t file, tn_text_stretch place);
+
 typedef enum tn_tray_sign { TN_SIGN_VALUE, TN_SIGN_DEPTH } tn_tray_sign;
 
 /* A click on a sign of a tray: its next value, from any over each to any again; of a zone its next fill, or,

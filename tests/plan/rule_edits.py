@@ -324,7 +324,8 @@ class Edit:
         if len(refusal_of.setdefault(re.sub(r"`[^`]*`|\d+", "_", why), [])) < 3:
             refusal_of[re.sub(r"`[^`]*`|\d+", "_", why)].append((self.told(), why))
         right(not answer["edits"] and "part" not in answer, "refused and changed")
-        if self.impossible is None and not self.free and not re.search(BY_LINE, why):
+        by_words = "stands for several values" in why and any("field" not in item for item in self.case.answer["parts"][self.request["part"]]["items"])
+        if self.impossible is None and not self.free and not by_words and not re.search(BY_LINE, why):
             place = self.case.answer["parts"][0]["around"]
             text = self.case.units.slice(0, place["utf16_begin"]) + written_out(self.tree.root) + self.case.units.slice(place["utf16_end"], len(self.case.units.units))
             right(not opens(self.case.path, text), f"refused, though it compiles: {why}", written_out(self.tree.root))

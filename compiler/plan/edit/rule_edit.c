@@ -392,7 +392,7 @@ static void set_condition(editing *e)
 {
     tn_text_stretch condition = tn_rule_part_condition(e->tree, e->edit->part);
     if (condition.end == 0)
-        refuse(e, "only `quantity` and `occurrences` have a condition");
+        refuse(e, "only what is counted or added up has a condition");
     else
         change(e, condition.begin, condition.end, e->with);
 }

@@ -49,7 +49,8 @@ typedef struct tn_rule_edited {
 tn_status tn_rule_edit_make(const char *text, size_t size, const char *rule, const tn_rule_edit *edit,
                             tn_rule_edited *made, tn_error *error);
 
-/* Adds `rule NAME = any` behind the item of the file that the byte is in. */
+/* Adds `rule NAME = any` behind the item of the file that the byte is in; behind a rule that names its schema, about
+ * the same trays. */
 tn_status tn_rule_new_make(const char *text, size_t size, const char *name, size_t offset, tn_rule_edited *made,
                            tn_error *error);
 
