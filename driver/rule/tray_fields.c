@@ -271,6 +271,9 @@ static uint32_t step(const stepping *s, tn_tray_sign sign, bool *whole, char *wh
         return any ? 0 : count == of_fill ? next_value(s, value, sign) : UINT32_MAX;
     if (any || of_fill != count)
         snprintf(why, TN_WHY_MAX, "say first what fills the zone; then it has a depth");
+    else if (!*name_of(s->schema, value_of(s->schema, s->field, value)->measure))
+        snprintf(why, TN_WHY_MAX, "`%s %s` has no depths", name_of(s->schema, s->schema->fields[s->field].name),
+                 value_name(s->schema, s->field, value));
     uint32_t next = !s->deep && of_fill == depths ? value : of_fill == 1 ? next_value(s, value, sign) : UINT32_MAX;
     *whole = next == UINT32_MAX;
     return next == UINT32_MAX ? value : next; /* its fill stays */

@@ -345,6 +345,10 @@ static void join(editing *e)
     }
     if (!is_given(e, false))
         return;
+    if (e->edit->from != TN_NO_RULE_PART && is_of_row(parts[e->edit->from].kind)) {
+        refuse(e, "what stands in a row of neighbours by itself can only be moved there");
+        return;
+    }
     if (parent && parent->kind == kind) {
         insert_into(e, parent, part->index + (e->edit->before ? 0 : 1));
         return;
