@@ -5,11 +5,331 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/house/compared.h"
 #include "ask/plan/found.h"
 #include "ask/plan/sheet.h"
+#include "ask/plan/weights.h"
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
 #include "driver/open/digits.h"
+#include "runtime/plan/match/code_hash.h"
+#include "runtime/plan/measure/amount.h"
+#include "runtime/plan/measure/moments.h"
+#include "runtime/plan/measure/named.h"
+
+/* ---- what an edit does to a library of houses */
+
+/* What is removed, added and kept of one length. */
+static void diff_houses_count_length(const tn_compared_houses *c, size_t k, tn_compared_counts *counts)
+{
+    mpz_set(counts->kept, c->kept[k]);
+    mpz_sub(counts->removed, c->before[k], c->kept[k]);
+    mpz_sub(counts->added, c->after[k], c->kept[k]);
+}
+
+static tn_status diff_houses_set_counts(const tn_compared_houses *c, tn_compared *to, tn_error *error)
+{
+    tn_status status = TN_NEW_LIST(compared_length, to->by_length, (size_t)c->high - c->low + 1, error);
+    for (size_t k = 0; status == TN_OK && k < to->by_length.count; k++) {
+        tn_compared_counts *counts = &to->by_length.items[k].counts;
+        to->by_length.items[k].length = c->low + k;
+        diff_houses_count_length(c, k, counts);
+        mpz_add(to->total.removed, to->total.removed, counts->removed);
+        mpz_add(to->total.added, to->total.added, counts->added);
+        mpz_add(to->total.kept, to->total.kept, counts->kept);
+    }
+    return status;
+}
+
+/* Takes over the examples. */
+static tn_status set_edit(tn_house_edit *edit, tn_compared_clause *to, tn_error *error)
+{
+    tn_owneds *const lists[2] = {&to->houses.removed, &to->houses.added};
+    tn_status status = TN_OK;
+    to->name = edit->name;
+    to->change = tn_change_word(edit->change);
+    to->has_houses = true;
+    mpz_set(to->removes, edit->houses[0]);
+    mpz_set(to->adds, edit->houses[1]);
+    for (int which = 0; which < 2; which++)
+        for (size_t i = 0; status == TN_OK && i < edit->example_count[which]; i++) {
+            status = tn_owneds_add(lists[which], edit->examples[which][i], error);
+            edit->examples[which][i] = NULL;
+        }
+    return status;
+}
+
+tn_status tn_diff_houses_answer(const tn_diff_request *request, tn_compared_houses *c, tn_compared *to, tn_error *error)
+{
+    const tn_numbered *before = &c->sides[0].n, *after = &c->sides[1].n;
+    to->before = (tn_compared_library){request->before, tn_text(before->form.module, before->record->name)};
+    to->after = (tn_compared_library){after->session->opened->path, tn_text(after->form.module, after->record->name)};
+    tn_status status = diff_houses_set_counts(c, to, error);
+    if (status == TN_OK)
+        status = TN_NEW_LIST(compared_clause, to->clauses, c->edit_count, error);
+    for (size_t i = 0; status == TN_OK && i < c->edit_count; i++)
+        status = set_edit(&c->edits[i], &to->clauses.items[i], error);
+    return status;
+}
+
+static tn_status diff_houses_compare(tn_session *session, const tn_diff_request *r, tn_compared_houses *c,
+                                     tn_reply *answer)
+{
+    const tn_compared_options options = {.shown = r->has_sample ? (size_t)r->sample : TN_DIFF_SHOWN,
+                                         .seed = r->seed,
+                                         .one_by_one = r->has_max_houses ? r->max_houses : TN_DIFF_HOUSES};
+    tn_error error;
+    tn_status status = tn_houses_compare(c, &options, &error);
+    if (status == TN_OK)
+        status = tn_reply_new(&tn_message_compared, answer, &error);
+    if (status == TN_OK)
+        status = tn_diff_houses_answer(r, c, answer->value, &error);
+    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
+}
+
+tn_status tn_diff_houses(tn_session *session, tn_session *other, const tn_diff_request *request, tn_reply *answer)
+{
+    const tn_house_settings settings = tn_asked_houses(&request->subject);
+    tn_compared_houses c = {0};
+    tn_status status = tn_numbered_open(&c.sides[0].n, other, &settings);
+    if (status == TN_OK)
+        status = tn_numbered_open(&c.sides[1].n, session, &settings);
+    if (status == TN_OK)
+        status = diff_houses_compare(session, request, &c, answer);
+    tn_houses_compare_clear(&c);
+    tn_numbered_close(&c.sides[0].n);
+    tn_numbered_close(&c.sides[1].n);
+    return status;
+}
+
+/* ---- diff */
+
+/* What a library weighs or prefers: each with its number, and a hash of what it is about. */
+typedef struct leaning {
+    const char *name, *number;
+    uint64_t about[2];
+    bool met; /* has it been compared? */
+} leaning;
+
+typedef struct weights_side {
+    leaning *items;
+    uint32_t count;
+} weights_side;
+
+/* Where differences go: the list of the answer. */
+typedef struct telling {
+    tn_list *list;
+    tn_error *error;
+    bool any;
+} telling;
+
+static bool make_room(weights_side *s, uint32_t count)
+{
+    *s = (weights_side){.items = calloc((size_t)count + 1, sizeof *s->items), .count = count};
+    return s->items != NULL;
+}
+
+static tn_status read_weights(const tn_module *module, const tn_library_record *library, weights_side *s,
+                              tn_error *error)
+{
+    tn_status status = make_room(s, library->weight_count) ? TN_OK : tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < s->count; i++) {
+        const tn_weight_record *weight = &module->WEIGHT_records[library->weight_first + i];
+        s->items[i].name = tn_text(module, weight->name);
+        s->items[i].number = tn_text(module, weight->factor);
+        status = tn_code_hash(module, module->TERM_records[module->SUM_records[weight->sum].term_first].part,
+                              s->items[i].about, error);
+    }
+    return status;
+}
+
+static tn_status read_preferences(const tn_module *module, const tn_library_record *library, weights_side *s,
+                                  tn_error *error)
+{
+    tn_status status = make_room(s, library->preference_count) ? TN_OK : tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < s->count; i++) {
+        const tn_preference_record *preference = &module->PREFERENCE_records[library->preference_first + i];
+        const tn_term_record *term = &module->TERM_records[module->SUM_records[preference->sum].term_first + i];
+        s->items[i].name = tn_text(module, preference->name);
+        s->items[i].number = tn_text(module, term->factor);
+        status = tn_code_hash(module, term->part, s->items[i].about, error);
+    }
+    return status;
+}
+
+/* before, after: or NULL. */
+static tn_status tell(telling *t, const leaning *before, const leaning *after)
+{
+    tn_clause_change change = before && after ? TN_CLAUSE_CHANGED : after ? TN_CLAUSE_ADDED : TN_CLAUSE_REMOVED;
+    tn_compared_weight *to = tn_message_add(&tn_message_compared_weight, t->list, t->error);
+    if (!to)
+        return TN_MEMORY;
+    t->any = true;
+    to->name = (after ? after : before)->name;
+    to->change = tn_change_word(change);
+    to->has_before = before != NULL;
+    to->has_after = after != NULL;
+    if (before) {
+        mpq_set_str(to->before, before->number, 10);
+        to->shown_before = tn_weight_text(to->before);
+    }
+    if (after) {
+        mpq_set_str(to->after, after->number, 10);
+        to->shown_after = tn_weight_text(to->after);
+    }
+    bool shown = (to->shown_before || !before) && (to->shown_after || !after);
+    return shown ? TN_OK : tn_fail_memory(t->error);
+}
+
+/* Pairs those about the same: first those of the same number too, which did not change. */
+static tn_status pair(weights_side *sides, bool same_number, telling *t)
+{
+    tn_status status = TN_OK;
+    for (leaning *b = sides[0].items; status == TN_OK && b < sides[0].items + sides[0].count; b++)
+        for (leaning *a = sides[1].items; status == TN_OK && !b->met && a < sides[1].items + sides[1].count; a++) {
+            bool same = strcmp(b->number, a->number) == 0;
+            if (a->met || memcmp(b->about, a->about, sizeof b->about) != 0 || same != same_number)
+                continue;
+            b->met = a->met = true;
+            if (!same)
+                status = tell(t, b, a);
+        }
+    return status;
+}
+
+static tn_status tell_all(weights_side *sides, telling *t)
+{
+    tn_status status = pair(sides, true, t);
+    if (status == TN_OK)
+        status = pair(sides, false, t);
+    for (uint32_t b = 0; status == TN_OK && b < sides[0].count; b++)
+        if (!sides[0].items[b].met)
+            status = tell(t, &sides[0].items[b], NULL);
+    for (uint32_t a = 0; status == TN_OK && a < sides[1].count; a++)
+        if (!sides[1].items[a].met)
+            status = tell(t, NULL, &sides[1].items[a]);
+    return status;
+}
+
+/* read: read_weights or read_preferences. */
+static tn_status diff_leanings_compare(const tn_ready_library *const ready[2],
+                                       tn_status (*read)(const tn_module *, const tn_library_record *, weights_side *,
+                                                         tn_error *),
+                                       telling *t)
+{
+    weights_side sides[2] = {0};
+    tn_status status = TN_OK;
+    for (int i = 0; status == TN_OK && i < 2; i++)
+        status = read(ready[i]->schema->module, ready[i]->record, &sides[i], t->error);
+    if (status == TN_OK)
+        status = tell_all(sides, t);
+    free(sides[0].items);
+    free(sides[1].items);
+    return status;
+}
+
+tn_status tn_diff_leanings(const tn_ready_library *before, const tn_ready_library *after, tn_compared *compared,
+                           tn_error *error)
+{
+    const tn_ready_library *const ready[2] = {before, after};
+    telling weights = {(tn_list *)&compared->weights, error, false},
+            preferences = {(tn_list *)&compared->preferences, error, false};
+    tn_status status = diff_leanings_compare(ready, read_weights, &weights);
+    if (status == TN_OK)
+        status = diff_leanings_compare(ready, read_preferences, &preferences);
+    compared->has_weights = weights.any;
+    compared->has_preferences = preferences.any;
+    return status;
+}
+
+/* ---- compares the measures of two libraries */
+
+/* ---- one side */
+
+/* For people, in the order of the answer. The mean is rounded. */
+static tn_status show(const tn_measure_moments *m, tn_amount_unit unit, tn_measured_side *side, tn_error *error)
+{
+    tn_buffer least = {0}, mean = {0}, most = {0};
+    bool none = mpz_sgn(m->plans) == 0;
+    bool ok = none ? tn_buffer_printf(&least, "-") && tn_buffer_printf(&mean, "-") && tn_buffer_printf(&most, "-")
+                   : tn_amount_write(unit, m->least, &least) && tn_amount_write_about(unit, side->mean, &mean) &&
+                         tn_amount_write(unit, m->most, &most);
+    char *const texts[] = {least.data, mean.data, most.data};
+    tn_status status = ok ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) { /* which takes each of them */
+        tn_status added = tn_owneds_add(&side->shown, texts[i], error);
+        status = status == TN_OK ? added : status;
+    }
+    return status;
+}
+
+static tn_status set_side(const tn_measure_moments *m, tn_amount_unit unit, tn_measured_side *side, tn_error *error)
+{
+    side->has_least = side->has_mean = side->has_most = mpz_sgn(m->plans) > 0;
+    mpq_set(side->least, m->least);
+    mpq_set(side->mean, m->mean);
+    mpq_set(side->most, m->most);
+    tn_amount_convert(unit, side->least);
+    tn_amount_convert(unit, side->mean);
+    tn_amount_convert(unit, side->most);
+    return show(m, unit, side, error);
+}
+
+static tn_status find_side(const tn_ready_library *ready, uint32_t measure, const char **unit_name,
+                           tn_measured_side *side, tn_error *error)
+{
+    const tn_module *module = ready->schema->module;
+    tn_weighed *weighed = NULL;
+    tn_measure_moments moments;
+    tn_amount_unit unit = tn_amount_unit_of(ready->schema, tn_named_measure_power(module, measure));
+    *unit_name = tn_amount_unit_name(unit);
+    tn_measure_moments_init(&moments);
+    tn_status status = tn_weighed_new(ready->library, &measure, 1, &weighed, error);
+    if (status == TN_OK)
+        status = tn_measure_moments_find(&moments, weighed, error);
+    if (status == TN_OK)
+        status = set_side(&moments, unit, side, error);
+    tn_weighed_free(weighed);
+    tn_measure_moments_clear(&moments);
+    return status;
+}
+
+/* ---- both */
+
+static tn_status add_measure(tn_session *session, const tn_ready_library *const sides[2], const uint32_t measures[2],
+                             tn_compared *compared, tn_error *error)
+{
+    const tn_module *module = sides[0]->schema->module;
+    const char *unit_after;
+    tn_compared_measure *to = TN_ADD(compared_measure, compared->measures, error);
+    if (!to)
+        return TN_MEMORY;
+    to->name = tn_named_measure(module, measures[0]);
+    tn_status status = find_side(sides[0], measures[0], &to->unit, &to->before, error);
+    if (status == TN_OK)
+        status = find_side(sides[1], measures[1], &unit_after, &to->after, error);
+    if (status != TN_LIMIT)
+        return status;
+    tn_session_note(session, "the measure `%s` is not compared: %s", to->name, error->message);
+    tn_message_clear(&tn_message_compared_measure, to);
+    compared->measures.count--;
+    return TN_OK;
+}
+
+tn_status tn_diff_measures(tn_session *session, const tn_ready_library *before, const tn_ready_library *after,
+                           tn_compared *compared, tn_error *error)
+{
+    const tn_ready_library *const sides[2] = {before, after};
+    const tn_module *module = before->schema->module;
+    tn_status status = TN_OK;
+    for (uint32_t i = TN_NO_RECORD; status == TN_OK && tn_named_measure_next(module, before->record, &i);) {
+        const uint32_t measures[2] = {
+            i, tn_named_measure_find(after->schema->module, after->record, tn_named_measure(module, i))};
+        if (measures[1] != TN_NO_RECORD)
+            status = add_measure(session, sides, measures, compared, error);
+    }
+    return status;
+}
 
 const char *tn_change_word(tn_clause_change change)
 {

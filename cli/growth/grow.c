@@ -1,11 +1,126 @@
 /* tartan grow: grows a surface from a rewrite system, and writes it. */
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/growth/grow.h"
 #include "cli/common/interrupt.h"
+#include "cli/common/job.h"
 #include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
-#include "cli/growth/grow.h"
+#include "driver/open/files.h"
+#include "driver/open/stdlib_find.h"
+#include "runtime/base/bytes.h"
+
+/* ---- opens what `grow` grows */
+
+/* Compiles the study that the options are, which uses the file. */
+static bool open_options(tn_job *job, const char *text, size_t size)
+{
+    tn_stdlib_dirs dirs;
+    tn_files files;
+    tn_error error;
+    tn_status status = tn_stdlib_dirs_find(&dirs, &error);
+    tn_files_begin(&files, &dirs);
+    tn_compile_options options = {.resolver = tn_files_resolver(&files), .warnings_are_errors = job->settings->werror};
+    if (status == TN_OK)
+        tn_job_status(job,
+                      tn_open_text(TN_NOTATION(study), &(tn_input){.text = text, .size = size, .name = "<options>"},
+                                   &options, &job->opened));
+    else
+        tn_job_fail(job, &error);
+    tn_files_clear(&files);
+    tn_stdlib_dirs_clear(&dirs);
+    if (job->opened.module)
+        job->opened.module->watch = tn_interrupt_waiting();
+    return job->opened.module != NULL;
+}
+
+static bool open_study(tn_job *job, const char *path, bool has_source, const char *text, size_t size)
+{
+    if (has_source)
+        return open_options(job, text, size);
+    if (!tn_job_open(job, path) || job->opened.module->GROWTH_count == 0)
+        return job->opened.module != NULL;
+    tn_diagnostic *d = tn_job_usage(job, "a module is grown as it was compiled");
+    tn_help(tn_job_diagnostics(job), d, "for other steps, scales or surroundings name the .hemls or .study file");
+    return false;
+}
+
+/* Is the file a rewrite system or a study, of which there is source? *rules: a rewrite system. */
+static tn_status look_at(const char *path, bool *has_source, bool *rules, tn_error *error)
+{
+    tn_stdlib_file found = {0};
+    tn_status status = tn_stdlib_may_mean(path) ? tn_stdlib_find(path, &found, error) : TN_OK;
+    const tn_notation *notation = tn_notation_of(found.path ? found.recorded : path, "", 0);
+    *has_source = notation && tn_notation_takes(notation, "grow");
+    *rules = notation == TN_NOTATION(hemls);
+    tn_stdlib_file_clear(&found);
+    return status;
+}
+
+/* Opens the file that grows: with statements, the study that they are, which uses the file. False if that failed. */
+static bool grow_open(tn_job *job, const tn_grow_statements *said)
+{
+    const char *path = job->settings->operands.items[0];
+    char *text = NULL;
+    size_t size = 0;
+    bool has_source, rules;
+    tn_error error;
+    tn_status status = look_at(path, &has_source, &rules, &error);
+    if (status == TN_OK)
+        status = tn_grow_study_text(said, path, rules, &text, &size, &error);
+    if (status != TN_OK) {
+        tn_job_fail(job, &error);
+        return false;
+    }
+    bool opened = text ? open_study(job, path, has_source, text, size) : tn_job_open(job, path);
+    free(text);
+    return opened;
+}
+
+/* ---- shows the steps of `tartan grow`: what each measures as a table, and why branches did not join */
+
+/* Writes a line for each step. */
+static void grow_table(const tn_grown_shown *steps, FILE *out)
+{
+    const tn_growth_system *system = steps->system;
+    const tn_study *study = &steps->study;
+    fprintf(out, "%5s %10s %10s %10s  %9s %9s %9s %8s %8s  edges\n", "step", "vertices", "edges", "faces", "size",
+            "rough", "undul.", "V/E", "symm.");
+    for (size_t i = 0; i < steps->count; i++) {
+        const tn_stats *s = &steps->stats[i];
+        fprintf(out, "%5u %10" PRIu64 " %10" PRIu64 " %10" PRIu64 "  %9.4g %9.4g %9.4g %8.4g %8.4g ", s->step,
+                s->vertices, s->edges, s->faces, s->fitness.size, s->fitness.smoothness, s->fitness.undulation,
+                s->fitness.subdivisions, s->fitness.symmetry);
+        for (uint32_t l = 0; l < system->label_count; l++)
+            if (s->labels[l])
+                fprintf(out, " %s %" PRIu64, system->labels[l].name, s->labels[l]);
+        if (s->fitness.soft_boundary_nodes > 0)
+            fprintf(out, ", %.0f past soft boundaries", s->fitness.soft_boundary_nodes);
+        for (uint32_t n = 0; n < study->goal.named_count; n++)
+            fprintf(out, ", %s %.6g", study->goal.named[n].name,
+                    tn_without_sign(tn_named_value(&study->goal.named[n], &s->fitness)));
+        if (study->goal.required_count)
+            fprintf(out, ", %.6g from what is required",
+                    tn_without_sign(tn_fitness_lacking(&s->fitness, &study->goal)));
+        if (study->has_goal)
+            fprintf(out, ", fitness %.6g",
+                    tn_without_sign(tn_fitness_total(&s->fitness, &study->goal, study->options.start_length)));
+        fputc('\n', out);
+    }
+}
+
+/* Says why the branches of a step did not join. */
+static void grow_explain(const tn_grown_joins *joins, FILE *out)
+{
+    fprintf(out, "step %" PRIu64 ": %" PRIu64 " edges replaced, %" PRIu64 " pairs of branches joined\n", joins->step,
+            joins->replaced, joins->joined);
+    if (joins->kept)
+        fprintf(out, "  %" PRIu64 " chains were kept, since a face would have fewer than three edges\n", joins->kept);
+    for (size_t i = 0; i < joins->unjoined.count; i++)
+        fprintf(out, "  %" PRIu64 " branches %s\n", joins->unjoined.items[i].branches, joins->unjoined.items[i].reason);
+}
 
 /* What a study can say too, as the words of its statements. */
 typedef struct said_settings {
@@ -290,7 +405,7 @@ static void take_step(void *context, const tn_reply *answer)
     run->steps = shown->study.steps;
     run->complete = shown->complete;
     for (; run->explained < grown->joins.count; run->explained++)
-        tn_grow_explain(&grown->joins.items[run->explained], stderr);
+        grow_explain(&grown->joins.items[run->explained], stderr);
     follow(run);
 }
 
@@ -306,7 +421,7 @@ static void show_steps(running *run, const tn_reply *answer)
     if (run->settings->stats == 2)
         tn_job_write_json(&(tn_reply){&tn_message_grown_steps, steps}, output.stream);
     else
-        tn_grow_table(steps->shown.value, output.stream);
+        grow_table(steps->shown.value, output.stream);
     tn_job_commit(run->job, &output);
 }
 
@@ -347,7 +462,7 @@ static int run(const tn_command *command, const tn_settings *common)
     running growing = {.job = &job, .settings = settings_of(&job)};
     set_request(&growing);
     if (read_until(&growing) && read_overlay(&growing) && check_request(&growing) && set_statements(&growing) &&
-        tn_grow_open(&job, &growing.request.said))
+        grow_open(&job, &growing.request.said))
         grow(&growing);
     free(growing.said_steps);
     free(growing.step_path);

@@ -1,10 +1,154 @@
 /* tartan mesh: meshes a surface of a .field file, or a design of boxes of a .solid file. */
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "ask/form/mesh.h"
+#include "cli/common/interrupt.h"
+#include "cli/common/job.h"
 #include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
-#include "cli/mesh/mesh.h"
+#include "runtime/base/bytes.h"
+#include "runtime/base/file.h"
+#include "runtime/base/file_error.h"
+
+/* ---- evaluates a field at the places that the lines of a file name */
+
+/* Three numbers and nothing else. The program's locale is C's. */
+static bool read_place(const char *line, double place[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        char *end;
+        line += strspn(line, " \t,");
+        place[axis] = strtod(line, &end);
+        if (end == line)
+            return false;
+        line = end;
+    }
+    return line[strspn(line, " \t\r\n")] == '\0';
+}
+
+static void write_lines(tn_job *job, const tn_probe *probe, const char *path, FILE *in)
+{
+    char line[1000];
+    double place[3], gradient[3];
+    tn_file_state before = tn_file_state_of(fileno(in));
+    tn_error error;
+    for (size_t number = 1; fgets(line, sizeof line, in); number++) {
+        if (tn_interrupt_check(&error) != TN_OK) {
+            tn_job_fail(job, &error);
+            return;
+        }
+        if (line[strspn(line, " \t\r\n")] == '\0')
+            continue;
+        if (!read_place(line, place)) {
+            if (tn_file_state_same(&before, fileno(in), path, &error) == TN_OK) {
+                tn_fail(&error, TN_INVALID, E_EXPRESSION, "line %zu of %.200s is not three numbers", number, path);
+                tn_error_help(&error, "write x, y and z with blanks between them");
+            }
+            tn_job_fail(job, &error);
+            return;
+        }
+        double value = tn_probe_at(probe, place, gradient);
+        printf("%.17g %.17g %.17g %.17g %s\n", tn_without_sign(value), tn_without_sign(gradient[0]),
+               tn_without_sign(gradient[1]), tn_without_sign(gradient[2]), value < 0 ? "inside" : "outside");
+    }
+    if (ferror(in)) {
+        tn_cannot_read(path, errno, &error);
+        tn_job_fail(job, &error);
+    } else if (tn_file_state_same(&before, fileno(in), path, &error) != TN_OK) {
+        tn_job_fail(job, &error);
+    }
+}
+
+/* Writes the field, its gradient and whether it is inside for each line of a file, or (-) of standard input. */
+static void mesh_write_points(tn_job *job, const tn_mesh_request *request, const char *path)
+{
+    tn_probe probe;
+    bool standard = strcmp(path, "-") == 0;
+    if (tn_job_answered(job, tn_probe_open(&job->session, request, &probe))) {
+        FILE *in = standard ? stdin : tn_file_stream(path);
+        tn_error error;
+        if (in) {
+            write_lines(job, &probe, path, in);
+        } else {
+            tn_cannot_read(path, errno, &error);
+            tn_job_fail(job, &error);
+        }
+        if (in && !standard)
+            fclose(in);
+    }
+    tn_probe_close(&probe);
+}
+
+/* ---- writes what a mesh measures as a table */
+
+static double largest(const tn_space_point *p, double most)
+{
+    return fmax(fmax(most, fabs(p->x)), fmax(fabs(p->y), fabs(p->z)));
+}
+
+/* What only rounding left, beside numbers as large as `scale`, is written as 0. */
+static double shown(double number, double scale)
+{
+    return fabs(number) < 1e-12 * scale ? 0 : number;
+}
+
+static void write_triple(FILE *out, const char *word, const tn_space_point *p, double scale)
+{
+    fprintf(out, "%s %.6g %.6g %.6g\n", word, shown(p->x, scale), shown(p->y, scale), shown(p->z, scale));
+}
+
+static void write_count(FILE *out, const char *word, bool given, uint64_t count)
+{
+    if (given)
+        fprintf(out, "%-9s  %" PRIu64 "\n", word, count);
+}
+
+/* Of a closed mesh. */
+static void write_moments(FILE *out, const tn_measured_mesh *m)
+{
+    const tn_space_tensor *i = &m->inertia;
+    double scale = largest(&i->xs, largest(&i->ys, largest(&i->zs, 0)));
+    write_triple(out, "centroid  ", &m->centroid, largest(&m->bounds.low, largest(&m->bounds.high, 0)));
+    write_triple(out, "inertia   ", &i->xs, scale);
+    write_triple(out, "          ", &i->ys, scale);
+    write_triple(out, "          ", &i->zs, scale);
+}
+
+/* What a mesh measures, as a table. */
+static void mesh_table(const tn_measured_mesh *m, FILE *out)
+{
+    const char *unit = m->unit, *space = *unit ? " " : "", *square = *unit ? "^2" : "", *cube = *unit ? "^3" : "";
+    const tn_space_point *low = &m->bounds.low, *high = &m->bounds.high;
+    fprintf(out, "%-9s  %s\n", m->has_solid ? "solid" : "surface", m->has_solid ? m->solid : m->surface);
+    write_count(out, "vertices", true, m->vertices);
+    write_count(out, "triangles", true, m->triangles);
+    write_count(out, "parts", true, m->parts);
+    if (m->has_volume)
+        fprintf(out, "Euler      %" PRId64 "\nvolume     %.12g%s%s%s\n", m->euler, m->volume, space, unit, cube);
+    if (m->has_volume_bounds)
+        fprintf(out, "proven     %.12g to %.12g%s%s%s\n", m->volume_bounds.least, m->volume_bounds.most, space, unit,
+                cube);
+    if (m->has_thickness)
+        fprintf(out, "thickness  at least %.6g%s%s; 99 %% of the wall at least %.6g%s%s\n", m->thickness.least, space,
+                unit, m->thickness.hundredth, space, unit);
+    fprintf(out, "area       %.12g%s%s%s\n", m->area, space, unit, square);
+    if (m->has_centroid)
+        write_moments(out, m);
+    fprintf(out, "bounds     %.6g %.6g %.6g to %.6g %.6g %.6g\n", low->x, low->y, low->z, high->x, high->y, high->z);
+    write_count(out, "jumps", m->has_jumps, m->jumps);
+    write_count(out, "moved", m->has_moved, m->moved);
+    write_count(out, "sharp", m->has_sharp, m->sharp);
+    write_count(out, "crossings", m->has_crossings, m->crossings);
+    write_count(out, "boxes", m->has_boxes, m->boxes);
+    write_count(out, "doubled", m->has_doubled, m->doubled);
+    if (m->has_seconds)
+        fprintf(out, "seconds    samples %.3f, vertices %.3f, triangles %.3f\n", m->seconds.samples,
+                m->seconds.vertices, m->seconds.triangles);
+}
 
 typedef struct mesh_settings {
     tn_settings common;
@@ -82,7 +226,7 @@ static void show(void *context, const tn_reply *answer)
     if (settings_of(job)->stats == 2)
         tn_job_write_json(answer, output.stream);
     else
-        tn_mesh_table(TN_REPLY(measured_mesh, answer), output.stream);
+        mesh_table(TN_REPLY(measured_mesh, answer), output.stream);
     tn_job_commit(job, &output);
 }
 
@@ -108,7 +252,7 @@ static int run(const tn_command *command, const tn_settings *common)
     const tn_mesh_request request = request_of(s);
     if (check_options(&job, &request) && tn_job_open(&job, common->operands.items[0])) {
         if (s->points)
-            tn_mesh_write_points(&job, &request, s->points);
+            mesh_write_points(&job, &request, s->points);
         else
             mesh(&job, &request);
     }

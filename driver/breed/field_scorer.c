@@ -2,20 +2,137 @@
 #include "driver/breed/field_scorer.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "driver/breed/goals.h"
 #include "driver/breed/inputs.h"
-#include "driver/breed/target.h"
 #include "driver/open/open.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/file.h"
 #include "runtime/field/contour.h"
+#include "runtime/field/field.h"
 #include "runtime/field/normals.h"
+#include "runtime/geometry/boundary_file.h"
 #include "runtime/geometry/measure.h"
+#include "runtime/mesh/openmesh.h"
 #include "runtime/scene/draw_meshes.h"
+
+typedef struct tn_target tn_target;
+
+/* ---- counts how much of a field's inside is inside a mesh too */
+
+struct tn_target {
+    tn_boundary_mesh *mesh;
+    pthread_mutex_t lock;
+    tn_field_grid grid; /* that the samples are of */
+    uint8_t *inside;    /* [sample]; NULL before the first field */
+};
+
+static void target_free(tn_target *t)
+{
+    if (!t)
+        return;
+    tn_boundary_mesh_free(t->mesh);
+    pthread_mutex_destroy(&t->lock);
+    free(t->inside);
+    free(t);
+}
+
+/* Reads a closed mesh. TN_INVALID (E1248) where it is not closed or cannot be read. */
+static tn_status target_read(const char *path, tn_target **target, tn_error *error)
+{
+    tn_target *t = calloc(1, sizeof *t);
+    tn_error why = {0};
+    *target = NULL;
+    if (!t)
+        return tn_fail_memory(error);
+    pthread_mutex_init(&t->lock, NULL);
+    tn_status status = tn_boundary_mesh_find(&tn_openmesh_reader, "", "", path, "target", "study", &t->mesh, &why);
+    if (status == TN_OK && !tn_boundary_mesh_is_solid(t->mesh))
+        status = tn_fail(&why, TN_INVALID, E_FIELD_GOAL, "it has edges without two faces, and so no inside");
+    if (status == TN_OK) {
+        *target = t;
+        return TN_OK;
+    }
+    target_free(t);
+    if (status == TN_MEMORY)
+        return tn_fail_memory(error);
+    tn_fail(error, status, E_FIELD_GOAL, "forms cannot be likened to %.200s: %.250s", path, why.message);
+    tn_error_help(error, "name a closed mesh, as `tartan mesh` writes them");
+    return status;
+}
+
+static size_t sample_count(const tn_field_grid *grid)
+{
+    return (size_t)grid->count[0] * grid->count[1] * grid->count[2];
+}
+
+/* Once: all fields of a run have one grid. */
+static tn_status sample_target(tn_target *t, const tn_field_grid *grid, tn_error *error)
+{
+    uint8_t *inside = malloc(sample_count(grid));
+    size_t at = 0;
+    if (!inside)
+        return tn_fail_memory(error);
+    for (uint32_t z = 0; z < grid->count[2]; z++)
+        for (uint32_t y = 0; y < grid->count[1]; y++)
+            for (uint32_t x = 0; x < grid->count[0]; x++) {
+                tn_vector place = {tn_field_sample(grid, 0, x), tn_field_sample(grid, 1, y),
+                                   tn_field_sample(grid, 2, z)};
+                inside[at++] = tn_boundary_mesh_distance(t->mesh, place, NULL) < 0;
+            }
+    t->grid = *grid;
+    t->inside = inside;
+    return TN_OK;
+}
+
+/* Counts the samples of a row along x: those in both, and those in either. */
+static void count_row(const tn_target *t, tn_field_runner *runner, const uint32_t at[2], size_t *both, size_t *either)
+{
+    const tn_field_grid *grid = &t->grid;
+    const uint8_t *inside = t->inside + ((size_t)at[1] * grid->count[1] + at[0]) * grid->count[0];
+    double *const *rows = runner->rows.coordinates;
+    for (uint32_t begin = 0; begin < grid->count[0]; begin += TN_ROW) {
+        uint32_t size = grid->count[0] - begin < TN_ROW ? grid->count[0] - begin : TN_ROW;
+        for (uint32_t i = 0; i < TN_ROW; i++) {
+            rows[0][i] = tn_field_sample(grid, 0, begin + (i < size ? i : size - 1));
+            rows[1][i] = tn_field_sample(grid, 1, at[0]);
+            rows[2][i] = tn_field_sample(grid, 2, at[1]);
+        }
+        tn_field_prepare(runner);
+        const double *values = tn_field_run(runner);
+        for (uint32_t i = 0; i < size; i++) {
+            bool in = values[i] < 0;
+            *both += in && inside[begin + i];
+            *either += in || inside[begin + i];
+        }
+    }
+}
+
+/* The volume that the field and the target share, as a share of the volume of both together: 1 where they are the
+ * same. Both are counted at the samples of the field's grid. May be called by several threads, of fields with one grid.
+ */
+static tn_status target_likeness(tn_target *t, const tn_field *field, double *likeness, tn_error *error)
+{
+    tn_field_grid grid = tn_field_grid_of(field, 0);
+    tn_field_runner runner = {0};
+    size_t both = 0, either = 0;
+    pthread_mutex_lock(&t->lock);
+    tn_status status = t->inside ? TN_OK : sample_target(t, &grid, error);
+    pthread_mutex_unlock(&t->lock);
+    if (status == TN_OK)
+        status = tn_field_runner_new(field, &field->samples, false, &runner, error);
+    uint32_t at[2];
+    for (at[1] = 0; status == TN_OK && at[1] < grid.count[2]; at[1]++)
+        for (at[0] = 0; at[0] < grid.count[1]; at[0]++)
+            count_row(t, &runner, at, &both, &either);
+    tn_field_runner_clear(&runner);
+    *likeness = status == TN_OK && either ? (double)both / (double)either : 0;
+    return status;
+}
 
 /* What goals can speak of. */
 typedef enum measure {
@@ -55,7 +172,7 @@ void tn_field_scorer_free(tn_field_scorer *s)
         return;
     tn_goals_clear(&s->goals);
     for (size_t i = 0; i < s->target_count; i++)
-        tn_target_free(s->targets[i]);
+        target_free(s->targets[i]);
     free(s);
 }
 
@@ -73,7 +190,7 @@ static tn_status read_targets(tn_field_scorer *s, const tn_evolution_study *stud
             return tn_fail(error, TN_INVALID, E_FIELD_GOAL, "a study has at most %u lines `likeness`",
                            TN_OBJECTIVES_MAX);
         char *mesh = tn_file_beside(path, study->each[i].value.text);
-        status = mesh ? tn_target_read(mesh, &s->targets[s->target_count], error) : tn_fail_memory(error);
+        status = mesh ? target_read(mesh, &s->targets[s->target_count], error) : tn_fail_memory(error);
         if (status == TN_OK)
             s->weights[s->target_count++] = study->each[i].value.second;
         if (status == TN_OK)
@@ -206,7 +323,7 @@ static tn_status score_form(const tn_field_scorer *s, unsigned thread, const for
         add_part(s, i, tn_goal_part(&s->goals.items[i], values), score);
     for (size_t k = 0; k < s->target_count && status == TN_OK; k++) {
         double likeness = 0;
-        status = tn_target_likeness(s->targets[k], &f->field, &likeness, error);
+        status = target_likeness(s->targets[k], &f->field, &likeness, error);
         add_part(s, i++, s->weights[k] * (1 - likeness), score);
     }
     for (size_t k = 0; k < TN_OBJECTIVES_MAX; k++)

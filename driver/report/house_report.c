@@ -5,8 +5,183 @@
 #include <stdlib.h>
 
 #include "driver/open/digits.h"
-#include "driver/report/house_data.h"
+#include "driver/report/page.h"
+#include "runtime/base/length_style.h"
 #include "runtime/house/picture/draw.h"
+
+typedef struct tn_house_reporting {
+    const tn_house_report *report;
+    const tn_module *module;
+    tn_page page;
+} tn_house_reporting;
+
+/* ---- the form of a report of houses */
+
+/* A length in the units of the schema. */
+static bool house_put_length(const tn_house_reporting *r, int64_t length)
+{
+    const tn_schema *schema = r->report->form->schema;
+    char text[48];
+    const char *width = tn_text(schema->module, schema->values[schema->value_start[r->report->form->width]].name);
+    tn_length_write_style(length, tn_length_style_of(width), text, sizeof text);
+    return tn_page_text(&r->page, text);
+}
+
+/* The text of a record's place in its source. */
+static bool put_source(const tn_house_reporting *r, uint32_t file, uint32_t begin, uint32_t end)
+{
+    const char *text = tn_text(r->module, r->module->SOURCE_records[file].text);
+    return tn_page_html(&r->page, "<code>") && tn_page_text_part(&r->page, text + begin, end - begin) &&
+           tn_page_html(&r->page, "</code>");
+}
+
+static bool put_name(const tn_house_reporting *r, tn_string name, tn_string doc)
+{
+    return tn_page_html(&r->page, "<tr><td>") && tn_page_text(&r->page, tn_text(r->module, name)) &&
+           tn_page_html(&r->page, "</td><td>") && tn_page_text(&r->page, tn_text(r->module, doc)) &&
+           tn_page_html(&r->page, "</td><td>");
+}
+
+static bool put_storeys(const tn_house_reporting *r)
+{
+    const tn_form_record *form = r->report->form->record;
+    bool good = tn_page_html(&r->page, "<h2 id=\"storeys\">Storeys</h2>\n<table class=\"words\"><tr><th>storey</th>"
+                                       "<th></th><th>from floor to floor</th></tr>\n");
+    for (uint32_t i = 0; good && i < form->storey_count; i++) {
+        const tn_storey_record *storey = &r->module->STOREY_records[form->storey_first + i];
+        good = put_name(r, storey->name, storey->doc) && house_put_length(r, storey->height) &&
+               tn_page_html(&r->page, "</td></tr>\n");
+    }
+    return good && tn_page_html(&r->page, "</table>\n");
+}
+
+/* Functions with the cells that may have them; then what cells are open or not there. */
+static bool put_functions(const tn_house_reporting *r)
+{
+    const tn_form_record *form = r->report->form->record;
+    bool good = tn_page_html(&r->page, "<h2 id=\"functions\">Functions</h2>\n<table class=\"words\"><tr><th>function"
+                                       "</th><th></th><th>where it may be</th></tr>\n");
+    for (uint32_t i = 0; good && i < form->rule_count; i++) {
+        const tn_cell_rule_record *rule = tn_form_rule(r->report->form, i);
+        good = put_name(r, rule->name, rule->doc) && put_source(r, rule->file, rule->begin, rule->end) &&
+               tn_page_html(&r->page, "</td></tr>\n");
+    }
+    return good && tn_page_html(&r->page, "</table>\n");
+}
+
+static bool put_openings(const tn_house_reporting *r)
+{
+    const tn_form_record *form = r->report->form->record;
+    bool good = tn_page_html(&r->page, "<h2 id=\"openings\">Openings</h2>\n<table class=\"words\"><tr><th>opening</th>"
+                                       "<th></th><th>what it is</th></tr>\n");
+    for (uint32_t i = 0; good && i < form->opening_count; i++) {
+        const tn_opening_record *opening = &r->module->OPENING_records[form->opening_first + i];
+        good = put_name(r, opening->name, opening->doc) && put_source(r, opening->file, opening->begin, opening->end) &&
+               tn_page_html(&r->page, "</td></tr>\n");
+    }
+    good =
+        good && tn_page_html(&r->page, "</table>\n<p>What may be in a face; the first line that applies decides:</p>\n"
+                                       "<pre>");
+    for (uint32_t i = 0; good && i < form->face_count; i++) {
+        const tn_face_line_record *line = &r->module->FACE_LINE_records[form->face_first + i];
+        good = put_source(r, line->file, line->begin, line->end) && tn_page_html(&r->page, "\n");
+    }
+    return good && tn_page_html(&r->page, "</pre>\n");
+}
+
+/* ---- tiles */
+
+#define MORE_ROOM INT64_C(304800000)   /* a foot beyond what the boxes need: it can be larger */
+#define LEAST_ROOM INT64_C(2438400000) /* 8', where boxes go from wall to wall */
+enum { DRAWN_WIDE = 200 };             /* points */
+
+/* A stretch that is measured from the far side where so, in a room of that size. */
+static void stretch(int64_t from, int64_t to, bool from_far, bool to_far, int64_t size, int64_t *low, int64_t *high)
+{
+    int64_t a = from_far ? size - from : from, b = to_far ? size - to : to;
+    *low = a < b ? a : b;
+    *high = a < b ? b : a;
+}
+
+static int64_t needed(int64_t from, int64_t to, bool from_far, bool to_far)
+{
+    return from_far != to_far ? from + to : from > to ? from : to;
+}
+
+/* As large a room as the tile asks for, somewhat larger than its boxes, and not too small. */
+static void find_room(const tn_house_reporting *r, const tn_tile_record *tile, int64_t *wide, int64_t *deep)
+{
+    *wide = *deep = LEAST_ROOM - MORE_ROOM;
+    for (uint32_t i = 0; i < tile->box_count; i++) {
+        const tn_tile_box_record *box = &r->module->TILE_BOX_records[tile->box_first + i];
+        int64_t x = needed(box->x_from, box->x_to, box->flags & TN_TILE_X_FROM_RIGHT, box->flags & TN_TILE_X_TO_RIGHT);
+        int64_t y = needed(box->y_from, box->y_to, box->flags & TN_TILE_Y_FROM_FRONT, box->flags & TN_TILE_Y_TO_FRONT);
+        *wide = x > *wide ? x : *wide;
+        *deep = y > *deep ? y : *deep;
+    }
+    *wide = *wide + MORE_ROOM > tile->wide_least ? *wide + MORE_ROOM : tile->wide_least;
+    *deep = *deep + MORE_ROOM > tile->deep_least ? *deep + MORE_ROOM : tile->deep_least;
+}
+
+static bool put_box(const tn_house_reporting *r, const tn_tile_box_record *box, int64_t wide, int64_t deep)
+{
+    int64_t x[2], y[2];
+    double scale = DRAWN_WIDE / (double)wide;
+    bool keep = box->flags & TN_TILE_KEEP;
+    stretch(box->x_from, box->x_to, box->flags & TN_TILE_X_FROM_RIGHT, box->flags & TN_TILE_X_TO_RIGHT, wide, &x[0],
+            &x[1]);
+    stretch(box->y_from, box->y_to, box->flags & TN_TILE_Y_FROM_FRONT, box->flags & TN_TILE_Y_TO_FRONT, deep, &y[0],
+            &y[1]);
+    return tn_buffer_printf(
+               r->page.text, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" %s><title>",
+               (double)x[0] * scale, (double)y[0] * scale, (double)(x[1] - x[0]) * scale, (double)(y[1] - y[0]) * scale,
+               keep ? "fill=\"none\" stroke=\"#777\" stroke-dasharray=\"3 2\"" : "fill=\"#d9cfb8\" stroke=\"#444\"") &&
+           tn_page_text(&r->page, tn_text(r->module, box->name)) &&
+           tn_page_html(&r->page, keep ? ", kept free</title></rect>\n" : "</title></rect>\n");
+}
+
+/* Seen from above, its back at the top. */
+static bool put_drawn(const tn_house_reporting *r, const tn_tile_record *tile)
+{
+    int64_t wide, deep;
+    find_room(r, tile, &wide, &deep);
+    double high = (double)deep * DRAWN_WIDE / (double)wide;
+    bool good = tn_buffer_printf(r->page.text,
+                                 "<figure><svg width=\"%d\" height=\"%.0f\" viewBox=\"-2 -2 %d %.2f\" role=\"img\" "
+                                 "aria-label=\"the tile from above, its back at the top\">\n<rect x=\"0\" y=\"0\" "
+                                 "width=\"%d\" height=\"%.2f\" fill=\"#fff\" stroke=\"#bbb\"/>\n"
+                                 "<path d=\"M0 0H%d\" stroke=\"#222\" stroke-width=\"3\"/>\n",
+                                 DRAWN_WIDE + 4, high + 4, DRAWN_WIDE + 4, high + 4, DRAWN_WIDE, high, DRAWN_WIDE);
+    for (int keeps = 0; good && keeps < 2; keeps++)
+        for (uint32_t i = 0; good && i < tile->box_count; i++) {
+            const tn_tile_box_record *box = &r->module->TILE_BOX_records[tile->box_first + i];
+            if (((box->flags & TN_TILE_KEEP) != 0) == (keeps == 1))
+                good = put_box(r, box, wide, deep);
+        }
+    return good && tn_page_html(&r->page, "</svg></figure>\n");
+}
+
+static bool put_tiles(const tn_house_reporting *r)
+{
+    const tn_form_record *form = r->report->form->record;
+    bool good =
+        tn_page_html(&r->page, "<h2 id=\"tiles\">Tiles</h2>\n<p>From above, in a room that is large enough. The "
+                               "dark line is the back; dashed boxes are kept free.</p>\n<div class=\"cards\">\n");
+    for (uint32_t i = 0; good && i < form->tile_count; i++) {
+        const tn_tile_record *tile = &r->module->TILE_records[form->tile_first + i];
+        good = tn_page_html(&r->page, "<div class=\"card\"><h3>") &&
+               tn_page_text(&r->page, tn_text(r->module, tile->name)) && tn_page_html(&r->page, "</h3>\n") &&
+               put_drawn(r, tile) && tn_page_html(&r->page, "<details><summary>in words</summary><pre>") &&
+               put_source(r, tile->file, tile->begin, tile->end) && tn_page_html(&r->page, "</pre></details></div>\n");
+    }
+    return good && tn_page_html(&r->page, form->tile_count ? "</div>\n" : "</div>\n<p class=\"quiet\">none</p>\n");
+}
+
+/* What the form declares: storeys, functions, openings, faces, and tiles with their boxes. */
+static bool house_report_form(const tn_house_reporting *r)
+{
+    return put_storeys(r) && put_functions(r) && put_openings(r) && put_tiles(r);
+}
 
 static bool put_number(const tn_house_reporting *r, const mpz_t number)
 {
@@ -137,10 +312,10 @@ static bool put_head(const tn_house_reporting *r)
            tn_page_text(&r->page, tn_text(r->module, form->name)) &&
            tn_page_html(&r->page, "</b>, on the plans of <b>") &&
            tn_page_text(&r->page, tn_text(r->module, r->module->LIBRARY_records[report->library->plans].name)) &&
-           tn_page_html(&r->page, "</b>: walls ") && tn_house_put_length(r, form->wall) &&
-           tn_page_html(&r->page, " thick, partitions ") && tn_house_put_length(r, form->partition) &&
-           tn_page_html(&r->page, ", decks ") && tn_house_put_length(r, form->deck) &&
-           tn_page_html(&r->page, ", roofs ") && tn_house_put_length(r, form->roof) &&
+           tn_page_html(&r->page, "</b>: walls ") && house_put_length(r, form->wall) &&
+           tn_page_html(&r->page, " thick, partitions ") && house_put_length(r, form->partition) &&
+           tn_page_html(&r->page, ", decks ") && house_put_length(r, form->deck) &&
+           tn_page_html(&r->page, ", roofs ") && house_put_length(r, form->roof) &&
            tn_page_html(&r->page, ".</p>\n<nav><a href=\"#counts\">Counts</a> <a href=\"#clauses\">Clauses</a> "
                                   "<a href=\"#houses\">Houses</a> <a href=\"#storeys\">Storeys</a> "
                                   "<a href=\"#functions\">Functions</a> <a href=\"#openings\">Openings</a> "
@@ -154,7 +329,7 @@ tn_status tn_house_report_page(const tn_house_report *report, tn_buffer *page, t
     if (status == TN_OK)
         status = put_houses(&r);
     return status == TN_OK
-               ? tn_page_written(&r.page, tn_house_report_form(&r) && tn_page_findings(&r.page, report->opened) &&
+               ? tn_page_written(&r.page, house_report_form(&r) && tn_page_findings(&r.page, report->opened) &&
                                               tn_page_html(&r.page, "<p class=\"quiet\">") &&
                                               tn_page_version(&r.page, r.module) &&
                                               tn_page_html(&r.page, "</p>\n</html>\n"))
