@@ -44,6 +44,19 @@ export function rangeAbout(value: string): Range | null {
   return {from: sign < 0 ? -most : 0, to: sign < 0 ? 0 : most, step: 10 ** -fine, places: fine, unit: read[2] ?? ""};
 }
 
+// A number of another notation than plans: about what it is, as far as checking lets it go. What checking allows may be far wider
+// than what a slider can tell apart.
+export function rangeWithin(setting: Pick<ShownSetting, "value" | "least" | "most">): Range | null {
+  const about = rangeAbout(setting.value);
+  if (!about) return null;
+  const bound = (text: string | undefined, otherwise: number) => {
+    const read = text === undefined ? null : VALUE.exec(text);
+    return read && (read[2] ?? "") === about.unit ? Number(read[1]) : otherwise;
+  };
+  const range = {...about, from: Math.max(about.from, bound(setting.least, about.from)), to: Math.min(about.to, bound(setting.most, about.to))};
+  return range.from < range.to ? range : null;
+}
+
 export function within({from, to, places, unit}: Range, text: string): boolean {
   const read = VALUE.exec(text);
   return read !== null && (read[2] ?? "") === unit && Number(read[1]) >= from && Number(read[1]) <= to && (read[1].split(".")[1]?.length ?? 0) <= places;
@@ -149,7 +162,7 @@ export class Sliders {
   }
 
   private number(setting: Named): HTMLElement {
-    const range = setting.part === undefined ? rangeOf(setting) : setting.least === undefined && setting.most === undefined ? rangeAbout(setting.value) : rangeOf(setting);
+    const range = this.desk.file()!.path.endsWith(".plan") ? rangeOf(setting) : rangeWithin(setting);
     const readOnly = this.desk.file()!.readOnly;
     if (!range) {
       const field = h("input", {type: "text", size: 8, disabled: readOnly, onchange: () => this.put(setting.key, field.value)});

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import {rangeAbout, rangeOf, within, written} from "../src/sliders";
+import {rangeAbout, rangeOf, rangeWithin, within, written} from "../src/sliders";
 import {requirement, spelled} from "../src/measures";
 import {item, pattern} from "../src/open_plan";
 import type {ShownSchema} from "../src/requests";
@@ -25,6 +25,13 @@ test("what a slider goes between where nothing bounds it", () => {
   assert.equal(rangeAbout("[.75]"), null);
   assert.ok(within(rangeAbout("30")!, "60"));
   for (const text of ["61", "-1", "30.5", "30mm", "thirty"]) assert.equal(within(rangeAbout("30")!, text), false);
+});
+
+test("what a slider goes between where checking bounds it widely, or from one side", () => {
+  assert.deepEqual(rangeWithin({value: "30", least: "2", most: "8192"}), {from: 2, to: 60, step: 1, places: 0, unit: ""});
+  assert.deepEqual(rangeWithin({value: "0.25", least: "0", most: "0.3"}), {from: 0, to: 0.3, step: 0.01, places: 2, unit: ""});
+  assert.deepEqual(rangeWithin({value: "7", least: "1"}), {from: 1, to: 14, step: 1, places: 0, unit: ""});
+  assert.equal(rangeWithin({value: "2", least: "40"}), null);
 });
 
 test("values of measures in the words of the file", () => {
