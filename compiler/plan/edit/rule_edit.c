@@ -152,7 +152,7 @@ static const struct box {
              {"many(", ")", TN_BINDS_PRIMARY, TN_BINDS_NOTHING},
              {"neighbour(", ")", TN_BINDS_PRIMARY, TN_BINDS_NOTHING},
              {"optional(", ")", TN_BINDS_PRIMARY, TN_BINDS_NOTHING},
-             {"distance(from ", ", to any, by any)", TN_BINDS_PRIMARY, TN_BINDS_NOTHING}};
+             {"distance(from ", ", to any, by quantity(any, n >= 1))", TN_BINDS_PRIMARY, TN_BINDS_NOTHING}};
 
 const char *const tn_rule_wraps[] = {"not",       "symmetric", "quantity", "occurrences", "many",
                                      "neighbour", "optional",  "distance", NULL};

@@ -9,6 +9,7 @@ import {Measures} from "./measures";
 import {counted, grouped} from "./numbers";
 import {OpenPlan} from "./open_plan";
 import {Refused, Stale} from "./questions";
+import {RulePane} from "./rule_pane";
 import type {CountedHouses, CountedPlans, ShownFile, ShownLibrary} from "./requests";
 import {Sheet} from "./sheet";
 import {Sliders} from "./sliders";
@@ -31,6 +32,8 @@ export class LibraryRoom {
   readonly watchedPlans: Watched;
   shown: ShownFile | null = null;
   library: ShownLibrary | null = null;
+  counts: CountedPlans | null = null; // of the library, as it was when it was last counted
+  readonly rule: RulePane;
   private head = h("header", {class: "library-head"});
   private trouble = h("div", {class: "trouble-bar", role: "status", hidden: true});
   private content = h("div", {class: "content"});
@@ -41,6 +44,7 @@ export class LibraryRoom {
   private panes: Pane[];
   private pane = "plans";
   private tabs = h("div", {class: "tabs", role: "tablist", "aria-label": "The library"});
+  private before = ""; // the pane that was shown before there was no library
   private wanted = ""; // the library that was chosen, by its name
   private run = 0;
 
@@ -51,6 +55,7 @@ export class LibraryRoom {
     this.addRule = new AddRule(desk);
     this.why = new Why(desk);
     this.watchedPlans = new Watched(desk);
+    this.rule = new RulePane(desk);
     const measures = new Measures(desk);
     const open = new OpenPlan(desk);
     const changes = new Changes(desk);
@@ -58,6 +63,7 @@ export class LibraryRoom {
     const plans = h("div", {class: "plans-pane"}, h("div", {class: "main-column"}, this.watchedPlans.element, this.sheet.element), this.facts.element);
     this.panes = [
       {key: "plans", label: "Plans", element: plans, refresh: async () => {}},
+      {key: "rule", label: "Rule", element: this.rule.element, refresh: () => this.rule.refresh()},
       {key: "measures", label: "Measures", element: measures.element, refresh: () => measures.refresh()},
       {key: "open", label: "Open plan", element: open.element, refresh: () => open.refresh()},
       {key: "changes", label: "What changed", element: changes.element, refresh: () => changes.refresh()},
@@ -92,7 +98,9 @@ export class LibraryRoom {
   }
 
   choose(key: string): void {
+    if (this.pane === "rule" && key !== "rule") this.rule.leave();
     this.pane = key;
+    this.element.dataset.pane = key;
     for (const tab of this.tabs.children) {
       const on = tab.id === `tab-${key}`;
       tab.setAttribute("aria-selected", String(on));
@@ -121,7 +129,9 @@ export class LibraryRoom {
     this.sliders.clear();
     this.sheet.reset();
     this.facts.clear();
+    this.counts = null;
     this.resetPanes();
+    this.rule.reset();
     if (this.why.open) this.why.close();
     this.trouble.hidden = true;
     fill(this.head);
@@ -140,6 +150,7 @@ export class LibraryRoom {
     if (!plan) return this.other(run);
     this.element.classList.add("stale");
     try {
+      if (this.pane === "rule") await this.rule.follow();
       await this.ask(run);
       this.fresh();
     } catch (failure) {
@@ -164,7 +175,10 @@ export class LibraryRoom {
     this.content.classList.remove("waiting");
     if (!this.library) return this.withoutLibrary();
     this.panes[0].element.classList.remove("no-library");
+    this.element.classList.remove("without-library");
     this.tabs.hidden = false;
+    if (this.before) this.choose(this.before);
+    this.before = "";
     const steps = [
       () => this.attempt(() => this.sheet.refresh(), this.sheet.element),
       () => this.count(this.library!, libraries),
@@ -186,8 +200,12 @@ export class LibraryRoom {
       h("pre", null, `library plans using ${this.shown?.schemas.at(-1)?.name ?? "SCHEMA"} {\n  trays 3..5\n}`));
     this.sheet.reset();
     this.facts.clear();
-    this.tabs.hidden = true;
-    this.panes.forEach((pane) => (pane.element.hidden = true));
+    this.counts = null;
+    this.element.classList.add("without-library");
+    this.tabs.hidden = !this.shown?.schemas.length;
+    if (this.tabs.hidden) return this.panes.forEach((pane) => (pane.element.hidden = true));
+    if (this.pane !== "rule") this.before = this.pane;
+    this.choose("rule");
   }
 
   private async count(library: ShownLibrary, libraries: ShownLibrary[]): Promise<void> {
@@ -197,10 +215,12 @@ export class LibraryRoom {
     if (library.form) {
       const houses = answer as CountedHouses;
       this.renderHead(library, libraries, houses.houses, ["houses", `on ${counted(houses.plans_with_houses ?? houses.plans)} plans`]);
+      this.counts = null;
       this.facts.houses(library, houses);
     } else {
       const plans = answer as CountedPlans;
       this.renderHead(library, libraries, plans.kept, [plans.kept === "1" ? "plan kept" : "plans kept", `of ${counted(plans.generated)} generated`]);
+      this.counts = plans;
       this.facts.count(library, plans);
     }
   }
