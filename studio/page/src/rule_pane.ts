@@ -106,23 +106,28 @@ export class RulePane {
     if (this.drawnVersion !== this.desk.file()?.current) await this.redraw();
   }
 
-  // What asks for other things of the text may end these questions; they are asked again then.
   private async redraw(): Promise<void> {
     this.picture.busy(true);
-    for (let i = 0; i < TRIES; i++) {
+    try {
+      await this.insist(() => this.draw());
+    } catch (failure) {
+      if (failure instanceof Refused) this.keepOld(failure);
+      else if (!(failure instanceof Stale)) throw failure;
+    }
+    this.picture.busy(this.rule !== null && this.drawnVersion !== this.desk.file()?.current);
+  }
+
+  // What is asked anew after a change of the text ends all questions before; that is no reason to leave one that is about
+  // the same text.
+  private async insist<T>(work: () => Promise<T>): Promise<T> {
+    for (let i = 1; ; i++) {
       const text = this.desk.file()?.current;
       try {
-        await this.draw();
-        break;
+        return await work();
       } catch (failure) {
-        if (failure instanceof Stale && this.desk.file()?.current === text) continue;
-        if (failure instanceof Stale) break; // the next text draws it
-        if (!(failure instanceof Refused)) throw failure;
-        this.keepOld(failure);
-        break;
+        if (!(failure instanceof Stale) || i === TRIES || this.desk.file()?.current !== text) throw failure;
       }
     }
-    this.picture.busy(this.drawnVersion !== this.desk.file()?.current && this.rule !== null);
   }
 
   // The same with what follows.
@@ -261,7 +266,7 @@ export class RulePane {
   }
 
   private async make(name: string): Promise<void> {
-    const answer = await this.desk.questions.ask("rule_edit", {rule: name, operation: "new", at: this.cursor}, "rule");
+    const answer = await this.insist(() => this.desk.questions.ask("rule_edit", {rule: name, operation: "new", at: this.cursor}, "rule"));
     this.making.querySelector(".refused")?.remove();
     if (answer.why_not) {
       this.making.append(h("p", {class: "trouble refused", role: "alert"}, withCode(answer.why_not)));
@@ -293,7 +298,7 @@ export class RulePane {
     if (this.rule && this.drawnVersion !== this.desk.file()?.current) return this.redraw(); // what was pressed is no more
     if (!this.rule || this.readOnly) return;
     this.hideRefusal();
-    const answer = await this.desk.questions.ask("rule_edit", {rule: this.rule.rule, ...operation}, "rule");
+    const answer = await this.insist(() => this.desk.questions.ask("rule_edit", {rule: this.rule!.rule, ...operation}, "rule"));
     if (answer.why_not) return this.refuse(answer.why_not, near);
     this.apply(answer);
     if (answer.part !== undefined) this.picture.chosen = answer.part;
