@@ -225,3 +225,185 @@ test("the rules of Figure 8 by the keyboard alone", async (t) => {
   await page.keyboard.press("Enter");
   await becomes(page, "d", saidBy(LAHAVE, "stranded"));
 });
+
+// ---- other things that a picture is used for
+
+const BAY = ROWS.replace("library rows", `rule wide "a wide room beside a stair" =
+  neighbour(tray(room, 6m), tray(stair))
+
+library rows`);
+
+test("a rule of another schema: boxes of words, values of each field, ranges, joined and denied", async (t) => {
+  const page = await begin(t, {files: {"rows.plan": BAY}});
+  await page.locator("#rule-name").selectOption("wide");
+  await part(page, 1).waitFor();
+  await page.locator(".rule-drawing").focus();
+  await keys(page, "Home", "ArrowRight");
+  const menu = page.locator(".rule-menu");
+  const field = (name) => menu.locator("fieldset", {has: page.locator("legend", {hasText: new RegExp(`^${name}`)})});
+  await menu.getByRole("heading", {name: "a tray: room, 6m"}).waitFor();
+  await field("use").getByRole("button", {name: "hall"}).click();
+  await becomes(page, "wide", "neighbour(tray(room or hall, 6m), tray(stair))");
+  await field("use").getByRole("button", {name: "not"}).click();
+  await becomes(page, "wide", "neighbour(tray(not (room or hall), 6m), tray(stair))");
+  await field("use").getByRole("button", {name: "any"}).click();
+  await becomes(page, "wide", "neighbour(tray(6m), tray(stair))");
+  await field("width").locator("summary").click();
+  await field("width").getByRole("textbox").fill("width >=");
+  await page.keyboard.press("Enter");
+  await page.locator(".refusal", {hasText: "A length is missing."}).waitFor();
+  await inspected(page, "a refusal");
+  await field("width").getByRole("textbox").fill("width >= 4m");
+  await page.keyboard.press("Enter");
+  await becomes(page, "wide", "neighbour(tray(width >= 4m), tray(stair))");
+  await page.getByRole("button", {name: "one more"}).isHidden();
+  await page.getByText("its text").click();
+  await page.getByLabel("The text of this part").fill("narrow-hall");
+  await page.keyboard.press("Enter");
+  await becomes(page, "wide", "neighbour(narrow-hall, tray(stair))");
+});
+
+test("parts are moved, pulled out and thrown away, and what cannot be is said", async (t) => {
+  const page = await begin(t, {files: {"rows.plan": BAY}});
+  await page.locator("#rule-name").selectOption("wide");
+  await part(page, 2).waitFor();
+  await drag(page, part(page, 2), part(page, 1), LEFT);
+  await becomes(page, "wide", "neighbour(tray(stair), tray(room, 6m))");
+  await put(page, "symmetric", 1);
+  await page.locator(".refusal", {hasText: "is for a neighbour"}).waitFor();
+  await put(page, "not", 1);
+  await becomes(page, "wide", "neighbour(not tray(stair), tray(room, 6m))");
+  assert.ok(await page.locator(".refusal").isHidden());
+  await drag(page, part(page, 2), part(page, 1), [0.5, 0.06]);
+  await becomes(page, "wide", "neighbour(tray(stair), tray(room, 6m))");
+  const [x, y] = await at(part(page, 1));
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 20, y + 20, {steps: 3});
+  const [binX, binY] = await at(page.locator(".bin"));
+  await page.mouse.move(binX, binY, {steps: 3});
+  await page.mouse.up();
+  await becomes(page, "wide", "neighbour(tray(room, 6m))");
+  await page.locator(".palette summary").click();
+  await drag(page, palette(page, "rule-narrow-hall"), part(page, 1), MIDDLE);
+  await becomes(page, "wide", "neighbour(narrow-hall)");
+  // By the keyboard: what is carried is put beside another part.
+  await page.locator(".rule-drawing").focus();
+  await keys(page, "Home", "a");
+  await becomes(page, "wide", "neighbour(narrow-hall) and any");
+  await keys(page, "End", "x", "Home", "ArrowRight", "ArrowRight", "Enter");
+  await until(page, "ArrowDown", labelled("before it in the row"));
+  await page.keyboard.press("Enter");
+  await becomes(page, "wide", "neighbour(any, narrow-hall)");
+  await keys(page, "End", "Delete", "Home", "e");
+  await becomes(page, "wide", "any");
+});
+
+test("undo and redo, in the editor and beside it", async (t) => {
+  const page = await begin(t, {files: {"rows.plan": BAY}});
+  const before = await text(page);
+  await page.locator("#rule-name").selectOption("wide");
+  await put(page, "not", 1);
+  await becomes(page, "wide", "neighbour(not tray(room, 6m), tray(stair))");
+  await put(page, "any", 3, RIGHT);
+  await becomes(page, "wide", "neighbour(not tray(room, 6m), tray(stair), any)");
+  await page.keyboard.press("Control+z");
+  await becomes(page, "wide", "neighbour(not tray(room, 6m), tray(stair))");
+  await page.locator("#rule-undo").click();
+  await becomes(page, "wide", "neighbour(tray(room, 6m), tray(stair))");
+  assert.equal(await text(page), before, "the same bytes");
+  await page.locator("#rule-redo").click();
+  await becomes(page, "wide", "neighbour(not tray(room, 6m), tray(stair))");
+  await write(page, {over: "not tray", typed: "tray"});
+  await becomes(page, "wide", "neighbour(tray(room, 6m), tray(stair))");
+  await page.keyboard.press("Control+z");
+  await becomes(page, "wide", "neighbour(not tray(room, 6m), tray(stair))");
+  assert.equal(await page.locator(".rule-stage svg text", {hasText: /^not$/}).count(), 1, "the picture follows the editor");
+});
+
+test("a rule that cannot be read keeps its last picture, in grey", async (t) => {
+  const page = await begin(t, {files: {"rows.plan": BAY}});
+  await page.locator("#rule-name").selectOption("wide");
+  await part(page, 2).waitFor();
+  await write(page, {over: "6m), tray(stair))", typed: "6m), tray(stair"});
+  await page.locator(".rule-drawing.old svg").waitFor();
+  await page.getByText("This is the picture of the text as it was before.").waitFor();
+  await page.locator(".trouble-bar").waitFor();
+  await inspected(page, "an old picture");
+  await part(page, 1).click();
+  await write(page, {over: "6m), tray(stair", typed: "6m), tray(stair, 3m))"});
+  await becomes(page, "wide", "neighbour(tray(room, 6m), tray(stair, 3m))");
+  assert.ok(await page.locator(".rule-message").isHidden());
+});
+
+test("two windows on one file", {skip: PLAYGROUND ? "one page has no other window" : false}, async (t) => {
+  const {address} = await serve(t, folder(t, {"rows.plan": BAY}));
+  const pages = [];
+  for (let i = 0; i < 2; i++) {
+    const page = await visit(t, address);
+    await page.locator("#count").waitFor();
+    await page.getByRole("tab", {name: "Rule", exact: true}).click();
+    await page.locator("#rule-name").selectOption("wide");
+    await part(page, 2).waitFor();
+    pages.push(page);
+  }
+  await put(pages[0], "not", 2);
+  await becomes(pages[0], "wide", "neighbour(tray(room, 6m), not tray(stair))");
+  await save(pages[0]);
+  await becomes(pages[1], "wide", "neighbour(tray(room, 6m), not tray(stair))");
+  await pages[1].locator(".rule-stage svg text", {hasText: /^not$/}).waitFor();
+});
+
+test("what a rule does to the library, from the list of clauses and as a clause", async (t) => {
+  const page = await begin(t, {files: {"rows.plan": BAY}});
+  await page.getByRole("tab", {name: "Plans"}).click();
+  await page.getByRole("button", {name: "narrow-hall as a picture"}).click();
+  const effect = page.locator(".rule-effect");
+  await effect.getByText(/^It leaves out [\d,]+ of [\d,]+ plans/).waitFor();
+  const plan = await effect.locator(".card").getAttribute("title");
+  assert.match(plan, /hall 3m/, "the plan that is shown is one that it leaves out");
+  await page.locator("#rule-name").selectOption("wide");
+  await effect.getByText(/^No clause of rows asks for it/).waitFor();
+  await effect.getByRole("button", {name: "Leave such plans out"}).click();
+  assert.match(await text(page), /\n  prune wide\n}/);
+  await effect.getByText(/^It leaves out [\d,]+ of/).waitFor();
+});
+
+test("the cursor of the editor chooses the rule", async (t) => {
+  const page = await begin(t, {files: {"rows.plan": BAY}});
+  await page.locator(".rule-stage svg").waitFor();
+  await write(page, {after: "neighbour(tray(room, 6m), tray(sta", typed: ""});
+  await page.waitForFunction(() => document.querySelector("#rule-name").value === "wide");
+});
+
+test("a file without a library has pictures of its rules all the same", async (t) => {
+  const {address} = await serve(t, folder(t, {"only.plan": 'use "lahave"\nrule pair = neighbour(tray(4\'), tray(4\'))\n'}));
+  const page = await visit(t, address);
+  await part(page, 2).waitFor();
+  await put(page, "not", 2);
+  await becomes(page, "pair", "neighbour(tray(4'), not tray(4'))");
+});
+
+const FAR = `${START}
+rule far "Fig. 8d" = # as the paper has it
+  ${saidBy(LAHAVE, "stranded")}
+`;
+
+for (const width of [1280, 390])
+  for (const dark of [false, true])
+    test(`the picture in a window ${width} points wide, ${dark ? "dark" : "light"}`, async (t) => {
+      const page = await begin(t, {files: {"small.plan": FAR}, width, height: 844, dark});
+      await part(page, 4).waitFor();
+      await page.locator(".rule-effect .rule-count").waitFor();
+      await inspected(page, "the whole");
+      await page.locator(".rule-drawing").focus();
+      await keys(page, "End");
+      await page.locator(".rule-menu fieldset").first().waitFor();
+      await inspected(page, "a tray");
+      await palette(page, "any").click();
+      await page.getByRole("heading", {name: /Where does/}).waitFor();
+      await inspected(page, "where something goes");
+      await page.locator(".rule-menu").getByRole("button", {name: "leave it"}).click();
+      await page.locator("#new-rule").click();
+      await inspected(page, "a new rule");
+    });

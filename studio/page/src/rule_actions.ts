@@ -52,8 +52,8 @@ function itself(rule: RuleShown, part: number): Action[] {
   const parent = parentOf(rule, part);
   const found: Action[] = [];
   const own = childrenOf(rule, part);
-  if (parent) found.push({key: "u", label: `pull it out of ${parent.kind}`, about: "", group: "part", operation: {operation: "unwrap", part: parent.number, at: indexOf(rule, part)}});
-  if (own.length === 1) found.push({key: "e", label: `take ${rule.parts[part].kind} away from around it`, about: "", group: "part", operation: {operation: "unwrap", part, at: 0}});
+  if (parent) found.push({key: "u", label: "pull it out", about: `of ${parent.kind}, which goes`, group: "part", operation: {operation: "unwrap", part: parent.number, at: indexOf(rule, part)}});
+  if (own.length === 1) found.push({key: "e", label: "take the box away", about: "what is in it stays", group: "part", operation: {operation: "unwrap", part, at: 0}});
   found.push({key: DELETE, label: "remove it", about: "", group: "part", operation: {operation: "remove", part}});
   return found;
 }

@@ -20,7 +20,7 @@ const FOLLOW_MS = 250;
 const TRIES = 4;
 const KEYS = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "Enter", "Escape", "Delete", "Backspace"];
 
-const HOW = "Drag parts and boxes onto the picture, and what is in it about or away. A click on a tray's sign gives it the next value. By the keyboard: arrows go from part to part, Enter to what can be done with it.";
+const HOW = "Drag parts and boxes onto the picture, and what is in it elsewhere. A click on a sign of a tray gives it the next value. Keys: arrows go from part to part, Enter to what can be done with it.";
 
 interface Point {
   x: number;
@@ -432,8 +432,13 @@ export class RulePane {
     const next = nextPart(this.rule, this.picture.chosen, key);
     if (next !== null) this.choosePart(next);
     else if (key === "Enter" || key === " ") this.enter();
-    else if (key === "Escape") this.leaveCarried();
+    else if (key === "Escape") this.leaveAll();
     else if (!this.carried && !this.readOnly) await this.letter(key === "Backspace" ? "Delete" : key);
+  }
+
+  private leaveAll(): void {
+    this.hideRefusal();
+    this.leaveCarried();
   }
 
   private enter(): void {

@@ -7,8 +7,12 @@ import {depthOf, inFew, isTray} from "./rule_parts";
 import {picture} from "./svg";
 
 const MARGIN = 12; // points around the whole
-const SCALE = 2.1; // pixels a point, where there is room
-const LEAST_SCALE = 1.15;
+const LEAST_SCALE = 1.15; // pixels a point
+
+// Small rules are drawn larger; a tall one is to be seen as a whole.
+function scaleOf({width, height}: Box): number {
+  return Math.min(Math.min(3, Math.max(2, 440 / width)), Math.max(1.6, 460 / height));
+}
 
 export interface Sign {
   part: number;
@@ -95,7 +99,7 @@ export class RulePicture {
     svg.setAttribute("viewBox", `${this.view.x} ${this.view.y} ${this.view.width} ${this.view.height}`);
     svg.querySelector(":scope > rect")?.remove();
     for (const title of svg.querySelectorAll(":scope > g > text")) title.remove();
-    this.stage.style.width = `${this.view.width * SCALE}px`;
+    this.stage.style.width = `${this.view.width * scaleOf(this.view)}px`;
     this.stage.style.minWidth = `${this.view.width * LEAST_SCALE}px`;
   }
 

@@ -98,8 +98,8 @@ export class Values {
         !isFlag(field) && h("button", {
           type: "button", id: `rule-${i}-not`, class: "deny", "aria-pressed": String(chosen.denied), disabled: !chosen.values.length,
           title: "all values but these", onclick: () => change({...chosen, denied: !chosen.denied}),
-        }, "not")),
-      this.written(part, row.at, row.item?.text ?? "", `rule-${i}-text`, field));
+        }, "not"),
+        this.written(part, row.at, row.item?.text ?? "", `rule-${i}-text`, field)));
   }
 
   // A field for what the values alone cannot say; it is open if that stands there.
@@ -109,7 +109,7 @@ export class Values {
       const made = edit(part, at, input.value.trim());
       if (made && input.value.trim() !== text.trim()) this.act(made);
     }});
-    return h("details", {class: "written", "data-key": id}, h("summary", null, "written"), input);
+    return h("details", {class: "written", "data-key": id}, h("summary", {id: `${id}-open`, title: "a range, or what else the values alone cannot say", "aria-label": `${field.name}, written`}, "…"), input);
   }
 
   private other(part: number, item: TrayItem, at: number): HTMLElement {
