@@ -181,7 +181,8 @@ tn_library_options tn_asked_options(const tn_library_asked *asked)
 static bool same_options(const tn_library_options *a, const tn_library_options *b)
 {
     return a->max_states == b->max_states && a->override_trays == b->override_trays && a->trays_min == b->trays_min &&
-           a->trays_max == b->trays_max && a->max_length == b->max_length && a->threads == b->threads && a->all_generated == b->all_generated;
+           a->trays_max == b->trays_max && a->max_length == b->max_length && a->threads == b->threads &&
+           a->all_generated == b->all_generated;
 }
 
 static bool is_kept(const tn_session *session, const char *name, const tn_library_options *options)
