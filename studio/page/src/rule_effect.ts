@@ -53,7 +53,7 @@ export class Effect {
     }
     const requirement = counts.requirements?.find((clause) => clause.name === rule);
     return requirement ? {
-      sentence: ["Only plans that match it are kept; it leaves out ", strong(requirement.keeps_out), "."],
+      sentence: ["Only plans that match it are kept. Of all that there could be, it leaves out ", strong(requirement.keeps_out), "."],
       example: "one that matches", from: {}, unused: false,
     } : null;
   }

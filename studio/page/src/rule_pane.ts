@@ -63,7 +63,7 @@ export class RulePane {
     });
     this.canvas = h("div", {class: "rule-canvas"}, this.picture.element, this.refusal, this.bin);
     this.element = h("section", {class: "pane rule-pane", "aria-label": "Rule"}, this.head, this.making, this.palette.element,
-      h("div", {class: "rule-body"}, h("div", {class: "rule-main"}, this.message, this.canvas, this.keys, this.effect.element), this.menu.element));
+      h("div", {class: "rule-body"}, h("div", {class: "rule-main"}, this.message, this.canvas, this.keys), this.menu.element, this.effect.element));
     this.listen(this.picture.element);
   }
 

@@ -112,7 +112,8 @@ export class RulePicture {
     this.frame.hidden = this.grip.hidden = !box;
     if (!box) return;
     this.lay(this.frame, box);
-    this.lay(this.grip, {...box, width: 0, height: 0});
+    this.grip.style.left = this.frame.style.left;
+    this.grip.style.top = this.frame.style.top;
     this.reveal();
   }
 
