@@ -1,23 +1,23 @@
 // A rule as a picture beside its text. The text is the only state: each edit of the picture is one of the text, after
 // which the picture is drawn again.
-import {isolateHistory, redo, undo} from "@codemirror/commands";
 import type {Desk} from "./desk";
 import {fill, h, later, withCode} from "./dom";
 import {freeName} from "./edits";
 import {Refused, Stale} from "./questions";
-import type {ChangedRule, RuleShown, ShownRule} from "./requests";
+import type {RuleShown, ShownRule} from "./requests";
 import {actionsOn} from "./rule_actions";
 import {Drag} from "./rule_drag";
 import {landingAt, type Carried, type Operation} from "./rule_drops";
 import {Effect} from "./rule_effect";
+import {Making} from "./rule_making";
 import {Menu} from "./rule_menu";
 import {Palette} from "./rule_palette";
 import {inFew, isTray} from "./rule_parts";
 import {RulePicture} from "./rule_picture";
+import {RuleText} from "./rule_text";
 import {nextPart} from "./rule_walk";
 
 const FOLLOW_MS = 250;
-const TRIES = 4;
 const KEYS = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "Enter", "Escape", "Delete", "Backspace"];
 
 const HOW = "Drag parts and boxes onto the picture, and what is in it elsewhere. A click on a sign of a tray gives it the next value. Keys: arrows go from part to part, Enter to what can be done with it.";
@@ -41,15 +41,23 @@ export class RulePane {
   private effect: Effect;
   private drag: Drag;
   private head = h("div", {class: "tools rule-head"});
-  private making = h("form", {class: "tools new-rule", hidden: true});
+  private making: Making;
+  private text: RuleText;
   private message = h("p", {class: "rule-message", role: "status", hidden: true});
   private refusal = h("p", {class: "refusal", role: "alert", hidden: true});
   private bin = h("div", {class: "bin", "aria-hidden": "true"}, "drop it here to remove it");
   private keys = h("p", {class: "hint rule-keys"}, HOW);
   private canvas: HTMLElement;
-  private follow_ = later(() => void this.followCursor(), FOLLOW_MS);
+  private followSoon = later(() => void this.followCursor(), FOLLOW_MS);
 
   constructor(private desk: Desk) {
+    this.text = new RuleText(desk);
+    this.making = new Making({
+      free: () => freeName(desk.file()?.text ?? "", "my-rule"),
+      make: (name) => this.queued(() => this.make(name)),
+      shown: (is) => this.head.querySelector("#new-rule")?.setAttribute("aria-expanded", String(is)),
+      cancelled: () => this.head.querySelector<HTMLElement>("#new-rule")?.focus(),
+    });
     this.palette = new Palette({press: (event, carried, label) => this.press(event, carried, label), put: (carried, label) => this.putAtChosen(carried, label), say: (sentence) => this.say(sentence)});
     this.menu = new Menu({act: (operation) => this.act(operation), move: (part) => this.carry({from: part}, inFew(this.rule!.parts[part])), back: () => this.backToPicture()});
     this.effect = new Effect(desk);
@@ -62,17 +70,13 @@ export class RulePane {
       },
     });
     this.canvas = h("div", {class: "rule-canvas"}, this.picture.element, this.refusal, this.bin);
-    this.element = h("section", {class: "pane rule-pane", "aria-label": "Rule"}, this.head, this.making, this.palette.element,
+    this.element = h("section", {class: "pane rule-pane", "aria-label": "Rule"}, this.head, this.making.element, this.palette.element,
       h("div", {class: "rule-body"}, h("div", {class: "rule-main"}, this.message, this.canvas, this.keys), this.menu.element, this.effect.element));
     this.listen(this.picture.element);
   }
 
   private get visible(): boolean {
     return !this.element.hidden && this.element.offsetParent !== null;
-  }
-
-  private get readOnly(): boolean {
-    return this.desk.file()?.readOnly ?? true;
   }
 
   // ---- which rule, and what the text says of it
@@ -83,7 +87,7 @@ export class RulePane {
     this.rules = [];
     this.forget();
     this.effect.clear();
-    this.making.hidden = true;
+    this.making.hide();
   }
 
   private forget(): void {
@@ -103,31 +107,18 @@ export class RulePane {
 
   // The text is another: the picture comes before all else.
   async follow(): Promise<void> {
-    if (this.drawnVersion !== this.desk.file()?.current) await this.redraw();
+    if (this.drawnVersion !== this.text.version) await this.redraw();
   }
 
   private async redraw(): Promise<void> {
     this.picture.busy(true);
     try {
-      await this.insist(() => this.draw());
+      await this.text.insist(() => this.draw());
     } catch (failure) {
       if (failure instanceof Refused) this.keepOld(failure);
       else if (!(failure instanceof Stale)) throw failure;
     }
-    this.picture.busy(this.rule !== null && this.drawnVersion !== this.desk.file()?.current);
-  }
-
-  // What is asked anew after a change of the text ends all questions before; that is no reason to leave one that is about
-  // the same text.
-  private async insist<T>(work: () => Promise<T>): Promise<T> {
-    for (let i = 1; ; i++) {
-      const text = this.desk.file()?.current;
-      try {
-        return await work();
-      } catch (failure) {
-        if (!(failure instanceof Stale) || i === TRIES || this.desk.file()?.current !== text) throw failure;
-      }
-    }
+    this.picture.busy(this.rule !== null && this.drawnVersion !== this.text.version);
   }
 
   // The same with what follows.
@@ -135,7 +126,7 @@ export class RulePane {
     const file = this.desk.file();
     if (!file) return;
     await this.follow();
-    this.rules = (await this.desk.questions.ask("schema", {}, "rules")).rules.filter((rule) => rule.schema);
+    this.rules = await this.text.rules();
     if (!this.rule && !this.picture.drawn && this.rules.length) {
       this.name = this.rules[0].name;
       await this.redraw();
@@ -153,58 +144,32 @@ export class RulePane {
 
   // The cursor of the editor stands elsewhere.
   cursorMoved(): void {
-    if (this.visible) this.follow_();
+    if (this.visible) this.followSoon();
   }
 
   private async followCursor(): Promise<void> {
     if (!this.visible) return;
     try {
-      const {rule} = await this.desk.questions.ask("rule_tree", {at: this.cursor}, "cursor");
+      const {rule} = await this.text.atCursor("cursor");
       if (rule !== this.name) await this.choose(rule);
     } catch (failure) {
       if (!(failure instanceof Stale || failure instanceof Refused)) throw failure;
     }
   }
 
-  private get cursor(): number {
-    return this.desk.editor.view.state.selection.main.head;
-  }
-
   private async draw(): Promise<void> {
-    const text = this.desk.file()?.current;
-    const tree = this.tree();
-    const known = this.name ? this.drawing(this.name) : null;
-    known?.catch(() => {});
-    const rule = await tree;
-    const svg = await (known && rule.rule === this.name ? known : this.drawing(rule.rule));
+    const {version} = this.text;
+    const {rule, svg} = await this.text.shown(this.name);
     this.name = rule.rule;
     this.rule = rule;
-    this.drawnVersion = text;
+    this.drawnVersion = version;
     this.message.hidden = true;
     this.picture.old(false);
     this.picture.show(rule, svg);
-    this.palette.element.hidden = this.readOnly;
+    this.palette.element.hidden = this.text.readOnly;
     this.palette.show(rule);
     this.showChosen();
     this.renderHead();
-  }
-
-  private async drawing(rule: string): Promise<string> {
-    return (await this.desk.questions.ask("rule_draw", {rule, format: "svg"}, "rule")).files[0]?.text ?? "";
-  }
-
-  // Of a rule that has another name by now, that in which the cursor stands.
-  private async tree(): Promise<RuleShown> {
-    const {questions} = this.desk;
-    if (!this.name) return questions.ask("rule_tree", {at: this.cursor}, "rule");
-    try {
-      return await questions.ask("rule_tree", {rule: this.name}, "rule");
-    } catch (failure) {
-      if (!(failure instanceof Refused)) throw failure;
-      return questions.ask("rule_tree", {at: this.cursor}, "rule").catch((other) => {
-        throw other instanceof Refused ? failure : other;
-      });
-    }
   }
 
   // There is no picture of what the text says now: the last one stays, in grey. What is wrong with the text is told in the
@@ -232,50 +197,23 @@ export class RulePane {
     const doc = this.rule?.doc;
     fill(this.head,
       names.length > 0 && h("select", {id: "rule-name", "aria-label": "Rule", onchange: (event: Event) => void this.choose((event.target as HTMLSelectElement).value)}, names.map((name) => h("option", {value: name, selected: name === this.name}, name))),
-      !this.readOnly && h("button", {type: "button", id: "new-rule", "aria-expanded": String(!this.making.hidden), onclick: () => this.showMaking()}, "New rule"),
-      !this.readOnly && this.rule && h("button", {type: "button", id: "rule-undo", class: "quiet", onclick: () => this.step(undo)}, "Undo"),
-      !this.readOnly && this.rule && h("button", {type: "button", id: "rule-redo", class: "quiet", onclick: () => this.step(redo)}, "Redo"),
+      !this.text.readOnly && h("button", {type: "button", id: "new-rule", "aria-expanded": String(this.making.open), onclick: () => this.making.show(true)}, "New rule"),
+      !this.text.readOnly && this.rule && h("button", {type: "button", id: "rule-undo", class: "quiet", onclick: () => this.step(() => this.text.undo())}, "Undo"),
+      !this.text.readOnly && this.rule && h("button", {type: "button", id: "rule-redo", class: "quiet", onclick: () => this.step(() => this.text.redo())}, "Redo"),
       doc && h("p", {class: "doc"}, doc));
-    if (!names.length) this.showMaking(false);
+    if (!names.length && !this.text.readOnly) this.making.show(false);
     if (focused && this.head.querySelector(`#${CSS.escape(focused)}`)) document.getElementById(focused)!.focus();
   }
 
   // ---- a new rule
 
-  private showMaking(focus = true): void {
-    if (!this.making.hidden && !focus) return;
-    const input = h("input", {type: "text", id: "new-rule-name", value: freeName(this.desk.file()?.text ?? "", "my-rule"), "aria-label": "The name of the new rule", autocomplete: "off", spellcheck: "false"});
-    fill(this.making, h("label", {for: "new-rule-name"}, "Its name"), input, h("button", {type: "submit", class: "primary"}, "Make it"),
-      h("button", {type: "button", class: "quiet", onclick: () => this.hideMaking()}, "Cancel"));
-    this.making.onsubmit = (event) => {
-      event.preventDefault();
-      this.queued(() => this.make(input.value.trim()));
-    };
-    this.making.hidden = false;
-    this.head.querySelector("#new-rule")?.setAttribute("aria-expanded", "true");
-    if (focus) {
-      input.focus();
-      input.select();
-    }
-  }
-
-  private hideMaking(): void {
-    this.making.hidden = true;
-    this.head.querySelector("#new-rule")?.setAttribute("aria-expanded", "false");
-    this.head.querySelector<HTMLElement>("#new-rule")?.focus();
-  }
-
   private async make(name: string): Promise<void> {
-    const answer = await this.insist(() => this.desk.questions.ask("rule_edit", {rule: name, operation: "new", at: this.cursor}, "rule"));
-    this.making.querySelector(".refused")?.remove();
-    if (answer.why_not) {
-      this.making.append(h("p", {class: "trouble refused", role: "alert"}, withCode(answer.why_not)));
-      return;
-    }
+    const answer = await this.text.create(name);
+    if (answer.why_not) return this.making.refuse(answer.why_not);
     this.forget();
-    this.apply(answer);
+    this.text.apply(answer);
     this.name = name;
-    this.making.hidden = true;
+    this.making.hide();
     await this.redraw();
     this.picture.element.focus({preventScroll: true});
   }
@@ -290,35 +228,28 @@ export class RulePane {
   private queued(work: () => Promise<void>): void {
     this.queue = this.queue.then(work).catch((failure) => {
       if (failure instanceof Refused) this.refuse(failure.message);
-      else if (!(failure instanceof Stale)) throw failure;
+      else if (!(failure instanceof Stale)) queueMicrotask(() => { // what comes next is done all the same
+        throw failure;
+      });
     });
   }
 
   private async perform(operation: Operation, near?: Point): Promise<void> {
-    if (this.rule && this.drawnVersion !== this.desk.file()?.current) return this.redraw(); // what was pressed is no more
-    if (!this.rule || this.readOnly) return;
+    if (this.rule && this.drawnVersion !== this.text.version) return this.redraw(); // what was pressed is no more
+    if (!this.rule || this.text.readOnly) return;
     this.hideRefusal();
-    const answer = await this.insist(() => this.desk.questions.ask("rule_edit", {rule: this.rule!.rule, ...operation}, "rule"));
+    const answer = await this.text.edit(this.rule.rule, operation);
     if (answer.why_not) return this.refuse(answer.why_not, near);
-    this.apply(answer);
+    this.picture.busy(answer.edits.length > 0);
+    this.text.apply(answer);
     if (answer.part !== undefined) this.picture.chosen = answer.part;
     await this.redraw();
   }
 
-  // As one step of undo.
-  private apply({edits}: ChangedRule): void {
-    const {view} = this.desk.editor;
-    const {doc} = view.state;
-    const place = ({line, character}: {line: number; character: number}) => doc.line(line + 1).from + character;
-    const changes = edits.map(({range, newText}) => ({from: place(range.start), to: place(range.end), insert: newText}));
-    if (changes.length) this.picture.busy(true);
-    if (changes.length) view.dispatch({changes, annotations: isolateHistory.of("full"), userEvent: "input.picture"});
-  }
-
-  private step(command: typeof undo): void {
+  private step(command: () => boolean): void {
     this.hideRefusal();
     this.queued(async () => {
-      if (command(this.desk.editor.view)) await this.redraw();
+      if (command()) await this.redraw();
     });
   }
 
@@ -343,7 +274,7 @@ export class RulePane {
   private showChosen(): void {
     if (!this.rule) return;
     if (this.carried) this.askWhere();
-    else if (this.readOnly) this.menu.clear();
+    else if (this.text.readOnly) this.menu.clear();
     else this.menu.show(this.rule, this.picture.chosen);
     const {utf16_begin: from, utf16_end: to} = this.rule.parts[this.picture.chosen].around;
     if (this.visible && from !== null && to !== null) this.desk.editor.light(from, to);
@@ -416,7 +347,7 @@ export class RulePane {
     const key = event.key.toLowerCase();
     if (key !== "z" && key !== "y") return;
     event.preventDefault();
-    if (!this.readOnly) this.step(key === "y" || event.shiftKey ? redo : undo);
+    if (!this.text.readOnly) this.step(() => (key === "y" || event.shiftKey ? this.text.redo() : this.text.undo()));
   }
 
   // Keys wait for the edits that the ones before have begun: they are about the picture that these make.
@@ -433,7 +364,7 @@ export class RulePane {
     if (next !== null) this.choosePart(next);
     else if (key === "Enter" || key === " ") this.enter();
     else if (key === "Escape") this.leaveAll();
-    else if (!this.carried && !this.readOnly) await this.letter(key === "Backspace" ? "Delete" : key);
+    else if (!this.carried && !this.text.readOnly) await this.letter(key === "Backspace" ? "Delete" : key);
   }
 
   private leaveAll(): void {
@@ -459,7 +390,7 @@ export class RulePane {
   private pressed(event: PointerEvent): void {
     const part = this.picture.partOf(event);
     const grip = event.target === this.picture.grip;
-    if (!this.rule || this.readOnly || part === null || (event.pointerType === "touch" && !grip)) return;
+    if (!this.rule || this.text.readOnly || part === null || (event.pointerType === "touch" && !grip)) return;
     this.picture.element.focus({preventScroll: true});
     if (part > 0 && !this.rule.parts[part].made) this.press(event, {from: part}, inFew(this.rule.parts[part]));
   }
@@ -469,7 +400,7 @@ export class RulePane {
     const part = this.picture.partOf(event);
     if (part === null) return;
     this.choosePart(part);
-    const sign = this.readOnly || this.carried ? null : this.picture.signOf(event);
+    const sign = this.text.readOnly || this.carried ? null : this.picture.signOf(event);
     if (sign) this.act({operation: "step", part: sign.part, field: sign.field, ...(sign.depth ? {depth: true} : {})}, {x: event.clientX, y: event.clientY});
   }
 
@@ -482,7 +413,7 @@ export class RulePane {
   }
 
   private press(event: PointerEvent, carried: Carried, label: string): void {
-    if (this.rule && !this.readOnly) this.drag.press(event, carried, label);
+    if (!this.text.readOnly) this.drag.press(event, carried, label);
   }
 
   private overBin(x: number, y: number): boolean {
