@@ -73,6 +73,7 @@ export class RulePane {
     this.element = h("section", {class: "pane rule-pane", "aria-label": "Rule"}, this.head, this.making.element, this.palette.element,
       h("div", {class: "rule-body"}, h("div", {class: "rule-main"}, this.message, this.canvas, this.keys), this.menu.element, this.effect.element));
     this.listen(this.picture.element);
+    desk.editor.view.contentDOM.addEventListener("focus", () => this.visible && desk.editor.unlight()); // who writes there needs no light
   }
 
   private get visible(): boolean {
@@ -277,7 +278,8 @@ export class RulePane {
     else if (this.text.readOnly) this.menu.clear();
     else this.menu.show(this.rule, this.picture.chosen);
     const {utf16_begin: from, utf16_end: to} = this.rule.parts[this.picture.chosen].around;
-    if (this.visible && from !== null && to !== null) this.desk.editor.light(from, to);
+    const {editor} = this.desk;
+    if (this.visible && !editor.view.hasFocus && from !== null && to !== null) editor.light(from, to);
   }
 
   private choosePart(part: number): void {

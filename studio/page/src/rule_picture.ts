@@ -7,7 +7,7 @@ import {depthOf, inFew, isTray} from "./rule_parts";
 import {picture} from "./svg";
 
 const MARGIN = 12; // points around the whole
-const LEAST_SCALE = 1.15; // pixels a point
+const LEAST_SCALE = 1.45; // pixels a point
 
 // Small rules are drawn larger; a tall one is to be seen as a whole.
 function scaleOf({width, height}: Box): number {
@@ -121,8 +121,9 @@ export class RulePicture {
   private reveal(): void {
     const place = this.element.getBoundingClientRect();
     const box = this.frame.getBoundingClientRect();
+    if (box.width > place.width) return;
     if (box.left < place.left) this.element.scrollLeft -= place.left - box.left + 12;
-    else if (box.right > place.right) this.element.scrollLeft += Math.min(box.right - place.right, box.left - place.left) + 12;
+    else if (box.right > place.right) this.element.scrollLeft += box.right - place.right + 12;
   }
 
   private lay(mark: HTMLElement, {x, y, width, height}: Box): void {
