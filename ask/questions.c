@@ -13,7 +13,9 @@
 #include "ask/session/requests.def"
 
 const tn_request_kind tn_request_kinds[] = {
-#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC) {#NAME, &tn_message_##REQUEST, ANSWERS, DOC, ask_##NAME},
+#define KIND(NAME, REQUEST, ANSWERS, DOC, RUNS) {#NAME, &tn_message_##REQUEST, ANSWERS, DOC, RUNS, ask_##NAME},
+#define TN_QUESTION(NAME, REQUEST, ANSWERS, DOC) KIND(NAME, REQUEST, ANSWERS, DOC, false)
+#define TN_RUN_QUESTION(NAME, REQUEST, ANSWERS, DOC) KIND(NAME, REQUEST, ANSWERS, DOC, true)
 #include "ask/session/requests.def"
 };
 const size_t tn_request_kind_count = sizeof tn_request_kinds / sizeof *tn_request_kinds;

@@ -18,6 +18,9 @@ static const struct {
     {"coverage", "`tartan test --coverage`"},
     {"relations", "`tartan check --relations`"},
     {"invert", "`tartan map --invert`"},
+    {"rule_tree", "`tartan rule`"},
+    {"rule_draw", "`tartan rule -o`"},
+    {"rule_edit", "`tartan rule --edit`"},
     {"individual", "`tartan runs replay`"},
     {"change_run", "`tartan runs insert` and `tartan runs remove`"},
 };

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "compiler/common/number_ranges.h"
+
 /* Values are given to params of a text that can have none. */
 static tn_status refuse_settings(tn_compilation *compilation, const tn_compile_options *options)
 {
@@ -11,6 +13,16 @@ static tn_status refuse_settings(tn_compilation *compilation, const tn_compile_o
                        options->params.items[0], compilation->input->name);
     tn_help(&compilation->diagnostics, d, "only .plan files have them: leave --set out");
     return TN_INVALID;
+}
+
+static tn_status gather_ranges(tn_compilation *compilation, tn_error *error)
+{
+    tn_number_ranges *ranges = TN_NEW(compilation->arena, tn_number_ranges);
+    if (!ranges)
+        return tn_fail_memory(error);
+    ranges->arena = compilation->arena;
+    compilation->ranges = compilation->diagnostics.ranges = ranges;
+    return TN_OK;
 }
 
 tn_status tn_compile_text(const tn_notation *notation, const tn_input *input, const tn_compile_options *options,
@@ -24,6 +36,8 @@ tn_status tn_compile_text(const tn_notation *notation, const tn_input *input, co
     tn_status status = compilation->arena
                            ? tn_sources_add(&compilation->sources, input->name, input->text, input->size, &file, &error)
                            : tn_fail_memory(&error);
+    if (status == TN_OK)
+        status = gather_ranges(compilation, &error);
     if (status == TN_OK)
         status = tn_watch_check(options->watch, &error);
     if (status == TN_OK && options->params.count > 0 && !notation->front->settable)

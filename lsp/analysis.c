@@ -51,8 +51,8 @@ static tn_status compile_file(tn_file_analysis *analysis, const tn_input *input,
 {
     tn_files files;
     tn_files_begin(&files, texts->stdlib);
-    files.overlay = texts->overlay;
-    files.overlay_context = texts->context;
+    files.kept.overlay = texts->overlay;
+    files.kept.overlay_context = texts->context;
     const tn_compile_options options = {
         .resolver = tn_files_resolver(&files), .attachments = tn_file_attachments, .partial = true};
     tn_status status = compile_input(analysis, input, &options);

@@ -153,10 +153,9 @@ static json_t *allow_action(tn_document *document, tn_file_analysis *analysis, c
                      edit_at(document, analysis, place, text));
 }
 
-json_t *tn_lsp_actions(tn_document *document, tn_file_analysis *analysis, size_t begin, size_t end)
+void tn_lsp_fixes(tn_document *document, tn_file_analysis *analysis, size_t begin, size_t end, json_t *list)
 {
     const tn_diagnostics *found = &analysis->compilation.diagnostics;
-    json_t *list = json_array();
     for (size_t i = 0; i < found->count; i++) {
         const tn_diagnostic *item = &found->items[i];
         if (!item->has_span || item->span.file != 0 || item->span.begin > end || item->span.end < begin)
@@ -167,5 +166,4 @@ json_t *tn_lsp_actions(tn_document *document, tn_file_analysis *analysis, size_t
         if (allow)
             json_array_append_new(list, allow);
     }
-    return list;
 }

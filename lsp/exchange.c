@@ -17,6 +17,7 @@ enum {
     INTERNAL_ERROR = -32603,
     NOT_INITIALIZED = -32002,
     REQUEST_FAILED = -32803,
+    CONTENT_MODIFIED = -32801,
 };
 
 #define PAUSE 0.2 /* seconds without an edit, after which rules are looked at */
@@ -29,8 +30,10 @@ struct tn_exchange {
     tn_document *subject; /* what it is about; NULL where it was cancelled */
     double time;          /* when the next review may begin (tn_seconds) */
     bool initialized, shut_down, ended, failed;
+    bool resolves;      /* the client asks for the edits of actions when they are chosen */
     int error;          /* of the request at hand; 0: none */
     const char *reason; /* what to say about it */
+    char why[400];      /* a reason that was made for one request */
 };
 
 /* Says it to the client; NULL (out of memory) is a failure. */
@@ -114,17 +117,35 @@ static bool take_roots(tn_exchange *s, const json_t *params)
     return good;
 }
 
+/* Does the client say that it asks for the edit of an action later? */
+static bool takes_edits_later(const json_t *params)
+{
+    const json_t *text = json_object_get(json_object_get(params, "capabilities"), "textDocument");
+    const json_t *support = json_object_get(json_object_get(text, "codeAction"), "resolveSupport");
+    const json_t *properties = json_object_get(support, "properties"), *property;
+    size_t i;
+    json_array_foreach(properties, i, property)
+    {
+        const char *name = json_string_value(property);
+        if (name && strcmp(name, "edit") == 0)
+            return true;
+    }
+    return false;
+}
+
 static json_t *initialize(tn_exchange *s, const json_t *params)
 {
     if (!s->initialized && !take_roots(s, params))
         return NULL;
     s->initialized = true;
-    return json_pack("{s:{s:{s:b,s:i},s:b,s:{s:[s,s,s,s]},s:b,s:b,s:b,s:{s:b},s:b,s:b,s:{s:[s]}},s:{s:s,s:s}}",
+    s->resolves = takes_edits_later(params);
+    return json_pack("{s:{s:{s:b,s:i},s:b,s:{s:[s,s,s,s]},s:b,s:b,s:b,s:{s:b},s:b,s:b,s:{s:[s,s],s:b}},s:{s:s,s:s}}",
                      "capabilities", "textDocumentSync", "openClose", 1, "change", 2, "hoverProvider", 1,
                      "completionProvider", "triggerCharacters", "(", "[", " ", "\"", "definitionProvider", 1,
                      "referencesProvider", 1, "documentHighlightProvider", 1, "renameProvider", "prepareProvider", 1,
                      "documentSymbolProvider", 1, "documentFormattingProvider", 1, "codeActionProvider",
-                     "codeActionKinds", "quickfix", "serverInfo", "name", "tartan", "version", TARTAN_VERSION);
+                     "codeActionKinds", "quickfix", "refactor.rewrite", "resolveProvider", 1, "serverInfo", "name",
+                     "tartan", "version", TARTAN_VERSION);
 }
 
 static json_t *shut_down(tn_exchange *s, const json_t *params)
@@ -199,10 +220,28 @@ static json_t *formatting(tn_exchange *s, const json_t *params)
     return tn_lsp_format(a.document);
 }
 
+/* Does the client want actions of this kind? It names kinds, or those that they begin with, or none. */
+static bool is_wanted(const json_t *params, const char *kind)
+{
+    const json_t *only = json_object_get(json_object_get(params, "context"), "only"), *one;
+    size_t i;
+    json_array_foreach(only, i, one)
+    {
+        const char *name = json_string_value(one);
+        size_t size = name ? strlen(name) : 0;
+        if (name && strncmp(name, kind, size) == 0 && (kind[size] == '.' || kind[size] == '\0' || size == 0))
+            return true;
+    }
+    return json_array_size(only) == 0;
+}
+
+/* What would be worked out for each movement of the cursor is only so where the client does not ask for it later, and
+ * somebody has marked something or wants such actions alone. */
 static json_t *actions(tn_exchange *s, const json_t *params)
 {
     question a;
     const json_t *range = json_object_get(params, "range");
+    bool some = json_array_size(json_object_get(json_object_get(params, "context"), "only")) > 0;
     size_t begin, end;
     if (!find_document(s, params, &a))
         return NULL;
@@ -210,7 +249,26 @@ static json_t *actions(tn_exchange *s, const json_t *params)
     if (!lines || !tn_lines_read(lines, json_object_get(range, "start"), &begin) ||
         !tn_lines_read(lines, json_object_get(range, "end"), &end))
         return fail(s, INVALID_PARAMS, "there is no such range");
-    return tn_lsp_actions(a.document, a.analysis, begin, end);
+    json_t *list = json_array();
+    if (is_wanted(params, "quickfix"))
+        tn_lsp_fixes(a.document, a.analysis, begin, end, list);
+    bool offered = s->resolves || some || end > begin;
+    if (list && offered && is_wanted(params, "refactor.rewrite") &&
+        !tn_lsp_rule_actions(a.document, a.analysis, begin, end, !s->resolves, list)) {
+        json_decref(list);
+        return NULL;
+    }
+    return list;
+}
+
+static json_t *resolve_action(tn_exchange *s, const json_t *params)
+{
+    tn_document *document = tn_lsp_action_document(&s->workspace, params);
+    if (!document)
+        return fail(s, CONTENT_MODIFIED, "the text has changed since this was offered");
+    tn_file_analysis *analysis = tn_workspace_analyse(&s->workspace, document);
+    json_t *resolved = analysis ? tn_lsp_resolve(document, analysis, params, s->why) : NULL;
+    return resolved || !*s->why ? resolved : fail(s, REQUEST_FAILED, s->why);
 }
 
 static const struct {
@@ -229,6 +287,7 @@ static const struct {
     {"textDocument/documentSymbol", outline},
     {"textDocument/formatting", formatting},
     {"textDocument/codeAction", actions},
+    {"codeAction/resolve", resolve_action},
 };
 
 static void respond(tn_exchange *s, const json_t *id, json_t *result)

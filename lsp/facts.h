@@ -4,7 +4,6 @@
 #define TARTAN_LSP_FACTS_H
 
 #include "driver/plan/analysis.h"
-#include "lsp/measures.h"
 #include "lsp/places.h"
 
 typedef struct tn_rule_count {
@@ -26,6 +25,17 @@ typedef struct tn_length_count {
     uint32_t length;
     double share; /* of those kept */
 } tn_length_count;
+
+/* What measures come to over the libraries. */
+typedef struct tn_measure_fact {
+    char *library, *measure;
+    char *text; /* "146.88 m2 to 248.4 m2, 229.396 m2 on average" */
+} tn_measure_fact;
+
+typedef struct tn_measure_facts {
+    tn_measure_fact *items;
+    size_t count, capacity;
+} tn_measure_facts;
 
 typedef struct tn_facts {
     tn_rule_count *counts;

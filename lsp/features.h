@@ -28,7 +28,18 @@ json_t *tn_lsp_completion(tn_workspace *workspace, tn_document *document, tn_fil
 const char *tn_lsp_word(tn_document *document, tn_file_analysis *analysis, size_t offset, tn_span *span);
 json_t *tn_lsp_format(tn_document *document);
 
-/* Quick fixes for what is wrong in [begin, end). */
-json_t *tn_lsp_actions(tn_document *document, tn_file_analysis *analysis, size_t begin, size_t end);
+/* Quick fixes for what is wrong in [begin, end), to a list. */
+void tn_lsp_fixes(tn_document *document, tn_file_analysis *analysis, size_t begin, size_t end, json_t *list);
+
+/* What can be done with the part of a rule there, as pictures of rules have it (compiler/plan/edit/rule_edit.h). Each
+ * action has its edit if `whole`, otherwise what tn_lsp_resolve makes it of. False where out of memory. */
+bool tn_lsp_rule_actions(tn_document *document, tn_file_analysis *analysis, size_t begin, size_t end, bool whole,
+                         json_t *list);
+
+/* The document that such an action is about; NULL: it is none, or of a document or version that is not open. */
+tn_document *tn_lsp_action_document(const tn_workspace *workspace, const json_t *action);
+
+/* The action with its edit. NULL where out of memory, or with *reason (valid until the next call) why there is none. */
+json_t *tn_lsp_resolve(tn_document *document, tn_file_analysis *analysis, const json_t *action, char reason[400]);
 
 #endif

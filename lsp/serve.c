@@ -1,5 +1,5 @@
 /* Serves an exchange on a pair of streams. */
-#include <sys/eventfd.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 #include "lsp/background.h"
@@ -13,7 +13,7 @@ typedef struct server {
     tn_wire wire;
     tn_exchange *exchange;
     tn_background *background; /* at work on a review, or NULL */
-    int wake;                  /* the event by which it says that it is done */
+    int wake[2];               /* the pipe by which it says that it is done: a byte each time */
     bool ended;                /* there is no more input */
 } server;
 
@@ -23,8 +23,7 @@ typedef struct server {
 static void wake(void *context)
 {
     const server *s = context;
-    const uint64_t one = 1;
-    (void)!write(s->wake, &one, sizeof one);
+    (void)!write(s->wake[1], "", 1);
 }
 
 static void end_background(server *s)
@@ -36,8 +35,8 @@ static void end_background(server *s)
 
 static void take_background(server *s)
 {
-    uint64_t count;
-    (void)!read(s->wake, &count, sizeof count);
+    char said;
+    (void)!read(s->wake[0], &said, 1);
     if (s->background && tn_background_ended(s->background))
         end_background(s);
 }
@@ -79,13 +78,13 @@ static void send_all(server *s)
 /* What comes next; what is to be done while nothing comes is done before it is waited for. */
 static tn_wire_event wait(server *s)
 {
-    tn_wire_event event = tn_wire_wait(&s->wire, s->wake, 0);
+    tn_wire_event event = tn_wire_wait(&s->wire, s->wake[0], 0);
     if (event != TN_WIRE_TIME)
         return event;
     tn_exchange_work(s->exchange);
     begin_background(s);
     send_all(s);
-    return tn_wire_wait(&s->wire, s->wake, tn_exchange_patience(s->exchange));
+    return tn_wire_wait(&s->wire, s->wake[0], tn_exchange_patience(s->exchange));
 }
 
 static void loop(server *s)
@@ -118,15 +117,17 @@ static tn_status how_it_ended(const server *s, tn_error *error)
 
 tn_status tn_lsp_serve(int input, FILE *output, tn_error *error)
 {
-    server s = {.wire = {.input = input, .output = output}, .wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
-    tn_status status = s.wake >= 0 ? tn_exchange_new(NULL, &s.exchange, error) : tn_fail_memory(error);
+    server s = {.wire = {.input = input, .output = output}};
+    if (pipe2(s.wake, O_CLOEXEC | O_NONBLOCK) != 0)
+        return tn_fail_memory(error);
+    tn_status status = tn_exchange_new(NULL, &s.exchange, error);
     if (status == TN_OK) {
         loop(&s);
         status = how_it_ended(&s, error);
     }
     tn_exchange_free(s.exchange);
     tn_wire_clear(&s.wire);
-    if (s.wake >= 0)
-        close(s.wake);
+    close(s.wake[0]);
+    close(s.wake[1]);
     return status;
 }

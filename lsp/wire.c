@@ -153,6 +153,11 @@ tn_wire_event tn_wire_wait(const tn_wire *wire, int wake, int milliseconds)
     int ready;
     if (wire->end > wire->begin)
         return TN_WIRE_INPUT;
+#ifdef __EMSCRIPTEN__
+    if (milliseconds == 0)
+        return TN_WIRE_TIME; /* Node does not say whether there is input: what can be done is done before it is waited
+                                for */
+#endif
     do
         ready = poll(files, 2, milliseconds);
     while (ready < 0 && errno == EINTR);

@@ -41,7 +41,7 @@ bool tn_workspace_put(tn_workspace *workspace, const char *uri, const char *lang
                       json_int_t version);
 void tn_workspace_remove(tn_workspace *workspace, const char *uri);
 
-/* The open text of that path, a tn_overlay (driver/open/files.h) of the workspace. */
+/* The open text of that path, a tn_overlay (driver/open/kept_texts.h) of the workspace. */
 bool tn_workspace_text(void *workspace, const char *real_path, const char **text, size_t *size);
 
 /* Applies the changes of a didChange notification. False where they make no sense (then nothing of the rest is applied)

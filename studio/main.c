@@ -59,25 +59,62 @@ static void signals_that_end(sigset_t *set)
     sigaddset(set, SIGHUP);
 }
 
+/* The thread that waits for signals. */
+typedef struct waiting {
+    pthread_mutex_t lock;
+    tn_server *server; /* that a signal ends; NULL once it ends by itself, and may be freed */
+    bool over;         /* no signal is waited for any more */
+    pthread_t thread;
+} waiting;
+
+/* A signal came: ends the server. Is that all? */
+static bool take_signal(waiting *w)
+{
+    pthread_mutex_lock(&w->lock);
+    if (w->server)
+        tn_server_end(w->server);
+    bool over = w->over;
+    pthread_mutex_unlock(&w->lock);
+    return over;
+}
+
 /* One ends the server, another one does not wait for it. */
-static void *wait_for_signals(void *server)
+static void *wait_for_signals(void *context)
 {
     sigset_t set;
     int number;
     signals_that_end(&set);
     sigwait(&set, &number);
-    tn_server_end(server);
+    if (take_signal(context))
+        return NULL;
     sigwait(&set, &number);
-    _exit(TN_EXIT_DONE);
+    if (!take_signal(context))
+        _exit(TN_EXIT_DONE);
+    return NULL;
 }
 
-static tn_status start_waiting(tn_server *server, tn_error *error)
+static tn_status start_waiting(waiting *w, tn_server *server, tn_error *error)
 {
-    pthread_t thread;
-    if (pthread_create(&thread, NULL, wait_for_signals, server) != 0)
-        return tn_fail_memory(error);
-    pthread_detach(thread);
-    return TN_OK;
+    *w = (waiting){.lock = PTHREAD_MUTEX_INITIALIZER, .server = server};
+    return pthread_create(&w->thread, NULL, wait_for_signals, w) == 0 ? TN_OK : tn_fail_memory(error);
+}
+
+/* Whoever tells the server that it is to end has done so afterwards. */
+static void leave_server(waiting *w)
+{
+    pthread_mutex_lock(&w->lock);
+    w->server = NULL;
+    pthread_mutex_unlock(&w->lock);
+}
+
+static void end_waiting(waiting *w)
+{
+    pthread_mutex_lock(&w->lock);
+    w->over = true;
+    pthread_mutex_unlock(&w->lock);
+    pthread_kill(w->thread, SIGTERM);
+    pthread_join(w->thread, NULL);
+    pthread_mutex_destroy(&w->lock);
 }
 
 /* ---- the server */
@@ -108,14 +145,20 @@ static tn_status serve_folder(const tn_studio_settings *settings, tn_studio_fold
     tn_status status = tn_server_new(&options, &server, error);
     if (status != TN_OK)
         return status;
-    status = start_waiting(server, error);
-    if (status == TN_OK)
-        status = announce(server, folder, settings, error);
+    waiting waits;
+    status = start_waiting(&waits, server, error);
+    if (status != TN_OK) {
+        tn_server_free(server); /* nobody was let in yet */
+        return status;
+    }
+    status = announce(server, folder, settings, error);
     if (status == TN_OK)
         tn_server_run(server);
     fflush(stderr);
+    leave_server(&waits);
     if (!tn_server_free(server))
         _exit(status == TN_OK ? TN_EXIT_DONE : TN_EXIT_IO);
+    end_waiting(&waits);
     return status;
 }
 

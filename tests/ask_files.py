@@ -47,6 +47,12 @@ ASKED = {
          "?_|_great_|_..._|_? --least cost --trays 4..4 -o a.svg"),
         ("stdlib/cottage.plan", {"pattern": "... | ?", "library": "cottages", "picture": "svg"}, "..._|_? --library cottages -o a.svg"),
     ],
+    "rule_draw": [
+        ("stdlib/lahave.plan", {"rule": "stranded"}, "stranded -o a.svg"),
+        ("stdlib/lahave.plan", {"rule": "dense-end", "format": "png", "dpi": 40}, "dense-end -o a.png --dpi 40"),
+        ("stdlib/cottage.plan", {"rule": "far-bed", "format": "pdf"}, "far-bed -o a.pdf"),
+        ("stdlib/terrace.plan", {"rule": "stp"}, "stp -o a.svg"),
+    ],
     "best": [("stdlib/lahave-houses.plan", {"best": 4, "by": [{"measure": "cost"}], "trays": {"from": 4, "to": 4}}, "4 --least cost --trays 4..4 -o a.svg")],
     "pareto": [
         ("stdlib/lahave-houses.plan", {"front": True, "by": [{"measure": "cost"}, {"measure": "area", "most": True}], "trays": {"from": 4, "to": 4}},
@@ -184,6 +190,8 @@ ASKED = {
 
 # Questions that are asked by the name of another command.
 DRAWN = {"best": "draw", "pareto": "draw"}
+# Questions whose command has another name.
+COMMANDS = {"rule_draw": "rule"}
 
 
 def first_error(said):
@@ -201,7 +209,7 @@ def written_by(tartan, question, file, words, folder):
     """The bytes of each file that the command writes, by its name there; or what it says is wrong."""
     words = words.split(" ")
     words = [os.path.join(folder, word) if before == "-o" else word.replace("_", " ") for before, word in zip(["", *words], words)]
-    done = subprocess.run([tartan, question.replace("_", "-"), file, *words], capture_output=True, text=True, check=False)
+    done = subprocess.run([tartan, COMMANDS.get(question, question.replace("_", "-")), file, *words], capture_output=True, text=True, check=False)
     if done.returncode and not os.listdir(folder):
         return first_error(done.stderr), []
     found = {}

@@ -5,10 +5,10 @@ A ```console block holds commands (lines that start with "$ ") and under each wh
 together; a line "..." stands for any number of lines. A block of a notation's language (```plan; compiler/notations.def) is a rule file: it must
 pass `tartan check`, and one whose first line is "# NAME.plan" ("// NAME.hemls") is there under that name for the commands below it. Each page runs in a copy of its own
 folder. Links to files of the repository must lead somewhere. TARTAN is the binary. --update writes what is printed now into the pages.
---lacking is for a build that lacks parts: an example that needs one is passed over, and so is one behind it in its page that says something
-else, since it may need what that would have made. How many were is printed.
+--lacking is for a build that lacks parts: an example that needs one is passed over, and so is one behind it in its page that names a file
+which that would have made. How many were is printed.
 """
-import os, re, shutil, subprocess, sys, tempfile
+import fnmatch, os, re, shutil, subprocess, sys, tempfile
 
 TABLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "compiler", "notations.def")
 LANGUAGES = set(re.findall(r'^[A-Z_]+\(\w+, "\.(\w+)"', open(TABLE).read(), re.M))
@@ -46,16 +46,55 @@ def complain(page, command, expected, printed):
 
 
 class Lacking:
-    """What a build without some parts cannot show."""
+    """What a build without some parts cannot show: examples that need one, and what needs a file that these would have made."""
+
+    ABSENT = "was built without the part `", "no process can be started"
 
     def __init__(self, allowed):
-        self.allowed, self.here, self.passed = allowed, False, 0
+        self.allowed, self.passed = allowed, 0
+        self.begin("")
 
-    def passes(self, printed):
-        """Is the example passed over that printed this and should have printed something else?"""
-        self.here |= "was built without the part `" in printed
-        self.passed += self.allowed and self.here
-        return self.allowed and self.here
+    def begin(self, folder):
+        """A page is independent of others."""
+        self.folder, self.stems, self.missing = folder, set(), set()
+
+    def passes(self, command, expected, printed):
+        """Is the example passed over that printed this and should have printed that?"""
+        read, made = names_of(command)
+        if not self.allowed or not (any(text in printed for text in self.ABSENT) or self.needs(command) or
+                                    any(name in expected + printed for name in self.missing)):
+            return False
+        self.missing |= {name for name in read | made if not os.path.exists(os.path.join(self.folder, name))}
+        self.stems |= {stem(name) for name in read | made}
+        self.passed += 1
+        return True
+
+    def agreed(self, command):
+        """What a command makes of files that are not there is not what it should be, though it says nothing."""
+        if self.needs(command):
+            self.missing |= names_of(command)[1]
+
+    def needs(self, command):
+        folders = {word for word in command.split() if os.path.isdir(os.path.join(self.folder, word))}
+        return any(self.lacks(name) for name in names_of(command)[0] | folders)
+
+    def lacks(self, name):
+        """Would an example that was passed over have made this file? What is made of a.study without a name is a.run; a folder may be
+        there and lack files."""
+        path = os.path.join(self.folder, name)
+        found = os.path.exists(path) and not os.path.isdir(path)
+        return name in self.missing or not found and (stem(name) in self.stems or any(fnmatch.fnmatch(other, name) for other in self.missing))
+
+
+def stem(name):
+    return name.split("/")[0].split(".")[0]
+
+
+def names_of(command):
+    """The words of a command that look like the name of a file, of several, or of a folder: those that it reads, and those that it makes."""
+    words = re.findall(r"[^\s\"'<>=|;&]+", command)
+    made = {after.rstrip("/") for option, after in zip(words, words[1:]) if option in ("-o", "--run")} | set(re.findall(r">\s*([^\s;&|]+)", command))
+    return {word.rstrip("/") for word in words if re.fullmatch(r"[\w%*?-][\w.%*?/-]*(\.[A-Za-z]\w*|/)", word)} - made, made
 
 
 def console(page, block, folder, update, lacking):
@@ -64,13 +103,15 @@ def console(page, block, folder, update, lacking):
     for command, expected in steps(block):
         _, printed = run(command, folder)
         if not agrees(expected, printed):
-            if lacking.passes(printed):
+            if lacking.passes(command, expected, printed):
                 pass
             elif update:
                 expected = printed
             else:
                 complain(page, command, expected, printed)
                 failures += 1
+        else:
+            lacking.agreed(command)
         out += "$ " + command + "\n" + expected
     return out, failures
 
@@ -103,7 +144,6 @@ def links(page, text):
 
 def check(page, update, lacking):
     text = open(page).read()
-    lacking.here = False
     failures = links(page, text)
     with tempfile.TemporaryDirectory() as top:
         folder = os.path.join(top, "here")
@@ -111,6 +151,7 @@ def check(page, update, lacking):
             shutil.copytree(os.path.dirname(page), folder)
         else:
             os.mkdir(folder)
+        lacking.begin(folder)
 
         def one(match):
             nonlocal failures

@@ -60,6 +60,8 @@ draw {}/own.plan {}/some.plans
 draw cottage --library cottages --sample 2
 draw {}/ball.field
 draw {}/two.solid
+rule lahave stranded
+rule lahave stranded --edit remove --part 1
 report {}/own.plan --sample 2
 report cottage --library cottages --sample 2
 report bricks --pictures 2
@@ -224,7 +226,7 @@ CHECKS = {
     "off": begins(b"OFF"), "om": begins(b"OM"), "glb": is_glb, "3mf": is_3mf, "scad": has(rb"polyhedron\("), "ifc": begins(b"ISO-10303-21;"),
     "dxf": is_dxf, "cli": begins(b"$$HEADERSTART"), "csv": is_csv, "bin": begins(b"TARTANPL"), "parquet": begins(b"PAR1"),
     "html": is_html, "htm": is_html, "ldr": is_ldraw, "mpd": is_ldraw, "tnb": compiles(".tnb"), "pl": has(rb"^\w+\(.*:-"),
-    "pcfg": has(rb"->"), "kit": compiles(".kit"),
+    "pcfg": has(rb"->"), "kit": compiles(".kit"), "plan": compiles(".plan"),
     **{ending: is_json for ending in ("json", "jsonl", "ndjson")},
     **{ending: begins(b"SQLite format 3\0") for ending in ("sqlite", "sqlite3", "db")},
 }

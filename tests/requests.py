@@ -38,6 +38,8 @@ ASKED = {
     ],
     "unrank": ["unrank terrace 1000", "unrank cottage #10:3", "unrank cottage 77 --library cottages", "unrank lahave-houses 0 --trays 4..4"],
     "settings": ["settings examples/market-hall/market.plan", "settings primitives", "settings bricks --used"],
+    "rule_tree": ["rule lahave stranded", "rule terrace step", "rule examples/market-hall/market.plan near-gate"],
+    "rule_edit": ["rule lahave stranded --edit wrap --part 3 --by not", "rule lahave stranded --edit wrap --part 30 --by not", "rule lahave lone --edit new"],
     "schema": ["schema terrace", "schema cottage", "schema lahave-houses --used", "schema row-houses"],
     "pareto": ["pareto lahave-houses --trays 4..4 --least cost --most area", "pareto cottage --plan #3 --least floor-area --most bedrooms"],
     "complete": [

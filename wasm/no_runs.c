@@ -1,5 +1,5 @@
-/* Runs of evolution live in folders and databases, of which a page has none, and the desk refuses these questions by
- * their names. That they are here keeps all that would answer them out of what a page loads. */
+/* Runs of evolution live in folders and databases, of which a page has none, and the desk refuses these questions
+ * before they are asked. That they are here keeps all that would answer them out of what a page loads. */
 #include "ask/session/questions.h"
 #include "runtime/base/part.h"
 
@@ -11,14 +11,10 @@ static tn_status refuse(tn_session *session, tn_reply *answer)
     return tn_session_fail(session, &error);
 }
 
-#define REFUSED(NAME)                                                                                                  \
-    tn_status tn_ask_##NAME(tn_session *session, const tn_##NAME##_request *request, tn_reply *answer)                 \
+#define TN_RUN_QUESTION(NAME, REQUEST, ANSWERS, DOC)                                                                   \
+    tn_status tn_ask_##NAME(tn_session *session, const tn_##REQUEST *request, tn_reply *answer)                        \
     {                                                                                                                  \
         (void)request;                                                                                                 \
         return refuse(session, answer);                                                                                \
     }
-REFUSED(breed)
-REFUSED(evolve)
-REFUSED(runs)
-REFUSED(individual)
-REFUSED(change_run)
+#include "ask/session/requests.def"

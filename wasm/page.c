@@ -36,6 +36,7 @@ char *tn_page_next(tn_page *page);
 int tn_page_wait(const tn_page *page);
 void tn_page_work(tn_page *page);
 char *tn_page_ask(tn_page *page, const char *message);
+uint8_t *tn_page_bytes(tn_page *page);
 
 /* ---- files */
 
@@ -193,4 +194,11 @@ char *tn_page_ask(tn_page *page, const char *message)
         response = NULL;
     json_decref(question);
     return response;
+}
+
+/* The next message of bytes that goes before that answer; it says its size (desk.h). NULL: no more. */
+uint8_t *tn_page_bytes(tn_page *page)
+{
+    size_t size;
+    return tn_desk_bytes(page->desk, &size);
 }

@@ -16,6 +16,19 @@ function take(pointer) {
   return text;
 }
 
+const HEADER = 8, SIZE_WORD = 1; // of a message of bytes (studio/desk/desk.h)
+
+// The messages of bytes that go before the answer.
+function takeBytes() {
+  const all = [];
+  for (let pointer = engine._tn_page_bytes(page); pointer; pointer = engine._tn_page_bytes(page)) {
+    const size = HEADER + engine.HEAPU32[(pointer >> 2) + SIZE_WORD];
+    all.push(engine.HEAPU8.slice(pointer, pointer + size).buffer);
+    engine._free(pointer);
+  }
+  return all;
+}
+
 function withText(text, use) {
   if (text === null) return use(0);
   const size = engine.lengthBytesUTF8(text) + 1, pointer = engine._malloc(size);
@@ -61,7 +74,8 @@ function answer(text) {
   if (!question && roles.includes("language")) withText(text, (p) => engine._tn_page_take(page, p));
   if (roles.includes("desk")) {
     const response = take(withText(text, (p) => engine._tn_page_ask(page, p)));
-    if (question && response !== null) postMessage(response);
+    const bytes = takeBytes();
+    if (question && response !== null) postMessage(bytes.length ? {answer: response, bytes} : response, bytes);
   }
   if (roles.includes("language")) send();
   rest();

@@ -4,6 +4,7 @@
 
 #include "api/compiler/compile.h"
 #include "ask/growth/grow.h"
+#include "ask/session/made.h"
 #include "ask/session/questions.h"
 #include "ask/session/session.h"
 #include "driver/open/files.h"
@@ -28,6 +29,8 @@ struct tartan_session {
     char *narrowed_by;   /* which are these: one a line behind the library's name, or a study */
     asked_file before;   /* another file that was compared with it last, */
     char *before_text;
+    tartan_bytes_taker *take; /* or NULL */
+    void *take_context;
 };
 
 /* ---- opened */
@@ -350,6 +353,33 @@ static tn_status read_drawn(void *context, const char *path, uint8_t **bytes, si
     return TN_INVALID;
 }
 
+/* ---- what is no text */
+
+void tartan_session_take_bytes(tartan_session *session, tartan_bytes_taker *take, void *context)
+{
+    if (!session)
+        return;
+    session->take = take;
+    session->take_context = context;
+}
+
+static tn_status take_bytes(void *context, const tn_made_file *file, const uint8_t *bytes, size_t size, tn_error *error)
+{
+    const tartan_session *session = context;
+    tartan_error said = {.status = TARTAN_OK};
+    tartan_status status =
+        session->take(session->take_context, file->format, file->has_name ? file->name : NULL, bytes, size, &said);
+    if (status == TARTAN_OK)
+        return TN_OK;
+    if (status == TARTAN_MEMORY)
+        return tn_fail_memory(error);
+    tn_fail(error, (tn_status)status, (tn_code)said.code, "%.479s",
+            said.message[0] ? said.message : "the file is not taken");
+    if (said.help[0])
+        tn_error_help(error, "%.319s", said.help);
+    return error->status;
+}
+
 /* ---- a text that is made of an answer */
 
 /* What the session has is used as it has it; all else comes from the caller. */
@@ -451,9 +481,12 @@ static tartan_status ask(asked_file *file, const asking *a, answering *to, char 
     file->opened.meshes = to->session->options.resolve ? &tn_no_meshes : NULL;
     file->session.reads = to->session->options.resolve ? read_drawn : NULL;
     file->session.reads_context = to->session;
+    const tn_bytes_taker taker = {take_bytes, to->session};
+    file->session.bytes = to->session->take ? &taker : NULL;
     tn_status status = a->kind->ask(&file->session, a->request, &reply);
     file->opened.module->watch = NULL;
     file->session.opener = NULL;
+    file->session.bytes = NULL;
     if (to->session->before.open)
         tn_api_report(&to->session->before.opened.compilation.diagnostics, to->report, to->report_context);
     tn_api_report(&compilation->diagnostics, to->report, to->report_context);

@@ -93,7 +93,8 @@ static tn_status take_step(tn_session *session, const tn_rule_edit_request *r, t
     else if (status == TN_OK && r->part >= asked.tree.count)
         snprintf(why, TN_WHY_MAX, "the rule has the parts 0 to %u", asked.tree.count - 1);
     else if (status == TN_OK) {
-        uint32_t part = (uint32_t)r->part, spec = tn_tray_spec(session->opened->module, 0, asked.tree.parts[part].own);
+        uint32_t part = (uint32_t)r->part,
+                 spec = tn_tray_field_spec(asked.schema, field, 0, asked.tree.parts[part].own);
         status = tn_tray_step(asked.schema, &asked.tree, part, spec, field, r->depth ? TN_SIGN_DEPTH : TN_SIGN_VALUE,
                               edit, text, why, &error);
         if (status != TN_OK)
@@ -143,14 +144,38 @@ static tn_status make_edit(tn_session *session, const tn_rule_edit_request *r, c
 
 /* ---- does what it makes compile? */
 
+/* The first error, and, if it is not in the rule that was edited, where. */
+static tn_status say_error(tn_opened *opened, const char *rule, const tn_rule_edited *made, char *why, tn_error *error)
+{
+    const tn_diagnostics *list = &opened->compilation.diagnostics;
+    const tn_diagnostic *first = NULL;
+    tn_rule_text read = {0};
+    for (size_t i = 0; i < list->count && !first; i++)
+        if (list->items[i].severity == TN_ERROR)
+            first = &list->items[i];
+    tn_status status = tn_rule_text_read(made->text, made->size, &read, error);
+    const tn_ast_rule *edited = status == TN_OK ? tn_rule_text_find(&read, rule) : NULL;
+    bool elsewhere = first && first->has_span && first->span.file == 0 && edited &&
+                     (first->span.begin < edited->top.node.span.begin || first->span.end > edited->top.node.span.end);
+    if (elsewhere)
+        snprintf(why, TN_WHY_MAX, "line %zu would be wrong then: %.300s",
+                 tn_sources_place(&opened->compilation.sources, first->span).line, first->message);
+    else
+        snprintf(why, TN_WHY_MAX, "the rule would be wrong then: %.300s", tn_first_error(opened));
+    tn_rule_text_clear(&read);
+    return status;
+}
+
 /* The file compiled before; so the first error is the edit's. */
-static tn_status compile(tn_session *session, tn_rule_edited *made)
+static tn_status compile(tn_session *session, const char *rule, tn_rule_edited *made)
 {
     tn_opened opened;
+    tn_error error;
     tn_status status = tn_session_open_text(session, made->text, made->size, NULL, &opened);
     if (status == TN_INVALID) {
-        snprintf(made->why, TN_WHY_MAX, "%.399s", tn_first_error(&opened));
-        status = TN_OK;
+        status = say_error(&opened, rule, made, made->why, &error);
+        if (status != TN_OK)
+            tn_session_fail(session, &error);
     }
     tn_close(&opened);
     return status;
@@ -208,7 +233,7 @@ tn_status tn_ask_rule_edit(tn_session *session, const tn_rule_edit_request *requ
     if (status == TN_OK)
         status = make_edit(session, request, &asked, &made);
     if (status == TN_OK && !*made.why)
-        status = compile(session, &made);
+        status = compile(session, request->rule, &made);
     if (status == TN_OK) {
         status = tn_reply_new(&tn_message_changed_rule, answer, &error);
         if (status == TN_OK)

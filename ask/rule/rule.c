@@ -1,11 +1,13 @@
 #include "ask/rule/rule.h"
 
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "ask/session/questions.h"
 #include "compiler/notation.h"
 #include "compiler/plan/syntax/program.h"
-#include "runtime/base/utf8.h"
+#include "runtime/base/nearest.h"
 
 /* ---- reading */
 
@@ -61,6 +63,23 @@ static tn_status take_rule(tn_session *session, const tn_ast_rule *rule, tn_aske
     return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }
 
+/* Says that there is no such rule, and which may be meant. */
+static tn_status refuse_name(tn_session *session, const tn_rule_text *text, const char *name)
+{
+    const char **names = calloc(text->tree->items.count + 1, sizeof *names);
+    size_t count = 0;
+    char help[TN_NAME_MAX + 40];
+    for (TN_EACH(const tn_ast_top, item, text->tree->items))
+        if (names && item->kind == TN_ITEM_RULE)
+            names[count++] = ((const tn_ast_rule *)item)->name->text;
+    const char *near = names ? tn_nearest(name, names, count) : NULL;
+    snprintf(help, sizeof help, "did you mean `%s`?", near ? near : "");
+    tn_status status = tn_session_refuse(session, near ? help : NULL, "there is no rule `%.100s` in the text of %.200s",
+                                         name, session->opened->path);
+    free(names);
+    return status;
+}
+
 tn_status tn_asked_rule_find(tn_session *session, const char *name, uint64_t at, tn_asked_rule *asked)
 {
     tn_status status = tn_asked_rule_read(session, asked);
@@ -69,8 +88,7 @@ tn_status tn_asked_rule_find(tn_session *session, const char *name, uint64_t at,
     const tn_ast_rule *rule =
         name ? tn_rule_text_find(&asked->text, name) : tn_rule_text_at(&asked->text, tn_text_byte(&asked->text, at));
     if (!rule && name)
-        return tn_session_refuse(session, NULL, "there is no rule `%.100s` in the text of %.200s", name,
-                                 session->opened->path);
+        return refuse_name(session, &asked->text, name);
     if (!rule)
         return tn_session_refuse(session, NULL, "no rule stands there");
     return take_rule(session, rule, asked);

@@ -99,11 +99,11 @@ static void describe_part(showing *s, uint32_t number, tn_rule_part_shown *to)
     const tn_ast_expr *expr = part->expr;
     if (expr->name && part->kind != TN_RULE_PART_TEXT)
         name_part(s, number, expr->name, to);
-    if (expr->condition && part->kind != TN_RULE_PART_TEXT) {
-        tn_span span = expr->condition->node.span;
+    tn_text_stretch condition = tn_rule_part_condition(&s->asked->tree, number);
+    if (condition.end > 0) {
         to->has_condition = to->has_condition_place = true;
-        to->condition = copy(s, span.begin, span.end);
-        place(s, span.begin, span.end, &to->condition_place);
+        to->condition = copy(s, condition.begin, condition.end);
+        place(s, condition.begin, condition.end, &to->condition_place);
     }
     if (part->kind == TN_RULE_PART_NEAR || part->kind == TN_RULE_PART_EVERY_NEAR)
         relate_part(s, part, to);
@@ -183,7 +183,7 @@ static void add_name(showing *s, const char *name, const char *means)
     s->failed |= !to->name;
 }
 
-/* Rules about the same trays but itself, and params. Constants stand in numbers, whose texts complete them. */
+/* Rules about the same trays but itself, params, the text's own constants, and the rule's own words. */
 static void add_names(showing *s)
 {
     const tn_module *module = s->session->opened->module;
@@ -194,6 +194,9 @@ static void add_names(showing *s)
             add_name(s, tn_text(module, module->RULE_records[i].name), "rule");
     for (size_t i = 0; i < program->param_count; i++)
         add_name(s, program->params[i].name, "param");
+    for (TN_EACH(const tn_ast_top, item, s->asked->text.tree->items))
+        if (item->kind == TN_ITEM_LET)
+            add_name(s, ((const tn_ast_rule *)item)->name->text, "let");
     for (TN_EACH(const tn_ast_word, word, s->asked->tree.rule->params))
         add_name(s, word->text, "bound");
 }

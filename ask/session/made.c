@@ -7,7 +7,7 @@
 tn_status tn_making_begin(tn_making *making, tn_session *session, tn_file_format format, const char *name,
                           tn_made_file *to, tn_error *error)
 {
-    *making = (tn_making){.taker = session->files, .to = to, .format = format};
+    *making = (tn_making){.taker = session->files, .lends = session->bytes, .to = to, .format = format};
     to->format = format == TN_FILE_OTHER ? "text" : tn_file_format_word(format);
     to->has_name = name != NULL;
     to->name = name ? strdup(name) : NULL;
@@ -20,16 +20,20 @@ tn_status tn_making_begin(tn_making *making, tn_session *session, tn_file_format
 }
 
 /* Takes the bytes, which a zero follows. */
-static void put_content(tn_making *making)
+static tn_status put_content(tn_making *making, tn_error *error)
 {
     tn_made_file *to = making->to;
-    to->has_text = making->format == TN_FILE_OTHER || tn_file_format_is_text(making->format);
-    to->has_base64 = !to->has_text;
+    bool text = making->format == TN_FILE_OTHER || tn_file_format_is_text(making->format);
+    if (!text && making->lends)
+        return making->lends->take(making->lends->context, to, (const uint8_t *)making->bytes, making->size, error);
+    to->has_text = text;
+    to->has_base64 = !text;
     if (to->has_text)
         to->text = making->bytes;
     else
         to->base64 = (tn_bytes){(uint8_t *)making->bytes, making->size};
     making->bytes = NULL;
+    return TN_OK;
 }
 
 tn_status tn_making_end(tn_making *making, tn_status status, tn_error *error)
@@ -44,7 +48,7 @@ tn_status tn_making_end(tn_making *making, tn_status status, tn_error *error)
     if (fclose(making->stream) != 0 && status == TN_OK)
         status = tn_fail_memory(error);
     if (status == TN_OK)
-        put_content(making);
+        status = put_content(making, error);
     free(making->bytes);
     return status;
 }

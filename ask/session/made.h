@@ -17,10 +17,18 @@ typedef struct tn_file_taker {
     void *context;
 } tn_file_taker;
 
+/* Whoever takes what is in files of an answer that are no text (tn_session.bytes), instead of base64: in the order of
+ * the files. The bytes are lent. */
+typedef struct tn_bytes_taker {
+    tn_status (*take)(void *context, const tn_made_file *file, const uint8_t *bytes, size_t size, tn_error *error);
+    void *context;
+} tn_bytes_taker;
+
 /* A file on its way. */
 typedef struct tn_making {
-    const tn_file_taker *taker; /* or NULL */
-    tn_made_file *to;           /* of the answer; its content is left out if there is a taker */
+    const tn_file_taker *taker;  /* or NULL */
+    const tn_bytes_taker *lends; /* or NULL */
+    tn_made_file *to;            /* of the answer; its content is left out if there is a taker */
     tn_file_format format;
     FILE *stream; /* write here */
     char *bytes;

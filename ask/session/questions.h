@@ -16,6 +16,7 @@ typedef struct tn_request_kind {
     const tn_message *request;
     const char *answers; /* the names of their types, with blanks between them */
     const char *doc;
+    bool runs; /* it is about runs of evolution, which live in folders and databases, and may start programs */
     tn_status (*ask)(tn_session *session, const void *request, tn_reply *answer);
 } tn_request_kind;
 

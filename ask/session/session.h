@@ -48,8 +48,10 @@ typedef struct tn_session {
     /* Takes the buildings of a kit that are found (ask/place/buildings.h); NULL: they are put into the answer. */
     const struct tn_building_taker *buildings;
 
-    /* Takes the files that are made (made.h); NULL: they are put into the answer. */
+    /* Takes the files that are made (made.h); NULL: they are put into the answer, */
     const struct tn_file_taker *files;
+    /* but for those that are no text, if this takes them (made.h). Or NULL. */
+    const struct tn_bytes_taker *bytes;
 
     tn_ready_library library; /* made ready last, if library.library is not NULL */
     tn_library_options options;

@@ -6,6 +6,7 @@
 #include "ask/source/place.h"
 #include "compiler/common/lexical.h"
 #include "compiler/common/listing.h"
+#include "compiler/common/number_ranges.h"
 #include "compiler/notation.h"
 #include "compiler/plan/syntax/program.h"
 
@@ -86,8 +87,48 @@ static tn_status add_params(tn_compilation *compilation, bool used, tn_found_set
 
 /* ---- numbers */
 
+/* Sorted by where their numbers end, which the sign before one leaves as it is. */
+typedef struct range_list {
+    const tn_number_range **items;
+    size_t count;
+} range_list;
+
+static int compare_places(tn_span a, tn_span b)
+{
+    if (a.file != b.file)
+        return a.file < b.file ? -1 : 1;
+    return a.end < b.end ? -1 : a.end > b.end;
+}
+
+static int compare_ranges(const void *a, const void *b)
+{
+    return compare_places((*(const tn_number_range *const *)a)->span, (*(const tn_number_range *const *)b)->span);
+}
+
+static tn_status sort_ranges(const tn_number_ranges *ranges, range_list *sorted, tn_error *error)
+{
+    sorted->count = 0;
+    sorted->items = calloc(ranges->count + 1, sizeof *sorted->items);
+    if (!sorted->items)
+        return tn_fail_memory(error);
+    for (const tn_number_range *range = ranges->first; range; range = range->next)
+        sorted->items[sorted->count++] = range;
+    qsort(sorted->items, sorted->count, sizeof *sorted->items, compare_ranges);
+    return TN_OK;
+}
+
+/* What was noted of the number there; NULL: nothing. */
+static const tn_number_range *range_of(const range_list *sorted, tn_span place)
+{
+    const tn_number_range wanted = {.span = place}, *key = &wanted;
+    const tn_number_range *const *found =
+        bsearch(&key, sorted->items, sorted->count, sizeof *sorted->items, compare_ranges);
+    return found ? *found : NULL;
+}
+
 typedef struct numbers {
     tn_sources *sources;
+    const range_list *ranges;
     const tn_source *source;
     const tn_listing *listing;
     tn_found_settings *found;
@@ -152,6 +193,11 @@ static tn_status add_number(const numbers *n, size_t i, tn_error *error)
     to->name = word ? copy(n->source->text, word->span) : strdup("");
     to->has_part = entry && (!word || !same_text(n->source->text, entry->name, word->span));
     to->part = to->has_part ? copy(n->source->text, entry->name) : NULL;
+    const tn_number_range *range = range_of(n->ranges, place);
+    to->least = range ? range->least : NULL;
+    to->most = range ? range->most : NULL;
+    to->has_least = to->least != NULL;
+    to->has_most = to->most != NULL;
     return to->name && (to->part || !to->has_part) ? TN_OK : tn_fail_memory(error);
 }
 
@@ -165,7 +211,8 @@ static tn_status add_tokens(const numbers *n, tn_error *error)
 }
 
 /* The compilation has read the tokens and forgotten them. */
-static tn_status add_file(tn_compilation *compilation, uint32_t file, tn_found_settings *found, tn_error *error)
+static tn_status add_file(tn_compilation *compilation, const range_list *ranges, uint32_t file,
+                          tn_found_settings *found, tn_error *error)
 {
     tn_sources *sources = &compilation->sources;
     const tn_source *source = &sources->files[file];
@@ -178,7 +225,8 @@ static tn_status add_file(tn_compilation *compilation, uint32_t file, tn_found_s
                 tn_listing_start(&listing, source->text, &reading.tokens);
     if (read && notation->front->list)
         notation->front->list(&listing);
-    tn_status status = read ? add_tokens(&(numbers){sources, source, &listing, found}, error) : tn_fail_memory(error);
+    tn_status status =
+        read ? add_tokens(&(numbers){sources, ranges, source, &listing, found}, error) : tn_fail_memory(error);
     tn_diagnostics_clear(&said);
     return status;
 }
@@ -186,9 +234,11 @@ static tn_status add_file(tn_compilation *compilation, uint32_t file, tn_found_s
 static tn_status add_numbers(tn_compilation *compilation, bool used, tn_found_settings *found, tn_error *error)
 {
     size_t count = used ? compilation->sources.count : 1;
-    tn_status status = TN_OK;
+    range_list ranges;
+    tn_status status = sort_ranges(compilation->ranges, &ranges, error);
     for (uint32_t file = 0; status == TN_OK && file < count; file++)
-        status = add_file(compilation, file, found, error);
+        status = add_file(compilation, &ranges, file, found, error);
+    free(ranges.items);
     return status;
 }
 

@@ -2,13 +2,8 @@
 #include <inttypes.h>
 
 #include "ask/session/questions.h"
-#include "cli/common/job.h"
+#include "cli/common/listed.h"
 #include "cli/common/option_rows.h"
-
-typedef struct settings_settings {
-    tn_settings common;
-    bool used, json;
-} settings_settings;
 
 static void write_setting(const tn_shown_setting *setting, FILE *out)
 {
@@ -16,42 +11,29 @@ static void write_setting(const tn_shown_setting *setting, FILE *out)
     if (setting->has_part)
         fprintf(out, "%s: ", setting->part);
     fprintf(out, "%s%s%s", setting->name, *setting->name ? " = " : "", setting->value);
-    if (setting->has_least)
-        fprintf(out, " in %s..%s", setting->least, setting->most);
-    for (size_t i = 0; setting->has_words && i < setting->words.count; i++)
-        fprintf(out, "%s%s", i == 0 ? ", one of " : ", ", setting->words.items[i]);
-    if (setting->has_doc)
-        fprintf(out, "  \"%s\"", setting->doc);
-    fputc('\n', out);
+    tn_listed_write_values(setting->least, setting->most, setting->words.items, setting->words.count, out);
+    tn_listed_write_doc(setting->doc, out);
 }
 
-static void show(tn_job *job, const settings_settings *settings)
+static void write_settings(const void *answer, FILE *out)
 {
-    const tn_settings_request request = {.used = settings->used};
-    tn_reply answer;
-    tn_output output;
-    if (tn_job_answered(job, tn_ask_settings(&job->session, &request, &answer)) && tn_job_output(job, NULL, &output)) {
-        const tn_found_settings *found = answer.value;
-        if (settings->json)
-            tn_job_write_json(&answer, output.stream);
-        for (size_t i = 0; !settings->json && i < found->settings.count; i++)
-            write_setting(&found->settings.items[i], output.stream);
-        tn_job_commit(job, &output);
-    }
-    tn_reply_clear(&answer);
+    const tn_found_settings *found = answer;
+    for (size_t i = 0; i < found->settings.count; i++)
+        write_setting(&found->settings.items[i], out);
 }
 
-static int run(const tn_command *command, const tn_settings *common)
+static tn_status ask(tn_session *session, bool used, tn_reply *answer)
+{
+    return tn_ask_settings(session, &(tn_settings_request){.used = used}, answer);
+}
+
+static int run(const tn_command *command, const tn_settings *settings)
 {
     (void)command;
-    tn_job job;
-    tn_job_begin(&job, common);
-    if (tn_job_open(&job, common->operands.items[0]))
-        show(&job, (const settings_settings *)common);
-    return tn_job_end(&job);
+    return tn_listed_run(&(tn_listed){ask, write_settings}, settings);
 }
 
-#define SETTINGS settings_settings
+#define SETTINGS tn_listed_settings
 static const tn_option options[] = {
     FLAG("used", 0, used, "also those of files that it uses"),
     OPTION_SET,
@@ -62,9 +44,10 @@ const tn_command tn_command_settings = {
     .name = "settings",
     .summary = "list the numbers that may be turned in a rule file, with their places",
     .usage = "FILE [--used] [--json]",
-    .description = "Lists the params of a .plan file, with their ranges or words, or each number of a file of another "
-                   "notation with the statement that it belongs to: what an editor can show as sliders. Each line says "
-                   "where the value is written.",
+    .description =
+        "Lists the params of a .plan file, with their ranges or words, or each number of a file of another "
+        "notation with the statement that it belongs to, and the least and the most that it may be where that "
+        "is laid down: what an editor can show as sliders. Each line says where the value is written.",
     .example = "$ tartan settings tower",
     .options = options,
     .option_count = OPTION_COUNT(options),

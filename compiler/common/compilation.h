@@ -55,8 +55,9 @@ typedef struct tn_compilation {
     tn_sources sources;
     tn_diagnostics diagnostics;
     tn_arena *arena;
-    const tn_input *input;      /* while it is compiled; NULL afterwards */
-    struct tn_program *program; /* checked; NULL where there were errors */
+    const tn_input *input;                 /* while it is compiled; NULL afterwards */
+    const struct tn_number_ranges *ranges; /* of its numbers (number_ranges.h) */
+    struct tn_program *program;            /* checked; NULL where there were errors */
     /* for editors, of a .plan file, and also where there were errors: the files with their syntax trees (import.h), and
      * what became of them (check.h) */
     const struct tn_imports *imports;

@@ -49,10 +49,12 @@ typedef struct tn_diagnostics {
     tn_diagnostic *items;
     size_t count, capacity;
     size_t error_count, warning_count;
-    size_t error_limit;    /* further errors (and further warnings) are counted but not kept; 0: 100 */
-    size_t dropped;        /* past the limit */
-    bool failed;           /* out of memory while collecting */
-    bool stopped;          /* work ended because nobody wanted it any more: nobody's mistake, and not listed */
+    size_t error_limit; /* further errors (and further warnings) are counted but not kept; 0: 100 */
+    size_t dropped;     /* past the limit */
+    bool failed;        /* out of memory while collecting */
+    bool stopped;       /* work ended because nobody wanted it any more: nobody's mistake, and not listed */
+    struct tn_number_ranges
+        *ranges;           /* what checking found of numbers is noted there (number_ranges.h); NULL: nowhere */
     tn_diagnostic scratch; /* what is past the limit goes here and is forgotten */
 } tn_diagnostics;
 

@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "compiler/common/lexical.h"
+#include "compiler/common/number_ranges.h"
 #include "compiler/evolution/evolution.h"
 #include "runtime/base/nearest.h"
 
@@ -160,6 +161,18 @@ static void extra_value(check *c, tn_setting setting, const tn_evolution_value *
 
 /* ---- reading values */
 
+/* All numbers of a setting have the same range. */
+static void note_range(const check *c, tn_setting setting, const tn_evolution_value *value)
+{
+    const tn_setting_row *row = &tn_setting_rows[setting];
+    if (value->kind != TN_EVOLUTION_NUMBER && value->kind != TN_EVOLUTION_RANGE)
+        return;
+    if (row->kind == TN_SETTING_SEED)
+        tn_range_note_whole64(c->reader->diagnostics, value->span);
+    else
+        tn_range_note(c->reader->diagnostics, value->span, row->low, row->high);
+}
+
 static bool read_pair(const tn_evolution_value *value, tn_setting_value *out)
 {
     const char *dots = strstr(value->text, "..");
@@ -244,18 +257,21 @@ static bool read_every(const tn_evolution_value *word, tn_setting_value *out)
 }
 
 /* `target X` and `weight Y`, in any order, behind the text of a setting that may be there more than once. */
-static bool read_wish(tn_setting setting, const tn_evolution_value *word, tn_setting_value *out)
+static bool read_wish(const check *c, tn_setting setting, const tn_evolution_value *word, tn_setting_value *out)
 {
     const tn_evolution_value *number = word->next;
     if (word->kind != TN_EVOLUTION_WORD || !number || number->kind != TN_EVOLUTION_NUMBER)
         return false;
     double value = tn_decimal_value(number->text, strlen(number->text));
-    if (strcasecmp(word->text, "weight") == 0)
+    if (strcasecmp(word->text, "weight") == 0) {
         out->second = value;
-    else if (strcasecmp(word->text, "target") == 0 && setting == TN_SET_FITNESS)
+        note_range(c, setting, number);
+    } else if (strcasecmp(word->text, "target") == 0 && setting == TN_SET_FITNESS) {
         out->first = value;
-    else
+        tn_range_note(c->reader->diagnostics, number->span, -TN_COORDINATE_MAX, TN_COORDINATE_MAX);
+    } else {
         return false;
+    }
     return tn_setting_fits(setting, out);
 }
 
@@ -280,7 +296,7 @@ static void take_each(check *c, tn_setting setting, const tn_evolution_setting *
     const tn_evolution_value *wrong = value;
     for (const tn_evolution_value *word = fits ? value->next : NULL; word; word = fits ? word->next->next : NULL) {
         wrong = word;
-        fits = read_wish(setting, word, &read);
+        fits = read_wish(c, setting, word, &read);
     }
     if (!fits) {
         count_as_written(c, setting, span);
@@ -302,6 +318,8 @@ static void take(check *c, tn_setting setting, const tn_evolution_setting *item)
     for (const tn_evolution_value *one = value; one; one = one->next)
         if (one->kind == TN_EVOLUTION_UNCLOSED)
             return;
+        else
+            note_range(c, setting, one);
     if (!value || !read_first(setting, value, &read) || !tn_setting_fits(setting, &read)) {
         bad_value(c, setting, value, value ? value->span : item->span);
         return;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "compiler/common/emit_sources.h"
+#include "compiler/common/number_ranges.h"
 #include "compiler/field/field.h"
 #include "runtime/number/interval.h"
 #include "runtime/number/run.h"
@@ -86,7 +87,8 @@ static void take_corner(emit *e, const tn_expression *corner, double out[3])
         return;
     }
     for (const tn_expression *number = corner->first; number; number = number->next)
-        out[axis++] = constant(e, number, "a corner's coordinate", "write numbers, or names that `let` gave to numbers");
+        out[axis++] =
+            constant(e, number, "a corner's coordinate", "write numbers, or names that `let` gave to numbers");
 }
 
 static void take_box(emit *e, const tn_field_setting *box)
@@ -117,6 +119,7 @@ static void take_grid(emit *e, const tn_field_setting *grid)
     if (!grid)
         return;
     double n = grid->number.value;
+    tn_range_note(e->diagnostics, grid->number.span, 2, TN_GRID_MAX);
     if (n == floor(n) && n >= 2 && n <= TN_GRID_MAX) {
         e->grid = (uint32_t)n;
         return;

@@ -4,6 +4,7 @@
 #include <strings.h>
 
 #include "compiler/common/lexical.h"
+#include "compiler/common/number_ranges.h"
 #include "compiler/kit/kit.h"
 #include "runtime/geometry/union/wide.h"
 
@@ -153,6 +154,7 @@ bool tn_kit_whole(tn_kit *kit, const tn_kit_length *number, int64_t low, int64_t
 {
     const char *text = kit->diagnostics->sources->files[number->digits.file].text + number->digits.begin;
     size_t size = number->digits.end - number->digits.begin;
+    tn_range_note(kit->diagnostics, number->span, (double)low, (double)high);
     if (!memchr(text, '.', size) && tn_integer_read(text, size, value) && *value >= low && *value <= high)
         return true;
     *value = low;

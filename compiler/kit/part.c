@@ -2,6 +2,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "compiler/common/number_ranges.h"
 #include "compiler/kit/kit.h"
 
 static const char *const axes[TN_AXIS_COUNT] = {"up", "down", "left", "right", "front", "back"};
@@ -195,6 +196,7 @@ static void check_boxes(tn_kit *kit, const tn_kit_part *part)
 static double read_amount(tn_kit *kit, const tn_kit_node *node)
 {
     double amount = tn_kit_number(kit, &node->count[0]);
+    tn_range_note(kit->diagnostics, node->count[0].span, 0, TN_COORDINATE_MAX);
     if (amount <= TN_COORDINATE_MAX)
         return amount;
     tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_NUMBER, node->count[0].span, "this %s is too large",

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compiler/common/number_ranges.h"
 #include "compiler/kit/kit.h"
 #include "runtime/place/model/frame.h"
 
@@ -337,6 +338,7 @@ void tn_kit_check_rule(tn_kit *kit, const tn_kit_rule *rule)
         for (const tn_kit_node *drawn = one->inner.first; one->kind == TN_KIT_DRAWN && drawn; drawn = drawn->next) {
             check_places(kit, rule, drawn);
             double weight = tn_kit_number(kit, &drawn->count[0]);
+            tn_range_note(kit->diagnostics, drawn->count[0].span, 0, 1);
             sum += weight;
             if (weight <= 1)
                 continue;

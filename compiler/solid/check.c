@@ -4,6 +4,7 @@
 #include <strings.h>
 
 #include "compiler/common/names.h"
+#include "compiler/common/number_ranges.h"
 #include "compiler/solid/solid.h"
 
 const tn_expression_scope tn_solid_scope = {
@@ -189,6 +190,7 @@ static void check_goal_number(tn_solid_check *check, const tn_solid_item *item, 
 {
     double value = tn_solid_goal_number(check->diagnostics->sources, item, which, 0);
     bool below = which == 1 && value < 0;
+    tn_range_note(check->diagnostics, item->given[which], which == 1 ? 0 : -TN_COORDINATE_MAX, TN_COORDINATE_MAX);
     if (!below && fabs(value) <= TN_COORDINATE_MAX)
         return;
     tn_diagnostic *d = tn_report(check->diagnostics, E_SETTING_RANGE, item->given[which],

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "compiler/common/number_ranges.h"
 #include "compiler/study/study.h"
 
 const tn_expression_scope tn_study_scope = {
@@ -35,20 +36,39 @@ static void out_of_range(check *c, tn_span span, const char *what, const char *h
     tn_help(c->diagnostics, d, "%s", help);
 }
 
-static bool is_whole(double value)
+/* Between what a setting's number lies. Those without a row are held otherwise, or not at all. */
+typedef struct range {
+    double least, most;
+    bool whole;
+    const char *what, *help;
+} range;
+
+static const range ranges[TN_STUDY_SETTING_COUNT] = {
+    [TN_STUDY_STEPS] = {0, TN_STEPS_MAX, true, "steps are a whole number, 100,000 at most",
+                        "most surfaces are grown in 4 to 8 steps"},
+    [TN_STUDY_BRANCH_ANGLE] = {0, 360, false, "an angle lies between 0 and 360 degrees",
+                               "usual ones are 30, 45, 60 and 90"},
+    [TN_STUDY_BRANCH_LENGTH] = {0, INFINITY, false, "a branch length is not below 0",
+                                "leave it out for branches of any length"},
+    [TN_STUDY_EDGE_LIMIT] = {3, INFINITY, true, "an edge limit is a whole number of at least 3",
+                             "write how many edges a surface may have"},
+};
+
+static void check_range(check *c, const tn_study_item *item)
 {
-    return value >= 0 && value == floor(value);
+    const range *r = &ranges[item->kind];
+    double n = item->number.value;
+    tn_range_note(c->diagnostics, item->number.span, r->least, r->most);
+    if (!(n >= r->least && n <= r->most) || (r->whole && n != floor(n)))
+        out_of_range(c, item->number.span, r->what, r->help);
 }
 
 static void check_setting(check *c, const tn_study_item *item)
 {
     double n = item->number.value;
+    if (ranges[item->kind].what)
+        check_range(c, item);
     switch (item->kind) {
-    case TN_STUDY_STEPS:
-        if (!is_whole(n) || n > TN_STEPS_MAX)
-            out_of_range(c, item->number.span, "steps are a whole number, 100,000 at most",
-                         "most surfaces are grown in 4 to 8 steps");
-        break;
     case TN_STUDY_SCALE:
         if (!(item->a.x > 0 && item->a.y > 0 && item->a.z > 0))
             out_of_range(c, item->a.span, "a scale is above 0",
@@ -60,19 +80,10 @@ static void check_setting(check *c, const tn_study_item *item)
                          "it is the side of the seed, in model units");
         break;
     case TN_STUDY_SEED:
+        tn_range_note_whole64(c->diagnostics, item->number.span);
         if (n < 0)
             out_of_range(c, item->number.span, "a seed is a whole number",
                          "any from 0 to 18446744073709551615 will do, such as 7");
-        break;
-    case TN_STUDY_BRANCH_ANGLE:
-        if (!(n >= 0 && n <= 360))
-            out_of_range(c, item->number.span, "an angle lies between 0 and 360 degrees",
-                         "usual ones are 30, 45, 60 and 90");
-        break;
-    case TN_STUDY_BRANCH_LENGTH:
-        if (!(n >= 0))
-            out_of_range(c, item->number.span, "a branch length is not below 0",
-                         "leave it out for branches of any length");
         break;
     case TN_STUDY_SUN:
         if (!(item->a.x * item->a.x + item->a.y * item->a.y + item->a.z * item->a.z > 1e-24))
@@ -83,11 +94,6 @@ static void check_setting(check *c, const tn_study_item *item)
         if (item->text && item->text[0] == '\0')
             out_of_range(c, item->text_span, "the mesh has no name",
                          "name a file that OpenMesh reads: OBJ, PLY, STL, OFF or OM");
-        break;
-    case TN_STUDY_EDGE_LIMIT:
-        if (!is_whole(n) || n < 3)
-            out_of_range(c, item->number.span, "an edge limit is a whole number of at least 3",
-                         "write how many edges a surface may have");
         break;
     default:
         break;
@@ -122,6 +128,8 @@ static void check_parts(check *c, const tn_study_item *item)
             tn_help(c->diagnostics, d, "leave one of them out");
         }
         seen[part->kind] = part;
+        if (part->kind == TN_PART_WEIGHT)
+            tn_range_note(c->diagnostics, part->span, 0, INFINITY);
         if (part->kind == TN_PART_WEIGHT && part->value < 0)
             out_of_range(c, part->span, "a weight is not below 0", "a larger weight makes a term count for more");
     }

@@ -7,21 +7,13 @@
 #ifndef TARTAN_DRIVER_OPEN_FILES_H
 #define TARTAN_DRIVER_OPEN_FILES_H
 
-#include <pthread.h>
-
 #include "compiler/common/resolver.h"
+#include "driver/open/kept_texts.h"
 #include "driver/open/stdlib_dirs.h"
-
-/* Texts that stand in for files, by their real paths: what an editor has not saved yet. False where the file on the
- * disk counts. */
-typedef bool tn_overlay(void *context, const char *real_path, const char **text, size_t *size);
 
 typedef struct tn_files {
     const tn_stdlib_dirs *dirs; /* borrowed */
-    tn_overlay *overlay;        /* or NULL */
-    void *overlay_context;
-    pthread_mutex_t lock;
-    struct tn_file *found; /* since it was begun; owned, with the texts */
+    tn_kept_texts kept;         /* since it was begun; its overlay goes by real paths */
 } tn_files;
 
 /* The folders stay the caller's, and there until the end. Clear it in any case. */

@@ -9,35 +9,15 @@
 #include "driver/open/stdlib_texts.h"
 #include "runtime/geometry/boundary_file.h"
 
-typedef struct tn_served_file {
-    struct tn_served_file *next;
-    char *path;
-    uint8_t *bytes; /* NULL if a text stands in for it */
-    const char *text;
-    size_t size;
-} tn_served_file;
-
 void tn_served_begin(tn_served_files *files, const tn_served *served, tn_overlay *overlay, void *context)
 {
-    *files = (tn_served_files){
-        .served = served, .overlay = overlay, .overlay_context = context, .lock = PTHREAD_MUTEX_INITIALIZER};
-}
-
-static void free_file(tn_served_file *file)
-{
-    free(file->path);
-    free(file->bytes);
-    free(file);
+    files->served = served;
+    tn_kept_begin(&files->kept, overlay, context);
 }
 
 void tn_served_clear(tn_served_files *files)
 {
-    for (tn_served_file *file = files->found, *next; file; file = next) {
-        next = file->next;
-        free_file(file);
-    }
-    files->found = NULL;
-    pthread_mutex_destroy(&files->lock);
+    tn_kept_clear(&files->kept);
 }
 
 /* ---- paths */
@@ -103,68 +83,32 @@ static tn_status find_place(const tn_request *request, char **place, tn_error *e
 
 /* ---- reading */
 
-static tn_status read_text(const tn_served_files *files, tn_served_file *file, tn_error *error)
+/* The key is the path. */
+static tn_status read_text(void *context, tn_kept_text *file, tn_error *error)
 {
-    if (files->overlay && files->overlay(files->overlay_context, file->path, &file->text, &file->size))
+    const tn_served_files *files = context;
+    if (tn_kept_overlaid(&files->kept, file->key, file))
         return TN_OK;
     if (!files->served->read)
-        return tn_fail(error, TN_IO, E_CANNOT_READ, "there is no file %.300s", file->path + 1);
-    tn_status status = files->served->read(files->served->context, file->path, &file->bytes, &file->size, error);
+        return tn_fail(error, TN_IO, E_CANNOT_READ, "there is no file %.300s", file->key + 1);
+    tn_status status = files->served->read(files->served->context, file->key, &file->bytes, &file->size, error);
     file->text = (const char *)file->bytes;
     return status;
 }
 
-/* Reads the file of that path, which becomes the file's. */
-static tn_status get(tn_served_files *files, char *place, tn_error *error)
-{
-    tn_served_file *file = calloc(1, sizeof *file);
-    if (!file) {
-        free(place);
-        return tn_fail_memory(error);
-    }
-    file->path = place;
-    tn_status status = read_text(files, file, error);
-    if (status != TN_OK) {
-        free_file(file);
-        return status;
-    }
-    file->next = files->found;
-    files->found = file;
-    return TN_OK;
-}
-
-static const tn_served_file *known(const tn_served_files *files, const char *place)
-{
-    const tn_served_file *file = files->found;
-    while (file && strcmp(file->path, place) != 0)
-        file = file->next;
-    return file;
-}
-
-static tn_status find_file(tn_served_files *files, const tn_request *request, const tn_served_file **found,
+static tn_status find_file(tn_served_files *files, const tn_request *request, const tn_kept_text **found,
                            tn_error *error)
 {
     char *place;
     tn_status status = find_place(request, &place, error);
-    if (status != TN_OK)
-        return status;
-    pthread_mutex_lock(&files->lock);
-    *found = known(files, place);
-    if (*found) {
-        free(place);
-    } else {
-        status = get(files, place, error);
-        *found = files->found;
-    }
-    pthread_mutex_unlock(&files->lock);
-    return status;
+    return status == TN_OK ? tn_kept_get(&files->kept, place, read_text, files, found, error) : status;
 }
 
 /* ---- what texts use */
 
 static tn_status find_used(void *context, const tn_request *request, tn_input *found, char *meant, tn_error *error)
 {
-    const tn_served_file *file;
+    const tn_kept_text *file;
     (void)meant;
     if (tn_path_is_bare(request->path)) {
         tn_fail(error, TN_INVALID, E_IMPORT_NOT_FOUND, "the standard library has no `%.400s`", request->path);
@@ -174,7 +118,7 @@ static tn_status find_used(void *context, const tn_request *request, tn_input *f
     }
     tn_status status = find_file(context, request, &file, error);
     if (status == TN_OK)
-        *found = (tn_input){.text = file->text, .size = file->size, .name = file->path};
+        *found = (tn_input){.text = file->text, .size = file->size, .name = file->key};
     return status;
 }
 
@@ -194,7 +138,7 @@ tn_resolver tn_served_resolver(tn_served_files *files)
 
 static tn_status read_bytes(void *context, const tn_request *request, uint8_t **bytes, size_t *size, tn_error *error)
 {
-    const tn_served_file *file;
+    const tn_kept_text *file;
     if (strcmp(request->extension, TN_LDRAW_LIBRARY) == 0)
         return tn_fail(error, TN_IO, E_CANNOT_READ, "the LDraw library, which has %.120s, is not read here",
                        request->path);

@@ -21,10 +21,7 @@ typedef struct tn_served {
 /* What was found for the texts that are compiled, each read once. */
 typedef struct tn_served_files {
     const tn_served *served; /* borrowed */
-    tn_overlay *overlay;     /* texts that stand in for files, by their paths; or NULL */
-    void *overlay_context;
-    pthread_mutex_t lock;
-    struct tn_served_file *found; /* owned */
+    tn_kept_texts kept;
 } tn_served_files;
 
 void tn_served_begin(tn_served_files *files, const tn_served *served, tn_overlay *overlay, void *context);

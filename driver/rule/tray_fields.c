@@ -123,7 +123,7 @@ char *tn_item_text(const tn_schema *schema, uint32_t field, uint32_t value, bool
 
 /* ---- specifiers */
 
-static bool is_there(const tn_source_map_record *place, uint32_t file, tn_stretch at)
+static bool is_there(const tn_source_map_record *place, uint32_t file, tn_text_stretch at)
 {
     return place && place->file == file && place->begin == at.begin && place->end == at.end;
 }
@@ -142,8 +142,39 @@ static bool same_masks(const tn_module *module, uint32_t a, uint32_t b)
     return true;
 }
 
-uint32_t tn_tray_spec(const tn_module *module, uint32_t file, tn_stretch place)
+/* Of one schema: the same values of one field. */
+static bool same_values(const tn_schema *schema, uint32_t field, uint32_t a, uint32_t b)
 {
+    for (uint32_t v = 0; v < value_count(schema, field); v++) {
+        uint32_t bit = schema->value_start[field] + v;
+        if ((tn_spec_word(schema->module, a, bit / 64) ^ tn_spec_word(schema->module, b, bit / 64)) >> (bit % 64) & 1)
+            return false;
+    }
+    return true;
+}
+
+/* What is asked of the tray's specifiers; schema NULL: all of them are to be the same. */
+typedef struct sought {
+    const tn_module *module;
+    const tn_schema *schema;
+    uint32_t field, file;
+    tn_text_stretch place;
+} sought;
+
+static bool counts(const sought *s, uint32_t spec)
+{
+    const tn_schema_record *of = &s->module->SCHEMA_records[s->module->SPEC_records[spec].schema];
+    return !s->schema || of == s->schema->record;
+}
+
+static bool alike(const sought *s, uint32_t a, uint32_t b)
+{
+    return s->schema ? same_values(s->schema, s->field, a, b) : same_masks(s->module, a, b);
+}
+
+static uint32_t find_spec(const sought *s)
+{
+    const tn_module *module = s->module;
     uint32_t found = UINT32_MAX;
     for (uint32_t f = 0; f < module->FUNCTION_count; f++) {
         const tn_function_record *function = &module->FUNCTION_records[f];
@@ -152,8 +183,9 @@ uint32_t tn_tray_spec(const tn_module *module, uint32_t file, tn_stretch place)
         for (uint32_t at = function->code_begin; at < function->code_end;) {
             tn_instruction it = tn_code_read(module->code, at);
             uint32_t spec = (uint32_t)it.first;
-            bool here = it.opcode == TN_OP_TRAY && is_there(tn_module_place(module, at), file, place);
-            if (here && found != UINT32_MAX && !same_masks(module, found, spec))
+            bool here =
+                it.opcode == TN_OP_TRAY && is_there(tn_module_place(module, at), s->file, s->place) && counts(s, spec);
+            if (here && found != UINT32_MAX && !alike(s, found, spec))
                 return UINT32_MAX;
             found = here ? spec : found;
             at += it.length;
@@ -162,11 +194,23 @@ uint32_t tn_tray_spec(const tn_module *module, uint32_t file, tn_stretch place)
     return found;
 }
 
+uint32_t tn_tray_spec(const tn_module *module, uint32_t file, tn_text_stretch place)
+{
+    return find_spec(&(sought){.module = module, .file = file, .place = place});
+}
+
+uint32_t tn_tray_field_spec(const tn_schema *schema, uint32_t field, uint32_t file, tn_text_stretch place)
+{
+    return find_spec(
+        &(sought){.module = schema->module, .schema = schema, .field = field, .file = file, .place = place});
+}
+
 /* ---- steps */
 
 typedef struct stepping {
     const tn_schema *schema;
     uint32_t spec, field;
+    bool said, deep; /* an item is about the field; it has a depth */
 } stepping;
 
 static bool allows(const stepping *s, uint32_t value)
@@ -221,14 +265,16 @@ static uint32_t step(const stepping *s, tn_tray_sign sign, bool *whole, char *wh
     *whole = zone && sign == TN_SIGN_VALUE;
     if (s->schema->fields[s->field].kind == TN_FIELD_FLAG)
         return step_flag(count, value);
-    if (!zone)
-        return count == all ? 0 : count == 1 ? next_value(s, value, sign) : UINT32_MAX;
-    uint32_t of_fill = count_allowed(s, value, &value, &depths);
-    if (sign == TN_SIGN_VALUE)
-        return count == all ? 0 : of_fill == count ? next_value(s, value, sign) : UINT32_MAX;
-    if (count == all || of_fill != count)
+    uint32_t of_fill = zone ? count_allowed(s, value, &value, &depths) : 1;
+    bool any = count == all && !(s->said && count == of_fill); /* what is said may be all that there is */
+    if (!zone || sign == TN_SIGN_VALUE)
+        return any ? 0 : count == of_fill ? next_value(s, value, sign) : UINT32_MAX;
+    if (any || of_fill != count)
         snprintf(why, TN_WHY_MAX, "say first what fills the zone; then it has a depth");
-    uint32_t next = of_fill == depths ? value : of_fill == 1 ? next_value(s, value, sign) : UINT32_MAX;
+    else if (!*name_of(s->schema, value_of(s->schema, s->field, value)->measure))
+        snprintf(why, TN_WHY_MAX, "`%s %s` has no depths", name_of(s->schema, s->schema->fields[s->field].name),
+                 value_name(s->schema, s->field, value));
+    uint32_t next = !s->deep && of_fill == depths ? value : of_fill == 1 ? next_value(s, value, sign) : UINT32_MAX;
     *whole = next == UINT32_MAX;
     return next == UINT32_MAX ? value : next; /* its fill stays */
 }
@@ -248,6 +294,23 @@ static uint32_t item_about(const tn_schema *schema, const tn_ast_expr *tray, uin
     return found;
 }
 
+static const tn_ast_item *item_at(const tn_ast_expr *tray, uint32_t index)
+{
+    for (TN_EACH(const tn_ast_item, item, tray->items))
+        if (index-- == 0)
+            return item;
+    return NULL;
+}
+
+static bool has_length(const tn_ast_item *item)
+{
+    const tn_ast_alternative *first = item ? (const tn_ast_alternative *)item->alternatives.first : NULL;
+    for (const tn_ast_node *word = first ? first->words.first : NULL; word; word = word->next)
+        if (((const tn_ast_word *)word)->kind == TN_WORD_LENGTH)
+            return true;
+    return false;
+}
+
 /* Where an item about the field goes: items stand in the order of the schema's fields. */
 static uint32_t place_of_item(const tn_schema *schema, const tn_ast_expr *tray, uint32_t field)
 {
@@ -264,7 +327,6 @@ tn_status tn_tray_step(const tn_schema *schema, const tn_rule_tree *tree, uint32
                        tn_tray_sign sign, tn_rule_edit *edit, char **text, char why[TN_WHY_MAX], tn_error *error)
 {
     const tn_rule_part *tray = &tree->parts[part];
-    const stepping s = {schema, spec, field};
     uint32_t count = 0, item = UINT32_MAX;
     bool whole;
     *text = NULL;
@@ -276,9 +338,10 @@ tn_status tn_tray_step(const tn_schema *schema, const tn_rule_tree *tree, uint32
         snprintf(why, TN_WHY_MAX, "the tray says %u things of `%s`; change one of them", count,
                  name_of(schema, schema->fields[field].name));
     else if (count == 1 && spec == UINT32_MAX)
-        snprintf(why, TN_WHY_MAX, "the item has a word that stands for several values; change its text");
+        snprintf(why, TN_WHY_MAX, "the tray has a word that stands for several values; change its text");
     if (*why)
         return TN_OK;
+    const stepping s = {schema, spec, field, count > 0, count > 0 && has_length(item_at(tray->expr, item))};
     uint32_t next = step(&s, sign, &whole, why);
     if (*why)
         return TN_OK;

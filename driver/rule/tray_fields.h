@@ -18,7 +18,11 @@ char *tn_item_text(const tn_schema *schema, uint32_t field, uint32_t value, bool
 
 /* The specifier that the tray at a place of a file became; UINT32_MAX if it became several, or none: words that a
  * quantifier binds say what it is. */
-uint32_t tn_tray_spec(const tn_module *module, uint32_t file, tn_stretch place);
+uint32_t tn_tray_spec(const tn_module *module, uint32_t file, tn_text_stretch place);
+
+/* The same for one field of a schema: words for other fields may stand for several values, and the tray may become
+ * others for schemas that are made from this one. */
+uint32_t tn_tray_field_spec(const tn_schema *schema, uint32_t field, uint32_t file, tn_text_stretch place);
 
 typedef enum tn_tray_sign { TN_SIGN_VALUE, TN_SIGN_DEPTH } tn_tray_sign;
 

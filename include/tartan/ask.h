@@ -30,6 +30,16 @@ TARTAN_API tartan_status tartan_ask(tartan_session *session, const char *questio
                                     const tartan_watch *watch, tartan_report *report, void *report_context,
                                     char **answer, tartan_error *error);
 
+/* Takes a file of an answer that is no text, such as a mesh or a picture in pixels: its format ("glb"), its name (NULL:
+ * it is the only one) and its bytes, which are lent. If it returns anything but TARTAN_OK, that is how the question
+ * ends, with what `error` says then. */
+typedef tartan_status tartan_bytes_taker(void *context, const char *format, const char *name, const void *bytes,
+                                         size_t size, tartan_error *error);
+
+/* From now on files of answers that are no text go to `take` while questions are answered, in the order of the answers,
+ * which then have their formats alone. take NULL: the answers have what is in them, too, in base64. */
+TARTAN_API void tartan_session_take_bytes(tartan_session *session, tartan_bytes_taker *take, void *context);
+
 #ifdef __cplusplus
 }
 #endif

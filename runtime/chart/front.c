@@ -19,6 +19,7 @@
 #define TABLE_GAP 20.0
 #define ROW 12.0
 #define DOT 3.0
+#define NEAR 4.5   /* from a point what still belongs to it */
 #define CELLS 64.0 /* along the plot at most */
 #define NUMBER_APART 15.0
 
@@ -170,14 +171,18 @@ static void draw_points(const picture *p)
     tn_paint_face(p->paint, TN_CHART_SMALL, true);
     for (size_t i = 0; i < p->panel->front_count; i++) {
         place(p, i, &x, &y);
+        bool numbered = fabs(x - last_x) >= NUMBER_APART || fabs(y - last_y) >= NUMBER_APART;
+        tn_paint_group_begin(p->paint, TN_PAINT_POINT, i);
+        tn_paint_target(p->paint, x - NEAR, y - NEAR, 2 * NEAR, 2 * NEAR);
         tn_chart_ink(p->paint, TN_CHART_MARK);
         tn_paint_arc(p->paint, x, y, DOT, 0, 2 * 3.14159265358979323846);
         tn_paint_fill(p->paint);
-        if (fabs(x - last_x) < NUMBER_APART && fabs(y - last_y) < NUMBER_APART)
-            continue;
-        draw_number(p, i, x, y);
-        last_x = x;
-        last_y = y;
+        if (numbered) {
+            draw_number(p, i, x, y);
+            last_x = x;
+            last_y = y;
+        }
+        tn_paint_group_end(p->paint);
     }
 }
 

@@ -58,26 +58,33 @@ static void bar_sides(const picture *p, const tn_chart_bar *bar, double *left, d
     *right = middle + half;
 }
 
-static void draw_bars(const picture *p)
+/* All of the plot above and below it belongs to a bar: one that is low can be clicked, too. */
+static void draw_bar(const picture *p, size_t i, bool says)
 {
-    const tn_histogram *h = p->h;
-    bool says = h->count > 0 && bar_pitch(p) >= SHARE_ROOM;
+    const tn_chart_bar *bar = &p->h->bars[i];
+    double left, right, y = fmin(tn_chart_at(&p->up, 100 * bar->share), p->up.from - LEAST_BAR);
     char text[32];
-    tn_paint_face(p->paint, TN_CHART_SMALL, false);
-    for (size_t i = 0; i < h->count; i++) {
-        double left, right, y = tn_chart_at(&p->up, 100 * h->bars[i].share);
-        bar_sides(p, &h->bars[i], &left, &right);
-        if (h->bars[i].share > 0)
-            y = fmin(y, p->up.from - LEAST_BAR);
-        tn_chart_ink(p->paint, TN_CHART_BAR);
-        tn_paint_rectangle(p->paint, left, y, right - left, p->up.from - y);
-        tn_paint_fill(p->paint);
-        if (!says || !(h->bars[i].share > 0))
-            continue;
+    bar_sides(p, bar, &left, &right);
+    tn_paint_group_begin(p->paint, TN_PAINT_BAR, i);
+    tn_paint_target(p->paint, left, TOP, right - left, BOTTOM - TOP);
+    tn_chart_ink(p->paint, TN_CHART_BAR);
+    tn_paint_rectangle(p->paint, left, y, right - left, p->up.from - y);
+    tn_paint_fill(p->paint);
+    if (says) {
         tn_chart_ink(p->paint, TN_CHART_BLACK);
-        snprintf(text, sizeof text, h->bars[i].share >= 0.0005 ? "%.1f %%" : "< 0.1 %%", 100 * h->bars[i].share);
+        snprintf(text, sizeof text, bar->share >= 0.0005 ? "%.1f %%" : "< 0.1 %%", 100 * bar->share);
         tn_type_line(p->paint, (left + right) / 2, y - 2.5, TN_ALIGN_CENTRE, text);
     }
+    tn_paint_group_end(p->paint);
+}
+
+static void draw_bars(const picture *p)
+{
+    bool says = p->h->count > 0 && bar_pitch(p) >= SHARE_ROOM;
+    tn_paint_face(p->paint, TN_CHART_SMALL, false);
+    for (size_t i = 0; i < p->h->count; i++)
+        if (p->h->bars[i].share > 0)
+            draw_bar(p, i, says);
 }
 
 /* The line from least to most, the box that holds the middle half, its line where half of all are below, and the mean.

@@ -386,8 +386,10 @@ double tn_paint_pixel(const tn_paint *paint)
 
 void tn_paint_group_begin(tn_paint *paint, tn_paint_subject subject, size_t number)
 {
-    static const char *const names[] = {[TN_PAINT_PLAN] = "plan", [TN_PAINT_TRAY] = "tray", [TN_PAINT_RULE] = "rule",
-                                        [TN_PAINT_PART] = "part", [TN_PAINT_ITEM] = "item", [TN_PAINT_DEPTH] = "depth"};
+    static const char *const names[] = {
+        [TN_PAINT_PLAN] = "plan", [TN_PAINT_TRAY] = "tray",   [TN_PAINT_RULE] = "rule",
+        [TN_PAINT_PART] = "part", [TN_PAINT_ITEM] = "item",   [TN_PAINT_DEPTH] = "depth",
+        [TN_PAINT_BAR] = "bar",   [TN_PAINT_POINT] = "point", [TN_PAINT_HOUSE] = "house"};
     if (draws(paint) && paint->device->operations->begin_group)
         note(paint, paint->device->operations->begin_group(paint->device, names[subject], number));
 }

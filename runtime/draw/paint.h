@@ -94,12 +94,15 @@ double tn_paint_pixel(const tn_paint *paint);
 /* ---- what is drawn, said for who clicks on it: in SVG alone, where a group has an attribute `data-plan` and so on */
 
 typedef enum tn_paint_subject {
-    TN_PAINT_PLAN, /* of a sheet, from 0 */
-    TN_PAINT_TRAY, /* of a plan, from 0 */
-    TN_PAINT_RULE, /* of those drawn, or of those that an explanation is about, from 0 */
-    TN_PAINT_PART, /* of a rule: its root is 0, and what follows it are its parts, each before its own */
-    TN_PAINT_ITEM, /* of a tray that a rule asks for: the sign of a field, by its number in the schema */
-    TN_PAINT_DEPTH /* likewise the sign of a zone's depth */
+    TN_PAINT_PLAN,  /* of a sheet, from 0 */
+    TN_PAINT_TRAY,  /* of a plan, from 0 */
+    TN_PAINT_RULE,  /* of those drawn, or of those that an explanation is about, from 0 */
+    TN_PAINT_PART,  /* of a rule: its root is 0, and what follows it are its parts, each before its own */
+    TN_PAINT_ITEM,  /* of a tray that a rule asks for: the sign of a field, by its number in the schema */
+    TN_PAINT_DEPTH, /* likewise the sign of a zone's depth */
+    TN_PAINT_BAR,   /* of a histogram, from 0: a value of the distribution, or a bin of values */
+    TN_PAINT_POINT, /* of a front, from 0, as the rows of its table */
+    TN_PAINT_HOUSE  /* of a sheet of several, from 0 */
 } tn_paint_subject;
 
 /* What is drawn until the group ends is that. Groups nest, and end before a state that was saved before them is

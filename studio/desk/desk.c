@@ -10,6 +10,7 @@
 #include "include/tartan/ask.h"
 #include "lsp/workspace.h"
 #include "runtime/base/array.h"
+#include "runtime/base/bytes.h"
 
 /* Error codes of JSON-RPC and of the Language Server Protocol. */
 enum {
@@ -30,11 +31,23 @@ typedef struct open_text {
     tn_served_files files;
 } open_text;
 
+/* A message of bytes that goes before the answer. */
+typedef struct parcel {
+    struct parcel *next;
+    uint8_t *bytes;
+    size_t size;
+    uint32_t number;
+} parcel;
+
+enum { PARCEL_HEADER = 8 };
+
 struct tn_desk {
     const tn_served *served;
     tn_workspace workspace; /* of which only the texts are used */
     open_text *opened;
     const json_t *texts; /* that the request at hand brings, by their names; borrowed */
+    parcel *first, **last;
+    uint32_t numbered;
 };
 
 /* ---- the texts that are open */
@@ -58,6 +71,74 @@ static void close_all(tn_desk *desk)
     desk->opened = NULL;
 }
 
+/* ---- what goes as bytes */
+
+uint8_t *tn_desk_bytes(tn_desk *desk, size_t *size)
+{
+    parcel *p = desk->first;
+    if (!p)
+        return NULL;
+    uint8_t *bytes = p->bytes;
+    *size = p->size;
+    desk->first = p->next;
+    if (!desk->first)
+        desk->last = &desk->first;
+    free(p);
+    return bytes;
+}
+
+static void forget_bytes(tn_desk *desk)
+{
+    size_t size;
+    for (uint8_t *bytes; (bytes = tn_desk_bytes(desk, &size));)
+        free(bytes);
+}
+
+static tartan_status too_large(size_t size, tartan_error *error)
+{
+    error->code = E_FILE_TOO_LARGE;
+    snprintf(error->message, sizeof error->message, "the file has %zu MiB, and a page takes %d MiB at most", size >> 20,
+             TN_DESK_BYTES_MAX >> 20);
+    snprintf(error->help, sizeof error->help,
+             "a coarser grid, or fewer steps, make a mesh smaller; the commands of `tartan` write any size");
+    return TARTAN_LIMIT;
+}
+
+static tartan_status take_bytes(void *context, const char *format, const char *name, const void *bytes, size_t size,
+                                tartan_error *error)
+{
+    tn_desk *desk = context;
+    (void)format, (void)name;
+    if (size > TN_DESK_BYTES_MAX)
+        return too_large(size, error);
+    parcel *p = calloc(1, sizeof *p);
+    if (!p)
+        return TARTAN_MEMORY;
+    p->size = PARCEL_HEADER + size;
+    p->bytes = malloc(p->size);
+    if (!p->bytes) {
+        free(p);
+        return TARTAN_MEMORY;
+    }
+    p->number = ++desk->numbered;
+    tn_put_u32(p->bytes, p->number);
+    tn_put_u32(p->bytes + 4, (uint32_t)size);
+    memcpy(p->bytes + PARCEL_HEADER, bytes, size);
+    *desk->last = p;
+    desk->last = &p->next;
+    return TARTAN_OK;
+}
+
+static json_t *numbers_of(const tn_desk *desk)
+{
+    json_t *numbers = json_array();
+    for (const parcel *p = desk->first; p; p = p->next)
+        json_array_append_new(numbers, json_integer(p->number));
+    return numbers;
+}
+
+/* ---- a desk */
+
 tn_status tn_desk_new(const tn_served *served, tn_desk **desk, tn_error *error)
 {
     tn_desk *made = calloc(1, sizeof *made);
@@ -65,6 +146,7 @@ tn_status tn_desk_new(const tn_served *served, tn_desk **desk, tn_error *error)
     if (!made)
         return tn_fail_memory(error);
     made->served = served;
+    made->last = &made->first;
     return tn_workspace_open(served, &made->workspace, error);
 }
 
@@ -73,6 +155,7 @@ void tn_desk_free(tn_desk *desk)
     if (!desk)
         return;
     close_all(desk);
+    forget_bytes(desk);
     tn_workspace_clear(&desk->workspace);
     free(desk);
 }
@@ -245,9 +328,13 @@ static tn_status fail(const asked *a, tartan_status status, const tartan_error *
 }
 
 /* The answer, which is JSON already, is put into the message as it stands. */
-static tn_status answer(const asked *a, const char *text)
+static tn_status answer(const tn_desk *desk, const asked *a, const char *text)
 {
     json_t *around = json_pack("{s:s,s:I,s:O}", "uri", a->uri, "version", a->version, "notes", a->notes);
+    if (desk->first && json_object_set_new(around, "bytes", numbers_of(desk)) != 0) {
+        json_decref(around);
+        return TN_MEMORY;
+    }
     char *id = json_dumps(a->id, JSON_COMPACT | JSON_ENCODE_ANY), *rest = json_dumps(around, JSON_COMPACT);
     bool good =
         id && rest &&
@@ -347,28 +434,23 @@ static tn_status ask(tn_desk *desk, const tn_document *document, const asked *a,
     tartan_error error = {.status = TARTAN_OK};
     open_text *text;
     char *request = json_dumps(json_object_get(a->params, "request"), JSON_COMPACT), *answered = NULL;
+    bool binary = json_is_true(json_object_get(a->params, "binary"));
     desk->texts = json_object_get(a->params, "texts");
     tartan_status status = open_text_of(desk, document, a, &text, &error);
-    if (status == TARTAN_OK)
+    if (status == TARTAN_OK) {
+        tartan_session_take_bytes(text->session, binary ? take_bytes : NULL, desk);
         status =
             tartan_ask(text->session, a->question, request, watch, note, &(noted){.list = a->notes}, &answered, &error);
+    }
     desk->texts = NULL;
-    tn_status given = status == TARTAN_OK       ? answer(a, answered)
+    tn_status given = status == TARTAN_OK       ? answer(desk, a, answered)
                       : status == TARTAN_MEMORY ? TN_MEMORY
                                                 : fail(a, status, &error);
+    if (status != TARTAN_OK || given != TN_OK)
+        forget_bytes(desk);
     free(request);
     tartan_text_free(answered);
     return given;
-}
-
-/* Those whose answers are more than words: they read or write folders, or run programs. */
-static bool is_elsewhere(const char *question)
-{
-    static const char *const names[] = {"runs", "individual", "change_run", "evolve", "breed"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strcmp(names[i], question) == 0)
-            return true;
-    return false;
 }
 
 /* ---- the standard library */
@@ -397,10 +479,10 @@ static tn_status take_request(tn_desk *desk, const asked *a, const tartan_watch 
     const tn_document *document = a->uri ? tn_workspace_find(&desk->workspace, a->uri) : NULL;
     if (strcmp(a->question, "stdlib") == 0)
         return stdlib_asked(a);
-    if (is_elsewhere(a->question))
-        return refuse(a, METHOD_NOT_FOUND, "runs of evolution are asked about at a terminal, by the command `tartan`");
     if (tn_request_kind_named(a->question, &kind, &error) != TN_OK)
         return refuse_question(a, &error);
+    if (kind->runs)
+        return refuse(a, METHOD_NOT_FOUND, "runs of evolution are asked about at a terminal, by the command `tartan`");
     if (!document)
         return refuse(a, INVALID_PARAMS, "the document is not open");
     if (document->version != a->version)
@@ -415,6 +497,7 @@ tn_status tn_desk_take(tn_desk *desk, const json_t *message, const tartan_watch 
     asked a = {
         .id = json_object_get(message, "id"), .params = json_object_get(message, "params"), .response = response};
     *response = NULL;
+    forget_bytes(desk);
     if (!method)
         return TN_OK;
     if (!a.id)

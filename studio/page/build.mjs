@@ -1,9 +1,9 @@
-// Builds the page into dist/: index.html, app.js and app.css; with --playground FOLDER, the one that has no server, beside
+// Builds the page into dist/: index.html, app.js, app.css and form_view.js, which is loaded when a form is shown; with --playground FOLDER, the one that has no server, beside
 // the engines in that folder (`make wasm`). The words of the notations come from the grammars of the
 // extension for VS Code, so that both colour the same.
 import {build} from "esbuild";
 import {mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync} from "node:fs";
-import {dirname, join} from "node:path";
+import {dirname, join, relative} from "node:path";
 import {fileURLToPath} from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -69,19 +69,19 @@ function licencesOf(inputs) {
     texts.set(text, [...(texts.get(text) ?? []), `${name} ${version}`]);
   }
   const said = [...texts].map(([text, names]) => `${names.join(", ")}:\n\n${text}`).join("\n\n");
-  return `/* This page bundles:\n\n${said.replaceAll("*/", "* /")}\n*/\n`;
+  return packages.size === 0 ? "" : `/* This file bundles:\n\n${said.replaceAll("*/", "* /")}\n*/\n`;
 }
 
 async function buildPage(entry, out) {
   mkdirSync(out, {recursive: true});
-  const bundle = {...options, absWorkingDir: here, entryPoints: {app: join("src", entry)}, outdir: out, minify: true};
-  const {metafile} = await build({...bundle, write: false, metafile: true});
-  await build({...bundle, footer: {js: licencesOf(Object.keys(metafile.inputs))}});
+  const bundle = {...options, absWorkingDir: here, entryPoints: {app: join("src", entry)}, outdir: out, minify: true, splitting: true, chunkNames: "[name]"};
+  const {outputFiles, metafile} = await build({...bundle, write: false, metafile: true});
+  for (const {path, text} of outputFiles) writeFileSync(path, text + licencesOf(Object.keys(metafile.outputs[relative(here, path)].inputs)));
   await build({entryPoints: [join(here, "src/app.css")], outdir: out, minify: true});
   const page = readFileSync(join(here, "src/index.html"), "utf8");
   const policy = `<meta http-equiv="Content-Security-Policy" content="${POLICY}">\n`;
   writeFileSync(join(out, "index.html"), entry === "playground.ts" ? page.replace("<title>", `${policy}<title>`) : page);
-  for (const name of ["index.html", "app.js", "app.css"]) console.log(name, statSync(join(out, name)).size);
+  for (const name of ["index.html", "app.js", "app.css", "form_view.js"]) console.log(name, statSync(join(out, name)).size);
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {

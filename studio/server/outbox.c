@@ -8,8 +8,9 @@
 
 typedef struct letter {
     struct letter *next;
-    char *text;
+    void *bytes;
     size_t size, sent;
+    bool binary;
 } letter;
 
 struct tn_outbox {
@@ -38,7 +39,7 @@ tn_outbox *tn_outbox_new(void (*woken)(void *context), void *context)
 
 static void free_letter(letter *l)
 {
-    free(l->text);
+    free(l->bytes);
     free(l);
 }
 
@@ -56,15 +57,14 @@ void tn_outbox_free(tn_outbox *outbox)
     free(outbox);
 }
 
-static bool put(tn_outbox *outbox, char *text, bool waits)
+static bool put(tn_outbox *outbox, letter given, bool waits)
 {
-    letter *made = calloc(1, sizeof *made);
+    letter *made = malloc(sizeof *made);
     if (!made) {
-        free(text);
+        free(given.bytes);
         return false;
     }
-    made->text = text;
-    made->size = strlen(text);
+    *made = given;
     pthread_mutex_lock(&outbox->lock);
     while (waits && !outbox->closed && outbox->unread > TN_UNREAD_MAX)
         pthread_cond_wait(&outbox->changed, &outbox->lock);
@@ -92,10 +92,15 @@ void tn_outbox_wake(tn_outbox *outbox)
     pthread_mutex_unlock(&outbox->lock);
 }
 
+static letter text_letter(char *text)
+{
+    return (letter){.bytes = text, .size = strlen(text)};
+}
+
 static bool put_message(tn_outbox *outbox, json_t *message, bool waits)
 {
     char *text = message ? json_dumps(message, JSON_COMPACT) : NULL;
-    bool good = !message || (text && put(outbox, text, waits));
+    bool good = !message || (text && put(outbox, text_letter(text), waits));
     json_decref(message);
     return good;
 }
@@ -107,7 +112,12 @@ bool tn_outbox_put(tn_outbox *outbox, json_t *message)
 
 bool tn_outbox_put_text(tn_outbox *outbox, char *text)
 {
-    return !text || put(outbox, text, true);
+    return !text || put(outbox, text_letter(text), true);
+}
+
+bool tn_outbox_put_bytes(tn_outbox *outbox, uint8_t *bytes, size_t size)
+{
+    return put(outbox, (letter){.bytes = bytes, .size = size, .binary = true}, true);
 }
 
 bool tn_outbox_put_now(tn_outbox *outbox, json_t *message)
@@ -133,7 +143,8 @@ tn_outbox_piece tn_outbox_take(tn_outbox *outbox, unsigned char *bytes)
         piece.size = left < TN_PIECE_MAX ? left : TN_PIECE_MAX;
         piece.first = l->sent == 0;
         piece.last = piece.size == left;
-        memcpy(bytes, l->text + l->sent, piece.size);
+        piece.binary = l->binary;
+        memcpy(bytes, (const char *)l->bytes + l->sent, piece.size);
         l->sent += piece.size;
         outbox->unread -= piece.size;
         outbox->moved = tn_seconds();

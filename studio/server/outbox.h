@@ -6,6 +6,7 @@
 #include <jansson.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 enum {
     TN_UNREAD_MAX = 8 << 20,   /* bytes that wait; then threads wait, too */
@@ -22,8 +23,9 @@ void tn_outbox_free(tn_outbox *outbox);
 /* Takes over a message (NULL: nothing); waits while too much is unread. False: the page is gone, or out of memory. */
 bool tn_outbox_put(tn_outbox *outbox, json_t *message);
 
-/* The same of a text that was allocated (NULL: nothing). */
+/* The same of a text that was allocated (NULL: nothing), and of bytes, which go as a binary message. */
 bool tn_outbox_put_text(tn_outbox *outbox, char *text);
+bool tn_outbox_put_bytes(tn_outbox *outbox, uint8_t *bytes, size_t size);
 
 /* The first from the network's thread, which does not wait: false also if too much is unread. */
 bool tn_outbox_put_now(tn_outbox *outbox, json_t *message);
@@ -37,6 +39,7 @@ void tn_outbox_close(tn_outbox *outbox);
 typedef struct tn_outbox_piece {
     size_t size;
     bool first, last; /* of its message */
+    bool binary;
 } tn_outbox_piece;
 
 /* Copies the next piece to `bytes`, which has room for TN_PIECE_MAX; size 0: there is none. It counts as read. */

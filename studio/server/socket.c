@@ -58,7 +58,7 @@ static int send_piece(struct lws *wsi, tn_socket *socket)
     tn_outbox *outbox = tn_window_outbox(socket->window);
     tn_outbox_piece piece = tn_outbox_take(outbox, bytes + LWS_PRE);
     if (piece.size > 0) {
-        int how = lws_write_ws_flags(LWS_WRITE_TEXT, piece.first, piece.last);
+        int how = lws_write_ws_flags(piece.binary ? LWS_WRITE_BINARY : LWS_WRITE_TEXT, piece.first, piece.last);
         if (lws_write(wsi, bytes + LWS_PRE, piece.size, (enum lws_write_protocol)how) < (int)piece.size)
             return -1;
     }

@@ -413,6 +413,14 @@ static json_t *answer_instead(const tn_window *w, const json_t *id, const char *
     return id && !response ? failure(id, INTERNAL_ERROR, "out of memory") : NULL;
 }
 
+/* What goes before the answer. */
+static void send_bytes(tn_window *w)
+{
+    size_t size;
+    for (uint8_t *bytes; (bytes = tn_desk_bytes(w->desk, &size));)
+        tn_outbox_put_bytes(w->outbox, bytes, size);
+}
+
 static void *answer_questions(void *context)
 {
     tn_window *w = context;
@@ -431,6 +439,8 @@ static void *answer_questions(void *context)
             instead = ended;
         }
         tn_outbox_put(w->outbox, instead);
+        if (response)
+            send_bytes(w);
         tn_outbox_put_text(w->outbox, response);
     }
     let_go(w);

@@ -21,6 +21,7 @@ python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "$scratch/a.
 # A bar for each value, or for each bin.
 values=$("$TARTAN" count "$plan" -l strips --by area --json | grep -c '"value"')
 is 'bars of values' "$(drawn "$scratch/a.svg" "$green")" "$values"
+is 'bars that are numbered' "$(grep -o 'data-bar="[0-9]*"' "$scratch/a.svg" | tr -dc '0-9\n' | paste -sd ' ')" "$(seq -s ' ' 0 $((values - 1)))"
 "$TARTAN" count "$plan" -l strips --by cost --bins 6 -o "$scratch/bins.svg"
 is 'bars of bins' "$(drawn "$scratch/bins.svg" "$green")" "$("$TARTAN" count "$plan" -l strips --by cost --bins 6 | grep -c ' \.\. ')"
 "$TARTAN" count "$plan" -l strips --by cost --where 'trays = 2 and trays = 3' -o "$scratch/none.svg"
@@ -32,6 +33,7 @@ is 'bars of one value' "$(drawn "$scratch/one.svg" "$green")" 1
 "$TARTAN" pareto "$plan" -l strips --least cost --most all-beds -o "$scratch/front.svg"
 points=$("$TARTAN" pareto "$plan" -l strips --least cost --most all-beds --json | grep -c '"plan"')
 is 'dots of the front' "$(drawn "$scratch/front.svg" "$red")" "$points"
+is 'dots that are numbered' "$(grep -o 'data-point="[0-9]*"' "$scratch/front.svg" | tr -dc '0-9\n' | paste -sd ' ')" "$(seq -s ' ' 0 $((points - 1)))"
 "$TARTAN" pareto "$plan" -l strips --least cost --most all-beds --least area -o "$scratch/three.svg"
 points=$("$TARTAN" pareto "$plan" -l strips --least cost --most all-beds --least area --json | grep -c '"plan"')
 is 'dots of three panels' "$(drawn "$scratch/three.svg" "$red")" "$((3 * points))"

@@ -107,6 +107,7 @@ class Window:
         self.protocol = re.search(rb"(?im)^sec-websocket-protocol: *(\S+)", head).group(1).decode()
         self.next = 0
         self.notes = []
+        self.parcels = {}  # messages of bytes, by their numbers
 
     def close(self):
         self.wire.close()
@@ -134,8 +135,8 @@ class Window:
         return got
 
     def message(self):
-        """The next one, put together."""
-        whole = b""
+        """The next one that is a text, put together; what comes as bytes before it is kept."""
+        whole, binary = b"", False
         while True:
             first, second = self.read(2)
             size = second & 127
@@ -150,7 +151,14 @@ class Window:
                 self.frame(data, 10)
                 continue
             whole += data
-            if first & 0x80:
+            binary = binary or first & 15 == 2
+            if first & 0x80 and binary:
+                number, size = struct.unpack_from("<II", whole)
+                if number in self.parcels or size != len(whole) - 8:
+                    raise AssertionError("bytes %d, of which %d are a file, have number %d" % (len(whole), size, number))
+                self.parcels[number] = whole[8:]
+                whole, binary = b"", False
+            elif first & 0x80:
                 return whole
 
     # ---- messages

@@ -1,6 +1,7 @@
-// Films the three first tasks and a rule that is drawn, from an empty folder and an empty profile, and makes the pictures of docs/studio.md:
+// Films the three first tasks and a rule that is drawn, from an empty folder and an empty profile, and a form, and makes the pictures of
+// docs/studio.md:
 // node pictures.mjs FOLDER. Prints what each task took, without the time of whoever thinks.
-import {mkdirSync, mkdtempSync, rmSync} from "node:fs";
+import {mkdirSync, mkdtempSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {join, resolve} from "node:path";
 import {counted, countOf, done, save, serve, visit} from "./studio.mjs";
@@ -113,6 +114,23 @@ await settled();
 await page.waitForTimeout(4000); // what is said at the bottom goes
 await shot("a-rule-as-a-picture");
 
+const TANGLE = `# The tangle cube of the standard library, drawn out and turned.
+use "primitives"
+
+surface tangle "a cube of handles" =
+  blobby at (0.8*x + 0.25*z, 1.1*y, z - 0.25*x)
+
+box (-8, -8, -8)..(8, 8, 8)
+grid 80
+`;
+const forms = mkdtempSync(join(tmpdir(), "tartan-studio-"));
+writeFileSync(join(forms, "tangle.field"), TANGLE);
+const shown = await visit(t, (await serve(t, forms)).address, {width: 1280, height: 800});
+await shown.locator(".form-stage[data-frames]").waitFor();
+await shown.waitForTimeout(600);
+await shown.screenshot({path: join(out, `${String(++shots).padStart(2, "0")}-a-form.png`)});
+
 for (const end of work.reverse()) await end();
 await done();
+rmSync(forms, {recursive: true, force: true});
 rmSync(folder, {recursive: true, force: true});

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every question of docs/requests.md over the studio's socket: questions.py TARTAN
 
-Right ones have the command's answer; a member that no request has is refused, with its name; and each that is ended at once is answered
+Right ones have the command's answer, and meshes as bytes are the files that the command writes; a member that no request has is refused, with its name; and each that is ended at once is answered
 once, whether it was quicker or not."""
 import json
 import os
@@ -36,6 +36,17 @@ RIGHT = [
     ("settings", "primitives.field", {}, ["settings"]),
     ("relations", "terrace.plan", {}, ["check", "--relations"]),
     ("test", "terrace.plan", {}, ["test"]),
+]
+# Meshes as bytes, and what the command writes.
+MESHES = [
+    ("mesh", "primitives.field", {"format": "glb", "normals": True}, "glb", ["mesh", "--normals"]),
+    ("mesh", "primitives.field", {"format": "stl", "surface": "torus", "grid": 30}, "stl", ["mesh", "--surface", "torus", "--grid", "30"]),
+    ("mesh", "table.solid", {"format": "glb", "cells": True}, "glb", ["mesh", "--cells"]),
+    ("mesh", "table.solid", {"format": "ply"}, "ply", ["mesh"]),
+    ("grow", "square.hemls", {"format": "glb", "groups": True}, "glb", ["grow", "--groups"]),
+    ("place", "gatehouse.kit", {"formats": ["glb"], "seed": 2}, "glb", ["place", "--seed", "2"]),
+    ("place", "gatehouse.kit", {"formats": ["ldr", "stl", "3mf"]}, "stl", ["place"]),
+    ("house", "cottage.plan", {"house": "#10:1", "files": ["glb"]}, "glb", ["house", "#10:1"]),
 ]
 wrong = []
 
@@ -81,6 +92,33 @@ def pruned(window):
     check("houses" in error.get("message", ""), "pruned houses: %s" % error)
 
 
+def meshes(window, tartan, folder):
+    for question, name, request, format, words in MESHES:
+        message = window.answer(window.send("tartan/" + question, {"uri": "file:///" + name, "version": 1, "binary": True, "request": request}))
+        result = message.get("result", {})
+        files = [file for file in result.get("answer", {}).get("files", []) if "text" not in file]
+        check(len(files) == len(result.get("bytes", [])) >= 1 and not any("base64" in file for file in files), "%s: %s" % (question, json.dumps(message)[:300]))
+        got = {file["format"]: window.parcels.pop(number) for file, number in zip(files, result.get("bytes", []))}
+        path = os.path.join(folder, "made." + format)
+        subprocess.run([tartan, words[0], name, *words[1:], "-o", path], cwd=folder, capture_output=True, check=True)
+        with open(path, "rb") as file:
+            check(file.read() == got.get(format), "%s %s is not what the command writes" % (question, request))
+        os.remove(path)
+    check(not window.parcels, "bytes that no answer names")
+
+
+def refused_meshes(window):
+    """What is wrong or ended has no bytes."""
+    ask_mesh = lambda **request: window.send("tartan/mesh", {"uri": "file:///primitives.field", "version": 1, "binary": True, "request": {"format": "glb", **request}})
+    error = window.answer(ask_mesh(surface="none")).get("error", {})
+    check(error.get("code") == -32803, "a surface that is none: %s" % error)
+    ended = ask_mesh(grid=500)
+    window.tell("$/cancelRequest", {"id": ended})
+    check(window.answer(ended).get("error", {}).get("code") == -32800, "a mesh that was ended")
+    check("result" in window.answer(ask_mesh()) and len(window.parcels) == 1, "a mesh behind those")
+    window.parcels.clear()
+
+
 def refused(window, questions):
     for question in questions:
         error = window.answer(ask(window, question, "terrace.plan", {"nonsense": 1})).get("error", {})
@@ -112,8 +150,9 @@ def main():
     questions = sorted(schema["requests"])
     check(ELSEWHERE < set(questions) and {row[0] for row in RIGHT} < set(questions), "questions that are none")
     with tempfile.TemporaryDirectory() as folder:
-        for name in ("terrace.plan", "lahave.plan", "lahave-houses.plan", "cottage.plan", "primitives.field"):
+        for name in ("terrace.plan", "lahave.plan", "lahave-houses.plan", "cottage.plan", "primitives.field", "table.solid", "square.hemls"):
             shutil.copy(os.path.join(ROOT, "stdlib", name), folder)
+        shutil.copy(os.path.join(ROOT, "examples", "gatehouse", "gatehouse.kit"), folder)
         shutil.copy(os.path.join(ROOT, "examples", "market-hall", "market.plan"), folder)
         server = Server(tartan, folder, "--no-open")
         window = Window(server)
@@ -123,6 +162,8 @@ def main():
                 window.open(name, file.read())
         right(window, tartan, folder)
         pruned(window)
+        meshes(window, tartan, folder)
+        refused_meshes(window)
         refused(window, questions)
         ended(window, questions)
         window.close()

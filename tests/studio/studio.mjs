@@ -13,7 +13,8 @@ import {deflateRawSync} from "node:zlib";
 const here = dirname(fileURLToPath(import.meta.url));
 export const TARTAN = resolve(process.env.TARTAN ?? join(here, "../../build/tartan"));
 const BROWSER = process.env.CHROMIUM ?? "/usr/bin/chromium";
-const FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
+// Forms are drawn by the processor, where there is no other.
+const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
 // The folder of the page without a server (make wasm), if the scenarios are to run on that.
 export const PLAYGROUND = process.env.PLAYGROUND ? resolve(process.env.PLAYGROUND) : null;
 const START_MS = 20_000;

@@ -3,11 +3,13 @@
 
 Standard output, errors, the exit code, and files that are written ("@"). What needs a part that WebAssembly's lacks (E0907) is not asked.
 Then what only WebAssembly's can get wrong: numbers of more than 32 bits where sizes have 32, pipes that are closed early, no memory left."""
+import json
 import os
 import resource
 import subprocess
 import sys
 import tempfile
+import time
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 EXAMPLES = os.path.join(SOURCE, 'examples')
@@ -106,12 +108,38 @@ def no_memory(wasm):
     return 0
 
 
+def language_server(native, wasm):
+    """It answers, says what is wrong with a text, and ends, as the native one does."""
+    text = 'schema s { room = a | b }\nrule x = tray(c)\nrule y = tray(a)\n'
+    place = {'textDocument': {'uri': 'file:///a.plan'}, 'position': {'line': 2, 'character': 6}}
+    messages = [('initialize', 1, {'capabilities': {}}), ('initialized', None, {}),
+                ('textDocument/didOpen', None, {'textDocument': {'uri': 'file:///a.plan', 'languageId': 'plan', 'version': 1, 'text': text}}),
+                ('textDocument/hover', 2, place), ('shutdown', 3, None), ('exit', None, None)]
+    said = []
+    for program in native, wasm:
+        server = subprocess.Popen([program, 'lsp'], env=ENVIRONMENT, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        for method, number, params in messages:
+            message = {'jsonrpc': '2.0', 'method': method, 'params': params}
+            if number:
+                message['id'] = number
+            body = json.dumps(message).encode()
+            server.stdin.write(b'Content-Length: %d\r\n\r\n' % len(body) + body)
+            server.stdin.flush()
+            if method == 'textDocument/didOpen':
+                time.sleep(2)  # what is wrong is said once nothing else is to be done
+        said.append((server.communicate(timeout=60)[0], server.returncode))
+    if said[0] == said[1] and b'publishDiagnostics' in said[1][0]:
+        return 0
+    print(f'the language server: {said[1]} instead of {said[0]}')
+    return 1
+
+
 def main():
     native, wasm = sys.argv[1:3]
     with tempfile.TemporaryDirectory() as folder:
         with open(folder + '/plans', 'wb') as f:
             subprocess.run([native, 'sample', 'lahave-houses', '300'], env=ENVIRONMENT, stdout=f, check=True)
-        wrong = compare(native, wasm, folder, '--times' in sys.argv) + closed_pipes(wasm) + no_memory(wasm)
+        wrong = compare(native, wasm, folder, '--times' in sys.argv) + closed_pipes(wasm) + no_memory(wasm) + language_server(native, wasm)
     if wrong:
         sys.exit(f'{wrong} commands do as WebAssembly what the native ones do not')
     print(f'{len(ASKED)} commands have the same bytes')

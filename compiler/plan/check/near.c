@@ -6,6 +6,8 @@
 
 #include "compiler/plan/check/amount.h"
 
+enum { LETS_DEEP = 16 }; /* of names that stand for one another */
+
 static tn_ast_expr *make(tn_check *check, tn_expr_kind kind, tn_span span)
 {
     tn_ast_expr *expr = TN_NEW(check->arena, tn_ast_expr);
@@ -54,12 +56,70 @@ static void report_distance(tn_check *check, const tn_ast_expr *distance, const 
     tn_help(check->diagnostics, d, "write a number of trays, such as `2`, or a length, such as `12m`");
 }
 
+/* ---- a name that stands for no number */
+
+static bool is_number(const tn_check *check, const tn_ast_expr *value, uint32_t deep);
+
+/* Does a `let` or a param of that name, which is seen here, stand for a number? A param of words does not. */
+static bool names_number(const tn_check *check, const tn_checked_name *name, uint32_t deep)
+{
+    const tn_checked_rule *rule = name ? name->rule : NULL;
+    return rule && rule->is_let && !rule->ast->words.first && rule->ast->body &&
+           tn_import_reaches(check->imports, check->unit, name->unit) && is_number(check, rule->ast->body, deep);
+}
+
+/* Through the names of others, which may go round. */
+static bool is_number(const tn_check *check, const tn_ast_expr *value, uint32_t deep)
+{
+    if (value->kind == TN_EXPR_NAME)
+        return deep < LETS_DEEP && names_number(check, tn_names_get(&check->names, value->name->text), deep + 1);
+    bool number = value->kind == TN_EXPR_NUMBER || tn_is_arithmetic(value->kind);
+    for (TN_EACH(const tn_ast_expr, part, value->parts))
+        number = number && is_number(check, part, deep);
+    return number;
+}
+
+static const char *nearest_number(tn_check *check, const char *word)
+{
+    const char **names = TN_NEW_ARRAY(check->arena, const char *, check->names.count + 1);
+    size_t count = 0;
+    for (size_t i = 0; names && i < check->names.capacity; i++)
+        if (check->names.entries[i].text && names_number(check, check->names.entries[i].value, 0))
+            names[count++] = check->names.entries[i].text;
+    return count ? tn_nearest(word, names, count) : NULL;
+}
+
+/* The first name in it that nothing has; NULL: there is none. */
+static const tn_ast_expr *unknown_name(const tn_check *check, const tn_ast_expr *expr)
+{
+    const tn_ast_expr *found = NULL;
+    if (expr->kind == TN_EXPR_NAME)
+        return tn_names_get(&check->names, expr->name->text) ? NULL : expr;
+    for (TN_EACH(const tn_ast_expr, part, expr->parts))
+        found = found ? found : tn_is_arithmetic(expr->kind) ? unknown_name(check, part) : NULL;
+    return found;
+}
+
+/* What is no constant often has a name that is misspelled. */
+static void report_no_constant(tn_check *check, const tn_ast_expr *distance)
+{
+    const tn_ast_expr *unknown = unknown_name(check, distance);
+    const char *near = unknown ? nearest_number(check, unknown->name->text) : NULL;
+    if (!near) {
+        report_distance(check, distance, "a distance has to be a constant");
+        return;
+    }
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NEAR_DISTANCE, unknown->node.span,
+                                 "a distance has to be a constant, and there is none called `%s`", unknown->name->text);
+    tn_suggest(check->diagnostics, d, "%s", near);
+}
+
 /* The distance as one word, a number or a length; NULL: reported. */
 static tn_ast_word *read_distance(tn_check *check, tn_ast_expr *distance)
 {
     if (!tn_is_constant(distance)) {
         if (distance->kind != TN_EXPR_BROKEN)
-            report_distance(check, distance, "a distance has to be a constant");
+            report_no_constant(check, distance);
         return NULL;
     }
     const tn_checked_sum *sum = tn_check_sum(check, distance);

@@ -41,9 +41,11 @@ static void judge(tn_given_kind kind, const char *given, const tn_rule_text *tex
                 is_meant(kind, text, rule);
     if (good)
         *binds = tn_expr_binds(rule->body);
+    else if (text->comment_count > 0)
+        snprintf(why, TN_WHY_MAX, "`%.100s` has a comment, and what is put into a rule has none", given);
     else
-        snprintf(why, TN_WHY_MAX, "`%.100s` is not %s%s%.150s", given, tried[kind].what, text->mistake ? ": " : "",
-                 text->mistake ? text->mistake : "");
+        snprintf(why, TN_WHY_MAX, "%s%.100s%s is not %s%s%.150s", *given ? "`" : "an empty text", given,
+                 *given ? "`" : "", tried[kind].what, text->mistake ? ": " : "", text->mistake ? text->mistake : "");
 }
 
 tn_status tn_given_text_check(tn_given_kind kind, const char *text, tn_binding *binds, char why[TN_WHY_MAX],

@@ -1,5 +1,6 @@
 #include "compiler/plan/edit/rule_edit.h"
 
+#include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,9 +15,9 @@ typedef struct editing {
     const tn_rule_edit *edit;
     tn_rule_part part; /* that it is about */
     tn_text_changes changes;
-    tn_stretch about; /* of the old text: where it is what the edit was about afterwards */
-    tn_binding binds; /* of `with` */
-    char *with;       /* owned */
+    tn_text_stretch about; /* of the old text: where it is what the edit was about afterwards */
+    tn_binding binds;      /* of `with` */
+    char *with;            /* owned */
     char *why;
 } editing;
 
@@ -28,9 +29,33 @@ __attribute__((format(printf, 2, 3))) static void refuse(editing *e, const char 
     va_end(args);
 }
 
+static bool is_of_word(char byte)
+{
+    return isalnum((unsigned char)byte) || (unsigned char)byte >= 0x80 || (byte && strchr("_-.'\"%", byte));
+}
+
+/* Adds a change, with blanks where words would else come to stand together: the parenthesis of `not(a)` may go. */
+static void add_change(editing *e, tn_text_stretch replaced, const char *insert, tn_text_stretch put)
+{
+    const tn_rule_text *text = e->tree->text;
+    size_t size = strlen(insert);
+    tn_buffer apart = {0};
+    bool word_before = replaced.begin > 0 && is_of_word(text->text[replaced.begin - 1]),
+         word_behind = replaced.end < text->size && is_of_word(text->text[replaced.end]),
+         first = word_before && (size > 0 ? is_of_word(*insert) : word_behind && replaced.begin < replaced.end),
+         last = size > 0 && word_behind && is_of_word(insert[size - 1]);
+    tn_buffer_printf(&apart, "%s%s%s", first ? " " : "", insert, last ? " " : "");
+    if (first && put.end > 0)
+        put = (tn_text_stretch){put.begin + 1, put.end + 1};
+    e->changes.failed |= apart.failed;
+    if (!apart.failed)
+        tn_text_change_add(&e->changes, replaced, apart.data, put);
+    free(apart.data);
+}
+
 static void change(editing *e, uint32_t begin, uint32_t end, const char *insert)
 {
-    tn_text_change_add(&e->changes, (tn_stretch){begin, end}, insert, (tn_stretch){0});
+    add_change(e, (tn_text_stretch){begin, end}, insert, (tn_text_stretch){0});
 }
 
 /* ---- parentheses */
@@ -41,7 +66,7 @@ static bool has_parentheses(const tn_rule_part *part)
 }
 
 /* Puts the stretch into parentheses if what `binds` so stands where what it stands in `needs` more. */
-static void enclose(editing *e, tn_stretch stretch, tn_binding binds, tn_binding needs)
+static void enclose(editing *e, tn_text_stretch stretch, tn_binding binds, tn_binding needs)
 {
     if (binds >= needs)
         return;
@@ -71,8 +96,7 @@ static void put(editing *e, uint32_t begin, uint32_t end, const char *before, co
     bool good = with && tn_buffer_printf(&text, "%s%s%s", before, with, behind);
     uint32_t from = (uint32_t)strlen(before);
     if (good)
-        tn_text_change_add(&e->changes, (tn_stretch){begin, end}, text.data,
-                           (tn_stretch){from, from + (uint32_t)strlen(with)});
+        add_change(e, (tn_text_stretch){begin, end}, text.data, (tn_text_stretch){from, from + (uint32_t)strlen(with)});
     e->changes.failed |= !good;
     free(with);
     free(text.data);
@@ -82,12 +106,15 @@ static void put(editing *e, uint32_t begin, uint32_t end, const char *before, co
 
 static const tn_ast_item *item_of(editing *e)
 {
-    uint32_t item = e->edit->item;
-    if (e->part.kind == TN_RULE_PART_TRAY)
-        for (TN_EACH(const tn_ast_item, it, e->part.expr->items))
-            if (item-- == 0)
-                return it;
-    refuse(e, "this tray has no such item");
+    uint32_t count = 0;
+    if (e->part.kind != TN_RULE_PART_TRAY) {
+        refuse(e, "only a tray has items");
+        return NULL;
+    }
+    for (TN_EACH(const tn_ast_item, it, e->part.expr->items))
+        if (count++ == e->edit->item)
+            return it;
+    refuse(e, "the tray has %u item%s", count, count == 1 ? "" : "s");
     return NULL;
 }
 
@@ -162,6 +189,22 @@ static bool is_of_row(tn_rule_part_kind kind)
     return kind == TN_RULE_PART_BEGINNING || kind == TN_RULE_PART_END || kind == TN_RULE_PART_GAP;
 }
 
+static void put_box(editing *e, const struct box *box, tn_text_stretch outer)
+{
+    change(e, outer.begin, outer.begin, box->before);
+    enclose_part(e, &e->part, box->holds);
+    change(e, outer.end, outer.end, box->behind);
+}
+
+/* The parentheses that are there become those of the box: `(a or b)`, `many(a or b)`. */
+static void put_call(editing *e, const char *word, const char *behind, tn_text_stretch outer)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%.*s", (int)strlen(behind) - 1, behind);
+    change(e, outer.begin, outer.begin, word);
+    change(e, outer.end - 1, outer.end - 1, text);
+}
+
 static void wrap(editing *e)
 {
     tn_binding needs = tn_rule_part_needs(e->tree, e->edit->part);
@@ -178,13 +221,14 @@ static void wrap(editing *e)
         return;
     }
     const struct box *box = &boxes[i];
-    tn_stretch outer = e->part.outer;
+    tn_text_stretch outer = e->part.outer;
     bool inside = box->binds < needs;
     if (inside)
         change(e, outer.begin, outer.begin, "(");
-    change(e, outer.begin, outer.begin, box->before);
-    enclose_part(e, &e->part, box->holds);
-    change(e, outer.end, outer.end, box->behind);
+    if (has_parentheses(&e->part) && strcmp(box->before + strlen(tn_rule_wraps[i]), "(") == 0)
+        put_call(e, tn_rule_wraps[i], box->behind, outer);
+    else
+        put_box(e, box, outer);
     if (inside)
         change(e, outer.end, outer.end, ")");
 }
@@ -196,6 +240,15 @@ static void keep_only(editing *e, const tn_rule_part *box, const tn_rule_part *k
     if (!has_parentheses(kept))
         enclose(e, kept->outer, kept->binds, tn_rule_part_needs(e->tree, (uint32_t)(box - e->tree->parts)));
     change(e, kept->outer.end, box->outer.end, "");
+}
+
+static const char GAP_ALONE[] = "`...` can only stand in a row of neighbours";
+
+/* Does the part stand in a row of neighbours? */
+static bool in_neighbour(const editing *e)
+{
+    uint32_t parent = e->part.parent;
+    return parent != TN_NO_RULE_PART && e->tree->parts[parent].kind == TN_RULE_PART_NEIGHBOUR;
 }
 
 static uint32_t part_at(const editing *e)
@@ -212,6 +265,8 @@ static void unwrap(editing *e)
     uint32_t kept = part_at(e);
     if (kept == TN_NO_RULE_PART)
         refuse(e, "it has %u part%s", e->part.count, e->part.count == 1 ? "" : "s");
+    else if (e->tree->parts[kept].kind == TN_RULE_PART_GAP && !in_neighbour(e))
+        refuse(e, "%s", GAP_ALONE);
     else
         keep_only(e, &e->tree->parts[e->edit->part], &e->tree->parts[kept]);
 }
@@ -235,12 +290,14 @@ static void insert_into(editing *e, const tn_rule_part *row, uint32_t index)
     put(e, at, at, last ? between : "", last ? "" : between, needs);
 }
 
-/* Has `with` all that the edit needs? */
-static bool is_given(editing *e)
+/* Has `with` all that the edit needs? `neighbours`: it comes to stand in a row of them. */
+static bool is_given(editing *e, bool neighbours)
 {
     if (!e->with)
         refuse(e, "say what is put there: a text, or a part of the rule");
-    return e->with;
+    else if (!neighbours && strcmp(e->with, "...") == 0)
+        refuse(e, "%s", GAP_ALONE);
+    return !*e->why;
 }
 
 /* Between the ends of the plan that a row of neighbours has, unless it is an end that is put there. */
@@ -255,22 +312,24 @@ static uint32_t inside_ends(const editing *e)
 
 static void insert(editing *e)
 {
-    if (!is_given(e))
+    if (!is_given(e, e->part.kind == TN_RULE_PART_NEIGHBOUR))
         return;
     if (tn_rule_part_form_of(e->part.kind) == TN_RULE_PART_ROW) {
         insert_into(e, &e->tree->parts[e->edit->part], inside_ends(e));
         return;
     }
     uint32_t place = e->part.count ? part_at(e) : TN_NO_RULE_PART;
-    if (place == TN_NO_RULE_PART) {
-        refuse(e, e->part.count ? "it has no such place" : "nothing can be put into it");
+    if (place == TN_NO_RULE_PART && e->part.count)
+        refuse(e, "it has %u place%s", e->part.count, e->part.count == 1 ? "" : "s");
+    else if (place == TN_NO_RULE_PART)
+        refuse(e, "it has no places for parts; put something beside it, or in its place");
+    else if (e->edit->from == place)
+        refuse(e, "it is there already");
+    else if (e->edit->from != TN_NO_RULE_PART && tn_rule_part_within(e->tree, e->edit->from, place))
+        refuse(e, "it stands in what it would replace: unwrap that, so that only this stays");
+    if (*e->why)
         return;
-    }
     const tn_rule_part *old = &e->tree->parts[place];
-    if (e->edit->from != TN_NO_RULE_PART && tn_rule_part_within(e->tree, e->edit->from, place)) {
-        refuse(e, "it is there already; unwrap what is around it instead");
-        return;
-    }
     put(e, old->outer.begin, old->outer.end, "", "", tn_rule_part_holds(e->part.kind));
 }
 
@@ -284,8 +343,12 @@ static void join(editing *e)
         refuse(e, "parts are joined by `and` or by `or`");
         return;
     }
-    if (!is_given(e))
+    if (!is_given(e, false))
         return;
+    if (e->edit->from != TN_NO_RULE_PART && is_of_row(parts[e->edit->from].kind)) {
+        refuse(e, "what stands in a row of neighbours by itself can only be moved there");
+        return;
+    }
     if (parent && parent->kind == kind) {
         insert_into(e, parent, part->index + (e->edit->before ? 0 : 1));
         return;
@@ -331,16 +394,16 @@ static void remove_part(editing *e)
 
 static void set_condition(editing *e)
 {
-    const tn_ast_cond *condition = e->part.expr->condition;
-    if (e->part.kind == TN_RULE_PART_TEXT || !condition)
-        refuse(e, "only what is counted has a condition");
+    tn_text_stretch condition = tn_rule_part_condition(e->tree, e->edit->part);
+    if (condition.end == 0)
+        refuse(e, "only what is counted or added up has a condition");
     else
-        change(e, condition->node.span.begin, condition->node.span.end, e->with);
+        change(e, condition.begin, condition.end, e->with);
 }
 
 static void set_text(editing *e)
 {
-    if (is_given(e))
+    if (is_given(e, in_neighbour(e)))
         put(e, e->part.outer.begin, e->part.outer.end, "", "", tn_rule_part_needs(e->tree, e->edit->part));
 }
 
@@ -378,7 +441,7 @@ static tn_status take_with(editing *e, tn_error *error)
 }
 
 /* Changes the text, or says why not. */
-static tn_status change_text(editing *e, tn_buffer *text, tn_stretch *about, tn_error *error)
+static tn_status change_text(editing *e, tn_buffer *text, tn_text_stretch *about, tn_error *error)
 {
     tn_status status = take_with(e, error);
     if (status != TN_OK || *e->why)
@@ -430,8 +493,8 @@ static tn_status read_changed(const tn_buffer *text, const char *rule, tn_rule_t
 }
 
 /* Takes away what was moved from where it was. */
-static tn_status take_away(const tn_rule_tree *tree, tn_stretch moved, tn_buffer *text, tn_stretch *about, char *why,
-                           tn_error *error)
+static tn_status take_away(const tn_rule_tree *tree, tn_text_stretch moved, tn_buffer *text, tn_text_stretch *about,
+                           char *why, tn_error *error)
 {
     const tn_rule_edit removal = {
         .operation = TN_RULE_REMOVE, .part = tn_rule_part_placed(tree, moved), .from = TN_NO_RULE_PART};
@@ -449,8 +512,8 @@ static tn_status take_away(const tn_rule_tree *tree, tn_stretch moved, tn_buffer
 }
 
 /* The second half of moving: the part stands where it was dropped, and where it was. */
-static tn_status finish_move(const char *rule, tn_stretch moved, tn_buffer *text, tn_stretch *about, char *why,
-                             tn_error *error)
+static tn_status finish_move(const char *rule, tn_text_stretch moved, tn_buffer *text, tn_text_stretch *about,
+                             char *why, tn_error *error)
 {
     tn_rule_text read = {0};
     tn_rule_tree tree = {0};
@@ -485,13 +548,13 @@ static bool names_parts(const tn_rule_tree *tree, const tn_rule_edit *edit, char
 static uint32_t part_about(const tn_rule_tree *tree, size_t first, size_t last)
 {
     const tn_rule_text *text = tree->text;
-    tn_stretch place = {text->tokens[first].span.begin, text->tokens[last > first ? last - 1 : first].span.end};
+    tn_text_stretch place = {text->tokens[first].span.begin, text->tokens[last > first ? last - 1 : first].span.end};
     uint32_t part = tn_rule_part_around(tree, place);
     return part == TN_NO_RULE_PART ? 0 : part;
 }
 
 /* Says what became of the text, and of what the edit was about. */
-static tn_status finish(const tn_rule_text *old, const char *rule, tn_buffer *text, tn_stretch about,
+static tn_status finish(const tn_rule_text *old, const char *rule, tn_buffer *text, tn_text_stretch about,
                         tn_rule_edited *made, tn_error *error)
 {
     tn_rule_text read = {0};
@@ -520,8 +583,26 @@ static tn_status finish(const tn_rule_text *old, const char *rule, tn_buffer *te
     return status;
 }
 
+/* Do its lines end with carriage returns, too? The first tells. */
+static bool has_carriage_returns(const char *text, size_t size)
+{
+    const char *line = memchr(text, '\n', size);
+    return line && line > text && line[-1] == '\r';
+}
+
+/* Lines whose ends are those of the text that they come into. */
+static void put_lines(tn_buffer *to, const char *text, size_t size, bool carriage_returns)
+{
+    tn_buffer_append(to, "", 0);
+    for (size_t i = 0; i < size; i++) {
+        if (carriage_returns && text[i] == '\n' && (i == 0 || text[i - 1] != '\r'))
+            tn_buffer_append(to, "\r", 1);
+        tn_buffer_append(to, text + i, 1);
+    }
+}
+
 /* What of the old text became what: all between what both begin and end with. */
-static tn_status compare(const char *old, size_t size, tn_buffer *text, tn_rule_edited *made, tn_error *error)
+static tn_status compare(const char *old, size_t size, const tn_buffer *text, tn_rule_edited *made, tn_error *error)
 {
     size_t begin = 0, end = 0, least = size < text->size ? size : text->size;
     while (begin < least && old[begin] == text->data[begin])
@@ -532,26 +613,34 @@ static tn_status compare(const char *old, size_t size, tn_buffer *text, tn_rule_
         begin--;
     while (end > 0 && ((unsigned char)old[size - end] & 0xC0) == 0x80)
         end--;
-    made->changed = (tn_stretch){(uint32_t)begin, (uint32_t)(size - end)};
-    made->insert = strndup(text->data + begin, text->size - end - begin);
-    made->text = text->data;
-    made->size = text->size;
-    *text = (tn_buffer){0};
-    return made->insert ? TN_OK : tn_fail_memory(error);
+    if (begin > 0 && old[begin - 1] == '\r') /* and whole ends of lines */
+        begin--;
+    if (end > 0 && end < size - begin && old[size - end - 1] == '\r')
+        end--;
+    made->changed = (tn_text_stretch){(uint32_t)begin, (uint32_t)(size - end)};
+    tn_buffer insert = {0}, whole = {0};
+    put_lines(&insert, text->data + begin, text->size - end - begin, has_carriage_returns(old, size));
+    tn_buffer_append(&whole, old, begin);
+    tn_buffer_append(&whole, insert.data, insert.size);
+    tn_buffer_append(&whole, old + size - end, end);
+    made->insert = insert.data;
+    made->text = whole.data;
+    made->size = whole.size;
+    return insert.failed || whole.failed ? tn_fail_memory(error) : TN_OK;
 }
 
 static tn_status edit_tree(const tn_rule_tree *tree, const char *rule, const tn_rule_edit *edit, tn_rule_edited *made,
                            tn_error *error)
 {
     tn_buffer text = {0};
-    tn_stretch about = {0};
+    tn_text_stretch about = {0};
     if (!names_parts(tree, edit, made->why))
         return TN_OK;
     editing e = {.tree = tree, .edit = edit, .part = tree->parts[edit->part], .why = made->why};
     e.about = e.part.outer;
     tn_status status = change_text(&e, &text, &about, error);
     if (status == TN_OK && !*made->why && edit->from != TN_NO_RULE_PART) {
-        tn_stretch moved = tn_text_changes_shift(&e.changes, tree, tree->parts[edit->from].own);
+        tn_text_stretch moved = tn_text_changes_shift(&e.changes, tree, tree->parts[edit->from].own);
         status = finish_move(rule, moved, &text, &about, made->why, error);
     }
     if (status == TN_OK && !*made->why)
@@ -586,14 +675,21 @@ tn_status tn_rule_edit_make(const char *text, size_t size, const char *rule, con
 
 /* ---- a new rule */
 
-/* Where the item ends that the byte is in or behind; at the end of the text if none begins before it. */
-static uint32_t end_of_item(const tn_rule_text *text, size_t offset)
+/* The item that the byte is in or behind, or NULL. */
+static const tn_ast_top *item_before(const tn_rule_text *text, size_t offset)
 {
-    uint32_t end = (uint32_t)text->size;
+    const tn_ast_top *found = NULL;
     for (TN_EACH(const tn_ast_top, item, text->tree->items))
         if (item->node.span.begin <= offset)
-            end = item->node.span.end;
-    return end;
+            found = item;
+    return found;
+}
+
+/* The schema that the rule before it names: the new one is about the same trays. NULL: it names none. */
+static const char *schema_of(const tn_ast_top *item)
+{
+    const tn_ast_rule *rule = item && item->kind == TN_ITEM_RULE ? (const tn_ast_rule *)item : NULL;
+    return rule && rule->using ? rule->using->text : NULL;
 }
 
 /* Behind the comment that stands on the same line. */
@@ -608,15 +704,18 @@ static uint32_t end_of_line(const tn_rule_text *text, uint32_t end)
     return end;
 }
 
-static tn_status write_new(const tn_rule_text *text, const char *name, uint32_t at, tn_buffer *to, tn_error *error)
+static tn_status write_new(const tn_rule_text *text, const char *name, const tn_ast_top *before, tn_buffer *to,
+                           tn_error *error)
 {
-    bool first = strspn(text->text, " \t\r\n") >= at;
+    uint32_t at = end_of_line(text, before ? before->node.span.end : (uint32_t)text->size);
+    const char *schema = schema_of(before);
+    bool first = strspn(text->text, " \t\r\n") >= at, line = at > 0 && text->text[at - 1] == '\n';
     tn_buffer_append(to, text->text, at);
-    tn_buffer_printf(to, "%srule %s =\n  any%s",
-                     first                                  ? ""
-                     : at > 0 && text->text[at - 1] == '\n' ? "\n"
-                                                            : "\n\n",
-                     name, at == text->size ? "\n" : "");
+    tn_buffer_printf(to, "%srule %s%s%s =\n  any%s",
+                     first  ? ""
+                     : line ? "\n"
+                            : "\n\n",
+                     name, schema ? " using " : "", schema ? schema : "", at == text->size ? "\n" : "");
     tn_buffer_append(to, text->text + at, text->size - at);
     return to->failed ? tn_fail_memory(error) : TN_OK;
 }
@@ -636,7 +735,7 @@ tn_status tn_rule_new_make(const char *text, size_t size, const char *name, size
     if (status == TN_OK && !*made->why && tn_rule_text_find(&read, name))
         snprintf(made->why, TN_WHY_MAX, "there is a rule `%.60s` already", name);
     if (status == TN_OK && !*made->why)
-        status = write_new(&read, name, end_of_line(&read, end_of_item(&read, offset)), &changed, error);
+        status = write_new(&read, name, item_before(&read, offset), &changed, error);
     if (status == TN_OK && !*made->why)
         status = compare(read.text, read.size, &changed, made, error);
     tn_rule_text_clear(&read);

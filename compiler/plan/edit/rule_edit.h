@@ -36,8 +36,8 @@ typedef struct tn_rule_edit {
 
 /* What an edit makes. */
 typedef struct tn_rule_edited {
-    char why[TN_WHY_MAX]; /* it cannot be made, and nothing else is said: why; or empty */
-    tn_stretch changed;   /* bytes of the old text that become `insert` */
+    char why[TN_WHY_MAX];    /* it cannot be made, and nothing else is said: why; or empty */
+    tn_text_stretch changed; /* bytes of the old text that become `insert` */
     char *insert;
     char *text; /* the changed text */
     size_t size;
@@ -49,7 +49,8 @@ typedef struct tn_rule_edited {
 tn_status tn_rule_edit_make(const char *text, size_t size, const char *rule, const tn_rule_edit *edit,
                             tn_rule_edited *made, tn_error *error);
 
-/* Adds `rule NAME = any` behind the item of the file that the byte is in. */
+/* Adds `rule NAME = any` behind the item of the file that the byte is in; behind a rule that names its schema, about
+ * the same trays. */
 tn_status tn_rule_new_make(const char *text, size_t size, const char *name, size_t offset, tn_rule_edited *made,
                            tn_error *error);
 

@@ -43,10 +43,23 @@ static tn_status lay_out_rule(const char *text, tn_span place, const char *rule,
     return status;
 }
 
+/* The next byte, or -1: the carriage returns of lines that end with them are left out when they are laid out. */
+static int next_byte(const char *text, tn_span *left)
+{
+    while (left->begin < left->end && text[left->begin] == '\r')
+        left->begin++;
+    return left->begin < left->end ? (unsigned char)text[left->begin++] : -1;
+}
+
 static bool same(const char *a, tn_span x, const char *b, tn_span y)
 {
-    size_t size = x.end - x.begin;
-    return size > 0 && size == y.end - y.begin && memcmp(a + x.begin, b + y.begin, size) == 0;
+    int byte;
+    if (x.begin == x.end || y.begin == y.end)
+        return false;
+    while ((byte = next_byte(a, &x)) == next_byte(b, &y))
+        if (byte < 0)
+            return true;
+    return false;
 }
 
 /* *was: it stands as it is laid out. */

@@ -36,7 +36,7 @@ static tn_status parse(tn_diagnostics *said, uint32_t file, tn_rule_text *to, tn
     to->tree = tn_parse_plan(to->arena, said, file, &tokens);
     to->parses = to->tree && said->error_count == 0;
     to->mistake = first_error(said, to->arena);
-    if (!to->tree || tn_arena_failed(to->arena))
+    if (!to->tree || said->failed || tn_arena_failed(to->arena))
         return tn_fail_memory(error);
     return sort_tokens(&tokens, to, error);
 }

@@ -124,13 +124,13 @@ static bool is_sign(const tn_rule_text *text, size_t token, char sign)
 
 /* With the parentheses that stand directly around it, none of which opens before `floor`: what opens there is its
  * parent's own. */
-static tn_stretch with_parentheses(const tn_rule_text *text, tn_stretch own, uint32_t floor)
+static tn_text_stretch with_parentheses(const tn_rule_text *text, tn_text_stretch own, uint32_t floor)
 {
     size_t before = tn_rule_text_token(text, own.begin), after = tn_rule_text_token(text, own.end);
-    tn_stretch outer = own;
+    tn_text_stretch outer = own;
     while (before > 0 && is_sign(text, before - 1, '(') && is_sign(text, after, ')') &&
            text->tokens[before - 1].span.begin >= floor) {
-        outer = (tn_stretch){text->tokens[--before].span.begin, text->tokens[after++].span.end};
+        outer = (tn_text_stretch){text->tokens[--before].span.begin, text->tokens[after++].span.end};
     }
     return outer;
 }
@@ -207,7 +207,7 @@ static tn_status add(tn_rule_tree *tree, const tn_ast_expr *expr, uint32_t paren
     tn_status status = parts ? add_parts(tree, expr, part, infix ? floor : floor_of(text, expr, kind), error) : TN_OK;
     tn_rule_part *it = &tree->parts[part];
     if (status == TN_OK && infix) /* the syntax tree leaves out the parentheses of its first and last part */
-        it->own = (tn_stretch){tree->parts[it->first].outer.begin, tree->parts[it->last].outer.end};
+        it->own = (tn_text_stretch){tree->parts[it->first].outer.begin, tree->parts[it->last].outer.end};
     it->outer = with_parentheses(text, it->own, floor);
     return status;
 }
@@ -241,6 +241,20 @@ uint32_t tn_rule_part_child(const tn_rule_tree *tree, uint32_t part, uint32_t in
     return child;
 }
 
+/* All between the comma before it and the parenthesis that ends the part. */
+tn_text_stretch tn_rule_part_condition(const tn_rule_tree *tree, uint32_t part)
+{
+    const tn_rule_part *it = &tree->parts[part];
+    const tn_rule_text *text = tree->text;
+    if (!it->expr->condition || it->kind == TN_RULE_PART_TEXT)
+        return (tn_text_stretch){0};
+    size_t first = tn_rule_text_token(text, it->expr->condition->node.span.begin),
+           end = tn_rule_text_token(text, it->own.end) - 1;
+    while (is_sign(text, first - 1, '('))
+        first--;
+    return (tn_text_stretch){text->tokens[first].span.begin, text->tokens[end - 1].span.end};
+}
+
 bool tn_rule_part_within(const tn_rule_tree *tree, uint32_t part, uint32_t other)
 {
     while (part != TN_NO_RULE_PART && part != other)
@@ -248,7 +262,7 @@ bool tn_rule_part_within(const tn_rule_tree *tree, uint32_t part, uint32_t other
     return part == other;
 }
 
-uint32_t tn_rule_part_placed(const tn_rule_tree *tree, tn_stretch own)
+uint32_t tn_rule_part_placed(const tn_rule_tree *tree, tn_text_stretch own)
 {
     for (uint32_t i = 0; i < tree->count; i++)
         if (tree->parts[i].own.begin == own.begin && tree->parts[i].own.end == own.end)
@@ -256,7 +270,7 @@ uint32_t tn_rule_part_placed(const tn_rule_tree *tree, tn_stretch own)
     return TN_NO_RULE_PART;
 }
 
-uint32_t tn_rule_part_around(const tn_rule_tree *tree, tn_stretch place)
+uint32_t tn_rule_part_around(const tn_rule_tree *tree, tn_text_stretch place)
 {
     for (uint32_t i = tree->count; i-- > 0;)
         if (tree->parts[i].outer.begin <= place.begin && place.end <= tree->parts[i].outer.end)

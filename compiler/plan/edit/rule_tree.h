@@ -29,14 +29,14 @@ typedef enum tn_rule_part_kind {
 } tn_rule_part_kind;
 
 /* Bytes of the text. */
-typedef struct tn_stretch {
+typedef struct tn_text_stretch {
     uint32_t begin, end;
-} tn_stretch;
+} tn_text_stretch;
 
 typedef struct tn_rule_part {
     tn_rule_part_kind kind;
-    const tn_ast_expr *expr; /* borrowed from the text */
-    tn_stretch own, outer;   /* outer: with the parentheses around it */
+    const tn_ast_expr *expr;    /* borrowed from the text */
+    tn_text_stretch own, outer; /* outer: with the parentheses around it */
     tn_binding binds;
     uint32_t parent, first, last, next; /* parts; TN_NO_RULE_PART */
     uint32_t index, count;              /* which of its parent's parts it is; how many it has */
@@ -72,10 +72,14 @@ uint32_t tn_rule_part_child(const tn_rule_tree *tree, uint32_t part, uint32_t in
 /* Is `part` the other part or inside it? */
 bool tn_rule_part_within(const tn_rule_tree *tree, uint32_t part, uint32_t other);
 
+/* Of what is counted: where its condition stands, with the parentheses that the syntax tree leaves out; empty of
+ * others. */
+tn_text_stretch tn_rule_part_condition(const tn_rule_tree *tree, uint32_t part);
+
 /* The part with this own place, or TN_NO_RULE_PART. */
-uint32_t tn_rule_part_placed(const tn_rule_tree *tree, tn_stretch own);
+uint32_t tn_rule_part_placed(const tn_rule_tree *tree, tn_text_stretch own);
 
 /* The smallest part that holds the place, or TN_NO_RULE_PART. */
-uint32_t tn_rule_part_around(const tn_rule_tree *tree, tn_stretch place);
+uint32_t tn_rule_part_around(const tn_rule_tree *tree, tn_text_stretch place);
 
 #endif

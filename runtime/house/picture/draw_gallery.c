@@ -65,12 +65,16 @@ static void paint_all(const gallery *g, const tn_canvas *canvas)
     for (size_t i = 0; i < g->what->count && !tn_canvas_stopped(canvas); i++) {
         const tn_house_drawn *d = &g->drawn[i];
         double middle = g->left + (double)(i % g->columns) * (PICTURE_WIDTH + GAP) + PICTURE_WIDTH / 2;
+        tn_paint_group_begin(paint, TN_PAINT_HOUSE, i);
+        tn_paint_target(paint, middle - PICTURE_WIDTH / 2, d->y - PICTURE_HEIGHT, PICTURE_WIDTH,
+                        PICTURE_HEIGHT + CAPTION);
         tn_draw_prospect(canvas, d, g->points);
         tn_paint_colour(paint, 0, 0, 0);
         tn_paint_face(paint, 7.5, true);
         tn_type_fit(paint, middle, d->y + 11, TN_ALIGN_CENTRE, PICTURE_WIDTH, g->what->houses[i].name);
         tn_paint_face(paint, 7, false);
         tn_type_fit(paint, middle, d->y + 21, TN_ALIGN_CENTRE, PICTURE_WIDTH, g->what->houses[i].said);
+        tn_paint_group_end(paint);
     }
     tn_paint_face(paint, 6.5, false);
     tn_paint_colour(paint, 0.25, 0.25, 0.25);

@@ -9,11 +9,11 @@
 enum { PARTS_MAX = 8 };
 
 /* How strongly a part binds: an operand that binds less than its operator needs parentheses. */
-typedef enum tn_binding { BINDS_OR, BINDS_AND, BINDS_NOT, BINDS_COMPARISON } tn_binding;
+typedef enum condition_binding { BINDS_OR, BINDS_AND, BINDS_NOT, BINDS_COMPARISON } condition_binding;
 
 typedef struct tn_condition_part {
     char text[TN_CONDITION_TEXT_MAX];
-    tn_binding binding;
+    condition_binding binding;
 } tn_condition_part;
 
 typedef struct tn_condition_parts {
@@ -30,7 +30,7 @@ static void push(tn_condition_parts *parts, const tn_condition_part *part, int p
         parts->items[parts->count++] = *part;
 }
 
-static void combine(tn_condition_parts *parts, tn_binding binding, const char *operator)
+static void combine(tn_condition_parts *parts, condition_binding binding, const char *operator)
 {
     const tn_condition_part *right = &parts->items[--parts->count], *left = &parts->items[--parts->count];
     bool left_open = left->binding >= binding, right_open = right->binding >= binding;

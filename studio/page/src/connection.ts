@@ -26,6 +26,7 @@ export class Connection {
   private readers = new Set<(text: string) => void>();
   private watchers = new Set<(state: TransportState) => void>();
   private notices = new Map<string, (params: any) => void>();
+  private bytes = new Map<number, ArrayBuffer>(); // messages whose answer has not come yet, by their numbers
   private next = FIRST_ID;
 
   // What the client of the language server takes for its transport.
@@ -37,6 +38,7 @@ export class Connection {
 
   constructor(private transport: Transport) {
     transport.onText = (text) => this.take(text);
+    transport.onBytes = (bytes) => void this.bytes.set(new DataView(bytes).getUint32(0, true), bytes);
     transport.onState = (state) => this.change(state);
   }
 
@@ -78,6 +80,7 @@ export class Connection {
     if (typeof message.id === "number" && message.id >= FIRST_ID && !("method" in message)) {
       const waiting = this.waiting.get(message.id);
       this.waiting.delete(message.id);
+      if (message.result?.bytes) message.result.bytes = message.result.bytes.map((number: number) => this.takeBytes(number));
       if (message.error) waiting?.reject(message.error);
       else waiting?.resolve(message.result);
       return;
@@ -87,11 +90,19 @@ export class Connection {
     else for (const reader of this.readers) reader(text);
   }
 
+  // The file in a message of bytes: behind eight of its own.
+  private takeBytes(number: number): Uint8Array<ArrayBuffer> {
+    const bytes = this.bytes.get(number)!;
+    this.bytes.delete(number);
+    return new Uint8Array(bytes, 8);
+  }
+
   private change(state: TransportState): void {
     this.state = state;
     if (state !== "open") {
       for (const {reject} of this.waiting.values()) reject({code: GONE, message: "the connection is gone"});
       this.waiting.clear();
+      this.bytes.clear();
     }
     for (const watcher of this.watchers) watcher(state);
   }

@@ -21,5 +21,6 @@ export interface Desk {
   watch(plan: string): void;
   watched(): string[];
   before(): {path: string; show: () => void} | null; // the file that was shown before
+  again(): void; // what is shown is asked for anew
   refreshPane(): Promise<void>; // what is asked anew when a choice in a pane changes
 }

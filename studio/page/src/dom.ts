@@ -33,6 +33,27 @@ export function withCode(text: string): Node[] {
   return text.split("`").map((part, i) => (i % 2 ? h("code", null, part) : document.createTextNode(part)));
 }
 
+// Work that follows something that changes often: at once, then again at most so often, and never so often that it is at
+// work more than two thirds of the time.
+export function paced(work: () => Promise<void>, least: number): {(): void; cancel(): void} {
+  let timer = 0;
+  let began = -Infinity;
+  let took = 0;
+  const run = async () => {
+    timer = 0;
+    began = performance.now();
+    await work();
+    took = performance.now() - began;
+  };
+  const start = () => {
+    if (timer === 0) timer = window.setTimeout(run, Math.max(0, began + Math.max(least, 1.5 * took) - performance.now()));
+  };
+  return Object.assign(start, {cancel: () => {
+    clearTimeout(timer);
+    timer = 0;
+  }});
+}
+
 export function later(work: () => void, ms: number): {(): void; cancel(): void} {
   let timer = 0;
   const start = () => {

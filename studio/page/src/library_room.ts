@@ -5,6 +5,7 @@ import type {Desk} from "./desk";
 import {fill, h, withCode} from "./dom";
 import {offsetOf} from "./edits";
 import {Facts} from "./facts";
+import {FormRoom} from "./form_room";
 import {Measures} from "./measures";
 import {counted, grouped} from "./numbers";
 import {OpenPlan} from "./open_plan";
@@ -13,7 +14,6 @@ import {RulePane} from "./rule_pane";
 import type {CountedHouses, CountedPlans, ShownFile, ShownLibrary} from "./requests";
 import {Sheet} from "./sheet";
 import {Sliders} from "./sliders";
-import {picture} from "./svg";
 import {Tests} from "./tests_pane";
 import {Watched} from "./watched";
 import {Why} from "./why";
@@ -30,6 +30,7 @@ export class LibraryRoom {
   readonly addRule: AddRule;
   readonly why: Why;
   readonly watchedPlans: Watched;
+  private forms: FormRoom;
   shown: ShownFile | null = null;
   library: ShownLibrary | null = null;
   counts: CountedPlans | null = null; // of the library, as it was when it was last counted
@@ -56,6 +57,7 @@ export class LibraryRoom {
     this.why = new Why(desk);
     this.watchedPlans = new Watched(desk);
     this.rule = new RulePane(desk);
+    this.forms = new FormRoom(desk);
     const measures = new Measures(desk);
     const open = new OpenPlan(desk);
     const changes = new Changes(desk);
@@ -77,7 +79,7 @@ export class LibraryRoom {
     }
     this.renderTabs();
     append(this.content, [this.head, this.sliders.element, this.tabs, ...this.panes.map((pane) => pane.element)]);
-    append(this.element, [this.trouble, this.content, this.plain, this.why.element]);
+    append(this.element, [this.trouble, this.content, this.forms.element, this.plain, this.why.element]);
   }
 
   private resetPanes: () => void;
@@ -130,6 +132,7 @@ export class LibraryRoom {
     this.sheet.reset();
     this.facts.clear();
     this.counts = null;
+    this.forms.another();
     this.resetPanes();
     this.rule.reset();
     if (this.why.open) this.why.close();
@@ -145,25 +148,42 @@ export class LibraryRoom {
     const run = ++this.run;
     this.desk.questions.cancel();
     const plan = file.languageId === "plan" && !file.standard;
+    const form = this.showsForm;
     this.content.hidden = !plan;
-    this.plain.hidden = plan;
-    if (!plan) return this.other(run);
+    this.forms.element.hidden = !form;
+    this.plain.hidden = plan || form;
+    if (!plan && !form) return this.other();
     this.element.classList.add("stale");
     try {
-      if (this.pane === "rule") await this.rule.follow();
-      await this.ask(run);
+      if (plan && this.pane === "rule") await this.rule.follow();
+      await (form ? this.form(run) : this.ask(run));
       this.fresh();
     } catch (failure) {
       if (failure instanceof Stale || run !== this.run) return;
       if (!(failure instanceof Refused)) throw failure;
+      if (form && this.forms.refused(failure)) return this.fresh();
+      this.element.classList.add("wrong");
       this.say(failure);
     }
+  }
+
+  // Does the file make a form, and no plans?
+  get showsForm(): boolean {
+    const file = this.desk.file();
+    return file !== null && !file.standard && this.forms.takes(file.languageId);
+  }
+
+  private async form(run: number): Promise<void> {
+    await this.forms.refresh();
+    this.fresh();
+    await this.forms.settings();
+    if (run !== this.run) throw new Stale();
   }
 
   // What is largest is as the text says now; the rest follows.
   private fresh(): void {
     this.trouble.hidden = true;
-    this.element.classList.remove("stale");
+    this.element.classList.remove("stale", "wrong");
   }
 
   private async ask(run: number): Promise<void> {
@@ -279,8 +299,8 @@ export class LibraryRoom {
     this.trouble.hidden = false;
   }
 
-  // A file of another notation: what this page has of it so far.
-  private async other(run: number): Promise<void> {
+  // A file of the standard library, or of a notation that makes nothing to be drawn.
+  private other(): void {
     const file = this.desk.file()!;
     if (file.standard) {
       const before = this.desk.before();
@@ -288,30 +308,8 @@ export class LibraryRoom {
         before && h("p", null, h("button", {type: "button", onclick: before.show}, `Back to ${before.path}`)));
       return;
     }
-    const draws = ["field", "solid"].includes(file.languageId);
-    const about: Record<string, string> = {
-      hemls: "Surfaces that grow from these rules are not shown on this page yet. `tartan grow` makes and draws them.",
-      bnf: "Sentences of this grammar are not shown on this page yet. `tartan map` maps genomes to them.",
-      study: "Studies are not run on this page yet. `tartan evolve` and `tartan breed` run them.",
-      pcfg: "Models of this grammar are not placed on this page yet. `tartan place` places them.",
-      kit: "Models are not placed on this page yet. `tartan place` places and draws them.",
-    };
-    if (!draws) {
-      fill(this.plain, h("h2", {class: "title"}, file.path), h("p", {class: "lead"}, withCode(about[file.languageId] ?? "This page knows no questions about such a file.")), h("p", {class: "hint"}, "Everything that the editor says of the text is there all the same: findings, words, definitions."));
-      return;
-    }
-    this.element.classList.add("stale");
-    try {
-      const {files} = await this.desk.questions.ask("draw", {format: "svg", width: 900}, "form");
-      if (run !== this.run) return;
-      const svg = files[0]?.text ? picture(files[0].text, file.path) : null;
-      fill(this.plain, h("figure", {class: "form"}, svg));
-      this.fresh();
-    } catch (failure) {
-      if (failure instanceof Stale || run !== this.run) return;
-      if (!(failure instanceof Refused)) throw failure;
-      this.say(failure);
-    }
+    const about = file.languageId === "bnf" ? "Sentences of this grammar are not shown on this page yet. `tartan map` maps genomes to them." : "This page knows no questions about such a file.";
+    fill(this.plain, h("h2", {class: "title"}, file.path), h("p", {class: "lead"}, withCode(about)), h("p", {class: "hint"}, "Everything that the editor says of the text is there all the same: findings, words, definitions."));
   }
 }
 

@@ -5,7 +5,7 @@ import {bar, drawing} from "./drawn";
 import {approximately, decimal, grouped, minus} from "./numbers";
 import {Refused} from "./questions";
 import type {CountedValues, FoundFront, ShownMeasure, SpreadRow} from "./requests";
-import {picture} from "./svg";
+import {clicked, picture} from "./svg";
 
 const BINS = 16;
 const LENGTHS_MOST = 12;
@@ -64,7 +64,10 @@ export class Measures {
     const spread = await this.spread(library.name);
     const chart = h("figure", {class: "chart"});
     const svg = spread.files?.[0]?.text ? picture(spread.files[0].text, `How many plans have which ${this.by}`) : null;
-    if (svg) chart.append(svg);
+    if (svg) {
+      chart.append(svg);
+      clicked(svg, "bar", (number) => this.show(spread, spread.distribution[number]));
+    }
     const rows = h("div", null);
     const lengths = h("section", null);
     const front = h("section", null);
@@ -112,15 +115,22 @@ export class Measures {
     if (focused) document.getElementById(focused)?.focus();
   }
 
+  private label(row: SpreadRow): string {
+    return row.value !== undefined ? decimal(row.value) : `${decimal(row.from)} to ${decimal(row.to)}`;
+  }
+
+  private show(spread: CountedValues, row: SpreadRow): void {
+    this.desk.showWhere(requirement(spread.measure, spread.unit, row), `${spread.measure} ${this.label(row)}${spread.unit ? ` ${spread.unit}` : ""}`);
+  }
+
   private bins(place: Element, spread: CountedValues): void {
     const count = (row: SpreadRow) => row.plans ?? row.houses ?? "0";
     const most = spread.distribution.reduce((max, row) => Math.max(max, approximately(count(row))), 1);
-    const label = (row: SpreadRow) => (row.value !== undefined ? decimal(row.value) : `${decimal(row.from)} to ${decimal(row.to)}`);
     fill(place, h("table", {class: "bins"},
       h("thead", {class: "sr"}, h("tr", null, h("th", {scope: "col"}, spread.measure), h("th", {scope: "col"}, "share"), h("th", {scope: "col"}, "plans"))),
       h("tbody", null, spread.distribution.filter((row) => count(row) !== "0").map((row) =>
         h("tr", null,
-          h("th", {scope: "row"}, h("button", {type: "button", class: "link", title: "Show these plans", onclick: () => this.desk.showWhere(requirement(spread.measure, spread.unit, row), `${spread.measure} ${label(row)}${spread.unit ? ` ${spread.unit}` : ""}`)}, label(row))),
+          h("th", {scope: "row"}, h("button", {type: "button", class: "link", title: "Show these plans", onclick: () => this.show(spread, row)}, this.label(row))),
           h("td", {class: "bar-cell"}, bar(approximately(count(row)) / most)), h("td", {class: "num"}, grouped(count(row))))))));
   }
 
@@ -152,6 +162,8 @@ export class Measures {
     const by = [{measure: this.by, most: this.most[0]}, {measure: this.other, most: this.most[1]}];
     const answer = (await this.desk.questions.ask("pareto", {library, by}, "front")) as FoundFront;
     const drawn = this.desk.library()?.form ? null : await drawing(this.desk, {front: true, by}, "front", `The best trade-offs of ${this.by} and ${this.other}`);
+    const show = ({plan, house}: {plan?: string; house?: string}) => this.desk.explain(plan ?? house!);
+    if (drawn?.whole) clicked(drawn.whole, "point", (number) => show(answer.points[number]));
     const unit = (name: string) => choices.find((measure) => measure.name === name)?.unit ?? "";
     fill(place,
       h("h2", null, `The best trade-offs of ${this.by} and ${this.other}`),
@@ -161,7 +173,7 @@ export class Measures {
         h("tbody", null, answer.points.map((point) => h("tr", null,
           point.values.map((value, i) => h("td", {class: "num"}, this.value(value, unit(answer.measures[i])))),
           h("td", {class: "num"}, grouped(point.plans ?? point.houses ?? "")),
-          h("td", null, h("button", {type: "button", class: "link", onclick: () => this.desk.explain(point.plan ?? point.house!)}, point.rank !== undefined ? `no. ${grouped(point.rank)}` : "show")))))));
+          h("td", null, h("button", {type: "button", class: "link", onclick: () => show(point)}, point.rank !== undefined ? `no. ${grouped(point.rank)}` : "show")))))));
   }
 }
 

@@ -37,6 +37,12 @@ export class Refused extends Error {
   }
 }
 
+export interface Answered<K extends keyof Table> {
+  answer: Table[K]["answer"];
+  notes: Note[];
+  bytes: Uint8Array<ArrayBuffer>[];
+}
+
 export class Questions {
   private asked = new Set<number>();
 
@@ -52,7 +58,16 @@ export class Questions {
   }
 
   // `texts` are files that only this question names.
-  async askWithNotes<K extends keyof Table>(name: K, request: Table[K]["request"], subject?: string, texts?: Record<string, string>): Promise<{answer: Table[K]["answer"]; notes: Note[]}> {
+  async askWithNotes<K extends keyof Table>(name: K, request: Table[K]["request"], subject?: string, texts?: Record<string, string>): Promise<Answered<K>> {
+    return this.send(name, {subject, request, texts});
+  }
+
+  // Files that are no text come as bytes, in the order of the answer's files.
+  async askWithBytes<K extends keyof Table>(name: K, request: Table[K]["request"], subject?: string): Promise<Answered<K>> {
+    return this.send(name, {subject, request, binary: true});
+  }
+
+  private async send<K extends keyof Table>(name: K, params: object): Promise<Answered<K>> {
     const file = this.file();
     if (!file || this.connection.state !== "open") throw new Stale();
     this.client.sync();
@@ -60,9 +75,9 @@ export class Questions {
     await this.client.initializing;
     let own = 0;
     try {
-      const result = await this.connection.ask(`tartan/${name}`, {uri: file.uri, version, subject, request, texts}, (id) => this.asked.add((own = id)));
+      const result = await this.connection.ask(`tartan/${name}`, {uri: file.uri, version, ...params}, (id) => this.asked.add((own = id)));
       if (this.file() !== file || file.version !== version) throw new Stale();
-      return {answer: result.answer, notes: result.notes ?? []};
+      return {answer: result.answer, notes: result.notes ?? [], bytes: result.bytes ?? []};
     } catch (failure) {
       if (failure instanceof Stale) throw failure;
       const {code} = failure as Failure;

@@ -1,11 +1,12 @@
 // The sheet of plans that follows typing: a sample whose seed stays, the first ones, or the best by a measure.
 import type {Desk} from "./desk";
 import {fill, h} from "./dom";
-import {drawPlans, drawing, scaled} from "./drawn";
+import {drawPlans, drawing, scaled, type Drawn} from "./drawn";
 import {decimal, grouped, plans as plural} from "./numbers";
 import {keep} from "./keep";
 import {Refused, Stale} from "./questions";
 import type {BestHouses, FoundHouses, FoundPlans} from "./requests";
+import {clicked} from "./svg";
 
 const PLANS = 12;
 const HOUSES = 6;
@@ -149,11 +150,14 @@ export class Sheet {
       const pictures = scaled(drawn.each);
       fill(this.grid, shown.map((plan, i) => this.card(plan, pictures[i])));
     } else {
-      fill(this.grid, h("li", {class: "whole"}, drawn.whole), shown.map((plan) => this.card(plan, null)));
+      if (drawn.whole && library.form) clicked(drawn.whole, "house", (number) => this.desk.explain(shown[number].line));
+      fill(this.grid, drawn.whole && h("li", {class: "whole"}, drawn.whole), shown.map((plan) => this.card(plan, null)));
     }
   }
 
-  private drawHouses(library: string, where: string[] | undefined) {
+  // The first ones are not drawn: no picture can be asked of houses by their numbers.
+  private async drawHouses(library: string, where: string[] | undefined): Promise<Drawn> {
+    if (this.way === "first") return {each: [], whole: null};
     const measure = /^(least|most):(.+)/.exec(this.way);
     const which = measure ? {best: HOUSES, by: [{measure: measure[2], most: measure[1] === "most"}]} : {sample: HOUSES, seed: this.seed};
     return drawing(this.desk, {library, where, ...which}, "sheet", "houses of the library");

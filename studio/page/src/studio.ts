@@ -2,7 +2,7 @@
 import {Connection, GONE} from "./connection";
 import type {Desk} from "./desk";
 import {Documents} from "./documents";
-import {fill, h, later} from "./dom";
+import {fill, h, later, paced} from "./dom";
 import {Editor, newClient} from "./editor";
 import {applied, type Edit} from "./edits";
 import {Files, notationName} from "./files";
@@ -14,6 +14,7 @@ import type {ShownLibrary} from "./requests";
 import type {Transport, TransportState} from "./transport";
 
 const PAUSE_MS = 120;
+const FRAME_MS = 16;
 const DRAFT_MS = 800;
 
 export class Studio {
@@ -30,6 +31,7 @@ export class Studio {
   private name = h("button", {type: "button", class: "file-name", popovertarget: "files", "aria-haspopup": "true"});
   private saveButton = h("button", {type: "button", class: "save", onclick: () => void this.files.save()}, "Save");
   private follow = later(() => void this.room.refresh(), PAUSE_MS);
+  private followForm = paced(() => this.room.refresh(), FRAME_MS);
   private draft = later(() => this.files.keepDrafts(), DRAFT_MS);
 
   constructor(transport: Transport) {
@@ -86,6 +88,7 @@ export class Studio {
         const {before} = this.files;
         return before && {path: before.path, show: () => this.files.show(before)};
       },
+      again: () => this.again(),
       refreshPane: () => room().refreshPane(),
     };
   }
@@ -112,18 +115,25 @@ export class Studio {
 
   private typed(): void {
     this.showState();
-    this.follow();
+    this.again();
     this.draft();
+  }
+
+  // Plans are counted when typing pauses; forms follow each letter.
+  private again(): void {
+    if (this.room.showsForm) this.followForm();
+    else this.follow();
   }
 
   // The file that is shown is another one, or it was saved or read.
   private changed(another: boolean): void {
     this.showState();
     if (!another) {
-      this.follow();
+      this.again();
       return;
     }
     this.follow.cancel();
+    this.followForm.cancel();
     this.room.another();
     void this.room.refresh();
   }
@@ -139,6 +149,7 @@ export class Studio {
 
   private showState(): void {
     const file = this.files.shown;
+    this.bar.querySelector('[data-room="library"]')!.textContent = this.room.showsForm ? "Form" : "Library";
     const dirty = Boolean(file && (file.changed || file.hash === null));
     fill(this.name, file?.path ?? "Files", dirty && h("span", {class: "dot", "aria-hidden": "true"}), h("span", {class: "arrow", "aria-hidden": "true"}, "▾"));
     this.name.setAttribute("aria-label", `${file?.path ?? "No file"}: all files`);

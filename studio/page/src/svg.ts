@@ -17,7 +17,7 @@ const ATTRIBUTES = new Set(
     "stroke-dasharray stroke-dashoffset clip-path clip-rule mask opacity stop-color stop-opacity color display visibility " +
     "font-family font-size font-weight font-style font-stretch text-anchor dominant-baseline letter-spacing xml:space " +
     "shape-rendering text-rendering vector-effect " +
-    "data-plan data-tray data-part data-item data-depth role aria-label").split(" "),
+    "data-plan data-tray data-part data-item data-depth data-bar data-point data-house role aria-label").split(" "),
 );
 
 let pictures = 0;
@@ -175,6 +175,13 @@ function needed(element: Element, shared: Map<string, Element>): Set<string> {
   };
   walk(element);
   return found;
+}
+
+// Lets the bars of a histogram, the points of a front, or the houses of a sheet be clicked. What stands beside the picture
+// has the same as buttons: they are what the keyboard reaches.
+export function clicked(chart: Element, kind: "bar" | "point" | "house", take: (number: number) => void): void {
+  for (const group of chart.querySelectorAll(`[data-${kind}]`))
+    group.addEventListener("click", () => take(Number(group.getAttribute(`data-${kind}`))));
 }
 
 // Lights trays of a plan's picture, by their numbers from 1; the picture counts from 0.

@@ -1,4 +1,4 @@
-// How the page and the engines exchange messages: JSON texts both ways. A web socket to `tartan studio`; in the
+// How the page and the engines exchange messages: JSON texts both ways, and bytes that go before an answer. A web socket to `tartan studio`; in the
 // playground, workers (playground.ts).
 
 export type TransportState = "opening" | "open" | "lost" | "refused";
@@ -7,6 +7,7 @@ export interface Transport {
   send(text: string): void;
   close(): void;
   onText: (text: string) => void;
+  onBytes: (bytes: ArrayBuffer) => void;
   onState: (state: TransportState) => void;
 }
 
@@ -16,6 +17,7 @@ const LONGEST_WAIT_MS = 5000;
 // One web socket after another: when one ends, the next is tried, ever more seldom.
 export class SocketTransport implements Transport {
   onText: (text: string) => void = () => {};
+  onBytes: (bytes: ArrayBuffer) => void = () => {};
   onState: (state: TransportState) => void = () => {};
   private socket: WebSocket | null = null;
   private wait = FIRST_WAIT_MS;
@@ -28,13 +30,14 @@ export class SocketTransport implements Transport {
     this.onState("opening");
     let began = false;
     const socket = new WebSocket(this.address, ["tartan.1", `token.${this.token}`]);
+    socket.binaryType = "arraybuffer";
     this.socket = socket;
     socket.onopen = () => {
       began = true;
       this.wait = FIRST_WAIT_MS;
       this.onState("open");
     };
-    socket.onmessage = (event) => this.onText(String(event.data));
+    socket.onmessage = ({data}) => (typeof data === "string" ? this.onText(data) : this.onBytes(data));
     socket.onclose = () => {
       if (this.socket !== socket || this.ended) return;
       this.socket = null;

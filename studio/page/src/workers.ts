@@ -28,6 +28,7 @@ async function hashOf(text: string): Promise<string> {
 
 export class WorkerTransport implements Transport {
   onText: (text: string) => void = () => {};
+  onBytes: (bytes: ArrayBuffer) => void = () => {};
   onState: (state: TransportState) => void = () => {};
   private module: WebAssembly.Module | null = null;
   private language: Worker | null = null;
@@ -50,14 +51,19 @@ export class WorkerTransport implements Transport {
     }
     for (const [path, text] of this.files.texts) this.hashes.set(path, await hashOf(text));
     this.language = this.start("language", (text) => this.onText(text));
-    this.desk = this.start("desk", (text) => this.answered(text));
+    this.desk = this.startDesk();
     this.onState("open");
   }
 
-  private start(role: "language" | "desk", take: (text: string) => void): Worker {
+  private startDesk(): Worker {
+    return this.start("desk", (text, bytes) => this.answered(text, bytes));
+  }
+
+  private start(role: "language" | "desk", take: (text: string, bytes: ArrayBuffer[]) => void): Worker {
     const worker = new Worker("worker.js", {type: "module"});
     worker.onmessage = ({data}) => {
-      if (typeof data === "string") take(data);
+      if (typeof data === "string") take(data, []);
+      else if (data.answer) take(data.answer, data.bytes);
       else if (data.failed) this.onState("lost");
     };
     worker.onerror = () => this.onState("lost");
@@ -98,12 +104,15 @@ export class WorkerTransport implements Transport {
     this.desk!.postMessage(this.waiting[0].text);
   }
 
-  private answered(text: string): void {
+  private answered(text: string, bytes: ArrayBuffer[]): void {
     const {id} = JSON.parse(text) as {id: number};
     if (this.waiting[0]?.id !== id) return;
     this.waiting.shift();
     this.working = false;
-    if (!this.ended.delete(id)) this.onText(text);
+    if (!this.ended.delete(id)) {
+      bytes.forEach(this.onBytes);
+      this.onText(text);
+    }
     this.next();
   }
 
@@ -124,7 +133,7 @@ export class WorkerTransport implements Transport {
     this.desk!.terminate();
     this.ended.delete(this.waiting.shift()!.id);
     this.working = false;
-    this.desk = this.start("desk", (text) => this.answered(text));
+    this.desk = this.startDesk();
     for (const opening of this.texts.opening()) this.desk.postMessage(opening);
     this.next();
   }

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import {rangeOf, written} from "../src/sliders";
+import {rangeAbout, rangeOf, within, written} from "../src/sliders";
 import {requirement, spelled} from "../src/measures";
 import {item, pattern} from "../src/open_plan";
 import type {ShownSchema} from "../src/requests";
@@ -14,6 +14,17 @@ test("what a slider goes between", () => {
   const metres = rangeOf({value: "20m", least: "12m", most: "30m"})!;
   assert.equal(written(18.5, metres), "18.5m");
   assert.equal(written(30, metres), "30m");
+});
+
+test("what a slider goes between where nothing bounds it", () => {
+  assert.deepEqual(rangeAbout("30"), {from: 0, to: 60, step: 1, places: 0, unit: ""});
+  assert.deepEqual(rangeAbout("2"), {from: 0, to: 10, step: 1, places: 0, unit: ""});
+  assert.deepEqual(rangeAbout("0.25"), {from: 0, to: 0.5, step: 0.01, places: 2, unit: ""});
+  assert.deepEqual(rangeAbout("1.5"), {from: 0, to: 3, step: 0.01, places: 2, unit: ""});
+  assert.deepEqual(rangeAbout("-4"), {from: -10, to: 0, step: 1, places: 0, unit: ""});
+  assert.equal(rangeAbout("[.75]"), null);
+  assert.ok(within(rangeAbout("30")!, "60"));
+  for (const text of ["61", "-1", "30.5", "30mm", "thirty"]) assert.equal(within(rangeAbout("30")!, text), false);
 });
 
 test("values of measures in the words of the file", () => {

@@ -203,6 +203,68 @@ static void can_be_stopped(void **state)
     tartan_session_free(session);
 }
 
+typedef struct taken {
+    size_t files, size;
+    tartan_status status; /* what it returns */
+} taken;
+
+static tartan_status take_mesh(void *context, const char *format, const char *name, const void *bytes, size_t size,
+                               tartan_error *error)
+{
+    taken *t = context;
+    assert_string_equal(format, "glb");
+    assert_null(name);
+    assert_memory_equal(bytes, "glTF", 4);
+    t->files++;
+    t->size = size;
+    snprintf(error->message, sizeof error->message, "no room");
+    snprintf(error->help, sizeof error->help, "make some");
+    return t->status;
+}
+
+/* A mesh of a box: whether it is in the answer. */
+static bool has_mesh(tartan_session *session)
+{
+    char *answer = NULL;
+    tartan_error error;
+    assert_int_equal(tartan_ask(session, "mesh", "{\"format\": \"glb\"}", NULL, NULL, NULL, &answer, &error),
+                     TARTAN_OK);
+    assert_non_null(strstr(answer, "\"glb\""));
+    bool has = strstr(answer, "\"base64\"") != NULL;
+    tartan_text_free(answer);
+    return has;
+}
+
+static void gives_bytes_to_whoever_takes_them(void **state)
+{
+    (void)state;
+    static const char rules[] = "solid b { box a at (0, 0, 0) size (1, 1, 1); }";
+    char *answer = NULL;
+    tartan_error error;
+    tartan_session *session = NULL;
+    taken t = {.status = TARTAN_OK};
+    assert_int_equal(tartan_session_open("b.solid", rules, strlen(rules), NULL, &session, &error), TARTAN_OK);
+    assert_true(has_mesh(session));
+    tartan_session_take_bytes(session, take_mesh, &t);
+    assert_false(has_mesh(session));
+    assert_int_equal(t.files, 1);
+    assert_true(t.size > 500);
+    t.status = TARTAN_LIMIT;
+    assert_int_equal(tartan_ask(session, "mesh", "{\"format\": \"glb\"}", NULL, NULL, NULL, &answer, &error),
+                     TARTAN_LIMIT);
+    assert_string_equal(error.message, "no room");
+    assert_string_equal(error.help, "make some");
+    assert_null(answer);
+    t.status = TARTAN_MEMORY;
+    assert_int_equal(tartan_ask(session, "mesh", "{\"format\": \"glb\"}", NULL, NULL, NULL, &answer, &error),
+                     TARTAN_MEMORY);
+    tartan_session_take_bytes(session, NULL, NULL);
+    assert_true(has_mesh(session));
+    assert_int_equal(t.files, 3);
+    tartan_session_take_bytes(NULL, take_mesh, &t);
+    tartan_session_free(session);
+}
+
 static void refuses_misuse(void **state)
 {
     (void)state;
@@ -234,13 +296,10 @@ static void refuses_misuse(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(answers_one_after_another),
-        cmocka_unit_test(tells_notes),
-        cmocka_unit_test(compiles_again_for_requirements),
-        cmocka_unit_test(keeps_values_of_params),
-        cmocka_unit_test(refuses_values_of_params),
-        cmocka_unit_test(can_be_stopped),
-        cmocka_unit_test(refuses_misuse),
+        cmocka_unit_test(answers_one_after_another),         cmocka_unit_test(tells_notes),
+        cmocka_unit_test(compiles_again_for_requirements),   cmocka_unit_test(keeps_values_of_params),
+        cmocka_unit_test(refuses_values_of_params),          cmocka_unit_test(can_be_stopped),
+        cmocka_unit_test(gives_bytes_to_whoever_takes_them), cmocka_unit_test(refuses_misuse),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

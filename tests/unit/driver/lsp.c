@@ -1040,6 +1040,92 @@ static void test_meaning(void **state)
     finish_live(&l);
 }
 
+/* ---- rules as pictures */
+
+static const char drawn[] = "use \"lahave\"\n\nrule r =\n  neighbour(tray(4', great), any)\n";
+
+/* The actions of that kind at a place of `drawn`. */
+static json_t *actions_at(live *l, const char *uri, const char *before, const char *only)
+{
+    tn_lines lines;
+    size_t offset = (size_t)(strstr(drawn, before) - drawn);
+    assert_true(tn_lines_make(&lines, drawn, strlen(drawn)));
+    json_t *context = json_pack("{s:[]}", "diagnostics");
+    if (only)
+        json_object_set_new(context, "only", json_pack("[s]", only));
+    json_t *params = json_pack("{s:{s:s},s:o,s:o}", "textDocument", "uri", uri, "range",
+                               tn_lines_range(&lines, offset, offset), "context", context);
+    tn_lines_clear(&lines);
+    return hear_answer(l, ask(&l->session, "textDocument/codeAction", params));
+}
+
+/* The action of that title, of those in an answer. */
+static const json_t *titled(const json_t *answer, const char *title)
+{
+    const json_t *list = json_object_get(answer, "result"), *action;
+    size_t i;
+    json_array_foreach(list, i, action) if (strcmp(json_string_value(json_object_get(action, "title")), title) ==
+                                            0) return action;
+    return NULL;
+}
+
+/* Without `resolve`, actions have their edits where they are asked for by kind, and are not offered otherwise. */
+static void test_rule_actions(void **state)
+{
+    static const char uri[] = "untitled:1";
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, uri, drawn);
+    json_t *answer = actions_at(&l, uri, "great", "refactor");
+    assert_true(mentions(answer, "Put `not` around `tray(4', great)`") && mentions(answer, "Leave `great` out") &&
+                mentions(answer, "Ask for `not great` instead of `great`"));
+    assert_true(mentions(titled(answer, "Put `symmetric` around `tray(4', great)`"), "\"newText\":\"symmetric \""));
+    json_decref(answer);
+    answer = actions_at(&l, uri, "4'", "refactor.rewrite");
+    assert_true(mentions(titled(answer, "Ask for `8'` instead of `4'`"), "\"newText\":\"8\""));
+    json_decref(answer);
+    answer = actions_at(&l, uri, "neighbour", "refactor");
+    assert_true(mentions(answer, "Leave `any` of `neighbour`"));
+    json_decref(answer);
+    answer = actions_at(&l, uri, "great", "quickfix");
+    assert_int_equal(json_array_size(json_object_get(answer, "result")), 0);
+    json_decref(answer);
+    answer = actions_at(&l, uri, "great", NULL);
+    assert_int_equal(json_array_size(json_object_get(answer, "result")), 0);
+    json_decref(answer);
+    finish_live(&l);
+}
+
+static void test_rule_actions_later(void **state)
+{
+    static const char uri[] = "untitled:1";
+    (void)state;
+    live l;
+    start_live(&l);
+    json_decref(hear_answer(&l, ask(&l.session, "initialize",
+                                    json_pack("{s:{s:{s:{s:{s:[s]}}}}}", "capabilities", "textDocument", "codeAction",
+                                              "resolveSupport", "properties", "edit"))));
+    open_document(&l.session, uri, drawn);
+    json_t *offered = actions_at(&l, uri, "great", NULL);
+    json_t *action = json_deep_copy(titled(offered, "Leave `great` out"));
+    assert_non_null(action);
+    assert_null(json_object_get(action, "edit"));
+    json_decref(offered);
+    json_t *resolved = hear_answer(&l, ask(&l.session, "codeAction/resolve", json_deep_copy(action)));
+    assert_true(mentions(resolved, "\"edit\"") && mentions(resolved, "\"newText\":\"\""));
+    json_decref(resolved);
+    json_object_set_new(json_object_get(action, "data"), "item", json_integer(9));
+    resolved = hear_answer(&l, ask(&l.session, "codeAction/resolve", json_deep_copy(action)));
+    assert_true(mentions(resolved, "-32803") && mentions(resolved, "the tray has 2 items"));
+    json_decref(resolved);
+    json_object_set_new(json_object_get(action, "data"), "version", json_integer(7));
+    resolved = hear_answer(&l, ask(&l.session, "codeAction/resolve", action));
+    assert_true(mentions(resolved, "-32801"));
+    json_decref(resolved);
+    finish_live(&l);
+}
+
 /* What is at work is given up: by an edit, by closing, by the end. */
 static void test_meaning_given_up(void **state)
 {
@@ -1152,6 +1238,8 @@ int main(void)
         cmocka_unit_test(test_choices),
         cmocka_unit_test(test_params),
         cmocka_unit_test(test_places_of_used),
+        cmocka_unit_test(test_rule_actions),
+        cmocka_unit_test(test_rule_actions_later),
         cmocka_unit_test(test_meaning_given_up),
         cmocka_unit_test(test_meaning_of_grammar),
         cmocka_unit_test(test_outlines),

@@ -3,6 +3,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,16 +37,21 @@ static void sends_in_pieces(void **state)
     assert_true(tn_outbox_put_text(outbox, text_of(TN_PIECE_MAX)));
     assert_true(tn_outbox_put_text(outbox, text_of(2 * TN_PIECE_MAX + 1)));
     assert_true(tn_outbox_put(outbox, NULL) && tn_outbox_put_text(outbox, NULL));
-    assert_int_equal(woken, 3);
-    const tn_outbox_piece wanted[] = {{7, true, true},
-                                      {TN_PIECE_MAX, true, true},
-                                      {TN_PIECE_MAX, true, false},
-                                      {TN_PIECE_MAX, false, false},
-                                      {1, false, true}};
+    uint8_t *raw = (uint8_t *)text_of(3);
+    raw[1] = 0;
+    assert_true(tn_outbox_put_bytes(outbox, raw, 3));
+    assert_int_equal(woken, 4);
+    const tn_outbox_piece wanted[] = {{7, true, true, false},
+                                      {TN_PIECE_MAX, true, true, false},
+                                      {TN_PIECE_MAX, true, false, false},
+                                      {TN_PIECE_MAX, false, false, false},
+                                      {1, false, true, false},
+                                      {3, true, true, true}};
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
         assert_true(tn_outbox_waits(outbox));
         tn_outbox_piece piece = tn_outbox_take(outbox, bytes);
         assert_true(piece.size == wanted[i].size && piece.first == wanted[i].first && piece.last == wanted[i].last);
+        assert_int_equal(piece.binary, wanted[i].binary);
         assert_true(i > 0 || memcmp(bytes, "{\"a\":1}", 7) == 0);
     }
     assert_false(tn_outbox_waits(outbox));

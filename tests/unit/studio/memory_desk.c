@@ -36,7 +36,7 @@ static json_t *parsed(const char *text)
 }
 
 typedef struct messages {
-    json_t *open, *count, *settings, *hover, *initialize;
+    json_t *open, *count, *settings, *open_box, *mesh, *hover, *initialize;
 } messages;
 
 static messages make_messages(void)
@@ -51,6 +51,11 @@ static messages make_messages(void)
             "\"request\": {}}}"),
         .settings = parsed("{\"id\": 2, \"method\": \"tartan/settings\", \"params\": {\"uri\": \"file:///a.plan\", "
                            "\"version\": 1, \"request\": {}}}"),
+        .open_box = parsed("{\"method\": \"textDocument/didOpen\", \"params\": {\"textDocument\": {\"uri\": "
+                           "\"file:///b.solid\", \"version\": 1, \"text\": "
+                           "\"solid b { box a at (0, 0, 0) size (1, 1, 1); }\"}}}"),
+        .mesh = parsed("{\"id\": 5, \"method\": \"tartan/mesh\", \"params\": {\"uri\": \"file:///b.solid\", "
+                       "\"version\": 1, \"binary\": true, \"request\": {\"format\": \"glb\"}}}"),
         .hover = parsed("{\"id\": 3, \"method\": \"textDocument/hover\", \"params\": {\"textDocument\": {\"uri\": "
                         "\"file:///a.plan\"}, \"position\": {\"line\": 2, \"character\": 36}}}"),
         .initialize = parsed("{\"id\": 4, \"method\": \"initialize\", \"params\": {}}"),
@@ -62,6 +67,8 @@ static void clear_messages(messages *m)
     json_decref(m->open);
     json_decref(m->count);
     json_decref(m->settings);
+    json_decref(m->open_box);
+    json_decref(m->mesh);
     json_decref(m->hover);
     json_decref(m->initialize);
 }
@@ -83,6 +90,17 @@ static bool ask(tn_desk *desk, const json_t *message, bool *result)
     return status == TN_OK;
 }
 
+/* And with its bytes, unless it is an error. */
+static bool ask_mesh(tn_desk *desk, const json_t *message, bool *result)
+{
+    size_t size;
+    bool said = ask(desk, message, result);
+    uint8_t *bytes = tn_desk_bytes(desk, &size);
+    assert_int_equal(bytes != NULL, *result);
+    free(bytes);
+    return said;
+}
+
 /* How many allocations all of it takes. */
 static size_t try_desk(const messages *m, size_t failing, int all_after)
 {
@@ -92,14 +110,17 @@ static size_t try_desk(const messages *m, size_t failing, int all_after)
     bool result;
     fail_allocation(failing, all_after);
     tn_status status = tn_desk_new(&folder, &desk, &error);
-    if (status == TN_OK && (status = tn_desk_take(desk, m->open, NULL, &response)) == TN_OK) {
+    if (status == TN_OK && (status = tn_desk_take(desk, m->open, NULL, &response)) == TN_OK &&
+        (status = tn_desk_take(desk, m->open_box, NULL, &response)) == TN_OK) {
         ask(desk, m->count, &result);
         ask(desk, m->settings, &result);
+        ask_mesh(desk, m->mesh, &result);
     }
     size_t allocations = stop_failing();
     if (status == TN_OK) {
         assert_true(ask(desk, m->count, &result) && result);
         assert_true(ask(desk, m->settings, &result) && result);
+        assert_true(ask_mesh(desk, m->mesh, &result) && result);
     }
     tn_desk_free(desk);
     return allocations;

@@ -13,6 +13,7 @@
 #include <jansson.h>
 
 #include "lsp/exchange.h"
+#include "runtime/base/bytes.h"
 #include "studio/desk/desk.h"
 
 /* ---- a folder in memory */
@@ -255,6 +256,99 @@ static void test_what_is_no_question(void **state)
     tn_desk_free(desk);
 }
 
+/* ---- what goes as bytes */
+
+static const char ball[] = "surface ball = x*x + y*y + z*z - 2\nbox (-2, -2, -2) .. (2, 2, 2)\n";
+
+static json_t *mesh_asked(const char *format, int grid, bool binary)
+{
+    json_t *params =
+        about("file:///ball.field", 1, json_pack("{s:s,s:i,s:b}", "format", format, "grid", grid, "stats", 1));
+    json_object_set_new(params, "binary", json_boolean(binary));
+    return request("tartan/mesh", params);
+}
+
+static void assert_none_waits(tn_desk *desk)
+{
+    size_t size;
+    assert_null(tn_desk_bytes(desk, &size));
+}
+
+static const json_t *only_file(const json_t *response)
+{
+    return json_array_get(json_object_get(json_object_get(json_object_get(response, "result"), "answer"), "files"), 0);
+}
+
+static void test_meshes_go_as_bytes(void **state)
+{
+    (void)state;
+    tn_desk *desk = new_desk();
+    take(desk, opened("file:///ball.field", ball, 1));
+    for (uint32_t number = 1; number <= 2; number++) {
+        size_t size;
+        json_t *response = take(desk, mesh_asked("glb", 12, true));
+        const json_t *result = json_object_get(response, "result"), *file = only_file(response);
+        json_int_t vertices = json_integer_value(json_object_get(json_object_get(result, "answer"), "vertices"));
+        assert_int_equal(json_integer_value(json_array_get(json_object_get(result, "bytes"), 0)), number);
+        assert_string_equal(word(file, "format"), "glb");
+        assert_int_equal(json_object_size(file), 1);
+        uint8_t *bytes = tn_desk_bytes(desk, &size);
+        assert_non_null(bytes);
+        assert_int_equal(tn_get_u32(bytes), number);
+        assert_int_equal(tn_get_u32(bytes + 4), size - 8);
+        assert_memory_equal(bytes + 8, "glTF", 4);
+        assert_int_equal(tn_get_u32(bytes + 16), size - 8);
+        size_t binary = 8 + 20 + tn_get_u32(bytes + 20);
+        assert_int_equal(binary % 4, 0);
+        /* places, and two triangles for each vertex but two, of a closed form without a hole */
+        assert_int_equal(tn_get_u32(bytes + binary), 12 * vertices + 12 * (2 * vertices - 4));
+        free(bytes);
+        assert_none_waits(desk);
+        json_decref(response);
+    }
+    tn_desk_free(desk);
+}
+
+static void test_bytes_are_asked_for(void **state)
+{
+    (void)state;
+    size_t size;
+    tn_desk *desk = new_desk();
+    take(desk, opened("file:///ball.field", ball, 1));
+    json_t *whole = take(desk, mesh_asked("glb", 12, false));
+    assert_none_waits(desk);
+    assert_null(json_object_get(json_object_get(whole, "result"), "bytes"));
+    size_t written = strlen(word(only_file(whole), "base64"));
+    json_decref(take(desk, mesh_asked("glb", 12, true)));
+    free(tn_desk_bytes(desk, &size));
+    assert_int_equal(written, (size - 8 + 2) / 3 * 4);
+    json_t *text = take(desk, mesh_asked("obj", 12, true));
+    assert_none_waits(desk);
+    assert_non_null(strstr(word(only_file(text), "text"), "v "));
+    json_decref(take(desk, mesh_asked("glb", 12, true))); /* nobody takes its bytes */
+    json_decref(whole);
+    json_decref(text);
+    tn_desk_free(desk);
+}
+
+static void test_no_bytes_without_an_answer(void **state)
+{
+    (void)state;
+    tn_desk *desk = new_desk();
+    tartan_watch watch = tartan_watch_init();
+    take(desk, opened("file:///ball.field", ball, 1));
+    assert_error(desk, mesh_asked("glb", 1, true), -32602, "grid");
+    assert_none_waits(desk);
+    watch.go_on = never;
+    json_t *ended = take_watched(desk, mesh_asked("glb", 60, true), &watch);
+    assert_int_equal(json_integer_value(json_object_get(json_object_get(ended, "error"), "code")), -32800);
+    assert_none_waits(desk);
+    json_decref(ended);
+    assert_error(desk, mesh_asked("glb", 1000, true), -32803, "a page takes 64 MiB at most");
+    assert_none_waits(desk);
+    tn_desk_free(desk);
+}
+
 /* ---- the language server */
 
 /* What it says next of the text. */
@@ -387,15 +481,12 @@ static void test_reviews_without_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_counts_what_is_open),
-        cmocka_unit_test(test_follows_edits),
-        cmocka_unit_test(test_paths_end_at_the_folder),
-        cmocka_unit_test(test_params_and_texts_of_a_request),
-        cmocka_unit_test(test_what_is_no_question),
-        cmocka_unit_test(test_names_lead_into_served_files),
-        cmocka_unit_test(test_the_standard_library_is_built_in),
-        cmocka_unit_test(test_files_that_change_outside),
-        cmocka_unit_test(test_reviews_without_threads),
+        cmocka_unit_test(test_counts_what_is_open),          cmocka_unit_test(test_follows_edits),
+        cmocka_unit_test(test_paths_end_at_the_folder),      cmocka_unit_test(test_params_and_texts_of_a_request),
+        cmocka_unit_test(test_what_is_no_question),          cmocka_unit_test(test_meshes_go_as_bytes),
+        cmocka_unit_test(test_bytes_are_asked_for),          cmocka_unit_test(test_no_bytes_without_an_answer),
+        cmocka_unit_test(test_names_lead_into_served_files), cmocka_unit_test(test_the_standard_library_is_built_in),
+        cmocka_unit_test(test_files_that_change_outside),    cmocka_unit_test(test_reviews_without_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
