@@ -183,7 +183,8 @@ static tn_status sample_plans(tn_session *session, const tn_sample_request *requ
 {
     const tn_ready_library *ready;
     tn_error error;
-    tn_status status = tn_session_library(session, &request->subject, &ready);
+    tn_status status =
+        (request->generated ? tn_session_generated : tn_session_library)(session, &request->subject, &ready);
     if (status != TN_OK)
         return status;
     if (request->diverse && !request->uniform && ready->record->weight_count > 0)
@@ -291,6 +292,8 @@ tn_status tn_ask_sample(tn_session *session, const tn_sample_request *request, t
     const tn_sample_request *r = request;
     *answer = (tn_reply){0};
     bool houses = r->plan || tn_session_of_houses(session, &r->subject);
+    if (houses && r->generated)
+        return tn_session_refuse(session, NULL, "`generated` is asked of plans, and this is a library of houses");
     if (houses && (r->has_length || r->has_per_length || r->diverse))
         return refuse_for_houses(session, r);
     tn_status status = check(session, r);

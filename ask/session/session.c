@@ -181,7 +181,8 @@ tn_library_options tn_asked_options(const tn_library_asked *asked)
 static bool same_options(const tn_library_options *a, const tn_library_options *b)
 {
     return a->max_states == b->max_states && a->override_trays == b->override_trays && a->trays_min == b->trays_min &&
-           a->trays_max == b->trays_max && a->max_length == b->max_length && a->threads == b->threads;
+           a->trays_max == b->trays_max && a->max_length == b->max_length && a->threads == b->threads &&
+           a->all_generated == b->all_generated;
 }
 
 static bool is_kept(const tn_session *session, const char *name, const tn_library_options *options)
@@ -192,17 +193,30 @@ static bool is_kept(const tn_session *session, const char *name, const tn_librar
                 : session->only_one;
 }
 
+static tn_status make_ready(tn_session *session, const char *name, const tn_library_options *options,
+                            const tn_ready_library **ready)
+{
+    *ready = &session->library;
+    if (is_kept(session, name, options))
+        return TN_OK;
+    forget_library(session);
+    session->options = *options;
+    session->only_one = !name;
+    tn_session_begins(session, "clauses combined");
+    tn_status status = tn_library_ready(session->opened, name, options, &session->library);
+    tn_session_ends(session);
+    return status;
+}
+
 tn_status tn_session_library(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready)
 {
     const tn_library_options options = tn_asked_options(asked);
-    *ready = &session->library;
-    if (is_kept(session, asked->library, &options))
-        return TN_OK;
-    forget_library(session);
-    session->options = options;
-    session->only_one = !asked->library;
-    tn_session_begins(session, "clauses combined");
-    tn_status status = tn_library_ready(session->opened, asked->library, &options, &session->library);
-    tn_session_ends(session);
-    return status;
+    return make_ready(session, asked->library, &options, ready);
+}
+
+tn_status tn_session_generated(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready)
+{
+    tn_library_options options = tn_asked_options(asked);
+    options.all_generated = true;
+    return make_ready(session, asked->library, &options, ready);
 }

@@ -94,6 +94,8 @@ void tn_session_shows(const tn_session *session);
 
 /* The library of plans that is asked about, ready. It is the session's. */
 tn_status tn_session_library(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready);
+/* The same without its pruning: its plans are all that it generates. */
+tn_status tn_session_generated(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready);
 
 /* Is the library that is asked about by name one of houses? */
 bool tn_session_of_houses(const tn_session *session, const tn_library_asked *asked);

@@ -1,4 +1,5 @@
-// Films the three first tasks, from an empty folder and an empty profile, and a form, and makes the pictures of docs/studio.md:
+// Films the three first tasks and a rule that is drawn, from an empty folder and an empty profile, and a form, and makes the pictures of
+// docs/studio.md:
 // node pictures.mjs FOLDER. Prints what each task took, without the time of whoever thinks.
 import {mkdirSync, mkdtempSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -40,7 +41,7 @@ await page.getByRole("button", {name: "Add a rule"}).click();
 await page.getByLabel("Which tray").selectOption("stair");
 await shot("add-a-rule");
 await page.getByRole("button", {name: "Add it"}).click();
-await page.locator(".clauses").getByRole("button", {name: "stair-in-the-middle"}).waitFor();
+await page.locator(".clauses").getByRole("button", {name: "stair-in-the-middle", exact: true}).waitFor();
 lap("only plans with a stair in the middle");
 await settled();
 await shot("a-stair-in-the-middle");
@@ -69,6 +70,49 @@ await page.getByRole("tab", {name: "Open plan"}).click();
 await page.locator("#value-use-hall").click();
 await settled();
 await shot("open-plan");
+
+await page.locator(".file-name").click();
+await page.locator(".starts").getByRole("button", {name: "LaHave houses"}).click();
+await page.locator("#count").waitFor();
+await page.getByRole("tab", {name: "Rule", exact: true}).click();
+const drawn = (text) => page.locator('.rule-drawing[aria-busy="false"]').and(page.locator(`:has-text("${text}")`)).waitFor();
+const part = (number) => page.locator(`.rule-stage svg [data-part="${number}"]`).first();
+const middle = async (locator, [x, y] = [0.5, 0.5]) => {
+  await locator.waitFor();
+  const box = await locator.evaluate((element) => element.getBoundingClientRect().toJSON());
+  return [box.x + box.width * x, box.y + box.height * y];
+};
+const drag = async (what, number, place, over) => {
+  await page.mouse.move(...(await middle(page.locator(`#palette-${what}`))));
+  await page.mouse.down();
+  await page.mouse.move(...(await middle(part(number), place)), {steps: 5});
+  if (over) await shot(over);
+  await page.mouse.up();
+};
+const sign = async (number, field, text) => {
+  await page.mouse.click(...(await middle(part(number).locator(`:scope > [data-item="${field}"]`), [0.3, 0.5])));
+  await drawn(text);
+};
+await part(0).waitFor();
+await settled();
+began = performance.now();
+await page.locator("#new-rule").click();
+await page.getByRole("button", {name: "Make it"}).click();
+await drawn("any tray");
+await drag("neighbour", 0);
+await drawn("a row");
+await drag("any", 1, [0.96, 0.5], "where-it-lands");
+await part(2).waitFor();
+await sign(1, 4, "machine dense");
+await sign(2, 4, "machine dense");
+await sign(2, 0, "4'");
+await page.getByRole("button", {name: "Leave such plans out"}).click();
+await page.getByText(/^It leaves out/).waitFor();
+lap("a rule drawn without typing");
+await page.locator(".library").evaluate((room) => room.scrollTo(0, 0));
+await settled();
+await page.waitForTimeout(4000); // what is said at the bottom goes
+await shot("a-rule-as-a-picture");
 
 const TANGLE = `# The tangle cube of the standard library, drawn out and turned.
 use "primitives"

@@ -77,6 +77,21 @@ def right(window, tartan, folder):
         check(said and without_paths(answer) == without_paths(json.loads(said)), "%s %s: %s, not %s" % (question, request, json.dumps(message)[:300], said[:300]))
 
 
+def pruned(window):
+    """What a library's rules prune is drawn if all that it generates is asked for; what it requires holds there, too."""
+    def sample(**more):
+        request = {"library": "street", "where": ["leap"], "count": 3, "lines": True, **more}
+        return window.answer(ask(window, "sample", "terrace.plan", request))["result"]["answer"]["plans"]
+
+    check(sample() == [], "a plan is kept that a rule prunes")
+    plans = [found["plan"] for found in sample(generated=True)]
+    dropped = window.answer(ask(window, "prune", "terrace.plan", {"library": "street", "plans": plans}))["result"]["answer"]["plans"]
+    check(len(plans) == 3 and all("leap" in plan["dropped_by"] for plan in dropped), "pruned plans: %s" % dropped)
+    check(sample() == [], "a plan is kept after others were asked for")
+    error = window.answer(ask(window, "sample", "cottage.plan", {"library": "cottages", "count": 1, "generated": True})).get("error", {})
+    check("houses" in error.get("message", ""), "pruned houses: %s" % error)
+
+
 def meshes(window, tartan, folder):
     for question, name, request, format, words in MESHES:
         message = window.answer(window.send("tartan/" + question, {"uri": "file:///" + name, "version": 1, "binary": True, "request": request}))
@@ -146,6 +161,7 @@ def main():
             with open(os.path.join(folder, name), encoding="utf-8") as file:
                 window.open(name, file.read())
         right(window, tartan, folder)
+        pruned(window)
         meshes(window, tartan, folder)
         refused_meshes(window)
         refused(window, questions)

@@ -31,6 +31,18 @@ static tn_status find(const char *text, size_t size, const char *rule, tn_span *
     return status;
 }
 
+/* The rule as it is laid out, alone: what stands around it takes no part in that (malloc); NULL if it cannot be. */
+static tn_status lay_out_rule(const char *text, tn_span place, const char *rule, char **laid_out, tn_span *there,
+                              tn_error *error)
+{
+    size_t size = 0;
+    *there = (tn_span){0};
+    tn_status status = lay_out(text + place.begin, place.end - place.begin, laid_out, &size, error);
+    if (status == TN_OK && *laid_out)
+        status = find(*laid_out, size, rule, there, error);
+    return status;
+}
+
 /* The next byte, or -1: the carriage returns of lines that end with them are left out when they are laid out. */
 static int next_byte(const char *text, tn_span *left)
 {
@@ -53,17 +65,13 @@ static bool same(const char *a, tn_span x, const char *b, tn_span y)
 /* *was: it stands as it is laid out. */
 static tn_status was_laid_out(const char *text, size_t size, const char *rule, bool *was, tn_error *error)
 {
-    char *laid_out;
-    size_t laid_size;
+    char *laid_out = NULL;
     tn_span here, there;
     *was = false;
-    tn_status status = lay_out(text, size, &laid_out, &laid_size, error);
-    if (status != TN_OK || !laid_out)
-        return status;
-    status = find(text, size, rule, &here, error);
-    if (status == TN_OK)
-        status = find(laid_out, laid_size, rule, &there, error);
-    *was = status == TN_OK && same(text, here, laid_out, there);
+    tn_status status = find(text, size, rule, &here, error);
+    if (status == TN_OK && here.end > here.begin)
+        status = lay_out_rule(text, here, rule, &laid_out, &there, error);
+    *was = status == TN_OK && laid_out && same(text, here, laid_out, there);
     free(laid_out);
     return status;
 }
@@ -83,19 +91,15 @@ static tn_status replace(const char *laid_out, tn_span there, tn_buffer *changed
 tn_status tn_rule_lay_out(const char *old, size_t old_size, const char *rule, tn_buffer *changed, tn_error *error)
 {
     char *laid_out = NULL;
-    size_t laid_size = 0;
     tn_span here, there;
     bool was;
     tn_status status = was_laid_out(old, old_size, rule, &was, error);
     if (status != TN_OK || !was)
         return status;
-    status = lay_out(changed->data, changed->size, &laid_out, &laid_size, error);
-    if (status != TN_OK || !laid_out)
-        return status;
     status = find(changed->data, changed->size, rule, &here, error);
-    if (status == TN_OK)
-        status = find(laid_out, laid_size, rule, &there, error);
-    if (status == TN_OK && there.end > there.begin)
+    if (status == TN_OK && here.end > here.begin)
+        status = lay_out_rule(changed->data, here, rule, &laid_out, &there, error);
+    if (status == TN_OK && laid_out && there.end > there.begin)
         status = replace(laid_out, there, changed, here, error);
     free(laid_out);
     return status;

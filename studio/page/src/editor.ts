@@ -71,6 +71,7 @@ const lit = StateField.define<DecorationSet>({
 
 export interface EditorHooks {
   changed: () => void;
+  moved: () => void; // the cursor, in the same text
   save: () => void;
 }
 
@@ -109,6 +110,7 @@ export class Editor {
       EditorState.readOnly.of(file.readOnly), EditorView.editable.of(!file.readOnly), EditorState.tabSize.of(2),
       EditorView.updateListener.of((update) => {
         if (update.docChanged) this.hooks.changed();
+        else if (update.selectionSet) this.hooks.moved();
       }),
       file.standard ? [] : [this.client.plugin(file.uri, file.languageId), serverCompletion(), hoverTooltips()],
     ];

@@ -84,6 +84,12 @@ export function addRule(text: string, library: string, clause: "require" | "prun
   ];
 }
 
+// The edit that gives a library one clause more. Null if the library does not stand in this text.
+export function addClause(text: string, library: string, clause: "require" | "prune", rule: string): Edit | null {
+  const found = libraryBlock(text, library);
+  return found && lineBefore(text, found, `${clause} ${rule}`);
+}
+
 // The edit that adds a case to the test of a rule or library, or such a test at the end.
 export function addCase(text: string, subject: string, verdict: "match" | "reject" | "keep" | "drop", plan: string, by?: string): Edit {
   const line = `${verdict.padEnd(verdict === "match" || verdict === "reject" ? 6 : 4)} [${plan}]${by ? ` by ${by}` : ""}`;

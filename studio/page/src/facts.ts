@@ -19,6 +19,13 @@ function called(name: string): {label: string; line: number} {
   return {label: inWords(name), line};
 }
 
+const escaped = (name: string) => name.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
+
+// The rule's beginning, where it stands in this text.
+function ruleIn(text: string, name: string): RegExpExecArray | null {
+  return new RegExp(`^[ \\t]*rule\\s+(${escaped(name)})(?![\\w-])`, "m").exec(text);
+}
+
 export class Facts {
   readonly element: HTMLElement;
   private lengths = h("section", {"aria-label": "By length"});
@@ -89,7 +96,9 @@ export class Facts {
     return h("tr", {class: only === "0" ? "idle" : ""},
       h("th", {scope: "row"},
         h("button", {type: "button", class: "link", onclick: () => this.jump(name, line)}, label),
-        h("span", {class: `verb ${verb}`}, verb), doc && h("span", {class: "doc"}, doc)),
+        h("span", {class: `verb ${verb}`}, verb),
+        !line && ruleIn(this.desk.file()!.text, name) && h("button", {type: "button", class: "link picture-of", "aria-label": `${name} as a picture`, onclick: () => this.desk.showRule(name)}, "picture"),
+        doc && h("span", {class: "doc"}, doc)),
       h("td", {class: "num", title: only && out ? `${grouped(only)} of ${grouped(out)}` : null},
         only === undefined ? "" : only === "0" ? "nothing" : rounded(only), out !== undefined && h("span", {class: "of"}, `of ${rounded(out)}`)));
   }
@@ -101,8 +110,7 @@ export class Facts {
       this.desk.editor.goTo(at);
       return;
     }
-    const word = name.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
-    const found = new RegExp(`^[ \\t]*rule\\s+(${word})(?![\\w-])`, "m").exec(text) ?? new RegExp(`(?<![\\w-])(${word})(?![\\w-])`).exec(text);
+    const found = ruleIn(text, name) ?? new RegExp(`(?<![\\w-])(${escaped(name)})(?![\\w-])`).exec(text);
     if (!found) return this.desk.say(`${name} stands in a file that this one uses.`);
     const at = found.index + found[0].length - found[1].length;
     this.desk.editor.goTo(at, at + found[1].length);

@@ -10,6 +10,7 @@ import {Measures} from "./measures";
 import {counted, grouped} from "./numbers";
 import {OpenPlan} from "./open_plan";
 import {Refused, Stale} from "./questions";
+import {RulePane} from "./rule_pane";
 import type {CountedHouses, CountedPlans, ShownFile, ShownLibrary} from "./requests";
 import {Sheet} from "./sheet";
 import {Sliders} from "./sliders";
@@ -32,6 +33,8 @@ export class LibraryRoom {
   private forms: FormRoom;
   shown: ShownFile | null = null;
   library: ShownLibrary | null = null;
+  counts: CountedPlans | null = null; // of the library, as it was when it was last counted
+  readonly rule: RulePane;
   private head = h("header", {class: "library-head"});
   private trouble = h("div", {class: "trouble-bar", role: "status", hidden: true});
   private content = h("div", {class: "content"});
@@ -42,6 +45,7 @@ export class LibraryRoom {
   private panes: Pane[];
   private pane = "plans";
   private tabs = h("div", {class: "tabs", role: "tablist", "aria-label": "The library"});
+  private before = ""; // the pane that was shown before there was no library
   private wanted = ""; // the library that was chosen, by its name
   private run = 0;
 
@@ -52,6 +56,7 @@ export class LibraryRoom {
     this.addRule = new AddRule(desk);
     this.why = new Why(desk);
     this.watchedPlans = new Watched(desk);
+    this.rule = new RulePane(desk);
     this.forms = new FormRoom(desk);
     const measures = new Measures(desk);
     const open = new OpenPlan(desk);
@@ -60,6 +65,7 @@ export class LibraryRoom {
     const plans = h("div", {class: "plans-pane"}, h("div", {class: "main-column"}, this.watchedPlans.element, this.sheet.element), this.facts.element);
     this.panes = [
       {key: "plans", label: "Plans", element: plans, refresh: async () => {}},
+      {key: "rule", label: "Rule", element: this.rule.element, refresh: () => this.rule.refresh()},
       {key: "measures", label: "Measures", element: measures.element, refresh: () => measures.refresh()},
       {key: "open", label: "Open plan", element: open.element, refresh: () => open.refresh()},
       {key: "changes", label: "What changed", element: changes.element, refresh: () => changes.refresh()},
@@ -94,7 +100,9 @@ export class LibraryRoom {
   }
 
   choose(key: string): void {
+    if (this.pane === "rule" && key !== "rule") this.rule.leave();
     this.pane = key;
+    this.element.dataset.pane = key;
     for (const tab of this.tabs.children) {
       const on = tab.id === `tab-${key}`;
       tab.setAttribute("aria-selected", String(on));
@@ -123,8 +131,10 @@ export class LibraryRoom {
     this.sliders.clear();
     this.sheet.reset();
     this.facts.clear();
+    this.counts = null;
     this.forms.another();
     this.resetPanes();
+    this.rule.reset();
     if (this.why.open) this.why.close();
     this.trouble.hidden = true;
     fill(this.head);
@@ -145,6 +155,7 @@ export class LibraryRoom {
     if (!plan && !form) return this.other();
     this.element.classList.add("stale");
     try {
+      if (plan && this.pane === "rule") await this.rule.follow();
       await (form ? this.form(run) : this.ask(run));
       this.fresh();
     } catch (failure) {
@@ -184,7 +195,10 @@ export class LibraryRoom {
     this.content.classList.remove("waiting");
     if (!this.library) return this.withoutLibrary();
     this.panes[0].element.classList.remove("no-library");
+    this.element.classList.remove("without-library");
     this.tabs.hidden = false;
+    if (this.before) this.choose(this.before);
+    this.before = "";
     const steps = [
       () => this.attempt(() => this.sheet.refresh(), this.sheet.element),
       () => this.count(this.library!, libraries),
@@ -206,8 +220,12 @@ export class LibraryRoom {
       h("pre", null, `library plans using ${this.shown?.schemas.at(-1)?.name ?? "SCHEMA"} {\n  trays 3..5\n}`));
     this.sheet.reset();
     this.facts.clear();
-    this.tabs.hidden = true;
-    this.panes.forEach((pane) => (pane.element.hidden = true));
+    this.counts = null;
+    this.element.classList.add("without-library");
+    this.tabs.hidden = !this.shown?.schemas.length;
+    if (this.tabs.hidden) return this.panes.forEach((pane) => (pane.element.hidden = true));
+    if (this.pane !== "rule") this.before = this.pane;
+    this.choose("rule");
   }
 
   private async count(library: ShownLibrary, libraries: ShownLibrary[]): Promise<void> {
@@ -217,10 +235,12 @@ export class LibraryRoom {
     if (library.form) {
       const houses = answer as CountedHouses;
       this.renderHead(library, libraries, houses.houses, ["houses", `on ${counted(houses.plans_with_houses ?? houses.plans)} plans`]);
+      this.counts = null;
       this.facts.houses(library, houses);
     } else {
       const plans = answer as CountedPlans;
       this.renderHead(library, libraries, plans.kept, [plans.kept === "1" ? "plan kept" : "plans kept", `of ${counted(plans.generated)} generated`]);
+      this.counts = plans;
       this.facts.count(library, plans);
     }
   }

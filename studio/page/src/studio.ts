@@ -42,7 +42,7 @@ export class Studio {
       return this.files.documents;
     }, () => {});
     const host = h("div", {class: "editor"});
-    this.editor = new Editor(host, this.client, {changed: () => this.typed(), save: () => void this.files.save()});
+    this.editor = new Editor(host, this.client, {changed: () => this.typed(), moved: () => this.room.rule.cursorMoved(), save: () => void this.files.save()});
     this.files.editor = this.editor;
     this.room = new LibraryRoom(this.desk());
     this.build(host);
@@ -69,7 +69,12 @@ export class Studio {
       shown: () => room().shown,
       library: () => room().library,
       schema: () => schemaOf(room().library),
+      counts: () => room().counts,
       explain: (plan) => room().why.show(plan),
+      showRule: (name) => {
+        room().choose("rule");
+        void room().rule.choose(name);
+      },
       showWhere: (requirement, label) => {
         room().choose("plans");
         room().sheet.showWhere(requirement, label);

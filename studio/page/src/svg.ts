@@ -17,7 +17,7 @@ const ATTRIBUTES = new Set(
     "stroke-dasharray stroke-dashoffset clip-path clip-rule mask opacity stop-color stop-opacity color display visibility " +
     "font-family font-size font-weight font-style font-stretch text-anchor dominant-baseline letter-spacing xml:space " +
     "shape-rendering text-rendering vector-effect " +
-    "data-plan data-tray data-part data-bar data-point data-house role aria-label").split(" "),
+    "data-plan data-tray data-part data-item data-depth data-bar data-point data-house role aria-label").split(" "),
 );
 
 let pictures = 0;
