@@ -30,7 +30,7 @@ typedef struct tn_completer {
     tn_interner states;   /* {library's state, placed, gap, earlier in two words} */
     tn_layers walk;       /* by trays before; forwards: plans until there, backwards: plans from there */
     mpz_t *placed;        /* [items][letters]: plans in which such a tray is placed there */
-    int64_t *best_placed; /* the same of the measure; WORST where there is none */
+    int64_t *best_placed; /* the same of the measure; WORST if there is none */
 } tn_completer;
 
 /* Reads the pattern, and which trays fit which of its places (complete_pattern.c). */

@@ -8,33 +8,33 @@
 #include "runtime/plan/measure/weighed_layers.h"
 
 /* The plans that lead to a state, or all that end. */
-typedef struct heap {
+typedef struct sums {
     mpz_t count, sum, squares;
     int64_t least, most;
-} heap;
+} sums;
 
-typedef struct summing {
+typedef struct adding {
     const tn_weighed *weighed;
     uint32_t min;
-    heap *all;
-} summing;
+    sums *all;
+} adding;
 
-static void heap_init(const void *context, void *element)
+static void sums_init(const void *context, void *element)
 {
-    heap *h = element;
+    sums *h = element;
     (void)context;
-    *h = (heap){.least = INT64_MAX, .most = INT64_MIN};
+    *h = (sums){.least = INT64_MAX, .most = INT64_MIN};
     mpz_inits(h->count, h->sum, h->squares, NULL);
 }
 
-static void heap_clear(void *element)
+static void sums_clear(void *element)
 {
-    heap *h = element;
+    sums *h = element;
     mpz_clears(h->count, h->sum, h->squares, NULL);
 }
 
-/* Adds the plans of a heap, each `times` times, with `gain` more. */
-static void pour(heap *to, const heap *from, uint64_t times, int64_t gain)
+/* Adds the plans of `from`, each `times` times, with `gain` more. */
+static void add_shifted(sums *to, const sums *from, uint64_t times, int64_t gain)
 {
     mpz_t more, step;
     mpz_init(more);
@@ -55,8 +55,8 @@ static void pour(heap *to, const heap *from, uint64_t times, int64_t gain)
 /* The plan without trays, which has the start value. */
 static tn_status begin(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
 {
-    const summing *s = context;
-    heap *start = element;
+    const adding *s = context;
+    sums *start = element;
     int64_t first = tn_weighed_start(s->weighed, 0);
     (void)layer, (void)state, (void)error;
     mpz_set_ui(start->count, 1);
@@ -70,39 +70,39 @@ static tn_status extend(void *context, void *sum, const void *element, const tn_
 {
     const tn_weighed_edge *label = edge->label;
     (void)context, (void)error;
-    pour(sum, element, label->trays, label->gain[0]);
+    add_shifted(sum, element, label->trays, label->gain[0]);
     return TN_OK;
 }
 
 /* The plans that end here. */
 static tn_status end(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
 {
-    const summing *s = context;
+    const adding *s = context;
     (void)error;
     if (layer >= s->min && tn_weighed_ends(s->weighed, state))
-        pour(s->all, element, 1, tn_weighed_rest(s->weighed, state, 0));
+        add_shifted(s->all, element, 1, tn_weighed_rest(s->weighed, state, 0));
     return TN_OK;
 }
 
-TN_WALK_ALGEBRA(moments_algebra, heap_init, heap_clear, begin, extend, end);
+TN_WALK_ALGEBRA(moments_algebra, sums_init, sums_clear, begin, extend, end);
 
 /* Adds all plans to `all`. */
-static tn_status add_plans(tn_weighed *w, heap *all, tn_error *error)
+static tn_status add_plans(tn_weighed *w, sums *all, tn_error *error)
 {
     const tn_library *library = tn_weighed_library(w);
-    summing s = {w, library->min, all};
+    adding s = {w, library->min, all};
     tn_layers walk = {0};
     if (library->min > library->max)
         return TN_OK;
     tn_status status = tn_walk_begin(&walk, tn_weighed_last_layer(w), false, error);
     if (status == TN_OK)
-        status = tn_walk_forward(&walk, &tn_weighed_after, w, &moments_algebra, &s, sizeof(heap), error);
+        status = tn_walk_forward(&walk, &tn_weighed_after, w, &moments_algebra, &s, sizeof(sums), error);
     tn_walk_clear(&walk, &moments_algebra, NULL);
     return status;
 }
 
 /* mean := sum / count, variance := squares / count - mean^2, all in steps of the unit. */
-static void conclude(tn_measure_moments *m, const heap *all, mpq_srcptr unit)
+static void conclude(tn_measure_moments *m, const sums *all, mpq_srcptr unit)
 {
     mpq_t square;
     mpz_set(m->plans, all->count);
@@ -149,22 +149,22 @@ tn_status tn_measure_moments_find(tn_measure_moments *m, tn_weighed *weighed, tn
     tn_weighed_sum(weighed, 0, &over);
     if (over)
         return find_of_quotient(m, weighed, error);
-    heap all;
-    heap_init(NULL, &all);
+    sums all;
+    sums_init(NULL, &all);
     tn_status status = add_plans(weighed, &all, error);
     if (status == TN_OK)
         conclude(m, &all, tn_weighed_unit(weighed, 0));
-    heap_clear(&all);
+    sums_clear(&all);
     return status;
 }
 
 tn_status tn_weighed_plans(tn_weighed *weighed, mpz_t plans, tn_error *error)
 {
-    heap all;
-    heap_init(NULL, &all);
+    sums all;
+    sums_init(NULL, &all);
     tn_status status = add_plans(weighed, &all, error);
     mpz_set(plans, all.count);
-    heap_clear(&all);
+    sums_clear(&all);
     return status;
 }
 
