@@ -182,76 +182,58 @@ uint64_t tn_count_to_come(size_t half, size_t limbs, uint32_t length, uint32_t m
 
 /* ---- counts */
 
-/* How many words of the length reached lead to each state; only to those `active` there are any. */
-typedef struct count_front {
-    mp_limb_t *value; /* [states][limbs] */
-    uint32_t *active; /* [states] */
-    uint32_t count;
-} count_front;
+/* Counting forwards, in counts of so many limbs that no word is lost. */
+typedef struct forward_count {
+    size_t limbs;
+    const tn_sparse *sparse;
+    const uint64_t *weights; /* symbols of each column */
+    mpz_t *counts;           /* by length */
+} forward_count;
 
-static bool front_make(count_front *front, uint32_t states, size_t limbs)
+static tn_status edges_of(void *context, uint32_t layer, uint32_t state, tn_walk_seen *seen, void *walk,
+                          tn_error *error)
 {
-    front->value = calloc(tn_size_of(states, limbs) + 1, sizeof *front->value);
-    front->active = malloc(((size_t)states + 1) * sizeof *front->active);
-    return front->value && front->active;
-}
-
-static void front_clear(count_front *front)
-{
-    free(front->value);
-    free(front->active);
-}
-
-/* Moves the words on by one symbol, and empties the front they were in. Values of active states are not zero. */
-static void front_move(const tn_sparse *sparse, const uint64_t *weights, size_t limbs, count_front *from,
-                       count_front *to)
-{
-    to->count = 0;
-    for (uint32_t i = 0; i < from->count; i++) {
-        uint32_t s = from->active[i];
-        mp_limb_t *value = from->value + s * limbs;
-        for (size_t e = sparse->first[s]; e < sparse->first[s + 1]; e++) {
-            mp_limb_t *sum = to->value + sparse->target[e] * limbs;
-            if (weights[sparse->label[e]] == 0)
-                continue;
-            if (mpn_zero_p(sum, (mp_size_t)limbs))
-                to->active[to->count++] = sparse->target[e];
-            tn_limbs_add(sum, value, limbs, weights[sparse->label[e]]);
-        }
-        memset(value, 0, limbs * sizeof *value);
+    const forward_count *f = context;
+    tn_status status = TN_OK;
+    (void)layer;
+    for (size_t e = f->sparse->first[state]; status == TN_OK && e < f->sparse->first[state + 1]; e++) {
+        const uint64_t *weight = &f->weights[f->sparse->label[e]];
+        if (*weight > 0)
+            status = seen(walk, f->sparse->target[e], weight, error);
     }
-    from->count = 0;
+    return status;
 }
+
+static tn_status end_words(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+{
+    const forward_count *f = context;
+    mpz_t value;
+    (void)error;
+    mpz_roinit_n(value, element, (mp_size_t)f->limbs);
+    if (f->sparse->accept[state])
+        mpz_add(f->counts[layer], f->counts[layer], value);
+    return TN_OK;
+}
+
+static const tn_walk_graph graph = {tn_walk_starts_first, edges_of};
+TN_WALK_ALGEBRA(algebra, tn_limbs_begin, NULL, tn_limbs_one, tn_limbs_extend, end_words);
 
 /* Of an automaton without cycles, from its start: each step only meets the states that words of that length reach.
  * limbs: hold the number of all words of `max` symbols. */
 static tn_status count_forward(const tn_sparse *sparse, const uint64_t *weights, size_t limbs, uint32_t max,
                                mpz_t *counts, tn_error *error)
 {
-    count_front from = {0}, to = {0};
-    bool ok = front_make(&from, sparse->states, limbs) && front_make(&to, sparse->states, limbs);
-    if (ok && sparse->states > 0) {
-        from.value[0] = 1;
-        from.active[from.count++] = 0;
-    }
-    for (uint32_t length = 0; ok && length <= max; length++) {
+    forward_count f = {limbs, sparse, weights, counts};
+    tn_layers walk = {0};
+    for (uint32_t length = 0; length <= max; length++)
         mpz_set_ui(counts[length], 0);
-        for (uint32_t i = 0; i < from.count; i++) {
-            mpz_t value;
-            mpz_roinit_n(value, from.value + from.active[i] * limbs, (mp_size_t)limbs);
-            if (sparse->accept[from.active[i]])
-                mpz_add(counts[length], counts[length], value);
-        }
-        if (length == max)
-            break; /* `limbs` hold no more */
-        front_move(sparse, weights, limbs, &from, &to);
-        count_front swap = from;
-        from = to;
-        to = swap;
-    }
-    front_clear(&from);
-    front_clear(&to);
-    return ok ? TN_OK : tn_fail_memory(error);
+    if (sparse->states == 0)
+        return TN_OK;
+    tn_status status = tn_walk_begin(&walk, max, false, error);
+    if (status == TN_OK)
+        status = tn_walk_forward(&walk, &graph, &f, &algebra, &f, limbs * sizeof(mp_limb_t), error);
+    tn_walk_clear(&walk, &algebra, NULL);
+    return status;
 }
 
 uint64_t tn_count_limbs(const uint64_t *weights, uint32_t columns, uint32_t max)

@@ -11,6 +11,7 @@
 #include <gmp.h>
 
 #include "runtime/plan/automata/sparse.h"
+#include "runtime/plan/automata/walk.h"
 
 /* An automaton's transitions by symbols: for each state the states that follow it, each once, with the number of
  * symbols that lead there. Transitions to the state that accepts nothing are left out. Free with tn_edges_clear. */
@@ -79,19 +80,50 @@ _Static_assert(sizeof(mp_limb_t) == 8, "counts are kept in limbs of 64 bits");
 /* Counts of more limbs than these are added up from the end of the words (tn_count_row), not from their beginning. */
 #define TN_FORWARD_LIMBS_MAX 4
 
+/* sum += count * weight + carry, of one limb; returns the limb carried out. */
+static inline mp_limb_t tn_limb_add(mp_limb_t *sum, mp_limb_t count, mp_limb_t weight, mp_limb_t carry)
+{
+    tn_wide_limb all = (tn_wide_limb)count * weight + *sum + carry;
+    *sum = (mp_limb_t)all;
+    return (mp_limb_t)(all >> 64);
+}
+
 /* sum += count * weight; returns the limb carried out. GMP's own is faster from a few limbs on; most libraries have
  * fewer. */
 static inline mp_limb_t tn_limbs_add(mp_limb_t *sum, const mp_limb_t *count, size_t limbs, mp_limb_t weight)
 {
     if (limbs > 3)
         return mpn_addmul_1(sum, count, (mp_size_t)limbs, weight);
-    mp_limb_t carry = 0;
-    for (size_t i = 0; i < limbs; i++) {
-        tn_wide_limb all = (tn_wide_limb)count[i] * weight + sum[i] + carry;
-        sum[i] = (mp_limb_t)all;
-        carry = (mp_limb_t)(all >> 64);
-    }
+    mp_limb_t carry = tn_limb_add(sum, count[0], weight, 0);
+    if (limbs > 1)
+        carry = tn_limb_add(sum + 1, count[1], weight, carry);
+    if (limbs > 2)
+        carry = tn_limb_add(sum + 2, count[2], weight, carry);
     return carry;
+}
+
+/* The algebra of counts of limbs, for layered walks whose context begins with the number of limbs. The label of an edge
+ * is its number of symbols. */
+static inline void tn_limbs_begin(const void *context, void *count)
+{
+    mp_limb_t *limb = count;
+    for (size_t i = 0; i < *(const size_t *)context; i++)
+        limb[i] = 0;
+}
+
+static inline tn_status tn_limbs_one(void *context, uint32_t layer, uint32_t state, void *count, tn_error *error)
+{
+    (void)context, (void)layer, (void)state, (void)error;
+    *(mp_limb_t *)count = 1;
+    return TN_OK;
+}
+
+static inline tn_status tn_limbs_extend(void *context, void *sum, const void *count, const tn_walk_edge *edge,
+                                        tn_error *error)
+{
+    (void)error;
+    tn_limbs_add(sum, count, *(const size_t *)context, *(const uint64_t *)edge->label);
+    return TN_OK;
 }
 
 /* Limbs that hold the number of all words of `max` symbols; weights: symbols of each column. */

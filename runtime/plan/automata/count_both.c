@@ -32,19 +32,15 @@ typedef struct tn_both_step {
 typedef struct tn_both_pair {
     uint32_t p, q;
     uint32_t away;     /* symbols until both may accept, at least; 0: both do */
-    uint32_t queued;   /* 1 + the last length for which the pair was listed */
     size_t first, end; /* its edges; first NO_ROW: not worked out */
 } tn_both_pair;
 
-/* The words of one length. */
-typedef struct tn_both_front {
-    uint32_t *listed; /* pairs that any lead to */
-    uint32_t count;
-    mp_limb_t *value; /* [pairs][limbs]; zero but for pairs listed */
-} tn_both_front;
-
 typedef struct tn_both {
     tn_agreement of;
+    uint32_t min;
+    const char *what;
+    tn_bounds *bounds;
+    mpz_ptr words;    /* the count */
     uint32_t *away_a; /* [states]: symbols to acceptance, or NEVER */
     uint32_t *away_b;
     uint32_t *table; /* number of a pair + 1, by p and q; NULL: in `numbers` */
@@ -57,7 +53,6 @@ typedef struct tn_both {
     size_t step_count, step_capacity;
     tn_both_edge *edges;
     size_t edge_count, edge_capacity;
-    tn_both_front fronts[2];
 } tn_both;
 
 /* ---- how far away acceptance is */
@@ -171,24 +166,6 @@ static bool find_steps(tn_both *both, uint32_t state)
 
 /* ---- pairs */
 
-static bool grow(tn_both *both)
-{
-    if (both->count < both->capacity)
-        return true;
-    size_t capacity = tn_array_larger(both->capacity, 0, 256), limb_bytes = both->of.limbs * sizeof(mp_limb_t);
-    if (!tn_array_resize(&both->pairs, capacity, sizeof *both->pairs))
-        return false;
-    for (int f = 0; f < 2; f++) {
-        tn_both_front *front = &both->fronts[f];
-        if (!tn_array_resize(&front->listed, capacity, sizeof *front->listed) ||
-            !tn_array_resize(&front->value, capacity, limb_bytes))
-            return false;
-        memset(front->value + both->capacity * both->of.limbs, 0, (capacity - both->capacity) * limb_bytes);
-    }
-    both->capacity = capacity;
-    return true;
-}
-
 /* The pair's number; UINT32_MAX where out of memory. */
 static uint32_t number(tn_both *both, uint32_t p, uint32_t q, uint32_t away)
 {
@@ -196,7 +173,7 @@ static uint32_t number(tn_both *both, uint32_t p, uint32_t q, uint32_t away)
     uint32_t found = slot ? *slot - 1 : tn_number(&both->numbers, (uint64_t)p << 32 | q);
     if (slot ? *slot != 0 : found < both->count || found == UINT32_MAX)
         return found;
-    if (!grow(both))
+    if (!tn_array_reserve_from(&both->pairs, &both->capacity, 256, both->count, 1, sizeof *both->pairs))
         return UINT32_MAX;
     both->pairs[both->count] = (tn_both_pair){.p = p, .q = q, .away = away, .first = NO_ROW};
     if (slot)
@@ -244,37 +221,27 @@ static bool make_row(tn_both *both, uint32_t pair, uint32_t length)
     return true;
 }
 
-/* ---- counting */
+/* ---- the walk: states are pairs, in the order of their numbers */
 
-/* Adds the words of `length` symbols that both accept. */
-static void count_accepted(const tn_both *both, const tn_both_front *front, mpz_t count)
+static tn_status edges_of(void *context, uint32_t length, uint32_t pair, tn_walk_seen *seen, void *walk,
+                          tn_error *error)
 {
-    for (uint32_t i = 0; i < front->count; i++) {
-        uint32_t pair = front->listed[i];
-        mpz_t value;
-        if (both->pairs[pair].away > 0)
-            continue;
-        mpz_roinit_n(value, front->value + pair * both->of.limbs, (mp_size_t)both->of.limbs);
-        mpz_add(count, count, value);
-    }
-}
-
-/* Moves the words of one pair, of `length` symbols, on by a symbol. */
-static void move_on(tn_both *both, uint32_t pair, uint32_t length, int from)
-{
-    tn_both_front *to = &both->fronts[!from];
-    mp_limb_t *value = both->fronts[from].value + pair * both->of.limbs;
-    for (size_t e = both->pairs[pair].first; e < both->pairs[pair].end; e++) {
-        tn_both_pair *target = &both->pairs[both->edges[e].target];
-        if (target->away > both->of.max - length - 1)
-            continue;
-        if (target->queued != length + 2) {
-            target->queued = length + 2;
-            to->listed[to->count++] = both->edges[e].target;
-        }
-        tn_limbs_add(to->value + both->edges[e].target * both->of.limbs, value, both->of.limbs, both->edges[e].weight);
-    }
-    memset(value, 0, both->of.limbs * sizeof *value);
+    tn_both *both = context;
+    size_t before = both->edge_count;
+    if (both->pairs[pair].first == NO_ROW && !make_row(both, pair, length))
+        return tn_fail_memory(error);
+    const tn_both_pair *pairs = both->pairs;
+    const tn_both_edge *end = both->edges + pairs[pair].end;
+    uint32_t left = both->of.max - length - 1;
+    tn_status status = TN_OK;
+    for (const tn_both_edge *edge = both->edges + pairs[pair].first; status == TN_OK && edge < end; edge++)
+        if (pairs[edge->target].away <= left)
+            status = seen(walk, edge->target, &edge->weight, error);
+    if (status == TN_OK)
+        status = tn_bounds_check(both->bounds, both->what, both->count, 1, both->edge_count - before + 1, error);
+    if (status == TN_OK && both->edge_count > both->bounds->max_transitions)
+        status = tn_bounds_check(both->bounds, both->what, both->count, UINT32_MAX, 0, error);
+    return status;
 }
 
 /* Trays that lead from a pair to one where both accept. */
@@ -288,61 +255,43 @@ static uint64_t last_symbols(const tn_both *both, uint32_t p, uint32_t q)
     return symbols;
 }
 
-/* Adds the longest words: those of the front, which are one symbol shorter, by what their last symbol may be. Where
- * most words are so long, most pairs are only ever met here, and no edges of theirs are needed. */
-static tn_status count_last(tn_both *both, const tn_both_front *front, mpz_t count, tn_error *error)
+/* Counts the words that end here. The longest are counted from those that are one symbol shorter, by what their last
+ * symbol may be: if most words are so long, most pairs are only ever met there, and no edges of theirs are needed. */
+static tn_status end_words(void *context, uint32_t length, uint32_t number, void *element, tn_error *error)
 {
-    for (uint32_t i = 0; i < front->count; i++) {
-        uint32_t pair = front->listed[i];
-        mpz_t value;
-        if (!find_steps(both, both->pairs[pair].p))
-            return tn_fail_memory(error);
-        mpz_roinit_n(value, front->value + pair * both->of.limbs, (mp_size_t)both->of.limbs);
-        mpz_addmul_ui(count, value, last_symbols(both, both->pairs[pair].p, both->pairs[pair].q));
-    }
+    tn_both *both = context;
+    const tn_both_pair *pair = &both->pairs[number];
+    mpz_t value;
+    mpz_roinit_n(value, element, (mp_size_t)both->of.limbs);
+    if (length >= both->min && pair->away == 0)
+        mpz_add(both->words, both->words, value);
+    if (length + 1 != both->of.max)
+        return TN_OK;
+    if (!find_steps(both, pair->p))
+        return tn_fail_memory(error);
+    mpz_addmul_ui(both->words, value, last_symbols(both, pair->p, pair->q));
     return TN_OK;
 }
 
-static tn_status step(tn_both *both, uint32_t length, int from, const char *what, tn_bounds *bounds, tn_error *error)
-{
-    tn_status status = TN_OK;
-    both->fronts[!from].count = 0;
-    for (uint32_t i = 0; status == TN_OK && i < both->fronts[from].count; i++) {
-        uint32_t pair = both->fronts[from].listed[i];
-        size_t before = both->edge_count;
-        if (both->pairs[pair].first == NO_ROW && !make_row(both, pair, length))
-            return tn_fail_memory(error);
-        move_on(both, pair, length, from);
-        status = tn_bounds_check(bounds, what, both->count, 1, both->edge_count - before + 1, error);
-        if (status == TN_OK && both->edge_count > bounds->max_transitions)
-            status = tn_bounds_check(bounds, what, both->count, UINT32_MAX, 0, error);
-    }
-    return status;
-}
+static const tn_walk_graph graph = {tn_walk_starts_first, edges_of};
+TN_WALK_ALGEBRA(algebra, tn_limbs_begin, NULL, tn_limbs_one, tn_limbs_extend, end_words);
 
-static tn_status walk(tn_both *both, uint32_t min, const char *what, tn_bounds *bounds, mpz_t count, tn_error *error)
+static tn_status count_words(tn_both *both, tn_error *error)
 {
-    uint64_t all = (uint64_t)both->of.a->states * both->of.b->states;
-    if (both->of.a->states == 0 || both->away_a[0] > both->of.max || both->away_b[0] > both->of.max)
+    const tn_agreement *of = &both->of;
+    uint64_t all = (uint64_t)of->a->states * of->b->states;
+    tn_layers walk = {0};
+    if (of->a->states == 0 || both->away_a[0] > of->max || both->away_b[0] > of->max)
         return TN_OK;
     if (all <= TABLE_ENTRIES_MAX && !(both->table = calloc((size_t)all, sizeof *both->table)))
         return tn_fail_memory(error);
     if (number(both, 0, 0, both->away_a[0] > both->away_b[0] ? both->away_a[0] : both->away_b[0]) == UINT32_MAX)
         return tn_fail_memory(error);
-    both->fronts[0].value[0] = 1;
-    both->fronts[0].listed[both->fronts[0].count++] = 0;
-    for (uint32_t length = 0;; length++) {
-        int from = (int)(length & 1);
-        if (length >= min)
-            count_accepted(both, &both->fronts[from], count);
-        if (length == both->of.max)
-            return TN_OK;
-        if (length + 1 == both->of.max)
-            return count_last(both, &both->fronts[from], count, error);
-        tn_status status = step(both, length, from, what, bounds, error);
-        if (status != TN_OK)
-            return status;
-    }
+    tn_status status = tn_walk_begin(&walk, of->max ? of->max - 1 : 0, false, error);
+    if (status == TN_OK)
+        status = tn_walk_forward(&walk, &graph, both, &algebra, both, of->limbs * sizeof(mp_limb_t), error);
+    tn_walk_clear(&walk, &algebra, NULL);
+    return status;
 }
 
 static void both_clear(tn_both *both)
@@ -358,10 +307,6 @@ static void both_clear(tn_both *both)
     free(both->steps);
     free(both->pairs);
     free(both->edges);
-    for (int f = 0; f < 2; f++) {
-        free(both->fronts[f].listed);
-        free(both->fronts[f].value);
-    }
 }
 
 /* Counts of so many limbs: from the product. */
@@ -378,8 +323,7 @@ static tn_status count_product(const tn_sparse *a, const tn_dfa *b, tn_dfa_opera
 }
 
 /* State by state, where the first automaton has no cycle and all its plans are of min..max trays; *swept: is it so? */
-static tn_status try_sweep(const tn_both *both, uint32_t min, const char *what, tn_bounds *bounds, bool *swept,
-                           mpz_t count, tn_error *error)
+static tn_status try_sweep(const tn_both *both, bool *swept, tn_error *error)
 {
     const tn_agreement *of = &both->of;
     tn_status status = TN_OK;
@@ -391,25 +335,23 @@ static tn_status try_sweep(const tn_both *both, uint32_t min, const char *what, 
         return tn_fail_memory(error);
     uint32_t *longest = shortest + of->a->states;
     tn_sweep_measure(of->a, shortest, longest);
-    *swept = shortest[0] >= min && longest[0] <= of->max;
+    *swept = shortest[0] >= both->min && longest[0] <= of->max;
     if (*swept)
-        status = tn_sweep_count(of, longest, both->away_b, what, bounds, count, error);
+        status = tn_sweep_count(of, longest, both->away_b, both->what, both->bounds, both->words, error);
     free(shortest);
     return status;
 }
 
-static tn_status walk_pairs(tn_both *both, uint32_t min, const char *what, tn_bounds *bounds, mpz_t count,
-                            tn_error *error)
+static tn_status walk_pairs(tn_both *both, tn_error *error)
 {
     tn_status status = look_ahead_a(both, error);
     if (status == TN_OK)
         status = make_steps(both, error);
-    return status == TN_OK ? walk(both, min, what, bounds, count, error) : status;
+    return status == TN_OK ? count_words(both, error) : status;
 }
 
 /* Counts pair by pair. */
-static tn_status count_pairs(tn_both *both, const uint32_t *sizes, uint32_t min, const char *what, tn_bounds *bounds,
-                             bool *fits, mpz_t count, tn_error *error)
+static tn_status count_pairs(tn_both *both, const uint32_t *sizes, bool *fits, tn_error *error)
 {
     tn_agreement *of = &both->of;
     bool swept = false;
@@ -423,21 +365,25 @@ static tn_status count_pairs(tn_both *both, const uint32_t *sizes, uint32_t min,
     of->limbs = (size_t)limbs;
     status = look_ahead_b(both, error);
     if (status == TN_OK)
-        status = try_sweep(both, min, what, bounds, &swept, count, error);
-    return status == TN_OK && !swept ? walk_pairs(both, min, what, bounds, count, error) : status;
+        status = try_sweep(both, &swept, error);
+    return status == TN_OK && !swept ? walk_pairs(both, error) : status;
 }
 
 /* Pairs that pass the bounds may still make an automaton within them, where that is folded as it is made. */
 tn_status tn_count_both(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const uint32_t *sizes,
                         uint32_t min, uint32_t max, const char *what, tn_bounds *bounds, mpz_t count, tn_error *error)
 {
-    tn_both both = {.of = {.a = a, .b = b, .agree = operation == TN_DFA_AND, .max = max}};
     tn_bounds own = *bounds;
+    tn_both both = {.of = {.a = a, .b = b, .agree = operation == TN_DFA_AND, .max = max},
+                    .min = min,
+                    .what = what,
+                    .bounds = &own,
+                    .words = count};
     bool fits = true;
     mpz_set_ui(count, 0);
     if (min > max || a->states == 0 || (b->states == 1 && (b->accept[0] != 0) != both.of.agree))
         return TN_OK;
-    tn_status status = count_pairs(&both, sizes, min, what, &own, &fits, count, error);
+    tn_status status = count_pairs(&both, sizes, &fits, error);
     both_clear(&both);
     if ((status == TN_OK && !fits) || (status == TN_LIMIT && a->folded))
         return count_product(a, b, operation, sizes, min, max, what, bounds, count, error);

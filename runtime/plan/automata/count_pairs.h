@@ -8,11 +8,11 @@
 
 /* The two automata, and what their letters come to together. */
 typedef struct tn_agreement {
+    size_t limbs;
     const tn_sparse *a;
     const tn_dfa *b;
     bool agree; /* b must accept (otherwise: must not) */
     uint32_t max;
-    size_t limbs;
     tn_splits splits;
     uint64_t *weights; /* [splits.columns] */
 } tn_agreement;

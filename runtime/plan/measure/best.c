@@ -8,6 +8,7 @@
 #include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/measure/cloud.h"
+#include "runtime/plan/measure/weighed_layers.h"
 
 #define NONE UINT32_MAX
 
@@ -29,7 +30,7 @@ typedef struct place {
     path *heap; /* candidates, the best first */
     size_t heap_count, heap_room;
     bool opened, pending; /* pending: the last found still has a successor to be looked for */
-    bool measured, possible;
+    bool possible;
     int64_t least[TN_WEIGHED_MAX]; /* of its completions */
 } place;
 
@@ -43,7 +44,7 @@ struct tn_best {
     int64_t times[2];
     bool overflows;
     tn_numbering numbers; /* left << 32 | state -> place */
-    place *places;
+    place *places;        /* NULL: not measured yet */
     uint32_t place_count; /* one fewer than the numbers where memory ran out */
     size_t place_room;
     size_t *given; /* [max - min + 1]: plans of each length given so far */
@@ -213,40 +214,83 @@ static void set_rest(tn_best *best, uint32_t state, int64_t *value)
     add_gain(best, value, rest);
 }
 
-/* The least of all completions of a state. Recursion is as deep as plans are long. */
-static tn_status measure(tn_best *best, uint32_t left, uint32_t state, uint32_t *index, tn_error *error)
+/* ---- the least of all completions of each state, from the end of the plans backwards */
+
+typedef struct least_value {
+    bool possible;
+    int64_t value[TN_WEIGHED_MAX];
+} least_value;
+
+static void least_init(const void *context, void *element)
 {
-    tn_status status = place_of(best, left, state, index, error);
-    if (status != TN_OK || best->places[*index].measured)
-        return status;
-    place found = {.left = left, .state = state, .measured = true};
-    if (left == 0) {
-        found.possible = tn_weighed_alive(best->weighed, 0, state) && tn_weighed_valued(best->weighed, state);
-        set_rest(best, state, found.least);
-        best->places[*index] = found;
+    (void)context;
+    *(least_value *)element = (least_value){0};
+}
+
+static tn_status end(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+{
+    tn_best *best = context;
+    least_value *made = element;
+    (void)error;
+    if (layer < best->library->max)
         return TN_OK;
+    made->possible = tn_weighed_ends(best->weighed, state);
+    set_rest(best, state, made->value);
+    return TN_OK;
+}
+
+static tn_status extend(void *context, void *sum, const void *element, const tn_walk_edge *edge, tn_error *error)
+{
+    const least_value *from = element;
+    const tn_weighed_edge *label = edge->label;
+    least_value *made = sum;
+    int64_t value[TN_WEIGHED_MAX];
+    (void)error;
+    if (!from->possible)
+        return TN_OK;
+    memcpy(value, from->value, sizeof value);
+    add_gain(context, value, label->gain);
+    if (!made->possible || compare_values(value, made->value) < 0)
+        memcpy(made->value, value, sizeof value);
+    made->possible = true;
+    return TN_OK;
+}
+
+TN_WALK_ALGEBRA(least_algebra, least_init, NULL, end, extend, NULL);
+
+/* The places of a layer. */
+static tn_status keep_layer(tn_best *best, const tn_layers *walk, uint32_t layer, tn_error *error)
+{
+    const tn_walk_layer *nodes = tn_walk_at(walk, layer);
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < nodes->count; i++) {
+        const least_value *found = tn_walk_backward_of(walk, layer, i);
+        uint32_t index;
+        status = place_of(best, best->library->max - layer, nodes->states[i], &index, error);
+        if (status != TN_OK)
+            break;
+        best->places[index].possible = found->possible;
+        memcpy(best->places[index].least, found->value, sizeof found->value);
     }
-    const tn_weighed_edge *edges;
-    size_t count;
-    status = tn_weighed_edges(best->weighed, state, &edges, &count, error);
-    for (size_t e = 0; status == TN_OK && e < count; e++) {
-        uint32_t child;
-        tn_weighed_edge edge = edges[e];
-        if (!tn_weighed_alive(best->weighed, left - 1, edge.target))
-            continue;
-        status = measure(best, left - 1, edge.target, &child, error);
-        if (status != TN_OK || !best->places[child].possible)
-            continue;
-        int64_t value[TN_WEIGHED_MAX];
-        memcpy(value, best->places[child].least, sizeof value);
-        add_gain(best, value, edge.gain);
-        if (!found.possible || compare_values(value, found.least) < 0)
-            memcpy(found.least, value, sizeof value);
-        found.possible = true;
-    }
-    best->places[*index] = found;
     return status;
 }
+
+static tn_status measure(tn_best *best, tn_error *error)
+{
+    tn_weighed *w = best->weighed;
+    tn_layers walk = {0};
+    tn_status status = tn_walk_begin(&walk, tn_weighed_last_layer(w), true, error);
+    if (status == TN_OK)
+        status = tn_walk_forward(&walk, &tn_weighed_to_come, w, NULL, NULL, 0, error);
+    if (status == TN_OK)
+        status = tn_walk_backward(&walk, &tn_weighed_to_come, w, &least_algebra, best, sizeof(least_value), error);
+    for (uint32_t layer = 0; status == TN_OK && layer <= walk.last; layer++)
+        status = keep_layer(best, &walk, layer, error);
+    tn_walk_clear(&walk, NULL, &least_algebra);
+    return status;
+}
+
+/* ---- the next completions */
 
 static tn_status ensure(tn_best *best, uint32_t index, size_t rank, bool *there, tn_error *error);
 
@@ -264,7 +308,7 @@ static tn_status open_place(tn_best *best, uint32_t index, tn_error *error)
         status = tn_weighed_step(best->weighed, state, l, &target, gain, error);
         if (status != TN_OK || target == NONE || !tn_weighed_alive(best->weighed, left - 1, target))
             continue;
-        status = measure(best, left - 1, target, &child, error);
+        status = place_of(best, left - 1, target, &child, error);
         possible[l] = status == TN_OK && best->places[child].possible;
         by_letter[l].child = child;
         memcpy(by_letter[l].value, best->places[child].least, sizeof by_letter[l].value);
@@ -356,7 +400,7 @@ static tn_status next_length(tn_best *best, const size_t *given, cursor *next, b
         bool there = false;
         if (!tn_weighed_alive(best->weighed, n, 0))
             continue;
-        tn_status status = measure(best, n, 0, &index, error);
+        tn_status status = place_of(best, n, 0, &index, error);
         if (status == TN_OK && best->places[index].possible)
             status = ensure(best, index, given[n - best->library->min], &there, error);
         if (status != TN_OK)
@@ -401,7 +445,9 @@ tn_status tn_best_next(tn_best *best, tn_tray *trays, uint32_t *length, int64_t 
         !(best->given = calloc((size_t)best->library->max - best->library->min + 1, sizeof *best->given)))
         return tn_fail_memory(error);
     cursor next = {0};
-    tn_status status = next_length(best, best->given, &next, found, error);
+    tn_status status = best->places ? TN_OK : measure(best, error);
+    if (status == TN_OK)
+        status = next_length(best, best->given, &next, found, error);
     if (status != TN_OK || !*found)
         return status;
     best->given[next.left - best->library->min]++;

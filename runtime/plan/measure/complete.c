@@ -1,5 +1,5 @@
-/* Open plans: forward and backward counts over the library's automaton joined with a machine that places the written
- * trays (complete_machine.c). */
+/* Open plans: counts forwards and backwards over the library's automaton joined with a machine that places the written
+ * trays (complete_machine.c). The plans in which a tray is placed are those before it times those after it. */
 #include "runtime/plan/measure/complete_data.h"
 
 #include <stdlib.h>
@@ -8,10 +8,11 @@
 #include "runtime/base/array.h"
 
 #define WORST INT64_MAX
+#define NO_ITEM UINT32_MAX
 
 typedef tn_completer completer;
 
-/* ---- levels */
+/* ---- the graph */
 
 static uint32_t intern(completer *c, uint32_t state, tn_machine m)
 {
@@ -48,93 +49,70 @@ static bool accepts(const completer *c, uint32_t n, uint32_t joint)
     return n >= c->library->min && m.placed == c->items && is_alive(c, 0, state);
 }
 
-static int compare_numbers(const void *left, const void *right)
-{
-    uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
-    return (a > b) - (a < b);
-}
-
-/* One step: a tray of the letter, from a state of level n to a joint state, and what the measure gains. */
+/* By a tray of the letter. */
 typedef struct step {
-    uint32_t n, from, to, letter;
-    tn_machine m; /* before it */
-    bool places;
-    int64_t gain; /* with the sign that makes less better */
+    uint32_t letter;
+    uint32_t item; /* the written tray that it is, or NO_ITEM */
+    int64_t gain;  /* of the measure, with the sign that makes less better */
 } step;
 
-typedef bool take_step(completer *c, const step *s, void *context);
-
-/* Where a letter leads; false where nothing that is kept follows, or it failed. */
-static bool follow(completer *c, uint32_t n, uint32_t state, uint32_t letter, uint32_t *to, int64_t *gain)
+/* Where a letter leads after n trays; *to: UINT32_MAX if nothing that is kept follows. */
+static tn_status follow(completer *c, uint32_t n, uint32_t state, uint32_t letter, uint32_t *to, int64_t *gain,
+                        tn_error *error)
 {
     int64_t gains[TN_WEIGHED_MAX] = {0};
-    *gain = 0;
-    if (!c->weighed) {
+    tn_status status = TN_OK;
+    if (c->weighed)
+        status = tn_weighed_step(c->weighed, state, tn_weighed_letter(c->weighed, c->first[letter]), to, gains, error);
+    else
         *to = tn_library_step(c->library, state, c->first[letter]);
-        return leads_on(c, n + 1, *to);
-    }
-    c->failed =
-        tn_weighed_step(c->weighed, state, tn_weighed_letter(c->weighed, c->first[letter]), to, gains, c->error);
     *gain = c->sign * gains[0];
-    return c->failed == TN_OK && *to != UINT32_MAX && leads_on(c, n + 1, *to);
+    if (status == TN_OK && *to != UINT32_MAX && !leads_on(c, n + 1, *to))
+        *to = UINT32_MAX;
+    return status;
 }
 
-/* Calls `take` for every step from level n; false where that fails. */
-static bool each_step(completer *c, uint32_t n, take_step *take, void *context)
+static tn_status edges(void *context, uint32_t layer, uint32_t joint, tn_walk_seen *seen, void *walk, tn_error *error)
 {
-    for (uint32_t i = 0; i < c->level_size[n]; i++) {
-        uint32_t state, to;
-        tn_machine m = machine_of(c, c->level[n][i], &state);
-        for (uint32_t l = 0; l < c->letters; l++) {
-            tn_machine_way ways[2];
-            int64_t gain;
-            size_t count = follow(c, n, state, l, &to, &gain) ? tn_machine_ways(c, m, c->fits[c->first[l]], ways) : 0;
-            if (c->failed != TN_OK)
-                return false;
-            for (size_t w = 0; w < count; w++) {
-                step s = {n, i, intern(c, to, ways[w].to), l, m, ways[w].places, gain};
-                if (s.to == UINT32_MAX || !take(c, &s, context))
-                    return false;
-            }
+    completer *c = context;
+    uint32_t state, to;
+    tn_machine m = machine_of(c, joint, &state);
+    tn_status status = TN_OK;
+    for (uint32_t l = 0; status == TN_OK && l < c->letters; l++) {
+        tn_machine_way ways[2];
+        step s = {.letter = l};
+        status = follow(c, layer, state, l, &to, &s.gain, error);
+        size_t count = status == TN_OK && to != UINT32_MAX ? tn_machine_ways(c, m, c->fits[c->first[l]], ways) : 0;
+        for (size_t w = 0; status == TN_OK && w < count; w++) {
+            uint32_t next = intern(c, to, ways[w].to);
+            s.item = ways[w].places ? m.placed : NO_ITEM;
+            status = next == UINT32_MAX ? tn_fail_memory(error) : seen(walk, next, &s, error);
         }
     }
-    return true;
+    return status;
 }
 
-static bool collect(completer *c, const step *s, void *context)
+static const tn_walk_graph open_graph = {tn_walk_starts_first, edges};
+
+/* ---- the algebra: how many plans, and the best of them */
+
+typedef struct plans {
+    mpz_t count;
+    int64_t best; /* WORST: none has a value */
+} plans;
+
+static void plans_init(const void *context, void *element)
 {
-    (void)c;
-    return tn_number(context, s->to) != UINT32_MAX;
+    plans *p = element;
+    (void)context;
+    mpz_init(p->count);
+    p->best = WORST;
 }
 
-static int64_t *worst_new(const completer *c, size_t count)
+static void plans_clear(void *element)
 {
-    int64_t *values = c->weighed ? malloc((count + 1) * sizeof *values) : NULL;
-    for (size_t i = 0; values && i < count; i++)
-        values[i] = WORST;
-    return values;
-}
-
-static bool make_level(completer *c, uint32_t n, const uint64_t *states, uint32_t count)
-{
-    c->level[n] = malloc(((size_t)count + 1) * sizeof **c->level);
-    c->forward[n] = tn_integers_new(count);
-    c->backward[n] = tn_integers_new(count);
-    c->best_before[n] = worst_new(c, count);
-    c->best_after[n] = worst_new(c, count);
-    if (!c->level[n] || !c->forward[n] || !c->backward[n] || (c->weighed && !(c->best_before[n] && c->best_after[n])))
-        return false;
-    c->level_size[n] = count;
-    for (uint32_t i = 0; i < count; i++)
-        c->level[n][i] = (uint32_t)states[i];
-    qsort(c->level[n], count, sizeof **c->level, compare_numbers);
-    return true;
-}
-
-static size_t index_of(const completer *c, uint32_t n, uint32_t joint)
-{
-    const uint32_t *found = bsearch(&joint, c->level[n], c->level_size[n], sizeof joint, compare_numbers);
-    return (size_t)(found - c->level[n]);
+    plans *p = element;
+    mpz_clear(p->count);
 }
 
 static void take_better(int64_t *best, int64_t value)
@@ -142,73 +120,80 @@ static void take_better(int64_t *best, int64_t value)
     *best = value < *best ? value : *best;
 }
 
-static bool add_forward(completer *c, const step *s, void *context)
+static tn_status begin(void *context, uint32_t layer, uint32_t joint, void *element, tn_error *error)
 {
-    (void)context;
-    size_t to = index_of(c, s->n + 1, s->to);
-    mpz_addmul_ui(c->forward[s->n + 1][to], c->forward[s->n][s->from], c->size[s->letter]);
+    const completer *c = context;
+    plans *start = element;
+    (void)layer, (void)joint, (void)error;
+    mpz_set_ui(start->count, 1);
     if (c->weighed)
-        take_better(&c->best_before[s->n + 1][to], c->best_before[s->n][s->from] + s->gain);
-    return true;
+        start->best = c->sign * tn_weighed_start(c->weighed, 0);
+    return TN_OK;
 }
 
-/* Not every state of a level leads to a plan that the pattern fits: such have no best. */
-static bool add_backward(completer *c, const step *s, void *context)
+/* Not every state leads to a plan that the pattern fits, or ends one with a value: such have no best. */
+static tn_status extend(void *context, void *sum, const void *element, const tn_walk_edge *edge, tn_error *error)
 {
-    (void)context;
-    size_t to = index_of(c, s->n + 1, s->to);
-    mpz_addmul_ui(c->backward[s->n][s->from], c->backward[s->n + 1][to], c->size[s->letter]);
-    if (c->weighed && c->best_after[s->n + 1][to] != WORST)
-        take_better(&c->best_after[s->n][s->from], s->gain + c->best_after[s->n + 1][to]);
-    return true;
+    const completer *c = context;
+    const plans *from = element;
+    const step *s = edge->label;
+    plans *to = sum;
+    (void)error;
+    mpz_addmul_ui(to->count, from->count, c->size[s->letter]);
+    if (from->best != WORST)
+        take_better(&to->best, s->gain + from->best);
+    return TN_OK;
 }
 
-/* Each tray of the letter, as the written tray that is placed: the plans before times those after. */
-static bool add_placed(completer *c, const step *s, void *context)
+static tn_status end(void *context, uint32_t layer, uint32_t joint, void *element, tn_error *error)
 {
-    (void)context;
-    size_t to = index_of(c, s->n + 1, s->to), at = (size_t)s->m.placed * c->letters + s->letter;
-    if (!s->places)
-        return true;
-    mpz_addmul(c->placed[at], c->forward[s->n][s->from], c->backward[s->n + 1][to]);
-    if (c->weighed && c->best_after[s->n + 1][to] != WORST)
-        take_better(&c->best_placed[at], c->best_before[s->n][s->from] + s->gain + c->best_after[s->n + 1][to]);
-    return true;
+    const completer *c = context;
+    plans *ended = element;
+    uint32_t state;
+    (void)error;
+    if (!accepts(c, layer, joint))
+        return TN_OK;
+    machine_of(c, joint, &state);
+    mpz_set_ui(ended->count, 1);
+    if (c->weighed && tn_weighed_valued(c->weighed, state))
+        ended->best = c->sign * tn_weighed_rest(c->weighed, state, 0);
+    return TN_OK;
 }
 
-static void end_plans(completer *c, uint32_t n)
+/* Backwards, what is before the edge is known already: with each tray of the letter as the written tray that is placed
+ * there are the plans before it times those after it. */
+static tn_status extend_back(void *context, void *sum, const void *element, const tn_walk_edge *edge, tn_error *error)
 {
-    for (uint32_t i = 0; i < c->level_size[n]; i++) {
-        uint32_t state;
-        bool good = accepts(c, n, c->level[n][i]);
-        machine_of(c, c->level[n][i], &state);
-        mpz_set_ui(c->backward[n][i], good);
-        if (c->weighed && good && tn_weighed_valued(c->weighed, state))
-            c->best_after[n][i] = c->sign * tn_weighed_rest(c->weighed, state, 0);
+    completer *c = context;
+    const step *s = edge->label;
+    const plans *before = tn_walk_forward_of(&c->walk, edge->layer, edge->from), *after = element;
+    if (s->item != NO_ITEM) {
+        size_t at = (size_t)s->item * c->letters + s->letter;
+        mpz_addmul(c->placed[at], before->count, after->count);
+        if (c->weighed && after->best != WORST)
+            take_better(&c->best_placed[at], before->best + s->gain + after->best);
     }
+    return extend(context, sum, element, edge, error);
+}
+
+TN_WALK_ALGEBRA(before_algebra, plans_init, plans_clear, begin, extend, NULL);
+TN_WALK_ALGEBRA(after_algebra, plans_init, plans_clear, end, extend_back, NULL);
+
+static const plans *plans_after(const completer *c, uint32_t layer, uint32_t place)
+{
+    return tn_walk_backward_of(&c->walk, layer, place);
 }
 
 static tn_status walk(completer *c, tn_error *error)
 {
-    uint32_t max = c->library->max;
-    tn_machine start = tn_machine_start(c);
-    uint64_t first = intern(c, 0, start);
-    bool ok = first != UINT32_MAX && make_level(c, 0, &first, 1);
-    if (ok)
-        mpz_set_ui(c->forward[0][0], 1);
-    if (ok && c->weighed)
-        c->best_before[0][0] = c->sign * tn_weighed_start(c->weighed, 0);
-    for (uint32_t n = 0; ok && n < max; n++) {
-        tn_numbering next = {0};
-        ok = each_step(c, n, collect, &next) && make_level(c, n + 1, next.keys, next.count) &&
-             each_step(c, n, add_forward, NULL);
-        tn_numbering_clear(&next);
-    }
-    for (uint32_t n = max + 1; ok && n-- > 0;) {
-        end_plans(c, n);
-        ok = n == max || (each_step(c, n, add_backward, NULL) && each_step(c, n, add_placed, NULL));
-    }
-    return ok ? TN_OK : c->failed != TN_OK ? c->failed : tn_fail_memory(error);
+    if (intern(c, 0, tn_machine_start(c)) == UINT32_MAX)
+        return tn_fail_memory(error);
+    tn_status status = tn_walk_begin(&c->walk, c->library->max, true, error);
+    if (status == TN_OK)
+        status = tn_walk_forward(&c->walk, &open_graph, c, &before_algebra, c, sizeof(plans), error);
+    if (status == TN_OK)
+        status = tn_walk_backward(&c->walk, &open_graph, c, &after_algebra, c, sizeof(plans), error);
+    return status;
 }
 
 /* ---- the answer */
@@ -229,36 +214,35 @@ static void add_values(const completer *c, tn_completions *out)
         out->best[i] = out->best[i] == WORST ? TN_NO_BEST : c->sign * out->best[i];
 }
 
-/* A step that is looked for: the first from state `from` of level n from which a plan can still be completed. */
+/* An edge that is looked for: the first from which a plan can still be completed. */
 typedef struct way_on {
-    size_t from, to;
-    uint32_t letter;
+    const completer *c;
+    uint32_t to, letter;
     bool found;
 } way_on;
 
-static bool take_first(completer *c, const step *s, void *context)
+static tn_status take_first(void *context, const tn_walk_edge *edge, tn_error *error)
 {
     way_on *way = context;
-    if (way->found || s->from != way->from)
-        return true;
-    size_t to = index_of(c, s->n + 1, s->to);
-    if (mpz_sgn(c->backward[s->n + 1][to]) > 0)
-        *way = (way_on){way->from, to, s->letter, true};
-    return true;
+    const step *s = edge->label;
+    (void)error;
+    if (!way->found && mpz_sgn(plans_after(way->c, edge->layer + 1, edge->to)->count) > 0)
+        *way = (way_on){way->c, edge->to, s->letter, true};
+    return TN_OK;
 }
 
 /* A plan is over as soon as it can be: `first` is no longer than others that begin like it. */
 static tn_status find_first(completer *c, tn_completions *out, tn_error *error)
 {
-    uint32_t n = 0;
-    size_t at = 0;
+    uint32_t n = 0, at = 0;
     out->first = calloc((size_t)c->library->max + 1, sizeof *out->first);
     if (!out->first)
         return tn_fail_memory(error);
-    for (; !accepts(c, n, c->level[n][at]); n++) {
-        way_on way = {.from = at};
-        if (!each_step(c, n, take_first, &way) || !way.found)
-            return c->failed != TN_OK ? c->failed : tn_fail_memory(error);
+    for (; !accepts(c, n, tn_walk_at(&c->walk, n)->states[at]); n++) {
+        way_on way = {.c = c};
+        tn_status status = tn_walk_from(&c->walk, &open_graph, c, n, at, take_first, &way, error);
+        if (status != TN_OK)
+            return status;
         out->first[n] = c->first[way.letter];
         at = way.to;
     }
@@ -268,41 +252,29 @@ static tn_status find_first(completer *c, tn_completions *out, tn_error *error)
 
 static void clear(completer *c)
 {
-    for (uint32_t n = 0; c->level && n <= c->library->max; n++) {
-        free(c->level[n]);
-        tn_integers_free(c->forward[n], c->level_size[n]);
-        tn_integers_free(c->backward[n], c->level_size[n]);
-        free(c->best_before[n]);
-        free(c->best_after[n]);
-    }
-    free(c->best_before);
-    free(c->best_after);
+    tn_walk_clear(&c->walk, &before_algebra, &after_algebra);
     free(c->best_placed);
-    free(c->level);
-    free(c->level_size);
-    free(c->forward);
-    free(c->backward);
     tn_integers_free(c->placed, (size_t)c->items * c->letters);
     tn_interner_clear(&c->states);
     tn_completer_clear_pattern(c);
 }
 
+static int64_t *worst_new(const completer *c, size_t count)
+{
+    int64_t *values = c->weighed ? tn_array_new((uint64_t)count + 1, sizeof *values) : NULL;
+    for (size_t i = 0; values && i < count; i++)
+        values[i] = WORST;
+    return values;
+}
+
 static tn_status make_room(completer *c, tn_completions *out, tn_error *error)
 {
-    size_t levels = (size_t)c->library->max + 1, values = (size_t)c->items * c->library->schema->value_count;
-    c->level_size = calloc(levels, sizeof *c->level_size);
-    c->forward = calloc(levels, sizeof *c->forward);
-    c->backward = calloc(levels, sizeof *c->backward);
-    c->best_before = calloc(levels, sizeof *c->best_before);
-    c->best_after = calloc(levels, sizeof *c->best_after);
+    size_t values = (size_t)c->items * c->library->schema->value_count;
     c->best_placed = worst_new(c, tn_size_of(c->items, c->letters));
     c->placed = tn_integers_new(tn_size_of(c->items, c->letters));
-    bool ok = c->level_size && c->forward && c->backward && c->best_before && c->best_after && c->placed &&
-              (c->best_placed || !c->weighed);
-    c->level = ok ? calloc(levels, sizeof *c->level) : NULL;
     out->counts = tn_integers_new(values);
     out->best = worst_new(c, values);
-    if (!c->level || !out->counts || (c->weighed && !out->best))
+    if (!c->placed || !out->counts || (c->weighed && (!c->best_placed || !out->best)))
         return tn_fail_memory(error);
     out->trays = c->items;
     out->values = c->library->schema->value_count;
@@ -323,7 +295,7 @@ static tn_status check_measure(const tn_weighed *weighed, tn_error *error)
 
 tn_status tn_complete(tn_completions *out, const tn_library *library, const tn_open_plan *open, tn_error *error)
 {
-    completer c = {.library = library, .weighed = open->weighed, .sign = open->most ? -1 : 1, .error = error};
+    completer c = {.library = library, .weighed = open->weighed, .sign = open->most ? -1 : 1};
     *out = (tn_completions){0};
     mpz_init(out->plans);
     tn_status status = c.weighed ? check_measure(c.weighed, error) : TN_OK;
@@ -334,7 +306,7 @@ tn_status tn_complete(tn_completions *out, const tn_library *library, const tn_o
     if (status == TN_OK && library->min <= library->max)
         status = walk(&c, error);
     if (status == TN_OK && library->min <= library->max) {
-        mpz_set(out->plans, c.backward[0][0]);
+        mpz_set(out->plans, plans_after(&c, 0, 0)->count);
         add_values(&c, out);
     }
     if (status == TN_OK && open->first && mpz_sgn(out->plans) > 0)

@@ -3,6 +3,7 @@
 #define TARTAN_PLAN_MEASURE_COMPLETE_DATA_H
 
 #include "runtime/plan/automata/numbering.h"
+#include "runtime/plan/automata/walk.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/measure/complete.h"
 
@@ -16,8 +17,6 @@ typedef struct tn_completer {
     const tn_library *library;
     tn_weighed *weighed; /* whose states take the place of the library's; or NULL */
     int64_t sign;        /* that makes less better */
-    tn_error *error;
-    tn_status failed; /* while stepping */
     uint32_t items;
     tn_open_segment segments[TN_PATTERN_MAX + 1];
     uint32_t segment_of[TN_PATTERN_MAX + 1];
@@ -26,14 +25,12 @@ typedef struct tn_completer {
     uint64_t *fits;      /* [trays]: bit i: the tray fits written tray i */
     uint32_t *letter_of; /* [trays] */
     uint32_t letters;
-    tn_tray *first;     /* [letters] */
-    uint64_t *size;     /* [letters] */
-    tn_interner states; /* {library's state, placed, gap, earlier in two words} */
-    uint32_t **level;   /* [max + 1]: the states at each place, ascending */
-    uint32_t *level_size;
-    mpz_t **forward, **backward;                       /* [max + 1][level_size] */
-    mpz_t *placed;                                     /* [items][letters] */
-    int64_t **best_before, **best_after, *best_placed; /* the same of the measure; WORST where there is none */
+    tn_tray *first;       /* [letters] */
+    uint64_t *size;       /* [letters] */
+    tn_interner states;   /* {library's state, placed, gap, earlier in two words} */
+    tn_layers walk;       /* by trays before; forwards: plans until there, backwards: plans from there */
+    mpz_t *placed;        /* [items][letters]: plans in which such a tray is placed there */
+    int64_t *best_placed; /* the same of the measure; WORST if there is none */
 } tn_completer;
 
 /* Reads the pattern, and which trays fit which of its places (complete_pattern.c). */

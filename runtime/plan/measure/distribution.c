@@ -1,4 +1,4 @@
-/* Distributions: level by level, for each state how many plans lead there with which value. */
+/* Distributions: for each state how many plans lead there with which value, as polynomials in the value. */
 #include "runtime/plan/measure/distribution.h"
 
 #include <stdlib.h>
@@ -9,28 +9,26 @@
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/measure/pareto.h"
+#include "runtime/plan/measure/weighed_layers.h"
 
 #define DENSE_MAX (INT64_C(1) << 22) /* values side by side: beyond, they are sorted */
 
-/* The values with which plans reach a state, ascending, each with the number of those plans. */
+/* The values with which plans reach a state, ascending, each with the number of those plans. Before it is summed up: of
+ * what it is the sum. */
 typedef struct spread {
-    uint32_t state;
     size_t count;
     int64_t *value;
-    mp_limb_t *plans; /* [count][limbs] */
+    mp_limb_t *plans;   /* [count][limbs] */
+    struct part *parts; /* NULL once summed up */
+    size_t part_count, part_room;
 } spread;
 
-typedef struct level {
-    spread *items;
-    size_t count, room;
-} level;
-
-/* So many trays from a state of one level to a state of the next. */
-typedef struct arc {
-    uint32_t target, source;
-    uint64_t trays;
+/* Another spread, so many times, its values more by `gain`. */
+typedef struct part {
+    const spread *source;
+    uint64_t times;
     int64_t gain;
-} arc;
+} part;
 
 typedef struct pair {
     int64_t value;
@@ -38,28 +36,27 @@ typedef struct pair {
 } pair;
 
 typedef struct spreader {
-    tn_weighed *weighed;
+    const tn_weighed *weighed;
     const tn_library *library;
-    size_t limbs; /* of a number of plans */
-    arc *arcs;
-    size_t arc_count, arc_capacity;
+    size_t limbs;     /* of a number of plans */
     mp_limb_t *dense; /* [DENSE_MAX][limbs], grows */
     size_t dense_room;
     pair *pairs;
     mp_limb_t *numbers;
     size_t pair_room;
-    uint64_t words; /* of the level that is made */
-    uint64_t ended; /* words of the plans that have ended */
+    uint32_t layer;
+    uint64_t words; /* of the layer that is summed up */
+    uint64_t ended_words;
+    spread *ended; /* those of plans that end, one for each state and length */
+    size_t ended_count, ended_room;
 } spreader;
 
-static void level_clear(level *l)
+static void spread_clear(void *element)
 {
-    for (size_t i = 0; i < l->count; i++) {
-        free(l->items[i].value);
-        free(l->items[i].plans);
-    }
-    free(l->items);
-    *l = (level){0};
+    spread *s = element;
+    free(s->value);
+    free(s->plans);
+    free(s->parts);
 }
 
 /* "in steps of 1 ft2" */
@@ -84,66 +81,7 @@ static uint64_t words_of(const spreader *s, uint64_t pairs)
     return pairs > TN_DISTRIBUTION_WORDS ? pairs : pairs * (s->limbs + 1);
 }
 
-/* ---- one level */
-
-static bool add_arc(spreader *s, arc a)
-{
-    if (!tn_array_reserve_from(&s->arcs, &s->arc_capacity, 1024, s->arc_count, 1, sizeof *s->arcs))
-        return false;
-    s->arcs[s->arc_count++] = a;
-    return true;
-}
-
-/* Orders arcs by target. Those of one target stay in the order in which they were found: by source, then by gain. */
-static bool sort_arcs(spreader *s)
-{
-    uint32_t states = tn_weighed_states(s->weighed);
-    size_t *place = calloc((size_t)states + 1, sizeof *place);
-    arc *sorted = malloc((s->arc_count + 1) * sizeof *sorted);
-    if (!place || !sorted) {
-        free(place);
-        free(sorted);
-        return false;
-    }
-    for (size_t i = 0; i < s->arc_count; i++)
-        place[s->arcs[i].target + 1]++;
-    for (uint32_t state = 0; state < states; state++)
-        place[state + 1] += place[state];
-    for (size_t i = 0; i < s->arc_count; i++)
-        sorted[place[s->arcs[i].target]++] = s->arcs[i];
-    free(place);
-    free(s->arcs);
-    s->arcs = sorted;
-    s->arc_capacity = s->arc_count + 1;
-    return true;
-}
-
-/* Does a kept plan of the library's lengths follow, after n trays? */
-static bool leads_on(const spreader *s, uint32_t n, uint32_t state)
-{
-    uint32_t low = n < s->library->min ? s->library->min - n : 0;
-    for (uint32_t left = low; left <= s->library->max - n; left++)
-        if (tn_weighed_alive(s->weighed, left, state))
-            return true;
-    return false;
-}
-
-static tn_status find_arcs(spreader *s, const level *from, uint32_t n, tn_error *error)
-{
-    s->arc_count = 0;
-    for (size_t i = 0; i < from->count; i++) {
-        const tn_weighed_edge *edges;
-        size_t count;
-        tn_status status = tn_weighed_edges(s->weighed, from->items[i].state, &edges, &count, error);
-        if (status != TN_OK)
-            return status;
-        for (size_t e = 0; e < count; e++)
-            if (leads_on(s, n + 1, edges[e].target) &&
-                !add_arc(s, (arc){edges[e].target, (uint32_t)i, edges[e].trays, edges[e].gain[0]}))
-                return tn_fail_memory(error);
-    }
-    return sort_arcs(s) ? TN_OK : tn_fail_memory(error);
-}
+/* ---- sums */
 
 static void add_plans(mp_limb_t *to, const mp_limb_t *plans, uint64_t times, size_t limbs)
 {
@@ -158,11 +96,10 @@ static bool is_zero(const mp_limb_t *plans, size_t limbs)
     return any == 0;
 }
 
-static bool spread_new(spread *made, uint32_t state, size_t count, size_t limbs)
+static bool spread_new(spread *made, size_t count, size_t limbs)
 {
-    *made = (spread){.state = state,
-                     .value = malloc((count + 1) * sizeof *made->value),
-                     .plans = malloc((count * limbs + 1) * sizeof *made->plans)};
+    made->value = malloc((count + 1) * sizeof *made->value);
+    made->plans = malloc((count * limbs + 1) * sizeof *made->plans);
     return made->value && made->plans;
 }
 
@@ -172,8 +109,7 @@ static void spread_add(spread *made, int64_t value, const mp_limb_t *plans, size
     memcpy(made->plans + made->count++ * limbs, plans, limbs * sizeof *plans);
 }
 
-static bool gather_dense(spreader *s, const level *from, size_t first, size_t last, int64_t low, size_t range,
-                         spread *made)
+static bool sum_dense(spreader *s, spread *sum, int64_t low, size_t range)
 {
     size_t limbs = s->limbs;
     if (s->dense_room < range) {
@@ -185,19 +121,19 @@ static bool gather_dense(spreader *s, const level *from, size_t first, size_t la
             return false;
         }
     }
-    for (size_t a = first; a < last; a++) {
-        const spread *source = &from->items[s->arcs[a].source];
-        for (size_t i = 0; i < source->count; i++)
-            add_plans(s->dense + (size_t)(source->value[i] + s->arcs[a].gain - low) * limbs, source->plans + i * limbs,
-                      s->arcs[a].trays, limbs);
+    for (size_t p = 0; p < sum->part_count; p++) {
+        const part *of = &sum->parts[p];
+        for (size_t i = 0; i < of->source->count; i++)
+            add_plans(s->dense + (size_t)(of->source->value[i] + of->gain - low) * limbs, of->source->plans + i * limbs,
+                      of->times, limbs);
     }
     size_t count = 0;
     for (size_t v = 0; v < range; v++)
         count += !is_zero(s->dense + v * limbs, limbs);
-    bool ok = spread_new(made, s->arcs[first].target, count, limbs);
+    bool ok = spread_new(sum, count, limbs);
     for (size_t v = 0; ok && v < range; v++)
         if (!is_zero(s->dense + v * limbs, limbs))
-            spread_add(made, low + (int64_t)v, s->dense + v * limbs, limbs);
+            spread_add(sum, low + (int64_t)v, s->dense + v * limbs, limbs);
     memset(s->dense, 0, range * limbs * sizeof *s->dense);
     return ok;
 }
@@ -208,7 +144,7 @@ static int compare_pairs(const void *left, const void *right)
     return (a->value > b->value) - (a->value < b->value);
 }
 
-static bool gather_sorted(spreader *s, const level *from, size_t first, size_t last, size_t cells, spread *made)
+static bool sum_sorted(spreader *s, spread *sum, size_t cells)
 {
     size_t limbs = s->limbs, count = 0;
     if (s->pair_room < cells) {
@@ -222,108 +158,139 @@ static bool gather_sorted(spreader *s, const level *from, size_t first, size_t l
             return false;
         }
     }
-    for (size_t a = first; a < last; a++) {
-        const spread *source = &from->items[s->arcs[a].source];
-        for (size_t i = 0; i < source->count; i++) {
-            mpn_mul_1(s->numbers + count * limbs, source->plans + i * limbs, (mp_size_t)limbs, s->arcs[a].trays);
-            s->pairs[count] = (pair){source->value[i] + s->arcs[a].gain, count};
+    for (size_t p = 0; p < sum->part_count; p++) {
+        const part *of = &sum->parts[p];
+        for (size_t i = 0; i < of->source->count; i++) {
+            mpn_mul_1(s->numbers + count * limbs, of->source->plans + i * limbs, (mp_size_t)limbs, of->times);
+            s->pairs[count] = (pair){of->source->value[i] + of->gain, count};
             count++;
         }
     }
     qsort(s->pairs, count, sizeof *s->pairs, compare_pairs);
-    bool ok = spread_new(made, s->arcs[first].target, count, limbs);
+    bool ok = spread_new(sum, count, limbs);
     for (size_t i = 0; ok && i < count; i++) {
         const mp_limb_t *plans = s->numbers + s->pairs[i].index * limbs;
-        if (made->count > 0 && made->value[made->count - 1] == s->pairs[i].value)
-            mpn_add_n(made->plans + (made->count - 1) * limbs, made->plans + (made->count - 1) * limbs, plans,
+        if (sum->count > 0 && sum->value[sum->count - 1] == s->pairs[i].value)
+            mpn_add_n(sum->plans + (sum->count - 1) * limbs, sum->plans + (sum->count - 1) * limbs, plans,
                       (mp_size_t)limbs);
         else
-            spread_add(made, s->pairs[i].value, plans, limbs);
+            spread_add(sum, s->pairs[i].value, plans, limbs);
     }
     return ok;
 }
 
-/* The state that the arcs from `first` on lead to: its spread; *next: the arc after them. */
-static tn_status gather(spreader *s, const level *from, size_t first, size_t *next, spread *made, tn_error *error)
+/* Sums up the parts of a spread, of which there are some. */
+static tn_status sum_up(spreader *s, spread *sum, tn_error *error)
 {
     int64_t low = INT64_MAX, high = INT64_MIN;
     uint64_t cells = 0;
-    size_t last = first;
-    for (; last < s->arc_count && s->arcs[last].target == s->arcs[first].target; last++) {
-        const spread *source = &from->items[s->arcs[last].source];
-        int64_t a = source->value[0] + s->arcs[last].gain, b = source->value[source->count - 1] + s->arcs[last].gain;
+    for (size_t p = 0; p < sum->part_count; p++) {
+        const spread *source = sum->parts[p].source;
+        int64_t a = source->value[0] + sum->parts[p].gain, b = source->value[source->count - 1] + sum->parts[p].gain;
         low = a < low ? a : low;
         high = b > high ? b : high;
         cells += source->count;
     }
-    *next = last;
     bool dense = high - low < DENSE_MAX && (uint64_t)(high - low) / 64 <= cells;
     if (words_of(s, dense ? (uint64_t)(high - low) : cells) > TN_DISTRIBUTION_WORDS)
         return too_many(s, error);
-    bool ok = dense ? gather_dense(s, from, first, last, low, (size_t)(high - low) + 1, made)
-                    : gather_sorted(s, from, first, last, (size_t)cells, made);
-    s->words += words_of(s, made->count);
+    bool ok = dense ? sum_dense(s, sum, low, (size_t)(high - low) + 1) : sum_sorted(s, sum, (size_t)cells);
+    s->words += words_of(s, sum->count);
+    free(sum->parts);
+    sum->parts = NULL;
     if (!ok)
         return tn_fail_memory(error);
     return s->words <= TN_DISTRIBUTION_WORDS ? TN_OK : too_many(s, error);
 }
 
-static tn_status next_level(spreader *s, const level *from, uint32_t n, level *to, tn_error *error)
+static bool add_part(spread *sum, part more)
 {
-    *to = (level){0};
-    tn_status status = find_arcs(s, from, n, error);
-    size_t targets = 0;
-    for (size_t a = 0; a < s->arc_count; a++)
-        targets += a == 0 || s->arcs[a].target != s->arcs[a - 1].target;
-    if (status == TN_OK && !(to->items = calloc(targets + 1, sizeof *to->items)))
-        status = tn_fail_memory(error);
-    s->words = 0;
-    for (size_t a = 0; status == TN_OK && a < s->arc_count;) {
-        status = gather(s, from, a, &a, &to->items[to->count], error);
-        to->count++;
-        if (status == TN_OK)
-            status = tn_weighed_check(s->weighed, error);
-    }
-    return status;
+    if (!tn_array_reserve_from(&sum->parts, &sum->part_room, 16, sum->part_count, 1, sizeof *sum->parts))
+        return false;
+    sum->parts[sum->part_count++] = more;
+    return true;
 }
 
-/* ---- all of them */
+/* ---- the algebra */
 
-/* The plans that end at a level: spreads of an imagined last state. */
-static tn_status add_ended(spreader *s, const level *l, uint32_t n, level *ended, tn_error *error)
+static void spread_init(const void *context, void *element)
 {
-    if (n < s->library->min)
-        return TN_OK;
-    for (size_t i = 0; i < l->count; i++) {
-        const spread *from = &l->items[i];
-        if (!tn_weighed_alive(s->weighed, 0, from->state) || !tn_weighed_valued(s->weighed, from->state))
-            continue;
-        s->ended += words_of(s, from->count);
-        if (s->ended > TN_DISTRIBUTION_WORDS)
-            return too_many(s, error);
-        if (!tn_array_reserve(&ended->items, &ended->room, ended->count, 1, sizeof *ended->items))
-            return tn_fail_memory(error);
-        spread *made = &ended->items[ended->count++];
-        if (!spread_new(made, 0, from->count, s->limbs))
-            return tn_fail_memory(error);
-        int64_t rest = tn_weighed_rest(s->weighed, from->state, 0);
-        for (size_t v = 0; v < from->count; v++)
-            spread_add(made, from->value[v] + rest, from->plans + v * s->limbs, s->limbs);
-    }
+    (void)context;
+    *(spread *)element = (spread){0};
+}
+
+/* The plan without trays, which has the start value. */
+static tn_status begin(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+{
+    const spreader *s = context;
+    spread *start = element;
+    (void)layer, (void)state;
+    if (!spread_new(start, 1, s->limbs))
+        return tn_fail_memory(error);
+    memset(start->plans, 0, s->limbs * sizeof *start->plans);
+    start->plans[0] = 1;
+    start->value[0] = tn_weighed_start(s->weighed, 0);
+    start->count = 1;
     return TN_OK;
 }
 
-static tn_status finish(spreader *s, const level *ended, tn_distribution *d, tn_error *error)
+static tn_status extend(void *context, void *sum, const void *element, const tn_walk_edge *edge, tn_error *error)
 {
-    s->arc_count = 0;
-    for (size_t i = 0; i < ended->count; i++)
-        if (!add_arc(s, (arc){0, (uint32_t)i, 1, 0}))
-            return tn_fail_memory(error);
-    if (ended->count == 0)
-        return TN_OK;
+    const tn_weighed_edge *label = edge->label;
+    (void)context;
+    return add_part(sum, (part){element, label->trays, label->gain[0]}) ? TN_OK : tn_fail_memory(error);
+}
+
+/* Adds the plans that end here to those of all lengths. */
+static tn_status add_ended(spreader *s, uint32_t state, const spread *from, tn_error *error)
+{
+    s->ended_words += words_of(s, from->count);
+    if (s->ended_words > TN_DISTRIBUTION_WORDS)
+        return too_many(s, error);
+    if (!tn_array_reserve(&s->ended, &s->ended_room, s->ended_count, 1, sizeof *s->ended))
+        return tn_fail_memory(error);
+    spread *made = &s->ended[s->ended_count++];
+    *made = (spread){0};
+    if (!spread_new(made, from->count, s->limbs))
+        return tn_fail_memory(error);
+    int64_t rest = tn_weighed_rest(s->weighed, state, 0);
+    for (size_t v = 0; v < from->count; v++)
+        spread_add(made, from->value[v] + rest, from->plans + v * s->limbs, s->limbs);
+    return TN_OK;
+}
+
+static tn_status settle(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+{
+    spreader *s = context;
+    spread *sum = element;
+    tn_status status = TN_OK;
+    if (layer != s->layer)
+        s->words = 0;
+    s->layer = layer;
+    if (sum->part_count > 0)
+        status = sum_up(s, sum, error);
+    if (status == TN_OK)
+        status = tn_weighed_check(s->weighed, error);
+    if (status == TN_OK && layer >= s->library->min && tn_weighed_ends(s->weighed, state))
+        status = add_ended(s, state, sum, error);
+    return status;
+}
+
+TN_WALK_ALGEBRA(spread_algebra, spread_init, spread_clear, begin, extend, settle);
+
+/* ---- all of them */
+
+/* Fills the distribution from the plans that ended. */
+static tn_status finish(spreader *s, tn_distribution *d, tn_error *error)
+{
     spread all = {0};
-    size_t next;
-    tn_status status = gather(s, ended, 0, &next, &all, error);
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < s->ended_count; i++)
+        status = add_part(&all, (part){&s->ended[i], 1, 0}) ? TN_OK : tn_fail_memory(error);
+    if (s->layer < s->library->max)
+        s->words = 0;
+    if (status == TN_OK && s->ended_count > 0)
+        status = sum_up(s, &all, error);
     if (status == TN_OK) {
         d->value = all.value;
         all.value = NULL;
@@ -335,32 +302,26 @@ static tn_status finish(spreader *s, const level *ended, tn_distribution *d, tn_
         mpz_import(d->plans[i], s->limbs, -1, sizeof(mp_limb_t), 0, 0, all.plans + i * s->limbs);
         mpz_add(d->all, d->all, d->plans[i]);
     }
-    free(all.value);
-    free(all.plans);
+    spread_clear(&all);
     return status;
 }
 
-static tn_status walk(spreader *s, level *ended, tn_error *error)
+static tn_status make_sum(tn_distribution *d, tn_weighed *weighed, size_t limbs, tn_error *error)
 {
-    level here = {.items = calloc(1, sizeof *here.items), .count = 1};
-    mp_limb_t *one = calloc(s->limbs + 1, sizeof *one);
-    tn_status status = here.items && one && spread_new(here.items, 0, 1, s->limbs) ? TN_OK : tn_fail_memory(error);
-    if (status == TN_OK) {
-        one[0] = 1;
-        spread_add(here.items, tn_weighed_start(s->weighed, 0), one, s->limbs);
-    } else {
-        here.count = here.items ? 1 : 0; /* half of it may be there */
-    }
-    for (uint32_t n = 0; status == TN_OK && n <= s->library->max; n++) {
-        status = add_ended(s, &here, n, ended, error);
-        level there = {0};
-        if (status == TN_OK && n < s->library->max)
-            status = next_level(s, &here, n, &there, error);
-        level_clear(&here);
-        here = there;
-    }
-    level_clear(&here);
-    free(one);
+    spreader s = {.weighed = weighed, .library = tn_weighed_library(weighed), .limbs = limbs};
+    tn_layers walk = {0};
+    tn_status status = tn_walk_begin(&walk, tn_weighed_last_layer(weighed), false, error);
+    if (status == TN_OK)
+        status = tn_walk_forward(&walk, &tn_weighed_after, weighed, &spread_algebra, &s, sizeof(spread), error);
+    tn_walk_clear(&walk, &spread_algebra, NULL);
+    if (status == TN_OK)
+        status = finish(&s, d, error);
+    for (size_t i = 0; i < s.ended_count; i++)
+        spread_clear(&s.ended[i]);
+    free(s.ended);
+    free(s.dense);
+    free(s.pairs);
+    free(s.numbers);
     return status;
 }
 
@@ -427,24 +388,16 @@ static tn_status make_quotient(tn_distribution *d, tn_weighed *weighed, tn_error
 tn_status tn_distribution_make(tn_distribution *d, tn_weighed *weighed, tn_error *error)
 {
     mpq_set(d->unit, tn_weighed_unit(weighed, 0));
-    const tn_library *library = tn_weighed_library(weighed);
     mpz_t kept;
     mpz_init(kept);
-    tn_library_kept(library, TN_ALL_LENGTHS, kept);
-    spreader s = {.weighed = weighed, .library = library, .limbs = mpz_size(kept) ? mpz_size(kept) : 1};
-    level ended = {0};
+    tn_library_kept(tn_weighed_library(weighed), TN_ALL_LENGTHS, kept);
     bool over;
     tn_weighed_sum(weighed, 0, &over);
-    tn_status status = mpz_sgn(kept) == 0 ? TN_OK : over ? make_quotient(d, weighed, error) : walk(&s, &ended, error);
-    if (status == TN_OK && !over)
-        status = finish(&s, &ended, d, error);
+    tn_status status = TN_OK;
+    if (mpz_sgn(kept) > 0)
+        status = over ? make_quotient(d, weighed, error) : make_sum(d, weighed, mpz_size(kept), error);
     mpz_sub(d->without, kept, d->all);
-    level_clear(&ended);
     mpz_clear(kept);
-    free(s.arcs);
-    free(s.dense);
-    free(s.pairs);
-    free(s.numbers);
     return status;
 }
 

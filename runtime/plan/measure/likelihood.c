@@ -1,4 +1,4 @@
-/* Adds up how likely the plans of a library are, from the end. */
+/* Adds up how likely the plans of a library are, backwards over its layers of states (walk.h). */
 #include <stdlib.h>
 #include <string.h>
 
@@ -243,9 +243,48 @@ static tn_status make_edges(tn_likelihood *l, tn_error *error)
 
 /* ---- masses */
 
-/* What a plan is worth that ends in the state. */
-static void end_mass(const tn_likelihood *l, uint32_t state, mpz_t mass)
+typedef struct adding {
+    const tn_likelihood *likelihood;
+    mpz_t part;
+} adding;
+
+static bool starts(void *context, uint32_t layer)
 {
+    (void)context, (void)layer;
+    return true;
+}
+
+static tn_status edges_of(void *context, uint32_t layer, uint32_t state, tn_walk_seen *seen, void *walk,
+                          tn_error *error)
+{
+    const tn_likelihood *l = context;
+    uint32_t left = l->library->max - layer;
+    tn_status status = TN_OK;
+    for (size_t e = l->first[state]; status == TN_OK && e < l->first[state + 1]; e++)
+        if (tn_weighed_alive(l->weighed, left - 1, l->edges[e].target))
+            status = seen(walk, l->edges[e].target, &l->edges[e], error);
+    return status;
+}
+
+static void no_mass(const void *context, void *mass)
+{
+    (void)context;
+    mpz_init(mass);
+}
+
+static void clear_mass(void *mass)
+{
+    mpz_clear(mass);
+}
+
+/* What a plan is worth that ends in the state. */
+static tn_status end_mass(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+{
+    const adding *a = context;
+    const tn_likelihood *l = a->likelihood;
+    mpz_ptr mass = element;
+    if (layer < l->library->max)
+        return state == 0 ? tn_weighed_check(l->weighed, error) : TN_OK;
     mpz_t power;
     mpz_init(power);
     mpz_set_ui(mass, tn_weighed_alive(l->weighed, 0, state) ? 1 : 0);
@@ -257,19 +296,22 @@ static void end_mass(const tn_likelihood *l, uint32_t state, mpz_t mass)
         mpz_mul(mass, mass, power);
     }
     mpz_clear(power);
+    return TN_OK;
 }
 
-static void add_mass(const tn_likelihood *l, uint32_t left, uint32_t state, mpz_t mass, mpz_t part)
+static tn_status add_mass(void *context, void *mass, const void *element, const tn_walk_edge *edge, tn_error *error)
 {
-    for (size_t e = l->first[state]; e < l->first[state + 1]; e++) {
-        const tn_likely_edge *edge = &l->edges[e];
-        if (!tn_weighed_alive(l->weighed, left - 1, edge->target))
-            continue;
-        mpz_set(part, l->mass[left - 1][edge->target]);
-        tn_likely_apply(l, edge->factor, part);
-        mpz_addmul(mass, part, l->letter[edge->letter]);
-    }
+    adding *a = context;
+    const tn_likely_edge *label = edge->label;
+    (void)error;
+    mpz_set(a->part, element);
+    tn_likely_apply(a->likelihood, label->factor, a->part);
+    mpz_addmul(mass, a->part, a->likelihood->letter[label->letter]);
+    return TN_OK;
 }
+
+static const tn_walk_graph likely_graph = {starts, edges_of};
+TN_WALK_ALGEBRA(mass_algebra, no_mass, clear_mass, end_mass, add_mass, NULL);
 
 /* Bits of the largest mass, and a few more. */
 static uint64_t bits_of(const tn_likelihood *l)
@@ -295,23 +337,18 @@ static tn_status make_masses(tn_likelihood *l, tn_error *error)
     tn_status status = tn_watch_room(l->library->schema->module->watch, bytes, "adding up the weights", error);
     if (status == TN_LIMIT)
         tn_error_help(error, "give fewer trays with --trays, or raise the limit with --memory-limit");
-    l->mass = status == TN_OK ? calloc((size_t)max + 1, sizeof *l->mass) : NULL;
-    mpz_t part;
-    mpz_init(part);
-    for (uint32_t left = 0; status == TN_OK && left <= max; left++) {
-        status = tn_weighed_check(l->weighed, error);
-        if (status == TN_OK && (!l->mass || !(l->mass[left] = tn_integers_new(l->states))))
-            status = tn_fail_memory(error);
-        for (uint32_t s = 0; status == TN_OK && s < l->states; s++) {
-            if (l->depth[s] + left > max)
-                continue;
-            if (left == 0)
-                end_mass(l, s, l->mass[left][s]);
-            else
-                add_mass(l, left, s, l->mass[left][s], part);
-        }
+    adding a = {.likelihood = l};
+    mpz_init(a.part);
+    if (status == TN_OK)
+        status = tn_walk_begin(&l->walk, max, true, error);
+    for (uint32_t n = 0, count = 0; status == TN_OK && n <= max; n++) {
+        while (count < l->states && l->depth[count] <= n)
+            count++;
+        status = tn_walk_fill(&l->walk, n, count, error);
     }
-    mpz_clear(part);
+    if (status == TN_OK)
+        status = tn_walk_backward(&l->walk, &likely_graph, l, &mass_algebra, &a, sizeof(mpz_t), error);
+    mpz_clear(a.part);
     return status;
 }
 
@@ -330,7 +367,7 @@ static tn_status make_lengths(tn_likelihood *l, tn_error *error)
         mpz_set(l->lengths[n + 1], l->lengths[n]);
         tn_likely_scale(l, n, scale);
         if (n >= l->library->min)
-            mpz_addmul(l->lengths[n + 1], l->mass[n][0], scale);
+            mpz_addmul(l->lengths[n + 1], tn_likely_mass(l, n, 0), scale);
     }
     mpz_pow_ui(l->scale, l->common, max);
     for (uint32_t k = 0; k < l->around; k++) {
@@ -369,9 +406,7 @@ void tn_likelihood_free(tn_likelihood *l)
 {
     if (!l)
         return;
-    for (uint32_t n = 0; l->mass && n <= l->library->max; n++)
-        tn_integers_free(l->mass[n], l->states);
-    free(l->mass);
+    tn_walk_clear(&l->walk, NULL, &mass_algebra);
     tn_integers_free(l->lengths, (size_t)l->library->max + 2);
     tn_integers_free(l->alone, l->classes ? l->classes->count : 0);
     tn_integers_free(l->before, l->library->schema->tray_count);

@@ -2,7 +2,7 @@
 #ifndef TARTAN_PLAN_MEASURE_LIKELIHOOD_DATA_H
 #define TARTAN_PLAN_MEASURE_LIKELIHOOD_DATA_H
 
-#include "runtime/plan/automata/numbering.h"
+#include "runtime/plan/automata/walk.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/measure/likelihood.h"
 #include "runtime/plan/measure/weighed.h"
@@ -39,8 +39,7 @@ struct tn_likelihood {
     uint32_t states;
     uint32_t *depth; /* [states]: the fewest trays that lead there */
     size_t depth_room;
-    mpz_t **mass;   /* [max + 1]: [states] by trays to come, where the depth leaves room for so many; times the
-                       denominators of weights that look around, to the power of the most trays */
+    tn_layers walk; /* by trays to come; layer n has the states of a depth up to n, and masses backwards */
     mpz_t *lengths; /* [max + 2]: where the plans of a length begin on the line of all */
     mpz_t scale;    /* a mass is the weight times this, on the line of all */
 };
@@ -49,6 +48,13 @@ struct tn_likelihood {
 static inline mpz_srcptr tn_likely_alone(const tn_likelihood *likelihood, tn_tray tray)
 {
     return likelihood->alone[likelihood->classes->of_tray[tray]];
+}
+
+/* What the plans come to that go on from a state with so many trays: times the denominators of weights that look
+ * around, to the power of the most trays. */
+static inline mpz_srcptr tn_likely_mass(const tn_likelihood *likelihood, uint32_t left, uint32_t state)
+{
+    return tn_walk_backward_of(&likelihood->walk, likelihood->walk.last - left, state);
 }
 
 /* mass := mass * up / down, which is whole for what a plan can still become. */

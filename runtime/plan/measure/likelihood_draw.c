@@ -189,7 +189,7 @@ static uint32_t follow(drawing *d, uint32_t state, uint32_t left, step *to, tn_t
         const tn_likely_edge *edge = &l->edges[e];
         if (!tn_weighed_alive(l->weighed, left - 1, edge->target))
             continue;
-        mpz_set(d->part, l->mass[left - 1][edge->target]);
+        mpz_set(d->part, tn_likely_mass(l, left - 1, edge->target));
         tn_likely_apply(l, edge->factor, d->part);
         mpz_mul(d->mass, d->part, l->letter[edge->letter]);
         if (mpz_cmp(d->place, d->mass) < 0)
@@ -228,7 +228,7 @@ static uint32_t find_plan(drawing *d, stretch *found)
     for (uint32_t i = 0; i < length; i++)
         state = follow(d, state, length - i, &d->steps[i], &d->trays[i]);
     mpz_set_ui(found->begin, 0);
-    mpz_set(found->size, l->mass[0][state]);
+    mpz_set(found->size, tn_likely_mass(l, 0, state));
     for (uint32_t i = length; i-- > 0;) {
         mpz_srcptr alone = tn_likely_alone(l, d->trays[i]);
         mpz_mul(found->begin, found->begin, alone);

@@ -3,60 +3,38 @@
 
 #include <stdlib.h>
 
-#include "runtime/base/array.h"
-#include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/measure/distribution.h"
+#include "runtime/plan/measure/weighed_layers.h"
 
 /* The plans that lead to a state, or all that end. */
-typedef struct heap {
-    uint32_t state;
+typedef struct sums {
     mpz_t count, sum, squares;
     int64_t least, most;
-} heap;
+} sums;
 
-typedef struct level {
-    tn_numbering numbers; /* of states */
-    heap *heaps;
-    size_t room;
-} level;
+typedef struct adding {
+    const tn_weighed *weighed;
+    uint32_t min;
+    sums *all;
+} adding;
 
-static void heap_init(heap *h, uint32_t state)
+static void sums_init(const void *context, void *element)
 {
-    *h = (heap){.state = state, .least = INT64_MAX, .most = INT64_MIN};
+    sums *h = element;
+    (void)context;
+    *h = (sums){.least = INT64_MAX, .most = INT64_MIN};
     mpz_inits(h->count, h->sum, h->squares, NULL);
 }
 
-static void heap_clear(heap *h)
+static void sums_clear(void *element)
 {
+    sums *h = element;
     mpz_clears(h->count, h->sum, h->squares, NULL);
 }
 
-static void level_clear(level *l)
-{
-    for (uint32_t i = 0; i < l->numbers.count; i++)
-        heap_clear(&l->heaps[i]);
-    free(l->heaps);
-    tn_numbering_clear(&l->numbers);
-    *l = (level){0};
-}
-
-/* The state's heap; NULL where out of memory. */
-static heap *heap_at(level *l, uint32_t state)
-{
-    uint32_t before = l->numbers.count;
-    if (!tn_array_reserve(&l->heaps, &l->room, before, 1, sizeof *l->heaps))
-        return NULL;
-    uint32_t index = tn_number(&l->numbers, state);
-    if (index == UINT32_MAX)
-        return NULL;
-    if (index == before)
-        heap_init(&l->heaps[index], state);
-    return &l->heaps[index];
-}
-
-/* Adds the plans of a heap, each `times` times, with `gain` more. */
-static void pour(heap *to, const heap *from, uint64_t times, int64_t gain)
+/* Adds the plans of `from`, each `times` times, with `gain` more. */
+static void add_shifted(sums *to, const sums *from, uint64_t times, int64_t gain)
 {
     mpz_t more, step;
     mpz_init(more);
@@ -74,64 +52,57 @@ static void pour(heap *to, const heap *from, uint64_t times, int64_t gain)
     mpz_clears(more, step, NULL);
 }
 
-/* Does a kept plan of the library's lengths follow, after n trays? */
-static bool leads_on(const tn_weighed *w, uint32_t n, uint32_t state)
+/* The plan without trays, which has the start value. */
+static tn_status begin(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
 {
-    const tn_library *library = tn_weighed_library(w);
-    uint32_t low = n < library->min ? library->min - n : 0;
-    for (uint32_t left = low; left <= library->max - n; left++)
-        if (tn_weighed_alive(w, left, state))
-            return true;
-    return false;
+    const adding *s = context;
+    sums *start = element;
+    int64_t first = tn_weighed_start(s->weighed, 0);
+    (void)layer, (void)state, (void)error;
+    mpz_set_ui(start->count, 1);
+    mpz_set_si(start->sum, first);
+    mpz_mul(start->squares, start->sum, start->sum);
+    start->least = start->most = first;
+    return TN_OK;
 }
 
-static tn_status step(tn_weighed *w, const heap *from, uint32_t n, level *next, tn_error *error)
+static tn_status extend(void *context, void *sum, const void *element, const tn_walk_edge *edge, tn_error *error)
 {
-    const tn_weighed_edge *edges;
-    size_t count;
-    tn_status status = tn_weighed_edges(w, from->state, &edges, &count, error);
-    for (size_t e = 0; status == TN_OK && e < count; e++) {
-        if (!leads_on(w, n + 1, edges[e].target))
-            continue;
-        heap *to = heap_at(next, edges[e].target);
-        if (!to)
-            return tn_fail_memory(error);
-        pour(to, from, edges[e].trays, edges[e].gain[0]);
-    }
-    return status;
+    const tn_weighed_edge *label = edge->label;
+    (void)context, (void)error;
+    add_shifted(sum, element, label->trays, label->gain[0]);
+    return TN_OK;
 }
 
-static tn_status walk(tn_weighed *w, heap *all, tn_error *error)
+/* The plans that end here. */
+static tn_status end(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+{
+    const adding *s = context;
+    (void)error;
+    if (layer >= s->min && tn_weighed_ends(s->weighed, state))
+        add_shifted(s->all, element, 1, tn_weighed_rest(s->weighed, state, 0));
+    return TN_OK;
+}
+
+TN_WALK_ALGEBRA(moments_algebra, sums_init, sums_clear, begin, extend, end);
+
+/* Adds all plans to `all`. */
+static tn_status add_plans(tn_weighed *w, sums *all, tn_error *error)
 {
     const tn_library *library = tn_weighed_library(w);
-    level here = {0};
-    heap *start = heap_at(&here, 0);
-    tn_status status = start ? TN_OK : tn_fail_memory(error);
-    if (start) {
-        int64_t first = tn_weighed_start(w, 0);
-        mpz_set_ui(start->count, 1);
-        mpz_set_si(start->sum, first);
-        mpz_mul(start->squares, start->sum, start->sum);
-        start->least = start->most = first;
-    }
-    for (uint32_t n = 0; status == TN_OK && n <= library->max; n++) {
-        level next = {0};
-        for (uint32_t i = 0; status == TN_OK && i < here.numbers.count; i++) {
-            const heap *h = &here.heaps[i];
-            if (n >= library->min && tn_weighed_alive(w, 0, h->state) && tn_weighed_valued(w, h->state))
-                pour(all, h, 1, tn_weighed_rest(w, h->state, 0));
-            if (n < library->max)
-                status = step(w, h, n, &next, error);
-        }
-        level_clear(&here);
-        here = next;
-    }
-    level_clear(&here);
+    adding s = {w, library->min, all};
+    tn_layers walk = {0};
+    if (library->min > library->max)
+        return TN_OK;
+    tn_status status = tn_walk_begin(&walk, tn_weighed_last_layer(w), false, error);
+    if (status == TN_OK)
+        status = tn_walk_forward(&walk, &tn_weighed_after, w, &moments_algebra, &s, sizeof(sums), error);
+    tn_walk_clear(&walk, &moments_algebra, NULL);
     return status;
 }
 
 /* mean := sum / count, variance := squares / count - mean^2, all in steps of the unit. */
-static void conclude(tn_measure_moments *m, const heap *all, mpq_srcptr unit)
+static void conclude(tn_measure_moments *m, const sums *all, mpq_srcptr unit)
 {
     mpq_t square;
     mpz_set(m->plans, all->count);
@@ -174,28 +145,26 @@ static tn_status find_of_quotient(tn_measure_moments *m, tn_weighed *weighed, tn
 
 tn_status tn_measure_moments_find(tn_measure_moments *m, tn_weighed *weighed, tn_error *error)
 {
-    const tn_library *library = tn_weighed_library(weighed);
     bool over;
     tn_weighed_sum(weighed, 0, &over);
     if (over)
         return find_of_quotient(m, weighed, error);
-    heap all;
-    heap_init(&all, 0);
-    tn_status status = library->min <= library->max ? walk(weighed, &all, error) : TN_OK;
+    sums all;
+    sums_init(NULL, &all);
+    tn_status status = add_plans(weighed, &all, error);
     if (status == TN_OK)
         conclude(m, &all, tn_weighed_unit(weighed, 0));
-    heap_clear(&all);
+    sums_clear(&all);
     return status;
 }
 
 tn_status tn_weighed_plans(tn_weighed *weighed, mpz_t plans, tn_error *error)
 {
-    const tn_library *library = tn_weighed_library(weighed);
-    heap all;
-    heap_init(&all, 0);
-    tn_status status = library->min <= library->max ? walk(weighed, &all, error) : TN_OK;
+    sums all;
+    sums_init(NULL, &all);
+    tn_status status = add_plans(weighed, &all, error);
     mpz_set(plans, all.count);
-    heap_clear(&all);
+    sums_clear(&all);
     return status;
 }
 

@@ -5,21 +5,20 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/library/library_data.h"
+#include "runtime/plan/measure/weighed_layers.h"
 
 /* A completion of a state that no other betters: the first tray, and which of the child's points it goes on with. */
 typedef struct point {
     int64_t value[TN_WEIGHED_MAX]; /* with the sign that makes less better */
     mpz_t plans;
     tn_tray tray;
-    uint32_t child, child_point;
+    uint32_t child, child_point; /* child: its place in the next layer */
 } point;
 
 typedef struct front {
     point *points;
     size_t count, room;
-    bool made;
 } front;
 
 typedef struct fronts {
@@ -28,19 +27,22 @@ typedef struct fronts {
     int64_t sign[TN_WEIGHED_MAX];
     bool exact[TN_WEIGHED_MAX]; /* sums of which none is better: both of a quotient */
     bool any_exact, all_exact;
-    size_t most;          /* points of a state */
-    tn_numbering numbers; /* left << 32 | state -> front */
-    front *items;
-    uint32_t count; /* of items: one fewer than the numbers where memory ran out */
-    size_t room;
+    size_t most;    /* points of a state */
+    tn_layers walk; /* by trays to come; a node's element is its front */
 } fronts;
 
-static void front_clear(front *f)
+static void front_init(const void *context, void *element)
 {
+    (void)context;
+    *(front *)element = (front){0};
+}
+
+static void front_clear(void *element)
+{
+    front *f = element;
     for (size_t i = 0; i < f->count; i++)
         mpz_clear(f->points[i].plans);
     free(f->points);
-    *f = (front){0};
 }
 
 static bool add_point(front *f, const int64_t *value, const mpz_t plans, uint64_t times, tn_tray tray, uint32_t child,
@@ -114,75 +116,54 @@ static tn_status too_many(const fronts *all, tn_error *error)
     return TN_LIMIT;
 }
 
-static tn_status number_of(fronts *all, uint32_t left, uint32_t state, uint32_t *index, tn_error *error)
-{
-    uint32_t before = all->numbers.count;
-    *index = tn_number(&all->numbers, (uint64_t)left << 32 | state);
-    if (*index == UINT32_MAX)
-        return tn_fail_memory(error);
-    if (*index < before)
-        return TN_OK;
-    if (!tn_array_reserve_from(&all->items, &all->room, 256, *index, 1, sizeof *all->items))
-        return tn_fail_memory(error);
-    all->items[*index] = (front){0};
-    all->count = *index + 1;
-    return TN_OK;
-}
+/* ---- the algebra */
 
-static tn_status make_end(fronts *all, uint32_t state, front *made, tn_error *error)
+/* The plan that ends in the state, if it is one. */
+static tn_status end(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
 {
+    const fronts *all = context;
     int64_t value[TN_WEIGHED_MAX] = {0};
-    if (!tn_weighed_alive(all->weighed, 0, state) || !tn_weighed_valued(all->weighed, state))
+    if (layer < all->library->max || !tn_weighed_ends(all->weighed, state))
         return TN_OK;
     for (uint32_t k = 0; k < tn_weighed_count(all->weighed); k++)
         value[k] = all->sign[k] * tn_weighed_rest(all->weighed, state, k);
     mpz_t one;
     mpz_init_set_ui(one, 1);
-    bool ok = add_point(made, value, one, 1, 0, 0, 0);
+    bool ok = add_point(element, value, one, 1, 0, 0, 0);
     mpz_clear(one);
     return ok ? TN_OK : tn_fail_memory(error);
 }
 
-/* Recursion is as deep as plans are long. */
-static tn_status make(fronts *all, uint32_t left, uint32_t state, uint32_t *index, tn_error *error)
+static tn_status extend(void *context, void *sum, const void *element, const tn_walk_edge *edge, tn_error *error)
 {
-    tn_status status = number_of(all, left, state, index, error);
-    if (status != TN_OK || all->items[*index].made)
-        return status;
-    front made = {.made = true};
-    const tn_weighed_edge *edges = NULL;
-    size_t count = 0;
-    if (left == 0)
-        status = make_end(all, state, &made, error);
-    else
-        status = tn_weighed_edges(all->weighed, state, &edges, &count, error);
-    for (size_t e = 0; status == TN_OK && e < count; e++) {
-        tn_weighed_edge edge = edges[e];
-        uint32_t child;
-        if (!tn_weighed_alive(all->weighed, left - 1, edge.target))
-            continue;
-        status = make(all, left - 1, edge.target, &child, error);
-        for (size_t i = 0; status == TN_OK && i < all->items[child].count; i++) {
-            const point *p = &all->items[child].points[i];
-            int64_t value[TN_WEIGHED_MAX];
-            for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
-                value[k] = p->value[k] + all->sign[k] * edge.gain[k];
-            if (!add_point(&made, value, p->plans, edge.trays, edge.first, child, (uint32_t)i))
-                status = tn_fail_memory(error);
-        }
-        if (status == TN_OK)
-            status = tn_weighed_check(all->weighed, error);
-        if (status == TN_OK && made.count > 4 * all->most)
-            reduce(all, &made);
-        if (status == TN_OK && made.count > 4 * all->most)
-            status = too_many(all, error);
+    const fronts *all = context;
+    const front *from = element;
+    const tn_weighed_edge *label = edge->label;
+    front *made = sum;
+    for (size_t i = 0; i < from->count; i++) {
+        const point *p = &from->points[i];
+        int64_t value[TN_WEIGHED_MAX];
+        for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+            value[k] = p->value[k] + all->sign[k] * label->gain[k];
+        if (!add_point(made, value, p->plans, label->trays, label->first, edge->to, (uint32_t)i))
+            return tn_fail_memory(error);
     }
-    reduce(all, &made);
-    if (status == TN_OK && made.count > all->most)
-        status = too_many(all, error);
-    all->items[*index] = made;
-    return status;
+    tn_status status = tn_weighed_check(all->weighed, error);
+    if (status == TN_OK && made->count > 4 * all->most)
+        reduce(all, made);
+    return status == TN_OK && made->count > 4 * all->most ? too_many(all, error) : status;
 }
+
+static tn_status settle(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+{
+    const fronts *all = context;
+    front *made = element;
+    (void)layer, (void)state;
+    reduce(all, made);
+    return made->count > all->most ? too_many(all, error) : TN_OK;
+}
+
+TN_WALK_ALGEBRA(front_algebra, front_init, front_clear, end, extend, settle);
 
 /* ---- the library's front */
 
@@ -195,10 +176,13 @@ static tn_status fill_point(fronts *all, const point *p, uint32_t length, tn_par
     for (uint32_t k = 0; k < tn_weighed_count(all->weighed); k++)
         out->values[k] = all->sign[k] * p->value[k] + tn_weighed_start(all->weighed, k);
     mpz_set(out->plans, p->plans);
-    const point *at = &all->items[p->child].points[p->child_point];
+    const tn_layers *walk = &all->walk;
+    uint32_t layer = walk->last - length;
+    const point *at = p;
     for (uint32_t i = 0; i < length; i++) {
+        const front *f = tn_walk_backward_of(walk, layer + i, at->child);
+        at = &f->points[at->child_point];
         out->trays[i] = at->tray;
-        at = &all->items[at->child].points[at->child_point];
     }
     return TN_OK;
 }
@@ -209,13 +193,13 @@ static tn_status join_lengths(fronts *all, front *whole, tn_error *error)
     const tn_library *library = all->library;
     tn_status status = TN_OK;
     for (uint32_t n = library->min; status == TN_OK && n <= library->max; n++) {
-        uint32_t index;
-        if (!tn_weighed_alive(all->weighed, n, 0))
+        uint32_t layer = library->max - n, start = tn_walk_at(&all->walk, layer)->start;
+        if (start == TN_NO_STATE)
             continue;
-        status = make(all, n, 0, &index, error);
-        for (size_t i = 0; status == TN_OK && i < all->items[index].count; i++) {
-            const point *p = &all->items[index].points[i];
-            if (!add_point(whole, p->value, p->plans, 1, n, index, (uint32_t)i))
+        const front *f = tn_walk_backward_of(&all->walk, layer, start);
+        for (size_t i = 0; status == TN_OK && i < f->count; i++) {
+            const point *p = &f->points[i];
+            if (!add_point(whole, p->value, p->plans, 1, n, start, (uint32_t)i))
                 status = tn_fail_memory(error);
         }
     }
@@ -223,11 +207,27 @@ static tn_status join_lengths(fronts *all, front *whole, tn_error *error)
     return status;
 }
 
+/* The front of each state with so many trays to come. */
+static tn_status find_fronts(fronts *all, tn_error *error)
+{
+    tn_weighed *w = all->weighed;
+    if (all->library->min > all->library->max)
+        return TN_OK;
+    tn_status status = tn_walk_begin(&all->walk, tn_weighed_last_layer(w), true, error);
+    if (status == TN_OK)
+        status = tn_walk_forward(&all->walk, &tn_weighed_to_come, w, NULL, NULL, 0, error);
+    if (status == TN_OK)
+        status = tn_walk_backward(&all->walk, &tn_weighed_to_come, w, &front_algebra, all, sizeof(front), error);
+    return status;
+}
+
 /* The points of all sums that are not bettered, each with a plan. */
 static tn_status make_points(tn_pareto_front *out, fronts *all, tn_error *error)
 {
     front whole = {0};
-    tn_status status = join_lengths(all, &whole, error);
+    tn_status status = find_fronts(all, error);
+    if (status == TN_OK)
+        status = join_lengths(all, &whole, error);
     if (status == TN_OK && !(out->points = calloc(whole.count + 1, sizeof *out->points)))
         status = tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < whole.count; i++) {
@@ -236,10 +236,7 @@ static tn_status make_points(tn_pareto_front *out, fronts *all, tn_error *error)
         out->count++;
     }
     front_clear(&whole);
-    for (uint32_t i = 0; i < all->count; i++)
-        front_clear(&all->items[i]);
-    free(all->items);
-    tn_numbering_clear(&all->numbers);
+    tn_walk_clear(&all->walk, NULL, &front_algebra);
     return status;
 }
 

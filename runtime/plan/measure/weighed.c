@@ -461,11 +461,6 @@ uint32_t tn_weighed_letters(const tn_weighed *w)
     return w->letters;
 }
 
-uint32_t tn_weighed_states(const tn_weighed *w)
-{
-    return w->states.count;
-}
-
 static uint32_t library_state(const tn_weighed *w, uint32_t state)
 {
     size_t size;

@@ -70,7 +70,4 @@ uint32_t tn_weighed_letters(const tn_weighed *weighed);
 tn_status tn_weighed_step(tn_weighed *weighed, uint32_t state, uint32_t letter, uint32_t *target, int64_t *gain,
                           tn_error *error);
 
-/* How many states have been met. */
-uint32_t tn_weighed_states(const tn_weighed *weighed);
-
 #endif
