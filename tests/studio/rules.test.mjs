@@ -39,6 +39,12 @@ async function becomes(page, name, wanted) {
   await page.locator('.rule-drawing[aria-busy="false"]:not(.old) svg').waitFor();
 }
 
+// The rule is chosen, and its picture is drawn.
+async function chooses(page, name) {
+  await page.locator("#rule-name").selectOption(name);
+  await page.locator(`.rule-drawing[aria-busy="false"][aria-label="The rule ${name} as a picture"]`).waitFor();
+}
+
 async function newRule(page, name) {
   await page.locator("#new-rule").click();
   await page.locator("#new-rule-name").fill(name);
@@ -50,12 +56,20 @@ async function newRule(page, name) {
 
 const part = (page, number) => page.locator(`.rule-stage svg [data-part="${number}"]`).first();
 
+// Where it is once it stays there: what is counted meanwhile may come to stand above it.
 async function at(locator, [x, y] = [0.5, 0.5]) {
-  const box = await locator.evaluate((element) => {
+  const read = () => locator.evaluate((element) => {
     element.scrollIntoView({block: "nearest", inline: "nearest"});
     const {left, top, width, height} = element.getBoundingClientRect();
     return {left, top, width, height};
   });
+  let box = await read();
+  for (let i = 0; i < 40; i++) {
+    await locator.page().waitForTimeout(50);
+    const now = await read();
+    if (now.top === box.top && now.left === box.left) break;
+    box = now;
+  }
   return [box.left + box.width * x, box.top + box.height * y];
 }
 
@@ -235,7 +249,7 @@ library rows`);
 
 test("a rule of another schema: boxes of words, values of each field, ranges, joined and denied", async (t) => {
   const page = await begin(t, {files: {"rows.plan": BAY}});
-  await page.locator("#rule-name").selectOption("wide");
+  await chooses(page, "wide");
   await part(page, 1).waitFor();
   await page.locator(".rule-drawing").focus();
   await keys(page, "Home", "ArrowRight");
@@ -265,7 +279,7 @@ test("a rule of another schema: boxes of words, values of each field, ranges, jo
 
 test("parts are moved, pulled out and thrown away, and what cannot be is said", async (t) => {
   const page = await begin(t, {files: {"rows.plan": BAY}});
-  await page.locator("#rule-name").selectOption("wide");
+  await chooses(page, "wide");
   await part(page, 2).waitFor();
   await drag(page, part(page, 2), part(page, 1), LEFT);
   await becomes(page, "wide", "neighbour(tray(stair), tray(room, 6m))");
@@ -302,7 +316,7 @@ test("parts are moved, pulled out and thrown away, and what cannot be is said", 
 test("undo and redo, in the editor and beside it", async (t) => {
   const page = await begin(t, {files: {"rows.plan": BAY}});
   const before = await text(page);
-  await page.locator("#rule-name").selectOption("wide");
+  await chooses(page, "wide");
   await put(page, "not", 1);
   await becomes(page, "wide", "neighbour(not tray(room, 6m), tray(stair))");
   await put(page, "any", 3, RIGHT);
@@ -323,7 +337,7 @@ test("undo and redo, in the editor and beside it", async (t) => {
 
 test("a rule that cannot be read keeps its last picture, in grey", async (t) => {
   const page = await begin(t, {files: {"rows.plan": BAY}});
-  await page.locator("#rule-name").selectOption("wide");
+  await chooses(page, "wide");
   await part(page, 2).waitFor();
   await write(page, {over: "6m), tray(stair))", typed: "6m), tray(stair"});
   await page.locator(".rule-drawing.old svg").waitFor();
@@ -343,7 +357,7 @@ test("two windows on one file", {skip: PLAYGROUND ? "one page has no other windo
     const page = await visit(t, address);
     await page.locator("#count").waitFor();
     await page.getByRole("tab", {name: "Rule", exact: true}).click();
-    await page.locator("#rule-name").selectOption("wide");
+    await chooses(page, "wide");
     await part(page, 2).waitFor();
     pages.push(page);
   }
@@ -362,7 +376,7 @@ test("what a rule does to the library, from the list of clauses and as a clause"
   await effect.getByText(/^It leaves out [\d,]+ of [\d,]+ plans/).waitFor();
   const plan = await effect.locator(".card").getAttribute("title");
   assert.match(plan, /hall 3m/, "the plan that is shown is one that it leaves out");
-  await page.locator("#rule-name").selectOption("wide");
+  await chooses(page, "wide");
   await effect.getByText(/^No clause of rows asks for it/).waitFor();
   await effect.getByRole("button", {name: "Leave such plans out"}).click();
   assert.match(await text(page), /\n  prune wide\n}/);

@@ -78,6 +78,7 @@ export class RulePicture {
     svg.removeAttribute("aria-label");
     svg.setAttribute("aria-hidden", "true");
     this.rule = rule;
+    this.element.setAttribute("aria-label", `The rule ${rule.rule} as a picture`);
     this.svg = svg;
     this.boxes.clear();
     for (const group of svg.querySelectorAll("g[data-part]")) {
