@@ -1,7 +1,7 @@
 /* All houses of a library: counted without going through plans or houses. Their ranks: runtime/house/rank/rank.h.
  *
  * The row is read tray by tray. What has to be known between two trays is a state; the states that plans and houses
- * reach together are counted, layer by layer (runtime/house/strip says what a state is). Sections that nothing tells
+ * reach together are counted, layer by layer (runtime/house/frontier says what a state is). Sections that nothing tells
  * apart share the work. Past a limit of states it is TN_LIMIT (E1640), which names the clause that makes the most of
  * them; houses on one plan (variant.h) do not depend on it.
  *
@@ -12,9 +12,9 @@
 
 #include <gmp.h>
 
+#include "runtime/house/frontier/without.h"
 #include "runtime/house/house.h"
 #include "runtime/house/measure/measure.h"
-#include "runtime/house/strip/without.h"
 #include "runtime/house/variant/variant.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/measure/complete.h"

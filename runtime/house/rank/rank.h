@@ -2,7 +2,7 @@
  *
  * Ranks compare the plan first: the rank of a house is that of the first house on its plan, and its number among the
  * houses on that plan. These are in the order of section, functions, faces, tiles. No list of plans or houses is gone
- * through: what is ahead is counted tray by tray (runtime/house/strip).
+ * through: what is ahead is counted tray by tray (runtime/house/frontier).
  */
 #ifndef TARTAN_HOUSE_RANK_RANK_H
 #define TARTAN_HOUSE_RANK_RANK_H

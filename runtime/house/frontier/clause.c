@@ -1,0 +1,439 @@
+/* Makes an automaton of each clause, over letters that say what a tray and its house are to the clause.
+ *
+ * A letter is a base, which a slice has by itself, and a value for what is known only at the slice's right side: cells
+ * that meet across it, rooms that end there, walks that turn out to lead nowhere; where in the row these are, is read
+ * from several letters (spans.c). */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/house/frontier/parts.h"
+#include "runtime/house/frontier/placed.h"
+#include "runtime/plan/match/condition.h"
+#include "runtime/plan/match/rules.h"
+#include "runtime/plan/match/tray_relations.h"
+
+#define AREA_STEPS_MAX UINT64_C(1000000) /* of the sum of all areas */
+
+tn_status tn_strip_clauses_new(tn_strip *strip, tn_error *error)
+{
+    const tn_module *module = strip->form->module;
+    tn_status status = TN_OK;
+    strip->clauses = calloc((size_t)strip->library->clause_count + 1, sizeof *strip->clauses);
+    if (!strip->clauses)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < strip->library->clause_count; i++) {
+        const tn_house_clause_record *record = &module->HOUSE_CLAUSE_records[strip->library->clause_first + i];
+        tn_strip_clause *clause = &strip->clauses[strip->clause_count++];
+        bool without = strip->without && i >= strip->without->first;
+        *clause = (tn_strip_clause){.holds = record->holds,
+                                    .prunes = record->kind == TN_CLAUSE_PRUNE,
+                                    .without = without,
+                                    .differs = without && strip->without->differs,
+                                    .radix = 1};
+        status = tn_classes_new(strip->form->schema, &clause->holds, 1, &clause->classes, error);
+    }
+    return status;
+}
+
+void tn_strip_clauses_free(tn_strip *strip)
+{
+    for (uint32_t i = 0; i < strip->clause_count; i++) {
+        tn_classes_free(strip->clauses[i].classes);
+        tn_interner_clear(&strip->clauses[i].bases);
+        tn_strip_horizons_free(strip, &strip->clauses[i]);
+        tn_dfa_free(strip->clauses[i].dfa);
+        free(strip->clauses[i].atoms);
+    }
+    free(strip->clauses);
+}
+
+/* ---- bases */
+
+static uint32_t count_cells(const tn_house *house, uint32_t function)
+{
+    uint32_t count = 0;
+    for (size_t i = 0; i < house->cell_count; i++)
+        count += tn_house_decide(house, function, &house->cells[i]);
+    return count;
+}
+
+static uint32_t sum_areas(tn_strip *strip, const tn_house *house, uint32_t function)
+{
+    tn_int128 area = 0;
+    for (size_t i = 0; i < house->cell_count; i++)
+        if (!house->cells[i].open && tn_house_decide(house, function, &house->cells[i]))
+            area += tn_cell_area(&house->cells[i]);
+    return tn_strip_number_area(strip, area);
+}
+
+static bool meets_inside(const tn_strip *strip, const tn_house *house, uint32_t meeting)
+{
+    for (size_t i = 0; i < house->face_count; i++)
+        if (tn_strip_meets(strip, house, &house->faces[i], meeting))
+            return true;
+    return false;
+}
+
+static uint32_t word_of(tn_strip *strip, const tn_strip_atom *atom, const tn_house *house)
+{
+    switch (atom->op.opcode) {
+    case TN_OP_SOME_CELL:
+        return count_cells(house, (uint32_t)atom->op.first) > 0;
+    case TN_OP_CELLS:
+        return count_cells(house, (uint32_t)atom->op.first);
+    case TN_OP_AREAS:
+        return sum_areas(strip, house, (uint32_t)atom->op.first);
+    case TN_OP_MEETS:
+        return meets_inside(strip, house, atom->of);
+    case TN_OP_SECTION_IS:
+        return tn_house_decide(house, (uint32_t)atom->op.first, NULL);
+    default:
+        return 0;
+    }
+}
+
+tn_status tn_strip_base(tn_strip *strip, tn_strip_clause *clause, const tn_house *house, uint32_t *base,
+                        tn_error *error)
+{
+    tn_key *key = &strip->key;
+    key->size = 0;
+    bool ok = tn_key_push(key, clause->classes->of_tray[house->trays[0]]);
+    for (size_t i = 0; ok && i < clause->atom_count; i++) {
+        uint32_t word = word_of(strip, &clause->atoms[i], house);
+        ok = word != UINT32_MAX && tn_key_push(key, word);
+    }
+    *base = ok ? tn_intern(&clause->bases, key->data, key->size) : UINT32_MAX;
+    return *base != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+}
+
+/* ---- relations of the instructions */
+
+typedef struct tn_strip_lowering {
+    tn_strip *strip;
+    const tn_strip_clause *clause;
+    const char *name;
+} tn_strip_lowering;
+
+static size_t find_atom(const tn_strip_clause *clause, const tn_instruction *op)
+{
+    size_t i = 0;
+    while (clause->atoms[i].op.opcode != op->opcode || clause->atoms[i].op.first != op->first ||
+           clause->atoms[i].op.second != op->second)
+        i++;
+    return i;
+}
+
+/* What the letter's base says of the atom. */
+static uint32_t base_of(const tn_strip_clause *clause, uint32_t letter, size_t atom)
+{
+    size_t size;
+    return tn_interned(&clause->bases, letter / clause->radix, &size)[1 + atom];
+}
+
+/* What its value says. */
+static uint32_t value_of(const tn_strip_clause *clause, uint32_t letter, size_t atom)
+{
+    uint32_t value = letter % clause->radix;
+    for (size_t i = 0; i < atom; i++)
+        value /= clause->atoms[i].radix;
+    return value % clause->atoms[atom].radix;
+}
+
+typedef enum tn_letter_part { PART_BASE, PART_VALUE } tn_letter_part;
+
+/* Stretches of one tray whose letter's part is not 0. */
+static tn_status relate_letter(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_letter_part part,
+                               tn_dfa **out, tn_error *error)
+{
+    uint32_t letters = marked->letters - 1;
+    uint8_t *chosen = malloc((size_t)letters + 1);
+    if (!chosen)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < letters; i++)
+        chosen[i] = (part == PART_BASE ? base_of(l->clause, i, atom) : value_of(l->clause, i, atom)) != 0;
+    tn_status status = tn_marked_letter(marked, chosen, out, error);
+    free(chosen);
+    return status;
+}
+
+/* In one tray, or in two: then the left one's letter says so. */
+static tn_status relate_meeting(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+                                tn_error *error)
+{
+    tn_dfa *inside = NULL, *left = NULL, *across = NULL;
+    tn_status status = relate_letter(l, marked, atom, PART_BASE, &inside, error);
+    if (status == TN_OK)
+        status = relate_letter(l, marked, atom, PART_VALUE, &left, error);
+    if (status == TN_OK)
+        status = tn_marked_chain(marked, left, marked->single, &across, error);
+    if (status == TN_OK)
+        status = tn_dfa_product(inside, across, TN_DFA_OR, "touch", marked->bounds, out, error);
+    tn_dfa_free(inside);
+    tn_dfa_free(left);
+    tn_dfa_free(across);
+    return status;
+}
+
+static tn_status relate_section(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+                                tn_error *error)
+{
+    bool so = l->clause->bases.count > 0 && base_of(l->clause, 0, atom) != 0; /* of every letter */
+    if (!so)
+        return tn_dfa_constant(marked->letters, false, out, error);
+    *out = tn_dfa_share(marked->nonempty);
+    return TN_OK;
+}
+
+/* ---- counting */
+
+static tn_int128 common_unit(const tn_strip_lowering *l, uint32_t letters, size_t atom)
+{
+    tn_int128 unit = 0;
+    for (uint32_t i = 0; i < letters; i++) {
+        tn_int128 a = tn_strip_area(l->strip, base_of(l->clause, i, atom));
+        while (a != 0) {
+            tn_int128 rest = unit % a;
+            unit = a;
+            a = rest;
+        }
+    }
+    return unit > 0 ? unit : 1;
+}
+
+/* In halves of a square micrometre; what is no whole one is the odd number between its neighbours (opcodes.def). */
+static int64_t halves(tn_int128 area)
+{
+    enum { SQUARE_MICROMETRE = 1000000 };
+    tn_int128 twice = area / SQUARE_MICROMETRE * 2 + (area % SQUARE_MICROMETRE != 0);
+    return twice > INT64_MAX ? INT64_MAX : (int64_t)twice;
+}
+
+/* Which sums of areas, in units, meet the condition: up to the last at which it changes. The caller frees *holds. */
+static tn_status sums_that_hold(const tn_strip_lowering *l, uint32_t condition, tn_int128 unit, uint64_t most,
+                                tn_periodic_set *set, uint8_t **holds, tn_error *error)
+{
+    if (most > AREA_STEPS_MAX)
+        return tn_strip_limit(l->strip, l->name, "adds areas that have no large common measure", error);
+    *holds = malloc((size_t)most + 2);
+    if (!*holds)
+        return tn_fail_memory(error);
+    for (uint64_t n = 0; n <= most; n++)
+        (*holds)[n] = tn_condition_holds(l->strip->form->module, condition, halves((tn_int128)n * unit));
+    set->threshold = most;
+    while (set->threshold > 0 && (*holds)[set->threshold - 1] == (*holds)[most])
+        set->threshold--;
+    set->period = 1;
+    set->holds = *holds;
+    return TN_OK;
+}
+
+static tn_status relate_areas(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+                              tn_error *error)
+{
+    uint32_t letters = marked->letters - 1;
+    uint64_t *counts = malloc(((size_t)letters + 1) * sizeof *counts), most = 0;
+    uint8_t *holds = NULL;
+    tn_periodic_set set;
+    if (!counts)
+        return tn_fail_memory(error);
+    tn_int128 unit = common_unit(l, letters, atom);
+    for (uint32_t i = 0; i < letters; i++) {
+        counts[i] = (uint64_t)(tn_strip_area(l->strip, base_of(l->clause, i, atom)) / unit);
+        most = counts[i] > most ? counts[i] : most;
+    }
+    most = most > AREA_STEPS_MAX ? most : most * l->strip->trays_most;
+    tn_status status = sums_that_hold(l, (uint32_t)l->clause->atoms[atom].op.second, unit, most, &set, &holds, error);
+    if (status == TN_OK)
+        status = tn_marked_count(marked, marked->single, TN_TALLY_SINGLES, &set, counts, out, error);
+    free(counts);
+    free(holds);
+    return status;
+}
+
+static tn_status relate_count(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_letter_part part,
+                              tn_dfa **out, tn_error *error)
+{
+    uint32_t letters = marked->letters - 1;
+    uint64_t *counts = malloc(((size_t)letters + 1) * sizeof *counts);
+    if (!counts)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < letters; i++)
+        counts[i] = part == PART_BASE ? base_of(l->clause, i, atom) : value_of(l->clause, i, atom);
+    tn_status status = tn_relate_numbers(marked, l->strip->form->module, marked->single,
+                                         (uint32_t)l->clause->atoms[atom].op.second, counts, out, error);
+    free(counts);
+    return status;
+}
+
+/* The last letter says it of the whole row: its value is the sum of all values. */
+static tn_status relate_comparison(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+                                   tn_error *error)
+{
+    uint8_t holds[TN_STRIP_TRUTHS] = {[TRUTH_YES] = true};
+    uint32_t letters = marked->letters - 1;
+    uint64_t *counts = malloc(((size_t)letters + 1) * sizeof *counts);
+    bool empty = false;
+    tn_status status =
+        counts ? tn_strip_empty_meets(l->strip, &l->clause->atoms[atom].op, &empty, error) : tn_fail_memory(error);
+    holds[TRUTH_LATER] = empty; /* there is no letter */
+    const tn_periodic_set set = {.threshold = TRUTH_NO, .period = 1, .holds = holds};
+    for (uint32_t i = 0; counts && i < letters; i++)
+        counts[i] = value_of(l->clause, i, atom);
+    if (status == TN_OK)
+        status = tn_marked_count(marked, marked->single, TN_TALLY_SINGLES, &set, counts, out, error);
+    free(counts);
+    return status;
+}
+
+static tn_status relate_spans(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+                              tn_error *error)
+{
+    uint32_t letters = marked->letters - 1, *values = malloc(((size_t)letters + 1) * sizeof *values);
+    if (!values)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < letters; i++)
+        values[i] = value_of(l->clause, i, atom);
+    tn_status status = tn_strip_relate_spans(l->strip, &l->clause->atoms[atom], marked, values, out, error);
+    free(values);
+    return status;
+}
+
+/* A house in a mirror has the same stretches, from the other side; letters are read as the house stands, and so a
+ * relation is the same for both. */
+static tn_status relate(void *context, const tn_marked *marked, const tn_instruction *op, bool reversed, tn_dfa **out,
+                        tn_error *error)
+{
+    const tn_strip_lowering *l = context;
+    size_t atom = find_atom(l->clause, op);
+    (void)reversed;
+    if (l->clause->atoms[atom].placed)
+        return relate_spans(l, marked, atom, out, error);
+    switch (op->opcode) {
+    case TN_OP_SOME_CELL:
+        return relate_letter(l, marked, atom, PART_BASE, out, error);
+    case TN_OP_SOME_ROOM:
+    case TN_OP_APART:
+        return relate_letter(l, marked, atom, PART_VALUE, out, error);
+    case TN_OP_MEETS:
+        return relate_meeting(l, marked, atom, out, error);
+    case TN_OP_SECTION_IS:
+        return relate_section(l, marked, atom, out, error);
+    case TN_OP_CELLS:
+        return relate_count(l, marked, atom, PART_BASE, out, error);
+    case TN_OP_ROOMS:
+        return relate_count(l, marked, atom, PART_VALUE, out, error);
+    case TN_OP_AREAS:
+        return relate_areas(l, marked, atom, out, error);
+    default:
+        return relate_comparison(l, marked, atom, out, error);
+    }
+}
+
+/* ---- the automata */
+
+/* Letters as classes: each looks like a tray of its class. */
+static tn_status make_letters(const tn_strip_clause *clause, uint32_t letters, tn_classes *classes, tn_error *error)
+{
+    size_t size;
+    *classes = (tn_classes){.schema = clause->classes->schema, .count = letters};
+    classes->representative = malloc(((size_t)letters + 1) * sizeof *classes->representative);
+    if (!classes->representative)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < letters; i++)
+        classes->representative[i] =
+            clause->classes->representative[tn_interned(&clause->bases, i / clause->radix, &size)[0]];
+    return TN_OK;
+}
+
+/* What the clause says of a house, as the rules are or without a part of them. */
+static tn_status lower_holds(const tn_strip_lowering *context, const tn_classes *classes, bool without, tn_dfa **out,
+                             tn_error *error)
+{
+    const tn_strip *strip = context->strip;
+    tn_lowering *lowering = NULL;
+    tn_status status = tn_lowering_new(classes, 0, &lowering, error);
+    if (status == TN_OK) {
+        tn_lowering_within(lowering, strip->trays_most);
+        tn_lowering_house(lowering, relate, (void *)(uintptr_t)context);
+        if (without)
+            tn_lowering_disable(lowering, strip->without->offsets, strip->without->count);
+        status = tn_lower(lowering, context->clause->holds, out, error);
+    }
+    tn_lowering_free(lowering);
+    return status;
+}
+
+/* The houses of which it says otherwise without the part. */
+static tn_status lower_difference(const tn_strip_lowering *context, const tn_classes *classes, tn_dfa **out,
+                                  tn_error *error)
+{
+    tn_bounds bounds = tn_bounds_make(TN_STATES_DEFAULT);
+    tn_dfa *with = NULL, *without = NULL, *lost = NULL, *gained = NULL;
+    tn_status status = lower_holds(context, classes, false, &with, error);
+    bounds.watch = context->strip->watch;
+    if (status == TN_OK)
+        status = lower_holds(context, classes, true, &without, error);
+    if (status == TN_OK)
+        status = tn_dfa_product(with, without, TN_DFA_MINUS, "the difference", &bounds, &lost, error);
+    if (status == TN_OK)
+        status = tn_dfa_product(without, with, TN_DFA_MINUS, "the difference", &bounds, &gained, error);
+    if (status == TN_OK)
+        status = tn_dfa_product(lost, gained, TN_DFA_OR, "the difference", &bounds, out, error);
+    tn_dfa_free(with);
+    tn_dfa_free(without);
+    tn_dfa_free(lost);
+    tn_dfa_free(gained);
+    return status;
+}
+
+static tn_status lower_clause(tn_strip *strip, tn_strip_clause *clause, const char *name, tn_error *error)
+{
+    const tn_strip_lowering context = {strip, clause, name};
+    uint64_t letters = (uint64_t)clause->bases.count * clause->radix;
+    tn_classes classes = {0};
+    tn_dfa *dfa = NULL;
+    if (letters > TN_STRIP_LETTERS_MAX)
+        return tn_strip_limit(strip, name, "tells too many trays with their houses apart", error);
+    tn_status status = make_letters(clause, (uint32_t)letters, &classes, error);
+    if (status == TN_OK)
+        status = clause->differs ? lower_difference(&context, &classes, &dfa, error)
+                                 : lower_holds(&context, &classes, clause->without, &dfa, error);
+    if (status == TN_OK && clause->prunes && !clause->differs)
+        status = tn_dfa_complement(dfa, &clause->dfa, error);
+    else if (status == TN_OK)
+        clause->dfa = tn_dfa_share(dfa);
+    tn_dfa_free(dfa);
+    free(classes.representative);
+    return status;
+}
+
+/* With one slot each, where the automaton with more of them is too large. */
+static tn_status lower_in_limits(tn_strip *strip, tn_strip_clause *clause, const char *name, tn_error *error)
+{
+    tn_error own;
+    error = error ? error : &own;
+    tn_status status = lower_clause(strip, clause, name, error);
+    if (status == TN_LIMIT && error->code == E_TOO_MANY_STATES && tn_strip_fewer_slots(clause)) {
+        *error = (tn_error){0};
+        while (tn_strip_fewer_slots(clause))
+            continue;
+        status = lower_clause(strip, clause, name, error);
+    }
+    return status == TN_LIMIT && error->code == E_TOO_MANY_STATES
+               ? tn_strip_limit(strip, name, "takes more states than the limit", error)
+               : status;
+}
+
+tn_status tn_strip_lower(tn_strip *strip, tn_error *error)
+{
+    const tn_module *module = strip->form->module;
+    uint32_t at_once[TN_STRIP_PLACED_MAX];
+    tn_status status = TN_OK;
+    tn_strip_rooms_at_once(strip, at_once);
+    for (uint32_t i = 0; status == TN_OK && i < strip->clause_count; i++) {
+        const tn_house_clause_record *record = &module->HOUSE_CLAUSE_records[strip->library->clause_first + i];
+        tn_strip_fit_slots(strip, &strip->clauses[i], at_once);
+        status = lower_in_limits(strip, &strip->clauses[i], tn_text(module, record->name), error);
+    }
+    return status == TN_OK ? tn_strip_horizons(strip, error) : status;
+}

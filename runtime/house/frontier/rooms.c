@@ -1,0 +1,510 @@
+/* Follows rooms from tray to tray: which cells at the plane are in one room, and what is known of it.
+ *
+ * What is known only grows, so a question that is decided stays decided, and the rest is forgotten as soon as no open
+ * question needs it. */
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/house/frontier/parts.h"
+#include "runtime/house/frontier/placed.h"
+#include "runtime/house/rule/outcome.h"
+
+/* known, truth: a bit for each question. fails: of `all`, what some cell of the room is not. */
+typedef struct tn_known_room {
+    uint64_t known, truth, fails, kinds;
+    tn_int128 area;
+    tn_int128 balance[TN_STRIP_RATIOS_MAX]; /* glass times the one number of a ratio, less floor times the other */
+    uint32_t cells;
+} tn_known_room;
+
+enum { ROOM_WORDS = sizeof(tn_known_room) / sizeof(uint32_t) };
+
+/* What goes on behind a plane: the number of each right cell's room, and where each is among those joined. */
+typedef struct tn_leaving {
+    uint32_t of_cell[TN_STRIP_CELLS_MAX], roots[TN_STRIP_CELLS_MAX], count;
+} tn_leaving;
+
+/* The rooms of the left edge, then those that begin with a cell of the right one. */
+typedef struct tn_joining {
+    const tn_strip *strip;
+    uint32_t parent[2 * TN_STRIP_CELLS_MAX];
+    tn_known_room rooms[2 * TN_STRIP_CELLS_MAX];
+    tn_strip_place places[2 * TN_STRIP_CELLS_MAX]; /* where in the row it is asked for */
+    uint32_t held[TN_STRIP_PLACED_MAX];            /* slots of the rooms before */
+    uint32_t before;
+} tn_joining;
+
+static uint32_t root_of(tn_joining *j, uint32_t room)
+{
+    while (j->parent[room] != room)
+        room = j->parent[room] = j->parent[j->parent[room]];
+    return room;
+}
+
+static void join(tn_joining *j, uint32_t a, uint32_t b)
+{
+    a = root_of(j, a);
+    b = root_of(j, b);
+    if (a == b)
+        return;
+    uint32_t low = a < b ? a : b, high = a < b ? b : a;
+    tn_known_room *to = &j->rooms[low], *from = &j->rooms[high];
+    j->parent[high] = low;
+    to->known |= from->known;
+    to->truth |= from->truth;
+    to->fails |= from->fails;
+    to->kinds |= from->kinds;
+    to->area += from->area;
+    to->cells += from->cells;
+    for (uint32_t r = 0; r < j->strip->questions.ratio_count; r++)
+        to->balance[r] += from->balance[r];
+    if (j->strip->questions.placed_count > 0)
+        tn_strip_place_join(j->strip, &j->places[low], &j->places[high]);
+}
+
+/* ---- questions */
+
+typedef struct tn_asked_known {
+    const tn_strip_questions *questions;
+    const tn_known_room *room;
+    bool whole; /* nothing is added to the room any more */
+} tn_asked_known;
+
+static uint64_t bit_of(const uint32_t *items, uint32_t count, uint32_t item)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (items[i] == item)
+            return UINT64_C(1) << i;
+    return 0;
+}
+
+/* Of a number that only grows: what it is compared with cannot be undone. */
+static tn_outcome compare(tn_int128 number, const tn_instruction *op, bool whole)
+{
+    bool now = tn_area_compares(number, op->first, op->second);
+    bool above = number > (tn_int128)op->second * 1000000;
+    return whole || above                         ? (now ? TN_OUTCOME_TRUE : TN_OUTCOME_FALSE)
+           : op->first == TN_AREA_AT_LEAST && now ? TN_OUTCOME_TRUE
+           : op->first == TN_AREA_LESS && !now    ? TN_OUTCOME_FALSE
+                                                  : TN_OUTCOME_OPEN;
+}
+
+static tn_outcome glazing(const tn_asked_known *a, const tn_instruction *op)
+{
+    uint32_t r = 0;
+    while (a->questions->ratios[r] != op->second)
+        r++;
+    return !a->whole                                             ? TN_OUTCOME_OPEN
+           : tn_area_compares(a->room->balance[r], op->first, 0) ? TN_OUTCOME_TRUE
+                                                                 : TN_OUTCOME_FALSE;
+}
+
+static tn_outcome ask(const void *context, const tn_instruction *op)
+{
+    enum { SQUARE_MICROMETRE = 1000000 };
+    const tn_asked_known *a = context;
+    const tn_strip_questions *q = a->questions;
+    switch (op->opcode) {
+    case TN_OP_EVERY:
+        return TN_OUTCOME_TRUE;
+    case TN_OP_ALL_CELLS:
+        return a->room->fails & bit_of(q->all, q->all_count, (uint32_t)op->first) ? TN_OUTCOME_FALSE
+               : a->whole                                                         ? TN_OUTCOME_TRUE
+                                                                                  : TN_OUTCOME_OPEN;
+    case TN_OP_HAS_FACE:
+        return a->room->kinds & bit_of(q->kinds, q->kind_count, (uint32_t)op->first) ? TN_OUTCOME_TRUE
+               : a->whole                                                            ? TN_OUTCOME_FALSE
+                                                                                     : TN_OUTCOME_OPEN;
+    case TN_OP_ROOM_GLAZING:
+        return glazing(a, op);
+    case TN_OP_ROOM_AREA:
+        return compare(a->room->area, op, a->whole);
+    case TN_OP_ROOM_CELLS:
+        return compare((tn_int128)a->room->cells * SQUARE_MICROMETRE, op, a->whole);
+    default:
+        return TN_OUTCOME_FALSE;
+    }
+}
+
+/* Decides what can be decided, and forgets what is not needed for the rest. */
+static void settle(const tn_strip *strip, tn_known_room *room, bool whole)
+{
+    const tn_strip_questions *q = &strip->questions;
+    tn_asked_known asked = {q, room, whole};
+    uint64_t all = 0, kinds = 0;
+    uint32_t ratios = 0;
+    bool area = false, cells = false;
+    for (uint32_t i = 0; i < q->room_count; i++) {
+        if (room->known >> i & 1)
+            continue;
+        tn_outcome outcome = tn_outcome_decide(strip->form->module, q->rooms[i].function, ask, &asked);
+        room->known |= (uint64_t)(outcome != TN_OUTCOME_OPEN) << i;
+        room->truth |= (uint64_t)(outcome == TN_OUTCOME_TRUE) << i;
+        if (outcome != TN_OUTCOME_OPEN)
+            continue;
+        all |= q->rooms[i].all;
+        kinds |= q->rooms[i].kinds;
+        ratios |= q->rooms[i].ratios;
+        area |= q->rooms[i].area;
+        cells |= q->rooms[i].cells;
+    }
+    room->fails &= all;
+    room->kinds &= kinds;
+    for (uint32_t r = 0; r < q->ratio_count; r++)
+        room->balance[r] = ratios >> r & 1 ? room->balance[r] : 0;
+    room->area = !area ? 0 : room->area > q->area_most ? q->area_most : room->area;
+    room->cells = !cells ? 0 : room->cells > q->cells_most ? q->cells_most : room->cells;
+}
+
+/* ---- what can be asked at all */
+
+uint64_t tn_strip_answers_fail(const tn_strip *strip, const uint64_t *answers)
+{
+    uint64_t fails = 0;
+    for (uint32_t i = 0; i < strip->questions.all_count; i++)
+        fails |= (uint64_t)!tn_answers(answers, strip->questions.all_decisions[i]) << i;
+    return fails;
+}
+
+uint64_t tn_strip_fails(const tn_strip *strip, const tn_strip_edge *edge, uint32_t cell)
+{
+    while (edge->cells[cell].open) /* a void is of the room below it; cells of a stack follow one another upwards */
+        cell--;
+    return tn_strip_answers_fail(strip, tn_edge_answers(strip, edge, cell));
+}
+
+static void find_open(const tn_strip *strip, uint64_t fails, tn_room_open *open)
+{
+    const tn_strip_questions *q = &strip->questions;
+    tn_known_room room = {.fails = fails};
+    const tn_asked_known asked = {q, &room, false};
+    *open = (tn_room_open){0};
+    for (uint32_t i = 0; i < q->room_count; i++) {
+        tn_outcome outcome = tn_outcome_decide(strip->form->module, q->rooms[i].function, ask, &asked);
+        open->any = open->any || outcome != TN_OUTCOME_FALSE;
+        if (outcome != TN_OUTCOME_OPEN)
+            continue;
+        open->kinds |= q->rooms[i].kinds;
+        open->area = open->area || q->rooms[i].area || q->rooms[i].ratios != 0;
+        open->glass = open->glass || q->rooms[i].ratios != 0;
+    }
+}
+
+tn_status tn_strip_room_open(tn_strip *strip, uint64_t fails, tn_room_open *open, tn_error *error)
+{
+    uint32_t before = strip->fails.count;
+    if (!tn_array_reserve(&strip->open_rooms, &strip->open_room, before, 1, sizeof *strip->open_rooms))
+        return tn_fail_memory(error);
+    uint32_t at = tn_number(&strip->fails, fails);
+    if (at == UINT32_MAX)
+        return tn_fail_memory(error);
+    if (at == before)
+        find_open(strip, fails, &strip->open_rooms[at]);
+    *open = strip->open_rooms[at];
+    return TN_OK;
+}
+
+/* ---- a plane */
+
+tn_int128 tn_strip_area(const tn_strip *strip, uint32_t number)
+{
+    size_t size;
+    const uint32_t *words = tn_interned(&strip->areas, number, &size);
+    tn_int128 area = 0;
+    for (size_t i = 0; i < 4; i++)
+        area |= (tn_int128)words[i] << 32 * i;
+    return area;
+}
+
+/* Glass, less the floor that it is held against. */
+static void add_balance(const tn_strip *strip, tn_known_room *room, tn_int128 glass, tn_int128 floor)
+{
+    for (uint32_t r = 0; r < strip->questions.ratio_count; r++) {
+        int64_t ratio = strip->questions.ratios[r];
+        room->balance[r] += glass * (ratio & UINT32_MAX) - floor * (ratio >> 32);
+    }
+}
+
+uint32_t tn_strip_number_area(tn_strip *strip, tn_int128 area)
+{
+    uint32_t words[4];
+    for (size_t i = 0; i < 4; i++)
+        words[i] = (uint32_t)(area >> 32 * i);
+    return tn_intern(&strip->areas, words, 4);
+}
+
+static uint64_t all_questions(const tn_strip *strip)
+{
+    return (UINT64_C(1) << strip->questions.room_count) - 1;
+}
+
+uint32_t tn_strip_room_truth(const tn_strip *strip, const tn_whole_room *whole)
+{
+    tn_known_room room = {.fails = whole->fails, .kinds = whole->kinds, .area = whole->area, .cells = whole->cells};
+    add_balance(strip, &room, whole->glass, whole->area);
+    settle(strip, &room, true);
+    return (uint32_t)room.truth;
+}
+
+static void begin_cell(tn_joining *j, const tn_strip_crossing *c, uint32_t cell, const uint32_t *side)
+{
+    const uint32_t *words = c->slice + SLICE_CELLS + CELL_WORDS * cell;
+    uint32_t room = j->before + cell;
+    tn_known_room *known = &j->rooms[room];
+    memset(known, 0, sizeof *known); /* padding too: rooms are compared as words */
+    j->parent[room] = room;
+    if (j->strip->questions.placed_count > 0)
+        tn_strip_place_new(j->strip, &j->places[room]);
+    known->kinds = tn_both(side + SIDE_MARKS) | tn_both(words + CELL_MARKS);
+    known->fails = tn_both(words + CELL_FAILS);
+    if (words[CELL_ROOM_IS] == ROOM_IS_KNOWN) {
+        known->known = all_questions(j->strip);
+        known->truth = words[CELL_TRUTH];
+    }
+    tn_int128 area = tn_strip_area(j->strip, words[CELL_AREA]);
+    add_balance(j->strip, known, tn_strip_area(j->strip, words[CELL_GLASS]) + tn_strip_area(j->strip, side[SIDE_GLASS]),
+                area);
+    known->area = area;
+    known->cells = words[CELL_ROOM_IS] == ROOM_GOES_ON;
+}
+
+static void load_place(tn_joining *j, uint32_t room, const uint32_t *words)
+{
+    if (j->strip->questions.placed_count == 0)
+        return;
+    tn_strip_place_load(j->strip, words, &j->places[room]);
+    for (uint32_t p = 0; p < j->strip->questions.placed_count; p++)
+        if (j->places[room].slots[p] > 0)
+            j->held[p] |= 1u << (j->places[room].slots[p] - 1);
+}
+
+/* The rooms before, with the faces of their last cells. */
+static void begin_left(tn_joining *j, const tn_strip_crossing *c, const uint32_t *state, const uint32_t *sides)
+{
+    uint32_t cells = c->left ? c->left->count : 0;
+    size_t each = ROOM_WORDS + tn_strip_place_words(j->strip);
+    j->before = c->left ? state[cells] : 0;
+    for (uint32_t r = 0; r < j->before; r++) {
+        const uint32_t *words = state + cells + 1 + r * each;
+        j->parent[r] = r;
+        memcpy(&j->rooms[r], words, sizeof j->rooms[r]);
+        load_place(j, r, words + ROOM_WORDS);
+    }
+    for (uint32_t i = 0; i < cells; i++) {
+        j->rooms[state[i]].kinds |= tn_both(sides + SIDE_WORDS * i + SIDE_MARKS);
+        add_balance(j->strip, &j->rooms[state[i]], tn_strip_area(j->strip, sides[SIDE_WORDS * i + SIDE_GLASS]), 0);
+    }
+}
+
+/* Rooms that are nothing that is asked for become one: what is joined to one of them is nothing of that, either. Not
+ * where it is asked where rooms are: then each begins somewhere. */
+static void settle_all(const tn_strip *strip, tn_joining *j, uint32_t cells)
+{
+    uint64_t all = all_questions(strip);
+    uint32_t nothing = UINT32_MAX;
+    for (uint32_t i = 0; i < cells; i++) {
+        uint32_t root = root_of(j, j->before + i);
+        settle(strip, &j->rooms[root], false);
+        if (j->rooms[root].known != all || j->rooms[root].truth != 0)
+            continue;
+        if (nothing == UINT32_MAX)
+            nothing = root;
+        join(j, nothing, root);
+    }
+}
+
+/* Numbers the rooms of the right cells by the first cell in each, and settles them. */
+static void number_rooms(tn_joining *j, uint32_t cells, tn_leaving *to)
+{
+    uint32_t number[2 * TN_STRIP_CELLS_MAX];
+    memset(number, 0xff, sizeof number);
+    if (j->strip->questions.placed_count == 0)
+        settle_all(j->strip, j, cells);
+    to->count = 0;
+    for (uint32_t i = 0; i < cells; i++) {
+        uint32_t root = root_of(j, j->before + i);
+        if (number[root] == UINT32_MAX) {
+            to->roots[to->count] = root;
+            number[root] = to->count++;
+            settle(j->strip, &j->rooms[root], false);
+        }
+        to->of_cell[i] = number[root];
+    }
+}
+
+/* seen: of the questions that ask where rooms are. */
+static void go_on(tn_joining *j, const tn_strip_edge *right, const tn_leaving *to, uint32_t *seen)
+{
+    tn_strip_going rooms[TN_STRIP_CELLS_MAX];
+    for (uint32_t r = 0; r < to->count; r++) {
+        const tn_known_room *known = &j->rooms[to->roots[r]];
+        rooms[r] = (tn_strip_going){.place = &j->places[to->roots[r]], .open = ~known->known | known->truth};
+    }
+    for (uint32_t i = 0; right && i < right->count; i++)
+        if (!right->cells[i].open)
+            rooms[to->of_cell[i]].function = right->cells[i].function;
+    tn_strip_places_go_on(j->strip, rooms, to->count, j->held, seen);
+}
+
+static bool push_words(tn_key *key, const uint32_t *words, size_t count)
+{
+    bool ok = true;
+    for (size_t w = 0; ok && w < count; w++)
+        ok = tn_key_push(key, words[w]);
+    return ok;
+}
+
+static tn_status leave(tn_strip *strip, tn_joining *j, const tn_leaving *to, uint32_t cells, uint32_t *after,
+                       tn_error *error)
+{
+    tn_key *key = &strip->key;
+    key->size = 0;
+    bool ok = push_words(key, to->of_cell, cells) && tn_key_push(key, to->count);
+    for (uint32_t r = 0; ok && r < to->count; r++) {
+        const tn_strip_place *place = &j->places[to->roots[r]];
+        uint32_t words[ROOM_WORDS];
+        memcpy(words, &j->rooms[to->roots[r]], sizeof words);
+        ok = push_words(key, words, ROOM_WORDS);
+        if (ok && strip->questions.placed_count > 0)
+            ok = tn_key_push(key, place->age) && push_words(key, place->slots, strip->questions.placed_count);
+    }
+    *after = ok ? tn_intern(&strip->rooms, key->data, key->size) : UINT32_MAX;
+    return *after != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+}
+
+/* Rooms without a cell behind the plane are whole. */
+static void close_rooms(tn_strip *strip, tn_joining *j, uint32_t cells, uint32_t *closed)
+{
+    bool live[2 * TN_STRIP_CELLS_MAX] = {false};
+    for (uint32_t i = 0; i < cells; i++)
+        live[root_of(j, j->before + i)] = true;
+    for (uint32_t r = 0; r < j->before; r++) {
+        if (j->parent[r] != r || live[r])
+            continue;
+        settle(strip, &j->rooms[r], true);
+        for (uint32_t q = 0; q < strip->questions.room_count; q++)
+            closed[q] += j->rooms[r].truth >> q & 1;
+        tn_strip_place_end(strip, &j->places[r], j->rooms[r].truth, closed + strip->questions.room_count);
+    }
+}
+
+tn_status tn_strip_rooms_cross(tn_strip *strip, uint32_t before, const tn_strip_crossing *c, uint32_t *after,
+                               uint32_t *closed, tn_error *error)
+{
+    size_t size;
+    const tn_strip_questions *q = &strip->questions;
+    memset(closed, 0, (q->room_count + (size_t)q->placed_count * SEEN_WORDS) * sizeof *closed);
+    tn_joining j; /* large, and filled in as far as it is used */
+    tn_leaving to;
+    j.strip = strip;
+    memset(j.held, 0, sizeof j.held);
+    uint32_t left = c->left ? c->left->count : 0, right = c->right ? c->right->count : 0;
+    const uint32_t *steps = c->outcome + 3, *sides = steps + (size_t)STEP_WORDS * c->outcome[2];
+    begin_left(&j, c, c->left ? tn_interned(&strip->rooms, before, &size) : NULL, sides);
+    const uint32_t *state = c->left ? tn_interned(&strip->rooms, before, &size) : NULL;
+    for (uint32_t i = 0; i < right; i++)
+        begin_cell(&j, c, i, sides + SIDE_WORDS * (left + i));
+    for (uint32_t i = 0; i < right; i++)
+        join(&j, j.before + i, j.before + c->slice[SLICE_CELLS + CELL_WORDS * i + CELL_ROOM]);
+    for (uint32_t i = 0; i < c->outcome[2]; i++, steps += STEP_WORDS)
+        if (steps[STEP_HOW] & 1)
+            join(&j, state[steps[STEP_FROM]], j.before + steps[STEP_TO]);
+    close_rooms(strip, &j, right, closed);
+    number_rooms(&j, right, &to);
+    if (q->placed_count > 0)
+        go_on(&j, c->right, &to, closed + q->room_count);
+    return leave(strip, &j, &to, right, after, error);
+}
+
+/* ---- what of the rooms before can be told behind a plane */
+
+/* Appends the steps into rooms before, with these by number, in the order of the steps. */
+static bool push_joined(const uint32_t *state, const uint32_t *outcome, uint32_t number[TN_STRIP_CELLS_MAX],
+                        uint32_t joined[TN_STRIP_CELLS_MAX], uint32_t *count, tn_key *key)
+{
+    const uint32_t *step = outcome + 3;
+    bool ok = true;
+    memset(number, 0xff, TN_STRIP_CELLS_MAX * sizeof *number);
+    *count = 0;
+    for (uint32_t i = 0; ok && i < outcome[2]; i++, step += STEP_WORDS) {
+        if (!(step[STEP_HOW] & 1))
+            continue;
+        uint32_t room = state[step[STEP_FROM]];
+        if (number[room] == UINT32_MAX) {
+            joined[*count] = room;
+            number[room] = (*count)++;
+        }
+        ok = tn_key_push(key, step[STEP_TO]) && tn_key_push(key, number[room]);
+    }
+    return ok && tn_key_push(key, *count);
+}
+
+/* Rooms that no step leads into are whole: of these, only how many are so for each question. */
+static bool push_closed(const tn_strip *strip, tn_joining *j, const uint32_t *number, tn_key *key)
+{
+    uint32_t closed[TN_STRIP_QUESTIONS_MAX] = {0};
+    for (uint32_t r = 0; r < j->before; r++) {
+        if (number[r] != UINT32_MAX)
+            continue;
+        settle(strip, &j->rooms[r], true);
+        for (uint32_t q = 0; q < strip->questions.room_count; q++)
+            closed[q] += j->rooms[r].truth >> q & 1;
+    }
+    return push_words(key, closed, strip->questions.room_count);
+}
+
+tn_status tn_strip_rooms_view(const tn_strip *strip, uint32_t before, const tn_strip_edge *left,
+                              const uint32_t *outcome, tn_key *key, tn_error *error)
+{
+    size_t size;
+    uint32_t number[TN_STRIP_CELLS_MAX], joined[TN_STRIP_CELLS_MAX], count;
+    const uint32_t *state = tn_interned(&strip->rooms, before, &size);
+    const tn_strip_crossing c = {.left = left, .outcome = outcome};
+    tn_joining j; /* large, and filled in as far as it is used */
+    j.strip = strip;
+    begin_left(&j, &c, state, outcome + 3 + (size_t)STEP_WORDS * outcome[2]);
+    bool ok = push_joined(state, outcome, number, joined, &count, key);
+    for (uint32_t i = 0; ok && i < count; i++) {
+        uint32_t words[ROOM_WORDS];
+        settle(strip, &j.rooms[joined[i]], false);
+        memcpy(words, &j.rooms[joined[i]], sizeof words);
+        ok = push_words(key, words, ROOM_WORDS);
+    }
+    return ok && push_closed(strip, &j, number, key) ? TN_OK : tn_fail_memory(error);
+}
+
+/* ---- how many rooms of one tray a question can be about */
+
+/* most: the greatest number so far. Nothing depends on the glass of a room that is not whole. */
+static void look_at_slice(tn_strip *strip, uint32_t slice, uint32_t *most)
+{
+    static const uint32_t unseen[SIDE_WORDS] = {0};
+    size_t size;
+    const uint32_t *words = tn_interned(&strip->slice_keys, slice, &size);
+    const tn_strip_crossing c = {.right = &strip->edges[words[SLICE_ENTRY]], .slice = words};
+    const tn_strip_questions *q = &strip->questions;
+    tn_joining j;
+    tn_leaving to;
+    j.strip = strip;
+    j.before = 0;
+    for (uint32_t i = 0; i < c.right->count; i++)
+        begin_cell(&j, &c, i, unseen);
+    for (uint32_t i = 0; i < c.right->count; i++)
+        join(&j, i, words[SLICE_CELLS + CELL_WORDS * i + CELL_ROOM]);
+    number_rooms(&j, c.right->count, &to);
+    for (uint32_t p = 0; p < q->placed_count; p++) {
+        uint32_t count = 0;
+        for (uint32_t r = 0; r < to.count; r++) {
+            const tn_known_room *known = &j.rooms[to.roots[r]];
+            count += (~known->known | known->truth) >> q->placed_rooms[p] & 1;
+        }
+        most[p] = count > most[p] ? count : most[p];
+    }
+}
+
+void tn_strip_rooms_at_once(tn_strip *strip, uint32_t most[TN_STRIP_PLACED_MAX])
+{
+    memset(most, 0, TN_STRIP_PLACED_MAX * sizeof *most);
+    for (uint32_t s = 0; strip->questions.placed_count > 0 && s < strip->slice_keys.count; s++)
+        look_at_slice(strip, s, most);
+}

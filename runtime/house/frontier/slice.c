@@ -1,0 +1,468 @@
+/* Makes the slices of a tray: its cells' functions and what is in its inner faces, one combination after another. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/house/frontier/parts.h"
+#include "runtime/house/solids.h"
+
+/* A tray that is being cut: each wheel is a cell's functions or an inner face's kinds. */
+typedef struct tn_cutting {
+    tn_inside inside;
+    tn_numbering found, furnished;
+    tn_strip_list *list;
+    tn_strip_ordered *ordered; /* where these are wanted, and no list */
+    uint64_t tried;
+    tn_strip_cut *cells; /* [cells][functions + 1], as far as they are met; last: voids */
+    uint64_t *answers;   /* of these */
+    uint32_t functions;  /* of the cells, by number */
+} tn_cutting;
+
+typedef struct tn_options {
+    uint32_t of, count, at;
+    uint32_t items[TN_CELL_RULES_MAX > TN_FACE_KINDS_MAX ? TN_CELL_RULES_MAX : TN_FACE_KINDS_MAX];
+    uint32_t times[TN_FACE_KINDS_MAX]; /* of a face: so many kinds are one */
+} tn_options;
+
+/* ---- limits */
+
+/* Whatever plan the tray is in, it has as many. */
+static tn_status too_large(const tn_cutting *c, const char *what, tn_error *error)
+{
+    tn_buffer text = {0};
+    const tn_house_form *form = c->inside.strip->form;
+    bool written = tn_plan_write_line(form->schema, &c->inside.tray, 1, &text);
+    tn_fail(error, TN_LIMIT, E_STRIP,
+            "the tray `%.120s` has more than %s in form `%.60s`: its houses cannot be counted",
+            written ? text.data : "", what, tn_text(form->module, form->record->name));
+    tn_error_help(error, "leave fewer storeys, fewer functions that a cell may have, or fewer kinds for its faces");
+    free(text.data);
+    return TN_LIMIT;
+}
+
+static tn_status too_many(const tn_cutting *c, tn_error *error)
+{
+    return too_large(c, "2^64 choices", error);
+}
+
+/* ---- cells */
+
+static tn_strip_cut *cell_at(const tn_cutting *c, size_t cell)
+{
+    size_t functions = tn_form_functions(c->inside.strip->form);
+    uint32_t function = c->inside.house.cells[cell].function;
+    return &c->cells[cell * (functions + 1) + (c->inside.house.cells[cell].open ? functions : function)];
+}
+
+static tn_status know_cell(tn_cutting *c, uint32_t i, tn_strip_cut *cell, tn_error *error)
+{
+    tn_strip *s = c->inside.strip;
+    for (size_t d = 0; d < s->questions.decision_count; d++)
+        cell->answers[d / 64] |=
+            (uint64_t)tn_house_decide(&c->inside.house, s->questions.decisions[d], &c->inside.house.cells[i]) << d % 64;
+    tn_status status = tn_strip_describe(s, &c->inside.house, i, &cell->description, error);
+    cell->known = status == TN_OK;
+    return status;
+}
+
+/* The cells have other functions now. */
+static tn_status know_cells(tn_cutting *c, tn_error *error)
+{
+    tn_key *key = &c->inside.strip->joined;
+    tn_status status = TN_OK;
+    key->size = 0;
+    for (uint32_t i = 0; status == TN_OK && i < c->inside.house.cell_count; i++) {
+        tn_strip_cut *cell = cell_at(c, i);
+        if (!cell->known)
+            status = know_cell(c, i, cell, error);
+        c->inside.cells[i] = cell;
+        if (status == TN_OK && !tn_key_push(key, c->inside.house.cells[i].function))
+            status = tn_fail_memory(error);
+    }
+    if (status != TN_OK)
+        return status;
+    c->functions = tn_intern(&c->inside.strip->functions, key->data, key->size);
+    return c->functions != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status begin_cells(tn_cutting *c, tn_error *error)
+{
+    size_t count = c->inside.house.cell_count * ((size_t)tn_form_functions(c->inside.strip->form) + 1);
+    c->cells = calloc(count + 1, sizeof *c->cells);
+    c->answers = calloc(count * c->inside.strip->answer_words + 1, sizeof *c->answers);
+    if (!c->cells || !c->answers)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < count; i++)
+        c->cells[i].answers = c->answers + i * c->inside.strip->answer_words;
+    return TN_OK;
+}
+
+/* ---- slices */
+
+/* A word for each cell: 0, or 1 and what of its own walls matters to its tiles. */
+static bool push_tiles(const tn_strip_edge *edge, const uint32_t *cells, tn_key *key)
+{
+    bool ok = true;
+    key->size = 0;
+    for (uint32_t i = 0; ok && i < edge->count; i++)
+        ok = tn_key_push(key, edge->cells[i].tiled ? cells[(size_t)CELL_WORDS * i + CELL_TILE] + 1 : 0);
+    return ok;
+}
+
+/* What rooms and walks meet in a slice: its edge at the left, its cells, tiles left aside, their roles, its steps. */
+static bool push_inside(const uint32_t *slice, const uint32_t *end, uint32_t count, tn_key *key)
+{
+    bool ok = true;
+    key->size = 0;
+    for (const uint32_t *word = slice; ok && word < end; word++) {
+        size_t at = (size_t)(word - slice);
+        bool tile = at >= SLICE_CELLS && at < SLICE_CELLS + (size_t)CELL_WORDS * count &&
+                    (at - SLICE_CELLS) % CELL_WORDS == CELL_TILE;
+        ok = tn_key_push(key, tile || at == SLICE_EXIT ? 0 : *word);
+    }
+    return ok;
+}
+
+static bool find_plain(tn_strip *s, uint32_t slice)
+{
+    tn_strip_slice *parts = &s->slices[slice];
+    const uint32_t words[] = {parts->inside, parts->exit, parts->bases};
+    uint32_t before = s->plain_keys.count;
+    if (!tn_array_reserve(&s->plains, &s->plain_room, before, 1, sizeof *s->plains))
+        return false;
+    uint32_t at = tn_intern(&s->plain_keys, words, sizeof words / sizeof *words);
+    if (at == UINT32_MAX)
+        return false;
+    if (at == before)
+        s->plains[at] = slice;
+    parts->plain = s->plains[at];
+    return true;
+}
+
+/* The parts of a new slice, whose key is `joined`. */
+static bool keep_slice(tn_strip *s, uint32_t slice)
+{
+    const uint32_t *words = s->joined.data, *cells = words + SLICE_CELLS;
+    const tn_strip_edge *edge = &s->edges[words[SLICE_ENTRY]];
+    const uint32_t *steps = cells + (CELL_WORDS + (size_t)s->questions.walk_count) * edge->count;
+    const uint32_t *bases = steps + 1 + (size_t)STEP_WORDS * *steps, *gains = bases + s->clause_count;
+    tn_strip_slice *parts = &s->slices[slice];
+    *parts = (tn_strip_slice){.entry = words[SLICE_ENTRY],
+                              .exit = words[SLICE_EXIT],
+                              .bases = tn_intern(&s->letters, bases, s->clause_count)};
+    parts->tiles = push_tiles(edge, cells, &s->key) ? tn_intern(&s->fit_lists, s->key.data, s->key.size) : UINT32_MAX;
+    if (!push_inside(words, bases, edge->count, &s->key))
+        return false;
+    parts->inside = tn_intern(&s->insides, s->key.data, s->key.size);
+    s->key.data[SLICE_ENTRY] = s->questions.placed_count > 0 ? edge->asked : 0;
+    parts->met = tn_intern(&s->mets, s->key.data, s->key.size);
+    for (uint32_t k = 0; k < s->added->count; k++)
+        parts->gains[k] = (int64_t)tn_both(gains + 2 * (size_t)k);
+    parts->cost = s->prices.asked ? gains[2 * (size_t)s->added->count] : 0;
+    return parts->bases != UINT32_MAX && parts->tiles != UINT32_MAX && parts->inside != UINT32_MAX &&
+           parts->met != UINT32_MAX && find_plain(s, slice) && tn_strip_find_group(s, slice);
+}
+
+/* Notes that cells with these functions can be the slice. */
+static tn_status add_furnished(tn_cutting *c, uint32_t slice, uint64_t times, tn_error *error)
+{
+    tn_strip_furnished_list *list = &c->inside.strip->furnished[c->inside.tray];
+    uint32_t at = tn_number(&c->furnished, (uint64_t)c->functions << 32 | slice);
+    if (at == UINT32_MAX || !tn_array_reserve_from(&list->items, &list->room, 8, at, 1, sizeof *list->items))
+        return tn_fail_memory(error);
+    if (at == list->count)
+        list->items[list->count++] = (tn_strip_furnished){c->functions, slice, 0};
+    return __builtin_add_overflow(list->items[at].times, times, &list->items[at].times) ? too_many(c, error) : TN_OK;
+}
+
+/* What the tray adds to each number that is added up: two words each; last, where costs are asked for, their number. */
+static tn_status push_gains(const tn_cutting *c, uint32_t cost, tn_key *key, tn_error *error)
+{
+    tn_strip *s = c->inside.strip;
+    tn_status status = TN_OK;
+    for (uint32_t k = 0; status == TN_OK && k < s->added->count; k++) {
+        int64_t tray = 0;
+        if (k >= s->added->measures)
+            status = tn_strip_tray_adds(s, k, c->inside.house.trays[0], &tray, error);
+        if (status == TN_OK &&
+            !tn_push_long(key, (uint64_t)(tn_house_weights_cells(s->added->of[k], &c->inside.house) + tray)))
+            status = tn_fail_memory(error);
+    }
+    return status == TN_OK && s->prices.asked && !tn_key_push(key, cost) ? tn_fail_memory(error) : status;
+}
+
+static tn_status push_slice(const tn_cutting *c, tn_key *key, tn_error *error)
+{
+    tn_strip *s = c->inside.strip;
+    uint32_t entry = 0, exit = 0, base = 0, cost = 0;
+    tn_status status = s->prices.asked ? tn_strip_tray_cost(s, &c->inside.house, &cost, error) : TN_OK;
+    if (status == TN_OK)
+        status = tn_strip_find_edge(&c->inside, TN_STRIP_ENTRY, cost, &entry, error);
+    if (status == TN_OK)
+        status = tn_strip_find_edge(&c->inside, TN_STRIP_EXIT, cost, &exit, error);
+    key->size = 0;
+    if (status == TN_OK && (!tn_key_push(key, entry) || !tn_key_push(key, exit)))
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_strip_push_inside(&c->inside, key, error);
+    for (uint32_t i = 0; status == TN_OK && i < s->clause_count; i++) {
+        status = tn_strip_base(s, &s->clauses[i], &c->inside.house, &base, error);
+        if (status == TN_OK && !tn_key_push(key, base))
+            status = tn_fail_memory(error);
+    }
+    return status == TN_OK ? push_gains(c, cost, key, error) : status;
+}
+
+/* The slice that the house at hand is. */
+static tn_status find_slice(const tn_cutting *c, uint32_t *slice, tn_error *error)
+{
+    tn_strip *s = c->inside.strip;
+    tn_key *key = &s->joined;
+    tn_status status = push_slice(c, key, error);
+    uint32_t before = s->slice_keys.count;
+    if (status != TN_OK)
+        return status;
+    if (before >= TN_STRIP_SLICES_MAX)
+        return too_large(c, "200,000 choices that other cells, clauses or costs can tell apart", error);
+    if (!tn_array_reserve(&s->slices, &s->slice_room, before, 1, sizeof *s->slices))
+        return tn_fail_memory(error);
+    *slice = tn_intern(&s->slice_keys, key->data, key->size);
+    bool ok = *slice != UINT32_MAX && (*slice < before || keep_slice(s, *slice));
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status add_slice(tn_cutting *c, uint64_t times, tn_error *error)
+{
+    uint32_t slice = 0;
+    tn_status status = find_slice(c, &slice, error);
+    if (status != TN_OK)
+        return status;
+    if (c->ordered)
+        return tn_strip_ordered_add(c->ordered, slice) ? TN_OK : tn_fail_memory(error);
+    uint32_t at = tn_number(&c->found, slice);
+    if (at == UINT32_MAX || !tn_array_reserve_from(&c->list->items, &c->list->room, 8, at, 1, sizeof *c->list->items))
+        return tn_fail_memory(error);
+    if (at == c->list->count)
+        c->list->items[c->list->count++] = (tn_strip_choice){.slice = slice};
+    if (__builtin_add_overflow(c->list->items[at].times, times, &c->list->items[at].times))
+        return too_many(c, error);
+    return add_furnished(c, slice, times, error);
+}
+
+/* ---- combinations */
+
+static bool turn(tn_options *options, size_t count)
+{
+    for (size_t i = count; i-- > 0;) {
+        if (++options[i].at < options[i].count)
+            return true;
+        options[i].at = 0;
+    }
+    return false;
+}
+
+/* Can a room of the cell tell one kind from the other? Walls have no openings, and are as thick as those that have. */
+static bool tells_apart(const tn_cutting *c, const tn_face *face, const tn_room_open *open, uint32_t one,
+                        uint32_t other)
+{
+    const tn_strip *s = c->inside.strip;
+    const uint32_t kinds[2] = {one, other};
+    uint64_t marks[2];
+    tn_int128 glass[2];
+    for (int k = 0; k < 2; k++) {
+        tn_face with = *face;
+        with.kind = kinds[k];
+        if (kinds[k] != TN_FACE_WALL && !tn_form_opening(s->form, kinds[k]))
+            return true;
+        marks[k] = tn_strip_marks(s, kinds[k]) & open->kinds;
+        glass[k] = open->glass ? tn_face_glazing(&c->inside.house, &with) : 0;
+    }
+    return marks[0] != marks[1] || glass[0] != glass[1];
+}
+
+/* Kinds in an outside face at the back or the front that nothing tells apart become one, unless each slice is wanted by
+ * itself. A void belongs to the room below it, which is not looked for here. */
+static tn_status merge_kinds(const tn_cutting *c, const tn_face *face, tn_options *options, tn_error *error)
+{
+    tn_strip *s = c->inside.strip;
+    const tn_cell *cell = &c->inside.house.cells[face->first];
+    if (c->ordered || face->relation != TN_FACE_OUTSIDE || cell->open || s->prices.asked || s->tiled[cell->function])
+        return TN_OK;
+    tn_room_open open;
+    uint64_t fails = tn_strip_answers_fail(s, c->inside.cells[face->first]->answers);
+    tn_status status = tn_strip_room_open(s, fails, &open, error);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; status == TN_OK && i < options->count; i++) {
+        uint32_t like = 0;
+        while (like < kept && tells_apart(c, face, &open, options->items[like], options->items[i]))
+            like++;
+        if (like < kept) {
+            options->times[like]++;
+        } else {
+            options->items[kept] = options->items[i];
+            options->times[kept++] = 1;
+        }
+    }
+    options->count = status == TN_OK ? kept : options->count;
+    return status;
+}
+
+static tn_status face_options(const tn_cutting *c, uint32_t face, tn_options *options, tn_error *error)
+{
+    const tn_house *house = &c->inside.house;
+    *options = (tn_options){.of = face};
+    options->count = (uint32_t)tn_face_options(house, &house->faces[face], options->items);
+    for (uint32_t i = 0; i < options->count; i++)
+        options->times[i] = 1;
+    return merge_kinds(c, &house->faces[face], options, error);
+}
+
+/* Sets the kinds that the wheels show, which stand for so many combinations. False: these are too many to count. */
+static bool set_kinds(tn_cutting *c, const tn_options *options, size_t count, uint64_t *times)
+{
+    bool ok = true;
+    *times = 1;
+    for (size_t i = 0; i < count; i++) {
+        c->inside.house.faces[options[i].of].kind = options[i].items[options[i].at];
+        ok = ok && !__builtin_mul_overflow(*times, (uint64_t)options[i].times[options[i].at], times);
+    }
+    return ok;
+}
+
+static tn_status cut_faces(tn_cutting *c, tn_error *error)
+{
+    tn_options *options = malloc((c->inside.house.face_count + 1) * sizeof *options);
+    size_t count = 0;
+    if (!options)
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < c->inside.house.face_count; i++)
+        if (tn_face_is_inner(&c->inside.house.faces[i]))
+            status = face_options(c, i, &options[count++], error);
+    for (bool more = true; status == TN_OK && more; more = turn(options, count)) {
+        uint64_t times;
+        if (!set_kinds(c, options, count, &times))
+            status = too_many(c, error);
+        else if (++c->tried > TN_STRIP_CHOICES_MAX)
+            status = too_large(c, "4,000,000 choices", error);
+        else
+            status = add_slice(c, times, error);
+    }
+    free(options);
+    return status;
+}
+
+static tn_status cut_functions(tn_cutting *c, tn_error *error)
+{
+    const tn_house_form *form = c->inside.strip->form;
+    tn_options *options = malloc((c->inside.house.cell_count + 1) * sizeof *options);
+    size_t count = 0;
+    uint64_t ways = 1;
+    bool possible = true;
+    if (!options)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < c->inside.house.cell_count; i++) {
+        if (c->inside.house.cells[i].open)
+            continue;
+        options[count] = (tn_options){.of = i};
+        for (uint32_t f = 0; f < tn_form_functions(form); f++)
+            if (tn_cell_may(&c->inside.house, &c->inside.house.cells[i], f))
+                options[count].items[options[count].count++] = f;
+        possible = possible && options[count].count > 0;
+        ways = ways > TN_STRIP_FUNCTIONS_MAX ? ways : ways * options[count].count;
+        count++;
+    }
+    tn_status status = TN_OK;
+    if (ways > TN_STRIP_FUNCTIONS_MAX)
+        status = too_large(c, "1,000,000 choices of functions", error);
+    while (possible && status == TN_OK) {
+        for (size_t i = 0; i < count; i++)
+            c->inside.house.cells[options[i].of].function = options[i].items[options[i].at];
+        status = know_cells(c, error);
+        if (status == TN_OK)
+            status = cut_faces(c, error);
+        if (!turn(options, count))
+            break;
+    }
+    free(options);
+    return status;
+}
+
+static tn_status begin(tn_cutting *c, tn_error *error)
+{
+    const tn_strip *strip = c->inside.strip;
+    tn_status status = tn_house_stand(strip->form, &c->inside.tray, 1, strip->shapes, &c->inside.house, error);
+    if (status == TN_OK && c->inside.house.cell_count > TN_STRIP_CELLS_MAX)
+        status = too_large(c, "60 cells", error);
+    return status == TN_OK ? begin_cells(c, error) : status;
+}
+
+static void end(tn_cutting *c)
+{
+    tn_house_clear(&c->inside.house);
+    tn_numbering_clear(&c->found);
+    tn_numbering_clear(&c->furnished);
+    free(c->cells);
+    free(c->answers);
+}
+
+/* A choice in the order of ways: by what its slice begins with. */
+typedef struct tn_cut_choice {
+    uint32_t entry, group;
+    tn_strip_choice choice;
+} tn_cut_choice;
+
+static int compare_cut(const void *a, const void *b)
+{
+    const tn_cut_choice *p = a, *q = b;
+    return p->entry != q->entry   ? (p->entry > q->entry) - (p->entry < q->entry)
+           : p->group != q->group ? (p->group > q->group) - (p->group < q->group)
+                                  : (p->choice.slice > q->choice.slice) - (p->choice.slice < q->choice.slice);
+}
+
+static tn_status order_list(const tn_strip *strip, tn_strip_list *list, tn_error *error)
+{
+    tn_cut_choice *cut = malloc((list->count + 1) * sizeof *cut);
+    if (!cut)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < list->count; i++) {
+        const tn_strip_slice *slice = &strip->slices[list->items[i].slice];
+        cut[i] = (tn_cut_choice){slice->entry, slice->group, list->items[i]};
+    }
+    if (list->count > 0)
+        qsort(cut, list->count, sizeof *cut, compare_cut);
+    for (size_t i = 0; i < list->count; i++)
+        list->items[i] = cut[i].choice;
+    free(cut);
+    return TN_OK;
+}
+
+tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error)
+{
+    tn_cutting c = {.inside = {.strip = strip, .tray = tray}, .list = &strip->of_tray[tray]};
+    if (c.list->made)
+        return TN_OK;
+    c.list->made = true;
+    tn_status status = begin(&c, error);
+    if (status == TN_OK)
+        status = cut_functions(&c, error);
+    if (status == TN_OK)
+        status = order_list(strip, c.list, error);
+    end(&c);
+    return status;
+}
+
+tn_status tn_strip_order_slices(tn_strip *strip, tn_tray tray, const tn_cell *like, tn_strip_ordered *slices,
+                                tn_error *error)
+{
+    tn_cutting c = {.inside = {.strip = strip, .tray = tray}, .ordered = slices};
+    tn_status status = begin(&c, error);
+    for (size_t i = 0; status == TN_OK && i < c.inside.house.cell_count; i++)
+        c.inside.house.cells[i].function = like[i].function;
+    if (status == TN_OK)
+        status = know_cells(&c, error);
+    if (status == TN_OK)
+        status = cut_faces(&c, error);
+    end(&c);
+    return status;
+}

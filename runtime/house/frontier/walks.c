@@ -1,0 +1,400 @@
+/* Follows walks from tray to tray: which cells at the plane one can walk between, which of these groups have reached a
+ * goal, and which sources still wait for one.
+ *
+ * A group consists of cells to walk through, or is one source that is none of these. A source waits for a set of
+ * groups: one of them has to reach a goal. Where a set is part of another, only the smaller one is kept: if that waits
+ * in vain, there is a source apart already.
+ *
+ * Where clauses ask in which trays sources are apart (a placed walk), each set has owners: slots for the sources of
+ * trays before, and one for those of the last tray. Only sets of one owner make each other needless. Slots that wait
+ * for the same sets become one. */
+#include <string.h>
+
+#include "runtime/house/frontier/parts.h"
+#include "runtime/house/frontier/placed.h"
+
+enum { NODES = 2 * TN_STRIP_CELLS_MAX, NO_GROUP = 0xff, AT_GOAL = 0xfe };
+
+/* Owners, as bits: below them the slots. */
+enum { LAST_TRAY = 1u << TN_STRIP_SLOTS_MAX, NEW_TRAY = LAST_TRAY << 1 };
+
+typedef struct tn_walking {
+    const tn_strip *strip;
+    uint32_t walk;
+    const uint32_t *roles; /* of the cells of the right edge, from the slice */
+    uint32_t before;       /* nodes: the groups before, then the cells of the right edge */
+    uint8_t parent[NODES];
+    bool near[NODES];
+    tn_uint128 waiting[4 * TN_STRIP_CELLS_MAX]; /* sets of nodes */
+    uint32_t owners[4 * TN_STRIP_CELLS_MAX];    /* of each; 0 where the walk is not placed */
+    uint32_t count;
+    bool inside; /* the row has begun: what waits in vain may be said at once */
+    bool placed;
+    uint32_t resolved; /* owners that have a source that is apart */
+    bool apart, too_many;
+} tn_walking;
+
+tn_strip_role tn_strip_role_of(const tn_strip *strip, uint32_t walk, const uint64_t *answers, bool open)
+{
+    const tn_strip_walk *w = &strip->questions.walk_parts[walk];
+    tn_strip_role role = {false, false, false, false};
+    if (open)
+        return role;
+    role.through = w->any || tn_answers(answers, w->through);
+    role.goal = tn_answers(answers, w->second);
+    role.source = !role.goal && tn_answers(answers, w->first);
+    return role;
+}
+
+static tn_strip_role role_at_left(const tn_walking *w, const tn_strip_edge *edge, uint32_t cell)
+{
+    return tn_strip_role_of(w->strip, w->walk, tn_edge_answers(w->strip, edge, cell), edge->cells[cell].open);
+}
+
+static tn_strip_role role_at_right(const tn_walking *w, uint32_t cell)
+{
+    uint32_t word = w->roles[cell];
+    return (tn_strip_role){word & ROLE_THROUGH, word & ROLE_GOAL, word & ROLE_SOURCE, word & ROLE_ENDS};
+}
+
+static uint8_t root_of(tn_walking *w, uint8_t node)
+{
+    while (w->parent[node] != node)
+        node = w->parent[node] = w->parent[w->parent[node]];
+    return node;
+}
+
+static void join(tn_walking *w, uint8_t a, uint8_t b)
+{
+    a = root_of(w, a);
+    b = root_of(w, b);
+    w->near[a < b ? a : b] = w->near[a] || w->near[b];
+    w->parent[a > b ? a : b] = a < b ? a : b;
+}
+
+static void wait_for(tn_walking *w, tn_uint128 set, uint32_t owners)
+{
+    w->too_many = w->too_many || w->count == sizeof w->waiting / sizeof *w->waiting;
+    if (w->too_many)
+        return;
+    w->owners[w->count] = owners;
+    w->waiting[w->count++] = set;
+}
+
+/* One of the two ways through a face: from the cell at node a to the cell at node b. */
+static void step(tn_walking *w, uint8_t a, tn_strip_role from, uint8_t b, tn_strip_role to)
+{
+    if (b != NO_GROUP && from.goal) {
+        if (b != AT_GOAL)
+            w->near[root_of(w, b)] = true;
+        return;
+    }
+    if (a == NO_GROUP || b == NO_GROUP || !from.through || to.through || !to.source || b == AT_GOAL)
+        return;
+    for (uint32_t i = 0; i < w->count; i++)
+        if (w->waiting[i] >> b & 1)
+            w->waiting[i] |= a == AT_GOAL ? 0 : (tn_uint128)1 << a;
+    if (a == AT_GOAL)
+        w->near[b] = true;
+}
+
+static void pass(tn_walking *w, uint8_t a, tn_strip_role from, uint8_t b, tn_strip_role to)
+{
+    if (from.through && to.through && a != NO_GROUP && b != NO_GROUP) {
+        if (a != AT_GOAL && b != AT_GOAL)
+            join(w, a, b);
+        else if (a != b)
+            w->near[root_of(w, a == AT_GOAL ? b : a)] = true;
+    }
+    step(w, a, from, b, to);
+    step(w, b, to, a, from);
+}
+
+/* ---- before: {group of each cell, number of groups, then two words for each set; of a placed walk, three: its owners}
+ */
+
+static uint8_t node_before(const uint32_t *state, uint32_t cell)
+{
+    return (uint8_t)state[cell];
+}
+
+static void begin_left(tn_walking *w, const uint32_t *state, size_t size, uint32_t cells)
+{
+    size_t each = w->placed ? 3 : 2;
+    w->before = state[cells];
+    for (size_t i = cells + 1; i < size; i += each)
+        wait_for(w, tn_both(state + i), w->placed ? state[i + 2] : 0);
+}
+
+static void begin_right(tn_walking *w, const tn_strip_edge *edge)
+{
+    for (uint32_t n = 0; n < w->before + edge->count; n++) {
+        w->parent[n] = (uint8_t)n;
+        w->near[n] = false;
+    }
+    if (edge->count > 0 && w->roles[0] & ROLES_APART)
+        wait_for(w, 0, 0);
+    for (uint32_t i = 0; i < edge->count; i++) {
+        tn_strip_role role = role_at_right(w, i);
+        w->near[w->before + i] = role.goal;
+        if (role.source)
+            wait_for(w, (tn_uint128)1 << (w->before + i), w->placed ? NEW_TRAY : 0);
+    }
+}
+
+/* ---- after */
+
+/* The group of each right cell, by the first cell in it. */
+static uint32_t number_groups(tn_walking *w, const tn_strip_edge *edge, uint32_t group[TN_STRIP_CELLS_MAX],
+                              uint32_t of_node[NODES])
+{
+    uint32_t count = 0;
+    memset(of_node, 0xff, NODES * sizeof *of_node);
+    for (uint32_t i = 0; edge && i < edge->count; i++) {
+        tn_strip_role role = role_at_right(w, i);
+        uint8_t root = root_of(w, (uint8_t)(w->before + i));
+        group[i] = NO_GROUP;
+        if ((!role.through && !role.source) || role.ends)
+            continue;
+        if (w->near[root])
+            group[i] = AT_GOAL;
+        else
+            group[i] = of_node[root] = of_node[root] == UINT32_MAX ? count++ : of_node[root];
+    }
+    return count;
+}
+
+/* Drops the sets that have reached a goal; the others become sets of groups at the plane. */
+static void carry(tn_walking *w, const uint32_t of_node[NODES])
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < w->count; i++) {
+        tn_uint128 set = 0;
+        bool near = false;
+        for (uint8_t n = 0; n < NODES; n++) {
+            if (!(w->waiting[i] >> n & 1))
+                continue;
+            uint8_t root = root_of(w, n);
+            near = near || w->near[root];
+            set |= of_node[root] == UINT32_MAX ? 0 : (tn_uint128)1 << of_node[root];
+        }
+        if (near)
+            continue;
+        w->apart = w->apart || set == 0;
+        w->resolved |= set == 0 ? w->owners[i] : 0;
+        w->owners[kept] = w->owners[i];
+        w->waiting[kept++] = set;
+    }
+    w->count = kept;
+}
+
+/* Keeps the least sets, in order. */
+static void reduce(tn_walking *w)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < w->count; i++) {
+        bool least = true;
+        for (uint32_t k = 0; least && k < w->count; k++)
+            least = k == i || (w->waiting[k] & ~w->waiting[i]) != 0 || (w->waiting[k] == w->waiting[i] && k > i);
+        tn_uint128 set = w->waiting[i];
+        if (!least)
+            continue;
+        uint32_t at = kept++;
+        for (; at > 0 && w->waiting[at - 1] > set; at--)
+            w->waiting[at] = w->waiting[at - 1];
+        w->waiting[at] = set;
+    }
+    w->count = kept;
+}
+
+/* ---- placed walks */
+
+/* Drops what has become known, and sets that an owner has a smaller one than; equal sets become one. */
+static void reduce_owned(tn_walking *w)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < w->count; i++)
+        w->owners[i] &= ~w->resolved;
+    for (uint32_t i = 0; i < w->count; i++)
+        for (uint32_t k = 0; k < w->count; k++)
+            if (w->waiting[k] != w->waiting[i] && (w->waiting[k] & ~w->waiting[i]) == 0)
+                w->owners[i] &= ~w->owners[k];
+    for (uint32_t i = 0; i < w->count; i++) {
+        tn_uint128 set = w->waiting[i];
+        uint32_t owners = w->owners[i], at = 0;
+        while (at < kept && w->waiting[at] < set)
+            at++;
+        if (at < kept && w->waiting[at] == set)
+            w->owners[at] |= owners;
+        if (owners == 0 || (at < kept && w->waiting[at] == set))
+            continue;
+        memmove(w->waiting + at + 1, w->waiting + at, (kept - at) * sizeof *w->waiting);
+        memmove(w->owners + at + 1, w->owners + at, (kept - at) * sizeof *w->owners);
+        w->waiting[at] = set;
+        w->owners[at] = owners;
+        kept++;
+    }
+    w->count = kept;
+}
+
+static uint32_t all_owners(const tn_walking *w)
+{
+    uint32_t owners = 0;
+    for (uint32_t i = 0; i < w->count; i++)
+        owners |= w->owners[i];
+    return owners;
+}
+
+static bool own_alike(const tn_walking *w, uint32_t a, uint32_t b)
+{
+    for (uint32_t i = 0; i < w->count; i++)
+        if (!(w->owners[i] & a) != !(w->owners[i] & b))
+            return false;
+    return true;
+}
+
+/* What the owner's sets go to: a slot that owns the same, or the one that is given. */
+static uint32_t hand_over(tn_walking *w, uint32_t owner, uint32_t slots, uint32_t slot)
+{
+    for (uint32_t s = 0; s < slots; s++)
+        if (all_owners(w) >> s & 1 && own_alike(w, owner, 1u << s)) {
+            slot = s;
+            break;
+        }
+    for (uint32_t i = 0; i < w->count; i++)
+        if (w->owners[i] & owner)
+            w->owners[i] = (w->owners[i] & ~owner) | 1u << slot;
+    return slot;
+}
+
+/* What is seen at the right side of the last tray. */
+static void see_owners(tn_walking *w, uint32_t *seen)
+{
+    for (uint32_t s = 0; s < TN_STRIP_SLOTS_MAX; s++) {
+        uint32_t *word = &seen[SEEN_SLOTS + s];
+        *word = w->resolved >> s & 1 ? WALK_APART : WALK_NONE;
+        if (!(all_owners(w) >> s & 1))
+            continue;
+        uint32_t to = hand_over(w, 1u << s, s, s);
+        *word = to == s ? WALK_ON : WALK_TO + to;
+    }
+    seen[SEEN_FIRST] = w->resolved & LAST_TRAY ? WALK_APART : WALK_NONE;
+    if (!(all_owners(w) & LAST_TRAY))
+        return;
+    uint32_t free = 0;
+    while (all_owners(w) >> free & 1)
+        free++;
+    uint32_t to = hand_over(w, LAST_TRAY, TN_STRIP_SLOTS_MAX, free);
+    seen[SEEN_FIRST] = to < TN_STRIP_SLOTS_MAX ? WALK_TO + to : SEEN_TOO_MANY;
+}
+
+/* What is the new tray's behind the plane is the last tray's before the next one. */
+static void follow_owners(tn_walking *w, uint32_t *seen)
+{
+    reduce_owned(w);
+    see_owners(w, seen);
+    for (uint32_t i = 0; i < w->count; i++)
+        w->owners[i] = (w->owners[i] & ~NEW_TRAY) | (w->owners[i] & NEW_TRAY ? LAST_TRAY : 0);
+}
+
+/* seen: of a placed walk. */
+static tn_status leave(tn_strip *strip, tn_walking *w, const tn_strip_edge *edge, uint32_t *after, uint32_t *seen,
+                       tn_error *error)
+{
+    uint32_t group[TN_STRIP_CELLS_MAX], of_node[NODES];
+    uint32_t count = number_groups(w, edge, group, of_node);
+    carry(w, of_node);
+    tn_key *key = &strip->key;
+    key->size = 0;
+    *after = 0;
+    if (w->placed)
+        follow_owners(w, seen);
+    if (!w->placed && w->apart && w->inside)
+        w->count = 0; /* it is known; what else waits does not matter, but for where the others are */
+    if (!w->placed)
+        reduce(w);
+    bool ok = true;
+    for (uint32_t i = 0; ok && edge && i < edge->count; i++)
+        ok = tn_key_push(key, group[i]);
+    ok = ok && tn_key_push(key, count);
+    for (uint32_t i = 0; ok && i < w->count; i++)
+        ok = tn_push_long(key, (uint64_t)w->waiting[i]) && (!w->placed || tn_key_push(key, w->owners[i]));
+    *after = ok ? tn_intern(&strip->walks, key->data, key->size) : UINT32_MAX;
+    return *after != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+}
+
+tn_status tn_strip_walk_cross(tn_strip *strip, uint32_t walk, uint32_t before, const tn_strip_crossing *c,
+                              uint32_t *after, bool *apart, uint32_t *seen, tn_error *error)
+{
+    tn_walking w = {
+        .strip = strip, .walk = walk, .inside = c->left != NULL, .placed = tn_strip_walk_placed(strip, walk)};
+    size_t size = 0;
+    const uint32_t *state = c->left ? tn_interned(&strip->walks, before, &size) : NULL;
+    uint32_t right = c->right ? c->right->count : 0;
+    if (c->left)
+        begin_left(&w, state, size, c->left->count);
+    static const tn_strip_edge nothing = {0};
+    const uint32_t *roles = right ? c->slice + SLICE_CELLS + (size_t)CELL_WORDS * right : NULL, *steps = c->outcome + 3;
+    w.roles = right ? roles + (size_t)walk * right : NULL;
+    begin_right(&w, c->right ? c->right : &nothing);
+    for (uint32_t i = 0; i < c->outcome[2]; i++, steps += STEP_WORDS)
+        if (steps[STEP_HOW] >> (walk + 1) & 1)
+            pass(&w, node_before(state, steps[STEP_FROM]), role_at_left(&w, c->left, steps[STEP_FROM]),
+                 (uint8_t)(w.before + steps[STEP_TO]), role_at_right(&w, steps[STEP_TO]));
+    steps = right ? roles + (size_t)strip->questions.walk_count * right : NULL;
+    for (uint32_t i = 0, count = steps ? *steps++ : 0; i < count; i++, steps += STEP_WORDS)
+        if (steps[STEP_HOW] >> (walk + 1) & 1)
+            pass(&w, (uint8_t)(w.before + steps[STEP_FROM]), role_at_right(&w, steps[STEP_FROM]),
+                 (uint8_t)(w.before + steps[STEP_TO]), role_at_right(&w, steps[STEP_TO]));
+    if (w.too_many)
+        return tn_strip_limit(strip, NULL, "more sources wait for a walk than can be told apart at once", error);
+    tn_status status = leave(strip, &w, c->right, after, seen, error);
+    *apart = w.apart && w.inside;
+    return status;
+}
+
+/* ---- what of the walk before can be told behind a plane */
+
+/* Appends the steps from cells of the left edge, each with its role and its group, by number in the order of the steps.
+ */
+static bool push_steps(const tn_walking *w, const uint32_t *state, const tn_strip_edge *left, const uint32_t *outcome,
+                       uint32_t of_node[NODES], tn_key *key)
+{
+    const uint32_t *step = outcome + 3;
+    uint32_t count = 0;
+    bool ok = true;
+    memset(of_node, 0xff, NODES * sizeof *of_node);
+    for (uint32_t i = 0; ok && i < outcome[2]; i++, step += STEP_WORDS) {
+        if (!(step[STEP_HOW] >> (w->walk + 1) & 1))
+            continue;
+        tn_strip_role role = role_at_left(w, left, step[STEP_FROM]);
+        uint32_t node = node_before(state, step[STEP_FROM]);
+        if (node < w->before)
+            node = of_node[node] = of_node[node] == UINT32_MAX ? count++ : of_node[node];
+        ok = tn_key_push(key, step[STEP_TO]) &&
+             tn_key_push(key, node << 3 | (uint32_t)role.through * ROLE_THROUGH | (uint32_t)role.goal * ROLE_GOAL |
+                                  (uint32_t)role.source * ROLE_SOURCE);
+    }
+    return ok;
+}
+
+tn_status tn_strip_walk_view(const tn_strip *strip, uint32_t walk, uint32_t before, const tn_strip_edge *left,
+                             const uint32_t *outcome, tn_key *key, tn_error *error)
+{
+    tn_walking w = {.strip = strip, .walk = walk, .inside = true};
+    uint32_t of_node[NODES];
+    size_t size;
+    const uint32_t *state = tn_interned(&strip->walks, before, &size);
+    begin_left(&w, state, size, left->count);
+    for (uint32_t n = 0; n < w.before; n++)
+        w.parent[n] = (uint8_t)n;
+    bool ok = push_steps(&w, state, left, outcome, of_node, key);
+    carry(&w, of_node);
+    if (w.apart)
+        w.count = 0; /* whatever else waits */
+    reduce(&w);
+    ok = ok && tn_key_push(key, TN_STRIP_NONE) && tn_key_push(key, w.apart);
+    for (uint32_t i = 0; ok && i < w.count; i++)
+        ok = tn_push_long(key, (uint64_t)w.waiting[i]);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
