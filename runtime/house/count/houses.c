@@ -194,7 +194,7 @@ static tn_status walk(const tn_houses *h, tn_houses_kind *kind, bool *any, tn_er
     return status;
 }
 
-/* Goes through all states without their tiles, so that what nothing can tell apart is merged (merge.c); then, where
+/* Goes through all states without their tiles, so that what nothing can tell apart is merged (frontier.c); then, where
  * tiles have prices, with them, so that all costs are known. */
 static tn_status scout(const tn_houses *h, tn_houses_kind *kind, const tn_strip_trays *trays, tn_error *error)
 {

@@ -35,7 +35,7 @@
 #define TN_STRIP_SLICES_MAX 200000u     /* choices of trays that are told apart */
 #define TN_STRIP_CHOICES_MAX 4000000u   /* of a tray's functions and faces, or of a plane's */
 
-/* ---- questions.c: what clauses and face lines ask */
+/* ---- frontier.c: what clauses and face lines ask */
 
 typedef struct tn_strip_room {
     uint32_t function;   /* of kind ROOM */
@@ -84,7 +84,7 @@ typedef struct tn_strip_atom {
     tn_instruction op;
     uint32_t of; /* MEETS: of `meetings`; APART: of `walks`; SOME_ROOM, ROOMS: of `rooms` */
     uint32_t radix;
-    bool placed;    /* where in the row matters: spans.c */
+    bool placed;    /* where in the row matters: clause.c */
     uint32_t place; /* placed rooms: of `placed_rooms` */
     uint32_t slots; /* placed: how many are told apart, */
     uint32_t most;  /* and how many rooms that end in one tray with each */
@@ -126,7 +126,7 @@ typedef struct tn_strip_reach {
     bool open, glazed;
 } tn_strip_reach;
 
-/* What lines of faces can tell of cells at planes: border.c. */
+/* What lines of faces can tell of cells at planes: edge.c. */
 typedef struct tn_strip_borders {
     tn_interner descriptions;
     uint32_t *classes[TN_STRIP_ROLES];     /* [descriptions] */
@@ -261,7 +261,7 @@ typedef struct tn_strip_known {
     size_t room;
 } tn_strip_known;
 
-/* A step in four stages, so that what is equal half way is gone on from once (outlook.c, threshold.c, stage.c).
+/* A step in four stages, so that what is equal half way is gone on from once (stage.c).
  *
  * What is behind a plane, as it is seen from there, is words: 0 (TN_STRIP_NONE: the row begins), a view of the rooms
  * and of each walk, and what the clauses have read, in the places where these are in a state. What faces it, at the
@@ -304,7 +304,7 @@ typedef struct tn_strip_span {
     size_t first, count;
 } tn_strip_span;
 
-/* What thresholds lead to by groups of slices (threshold.c). */
+/* What thresholds lead to by groups of slices (stage.c). */
 typedef struct tn_strip_entered {
     uint32_t trays;       /* 1 and how many are before the step; 0: nothing is known */
     tn_numbering keys;    /* threshold << 32 | groups */
@@ -367,7 +367,7 @@ typedef struct tn_strip_one {
     uint32_t base, left, factor;
 } tn_strip_one;
 
-/* What nothing that follows can tell apart (merge.c). */
+/* What nothing that follows can tell apart (frontier.c). */
 typedef struct tn_strip_merged {
     uint32_t *edges;      /* [edges]: the first that meets all neighbours as this one does; NULL: each is by itself */
     size_t *first;        /* [bases + 1]: its part of sides */
@@ -388,7 +388,7 @@ typedef struct tn_strip_sum {
     uint64_t times;
 } tn_strip_sum;
 
-/* The sums of the tiles of a tray, by cost (sums.c). */
+/* The sums of the tiles of a tray, by cost (costs.c). */
 typedef struct tn_strip_sums {
     tn_strip_sum *items, *more; /* scratch */
     size_t count, room, more_room;
@@ -406,7 +406,7 @@ typedef struct tn_strip_keyed {
     size_t room;
 } tn_strip_keyed;
 
-/* What houses cost, in parts that add up (prices.c). Exact costs are numbered; their steps are known when all are. */
+/* What houses cost, in parts that add up (costs.c). Exact costs are numbered; their steps are known when all are. */
 typedef struct tn_strip_prices {
     bool asked, items, across; /* items: these have prices. across: so goes a roof that has one */
     tn_interner numbers;
@@ -451,9 +451,9 @@ typedef struct tn_strip {
     tn_strip_sums sums;
     uint32_t *weighed_rooms[TN_ADDED_MAX]; /* [terms of the number]: of the questions about rooms */
     tn_plan_vm *plan_vm;                   /* what comparisons add up of trays; NULL: none does */
-    tn_interner totals;                    /* what compared numbers come to so far: compared.c */
+    tn_interner totals;                    /* what compared numbers come to so far: reading.c */
     tn_strip_ahead *ahead;                 /* [trays_most + 1], once it is known or being found */
-    bool looking_ahead;                    /* totals are left aside: compared.c */
+    bool looking_ahead;                    /* totals are left aside: reading.c */
     tn_strip_questions questions;
     size_t answer_words;
     tn_numbering fails;       /* of rooms, that were met: tn_strip_room_open */
@@ -461,7 +461,7 @@ typedef struct tn_strip {
     size_t open_room;
     bool *tiled, any_tiled; /* [functions] */
     bool *asked_function;   /* [functions]: can something be asked of rooms with this function? */
-    bool scouting;          /* tiles are left aside: see merge.c */
+    bool scouting;          /* tiles are left aside: see frontier.c */
     tn_strip_merged merged;
     tn_strip_clause *clauses;
     uint32_t clause_count;

@@ -1,10 +1,346 @@
-/* Finds the edges of a tray: what it shows the planes at its sides, as far as that can matter there. */
+/* The edges of trays: what a tray shows the planes at its sides, as far as that can matter there.
+ *
+ * ==== classes of cells
+ *
+ * Cells of which lines of faces say the same at a plane, whatever can stand beside them, are of one class.
+ *
+ * A cell is described by its storey, its function and the lines that speak of it. Two descriptions can meet at a plane
+ * where trays with such cells can follow one another in a plan of the library. For each of a description's partners the
+ * lines are listed that apply, up to the first that always has a kind that fits: the others are never asked. So where
+ * two houses of a row are parted by a party wall, whatever stands behind it, all cells beside that wall are of one
+ * class. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
 #include "runtime/house/frontier/parts.h"
+#include "runtime/house/rule/asked.h"
 #include "runtime/house/solids.h"
+
+/* Bits of a line in a description. */
+enum { LINE_FIRST, LINE_SECOND, LINE_BITS };
+
+static const tn_face_line_record *line_at(const tn_house_form *form, uint32_t line)
+{
+    return &form->module->FACE_LINE_records[form->record->face_first + line];
+}
+
+/* ---- descriptions */
+
+/* Their words: then come the bits of the lines. */
+enum { OF_STOREY, OF_FUNCTION, OF_LINES };
+
+tn_status tn_strip_describe(tn_strip *strip, const tn_house *house, uint32_t cell, uint32_t *description,
+                            tn_error *error)
+{
+    const tn_house_form *form = strip->form;
+    const tn_cell *at = &house->cells[cell];
+    tn_key *key = &strip->key;
+    uint32_t word = 0, used = 0;
+    key->size = 0;
+    bool ok = tn_key_push(key, at->storey) && tn_key_push(key, at->function);
+    for (uint32_t i = 0; ok && i < form->record->face_count; i++) {
+        const tn_face_line_record *line = line_at(form, i);
+        if (line->relation == TN_FACE_UNDER || line->relation == TN_FACE_ACROSS)
+            continue;
+        bool first = tn_house_decide(house, line->first, at),
+             second = line->relation != TN_FACE_OUTSIDE && tn_house_decide(house, line->second, at);
+        word |= ((uint32_t)first << LINE_FIRST | (uint32_t)second << LINE_SECOND) << used;
+        used += LINE_BITS;
+        if (used == 32) {
+            ok = tn_key_push(key, word);
+            word = used = 0;
+        }
+    }
+    ok = ok && tn_key_push(key, word);
+    *description = ok ? tn_intern(&strip->borders.descriptions, key->data, key->size) : UINT32_MAX;
+    return *description != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+}
+
+static bool speaks(const uint32_t *description, uint32_t place, uint32_t bit)
+{
+    uint32_t at = place * LINE_BITS + bit;
+    return description[OF_LINES + at / 32] >> at % 32 & 1;
+}
+
+/* ---- which of them can meet */
+
+/* The trays in which a description stands: a bit each. */
+typedef struct tn_describing {
+    tn_strip *strip;
+    const tn_strip_trays *trays;
+    uint64_t *stands; /* [descriptions][words] */
+    size_t room;
+} tn_describing;
+
+static tn_status note(tn_describing *d, uint32_t description, tn_tray tray, tn_error *error)
+{
+    size_t words = d->trays->words, before = d->room;
+    if (!tn_array_reserve(&d->stands, &d->room, description * words, words, sizeof *d->stands))
+        return tn_fail_memory(error);
+    memset(d->stands + before, 0, (d->room - before) * sizeof *d->stands);
+    d->stands[description * words + tray / 64] |= UINT64_C(1) << tray % 64;
+    return TN_OK;
+}
+
+/* Can something be asked of a room with this cell? */
+static tn_status note_function(tn_strip *strip, const tn_house *house, const tn_cell *cell, tn_error *error)
+{
+    const tn_strip_questions *q = &strip->questions;
+    tn_room_open open;
+    uint64_t fails = 0;
+    for (uint32_t i = 0; i < q->all_count; i++)
+        fails |= (uint64_t)!tn_house_decide(house, q->all[i], cell) << i;
+    tn_status status = tn_strip_room_open(strip, fails, &open, error);
+    if (status == TN_OK)
+        strip->asked_function[cell->function] = strip->asked_function[cell->function] || open.any;
+    return status;
+}
+
+/* All that the cells of a tray can be. */
+static tn_status describe_tray(tn_describing *d, tn_tray tray, tn_error *error)
+{
+    tn_house house;
+    tn_strip *s = d->strip;
+    tn_status status = tn_house_stand(s->form, &tray, 1, s->shapes, &house, error);
+    for (uint32_t i = 0; status == TN_OK && i < house.cell_count; i++) {
+        tn_cell *cell = &house.cells[i];
+        uint32_t functions = tn_form_functions(s->form), description;
+        for (uint32_t f = 0; status == TN_OK && f < functions + cell->open; f++) {
+            if (f < functions && !tn_cell_may(&house, cell, f))
+                continue;
+            cell->function = f < functions ? f : TN_NO_FUNCTION;
+            status = tn_strip_describe(s, &house, i, &description, error);
+            if (status == TN_OK)
+                status = note(d, description, tray, error);
+            if (status == TN_OK && f < functions)
+                status = note_function(s, &house, cell, error);
+        }
+    }
+    tn_house_clear(&house);
+    return status;
+}
+
+/* trays: those that can follow a description's. */
+static void follow(const tn_describing *d, uint32_t description, uint64_t *trays)
+{
+    size_t words = d->trays->words;
+    const uint64_t *stands = d->stands + description * words;
+    memset(trays, 0, words * sizeof *trays);
+    for (size_t t = 0; t < 64 * words; t++)
+        for (size_t w = 0; stands[t / 64] >> t % 64 & 1 && w < words; w++)
+            trays[w] |= d->trays->follows[t * words + w];
+}
+
+static bool overlap(const uint64_t *a, const uint64_t *b, size_t words)
+{
+    for (size_t w = 0; w < words; w++)
+        if (a[w] & b[w])
+            return true;
+    return false;
+}
+
+/* ---- classes */
+
+/* Does a kind of the line fit wherever it applies? */
+static bool always_fits(const tn_house_form *form, const tn_face_line_record *line)
+{
+    for (uint32_t k = 0; k < line->kind_count; k++) {
+        uint32_t kind = form->module->HOUSE_ITEM_records[line->kind_first + k].number;
+        if (!tn_form_opening(form, kind) && !tn_form_flight(form, kind) &&
+            (kind != TN_FACE_OPEN || line->relation != TN_FACE_OUTSIDE))
+            return true;
+    }
+    return false;
+}
+
+static bool applies(const tn_face_line_record *line, uint32_t place, const uint32_t *left, const uint32_t *right)
+{
+    if (line->relation == TN_FACE_OUTSIDE)
+        return false;
+    return (speaks(left, place, LINE_FIRST) && speaks(right, place, LINE_SECOND)) ||
+           (line->relation == TN_FACE_BESIDE && speaks(left, place, LINE_SECOND) && speaks(right, place, LINE_FIRST));
+}
+
+/* Appends the lines between two, or (right NULL) those outside on a side. */
+static bool push_lines(const tn_strip *strip, const uint32_t *left, const uint32_t *right, uint32_t side, tn_key *key)
+{
+    const tn_house_form *form = strip->form;
+    bool ok = true, more = true;
+    for (uint32_t i = 0, place = 0; ok && more && i < form->record->face_count; i++) {
+        const tn_face_line_record *line = line_at(form, i);
+        if (line->relation == TN_FACE_UNDER || line->relation == TN_FACE_ACROSS)
+            continue;
+        bool outside = line->relation == TN_FACE_OUTSIDE && !right && speaks(left, place, LINE_FIRST) &&
+                       (line->side == TN_HOUSE_ANY_SIDE || line->side == side);
+        place++;
+        if (!outside && !(right && applies(line, place - 1, left, right)))
+            continue;
+        ok = tn_key_push(key, i);
+        more = !always_fits(form, line);
+    }
+    return ok && tn_key_push(key, TN_STRIP_NONE);
+}
+
+/* ---- what can be in its faces there */
+
+/* Who is behind the face. */
+typedef enum tn_reached_over { OVER_NOTHING, OVER_OTHER, OVER_SAME_FUNCTION } tn_reached_over;
+
+static void reach_kind(const tn_strip *strip, uint32_t kind, tn_reached_over over, tn_strip_reach *reach)
+{
+    const tn_strip_questions *q = &strip->questions;
+    const tn_module *module = strip->form->module;
+    const tn_opening_record *opening = tn_form_opening(strip->form, kind);
+    reach->marks |= tn_strip_marks(strip, kind);
+    reach->glazed = reach->glazed || (over == OVER_NOTHING && opening && opening->flags & TN_GLAZED);
+    if (over == OVER_NOTHING)
+        return;
+    reach->open = reach->open || (over == OVER_SAME_FUNCTION && kind == TN_FACE_OPEN);
+    for (uint32_t w = 0; w < q->walk_count; w++)
+        reach->walks |= (uint32_t)tn_walk_goes_through(strip->form, &module->MEETING_records[q->walks[w]], kind) << w;
+    for (uint32_t m = 0; m < q->meeting_count; m++)
+        reach->meetings |= (uint64_t)tn_meeting_has(module, &module->MEETING_records[q->meetings[m]], kind) << m;
+}
+
+/* The kinds of the lines in a list of push_lines; a wall, too, which stands where none of them fits. */
+static void reach_lines(const tn_strip *strip, const uint32_t *lines, const uint32_t *end, tn_reached_over over,
+                        tn_strip_reach *reach)
+{
+    const tn_house_form *form = strip->form;
+    for (; lines < end && *lines != TN_STRIP_NONE; lines++) {
+        const tn_face_line_record *line = line_at(form, *lines);
+        for (uint32_t k = 0; k < line->kind_count; k++)
+            reach_kind(strip, form->module->HOUSE_ITEM_records[line->kind_first + k].number, over, reach);
+    }
+    reach_kind(strip, TN_FACE_WALL, over, reach);
+}
+
+/* meets: [descriptions], those that can stand at the right of the one, or at its left. */
+static bool classify(tn_strip *strip, uint32_t description, const bool *meets, tn_strip_role_at role,
+                     tn_interner *classes, uint32_t *class)
+{
+    tn_strip_reach *reach = &strip->borders.reach[role][description];
+    const tn_interner *all = &strip->borders.descriptions;
+    size_t size;
+    const uint32_t *own = tn_interned(all, description, &size);
+    uint32_t storey = own[OF_STOREY];
+    tn_key *key = &strip->key;
+    key->size = 0;
+    bool ok = push_lines(strip, own, NULL, role == TN_STRIP_EXIT ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, key);
+    if (ok)
+        reach_lines(strip, key->data, key->data + key->size, OVER_NOTHING, reach);
+    for (uint32_t d = 0; ok && d < all->count; d++) {
+        const uint32_t *other = tn_interned(all, d, &size);
+        if (!meets[d] || other[OF_STOREY] != storey)
+            continue;
+        ok = tn_key_push(key, d);
+        size_t first = key->size;
+        ok = ok &&
+             (role == TN_STRIP_EXIT ? push_lines(strip, own, other, 0, key) : push_lines(strip, other, own, 0, key));
+        if (ok)
+            reach_lines(strip, key->data + first, key->data + key->size,
+                        own[OF_FUNCTION] == other[OF_FUNCTION] ? OVER_SAME_FUNCTION : OVER_OTHER, reach);
+    }
+    *class = ok ? tn_intern(classes, key->data, key->size) : UINT32_MAX;
+    return *class != UINT32_MAX;
+}
+
+static void let_matter(uint64_t *matter, size_t decision)
+{
+    matter[decision / 64] |= UINT64_C(1) << decision % 64;
+}
+
+/* The decisions on a cell that can matter at the plane: to a walk if one can step there, to a meeting if it can be
+ * there, to a room if it can go on there or something is seen of it. */
+static void find_matter(const tn_strip *strip, const tn_strip_reach *reach, uint64_t *matter)
+{
+    const tn_strip_questions *q = &strip->questions;
+    for (uint32_t w = 0; w < q->walk_count; w++) {
+        if (!(reach->walks >> w & 1))
+            continue;
+        let_matter(matter, q->walk_parts[w].first);
+        let_matter(matter, q->walk_parts[w].second);
+        if (!q->walk_parts[w].any)
+            let_matter(matter, q->walk_parts[w].through);
+    }
+    for (uint32_t m = 0; m < q->meeting_count; m++)
+        if (reach->meetings >> m & 1) {
+            let_matter(matter, q->meeting_parts[m].first);
+            let_matter(matter, q->meeting_parts[m].second);
+        }
+    for (uint32_t i = 0; i < q->all_count && tn_strip_reaches_rooms(reach); i++)
+        let_matter(matter, q->all_decisions[i]);
+}
+
+/* meet: [descriptions][descriptions], left and right. */
+static bool find_classes(tn_strip *strip, const bool *meet)
+{
+    tn_strip_borders *b = &strip->borders;
+    uint32_t count = b->descriptions.count;
+    tn_interner classes[TN_STRIP_ROLES] = {{0}};
+    bool *meets = malloc((size_t)count + 1), ok = meets != NULL;
+    for (int role = 0; role < TN_STRIP_ROLES; role++) {
+        b->classes[role] = malloc(((size_t)count + 1) * sizeof *b->classes[role]);
+        b->reach[role] = calloc((size_t)count + 1, sizeof *b->reach[role]);
+        b->matter[role] = calloc(count * strip->answer_words + 1, sizeof *b->matter[role]);
+        ok = ok && b->classes[role] && b->reach[role] && b->matter[role];
+        for (uint32_t i = 0; ok && i < count; i++) {
+            for (uint32_t d = 0; d < count; d++)
+                meets[d] = role == TN_STRIP_EXIT ? meet[(size_t)i * count + d] : meet[(size_t)d * count + i];
+            ok = classify(strip, i, meets, (tn_strip_role_at)role, &classes[role], &b->classes[role][i]);
+            if (ok)
+                find_matter(strip, &b->reach[role][i], b->matter[role] + i * strip->answer_words);
+        }
+        tn_interner_clear(&classes[role]);
+    }
+    free(meets);
+    return ok;
+}
+
+static bool find_meetings(const tn_describing *d, bool *meet)
+{
+    size_t words = d->trays->words, count = d->strip->borders.descriptions.count;
+    uint64_t *next = malloc((words + 1) * sizeof *next);
+    for (uint32_t i = 0; next && i < count; i++) {
+        if (d->trays->follows)
+            follow(d, i, next);
+        for (uint32_t k = 0; k < count; k++)
+            meet[i * count + k] = !d->trays->follows || overlap(next, d->stands + k * words, words);
+    }
+    free(next);
+    return next != NULL;
+}
+
+tn_status tn_strip_borders_find(tn_strip *strip, const tn_strip_trays *trays, tn_error *error)
+{
+    tn_describing d = {.strip = strip, .trays = trays};
+    tn_status status = TN_OK;
+    for (tn_tray t = 0; status == TN_OK && t < strip->form->schema->tray_count; t++)
+        if (trays->stand[t])
+            status = describe_tray(&d, t, error);
+    size_t count = strip->borders.descriptions.count;
+    bool *meet = malloc(tn_size_of(count, count) + 1);
+    if (status == TN_OK && !(meet && find_meetings(&d, meet) && find_classes(strip, meet)))
+        status = tn_fail_memory(error);
+    free(meet);
+    free(d.stands);
+    return status;
+}
+
+void tn_strip_borders_clear(tn_strip_borders *borders)
+{
+    tn_interner_clear(&borders->descriptions);
+    for (int role = 0; role < TN_STRIP_ROLES; role++) {
+        free(borders->classes[role]);
+        free(borders->reach[role]);
+        free(borders->matter[role]);
+    }
+}
+
+/* ==== edges
+ *
+ * Finds the edges of a tray: what it shows the planes at its sides, as far as that can matter there. */
 
 /* The decisions that can matter at the plane. */
 static const uint64_t *matter_at(const tn_inside *in, tn_strip_role_at role, uint32_t cell)

@@ -1,4 +1,4 @@
-/* What a strip keeps for ranks, which ask for the same again and again (ordered.c, ways.c). */
+/* What a strip keeps for ranks, which ask for the same again and again (slice.c, step.c). */
 #ifndef TARTAN_HOUSE_FRONTIER_KEPT_H
 #define TARTAN_HOUSE_FRONTIER_KEPT_H
 

@@ -5,7 +5,7 @@
 
 #include "runtime/house/frontier/data.h"
 
-/* ---- strip.c */
+/* ---- frontier.c */
 
 /* The houses of the section, on trays of these, at least and at most so many. measures: NULL, or borrowed, as is
  * `added`; without: NULL, or borrowed until the strip is made. Free with tn_strip_free, also after a failure. */
@@ -29,7 +29,7 @@ tn_status tn_strip_ask(tn_strip *strip, tn_error *error);
 tn_status tn_strip_find_edge(const tn_inside *inside, tn_strip_role_at role, uint32_t cost, uint32_t *edge,
                              tn_error *error);
 
-/* ---- border.c */
+/* ---- edge.c */
 
 /* Finds the classes of cells; before any slice is made. */
 tn_status tn_strip_borders_find(tn_strip *strip, const tn_strip_trays *trays, tn_error *error);
@@ -67,7 +67,7 @@ bool tn_strip_steps(const tn_strip *strip, const tn_house *house, const tn_face 
 bool tn_strip_meets(const tn_strip *strip, const tn_house *house, const tn_face *face, uint32_t meeting);
 bool tn_strip_joins(const tn_house *house, const tn_face *face);
 
-/* ---- ordered.c */
+/* ---- slice.c */
 
 /* Both, without finding again what has been asked for. cells: of the tray. Sequences are borrowed until the next trim,
  * which drops them where they take much. */
@@ -78,7 +78,7 @@ tn_status tn_strip_outcomes_ordered(tn_strip *strip, uint32_t left, uint32_t rig
 void tn_strip_orders_trim(tn_strip *strip);
 void tn_strip_orders_clear(tn_strip_orders *orders);
 
-/* ---- fit.c */
+/* ---- costs.c */
 
 /* What of a cell's own walls matters to its tiles, and what of a side. 0: nothing does. */
 tn_status tn_strip_fit_base(tn_strip *strip, const tn_house *house, uint32_t cell, uint32_t *base, tn_error *error);
@@ -88,7 +88,7 @@ tn_status tn_strip_fit_side(tn_strip *strip, const tn_house *house, uint32_t cel
 /* How many tiles fit; where they have prices, the number of the list of what they cost, which is 0 where none fits. */
 tn_status tn_strip_fit(tn_strip *strip, uint32_t base, uint32_t left, uint32_t right, uint32_t *tiles, tn_error *error);
 
-/* ---- merge.c */
+/* ---- frontier.c */
 
 void tn_strip_forget_states(tn_strip *strip); /* they are numbered anew */
 
@@ -99,7 +99,7 @@ void tn_strip_merged_clear(tn_strip_merged *merged);
 /* A cell's tiles, by what stands at its left. */
 tn_status tn_strip_waits(tn_strip *strip, uint32_t base, uint32_t left, tn_strip_wait *wait, tn_error *error);
 
-/* ---- inside.c, inside_walks.c */
+/* ---- rooms.c, walks.c: the inside of a tray */
 
 /* Appends CELL_WORDS for each cell, then the roles, then the steps. */
 tn_status tn_strip_push_inside(const tn_inside *inside, tn_key *key, tn_error *error);
@@ -163,7 +163,7 @@ tn_status tn_strip_base(tn_strip *strip, tn_strip_clause *clause, const tn_house
 /* When all slices are made: their automata. */
 tn_status tn_strip_lower(tn_strip *strip, tn_error *error);
 
-/* ---- horizon.c */
+/* ---- reading.c */
 
 #define TN_STRIP_NO_PAIR UINT64_MAX
 
@@ -190,7 +190,7 @@ tn_status tn_strip_read_slice(tn_strip *strip, uint32_t trays, uint32_t read, ui
 tn_status tn_strip_read_plane(tn_strip *strip, uint32_t trays, uint32_t between, uint32_t values, uint32_t *read,
                               tn_error *error);
 
-/* ---- crossing.c */
+/* ---- step.c */
 
 /* What comes of the outcomes of the plane behind a state (its words; NULL: the row begins), before a slice
  * (TN_STRIP_NONE: the end): so many words each. Both are good until the next call. */
@@ -202,7 +202,7 @@ void tn_strip_row_clear(tn_strip_row *row);
 tn_status tn_strip_cross_outcome(tn_strip *strip, const uint32_t *state, uint32_t slice, uint32_t outcome,
                                  const uint32_t *behind, uint32_t *crossed, tn_error *error);
 
-/* ---- compared.c: what clauses compare with 0, which is known at the end of the row */
+/* ---- reading.c: what clauses compare with 0, which is known at the end of the row */
 
 /* Does a clause compare anything? Before the units are known it cannot be said of what. */
 static inline bool tn_strip_compares(const tn_strip *strip)
@@ -261,7 +261,7 @@ tn_status tn_strip_end_waiting(tn_strip *strip, uint32_t waiting, uint32_t left_
 tn_status tn_strip_find_waiting(tn_strip *strip, uint32_t slice, uint32_t right_fits, tn_strip_waiting *waiting,
                                 tn_error *error);
 
-/* ---- ways.c */
+/* ---- step.c */
 
 /* Ranks begin: from now on steps are kept. */
 tn_status tn_strip_ways_want(tn_strip *strip, tn_error *error);
@@ -278,7 +278,7 @@ tn_status tn_strip_ways_end(tn_strip *strip, uint32_t trays, uint32_t state, uin
 void tn_strip_ways_drop(tn_strip *strip);
 void tn_strip_ways_forget(tn_strip *strip); /* states are numbered anew */
 
-/* ---- outlook.c, threshold.c, stage.c: a step in four stages; nothing is added up, and tiles have no prices */
+/* ---- stage.c: a step in four stages; nothing is added up, and tiles have no prices */
 
 bool tn_strip_has_stages(const tn_strip *strip);
 
@@ -319,7 +319,7 @@ bool tn_strip_split_outcome(tn_strip *strip, const uint32_t *words, uint32_t lef
 /* May the row end in the state, after so many trays? */
 tn_status tn_strip_ends(tn_strip *strip, uint32_t trays, uint32_t state, bool *ends, tn_error *error);
 
-/* ---- prices.c */
+/* ---- costs.c */
 
 tn_status tn_strip_prices_begin(tn_strip *strip, tn_error *error);
 
@@ -355,7 +355,7 @@ tn_status tn_strip_plane_cost(tn_strip *strip, const tn_strip_border *border, co
 tn_status tn_strip_list_tiles(tn_strip *strip, const tn_house *house, const tn_variants *variants, uint32_t *list,
                               tn_error *error);
 
-/* ---- sums.c */
+/* ---- costs.c */
 
 /* strip->sums.found := what the tiles that waited for an outcome of the plane at their right cost, and how many
  * arrangements cost that; no sum where a cell has no tile. Without prices it is one sum of nothing. */

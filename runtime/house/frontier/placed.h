@@ -1,13 +1,13 @@
 /* What clauses ask of where in the row rooms and walks are ("placed" questions). Internal to runtime/house/frontier.
  *
- * What a room is, and whether a source is apart, is known trays later. Until then a slot stands for it: places.c and
- * walks.c say at each plane what becomes of the slots, and spans.c makes letters and relations of that. */
+ * What a room is, and whether a source is apart, is known trays later. Until then a slot stands for it: rooms.c and
+ * walks.c say at each plane what becomes of the slots, and clause.c makes letters and relations of that. */
 #ifndef TARTAN_HOUSE_FRONTIER_PLACED_H
 #define TARTAN_HOUSE_FRONTIER_PLACED_H
 
 #include "runtime/house/frontier/parts.h"
 
-/* ---- what is seen of rooms and walks in the row: places.c, walks.c; read in spans.c */
+/* ---- what is seen of rooms and walks in the row: rooms.c, walks.c; read in clause.c */
 
 /* Words of what is seen of a placed question at the right side of a tray. Rooms: how many lie in the tray alone; then
  * what each slot says. Walks: where the tray's own sources go, and what each slot says of those of trays before it. */
@@ -32,7 +32,7 @@ static inline bool tn_strip_walk_placed(const tn_strip *strip, uint32_t walk)
 /* How many rooms of a tray, at most, can turn out to be what each placed question asks for. */
 void tn_strip_rooms_at_once(tn_strip *strip, uint32_t most[TN_STRIP_PLACED_MAX]);
 
-/* ---- places.c: where in the row rooms began */
+/* ---- rooms.c: where in the row rooms began */
 
 /* age: 0 for the first of the rooms of one function to begin, then those that began with the next tray. slots: of each
  * placed question, 1 and the slot; 0: none. */
@@ -66,7 +66,7 @@ void tn_strip_place_end(const tn_strip *strip, const tn_strip_place *place, uint
 void tn_strip_places_go_on(const tn_strip *strip, const tn_strip_going *rooms, uint32_t count, const uint32_t *held,
                            uint32_t *seen);
 
-/* ---- spans.c: what is seen of rooms and walks in the row, as letters and relations */
+/* ---- clause.c: what is seen of rooms and walks in the row, as letters and relations */
 
 /* Finds the slots and the radix of each placed atom of a clause, so that there are not too many letters. at_once: of
  * each placed question about rooms. */

@@ -1,10 +1,390 @@
-/* Finds what can stand in the plane between two edges, or where the row begins and ends: each storey by itself, as
- * storeys do not see each other's faces, then their combinations. */
+/* Planes: what can stand between two edges, or where the row begins and ends.
+ *
+ * ==== parts
+ *
+ * A part of a plane is of one storey or more. What comes of it, with what is in its faces: meetings, steps, what rooms
+ * and tiles see of both sides. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/frontier/plane.h"
+#include "runtime/house/frontier/parts.h"
+#include "runtime/house/rule/asked.h"
+
+/* Words of what comes of a part: the meetings (two words), the number of steps and STEP_WORDS for each, then for each
+ * cell of its storeys its place and SIDE_WORDS; then, where costs are asked for, the number of the plane's. */
+enum { PART_MEETINGS, PART_STEPS = PART_MEETINGS + 2 };
+
+/* What comes of its faces, of `parts`, and of how many choices. */
+typedef struct tn_plane_found {
+    uint32_t part;
+    uint64_t times;
+} tn_plane_found;
+
+/* Outcomes of the plane are the combinations of what its parts have. */
+typedef struct tn_plane_part {
+    uint64_t storeys; /* a bit each */
+    tn_plane_found *found;
+    size_t count, room;
+    size_t at; /* of found: where a combination is at */
+} tn_plane_part;
+
+/* The house of the two trays. */
+typedef struct tn_plane_house {
+    tn_strip *strip;
+    uint32_t left, right; /* edges, or TN_STRIP_NONE */
+    uint32_t left_cells;  /* those of the left edge come first */
+    bool has_left, has_right;
+    tn_house house;
+    uint32_t *faces; /* those in the plane */
+    size_t count;
+    tn_room_open *open; /* [cells]: of the rooms that they are in */
+    uint32_t *sides;    /* [cells][SIDE_WORDS] */
+    uint64_t changed;   /* storeys of whose faces one has another kind than when sides were found */
+    int64_t x;
+    tn_plane_part *parts;
+    size_t part_count;
+    tn_key words; /* scratch */
+    tn_numbering found;
+    tn_strip_list *list;
+    tn_strip_ordered *ordered; /* where these are wanted, and no list */
+} tn_plane_house;
+
+static bool part_has(const tn_plane_part *part, uint32_t storey)
+{
+    return part->storeys >> storey & 1;
+}
+
+uint64_t tn_strip_marks(const tn_strip *strip, uint32_t kind)
+{
+    for (uint32_t i = 0; i < strip->questions.kind_count; i++)
+        if (strip->questions.kinds[i] == kind)
+            return UINT64_C(1) << i;
+    return 0;
+}
+
+bool tn_strip_steps(const tn_strip *strip, const tn_house *house, const tn_face *face, uint32_t walk)
+{
+    return tn_house_is_step(house, &strip->form->module->MEETING_records[strip->questions.walks[walk]], face);
+}
+
+bool tn_strip_meets(const tn_strip *strip, const tn_house *house, const tn_face *face, uint32_t meeting)
+{
+    return tn_face_meets(house, &strip->form->module->MEETING_records[strip->questions.meetings[meeting]], face);
+}
+
+bool tn_strip_joins(const tn_house *house, const tn_face *face)
+{
+    if (face->second == TN_NO_CELL || face->kind != TN_FACE_OPEN)
+        return false;
+    const tn_cell *a = &house->cells[face->first], *b = &house->cells[face->second];
+    return !a->open && !b->open && a->function == b->function;
+}
+
+/* ---- steps */
+
+/* The cell among those of its edge. */
+static const tn_strip_edge *edge_of(const tn_plane_house *c, uint32_t cell, uint32_t *at)
+{
+    bool left = cell < c->left_cells;
+    *at = left ? cell : cell - c->left_cells;
+    return &c->strip->edges[left ? c->left : c->right];
+}
+
+/* Do its cells become one room, of which something may be asked? */
+static bool joins(const tn_plane_house *c, const tn_face *face)
+{
+    bool asked = c->strip->questions.placed_count > 0 || c->open[face->first].any || c->open[face->second].any;
+    return asked && tn_strip_joins(&c->house, face);
+}
+
+static tn_strip_role role_of(const tn_strip *strip, uint32_t walk, const tn_strip_edge *edge, uint32_t cell)
+{
+    return tn_strip_role_of(strip, walk, tn_edge_answers(strip, edge, cell), edge->cells[cell].open);
+}
+
+/* Can a step through it make a difference to the walk? */
+static bool leads(const tn_plane_house *c, const tn_face *face, uint32_t walk)
+{
+    uint32_t a, b;
+    const tn_strip_edge *left = edge_of(c, face->first, &a), *right = edge_of(c, face->second, &b);
+    tn_strip_role from = role_of(c->strip, walk, left, a), to = role_of(c->strip, walk, right, b);
+    return (from.through && (to.through || to.source || to.goal)) || (from.source && (to.through || to.goal)) ||
+           (from.goal && (to.through || to.source));
+}
+
+/* How a face matters to rooms and walks, as in STEP_HOW. */
+static uint32_t find_how(const tn_plane_house *c, const tn_face *face, uint64_t *meetings)
+{
+    const tn_strip *s = c->strip;
+    if (face->second == TN_NO_CELL)
+        return 0;
+    uint32_t how = joins(c, face);
+    for (uint32_t w = 0; w < s->questions.walk_count; w++)
+        how |= (uint32_t)(leads(c, face, w) && tn_strip_steps(s, &c->house, face, w)) << (w + 1);
+    for (uint32_t m = 0; m < s->questions.meeting_count; m++)
+        *meetings |= (uint64_t)tn_strip_meets(s, &c->house, face, m) << m;
+    return how;
+}
+
+/* ---- sides */
+
+/* What of the cell's glass is in the plane, if any question depends on that. */
+static tn_int128 plane_glass(const tn_plane_house *c, uint32_t cell)
+{
+    tn_int128 glass = 0;
+    for (size_t k = 0; c->open[cell].glass && k < c->count; k++)
+        if (c->house.faces[c->faces[k]].first == cell)
+            glass += tn_face_glazing(&c->house, &c->house.faces[c->faces[k]]);
+    return glass;
+}
+
+/* What a side of the cell is, in SIDE_WORDS. posts: of its storey. */
+static tn_status find_side(const tn_plane_house *c, uint32_t i, const tn_posts *posts, uint32_t *side, tn_error *error)
+{
+    tn_strip *s = c->strip;
+    const tn_cell *cell = &c->house.cells[i];
+    bool tiled = !cell->open && s->tiled[cell->function];
+    uint32_t fit = 0, glass = tn_strip_number_area(s, plane_glass(c, i));
+    uint64_t marks = 0;
+    tn_status status = glass != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+    for (size_t k = 0; c->open[i].kinds != 0 && k < c->count; k++) {
+        const tn_face *face = &c->house.faces[c->faces[k]];
+        marks |= face->first == i || face->second == i ? tn_strip_marks(s, face->kind) : 0;
+    }
+    marks &= c->open[i].kinds;
+    if (status == TN_OK && tiled)
+        status = tn_strip_fit_side(s, &c->house, i, i < c->left_cells ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, c->x, posts,
+                                   &fit, error);
+    side[SIDE_MARKS] = tn_low(marks);
+    side[SIDE_MARKS_HIGH] = tn_high(marks);
+    side[SIDE_FIT] = fit + tiled;
+    side[SIDE_GLASS] = glass;
+    return status;
+}
+
+static bool has_tiles(const tn_plane_house *c, uint32_t storey)
+{
+    for (size_t i = 0; i < c->house.cell_count; i++) {
+        const tn_cell *cell = &c->house.cells[i];
+        if (cell->storey == storey && !cell->open && c->strip->tiled[cell->function])
+            return true;
+    }
+    return false;
+}
+
+/* Storeys do not see each other's faces. */
+static tn_status find_sides(tn_plane_house *c, uint32_t storey, tn_error *error)
+{
+    tn_posts posts = {0};
+    tn_status status = has_tiles(c, storey) ? tn_house_posts(&c->house, storey, NULL, &posts, error) : TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < c->house.cell_count; i++)
+        if (c->house.cells[i].storey == storey)
+            status = find_side(c, i, &posts, c->sides + (size_t)SIDE_WORDS * i, error);
+    free(posts.items);
+    return status;
+}
+
+/* ---- the part */
+
+static bool push_part_steps(const tn_plane_house *c, const tn_plane_part *part, tn_key *key)
+{
+    uint64_t meetings = 0;
+    bool ok = tn_push_long(key, 0) && tn_key_push(key, 0);
+    for (size_t i = 0; ok && i < c->count; i++) {
+        const tn_face *face = &c->house.faces[c->faces[i]];
+        uint32_t how = part_has(part, face->storey) ? find_how(c, face, &meetings) : 0;
+        if (how == 0)
+            continue;
+        ok = tn_key_push(key, face->first) && tn_key_push(key, face->second - c->left_cells) && tn_key_push(key, how);
+        key->data[PART_STEPS]++;
+    }
+    if (ok) {
+        key->data[PART_MEETINGS] = tn_low(meetings);
+        key->data[PART_MEETINGS + 1] = tn_high(meetings);
+    }
+    return ok;
+}
+
+static bool push_side(const tn_plane_house *c, uint32_t cell, tn_key *key)
+{
+    bool ok = tn_key_push(key, cell);
+    for (size_t w = 0; ok && w < SIDE_WORDS; w++)
+        ok = tn_key_push(key, c->sides[(size_t)SIDE_WORDS * cell + w]);
+    return ok;
+}
+
+/* Of storeys in which no face has changed, sides are what they were. */
+static tn_status push_part_sides(tn_plane_house *c, const tn_plane_part *part, tn_key *key, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t storey = 0; status == TN_OK && storey < TN_STOREYS_MAX; storey++)
+        if (c->changed >> storey & 1 && part_has(part, storey))
+            status = find_sides(c, storey, error);
+    c->changed = status == TN_OK ? c->changed & ~part->storeys : c->changed;
+    for (uint32_t i = 0; status == TN_OK && i < c->house.cell_count; i++)
+        if (part_has(part, c->house.cells[i].storey) && !push_side(c, i, key))
+            status = tn_fail_memory(error);
+    return status;
+}
+
+static tn_status push_cost(const tn_plane_house *c, tn_key *key, tn_error *error)
+{
+    tn_strip *s = c->strip;
+    const tn_strip_border border = {.left = c->has_left ? &s->edges[c->left] : NULL,
+                                    .right = c->has_right ? &s->edges[c->right] : NULL,
+                                    .faces = c->faces,
+                                    .count = c->count};
+    uint32_t cost = 0;
+    tn_status status = tn_strip_plane_cost(s, &border, &c->house, &cost, error);
+    return status == TN_OK && !tn_key_push(key, cost) ? tn_fail_memory(error) : status;
+}
+
+/* Numbers what comes of its faces as they are: of `parts`. */
+static tn_status number_part(tn_plane_house *c, const tn_plane_part *part, uint32_t *number, tn_error *error)
+{
+    tn_strip *s = c->strip;
+    tn_key *key = &s->joined;
+    key->size = 0;
+    if (!push_part_steps(c, part, key))
+        return tn_fail_memory(error);
+    tn_status status = push_part_sides(c, part, key, error);
+    if (status == TN_OK && s->prices.asked)
+        status = push_cost(c, key, error);
+    *number = status == TN_OK ? tn_intern(&s->parts, key->data, key->size) : UINT32_MAX;
+    return status == TN_OK && *number == UINT32_MAX ? tn_fail_memory(error) : status;
+}
+
+/* ==== outcomes
+ *
+ * Puts together what comes of a plane from what comes of its parts. */
+
+/* ---- what is kept of an outcome */
+
+/* Numbers what of the sides of some cells matters to their tiles. */
+static uint32_t number_fits(tn_plane_house *c, const uint32_t *sides, uint32_t first, uint32_t end)
+{
+    tn_strip *s = c->strip;
+    bool ok = true;
+    s->key.size = 0;
+    for (uint32_t i = first; ok && i < end; i++)
+        ok = tn_key_push(&s->key, sides[(size_t)SIDE_WORDS * i + SIDE_FIT]);
+    return ok ? tn_intern(&s->fit_lists, s->key.data, s->key.size) : UINT32_MAX;
+}
+
+/* Numbers what rooms and walks meet: the key from the steps on, without what matters to tiles. */
+static uint32_t number_through(tn_plane_house *c, const uint32_t *steps, const uint32_t *sides)
+{
+    tn_strip *s = c->strip;
+    const uint32_t *end = sides + (size_t)SIDE_WORDS * c->house.cell_count;
+    bool ok = true;
+    s->key.size = 0;
+    for (const uint32_t *word = steps; ok && word <= end; word++) {
+        bool fit = word >= sides && word < end && (size_t)(word - sides) % SIDE_WORDS == SIDE_FIT;
+        ok = tn_key_push(&s->key, fit ? 0 : *word);
+    }
+    return ok ? tn_intern(&s->throughs, s->key.data, s->key.size) : UINT32_MAX;
+}
+
+/* The parts of a new outcome, whose key is `joined`. */
+static bool keep_outcome(tn_plane_house *c, uint32_t outcome)
+{
+    tn_strip *s = c->strip;
+    const uint32_t *steps = s->joined.data + 2, *sides = steps + 1 + (size_t)STEP_WORDS * *steps;
+    tn_strip_outcome *parts = &s->outcomes[outcome];
+    parts->left_fits = number_fits(c, sides, 0, c->left_cells);
+    parts->right_fits = number_fits(c, sides, c->left_cells, (uint32_t)c->house.cell_count);
+    parts->through = number_through(c, steps, sides);
+    parts->cost = s->prices.asked ? sides[(size_t)SIDE_WORDS * c->house.cell_count + 1] : 0;
+    return parts->left_fits != UINT32_MAX && parts->right_fits != UINT32_MAX && parts->through != UINT32_MAX &&
+           tn_strip_split_outcome(s, s->joined.data, c->left_cells, (uint32_t)c->house.cell_count - c->left_cells,
+                                  parts);
+}
+
+/* ---- outcomes from parts */
+
+static int compare_steps(const void *a, const void *b)
+{
+    const uint32_t *p = a, *q = b;
+    return p[STEP_FROM] != q[STEP_FROM] ? (p[STEP_FROM] > q[STEP_FROM]) - (p[STEP_FROM] < q[STEP_FROM])
+                                        : (p[STEP_TO] > q[STEP_TO]) - (p[STEP_TO] < q[STEP_TO]);
+}
+
+/* parts: of `parts`, `count` of them. Appends their meetings, then their steps in order. */
+static bool push_steps(const tn_strip *s, const uint32_t *parts, size_t count, tn_key *key)
+{
+    bool ok = tn_push_long(key, 0) && tn_key_push(key, 0);
+    for (size_t p = 0; ok && p < count; p++) {
+        size_t size;
+        const uint32_t *words = tn_interned(&s->parts, parts[p], &size);
+        key->data[0] |= words[PART_MEETINGS];
+        key->data[1] |= words[PART_MEETINGS + 1];
+        key->data[2] += words[PART_STEPS];
+        for (size_t w = 0; ok && w < (size_t)STEP_WORDS * words[PART_STEPS]; w++)
+            ok = tn_key_push(key, words[PART_STEPS + 1 + w]);
+    }
+    if (ok)
+        qsort(key->data + 3, key->data[2], STEP_WORDS * sizeof *key->data, compare_steps);
+    return ok;
+}
+
+/* Appends SIDE_WORDS of each cell, in the order of cells. *cost: the last word of a part. */
+static bool push_sides(const tn_plane_house *c, const uint32_t *parts, size_t count, tn_key *key, uint32_t *cost)
+{
+    const tn_strip *s = c->strip;
+    size_t first = key->size, cells = c->house.cell_count;
+    bool ok = true;
+    for (size_t w = 0; ok && w < SIDE_WORDS * cells; w++)
+        ok = tn_key_push(key, 0);
+    for (size_t p = 0; ok && p < count; p++) {
+        size_t size;
+        const uint32_t *words = tn_interned(&s->parts, parts[p], &size), *end = words + size - s->prices.asked;
+        *cost = words[size - 1];
+        for (words += PART_STEPS + 1 + (size_t)STEP_WORDS * words[PART_STEPS]; words < end; words += 1 + SIDE_WORDS)
+            memcpy(key->data + first + (size_t)SIDE_WORDS * *words, words + 1, SIDE_WORDS * sizeof *words);
+    }
+    return ok;
+}
+
+/* The outcome that parts (of `parts`) have together. */
+static tn_status find_outcome(tn_plane_house *c, const uint32_t *parts, size_t count, uint32_t *outcome,
+                              tn_error *error)
+{
+    tn_strip *s = c->strip;
+    tn_key *key = &s->joined;
+    uint32_t before = s->outcome_keys.count, cost = 0;
+    key->size = 0;
+    if (!push_steps(s, parts, count, key) || !push_sides(c, parts, count, key, &cost) ||
+        !tn_key_push(key, c->left_cells) || (s->prices.asked && !tn_key_push(key, cost)) ||
+        !tn_array_reserve(&s->outcomes, &s->outcome_room, before, 1, sizeof *s->outcomes))
+        return tn_fail_memory(error);
+    *outcome = tn_intern(&s->outcome_keys, key->data, key->size);
+    bool ok = *outcome != UINT32_MAX && (*outcome < before || keep_outcome(c, *outcome));
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+/* The same for all parts of the plane, which may have been met together; parts: their numbers, then that of the cells
+ * at the left. */
+static tn_status know_outcome(tn_plane_house *c, const tn_key *parts, uint32_t *outcome, tn_error *error)
+{
+    tn_strip *s = c->strip;
+    uint32_t before = s->combined.count;
+    if (!tn_array_reserve(&s->of_combined, &s->combined_room, before, 1, sizeof *s->of_combined))
+        return tn_fail_memory(error);
+    uint32_t at = tn_intern(&s->combined, parts->data, parts->size);
+    if (at == UINT32_MAX)
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    if (at == before)
+        status = find_outcome(c, parts->data, c->part_count, &s->of_combined[at], error);
+    *outcome = status == TN_OK ? s->of_combined[at] : 0;
+    return status;
+}
+
+/* ==== planes
+ *
+ * Finds what can stand in the plane between two edges, or where the row begins and ends: each storey by
+ * itself, as storeys do not see each other's faces, then their combinations. */
 
 /* ---- the house of the two trays */
 
@@ -121,7 +501,7 @@ static tn_status combine(tn_plane_house *c, tn_error *error)
         uint32_t outcome = 0;
         status = ++tried <= TN_STRIP_CHOICES_MAX ? begin_combination(c, &times, error) : too_many(c, error);
         if (status == TN_OK)
-            status = tn_plane_know_outcome(c, &c->words, &outcome, error);
+            status = know_outcome(c, &c->words, &outcome, error);
         if (status == TN_OK)
             status = add_to_list(c, outcome, times, error);
     } while (status == TN_OK && turn_parts(c));
@@ -155,9 +535,9 @@ static void set_kind(tn_plane_house *c, tn_face *face, uint32_t kind)
 static tn_status add_choice(tn_plane_house *c, tn_plane_part *part, tn_error *error)
 {
     uint32_t number, outcome;
-    tn_status status = tn_plane_number_part(c, part, &number, error);
+    tn_status status = number_part(c, part, &number, error);
     if (status == TN_OK && c->ordered) {
-        status = tn_plane_find_outcome(c, &number, 1, &outcome, error);
+        status = find_outcome(c, &number, 1, &outcome, error);
         return status == TN_OK && !tn_strip_ordered_add(c->ordered, outcome) ? tn_fail_memory(error) : status;
     }
     size_t at = 0;
@@ -182,7 +562,7 @@ static tn_status add_choices(tn_plane_house *c, tn_plane_part *part, tn_error *e
         return tn_fail_memory(error);
     for (size_t i = 0; i < c->count; i++) {
         tn_face *face = &c->house.faces[c->faces[i]];
-        if (!tn_plane_part_has(part, face->storey))
+        if (!part_has(part, face->storey))
             continue;
         wheels[count] = (tn_plane_wheel){.face = face};
         wheels[count].count = (uint32_t)tn_face_options(&c->house, face, wheels[count].kinds);

@@ -1,13 +1,149 @@
-/* Follows rooms from tray to tray: which cells at the plane are in one room, and what is known of it.
+/* Rooms: what they can tell of the inside of a tray, how they go on from tray to tray, and where in the row they began.
  *
- * What is known only grows, so a question that is decided stays decided, and the rest is forgotten as soon as no open
- * question needs it. */
+ * ==== inside a tray
+ *
+ * It is written down in a form that is the same where rooms cannot tell it apart.
+ *
+ * Of a cell only that is kept which a question about its room can still depend on. A room that cannot go on behind the
+ * planes beside the tray, and of which nothing is seen there, is known here: only the questions that it answers are
+ * kept. Those that answer none are as good as one. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
 #include "runtime/house/frontier/parts.h"
 #include "runtime/house/frontier/placed.h"
 #include "runtime/house/rule/outcome.h"
+
+/* The rooms of the tray by their first cells. */
+typedef struct tn_inside_rooms {
+    const tn_inside *in;
+    uint32_t *of; /* [cells] */
+    tn_whole_room whole[TN_STRIP_CELLS_MAX];
+    tn_room_open open[TN_STRIP_CELLS_MAX];
+    bool goes_on[TN_STRIP_CELLS_MAX];
+    uint32_t truth[TN_STRIP_CELLS_MAX];
+    uint32_t nothing; /* the first cell of a room that answers no question */
+} tn_inside_rooms;
+
+/* The kinds in the inner faces of a cell, as far as rooms ask for them. */
+static uint64_t inner_marks(const tn_inside *in, uint32_t cell)
+{
+    uint64_t marks = 0;
+    for (size_t i = 0; i < in->house.face_count; i++) {
+        const tn_face *face = &in->house.faces[i];
+        if (tn_face_is_inner(face) && (face->first == cell || face->second == cell))
+            marks |= tn_strip_marks(in->strip, face->kind);
+    }
+    return marks;
+}
+
+/* What is glazed in its outside faces at the back and the front. */
+static tn_int128 inner_glass(const tn_inside *in, uint32_t cell)
+{
+    tn_int128 glass = 0;
+    for (size_t i = 0; i < in->house.face_count; i++)
+        if (tn_face_is_inner(&in->house.faces[i]) && in->house.faces[i].first == cell)
+            glass += tn_face_glazing(&in->house, &in->house.faces[i]);
+    return glass;
+}
+
+static tn_status find_open_rooms(tn_inside_rooms *r, tn_error *error)
+{
+    const tn_inside *in = r->in;
+    uint32_t count = (uint32_t)in->house.cell_count;
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; i < count; i++)
+        if (!in->house.cells[i].open)
+            r->whole[r->of[i]].fails |= tn_strip_answers_fail(in->strip, in->cells[i]->answers);
+    for (uint32_t i = 0; status == TN_OK && i < count; i++)
+        if (r->of[i] == i)
+            status = tn_strip_room_open(in->strip, r->whole[i].fails, &r->open[i], error);
+    return status;
+}
+
+/* Can the plane at a side of the cell tell more of its room? Where it is asked where rooms are, it always may. */
+static bool is_seen(const tn_inside_rooms *r, tn_strip_role_at role, uint32_t cell)
+{
+    const tn_strip_reach *reach = tn_inside_reach(r->in, role, cell);
+    const tn_room_open *open = &r->open[r->of[cell]];
+    return r->in->strip->questions.placed_count > 0 || reach->open || reach->marks & open->kinds ||
+           (open->glass && reach->glazed);
+}
+
+static void gather(tn_inside_rooms *r)
+{
+    const tn_inside *in = r->in;
+    for (uint32_t i = 0; i < in->house.cell_count; i++) {
+        uint32_t room = r->of[i];
+        const tn_room_open *open = &r->open[room];
+        tn_whole_room *whole = &r->whole[room];
+        if (!open->any && in->strip->questions.placed_count == 0)
+            continue;
+        whole->kinds |= open->kinds ? inner_marks(in, i) & open->kinds : 0;
+        whole->glass += open->glass ? inner_glass(in, i) : 0;
+        whole->area += open->area && !in->house.cells[i].open ? tn_cell_area(&in->house.cells[i]) : 0;
+        whole->cells += !in->house.cells[i].open;
+        r->goes_on[room] = r->goes_on[room] || is_seen(r, TN_STRIP_ENTRY, i) || is_seen(r, TN_STRIP_EXIT, i);
+    }
+    r->nothing = TN_STRIP_NONE;
+    for (uint32_t i = 0; i < in->house.cell_count; i++) {
+        uint32_t room = r->of[i];
+        if (room == i && r->open[i].any && !r->goes_on[i])
+            r->truth[i] = tn_strip_room_truth(in->strip, &r->whole[i]);
+        if (!r->goes_on[room] && r->truth[room] == 0 && r->nothing == TN_STRIP_NONE)
+            r->nothing = i;
+    }
+}
+
+/* What is known of the room as a whole stands at its first cell. */
+static tn_status push_cell(const tn_inside_rooms *r, uint32_t cell, tn_key *key, tn_error *error)
+{
+    const tn_inside *in = r->in;
+    tn_strip *strip = in->strip;
+    const tn_cell *at = &in->house.cells[cell];
+    uint32_t base = 0, room = r->of[cell];
+    tn_whole_room own = {0};
+    if (!at->open && strip->tiled[at->function]) {
+        tn_status status = tn_strip_fit_base(strip, &in->house, cell, &base, error);
+        if (status != TN_OK)
+            return status;
+    }
+    if (r->goes_on[room] && room == cell)
+        own = r->whole[cell];
+    uint32_t is = !r->goes_on[room] ? ROOM_IS_KNOWN
+                  : at->open        ? ROOM_IS_VOID
+                                    : ROOM_GOES_ON,
+             to = r->goes_on[room] || r->truth[room] ? room : r->nothing;
+    uint32_t area = tn_strip_number_area(strip, own.area), glass = tn_strip_number_area(strip, own.glass);
+    bool ok = area != UINT32_MAX && glass != UINT32_MAX && tn_key_push(key, base) && tn_key_push(key, area) &&
+              tn_key_push(key, glass) && tn_push_long(key, own.kinds) && tn_push_long(key, own.fails) &&
+              tn_key_push(key, to) && tn_key_push(key, is) && tn_key_push(key, r->truth[room]);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+tn_status tn_strip_push_inside(const tn_inside *in, tn_key *key, tn_error *error)
+{
+    tn_inside_rooms r = {.in = in};
+    tn_status status = tn_house_rooms(&in->house, &r.of, error);
+    if (status == TN_OK)
+        status = find_open_rooms(&r, error);
+    if (status == TN_OK)
+        gather(&r);
+    for (uint32_t i = 0; status == TN_OK && i < in->house.cell_count; i++)
+        status = push_cell(&r, i, key, error);
+    free(r.of);
+    if (status == TN_OK && !tn_strip_push_walks(in, key))
+        status = tn_fail_memory(error);
+    return status;
+}
+
+/* ==== from tray to tray
+ *
+ * Follows rooms from tray to tray: which cells at the plane are in one room, and what is known of it.
+ *
+ * What is known only grows, so a question that is decided stays decided, and the rest is forgotten as soon as no open
+ * question needs it. */
 
 /* known, truth: a bit for each question. fails: of `all`, what some cell of the room is not. */
 typedef struct tn_known_room {
@@ -507,4 +643,115 @@ void tn_strip_rooms_at_once(tn_strip *strip, uint32_t most[TN_STRIP_PLACED_MAX])
     memset(most, 0, TN_STRIP_PLACED_MAX * sizeof *most);
     for (uint32_t s = 0; strip->questions.placed_count > 0 && s < strip->slice_keys.count; s++)
         look_at_slice(strip, s, most);
+}
+
+/* ==== where in the row they began
+ *
+ * Follows where in the row rooms began, for the questions that ask where they are.
+ *
+ * That a room is what a question asks for is known when it ends. Until then its beginning has a slot: the clauses are
+ * told of each tray which slot begins with it, which go on, and which end with a room that is so (clause.c). Rooms that
+ * began with one tray share their slot. Rooms that meet were one from the start: the older beginning is theirs, and so
+ * it has to be known which of two that can meet is older, but not by how much. Only rooms of one function can meet. */
+
+/* Ages that are greater than all others: of rooms that began with the tray before the plane, and behind it. What is
+ * known of a room does not tell the second from rooms that no question is open of. */
+#define FRESH (UINT32_MAX - 1)
+#define NOT_YET UINT32_MAX
+
+void tn_strip_place_new(const tn_strip *strip, tn_strip_place *place)
+{
+    place->age = NOT_YET;
+    memset(place->slots, 0, strip->questions.placed_count * sizeof *place->slots);
+}
+
+void tn_strip_place_load(const tn_strip *strip, const uint32_t *words, tn_strip_place *place)
+{
+    place->age = words[0] == NOT_YET ? FRESH : words[0];
+    memcpy(place->slots, words + 1, strip->questions.placed_count * sizeof *place->slots);
+}
+
+void tn_strip_place_join(const tn_strip *strip, tn_strip_place *to, const tn_strip_place *from)
+{
+    if (from->age >= to->age)
+        return;
+    to->age = from->age;
+    memcpy(to->slots, from->slots, strip->questions.placed_count * sizeof *to->slots);
+}
+
+void tn_strip_place_end(const tn_strip *strip, const tn_strip_place *place, uint64_t truth, uint32_t *seen)
+{
+    const tn_strip_questions *q = &strip->questions;
+    for (uint32_t p = 0; p < q->placed_count; p++, seen += SEEN_WORDS) {
+        if (!(truth >> q->placed_rooms[p] & 1))
+            continue;
+        uint32_t *slot = place->age == FRESH ? NULL : &seen[SEEN_SLOTS + place->slots[p] - 1];
+        if (slot)
+            *slot = *slot >= SLOT_ENDS ? *slot + 1 : SLOT_ENDS;
+        else
+            seen[SEEN_FIRST]++;
+    }
+}
+
+/* ---- rooms that go on */
+
+static uint32_t free_slot(uint32_t held)
+{
+    uint32_t slot = 0;
+    while (held >> slot & 1)
+        slot++;
+    return slot;
+}
+
+/* Of one question: which slots go on, and which begins. */
+static void give_slots(const tn_strip *strip, const tn_strip_going *rooms, uint32_t count, uint32_t placed,
+                       uint32_t held, uint32_t *seen)
+{
+    uint32_t question = strip->questions.placed_rooms[placed], slot = free_slot(held);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t age = rooms[i].place->age, *own = &rooms[i].place->slots[placed];
+        if (!(rooms[i].open >> question & 1) || age == NOT_YET)
+            *own = 0;
+        else if (age == FRESH)
+            *own = slot + 1;
+        if (*own > TN_STRIP_SLOTS_MAX)
+            seen[SEEN_FIRST] = SEEN_TOO_MANY;
+        else if (*own > 0 && age == FRESH)
+            seen[SEEN_SLOTS + slot] = SLOT_BEGINS;
+        else if (*own > 0 && seen[SEEN_SLOTS + *own - 1] == SLOT_OFF)
+            seen[SEEN_SLOTS + *own - 1] = SLOT_ON;
+    }
+}
+
+static bool is_open(const tn_strip *strip, const tn_strip_going *room)
+{
+    uint64_t asked = 0;
+    for (uint32_t p = 0; p < strip->questions.placed_count; p++)
+        asked |= UINT64_C(1) << strip->questions.placed_rooms[p];
+    return (room->open & asked) != 0;
+}
+
+/* How many beginnings before that of the room are told apart. ages: of all rooms. */
+static uint32_t rank_of(const tn_strip_going *rooms, const uint32_t *ages, uint32_t count, uint32_t room)
+{
+    uint32_t rank = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        bool first = rooms[i].function == rooms[room].function && ages[i] < ages[room];
+        for (uint32_t k = 0; first && k < i; k++)
+            first = rooms[k].function != rooms[i].function || ages[k] != ages[i];
+        rank += first;
+    }
+    return rank;
+}
+
+void tn_strip_places_go_on(const tn_strip *strip, const tn_strip_going *rooms, uint32_t count, const uint32_t *held,
+                           uint32_t *seen)
+{
+    uint32_t ages[TN_STRIP_CELLS_MAX];
+    for (uint32_t p = 0; p < strip->questions.placed_count; p++)
+        give_slots(strip, rooms, count, p, held[p], seen + (size_t)SEEN_WORDS * p);
+    for (uint32_t i = 0; i < count; i++)
+        ages[i] = is_open(strip, &rooms[i]) ? rooms[i].place->age : NOT_YET;
+    for (uint32_t i = 0; i < count; i++)
+        rooms[i].place->age = ages[i] == NOT_YET ? NOT_YET : rank_of(rooms, ages, count, i);
 }
