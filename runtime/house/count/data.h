@@ -55,8 +55,8 @@ typedef struct tn_kept_steps {
     bool all;
 } tn_kept_steps;
 
-/* The nodes after so many trays, or within a step: {state of the library of plans, state of the strip, or leaving, or
- * threshold, or arrival}. */
+/* The nodes after so many trays, or within a step: {state of the library of plans, state of the frontier or (within a
+ * step) its exit, entry or slice state}. */
 typedef struct tn_houses_layer {
     tn_numbering nodes; /* plan state << 32 | state */
     mpz_t *ahead;    /* [nodes][lengths]: houses on plans of each length that go on from there; NULL: not asked for */
@@ -65,7 +65,7 @@ typedef struct tn_houses_layer {
     tn_kept_steps kept;
 } tn_houses_layer;
 
-/* A way on from a plan state: a slice, the plan state behind it, how many choices of trays and of their insides. */
+/* A way on from a plan state: a slice, the plan state after it, how many choices of trays and of their insides. */
 typedef struct tn_houses_way {
     uint32_t slice, entry, group, plan; /* entry, group: of the slice */
     uint64_t times;
@@ -77,7 +77,7 @@ typedef struct tn_houses_way {
 typedef struct tn_houses_kind {
     tn_section_key key;
     uint32_t sections; /* how many */
-    tn_strip *strip;
+    tn_frontier *frontier;
     tn_houses_layer *layers; /* [high * stages + 1] */
     mpz_t *houses;           /* [lengths], of one section */
     mpz_t faced;
@@ -92,9 +92,9 @@ struct tn_houses {
     const tn_house_form *form;
     const tn_house_library_record *library;
     const tn_library *plans;
-    uint32_t max_states, low, high;    /* trays */
-    const tn_strip_without *without;   /* or NULL; only while they are counted */
-    tn_houses_plan_layer *plan_layers; /* [high + 1] */
+    uint32_t max_states, low, high;     /* trays */
+    const tn_frontier_without *without; /* or NULL; only while they are counted */
+    tn_houses_plan_layer *plan_layers;  /* [high + 1] */
     tn_sections sections;
     tn_houses_kind *kinds;
     size_t kind_count, kind_room;
@@ -106,11 +106,11 @@ struct tn_houses {
     tn_house_weights *compared[TN_COMPARED_MAX]; /* the latter; owned */
     uint32_t compared_count;
     tn_weighed *weighed;
-    tn_strip_units units; /* that values are in */
-    bool trays_matter;    /* to whom steps are shown */
-    bool keep_trays;      /* ways are by tray, though steps have stages */
-    uint32_t many_slices; /* along one plan, with fewer, a step as a whole is quicker than one in stages */
-    bool whole_steps;     /* these are so few that stages would cost more */
+    tn_frontier_units units; /* that values are in */
+    bool trays_matter;       /* to whom steps are shown */
+    bool keep_trays;         /* ways are by tray, though steps have stages */
+    uint32_t many_slices;    /* along one plan, with fewer, a step as a whole is quicker than one in stages */
+    bool whole_steps;        /* these are so few that stages would cost more */
     tn_houses_aim aim;
     uint64_t wanted;      /* houses, of the least values */
     tn_value_counts best; /* of all houses, as far as they are aimed at */
@@ -123,16 +123,16 @@ tn_houses_kind *tn_houses_kind_of(const tn_houses *houses, const tn_house *secti
  * matter, or steps are few. Layers that are multiples of it are of states after trays. */
 static inline uint32_t tn_houses_stages(const tn_houses *houses, const tn_houses_kind *kind)
 {
-    return tn_strip_has_stages(kind->strip) && !houses->trays_matter && !houses->whole_steps ? 4 : 1;
+    return tn_frontier_has_stages(kind->frontier) && !houses->trays_matter && !houses->whole_steps ? 4 : 1;
 }
 
 /* TN_LIMIT (E1640) where more can stand between two trays than the limit of states allows. */
-tn_status tn_houses_check_planes(const tn_houses *houses, const tn_houses_kind *kind, tn_error *error);
+tn_status tn_houses_check_interfaces(const tn_houses *houses, const tn_houses_kind *kind, tn_error *error);
 
 /* A step from a node: `from` among those of the layer. */
 typedef struct tn_houses_edge {
     uint32_t from, plan, state, slice; /* slice: 0 where none is taken */
-    uint64_t ways, times, faced;       /* ways: of trays and slices; times: of what is at the plane, and tiles */
+    uint64_t ways, times, faced;       /* ways: of trays and slices; times: of what is at the interface, and tiles */
     tn_house_gain gain;                /* what it adds to the measures */
     tn_tray tray;                      /* 0 where it does not matter */
 } tn_houses_edge;
@@ -153,12 +153,12 @@ void tn_houses_forget_steps(tn_houses_kind *kind, uint32_t layer);
 void tn_houses_layers_clear(const tn_houses *houses, tn_houses_kind *kind);
 
 /* Finds the plan states, and the trays that stand in some plan. trays: zeroed; clear them also after a failure. */
-tn_status tn_houses_plans_find(tn_houses *houses, tn_strip_trays *trays, tn_error *error);
-void tn_strip_trays_clear(tn_strip_trays *trays);
+tn_status tn_houses_plans_find(tn_houses *houses, tn_frontier_trays *trays, tn_error *error);
+void tn_frontier_trays_clear(tn_frontier_trays *trays);
 void tn_houses_plans_clear(tn_houses *houses);
 
-/* The plans that are looked at: where a tray leads, and what it adds; TN_STRIP_NONE: to none of them. layer: the trays
- * before it. */
+/* The plans that are looked at: where a tray leads, and what it adds; TN_FRONTIER_NONE: to none of them. layer: the
+ * trays before it. */
 tn_status tn_houses_plan_next(const tn_houses *houses, uint32_t layer, uint32_t plan, tn_tray tray, uint32_t *next,
                               tn_house_gain *gain, tn_error *error);
 bool tn_houses_plan_alive(const tn_houses *houses, uint32_t left, uint32_t plan);
@@ -173,8 +173,8 @@ tn_status tn_houses_expand_from(const tn_houses *houses, tn_houses_kind *kind, u
 tn_status tn_houses_find_added(tn_houses *houses, tn_error *error);
 void tn_houses_added_clear(tn_houses *houses);
 
-void tn_houses_units_init(tn_strip_units *units);
-void tn_houses_units_clear(tn_strip_units *units);
+void tn_houses_units_init(tn_frontier_units *units);
+void tn_houses_units_clear(tn_frontier_units *units);
 
 /* Finds the steps that the numbers of all measures are whole numbers of, once all sections are scouted. E0424. */
 tn_status tn_houses_settle(tn_houses *houses, tn_error *error);

@@ -46,8 +46,8 @@ typedef struct tn_houses_what {
     uint32_t length;
     const tn_house_measures *measures;
     tn_houses_aim aim;
-    uint64_t wanted;                 /* houses, by TN_HOUSES_LEAST */
-    const tn_strip_without *without; /* or NULL */
+    uint64_t wanted;                    /* houses, by TN_HOUSES_LEAST */
+    const tn_frontier_without *without; /* or NULL */
 } tn_houses_what;
 tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
                        const tn_houses_what *what, uint32_t max_states, tn_houses **houses, tn_error *error);

@@ -112,8 +112,8 @@ static void aim(tn_projected_ways *g, uint32_t plan)
     }
 }
 
-/* Adds the classes behind a slice to those of the key. */
-static bool push_behind(const tn_projected_ways *g, uint32_t slice)
+/* Adds the classes after a slice to those of the key. */
+static bool push_after(const tn_projected_ways *g, uint32_t slice)
 {
     bool ok = true;
     if (g->of->stamps[slice] != g->of->turn)
@@ -150,7 +150,7 @@ static tn_status add(tn_projected_layer *layer, uint32_t plan, uint32_t set, con
     return TN_OK;
 }
 
-/* A walk from layer to layer: `next` are the nodes behind the one at hand, which so many lead to. */
+/* A walk from layer to layer: `next` are the nodes after the one at hand, which so many lead to. */
 typedef struct tn_projected_walk tn_projected_walk;
 struct tn_projected_walk {
     tn_projecting *projecting;
@@ -186,7 +186,7 @@ static tn_status walk_node(tn_projected_walk *w, uint32_t i, tn_error *error)
         uint32_t next;
         tn_house_gain gain;
         status = tn_houses_plan_next(h, w->layer, w->plan, t, &next, &gain, error);
-        if (status == TN_OK && next != TN_STRIP_NONE)
+        if (status == TN_OK && next != TN_FRONTIER_NONE)
             status = w->take(w, t, next, error);
     }
     return status;
@@ -239,14 +239,14 @@ static tn_status begin_functions(tn_projected_walk *w, tn_error *error)
 static tn_status take_functions(tn_projected_walk *w, tn_tray tray, uint32_t plan, tn_error *error)
 {
     tn_projected_ways *g = &((tn_project_functions *)w->context)->going;
-    const tn_strip_furnished_list *list = &g->of->kind->strip->furnished[tray];
+    const tn_frontier_furnished_list *list = &g->of->kind->frontier->furnished[tray];
     tn_status status = tn_projecting_spend(g->projecting, list->count, error);
     aim(g, plan);
     for (size_t i = 0; status == TN_OK && i < list->count;) {
         uint32_t set, functions = list->items[i].functions;
         g->projecting->key.size = 0;
         for (; i < list->count && list->items[i].functions == functions; i++)
-            if (!push_behind(g, list->items[i].slice))
+            if (!push_after(g, list->items[i].slice))
                 return tn_fail_memory(error);
         if (g->projecting->key.size == 0)
             continue;
@@ -310,14 +310,14 @@ static tn_status begin_trays(tn_projected_walk *w, tn_error *error)
 /* *set: where the tray leads in one kind of section. */
 static tn_status take_in_kind(tn_projected_ways *g, tn_tray tray, uint32_t plan, uint32_t *set, tn_error *error)
 {
-    const tn_strip_list *list = &g->of->kind->strip->of_tray[tray];
+    const tn_frontier_list *list = &g->of->kind->frontier->of_tray[tray];
     g->projecting->key.size = 0;
     *set = 0;
     if (g->count == 0)
         return TN_OK;
     aim(g, plan);
     for (size_t i = 0; i < list->count; i++)
-        if (!push_behind(g, list->items[i].slice))
+        if (!push_after(g, list->items[i].slice))
             return tn_fail_memory(error);
     tn_status status = tn_projecting_spend(g->projecting, list->count, error);
     return status == TN_OK ? number_set(g->projecting, g->of, set, error) : status;
@@ -379,8 +379,8 @@ static tn_status begin_kind(tn_projecting *p, size_t k, tn_error *error)
     tn_projected_kind *of = &p->kinds[k];
     of->kind = &p->houses->kinds[k];
     of->stages = tn_houses_stages(p->houses, of->kind);
-    of->slots = malloc(((size_t)of->kind->strip->slice_keys.count + 1) * sizeof *of->slots);
-    of->stamps = calloc((size_t)of->kind->strip->slice_keys.count + 1, sizeof *of->stamps);
+    of->slots = malloc(((size_t)of->kind->frontier->slice_keys.count + 1) * sizeof *of->slots);
+    of->stamps = calloc((size_t)of->kind->frontier->slice_keys.count + 1, sizeof *of->stamps);
     return of->slots && of->stamps ? begin_sets(p, of, error) : tn_fail_memory(error);
 }
 

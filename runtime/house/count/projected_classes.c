@@ -1,5 +1,5 @@
 /* Nodes from which houses go on alike become one class: what a class is made of is the slices by which it goes on, each
- * with the plan state and the class behind it. How many choices lead there does not matter. */
+ * with the plan state and the class after it. How many choices lead there does not matter. */
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
@@ -30,8 +30,8 @@ typedef struct tn_classing {
     tn_projected_kind *of;
     uint32_t layer;
     bool takes_slice;
-    const uint32_t *behind; /* [nodes of the next layer]: classes */
-    tn_kept_step *steps;    /* those that are not kept */
+    const uint32_t *next_classes; /* [nodes of the next layer]: classes */
+    tn_kept_step *steps;          /* those that are not kept */
     size_t count, room;
     size_t *first; /* [nodes + 1] */
     tn_way_on *on;
@@ -69,11 +69,11 @@ static tn_status place_steps(tn_classing *c, const tn_kept_step *steps, size_t c
     if (!c->first || !c->on)
         return tn_fail_memory(error);
     for (size_t i = 0; i < count; i++)
-        c->first[steps[i].from + 2] += c->behind[steps[i].to] != CLASS_DEAD;
+        c->first[steps[i].from + 2] += c->next_classes[steps[i].to] != CLASS_DEAD;
     for (uint32_t i = 2; i < layer->nodes.count + 2; i++)
         c->first[i] += c->first[i - 1];
     for (size_t i = 0; i < count; i++) {
-        uint32_t class = c->behind[steps[i].to];
+        uint32_t class = c->next_classes[steps[i].to];
         uint32_t plan = c->takes_slice ? tn_high(layer[1].nodes.keys[steps[i].to]) : 0;
         if (class != CLASS_DEAD)
             c->on[c->first[steps[i].from + 1]++] = (tn_way_on){{plan, c->takes_slice ? steps[i].slice : 0, class}};
@@ -126,11 +126,11 @@ static tn_status find_ends(tn_classing *c, tn_error *error)
 }
 
 /* classes: [nodes of the layer], which the caller frees. */
-static tn_status class_layer(tn_projecting *p, tn_projected_kind *of, uint32_t layer, const uint32_t *behind,
+static tn_status class_layer(tn_projecting *p, tn_projected_kind *of, uint32_t layer, const uint32_t *next_classes,
                              uint32_t **classes, tn_error *error)
 {
     uint32_t nodes = of->kind->layers[layer].nodes.count;
-    tn_classing c = {.projecting = p, .of = of, .layer = layer, .behind = behind};
+    tn_classing c = {.projecting = p, .of = of, .layer = layer, .next_classes = next_classes};
     c.takes_slice = (layer + 1) % of->stages == 0;
     *classes = malloc(((size_t)nodes + 1) * sizeof **classes);
     tn_status status = *classes ? find_ends(&c, error) : tn_fail_memory(error);
@@ -147,16 +147,16 @@ static tn_status class_layer(tn_projecting *p, tn_projected_kind *of, uint32_t l
 
 tn_status tn_projected_classes(tn_projecting *p, tn_projected_kind *of, uint32_t *first, tn_error *error)
 {
-    uint32_t *classes = NULL, *behind = NULL;
+    uint32_t *classes = NULL, *next_classes = NULL;
     tn_status status = TN_OK;
     if (tn_intern(&of->classes, NULL, 0) != CLASS_DEAD)
         return tn_fail_memory(error);
     for (uint32_t k = p->houses->high * of->stages + 1; status == TN_OK && k-- > 0;) {
-        status = class_layer(p, of, k, behind, &classes, error);
-        free(behind);
-        behind = classes;
+        status = class_layer(p, of, k, next_classes, &classes, error);
+        free(next_classes);
+        next_classes = classes;
     }
-    *first = status == TN_OK ? behind[0] : CLASS_DEAD;
-    free(behind);
+    *first = status == TN_OK ? next_classes[0] : CLASS_DEAD;
+    free(next_classes);
     return status;
 }

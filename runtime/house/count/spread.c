@@ -40,7 +40,7 @@ static tn_status lead_on(void *context, const tn_houses_edge *edge, tn_error *er
         return tn_fail_memory(error);
     for (; s->next_count <= to; s->next_count++)
         s->next[s->next_count] = (tn_value_counts){0};
-    if (s->kind->strip->states.count > s->houses->max_states)
+    if (s->kind->frontier->states.count > s->houses->max_states)
         return tn_houses_too_many_values(s->houses, error);
     return pour(s, &s->next[to], edge, error);
 }
@@ -85,7 +85,7 @@ tn_status tn_houses_spread_kind(const tn_houses *h, tn_houses_kind *kind, tn_err
     kind->layers = calloc((size_t)h->high + 1, sizeof *kind->layers);
     s.here = calloc(1, sizeof *s.here);
     tn_house_gain start = tn_houses_plan_start(h);
-    if (!kind->layers || !s.here || tn_number(&kind->layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX ||
+    if (!kind->layers || !s.here || tn_number(&kind->layers[0].nodes, TN_FRONTIER_NONE) == UINT32_MAX ||
         !tn_value_counts_add(s.here, &start, s.one))
         status = tn_fail_memory(error);
     for (; status == TN_OK && s.layer <= h->high; s.layer++)

@@ -16,37 +16,37 @@
 
 #define AREA_STEPS_MAX UINT64_C(1000000) /* of the sum of all areas */
 
-tn_status tn_strip_clauses_new(tn_strip *strip, tn_error *error)
+tn_status tn_frontier_clauses_new(tn_frontier *frontier, tn_error *error)
 {
-    const tn_module *module = strip->form->module;
+    const tn_module *module = frontier->form->module;
     tn_status status = TN_OK;
-    strip->clauses = calloc((size_t)strip->library->clause_count + 1, sizeof *strip->clauses);
-    if (!strip->clauses)
+    frontier->clauses = calloc((size_t)frontier->library->clause_count + 1, sizeof *frontier->clauses);
+    if (!frontier->clauses)
         return tn_fail_memory(error);
-    for (uint32_t i = 0; status == TN_OK && i < strip->library->clause_count; i++) {
-        const tn_house_clause_record *record = &module->HOUSE_CLAUSE_records[strip->library->clause_first + i];
-        tn_strip_clause *clause = &strip->clauses[strip->clause_count++];
-        bool without = strip->without && i >= strip->without->first;
-        *clause = (tn_strip_clause){.holds = record->holds,
-                                    .prunes = record->kind == TN_CLAUSE_PRUNE,
-                                    .without = without,
-                                    .differs = without && strip->without->differs,
-                                    .radix = 1};
-        status = tn_classes_new(strip->form->schema, &clause->holds, 1, &clause->classes, error);
+    for (uint32_t i = 0; status == TN_OK && i < frontier->library->clause_count; i++) {
+        const tn_house_clause_record *record = &module->HOUSE_CLAUSE_records[frontier->library->clause_first + i];
+        tn_frontier_clause *clause = &frontier->clauses[frontier->clause_count++];
+        bool without = frontier->without && i >= frontier->without->first;
+        *clause = (tn_frontier_clause){.holds = record->holds,
+                                       .prunes = record->kind == TN_CLAUSE_PRUNE,
+                                       .without = without,
+                                       .differs = without && frontier->without->differs,
+                                       .radix = 1};
+        status = tn_classes_new(frontier->form->schema, &clause->holds, 1, &clause->classes, error);
     }
     return status;
 }
 
-void tn_strip_clauses_free(tn_strip *strip)
+void tn_frontier_clauses_free(tn_frontier *frontier)
 {
-    for (uint32_t i = 0; i < strip->clause_count; i++) {
-        tn_classes_free(strip->clauses[i].classes);
-        tn_interner_clear(&strip->clauses[i].bases);
-        tn_strip_horizons_free(strip, &strip->clauses[i]);
-        tn_dfa_free(strip->clauses[i].dfa);
-        free(strip->clauses[i].atoms);
+    for (uint32_t i = 0; i < frontier->clause_count; i++) {
+        tn_classes_free(frontier->clauses[i].classes);
+        tn_interner_clear(&frontier->clauses[i].bases);
+        tn_frontier_completions_free(frontier, &frontier->clauses[i]);
+        tn_dfa_free(frontier->clauses[i].dfa);
+        free(frontier->clauses[i].atoms);
     }
-    free(strip->clauses);
+    free(frontier->clauses);
 }
 
 /* ---- bases */
@@ -59,24 +59,24 @@ static uint32_t count_cells(const tn_house *house, uint32_t function)
     return count;
 }
 
-static uint32_t sum_areas(tn_strip *strip, const tn_house *house, uint32_t function)
+static uint32_t sum_areas(tn_frontier *frontier, const tn_house *house, uint32_t function)
 {
     tn_int128 area = 0;
     for (size_t i = 0; i < house->cell_count; i++)
         if (!house->cells[i].open && tn_house_decide(house, function, &house->cells[i]))
             area += tn_cell_area(&house->cells[i]);
-    return tn_strip_number_area(strip, area);
+    return tn_frontier_number_area(frontier, area);
 }
 
-static bool meets_inside(const tn_strip *strip, const tn_house *house, uint32_t meeting)
+static bool meets_inside(const tn_frontier *frontier, const tn_house *house, uint32_t meeting)
 {
     for (size_t i = 0; i < house->face_count; i++)
-        if (tn_strip_meets(strip, house, &house->faces[i], meeting))
+        if (tn_frontier_meets(frontier, house, &house->faces[i], meeting))
             return true;
     return false;
 }
 
-static uint32_t word_of(tn_strip *strip, const tn_strip_atom *atom, const tn_house *house)
+static uint32_t word_of(tn_frontier *frontier, const tn_frontier_atom *atom, const tn_house *house)
 {
     switch (atom->op.opcode) {
     case TN_OP_SOME_CELL:
@@ -84,9 +84,9 @@ static uint32_t word_of(tn_strip *strip, const tn_strip_atom *atom, const tn_hou
     case TN_OP_CELLS:
         return count_cells(house, (uint32_t)atom->op.first);
     case TN_OP_AREAS:
-        return sum_areas(strip, house, (uint32_t)atom->op.first);
+        return sum_areas(frontier, house, (uint32_t)atom->op.first);
     case TN_OP_MEETS:
-        return meets_inside(strip, house, atom->of);
+        return meets_inside(frontier, house, atom->of);
     case TN_OP_SECTION_IS:
         return tn_house_decide(house, (uint32_t)atom->op.first, NULL);
     default:
@@ -94,14 +94,14 @@ static uint32_t word_of(tn_strip *strip, const tn_strip_atom *atom, const tn_hou
     }
 }
 
-tn_status tn_strip_base(tn_strip *strip, tn_strip_clause *clause, const tn_house *house, uint32_t *base,
-                        tn_error *error)
+tn_status tn_frontier_base(tn_frontier *frontier, tn_frontier_clause *clause, const tn_house *house, uint32_t *base,
+                           tn_error *error)
 {
-    tn_key *key = &strip->key;
+    tn_key *key = &frontier->key;
     key->size = 0;
     bool ok = tn_key_push(key, clause->classes->of_tray[house->trays[0]]);
     for (size_t i = 0; ok && i < clause->atom_count; i++) {
-        uint32_t word = word_of(strip, &clause->atoms[i], house);
+        uint32_t word = word_of(frontier, &clause->atoms[i], house);
         ok = word != UINT32_MAX && tn_key_push(key, word);
     }
     *base = ok ? tn_intern(&clause->bases, key->data, key->size) : UINT32_MAX;
@@ -110,13 +110,13 @@ tn_status tn_strip_base(tn_strip *strip, tn_strip_clause *clause, const tn_house
 
 /* ---- relations of the instructions */
 
-typedef struct tn_strip_lowering {
-    tn_strip *strip;
-    const tn_strip_clause *clause;
+typedef struct tn_frontier_lowering {
+    tn_frontier *frontier;
+    const tn_frontier_clause *clause;
     const char *name;
-} tn_strip_lowering;
+} tn_frontier_lowering;
 
-static size_t find_atom(const tn_strip_clause *clause, const tn_instruction *op)
+static size_t find_atom(const tn_frontier_clause *clause, const tn_instruction *op)
 {
     size_t i = 0;
     while (clause->atoms[i].op.opcode != op->opcode || clause->atoms[i].op.first != op->first ||
@@ -126,14 +126,14 @@ static size_t find_atom(const tn_strip_clause *clause, const tn_instruction *op)
 }
 
 /* What the letter's base says of the atom. */
-static uint32_t base_of(const tn_strip_clause *clause, uint32_t letter, size_t atom)
+static uint32_t base_of(const tn_frontier_clause *clause, uint32_t letter, size_t atom)
 {
     size_t size;
     return tn_interned(&clause->bases, letter / clause->radix, &size)[1 + atom];
 }
 
 /* What its value says. */
-static uint32_t value_of(const tn_strip_clause *clause, uint32_t letter, size_t atom)
+static uint32_t value_of(const tn_frontier_clause *clause, uint32_t letter, size_t atom)
 {
     uint32_t value = letter % clause->radix;
     for (size_t i = 0; i < atom; i++)
@@ -144,7 +144,7 @@ static uint32_t value_of(const tn_strip_clause *clause, uint32_t letter, size_t 
 typedef enum tn_letter_part { PART_BASE, PART_VALUE } tn_letter_part;
 
 /* Stretches of one tray whose letter's part is not 0. */
-static tn_status relate_letter(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_letter_part part,
+static tn_status relate_letter(const tn_frontier_lowering *l, const tn_marked *marked, size_t atom, tn_letter_part part,
                                tn_dfa **out, tn_error *error)
 {
     uint32_t letters = marked->letters - 1;
@@ -159,7 +159,7 @@ static tn_status relate_letter(const tn_strip_lowering *l, const tn_marked *mark
 }
 
 /* In one tray, or in two: then the left one's letter says so. */
-static tn_status relate_meeting(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+static tn_status relate_meeting(const tn_frontier_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
                                 tn_error *error)
 {
     tn_dfa *inside = NULL, *left = NULL, *across = NULL;
@@ -176,7 +176,7 @@ static tn_status relate_meeting(const tn_strip_lowering *l, const tn_marked *mar
     return status;
 }
 
-static tn_status relate_section(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+static tn_status relate_section(const tn_frontier_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
                                 tn_error *error)
 {
     bool so = l->clause->bases.count > 0 && base_of(l->clause, 0, atom) != 0; /* of every letter */
@@ -188,11 +188,11 @@ static tn_status relate_section(const tn_strip_lowering *l, const tn_marked *mar
 
 /* ---- counting */
 
-static tn_int128 common_unit(const tn_strip_lowering *l, uint32_t letters, size_t atom)
+static tn_int128 common_unit(const tn_frontier_lowering *l, uint32_t letters, size_t atom)
 {
     tn_int128 unit = 0;
     for (uint32_t i = 0; i < letters; i++) {
-        tn_int128 a = tn_strip_area(l->strip, base_of(l->clause, i, atom));
+        tn_int128 a = tn_frontier_area(l->frontier, base_of(l->clause, i, atom));
         while (a != 0) {
             tn_int128 rest = unit % a;
             unit = a;
@@ -211,16 +211,16 @@ static int64_t halves(tn_int128 area)
 }
 
 /* Which sums of areas, in units, meet the condition: up to the last at which it changes. The caller frees *holds. */
-static tn_status sums_that_hold(const tn_strip_lowering *l, uint32_t condition, tn_int128 unit, uint64_t most,
+static tn_status sums_that_hold(const tn_frontier_lowering *l, uint32_t condition, tn_int128 unit, uint64_t most,
                                 tn_periodic_set *set, uint8_t **holds, tn_error *error)
 {
     if (most > AREA_STEPS_MAX)
-        return tn_strip_limit(l->strip, l->name, "adds areas that have no large common measure", error);
+        return tn_frontier_limit(l->frontier, l->name, "adds areas that have no large common measure", error);
     *holds = malloc((size_t)most + 2);
     if (!*holds)
         return tn_fail_memory(error);
     for (uint64_t n = 0; n <= most; n++)
-        (*holds)[n] = tn_condition_holds(l->strip->form->module, condition, halves((tn_int128)n * unit));
+        (*holds)[n] = tn_condition_holds(l->frontier->form->module, condition, halves((tn_int128)n * unit));
     set->threshold = most;
     while (set->threshold > 0 && (*holds)[set->threshold - 1] == (*holds)[most])
         set->threshold--;
@@ -229,7 +229,7 @@ static tn_status sums_that_hold(const tn_strip_lowering *l, uint32_t condition, 
     return TN_OK;
 }
 
-static tn_status relate_areas(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+static tn_status relate_areas(const tn_frontier_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
                               tn_error *error)
 {
     uint32_t letters = marked->letters - 1;
@@ -240,10 +240,10 @@ static tn_status relate_areas(const tn_strip_lowering *l, const tn_marked *marke
         return tn_fail_memory(error);
     tn_int128 unit = common_unit(l, letters, atom);
     for (uint32_t i = 0; i < letters; i++) {
-        counts[i] = (uint64_t)(tn_strip_area(l->strip, base_of(l->clause, i, atom)) / unit);
+        counts[i] = (uint64_t)(tn_frontier_area(l->frontier, base_of(l->clause, i, atom)) / unit);
         most = counts[i] > most ? counts[i] : most;
     }
-    most = most > AREA_STEPS_MAX ? most : most * l->strip->trays_most;
+    most = most > AREA_STEPS_MAX ? most : most * l->frontier->trays_most;
     tn_status status = sums_that_hold(l, (uint32_t)l->clause->atoms[atom].op.second, unit, most, &set, &holds, error);
     if (status == TN_OK)
         status = tn_marked_count(marked, marked->single, TN_TALLY_SINGLES, &set, counts, out, error);
@@ -252,7 +252,7 @@ static tn_status relate_areas(const tn_strip_lowering *l, const tn_marked *marke
     return status;
 }
 
-static tn_status relate_count(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_letter_part part,
+static tn_status relate_count(const tn_frontier_lowering *l, const tn_marked *marked, size_t atom, tn_letter_part part,
                               tn_dfa **out, tn_error *error)
 {
     uint32_t letters = marked->letters - 1;
@@ -261,22 +261,22 @@ static tn_status relate_count(const tn_strip_lowering *l, const tn_marked *marke
         return tn_fail_memory(error);
     for (uint32_t i = 0; i < letters; i++)
         counts[i] = part == PART_BASE ? base_of(l->clause, i, atom) : value_of(l->clause, i, atom);
-    tn_status status = tn_relate_numbers(marked, l->strip->form->module, marked->single,
+    tn_status status = tn_relate_numbers(marked, l->frontier->form->module, marked->single,
                                          (uint32_t)l->clause->atoms[atom].op.second, counts, out, error);
     free(counts);
     return status;
 }
 
 /* The last letter says it of the whole row: its value is the sum of all values. */
-static tn_status relate_comparison(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+static tn_status relate_comparison(const tn_frontier_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
                                    tn_error *error)
 {
-    uint8_t holds[TN_STRIP_TRUTHS] = {[TRUTH_YES] = true};
+    uint8_t holds[TN_FRONTIER_TRUTHS] = {[TRUTH_YES] = true};
     uint32_t letters = marked->letters - 1;
     uint64_t *counts = malloc(((size_t)letters + 1) * sizeof *counts);
     bool empty = false;
-    tn_status status =
-        counts ? tn_strip_empty_meets(l->strip, &l->clause->atoms[atom].op, &empty, error) : tn_fail_memory(error);
+    tn_status status = counts ? tn_frontier_empty_meets(l->frontier, &l->clause->atoms[atom].op, &empty, error)
+                              : tn_fail_memory(error);
     holds[TRUTH_LATER] = empty; /* there is no letter */
     const tn_periodic_set set = {.threshold = TRUTH_NO, .period = 1, .holds = holds};
     for (uint32_t i = 0; counts && i < letters; i++)
@@ -287,7 +287,7 @@ static tn_status relate_comparison(const tn_strip_lowering *l, const tn_marked *
     return status;
 }
 
-static tn_status relate_spans(const tn_strip_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
+static tn_status relate_spans(const tn_frontier_lowering *l, const tn_marked *marked, size_t atom, tn_dfa **out,
                               tn_error *error)
 {
     uint32_t letters = marked->letters - 1, *values = malloc(((size_t)letters + 1) * sizeof *values);
@@ -295,7 +295,7 @@ static tn_status relate_spans(const tn_strip_lowering *l, const tn_marked *marke
         return tn_fail_memory(error);
     for (uint32_t i = 0; i < letters; i++)
         values[i] = value_of(l->clause, i, atom);
-    tn_status status = tn_strip_relate_spans(l->strip, &l->clause->atoms[atom], marked, values, out, error);
+    tn_status status = tn_frontier_relate_spans(l->frontier, &l->clause->atoms[atom], marked, values, out, error);
     free(values);
     return status;
 }
@@ -305,7 +305,7 @@ static tn_status relate_spans(const tn_strip_lowering *l, const tn_marked *marke
 static tn_status relate(void *context, const tn_marked *marked, const tn_instruction *op, bool reversed, tn_dfa **out,
                         tn_error *error)
 {
-    const tn_strip_lowering *l = context;
+    const tn_frontier_lowering *l = context;
     size_t atom = find_atom(l->clause, op);
     (void)reversed;
     if (l->clause->atoms[atom].placed)
@@ -334,7 +334,7 @@ static tn_status relate(void *context, const tn_marked *marked, const tn_instruc
 /* ---- the automata */
 
 /* Letters as classes: each looks like a tray of its class. */
-static tn_status make_letters(const tn_strip_clause *clause, uint32_t letters, tn_classes *classes, tn_error *error)
+static tn_status make_letters(const tn_frontier_clause *clause, uint32_t letters, tn_classes *classes, tn_error *error)
 {
     size_t size;
     *classes = (tn_classes){.schema = clause->classes->schema, .count = letters};
@@ -348,17 +348,17 @@ static tn_status make_letters(const tn_strip_clause *clause, uint32_t letters, t
 }
 
 /* What the clause says of a house, as the rules are or without a part of them. */
-static tn_status lower_holds(const tn_strip_lowering *context, const tn_classes *classes, bool without, tn_dfa **out,
+static tn_status lower_holds(const tn_frontier_lowering *context, const tn_classes *classes, bool without, tn_dfa **out,
                              tn_error *error)
 {
-    const tn_strip *strip = context->strip;
+    const tn_frontier *frontier = context->frontier;
     tn_lowering *lowering = NULL;
     tn_status status = tn_lowering_new(classes, 0, &lowering, error);
     if (status == TN_OK) {
-        tn_lowering_within(lowering, strip->trays_most);
+        tn_lowering_within(lowering, frontier->trays_most);
         tn_lowering_house(lowering, relate, (void *)(uintptr_t)context);
         if (without)
-            tn_lowering_disable(lowering, strip->without->offsets, strip->without->count);
+            tn_lowering_disable(lowering, frontier->without->offsets, frontier->without->count);
         status = tn_lower(lowering, context->clause->holds, out, error);
     }
     tn_lowering_free(lowering);
@@ -366,13 +366,13 @@ static tn_status lower_holds(const tn_strip_lowering *context, const tn_classes 
 }
 
 /* The houses of which it says otherwise without the part. */
-static tn_status lower_difference(const tn_strip_lowering *context, const tn_classes *classes, tn_dfa **out,
+static tn_status lower_difference(const tn_frontier_lowering *context, const tn_classes *classes, tn_dfa **out,
                                   tn_error *error)
 {
     tn_bounds bounds = tn_bounds_make(TN_STATES_DEFAULT);
     tn_dfa *with = NULL, *without = NULL, *lost = NULL, *gained = NULL;
     tn_status status = lower_holds(context, classes, false, &with, error);
-    bounds.watch = context->strip->watch;
+    bounds.watch = context->frontier->watch;
     if (status == TN_OK)
         status = lower_holds(context, classes, true, &without, error);
     if (status == TN_OK)
@@ -388,14 +388,14 @@ static tn_status lower_difference(const tn_strip_lowering *context, const tn_cla
     return status;
 }
 
-static tn_status lower_clause(tn_strip *strip, tn_strip_clause *clause, const char *name, tn_error *error)
+static tn_status lower_clause(tn_frontier *frontier, tn_frontier_clause *clause, const char *name, tn_error *error)
 {
-    const tn_strip_lowering context = {strip, clause, name};
+    const tn_frontier_lowering context = {frontier, clause, name};
     uint64_t letters = (uint64_t)clause->bases.count * clause->radix;
     tn_classes classes = {0};
     tn_dfa *dfa = NULL;
-    if (letters > TN_STRIP_LETTERS_MAX)
-        return tn_strip_limit(strip, name, "tells too many trays with their houses apart", error);
+    if (letters > TN_FRONTIER_LETTERS_MAX)
+        return tn_frontier_limit(frontier, name, "tells too many trays with their houses apart", error);
     tn_status status = make_letters(clause, (uint32_t)letters, &classes, error);
     if (status == TN_OK)
         status = clause->differs ? lower_difference(&context, &classes, &dfa, error)
@@ -410,34 +410,34 @@ static tn_status lower_clause(tn_strip *strip, tn_strip_clause *clause, const ch
 }
 
 /* With one slot each, where the automaton with more of them is too large. */
-static tn_status lower_in_limits(tn_strip *strip, tn_strip_clause *clause, const char *name, tn_error *error)
+static tn_status lower_in_limits(tn_frontier *frontier, tn_frontier_clause *clause, const char *name, tn_error *error)
 {
     tn_error own;
     error = error ? error : &own;
-    tn_status status = lower_clause(strip, clause, name, error);
-    if (status == TN_LIMIT && error->code == E_TOO_MANY_STATES && tn_strip_fewer_slots(clause)) {
+    tn_status status = lower_clause(frontier, clause, name, error);
+    if (status == TN_LIMIT && error->code == E_TOO_MANY_STATES && tn_frontier_fewer_slots(clause)) {
         *error = (tn_error){0};
-        while (tn_strip_fewer_slots(clause))
+        while (tn_frontier_fewer_slots(clause))
             continue;
-        status = lower_clause(strip, clause, name, error);
+        status = lower_clause(frontier, clause, name, error);
     }
     return status == TN_LIMIT && error->code == E_TOO_MANY_STATES
-               ? tn_strip_limit(strip, name, "takes more states than the limit", error)
+               ? tn_frontier_limit(frontier, name, "takes more states than the limit", error)
                : status;
 }
 
-tn_status tn_strip_lower(tn_strip *strip, tn_error *error)
+tn_status tn_frontier_lower(tn_frontier *frontier, tn_error *error)
 {
-    const tn_module *module = strip->form->module;
-    uint32_t at_once[TN_STRIP_PLACED_MAX];
+    const tn_module *module = frontier->form->module;
+    uint32_t at_once[TN_FRONTIER_PLACED_MAX];
     tn_status status = TN_OK;
-    tn_strip_rooms_at_once(strip, at_once);
-    for (uint32_t i = 0; status == TN_OK && i < strip->clause_count; i++) {
-        const tn_house_clause_record *record = &module->HOUSE_CLAUSE_records[strip->library->clause_first + i];
-        tn_strip_fit_slots(strip, &strip->clauses[i], at_once);
-        status = lower_in_limits(strip, &strip->clauses[i], tn_text(module, record->name), error);
+    tn_frontier_rooms_at_once(frontier, at_once);
+    for (uint32_t i = 0; status == TN_OK && i < frontier->clause_count; i++) {
+        const tn_house_clause_record *record = &module->HOUSE_CLAUSE_records[frontier->library->clause_first + i];
+        tn_frontier_fit_slots(frontier, &frontier->clauses[i], at_once);
+        status = lower_in_limits(frontier, &frontier->clauses[i], tn_text(module, record->name), error);
     }
-    return status == TN_OK ? tn_strip_horizons(strip, error) : status;
+    return status == TN_OK ? tn_frontier_find_completions(frontier, error) : status;
 }
 
 /* ==== where in the row rooms and walks are
@@ -453,20 +453,20 @@ tn_status tn_strip_lower(tn_strip *strip, tn_error *error)
 
 /* ---- letters */
 
-static bool is_walk(const tn_strip_atom *atom)
+static bool is_walk(const tn_frontier_atom *atom)
 {
     return atom->op.opcode == TN_OP_APART;
 }
 
 /* How many values the word has. WALK_ON is none of those of a tray's own sources: the words above it come down. */
-static uint32_t word_radix(const tn_strip_atom *atom, uint32_t word)
+static uint32_t word_radix(const tn_frontier_atom *atom, uint32_t word)
 {
     if (is_walk(atom))
         return word == SEEN_FIRST ? WALK_ON + atom->slots : WALK_TO + word - SEEN_SLOTS;
     return word == SEEN_FIRST ? atom->most + 1 : SLOT_ENDS + atom->most;
 }
 
-static uint32_t from_seen(const tn_strip_atom *atom, uint32_t word, uint32_t seen)
+static uint32_t from_seen(const tn_frontier_atom *atom, uint32_t word, uint32_t seen)
 {
     uint32_t last = word_radix(atom, word) - 1;
     if (is_walk(atom))
@@ -474,7 +474,7 @@ static uint32_t from_seen(const tn_strip_atom *atom, uint32_t word, uint32_t see
     return seen > last ? last : seen; /* rooms: no more are told apart */
 }
 
-uint32_t tn_strip_span_value(const tn_strip_atom *atom, const uint32_t *seen)
+uint32_t tn_frontier_span_value(const tn_frontier_atom *atom, const uint32_t *seen)
 {
     uint32_t value = 0;
     if (seen[SEEN_FIRST] == SEEN_TOO_MANY)
@@ -492,7 +492,7 @@ uint32_t tn_strip_span_value(const tn_strip_atom *atom, const uint32_t *seen)
 }
 
 /* Is there such a letter at all? One slot at most begins with a tray. Others stand for a tray where nothing is. */
-static bool unfold(const tn_strip_atom *atom, uint32_t value, uint32_t seen[SEEN_WORDS])
+static bool unfold(const tn_frontier_atom *atom, uint32_t value, uint32_t seen[SEEN_WORDS])
 {
     uint32_t begin = 0;
     memset(seen, 0, SEEN_WORDS * sizeof *seen);
@@ -509,7 +509,7 @@ static bool unfold(const tn_strip_atom *atom, uint32_t value, uint32_t seen[SEEN
     return begin <= 1;
 }
 
-static uint64_t radix_of(const tn_strip_atom *atom)
+static uint64_t radix_of(const tn_frontier_atom *atom)
 {
     uint64_t radix = 1;
     for (uint32_t word = 0; word < SEEN_SLOTS + atom->slots && radix <= UINT32_MAX; word++)
@@ -518,11 +518,11 @@ static uint64_t radix_of(const tn_strip_atom *atom)
 }
 
 /* Of the clause, up to where it is too much. */
-static uint64_t clause_radix(tn_strip_clause *clause)
+static uint64_t clause_radix(tn_frontier_clause *clause)
 {
     uint64_t radix = 1;
-    for (size_t i = 0; i < clause->atom_count && radix <= TN_STRIP_LETTERS_MAX; i++) {
-        tn_strip_atom *atom = &clause->atoms[i];
+    for (size_t i = 0; i < clause->atom_count && radix <= TN_FRONTIER_LETTERS_MAX; i++) {
+        tn_frontier_atom *atom = &clause->atoms[i];
         uint64_t own = atom->placed ? radix_of(atom) : atom->radix;
         atom->radix = own > UINT32_MAX ? UINT32_MAX : (uint32_t)own;
         radix *= own;
@@ -531,26 +531,26 @@ static uint64_t clause_radix(tn_strip_clause *clause)
 }
 
 /* The placed atom with the most slots, if it can do with fewer. */
-static tn_strip_atom *widest(tn_strip_clause *clause)
+static tn_frontier_atom *widest(tn_frontier_clause *clause)
 {
-    tn_strip_atom *found = NULL;
+    tn_frontier_atom *found = NULL;
     for (size_t i = 0; i < clause->atom_count; i++) {
-        tn_strip_atom *atom = &clause->atoms[i];
+        tn_frontier_atom *atom = &clause->atoms[i];
         if (atom->placed && atom->slots > 1 && (!found || atom->slots > found->slots))
             found = atom;
     }
     return found;
 }
 
-static void find_radix(tn_strip_clause *clause)
+static void find_radix(tn_frontier_clause *clause)
 {
     uint64_t radix = clause_radix(clause);
     clause->radix = radix > UINT32_MAX ? UINT32_MAX : (uint32_t)radix;
 }
 
-bool tn_strip_fewer_slots(tn_strip_clause *clause)
+bool tn_frontier_fewer_slots(tn_frontier_clause *clause)
 {
-    tn_strip_atom *atom = widest(clause);
+    tn_frontier_atom *atom = widest(clause);
     if (!atom)
         return false;
     atom->slots--;
@@ -558,21 +558,22 @@ bool tn_strip_fewer_slots(tn_strip_clause *clause)
     return true;
 }
 
-void tn_strip_fit_slots(const tn_strip *strip, tn_strip_clause *clause, const uint32_t at_once[TN_STRIP_PLACED_MAX])
+void tn_frontier_fit_slots(const tn_frontier *frontier, tn_frontier_clause *clause,
+                           const uint32_t at_once[TN_FRONTIER_PLACED_MAX])
 {
-    uint32_t trays = strip->trays_most > 0 ? strip->trays_most - 1 : 0; /* nothing goes on behind the last */
+    uint32_t trays = frontier->trays_most > 0 ? frontier->trays_most - 1 : 0; /* nothing goes on behind the last */
     for (size_t i = 0; i < clause->atom_count; i++) {
-        tn_strip_atom *atom = &clause->atoms[i];
-        uint32_t rooms = is_walk(atom) ? TN_STRIP_SLOTS_MAX : at_once[atom->place];
+        tn_frontier_atom *atom = &clause->atoms[i];
+        uint32_t rooms = is_walk(atom) ? TN_FRONTIER_SLOTS_MAX : at_once[atom->place];
         if (!atom->placed)
             continue;
         atom->slots = rooms < trays ? rooms : trays;
-        atom->slots = atom->slots < TN_STRIP_SLOTS_MAX ? atom->slots : TN_STRIP_SLOTS_MAX;
+        atom->slots = atom->slots < TN_FRONTIER_SLOTS_MAX ? atom->slots : TN_FRONTIER_SLOTS_MAX;
         atom->most = atom->op.opcode == TN_OP_ROOMS && rooms > 0 ? rooms : 1;
     }
     find_radix(clause);
     uint64_t letters = clause->bases.count > 0 ? clause->bases.count : 1;
-    while (clause->radix * letters > PLACED_LETTERS && tn_strip_fewer_slots(clause))
+    while (clause->radix * letters > PLACED_LETTERS && tn_frontier_fewer_slots(clause))
         continue;
 }
 
@@ -582,7 +583,7 @@ enum { PHASE };                          /* of the words of a state */
 enum { BEFORE, WITHIN, AFTER, NOWHERE }; /* the first marker, between both, after the second; not in the relation */
 
 typedef struct tn_span_relation {
-    const tn_strip_atom *atom;
+    const tn_frontier_atom *atom;
     const uint32_t *values;
     const tn_join *join;
     const tn_periodic_set *counts; /* of ROOMS */
@@ -606,12 +607,12 @@ static bool read_column(const tn_span_relation *r, uint32_t column, uint32_t see
 /* ---- SOME_ROOM: {phase, what is read of the stretch} */
 
 #define NOTHING_READ UINT32_MAX
-enum { MAY_END = 1u << TN_STRIP_SLOTS_MAX }; /* below that, slots that may be the room's */
+enum { MAY_END = 1u << TN_FRONTIER_SLOTS_MAX }; /* below that, slots that may be the room's */
 
 static uint32_t slots_that(const uint32_t *seen, uint32_t say)
 {
     uint32_t slots = 0;
-    for (uint32_t s = 0; s < TN_STRIP_SLOTS_MAX; s++)
+    for (uint32_t s = 0; s < TN_FRONTIER_SLOTS_MAX; s++)
         slots |= (uint32_t)(seen[SEEN_SLOTS + s] == say) << s;
     return slots;
 }
@@ -621,7 +622,7 @@ static uint32_t read_room(const uint32_t *seen, uint32_t read)
     uint32_t begin = slots_that(seen, SLOT_BEGINS), on = slots_that(seen, SLOT_ON), end = 0;
     if (read == NOTHING_READ)
         return (seen[SEEN_FIRST] > 0 ? MAY_END : 0) | begin;
-    for (uint32_t s = 0; s < TN_STRIP_SLOTS_MAX; s++)
+    for (uint32_t s = 0; s < TN_FRONTIER_SLOTS_MAX; s++)
         end |= (uint32_t)(seen[SEEN_SLOTS + s] >= SLOT_ENDS) << s;
     return (read & end ? MAY_END : 0) | (read & (on | end));
 }
@@ -654,7 +655,7 @@ static uint32_t add_up(const tn_periodic_set *set, uint32_t number, uint32_t mor
 static bool step_rooms(void *context, const uint32_t *key, size_t size, uint32_t column, tn_key *next)
 {
     const tn_span_relation *r = context;
-    uint32_t seen[SEEN_WORDS], slots[TN_STRIP_SLOTS_MAX];
+    uint32_t seen[SEEN_WORDS], slots[TN_FRONTIER_SLOTS_MAX];
     if (!read_column(r, column, seen)) {
         if (key[PHASE] == BEFORE) {
             bool ok = go(next, WITHIN, 0);
@@ -734,7 +735,7 @@ static tn_status explore(tn_span_relation *r, const tn_marked *marked, tn_dfa **
 }
 
 /* The caller frees *holds. */
-static tn_status find_counts(const tn_module *module, const tn_strip_atom *atom, const tn_marked *marked,
+static tn_status find_counts(const tn_module *module, const tn_frontier_atom *atom, const tn_marked *marked,
                              tn_periodic_set *set, uint8_t **holds, tn_error *error)
 {
     uint32_t condition = (uint32_t)atom->op.second;
@@ -751,8 +752,8 @@ static tn_status find_counts(const tn_module *module, const tn_strip_atom *atom,
     return TN_OK;
 }
 
-tn_status tn_strip_relate_spans(const tn_strip *strip, const tn_strip_atom *atom, const tn_marked *marked,
-                                const uint32_t *values, tn_dfa **out, tn_error *error)
+tn_status tn_frontier_relate_spans(const tn_frontier *frontier, const tn_frontier_atom *atom, const tn_marked *marked,
+                                   const uint32_t *values, tn_dfa **out, tn_error *error)
 {
     uint32_t *told = calloc((size_t)marked->letters, sizeof *told), seen[SEEN_WORDS];
     uint8_t *holds = NULL;
@@ -765,7 +766,7 @@ tn_status tn_strip_relate_spans(const tn_strip *strip, const tn_strip_atom *atom
     if (status == TN_OK)
         status = tn_join_make(&join, NULL, 0, marked->letters, told, true, error);
     if (status == TN_OK && atom->op.opcode == TN_OP_ROOMS)
-        status = find_counts(strip->form->module, atom, marked, &set, &holds, error);
+        status = find_counts(frontier->form->module, atom, marked, &set, &holds, error);
     if (status == TN_OK)
         status = explore(&r, marked, out, error);
     tn_join_clear(&join);

@@ -31,10 +31,11 @@ static uint32_t kind_word(const tn_face *face)
     return face->kind << 1 | (face->relation == TN_FACE_OUTSIDE);
 }
 
-tn_status tn_strip_fit_base(tn_strip *strip, const tn_house *house, uint32_t cell, uint32_t *base, tn_error *error)
+tn_status tn_frontier_fit_base(tn_frontier *frontier, const tn_house *house, uint32_t cell, uint32_t *base,
+                               tn_error *error)
 {
     const tn_cell *c = &house->cells[cell];
-    tn_key *key = &strip->key;
+    tn_key *key = &frontier->key;
     key->size = 0;
     bool ok = tn_key_push(key, c->function) && tn_key_push(key, c->storey) &&
               tn_push_long(key, (uint64_t)(c->at.x1 - c->at.x0)) && tn_push_long(key, (uint64_t)c->at.y0) &&
@@ -47,16 +48,16 @@ tn_status tn_strip_fit_base(tn_strip *strip, const tn_house *house, uint32_t cel
         bool front = (face->side == TN_HOUSE_FRONT) == (face->first == cell);
         ok = tn_key_push(key, front ? TN_HOUSE_FRONT : TN_HOUSE_BACK) && tn_key_push(key, kind_word(face));
     }
-    *base = ok ? tn_intern(&strip->bases, key->data, key->size) : UINT32_MAX;
+    *base = ok ? tn_intern(&frontier->bases, key->data, key->size) : UINT32_MAX;
     return *base != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-tn_status tn_strip_fit_side(tn_strip *strip, const tn_house *house, uint32_t cell, tn_house_side side, int64_t x,
-                            const tn_posts *posts, uint32_t *fit, tn_error *error)
+tn_status tn_frontier_fit_side(tn_frontier *frontier, const tn_house *house, uint32_t cell, tn_house_side side,
+                               int64_t x, const tn_posts *posts, uint32_t *fit, tn_error *error)
 {
     const tn_cell *c = &house->cells[cell];
     int64_t wall = house->form->record->wall;
-    tn_key *key = &strip->key;
+    tn_key *key = &frontier->key;
     key->size = 0;
     bool ok = tn_key_push(key, 0);
     (void)side;
@@ -76,7 +77,7 @@ tn_status tn_strip_fit_side(tn_strip *strip, const tn_house *house, uint32_t cel
         uint32_t thick = (post->thick_x == wall ? THICK_X : 0u) | (post->thick_y == wall ? THICK_Y : 0u);
         ok = tn_push_long(key, (uint64_t)post->y) && tn_key_push(key, thick);
     }
-    *fit = ok ? tn_intern(&strip->sides, key->data, key->size) : UINT32_MAX;
+    *fit = ok ? tn_intern(&frontier->sides, key->data, key->size) : UINT32_MAX;
     return *fit != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
@@ -104,10 +105,10 @@ static void add_end(tn_house *house, bool thick, tn_rectangle at)
     add(house, OTHER, TN_HOUSE_BACK, (uint32_t)TN_FACE_WALL << 1 | thick, at);
 }
 
-static void add_side(const tn_strip *strip, tn_house *house, uint32_t side, bool left)
+static void add_side(const tn_frontier *frontier, tn_house *house, uint32_t side, bool left)
 {
     size_t size;
-    const uint32_t *words = tn_interned(&strip->sides, side, &size), *end = words + size;
+    const uint32_t *words = tn_interned(&frontier->sides, side, &size), *end = words + size;
     int64_t x = left ? house->cells[CELL].at.x0 : house->cells[CELL].at.x1, away = left ? -1 : 1;
     uint32_t faces = words[SIDE_FACES];
     for (words += SIDE_FIRST; faces > 0; faces--, words += FACE_WORDS)
@@ -121,15 +122,15 @@ static void add_side(const tn_strip *strip, tn_house *house, uint32_t side, bool
     }
 }
 
-static tn_status build(const tn_strip *strip, uint32_t base, uint32_t left, uint32_t right, tn_house *house,
+static tn_status build(const tn_frontier *frontier, uint32_t base, uint32_t left, uint32_t right, tn_house *house,
                        tn_error *error)
 {
     size_t size, sides[2];
-    const uint32_t *words = tn_interned(&strip->bases, base, &size);
-    tn_interned(&strip->sides, left, &sides[0]);
-    tn_interned(&strip->sides, right, &sides[1]);
-    *house = (tn_house){.form = strip->form, .length = 1, .cell_count = CELLS};
-    memcpy(house->shapes, strip->shapes, strip->form->record->choice_count * sizeof *strip->shapes);
+    const uint32_t *words = tn_interned(&frontier->bases, base, &size);
+    tn_interned(&frontier->sides, left, &sides[0]);
+    tn_interned(&frontier->sides, right, &sides[1]);
+    *house = (tn_house){.form = frontier->form, .length = 1, .cell_count = CELLS};
+    memcpy(house->shapes, frontier->shapes, frontier->form->record->choice_count * sizeof *frontier->shapes);
     house->cells = calloc(CELLS, sizeof *house->cells);
     house->faces = calloc(size + sides[0] + sides[1] + 1, sizeof *house->faces);
     if (!house->cells || !house->faces)
@@ -143,31 +144,32 @@ static tn_status build(const tn_strip *strip, uint32_t base, uint32_t left, uint
         add(house, CELL, (tn_house_side)words[i + BASE_FACE_SIDE], words[i + BASE_FACE_KIND],
             (tn_rectangle){0, wide, y, y});
     }
-    add_side(strip, house, left, true);
-    add_side(strip, house, right, false);
+    add_side(frontier, house, left, true);
+    add_side(frontier, house, right, false);
     return TN_OK;
 }
 
-tn_status tn_strip_fit(tn_strip *strip, uint32_t base, uint32_t left, uint32_t right, uint32_t *tiles, tn_error *error)
+tn_status tn_frontier_fit(tn_frontier *frontier, uint32_t base, uint32_t left, uint32_t right, uint32_t *tiles,
+                          tn_error *error)
 {
-    uint32_t before = strip->fit_keys[1].count;
-    uint32_t at = tn_number(&strip->fit_keys[0], (uint64_t)base << 32 | left);
-    at = at == UINT32_MAX ? at : tn_number(&strip->fit_keys[1], (uint64_t)at << 32 | right);
-    if (at == UINT32_MAX || !tn_array_reserve(&strip->fits, &strip->fit_room, before, 1, sizeof *strip->fits))
+    uint32_t before = frontier->fit_keys[1].count;
+    uint32_t at = tn_number(&frontier->fit_keys[0], (uint64_t)base << 32 | left);
+    at = at == UINT32_MAX ? at : tn_number(&frontier->fit_keys[1], (uint64_t)at << 32 | right);
+    if (at == UINT32_MAX || !tn_array_reserve(&frontier->fits, &frontier->fit_room, before, 1, sizeof *frontier->fits))
         return tn_fail_memory(error);
     if (at < before) {
-        *tiles = strip->fits[at];
+        *tiles = frontier->fits[at];
         return TN_OK;
     }
     tn_house house;
     tn_variants variants = {0};
-    tn_status status = build(strip, base, left, right, &house, error);
+    tn_status status = build(frontier, base, left, right, &house, error);
     if (status == TN_OK)
         status = tn_tile_variants(&house, CELL, &variants, error);
     *tiles = (uint32_t)variants.count;
-    if (status == TN_OK && strip->prices.items)
-        status = tn_strip_list_tiles(strip, &house, &variants, tiles, error);
-    strip->fits[at] = *tiles;
+    if (status == TN_OK && frontier->prices.items)
+        status = tn_frontier_list_tiles(frontier, &house, &variants, tiles, error);
+    frontier->fits[at] = *tiles;
     tn_variants_clear(&variants);
     free(house.cells);
     free(house.faces);
@@ -183,12 +185,12 @@ tn_status tn_strip_fit(tn_strip *strip, uint32_t base, uint32_t left, uint32_t r
 
 static int compare_sums(const void *a, const void *b)
 {
-    const tn_strip_sum *p = a, *q = b;
+    const tn_frontier_sum *p = a, *q = b;
     return (p->cost > q->cost) - (p->cost < q->cost);
 }
 
 /* Sums of the same cost become one. False: there are more than 2^64 arrangements. */
-static bool join_sums(tn_strip_sum *sums, size_t *count)
+static bool join_sums(tn_frontier_sum *sums, size_t *count)
 {
     size_t kept = 0;
     bool ok = true;
@@ -204,82 +206,83 @@ static bool join_sums(tn_strip_sum *sums, size_t *count)
 }
 
 /* Adds each tile of a list to each of the sums. */
-static tn_status add_list(tn_strip *strip, uint32_t list, tn_error *error)
+static tn_status add_list(tn_frontier *frontier, uint32_t list, tn_error *error)
 {
-    tn_strip_sums *s = &strip->sums;
-    const tn_int128 *steps = strip->prices.steps;
+    tn_frontier_sums *s = &frontier->sums;
+    const tn_int128 *steps = frontier->prices.steps;
     size_t words, count = 0;
-    const uint32_t *added = tn_interned(&strip->prices.lists, list, &words);
+    const uint32_t *added = tn_interned(&frontier->prices.lists, list, &words);
     bool ok = true;
     if (!tn_array_reserve(&s->more, &s->more_room, 0, s->count * (words / 2) + 1, sizeof *s->more))
         return tn_fail_memory(error);
     for (size_t i = 0; i < s->count; i++)
         for (size_t w = 0; ok && w < words; w += 2) {
-            tn_strip_sum sum = {s->items[i].cost + (steps ? steps[added[w]] : 0), 0};
+            tn_frontier_sum sum = {s->items[i].cost + (steps ? steps[added[w]] : 0), 0};
             ok = !__builtin_mul_overflow(s->items[i].times, (uint64_t)added[w + 1], &sum.times);
             s->more[count++] = sum;
         }
     if (count > 0)
         ok = ok && join_sums(s->more, &count);
-    tn_strip_sum *items = s->items;
+    tn_frontier_sum *items = s->items;
     size_t room = s->room;
     s->items = s->more;
     s->room = s->more_room;
     s->more = items;
     s->more_room = room;
     s->count = count;
-    return ok ? TN_OK : tn_strip_limit(strip, NULL, "a tray has more than 2^64 arrangements of tiles", error);
+    return ok ? TN_OK : tn_frontier_limit(frontier, NULL, "a tray has more than 2^64 arrangements of tiles", error);
 }
 
-/* Adds the tiles of a cell: `fit` as of tn_strip_fit. */
-static tn_status add_tiles(tn_strip *strip, uint32_t fit, tn_error *error)
+/* Adds the tiles of a cell: `fit` as of tn_frontier_fit. */
+static tn_status add_tiles(tn_frontier *frontier, uint32_t fit, tn_error *error)
 {
-    tn_strip_sums *s = &strip->sums;
-    if (strip->prices.items)
-        return add_list(strip, fit, error);
+    tn_frontier_sums *s = &frontier->sums;
+    if (frontier->prices.items)
+        return add_list(frontier, fit, error);
     s->count = fit > 0;
     if (__builtin_mul_overflow(s->items[0].times, (uint64_t)fit, &s->items[0].times))
-        return tn_strip_limit(strip, NULL, "a tray has more than 2^64 arrangements of tiles", error);
+        return tn_frontier_limit(frontier, NULL, "a tray has more than 2^64 arrangements of tiles", error);
     return TN_OK;
 }
 
-static tn_status begin(tn_strip *strip, tn_error *error)
+static tn_status begin(tn_frontier *frontier, tn_error *error)
 {
-    tn_strip_sums *s = &strip->sums;
+    tn_frontier_sums *s = &frontier->sums;
     if (!tn_array_reserve(&s->items, &s->room, 0, 1, sizeof *s->items))
         return tn_fail_memory(error);
-    s->items[0] = (tn_strip_sum){0, 1};
+    s->items[0] = (tn_frontier_sum){0, 1};
     s->count = 1;
     return TN_OK;
 }
 
 /* The tiles of the left slice: no sum where one of its cells has none. */
-static tn_status multiply(tn_strip *strip, uint32_t waiting, uint32_t sides, tn_error *error)
+static tn_status multiply(tn_frontier *frontier, uint32_t pending, uint32_t sides, tn_error *error)
 {
     size_t count, cells;
-    const uint32_t *wait = tn_interned(&strip->waiting, waiting, &count);
-    const uint32_t *fits = tn_interned(&strip->fit_lists, sides, &cells);
-    tn_status status = begin(strip, error);
-    for (size_t i = 0; status == TN_OK && strip->sums.count > 0 && i < count; i += WAIT_WORDS) {
+    const uint32_t *words = tn_interned(&frontier->pending, pending, &count);
+    const uint32_t *fits = tn_interned(&frontier->fit_lists, sides, &cells);
+    tn_status status = begin(frontier, error);
+    for (size_t i = 0; status == TN_OK && frontier->sums.count > 0 && i < count; i += PENDING_WORDS) {
         uint32_t fit = 0;
-        const tn_strip_one *one = &strip->merged.one[wait[i + WAIT_CLASS]];
-        status = tn_strip_fit(strip, one->base, one->left, fits[wait[i + WAIT_CELL]] - 1, &fit, error);
+        const tn_frontier_one *one = &frontier->merged.one[words[i + PENDING_CLASS]];
+        status = tn_frontier_fit(frontier, one->base, one->left, fits[words[i + PENDING_CELL]] - 1, &fit, error);
         if (status == TN_OK)
-            status = add_tiles(strip, strip->prices.items ? fit : fit / one->factor, error);
+            status = add_tiles(frontier, frontier->prices.items ? fit : fit / one->factor, error);
     }
     return status;
 }
 
 /* ---- how many, without prices */
 
-tn_status tn_strip_end_waiting(tn_strip *strip, uint32_t waiting, uint32_t left_fits, uint64_t *times, tn_error *error)
+tn_status tn_frontier_end_pending(tn_frontier *frontier, uint32_t pending, uint32_t left_fits, uint64_t *times,
+                                  tn_error *error)
 {
     uint32_t *result;
     bool met;
-    tn_status status = tn_strip_known_at(&strip->tiles, waiting, left_fits, 2, &result, &met, error);
+    tn_status status = tn_frontier_known_at(&frontier->tiles, pending, left_fits, 2, &result, &met, error);
     if (status == TN_OK && !met) {
-        status = multiply(strip, waiting, left_fits, error);
-        uint64_t found = status == TN_OK && strip->sums.count > 0 ? strip->sums.items[0].times : 0;
+        status = multiply(frontier, pending, left_fits, error);
+        uint64_t found = status == TN_OK && frontier->sums.count > 0 ? frontier->sums.items[0].times : 0;
         result[0] = tn_low(found);
         result[1] = tn_high(found);
     }
@@ -292,7 +295,7 @@ tn_status tn_strip_end_waiting(tn_strip *strip, uint32_t waiting, uint32_t left_
 enum { KEPT_FIRST, KEPT_COUNT, KEPT_WORDS };
 enum { KEPT_MAX = 1 << 21 }; /* sums: 64 MB */
 
-static tn_status keep(tn_strip_sums *s, uint32_t result[KEPT_WORDS], tn_error *error)
+static tn_status keep(tn_frontier_sums *s, uint32_t result[KEPT_WORDS], tn_error *error)
 {
     if (s->kept_count + s->count > KEPT_MAX)
         return TN_OK;
@@ -305,17 +308,17 @@ static tn_status keep(tn_strip_sums *s, uint32_t result[KEPT_WORDS], tn_error *e
     return TN_OK;
 }
 
-static tn_status find_kept(tn_strip *strip, uint32_t waiting, uint32_t left_fits, tn_error *error)
+static tn_status find_kept(tn_frontier *frontier, uint32_t pending, uint32_t left_fits, tn_error *error)
 {
-    tn_strip_sums *s = &strip->sums;
+    tn_frontier_sums *s = &frontier->sums;
     uint32_t *result;
     bool met;
-    tn_status status = tn_strip_known_at(&s->places, waiting, left_fits, KEPT_WORDS, &result, &met, error);
+    tn_status status = tn_frontier_known_at(&s->places, pending, left_fits, KEPT_WORDS, &result, &met, error);
     if (status == TN_OK && !met)
-        result[KEPT_FIRST] = TN_STRIP_NONE; /* not kept, as long as nothing else is known */
-    bool kept = status == TN_OK && result[KEPT_FIRST] != TN_STRIP_NONE;
+        result[KEPT_FIRST] = TN_FRONTIER_NONE; /* not kept, as long as nothing else is known */
+    bool kept = status == TN_OK && result[KEPT_FIRST] != TN_FRONTIER_NONE;
     if (status == TN_OK && !kept)
-        status = multiply(strip, waiting, left_fits, error);
+        status = multiply(frontier, pending, left_fits, error);
     if (status == TN_OK && !met)
         status = keep(s, result, error);
     s->found = kept ? s->kept + result[KEPT_FIRST] : s->items;
@@ -323,25 +326,25 @@ static tn_status find_kept(tn_strip *strip, uint32_t waiting, uint32_t left_fits
     return status;
 }
 
-tn_status tn_strip_sum_tiles(tn_strip *strip, uint32_t waiting, uint32_t left_fits, tn_error *error)
+tn_status tn_frontier_sum_tiles(tn_frontier *frontier, uint32_t pending, uint32_t left_fits, tn_error *error)
 {
-    tn_strip_sums *s = &strip->sums;
-    if (strip->prices.items && strip->prices.steps)
-        return find_kept(strip, waiting, left_fits, error);
+    tn_frontier_sums *s = &frontier->sums;
+    if (frontier->prices.items && frontier->prices.steps)
+        return find_kept(frontier, pending, left_fits, error);
     uint64_t times = 1;
-    tn_status status = strip->prices.items ? multiply(strip, waiting, left_fits, error)
-                                           : tn_strip_end_waiting(strip, waiting, left_fits, &times, error);
-    if (status == TN_OK && !strip->prices.items)
-        status = tn_strip_sum_one(strip, times, error);
+    tn_status status = frontier->prices.items ? multiply(frontier, pending, left_fits, error)
+                                              : tn_frontier_end_pending(frontier, pending, left_fits, &times, error);
+    if (status == TN_OK && !frontier->prices.items)
+        status = tn_frontier_sum_one(frontier, times, error);
     s->found = s->items;
     s->found_count = s->count;
     return status;
 }
 
-tn_status tn_strip_sum_one(tn_strip *strip, uint64_t times, tn_error *error)
+tn_status tn_frontier_sum_one(tn_frontier *frontier, uint64_t times, tn_error *error)
 {
-    tn_strip_sums *s = &strip->sums;
-    tn_status status = begin(strip, error);
+    tn_frontier_sums *s = &frontier->sums;
+    tn_status status = begin(frontier, error);
     if (status != TN_OK)
         return status;
     s->items[0].times = times;
@@ -350,21 +353,21 @@ tn_status tn_strip_sum_one(tn_strip *strip, uint64_t times, tn_error *error)
     return TN_OK;
 }
 
-void tn_strip_sums_clear(tn_strip_sums *sums)
+void tn_frontier_sums_clear(tn_frontier_sums *sums)
 {
     free(sums->items);
     free(sums->more);
     free(sums->kept);
-    tn_strip_known_clear(&sums->places);
+    tn_frontier_known_clear(&sums->places);
 }
 
 /* ==== prices
  *
  * What houses cost, in parts that add up: each tray by itself, between plain walls at its sides, and what
- * stands in each plane between two trays, which is the difference to that.
+ * stands in each interface between two trays, which is the difference to that.
  *
  * Such parts know all that there is as long as nothing reaches over a whole tray: what a wall, a deck or a roof is at a
- * plane depends on the trays at both of its sides alone. Where that is not so, costs are not counted (E1685). */
+ * interface depends on the trays at both of its sides alone. Where that is not so, costs are not counted (E1685). */
 
 /* ---- which costs can be counted so */
 
@@ -400,39 +403,39 @@ typedef struct tn_roofs {
     int64_t eaves; /* the widest */
 } tn_roofs;
 
-static tn_roofs roofs_of(const tn_strip *strip)
+static tn_roofs roofs_of(const tn_frontier *frontier)
 {
-    tn_house section = {.form = strip->form};
+    tn_house section = {.form = frontier->form};
     tn_roofs roofs = {0};
-    memcpy(section.shapes, strip->shapes, strip->form->record->choice_count * sizeof *section.shapes);
-    for (uint32_t z = 0; z < strip->form->zone_count; z++) {
-        const tn_shape_record *shape = tn_house_shape(&section, strip->form->zones[z], TN_CHOICE_ROOF);
+    memcpy(section.shapes, frontier->shapes, frontier->form->record->choice_count * sizeof *section.shapes);
+    for (uint32_t z = 0; z < frontier->form->zone_count; z++) {
+        const tn_shape_record *shape = tn_house_shape(&section, frontier->form->zones[z], TN_CHOICE_ROOF);
         roofs.across = roofs.across || (shape && shape->flags & TN_ROOF_ACROSS);
         roofs.eaves = shape && shape->eaves > roofs.eaves ? shape->eaves : roofs.eaves;
     }
     return roofs;
 }
 
-static tn_status refuse(const tn_strip *strip, const char *why, const char *help, tn_error *error)
+static tn_status refuse(const tn_frontier *frontier, const char *why, const char *help, tn_error *error)
 {
-    const tn_house_added *added = strip->added;
+    const tn_house_added *added = frontier->added;
     uint32_t k = 0;
     while (mpq_sgn(added->of[k]->cost) == 0)
         k++;
     tn_fail(error, TN_LIMIT, E_COST_OF_ALL, "the costs that `%.60s` adds up cannot be counted: %s",
-            tn_text(strip->form->module, added->of[k]->of.name), why);
+            tn_text(frontier->form->module, added->of[k]->of.name), why);
     tn_error_help(error, "%s", help);
     return TN_LIMIT;
 }
 
-static tn_status check_widths(const tn_strip *strip, const tn_roofs *roofs, const bool *trays, tn_error *error)
+static tn_status check_widths(const tn_frontier *frontier, const tn_roofs *roofs, const bool *trays, tn_error *error)
 {
-    const tn_house_form *form = strip->form;
+    const tn_house_form *form = frontier->form;
     int64_t wall = form->record->wall > form->record->partition ? form->record->wall : form->record->partition;
     int64_t reach = wall + (is_priced(form, TN_OF_ROOF, BY_ANY) ? 2 * roofs->eaves : 0);
-    for (tn_tray t = 0; strip->trays_most > 1 && t < form->schema->tray_count; t++)
+    for (tn_tray t = 0; frontier->trays_most > 1 && t < form->schema->tray_count; t++)
         if (trays[t] && tn_tray_value_record(form->schema, t, form->width)->length < reach)
-            return refuse(strip, "a tray is narrower than the walls and eaves at its sides together",
+            return refuse(frontier, "a tray is narrower than the walls and eaves at its sides together",
                           "make the eaves or the walls of the form narrower, or leave out the narrow trays", error);
     return TN_OK;
 }
@@ -446,62 +449,62 @@ static bool is_full(const tn_house_form *form, const tn_opening_record *opening)
     return false;
 }
 
-static tn_status check_openings(const tn_strip *strip, tn_error *error)
+static tn_status check_openings(const tn_frontier *frontier, tn_error *error)
 {
-    const tn_house_form *form = strip->form;
+    const tn_house_form *form = frontier->form;
     bool walls = is_priced(form, TN_OF_WALL, BY_NUMBER) || is_priced(form, TN_OF_PARTY, BY_NUMBER) ||
                  is_priced(form, TN_OF_PARTITION, BY_NUMBER);
     for (uint32_t i = 0; i < form->record->opening_count; i++) {
         const tn_opening_record *opening = &form->module->OPENING_records[form->record->opening_first + i];
         if (walls && is_full(form, opening))
-            return refuse(strip, "an opening can leave nothing of a wall, and walls have a price each",
+            return refuse(frontier, "an opening can leave nothing of a wall, and walls have a price each",
                           "give the price of walls per area, or per volume", error);
         if (opening->turn != TN_TURN_NONE && is_priced(form, TN_OF_DECK, BY_NUMBER))
-            return refuse(strip, "flights cut decks in pieces, and these have a price each",
+            return refuse(frontier, "flights cut decks in pieces, and these have a price each",
                           "give the price of decks per area, or per volume", error);
         if (opening->turn == TN_TURN_QUARTER && is_priced(form, TN_OF_COUNT + i, BY_VOLUME))
-            return refuse(strip, "a flight that turns a quarter has a price per volume",
+            return refuse(frontier, "a flight that turns a quarter has a price per volume",
                           "give its price per area, or for each", error);
     }
     return TN_OK;
 }
 
-tn_status tn_strip_prices_begin(tn_strip *strip, tn_error *error)
+tn_status tn_frontier_prices_begin(tn_frontier *frontier, tn_error *error)
 {
-    tn_strip_prices *p = &strip->prices;
-    for (uint32_t k = 0; k < strip->added->count; k++)
-        p->asked = p->asked || mpq_sgn(strip->added->of[k]->cost) != 0;
+    tn_frontier_prices *p = &frontier->prices;
+    for (uint32_t k = 0; k < frontier->added->count; k++)
+        p->asked = p->asked || mpq_sgn(frontier->added->of[k]->cost) != 0;
     if (!p->asked)
         return TN_OK;
-    p->items = are_items_priced(strip->form);
-    p->across = roofs_of(strip).across && is_priced(strip->form, TN_OF_ROOF, BY_ANY);
+    p->items = are_items_priced(frontier->form);
+    p->across = roofs_of(frontier).across && is_priced(frontier->form, TN_OF_ROOF, BY_ANY);
     const uint32_t none = 0; /* the first list is that of a cell in which nothing fits */
     return tn_intern(&p->lists, &none, 0) == UINT32_MAX ? tn_fail_memory(error) : TN_OK;
 }
 
-tn_status tn_strip_prices_check(const tn_strip *strip, const bool *trays, tn_error *error)
+tn_status tn_frontier_prices_check(const tn_frontier *frontier, const bool *trays, tn_error *error)
 {
-    tn_roofs roofs = roofs_of(strip);
-    if (strip->prices.across && roofs.eaves > 0)
-        return refuse(strip, "a section has eaves, and a roof that goes `across`",
+    tn_roofs roofs = roofs_of(frontier);
+    if (frontier->prices.across && roofs.eaves > 0)
+        return refuse(frontier, "a section has eaves, and a roof that goes `across`",
                       "keep sections that have only one of both: `prune section(...)`", error);
-    tn_status status = check_widths(strip, &roofs, trays, error);
-    return status == TN_OK ? check_openings(strip, error) : status;
+    tn_status status = check_widths(frontier, &roofs, trays, error);
+    return status == TN_OK ? check_openings(frontier, error) : status;
 }
 
-void tn_strip_prices_clear(tn_strip_prices *p)
+void tn_frontier_prices_clear(tn_frontier_prices *p)
 {
     for (uint32_t i = 0; i < p->numbers.count; i++)
         mpq_clear(p->exact[i]);
     tn_interner_clear(&p->numbers);
     tn_interner_clear(&p->alone.keys);
-    tn_interner_clear(&p->planes.keys);
+    tn_interner_clear(&p->interfaces.keys);
     tn_interner_clear(&p->shapes);
     tn_interner_clear(&p->lists);
     free(p->exact);
     free(p->steps);
     free(p->alone.costs);
-    free(p->planes.costs);
+    free(p->interfaces.costs);
     free(p->key.data);
 }
 
@@ -519,9 +522,9 @@ static bool push_integer(tn_key *key, const mpz_t number)
     return ok;
 }
 
-tn_status tn_strip_cost_number(tn_strip *strip, const mpq_t cost, uint32_t *number, tn_error *error)
+tn_status tn_frontier_cost_number(tn_frontier *frontier, const mpq_t cost, uint32_t *number, tn_error *error)
 {
-    tn_strip_prices *p = &strip->prices;
+    tn_frontier_prices *p = &frontier->prices;
     uint32_t before = p->numbers.count;
     p->key.size = 0;
     bool ok = push_integer(&p->key, mpq_numref(cost)) && push_integer(&p->key, mpq_denref(cost)) &&
@@ -536,22 +539,22 @@ tn_status tn_strip_cost_number(tn_strip *strip, const mpq_t cost, uint32_t *numb
     return TN_OK;
 }
 
-void tn_strip_cost_unit(const tn_strip *strip, mpq_t unit)
+void tn_frontier_cost_unit(const tn_frontier *frontier, mpq_t unit)
 {
     mpq_t cost;
     mpq_init(cost);
-    for (uint32_t i = 0; i < strip->prices.numbers.count; i++) {
-        mpq_abs(cost, strip->prices.exact[i]);
+    for (uint32_t i = 0; i < frontier->prices.numbers.count; i++) {
+        mpq_abs(cost, frontier->prices.exact[i]);
         tn_common_unit(unit, cost);
     }
     mpq_clear(cost);
 }
 
-tn_status tn_strip_settle(tn_strip *strip, const tn_strip_units *units, tn_error *error)
+tn_status tn_frontier_settle(tn_frontier *frontier, const tn_frontier_units *units, tn_error *error)
 {
-    tn_strip_prices *p = &strip->prices;
+    tn_frontier_prices *p = &frontier->prices;
     p->steps = calloc((size_t)p->numbers.count + 1, sizeof *p->steps);
-    strip->units = units;
+    frontier->units = units;
     if (!p->steps)
         return tn_fail_memory(error);
     for (uint32_t i = 0; i < p->numbers.count; i++)
@@ -562,12 +565,13 @@ tn_status tn_strip_settle(tn_strip *strip, const tn_strip_units *units, tn_error
 
 /* ---- trays */
 
-/* The number of the house's cost without what stands in its rooms, less what trays to the left and right of a plane
- * cost by themselves (NULL: nothing is taken off), by the key at hand: it is found once. */
-static tn_status keyed_cost(tn_strip *strip, tn_strip_keyed *known, const tn_house *house, const tn_strip_edge *left,
-                            const tn_strip_edge *right, uint32_t *number, tn_error *error)
+/* The number of the house's cost without what stands in its rooms, less what trays to the left and right of an
+ * interface cost by themselves (NULL: nothing is taken off), by the key at hand: it is found once. */
+static tn_status keyed_cost(tn_frontier *frontier, tn_frontier_keyed *known, const tn_house *house,
+                            const tn_frontier_edge *left, const tn_frontier_edge *right, uint32_t *number,
+                            tn_error *error)
 {
-    tn_strip_prices *p = &strip->prices;
+    tn_frontier_prices *p = &frontier->prices;
     uint32_t before = known->keys.count;
     bool ok = tn_array_reserve(&known->costs, &known->room, before, 1, sizeof *known->costs);
     uint32_t at = ok ? tn_intern(&known->keys, p->key.data, p->key.size) : UINT32_MAX;
@@ -583,22 +587,22 @@ static tn_status keyed_cost(tn_strip *strip, tn_strip_keyed *known, const tn_hou
         if (right)
             mpq_sub(cost, cost, p->exact[right->cost]);
         if (status == TN_OK)
-            status = tn_strip_cost_number(strip, cost, &known->costs[at], error);
+            status = tn_frontier_cost_number(frontier, cost, &known->costs[at], error);
         mpq_clear(cost);
     }
     *number = known->costs[at];
     return status;
 }
 
-tn_status tn_strip_tray_cost(tn_strip *strip, const tn_house *house, uint32_t *number, tn_error *error)
+tn_status tn_frontier_tray_cost(tn_frontier *frontier, const tn_house *house, uint32_t *number, tn_error *error)
 {
-    tn_strip_prices *p = &strip->prices;
+    tn_frontier_prices *p = &frontier->prices;
     p->key.size = 0;
     bool ok = tn_key_push(&p->key, house->trays[0]);
     for (size_t i = 0; ok && i < house->face_count; i++)
         if (tn_face_is_inner(&house->faces[i]))
             ok = tn_key_push(&p->key, house->faces[i].kind);
-    return ok ? keyed_cost(strip, &p->alone, house, NULL, NULL, number, error) : tn_fail_memory(error);
+    return ok ? keyed_cost(frontier, &p->alone, house, NULL, NULL, number, error) : tn_fail_memory(error);
 }
 
 /* Is there no floor above the face? */
@@ -607,10 +611,10 @@ static bool is_hole(const tn_face *face)
     return face->relation == TN_FACE_UNDER && (face->kind == TN_FACE_STAIR || face->kind == TN_FACE_OPEN);
 }
 
-bool tn_strip_push_shape(const tn_strip *strip, const tn_house *house, tn_key *key)
+bool tn_frontier_push_shape(const tn_frontier *frontier, const tn_house *house, tn_key *key)
 {
-    int64_t width = tn_tray_value_record(strip->form->schema, house->trays[0], strip->form->width)->length;
-    bool ok = tn_push_long(key, strip->prices.across ? (uint64_t)width : 0);
+    int64_t width = tn_tray_value_record(frontier->form->schema, house->trays[0], frontier->form->width)->length;
+    bool ok = tn_push_long(key, frontier->prices.across ? (uint64_t)width : 0);
     for (size_t i = 0; ok && i < house->cell_count; i++) {
         const tn_cell *cell = &house->cells[i];
         ok = tn_push_long(key, (uint64_t)cell->at.y0) && tn_push_long(key, (uint64_t)cell->at.y1) &&
@@ -622,18 +626,18 @@ bool tn_strip_push_shape(const tn_strip *strip, const tn_house *house, tn_key *k
     return ok;
 }
 
-/* ---- planes */
+/* ---- interfaces */
 
-tn_status tn_strip_plane_cost(tn_strip *strip, const tn_strip_border *border, const tn_house *house, uint32_t *number,
-                              tn_error *error)
+tn_status tn_frontier_interface_cost(tn_frontier *frontier, const tn_frontier_border *border, const tn_house *house,
+                                     uint32_t *number, tn_error *error)
 {
-    tn_strip_prices *p = &strip->prices;
+    tn_frontier_prices *p = &frontier->prices;
     p->key.size = 0;
-    bool ok = tn_key_push(&p->key, border->left ? border->left->shape : TN_STRIP_NONE) &&
-              tn_key_push(&p->key, border->right ? border->right->shape : TN_STRIP_NONE);
+    bool ok = tn_key_push(&p->key, border->left ? border->left->shape : TN_FRONTIER_NONE) &&
+              tn_key_push(&p->key, border->right ? border->right->shape : TN_FRONTIER_NONE);
     for (size_t i = 0; ok && i < border->count; i++)
         ok = tn_key_push(&p->key, house->faces[border->faces[i]].kind);
-    return ok ? keyed_cost(strip, &p->planes, house, border->left, border->right, number, error)
+    return ok ? keyed_cost(frontier, &p->interfaces, house, border->left, border->right, number, error)
               : tn_fail_memory(error);
 }
 
@@ -654,10 +658,10 @@ static bool push_list(tn_key *key, uint32_t *costs, size_t count)
     return ok;
 }
 
-tn_status tn_strip_list_tiles(tn_strip *strip, const tn_house *house, const tn_variants *variants, uint32_t *list,
-                              tn_error *error)
+tn_status tn_frontier_list_tiles(tn_frontier *frontier, const tn_house *house, const tn_variants *variants,
+                                 uint32_t *list, tn_error *error)
 {
-    tn_strip_prices *p = &strip->prices;
+    tn_frontier_prices *p = &frontier->prices;
     uint32_t *costs = malloc((variants->count + 1) * sizeof *costs);
     mpq_t cost;
     mpq_init(cost);
@@ -665,7 +669,7 @@ tn_status tn_strip_list_tiles(tn_strip *strip, const tn_house *house, const tn_v
     for (size_t i = 0; status == TN_OK && i < variants->count; i++) {
         const tn_tile_variant *variant = &variants->variants[i];
         tn_house_items_cost(house, variants->items + variant->item_first, variant->item_count, cost);
-        status = tn_strip_cost_number(strip, cost, &costs[i], error);
+        status = tn_frontier_cost_number(frontier, cost, &costs[i], error);
     }
     if (status == TN_OK) {
         bool ok = push_list(&p->key, costs, variants->count);

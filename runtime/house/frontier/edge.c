@@ -1,14 +1,14 @@
-/* The edges of trays: what a tray shows the planes at its sides, as far as that can matter there.
+/* The edges of trays: what a tray shows the interfaces at its sides, as far as that can matter there.
  *
  * ==== classes of cells
  *
- * Cells of which lines of faces say the same at a plane, whatever can stand beside them, are of one class.
+ * Cells of which lines of faces say the same at an interface, whatever can stand beside them, are of one class.
  *
- * A cell is described by its storey, its function and the lines that speak of it. Two descriptions can meet at a plane
- * where trays with such cells can follow one another in a plan of the library. For each of a description's partners the
- * lines are listed that apply, up to the first that always has a kind that fits: the others are never asked. So where
- * two houses of a row are parted by a party wall, whatever stands behind it, all cells beside that wall are of one
- * class. */
+ * A cell is described by its storey, its function and the lines that speak of it. Two descriptions can meet at an
+ * interface where trays with such cells can follow one another in a plan of the library. For each of a description's
+ * partners the lines are listed that apply, up to the first that always has a kind that fits: the others are never
+ * asked. So where two houses of a row are parted by a party wall, whatever stands beyond it, all cells beside that wall
+ * are of one class. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,12 +30,12 @@ static const tn_face_line_record *line_at(const tn_house_form *form, uint32_t li
 /* Their words: then come the bits of the lines. */
 enum { OF_STOREY, OF_FUNCTION, OF_LINES };
 
-tn_status tn_strip_describe(tn_strip *strip, const tn_house *house, uint32_t cell, uint32_t *description,
-                            tn_error *error)
+tn_status tn_frontier_describe(tn_frontier *frontier, const tn_house *house, uint32_t cell, uint32_t *description,
+                               tn_error *error)
 {
-    const tn_house_form *form = strip->form;
+    const tn_house_form *form = frontier->form;
     const tn_cell *at = &house->cells[cell];
-    tn_key *key = &strip->key;
+    tn_key *key = &frontier->key;
     uint32_t word = 0, used = 0;
     key->size = 0;
     bool ok = tn_key_push(key, at->storey) && tn_key_push(key, at->function);
@@ -53,7 +53,7 @@ tn_status tn_strip_describe(tn_strip *strip, const tn_house *house, uint32_t cel
         }
     }
     ok = ok && tn_key_push(key, word);
-    *description = ok ? tn_intern(&strip->borders.descriptions, key->data, key->size) : UINT32_MAX;
+    *description = ok ? tn_intern(&frontier->borders.descriptions, key->data, key->size) : UINT32_MAX;
     return *description != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
@@ -67,8 +67,8 @@ static bool speaks(const uint32_t *description, uint32_t place, uint32_t bit)
 
 /* The trays in which a description stands: a bit each. */
 typedef struct tn_describing {
-    tn_strip *strip;
-    const tn_strip_trays *trays;
+    tn_frontier *frontier;
+    const tn_frontier_trays *trays;
     uint64_t *stands; /* [descriptions][words] */
     size_t room;
 } tn_describing;
@@ -84,16 +84,16 @@ static tn_status note(tn_describing *d, uint32_t description, tn_tray tray, tn_e
 }
 
 /* Can something be asked of a room with this cell? */
-static tn_status note_function(tn_strip *strip, const tn_house *house, const tn_cell *cell, tn_error *error)
+static tn_status note_function(tn_frontier *frontier, const tn_house *house, const tn_cell *cell, tn_error *error)
 {
-    const tn_strip_questions *q = &strip->questions;
+    const tn_frontier_questions *q = &frontier->questions;
     tn_room_open open;
     uint64_t fails = 0;
     for (uint32_t i = 0; i < q->all_count; i++)
         fails |= (uint64_t)!tn_house_decide(house, q->all[i], cell) << i;
-    tn_status status = tn_strip_room_open(strip, fails, &open, error);
+    tn_status status = tn_frontier_room_open(frontier, fails, &open, error);
     if (status == TN_OK)
-        strip->asked_function[cell->function] = strip->asked_function[cell->function] || open.any;
+        frontier->asked_function[cell->function] = frontier->asked_function[cell->function] || open.any;
     return status;
 }
 
@@ -101,7 +101,7 @@ static tn_status note_function(tn_strip *strip, const tn_house *house, const tn_
 static tn_status describe_tray(tn_describing *d, tn_tray tray, tn_error *error)
 {
     tn_house house;
-    tn_strip *s = d->strip;
+    tn_frontier *s = d->frontier;
     tn_status status = tn_house_stand(s->form, &tray, 1, s->shapes, &house, error);
     for (uint32_t i = 0; status == TN_OK && i < house.cell_count; i++) {
         tn_cell *cell = &house.cells[i];
@@ -110,7 +110,7 @@ static tn_status describe_tray(tn_describing *d, tn_tray tray, tn_error *error)
             if (f < functions && !tn_cell_may(&house, cell, f))
                 continue;
             cell->function = f < functions ? f : TN_NO_FUNCTION;
-            status = tn_strip_describe(s, &house, i, &description, error);
+            status = tn_frontier_describe(s, &house, i, &description, error);
             if (status == TN_OK)
                 status = note(d, description, tray, error);
             if (status == TN_OK && f < functions)
@@ -163,9 +163,10 @@ static bool applies(const tn_face_line_record *line, uint32_t place, const uint3
 }
 
 /* Appends the lines between two, or (right NULL) those outside on a side. */
-static bool push_lines(const tn_strip *strip, const uint32_t *left, const uint32_t *right, uint32_t side, tn_key *key)
+static bool push_lines(const tn_frontier *frontier, const uint32_t *left, const uint32_t *right, uint32_t side,
+                       tn_key *key)
 {
-    const tn_house_form *form = strip->form;
+    const tn_house_form *form = frontier->form;
     bool ok = true, more = true;
     for (uint32_t i = 0, place = 0; ok && more && i < form->record->face_count; i++) {
         const tn_face_line_record *line = line_at(form, i);
@@ -179,67 +180,68 @@ static bool push_lines(const tn_strip *strip, const uint32_t *left, const uint32
         ok = tn_key_push(key, i);
         more = !always_fits(form, line);
     }
-    return ok && tn_key_push(key, TN_STRIP_NONE);
+    return ok && tn_key_push(key, TN_FRONTIER_NONE);
 }
 
 /* ---- what can be in its faces there */
 
-/* Who is behind the face. */
+/* What is on the other side of the face. */
 typedef enum tn_reached_over { OVER_NOTHING, OVER_OTHER, OVER_SAME_FUNCTION } tn_reached_over;
 
-static void reach_kind(const tn_strip *strip, uint32_t kind, tn_reached_over over, tn_strip_reach *reach)
+static void reach_kind(const tn_frontier *frontier, uint32_t kind, tn_reached_over over, tn_frontier_reach *reach)
 {
-    const tn_strip_questions *q = &strip->questions;
-    const tn_module *module = strip->form->module;
-    const tn_opening_record *opening = tn_form_opening(strip->form, kind);
-    reach->marks |= tn_strip_marks(strip, kind);
+    const tn_frontier_questions *q = &frontier->questions;
+    const tn_module *module = frontier->form->module;
+    const tn_opening_record *opening = tn_form_opening(frontier->form, kind);
+    reach->marks |= tn_frontier_marks(frontier, kind);
     reach->glazed = reach->glazed || (over == OVER_NOTHING && opening && opening->flags & TN_GLAZED);
     if (over == OVER_NOTHING)
         return;
     reach->open = reach->open || (over == OVER_SAME_FUNCTION && kind == TN_FACE_OPEN);
     for (uint32_t w = 0; w < q->walk_count; w++)
-        reach->walks |= (uint32_t)tn_walk_goes_through(strip->form, &module->MEETING_records[q->walks[w]], kind) << w;
+        reach->walks |= (uint32_t)tn_walk_goes_through(frontier->form, &module->MEETING_records[q->walks[w]], kind)
+                        << w;
     for (uint32_t m = 0; m < q->meeting_count; m++)
         reach->meetings |= (uint64_t)tn_meeting_has(module, &module->MEETING_records[q->meetings[m]], kind) << m;
 }
 
 /* The kinds of the lines in a list of push_lines; a wall, too, which stands where none of them fits. */
-static void reach_lines(const tn_strip *strip, const uint32_t *lines, const uint32_t *end, tn_reached_over over,
-                        tn_strip_reach *reach)
+static void reach_lines(const tn_frontier *frontier, const uint32_t *lines, const uint32_t *end, tn_reached_over over,
+                        tn_frontier_reach *reach)
 {
-    const tn_house_form *form = strip->form;
-    for (; lines < end && *lines != TN_STRIP_NONE; lines++) {
+    const tn_house_form *form = frontier->form;
+    for (; lines < end && *lines != TN_FRONTIER_NONE; lines++) {
         const tn_face_line_record *line = line_at(form, *lines);
         for (uint32_t k = 0; k < line->kind_count; k++)
-            reach_kind(strip, form->module->HOUSE_ITEM_records[line->kind_first + k].number, over, reach);
+            reach_kind(frontier, form->module->HOUSE_ITEM_records[line->kind_first + k].number, over, reach);
     }
-    reach_kind(strip, TN_FACE_WALL, over, reach);
+    reach_kind(frontier, TN_FACE_WALL, over, reach);
 }
 
 /* meets: [descriptions], those that can stand at the right of the one, or at its left. */
-static bool classify(tn_strip *strip, uint32_t description, const bool *meets, tn_strip_role_at role,
+static bool classify(tn_frontier *frontier, uint32_t description, const bool *meets, tn_frontier_role_at role,
                      tn_interner *classes, uint32_t *class)
 {
-    tn_strip_reach *reach = &strip->borders.reach[role][description];
-    const tn_interner *all = &strip->borders.descriptions;
+    tn_frontier_reach *reach = &frontier->borders.reach[role][description];
+    const tn_interner *all = &frontier->borders.descriptions;
     size_t size;
     const uint32_t *own = tn_interned(all, description, &size);
     uint32_t storey = own[OF_STOREY];
-    tn_key *key = &strip->key;
+    tn_key *key = &frontier->key;
     key->size = 0;
-    bool ok = push_lines(strip, own, NULL, role == TN_STRIP_EXIT ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, key);
+    bool ok = push_lines(frontier, own, NULL, role == TN_FRONTIER_EXIT ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, key);
     if (ok)
-        reach_lines(strip, key->data, key->data + key->size, OVER_NOTHING, reach);
+        reach_lines(frontier, key->data, key->data + key->size, OVER_NOTHING, reach);
     for (uint32_t d = 0; ok && d < all->count; d++) {
         const uint32_t *other = tn_interned(all, d, &size);
         if (!meets[d] || other[OF_STOREY] != storey)
             continue;
         ok = tn_key_push(key, d);
         size_t first = key->size;
-        ok = ok &&
-             (role == TN_STRIP_EXIT ? push_lines(strip, own, other, 0, key) : push_lines(strip, other, own, 0, key));
+        ok = ok && (role == TN_FRONTIER_EXIT ? push_lines(frontier, own, other, 0, key)
+                                             : push_lines(frontier, other, own, 0, key));
         if (ok)
-            reach_lines(strip, key->data + first, key->data + key->size,
+            reach_lines(frontier, key->data + first, key->data + key->size,
                         own[OF_FUNCTION] == other[OF_FUNCTION] ? OVER_SAME_FUNCTION : OVER_OTHER, reach);
     }
     *class = ok ? tn_intern(classes, key->data, key->size) : UINT32_MAX;
@@ -251,11 +253,11 @@ static void let_matter(uint64_t *matter, size_t decision)
     matter[decision / 64] |= UINT64_C(1) << decision % 64;
 }
 
-/* The decisions on a cell that can matter at the plane: to a walk if one can step there, to a meeting if it can be
+/* The decisions on a cell that can matter at the interface: to a walk if one can step there, to a meeting if it can be
  * there, to a room if it can go on there or something is seen of it. */
-static void find_matter(const tn_strip *strip, const tn_strip_reach *reach, uint64_t *matter)
+static void find_matter(const tn_frontier *frontier, const tn_frontier_reach *reach, uint64_t *matter)
 {
-    const tn_strip_questions *q = &strip->questions;
+    const tn_frontier_questions *q = &frontier->questions;
     for (uint32_t w = 0; w < q->walk_count; w++) {
         if (!(reach->walks >> w & 1))
             continue;
@@ -269,28 +271,28 @@ static void find_matter(const tn_strip *strip, const tn_strip_reach *reach, uint
             let_matter(matter, q->meeting_parts[m].first);
             let_matter(matter, q->meeting_parts[m].second);
         }
-    for (uint32_t i = 0; i < q->all_count && tn_strip_reaches_rooms(reach); i++)
+    for (uint32_t i = 0; i < q->all_count && tn_frontier_reaches_rooms(reach); i++)
         let_matter(matter, q->all_decisions[i]);
 }
 
 /* meet: [descriptions][descriptions], left and right. */
-static bool find_classes(tn_strip *strip, const bool *meet)
+static bool find_classes(tn_frontier *frontier, const bool *meet)
 {
-    tn_strip_borders *b = &strip->borders;
+    tn_frontier_borders *b = &frontier->borders;
     uint32_t count = b->descriptions.count;
-    tn_interner classes[TN_STRIP_ROLES] = {{0}};
+    tn_interner classes[TN_FRONTIER_ROLES] = {{0}};
     bool *meets = malloc((size_t)count + 1), ok = meets != NULL;
-    for (int role = 0; role < TN_STRIP_ROLES; role++) {
+    for (int role = 0; role < TN_FRONTIER_ROLES; role++) {
         b->classes[role] = malloc(((size_t)count + 1) * sizeof *b->classes[role]);
         b->reach[role] = calloc((size_t)count + 1, sizeof *b->reach[role]);
-        b->matter[role] = calloc(count * strip->answer_words + 1, sizeof *b->matter[role]);
+        b->matter[role] = calloc(count * frontier->answer_words + 1, sizeof *b->matter[role]);
         ok = ok && b->classes[role] && b->reach[role] && b->matter[role];
         for (uint32_t i = 0; ok && i < count; i++) {
             for (uint32_t d = 0; d < count; d++)
-                meets[d] = role == TN_STRIP_EXIT ? meet[(size_t)i * count + d] : meet[(size_t)d * count + i];
-            ok = classify(strip, i, meets, (tn_strip_role_at)role, &classes[role], &b->classes[role][i]);
+                meets[d] = role == TN_FRONTIER_EXIT ? meet[(size_t)i * count + d] : meet[(size_t)d * count + i];
+            ok = classify(frontier, i, meets, (tn_frontier_role_at)role, &classes[role], &b->classes[role][i]);
             if (ok)
-                find_matter(strip, &b->reach[role][i], b->matter[role] + i * strip->answer_words);
+                find_matter(frontier, &b->reach[role][i], b->matter[role] + i * frontier->answer_words);
         }
         tn_interner_clear(&classes[role]);
     }
@@ -300,7 +302,7 @@ static bool find_classes(tn_strip *strip, const bool *meet)
 
 static bool find_meetings(const tn_describing *d, bool *meet)
 {
-    size_t words = d->trays->words, count = d->strip->borders.descriptions.count;
+    size_t words = d->trays->words, count = d->frontier->borders.descriptions.count;
     uint64_t *next = malloc((words + 1) * sizeof *next);
     for (uint32_t i = 0; next && i < count; i++) {
         if (d->trays->follows)
@@ -312,26 +314,26 @@ static bool find_meetings(const tn_describing *d, bool *meet)
     return next != NULL;
 }
 
-tn_status tn_strip_borders_find(tn_strip *strip, const tn_strip_trays *trays, tn_error *error)
+tn_status tn_frontier_borders_find(tn_frontier *frontier, const tn_frontier_trays *trays, tn_error *error)
 {
-    tn_describing d = {.strip = strip, .trays = trays};
+    tn_describing d = {.frontier = frontier, .trays = trays};
     tn_status status = TN_OK;
-    for (tn_tray t = 0; status == TN_OK && t < strip->form->schema->tray_count; t++)
+    for (tn_tray t = 0; status == TN_OK && t < frontier->form->schema->tray_count; t++)
         if (trays->stand[t])
             status = describe_tray(&d, t, error);
-    size_t count = strip->borders.descriptions.count;
+    size_t count = frontier->borders.descriptions.count;
     bool *meet = malloc(tn_size_of(count, count) + 1);
-    if (status == TN_OK && !(meet && find_meetings(&d, meet) && find_classes(strip, meet)))
+    if (status == TN_OK && !(meet && find_meetings(&d, meet) && find_classes(frontier, meet)))
         status = tn_fail_memory(error);
     free(meet);
     free(d.stands);
     return status;
 }
 
-void tn_strip_borders_clear(tn_strip_borders *borders)
+void tn_frontier_borders_clear(tn_frontier_borders *borders)
 {
     tn_interner_clear(&borders->descriptions);
-    for (int role = 0; role < TN_STRIP_ROLES; role++) {
+    for (int role = 0; role < TN_FRONTIER_ROLES; role++) {
         free(borders->classes[role]);
         free(borders->reach[role]);
         free(borders->matter[role]);
@@ -340,25 +342,25 @@ void tn_strip_borders_clear(tn_strip_borders *borders)
 
 /* ==== edges
  *
- * Finds the edges of a tray: what it shows the planes at its sides, as far as that can matter there. */
+ * Finds the edges of a tray: what it shows the interfaces at its sides, as far as that can matter there. */
 
-/* The decisions that can matter at the plane. */
-static const uint64_t *matter_at(const tn_inside *in, tn_strip_role_at role, uint32_t cell)
+/* The decisions that can matter at the interface. */
+static const uint64_t *matter_at(const tn_inside *in, tn_frontier_role_at role, uint32_t cell)
 {
-    const tn_strip *s = in->strip;
+    const tn_frontier *s = in->frontier;
     return s->borders.matter[role] + in->cells[cell]->description * s->answer_words;
 }
 
-/* A room of cells that something is asked of goes on into cells with the same function. Where it is asked where rooms
- * are, all cells have their functions. */
-static bool push_cells(const tn_inside *in, tn_strip_role_at role, tn_key *key)
+/* A room of cells that something is asked of goes on into cells with the same function. If it is asked where rooms are,
+ * all cells have their functions. */
+static bool push_cells(const tn_inside *in, tn_frontier_role_at role, tn_key *key)
 {
-    tn_strip *s = in->strip;
+    tn_frontier *s = in->frontier;
     bool ok = tn_key_push(key, role) && tn_key_push(key, (uint32_t)in->house.cell_count);
     for (size_t i = 0; ok && i < in->house.cell_count; i++) {
         const tn_cell *cell = &in->house.cells[i];
-        const tn_strip_cut *known = in->cells[i];
-        const tn_strip_reach *reach = tn_inside_reach(in, role, (uint32_t)i);
+        const tn_frontier_cut *known = in->cells[i];
+        const tn_frontier_reach *reach = tn_inside_reach(in, role, (uint32_t)i);
         const uint64_t *matter = matter_at(in, role, (uint32_t)i);
         bool tiled = !cell->open && s->tiled[cell->function],
              goes_on =
@@ -373,7 +375,7 @@ static bool push_cells(const tn_inside *in, tn_strip_role_at role, tn_key *key)
     return ok;
 }
 
-/* Walls across end at the planes on both sides of the tray. */
+/* Walls across end at the interfaces on both sides of the tray. */
 static bool push_ends(const tn_inside *in, tn_key *key)
 {
     bool ok = true;
@@ -389,7 +391,7 @@ static bool push_ends(const tn_inside *in, tn_key *key)
 }
 
 /* The first cell that has the function of this one. */
-static uint32_t first_alike(const tn_strip_edge *edge, size_t cell)
+static uint32_t first_alike(const tn_frontier_edge *edge, size_t cell)
 {
     uint32_t i = 0;
     while (edge->cells[i].open || edge->cells[i].function != edge->cells[cell].function)
@@ -398,7 +400,7 @@ static uint32_t first_alike(const tn_strip_edge *edge, size_t cell)
 }
 
 /* Numbers what is asked of the cells of the edge. */
-static uint32_t number_asked(tn_strip *s, const tn_strip_edge *edge)
+static uint32_t number_asked(tn_frontier *s, const tn_frontier_edge *edge)
 {
     bool ok = true;
     s->key.size = 0;
@@ -415,7 +417,7 @@ static uint32_t number_asked(tn_strip *s, const tn_strip_edge *edge)
 /* Lower roofs, which may stand before openings of the trays beside. */
 static bool push_roofs(const tn_inside *in, tn_key *key)
 {
-    uint32_t storeys = in->strip->form->record->storey_count;
+    uint32_t storeys = in->frontier->form->record->storey_count;
     bool ok = true;
     for (uint32_t i = 0; ok && i < in->house.cell_count; i++) {
         const tn_cell *cell = &in->house.cells[i];
@@ -433,11 +435,11 @@ static bool push_roofs(const tn_inside *in, tn_key *key)
 }
 
 /* Its cells, and what is in the inner faces, are those of the house at hand. */
-static bool keep_edge(const tn_inside *in, tn_strip_role_at role, tn_strip_edge *edge)
+static bool keep_edge(const tn_inside *in, tn_frontier_role_at role, tn_frontier_edge *edge)
 {
-    tn_strip *s = in->strip;
+    tn_frontier *s = in->frontier;
     size_t count = in->house.cell_count;
-    *edge = (tn_strip_edge){.tray = in->tray, .count = (uint32_t)count};
+    *edge = (tn_frontier_edge){.tray = in->tray, .count = (uint32_t)count};
     edge->cells = malloc((count + 1) * sizeof *edge->cells);
     edge->answers = malloc((count * s->answer_words + 1) * sizeof *edge->answers);
     edge->inner = malloc((in->house.face_count + 1) * sizeof *edge->inner);
@@ -445,8 +447,8 @@ static bool keep_edge(const tn_inside *in, tn_strip_role_at role, tn_strip_edge 
         return false;
     for (size_t i = 0; i < count; i++) {
         const tn_cell *cell = &in->house.cells[i];
-        edge->cells[i] = (tn_strip_cell){cell->at.y0,    cell->at.y1, cell->storey,
-                                         cell->function, cell->open,  !cell->open && s->tiled[cell->function]};
+        edge->cells[i] = (tn_frontier_cell){cell->at.y0,    cell->at.y1, cell->storey,
+                                            cell->function, cell->open,  !cell->open && s->tiled[cell->function]};
         for (size_t w = 0; w < s->answer_words; w++)
             edge->answers[i * s->answer_words + w] = in->cells[i]->answers[w] & matter_at(in, role, (uint32_t)i)[w];
     }
@@ -457,19 +459,20 @@ static bool keep_edge(const tn_inside *in, tn_strip_role_at role, tn_strip_edge 
     return edge->asked != UINT32_MAX;
 }
 
-/* What the costs of planes beside the tray depend on. */
+/* What the costs of interfaces beside the tray depend on. */
 static tn_status find_shape(const tn_inside *in, uint32_t *shape, tn_error *error)
 {
-    tn_strip_prices *p = &in->strip->prices;
+    tn_frontier_prices *p = &in->frontier->prices;
     p->key.size = 0;
-    bool ok = tn_strip_push_shape(in->strip, &in->house, &p->key) && push_ends(in, &p->key);
+    bool ok = tn_frontier_push_shape(in->frontier, &in->house, &p->key) && push_ends(in, &p->key);
     *shape = ok ? tn_intern(&p->shapes, p->key.data, p->key.size) : UINT32_MAX;
     return *shape != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-tn_status tn_strip_find_edge(const tn_inside *in, tn_strip_role_at role, uint32_t cost, uint32_t *edge, tn_error *error)
+tn_status tn_frontier_find_edge(const tn_inside *in, tn_frontier_role_at role, uint32_t cost, uint32_t *edge,
+                                tn_error *error)
 {
-    tn_strip *s = in->strip;
+    tn_frontier *s = in->frontier;
     uint32_t before = s->edge_keys.count, shape = 0;
     tn_status status = s->prices.asked ? find_shape(in, &shape, error) : TN_OK;
     s->key.size = 0;

@@ -1,10 +1,10 @@
-/* What the clauses have read of a row, and what they can still tell apart.
+/* What the clauses have read of a row, and which completions of it they would keep.
  *
- * ==== what can still be told apart
+ * ==== completions of a clause's states
  *
- * A row has a least and a most number of trays. After so many of them, states of a clause that keep the same of all
- * that can follow are one, and a state that keeps nothing of it ends the row at once, though a longer row might still
- * have mended it. */
+ * A completion of a row is what can follow it up to the end; a row has a least and a most number of trays. After a
+ * given number of trays, states of a clause that keep the same completions are merged, and a state that keeps none ends
+ * the row at once, even if a longer row than is allowed could be kept. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,8 +13,9 @@
 
 /* ---- states */
 
-/* What a state keeps after so many letters; next: of one letter more, or NULL. *any: does it keep anything? */
-static bool describe(const tn_strip_clause *clause, uint32_t state, bool last, const uint32_t *next, tn_key *key,
+/* Which completions a state keeps after so many letters; next: the same after one letter more, or NULL. *any: does it
+ * keep any? */
+static bool describe(const tn_frontier_clause *clause, uint32_t state, bool last, const uint32_t *next, tn_key *key,
                      bool *any)
 {
     const tn_dfa *dfa = clause->dfa;
@@ -30,7 +31,7 @@ static bool describe(const tn_strip_clause *clause, uint32_t state, bool last, c
     return ok;
 }
 
-static uint32_t *merge_states(const tn_strip_clause *clause, bool last, const uint32_t *next, tn_key *key)
+static uint32_t *merge_states(const tn_frontier_clause *clause, bool last, const uint32_t *next, tn_key *key)
 {
     uint32_t states = clause->dfa->states;
     uint32_t *alike = malloc(((size_t)states + 1) * sizeof *alike),
@@ -57,14 +58,14 @@ static uint32_t *merge_states(const tn_strip_clause *clause, bool last, const ui
 }
 
 /* Far from the end of the row nothing changes any more: such numbers of letters share what is known. */
-static bool merge_clause(const tn_strip *strip, tn_strip_clause *clause, tn_key *key)
+static bool merge_clause(const tn_frontier *frontier, tn_frontier_clause *clause, tn_key *key)
 {
-    uint32_t most = strip->trays_most, least = strip->trays_least;
-    clause->horizons = calloc((size_t)most + 1, sizeof *clause->horizons);
-    if (!clause->horizons)
+    uint32_t most = frontier->trays_most, least = frontier->trays_least;
+    clause->completions = calloc((size_t)most + 1, sizeof *clause->completions);
+    if (!clause->completions)
         return false;
     for (uint32_t k = most + 1; k-- > 0;) {
-        tn_strip_horizon *here = &clause->horizons[k], *next = k < most ? here + 1 : NULL;
+        tn_frontier_completions *here = &clause->completions[k], *next = k < most ? here + 1 : NULL;
         bool settled = k + 2 <= most && here[1].alike == here[2].alike && (k >= least) == (k + 1 >= least);
         here->alike = settled ? next->alike : merge_states(clause, k >= least, next ? next->alike : NULL, key);
         if (!here->alike)
@@ -78,62 +79,62 @@ static bool merge_clause(const tn_strip *strip, tn_strip_clause *clause, tn_key 
     return true;
 }
 
-tn_status tn_strip_horizons(tn_strip *strip, tn_error *error)
+tn_status tn_frontier_find_completions(tn_frontier *frontier, tn_error *error)
 {
-    for (uint32_t i = 0; i < strip->clause_count; i++)
-        if (!merge_clause(strip, &strip->clauses[i], &strip->key))
+    for (uint32_t i = 0; i < frontier->clause_count; i++)
+        if (!merge_clause(frontier, &frontier->clauses[i], &frontier->key))
             return tn_fail_memory(error);
     return TN_OK;
 }
 
-void tn_strip_horizons_free(const tn_strip *strip, tn_strip_clause *clause)
+void tn_frontier_completions_free(const tn_frontier *frontier, tn_frontier_clause *clause)
 {
-    for (uint32_t k = 0; clause->horizons && k <= strip->trays_most; k++) {
-        tn_strip_horizon *here = &clause->horizons[k];
-        if (k == strip->trays_most || here->alike != here[1].alike)
+    for (uint32_t k = 0; clause->completions && k <= frontier->trays_most; k++) {
+        tn_frontier_completions *here = &clause->completions[k];
+        if (k == frontier->trays_most || here->alike != here[1].alike)
             free(here->alike);
         tn_numbering_clear(&here->pairs);
         tn_interner_clear(&here->classes);
         free(here->of_pair);
         free(here->first);
     }
-    free(clause->horizons);
+    free(clause->completions);
 }
 
 /* ---- letters of which a part is not known yet */
 
 /* Where each value of the letter leads, and the first pair that leads there. */
-static uint64_t merge_pair(tn_strip *strip, tn_strip_clause *clause, tn_strip_horizon *horizon, uint32_t state,
-                           uint32_t base, bool *ok)
+static uint64_t merge_pair(tn_frontier *frontier, tn_frontier_clause *clause, tn_frontier_completions *completions,
+                           uint32_t state, uint32_t base, bool *ok)
 {
     bool any = false;
-    uint32_t before = horizon->classes.count;
-    strip->key.size = 0;
+    uint32_t before = completions->classes.count;
+    frontier->key.size = 0;
     for (uint32_t v = 0; *ok && v < clause->radix; v++) {
-        uint32_t to = horizon->alike[tn_dfa_read(clause->dfa, state, base * clause->radix + v)];
+        uint32_t to = completions->alike[tn_dfa_read(clause->dfa, state, base * clause->radix + v)];
         any = any || to != TN_NO_STATE;
-        *ok = tn_key_push(&strip->key, to);
+        *ok = tn_key_push(&frontier->key, to);
     }
-    uint32_t class = *ok ? tn_intern(&horizon->classes, strip->key.data, strip->key.size) : UINT32_MAX;
+    uint32_t class = *ok ? tn_intern(&completions->classes, frontier->key.data, frontier->key.size) : UINT32_MAX;
     *ok = class != UINT32_MAX &&
-          tn_array_reserve(&horizon->first, &horizon->first_room, before, 1, sizeof *horizon->first);
+          tn_array_reserve(&completions->first, &completions->first_room, before, 1, sizeof *completions->first);
     if (*ok && class == before)
-        horizon->first[class] = any ? (uint64_t)state << 32 | base : TN_STRIP_NO_PAIR;
-    return *ok ? horizon->first[class] : 0;
+        completions->first[class] = any ? (uint64_t)state << 32 | base : TN_FRONTIER_NO_PAIR;
+    return *ok ? completions->first[class] : 0;
 }
 
-tn_status tn_strip_pair(tn_strip *strip, tn_strip_clause *clause, uint32_t trays, uint32_t state, uint32_t base,
-                        uint64_t *pair, tn_error *error)
+tn_status tn_frontier_pair(tn_frontier *frontier, tn_frontier_clause *clause, uint32_t trays, uint32_t state,
+                           uint32_t base, uint64_t *pair, tn_error *error)
 {
-    tn_strip_horizon *horizon = &clause->horizons[trays];
-    uint32_t before = horizon->pairs.count;
-    if (!tn_array_reserve(&horizon->of_pair, &horizon->pair_room, before, 1, sizeof *horizon->of_pair))
+    tn_frontier_completions *completions = &clause->completions[trays];
+    uint32_t before = completions->pairs.count;
+    if (!tn_array_reserve(&completions->of_pair, &completions->pair_room, before, 1, sizeof *completions->of_pair))
         return tn_fail_memory(error);
-    uint32_t at = tn_number(&horizon->pairs, (uint64_t)state << 32 | base);
+    uint32_t at = tn_number(&completions->pairs, (uint64_t)state << 32 | base);
     bool ok = at != UINT32_MAX;
     if (ok && at == before)
-        horizon->of_pair[at] = merge_pair(strip, clause, horizon, state, base, &ok);
-    *pair = ok ? horizon->of_pair[at] : 0;
+        completions->of_pair[at] = merge_pair(frontier, clause, completions, state, base, &ok);
+    *pair = ok ? completions->of_pair[at] : 0;
     return ok ? TN_OK : tn_fail_memory(error);
 }
 
@@ -141,16 +142,18 @@ tn_status tn_strip_pair(tn_strip *strip, tn_strip_clause *clause, uint32_t trays
  *
  * What the clauses have read so far, as one number, and how it goes on: each combination is worked out once.
  *
- * At a plane clauses read in two goes: first what the slice behind it says by itself, of the clauses that wait for
- * nothing; then what the plane says, of those that had waited for the right side of the slice before it. */
+ * At an interface clauses read in two steps. First the slice at its right, for clauses whose letters a slice knows by
+ * itself. Then the interface, for the other clauses: it completes the letter of the slice at its left, which was
+ * pending. */
 
-/* Words of what has been read: the state of each clause, then the base of each (0 where it waits for nothing). Words
- * between the two goes: where in the row, the states, the bases that waited, the bases that will wait. */
+/* Words of what has been read: the state of each clause, then the base of each clause's pending letter (0: none is).
+ * Words between the two steps: where in the row, the states, the bases that were pending, those that are pending from
+ * now on. */
 enum { AT_BEGIN, AT_PLANE, AT_END };
 enum { BETWEEN_WHERE, BETWEEN_STATES };
 
-tn_status tn_strip_known_at(tn_strip_known *known, uint32_t first, uint32_t second, size_t words, uint32_t **result,
-                            bool *met, tn_error *error)
+tn_status tn_frontier_known_at(tn_frontier_known *known, uint32_t first, uint32_t second, size_t words,
+                               uint32_t **result, bool *met, tn_error *error)
 {
     uint32_t before = known->pairs.count;
     if (!tn_array_reserve(&known->results, &known->room, before * words, words, sizeof *known->results))
@@ -161,36 +164,36 @@ tn_status tn_strip_known_at(tn_strip_known *known, uint32_t first, uint32_t seco
     return at == UINT32_MAX ? tn_fail_memory(error) : TN_OK;
 }
 
-void tn_strip_known_clear(tn_strip_known *known)
+void tn_frontier_known_clear(tn_frontier_known *known)
 {
     tn_numbering_clear(&known->pairs);
     free(known->results);
 }
 
-/* A letter of a clause, after which it has read so many. Does the clause keep something then? */
-static bool read_letter(const tn_strip_clause *clause, uint32_t letter, uint32_t letters, bool last, uint32_t *state)
+/* Reads a letter, of `letters` so far. Does the clause keep a completion then? */
+static bool read_letter(const tn_frontier_clause *clause, uint32_t letter, uint32_t letters, bool last, uint32_t *state)
 {
     *state = tn_dfa_read(clause->dfa, *state, letter);
     if (last)
         return clause->dfa->accept[*state];
-    *state = clause->horizons[letters].alike[*state];
+    *state = clause->completions[letters].alike[*state];
     return *state != TN_NO_STATE;
 }
 
 /* ---- the slice by itself */
 
-/* strip->key := what is between the two goes. *keeps: does each clause keep something? */
-static bool read_slice(tn_strip *strip, uint32_t trays, uint32_t read, const uint32_t *bases, bool *keeps)
+/* frontier->key := what is between the two steps. *keeps: does each clause keep a completion? */
+static bool read_slice(tn_frontier *frontier, uint32_t trays, uint32_t read, const uint32_t *bases, bool *keeps)
 {
     size_t size;
-    uint32_t count = strip->clause_count;
-    const uint32_t *before = read == TN_STRIP_NONE ? NULL : tn_interned(&strip->readings, read, &size);
-    tn_key *key = &strip->key;
+    uint32_t count = frontier->clause_count;
+    const uint32_t *before = read == TN_FRONTIER_NONE ? NULL : tn_interned(&frontier->readings, read, &size);
+    tn_key *key = &frontier->key;
     key->size = 0;
     bool ok = tn_key_push(key, !before ? AT_BEGIN : bases ? AT_PLANE : AT_END);
     *keeps = true;
     for (uint32_t i = 0; ok && *keeps && i < count; i++) {
-        const tn_strip_clause *clause = &strip->clauses[i];
+        const tn_frontier_clause *clause = &frontier->clauses[i];
         uint32_t state = before ? before[i] : 0;
         if (clause->radix == 1)
             *keeps = bases ? read_letter(clause, bases[i], trays + 1, false, &state) : clause->dfa->accept[state];
@@ -199,131 +202,134 @@ static bool read_slice(tn_strip *strip, uint32_t trays, uint32_t read, const uin
     for (uint32_t i = 0; ok && *keeps && i < count; i++)
         ok = tn_key_push(key, before ? before[count + i] : 0);
     for (uint32_t i = 0; ok && *keeps && i < count; i++)
-        ok = tn_key_push(key, bases && strip->clauses[i].radix > 1 ? bases[i] : 0);
+        ok = tn_key_push(key, bases && frontier->clauses[i].radix > 1 ? bases[i] : 0);
     return ok;
 }
 
-tn_status tn_strip_read_slice(tn_strip *strip, uint32_t trays, uint32_t read, uint32_t slice, uint32_t *between,
-                              tn_error *error)
+tn_status tn_frontier_read_slice(tn_frontier *frontier, uint32_t trays, uint32_t read, uint32_t slice,
+                                 uint32_t *between, tn_error *error)
 {
-    uint32_t *result, number = slice == TN_STRIP_NONE ? slice : strip->slices[slice].bases;
+    uint32_t *result, number = slice == TN_FRONTIER_NONE ? slice : frontier->slices[slice].bases;
     bool met, keeps;
-    tn_status status = tn_strip_known_at(&strip->after_slice[trays], read, number, 1, &result, &met, error);
+    tn_status status = tn_frontier_known_at(&frontier->after_slice[trays], read, number, 1, &result, &met, error);
     if (status == TN_OK && !met) {
         size_t size;
-        const uint32_t *bases = slice == TN_STRIP_NONE ? NULL : tn_interned(&strip->letters, number, &size);
-        bool ok = read_slice(strip, trays, read, bases, &keeps);
-        *result = ok && keeps ? tn_intern(&strip->between, strip->key.data, strip->key.size) : TN_STRIP_NONE;
+        const uint32_t *bases = slice == TN_FRONTIER_NONE ? NULL : tn_interned(&frontier->letters, number, &size);
+        bool ok = read_slice(frontier, trays, read, bases, &keeps);
+        *result =
+            ok && keeps ? tn_intern(&frontier->between, frontier->key.data, frontier->key.size) : TN_FRONTIER_NONE;
         if (!ok || (keeps && *result == UINT32_MAX))
             return tn_fail_memory(error);
     }
-    *between = status == TN_OK ? *result : TN_STRIP_NONE;
+    *between = status == TN_OK ? *result : TN_FRONTIER_NONE;
     return status;
 }
 
-/* ---- the plane */
+/* ---- the interface */
 
-/* Merges what the clause cannot tell apart, once it waits for the right side of the slice. */
-static tn_status wait_for_right(tn_strip *strip, uint32_t clause, uint32_t trays, uint32_t *state, uint32_t *base,
-                                bool *keeps, tn_error *error)
+/* Merges what the clause cannot tell apart, now that the slice's letter is pending. */
+static tn_status merge_pending(tn_frontier *frontier, uint32_t clause, uint32_t trays, uint32_t *state, uint32_t *base,
+                               bool *keeps, tn_error *error)
 {
     uint64_t pair;
-    if (strip->clauses[clause].radix == 1)
+    if (frontier->clauses[clause].radix == 1)
         return TN_OK;
-    tn_status status = tn_strip_pair(strip, &strip->clauses[clause], trays, *state, *base, &pair, error);
-    *keeps = status == TN_OK && pair != TN_STRIP_NO_PAIR;
+    tn_status status = tn_frontier_pair(frontier, &frontier->clauses[clause], trays, *state, *base, &pair, error);
+    *keeps = status == TN_OK && pair != TN_FRONTIER_NO_PAIR;
     *state = tn_high(pair);
     *base = tn_low(pair);
     return status;
 }
 
-/* strip->scratch := the states, then the bases. */
-static tn_status read_plane(tn_strip *strip, uint32_t trays, const uint32_t *between, const uint32_t *values,
-                            bool *keeps, tn_error *error)
+/* frontier->scratch := the states, then the bases. */
+static tn_status read_interface(tn_frontier *frontier, uint32_t trays, const uint32_t *between, const uint32_t *values,
+                                bool *keeps, tn_error *error)
 {
-    uint32_t count = strip->clause_count, where = between[BETWEEN_WHERE];
-    uint32_t *states = strip->scratch, *bases = states + count;
-    const uint32_t *waited = between + BETWEEN_STATES + count;
+    uint32_t count = frontier->clause_count, where = between[BETWEEN_WHERE];
+    uint32_t *states = frontier->scratch, *bases = states + count;
+    const uint32_t *last_bases = between + BETWEEN_STATES + count;
     tn_status status = TN_OK;
     memcpy(states, between + BETWEEN_STATES, count * sizeof *states);
-    memcpy(bases, waited + count, count * sizeof *bases);
+    memcpy(bases, last_bases + count, count * sizeof *bases);
     *keeps = true;
     for (uint32_t i = 0; status == TN_OK && *keeps && i < count; i++) {
-        const tn_strip_clause *clause = &strip->clauses[i];
+        const tn_frontier_clause *clause = &frontier->clauses[i];
         if (clause->radix > 1 && where != AT_BEGIN)
-            *keeps = read_letter(clause, waited[i] * clause->radix + values[i], trays, where == AT_END, &states[i]);
+            *keeps = read_letter(clause, last_bases[i] * clause->radix + values[i], trays, where == AT_END, &states[i]);
         if (*keeps && where != AT_END)
-            status = wait_for_right(strip, i, trays + 1, &states[i], &bases[i], keeps, error);
+            status = merge_pending(frontier, i, trays + 1, &states[i], &bases[i], keeps, error);
     }
     return status;
 }
 
-tn_status tn_strip_read_plane(tn_strip *strip, uint32_t trays, uint32_t between, uint32_t values, uint32_t *read,
-                              tn_error *error)
+tn_status tn_frontier_read_interface(tn_frontier *frontier, uint32_t trays, uint32_t between, uint32_t values,
+                                     uint32_t *read, tn_error *error)
 {
     uint32_t *result;
     bool met, keeps;
-    tn_status status = tn_strip_known_at(&strip->after_plane[trays], between, values, 1, &result, &met, error);
+    tn_status status =
+        tn_frontier_known_at(&frontier->after_interface[trays], between, values, 1, &result, &met, error);
     if (status == TN_OK && !met) {
         size_t size;
-        const uint32_t *words = values == TN_STRIP_NONE ? NULL : tn_interned(&strip->values, values, &size);
-        status = read_plane(strip, trays, tn_interned(&strip->between, between, &size), words, &keeps, error);
-        *result = TN_STRIP_NONE;
+        const uint32_t *words = values == TN_FRONTIER_NONE ? NULL : tn_interned(&frontier->values, values, &size);
+        status = read_interface(frontier, trays, tn_interned(&frontier->between, between, &size), words, &keeps, error);
+        *result = TN_FRONTIER_NONE;
         if (status == TN_OK && keeps) {
-            *result = tn_intern(&strip->readings, strip->scratch, 2 * (size_t)strip->clause_count);
+            *result = tn_intern(&frontier->readings, frontier->scratch, 2 * (size_t)frontier->clause_count);
             status = *result == UINT32_MAX ? tn_fail_memory(error) : TN_OK;
         }
     }
-    *read = status == TN_OK ? *result : TN_STRIP_NONE;
+    *read = status == TN_OK ? *result : TN_FRONTIER_NONE;
     return status;
 }
 
 /* ==== comparisons
  *
- * What clauses compare with 0: numbers that are added up along the row, and of which only the end says what
- * they are, unless nothing that is ahead can change their sign.
+ * What clauses compare with 0: numbers that are added up along the row. Their values are known only at its end, but
+ * their signs earlier if no completion can change them.
  *
  * A state has the number of its totals, one for each compared number, in its steps. At the end of the row they say
  * which comparisons hold: to a clause that is a part of the last letter's value. */
 
 enum { TOTAL_WORDS = sizeof(tn_int128) / sizeof(uint32_t) };
 
-static uint32_t compared_count(const tn_strip *strip)
+static uint32_t compared_count(const tn_frontier *frontier)
 {
-    return strip->added->count - strip->added->measures;
+    return frontier->added->count - frontier->added->measures;
 }
 
-uint32_t tn_strip_compared(const tn_strip *strip, uint32_t sum)
+uint32_t tn_frontier_compared(const tn_frontier *frontier, uint32_t sum)
 {
-    uint32_t k = strip->added->measures;
-    while (strip->added->sums[k] != sum)
+    uint32_t k = frontier->added->measures;
+    while (frontier->added->sums[k] != sum)
         k++;
     return k;
 }
 
 /* ---- the plan's part */
 
-/* value := what the number is of a plan of one tray, or (TN_STRIP_NONE) of none. */
-static tn_status value_of_plan(tn_strip *strip, uint32_t number, tn_tray tray, mpq_t value, tn_error *error)
+/* value := what the number is of a plan of one tray, or (TN_FRONTIER_NONE) of none. */
+static tn_status value_of_plan(tn_frontier *frontier, uint32_t number, tn_tray tray, mpq_t value, tn_error *error)
 {
-    tn_status status = strip->plan_vm ? TN_OK : tn_plan_vm_new(strip->form->schema, 1, &strip->plan_vm, error);
+    tn_status status = frontier->plan_vm ? TN_OK : tn_plan_vm_new(frontier->form->schema, 1, &frontier->plan_vm, error);
     if (status == TN_OK)
-        status = tn_plan_vm_plan(strip->plan_vm, &tray, tray != TN_STRIP_NONE, error);
+        status = tn_plan_vm_plan(frontier->plan_vm, &tray, tray != TN_FRONTIER_NONE, error);
     bool has; /* what is added up of a house always has a value */
-    return status == TN_OK ? tn_plan_vm_value(strip->plan_vm, strip->added->of[number]->of.sum, value, &has, error)
-                           : status;
+    return status == TN_OK
+               ? tn_plan_vm_value(frontier->plan_vm, frontier->added->of[number]->of.sum, value, &has, error)
+               : status;
 }
 
-tn_status tn_strip_tray_adds(tn_strip *strip, uint32_t number, tn_tray tray, int64_t *steps, tn_error *error)
+tn_status tn_frontier_tray_adds(tn_frontier *frontier, uint32_t number, tn_tray tray, int64_t *steps, tn_error *error)
 {
     tn_int128 wide = 0;
     mpq_t value, constant;
     mpq_inits(value, constant, NULL);
-    tn_status status = value_of_plan(strip, number, tray, value, error);
+    tn_status status = value_of_plan(frontier, number, tray, value, error);
     if (status == TN_OK)
-        status = value_of_plan(strip, number, TN_STRIP_NONE, constant, error);
+        status = value_of_plan(frontier, number, TN_FRONTIER_NONE, constant, error);
     mpq_sub(value, value, constant);
-    if (status == TN_OK && (!tn_steps_of(value, strip->added->of[number]->unit, &wide) || wide >> 45 != wide >> 127))
+    if (status == TN_OK && (!tn_steps_of(value, frontier->added->of[number]->unit, &wide) || wide >> 45 != wide >> 127))
         status = tn_too_fine(error);
     *steps = (int64_t)wide;
     mpq_clears(value, constant, NULL);
@@ -335,11 +341,12 @@ static bool holds(tn_opcode opcode, int sign)
     return opcode == TN_OP_HOUSE_BELOW ? sign < 0 : opcode == TN_OP_HOUSE_ZERO ? sign == 0 : sign > 0;
 }
 
-tn_status tn_strip_empty_meets(tn_strip *strip, const tn_instruction *op, bool *meets, tn_error *error)
+tn_status tn_frontier_empty_meets(tn_frontier *frontier, const tn_instruction *op, bool *meets, tn_error *error)
 {
     mpq_t value;
     mpq_init(value);
-    tn_status status = value_of_plan(strip, tn_strip_compared(strip, (uint32_t)op->first), TN_STRIP_NONE, value, error);
+    tn_status status =
+        value_of_plan(frontier, tn_frontier_compared(frontier, (uint32_t)op->first), TN_FRONTIER_NONE, value, error);
     *meets = holds(op->opcode, mpq_sgn(value));
     mpq_clear(value);
     return status;
@@ -347,136 +354,139 @@ tn_status tn_strip_empty_meets(tn_strip *strip, const tn_instruction *op, bool *
 
 /* ---- totals */
 
-static tn_status number_totals(tn_strip *strip, const tn_int128 *totals, uint32_t *number, tn_error *error)
+static tn_status number_totals(tn_frontier *frontier, const tn_int128 *totals, uint32_t *number, tn_error *error)
 {
-    uint32_t words[TN_COMPARED_MAX * TOTAL_WORDS], count = compared_count(strip);
+    uint32_t words[TN_COMPARED_MAX * TOTAL_WORDS], count = compared_count(frontier);
     memcpy(words, totals, count * sizeof *totals);
-    *number = tn_intern(&strip->totals, words, (size_t)count * TOTAL_WORDS);
+    *number = tn_intern(&frontier->totals, words, (size_t)count * TOTAL_WORDS);
     return *number != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-static void read_totals(const tn_strip *strip, uint32_t number, tn_int128 *totals)
+static void read_totals(const tn_frontier *frontier, uint32_t number, tn_int128 *totals)
 {
     size_t words;
-    const uint32_t *of = tn_interned(&strip->totals, number, &words);
+    const uint32_t *of = tn_interned(&frontier->totals, number, &words);
     memcpy(totals, of, words * sizeof *of);
 }
 
-tn_status tn_strip_first_total(tn_strip *strip, uint32_t *total, tn_error *error)
+tn_status tn_frontier_first_total(tn_frontier *frontier, uint32_t *total, tn_error *error)
 {
     tn_int128 totals[TN_COMPARED_MAX];
     tn_status status = TN_OK;
     mpq_t value;
     mpq_init(value);
-    for (uint32_t i = 0; status == TN_OK && i < compared_count(strip); i++) {
-        uint32_t number = strip->added->measures + i;
-        status = value_of_plan(strip, number, TN_STRIP_NONE, value, error);
-        if (status == TN_OK && !tn_steps_of(value, strip->units->measures[number], &totals[i]))
+    for (uint32_t i = 0; status == TN_OK && i < compared_count(frontier); i++) {
+        uint32_t number = frontier->added->measures + i;
+        status = value_of_plan(frontier, number, TN_FRONTIER_NONE, value, error);
+        if (status == TN_OK && !tn_steps_of(value, frontier->units->measures[number], &totals[i]))
             status = tn_too_fine(error);
     }
     mpq_clear(value);
-    return status == TN_OK ? number_totals(strip, totals, total, error) : status;
+    return status == TN_OK ? number_totals(frontier, totals, total, error) : status;
 }
 
 /* Below and above all that can be added up (are_small in runtime/house/count/units.c). */
 #define SURELY_BELOW (-((tn_int128)1 << 126))
 #define SURELY_ABOVE ((tn_int128)1 << 126)
 
-static tn_int128 settle(const tn_strip *strip, uint32_t trays, uint32_t compared, tn_int128 total)
+static tn_int128 settle(const tn_frontier *frontier, uint32_t trays, uint32_t compared, tn_int128 total)
 {
-    const tn_strip_range *ahead = &strip->ahead[trays].all[compared];
+    const tn_frontier_range *ahead = &frontier->ahead[trays].all[compared];
     if (!ahead->any)
         return total;
     return total + ahead->from > 0 ? SURELY_ABOVE : total + ahead->to < 0 ? SURELY_BELOW : total;
 }
 
-tn_status tn_strip_next_total(tn_strip *strip, uint32_t trays, uint32_t total, const tn_int128 *gains, uint32_t *next,
-                              tn_error *error)
+tn_status tn_frontier_next_total(tn_frontier *frontier, uint32_t trays, uint32_t total, const tn_int128 *gains,
+                                 uint32_t *next, tn_error *error)
 {
     tn_int128 totals[TN_COMPARED_MAX];
-    read_totals(strip, total, totals);
-    for (uint32_t i = 0; i < compared_count(strip); i++)
+    read_totals(frontier, total, totals);
+    for (uint32_t i = 0; i < compared_count(frontier); i++)
         if (totals[i] != SURELY_BELOW && totals[i] != SURELY_ABOVE)
-            totals[i] = settle(strip, trays, i, totals[i] + gains[i]);
-    return number_totals(strip, totals, next, error);
+            totals[i] = settle(frontier, trays, i, totals[i] + gains[i]);
+    return number_totals(frontier, totals, next, error);
 }
 
 /* ---- what is ahead */
 
-tn_status tn_strip_ahead_begin(tn_strip *strip, tn_error *error)
+tn_status tn_frontier_ahead_begin(tn_frontier *frontier, tn_error *error)
 {
-    strip->ahead = calloc((size_t)strip->trays_most + 2, sizeof *strip->ahead);
-    strip->looking_ahead = true;
-    return strip->ahead ? TN_OK : tn_fail_memory(error);
+    frontier->ahead = calloc((size_t)frontier->trays_most + 2, sizeof *frontier->ahead);
+    frontier->looking_ahead = true;
+    return frontier->ahead ? TN_OK : tn_fail_memory(error);
 }
 
-static void widen(tn_strip_range *range, tn_int128 from, tn_int128 to)
+static void widen(tn_frontier_range *range, tn_int128 from, tn_int128 to)
 {
     range->from = range->any && range->from < from ? range->from : from;
     range->to = range->any && range->to > to ? range->to : to;
     range->any = true;
 }
 
-void tn_strip_ahead_note(tn_strip *strip, uint32_t trays, bool end, uint32_t compared, tn_int128 from, tn_int128 to)
+void tn_frontier_ahead_note(tn_frontier *frontier, uint32_t trays, bool end, uint32_t compared, tn_int128 from,
+                            tn_int128 to)
 {
-    tn_strip_ahead *ahead = &strip->ahead[trays];
+    tn_frontier_ahead *ahead = &frontier->ahead[trays];
     widen(&(end ? ahead->end : ahead->tray)[compared], from, to);
 }
 
-void tn_strip_ahead_end(tn_strip *strip)
+void tn_frontier_ahead_end(tn_frontier *frontier)
 {
-    strip->looking_ahead = false;
-    for (uint32_t k = strip->trays_most + 1; k-- > 0;)
-        for (uint32_t i = 0; i < compared_count(strip); i++) {
-            tn_strip_ahead *here = &strip->ahead[k];
-            const tn_strip_range *next = &here[1].all[i];
+    frontier->looking_ahead = false;
+    for (uint32_t k = frontier->trays_most + 1; k-- > 0;)
+        for (uint32_t i = 0; i < compared_count(frontier); i++) {
+            tn_frontier_ahead *here = &frontier->ahead[k];
+            const tn_frontier_range *next = &here[1].all[i];
             if (here->end[i].any)
                 widen(&here->all[i], here->end[i].from, here->end[i].to);
             if (here->tray[i].any && next->any)
                 widen(&here->all[i], here->tray[i].from + next->from, here->tray[i].to + next->to);
         }
-    tn_strip_forget_states(strip);
+    tn_frontier_forget_states(frontier);
 }
 
 /* ---- the end of the row */
 
-uint32_t tn_strip_guesses(const tn_strip *strip)
+uint32_t tn_frontier_guesses(const tn_frontier *frontier)
 {
     uint32_t guesses = 1; /* each number is below, at or above 0 */
-    for (uint32_t i = 0; i < compared_count(strip); i++)
+    for (uint32_t i = 0; i < compared_count(frontier); i++)
         guesses *= 3;
     return guesses;
 }
 
 /* What the clause's value is with the truth of its comparisons; signs: of each compared number. */
-static uint32_t with_truths(const tn_strip *strip, const tn_strip_clause *clause, uint32_t value, const int *signs)
+static uint32_t with_truths(const tn_frontier *frontier, const tn_frontier_clause *clause, uint32_t value,
+                            const int *signs)
 {
     uint32_t place = 1;
     for (size_t i = 0; i < clause->atom_count; i++) {
-        const tn_strip_atom *atom = &clause->atoms[i];
+        const tn_frontier_atom *atom = &clause->atoms[i];
         if (tn_code_compares_house(atom->op.opcode))
-            value += place * (holds(atom->op.opcode, signs[atom->of - strip->added->measures]) ? TRUTH_YES : TRUTH_NO);
+            value +=
+                place * (holds(atom->op.opcode, signs[atom->of - frontier->added->measures]) ? TRUTH_YES : TRUTH_NO);
         place *= atom->radix;
     }
     return value;
 }
 
-tn_status tn_strip_end_values(tn_strip *strip, uint32_t values, uint32_t total, uint32_t guess, uint32_t *ends,
-                              tn_error *error)
+tn_status tn_frontier_end_values(tn_frontier *frontier, uint32_t values, uint32_t total, uint32_t guess, uint32_t *ends,
+                                 tn_error *error)
 {
     int signs[TN_COMPARED_MAX];
     tn_int128 totals[TN_COMPARED_MAX];
     size_t size;
     bool ok = true;
-    bool known = strip->units && !strip->looking_ahead;
+    bool known = frontier->units && !frontier->looking_ahead;
     if (known)
-        read_totals(strip, total, totals);
-    for (uint32_t i = 0; i < compared_count(strip); i++, guess /= 3)
+        read_totals(frontier, total, totals);
+    for (uint32_t i = 0; i < compared_count(frontier); i++, guess /= 3)
         signs[i] = known ? (totals[i] > 0) - (totals[i] < 0) : (int)(guess % 3) - 1;
-    strip->key.size = 0;
-    for (uint32_t i = 0; ok && i < strip->clause_count; i++)
-        ok = tn_key_push(&strip->key,
-                         with_truths(strip, &strip->clauses[i], tn_interned(&strip->values, values, &size)[i], signs));
-    *ends = ok ? tn_intern(&strip->values, strip->key.data, strip->key.size) : UINT32_MAX;
+    frontier->key.size = 0;
+    for (uint32_t i = 0; ok && i < frontier->clause_count; i++)
+        ok = tn_key_push(&frontier->key, with_truths(frontier, &frontier->clauses[i],
+                                                     tn_interned(&frontier->values, values, &size)[i], signs));
+    *ends = ok ? tn_intern(&frontier->values, frontier->key.data, frontier->key.size) : UINT32_MAX;
     return *ends != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }

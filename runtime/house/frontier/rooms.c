@@ -2,10 +2,10 @@
  *
  * ==== inside a tray
  *
- * It is written down in a form that is the same where rooms cannot tell it apart.
+ * Insides that rooms cannot tell apart are written down alike.
  *
- * Of a cell only that is kept which a question about its room can still depend on. A room that cannot go on behind the
- * planes beside the tray, and of which nothing is seen there, is known here: only the questions that it answers are
+ * Of a cell only that is kept which a question about its room can still depend on. A room that cannot go on across the
+ * interfaces beside the tray, and of which nothing is seen there, is known here: only the questions that it answers are
  * kept. Those that answer none are as good as one. */
 #include <stdlib.h>
 #include <string.h>
@@ -19,10 +19,10 @@
 typedef struct tn_inside_rooms {
     const tn_inside *in;
     uint32_t *of; /* [cells] */
-    tn_whole_room whole[TN_STRIP_CELLS_MAX];
-    tn_room_open open[TN_STRIP_CELLS_MAX];
-    bool goes_on[TN_STRIP_CELLS_MAX];
-    uint32_t truth[TN_STRIP_CELLS_MAX];
+    tn_whole_room whole[TN_FRONTIER_CELLS_MAX];
+    tn_room_open open[TN_FRONTIER_CELLS_MAX];
+    bool goes_on[TN_FRONTIER_CELLS_MAX];
+    uint32_t truth[TN_FRONTIER_CELLS_MAX];
     uint32_t nothing; /* the first cell of a room that answers no question */
 } tn_inside_rooms;
 
@@ -33,7 +33,7 @@ static uint64_t inner_marks(const tn_inside *in, uint32_t cell)
     for (size_t i = 0; i < in->house.face_count; i++) {
         const tn_face *face = &in->house.faces[i];
         if (tn_face_is_inner(face) && (face->first == cell || face->second == cell))
-            marks |= tn_strip_marks(in->strip, face->kind);
+            marks |= tn_frontier_marks(in->frontier, face->kind);
     }
     return marks;
 }
@@ -55,19 +55,19 @@ static tn_status find_open_rooms(tn_inside_rooms *r, tn_error *error)
     tn_status status = TN_OK;
     for (uint32_t i = 0; i < count; i++)
         if (!in->house.cells[i].open)
-            r->whole[r->of[i]].fails |= tn_strip_answers_fail(in->strip, in->cells[i]->answers);
+            r->whole[r->of[i]].fails |= tn_frontier_answers_fail(in->frontier, in->cells[i]->answers);
     for (uint32_t i = 0; status == TN_OK && i < count; i++)
         if (r->of[i] == i)
-            status = tn_strip_room_open(in->strip, r->whole[i].fails, &r->open[i], error);
+            status = tn_frontier_room_open(in->frontier, r->whole[i].fails, &r->open[i], error);
     return status;
 }
 
-/* Can the plane at a side of the cell tell more of its room? Where it is asked where rooms are, it always may. */
-static bool is_seen(const tn_inside_rooms *r, tn_strip_role_at role, uint32_t cell)
+/* Can the interface at a side of the cell tell more of its room? If it is asked where rooms are, it always may. */
+static bool is_seen(const tn_inside_rooms *r, tn_frontier_role_at role, uint32_t cell)
 {
-    const tn_strip_reach *reach = tn_inside_reach(r->in, role, cell);
+    const tn_frontier_reach *reach = tn_inside_reach(r->in, role, cell);
     const tn_room_open *open = &r->open[r->of[cell]];
-    return r->in->strip->questions.placed_count > 0 || reach->open || reach->marks & open->kinds ||
+    return r->in->frontier->questions.placed_count > 0 || reach->open || reach->marks & open->kinds ||
            (open->glass && reach->glazed);
 }
 
@@ -78,20 +78,20 @@ static void gather(tn_inside_rooms *r)
         uint32_t room = r->of[i];
         const tn_room_open *open = &r->open[room];
         tn_whole_room *whole = &r->whole[room];
-        if (!open->any && in->strip->questions.placed_count == 0)
+        if (!open->any && in->frontier->questions.placed_count == 0)
             continue;
         whole->kinds |= open->kinds ? inner_marks(in, i) & open->kinds : 0;
         whole->glass += open->glass ? inner_glass(in, i) : 0;
         whole->area += open->area && !in->house.cells[i].open ? tn_cell_area(&in->house.cells[i]) : 0;
         whole->cells += !in->house.cells[i].open;
-        r->goes_on[room] = r->goes_on[room] || is_seen(r, TN_STRIP_ENTRY, i) || is_seen(r, TN_STRIP_EXIT, i);
+        r->goes_on[room] = r->goes_on[room] || is_seen(r, TN_FRONTIER_ENTRY, i) || is_seen(r, TN_FRONTIER_EXIT, i);
     }
-    r->nothing = TN_STRIP_NONE;
+    r->nothing = TN_FRONTIER_NONE;
     for (uint32_t i = 0; i < in->house.cell_count; i++) {
         uint32_t room = r->of[i];
         if (room == i && r->open[i].any && !r->goes_on[i])
-            r->truth[i] = tn_strip_room_truth(in->strip, &r->whole[i]);
-        if (!r->goes_on[room] && r->truth[room] == 0 && r->nothing == TN_STRIP_NONE)
+            r->truth[i] = tn_frontier_room_truth(in->frontier, &r->whole[i]);
+        if (!r->goes_on[room] && r->truth[room] == 0 && r->nothing == TN_FRONTIER_NONE)
             r->nothing = i;
     }
 }
@@ -100,12 +100,12 @@ static void gather(tn_inside_rooms *r)
 static tn_status push_cell(const tn_inside_rooms *r, uint32_t cell, tn_key *key, tn_error *error)
 {
     const tn_inside *in = r->in;
-    tn_strip *strip = in->strip;
+    tn_frontier *frontier = in->frontier;
     const tn_cell *at = &in->house.cells[cell];
     uint32_t base = 0, room = r->of[cell];
     tn_whole_room own = {0};
-    if (!at->open && strip->tiled[at->function]) {
-        tn_status status = tn_strip_fit_base(strip, &in->house, cell, &base, error);
+    if (!at->open && frontier->tiled[at->function]) {
+        tn_status status = tn_frontier_fit_base(frontier, &in->house, cell, &base, error);
         if (status != TN_OK)
             return status;
     }
@@ -115,14 +115,14 @@ static tn_status push_cell(const tn_inside_rooms *r, uint32_t cell, tn_key *key,
                   : at->open        ? ROOM_IS_VOID
                                     : ROOM_GOES_ON,
              to = r->goes_on[room] || r->truth[room] ? room : r->nothing;
-    uint32_t area = tn_strip_number_area(strip, own.area), glass = tn_strip_number_area(strip, own.glass);
+    uint32_t area = tn_frontier_number_area(frontier, own.area), glass = tn_frontier_number_area(frontier, own.glass);
     bool ok = area != UINT32_MAX && glass != UINT32_MAX && tn_key_push(key, base) && tn_key_push(key, area) &&
               tn_key_push(key, glass) && tn_push_long(key, own.kinds) && tn_push_long(key, own.fails) &&
               tn_key_push(key, to) && tn_key_push(key, is) && tn_key_push(key, r->truth[room]);
     return ok ? TN_OK : tn_fail_memory(error);
 }
 
-tn_status tn_strip_push_inside(const tn_inside *in, tn_key *key, tn_error *error)
+tn_status tn_frontier_push_inside(const tn_inside *in, tn_key *key, tn_error *error)
 {
     tn_inside_rooms r = {.in = in};
     tn_status status = tn_house_rooms(&in->house, &r.of, error);
@@ -133,14 +133,14 @@ tn_status tn_strip_push_inside(const tn_inside *in, tn_key *key, tn_error *error
     for (uint32_t i = 0; status == TN_OK && i < in->house.cell_count; i++)
         status = push_cell(&r, i, key, error);
     free(r.of);
-    if (status == TN_OK && !tn_strip_push_walks(in, key))
+    if (status == TN_OK && !tn_frontier_push_walks(in, key))
         status = tn_fail_memory(error);
     return status;
 }
 
 /* ==== from tray to tray
  *
- * Follows rooms from tray to tray: which cells at the plane are in one room, and what is known of it.
+ * Follows rooms from tray to tray: which cells at the interface are in one room, and what is known of it.
  *
  * What is known only grows, so a question that is decided stays decided, and the rest is forgotten as soon as no open
  * question needs it. */
@@ -149,24 +149,24 @@ tn_status tn_strip_push_inside(const tn_inside *in, tn_key *key, tn_error *error
 typedef struct tn_known_room {
     uint64_t known, truth, fails, kinds;
     tn_int128 area;
-    tn_int128 balance[TN_STRIP_RATIOS_MAX]; /* glass times the one number of a ratio, less floor times the other */
+    tn_int128 balance[TN_FRONTIER_RATIOS_MAX]; /* glass times the one number of a ratio, less floor times the other */
     uint32_t cells;
 } tn_known_room;
 
 enum { ROOM_WORDS = sizeof(tn_known_room) / sizeof(uint32_t) };
 
-/* What goes on behind a plane: the number of each right cell's room, and where each is among those joined. */
-typedef struct tn_leaving {
-    uint32_t of_cell[TN_STRIP_CELLS_MAX], roots[TN_STRIP_CELLS_MAX], count;
-} tn_leaving;
+/* The rooms after an interface: the number of each right cell's room, and where each is among those joined. */
+typedef struct tn_rooms_after {
+    uint32_t of_cell[TN_FRONTIER_CELLS_MAX], roots[TN_FRONTIER_CELLS_MAX], count;
+} tn_rooms_after;
 
 /* The rooms of the left edge, then those that begin with a cell of the right one. */
 typedef struct tn_joining {
-    const tn_strip *strip;
-    uint32_t parent[2 * TN_STRIP_CELLS_MAX];
-    tn_known_room rooms[2 * TN_STRIP_CELLS_MAX];
-    tn_strip_place places[2 * TN_STRIP_CELLS_MAX]; /* where in the row it is asked for */
-    uint32_t held[TN_STRIP_PLACED_MAX];            /* slots of the rooms before */
+    const tn_frontier *frontier;
+    uint32_t parent[2 * TN_FRONTIER_CELLS_MAX];
+    tn_known_room rooms[2 * TN_FRONTIER_CELLS_MAX];
+    tn_frontier_place places[2 * TN_FRONTIER_CELLS_MAX]; /* where in the row it is asked for */
+    uint32_t held[TN_FRONTIER_PLACED_MAX];               /* slots of the rooms before */
     uint32_t before;
 } tn_joining;
 
@@ -192,16 +192,16 @@ static void join(tn_joining *j, uint32_t a, uint32_t b)
     to->kinds |= from->kinds;
     to->area += from->area;
     to->cells += from->cells;
-    for (uint32_t r = 0; r < j->strip->questions.ratio_count; r++)
+    for (uint32_t r = 0; r < j->frontier->questions.ratio_count; r++)
         to->balance[r] += from->balance[r];
-    if (j->strip->questions.placed_count > 0)
-        tn_strip_place_join(j->strip, &j->places[low], &j->places[high]);
+    if (j->frontier->questions.placed_count > 0)
+        tn_frontier_place_join(j->frontier, &j->places[low], &j->places[high]);
 }
 
 /* ---- questions */
 
 typedef struct tn_asked_known {
-    const tn_strip_questions *questions;
+    const tn_frontier_questions *questions;
     const tn_known_room *room;
     bool whole; /* nothing is added to the room any more */
 } tn_asked_known;
@@ -239,7 +239,7 @@ static tn_outcome ask(const void *context, const tn_instruction *op)
 {
     enum { SQUARE_MICROMETRE = 1000000 };
     const tn_asked_known *a = context;
-    const tn_strip_questions *q = a->questions;
+    const tn_frontier_questions *q = a->questions;
     switch (op->opcode) {
     case TN_OP_EVERY:
         return TN_OUTCOME_TRUE;
@@ -263,9 +263,9 @@ static tn_outcome ask(const void *context, const tn_instruction *op)
 }
 
 /* Decides what can be decided, and forgets what is not needed for the rest. */
-static void settle(const tn_strip *strip, tn_known_room *room, bool whole)
+static void settle(const tn_frontier *frontier, tn_known_room *room, bool whole)
 {
-    const tn_strip_questions *q = &strip->questions;
+    const tn_frontier_questions *q = &frontier->questions;
     tn_asked_known asked = {q, room, whole};
     uint64_t all = 0, kinds = 0;
     uint32_t ratios = 0;
@@ -273,7 +273,7 @@ static void settle(const tn_strip *strip, tn_known_room *room, bool whole)
     for (uint32_t i = 0; i < q->room_count; i++) {
         if (room->known >> i & 1)
             continue;
-        tn_outcome outcome = tn_outcome_decide(strip->form->module, q->rooms[i].function, ask, &asked);
+        tn_outcome outcome = tn_outcome_decide(frontier->form->module, q->rooms[i].function, ask, &asked);
         room->known |= (uint64_t)(outcome != TN_OUTCOME_OPEN) << i;
         room->truth |= (uint64_t)(outcome == TN_OUTCOME_TRUE) << i;
         if (outcome != TN_OUTCOME_OPEN)
@@ -294,29 +294,29 @@ static void settle(const tn_strip *strip, tn_known_room *room, bool whole)
 
 /* ---- what can be asked at all */
 
-uint64_t tn_strip_answers_fail(const tn_strip *strip, const uint64_t *answers)
+uint64_t tn_frontier_answers_fail(const tn_frontier *frontier, const uint64_t *answers)
 {
     uint64_t fails = 0;
-    for (uint32_t i = 0; i < strip->questions.all_count; i++)
-        fails |= (uint64_t)!tn_answers(answers, strip->questions.all_decisions[i]) << i;
+    for (uint32_t i = 0; i < frontier->questions.all_count; i++)
+        fails |= (uint64_t)!tn_answers(answers, frontier->questions.all_decisions[i]) << i;
     return fails;
 }
 
-uint64_t tn_strip_fails(const tn_strip *strip, const tn_strip_edge *edge, uint32_t cell)
+uint64_t tn_frontier_fails(const tn_frontier *frontier, const tn_frontier_edge *edge, uint32_t cell)
 {
     while (edge->cells[cell].open) /* a void is of the room below it; cells of a stack follow one another upwards */
         cell--;
-    return tn_strip_answers_fail(strip, tn_edge_answers(strip, edge, cell));
+    return tn_frontier_answers_fail(frontier, tn_edge_answers(frontier, edge, cell));
 }
 
-static void find_open(const tn_strip *strip, uint64_t fails, tn_room_open *open)
+static void find_open(const tn_frontier *frontier, uint64_t fails, tn_room_open *open)
 {
-    const tn_strip_questions *q = &strip->questions;
+    const tn_frontier_questions *q = &frontier->questions;
     tn_known_room room = {.fails = fails};
     const tn_asked_known asked = {q, &room, false};
     *open = (tn_room_open){0};
     for (uint32_t i = 0; i < q->room_count; i++) {
-        tn_outcome outcome = tn_outcome_decide(strip->form->module, q->rooms[i].function, ask, &asked);
+        tn_outcome outcome = tn_outcome_decide(frontier->form->module, q->rooms[i].function, ask, &asked);
         open->any = open->any || outcome != TN_OUTCOME_FALSE;
         if (outcome != TN_OUTCOME_OPEN)
             continue;
@@ -326,26 +326,26 @@ static void find_open(const tn_strip *strip, uint64_t fails, tn_room_open *open)
     }
 }
 
-tn_status tn_strip_room_open(tn_strip *strip, uint64_t fails, tn_room_open *open, tn_error *error)
+tn_status tn_frontier_room_open(tn_frontier *frontier, uint64_t fails, tn_room_open *open, tn_error *error)
 {
-    uint32_t before = strip->fails.count;
-    if (!tn_array_reserve(&strip->open_rooms, &strip->open_room, before, 1, sizeof *strip->open_rooms))
+    uint32_t before = frontier->fails.count;
+    if (!tn_array_reserve(&frontier->open_rooms, &frontier->open_room, before, 1, sizeof *frontier->open_rooms))
         return tn_fail_memory(error);
-    uint32_t at = tn_number(&strip->fails, fails);
+    uint32_t at = tn_number(&frontier->fails, fails);
     if (at == UINT32_MAX)
         return tn_fail_memory(error);
     if (at == before)
-        find_open(strip, fails, &strip->open_rooms[at]);
-    *open = strip->open_rooms[at];
+        find_open(frontier, fails, &frontier->open_rooms[at]);
+    *open = frontier->open_rooms[at];
     return TN_OK;
 }
 
-/* ---- a plane */
+/* ---- an interface */
 
-tn_int128 tn_strip_area(const tn_strip *strip, uint32_t number)
+tn_int128 tn_frontier_area(const tn_frontier *frontier, uint32_t number)
 {
     size_t size;
-    const uint32_t *words = tn_interned(&strip->areas, number, &size);
+    const uint32_t *words = tn_interned(&frontier->areas, number, &size);
     tn_int128 area = 0;
     for (size_t i = 0; i < 4; i++)
         area |= (tn_int128)words[i] << 32 * i;
@@ -353,52 +353,53 @@ tn_int128 tn_strip_area(const tn_strip *strip, uint32_t number)
 }
 
 /* Glass, less the floor that it is held against. */
-static void add_balance(const tn_strip *strip, tn_known_room *room, tn_int128 glass, tn_int128 floor)
+static void add_balance(const tn_frontier *frontier, tn_known_room *room, tn_int128 glass, tn_int128 floor)
 {
-    for (uint32_t r = 0; r < strip->questions.ratio_count; r++) {
-        int64_t ratio = strip->questions.ratios[r];
+    for (uint32_t r = 0; r < frontier->questions.ratio_count; r++) {
+        int64_t ratio = frontier->questions.ratios[r];
         room->balance[r] += glass * (ratio & UINT32_MAX) - floor * (ratio >> 32);
     }
 }
 
-uint32_t tn_strip_number_area(tn_strip *strip, tn_int128 area)
+uint32_t tn_frontier_number_area(tn_frontier *frontier, tn_int128 area)
 {
     uint32_t words[4];
     for (size_t i = 0; i < 4; i++)
         words[i] = (uint32_t)(area >> 32 * i);
-    return tn_intern(&strip->areas, words, 4);
+    return tn_intern(&frontier->areas, words, 4);
 }
 
-static uint64_t all_questions(const tn_strip *strip)
+static uint64_t all_questions(const tn_frontier *frontier)
 {
-    return (UINT64_C(1) << strip->questions.room_count) - 1;
+    return (UINT64_C(1) << frontier->questions.room_count) - 1;
 }
 
-uint32_t tn_strip_room_truth(const tn_strip *strip, const tn_whole_room *whole)
+uint32_t tn_frontier_room_truth(const tn_frontier *frontier, const tn_whole_room *whole)
 {
     tn_known_room room = {.fails = whole->fails, .kinds = whole->kinds, .area = whole->area, .cells = whole->cells};
-    add_balance(strip, &room, whole->glass, whole->area);
-    settle(strip, &room, true);
+    add_balance(frontier, &room, whole->glass, whole->area);
+    settle(frontier, &room, true);
     return (uint32_t)room.truth;
 }
 
-static void begin_cell(tn_joining *j, const tn_strip_crossing *c, uint32_t cell, const uint32_t *side)
+static void begin_cell(tn_joining *j, const tn_frontier_crossing *c, uint32_t cell, const uint32_t *side)
 {
     const uint32_t *words = c->slice + SLICE_CELLS + CELL_WORDS * cell;
     uint32_t room = j->before + cell;
     tn_known_room *known = &j->rooms[room];
     memset(known, 0, sizeof *known); /* padding too: rooms are compared as words */
     j->parent[room] = room;
-    if (j->strip->questions.placed_count > 0)
-        tn_strip_place_new(j->strip, &j->places[room]);
+    if (j->frontier->questions.placed_count > 0)
+        tn_frontier_place_new(j->frontier, &j->places[room]);
     known->kinds = tn_both(side + SIDE_MARKS) | tn_both(words + CELL_MARKS);
     known->fails = tn_both(words + CELL_FAILS);
     if (words[CELL_ROOM_IS] == ROOM_IS_KNOWN) {
-        known->known = all_questions(j->strip);
+        known->known = all_questions(j->frontier);
         known->truth = words[CELL_TRUTH];
     }
-    tn_int128 area = tn_strip_area(j->strip, words[CELL_AREA]);
-    add_balance(j->strip, known, tn_strip_area(j->strip, words[CELL_GLASS]) + tn_strip_area(j->strip, side[SIDE_GLASS]),
+    tn_int128 area = tn_frontier_area(j->frontier, words[CELL_AREA]);
+    add_balance(j->frontier, known,
+                tn_frontier_area(j->frontier, words[CELL_GLASS]) + tn_frontier_area(j->frontier, side[SIDE_GLASS]),
                 area);
     known->area = area;
     known->cells = words[CELL_ROOM_IS] == ROOM_GOES_ON;
@@ -406,19 +407,19 @@ static void begin_cell(tn_joining *j, const tn_strip_crossing *c, uint32_t cell,
 
 static void load_place(tn_joining *j, uint32_t room, const uint32_t *words)
 {
-    if (j->strip->questions.placed_count == 0)
+    if (j->frontier->questions.placed_count == 0)
         return;
-    tn_strip_place_load(j->strip, words, &j->places[room]);
-    for (uint32_t p = 0; p < j->strip->questions.placed_count; p++)
+    tn_frontier_place_load(j->frontier, words, &j->places[room]);
+    for (uint32_t p = 0; p < j->frontier->questions.placed_count; p++)
         if (j->places[room].slots[p] > 0)
             j->held[p] |= 1u << (j->places[room].slots[p] - 1);
 }
 
 /* The rooms before, with the faces of their last cells. */
-static void begin_left(tn_joining *j, const tn_strip_crossing *c, const uint32_t *state, const uint32_t *sides)
+static void begin_left(tn_joining *j, const tn_frontier_crossing *c, const uint32_t *state, const uint32_t *sides)
 {
     uint32_t cells = c->left ? c->left->count : 0;
-    size_t each = ROOM_WORDS + tn_strip_place_words(j->strip);
+    size_t each = ROOM_WORDS + tn_frontier_place_words(j->frontier);
     j->before = c->left ? state[cells] : 0;
     for (uint32_t r = 0; r < j->before; r++) {
         const uint32_t *words = state + cells + 1 + r * each;
@@ -428,19 +429,20 @@ static void begin_left(tn_joining *j, const tn_strip_crossing *c, const uint32_t
     }
     for (uint32_t i = 0; i < cells; i++) {
         j->rooms[state[i]].kinds |= tn_both(sides + SIDE_WORDS * i + SIDE_MARKS);
-        add_balance(j->strip, &j->rooms[state[i]], tn_strip_area(j->strip, sides[SIDE_WORDS * i + SIDE_GLASS]), 0);
+        add_balance(j->frontier, &j->rooms[state[i]], tn_frontier_area(j->frontier, sides[SIDE_WORDS * i + SIDE_GLASS]),
+                    0);
     }
 }
 
 /* Rooms that are nothing that is asked for become one: what is joined to one of them is nothing of that, either. Not
  * where it is asked where rooms are: then each begins somewhere. */
-static void settle_all(const tn_strip *strip, tn_joining *j, uint32_t cells)
+static void settle_all(const tn_frontier *frontier, tn_joining *j, uint32_t cells)
 {
-    uint64_t all = all_questions(strip);
+    uint64_t all = all_questions(frontier);
     uint32_t nothing = UINT32_MAX;
     for (uint32_t i = 0; i < cells; i++) {
         uint32_t root = root_of(j, j->before + i);
-        settle(strip, &j->rooms[root], false);
+        settle(frontier, &j->rooms[root], false);
         if (j->rooms[root].known != all || j->rooms[root].truth != 0)
             continue;
         if (nothing == UINT32_MAX)
@@ -450,36 +452,36 @@ static void settle_all(const tn_strip *strip, tn_joining *j, uint32_t cells)
 }
 
 /* Numbers the rooms of the right cells by the first cell in each, and settles them. */
-static void number_rooms(tn_joining *j, uint32_t cells, tn_leaving *to)
+static void number_rooms(tn_joining *j, uint32_t cells, tn_rooms_after *to)
 {
-    uint32_t number[2 * TN_STRIP_CELLS_MAX];
+    uint32_t number[2 * TN_FRONTIER_CELLS_MAX];
     memset(number, 0xff, sizeof number);
-    if (j->strip->questions.placed_count == 0)
-        settle_all(j->strip, j, cells);
+    if (j->frontier->questions.placed_count == 0)
+        settle_all(j->frontier, j, cells);
     to->count = 0;
     for (uint32_t i = 0; i < cells; i++) {
         uint32_t root = root_of(j, j->before + i);
         if (number[root] == UINT32_MAX) {
             to->roots[to->count] = root;
             number[root] = to->count++;
-            settle(j->strip, &j->rooms[root], false);
+            settle(j->frontier, &j->rooms[root], false);
         }
         to->of_cell[i] = number[root];
     }
 }
 
 /* seen: of the questions that ask where rooms are. */
-static void go_on(tn_joining *j, const tn_strip_edge *right, const tn_leaving *to, uint32_t *seen)
+static void go_on(tn_joining *j, const tn_frontier_edge *right, const tn_rooms_after *to, uint32_t *seen)
 {
-    tn_strip_going rooms[TN_STRIP_CELLS_MAX];
+    tn_frontier_going rooms[TN_FRONTIER_CELLS_MAX];
     for (uint32_t r = 0; r < to->count; r++) {
         const tn_known_room *known = &j->rooms[to->roots[r]];
-        rooms[r] = (tn_strip_going){.place = &j->places[to->roots[r]], .open = ~known->known | known->truth};
+        rooms[r] = (tn_frontier_going){.place = &j->places[to->roots[r]], .open = ~known->known | known->truth};
     }
     for (uint32_t i = 0; right && i < right->count; i++)
         if (!right->cells[i].open)
             rooms[to->of_cell[i]].function = right->cells[i].function;
-    tn_strip_places_go_on(j->strip, rooms, to->count, j->held, seen);
+    tn_frontier_places_go_on(j->frontier, rooms, to->count, j->held, seen);
 }
 
 static bool push_words(tn_key *key, const uint32_t *words, size_t count)
@@ -490,54 +492,54 @@ static bool push_words(tn_key *key, const uint32_t *words, size_t count)
     return ok;
 }
 
-static tn_status leave(tn_strip *strip, tn_joining *j, const tn_leaving *to, uint32_t cells, uint32_t *after,
-                       tn_error *error)
+static tn_status number_after(tn_frontier *frontier, tn_joining *j, const tn_rooms_after *to, uint32_t cells,
+                              uint32_t *after, tn_error *error)
 {
-    tn_key *key = &strip->key;
+    tn_key *key = &frontier->key;
     key->size = 0;
     bool ok = push_words(key, to->of_cell, cells) && tn_key_push(key, to->count);
     for (uint32_t r = 0; ok && r < to->count; r++) {
-        const tn_strip_place *place = &j->places[to->roots[r]];
+        const tn_frontier_place *place = &j->places[to->roots[r]];
         uint32_t words[ROOM_WORDS];
         memcpy(words, &j->rooms[to->roots[r]], sizeof words);
         ok = push_words(key, words, ROOM_WORDS);
-        if (ok && strip->questions.placed_count > 0)
-            ok = tn_key_push(key, place->age) && push_words(key, place->slots, strip->questions.placed_count);
+        if (ok && frontier->questions.placed_count > 0)
+            ok = tn_key_push(key, place->age) && push_words(key, place->slots, frontier->questions.placed_count);
     }
-    *after = ok ? tn_intern(&strip->rooms, key->data, key->size) : UINT32_MAX;
+    *after = ok ? tn_intern(&frontier->rooms, key->data, key->size) : UINT32_MAX;
     return *after != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-/* Rooms without a cell behind the plane are whole. */
-static void close_rooms(tn_strip *strip, tn_joining *j, uint32_t cells, uint32_t *closed)
+/* Rooms without a cell at the right of the interface are whole. */
+static void close_rooms(tn_frontier *frontier, tn_joining *j, uint32_t cells, uint32_t *closed)
 {
-    bool live[2 * TN_STRIP_CELLS_MAX] = {false};
+    bool live[2 * TN_FRONTIER_CELLS_MAX] = {false};
     for (uint32_t i = 0; i < cells; i++)
         live[root_of(j, j->before + i)] = true;
     for (uint32_t r = 0; r < j->before; r++) {
         if (j->parent[r] != r || live[r])
             continue;
-        settle(strip, &j->rooms[r], true);
-        for (uint32_t q = 0; q < strip->questions.room_count; q++)
+        settle(frontier, &j->rooms[r], true);
+        for (uint32_t q = 0; q < frontier->questions.room_count; q++)
             closed[q] += j->rooms[r].truth >> q & 1;
-        tn_strip_place_end(strip, &j->places[r], j->rooms[r].truth, closed + strip->questions.room_count);
+        tn_frontier_place_end(frontier, &j->places[r], j->rooms[r].truth, closed + frontier->questions.room_count);
     }
 }
 
-tn_status tn_strip_rooms_cross(tn_strip *strip, uint32_t before, const tn_strip_crossing *c, uint32_t *after,
-                               uint32_t *closed, tn_error *error)
+tn_status tn_frontier_rooms_cross(tn_frontier *frontier, uint32_t before, const tn_frontier_crossing *c,
+                                  uint32_t *after, uint32_t *closed, tn_error *error)
 {
     size_t size;
-    const tn_strip_questions *q = &strip->questions;
+    const tn_frontier_questions *q = &frontier->questions;
     memset(closed, 0, (q->room_count + (size_t)q->placed_count * SEEN_WORDS) * sizeof *closed);
     tn_joining j; /* large, and filled in as far as it is used */
-    tn_leaving to;
-    j.strip = strip;
+    tn_rooms_after to;
+    j.frontier = frontier;
     memset(j.held, 0, sizeof j.held);
     uint32_t left = c->left ? c->left->count : 0, right = c->right ? c->right->count : 0;
     const uint32_t *steps = c->outcome + 3, *sides = steps + (size_t)STEP_WORDS * c->outcome[2];
-    begin_left(&j, c, c->left ? tn_interned(&strip->rooms, before, &size) : NULL, sides);
-    const uint32_t *state = c->left ? tn_interned(&strip->rooms, before, &size) : NULL;
+    begin_left(&j, c, c->left ? tn_interned(&frontier->rooms, before, &size) : NULL, sides);
+    const uint32_t *state = c->left ? tn_interned(&frontier->rooms, before, &size) : NULL;
     for (uint32_t i = 0; i < right; i++)
         begin_cell(&j, c, i, sides + SIDE_WORDS * (left + i));
     for (uint32_t i = 0; i < right; i++)
@@ -545,22 +547,22 @@ tn_status tn_strip_rooms_cross(tn_strip *strip, uint32_t before, const tn_strip_
     for (uint32_t i = 0; i < c->outcome[2]; i++, steps += STEP_WORDS)
         if (steps[STEP_HOW] & 1)
             join(&j, state[steps[STEP_FROM]], j.before + steps[STEP_TO]);
-    close_rooms(strip, &j, right, closed);
+    close_rooms(frontier, &j, right, closed);
     number_rooms(&j, right, &to);
     if (q->placed_count > 0)
         go_on(&j, c->right, &to, closed + q->room_count);
-    return leave(strip, &j, &to, right, after, error);
+    return number_after(frontier, &j, &to, right, after, error);
 }
 
-/* ---- what of the rooms before can be told behind a plane */
+/* ---- what the right side of an interface can tell of the rooms before it */
 
 /* Appends the steps into rooms before, with these by number, in the order of the steps. */
-static bool push_joined(const uint32_t *state, const uint32_t *outcome, uint32_t number[TN_STRIP_CELLS_MAX],
-                        uint32_t joined[TN_STRIP_CELLS_MAX], uint32_t *count, tn_key *key)
+static bool push_joined(const uint32_t *state, const uint32_t *outcome, uint32_t number[TN_FRONTIER_CELLS_MAX],
+                        uint32_t joined[TN_FRONTIER_CELLS_MAX], uint32_t *count, tn_key *key)
 {
     const uint32_t *step = outcome + 3;
     bool ok = true;
-    memset(number, 0xff, TN_STRIP_CELLS_MAX * sizeof *number);
+    memset(number, 0xff, TN_FRONTIER_CELLS_MAX * sizeof *number);
     *count = 0;
     for (uint32_t i = 0; ok && i < outcome[2]; i++, step += STEP_WORDS) {
         if (!(step[STEP_HOW] & 1))
@@ -576,52 +578,52 @@ static bool push_joined(const uint32_t *state, const uint32_t *outcome, uint32_t
 }
 
 /* Rooms that no step leads into are whole: of these, only how many are so for each question. */
-static bool push_closed(const tn_strip *strip, tn_joining *j, const uint32_t *number, tn_key *key)
+static bool push_closed(const tn_frontier *frontier, tn_joining *j, const uint32_t *number, tn_key *key)
 {
-    uint32_t closed[TN_STRIP_QUESTIONS_MAX] = {0};
+    uint32_t closed[TN_FRONTIER_QUESTIONS_MAX] = {0};
     for (uint32_t r = 0; r < j->before; r++) {
         if (number[r] != UINT32_MAX)
             continue;
-        settle(strip, &j->rooms[r], true);
-        for (uint32_t q = 0; q < strip->questions.room_count; q++)
+        settle(frontier, &j->rooms[r], true);
+        for (uint32_t q = 0; q < frontier->questions.room_count; q++)
             closed[q] += j->rooms[r].truth >> q & 1;
     }
-    return push_words(key, closed, strip->questions.room_count);
+    return push_words(key, closed, frontier->questions.room_count);
 }
 
-tn_status tn_strip_rooms_view(const tn_strip *strip, uint32_t before, const tn_strip_edge *left,
-                              const uint32_t *outcome, tn_key *key, tn_error *error)
+tn_status tn_frontier_rooms_view(const tn_frontier *frontier, uint32_t before, const tn_frontier_edge *left,
+                                 const uint32_t *outcome, tn_key *key, tn_error *error)
 {
     size_t size;
-    uint32_t number[TN_STRIP_CELLS_MAX], joined[TN_STRIP_CELLS_MAX], count;
-    const uint32_t *state = tn_interned(&strip->rooms, before, &size);
-    const tn_strip_crossing c = {.left = left, .outcome = outcome};
+    uint32_t number[TN_FRONTIER_CELLS_MAX], joined[TN_FRONTIER_CELLS_MAX], count;
+    const uint32_t *state = tn_interned(&frontier->rooms, before, &size);
+    const tn_frontier_crossing c = {.left = left, .outcome = outcome};
     tn_joining j; /* large, and filled in as far as it is used */
-    j.strip = strip;
+    j.frontier = frontier;
     begin_left(&j, &c, state, outcome + 3 + (size_t)STEP_WORDS * outcome[2]);
     bool ok = push_joined(state, outcome, number, joined, &count, key);
     for (uint32_t i = 0; ok && i < count; i++) {
         uint32_t words[ROOM_WORDS];
-        settle(strip, &j.rooms[joined[i]], false);
+        settle(frontier, &j.rooms[joined[i]], false);
         memcpy(words, &j.rooms[joined[i]], sizeof words);
         ok = push_words(key, words, ROOM_WORDS);
     }
-    return ok && push_closed(strip, &j, number, key) ? TN_OK : tn_fail_memory(error);
+    return ok && push_closed(frontier, &j, number, key) ? TN_OK : tn_fail_memory(error);
 }
 
 /* ---- how many rooms of one tray a question can be about */
 
 /* most: the greatest number so far. Nothing depends on the glass of a room that is not whole. */
-static void look_at_slice(tn_strip *strip, uint32_t slice, uint32_t *most)
+static void look_at_slice(tn_frontier *frontier, uint32_t slice, uint32_t *most)
 {
     static const uint32_t unseen[SIDE_WORDS] = {0};
     size_t size;
-    const uint32_t *words = tn_interned(&strip->slice_keys, slice, &size);
-    const tn_strip_crossing c = {.right = &strip->edges[words[SLICE_ENTRY]], .slice = words};
-    const tn_strip_questions *q = &strip->questions;
+    const uint32_t *words = tn_interned(&frontier->slice_keys, slice, &size);
+    const tn_frontier_crossing c = {.right = &frontier->edges[words[SLICE_ENTRY]], .slice = words};
+    const tn_frontier_questions *q = &frontier->questions;
     tn_joining j;
-    tn_leaving to;
-    j.strip = strip;
+    tn_rooms_after to;
+    j.frontier = frontier;
     j.before = 0;
     for (uint32_t i = 0; i < c.right->count; i++)
         begin_cell(&j, &c, i, unseen);
@@ -638,11 +640,11 @@ static void look_at_slice(tn_strip *strip, uint32_t slice, uint32_t *most)
     }
 }
 
-void tn_strip_rooms_at_once(tn_strip *strip, uint32_t most[TN_STRIP_PLACED_MAX])
+void tn_frontier_rooms_at_once(tn_frontier *frontier, uint32_t most[TN_FRONTIER_PLACED_MAX])
 {
-    memset(most, 0, TN_STRIP_PLACED_MAX * sizeof *most);
-    for (uint32_t s = 0; strip->questions.placed_count > 0 && s < strip->slice_keys.count; s++)
-        look_at_slice(strip, s, most);
+    memset(most, 0, TN_FRONTIER_PLACED_MAX * sizeof *most);
+    for (uint32_t s = 0; frontier->questions.placed_count > 0 && s < frontier->slice_keys.count; s++)
+        look_at_slice(frontier, s, most);
 }
 
 /* ==== where in the row they began
@@ -654,34 +656,34 @@ void tn_strip_rooms_at_once(tn_strip *strip, uint32_t most[TN_STRIP_PLACED_MAX])
  * began with one tray share their slot. Rooms that meet were one from the start: the older beginning is theirs, and so
  * it has to be known which of two that can meet is older, but not by how much. Only rooms of one function can meet. */
 
-/* Ages that are greater than all others: of rooms that began with the tray before the plane, and behind it. What is
- * known of a room does not tell the second from rooms that no question is open of. */
+/* Ages that are greater than all others: of rooms that began with the tray before the interface, and with the tray
+ * after it. What is known of a room does not tell the second from rooms that no question is open of. */
 #define FRESH (UINT32_MAX - 1)
 #define NOT_YET UINT32_MAX
 
-void tn_strip_place_new(const tn_strip *strip, tn_strip_place *place)
+void tn_frontier_place_new(const tn_frontier *frontier, tn_frontier_place *place)
 {
     place->age = NOT_YET;
-    memset(place->slots, 0, strip->questions.placed_count * sizeof *place->slots);
+    memset(place->slots, 0, frontier->questions.placed_count * sizeof *place->slots);
 }
 
-void tn_strip_place_load(const tn_strip *strip, const uint32_t *words, tn_strip_place *place)
+void tn_frontier_place_load(const tn_frontier *frontier, const uint32_t *words, tn_frontier_place *place)
 {
     place->age = words[0] == NOT_YET ? FRESH : words[0];
-    memcpy(place->slots, words + 1, strip->questions.placed_count * sizeof *place->slots);
+    memcpy(place->slots, words + 1, frontier->questions.placed_count * sizeof *place->slots);
 }
 
-void tn_strip_place_join(const tn_strip *strip, tn_strip_place *to, const tn_strip_place *from)
+void tn_frontier_place_join(const tn_frontier *frontier, tn_frontier_place *to, const tn_frontier_place *from)
 {
     if (from->age >= to->age)
         return;
     to->age = from->age;
-    memcpy(to->slots, from->slots, strip->questions.placed_count * sizeof *to->slots);
+    memcpy(to->slots, from->slots, frontier->questions.placed_count * sizeof *to->slots);
 }
 
-void tn_strip_place_end(const tn_strip *strip, const tn_strip_place *place, uint64_t truth, uint32_t *seen)
+void tn_frontier_place_end(const tn_frontier *frontier, const tn_frontier_place *place, uint64_t truth, uint32_t *seen)
 {
-    const tn_strip_questions *q = &strip->questions;
+    const tn_frontier_questions *q = &frontier->questions;
     for (uint32_t p = 0; p < q->placed_count; p++, seen += SEEN_WORDS) {
         if (!(truth >> q->placed_rooms[p] & 1))
             continue;
@@ -704,17 +706,17 @@ static uint32_t free_slot(uint32_t held)
 }
 
 /* Of one question: which slots go on, and which begins. */
-static void give_slots(const tn_strip *strip, const tn_strip_going *rooms, uint32_t count, uint32_t placed,
+static void give_slots(const tn_frontier *frontier, const tn_frontier_going *rooms, uint32_t count, uint32_t placed,
                        uint32_t held, uint32_t *seen)
 {
-    uint32_t question = strip->questions.placed_rooms[placed], slot = free_slot(held);
+    uint32_t question = frontier->questions.placed_rooms[placed], slot = free_slot(held);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t age = rooms[i].place->age, *own = &rooms[i].place->slots[placed];
         if (!(rooms[i].open >> question & 1) || age == NOT_YET)
             *own = 0;
         else if (age == FRESH)
             *own = slot + 1;
-        if (*own > TN_STRIP_SLOTS_MAX)
+        if (*own > TN_FRONTIER_SLOTS_MAX)
             seen[SEEN_FIRST] = SEEN_TOO_MANY;
         else if (*own > 0 && age == FRESH)
             seen[SEEN_SLOTS + slot] = SLOT_BEGINS;
@@ -723,16 +725,16 @@ static void give_slots(const tn_strip *strip, const tn_strip_going *rooms, uint3
     }
 }
 
-static bool is_open(const tn_strip *strip, const tn_strip_going *room)
+static bool is_open(const tn_frontier *frontier, const tn_frontier_going *room)
 {
     uint64_t asked = 0;
-    for (uint32_t p = 0; p < strip->questions.placed_count; p++)
-        asked |= UINT64_C(1) << strip->questions.placed_rooms[p];
+    for (uint32_t p = 0; p < frontier->questions.placed_count; p++)
+        asked |= UINT64_C(1) << frontier->questions.placed_rooms[p];
     return (room->open & asked) != 0;
 }
 
 /* How many beginnings before that of the room are told apart. ages: of all rooms. */
-static uint32_t rank_of(const tn_strip_going *rooms, const uint32_t *ages, uint32_t count, uint32_t room)
+static uint32_t rank_of(const tn_frontier_going *rooms, const uint32_t *ages, uint32_t count, uint32_t room)
 {
     uint32_t rank = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -744,14 +746,14 @@ static uint32_t rank_of(const tn_strip_going *rooms, const uint32_t *ages, uint3
     return rank;
 }
 
-void tn_strip_places_go_on(const tn_strip *strip, const tn_strip_going *rooms, uint32_t count, const uint32_t *held,
-                           uint32_t *seen)
+void tn_frontier_places_go_on(const tn_frontier *frontier, const tn_frontier_going *rooms, uint32_t count,
+                              const uint32_t *held, uint32_t *seen)
 {
-    uint32_t ages[TN_STRIP_CELLS_MAX];
-    for (uint32_t p = 0; p < strip->questions.placed_count; p++)
-        give_slots(strip, rooms, count, p, held[p], seen + (size_t)SEEN_WORDS * p);
+    uint32_t ages[TN_FRONTIER_CELLS_MAX];
+    for (uint32_t p = 0; p < frontier->questions.placed_count; p++)
+        give_slots(frontier, rooms, count, p, held[p], seen + (size_t)SEEN_WORDS * p);
     for (uint32_t i = 0; i < count; i++)
-        ages[i] = is_open(strip, &rooms[i]) ? rooms[i].place->age : NOT_YET;
+        ages[i] = is_open(frontier, &rooms[i]) ? rooms[i].place->age : NOT_YET;
     for (uint32_t i = 0; i < count; i++)
         rooms[i].place->age = ages[i] == NOT_YET ? NOT_YET : rank_of(rooms, ages, count, i);
 }

@@ -10,12 +10,12 @@
 typedef struct tn_cutting {
     tn_inside inside;
     tn_numbering found, furnished;
-    tn_strip_list *list;
-    tn_strip_ordered *ordered; /* where these are wanted, and no list */
+    tn_frontier_list *list;
+    tn_frontier_ordered *ordered; /* where these are wanted, and no list */
     uint64_t tried;
-    tn_strip_cut *cells; /* [cells][functions + 1], as far as they are met; last: voids */
-    uint64_t *answers;   /* of these */
-    uint32_t functions;  /* of the cells, by number */
+    tn_frontier_cut *cells; /* [cells][functions + 1], as far as they are met; last: voids */
+    uint64_t *answers;      /* of these */
+    uint32_t functions;     /* of the cells, by number */
 } tn_cutting;
 
 typedef struct tn_options {
@@ -30,7 +30,7 @@ typedef struct tn_options {
 static tn_status too_large(const tn_cutting *c, const char *what, tn_error *error)
 {
     tn_buffer text = {0};
-    const tn_house_form *form = c->inside.strip->form;
+    const tn_house_form *form = c->inside.frontier->form;
     bool written = tn_plan_write_line(form->schema, &c->inside.tray, 1, &text);
     tn_fail(error, TN_LIMIT, E_STRIP,
             "the tray `%.120s` has more than %s in form `%.60s`: its houses cannot be counted",
@@ -47,20 +47,20 @@ static tn_status too_many(const tn_cutting *c, tn_error *error)
 
 /* ---- cells */
 
-static tn_strip_cut *cell_at(const tn_cutting *c, size_t cell)
+static tn_frontier_cut *cell_at(const tn_cutting *c, size_t cell)
 {
-    size_t functions = tn_form_functions(c->inside.strip->form);
+    size_t functions = tn_form_functions(c->inside.frontier->form);
     uint32_t function = c->inside.house.cells[cell].function;
     return &c->cells[cell * (functions + 1) + (c->inside.house.cells[cell].open ? functions : function)];
 }
 
-static tn_status know_cell(tn_cutting *c, uint32_t i, tn_strip_cut *cell, tn_error *error)
+static tn_status know_cell(tn_cutting *c, uint32_t i, tn_frontier_cut *cell, tn_error *error)
 {
-    tn_strip *s = c->inside.strip;
+    tn_frontier *s = c->inside.frontier;
     for (size_t d = 0; d < s->questions.decision_count; d++)
         cell->answers[d / 64] |=
             (uint64_t)tn_house_decide(&c->inside.house, s->questions.decisions[d], &c->inside.house.cells[i]) << d % 64;
-    tn_status status = tn_strip_describe(s, &c->inside.house, i, &cell->description, error);
+    tn_status status = tn_frontier_describe(s, &c->inside.house, i, &cell->description, error);
     cell->known = status == TN_OK;
     return status;
 }
@@ -68,11 +68,11 @@ static tn_status know_cell(tn_cutting *c, uint32_t i, tn_strip_cut *cell, tn_err
 /* The cells have other functions now. */
 static tn_status know_cells(tn_cutting *c, tn_error *error)
 {
-    tn_key *key = &c->inside.strip->joined;
+    tn_key *key = &c->inside.frontier->joined;
     tn_status status = TN_OK;
     key->size = 0;
     for (uint32_t i = 0; status == TN_OK && i < c->inside.house.cell_count; i++) {
-        tn_strip_cut *cell = cell_at(c, i);
+        tn_frontier_cut *cell = cell_at(c, i);
         if (!cell->known)
             status = know_cell(c, i, cell, error);
         c->inside.cells[i] = cell;
@@ -81,26 +81,26 @@ static tn_status know_cells(tn_cutting *c, tn_error *error)
     }
     if (status != TN_OK)
         return status;
-    c->functions = tn_intern(&c->inside.strip->functions, key->data, key->size);
+    c->functions = tn_intern(&c->inside.frontier->functions, key->data, key->size);
     return c->functions != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
 static tn_status begin_cells(tn_cutting *c, tn_error *error)
 {
-    size_t count = c->inside.house.cell_count * ((size_t)tn_form_functions(c->inside.strip->form) + 1);
+    size_t count = c->inside.house.cell_count * ((size_t)tn_form_functions(c->inside.frontier->form) + 1);
     c->cells = calloc(count + 1, sizeof *c->cells);
-    c->answers = calloc(count * c->inside.strip->answer_words + 1, sizeof *c->answers);
+    c->answers = calloc(count * c->inside.frontier->answer_words + 1, sizeof *c->answers);
     if (!c->cells || !c->answers)
         return tn_fail_memory(error);
     for (size_t i = 0; i < count; i++)
-        c->cells[i].answers = c->answers + i * c->inside.strip->answer_words;
+        c->cells[i].answers = c->answers + i * c->inside.frontier->answer_words;
     return TN_OK;
 }
 
 /* ---- slices */
 
 /* A word for each cell: 0, or 1 and what of its own walls matters to its tiles. */
-static bool push_tiles(const tn_strip_edge *edge, const uint32_t *cells, tn_key *key)
+static bool push_tiles(const tn_frontier_edge *edge, const uint32_t *cells, tn_key *key)
 {
     bool ok = true;
     key->size = 0;
@@ -123,9 +123,9 @@ static bool push_inside(const uint32_t *slice, const uint32_t *end, uint32_t cou
     return ok;
 }
 
-static bool find_plain(tn_strip *s, uint32_t slice)
+static bool find_plain(tn_frontier *s, uint32_t slice)
 {
-    tn_strip_slice *parts = &s->slices[slice];
+    tn_frontier_slice *parts = &s->slices[slice];
     const uint32_t words[] = {parts->inside, parts->exit, parts->bases};
     uint32_t before = s->plain_keys.count;
     if (!tn_array_reserve(&s->plains, &s->plain_room, before, 1, sizeof *s->plains))
@@ -140,16 +140,16 @@ static bool find_plain(tn_strip *s, uint32_t slice)
 }
 
 /* The parts of a new slice, whose key is `joined`. */
-static bool keep_slice(tn_strip *s, uint32_t slice)
+static bool keep_slice(tn_frontier *s, uint32_t slice)
 {
     const uint32_t *words = s->joined.data, *cells = words + SLICE_CELLS;
-    const tn_strip_edge *edge = &s->edges[words[SLICE_ENTRY]];
+    const tn_frontier_edge *edge = &s->edges[words[SLICE_ENTRY]];
     const uint32_t *steps = cells + (CELL_WORDS + (size_t)s->questions.walk_count) * edge->count;
     const uint32_t *bases = steps + 1 + (size_t)STEP_WORDS * *steps, *gains = bases + s->clause_count;
-    tn_strip_slice *parts = &s->slices[slice];
-    *parts = (tn_strip_slice){.entry = words[SLICE_ENTRY],
-                              .exit = words[SLICE_EXIT],
-                              .bases = tn_intern(&s->letters, bases, s->clause_count)};
+    tn_frontier_slice *parts = &s->slices[slice];
+    *parts = (tn_frontier_slice){.entry = words[SLICE_ENTRY],
+                                 .exit = words[SLICE_EXIT],
+                                 .bases = tn_intern(&s->letters, bases, s->clause_count)};
     parts->tiles = push_tiles(edge, cells, &s->key) ? tn_intern(&s->fit_lists, s->key.data, s->key.size) : UINT32_MAX;
     if (!push_inside(words, bases, edge->count, &s->key))
         return false;
@@ -160,30 +160,30 @@ static bool keep_slice(tn_strip *s, uint32_t slice)
         parts->gains[k] = (int64_t)tn_both(gains + 2 * (size_t)k);
     parts->cost = s->prices.asked ? gains[2 * (size_t)s->added->count] : 0;
     return parts->bases != UINT32_MAX && parts->tiles != UINT32_MAX && parts->inside != UINT32_MAX &&
-           parts->met != UINT32_MAX && find_plain(s, slice) && tn_strip_find_group(s, slice);
+           parts->met != UINT32_MAX && find_plain(s, slice) && tn_frontier_find_group(s, slice);
 }
 
 /* Notes that cells with these functions can be the slice. */
 static tn_status add_furnished(tn_cutting *c, uint32_t slice, uint64_t times, tn_error *error)
 {
-    tn_strip_furnished_list *list = &c->inside.strip->furnished[c->inside.tray];
+    tn_frontier_furnished_list *list = &c->inside.frontier->furnished[c->inside.tray];
     uint32_t at = tn_number(&c->furnished, (uint64_t)c->functions << 32 | slice);
     if (at == UINT32_MAX || !tn_array_reserve_from(&list->items, &list->room, 8, at, 1, sizeof *list->items))
         return tn_fail_memory(error);
     if (at == list->count)
-        list->items[list->count++] = (tn_strip_furnished){c->functions, slice, 0};
+        list->items[list->count++] = (tn_frontier_furnished){c->functions, slice, 0};
     return __builtin_add_overflow(list->items[at].times, times, &list->items[at].times) ? too_many(c, error) : TN_OK;
 }
 
 /* What the tray adds to each number that is added up: two words each; last, where costs are asked for, their number. */
 static tn_status push_gains(const tn_cutting *c, uint32_t cost, tn_key *key, tn_error *error)
 {
-    tn_strip *s = c->inside.strip;
+    tn_frontier *s = c->inside.frontier;
     tn_status status = TN_OK;
     for (uint32_t k = 0; status == TN_OK && k < s->added->count; k++) {
         int64_t tray = 0;
         if (k >= s->added->measures)
-            status = tn_strip_tray_adds(s, k, c->inside.house.trays[0], &tray, error);
+            status = tn_frontier_tray_adds(s, k, c->inside.house.trays[0], &tray, error);
         if (status == TN_OK &&
             !tn_push_long(key, (uint64_t)(tn_house_weights_cells(s->added->of[k], &c->inside.house) + tray)))
             status = tn_fail_memory(error);
@@ -193,20 +193,20 @@ static tn_status push_gains(const tn_cutting *c, uint32_t cost, tn_key *key, tn_
 
 static tn_status push_slice(const tn_cutting *c, tn_key *key, tn_error *error)
 {
-    tn_strip *s = c->inside.strip;
+    tn_frontier *s = c->inside.frontier;
     uint32_t entry = 0, exit = 0, base = 0, cost = 0;
-    tn_status status = s->prices.asked ? tn_strip_tray_cost(s, &c->inside.house, &cost, error) : TN_OK;
+    tn_status status = s->prices.asked ? tn_frontier_tray_cost(s, &c->inside.house, &cost, error) : TN_OK;
     if (status == TN_OK)
-        status = tn_strip_find_edge(&c->inside, TN_STRIP_ENTRY, cost, &entry, error);
+        status = tn_frontier_find_edge(&c->inside, TN_FRONTIER_ENTRY, cost, &entry, error);
     if (status == TN_OK)
-        status = tn_strip_find_edge(&c->inside, TN_STRIP_EXIT, cost, &exit, error);
+        status = tn_frontier_find_edge(&c->inside, TN_FRONTIER_EXIT, cost, &exit, error);
     key->size = 0;
     if (status == TN_OK && (!tn_key_push(key, entry) || !tn_key_push(key, exit)))
         status = tn_fail_memory(error);
     if (status == TN_OK)
-        status = tn_strip_push_inside(&c->inside, key, error);
+        status = tn_frontier_push_inside(&c->inside, key, error);
     for (uint32_t i = 0; status == TN_OK && i < s->clause_count; i++) {
-        status = tn_strip_base(s, &s->clauses[i], &c->inside.house, &base, error);
+        status = tn_frontier_base(s, &s->clauses[i], &c->inside.house, &base, error);
         if (status == TN_OK && !tn_key_push(key, base))
             status = tn_fail_memory(error);
     }
@@ -216,13 +216,13 @@ static tn_status push_slice(const tn_cutting *c, tn_key *key, tn_error *error)
 /* The slice that the house at hand is. */
 static tn_status find_slice(const tn_cutting *c, uint32_t *slice, tn_error *error)
 {
-    tn_strip *s = c->inside.strip;
+    tn_frontier *s = c->inside.frontier;
     tn_key *key = &s->joined;
     tn_status status = push_slice(c, key, error);
     uint32_t before = s->slice_keys.count;
     if (status != TN_OK)
         return status;
-    if (before >= TN_STRIP_SLICES_MAX)
+    if (before >= TN_FRONTIER_SLICES_MAX)
         return too_large(c, "200,000 choices that other cells, clauses or costs can tell apart", error);
     if (!tn_array_reserve(&s->slices, &s->slice_room, before, 1, sizeof *s->slices))
         return tn_fail_memory(error);
@@ -238,12 +238,12 @@ static tn_status add_slice(tn_cutting *c, uint64_t times, tn_error *error)
     if (status != TN_OK)
         return status;
     if (c->ordered)
-        return tn_strip_ordered_add(c->ordered, slice) ? TN_OK : tn_fail_memory(error);
+        return tn_frontier_ordered_add(c->ordered, slice) ? TN_OK : tn_fail_memory(error);
     uint32_t at = tn_number(&c->found, slice);
     if (at == UINT32_MAX || !tn_array_reserve_from(&c->list->items, &c->list->room, 8, at, 1, sizeof *c->list->items))
         return tn_fail_memory(error);
     if (at == c->list->count)
-        c->list->items[c->list->count++] = (tn_strip_choice){.slice = slice};
+        c->list->items[c->list->count++] = (tn_frontier_choice){.slice = slice};
     if (__builtin_add_overflow(c->list->items[at].times, times, &c->list->items[at].times))
         return too_many(c, error);
     return add_furnished(c, slice, times, error);
@@ -265,7 +265,7 @@ static bool turn(tn_options *options, size_t count)
 static bool tells_apart(const tn_cutting *c, const tn_face *face, const tn_room_open *open, uint32_t one,
                         uint32_t other)
 {
-    const tn_strip *s = c->inside.strip;
+    const tn_frontier *s = c->inside.frontier;
     const uint32_t kinds[2] = {one, other};
     uint64_t marks[2];
     tn_int128 glass[2];
@@ -274,7 +274,7 @@ static bool tells_apart(const tn_cutting *c, const tn_face *face, const tn_room_
         with.kind = kinds[k];
         if (kinds[k] != TN_FACE_WALL && !tn_form_opening(s->form, kinds[k]))
             return true;
-        marks[k] = tn_strip_marks(s, kinds[k]) & open->kinds;
+        marks[k] = tn_frontier_marks(s, kinds[k]) & open->kinds;
         glass[k] = open->glass ? tn_face_glazing(&c->inside.house, &with) : 0;
     }
     return marks[0] != marks[1] || glass[0] != glass[1];
@@ -284,13 +284,13 @@ static bool tells_apart(const tn_cutting *c, const tn_face *face, const tn_room_
  * itself. A void belongs to the room below it, which is not looked for here. */
 static tn_status merge_kinds(const tn_cutting *c, const tn_face *face, tn_options *options, tn_error *error)
 {
-    tn_strip *s = c->inside.strip;
+    tn_frontier *s = c->inside.frontier;
     const tn_cell *cell = &c->inside.house.cells[face->first];
     if (c->ordered || face->relation != TN_FACE_OUTSIDE || cell->open || s->prices.asked || s->tiled[cell->function])
         return TN_OK;
     tn_room_open open;
-    uint64_t fails = tn_strip_answers_fail(s, c->inside.cells[face->first]->answers);
-    tn_status status = tn_strip_room_open(s, fails, &open, error);
+    uint64_t fails = tn_frontier_answers_fail(s, c->inside.cells[face->first]->answers);
+    tn_status status = tn_frontier_room_open(s, fails, &open, error);
     uint32_t kept = 0;
     for (uint32_t i = 0; status == TN_OK && i < options->count; i++) {
         uint32_t like = 0;
@@ -343,7 +343,7 @@ static tn_status cut_faces(tn_cutting *c, tn_error *error)
         uint64_t times;
         if (!set_kinds(c, options, count, &times))
             status = too_many(c, error);
-        else if (++c->tried > TN_STRIP_CHOICES_MAX)
+        else if (++c->tried > TN_FRONTIER_CHOICES_MAX)
             status = too_large(c, "4,000,000 choices", error);
         else
             status = add_slice(c, times, error);
@@ -354,7 +354,7 @@ static tn_status cut_faces(tn_cutting *c, tn_error *error)
 
 static tn_status cut_functions(tn_cutting *c, tn_error *error)
 {
-    const tn_house_form *form = c->inside.strip->form;
+    const tn_house_form *form = c->inside.frontier->form;
     tn_options *options = malloc((c->inside.house.cell_count + 1) * sizeof *options);
     size_t count = 0;
     uint64_t ways = 1;
@@ -369,11 +369,11 @@ static tn_status cut_functions(tn_cutting *c, tn_error *error)
             if (tn_cell_may(&c->inside.house, &c->inside.house.cells[i], f))
                 options[count].items[options[count].count++] = f;
         possible = possible && options[count].count > 0;
-        ways = ways > TN_STRIP_FUNCTIONS_MAX ? ways : ways * options[count].count;
+        ways = ways > TN_FRONTIER_FUNCTIONS_MAX ? ways : ways * options[count].count;
         count++;
     }
     tn_status status = TN_OK;
-    if (ways > TN_STRIP_FUNCTIONS_MAX)
+    if (ways > TN_FRONTIER_FUNCTIONS_MAX)
         status = too_large(c, "1,000,000 choices of functions", error);
     while (possible && status == TN_OK) {
         for (size_t i = 0; i < count; i++)
@@ -390,9 +390,9 @@ static tn_status cut_functions(tn_cutting *c, tn_error *error)
 
 static tn_status begin(tn_cutting *c, tn_error *error)
 {
-    const tn_strip *strip = c->inside.strip;
-    tn_status status = tn_house_stand(strip->form, &c->inside.tray, 1, strip->shapes, &c->inside.house, error);
-    if (status == TN_OK && c->inside.house.cell_count > TN_STRIP_CELLS_MAX)
+    const tn_frontier *frontier = c->inside.frontier;
+    tn_status status = tn_house_stand(frontier->form, &c->inside.tray, 1, frontier->shapes, &c->inside.house, error);
+    if (status == TN_OK && c->inside.house.cell_count > TN_FRONTIER_CELLS_MAX)
         status = too_large(c, "60 cells", error);
     return status == TN_OK ? begin_cells(c, error) : status;
 }
@@ -409,7 +409,7 @@ static void end(tn_cutting *c)
 /* A choice in the order of ways: by what its slice begins with. */
 typedef struct tn_cut_choice {
     uint32_t entry, group;
-    tn_strip_choice choice;
+    tn_frontier_choice choice;
 } tn_cut_choice;
 
 static int compare_cut(const void *a, const void *b)
@@ -420,13 +420,13 @@ static int compare_cut(const void *a, const void *b)
                                   : (p->choice.slice > q->choice.slice) - (p->choice.slice < q->choice.slice);
 }
 
-static tn_status order_list(const tn_strip *strip, tn_strip_list *list, tn_error *error)
+static tn_status order_list(const tn_frontier *frontier, tn_frontier_list *list, tn_error *error)
 {
     tn_cut_choice *cut = malloc((list->count + 1) * sizeof *cut);
     if (!cut)
         return tn_fail_memory(error);
     for (size_t i = 0; i < list->count; i++) {
-        const tn_strip_slice *slice = &strip->slices[list->items[i].slice];
+        const tn_frontier_slice *slice = &frontier->slices[list->items[i].slice];
         cut[i] = (tn_cut_choice){slice->entry, slice->group, list->items[i]};
     }
     if (list->count > 0)
@@ -437,9 +437,9 @@ static tn_status order_list(const tn_strip *strip, tn_strip_list *list, tn_error
     return TN_OK;
 }
 
-tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error)
+tn_status tn_frontier_slices(tn_frontier *frontier, tn_tray tray, tn_error *error)
 {
-    tn_cutting c = {.inside = {.strip = strip, .tray = tray}, .list = &strip->of_tray[tray]};
+    tn_cutting c = {.inside = {.frontier = frontier, .tray = tray}, .list = &frontier->of_tray[tray]};
     if (c.list->made)
         return TN_OK;
     c.list->made = true;
@@ -447,15 +447,15 @@ tn_status tn_strip_slices(tn_strip *strip, tn_tray tray, tn_error *error)
     if (status == TN_OK)
         status = cut_functions(&c, error);
     if (status == TN_OK)
-        status = order_list(strip, c.list, error);
+        status = order_list(frontier, c.list, error);
     end(&c);
     return status;
 }
 
-tn_status tn_strip_order_slices(tn_strip *strip, tn_tray tray, const tn_cell *like, tn_strip_ordered *slices,
-                                tn_error *error)
+tn_status tn_frontier_order_slices(tn_frontier *frontier, tn_tray tray, const tn_cell *like,
+                                   tn_frontier_ordered *slices, tn_error *error)
 {
-    tn_cutting c = {.inside = {.strip = strip, .tray = tray}, .ordered = slices};
+    tn_cutting c = {.inside = {.frontier = frontier, .tray = tray}, .ordered = slices};
     tn_status status = begin(&c, error);
     for (size_t i = 0; status == TN_OK && i < c.inside.house.cell_count; i++)
         c.inside.house.cells[i].function = like[i].function;
@@ -469,10 +469,10 @@ tn_status tn_strip_order_slices(tn_strip *strip, tn_tray tray, const tn_cell *li
 
 /* ==== in the order of houses
  *
- * Slices of a tray and outcomes of a plane in the order of houses, by the functions of their cells. They are
+ * Slices of a tray and outcomes of an interface in the order of houses, by the functions of their cells. They are
  * kept, as ranks ask for the same ones again and again. */
 
-void tn_strip_orders_clear(tn_strip_orders *orders)
+void tn_frontier_orders_clear(tn_frontier_orders *orders)
 {
     for (uint32_t i = 0; i < orders->keys.count; i++) {
         free(orders->of[i].kinds);
@@ -480,22 +480,22 @@ void tn_strip_orders_clear(tn_strip_orders *orders)
     }
     free(orders->of);
     tn_interner_clear(&orders->keys);
-    *orders = (tn_strip_orders){0};
+    *orders = (tn_frontier_orders){0};
 }
 
-void tn_strip_orders_trim(tn_strip *strip)
+void tn_frontier_orders_trim(tn_frontier *frontier)
 {
     enum { ITEMS_MOST = 1 << 20 }; /* 4 MB */
-    tn_strip_orders *const both[] = {&strip->slice_orders, &strip->outcome_orders};
+    tn_frontier_orders *const both[] = {&frontier->slice_orders, &frontier->outcome_orders};
     for (size_t i = 0; i < 2; i++)
         if (both[i]->items > ITEMS_MOST)
-            tn_strip_orders_clear(both[i]);
+            tn_frontier_orders_clear(both[i]);
 }
 
 /* ---- what is in a sequence */
 
 /* kinds := what is in the items, once each. */
-static void find_kinds(tn_strip_sequence *s)
+static void find_kinds(tn_frontier_sequence *s)
 {
     memcpy(s->kinds, s->items, s->count * sizeof *s->kinds);
     qsort(s->kinds, s->count, sizeof *s->kinds, tn_words_compare);
@@ -505,12 +505,12 @@ static void find_kinds(tn_strip_sequence *s)
 }
 
 /* Takes the items over; each becomes the place of what it is. */
-static tn_status make_sequence(const tn_strip_ordered *ordered, tn_strip_sequence *s, tn_error *error)
+static tn_status make_sequence(const tn_frontier_ordered *ordered, tn_frontier_sequence *s, tn_error *error)
 {
     uint32_t *kinds = malloc((ordered->count + 1) * sizeof *kinds);
     if (!kinds)
         return tn_fail_memory(error);
-    *s = (tn_strip_sequence){.kinds = kinds, .items = ordered->items, .count = ordered->count};
+    *s = (tn_frontier_sequence){.kinds = kinds, .items = ordered->items, .count = ordered->count};
     if (s->count > 0)
         find_kinds(s);
     for (size_t i = 0; i < s->count; i++) {
@@ -523,7 +523,7 @@ static tn_status make_sequence(const tn_strip_ordered *ordered, tn_strip_sequenc
 /* ---- what is asked for */
 
 /* *at: the place of what the key asks for, to which the functions of so many cells are added. */
-static tn_status place_of(tn_strip_orders *orders, tn_key *key, const tn_cell *cells, size_t count, uint32_t *at,
+static tn_status place_of(tn_frontier_orders *orders, tn_key *key, const tn_cell *cells, size_t count, uint32_t *at,
                           tn_error *error)
 {
     bool ok = true;
@@ -536,12 +536,12 @@ static tn_status place_of(tn_strip_orders *orders, tn_key *key, const tn_cell *c
     if (*at == UINT32_MAX)
         return tn_fail_memory(error);
     if (*at == before)
-        orders->of[before] = (tn_strip_sequence){0};
+        orders->of[before] = (tn_frontier_sequence){0};
     return TN_OK;
 }
 
 /* Keeps what was found, if it was; owns the items. */
-static tn_status keep(tn_strip_orders *orders, uint32_t at, tn_status status, const tn_strip_ordered *found,
+static tn_status keep(tn_frontier_orders *orders, uint32_t at, tn_status status, const tn_frontier_ordered *found,
                       tn_error *error)
 {
     if (status == TN_OK)
@@ -553,18 +553,18 @@ static tn_status keep(tn_strip_orders *orders, uint32_t at, tn_status status, co
     return status;
 }
 
-tn_status tn_strip_slices_ordered(tn_strip *strip, tn_tray tray, const tn_cell *like, size_t cells,
-                                  tn_strip_sequence *slices, tn_error *error)
+tn_status tn_frontier_slices_ordered(tn_frontier *frontier, tn_tray tray, const tn_cell *like, size_t cells,
+                                     tn_frontier_sequence *slices, tn_error *error)
 {
-    tn_strip_orders *orders = &strip->slice_orders;
+    tn_frontier_orders *orders = &frontier->slice_orders;
     uint32_t at;
-    strip->joined.size = 0;
-    if (!tn_key_push(&strip->joined, tray))
+    frontier->joined.size = 0;
+    if (!tn_key_push(&frontier->joined, tray))
         return tn_fail_memory(error);
-    tn_status status = place_of(orders, &strip->joined, like, cells, &at, error);
+    tn_status status = place_of(orders, &frontier->joined, like, cells, &at, error);
     if (status == TN_OK && !orders->of[at].kinds) {
-        tn_strip_ordered found = {0};
-        status = tn_strip_order_slices(strip, tray, like, &found, error);
+        tn_frontier_ordered found = {0};
+        status = tn_frontier_order_slices(frontier, tray, like, &found, error);
         status = keep(orders, at, status, &found, error);
     }
     if (status == TN_OK)
@@ -572,24 +572,24 @@ tn_status tn_strip_slices_ordered(tn_strip *strip, tn_tray tray, const tn_cell *
     return status;
 }
 
-static size_t cells_of(const tn_strip *strip, uint32_t edge)
+static size_t cells_of(const tn_frontier *frontier, uint32_t edge)
 {
-    return edge == TN_STRIP_NONE ? 0 : strip->edges[edge].count;
+    return edge == TN_FRONTIER_NONE ? 0 : frontier->edges[edge].count;
 }
 
-tn_status tn_strip_outcomes_ordered(tn_strip *strip, uint32_t left, uint32_t right, const tn_cell *like,
-                                    tn_strip_sequence *outcomes, tn_error *error)
+tn_status tn_frontier_outcomes_ordered(tn_frontier *frontier, uint32_t left, uint32_t right, const tn_cell *like,
+                                       tn_frontier_sequence *outcomes, tn_error *error)
 {
-    tn_strip_orders *orders = &strip->outcome_orders;
-    size_t cells = cells_of(strip, left) + cells_of(strip, right);
+    tn_frontier_orders *orders = &frontier->outcome_orders;
+    size_t cells = cells_of(frontier, left) + cells_of(frontier, right);
     uint32_t at;
-    strip->joined.size = 0;
-    if (!tn_key_push(&strip->joined, left) || !tn_key_push(&strip->joined, right))
+    frontier->joined.size = 0;
+    if (!tn_key_push(&frontier->joined, left) || !tn_key_push(&frontier->joined, right))
         return tn_fail_memory(error);
-    tn_status status = place_of(orders, &strip->joined, like, cells, &at, error);
+    tn_status status = place_of(orders, &frontier->joined, like, cells, &at, error);
     if (status == TN_OK && !orders->of[at].kinds) {
-        tn_strip_ordered found = {0};
-        status = tn_strip_order_outcomes(strip, left, right, like, &found, error);
+        tn_frontier_ordered found = {0};
+        status = tn_frontier_order_outcomes(frontier, left, right, like, &found, error);
         status = keep(orders, at, status, &found, error);
     }
     if (status == TN_OK)

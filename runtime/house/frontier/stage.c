@@ -1,10 +1,16 @@
-/* A step in four stages, so that what is equal half way is gone on from once.
+/* A step in four stages: state -> exit state -> entry state -> slice state -> next state.
  *
- * ==== from a state to what can be seen of the plane behind it
+ * A step as a whole tries each slice after each state. But most of what tells two states apart does not matter to the
+ * right of the interface, and most of what tells two slices apart does not matter to rooms, walks and clauses. So equal
+ * things are merged after each stage, and the product of the four stages is much smaller than that of states and
+ * slices.
  *
- * Most of what tells states apart does not matter to what stands at the right of the plane, and the other way round. So
- * a state leads to leavings, of which each stands for all that can face what is seen from the left. All states that
- * see this are one. */
+ * ==== from a state to its exit states
+ *
+ * The outcomes of the interface after a state are grouped by what the left side can tell apart. For each group the
+ * state leads to one exit state: its near side, which is what rooms, walks and clauses know at the interface, and its
+ * far list, which is the far sides that the group's outcomes have. The edge and the tiles of the state's slice are not
+ * needed any more. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,178 +29,184 @@ static bool push_sides(const uint32_t *sides, uint32_t cells, tn_key *key)
     return ok;
 }
 
-static uint32_t number_left(tn_strip *strip, const uint32_t *words, const uint32_t *sides, uint32_t cells)
+static uint32_t number_left(tn_frontier *frontier, const uint32_t *words, const uint32_t *sides, uint32_t cells)
 {
     bool ok = true;
-    strip->key.size = 0;
+    frontier->key.size = 0;
     for (const uint32_t *word = words + 2; ok && word < sides; word++)
-        ok = tn_key_push(&strip->key, *word);
-    ok = ok && push_sides(sides, cells, &strip->key) && tn_key_push(&strip->key, cells);
-    return ok ? tn_intern(&strip->stages.lefts, strip->key.data, strip->key.size) : UINT32_MAX;
+        ok = tn_key_push(&frontier->key, *word);
+    ok = ok && push_sides(sides, cells, &frontier->key) && tn_key_push(&frontier->key, cells);
+    return ok ? tn_intern(&frontier->stages.lefts, frontier->key.data, frontier->key.size) : UINT32_MAX;
 }
 
-static uint32_t number_right(tn_strip *strip, const uint32_t *words, uint32_t sides, uint32_t fits)
+static uint32_t number_right(tn_frontier *frontier, const uint32_t *words, uint32_t sides, uint32_t fits)
 {
     const uint32_t right[RIGHT_WORDS] = {words[0], words[1], sides, fits};
-    return tn_intern(&strip->stages.rights, right, RIGHT_WORDS);
+    return tn_intern(&frontier->stages.rights, right, RIGHT_WORDS);
 }
 
-bool tn_strip_split_outcome(tn_strip *strip, const uint32_t *words, uint32_t left_cells, uint32_t right_cells,
-                            tn_strip_outcome *parts)
+bool tn_frontier_split_outcome(tn_frontier *frontier, const uint32_t *words, uint32_t left_cells, uint32_t right_cells,
+                               tn_frontier_outcome *parts)
 {
     const uint32_t *sides = words + 3 + (size_t)STEP_WORDS * words[2];
-    parts->left = number_left(strip, words, sides, left_cells);
-    strip->key.size = 0;
-    bool ok = push_sides(sides + (size_t)SIDE_WORDS * left_cells, right_cells, &strip->key);
-    uint32_t seen = ok ? tn_intern(&strip->stages.views, strip->key.data, strip->key.size) : UINT32_MAX;
+    parts->left = number_left(frontier, words, sides, left_cells);
+    frontier->key.size = 0;
+    bool ok = push_sides(sides + (size_t)SIDE_WORDS * left_cells, right_cells, &frontier->key);
+    uint32_t seen = ok ? tn_intern(&frontier->stages.views, frontier->key.data, frontier->key.size) : UINT32_MAX;
     if (seen == UINT32_MAX)
         return false;
-    parts->right = number_right(strip, words, seen, parts->right_fits);
-    parts->plain = number_right(strip, words, seen, 0);
+    parts->right = number_right(frontier, words, seen, parts->right_fits);
+    parts->plain = number_right(frontier, words, seen, 0);
     return parts->left != UINT32_MAX && parts->right != UINT32_MAX && parts->plain != UINT32_MAX;
 }
 
 /* While tiles are left aside, nothing matters to them. */
-uint32_t tn_strip_right_seen(const tn_strip *strip, uint32_t outcome)
+uint32_t tn_frontier_right_seen(const tn_frontier *frontier, uint32_t outcome)
 {
-    return strip->scouting ? strip->outcomes[outcome].plain : strip->outcomes[outcome].right;
+    return frontier->scouting ? frontier->outcomes[outcome].plain : frontier->outcomes[outcome].right;
 }
 
-uint32_t tn_strip_left_fits(const tn_strip *strip, uint32_t outcome)
+uint32_t tn_frontier_left_fits(const tn_frontier *frontier, uint32_t outcome)
 {
-    return strip->scouting ? 0 : strip->outcomes[outcome].left_fits;
+    return frontier->scouting ? 0 : frontier->outcomes[outcome].left_fits;
 }
 
-/* ---- prospects behind an edge */
+/* ---- interfaces grouped by what the left side can tell apart */
 
-/* An outcome of a plane behind an edge, with what is seen of it. */
-typedef struct tn_strip_sight {
-    uint32_t left, fits, facing;
+/* An outcome of an interface at the right of an edge, split into what its two sides can tell apart. */
+typedef struct tn_frontier_split {
+    uint32_t left, fits, far_side;
     uint64_t times;
-} tn_strip_sight;
+} tn_frontier_split;
 
-typedef struct tn_strip_sights {
-    tn_strip_sight *items;
+typedef struct tn_frontier_splits {
+    tn_frontier_split *items;
     size_t count, room;
-} tn_strip_sights;
+} tn_frontier_splits;
 
-static int compare_sights(const void *a, const void *b)
+static int compare_splits(const void *a, const void *b)
 {
-    const tn_strip_sight *p = a, *q = b;
+    const tn_frontier_split *p = a, *q = b;
     return p->left != q->left   ? (p->left > q->left) - (p->left < q->left)
            : p->fits != q->fits ? (p->fits > q->fits) - (p->fits < q->fits)
-                                : (p->facing > q->facing) - (p->facing < q->facing);
+                                : (p->far_side > q->far_side) - (p->far_side < q->far_side);
 }
 
-static bool same_left(const tn_strip_sight *a, const tn_strip_sight *b)
+static bool same_left(const tn_frontier_split *a, const tn_frontier_split *b)
 {
     return a->left == b->left && a->fits == b->fits;
 }
 
-static tn_status see_plane(tn_strip *strip, uint32_t edge, uint32_t entry, tn_strip_sights *sights, tn_error *error)
+static tn_status split_interface(tn_frontier *frontier, uint32_t edge, uint32_t entry, tn_frontier_splits *splits,
+                                 tn_error *error)
 {
-    const tn_strip_list *plane;
-    tn_status status = tn_strip_plane(strip, edge, entry, &plane, error);
+    const tn_frontier_list *interface;
+    tn_status status = tn_frontier_interface(frontier, edge, entry, &interface, error);
     if (status != TN_OK)
         return status;
-    if (!tn_array_reserve(&sights->items, &sights->room, sights->count, plane->count, sizeof *sights->items))
+    if (!tn_array_reserve(&splits->items, &splits->room, splits->count, interface->count, sizeof *splits->items))
         return tn_fail_memory(error);
-    for (size_t i = 0; i < plane->count; i++) {
-        uint32_t outcome = plane->items[i].slice;
-        uint32_t facing =
-            tn_number(&strip->stages.facings, (uint64_t)entry << 32 | tn_strip_right_seen(strip, outcome));
-        if (facing == UINT32_MAX)
+    for (size_t i = 0; i < interface->count; i++) {
+        uint32_t outcome = interface->items[i].slice;
+        uint32_t far_side =
+            tn_number(&frontier->stages.far_sides, (uint64_t)entry << 32 | tn_frontier_right_seen(frontier, outcome));
+        if (far_side == UINT32_MAX)
             return tn_fail_memory(error);
-        sights->items[sights->count++] = (tn_strip_sight){
-            strip->outcomes[outcome].left, tn_strip_left_fits(strip, outcome), facing, plane->items[i].times};
+        splits->items[splits->count++] =
+            (tn_frontier_split){frontier->outcomes[outcome].left, tn_frontier_left_fits(frontier, outcome), far_side,
+                                interface->items[i].times};
     }
     return TN_OK;
 }
 
-/* The outlook of the first sights that are the same from the left; *count: how many these are. */
-static uint32_t number_outlook(tn_strip *strip, const tn_strip_sight *sights, size_t most, size_t *count)
+/* The far list of the first splits with one left side; *count: how many splits these are. */
+static uint32_t number_far_list(tn_frontier *frontier, const tn_frontier_split *splits, size_t most, size_t *count)
 {
-    tn_key *key = &strip->key;
+    tn_key *key = &frontier->key;
     bool ok = true;
     key->size = 0;
     size_t i = 0;
-    while (ok && i < most && same_left(&sights[i], &sights[0])) {
-        uint32_t facing = sights[i].facing;
+    while (ok && i < most && same_left(&splits[i], &splits[0])) {
+        uint32_t far_side = splits[i].far_side;
         uint64_t times = 0;
-        for (; i < most && same_left(&sights[i], &sights[0]) && sights[i].facing == facing; i++)
-            times += sights[i].times;
-        ok = tn_key_push(key, facing) && tn_push_long(key, times);
+        for (; i < most && same_left(&splits[i], &splits[0]) && splits[i].far_side == far_side; i++)
+            times += splits[i].times;
+        ok = tn_key_push(key, far_side) && tn_push_long(key, times);
     }
     *count = i;
-    return ok ? tn_intern(&strip->stages.outlooks, key->data, key->size) : UINT32_MAX;
+    return ok ? tn_intern(&frontier->stages.far_lists, key->data, key->size) : UINT32_MAX;
 }
 
-/* sights: in order. */
-static tn_status list_prospects(tn_strip *strip, const tn_strip_sights *sights, tn_strip_prospects *prospects,
-                                tn_error *error)
+/* splits: sorted. */
+static tn_status list_interface_groups(tn_frontier *frontier, const tn_frontier_splits *splits,
+                                       tn_frontier_interface_groups *interface_groups, tn_error *error)
 {
     size_t room = 0, same;
-    for (size_t i = 0; i < sights->count; i += same) {
-        const tn_strip_sight *sight = &sights->items[i];
-        uint32_t outlook = number_outlook(strip, sight, sights->count - i, &same);
-        if (outlook == UINT32_MAX ||
-            !tn_array_reserve_from(&prospects->items, &room, 4, prospects->count, 1, sizeof *prospects->items))
+    for (size_t i = 0; i < splits->count; i += same) {
+        const tn_frontier_split *split = &splits->items[i];
+        uint32_t far_list = number_far_list(frontier, split, splits->count - i, &same);
+        if (far_list == UINT32_MAX ||
+            !tn_array_reserve_from(&interface_groups->items, &room, 4, interface_groups->count, 1,
+                                   sizeof *interface_groups->items))
             return tn_fail_memory(error);
-        prospects->items[prospects->count++] = (tn_strip_prospect){sight->left, sight->fits, outlook};
+        interface_groups->items[interface_groups->count++] =
+            (tn_frontier_interface_group){split->left, split->fits, far_list};
     }
     return TN_OK;
 }
 
-static tn_status find_prospects(tn_strip *strip, uint32_t edge, uint32_t entries, tn_strip_prospects *prospects,
-                                tn_error *error)
+static tn_status find_interface_groups(tn_frontier *frontier, uint32_t edge, uint32_t entries,
+                                       tn_frontier_interface_groups *interface_groups, tn_error *error)
 {
-    tn_strip_sights sights = {0};
+    tn_frontier_splits splits = {0};
     size_t count;
-    tn_interned(&strip->stages.lists, entries, &count);
+    tn_interned(&frontier->stages.lists, entries, &count);
     tn_status status = TN_OK;
     for (size_t i = 0, size; status == TN_OK && i < count; i++)
-        status = see_plane(strip, edge, tn_interned(&strip->stages.lists, entries, &size)[i], &sights, error);
-    if (status == TN_OK && sights.count > 0)
-        qsort(sights.items, sights.count, sizeof *sights.items, compare_sights);
+        status =
+            split_interface(frontier, edge, tn_interned(&frontier->stages.lists, entries, &size)[i], &splits, error);
+    if (status == TN_OK && splits.count > 0)
+        qsort(splits.items, splits.count, sizeof *splits.items, compare_splits);
     if (status == TN_OK)
-        status = list_prospects(strip, &sights, prospects, error);
-    free(sights.items);
+        status = list_interface_groups(frontier, &splits, interface_groups, error);
+    free(splits.items);
     return status;
 }
 
-/* edge: TN_STRIP_NONE where the row begins. *prospects: good until the next call. */
-static tn_status prospects_of(tn_strip *strip, uint32_t edge, uint32_t entries, const tn_strip_prospects **prospects,
-                              tn_error *error)
+/* edge: TN_FRONTIER_NONE if the row begins. *interface_groups: good until the next call. */
+static tn_status interface_groups_of(tn_frontier *frontier, uint32_t edge, uint32_t entries,
+                                     const tn_frontier_interface_groups **interface_groups, tn_error *error)
 {
-    tn_strip_stages *stages = &strip->stages;
-    uint32_t before = stages->prospect_keys.count;
-    if (!tn_array_reserve(&stages->prospects, &stages->prospect_room, before, 1, sizeof *stages->prospects))
+    tn_frontier_stages *stages = &frontier->stages;
+    uint32_t before = stages->interface_group_keys.count;
+    if (!tn_array_reserve(&stages->interface_groups, &stages->interface_group_room, before, 1,
+                          sizeof *stages->interface_groups))
         return tn_fail_memory(error);
-    uint32_t at = tn_number(&stages->prospect_keys, (uint64_t)edge << 32 | entries);
+    uint32_t at = tn_number(&stages->interface_group_keys, (uint64_t)edge << 32 | entries);
     if (at == UINT32_MAX)
         return tn_fail_memory(error);
-    *prospects = &stages->prospects[at];
+    *interface_groups = &stages->interface_groups[at];
     if (at < before)
         return TN_OK;
-    stages->prospects[at] = (tn_strip_prospects){0};
-    return find_prospects(strip, edge, entries, &stages->prospects[at], error);
+    stages->interface_groups[at] = (tn_frontier_interface_groups){0};
+    return find_interface_groups(frontier, edge, entries, &stages->interface_groups[at], error);
 }
 
-/* ---- what is behind a plane */
+/* ---- the near side of an interface */
 
-typedef struct tn_leaving_by {
-    tn_strip *strip;
+typedef struct tn_exit_by {
+    tn_frontier *frontier;
     uint32_t number;       /* of the state */
     const uint32_t *state; /* words, or NULL */
-    const tn_strip_edge *edge;
+    const tn_frontier_edge *edge;
     uint32_t left, fits;
-} tn_leaving_by;
+} tn_exit_by;
 
-/* An outcome of which this is seen from the left, as far as views look at it: its meetings are not among that. */
-static const uint32_t *left_as_outcome(const tn_leaving_by *by, tn_key *key)
+/* An outcome that looks like this from the left, as far as views read it: its meetings are not filled in. */
+static const uint32_t *left_as_outcome(const tn_exit_by *by, tn_key *key)
 {
     size_t size;
-    const uint32_t *left = tn_interned(&by->strip->stages.lefts, by->left, &size);
+    const uint32_t *left = tn_interned(&by->frontier->stages.lefts, by->left, &size);
     uint32_t steps = STEP_WORDS * left[0];
     bool ok = true;
     key->size = 0;
@@ -206,28 +218,30 @@ static const uint32_t *left_as_outcome(const tn_leaving_by *by, tn_key *key)
     return ok ? key->data : NULL;
 }
 
-/* What can be seen of the plane behind it: of a walk, or (TN_STRIP_NONE) of the rooms. */
-static tn_status push_view(const tn_leaving_by *by, uint32_t walk, tn_key *key, tn_error *error)
+/* What the right side can still tell of a walk, or (TN_FRONTIER_NONE) of the rooms, of the state. */
+static tn_status push_view(const tn_exit_by *by, uint32_t walk, tn_key *key, tn_error *error)
 {
-    const uint32_t *outcome = left_as_outcome(by, &by->strip->joined);
+    const uint32_t *outcome = left_as_outcome(by, &by->frontier->joined);
     if (!outcome)
         return tn_fail_memory(error);
-    return walk == TN_STRIP_NONE
-               ? tn_strip_rooms_view(by->strip, by->state[STATE_ROOMS], by->edge, outcome, key, error)
-               : tn_strip_walk_view(by->strip, walk, by->state[STATE_WALKS + walk], by->edge, outcome, key, error);
+    return walk == TN_FRONTIER_NONE
+               ? tn_frontier_rooms_view(by->frontier, by->state[STATE_ROOMS], by->edge, outcome, key, error)
+               : tn_frontier_walk_view(by->frontier, walk, by->state[STATE_WALKS + walk], by->edge, outcome, key,
+                                       error);
 }
 
-static tn_status find_view(const tn_leaving_by *by, uint32_t walk, uint32_t *view, tn_error *error)
+static tn_status find_view(const tn_exit_by *by, uint32_t walk, uint32_t *view, tn_error *error)
 {
-    tn_strip *strip = by->strip;
-    bool rooms = walk == TN_STRIP_NONE, met;
-    uint32_t before = strip->stages.befores[rooms ? 0 : 1 + walk], *result;
-    tn_strip_known *known = rooms ? &strip->stages.room_views : &strip->stages.walk_views[walk];
-    tn_status status = tn_strip_known_at(known, before, by->left, 1, &result, &met, error);
+    tn_frontier *frontier = by->frontier;
+    bool rooms = walk == TN_FRONTIER_NONE, met;
+    uint32_t before = frontier->stages.befores[rooms ? 0 : 1 + walk], *result;
+    tn_frontier_known *known = rooms ? &frontier->stages.room_views : &frontier->stages.walk_views[walk];
+    tn_status status = tn_frontier_known_at(known, before, by->left, 1, &result, &met, error);
     if (status == TN_OK && !met) {
-        strip->key.size = 0;
-        status = push_view(by, walk, &strip->key, error);
-        *result = status == TN_OK ? tn_intern(&strip->stages.views, strip->key.data, strip->key.size) : UINT32_MAX;
+        frontier->key.size = 0;
+        status = push_view(by, walk, &frontier->key, error);
+        *result =
+            status == TN_OK ? tn_intern(&frontier->stages.views, frontier->key.data, frontier->key.size) : UINT32_MAX;
         if (status == TN_OK && *result == UINT32_MAX)
             status = tn_fail_memory(error);
     }
@@ -235,50 +249,51 @@ static tn_status find_view(const tn_leaving_by *by, uint32_t walk, uint32_t *vie
     return status;
 }
 
-/* Before the first slice nothing is behind. */
-static tn_status push_behind(const tn_leaving_by *by, uint32_t *words, tn_error *error)
+/* Before the first slice the near side is empty. */
+static tn_status push_near_side(const tn_exit_by *by, uint32_t *words, tn_error *error)
 {
-    const tn_strip_questions *q = &by->strip->questions;
-    uint32_t last = tn_strip_waiting_word(by->strip) - 1;
+    const tn_frontier_questions *q = &by->frontier->questions;
+    uint32_t last = tn_frontier_pending_word(by->frontier) - 1;
     tn_status status = TN_OK;
     memset(words, 0, last * sizeof *words);
-    words[BEHIND_BEGUN] = by->state ? 0 : TN_STRIP_NONE;
-    words[last] = by->state ? by->state[last] : TN_STRIP_NONE;
+    words[NEAR_BEGUN] = by->state ? 0 : TN_FRONTIER_NONE;
+    words[last] = by->state ? by->state[last] : TN_FRONTIER_NONE;
     if (by->state && q->room_count > 0)
-        status = find_view(by, TN_STRIP_NONE, &words[STATE_ROOMS], error);
+        status = find_view(by, TN_FRONTIER_NONE, &words[STATE_ROOMS], error);
     for (uint32_t w = 0; by->state && status == TN_OK && w < q->walk_count; w++)
         status = find_view(by, w, &words[STATE_WALKS + w], error);
     return status;
 }
 
-static tn_status number_leaving(const tn_leaving_by *by, uint32_t outlook, uint32_t *number, tn_error *error)
+static tn_status number_exit_state(const tn_exit_by *by, uint32_t far_list, uint32_t *number, tn_error *error)
 {
-    tn_strip_stages *stages = &by->strip->stages;
-    uint32_t words[STATE_WALKS + TN_STRIP_MEETINGS_MAX + 1], before = stages->leavings.count;
-    tn_status status = push_behind(by, words, error);
+    tn_frontier_stages *stages = &by->frontier->stages;
+    uint32_t words[STATE_WALKS + TN_FRONTIER_MEETINGS_MAX + 1], before = stages->exit_states.count;
+    tn_status status = push_near_side(by, words, error);
     if (status != TN_OK)
         return status;
-    if (!tn_array_reserve(&stages->left_by, &stages->leaving_room, before, 1, sizeof *stages->left_by))
+    if (!tn_array_reserve(&stages->exit_from, &stages->exit_state_room, before, 1, sizeof *stages->exit_from))
         return tn_fail_memory(error);
-    uint32_t behind = tn_intern(&stages->behinds, words, tn_strip_waiting_word(by->strip));
-    *number = behind != UINT32_MAX ? tn_number(&stages->leavings, (uint64_t)behind << 32 | outlook) : UINT32_MAX;
+    uint32_t near_side = tn_intern(&stages->near_sides, words, tn_frontier_pending_word(by->frontier));
+    *number =
+        near_side != UINT32_MAX ? tn_number(&stages->exit_states, (uint64_t)near_side << 32 | far_list) : UINT32_MAX;
     if (*number == before)
-        stages->left_by[before] = (tn_strip_leaving){by->number, by->left, by->fits};
+        stages->exit_from[before] = (tn_frontier_exit_state){by->number, by->left, by->fits};
     return *number != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
 /* ---- from a state */
 
-/* What is before each walk is numbered once for all that is met from a state. */
-static tn_status begin_state(tn_strip *strip, uint32_t state, const uint32_t *words, tn_error *error)
+/* What is before the interface is numbered once for all outcomes after a state. */
+static tn_status begin_state(tn_frontier *frontier, uint32_t state, const uint32_t *words, tn_error *error)
 {
-    tn_strip_stages *stages = &strip->stages;
+    tn_frontier_stages *stages = &frontier->stages;
     if (!words || stages->left == state + 1)
         return TN_OK;
     stages->left = 0;
-    for (uint32_t i = 0; i <= strip->questions.walk_count; i++) {
-        uint64_t asked = strip->edges[words[STATE_EDGE]].asked;
-        stages->befores[i] = tn_number(&strip->befores, asked << 32 | words[STATE_ROOMS + i]);
+    for (uint32_t i = 0; i <= frontier->questions.walk_count; i++) {
+        uint64_t asked = frontier->edges[words[STATE_EDGE]].asked;
+        stages->befores[i] = tn_number(&frontier->befores, asked << 32 | words[STATE_ROOMS + i]);
         if (stages->befores[i] == UINT32_MAX)
             return tn_fail_memory(error);
     }
@@ -286,285 +301,285 @@ static tn_status begin_state(tn_strip *strip, uint32_t state, const uint32_t *wo
     return TN_OK;
 }
 
-tn_status tn_strip_leave(tn_strip *strip, uint32_t state, uint32_t entries, tn_strip_seen *seen, void *context,
-                         tn_error *error)
+tn_status tn_frontier_stage_exit(tn_frontier *frontier, uint32_t state, uint32_t entries, tn_frontier_seen *seen,
+                                 void *context, tn_error *error)
 {
     size_t size;
-    const uint32_t *words = state == TN_STRIP_NONE ? NULL : tn_interned(&strip->states, state, &size);
-    const tn_strip_prospects *prospects = NULL;
-    tn_leaving_by by = {
-        .strip = strip, .number = state, .state = words, .edge = words ? &strip->edges[words[STATE_EDGE]] : NULL};
-    tn_status status = begin_state(strip, state, words, error);
+    const uint32_t *words = state == TN_FRONTIER_NONE ? NULL : tn_interned(&frontier->states, state, &size);
+    const tn_frontier_interface_groups *interface_groups = NULL;
+    tn_exit_by by = {.frontier = frontier,
+                     .number = state,
+                     .state = words,
+                     .edge = words ? &frontier->edges[words[STATE_EDGE]] : NULL};
+    tn_status status = begin_state(frontier, state, words, error);
     if (status == TN_OK)
-        status = prospects_of(strip, words ? words[STATE_EDGE] : TN_STRIP_NONE, entries, &prospects, error);
-    for (size_t i = 0; status == TN_OK && i < prospects->count; i++) {
-        const tn_strip_prospect *prospect = &prospects->items[i];
-        uint32_t leaving;
+        status = interface_groups_of(frontier, words ? words[STATE_EDGE] : TN_FRONTIER_NONE, entries, &interface_groups,
+                                     error);
+    for (size_t i = 0; status == TN_OK && i < interface_groups->count; i++) {
+        const tn_frontier_interface_group *interface_group = &interface_groups->items[i];
+        uint32_t exit_state;
         uint64_t tiles = 1;
-        by.left = prospect->left;
-        by.fits = prospect->fits;
-        if (words && !strip->scouting)
-            status = tn_strip_end_waiting(strip, words[tn_strip_waiting_word(strip)], by.fits, &tiles, error);
+        by.left = interface_group->left;
+        by.fits = interface_group->fits;
+        if (words && !frontier->scouting)
+            status =
+                tn_frontier_end_pending(frontier, words[tn_frontier_pending_word(frontier)], by.fits, &tiles, error);
         if (status != TN_OK || tiles == 0)
             continue;
-        status = number_leaving(&by, prospect->outlook, &leaving, error);
+        status = number_exit_state(&by, interface_group->far_list, &exit_state, error);
         if (status == TN_OK)
-            status = seen(context, leaving, tiles, 1, &(tn_house_gain){{0}}, error);
+            status = seen(context, exit_state, tiles, 1, &(tn_house_gain){{0}}, error);
     }
     return status;
 }
 
 /* ==== into the slices
  *
- * From a leaving over the plane into the slices behind it, in two stages: to thresholds, where the plane is
- * known and the slice is not, then to arrivals.
+ * From an exit state across the interface into the next slice, in two stages: to entry states (the interface is known,
+ * the slice is not), then to slice states (the slice's group is known, its exit is not).
  *
- * Most thresholds lead nowhere, and those are not shown. So it is known what each leads to before it is gone on from;
- * that is kept as long as steps begin after the same number of trays. */
+ * Most entry states have no slice state, and those are not shown. So the slice states of an entry state are found
+ * before it is shown, and kept while steps begin after the same number of trays. */
 
-void tn_strip_entered_forget(tn_strip_entered *entered)
+void tn_frontier_entered_forget(tn_frontier_entered *entered)
 {
     tn_numbering_clear(&entered->keys);
     free(entered->spans);
-    free(entered->arrivals);
-    *entered = (tn_strip_entered){0};
+    free(entered->slice_states);
+    *entered = (tn_frontier_entered){0};
 }
 
-/* ---- thresholds */
+/* ---- entry states */
 
-/* An outcome of the plane of the leaving's first state with what is seen from both sides. */
-static tn_status find_outcome(tn_strip *strip, const tn_strip_leaving *by, uint64_t facing, uint32_t *outcome,
-                              tn_error *error)
+/* An outcome of the interface after the exit state's first state that has these two sides. */
+static tn_status find_outcome(tn_frontier *frontier, const tn_frontier_exit_state *by, uint64_t far_side,
+                              uint32_t *outcome, tn_error *error)
 {
     size_t size;
-    const tn_strip_list *plane;
-    bool begins = by->state == TN_STRIP_NONE;
-    uint32_t edge = begins ? TN_STRIP_NONE : tn_interned(&strip->states, by->state, &size)[STATE_EDGE];
-    tn_status status = tn_strip_plane(strip, edge, tn_high(facing), &plane, error);
-    for (size_t i = 0; status == TN_OK && i < plane->count; i++) {
-        *outcome = plane->items[i].slice;
-        if (strip->outcomes[*outcome].left == by->left && tn_strip_left_fits(strip, *outcome) == by->fits &&
-            tn_strip_right_seen(strip, *outcome) == tn_low(facing))
+    const tn_frontier_list *interface;
+    bool begins = by->state == TN_FRONTIER_NONE;
+    uint32_t edge = begins ? TN_FRONTIER_NONE : tn_interned(&frontier->states, by->state, &size)[STATE_EDGE];
+    tn_status status = tn_frontier_interface(frontier, edge, tn_high(far_side), &interface, error);
+    for (size_t i = 0; status == TN_OK && i < interface->count; i++) {
+        *outcome = interface->items[i].slice;
+        if (frontier->outcomes[*outcome].left == by->left && tn_frontier_left_fits(frontier, *outcome) == by->fits &&
+            tn_frontier_right_seen(frontier, *outcome) == tn_low(far_side))
             break;
     }
     return status;
 }
 
-static tn_status number_threshold(tn_strip *strip, uint32_t leaving, uint32_t facing, uint32_t *number, tn_error *error)
+static tn_status number_entry_state(tn_frontier *frontier, uint32_t exit_state, uint32_t far_side, uint32_t *number,
+                                    tn_error *error)
 {
-    tn_strip_stages *stages = &strip->stages;
-    uint32_t before = stages->thresholds.count, behind = tn_high(stages->leavings.keys[leaving]);
-    if (!tn_array_reserve(&stages->crossed_by, &stages->threshold_room, before, 1, sizeof *stages->crossed_by))
+    tn_frontier_stages *stages = &frontier->stages;
+    uint32_t before = stages->entry_states.count, near_side = tn_high(stages->exit_states.keys[exit_state]);
+    if (!tn_array_reserve(&stages->entry_from, &stages->entry_state_room, before, 1, sizeof *stages->entry_from))
         return tn_fail_memory(error);
-    *number = tn_number(&stages->thresholds, (uint64_t)behind << 32 | facing);
+    *number = tn_number(&stages->entry_states, (uint64_t)near_side << 32 | far_side);
     if (*number == UINT32_MAX)
         return tn_fail_memory(error);
     if (*number < before)
         return TN_OK;
-    const tn_strip_leaving *by = &stages->left_by[leaving];
-    stages->crossed_by[before].state = by->state;
-    return find_outcome(strip, by, stages->facings.keys[facing], &stages->crossed_by[before].outcome, error);
+    const tn_frontier_exit_state *by = &stages->exit_from[exit_state];
+    stages->entry_from[before].state = by->state;
+    return find_outcome(frontier, by, stages->far_sides.keys[far_side], &stages->entry_from[before].outcome, error);
 }
 
 /* ---- into the slices */
 
 typedef struct tn_entering_by {
-    tn_strip *strip;
-    const uint32_t *state, *behind; /* words; state: or NULL */
+    tn_frontier *frontier;
+    const uint32_t *state, *near_side; /* words; state: or NULL */
     uint32_t trays, outcome, fits;
 } tn_entering_by;
 
-static tn_status number_arrival(const tn_entering_by *by, uint32_t group, const uint32_t *crossed, uint32_t read,
-                                uint32_t *number, tn_error *error)
+static tn_status number_slice_state(const tn_entering_by *by, uint32_t group, const uint32_t *crossed, uint32_t read,
+                                    uint32_t *number, tn_error *error)
 {
-    tn_strip *strip = by->strip;
-    tn_key *key = &strip->joined;
+    tn_frontier *frontier = by->frontier;
+    tn_key *key = &frontier->joined;
     key->size = 0;
     bool ok = tn_key_push(key, group);
-    for (uint32_t w = 0; ok && w <= strip->questions.walk_count; w++)
+    for (uint32_t w = 0; ok && w <= frontier->questions.walk_count; w++)
         ok = tn_key_push(key, crossed[CROSSED_ROOMS + w]);
     ok = ok && tn_key_push(key, read) && tn_key_push(key, by->fits);
-    *number = ok ? tn_intern(&strip->stages.arrivals, key->data, key->size) : UINT32_MAX;
+    *number = ok ? tn_intern(&frontier->stages.slice_states, key->data, key->size) : UINT32_MAX;
     return *number != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-static tn_status keep_arrival(tn_strip_entered *entered, uint32_t arrival, tn_error *error)
+static tn_status keep_slice_state(tn_frontier_entered *entered, uint32_t slice_state, tn_error *error)
 {
-    if (!tn_array_reserve(&entered->arrivals, &entered->arrival_room, entered->arrival_count, 1,
-                          sizeof *entered->arrivals))
+    if (!tn_array_reserve(&entered->slice_states, &entered->slice_state_room, entered->slice_state_count, 1,
+                          sizeof *entered->slice_states))
         return tn_fail_memory(error);
-    entered->arrivals[entered->arrival_count++] = arrival;
+    entered->slice_states[entered->slice_state_count++] = slice_state;
     return TN_OK;
 }
 
 /* between: what clauses have read of the group's slices by themselves. */
 static tn_status enter_group(const tn_entering_by *by, uint32_t group, uint32_t between, tn_error *error)
 {
-    uint32_t crossed[CROSSED_WALKS + TN_STRIP_MEETINGS_MAX + TN_STRIP_QUESTIONS_MAX], read, arrival;
-    tn_strip *strip = by->strip;
-    tn_status status =
-        tn_strip_cross_outcome(strip, by->state, strip->stages.slices[group], by->outcome, by->behind, crossed, error);
+    uint32_t crossed[CROSSED_WALKS + TN_FRONTIER_MEETINGS_MAX + TN_FRONTIER_QUESTIONS_MAX], read, slice_state;
+    tn_frontier *frontier = by->frontier;
+    tn_status status = tn_frontier_cross_outcome(frontier, by->state, frontier->stages.slices[group], by->outcome,
+                                                 by->near_side, crossed, error);
     if (status == TN_OK)
-        status = tn_strip_read_plane(strip, by->trays, between, crossed[CROSSED_VALUES], &read, error);
-    if (status != TN_OK || read == TN_STRIP_NONE)
+        status = tn_frontier_read_interface(frontier, by->trays, between, crossed[CROSSED_VALUES], &read, error);
+    if (status != TN_OK || read == TN_FRONTIER_NONE)
         return status;
-    status = number_arrival(by, group, crossed, read, &arrival, error);
-    return status == TN_OK ? keep_arrival(&strip->stages.entered, arrival, error) : status;
+    status = number_slice_state(by, group, crossed, read, &slice_state, error);
+    return status == TN_OK ? keep_slice_state(&frontier->stages.entered, slice_state, error) : status;
 }
 
-/* groups: a list, those together of which clauses read the same. */
-static tn_status enter(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t groups, tn_error *error)
+/* groups: a list, in which groups that clauses read alike follow one another. */
+static tn_status enter(tn_frontier *frontier, uint32_t trays, uint32_t entry_state, uint32_t groups, tn_error *error)
 {
     size_t size, count;
-    const tn_strip_stages *stages = &strip->stages;
-    uint64_t place = stages->thresholds.keys[threshold];
-    const tn_strip_threshold *crossed = &stages->crossed_by[threshold];
-    const uint32_t *behind = tn_interned(&stages->behinds, tn_high(place), &size);
+    const tn_frontier_stages *stages = &frontier->stages;
+    uint64_t place = stages->entry_states.keys[entry_state];
+    const tn_frontier_entry_state *crossed = &stages->entry_from[entry_state];
+    const uint32_t *near_side = tn_interned(&stages->near_sides, tn_high(place), &size);
     const uint32_t *list = tn_interned(&stages->lists, groups, &count);
     const tn_entering_by by = {
-        .strip = strip,
-        .state = crossed->state == TN_STRIP_NONE ? NULL : tn_interned(&strip->states, crossed->state, &size),
-        .behind = behind,
+        .frontier = frontier,
+        .state = crossed->state == TN_FRONTIER_NONE ? NULL : tn_interned(&frontier->states, crossed->state, &size),
+        .near_side = near_side,
         .trays = trays,
         .outcome = crossed->outcome,
-        .fits = tn_interned(&stages->rights, tn_low(stages->facings.keys[tn_low(place)]), &size)[RIGHT_FITS]};
-    uint32_t bases = TN_STRIP_NONE, between = TN_STRIP_NONE, last = tn_strip_waiting_word(strip) - 1;
+        .fits = tn_interned(&stages->rights, tn_low(stages->far_sides.keys[tn_low(place)]), &size)[RIGHT_FITS]};
+    uint32_t bases = TN_FRONTIER_NONE, between = TN_FRONTIER_NONE, last = tn_frontier_pending_word(frontier) - 1;
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         uint32_t slice = stages->slices[list[i]];
-        if (i == 0 || strip->slices[slice].bases != bases)
-            status = tn_strip_read_slice(strip, trays, behind[last], slice, &between, error);
-        bases = strip->slices[slice].bases;
-        if (status == TN_OK && between != TN_STRIP_NONE)
+        if (i == 0 || frontier->slices[slice].bases != bases)
+            status = tn_frontier_read_slice(frontier, trays, near_side[last], slice, &between, error);
+        bases = frontier->slices[slice].bases;
+        if (status == TN_OK && between != TN_FRONTIER_NONE)
             status = enter_group(&by, list[i], between, error);
     }
     return status;
 }
 
-static tn_status enter_once(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t groups, tn_strip_span *span,
-                            tn_error *error)
+static tn_status enter_once(tn_frontier *frontier, uint32_t trays, uint32_t entry_state, uint32_t groups,
+                            tn_frontier_span *span, tn_error *error)
 {
-    tn_strip_entered *entered = &strip->stages.entered;
+    tn_frontier_entered *entered = &frontier->stages.entered;
     uint32_t before = entered->keys.count;
     if (!tn_array_reserve(&entered->spans, &entered->span_room, before, 1, sizeof *entered->spans))
         return tn_fail_memory(error);
-    uint32_t at = tn_number(&entered->keys, (uint64_t)threshold << 32 | groups);
+    uint32_t at = tn_number(&entered->keys, (uint64_t)entry_state << 32 | groups);
     if (at == UINT32_MAX)
         return tn_fail_memory(error);
     tn_status status = TN_OK;
     if (at == before) {
-        size_t first = entered->arrival_count;
-        status = enter(strip, trays, threshold, groups, error);
-        entered->spans[at] = (tn_strip_span){first, entered->arrival_count - first};
+        size_t first = entered->slice_state_count;
+        status = enter(frontier, trays, entry_state, groups, error);
+        entered->spans[at] = (tn_frontier_span){first, entered->slice_state_count - first};
     }
     *span = entered->spans[at];
     return status;
 }
 
-/* The arrivals behind a threshold by the groups that its entry has there; none where it has none. */
-static tn_status find_arrivals(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t entering,
-                               tn_strip_span *span, tn_error *error)
+/* The slice states of an entry state, in the groups that its entry edge has in the list; none if it has none there. */
+static tn_status find_slice_states(tn_frontier *frontier, uint32_t trays, uint32_t entry_state, uint32_t entry_groups,
+                                   tn_frontier_span *span, tn_error *error)
 {
     size_t words;
-    const tn_strip_stages *stages = &strip->stages;
-    const uint32_t *lists = tn_interned(&stages->lists, entering, &words);
-    uint32_t entry = tn_high(stages->facings.keys[tn_low(stages->thresholds.keys[threshold])]);
+    const tn_frontier_stages *stages = &frontier->stages;
+    const uint32_t *lists = tn_interned(&stages->lists, entry_groups, &words);
+    uint32_t entry = tn_high(stages->far_sides.keys[tn_low(stages->entry_states.keys[entry_state])]);
     const uint32_t *own = words > 0 ? bsearch(&entry, lists, words / 2, 2 * sizeof *lists, tn_words_compare) : NULL;
-    *span = (tn_strip_span){0};
+    *span = (tn_frontier_span){0};
     if (!own)
         return TN_OK;
-    if (strip->stages.entered.trays != trays + 1)
-        tn_strip_entered_forget(&strip->stages.entered);
-    strip->stages.entered.trays = trays + 1;
-    tn_status status = enter_once(strip, trays, threshold, own[1], span, error);
+    if (frontier->stages.entered.trays != trays + 1)
+        tn_frontier_entered_forget(&frontier->stages.entered);
+    frontier->stages.entered.trays = trays + 1;
+    tn_status status = enter_once(frontier, trays, entry_state, own[1], span, error);
     if (status != TN_OK) /* its span is not known */
-        tn_strip_entered_forget(&strip->stages.entered);
+        tn_frontier_entered_forget(&frontier->stages.entered);
     return status;
 }
 
 /* ---- the two stages */
 
-tn_status tn_strip_face(tn_strip *strip, uint32_t trays, uint32_t leaving, uint32_t entering, tn_strip_seen *seen,
-                        void *context, tn_error *error)
+tn_status tn_frontier_stage_cross(tn_frontier *frontier, uint32_t trays, uint32_t exit_state, uint32_t entry_groups,
+                                  tn_frontier_seen *seen, void *context, tn_error *error)
 {
-    const tn_strip_stages *stages = &strip->stages;
+    const tn_frontier_stages *stages = &frontier->stages;
     size_t size;
-    const uint32_t *outlook = tn_interned(&stages->outlooks, tn_low(stages->leavings.keys[leaving]), &size);
+    const uint32_t *far_list = tn_interned(&stages->far_lists, tn_low(stages->exit_states.keys[exit_state]), &size);
     tn_status status = TN_OK;
-    for (const uint32_t *end = outlook + size; status == TN_OK && outlook < end; outlook += OUTLOOK_WORDS) {
-        uint32_t threshold;
-        uint64_t times = tn_both(outlook + OUTLOOK_TIMES);
-        tn_strip_span span = {0};
-        status = number_threshold(strip, leaving, outlook[OUTLOOK_FACING], &threshold, error);
+    for (const uint32_t *end = far_list + size; status == TN_OK && far_list < end; far_list += FAR_WORDS) {
+        uint32_t entry_state;
+        uint64_t times = tn_both(far_list + FAR_TIMES);
+        tn_frontier_span span = {0};
+        status = number_entry_state(frontier, exit_state, far_list[FAR_SIDE], &entry_state, error);
         if (status == TN_OK)
-            status = find_arrivals(strip, trays, threshold, entering, &span, error);
+            status = find_slice_states(frontier, trays, entry_state, entry_groups, &span, error);
         if (status == TN_OK && span.count > 0)
-            status = seen(context, threshold, times, times, &(tn_house_gain){{0}}, error);
+            status = seen(context, entry_state, times, times, &(tn_house_gain){{0}}, error);
     }
     return status;
 }
 
-tn_status tn_strip_enter(tn_strip *strip, uint32_t trays, uint32_t threshold, uint32_t entering, tn_strip_seen *seen,
-                         void *context, tn_error *error)
+tn_status tn_frontier_stage_enter(tn_frontier *frontier, uint32_t trays, uint32_t entry_state, uint32_t entry_groups,
+                                  tn_frontier_seen *seen, void *context, tn_error *error)
 {
-    tn_strip_span span;
-    tn_status status = find_arrivals(strip, trays, threshold, entering, &span, error);
+    tn_frontier_span span;
+    tn_status status = find_slice_states(frontier, trays, entry_state, entry_groups, &span, error);
     for (size_t i = 0; status == TN_OK && i < span.count; i++)
-        status = seen(context, strip->stages.entered.arrivals[span.first + i], 1, 1, &(tn_house_gain){{0}}, error);
+        status =
+            seen(context, frontier->stages.entered.slice_states[span.first + i], 1, 1, &(tn_house_gain){{0}}, error);
     return status;
 }
 
-/* ==== to the right side
- *
- * A step from a state to one behind the next slice, in four stages: to what can be seen of the plane behind it,
- * to what faces it, into the slice, to its right side.
- *
- * Many states are one at the plane, as their edges are behind it and their tiles are counted; many slices are one to
- * rooms, walks and clauses. So the step is the product of four that are much smaller. */
+/* ==== groups of slices, and what is kept */
 
-bool tn_strip_has_stages(const tn_strip *strip)
+bool tn_frontier_has_stages(const tn_frontier *frontier)
 {
-    return strip->added->count == 0 && !strip->prices.asked && strip->questions.placed_count == 0 &&
-           strip->questions.placed_walks == 0;
+    return frontier->added->count == 0 && !frontier->prices.asked && frontier->questions.placed_count == 0 &&
+           frontier->questions.placed_walks == 0;
 }
 
-void tn_strip_stages_forget(tn_strip_stages *stages)
+void tn_frontier_stages_forget(tn_frontier_stages *stages)
 {
-    for (uint32_t i = 0; i < stages->prospect_keys.count; i++)
-        free(stages->prospects[i].items);
-    tn_numbering_clear(&stages->prospect_keys);
-    tn_numbering_clear(&stages->leavings);
-    tn_numbering_clear(&stages->thresholds);
-    tn_interner_clear(&stages->arrivals);
-    tn_strip_entered_forget(&stages->entered);
+    for (uint32_t i = 0; i < stages->interface_group_keys.count; i++)
+        free(stages->interface_groups[i].items);
+    tn_numbering_clear(&stages->interface_group_keys);
+    tn_numbering_clear(&stages->exit_states);
+    tn_numbering_clear(&stages->entry_states);
+    tn_interner_clear(&stages->slice_states);
+    tn_frontier_entered_forget(&stages->entered);
     stages->left = 0;
 }
 
-void tn_strip_stages_clear(tn_strip_stages *stages)
+void tn_frontier_stages_clear(tn_frontier_stages *stages)
 {
-    tn_interner *const interners[] = {&stages->groups,   &stages->lefts,   &stages->rights, &stages->lists,
-                                      &stages->outlooks, &stages->behinds, &stages->views};
-    tn_strip_stages_forget(stages);
+    tn_interner *const interners[] = {&stages->groups,    &stages->lefts,      &stages->rights, &stages->lists,
+                                      &stages->far_lists, &stages->near_sides, &stages->views};
+    tn_frontier_stages_forget(stages);
     for (size_t i = 0; i < sizeof interners / sizeof *interners; i++)
         tn_interner_clear(interners[i]);
-    tn_numbering_clear(&stages->facings);
+    tn_numbering_clear(&stages->far_sides);
     tn_numbering_clear(&stages->sided);
-    tn_strip_known_clear(&stages->room_views);
-    tn_strip_known_clear(&stages->crossed_rooms);
-    for (uint32_t w = 0; w < TN_STRIP_MEETINGS_MAX; w++) {
-        tn_strip_known_clear(&stages->walk_views[w]);
-        tn_strip_known_clear(&stages->crossed_walks[w]);
+    tn_frontier_known_clear(&stages->room_views);
+    tn_frontier_known_clear(&stages->crossed_rooms);
+    for (uint32_t w = 0; w < TN_FRONTIER_MEETINGS_MAX; w++) {
+        tn_frontier_known_clear(&stages->walk_views[w]);
+        tn_frontier_known_clear(&stages->crossed_walks[w]);
     }
-    free(stages->prospects);
-    free(stages->left_by);
-    free(stages->crossed_by);
+    free(stages->interface_groups);
+    free(stages->exit_from);
+    free(stages->entry_from);
     free(stages->slices);
 }
 
-bool tn_strip_find_group(tn_strip *strip, uint32_t slice)
+bool tn_frontier_find_group(tn_frontier *frontier, uint32_t slice)
 {
-    tn_strip_stages *stages = &strip->stages;
-    tn_strip_slice *parts = &strip->slices[slice];
+    tn_frontier_stages *stages = &frontier->stages;
+    tn_frontier_slice *parts = &frontier->slices[slice];
     const uint32_t words[] = {parts->entry, parts->met, parts->bases};
     uint32_t before = stages->groups.count;
     if (!tn_array_reserve(&stages->slices, &stages->slice_room, before, 1, sizeof *stages->slices))
@@ -575,36 +590,36 @@ bool tn_strip_find_group(tn_strip *strip, uint32_t slice)
     return parts->group != UINT32_MAX;
 }
 
-uint32_t tn_strip_number_list(tn_strip *strip, const uint32_t *items, size_t count)
+uint32_t tn_frontier_number_list(tn_frontier *frontier, const uint32_t *items, size_t count)
 {
-    return tn_intern(&strip->stages.lists, items, count);
+    return tn_intern(&frontier->stages.lists, items, count);
 }
 
-uint32_t tn_strip_arrival_group(const tn_strip *strip, uint32_t arrival)
+uint32_t tn_frontier_slice_state_group(const tn_frontier *frontier, uint32_t slice_state)
 {
     size_t size;
-    return tn_interned(&strip->stages.arrivals, arrival, &size)[ARRIVAL_GROUP];
+    return tn_interned(&frontier->stages.slice_states, slice_state, &size)[SLICE_STATE_GROUP];
 }
 
-/* ---- to its right side */
+/* ==== from a slice state to the next state: the slice's exit and its pending tiles become known */
 
-tn_status tn_strip_arrive(tn_strip *strip, uint32_t arrival, uint32_t slice, tn_strip_seen *seen, void *context,
-                          tn_error *error)
+tn_status tn_frontier_stage_pass(tn_frontier *frontier, uint32_t slice_state, uint32_t slice, tn_frontier_seen *seen,
+                                 void *context, tn_error *error)
 {
     size_t size;
-    tn_strip_waiting waiting;
-    tn_key *key = &strip->joined;
-    const uint32_t *words = tn_interned(&strip->stages.arrivals, arrival, &size);
-    uint32_t last = tn_strip_waiting_word(strip), edge = strip->slices[slice].exit;
-    tn_status status = tn_strip_find_waiting(strip, slice, words[last], &waiting, error);
-    if (status != TN_OK || waiting.number == TN_STRIP_NONE)
+    tn_frontier_pending pending;
+    tn_key *key = &frontier->joined;
+    const uint32_t *words = tn_interned(&frontier->stages.slice_states, slice_state, &size);
+    uint32_t last = tn_frontier_pending_word(frontier), edge = frontier->slices[slice].exit;
+    tn_status status = tn_frontier_find_pending(frontier, slice, words[last], &pending, error);
+    if (status != TN_OK || pending.number == TN_FRONTIER_NONE)
         return status;
     key->size = 0;
-    bool ok = tn_key_push(key, strip->merged.edges ? strip->merged.edges[edge] : edge);
+    bool ok = tn_key_push(key, frontier->merged.edges ? frontier->merged.edges[edge] : edge);
     for (uint32_t i = STATE_ROOMS; ok && i < last; i++)
         ok = tn_key_push(key, words[i]);
-    ok = ok && tn_key_push(key, waiting.number);
-    uint32_t state = ok ? tn_intern(&strip->states, key->data, key->size) : UINT32_MAX;
-    return state != UINT32_MAX ? seen(context, state, waiting.times, 1, &(tn_house_gain){{0}}, error)
+    ok = ok && tn_key_push(key, pending.number);
+    uint32_t state = ok ? tn_intern(&frontier->states, key->data, key->size) : UINT32_MAX;
+    return state != UINT32_MAX ? seen(context, state, pending.times, 1, &(tn_house_gain){{0}}, error)
                                : tn_fail_memory(error);
 }

@@ -8,11 +8,11 @@
 
 /* What the instructions at these code offsets make is empty in the library's clauses from `first` on (counted within
  * it; borrowed). differs: these keep the houses of which the clause says otherwise then. */
-typedef struct tn_strip_without {
+typedef struct tn_frontier_without {
     const uint32_t *offsets;
     size_t count;
     uint32_t first;
     bool differs;
-} tn_strip_without;
+} tn_frontier_without;
 
 #endif

@@ -71,7 +71,7 @@ static tn_status push_on(tn_plan_along *a, const tn_tray *only, tn_error *error)
     return status;
 }
 
-/* To the last layer before the states behind so many trays and one more. */
+/* To the last layer before the states after so many trays and one more. */
 static tn_status push_to(tn_plan_along *a, uint32_t trays, tn_error *error)
 {
     uint32_t stages = tn_houses_stages(&a->view, a->kind);
@@ -122,12 +122,12 @@ static tn_status find_by_tray(tn_plan_along *a, uint32_t length, tn_error *error
 
 /* ---- what is kept */
 
-/* *place: where the numbers behind this beginning are kept, NULL where they are not known yet; NULL: too many are. */
+/* *place: where the numbers of this beginning are kept: NULL if they are not known yet; NULL: too many are. */
 static tn_status place_of(const tn_plan_along *a, uint32_t length, mpz_t ***place, tn_error *error)
 {
     enum { MOST = 1000000 }; /* numbers */
     tn_houses_kind *kind = a->kind;
-    tn_key *key = &kind->strip->key;
+    tn_key *key = &kind->frontier->key;
     uint32_t before = kind->beginnings.count;
     *place = NULL;
     if ((uint64_t)before * a->view.form->schema->tray_count > MOST)

@@ -9,11 +9,11 @@
 typedef struct tn_plan_along {
     tn_houses view; /* the houses, with ways by tray; borrows all that they have */
     tn_houses_kind *kind;
-    tn_tray *trays; /* [count]: those taken; the nodes may be behind them */
+    tn_tray *trays; /* [count]: those taken; the nodes may be further on */
     uint32_t count, layer;
     mpz_t *here;    /* [nodes of the layer]: choices that lead there */
     mpz_t *by_tray; /* [trays of the schema]: houses that go on by each */
-    bool summed;    /* these are behind the trays taken so far */
+    bool summed;    /* these are of the trays taken so far */
 } tn_plan_along;
 
 /* Begins before the first tray. Both are borrowed. End it also after a failure. */

@@ -91,7 +91,7 @@ static tn_status make_ranked(tn_houses *h, tn_error *error)
     for (size_t i = 0; status == TN_OK && !h->ranked && i < h->kind_count; i++)
         status = tn_houses_look_ahead(h, &h->kinds[i], error);
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
-        status = tn_strip_ways_want(h->kinds[i].strip, error);
+        status = tn_frontier_ways_want(h->kinds[i].frontier, error);
     h->ranked = status == TN_OK;
     return status;
 }
@@ -163,9 +163,10 @@ static tn_status walk_begin(tn_houses *h, uint32_t length, tn_plan_walk *w, tn_e
     tn_status status = w->fronts && w->by_tray ? make_ranked(h, error) : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
         tn_houses_front *front = &w->fronts[i];
-        front->staged = tn_houses_stages(h, &h->kinds[i]) > 1 && h->kinds[i].strip->slice_keys.count >= h->many_slices;
+        front->staged =
+            tn_houses_stages(h, &h->kinds[i]) > 1 && h->kinds[i].frontier->slice_keys.count >= h->many_slices;
         status = front->staged ? tn_plan_along_begin(h, &h->kinds[i], &front->along, error)
-                               : add_state(front, TN_STRIP_NONE, w->one, 1, error);
+                               : add_state(front, TN_FRONTIER_NONE, w->one, 1, error);
     }
     return status;
 }
@@ -198,7 +199,7 @@ static tn_status go_on_by(tn_plan_walk *w, const tn_houses_kind *kind, uint32_t 
                           tn_error *error)
 {
     const tn_houses *h = w->houses;
-    const tn_strip_list *list = &kind->strip->of_tray[tray];
+    const tn_frontier_list *list = &kind->frontier->of_tray[tray];
     tn_summing_up s = {.walk = w, .next = &kind->layers[(w->layer + 1) * tn_houses_stages(h, kind)]};
     tn_house_gain gain;
     mpz_set_ui(houses, 0);
@@ -208,7 +209,7 @@ static tn_status go_on_by(tn_plan_walk *w, const tn_houses_kind *kind, uint32_t 
     mpz_init(s.sum);
     for (size_t k = 0; status == TN_OK && k < list->count; k++) {
         mpz_set_ui(s.sum, 0);
-        status = tn_strip_step(kind->strip, w->layer, state, list->items[k].slice, sum_up, &s, error);
+        status = tn_frontier_step(kind->frontier, w->layer, state, list->items[k].slice, sum_up, &s, error);
         mpz_addmul_ui(houses, s.sum, list->items[k].times);
     }
     mpz_clear(s.sum);
@@ -315,8 +316,8 @@ static tn_status go_on(tn_plan_walk *w, tn_tray tray, tn_error *error)
 {
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < w->houses->kind_count; i++) {
-        tn_strip *strip = w->houses->kinds[i].strip;
-        const tn_strip_list *list = &strip->of_tray[tray];
+        tn_frontier *frontier = w->houses->kinds[i].frontier;
+        const tn_frontier_list *list = &frontier->of_tray[tray];
         tn_houses_front next = {0};
         if (w->fronts[i].staged) {
             tn_plan_along_take(&w->fronts[i].along, tray);
@@ -328,7 +329,8 @@ static tn_status go_on(tn_plan_walk *w, tn_tray tray, tn_error *error)
             for (size_t n = 0; status == TN_OK && n < w->fronts[i].count; n++) {
                 g.count = w->fronts[i].counts[n];
                 g.times = list->items[k].times;
-                status = tn_strip_step(strip, w->layer, w->fronts[i].states[n], list->items[k].slice, go_to, &g, error);
+                status = tn_frontier_step(frontier, w->layer, w->fronts[i].states[n], list->items[k].slice, go_to, &g,
+                                          error);
             }
         mpz_clear(g.one);
         clear_front(&w->fronts[i]);

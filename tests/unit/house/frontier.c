@@ -583,7 +583,7 @@ static void test_places(void **state)
 }
 
 /* Cells that no passage leaves, beside others of their tray: what can never reach its goal is in a slice whose other
- * cells have passages over planes. */
+ * cells have passages across interfaces. */
 typedef struct walled {
     char text[2048];
 } walled;
@@ -643,7 +643,7 @@ static void test_walled(void **state)
     check_walled("require apart(cell(living, body), from cell(living, rear)) and not cell(store, 8')");
 }
 
-/* Cells that meet across a plane, where the clause may be read from either end of the row. */
+/* Cells that meet across an interface, where the clause may be read from either end of the row. */
 static void test_mirror(void **state)
 {
     (void)state;

@@ -1,9 +1,9 @@
-/* Planes: what can stand between two edges, or where the row begins and ends.
+/* Interfaces: what can stand between two edges, or where the row begins and ends.
  *
  * ==== parts
  *
- * A part of a plane is of one storey or more. What comes of it, with what is in its faces: meetings, steps, what rooms
- * and tiles see of both sides. */
+ * A part of an interface is of one storey or more. What comes of it, with what is in its faces: meetings, steps, what
+ * rooms and tiles see of both sides. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,68 +12,68 @@
 #include "runtime/house/rule/asked.h"
 
 /* Words of what comes of a part: the meetings (two words), the number of steps and STEP_WORDS for each, then for each
- * cell of its storeys its place and SIDE_WORDS; then, where costs are asked for, the number of the plane's. */
+ * cell of its storeys its place and SIDE_WORDS; then, where costs are asked for, the number of the interface's. */
 enum { PART_MEETINGS, PART_STEPS = PART_MEETINGS + 2 };
 
 /* What comes of its faces, of `parts`, and of how many choices. */
-typedef struct tn_plane_found {
+typedef struct tn_interface_found {
     uint32_t part;
     uint64_t times;
-} tn_plane_found;
+} tn_interface_found;
 
-/* Outcomes of the plane are the combinations of what its parts have. */
-typedef struct tn_plane_part {
+/* Outcomes of the interface are the combinations of what its parts have. */
+typedef struct tn_interface_part {
     uint64_t storeys; /* a bit each */
-    tn_plane_found *found;
+    tn_interface_found *found;
     size_t count, room;
     size_t at; /* of found: where a combination is at */
-} tn_plane_part;
+} tn_interface_part;
 
 /* The house of the two trays. */
-typedef struct tn_plane_house {
-    tn_strip *strip;
-    uint32_t left, right; /* edges, or TN_STRIP_NONE */
+typedef struct tn_interface_house {
+    tn_frontier *frontier;
+    uint32_t left, right; /* edges, or TN_FRONTIER_NONE */
     uint32_t left_cells;  /* those of the left edge come first */
     bool has_left, has_right;
     tn_house house;
-    uint32_t *faces; /* those in the plane */
+    uint32_t *faces; /* those in the interface */
     size_t count;
     tn_room_open *open; /* [cells]: of the rooms that they are in */
     uint32_t *sides;    /* [cells][SIDE_WORDS] */
     uint64_t changed;   /* storeys of whose faces one has another kind than when sides were found */
     int64_t x;
-    tn_plane_part *parts;
+    tn_interface_part *parts;
     size_t part_count;
     tn_key words; /* scratch */
     tn_numbering found;
-    tn_strip_list *list;
-    tn_strip_ordered *ordered; /* where these are wanted, and no list */
-} tn_plane_house;
+    tn_frontier_list *list;
+    tn_frontier_ordered *ordered; /* where these are wanted, and no list */
+} tn_interface_house;
 
-static bool part_has(const tn_plane_part *part, uint32_t storey)
+static bool part_has(const tn_interface_part *part, uint32_t storey)
 {
     return part->storeys >> storey & 1;
 }
 
-uint64_t tn_strip_marks(const tn_strip *strip, uint32_t kind)
+uint64_t tn_frontier_marks(const tn_frontier *frontier, uint32_t kind)
 {
-    for (uint32_t i = 0; i < strip->questions.kind_count; i++)
-        if (strip->questions.kinds[i] == kind)
+    for (uint32_t i = 0; i < frontier->questions.kind_count; i++)
+        if (frontier->questions.kinds[i] == kind)
             return UINT64_C(1) << i;
     return 0;
 }
 
-bool tn_strip_steps(const tn_strip *strip, const tn_house *house, const tn_face *face, uint32_t walk)
+bool tn_frontier_steps(const tn_frontier *frontier, const tn_house *house, const tn_face *face, uint32_t walk)
 {
-    return tn_house_is_step(house, &strip->form->module->MEETING_records[strip->questions.walks[walk]], face);
+    return tn_house_is_step(house, &frontier->form->module->MEETING_records[frontier->questions.walks[walk]], face);
 }
 
-bool tn_strip_meets(const tn_strip *strip, const tn_house *house, const tn_face *face, uint32_t meeting)
+bool tn_frontier_meets(const tn_frontier *frontier, const tn_house *house, const tn_face *face, uint32_t meeting)
 {
-    return tn_face_meets(house, &strip->form->module->MEETING_records[strip->questions.meetings[meeting]], face);
+    return tn_face_meets(house, &frontier->form->module->MEETING_records[frontier->questions.meetings[meeting]], face);
 }
 
-bool tn_strip_joins(const tn_house *house, const tn_face *face)
+bool tn_frontier_joins(const tn_house *house, const tn_face *face)
 {
     if (face->second == TN_NO_CELL || face->kind != TN_FACE_OPEN)
         return false;
@@ -84,53 +84,53 @@ bool tn_strip_joins(const tn_house *house, const tn_face *face)
 /* ---- steps */
 
 /* The cell among those of its edge. */
-static const tn_strip_edge *edge_of(const tn_plane_house *c, uint32_t cell, uint32_t *at)
+static const tn_frontier_edge *edge_of(const tn_interface_house *c, uint32_t cell, uint32_t *at)
 {
     bool left = cell < c->left_cells;
     *at = left ? cell : cell - c->left_cells;
-    return &c->strip->edges[left ? c->left : c->right];
+    return &c->frontier->edges[left ? c->left : c->right];
 }
 
 /* Do its cells become one room, of which something may be asked? */
-static bool joins(const tn_plane_house *c, const tn_face *face)
+static bool joins(const tn_interface_house *c, const tn_face *face)
 {
-    bool asked = c->strip->questions.placed_count > 0 || c->open[face->first].any || c->open[face->second].any;
-    return asked && tn_strip_joins(&c->house, face);
+    bool asked = c->frontier->questions.placed_count > 0 || c->open[face->first].any || c->open[face->second].any;
+    return asked && tn_frontier_joins(&c->house, face);
 }
 
-static tn_strip_role role_of(const tn_strip *strip, uint32_t walk, const tn_strip_edge *edge, uint32_t cell)
+static tn_frontier_role role_of(const tn_frontier *frontier, uint32_t walk, const tn_frontier_edge *edge, uint32_t cell)
 {
-    return tn_strip_role_of(strip, walk, tn_edge_answers(strip, edge, cell), edge->cells[cell].open);
+    return tn_frontier_role_of(frontier, walk, tn_edge_answers(frontier, edge, cell), edge->cells[cell].open);
 }
 
 /* Can a step through it make a difference to the walk? */
-static bool leads(const tn_plane_house *c, const tn_face *face, uint32_t walk)
+static bool leads(const tn_interface_house *c, const tn_face *face, uint32_t walk)
 {
     uint32_t a, b;
-    const tn_strip_edge *left = edge_of(c, face->first, &a), *right = edge_of(c, face->second, &b);
-    tn_strip_role from = role_of(c->strip, walk, left, a), to = role_of(c->strip, walk, right, b);
+    const tn_frontier_edge *left = edge_of(c, face->first, &a), *right = edge_of(c, face->second, &b);
+    tn_frontier_role from = role_of(c->frontier, walk, left, a), to = role_of(c->frontier, walk, right, b);
     return (from.through && (to.through || to.source || to.goal)) || (from.source && (to.through || to.goal)) ||
            (from.goal && (to.through || to.source));
 }
 
 /* How a face matters to rooms and walks, as in STEP_HOW. */
-static uint32_t find_how(const tn_plane_house *c, const tn_face *face, uint64_t *meetings)
+static uint32_t find_how(const tn_interface_house *c, const tn_face *face, uint64_t *meetings)
 {
-    const tn_strip *s = c->strip;
+    const tn_frontier *s = c->frontier;
     if (face->second == TN_NO_CELL)
         return 0;
     uint32_t how = joins(c, face);
     for (uint32_t w = 0; w < s->questions.walk_count; w++)
-        how |= (uint32_t)(leads(c, face, w) && tn_strip_steps(s, &c->house, face, w)) << (w + 1);
+        how |= (uint32_t)(leads(c, face, w) && tn_frontier_steps(s, &c->house, face, w)) << (w + 1);
     for (uint32_t m = 0; m < s->questions.meeting_count; m++)
-        *meetings |= (uint64_t)tn_strip_meets(s, &c->house, face, m) << m;
+        *meetings |= (uint64_t)tn_frontier_meets(s, &c->house, face, m) << m;
     return how;
 }
 
 /* ---- sides */
 
-/* What of the cell's glass is in the plane, if any question depends on that. */
-static tn_int128 plane_glass(const tn_plane_house *c, uint32_t cell)
+/* What of the cell's glass is in the interface, if any question depends on that. */
+static tn_int128 interface_glass(const tn_interface_house *c, uint32_t cell)
 {
     tn_int128 glass = 0;
     for (size_t k = 0; c->open[cell].glass && k < c->count; k++)
@@ -140,22 +140,23 @@ static tn_int128 plane_glass(const tn_plane_house *c, uint32_t cell)
 }
 
 /* What a side of the cell is, in SIDE_WORDS. posts: of its storey. */
-static tn_status find_side(const tn_plane_house *c, uint32_t i, const tn_posts *posts, uint32_t *side, tn_error *error)
+static tn_status find_side(const tn_interface_house *c, uint32_t i, const tn_posts *posts, uint32_t *side,
+                           tn_error *error)
 {
-    tn_strip *s = c->strip;
+    tn_frontier *s = c->frontier;
     const tn_cell *cell = &c->house.cells[i];
     bool tiled = !cell->open && s->tiled[cell->function];
-    uint32_t fit = 0, glass = tn_strip_number_area(s, plane_glass(c, i));
+    uint32_t fit = 0, glass = tn_frontier_number_area(s, interface_glass(c, i));
     uint64_t marks = 0;
     tn_status status = glass != UINT32_MAX ? TN_OK : tn_fail_memory(error);
     for (size_t k = 0; c->open[i].kinds != 0 && k < c->count; k++) {
         const tn_face *face = &c->house.faces[c->faces[k]];
-        marks |= face->first == i || face->second == i ? tn_strip_marks(s, face->kind) : 0;
+        marks |= face->first == i || face->second == i ? tn_frontier_marks(s, face->kind) : 0;
     }
     marks &= c->open[i].kinds;
     if (status == TN_OK && tiled)
-        status = tn_strip_fit_side(s, &c->house, i, i < c->left_cells ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, c->x, posts,
-                                   &fit, error);
+        status = tn_frontier_fit_side(s, &c->house, i, i < c->left_cells ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, c->x, posts,
+                                      &fit, error);
     side[SIDE_MARKS] = tn_low(marks);
     side[SIDE_MARKS_HIGH] = tn_high(marks);
     side[SIDE_FIT] = fit + tiled;
@@ -163,18 +164,18 @@ static tn_status find_side(const tn_plane_house *c, uint32_t i, const tn_posts *
     return status;
 }
 
-static bool has_tiles(const tn_plane_house *c, uint32_t storey)
+static bool has_tiles(const tn_interface_house *c, uint32_t storey)
 {
     for (size_t i = 0; i < c->house.cell_count; i++) {
         const tn_cell *cell = &c->house.cells[i];
-        if (cell->storey == storey && !cell->open && c->strip->tiled[cell->function])
+        if (cell->storey == storey && !cell->open && c->frontier->tiled[cell->function])
             return true;
     }
     return false;
 }
 
 /* Storeys do not see each other's faces. */
-static tn_status find_sides(tn_plane_house *c, uint32_t storey, tn_error *error)
+static tn_status find_sides(tn_interface_house *c, uint32_t storey, tn_error *error)
 {
     tn_posts posts = {0};
     tn_status status = has_tiles(c, storey) ? tn_house_posts(&c->house, storey, NULL, &posts, error) : TN_OK;
@@ -187,7 +188,7 @@ static tn_status find_sides(tn_plane_house *c, uint32_t storey, tn_error *error)
 
 /* ---- the part */
 
-static bool push_part_steps(const tn_plane_house *c, const tn_plane_part *part, tn_key *key)
+static bool push_part_steps(const tn_interface_house *c, const tn_interface_part *part, tn_key *key)
 {
     uint64_t meetings = 0;
     bool ok = tn_push_long(key, 0) && tn_key_push(key, 0);
@@ -206,7 +207,7 @@ static bool push_part_steps(const tn_plane_house *c, const tn_plane_part *part, 
     return ok;
 }
 
-static bool push_side(const tn_plane_house *c, uint32_t cell, tn_key *key)
+static bool push_side(const tn_interface_house *c, uint32_t cell, tn_key *key)
 {
     bool ok = tn_key_push(key, cell);
     for (size_t w = 0; ok && w < SIDE_WORDS; w++)
@@ -215,7 +216,7 @@ static bool push_side(const tn_plane_house *c, uint32_t cell, tn_key *key)
 }
 
 /* Of storeys in which no face has changed, sides are what they were. */
-static tn_status push_part_sides(tn_plane_house *c, const tn_plane_part *part, tn_key *key, tn_error *error)
+static tn_status push_part_sides(tn_interface_house *c, const tn_interface_part *part, tn_key *key, tn_error *error)
 {
     tn_status status = TN_OK;
     for (uint32_t storey = 0; status == TN_OK && storey < TN_STOREYS_MAX; storey++)
@@ -228,22 +229,22 @@ static tn_status push_part_sides(tn_plane_house *c, const tn_plane_part *part, t
     return status;
 }
 
-static tn_status push_cost(const tn_plane_house *c, tn_key *key, tn_error *error)
+static tn_status push_cost(const tn_interface_house *c, tn_key *key, tn_error *error)
 {
-    tn_strip *s = c->strip;
-    const tn_strip_border border = {.left = c->has_left ? &s->edges[c->left] : NULL,
-                                    .right = c->has_right ? &s->edges[c->right] : NULL,
-                                    .faces = c->faces,
-                                    .count = c->count};
+    tn_frontier *s = c->frontier;
+    const tn_frontier_border border = {.left = c->has_left ? &s->edges[c->left] : NULL,
+                                       .right = c->has_right ? &s->edges[c->right] : NULL,
+                                       .faces = c->faces,
+                                       .count = c->count};
     uint32_t cost = 0;
-    tn_status status = tn_strip_plane_cost(s, &border, &c->house, &cost, error);
+    tn_status status = tn_frontier_interface_cost(s, &border, &c->house, &cost, error);
     return status == TN_OK && !tn_key_push(key, cost) ? tn_fail_memory(error) : status;
 }
 
 /* Numbers what comes of its faces as they are: of `parts`. */
-static tn_status number_part(tn_plane_house *c, const tn_plane_part *part, uint32_t *number, tn_error *error)
+static tn_status number_part(tn_interface_house *c, const tn_interface_part *part, uint32_t *number, tn_error *error)
 {
-    tn_strip *s = c->strip;
+    tn_frontier *s = c->frontier;
     tn_key *key = &s->joined;
     key->size = 0;
     if (!push_part_steps(c, part, key))
@@ -257,14 +258,14 @@ static tn_status number_part(tn_plane_house *c, const tn_plane_part *part, uint3
 
 /* ==== outcomes
  *
- * Puts together what comes of a plane from what comes of its parts. */
+ * Puts together what comes of an interface from what comes of its parts. */
 
 /* ---- what is kept of an outcome */
 
 /* Numbers what of the sides of some cells matters to their tiles. */
-static uint32_t number_fits(tn_plane_house *c, const uint32_t *sides, uint32_t first, uint32_t end)
+static uint32_t number_fits(tn_interface_house *c, const uint32_t *sides, uint32_t first, uint32_t end)
 {
-    tn_strip *s = c->strip;
+    tn_frontier *s = c->frontier;
     bool ok = true;
     s->key.size = 0;
     for (uint32_t i = first; ok && i < end; i++)
@@ -273,9 +274,9 @@ static uint32_t number_fits(tn_plane_house *c, const uint32_t *sides, uint32_t f
 }
 
 /* Numbers what rooms and walks meet: the key from the steps on, without what matters to tiles. */
-static uint32_t number_through(tn_plane_house *c, const uint32_t *steps, const uint32_t *sides)
+static uint32_t number_through(tn_interface_house *c, const uint32_t *steps, const uint32_t *sides)
 {
-    tn_strip *s = c->strip;
+    tn_frontier *s = c->frontier;
     const uint32_t *end = sides + (size_t)SIDE_WORDS * c->house.cell_count;
     bool ok = true;
     s->key.size = 0;
@@ -287,18 +288,18 @@ static uint32_t number_through(tn_plane_house *c, const uint32_t *steps, const u
 }
 
 /* The parts of a new outcome, whose key is `joined`. */
-static bool keep_outcome(tn_plane_house *c, uint32_t outcome)
+static bool keep_outcome(tn_interface_house *c, uint32_t outcome)
 {
-    tn_strip *s = c->strip;
+    tn_frontier *s = c->frontier;
     const uint32_t *steps = s->joined.data + 2, *sides = steps + 1 + (size_t)STEP_WORDS * *steps;
-    tn_strip_outcome *parts = &s->outcomes[outcome];
+    tn_frontier_outcome *parts = &s->outcomes[outcome];
     parts->left_fits = number_fits(c, sides, 0, c->left_cells);
     parts->right_fits = number_fits(c, sides, c->left_cells, (uint32_t)c->house.cell_count);
     parts->through = number_through(c, steps, sides);
     parts->cost = s->prices.asked ? sides[(size_t)SIDE_WORDS * c->house.cell_count + 1] : 0;
     return parts->left_fits != UINT32_MAX && parts->right_fits != UINT32_MAX && parts->through != UINT32_MAX &&
-           tn_strip_split_outcome(s, s->joined.data, c->left_cells, (uint32_t)c->house.cell_count - c->left_cells,
-                                  parts);
+           tn_frontier_split_outcome(s, s->joined.data, c->left_cells, (uint32_t)c->house.cell_count - c->left_cells,
+                                     parts);
 }
 
 /* ---- outcomes from parts */
@@ -311,7 +312,7 @@ static int compare_steps(const void *a, const void *b)
 }
 
 /* parts: of `parts`, `count` of them. Appends their meetings, then their steps in order. */
-static bool push_steps(const tn_strip *s, const uint32_t *parts, size_t count, tn_key *key)
+static bool push_steps(const tn_frontier *s, const uint32_t *parts, size_t count, tn_key *key)
 {
     bool ok = tn_push_long(key, 0) && tn_key_push(key, 0);
     for (size_t p = 0; ok && p < count; p++) {
@@ -329,9 +330,9 @@ static bool push_steps(const tn_strip *s, const uint32_t *parts, size_t count, t
 }
 
 /* Appends SIDE_WORDS of each cell, in the order of cells. *cost: the last word of a part. */
-static bool push_sides(const tn_plane_house *c, const uint32_t *parts, size_t count, tn_key *key, uint32_t *cost)
+static bool push_sides(const tn_interface_house *c, const uint32_t *parts, size_t count, tn_key *key, uint32_t *cost)
 {
-    const tn_strip *s = c->strip;
+    const tn_frontier *s = c->frontier;
     size_t first = key->size, cells = c->house.cell_count;
     bool ok = true;
     for (size_t w = 0; ok && w < SIDE_WORDS * cells; w++)
@@ -347,10 +348,10 @@ static bool push_sides(const tn_plane_house *c, const uint32_t *parts, size_t co
 }
 
 /* The outcome that parts (of `parts`) have together. */
-static tn_status find_outcome(tn_plane_house *c, const uint32_t *parts, size_t count, uint32_t *outcome,
+static tn_status find_outcome(tn_interface_house *c, const uint32_t *parts, size_t count, uint32_t *outcome,
                               tn_error *error)
 {
-    tn_strip *s = c->strip;
+    tn_frontier *s = c->frontier;
     tn_key *key = &s->joined;
     uint32_t before = s->outcome_keys.count, cost = 0;
     key->size = 0;
@@ -363,11 +364,11 @@ static tn_status find_outcome(tn_plane_house *c, const uint32_t *parts, size_t c
     return ok ? TN_OK : tn_fail_memory(error);
 }
 
-/* The same for all parts of the plane, which may have been met together; parts: their numbers, then that of the cells
- * at the left. */
-static tn_status know_outcome(tn_plane_house *c, const tn_key *parts, uint32_t *outcome, tn_error *error)
+/* The same for all parts of the interface, which may have been met together; parts: their numbers, then that of the
+ * cells at the left. */
+static tn_status know_outcome(tn_interface_house *c, const tn_key *parts, uint32_t *outcome, tn_error *error)
 {
-    tn_strip *s = c->strip;
+    tn_frontier *s = c->frontier;
     uint32_t before = s->combined.count;
     if (!tn_array_reserve(&s->of_combined, &s->combined_room, before, 1, sizeof *s->of_combined))
         return tn_fail_memory(error);
@@ -381,19 +382,19 @@ static tn_status know_outcome(tn_plane_house *c, const tn_key *parts, uint32_t *
     return status;
 }
 
-/* ==== planes
+/* ==== interfaces
  *
- * Finds what can stand in the plane between two edges, or where the row begins and ends: each storey by
+ * Finds what can stand in the interface between two edges, or where the row begins and ends: each storey by
  * itself, as storeys do not see each other's faces, then their combinations. */
 
 /* ---- the house of the two trays */
 
-static bool in_plane(const tn_plane_house *c, const tn_face *face)
+static bool in_interface(const tn_interface_house *c, const tn_face *face)
 {
     return face->at.x0 == c->x && face->at.x1 == c->x;
 }
 
-static void furnish(tn_plane_house *c, const tn_strip_edge *edge, size_t first_cell, size_t *face)
+static void furnish(tn_interface_house *c, const tn_frontier_edge *edge, size_t first_cell, size_t *face)
 {
     for (uint32_t i = 0; i < edge->count; i++)
         c->house.cells[first_cell + i].function = edge->cells[i].function;
@@ -404,7 +405,7 @@ static void furnish(tn_plane_house *c, const tn_strip_edge *edge, size_t first_c
     }
 }
 
-static tn_status find_open(tn_plane_house *c, tn_error *error)
+static tn_status find_open(tn_interface_house *c, tn_error *error)
 {
     tn_status status = TN_OK;
     c->open = malloc((c->house.cell_count + 1) * sizeof *c->open);
@@ -413,20 +414,20 @@ static tn_status find_open(tn_plane_house *c, tn_error *error)
     for (uint32_t i = 0; status == TN_OK && i < c->house.cell_count; i++) {
         bool left = i < c->left_cells;
         uint32_t at = left ? i : i - c->left_cells;
-        const tn_strip_edge *edge = &c->strip->edges[left ? c->left : c->right];
-        status = tn_strip_room_open(c->strip, tn_strip_fails(c->strip, edge, at), &c->open[i], error);
+        const tn_frontier_edge *edge = &c->frontier->edges[left ? c->left : c->right];
+        status = tn_frontier_room_open(c->frontier, tn_frontier_fails(c->frontier, edge, at), &c->open[i], error);
     }
     return status;
 }
 
-static tn_status stand(tn_plane_house *c, tn_error *error)
+static tn_status stand(tn_interface_house *c, tn_error *error)
 {
-    const tn_strip *s = c->strip;
+    const tn_frontier *s = c->frontier;
     uint32_t left = c->left, right = c->right;
     tn_tray trays[2];
     size_t length = 0, face = 0;
-    c->has_left = left != TN_STRIP_NONE;
-    c->has_right = right != TN_STRIP_NONE;
+    c->has_left = left != TN_FRONTIER_NONE;
+    c->has_right = right != TN_FRONTIER_NONE;
     if (c->has_left)
         trays[length++] = s->edges[left].tray;
     if (c->has_right)
@@ -444,30 +445,30 @@ static tn_status stand(tn_plane_house *c, tn_error *error)
         furnish(c, &s->edges[right], c->left_cells, &face);
     c->x = c->has_left ? tn_tray_value_record(s->form->schema, trays[0], s->form->width)->length : 0;
     for (uint32_t i = 0; i < c->house.face_count; i++)
-        if (in_plane(c, &c->house.faces[i]) && c->house.faces[i].relation != TN_FACE_UNDER)
+        if (in_interface(c, &c->house.faces[i]) && c->house.faces[i].relation != TN_FACE_UNDER)
             c->faces[c->count++] = i;
     return find_open(c, error);
 }
 
 /* ---- combinations of parts */
 
-static tn_status add_to_list(tn_plane_house *c, uint32_t outcome, uint64_t times, tn_error *error)
+static tn_status add_to_list(tn_interface_house *c, uint32_t outcome, uint64_t times, tn_error *error)
 {
     uint32_t at = tn_number(&c->found, outcome);
     if (at == UINT32_MAX || !tn_array_reserve_from(&c->list->items, &c->list->room, 1, at, 1, sizeof *c->list->items))
         return tn_fail_memory(error);
     if (at == c->list->count)
-        c->list->items[c->list->count++] = (tn_strip_choice){.slice = outcome};
+        c->list->items[c->list->count++] = (tn_frontier_choice){.slice = outcome};
     c->list->items[at].times += times;
     return TN_OK;
 }
 
-static tn_status too_many(const tn_plane_house *c, tn_error *error)
+static tn_status too_many(const tn_interface_house *c, tn_error *error)
 {
-    return tn_strip_limit(c->strip, NULL, "two trays have more than 4,000,000 choices between them", error);
+    return tn_frontier_limit(c->frontier, NULL, "two trays have more than 4,000,000 choices between them", error);
 }
 
-static bool turn_parts(const tn_plane_house *c)
+static bool turn_parts(const tn_interface_house *c)
 {
     for (size_t p = c->part_count; p-- > 0;) {
         if (++c->parts[p].at < c->parts[p].count)
@@ -478,13 +479,13 @@ static bool turn_parts(const tn_plane_house *c)
 }
 
 /* words := the part that each is at, and the number of the left cells. *times: choices that have these. */
-static tn_status begin_combination(tn_plane_house *c, uint64_t *times, tn_error *error)
+static tn_status begin_combination(tn_interface_house *c, uint64_t *times, tn_error *error)
 {
     bool ok = true;
     *times = 1;
     c->words.size = 0;
     for (size_t p = 0; ok && p < c->part_count; p++) {
-        const tn_plane_found *found = &c->parts[p].found[c->parts[p].at];
+        const tn_interface_found *found = &c->parts[p].found[c->parts[p].at];
         *times *= found->times;
         ok = tn_key_push(&c->words, found->part);
     }
@@ -492,14 +493,14 @@ static tn_status begin_combination(tn_plane_house *c, uint64_t *times, tn_error 
 }
 
 /* Adds the outcomes of all combinations of what the parts have. */
-static tn_status combine(tn_plane_house *c, tn_error *error)
+static tn_status combine(tn_interface_house *c, tn_error *error)
 {
     uint64_t tried = 0;
     tn_status status;
     do {
         uint64_t times = 0;
         uint32_t outcome = 0;
-        status = ++tried <= TN_STRIP_CHOICES_MAX ? begin_combination(c, &times, error) : too_many(c, error);
+        status = ++tried <= TN_FRONTIER_CHOICES_MAX ? begin_combination(c, &times, error) : too_many(c, error);
         if (status == TN_OK)
             status = know_outcome(c, &c->words, &outcome, error);
         if (status == TN_OK)
@@ -510,12 +511,12 @@ static tn_status combine(tn_plane_house *c, tn_error *error)
 
 /* ---- choices of what is in the faces */
 
-typedef struct tn_plane_wheel {
+typedef struct tn_interface_wheel {
     tn_face *face;
     uint32_t count, at, kinds[TN_FACE_KINDS_MAX];
-} tn_plane_wheel;
+} tn_interface_wheel;
 
-static bool turn(tn_plane_wheel *wheels, size_t count)
+static bool turn(tn_interface_wheel *wheels, size_t count)
 {
     for (size_t i = count; i-- > 0;) {
         if (++wheels[i].at < wheels[i].count)
@@ -525,20 +526,20 @@ static bool turn(tn_plane_wheel *wheels, size_t count)
     return false;
 }
 
-static void set_kind(tn_plane_house *c, tn_face *face, uint32_t kind)
+static void set_kind(tn_interface_house *c, tn_face *face, uint32_t kind)
 {
     c->changed |= (uint64_t)(face->kind != kind) << face->storey;
     face->kind = kind;
 }
 
 /* In order, the outcome itself; else what the part has, to be combined with the others. */
-static tn_status add_choice(tn_plane_house *c, tn_plane_part *part, tn_error *error)
+static tn_status add_choice(tn_interface_house *c, tn_interface_part *part, tn_error *error)
 {
     uint32_t number, outcome;
     tn_status status = number_part(c, part, &number, error);
     if (status == TN_OK && c->ordered) {
         status = find_outcome(c, &number, 1, &outcome, error);
-        return status == TN_OK && !tn_strip_ordered_add(c->ordered, outcome) ? tn_fail_memory(error) : status;
+        return status == TN_OK && !tn_frontier_ordered_add(c->ordered, outcome) ? tn_fail_memory(error) : status;
     }
     size_t at = 0;
     while (status == TN_OK && at < part->count && part->found[at].part != number)
@@ -548,14 +549,14 @@ static tn_status add_choice(tn_plane_house *c, tn_plane_part *part, tn_error *er
     if (!tn_array_reserve_from(&part->found, &part->room, 4, at, 1, sizeof *part->found))
         return tn_fail_memory(error);
     if (at == part->count)
-        part->found[part->count++] = (tn_plane_found){.part = number};
+        part->found[part->count++] = (tn_interface_found){.part = number};
     part->found[at].times++;
     return TN_OK;
 }
 
-static tn_status add_choices(tn_plane_house *c, tn_plane_part *part, tn_error *error)
+static tn_status add_choices(tn_interface_house *c, tn_interface_part *part, tn_error *error)
 {
-    tn_plane_wheel *wheels = malloc((c->count + 1) * sizeof *wheels);
+    tn_interface_wheel *wheels = malloc((c->count + 1) * sizeof *wheels);
     uint64_t tried = 0;
     size_t count = 0;
     if (!wheels)
@@ -564,7 +565,7 @@ static tn_status add_choices(tn_plane_house *c, tn_plane_part *part, tn_error *e
         tn_face *face = &c->house.faces[c->faces[i]];
         if (!part_has(part, face->storey))
             continue;
-        wheels[count] = (tn_plane_wheel){.face = face};
+        wheels[count] = (tn_interface_wheel){.face = face};
         wheels[count].count = (uint32_t)tn_face_options(&c->house, face, wheels[count].kinds);
         count++;
     }
@@ -572,20 +573,20 @@ static tn_status add_choices(tn_plane_house *c, tn_plane_part *part, tn_error *e
     do {
         for (size_t i = 0; i < count; i++)
             set_kind(c, wheels[i].face, wheels[i].kinds[wheels[i].at]);
-        status = ++tried <= TN_STRIP_CHOICES_MAX ? add_choice(c, part, error) : too_many(c, error);
+        status = ++tried <= TN_FRONTIER_CHOICES_MAX ? add_choice(c, part, error) : too_many(c, error);
     } while (status == TN_OK && turn(wheels, count));
     free(wheels);
     return status;
 }
 
 /* Storeys are parts of their own. Not where choices are wanted in their order, nor where costs are asked for, which are
- * of the plane as a whole. */
-static tn_status find_parts(tn_plane_house *c, tn_error *error)
+ * of the interface as a whole. */
+static tn_status find_parts(tn_interface_house *c, tn_error *error)
 {
     uint64_t storeys = 0;
     for (size_t i = 0; i < c->house.cell_count; i++)
         storeys |= UINT64_C(1) << c->house.cells[i].storey;
-    bool whole = c->ordered || c->strip->prices.asked;
+    bool whole = c->ordered || c->frontier->prices.asked;
     c->parts = calloc(TN_STOREYS_MAX, sizeof *c->parts);
     if (!c->parts)
         return tn_fail_memory(error);
@@ -597,7 +598,7 @@ static tn_status find_parts(tn_plane_house *c, tn_error *error)
     return TN_OK;
 }
 
-static tn_status add_outcomes(tn_plane_house *c, tn_error *error)
+static tn_status add_outcomes(tn_interface_house *c, tn_error *error)
 {
     c->sides = malloc((c->house.cell_count + 1) * SIDE_WORDS * sizeof *c->sides);
     c->changed = UINT64_MAX;
@@ -607,7 +608,7 @@ static tn_status add_outcomes(tn_plane_house *c, tn_error *error)
     return status == TN_OK && !c->ordered ? combine(c, error) : status;
 }
 
-static void end(tn_plane_house *c)
+static void end(tn_interface_house *c)
 {
     tn_house_clear(&c->house);
     tn_numbering_clear(&c->found);
@@ -620,33 +621,34 @@ static void end(tn_plane_house *c)
     free(c->sides);
 }
 
-tn_status tn_strip_plane(tn_strip *strip, uint32_t left, uint32_t right, const tn_strip_list **plane, tn_error *error)
+tn_status tn_frontier_interface(tn_frontier *frontier, uint32_t left, uint32_t right,
+                                const tn_frontier_list **interface, tn_error *error)
 {
-    uint32_t before = strip->plane_keys.count;
-    if (!tn_array_reserve(&strip->planes, &strip->plane_room, before, 1, sizeof *strip->planes))
+    uint32_t before = frontier->interface_keys.count;
+    if (!tn_array_reserve(&frontier->interfaces, &frontier->interface_room, before, 1, sizeof *frontier->interfaces))
         return tn_fail_memory(error);
-    uint32_t at = tn_number(&strip->plane_keys, (uint64_t)left << 32 | right);
+    uint32_t at = tn_number(&frontier->interface_keys, (uint64_t)left << 32 | right);
     if (at == UINT32_MAX)
         return tn_fail_memory(error);
     if (at == before)
-        strip->planes[at] = (tn_strip_list){0};
-    *plane = &strip->planes[at];
-    if (strip->planes[at].made)
+        frontier->interfaces[at] = (tn_frontier_list){0};
+    *interface = &frontier->interfaces[at];
+    if (frontier->interfaces[at].made)
         return TN_OK;
-    tn_plane_house c = {.strip = strip, .left = left, .right = right, .list = &strip->planes[at]};
+    tn_interface_house c = {.frontier = frontier, .left = left, .right = right, .list = &frontier->interfaces[at]};
     tn_status status = stand(&c, error);
     if (status == TN_OK)
         status = add_outcomes(&c, error);
-    strip->planes[at].made = status == TN_OK;
-    strip->plane_outcomes += strip->planes[at].count;
+    frontier->interfaces[at].made = status == TN_OK;
+    frontier->interface_outcomes += frontier->interfaces[at].count;
     end(&c);
     return status;
 }
 
-tn_status tn_strip_order_outcomes(tn_strip *strip, uint32_t left, uint32_t right, const tn_cell *like,
-                                  tn_strip_ordered *outcomes, tn_error *error)
+tn_status tn_frontier_order_outcomes(tn_frontier *frontier, uint32_t left, uint32_t right, const tn_cell *like,
+                                     tn_frontier_ordered *outcomes, tn_error *error)
 {
-    tn_plane_house c = {.strip = strip, .left = left, .right = right, .ordered = outcomes};
+    tn_interface_house c = {.frontier = frontier, .left = left, .right = right, .ordered = outcomes};
     tn_status status = stand(&c, error);
     for (size_t i = 0; status == TN_OK && i < c.house.cell_count; i++)
         c.house.cells[i].function = like[i].function;
