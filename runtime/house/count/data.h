@@ -3,7 +3,7 @@
 #define TARTAN_HOUSE_COUNT_DATA_H
 
 #include "runtime/house/count/houses.h"
-#include "runtime/house/frontier/parts.h"
+#include "runtime/house/frontier/states.h"
 #include "runtime/house/rule/asked.h"
 #include "runtime/house/variant/section.h"
 #include "runtime/house/variant/variant.h"

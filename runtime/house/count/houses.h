@@ -12,7 +12,7 @@
 
 #include <gmp.h>
 
-#include "runtime/house/frontier/without.h"
+#include "runtime/house/frontier/frontier.h"
 #include "runtime/house/house.h"
 #include "runtime/house/measure/measure.h"
 #include "runtime/house/variant/variant.h"

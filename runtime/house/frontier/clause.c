@@ -7,8 +7,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/frontier/parts.h"
-#include "runtime/house/frontier/placed.h"
+#include "runtime/house/frontier/states.h"
 #include "runtime/plan/automata/explore.h"
 #include "runtime/plan/match/condition.h"
 #include "runtime/plan/match/rules.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/frontier/parts.h"
+#include "runtime/house/frontier/states.h"
 
 tn_status tn_frontier_limit(const tn_frontier *frontier, const char *clause, const char *what, tn_error *error)
 {

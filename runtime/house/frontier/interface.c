@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/frontier/parts.h"
+#include "runtime/house/frontier/states.h"
 #include "runtime/house/rule/asked.h"
 
 /* Words of what comes of a part: the meetings (two words), the number of steps and STEP_WORDS for each, then for each

@@ -11,8 +11,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/frontier/parts.h"
-#include "runtime/house/frontier/placed.h"
+#include "runtime/house/frontier/states.h"
 #include "runtime/house/rule/outcome.h"
 
 /* The rooms of the tray by their first cells. */

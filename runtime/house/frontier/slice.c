@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/frontier/parts.h"
+#include "runtime/house/frontier/states.h"
 #include "runtime/house/solids.h"
 
 /* A tray that is being cut: each wheel is a cell's functions or an inner face's kinds. */

@@ -15,7 +15,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/frontier/parts.h"
+#include "runtime/house/frontier/states.h"
 
 /* ---- both sides of an outcome */
 

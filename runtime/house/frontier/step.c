@@ -12,8 +12,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/frontier/parts.h"
-#include "runtime/house/frontier/placed.h"
+#include "runtime/house/frontier/states.h"
 
 /* An interface that is being crossed: what is at its left is known by the state, what is at its right by the slice,
  * what is in it by the outcome. */
