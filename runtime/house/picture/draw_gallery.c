@@ -65,7 +65,7 @@ static void paint_all(const gallery *g, const tn_canvas *canvas)
     for (size_t i = 0; i < g->what->count && !tn_canvas_stopped(canvas); i++) {
         const tn_house_drawn *d = &g->drawn[i];
         double middle = g->left + (double)(i % g->columns) * (PICTURE_WIDTH + GAP) + PICTURE_WIDTH / 2;
-        tn_draw_prospect(canvas, d, g->points);
+        tn_draw_projection(canvas, d, g->points);
         tn_paint_colour(paint, 0, 0, 0);
         tn_paint_face(paint, 7.5, true);
         tn_type_fit(paint, middle, d->y + 11, TN_ALIGN_CENTRE, PICTURE_WIDTH, g->what->houses[i].name);
@@ -87,7 +87,7 @@ static tn_status take_all(gallery *g, tn_watch *watch, tn_error *error)
         const tn_pictured_house *one = &g->what->houses[i];
         status = tn_house_view_take(one->solids, &aspect, one->house, &g->drawn[i], watch, error);
         if (status == TN_OK)
-            tn_prospect_extent(&g->drawn[i].prospect, g->drawn[i].low, g->drawn[i].high);
+            tn_house_projection_extent(&g->drawn[i].projection, g->drawn[i].low, g->drawn[i].high);
     }
     return status;
 }

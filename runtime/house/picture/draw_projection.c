@@ -22,7 +22,7 @@ static double place_v(const tn_drawing_frame *f, double v)
 
 /* ---- what was cut */
 
-static void trace_cuts(const tn_drawing_frame *f, const tn_prospect *p, bool panes)
+static void trace_cuts(const tn_drawing_frame *f, const tn_house_projection *p, bool panes)
 {
     tn_paint_new_path(f->paint);
     for (size_t i = 0; i < p->cut_count; i++) {
@@ -36,7 +36,7 @@ static void trace_cuts(const tn_drawing_frame *f, const tn_prospect *p, bool pan
     }
 }
 
-static void hatch(const tn_drawing_frame *f, const tn_prospect *p)
+static void hatch(const tn_drawing_frame *f, const tn_house_projection *p)
 {
     double x0 = place_u(f, p->low[0]), x1 = place_u(f, p->high[0]), y0 = place_v(f, p->high[1]),
            y1 = place_v(f, p->low[1]);
@@ -53,7 +53,7 @@ static void hatch(const tn_drawing_frame *f, const tn_prospect *p)
 }
 
 /* Lines around the parts that hang together: the inner half of each line is painted over. */
-static void paint_cuts(const tn_drawing_frame *f, const tn_prospect *p)
+static void paint_cuts(const tn_drawing_frame *f, const tn_house_projection *p)
 {
     trace_cuts(f, p, true);
     tn_paint_colour(f->paint, 0.2, 0.35, 0.5);
@@ -131,9 +131,9 @@ static void paint_mark(const tn_drawing_frame *f, const tn_mark *m)
     tn_paint_dash(f->paint, NULL, 0, 0);
 }
 
-void tn_draw_prospect(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm)
+void tn_draw_projection(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm)
 {
-    const tn_prospect *p = &drawn->prospect;
+    const tn_house_projection *p = &drawn->projection;
     double palette[TN_PALETTE_MAX][3];
     tn_drawing_frame f = {tn_canvas_paint(canvas), drawn->x - drawn->low[0] * points_per_nm,
                           drawn->y + drawn->low[1] * points_per_nm, points_per_nm};
