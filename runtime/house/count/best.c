@@ -36,7 +36,7 @@ static tn_status add_values(const tn_houses *h, tn_value_counts *to, const tn_va
                             const tn_house_gain *gain, const mpz_t times, tn_error *error)
 {
     size_t most = 2 * from->count + to->count + 64;
-    bool ok = tn_value_counts_pour(to, from, gain, times);
+    bool ok = tn_value_counts_add_shifted(to, from, gain, times);
     if (ok && to->count + from->count > most)
         keep_best(h, to);
     return ok ? TN_OK : tn_fail_memory(error);

@@ -31,8 +31,8 @@ void tn_value_counts_keep_least(tn_value_counts *counts, uint64_t wanted);
 void tn_value_counts_keep_front(tn_value_counts *counts);
 
 /* to += each value of `from`, more by `gain`, so many times. False where out of memory. */
-bool tn_value_counts_pour(tn_value_counts *to, const tn_value_counts *from, const tn_house_gain *gain,
-                          const mpz_t times);
+bool tn_value_counts_add_shifted(tn_value_counts *to, const tn_value_counts *from, const tn_house_gain *gain,
+                                 const mpz_t times);
 int tn_house_gain_compare(const tn_house_gain *a, const tn_house_gain *b);
 tn_house_gain tn_house_gain_sum(const tn_house_gain *a, const tn_house_gain *b);
 

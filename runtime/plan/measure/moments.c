@@ -8,55 +8,56 @@
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/measure/distribution.h"
 
-/* The plans that lead to a state, or all that end. */
-typedef struct heap {
+/* Of the values of the plans that lead to a state, or of all that end: how many there are, their sum, the sum of their
+ * squares, the least and the most. */
+typedef struct moments {
     uint32_t state;
     mpz_t count, sum, squares;
     int64_t least, most;
-} heap;
+} moments;
 
 typedef struct level {
     tn_numbering numbers; /* of states */
-    heap *heaps;
+    moments *items;
     size_t room;
 } level;
 
-static void heap_init(heap *h, uint32_t state)
+static void moments_init(moments *m, uint32_t state)
 {
-    *h = (heap){.state = state, .least = INT64_MAX, .most = INT64_MIN};
-    mpz_inits(h->count, h->sum, h->squares, NULL);
+    *m = (moments){.state = state, .least = INT64_MAX, .most = INT64_MIN};
+    mpz_inits(m->count, m->sum, m->squares, NULL);
 }
 
-static void heap_clear(heap *h)
+static void moments_clear(moments *m)
 {
-    mpz_clears(h->count, h->sum, h->squares, NULL);
+    mpz_clears(m->count, m->sum, m->squares, NULL);
 }
 
 static void level_clear(level *l)
 {
     for (uint32_t i = 0; i < l->numbers.count; i++)
-        heap_clear(&l->heaps[i]);
-    free(l->heaps);
+        moments_clear(&l->items[i]);
+    free(l->items);
     tn_numbering_clear(&l->numbers);
     *l = (level){0};
 }
 
-/* The state's heap; NULL where out of memory. */
-static heap *heap_at(level *l, uint32_t state)
+/* The state's moments; NULL: out of memory. */
+static moments *moments_at(level *l, uint32_t state)
 {
     uint32_t before = l->numbers.count;
-    if (!tn_array_reserve(&l->heaps, &l->room, before, 1, sizeof *l->heaps))
+    if (!tn_array_reserve(&l->items, &l->room, before, 1, sizeof *l->items))
         return NULL;
     uint32_t index = tn_number(&l->numbers, state);
     if (index == UINT32_MAX)
         return NULL;
     if (index == before)
-        heap_init(&l->heaps[index], state);
-    return &l->heaps[index];
+        moments_init(&l->items[index], state);
+    return &l->items[index];
 }
 
-/* Adds the plans of a heap, each `times` times, with `gain` more. */
-static void pour(heap *to, const heap *from, uint64_t times, int64_t gain)
+/* Adds those of a state's plans, each `times` times, whose values are shifted by `gain`. */
+static void add_shifted(moments *to, const moments *from, uint64_t times, int64_t gain)
 {
     mpz_t more, step;
     mpz_init(more);
@@ -85,7 +86,7 @@ static bool leads_on(const tn_weighed *w, uint32_t n, uint32_t state)
     return false;
 }
 
-static tn_status step(tn_weighed *w, const heap *from, uint32_t n, level *next, tn_error *error)
+static tn_status step(tn_weighed *w, const moments *from, uint32_t n, level *next, tn_error *error)
 {
     const tn_weighed_edge *edges;
     size_t count;
@@ -93,19 +94,19 @@ static tn_status step(tn_weighed *w, const heap *from, uint32_t n, level *next, 
     for (size_t e = 0; status == TN_OK && e < count; e++) {
         if (!leads_on(w, n + 1, edges[e].target))
             continue;
-        heap *to = heap_at(next, edges[e].target);
+        moments *to = moments_at(next, edges[e].target);
         if (!to)
             return tn_fail_memory(error);
-        pour(to, from, edges[e].trays, edges[e].gain[0]);
+        add_shifted(to, from, edges[e].trays, edges[e].gain[0]);
     }
     return status;
 }
 
-static tn_status walk(tn_weighed *w, heap *all, tn_error *error)
+static tn_status walk(tn_weighed *w, moments *all, tn_error *error)
 {
     const tn_library *library = tn_weighed_library(w);
     level here = {0};
-    heap *start = heap_at(&here, 0);
+    moments *start = moments_at(&here, 0);
     tn_status status = start ? TN_OK : tn_fail_memory(error);
     if (start) {
         int64_t first = tn_weighed_start(w, 0);
@@ -117,11 +118,11 @@ static tn_status walk(tn_weighed *w, heap *all, tn_error *error)
     for (uint32_t n = 0; status == TN_OK && n <= library->max; n++) {
         level next = {0};
         for (uint32_t i = 0; status == TN_OK && i < here.numbers.count; i++) {
-            const heap *h = &here.heaps[i];
-            if (n >= library->min && tn_weighed_alive(w, 0, h->state) && tn_weighed_valued(w, h->state))
-                pour(all, h, 1, tn_weighed_rest(w, h->state, 0));
+            const moments *m = &here.items[i];
+            if (n >= library->min && tn_weighed_alive(w, 0, m->state) && tn_weighed_valued(w, m->state))
+                add_shifted(all, m, 1, tn_weighed_rest(w, m->state, 0));
             if (n < library->max)
-                status = step(w, h, n, &next, error);
+                status = step(w, m, n, &next, error);
         }
         level_clear(&here);
         here = next;
@@ -131,7 +132,7 @@ static tn_status walk(tn_weighed *w, heap *all, tn_error *error)
 }
 
 /* mean := sum / count, variance := squares / count - mean^2, all in steps of the unit. */
-static void conclude(tn_measure_moments *m, const heap *all, mpq_srcptr unit)
+static void conclude(tn_measure_moments *m, const moments *all, mpq_srcptr unit)
 {
     mpq_t square;
     mpz_set(m->plans, all->count);
@@ -179,23 +180,23 @@ tn_status tn_measure_moments_find(tn_measure_moments *m, tn_weighed *weighed, tn
     tn_weighed_sum(weighed, 0, &over);
     if (over)
         return find_of_quotient(m, weighed, error);
-    heap all;
-    heap_init(&all, 0);
+    moments all;
+    moments_init(&all, 0);
     tn_status status = library->min <= library->max ? walk(weighed, &all, error) : TN_OK;
     if (status == TN_OK)
         conclude(m, &all, tn_weighed_unit(weighed, 0));
-    heap_clear(&all);
+    moments_clear(&all);
     return status;
 }
 
 tn_status tn_weighed_plans(tn_weighed *weighed, mpz_t plans, tn_error *error)
 {
     const tn_library *library = tn_weighed_library(weighed);
-    heap all;
-    heap_init(&all, 0);
+    moments all;
+    moments_init(&all, 0);
     tn_status status = library->min <= library->max ? walk(weighed, &all, error) : TN_OK;
     mpz_set(plans, all.count);
-    heap_clear(&all);
+    moments_clear(&all);
     return status;
 }
 
