@@ -82,10 +82,10 @@ static void merge_ways(tn_ways *ways)
 
 static tn_houses_way way_by(const tn_frontier *frontier, const tn_frontier_choice *choice)
 {
-    uint32_t slice = frontier->scouting ? frontier->slices[choice->slice].plain : choice->slice;
+    uint32_t slice = frontier->scouting ? frontier->slices.items[choice->slice].plain : choice->slice;
     return (tn_houses_way){.slice = slice,
-                           .entry = frontier->slices[slice].entry,
-                           .group = frontier->slices[slice].group,
+                           .entry = frontier->slices.items[slice].entry,
+                           .group = frontier->slices.items[slice].group,
                            .times = choice->times};
 }
 
@@ -98,7 +98,7 @@ static tn_status find_ways(tn_houses_expansion *e, uint32_t plan, tn_ways *ways,
     for (tn_tray t = 0; e->trays < h->high && t < h->form->schema->tray_count; t++) {
         uint32_t next;
         tn_house_gain gain;
-        const tn_frontier_list *list = &frontier->of_tray[t];
+        const tn_frontier_list *list = &frontier->slices.of_tray[t];
         tn_status status = tn_houses_plan_next(h, e->trays, plan, t, &next, &gain, error);
         if (status != TN_OK)
             return status;
@@ -144,7 +144,7 @@ static bool list_groups(tn_frontier *frontier, const tn_ways *ways, size_t *at)
     for (size_t first = *at; ok && *at < ways->count && ways->items[*at].entry == entry; ++*at) {
         const tn_houses_way *way = &ways->items[*at];
         if (*at == first || way->group != way[-1].group)
-            ok = tn_key_push(key, frontier->slices[way->slice].bases) && tn_key_push(key, way->group);
+            ok = tn_key_push(key, frontier->slices.items[way->slice].bases) && tn_key_push(key, way->group);
     }
     return ok;
 }
@@ -304,7 +304,7 @@ static void find_stretch(const tn_houses_expansion *e, const tn_ways *ways, uint
     if (e->stage != STAGE_PASS)
         return;
     uint32_t group = tn_frontier_slice_state_group(frontier, state);
-    uint32_t entry = frontier->slices[frontier->stages.slices[group]].entry;
+    uint32_t entry = frontier->slices.items[frontier->stages.slices[group]].entry;
     *first = first_way(ways, entry, group);
     *end = first_way(ways, entry, group + 1);
 }
@@ -422,7 +422,7 @@ static tn_status expand_nodes(tn_houses_expansion *e, bool end, tn_error *error)
 static tn_status begin_fan(tn_houses_expansion *e, tn_error *error)
 {
     const tn_frontier *frontier = e->kind->frontier;
-    size_t by = (size_t)frontier->slice_keys.count + frontier->stages.lists.count + 1; /* what each stage goes by */
+    size_t by = (size_t)frontier->slices.keys.count + frontier->stages.lists.count + 1; /* what each stage goes by */
     e->fan.mark = calloc(by, sizeof *e->fan.mark);
     e->fan.first = malloc(by * sizeof *e->fan.first);
     e->fan.count = malloc(by * sizeof *e->fan.count);

@@ -39,7 +39,7 @@ static tn_status check_nodes(const tn_houses *h, const tn_houses_kind *kind, uin
 tn_status tn_houses_check_interfaces(const tn_houses *h, const tn_houses_kind *kind, tn_error *error)
 {
     uint64_t most = (uint64_t)OTHERS_A_STATE * h->max_states;
-    if (kind->frontier->interface_outcomes <= most)
+    if (kind->frontier->interfaces.outcomes <= most)
         return TN_OK;
     tn_fail(error, TN_LIMIT, E_STRIP, "these houses have more than %" PRIu64 " choices of what is between two trays",
             most);
@@ -201,7 +201,7 @@ static tn_status scout(const tn_houses *h, tn_houses_kind *kind, const tn_fronti
 {
     tn_frontier *frontier = kind->frontier;
     bool any = false;
-    if (!frontier->any_tiled && !frontier->prices.asked)
+    if (!frontier->tiles.any && !frontier->prices.asked)
         return TN_OK;
     frontier->scouting = true;
     tn_status status = walk(h, kind, &any, error);
@@ -209,7 +209,7 @@ static tn_status scout(const tn_houses *h, tn_houses_kind *kind, const tn_fronti
         status = tn_frontier_merge(frontier, error);
     if (status == TN_OK && any && frontier->prices.asked)
         status = tn_frontier_prices_check(frontier, trays->stand, error);
-    return status == TN_OK && frontier->any_tiled && frontier->prices.items ? walk(h, kind, &any, error) : status;
+    return status == TN_OK && frontier->tiles.any && frontier->prices.items ? walk(h, kind, &any, error) : status;
 }
 
 /* Goes through all states without the totals of what clauses compare, to see how much may still be added. */

@@ -239,7 +239,7 @@ static tn_status begin_functions(tn_projected_walk *w, tn_error *error)
 static tn_status take_functions(tn_projected_walk *w, tn_tray tray, uint32_t plan, tn_error *error)
 {
     tn_projected_ways *g = &((tn_project_functions *)w->context)->going;
-    const tn_frontier_furnished_list *list = &g->of->kind->frontier->furnished[tray];
+    const tn_frontier_furnished_list *list = &g->of->kind->frontier->slices.furnished[tray];
     tn_status status = tn_projecting_spend(g->projecting, list->count, error);
     aim(g, plan);
     for (size_t i = 0; status == TN_OK && i < list->count;) {
@@ -310,7 +310,7 @@ static tn_status begin_trays(tn_projected_walk *w, tn_error *error)
 /* *set: where the tray leads in one kind of section. */
 static tn_status take_in_kind(tn_projected_ways *g, tn_tray tray, uint32_t plan, uint32_t *set, tn_error *error)
 {
-    const tn_frontier_list *list = &g->of->kind->frontier->of_tray[tray];
+    const tn_frontier_list *list = &g->of->kind->frontier->slices.of_tray[tray];
     g->projecting->key.size = 0;
     *set = 0;
     if (g->count == 0)
@@ -379,8 +379,8 @@ static tn_status begin_kind(tn_projecting *p, size_t k, tn_error *error)
     tn_projected_kind *of = &p->kinds[k];
     of->kind = &p->houses->kinds[k];
     of->stages = tn_houses_stages(p->houses, of->kind);
-    of->slots = malloc(((size_t)of->kind->frontier->slice_keys.count + 1) * sizeof *of->slots);
-    of->stamps = calloc((size_t)of->kind->frontier->slice_keys.count + 1, sizeof *of->stamps);
+    of->slots = malloc(((size_t)of->kind->frontier->slices.keys.count + 1) * sizeof *of->slots);
+    of->stamps = calloc((size_t)of->kind->frontier->slices.keys.count + 1, sizeof *of->stamps);
     return of->slots && of->stamps ? begin_sets(p, of, error) : tn_fail_memory(error);
 }
 

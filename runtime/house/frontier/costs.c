@@ -48,7 +48,7 @@ tn_status tn_frontier_fit_base(tn_frontier *frontier, const tn_house *house, uin
         bool front = (face->side == TN_HOUSE_FRONT) == (face->first == cell);
         ok = tn_key_push(key, front ? TN_HOUSE_FRONT : TN_HOUSE_BACK) && tn_key_push(key, kind_word(face));
     }
-    *base = ok ? tn_intern(&frontier->bases, key->data, key->size) : UINT32_MAX;
+    *base = ok ? tn_intern(&frontier->tiles.bases, key->data, key->size) : UINT32_MAX;
     return *base != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
@@ -77,7 +77,7 @@ tn_status tn_frontier_fit_side(tn_frontier *frontier, const tn_house *house, uin
         uint32_t thick = (post->thick_x == wall ? THICK_X : 0u) | (post->thick_y == wall ? THICK_Y : 0u);
         ok = tn_push_long(key, (uint64_t)post->y) && tn_key_push(key, thick);
     }
-    *fit = ok ? tn_intern(&frontier->sides, key->data, key->size) : UINT32_MAX;
+    *fit = ok ? tn_intern(&frontier->tiles.sides, key->data, key->size) : UINT32_MAX;
     return *fit != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
@@ -108,7 +108,7 @@ static void add_end(tn_house *house, bool thick, tn_rectangle at)
 static void add_side(const tn_frontier *frontier, tn_house *house, uint32_t side, bool left)
 {
     size_t size;
-    const uint32_t *words = tn_interned(&frontier->sides, side, &size), *end = words + size;
+    const uint32_t *words = tn_interned(&frontier->tiles.sides, side, &size), *end = words + size;
     int64_t x = left ? house->cells[CELL].at.x0 : house->cells[CELL].at.x1, away = left ? -1 : 1;
     uint32_t faces = words[SIDE_FACES];
     for (words += SIDE_FIRST; faces > 0; faces--, words += FACE_WORDS)
@@ -126,9 +126,9 @@ static tn_status build(const tn_frontier *frontier, uint32_t base, uint32_t left
                        tn_error *error)
 {
     size_t size, sides[2];
-    const uint32_t *words = tn_interned(&frontier->bases, base, &size);
-    tn_interned(&frontier->sides, left, &sides[0]);
-    tn_interned(&frontier->sides, right, &sides[1]);
+    const uint32_t *words = tn_interned(&frontier->tiles.bases, base, &size);
+    tn_interned(&frontier->tiles.sides, left, &sides[0]);
+    tn_interned(&frontier->tiles.sides, right, &sides[1]);
     *house = (tn_house){.form = frontier->form, .length = 1, .cell_count = CELLS};
     memcpy(house->shapes, frontier->shapes, frontier->form->record->choice_count * sizeof *frontier->shapes);
     house->cells = calloc(CELLS, sizeof *house->cells);
@@ -152,13 +152,14 @@ static tn_status build(const tn_frontier *frontier, uint32_t base, uint32_t left
 tn_status tn_frontier_fit(tn_frontier *frontier, uint32_t base, uint32_t left, uint32_t right, uint32_t *tiles,
                           tn_error *error)
 {
-    uint32_t before = frontier->fit_keys[1].count;
-    uint32_t at = tn_number(&frontier->fit_keys[0], (uint64_t)base << 32 | left);
-    at = at == UINT32_MAX ? at : tn_number(&frontier->fit_keys[1], (uint64_t)at << 32 | right);
-    if (at == UINT32_MAX || !tn_array_reserve(&frontier->fits, &frontier->fit_room, before, 1, sizeof *frontier->fits))
+    uint32_t before = frontier->tiles.fit_keys[1].count;
+    uint32_t at = tn_number(&frontier->tiles.fit_keys[0], (uint64_t)base << 32 | left);
+    at = at == UINT32_MAX ? at : tn_number(&frontier->tiles.fit_keys[1], (uint64_t)at << 32 | right);
+    if (at == UINT32_MAX ||
+        !tn_array_reserve(&frontier->tiles.fits, &frontier->tiles.fit_room, before, 1, sizeof *frontier->tiles.fits))
         return tn_fail_memory(error);
     if (at < before) {
-        *tiles = frontier->fits[at];
+        *tiles = frontier->tiles.fits[at];
         return TN_OK;
     }
     tn_house house;
@@ -169,7 +170,7 @@ tn_status tn_frontier_fit(tn_frontier *frontier, uint32_t base, uint32_t left, u
     *tiles = (uint32_t)variants.count;
     if (status == TN_OK && frontier->prices.items)
         status = tn_frontier_list_tiles(frontier, &house, &variants, tiles, error);
-    frontier->fits[at] = *tiles;
+    frontier->tiles.fits[at] = *tiles;
     tn_variants_clear(&variants);
     free(house.cells);
     free(house.faces);
@@ -259,8 +260,8 @@ static tn_status begin(tn_frontier *frontier, tn_error *error)
 static tn_status multiply(tn_frontier *frontier, uint32_t pending, uint32_t sides, tn_error *error)
 {
     size_t count, cells;
-    const uint32_t *words = tn_interned(&frontier->pending, pending, &count);
-    const uint32_t *fits = tn_interned(&frontier->fit_lists, sides, &cells);
+    const uint32_t *words = tn_interned(&frontier->tiles.pending, pending, &count);
+    const uint32_t *fits = tn_interned(&frontier->tiles.lists, sides, &cells);
     tn_status status = begin(frontier, error);
     for (size_t i = 0; status == TN_OK && frontier->sums.count > 0 && i < count; i += PENDING_WORDS) {
         uint32_t fit = 0;
@@ -279,7 +280,7 @@ tn_status tn_frontier_end_pending(tn_frontier *frontier, uint32_t pending, uint3
 {
     uint32_t *result;
     bool met;
-    tn_status status = tn_frontier_known_at(&frontier->tiles, pending, left_fits, 2, &result, &met, error);
+    tn_status status = tn_frontier_known_at(&frontier->tiles.arrangements, pending, left_fits, 2, &result, &met, error);
     if (status == TN_OK && !met) {
         status = multiply(frontier, pending, left_fits, error);
         uint64_t found = status == TN_OK && frontier->sums.count > 0 ? frontier->sums.items[0].times : 0;

@@ -53,7 +53,7 @@ tn_status tn_frontier_describe(tn_frontier *frontier, const tn_house *house, uin
         }
     }
     ok = ok && tn_key_push(key, word);
-    *description = ok ? tn_intern(&frontier->borders.descriptions, key->data, key->size) : UINT32_MAX;
+    *description = ok ? tn_intern(&frontier->edges.borders.descriptions, key->data, key->size) : UINT32_MAX;
     return *description != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
@@ -93,7 +93,8 @@ static tn_status note_function(tn_frontier *frontier, const tn_house *house, con
         fails |= (uint64_t)!tn_house_decide(house, q->all[i], cell) << i;
     tn_status status = tn_frontier_room_open(frontier, fails, &open, error);
     if (status == TN_OK)
-        frontier->asked_function[cell->function] = frontier->asked_function[cell->function] || open.any;
+        frontier->questions.asked_function[cell->function] =
+            frontier->questions.asked_function[cell->function] || open.any;
     return status;
 }
 
@@ -222,8 +223,8 @@ static void reach_lines(const tn_frontier *frontier, const uint32_t *lines, cons
 static bool classify(tn_frontier *frontier, uint32_t description, const bool *meets, tn_frontier_role_at role,
                      tn_interner *classes, uint32_t *class)
 {
-    tn_frontier_reach *reach = &frontier->borders.reach[role][description];
-    const tn_interner *all = &frontier->borders.descriptions;
+    tn_frontier_reach *reach = &frontier->edges.borders.reach[role][description];
+    const tn_interner *all = &frontier->edges.borders.descriptions;
     size_t size;
     const uint32_t *own = tn_interned(all, description, &size);
     uint32_t storey = own[OF_STOREY];
@@ -278,21 +279,21 @@ static void find_matter(const tn_frontier *frontier, const tn_frontier_reach *re
 /* meet: [descriptions][descriptions], left and right. */
 static bool find_classes(tn_frontier *frontier, const bool *meet)
 {
-    tn_frontier_borders *b = &frontier->borders;
+    tn_frontier_borders *b = &frontier->edges.borders;
     uint32_t count = b->descriptions.count;
     tn_interner classes[TN_FRONTIER_ROLES] = {{0}};
     bool *meets = malloc((size_t)count + 1), ok = meets != NULL;
     for (int role = 0; role < TN_FRONTIER_ROLES; role++) {
         b->classes[role] = malloc(((size_t)count + 1) * sizeof *b->classes[role]);
         b->reach[role] = calloc((size_t)count + 1, sizeof *b->reach[role]);
-        b->matter[role] = calloc(count * frontier->answer_words + 1, sizeof *b->matter[role]);
+        b->matter[role] = calloc(count * frontier->questions.answer_words + 1, sizeof *b->matter[role]);
         ok = ok && b->classes[role] && b->reach[role] && b->matter[role];
         for (uint32_t i = 0; ok && i < count; i++) {
             for (uint32_t d = 0; d < count; d++)
                 meets[d] = role == TN_FRONTIER_EXIT ? meet[(size_t)i * count + d] : meet[(size_t)d * count + i];
             ok = classify(frontier, i, meets, (tn_frontier_role_at)role, &classes[role], &b->classes[role][i]);
             if (ok)
-                find_matter(frontier, &b->reach[role][i], b->matter[role] + i * frontier->answer_words);
+                find_matter(frontier, &b->reach[role][i], b->matter[role] + i * frontier->questions.answer_words);
         }
         tn_interner_clear(&classes[role]);
     }
@@ -302,7 +303,7 @@ static bool find_classes(tn_frontier *frontier, const bool *meet)
 
 static bool find_meetings(const tn_describing *d, bool *meet)
 {
-    size_t words = d->trays->words, count = d->frontier->borders.descriptions.count;
+    size_t words = d->trays->words, count = d->frontier->edges.borders.descriptions.count;
     uint64_t *next = malloc((words + 1) * sizeof *next);
     for (uint32_t i = 0; next && i < count; i++) {
         if (d->trays->follows)
@@ -321,7 +322,7 @@ tn_status tn_frontier_borders_find(tn_frontier *frontier, const tn_frontier_tray
     for (tn_tray t = 0; status == TN_OK && t < frontier->form->schema->tray_count; t++)
         if (trays->stand[t])
             status = describe_tray(&d, t, error);
-    size_t count = frontier->borders.descriptions.count;
+    size_t count = frontier->edges.borders.descriptions.count;
     bool *meet = malloc(tn_size_of(count, count) + 1);
     if (status == TN_OK && !(meet && find_meetings(&d, meet) && find_classes(frontier, meet)))
         status = tn_fail_memory(error);
@@ -348,7 +349,7 @@ void tn_frontier_borders_clear(tn_frontier_borders *borders)
 static const uint64_t *matter_at(const tn_inside *in, tn_frontier_role_at role, uint32_t cell)
 {
     const tn_frontier *s = in->frontier;
-    return s->borders.matter[role] + in->cells[cell]->description * s->answer_words;
+    return s->edges.borders.matter[role] + in->cells[cell]->description * s->questions.answer_words;
 }
 
 /* A room of cells that something is asked of goes on into cells with the same function. If it is asked where rooms are,
@@ -362,14 +363,14 @@ static bool push_cells(const tn_inside *in, tn_frontier_role_at role, tn_key *ke
         const tn_frontier_cut *known = in->cells[i];
         const tn_frontier_reach *reach = tn_inside_reach(in, role, (uint32_t)i);
         const uint64_t *matter = matter_at(in, role, (uint32_t)i);
-        bool tiled = !cell->open && s->tiled[cell->function],
-             goes_on =
-                 !cell->open && (s->questions.placed_count > 0 || (reach->open && s->asked_function[cell->function]));
+        bool tiled = !cell->open && s->tiles.tiled[cell->function],
+             goes_on = !cell->open &&
+                       (s->questions.placed_count > 0 || (reach->open && s->questions.asked_function[cell->function]));
         ok = tn_push_long(key, (uint64_t)cell->at.y0) && tn_push_long(key, (uint64_t)cell->at.y1) &&
              tn_key_push(key, cell->storey << 2 | (uint32_t)cell->open << 1 | tiled) &&
              tn_key_push(key, goes_on ? cell->function : TN_NO_FUNCTION) &&
-             tn_key_push(key, s->borders.classes[role][known->description]);
-        for (size_t w = 0; ok && w < s->answer_words; w++)
+             tn_key_push(key, s->edges.borders.classes[role][known->description]);
+        for (size_t w = 0; ok && w < s->questions.answer_words; w++)
             ok = tn_push_long(key, known->answers[w] & matter[w]);
     }
     return ok;
@@ -408,10 +409,10 @@ static uint32_t number_asked(tn_frontier *s, const tn_frontier_edge *edge)
         ok = tn_key_push(&s->key, edge->cells[i].open);
         if (ok && s->questions.placed_count > 0 && !edge->cells[i].open)
             ok = tn_key_push(&s->key, first_alike(edge, i));
-        for (size_t w = 0; ok && w < s->answer_words; w++)
-            ok = tn_push_long(&s->key, edge->answers[i * s->answer_words + w]);
+        for (size_t w = 0; ok && w < s->questions.answer_words; w++)
+            ok = tn_push_long(&s->key, edge->answers[i * s->questions.answer_words + w]);
     }
-    return ok ? tn_intern(&s->asked, s->key.data, s->key.size) : UINT32_MAX;
+    return ok ? tn_intern(&s->edges.asked, s->key.data, s->key.size) : UINT32_MAX;
 }
 
 /* Lower roofs, which may stand before openings of the trays beside. */
@@ -441,16 +442,17 @@ static bool keep_edge(const tn_inside *in, tn_frontier_role_at role, tn_frontier
     size_t count = in->house.cell_count;
     *edge = (tn_frontier_edge){.tray = in->tray, .count = (uint32_t)count};
     edge->cells = malloc((count + 1) * sizeof *edge->cells);
-    edge->answers = malloc((count * s->answer_words + 1) * sizeof *edge->answers);
+    edge->answers = malloc((count * s->questions.answer_words + 1) * sizeof *edge->answers);
     edge->inner = malloc((in->house.face_count + 1) * sizeof *edge->inner);
     if (!edge->cells || !edge->answers || !edge->inner)
         return false;
     for (size_t i = 0; i < count; i++) {
         const tn_cell *cell = &in->house.cells[i];
         edge->cells[i] = (tn_frontier_cell){cell->at.y0,    cell->at.y1, cell->storey,
-                                            cell->function, cell->open,  !cell->open && s->tiled[cell->function]};
-        for (size_t w = 0; w < s->answer_words; w++)
-            edge->answers[i * s->answer_words + w] = in->cells[i]->answers[w] & matter_at(in, role, (uint32_t)i)[w];
+                                            cell->function, cell->open,  !cell->open && s->tiles.tiled[cell->function]};
+        for (size_t w = 0; w < s->questions.answer_words; w++)
+            edge->answers[i * s->questions.answer_words + w] =
+                in->cells[i]->answers[w] & matter_at(in, role, (uint32_t)i)[w];
     }
     for (size_t i = 0; i < in->house.face_count; i++)
         if (tn_face_is_inner(&in->house.faces[i]))
@@ -473,7 +475,7 @@ tn_status tn_frontier_find_edge(const tn_inside *in, tn_frontier_role_at role, u
                                 tn_error *error)
 {
     tn_frontier *s = in->frontier;
-    uint32_t before = s->edge_keys.count, shape = 0;
+    uint32_t before = s->edges.keys.count, shape = 0;
     tn_status status = s->prices.asked ? find_shape(in, &shape, error) : TN_OK;
     s->key.size = 0;
     if (status != TN_OK)
@@ -481,15 +483,15 @@ tn_status tn_frontier_find_edge(const tn_inside *in, tn_frontier_role_at role, u
     if (!push_cells(in, role, &s->key) || !push_ends(in, &s->key) || !push_roofs(in, &s->key) ||
         (s->prices.asked && !tn_key_push(&s->key, shape)))
         return tn_fail_memory(error);
-    if (!tn_array_reserve(&s->edges, &s->edge_room, before, 1, sizeof *s->edges))
+    if (!tn_array_reserve(&s->edges.items, &s->edges.room, before, 1, sizeof *s->edges.items))
         return tn_fail_memory(error);
-    *edge = tn_intern(&s->edge_keys, s->key.data, s->key.size);
+    *edge = tn_intern(&s->edges.keys, s->key.data, s->key.size);
     if (*edge == UINT32_MAX)
         return tn_fail_memory(error);
     if (*edge < before)
         return TN_OK;
-    bool kept = keep_edge(in, role, &s->edges[*edge]);
-    s->edges[*edge].shape = shape;
-    s->edges[*edge].cost = cost;
+    bool kept = keep_edge(in, role, &s->edges.items[*edge]);
+    s->edges.items[*edge].shape = shape;
+    s->edges.items[*edge].cost = cost;
     return kept ? TN_OK : tn_fail_memory(error);
 }

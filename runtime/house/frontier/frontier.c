@@ -234,7 +234,7 @@ static tn_status ask_weights(tn_frontier *frontier, uint32_t number, tn_error *e
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < w->count; i++)
         if (w->terms[i].kind == TN_HOUSE_ROOMS)
-            status = add_room(&asking, w->terms[i].part, &frontier->weighed_rooms[number][i], error);
+            status = add_room(&asking, w->terms[i].part, &frontier->compared.weighed_rooms[number][i], error);
     return status;
 }
 
@@ -272,7 +272,7 @@ tn_status tn_frontier_ask(tn_frontier *frontier, tn_error *error)
         status = ask_weights(frontier, k, error);
     if (status == TN_OK)
         place_decisions(frontier);
-    frontier->answer_words = frontier->questions.decision_count / 64 + 1;
+    frontier->questions.answer_words = frontier->questions.decision_count / 64 + 1;
     return status;
 }
 
@@ -332,7 +332,7 @@ static bool push_neighbours(tn_frontier *frontier, tn_interner *lists, uint32_t 
     bool ok = true;
     for (; ok && *at < count && places[*at].edges >> 32 == edge; ++*at) {
         uint32_t list;
-        ok = number_outcomes(frontier, lists, &frontier->interfaces[places[*at].interface], &list) &&
+        ok = number_outcomes(frontier, lists, &frontier->interfaces.items[places[*at].interface], &list) &&
              tn_key_push(&frontier->joined, tn_low(places[*at].edges)) && tn_key_push(&frontier->joined, list);
     }
     return ok;
@@ -340,7 +340,7 @@ static bool push_neighbours(tn_frontier *frontier, tn_interner *lists, uint32_t 
 
 static bool merge_edges(tn_frontier *frontier)
 {
-    uint32_t edges = frontier->edge_keys.count, interfaces = frontier->interface_keys.count;
+    uint32_t edges = frontier->edges.keys.count, interfaces = frontier->interfaces.keys.count;
     tn_interface_place *places = malloc(((size_t)interfaces + 1) * sizeof *places);
     uint32_t *first = malloc(((size_t)edges + 1) * sizeof *first); /* of each class */
     frontier->merged.edges = malloc(((size_t)edges + 1) * sizeof *frontier->merged.edges);
@@ -348,13 +348,14 @@ static bool merge_edges(tn_frontier *frontier)
     size_t at = 0;
     bool ok = places && first && frontier->merged.edges;
     for (uint32_t i = 0; ok && i < interfaces; i++)
-        places[i] = (tn_interface_place){frontier->interface_keys.keys[i], i};
+        places[i] = (tn_interface_place){frontier->interfaces.keys.keys[i], i};
     if (ok)
         qsort(places, interfaces, sizeof *places, compare_places);
     for (uint32_t e = 0; ok && e < edges; e++) {
         uint32_t before = classes.count;
         frontier->joined.size = 0;
-        ok = push_asked(frontier, &frontier->edges[e]) && push_neighbours(frontier, &lists, e, places, interfaces, &at);
+        ok = push_asked(frontier, &frontier->edges.items[e]) &&
+             push_neighbours(frontier, &lists, e, places, interfaces, &at);
         uint32_t class = ok ? tn_intern(&classes, frontier->joined.data, frontier->joined.size) : UINT32_MAX;
         ok = class != UINT32_MAX;
         if (ok && class == before)
@@ -374,10 +375,10 @@ static bool merge_edges(tn_frontier *frontier)
 /* The number of a cell of an edge among the cells of all edges. */
 static uint32_t *number_cells(const tn_frontier *frontier)
 {
-    uint32_t *first = malloc(((size_t)frontier->edge_keys.count + 1) * sizeof *first), count = 0;
-    for (uint32_t e = 0; first && e < frontier->edge_keys.count; e++) {
+    uint32_t *first = malloc(((size_t)frontier->edges.keys.count + 1) * sizeof *first), count = 0;
+    for (uint32_t e = 0; first && e < frontier->edges.keys.count; e++) {
         first[e] = count;
-        count += frontier->edges[e].count;
+        count += frontier->edges.items[e].count;
     }
     return first;
 }
@@ -385,15 +386,15 @@ static uint32_t *number_cells(const tn_frontier *frontier)
 /* seen: {cell of an edge, what stands at its right}. */
 static bool see_interface(const tn_frontier *frontier, uint32_t interface, const uint32_t *cells, tn_numbering *seen)
 {
-    uint32_t left = tn_high(frontier->interface_keys.keys[interface]);
-    const tn_frontier_list *list = &frontier->interfaces[interface];
+    uint32_t left = tn_high(frontier->interfaces.keys.keys[interface]);
+    const tn_frontier_list *list = &frontier->interfaces.items[interface];
     bool ok = true;
     for (size_t k = 0; ok && left != TN_FRONTIER_NONE && k < list->count; k++) {
         size_t size;
-        const uint32_t *outcome = tn_interned(&frontier->outcome_keys, list->items[k].slice, &size);
+        const uint32_t *outcome = tn_interned(&frontier->outcomes.keys, list->items[k].slice, &size);
         const uint32_t *sides = outcome + 3 + (size_t)STEP_WORDS * outcome[2];
-        for (uint32_t i = 0; ok && i < frontier->edges[left].count; i++)
-            if (frontier->edges[left].cells[i].tiled)
+        for (uint32_t i = 0; ok && i < frontier->edges.items[left].count; i++)
+            if (frontier->edges.items[left].cells[i].tiled)
                 ok = tn_number(seen, (uint64_t)(cells[left] + i) << 32 | (sides[SIDE_WORDS * i + SIDE_FIT] - 1)) !=
                      UINT32_MAX;
     }
@@ -404,10 +405,10 @@ static bool see_interface(const tn_frontier *frontier, uint32_t interface, const
 static bool see_slices(const tn_frontier *frontier, const uint32_t *cells, tn_numbering *cell_bases)
 {
     bool ok = true;
-    for (uint32_t s = 0; ok && s < frontier->slice_keys.count; s++) {
+    for (uint32_t s = 0; ok && s < frontier->slices.keys.count; s++) {
         size_t size;
-        const uint32_t *slice = tn_interned(&frontier->slice_keys, s, &size);
-        const tn_frontier_edge *edge = &frontier->edges[slice[SLICE_EXIT]];
+        const uint32_t *slice = tn_interned(&frontier->slices.keys, s, &size);
+        const tn_frontier_edge *edge = &frontier->edges.items[slice[SLICE_EXIT]];
         for (uint32_t i = 0; ok && i < edge->count; i++)
             if (edge->cells[i].tiled)
                 ok = tn_number(cell_bases, (uint64_t)(cells[slice[SLICE_EXIT]] + i) << 32 |
@@ -439,7 +440,7 @@ static bool join(tn_numbering *cell_bases, tn_numbering *seen, tn_numbering *fou
 static bool list_sides(tn_frontier *frontier, tn_numbering *found)
 {
     tn_frontier_merged *m = &frontier->merged;
-    m->first = calloc((size_t)frontier->bases.count + 2, sizeof *m->first);
+    m->first = calloc((size_t)frontier->tiles.bases.count + 2, sizeof *m->first);
     m->sides = malloc(((size_t)found->count + 1) * sizeof *m->sides);
     if (!m->first || !m->sides)
         return false;
@@ -449,7 +450,7 @@ static bool list_sides(tn_frontier *frontier, tn_numbering *found)
         m->first[tn_high(found->keys[i]) + 1]++;
         m->sides[i] = tn_low(found->keys[i]);
     }
-    for (uint32_t b = 0; b < frontier->bases.count; b++)
+    for (uint32_t b = 0; b < frontier->tiles.bases.count; b++)
         m->first[b + 1] += m->first[b];
     return true;
 }
@@ -459,7 +460,7 @@ static bool find_sides(tn_frontier *frontier)
     tn_numbering seen = {0}, cell_bases = {0}, found = {0};
     uint32_t *cells = number_cells(frontier);
     bool ok = cells && see_slices(frontier, cells, &cell_bases);
-    for (uint32_t p = 0; ok && p < frontier->interface_keys.count; p++)
+    for (uint32_t p = 0; ok && p < frontier->interfaces.keys.count; p++)
         ok = see_interface(frontier, p, cells, &seen);
     ok = ok && join(&cell_bases, &seen, &found) && list_sides(frontier, &found);
     free(cells);
@@ -590,27 +591,31 @@ static void find_tiled(tn_frontier *frontier)
     for (uint32_t t = 0; t < form->record->tile_count; t++) {
         const tn_tile_record *tile = &form->module->TILE_records[form->record->tile_first + t];
         for (uint32_t i = 0; i < tile->purpose_count; i++)
-            frontier->tiled[form->module->HOUSE_ITEM_records[tile->purpose_first + i].number] = frontier->any_tiled =
-                true;
+            frontier->tiles.tiled[form->module->HOUSE_ITEM_records[tile->purpose_first + i].number] =
+                frontier->tiles.any = true;
     }
 }
 
 static tn_status begin(tn_frontier *frontier, tn_error *error)
 {
     const tn_house_form *form = frontier->form;
-    frontier->of_tray = calloc((size_t)form->schema->tray_count + 1, sizeof *frontier->of_tray);
-    frontier->furnished = calloc((size_t)form->schema->tray_count + 1, sizeof *frontier->furnished);
-    frontier->tiled = calloc((size_t)tn_form_functions(form) + 1, sizeof *frontier->tiled);
-    frontier->asked_function = calloc((size_t)tn_form_functions(form) + 1, sizeof *frontier->asked_function);
-    frontier->scratch = calloc(2 * (size_t)frontier->library->clause_count + 1, sizeof *frontier->scratch);
-    frontier->after_slice = calloc((size_t)frontier->trays_most + 1, sizeof *frontier->after_slice);
-    frontier->after_interface = calloc((size_t)frontier->trays_most + 1, sizeof *frontier->after_interface);
-    if (!frontier->of_tray || !frontier->furnished || !frontier->tiled || !frontier->asked_function ||
-        !frontier->scratch || !frontier->after_slice || !frontier->after_interface)
+    frontier->slices.of_tray = calloc((size_t)form->schema->tray_count + 1, sizeof *frontier->slices.of_tray);
+    frontier->slices.furnished = calloc((size_t)form->schema->tray_count + 1, sizeof *frontier->slices.furnished);
+    frontier->tiles.tiled = calloc((size_t)tn_form_functions(form) + 1, sizeof *frontier->tiles.tiled);
+    frontier->questions.asked_function =
+        calloc((size_t)tn_form_functions(form) + 1, sizeof *frontier->questions.asked_function);
+    frontier->reading.scratch =
+        calloc(2 * (size_t)frontier->library->clause_count + 1, sizeof *frontier->reading.scratch);
+    frontier->reading.after_slice = calloc((size_t)frontier->trays_most + 1, sizeof *frontier->reading.after_slice);
+    frontier->reading.after_interface =
+        calloc((size_t)frontier->trays_most + 1, sizeof *frontier->reading.after_interface);
+    if (!frontier->slices.of_tray || !frontier->slices.furnished || !frontier->tiles.tiled ||
+        !frontier->questions.asked_function || !frontier->reading.scratch || !frontier->reading.after_slice ||
+        !frontier->reading.after_interface)
         return tn_fail_memory(error);
     for (uint32_t k = 0; k < frontier->added->count; k++) {
-        frontier->weighed_rooms[k] = calloc((size_t)frontier->added->of[k]->count + 1, sizeof(uint32_t));
-        if (!frontier->weighed_rooms[k])
+        frontier->compared.weighed_rooms[k] = calloc((size_t)frontier->added->of[k]->count + 1, sizeof(uint32_t));
+        if (!frontier->compared.weighed_rooms[k])
             return tn_fail_memory(error);
     }
     find_tiled(frontier);
@@ -651,18 +656,19 @@ tn_status tn_frontier_new(const tn_house_form *form, const tn_house_library_reco
 
 static void clear_known(tn_frontier *frontier)
 {
-    for (uint32_t k = 0; frontier->after_slice && frontier->after_interface && k <= frontier->trays_most; k++) {
-        tn_frontier_known_clear(&frontier->after_slice[k]);
-        tn_frontier_known_clear(&frontier->after_interface[k]);
+    for (uint32_t k = 0;
+         frontier->reading.after_slice && frontier->reading.after_interface && k <= frontier->trays_most; k++) {
+        tn_frontier_known_clear(&frontier->reading.after_slice[k]);
+        tn_frontier_known_clear(&frontier->reading.after_interface[k]);
     }
-    free(frontier->after_slice);
-    free(frontier->after_interface);
-    tn_frontier_known_clear(&frontier->tiles);
+    free(frontier->reading.after_slice);
+    free(frontier->reading.after_interface);
+    tn_frontier_known_clear(&frontier->tiles.arrangements);
     tn_frontier_sums_clear(&frontier->sums);
-    tn_frontier_known_clear(&frontier->pending_of);
-    tn_frontier_known_clear(&frontier->crossed_rooms);
+    tn_frontier_known_clear(&frontier->tiles.pending_of);
+    tn_frontier_known_clear(&frontier->crossed.of_rooms);
     for (uint32_t w = 0; w < TN_FRONTIER_MEETINGS_MAX; w++)
-        tn_frontier_known_clear(&frontier->crossed_walks[w]);
+        tn_frontier_known_clear(&frontier->crossed.of_walks[w]);
 }
 
 static void free_lists(tn_frontier_list *lists, size_t count)
@@ -676,56 +682,62 @@ void tn_frontier_free(tn_frontier *frontier)
 {
     if (!frontier)
         return;
-    tn_interner *const interners[] = {
-        &frontier->edge_keys, &frontier->slice_keys, &frontier->outcome_keys, &frontier->areas,    &frontier->bases,
-        &frontier->sides,     &frontier->pending,    &frontier->rooms,        &frontier->walks,    &frontier->states,
-        &frontier->letters,   &frontier->fit_lists,  &frontier->insides,      &frontier->throughs, &frontier->readings,
-        &frontier->between,   &frontier->values,     &frontier->asked,        &frontier->mets,     &frontier->totals,
-        &frontier->functions, &frontier->plain_keys, &frontier->parts,        &frontier->combined};
-    for (uint32_t i = 0; i < frontier->edge_keys.count; i++) {
-        free(frontier->edges[i].cells);
-        free(frontier->edges[i].answers);
-        free(frontier->edges[i].inner);
+    tn_interner *const interners[] = {&frontier->edges.keys,       &frontier->slices.keys,
+                                      &frontier->outcomes.keys,    &frontier->slices.areas,
+                                      &frontier->tiles.bases,      &frontier->tiles.sides,
+                                      &frontier->tiles.pending,    &frontier->crossed.rooms,
+                                      &frontier->crossed.walks,    &frontier->states,
+                                      &frontier->slices.bases,     &frontier->tiles.lists,
+                                      &frontier->slices.insides,   &frontier->outcomes.throughs,
+                                      &frontier->reading.readings, &frontier->reading.between,
+                                      &frontier->reading.values,   &frontier->edges.asked,
+                                      &frontier->slices.mets,      &frontier->compared.totals,
+                                      &frontier->slices.functions, &frontier->slices.plain_keys,
+                                      &frontier->interfaces.parts, &frontier->interfaces.combined};
+    for (uint32_t i = 0; i < frontier->edges.keys.count; i++) {
+        free(frontier->edges.items[i].cells);
+        free(frontier->edges.items[i].answers);
+        free(frontier->edges.items[i].inner);
     }
-    free_lists(frontier->of_tray, frontier->form->schema->tray_count);
-    for (size_t t = 0; frontier->furnished && t < frontier->form->schema->tray_count; t++)
-        free(frontier->furnished[t].items);
-    free(frontier->furnished);
-    tn_frontier_borders_clear(&frontier->borders);
-    free_lists(frontier->interfaces, frontier->interface_keys.count);
+    free_lists(frontier->slices.of_tray, frontier->form->schema->tray_count);
+    for (size_t t = 0; frontier->slices.furnished && t < frontier->form->schema->tray_count; t++)
+        free(frontier->slices.furnished[t].items);
+    free(frontier->slices.furnished);
+    tn_frontier_borders_clear(&frontier->edges.borders);
+    free_lists(frontier->interfaces.items, frontier->interfaces.keys.count);
     for (size_t i = 0; i < sizeof interners / sizeof *interners; i++)
         tn_interner_clear(interners[i]);
-    tn_numbering_clear(&frontier->interface_keys);
-    tn_numbering_clear(&frontier->fit_keys[0]);
-    tn_numbering_clear(&frontier->fit_keys[1]);
-    tn_frontier_row_clear(&frontier->row);
+    tn_numbering_clear(&frontier->interfaces.keys);
+    tn_numbering_clear(&frontier->tiles.fit_keys[0]);
+    tn_numbering_clear(&frontier->tiles.fit_keys[1]);
+    tn_frontier_row_clear(&frontier->crossed.row);
     tn_frontier_stages_clear(&frontier->stages);
-    tn_numbering_clear(&frontier->befores);
-    tn_numbering_clear(&frontier->moves);
+    tn_numbering_clear(&frontier->crossed.befores);
+    tn_numbering_clear(&frontier->crossed.moves);
     clear_known(frontier);
     tn_frontier_ways_forget(frontier);
-    tn_frontier_orders_clear(&frontier->slice_orders);
-    tn_frontier_orders_clear(&frontier->outcome_orders);
+    tn_frontier_orders_clear(&frontier->slices.orders);
+    tn_frontier_orders_clear(&frontier->outcomes.orders);
     tn_frontier_clauses_free(frontier);
     tn_frontier_merged_clear(&frontier->merged);
     tn_frontier_prices_clear(&frontier->prices);
     free(frontier->questions.decisions);
-    free(frontier->edges);
-    free(frontier->slices);
-    free(frontier->plains);
-    free(frontier->outcomes);
-    free(frontier->of_combined);
-    free(frontier->tiled);
-    free(frontier->asked_function);
-    free(frontier->scratch);
+    free(frontier->edges.items);
+    free(frontier->slices.items);
+    free(frontier->slices.plains);
+    free(frontier->outcomes.items);
+    free(frontier->interfaces.of_combined);
+    free(frontier->tiles.tiled);
+    free(frontier->questions.asked_function);
+    free(frontier->reading.scratch);
     free(frontier->ends);
     for (uint32_t k = 0; k < TN_ADDED_MAX; k++)
-        free(frontier->weighed_rooms[k]);
-    tn_plan_vm_free(frontier->plan_vm);
-    free(frontier->ahead);
-    tn_numbering_clear(&frontier->fails);
-    free(frontier->open_rooms);
-    free(frontier->fits);
+        free(frontier->compared.weighed_rooms[k]);
+    tn_plan_vm_free(frontier->compared.plan_vm);
+    free(frontier->compared.ahead);
+    tn_numbering_clear(&frontier->questions.fails);
+    free(frontier->questions.open_rooms);
+    free(frontier->tiles.fits);
     free(frontier->key.data);
     free(frontier->joined.data);
     free(frontier);
@@ -737,9 +749,9 @@ static uint64_t kept_apart(const tn_frontier *frontier, const tn_frontier_clause
     uint64_t states = clause->dfa ? clause->dfa->states : 0;
     for (size_t i = 0; i < clause->atom_count; i++) {
         tn_opcode opcode = clause->atoms[i].op.opcode;
-        states += opcode == TN_OP_APART                                ? frontier->walks.count
-                  : opcode == TN_OP_SOME_ROOM || opcode == TN_OP_ROOMS ? frontier->rooms.count
-                  : tn_code_compares_house(opcode)                     ? frontier->totals.count
+        states += opcode == TN_OP_APART                                ? frontier->crossed.walks.count
+                  : opcode == TN_OP_SOME_ROOM || opcode == TN_OP_ROOMS ? frontier->crossed.rooms.count
+                  : tn_code_compares_house(opcode)                     ? frontier->compared.totals.count
                                                                        : 0;
     }
     return states;

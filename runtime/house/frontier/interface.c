@@ -88,7 +88,7 @@ static const tn_frontier_edge *edge_of(const tn_interface_house *c, uint32_t cel
 {
     bool left = cell < c->left_cells;
     *at = left ? cell : cell - c->left_cells;
-    return &c->frontier->edges[left ? c->left : c->right];
+    return &c->frontier->edges.items[left ? c->left : c->right];
 }
 
 /* Do its cells become one room, of which something may be asked? */
@@ -145,7 +145,7 @@ static tn_status find_side(const tn_interface_house *c, uint32_t i, const tn_pos
 {
     tn_frontier *s = c->frontier;
     const tn_cell *cell = &c->house.cells[i];
-    bool tiled = !cell->open && s->tiled[cell->function];
+    bool tiled = !cell->open && s->tiles.tiled[cell->function];
     uint32_t fit = 0, glass = tn_frontier_number_area(s, interface_glass(c, i));
     uint64_t marks = 0;
     tn_status status = glass != UINT32_MAX ? TN_OK : tn_fail_memory(error);
@@ -168,7 +168,7 @@ static bool has_tiles(const tn_interface_house *c, uint32_t storey)
 {
     for (size_t i = 0; i < c->house.cell_count; i++) {
         const tn_cell *cell = &c->house.cells[i];
-        if (cell->storey == storey && !cell->open && c->frontier->tiled[cell->function])
+        if (cell->storey == storey && !cell->open && c->frontier->tiles.tiled[cell->function])
             return true;
     }
     return false;
@@ -232,8 +232,8 @@ static tn_status push_part_sides(tn_interface_house *c, const tn_interface_part 
 static tn_status push_cost(const tn_interface_house *c, tn_key *key, tn_error *error)
 {
     tn_frontier *s = c->frontier;
-    const tn_frontier_border border = {.left = c->has_left ? &s->edges[c->left] : NULL,
-                                       .right = c->has_right ? &s->edges[c->right] : NULL,
+    const tn_frontier_border border = {.left = c->has_left ? &s->edges.items[c->left] : NULL,
+                                       .right = c->has_right ? &s->edges.items[c->right] : NULL,
                                        .faces = c->faces,
                                        .count = c->count};
     uint32_t cost = 0;
@@ -252,7 +252,7 @@ static tn_status number_part(tn_interface_house *c, const tn_interface_part *par
     tn_status status = push_part_sides(c, part, key, error);
     if (status == TN_OK && s->prices.asked)
         status = push_cost(c, key, error);
-    *number = status == TN_OK ? tn_intern(&s->parts, key->data, key->size) : UINT32_MAX;
+    *number = status == TN_OK ? tn_intern(&s->interfaces.parts, key->data, key->size) : UINT32_MAX;
     return status == TN_OK && *number == UINT32_MAX ? tn_fail_memory(error) : status;
 }
 
@@ -270,7 +270,7 @@ static uint32_t number_fits(tn_interface_house *c, const uint32_t *sides, uint32
     s->key.size = 0;
     for (uint32_t i = first; ok && i < end; i++)
         ok = tn_key_push(&s->key, sides[(size_t)SIDE_WORDS * i + SIDE_FIT]);
-    return ok ? tn_intern(&s->fit_lists, s->key.data, s->key.size) : UINT32_MAX;
+    return ok ? tn_intern(&s->tiles.lists, s->key.data, s->key.size) : UINT32_MAX;
 }
 
 /* Numbers what rooms and walks meet: the key from the steps on, without what matters to tiles. */
@@ -284,7 +284,7 @@ static uint32_t number_through(tn_interface_house *c, const uint32_t *steps, con
         bool fit = word >= sides && word < end && (size_t)(word - sides) % SIDE_WORDS == SIDE_FIT;
         ok = tn_key_push(&s->key, fit ? 0 : *word);
     }
-    return ok ? tn_intern(&s->throughs, s->key.data, s->key.size) : UINT32_MAX;
+    return ok ? tn_intern(&s->outcomes.throughs, s->key.data, s->key.size) : UINT32_MAX;
 }
 
 /* The parts of a new outcome, whose key is `joined`. */
@@ -292,7 +292,7 @@ static bool keep_outcome(tn_interface_house *c, uint32_t outcome)
 {
     tn_frontier *s = c->frontier;
     const uint32_t *steps = s->joined.data + 2, *sides = steps + 1 + (size_t)STEP_WORDS * *steps;
-    tn_frontier_outcome *parts = &s->outcomes[outcome];
+    tn_frontier_outcome *parts = &s->outcomes.items[outcome];
     parts->left_fits = number_fits(c, sides, 0, c->left_cells);
     parts->right_fits = number_fits(c, sides, c->left_cells, (uint32_t)c->house.cell_count);
     parts->through = number_through(c, steps, sides);
@@ -317,7 +317,7 @@ static bool push_steps(const tn_frontier *s, const uint32_t *parts, size_t count
     bool ok = tn_push_long(key, 0) && tn_key_push(key, 0);
     for (size_t p = 0; ok && p < count; p++) {
         size_t size;
-        const uint32_t *words = tn_interned(&s->parts, parts[p], &size);
+        const uint32_t *words = tn_interned(&s->interfaces.parts, parts[p], &size);
         key->data[0] |= words[PART_MEETINGS];
         key->data[1] |= words[PART_MEETINGS + 1];
         key->data[2] += words[PART_STEPS];
@@ -339,7 +339,8 @@ static bool push_sides(const tn_interface_house *c, const uint32_t *parts, size_
         ok = tn_key_push(key, 0);
     for (size_t p = 0; ok && p < count; p++) {
         size_t size;
-        const uint32_t *words = tn_interned(&s->parts, parts[p], &size), *end = words + size - s->prices.asked;
+        const uint32_t *words = tn_interned(&s->interfaces.parts, parts[p], &size),
+                       *end = words + size - s->prices.asked;
         *cost = words[size - 1];
         for (words += PART_STEPS + 1 + (size_t)STEP_WORDS * words[PART_STEPS]; words < end; words += 1 + SIDE_WORDS)
             memcpy(key->data + first + (size_t)SIDE_WORDS * *words, words + 1, SIDE_WORDS * sizeof *words);
@@ -353,13 +354,13 @@ static tn_status find_outcome(tn_interface_house *c, const uint32_t *parts, size
 {
     tn_frontier *s = c->frontier;
     tn_key *key = &s->joined;
-    uint32_t before = s->outcome_keys.count, cost = 0;
+    uint32_t before = s->outcomes.keys.count, cost = 0;
     key->size = 0;
     if (!push_steps(s, parts, count, key) || !push_sides(c, parts, count, key, &cost) ||
         !tn_key_push(key, c->left_cells) || (s->prices.asked && !tn_key_push(key, cost)) ||
-        !tn_array_reserve(&s->outcomes, &s->outcome_room, before, 1, sizeof *s->outcomes))
+        !tn_array_reserve(&s->outcomes.items, &s->outcomes.room, before, 1, sizeof *s->outcomes.items))
         return tn_fail_memory(error);
-    *outcome = tn_intern(&s->outcome_keys, key->data, key->size);
+    *outcome = tn_intern(&s->outcomes.keys, key->data, key->size);
     bool ok = *outcome != UINT32_MAX && (*outcome < before || keep_outcome(c, *outcome));
     return ok ? TN_OK : tn_fail_memory(error);
 }
@@ -369,16 +370,17 @@ static tn_status find_outcome(tn_interface_house *c, const uint32_t *parts, size
 static tn_status know_outcome(tn_interface_house *c, const tn_key *parts, uint32_t *outcome, tn_error *error)
 {
     tn_frontier *s = c->frontier;
-    uint32_t before = s->combined.count;
-    if (!tn_array_reserve(&s->of_combined, &s->combined_room, before, 1, sizeof *s->of_combined))
+    uint32_t before = s->interfaces.combined.count;
+    if (!tn_array_reserve(&s->interfaces.of_combined, &s->interfaces.combined_room, before, 1,
+                          sizeof *s->interfaces.of_combined))
         return tn_fail_memory(error);
-    uint32_t at = tn_intern(&s->combined, parts->data, parts->size);
+    uint32_t at = tn_intern(&s->interfaces.combined, parts->data, parts->size);
     if (at == UINT32_MAX)
         return tn_fail_memory(error);
     tn_status status = TN_OK;
     if (at == before)
-        status = find_outcome(c, parts->data, c->part_count, &s->of_combined[at], error);
-    *outcome = status == TN_OK ? s->of_combined[at] : 0;
+        status = find_outcome(c, parts->data, c->part_count, &s->interfaces.of_combined[at], error);
+    *outcome = status == TN_OK ? s->interfaces.of_combined[at] : 0;
     return status;
 }
 
@@ -414,7 +416,7 @@ static tn_status find_open(tn_interface_house *c, tn_error *error)
     for (uint32_t i = 0; status == TN_OK && i < c->house.cell_count; i++) {
         bool left = i < c->left_cells;
         uint32_t at = left ? i : i - c->left_cells;
-        const tn_frontier_edge *edge = &c->frontier->edges[left ? c->left : c->right];
+        const tn_frontier_edge *edge = &c->frontier->edges.items[left ? c->left : c->right];
         status = tn_frontier_room_open(c->frontier, tn_frontier_fails(c->frontier, edge, at), &c->open[i], error);
     }
     return status;
@@ -429,20 +431,20 @@ static tn_status stand(tn_interface_house *c, tn_error *error)
     c->has_left = left != TN_FRONTIER_NONE;
     c->has_right = right != TN_FRONTIER_NONE;
     if (c->has_left)
-        trays[length++] = s->edges[left].tray;
+        trays[length++] = s->edges.items[left].tray;
     if (c->has_right)
-        trays[length++] = s->edges[right].tray;
+        trays[length++] = s->edges.items[right].tray;
     tn_status status = tn_house_stand(s->form, trays, length, s->shapes, &c->house, error);
     c->faces = status == TN_OK ? malloc((c->house.face_count + 1) * sizeof *c->faces) : NULL;
     if (status == TN_OK && !c->faces)
         status = tn_fail_memory(error);
     if (status != TN_OK)
         return status;
-    c->left_cells = c->has_left ? s->edges[left].count : 0;
+    c->left_cells = c->has_left ? s->edges.items[left].count : 0;
     if (c->has_left)
-        furnish(c, &s->edges[left], 0, &face);
+        furnish(c, &s->edges.items[left], 0, &face);
     if (c->has_right)
-        furnish(c, &s->edges[right], c->left_cells, &face);
+        furnish(c, &s->edges.items[right], c->left_cells, &face);
     c->x = c->has_left ? tn_tray_value_record(s->form->schema, trays[0], s->form->width)->length : 0;
     for (uint32_t i = 0; i < c->house.face_count; i++)
         if (in_interface(c, &c->house.faces[i]) && c->house.faces[i].relation != TN_FACE_UNDER)
@@ -624,23 +626,25 @@ static void end(tn_interface_house *c)
 tn_status tn_frontier_interface(tn_frontier *frontier, uint32_t left, uint32_t right,
                                 const tn_frontier_list **interface, tn_error *error)
 {
-    uint32_t before = frontier->interface_keys.count;
-    if (!tn_array_reserve(&frontier->interfaces, &frontier->interface_room, before, 1, sizeof *frontier->interfaces))
+    uint32_t before = frontier->interfaces.keys.count;
+    if (!tn_array_reserve(&frontier->interfaces.items, &frontier->interfaces.room, before, 1,
+                          sizeof *frontier->interfaces.items))
         return tn_fail_memory(error);
-    uint32_t at = tn_number(&frontier->interface_keys, (uint64_t)left << 32 | right);
+    uint32_t at = tn_number(&frontier->interfaces.keys, (uint64_t)left << 32 | right);
     if (at == UINT32_MAX)
         return tn_fail_memory(error);
     if (at == before)
-        frontier->interfaces[at] = (tn_frontier_list){0};
-    *interface = &frontier->interfaces[at];
-    if (frontier->interfaces[at].made)
+        frontier->interfaces.items[at] = (tn_frontier_list){0};
+    *interface = &frontier->interfaces.items[at];
+    if (frontier->interfaces.items[at].made)
         return TN_OK;
-    tn_interface_house c = {.frontier = frontier, .left = left, .right = right, .list = &frontier->interfaces[at]};
+    tn_interface_house c = {
+        .frontier = frontier, .left = left, .right = right, .list = &frontier->interfaces.items[at]};
     tn_status status = stand(&c, error);
     if (status == TN_OK)
         status = add_outcomes(&c, error);
-    frontier->interfaces[at].made = status == TN_OK;
-    frontier->interface_outcomes += frontier->interfaces[at].count;
+    frontier->interfaces.items[at].made = status == TN_OK;
+    frontier->interfaces.outcomes += frontier->interfaces.items[at].count;
     end(&c);
     return status;
 }

@@ -69,6 +69,12 @@ typedef struct tn_frontier_walk {
     bool any;
 } tn_frontier_walk;
 
+/* any: it may be what a question asks for, for which its faces of these kinds, its area and its glass can matter. */
+typedef struct tn_room_open {
+    bool any, area, glass;
+    uint64_t kinds;
+} tn_room_open;
+
 typedef struct tn_frontier_questions {
     uint32_t *decisions; /* functions of kind CELL that are asked of cells at an interface, or of cells of rooms */
     size_t decision_count, decision_room;
@@ -92,6 +98,11 @@ typedef struct tn_frontier_questions {
     uint32_t ratio_count;
     tn_int128 area_most; /* more than this is not told apart */
     uint32_t cells_most;
+    size_t answer_words;      /* a bit for each decision */
+    bool *asked_function;     /* [functions]: can something be asked of rooms with this function? */
+    tn_numbering fails;       /* of rooms, that were met: tn_frontier_room_open */
+    tn_room_open *open_rooms; /* [fails] */
+    size_t open_room;
 } tn_frontier_questions;
 
 /* Finds them. TN_LIMIT (E1640) where there are too many, or one that is not known here, with the clause. */
@@ -166,6 +177,13 @@ tn_status tn_frontier_pair(tn_frontier *frontier, tn_frontier_clause *clause, ui
 
 /* ---- reading: reading.c */
 
+/* What the clauses have read, by number, and what comes next of each number. */
+typedef struct tn_frontier_reading {
+    tn_interner readings, between, values;            /* at a state; at an interface, the slice read; of an interface */
+    tn_frontier_known *after_slice, *after_interface; /* [trays_most + 1] */
+    uint32_t *scratch;                                /* [2 * clauses] */
+} tn_frontier_reading;
+
 /* What the clauses have read after a slice (TN_FRONTIER_NONE: the end), by what they had read before (TN_FRONTIER_NONE:
  * the beginning); then after the interface before the slice, by what that is to them. trays: before the slice.
  * TN_FRONTIER_NONE: a clause keeps nothing of that. */
@@ -187,6 +205,14 @@ typedef struct tn_frontier_range {
 typedef struct tn_frontier_ahead {
     tn_frontier_range tray[TN_COMPARED_MAX], end[TN_COMPARED_MAX], all[TN_COMPARED_MAX];
 } tn_frontier_ahead;
+
+typedef struct tn_frontier_comparisons {
+    uint32_t *weighed_rooms[TN_ADDED_MAX]; /* [terms of the number]: of the questions about rooms */
+    tn_plan_vm *plan_vm;                   /* what comparisons add up of trays; NULL: none does */
+    tn_interner totals;                    /* what compared numbers come to so far */
+    tn_frontier_ahead *ahead;              /* [trays_most + 1], once it is known or being found */
+    bool looking_ahead;                    /* totals are left aside */
+} tn_frontier_comparisons;
 
 /* The place of a HOUSE_SUM among what is added up. */
 uint32_t tn_frontier_compared(const tn_frontier *frontier, uint32_t sum);

@@ -187,7 +187,7 @@ static bool read_slice(tn_frontier *frontier, uint32_t trays, uint32_t read, con
 {
     size_t size;
     uint32_t count = frontier->clause_count;
-    const uint32_t *before = read == TN_FRONTIER_NONE ? NULL : tn_interned(&frontier->readings, read, &size);
+    const uint32_t *before = read == TN_FRONTIER_NONE ? NULL : tn_interned(&frontier->reading.readings, read, &size);
     tn_key *key = &frontier->key;
     key->size = 0;
     bool ok = tn_key_push(key, !before ? AT_BEGIN : bases ? AT_PLANE : AT_END);
@@ -209,15 +209,16 @@ static bool read_slice(tn_frontier *frontier, uint32_t trays, uint32_t read, con
 tn_status tn_frontier_read_slice(tn_frontier *frontier, uint32_t trays, uint32_t read, uint32_t slice,
                                  uint32_t *between, tn_error *error)
 {
-    uint32_t *result, number = slice == TN_FRONTIER_NONE ? slice : frontier->slices[slice].bases;
+    uint32_t *result, number = slice == TN_FRONTIER_NONE ? slice : frontier->slices.items[slice].bases;
     bool met, keeps;
-    tn_status status = tn_frontier_known_at(&frontier->after_slice[trays], read, number, 1, &result, &met, error);
+    tn_status status =
+        tn_frontier_known_at(&frontier->reading.after_slice[trays], read, number, 1, &result, &met, error);
     if (status == TN_OK && !met) {
         size_t size;
-        const uint32_t *bases = slice == TN_FRONTIER_NONE ? NULL : tn_interned(&frontier->letters, number, &size);
+        const uint32_t *bases = slice == TN_FRONTIER_NONE ? NULL : tn_interned(&frontier->slices.bases, number, &size);
         bool ok = read_slice(frontier, trays, read, bases, &keeps);
-        *result =
-            ok && keeps ? tn_intern(&frontier->between, frontier->key.data, frontier->key.size) : TN_FRONTIER_NONE;
+        *result = ok && keeps ? tn_intern(&frontier->reading.between, frontier->key.data, frontier->key.size)
+                              : TN_FRONTIER_NONE;
         if (!ok || (keeps && *result == UINT32_MAX))
             return tn_fail_memory(error);
     }
@@ -246,7 +247,7 @@ static tn_status read_interface(tn_frontier *frontier, uint32_t trays, const uin
                                 bool *keeps, tn_error *error)
 {
     uint32_t count = frontier->clause_count, where = between[BETWEEN_WHERE];
-    uint32_t *states = frontier->scratch, *bases = states + count;
+    uint32_t *states = frontier->reading.scratch, *bases = states + count;
     const uint32_t *last_bases = between + BETWEEN_STATES + count;
     tn_status status = TN_OK;
     memcpy(states, between + BETWEEN_STATES, count * sizeof *states);
@@ -268,14 +269,17 @@ tn_status tn_frontier_read_interface(tn_frontier *frontier, uint32_t trays, uint
     uint32_t *result;
     bool met, keeps;
     tn_status status =
-        tn_frontier_known_at(&frontier->after_interface[trays], between, values, 1, &result, &met, error);
+        tn_frontier_known_at(&frontier->reading.after_interface[trays], between, values, 1, &result, &met, error);
     if (status == TN_OK && !met) {
         size_t size;
-        const uint32_t *words = values == TN_FRONTIER_NONE ? NULL : tn_interned(&frontier->values, values, &size);
-        status = read_interface(frontier, trays, tn_interned(&frontier->between, between, &size), words, &keeps, error);
+        const uint32_t *words =
+            values == TN_FRONTIER_NONE ? NULL : tn_interned(&frontier->reading.values, values, &size);
+        status = read_interface(frontier, trays, tn_interned(&frontier->reading.between, between, &size), words, &keeps,
+                                error);
         *result = TN_FRONTIER_NONE;
         if (status == TN_OK && keeps) {
-            *result = tn_intern(&frontier->readings, frontier->scratch, 2 * (size_t)frontier->clause_count);
+            *result =
+                tn_intern(&frontier->reading.readings, frontier->reading.scratch, 2 * (size_t)frontier->clause_count);
             status = *result == UINT32_MAX ? tn_fail_memory(error) : TN_OK;
         }
     }
@@ -311,12 +315,14 @@ uint32_t tn_frontier_compared(const tn_frontier *frontier, uint32_t sum)
 /* value := what the number is of a plan of one tray, or (TN_FRONTIER_NONE) of none. */
 static tn_status value_of_plan(tn_frontier *frontier, uint32_t number, tn_tray tray, mpq_t value, tn_error *error)
 {
-    tn_status status = frontier->plan_vm ? TN_OK : tn_plan_vm_new(frontier->form->schema, 1, &frontier->plan_vm, error);
+    tn_status status = frontier->compared.plan_vm
+                           ? TN_OK
+                           : tn_plan_vm_new(frontier->form->schema, 1, &frontier->compared.plan_vm, error);
     if (status == TN_OK)
-        status = tn_plan_vm_plan(frontier->plan_vm, &tray, tray != TN_FRONTIER_NONE, error);
+        status = tn_plan_vm_plan(frontier->compared.plan_vm, &tray, tray != TN_FRONTIER_NONE, error);
     bool has; /* what is added up of a house always has a value */
     return status == TN_OK
-               ? tn_plan_vm_value(frontier->plan_vm, frontier->added->of[number]->of.sum, value, &has, error)
+               ? tn_plan_vm_value(frontier->compared.plan_vm, frontier->added->of[number]->of.sum, value, &has, error)
                : status;
 }
 
@@ -358,14 +364,14 @@ static tn_status number_totals(tn_frontier *frontier, const tn_int128 *totals, u
 {
     uint32_t words[TN_COMPARED_MAX * TOTAL_WORDS], count = compared_count(frontier);
     memcpy(words, totals, count * sizeof *totals);
-    *number = tn_intern(&frontier->totals, words, (size_t)count * TOTAL_WORDS);
+    *number = tn_intern(&frontier->compared.totals, words, (size_t)count * TOTAL_WORDS);
     return *number != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
 static void read_totals(const tn_frontier *frontier, uint32_t number, tn_int128 *totals)
 {
     size_t words;
-    const uint32_t *of = tn_interned(&frontier->totals, number, &words);
+    const uint32_t *of = tn_interned(&frontier->compared.totals, number, &words);
     memcpy(totals, of, words * sizeof *of);
 }
 
@@ -391,7 +397,7 @@ tn_status tn_frontier_first_total(tn_frontier *frontier, uint32_t *total, tn_err
 
 static tn_int128 settle(const tn_frontier *frontier, uint32_t trays, uint32_t compared, tn_int128 total)
 {
-    const tn_frontier_range *ahead = &frontier->ahead[trays].all[compared];
+    const tn_frontier_range *ahead = &frontier->compared.ahead[trays].all[compared];
     if (!ahead->any)
         return total;
     return total + ahead->from > 0 ? SURELY_ABOVE : total + ahead->to < 0 ? SURELY_BELOW : total;
@@ -412,9 +418,9 @@ tn_status tn_frontier_next_total(tn_frontier *frontier, uint32_t trays, uint32_t
 
 tn_status tn_frontier_ahead_begin(tn_frontier *frontier, tn_error *error)
 {
-    frontier->ahead = calloc((size_t)frontier->trays_most + 2, sizeof *frontier->ahead);
-    frontier->looking_ahead = true;
-    return frontier->ahead ? TN_OK : tn_fail_memory(error);
+    frontier->compared.ahead = calloc((size_t)frontier->trays_most + 2, sizeof *frontier->compared.ahead);
+    frontier->compared.looking_ahead = true;
+    return frontier->compared.ahead ? TN_OK : tn_fail_memory(error);
 }
 
 static void widen(tn_frontier_range *range, tn_int128 from, tn_int128 to)
@@ -427,16 +433,16 @@ static void widen(tn_frontier_range *range, tn_int128 from, tn_int128 to)
 void tn_frontier_ahead_note(tn_frontier *frontier, uint32_t trays, bool end, uint32_t compared, tn_int128 from,
                             tn_int128 to)
 {
-    tn_frontier_ahead *ahead = &frontier->ahead[trays];
+    tn_frontier_ahead *ahead = &frontier->compared.ahead[trays];
     widen(&(end ? ahead->end : ahead->tray)[compared], from, to);
 }
 
 void tn_frontier_ahead_end(tn_frontier *frontier)
 {
-    frontier->looking_ahead = false;
+    frontier->compared.looking_ahead = false;
     for (uint32_t k = frontier->trays_most + 1; k-- > 0;)
         for (uint32_t i = 0; i < compared_count(frontier); i++) {
-            tn_frontier_ahead *here = &frontier->ahead[k];
+            tn_frontier_ahead *here = &frontier->compared.ahead[k];
             const tn_frontier_range *next = &here[1].all[i];
             if (here->end[i].any)
                 widen(&here->all[i], here->end[i].from, here->end[i].to);
@@ -478,7 +484,7 @@ tn_status tn_frontier_end_values(tn_frontier *frontier, uint32_t values, uint32_
     tn_int128 totals[TN_COMPARED_MAX];
     size_t size;
     bool ok = true;
-    bool known = frontier->units && !frontier->looking_ahead;
+    bool known = frontier->units && !frontier->compared.looking_ahead;
     if (known)
         read_totals(frontier, total, totals);
     for (uint32_t i = 0; i < compared_count(frontier); i++, guess /= 3)
@@ -486,7 +492,7 @@ tn_status tn_frontier_end_values(tn_frontier *frontier, uint32_t values, uint32_
     frontier->key.size = 0;
     for (uint32_t i = 0; ok && i < frontier->clause_count; i++)
         ok = tn_key_push(&frontier->key, with_truths(frontier, &frontier->clauses[i],
-                                                     tn_interned(&frontier->values, values, &size)[i], signs));
-    *ends = ok ? tn_intern(&frontier->values, frontier->key.data, frontier->key.size) : UINT32_MAX;
+                                                     tn_interned(&frontier->reading.values, values, &size)[i], signs));
+    *ends = ok ? tn_intern(&frontier->reading.values, frontier->key.data, frontier->key.size) : UINT32_MAX;
     return *ends != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }

@@ -103,7 +103,7 @@ static tn_status push_cell(const tn_inside_rooms *r, uint32_t cell, tn_key *key,
     const tn_cell *at = &in->house.cells[cell];
     uint32_t base = 0, room = r->of[cell];
     tn_whole_room own = {0};
-    if (!at->open && frontier->tiled[at->function]) {
+    if (!at->open && frontier->tiles.tiled[at->function]) {
         tn_status status = tn_frontier_fit_base(frontier, &in->house, cell, &base, error);
         if (status != TN_OK)
             return status;
@@ -327,15 +327,16 @@ static void find_open(const tn_frontier *frontier, uint64_t fails, tn_room_open 
 
 tn_status tn_frontier_room_open(tn_frontier *frontier, uint64_t fails, tn_room_open *open, tn_error *error)
 {
-    uint32_t before = frontier->fails.count;
-    if (!tn_array_reserve(&frontier->open_rooms, &frontier->open_room, before, 1, sizeof *frontier->open_rooms))
+    uint32_t before = frontier->questions.fails.count;
+    if (!tn_array_reserve(&frontier->questions.open_rooms, &frontier->questions.open_room, before, 1,
+                          sizeof *frontier->questions.open_rooms))
         return tn_fail_memory(error);
-    uint32_t at = tn_number(&frontier->fails, fails);
+    uint32_t at = tn_number(&frontier->questions.fails, fails);
     if (at == UINT32_MAX)
         return tn_fail_memory(error);
     if (at == before)
-        find_open(frontier, fails, &frontier->open_rooms[at]);
-    *open = frontier->open_rooms[at];
+        find_open(frontier, fails, &frontier->questions.open_rooms[at]);
+    *open = frontier->questions.open_rooms[at];
     return TN_OK;
 }
 
@@ -344,7 +345,7 @@ tn_status tn_frontier_room_open(tn_frontier *frontier, uint64_t fails, tn_room_o
 tn_int128 tn_frontier_area(const tn_frontier *frontier, uint32_t number)
 {
     size_t size;
-    const uint32_t *words = tn_interned(&frontier->areas, number, &size);
+    const uint32_t *words = tn_interned(&frontier->slices.areas, number, &size);
     tn_int128 area = 0;
     for (size_t i = 0; i < 4; i++)
         area |= (tn_int128)words[i] << 32 * i;
@@ -365,7 +366,7 @@ uint32_t tn_frontier_number_area(tn_frontier *frontier, tn_int128 area)
     uint32_t words[4];
     for (size_t i = 0; i < 4; i++)
         words[i] = (uint32_t)(area >> 32 * i);
-    return tn_intern(&frontier->areas, words, 4);
+    return tn_intern(&frontier->slices.areas, words, 4);
 }
 
 static uint64_t all_questions(const tn_frontier *frontier)
@@ -505,7 +506,7 @@ static tn_status number_after(tn_frontier *frontier, tn_joining *j, const tn_roo
         if (ok && frontier->questions.placed_count > 0)
             ok = tn_key_push(key, place->age) && push_words(key, place->slots, frontier->questions.placed_count);
     }
-    *after = ok ? tn_intern(&frontier->rooms, key->data, key->size) : UINT32_MAX;
+    *after = ok ? tn_intern(&frontier->crossed.rooms, key->data, key->size) : UINT32_MAX;
     return *after != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
@@ -537,8 +538,8 @@ tn_status tn_frontier_rooms_cross(tn_frontier *frontier, uint32_t before, const 
     memset(j.held, 0, sizeof j.held);
     uint32_t left = c->left ? c->left->count : 0, right = c->right ? c->right->count : 0;
     const uint32_t *steps = c->outcome + 3, *sides = steps + (size_t)STEP_WORDS * c->outcome[2];
-    begin_left(&j, c, c->left ? tn_interned(&frontier->rooms, before, &size) : NULL, sides);
-    const uint32_t *state = c->left ? tn_interned(&frontier->rooms, before, &size) : NULL;
+    begin_left(&j, c, c->left ? tn_interned(&frontier->crossed.rooms, before, &size) : NULL, sides);
+    const uint32_t *state = c->left ? tn_interned(&frontier->crossed.rooms, before, &size) : NULL;
     for (uint32_t i = 0; i < right; i++)
         begin_cell(&j, c, i, sides + SIDE_WORDS * (left + i));
     for (uint32_t i = 0; i < right; i++)
@@ -595,7 +596,7 @@ tn_status tn_frontier_rooms_view(const tn_frontier *frontier, uint32_t before, c
 {
     size_t size;
     uint32_t number[TN_FRONTIER_CELLS_MAX], joined[TN_FRONTIER_CELLS_MAX], count;
-    const uint32_t *state = tn_interned(&frontier->rooms, before, &size);
+    const uint32_t *state = tn_interned(&frontier->crossed.rooms, before, &size);
     const tn_frontier_crossing c = {.left = left, .outcome = outcome};
     tn_joining j; /* large, and filled in as far as it is used */
     j.frontier = frontier;
@@ -617,8 +618,8 @@ static void look_at_slice(tn_frontier *frontier, uint32_t slice, uint32_t *most)
 {
     static const uint32_t unseen[SIDE_WORDS] = {0};
     size_t size;
-    const uint32_t *words = tn_interned(&frontier->slice_keys, slice, &size);
-    const tn_frontier_crossing c = {.right = &frontier->edges[words[SLICE_ENTRY]], .slice = words};
+    const uint32_t *words = tn_interned(&frontier->slices.keys, slice, &size);
+    const tn_frontier_crossing c = {.right = &frontier->edges.items[words[SLICE_ENTRY]], .slice = words};
     const tn_frontier_questions *q = &frontier->questions;
     tn_joining j;
     tn_rooms_after to;
@@ -642,7 +643,7 @@ static void look_at_slice(tn_frontier *frontier, uint32_t slice, uint32_t *most)
 void tn_frontier_rooms_at_once(tn_frontier *frontier, uint32_t most[TN_FRONTIER_PLACED_MAX])
 {
     memset(most, 0, TN_FRONTIER_PLACED_MAX * sizeof *most);
-    for (uint32_t s = 0; frontier->questions.placed_count > 0 && s < frontier->slice_keys.count; s++)
+    for (uint32_t s = 0; frontier->questions.placed_count > 0 && s < frontier->slices.keys.count; s++)
         look_at_slice(frontier, s, most);
 }
 

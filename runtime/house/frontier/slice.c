@@ -81,7 +81,7 @@ static tn_status know_cells(tn_cutting *c, tn_error *error)
     }
     if (status != TN_OK)
         return status;
-    c->functions = tn_intern(&c->inside.frontier->functions, key->data, key->size);
+    c->functions = tn_intern(&c->inside.frontier->slices.functions, key->data, key->size);
     return c->functions != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
@@ -89,11 +89,11 @@ static tn_status begin_cells(tn_cutting *c, tn_error *error)
 {
     size_t count = c->inside.house.cell_count * ((size_t)tn_form_functions(c->inside.frontier->form) + 1);
     c->cells = calloc(count + 1, sizeof *c->cells);
-    c->answers = calloc(count * c->inside.frontier->answer_words + 1, sizeof *c->answers);
+    c->answers = calloc(count * c->inside.frontier->questions.answer_words + 1, sizeof *c->answers);
     if (!c->cells || !c->answers)
         return tn_fail_memory(error);
     for (size_t i = 0; i < count; i++)
-        c->cells[i].answers = c->answers + i * c->inside.frontier->answer_words;
+        c->cells[i].answers = c->answers + i * c->inside.frontier->questions.answer_words;
     return TN_OK;
 }
 
@@ -125,17 +125,17 @@ static bool push_inside(const uint32_t *slice, const uint32_t *end, uint32_t cou
 
 static bool find_plain(tn_frontier *s, uint32_t slice)
 {
-    tn_frontier_slice *parts = &s->slices[slice];
+    tn_frontier_slice *parts = &s->slices.items[slice];
     const uint32_t words[] = {parts->inside, parts->exit, parts->bases};
-    uint32_t before = s->plain_keys.count;
-    if (!tn_array_reserve(&s->plains, &s->plain_room, before, 1, sizeof *s->plains))
+    uint32_t before = s->slices.plain_keys.count;
+    if (!tn_array_reserve(&s->slices.plains, &s->slices.plain_room, before, 1, sizeof *s->slices.plains))
         return false;
-    uint32_t at = tn_intern(&s->plain_keys, words, sizeof words / sizeof *words);
+    uint32_t at = tn_intern(&s->slices.plain_keys, words, sizeof words / sizeof *words);
     if (at == UINT32_MAX)
         return false;
     if (at == before)
-        s->plains[at] = slice;
-    parts->plain = s->plains[at];
+        s->slices.plains[at] = slice;
+    parts->plain = s->slices.plains[at];
     return true;
 }
 
@@ -143,19 +143,19 @@ static bool find_plain(tn_frontier *s, uint32_t slice)
 static bool keep_slice(tn_frontier *s, uint32_t slice)
 {
     const uint32_t *words = s->joined.data, *cells = words + SLICE_CELLS;
-    const tn_frontier_edge *edge = &s->edges[words[SLICE_ENTRY]];
+    const tn_frontier_edge *edge = &s->edges.items[words[SLICE_ENTRY]];
     const uint32_t *steps = cells + (CELL_WORDS + (size_t)s->questions.walk_count) * edge->count;
     const uint32_t *bases = steps + 1 + (size_t)STEP_WORDS * *steps, *gains = bases + s->clause_count;
-    tn_frontier_slice *parts = &s->slices[slice];
+    tn_frontier_slice *parts = &s->slices.items[slice];
     *parts = (tn_frontier_slice){.entry = words[SLICE_ENTRY],
                                  .exit = words[SLICE_EXIT],
-                                 .bases = tn_intern(&s->letters, bases, s->clause_count)};
-    parts->tiles = push_tiles(edge, cells, &s->key) ? tn_intern(&s->fit_lists, s->key.data, s->key.size) : UINT32_MAX;
+                                 .bases = tn_intern(&s->slices.bases, bases, s->clause_count)};
+    parts->tiles = push_tiles(edge, cells, &s->key) ? tn_intern(&s->tiles.lists, s->key.data, s->key.size) : UINT32_MAX;
     if (!push_inside(words, bases, edge->count, &s->key))
         return false;
-    parts->inside = tn_intern(&s->insides, s->key.data, s->key.size);
+    parts->inside = tn_intern(&s->slices.insides, s->key.data, s->key.size);
     s->key.data[SLICE_ENTRY] = s->questions.placed_count > 0 ? edge->asked : 0;
-    parts->met = tn_intern(&s->mets, s->key.data, s->key.size);
+    parts->met = tn_intern(&s->slices.mets, s->key.data, s->key.size);
     for (uint32_t k = 0; k < s->added->count; k++)
         parts->gains[k] = (int64_t)tn_both(gains + 2 * (size_t)k);
     parts->cost = s->prices.asked ? gains[2 * (size_t)s->added->count] : 0;
@@ -166,7 +166,7 @@ static bool keep_slice(tn_frontier *s, uint32_t slice)
 /* Notes that cells with these functions can be the slice. */
 static tn_status add_furnished(tn_cutting *c, uint32_t slice, uint64_t times, tn_error *error)
 {
-    tn_frontier_furnished_list *list = &c->inside.frontier->furnished[c->inside.tray];
+    tn_frontier_furnished_list *list = &c->inside.frontier->slices.furnished[c->inside.tray];
     uint32_t at = tn_number(&c->furnished, (uint64_t)c->functions << 32 | slice);
     if (at == UINT32_MAX || !tn_array_reserve_from(&list->items, &list->room, 8, at, 1, sizeof *list->items))
         return tn_fail_memory(error);
@@ -219,14 +219,14 @@ static tn_status find_slice(const tn_cutting *c, uint32_t *slice, tn_error *erro
     tn_frontier *s = c->inside.frontier;
     tn_key *key = &s->joined;
     tn_status status = push_slice(c, key, error);
-    uint32_t before = s->slice_keys.count;
+    uint32_t before = s->slices.keys.count;
     if (status != TN_OK)
         return status;
     if (before >= TN_FRONTIER_SLICES_MAX)
         return too_large(c, "200,000 choices that other cells, clauses or costs can tell apart", error);
-    if (!tn_array_reserve(&s->slices, &s->slice_room, before, 1, sizeof *s->slices))
+    if (!tn_array_reserve(&s->slices.items, &s->slices.room, before, 1, sizeof *s->slices.items))
         return tn_fail_memory(error);
-    *slice = tn_intern(&s->slice_keys, key->data, key->size);
+    *slice = tn_intern(&s->slices.keys, key->data, key->size);
     bool ok = *slice != UINT32_MAX && (*slice < before || keep_slice(s, *slice));
     return ok ? TN_OK : tn_fail_memory(error);
 }
@@ -286,7 +286,8 @@ static tn_status merge_kinds(const tn_cutting *c, const tn_face *face, tn_option
 {
     tn_frontier *s = c->inside.frontier;
     const tn_cell *cell = &c->inside.house.cells[face->first];
-    if (c->ordered || face->relation != TN_FACE_OUTSIDE || cell->open || s->prices.asked || s->tiled[cell->function])
+    if (c->ordered || face->relation != TN_FACE_OUTSIDE || cell->open || s->prices.asked ||
+        s->tiles.tiled[cell->function])
         return TN_OK;
     tn_room_open open;
     uint64_t fails = tn_frontier_answers_fail(s, c->inside.cells[face->first]->answers);
@@ -426,7 +427,7 @@ static tn_status order_list(const tn_frontier *frontier, tn_frontier_list *list,
     if (!cut)
         return tn_fail_memory(error);
     for (size_t i = 0; i < list->count; i++) {
-        const tn_frontier_slice *slice = &frontier->slices[list->items[i].slice];
+        const tn_frontier_slice *slice = &frontier->slices.items[list->items[i].slice];
         cut[i] = (tn_cut_choice){slice->entry, slice->group, list->items[i]};
     }
     if (list->count > 0)
@@ -439,7 +440,7 @@ static tn_status order_list(const tn_frontier *frontier, tn_frontier_list *list,
 
 tn_status tn_frontier_slices(tn_frontier *frontier, tn_tray tray, tn_error *error)
 {
-    tn_cutting c = {.inside = {.frontier = frontier, .tray = tray}, .list = &frontier->of_tray[tray]};
+    tn_cutting c = {.inside = {.frontier = frontier, .tray = tray}, .list = &frontier->slices.of_tray[tray]};
     if (c.list->made)
         return TN_OK;
     c.list->made = true;
@@ -486,7 +487,7 @@ void tn_frontier_orders_clear(tn_frontier_orders *orders)
 void tn_frontier_orders_trim(tn_frontier *frontier)
 {
     enum { ITEMS_MOST = 1 << 20 }; /* 4 MB */
-    tn_frontier_orders *const both[] = {&frontier->slice_orders, &frontier->outcome_orders};
+    tn_frontier_orders *const both[] = {&frontier->slices.orders, &frontier->outcomes.orders};
     for (size_t i = 0; i < 2; i++)
         if (both[i]->items > ITEMS_MOST)
             tn_frontier_orders_clear(both[i]);
@@ -556,7 +557,7 @@ static tn_status keep(tn_frontier_orders *orders, uint32_t at, tn_status status,
 tn_status tn_frontier_slices_ordered(tn_frontier *frontier, tn_tray tray, const tn_cell *like, size_t cells,
                                      tn_frontier_sequence *slices, tn_error *error)
 {
-    tn_frontier_orders *orders = &frontier->slice_orders;
+    tn_frontier_orders *orders = &frontier->slices.orders;
     uint32_t at;
     frontier->joined.size = 0;
     if (!tn_key_push(&frontier->joined, tray))
@@ -574,13 +575,13 @@ tn_status tn_frontier_slices_ordered(tn_frontier *frontier, tn_tray tray, const 
 
 static size_t cells_of(const tn_frontier *frontier, uint32_t edge)
 {
-    return edge == TN_FRONTIER_NONE ? 0 : frontier->edges[edge].count;
+    return edge == TN_FRONTIER_NONE ? 0 : frontier->edges.items[edge].count;
 }
 
 tn_status tn_frontier_outcomes_ordered(tn_frontier *frontier, uint32_t left, uint32_t right, const tn_cell *like,
                                        tn_frontier_sequence *outcomes, tn_error *error)
 {
-    tn_frontier_orders *orders = &frontier->outcome_orders;
+    tn_frontier_orders *orders = &frontier->outcomes.orders;
     size_t cells = cells_of(frontier, left) + cells_of(frontier, right);
     uint32_t at;
     frontier->joined.size = 0;

@@ -11,12 +11,6 @@
 
 /* ---- what a cell is to rooms and to walks */
 
-/* any: it may be what a question asks for, for which its faces of these kinds, its area and its glass can matter. */
-typedef struct tn_room_open {
-    bool any, area, glass;
-    uint64_t kinds;
-} tn_room_open;
-
 /* What a cell is to a walk; as a word: bits in this order. ends: no step leads on to the right. */
 typedef struct tn_frontier_role {
     bool through, goal, source, ends;
@@ -101,6 +95,14 @@ typedef struct tn_frontier_edge {
     uint32_t cost;  /* the same: of the house of one tray */
 } tn_frontier_edge;
 
+typedef struct tn_frontier_edges {
+    tn_interner keys;
+    tn_frontier_edge *items; /* [keys] */
+    size_t room;
+    tn_interner asked; /* what is asked of the cells of edges */
+    tn_frontier_borders borders;
+} tn_frontier_edges;
+
 /* The edge at the left or the right of the tray. cost: where costs are asked for, the number of the tray's. */
 tn_status tn_frontier_find_edge(const tn_inside *inside, tn_frontier_role_at role, uint32_t cost, uint32_t *edge,
                                 tn_error *error);
@@ -171,8 +173,8 @@ enum { STEP_FROM, STEP_TO, STEP_HOW, STEP_WORDS }; /* HOW: bit 0: one room; bit 
  * matters to its tiles. */
 typedef struct tn_frontier_slice {
     uint32_t entry, exit;        /* edges: at its left, at its right */
-    uint32_t bases;              /* of all clauses: of `letters` */
-    uint32_t tiles;              /* what of its own walls matters to each cell's tiles: of `fit_lists` */
+    uint32_t bases;              /* of all clauses: of `bases` */
+    uint32_t tiles;              /* what of its own walls matters to each cell's tiles: of `lists` of tiles */
     uint32_t inside;             /* its edge, and what rooms and walks meet in it: of `insides` */
     uint32_t met;                /* the same, but of its edge only what is asked: of `mets` */
     uint32_t plain;              /* the first slice that can differ from it only in tiles and what is added up */
@@ -188,6 +190,34 @@ static inline bool tn_frontier_ordered_add(tn_frontier_ordered *ordered, uint32_
     ordered->items[ordered->count++] = item;
     return true;
 }
+
+/* Slices of a tray or outcomes of an interface, one for each choice, in the order of the choices. Kinds are what is in
+ * it, ascending, each once; items are places in these. */
+typedef struct tn_frontier_sequence {
+    uint32_t *kinds, *items;
+    size_t kind_count, count;
+} tn_frontier_sequence;
+
+/* Sequences by {tray, functions of its cells}, or {left edge, right edge, functions of both}. */
+typedef struct tn_frontier_orders {
+    tn_interner keys;
+    tn_frontier_sequence *of; /* [keys]; without kinds: not known */
+    size_t room, items;       /* items: of all */
+} tn_frontier_orders;
+
+typedef struct tn_frontier_slices_made {
+    tn_interner keys;
+    tn_frontier_slice *items; /* [keys] */
+    size_t room;
+    tn_frontier_list *of_tray;             /* [trays of the schema] */
+    tn_frontier_furnished_list *furnished; /* the same */
+    tn_interner functions;                 /* of the cells of a tray */
+    tn_frontier_orders orders;
+    tn_interner bases, insides, mets, areas;
+    tn_interner plain_keys;
+    uint32_t *plains; /* [plain_keys]: slices */
+    size_t plain_room;
+} tn_frontier_slices_made;
 
 /* Makes the slices of a tray, if they are not made. */
 tn_status tn_frontier_slices(tn_frontier *frontier, tn_tray tray, tn_error *error);
@@ -213,11 +243,29 @@ enum { SIDE_MARKS, SIDE_MARKS_HIGH, SIDE_FIT, SIDE_GLASS, SIDE_WORDS };
 
 /* What parts of an outcome are, by number. */
 typedef struct tn_frontier_outcome {
-    uint32_t left_fits, right_fits; /* of `fit_lists` */
+    uint32_t left_fits, right_fits; /* of `lists` of tiles */
     uint32_t through;               /* what rooms and walks meet at the interface: of `throughs` */
     uint32_t left, right, plain;    /* of `lefts` and `rights` of the stages; plain: as if nothing mattered to tiles */
     uint32_t cost;                  /* where costs are asked for: the number of the interface's */
 } tn_frontier_outcome;
+
+typedef struct tn_frontier_interfaces_made {
+    tn_numbering keys;       /* left edge << 32 | right edge */
+    tn_frontier_list *items; /* [keys] */
+    size_t room;
+    uint64_t outcomes;           /* of all */
+    tn_interner parts, combined; /* what comes of their storeys; these together */
+    uint32_t *of_combined;       /* [combined]: outcomes */
+    size_t combined_room;
+} tn_frontier_interfaces_made;
+
+typedef struct tn_frontier_outcomes_made {
+    tn_interner keys;
+    tn_frontier_outcome *items; /* [keys] */
+    size_t room;
+    tn_interner throughs;
+    tn_frontier_orders orders;
+} tn_frontier_outcomes_made;
 
 /* The outcomes between two edges; TN_FRONTIER_NONE: the outside. */
 tn_status tn_frontier_interface(tn_frontier *frontier, uint32_t left, uint32_t right,
@@ -240,20 +288,6 @@ bool tn_frontier_meets(const tn_frontier *frontier, const tn_house *house, const
 bool tn_frontier_joins(const tn_house *house, const tn_face *face);
 
 /* ---- slices and outcomes in the order of houses: slice.c */
-
-/* Slices of a tray or outcomes of an interface, one for each choice, in the order of the choices. Kinds are what is in
- * it, ascending, each once; items are places in these. */
-typedef struct tn_frontier_sequence {
-    uint32_t *kinds, *items;
-    size_t kind_count, count;
-} tn_frontier_sequence;
-
-/* Sequences by {tray, functions of its cells}, or {left edge, right edge, functions of both}. */
-typedef struct tn_frontier_orders {
-    tn_interner keys;
-    tn_frontier_sequence *of; /* [keys]; without kinds: not known */
-    size_t room, items;       /* items: of all */
-} tn_frontier_orders;
 
 /* Both, without finding again what has been asked for. cells: of the tray. Sequences are borrowed until the next trim,
  * which drops them where they take much. */

@@ -63,12 +63,12 @@ bool tn_frontier_split_outcome(tn_frontier *frontier, const uint32_t *words, uin
 /* While tiles are left aside, nothing matters to them. */
 uint32_t tn_frontier_right_seen(const tn_frontier *frontier, uint32_t outcome)
 {
-    return frontier->scouting ? frontier->outcomes[outcome].plain : frontier->outcomes[outcome].right;
+    return frontier->scouting ? frontier->outcomes.items[outcome].plain : frontier->outcomes.items[outcome].right;
 }
 
 uint32_t tn_frontier_left_fits(const tn_frontier *frontier, uint32_t outcome)
 {
-    return frontier->scouting ? 0 : frontier->outcomes[outcome].left_fits;
+    return frontier->scouting ? 0 : frontier->outcomes.items[outcome].left_fits;
 }
 
 /* ---- interfaces grouped by what the left side can tell apart */
@@ -113,8 +113,8 @@ static tn_status split_interface(tn_frontier *frontier, uint32_t edge, uint32_t 
         if (far_side == UINT32_MAX)
             return tn_fail_memory(error);
         splits->items[splits->count++] =
-            (tn_frontier_split){frontier->outcomes[outcome].left, tn_frontier_left_fits(frontier, outcome), far_side,
-                                interface->items[i].times};
+            (tn_frontier_split){frontier->outcomes.items[outcome].left, tn_frontier_left_fits(frontier, outcome),
+                                far_side, interface->items[i].times};
     }
     return TN_OK;
 }
@@ -292,8 +292,8 @@ static tn_status begin_state(tn_frontier *frontier, uint32_t state, const uint32
         return TN_OK;
     stages->left = 0;
     for (uint32_t i = 0; i <= frontier->questions.walk_count; i++) {
-        uint64_t asked = frontier->edges[words[STATE_EDGE]].asked;
-        stages->befores[i] = tn_number(&frontier->befores, asked << 32 | words[STATE_ROOMS + i]);
+        uint64_t asked = frontier->edges.items[words[STATE_EDGE]].asked;
+        stages->befores[i] = tn_number(&frontier->crossed.befores, asked << 32 | words[STATE_ROOMS + i]);
         if (stages->befores[i] == UINT32_MAX)
             return tn_fail_memory(error);
     }
@@ -310,7 +310,7 @@ tn_status tn_frontier_stage_exit(tn_frontier *frontier, uint32_t state, uint32_t
     tn_exit_by by = {.frontier = frontier,
                      .number = state,
                      .state = words,
-                     .edge = words ? &frontier->edges[words[STATE_EDGE]] : NULL};
+                     .edge = words ? &frontier->edges.items[words[STATE_EDGE]] : NULL};
     tn_status status = begin_state(frontier, state, words, error);
     if (status == TN_OK)
         status = interface_groups_of(frontier, words ? words[STATE_EDGE] : TN_FRONTIER_NONE, entries, &interface_groups,
@@ -362,7 +362,8 @@ static tn_status find_outcome(tn_frontier *frontier, const tn_frontier_exit_stat
     tn_status status = tn_frontier_interface(frontier, edge, tn_high(far_side), &interface, error);
     for (size_t i = 0; status == TN_OK && i < interface->count; i++) {
         *outcome = interface->items[i].slice;
-        if (frontier->outcomes[*outcome].left == by->left && tn_frontier_left_fits(frontier, *outcome) == by->fits &&
+        if (frontier->outcomes.items[*outcome].left == by->left &&
+            tn_frontier_left_fits(frontier, *outcome) == by->fits &&
             tn_frontier_right_seen(frontier, *outcome) == tn_low(far_side))
             break;
     }
@@ -452,9 +453,9 @@ static tn_status enter(tn_frontier *frontier, uint32_t trays, uint32_t entry_sta
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         uint32_t slice = stages->slices[list[i]];
-        if (i == 0 || frontier->slices[slice].bases != bases)
+        if (i == 0 || frontier->slices.items[slice].bases != bases)
             status = tn_frontier_read_slice(frontier, trays, near_side[last], slice, &between, error);
-        bases = frontier->slices[slice].bases;
+        bases = frontier->slices.items[slice].bases;
         if (status == TN_OK && between != TN_FRONTIER_NONE)
             status = enter_group(&by, list[i], between, error);
     }
@@ -579,7 +580,7 @@ void tn_frontier_stages_clear(tn_frontier_stages *stages)
 bool tn_frontier_find_group(tn_frontier *frontier, uint32_t slice)
 {
     tn_frontier_stages *stages = &frontier->stages;
-    tn_frontier_slice *parts = &frontier->slices[slice];
+    tn_frontier_slice *parts = &frontier->slices.items[slice];
     const uint32_t words[] = {parts->entry, parts->met, parts->bases};
     uint32_t before = stages->groups.count;
     if (!tn_array_reserve(&stages->slices, &stages->slice_room, before, 1, sizeof *stages->slices))
@@ -610,7 +611,7 @@ tn_status tn_frontier_stage_pass(tn_frontier *frontier, uint32_t slice_state, ui
     tn_frontier_pending pending;
     tn_key *key = &frontier->joined;
     const uint32_t *words = tn_interned(&frontier->stages.slice_states, slice_state, &size);
-    uint32_t last = tn_frontier_pending_word(frontier), edge = frontier->slices[slice].exit;
+    uint32_t last = tn_frontier_pending_word(frontier), edge = frontier->slices.items[slice].exit;
     tn_status status = tn_frontier_find_pending(frontier, slice, words[last], &pending, error);
     if (status != TN_OK || pending.number == TN_FRONTIER_NONE)
         return status;

@@ -39,6 +39,18 @@ typedef struct tn_frontier_merged {
 /* Words of pending tiles, for each: the place of the cell, the class. */
 enum { PENDING_CELL, PENDING_CLASS, PENDING_WORDS };
 
+typedef struct tn_frontier_tiles {
+    bool *tiled, any;         /* [functions] */
+    tn_interner bases, sides; /* of cells: what of their own walls matters to tiles, and what of a side */
+    tn_numbering fit_keys[2]; /* {base, left side}, then {that, right side} */
+    uint32_t *fits;           /* [fit_keys[1]]: tiles */
+    size_t fit_room;
+    tn_interner lists;              /* of bases or sides: a word for each cell */
+    tn_interner pending;            /* PENDING_WORDS for each cell */
+    tn_frontier_known arrangements; /* {pending, left fits}: how many, unless they have prices */
+    tn_frontier_known pending_of;   /* {tiles of a slice, right fits}: what is pending; how many times that */
+} tn_frontier_tiles;
+
 /* What of a cell's own walls matters to its tiles, and what of a side. 0: nothing does. */
 tn_status tn_frontier_fit_base(tn_frontier *frontier, const tn_house *house, uint32_t cell, uint32_t *base,
                                tn_error *error);
@@ -170,6 +182,15 @@ typedef struct tn_frontier_row {
     size_t used, room;
 } tn_frontier_row;
 
+/* What came of rooms and walks at interfaces. */
+typedef struct tn_frontier_crossed {
+    tn_interner rooms, walks;
+    tn_numbering befores; /* what is asked of the edge << 32 | rooms or a walk */
+    tn_numbering moves;   /* through << 32 | what is met in the slice */
+    tn_frontier_known of_rooms, of_walks[TN_FRONTIER_MEETINGS_MAX]; /* {before, move} */
+    tn_frontier_row row;
+} tn_frontier_crossed;
+
 /* What comes of the outcomes of the interface between a state (its words; NULL: the row begins) and a slice
  * (TN_FRONTIER_NONE: the end): so many words each. Both are good until the next call. */
 tn_status tn_frontier_cross(tn_frontier *frontier, const uint32_t *state, uint32_t slice, tn_frontier_list *interface,
@@ -265,7 +286,7 @@ enum { FAR_SIDE, FAR_TIMES, FAR_WORDS = FAR_TIMES + 2 };
 
 /* Outcomes of interfaces that the left side cannot tell apart, and all far sides that they have. */
 typedef struct tn_frontier_interface_group {
-    uint32_t left, fits; /* of `lefts`; of `fit_lists`: for the pending tiles */
+    uint32_t left, fits; /* of `lefts`; of `lists` of tiles: for the pending tiles */
     uint32_t far_list;
 } tn_frontier_interface_group;
 
@@ -371,63 +392,27 @@ struct tn_frontier {
     const tn_house_added *added;        /* these, and what clauses compare */
     const tn_frontier_without *without; /* or NULL; only while the clauses are made */
     const tn_frontier_units *units;     /* NULL: not known yet, and nothing is gained */
-    tn_frontier_prices prices;
-    tn_frontier_sums sums;
-    uint32_t *weighed_rooms[TN_ADDED_MAX]; /* [terms of the number]: of the questions about rooms */
-    tn_plan_vm *plan_vm;                   /* what comparisons add up of trays; NULL: none does */
-    tn_interner totals;                    /* what compared numbers come to so far: reading.c */
-    tn_frontier_ahead *ahead;              /* [trays_most + 1], once it is known or being found */
-    bool looking_ahead;                    /* totals are left aside: reading.c */
+    bool scouting;                      /* tiles are left aside: see frontier.c */
     tn_frontier_questions questions;
-    size_t answer_words;
-    tn_numbering fails;       /* of rooms, that were met: tn_frontier_room_open */
-    tn_room_open *open_rooms; /* [fails] */
-    size_t open_room;
-    bool *tiled, any_tiled; /* [functions] */
-    bool *asked_function;   /* [functions]: can something be asked of rooms with this function? */
-    bool scouting;          /* tiles are left aside: see frontier.c */
-    tn_frontier_merged merged;
     tn_frontier_clause *clauses;
     uint32_t clause_count;
-    tn_frontier_list *of_tray;             /* [trays of the schema] */
-    tn_frontier_furnished_list *furnished; /* the same */
-    tn_interner functions;                 /* of the cells of a tray */
-    tn_frontier_orders slice_orders, outcome_orders;
-    tn_frontier_borders borders;
+    tn_frontier_reading reading;
+    tn_frontier_comparisons compared;
+    tn_frontier_edges edges;
+    tn_frontier_slices_made slices;
+    tn_frontier_interfaces_made interfaces;
+    tn_frontier_outcomes_made outcomes;
+    tn_frontier_tiles tiles;
+    tn_frontier_merged merged;
+    tn_frontier_sums sums;
+    tn_frontier_prices prices;
+    tn_interner states;
     uint8_t *ends; /* [states]: may the row end there? see tn_frontier_ends */
     size_t end_room;
+    tn_frontier_crossed crossed;
     tn_frontier_ways ways;
-    tn_interner edge_keys, slice_keys, outcome_keys, areas, bases, sides, pending, rooms, walks, states;
-    tn_frontier_edge *edges;
-    size_t edge_room;
-    tn_interner parts, combined; /* of interfaces: what comes of their storeys; these together: interface.c */
-    uint32_t *of_combined;       /* [combined]: outcomes */
-    size_t combined_room;
-    tn_numbering interface_keys;
-    tn_frontier_list *interfaces;
-    size_t interface_room;
-    uint64_t interface_outcomes; /* of all interfaces */
-    tn_numbering fit_keys[2];    /* {base, left side}, then {that, right side} */
-    uint32_t *fits;              /* [fit_keys[1]]: tiles */
-    size_t fit_room;
-    tn_frontier_slice *slices;     /* [slices] */
-    tn_frontier_outcome *outcomes; /* [outcomes] */
-    size_t slice_room, outcome_room;
-    tn_interner letters, fit_lists, asked, insides, mets, throughs;
-    tn_interner plain_keys;
-    uint32_t *plains; /* [plain_keys]: slices */
-    size_t plain_room;
-    tn_frontier_row row;
     tn_frontier_stages stages;
-    tn_interner readings, between, values;            /* see reading.c */
-    tn_frontier_known *after_slice, *after_interface; /* [trays_most + 1] */
-    tn_frontier_known tiles;                          /* {pending, left fits}: how many, unless they have prices */
-    tn_frontier_known pending_of; /* {tiles of a slice, right fits}: what is pending; how many times that */
-    tn_numbering befores;         /* what is asked of the edge << 32 | rooms or a walk */
-    tn_numbering moves;           /* through << 32 | what is met in the slice */
-    tn_frontier_known crossed_rooms, crossed_walks[TN_FRONTIER_MEETINGS_MAX]; /* {before, move} */
-    tn_key key, joined;                                                       /* scratch */
-    uint32_t *scratch;                                                        /* [2 * clauses] */
+    tn_key key, joined; /* scratch */
 };
 
 /* Does a clause compare anything? Before the units are known it cannot be said of what. */
@@ -450,12 +435,12 @@ static inline size_t tn_frontier_crossed_words(const tn_frontier *frontier)
 /* The answers of an edge's cell. */
 static inline const uint64_t *tn_edge_answers(const tn_frontier *frontier, const tn_frontier_edge *edge, uint32_t cell)
 {
-    return edge->answers + cell * frontier->answer_words;
+    return edge->answers + cell * frontier->questions.answer_words;
 }
 
 static inline const tn_frontier_reach *tn_inside_reach(const tn_inside *inside, tn_frontier_role_at role, uint32_t cell)
 {
-    return &inside->frontier->borders.reach[role][inside->cells[cell]->description];
+    return &inside->frontier->edges.borders.reach[role][inside->cells[cell]->description];
 }
 
 /* Is it asked where in the row the walk's sources are? */

@@ -44,8 +44,9 @@ static tn_status number_before(const tn_passing *p, size_t word, uint32_t *numbe
     *number = TN_FRONTIER_NONE;
     if (!p->state)
         return TN_OK;
-    *number = p->near_side ? p->near_side[word]
-                           : tn_number(&p->frontier->befores, (uint64_t)p->crossing.left->asked << 32 | p->state[word]);
+    *number = p->near_side
+                  ? p->near_side[word]
+                  : tn_number(&p->frontier->crossed.befores, (uint64_t)p->crossing.left->asked << 32 | p->state[word]);
     return *number == UINT32_MAX ? tn_fail_memory(error) : TN_OK;
 }
 
@@ -53,7 +54,7 @@ static tn_status number_before(const tn_passing *p, size_t word, uint32_t *numbe
 static tn_status cross_rooms(tn_passing *p, uint32_t *rooms, uint32_t *closed, tn_error *error)
 {
     tn_frontier *frontier = p->frontier;
-    tn_frontier_known *known = p->near_side ? &frontier->stages.crossed_rooms : &frontier->crossed_rooms;
+    tn_frontier_known *known = p->near_side ? &frontier->stages.crossed_rooms : &frontier->crossed.of_rooms;
     uint32_t questions = frontier->questions.room_count, number, *result;
     size_t words = 1 + questions + SEEN_WORDS * (size_t)frontier->questions.placed_count;
     bool met;
@@ -77,7 +78,7 @@ static tn_status cross_rooms(tn_passing *p, uint32_t *rooms, uint32_t *closed, t
 static tn_status cross_walk(tn_passing *p, uint32_t walk, uint32_t *after, bool *apart, tn_error *error)
 {
     tn_frontier *frontier = p->frontier;
-    tn_frontier_known *known = p->near_side ? &frontier->stages.crossed_walks[walk] : &frontier->crossed_walks[walk];
+    tn_frontier_known *known = p->near_side ? &frontier->stages.crossed_walks[walk] : &frontier->crossed.of_walks[walk];
     uint32_t before = p->state ? p->state[STATE_WALKS + walk] : 0, number, *result;
     bool met;
     size_t words = 2 + (tn_frontier_walk_placed(frontier, walk) ? SEEN_WORDS : 0);
@@ -156,7 +157,7 @@ static tn_status find_values(const tn_passing *p, const uint32_t *closed, const 
             return too_many_slots(frontier, i, error);
         ok = tn_key_push(&frontier->key, value);
     }
-    *values = ok ? tn_intern(&frontier->values, frontier->key.data, frontier->key.size) : UINT32_MAX;
+    *values = ok ? tn_intern(&frontier->reading.values, frontier->key.data, frontier->key.size) : UINT32_MAX;
     return *values != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
@@ -178,9 +179,10 @@ static tn_passing begin_passing(tn_frontier *frontier, const uint32_t *state, ui
     size_t size;
     bool last = slice == TN_FRONTIER_NONE;
     tn_passing p = {.frontier = frontier, .state = state};
-    p.crossing = (tn_frontier_crossing){.left = state ? &frontier->edges[state[STATE_EDGE]] : NULL,
-                                        .right = last ? NULL : &frontier->edges[frontier->slices[slice].entry],
-                                        .slice = last ? NULL : tn_interned(&frontier->slice_keys, slice, &size)};
+    p.crossing =
+        (tn_frontier_crossing){.left = state ? &frontier->edges.items[state[STATE_EDGE]] : NULL,
+                               .right = last ? NULL : &frontier->edges.items[frontier->slices.items[slice].entry],
+                               .slice = last ? NULL : tn_interned(&frontier->slices.keys, slice, &size)};
     return p;
 }
 
@@ -188,9 +190,10 @@ static tn_status pass(tn_passing *p, uint32_t slice, uint32_t outcome, tn_error 
 {
     tn_frontier *frontier = p->frontier;
     size_t size;
-    p->crossing.outcome = tn_interned(&frontier->outcome_keys, outcome, &size);
-    p->move = tn_number(&frontier->moves, (uint64_t)frontier->outcomes[outcome].through << 32 |
-                                              (slice == TN_FRONTIER_NONE ? slice : frontier->slices[slice].met));
+    p->crossing.outcome = tn_interned(&frontier->outcomes.keys, outcome, &size);
+    p->move = tn_number(&frontier->crossed.moves,
+                        (uint64_t)frontier->outcomes.items[outcome].through << 32 |
+                            (slice == TN_FRONTIER_NONE ? slice : frontier->slices.items[slice].met));
     return p->move == UINT32_MAX ? tn_fail_memory(error) : cross_outcome(p, error);
 }
 
@@ -199,9 +202,9 @@ static tn_status pass_seen(tn_passing *p, uint32_t slice, uint32_t outcome, tn_e
 {
     tn_frontier *frontier = p->frontier;
     size_t size;
-    uint32_t sides = tn_interned(&frontier->stages.rights, frontier->outcomes[outcome].right, &size)[RIGHT_SIDES];
-    p->crossing.outcome = tn_interned(&frontier->outcome_keys, outcome, &size);
-    p->met = frontier->slices[slice].met;
+    uint32_t sides = tn_interned(&frontier->stages.rights, frontier->outcomes.items[outcome].right, &size)[RIGHT_SIDES];
+    p->crossing.outcome = tn_interned(&frontier->outcomes.keys, outcome, &size);
+    p->met = frontier->slices.items[slice].met;
     p->sided = tn_number(&frontier->stages.sided, (uint64_t)sides << 32 | p->met);
     return p->sided == UINT32_MAX ? tn_fail_memory(error) : cross_outcome(p, error);
 }
@@ -230,8 +233,8 @@ tn_status tn_frontier_cross_outcome(tn_frontier *frontier, const uint32_t *state
 
 static tn_status begin_row(tn_frontier *frontier, const uint32_t *state, tn_error *error)
 {
-    tn_frontier_row *row = &frontier->row;
-    size_t words = tn_frontier_pending_word(frontier) - 1, moves = (size_t)frontier->insides.count + 1;
+    tn_frontier_row *row = &frontier->crossed.row;
+    size_t words = tn_frontier_pending_word(frontier) - 1, moves = (size_t)frontier->slices.insides.count + 1;
     if (!row->mark) {
         row->before = malloc(words * sizeof *row->before);
         row->mark = calloc(moves, sizeof *row->mark);
@@ -258,15 +261,16 @@ static tn_status begin_row(tn_frontier *frontier, const uint32_t *state, tn_erro
 tn_status tn_frontier_cross(tn_frontier *frontier, const uint32_t *state, uint32_t slice, tn_frontier_list *interface,
                             const uint32_t **crossed, tn_error *error)
 {
-    tn_frontier_row *row = &frontier->row;
+    tn_frontier_row *row = &frontier->crossed.row;
     tn_status status = begin_row(frontier, state, error);
     if (status != TN_OK)
         return status;
-    uint32_t at = slice == TN_FRONTIER_NONE ? frontier->insides.count : frontier->slices[slice].inside;
+    uint32_t at = slice == TN_FRONTIER_NONE ? frontier->slices.insides.count : frontier->slices.items[slice].inside;
     if (row->mark[at] != row->stamp) {
         const tn_frontier_list *list;
         status = tn_frontier_interface(frontier, state ? state[STATE_EDGE] : TN_FRONTIER_NONE,
-                                       slice == TN_FRONTIER_NONE ? slice : frontier->slices[slice].entry, &list, error);
+                                       slice == TN_FRONTIER_NONE ? slice : frontier->slices.items[slice].entry, &list,
+                                       error);
         if (status != TN_OK)
             return status;
         row->interface[at] = *list;
@@ -397,8 +401,8 @@ static tn_status list_pending(tn_frontier *frontier, uint32_t bases, uint32_t si
 {
     size_t cells;
     tn_key *key = &frontier->joined;
-    const uint32_t *base = tn_interned(&frontier->fit_lists, bases, &cells);
-    const uint32_t *fits = tn_interned(&frontier->fit_lists, sides, &cells);
+    const uint32_t *base = tn_interned(&frontier->tiles.lists, bases, &cells);
+    const uint32_t *fits = tn_interned(&frontier->tiles.lists, sides, &cells);
     key->size = 0;
     *pending = (tn_frontier_pending){TN_FRONTIER_NONE, 1};
     for (uint32_t i = 0; i < cells; i++) {
@@ -413,7 +417,7 @@ static tn_status list_pending(tn_frontier *frontier, uint32_t bases, uint32_t si
         if (__builtin_mul_overflow(pending->times, (uint64_t)class_of.factor, &pending->times))
             return tn_frontier_limit(frontier, NULL, "a tray has more than 2^64 arrangements of tiles", error);
     }
-    pending->number = tn_intern(&frontier->pending, key->data, key->size);
+    pending->number = tn_intern(&frontier->tiles.pending, key->data, key->size);
     return pending->number != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
@@ -425,8 +429,8 @@ tn_status tn_frontier_find_pending(tn_frontier *frontier, uint32_t slice, uint32
     *pending = (tn_frontier_pending){0, 1};
     if (frontier->scouting || slice == TN_FRONTIER_NONE)
         return TN_OK;
-    uint32_t *result, bases = frontier->slices[slice].tiles;
-    tn_status status = tn_frontier_known_at(&frontier->pending_of, bases, right_fits, 3, &result, &met, error);
+    uint32_t *result, bases = frontier->slices.items[slice].tiles;
+    tn_status status = tn_frontier_known_at(&frontier->tiles.pending_of, bases, right_fits, 3, &result, &met, error);
     if (status == TN_OK && !met) {
         status = list_pending(frontier, bases, right_fits, pending, error);
         memcpy(result, (const uint32_t[]){pending->number, tn_low(pending->times), tn_high(pending->times)},
@@ -442,14 +446,14 @@ tn_status tn_frontier_find_pending(tn_frontier *frontier, uint32_t slice, uint32
 /* Do states hold totals of what clauses compare? */
 static bool counts_totals(const tn_frontier *frontier)
 {
-    return tn_frontier_compares(frontier) && frontier->units && !frontier->looking_ahead;
+    return tn_frontier_compares(frontier) && frontier->units && !frontier->compared.looking_ahead;
 }
 
 static tn_status make_state(const tn_stepping *s, uint32_t read, uint32_t total, uint32_t *after, tn_error *error)
 {
     tn_frontier *frontier = s->frontier;
     tn_key *key = &frontier->joined;
-    uint32_t edge = frontier->slices[s->slice].exit;
+    uint32_t edge = frontier->slices.items[s->slice].exit;
     key->size = 0;
     bool ok = tn_key_push(key, frontier->merged.edges ? frontier->merged.edges[edge] : edge);
     for (uint32_t w = 0; ok && w <= frontier->questions.walk_count; w++)
@@ -466,10 +470,10 @@ static int64_t others_of(const tn_stepping *s, uint32_t number)
 {
     const tn_house_weights *w = s->frontier->added->of[number];
     const uint32_t *closed = s->crossed + CROSSED_WALKS + s->frontier->questions.walk_count;
-    int64_t gain = s->slice != TN_FRONTIER_NONE ? s->frontier->slices[s->slice].gains[number] : 0;
+    int64_t gain = s->slice != TN_FRONTIER_NONE ? s->frontier->slices.items[s->slice].gains[number] : 0;
     for (uint32_t i = 0; i < w->count; i++)
         if (w->terms[i].kind == TN_HOUSE_ROOMS)
-            gain += (int64_t)closed[s->frontier->weighed_rooms[number][i]] * w->terms[i].each;
+            gain += (int64_t)closed[s->frontier->compared.weighed_rooms[number][i]] * w->terms[i].each;
     return gain;
 }
 
@@ -481,7 +485,7 @@ static tn_int128 cost_of(const tn_stepping *s)
         return 0;
     tn_int128 cost = frontier->prices.steps[s->outcome->cost];
     if (s->slice != TN_FRONTIER_NONE)
-        cost += frontier->prices.steps[frontier->slices[s->slice].cost];
+        cost += frontier->prices.steps[frontier->slices.items[s->slice].cost];
     return cost;
 }
 
@@ -522,7 +526,7 @@ static tn_status show_sum(const tn_stepping *s, const tn_showing *to, uint32_t a
         __builtin_mul_overflow(times, s->pending.times, &times))
         return too_many_choices(s->frontier, error);
     if (s->keeping) {
-        const tn_frontier_way way = {(uint32_t)(s->outcome - s->frontier->outcomes), after, to->faced,
+        const tn_frontier_way way = {(uint32_t)(s->outcome - s->frontier->outcomes.items), after, to->faced,
                                      times / to->faced};
         return tn_frontier_ways_add(s->frontier, &way, error);
     }
@@ -617,7 +621,7 @@ static tn_status try_outcome(tn_stepping *s, const tn_frontier_choice *choice, u
 {
     tn_frontier *frontier = s->frontier;
     uint32_t after = 0, read;
-    s->outcome = &frontier->outcomes[choice->slice];
+    s->outcome = &frontier->outcomes.items[choice->slice];
     tn_status status = count_tiles(s, error);
     if (status != TN_OK || frontier->sums.found_count == 0)
         return status;
@@ -638,7 +642,7 @@ static tn_status try_outcome(tn_stepping *s, const tn_frontier_choice *choice, u
         status = make_state(s, read, 0, &after, error);
     if (status != TN_OK)
         return status;
-    if (frontier->looking_ahead)
+    if (frontier->compared.looking_ahead)
         note_ahead(s);
     return show(s, &to, after, error);
 }

@@ -561,7 +561,7 @@ static tn_status number_after(tn_frontier *frontier, tn_walking *w, const tn_fro
     ok = ok && tn_key_push(key, count);
     for (uint32_t i = 0; ok && i < w->count; i++)
         ok = tn_push_long(key, (uint64_t)w->pending[i]) && (!w->placed || tn_key_push(key, w->owners[i]));
-    *after = ok ? tn_intern(&frontier->walks, key->data, key->size) : UINT32_MAX;
+    *after = ok ? tn_intern(&frontier->crossed.walks, key->data, key->size) : UINT32_MAX;
     return *after != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
@@ -573,7 +573,7 @@ tn_status tn_frontier_walk_cross(tn_frontier *frontier, uint32_t walk, uint32_t 
                     .inside = c->left != NULL,
                     .placed = tn_frontier_walk_placed(frontier, walk)};
     size_t size = 0;
-    const uint32_t *state = c->left ? tn_interned(&frontier->walks, before, &size) : NULL;
+    const uint32_t *state = c->left ? tn_interned(&frontier->crossed.walks, before, &size) : NULL;
     uint32_t right = c->right ? c->right->count : 0;
     if (c->left)
         begin_left(&w, state, size, c->left->count);
@@ -628,7 +628,7 @@ tn_status tn_frontier_walk_view(const tn_frontier *frontier, uint32_t walk, uint
     tn_walking w = {.frontier = frontier, .walk = walk, .inside = true};
     uint32_t of_node[NODES];
     size_t size;
-    const uint32_t *state = tn_interned(&frontier->walks, before, &size);
+    const uint32_t *state = tn_interned(&frontier->crossed.walks, before, &size);
     begin_left(&w, state, size, left->count);
     for (uint32_t n = 0; n < w.before; n++)
         w.parent[n] = (uint8_t)n;

@@ -187,8 +187,8 @@ static tn_status go_through(tn_facing *f, tn_error *error)
         for (size_t k = 0; status == TN_OK && k < f->slices.left.count; k++) {
             const tn_frontier_choice *slice = &f->slices.left.items[k];
             const tn_frontier_list *outcomes = NULL;
-            tn_going g = {&f->after, frontier->slices[slice->slice].exit, f->one};
-            status = outcomes_of(f->path, &f->left, edge, frontier->slices[slice->slice].entry, &outcomes, error);
+            tn_going g = {&f->after, frontier->slices.items[slice->slice].exit, f->one};
+            status = outcomes_of(f->path, &f->left, edge, frontier->slices.items[slice->slice].entry, &outcomes, error);
             mpz_mul_ui(f->one, f->before.choices[i], slice->times);
             if (status == TN_OK)
                 status = tn_path_step(f->path, f->tray, state, slice->slice, outcomes, go_to, &g, error);
@@ -221,7 +221,7 @@ static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_erro
     for (size_t k = 0; status == TN_OK && k < f->of_tray[next].count; k++) {
         const tn_frontier_choice *slice = &f->of_tray[next].items[k];
         mpz_set_ui(sum->houses, 0);
-        status = outcomes_of(a, &f->right, edge, a->kind.frontier->slices[slice->slice].entry, &outcomes, error);
+        status = outcomes_of(a, &f->right, edge, a->kind.frontier->slices.items[slice->slice].entry, &outcomes, error);
         if (status == TN_OK)
             status = tn_path_step(a, next, state, slice->slice, outcomes, tn_path_add, sum, error);
         mpz_addmul_ui(all, sum->houses, slice->times);

@@ -127,7 +127,7 @@ static void end_tray(tn_coming *c)
 /* The nodes [*first, *end), in order, from which the slice can follow. */
 static void find_nodes(const tn_coming *c, uint32_t slice, uint32_t *first, uint32_t *end)
 {
-    uint32_t group = c->path->stages > 1 ? c->path->kind.frontier->slices[slice].group : 0, low = 0,
+    uint32_t group = c->path->stages > 1 ? c->path->kind.frontier->slices.items[slice].group : 0, low = 0,
              high = nodes_of(c)->count;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
@@ -219,7 +219,7 @@ static size_t end_of(const tn_frontier_furnished_list *slices, size_t first)
 static bool has_functions(const tn_coming *c, uint32_t number, const tn_house *house)
 {
     size_t cells;
-    const uint32_t *functions = tn_interned(&c->path->kind.frontier->functions, number, &cells);
+    const uint32_t *functions = tn_interned(&c->path->kind.frontier->slices.functions, number, &cells);
     bool same = house != NULL;
     for (size_t i = 0; same && i < cells; i++)
         same = house->cells[house->tray_first[c->tray] + i].function == functions[i];
@@ -279,7 +279,7 @@ static tn_status take(tn_coming *c, const tn_frontier_furnished *slices, size_t 
                       tn_path_slices *taken, tn_error *error)
 {
     size_t cells;
-    const uint32_t *functions = tn_interned(&c->path->kind.frontier->functions, slices->functions, &cells);
+    const uint32_t *functions = tn_interned(&c->path->kind.frontier->slices.functions, slices->functions, &cells);
     for (size_t i = 0; i < cells; i++)
         house->cells[house->tray_first[c->tray] + i].function = functions[i];
     taken->items = malloc((count + 1) * sizeof *taken->items);
@@ -296,7 +296,7 @@ static tn_status take(tn_coming *c, const tn_frontier_furnished *slices, size_t 
 static tn_status choose_tray(tn_coming *c, const tn_choosing *choosing, tn_house *house, tn_path_slices *taken,
                              bool *found, tn_error *error)
 {
-    const tn_frontier_furnished_list *slices = &c->path->kind.frontier->furnished[house->trays[c->tray]];
+    const tn_frontier_furnished_list *slices = &c->path->kind.frontier->slices.furnished[house->trays[c->tray]];
     size_t first = 0, end = 0;
     tn_status status = choose(c, choosing, slices, &first, &end, found, error);
     return status == TN_OK && *found ? take(c, slices->items + first, end - first, house, taken, error) : status;

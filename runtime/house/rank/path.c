@@ -69,7 +69,7 @@ tn_status tn_path_find(tn_plan_path *p, const tn_houses *houses, const tn_houses
     *p = (tn_plan_path){.view = *houses, .kind = {.frontier = kind->frontier}, .length = length};
     p->view.only = trays;
     p->view.low = p->view.high = length;
-    p->view.whole_steps = kind->frontier->slice_keys.count < houses->many_slices;
+    p->view.whole_steps = kind->frontier->slices.keys.count < houses->many_slices;
     p->stages = tn_houses_stages(&p->view, &p->kind);
     tn_status status = tn_frontier_ways_want(kind->frontier, error);
     if (status == TN_OK)

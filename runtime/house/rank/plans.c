@@ -164,7 +164,7 @@ static tn_status walk_begin(tn_houses *h, uint32_t length, tn_plan_walk *w, tn_e
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
         tn_houses_front *front = &w->fronts[i];
         front->staged =
-            tn_houses_stages(h, &h->kinds[i]) > 1 && h->kinds[i].frontier->slice_keys.count >= h->many_slices;
+            tn_houses_stages(h, &h->kinds[i]) > 1 && h->kinds[i].frontier->slices.keys.count >= h->many_slices;
         status = front->staged ? tn_plan_along_begin(h, &h->kinds[i], &front->along, error)
                                : add_state(front, TN_FRONTIER_NONE, w->one, 1, error);
     }
@@ -199,7 +199,7 @@ static tn_status go_on_by(tn_plan_walk *w, const tn_houses_kind *kind, uint32_t 
                           tn_error *error)
 {
     const tn_houses *h = w->houses;
-    const tn_frontier_list *list = &kind->frontier->of_tray[tray];
+    const tn_frontier_list *list = &kind->frontier->slices.of_tray[tray];
     tn_summing_up s = {.walk = w, .next = &kind->layers[(w->layer + 1) * tn_houses_stages(h, kind)]};
     tn_house_gain gain;
     mpz_set_ui(houses, 0);
@@ -317,7 +317,7 @@ static tn_status go_on(tn_plan_walk *w, tn_tray tray, tn_error *error)
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < w->houses->kind_count; i++) {
         tn_frontier *frontier = w->houses->kinds[i].frontier;
-        const tn_frontier_list *list = &frontier->of_tray[tray];
+        const tn_frontier_list *list = &frontier->slices.of_tray[tray];
         tn_houses_front next = {0};
         if (w->fronts[i].staged) {
             tn_plan_along_take(&w->fronts[i].along, tray);

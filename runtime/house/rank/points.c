@@ -195,7 +195,7 @@ static tn_status seek_tray(tn_seeking *s, uint32_t layer, const tn_leads *marks,
         return tn_fail_memory(error);
     s->trays[layer] = tray;
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
-        const tn_frontier_list *list = &h->kinds[i].frontier->of_tray[tray];
+        const tn_frontier_list *list = &h->kinds[i].frontier->slices.of_tray[tray];
         for (size_t k = 0; status == TN_OK && k < list->count; k++)
             status = advance(s, &h->kinds[i], layer, &marks[i], list->items[k].slice, &next[i], error);
         any = any || next[i].count > 0;

@@ -104,7 +104,7 @@ static tn_status add_node(void *context, uint32_t state, uint64_t times, uint64_
 
 static tn_status find_nodes(tn_plan_path *p, uint32_t tray, tn_error *error)
 {
-    const tn_frontier_list *slices = &p->kind.frontier->of_tray[p->view.only[tray]];
+    const tn_frontier_list *slices = &p->kind.frontier->slices.of_tray[p->view.only[tray]];
     tn_houses_layer *after = &p->kind.layers[tray + 1];
     tn_status status = tn_watch_check(p->kind.frontier->watch, error);
     for (uint32_t i = 0; status == TN_OK && i < p->kind.layers[tray].nodes.count; i++)
@@ -120,7 +120,7 @@ static tn_status count_ahead(tn_plan_path *p, uint32_t trays, uint32_t node, tn_
 {
     uint32_t state = tn_path_state(p, trays, node);
     if (trays < p->length) {
-        const tn_frontier_list *slices = &p->kind.frontier->of_tray[p->view.only[trays]];
+        const tn_frontier_list *slices = &p->kind.frontier->slices.of_tray[p->view.only[trays]];
         return tn_path_count_on(p, trays, state, slices->items, slices->count, sum, ahead, error);
     }
     mpz_set_ui(sum->houses, 0);
