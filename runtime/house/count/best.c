@@ -1,5 +1,4 @@
 /* Finds the best values of a library's houses: for each node, the values that what follows can add. */
-#include "runtime/house/count/best.h"
 
 #include <stdlib.h>
 

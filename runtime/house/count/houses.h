@@ -39,7 +39,8 @@ tn_status tn_houses_check_walls(const tn_house_form *form, const tn_house_librar
 typedef enum tn_houses_aim { TN_HOUSES_SPREAD, TN_HOUSES_LEAST, TN_HOUSES_FRONT, TN_HOUSES_COMPLETE } tn_houses_aim;
 
 /* The houses on one plan of the library (only, of that length; NULL: on all), and the measures that they are counted
- * by (NULL: none). Both are borrowed. With measures only what they are for may be asked: tn_houses_spread, or best.h.
+ * by (NULL: none). Both are borrowed. With measures only what they are for may be asked: tn_houses_spread, or
+ * tn_houses_points.
  */
 typedef struct tn_houses_what {
     const tn_tray *only;
@@ -83,5 +84,14 @@ tn_status tn_houses_project(tn_houses *houses, tn_houses_projected *counts, tn_e
 
 /* States of all sections. */
 uint64_t tn_houses_states(const tn_houses *houses);
+
+/* ---- the best houses by measures: the values that were aimed at. The houses that have them: rank/rank.h */
+
+/* How many values there are: of houses by measures, made with an aim of TN_HOUSES_LEAST or TN_HOUSES_FRONT. */
+size_t tn_houses_points(const tn_houses *houses);
+
+/* Value `point`, in steps of each measure, and how many houses have it. The values are in order, the best first; by
+ * TN_HOUSES_LEAST so many that the wanted number of houses has one of them, if there are so many houses. */
+void tn_houses_point(const tn_houses *houses, size_t point, int64_t *values, mpz_t count);
 
 #endif

@@ -391,7 +391,7 @@ tn_status tn_frontier_first_total(tn_frontier *frontier, uint32_t *total, tn_err
     return status == TN_OK ? number_totals(frontier, totals, total, error) : status;
 }
 
-/* Below and above all that can be added up (are_small in runtime/house/count/units.c). */
+/* Below and above all that can be added up (are_small in runtime/house/count/added.c). */
 #define SURELY_BELOW (-((tn_int128)1 << 126))
 #define SURELY_ABOVE ((tn_int128)1 << 126)
 

@@ -24,7 +24,7 @@ typedef struct tn_path_states {
     mpz_t *here, *like;
 } tn_path_states;
 
-/* Houses of one value are looked for, on a plan of a library whose values are known (best.h). All is borrowed. */
+/* Houses of one value are looked for, on a plan of a library whose values are known (houses.h). All is borrowed. */
 typedef struct tn_path_aim {
     const tn_houses *houses;
     const tn_houses_kind *kind;

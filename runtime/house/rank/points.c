@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/count/best.h"
 #include "runtime/house/rank/path.h"
 
 /* States that the row so far leads to, each with a value, from which the wanted value is reached. */
