@@ -1,10 +1,100 @@
-/* Keeps the answers of clauses by the classes of functions that they can tell apart. */
-#include "runtime/house/variant/memo.h"
-
+/* What clauses ask of the houses on one plan: how much of a house has to be known for it, answers that are kept, and
+ * which faces they can tell apart. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/house/rule/outcome.h"
+#include "runtime/house/variant/parts.h"
+#include "runtime/module/code.h"
+
+/* ==== when a clause can be asked */
+
+static tn_clause_stage later(tn_clause_stage a, tn_clause_stage b)
+{
+    return a > b ? a : b;
+}
+
+static tn_clause_stage of_sum(const tn_module *module, uint32_t index, const tn_clause_stage *known)
+{
+    const tn_sum_record *sum = &module->SUM_records[index];
+    tn_clause_stage stage = TN_STAGE_SECTION;
+    for (uint32_t i = 0; i < sum->term_count; i++)
+        stage = later(stage, known[module->TERM_records[sum->term_first + i].part]);
+    return stage;
+}
+
+static tn_clause_stage of_house_sum(const tn_module *module, uint32_t index, const tn_clause_stage *known)
+{
+    const tn_house_sum_record *sum = &module->HOUSE_SUM_records[index];
+    tn_clause_stage stage = of_sum(module, sum->sum, known);
+    for (uint32_t i = 0; i < sum->term_count; i++) {
+        const tn_house_term_record *term = &module->HOUSE_TERM_records[sum->term_first + i];
+        stage = later(stage, term->kind == TN_HOUSE_COST    ? TN_STAGE_TILES
+                             : term->kind == TN_HOUSE_ROOMS ? TN_STAGE_FACES
+                                                            : known[term->part]);
+    }
+    return stage;
+}
+
+/* The latest of the functions that an instruction names; they are lower, and so known. */
+static tn_clause_stage of_operands(const tn_module *module, const tn_instruction *op, const tn_clause_stage *known)
+{
+    switch (tn_code_operands((uint8_t)op->opcode)) {
+    case TN_OPERANDS_FUNC:
+    case TN_OPERANDS_DECISION:
+    case TN_OPERANDS_DECISION_COND:
+        return known[op->first];
+    case TN_OPERANDS_SUMMED:
+        return of_sum(module, (uint32_t)op->first, known);
+    case TN_OPERANDS_HOUSE_SUMMED:
+        return of_house_sum(module, (uint32_t)op->first, known);
+    default:
+        return TN_STAGE_SECTION;
+    }
+}
+
+static tn_clause_stage of_instruction(const tn_module *module, const tn_instruction *op, const tn_clause_stage *known)
+{
+    switch (op->opcode) {
+    case TN_OP_SOME_ROOM:
+    case TN_OP_ROOMS:
+    case TN_OP_MEETS:
+    case TN_OP_APART:
+        return TN_STAGE_FACES;
+    case TN_OP_IS_FOR:
+        return TN_STAGE_FUNCTIONS;
+    default:
+        return of_operands(module, op, known);
+    }
+}
+
+tn_status tn_clause_stages(const tn_house_form *form, const tn_house_library_record *library, tn_clause_stage *stages,
+                           tn_error *error)
+{
+    const tn_module *module = form->module;
+    tn_clause_stage *known = calloc(module->FUNCTION_count + 1, sizeof *known);
+    if (!known)
+        return tn_fail_memory(error);
+    for (size_t f = 0; f < module->FUNCTION_count; f++) {
+        const tn_function_record *function = &module->FUNCTION_records[f];
+        tn_code_kind code = tn_function_kinds[function->kind].code;
+        for (uint32_t at = function->code_begin;
+             (code == TN_CODE_RULE || code == TN_CODE_HOUSE) && at < function->code_end;) {
+            tn_instruction op = tn_code_read(module->code, at);
+            known[f] = later(known[f], of_instruction(module, &op, known));
+            at += op.length;
+        }
+    }
+    for (uint32_t i = 0; i < library->clause_count; i++)
+        stages[i] = known[module->HOUSE_CLAUSE_records[library->clause_first + i].holds];
+    free(known);
+    return TN_OK;
+}
+
+/* ==== answers to functions
+ *
+ * Keeps the answers of clauses by the classes of functions that they can tell apart. */
 
 enum { QUESTIONS_MAX = 64 }; /* the bits of what they say of a function */
 
@@ -196,4 +286,73 @@ uint8_t *tn_memo_answer(const tn_house_variants *v, uint32_t clause)
 size_t tn_memo_end(const tn_house_variants *v, uint32_t clause)
 {
     return v->memos[clause].end;
+}
+
+/* ==== faces
+ *
+ * Finds the faces whose kinds clauses can tell apart, by deciding on rooms of which only one cell is known. */
+
+void tn_room_questions_clear(tn_room_questions *questions)
+{
+    free(questions->functions);
+    *questions = (tn_room_questions){0};
+}
+
+static bool asks_for_faces(const tn_module *module, uint32_t function)
+{
+    const tn_function_record *f = &module->FUNCTION_records[function];
+    for (uint32_t at = f->code_begin; at < f->code_end;) {
+        tn_instruction op = tn_code_read(module->code, at);
+        if (op.opcode == TN_OP_HAS_FACE || op.opcode == TN_OP_ROOM_GLAZING)
+            return true;
+        at += op.length;
+    }
+    return false;
+}
+
+tn_status tn_room_questions_find(const tn_module *module, tn_room_questions *questions, tn_error *error)
+{
+    *questions = (tn_room_questions){.functions = malloc((module->FUNCTION_count + 1) * sizeof(uint32_t))};
+    if (!questions->functions)
+        return tn_fail_memory(error);
+    for (uint32_t f = 0; f < module->FUNCTION_count; f++)
+        if (module->FUNCTION_records[f].kind == TN_FUNCTION_ROOM && asks_for_faces(module, f))
+            questions->functions[questions->count++] = f;
+    return TN_OK;
+}
+
+typedef struct tn_known_cell {
+    const tn_house *house;
+    const tn_cell *cell;
+} tn_known_cell;
+
+/* Of a room that has this cell, and perhaps others. */
+static tn_outcome ask(const void *context, const tn_instruction *op)
+{
+    const tn_known_cell *known = context;
+    if (op->opcode == TN_OP_EVERY)
+        return TN_OUTCOME_TRUE;
+    if (op->opcode == TN_OP_ALL_CELLS && !tn_house_decide(known->house, (uint32_t)op->first, known->cell))
+        return TN_OUTCOME_FALSE;
+    return TN_OUTCOME_OPEN;
+}
+
+/* A void has no function: it belongs to the room of the first cell below it that is none. */
+static const tn_cell *floor_below(const tn_cell *cell)
+{
+    while (cell->open) /* the cells of a stack follow one another upwards, and the lowest is no void */
+        cell--;
+    return cell;
+}
+
+bool tn_face_relevant(const tn_house *house, const tn_room_questions *questions, const tn_face *face)
+{
+    if (face->relation != TN_FACE_OUTSIDE)
+        return true;
+    const tn_cell *cell = floor_below(&house->cells[face->first]);
+    tn_known_cell known = {house, cell};
+    for (size_t i = 0; i < questions->count; i++)
+        if (tn_outcome_decide(house->form->module, questions->functions[i], ask, &known) == TN_OUTCOME_OPEN)
+            return true;
+    return false;
 }
