@@ -614,6 +614,37 @@ static void check_walled(const char *clause)
     test_house_clear(&made);
 }
 
+/* The example that the head of frontier.h counts by hand: so many houses, by three states. */
+static void test_by_hand(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "schema row {\n  bay role length = 3m\n  zone house = room(4m)\n}\nform two of row {\n"
+        "  storey floor 3m\n  wall 300mm\n  partition 100mm\n  deck 300mm\n  roof 200mm\n"
+        "  function living at cell(house)\n  function store at cell(house)\n"
+        "  opening door wide 1m high 2m passage\n  face cell(any) beside cell(any) = door | wall\n}\n"
+        "library rows using row { trays 1..3 }\nlibrary all from rows in two { }\nlibrary some from rows in two {\n"
+        "  prune apart(cell(store), from cell(living), through cell(any), by door)\n}\n";
+    static const unsigned long by_hand[] = {1, 4, 14};
+    test_house made;
+    tn_houses *houses;
+    tn_error error = {0};
+    mpz_t count;
+    mpz_init(count);
+    test_house_compile(&made, text);
+    tn_library *plans = plans_of(&made, made.some);
+    assert_int_equal(tn_houses_new(&made.form, made.some, plans, 0, &houses, &error), TN_OK);
+    for (uint32_t length = 1; length <= 3; length++) {
+        tn_houses_count(houses, length, count);
+        assert_int_equal(mpz_get_ui(count), by_hand[length - 1]);
+    }
+    assert_int_equal(houses->kinds[0].frontier->states.count, 3);
+    tn_houses_free(houses);
+    tn_library_free(plans);
+    test_house_clear(&made);
+    mpz_clear(count);
+}
+
 /* A wrong count is noticed where houses are counted once more. */
 static void test_recount(void **state)
 {
@@ -692,6 +723,6 @@ int main(void)
         cmocka_unit_test(test_written),        cmocka_unit_test(test_drawn),  cmocka_unit_test(test_compared),
         cmocka_unit_test(test_compared_costs), cmocka_unit_test(test_placed), cmocka_unit_test(test_placed_limit),
         cmocka_unit_test(test_places),         cmocka_unit_test(test_walled), cmocka_unit_test(test_recount),
-        cmocka_unit_test(test_mirror),         cmocka_unit_test(test_limit)};
+        cmocka_unit_test(test_mirror),         cmocka_unit_test(test_limit),  cmocka_unit_test(test_by_hand)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
