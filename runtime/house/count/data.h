@@ -21,7 +21,7 @@ typedef struct tn_value_counts {
 
 void tn_value_counts_clear(tn_value_counts *counts);
 
-/* counts += times, at the value. False where out of memory. */
+/* counts += times, at the value. False: out of memory. */
 bool tn_value_counts_add(tn_value_counts *counts, const tn_house_gain *value, const mpz_t times);
 bool tn_value_counts_has(const tn_value_counts *counts, const tn_house_gain *value);
 
@@ -30,7 +30,7 @@ bool tn_value_counts_has(const tn_value_counts *counts, const tn_house_gain *val
 void tn_value_counts_keep_least(tn_value_counts *counts, uint64_t wanted);
 void tn_value_counts_keep_front(tn_value_counts *counts);
 
-/* to += each value of `from`, more by `gain`, so many times. False where out of memory. */
+/* to += each value of `from`, more by `gain`, so many times. False: out of memory. */
 bool tn_value_counts_add_shifted(tn_value_counts *to, const tn_value_counts *from, const tn_house_gain *gain,
                                  const mpz_t times);
 int tn_house_gain_compare(const tn_house_gain *a, const tn_house_gain *b);
@@ -42,7 +42,7 @@ typedef struct tn_houses_plan_layer {
     uint32_t *alike; /* [states]: the first from which the same goes on */
 } tn_houses_plan_layer;
 
-/* Steps that counting went to the next layer, in how many ways; `all`: none is left out. slice: 0 where none is taken.
+/* Steps that counting went to the next layer, in how many ways; `all`: none is left out. slice: 0 if none is taken.
  */
 typedef struct tn_kept_step {
     uint32_t from, to, slice;
@@ -70,7 +70,7 @@ typedef struct tn_houses_way {
     uint32_t slice, entry, group, plan; /* entry, group: of the slice */
     uint64_t times;
     tn_house_gain gain; /* what the tray adds to the plan's part of the measures */
-    tn_tray tray;       /* 0 where it does not matter which one it is */
+    tn_tray tray;       /* 0 if it does not matter which one it is */
 } tn_houses_way;
 
 /* The sections that nothing tells apart. */
@@ -116,25 +116,25 @@ struct tn_houses {
     tn_value_counts best; /* of all houses, as far as they are aimed at */
 };
 
-/* The kind that a section is of, NULL where no such is known. */
+/* The kind that a section is of, NULL if no such is known. */
 tn_houses_kind *tn_houses_kind_of(const tn_houses *houses, const tn_house *section);
 
-/* Layers from one tray to the next: 4, or 1 where a step is not divided, as something is added up on the way, trays
+/* Layers from one tray to the next: 4, or 1 if a step is not divided, as something is added up on the way, trays
  * matter, or steps are few. Layers that are multiples of it are of states after trays. */
 static inline uint32_t tn_houses_stages(const tn_houses *houses, const tn_houses_kind *kind)
 {
     return tn_frontier_has_stages(kind->frontier) && !houses->trays_matter && !houses->whole_steps ? 4 : 1;
 }
 
-/* TN_LIMIT (E1640) where more can stand between two trays than the limit of states allows. */
+/* TN_LIMIT (E1640) if more can stand between two trays than the limit of states allows. */
 tn_status tn_houses_check_interfaces(const tn_houses *houses, const tn_houses_kind *kind, tn_error *error);
 
 /* A step from a node: `from` among those of the layer. */
 typedef struct tn_houses_edge {
-    uint32_t from, plan, state, slice; /* slice: 0 where none is taken */
+    uint32_t from, plan, state, slice; /* slice: 0 if none is taken */
     uint64_t ways, times, faced;       /* ways: of trays and slices; times: of what is at the interface, and tiles */
     tn_house_gain gain;                /* what it adds to the measures */
-    tn_tray tray;                      /* 0 where it does not matter */
+    tn_tray tray;                      /* 0 if it does not matter */
 } tn_houses_edge;
 typedef tn_status tn_houses_edge_seen(void *context, const tn_houses_edge *edge, tn_error *error);
 
@@ -143,7 +143,7 @@ typedef tn_status tn_houses_edge_seen(void *context, const tn_houses_edge *edge,
 tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end,
                            tn_houses_edge_seen *seen, void *context, tn_error *error);
 
-/* Keeps a step of a layer that counting goes, since ranks go the same ones backwards. Where there are too many, those
+/* Keeps a step of a layer that counting goes, since ranks go the same ones backwards. If there are too many, those
  * of the layer are forgotten. */
 tn_status tn_houses_keep_step(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, uint32_t to,
                               const tn_houses_edge *edge, tn_error *error);
@@ -169,7 +169,7 @@ tn_house_gain tn_houses_plan_rest(const tn_houses *houses, uint32_t plan); /* wh
 tn_status tn_houses_expand_from(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, mpz_t *here,
                                 tn_houses_edge_seen *seen, void *context, tn_error *error);
 
-/* Finds what is added up (added.c). TN_LIMIT (E1640) where a clause compares what cannot be. */
+/* Finds what is added up (added.c). TN_LIMIT (E1640) if a clause compares what cannot be. */
 tn_status tn_houses_find_added(tn_houses *houses, tn_error *error);
 void tn_houses_added_clear(tn_houses *houses);
 
@@ -185,7 +185,7 @@ int64_t tn_houses_shown(const tn_houses *houses, uint32_t measure, tn_int128 val
 /* Counts the houses of one section by the values of the measure. */
 tn_status tn_houses_spread_kind(const tn_houses *houses, tn_houses_kind *kind, tn_error *error);
 
-/* Houses of these values are looked for. rules: NULL where a house's functions say that it has them. */
+/* Houses of these values are looked for. rules: NULL if a house's functions say that it has them. */
 typedef struct tn_houses_wanted {
     const tn_houses *houses;
     tn_house_rules *rules;

@@ -260,7 +260,7 @@ static bool is_doubtful(const tn_houses_kind *kind, const tn_frontier_trays *tra
     return kind->frontier->prices.asked && tn_frontier_prices_check(kind->frontier, trays->stand, &error) != TN_OK;
 }
 
-/* The doubtful ones first: where they are an error, that is said before all others are gone through. */
+/* The doubtful ones first: if they are an error, that is said before all others are gone through. */
 static tn_status scout_kinds(const tn_houses *h, const tn_frontier_trays *trays, tn_error *error)
 {
     tn_status status = TN_OK;

@@ -65,7 +65,7 @@ tn_status tn_houses_complete(tn_houses *houses, const tn_open_plan *open, tn_com
 void tn_houses_count(const tn_houses *houses, uint32_t length, mpz_t count);
 void tn_houses_faced(const tn_houses *houses, mpz_t faced);
 
-/* Is the latter known? It is not where clauses compare what tiles add to: sums of tiles are counted one by one then. */
+/* Is the latter known? It is not if clauses compare what tiles add to: sums of tiles are counted one by one then. */
 bool tn_houses_faced_known(const tn_houses *houses);
 
 /* How many have a section (a value for each choice of the form). */
@@ -78,7 +78,7 @@ typedef struct tn_houses_projected {
 void tn_houses_projected_init(tn_houses_projected *counts);
 void tn_houses_projected_clear(tn_houses_projected *counts);
 
-/* Counts them, without measures; counts: of 0. TN_LIMIT (E1640) where it takes too many steps: choices that lead to one
+/* Counts them, without measures; counts: of 0. TN_LIMIT (E1640) if it takes too many steps: choices that lead to one
  * plan have to be followed together. */
 tn_status tn_houses_project(tn_houses *houses, tn_houses_projected *counts, tn_error *error);
 

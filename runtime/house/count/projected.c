@@ -17,7 +17,7 @@ enum { CLASS_ENDS, CLASS_ON };
 enum { ON_PLAN, ON_SLICE, ON_CLASS, ON_WORDS };
 enum { CLASS_DEAD }; /* nothing goes on from there */
 
-/* A way on from a node. Where no slice is taken, plan and slice are 0. */
+/* A way on from a node. If no slice is taken, plan and slice are 0. */
 typedef struct tn_way_on {
     uint32_t words[ON_WORDS];
 } tn_way_on;
@@ -222,7 +222,7 @@ static tn_status number_set(tn_projecting *p, tn_projected_kind *of, uint32_t *s
 /* of->first := the set of the node before the first tray. */
 static tn_status begin_sets(tn_projecting *p, tn_projected_kind *of, tn_error *error)
 {
-    uint32_t class;
+    uint32_t class = CLASS_DEAD;
     tn_status status = find_classes(p, of, &class, error);
     if (status != TN_OK)
         return status;
@@ -242,7 +242,7 @@ static bool ends(const tn_projected_kind *of, uint32_t set)
     return false;
 }
 
-/* set := the set of all that its classes go on to, where they do so without a slice. */
+/* set := the set of all that its classes go on to, if they do so without a slice. */
 static tn_status go_on(tn_projecting *p, tn_projected_kind *of, uint32_t *set, tn_error *error)
 {
     size_t count, size;

@@ -63,7 +63,7 @@ static tn_status find_left(const tn_houses_wanted *wanted, const tn_house *house
 
 /* ---- tiles */
 
-/* cost: [cells], steps of each tile that fits; NULL where all cost nothing. sums: [cells + 1] what the tiles from the
+/* cost: [cells], steps of each tile that fits; NULL if all cost nothing. sums: [cells + 1] what the tiles from the
  * cell on can add up to, ascending. */
 typedef struct tn_furnishing {
     tn_house *house;

@@ -408,7 +408,7 @@ static tn_status lower_clause(tn_frontier *frontier, tn_frontier_clause *clause,
     return status;
 }
 
-/* With one slot each, where the automaton with more of them is too large. */
+/* With one slot each, if the automaton with more of them is too large. */
 static tn_status lower_in_limits(tn_frontier *frontier, tn_frontier_clause *clause, const char *name, tn_error *error)
 {
     tn_error own;
@@ -516,7 +516,7 @@ static uint64_t radix_of(const tn_frontier_atom *atom)
     return radix;
 }
 
-/* Of the clause, up to where it is too much. */
+/* Of the clause, as far as these are not too many. */
 static uint64_t clause_radix(tn_frontier_clause *clause)
 {
     uint64_t radix = 1;
@@ -643,7 +643,7 @@ static bool step_room(void *context, const uint32_t *key, size_t size, uint32_t 
     return read != 0 ? go(next, WITHIN, read) : go(next, NOWHERE, 0);
 }
 
-/* ---- ROOMS: {phase, number, a word for each slot: 1 where it began in the stretch} */
+/* ---- ROOMS: {phase, number, a word for each slot: 1 if it began in the stretch} */
 
 static uint32_t add_up(const tn_periodic_set *set, uint32_t number, uint32_t more)
 {

@@ -179,8 +179,7 @@ tn_status tn_frontier_fit(tn_frontier *frontier, uint32_t base, uint32_t left, u
 
 /* ==== sums
  *
- * Sums of the tiles of a tray: how many arrangements cost how much. Where tiles have no prices that is one
- * number. */
+ * Sums of the tiles of a tray: how many arrangements cost how much. If tiles have no prices, that is one number. */
 
 /* ---- sums at hand: of the tiles so far */
 
@@ -256,7 +255,7 @@ static tn_status begin(tn_frontier *frontier, tn_error *error)
     return TN_OK;
 }
 
-/* The tiles of the left slice: no sum where one of its cells has none. */
+/* The tiles of the left slice: no sum if one of its cells has none. */
 static tn_status multiply(tn_frontier *frontier, uint32_t pending, uint32_t sides, tn_error *error)
 {
     size_t count, cells;
@@ -368,7 +367,7 @@ void tn_frontier_sums_clear(tn_frontier_sums *sums)
  * stands in each interface between two trays, which is the difference to that.
  *
  * Such parts know all that there is as long as nothing reaches over a whole tray: what a wall, a deck or a roof is at a
- * interface depends on the trays at both of its sides alone. Where that is not so, costs are not counted (E1685). */
+ * interface depends on the trays at both of its sides alone. If that is not so, costs are not counted (E1685). */
 
 /* ---- which costs can be counted so */
 

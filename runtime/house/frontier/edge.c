@@ -5,9 +5,9 @@
  * Cells of which lines of faces say the same at an interface, whatever can stand beside them, are of one class.
  *
  * A cell is described by its storey, its function and the lines that speak of it. Two descriptions can meet at an
- * interface where trays with such cells can follow one another in a plan of the library. For each of a description's
+ * interface if trays with such cells can follow one another in a plan of the library. For each of a description's
  * partners the lines are listed that apply, up to the first that always has a kind that fits: the others are never
- * asked. So where two houses of a row are parted by a party wall, whatever stands beyond it, all cells beside that wall
+ * asked. So if two houses of a row are parted by a party wall, whatever stands beyond it, all cells beside that wall
  * are of one class. */
 #include <stdlib.h>
 #include <string.h>
@@ -206,7 +206,7 @@ static void reach_kind(const tn_frontier *frontier, uint32_t kind, tn_reached_ov
         reach->meetings |= (uint64_t)tn_meeting_has(module, &module->MEETING_records[q->meetings[m]], kind) << m;
 }
 
-/* The kinds of the lines in a list of push_lines; a wall, too, which stands where none of them fits. */
+/* The kinds of the lines in a list of push_lines; a wall, too, which stands if none of them fits. */
 static void reach_lines(const tn_frontier *frontier, const uint32_t *lines, const uint32_t *end, tn_reached_over over,
                         tn_frontier_reach *reach)
 {

@@ -12,7 +12,7 @@
 #include "runtime/house/rule/asked.h"
 
 /* Words of what comes of a part: the meetings (two words), the number of steps and STEP_WORDS for each, then for each
- * cell of its storeys its place and SIDE_WORDS; then, where costs are asked for, the number of the interface's. */
+ * cell of its storeys its place and SIDE_WORDS; then, if costs are asked for, the number of the interface's. */
 enum { PART_MEETINGS, PART_STEPS = PART_MEETINGS + 2 };
 
 /* What comes of its faces, of `parts`, and of how many choices. */
@@ -47,7 +47,7 @@ typedef struct tn_interface_house {
     tn_key words; /* scratch */
     tn_numbering found;
     tn_frontier_list *list;
-    tn_frontier_ordered *ordered; /* where these are wanted, and no list */
+    tn_frontier_ordered *ordered; /* if these are wanted, and no list */
 } tn_interface_house;
 
 static bool part_has(const tn_interface_part *part, uint32_t storey)
@@ -581,7 +581,7 @@ static tn_status add_choices(tn_interface_house *c, tn_interface_part *part, tn_
     return status;
 }
 
-/* Storeys are parts of their own. Not where choices are wanted in their order, nor where costs are asked for, which are
+/* Storeys are parts of their own. Not if choices are wanted in their order, nor if costs are asked for, which are
  * of the interface as a whole. */
 static tn_status find_parts(tn_interface_house *c, tn_error *error)
 {

@@ -105,7 +105,7 @@ typedef struct tn_frontier_questions {
     size_t open_room;
 } tn_frontier_questions;
 
-/* Finds them. TN_LIMIT (E1640) where there are too many, or one that is not known here, with the clause. */
+/* Finds them. TN_LIMIT (E1640) if there are too many, or one that is not known here, with the clause. */
 tn_status tn_frontier_ask(tn_frontier *frontier, tn_error *error);
 
 static inline bool tn_answers(const uint64_t *answers, size_t decision)
@@ -252,7 +252,7 @@ tn_status tn_frontier_empty_meets(tn_frontier *frontier, const tn_instruction *o
  * what each slot says. Walks: where the tray's own sources go, and what each slot says of those of trays before it. */
 enum { SEEN_FIRST, SEEN_SLOTS, SEEN_WORDS = SEEN_SLOTS + TN_FRONTIER_SLOTS_MAX };
 
-/* The first word where more is to be told apart than there are slots: nothing follows from such a tray. */
+/* The first word if more is to be told apart than there are slots: nothing follows from such a tray. */
 #define SEEN_TOO_MANY UINT32_MAX
 
 /* Of a slot of rooms, which have one beginning. ENDS: one of them that is so ends here; then two, and so on. */

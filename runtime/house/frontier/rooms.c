@@ -434,8 +434,8 @@ static void begin_left(tn_joining *j, const tn_frontier_crossing *c, const uint3
     }
 }
 
-/* Rooms that are nothing that is asked for become one: what is joined to one of them is nothing of that, either. Not
- * where it is asked where rooms are: then each begins somewhere. */
+/* Rooms that are nothing that is asked for become one: what is joined to one of them is nothing of that, either. Not if
+ * it is asked where rooms are: then each begins somewhere. */
 static void settle_all(const tn_frontier *frontier, tn_joining *j, uint32_t cells)
 {
     uint64_t all = all_questions(frontier);

@@ -11,7 +11,7 @@ typedef struct tn_cutting {
     tn_inside inside;
     tn_numbering found, furnished;
     tn_frontier_list *list;
-    tn_frontier_ordered *ordered; /* where these are wanted, and no list */
+    tn_frontier_ordered *ordered; /* if these are wanted, and no list */
     uint64_t tried;
     tn_frontier_cut *cells; /* [cells][functions + 1], as far as they are met; last: voids */
     uint64_t *answers;      /* of these */
@@ -175,7 +175,7 @@ static tn_status add_furnished(tn_cutting *c, uint32_t slice, uint64_t times, tn
     return __builtin_add_overflow(list->items[at].times, times, &list->items[at].times) ? too_many(c, error) : TN_OK;
 }
 
-/* What the tray adds to each number that is added up: two words each; last, where costs are asked for, their number. */
+/* What the tray adds to each number that is added up: two words each; last, if costs are asked for, their number. */
 static tn_status push_gains(const tn_cutting *c, uint32_t cost, tn_key *key, tn_error *error)
 {
     tn_frontier *s = c->inside.frontier;

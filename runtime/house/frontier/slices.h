@@ -87,7 +87,7 @@ typedef struct tn_frontier_edge {
     uint32_t count; /* cells */
     tn_frontier_cell *cells;
     uint64_t *answers; /* [count][answer_words] of the decisions */
-    uint32_t asked;    /* which cells are open, the answers, and where rooms are placed, which cells have one function,
+    uint32_t asked;    /* which cells are open, the answers, and if rooms are placed, which cells have one function,
                           by number: all that rooms and walks know of the edge */
     uint32_t *inner;
     size_t inner_count;
@@ -103,7 +103,7 @@ typedef struct tn_frontier_edges {
     tn_frontier_borders borders;
 } tn_frontier_edges;
 
-/* The edge at the left or the right of the tray. cost: where costs are asked for, the number of the tray's. */
+/* The edge at the left or the right of the tray. cost: if costs are asked for, the number of the tray's. */
 tn_status tn_frontier_find_edge(const tn_inside *inside, tn_frontier_role_at role, uint32_t cost, uint32_t *edge,
                                 tn_error *error);
 
@@ -153,7 +153,7 @@ typedef struct tn_frontier_furnished_list {
 
 /* Words of a slice's key: its edges at the left and at the right, then CELL_WORDS for each cell, then the number of its
  * steps and STEP_WORDS for each, then the base of each clause; then two words for each measure of what its cells add to
- * it; then, where costs are asked for, the number of the tray's. */
+ * it; then, if costs are asked for, the number of the tray's. */
 enum { SLICE_ENTRY, SLICE_EXIT, SLICE_CELLS };
 enum {
     CELL_TILE,
@@ -179,7 +179,7 @@ typedef struct tn_frontier_slice {
     uint32_t met;                /* the same, but of its edge only what is asked: of `mets` */
     uint32_t plain;              /* the first slice that can differ from it only in tiles and what is added up */
     uint32_t group;              /* its entry, what is met in it, its bases: of `groups` */
-    uint32_t cost;               /* where costs are asked for: the number of the tray's */
+    uint32_t cost;               /* if costs are asked for: the number of the tray's */
     int64_t gains[TN_ADDED_MAX]; /* what its cells, and its tray, add to each number that is added up */
 } tn_frontier_slice;
 
@@ -237,7 +237,7 @@ bool tn_frontier_push_walks(const tn_inside *inside, tn_key *key);
 
 /* Words of an outcome's key: the meetings across the interface (two words), the number of steps and STEP_WORDS for
  * each, then SIDE_WORDS for each cell of the left and of the right edge, then the number of cells of the left one;
- * then, where costs are asked for, the number of the interface's. FIT: 0 for a cell without tiles, or 1 and what of the
+ * then, if costs are asked for, the number of the interface's. FIT: 0 for a cell without tiles, or 1 and what of the
  * side matters to them. */
 enum { SIDE_MARKS, SIDE_MARKS_HIGH, SIDE_FIT, SIDE_GLASS, SIDE_WORDS };
 
@@ -246,7 +246,7 @@ typedef struct tn_frontier_outcome {
     uint32_t left_fits, right_fits; /* of `lists` of tiles */
     uint32_t through;               /* what rooms and walks meet at the interface: of `throughs` */
     uint32_t left, right, plain;    /* of `lefts` and `rights` of the stages; plain: as if nothing mattered to tiles */
-    uint32_t cost;                  /* where costs are asked for: the number of the interface's */
+    uint32_t cost;                  /* if costs are asked for: the number of the interface's */
 } tn_frontier_outcome;
 
 typedef struct tn_frontier_interfaces_made {
@@ -290,7 +290,7 @@ bool tn_frontier_joins(const tn_house *house, const tn_face *face);
 /* ---- slices and outcomes in the order of houses: slice.c */
 
 /* Both, without finding again what has been asked for. cells: of the tray. Sequences are borrowed until the next trim,
- * which drops them where they take much. */
+ * which drops them if they take much. */
 tn_status tn_frontier_slices_ordered(tn_frontier *frontier, tn_tray tray, const tn_cell *like, size_t cells,
                                      tn_frontier_sequence *slices, tn_error *error);
 tn_status tn_frontier_outcomes_ordered(tn_frontier *frontier, uint32_t left, uint32_t right, const tn_cell *like,
@@ -322,7 +322,7 @@ tn_status tn_frontier_walk_cross(tn_frontier *frontier, uint32_t walk, uint32_t 
                                  tn_error *error);
 
 /* Appends what an outcome (its words) leaves of the rooms, or of a walk, that were before it: before whatever slice
- * they go on alike with what is equal here. Where nothing asks where they are in the row. */
+ * they go on alike with what is equal here. Only if nothing asks where they are in the row. */
 tn_status tn_frontier_rooms_view(const tn_frontier *frontier, uint32_t before, const tn_frontier_edge *left,
                                  const uint32_t *outcome, tn_key *key, tn_error *error);
 tn_status tn_frontier_walk_view(const tn_frontier *frontier, uint32_t walk, uint32_t before,

@@ -57,7 +57,7 @@ tn_status tn_frontier_fit_base(tn_frontier *frontier, const tn_house *house, uin
 tn_status tn_frontier_fit_side(tn_frontier *frontier, const tn_house *house, uint32_t cell, tn_house_side side,
                                int64_t x, const tn_posts *posts, uint32_t *fit, tn_error *error);
 
-/* How many tiles fit; where they have prices, the number of the list of what they cost, which is 0 where none fits. */
+/* How many tiles fit; if they have prices, the number of the list of what they cost, which is 0 if none fits. */
 tn_status tn_frontier_fit(tn_frontier *frontier, uint32_t base, uint32_t left, uint32_t right, uint32_t *tiles,
                           tn_error *error);
 
@@ -133,7 +133,7 @@ typedef struct tn_frontier_units {
 
 tn_status tn_frontier_prices_begin(tn_frontier *frontier, tn_error *error);
 
-/* trays: of the library. E1685 (TN_LIMIT) where costs that are asked for do not add up in this section. */
+/* trays: of the library. E1685 (TN_LIMIT) if costs that are asked for do not add up in this section. */
 tn_status tn_frontier_prices_check(const tn_frontier *frontier, const bool *trays, tn_error *error);
 void tn_frontier_prices_clear(tn_frontier_prices *prices);
 
@@ -171,7 +171,7 @@ tn_status tn_frontier_list_tiles(tn_frontier *frontier, const tn_house *house, c
  * each walk, then how many rooms have ended and are what each question asks for. */
 enum { CROSSED_VALUES, CROSSED_ROOMS, CROSSED_WALKS };
 
-/* What came of the interfaces that states with the same before them have met. mark: the stamp where that is known. */
+/* What came of the interfaces that states with the same before them have met. mark: the stamp if that is known. */
 typedef struct tn_frontier_row {
     uint32_t *before; /* the words of the states up to the last walk; first TN_FRONTIER_NONE: the row begins */
     uint32_t stamp;
@@ -204,7 +204,7 @@ tn_status tn_frontier_cross_outcome(tn_frontier *frontier, const uint32_t *state
 /* ---- steps: step.c */
 
 /* Calls `seen` for each state after another slice (TN_FRONTIER_NONE: the end, and the state 0), with the number of
- * choices that lead there, that of those that differ in more than tiles, and what the step adds to the measures. Where
+ * choices that lead there, that of those that differ in more than tiles, and what the step adds to the measures. If
  * tiles cost more or less, it is called for each sum, and those that differ in more than tiles come with the first.
  * trays: before the slice; state: TN_FRONTIER_NONE before the first. */
 typedef tn_status tn_frontier_seen(void *context, uint32_t state, uint64_t times, uint64_t faced,

@@ -268,7 +268,7 @@ typedef struct tn_walking {
     uint8_t parent[NODES];
     bool near[NODES];
     tn_uint128 pending[4 * TN_FRONTIER_CELLS_MAX]; /* sets of nodes */
-    uint32_t owners[4 * TN_FRONTIER_CELLS_MAX];    /* of each; 0 where the walk is not placed */
+    uint32_t owners[4 * TN_FRONTIER_CELLS_MAX];    /* of each; 0 if the walk is not placed */
     uint32_t count;
     bool inside; /* the row has begun: a source that is apart may be said at once */
     bool placed;

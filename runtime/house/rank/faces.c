@@ -368,7 +368,7 @@ static void go_on(tn_facing *f)
     f->after = before;
 }
 
-/* The faces are all chosen: *found becomes false where clauses or tiles leave no house with them. */
+/* The faces are all chosen: *found becomes false if clauses or tiles leave no house with them. */
 static tn_status check_left(tn_facing *f, bool *found, tn_error *error)
 {
     mpz_t houses;

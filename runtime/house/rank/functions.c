@@ -28,7 +28,7 @@ static uint32_t node_of(const tn_coming *c, uint32_t i)
     return (uint32_t)nodes_of(c)->keys[c->order[i]];
 }
 
-/* The group that a node leads into; 0 where it leads into all. */
+/* The group that a node leads into; 0 if it leads into all. */
 static uint32_t group_of(const tn_coming *c, uint32_t i)
 {
     return c->path->stages > 1 ? tn_frontier_slice_state_group(c->path->kind.frontier, node_of(c, i)) : 0;

@@ -97,7 +97,7 @@ uint32_t tn_path_node(const tn_plan_path *p, uint32_t trays, uint32_t state)
     return nodes->count > 0 ? tn_number_find(nodes, (nodes->keys[0] >> 32 << 32) | state) : UINT32_MAX;
 }
 
-/* A state in which the row cannot end is no node, where it would be the last. */
+/* A state in which the row cannot end is no node, if it would be the last. */
 tn_status tn_path_add(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
                       tn_error *error)
 {

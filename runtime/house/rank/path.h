@@ -12,7 +12,7 @@ typedef struct tn_choosing {
     const tn_house *wanted; /* or NULL */
 } tn_choosing;
 
-/* Passes over so many houses, unless the house is among them; is_wanted: the wanted house is, where there is one. */
+/* Passes over so many houses, unless the house is among them; is_wanted: the wanted house is, if there is one. */
 bool tn_choosing_passes(const tn_choosing *choosing, const mpz_t houses, bool is_wanted);
 
 /* How many houses go on from each node of the layers, for each length; the nodes are found. */

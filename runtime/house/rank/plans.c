@@ -75,7 +75,7 @@ static tn_status push(void *context, const tn_houses_edge *edge, tn_error *error
     return TN_OK;
 }
 
-/* only: the tray, where the step ends with one. */
+/* only: the tray, if the step ends with one. */
 static tn_status push_on(tn_plan_along *a, const tn_tray *only, tn_error *error)
 {
     const tn_houses_layer *layers = a->kind->layers;
@@ -588,7 +588,7 @@ tn_status tn_houses_find(tn_houses *h, mpz_t rank, tn_tray *trays, uint32_t *len
         tn_error_help(error, "`tartan count` says how many; ranks count from 0");
         return status;
     }
-    tn_houses_count(h, *length, on_plan); /* where there is one plan, or one without trays */
+    tn_houses_count(h, *length, on_plan); /* if there is one plan, or one without trays */
     if (h->only) {
         memcpy(trays, h->only, *length * sizeof *trays);
         return TN_OK;
