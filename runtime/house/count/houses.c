@@ -12,7 +12,7 @@
 /* Adds to an error what helps. */
 static tn_status too_many(const tn_houses_kind *kind, tn_error *error)
 {
-    const char *name = tn_frontier_dearest(kind->frontier);
+    const char *name = tn_frontier_largest(kind->frontier);
     if (name)
         tn_error_help(error, "`%.60s` keeps most apart. Ask about one plan (--plan), or allow more (--max-states N)",
                       name);

@@ -177,6 +177,20 @@ tn_status tn_frontier_fit(tn_frontier *frontier, uint32_t base, uint32_t left, u
     return status;
 }
 
+void tn_frontier_tiles_clear(tn_frontier_tiles *tiles)
+{
+    free(tiles->tiled);
+    tn_interner_clear(&tiles->bases);
+    tn_interner_clear(&tiles->sides);
+    tn_numbering_clear(&tiles->fit_keys[0]);
+    tn_numbering_clear(&tiles->fit_keys[1]);
+    free(tiles->fits);
+    tn_interner_clear(&tiles->lists);
+    tn_interner_clear(&tiles->pending);
+    tn_frontier_known_clear(&tiles->arrangements);
+    tn_frontier_known_clear(&tiles->pending_of);
+}
+
 /* ==== sums
  *
  * Sums of the tiles of a tray: how many arrangements cost how much. If tiles have no prices, that is one number. */

@@ -331,7 +331,7 @@ tn_status tn_frontier_borders_find(tn_frontier *frontier, const tn_frontier_tray
     return status;
 }
 
-void tn_frontier_borders_clear(tn_frontier_borders *borders)
+static void clear_borders(tn_frontier_borders *borders)
 {
     tn_interner_clear(&borders->descriptions);
     for (int role = 0; role < TN_FRONTIER_ROLES; role++) {
@@ -494,4 +494,17 @@ tn_status tn_frontier_find_edge(const tn_inside *in, tn_frontier_role_at role, u
     s->edges.items[*edge].shape = shape;
     s->edges.items[*edge].cost = cost;
     return kept ? TN_OK : tn_fail_memory(error);
+}
+
+void tn_frontier_edges_clear(tn_frontier_edges *edges)
+{
+    for (uint32_t i = 0; i < edges->keys.count; i++) {
+        free(edges->items[i].cells);
+        free(edges->items[i].answers);
+        free(edges->items[i].inner);
+    }
+    tn_interner_clear(&edges->keys);
+    tn_interner_clear(&edges->asked);
+    clear_borders(&edges->borders);
+    free(edges->items);
 }

@@ -654,90 +654,35 @@ tn_status tn_frontier_new(const tn_house_form *form, const tn_house_library_reco
     return status;
 }
 
-static void clear_known(tn_frontier *frontier)
+static void clear_questions(tn_frontier_questions *questions)
 {
-    for (uint32_t k = 0;
-         frontier->reading.after_slice && frontier->reading.after_interface && k <= frontier->trays_most; k++) {
-        tn_frontier_known_clear(&frontier->reading.after_slice[k]);
-        tn_frontier_known_clear(&frontier->reading.after_interface[k]);
-    }
-    free(frontier->reading.after_slice);
-    free(frontier->reading.after_interface);
-    tn_frontier_known_clear(&frontier->tiles.arrangements);
-    tn_frontier_sums_clear(&frontier->sums);
-    tn_frontier_known_clear(&frontier->tiles.pending_of);
-    tn_frontier_known_clear(&frontier->crossed.of_rooms);
-    for (uint32_t w = 0; w < TN_FRONTIER_MEETINGS_MAX; w++)
-        tn_frontier_known_clear(&frontier->crossed.of_walks[w]);
-}
-
-static void free_lists(tn_frontier_list *lists, size_t count)
-{
-    for (size_t i = 0; lists && i < count; i++)
-        free(lists[i].items);
-    free(lists);
+    free(questions->decisions);
+    free(questions->asked_function);
+    tn_numbering_clear(&questions->fails);
+    free(questions->open_rooms);
 }
 
 void tn_frontier_free(tn_frontier *frontier)
 {
     if (!frontier)
         return;
-    tn_interner *const interners[] = {&frontier->edges.keys,       &frontier->slices.keys,
-                                      &frontier->outcomes.keys,    &frontier->slices.areas,
-                                      &frontier->tiles.bases,      &frontier->tiles.sides,
-                                      &frontier->tiles.pending,    &frontier->crossed.rooms,
-                                      &frontier->crossed.walks,    &frontier->states,
-                                      &frontier->slices.bases,     &frontier->tiles.lists,
-                                      &frontier->slices.insides,   &frontier->outcomes.throughs,
-                                      &frontier->reading.readings, &frontier->reading.between,
-                                      &frontier->reading.values,   &frontier->edges.asked,
-                                      &frontier->slices.mets,      &frontier->compared.totals,
-                                      &frontier->slices.functions, &frontier->slices.plain_keys,
-                                      &frontier->interfaces.parts, &frontier->interfaces.combined};
-    for (uint32_t i = 0; i < frontier->edges.keys.count; i++) {
-        free(frontier->edges.items[i].cells);
-        free(frontier->edges.items[i].answers);
-        free(frontier->edges.items[i].inner);
-    }
-    free_lists(frontier->slices.of_tray, frontier->form->schema->tray_count);
-    for (size_t t = 0; frontier->slices.furnished && t < frontier->form->schema->tray_count; t++)
-        free(frontier->slices.furnished[t].items);
-    free(frontier->slices.furnished);
-    tn_frontier_borders_clear(&frontier->edges.borders);
-    free_lists(frontier->interfaces.items, frontier->interfaces.keys.count);
-    for (size_t i = 0; i < sizeof interners / sizeof *interners; i++)
-        tn_interner_clear(interners[i]);
-    tn_numbering_clear(&frontier->interfaces.keys);
-    tn_numbering_clear(&frontier->tiles.fit_keys[0]);
-    tn_numbering_clear(&frontier->tiles.fit_keys[1]);
-    tn_frontier_row_clear(&frontier->crossed.row);
-    tn_frontier_stages_clear(&frontier->stages);
-    tn_numbering_clear(&frontier->crossed.befores);
-    tn_numbering_clear(&frontier->crossed.moves);
-    clear_known(frontier);
-    tn_frontier_ways_forget(frontier);
-    tn_frontier_orders_clear(&frontier->slices.orders);
-    tn_frontier_orders_clear(&frontier->outcomes.orders);
+    clear_questions(&frontier->questions);
     tn_frontier_clauses_free(frontier);
+    tn_frontier_reading_clear(&frontier->reading, frontier->trays_most);
+    tn_frontier_comparisons_clear(&frontier->compared);
+    tn_frontier_edges_clear(&frontier->edges);
+    tn_frontier_slices_clear(&frontier->slices, frontier->form->schema->tray_count);
+    tn_frontier_interfaces_clear(&frontier->interfaces);
+    tn_frontier_outcomes_clear(&frontier->outcomes);
+    tn_frontier_tiles_clear(&frontier->tiles);
     tn_frontier_merged_clear(&frontier->merged);
+    tn_frontier_sums_clear(&frontier->sums);
     tn_frontier_prices_clear(&frontier->prices);
-    free(frontier->questions.decisions);
-    free(frontier->edges.items);
-    free(frontier->slices.items);
-    free(frontier->slices.plains);
-    free(frontier->outcomes.items);
-    free(frontier->interfaces.of_combined);
-    free(frontier->tiles.tiled);
-    free(frontier->questions.asked_function);
-    free(frontier->reading.scratch);
+    tn_interner_clear(&frontier->states);
     free(frontier->ends);
-    for (uint32_t k = 0; k < TN_ADDED_MAX; k++)
-        free(frontier->compared.weighed_rooms[k]);
-    tn_plan_vm_free(frontier->compared.plan_vm);
-    free(frontier->compared.ahead);
-    tn_numbering_clear(&frontier->questions.fails);
-    free(frontier->questions.open_rooms);
-    free(frontier->tiles.fits);
+    tn_frontier_crossed_clear(&frontier->crossed);
+    tn_frontier_ways_forget(frontier);
+    tn_frontier_stages_clear(&frontier->stages);
     free(frontier->key.data);
     free(frontier->joined.data);
     free(frontier);
@@ -757,7 +702,7 @@ static uint64_t kept_apart(const tn_frontier *frontier, const tn_frontier_clause
     return states;
 }
 
-const char *tn_frontier_dearest(const tn_frontier *frontier)
+const char *tn_frontier_largest(const tn_frontier *frontier)
 {
     const tn_module *module = frontier->form->module;
     const char *name = NULL;

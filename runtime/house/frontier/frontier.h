@@ -101,7 +101,7 @@ tn_status tn_frontier_new(const tn_house_form *form, const tn_house_library_reco
 void tn_frontier_free(tn_frontier *frontier);
 
 /* What of the frontier has the most states, as the name of the clause that is about it; NULL if there is none. */
-const char *tn_frontier_dearest(const tn_frontier *frontier);
+const char *tn_frontier_largest(const tn_frontier *frontier);
 
 tn_status tn_frontier_limit(const tn_frontier *frontier, const char *clause, const char *what, tn_error *error);
 

@@ -661,3 +661,20 @@ tn_status tn_frontier_order_outcomes(tn_frontier *frontier, uint32_t left, uint3
     end(&c);
     return status;
 }
+
+void tn_frontier_interfaces_clear(tn_frontier_interfaces_made *interfaces)
+{
+    tn_frontier_lists_free(interfaces->items, interfaces->keys.count);
+    tn_numbering_clear(&interfaces->keys);
+    tn_interner_clear(&interfaces->parts);
+    tn_interner_clear(&interfaces->combined);
+    free(interfaces->of_combined);
+}
+
+void tn_frontier_outcomes_clear(tn_frontier_outcomes_made *outcomes)
+{
+    tn_interner_clear(&outcomes->keys);
+    tn_interner_clear(&outcomes->throughs);
+    tn_frontier_orders_clear(&outcomes->orders);
+    free(outcomes->items);
+}

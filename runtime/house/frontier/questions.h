@@ -183,6 +183,7 @@ typedef struct tn_frontier_reading {
     tn_frontier_known *after_slice, *after_interface; /* [trays_most + 1] */
     uint32_t *scratch;                                /* [2 * clauses] */
 } tn_frontier_reading;
+void tn_frontier_reading_clear(tn_frontier_reading *reading, uint32_t trays_most);
 
 /* What the clauses have read after a slice (TN_FRONTIER_NONE: the end), by what they had read before (TN_FRONTIER_NONE:
  * the beginning); then after the interface before the slice, by what that is to them. trays: before the slice.
@@ -213,6 +214,7 @@ typedef struct tn_frontier_comparisons {
     tn_frontier_ahead *ahead;              /* [trays_most + 1], once it is known or being found */
     bool looking_ahead;                    /* totals are left aside */
 } tn_frontier_comparisons;
+void tn_frontier_comparisons_clear(tn_frontier_comparisons *compared);
 
 /* The place of a HOUSE_SUM among what is added up. */
 uint32_t tn_frontier_compared(const tn_frontier *frontier, uint32_t sum);

@@ -287,6 +287,20 @@ tn_status tn_frontier_read_interface(tn_frontier *frontier, uint32_t trays, uint
     return status;
 }
 
+void tn_frontier_reading_clear(tn_frontier_reading *reading, uint32_t trays_most)
+{
+    for (uint32_t k = 0; reading->after_slice && reading->after_interface && k <= trays_most; k++) {
+        tn_frontier_known_clear(&reading->after_slice[k]);
+        tn_frontier_known_clear(&reading->after_interface[k]);
+    }
+    free(reading->after_slice);
+    free(reading->after_interface);
+    tn_interner_clear(&reading->readings);
+    tn_interner_clear(&reading->between);
+    tn_interner_clear(&reading->values);
+    free(reading->scratch);
+}
+
 /* ==== comparisons
  *
  * What clauses compare with 0: numbers that are added up along the row. Their values are known only at its end, but
@@ -495,4 +509,13 @@ tn_status tn_frontier_end_values(tn_frontier *frontier, uint32_t values, uint32_
                                                      tn_interned(&frontier->reading.values, values, &size)[i], signs));
     *ends = ok ? tn_intern(&frontier->reading.values, frontier->key.data, frontier->key.size) : UINT32_MAX;
     return *ends != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+}
+
+void tn_frontier_comparisons_clear(tn_frontier_comparisons *compared)
+{
+    for (uint32_t k = 0; k < TN_ADDED_MAX; k++)
+        free(compared->weighed_rooms[k]);
+    tn_plan_vm_free(compared->plan_vm);
+    tn_interner_clear(&compared->totals);
+    free(compared->ahead);
 }

@@ -468,6 +468,28 @@ tn_status tn_frontier_order_slices(tn_frontier *frontier, tn_tray tray, const tn
     return status;
 }
 
+void tn_frontier_lists_free(tn_frontier_list *lists, size_t count)
+{
+    for (size_t i = 0; lists && i < count; i++)
+        free(lists[i].items);
+    free(lists);
+}
+
+void tn_frontier_slices_clear(tn_frontier_slices_made *slices, size_t trays)
+{
+    tn_interner *const interners[] = {&slices->keys, &slices->functions, &slices->bases,     &slices->insides,
+                                      &slices->mets, &slices->areas,     &slices->plain_keys};
+    for (size_t i = 0; i < sizeof interners / sizeof *interners; i++)
+        tn_interner_clear(interners[i]);
+    tn_frontier_lists_free(slices->of_tray, trays);
+    for (size_t t = 0; slices->furnished && t < trays; t++)
+        free(slices->furnished[t].items);
+    free(slices->furnished);
+    tn_frontier_orders_clear(&slices->orders);
+    free(slices->items);
+    free(slices->plains);
+}
+
 /* ==== in the order of houses
  *
  * Slices of a tray and outcomes of an interface in the order of houses, by the functions of their cells. They are

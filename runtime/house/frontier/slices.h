@@ -109,7 +109,7 @@ tn_status tn_frontier_find_edge(const tn_inside *inside, tn_frontier_role_at rol
 
 /* Finds the classes of cells; before any slice is made. */
 tn_status tn_frontier_borders_find(tn_frontier *frontier, const tn_frontier_trays *trays, tn_error *error);
-void tn_frontier_borders_clear(tn_frontier_borders *borders);
+void tn_frontier_edges_clear(tn_frontier_edges *edges);
 
 /* What lines of faces at interfaces say of a cell with its function; UINT32_MAX is never one. */
 tn_status tn_frontier_describe(tn_frontier *frontier, const tn_house *house, uint32_t cell, uint32_t *description,
@@ -133,6 +133,8 @@ typedef struct tn_frontier_list {
     size_t count, room;
     bool made;
 } tn_frontier_list;
+
+void tn_frontier_lists_free(tn_frontier_list *lists, size_t count);
 
 /* Slices or outcomes, one for each choice, in the order of the choices. */
 typedef struct tn_frontier_ordered {
@@ -219,6 +221,9 @@ typedef struct tn_frontier_slices_made {
     size_t plain_room;
 } tn_frontier_slices_made;
 
+/* trays: of the schema. */
+void tn_frontier_slices_clear(tn_frontier_slices_made *slices, size_t trays);
+
 /* Makes the slices of a tray, if they are not made. */
 tn_status tn_frontier_slices(tn_frontier *frontier, tn_tray tray, tn_error *error);
 
@@ -266,6 +271,9 @@ typedef struct tn_frontier_outcomes_made {
     tn_interner throughs;
     tn_frontier_orders orders;
 } tn_frontier_outcomes_made;
+
+void tn_frontier_interfaces_clear(tn_frontier_interfaces_made *interfaces);
+void tn_frontier_outcomes_clear(tn_frontier_outcomes_made *outcomes);
 
 /* The outcomes between two edges; TN_FRONTIER_NONE: the outside. */
 tn_status tn_frontier_interface(tn_frontier *frontier, uint32_t left, uint32_t right,

@@ -288,16 +288,16 @@ static tn_status number_exit_state(const tn_exit_by *by, uint32_t far_list, uint
 static tn_status begin_state(tn_frontier *frontier, uint32_t state, const uint32_t *words, tn_error *error)
 {
     tn_frontier_stages *stages = &frontier->stages;
-    if (!words || stages->left == state + 1)
+    if (!words || stages->last == state + 1)
         return TN_OK;
-    stages->left = 0;
+    stages->last = 0;
     for (uint32_t i = 0; i <= frontier->questions.walk_count; i++) {
         uint64_t asked = frontier->edges.items[words[STATE_EDGE]].asked;
         stages->befores[i] = tn_number(&frontier->crossed.befores, asked << 32 | words[STATE_ROOMS + i]);
         if (stages->befores[i] == UINT32_MAX)
             return tn_fail_memory(error);
     }
-    stages->left = state + 1;
+    stages->last = state + 1;
     return TN_OK;
 }
 
@@ -553,7 +553,7 @@ void tn_frontier_stages_forget(tn_frontier_stages *stages)
     tn_numbering_clear(&stages->entry_states);
     tn_interner_clear(&stages->slice_states);
     tn_frontier_entered_forget(&stages->entered);
-    stages->left = 0;
+    stages->last = 0;
 }
 
 void tn_frontier_stages_clear(tn_frontier_stages *stages)

@@ -51,6 +51,8 @@ typedef struct tn_frontier_tiles {
     tn_frontier_known pending_of;   /* {tiles of a slice, right fits}: what is pending; how many times that */
 } tn_frontier_tiles;
 
+void tn_frontier_tiles_clear(tn_frontier_tiles *tiles);
+
 /* What of a cell's own walls matters to its tiles, and what of a side. 0: nothing does. */
 tn_status tn_frontier_fit_base(tn_frontier *frontier, const tn_house *house, uint32_t cell, uint32_t *base,
                                tn_error *error);
@@ -195,7 +197,7 @@ typedef struct tn_frontier_crossed {
  * (TN_FRONTIER_NONE: the end): so many words each. Both are good until the next call. */
 tn_status tn_frontier_cross(tn_frontier *frontier, const uint32_t *state, uint32_t slice, tn_frontier_list *interface,
                             const uint32_t **crossed, tn_error *error);
-void tn_frontier_row_clear(tn_frontier_row *row);
+void tn_frontier_crossed_clear(tn_frontier_crossed *crossed);
 
 /* What comes of one outcome alone, before a slice: so many words, to be filled in. near_side: its words. */
 tn_status tn_frontier_cross_outcome(tn_frontier *frontier, const uint32_t *state, uint32_t slice, uint32_t outcome,
@@ -341,7 +343,7 @@ typedef struct tn_frontier_stages {
     tn_frontier_known room_views, walk_views[TN_FRONTIER_MEETINGS_MAX];       /* {before, left} */
     tn_frontier_known crossed_rooms, crossed_walks[TN_FRONTIER_MEETINGS_MAX]; /* {view, what it meets} */
     tn_numbering sided;                             /* sides of the right << 32 | met in a slice */
-    uint32_t left;                                  /* 1 and the state that was left last; 0: none */
+    uint32_t last;                                  /* 1 and the state whose exit states were found last; 0: none */
     uint32_t befores[1 + TN_FRONTIER_MEETINGS_MAX]; /* of its rooms, then of each walk */
 } tn_frontier_stages;
 

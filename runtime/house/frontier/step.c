@@ -27,13 +27,25 @@ typedef struct tn_passing {
     const uint32_t *seen_rooms, *seen_walks[TN_FRONTIER_MEETINGS_MAX]; /* SEEN_WORDS of what is placed in the row */
 } tn_passing;
 
-void tn_frontier_row_clear(tn_frontier_row *row)
+static void clear_row(tn_frontier_row *row)
 {
     free(row->before);
     free(row->mark);
     free(row->interface);
     free(row->first);
     free(row->words);
+}
+
+void tn_frontier_crossed_clear(tn_frontier_crossed *crossed)
+{
+    tn_interner_clear(&crossed->rooms);
+    tn_interner_clear(&crossed->walks);
+    tn_numbering_clear(&crossed->befores);
+    tn_numbering_clear(&crossed->moves);
+    tn_frontier_known_clear(&crossed->of_rooms);
+    for (uint32_t w = 0; w < TN_FRONTIER_MEETINGS_MAX; w++)
+        tn_frontier_known_clear(&crossed->of_walks[w]);
+    clear_row(&crossed->row);
 }
 
 /* ---- rooms and walks */
@@ -370,9 +382,7 @@ void tn_frontier_ways_forget(tn_frontier *frontier)
     *ways = (tn_frontier_ways){0};
 }
 
-/* ==== steps
- *
- * Goes from a state to those after one more slice. */
+/* ==== steps */
 
 typedef struct tn_stepping {
     tn_frontier *frontier;
