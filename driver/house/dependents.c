@@ -121,7 +121,7 @@ static tn_status sort_clauses(const tn_module *module, const tn_house_library_re
 
 static tn_status past_limit(tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, E_STRIP, "counting the houses that depend on parts of rules takes too many states");
+    tn_fail(error, TN_LIMIT, E_FRONTIER, "counting the houses that depend on parts of rules takes too many states");
     tn_error_help(error, "--max-states N allows more; a library on plans of fewer trays takes fewer");
     return TN_LIMIT;
 }

@@ -20,7 +20,7 @@ static bool is_known(const tn_house_added *added, uint32_t sum)
 static tn_status too_much(const tn_added_finding *c, const char *what, tn_error *error)
 {
     const tn_module *module = c->houses->form->module;
-    tn_fail(error, TN_LIMIT, E_STRIP, "`%.60s` %s: the houses of all plans together cannot be counted",
+    tn_fail(error, TN_LIMIT, E_FRONTIER, "`%.60s` %s: the houses of all plans together cannot be counted",
             tn_text(module, c->clause->name), what);
     tn_error_help(error, "ask about one plan (--plan PLAN or '#P'), or name a house by #P:V");
     return TN_LIMIT;

@@ -8,7 +8,7 @@
 
 tn_status tn_houses_too_many_values(const tn_houses *h, tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, E_STRIP, "counting houses by `%.60s` takes more than %u states",
+    tn_fail(error, TN_LIMIT, E_FRONTIER, "counting houses by `%.60s` takes more than %u states",
             tn_text(h->form->module, h->measures->of[0]->of.name), h->max_states);
     tn_error_help(error, "ask about one plan (--plan), use rounder numbers, or allow more (--max-states N)");
     return TN_LIMIT;

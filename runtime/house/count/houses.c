@@ -32,7 +32,7 @@ static tn_status check_nodes(const tn_houses *h, const tn_houses_kind *kind, uin
     bool states = layer % tn_houses_stages(h, kind) == 0;
     if ((states ? nodes : nodes / OTHERS_A_STATE) <= h->max_states && kind->frontier->states.count <= h->max_states)
         return TN_OK;
-    tn_fail(error, TN_LIMIT, E_STRIP, "counting these houses takes more than %u states", h->max_states);
+    tn_fail(error, TN_LIMIT, E_FRONTIER, "counting these houses takes more than %u states", h->max_states);
     return too_many(kind, error);
 }
 
@@ -41,7 +41,7 @@ tn_status tn_houses_check_interfaces(const tn_houses *h, const tn_houses_kind *k
     uint64_t most = (uint64_t)OTHERS_A_STATE * h->max_states;
     if (kind->frontier->interfaces.outcomes <= most)
         return TN_OK;
-    tn_fail(error, TN_LIMIT, E_STRIP, "these houses have more than %" PRIu64 " choices of what is between two trays",
+    tn_fail(error, TN_LIMIT, E_FRONTIER, "these houses have more than %" PRIu64 " choices of what is between two trays",
             most);
     return too_many(kind, error);
 }

@@ -51,7 +51,8 @@ static tn_status spend(tn_projecting *p, uint64_t work, tn_error *error)
     p->work += work;
     if (p->work <= WORK_MOST)
         return tn_watch_check(p->houses->form->module->watch, error);
-    return tn_fail(error, TN_LIMIT, E_STRIP, "finding how many plans have a house takes more than %d steps", WORK_MOST);
+    return tn_fail(error, TN_LIMIT, E_FRONTIER, "finding how many plans have a house takes more than %d steps",
+                   WORK_MOST);
 }
 
 static int compare_ways_on(const void *left, const void *right)
@@ -91,7 +92,7 @@ static tn_status note_step(void *context, const tn_houses_edge *edge, tn_error *
     const tn_houses_layer *next = &c->of->kind->layers[c->layer + 1];
     uint32_t to = tn_number_find(&next->nodes, (uint64_t)edge->plan << 32 | edge->state);
     if (c->count == STEPS_MOST)
-        return tn_fail(error, TN_LIMIT, E_STRIP,
+        return tn_fail(error, TN_LIMIT, E_FRONTIER,
                        "finding how many plans have a house takes more than %d steps of a tray", STEPS_MOST);
     if (!tn_array_reserve(&c->steps, &c->room, c->count, 1, sizeof *c->steps))
         return tn_fail_memory(error);

@@ -12,10 +12,10 @@ tn_status tn_frontier_limit(const tn_frontier *frontier, const char *clause, con
 {
     (void)frontier;
     if (clause)
-        tn_fail(error, TN_LIMIT, E_STRIP, "`%.60s` %s: the houses of all plans together cannot be counted", clause,
+        tn_fail(error, TN_LIMIT, E_FRONTIER, "`%.60s` %s: the houses of all plans together cannot be counted", clause,
                 what);
     else
-        tn_fail(error, TN_LIMIT, E_STRIP, "%s: the houses of all plans together cannot be counted", what);
+        tn_fail(error, TN_LIMIT, E_FRONTIER, "%s: the houses of all plans together cannot be counted", what);
     tn_error_help(error, "ask about one plan (--plan PLAN or '#P'), or name a house by #P:V");
     return TN_LIMIT;
 }

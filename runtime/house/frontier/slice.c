@@ -32,7 +32,7 @@ static tn_status too_large(const tn_cutting *c, const char *what, tn_error *erro
     tn_buffer text = {0};
     const tn_house_form *form = c->inside.frontier->form;
     bool written = tn_plan_write_line(form->schema, &c->inside.tray, 1, &text);
-    tn_fail(error, TN_LIMIT, E_STRIP,
+    tn_fail(error, TN_LIMIT, E_FRONTIER,
             "the tray `%.120s` has more than %s in form `%.60s`: its houses cannot be counted",
             written ? text.data : "", what, tn_text(form->module, form->record->name));
     tn_error_help(error, "leave fewer storeys, fewer functions that a cell may have, or fewer kinds for its faces");

@@ -557,7 +557,7 @@ static void test_placed_limit(void **state)
     test_house_compile(&made, text);
     tn_library *plans = plans_of(&made, made.some);
     assert_int_equal(tn_houses_new(&made.form, made.some, plans, 0, &houses, &error), TN_LIMIT);
-    assert_int_equal(error.code, E_STRIP);
+    assert_int_equal(error.code, E_FRONTIER);
     assert_non_null(strstr(error.message, "prune@21` asks where more rooms or walks are"));
     tn_library_free(plans);
     test_house_clear(&made);
@@ -705,7 +705,7 @@ static void test_limit(void **state)
     tn_library *plans = plans_of(&made, made.some);
     for (uint32_t most = 1; tn_houses_new(&made.form, made.some, plans, most, &houses, &error) != TN_OK; most++) {
         assert_int_equal(error.status, TN_LIMIT);
-        assert_int_equal(error.code, E_STRIP);
+        assert_int_equal(error.code, E_FRONTIER);
         assert_non_null(strstr(error.help, "(--plan), or allow more (--max-states N)"));
         states += strstr(error.message, " states") != NULL;
         between += strstr(error.message, " choices of what is between two trays") != NULL;
