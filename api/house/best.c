@@ -1,5 +1,5 @@
 /* The C interface to the best houses of a library by measures. */
-#include "runtime/house/count/best.h"
+#include "runtime/house/count/houses.h"
 
 #include <stdlib.h>
 

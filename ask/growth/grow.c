@@ -16,7 +16,7 @@ typedef struct run_state {
     tn_reply answer; /* a `grown` */
     tn_view **views; /* of a sheet */
     size_t view_count, view_room;
-    tn_sight overlaid; /* of the steps that are drawn over one another */
+    tn_display_list overlaid; /* of the steps that are drawn over one another */
     size_t overlaid_count;
     tn_faults faults;                 /* of the last step that had any, each kind by itself */
     uint32_t crossed[2], inverted[2]; /* the first and the last step with such faces; 0: none */
@@ -39,7 +39,7 @@ static void free_shown(void *value)
 /* All but the answer. */
 static void clear(run_state *run)
 {
-    tn_sight_clear(&run->overlaid);
+    tn_display_list_clear(&run->overlaid);
     for (size_t i = 0; i < run->view_count; i++)
         tn_view_free(run->views[i]);
     free(run->views);
@@ -135,7 +135,7 @@ static tn_status note_step(run_state *run, tn_error *error)
     tn_status status = g->grown->has_stats ? tn_grown_measure(g, error) : TN_OK;
     size_t overlaid = overlays(run, step);
     if (status == TN_OK && overlaid > 0)
-        status = tn_growth_sight_add(g->growth, &run->overlaid, error);
+        status = tn_growth_display_add(g->growth, &run->overlaid, error);
     run->overlaid_count += overlaid;
     if (status == TN_OK && g->request->sheet)
         status = note_view(run, error);

@@ -60,7 +60,7 @@ tn_status tn_grown_write(const tn_growing *g, const char *name, tn_error *error)
 
 /* Adds a picture of all views on one sheet; of what was gathered of several steps; of the surface from all around. */
 tn_status tn_grown_sheet(const tn_growing *g, tn_view *const *views, size_t count, tn_error *error);
-tn_status tn_grown_overlay(const tn_growing *g, tn_sight *sight, tn_error *error);
+tn_status tn_grown_overlay(const tn_growing *g, tn_display_list *display, tn_error *error);
 tn_status tn_grown_turn(const tn_growing *g, tn_error *error);
 
 tn_camera tn_grown_camera(const tn_growing *g);

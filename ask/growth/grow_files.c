@@ -128,16 +128,16 @@ tn_status tn_grown_sheet(const tn_growing *g, tn_view *const *views, size_t coun
     return count ? draw_views(g, views, count, &options, NULL, error) : TN_OK;
 }
 
-static tn_status draw_sight(const tn_growing *g, tn_sight *sight, const char *name, tn_error *error)
+static tn_status draw_display(const tn_growing *g, tn_display_list *display, const char *name, tn_error *error)
 {
     const tn_camera camera = tn_grown_camera(g);
     char caption[NOTE_SIZE];
     tn_view *view = NULL;
     describe(g, caption);
     const tn_view_options options = view_options(g, caption);
-    tn_status status = tn_grown_surrounded(g) ? tn_growth_sight_surround(g->growth, sight, error) : TN_OK;
+    tn_status status = tn_grown_surrounded(g) ? tn_growth_display_surround(g->growth, display, error) : TN_OK;
     if (status == TN_OK)
-        status = tn_view_take(sight, &camera, &view, error);
+        status = tn_view_take(display, &camera, &view, error);
     if (status == TN_OK) {
         note_depth(g, view);
         status = draw_views(g, &view, 1, &options, name, error);
@@ -146,20 +146,20 @@ static tn_status draw_sight(const tn_growing *g, tn_sight *sight, const char *na
     return status;
 }
 
-tn_status tn_grown_overlay(const tn_growing *g, tn_sight *sight, tn_error *error)
+tn_status tn_grown_overlay(const tn_growing *g, tn_display_list *display, tn_error *error)
 {
-    return draw_sight(g, sight, NULL, error);
+    return draw_display(g, display, NULL, error);
 }
 
 tn_status tn_grown_write(const tn_growing *g, const char *name, tn_error *error)
 {
-    tn_sight sight = {0};
+    tn_display_list display = {0};
     if (!(TN_WRITES_PICTURES >> g->format & 1))
         return write_surface(g, name, error);
-    tn_status status = tn_growth_sight_add(g->growth, &sight, error);
+    tn_status status = tn_growth_display_add(g->growth, &display, error);
     if (status == TN_OK)
-        status = draw_sight(g, &sight, name, error);
-    tn_sight_clear(&sight);
+        status = draw_display(g, &display, name, error);
+    tn_display_list_clear(&display);
     return status;
 }
 
@@ -169,14 +169,14 @@ enum { TURN_TIME = 4000, SLOWEST = 1000 }; /* thousandths of a second: a whole t
 
 static tn_status take_view(const tn_growing *g, const tn_camera *camera, tn_view **view, tn_error *error)
 {
-    tn_sight sight = {0};
-    tn_status status = tn_growth_sight_add(g->growth, &sight, error);
+    tn_display_list display = {0};
+    tn_status status = tn_growth_display_add(g->growth, &display, error);
     if (status == TN_OK && tn_grown_surrounded(g))
-        status = tn_growth_sight_surround(g->growth, &sight, error);
-    sight.turns = true;
+        status = tn_growth_display_surround(g->growth, &display, error);
+    display.turns = true;
     if (status == TN_OK)
-        status = tn_view_take(&sight, camera, view, error);
-    tn_sight_clear(&sight);
+        status = tn_view_take(&display, camera, view, error);
+    tn_display_list_clear(&display);
     return status;
 }
 

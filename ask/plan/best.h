@@ -6,7 +6,7 @@
 #include "ask/plan/found.h"
 #include "ask/session/spelled.h"
 #include "runtime/base/picture.h"
-#include "runtime/house/count/best.h"
+#include "runtime/house/count/houses.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/measure/complete.h"
 #include "runtime/plan/measure/pareto.h"

@@ -13,8 +13,8 @@
 
 enum { PATIENCE_MS = 1000, PART_MS = 50 };
 
-/* Does anything come within the second? Reading ends of a pipe are equal, so all is left to the command's. This one
- * stays open as long as the command runs: what somebody wrote already would be lost with the last. */
+/* Does anything come within the second? It is not read here: the command reads the pipe by an end of its own. Keep our
+ * end open: closing the last reader loses what was written. */
 static bool comes(const char *path)
 {
     int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);

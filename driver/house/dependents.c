@@ -121,14 +121,14 @@ static tn_status sort_clauses(const tn_module *module, const tn_house_library_re
 
 static tn_status past_limit(tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, E_STRIP, "counting the houses that depend on parts of rules takes too many states");
+    tn_fail(error, TN_LIMIT, E_FRONTIER, "counting the houses that depend on parts of rules takes too many states");
     tn_error_help(error, "--max-states N allows more; a library on plans of fewer trays takes fewer");
     return TN_LIMIT;
 }
 
 /* How many houses these clauses keep, with or without the part. */
 static tn_status count_kept(tn_dependents *d, tn_house_clause_record *clauses, uint32_t count,
-                            const tn_strip_without *without, mpz_t houses, tn_error *error)
+                            const tn_frontier_without *without, mpz_t houses, tn_error *error)
 {
     tn_module module = *d->module; /* but for the clauses it is the same */
     tn_house_library_record record = *d->record;
@@ -155,8 +155,8 @@ static tn_status count_kept(tn_dependents *d, tn_house_clause_record *clauses, u
 }
 
 /* Of several clauses: those kept as it is, and those kept without the part, less twice what both keep. */
-static tn_status count_several(tn_dependents *d, const sorted_clauses *sorted, tn_strip_without *without, mpz_t houses,
-                               tn_error *error)
+static tn_status count_several(tn_dependents *d, const sorted_clauses *sorted, tn_frontier_without *without,
+                               mpz_t houses, tn_error *error)
 {
     tn_status status = TN_OK;
     mpz_t other;
@@ -181,7 +181,7 @@ static tn_status count_several(tn_dependents *d, const sorted_clauses *sorted, t
 tn_status tn_dependents_count(tn_dependents *d, const uint32_t *offsets, size_t count, mpz_t houses, tn_error *error)
 {
     sorted_clauses sorted;
-    tn_strip_without without = {.offsets = offsets, .count = count};
+    tn_frontier_without without = {.offsets = offsets, .count = count};
     tn_status status = sort_clauses(d->module, d->record, offsets, count, &sorted, error);
     mpz_set_ui(houses, 0);
     if (status == TN_OK && sorted.concerned == 1) {

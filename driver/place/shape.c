@@ -26,7 +26,7 @@ typedef struct drawing {
     size_t shown;   /* the first so many parts are drawn */
     double width;   /* of its picture; 0: that of one alone */
     bool below;     /* seen from below */
-    tn_sight sight;
+    tn_display_list display;
     bool *studs;     /* [connector type]: owned */
     double grown;    /* so many times as large as those of bricks studs are, less 1 */
     uint32_t corner; /* next */
@@ -37,8 +37,8 @@ typedef struct drawing {
 /* A place in LDU, y downwards, as a place of the picture. */
 static void put_corner(drawing *d, double x, double y, double z)
 {
-    double *p = d->sight.points[d->corner];
-    d->sight.edges[d->corner++] = TN_EDGE_DARK;
+    double *p = d->display.points[d->corner];
+    d->display.edges[d->corner++] = TN_EDGE_DARK;
     p[0] = x * ldu;
     p[1] = z * ldu;
     p[2] = -y * ldu;
@@ -46,8 +46,8 @@ static void put_corner(drawing *d, double x, double y, double z)
 
 static void end_face(drawing *d, uint32_t group)
 {
-    d->sight.groups[d->sight.face_count++] = group;
-    d->sight.first[d->sight.face_count] = d->corner;
+    d->display.groups[d->display.face_count++] = group;
+    d->display.first[d->display.face_count] = d->corner;
 }
 
 /* The bodies of one part. Edges over which its surface goes on flat are not drawn. */
@@ -66,8 +66,8 @@ static void add_part(drawing *d, const tn_bodies *bodies, size_t first, size_t c
             const tn_cut_box_face *face = &shape->faces[f];
             for (uint32_t c = 0; c < face->count; c++) {
                 bool flat = count > 1 && count <= SHAPES_MAX && tn_body_goes_on(shapes, count, b, face, c);
-                memcpy(d->sight.points[d->corner], shape->at[face->corner[c]], sizeof *d->sight.points);
-                d->sight.edges[d->corner++] = flat ? TN_EDGE_NONE : TN_EDGE_DARK;
+                memcpy(d->display.points[d->corner], shape->at[face->corner[c]], sizeof *d->display.points);
+                d->display.edges[d->corner++] = flat ? TN_EDGE_NONE : TN_EDGE_DARK;
             }
             end_face(d, group);
         }
@@ -206,20 +206,20 @@ static tn_status take_view(drawing *d, const tn_placed_joints *joints, const uin
     }
     if (boxes == 0)
         return tn_no_bodies(error);
-    tn_status status = tn_sight_new(BOX_FACES * boxes + (STUD_SIDES + 1) * studs,
-                                    4 * BOX_FACES * boxes + 5 * STUD_SIDES * studs, true, &d->sight, error);
+    tn_status status = tn_display_list_new(BOX_FACES * boxes + (STUD_SIDES + 1) * studs,
+                                           4 * BOX_FACES * boxes + 5 * STUD_SIDES * studs, true, &d->display, error);
     if (status != TN_OK)
         return status;
-    d->sight.closed = true;
-    d->sight.face_count = 0;
-    d->sight.first[0] = 0;
+    d->display.closed = true;
+    d->display.face_count = 0;
+    d->display.first[0] = 0;
     tn_bodies bodies = {0};
     status = tn_bodies_list(d->module, d->model, joints, &bodies, error);
     if (status == TN_OK)
         status = list_faces(d, joints, &bodies, groups, error);
     tn_bodies_clear(&bodies);
     const tn_camera camera = {.azimuth = -60, .elevation = 30, .width = d->width > 0 ? d->width : 480};
-    return status == TN_OK ? tn_view_take(&d->sight, &camera, view, error) : status;
+    return status == TN_OK ? tn_view_take(&d->display, &camera, view, error) : status;
 }
 
 /* With marks, groups are plain and marked; otherwise colours. */
@@ -260,7 +260,7 @@ tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, 
         status = tn_views_draw(&view, 1, &options, to, error);
     }
     tn_view_free(view);
-    tn_sight_clear(&d.sight);
+    tn_display_list_clear(&d.display);
     free(d.studs);
     free(palette);
     free(groups);
@@ -283,7 +283,7 @@ static tn_status take_shape(const tn_placed_shape *shape, double width, tn_colou
         status = find_studs(&d, error);
     if (status == TN_OK)
         status = take_view(&d, &joints, groups, view, error);
-    tn_sight_clear(&d.sight);
+    tn_display_list_clear(&d.display);
     tn_placed_joints_clear(&joints);
     free(d.studs);
     free(groups);
@@ -323,7 +323,7 @@ static tn_status take_steps(drawing *d, const tn_placed_joints *joints, const tn
         d->shown = steps->ends[i];
         d->corner = 0;
         status = take_view(d, joints, groups, &views[i], error);
-        tn_sight_clear(&d->sight);
+        tn_display_list_clear(&d->display);
     }
     return status;
 }
@@ -364,7 +364,7 @@ tn_status tn_placed_draw_steps(const tn_module *module, const tn_placed_model *m
     }
     for (size_t i = 0; i < steps->count; i++)
         tn_view_free(views[i]);
-    tn_sight_clear(&d.sight);
+    tn_display_list_clear(&d.display);
     free(d.studs);
     free(palette);
     free(groups);
@@ -400,13 +400,13 @@ static tn_status take_part(drawing *d, const tn_kit_part_record *part, tn_view *
     const tn_placed_joints joints = {.kinds = &part, .count = 1};
     tn_bodies bodies;
     const size_t boxes = part->box_count, studs = part->connector_count;
-    tn_status status = tn_sight_new(BOX_FACES * boxes + (STUD_SIDES + 1) * studs,
-                                    4 * BOX_FACES * boxes + 5 * STUD_SIDES * studs, true, &d->sight, error);
+    tn_status status = tn_display_list_new(BOX_FACES * boxes + (STUD_SIDES + 1) * studs,
+                                           4 * BOX_FACES * boxes + 5 * STUD_SIDES * studs, true, &d->display, error);
     if (status != TN_OK)
         return status;
-    d->sight.closed = true;
-    d->sight.face_count = 0;
-    d->sight.first[0] = 0;
+    d->display.closed = true;
+    d->display.face_count = 0;
+    d->display.first[0] = 0;
     d->corner = 0;
     d->model = &model;
     status = tn_bodies_list(d->module, &model, &joints, &bodies, error);
@@ -421,7 +421,7 @@ static tn_status take_part(drawing *d, const tn_kit_part_record *part, tn_view *
         add_stud(d, at, tn_turn_to((tn_axis)from->axis), 1 + from->type);
     }
     const tn_camera camera = {.azimuth = -60, .elevation = d->below ? -30 : 30, .width = d->width};
-    return tn_view_take(&d->sight, &camera, view, error);
+    return tn_view_take(&d->display, &camera, view, error);
 }
 
 static tn_status make_type_palette(const tn_module *module, double (**palette)[3], tn_error *error)
@@ -454,7 +454,7 @@ tn_status tn_kit_part_draw(const tn_module *module, uint32_t part, tn_picture *t
     for (int v = 0; v < 2 && status == TN_OK; v++) {
         d.below = v == 1;
         status = take_part(&d, record, &views[v], error);
-        tn_sight_clear(&d.sight);
+        tn_display_list_clear(&d.display);
     }
     if (status == TN_OK) {
         const tn_view_options options = {.labels = labels, .palette = (const double(*)[3])palette};

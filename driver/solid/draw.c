@@ -33,15 +33,15 @@ typedef struct drawing {
 static tn_status take_view(const tn_built *built, tn_mesh *mesh, const tn_camera *camera, tn_view **view,
                            tn_error *error)
 {
-    tn_sight sight;
+    tn_display_list display;
     tn_solid_turn_up(mesh);
-    tn_status status = tn_sight_of_mesh(mesh, &sight, error);
-    for (uint32_t f = 0; status == TN_OK && f < sight.face_count; f++)
-        sight.groups[f] %= built->built.box_count;
-    sight.closed = true;
+    tn_status status = tn_display_list_of_mesh(mesh, &display, error);
+    for (uint32_t f = 0; status == TN_OK && f < display.face_count; f++)
+        display.groups[f] %= built->built.box_count;
+    display.closed = true;
     if (status == TN_OK)
-        status = tn_view_take(&sight, camera, view, error);
-    tn_sight_clear(&sight);
+        status = tn_view_take(&display, camera, view, error);
+    tn_display_list_clear(&display);
     return status;
 }
 

@@ -16,7 +16,7 @@ struct tn_crew {
     unsigned helper_count, helpers_wanted;
     uint64_t job;    /* number of the current one */
     bool open;       /* may helpers join it? */
-    bool leaving;    /* no more jobs */
+    bool stopping;   /* no more jobs */
     unsigned active; /* helpers at work on it */
     tn_watch *watch;
     /* the job */
@@ -69,7 +69,7 @@ static void *help(void *argument)
     uint64_t seen = 0;
     free(argument);
     pthread_mutex_lock(&crew->lock);
-    while (!crew->leaving) {
+    while (!crew->stopping) {
         if (!crew->open || crew->job == seen) {
             pthread_cond_wait(&crew->wake, &crew->lock);
             continue;
@@ -141,7 +141,7 @@ void tn_crew_free(tn_crew *crew)
     if (!crew)
         return;
     pthread_mutex_lock(&crew->lock);
-    crew->leaving = true;
+    crew->stopping = true;
     pthread_cond_broadcast(&crew->wake);
     pthread_mutex_unlock(&crew->lock);
     for (unsigned i = 0; i < crew->helper_count; i++)

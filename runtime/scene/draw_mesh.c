@@ -78,36 +78,36 @@ static tn_status paint_pixels(tn_paint *paint, const tn_mesh *mesh, const tn_mes
 
 /* ---- vectors */
 
-static tn_status look_at(const tn_mesh *mesh, const tn_mesh_picture *picture, tn_sight *sight, tn_error *error)
+static tn_status look_at(const tn_mesh *mesh, const tn_mesh_picture *picture, tn_display_list *display, tn_error *error)
 {
-    tn_status status = tn_sight_new(mesh->face_count, 3 * mesh->face_count, false, sight, error);
+    tn_status status = tn_display_list_new(mesh->face_count, 3 * mesh->face_count, false, display, error);
     if (status != TN_OK)
         return status;
     for (size_t i = 0; i < 3 * mesh->face_count; i++) {
-        memcpy(sight->points[i], mesh->positions + 3 * (size_t)mesh->corners[i], sizeof sight->points[i]);
-        sight->edges[i] = TN_EDGE_NONE;
+        memcpy(display->points[i], mesh->positions + 3 * (size_t)mesh->corners[i], sizeof display->points[i]);
+        display->edges[i] = TN_EDGE_NONE;
     }
     for (size_t f = 0; f <= mesh->face_count; f++)
-        sight->first[f] = (uint32_t)(3 * f);
-    sight->face_count = (uint32_t)mesh->face_count;
-    sight->closed = !picture->open;
-    sight->threads = picture->threads;
-    sight->watch = picture->watch;
+        display->first[f] = (uint32_t)(3 * f);
+    display->face_count = (uint32_t)mesh->face_count;
+    display->closed = !picture->open;
+    display->threads = picture->threads;
+    display->watch = picture->watch;
     return TN_OK;
 }
 
 static tn_status draw_vectors(const tn_mesh *mesh, const tn_mesh_picture *picture, tn_picture *to, tn_error *error)
 {
-    tn_sight sight = {0};
+    tn_display_list display = {0};
     tn_view *view = NULL;
     tn_view_options options = {.title = picture->title, .caption = picture->caption};
-    tn_status status = look_at(mesh, picture, &sight, error);
+    tn_status status = look_at(mesh, picture, &display, error);
     if (status == TN_OK)
-        status = tn_view_take(&sight, &picture->camera, &view, error);
+        status = tn_view_take(&display, &picture->camera, &view, error);
     if (status == TN_OK)
         status = tn_views_draw(&view, 1, &options, to, error);
     tn_view_free(view);
-    tn_sight_clear(&sight);
+    tn_display_list_clear(&display);
     return status;
 }
 

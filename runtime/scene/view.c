@@ -24,43 +24,43 @@ void tn_view_free(tn_view *view)
 
 /* ---- what is looked at */
 
-tn_status tn_sight_new(size_t faces, size_t corners, bool groups, tn_sight *sight, tn_error *error)
+tn_status tn_display_list_new(size_t faces, size_t corners, bool groups, tn_display_list *display, tn_error *error)
 {
-    *sight = (tn_sight){0};
+    *display = (tn_display_list){0};
     if (faces > TN_DRAWN_FACES_MAX) {
         tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "a picture of %zu faces would be too large; the limit is %u",
                 faces, TN_DRAWN_FACES_MAX);
         tn_error_help(error, "draw less, or write a mesh instead");
         return TN_LIMIT;
     }
-    sight->points = malloc((corners + 1) * sizeof *sight->points);
-    sight->first = malloc((faces + 1) * sizeof *sight->first);
-    sight->edges = malloc((corners + 1) * sizeof *sight->edges);
-    sight->groups = groups ? malloc((faces + 1) * sizeof *sight->groups) : NULL;
-    bool fine = sight->points && sight->first && sight->edges && (!groups || sight->groups);
+    display->points = malloc((corners + 1) * sizeof *display->points);
+    display->first = malloc((faces + 1) * sizeof *display->first);
+    display->edges = malloc((corners + 1) * sizeof *display->edges);
+    display->groups = groups ? malloc((faces + 1) * sizeof *display->groups) : NULL;
+    bool fine = display->points && display->first && display->edges && (!groups || display->groups);
     return fine ? TN_OK : tn_fail_memory(error);
 }
 
-void tn_sight_clear(tn_sight *sight)
+void tn_display_list_clear(tn_display_list *display)
 {
-    free(sight->points);
-    free(sight->first);
-    free(sight->edges);
-    free(sight->groups);
-    tn_guides_clear(&sight->guides);
-    *sight = (tn_sight){0};
+    free(display->points);
+    free(display->first);
+    free(display->edges);
+    free(display->groups);
+    tn_guides_clear(&display->guides);
+    *display = (tn_display_list){0};
 }
 
 /* ---- before the eye */
 
-/* A surface as it lies before the eye; its points are those of the sight, moved and scaled. */
-typedef struct prospect {
-    const tn_sight *sight;
+/* A surface as it lies before the eye; its points are those of the display list, moved and scaled. */
+typedef struct projection {
+    const tn_display_list *display;
     tn_scene scene;
     float *light;    /* [face] */
     uint64_t *plane; /* [face] a number of the plane that it lies in */
     double middle[3], size;
-} prospect;
+} projection;
 
 /* Turns the corners of a face before the eye; returns its normal, of unit length. */
 static tn_vector turn_face(const tn_eye *eye, double (*points)[3], uint32_t count)
@@ -87,42 +87,42 @@ static uint64_t plane_of(tn_vector normal, tn_vector through, double size)
     return number;
 }
 
-static double farthest(const tn_sight *sight)
+static double farthest(const tn_display_list *display)
 {
     double most = 1e-300;
-    for (uint32_t c = 0; c < sight->first[sight->face_count]; c++)
+    for (uint32_t c = 0; c < display->first[display->face_count]; c++)
         for (int k = 0; k < 3; k++)
-            most = fmax(most, fabs(sight->points[c][k]));
+            most = fmax(most, fabs(display->points[c][k]));
     return most;
 }
 
-/* Turns all faces, and moves those that can be seen to the front of the sight's arrays. */
-static void turn_faces(tn_sight *sight, const tn_eye *eye, float *light, uint64_t *plane)
+/* Turns all faces, and moves those that can be seen to the front of the display list's arrays. */
+static void turn_faces(tn_display_list *display, const tn_eye *eye, float *light, uint64_t *plane)
 {
-    double size = farthest(sight);
-    uint32_t kept = 0, corners = 0, begin = sight->first[0];
-    for (uint32_t f = 0; f < sight->face_count; f++) {
-        uint32_t end = sight->first[f + 1], count = end - begin;
-        tn_vector corner = tn_vector_at(sight->points[begin]);
-        tn_vector normal = turn_face(eye, sight->points + begin, count);
-        if (!sight->closed || tn_dot(normal, eye->towards) > 1e-12) {
-            memmove(sight->points + corners, sight->points + begin, count * sizeof *sight->points);
-            memmove(sight->edges + corners, sight->edges + begin, count * sizeof *sight->edges);
-            if (sight->groups)
-                sight->groups[kept] = sight->groups[f];
+    double size = farthest(display);
+    uint32_t kept = 0, corners = 0, begin = display->first[0];
+    for (uint32_t f = 0; f < display->face_count; f++) {
+        uint32_t end = display->first[f + 1], count = end - begin;
+        tn_vector corner = tn_vector_at(display->points[begin]);
+        tn_vector normal = turn_face(eye, display->points + begin, count);
+        if (!display->closed || tn_dot(normal, eye->towards) > 1e-12) {
+            memmove(display->points + corners, display->points + begin, count * sizeof *display->points);
+            memmove(display->edges + corners, display->edges + begin, count * sizeof *display->edges);
+            if (display->groups)
+                display->groups[kept] = display->groups[f];
             light[kept] = (float)tn_eye_light(eye, normal);
             plane[kept] = plane_of(normal, corner, size);
-            sight->first[kept++] = corners;
+            display->first[kept++] = corners;
             corners += count;
         }
         begin = end;
     }
-    sight->first[kept] = corners;
-    sight->face_count = kept;
+    display->first[kept] = corners;
+    display->face_count = kept;
 }
 
 /* Moves and scales the scene to about the unit cube, as tn_scene wants it. */
-static void measure(prospect *seen, uint32_t corners)
+static void measure(projection *seen, uint32_t corners)
 {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (uint32_t c = 0; c < corners; c++) {
@@ -140,34 +140,34 @@ static void measure(prospect *seen, uint32_t corners)
             seen->scene.points[c][k] = (seen->scene.points[c][k] - seen->middle[k]) / seen->size;
 }
 
-static tn_status look(tn_sight *sight, const tn_eye *eye, prospect *seen, tn_error *error)
+static tn_status look(tn_display_list *display, const tn_eye *eye, projection *seen, tn_error *error)
 {
-    float *light = malloc((sight->face_count + 1u) * sizeof *light);
-    uint64_t *plane = malloc((sight->face_count + 1u) * sizeof *plane);
-    *seen = (prospect){.sight = sight, .light = light, .plane = plane};
+    float *light = malloc((display->face_count + 1u) * sizeof *light);
+    uint64_t *plane = malloc((display->face_count + 1u) * sizeof *plane);
+    *seen = (projection){.display = display, .light = light, .plane = plane};
     if (!light || !plane)
         return tn_fail_memory(error);
-    turn_faces(sight, eye, light, plane);
-    *seen = (prospect){.sight = sight,
-                       .scene = {.points = sight->points,
-                                 .first = sight->first,
-                                 .face_count = sight->face_count,
-                                 .threads = sight->threads > 0 ? sight->threads : (int)tn_crew_default(),
-                                 .watch = sight->watch},
-                       .light = light,
-                       .plane = plane};
-    measure(seen, sight->first[sight->face_count]);
+    turn_faces(display, eye, light, plane);
+    *seen = (projection){.display = display,
+                         .scene = {.points = display->points,
+                                   .first = display->first,
+                                   .face_count = display->face_count,
+                                   .threads = display->threads > 0 ? display->threads : (int)tn_crew_default(),
+                                   .watch = display->watch},
+                         .light = light,
+                         .plane = plane};
+    measure(seen, display->first[display->face_count]);
     return TN_OK;
 }
 
 /* One patch of the painting, back in model units. */
-static void keep_patch(tn_view *view, const prospect *seen, const tn_painting *painting, const tn_patch *patch,
+static void keep_patch(tn_view *view, const projection *seen, const tn_painting *painting, const tn_patch *patch,
                        float *depths, uint32_t *corner)
 {
     view->faces[view->face_count++] =
         (tn_seen_face){.first = *corner,
                        .size = patch->count,
-                       .group = seen->sight->groups ? seen->sight->groups[patch->face] : TN_NO_GROUP,
+                       .group = seen->display->groups ? seen->display->groups[patch->face] : TN_NO_GROUP,
                        .light = seen->light[patch->face],
                        .plane = seen->plane[patch->face]};
     for (uint32_t c = patch->first; c < patch->first + patch->count; c++) {
@@ -180,11 +180,12 @@ static void keep_patch(tn_view *view, const prospect *seen, const tn_painting *p
             view->high[k] = fmax(view->high[k], at);
         }
         depths[*corner] = (float)(p[2] * seen->size);
-        view->edges[(*corner)++] = side == TN_CUT ? TN_EDGE_NONE : seen->sight->edges[side];
+        view->edges[(*corner)++] = side == TN_CUT ? TN_EDGE_NONE : seen->display->edges[side];
     }
 }
 
-static tn_status keep(tn_view *view, const prospect *seen, const tn_painting *painting, float **depths, tn_error *error)
+static tn_status keep(tn_view *view, const projection *seen, const tn_painting *painting, float **depths,
+                      tn_error *error)
 {
     size_t corners = 0;
     uint32_t corner = 0;
@@ -214,13 +215,13 @@ typedef struct round_frame {
     double radius;          /* about the axis */
 } round_frame;
 
-static round_frame frame_of(const tn_sight *sight)
+static round_frame frame_of(const tn_display_list *display)
 {
     round_frame f = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
-    for (uint32_t c = 0; c < sight->first[sight->face_count]; c++)
+    for (uint32_t c = 0; c < display->first[display->face_count]; c++)
         for (int k = 0; k < 3; k++) {
-            f.low[k] = fmin(f.low[k], sight->points[c][k]);
-            f.high[k] = fmax(f.high[k], sight->points[c][k]);
+            f.low[k] = fmin(f.low[k], display->points[c][k]);
+            f.high[k] = fmax(f.high[k], display->points[c][k]);
         }
     return f;
 }
@@ -238,12 +239,12 @@ static void centre_points(round_frame *f, double (*points)[3], size_t count)
 }
 
 /* Guides may make the frame twice as large. */
-static round_frame centre(tn_sight *sight)
+static round_frame centre(tn_display_list *display)
 {
-    round_frame f = frame_of(sight), around;
-    centre_points(&f, sight->points, sight->first[sight->face_count]);
+    round_frame f = frame_of(display), around;
+    centre_points(&f, display->points, display->first[display->face_count]);
     around = f;
-    centre_points(&around, sight->guides.points, sight->guides.point_count);
+    centre_points(&around, display->guides.points, display->guides.point_count);
     double size = fmax(2 * f.radius, f.high[2] - f.low[2]);
     f.radius = fmin(around.radius, f.radius + size / 2);
     f.low[2] = fmax(around.low[2], f.low[2] - size / 2);
@@ -260,22 +261,22 @@ static void set_frame(tn_view *view, const round_frame *f, const tn_eye *eye)
     view->high[1] = f->high[2] * eye->up.z + tilt;
 }
 
-tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **result, tn_error *error)
+tn_status tn_view_take(tn_display_list *display, const tn_camera *camera, tn_view **result, tn_error *error)
 {
     tn_view *view = calloc(1, sizeof *view);
     *result = NULL;
     if (!view)
         return tn_fail_memory(error);
     view->width = camera->width > 0 ? camera->width : 480;
-    view->step = sight->step;
+    view->step = display->step;
     tn_eye eye = tn_camera_eye(camera);
-    prospect seen;
+    projection seen;
     tn_painting painting = {0};
     round_frame frame = {0};
     float *depths = NULL; /* [corner] */
-    if (sight->turns && sight->face_count)
-        frame = centre(sight);
-    tn_status status = look(sight, &eye, &seen, error);
+    if (display->turns && display->face_count)
+        frame = centre(display);
+    tn_status status = look(display, &eye, &seen, error);
     if (status == TN_OK)
         status = tn_painting_make(&seen.scene, &painting, error);
     if (status == TN_OK)
@@ -287,7 +288,7 @@ tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **resul
     for (int k = 0; k < 2 && status == TN_OK; k++)
         view->extent[k] = view->high[k] - view->low[k];
     if (status == TN_OK)
-        status = tn_view_take_guides(view, &sight->guides, &eye, error);
+        status = tn_view_take_guides(view, &display->guides, &eye, error);
     if (status == TN_OK && frame.radius > 0)
         set_frame(view, &frame, &eye);
     tn_painting_clear(&painting);

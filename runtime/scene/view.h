@@ -1,6 +1,6 @@
 /* Pictures of faces in space: shaded, hidden faces removed (hidden.h), edges drawn, several views side by side.
  *
- * An engine lists the faces of what it has made (tn_sight), takes a view of them, and draws views on a sheet.
+ * An engine lists the faces of what it has made (tn_display_list), takes a view of them, and draws views on a sheet.
  */
 #ifndef TARTAN_SCENE_VIEW_H
 #define TARTAN_SCENE_VIEW_H
@@ -19,7 +19,7 @@
 
 /* What is looked at, z up. The arrays belong to the caller. Limits and messages are about `what`: "a picture of the
  * form". */
-typedef struct tn_sight {
+typedef struct tn_display_list {
     double (*points)[3]; /* [corner]; taking a view changes them */
     uint32_t *first;     /* [face_count + 1] each face's first corner; faces have three or more */
     uint16_t *edges;     /* [corner] label of the edge that starts there, or TN_EDGE_... */
@@ -31,20 +31,20 @@ typedef struct tn_sight {
     struct tn_watch *watch; /* or NULL */
     tn_guides guides;       /* drawn with it; owned */
     bool turns;             /* views from all around, at one elevation, shall have one scale and one middle */
-} tn_sight;
+} tn_display_list;
 
 /* Room for so many; TN_MEMORY. Clear it in any case. E0820 for more than TN_DRAWN_FACES_MAX faces. */
-tn_status tn_sight_new(size_t faces, size_t corners, bool groups, tn_sight *sight, tn_error *error);
-void tn_sight_clear(tn_sight *sight);
+tn_status tn_display_list_new(size_t faces, size_t corners, bool groups, tn_display_list *display, tn_error *error);
+void tn_display_list_clear(tn_display_list *display);
 
 /* The faces of a mesh, in the colours of its groups if it has any. Of triangles, the edges are drawn at which it bends
  * or two groups meet; of other faces, all edges. */
-tn_status tn_sight_of_mesh(const tn_mesh *mesh, tn_sight *sight, tn_error *error);
+tn_status tn_display_list_of_mesh(const tn_mesh *mesh, tn_display_list *display, tn_error *error);
 
 /* One view: what is drawn may be thrown away afterwards. */
 typedef struct tn_view tn_view;
 
-tn_status tn_view_take(tn_sight *sight, const tn_camera *camera, tn_view **view, tn_error *error);
+tn_status tn_view_take(tn_display_list *display, const tn_camera *camera, tn_view **view, tn_error *error);
 void tn_view_free(tn_view *view);
 
 /* How many faces pass through one another too often to be cut (hidden.h): they are drawn by their depth, which is only

@@ -37,10 +37,11 @@ struct tn_view {
     tn_seen_face *faces; /* the farthest first */
     size_t face_count;
     float (*points)[2]; /* [corner] in the picture's plane, y up */
-    uint16_t *edges;    /* [corner] of the edge that starts there: as in tn_sight; TN_EDGE_NONE where a face was cut */
-    float *sharpest;    /* [2 * corner] of the seam that starts there, at its ends: the cosine of the sharpest angle
-                           between    it and a line, or TN_MEETS_NOTHING; NULL: there are no seams */
-    tn_mend *mends;     /* by corner; NULL: there are none */
+    uint16_t
+        *edges; /* [corner] of the edge that starts there: as in tn_display_list; TN_EDGE_NONE where a face was cut */
+    float *sharpest; /* [2 * corner] of the seam that starts there, at its ends: the cosine of the sharpest angle
+                        between    it and a line, or TN_MEETS_NOTHING; NULL: there are no seams */
+    tn_mend *mends;  /* by corner; NULL: there are none */
     size_t mend_count;
     double low[2], high[2];
     double extent[2]; /* of the form alone: guides and views from all around make the frame larger */

@@ -171,15 +171,15 @@ static int compare_ids(const void *left, const void *right)
 /* Those that leave come behind the others, whose order stays. */
 static void put_last(tn_evolution *e, tn_island *island, const uint64_t *left, size_t left_count)
 {
-    size_t kept = 0, leaving = 0;
+    size_t kept = 0, last = 0;
     for (size_t i = 0; i < island->count; i++) {
         tn_individual *member = island->members[i];
         if (bsearch(&member->id, left, left_count, sizeof *left, compare_ids))
-            e->pool[leaving++] = member;
+            e->pool[last++] = member;
         else
             island->members[kept++] = member;
     }
-    memcpy(island->members + kept, e->pool, leaving * sizeof *e->pool);
+    memcpy(island->members + kept, e->pool, last * sizeof *e->pool);
 }
 
 tn_status tn_evolution_resize(tn_evolution *e, uint32_t population, const uint64_t *left, size_t left_count,

@@ -147,7 +147,7 @@ bool tn_branch_trees_new(const tn_loop *loop, const tn_growth *growth, tn_branch
     return fine;
 }
 
-/* ---- leaving a tree */
+/* ---- out of a tree */
 
 /* Out of its region's tree, whose boxes stay as they are. */
 static void take_out(tn_branch_trees *trees, uint32_t branch)

@@ -1,5 +1,4 @@
 /* Finds the best values of a library's houses: for each node, the values that what follows can add. */
-#include "runtime/house/count/best.h"
 
 #include <stdlib.h>
 
@@ -9,7 +8,7 @@
 
 tn_status tn_houses_too_many_values(const tn_houses *h, tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, E_STRIP, "counting houses by `%.60s` takes more than %u states",
+    tn_fail(error, TN_LIMIT, E_FRONTIER, "counting houses by `%.60s` takes more than %u states",
             tn_text(h->form->module, h->measures->of[0]->of.name), h->max_states);
     tn_error_help(error, "ask about one plan (--plan), use rounder numbers, or allow more (--max-states N)");
     return TN_LIMIT;
@@ -36,7 +35,7 @@ static tn_status add_values(const tn_houses *h, tn_value_counts *to, const tn_va
                             const tn_house_gain *gain, const mpz_t times, tn_error *error)
 {
     size_t most = 2 * from->count + to->count + 64;
-    bool ok = tn_value_counts_pour(to, from, gain, times);
+    bool ok = tn_value_counts_add_shifted(to, from, gain, times);
     if (ok && to->count + from->count > most)
         keep_best(h, to);
     return ok ? TN_OK : tn_fail_memory(error);

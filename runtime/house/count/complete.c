@@ -93,7 +93,7 @@ static tn_status make_layer(const tn_completing *c, uint32_t at, tn_error *error
 
 static tn_status too_many(const tn_completing *c, tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, E_STRIP, "counting the houses that complete this takes more than %u states",
+    tn_fail(error, TN_LIMIT, E_FRONTIER, "counting the houses that complete this takes more than %u states",
             c->houses->max_states);
     tn_error_help(error, "write fewer trays, or allow more (--max-states N)");
     return TN_LIMIT;

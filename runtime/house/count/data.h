@@ -3,8 +3,8 @@
 #define TARTAN_HOUSE_COUNT_DATA_H
 
 #include "runtime/house/count/houses.h"
+#include "runtime/house/frontier/states.h"
 #include "runtime/house/rule/asked.h"
-#include "runtime/house/strip/parts.h"
 #include "runtime/house/variant/section.h"
 #include "runtime/house/variant/variant.h"
 
@@ -21,7 +21,7 @@ typedef struct tn_value_counts {
 
 void tn_value_counts_clear(tn_value_counts *counts);
 
-/* counts += times, at the value. False where out of memory. */
+/* counts += times, at the value. False: out of memory. */
 bool tn_value_counts_add(tn_value_counts *counts, const tn_house_gain *value, const mpz_t times);
 bool tn_value_counts_has(const tn_value_counts *counts, const tn_house_gain *value);
 
@@ -30,9 +30,9 @@ bool tn_value_counts_has(const tn_value_counts *counts, const tn_house_gain *val
 void tn_value_counts_keep_least(tn_value_counts *counts, uint64_t wanted);
 void tn_value_counts_keep_front(tn_value_counts *counts);
 
-/* to += each value of `from`, more by `gain`, so many times. False where out of memory. */
-bool tn_value_counts_pour(tn_value_counts *to, const tn_value_counts *from, const tn_house_gain *gain,
-                          const mpz_t times);
+/* to += each value of `from`, more by `gain`, so many times. False: out of memory. */
+bool tn_value_counts_add_shifted(tn_value_counts *to, const tn_value_counts *from, const tn_house_gain *gain,
+                                 const mpz_t times);
 int tn_house_gain_compare(const tn_house_gain *a, const tn_house_gain *b);
 tn_house_gain tn_house_gain_sum(const tn_house_gain *a, const tn_house_gain *b);
 
@@ -42,7 +42,7 @@ typedef struct tn_houses_plan_layer {
     uint32_t *alike; /* [states]: the first from which the same goes on */
 } tn_houses_plan_layer;
 
-/* Steps that counting went to the next layer, in how many ways; `all`: none is left out. slice: 0 where none is taken.
+/* Steps that counting went to the next layer, in how many ways; `all`: none is left out. slice: 0 if none is taken.
  */
 typedef struct tn_kept_step {
     uint32_t from, to, slice;
@@ -55,8 +55,8 @@ typedef struct tn_kept_steps {
     bool all;
 } tn_kept_steps;
 
-/* The nodes after so many trays, or within a step: {state of the library of plans, state of the strip, or leaving, or
- * threshold, or arrival}. */
+/* The nodes after so many trays, or within a step: {state of the library of plans, state of the frontier or (within a
+ * step) its exit, entry or slice state}. */
 typedef struct tn_houses_layer {
     tn_numbering nodes; /* plan state << 32 | state */
     mpz_t *ahead;    /* [nodes][lengths]: houses on plans of each length that go on from there; NULL: not asked for */
@@ -65,19 +65,19 @@ typedef struct tn_houses_layer {
     tn_kept_steps kept;
 } tn_houses_layer;
 
-/* A way on from a plan state: a slice, the plan state behind it, how many choices of trays and of their insides. */
+/* A way on from a plan state: a slice, the plan state after it, how many choices of trays and of their insides. */
 typedef struct tn_houses_way {
     uint32_t slice, entry, group, plan; /* entry, group: of the slice */
     uint64_t times;
     tn_house_gain gain; /* what the tray adds to the plan's part of the measures */
-    tn_tray tray;       /* 0 where it does not matter which one it is */
+    tn_tray tray;       /* 0 if it does not matter which one it is */
 } tn_houses_way;
 
 /* The sections that nothing tells apart. */
 typedef struct tn_houses_kind {
     tn_section_key key;
     uint32_t sections; /* how many */
-    tn_strip *strip;
+    tn_frontier *frontier;
     tn_houses_layer *layers; /* [high * stages + 1] */
     mpz_t *houses;           /* [lengths], of one section */
     mpz_t faced;
@@ -92,9 +92,9 @@ struct tn_houses {
     const tn_house_form *form;
     const tn_house_library_record *library;
     const tn_library *plans;
-    uint32_t max_states, low, high;    /* trays */
-    const tn_strip_without *without;   /* or NULL; only while they are counted */
-    tn_houses_plan_layer *plan_layers; /* [high + 1] */
+    uint32_t max_states, low, high;     /* trays */
+    const tn_frontier_without *without; /* or NULL; only while they are counted */
+    tn_houses_plan_layer *plan_layers;  /* [high + 1] */
     tn_sections sections;
     tn_houses_kind *kinds;
     size_t kind_count, kind_room;
@@ -106,35 +106,35 @@ struct tn_houses {
     tn_house_weights *compared[TN_COMPARED_MAX]; /* the latter; owned */
     uint32_t compared_count;
     tn_weighed *weighed;
-    tn_strip_units units; /* that values are in */
-    bool trays_matter;    /* to whom steps are shown */
-    bool keep_trays;      /* ways are by tray, though steps have stages */
-    uint32_t many_slices; /* along one plan, with fewer, a step as a whole is quicker than one in stages */
-    bool whole_steps;     /* these are so few that stages would cost more */
+    tn_frontier_units units; /* that values are in */
+    bool trays_matter;       /* to whom steps are shown */
+    bool keep_trays;         /* ways are by tray, though steps have stages */
+    uint32_t many_slices;    /* along one plan, with fewer, a step as a whole is quicker than one in stages */
+    bool whole_steps;        /* these are so few that stages would cost more */
     tn_houses_aim aim;
     uint64_t wanted;      /* houses, of the least values */
     tn_value_counts best; /* of all houses, as far as they are aimed at */
 };
 
-/* The kind that a section is of, NULL where no such is known. */
+/* The kind that a section is of, NULL if no such is known. */
 tn_houses_kind *tn_houses_kind_of(const tn_houses *houses, const tn_house *section);
 
-/* Layers from one tray to the next: 4, or 1 where a step is not divided, as something is added up on the way, trays
+/* Layers from one tray to the next: 4, or 1 if a step is not divided, as something is added up on the way, trays
  * matter, or steps are few. Layers that are multiples of it are of states after trays. */
 static inline uint32_t tn_houses_stages(const tn_houses *houses, const tn_houses_kind *kind)
 {
-    return tn_strip_has_stages(kind->strip) && !houses->trays_matter && !houses->whole_steps ? 4 : 1;
+    return tn_frontier_has_stages(kind->frontier) && !houses->trays_matter && !houses->whole_steps ? 4 : 1;
 }
 
-/* TN_LIMIT (E1640) where more can stand between two trays than the limit of states allows. */
-tn_status tn_houses_check_planes(const tn_houses *houses, const tn_houses_kind *kind, tn_error *error);
+/* TN_LIMIT (E1640) if more can stand between two trays than the limit of states allows. */
+tn_status tn_houses_check_interfaces(const tn_houses *houses, const tn_houses_kind *kind, tn_error *error);
 
 /* A step from a node: `from` among those of the layer. */
 typedef struct tn_houses_edge {
-    uint32_t from, plan, state, slice; /* slice: 0 where none is taken */
-    uint64_t ways, times, faced;       /* ways: of trays and slices; times: of what is at the plane, and tiles */
+    uint32_t from, plan, state, slice; /* slice: 0 if none is taken */
+    uint64_t ways, times, faced;       /* ways: of trays and slices; times: of what is at the interface, and tiles */
     tn_house_gain gain;                /* what it adds to the measures */
-    tn_tray tray;                      /* 0 where it does not matter */
+    tn_tray tray;                      /* 0 if it does not matter */
 } tn_houses_edge;
 typedef tn_status tn_houses_edge_seen(void *context, const tn_houses_edge *edge, tn_error *error);
 
@@ -143,7 +143,7 @@ typedef tn_status tn_houses_edge_seen(void *context, const tn_houses_edge *edge,
 tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end,
                            tn_houses_edge_seen *seen, void *context, tn_error *error);
 
-/* Keeps a step of a layer that counting goes, since ranks go the same ones backwards. Where there are too many, those
+/* Keeps a step of a layer that counting goes, since ranks go the same ones backwards. If there are too many, those
  * of the layer are forgotten. */
 tn_status tn_houses_keep_step(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, uint32_t to,
                               const tn_houses_edge *edge, tn_error *error);
@@ -153,12 +153,12 @@ void tn_houses_forget_steps(tn_houses_kind *kind, uint32_t layer);
 void tn_houses_layers_clear(const tn_houses *houses, tn_houses_kind *kind);
 
 /* Finds the plan states, and the trays that stand in some plan. trays: zeroed; clear them also after a failure. */
-tn_status tn_houses_plans_find(tn_houses *houses, tn_strip_trays *trays, tn_error *error);
-void tn_strip_trays_clear(tn_strip_trays *trays);
+tn_status tn_houses_plans_find(tn_houses *houses, tn_frontier_trays *trays, tn_error *error);
+void tn_frontier_trays_clear(tn_frontier_trays *trays);
 void tn_houses_plans_clear(tn_houses *houses);
 
-/* The plans that are looked at: where a tray leads, and what it adds; TN_STRIP_NONE: to none of them. layer: the trays
- * before it. */
+/* The plans that are looked at: where a tray leads, and what it adds; TN_FRONTIER_NONE: to none of them. layer: the
+ * trays before it. */
 tn_status tn_houses_plan_next(const tn_houses *houses, uint32_t layer, uint32_t plan, tn_tray tray, uint32_t *next,
                               tn_house_gain *gain, tn_error *error);
 bool tn_houses_plan_alive(const tn_houses *houses, uint32_t left, uint32_t plan);
@@ -169,12 +169,12 @@ tn_house_gain tn_houses_plan_rest(const tn_houses *houses, uint32_t plan); /* wh
 tn_status tn_houses_expand_from(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, mpz_t *here,
                                 tn_houses_edge_seen *seen, void *context, tn_error *error);
 
-/* Finds what is added up (added.c). TN_LIMIT (E1640) where a clause compares what cannot be. */
+/* Finds what is added up (added.c). TN_LIMIT (E1640) if a clause compares what cannot be. */
 tn_status tn_houses_find_added(tn_houses *houses, tn_error *error);
 void tn_houses_added_clear(tn_houses *houses);
 
-void tn_houses_units_init(tn_strip_units *units);
-void tn_houses_units_clear(tn_strip_units *units);
+void tn_houses_units_init(tn_frontier_units *units);
+void tn_houses_units_clear(tn_frontier_units *units);
 
 /* Finds the steps that the numbers of all measures are whole numbers of, once all sections are scouted. E0424. */
 tn_status tn_houses_settle(tn_houses *houses, tn_error *error);
@@ -185,7 +185,7 @@ int64_t tn_houses_shown(const tn_houses *houses, uint32_t measure, tn_int128 val
 /* Counts the houses of one section by the values of the measure. */
 tn_status tn_houses_spread_kind(const tn_houses *houses, tn_houses_kind *kind, tn_error *error);
 
-/* Houses of these values are looked for. rules: NULL where a house's functions say that it has them. */
+/* Houses of these values are looked for. rules: NULL if a house's functions say that it has them. */
 typedef struct tn_houses_wanted {
     const tn_houses *houses;
     tn_house_rules *rules;

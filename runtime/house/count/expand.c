@@ -1,8 +1,8 @@
 /* Goes from the nodes of a layer to those of the next: what is equal for several plans is worked out once.
  *
- * Between the states after two trays there are three more layers where a step has four stages (stage.c): of leavings,
- * of thresholds, then of arrivals. A state then goes on by all entries that can follow, a leaving and a threshold by
- * all groups of these; an arrival goes on by each slice. */
+ * If a step has four stages (stage.c), there are three more layers between the states after two trays: of exit states,
+ * of entry states, then of slice states. A state then goes on by all entries that can follow, an exit state and an
+ * entry state by all groups of these, and a slice state by each slice. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@ typedef struct tn_reached {
     tn_house_gain gain;
 } tn_reached;
 
-/* From one state, leaving, threshold or arrival: what it reaches by each slice, or list, that was asked for. */
+/* What one node's state reaches by each slice, or list, that was asked for. */
 typedef struct tn_fan {
     uint32_t *mark; /* [slices and lists]: the turn in which it was last asked for */
     size_t *first;  /* the same: its part of `reached`, and how much */
@@ -28,11 +28,11 @@ typedef struct tn_fan {
 typedef struct tn_ways {
     tn_houses_way *items;
     size_t count, room;
-    uint32_t list; /* half way: of entries (STAGE_LEAVE), of these with their groups (STAGE_FACE, STAGE_ENTER) */
+    uint32_t list; /* half way: of entries (STAGE_EXIT), of these with their groups (STAGE_CROSS, STAGE_ENTER) */
 } tn_ways;
 
 /* A step as a whole, or one of its stages. */
-typedef enum tn_stage { STAGE_LEAVE, STAGE_FACE, STAGE_ENTER, STAGE_ARRIVE, STAGE_WHOLE } tn_stage;
+typedef enum tn_stage { STAGE_EXIT, STAGE_CROSS, STAGE_ENTER, STAGE_PASS, STAGE_WHOLE } tn_stage;
 
 typedef struct tn_houses_expansion {
     const tn_houses *houses;
@@ -52,7 +52,7 @@ typedef struct tn_houses_expansion {
 /* What is half way is met once, however many slices lead on from it: the tray is not taken yet. */
 static bool is_half(const tn_houses_expansion *e)
 {
-    return e->stage < STAGE_ARRIVE;
+    return e->stage < STAGE_PASS;
 }
 
 /* Ways by slices of one entry, and of one group, follow one another: groups have one entry. */
@@ -80,12 +80,12 @@ static void merge_ways(tn_ways *ways)
     ways->count = kept;
 }
 
-static tn_houses_way way_by(const tn_strip *strip, const tn_strip_choice *choice)
+static tn_houses_way way_by(const tn_frontier *frontier, const tn_frontier_choice *choice)
 {
-    uint32_t slice = strip->scouting ? strip->slices[choice->slice].plain : choice->slice;
+    uint32_t slice = frontier->scouting ? frontier->slices.items[choice->slice].plain : choice->slice;
     return (tn_houses_way){.slice = slice,
-                           .entry = strip->slices[slice].entry,
-                           .group = strip->slices[slice].group,
+                           .entry = frontier->slices.items[slice].entry,
+                           .group = frontier->slices.items[slice].group,
                            .times = choice->times};
 }
 
@@ -93,12 +93,12 @@ static tn_houses_way way_by(const tn_strip *strip, const tn_strip_choice *choice
 static tn_status find_ways(tn_houses_expansion *e, uint32_t plan, tn_ways *ways, tn_error *error)
 {
     const tn_houses *h = e->houses;
-    const tn_strip *strip = e->kind->strip;
+    const tn_frontier *frontier = e->kind->frontier;
     size_t trays = 0;
     for (tn_tray t = 0; e->trays < h->high && t < h->form->schema->tray_count; t++) {
         uint32_t next;
         tn_house_gain gain;
-        const tn_strip_list *list = &strip->of_tray[t];
+        const tn_frontier_list *list = &frontier->slices.of_tray[t];
         tn_status status = tn_houses_plan_next(h, e->trays, plan, t, &next, &gain, error);
         if (status != TN_OK)
             return status;
@@ -108,43 +108,43 @@ static tn_status find_ways(tn_houses_expansion *e, uint32_t plan, tn_ways *ways,
             return tn_fail_memory(error);
         for (size_t i = 0; i < list->count; i++) {
             tn_houses_way *way = &ways->items[ways->count++];
-            *way = way_by(strip, &list->items[i]);
+            *way = way_by(frontier, &list->items[i]);
             way->plan = next;
             way->gain = gain;
             way->tray = h->trays_matter || h->keep_trays ? t : 0;
         }
         trays++;
     }
-    if (ways->count > 0 && (trays > 1 || strip->scouting))
+    if (ways->count > 0 && (trays > 1 || frontier->scouting))
         merge_ways(ways);
     return TN_OK;
 }
 
 /* The ways are by entry. */
-static tn_status find_entries(tn_strip *strip, tn_ways *ways, tn_error *error)
+static tn_status find_entries(tn_frontier *frontier, tn_ways *ways, tn_error *error)
 {
-    tn_key *key = &strip->key;
+    tn_key *key = &frontier->key;
     bool ok = true;
     key->size = 0;
     for (size_t i = 0; ok && i < ways->count; i++)
         if (i == 0 || ways->items[i].entry != ways->items[i - 1].entry)
             ok = tn_key_push(key, ways->items[i].entry);
-    ways->list = ok ? tn_strip_number_list(strip, key->data, key->size) : UINT32_MAX;
+    ways->list = ok ? tn_frontier_number_list(frontier, key->data, key->size) : UINT32_MAX;
     return ways->list != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-/* strip->key := for each group of the ways from here that have one entry: what clauses read of it, and its number. *at
- * := behind these ways. */
-static bool list_groups(tn_strip *strip, const tn_ways *ways, size_t *at)
+/* frontier->key := for each group of the ways from here that have one entry: what clauses read of it, and its number.
+ * *at := after these ways. */
+static bool list_groups(tn_frontier *frontier, const tn_ways *ways, size_t *at)
 {
     uint32_t entry = ways->items[*at].entry;
-    tn_key *key = &strip->key;
+    tn_key *key = &frontier->key;
     bool ok = true;
     key->size = 0;
     for (size_t first = *at; ok && *at < ways->count && ways->items[*at].entry == entry; ++*at) {
         const tn_houses_way *way = &ways->items[*at];
         if (*at == first || way->group != way[-1].group)
-            ok = tn_key_push(key, strip->slices[way->slice].bases) && tn_key_push(key, way->group);
+            ok = tn_key_push(key, frontier->slices.items[way->slice].bases) && tn_key_push(key, way->group);
     }
     return ok;
 }
@@ -155,28 +155,28 @@ static int compare_pairs(const void *a, const void *b)
     return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-/* The number of the list of groups in strip->key: those of which clauses read the same follow one another. */
-static uint32_t number_groups(tn_strip *strip)
+/* The number of the list of groups in frontier->key: those of which clauses read the same follow one another. */
+static uint32_t number_groups(tn_frontier *frontier)
 {
-    const tn_key *key = &strip->key;
+    const tn_key *key = &frontier->key;
     size_t count = key->size / 2;
     qsort(key->data, count, 2 * sizeof *key->data, compare_pairs);
     for (size_t i = 0; i < count; i++)
         key->data[i] = key->data[2 * i + 1];
-    return tn_strip_number_list(strip, key->data, count);
+    return tn_frontier_number_list(frontier, key->data, count);
 }
 
-static tn_status find_groups(tn_strip *strip, tn_ways *ways, tn_error *error)
+static tn_status find_groups(tn_frontier *frontier, tn_ways *ways, tn_error *error)
 {
-    tn_key entering = {0};
+    tn_key entry_groups = {0};
     bool ok = true;
     for (size_t at = 0; ok && at < ways->count;) {
         uint32_t entry = ways->items[at].entry;
-        uint32_t groups = list_groups(strip, ways, &at) ? number_groups(strip) : UINT32_MAX;
-        ok = groups != UINT32_MAX && tn_key_push(&entering, entry) && tn_key_push(&entering, groups);
+        uint32_t groups = list_groups(frontier, ways, &at) ? number_groups(frontier) : UINT32_MAX;
+        ok = groups != UINT32_MAX && tn_key_push(&entry_groups, entry) && tn_key_push(&entry_groups, groups);
     }
-    ways->list = ok ? tn_strip_number_list(strip, entering.data, entering.size) : UINT32_MAX;
-    free(entering.data);
+    ways->list = ok ? tn_frontier_number_list(frontier, entry_groups.data, entry_groups.size) : UINT32_MAX;
+    free(entry_groups.data);
     return ways->list != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
@@ -196,10 +196,10 @@ static tn_status find_all_ways(tn_houses_expansion *e, tn_error *error)
     tn_status status = e->ways ? TN_OK : tn_fail_memory(error);
     for (uint32_t i = 0; status == TN_OK && i < e->plans.count; i++) {
         status = find_ways(e, (uint32_t)e->plans.keys[i], &e->ways[i], error);
-        if (status == TN_OK && e->stage == STAGE_LEAVE)
-            status = find_entries(e->kind->strip, &e->ways[i], error);
-        if (status == TN_OK && is_half(e) && e->stage != STAGE_LEAVE)
-            status = find_groups(e->kind->strip, &e->ways[i], error);
+        if (status == TN_OK && e->stage == STAGE_EXIT)
+            status = find_entries(e->kind->frontier, &e->ways[i], error);
+        if (status == TN_OK && is_half(e) && e->stage != STAGE_EXIT)
+            status = find_groups(e->kind->frontier, &e->ways[i], error);
     }
     return status;
 }
@@ -216,7 +216,7 @@ static tn_status reach(void *context, uint32_t state, uint64_t times, uint64_t f
     return TN_OK;
 }
 
-/* Behind the last tray only states are kept in which the row may end. */
+/* After the last tray only states are kept in which the row may end. */
 static tn_status keep_ends(tn_houses_expansion *e, size_t first, tn_error *error)
 {
     tn_fan *fan = &e->fan;
@@ -224,7 +224,7 @@ static tn_status keep_ends(tn_houses_expansion *e, size_t first, tn_error *error
     size_t kept = first;
     for (size_t i = first; status == TN_OK && i < fan->used; i++) {
         bool ends;
-        status = tn_strip_ends(e->kind->strip, e->trays + 1, fan->reached[i].state, &ends, error);
+        status = tn_frontier_ends(e->kind->frontier, e->trays + 1, fan->reached[i].state, &ends, error);
         fan->reached[kept] = fan->reached[i];
         kept += ends;
     }
@@ -234,15 +234,15 @@ static tn_status keep_ends(tn_houses_expansion *e, size_t first, tn_error *error
 
 static tn_status step(tn_houses_expansion *e, uint32_t state, uint32_t by, tn_error *error)
 {
-    tn_strip *strip = e->kind->strip;
-    if (e->stage == STAGE_LEAVE)
-        return tn_strip_leave(strip, state, by, reach, &e->fan, error);
-    if (e->stage == STAGE_FACE)
-        return tn_strip_face(strip, e->trays, state, by, reach, &e->fan, error);
+    tn_frontier *frontier = e->kind->frontier;
+    if (e->stage == STAGE_EXIT)
+        return tn_frontier_stage_exit(frontier, state, by, reach, &e->fan, error);
+    if (e->stage == STAGE_CROSS)
+        return tn_frontier_stage_cross(frontier, e->trays, state, by, reach, &e->fan, error);
     if (e->stage == STAGE_ENTER)
-        return tn_strip_enter(strip, e->trays, state, by, reach, &e->fan, error);
-    return e->stage == STAGE_ARRIVE ? tn_strip_arrive(strip, state, by, reach, &e->fan, error)
-                                    : tn_strip_step(strip, e->trays, state, by, reach, &e->fan, error);
+        return tn_frontier_stage_enter(frontier, e->trays, state, by, reach, &e->fan, error);
+    return e->stage == STAGE_PASS ? tn_frontier_stage_pass(frontier, state, by, reach, &e->fan, error)
+                                  : tn_frontier_step(frontier, e->trays, state, by, reach, &e->fan, error);
 }
 
 /* Steps by a slice or a list, if that was not done in this turn. */
@@ -254,8 +254,8 @@ static tn_status ask(tn_houses_expansion *e, uint32_t turn, uint32_t state, uint
     fan->mark[at] = turn;
     fan->first[at] = fan->used;
     tn_status status = step(e, state, by, error);
-    bool behind = by != TN_STRIP_NONE && e->stage >= STAGE_ARRIVE;
-    if (status == TN_OK && behind && e->trays + 1 == e->houses->high)
+    bool after_slice = by != TN_FRONTIER_NONE && e->stage >= STAGE_PASS;
+    if (status == TN_OK && after_slice && e->trays + 1 == e->houses->high)
         status = keep_ends(e, fan->first[at], error);
     fan->count[at] = fan->used - fan->first[at];
     return status;
@@ -298,13 +298,13 @@ static size_t first_way(const tn_ways *ways, uint32_t entry, uint32_t group)
 /* The ways [*first, *end) by which the node can go on. */
 static void find_stretch(const tn_houses_expansion *e, const tn_ways *ways, uint32_t state, size_t *first, size_t *end)
 {
-    const tn_strip *strip = e->kind->strip;
+    const tn_frontier *frontier = e->kind->frontier;
     *first = 0;
     *end = ways->count;
-    if (e->stage != STAGE_ARRIVE)
+    if (e->stage != STAGE_PASS)
         return;
-    uint32_t group = tn_strip_arrival_group(strip, state);
-    uint32_t entry = strip->slices[strip->stages.slices[group]].entry;
+    uint32_t group = tn_frontier_slice_state_group(frontier, state);
+    uint32_t entry = frontier->slices.items[frontier->stages.slices[group]].entry;
     *first = first_way(ways, entry, group);
     *end = first_way(ways, entry, group + 1);
 }
@@ -316,7 +316,7 @@ static tn_status expand_end(tn_houses_expansion *e, uint32_t turn, uint32_t node
     if (e->trays < e->houses->low || !tn_houses_plan_alive(e->houses, 0, plan))
         return TN_OK;
     const tn_houses_way way = {.plan = plan, .times = 1, .gain = tn_houses_plan_rest(e->houses, plan)};
-    tn_status status = ask(e, turn, (uint32_t)key, TN_STRIP_NONE, 0, error);
+    tn_status status = ask(e, turn, (uint32_t)key, TN_FRONTIER_NONE, 0, error);
     return status == TN_OK ? show(e, node, &way, 0, error) : status;
 }
 
@@ -364,17 +364,17 @@ static int compare_ordered(const void *a, const void *b)
                                   : (p->node > q->node) - (p->node < q->node);
 }
 
-/* What nodes are gone through by: states that cross planes alike follow one another. */
+/* What nodes are gone through by: states that cross interfaces alike follow one another. */
 static tn_status find_place(const tn_houses_expansion *e, tn_interner *crossing, uint32_t state, uint32_t *place,
                             tn_error *error)
 {
-    const tn_strip *strip = e->kind->strip;
+    const tn_frontier *frontier = e->kind->frontier;
     size_t size;
     *place = 0;
-    if (e->stage != STAGE_LEAVE && e->stage != STAGE_WHOLE)
+    if (e->stage != STAGE_EXIT && e->stage != STAGE_WHOLE)
         return TN_OK;
-    const uint32_t *words = state == TN_STRIP_NONE ? &state : tn_interned(&strip->states, state, &size);
-    *place = tn_intern(crossing, words, state == TN_STRIP_NONE ? 1 : tn_strip_waiting_word(strip) - 1);
+    const uint32_t *words = state == TN_FRONTIER_NONE ? &state : tn_interned(&frontier->states, state, &size);
+    *place = tn_intern(crossing, words, state == TN_FRONTIER_NONE ? 1 : tn_frontier_pending_word(frontier) - 1);
     return *place != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
@@ -408,9 +408,9 @@ static tn_status expand_nodes(tn_houses_expansion *e, bool end, tn_error *error)
         if (i == 0 || order[i].state != order[i - 1].state) {
             turn++;
             e->fan.used = 0;
-            status = tn_watch_check(e->kind->strip->watch, error);
+            status = tn_watch_check(e->kind->frontier->watch, error);
             if (status == TN_OK)
-                status = tn_houses_check_planes(e->houses, e->kind, error);
+                status = tn_houses_check_interfaces(e->houses, e->kind, error);
         }
         if (status == TN_OK)
             status = end ? expand_end(e, turn, order[i].node, error) : expand_node(e, turn, order[i].node, error);
@@ -421,8 +421,8 @@ static tn_status expand_nodes(tn_houses_expansion *e, bool end, tn_error *error)
 
 static tn_status begin_fan(tn_houses_expansion *e, tn_error *error)
 {
-    const tn_strip *strip = e->kind->strip;
-    size_t by = (size_t)strip->slice_keys.count + strip->stages.lists.count + 1; /* what each stage goes by */
+    const tn_frontier *frontier = e->kind->frontier;
+    size_t by = (size_t)frontier->slices.keys.count + frontier->stages.lists.count + 1; /* what each stage goes by */
     e->fan.mark = calloc(by, sizeof *e->fan.mark);
     e->fan.first = malloc(by * sizeof *e->fan.first);
     e->fan.count = malloc(by * sizeof *e->fan.count);
@@ -467,4 +467,36 @@ tn_status tn_houses_expand_from(const tn_houses *houses, tn_houses_kind *kind, u
                                 tn_houses_edge_seen *seen, void *context, tn_error *error)
 {
     return expand(houses, kind, layer, false, here, seen, context, error);
+}
+
+/* ==== steps that are kept
+ *
+ * Keeps the steps that counting went: ranks go the same ones backwards. */
+
+enum { KEPT_MAX = 6000000 }; /* by all kinds of sections together: 144 MB */
+
+tn_status tn_houses_keep_step(const tn_houses *h, tn_houses_kind *kind, uint32_t layer, uint32_t to,
+                              const tn_houses_edge *edge, tn_error *error)
+{
+    tn_kept_steps *kept = &kind->layers[layer].kept;
+    uint64_t times;
+    if (!kept->all)
+        return TN_OK;
+    if (kind->kept_steps >= KEPT_MAX / h->kind_count || __builtin_mul_overflow(edge->ways, edge->times, &times)) {
+        tn_houses_forget_steps(kind, layer);
+        return TN_OK;
+    }
+    if (!tn_array_reserve(&kept->items, &kept->room, kept->count, 1, sizeof *kept->items))
+        return tn_fail_memory(error);
+    kept->items[kept->count++] = (tn_kept_step){edge->from, to, edge->slice, times};
+    kind->kept_steps++;
+    return TN_OK;
+}
+
+void tn_houses_forget_steps(tn_houses_kind *kind, uint32_t layer)
+{
+    tn_kept_steps *kept = &kind->layers[layer].kept;
+    kind->kept_steps -= kept->count;
+    free(kept->items);
+    *kept = (tn_kept_steps){0};
 }

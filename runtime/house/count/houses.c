@@ -1,6 +1,4 @@
 /* Counts the houses of a library layer by layer: how many choices lead to each node. */
-#include "runtime/house/count/houses.h"
-
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,11 +6,13 @@
 #include "runtime/base/array.h"
 #include "runtime/base/integers.h"
 #include "runtime/house/count/data.h"
+#include "runtime/house/count/houses.h"
+#include "runtime/house/rule/asked.h"
 
 /* Adds to an error what helps. */
 static tn_status too_many(const tn_houses_kind *kind, tn_error *error)
 {
-    const char *name = tn_strip_dearest(kind->strip);
+    const char *name = tn_frontier_largest(kind->frontier);
     if (name)
         tn_error_help(error, "`%.60s` keeps most apart. Ask about one plan (--plan), or allow more (--max-states N)",
                       name);
@@ -30,18 +30,18 @@ static tn_status check_nodes(const tn_houses *h, const tn_houses_kind *kind, uin
                              tn_error *error)
 {
     bool states = layer % tn_houses_stages(h, kind) == 0;
-    if ((states ? nodes : nodes / OTHERS_A_STATE) <= h->max_states && kind->strip->states.count <= h->max_states)
+    if ((states ? nodes : nodes / OTHERS_A_STATE) <= h->max_states && kind->frontier->states.count <= h->max_states)
         return TN_OK;
-    tn_fail(error, TN_LIMIT, E_STRIP, "counting these houses takes more than %u states", h->max_states);
+    tn_fail(error, TN_LIMIT, E_FRONTIER, "counting these houses takes more than %u states", h->max_states);
     return too_many(kind, error);
 }
 
-tn_status tn_houses_check_planes(const tn_houses *h, const tn_houses_kind *kind, tn_error *error)
+tn_status tn_houses_check_interfaces(const tn_houses *h, const tn_houses_kind *kind, tn_error *error)
 {
     uint64_t most = (uint64_t)OTHERS_A_STATE * h->max_states;
-    if (kind->strip->plane_outcomes <= most)
+    if (kind->frontier->interfaces.outcomes <= most)
         return TN_OK;
-    tn_fail(error, TN_LIMIT, E_STRIP, "these houses have more than %" PRIu64 " choices of what is between two trays",
+    tn_fail(error, TN_LIMIT, E_FRONTIER, "these houses have more than %" PRIu64 " choices of what is between two trays",
             most);
     return too_many(kind, error);
 }
@@ -114,7 +114,8 @@ static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
     kind->layers = calloc(tn_size_of(h->high, f.stages) + 1, sizeof *kind->layers);
     kind->houses = tn_integers_new(tn_houses_lengths(h));
     f.counts = tn_integers_new(f.count);
-    if (!kind->layers || !kind->houses || !f.counts || tn_number(&kind->layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX) {
+    if (!kind->layers || !kind->houses || !f.counts ||
+        tn_number(&kind->layers[0].nodes, TN_FRONTIER_NONE) == UINT32_MAX) {
         tn_integers_free(f.counts, f.count);
         return tn_fail_memory(error);
     }
@@ -125,7 +126,7 @@ static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
         status = count_layer(&f, error);
     tn_integers_free(f.counts, f.count);
     mpz_clear(f.one);
-    tn_strip_entered_forget(&kind->strip->stages.entered);
+    tn_frontier_entered_forget(&kind->frontier->stages.entered);
     return status;
 }
 
@@ -181,7 +182,7 @@ static tn_status walk(const tn_houses *h, tn_houses_kind *kind, bool *any, tn_er
     uint32_t stages = tn_houses_stages(h, kind);
     tn_status status = TN_OK;
     kind->layers = calloc(tn_size_of(h->high, stages) + 1, sizeof *kind->layers);
-    if (!kind->layers || tn_number(&kind->layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX)
+    if (!kind->layers || tn_number(&kind->layers[0].nodes, TN_FRONTIER_NONE) == UINT32_MAX)
         return tn_fail_memory(error);
     for (; status == TN_OK && s.layer <= h->high * stages; s.layer++) {
         if (s.layer % stages == 0 && s.layer >= h->low * stages)
@@ -194,34 +195,34 @@ static tn_status walk(const tn_houses *h, tn_houses_kind *kind, bool *any, tn_er
     return status;
 }
 
-/* Goes through all states without their tiles, so that what nothing can tell apart is merged (merge.c); then, where
+/* Goes through all states without their tiles, so that what nothing can tell apart is merged (frontier.c); then, where
  * tiles have prices, with them, so that all costs are known. */
-static tn_status scout(const tn_houses *h, tn_houses_kind *kind, const tn_strip_trays *trays, tn_error *error)
+static tn_status scout(const tn_houses *h, tn_houses_kind *kind, const tn_frontier_trays *trays, tn_error *error)
 {
-    tn_strip *strip = kind->strip;
+    tn_frontier *frontier = kind->frontier;
     bool any = false;
-    if (!strip->any_tiled && !strip->prices.asked)
+    if (!frontier->tiles.any && !frontier->prices.asked)
         return TN_OK;
-    strip->scouting = true;
+    frontier->scouting = true;
     tn_status status = walk(h, kind, &any, error);
     if (status == TN_OK)
-        status = tn_strip_merge(strip, error);
-    if (status == TN_OK && any && strip->prices.asked)
-        status = tn_strip_prices_check(strip, trays->stand, error);
-    return status == TN_OK && strip->any_tiled && strip->prices.items ? walk(h, kind, &any, error) : status;
+        status = tn_frontier_merge(frontier, error);
+    if (status == TN_OK && any && frontier->prices.asked)
+        status = tn_frontier_prices_check(frontier, trays->stand, error);
+    return status == TN_OK && frontier->tiles.any && frontier->prices.items ? walk(h, kind, &any, error) : status;
 }
 
 /* Goes through all states without the totals of what clauses compare, to see how much may still be added. */
 static tn_status look_ahead(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
 {
     bool any;
-    if (!tn_strip_compares(kind->strip))
+    if (!tn_frontier_compares(kind->frontier))
         return TN_OK;
-    tn_status status = tn_strip_ahead_begin(kind->strip, error);
+    tn_status status = tn_frontier_ahead_begin(kind->frontier, error);
     if (status == TN_OK)
         status = walk(h, kind, &any, error);
     if (status == TN_OK)
-        tn_strip_ahead_end(kind->strip);
+        tn_frontier_ahead_end(kind->frontier);
     return status;
 }
 
@@ -236,7 +237,7 @@ tn_houses_kind *tn_houses_kind_of(const tn_houses *h, const tn_house *section)
     return NULL;
 }
 
-static tn_status add_kind(tn_houses *h, const tn_house *section, const tn_strip_trays *trays, tn_error *error)
+static tn_status add_kind(tn_houses *h, const tn_house *section, const tn_frontier_trays *trays, tn_error *error)
 {
     tn_houses_kind *kind = tn_houses_kind_of(h, section);
     if (kind) {
@@ -248,19 +249,19 @@ static tn_status add_kind(tn_houses *h, const tn_house *section, const tn_strip_
     kind = &h->kinds[h->kind_count++];
     *kind = (tn_houses_kind){.key = tn_sections_key(&h->sections, section), .sections = 1};
     mpz_init(kind->faced);
-    return tn_strip_new(h->form, h->library, section->shapes, trays, h->low, h->high, h->measures, &h->added,
-                        h->without, &kind->strip, error);
+    return tn_frontier_new(h->form, h->library, section->shapes, trays, h->low, h->high, h->measures, &h->added,
+                           h->without, &kind->frontier, error);
 }
 
 /* Costs of these cannot be counted, if they have any houses. */
-static bool is_doubtful(const tn_houses_kind *kind, const tn_strip_trays *trays)
+static bool is_doubtful(const tn_houses_kind *kind, const tn_frontier_trays *trays)
 {
     tn_error error;
-    return kind->strip->prices.asked && tn_strip_prices_check(kind->strip, trays->stand, &error) != TN_OK;
+    return kind->frontier->prices.asked && tn_frontier_prices_check(kind->frontier, trays->stand, &error) != TN_OK;
 }
 
-/* The doubtful ones first: where they are an error, that is said before all others are gone through. */
-static tn_status scout_kinds(const tn_houses *h, const tn_strip_trays *trays, tn_error *error)
+/* The doubtful ones first: if they are an error, that is said before all others are gone through. */
+static tn_status scout_kinds(const tn_houses *h, const tn_frontier_trays *trays, tn_error *error)
 {
     tn_status status = TN_OK;
     for (int doubtful = 1; doubtful >= 0; doubtful--)
@@ -280,7 +281,7 @@ static tn_status look_at_kind(tn_houses *h, tn_houses_kind *kind, tn_error *erro
                : status;
 }
 
-static tn_status count_sections(tn_houses *h, const tn_strip_trays *trays, tn_error *error)
+static tn_status count_sections(tn_houses *h, const tn_frontier_trays *trays, tn_error *error)
 {
     tn_house section = {.form = h->form};
     tn_status status = TN_OK;
@@ -343,7 +344,7 @@ tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record 
                      .without = what->without};
     h->high = h->high < h->low ? h->low : h->high;
     tn_houses_units_init(&h->units);
-    tn_strip_trays trays = {0};
+    tn_frontier_trays trays = {0};
     tn_status status = tn_sections_begin(form, &h->sections, error);
     if (status == TN_OK)
         status = tn_houses_find_added(h, error);
@@ -355,7 +356,7 @@ tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record 
         status = count_sections(h, &trays, error);
     if (status == TN_OK && (h->aim == TN_HOUSES_LEAST || h->aim == TN_HOUSES_FRONT))
         status = tn_houses_aim_all(h, error);
-    tn_strip_trays_clear(&trays);
+    tn_frontier_trays_clear(&trays);
 #ifdef TARTAN_CHECK_COUNTS
     if (status == TN_OK && !h->measures && !h->without)
         status = tn_houses_recount(h, TARTAN_CHECK_COUNTS, error);
@@ -382,7 +383,7 @@ void tn_houses_free(tn_houses *h)
         free(kind->by_beginning);
         tn_interner_clear(&kind->beginnings);
         tn_value_counts_clear(&kind->spread);
-        tn_strip_free(kind->strip);
+        tn_frontier_free(kind->frontier);
     }
     tn_sections_free(&h->sections);
     tn_houses_plans_clear(h);
@@ -416,7 +417,7 @@ bool tn_houses_faced_known(const tn_houses *h)
 {
     bool known = true;
     for (size_t i = 0; i < h->kind_count; i++)
-        known = known && (!h->kinds[i].strip->prices.items || h->added.count == h->added.measures);
+        known = known && (!h->kinds[i].frontier->prices.items || h->added.count == h->added.measures);
     return known;
 }
 
@@ -439,4 +440,90 @@ uint64_t tn_houses_states(const tn_houses *h)
         for (uint32_t k = 0; k <= h->high; k++)
             states += h->kinds[i].layers[k * tn_houses_stages(h, &h->kinds[i])].nodes.count;
     return states;
+}
+
+/* ==== counts are checked
+ *
+ * Holds a count to the houses themselves: builds for tests do so wherever there are few (TARTAN_CHECK_COUNTS). */
+
+typedef struct recounting {
+    const tn_houses *houses;
+    tn_house_rules *rules;
+    uint64_t kept, dropped; /* dropped: by the interpreter of rules */
+} recounting;
+
+static tn_status recount_house(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    (void)stop;
+    recounting *r = context;
+    bool kept = false;
+    tn_status status = tn_house_rules_start(r->rules, house, error);
+    if (status == TN_OK)
+        status = tn_house_rules_keep(r->rules, r->houses->library, &kept, error);
+    r->kept += status == TN_OK && kept;
+    r->dropped += status == TN_OK && !kept;
+    return status;
+}
+
+static tn_status recount_plans(recounting *r, tn_house_variants *variants, tn_error *error)
+{
+    const tn_houses *h = r->houses;
+    const tn_tray *trays;
+    uint32_t length;
+    tn_cursor *cursor = NULL;
+    mpz_t from, to;
+    mpz_inits(from, to, NULL);
+    tn_library_kept(h->plans, TN_ALL_LENGTHS, to);
+    tn_status status = h->only ? tn_house_variants_each(variants, h->only, h->low, from, recount_house, r, error)
+                               : tn_cursor_new(h->plans, from, to, &cursor, error);
+    while (status == TN_OK && cursor && tn_cursor_next(cursor, &trays, &length))
+        status = tn_house_variants_each(variants, trays, length, from, recount_house, r, error);
+    tn_cursor_free(cursor);
+    mpz_clears(from, to, NULL);
+    return status;
+}
+
+static bool few_plans(const tn_houses *h, uint64_t most)
+{
+    mpz_t plans;
+    mpz_init(plans);
+    tn_library_kept(h->plans, TN_ALL_LENGTHS, plans);
+    bool few = h->only || mpz_cmp_ui(plans, most) <= 0;
+    mpz_clear(plans);
+    return few;
+}
+
+static tn_status compare(const recounting *r, uint64_t counted, tn_error *error)
+{
+    const tn_module *module = r->houses->form->module;
+    if (r->kept == counted && r->dropped == 0)
+        return TN_OK;
+    return tn_fail(error, TN_INTERNAL, TN_CODE_NONE,
+                   "%llu houses of `%.80s` were counted, and %llu are there when they are gone through (%llu more are "
+                   "kept out by its rules): please report this with the file",
+                   (unsigned long long)counted, tn_text(module, r->houses->library->name), (unsigned long long)r->kept,
+                   (unsigned long long)r->dropped);
+}
+
+tn_status tn_houses_recount(const tn_houses *houses, uint64_t most, tn_error *error)
+{
+    recounting r = {.houses = houses};
+    tn_house_variants *variants = NULL;
+    mpz_t counted;
+    mpz_init(counted);
+    tn_houses_count(houses, TN_ALL_LENGTHS, counted);
+    bool few = mpz_cmp_ui(counted, most) <= 0 && few_plans(houses, most);
+    tn_status status = few ? tn_house_rules_new(houses->form, 0, &r.rules, error) : TN_OK;
+    if (few && status == TN_OK)
+        status = tn_house_variants_new(houses->form, houses->library, 0, &variants, error);
+    if (few && status == TN_OK)
+        status = recount_plans(&r, variants, error);
+    if (few && status == TN_OK)
+        status = compare(&r, mpz_get_ui(counted), error);
+    else if (status == TN_LIMIT)
+        status = TN_OK; /* more work than one wants */
+    tn_house_variants_free(variants);
+    tn_house_rules_free(r.rules);
+    mpz_clear(counted);
+    return status;
 }

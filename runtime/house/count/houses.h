@@ -1,7 +1,7 @@
 /* All houses of a library: counted without going through plans or houses. Their ranks: runtime/house/rank/rank.h.
  *
  * The row is read tray by tray. What has to be known between two trays is a state; the states that plans and houses
- * reach together are counted, layer by layer (runtime/house/strip says what a state is). Sections that nothing tells
+ * reach together are counted, layer by layer (runtime/house/frontier says what a state is). Sections that nothing tells
  * apart share the work. Past a limit of states it is TN_LIMIT (E1640), which names the clause that makes the most of
  * them; houses on one plan (variant.h) do not depend on it.
  *
@@ -12,9 +12,9 @@
 
 #include <gmp.h>
 
+#include "runtime/house/frontier/frontier.h"
 #include "runtime/house/house.h"
 #include "runtime/house/measure/measure.h"
-#include "runtime/house/strip/without.h"
 #include "runtime/house/variant/variant.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/measure/complete.h"
@@ -39,15 +39,16 @@ tn_status tn_houses_check_walls(const tn_house_form *form, const tn_house_librar
 typedef enum tn_houses_aim { TN_HOUSES_SPREAD, TN_HOUSES_LEAST, TN_HOUSES_FRONT, TN_HOUSES_COMPLETE } tn_houses_aim;
 
 /* The houses on one plan of the library (only, of that length; NULL: on all), and the measures that they are counted
- * by (NULL: none). Both are borrowed. With measures only what they are for may be asked: tn_houses_spread, or best.h.
+ * by (NULL: none). Both are borrowed. With measures only what they are for may be asked: tn_houses_spread, or
+ * tn_houses_points.
  */
 typedef struct tn_houses_what {
     const tn_tray *only;
     uint32_t length;
     const tn_house_measures *measures;
     tn_houses_aim aim;
-    uint64_t wanted;                 /* houses, by TN_HOUSES_LEAST */
-    const tn_strip_without *without; /* or NULL */
+    uint64_t wanted;                    /* houses, by TN_HOUSES_LEAST */
+    const tn_frontier_without *without; /* or NULL */
 } tn_houses_what;
 tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record *library, const tn_library *plans,
                        const tn_houses_what *what, uint32_t max_states, tn_houses **houses, tn_error *error);
@@ -64,7 +65,7 @@ tn_status tn_houses_complete(tn_houses *houses, const tn_open_plan *open, tn_com
 void tn_houses_count(const tn_houses *houses, uint32_t length, mpz_t count);
 void tn_houses_faced(const tn_houses *houses, mpz_t faced);
 
-/* Is the latter known? It is not where clauses compare what tiles add to: sums of tiles are counted one by one then. */
+/* Is the latter known? It is not if clauses compare what tiles add to: sums of tiles are counted one by one then. */
 bool tn_houses_faced_known(const tn_houses *houses);
 
 /* How many have a section (a value for each choice of the form). */
@@ -77,11 +78,20 @@ typedef struct tn_houses_projected {
 void tn_houses_projected_init(tn_houses_projected *counts);
 void tn_houses_projected_clear(tn_houses_projected *counts);
 
-/* Counts them, without measures; counts: of 0. TN_LIMIT (E1640) where it takes too many steps: choices that lead to one
+/* Counts them, without measures; counts: of 0. TN_LIMIT (E1640) if it takes too many steps: choices that lead to one
  * plan have to be followed together. */
 tn_status tn_houses_project(tn_houses *houses, tn_houses_projected *counts, tn_error *error);
 
 /* States of all sections. */
 uint64_t tn_houses_states(const tn_houses *houses);
+
+/* ---- the best houses by measures: the values that were aimed at. The houses that have them: rank/rank.h */
+
+/* How many values there are: of houses by measures, made with an aim of TN_HOUSES_LEAST or TN_HOUSES_FRONT. */
+size_t tn_houses_points(const tn_houses *houses);
+
+/* Value `point`, in steps of each measure, and how many houses have it. The values are in order, the best first; by
+ * TN_HOUSES_LEAST so many that the wanted number of houses has one of them, if there are so many houses. */
+void tn_houses_point(const tn_houses *houses, size_t point, int64_t *values, mpz_t count);
 
 #endif

@@ -19,7 +19,7 @@ bool tn_houses_plan_lives(const tn_houses *h, uint32_t layer, uint32_t plan)
 
 bool tn_houses_plan_alive(const tn_houses *h, uint32_t left, uint32_t plan)
 {
-    return plan != TN_STRIP_NONE &&
+    return plan != TN_FRONTIER_NONE &&
            (h->weighed ? tn_weighed_alive(h->weighed, left, plan) : tn_library_lives(h->plans, left, plan));
 }
 
@@ -72,7 +72,7 @@ tn_house_gain tn_houses_plan_rest(const tn_houses *h, uint32_t plan)
 static tn_status step(const tn_houses *h, uint32_t layer, uint32_t plan, tn_tray tray, uint32_t *next,
                       tn_plan_steps *steps, tn_error *error)
 {
-    *next = TN_STRIP_NONE;
+    *next = TN_FRONTIER_NONE;
     *steps = (tn_plan_steps){{0}};
     if (h->only && h->only[layer] != tray)
         return TN_OK;
@@ -90,8 +90,8 @@ static tn_status merged_step(const tn_houses *h, uint32_t layer, uint32_t plan, 
 {
     tn_status status = step(h, layer, plan, tray, next, steps, error);
     const tn_houses_plan_layer *after = &h->plan_layers[layer + 1];
-    uint32_t at = status == TN_OK && *next != TN_STRIP_NONE ? tn_number_find(&after->states, *next) : UINT32_MAX;
-    *next = at == UINT32_MAX ? TN_STRIP_NONE : after->alike[at];
+    uint32_t at = status == TN_OK && *next != TN_FRONTIER_NONE ? tn_number_find(&after->states, *next) : UINT32_MAX;
+    *next = at == UINT32_MAX ? TN_FRONTIER_NONE : after->alike[at];
     return status;
 }
 
@@ -109,7 +109,7 @@ tn_status tn_houses_plan_next(const tn_houses *h, uint32_t layer, uint32_t plan,
 /* Sets of trays are bits in so many words. */
 typedef struct tn_reaching {
     const tn_houses *houses;
-    tn_strip_trays *trays;
+    tn_frontier_trays *trays;
     uint64_t *into, *next; /* [states of the layer], of the next: by which trays plans come there */
     size_t into_room, next_room;
     uint64_t *onward; /* by which they go on */
@@ -189,7 +189,7 @@ static bool push_steps(const tn_houses *h, tn_key *key, const tn_plan_steps *ste
     return ok;
 }
 
-/* What goes on from a plan state: whether the row may end, then each tray that leads on, with what is behind it. */
+/* What goes on from a plan state: whether the row may end, then each tray that leads on, with what comes after it. */
 static tn_status describe(const tn_houses *h, uint32_t layer, uint32_t plan, tn_key *key, tn_error *error)
 {
     bool end = layer >= h->low && tn_houses_plan_alive(h, 0, plan);
@@ -201,13 +201,13 @@ static tn_status describe(const tn_houses *h, uint32_t layer, uint32_t plan, tn_
         uint32_t next;
         status = merged_step(h, layer, plan, t, &next, &steps, error);
         ok = status == TN_OK;
-        if (ok && next != TN_STRIP_NONE)
+        if (ok && next != TN_FRONTIER_NONE)
             ok = tn_key_push(key, t) && tn_key_push(key, next) && push_steps(h, key, &steps);
     }
     return ok ? TN_OK : status != TN_OK ? status : tn_fail_memory(error);
 }
 
-/* The layer behind it is merged already. */
+/* The layer after it is merged already. */
 static tn_status merge_layer(tn_houses *h, uint32_t at, tn_error *error)
 {
     tn_houses_plan_layer *layer = &h->plan_layers[at];
@@ -239,7 +239,7 @@ static tn_status merge_layer(tn_houses *h, uint32_t at, tn_error *error)
 /* A schema with more trays than this has too many pairs of them. */
 enum { FOLLOWED_TRAYS_MAX = 4096 };
 
-static tn_status begin_trays(const tn_houses *h, tn_strip_trays *trays, tn_error *error)
+static tn_status begin_trays(const tn_houses *h, tn_frontier_trays *trays, tn_error *error)
 {
     size_t count = h->form->schema->tray_count;
     trays->words = count / 64 + 1;
@@ -249,7 +249,7 @@ static tn_status begin_trays(const tn_houses *h, tn_strip_trays *trays, tn_error
     return trays->stand && (trays->follows || count > FOLLOWED_TRAYS_MAX) ? TN_OK : tn_fail_memory(error);
 }
 
-tn_status tn_houses_plans_find(tn_houses *h, tn_strip_trays *trays, tn_error *error)
+tn_status tn_houses_plans_find(tn_houses *h, tn_frontier_trays *trays, tn_error *error)
 {
     tn_reaching r = {.houses = h, .trays = trays};
     tn_status status = begin_trays(h, trays, error);
@@ -267,7 +267,7 @@ tn_status tn_houses_plans_find(tn_houses *h, tn_strip_trays *trays, tn_error *er
     return status;
 }
 
-void tn_strip_trays_clear(tn_strip_trays *trays)
+void tn_frontier_trays_clear(tn_frontier_trays *trays)
 {
     free(trays->stand);
     free(trays->follows);

@@ -20,13 +20,13 @@ typedef struct tn_spreading {
     mpz_t times, one;
 } tn_spreading;
 
-static tn_status pour(tn_spreading *s, tn_value_counts *to, const tn_houses_edge *edge, tn_error *error)
+static tn_status add_shifted(tn_spreading *s, tn_value_counts *to, const tn_houses_edge *edge, tn_error *error)
 {
     const tn_value_counts *from = &s->here[edge->from];
     size_t before = to->count;
     mpz_set_ui(s->times, edge->ways);
     mpz_mul_ui(s->times, s->times, edge->times);
-    if (!tn_value_counts_pour(to, from, &edge->gain, s->times))
+    if (!tn_value_counts_add_shifted(to, from, &edge->gain, s->times))
         return tn_fail_memory(error);
     s->pairs += to->count - before;
     return s->pairs > s->houses->max_states ? tn_houses_too_many_values(s->houses, error) : TN_OK;
@@ -40,15 +40,15 @@ static tn_status lead_on(void *context, const tn_houses_edge *edge, tn_error *er
         return tn_fail_memory(error);
     for (; s->next_count <= to; s->next_count++)
         s->next[s->next_count] = (tn_value_counts){0};
-    if (s->kind->strip->states.count > s->houses->max_states)
+    if (s->kind->frontier->states.count > s->houses->max_states)
         return tn_houses_too_many_values(s->houses, error);
-    return pour(s, &s->next[to], edge, error);
+    return add_shifted(s, &s->next[to], edge, error);
 }
 
 static tn_status come_to_end(void *context, const tn_houses_edge *edge, tn_error *error)
 {
     tn_spreading *s = context;
-    return pour(s, &s->kind->spread, edge, error);
+    return add_shifted(s, &s->kind->spread, edge, error);
 }
 
 static void clear_layer(tn_value_counts *counts, size_t count)
@@ -85,7 +85,7 @@ tn_status tn_houses_spread_kind(const tn_houses *h, tn_houses_kind *kind, tn_err
     kind->layers = calloc((size_t)h->high + 1, sizeof *kind->layers);
     s.here = calloc(1, sizeof *s.here);
     tn_house_gain start = tn_houses_plan_start(h);
-    if (!kind->layers || !s.here || tn_number(&kind->layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX ||
+    if (!kind->layers || !s.here || tn_number(&kind->layers[0].nodes, TN_FRONTIER_NONE) == UINT32_MAX ||
         !tn_value_counts_add(s.here, &start, s.one))
         status = tn_fail_memory(error);
     for (; status == TN_OK && s.layer <= h->high; s.layer++)

@@ -63,7 +63,7 @@ static tn_status find_left(const tn_houses_wanted *wanted, const tn_house *house
 
 /* ---- tiles */
 
-/* cost: [cells], steps of each tile that fits; NULL where all cost nothing. sums: [cells + 1] what the tiles from the
+/* cost: [cells], steps of each tile that fits; NULL if all cost nothing. sums: [cells + 1] what the tiles from the
  * cell on can add up to, ascending. */
 typedef struct tn_furnishing {
     tn_house *house;
@@ -151,7 +151,7 @@ static tn_status choose(tn_furnishing *f, size_t cell, tn_int128 left, tn_error 
 static tn_status make_sums(const tn_houses *h, tn_furnishing *f, tn_error *error)
 {
     size_t cells = f->house->cell_count;
-    bool priced = asks_costs(h) && h->kinds[0].strip->prices.items;
+    bool priced = asks_costs(h) && h->kinds[0].frontier->prices.items;
     f->cost = calloc(cells + 1, sizeof *f->cost);
     f->sums = calloc(cells + 1, sizeof *f->sums);
     if (f->sums)

@@ -58,8 +58,8 @@ bool tn_value_counts_add(tn_value_counts *counts, const tn_house_gain *value, co
     return true;
 }
 
-bool tn_value_counts_pour(tn_value_counts *to, const tn_value_counts *from, const tn_house_gain *gain,
-                          const mpz_t times)
+bool tn_value_counts_add_shifted(tn_value_counts *to, const tn_value_counts *from, const tn_house_gain *gain,
+                                 const mpz_t times)
 {
     size_t room = to->count + from->count, count = 0, k = 0;
     if (from->count == 0)

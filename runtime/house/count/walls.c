@@ -11,7 +11,7 @@
 
 typedef struct siding {
     const tn_houses *houses; /* the plans that are asked about */
-    tn_strip_trays trays;
+    tn_frontier_trays trays;
     tn_house house;            /* scratch */
     tn_interner storeys;       /* of sections: what was looked at */
     tn_interner outlines;      /* of trays, in the section at hand */
@@ -132,7 +132,7 @@ static tn_status begin(siding *s, tn_error *error)
 
 static void end(siding *s)
 {
-    tn_strip_trays_clear(&s->trays);
+    tn_frontier_trays_clear(&s->trays);
     tn_house_clear(&s->house);
     tn_interner_clear(&s->storeys);
     tn_interner_clear(&s->outlines);

@@ -127,7 +127,7 @@ static void hatch(tn_dxf *dxf, const tn_cut_face *face, double apart)
 }
 
 /* How near the plane of the cut is to the eye; INFINITY where nothing is cut. */
-static double cut_depth(const tn_prospect *p, const tn_seen_line *lines, size_t count)
+static double cut_depth(const tn_house_projection *p, const tn_seen_line *lines, size_t count)
 {
     double depth = -INFINITY;
     bool cut = p->aspect.kind == TN_ASPECT_PLAN || p->aspect.kind == TN_ASPECT_SECTION_X ||
@@ -137,7 +137,7 @@ static double cut_depth(const tn_prospect *p, const tn_seen_line *lines, size_t 
     return cut ? depth - TOLERANCE_NM : INFINITY;
 }
 
-static tn_status write_prospect(tn_dxf *dxf, const tn_prospect *p, tn_error *error)
+static tn_status write_projection(tn_dxf *dxf, const tn_house_projection *p, tn_error *error)
 {
     tn_eye eye = tn_camera_eye(&p->camera);
     tn_seen_line *lines;
@@ -178,21 +178,21 @@ tn_status tn_house_write_dxf(const tn_house *house, const tn_solids *solids, con
     tn_status status = TN_OK;
     tn_dxf_begin(out, layers, LAYER_COUNT, width_of(house, count), HEIGHT_MM);
     for (size_t i = 0; status == TN_OK && i < count; i++) {
-        tn_prospect p;
+        tn_house_projection p;
         double low[2], high[2];
-        status = tn_prospect_take(house, solids, &aspects[i], NULL, &p, error);
+        status = tn_house_projection_take(house, solids, &aspects[i], NULL, &p, error);
         if (status == TN_OK)
-            status = tn_prospect_mark(house, LETTERING_NM, &p, error);
+            status = tn_house_projection_mark(house, LETTERING_NM, &p, error);
         if (status == TN_OK) {
-            tn_prospect_extent(&p, low, high);
+            tn_house_projection_extent(&p, low, high);
             dxf.du = at - low[0];
             dxf.dv = -p.low[1];
-            status = write_prospect(&dxf, &p, error);
+            status = write_projection(&dxf, &p, error);
             text(&dxf, LAYER_TITLE, (low[0] + high[0]) / 2, low[1] - 3 * LETTERING_NM, 1.4 * LETTERING_NM, false,
                  p.title);
             at += high[0] - low[0] + GAP_NM;
         }
-        tn_prospect_clear(&p);
+        tn_house_projection_clear(&p);
     }
     tn_dxf_end(out);
     return status;

@@ -24,7 +24,7 @@ tn_status tn_house_write_ifc(const tn_house *house, const tn_solids *solids, con
                              tn_error *error);
 
 /* DXF, release 2000, in millimetres: the drawings side by side, hidden lines removed, a layer for each kind of line.
- * Errors as tn_prospect_take. */
+ * Errors as tn_house_projection_take. */
 tn_status tn_house_write_dxf(const tn_house *house, const tn_solids *solids, const tn_aspect *aspects, size_t count,
                              FILE *out, tn_error *error);
 

@@ -1,6 +1,6 @@
 /* Measures of houses made ready: what a tray's cells, and rooms, add to each, in whole steps of its unit.
  *
- * How much houses cost is not in these steps: runtime/house/strip/prices.c finds it out of parts of houses. A
+ * How much houses cost is not in these steps: runtime/house/frontier/costs.c finds it out of parts of houses. A
  * tn_house_weights is immutable; it borrows the form.
  */
 #ifndef TARTAN_HOUSE_MEASURE_H

@@ -18,12 +18,12 @@ const uint32_t tn_solid_groups[TN_SOLID_COUNT] = {
     [TN_SOLID_LEAF] = TN_GROUP_LEAF,    [TN_SOLID_FLIGHT] = TN_GROUP_FLOOR,
 };
 
-void tn_prospect_clear(tn_prospect *prospect)
+void tn_house_projection_clear(tn_house_projection *projection)
 {
-    tn_mesh_clear(&prospect->mesh);
-    free(prospect->cuts);
-    tn_marks_clear(&prospect->marks);
-    *prospect = (tn_prospect){0};
+    tn_mesh_clear(&projection->mesh);
+    free(projection->cuts);
+    tn_marks_clear(&projection->marks);
+    *projection = (tn_house_projection){0};
 }
 
 bool tn_house_has_storey(const tn_house *house, uint32_t storey)
@@ -176,23 +176,24 @@ static tn_status cut(const tn_house *house, const tn_aspect *aspect, tn_blocks *
     }
 }
 
-static void measure(tn_prospect *prospect)
+static void measure(tn_house_projection *projection)
 {
-    tn_eye eye = tn_camera_eye(&prospect->camera);
+    tn_eye eye = tn_camera_eye(&projection->camera);
     for (int k = 0; k < 2; k++) {
-        prospect->low[k] = INFINITY;
-        prospect->high[k] = -INFINITY;
+        projection->low[k] = INFINITY;
+        projection->high[k] = -INFINITY;
     }
-    for (size_t v = 0; v < prospect->mesh.vertex_count; v++) {
-        tn_vector seen = tn_eye_sees(&eye, tn_vector_at(prospect->mesh.positions + 3 * v));
-        prospect->low[0] = fmin(prospect->low[0], seen.x);
-        prospect->high[0] = fmax(prospect->high[0], seen.x);
-        prospect->low[1] = fmin(prospect->low[1], seen.y);
-        prospect->high[1] = fmax(prospect->high[1], seen.y);
+    for (size_t v = 0; v < projection->mesh.vertex_count; v++) {
+        tn_vector seen = tn_eye_sees(&eye, tn_vector_at(projection->mesh.positions + 3 * v));
+        projection->low[0] = fmin(projection->low[0], seen.x);
+        projection->high[0] = fmax(projection->high[0], seen.x);
+        projection->low[1] = fmin(projection->low[1], seen.y);
+        projection->high[1] = fmax(projection->high[1], seen.y);
     }
 }
 
-static tn_status missed(const tn_house *house, const tn_aspect *aspect, const tn_prospect *prospect, tn_error *error)
+static tn_status missed(const tn_house *house, const tn_aspect *aspect, const tn_house_projection *projection,
+                        tn_error *error)
 {
     tn_status status;
     if (house->cell_count == 0) {
@@ -202,11 +203,11 @@ static tn_status missed(const tn_house *house, const tn_aspect *aspect, const tn
     }
     if (aspect->kind == TN_ASPECT_PLAN) {
         status = tn_fail(error, TN_INVALID, E_USAGE, "the drawing `%s` would be empty: the house has no room there",
-                         prospect->title);
+                         projection->title);
         tn_error_help(error, "the section says how many storeys its zones have");
         return status;
     }
-    status = tn_fail(error, TN_INVALID, E_USAGE, "the %s cuts nothing of the house", prospect->title);
+    status = tn_fail(error, TN_INVALID, E_USAGE, "the %s cuts nothing of the house", projection->title);
     tn_error_help(error, "%s",
                   aspect->kind == TN_ASPECT_SECTION_X
                       ? "x is 0 at the left of the first tray, and grows to the right"
@@ -221,16 +222,17 @@ static bool misses(const tn_house *house, const tn_aspect *aspect, const tn_bloc
     return (aspect->kind == TN_ASPECT_SECTION_X || aspect->kind == TN_ASPECT_SECTION_Y) && blocks->cut_count == 0;
 }
 
-tn_status tn_prospect_mark(const tn_house *house, double lettering, tn_prospect *prospect, tn_error *error)
+tn_status tn_house_projection_mark(const tn_house *house, double lettering, tn_house_projection *projection,
+                                   tn_error *error)
 {
-    tn_marks_clear(&prospect->marks);
-    switch (prospect->aspect.kind) {
+    tn_marks_clear(&projection->marks);
+    switch (projection->aspect.kind) {
     case TN_ASPECT_AXONOMETRIC:
         return TN_OK;
     case TN_ASPECT_PLAN:
-        return tn_marks_plan(house, prospect->aspect.storey, lettering, &prospect->marks, error);
+        return tn_marks_plan(house, projection->aspect.storey, lettering, &projection->marks, error);
     default:
-        return tn_marks_levels(house, prospect->low, prospect->high, lettering, &prospect->marks, error);
+        return tn_marks_levels(house, projection->low, projection->high, lettering, &projection->marks, error);
     }
 }
 
@@ -242,14 +244,14 @@ static void stretch(double low[2], double high[2], double u, double v, double ha
     high[1] = fmax(high[1], v + half_v);
 }
 
-void tn_prospect_extent(const tn_prospect *prospect, double low[2], double high[2])
+void tn_house_projection_extent(const tn_house_projection *projection, double low[2], double high[2])
 {
     for (int k = 0; k < 2; k++) {
-        low[k] = prospect->low[k];
-        high[k] = prospect->high[k];
+        low[k] = projection->low[k];
+        high[k] = projection->high[k];
     }
-    for (size_t i = 0; i < prospect->marks.count; i++) {
-        const tn_mark *m = &prospect->marks.items[i];
+    for (size_t i = 0; i < projection->marks.count; i++) {
+        const tn_mark *m = &projection->marks.items[i];
         double wide = tn_mark_width(m->text) * m->high / 2, tall = m->high / 2;
         stretch(low, high, m->u0, m->v0, m->upright ? tall : wide, m->upright ? wide : tall);
         stretch(low, high, m->u1, m->v1, 0, 0);
@@ -271,27 +273,27 @@ static void group_blocks(const tn_house *house, const tn_grouping *grouping, tn_
     }
 }
 
-tn_status tn_prospect_take(const tn_house *house, const tn_solids *solids, const tn_aspect *aspect,
-                           const tn_grouping *grouping, tn_prospect *prospect, tn_error *error)
+tn_status tn_house_projection_take(const tn_house *house, const tn_solids *solids, const tn_aspect *aspect,
+                                   const tn_grouping *grouping, tn_house_projection *projection, tn_error *error)
 {
     tn_blocks blocks;
-    *prospect = (tn_prospect){.aspect = *aspect, .camera = camera_of(aspect)};
-    write_title(house, aspect, prospect->title, sizeof prospect->title);
+    *projection = (tn_house_projection){.aspect = *aspect, .camera = camera_of(aspect)};
+    write_title(house, aspect, projection->title, sizeof projection->title);
     tn_status status = tn_blocks_of(house, solids, &blocks, error);
     if (status == TN_OK)
         status = cut(house, aspect, &blocks, error);
     if (status == TN_OK && misses(house, aspect, &blocks))
-        status = missed(house, aspect, prospect, error);
+        status = missed(house, aspect, projection, error);
     if (status == TN_OK) {
         group_blocks(house, grouping, &blocks);
-        status = tn_blocks_mesh(&blocks, TN_GROUP_COUNT + (grouping ? grouping->more : 0), &prospect->mesh, error);
+        status = tn_blocks_mesh(&blocks, TN_GROUP_COUNT + (grouping ? grouping->more : 0), &projection->mesh, error);
     }
     drop_item_cuts(&blocks, aspect->kind == TN_ASPECT_PLAN);
     if (status == TN_OK) {
-        prospect->cuts = blocks.cuts;
-        prospect->cut_count = blocks.cut_count;
+        projection->cuts = blocks.cuts;
+        projection->cut_count = blocks.cut_count;
         blocks.cuts = NULL;
-        measure(prospect);
+        measure(projection);
     }
     tn_blocks_clear(&blocks);
     return status;

@@ -1,7 +1,7 @@
 /* Drawings of a house: plans, sections, elevations and an axonometric view, before they are put on paper.
  *
- * What is drawn is a mesh before a camera, the faces of what was cut, and marks. A tn_prospect owns them; free it with
- * tn_prospect_clear.
+ * What is drawn is a mesh before a camera, the faces of what was cut, and marks. A tn_house_projection owns them; free
+ * it with tn_house_projection_clear.
  */
 #ifndef TARTAN_HOUSE_ASPECT_H
 #define TARTAN_HOUSE_ASPECT_H
@@ -10,7 +10,7 @@
 #include "runtime/house/model/marks.h"
 #include "runtime/house/model/model.h"
 
-/* What parts are drawn as: the groups of a prospect's mesh. */
+/* What parts are drawn as: the groups of a projection's mesh. */
 typedef enum tn_material_group {
     TN_GROUP_WALL,
     TN_GROUP_FLOOR,
@@ -47,7 +47,7 @@ static inline tn_camera tn_house_sheet_camera(void)
     return (tn_camera){60, 30, 480};
 }
 
-typedef struct tn_prospect {
+typedef struct tn_house_projection {
     tn_aspect aspect;
     tn_camera camera;
     tn_mesh mesh;      /* nanometres, groups as in tn_material_group, then those of the tn_grouping */
@@ -56,7 +56,7 @@ typedef struct tn_prospect {
     double low[2], high[2]; /* of all of it, without marks */
     tn_marks marks;
     char title[64];
-} tn_prospect;
+} tn_house_projection;
 
 /* Puts blocks into groups of its own, TN_GROUP_COUNT and the next: `more` of them. Others keep the group of their kind:
  * UINT32_MAX. */
@@ -67,15 +67,16 @@ typedef struct tn_grouping {
 
 /* Without marks. grouping: or NULL. E0904 for a section that misses the house, a plan of a storey that it does not
  * have. */
-tn_status tn_prospect_take(const tn_house *house, const tn_solids *solids, const tn_aspect *aspect,
-                           const tn_grouping *grouping, tn_prospect *prospect, tn_error *error);
+tn_status tn_house_projection_take(const tn_house *house, const tn_solids *solids, const tn_aspect *aspect,
+                                   const tn_grouping *grouping, tn_house_projection *projection, tn_error *error);
 
 /* Makes the marks anew, with lettering so high in nanometres of the house. */
-tn_status tn_prospect_mark(const tn_house *house, double lettering, tn_prospect *prospect, tn_error *error);
+tn_status tn_house_projection_mark(const tn_house *house, double lettering, tn_house_projection *projection,
+                                   tn_error *error);
 
 /* What the drawing takes with its marks. */
-void tn_prospect_extent(const tn_prospect *prospect, double low[2], double high[2]);
-void tn_prospect_clear(tn_prospect *prospect);
+void tn_house_projection_extent(const tn_house_projection *projection, double low[2], double high[2]);
+void tn_house_projection_clear(tn_house_projection *projection);
 
 /* Does the house have anything in the storey? */
 bool tn_house_has_storey(const tn_house *house, uint32_t storey);

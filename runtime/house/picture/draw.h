@@ -14,8 +14,8 @@ typedef struct tn_house_drawing {
     uint32_t scale; /* 1:scale; 0: the largest usual one at which everything fits */
 } tn_house_drawing;
 
-/* Draws a house. One drawing gets a page of its size, several a sheet of paper. Errors as tn_prospect_take; E0820 where
- * nothing would fit. */
+/* Draws a house. One drawing gets a page of its size, several a sheet of paper. Errors as tn_house_projection_take;
+ * E0820 where nothing would fit. */
 tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn_house_drawing *drawing, tn_picture *to,
                         tn_error *error);
 

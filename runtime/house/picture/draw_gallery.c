@@ -68,7 +68,7 @@ static void paint_all(const gallery *g, const tn_canvas *canvas)
         tn_paint_group_begin(paint, TN_PAINT_HOUSE, i);
         tn_paint_target(paint, middle - PICTURE_WIDTH / 2, d->y - PICTURE_HEIGHT, PICTURE_WIDTH,
                         PICTURE_HEIGHT + CAPTION);
-        tn_draw_prospect(canvas, d, g->points);
+        tn_draw_projection(canvas, d, g->points);
         tn_paint_colour(paint, 0, 0, 0);
         tn_paint_face(paint, 7.5, true);
         tn_type_fit(paint, middle, d->y + 11, TN_ALIGN_CENTRE, PICTURE_WIDTH, g->what->houses[i].name);
@@ -91,7 +91,7 @@ static tn_status take_all(gallery *g, tn_watch *watch, tn_error *error)
         const tn_pictured_house *one = &g->what->houses[i];
         status = tn_house_view_take(one->solids, &aspect, one->house, &g->drawn[i], watch, error);
         if (status == TN_OK)
-            tn_prospect_extent(&g->drawn[i].prospect, g->drawn[i].low, g->drawn[i].high);
+            tn_house_projection_extent(&g->drawn[i].projection, g->drawn[i].low, g->drawn[i].high);
     }
     return status;
 }

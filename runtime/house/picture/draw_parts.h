@@ -11,7 +11,7 @@
 /* A drawing of a sheet, and where it stands. */
 typedef struct tn_house_drawn {
     const tn_house_form *form; /* lent */
-    tn_prospect prospect;
+    tn_house_projection projection;
     tn_view *view;
     double low[2], high[2]; /* with its marks, nanometres */
     double x, y;            /* of its lower left corner, points */
@@ -33,6 +33,6 @@ void tn_house_palette(const tn_house_form *form, tn_aspect_kind kind, double pal
 double tn_house_ambient(const tn_house_form *form, tn_aspect_kind kind);
 
 /* Paints a drawing where it stands, points_per_nm its scale. */
-void tn_draw_prospect(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm);
+void tn_draw_projection(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm);
 
 #endif

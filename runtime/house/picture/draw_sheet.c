@@ -33,26 +33,26 @@ typedef struct sheet {
 tn_status tn_house_view_take(const tn_solids *solids, const tn_aspect *aspect, const tn_house *house,
                              tn_house_drawn *drawn, tn_watch *watch, tn_error *error)
 {
-    tn_sight sight = {0};
+    tn_display_list display = {0};
     tn_grouping grouping;
     drawn->form = house->form;
-    tn_status status = tn_prospect_take(house, solids, aspect, tn_house_grouping(house->form, aspect->kind, &grouping),
-                                        &drawn->prospect, error);
+    tn_status status = tn_house_projection_take(
+        house, solids, aspect, tn_house_grouping(house->form, aspect->kind, &grouping), &drawn->projection, error);
     if (status == TN_OK)
-        status = tn_sight_of_mesh(&drawn->prospect.mesh, &sight, error);
+        status = tn_display_list_of_mesh(&drawn->projection.mesh, &display, error);
     if (status == TN_OK) {
-        sight.closed = true;
-        sight.watch = watch;
-        status = tn_view_take(&sight, &drawn->prospect.camera, &drawn->view, error);
+        display.closed = true;
+        display.watch = watch;
+        status = tn_view_take(&display, &drawn->projection.camera, &drawn->view, error);
     }
-    tn_sight_clear(&sight);
+    tn_display_list_clear(&display);
     return status;
 }
 
 void tn_house_drawn_clear(tn_house_drawn *drawn)
 {
     tn_view_free(drawn->view);
-    tn_prospect_clear(&drawn->prospect);
+    tn_house_projection_clear(&drawn->projection);
 }
 
 static void clear(sheet *s)
@@ -81,8 +81,8 @@ static tn_status mark_all(sheet *s, uint32_t scale, tn_error *error)
     s->points = TN_POINTS_PER_NM / scale;
     for (size_t i = 0; status == TN_OK && i < s->drawing->count; i++) {
         tn_house_drawn *d = &s->drawn[i];
-        status = tn_prospect_mark(s->house, TN_LETTERING / s->points, &d->prospect, error);
-        tn_prospect_extent(&d->prospect, d->low, d->high);
+        status = tn_house_projection_mark(s->house, TN_LETTERING / s->points, &d->projection, error);
+        tn_house_projection_extent(&d->projection, d->low, d->high);
     }
     return status;
 }
@@ -290,7 +290,7 @@ static void paint_captions(const sheet *s, tn_paint *paint)
         double middle = d->x + wide(s, d) / 2;
         tn_paint_colour(paint, 0, 0, 0);
         tn_paint_face(paint, 7.5, true);
-        tn_type_line(paint, middle, d->y + CAPTION - 3, TN_ALIGN_CENTRE, d->prospect.title);
+        tn_type_line(paint, middle, d->y + CAPTION - 3, TN_ALIGN_CENTRE, d->projection.title);
     }
 }
 
@@ -341,7 +341,7 @@ static void paint_all(const sheet *s, const tn_canvas *canvas)
         tn_type_fit(paint, MARGIN, MARGIN + 6, TN_ALIGN_LEFT, s->width - 2 * MARGIN, s->drawing->title);
     }
     for (size_t i = 0; i < s->drawing->count && !tn_canvas_stopped(canvas); i++)
-        tn_draw_prospect(canvas, &s->drawn[i], s->points);
+        tn_draw_projection(canvas, &s->drawn[i], s->points);
     paint_captions(s, paint);
     paint_foot(s, paint);
 }

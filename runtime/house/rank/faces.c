@@ -1,9 +1,9 @@
 /* What is in the faces of a house of a number, whose functions are known, in their order.
  *
- * The faces of a tray are those of its cells: some are in the plane at its left, some inside it, the others in the
- * plane at its right. In each of these three the last face changes first, so that with the first faces chosen a stretch
- * of all choices is left. How many houses have them: the states before the tray go by the slices that are left and the
- * outcomes that are left on both sides to states with houses ahead, which have the functions. */
+ * The faces of a tray are those of its cells: some are in the interface at its left, some inside it, the others in the
+ * interface at its right. In each of these three the last face changes first, so that with the first faces chosen a
+ * stretch of all choices is left. How many houses have them: the states before the tray go by the slices that are left
+ * and the outcomes that are left on both sides to states with houses ahead, which have the functions. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,10 +12,10 @@
 
 /* ---- choices that are left */
 
-/* Of all slices of a tray, or outcomes of a plane. `left`: those of a stretch, each with its number of choices. */
+/* Of all slices of a tray, or outcomes of an interface. `left`: those of a stretch, each with its number of choices. */
 typedef struct tn_left {
-    tn_strip_sequence all; /* borrowed */
-    tn_strip_list left;
+    tn_frontier_sequence all; /* borrowed */
+    tn_frontier_list left;
     uint64_t *times;     /* [kinds of all] */
     size_t first, count; /* the stretch that `left` is of; count 0: of none yet */
 } tn_left;
@@ -49,7 +49,7 @@ static tn_status gather(tn_left *l, size_t first, size_t count, tn_error *error)
     l->left.count = 0;
     for (size_t k = 0; k < l->all.kind_count; k++)
         if (l->times[k] > 0)
-            l->left.items[l->left.count++] = (tn_strip_choice){l->all.kinds[k], l->times[k]};
+            l->left.items[l->left.count++] = (tn_frontier_choice){l->all.kinds[k], l->times[k]};
     l->first = first;
     l->count = count;
     return TN_OK;
@@ -60,40 +60,40 @@ typedef struct tn_choice_stretch {
     size_t first, count;
 } tn_choice_stretch;
 
-/* A plane between two trays whose functions are known: by the edges that meet there. */
-typedef struct tn_plane_left {
+/* An interface between two trays whose functions are known: by the edges that meet there. */
+typedef struct tn_interface_left {
     const tn_cell *cells; /* of both trays */
     tn_numbering edges;   /* left << 32 | right */
     tn_left *of;          /* [edges] */
     size_t room;
     tn_choice_stretch stretch;
-} tn_plane_left;
+} tn_interface_left;
 
-static void clear_plane(tn_plane_left *plane)
+static void clear_interface(tn_interface_left *interface)
 {
-    for (uint32_t i = 0; i < plane->edges.count; i++)
-        clear_left(&plane->of[i]);
-    free(plane->of);
-    tn_numbering_clear(&plane->edges);
+    for (uint32_t i = 0; i < interface->edges.count; i++)
+        clear_left(&interface->of[i]);
+    free(interface->of);
+    tn_numbering_clear(&interface->edges);
 }
 
-static tn_status outcomes_of(tn_plan_path *a, tn_plane_left *plane, uint32_t left, uint32_t right,
-                             const tn_strip_list **list, tn_error *error)
+static tn_status outcomes_of(tn_plan_path *a, tn_interface_left *interface, uint32_t left, uint32_t right,
+                             const tn_frontier_list **list, tn_error *error)
 {
-    uint32_t before = plane->edges.count;
-    if (!tn_array_reserve_from(&plane->of, &plane->room, 4, before, 1, sizeof *plane->of))
+    uint32_t before = interface->edges.count;
+    if (!tn_array_reserve_from(&interface->of, &interface->room, 4, before, 1, sizeof *interface->of))
         return tn_fail_memory(error);
-    uint32_t at = tn_number(&plane->edges, (uint64_t)left << 32 | right);
+    uint32_t at = tn_number(&interface->edges, (uint64_t)left << 32 | right);
     if (at == UINT32_MAX)
         return tn_fail_memory(error);
-    tn_left *l = &plane->of[at];
+    tn_left *l = &interface->of[at];
     tn_status status = TN_OK;
     if (at == before) {
         *l = (tn_left){0};
-        status = tn_strip_outcomes_ordered(a->kind.strip, left, right, plane->cells, &l->all, error);
+        status = tn_frontier_outcomes_ordered(a->kind.frontier, left, right, interface->cells, &l->all, error);
     }
     if (status == TN_OK)
-        status = gather(l, plane->stretch.first, plane->stretch.count, error);
+        status = gather(l, interface->stretch.first, interface->stretch.count, error);
     *list = &l->left;
     return status;
 }
@@ -119,7 +119,7 @@ typedef struct tn_facing {
     tn_choice_stretch behind_by;
     tn_left slices;
     tn_choice_stretch inner;
-    tn_plane_left left, right;
+    tn_interface_left left, right;
     mpz_t one;
 } tn_facing;
 
@@ -175,20 +175,20 @@ static tn_status go_to(void *context, uint32_t state, uint64_t times, uint64_t f
     return add_place(g->to, g->edge, state, g->choices, times, error);
 }
 
-/* f->after := where the houses with the faces so far are behind the tray. */
+/* f->after := where the houses with the faces so far are after the tray. */
 static tn_status go_through(tn_facing *f, tn_error *error)
 {
-    tn_strip *strip = f->path->kind.strip;
+    tn_frontier *frontier = f->path->kind.frontier;
     tn_status status = gather(&f->slices, f->inner.first, f->inner.count, error);
     empty(&f->after);
     for (uint32_t i = 0; status == TN_OK && i < f->before.keys.count; i++) {
         uint32_t edge = tn_high(f->before.keys.keys[i]), state = tn_low(f->before.keys.keys[i]);
-        status = tn_watch_check(strip->watch, error);
+        status = tn_watch_check(frontier->watch, error);
         for (size_t k = 0; status == TN_OK && k < f->slices.left.count; k++) {
-            const tn_strip_choice *slice = &f->slices.left.items[k];
-            const tn_strip_list *outcomes = NULL;
-            tn_going g = {&f->after, strip->slices[slice->slice].exit, f->one};
-            status = outcomes_of(f->path, &f->left, edge, strip->slices[slice->slice].entry, &outcomes, error);
+            const tn_frontier_choice *slice = &f->slices.left.items[k];
+            const tn_frontier_list *outcomes = NULL;
+            tn_going g = {&f->after, frontier->slices.items[slice->slice].exit, f->one};
+            status = outcomes_of(f->path, &f->left, edge, frontier->slices.items[slice->slice].entry, &outcomes, error);
             mpz_mul_ui(f->one, f->before.choices[i], slice->times);
             if (status == TN_OK)
                 status = tn_path_step(f->path, f->tray, state, slice->slice, outcomes, go_to, &g, error);
@@ -199,18 +199,18 @@ static tn_status go_through(tn_facing *f, tn_error *error)
 
 /* ---- houses ahead */
 
-/* sum->houses := those that go on from a place behind the tray. */
+/* sum->houses := those that go on from a place after the tray. */
 static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_error *error)
 {
     tn_plan_path *a = f->path;
     uint32_t edge = tn_high(place), state = tn_low(place), next = f->tray + 1;
-    const tn_strip_list *outcomes = NULL;
+    const tn_frontier_list *outcomes = NULL;
     tn_status status;
     mpz_set_ui(sum->houses, 0);
     if (next == a->length) {
         sum->ahead = NULL;
-        status = outcomes_of(a, &f->right, edge, TN_STRIP_NONE, &outcomes, error);
-        return status == TN_OK ? tn_path_step(a, next, state, TN_STRIP_NONE, outcomes, tn_path_add, sum, error)
+        status = outcomes_of(a, &f->right, edge, TN_FRONTIER_NONE, &outcomes, error);
+        return status == TN_OK ? tn_path_step(a, next, state, TN_FRONTIER_NONE, outcomes, tn_path_add, sum, error)
                                : status;
     }
     mpz_t all;
@@ -219,9 +219,9 @@ static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_erro
     sum->ahead = a->states[next + 1].like;
     status = TN_OK;
     for (size_t k = 0; status == TN_OK && k < f->of_tray[next].count; k++) {
-        const tn_strip_choice *slice = &f->of_tray[next].items[k];
+        const tn_frontier_choice *slice = &f->of_tray[next].items[k];
         mpz_set_ui(sum->houses, 0);
-        status = outcomes_of(a, &f->right, edge, a->kind.strip->slices[slice->slice].entry, &outcomes, error);
+        status = outcomes_of(a, &f->right, edge, a->kind.frontier->slices.items[slice->slice].entry, &outcomes, error);
         if (status == TN_OK)
             status = tn_path_step(a, next, state, slice->slice, outcomes, tn_path_add, sum, error);
         mpz_addmul_ui(all, sum->houses, slice->times);
@@ -244,7 +244,7 @@ static tn_status find_behind(tn_facing *f, uint64_t place, tn_path_sum *sum, mpz
     return status;
 }
 
-/* houses := those that go on behind the tray. */
+/* houses := those that go on after the tray. */
 static tn_status count_on(tn_facing *f, mpz_t houses, tn_error *error)
 {
     tn_path_sum sum = {.path = f->path};
@@ -304,7 +304,7 @@ static tn_status choose_kind(tn_facing *f, uint32_t at, bool *found, tn_error *e
     return status;
 }
 
-/* Ways to choose what is in the faces of a plane: those at this x that are not between storeys. */
+/* Ways to choose what is in the faces of an interface: those at this x that are not between storeys. */
 static size_t choices_at(const tn_house *house, int64_t x)
 {
     uint32_t kinds[TN_FACE_KINDS_MAX];
@@ -315,24 +315,24 @@ static size_t choices_at(const tn_house *house, int64_t x)
     return ways;
 }
 
-static void begin_plane(const tn_facing *f, uint32_t place, tn_plane_left *plane)
+static void begin_interface(const tn_facing *f, uint32_t place, tn_interface_left *interface)
 {
     const tn_house *house = f->house;
     uint32_t tray = place > 0 ? place - 1 : 0;
-    plane->cells = house->cells + house->tray_first[tray];
-    plane->stretch = (tn_choice_stretch){0};
-    plane->stretch.count = choices_at(house, tn_house_plane_x(house, place));
+    interface->cells = house->cells + house->tray_first[tray];
+    interface->stretch = (tn_choice_stretch){0};
+    interface->stretch.count = choices_at(house, tn_house_plane_x(house, place));
 }
 
 static void clear_tray(tn_facing *f)
 {
     clear_left(&f->slices);
-    clear_plane(&f->left);
+    clear_interface(&f->left);
     f->slices = (tn_left){0};
-    f->left = (tn_plane_left){0};
+    f->left = (tn_interface_left){0};
 }
 
-/* The plane at the right of the last tray is that at the left of this one: part of it is chosen. */
+/* The interface at the right of the last tray is that at the left of this one: part of it is chosen. */
 static tn_status begin_tray(tn_facing *f, uint32_t tray, tn_error *error)
 {
     tn_house *house = f->house;
@@ -341,12 +341,12 @@ static tn_status begin_tray(tn_facing *f, uint32_t tray, tn_error *error)
     empty(&f->behind);
     f->tray = tray;
     f->left = f->right;
-    f->right = (tn_plane_left){0};
+    f->right = (tn_interface_left){0};
     if (tray == 0)
-        begin_plane(f, 0, &f->left);
-    begin_plane(f, tray + 1, &f->right);
-    tn_status status = tn_strip_slices_ordered(f->path->kind.strip, house->trays[tray], &house->cells[first],
-                                               house->tray_first[tray + 1] - first, &f->slices.all, error);
+        begin_interface(f, 0, &f->left);
+    begin_interface(f, tray + 1, &f->right);
+    tn_status status = tn_frontier_slices_ordered(f->path->kind.frontier, house->trays[tray], &house->cells[first],
+                                                  house->tray_first[tray + 1] - first, &f->slices.all, error);
     f->inner = (tn_choice_stretch){0, f->slices.all.count};
     return status;
 }
@@ -368,7 +368,7 @@ static void go_on(tn_facing *f)
     f->after = before;
 }
 
-/* The faces are all chosen: *found becomes false where clauses or tiles leave no house with them. */
+/* The faces are all chosen: *found becomes false if clauses or tiles leave no house with them. */
 static tn_status check_left(tn_facing *f, bool *found, tn_error *error)
 {
     mpz_t houses;
@@ -408,10 +408,10 @@ tn_status tn_path_faces(tn_plan_path *a, const tn_choosing *choosing, tn_house *
     tn_facing f = {.path = a, .choosing = choosing, .house = house, .of_tray = of_tray};
     mpz_init_set_ui(f.one, 1);
     *found = true;
-    tn_strip_orders_trim(a->kind.strip);
+    tn_frontier_orders_trim(a->kind.frontier);
     tn_status status = look_ahead(a, of_tray, error);
     if (status == TN_OK)
-        status = add_place(&f.before, TN_STRIP_NONE, TN_STRIP_NONE, f.one, 1, error);
+        status = add_place(&f.before, TN_FRONTIER_NONE, TN_FRONTIER_NONE, f.one, 1, error);
     for (uint32_t i = 0; status == TN_OK && *found && i < a->length; i++) {
         status = begin_tray(&f, i, error);
         if (status == TN_OK)
@@ -421,7 +421,7 @@ tn_status tn_path_faces(tn_plan_path *a, const tn_choosing *choosing, tn_house *
         go_on(&f);
     }
     clear_tray(&f);
-    clear_plane(&f.right);
+    clear_interface(&f.right);
     clear_places(&f.before);
     clear_places(&f.after);
     clear_places(&f.behind);

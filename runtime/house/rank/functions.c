@@ -1,6 +1,6 @@
 /* Functions of a house of a number, tray by tray: houses that go on by slices with functions from where they can come.
  *
- * Where a step has stages, that is from the arrivals of the slice's group; else from the states before the tray. */
+ * If a step has stages, that is from the slice states of the slice's group; else from the states before the tray. */
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
@@ -14,7 +14,7 @@ typedef struct tn_coming {
     tn_plan_path *path;
     uint32_t tray, layer, beginning; /* beginning: the functions so far, of those that are kept */
     mpz_t *here;                     /* [nodes] */
-    uint32_t *order;                 /* [nodes]: by group, where they are arrivals */
+    uint32_t *order;                 /* [nodes]: by group, if they are slice states */
     mpz_t one;
 } tn_coming;
 
@@ -28,10 +28,10 @@ static uint32_t node_of(const tn_coming *c, uint32_t i)
     return (uint32_t)nodes_of(c)->keys[c->order[i]];
 }
 
-/* The group that a node leads into; 0 where it leads into all. */
+/* The group that a node leads into; 0 if it leads into all. */
 static uint32_t group_of(const tn_coming *c, uint32_t i)
 {
-    return c->path->stages > 1 ? tn_strip_arrival_group(c->path->kind.strip, node_of(c, i)) : 0;
+    return c->path->stages > 1 ? tn_frontier_slice_state_group(c->path->kind.frontier, node_of(c, i)) : 0;
 }
 
 typedef struct tn_pushing {
@@ -127,7 +127,7 @@ static void end_tray(tn_coming *c)
 /* The nodes [*first, *end), in order, from which the slice can follow. */
 static void find_nodes(const tn_coming *c, uint32_t slice, uint32_t *first, uint32_t *end)
 {
-    uint32_t group = c->path->stages > 1 ? c->path->kind.strip->slices[slice].group : 0, low = 0,
+    uint32_t group = c->path->stages > 1 ? c->path->kind.frontier->slices.items[slice].group : 0, low = 0,
              high = nodes_of(c)->count;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
@@ -141,16 +141,16 @@ static void find_nodes(const tn_coming *c, uint32_t slice, uint32_t *first, uint
         ++*end;
 }
 
-static tn_status go_by(const tn_coming *c, uint32_t i, uint32_t slice, tn_strip_seen *seen, void *context,
+static tn_status go_by(const tn_coming *c, uint32_t i, uint32_t slice, tn_frontier_seen *seen, void *context,
                        tn_error *error)
 {
-    tn_strip *strip = c->path->kind.strip;
-    return c->path->stages > 1 ? tn_strip_arrive(strip, node_of(c, i), slice, seen, context, error)
+    tn_frontier *frontier = c->path->kind.frontier;
+    return c->path->stages > 1 ? tn_frontier_stage_pass(frontier, node_of(c, i), slice, seen, context, error)
                                : tn_path_step(c->path, c->tray, node_of(c, i), slice, NULL, seen, context, error);
 }
 
 /* houses += those that have this slice in this place, with the functions so far. */
-static tn_status add_slice(const tn_coming *c, const tn_strip_furnished *slice, mpz_t houses, tn_error *error)
+static tn_status add_slice(const tn_coming *c, const tn_frontier_furnished *slice, mpz_t houses, tn_error *error)
 {
     const tn_plan_path *path = c->path;
     tn_path_sum sum = {.path = path, .trays = c->tray + 1, .ahead = tn_path_layer(path, c->tray + 1)->ahead};
@@ -191,7 +191,7 @@ static tn_status lead_to(void *context, uint32_t state, uint64_t times, uint64_t
     return TN_OK;
 }
 
-static tn_status take_slice(tn_coming *c, const tn_strip_choice *slice, tn_error *error)
+static tn_status take_slice(tn_coming *c, const tn_frontier_choice *slice, tn_error *error)
 {
     tn_leading l = {c->path, c->tray + 1, c->one};
     uint32_t first, end;
@@ -208,7 +208,7 @@ static tn_status take_slice(tn_coming *c, const tn_strip_choice *slice, tn_error
 /* ---- functions */
 
 /* The slices of a tray [first, end), by functions in order, have the same ones. */
-static size_t end_of(const tn_strip_furnished_list *slices, size_t first)
+static size_t end_of(const tn_frontier_furnished_list *slices, size_t first)
 {
     size_t end = first;
     while (end < slices->count && slices->items[end].functions == slices->items[first].functions)
@@ -219,7 +219,7 @@ static size_t end_of(const tn_strip_furnished_list *slices, size_t first)
 static bool has_functions(const tn_coming *c, uint32_t number, const tn_house *house)
 {
     size_t cells;
-    const uint32_t *functions = tn_interned(&c->path->kind.strip->functions, number, &cells);
+    const uint32_t *functions = tn_interned(&c->path->kind.frontier->slices.functions, number, &cells);
     bool same = house != NULL;
     for (size_t i = 0; same && i < cells; i++)
         same = house->cells[house->tray_first[c->tray] + i].function == functions[i];
@@ -227,7 +227,7 @@ static bool has_functions(const tn_coming *c, uint32_t number, const tn_house *h
 }
 
 /* houses := those with these slices in this place, and the functions so far. */
-static tn_status count_houses(const tn_coming *c, const tn_strip_furnished *slices, size_t count, mpz_t houses,
+static tn_status count_houses(const tn_coming *c, const tn_frontier_furnished *slices, size_t count, mpz_t houses,
                               tn_error *error)
 {
     tn_status status = TN_OK;
@@ -238,7 +238,7 @@ static tn_status count_houses(const tn_coming *c, const tn_strip_furnished *slic
 }
 
 /* The same, found once: they are the `at`th of what the tray can be with the functions so far. Good until the next. */
-static tn_status find_houses(const tn_coming *c, size_t at, const tn_strip_furnished *slices, size_t count,
+static tn_status find_houses(const tn_coming *c, size_t at, const tn_frontier_furnished *slices, size_t count,
                              mpz_ptr *houses, tn_error *error)
 {
     tn_path_numbers *numbers = &c->path->by_functions[c->beginning];
@@ -258,8 +258,8 @@ static tn_status find_houses(const tn_coming *c, size_t at, const tn_strip_furni
 }
 
 /* The slices [*first, *end) have the functions of the house. *found: does one? */
-static tn_status choose(tn_coming *c, const tn_choosing *choosing, const tn_strip_furnished_list *slices, size_t *first,
-                        size_t *end, bool *found, tn_error *error)
+static tn_status choose(tn_coming *c, const tn_choosing *choosing, const tn_frontier_furnished_list *slices,
+                        size_t *first, size_t *end, bool *found, tn_error *error)
 {
     mpz_ptr houses = NULL;
     tn_status status = TN_OK;
@@ -275,11 +275,11 @@ static tn_status choose(tn_coming *c, const tn_choosing *choosing, const tn_stri
     return status;
 }
 /* The tray has the functions of these slices. */
-static tn_status take(tn_coming *c, const tn_strip_furnished *slices, size_t count, tn_house *house,
+static tn_status take(tn_coming *c, const tn_frontier_furnished *slices, size_t count, tn_house *house,
                       tn_path_slices *taken, tn_error *error)
 {
     size_t cells;
-    const uint32_t *functions = tn_interned(&c->path->kind.strip->functions, slices->functions, &cells);
+    const uint32_t *functions = tn_interned(&c->path->kind.frontier->slices.functions, slices->functions, &cells);
     for (size_t i = 0; i < cells; i++)
         house->cells[house->tray_first[c->tray] + i].function = functions[i];
     taken->items = malloc((count + 1) * sizeof *taken->items);
@@ -287,7 +287,7 @@ static tn_status take(tn_coming *c, const tn_strip_furnished *slices, size_t cou
         return tn_fail_memory(error);
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < count; i++) {
-        taken->items[taken->count++] = (tn_strip_choice){slices[i].slice, slices[i].times};
+        taken->items[taken->count++] = (tn_frontier_choice){slices[i].slice, slices[i].times};
         status = take_slice(c, &taken->items[i], error);
     }
     return status;
@@ -296,7 +296,7 @@ static tn_status take(tn_coming *c, const tn_strip_furnished *slices, size_t cou
 static tn_status choose_tray(tn_coming *c, const tn_choosing *choosing, tn_house *house, tn_path_slices *taken,
                              bool *found, tn_error *error)
 {
-    const tn_strip_furnished_list *slices = &c->path->kind.strip->furnished[house->trays[c->tray]];
+    const tn_frontier_furnished_list *slices = &c->path->kind.frontier->slices.furnished[house->trays[c->tray]];
     size_t first = 0, end = 0;
     tn_status status = choose(c, choosing, slices, &first, &end, found, error);
     return status == TN_OK && *found ? take(c, slices->items + first, end - first, house, taken, error) : status;

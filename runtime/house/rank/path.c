@@ -53,7 +53,7 @@ static tn_status find_nodes(tn_plan_path *p, tn_error *error)
 {
     tn_path_reaching r = {.path = p};
     p->kind.layers = calloc(tn_size_of(p->length, p->stages) + 1, sizeof *p->kind.layers);
-    if (!p->kind.layers || tn_number(&p->kind.layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX)
+    if (!p->kind.layers || tn_number(&p->kind.layers[0].nodes, TN_FRONTIER_NONE) == UINT32_MAX)
         return tn_fail_memory(error);
     tn_status status = TN_OK;
     for (; status == TN_OK && r.layer < p->length * p->stages; r.layer++) {
@@ -66,12 +66,12 @@ static tn_status find_nodes(tn_plan_path *p, tn_error *error)
 tn_status tn_path_find(tn_plan_path *p, const tn_houses *houses, const tn_houses_kind *kind, const tn_tray *trays,
                        uint32_t length, tn_error *error)
 {
-    *p = (tn_plan_path){.view = *houses, .kind = {.strip = kind->strip}, .length = length};
+    *p = (tn_plan_path){.view = *houses, .kind = {.frontier = kind->frontier}, .length = length};
     p->view.only = trays;
     p->view.low = p->view.high = length;
-    p->view.whole_steps = kind->strip->slice_keys.count < houses->many_slices;
+    p->view.whole_steps = kind->frontier->slices.keys.count < houses->many_slices;
     p->stages = tn_houses_stages(&p->view, &p->kind);
-    tn_status status = tn_strip_ways_want(kind->strip, error);
+    tn_status status = tn_frontier_ways_want(kind->frontier, error);
     if (status == TN_OK)
         status = find_nodes(p, error);
     if (status == TN_OK)
@@ -97,7 +97,7 @@ uint32_t tn_path_node(const tn_plan_path *p, uint32_t trays, uint32_t state)
     return nodes->count > 0 ? tn_number_find(nodes, (nodes->keys[0] >> 32 << 32) | state) : UINT32_MAX;
 }
 
-/* A state in which the row cannot end is no node, where it would be the last. */
+/* A state in which the row cannot end is no node, if it would be the last. */
 tn_status tn_path_add(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
                       tn_error *error)
 {
@@ -113,7 +113,7 @@ tn_status tn_path_add(void *context, uint32_t state, uint64_t times, uint64_t fa
     return TN_OK;
 }
 
-tn_status tn_path_count_on(tn_plan_path *path, uint32_t trays, uint32_t state, const tn_strip_choice *slices,
+tn_status tn_path_count_on(tn_plan_path *path, uint32_t trays, uint32_t state, const tn_frontier_choice *slices,
                            size_t count, tn_path_sum *sum, mpz_t houses, tn_error *error)
 {
     tn_status status = TN_OK;

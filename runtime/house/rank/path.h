@@ -12,7 +12,7 @@ typedef struct tn_choosing {
     const tn_house *wanted; /* or NULL */
 } tn_choosing;
 
-/* Passes over so many houses, unless the house is among them; is_wanted: the wanted house is, where there is one. */
+/* Passes over so many houses, unless the house is among them; is_wanted: the wanted house is, if there is one. */
 bool tn_choosing_passes(const tn_choosing *choosing, const mpz_t houses, bool is_wanted);
 
 /* How many houses go on from each node of the layers, for each length; the nodes are found. */
@@ -24,7 +24,7 @@ typedef struct tn_path_states {
     mpz_t *here, *like;
 } tn_path_states;
 
-/* Houses of one value are looked for, on a plan of a library whose values are known (best.h). All is borrowed. */
+/* Houses of one value are looked for, on a plan of a library whose values are known (houses.h). All is borrowed. */
 typedef struct tn_path_aim {
     const tn_houses *houses;
     const tn_houses_kind *kind;
@@ -33,7 +33,7 @@ typedef struct tn_path_aim {
     const tn_house_gain *gains; /* [length] what each tray adds to the plan's part */
 } tn_path_aim;
 
-/* A state of the strip, and the value of what led there. */
+/* A state of the frontier, and the value of what led there. */
 typedef struct tn_path_valued {
     uint32_t state;
     tn_house_gain value;
@@ -45,8 +45,8 @@ typedef struct tn_path_numbers {
     size_t count, room;
 } tn_path_numbers;
 
-/* The houses on a plan in one section: a library of this plan alone, and one kind of section, whose strip is borrowed.
- * With an aim its states are the strip's with the value so far (valued.c). */
+/* The houses on a plan in one section: a library of this plan alone, and one kind of section, whose frontier is
+ * borrowed. With an aim its states are those of the frontier with the value so far (valued.c). */
 typedef struct tn_plan_path {
     tn_houses view;
     tn_houses_kind kind;
@@ -72,13 +72,13 @@ void tn_path_clear(tn_plan_path *path);
 /* Room for what is found of each state, once the states are. */
 tn_status tn_path_begin_states(tn_plan_path *path, tn_error *error);
 
-/* Goes from a state of the path to those after one more slice, as tn_strip_step does; only: the outcomes of the plane
- * that are looked at, or NULL. */
-tn_status tn_path_step(tn_plan_path *path, uint32_t tray, uint32_t state, uint32_t slice, const tn_strip_list *only,
-                       tn_strip_seen *seen, void *context, tn_error *error);
+/* Goes from a state of the path to those after one more slice, as tn_frontier_step does; only: the outcomes of the
+ * interface that are looked at, or NULL. */
+tn_status tn_path_step(tn_plan_path *path, uint32_t tray, uint32_t state, uint32_t slice, const tn_frontier_list *only,
+                       tn_frontier_seen *seen, void *context, tn_error *error);
 
-/* Can houses behind so many trays, in a state of the strip and with this value so far, have the value that is aimed at?
- */
+/* Can houses have the value that is aimed at, which are in a state of the frontier after so many trays, with this value
+ * so far? */
 bool tn_aim_leads_on(const tn_path_aim *aim, uint32_t trays, uint32_t length, uint32_t state,
                      const tn_house_gain *value);
 
@@ -109,13 +109,13 @@ tn_status tn_path_add(void *sum, uint32_t state, uint64_t times, uint64_t faced,
                       tn_error *error);
 
 /* houses := those that go on from a state after so many trays by one of these slices. sum: of those after one more. */
-tn_status tn_path_count_on(tn_plan_path *path, uint32_t trays, uint32_t state, const tn_strip_choice *slices,
+tn_status tn_path_count_on(tn_plan_path *path, uint32_t trays, uint32_t state, const tn_frontier_choice *slices,
                            size_t count, tn_path_sum *sum, mpz_t houses, tn_error *error);
 
 /* Chooses the functions of the house, tray by tray. Then `here` is of houses with these; `of_tray` [length] the slices
  * of each tray that have them, which the caller frees. house: on the plan in the section. *found: is there one? */
 typedef struct tn_path_slices {
-    tn_strip_choice *items;
+    tn_frontier_choice *items;
     size_t count;
 } tn_path_slices;
 tn_status tn_path_functions(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, tn_path_slices *of_tray,

@@ -7,8 +7,187 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/integers.h"
-#include "runtime/house/rank/along.h"
 #include "runtime/house/rank/path.h"
+
+/* ==== along a plan, if steps have stages
+ *
+ * Where the trays of a plan lead, one after another, in a kind of section whose steps have stages. The number of
+ * choices that lead to each node is kept for the nodes of a layer as a whole; many states are then gone on from at
+ * once. */
+
+typedef struct tn_plan_along {
+    tn_houses view; /* the houses, with ways by tray; borrows all that they have */
+    tn_houses_kind *kind;
+    tn_tray *trays; /* [count]: those taken; the nodes may be further on */
+    uint32_t count, layer;
+    mpz_t *here;    /* [nodes of the layer]: choices that lead there */
+    mpz_t *by_tray; /* [trays of the schema]: houses that go on by each */
+    bool summed;    /* these are of the trays taken so far */
+} tn_plan_along;
+
+/* Begins before the first tray. Both are borrowed. End it also after a failure. */
+static tn_status along_begin(const tn_houses *houses, tn_houses_kind *kind, tn_plan_along *a, tn_error *error)
+{
+    *a = (tn_plan_along){.view = *houses, .kind = kind};
+    a->view.keep_trays = true;
+    a->trays = malloc(((size_t)houses->high + 1) * sizeof *a->trays);
+    a->here = tn_integers_new(1);
+    a->by_tray = tn_integers_new(houses->form->schema->tray_count);
+    if (!a->trays || !a->here || !a->by_tray)
+        return tn_fail_memory(error);
+    mpz_set_ui(a->here[0], 1);
+    return TN_OK;
+}
+
+static void along_end(tn_plan_along *a)
+{
+    tn_integers_free(a->here, a->kind ? a->kind->layers[a->layer].nodes.count : 0);
+    tn_integers_free(a->by_tray, a->kind ? a->view.form->schema->tray_count : 0);
+    free(a->trays);
+    *a = (tn_plan_along){0};
+}
+
+static void along_take(tn_plan_along *a, tn_tray tray)
+{
+    a->trays[a->count++] = tray;
+    a->summed = false;
+}
+
+/* ---- from layer to layer */
+
+typedef struct tn_plan_along_push {
+    const tn_plan_along *along;
+    const tn_tray *only; /* NULL: all */
+    mpz_t *next;
+    mpz_t one;
+} tn_plan_along_push;
+
+static tn_status push(void *context, const tn_houses_edge *edge, tn_error *error)
+{
+    tn_plan_along_push *p = context;
+    const tn_numbering *to = &p->along->kind->layers[p->along->layer + 1].nodes;
+    (void)error;
+    if (p->only && edge->tray != *p->only)
+        return TN_OK;
+    uint32_t at = tn_number_find(to, (uint64_t)edge->plan << 32 | edge->state);
+    mpz_mul_ui(p->one, p->along->here[edge->from], edge->ways);
+    mpz_addmul_ui(p->next[at], p->one, edge->times);
+    return TN_OK;
+}
+
+/* only: the tray, if the step ends with one. */
+static tn_status push_on(tn_plan_along *a, const tn_tray *only, tn_error *error)
+{
+    const tn_houses_layer *layers = a->kind->layers;
+    tn_plan_along_push p = {.along = a, .only = only, .next = tn_integers_new(layers[a->layer + 1].nodes.count)};
+    if (!p.next)
+        return tn_fail_memory(error);
+    mpz_init(p.one);
+    tn_status status = tn_houses_expand_from(&a->view, a->kind, a->layer, a->here, push, &p, error);
+    mpz_clear(p.one);
+    tn_integers_free(a->here, layers[a->layer].nodes.count);
+    a->here = p.next;
+    a->layer++;
+    return status;
+}
+
+/* To the last layer before the states after so many trays and one more. */
+static tn_status push_to(tn_plan_along *a, uint32_t trays, tn_error *error)
+{
+    uint32_t stages = tn_houses_stages(&a->view, a->kind);
+    tn_status status = TN_OK;
+    while (status == TN_OK && a->layer + 1 < (trays + 1) * stages) {
+        bool ends = (a->layer + 1) % stages == 0;
+        status = push_on(a, ends ? &a->trays[a->layer / stages] : NULL, error);
+    }
+    return status;
+}
+
+/* ---- houses by tray */
+
+typedef struct tn_plan_along_sum {
+    const tn_plan_along *along;
+    uint32_t length;
+    mpz_t one;
+} tn_plan_along_sum;
+
+static tn_status add_along(void *context, const tn_houses_edge *edge, tn_error *error)
+{
+    tn_plan_along_sum *s = context;
+    const tn_plan_along *a = s->along;
+    const tn_houses_layer *next = &a->kind->layers[a->layer + 1];
+    uint32_t at = tn_number_find(&next->nodes, (uint64_t)edge->plan << 32 | edge->state);
+    (void)error;
+    mpz_mul_ui(s->one, next->ahead[(size_t)at * tn_houses_lengths(&a->view) + s->length - a->view.low], edge->ways);
+    mpz_mul_ui(s->one, s->one, edge->times);
+    mpz_addmul(a->by_tray[edge->tray], s->one, a->here[edge->from]);
+    return TN_OK;
+}
+
+static tn_status find_along(tn_plan_along *a, uint32_t length, tn_error *error)
+{
+    tn_plan_along_sum s = {.along = a, .length = length};
+    if (a->summed)
+        return TN_OK;
+    for (tn_tray t = 0; t < a->view.form->schema->tray_count; t++)
+        mpz_set_ui(a->by_tray[t], 0);
+    tn_status status = push_to(a, a->count, error);
+    mpz_init(s.one);
+    if (status == TN_OK)
+        status = tn_houses_expand_from(&a->view, a->kind, a->layer, a->here, add_along, &s, error);
+    mpz_clear(s.one);
+    a->summed = status == TN_OK;
+    return status;
+}
+
+/* ---- what is kept */
+
+/* *place: where the numbers of this beginning are kept: NULL if they are not known yet; NULL: too many are. */
+static tn_status place_along(const tn_plan_along *a, uint32_t length, mpz_t ***place, tn_error *error)
+{
+    enum { MOST = 1000000 }; /* numbers */
+    tn_houses_kind *kind = a->kind;
+    tn_key *key = &kind->frontier->key;
+    uint32_t before = kind->beginnings.count;
+    *place = NULL;
+    if ((uint64_t)before * a->view.form->schema->tray_count > MOST)
+        return TN_OK;
+    key->size = 0;
+    bool ok = tn_key_push(key, length);
+    for (uint32_t i = 0; ok && i < a->count; i++)
+        ok = tn_key_push(key, (uint32_t)a->trays[i]);
+    if (!ok || !tn_array_reserve(&kind->by_beginning, &kind->beginning_room, before, 1, sizeof *kind->by_beginning))
+        return tn_fail_memory(error);
+    uint32_t at = tn_intern(&kind->beginnings, key->data, key->size);
+    if (at == UINT32_MAX)
+        return tn_fail_memory(error);
+    if (at == before)
+        kind->by_beginning[at] = NULL;
+    *place = &kind->by_beginning[at];
+    return TN_OK;
+}
+
+/* *houses: of one section, on plans of the length that go on by the tray; good until the next call. Those by all trays
+ * are found at once, and kept with the kind by the beginning of the plan, as many plans begin alike. */
+static tn_status along_houses(tn_plan_along *a, uint32_t length, tn_tray tray, mpz_ptr *houses, tn_error *error)
+{
+    uint32_t trays = a->view.form->schema->tray_count;
+    mpz_t **place;
+    tn_status status = place_along(a, length, &place, error);
+    *houses = a->by_tray[tray];
+    if (status == TN_OK && place && *place)
+        *houses = (*place)[tray];
+    else if (status == TN_OK)
+        status = find_along(a, length, error);
+    if (status != TN_OK || !place || *place)
+        return status;
+    *place = tn_integers_new(trays);
+    for (tn_tray t = 0; *place && t < trays; t++)
+        mpz_set((*place)[t], a->by_tray[t]);
+    return *place ? TN_OK : tn_fail_memory(error);
+}
+
+/* ==== plans */
 
 /* ---- what is ahead */
 
@@ -91,7 +270,7 @@ static tn_status make_ranked(tn_houses *h, tn_error *error)
     for (size_t i = 0; status == TN_OK && !h->ranked && i < h->kind_count; i++)
         status = tn_houses_look_ahead(h, &h->kinds[i], error);
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
-        status = tn_strip_ways_want(h->kinds[i].strip, error);
+        status = tn_frontier_ways_want(h->kinds[i].frontier, error);
     h->ranked = status == TN_OK;
     return status;
 }
@@ -144,7 +323,7 @@ static void walk_end(tn_plan_walk *w)
 {
     for (size_t i = 0; w->fronts && i < w->houses->kind_count; i++) {
         if (w->fronts[i].staged)
-            tn_plan_along_end(&w->fronts[i].along);
+            along_end(&w->fronts[i].along);
         clear_front(&w->fronts[i]);
         free(w->fronts[i].states);
         free(w->fronts[i].counts);
@@ -163,9 +342,10 @@ static tn_status walk_begin(tn_houses *h, uint32_t length, tn_plan_walk *w, tn_e
     tn_status status = w->fronts && w->by_tray ? make_ranked(h, error) : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
         tn_houses_front *front = &w->fronts[i];
-        front->staged = tn_houses_stages(h, &h->kinds[i]) > 1 && h->kinds[i].strip->slice_keys.count >= h->many_slices;
-        status = front->staged ? tn_plan_along_begin(h, &h->kinds[i], &front->along, error)
-                               : add_state(front, TN_STRIP_NONE, w->one, 1, error);
+        front->staged =
+            tn_houses_stages(h, &h->kinds[i]) > 1 && h->kinds[i].frontier->slices.keys.count >= h->many_slices;
+        status = front->staged ? along_begin(h, &h->kinds[i], &front->along, error)
+                               : add_state(front, TN_FRONTIER_NONE, w->one, 1, error);
     }
     return status;
 }
@@ -198,7 +378,7 @@ static tn_status go_on_by(tn_plan_walk *w, const tn_houses_kind *kind, uint32_t 
                           tn_error *error)
 {
     const tn_houses *h = w->houses;
-    const tn_strip_list *list = &kind->strip->of_tray[tray];
+    const tn_frontier_list *list = &kind->frontier->slices.of_tray[tray];
     tn_summing_up s = {.walk = w, .next = &kind->layers[(w->layer + 1) * tn_houses_stages(h, kind)]};
     tn_house_gain gain;
     mpz_set_ui(houses, 0);
@@ -208,7 +388,7 @@ static tn_status go_on_by(tn_plan_walk *w, const tn_houses_kind *kind, uint32_t 
     mpz_init(s.sum);
     for (size_t k = 0; status == TN_OK && k < list->count; k++) {
         mpz_set_ui(s.sum, 0);
-        status = tn_strip_step(kind->strip, w->layer, state, list->items[k].slice, sum_up, &s, error);
+        status = tn_frontier_step(kind->frontier, w->layer, state, list->items[k].slice, sum_up, &s, error);
         mpz_addmul_ui(houses, s.sum, list->items[k].times);
     }
     mpz_clear(s.sum);
@@ -277,7 +457,7 @@ static tn_status houses_by(tn_plan_walk *w, tn_tray tray, mpz_t houses, tn_error
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
         mpz_ptr one;
         if (w->fronts[i].staged) {
-            status = tn_plan_along_houses(&w->fronts[i].along, w->length, tray, &one, error);
+            status = along_houses(&w->fronts[i].along, w->length, tray, &one, error);
             if (status == TN_OK)
                 mpz_addmul_ui(houses, one, h->kinds[i].sections);
         }
@@ -315,11 +495,11 @@ static tn_status go_on(tn_plan_walk *w, tn_tray tray, tn_error *error)
 {
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < w->houses->kind_count; i++) {
-        tn_strip *strip = w->houses->kinds[i].strip;
-        const tn_strip_list *list = &strip->of_tray[tray];
+        tn_frontier *frontier = w->houses->kinds[i].frontier;
+        const tn_frontier_list *list = &frontier->slices.of_tray[tray];
         tn_houses_front next = {0};
         if (w->fronts[i].staged) {
-            tn_plan_along_take(&w->fronts[i].along, tray);
+            along_take(&w->fronts[i].along, tray);
             continue;
         }
         tn_going_on g = {.next = &next};
@@ -328,7 +508,8 @@ static tn_status go_on(tn_plan_walk *w, tn_tray tray, tn_error *error)
             for (size_t n = 0; status == TN_OK && n < w->fronts[i].count; n++) {
                 g.count = w->fronts[i].counts[n];
                 g.times = list->items[k].times;
-                status = tn_strip_step(strip, w->layer, w->fronts[i].states[n], list->items[k].slice, go_to, &g, error);
+                status = tn_frontier_step(frontier, w->layer, w->fronts[i].states[n], list->items[k].slice, go_to, &g,
+                                          error);
             }
         mpz_clear(g.one);
         clear_front(&w->fronts[i]);
@@ -407,7 +588,7 @@ tn_status tn_houses_find(tn_houses *h, mpz_t rank, tn_tray *trays, uint32_t *len
         tn_error_help(error, "`tartan count` says how many; ranks count from 0");
         return status;
     }
-    tn_houses_count(h, *length, on_plan); /* where there is one plan, or one without trays */
+    tn_houses_count(h, *length, on_plan); /* if there is one plan, or one without trays */
     if (h->only) {
         memcpy(trays, h->only, *length * sizeof *trays);
         return TN_OK;

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/count/best.h"
 #include "runtime/house/rank/path.h"
 
 /* States that the row so far leads to, each with a value, from which the wanted value is reached. */
@@ -77,7 +76,7 @@ static tn_status advance(const tn_seeking *s, const tn_houses_kind *kind, uint32
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < marks->count; i++) {
         tn_advancing a = {s, kind, layer + 1, tn_house_gain_sum(&marks->items[i].value, &s->gains[layer]), next};
-        status = tn_strip_step(kind->strip, layer, marks->items[i].state, slice, reach, &a, error);
+        status = tn_frontier_step(kind->frontier, layer, marks->items[i].state, slice, reach, &a, error);
     }
     return status;
 }
@@ -86,7 +85,7 @@ static bool mark_start(const tn_seeking *s, tn_leads *marks)
 {
     if (!tn_array_reserve_from(&marks->items, &marks->room, 4, 0, 1, sizeof *marks->items))
         return false;
-    marks->items[0] = (tn_lead){TN_STRIP_NONE, tn_houses_plan_start(s->houses)};
+    marks->items[0] = (tn_lead){TN_FRONTIER_NONE, tn_houses_plan_start(s->houses)};
     marks->count = 1;
     return true;
 }
@@ -195,7 +194,7 @@ static tn_status seek_tray(tn_seeking *s, uint32_t layer, const tn_leads *marks,
         return tn_fail_memory(error);
     s->trays[layer] = tray;
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
-        const tn_strip_list *list = &h->kinds[i].strip->of_tray[tray];
+        const tn_frontier_list *list = &h->kinds[i].frontier->slices.of_tray[tray];
         for (size_t k = 0; status == TN_OK && k < list->count; k++)
             status = advance(s, &h->kinds[i], layer, &marks[i], list->items[k].slice, &next[i], error);
         any = any || next[i].count > 0;

@@ -2,7 +2,7 @@
  *
  * Ranks compare the plan first: the rank of a house is that of the first house on its plan, and its number among the
  * houses on that plan. These are in the order of section, functions, faces, tiles. No list of plans or houses is gone
- * through: what is ahead is counted tray by tray (runtime/house/strip).
+ * through: what is ahead is counted tray by tray (runtime/house/frontier).
  */
 #ifndef TARTAN_HOUSE_RANK_RANK_H
 #define TARTAN_HOUSE_RANK_RANK_H
@@ -45,7 +45,7 @@ tn_status tn_house_ranks_find(tn_house_ranks *ranks, mpz_t rank, tn_tray *trays,
 tn_status tn_house_ranks_plan(tn_house_ranks *ranks, const tn_tray *trays, uint32_t length, tn_plan_houses **plan,
                               tn_error *error);
 
-/* Calls `each` with the houses that have value `point` of these (count/best.h), in the order of their ranks, until
+/* Calls `each` with the houses that have value `point` of these (count/houses.h), in the order of their ranks, until
  * there are no more or *stop. No other house is looked at. The house is borrowed for the call. variants: of the same
  * library. */
 tn_status tn_houses_point_each(tn_houses *houses, size_t point, tn_house_variants *variants, tn_house_each *each,

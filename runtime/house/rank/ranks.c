@@ -11,7 +11,7 @@ typedef struct tn_ranked_plan {
     uint32_t length;
     tn_plan_houses *houses; /* or NULL: not asked for */
     bool located;
-    mpz_t first, count; /* where it is known: the rank of the first of its houses, and how many there are */
+    mpz_t first, count; /* if it is known: the rank of the first of its houses, and how many there are */
     uint64_t used;      /* when it was asked for last */
 } tn_ranked_plan;
 
@@ -66,7 +66,7 @@ static size_t count_nodes(const tn_house_ranks *r)
     return nodes;
 }
 
-/* The plan among those that are kept; where it is new, with nothing known of it. NULL: out of memory. */
+/* The plan among those that are kept; if it is new, with nothing known of it. NULL: out of memory. */
 static tn_ranked_plan *plan_of(tn_house_ranks *r, const tn_tray *trays, uint32_t length)
 {
     size_t size = length * sizeof *trays;

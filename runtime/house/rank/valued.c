@@ -1,4 +1,4 @@
-/* The states of the houses on a plan that have one value: a state of the strip and the value so far, from which the
+/* The states of the houses on a plan that have one value: a state of the frontier and the value so far, from which the
  * wanted one is reached. Choosing among these houses is then the same as among all. */
 #include <stdlib.h>
 #include <string.h>
@@ -28,7 +28,7 @@ typedef struct tn_valuing {
     uint32_t trays; /* before the step */
     bool ends;
     tn_house_gain before;
-    tn_strip_seen *seen;
+    tn_frontier_seen *seen;
     void *context;
 } tn_valuing;
 
@@ -70,24 +70,24 @@ static tn_status see(void *context, uint32_t state, uint64_t times, uint64_t fac
 /* The state before the first slice has the value that plans begin with. */
 static uint32_t begin_step(tn_valuing *v, uint32_t state)
 {
-    const tn_path_valued first = {TN_STRIP_NONE, tn_houses_plan_start(v->path->aim->houses)};
-    const tn_path_valued *before = state != TN_STRIP_NONE ? &v->path->valued[state] : &first;
+    const tn_path_valued first = {TN_FRONTIER_NONE, tn_houses_plan_start(v->path->aim->houses)};
+    const tn_path_valued *before = state != TN_FRONTIER_NONE ? &v->path->valued[state] : &first;
     v->before = before->value;
     return before->state;
 }
 
-tn_status tn_path_step(tn_plan_path *p, uint32_t tray, uint32_t state, uint32_t slice, const tn_strip_list *only,
-                       tn_strip_seen *seen, void *context, tn_error *error)
+tn_status tn_path_step(tn_plan_path *p, uint32_t tray, uint32_t state, uint32_t slice, const tn_frontier_list *only,
+                       tn_frontier_seen *seen, void *context, tn_error *error)
 {
-    tn_strip *strip = p->kind.strip;
-    tn_valuing v = {.path = p, .trays = tray, .ends = slice == TN_STRIP_NONE, .seen = seen, .context = context};
+    tn_frontier *frontier = p->kind.frontier;
+    tn_valuing v = {.path = p, .trays = tray, .ends = slice == TN_FRONTIER_NONE, .seen = seen, .context = context};
     if (p->aim) {
         state = begin_step(&v, state);
         seen = see;
         context = &v;
     }
-    return only ? tn_strip_step_by(strip, tray, state, slice, only, seen, context, error)
-                : tn_strip_step(strip, tray, state, slice, seen, context, error);
+    return only ? tn_frontier_step_by(frontier, tray, state, slice, only, seen, context, error)
+                : tn_frontier_step(frontier, tray, state, slice, seen, context, error);
 }
 
 /* ---- states */
@@ -104,9 +104,9 @@ static tn_status add_node(void *context, uint32_t state, uint64_t times, uint64_
 
 static tn_status find_nodes(tn_plan_path *p, uint32_t tray, tn_error *error)
 {
-    const tn_strip_list *slices = &p->kind.strip->of_tray[p->view.only[tray]];
+    const tn_frontier_list *slices = &p->kind.frontier->slices.of_tray[p->view.only[tray]];
     tn_houses_layer *after = &p->kind.layers[tray + 1];
-    tn_status status = tn_watch_check(p->kind.strip->watch, error);
+    tn_status status = tn_watch_check(p->kind.frontier->watch, error);
     for (uint32_t i = 0; status == TN_OK && i < p->kind.layers[tray].nodes.count; i++)
         for (size_t k = 0; status == TN_OK && k < slices->count; k++)
             status =
@@ -120,11 +120,11 @@ static tn_status count_ahead(tn_plan_path *p, uint32_t trays, uint32_t node, tn_
 {
     uint32_t state = tn_path_state(p, trays, node);
     if (trays < p->length) {
-        const tn_strip_list *slices = &p->kind.strip->of_tray[p->view.only[trays]];
+        const tn_frontier_list *slices = &p->kind.frontier->slices.of_tray[p->view.only[trays]];
         return tn_path_count_on(p, trays, state, slices->items, slices->count, sum, ahead, error);
     }
     mpz_set_ui(sum->houses, 0);
-    tn_status status = tn_path_step(p, trays, state, TN_STRIP_NONE, NULL, tn_path_add, sum, error);
+    tn_status status = tn_path_step(p, trays, state, TN_FRONTIER_NONE, NULL, tn_path_add, sum, error);
     mpz_set(ahead, sum->houses);
     return status;
 }
@@ -132,7 +132,7 @@ static tn_status count_ahead(tn_plan_path *p, uint32_t trays, uint32_t node, tn_
 static tn_status look_ahead(tn_plan_path *p, uint32_t trays, tn_path_sum *sum, tn_error *error)
 {
     tn_houses_layer *layer = &p->kind.layers[trays];
-    tn_status status = tn_watch_check(p->kind.strip->watch, error);
+    tn_status status = tn_watch_check(p->kind.frontier->watch, error);
     layer->ahead = tn_integers_new(layer->nodes.count);
     if (!layer->ahead)
         return tn_fail_memory(error);
@@ -146,13 +146,13 @@ static tn_status look_ahead(tn_plan_path *p, uint32_t trays, tn_path_sum *sum, t
 tn_status tn_path_find_valued(tn_plan_path *p, const tn_path_aim *aim, const tn_tray *trays, uint32_t length,
                               tn_error *error)
 {
-    *p = (tn_plan_path){.view = *aim->houses, .kind = {.strip = aim->kind->strip}, .length = length, .aim = aim};
+    *p = (tn_plan_path){.view = *aim->houses, .kind = {.frontier = aim->kind->frontier}, .length = length, .aim = aim};
     p->view.only = trays;
     p->view.low = p->view.high = length;
     p->view.whole_steps = true;
     p->stages = 1;
     p->kind.layers = calloc((size_t)length + 1, sizeof *p->kind.layers);
-    if (!p->kind.layers || tn_number(&p->kind.layers[0].nodes, TN_STRIP_NONE) == UINT32_MAX)
+    if (!p->kind.layers || tn_number(&p->kind.layers[0].nodes, TN_FRONTIER_NONE) == UINT32_MAX)
         return tn_fail_memory(error);
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < length; i++)

@@ -2,10 +2,38 @@
 #ifndef TARTAN_HOUSE_VARIANT_PARTS_H
 #define TARTAN_HOUSE_VARIANT_PARTS_H
 
-#include "runtime/house/variant/fit.h"
-#include "runtime/house/variant/relevant.h"
-#include "runtime/house/variant/stage.h"
+#include "runtime/house/form/form.h"
+#include "runtime/house/house.h"
 #include "runtime/house/variant/variant.h"
+#include "runtime/module/code.h"
+#include "runtime/plan/automata/numbering.h"
+
+/* When a clause of a house library can be asked: how much of a house has to be known for what it asks. */
+typedef enum tn_clause_stage {
+    TN_STAGE_SECTION,   /* the plan, the section, which cells there are */
+    TN_STAGE_FUNCTIONS, /* their functions */
+    TN_STAGE_FACES,     /* what is in the faces: rooms, walks, what touches what */
+    TN_STAGE_TILES      /* what it costs, also what stands in its rooms */
+} tn_clause_stage;
+
+/* The functions of kind ROOM that ask for faces: all of the module, which is only too careful. Owns the array. */
+typedef struct tn_room_questions {
+    uint32_t *functions;
+    size_t count;
+} tn_room_questions;
+
+/* How many tiles fit in a cell, kept for cells of one function and storey that are equally large and have the same in
+ * and near their faces: plans of a library have few kinds of these. */
+enum { TN_FITS_MAX = 1 << 16 }; /* kinds of cells: with more the counts are forgotten */
+
+/* Owns its arrays. */
+typedef struct tn_fits {
+    bool *wanted; /* [functions] a tile is for it */
+    tn_interner cells;
+    tn_key key;
+    size_t *counts; /* [cells] */
+    size_t room;
+} tn_fits;
 
 /* A wheel of the counter: a cell's functions or a face's kinds, and which of them is set. */
 typedef struct tn_wheel {
@@ -34,7 +62,7 @@ struct tn_house_variants {
     const tn_house_library_record *library;
     tn_house_rules *rules;
     tn_clause_stage *stages;      /* of each clause: when it can be asked */
-    struct tn_clause_memo *memos; /* of each clause: memo.h */
+    struct tn_clause_memo *memos; /* of each clause: clauses.c */
     size_t turn_end; /* the wheels of functions from here on change nothing: a clause dropped all their houses */
     uint64_t work_limit, work;
     uint64_t step;  /* what a step takes of it: as much as the house is large */
@@ -84,6 +112,67 @@ tn_status tn_variants_count_tiles(tn_house_variants *v, bool *fit, tn_error *err
 
 /* The wheels of the faces, all at their first kind, none of them set. */
 tn_status tn_variants_set_faces(tn_house_variants *v, tn_error *error);
+
+/* ---- clauses.c: when a clause can be asked */
+
+/* The stage of each clause of the library. */
+tn_status tn_clause_stages(const tn_house_form *form, const tn_house_library_record *library, tn_clause_stage *stages,
+                           tn_error *error);
+
+/* ---- clauses.c: answers to functions
+ *
+ * Answers of clauses that ask for functions, kept by what they can tell apart.
+ *
+ * A clause sees the function of a cell only through decisions on cells (functions of kind CELL). Functions of one cell
+ * on which all its decisions agree are one class; the answer is kept for each combination of classes, so that a clause
+ * is run once for each of these and not once for each house. Where there are more than TN_MEMO_ANSWERS_MAX combinations
+ * it is run each time. */
+
+#define TN_MEMO_ANSWERS_MAX ((size_t)1 << 20)
+
+/* Marks the functions that an instruction names. */
+void tn_mark_operands(const tn_module *module, const tn_instruction *op, bool *reached);
+
+/* Finds what the library's clauses ask, once for all houses. Free the memos in any case. */
+tn_status tn_memos_begin(tn_house_variants *v, tn_error *error);
+
+/* Makes the memos of all clauses that are asked with the functions, empty, for the wheels of the house at hand. */
+tn_status tn_memos_make(tn_house_variants *v, tn_error *error);
+void tn_memos_free(tn_house_variants *v);
+
+/* Where the clause's answer to the functions at hand is kept; NULL where it is not. 0: it is not known yet. */
+uint8_t *tn_memo_answer(const tn_house_variants *v, uint32_t clause);
+enum { TN_MEMO_UNKNOWN, TN_MEMO_KEEPS, TN_MEMO_DROPS };
+
+/* The wheels of functions from here on are none that the clause looks at: turning them does not change the answer. */
+size_t tn_memo_end(const tn_house_variants *v, uint32_t clause);
+
+/* ---- clauses.c: faces
+ *
+ * Which faces clauses can tell apart, when the functions are given.
+ *
+ * An outside face is never walked through and joins no rooms, so clauses see what is in it only through them:
+ * `room(living, not by window)`. Where no such question is open about the room of its cell (the cell is no living
+ * room), all of the face's kinds are the same to the clauses: they only change which tiles fit into that one cell
+ * (where none of them is `open`). A void is of the room below it. */
+
+tn_status tn_room_questions_find(const tn_module *module, tn_room_questions *questions, tn_error *error);
+void tn_room_questions_clear(tn_room_questions *questions);
+
+/* Can a clause depend on what is in the face? Cells have their functions. */
+bool tn_face_relevant(const tn_house *house, const tn_room_questions *questions, const tn_face *face);
+
+/* ---- count.c: tiles that fit in a cell */
+
+/* TN_MEMORY. Clear it in any case. */
+tn_status tn_fits_begin(const tn_house_form *form, tn_fits *fits, tn_error *error);
+void tn_fits_clear(tn_fits *fits);
+
+/* Does the cell have to have a tile? */
+bool tn_fits_wanted(const tn_fits *fits, const tn_cell *cell);
+
+/* How many tiles fit in such a cell of a house whose faces are all known. TN_MEMORY. */
+tn_status tn_fits_count(tn_fits *fits, const tn_house *house, uint32_t cell, size_t *count, tn_error *error);
 
 /* ---- count.c */
 

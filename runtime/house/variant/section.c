@@ -6,7 +6,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/house/solids.h"
-#include "runtime/house/variant/memo.h"
+#include "runtime/house/variant/parts.h"
 
 void tn_sections_forget(tn_sections *sections)
 {

@@ -4,7 +4,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/house/variant/furnish.h"
-#include "runtime/house/variant/memo.h"
+#include "runtime/house/variant/parts.h"
 #include "runtime/house/variant/section.h"
 
 /* ---- wheels */

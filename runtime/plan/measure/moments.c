@@ -1,4 +1,4 @@
-/* Moments: for each state how many plans lead there, and the sums of their values and of the squares of these. */
+/* Moments: for each state how many plans lead there, and the moments of their values and of the squares of these. */
 #include "runtime/plan/measure/moments.h"
 
 #include <stdlib.h>
@@ -7,34 +7,35 @@
 #include "runtime/plan/measure/distribution.h"
 #include "runtime/plan/measure/weighed_layers.h"
 
-/* The plans that lead to a state, or all that end. */
-typedef struct sums {
+/* Of the values of the plans that lead to a state, or of all that end: how many there are, their sum, the sum of their
+ * squares, the least and the most. */
+typedef struct moments {
     mpz_t count, sum, squares;
     int64_t least, most;
-} sums;
+} moments;
 
 typedef struct adding {
     const tn_weighed *weighed;
     uint32_t min;
-    sums *all;
+    moments *all;
 } adding;
 
-static void sums_init(const void *context, void *element)
+static void moments_init(const void *context, void *element)
 {
-    sums *h = element;
+    moments *m = element;
     (void)context;
-    *h = (sums){.least = INT64_MAX, .most = INT64_MIN};
-    mpz_inits(h->count, h->sum, h->squares, NULL);
+    *m = (moments){.least = INT64_MAX, .most = INT64_MIN};
+    mpz_inits(m->count, m->sum, m->squares, NULL);
 }
 
-static void sums_clear(void *element)
+static void moments_clear(void *element)
 {
-    sums *h = element;
-    mpz_clears(h->count, h->sum, h->squares, NULL);
+    moments *m = element;
+    mpz_clears(m->count, m->sum, m->squares, NULL);
 }
 
 /* Adds the plans of `from`, each `times` times, with `gain` more. */
-static void add_shifted(sums *to, const sums *from, uint64_t times, int64_t gain)
+static void add_shifted(moments *to, const moments *from, uint64_t times, int64_t gain)
 {
     mpz_t more, step;
     mpz_init(more);
@@ -56,7 +57,7 @@ static void add_shifted(sums *to, const sums *from, uint64_t times, int64_t gain
 static tn_status begin(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
 {
     const adding *s = context;
-    sums *start = element;
+    moments *start = element;
     int64_t first = tn_weighed_start(s->weighed, 0);
     (void)layer, (void)state, (void)error;
     mpz_set_ui(start->count, 1);
@@ -84,10 +85,10 @@ static tn_status end(void *context, uint32_t layer, uint32_t state, void *elemen
     return TN_OK;
 }
 
-TN_WALK_ALGEBRA(moments_algebra, sums_init, sums_clear, begin, extend, end);
+TN_WALK_ALGEBRA(moments_algebra, moments_init, moments_clear, begin, extend, end);
 
 /* Adds all plans to `all`. */
-static tn_status add_plans(tn_weighed *w, sums *all, tn_error *error)
+static tn_status add_plans(tn_weighed *w, moments *all, tn_error *error)
 {
     const tn_library *library = tn_weighed_library(w);
     adding s = {w, library->min, all};
@@ -96,13 +97,13 @@ static tn_status add_plans(tn_weighed *w, sums *all, tn_error *error)
         return TN_OK;
     tn_status status = tn_walk_begin(&walk, tn_weighed_last_layer(w), false, error);
     if (status == TN_OK)
-        status = tn_walk_forward(&walk, &tn_weighed_after, w, &moments_algebra, &s, sizeof(sums), error);
+        status = tn_walk_forward(&walk, &tn_weighed_after, w, &moments_algebra, &s, sizeof(moments), error);
     tn_walk_clear(&walk, &moments_algebra, NULL);
     return status;
 }
 
 /* mean := sum / count, variance := squares / count - mean^2, all in steps of the unit. */
-static void conclude(tn_measure_moments *m, const sums *all, mpq_srcptr unit)
+static void conclude(tn_measure_moments *m, const moments *all, mpq_srcptr unit)
 {
     mpq_t square;
     mpz_set(m->plans, all->count);
@@ -149,22 +150,22 @@ tn_status tn_measure_moments_find(tn_measure_moments *m, tn_weighed *weighed, tn
     tn_weighed_sum(weighed, 0, &over);
     if (over)
         return find_of_quotient(m, weighed, error);
-    sums all;
-    sums_init(NULL, &all);
+    moments all;
+    moments_init(NULL, &all);
     tn_status status = add_plans(weighed, &all, error);
     if (status == TN_OK)
         conclude(m, &all, tn_weighed_unit(weighed, 0));
-    sums_clear(&all);
+    moments_clear(&all);
     return status;
 }
 
 tn_status tn_weighed_plans(tn_weighed *weighed, mpz_t plans, tn_error *error)
 {
-    sums all;
-    sums_init(NULL, &all);
+    moments all;
+    moments_init(NULL, &all);
     tn_status status = add_plans(weighed, &all, error);
     mpz_set(plans, all.count);
-    sums_clear(&all);
+    moments_clear(&all);
     return status;
 }
 

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/house/count/best.h"
+#include "runtime/house/count/houses.h"
 #include "runtime/house/rank/rank.h"
 #include "runtime/house/schedule/cost.h"
 #include "tests/support/drawn_house.h"

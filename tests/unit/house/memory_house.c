@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "runtime/house/bare.h"
-#include "runtime/house/count/best.h"
+#include "runtime/house/count/houses.h"
 #include "runtime/house/export/export.h"
 #include "runtime/house/rank/rank.h"
 #include "runtime/house/schedule/describe.h"

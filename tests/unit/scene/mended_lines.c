@@ -99,14 +99,14 @@ static size_t check(const tn_mesh *mesh)
 {
     const tn_camera camera = {between(-180, 180), between(5, 80), 400};
     const tn_eye eye = tn_camera_eye(&camera);
-    tn_sight sight;
+    tn_display_list display;
     tn_view *view;
     tn_seen_line *lines;
     size_t count;
     tn_error error;
-    assert_int_equal(tn_sight_of_mesh(mesh, &sight, &error), TN_OK);
-    sight.closed = true;
-    assert_int_equal(tn_view_take(&sight, &camera, &view, &error), TN_OK);
+    assert_int_equal(tn_display_list_of_mesh(mesh, &display, &error), TN_OK);
+    display.closed = true;
+    assert_int_equal(tn_view_take(&display, &camera, &view, &error), TN_OK);
     assert_int_equal(tn_mesh_visible(mesh, &eye, 1e-9, &lines, &count, &error), TN_OK);
     size_t stray = count_stray(view, lines, count), mends = view->mend_count;
     if (stray)
@@ -114,7 +114,7 @@ static size_t check(const tn_mesh *mesh)
                  (unsigned long long)seed, stray, mends, camera.azimuth, camera.elevation);
     free(lines);
     tn_view_free(view);
-    tn_sight_clear(&sight);
+    tn_display_list_clear(&display);
     return mends;
 }
 

@@ -23,26 +23,26 @@ typedef struct shape {
 /* Looks straight down at shapes that lie on the ground, or one of them so far above it. */
 static tn_view *look_at(const shape *shapes, size_t count, size_t raised, double above)
 {
-    tn_sight sight;
+    tn_display_list display;
     tn_view *view;
     tn_error error;
     uint32_t corner = 0;
-    assert_int_equal(tn_sight_new(count, 5 * count, true, &sight, &error), TN_OK);
+    assert_int_equal(tn_display_list_new(count, 5 * count, true, &display, &error), TN_OK);
     for (size_t i = 0; i < count; i++) {
-        sight.first[sight.face_count] = corner;
-        sight.groups[sight.face_count++] = shapes[i].group;
+        display.first[display.face_count] = corner;
+        display.groups[display.face_count++] = shapes[i].group;
         for (uint32_t k = 0; k < shapes[i].count; k++, corner++) {
             const double at[3] = {shapes[i].points[k][0], shapes[i].points[k][1], i == raised ? above : 0};
-            memcpy(sight.points[corner], at, sizeof at);
-            sight.edges[corner] = shapes[i].edges[k];
+            memcpy(display.points[corner], at, sizeof at);
+            display.edges[corner] = shapes[i].edges[k];
         }
     }
-    sight.first[sight.face_count] = corner;
+    display.first[display.face_count] = corner;
     tn_camera camera = tn_camera_default();
     camera.azimuth = -90;
     camera.elevation = 90;
-    assert_int_equal(tn_view_take(&sight, &camera, &view, &error), TN_OK);
-    tn_sight_clear(&sight);
+    assert_int_equal(tn_view_take(&display, &camera, &view, &error), TN_OK);
+    tn_display_list_clear(&display);
     return view;
 }
 

@@ -1,0 +1,696 @@
+/* Tiles and costs: how many tiles fit in a cell, what the arrangements of a tray's tiles cost, and what houses cost
+ * without them.
+ *
+ * ==== tiles that fit
+ *
+ * By what is in the faces of a cell and where walls meet at it: each combination is counted once. A cell is built again
+ * by itself: its own faces, and short ends of the walls that make posts at its corners. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/base/array.h"
+#include "runtime/house/frontier/states.h"
+#include "runtime/house/schedule/cost.h"
+
+enum {
+    BASE_FUNCTION,
+    BASE_STOREY,
+    BASE_WIDTH,
+    BASE_Y0 = BASE_WIDTH + 2,
+    BASE_Y1 = BASE_Y0 + 2,
+    BASE_FACES = BASE_Y1 + 2
+};
+enum { BASE_FACE_SIDE, BASE_FACE_KIND, BASE_FACE_WORDS };
+enum { SIDE_FACES, SIDE_FIRST };
+enum { FACE_KIND, FACE_Y0, FACE_Y1 = FACE_Y0 + 2, FACE_WORDS = FACE_Y1 + 2 };
+enum { POST_Y, POST_THICK = POST_Y + 2, POST_WORDS };
+enum { THICK_X = 1, THICK_Y = 2 }; /* as thick as an outside wall */
+
+static uint32_t kind_word(const tn_face *face)
+{
+    return face->kind << 1 | (face->relation == TN_FACE_OUTSIDE);
+}
+
+tn_status tn_frontier_fit_base(tn_frontier *frontier, const tn_house *house, uint32_t cell, uint32_t *base,
+                               tn_error *error)
+{
+    const tn_cell *c = &house->cells[cell];
+    tn_key *key = &frontier->key;
+    key->size = 0;
+    bool ok = tn_key_push(key, c->function) && tn_key_push(key, c->storey) &&
+              tn_push_long(key, (uint64_t)(c->at.x1 - c->at.x0)) && tn_push_long(key, (uint64_t)c->at.y0) &&
+              tn_push_long(key, (uint64_t)c->at.y1);
+    for (size_t i = 0; ok && i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        bool back = face->side == TN_HOUSE_BACK || face->side == TN_HOUSE_FRONT;
+        if (!back || (face->first != cell && face->second != cell))
+            continue;
+        bool front = (face->side == TN_HOUSE_FRONT) == (face->first == cell);
+        ok = tn_key_push(key, front ? TN_HOUSE_FRONT : TN_HOUSE_BACK) && tn_key_push(key, kind_word(face));
+    }
+    *base = ok ? tn_intern(&frontier->tiles.bases, key->data, key->size) : UINT32_MAX;
+    return *base != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+}
+
+tn_status tn_frontier_fit_side(tn_frontier *frontier, const tn_house *house, uint32_t cell, tn_house_side side,
+                               int64_t x, const tn_posts *posts, uint32_t *fit, tn_error *error)
+{
+    const tn_cell *c = &house->cells[cell];
+    int64_t wall = house->form->record->wall;
+    tn_key *key = &frontier->key;
+    key->size = 0;
+    bool ok = tn_key_push(key, 0);
+    (void)side;
+    for (size_t i = 0; ok && i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        if (face->relation == TN_FACE_UNDER || face->at.x0 != x || face->at.x1 != x ||
+            (face->first != cell && face->second != cell))
+            continue;
+        ok = tn_key_push(key, kind_word(face)) && tn_push_long(key, (uint64_t)face->at.y0) &&
+             tn_push_long(key, (uint64_t)face->at.y1);
+        key->data[SIDE_FACES]++;
+    }
+    for (size_t i = 0; ok && i < posts->count; i++) {
+        const tn_post *post = &posts->items[i];
+        if (post->x != x || post->y < c->at.y0 || post->y > c->at.y1 || post->thick_x == 0 || post->thick_y == 0)
+            continue;
+        uint32_t thick = (post->thick_x == wall ? THICK_X : 0u) | (post->thick_y == wall ? THICK_Y : 0u);
+        ok = tn_push_long(key, (uint64_t)post->y) && tn_key_push(key, thick);
+    }
+    *fit = ok ? tn_intern(&frontier->tiles.sides, key->data, key->size) : UINT32_MAX;
+    return *fit != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+}
+
+/* ---- the cell by itself */
+
+enum { CELL, OTHER, CELLS }; /* the other cell has the ends of walls that are not the cell's */
+
+static tn_face *add(tn_house *house, uint32_t first, tn_house_side side, uint32_t kind, tn_rectangle at)
+{
+    tn_face *face = &house->faces[house->face_count++];
+    bool outside = kind & 1;
+    *face = (tn_face){.first = first,
+                      .second = outside ? TN_NO_CELL : OTHER,
+                      .relation = outside ? TN_FACE_OUTSIDE : TN_FACE_BESIDE,
+                      .side = side,
+                      .at = at,
+                      .storey = house->cells[CELL].storey,
+                      .kind = kind >> 1};
+    return face;
+}
+
+/* A short end of a wall, as thick as an outside wall or a partition. */
+static void add_end(tn_house *house, bool thick, tn_rectangle at)
+{
+    add(house, OTHER, TN_HOUSE_BACK, (uint32_t)TN_FACE_WALL << 1 | thick, at);
+}
+
+static void add_side(const tn_frontier *frontier, tn_house *house, uint32_t side, bool left)
+{
+    size_t size;
+    const uint32_t *words = tn_interned(&frontier->tiles.sides, side, &size), *end = words + size;
+    int64_t x = left ? house->cells[CELL].at.x0 : house->cells[CELL].at.x1, away = left ? -1 : 1;
+    uint32_t faces = words[SIDE_FACES];
+    for (words += SIDE_FIRST; faces > 0; faces--, words += FACE_WORDS)
+        add(house, CELL, left ? TN_HOUSE_LEFT : TN_HOUSE_RIGHT, words[FACE_KIND],
+            (tn_rectangle){x, x, (int64_t)tn_both(words + FACE_Y0), (int64_t)tn_both(words + FACE_Y1)});
+    for (; words < end; words += POST_WORDS) {
+        int64_t y = (int64_t)tn_both(words + POST_Y);
+        add_end(house, words[POST_THICK] & THICK_X, (tn_rectangle){x, x, y, y});
+        add_end(house, words[POST_THICK] & THICK_Y,
+                left ? (tn_rectangle){x + away, x, y, y} : (tn_rectangle){x, x + away, y, y});
+    }
+}
+
+static tn_status build(const tn_frontier *frontier, uint32_t base, uint32_t left, uint32_t right, tn_house *house,
+                       tn_error *error)
+{
+    size_t size, sides[2];
+    const uint32_t *words = tn_interned(&frontier->tiles.bases, base, &size);
+    tn_interned(&frontier->tiles.sides, left, &sides[0]);
+    tn_interned(&frontier->tiles.sides, right, &sides[1]);
+    *house = (tn_house){.form = frontier->form, .length = 1, .cell_count = CELLS};
+    memcpy(house->shapes, frontier->shapes, frontier->form->record->choice_count * sizeof *frontier->shapes);
+    house->cells = calloc(CELLS, sizeof *house->cells);
+    house->faces = calloc(size + sides[0] + sides[1] + 1, sizeof *house->faces);
+    if (!house->cells || !house->faces)
+        return tn_fail_memory(error);
+    int64_t wide = (int64_t)tn_both(words + BASE_WIDTH), y0 = (int64_t)tn_both(words + BASE_Y0),
+            y1 = (int64_t)tn_both(words + BASE_Y1);
+    house->cells[CELL] = house->cells[OTHER] =
+        (tn_cell){.storey = words[BASE_STOREY], .function = words[BASE_FUNCTION], .at = {0, wide, y0, y1}};
+    for (size_t i = BASE_FACES; i < size; i += BASE_FACE_WORDS) {
+        int64_t y = words[i + BASE_FACE_SIDE] == TN_HOUSE_BACK ? y0 : y1;
+        add(house, CELL, (tn_house_side)words[i + BASE_FACE_SIDE], words[i + BASE_FACE_KIND],
+            (tn_rectangle){0, wide, y, y});
+    }
+    add_side(frontier, house, left, true);
+    add_side(frontier, house, right, false);
+    return TN_OK;
+}
+
+tn_status tn_frontier_fit(tn_frontier *frontier, uint32_t base, uint32_t left, uint32_t right, uint32_t *tiles,
+                          tn_error *error)
+{
+    uint32_t before = frontier->tiles.fit_keys[1].count;
+    uint32_t at = tn_number(&frontier->tiles.fit_keys[0], (uint64_t)base << 32 | left);
+    at = at == UINT32_MAX ? at : tn_number(&frontier->tiles.fit_keys[1], (uint64_t)at << 32 | right);
+    if (at == UINT32_MAX ||
+        !tn_array_reserve(&frontier->tiles.fits, &frontier->tiles.fit_room, before, 1, sizeof *frontier->tiles.fits))
+        return tn_fail_memory(error);
+    if (at < before) {
+        *tiles = frontier->tiles.fits[at];
+        return TN_OK;
+    }
+    tn_house house;
+    tn_variants variants = {0};
+    tn_status status = build(frontier, base, left, right, &house, error);
+    if (status == TN_OK)
+        status = tn_tile_variants(&house, CELL, &variants, error);
+    *tiles = (uint32_t)variants.count;
+    if (status == TN_OK && frontier->prices.items)
+        status = tn_frontier_list_tiles(frontier, &house, &variants, tiles, error);
+    frontier->tiles.fits[at] = *tiles;
+    tn_variants_clear(&variants);
+    free(house.cells);
+    free(house.faces);
+    return status;
+}
+
+void tn_frontier_tiles_clear(tn_frontier_tiles *tiles)
+{
+    free(tiles->tiled);
+    tn_interner_clear(&tiles->bases);
+    tn_interner_clear(&tiles->sides);
+    tn_numbering_clear(&tiles->fit_keys[0]);
+    tn_numbering_clear(&tiles->fit_keys[1]);
+    free(tiles->fits);
+    tn_interner_clear(&tiles->lists);
+    tn_interner_clear(&tiles->pending);
+    tn_frontier_known_clear(&tiles->arrangements);
+    tn_frontier_known_clear(&tiles->pending_of);
+}
+
+/* ==== sums
+ *
+ * Sums of the tiles of a tray: how many arrangements cost how much. If tiles have no prices, that is one number. */
+
+/* ---- sums at hand: of the tiles so far */
+
+static int compare_sums(const void *a, const void *b)
+{
+    const tn_frontier_sum *p = a, *q = b;
+    return (p->cost > q->cost) - (p->cost < q->cost);
+}
+
+/* Sums of the same cost become one. False: there are more than 2^64 arrangements. */
+static bool join_sums(tn_frontier_sum *sums, size_t *count)
+{
+    size_t kept = 0;
+    bool ok = true;
+    qsort(sums, *count, sizeof *sums, compare_sums);
+    for (size_t i = 0; ok && i < *count; i++) {
+        if (kept > 0 && sums[kept - 1].cost == sums[i].cost)
+            ok = !__builtin_add_overflow(sums[kept - 1].times, sums[i].times, &sums[kept - 1].times);
+        else
+            sums[kept++] = sums[i];
+    }
+    *count = kept;
+    return ok;
+}
+
+/* Adds each tile of a list to each of the sums. */
+static tn_status add_list(tn_frontier *frontier, uint32_t list, tn_error *error)
+{
+    tn_frontier_sums *s = &frontier->sums;
+    const tn_int128 *steps = frontier->prices.steps;
+    size_t words, count = 0;
+    const uint32_t *added = tn_interned(&frontier->prices.lists, list, &words);
+    bool ok = true;
+    if (!tn_array_reserve(&s->more, &s->more_room, 0, s->count * (words / 2) + 1, sizeof *s->more))
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < s->count; i++)
+        for (size_t w = 0; ok && w < words; w += 2) {
+            tn_frontier_sum sum = {s->items[i].cost + (steps ? steps[added[w]] : 0), 0};
+            ok = !__builtin_mul_overflow(s->items[i].times, (uint64_t)added[w + 1], &sum.times);
+            s->more[count++] = sum;
+        }
+    if (count > 0)
+        ok = ok && join_sums(s->more, &count);
+    tn_frontier_sum *items = s->items;
+    size_t room = s->room;
+    s->items = s->more;
+    s->room = s->more_room;
+    s->more = items;
+    s->more_room = room;
+    s->count = count;
+    return ok ? TN_OK : tn_frontier_limit(frontier, NULL, "a tray has more than 2^64 arrangements of tiles", error);
+}
+
+/* Adds the tiles of a cell: `fit` as of tn_frontier_fit. */
+static tn_status add_tiles(tn_frontier *frontier, uint32_t fit, tn_error *error)
+{
+    tn_frontier_sums *s = &frontier->sums;
+    if (frontier->prices.items)
+        return add_list(frontier, fit, error);
+    s->count = fit > 0;
+    if (__builtin_mul_overflow(s->items[0].times, (uint64_t)fit, &s->items[0].times))
+        return tn_frontier_limit(frontier, NULL, "a tray has more than 2^64 arrangements of tiles", error);
+    return TN_OK;
+}
+
+static tn_status begin(tn_frontier *frontier, tn_error *error)
+{
+    tn_frontier_sums *s = &frontier->sums;
+    if (!tn_array_reserve(&s->items, &s->room, 0, 1, sizeof *s->items))
+        return tn_fail_memory(error);
+    s->items[0] = (tn_frontier_sum){0, 1};
+    s->count = 1;
+    return TN_OK;
+}
+
+/* The tiles of the left slice: no sum if one of its cells has none. */
+static tn_status multiply(tn_frontier *frontier, uint32_t pending, uint32_t sides, tn_error *error)
+{
+    size_t count, cells;
+    const uint32_t *words = tn_interned(&frontier->tiles.pending, pending, &count);
+    const uint32_t *fits = tn_interned(&frontier->tiles.lists, sides, &cells);
+    tn_status status = begin(frontier, error);
+    for (size_t i = 0; status == TN_OK && frontier->sums.count > 0 && i < count; i += PENDING_WORDS) {
+        uint32_t fit = 0;
+        const tn_frontier_one *one = &frontier->merged.one[words[i + PENDING_CLASS]];
+        status = tn_frontier_fit(frontier, one->base, one->left, fits[words[i + PENDING_CELL]] - 1, &fit, error);
+        if (status == TN_OK)
+            status = add_tiles(frontier, frontier->prices.items ? fit : fit / one->factor, error);
+    }
+    return status;
+}
+
+/* ---- how many, without prices */
+
+tn_status tn_frontier_end_pending(tn_frontier *frontier, uint32_t pending, uint32_t left_fits, uint64_t *times,
+                                  tn_error *error)
+{
+    uint32_t *result;
+    bool met;
+    tn_status status = tn_frontier_known_at(&frontier->tiles.arrangements, pending, left_fits, 2, &result, &met, error);
+    if (status == TN_OK && !met) {
+        status = multiply(frontier, pending, left_fits, error);
+        uint64_t found = status == TN_OK && frontier->sums.count > 0 ? frontier->sums.items[0].times : 0;
+        result[0] = tn_low(found);
+        result[1] = tn_high(found);
+    }
+    *times = status == TN_OK ? tn_both(result) : 0;
+    return status;
+}
+
+/* ---- sums that are kept: the same tiles come with many totals */
+
+enum { KEPT_FIRST, KEPT_COUNT, KEPT_WORDS };
+enum { KEPT_MAX = 1 << 21 }; /* sums: 64 MB */
+
+static tn_status keep(tn_frontier_sums *s, uint32_t result[KEPT_WORDS], tn_error *error)
+{
+    if (s->kept_count + s->count > KEPT_MAX)
+        return TN_OK;
+    if (!tn_array_reserve(&s->kept, &s->kept_room, s->kept_count, s->count, sizeof *s->kept))
+        return tn_fail_memory(error);
+    memcpy(s->kept + s->kept_count, s->items, s->count * sizeof *s->kept);
+    result[KEPT_FIRST] = (uint32_t)s->kept_count;
+    result[KEPT_COUNT] = (uint32_t)s->count;
+    s->kept_count += s->count;
+    return TN_OK;
+}
+
+static tn_status find_kept(tn_frontier *frontier, uint32_t pending, uint32_t left_fits, tn_error *error)
+{
+    tn_frontier_sums *s = &frontier->sums;
+    uint32_t *result;
+    bool met;
+    tn_status status = tn_frontier_known_at(&s->places, pending, left_fits, KEPT_WORDS, &result, &met, error);
+    if (status == TN_OK && !met)
+        result[KEPT_FIRST] = TN_FRONTIER_NONE; /* not kept, as long as nothing else is known */
+    bool kept = status == TN_OK && result[KEPT_FIRST] != TN_FRONTIER_NONE;
+    if (status == TN_OK && !kept)
+        status = multiply(frontier, pending, left_fits, error);
+    if (status == TN_OK && !met)
+        status = keep(s, result, error);
+    s->found = kept ? s->kept + result[KEPT_FIRST] : s->items;
+    s->found_count = kept ? result[KEPT_COUNT] : s->count;
+    return status;
+}
+
+tn_status tn_frontier_sum_tiles(tn_frontier *frontier, uint32_t pending, uint32_t left_fits, tn_error *error)
+{
+    tn_frontier_sums *s = &frontier->sums;
+    if (frontier->prices.items && frontier->prices.steps)
+        return find_kept(frontier, pending, left_fits, error);
+    uint64_t times = 1;
+    tn_status status = frontier->prices.items ? multiply(frontier, pending, left_fits, error)
+                                              : tn_frontier_end_pending(frontier, pending, left_fits, &times, error);
+    if (status == TN_OK && !frontier->prices.items)
+        status = tn_frontier_sum_one(frontier, times, error);
+    s->found = s->items;
+    s->found_count = s->count;
+    return status;
+}
+
+tn_status tn_frontier_sum_one(tn_frontier *frontier, uint64_t times, tn_error *error)
+{
+    tn_frontier_sums *s = &frontier->sums;
+    tn_status status = begin(frontier, error);
+    if (status != TN_OK)
+        return status;
+    s->items[0].times = times;
+    s->count = s->found_count = times > 0;
+    s->found = s->items;
+    return TN_OK;
+}
+
+void tn_frontier_sums_clear(tn_frontier_sums *sums)
+{
+    free(sums->items);
+    free(sums->more);
+    free(sums->kept);
+    tn_frontier_known_clear(&sums->places);
+}
+
+/* ==== prices
+ *
+ * What houses cost, in parts that add up: each tray by itself, between plain walls at its sides, and what
+ * stands in each interface between two trays, which is the difference to that.
+ *
+ * Such parts know all that there is as long as nothing reaches over a whole tray: what a wall, a deck or a roof is at a
+ * interface depends on the trays at both of its sides alone. If that is not so, costs are not counted (E1685). */
+
+/* ---- which costs can be counted so */
+
+enum {
+    BY_NUMBER = 1u << TN_PER_EACH,
+    BY_VOLUME = 1u << TN_PER_CUBIC_FOOT | 1u << TN_PER_CUBIC_METRE,
+    BY_ANY = BY_NUMBER | 1u << TN_PER_SQUARE_FOOT | 1u << TN_PER_SQUARE_METRE | BY_VOLUME
+};
+
+/* Has a part a price of such a kind, in any section? */
+static bool is_priced(const tn_house_form *form, uint32_t part, uint32_t by)
+{
+    for (uint32_t i = 0; i < form->record->material_count; i++) {
+        const tn_material_record *material = &form->module->MATERIAL_records[form->record->material_first + i];
+        for (uint32_t p = 0; p < material->part_count && by >> material->unit & 1; p++)
+            if (form->module->HOUSE_ITEM_records[material->part_first + p].number == part)
+                return true;
+    }
+    return false;
+}
+
+static bool are_items_priced(const tn_house_form *form)
+{
+    for (uint32_t part = TN_OF_COUNT + form->record->opening_count; part < tn_form_parts(form); part++)
+        if (is_priced(form, part, BY_ANY))
+            return true;
+    return false;
+}
+
+/* The zones' roofs of the section. */
+typedef struct tn_roofs {
+    bool across;
+    int64_t eaves; /* the widest */
+} tn_roofs;
+
+static tn_roofs roofs_of(const tn_frontier *frontier)
+{
+    tn_house section = {.form = frontier->form};
+    tn_roofs roofs = {0};
+    memcpy(section.shapes, frontier->shapes, frontier->form->record->choice_count * sizeof *section.shapes);
+    for (uint32_t z = 0; z < frontier->form->zone_count; z++) {
+        const tn_shape_record *shape = tn_house_shape(&section, frontier->form->zones[z], TN_CHOICE_ROOF);
+        roofs.across = roofs.across || (shape && shape->flags & TN_ROOF_ACROSS);
+        roofs.eaves = shape && shape->eaves > roofs.eaves ? shape->eaves : roofs.eaves;
+    }
+    return roofs;
+}
+
+static tn_status refuse(const tn_frontier *frontier, const char *why, const char *help, tn_error *error)
+{
+    const tn_house_added *added = frontier->added;
+    uint32_t k = 0;
+    while (mpq_sgn(added->of[k]->cost) == 0)
+        k++;
+    tn_fail(error, TN_LIMIT, E_COST_OF_ALL, "the costs that `%.60s` adds up cannot be counted: %s",
+            tn_text(frontier->form->module, added->of[k]->of.name), why);
+    tn_error_help(error, "%s", help);
+    return TN_LIMIT;
+}
+
+static tn_status check_widths(const tn_frontier *frontier, const tn_roofs *roofs, const bool *trays, tn_error *error)
+{
+    const tn_house_form *form = frontier->form;
+    int64_t wall = form->record->wall > form->record->partition ? form->record->wall : form->record->partition;
+    int64_t reach = wall + (is_priced(form, TN_OF_ROOF, BY_ANY) ? 2 * roofs->eaves : 0);
+    for (tn_tray t = 0; frontier->trays_most > 1 && t < form->schema->tray_count; t++)
+        if (trays[t] && tn_tray_value_record(form->schema, t, form->width)->length < reach)
+            return refuse(frontier, "a tray is narrower than the walls and eaves at its sides together",
+                          "make the eaves or the walls of the form narrower, or leave out the narrow trays", error);
+    return TN_OK;
+}
+
+/* Does an opening take the whole height of a storey? */
+static bool is_full(const tn_house_form *form, const tn_opening_record *opening)
+{
+    for (uint32_t k = 0; opening->turn == TN_TURN_NONE && k < form->record->storey_count; k++)
+        if (opening->sill == 0 && opening->high == tn_form_clear(form, k))
+            return true;
+    return false;
+}
+
+static tn_status check_openings(const tn_frontier *frontier, tn_error *error)
+{
+    const tn_house_form *form = frontier->form;
+    bool walls = is_priced(form, TN_OF_WALL, BY_NUMBER) || is_priced(form, TN_OF_PARTY, BY_NUMBER) ||
+                 is_priced(form, TN_OF_PARTITION, BY_NUMBER);
+    for (uint32_t i = 0; i < form->record->opening_count; i++) {
+        const tn_opening_record *opening = &form->module->OPENING_records[form->record->opening_first + i];
+        if (walls && is_full(form, opening))
+            return refuse(frontier, "an opening can leave nothing of a wall, and walls have a price each",
+                          "give the price of walls per area, or per volume", error);
+        if (opening->turn != TN_TURN_NONE && is_priced(form, TN_OF_DECK, BY_NUMBER))
+            return refuse(frontier, "flights cut decks in pieces, and these have a price each",
+                          "give the price of decks per area, or per volume", error);
+        if (opening->turn == TN_TURN_QUARTER && is_priced(form, TN_OF_COUNT + i, BY_VOLUME))
+            return refuse(frontier, "a flight that turns a quarter has a price per volume",
+                          "give its price per area, or for each", error);
+    }
+    return TN_OK;
+}
+
+tn_status tn_frontier_prices_begin(tn_frontier *frontier, tn_error *error)
+{
+    tn_frontier_prices *p = &frontier->prices;
+    for (uint32_t k = 0; k < frontier->added->count; k++)
+        p->asked = p->asked || mpq_sgn(frontier->added->of[k]->cost) != 0;
+    if (!p->asked)
+        return TN_OK;
+    p->items = are_items_priced(frontier->form);
+    p->across = roofs_of(frontier).across && is_priced(frontier->form, TN_OF_ROOF, BY_ANY);
+    const uint32_t none = 0; /* the first list is that of a cell in which nothing fits */
+    return tn_intern(&p->lists, &none, 0) == UINT32_MAX ? tn_fail_memory(error) : TN_OK;
+}
+
+tn_status tn_frontier_prices_check(const tn_frontier *frontier, const bool *trays, tn_error *error)
+{
+    tn_roofs roofs = roofs_of(frontier);
+    if (frontier->prices.across && roofs.eaves > 0)
+        return refuse(frontier, "a section has eaves, and a roof that goes `across`",
+                      "keep sections that have only one of both: `prune section(...)`", error);
+    tn_status status = check_widths(frontier, &roofs, trays, error);
+    return status == TN_OK ? check_openings(frontier, error) : status;
+}
+
+void tn_frontier_prices_clear(tn_frontier_prices *p)
+{
+    for (uint32_t i = 0; i < p->numbers.count; i++)
+        mpq_clear(p->exact[i]);
+    tn_interner_clear(&p->numbers);
+    tn_interner_clear(&p->alone.keys);
+    tn_interner_clear(&p->interfaces.keys);
+    tn_interner_clear(&p->shapes);
+    tn_interner_clear(&p->lists);
+    free(p->exact);
+    free(p->steps);
+    free(p->alone.costs);
+    free(p->interfaces.costs);
+    free(p->key.data);
+}
+
+/* ---- exact costs, numbered */
+
+static bool push_integer(tn_key *key, const mpz_t number)
+{
+    size_t words = (mpz_sizeinbase(number, 2) + 31) / 32, written = 0;
+    bool ok = tn_key_push(key, (uint32_t)(mpz_sgn(number) + 1)) && tn_key_push(key, (uint32_t)words);
+    size_t first = key->size;
+    for (size_t i = 0; ok && i < words; i++)
+        ok = tn_key_push(key, 0);
+    if (ok)
+        mpz_export(key->data + first, &written, -1, sizeof *key->data, 0, 0, number);
+    return ok;
+}
+
+tn_status tn_frontier_cost_number(tn_frontier *frontier, const mpq_t cost, uint32_t *number, tn_error *error)
+{
+    tn_frontier_prices *p = &frontier->prices;
+    uint32_t before = p->numbers.count;
+    p->key.size = 0;
+    bool ok = push_integer(&p->key, mpq_numref(cost)) && push_integer(&p->key, mpq_denref(cost)) &&
+              tn_array_reserve(&p->exact, &p->room, before, 1, sizeof *p->exact);
+    *number = ok ? tn_intern(&p->numbers, p->key.data, p->key.size) : UINT32_MAX;
+    if (*number == UINT32_MAX)
+        return tn_fail_memory(error);
+    if (*number < before)
+        return TN_OK;
+    mpq_init(p->exact[before]);
+    mpq_set(p->exact[before], cost);
+    return TN_OK;
+}
+
+void tn_frontier_cost_unit(const tn_frontier *frontier, mpq_t unit)
+{
+    mpq_t cost;
+    mpq_init(cost);
+    for (uint32_t i = 0; i < frontier->prices.numbers.count; i++) {
+        mpq_abs(cost, frontier->prices.exact[i]);
+        tn_common_unit(unit, cost);
+    }
+    mpq_clear(cost);
+}
+
+tn_status tn_frontier_settle(tn_frontier *frontier, const tn_frontier_units *units, tn_error *error)
+{
+    tn_frontier_prices *p = &frontier->prices;
+    p->steps = calloc((size_t)p->numbers.count + 1, sizeof *p->steps);
+    frontier->units = units;
+    if (!p->steps)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < p->numbers.count; i++)
+        if (!tn_steps_of(p->exact[i], units->cost, &p->steps[i]))
+            return tn_too_fine(error);
+    return TN_OK;
+}
+
+/* ---- trays */
+
+/* The number of the house's cost without what stands in its rooms, less what trays to the left and right of an
+ * interface cost by themselves (NULL: nothing is taken off), by the key at hand: it is found once. */
+static tn_status keyed_cost(tn_frontier *frontier, tn_frontier_keyed *known, const tn_house *house,
+                            const tn_frontier_edge *left, const tn_frontier_edge *right, uint32_t *number,
+                            tn_error *error)
+{
+    tn_frontier_prices *p = &frontier->prices;
+    uint32_t before = known->keys.count;
+    bool ok = tn_array_reserve(&known->costs, &known->room, before, 1, sizeof *known->costs);
+    uint32_t at = ok ? tn_intern(&known->keys, p->key.data, p->key.size) : UINT32_MAX;
+    if (at == UINT32_MAX)
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    if (at == before) {
+        mpq_t cost;
+        mpq_init(cost);
+        status = tn_house_exact_cost(house, tn_house_shell, cost, error);
+        if (left)
+            mpq_sub(cost, cost, p->exact[left->cost]);
+        if (right)
+            mpq_sub(cost, cost, p->exact[right->cost]);
+        if (status == TN_OK)
+            status = tn_frontier_cost_number(frontier, cost, &known->costs[at], error);
+        mpq_clear(cost);
+    }
+    *number = known->costs[at];
+    return status;
+}
+
+tn_status tn_frontier_tray_cost(tn_frontier *frontier, const tn_house *house, uint32_t *number, tn_error *error)
+{
+    tn_frontier_prices *p = &frontier->prices;
+    p->key.size = 0;
+    bool ok = tn_key_push(&p->key, house->trays[0]);
+    for (size_t i = 0; ok && i < house->face_count; i++)
+        if (tn_face_is_inner(&house->faces[i]))
+            ok = tn_key_push(&p->key, house->faces[i].kind);
+    return ok ? keyed_cost(frontier, &p->alone, house, NULL, NULL, number, error) : tn_fail_memory(error);
+}
+
+/* Is there no floor above the face? */
+static bool is_hole(const tn_face *face)
+{
+    return face->relation == TN_FACE_UNDER && (face->kind == TN_FACE_STAIR || face->kind == TN_FACE_OPEN);
+}
+
+bool tn_frontier_push_shape(const tn_frontier *frontier, const tn_house *house, tn_key *key)
+{
+    int64_t width = tn_tray_value_record(frontier->form->schema, house->trays[0], frontier->form->width)->length;
+    bool ok = tn_push_long(key, frontier->prices.across ? (uint64_t)width : 0);
+    for (size_t i = 0; ok && i < house->cell_count; i++) {
+        const tn_cell *cell = &house->cells[i];
+        ok = tn_push_long(key, (uint64_t)cell->at.y0) && tn_push_long(key, (uint64_t)cell->at.y1) &&
+             tn_key_push(key, cell->storey << 1 | cell->open) && tn_key_push(key, cell->zone);
+    }
+    for (size_t i = 0; ok && i < house->face_count; i++)
+        if (house->faces[i].relation == TN_FACE_UNDER)
+            ok = tn_key_push(key, is_hole(&house->faces[i]));
+    return ok;
+}
+
+/* ---- interfaces */
+
+tn_status tn_frontier_interface_cost(tn_frontier *frontier, const tn_frontier_border *border, const tn_house *house,
+                                     uint32_t *number, tn_error *error)
+{
+    tn_frontier_prices *p = &frontier->prices;
+    p->key.size = 0;
+    bool ok = tn_key_push(&p->key, border->left ? border->left->shape : TN_FRONTIER_NONE) &&
+              tn_key_push(&p->key, border->right ? border->right->shape : TN_FRONTIER_NONE);
+    for (size_t i = 0; ok && i < border->count; i++)
+        ok = tn_key_push(&p->key, house->faces[border->faces[i]].kind);
+    return ok ? keyed_cost(frontier, &p->interfaces, house, border->left, border->right, number, error)
+              : tn_fail_memory(error);
+}
+
+/* ---- tiles */
+
+/* {cost, how many} of each cost, from the cost of each. */
+static bool push_list(tn_key *key, uint32_t *costs, size_t count)
+{
+    bool ok = true;
+    key->size = 0;
+    if (count > 0)
+        qsort(costs, count, sizeof *costs, tn_words_compare);
+    for (size_t i = 0, end; ok && i < count; i = end) {
+        for (end = i; end < count && costs[end] == costs[i];)
+            end++;
+        ok = tn_key_push(key, costs[i]) && tn_key_push(key, (uint32_t)(end - i));
+    }
+    return ok;
+}
+
+tn_status tn_frontier_list_tiles(tn_frontier *frontier, const tn_house *house, const tn_variants *variants,
+                                 uint32_t *list, tn_error *error)
+{
+    tn_frontier_prices *p = &frontier->prices;
+    uint32_t *costs = malloc((variants->count + 1) * sizeof *costs);
+    mpq_t cost;
+    mpq_init(cost);
+    tn_status status = costs ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < variants->count; i++) {
+        const tn_tile_variant *variant = &variants->variants[i];
+        tn_house_items_cost(house, variants->items + variant->item_first, variant->item_count, cost);
+        status = tn_frontier_cost_number(frontier, cost, &costs[i], error);
+    }
+    if (status == TN_OK) {
+        bool ok = push_list(&p->key, costs, variants->count);
+        *list = ok ? tn_intern(&p->lists, p->key.data, p->key.size) : UINT32_MAX;
+        status = *list != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+    }
+    mpq_clear(cost);
+    free(costs);
+    return status;
+}

@@ -1,0 +1,148 @@
+/* Paints one drawing of a house: what is seen, then what was cut, hatched, then its marks. */
+#include <math.h>
+
+#include "runtime/draw/type.h"
+#include "runtime/house/picture/draw_parts.h"
+
+/* Before the drawing's coordinates: u, v in nanometres. */
+typedef struct tn_drawing_frame {
+    tn_paint *paint;
+    double x, y, scale;
+} tn_drawing_frame;
+
+static double place_u(const tn_drawing_frame *f, double u)
+{
+    return f->x + u * f->scale;
+}
+
+static double place_v(const tn_drawing_frame *f, double v)
+{
+    return f->y - v * f->scale;
+}
+
+/* ---- what was cut */
+
+static void trace_cuts(const tn_drawing_frame *f, const tn_house_projection *p, bool panes)
+{
+    tn_paint_new_path(f->paint);
+    for (size_t i = 0; i < p->cut_count; i++) {
+        uint32_t group = tn_solid_groups[p->cuts[i].kind];
+        if ((group == TN_GROUP_PANE || group == TN_GROUP_LEAF) != panes)
+            continue;
+        tn_paint_new_sub_path(f->paint);
+        for (int k = 0; k < 4; k++)
+            tn_paint_line_to(f->paint, place_u(f, p->cuts[i].at[k][0]), place_v(f, p->cuts[i].at[k][1]));
+        tn_paint_close_path(f->paint);
+    }
+}
+
+static void hatch(const tn_drawing_frame *f, const tn_house_projection *p)
+{
+    double x0 = place_u(f, p->low[0]), x1 = place_u(f, p->high[0]), y0 = place_v(f, p->high[1]),
+           y1 = place_v(f, p->low[1]);
+    tn_paint_save(f->paint);
+    tn_paint_clip(f->paint);
+    tn_paint_line_width(f->paint, 0.35);
+    for (double x = x0 - (y1 - y0); x < x1; x += 2.2) {
+        tn_paint_move_to(f->paint, x, y1);
+        tn_paint_line_to(f->paint, x + (y1 - y0), y0);
+    }
+    tn_paint_colour(f->paint, 0.25, 0.25, 0.28);
+    tn_paint_stroke(f->paint);
+    tn_paint_restore(f->paint);
+}
+
+/* Lines around the parts that hang together: the inner half of each line is painted over. */
+static void paint_cuts(const tn_drawing_frame *f, const tn_house_projection *p)
+{
+    trace_cuts(f, p, true);
+    tn_paint_colour(f->paint, 0.2, 0.35, 0.5);
+    tn_paint_fill(f->paint);
+    trace_cuts(f, p, false);
+    tn_paint_line_join(f->paint, TN_JOIN_MITRE);
+    tn_paint_colour(f->paint, 0, 0, 0);
+    tn_paint_line_width(f->paint, 1.5);
+    tn_paint_stroke_keep(f->paint);
+    tn_paint_colour(f->paint, 0.86, 0.86, 0.87);
+    tn_paint_fill_keep(f->paint);
+    hatch(f, p);
+}
+
+/* ---- marks */
+
+typedef struct mark_pen {
+    double width, grey, dash;
+} mark_pen;
+
+static const mark_pen pens[TN_MARK_LAYERS] = {
+    [TN_MARK_DOOR] = {0.6, 0, 0},   [TN_MARK_STAIR] = {0.4, 0.2, 0},      [TN_MARK_VOID] = {0.4, 0.3, 3},
+    [TN_MARK_GROUND] = {1.4, 0, 0}, [TN_MARK_DIMENSION] = {0.35, 0.3, 0}, [TN_MARK_NAME] = {0.4, 0, 0},
+};
+
+static void paint_arc(const tn_drawing_frame *f, const tn_mark *m)
+{
+    double x = place_u(f, m->u0), y = place_v(f, m->v0), dx = place_u(f, m->u1) - x, dy = place_v(f, m->v1) - y;
+    double from = fabs(dx) > fabs(dy) ? (dx > 0 ? 0 : M_PI) : (dy > 0 ? M_PI / 2 : -M_PI / 2);
+    tn_paint_new_sub_path(f->paint);
+    tn_paint_arc_negative(f->paint, x, y, fabs(dx) + fabs(dy), from, from - M_PI / 2); /* y goes down here */
+    tn_paint_stroke(f->paint);
+}
+
+static void paint_text(const tn_drawing_frame *f, const tn_mark *m)
+{
+    double high = m->high * f->scale, half = tn_mark_width(m->text) * high / 2;
+    tn_paint_save(f->paint);
+    tn_paint_translate(f->paint, place_u(f, m->u0), place_v(f, m->v0));
+    if (m->upright)
+        tn_paint_rotate(f->paint, -M_PI / 2);
+    if (m->layer == TN_MARK_NAME) {
+        tn_paint_translucent(f->paint, 1, 1, 1, 0.72);
+        tn_paint_rectangle(f->paint, -half, -0.6 * high, 2 * half, 1.2 * high);
+        tn_paint_fill(f->paint);
+    }
+    double grey = pens[m->layer].grey;
+    tn_paint_colour(f->paint, grey, grey, grey);
+    tn_paint_face(f->paint, high, false);
+    tn_type_line(f->paint, 0, 0.35 * high, TN_ALIGN_CENTRE, m->text);
+    tn_paint_restore(f->paint);
+}
+
+static void paint_line(const tn_drawing_frame *f, const tn_mark *m)
+{
+    tn_paint_move_to(f->paint, place_u(f, m->u0), place_v(f, m->v0));
+    tn_paint_line_to(f->paint, place_u(f, m->u1), place_v(f, m->v1));
+    tn_paint_stroke(f->paint);
+}
+
+static void paint_mark(const tn_drawing_frame *f, const tn_mark *m)
+{
+    const mark_pen *pen = &pens[m->layer];
+    if (m->kind == TN_MARK_TEXT) {
+        paint_text(f, m);
+        return;
+    }
+    tn_paint_colour(f->paint, pen->grey, pen->grey, pen->grey);
+    tn_paint_line_width(f->paint, pen->width);
+    tn_paint_dash(f->paint, &pen->dash, pen->dash > 0, 0);
+    if (m->kind == TN_MARK_ARC)
+        paint_arc(f, m);
+    else
+        paint_line(f, m);
+    tn_paint_dash(f->paint, NULL, 0, 0);
+}
+
+void tn_draw_projection(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm)
+{
+    const tn_house_projection *p = &drawn->projection;
+    double palette[TN_PALETTE_MAX][3];
+    tn_drawing_frame f = {tn_canvas_paint(canvas), drawn->x - drawn->low[0] * points_per_nm,
+                          drawn->y + drawn->low[1] * points_per_nm, points_per_nm};
+    tn_house_palette(drawn->form, p->aspect.kind, palette);
+    tn_view_place place = {
+        f.x, f.y, f.scale, 0.35, tn_house_ambient(drawn->form, p->aspect.kind), (const double(*)[3])palette, 0};
+    tn_view_paint(canvas, drawn->view, &place);
+    if (p->aspect.kind != TN_ASPECT_AXONOMETRIC)
+        paint_cuts(&f, p);
+    for (size_t i = 0; i < p->marks.count; i++)
+        paint_mark(&f, &p->marks.items[i]);
+}
