@@ -177,6 +177,7 @@ const labelled = (label) => ({of: label, find: (label) => document.activeElement
 // Chooses values of the chosen tray and goes back to the picture.
 async function values(page, name, ...chosen) {
   await page.keyboard.press("Enter");
+  await page.locator(".rule-menu :focus").waitFor();
   for (const [field, value, said] of chosen) {
     await until(page, "ArrowDown", valueOf(field, value));
     await page.keyboard.press("Enter");
@@ -332,7 +333,7 @@ test("undo and redo, in the editor and beside it", async (t) => {
   await becomes(page, "wide", "neighbour(tray(room, 6m), tray(stair))");
   await page.keyboard.press("Control+z");
   await becomes(page, "wide", "neighbour(not tray(room, 6m), tray(stair))");
-  assert.equal(await page.locator(".rule-stage svg text", {hasText: /^not$/}).count(), 1, "the picture follows the editor");
+  await page.locator(".rule-stage svg text", {hasText: /^not$/}).waitFor(); // the picture follows the editor
 });
 
 test("a rule that cannot be read keeps its last picture, in grey", async (t) => {
