@@ -5,11 +5,12 @@ Standard output, errors, the exit code, and files that are written ("@"). What n
 Then what only WebAssembly's can get wrong: numbers of more than 32 bits where sizes have 32, pipes that are closed early, no memory left."""
 import json
 import os
+import re
 import resource
 import subprocess
 import sys
 import tempfile
-import time
+import threading
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 EXAMPLES = os.path.join(SOURCE, 'examples')
@@ -108,6 +109,17 @@ def no_memory(wasm):
     return 0
 
 
+def read_message(server):
+    """The next message of a server, with its head; b'' if there is none within a minute."""
+    waiting = threading.Timer(60, server.kill)
+    waiting.start()
+    head = server.stdout.readline() + server.stdout.readline()
+    size = re.search(rb'Content-Length: (\d+)', head)
+    body = server.stdout.read(int(size[1])) if size else b''
+    waiting.cancel()
+    return head + body
+
+
 def language_server(native, wasm):
     """It answers, says what is wrong with a text, and ends, as the native one does."""
     text = 'schema s { room = a | b }\nrule x = tray(c)\nrule y = tray(a)\n'
@@ -117,7 +129,7 @@ def language_server(native, wasm):
                 ('textDocument/hover', 2, place), ('shutdown', 3, None), ('exit', None, None)]
     said = []
     for program in native, wasm:
-        server = subprocess.Popen([program, 'lsp'], env=ENVIRONMENT, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        server, heard = subprocess.Popen([program, 'lsp'], env=ENVIRONMENT, stdin=subprocess.PIPE, stdout=subprocess.PIPE), b''
         for method, number, params in messages:
             message = {'jsonrpc': '2.0', 'method': method, 'params': params}
             if number:
@@ -125,9 +137,9 @@ def language_server(native, wasm):
             body = json.dumps(message).encode()
             server.stdin.write(b'Content-Length: %d\r\n\r\n' % len(body) + body)
             server.stdin.flush()
-            if method == 'textDocument/didOpen':
-                time.sleep(2)  # what is wrong is said once nothing else is to be done
-        said.append((server.communicate(timeout=60)[0], server.returncode))
+            if method in ('initialize', 'textDocument/didOpen'):  # what is wrong is said once nothing else is to be done
+                heard += read_message(server)
+        said.append((heard + server.communicate(timeout=60)[0], server.returncode))
     if said[0] == said[1] and b'publishDiagnostics' in said[1][0]:
         return 0
     print(f'the language server: {said[1]} instead of {said[0]}')
