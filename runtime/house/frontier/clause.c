@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/automata/explore.h"
 #include "runtime/base/array.h"
 #include "runtime/house/frontier/states.h"
-#include "runtime/plan/automata/explore.h"
 #include "runtime/plan/match/condition.h"
 #include "runtime/plan/match/rules.h"
 #include "runtime/plan/match/tray_relations.h"

@@ -3,10 +3,10 @@
 #ifndef TARTAN_HOUSE_FRONTIER_QUESTIONS_H
 #define TARTAN_HOUSE_FRONTIER_QUESTIONS_H
 
+#include "runtime/automata/numbering.h"
 #include "runtime/base/array.h"
 #include "runtime/base/int128.h"
 #include "runtime/house/frontier/frontier.h"
-#include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/uses.h"
 #include "runtime/plan/match/vm.h"

@@ -2,11 +2,11 @@
 #ifndef TARTAN_HOUSE_VARIANT_PARTS_H
 #define TARTAN_HOUSE_VARIANT_PARTS_H
 
+#include "runtime/automata/numbering.h"
 #include "runtime/house/form/form.h"
 #include "runtime/house/house.h"
 #include "runtime/house/variant/variant.h"
 #include "runtime/module/code.h"
-#include "runtime/plan/automata/numbering.h"
 
 /* When a clause of a house library can be asked: how much of a house has to be known for what it asks. */
 typedef enum tn_clause_stage {

@@ -2,9 +2,9 @@
 #ifndef TARTAN_PLAN_ANALYSIS_ANALYSIS_DATA_H
 #define TARTAN_PLAN_ANALYSIS_ANALYSIS_DATA_H
 
+#include "runtime/automata/search.h"
 #include "runtime/base/crew.h"
 #include "runtime/plan/analysis/analysis.h"
-#include "runtime/plan/automata/search.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/vm.h"
 #include "runtime/plan/schema/classes.h"

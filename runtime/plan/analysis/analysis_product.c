@@ -2,8 +2,8 @@
  * for each one left out; here products of half of them are shared by all the questions about the other half. */
 #include <stdlib.h>
 
+#include "runtime/automata/sparse.h"
 #include "runtime/plan/analysis/analysis_data.h"
-#include "runtime/plan/automata/sparse.h"
 
 #define WORK_PER_STATE 300u /* as libraries are combined */
 

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/plan/automata/count.h"
-#include "runtime/plan/automata/shortest.h"
+#include "runtime/automata/count.h"
+#include "runtime/automata/shortest.h"
 #include "runtime/plan/library/alone.h"
 #include "runtime/plan/library/diff.h"
 #include "runtime/plan/match/lower.h"

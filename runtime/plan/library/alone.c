@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "runtime/plan/automata/shortest.h"
+#include "runtime/automata/shortest.h"
 #include "runtime/plan/library/others.h"
 
 #define ALONE_EDGES (UINT64_C(1) << 25) /* of the automata kept: 256 MB */

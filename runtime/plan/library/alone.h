@@ -6,7 +6,7 @@
 #ifndef TARTAN_PLAN_LIBRARY_ALONE_H
 #define TARTAN_PLAN_LIBRARY_ALONE_H
 
-#include "runtime/plan/automata/sparse.h"
+#include "runtime/automata/sparse.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/schema/classes.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/plan/automata/numbering.h"
+#include "runtime/automata/numbering.h"
 #include "runtime/plan/library/library_data.h"
 
 struct tn_library_diff {

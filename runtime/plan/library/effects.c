@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/automata/shortest.h"
 #include "runtime/base/crew.h"
-#include "runtime/plan/automata/shortest.h"
 #include "runtime/plan/library/alone.h"
 #include "runtime/plan/library/others.h"
 

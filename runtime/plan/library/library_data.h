@@ -5,10 +5,10 @@
 #include <math.h>
 #include <pthread.h>
 
+#include "runtime/automata/count.h"
+#include "runtime/automata/numbering.h"
+#include "runtime/automata/sparse.h"
 #include "runtime/base/integers.h"
-#include "runtime/plan/automata/count.h"
-#include "runtime/plan/automata/numbering.h"
-#include "runtime/plan/automata/sparse.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/schema/classes.h"
 

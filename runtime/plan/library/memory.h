@@ -8,7 +8,7 @@
 #ifndef TARTAN_PLAN_LIBRARY_MEMORY_H
 #define TARTAN_PLAN_LIBRARY_MEMORY_H
 
-#include "runtime/plan/automata/dfa.h"
+#include "runtime/automata/dfa.h"
 
 typedef struct tn_plan_memory tn_plan_memory;
 

@@ -10,7 +10,7 @@
  */
 #include <stdlib.h>
 
-#include "runtime/plan/automata/half.h"
+#include "runtime/automata/half.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/match/lower.h"
 

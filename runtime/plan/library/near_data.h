@@ -2,8 +2,8 @@
 #ifndef TARTAN_PLAN_LIBRARY_NEAR_DATA_H
 #define TARTAN_PLAN_LIBRARY_NEAR_DATA_H
 
-#include "runtime/plan/automata/numbering.h"
-#include "runtime/plan/automata/sparse.h"
+#include "runtime/automata/numbering.h"
+#include "runtime/automata/sparse.h"
 #include "runtime/plan/library/near.h"
 #include "runtime/plan/schema/classes.h"
 

@@ -7,7 +7,7 @@
 #ifndef TARTAN_PLAN_LIBRARY_SEQUENCE_H
 #define TARTAN_PLAN_LIBRARY_SEQUENCE_H
 
-#include "runtime/plan/automata/count.h"
+#include "runtime/automata/count.h"
 
 typedef struct tn_sequence_clause {
     const tn_dfa *dfa;

@@ -8,8 +8,8 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "runtime/automata/numbering.h"
 #include "runtime/module/code.h"
-#include "runtime/plan/automata/numbering.h"
 
 typedef struct reading {
     const tn_module *module;

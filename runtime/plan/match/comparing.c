@@ -5,7 +5,7 @@
  */
 #include <stdlib.h>
 
-#include "runtime/plan/automata/explore.h"
+#include "runtime/automata/explore.h"
 #include "runtime/plan/match/summing.h"
 
 typedef struct tn_comparing {

@@ -3,9 +3,9 @@
 
 #include <stdlib.h>
 
+#include "runtime/automata/marked.h"
+#include "runtime/automata/numbering.h"
 #include "runtime/module/code.h"
-#include "runtime/plan/automata/marked.h"
-#include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/match/rules.h"
 #include "runtime/plan/match/summing.h"
 #include "runtime/plan/match/tray_relations.h"

@@ -6,8 +6,8 @@
 #ifndef TARTAN_PLAN_MATCH_LOWER_H
 #define TARTAN_PLAN_MATCH_LOWER_H
 
+#include "runtime/automata/marked.h"
 #include "runtime/module/code.h"
-#include "runtime/plan/automata/marked.h"
 #include "runtime/plan/schema/classes.h"
 
 typedef struct tn_lowering tn_lowering;

@@ -8,7 +8,7 @@
 #ifndef TARTAN_PLAN_MATCH_MATCH_LANES_H
 #define TARTAN_PLAN_MATCH_MATCH_LANES_H
 
-#include "runtime/plan/automata/dfa.h"
+#include "runtime/automata/dfa.h"
 #include "runtime/plan/schema/schema.h"
 
 #define TN_LANES 8

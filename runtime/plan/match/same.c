@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/automata/numbering.h"
 #include "runtime/module/code.h"
-#include "runtime/plan/automata/numbering.h"
 
 /* Pairs of functions that are to be the same: each is compared once. */
 typedef struct comparer {

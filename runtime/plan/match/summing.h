@@ -8,9 +8,9 @@
 #ifndef TARTAN_PLAN_MATCH_SUMMING_H
 #define TARTAN_PLAN_MATCH_SUMMING_H
 
+#include "runtime/automata/guesses.h"
+#include "runtime/automata/marked.h"
 #include "runtime/module/code.h"
-#include "runtime/plan/automata/guesses.h"
-#include "runtime/plan/automata/marked.h"
 #include "runtime/plan/schema/classes.h"
 #include "runtime/plan/schema/sum.h"
 

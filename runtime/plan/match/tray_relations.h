@@ -2,7 +2,7 @@
 #ifndef TARTAN_PLAN_MATCH_TRAY_RELATIONS_H
 #define TARTAN_PLAN_MATCH_TRAY_RELATIONS_H
 
-#include "runtime/plan/automata/marked.h"
+#include "runtime/automata/marked.h"
 #include "runtime/plan/schema/classes.h"
 
 #define TN_NO_FIELD UINT32_MAX

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "runtime/plan/automata/numbering.h"
+#include "runtime/automata/numbering.h"
 
 enum { USES = TN_USE_STRETCHES + 1 };
 

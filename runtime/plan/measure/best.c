@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/automata/numbering.h"
 #include "runtime/base/array.h"
-#include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/measure/cloud.h"
 #include "runtime/plan/measure/weighed_layers.h"

@@ -2,8 +2,8 @@
 #ifndef TARTAN_PLAN_MEASURE_COMPLETE_DATA_H
 #define TARTAN_PLAN_MEASURE_COMPLETE_DATA_H
 
-#include "runtime/plan/automata/numbering.h"
-#include "runtime/plan/automata/walk.h"
+#include "runtime/automata/numbering.h"
+#include "runtime/automata/walk.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/measure/complete.h"
 

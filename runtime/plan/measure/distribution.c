@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/automata/count.h"
 #include "runtime/base/array.h"
-#include "runtime/plan/automata/count.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/measure/pareto.h"

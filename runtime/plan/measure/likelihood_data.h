@@ -2,7 +2,7 @@
 #ifndef TARTAN_PLAN_MEASURE_LIKELIHOOD_DATA_H
 #define TARTAN_PLAN_MEASURE_LIKELIHOOD_DATA_H
 
-#include "runtime/plan/automata/walk.h"
+#include "runtime/automata/walk.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/measure/likelihood.h"
 #include "runtime/plan/measure/weighed.h"

@@ -3,7 +3,7 @@
 #ifndef TARTAN_PLAN_MEASURE_WEIGHED_LAYERS_H
 #define TARTAN_PLAN_MEASURE_WEIGHED_LAYERS_H
 
-#include "runtime/plan/automata/walk.h"
+#include "runtime/automata/walk.h"
 #include "runtime/plan/measure/weighed.h"
 
 /* Layer n: states after n trays. */

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/automata/numbering.h"
 #include "runtime/module/code.h"
-#include "runtime/plan/automata/numbering.h"
 #include "runtime/plan/schema/sum.h"
 
 typedef struct tn_class_finder {

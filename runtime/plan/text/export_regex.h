@@ -3,7 +3,7 @@
 #ifndef TARTAN_PLAN_TEXT_EXPORT_REGEX_H
 #define TARTAN_PLAN_TEXT_EXPORT_REGEX_H
 
-#include "runtime/plan/automata/dfa.h"
+#include "runtime/automata/dfa.h"
 #include "runtime/plan/schema/classes.h"
 #include "runtime/plan/text/text.h"
 

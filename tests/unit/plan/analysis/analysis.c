@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/plan/automata/search.h"
+#include "runtime/automata/search.h"
 #include "runtime/plan/match/vm.h"
 #include "tests/support/test_rule.h"
 

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/plan/automata/count.h"
+#include "runtime/automata/count.h"
 #include "tests/support/test_library.h"
 
 #define LONGEST 4

@@ -1,0 +1,168 @@
+/* Relations over stretches, by letters alone: what they hold of every short word is found again by looking at it, and
+ * words are counted as often as their letters have symbols. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "runtime/automata/count.h"
+#include "runtime/automata/marked.h"
+
+enum { LETTERS = 3, LONGEST = 6 };
+
+typedef struct letters {
+    tn_bounds bounds;
+    tn_marked marked;
+    tn_dfa *chosen; /* stretches of one letter 1 or 2 */
+} letters;
+
+static int setup(void **state)
+{
+    static letters l;
+    static const uint8_t chosen[LETTERS] = {0, 1, 1};
+    l.bounds = tn_bounds_make(10000);
+    assert_int_equal(tn_marked_make(&l.marked, LETTERS, &l.bounds, NULL), TN_OK);
+    assert_int_equal(tn_marked_letter(&l.marked, chosen, &l.chosen, NULL), TN_OK);
+    *state = &l;
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    letters *l = *state;
+    tn_dfa_free(l->chosen);
+    tn_marked_clear(&l->marked);
+    return 0;
+}
+
+/* The words whose whole stretch is in the relation, which is given up. */
+static tn_dfa *whole(letters *l, tn_dfa *relation)
+{
+    tn_dfa *words;
+    assert_int_equal(tn_marked_whole(&l->marked, relation, &words, NULL), TN_OK);
+    assert_int_equal(words->letters, LETTERS);
+    tn_dfa_free(relation);
+    return words;
+}
+
+/* Compares an automaton with a predicate on all short words; gives the automaton up. */
+static void compare(tn_dfa *words, bool (*wanted)(const uint8_t *word, size_t size))
+{
+    size_t all = 1, held = 0;
+    for (size_t size = 0; size <= LONGEST; size++, all *= LETTERS)
+        for (size_t number = 0; number < all; number++) {
+            uint8_t word[LONGEST];
+            uint32_t at = 0;
+            for (size_t i = 0, rest = number; i < size; i++, rest /= LETTERS) {
+                word[i] = (uint8_t)(rest % LETTERS);
+                at = tn_dfa_read(words, at, word[i]);
+            }
+            assert_int_equal(words->accept[at], wanted(word, size));
+            held += words->accept[at];
+        }
+    assert_true(held > 0);
+    tn_dfa_free(words);
+}
+
+/* Letters 0 count 2, letters 1 count 3, letters 2 count 5: is their sum over chosen letters 3, 8, 13, ...? */
+static const uint64_t counts[LETTERS] = {2, 3, 5};
+
+static bool sums(const uint8_t *word, size_t size)
+{
+    uint64_t sum = 0;
+    for (size_t i = 0; i < size; i++)
+        sum += word[i] > 0 ? counts[word[i]] : 0;
+    return sum % 5 == 3;
+}
+
+static void test_letters_count_what_they_are_said_to(void **state)
+{
+    letters *l = *state;
+    static const uint8_t holds[] = {0, 0, 0, 1, 0};
+    tn_periodic_set set = {.threshold = 0, .period = 5, .holds = holds};
+    tn_dfa *relation;
+    assert_int_equal(tn_marked_count(&l->marked, l->chosen, TN_TALLY_SINGLES, &set, counts, &relation, NULL), TN_OK);
+    compare(whole(l, relation), sums);
+}
+
+static bool at_least_two(const uint8_t *word, size_t size)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < size; i++)
+        count += word[i] > 0;
+    return count >= 2;
+}
+
+static void test_each_letter_counts_one(void **state)
+{
+    letters *l = *state;
+    static const uint8_t holds[] = {0, 0, 1};
+    tn_periodic_set set = {.threshold = 2, .period = 1, .holds = holds};
+    tn_dfa *relation;
+    assert_int_equal(tn_marked_count(&l->marked, l->chosen, TN_TALLY_SINGLES, &set, NULL, &relation, NULL), TN_OK);
+    compare(whole(l, relation), at_least_two);
+}
+
+static bool pair(const uint8_t *word, size_t size)
+{
+    return size == 2 && word[0] > 0 && word[1] > 0;
+}
+
+static bool has_pair(const uint8_t *word, size_t size)
+{
+    for (size_t i = 0; i + 2 <= size; i++)
+        if (pair(word + i, 2))
+            return true;
+    return false;
+}
+
+static void test_stretches_follow_and_are_found(void **state)
+{
+    letters *l = *state;
+    tn_dfa *chain, *anywhere;
+    assert_int_equal(tn_marked_chain(&l->marked, l->chosen, l->chosen, &chain, NULL), TN_OK);
+    assert_int_equal(tn_marked_anywhere(&l->marked, chain, &anywhere, NULL), TN_OK);
+    compare(anywhere, has_pair);
+    compare(whole(l, chain), pair);
+}
+
+/* Of LONGEST symbols, those with a pair: by the predicate, each word as often as its letters have symbols. */
+static void test_words_are_counted_by_their_symbols(void **state)
+{
+    letters *l = *state;
+    static const uint32_t sizes[LETTERS] = {7, 1, 4};
+    uint64_t wanted = 0;
+    for (size_t number = 0; number < 729; number++) {
+        uint8_t word[LONGEST];
+        uint64_t times = 1;
+        for (size_t i = 0, rest = number; i < LONGEST; i++, rest /= LETTERS) {
+            word[i] = (uint8_t)(rest % LETTERS);
+            times *= sizes[word[i]];
+        }
+        wanted += has_pair(word, LONGEST) ? times : 0;
+    }
+    tn_dfa *chain, *anywhere;
+    tn_sparse *sparse;
+    mpz_t count;
+    mpz_init(count);
+    assert_int_equal(tn_marked_chain(&l->marked, l->chosen, l->chosen, &chain, NULL), TN_OK);
+    assert_int_equal(tn_marked_anywhere(&l->marked, chain, &anywhere, NULL), TN_OK);
+    assert_int_equal(tn_sparse_make(anywhere, 0, &sparse, NULL), TN_OK);
+    assert_int_equal(tn_count_range(sparse, sizes, LONGEST, LONGEST, count, NULL, NULL), TN_OK);
+    assert_int_equal(mpz_get_ui(count), wanted);
+    mpz_clear(count);
+    tn_sparse_free(sparse);
+    tn_dfa_free(anywhere);
+    tn_dfa_free(chain);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_letters_count_what_they_are_said_to),
+                                       cmocka_unit_test(test_each_letter_counts_one),
+                                       cmocka_unit_test(test_stretches_follow_and_are_found),
+                                       cmocka_unit_test(test_words_are_counted_by_their_symbols)};
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
