@@ -32,8 +32,6 @@
 #include "runtime/automata/dfa.h"
 #include "runtime/base/array.h"
 
-#define TN_WALK_INLINE static inline __attribute__((always_inline))
-
 /* What the graph shows an edge to: the state that it leads to, and what the algebra extends by (any type). */
 typedef tn_status tn_walk_seen(void *walk, uint32_t state, const void *label, tn_error *error);
 
@@ -78,11 +76,11 @@ typedef struct tn_walk_algebra {
 
 /* Defines an algebra of functions of this file, which compilers then inline. */
 #define TN_WALK_ALGEBRA(name, zero, clear, one, add, settle)                                                           \
-    TN_WALK_INLINE tn_status name##_forward(void *walk_step, uint32_t state, const void *label, tn_error *error)       \
+    static inline tn_status name##_forward(void *walk_step, uint32_t state, const void *label, tn_error *error)        \
     {                                                                                                                  \
         return tn_walk_go_forward(walk_step, state, label, zero, add, error);                                          \
     }                                                                                                                  \
-    TN_WALK_INLINE tn_status name##_backward(void *walk_step, uint32_t state, const void *label, tn_error *error)      \
+    static inline tn_status name##_backward(void *walk_step, uint32_t state, const void *label, tn_error *error)       \
     {                                                                                                                  \
         return tn_walk_go_backward(walk_step, state, label, add, error);                                               \
     }                                                                                                                  \
@@ -138,7 +136,7 @@ static inline void *tn_walk_backward_of(const tn_layers *walk, uint32_t layer, u
 }
 
 /* A state's place in the layer whose places are known, or TN_NO_STATE. */
-TN_WALK_INLINE uint32_t tn_walk_place(const tn_layers *walk, uint32_t state)
+static inline uint32_t tn_walk_place(const tn_layers *walk, uint32_t state)
 {
     return state < walk->place_room ? walk->place[state] : TN_NO_STATE;
 }
@@ -157,8 +155,8 @@ typedef struct tn_walk_step {
 
 /* The state's place in the layer whose places are known, old or new; TN_NO_STATE: out of memory. zero: NULL if nodes
  * get no elements. */
-TN_WALK_INLINE uint32_t tn_walk_meet(tn_layers *walk, tn_walk_layer *layer, uint32_t state, tn_walk_zero *zero,
-                                     const void *context, size_t size)
+static inline uint32_t tn_walk_meet(tn_layers *walk, tn_walk_layer *layer, uint32_t state, tn_walk_zero *zero,
+                                    const void *context, size_t size)
 {
     uint32_t place = tn_walk_place(walk, state);
     if (place != TN_NO_STATE)
@@ -173,8 +171,8 @@ TN_WALK_INLINE uint32_t tn_walk_meet(tn_layers *walk, tn_walk_layer *layer, uint
     return place;
 }
 
-TN_WALK_INLINE tn_status tn_walk_go_forward(const tn_walk_step *step, uint32_t state, const void *label,
-                                            tn_walk_zero *zero, tn_walk_add *add, tn_error *error)
+static inline tn_status tn_walk_go_forward(const tn_walk_step *step, uint32_t state, const void *label,
+                                           tn_walk_zero *zero, tn_walk_add *add, tn_error *error)
 {
     size_t size = step->size;
     uint32_t to = tn_walk_meet(step->walk, step->next, state, zero, step->context, size);
@@ -193,9 +191,8 @@ static inline tn_status tn_walk_find(void *walk, uint32_t state, const void *lab
 }
 
 /* Starts in the layer, if the walk does so there, and settles its elements. */
-TN_WALK_INLINE tn_status tn_walk_settle(tn_layers *walk, uint32_t layer, const tn_walk_graph *graph,
-                                        void *graph_context, const tn_walk_algebra *algebra, void *context, size_t size,
-                                        tn_error *error)
+static inline tn_status tn_walk_settle(tn_layers *walk, uint32_t layer, const tn_walk_graph *graph, void *graph_context,
+                                       const tn_walk_algebra *algebra, void *context, size_t size, tn_error *error)
 {
     tn_walk_layer *here = tn_walk_at(walk, layer);
     tn_status status = TN_OK;
@@ -213,7 +210,7 @@ TN_WALK_INLINE tn_status tn_walk_settle(tn_layers *walk, uint32_t layer, const t
 }
 
 /* Makes a layer's room that of the next one. */
-TN_WALK_INLINE void tn_walk_empty(tn_layers *walk, tn_walk_layer *layer, const tn_walk_algebra *algebra, size_t size)
+static inline void tn_walk_empty(tn_layers *walk, tn_walk_layer *layer, const tn_walk_algebra *algebra, size_t size)
 {
     for (uint32_t i = 0; algebra && algebra->clear && i < layer->count; i++)
         algebra->clear(layer->forward + i * size);
@@ -222,8 +219,8 @@ TN_WALK_INLINE void tn_walk_empty(tn_layers *walk, tn_walk_layer *layer, const t
 }
 
 /* Meets all nodes and gives them elements of so many bytes; algebra NULL: they get none. */
-TN_WALK_INLINE tn_status tn_walk_forward(tn_layers *walk, const tn_walk_graph *graph, void *graph_context,
-                                         const tn_walk_algebra *algebra, void *context, size_t size, tn_error *error)
+static inline tn_status tn_walk_forward(tn_layers *walk, const tn_walk_graph *graph, void *graph_context,
+                                        const tn_walk_algebra *algebra, void *context, size_t size, tn_error *error)
 {
     tn_status status = TN_OK;
     walk->forward_size = size;
@@ -244,8 +241,8 @@ TN_WALK_INLINE tn_status tn_walk_forward(tn_layers *walk, const tn_walk_graph *g
 
 /* ---- backwards, over layers that are kept */
 
-TN_WALK_INLINE tn_status tn_walk_go_backward(const tn_walk_step *step, uint32_t state, const void *label,
-                                             tn_walk_add *add, tn_error *error)
+static inline tn_status tn_walk_go_backward(const tn_walk_step *step, uint32_t state, const void *label,
+                                            tn_walk_add *add, tn_error *error)
 {
     size_t size = step->size;
     tn_walk_edge edge = {step->layer, step->from, tn_walk_place(step->walk, state), label};
@@ -254,8 +251,8 @@ TN_WALK_INLINE tn_status tn_walk_go_backward(const tn_walk_step *step, uint32_t 
 }
 
 /* Gives the nodes elements of so many bytes. */
-TN_WALK_INLINE tn_status tn_walk_backward(tn_layers *walk, const tn_walk_graph *graph, void *graph_context,
-                                          const tn_walk_algebra *algebra, void *context, size_t size, tn_error *error)
+static inline tn_status tn_walk_backward(tn_layers *walk, const tn_walk_graph *graph, void *graph_context,
+                                         const tn_walk_algebra *algebra, void *context, size_t size, tn_error *error)
 {
     tn_status status = TN_OK;
     walk->backward_size = size;
