@@ -286,6 +286,8 @@ def step(part, fields, about, field, depth):
 def next_value(values, now, item, zone, depth):
     fill = lambda text: " ".join(text.split()[:2]) if zone else text
     same = [text for text in values if fill(text) == fill(values[now])]
+    if depth and len(same) == 1:
+        raise Impossible("no depths")
     if depth:
         at = same.index(values[now])
         return "set", item, same[(at + 1) % len(same)]
